@@ -1,0 +1,1 @@
+//! Families of candidates: each translation, each DOF, each pair, one chain.

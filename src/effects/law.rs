@@ -1,0 +1,95 @@
+//! The three kinds of law: a force on a relative motion, a force over the whole structure, an error of a channel.
+
+use super::Motion;
+use faer::c64;
+
+/// One parameter of a law: its name in project files, its unit, its symbol in formulas and its physical range.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Parameter {
+    /// Name in files and on the command line, such as `loss_stiffness`.
+    pub name: &'static str,
+    /// SI unit in words of ASCII, such as `N s/m`; empty for a pure number.
+    pub unit: &'static str,
+    /// Symbol in formulas, such as `F_c`.
+    pub symbol: &'static str,
+    /// Least physical value (exclusive where the law is singular there).
+    pub least: f64,
+    /// Greatest physical value.
+    pub greatest: f64,
+    /// Whether the force is proportional to this parameter, all others fixed: the coefficient `c_j` of the energy equation.
+    pub linear: bool,
+    /// A sensible value for a candidate whose value is unknown; 1 for the linear one.
+    pub typical: f64,
+}
+
+/// A force that depends on one relative displacement `d(t)` of the structure: `-F` acts on the first DOF, `+F` on the second.
+///
+/// All methods take the parameters `p` in the order of [`Law::parameters`].
+pub trait Law: Sync {
+    /// Parameters in the order of `p`. The first linear one is the coefficient that identification solves for.
+    fn parameters(&self) -> &'static [Parameter];
+
+    /// Dynamic stiffness `F_h / D_h` in N/m at the circular frequency `omega` (rad/s), for laws that are linear in `d`;
+    /// `None` for all others.
+    fn dynamic_stiffness(&self, p: &[f64], omega: f64) -> Option<c64> {
+        let _ = (p, omega);
+        None
+    }
+
+    /// Force in N at every sample of one period of the motion, in steady state (memory laws march until periodic).
+    /// `force.len() == motion.len()`.
+    fn force(&self, p: &[f64], motion: &Motion, force: &mut [f64]);
+
+    /// Directional (Gateaux) derivative of [`Law::force`] at `motion` along the periodic `direction`, N at every sample.
+    fn tangent(&self, p: &[f64], motion: &Motion, direction: &Motion, tangent: &mut [f64]);
+
+    /// Derivative of [`Law::force`] by parameter number `k`, N per unit of that parameter at every sample.
+    fn parameter_tangent(&self, p: &[f64], k: usize, motion: &Motion, tangent: &mut [f64]);
+
+    /// Energy in J taken out per cycle of `d = amplitude cos(omega t)`, where a closed form exists.
+    fn energy_per_cycle(&self, p: &[f64], amplitude: f64, omega: f64) -> Option<f64>;
+
+    /// Whether the law can take out energy at all (a spring or mass cannot, so the energy balance does not see it).
+    fn dissipates(&self) -> bool {
+        true
+    }
+
+    /// Energy in J taken out over one period of `motion`: `integral d' F dt` by the trapezoidal rule, which is spectrally
+    /// accurate for smooth periodic integrands. Laws with jumps override it with an exact formula.
+    fn energy(&self, p: &[f64], motion: &Motion) -> f64 {
+        let mut force = vec![0.0; motion.len()];
+        self.force(p, motion, &mut force);
+        motion.work(&force)
+    }
+}
+
+/// Which matrix of the structure a whole-structure law multiplies.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Basis {
+    /// Mass matrix, lumped masses included.
+    Mass,
+    /// Stiffness matrix, the chain's ground springs included.
+    Stiffness,
+}
+
+/// A force over the whole structure, `F_h = factor(p, h omega) B X_h` with `B` the mass or stiffness matrix.
+pub trait WholeLaw: Sync {
+    /// The only parameter; the force is proportional to it.
+    fn parameter(&self) -> &'static Parameter;
+    /// Matrix that is multiplied.
+    fn basis(&self) -> Basis;
+    /// Complex factor of that matrix at circular frequency `omega` (rad/s).
+    fn factor(&self, value: f64, omega: f64) -> c64;
+}
+
+/// An error of a measuring channel: recorded amplitude = `transfer` x true amplitude.
+pub trait ChannelLaw: Sync {
+    /// The only parameter.
+    fn parameter(&self) -> &'static Parameter;
+    /// Ratio of recorded to true complex amplitude at circular frequency `omega` (rad/s).
+    fn transfer(&self, value: f64, omega: f64) -> c64;
+    /// Derivative of [`ChannelLaw::transfer`] by the parameter.
+    fn transfer_derivative(&self, value: f64, omega: f64) -> c64;
+    /// Value at which the channel is without error.
+    fn neutral(&self) -> f64;
+}

@@ -1,0 +1,20 @@
+//! Under construction.
+use super::viscous::Viscous;
+use crate::effects::{Law, Parameter, WholeLaw, law::Basis};
+use faer::c64;
+
+/// LossFactor.
+#[derive(Debug)]
+pub struct LossFactor;
+
+impl WholeLaw for LossFactor {
+    fn parameter(&self) -> &'static Parameter {
+        &Viscous.parameters()[0]
+    }
+    fn basis(&self) -> Basis {
+        Basis::Mass
+    }
+    fn factor(&self, value: f64, omega: f64) -> c64 {
+        c64::new(0.0, omega * value)
+    }
+}

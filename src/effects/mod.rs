@@ -1,0 +1,15 @@
+//! What may act on a structure or on a measuring chain: one file a law, and where it acts.
+
+pub mod effect;
+pub mod family;
+pub mod law;
+pub mod laws;
+pub mod motion;
+pub mod place;
+pub mod source;
+
+pub use effect::Effect;
+pub use law::{ChannelLaw, Law, Parameter, WholeLaw};
+pub use motion::Motion;
+pub use place::{Leg, Place};
+pub use source::{Source, State};

@@ -1,0 +1,28 @@
+//! Files in and out: projects, records, matrices, exports.
+
+pub mod export;
+pub mod matrices;
+pub mod project;
+pub mod records;
+
+use crate::effects::Source;
+use crate::identify::Settings;
+use crate::measurement::Run;
+use crate::structure::Structure;
+
+/// A project as read from its file, with all records loaded and fitted.
+#[derive(Debug, Clone)]
+pub struct Project {
+    /// Title.
+    pub title: String,
+    /// Free text.
+    pub notes: String,
+    /// Structure with its lumped masses.
+    pub structure: Structure,
+    /// Sources with the families of candidates expanded.
+    pub sources: Vec<Source>,
+    /// Runs in the order of the file; channels corrected for their known errors.
+    pub runs: Vec<Run>,
+    /// Settings of the analysis.
+    pub settings: Settings,
+}

@@ -1,0 +1,5 @@
+//! Which sources, how large, how certain.
+
+pub mod settings;
+
+pub use settings::Settings;

@@ -1,0 +1,40 @@
+//! Dashpot tells a vibration engineer where a structure loses its energy, how much, by which mechanism, and what the
+//! model still lacks.
+//!
+//! # The problem in equations
+//!
+//! A structure with mass `M` and stiffness `K` is driven by a periodic force `f(t)` of period `T = 2 pi / omega`:
+//!
+//! ```text
+//! M x'' + K x + sum_j F_j(d_j, d_j') L_j = f(t),      d_j = L_j^T x
+//! ```
+//!
+//! Over one period the conservative terms do no work, so the exciter's work equals what the sources take out (4.5):
+//!
+//! ```text
+//! e_r = integral v . f dt = sum_j c_j G_rj,      G_rj = integral d_j' q_j(d_j, d_j') dt      (4.22)
+//! ```
+//!
+//! one equation a run `r`, one column a source `j` of unit-coefficient force law `q_j`.
+//!
+//! # Notation
+//!
+//! Every periodic quantity is `y(t) = y0 + Re sum_h Y_h exp(i h omega t)`; a complex amplitude `Y = a - i b` stands for
+//! `a cos + b sin`. SI units throughout the library. Bracketed numbers are equations of M. Prandina, *Spatial Damping
+//! Identification*, Liverpool 2010.
+//!
+//! # The floors
+//!
+//! Dependence runs downwards only (`tests/floors.rs` holds it): [`control`], [`math`] - [`structure`], [`effects`],
+//! [`measurement`] - [`response`], [`balance`] - [`identify`] - [`exchange`] - [`cli`].
+
+pub mod balance;
+pub mod cli;
+pub mod control;
+pub mod effects;
+pub mod exchange;
+pub mod identify;
+pub mod math;
+pub mod measurement;
+pub mod response;
+pub mod structure;

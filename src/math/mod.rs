@@ -1,0 +1,8 @@
+//! Numerical kernels that know nothing of structures.
+
+pub mod eigen;
+pub mod least_squares;
+pub mod nnls;
+pub mod spectrum;
+pub mod statistics;
+pub mod subsets;

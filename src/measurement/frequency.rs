@@ -1,0 +1,1 @@
+//! Estimates the fundamental frequency of a record.

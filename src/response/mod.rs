@@ -1,0 +1,3 @@
+//! What the structure is predicted to do: frequency response and steady state.
+pub mod frequency_response;
+pub mod steady_state;

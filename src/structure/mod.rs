@@ -1,0 +1,145 @@
+//! Mass, stiffness and geometry of what vibrates, and its modes.
+
+pub mod beam;
+pub mod chain;
+pub mod damped_modes;
+pub mod imported;
+pub mod modes;
+pub mod points;
+
+use faer::Mat;
+use serde::{Deserialize, Serialize};
+
+/// Direction of a degree of freedom.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+#[expect(missing_docs, reason = "the names say it")]
+pub enum Direction {
+    X,
+    Y,
+    Z,
+    Rx,
+    Ry,
+    Rz,
+}
+
+impl Direction {
+    /// Whether it is a rotation (rad) rather than a translation (m).
+    pub fn is_rotation(self) -> bool {
+        matches!(self, Self::Rx | Self::Ry | Self::Rz)
+    }
+}
+
+/// One degree of freedom: a row of the system matrices.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Dof {
+    /// Name in files, such as `19`.
+    pub label: String,
+    /// Index into [`Structure::nodes`].
+    pub node: usize,
+    /// Direction of positive displacement.
+    pub direction: Direction,
+}
+
+/// A point of the structure.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Node {
+    /// Name in files.
+    pub label: String,
+    /// Position, m.
+    pub position: [f64; 3],
+}
+
+/// What the structure was made from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+#[expect(missing_docs, reason = "the names say it")]
+pub enum StructureKind {
+    Beam,
+    Chain,
+    Matrices,
+    Points,
+}
+
+/// Mass and stiffness, both symmetric n x n; lumped masses are included.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SystemMatrices {
+    /// Mass, kg (kg m^2 for rotations), positive definite.
+    pub mass: Mat<f64>,
+    /// Stiffness, N/m, positive semi-definite.
+    pub stiffness: Mat<f64>,
+}
+
+/// One finite element, kept for laws that are restricted to a range of elements.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Element {
+    /// Row of the system matrices of each local DOF; `None` where it is supported.
+    pub dofs: Vec<Option<usize>>,
+    /// Local mass matrix.
+    pub mass: Mat<f64>,
+    /// Local stiffness matrix.
+    pub stiffness: Mat<f64>,
+}
+
+/// A structure whose labels are unique and whose matrices, where it has any, are symmetric with positive mass.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Structure {
+    pub(crate) kind: StructureKind,
+    pub(crate) dofs: Vec<Dof>,
+    pub(crate) nodes: Vec<Node>,
+    pub(crate) lines: Vec<[usize; 2]>,
+    pub(crate) matrices: Option<SystemMatrices>,
+    pub(crate) elements: Vec<Element>,
+}
+
+impl Structure {
+    /// What the structure was made from.
+    pub fn kind(&self) -> StructureKind {
+        self.kind
+    }
+
+    /// Number of degrees of freedom, n.
+    pub fn len(&self) -> usize {
+        self.dofs.len()
+    }
+
+    /// Whether there is no degree of freedom; never true for a structure that was built.
+    pub fn is_empty(&self) -> bool {
+        self.dofs.is_empty()
+    }
+
+    /// Degrees of freedom in the order of the matrix rows.
+    pub fn dofs(&self) -> &[Dof] {
+        &self.dofs
+    }
+
+    /// Nodes, supported ones included.
+    pub fn nodes(&self) -> &[Node] {
+        &self.nodes
+    }
+
+    /// Pairs of nodes to draw a line between.
+    pub fn lines(&self) -> &[[usize; 2]] {
+        &self.lines
+    }
+
+    /// Mass and stiffness; `None` for `points`.
+    pub fn matrices(&self) -> Option<&SystemMatrices> {
+        self.matrices.as_ref()
+    }
+
+    /// Finite elements; empty unless the structure is a beam.
+    pub fn elements(&self) -> &[Element] {
+        &self.elements
+    }
+
+    /// Row of the DOF of that label.
+    pub fn dof(&self, label: &str) -> Option<usize> {
+        self.dofs.iter().position(|dof| dof.label == label)
+    }
+
+    /// Label of row `dof`.
+    pub fn label(&self, dof: usize) -> &str {
+        &self.dofs[dof].label
+    }
+}
