@@ -20,6 +20,81 @@ pub struct Parameter {
     pub linear: bool,
     /// A sensible value for a candidate whose value is unknown; 1 for the linear one.
     pub typical: f64,
+    /// Whether the limits themselves are allowed.
+    pub ends: Ends,
+}
+
+/// Which limits of a range belong to it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Ends {
+    /// Both.
+    Closed,
+    /// Only the greatest.
+    OpenBelow,
+    /// Neither.
+    Open,
+}
+
+impl Parameter {
+    /// A parameter to which the force is proportional, from 0 upwards.
+    pub const fn coefficient(name: &'static str, unit: &'static str, symbol: &'static str) -> Self {
+        let (least, greatest) = (0.0, f64::INFINITY);
+        Self { name, unit, symbol, least, greatest, linear: true, typical: 1.0, ends: Ends::Closed }
+    }
+
+    /// A parameter that shapes the force, from 0 upwards.
+    pub const fn shape(name: &'static str, unit: &'static str, symbol: &'static str, typical: f64) -> Self {
+        Self { linear: false, typical, ..Self::coefficient(name, unit, symbol) }
+    }
+
+    /// The same parameter within other limits.
+    #[must_use]
+    pub const fn within(self, least: f64, greatest: f64, ends: Ends) -> Self {
+        Self { least, greatest, ends, ..self }
+    }
+
+    /// The same parameter without limits.
+    #[must_use]
+    pub const fn of_any_sign(self) -> Self {
+        self.within(f64::NEG_INFINITY, f64::INFINITY, Ends::Closed)
+    }
+
+    /// The same parameter without its lower limit itself.
+    #[must_use]
+    pub const fn above(self, least: f64) -> Self {
+        let greatest = self.greatest;
+        self.within(least, greatest, Ends::OpenBelow)
+    }
+
+    /// Whether `value` is finite and within the limits.
+    pub fn allows(&self, value: f64) -> bool {
+        let above = if self.ends == Ends::Closed { value >= self.least } else { value > self.least };
+        let below = if self.ends == Ends::Open { value < self.greatest } else { value <= self.greatest };
+        value.is_finite() && above && below
+    }
+
+    /// The limits in words, such as `above 0 and at most 5`.
+    pub fn range(&self) -> String {
+        let above = if self.ends == Ends::Closed { "at least" } else { "above" };
+        let below = if self.ends == Ends::Open { "below" } else { "at most" };
+        match (self.least.is_finite(), self.greatest.is_finite()) {
+            (true, true) => format!("{above} {} and {below} {}", self.least, self.greatest),
+            (true, false) => format!("{above} {}", self.least),
+            (false, true) => format!("{below} {}", self.greatest),
+            (false, false) => "a finite number".to_string(),
+        }
+    }
+}
+
+/// Value and slopes of a force that depends on the present displacement and velocity only.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Point {
+    /// Force, N.
+    pub force: f64,
+    /// Derivative by the displacement, N/m.
+    pub by_displacement: f64,
+    /// Derivative by the velocity, N s/m.
+    pub by_velocity: f64,
 }
 
 /// A force that depends on one relative displacement `d(t)` of the structure: `-F` acts on the first DOF, `+F` on the second.
@@ -48,6 +123,37 @@ pub trait Law: Sync {
 
     /// Energy in J taken out per cycle of `d = amplitude cos(omega t)`, where a closed form exists.
     fn energy_per_cycle(&self, p: &[f64], amplitude: f64, omega: f64) -> Option<f64>;
+
+    /// Whether the force jumps where the velocity changes sign, so that solvers need the `smooth_` methods.
+    fn jumps(&self) -> bool {
+        false
+    }
+
+    /// The force at one instant, for laws without memory and inertia; `None` for all others. `width` as in
+    /// [`Law::smooth_force`], 0 for the law itself.
+    fn point(&self, p: &[f64], width: f64, displacement: f64, velocity: f64) -> Option<Point> {
+        let _ = (p, width, displacement, velocity);
+        None
+    }
+
+    /// [`Law::force`] with every jump in velocity `v` smoothed over `width` (m/s): `sgn v` becomes
+    /// `v / sqrt(v^2 + width^2)`. Laws that are smooth already do not look at `width`.
+    fn smooth_force(&self, p: &[f64], width: f64, motion: &Motion, force: &mut [f64]) {
+        let _ = width;
+        self.force(p, motion, force);
+    }
+
+    /// Directional derivative of [`Law::smooth_force`].
+    fn smooth_tangent(&self, p: &[f64], width: f64, motion: &Motion, direction: &Motion, tangent: &mut [f64]) {
+        let _ = width;
+        self.tangent(p, motion, direction, tangent);
+    }
+
+    /// Derivative of [`Law::smooth_force`] by parameter number `k`.
+    fn smooth_parameter_tangent(&self, p: &[f64], k: usize, width: f64, motion: &Motion, tangent: &mut [f64]) {
+        let _ = width;
+        self.parameter_tangent(p, k, motion, tangent);
+    }
 
     /// Whether the law can take out energy at all (a spring or mass cannot, so the energy balance does not see it).
     fn dissipates(&self) -> bool {

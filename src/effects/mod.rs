@@ -4,12 +4,16 @@ pub mod effect;
 pub mod family;
 pub mod law;
 pub mod laws;
+pub mod masing;
+pub mod memoryless;
 pub mod motion;
 pub mod place;
 pub mod source;
+pub mod turning;
 
 pub use effect::Effect;
 pub use law::{ChannelLaw, Law, Parameter, WholeLaw};
+pub use memoryless::Memoryless;
 pub use motion::Motion;
 pub use place::{Leg, Place};
 pub use source::{Source, State};

@@ -1,25 +1,32 @@
-//! Under construction.
-use super::viscous::Viscous;
-use crate::effects::{Law, Motion, Parameter};
+//! Cubic spring: `F = stiffness d^3`, hardening if positive. It takes out no energy.
 
-/// CubicStiffness.
+use crate::effects::law::Point;
+use crate::effects::{Memoryless, Parameter};
+
+/// Symmetric hardening or softening spring.
 #[derive(Debug)]
 pub struct CubicStiffness;
 
-impl Law for CubicStiffness {
-    fn parameters(&self) -> &'static [Parameter] {
-        Viscous.parameters()
+const PARAMETERS: [Parameter; 1] = [Parameter::coefficient("stiffness", "N/m^3", "k_3").of_any_sign()];
+
+impl Memoryless for CubicStiffness {
+    fn list(&self) -> &'static [Parameter] {
+        &PARAMETERS
     }
-    fn force(&self, p: &[f64], motion: &Motion, force: &mut [f64]) {
-        Viscous.force(p, motion, force);
+
+    fn at(&self, p: &[f64], _width: f64, d: f64, _v: f64) -> Point {
+        Point { force: p[0] * d * d * d, by_displacement: 3.0 * p[0] * d * d, by_velocity: 0.0 }
     }
-    fn tangent(&self, p: &[f64], motion: &Motion, direction: &Motion, tangent: &mut [f64]) {
-        Viscous.tangent(p, motion, direction, tangent);
+
+    fn by_parameter(&self, _p: &[f64], _k: usize, _width: f64, d: f64, _v: f64) -> f64 {
+        d * d * d
     }
-    fn parameter_tangent(&self, p: &[f64], k: usize, motion: &Motion, tangent: &mut [f64]) {
-        Viscous.parameter_tangent(p, k, motion, tangent);
+
+    fn cycle_energy(&self, _p: &[f64], _amplitude: f64, _omega: f64) -> Option<f64> {
+        Some(0.0)
     }
-    fn energy_per_cycle(&self, p: &[f64], amplitude: f64, omega: f64) -> Option<f64> {
-        Viscous.energy_per_cycle(p, amplitude, omega)
+
+    fn takes_energy(&self) -> bool {
+        false
     }
 }

@@ -1,20 +1,25 @@
-//! Under construction.
-use super::viscous::Viscous;
-use crate::effects::{Law, Parameter, WholeLaw, law::Basis};
+//! Loss factor of the material: `F_h = i loss_factor K X_h` at each harmonic; no force at rest.
+
+use crate::effects::law::Basis;
+use crate::effects::{Parameter, WholeLaw};
 use faer::c64;
 
-/// LossFactor.
+/// Complex stiffness of the whole structure.
 #[derive(Debug)]
 pub struct LossFactor;
 
+const PARAMETER: Parameter = Parameter::coefficient("loss_factor", "", "eta");
+
 impl WholeLaw for LossFactor {
     fn parameter(&self) -> &'static Parameter {
-        &Viscous.parameters()[0]
+        &PARAMETER
     }
+
     fn basis(&self) -> Basis {
-        Basis::Mass
+        Basis::Stiffness
     }
+
     fn factor(&self, value: f64, omega: f64) -> c64 {
-        c64::new(0.0, omega * value)
+        c64::new(0.0, if omega > 0.0 { value } else { 0.0 })
     }
 }

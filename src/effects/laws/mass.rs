@@ -1,25 +1,46 @@
-//! Under construction.
-use super::viscous::Viscous;
-use crate::effects::{Law, Motion, Parameter};
+//! Mass: `F = mass d''`. It stores energy and takes out none. Negative: the model is too heavy there.
 
-/// Mass.
+use crate::effects::{Law, Motion, Parameter};
+use faer::c64;
+
+/// Lumped mass, missing or too much.
 #[derive(Debug)]
 pub struct Mass;
 
+const PARAMETERS: [Parameter; 1] = [Parameter::coefficient("mass", "kg", "m").of_any_sign()];
+
 impl Law for Mass {
     fn parameters(&self) -> &'static [Parameter] {
-        Viscous.parameters()
+        &PARAMETERS
     }
+
+    fn dynamic_stiffness(&self, p: &[f64], omega: f64) -> Option<c64> {
+        Some(c64::new(-omega * omega * p[0], 0.0))
+    }
+
     fn force(&self, p: &[f64], motion: &Motion, force: &mut [f64]) {
-        Viscous.force(p, motion, force);
+        for (f, a) in force.iter_mut().zip(&motion.acceleration) {
+            *f = p[0] * a;
+        }
     }
-    fn tangent(&self, p: &[f64], motion: &Motion, direction: &Motion, tangent: &mut [f64]) {
-        Viscous.tangent(p, motion, direction, tangent);
+
+    fn tangent(&self, p: &[f64], _motion: &Motion, direction: &Motion, tangent: &mut [f64]) {
+        self.force(p, direction, tangent);
     }
-    fn parameter_tangent(&self, p: &[f64], k: usize, motion: &Motion, tangent: &mut [f64]) {
-        Viscous.parameter_tangent(p, k, motion, tangent);
+
+    fn parameter_tangent(&self, _p: &[f64], _k: usize, motion: &Motion, tangent: &mut [f64]) {
+        tangent.copy_from_slice(&motion.acceleration);
     }
-    fn energy_per_cycle(&self, p: &[f64], amplitude: f64, omega: f64) -> Option<f64> {
-        Viscous.energy_per_cycle(p, amplitude, omega)
+
+    fn energy_per_cycle(&self, _p: &[f64], _amplitude: f64, _omega: f64) -> Option<f64> {
+        Some(0.0)
+    }
+
+    fn dissipates(&self) -> bool {
+        false
+    }
+
+    fn energy(&self, _p: &[f64], _motion: &Motion) -> f64 {
+        0.0
     }
 }

@@ -1,19 +1,24 @@
-//! Under construction.
-use super::viscous::Viscous;
-use crate::effects::{Law, Parameter, WholeLaw, law::Basis};
+//! Mass-proportional viscous damping: `F = alpha M x'`.
+
+use crate::effects::law::Basis;
+use crate::effects::{Parameter, WholeLaw};
 use faer::c64;
 
-/// MassProportional.
+/// Viscous damping in proportion to the mass matrix.
 #[derive(Debug)]
 pub struct MassProportional;
 
+const PARAMETER: Parameter = Parameter::coefficient("alpha", "1/s", "alpha");
+
 impl WholeLaw for MassProportional {
     fn parameter(&self) -> &'static Parameter {
-        &Viscous.parameters()[0]
+        &PARAMETER
     }
+
     fn basis(&self) -> Basis {
         Basis::Mass
     }
+
     fn factor(&self, value: f64, omega: f64) -> c64 {
         c64::new(0.0, omega * value)
     }

@@ -1,25 +1,61 @@
-//! Under construction.
-use super::viscous::Viscous;
-use crate::effects::{Law, Motion, Parameter};
+//! Stribeck friction: `F = (force + (static_force - force) exp(-|d'| / velocity)) sgn(d')`, 0 at rest.
+//!
+//! The energy is `static_force` times the way travelled, exactly, less the smooth rest by the trapezoidal rule. The
+//! smoothed law has `sgn v -> v / m` and `|v| -> m` with `m = sqrt(v^2 + width^2)`.
 
-/// Stribeck.
+use crate::effects::law::Point;
+use crate::effects::memoryless::sign;
+use crate::effects::turning::total_variation;
+use crate::effects::{Memoryless, Motion, Parameter};
+
+/// Friction that falls from a static to a sliding force with speed.
 #[derive(Debug)]
 pub struct Stribeck;
 
-impl Law for Stribeck {
-    fn parameters(&self) -> &'static [Parameter] {
-        Viscous.parameters()
+const PARAMETERS: [Parameter; 3] = [
+    Parameter::shape("force", "N", "F_c", 1.0),
+    Parameter::shape("static_force", "N", "F_s", 1.5),
+    Parameter::shape("velocity", "m/s", "v_s", 0.01).above(0.0),
+];
+
+impl Memoryless for Stribeck {
+    fn list(&self) -> &'static [Parameter] {
+        &PARAMETERS
     }
-    fn force(&self, p: &[f64], motion: &Motion, force: &mut [f64]) {
-        Viscous.force(p, motion, force);
+
+    fn at(&self, p: &[f64], width: f64, _d: f64, v: f64) -> Point {
+        let [sliding, resting, velocity] = [p[0], p[1], p[2]];
+        let (value, slope) = sign(v, width);
+        let excess = (resting - sliding) * (-v.hypot(width) / velocity).exp();
+        Point {
+            force: (sliding + excess) * value,
+            by_displacement: 0.0,
+            by_velocity: (sliding + excess) * slope - excess * value * value / velocity,
+        }
     }
-    fn tangent(&self, p: &[f64], motion: &Motion, direction: &Motion, tangent: &mut [f64]) {
-        Viscous.tangent(p, motion, direction, tangent);
+
+    fn by_parameter(&self, p: &[f64], k: usize, width: f64, _d: f64, v: f64) -> f64 {
+        let (value, _) = sign(v, width);
+        let speed = v.hypot(width);
+        let decay = (-speed / p[2]).exp();
+        match k {
+            0 => (1.0 - decay) * value,
+            1 => decay * value,
+            _ => (p[1] - p[0]) * decay * speed / (p[2] * p[2]) * value,
+        }
     }
-    fn parameter_tangent(&self, p: &[f64], k: usize, motion: &Motion, tangent: &mut [f64]) {
-        Viscous.parameter_tangent(p, k, motion, tangent);
+
+    fn cycle_energy(&self, _p: &[f64], _amplitude: f64, _omega: f64) -> Option<f64> {
+        None
     }
-    fn energy_per_cycle(&self, p: &[f64], amplitude: f64, omega: f64) -> Option<f64> {
-        Viscous.energy_per_cycle(p, amplitude, omega)
+
+    fn exact_energy(&self, p: &[f64], motion: &Motion) -> Option<f64> {
+        let fall = |v: &f64| -(-v.abs() / p[2]).exp_m1() * v.abs();
+        let lost: f64 = motion.velocity.iter().map(fall).sum::<f64>() * motion.step();
+        Some(p[1] * total_variation(motion) - (p[1] - p[0]) * lost)
+    }
+
+    fn is_discontinuous(&self) -> bool {
+        true
     }
 }

@@ -8,15 +8,7 @@ use std::f64::consts::PI;
 #[derive(Debug)]
 pub struct Viscous;
 
-const PARAMETERS: [Parameter; 1] = [Parameter {
-    name: "c",
-    unit: "N s/m",
-    symbol: "c",
-    least: 0.0,
-    greatest: f64::INFINITY,
-    linear: true,
-    typical: 1.0,
-}];
+const PARAMETERS: [Parameter; 1] = [Parameter::coefficient("c", "N s/m", "c")];
 
 impl Law for Viscous {
     fn parameters(&self) -> &'static [Parameter] {

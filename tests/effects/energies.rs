@@ -1,0 +1,98 @@
+//! Energy per period: closed form, exact formula for harmonics, and fine sampling.
+
+use super::{assert_close, cases, rich, sampled};
+use dashpot::effects::turning::{loop_ranges, total_variation, turning_points};
+use dashpot::effects::{Effect, Motion};
+use faer::c64;
+
+/// The work of the sampled force meets the closed form at several amplitudes and frequencies, at any phase.
+#[test]
+fn the_sampled_work_of_one_harmonic_is_the_closed_form() {
+    for (effect, law, p) in cases() {
+        for (amplitude, omega) in [(1e-5, 20.0), (3e-4, 20.0), (3e-4, 300.0), (5e-3, 90.0)] {
+            let Some(wanted) = law.energy_per_cycle(&p, amplitude, omega) else {
+                assert_eq!(effect, Effect::Stribeck);
+                continue;
+            };
+            let phase = c64::new(0.36_f64.cos(), 0.36_f64.sin()) * amplitude;
+            let motion = Motion::new(omega, 0.0, &[phase], 8192);
+            let what = format!("{effect} {p:?} at {amplitude} m, {omega} rad/s");
+            let force = sampled(law, &p, &motion);
+            let most = force.iter().fold(0.0_f64, |most, f| most.max(f.abs())) * amplitude;
+            assert!((motion.work(&force) - wanted).abs() <= 2e-6 * wanted.abs() + 1e-6 * most, "sampled, {what}");
+            assert!((law.energy(&p, &motion) - wanted).abs() <= 1e-8 * most, "energy, {what}");
+        }
+    }
+}
+
+/// Where a law has its own formula for several harmonics, the plain work of the force, finely sampled, agrees.
+#[test]
+fn the_energy_of_several_harmonics_is_the_finely_sampled_work() {
+    let (coarse, fine) = (rich(96), rich(1 << 18));
+    for (effect, law, p) in cases() {
+        let wanted = fine.work(&sampled(law, &p, &fine));
+        let found = law.energy(&p, &coarse);
+        let scale = sampled(law, &p, &fine).iter().fold(0.0_f64, |most, f| most.max(f.abs())) * 1e-3;
+        // Laws that are not smooth at rest and have no exact formula, with no more than 96 samples.
+        let rough = matches!(effect, Effect::Power | Effect::Quadratic | Effect::Stribeck);
+        let tolerance = if rough { 2e-3 } else { 1e-7 };
+        assert!((found - wanted).abs() < tolerance * scale, "{effect} {p:?}: {found} instead of {wanted}");
+    }
+}
+
+#[test]
+fn no_law_gives_energy_and_springs_take_none() {
+    for (effect, law, p) in cases() {
+        for motion in [rich(256), Motion::cosine(100.0, 2e-3, 64), Motion::cosine(100.0, 0.0, 64)] {
+            let energy = law.energy(&p, &motion);
+            assert!(energy >= 0.0, "{effect} {p:?} gives {energy} J");
+            if !law.dissipates() {
+                // The kink of the gap costs the plain sum its accuracy.
+                let rounding = if effect == Effect::Gap { 2e-6 } else { 1e-12 };
+                let work = motion.work(&sampled(law, &p, &motion));
+                assert!(energy == 0.0 && work.abs() < rounding, "{effect} takes {work} J");
+            }
+        }
+    }
+}
+
+/// Coulomb friction of several harmonics, by brute force: the way travelled on a very fine grid.
+#[test]
+fn friction_counts_the_way_travelled() {
+    let fine = rich(1 << 20);
+    let d = &fine.displacement;
+    let way: f64 = (0..d.len()).map(|n| (d[(n + 1) % d.len()] - d[n]).abs()).sum();
+    for samples in [32, 64, 500] {
+        assert_close(total_variation(&rich(samples)), way, 1e-10, "way");
+    }
+    assert!(turning_points(&rich(64)).len() > 2, "the motion must have inner loops");
+    assert_close(total_variation(&Motion::cosine(3.0, 0.2, 16)), 0.8, 1e-14, "one harmonic");
+    assert_eq!(total_variation(&Motion::new(3.0, 1.0, &[c64::new(0.0, 0.0); 3], 16)), 0.0);
+}
+
+/// Loops of a motion whose loops can be read off: 0 -> 10 -> 4 -> 7 -> -10 -> 0 has the loops 20 and 3.
+#[test]
+fn closed_loops_are_counted_once() {
+    let ranges = loop_ranges(&rich(256));
+    let points = turning_points(&rich(256));
+    let greatest = points.iter().fold(f64::MIN, |a, &b| a.max(b)) - points.iter().fold(f64::MAX, |a, &b| a.min(b));
+    assert_eq!(2 * ranges.len(), points.len());
+    assert!(ranges.iter().any(|r| (r - greatest).abs() < 1e-15));
+    assert_close(2.0 * ranges.iter().sum::<f64>(), total_variation(&rich(256)), 1e-12, "ranges");
+}
+
+/// Stribeck friction against quadrature of its definition over a quarter period.
+#[test]
+fn stribeck_friction_is_its_integral() {
+    let (p, amplitude, omega) = ([1.0, 1.8, 0.02], 4e-4, 90.0);
+    let steps = 200_000;
+    let quarter: f64 = (0..steps)
+        .map(|n| {
+            let v = omega * amplitude * (std::f64::consts::FRAC_PI_2 * (f64::from(n) + 0.5) / f64::from(steps)).sin();
+            (p[0] + (p[1] - p[0]) * (-v / p[2]).exp()) * v
+        })
+        .sum();
+    let wanted = 4.0 * quarter * std::f64::consts::FRAC_PI_2 / omega / f64::from(steps);
+    let found = Effect::Stribeck.law().unwrap().energy(&p, &Motion::cosine(omega, amplitude, 512));
+    assert_close(found, wanted, 1e-6, "stribeck");
+}

@@ -1,0 +1,141 @@
+//! Tangents against finite differences of the force, dynamic stiffness against the sampled force.
+
+use super::{cases, direction, rich, sampled};
+use dashpot::effects::{Effect, Law, Motion};
+use faer::c64;
+
+const SAMPLES: usize = 240;
+
+fn moved(step: f64) -> Motion {
+    let (motion, along) = (rich(SAMPLES), direction(SAMPLES));
+    let harmonics: Vec<c64> =
+        motion.harmonics.iter().zip(&along.harmonics).map(|(d, e)| d + c64::new(step, 0.0) * e).collect();
+    Motion::new(motion.omega, motion.mean + step * along.mean, &harmonics, SAMPLES)
+}
+
+/// Samples where two central differences of different steps disagree are at a kink and are left out, but only a few.
+fn compare(found: &[f64], wide: &[f64], narrow: &[f64], what: &str) {
+    let size = narrow.iter().chain(found).fold(0.0_f64, |most, f| most.max(f.abs()));
+    let mut kinks = 0;
+    for n in 0..found.len() {
+        if (wide[n] - narrow[n]).abs() > 1e-4 * size + 1e-9 {
+            kinks += 1;
+        } else {
+            let error = (found[n] - narrow[n]).abs();
+            assert!(error <= 1e-4 * size + 1e-9, "{what}, sample {n}: {} instead of {}", found[n], narrow[n]);
+        }
+    }
+    assert!(kinks <= found.len() / 12, "{what}: {kinks} kinks");
+}
+
+fn difference(high: &[f64], low: &[f64], step: f64) -> Vec<f64> {
+    high.iter().zip(low).map(|(a, b)| (a - b) / (2.0 * step)).collect()
+}
+
+#[test]
+fn the_tangent_is_the_derivative_of_the_force() {
+    for (effect, law, p) in cases() {
+        for width in [0.0, 1e-2] {
+            let force = |step: f64| {
+                let mut force = vec![0.0; SAMPLES];
+                law.smooth_force(&p, width, &moved(step), &mut force);
+                force
+            };
+            let central = |step: f64| difference(&force(step), &force(-step), step);
+            let mut tangent = vec![0.0; SAMPLES];
+            law.smooth_tangent(&p, width, &rich(SAMPLES), &direction(SAMPLES), &mut tangent);
+            compare(&tangent, &central(1e-8), &central(3e-9), &format!("{effect} {p:?} width {width}"));
+        }
+    }
+}
+
+#[test]
+fn the_parameter_tangent_is_the_derivative_by_the_parameter() {
+    let motion = rich(SAMPLES);
+    for (effect, law, p) in cases() {
+        for width in [0.0, 1e-2] {
+            for k in 0..p.len() {
+                let scale = if p[k] == 0.0 { 1.0 } else { p[k].abs() };
+                let force = |step: f64| {
+                    let (mut p, mut force) = (p.clone(), vec![0.0; SAMPLES]);
+                    p[k] += step;
+                    law.smooth_force(&p, width, &motion, &mut force);
+                    force
+                };
+                let central = |step: f64| difference(&force(step), &force(-step), step);
+                let mut tangent = vec![0.0; SAMPLES];
+                law.smooth_parameter_tangent(&p, k, width, &motion, &mut tangent);
+                let what = format!("{effect} {p:?} parameter {k} width {width}");
+                compare(&tangent, &central(1e-5 * scale), &central(3e-6 * scale), &what);
+            }
+        }
+    }
+}
+
+/// The first linear parameter multiplies the whole force.
+#[test]
+fn the_force_is_proportional_to_the_coefficient() {
+    let motion = rich(SAMPLES);
+    for (effect, law, p) in cases() {
+        let Some(k) = effect.coefficient() else { continue };
+        let mut doubled = p.clone();
+        doubled[k] *= 2.0;
+        for (once, twice) in sampled(law, &p, &motion).iter().zip(sampled(law, &doubled, &motion)) {
+            assert!((2.0 * once - twice).abs() <= 1e-12 * twice.abs(), "{effect}");
+        }
+    }
+}
+
+#[test]
+fn the_dynamic_stiffness_gives_the_sampled_force() {
+    let motion = rich(SAMPLES);
+    let mut linear = Vec::new();
+    for (effect, law, p) in cases() {
+        let Some(at_rest) = law.dynamic_stiffness(&p, 0.0) else { continue };
+        linear.push(effect);
+        let amplitudes: Vec<c64> = motion
+            .harmonics
+            .iter()
+            .enumerate()
+            .map(|(i, d)| law.dynamic_stiffness(&p, (i + 1) as f64 * motion.omega).unwrap() * d)
+            .collect();
+        let wanted = Motion::new(motion.omega, at_rest.re * motion.mean, &amplitudes, SAMPLES).displacement;
+        let size = wanted.iter().fold(0.0_f64, |most, f| most.max(f.abs()));
+        for (found, wanted) in sampled(law, &p, &motion).iter().zip(&wanted) {
+            assert!((found - wanted).abs() < 1e-11 * size, "{effect}: {found} instead of {wanted}");
+        }
+    }
+    linear.dedup();
+    assert_eq!(linear.len(), 6, "{linear:?}");
+}
+
+/// The force at one instant and the force at samples are the same law.
+#[test]
+fn the_point_force_is_the_sampled_force() {
+    let motion = rich(SAMPLES);
+    for (effect, law, p) in cases() {
+        let mut force = vec![0.0; SAMPLES];
+        law.smooth_force(&p, 1e-3, &motion, &mut force);
+        for n in 0..SAMPLES {
+            let Some(point) = law.point(&p, 1e-3, motion.displacement[n], motion.velocity[n]) else { break };
+            assert!((point.force - force[n]).abs() <= 1e-14 * force[n].abs(), "{effect}");
+        }
+    }
+    assert!(Effect::Iwan.law().unwrap().point(&[1.0; 4], 0.0, 0.0, 0.0).is_none());
+}
+
+/// The smoothed force tends to the law as the width tends to zero, at second order where it slips.
+#[test]
+fn smoothing_has_the_law_as_its_limit() {
+    let motion = Motion::cosine(50.0, 1e-3, 101);
+    for (effect, law, p) in cases().into_iter().filter(|case| case.1.jumps()) {
+        let exact = sampled(law, &p, &motion);
+        let error = |width: f64| {
+            let mut force = vec![0.0; motion.len()];
+            Law::smooth_force(law, &p, width, &motion, &mut force);
+            (force[20] - exact[20]).abs() / exact[20].abs()
+        };
+        assert!(error(1e-4) < 1e-4, "{effect} {p:?}: {}", error(1e-4));
+        assert!(error(1e-5) < 0.02 * error(1e-4) + 1e-12, "{effect} {p:?}");
+    }
+}
