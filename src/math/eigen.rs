@@ -1,1 +1,133 @@
-//! Placeholder.
+//! Eigenvalue problems: symmetric generalised `K x = omega^2 M x`, and general real or complex matrices.
+//!
+//! The generalised problem is reduced by the Cholesky factor `M = L L^T` to `L^-1 K L^-T y = omega^2 y`, `x = L^-T y`, so
+//! that `X^T M X = I` to rounding.
+
+use faer::linalg::triangular_solve::{solve_lower_triangular_in_place, solve_upper_triangular_in_place};
+use faer::{Mat, MatRef, Par, Side, c64};
+
+/// Why an eigenvalue problem has no answer.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[expect(missing_docs, reason = "the messages say it")]
+pub enum EigenError {
+    #[error("the second matrix is not positive definite (its least eigenvalue is {least:.3e})")]
+    NotPositiveDefinite { least: f64 },
+    #[error("the matrices are {first} x {first} and {second} x {second}: they must have one size")]
+    Sizes { first: usize, second: usize },
+    #[error("entry ({row}, {column}) is {value}: every entry must be a finite number")]
+    NotFinite { row: usize, column: usize, value: f64 },
+    #[error("the eigenvalues of a {size} x {size} matrix did not converge")]
+    NoConvergence { size: usize },
+}
+
+/// Eigenvalues in ascending order and vectors with `X^T M X = I`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SymmetricEigen {
+    /// `omega^2`, ascending.
+    pub values: Vec<f64>,
+    /// One column an eigenvalue, n x n.
+    pub vectors: Mat<f64>,
+}
+
+/// Solves `K x = lambda M x` for symmetric `K` and symmetric positive definite `M` (lower triangles are read).
+///
+/// # Errors
+/// [`EigenError`] when sizes disagree, an entry is not finite, or `M` is not positive definite.
+pub fn generalised_symmetric(k: MatRef<'_, f64>, m: MatRef<'_, f64>) -> Result<SymmetricEigen, EigenError> {
+    let n = m.nrows();
+    if k.shape() != (n, n) || m.ncols() != n {
+        return Err(EigenError::Sizes { first: k.nrows(), second: n });
+    }
+    check_finite(k)?;
+    check_finite(m)?;
+    let factor = m.llt(Side::Lower).map_err(|_| EigenError::NotPositiveDefinite { least: least_eigenvalue(m) })?;
+    let l = factor.L();
+    let mut half = symmetrised(k);
+    solve_lower_triangular_in_place(l, half.as_mut(), Par::Seq);
+    let mut reduced = half.transpose().to_owned();
+    solve_lower_triangular_in_place(l, reduced.as_mut(), Par::Seq);
+    let eigen = symmetrised(reduced.as_ref())
+        .self_adjoint_eigen(Side::Lower)
+        .map_err(|_| EigenError::NoConvergence { size: n })?;
+    let mut vectors = eigen.U().to_owned();
+    solve_upper_triangular_in_place(l.transpose(), vectors.as_mut(), Par::Seq);
+    Ok(SymmetricEigen { values: eigen.S().column_vector().iter().copied().collect(), vectors })
+}
+
+/// Least eigenvalue of a symmetric matrix; NaN when it does not converge.
+pub fn least_eigenvalue(a: MatRef<'_, f64>) -> f64 {
+    match a.self_adjoint_eigenvalues(Side::Lower) {
+        Ok(values) => values.iter().copied().fold(f64::INFINITY, f64::min),
+        Err(_) => f64::NAN,
+    }
+}
+
+/// Eigenvalues and right eigenvectors (columns, unit norm) of a general real matrix; complex ones come in conjugate pairs.
+///
+/// # Errors
+/// [`EigenError`] when an entry is not finite or the iteration does not converge.
+pub fn real_general(a: MatRef<'_, f64>) -> Result<(Vec<c64>, Mat<c64>), EigenError> {
+    check_finite(a)?;
+    let eigen = a.eigen().map_err(|_| EigenError::NoConvergence { size: a.nrows() })?;
+    Ok((eigen.S().column_vector().iter().copied().collect(), eigen.U().to_owned()))
+}
+
+/// Eigenvalues and right eigenvectors (columns) of a general complex matrix.
+///
+/// # Errors
+/// [`EigenError`] when an entry is not finite or the iteration does not converge.
+pub fn complex_general(a: MatRef<'_, c64>) -> Result<(Vec<c64>, Mat<c64>), EigenError> {
+    for column in 0..a.ncols() {
+        for row in 0..a.nrows() {
+            let value = a[(row, column)];
+            if !(value.re.is_finite() && value.im.is_finite()) {
+                return Err(EigenError::NotFinite { row, column, value: value.re + value.im });
+            }
+        }
+    }
+    let eigen = a.eigen().map_err(|_| EigenError::NoConvergence { size: a.nrows() })?;
+    Ok((eigen.S().column_vector().iter().copied().collect(), eigen.U().to_owned()))
+}
+
+/// `(A + A^T) / 2`.
+pub fn symmetrised(a: MatRef<'_, f64>) -> Mat<f64> {
+    Mat::from_fn(a.nrows(), a.ncols(), |i, j| 0.5 * (a[(i, j)] + a[(j, i)]))
+}
+
+fn check_finite(a: MatRef<'_, f64>) -> Result<(), EigenError> {
+    super::least_squares::check_finite(a).map_err(|error| match error {
+        super::least_squares::LinearError::NotFinite { row, column, value } => {
+            EigenError::NotFinite { row, column, value }
+        }
+        _ => EigenError::NoConvergence { size: a.nrows() },
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "tests")]
+    use super::*;
+    use faer::mat;
+
+    #[test]
+    fn two_masses_in_closed_form() {
+        // m = 1, 1; k = 1 to the ground each, 1 between: omega^2 = 1, 3.
+        let k = mat![[2.0, -1.0], [-1.0, 2.0]];
+        let eigen = generalised_symmetric(k.as_ref(), Mat::<f64>::identity(2, 2).as_ref()).unwrap();
+        assert!((eigen.values[0] - 1.0).abs() < 1e-14 && (eigen.values[1] - 3.0).abs() < 1e-14);
+    }
+
+    #[test]
+    fn indefinite_mass_is_an_error_with_its_eigenvalue() {
+        let error = generalised_symmetric(Mat::<f64>::identity(2, 2).as_ref(), mat![[1.0, 2.0], [2.0, 1.0]].as_ref());
+        let Err(EigenError::NotPositiveDefinite { least }) = error else { panic!("{error:?}") };
+        assert!((least + 1.0).abs() < 1e-14);
+    }
+
+    #[test]
+    fn rotation_has_imaginary_pair() {
+        let (values, _) = real_general(mat![[0.0, 2.0], [-2.0, 0.0]].as_ref()).unwrap();
+        assert!(values.iter().any(|v| (v - c64::new(0.0, 2.0)).norm() < 1e-14));
+        assert!(values.iter().any(|v| (v - c64::new(0.0, -2.0)).norm() < 1e-14));
+    }
+}
