@@ -1,1 +1,278 @@
-//! Placeholder.
+//! Damped modes: `(lambda^2 M + lambda C + K) psi = 0` (2.69, 2.70), scaled so that `psi^T (2 lambda M + C) psi = 1`.
+//!
+//! In undamped modal coordinates `x = Phi q`, with `z = (Omega q, q')`, the problem is the standard one
+//!
+//! ```text
+//! z' = [ 0  Omega ; -Omega  -Phi^T C Phi ] z
+//! ```
+//!
+//! which is skew-symmetric but for the damping: well balanced whatever the units, and singular nowhere (a rigid body mode
+//! only loses its row of `Omega q`). A mode without stiffness has the pole 0 beside that of its damping.
+
+use super::modes::{Modes, failure};
+use super::{StructureError, SystemMatrices, modes};
+use crate::math::eigen;
+use faer::{Mat, MatRef, c64};
+use std::f64::consts::TAU;
+
+/// Poles below this part of the largest are those of rigid bodies.
+const ZERO_POLE: f64 = 1e-12;
+
+/// One damped mode: a pair of complex poles, given by the one above the real axis, or one real (overdamped) pole.
+#[derive(Debug, Clone, PartialEq)]
+pub struct DampedMode {
+    /// Pole, rad/s; 0 for a rigid body mode.
+    pub lambda: c64,
+    /// `|lambda| / 2 pi`, Hz.
+    pub frequency_hz: f64,
+    /// `-Re lambda / |lambda|`: 1 for an overdamped pole, 0 for a rigid body mode.
+    pub damping_ratio: f64,
+    /// Shape, n values, `psi^T (2 lambda M + C) psi = 1`; mass-normalised for a rigid body mode.
+    pub shape: Vec<c64>,
+}
+
+/// First-order change of a pole.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PoleChange {
+    /// Of the pole, rad/s.
+    pub lambda: c64,
+    /// Of `|lambda| / 2 pi`, Hz.
+    pub frequency_hz: f64,
+    /// Of the damping ratio.
+    pub damping_ratio: f64,
+}
+
+impl DampedMode {
+    fn new(lambda: c64, shape: Vec<c64>) -> Self {
+        let magnitude = lambda.norm();
+        let damping_ratio = if magnitude > 0.0 { -lambda.re / magnitude } else { 0.0 };
+        Self { lambda, frequency_hz: magnitude / TAU, damping_ratio, shape }
+    }
+
+    /// Whether the pole is real: the motion dies out without oscillating.
+    pub fn is_overdamped(&self) -> bool {
+        self.lambda.im == 0.0 && self.lambda.re != 0.0
+    }
+
+    /// Derivatives by a damping coefficient `c_j` with `C = sum c_j C_j`, given `form = psi^T C_j psi`, which is
+    /// `(L_j^T psi)^2` for a dashpot: `d lambda / d c_j = -lambda psi^T C_j psi`.
+    pub fn sensitivity(&self, form: c64) -> PoleChange {
+        let magnitude = self.lambda.norm();
+        if magnitude == 0.0 {
+            return PoleChange { lambda: c64::new(0.0, 0.0), frequency_hz: 0.0, damping_ratio: 0.0 };
+        }
+        let lambda = -self.lambda * form;
+        let d_magnitude = (self.lambda.conj() * lambda).re / magnitude;
+        PoleChange {
+            lambda,
+            frequency_hz: d_magnitude / TAU,
+            damping_ratio: (self.lambda.re * d_magnitude / magnitude - lambda.re) / magnitude,
+        }
+    }
+
+    /// `psi^T B psi` for a real n x n matrix `B`: the `form` of [`DampedMode::sensitivity`] for any damping matrix.
+    pub fn quadratic_form(&self, b: MatRef<'_, f64>) -> c64 {
+        let mut sum = c64::new(0.0, 0.0);
+        for (j, right) in self.shape.iter().enumerate() {
+            for (i, left) in self.shape.iter().enumerate() {
+                sum += left * right * b[(i, j)];
+            }
+        }
+        sum
+    }
+}
+
+/// Damped modes of `M x'' + C x' + K x = 0`, all n x n, in ascending order of `|lambda|`; conjugate pairs count once.
+///
+/// # Errors
+/// Those of [`modes::modes`], and [`StructureError::Sizes`] when the matrices differ in size.
+pub fn damped_modes(
+    m: MatRef<'_, f64>,
+    k: MatRef<'_, f64>,
+    c: MatRef<'_, f64>,
+) -> Result<Vec<DampedMode>, StructureError> {
+    let undamped = modes::modes(&SystemMatrices { mass: m.to_owned(), stiffness: k.to_owned() })?;
+    damped_modes_from(&undamped, c)
+}
+
+/// [`damped_modes`] from undamped modes that are already known.
+///
+/// # Errors
+/// [`StructureError::Sizes`] when `C` differs in size; [`StructureError::Modes`] when the iteration fails.
+pub fn damped_modes_from(undamped: &Modes, c: MatRef<'_, f64>) -> Result<Vec<DampedMode>, StructureError> {
+    let modal = modal_matrix(undamped, c)?;
+    let n = undamped.len();
+    let rigid = undamped.omega.iter().take_while(|&&w| w == 0.0).count();
+    let elastic = n - rigid;
+    let mut state = Mat::<f64>::zeros(elastic + n, elastic + n);
+    for r in 0..elastic {
+        state[(r, elastic + rigid + r)] = undamped.omega[rigid + r];
+        state[(elastic + rigid + r, r)] = -undamped.omega[rigid + r];
+    }
+    for j in 0..n {
+        for i in 0..n {
+            state[(elastic + i, elastic + j)] = -modal[(i, j)];
+        }
+    }
+    let (values, vectors) = eigen::real_general(state.as_ref()).map_err(failure)?;
+    let largest = values.iter().fold(0.0_f64, |l, v| l.max(v.norm()));
+    let mut found = Vec::with_capacity(n);
+    for r in 0..rigid {
+        found.push((c64::new(0.0, 0.0), undamped.shapes.col(r).iter().map(|&v| c64::new(v, 0.0)).collect()));
+    }
+    let (mut poles, mut modal_shapes) = (Vec::new(), Vec::new());
+    for (index, &lambda) in values.iter().enumerate() {
+        if lambda.im < 0.0 || lambda.norm() <= ZERO_POLE * largest && rigid > 0 {
+            continue;
+        }
+        let mut q: Vec<c64> = (0..n)
+            .map(|i| {
+                let omega = undamped.omega[i];
+                // Of the two ways to the modal displacement, the one that divides by the larger number.
+                if i >= rigid && omega > lambda.norm() {
+                    vectors[(i - rigid, index)] / omega
+                } else {
+                    vectors[(elastic + i, index)] / lambda
+                }
+            })
+            .collect();
+        normalise(&mut q, lambda, &modal);
+        poles.push(lambda);
+        modal_shapes.push(q);
+    }
+    found.extend(poles.into_iter().zip(physical(undamped, &modal_shapes)));
+    let mut result: Vec<DampedMode> = found.into_iter().map(|(l, shape)| DampedMode::new(l, shape)).collect();
+    result.sort_by(|a, b| a.frequency_hz.total_cmp(&b.frequency_hz));
+    Ok(result)
+}
+
+/// `Phi^T C Phi`.
+fn modal_matrix(undamped: &Modes, c: MatRef<'_, f64>) -> Result<Mat<f64>, StructureError> {
+    let n = undamped.shapes.nrows();
+    if c.shape() != (n, n) {
+        return Err(StructureError::DampingSize { rows: c.nrows(), columns: c.ncols(), size: n });
+    }
+    let modal = undamped.shapes.transpose() * c * &undamped.shapes;
+    Ok(eigen::symmetrised(modal.as_ref()))
+}
+
+/// Scales modal coordinates so that `2 lambda q^T q + q^T C q = 1`.
+fn normalise(q: &mut [c64], lambda: c64, modal: &Mat<f64>) {
+    let size = q.iter().map(|v| v.norm_sqr()).sum::<f64>().sqrt();
+    if size > 0.0 {
+        q.iter_mut().for_each(|v| *v /= size);
+    }
+    let mut a = lambda * 2.0 * q.iter().map(|v| v * v).sum::<c64>();
+    for (j, right) in q.iter().enumerate() {
+        let column: c64 = q.iter().enumerate().map(|(i, left)| left * modal[(i, j)]).sum();
+        a += column * right;
+    }
+    // Zero only for a defective pole (critical damping), whose shape keeps unit length.
+    if a.norm() > 0.0 {
+        let factor = c64::new(1.0, 0.0) / a.sqrt();
+        q.iter_mut().for_each(|v| *v *= factor);
+    }
+}
+
+/// Shapes `Phi q`, for all modes in one product.
+fn physical(undamped: &Modes, modal_shapes: &[Vec<c64>]) -> Vec<Vec<c64>> {
+    let n = undamped.shapes.nrows();
+    let part = |pick: fn(&c64) -> f64| {
+        let q = Mat::from_fn(n, modal_shapes.len(), |i, j| pick(&modal_shapes[j][i]));
+        &undamped.shapes * q
+    };
+    let (re, im) = (part(|v| v.re), part(|v| v.im));
+    (0..modal_shapes.len()).map(|j| (0..n).map(|i| c64::new(re[(i, j)], im[(i, j)])).collect()).collect()
+}
+
+/// One mode of a structure with hysteretic damping.
+#[derive(Debug, Clone, PartialEq)]
+pub struct HystereticMode {
+    /// `omega_r^2 (1 + i eta_r)`, rad^2/s^2.
+    pub lambda_squared: c64,
+    /// `omega_r / 2 pi`, Hz.
+    pub frequency_hz: f64,
+    /// Loss factor `eta_r`; at the resonance the damping ratio is `eta_r / 2`.
+    pub loss_factor: f64,
+    /// Shape with `psi^T M psi = 1`, n values.
+    pub shape: Vec<c64>,
+}
+
+/// Modes of `(K + i H) psi = omega^2 (1 + i eta) M psi` from the undamped ones, in ascending order of frequency.
+///
+/// # Errors
+/// As [`damped_modes_from`].
+pub fn hysteretic_modes(undamped: &Modes, h: MatRef<'_, f64>) -> Result<Vec<HystereticMode>, StructureError> {
+    let modal = modal_matrix(undamped, h)?;
+    let n = undamped.len();
+    let complex =
+        Mat::from_fn(n, n, |i, j| c64::new(if i == j { undamped.omega[i].powi(2) } else { 0.0 }, modal[(i, j)]));
+    let (values, vectors) = eigen::complex_general(complex.as_ref()).map_err(failure)?;
+    let modal_shapes: Vec<Vec<c64>> = (0..n)
+        .map(|r| {
+            let mut q: Vec<c64> = vectors.col(r).iter().copied().collect();
+            let square: c64 = q.iter().map(|v| v * v).sum();
+            if square.norm() > 0.0 {
+                let factor = c64::new(1.0, 0.0) / square.sqrt();
+                q.iter_mut().for_each(|v| *v *= factor);
+            }
+            q
+        })
+        .collect();
+    let mut result: Vec<HystereticMode> = physical(undamped, &modal_shapes)
+        .into_iter()
+        .zip(&values)
+        .map(|(shape, &value)| HystereticMode {
+            lambda_squared: value,
+            frequency_hz: value.re.max(0.0).sqrt() / TAU,
+            loss_factor: if value.re > 0.0 { value.im / value.re } else { 0.0 },
+            shape,
+        })
+        .collect();
+    result.sort_by(|a, b| a.frequency_hz.total_cmp(&b.frequency_hz));
+    Ok(result)
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "tests")]
+    use super::*;
+    use faer::mat;
+
+    #[test]
+    fn one_degree_of_freedom_under_and_over_critical() {
+        let (m, k) = (mat![[2.0]], mat![[50.0]]); // omega = 5, critical c = 20
+        let under = damped_modes(m.as_ref(), k.as_ref(), mat![[2.0]].as_ref()).unwrap();
+        assert_eq!(under.len(), 1);
+        assert!((under[0].damping_ratio - 0.1).abs() < 1e-14);
+        assert!((under[0].frequency_hz * TAU - 5.0).abs() < 1e-13);
+        let over = damped_modes(m.as_ref(), k.as_ref(), mat![[52.0]].as_ref()).unwrap();
+        assert_eq!(over.len(), 2); // -1 and -25
+        assert!(over.iter().all(DampedMode::is_overdamped));
+        assert!((over[0].lambda.re + 1.0).abs() < 1e-13 && (over[1].lambda.re + 25.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn rigid_body_with_a_damper_to_the_ground() {
+        let (m, k) = (mat![[1.0, 0.0], [0.0, 1.0]], mat![[100.0, -100.0], [-100.0, 100.0]]);
+        let c = mat![[0.2, 0.0], [0.0, 0.2]];
+        let found = damped_modes(m.as_ref(), k.as_ref(), c.as_ref()).unwrap();
+        assert_eq!(found.len(), 3);
+        assert_eq!(found[0].lambda, c64::new(0.0, 0.0));
+        assert!((found[1].lambda.re + 0.2).abs() < 1e-12 && found[1].is_overdamped());
+        assert!((found[2].frequency_hz * TAU - 200f64.sqrt()).abs() < 1e-10);
+        let free = damped_modes(m.as_ref(), k.as_ref(), Mat::zeros(2, 2).as_ref()).unwrap();
+        assert_eq!(free.len(), 2);
+    }
+
+    #[test]
+    fn proportional_hysteretic_damping_gives_its_loss_factor() {
+        let matrices = SystemMatrices { mass: mat![[1.0, 0.0], [0.0, 3.0]], stiffness: mat![[4.0, -1.0], [-1.0, 2.0]] };
+        let undamped = modes::modes(&matrices).unwrap();
+        let h = Mat::from_fn(2, 2, |i, j| 0.02 * matrices.stiffness[(i, j)]);
+        for (r, mode) in hysteretic_modes(&undamped, h.as_ref()).unwrap().iter().enumerate() {
+            assert!((mode.loss_factor - 0.02).abs() < 1e-12);
+            assert!((mode.frequency_hz - undamped.frequency_hz(r)).abs() < 1e-12);
+        }
+    }
+}

@@ -1,11 +1,16 @@
 //! Mass, stiffness and geometry of what vibrates, and its modes.
 
+mod assemble;
 pub mod beam;
 pub mod chain;
 pub mod damped_modes;
+mod error;
 pub mod imported;
 pub mod modes;
 pub mod points;
+
+pub use assemble::{LumpedMass, MOST_DOFS};
+pub use error::StructureError;
 
 use faer::Mat;
 use serde::{Deserialize, Serialize};
