@@ -8,12 +8,16 @@ pub mod masing;
 pub mod memoryless;
 pub mod motion;
 pub mod place;
+pub mod sampling;
 pub mod source;
 pub mod turning;
+pub mod wording;
 
 pub use effect::Effect;
+pub use family::Family;
 pub use law::{ChannelLaw, Law, Parameter, WholeLaw};
 pub use memoryless::Memoryless;
 pub use motion::Motion;
 pub use place::{Leg, Place};
-pub use source::{Source, State};
+pub use sampling::Sampling;
+pub use source::{Source, SourceError, State};

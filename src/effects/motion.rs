@@ -1,5 +1,6 @@
 //! One period of a relative motion, as harmonics and as equally spaced samples of displacement, velocity, acceleration.
 
+use super::sampling::Sampling;
 use faer::c64;
 use std::f64::consts::{PI, TAU};
 
@@ -23,28 +24,7 @@ pub struct Motion {
 impl Motion {
     /// Samples the harmonics at `samples` equal steps of one period.
     pub fn new(omega: f64, mean: f64, harmonics: &[c64], samples: usize) -> Self {
-        let mut motion = Self {
-            omega,
-            mean,
-            harmonics: harmonics.to_vec(),
-            displacement: vec![mean; samples],
-            velocity: vec![0.0; samples],
-            acceleration: vec![0.0; samples],
-        };
-        let table: Vec<(f64, f64)> = (0..samples).map(|n| (TAU * n as f64 / samples as f64).sin_cos()).collect();
-        for (index, &amplitude) in harmonics.iter().enumerate() {
-            let h = index + 1;
-            let w = h as f64 * omega;
-            for n in 0..samples {
-                let (sin, cos) = table[(h * n) % samples];
-                let in_phase = amplitude.re * cos - amplitude.im * sin;
-                let quadrature = -amplitude.re * sin - amplitude.im * cos;
-                motion.displacement[n] += in_phase;
-                motion.velocity[n] += w * quadrature;
-                motion.acceleration[n] -= w * w * in_phase;
-            }
-        }
-        motion
+        Sampling::new(samples).motion(omega, mean, harmonics)
     }
 
     /// `d = amplitude cos(omega t)`.

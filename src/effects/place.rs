@@ -33,6 +33,14 @@ pub enum Place {
 }
 
 impl Place {
+    /// Whether both are the same place: `[1, 2]` is `[2, 1]`, and a chain may be read from either end.
+    pub fn is_same(&self, other: &Self) -> bool {
+        match (self, other) {
+            (Self::Dofs(a), Self::Dofs(b)) => a == b || a.iter().eq(b.iter().rev()),
+            _ => self == other,
+        }
+    }
+
     /// The relative displacements on which a law at this place acts; none for the whole structure and channels.
     pub fn legs(&self) -> Vec<Leg> {
         match self {
@@ -40,5 +48,30 @@ impl Place {
             Self::Dofs(dofs) => dofs.windows(2).map(|d| Leg { first: d[0], second: Some(d[1]) }).collect(),
             Self::Whole(_) | Self::Channel(_) => Vec::new(),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_place_is_the_same_from_either_end() {
+        let place = |dofs: &[usize]| Place::Dofs(dofs.to_vec());
+        assert!(place(&[1, 2]).is_same(&place(&[2, 1])));
+        assert!(place(&[1, 2, 3]).is_same(&place(&[3, 2, 1])));
+        assert!(!place(&[1, 2, 3]).is_same(&place(&[2, 1, 3])));
+        assert!(!place(&[1]).is_same(&place(&[1, 2])));
+        assert!(Place::Whole(None).is_same(&Place::Whole(None)));
+        assert!(!Place::Whole(None).is_same(&Place::Whole(Some([0, 1]))));
+    }
+
+    #[test]
+    fn a_chain_has_a_leg_from_each_to_the_next() {
+        let legs = Place::Dofs(vec![4, 2, 7]).legs();
+        assert_eq!(legs, [Leg { first: 4, second: Some(2) }, Leg { first: 2, second: Some(7) }]);
+        assert_eq!(Place::Dofs(vec![4]).legs(), [Leg { first: 4, second: None }]);
+        assert!(Place::Dofs(Vec::new()).legs().is_empty());
+        assert_eq!(legs[0].relative(|dof| dof as f64), 2.0);
     }
 }

@@ -1,7 +1,58 @@
 //! A source: a law at a place, what is known of it, and whether it may be selected.
 
-use super::{Effect, Place};
+use super::effect::Kind;
+use super::motion::linear_energy;
+use super::{Effect, Motion, Place};
+use crate::structure::Structure;
+use faer::c64;
 use serde::{Deserialize, Serialize};
+use thiserror::Error;
+
+/// What is wrong with a source, in one line that says how to mend it.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[expect(missing_docs, reason = "the message names every field")]
+pub enum SourceError {
+    #[error("law `{effect}` has no parameter `{name}`: it takes {known}")]
+    UnknownParameter { effect: Effect, name: String, known: String },
+    #[error("parameter `{name}` of law `{effect}` is given twice: leave one out")]
+    RepeatedParameter { effect: Effect, name: String },
+    #[error("law `{effect}` needs a value for `{name}`{unit} where it is known: add `{name} = ...`", unit = bracketed(unit))]
+    MissingParameter { effect: Effect, name: &'static str, unit: &'static str },
+    #[error("`{name} = {value}` of law `{effect}` is out of range: it must be {range}{unit}", unit = spaced(unit))]
+    OutOfRange { effect: Effect, name: &'static str, value: f64, range: String, unit: &'static str },
+    #[error("law `{effect}` has {found} values for its {expected} parameters")]
+    WrongCount { effect: Effect, found: usize, expected: usize },
+    #[error(
+        "law `{effect}` acts on a relative motion: give `dofs`, one for the ground, two for a pair, more for a chain"
+    )]
+    NeedsDofs { effect: Effect },
+    #[error("law `{effect}` acts on the whole structure: leave `dofs` out (`elements = [first, last]` restricts it)")]
+    NeedsWhole { effect: Effect },
+    #[error("`{effect}` is an error of a measuring channel: write it under [[sensor]] with `channel`")]
+    NeedsChannel { effect: Effect },
+    #[error("entries {first} and {second} of `dofs` of law `{effect}` are the same DOF: name two different ones", second = first + 1)]
+    PairedWithItself { effect: Effect, first: usize },
+    #[error("law `{effect}` names DOF number {dof} of a structure with {count}: use a DOF that exists")]
+    NoSuchDof { effect: Effect, dof: usize, count: usize },
+    #[error(
+        "law `{effect}` multiplies mass or stiffness, which a `points` structure lacks: give matrices or leave it out"
+    )]
+    NeedsMatrices { effect: Effect },
+    #[error(
+        "`elements = [{first}, {last}]` of law `{effect}` is no range of the {count} beam elements: use 1 <= first <= last <= {count}"
+    )]
+    NoSuchElements { effect: Effect, first: usize, last: usize, count: usize },
+}
+
+/// A unit in brackets for messages.
+fn bracketed(unit: &str) -> String {
+    if unit.is_empty() { String::new() } else { format!(" [{unit}]") }
+}
+
+/// A unit behind a number for messages.
+fn spaced(unit: &str) -> String {
+    if unit.is_empty() { String::new() } else { format!(" {unit}") }
+}
 
 /// What identification may do with a source.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
@@ -44,12 +95,123 @@ impl Source {
         Self { effect, place, state: State::Known, parameters: parameters.to_vec() }
     }
 
+    /// A source of parameters given by name, checked. What is known or a reference needs every parameter; otherwise those
+    /// left out are typical, and the linear coefficient is 1 whatever is given for it, since it is to be found.
+    pub fn named(effect: Effect, place: Place, state: State, values: &[(&str, f64)]) -> Result<Self, SourceError> {
+        let mut source = Self { state, ..Self::candidate(effect, place) };
+        let list = effect.parameters();
+        let mut given = vec![false; list.len()];
+        for &(name, value) in values {
+            let Some(k) = list.iter().position(|parameter| parameter.name == name) else {
+                let known = list.iter().map(|p| format!("`{}`", p.name)).collect::<Vec<_>>().join(", ");
+                return Err(SourceError::UnknownParameter { effect, name: name.to_string(), known });
+            };
+            if given[k] {
+                return Err(SourceError::RepeatedParameter { effect, name: name.to_string() });
+            }
+            (given[k], source.parameters[k]) = (true, value);
+        }
+        if matches!(state, State::Known | State::Reference)
+            && let Some(k) = given.iter().position(|given| !given)
+        {
+            return Err(SourceError::MissingParameter { effect, name: list[k].name, unit: list[k].unit });
+        }
+        source.check()?;
+        let sought = matches!(state, State::Candidate | State::Forced);
+        Ok(if sought { source.with_coefficient(1.0) } else { source })
+    }
+
+    /// Checks the values against their ranges and the kind of place against the law.
+    pub fn check(&self) -> Result<(), SourceError> {
+        let effect = self.effect;
+        let list = effect.parameters();
+        if list.len() != self.parameters.len() {
+            return Err(SourceError::WrongCount { effect, found: self.parameters.len(), expected: list.len() });
+        }
+        for (parameter, &value) in list.iter().zip(&self.parameters) {
+            if !parameter.allows(value) {
+                let (name, unit, range) = (parameter.name, parameter.unit, parameter.range());
+                return Err(SourceError::OutOfRange { effect, name, value, range, unit });
+            }
+        }
+        match (effect.kind(), &self.place) {
+            (Kind::Relative(_), Place::Dofs(dofs)) if !dofs.is_empty() => {
+                match dofs.windows(2).position(|pair| pair[0] == pair[1]) {
+                    Some(at) => Err(SourceError::PairedWithItself { effect, first: at + 1 }),
+                    None => Ok(()),
+                }
+            }
+            (Kind::Whole(_), Place::Whole(_)) | (Kind::Channel(_), Place::Channel(_)) => Ok(()),
+            (Kind::Relative(_), _) => Err(SourceError::NeedsDofs { effect }),
+            (Kind::Whole(_), _) => Err(SourceError::NeedsWhole { effect }),
+            (Kind::Channel(_), _) => Err(SourceError::NeedsChannel { effect }),
+        }
+    }
+
+    /// [`Source::check`], and that the place exists on `structure`.
+    pub fn check_on(&self, structure: &Structure) -> Result<(), SourceError> {
+        self.check()?;
+        let effect = self.effect;
+        match &self.place {
+            Place::Dofs(dofs) => match dofs.iter().find(|&&dof| dof >= structure.len()) {
+                Some(&dof) => Err(SourceError::NoSuchDof { effect, dof: dof + 1, count: structure.len() }),
+                None => Ok(()),
+            },
+            Place::Whole(range) => {
+                if structure.matrices().is_none() {
+                    return Err(SourceError::NeedsMatrices { effect });
+                }
+                let count = structure.elements().len();
+                match *range {
+                    Some([first, last]) if first > last || last >= count => {
+                        Err(SourceError::NoSuchElements { effect, first: first + 1, last: last + 1, count })
+                    }
+                    _ => Ok(()),
+                }
+            }
+            Place::Channel(_) => Ok(()),
+        }
+    }
+
+    /// Whether both are the same law at the same place, whatever their values and states.
+    pub fn is_same(&self, other: &Self) -> bool {
+        self.effect == other.effect && self.place.is_same(&other.place)
+    }
+
+    /// Energy in J that the source takes out over one period `2 pi / omega` at its parameters, summed over its legs.
+    ///
+    /// `displacement(dof)` gives the complex amplitudes (m) of harmonics 1, 2, ... of a DOF, equally many for all; `samples`
+    /// a period are used by laws without an exact formula. `None` for the whole structure (which needs its matrices) and
+    /// for errors of channels. Energy balance (4.22): the entry `G_rj` for a unit coefficient.
+    pub fn energy(&self, omega: f64, displacement: &dyn Fn(usize) -> Vec<c64>, samples: usize) -> Option<f64> {
+        let law = self.effect.law()?;
+        if !law.dissipates() {
+            return Some(0.0);
+        }
+        let linear = self.effect.is_linear();
+        let of_leg = |leg: super::Leg| {
+            let mut relative = displacement(leg.first);
+            if let Some(second) = leg.second {
+                for (d, other) in relative.iter_mut().zip(displacement(second)) {
+                    *d -= other;
+                }
+            }
+            if linear {
+                let z = |w: f64| law.dynamic_stiffness(&self.parameters, w).unwrap_or(c64::new(0.0, 0.0));
+                return linear_energy(omega, &relative, z);
+            }
+            law.energy(&self.parameters, &Motion::new(omega, 0.0, &relative, samples))
+        };
+        Some(self.place.legs().into_iter().map(of_leg).sum())
+    }
+
     /// The linear coefficient; 0 for a law that has none.
     pub fn coefficient(&self) -> f64 {
         self.effect.coefficient().map_or(0.0, |k| self.parameters[k])
     }
 
     /// The same source with another value of its linear coefficient.
+    #[must_use]
     pub fn with_coefficient(&self, value: f64) -> Self {
         let mut source = self.clone();
         if let Some(k) = self.effect.coefficient() {
@@ -57,4 +219,10 @@ impl Source {
         }
         source
     }
+}
+
+/// Pairs of sources that are the same law at the same place in the same state: one of each is too much.
+pub fn duplicates(sources: &[Source]) -> Vec<[usize; 2]> {
+    let same = |i: usize, j: usize| sources[i].state == sources[j].state && sources[i].is_same(&sources[j]);
+    (0..sources.len()).flat_map(|j| (0..j).filter(move |&i| same(i, j)).map(move |i| [i, j])).collect()
 }

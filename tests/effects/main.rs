@@ -4,6 +4,7 @@
 mod energies;
 mod limits;
 mod names;
+mod sources;
 mod tangents;
 
 use dashpot::effects::{Effect, Law, Motion};

@@ -1,0 +1,123 @@
+//! Sources: checks and their messages, duplicates, energy on a structure.
+
+use super::assert_close;
+use dashpot::effects::source::duplicates;
+use dashpot::effects::{Effect, Motion, Place, Source, State};
+use faer::c64;
+
+fn dofs(rows: &[usize]) -> Place {
+    Place::Dofs(rows.to_vec())
+}
+
+fn message(effect: Effect, place: Place, state: State, values: &[(&str, f64)]) -> String {
+    Source::named(effect, place, state, values).unwrap_err().to_string()
+}
+
+#[test]
+fn parameters_are_taken_by_name() {
+    let given = [("force", 2.0), ("stiffness", 1e5)];
+    let known = Source::named(Effect::ElasticSlider, dofs(&[1]), State::Known, &given).unwrap();
+    assert_eq!(known, Source::known(Effect::ElasticSlider, dofs(&[1]), &[1e5, 2.0]));
+    let candidate = Source::named(Effect::Gap, dofs(&[1, 2]), State::Candidate, &[("gap", 2e-3), ("stiffness", 7.0)]);
+    assert_eq!(candidate.unwrap().parameters, [1.0, 2e-3]);
+    let off = Source::named(Effect::Viscous, dofs(&[1, 2]), State::Off, &[("c", 7.0)]).unwrap();
+    assert_eq!(off.coefficient(), 7.0);
+}
+
+#[test]
+fn messages_say_what_is_wrong_and_how_to_mend_it() {
+    let cases = [
+        (
+            message(Effect::Gap, dofs(&[0]), State::Known, &[("stifness", 1.0)]),
+            "law `gap` has no parameter `stifness`: it takes `stiffness`, `gap`",
+        ),
+        (
+            message(Effect::Gap, dofs(&[0]), State::Known, &[("stiffness", 1.0)]),
+            "law `gap` needs a value for `gap` [m] where it is known: add `gap = ...`",
+        ),
+        (
+            message(Effect::Gap, dofs(&[0]), State::Known, &[("gap", 1.0), ("gap", 2.0)]),
+            "parameter `gap` of law `gap` is given twice: leave one out",
+        ),
+        (
+            message(Effect::Viscous, dofs(&[0]), State::Known, &[("c", -1.0)]),
+            "`c = -1` of law `viscous` is out of range: it must be at least 0 N s/m",
+        ),
+        (
+            message(Effect::Fractional, dofs(&[0]), State::Candidate, &[("order", 1.0)]),
+            "`order = 1` of law `fractional` is out of range: it must be above 0 and below 1",
+        ),
+        (
+            message(Effect::Iwan, dofs(&[0]), State::Candidate, &[("chi", -1.0)]),
+            "`chi = -1` of law `iwan` is out of range: it must be above -1 and at most 0",
+        ),
+        (
+            message(Effect::Mass, dofs(&[0]), State::Known, &[("mass", f64::NAN)]),
+            "`mass = NaN` of law `mass` is out of range: it must be a finite number kg",
+        ),
+        (
+            message(Effect::Viscous, dofs(&[3, 4, 4]), State::Candidate, &[]),
+            "entries 2 and 3 of `dofs` of law `viscous` are the same DOF: name two different ones",
+        ),
+        (
+            message(Effect::Viscous, Place::Whole(None), State::Candidate, &[]),
+            "law `viscous` acts on a relative motion: give `dofs`, one for the ground, two for a pair, more for a chain",
+        ),
+        (
+            message(Effect::LossFactor, dofs(&[1]), State::Candidate, &[]),
+            "law `loss_factor` acts on the whole structure: leave `dofs` out (`elements = [first, last]` restricts it)",
+        ),
+        (
+            message(Effect::Delay, dofs(&[1]), State::Candidate, &[]),
+            "`delay` is an error of a measuring channel: write it under [[sensor]] with `channel`",
+        ),
+    ];
+    for (found, wanted) in cases {
+        assert_eq!(found, wanted);
+    }
+    assert!(Source::named(Effect::Viscous, dofs(&[]), State::Candidate, &[]).is_err());
+    assert!(Source::named(Effect::Delay, Place::Channel("acc@7".into()), State::Known, &[("delay", 1e-4)]).is_ok());
+    assert!(Source::known(Effect::Gap, dofs(&[1]), &[1.0]).check().is_err());
+}
+
+#[test]
+fn duplicates_are_found_from_either_end() {
+    let sources = [
+        Source::candidate(Effect::Viscous, dofs(&[1, 2])),
+        Source::candidate(Effect::Coulomb, dofs(&[1, 2])),
+        Source::known(Effect::Viscous, dofs(&[1, 2]), &[3.0]),
+        Source::candidate(Effect::Viscous, dofs(&[2, 1])),
+    ];
+    assert_eq!(duplicates(&sources), [[0, 3]]);
+}
+
+/// A chain takes out what its pairs take out, on relative motion only.
+#[test]
+fn the_energy_of_a_chain_is_that_of_its_pairs() {
+    let x = |dof: usize| match dof {
+        0 => vec![c64::new(1e-3, 0.0), c64::new(0.0, 2e-4)],
+        1 => vec![c64::new(4e-4, 1e-4), c64::new(0.0, 0.0)],
+        _ => vec![c64::new(4e-4, 1e-4), c64::new(1e-4, 0.0)],
+    };
+    let omega = 80.0;
+    for (effect, p) in [
+        (Effect::Viscous, vec![2.0]),
+        (Effect::Coulomb, vec![2.0]),
+        (Effect::ElasticSlider, vec![1e4, 1.0]),
+        (Effect::Hysteretic, vec![50.0]),
+        (Effect::Maxwell, vec![1e4, 20.0]),
+    ] {
+        let of = |rows: &[usize]| Source::known(effect, dofs(rows), &p).energy(omega, &x, 256).unwrap();
+        assert_close(of(&[0, 1, 2]), of(&[0, 1]) + of(&[1, 2]), 1e-13, effect.name());
+        assert_close(of(&[0, 1]), of(&[1, 0]), 1e-12, effect.name());
+        let relative: Vec<c64> = x(0).iter().zip(x(1)).map(|(a, b)| a - b).collect();
+        let motion = Motion::new(omega, 0.0, &relative, 256);
+        assert_close(of(&[0, 1]), effect.law().unwrap().energy(&p, &motion), 1e-12, effect.name());
+    }
+    // Viscous, by hand: (T/2) sum_h c |h w D_h|^2 = pi w c sum_h h^2 |D_h|^2.
+    let squares = 36e-8 + 1e-8 + 4.0 * 4e-8;
+    let found = Source::known(Effect::Viscous, dofs(&[0, 1]), &[2.0]).energy(omega, &x, 8).unwrap();
+    assert_close(found, std::f64::consts::PI * omega * 2.0 * squares, 1e-13, "viscous by hand");
+    assert_eq!(Source::known(Effect::Gap, dofs(&[0]), &[1e5, 0.0]).energy(omega, &x, 64), Some(0.0));
+    assert_eq!(Source::candidate(Effect::LossFactor, Place::Whole(None)).energy(omega, &x, 64), None);
+}
