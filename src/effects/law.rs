@@ -1,6 +1,6 @@
 //! The three kinds of law: a force on a relative motion, a force over the whole structure, an error of a channel.
 
-use super::Motion;
+use super::{Memory, Motion};
 use faer::c64;
 
 /// One parameter of a law: its name in project files, its unit, its symbol in formulas and its physical range.
@@ -133,6 +133,13 @@ pub trait Law: Sync {
     /// [`Law::smooth_force`], 0 for the law itself.
     fn point(&self, p: &[f64], width: f64, displacement: f64, velocity: f64) -> Option<Point> {
         let _ = (p, width, displacement, velocity);
+        None
+    }
+
+    /// The law with memory at rest at the origin, to be stepped through time. `None` for laws without memory (see
+    /// [`Law::point`]), for mass, and for hysteretic and fractional damping, which exist in steady state only.
+    fn memory(&self, p: &[f64]) -> Option<Box<dyn Memory>> {
+        let _ = p;
         None
     }
 

@@ -3,6 +3,7 @@
 
 mod energies;
 mod limits;
+mod memories;
 mod names;
 mod sources;
 mod tangents;

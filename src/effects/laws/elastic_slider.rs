@@ -4,8 +4,9 @@
 //! `4 force (X - force / stiffness)` where it slips, else 0; of any motion: the sum over its closed loops.
 
 use crate::effects::masing::march;
+use crate::effects::memory::MasingMemory;
 use crate::effects::turning::loop_ranges;
-use crate::effects::{Law, Motion, Parameter};
+use crate::effects::{Law, Memory, Motion, Parameter};
 
 /// Spring in series with a slider.
 #[derive(Debug)]
@@ -52,6 +53,11 @@ impl Law for ElasticSlider {
     fn parameter_tangent(&self, p: &[f64], k: usize, motion: &Motion, tangent: &mut [f64]) {
         let d = &motion.displacement;
         march(d, tangent, |n| by_parameter(p, k, d[n]), |r, n| 2.0 * by_parameter(p, k, 0.5 * (d[n] - d[r])));
+    }
+
+    fn memory(&self, p: &[f64]) -> Option<Box<dyn Memory>> {
+        let p = [p[0], p[1]];
+        Some(Box::new(MasingMemory::new(move |d| [backbone(&p, d), slope(&p, d)])))
     }
 
     fn energy_per_cycle(&self, p: &[f64], amplitude: f64, _omega: f64) -> Option<f64> {

@@ -15,8 +15,9 @@
 
 use crate::effects::law::Ends;
 use crate::effects::masing::march;
+use crate::effects::memory::MasingMemory;
 use crate::effects::turning::loop_ranges;
-use crate::effects::{Law, Motion, Parameter};
+use crate::effects::{Law, Memory, Motion, Parameter};
 
 /// Parallel elastic sliders with power-law distributed yield forces.
 #[derive(Debug)]
@@ -133,6 +134,11 @@ impl Law for Iwan {
     fn parameter_tangent(&self, p: &[f64], k: usize, motion: &Motion, tangent: &mut [f64]) {
         let (joint, d) = (Joint::new(p), &motion.displacement);
         march(d, tangent, |n| joint.by_parameter(k, d[n]), |r, n| 2.0 * joint.by_parameter(k, 0.5 * (d[n] - d[r])));
+    }
+
+    fn memory(&self, p: &[f64]) -> Option<Box<dyn Memory>> {
+        let joint = Joint::new(p);
+        Some(Box::new(MasingMemory::new(move |d| [joint.backbone(d), joint.slope(d)])))
     }
 
     fn energy_per_cycle(&self, p: &[f64], amplitude: f64, _omega: f64) -> Option<f64> {

@@ -1,7 +1,8 @@
 //! Maxwell element, a spring in series with a dashpot: `F_h = k i w c / (k + i w c) D_h` at `w = h omega`.
 //! Energy per cycle of `d = X cos(omega t)`: `pi X^2 k^2 omega c / (k^2 + (omega c)^2)`.
 
-use crate::effects::{Law, Motion, Parameter};
+use crate::effects::memory::MaxwellMemory;
+use crate::effects::{Law, Memory, Motion, Parameter};
 use faer::c64;
 use std::f64::consts::PI;
 
@@ -54,6 +55,10 @@ impl Law for Maxwell {
 
     fn parameter_tangent(&self, p: &[f64], k: usize, motion: &Motion, tangent: &mut [f64]) {
         motion.apply_linear(|w| by_parameter(p, k, w), tangent);
+    }
+
+    fn memory(&self, p: &[f64]) -> Option<Box<dyn Memory>> {
+        Some(Box::new(MaxwellMemory::new(p[0], p[1])))
     }
 
     fn energy_per_cycle(&self, p: &[f64], amplitude: f64, omega: f64) -> Option<f64> {
