@@ -160,7 +160,11 @@ impl Effect {
     pub fn is_linear(self) -> bool {
         match self.kind() {
             Kind::Relative(law) => {
-                let p: Vec<f64> = law.parameters().iter().map(|q| q.typical).collect();
+                // On the stack: the energy balance asks this for every source and run.
+                let mut p = [0.0; 4];
+                for (value, parameter) in p.iter_mut().zip(law.parameters()) {
+                    *value = parameter.typical;
+                }
                 law.dynamic_stiffness(&p, 1.0).is_some()
             }
             Kind::Whole(_) | Kind::Channel(_) => true,

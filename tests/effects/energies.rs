@@ -70,7 +70,7 @@ fn friction_counts_the_way_travelled() {
     assert_eq!(total_variation(&Motion::new(3.0, 1.0, &[c64::new(0.0, 0.0); 3], 16)), 0.0);
 }
 
-/// Loops of a motion whose loops can be read off: 0 -> 10 -> 4 -> 7 -> -10 -> 0 has the loops 20 and 3.
+/// Two turning points a loop, one of them the whole range; together the loops are travelled there and back.
 #[test]
 fn closed_loops_are_counted_once() {
     let ranges = loop_ranges(&rich(256));

@@ -48,6 +48,26 @@ fn parameters_are_those_of_the_contract() {
     }
 }
 
+#[test]
+fn linear_laws_and_lossless_laws_are_known() {
+    let names = |keep: &dyn Fn(Effect) -> bool| {
+        Effect::ALL.into_iter().filter(|&effect| keep(effect)).map(Effect::name).collect::<Vec<_>>().join(" ")
+    };
+    assert_eq!(
+        names(&Effect::is_linear),
+        "viscous hysteretic maxwell fractional stiffness mass loss_factor stiffness_proportional mass_proportional delay gain"
+    );
+    assert_eq!(
+        names(&|effect| !effect.dissipates()),
+        "stiffness cubic_stiffness quadratic_stiffness gap mass delay gain"
+    );
+    // In the tables every effect has its own title, formula and sentence.
+    for text in [Effect::title, Effect::symbol, Effect::sentence] {
+        let all: std::collections::HashSet<_> = Effect::ALL.into_iter().map(text).collect();
+        assert_eq!(all.len(), Effect::ALL.len());
+    }
+}
+
 /// Channel errors: the derivative is that of the transfer, and the neutral value changes nothing.
 #[test]
 fn channel_errors_have_their_derivative() {
