@@ -1,5 +1,6 @@
 //! Files in and out: projects, records, matrices, exports.
 
+pub mod atomic;
 pub mod export;
 pub mod matrices;
 pub mod project;

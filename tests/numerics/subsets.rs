@@ -111,10 +111,7 @@ fn limits_and_errors() {
     control.cancel();
     assert!(matches!(branch_and_bound(&limited, &control), Err(SubsetError::Cancelled(_))));
     let forced = problem(a.as_ref(), &b, 2, 1, &[99]);
-    assert_eq!(
-        exhaustive(&forced, &Control::unattended()),
-        Err(SubsetError::Forced { column: 99, columns: 40 })
-    );
+    assert_eq!(exhaustive(&forced, &Control::unattended()), Err(SubsetError::Forced { column: 99, columns: 40 }));
     assert!(matches!(
         branch_and_bound(&problem(a.as_ref(), &b, 41, 1, &[]), &Control::unattended()),
         Err(SubsetError::Size { .. })

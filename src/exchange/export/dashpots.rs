@@ -1,0 +1,50 @@
+//! Viscous sources as single dashpots: what finite-element programs call CDAMP2 or DASHPOT elements.
+
+use super::{Identified, place_text};
+use crate::effects::{Effect, Leg};
+use crate::structure::{Direction, Structure};
+
+/// A dashpot to the ground or between two DOFs, `c` in N s/m.
+pub(super) struct Dashpot {
+    pub leg: Leg,
+    pub c: f64,
+}
+
+/// The dashpots of all viscous sources, and a sentence for every source that is none.
+pub(super) fn dashpots(identified: &Identified, format: &str) -> (Vec<Dashpot>, Vec<String>) {
+    let mut found = Vec::new();
+    let mut warnings = Vec::new();
+    for source in identified.sources.iter().map(|s| &s.source) {
+        if source.effect == Effect::Viscous {
+            let c = source.coefficient();
+            found.extend(source.place.legs().into_iter().map(|leg| Dashpot { leg, c }));
+        } else {
+            let place = place_text(source, identified.structure);
+            warnings
+                .push(format!("{} at {place} is not viscous: {format} dashpots cannot hold it", source.effect.title()));
+        }
+    }
+    (found, warnings)
+}
+
+/// Unit of the coefficient of a law, `-` for a pure number.
+pub(super) fn coefficient_unit(effect: Effect) -> &'static str {
+    match effect.coefficient().map(|k| effect.parameters()[k].unit) {
+        None | Some("") => "-",
+        Some(unit) => unit,
+    }
+}
+
+/// Grid point (node index + 1) and component (1 to 6) of a DOF.
+pub(super) fn grid_component(structure: &Structure, dof: usize) -> (usize, u8) {
+    let dof = &structure.dofs()[dof];
+    let component = match dof.direction {
+        Direction::X => 1,
+        Direction::Y => 2,
+        Direction::Z => 3,
+        Direction::Rx => 4,
+        Direction::Ry => 5,
+        Direction::Rz => 6,
+    };
+    (dof.node + 1, component)
+}

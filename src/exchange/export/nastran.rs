@@ -1,0 +1,90 @@
+//! NASTRAN bulk data: `DMIG` for the whole matrix, `CDAMP2` with `PDAMP` for single dashpots.
+//!
+//! Small fields are 8 characters; numbers stand in the large form (16 characters, `*` after the card's name), so that
+//! they keep twelve digits.
+
+use super::dashpots::{dashpots, grid_component};
+use super::{Export, Identified, beside};
+use crate::structure::Structure;
+use faer::Mat;
+use std::fmt::Write;
+use std::path::Path;
+
+/// First element and property number of the dashpots, above those of common models.
+const FIRST_ID: usize = 900_001;
+
+pub(super) fn export(identified: &Identified, path: &Path) -> Export {
+    let (dashpots, warnings) = dashpots(identified, "NASTRAN");
+    let mut text = heading(identified);
+    for warning in &warnings {
+        let _ = writeln!(text, "$ {warning}");
+    }
+    for (index, dashpot) in dashpots.iter().enumerate() {
+        let id = FIRST_ID + index;
+        let (grid, component) = grid_component(identified.structure, dashpot.leg.first);
+        let _ = write!(text, "{:<8}{id:>8}{id:>8}{grid:>8}{component:>8}", "CDAMP2");
+        if let Some(second) = dashpot.leg.second {
+            let (grid, component) = grid_component(identified.structure, second);
+            let _ = write!(text, "{grid:>8}{component:>8}");
+        }
+        let _ = writeln!(text, "\n{:<8}{id:>16}{}", "PDAMP*", large(dashpot.c, 'E'));
+        let _ = writeln!(text, "{:<8}", "*");
+    }
+    let mut export = Export { warnings, ..Export::default() };
+    export.add(path.to_owned(), text);
+    let mut whole = heading(identified);
+    whole.push_str(
+        "$ Select it with B2GG = CDAMP in the case control. Do not use it together with the CDAMP2 elements.\n",
+    );
+    whole.push_str(&dmig("CDAMP", identified.viscous, identified.structure));
+    export.add(beside(path, "dmig"), whole);
+    export
+}
+
+fn heading(identified: &Identified) -> String {
+    let mut text = format!("$ {}\n$ Viscous damping, N s/m. Grid points and components\n", identified.title);
+    for (row, dof) in identified.structure.dofs().iter().enumerate() {
+        let (grid, component) = grid_component(identified.structure, row);
+        let _ = writeln!(text, "$ DOF {} is grid {grid} component {component}", dof.label);
+    }
+    text
+}
+
+/// A real number in a large field: 16 characters, the shortest exact form where it fits, else as many digits as fit.
+/// `marker` is `E`, or `D` for double precision.
+fn large(value: f64, marker: char) -> String {
+    let exact = with_sign(&format!("{value:E}"), marker);
+    let text = if exact.len() <= 16 {
+        exact
+    } else {
+        let fitting = (0..=15).rev().map(|digits| with_sign(&format!("{value:.digits$E}"), marker));
+        fitting.into_iter().find(|text| text.len() <= 16).unwrap_or(exact)
+    };
+    format!("{text:>16}")
+}
+
+/// `1E2` as `1.E+2`: a real has a point, its exponent a sign.
+fn with_sign(number: &str, marker: char) -> String {
+    let (mantissa, exponent) = number.split_once('E').unwrap_or((number, "0"));
+    let point = if mantissa.contains('.') { "" } else { "." };
+    let sign = if exponent.starts_with('-') { "" } else { "+" };
+    format!("{mantissa}{point}{marker}{sign}{exponent}")
+}
+
+/// Symmetric real double-precision matrix of square form 6: header and one column card a column.
+fn dmig(name: &str, values: &Mat<f64>, structure: &Structure) -> String {
+    let mut text = format!("{:<8}{name:<8}{:>8}{:>8}{:>8}{:>8}\n", "DMIG", 0, 6, 2, 0);
+    for j in 0..values.ncols() {
+        let entries: Vec<usize> = (j..values.nrows()).filter(|&i| values[(i, j)] != 0.0).collect();
+        if entries.is_empty() {
+            continue;
+        }
+        let (grid, component) = grid_component(structure, j);
+        let _ = writeln!(text, "{:<8}{name:<16}{grid:>16}{component:>16}", "DMIG*");
+        for i in entries {
+            let (grid, component) = grid_component(structure, i);
+            let _ = writeln!(text, "{:<8}{grid:>16}{component:>16}{}", "*", large(values[(i, j)], 'D'));
+        }
+    }
+    text
+}
