@@ -26,6 +26,11 @@ impl ChannelFit {
         let i = 2 * (h - 1);
         (0.5 * (self.covariance[(i, i)] + self.covariance[(i + 1, i + 1)])).sqrt()
     }
+
+    /// Whether the deviations are known: false for harmonics that came from a file without them.
+    pub fn has_deviation(&self) -> bool {
+        (0..self.covariance.nrows()).any(|i| self.covariance[(i, i)] > 0.0)
+    }
 }
 
 /// The harmonics of all channels of a run.

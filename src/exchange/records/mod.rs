@@ -1,1 +1,12 @@
-//! Placeholder.
+//! Measured data in CSV files: time records and fitted harmonics, read leniently and written exactly.
+
+pub mod error;
+pub mod harmonics;
+pub mod reader;
+mod table;
+pub mod writer;
+
+pub use error::{RecordFileError, RecordProblem};
+pub use harmonics::{HarmonicsRun, parse_harmonics, read_harmonics, write_harmonics};
+pub use reader::{parse_record, read_record, read_record_with};
+pub use writer::write_record;
