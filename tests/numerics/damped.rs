@@ -1,0 +1,124 @@
+//! Damped modes against proportional damping in closed form, their own equation, and finite differences.
+
+use crate::random::{generator, positive, vector};
+use dashpot::math::eigen::generalised_symmetric;
+use dashpot::structure::SystemMatrices;
+use dashpot::structure::damped_modes::{DampedMode, damped_modes, damped_modes_from, hysteretic_modes};
+use dashpot::structure::modes::modes;
+use faer::{Mat, c64};
+
+fn system(seed: u64, n: usize) -> SystemMatrices {
+    let mut rng = generator(seed);
+    SystemMatrices { mass: positive(&mut rng, n, 0.5), stiffness: positive(&mut rng, n, 1.0) * faer::Scale(1e6) }
+}
+
+/// `|(lambda^2 M + lambda C + K) psi|` over the size of its terms.
+fn residual(s: &SystemMatrices, c: &Mat<f64>, mode: &DampedMode) -> f64 {
+    let n = mode.shape.len();
+    let (mut worst, mut size) = (0.0_f64, 0.0_f64);
+    for i in 0..n {
+        let row = |a: &Mat<f64>| (0..n).map(|j| mode.shape[j] * a[(i, j)]).sum::<c64>();
+        let (inertia, damping, spring) =
+            (mode.lambda * mode.lambda * row(&s.mass), mode.lambda * row(c), row(&s.stiffness));
+        worst = worst.max((inertia + damping + spring).norm());
+        size = size.max(inertia.norm()).max(spring.norm()).max(damping.norm());
+    }
+    worst / size
+}
+
+fn norm_form(s: &SystemMatrices, c: &Mat<f64>, mode: &DampedMode) -> c64 {
+    mode.lambda * 2.0 * mode.quadratic_form(s.mass.as_ref()) + mode.quadratic_form(c.as_ref())
+}
+
+#[test]
+fn proportional_damping_in_closed_form() {
+    let s = system(1, 8);
+    let (alpha, beta) = (3.0, 2e-5);
+    let c = Mat::from_fn(8, 8, |i, j| alpha * s.mass[(i, j)] + beta * s.stiffness[(i, j)]);
+    let undamped = modes(&s).unwrap();
+    let found = damped_modes_from(&undamped, c.as_ref()).unwrap();
+    assert_eq!(found.len(), 8);
+    for (mode, omega) in found.iter().zip(&undamped.omega) {
+        let zeta = alpha / (2.0 * omega) + beta * omega / 2.0; // (2.90)
+        assert!((mode.damping_ratio - zeta).abs() < 1e-11, "{} {zeta}", mode.damping_ratio);
+        assert!((mode.frequency_hz * std::f64::consts::TAU / omega - 1.0).abs() < 1e-11);
+    }
+}
+
+#[test]
+fn every_mode_solves_its_equation_and_is_normalised() {
+    for (seed, strength) in [(2, 1.0), (3, 100.0), (4, 1e4)] {
+        let s = system(seed, 9);
+        let c = positive(&mut generator(seed + 50), 9, 0.0) * faer::Scale(strength);
+        let found = damped_modes(s.mass.as_ref(), s.stiffness.as_ref(), c.as_ref()).unwrap();
+        let real = found.iter().filter(|m| m.is_overdamped()).count();
+        assert_eq!(2 * (found.len() - real) + real, 18);
+        assert!(strength < 1e3 || real > 0);
+        for mode in &found {
+            assert!(residual(&s, &c, mode) < 1e-10, "{strength} {:?} {}", mode.lambda, residual(&s, &c, mode));
+            assert!((norm_form(&s, &c, mode) - c64::new(1.0, 0.0)).norm() < 1e-8);
+            assert!(mode.lambda.re < 0.0);
+        }
+        assert!(found.windows(2).all(|w| w[0].frequency_hz <= w[1].frequency_hz));
+    }
+}
+
+#[test]
+fn sensitivities_agree_with_finite_differences() {
+    let s = system(6, 6);
+    let base = vector(&mut generator(7), 6, 10.0, 300.0);
+    let solve = |c: &[f64], spring: f64| {
+        let mut matrix = Mat::from_fn(6, 6, |i, j| if i == j { c[i] } else { 0.0 });
+        for (i, j, sign) in [(1, 1, 1.0), (4, 4, 1.0), (1, 4, -1.0), (4, 1, -1.0)] {
+            matrix[(i, j)] += sign * spring;
+        }
+        damped_modes(s.mass.as_ref(), s.stiffness.as_ref(), matrix.as_ref()).unwrap()
+    };
+    let (here, up, down) = (solve(&base, 50.0), solve(&base, 50.5), solve(&base, 49.5));
+    for r in 0..6 {
+        let relative = here[r].shape[1] - here[r].shape[4];
+        let change = here[r].sensitivity(relative * relative);
+        let lambda = up[r].lambda - down[r].lambda;
+        assert!((change.lambda - lambda).norm() < 1e-6 * change.lambda.norm() + 1e-10);
+        let zeta = up[r].damping_ratio - down[r].damping_ratio;
+        assert!((change.damping_ratio - zeta).abs() < 1e-6 * zeta.abs() + 1e-12);
+        let frequency = up[r].frequency_hz - down[r].frequency_hz;
+        assert!((change.frequency_hz - frequency).abs() < 1e-5 * frequency.abs() + 1e-9);
+    }
+}
+
+#[test]
+fn hysteretic_modes_solve_their_equation() {
+    let s = system(8, 7);
+    let h = positive(&mut generator(9), 7, 0.0) * faer::Scale(2e4);
+    let undamped = modes(&s).unwrap();
+    for mode in hysteretic_modes(&undamped, h.as_ref()).unwrap() {
+        let mut worst = 0.0_f64;
+        for i in 0..7 {
+            let sum: c64 = (0..7)
+                .map(|j| {
+                    mode.shape[j] * (c64::new(s.stiffness[(i, j)], h[(i, j)]) - mode.lambda_squared * s.mass[(i, j)])
+                })
+                .sum();
+            worst = worst.max(sum.norm());
+        }
+        assert!(worst < 1e-8 * s.stiffness.norm_max());
+        let m: c64 = (0..7)
+            .flat_map(|i| (0..7).map(move |j| (i, j)))
+            .map(|(i, j)| mode.shape[i] * mode.shape[j] * s.mass[(i, j)])
+            .sum();
+        assert!((m - c64::new(1.0, 0.0)).norm() < 1e-11);
+        assert!(mode.loss_factor > 0.0);
+    }
+}
+
+#[test]
+fn no_damping_gives_the_undamped_modes() {
+    let s = system(11, 10);
+    let values = generalised_symmetric(s.stiffness.as_ref(), s.mass.as_ref()).unwrap().values;
+    let found = damped_modes(s.mass.as_ref(), s.stiffness.as_ref(), Mat::zeros(10, 10).as_ref()).unwrap();
+    assert_eq!(found.len(), 10);
+    for (mode, value) in found.iter().zip(values) {
+        assert!((mode.lambda.im / value.sqrt() - 1.0).abs() < 1e-12 && mode.damping_ratio.abs() < 1e-12);
+    }
+}
