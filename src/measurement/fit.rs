@@ -1,7 +1,49 @@
 //! Harmonics fitted to a record by linear least squares, with their covariance.
+//!
+//! `y(t) = y_0 + slope (t - t_mid) + Re sum_h Y_h exp(i h omega t)`, `Y = a - i b` for `a cos + b sin` (6.4).
+//!
+//! The whole record is used, whether or not it holds whole periods and even time steps. The covariance is the variance
+//! of the noise times the inverse normal matrix. The noise is the scatter between periods (`noise.rs`) where the record
+//! holds two or more, else the residual over its degrees of freedom.
 
-use super::Channel;
+use super::design::{Design, dot};
+use super::noise::Lag;
+use super::{Channel, Record};
 use faer::{Mat, c64};
+use std::f64::consts::TAU;
+
+/// Fewest periods whose scatter gives the noise; it is unbiased from the second period on.
+const FEWEST_PERIODS_FOR_SCATTER: f64 = 2.0;
+
+/// Fewest samples over unknowns: the noise could not be told from the signal otherwise.
+const FEWEST_SAMPLES_PER_UNKNOWN: usize = 2;
+
+/// Rounding of a sample in the last place that it was computed to, relative to the largest.
+const ROUNDING: f64 = f64::EPSILON;
+
+/// Why a record cannot be fitted.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[expect(missing_docs, reason = "the messages say it")]
+pub enum FitError {
+    #[error("the frequency is {frequency_hz} Hz; give a positive number of hertz")]
+    BadFrequency { frequency_hz: f64 },
+    #[error("no harmonic was asked for; set harmonics to 1 or more")]
+    NoHarmonics,
+    #[error(
+        "the record lasts {duration} s, less than one period of {frequency_hz} Hz; record longer or correct the frequency"
+    )]
+    TooShort { duration: f64, frequency_hz: f64 },
+    #[error(
+        "{rate_hz} samples a second cannot resolve {frequency_hz} Hz; sample more than twice a period or correct the frequency"
+    )]
+    Unresolved { rate_hz: f64, frequency_hz: f64 },
+    #[error("{samples} samples cannot determine {unknowns} unknowns; record at least {needed} samples")]
+    TooFewSamples { samples: usize, unknowns: usize, needed: usize },
+    #[error("the samples leave parts of the period of {frequency_hz} Hz unseen; record without gaps")]
+    Undetermined { frequency_hz: f64 },
+    #[error("no channel oscillates, so the frequency cannot be found; give it, or check the sensors")]
+    NoOscillation,
+}
 
 /// The harmonics of one channel: `y(t) = offset + slope (t - t_mid) + Re sum_h Y_h exp(i h omega t)`, SI units.
 #[derive(Debug, Clone, PartialEq)]
@@ -52,6 +94,148 @@ impl HarmonicFit {
 
     /// Period, s.
     pub fn period(&self) -> f64 {
-        std::f64::consts::TAU / self.omega
+        TAU / self.omega
     }
+}
+
+/// A fit with what it leaves of every channel.
+#[derive(Debug)]
+pub(super) struct Solved<'a> {
+    pub(super) design: Design<'a>,
+    /// Unknowns of every channel: offset, slope times half of the duration, cos 1, sin 1, ...
+    pub(super) unknowns: Vec<Vec<f64>>,
+    pub(super) residuals: Vec<Vec<f64>>,
+}
+
+/// Fits harmonics 1 to `harmonics` of the circular frequency `omega` (rad/s) to every channel.
+///
+/// Harmonics that the sampling cannot resolve are left out: harmonic `h` needs `h f <= f_s/2 - 1/duration`, so that it
+/// and its mirror image are at least two lines apart, and the record two samples an unknown.
+///
+/// # Errors
+/// [`FitError`] where not even the first harmonic can be fitted, or the record is shorter than a period.
+pub fn fit(record: &Record, omega: f64, harmonics: usize) -> Result<HarmonicFit, FitError> {
+    let harmonics = resolvable(record.time(), omega, harmonics)?;
+    let values: Vec<&[f64]> = record.samples.iter().map(Vec::as_slice).collect();
+    let solved = solve(record.time(), &values, omega, harmonics)?;
+    let noise = noise_variances(record, omega, &solved);
+    let channels = record.channels().iter().enumerate().map(|(c, channel)| {
+        let (amplitudes, unit_covariance) = solved.amplitudes(c, omega);
+        ChannelFit {
+            channel: channel.clone(),
+            offset: solved.unknowns[c][0],
+            slope: solved.unknowns[c][1] / solved.design.half,
+            amplitudes,
+            covariance: faer::Scale(noise[c]) * unit_covariance,
+            noise: noise[c].sqrt(),
+        }
+    });
+    Ok(HarmonicFit { omega, omega_deviation: 0.0, channels: channels.collect() })
+}
+
+/// The number of harmonics that samples at these times resolve, at most `harmonics`.
+pub(super) fn resolvable(time: &[f64], omega: f64, harmonics: usize) -> Result<usize, FitError> {
+    let frequency_hz = omega / TAU;
+    if !(frequency_hz.is_finite() && frequency_hz > 0.0) {
+        return Err(FitError::BadFrequency { frequency_hz });
+    }
+    if harmonics == 0 {
+        return Err(FitError::NoHarmonics);
+    }
+    let samples = time.len();
+    let duration = time[samples - 1] - time[0];
+    let step = duration / (samples - 1) as f64;
+    // The last sample ends a period as well as the first of the next would.
+    if (duration + step) * frequency_hz < 1.0 - 1e-9 {
+        return Err(FitError::TooShort { duration, frequency_hz });
+    }
+    let highest = (0.5 / step - 1.0 / duration) / frequency_hz;
+    if highest < 1.0 {
+        return Err(FitError::Unresolved { rate_hz: 1.0 / step, frequency_hz });
+    }
+    let by_count = (samples / FEWEST_SAMPLES_PER_UNKNOWN).saturating_sub(2) / 2;
+    if by_count == 0 {
+        let needed = 4 * FEWEST_SAMPLES_PER_UNKNOWN;
+        return Err(FitError::TooFewSamples { samples, unknowns: 4, needed });
+    }
+    Ok(harmonics.min(highest as usize).min(by_count))
+}
+
+/// Fits slices of channels at slices of times. Each channel is solved, and its residual solved again: the digits that
+/// a large offset costs come back so.
+pub(super) fn solve<'a>(
+    time: &'a [f64],
+    values: &[&[f64]],
+    omega: f64,
+    harmonics: usize,
+) -> Result<Solved<'a>, FitError> {
+    let undetermined = FitError::Undetermined { frequency_hz: omega / TAU };
+    let design = Design::new(time, omega, harmonics).ok_or(undetermined)?;
+    let mut unknowns: Vec<Vec<f64>> = design.products(values).iter().map(|b| design.solve(b)).collect();
+    let (residuals, products) = design.residuals(values, &unknowns);
+    for (u, b) in unknowns.iter_mut().zip(&products) {
+        for (u, correction) in u.iter_mut().zip(design.solve(b)) {
+            *u += correction;
+        }
+    }
+    Ok(Solved { design, unknowns, residuals })
+}
+
+impl Solved<'_> {
+    /// Amplitudes of a channel at time zero, and their covariance for noise of variance 1.
+    pub(super) fn amplitudes(&self, channel: usize, omega: f64) -> (Vec<c64>, Mat<f64>) {
+        let unknowns = &self.unknowns[channel];
+        let harmonics = unknowns.len() / 2 - 1;
+        let turns: Vec<c64> = (1..=harmonics)
+            .map(|h| {
+                let (sin, cos) = (h as f64 * omega * self.design.middle).sin_cos();
+                c64::new(cos, -sin)
+            })
+            .collect();
+        let amplitudes =
+            (0..harmonics).map(|h| c64::new(unknowns[2 * h + 2], -unknowns[2 * h + 3]) * turns[h]).collect();
+        // (a, -b) are the real and imaginary part in the middle of the record; turning is a rotation of each pair.
+        let sign = |i: usize| if i % 2 == 0 { 1.0 } else { -1.0 };
+        let inverse = &self.design.inverse;
+        let middle = Mat::from_fn(2 * harmonics, 2 * harmonics, |i, j| sign(i) * sign(j) * inverse[(i + 2, j + 2)]);
+        (amplitudes, turn_covariance(&middle, &turns))
+    }
+
+    /// Variance of one sample from the residual over its degrees of freedom.
+    pub(super) fn residual_variance(&self, channel: usize) -> f64 {
+        let residual = &self.residuals[channel];
+        let freedom = residual.len().saturating_sub(self.design.unknowns()).max(1);
+        dot(residual, residual) / freedom as f64
+    }
+}
+
+/// Covariance of amplitudes that are each multiplied by a complex number: `B V B^T` with the 2 x 2 blocks of `B`.
+pub(super) fn turn_covariance(covariance: &Mat<f64>, factors: &[c64]) -> Mat<f64> {
+    let n = covariance.nrows();
+    let block = |i: usize| {
+        let z = factors[i / 2];
+        if i % 2 == 0 { [z.re, -z.im] } else { [z.im, z.re] }
+    };
+    Mat::from_fn(n, n, |i, j| {
+        let (a, b) = (block(i), block(j));
+        let (r, c) = (i - i % 2, j - j % 2);
+        (0..2).map(|p| (0..2).map(|q| a[p] * covariance[(r + p, c + q)] * b[q]).sum::<f64>()).sum()
+    })
+}
+
+/// Variance of the noise of one sample of every channel.
+fn noise_variances(record: &Record, omega: f64, solved: &Solved<'_>) -> Vec<f64> {
+    let period = TAU / omega;
+    let periods = record.duration() / period;
+    let enough = periods + 1e-9 >= FEWEST_PERIODS_FOR_SCATTER;
+    let lag = if enough { Lag::new(record.time(), period) } else { None };
+    let variance = |c: usize| {
+        let measured = lag.as_ref().map_or_else(|| solved.residual_variance(c), |l| l.variance(&solved.residuals[c]));
+        let largest = record.samples(c).iter().fold(0.0_f64, |most, y| most.max(y.abs()));
+        // Rounding that repeats in every period shows in no scatter, and averaging over periods does not lessen it.
+        let rounding = record.resolution(c).powi(2) / 12.0;
+        let hidden = (rounding - measured).max(0.0) * periods.max(1.0);
+        (measured + hidden).max((ROUNDING * largest).powi(2))
+    };
+    (0..record.channels().len()).map(variance).collect()
 }

@@ -1,14 +1,16 @@
 //! Validated records: what was measured, the harmonics fitted to it with their covariance, and what is wrong with it.
 
 pub mod channel;
+mod design;
 pub mod fit;
 pub mod frequency;
+mod noise;
 pub mod quality;
 pub mod record;
 pub mod run;
 
-pub use channel::{Channel, Quantity, Unit};
-pub use fit::{ChannelFit, HarmonicFit};
+pub use channel::{Channel, ChannelName, Quantity, Unit};
+pub use fit::{ChannelFit, FitError, HarmonicFit, fit};
 pub use quality::{Finding, Flag};
-pub use record::Record;
+pub use record::{Record, RecordError};
 pub use run::Run;
