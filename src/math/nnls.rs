@@ -216,7 +216,9 @@ impl Problem {
             if r[k][k] < INDEPENDENCE {
                 return None;
             }
-            v.iter_mut().for_each(|value| *value /= r[k][k]);
+            for value in &mut v {
+                *value /= r[k][k];
+            }
             q.push(v);
         }
         let mut x = vec![0.0; p];
@@ -251,10 +253,12 @@ fn subtract(from: &mut [f64], factor: f64, what: &[f64]) {
 }
 
 /// Divides by the norm and returns it; leaves a zero vector alone.
-fn normalise(x: &mut [f64]) -> f64 {
+pub(super) fn normalise(x: &mut [f64]) -> f64 {
     let length = norm(x);
     if length > 0.0 {
-        x.iter_mut().for_each(|v| *v /= length);
+        for v in x.iter_mut() {
+            *v /= length;
+        }
     }
     length
 }

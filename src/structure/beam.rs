@@ -98,7 +98,7 @@ impl BeamParameters {
         let node = |k: usize| Node { label: k.to_string(), position: [k as f64 * step, 0.0, 0.0] };
         let nodes = (0..=n).map(node).collect();
         let lines = (0..n).map(|k| [k, k + 1]).collect();
-        let dofs = self.dofs(&rows);
+        let dofs = dofs(&rows);
         Parts { kind: StructureKind::Beam, dofs, nodes, lines, matrices: Some(matrices), elements }.finish(lumped)
     }
 
@@ -131,16 +131,6 @@ impl BeamParameters {
             .collect()
     }
 
-    fn dofs(&self, rows: &[Option<usize>]) -> Vec<Dof> {
-        rows.iter()
-            .enumerate()
-            .filter_map(|(k, row)| {
-                let direction = if k % 2 == 0 { Direction::Z } else { Direction::Ry };
-                row.map(|row| Dof { label: (row + 1).to_string(), node: k / 2, direction })
-            })
-            .collect()
-    }
-
     fn element(&self, dofs: Vec<Option<usize>>) -> Element {
         let l = self.length / self.elements as f64;
         let area = self.breadth * self.depth;
@@ -149,6 +139,17 @@ impl BeamParameters {
         let mass = element_mass(l) * (self.density * area * l / 420.0);
         Element { dofs, mass: to_faer(&mass), stiffness: to_faer(&stiffness) }
     }
+}
+
+/// Labels, nodes and directions of the free rows.
+fn dofs(rows: &[Option<usize>]) -> Vec<Dof> {
+    rows.iter()
+        .enumerate()
+        .filter_map(|(k, row)| {
+            let direction = if k % 2 == 0 { Direction::Z } else { Direction::Ry };
+            row.map(|row| Dof { label: (row + 1).to_string(), node: k / 2, direction })
+        })
+        .collect()
 }
 
 /// In units of E I / l^3.

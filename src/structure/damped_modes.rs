@@ -12,7 +12,7 @@
 use super::modes::{Modes, failure};
 use super::{StructureError, SystemMatrices, modes};
 use crate::math::eigen;
-use faer::{Mat, MatRef, c64};
+use faer::{ColRef, Mat, MatRef, c64};
 use std::f64::consts::TAU;
 
 /// Poles below this part of the largest are those of rigid bodies.
@@ -85,7 +85,7 @@ impl DampedMode {
 /// Damped modes of `M x'' + C x' + K x = 0`, all n x n, in ascending order of `|lambda|`; conjugate pairs count once.
 ///
 /// # Errors
-/// Those of [`modes::modes`], and [`StructureError::Sizes`] when the matrices differ in size.
+/// Those of [`modes::modes`] and of [`damped_modes_from`].
 pub fn damped_modes(
     m: MatRef<'_, f64>,
     k: MatRef<'_, f64>,
@@ -98,52 +98,62 @@ pub fn damped_modes(
 /// [`damped_modes`] from undamped modes that are already known.
 ///
 /// # Errors
-/// [`StructureError::Sizes`] when `C` differs in size; [`StructureError::Modes`] when the iteration fails.
+/// [`StructureError::DampingSize`] when `C` differs in size; [`StructureError::Modes`] when the iteration fails.
 pub fn damped_modes_from(undamped: &Modes, c: MatRef<'_, f64>) -> Result<Vec<DampedMode>, StructureError> {
     let modal = modal_matrix(undamped, c)?;
-    let n = undamped.len();
     let rigid = undamped.omega.iter().take_while(|&&w| w == 0.0).count();
-    let elastic = n - rigid;
+    let state = state_matrix(&undamped.omega, rigid, &modal);
+    let (values, vectors) = eigen::real_general(state.as_ref()).map_err(|e| failure(&e))?;
+    let largest = values.iter().fold(0.0_f64, |l, v| l.max(v.norm()));
+    let smallest = if rigid > 0 { ZERO_POLE * largest } else { 0.0 };
+    let kept: Vec<usize> = (0..values.len()).filter(|&r| values[r].im >= 0.0 && values[r].norm() > smallest).collect();
+    let modal_shapes: Vec<Vec<c64>> = kept
+        .iter()
+        .map(|&r| {
+            let mut q = displacement(&undamped.omega, rigid, values[r], vectors.col(r));
+            normalise(&mut q, values[r], &modal);
+            q
+        })
+        .collect();
+    let still = (0..rigid).map(|r| {
+        let shape = undamped.shapes.col(r).iter().map(|&v| c64::new(v, 0.0)).collect();
+        DampedMode::new(c64::new(0.0, 0.0), shape)
+    });
+    let moving =
+        kept.iter().zip(physical(undamped, &modal_shapes)).map(|(&r, shape)| DampedMode::new(values[r], shape));
+    let mut result: Vec<DampedMode> = still.chain(moving).collect();
+    result.sort_by(|a, b| a.frequency_hz.total_cmp(&b.frequency_hz));
+    Ok(result)
+}
+
+/// `[0 Omega; -Omega -C]` without the rows of `Omega q` of the first `rigid` modes.
+fn state_matrix(omega: &[f64], rigid: usize, modal: &Mat<f64>) -> Mat<f64> {
+    let (n, elastic) = (omega.len(), omega.len() - rigid);
     let mut state = Mat::<f64>::zeros(elastic + n, elastic + n);
     for r in 0..elastic {
-        state[(r, elastic + rigid + r)] = undamped.omega[rigid + r];
-        state[(elastic + rigid + r, r)] = -undamped.omega[rigid + r];
+        state[(r, elastic + rigid + r)] = omega[rigid + r];
+        state[(elastic + rigid + r, r)] = -omega[rigid + r];
     }
     for j in 0..n {
         for i in 0..n {
             state[(elastic + i, elastic + j)] = -modal[(i, j)];
         }
     }
-    let (values, vectors) = eigen::real_general(state.as_ref()).map_err(failure)?;
-    let largest = values.iter().fold(0.0_f64, |l, v| l.max(v.norm()));
-    let mut found = Vec::with_capacity(n);
-    for r in 0..rigid {
-        found.push((c64::new(0.0, 0.0), undamped.shapes.col(r).iter().map(|&v| c64::new(v, 0.0)).collect()));
-    }
-    let (mut poles, mut modal_shapes) = (Vec::new(), Vec::new());
-    for (index, &lambda) in values.iter().enumerate() {
-        if lambda.im < 0.0 || lambda.norm() <= ZERO_POLE * largest && rigid > 0 {
-            continue;
-        }
-        let mut q: Vec<c64> = (0..n)
-            .map(|i| {
-                let omega = undamped.omega[i];
-                // Of the two ways to the modal displacement, the one that divides by the larger number.
-                if i >= rigid && omega > lambda.norm() {
-                    vectors[(i - rigid, index)] / omega
-                } else {
-                    vectors[(elastic + i, index)] / lambda
-                }
-            })
-            .collect();
-        normalise(&mut q, lambda, &modal);
-        poles.push(lambda);
-        modal_shapes.push(q);
-    }
-    found.extend(poles.into_iter().zip(physical(undamped, &modal_shapes)));
-    let mut result: Vec<DampedMode> = found.into_iter().map(|(l, shape)| DampedMode::new(l, shape)).collect();
-    result.sort_by(|a, b| a.frequency_hz.total_cmp(&b.frequency_hz));
-    Ok(result)
+    state
+}
+
+/// Modal displacement `q` from a state `(Omega q, q')`: of the two ways, the one that divides by the larger number.
+fn displacement(omega: &[f64], rigid: usize, lambda: c64, state: ColRef<'_, c64>) -> Vec<c64> {
+    let elastic = omega.len() - rigid;
+    (0..omega.len())
+        .map(|i| {
+            if i >= rigid && omega[i] > lambda.norm() {
+                state[i - rigid] / omega[i]
+            } else {
+                state[elastic + i] / lambda
+            }
+        })
+        .collect()
 }
 
 /// `Phi^T C Phi`.
@@ -158,9 +168,9 @@ fn modal_matrix(undamped: &Modes, c: MatRef<'_, f64>) -> Result<Mat<f64>, Struct
 
 /// Scales modal coordinates so that `2 lambda q^T q + q^T C q = 1`.
 fn normalise(q: &mut [c64], lambda: c64, modal: &Mat<f64>) {
-    let size = q.iter().map(|v| v.norm_sqr()).sum::<f64>().sqrt();
+    let size = q.iter().map(c64::norm_sqr).sum::<f64>().sqrt();
     if size > 0.0 {
-        q.iter_mut().for_each(|v| *v /= size);
+        scale(q, c64::new(1.0 / size, 0.0));
     }
     let mut a = lambda * 2.0 * q.iter().map(|v| v * v).sum::<c64>();
     for (j, right) in q.iter().enumerate() {
@@ -169,8 +179,13 @@ fn normalise(q: &mut [c64], lambda: c64, modal: &Mat<f64>) {
     }
     // Zero only for a defective pole (critical damping), whose shape keeps unit length.
     if a.norm() > 0.0 {
-        let factor = c64::new(1.0, 0.0) / a.sqrt();
-        q.iter_mut().for_each(|v| *v *= factor);
+        scale(q, c64::new(1.0, 0.0) / a.sqrt());
+    }
+}
+
+fn scale(q: &mut [c64], factor: c64) {
+    for v in q {
+        *v *= factor;
     }
 }
 
@@ -207,14 +222,13 @@ pub fn hysteretic_modes(undamped: &Modes, h: MatRef<'_, f64>) -> Result<Vec<Hyst
     let n = undamped.len();
     let complex =
         Mat::from_fn(n, n, |i, j| c64::new(if i == j { undamped.omega[i].powi(2) } else { 0.0 }, modal[(i, j)]));
-    let (values, vectors) = eigen::complex_general(complex.as_ref()).map_err(failure)?;
+    let (values, vectors) = eigen::complex_general(complex.as_ref()).map_err(|e| failure(&e))?;
     let modal_shapes: Vec<Vec<c64>> = (0..n)
         .map(|r| {
             let mut q: Vec<c64> = vectors.col(r).iter().copied().collect();
             let square: c64 = q.iter().map(|v| v * v).sum();
             if square.norm() > 0.0 {
-                let factor = c64::new(1.0, 0.0) / square.sqrt();
-                q.iter_mut().for_each(|v| *v *= factor);
+                scale(&mut q, c64::new(1.0, 0.0) / square.sqrt());
             }
             q
         })

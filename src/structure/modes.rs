@@ -50,7 +50,8 @@ impl Modes {
 /// [`StructureError::NegativeStiffness`] when an `omega^2` is negative beyond rounding; [`StructureError::Modes`] when the
 /// iteration fails.
 pub fn modes(matrices: &SystemMatrices) -> Result<Modes, StructureError> {
-    let eigen = eigen::generalised_symmetric(matrices.stiffness.as_ref(), matrices.mass.as_ref()).map_err(failure)?;
+    let eigen =
+        eigen::generalised_symmetric(matrices.stiffness.as_ref(), matrices.mass.as_ref()).map_err(|e| failure(&e))?;
     let n = eigen.values.len();
     let highest = eigen.values.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
     let least = eigen.values.first().copied().unwrap_or(0.0);
@@ -61,7 +62,7 @@ pub fn modes(matrices: &SystemMatrices) -> Result<Modes, StructureError> {
     Ok(Modes { omega, shapes: eigen.vectors })
 }
 
-pub(super) fn failure(error: EigenError) -> StructureError {
+pub(super) fn failure(error: &EigenError) -> StructureError {
     StructureError::Modes { reason: error.to_string() }
 }
 

@@ -9,7 +9,7 @@ mod search;
 
 pub use search::branch_and_bound;
 
-use super::nnls::{NnlsError, check, nnls, norm};
+use super::nnls::{NnlsError, check, nnls, normalise};
 use crate::control::{Cancelled, Control};
 use faer::{Mat, MatRef};
 
@@ -98,7 +98,7 @@ pub fn exhaustive(problem: &SubsetProblem<'_>, control: &Control) -> Result<Rank
 
 /// Number of sets of `k` out of `n`.
 pub fn combinations(n: usize, k: usize) -> f64 {
-    if k > n { 0.0 } else { (0..k).map(|i| (n - i) as f64 / (i + 1) as f64).product() }
+    if k > n { 0.0 } else { (0..k).fold(1.0, |sets, i| sets * (n - i) as f64 / (i + 1) as f64) }
 }
 
 /// Next combination in lexicographic order; false after the last.
@@ -171,14 +171,6 @@ impl Unit {
         let fit = nnls(a.as_ref(), &self.b)?;
         Ok((set, fit.solution, fit.residual_norm))
     }
-}
-
-fn normalise(x: &mut [f64]) -> f64 {
-    let length = norm(x);
-    if length > 0.0 {
-        x.iter_mut().for_each(|v| *v /= length);
-    }
-    length
 }
 
 /// The best sets so far, in units of the unit problem.

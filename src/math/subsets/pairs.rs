@@ -154,6 +154,7 @@ struct Scan {
 
 impl Scan {
     /// Whether any of the pairs passes; free of branches, so that it runs on vectors.
+    #[expect(clippy::needless_bitwise_bool, reason = "lazy operators would bring the branches back")]
     fn any(&self, gain: f64, row: &[f64], diagonal: &[f64], g: &[f64]) -> bool {
         let mut hit = false;
         for ((&c, &d), &g) in row.iter().zip(diagonal).zip(g) {
