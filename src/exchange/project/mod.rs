@@ -1,1 +1,15 @@
-//! Placeholder.
+//! Project files: TOML to [`ProjectFile`] (as written), to [`Plan`] (built), to [`Project`](super::Project) (records
+//! read and fitted).
+
+pub mod error;
+pub mod file;
+mod parse;
+pub mod plan;
+mod reader;
+pub mod sensors;
+mod sources;
+mod structure;
+
+pub use error::{Problem, ProjectError};
+pub use file::{Lines, ProjectFile};
+pub use plan::{Plan, PlannedForce, PlannedRun, open, plan};

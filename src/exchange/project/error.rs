@@ -1,0 +1,89 @@
+//! What can be wrong with a project, said in one line: file, line, what, and how to mend it.
+
+use crate::effects::source::SourceError;
+use crate::exchange::matrices::TableError;
+use crate::exchange::records::RecordFileError;
+use crate::structure::StructureError;
+use std::fmt;
+
+/// A project that cannot be used.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ProjectError {
+    /// File as its reader was given it.
+    pub file: String,
+    /// Line of the file, from 1, where one is at fault.
+    pub line: Option<usize>,
+    /// What is wrong.
+    pub problem: Problem,
+}
+
+impl fmt::Display for ProjectError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        // Tables and records name their own file and line, which is where the user must look.
+        if matches!(self.problem, Problem::Table(_) | Problem::Record(_)) {
+            return write!(f, "{}", self.problem);
+        }
+        match self.line {
+            Some(line) => write!(f, "{}:{line}: {}", self.file, self.problem),
+            None => write!(f, "{}: {}", self.file, self.problem),
+        }
+    }
+}
+
+impl std::error::Error for ProjectError {}
+
+/// What is wrong with a project.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[expect(missing_docs, reason = "the messages say it")]
+pub enum Problem {
+    #[error("cannot be read: {reason}; check the path")]
+    Unreadable { reason: String },
+    #[error("cannot be written: {reason}; check the folder")]
+    Unwritable { reason: String },
+    #[error("byte {position} is not UTF-8; save the project as UTF-8 text")]
+    NotText { position: usize },
+    #[error("not valid TOML: {message}")]
+    Syntax { message: String },
+    #[error("{table} has no key `{key}`; {hint}")]
+    UnknownKey { table: String, key: String, hint: String },
+    #[error("{table} lacks `{key}`; add `{example}`")]
+    MissingKey { table: String, key: &'static str, example: String },
+    #[error("`{key}` must be {expected}, not {found}")]
+    WrongType { key: String, expected: &'static str, found: &'static str },
+    #[error("`{key} = {value}` is not a usable number; it must be {range}")]
+    OutOfRange { key: String, value: String, range: &'static str },
+    #[error("`{key} = \"{value}\"` is not understood; use one of {allowed}")]
+    NotAllowed { key: String, value: String, allowed: String },
+    #[error("format {found} was written by a newer version of dashpot; this one reads format 1, so update dashpot")]
+    Newer { found: u64 },
+    #[error("{what} is given twice, first in line {first}; leave one out")]
+    Twice { what: String, first: usize },
+    #[error("{table} has no {what}; add {example}")]
+    Empty { table: String, what: &'static str, example: &'static str },
+    #[error("`{key}` is there without `{other}`; give both or none")]
+    HalfAForce { key: &'static str, other: &'static str },
+    #[error("a `points` structure has no mass matrix to add a lumped mass to; leave it out or give the matrices")]
+    MassOnPoints,
+    #[error("law `{law}` is an error of a measuring channel; write it under [[sensor]] with `channel`")]
+    ChannelLaw { law: &'static str },
+    #[error("the family `{family}` finds no place on this structure; choose another `where`")]
+    EmptyFamily { family: &'static str },
+    #[error("no record has the channel \"{channel}\"; correct its name or leave the [[sensor]] out")]
+    NoSuchChannel { channel: String },
+    #[error("there is nothing measured; add [[run]] with `file`, or [[harmonics]]")]
+    NothingMeasured,
+    #[error("the record {file} is not there yet; run `dashpot simulate` on this project first, or correct `file`")]
+    NotSimulated { file: String },
+    #[error("the record {file} is not there; correct `file`, which is relative to the project")]
+    NoRecord { file: String },
+    #[error("cancelled")]
+    Cancelled,
+    #[error("{0}")]
+    Structure(StructureError),
+    #[error("{0}")]
+    Source(SourceError),
+    #[error("{0}")]
+    Table(TableError),
+    #[error("{0}")]
+    Record(RecordFileError),
+}

@@ -1,0 +1,327 @@
+//! From text to [`ProjectFile`]: every key known, every value of its type; nothing else is read.
+
+use super::error::{Problem, ProjectError};
+use super::file::*;
+use super::reader::{Origin, Table, one_line};
+use crate::balance::{Expansion, Weights};
+use crate::effects::family::Family;
+use crate::effects::{Effect, State};
+use crate::identify::Settings;
+use crate::structure::LumpedMass;
+use crate::structure::beam::{BeamParameters, Supports};
+use crate::structure::chain::ChainParameters;
+use std::collections::BTreeMap;
+use toml::de::DeTable;
+
+const TABLES: [&str; 9] =
+    ["project", "structure", "source", "candidates", "sensor", "run", "harmonics", "analysis", "simulate"];
+const BEAM: [&str; 9] =
+    ["kind", "lumped_mass", "length", "breadth", "depth", "youngs_modulus", "density", "elements", "supports"];
+const CHAIN: [&str; 5] = ["kind", "lumped_mass", "masses", "ground_stiffness", "coupling_stiffness"];
+const MATRICES: [&str; 7] = ["kind", "lumped_mass", "mass", "stiffness", "nodes", "dofs", "lines"];
+const POINTS: [&str; 4] = ["kind", "lumped_mass", "dofs", "positions"];
+const ANALYSIS: [&str; 6] = ["harmonics", "expansion", "keep", "weights", "max_sources", "stop_angle_deg"];
+
+/// Most harmonics, sources and so on that a setting may ask for.
+const MOST: usize = 1000;
+/// Most samples or periods of a simulated record.
+const MOST_SAMPLES: usize = 100_000_000;
+
+type Read<T> = Result<T, ProjectError>;
+
+impl ProjectFile {
+    /// Reads the text of a project that is called `file` in messages.
+    ///
+    /// # Errors
+    /// [`ProjectError`] with the line of the first thing that is wrong.
+    pub fn parse(text: &str, file: &str) -> Result<(Self, Lines), ProjectError> {
+        let origin = Origin { file, text };
+        let document = DeTable::parse(text).map_err(|error| {
+            let message = one_line(error.message());
+            origin.error(error.span().map_or(0, |span| span.start), Problem::Syntax { message })
+        })?;
+        let root = Table::root(origin, document.get_ref());
+        // The version first: a newer file may have keys that are not known here.
+        let project = header(&root)?;
+        root.only(&TABLES)?;
+        let mut lines = Lines::default();
+        let parsed = Self {
+            project,
+            structure: structure(&root, &mut lines)?,
+            source: sources(&root, &mut lines)?,
+            candidates: candidates(&root, &mut lines)?,
+            sensor: sensors(&root, &mut lines)?,
+            run: runs(&root, &mut lines)?,
+            harmonics: harmonics(&root, &mut lines)?,
+            analysis: analysis(&root)?,
+            simulate: simulate(&root, &mut lines)?,
+        };
+        Ok((parsed, lines))
+    }
+}
+
+fn header(root: &Table<'_>) -> Read<Header> {
+    let table = root.need("project", "[project]", root.table("project", "[project]")?)?;
+    let format = table.need("format", "format = 1", table.whole("format")?)?;
+    if format > FORMAT as i64 {
+        return Err(table.error("format", Problem::Newer { found: format.unsigned_abs() }));
+    }
+    if format < 1 {
+        let problem = Problem::OutOfRange { key: "format".into(), value: format.to_string(), range: "1" };
+        return Err(table.error("format", problem));
+    }
+    table.only(&["format", "title", "notes"])?;
+    let title = table.text("title")?.unwrap_or_default();
+    Ok(Header { format: FORMAT, title, notes: table.text("notes")?.unwrap_or_default() })
+}
+
+fn key_lines(table: &Table<'_>) -> BTreeMap<String, usize> {
+    let keys = table.keys().into_iter().map(|key| (key.to_owned(), table.line_of(key)));
+    keys.chain([(String::new(), table.line())]).collect()
+}
+
+fn structure(root: &Table<'_>, lines: &mut Lines) -> Read<StructureTable> {
+    let table = root.need("structure", "[structure]", root.table("structure", "[structure]")?)?;
+    lines.structure = key_lines(&table);
+    let kinds = ["beam", "chain", "matrices", "points"];
+    let kind = table.word("kind", &kinds, |word| kinds.iter().position(|&kind| kind == word))?;
+    let shape = match table.need("kind", "kind = \"beam\"", kind)? {
+        0 => Shape::Beam(beam(&table)?),
+        1 => Shape::Chain(chain(&table)?),
+        2 => Shape::Matrices(matrices(&table)?),
+        _ => Shape::Points(points(&table)?),
+    };
+    let mut lumped_mass = Vec::new();
+    for entry in table.tables("lumped_mass", "[[structure.lumped_mass]]")? {
+        entry.only(&["dof", "mass"])?;
+        lines.lumped_mass.push(entry.line());
+        let dof = entry.need("dof", "dof = 3", entry.label("dof")?)?;
+        lumped_mass.push(LumpedMass { dof, mass: entry.need("mass", "mass = 0.1", entry.number("mass")?)? });
+    }
+    Ok(StructureTable { shape, lumped_mass })
+}
+
+fn beam(table: &Table<'_>) -> Read<BeamParameters> {
+    table.only(&BEAM)?;
+    let number = |key: &'static str, example| table.need(key, example, table.number(key)?);
+    let names = ["clamped-free", "free-free", "pinned-pinned", "clamped-clamped", "clamped-pinned"];
+    let order = [
+        Supports::ClampedFree,
+        Supports::FreeFree,
+        Supports::PinnedPinned,
+        Supports::ClampedClamped,
+        Supports::ClampedPinned,
+    ];
+    let supports = table.word("supports", &names, |word| names.iter().position(|&n| n == word).map(|i| order[i]))?;
+    let elements = table.count("elements", 1, 10_000, "between 1 and 10000")?;
+    Ok(BeamParameters {
+        length: number("length", "length = 0.56")?,
+        breadth: number("breadth", "breadth = 0.04")?,
+        depth: number("depth", "depth = 0.004")?,
+        youngs_modulus: number("youngs_modulus", "youngs_modulus = 69e9")?,
+        density: number("density", "density = 2700.0")?,
+        elements: table.need("elements", "elements = 10", elements)?,
+        supports: table.need("supports", "supports = \"clamped-free\"", supports)?,
+    })
+}
+
+fn chain(table: &Table<'_>) -> Read<ChainParameters> {
+    table.only(&CHAIN)?;
+    let list = |key: &'static str, example| table.need(key, example, table.numbers(key)?);
+    Ok(ChainParameters {
+        masses: list("masses", "masses = [1.0, 2.0]")?,
+        ground_stiffness: list("ground_stiffness", "ground_stiffness = [1e5, 0.0]")?,
+        coupling_stiffness: list("coupling_stiffness", "coupling_stiffness = [1e5]")?,
+    })
+}
+
+fn matrices(table: &Table<'_>) -> Read<MatricesTable> {
+    table.only(&MATRICES)?;
+    Ok(MatricesTable {
+        mass: table.need("mass", "mass = \"mass.mtx\"", table.text("mass")?)?,
+        stiffness: table.need("stiffness", "stiffness = \"stiffness.mtx\"", table.text("stiffness")?)?,
+        nodes: table.text("nodes")?,
+        dofs: table.text("dofs")?,
+        lines: table.text("lines")?,
+    })
+}
+
+fn points(table: &Table<'_>) -> Read<PointsTable> {
+    table.only(&POINTS)?;
+    let dofs = table.need("dofs", "dofs = [\"1\", \"2\"]", table.labels("dofs")?)?;
+    Ok(PointsTable { dofs: dofs.into_iter().map(Label).collect(), positions: table.positions("positions")? })
+}
+
+/// The law of a table, and its parameters by name; `base` are the table's other keys.
+fn law(table: &Table<'_>, base: &[&'static str]) -> Read<(Effect, BTreeMap<String, f64>)> {
+    let names = Effect::ALL.map(Effect::name);
+    let effect = table.word("law", &names, Effect::from_name)?;
+    let effect = table.need("law", "law = \"viscous\"", effect)?;
+    let known: Vec<&str> = base.iter().copied().chain(effect.parameters().iter().map(|p| p.name)).collect();
+    table.only(&known)?;
+    let mut parameters = BTreeMap::new();
+    for parameter in effect.parameters() {
+        if let Some(value) = table.number(parameter.name)? {
+            parameters.insert(parameter.name.to_owned(), value);
+        }
+    }
+    Ok((effect, parameters))
+}
+
+fn state(word: &str) -> Option<State> {
+    Some(match word {
+        "known" => State::Known,
+        "candidate" => State::Candidate,
+        "forced" => State::Forced,
+        "off" => State::Off,
+        "reference" => State::Reference,
+        _ => return None,
+    })
+}
+
+fn sources(root: &Table<'_>, lines: &mut Lines) -> Read<Vec<SourceTable>> {
+    let mut sources = Vec::new();
+    for table in root.tables("source", "[[source]]")? {
+        let (law, parameters) = law(&table, &["law", "dofs", "elements", "state"])?;
+        let states = ["known", "candidate", "forced", "off", "reference"];
+        let state = table.need("state", "state = \"candidate\"", table.word("state", &states, state)?)?;
+        let dofs = table.labels("dofs")?.unwrap_or_default().into_iter().map(Label).collect();
+        sources.push(SourceTable { law, dofs, elements: elements(&table)?, state, parameters });
+        lines.source.push(key_lines(&table));
+    }
+    Ok(sources)
+}
+
+/// `elements = [first, last]`, from 1.
+fn elements(table: &Table<'_>) -> Read<Option<[i64; 2]>> {
+    let Some(numbers) = table.numbers("elements")? else { return Ok(None) };
+    match numbers[..] {
+        [a, b] if a.fract() == 0.0 && b.fract() == 0.0 => Ok(Some([a as i64, b as i64])),
+        _ => {
+            let (expected, found) = ("[first, last], two whole numbers from 1", "another list");
+            Err(table.error("elements", Problem::WrongType { key: "elements".into(), expected, found }))
+        }
+    }
+}
+
+fn candidates(root: &Table<'_>, lines: &mut Lines) -> Read<Vec<CandidatesTable>> {
+    let mut families = Vec::new();
+    for table in root.tables("candidates", "[[candidates]]")? {
+        let (law, parameters) = law(&table, &["law", "where"])?;
+        let family = table.word("where", &Family::ALL.map(Family::name), Family::from_name)?;
+        let family = table.need("where", "where = \"each-translation\"", family)?;
+        families.push(CandidatesTable { law, family, parameters });
+        lines.candidates.push(key_lines(&table));
+    }
+    Ok(families)
+}
+
+fn sensors(root: &Table<'_>, lines: &mut Lines) -> Read<Vec<SensorTable>> {
+    let mut sensors = Vec::new();
+    for table in root.tables("sensor", "[[sensor]]")? {
+        table.only(&["channel", "delay", "gain"])?;
+        let channel = table.need("channel", "channel = \"acc@7\"", table.text("channel")?)?;
+        let (delay, gain) = (table.number("delay")?, table.number("gain")?);
+        if delay.is_none() && gain.is_none() {
+            table.need::<()>("gain", "gain = 1.02` or `delay = 1e-4", None)?;
+        }
+        sensors.push(SensorTable { channel, delay, gain });
+        lines.sensor.push(table.line());
+    }
+    Ok(sensors)
+}
+
+fn runs(root: &Table<'_>, lines: &mut Lines) -> Read<Vec<RunTable>> {
+    let mut runs = Vec::new();
+    for table in root.tables("run", "[[run]]")? {
+        table.only(&["file", "frequency", "level", "use", "force_dof", "force_n"])?;
+        let frequency = table.number("frequency")?;
+        if let Some(value) = frequency.filter(|f| *f <= 0.0) {
+            let (key, range) = ("frequency".to_owned(), "above 0 Hz");
+            return Err(table.error("frequency", Problem::OutOfRange { key, value: value.to_string(), range }));
+        }
+        let (force_dof, force_n) = (table.label("force_dof")?.map(Label), table.number("force_n")?);
+        match (&force_dof, force_n) {
+            (Some(_), None) => {
+                let problem = Problem::HalfAForce { key: "force_dof", other: "force_n" };
+                return Err(table.error("force_dof", problem));
+            }
+            (None, Some(_)) => {
+                return Err(table.error("force_n", Problem::HalfAForce { key: "force_n", other: "force_dof" }));
+            }
+            _ => {}
+        }
+        runs.push(RunTable {
+            file: table.need("file", "file = \"run-01.csv\"", table.text("file")?)?,
+            frequency,
+            level: table.whole("level")?,
+            enabled: table.flag("use")?.unwrap_or(true),
+            force_dof,
+            force_n,
+        });
+        lines.run.push(key_lines(&table));
+    }
+    Ok(runs)
+}
+
+fn harmonics(root: &Table<'_>, lines: &mut Lines) -> Read<Vec<HarmonicsTable>> {
+    let mut files = Vec::new();
+    for table in root.tables("harmonics", "[[harmonics]]")? {
+        table.only(&["file"])?;
+        files.push(HarmonicsTable { file: table.need("file", "file = \"harmonics.csv\"", table.text("file")?)? });
+        lines.harmonics.push(table.line());
+    }
+    Ok(files)
+}
+
+fn analysis(root: &Table<'_>) -> Read<Settings> {
+    let mut settings = Settings::default();
+    let Some(table) = root.table("analysis", "[analysis]")? else { return Ok(settings) };
+    table.only(&ANALYSIS)?;
+    let expansions = ["auto", "none", "single-mode", "modes", "dynamic"];
+    let expansion = |word: &str| {
+        Some(match word {
+            "auto" => Expansion::Auto,
+            "none" => Expansion::None,
+            "single-mode" => Expansion::SingleMode,
+            "modes" => Expansion::Modes,
+            "dynamic" => Expansion::Dynamic,
+            _ => return None,
+        })
+    };
+    let weights = |word: &str| {
+        Some(match word {
+            "auto" => Weights::Auto,
+            "none" => Weights::None,
+            "energy" => Weights::Energy,
+            "noise" => Weights::Noise,
+            _ => return None,
+        })
+    };
+    let count = |key, least, range, otherwise| Ok(table.count(key, least, MOST, range)?.unwrap_or(otherwise));
+    settings.harmonics = count("harmonics", 1, "between 1 and 1000", settings.harmonics)?;
+    settings.keep = count("keep", 0, "between 0 and 1000", settings.keep)?;
+    settings.max_sources = count("max_sources", 1, "between 1 and 1000", settings.max_sources)?;
+    settings.expansion = table.word("expansion", &expansions, expansion)?.unwrap_or_default();
+    settings.weights = table.word("weights", &["auto", "none", "energy", "noise"], weights)?.unwrap_or_default();
+    if let Some(value) = table.number("stop_angle_deg")? {
+        if !(0.0..=90.0).contains(&value) {
+            let (key, range) = ("stop_angle_deg".to_owned(), "between 0 and 90 degrees");
+            return Err(table.error("stop_angle_deg", Problem::OutOfRange { key, value: value.to_string(), range }));
+        }
+        settings.stop_angle_deg = value;
+    }
+    Ok(settings)
+}
+
+fn simulate(root: &Table<'_>, lines: &mut Lines) -> Read<SimulateTable> {
+    let mut recipe = SimulateTable::default();
+    let Some(table) = root.table("simulate", "[simulate]")? else { return Ok(recipe) };
+    table.only(&["channels", "samples", "periods"])?;
+    lines.simulate = table.line_of("channels");
+    recipe.channels = table.texts("channels")?.unwrap_or_default();
+    let range = "between 16 and 100000000";
+    recipe.samples = table.count("samples", 16, MOST_SAMPLES, range)?.unwrap_or(recipe.samples);
+    recipe.periods = table.count("periods", 1, MOST_SAMPLES, "at least 1")?.unwrap_or(recipe.periods);
+    Ok(recipe)
+}

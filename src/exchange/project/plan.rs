@@ -1,0 +1,165 @@
+//! A project before its records are read: what `simulate` needs, and the first half of loading.
+
+use super::error::{Problem, ProjectError};
+use super::file::{Lines, ProjectFile, SimulateTable};
+use super::sources::{At, line, sensors, sources};
+use super::structure::structure;
+use crate::control::Control;
+use crate::effects::Source;
+use crate::exchange::records::{HarmonicsRun, read_harmonics, read_record_with};
+use crate::identify::Settings;
+use crate::measurement::Record;
+use crate::structure::Structure;
+use std::path::{Path, PathBuf};
+
+/// A project whose structure and sources are built and whose records are not read yet.
+#[derive(Debug, Clone)]
+pub struct Plan {
+    /// The project's file.
+    pub path: PathBuf,
+    /// The file as it is written.
+    pub file: ProjectFile,
+    /// Structure with its lumped masses.
+    pub structure: Structure,
+    /// Sources with the families of candidates expanded.
+    pub sources: Vec<Source>,
+    /// Known errors of the measuring chain: `delay` and `gain` at channels.
+    pub sensors: Vec<Source>,
+    /// Runs in the order of the file.
+    pub runs: Vec<PlannedRun>,
+    pub(super) lines: Lines,
+}
+
+/// A run of the project's file.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PlannedRun {
+    /// Record as it is named in the project.
+    pub file: String,
+    /// Path of the record.
+    pub path: PathBuf,
+    /// Frequency, Hz, where it is given.
+    pub frequency_hz: Option<f64>,
+    /// Label of the force level.
+    pub level: Option<i64>,
+    /// Whether the user wants it used.
+    pub enabled: bool,
+    /// Force of the recipe, `amplitude_n cos(omega t)`, where it is given.
+    pub force: Option<PlannedForce>,
+}
+
+/// A harmonic force of a recipe.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PlannedForce {
+    /// Row of its DOF.
+    pub dof: usize,
+    /// Amplitude, N.
+    pub amplitude_n: f64,
+}
+
+/// Reads the project at `path` and builds its structure and sources; records are left alone.
+///
+/// # Errors
+/// [`ProjectError`] with file and line of the first thing that is wrong.
+pub fn open(path: &Path) -> Result<Plan, ProjectError> {
+    let name = path.display().to_string();
+    let wrong = |problem| ProjectError { file: name.clone(), line: None, problem };
+    let bytes = std::fs::read(path).map_err(|error| wrong(Problem::Unreadable { reason: error.to_string() }))?;
+    let text = String::from_utf8(bytes)
+        .map_err(|error| wrong(Problem::NotText { position: error.utf8_error().valid_up_to() + 1 }))?;
+    plan(&text, path)
+}
+
+/// [`open`] of a text that stands for the file at `path`.
+pub fn plan(text: &str, path: &Path) -> Result<Plan, ProjectError> {
+    let name = path.display().to_string();
+    let (file, lines) = ProjectFile::parse(text.strip_prefix('\u{feff}').unwrap_or(text), &name)?;
+    let at = At { file: &name, lines: &lines };
+    let folder = path.parent().unwrap_or(Path::new(""));
+    let structure = structure(&file.structure, folder, at)?;
+    let sources = sources(&file, &structure, at)?;
+    let sensors = sensors(&file.sensor, &structure, at)?;
+    let runs = runs(&file, &structure, folder, at)?;
+    Ok(Plan { path: path.to_owned(), structure, sources, sensors, runs, file, lines })
+}
+
+fn runs(file: &ProjectFile, structure: &Structure, folder: &Path, at: At<'_>) -> Result<Vec<PlannedRun>, ProjectError> {
+    let mut runs: Vec<PlannedRun> = Vec::new();
+    for (i, table) in file.run.iter().enumerate() {
+        let lines = &at.lines.run[i];
+        if let Some(first) = runs.iter().position(|other| other.file == table.file) {
+            let what = format!("the record \"{}\"", table.file);
+            let first = line(&at.lines.run[first], "file");
+            return Err(at.error(line(lines, "file"), Problem::Twice { what, first }));
+        }
+        let force = match (&table.force_dof, table.force_n) {
+            (Some(label), Some(amplitude_n)) => {
+                let dof = structure.require_dof(&label.0);
+                let dof = dof.map_err(|error| at.error(line(lines, "force_dof"), Problem::Structure(error)))?;
+                Some(PlannedForce { dof, amplitude_n })
+            }
+            _ => None,
+        };
+        runs.push(PlannedRun {
+            file: table.file.clone(),
+            path: folder.join(&table.file),
+            frequency_hz: table.frequency,
+            level: table.level,
+            enabled: table.enabled,
+            force,
+        });
+    }
+    Ok(runs)
+}
+
+impl Plan {
+    /// Settings of the analysis.
+    pub fn settings(&self) -> &Settings {
+        &self.file.analysis
+    }
+
+    /// What `simulate` records.
+    pub fn simulate(&self) -> &SimulateTable {
+        &self.file.simulate
+    }
+
+    /// The problem at a key of run number `run`.
+    pub(super) fn run_error(&self, run: usize, key: &str, problem: Problem) -> ProjectError {
+        let line = line(&self.lines.run[run], key);
+        ProjectError { file: self.path.display().to_string(), line: Some(line), problem }
+    }
+
+    /// Reads the record of run number `run`, as it was recorded.
+    ///
+    /// # Errors
+    /// [`ProjectError`], also where the record is still to be simulated.
+    pub fn record(&self, run: usize, control: &Control) -> Result<Record, ProjectError> {
+        let planned = &self.runs[run];
+        if !planned.path.is_file() {
+            let file = planned.file.clone();
+            let simulated = planned.force.is_some();
+            let problem = if simulated { Problem::NotSimulated { file } } else { Problem::NoRecord { file } };
+            return Err(self.run_error(run, "file", problem));
+        }
+        read_record_with(&planned.path, &self.structure, control)
+            .map_err(|error| self.run_error(run, "file", Problem::Record(error)))
+    }
+
+    /// Reads the runs of every `[[harmonics]]` file, as they were measured.
+    pub fn harmonics(&self) -> Result<Vec<HarmonicsRun>, ProjectError> {
+        let folder = self.path.parent().unwrap_or(Path::new(""));
+        let mut runs = Vec::new();
+        for (i, table) in self.file.harmonics.iter().enumerate() {
+            let wrong = |problem| ProjectError {
+                file: self.path.display().to_string(),
+                line: Some(self.lines.harmonics[i]),
+                problem,
+            };
+            let path = folder.join(&table.file);
+            if !path.is_file() {
+                return Err(wrong(Problem::NoRecord { file: table.file.clone() }));
+            }
+            runs.extend(read_harmonics(&path, &self.structure).map_err(|error| wrong(Problem::Record(error)))?);
+        }
+        Ok(runs)
+    }
+}

@@ -1,0 +1,163 @@
+//! Sources and sensors of a project on its structure: labels found, families expanded, repetitions refused.
+
+use super::error::{Problem, ProjectError};
+use super::file::{CandidatesTable, Lines, ProjectFile, SensorTable, SourceTable};
+use crate::effects::effect::Kind;
+use crate::effects::source::SourceError;
+use crate::effects::{Effect, Place, Source, State};
+use crate::measurement::Quantity;
+use crate::structure::Structure;
+use std::collections::BTreeMap;
+
+/// Where problems of a project are said to be.
+#[derive(Clone, Copy)]
+pub(super) struct At<'a> {
+    pub file: &'a str,
+    pub lines: &'a Lines,
+}
+
+impl At<'_> {
+    pub fn error(self, line: usize, problem: Problem) -> ProjectError {
+        ProjectError { file: self.file.to_owned(), line: Some(line), problem }
+    }
+}
+
+/// Line of a key, or of the table without it.
+pub(super) fn line(lines: &BTreeMap<String, usize>, key: &str) -> usize {
+    lines.get(key).or_else(|| lines.get("")).copied().unwrap_or(1)
+}
+
+/// All sources: those written one by one, then the families where nothing is written already.
+pub(super) fn sources(file: &ProjectFile, structure: &Structure, at: At<'_>) -> Result<Vec<Source>, ProjectError> {
+    let mut sources: Vec<Source> = Vec::new();
+    for (i, table) in file.source.iter().enumerate() {
+        let lines = &at.lines.source[i];
+        let source = single(table, structure).map_err(|problem| at.error(blamed(lines, &problem), problem))?;
+        if let Some(first) = sources.iter().position(|other| clashes(other, &source)) {
+            let what = format!("law `{}` at the same place", source.effect);
+            let first = line(&at.lines.source[first], "");
+            return Err(at.error(line(lines, ""), Problem::Twice { what, first }));
+        }
+        sources.push(source);
+    }
+    for (i, table) in file.candidates.iter().enumerate() {
+        let lines = &at.lines.candidates[i];
+        let family = family(table, structure).map_err(|problem| at.error(blamed(lines, &problem), problem))?;
+        // A place that is a candidate already, or forced, is not offered twice.
+        for source in family {
+            if !sources.iter().any(|other| is_sought(other.state) && other.is_same(&source)) {
+                sources.push(source);
+            }
+        }
+    }
+    Ok(sources)
+}
+
+fn is_sought(state: State) -> bool {
+    matches!(state, State::Candidate | State::Forced)
+}
+
+/// Whether two written sources cannot both be meant. What is known may have more of the same law found on top of it.
+fn clashes(a: &Source, b: &Source) -> bool {
+    let alike = a.state == b.state || (is_sought(a.state) && is_sought(b.state));
+    alike && a.state != State::Off && a.is_same(b)
+}
+
+/// Line of the key that a problem of a source is about.
+fn blamed(lines: &BTreeMap<String, usize>, problem: &Problem) -> usize {
+    let key = match problem {
+        Problem::Structure(_) => "dofs",
+        Problem::EmptyFamily { .. } => "where",
+        Problem::ChannelLaw { .. } => "law",
+        Problem::Source(error) => match error {
+            SourceError::OutOfRange { name, .. } => name,
+            SourceError::NeedsWhole { .. } | SourceError::PairedWithItself { .. } => "dofs",
+            SourceError::NoSuchElements { .. } => "elements",
+            _ => "law",
+        },
+        _ => "",
+    };
+    line(lines, key)
+}
+
+fn single(table: &SourceTable, structure: &Structure) -> Result<Source, Problem> {
+    let effect = table.law;
+    let place = match effect.kind() {
+        Kind::Channel(_) => return Err(Problem::ChannelLaw { law: effect.name() }),
+        Kind::Relative(_) if table.elements.is_some() => {
+            let hint = "`elements` restricts laws of the whole structure only, so leave it out".to_owned();
+            return Err(Problem::UnknownKey { table: format!("law `{effect}`"), key: "elements".into(), hint });
+        }
+        Kind::Relative(_) => {
+            let rows = table.dofs.iter().map(|label| structure.require_dof(&label.0));
+            Place::Dofs(rows.collect::<Result<_, _>>().map_err(Problem::Structure)?)
+        }
+        Kind::Whole(_) if !table.dofs.is_empty() => return Err(Problem::Source(SourceError::NeedsWhole { effect })),
+        Kind::Whole(_) => Place::Whole(table.elements.map(|range| elements(effect, range, structure)).transpose()?),
+    };
+    let values: Vec<(&str, f64)> = table.parameters.iter().map(|(name, &value)| (name.as_str(), value)).collect();
+    let source = Source::named(effect, place, table.state, &values).map_err(Problem::Source)?;
+    source.check_on(structure).map_err(Problem::Source)?;
+    Ok(source)
+}
+
+/// From elements counted from 1 to elements counted from 0.
+fn elements(effect: Effect, range: [i64; 2], structure: &Structure) -> Result<[usize; 2], Problem> {
+    let count = structure.elements().len();
+    let number = |n: i64| usize::try_from(n).unwrap_or(0);
+    let (first, last) = (number(range[0]), number(range[1]));
+    if first == 0 || last == 0 {
+        return Err(Problem::Source(SourceError::NoSuchElements { effect, first, last, count }));
+    }
+    Ok([first - 1, last - 1])
+}
+
+fn family(table: &CandidatesTable, structure: &Structure) -> Result<Vec<Source>, Problem> {
+    if matches!(table.law.kind(), Kind::Channel(_)) {
+        return Err(Problem::ChannelLaw { law: table.law.name() });
+    }
+    let values: Vec<(&str, f64)> = table.parameters.iter().map(|(name, &value)| (name.as_str(), value)).collect();
+    let mut sources = Vec::new();
+    for candidate in table.family.candidates(table.law, structure) {
+        let source = Source::named(table.law, candidate.place, State::Candidate, &values).map_err(Problem::Source)?;
+        source.check_on(structure).map_err(Problem::Source)?;
+        sources.push(source);
+    }
+    if sources.is_empty() { Err(Problem::EmptyFamily { family: table.family.name() }) } else { Ok(sources) }
+}
+
+/// Known errors of the measuring chain, one source a value.
+pub(super) fn sensors(tables: &[SensorTable], structure: &Structure, at: At<'_>) -> Result<Vec<Source>, ProjectError> {
+    let mut sensors: Vec<Source> = Vec::new();
+    let mut first: Vec<usize> = Vec::new();
+    for (i, table) in tables.iter().enumerate() {
+        let line = at.lines.sensor[i];
+        let name = channel(&table.channel, structure).map_err(|problem| at.error(line, problem))?;
+        for (effect, value) in [(Effect::Delay, table.delay), (Effect::Gain, table.gain)] {
+            let Some(value) = value else { continue };
+            let source = Source::known(effect, Place::Channel(name.clone()), &[value]);
+            source.check().map_err(|error| at.error(line, Problem::Source(error)))?;
+            if let Some(k) = sensors.iter().position(|other| other.is_same(&source)) {
+                let what = format!("the {effect} of \"{name}\"");
+                return Err(at.error(line, Problem::Twice { what, first: first[k] }));
+            }
+            sensors.push(source);
+            first.push(line);
+        }
+    }
+    Ok(sensors)
+}
+
+/// The channel's name as all channels are named, with a label of the structure.
+fn channel(name: &str, structure: &Structure) -> Result<String, Problem> {
+    let wrong = || Problem::NotAllowed {
+        key: "channel".into(),
+        value: super::reader::one_line(name),
+        allowed: "force@DOF, acc@DOF, vel@DOF, disp@DOF, without a unit".into(),
+    };
+    let (word, label) = name.trim().split_once('@').ok_or_else(wrong)?;
+    let quantity = Quantity::from_word(&word.trim().to_lowercase()).ok_or_else(wrong)?;
+    let label = label.trim();
+    structure.require_dof(label).map_err(Problem::Structure)?;
+    Ok(format!("{}@{label}", quantity.word()))
+}

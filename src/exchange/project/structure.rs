@@ -1,0 +1,61 @@
+//! Builds the structure of a project, its matrices read from their files.
+
+use super::error::{Problem, ProjectError};
+use super::file::{MatricesTable, Shape, StructureTable};
+use super::sources::{At, line};
+use crate::exchange::matrices::{read_dofs, read_lines, read_matrix, read_nodes};
+use crate::structure::imported::ImportedParameters;
+use crate::structure::points::PointParameters;
+use crate::structure::{Structure, StructureError};
+use std::path::Path;
+
+/// The structure; `folder` is that of the project.
+pub(super) fn structure(table: &StructureTable, folder: &Path, at: At<'_>) -> Result<Structure, ProjectError> {
+    let lumped = &table.lumped_mass;
+    let built = match &table.shape {
+        Shape::Beam(parameters) => parameters.build(lumped),
+        Shape::Chain(parameters) => parameters.build(lumped),
+        Shape::Matrices(files) => {
+            imported(files, folder).map_err(|problem| at.error(line(&at.lines.structure, ""), problem))?.build(lumped)
+        }
+        Shape::Points(_) if !lumped.is_empty() => {
+            return Err(at.error(at.lines.lumped_mass.first().copied().unwrap_or(1), Problem::MassOnPoints));
+        }
+        Shape::Points(points) => {
+            let dofs = points.dofs.iter().map(|label| label.0.clone()).collect();
+            PointParameters { dofs, positions: points.positions.clone() }.build()
+        }
+    };
+    built.map_err(|error| at.error(blamed(&error, table, at), Problem::Structure(error)))
+}
+
+fn imported(files: &MatricesTable, folder: &Path) -> Result<ImportedParameters, Problem> {
+    let at = |name: &String| folder.join(name);
+    let optional = |name: &Option<String>| name.as_ref().map(at);
+    Ok(ImportedParameters {
+        mass: read_matrix(&at(&files.mass)).map_err(Problem::Table)?,
+        stiffness: read_matrix(&at(&files.stiffness)).map_err(Problem::Table)?,
+        nodes: optional(&files.nodes).map(|path| read_nodes(&path)).transpose().map_err(Problem::Table)?,
+        dofs: optional(&files.dofs).map(|path| read_dofs(&path)).transpose().map_err(Problem::Table)?,
+        lines: optional(&files.lines)
+            .map(|path| read_lines(&path))
+            .transpose()
+            .map_err(Problem::Table)?
+            .unwrap_or_default(),
+    })
+}
+
+/// Line of the key that the error is about, as far as it says so.
+fn blamed(error: &StructureError, table: &StructureTable, at: At<'_>) -> usize {
+    if let StructureError::UnknownDof { label, .. } = error
+        && let Some(i) = table.lumped_mass.iter().position(|mass| mass.dof == *label)
+    {
+        return at.lines.lumped_mass[i];
+    }
+    if matches!(error, StructureError::DuplicateDof { .. } | StructureError::EmptyLabel) {
+        return line(&at.lines.structure, "dofs");
+    }
+    let said = error.to_string();
+    let key = at.lines.structure.keys().find(|key| !key.is_empty() && said.starts_with(key.as_str()));
+    line(&at.lines.structure, key.map_or("", String::as_str))
+}
