@@ -1,8 +1,16 @@
 //! From measured harmonics to the energy equation `G c = e`.
 
+pub mod action;
 pub mod energy;
+pub mod error;
 pub mod expansion;
+pub mod measured;
 pub mod weights;
+
+pub use energy::EnergyEquation;
+pub use error::BalanceError;
+pub use expansion::{Expanded, Expander};
+pub use measured::Measured;
 
 use serde::{Deserialize, Serialize};
 
