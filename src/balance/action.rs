@@ -62,9 +62,12 @@ pub enum Secant {
 /// Energy in J that `source` takes out over one period, at its own parameters.
 pub fn energy(source: &Source, structure: &Structure, field: Field<'_>) -> f64 {
     match source.effect.kind() {
-        Kind::Relative(law) => {
-            source.place.legs().iter().map(|&leg| leg_energy(law, &source.parameters, field, &field.relative(leg), 1.0)).sum()
-        }
+        Kind::Relative(law) => source
+            .place
+            .legs()
+            .iter()
+            .map(|&leg| leg_energy(law, &source.parameters, field, &field.relative(leg), 1.0))
+            .sum(),
         Kind::Whole(law) => whole_energy(law, source, structure, field),
         Kind::Channel(_) => 0.0,
     }
@@ -130,7 +133,13 @@ pub fn basis_times(structure: &Structure, basis: Basis, range: Option<[usize; 2]
 
 /// Adds `weight` times the gradient of [`energy`] to `gradient` (n x harmonics): a change `dX` of the motion changes the
 /// energy by `Re sum conj(gradient) dX`. Sampled laws: along the amplitude of the fundamental.
-pub fn add_energy_gradient(source: &Source, structure: &Structure, field: Field<'_>, weight: f64, gradient: &mut Mat<c64>) {
+pub fn add_energy_gradient(
+    source: &Source,
+    structure: &Structure,
+    field: Field<'_>,
+    weight: f64,
+    gradient: &mut Mat<c64>,
+) {
     match source.effect.kind() {
         Kind::Relative(law) => {
             for leg in source.place.legs() {

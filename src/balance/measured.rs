@@ -131,9 +131,8 @@ fn amplitudes(fits: &[&ChannelFit], omega: f64, numbers: &[usize]) -> Amplitudes
     let factor = |fit: &ChannelFit, k: usize| c64::new(0.0, numbers[k] as f64 * omega).powi(-order(fit));
     // A channel that reads nothing at all borrows the floor of its neighbours.
     let loudest = fits.iter().fold(0.0_f64, |m, f| m.max(largest(f) * factor(f, 0).norm()));
-    let values = Mat::from_fn(fits.len(), numbers.len(), |s, k| {
-        fits[s].amplitudes[numbers[k] - 1] * factor(fits[s], k)
-    });
+    let values =
+        Mat::from_fn(fits.len(), numbers.len(), |s, k| fits[s].amplitudes[numbers[k] - 1] * factor(fits[s], k));
     let deviations = Mat::from_fn(fits.len(), numbers.len(), |s, k| {
         let (fit, scale) = (fits[s], factor(fits[s], k).norm());
         let own = largest(fit) * scale;
