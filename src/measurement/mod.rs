@@ -8,9 +8,12 @@ mod noise;
 pub mod quality;
 pub mod record;
 pub mod run;
+mod settling;
+mod slips;
+mod stuck;
 
 pub use channel::{Channel, ChannelName, Quantity, Unit};
 pub use fit::{ChannelFit, FitError, HarmonicFit, fit};
 pub use quality::{Finding, Flag};
 pub use record::{Record, RecordError};
-pub use run::Run;
+pub use run::{Amplitudes, Correction, Run};

@@ -1,7 +1,18 @@
 //! One run: a steady-state test under one periodic force.
+//!
+//! A channel with a known delay `tau` and gain `g` records `g exp(-i h omega tau) Y_h`; its fit is divided by that.
+//! Motions are integrated analytically: `X_h = Y_h / (i h omega)^k`, k = 0, 1, 2 for displacements, velocities and
+//! accelerations (6.5, 6.6).
 
-use super::{Finding, HarmonicFit, Record};
+use super::fit::{fit, turn_covariance};
+use super::{Channel, ChannelFit, Finding, FitError, HarmonicFit, Quantity, Record, frequency, quality};
+use faer::{Mat, c64};
+use std::f64::consts::TAU;
 use std::sync::Arc;
+
+/// Smallest amplitude that a channel is judged by, as a share of the largest of its quantity in the run: a sensor at a
+/// node must not rule.
+pub const NODE_SHARE: f64 = 1.0 / 20.0;
 
 /// One run with its fitted harmonics, corrected for the known errors of its channels.
 #[derive(Debug, Clone, PartialEq)]
@@ -20,4 +31,239 @@ pub struct Run {
     pub noise_ratio: f64,
     /// What is wrong with the record, each with its reason in words.
     pub findings: Vec<Finding>,
+}
+
+/// The known error of a channel: recorded = gain x true, late by the delay.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Correction {
+    /// The channel, by quantity and label.
+    pub channel: Channel,
+    /// How late it is recorded, s.
+    pub delay: f64,
+    /// How many times too large it reads; not zero.
+    pub gain: f64,
+}
+
+/// Harmonics of the displacement or the force at a DOF, with their covariance.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Amplitudes {
+    /// Number of the channel in [`HarmonicFit::channels`]; the first where several were combined.
+    pub channel: usize,
+    /// Row of the DOF.
+    pub dof: usize,
+    /// Complex amplitudes of harmonics 1..H, m or N (rad or N m at rotations).
+    pub amplitudes: Vec<c64>,
+    /// Covariance of `(Re X_1, Im X_1, ...)`, 2H x 2H; zero where the deviations are unknown.
+    pub covariance: Mat<f64>,
+}
+
+impl Run {
+    /// Fits a record: at `frequency_hz`, or at the frequency found in it.
+    pub fn from_record(
+        file: String,
+        level: Option<i64>,
+        enabled: bool,
+        record: Arc<Record>,
+        frequency_hz: Option<f64>,
+        harmonics: usize,
+        corrections: &[Correction],
+    ) -> Result<Self, FitError> {
+        let raw = fit_at(&record, frequency_hz, harmonics)?;
+        let noise_ratio = noise_ratio(&raw);
+        let mut findings = quality::assess_record(&record, &raw, frequency_hz);
+        let fit = corrected(raw, corrections);
+        findings.extend(quality::assess_harmonics(&fit));
+        Ok(Self { file, level, enabled, record: Some(record), fit, noise_ratio, findings })
+    }
+
+    /// Takes harmonics that were fitted elsewhere.
+    pub fn from_harmonics(
+        file: String,
+        level: Option<i64>,
+        enabled: bool,
+        fit: HarmonicFit,
+        corrections: &[Correction],
+    ) -> Self {
+        let fit = corrected(fit, corrections);
+        let findings = quality::assess_harmonics(&fit);
+        Self { file, level, enabled, record: None, noise_ratio: noise_ratio(&fit), fit, findings }
+    }
+
+    /// Circular frequency, rad/s.
+    pub fn omega(&self) -> f64 {
+        self.fit.omega
+    }
+
+    /// Frequency, Hz.
+    pub fn frequency_hz(&self) -> f64 {
+        self.fit.omega / TAU
+    }
+
+    /// Numbers of the channels that measure motion.
+    pub fn response_channels(&self) -> Vec<usize> {
+        self.fit.response_channels()
+    }
+
+    /// Numbers of the channels that measure forces.
+    pub fn force_channels(&self) -> Vec<usize> {
+        self.fit.force_channels()
+    }
+
+    /// Displacements of every channel that measures motion; several at one DOF are all there.
+    pub fn displacements(&self) -> Vec<Amplitudes> {
+        self.response_channels().into_iter().map(|c| self.fit.displacement_of(c)).collect()
+    }
+
+    /// Displacement at a DOF, several channels combined by their variances; `None` where nothing measures it.
+    pub fn displacement(&self, dof: usize) -> Option<Amplitudes> {
+        self.fit.displacement(dof)
+    }
+
+    /// Force of the exciter at a DOF; `None` where there is no force channel.
+    pub fn force(&self, dof: usize) -> Option<Amplitudes> {
+        self.fit.force(dof)
+    }
+}
+
+impl HarmonicFit {
+    /// Numbers of the channels that measure motion.
+    pub fn response_channels(&self) -> Vec<usize> {
+        (0..self.channels.len()).filter(|&c| self.channels[c].channel.quantity != Quantity::Force).collect()
+    }
+
+    /// Numbers of the channels that measure forces.
+    pub fn force_channels(&self) -> Vec<usize> {
+        (0..self.channels.len()).filter(|&c| self.channels[c].channel.quantity == Quantity::Force).collect()
+    }
+
+    /// Displacement that a channel stands for (a force stays a force), `X_h = Y_h / (i h omega)^k`.
+    pub fn displacement_of(&self, channel: usize) -> Amplitudes {
+        let fit = &self.channels[channel];
+        let k = fit.channel.quantity.derivatives().unwrap_or(0);
+        let factors: Vec<c64> =
+            (1..=fit.amplitudes.len()).map(|h| c64::new(0.0, h as f64 * self.omega).powi(-k)).collect();
+        Amplitudes {
+            channel,
+            dof: fit.channel.dof,
+            amplitudes: fit.amplitudes.iter().zip(&factors).map(|(y, z)| y * z).collect(),
+            covariance: turn_covariance(&fit.covariance, &factors),
+        }
+    }
+
+    /// Displacement at a DOF, several channels combined by their variances; `None` where nothing measures it.
+    pub fn displacement(&self, dof: usize) -> Option<Amplitudes> {
+        let at_dof = self.response_channels().into_iter().filter(|&c| self.channels[c].channel.dof == dof);
+        let all: Vec<Amplitudes> = at_dof.map(|c| self.displacement_of(c)).collect();
+        combine(all)
+    }
+
+    /// Force of the exciter at a DOF; `None` where there is no force channel.
+    pub fn force(&self, dof: usize) -> Option<Amplitudes> {
+        self.force_channels()
+            .into_iter()
+            .find(|&c| self.channels[c].channel.dof == dof)
+            .map(|c| self.displacement_of(c))
+    }
+}
+
+/// Mean of measurements of the same, each harmonic weighted by the inverse of its variance; equal weights where a
+/// variance is unknown.
+fn combine(all: Vec<Amplitudes>) -> Option<Amplitudes> {
+    if all.len() < 2 {
+        return all.into_iter().next();
+    }
+    let harmonics = all[0].amplitudes.len();
+    let variance = |a: &Amplitudes, h: usize| a.covariance[(2 * h, 2 * h)] + a.covariance[(2 * h + 1, 2 * h + 1)];
+    let shares: Vec<Vec<f64>> = (0..harmonics)
+        .map(|h| {
+            let known = all.iter().all(|a| variance(a, h) > 0.0);
+            let weights: Vec<f64> = all.iter().map(|a| if known { 1.0 / variance(a, h) } else { 1.0 }).collect();
+            let total: f64 = weights.iter().sum();
+            weights.into_iter().map(|w| w / total).collect()
+        })
+        .collect();
+    let mut mean = Amplitudes {
+        channel: all[0].channel,
+        dof: all[0].dof,
+        amplitudes: vec![c64::new(0.0, 0.0); harmonics],
+        covariance: Mat::zeros(2 * harmonics, 2 * harmonics),
+    };
+    for (k, one) in all.iter().enumerate() {
+        let factors: Vec<c64> = shares.iter().map(|share| c64::new(share[k], 0.0)).collect();
+        for h in 0..harmonics {
+            mean.amplitudes[h] += one.amplitudes[h] * factors[h];
+        }
+        mean.covariance += turn_covariance(&one.covariance, &factors);
+    }
+    Some(mean)
+}
+
+/// Fits at the given frequency, or at that found in the record, whose deviation is then kept.
+pub fn fit_at(record: &Record, frequency_hz: Option<f64>, harmonics: usize) -> Result<HarmonicFit, FitError> {
+    match frequency_hz {
+        Some(frequency_hz) => fit(record, TAU * frequency_hz, harmonics),
+        None => {
+            let found = frequency::estimate(record, harmonics)?;
+            let fit = fit(record, found.omega, harmonics)?;
+            Ok(HarmonicFit { omega_deviation: found.deviation, ..fit })
+        }
+    }
+}
+
+/// The fit with the known errors of its channels taken out.
+fn corrected(mut fit: HarmonicFit, corrections: &[Correction]) -> HarmonicFit {
+    let omega = fit.omega;
+    for channel in &mut fit.channels {
+        for error in corrections {
+            let same =
+                error.channel.quantity == channel.channel.quantity && error.channel.label == channel.channel.label;
+            if same {
+                correct(channel, error, omega);
+            }
+        }
+    }
+    fit
+}
+
+/// Divides a channel by the transfer function of its error.
+fn correct(channel: &mut ChannelFit, error: &Correction, omega: f64) {
+    let factors: Vec<c64> = (1..=channel.amplitudes.len())
+        .map(|h| {
+            let (sin, cos) = (h as f64 * omega * error.delay).sin_cos();
+            c64::new(cos, sin) / error.gain
+        })
+        .collect();
+    for (y, z) in channel.amplitudes.iter_mut().zip(&factors) {
+        *y *= z;
+    }
+    channel.covariance = turn_covariance(&channel.covariance, &factors);
+    channel.offset /= error.gain;
+    channel.slope /= error.gain;
+    channel.noise /= error.gain.abs();
+}
+
+/// Root mean square of the periodic part of a channel.
+pub(super) fn signal(channel: &ChannelFit) -> f64 {
+    (0.5 * channel.amplitudes.iter().map(|y| y.re * y.re + y.im * y.im).sum::<f64>()).sqrt()
+}
+
+/// What each channel is judged by: its own signal, at least [`NODE_SHARE`] of the largest of its quantity.
+pub(super) fn references(fit: &HarmonicFit) -> Vec<f64> {
+    let largest = |quantity: Quantity| {
+        let same = fit.channels.iter().filter(|c| c.channel.quantity == quantity);
+        same.map(signal).fold(0.0, f64::max)
+    };
+    fit.channels.iter().map(|c| signal(c).max(NODE_SHARE * largest(c.channel.quantity))).collect()
+}
+
+/// Noise over signal, root mean square over the channels that show anything.
+fn noise_ratio(fit: &HarmonicFit) -> f64 {
+    let ratios: Vec<f64> = fit
+        .channels
+        .iter()
+        .zip(references(fit))
+        .filter(|(_, reference)| *reference > 0.0)
+        .map(|(channel, reference)| channel.noise / reference)
+        .collect();
+    crate::math::statistics::root_mean_square(&ratios)
 }
