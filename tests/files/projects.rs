@@ -4,8 +4,9 @@ use dashpot::balance::{Expansion, Weights};
 use dashpot::control::Control;
 use dashpot::effects::{Effect, Place, State};
 use dashpot::exchange::project::file::{Label, Shape};
-use dashpot::exchange::project::{Plan, ProjectFile, open, plan};
+use dashpot::exchange::project::{Plan, ProjectFile, load, open, plan};
 use dashpot::structure::Direction;
+use faer::c64;
 use std::path::Path;
 
 pub const FULL: &str = r#"
@@ -214,4 +215,64 @@ fn labels_keep_their_text() {
     for label in ["3", "03", "+3", "-3", "a b", "\"", "99999999999999999999", "3.0", "ä"] {
         assert_eq!(text(label), label);
     }
+}
+
+/// A record of 100 samples a period over ten periods, so that the fit has something to hold on to.
+fn record(frequency: f64, force: f64, acceleration: [f64; 2]) -> String {
+    let mut text = "time [s],force@1 [kN],acc@b [m/s^2]\n".to_owned();
+    for n in 0..1000 {
+        let t = f64::from(n) / (100.0 * frequency);
+        let (sin, cos) = (std::f64::consts::TAU * frequency * t).sin_cos();
+        let y = acceleration[0] * cos + acceleration[1] * sin;
+        text.push_str(&format!("{t:.15},{:.15},{y:.15}\n", 1e-3 * force * cos));
+    }
+    text
+}
+
+#[test]
+fn records_are_fitted_and_corrected() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("p.toml");
+    let head = "[project]\nformat = 1\n[structure]\nkind = \"points\"\ndofs = [1, \"b\"]\n\
+        [[sensor]]\nchannel = \"acc@b\"\ngain = 2\n[[run]]\nfile = \"one.csv\"\nfrequency = 5\nlevel = 1\n\
+        [[run]]\nfile = \"two.csv\"\nuse = false\n[[harmonics]]\nfile = \"h.csv\"\n[analysis]\nharmonics = 3\n";
+    std::fs::write(&path, head).unwrap();
+    std::fs::write(folder.path().join("one.csv"), record(5.0, 3.0, [4.0, -6.0])).unwrap();
+    std::fs::write(folder.path().join("two.csv"), record(8.0, 1.0, [2.0, 2.0])).unwrap();
+    let harmonics = "run,frequency_hz,channel,harmonic,cos,sin\nh1,20,force@1 [N],1,1,0\nh1,20,acc@b [g],1,0,2\n";
+    std::fs::write(folder.path().join("h.csv"), harmonics).unwrap();
+
+    let project = load(&path, &Control::unattended()).unwrap();
+    let found: Vec<_> = project.runs.iter().map(|run| (run.file.as_str(), run.level, run.enabled)).collect();
+    assert_eq!(found, [("one.csv", Some(1), true), ("two.csv", None, false), ("h1", None, true)]);
+    let amplitude = |run: usize, channel: usize| project.runs[run].fit.channels[channel].amplitudes[0];
+    let near = |found: c64, re: f64, im: f64| assert!((found - c64::new(re, im)).norm() < 1e-9, "{found} {re} {im}");
+    near(amplitude(0, 0), 3.0, 0.0);
+    near(amplitude(0, 1), 2.0, 3.0);
+    near(amplitude(1, 1), 1.0, -1.0);
+    near(amplitude(2, 1), 0.0, -9.80665);
+    assert_eq!(project.runs[0].fit.harmonics(), 3);
+    let omega = project.runs[1].fit.omega;
+    assert!((omega / std::f64::consts::TAU - 8.0).abs() < 1e-6, "found without being given: {omega}");
+    assert!(project.runs[0].record.is_some() && project.runs[2].record.is_none());
+
+    let refused = |old: &str, new: &str| {
+        std::fs::write(&path, head.replace(old, new)).unwrap();
+        load(&path, &Control::unattended()).map(|_| ()).unwrap_err().to_string()
+    };
+    let message = refused("acc@b", "vel@b");
+    assert!(
+        message
+            .ends_with("p.toml:6: no record has the channel \"vel@b\"; correct its name or leave the [[sensor]] out")
+    );
+    let message = refused("frequency = 5", "frequency = 0.1");
+    assert!(message.contains("p.toml:11: record one.csv: the record lasts "), "{message}");
+    std::fs::write(folder.path().join("one.csv"), "time [s],acc@9 [m/s^2]\n0,1\n").unwrap();
+    let message = refused("", "");
+    assert!(message.contains("one.csv, line 1") && !message.contains("p.toml"), "{message}");
+    let message = refused(&head[head.find("[[sensor]]").unwrap()..], "");
+    assert!(
+        message.ends_with("p.toml: there is nothing measured; add [[run]] with `file`, or [[harmonics]]"),
+        "{message}"
+    );
 }

@@ -3,6 +3,7 @@
 use crate::effects::source::SourceError;
 use crate::exchange::matrices::TableError;
 use crate::exchange::records::RecordFileError;
+use crate::measurement::FitError;
 use crate::structure::StructureError;
 use std::fmt;
 
@@ -76,6 +77,8 @@ pub enum Problem {
     NotSimulated { file: String },
     #[error("the record {file} is not there; correct `file`, which is relative to the project")]
     NoRecord { file: String },
+    #[error("record {file}: {error}")]
+    Fit { file: String, error: FitError },
     #[error("cancelled")]
     Cancelled,
     #[error("{0}")]

@@ -3,6 +3,7 @@
 
 pub mod error;
 pub mod file;
+pub mod load;
 mod parse;
 pub mod plan;
 mod reader;
@@ -12,4 +13,5 @@ mod structure;
 
 pub use error::{Problem, ProjectError};
 pub use file::{Lines, ProjectFile};
+pub use load::load;
 pub use plan::{Plan, PlannedForce, PlannedRun, open, plan};
