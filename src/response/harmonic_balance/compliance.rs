@@ -1,0 +1,267 @@
+//! Receptance of the structure alone at one harmonic, `A_h = Z(h w)^-1`, ready to be asked for single entries.
+//!
+//! `Z(w) = (1 + 1e-11 i) K - w^2 M + sum of whole-structure laws`. Small structures keep the inverse itself; larger ones
+//! their undamped modes, `A = sum_r phi_r phi_r^T / z_r`, where the laws are diagonal. Sources between single DOFs are
+//! added afterwards (`condense`), so that one receptance serves every candidate. The loss factor 1e-11 keeps `Z`
+//! regular at an undamped natural frequency and is far below any damping that can be measured.
+
+use super::model::ModelError;
+use crate::effects::law::Basis;
+use crate::effects::{Leg, Source, effect::Kind, place::Place};
+use crate::structure::{Structure, SystemMatrices};
+use faer::linalg::solvers::Solve;
+use faer::{Mat, Side, c64};
+use std::sync::Arc;
+
+/// Loss factor that keeps undamped structures regular at their natural frequencies.
+const REGULARISING_LOSS: f64 = 1e-11;
+/// Up to this many degrees of freedom the inverse is formed at every harmonic.
+const DENSE: usize = 60;
+
+/// Undamped modes of the structure, `phi^T M phi = 1`.
+#[derive(Debug)]
+pub(crate) struct ModalBasis {
+    /// Squares of the natural circular frequencies, rad^2/s^2.
+    squares: Vec<f64>,
+    /// Mode shapes, n x n, one a column.
+    shapes: Mat<f64>,
+}
+
+/// The structure and its whole-structure laws.
+#[derive(Debug, Clone)]
+pub(crate) struct LinearPart {
+    structure: Arc<Structure>,
+    /// Whole-structure laws: source, and its own matrix where it is restricted to elements.
+    whole: Vec<(Source, Option<Arc<Mat<f64>>>)>,
+    modal: Option<Arc<ModalBasis>>,
+    /// Shift of `K` by a multiple of `M` at rest, for structures that float.
+    floating_shift: f64,
+}
+
+impl LinearPart {
+    /// Takes matrices and the whole-structure laws of `sources`.
+    pub fn new(structure: Arc<Structure>, sources: &[Source]) -> Result<Self, ModelError> {
+        let SystemMatrices { mass, stiffness } = structure.matrices().ok_or(ModelError::NoMatrices)?;
+        let modal = if mass.nrows() > DENSE { Some(Arc::new(modal_basis(mass, stiffness)?)) } else { None };
+        let floating_shift = floating_shift(mass, stiffness);
+        let part = Self { structure, whole: Vec::new(), modal, floating_shift };
+        Ok(part.with_whole(sources))
+    }
+
+    /// The same structure with the whole-structure laws among `sources` in place of its own.
+    pub fn with_whole(&self, sources: &[Source]) -> Self {
+        let mut part = Self { whole: Vec::new(), ..self.clone() };
+        for source in sources {
+            if let (Kind::Whole(law), Place::Whole(range)) = (source.effect.kind(), &source.place) {
+                let own = range.map(|range| Arc::new(restricted(&self.structure, law.basis(), range)));
+                part.whole.push((source.clone(), own));
+            }
+        }
+        part
+    }
+
+    /// Whether the whole-structure laws among `sources` are those of this part.
+    pub fn has_whole(&self, sources: &[Source]) -> bool {
+        let given = sources.iter().filter(|s| matches!(s.effect.kind(), Kind::Whole(_)));
+        given.eq(self.whole.iter().map(|(source, _)| source))
+    }
+
+    /// The structure without its laws.
+    pub fn structure(&self) -> &Structure {
+        &self.structure
+    }
+
+    fn matrices(&self) -> &SystemMatrices {
+        self.structure.matrices().expect("checked when the part was made")
+    }
+
+    /// Number of degrees of freedom.
+    pub fn len(&self) -> usize {
+        self.structure.len()
+    }
+
+    /// `factor B` as an n x n product with `x`, where `B` is the matrix on which the whole-structure law `source` acts.
+    pub fn apply_whole(&self, source: &Source, factor: c64, x: &[c64]) -> Vec<c64> {
+        let own = self.whole.iter().find(|(s, _)| s.place == source.place && s.effect == source.effect);
+        let matrices = self.matrices();
+        let matrix = match (own, source.effect.kind()) {
+            (Some((_, Some(own))), _) => own,
+            (_, Kind::Whole(law)) if law.basis() == Basis::Mass => &matrices.mass,
+            _ => &matrices.stiffness,
+        };
+        multiply(matrix, factor, x)
+    }
+
+    /// `(stiffness K + mass M) x` for the two given factors.
+    pub fn apply_matrices(&self, stiffness: c64, mass: c64, x: &[c64]) -> Vec<c64> {
+        let matrices = self.matrices();
+        let mut result = multiply(&matrices.stiffness, stiffness, x);
+        if mass.norm_sqr() > 0.0 {
+            let inertia = multiply(&matrices.mass, mass, x);
+            result.iter_mut().zip(inertia).for_each(|(r, i)| *r += i);
+        }
+        result
+    }
+
+    /// Factors of `K` and `M` in `Z(omega)`, without laws restricted to elements.
+    fn factors(&self, omega: f64) -> [c64; 2] {
+        let shift = if omega == 0.0 { self.floating_shift } else { 0.0 };
+        let mut factors = [c64::new(1.0, REGULARISING_LOSS), c64::new(shift - omega * omega, 0.0)];
+        if omega == 0.0 {
+            factors[0].im = 0.0;
+        }
+        for (source, own) in &self.whole {
+            if let (Kind::Whole(law), None) = (source.effect.kind(), own) {
+                let index = usize::from(law.basis() == Basis::Mass);
+                factors[index] += law.factor(source.parameters[0], omega);
+            }
+        }
+        factors
+    }
+
+    /// `Z(omega)`, n x n.
+    fn dynamic_stiffness(&self, omega: f64) -> Mat<c64> {
+        let [fk, fm] = self.factors(omega);
+        let SystemMatrices { mass, stiffness } = self.matrices();
+        let mut z = Mat::from_fn(self.len(), self.len(), |i, j| fk * stiffness[(i, j)] + fm * mass[(i, j)]);
+        for (source, own) in &self.whole {
+            if let (Kind::Whole(law), Some(own)) = (source.effect.kind(), own) {
+                let factor = law.factor(source.parameters[0], omega);
+                z += Mat::from_fn(self.len(), self.len(), |i, j| factor * own[(i, j)]);
+            }
+        }
+        z
+    }
+
+    /// Receptance at `omega` (rad/s; 0 is static).
+    pub fn compliance(&self, omega: f64) -> Compliance {
+        match &self.modal {
+            Some(basis) if self.whole.iter().all(|(_, own)| own.is_none()) => {
+                let [fk, fm] = self.factors(omega);
+                let factors = basis.squares.iter().map(|&square| c64::new(1.0, 0.0) / (fk * square + fm)).collect();
+                Compliance::Modal { factors, basis: basis.clone() }
+            }
+            _ => {
+                let identity = Mat::<c64>::identity(self.len(), self.len());
+                Compliance::Dense(self.dynamic_stiffness(omega).partial_piv_lu().solve(identity))
+            }
+        }
+    }
+}
+
+/// Receptance matrix at one frequency.
+#[derive(Debug)]
+pub(crate) enum Compliance {
+    Dense(Mat<c64>),
+    Modal { factors: Vec<c64>, basis: Arc<ModalBasis> },
+}
+
+impl Compliance {
+    /// `L_a^T A L_b`, m/N.
+    pub fn between(&self, a: Leg, b: Leg) -> c64 {
+        match self {
+            Self::Dense(inverse) => a.relative(|i| b.relative(|j| inverse[(i, j)])),
+            Self::Modal { factors, basis } => {
+                let terms = factors.iter().enumerate().map(|(r, f)| {
+                    let shape = |leg: Leg| leg.relative(|i| basis.shapes[(i, r)]);
+                    *f * (shape(a) * shape(b))
+                });
+                terms.fold(c64::new(0.0, 0.0), |sum, term| sum + term)
+            }
+        }
+    }
+
+    /// Displacements of all DOFs (m) under forces (N) at single DOFs.
+    pub fn apply_at(&self, forces: &[(usize, c64)], result: &mut [c64]) {
+        result.fill(c64::new(0.0, 0.0));
+        match self {
+            Self::Dense(inverse) => {
+                for &(dof, force) in forces {
+                    for (x, a) in result.iter_mut().zip(inverse.col_as_slice(dof)) {
+                        *x += *a * force;
+                    }
+                }
+            }
+            Self::Modal { factors, basis } => {
+                let modal = factors.iter().enumerate().map(|(r, f)| {
+                    let load = forces.iter().fold(c64::new(0.0, 0.0), |s, &(i, q)| s + q * basis.shapes[(i, r)]);
+                    *f * load
+                });
+                basis.combine(modal, result);
+            }
+        }
+    }
+
+    /// Displacements of all DOFs under a force at every DOF.
+    pub fn apply(&self, force: &[c64], result: &mut [c64]) {
+        let loads: Vec<(usize, c64)> = force.iter().copied().enumerate().filter(|(_, f)| f.norm_sqr() > 0.0).collect();
+        self.apply_at(&loads, result);
+    }
+}
+
+impl ModalBasis {
+    fn combine(&self, modal: impl Iterator<Item = c64>, result: &mut [c64]) {
+        for (r, q) in modal.enumerate() {
+            for (x, shape) in result.iter_mut().zip(self.shapes.col_as_slice(r)) {
+                *x += q * *shape;
+            }
+        }
+    }
+}
+
+/// `factor B x`.
+fn multiply(matrix: &Mat<f64>, factor: c64, x: &[c64]) -> Vec<c64> {
+    let mut result = vec![c64::new(0.0, 0.0); matrix.nrows()];
+    for (j, &value) in x.iter().enumerate() {
+        let scaled = factor * value;
+        if scaled.norm_sqr() > 0.0 {
+            for (r, a) in result.iter_mut().zip(matrix.col_as_slice(j)) {
+                *r += scaled * *a;
+            }
+        }
+    }
+    result
+}
+
+/// Undamped modes by Cholesky factors of the mass.
+fn modal_basis(mass: &Mat<f64>, stiffness: &Mat<f64>) -> Result<ModalBasis, ModelError> {
+    let llt = mass.llt(Side::Lower).map_err(|_| ModelError::MassNotPositive)?;
+    let mut reduced = stiffness.clone();
+    let par = faer::get_global_parallelism();
+    faer::linalg::triangular_solve::solve_lower_triangular_in_place(llt.L(), reduced.as_mut(), par);
+    let mut reduced = reduced.transpose().to_owned();
+    faer::linalg::triangular_solve::solve_lower_triangular_in_place(llt.L(), reduced.as_mut(), par);
+    let eigen = reduced.self_adjoint_eigen(Side::Lower).map_err(|_| ModelError::NoModes)?;
+    let mut shapes = eigen.U().to_owned();
+    faer::linalg::triangular_solve::solve_upper_triangular_in_place(llt.L().transpose(), shapes.as_mut(), par);
+    let squares = (0..mass.nrows()).map(|r| eigen.S().column_vector()[r].max(0.0)).collect();
+    Ok(ModalBasis { squares, shapes })
+}
+
+/// Zero for a structure that is held; for one that floats, a shift of `K` by `M` far below its stiffness.
+fn floating_shift(mass: &Mat<f64>, stiffness: &Mat<f64>) -> f64 {
+    let n = mass.nrows();
+    let trace = |a: &Mat<f64>| (0..n).map(|i| a[(i, i)]).sum::<f64>();
+    let held = stiffness.llt(Side::Lower).is_ok_and(|llt| {
+        let l = llt.L();
+        (0..n).all(|i| l[(i, i)] * l[(i, i)] > 1e-13 * stiffness[(i, i)])
+    });
+    if held { 0.0 } else { 1e-12 * trace(stiffness) / trace(mass) }
+}
+
+/// Mass or stiffness matrix of a range of elements alone.
+fn restricted(structure: &Structure, basis: Basis, range: [usize; 2]) -> Mat<f64> {
+    let mut matrix = Mat::zeros(structure.len(), structure.len());
+    let elements = structure.elements();
+    for element in elements.iter().take(range[1] + 1).skip(range[0]) {
+        let local = if basis == Basis::Mass { &element.mass } else { &element.stiffness };
+        for (a, row) in element.dofs.iter().enumerate() {
+            for (b, column) in element.dofs.iter().enumerate() {
+                if let (Some(row), Some(column)) = (row, column) {
+                    matrix[(*row, *column)] += local[(a, b)];
+                }
+            }
+        }
+    }
+    matrix
+}

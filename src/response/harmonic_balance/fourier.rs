@@ -1,0 +1,191 @@
+//! Real Fourier coefficients and equally spaced samples of one period, and the step between them.
+//!
+//! `y(t) = c_0 + sum_h c_h cos(h w t) + s_h sin(h w t)`, stored as `[c_0, c_1, s_1, c_2, s_2, ...]`, so that the complex
+//! amplitude is `Y_h = c_h - i s_h`. With `N > 4 H` samples the projection of a sampled product is free of aliasing up to
+//! the second power; kinks alias as `1 / N^2`.
+
+use faer::c64;
+use std::f64::consts::TAU;
+
+/// Sampled cosines and sines of one period.
+#[derive(Debug, Clone)]
+pub(crate) struct Fourier {
+    harmonics: usize,
+    samples: usize,
+    /// Function number `2 q - 1` is `cos(q theta)`, `2 q` is `sin(q theta)`, 0 is one; `q` up to twice the harmonics.
+    functions: Vec<Vec<f64>>,
+}
+
+impl Fourier {
+    /// Tables for harmonics 1..=`harmonics` at `samples` equal steps of one period.
+    pub fn new(harmonics: usize, samples: usize) -> Self {
+        let table: Vec<(f64, f64)> = (0..samples).map(|n| (TAU * n as f64 / samples as f64).sin_cos()).collect();
+        let mut functions = vec![vec![1.0; samples]];
+        for q in 1..=2 * harmonics {
+            functions.push((0..samples).map(|n| table[(q * n) % samples].1).collect());
+            functions.push((0..samples).map(|n| table[(q * n) % samples].0).collect());
+        }
+        Self { harmonics, samples, functions }
+    }
+
+    /// Highest harmonic.
+    pub fn harmonics(&self) -> usize {
+        self.harmonics
+    }
+
+    /// Samples in the period.
+    pub fn samples(&self) -> usize {
+        self.samples
+    }
+
+    /// Number of real coefficients, `2 H + 1`.
+    pub fn width(&self) -> usize {
+        2 * self.harmonics + 1
+    }
+
+    /// Samples of the periodic function of `coefficients`.
+    pub fn synthesise(&self, coefficients: &[f64], samples: &mut [f64]) {
+        samples.fill(coefficients[0]);
+        for (function, &value) in self.functions.iter().zip(coefficients).skip(1) {
+            if value != 0.0 {
+                for (s, f) in samples.iter_mut().zip(function) {
+                    *s += value * f;
+                }
+            }
+        }
+    }
+
+    /// Coefficients of the sampled function, truncated to the harmonics.
+    pub fn project(&self, samples: &[f64], coefficients: &mut [f64]) {
+        let scale = 2.0 / self.samples as f64;
+        for (value, function) in coefficients.iter_mut().zip(&self.functions) {
+            *value = scale * dot(function, samples);
+        }
+        coefficients[0] *= 0.5;
+    }
+
+    /// The matrix of "synthesise, multiply by `weight` sample by sample, project": `width x width`, row by row.
+    /// Products of two harmonics are sums of harmonics, so the spectrum of `weight` up to `2 H` is all that is needed.
+    pub fn multiplier(&self, weight: &[f64]) -> Vec<f64> {
+        let (width, scale) = (self.width(), 1.0 / self.samples as f64);
+        let spectrum: Vec<f64> = self.functions.iter().map(|f| scale * dot(f, weight)).collect();
+        let cos = |q: usize| if q == 0 { spectrum[0] } else { spectrum[2 * q - 1] };
+        let sin = |q: isize| match q {
+            0 => 0.0,
+            q if q > 0 => spectrum[2 * q as usize],
+            q => -spectrum[2 * (-q) as usize],
+        };
+        let mut matrix = vec![0.0; width * width];
+        matrix[0] = spectrum[0];
+        for h in 1..=self.harmonics {
+            let (c, s) = (2 * h - 1, 2 * h);
+            (matrix[c], matrix[s]) = (cos(h), sin(h as isize));
+            (matrix[c * width], matrix[s * width]) = (2.0 * cos(h), 2.0 * sin(h as isize));
+            for k in 1..=self.harmonics {
+                let (ck, sk) = (2 * k - 1, 2 * k);
+                let (sum, difference) = (h + k, h.abs_diff(k));
+                let sin_difference = sin(h as isize - k as isize);
+                matrix[c * width + ck] = cos(difference) + cos(sum);
+                matrix[s * width + sk] = cos(difference) - cos(sum);
+                matrix[c * width + sk] = sin(sum as isize) - sin_difference;
+                matrix[s * width + ck] = sin(sum as isize) + sin_difference;
+            }
+        }
+        matrix
+    }
+}
+
+/// Coefficients of the time derivative.
+pub(crate) fn differentiate(omega: f64, coefficients: &[f64], derivative: &mut [f64]) {
+    derivative[0] = 0.0;
+    for h in 1..=(coefficients.len() - 1) / 2 {
+        let w = h as f64 * omega;
+        derivative[2 * h - 1] = w * coefficients[2 * h];
+        derivative[2 * h] = -w * coefficients[2 * h - 1];
+    }
+}
+
+/// Mean and complex amplitudes of real coefficients.
+pub(crate) fn to_complex(coefficients: &[f64]) -> (f64, Vec<c64>) {
+    let harmonics = coefficients[1..].chunks_exact(2).map(|pair| c64::new(pair[0], -pair[1])).collect();
+    (coefficients[0], harmonics)
+}
+
+/// Amplitude of harmonic `h` (0 is the mean) of real coefficients; 0 beyond their end.
+pub(crate) fn amplitude(coefficients: &[f64], h: usize) -> c64 {
+    match h {
+        0 => c64::new(coefficients[0], 0.0),
+        h if 2 * h < coefficients.len() => c64::new(coefficients[2 * h - 1], -coefficients[2 * h]),
+        _ => c64::new(0.0, 0.0),
+    }
+}
+
+/// Adds the complex amplitude of harmonic `h` to real coefficients.
+pub(crate) fn add_amplitude(coefficients: &mut [f64], h: usize, value: c64) {
+    if h == 0 {
+        coefficients[0] += value.re;
+    } else {
+        coefficients[2 * h - 1] += value.re;
+        coefficients[2 * h] -= value.im;
+    }
+}
+
+/// Scalar product in four lanes, which the compiler turns into vector instructions.
+pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
+    let mut lanes = [0.0; 4];
+    let (a4, b4) = (a.chunks_exact(4), b.chunks_exact(4));
+    let rest: f64 = a4.remainder().iter().zip(b4.remainder()).map(|(x, y)| x * y).sum();
+    for (x, y) in a4.zip(b4) {
+        for (lane, (p, q)) in lanes.iter_mut().zip(x.iter().zip(y)) {
+            *lane += p * q;
+        }
+    }
+    lanes.iter().sum::<f64>() + rest
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "tests")]
+    use super::*;
+
+    #[test]
+    fn projection_undoes_synthesis() {
+        let fourier = Fourier::new(4, 32);
+        let given: Vec<f64> = (0..9).map(|k| f64::from(k) - 3.3).collect();
+        let (mut samples, mut back) = (vec![0.0; 32], vec![0.0; 9]);
+        fourier.synthesise(&given, &mut samples);
+        fourier.project(&samples, &mut back);
+        for (g, b) in given.iter().zip(&back) {
+            assert!((g - b).abs() < 1e-13);
+        }
+    }
+
+    #[test]
+    fn the_multiplier_is_synthesis_product_projection() {
+        let fourier = Fourier::new(3, 40);
+        let weight: Vec<f64> = (0..40).map(|n| (f64::from(n) * 0.37).sin() + 0.1 * f64::from(n % 7)).collect();
+        let matrix = fourier.multiplier(&weight);
+        for k in 0..7 {
+            let mut unit = vec![0.0; 7];
+            unit[k] = 1.0;
+            let (mut samples, mut column) = (vec![0.0; 40], vec![0.0; 7]);
+            fourier.synthesise(&unit, &mut samples);
+            samples.iter_mut().zip(&weight).for_each(|(s, w)| *s *= w);
+            fourier.project(&samples, &mut column);
+            for row in 0..7 {
+                assert!((matrix[row * 7 + k] - column[row]).abs() < 1e-13, "{row} {k}");
+            }
+        }
+    }
+
+    #[test]
+    fn the_derivative_is_that_of_the_complex_amplitude() {
+        let given = [0.5, 1.0, 2.0, -3.0, 0.25];
+        let mut derivative = [0.0; 5];
+        differentiate(3.0, &given, &mut derivative);
+        for h in 1..=2 {
+            let expected = amplitude(&given, h) * c64::new(0.0, 3.0 * h as f64);
+            assert!((amplitude(&derivative, h) - expected).norm() < 1e-14);
+        }
+    }
+}

@@ -1,0 +1,339 @@
+//! The nonlinear laws inside Newton's method: what a law answers to the harmonics of its force and relative motion.
+//!
+//! Unknowns are the harmonics `F` of the leg forces; the motion `D` follows from them. Each law gives `Phi(F, D)`, and
+//! the balance asks for `F = Phi`:
+//!
+//! ```text
+//! laws of d and d'        Phi = P f(d, d')
+//! friction (set-valued)   Phi = P [ g(v) + clamp(F - g(v) + r v, -bound, bound) ]       any r > 0
+//! laws with memory        Phi = P [ steady state of the marched law ]
+//! ```
+//!
+//! `P` projects samples on harmonics. The clamp is the exact statement of `|F - g| <= bound` at rest and
+//! `F - g = bound sgn(v)` when slipping (Alart and Curnier 1991; Nacivet, Pierre, Thouverez and Jezequel 2003), whatever
+//! `r`: there is no regularised velocity, and full stick, `v = 0`, is a regular solution. `g` is the smooth part of the
+//! Stribeck law. Damping of a power below one is treated alike by its resolvent.
+
+use super::fourier::{Fourier, add_amplitude, amplitude, differentiate, to_complex};
+use crate::effects::{Effect, Law, Leg, Motion};
+
+/// Share by which a friction force is drawn to zero where the motion leaves it free (mean force in full stick, two
+/// frictions on one leg).
+pub(crate) const SLACK: f64 = 1e-9;
+
+/// One relative motion with a nonlinear law.
+#[derive(Clone)]
+pub(crate) struct NonlinearLeg {
+    /// Index of the source in the list given.
+    pub source: usize,
+    pub leg: Leg,
+    pub effect: Effect,
+    pub parameters: Vec<f64>,
+    pub law: &'static dyn Law,
+    /// Velocity weight `r` of the clamp, N s/m.
+    pub weight: f64,
+}
+
+/// How a law is to be asked.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Manner {
+    /// By displacement and velocity at one instant.
+    Pointwise,
+    /// By force and velocity at one instant (friction).
+    SetValued,
+    /// By the whole period.
+    Memory,
+}
+
+/// Answer of a law at one instant: value and slopes by the leg's own force, displacement and velocity.
+#[derive(Clone, Copy, Default)]
+pub(crate) struct Instant {
+    pub value: f64,
+    pub by_force: f64,
+    pub by_displacement: f64,
+    pub by_velocity: f64,
+}
+
+/// `Phi` of one leg with its derivatives.
+pub(crate) struct Answer {
+    /// Coefficients of `Phi`, `2 H + 1`.
+    pub value: Vec<f64>,
+    /// Derivative by the coefficients of the own force, row by row; `None` is zero.
+    pub by_force: Option<Vec<f64>>,
+    /// Derivative by the coefficients of the relative motion, row by row.
+    pub by_motion: Vec<f64>,
+}
+
+impl NonlinearLeg {
+    /// How the law is asked.
+    pub fn manner(&self) -> Manner {
+        match self.effect {
+            Effect::Coulomb | Effect::Stribeck => Manner::SetValued,
+            Effect::Power if self.parameters[1] < 1.0 => Manner::SetValued,
+            Effect::ElasticSlider | Effect::Iwan => Manner::Memory,
+            _ => Manner::Pointwise,
+        }
+    }
+
+    /// Whether the force may answer a larger motion in more than one way (stiffness laws fold the response).
+    pub fn folds(&self) -> bool {
+        matches!(self.effect, Effect::CubicStiffness | Effect::QuadraticStiffness | Effect::Gap | Effect::Stribeck)
+    }
+
+    /// The law at one instant. `f` is the leg's force (looked at by friction only).
+    fn instant(&self, f: f64, d: f64, v: f64) -> Instant {
+        match self.effect {
+            Effect::Coulomb => clamp(f, v, self.weight, self.parameters[0], [0.0, 0.0]),
+            Effect::Stribeck => clamp(f, v, self.weight, self.parameters[1], self.falling(v)),
+            Effect::Power if self.parameters[1] < 1.0 => self.resolvent(f + self.weight * v),
+            _ => {
+                let point = self.law.point(&self.parameters, 0.0, d, v).unwrap_or_default();
+                Instant {
+                    value: point.force,
+                    by_force: 0.0,
+                    by_displacement: point.by_displacement,
+                    by_velocity: point.by_velocity,
+                }
+            }
+        }
+    }
+
+    /// Smooth part `g(v) = (F_c - F_s) (1 - exp(-|v| / v_s)) sgn v` of the Stribeck law, and its slope.
+    fn falling(&self, v: f64) -> [f64; 2] {
+        let [sliding, resting, velocity] = [self.parameters[0], self.parameters[1], self.parameters[2]];
+        let decay = (-v.abs() / velocity).exp();
+        [(sliding - resting) * (1.0 - decay) * v.signum(), (sliding - resting) * decay / velocity]
+    }
+
+    /// Force on the graph `F = c |v|^e sgn v`, `e < 1`, where `F + r v = s`.
+    fn resolvent(&self, s: f64) -> Instant {
+        let [c, e] = [self.parameters[0].max(0.0), self.parameters[1]];
+        let speed = resolvent_speed(c, e, self.weight, s.abs());
+        let steep = if speed > 0.0 { c * e * speed.powf(e - 1.0) } else { f64::INFINITY };
+        let by_force = if c == 0.0 { 0.0 } else { 1.0 - self.weight / (steep + self.weight) };
+        let by_force = if e == 0.0 && speed == 0.0 { 1.0 } else { by_force };
+        let value = (s.abs() - self.weight * speed) * s.signum();
+        Instant { value, by_force, by_displacement: 0.0, by_velocity: self.weight * by_force }
+    }
+
+    /// Derivative of the answer at one instant by parameter `k`, force and motion held.
+    fn instant_by_parameter(&self, k: usize, f: f64, d: f64, v: f64) -> f64 {
+        let p = &self.parameters;
+        match self.effect {
+            Effect::Coulomb => {
+                let s = f + self.weight * v;
+                if s.abs() >= p[0] { s.signum() } else { 0.0 }
+            }
+            Effect::Stribeck => {
+                let s = f - self.falling(v)[0] + self.weight * v;
+                if s.abs() < p[1] {
+                    return 0.0;
+                }
+                let decay = (-v.abs() / p[2]).exp();
+                match k {
+                    0 => (1.0 - decay) * v.signum(),
+                    1 => s.signum() - (1.0 - decay) * v.signum(),
+                    _ => (p[1] - p[0]) * decay * v / (p[2] * p[2]),
+                }
+            }
+            Effect::Power if p[1] < 1.0 => {
+                let s = f + self.weight * v;
+                let speed = resolvent_speed(p[0].max(0.0), p[1], self.weight, s.abs());
+                if speed == 0.0 {
+                    return 0.0;
+                }
+                let raised = speed.powf(p[1]);
+                let by = if k == 0 { raised } else { p[0] * raised * speed.ln() };
+                let steep = p[0] * p[1] * raised / speed;
+                self.weight * by / (steep + self.weight) * s.signum()
+            }
+            _ => {
+                let _ = d;
+                0.0
+            }
+        }
+    }
+
+    /// `Phi` at the given coefficients of force and motion.
+    pub fn value(&self, fourier: &Fourier, omega: f64, force: &[f64], motion: &[f64]) -> Vec<f64> {
+        let mut samples = vec![0.0; fourier.samples()];
+        if self.manner() == Manner::Memory {
+            self.law.force(&self.parameters, &sampled(fourier, omega, motion), &mut samples);
+        } else {
+            let [f, d, v] = self.histories(fourier, omega, force, motion);
+            for (n, s) in samples.iter_mut().enumerate() {
+                *s = self.instant(f[n], d[n], v[n]).value;
+            }
+        }
+        let mut coefficients = vec![0.0; fourier.width()];
+        fourier.project(&samples, &mut coefficients);
+        coefficients
+    }
+
+    /// `Phi` with its derivatives.
+    pub fn answer(&self, fourier: &Fourier, omega: f64, force: &[f64], motion: &[f64]) -> Answer {
+        if self.manner() == Manner::Memory {
+            return self.memory_answer(fourier, omega, motion);
+        }
+        let [f, d, v] = self.histories(fourier, omega, force, motion);
+        let instants: Vec<Instant> = (0..f.len()).map(|n| self.instant(f[n], d[n], v[n])).collect();
+        let part = |pick: fn(&Instant) -> f64| -> Vec<f64> { instants.iter().map(pick).collect() };
+        let mut value = vec![0.0; fourier.width()];
+        fourier.project(&part(|i| i.value), &mut value);
+        let set_valued = self.manner() == Manner::SetValued;
+        let by_force = set_valued.then(|| fourier.multiplier(&part(|i| i.by_force)));
+        let mut by_motion = if set_valued {
+            vec![0.0; fourier.width() * fourier.width()]
+        } else {
+            fourier.multiplier(&part(|i| i.by_displacement))
+        };
+        let slopes = part(|i| i.by_velocity);
+        if slopes.iter().any(|&s| s != 0.0) {
+            add_velocity_columns(&mut by_motion, &fourier.multiplier(&slopes), omega, fourier.harmonics());
+        }
+        Answer { value, by_force, by_motion }
+    }
+
+    fn memory_answer(&self, fourier: &Fourier, omega: f64, motion: &[f64]) -> Answer {
+        let width = fourier.width();
+        let sampled_motion = sampled(fourier, omega, motion);
+        let (mut samples, mut column) = (vec![0.0; fourier.samples()], vec![0.0; width]);
+        let mut value = vec![0.0; width];
+        self.law.force(&self.parameters, &sampled_motion, &mut samples);
+        fourier.project(&samples, &mut value);
+        let mut by_motion = vec![0.0; width * width];
+        let mut unit = vec![0.0; width];
+        for k in 0..width {
+            unit[k] = 1.0;
+            let direction = sampled(fourier, omega, &unit);
+            unit[k] = 0.0;
+            self.law.tangent(&self.parameters, &sampled_motion, &direction, &mut samples);
+            fourier.project(&samples, &mut column);
+            for (row, c) in column.iter().enumerate() {
+                by_motion[row * width + k] = *c;
+            }
+        }
+        Answer { value, by_force: None, by_motion }
+    }
+
+    /// Derivative of `Phi` by parameter `k`, force and motion held.
+    pub fn by_parameter(&self, fourier: &Fourier, omega: f64, k: usize, force: &[f64], motion: &[f64]) -> Vec<f64> {
+        let mut samples = vec![0.0; fourier.samples()];
+        if self.manner() == Manner::SetValued {
+            let [f, d, v] = self.histories(fourier, omega, force, motion);
+            for (n, s) in samples.iter_mut().enumerate() {
+                *s = self.instant_by_parameter(k, f[n], d[n], v[n]);
+            }
+        } else {
+            self.law.parameter_tangent(&self.parameters, k, &sampled(fourier, omega, motion), &mut samples);
+        }
+        let mut coefficients = vec![0.0; fourier.width()];
+        fourier.project(&samples, &mut coefficients);
+        coefficients
+    }
+
+    /// Samples of force, displacement and velocity; those the law does not look at stay zero.
+    pub fn histories(&self, fourier: &Fourier, omega: f64, force: &[f64], motion: &[f64]) -> [Vec<f64>; 3] {
+        let blank = vec![0.0; fourier.samples()];
+        let [mut f, mut d, mut v] = [blank.clone(), blank.clone(), blank];
+        let velocity_law = matches!(self.effect, Effect::Quadratic | Effect::Power);
+        if self.manner() == Manner::SetValued {
+            fourier.synthesise(force, &mut f);
+        } else if !velocity_law {
+            fourier.synthesise(motion, &mut d);
+        }
+        if self.manner() == Manner::SetValued || velocity_law {
+            let mut velocity = vec![0.0; motion.len()];
+            differentiate(omega, motion, &mut velocity);
+            fourier.synthesise(&velocity, &mut v);
+        }
+        [f, d, v]
+    }
+
+    /// Local stiffness and damping along the period at a solution (for stability): the slopes of the law; where friction
+    /// sticks, a damping that holds it.
+    pub fn slopes(&self, fourier: &Fourier, omega: f64, force: &[f64], motion: &[f64]) -> Vec<[f64; 2]> {
+        let [f, d, v] = self.histories(fourier, omega, force, motion);
+        let answer = |n: usize| {
+            let instant = self.instant(f[n], d[n], v[n]);
+            match self.manner() {
+                Manner::SetValued if instant.by_force >= 0.999 => [0.0, 1e3 * self.weight],
+                Manner::SetValued if instant.by_force > 0.0 => {
+                    [0.0, instant.by_velocity / (1.0 - instant.by_force)]
+                }
+                _ => [instant.by_displacement, instant.by_velocity],
+            }
+        };
+        (0..f.len()).map(answer).collect()
+    }
+}
+
+/// Adds `T_v Omega`: a slope by the velocity seen as one by the displacement coefficients.
+fn add_velocity_columns(by_motion: &mut [f64], by_velocity: &[f64], omega: f64, harmonics: usize) {
+    let width = 2 * harmonics + 1;
+    for row in 0..width {
+        for h in 1..=harmonics {
+            let w = h as f64 * omega;
+            by_motion[row * width + 2 * h - 1] -= w * by_velocity[row * width + 2 * h];
+            by_motion[row * width + 2 * h] += w * by_velocity[row * width + 2 * h - 1];
+        }
+    }
+}
+
+/// Friction bounded by `bound`, with smooth part `g`.
+fn clamp(f: f64, v: f64, weight: f64, bound: f64, [g, slope]: [f64; 2]) -> Instant {
+    let s = f - g + weight * v;
+    if s.abs() >= bound.max(0.0) {
+        let value = g + bound.max(0.0) * s.signum();
+        Instant { value, by_force: 0.0, by_displacement: 0.0, by_velocity: slope }
+    } else {
+        Instant { value: f + weight * v, by_force: 1.0, by_displacement: 0.0, by_velocity: weight }
+    }
+}
+
+/// Root `x >= 0` of `c x^e + r x = s` for `0 <= e < 1`, by Newton's method in `y = x^e` where that is well scaled.
+fn resolvent_speed(c: f64, e: f64, r: f64, s: f64) -> f64 {
+    if c == 0.0 || s == 0.0 {
+        return s / r;
+    }
+    if e < 1e-3 {
+        return (s - c).max(0.0) / r;
+    }
+    // In x^e the left side is convex and rising, so Newton from above falls monotonically to the root.
+    let mut y = (s / c).min((s / r).powf(e));
+    for _ in 0..60 {
+        let x = y.powf(1.0 / e);
+        let slope = c + r * x / (e * y.max(f64::MIN_POSITIVE));
+        let step = (c * y + r * x - s) / slope;
+        y = (y - step).max(0.0);
+        if step.abs() <= 1e-15 * y {
+            break;
+        }
+    }
+    y.powf(1.0 / e)
+}
+
+/// The motion of real coefficients as laws take it.
+pub(crate) fn sampled(fourier: &Fourier, omega: f64, coefficients: &[f64]) -> Motion {
+    let (mean, harmonics) = to_complex(coefficients);
+    let mut derivative = vec![0.0; coefficients.len()];
+    let mut second = vec![0.0; coefficients.len()];
+    differentiate(omega, coefficients, &mut derivative);
+    differentiate(omega, &derivative, &mut second);
+    let blank = vec![0.0; fourier.samples()];
+    let mut motion =
+        Motion { omega, mean, harmonics, displacement: blank.clone(), velocity: blank.clone(), acceleration: blank };
+    fourier.synthesise(coefficients, &mut motion.displacement);
+    fourier.synthesise(&derivative, &mut motion.velocity);
+    fourier.synthesise(&second, &mut motion.acceleration);
+    motion
+}
+
+/// Coefficients with another number of harmonics: cut, or filled with zeros.
+pub(crate) fn resized(coefficients: &[f64], harmonics: usize) -> Vec<f64> {
+    let mut result = vec![0.0; 2 * harmonics + 1];
+    for h in 0..=harmonics {
+        add_amplitude(&mut result, h, amplitude(coefficients, h));
+    }
+    result
+}

@@ -1,0 +1,51 @@
+//! Periodic steady state by harmonic balance with alternating frequency and time.
+//!
+//! ```text
+//! Z(h w) X_h + sum_l L_l F_l,h = F_ext,h,     h = 0..H,      F_l = P f_l(d_l, d_l'),     d_l = L_l^T x
+//! ```
+//!
+//! The linear rest is condensed exactly to the relative motions of the nonlinear sources (`condense`), whose forces are
+//! found by a damped Newton method with analytic Jacobian (`newton`, `legs`). Friction is set-valued, not regularised.
+//! Harmonics are added until the response no longer changes (`solve`); turning points are passed by arc length
+//! (`continuation`); stability is that of Floquet's multipliers (`stability`).
+
+mod compliance;
+mod condense;
+mod dense;
+mod fourier;
+mod legs;
+mod model;
+mod newton;
+mod outcome;
+mod solve;
+
+pub use model::{Excitation, ForwardModel, HarmonicForce, ModelError, RunModel};
+pub use outcome::{Attempt, Response, ResponseError, SourceForce, Status, Step};
+
+/// How many harmonics, and how exactly.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Settings {
+    /// Harmonics of the first solution.
+    pub harmonics: usize,
+    /// Most harmonics; no more than `harmonics` keeps their number fixed and estimates the truncation error only.
+    pub most_harmonics: usize,
+    /// Harmonics whose change decides whether there are enough.
+    pub watched: usize,
+    /// Largest change of a watched harmonic from one number of harmonics to the next, relative to the largest amplitude.
+    pub truncation: f64,
+    /// Relative residual of the force balance.
+    pub tolerance: f64,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self { harmonics: 7, most_harmonics: 63, watched: 7, truncation: 1e-5, tolerance: 1e-10 }
+    }
+}
+
+impl Settings {
+    /// A fixed number of harmonics.
+    pub fn fixed(harmonics: usize) -> Self {
+        Self { harmonics, most_harmonics: harmonics, ..Self::default() }
+    }
+}

@@ -1,0 +1,170 @@
+//! Damped Newton method on the balance of leg forces `R(F) = (1 + slack) F - Phi(F, D(F)) = 0`, with the Jacobian
+//! `J = 1 + slack - Phi_F + Phi_D C`.
+
+use super::condense::Condensed;
+use super::dense::Lu;
+use super::fourier::Fourier;
+use super::legs::{Answer, Manner, SLACK};
+
+/// Halvings of a Newton step before it is taken all the same.
+const HALVINGS: usize = 7;
+/// Newton steps at one level.
+const STEPS: usize = 60;
+
+/// A condensed system with the tables of its harmonics.
+pub(crate) struct Balance<'a> {
+    pub condensed: &'a Condensed,
+    pub fourier: &'a Fourier,
+}
+
+/// Residual with everything its Jacobian needs.
+pub(crate) struct State {
+    pub residual: Vec<f64>,
+    pub answers: Vec<Answer>,
+}
+
+/// How a Newton solve ended.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Ending {
+    pub converged: bool,
+    pub steps: usize,
+    /// Largest residual relative to the largest leg force.
+    pub residual: f64,
+}
+
+impl Balance<'_> {
+    fn range(&self, leg: usize) -> std::ops::Range<usize> {
+        let width = self.condensed.width();
+        leg * width..(leg + 1) * width
+    }
+
+    fn slack(&self, leg: usize) -> f64 {
+        if self.condensed.legs[leg].manner() == Manner::SetValued { SLACK } else { 0.0 }
+    }
+
+    /// Residual at `u` under `level` times the excitation.
+    pub fn residual(&self, u: &[f64], level: f64) -> Vec<f64> {
+        let motion = self.condensed.motion(u, level);
+        let mut residual = vec![0.0; u.len()];
+        for (i, leg) in self.condensed.legs.iter().enumerate() {
+            let range = self.range(i);
+            let phi = leg.value(self.fourier, self.condensed.omega, &u[range.clone()], &motion[range.clone()]);
+            for ((r, f), p) in residual[range.clone()].iter_mut().zip(&u[range]).zip(phi) {
+                *r = f * (1.0 + self.slack(i)) - p;
+            }
+        }
+        residual
+    }
+
+    /// Residual and the laws' derivatives.
+    pub fn state(&self, u: &[f64], level: f64) -> State {
+        let motion = self.condensed.motion(u, level);
+        let mut residual = vec![0.0; u.len()];
+        let mut answers = Vec::with_capacity(self.condensed.legs.len());
+        for (i, leg) in self.condensed.legs.iter().enumerate() {
+            let range = self.range(i);
+            let answer = leg.answer(self.fourier, self.condensed.omega, &u[range.clone()], &motion[range.clone()]);
+            for ((r, f), p) in residual[range.clone()].iter_mut().zip(&u[range]).zip(&answer.value) {
+                *r = f * (1.0 + self.slack(i)) - p;
+            }
+            answers.push(answer);
+        }
+        State { residual, answers }
+    }
+
+    /// Jacobian `dR/dF`, row by row.
+    pub fn jacobian(&self, answers: &[Answer]) -> Vec<f64> {
+        let (size, width, count) = (self.condensed.size(), self.condensed.width(), answers.len());
+        let mut jacobian = vec![0.0; size * size];
+        for (i, answer) in answers.iter().enumerate() {
+            for row in 0..width {
+                let out = &mut jacobian[(i * width + row) * size..(i * width + row + 1) * size];
+                let slopes = &answer.by_motion[row * width..(row + 1) * width];
+                for j in 0..count {
+                    self.add_coupled(i, j, slopes, &mut out[j * width..(j + 1) * width]);
+                }
+                if let Some(by_force) = &answer.by_force {
+                    let own = &by_force[row * width..(row + 1) * width];
+                    out[i * width..(i + 1) * width].iter_mut().zip(own).for_each(|(x, s)| *x -= s);
+                }
+                out[i * width + row] += 1.0 + self.slack(i);
+            }
+        }
+        jacobian
+    }
+
+    /// Adds a row of `Phi_D C_ij`.
+    fn add_coupled(&self, i: usize, j: usize, slopes: &[f64], out: &mut [f64]) {
+        let count = self.condensed.legs.len();
+        out[0] += slopes[0] * self.condensed.levels[0].coupling[i * count + j].re;
+        for (h, level) in self.condensed.levels.iter().enumerate().skip(1) {
+            let c = level.coupling[i * count + j];
+            let (a, b) = (slopes[2 * h - 1], slopes[2 * h]);
+            out[2 * h - 1] += a * c.re - b * c.im;
+            out[2 * h] += a * c.im + b * c.re;
+        }
+    }
+
+    /// Change of the laws' answers under a change `motion` of the relative motions (coefficients of all legs).
+    pub fn answer_change(&self, answers: &[Answer], motion: &[f64]) -> Vec<f64> {
+        let width = self.condensed.width();
+        let mut change = Vec::with_capacity(motion.len());
+        for (answer, part) in answers.iter().zip(motion.chunks_exact(width)) {
+            change.extend(answer.by_motion.chunks_exact(width).map(|row| super::fourier::dot(row, part)));
+        }
+        change
+    }
+
+    /// Largest residual relative to the largest force.
+    pub fn relative(&self, residual: &[f64], u: &[f64]) -> f64 {
+        let largest = |x: &[f64]| x.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
+        let answer = largest(u) + largest(residual);
+        if answer == 0.0 { 0.0 } else { largest(residual) / answer }
+    }
+
+    /// Iterates `u` to the balance under `level` times the excitation.
+    pub fn solve(&self, u: &mut Vec<f64>, level: f64, tolerance: f64) -> Ending {
+        let mut state = self.state(u, level);
+        let mut best = (f64::INFINITY, u.clone());
+        for steps in 0..STEPS {
+            let residual = self.relative(&state.residual, u);
+            if residual < best.0 {
+                best = (residual, u.clone());
+            }
+            if residual <= tolerance {
+                return Ending { converged: true, steps, residual };
+            }
+            let Some(lu) = Lu::new(u.len(), self.jacobian(&state.answers)) else { break };
+            let mut step = state.residual.clone();
+            lu.solve(&mut step);
+            if step.iter().any(|x| !x.is_finite()) {
+                break;
+            }
+            *u = self.damped(u, &step, &state.residual, level);
+            state = self.state(u, level);
+        }
+        u.clone_from(&best.1);
+        // A residual at the level of rounding of a stiff law is an answer.
+        Ending { converged: best.0 <= 100.0 * tolerance, steps: STEPS, residual: best.0 }
+    }
+
+    /// The longest of the halved steps that lowers the residual; the full step if none does.
+    fn damped(&self, u: &[f64], step: &[f64], residual: &[f64], level: f64) -> Vec<f64> {
+        let norm = |x: &[f64]| x.iter().map(|v| v * v).sum::<f64>();
+        let before = norm(residual);
+        let moved = |share: f64| -> Vec<f64> { u.iter().zip(step).map(|(x, s)| x - share * s).collect() };
+        let mut best = (f64::INFINITY, 1.0);
+        let mut share = 1.0;
+        for _ in 0..HALVINGS {
+            let after = norm(&self.residual(&moved(share), level));
+            if after < before * (1.0 - 1e-4 * share) {
+                return moved(share);
+            }
+            if after < best.0 {
+                best = (after, share);
+            }
+            share *= 0.5;
+        }
+        moved(best.1)
+    }
+}

@@ -1,0 +1,139 @@
+//! What a forward computation gives back: the response, how it was found, and why it was not.
+
+use super::model::ModelError;
+use crate::control::Cancelled;
+use crate::effects::Leg;
+use faer::{Mat, c64};
+
+/// Why there is no response.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum ResponseError {
+    /// The model itself is at fault.
+    #[error(transparent)]
+    Model(#[from] ModelError),
+    /// Nothing converged.
+    #[error("no periodic response was found at {frequency_hz:.6} Hz beyond {level:.3} of the force (residual {residual:.1e} with {harmonics} harmonics after {steps} steps): the motion there may not be periodic; lower the force or give a start nearby")]
+    NotConverged {
+        /// Fundamental frequency, Hz.
+        frequency_hz: f64,
+        /// Share of the excitation that was reached.
+        level: f64,
+        /// Harmonics tried last.
+        harmonics: usize,
+        /// Newton steps in all.
+        steps: usize,
+        /// Relative residual left.
+        residual: f64,
+    },
+    /// The fundamental frequency is not positive.
+    #[error("the fundamental frequency is {frequency_hz} Hz: give a positive one")]
+    BadFrequency {
+        /// Value given, Hz.
+        frequency_hz: f64,
+    },
+    /// The computation was asked to stop.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
+}
+
+/// How a response was reached.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Status {
+    /// No nonlinear source: solved directly.
+    Linear,
+    /// Converged to the tolerance, and enough harmonics.
+    Converged,
+    /// Converged, but the truncation error is above the tolerance at the most harmonics allowed.
+    HarmonicsExhausted,
+    /// More harmonics did not converge; the result is that of fewer.
+    FellBack,
+}
+
+/// One attempt on the way to a response.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Step {
+    /// Harmonics.
+    pub harmonics: usize,
+    /// What was tried.
+    pub attempt: Attempt,
+    /// Newton steps.
+    pub steps: usize,
+    /// Relative residual at the end.
+    pub residual: f64,
+    /// Whether it converged.
+    pub converged: bool,
+}
+
+/// A way to reach a solution.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Attempt {
+    /// Newton's method from the start.
+    Newton,
+    /// The force raised in steps, Newton's method at each.
+    Level,
+    /// The force followed by arc length through turning points.
+    Arc,
+}
+
+/// Force of one source at one relative motion.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SourceForce {
+    /// Index in the list of sources.
+    pub source: usize,
+    /// Where it acts.
+    pub leg: Leg,
+    /// Static force, N.
+    pub mean: f64,
+    /// Complex amplitudes of harmonics 1..=H, N.
+    pub harmonics: Vec<c64>,
+}
+
+/// A periodic response of all degrees of freedom.
+#[derive(Debug, Clone)]
+pub struct Response {
+    /// Fundamental circular frequency, rad/s.
+    pub omega: f64,
+    /// Static displacement of every DOF, m.
+    pub mean: Vec<f64>,
+    /// Complex amplitudes of displacement, m: n rows, column `h - 1` is harmonic `h`.
+    pub harmonics: Mat<c64>,
+    /// How it was reached.
+    pub status: Status,
+    /// Estimated error (m) of each harmonic by truncation of the series, largest over all DOFs; 0 for linear models.
+    pub truncation: Vec<f64>,
+    /// Forces of all sources between single DOFs.
+    pub forces: Vec<SourceForce>,
+    /// Attempts in order.
+    pub history: Vec<Step>,
+    /// Coefficients of the nonlinear leg forces, `2 H + 1` a leg.
+    pub(crate) unknowns: Vec<f64>,
+    /// Sign of the Jacobian's determinant at the solution (changes at turning points).
+    pub(crate) orientation: f64,
+}
+
+impl Response {
+    /// Complex displacement amplitude (m) of row `dof` at harmonic `h >= 1`; 0 beyond the harmonics.
+    pub fn amplitude(&self, dof: usize, h: usize) -> c64 {
+        if h >= 1 && h <= self.harmonics.ncols() { self.harmonics[(dof, h - 1)] } else { c64::new(0.0, 0.0) }
+    }
+
+    /// Number of harmonics.
+    pub fn order(&self) -> usize {
+        self.harmonics.ncols()
+    }
+
+    /// Displacement (m) and velocity (m/s) of every DOF at time `t` (s).
+    pub fn state_at(&self, t: f64) -> (Vec<f64>, Vec<f64>) {
+        let mut displacement = self.mean.clone();
+        let mut velocity = vec![0.0; displacement.len()];
+        for h in 1..=self.order() {
+            let w = h as f64 * self.omega;
+            let (sin, cos) = (w * t).sin_cos();
+            for (dof, x) in self.harmonics.col_as_slice(h - 1).iter().enumerate() {
+                displacement[dof] += x.re * cos - x.im * sin;
+                velocity[dof] -= w * (x.re * sin + x.im * cos);
+            }
+        }
+        (displacement, velocity)
+    }
+}

@@ -1,0 +1,288 @@
+//! From a start to the response: Newton's method, the force raised in steps where that fails, arc length in the force
+//! where it turns back; then more harmonics until the watched ones rest.
+
+use super::Settings;
+use super::condense::{Condensed, push_leg, split};
+use super::dense::Lu;
+use super::fourier::{Fourier, amplitude};
+use super::legs::{Manner, resized};
+use super::model::{Excitation, MOST_HARMONICS, RunModel};
+use super::newton::{Balance, Ending};
+use super::outcome::{Attempt, Response, ResponseError, SourceForce, Status, Step};
+use crate::control::Control;
+use crate::effects::Source;
+use faer::{Mat, c64};
+use std::f64::consts::TAU;
+use std::sync::Arc;
+
+/// Smallest step of the force, as a share of the excitation.
+const LEAST_LEVEL_STEP: f64 = 1e-4;
+/// Most force levels on the way up.
+const MOST_LEVELS: usize = 200;
+/// Steps of the force for laws that may fold, so that the branch reached is that of a force raised slowly.
+const FOLDING_LEVELS: f64 = 6.0;
+
+/// Samples of a period for a number of harmonics: kinks of friction and gaps alias as `1 / N^2`.
+pub(crate) fn samples_for(condensed: &Condensed) -> usize {
+    let sharp = condensed.legs.iter().any(|leg| leg.manner() != Manner::Pointwise);
+    let factor = if sharp { 32 } else { 16 };
+    (factor * (condensed.harmonics + 1)).next_power_of_two().min(4096)
+}
+
+/// Condensed system and tables of one run at a number of harmonics.
+pub(crate) struct Prepared {
+    pub condensed: Condensed,
+    pub fourier: Arc<Fourier>,
+}
+
+impl Prepared {
+    pub fn new(
+        run: &RunModel,
+        sources: &[Source],
+        excitation: &Excitation,
+        harmonics: usize,
+    ) -> Result<Self, ResponseError> {
+        let condensed = Condensed::new(|h| run.compliance(h), sources, excitation, harmonics)?;
+        let fourier = run.table(harmonics, samples_for(&condensed));
+        Ok(Self { condensed, fourier })
+    }
+
+    pub fn balance(&self) -> Balance<'_> {
+        Balance { condensed: &self.condensed, fourier: &self.fourier }
+    }
+
+    /// Leg forces of another number of harmonics brought to this one.
+    pub fn adapt(&self, unknowns: &[f64]) -> Vec<f64> {
+        let count = self.condensed.legs.len();
+        if count == 0 || unknowns.len() % count != 0 {
+            return vec![0.0; self.condensed.size()];
+        }
+        unknowns.chunks_exact(unknowns.len() / count).flat_map(|c| resized(c, self.condensed.harmonics)).collect()
+    }
+}
+
+/// See [`RunModel::respond`].
+pub(crate) fn respond(
+    run: &RunModel,
+    sources: &[Source],
+    excitation: &Excitation,
+    settings: &Settings,
+    start: Option<&Response>,
+    control: &Control,
+) -> Result<Response, ResponseError> {
+    if !(excitation.omega > 0.0 && excitation.omega.is_finite()) {
+        return Err(ResponseError::BadFrequency { frequency_hz: excitation.omega / TAU });
+    }
+    let driven = excitation.forces.iter().map(|f| f.harmonics.len()).max().unwrap_or(0);
+    // A linear model answers at the driven harmonics only.
+    let wanted = if split(sources).0.is_empty() { 1 } else { settings.harmonics };
+    let first = wanted.max(driven).clamp(1, MOST_HARMONICS);
+    let most = settings.most_harmonics.clamp(first, MOST_HARMONICS);
+    let mut prepared = Prepared::new(run, sources, excitation, first)?;
+    if prepared.condensed.legs.is_empty() {
+        let mut response = assemble(run, &prepared, excitation, Vec::new());
+        response.status = Status::Linear;
+        return Ok(response);
+    }
+    let mut history = Vec::new();
+    let mut response = at_order(run, &prepared, excitation, settings, start, control, &mut history)?;
+    loop {
+        control.check()?;
+        let finer_order = (2 * response.order() + 1).min(MOST_HARMONICS);
+        if finer_order > most {
+            estimate_truncation(run, sources, excitation, &mut response)?;
+            let enough = settings.most_harmonics <= settings.harmonics || rests(&response, settings);
+            response.status = if enough { Status::Converged } else { Status::HarmonicsExhausted };
+            break;
+        }
+        prepared = Prepared::new(run, sources, excitation, finer_order)?;
+        let finer = at_order(run, &prepared, excitation, settings, Some(&response), control, &mut history);
+        match finer {
+            Ok(finer) => {
+                let truncation = change(&response, &finer);
+                response = Response { truncation, ..finer };
+            }
+            Err(ResponseError::NotConverged { .. }) => {
+                estimate_truncation(run, sources, excitation, &mut response)?;
+                response.status = Status::FellBack;
+                break;
+            }
+            Err(other) => return Err(other),
+        }
+        if rests(&response, settings) {
+            response.status = Status::Converged;
+            break;
+        }
+    }
+    response.history = history;
+    Ok(response)
+}
+
+/// Whether the watched harmonics rest within the tolerance.
+fn rests(response: &Response, settings: &Settings) -> bool {
+    let largest = largest_amplitude(response);
+    response.truncation.iter().take(settings.watched).all(|&t| t <= settings.truncation * largest)
+}
+
+fn largest_amplitude(response: &Response) -> f64 {
+    (0..response.order()).flat_map(|h| response.harmonics.col_as_slice(h)).fold(0.0, |m, x| m.max(x.norm()))
+}
+
+/// Change of each harmonic between two numbers of harmonics, half of it: the error of the finer one, which falls at
+/// least with the square of the number.
+fn change(coarse: &Response, fine: &Response) -> Vec<f64> {
+    let difference = |h: usize| {
+        (0..fine.mean.len()).fold(0.0_f64, |m, i| m.max((fine.amplitude(i, h) - coarse.amplitude(i, h)).norm()))
+    };
+    (1..=fine.order()).map(|h| 0.5 * difference(h)).collect()
+}
+
+/// Truncation error by one Newton step with twice the harmonics.
+fn estimate_truncation(
+    run: &RunModel,
+    sources: &[Source],
+    excitation: &Excitation,
+    response: &mut Response,
+) -> Result<(), ResponseError> {
+    let order = (2 * response.order() + 1).min(MOST_HARMONICS);
+    let prepared = Prepared::new(run, sources, excitation, order)?;
+    let mut u = prepared.adapt(&response.unknowns);
+    let balance = prepared.balance();
+    let state = balance.state(&u, 1.0);
+    let mut step = state.residual.clone();
+    if let Some(lu) = Lu::new(u.len(), balance.jacobian(&state.answers)) {
+        lu.solve(&mut step);
+        u.iter_mut().zip(&step).for_each(|(x, s)| *x -= s);
+    }
+    let finer = assemble(run, &prepared, excitation, u);
+    let mut truncation = change(response, &finer);
+    truncation.truncate(response.order());
+    truncation.iter_mut().for_each(|t| *t *= 2.0);
+    response.truncation = truncation;
+    Ok(())
+}
+
+/// The solution at one number of harmonics.
+fn at_order(
+    run: &RunModel,
+    prepared: &Prepared,
+    excitation: &Excitation,
+    settings: &Settings,
+    start: Option<&Response>,
+    control: &Control,
+    history: &mut Vec<Step>,
+) -> Result<Response, ResponseError> {
+    let balance = prepared.balance();
+    let harmonics = prepared.condensed.harmonics;
+    let mut record = |attempt: Attempt, ending: Ending| {
+        let Ending { converged, steps, residual } = ending;
+        history.push(Step { harmonics, attempt, steps, residual, converged });
+    };
+    let folds = prepared.condensed.legs.iter().any(super::legs::NonlinearLeg::folds);
+    let mut u = start.map_or_else(|| vec![0.0; prepared.condensed.size()], |s| prepared.adapt(&s.unknowns));
+    if start.is_some() || !folds {
+        let ending = balance.solve(&mut u, 1.0, settings.tolerance);
+        record(Attempt::Newton, ending);
+        if ending.converged {
+            return Ok(assemble(run, prepared, excitation, u));
+        }
+    }
+    let (ending, reached) = raise(&balance, &mut u, settings.tolerance, control)?;
+    record(Attempt::Level, ending);
+    if ending.converged {
+        return Ok(assemble(run, prepared, excitation, u));
+    }
+    Err(ResponseError::NotConverged {
+        frequency_hz: excitation.omega / TAU,
+        level: reached,
+        harmonics,
+        steps: history.iter().map(|s| s.steps).sum(),
+        residual: ending.residual,
+    })
+}
+
+/// Raises the force from nothing in steps that adapt; gives the ending and the level reached.
+fn raise(
+    balance: &Balance,
+    u: &mut Vec<f64>,
+    tolerance: f64,
+    control: &Control,
+) -> Result<(Ending, f64), ResponseError> {
+    u.fill(0.0);
+    let (mut level, mut step) = (0.0, 1.0 / FOLDING_LEVELS);
+    let mut before = (0.0, u.clone());
+    let mut total = Ending { converged: false, steps: 0, residual: f64::INFINITY };
+    for _ in 0..MOST_LEVELS {
+        control.check()?;
+        let next = f64::min(level + step, 1.0);
+        let mut trial = predicted(u, level, &before, next);
+        let ending = balance.solve(&mut trial, next, tolerance);
+        total.steps += ending.steps;
+        if ending.converged {
+            before = (level, std::mem::replace(u, trial));
+            level = next;
+            step *= 1.6;
+            if level >= 1.0 {
+                return Ok((Ending { converged: true, residual: ending.residual, ..total }, 1.0));
+            }
+        } else {
+            step *= 0.4;
+            total.residual = ending.residual;
+            if step < LEAST_LEVEL_STEP {
+                break;
+            }
+        }
+    }
+    Ok((total, level))
+}
+
+/// Secant prediction from the two last levels.
+fn predicted(u: &[f64], level: f64, before: &(f64, Vec<f64>), next: f64) -> Vec<f64> {
+    if level <= before.0 {
+        return u.to_vec();
+    }
+    let share = (next - level) / (level - before.0);
+    u.iter().zip(&before.1).map(|(now, old)| now + share * (now - old)).collect()
+}
+
+/// Displacements of all DOFs and forces of all sources from the nonlinear leg forces.
+pub(crate) fn assemble(run: &RunModel, prepared: &Prepared, excitation: &Excitation, u: Vec<f64>) -> Response {
+    let condensed = &prepared.condensed;
+    let (n, order, width) = (run.len(), condensed.harmonics, condensed.width());
+    let mut mean = vec![0.0; n];
+    let mut harmonics = Mat::zeros(n, order);
+    let mut forces = blank_forces(condensed);
+    let mut x = vec![c64::new(0.0, 0.0); n];
+    for h in 0..=order {
+        let mut loads: Vec<(usize, c64)> = excitation.forces.iter().map(|f| (f.dof, f.amplitude(h))).collect();
+        let nonlinear = u.chunks_exact(width).map(|c| amplitude(c, h));
+        let values = nonlinear.chain(condensed.linear_forces(h, &u, 1.0));
+        for (force, value) in forces.iter_mut().zip(values) {
+            push_leg(&mut loads, force.leg, value);
+            if h == 0 { force.mean = value.re } else { force.harmonics.push(value) }
+        }
+        run.compliance(h).apply_at(&loads, &mut x);
+        if h == 0 {
+            mean.iter_mut().zip(&x).for_each(|(m, x)| *m = x.re);
+        } else {
+            harmonics.col_as_slice_mut(h - 1).copy_from_slice(&x);
+        }
+    }
+    Response {
+        omega: excitation.omega,
+        mean,
+        harmonics,
+        status: Status::Converged,
+        truncation: vec![0.0; order],
+        forces,
+        history: Vec::new(),
+        unknowns: u,
+        orientation: 1.0,
+    }
+}
+
+fn blank_forces(condensed: &Condensed) -> Vec<SourceForce> {
+    let blank = |source, leg| SourceForce { source, leg, mean: 0.0, harmonics: Vec::with_capacity(condensed.harmonics) };
+    let nonlinear = condensed.legs.iter().map(|l| blank(l.source, l.leg));
+    nonlinear.chain(condensed.linear_legs.iter().map(|l| blank(l.source, l.leg))).collect()
+}
