@@ -4,3 +4,4 @@ pub mod frequency_response;
 pub mod harmonic_balance;
 pub mod linear_matrices;
 pub mod steady_state;
+pub mod time_integration;

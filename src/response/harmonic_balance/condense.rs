@@ -172,7 +172,7 @@ fn velocity_weight(levels: &[Level], omega: f64, index: usize) -> f64 {
         .map(|(h, at)| (h as f64 * omega * at.coupling[index].norm()).ln())
         .filter(|x| x.is_finite())
         .collect();
-    if logs.is_empty() { 1.0 } else { (-logs.iter().sum::<f64>() / logs.len() as f64).exp() }
+    if logs.is_empty() { 1.0 } else { 2.0 * (-logs.iter().sum::<f64>() / logs.len() as f64).exp() }
 }
 
 fn level(

@@ -5,27 +5,31 @@
 //! the second power; kinks alias as `1 / N^2`.
 
 use faer::c64;
-use std::f64::consts::TAU;
+use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
+use std::sync::Arc;
 
-/// Sampled cosines and sines of one period.
-#[derive(Debug, Clone)]
+/// The two transforms of one number of samples, for a number of harmonics.
+#[derive(Clone)]
 pub(crate) struct Fourier {
     harmonics: usize,
     samples: usize,
-    /// Function number `2 q - 1` is `cos(q theta)`, `2 q` is `sin(q theta)`, 0 is one; `q` up to twice the harmonics.
-    functions: Vec<Vec<f64>>,
+    forward: Arc<dyn RealToComplex<f64>>,
+    backward: Arc<dyn ComplexToReal<f64>>,
+}
+
+impl std::fmt::Debug for Fourier {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "Fourier {{ harmonics: {}, samples: {} }}", self.harmonics, self.samples)
+    }
 }
 
 impl Fourier {
-    /// Tables for harmonics 1..=`harmonics` at `samples` equal steps of one period.
+    /// Harmonics 1..=`harmonics` at `samples` equal steps of one period; `samples` is even and above `4 harmonics`.
     pub fn new(harmonics: usize, samples: usize) -> Self {
-        let table: Vec<(f64, f64)> = (0..samples).map(|n| (TAU * n as f64 / samples as f64).sin_cos()).collect();
-        let mut functions = vec![vec![1.0; samples]];
-        for q in 1..=2 * harmonics {
-            functions.push((0..samples).map(|n| table[(q * n) % samples].1).collect());
-            functions.push((0..samples).map(|n| table[(q * n) % samples].0).collect());
-        }
-        Self { harmonics, samples, functions }
+        debug_assert!(samples % 2 == 0 && samples > 4 * harmonics);
+        let mut planner = RealFftPlanner::new();
+        let (forward, backward) = (planner.plan_fft_forward(samples), planner.plan_fft_inverse(samples));
+        Self { harmonics, samples, forward, backward }
     }
 
     /// Highest harmonic.
@@ -45,38 +49,61 @@ impl Fourier {
 
     /// Samples of the periodic function of `coefficients`.
     pub fn synthesise(&self, coefficients: &[f64], samples: &mut [f64]) {
-        samples.fill(coefficients[0]);
-        for (function, &value) in self.functions.iter().zip(coefficients).skip(1) {
-            if value != 0.0 {
-                for (s, f) in samples.iter_mut().zip(function) {
-                    *s += value * f;
-                }
-            }
+        let mut spectrum = vec![c64::new(0.0, 0.0); self.samples / 2 + 1];
+        spectrum[0].re = coefficients[0];
+        for (x, pair) in spectrum[1..].iter_mut().zip(coefficients[1..].chunks_exact(2)) {
+            *x = c64::new(0.5 * pair[0], -0.5 * pair[1]);
         }
+        let done = self.backward.process(&mut spectrum, samples);
+        debug_assert!(done.is_ok(), "lengths are those of the plan");
+    }
+
+    /// Complex spectrum `sum_n y_n exp(-i k theta_n) / N` for `k` up to half the samples. Spoils `samples`.
+    fn spectrum(&self, samples: &mut [f64]) -> Vec<c64> {
+        let mut spectrum = vec![c64::new(0.0, 0.0); self.samples / 2 + 1];
+        let done = self.forward.process(samples, &mut spectrum);
+        debug_assert!(done.is_ok(), "lengths are those of the plan");
+        let scale = 1.0 / self.samples as f64;
+        spectrum.iter_mut().for_each(|x| *x *= scale);
+        spectrum
     }
 
     /// Coefficients of the sampled function, truncated to the harmonics.
     pub fn project(&self, samples: &[f64], coefficients: &mut [f64]) {
-        let scale = 2.0 / self.samples as f64;
-        for (value, function) in coefficients.iter_mut().zip(&self.functions) {
-            *value = scale * dot(function, samples);
+        let spectrum = self.spectrum(&mut samples.to_vec());
+        coefficients[0] = spectrum[0].re;
+        for (pair, x) in coefficients[1..].chunks_exact_mut(2).zip(&spectrum[1..]) {
+            (pair[0], pair[1]) = (2.0 * x.re, -2.0 * x.im);
         }
-        coefficients[0] *= 0.5;
+    }
+
+    /// Half the angle of harmonic `h` from one sample to the next.
+    pub fn half_angle(&self, h: usize) -> f64 {
+        std::f64::consts::PI * h as f64 / self.samples as f64
+    }
+
+    /// Coefficients of the function half a sample earlier: its samples are those at the edges of the cells around the
+    /// samples.
+    pub fn at_edges(&self, coefficients: &[f64]) -> Vec<f64> {
+        let mut shifted = coefficients.to_vec();
+        for h in 1..=self.harmonics {
+            let (sin, cos) = self.half_angle(h).sin_cos();
+            let (c, s) = (coefficients[2 * h - 1], coefficients[2 * h]);
+            shifted[2 * h - 1] = c * cos - s * sin;
+            shifted[2 * h] = c * sin + s * cos;
+        }
+        shifted
     }
 
     /// The matrix of "synthesise, multiply by `weight` sample by sample, project": `width x width`, row by row.
     /// Products of two harmonics are sums of harmonics, so the spectrum of `weight` up to `2 H` is all that is needed.
     pub fn multiplier(&self, weight: &[f64]) -> Vec<f64> {
-        let (width, scale) = (self.width(), 1.0 / self.samples as f64);
-        let spectrum: Vec<f64> = self.functions.iter().map(|f| scale * dot(f, weight)).collect();
-        let cos = |q: usize| if q == 0 { spectrum[0] } else { spectrum[2 * q - 1] };
-        let sin = |q: isize| match q {
-            0 => 0.0,
-            q if q > 0 => spectrum[2 * q as usize],
-            q => -spectrum[2 * (-q) as usize],
-        };
+        let width = self.width();
+        let spectrum = self.spectrum(&mut weight.to_vec());
+        let cos = |q: usize| spectrum[q].re;
+        let sin = |q: isize| -spectrum[q.unsigned_abs()].im * q.signum() as f64;
         let mut matrix = vec![0.0; width * width];
-        matrix[0] = spectrum[0];
+        matrix[0] = spectrum[0].re;
         for h in 1..=self.harmonics {
             let (c, s) = (2 * h - 1, 2 * h);
             (matrix[c], matrix[s]) = (cos(h), sin(h as isize));

@@ -15,6 +15,7 @@
 //! Stribeck law. Damping of a power below one is treated alike by its resolvent.
 
 use super::fourier::{Fourier, add_amplitude, amplitude, differentiate, to_complex};
+use super::friction;
 use crate::effects::{Effect, Law, Leg, Motion};
 
 /// Share by which a friction force is drawn to zero where the motion leaves it free (mean force in full stick, two
@@ -39,8 +40,10 @@ pub(crate) struct NonlinearLeg {
 pub(crate) enum Manner {
     /// By displacement and velocity at one instant.
     Pointwise,
-    /// By force and velocity at one instant (friction).
-    SetValued,
+    /// By force and velocity between two instants (set-valued friction).
+    Friction,
+    /// By force and velocity at one instant (powers below one).
+    Resolvent,
     /// By the whole period.
     Memory,
 }
@@ -68,8 +71,8 @@ impl NonlinearLeg {
     /// How the law is asked.
     pub fn manner(&self) -> Manner {
         match self.effect {
-            Effect::Coulomb | Effect::Stribeck => Manner::SetValued,
-            Effect::Power if self.parameters[1] < 1.0 => Manner::SetValued,
+            Effect::Coulomb | Effect::Stribeck => Manner::Friction,
+            Effect::Power if self.parameters[1] < 1.0 => Manner::Resolvent,
             Effect::ElasticSlider | Effect::Iwan => Manner::Memory,
             _ => Manner::Pointwise,
         }
@@ -80,11 +83,14 @@ impl NonlinearLeg {
         matches!(self.effect, Effect::CubicStiffness | Effect::QuadraticStiffness | Effect::Gap | Effect::Stribeck)
     }
 
+    /// Whether the law looks at the leg's own force.
+    pub fn takes_force(&self) -> bool {
+        matches!(self.manner(), Manner::Friction | Manner::Resolvent)
+    }
+
     /// The law at one instant. `f` is the leg's force (looked at by friction only).
     fn instant(&self, f: f64, d: f64, v: f64) -> Instant {
         match self.effect {
-            Effect::Coulomb => clamp(f, v, self.weight, self.parameters[0], [0.0, 0.0]),
-            Effect::Stribeck => clamp(f, v, self.weight, self.parameters[1], self.falling(v)),
             Effect::Power if self.parameters[1] < 1.0 => self.resolvent(f + self.weight * v),
             _ => {
                 let point = self.law.point(&self.parameters, 0.0, d, v).unwrap_or_default();
@@ -96,13 +102,6 @@ impl NonlinearLeg {
                 }
             }
         }
-    }
-
-    /// Smooth part `g(v) = (F_c - F_s) (1 - exp(-|v| / v_s)) sgn v` of the Stribeck law, and its slope.
-    fn falling(&self, v: f64) -> [f64; 2] {
-        let [sliding, resting, velocity] = [self.parameters[0], self.parameters[1], self.parameters[2]];
-        let decay = (-v.abs() / velocity).exp();
-        [(sliding - resting) * (1.0 - decay) * v.signum(), (sliding - resting) * decay / velocity]
     }
 
     /// Force on the graph `F = c |v|^e sgn v`, `e < 1`, where `F + r v = s`.
@@ -117,25 +116,9 @@ impl NonlinearLeg {
     }
 
     /// Derivative of the answer at one instant by parameter `k`, force and motion held.
-    fn instant_by_parameter(&self, k: usize, f: f64, d: f64, v: f64) -> f64 {
+    fn instant_by_parameter(&self, k: usize, f: f64, v: f64) -> f64 {
         let p = &self.parameters;
         match self.effect {
-            Effect::Coulomb => {
-                let s = f + self.weight * v;
-                if s.abs() >= p[0] { s.signum() } else { 0.0 }
-            }
-            Effect::Stribeck => {
-                let s = f - self.falling(v)[0] + self.weight * v;
-                if s.abs() < p[1] {
-                    return 0.0;
-                }
-                let decay = (-v.abs() / p[2]).exp();
-                match k {
-                    0 => (1.0 - decay) * v.signum(),
-                    1 => s.signum() - (1.0 - decay) * v.signum(),
-                    _ => (p[1] - p[0]) * decay * v / (p[2] * p[2]),
-                }
-            }
             Effect::Power if p[1] < 1.0 => {
                 let s = f + self.weight * v;
                 let speed = resolvent_speed(p[0].max(0.0), p[1], self.weight, s.abs());
@@ -147,15 +130,15 @@ impl NonlinearLeg {
                 let steep = p[0] * p[1] * raised / speed;
                 self.weight * by / (steep + self.weight) * s.signum()
             }
-            _ => {
-                let _ = d;
-                0.0
-            }
+            _ => 0.0,
         }
     }
 
     /// `Phi` at the given coefficients of force and motion.
     pub fn value(&self, fourier: &Fourier, omega: f64, force: &[f64], motion: &[f64]) -> Vec<f64> {
+        if self.manner() == Manner::Friction {
+            return friction::value(self, fourier, omega, force, motion);
+        }
         let mut samples = vec![0.0; fourier.samples()];
         if self.manner() == Manner::Memory {
             self.law.force(&self.parameters, &sampled(fourier, omega, motion), &mut samples);
@@ -172,15 +155,17 @@ impl NonlinearLeg {
 
     /// `Phi` with its derivatives.
     pub fn answer(&self, fourier: &Fourier, omega: f64, force: &[f64], motion: &[f64]) -> Answer {
-        if self.manner() == Manner::Memory {
-            return self.memory_answer(fourier, omega, motion);
+        match self.manner() {
+            Manner::Memory => return self.memory_answer(fourier, omega, motion),
+            Manner::Friction => return friction::answer(self, fourier, omega, force, motion),
+            Manner::Pointwise | Manner::Resolvent => {}
         }
         let [f, d, v] = self.histories(fourier, omega, force, motion);
         let instants: Vec<Instant> = (0..f.len()).map(|n| self.instant(f[n], d[n], v[n])).collect();
         let part = |pick: fn(&Instant) -> f64| -> Vec<f64> { instants.iter().map(pick).collect() };
         let mut value = vec![0.0; fourier.width()];
         fourier.project(&part(|i| i.value), &mut value);
-        let set_valued = self.manner() == Manner::SetValued;
+        let set_valued = self.manner() == Manner::Resolvent;
         let by_force = set_valued.then(|| fourier.multiplier(&part(|i| i.by_force)));
         let mut by_motion = if set_valued {
             vec![0.0; fourier.width() * fourier.width()]
@@ -218,11 +203,14 @@ impl NonlinearLeg {
 
     /// Derivative of `Phi` by parameter `k`, force and motion held.
     pub fn by_parameter(&self, fourier: &Fourier, omega: f64, k: usize, force: &[f64], motion: &[f64]) -> Vec<f64> {
+        if self.manner() == Manner::Friction {
+            return friction::by_parameter(self, fourier, omega, k, force, motion);
+        }
         let mut samples = vec![0.0; fourier.samples()];
-        if self.manner() == Manner::SetValued {
-            let [f, d, v] = self.histories(fourier, omega, force, motion);
+        if self.manner() == Manner::Resolvent {
+            let [f, _, v] = self.histories(fourier, omega, force, motion);
             for (n, s) in samples.iter_mut().enumerate() {
-                *s = self.instant_by_parameter(k, f[n], d[n], v[n]);
+                *s = self.instant_by_parameter(k, f[n], v[n]);
             }
         } else {
             self.law.parameter_tangent(&self.parameters, k, &sampled(fourier, omega, motion), &mut samples);
@@ -237,12 +225,12 @@ impl NonlinearLeg {
         let blank = vec![0.0; fourier.samples()];
         let [mut f, mut d, mut v] = [blank.clone(), blank.clone(), blank];
         let velocity_law = matches!(self.effect, Effect::Quadratic | Effect::Power);
-        if self.manner() == Manner::SetValued {
+        if self.takes_force() {
             fourier.synthesise(force, &mut f);
         } else if !velocity_law {
             fourier.synthesise(motion, &mut d);
         }
-        if self.manner() == Manner::SetValued || velocity_law {
+        if self.takes_force() || velocity_law {
             let mut velocity = vec![0.0; motion.len()];
             differentiate(omega, motion, &mut velocity);
             fourier.synthesise(&velocity, &mut v);
@@ -257,10 +245,8 @@ impl NonlinearLeg {
         let answer = |n: usize| {
             let instant = self.instant(f[n], d[n], v[n]);
             match self.manner() {
-                Manner::SetValued if instant.by_force >= 0.999 => [0.0, 1e3 * self.weight],
-                Manner::SetValued if instant.by_force > 0.0 => {
-                    [0.0, instant.by_velocity / (1.0 - instant.by_force)]
-                }
+                Manner::Friction => friction::slope(self, f[n], v[n]),
+                Manner::Resolvent if instant.by_force > 0.0 => [0.0, instant.by_velocity / (1.0 - instant.by_force)],
                 _ => [instant.by_displacement, instant.by_velocity],
             }
         };
@@ -269,7 +255,7 @@ impl NonlinearLeg {
 }
 
 /// Adds `T_v Omega`: a slope by the velocity seen as one by the displacement coefficients.
-fn add_velocity_columns(by_motion: &mut [f64], by_velocity: &[f64], omega: f64, harmonics: usize) {
+pub(crate) fn add_velocity_columns(by_motion: &mut [f64], by_velocity: &[f64], omega: f64, harmonics: usize) {
     let width = 2 * harmonics + 1;
     for row in 0..width {
         for h in 1..=harmonics {
@@ -277,17 +263,6 @@ fn add_velocity_columns(by_motion: &mut [f64], by_velocity: &[f64], omega: f64, 
             by_motion[row * width + 2 * h - 1] -= w * by_velocity[row * width + 2 * h];
             by_motion[row * width + 2 * h] += w * by_velocity[row * width + 2 * h - 1];
         }
-    }
-}
-
-/// Friction bounded by `bound`, with smooth part `g`.
-fn clamp(f: f64, v: f64, weight: f64, bound: f64, [g, slope]: [f64; 2]) -> Instant {
-    let s = f - g + weight * v;
-    if s.abs() >= bound.max(0.0) {
-        let value = g + bound.max(0.0) * s.signum();
-        Instant { value, by_force: 0.0, by_displacement: 0.0, by_velocity: slope }
-    } else {
-        Instant { value: f + weight * v, by_force: 1.0, by_displacement: 0.0, by_velocity: weight }
     }
 }
 

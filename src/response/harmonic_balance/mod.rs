@@ -13,6 +13,7 @@ mod compliance;
 mod condense;
 mod dense;
 mod fourier;
+mod friction;
 mod legs;
 mod model;
 mod newton;
@@ -33,13 +34,15 @@ pub struct Settings {
     pub watched: usize,
     /// Largest change of a watched harmonic from one number of harmonics to the next, relative to the largest amplitude.
     pub truncation: f64,
+    /// Whether to estimate the truncation error where only one number of harmonics is solved (costs as much again).
+    pub estimate: bool,
     /// Relative residual of the force balance.
     pub tolerance: f64,
 }
 
 impl Default for Settings {
     fn default() -> Self {
-        Self { harmonics: 7, most_harmonics: 63, watched: 7, truncation: 1e-5, tolerance: 1e-10 }
+        Self { harmonics: 7, most_harmonics: 127, watched: 7, truncation: 5e-5, estimate: true, tolerance: 1e-10 }
     }
 }
 

@@ -15,13 +15,17 @@ use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum ModelError {
     /// `points` structures have no equation of motion.
-    #[error("the structure has no mass and stiffness matrices, so its response cannot be predicted: give kind \"beam\", \"chain\" or \"matrices\"")]
+    #[error(
+        "the structure has no mass and stiffness matrices, so its response cannot be predicted: give kind \"beam\", \"chain\" or \"matrices\""
+    )]
     NoMatrices,
     /// Cholesky factors of the mass do not exist.
     #[error("the mass matrix is not positive definite: every degree of freedom needs mass")]
     MassNotPositive,
     /// Eigenvalues were not found.
-    #[error("the natural modes of mass and stiffness were not found: check the matrices for values that are not finite")]
+    #[error(
+        "the natural modes of mass and stiffness were not found: check the matrices for values that are not finite"
+    )]
     NoModes,
     /// A DOF beyond the matrices.
     #[error("a source or force acts on row {dof} of {size} degrees of freedom (counted from zero)")]
@@ -44,7 +48,9 @@ pub enum ModelError {
         value: f64,
     },
     /// Negative stiffness or mass that makes the model resonate without damping.
-    #[error("the linear sources make the model singular at {frequency_hz:.6} Hz: a negative stiffness or mass balances the structure exactly")]
+    #[error(
+        "the linear sources make the model singular at {frequency_hz:.6} Hz: a negative stiffness or mass balances the structure exactly"
+    )]
     SingularSources {
         /// Frequency, Hz.
         frequency_hz: f64,
@@ -150,8 +156,11 @@ impl ForwardModel {
     /// The same structure with other sources; nothing of the structure is computed again.
     pub fn with_sources(&self, sources: &[Source]) -> Result<Self, ModelError> {
         check(sources, self.linear.len())?;
-        let linear =
-            if self.linear.has_whole(sources) { self.linear.clone() } else { Arc::new(self.linear.with_whole(sources)) };
+        let linear = if self.linear.has_whole(sources) {
+            self.linear.clone()
+        } else {
+            Arc::new(self.linear.with_whole(sources))
+        };
         Ok(Self { linear, sources: sources.to_vec(), tables: self.tables.clone() })
     }
 

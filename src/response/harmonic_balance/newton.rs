@@ -4,7 +4,7 @@
 use super::condense::Condensed;
 use super::dense::Lu;
 use super::fourier::Fourier;
-use super::legs::{Answer, Manner, SLACK};
+use super::legs::{Answer, SLACK};
 
 /// Halvings of a Newton step before it is taken all the same.
 const HALVINGS: usize = 7;
@@ -39,7 +39,7 @@ impl Balance<'_> {
     }
 
     fn slack(&self, leg: usize) -> f64 {
-        if self.condensed.legs[leg].manner() == Manner::SetValued { SLACK } else { 0.0 }
+        if self.condensed.legs[leg].takes_force() { SLACK } else { 0.0 }
     }
 
     /// Residual at `u` under `level` times the excitation.

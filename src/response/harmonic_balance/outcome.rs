@@ -12,7 +12,9 @@ pub enum ResponseError {
     #[error(transparent)]
     Model(#[from] ModelError),
     /// Nothing converged.
-    #[error("no periodic response was found at {frequency_hz:.6} Hz beyond {level:.3} of the force (residual {residual:.1e} with {harmonics} harmonics after {steps} steps): the motion there may not be periodic; lower the force or give a start nearby")]
+    #[error(
+        "no periodic response was found at {frequency_hz:.6} Hz beyond {level:.3} of the force (residual {residual:.1e} with {harmonics} harmonics after {steps} steps): the motion there may not be periodic; lower the force or give a start nearby"
+    )]
     NotConverged {
         /// Fundamental frequency, Hz.
         frequency_hz: f64,
@@ -107,8 +109,10 @@ pub struct Response {
     pub history: Vec<Step>,
     /// Coefficients of the nonlinear leg forces, `2 H + 1` a leg.
     pub(crate) unknowns: Vec<f64>,
-    /// Sign of the Jacobian's determinant at the solution (changes at turning points).
-    pub(crate) orientation: f64,
+    /// Unknowns of the solution with fewer harmonics, where the response is extrapolated from both.
+    pub(crate) coarse: Option<Vec<f64>>,
+    /// Harmonics before extrapolation.
+    pub(crate) raw: Option<Mat<c64>>,
 }
 
 impl Response {

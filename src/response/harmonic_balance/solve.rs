@@ -5,7 +5,7 @@ use super::Settings;
 use super::condense::{Condensed, push_leg, split};
 use super::dense::Lu;
 use super::fourier::{Fourier, amplitude};
-use super::legs::{Manner, resized};
+use super::legs::{Manner, NonlinearLeg, resized};
 use super::model::{Excitation, MOST_HARMONICS, RunModel};
 use super::newton::{Balance, Ending};
 use super::outcome::{Attempt, Response, ResponseError, SourceForce, Status, Step};
@@ -24,9 +24,9 @@ const FOLDING_LEVELS: f64 = 6.0;
 
 /// Samples of a period for a number of harmonics: kinks of friction and gaps alias as `1 / N^2`.
 pub(crate) fn samples_for(condensed: &Condensed) -> usize {
-    let sharp = condensed.legs.iter().any(|leg| leg.manner() != Manner::Pointwise);
+    let sharp = condensed.legs.iter().any(NonlinearLeg::takes_force);
     let factor = if sharp { 32 } else { 16 };
-    (factor * (condensed.harmonics + 1)).next_power_of_two().min(4096)
+    (factor * (condensed.harmonics + 1)).next_power_of_two()
 }
 
 /// Condensed system and tables of one run at a number of harmonics.
@@ -74,92 +74,123 @@ pub(crate) fn respond(
         return Err(ResponseError::BadFrequency { frequency_hz: excitation.omega / TAU });
     }
     let driven = excitation.forces.iter().map(|f| f.harmonics.len()).max().unwrap_or(0);
-    // A linear model answers at the driven harmonics only.
-    let wanted = if split(sources).0.is_empty() { 1 } else { settings.harmonics };
-    let first = wanted.max(driven).clamp(1, MOST_HARMONICS);
-    let most = settings.most_harmonics.clamp(first, MOST_HARMONICS);
-    let mut prepared = Prepared::new(run, sources, excitation, first)?;
-    if prepared.condensed.legs.is_empty() {
-        let mut response = assemble(run, &prepared, excitation, Vec::new());
-        response.status = Status::Linear;
-        return Ok(response);
+    let legs = split(sources).0;
+    if legs.is_empty() {
+        // A linear model answers at the driven harmonics only.
+        let prepared = Prepared::new(run, sources, excitation, driven.clamp(1, MOST_HARMONICS))?;
+        return Ok(Response { status: Status::Linear, ..assemble(run, &prepared, excitation, Vec::new()) });
     }
-    let mut history = Vec::new();
-    let mut response = at_order(run, &prepared, excitation, settings, start, control, &mut history)?;
-    loop {
-        control.check()?;
-        let finer_order = (2 * response.order() + 1).min(MOST_HARMONICS);
-        if finer_order > most {
-            estimate_truncation(run, sources, excitation, &mut response)?;
-            let enough = settings.most_harmonics <= settings.harmonics || rests(&response, settings);
-            response.status = if enough { Status::Converged } else { Status::HarmonicsExhausted };
+    let first = settings.harmonics.max(driven).clamp(1, MOST_HARMONICS);
+    let mut ladder = Ladder { run, sources, excitation, settings, control, history: Vec::new() };
+    let sharp = legs.iter().any(|leg| leg.manner() == Manner::Friction);
+    let coarse = if sharp { ((first - 1) / 2).max(driven).max(1) } else { first };
+    let bottom = ladder.solve(coarse, start)?;
+    let mut response = if coarse < first { ladder.climb(bottom, first, sharp)? } else { ladder.estimated(bottom)? };
+    while response.status != Status::FellBack && !rests(&response, settings) {
+        let finer = (2 * response.order() + 1).min(MOST_HARMONICS);
+        if finer > settings.most_harmonics || finer == response.order() {
+            let fixed = settings.most_harmonics <= settings.harmonics;
+            response.status = if fixed { Status::Converged } else { Status::HarmonicsExhausted };
             break;
         }
-        prepared = Prepared::new(run, sources, excitation, finer_order)?;
-        let finer = at_order(run, &prepared, excitation, settings, Some(&response), control, &mut history);
-        match finer {
-            Ok(finer) => {
-                let truncation = change(&response, &finer);
-                response = Response { truncation, ..finer };
-            }
-            Err(ResponseError::NotConverged { .. }) => {
-                estimate_truncation(run, sources, excitation, &mut response)?;
-                response.status = Status::FellBack;
-                break;
-            }
-            Err(other) => return Err(other),
-        }
-        if rests(&response, settings) {
-            response.status = Status::Converged;
-            break;
-        }
+        response = ladder.climb(response, finer, sharp)?;
     }
-    response.history = history;
+    response.history = ladder.history;
     Ok(response)
+}
+
+/// Solutions of one run with growing numbers of harmonics.
+struct Ladder<'a> {
+    run: &'a RunModel,
+    sources: &'a [Source],
+    excitation: &'a Excitation,
+    settings: &'a Settings,
+    control: &'a Control,
+    history: Vec<Step>,
+}
+
+impl Ladder<'_> {
+    /// The balance at one number of harmonics, as it is.
+    fn solve(&mut self, order: usize, start: Option<&Response>) -> Result<Response, ResponseError> {
+        self.control.check()?;
+        let prepared = Prepared::new(self.run, self.sources, self.excitation, order)?;
+        at_order(self.run, &prepared, self.excitation, self.settings, start, self.control, &mut self.history)
+    }
+
+    /// From a solution to one with more harmonics; stays, and says so, where that does not converge.
+    fn climb(&mut self, below: Response, order: usize, sharp: bool) -> Result<Response, ResponseError> {
+        match self.solve(order, Some(&below)) {
+            Ok(fine) if sharp => Ok(extrapolated(&below, fine)),
+            Ok(fine) => Ok(Response { truncation: change(&below, &fine, fine.order(), 0.5), ..fine }),
+            Err(ResponseError::NotConverged { .. }) => {
+                Ok(Response { status: Status::FellBack, ..self.estimated(below)? })
+            }
+            Err(other) => Err(other),
+        }
+    }
+
+    /// The solution with its truncation error, by one Newton step with twice the harmonics.
+    fn estimated(&self, response: Response) -> Result<Response, ResponseError> {
+        if !self.settings.estimate {
+            return Ok(response);
+        }
+        let order = (2 * response.order() + 1).min(MOST_HARMONICS);
+        let prepared = Prepared::new(self.run, self.sources, self.excitation, order)?;
+        let mut u = prepared.adapt(&response.unknowns);
+        let balance = prepared.balance();
+        let state = balance.state(&u, 1.0);
+        let mut step = state.residual.clone();
+        if let Some(lu) = Lu::new(u.len(), balance.jacobian(&state.answers)) {
+            lu.solve(&mut step);
+            u.iter_mut().zip(&step).for_each(|(x, s)| *x -= s);
+        }
+        let finer = assemble(self.run, &prepared, self.excitation, u);
+        let truncation = change(&response, &finer, response.order(), 1.0);
+        Ok(Response { truncation, ..response })
+    }
 }
 
 /// Whether the watched harmonics rest within the tolerance.
 fn rests(response: &Response, settings: &Settings) -> bool {
-    let largest = largest_amplitude(response);
+    let largest =
+        (0..response.order()).flat_map(|h| response.harmonics.col_as_slice(h)).fold(0.0_f64, |m, x| m.max(x.norm()));
     response.truncation.iter().take(settings.watched).all(|&t| t <= settings.truncation * largest)
 }
 
-fn largest_amplitude(response: &Response) -> f64 {
-    (0..response.order()).flat_map(|h| response.harmonics.col_as_slice(h)).fold(0.0, |m, x| m.max(x.norm()))
+/// `share` of the largest change of each harmonic over all DOFs.
+fn change(a: &Response, b: &Response, order: usize, share: f64) -> Vec<f64> {
+    let difference =
+        |h: usize| (0..b.mean.len()).fold(0.0_f64, |m, i| m.max((b.amplitude(i, h) - a.amplitude(i, h)).norm()));
+    (1..=order).map(|h| share * difference(h)).collect()
 }
 
-/// Change of each harmonic between two numbers of harmonics, half of it: the error of the finer one, which falls at
-/// least with the square of the number.
-fn change(coarse: &Response, fine: &Response) -> Vec<f64> {
-    let difference = |h: usize| {
-        (0..fine.mean.len()).fold(0.0_f64, |m, i| m.max((fine.amplitude(i, h) - coarse.amplitude(i, h)).norm()))
-    };
-    (1..=fine.order()).map(|h| 0.5 * difference(h)).collect()
+/// Weight of the correction `fine - coarse` that takes the error, proportional to `1 / (H + 1/2)` for jumps, away.
+pub(crate) fn richardson(coarse: usize, fine: usize) -> f64 {
+    (coarse as f64 + 0.5) / (fine - coarse) as f64
 }
 
-/// Truncation error by one Newton step with twice the harmonics.
-fn estimate_truncation(
-    run: &RunModel,
-    sources: &[Source],
-    excitation: &Excitation,
-    response: &mut Response,
-) -> Result<(), ResponseError> {
-    let order = (2 * response.order() + 1).min(MOST_HARMONICS);
-    let prepared = Prepared::new(run, sources, excitation, order)?;
-    let mut u = prepared.adapt(&response.unknowns);
-    let balance = prepared.balance();
-    let state = balance.state(&u, 1.0);
-    let mut step = state.residual.clone();
-    if let Some(lu) = Lu::new(u.len(), balance.jacobian(&state.answers)) {
-        lu.solve(&mut step);
-        u.iter_mut().zip(&step).for_each(|(x, s)| *x -= s);
+/// Limit of many harmonics for laws with jumps, whose error falls as `1 / (H + 1/2)` and so is known from two solutions.
+/// Harmonics that the coarse one has not are left.
+fn extrapolated(coarse: &Response, fine: Response) -> Response {
+    let raw = |response: &Response| response.raw.clone().unwrap_or_else(|| response.harmonics.clone());
+    let (below, above) = (raw(coarse), fine.harmonics.clone());
+    let weight = richardson(coarse.order(), fine.order());
+    let mut limit = Response { raw: Some(above.clone()), coarse: Some(coarse.unknowns.clone()), ..fine };
+    let mut corrections = vec![0.0_f64; limit.order()];
+    for h in 0..below.ncols() {
+        for i in 0..above.nrows() {
+            let correction = (above[(i, h)] - below[(i, h)]) * weight;
+            limit.harmonics[(i, h)] += correction;
+            corrections[h] = corrections[h].max(correction.norm());
+        }
     }
-    let finer = assemble(run, &prepared, excitation, u);
-    let mut truncation = change(response, &finer);
-    truncation.truncate(response.order());
-    truncation.iter_mut().for_each(|t| *t *= 2.0);
-    response.truncation = truncation;
-    Ok(())
+    // A second extrapolation shows what the first has left; one alone leaves a fifth of itself at most (see the tests).
+    limit.truncation = if coarse.raw.is_some() {
+        change(coarse, &limit, limit.order(), 0.5)
+    } else {
+        corrections.iter().map(|c| 0.2 * c).collect()
+    };
+    limit
 }
 
 /// The solution at one number of harmonics.
@@ -178,7 +209,7 @@ fn at_order(
         let Ending { converged, steps, residual } = ending;
         history.push(Step { harmonics, attempt, steps, residual, converged });
     };
-    let folds = prepared.condensed.legs.iter().any(super::legs::NonlinearLeg::folds);
+    let folds = prepared.condensed.legs.iter().any(NonlinearLeg::folds);
     let mut u = start.map_or_else(|| vec![0.0; prepared.condensed.size()], |s| prepared.adapt(&s.unknowns));
     if start.is_some() || !folds {
         let ending = balance.solve(&mut u, 1.0, settings.tolerance);
@@ -277,12 +308,14 @@ pub(crate) fn assemble(run: &RunModel, prepared: &Prepared, excitation: &Excitat
         forces,
         history: Vec::new(),
         unknowns: u,
-        orientation: 1.0,
+        coarse: None,
+        raw: None,
     }
 }
 
 fn blank_forces(condensed: &Condensed) -> Vec<SourceForce> {
-    let blank = |source, leg| SourceForce { source, leg, mean: 0.0, harmonics: Vec::with_capacity(condensed.harmonics) };
+    let blank =
+        |source, leg| SourceForce { source, leg, mean: 0.0, harmonics: Vec::with_capacity(condensed.harmonics) };
     let nonlinear = condensed.legs.iter().map(|l| blank(l.source, l.leg));
     nonlinear.chain(condensed.linear_legs.iter().map(|l| blank(l.source, l.leg))).collect()
 }

@@ -1,0 +1,219 @@
+//! Set-valued friction in harmonic balance: `Phi = P [ g(v) + clamp(s) ]`, `s = F - g(v) + r v`, `clamp` to +-`bound`.
+//!
+//! Jumps and kinks fall between samples. So the period is cut into cells around the samples, `s` is taken as straight
+//! from edge to edge, and its clamped mean over the cell is exact:
+//!
+//! ```text
+//! A(a, b) = (G(b) - G(a)) / (b - a),    G' = clamp,    dA/da = (A - clamp a)/(b - a),   dA/db = (clamp b - A)/(b - a)
+//! ```
+//!
+//! The mean of a straight line takes `cos(h delta / 2)` of harmonic `h`, which is given back, so that stick, where nothing
+//! is clamped, is exact; the rest is of second order in the sample.
+
+use super::fourier::{Fourier, differentiate};
+use super::legs::{Answer, NonlinearLeg, add_velocity_columns};
+use crate::effects::Effect;
+
+/// Largest force at rest, N.
+fn bound(leg: &NonlinearLeg) -> f64 {
+    leg.parameters[usize::from(leg.effect == Effect::Stribeck)].max(0.0)
+}
+
+/// Smooth part `g(v) = (F_c - F_s) (1 - exp(-|v| / v_s)) sgn v` of the Stribeck law, and its slope; none for Coulomb.
+fn falling(leg: &NonlinearLeg, v: f64) -> [f64; 2] {
+    if leg.effect != Effect::Stribeck {
+        return [0.0; 2];
+    }
+    let [sliding, resting, velocity] = [leg.parameters[0], leg.parameters[1], leg.parameters[2]];
+    let decay = (-v.abs() / velocity).exp();
+    [(sliding - resting) * (1.0 - decay) * v.signum(), (sliding - resting) * decay / velocity]
+}
+
+/// Histories of one period: at the edges before each sample, and the velocity at the samples (Stribeck only).
+struct Histories {
+    /// `s` at the edges, N.
+    edge: Vec<f64>,
+    /// Velocity at the edges, m/s.
+    edge_velocity: Vec<f64>,
+    /// Velocity at the samples, m/s.
+    velocity: Vec<f64>,
+}
+
+fn histories(leg: &NonlinearLeg, fourier: &Fourier, omega: f64, force: &[f64], motion: &[f64]) -> Histories {
+    let blank = vec![0.0; fourier.samples()];
+    let mut rate = vec![0.0; motion.len()];
+    differentiate(omega, motion, &mut rate);
+    let stribeck = leg.effect == Effect::Stribeck;
+    let (mut velocity, mut edge_velocity, mut edge) = (blank.clone(), blank.clone(), blank);
+    if stribeck {
+        fourier.synthesise(&rate, &mut velocity);
+        fourier.synthesise(&fourier.at_edges(&rate), &mut edge_velocity);
+    }
+    let prediction: Vec<f64> = force.iter().zip(&rate).map(|(f, v)| f + leg.weight * v).collect();
+    fourier.synthesise(&fourier.at_edges(&prediction), &mut edge);
+    if stribeck {
+        edge.iter_mut().zip(&edge_velocity).for_each(|(s, &v)| *s -= falling(leg, v)[0]);
+    }
+    Histories { edge, edge_velocity, velocity }
+}
+
+/// Mean over a cell of the clamped straight line from `a` to `b`, and its slopes by `a` and `b`.
+fn cell(a: f64, b: f64, bound: f64) -> [f64; 3] {
+    let clamp = |s: f64| s.clamp(-bound, bound);
+    let inside = a.abs() < bound && b.abs() < bound;
+    if inside {
+        return [0.5 * (a + b), 0.5, 0.5];
+    }
+    if a.abs() >= bound && b.abs() >= bound && (a > 0.0) == (b > 0.0) {
+        return [bound * a.signum(), 0.0, 0.0];
+    }
+    // Not both outside on one side, so they differ.
+    let whole = |s: f64| if s.abs() < bound { 0.5 * s * s } else { bound * s.abs() - 0.5 * bound * bound };
+    let width = b - a;
+    let mean = if width == 0.0 { clamp(a) } else { (whole(b) - whole(a)) / width };
+    if width.abs() <= 1e-12 * bound {
+        return [mean, 0.25, 0.25];
+    }
+    [mean, (mean - clamp(a)) / width, (clamp(b) - mean) / width]
+}
+
+/// Gives back what the mean over a cell takes of each harmonic.
+fn restore(fourier: &Fourier, coefficients: &mut [f64]) {
+    for h in 1..=fourier.harmonics() {
+        let factor = 1.0 / fourier.half_angle(h).cos();
+        coefficients[2 * h - 1] *= factor;
+        coefficients[2 * h] *= factor;
+    }
+}
+
+fn projected(leg: &NonlinearLeg, fourier: &Fourier, clamped: &[f64], smooth: &[f64]) -> Vec<f64> {
+    let mut value = vec![0.0; fourier.width()];
+    fourier.project(clamped, &mut value);
+    restore(fourier, &mut value);
+    if leg.effect == Effect::Stribeck {
+        let mut rest = vec![0.0; fourier.width()];
+        fourier.project(smooth, &mut rest);
+        value.iter_mut().zip(rest).for_each(|(v, r)| *v += r);
+    }
+    value
+}
+
+fn next(n: usize, edges: &[f64]) -> usize {
+    if n + 1 == edges.len() { 0 } else { n + 1 }
+}
+
+/// `Phi`.
+pub(crate) fn value(leg: &NonlinearLeg, fourier: &Fourier, omega: f64, force: &[f64], motion: &[f64]) -> Vec<f64> {
+    let at = histories(leg, fourier, omega, force, motion);
+    let bound = bound(leg);
+    let clamped: Vec<f64> =
+        (0..at.edge.len()).map(|n| cell(at.edge[n], at.edge[next(n, &at.edge)], bound)[0]).collect();
+    let smooth: Vec<f64> = at.velocity.iter().map(|&v| falling(leg, v)[0]).collect();
+    projected(leg, fourier, &clamped, &smooth)
+}
+
+/// `Phi` with its derivatives.
+pub(crate) fn answer(leg: &NonlinearLeg, fourier: &Fourier, omega: f64, force: &[f64], motion: &[f64]) -> Answer {
+    let at = histories(leg, fourier, omega, force, motion);
+    let bound = bound(leg);
+    let cells: Vec<[f64; 3]> =
+        (0..at.edge.len()).map(|n| cell(at.edge[n], at.edge[next(n, &at.edge)], bound)).collect();
+    let clamped: Vec<f64> = cells.iter().map(|c| c[0]).collect();
+    let smooth: Vec<f64> = at.velocity.iter().map(|&v| falling(leg, v)[0]).collect();
+    let value = projected(leg, fourier, &clamped, &smooth);
+    let by_force = edge_multiplier(fourier, cells.iter().map(|c| [c[1], c[2]]));
+    let mut by_velocity: Vec<f64> = by_force.iter().map(|x| x * leg.weight).collect();
+    if leg.effect == Effect::Stribeck {
+        let slopes: Vec<f64> = at.edge_velocity.iter().map(|&v| falling(leg, v)[1]).collect();
+        let pairs = cells.iter().enumerate().map(|(n, c)| [c[1] * slopes[n], c[2] * slopes[next(n, &slopes)]]);
+        let taken = edge_multiplier(fourier, pairs);
+        let given: Vec<f64> = at.velocity.iter().map(|&v| falling(leg, v)[1]).collect();
+        let given = fourier.multiplier(&given);
+        by_velocity.iter_mut().zip(taken.iter().zip(&given)).for_each(|(x, (t, g))| *x += g - t);
+    }
+    let mut by_motion = vec![0.0; fourier.width() * fourier.width()];
+    add_velocity_columns(&mut by_motion, &by_velocity, omega, fourier.harmonics());
+    Answer { value, by_force: Some(by_force), by_motion }
+}
+
+/// The matrix of "take the values at the edges of each cell, weigh and add the two, project, restore".
+fn edge_multiplier(fourier: &Fourier, weights: impl Iterator<Item = [f64; 2]>) -> Vec<f64> {
+    let width = fourier.width();
+    let (mut sum, mut difference) = (Vec::new(), Vec::new());
+    for [a, b] in weights {
+        sum.push(a + b);
+        difference.push(b - a);
+    }
+    let mut matrix = fourier.multiplier(&sum);
+    let sharp = difference.iter().any(|&d| d != 0.0);
+    let odd = if sharp { fourier.multiplier(&difference) } else { Vec::new() };
+    for row in 0..width {
+        let given = 1.0 / fourier.half_angle(row.div_ceil(2)).cos();
+        matrix[row * width] *= given;
+        for h in 1..=fourier.harmonics() {
+            let (sin, cos) = fourier.half_angle(h).sin_cos();
+            let (c, s) = (row * width + 2 * h - 1, row * width + 2 * h);
+            // cos(h (t +- e)) = cos h t cos h e -+ sin h t sin h e, and alike for the sine.
+            let (oc, os) = if sharp { (odd[c], odd[s]) } else { (0.0, 0.0) };
+            matrix[c] = given * (matrix[c] * cos - os * sin);
+            matrix[s] = given * (matrix[s] * cos + oc * sin);
+        }
+    }
+    matrix
+}
+
+/// Derivative of `Phi` by parameter `k`, force and motion held.
+pub(crate) fn by_parameter(
+    leg: &NonlinearLeg,
+    fourier: &Fourier,
+    omega: f64,
+    k: usize,
+    force: &[f64],
+    motion: &[f64],
+) -> Vec<f64> {
+    let at = histories(leg, fourier, omega, force, motion);
+    let bound = bound(leg);
+    let bounding = k == usize::from(leg.effect == Effect::Stribeck);
+    let clamped: Vec<f64> = (0..at.edge.len())
+        .map(|n| {
+            let (m, edges) = (next(n, &at.edge), &at.edge);
+            let [_, by_a, by_b] = cell(edges[n], edges[m], bound);
+            let direct = if bounding { by_bound(edges[n], edges[m], bound) } else { 0.0 };
+            direct - by_a * falling_by(leg, k, at.edge_velocity[n]) - by_b * falling_by(leg, k, at.edge_velocity[m])
+        })
+        .collect();
+    let smooth: Vec<f64> = at.velocity.iter().map(|&v| falling_by(leg, k, v)).collect();
+    projected(leg, fourier, &clamped, &smooth)
+}
+
+/// Derivative by the bound of the clamped mean over a cell: the signed share of the cell that is clamped.
+fn by_bound(a: f64, b: f64, bound: f64) -> f64 {
+    if a == b {
+        return if a.abs() >= bound { a.signum() } else { 0.0 };
+    }
+    let (low, high) = (a.min(b), a.max(b));
+    let above = (high - low.max(bound)).max(0.0);
+    let below = (high.min(-bound) - low).max(0.0);
+    (above - below) / (high - low)
+}
+
+/// Derivative of the smooth part of the Stribeck law by parameter `k`.
+fn falling_by(leg: &NonlinearLeg, k: usize, v: f64) -> f64 {
+    if leg.effect != Effect::Stribeck {
+        return 0.0;
+    }
+    let p = &leg.parameters;
+    let decay = (-v.abs() / p[2]).exp();
+    match k {
+        0 => (1.0 - decay) * v.signum(),
+        1 => (decay - 1.0) * v.signum(),
+        _ => (p[1] - p[0]) * decay * v / (p[2] * p[2]),
+    }
+}
+
+/// Local stiffness and damping at an instant: a damping that holds where friction sticks.
+pub(crate) fn slope(leg: &NonlinearLeg, f: f64, v: f64) -> [f64; 2] {
+    let [g, slope] = falling(leg, v);
+    let sticks = (f - g + leg.weight * v).abs() < bound(leg);
+    [0.0, if sticks { 1e3 * leg.weight } else { slope }]
+}

@@ -1,0 +1,309 @@
+//! A structure with its sources, stepped through time: see the parent module.
+
+use super::element::Element;
+use super::propagator::Propagator;
+use crate::effects::law::Basis;
+use crate::effects::{Effect, Leg, Place, Source, effect::Kind};
+use crate::response::harmonic_balance::{Excitation, Response};
+use crate::structure::{Structure, SystemMatrices};
+use faer::Mat;
+use std::f64::consts::TAU;
+
+/// Sweeps of Gauss and Seidel over the nonlinear elements of one step.
+const SWEEPS: usize = 500;
+
+/// Why a model cannot be stepped through time.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum TimeError {
+    /// `points` structures have no equation of motion.
+    #[error("the structure has no mass and stiffness matrices, so it cannot be stepped through time")]
+    NoMatrices,
+    /// A law that exists only in steady state.
+    #[error(
+        "source {source_index} ({effect}) is defined harmonic by harmonic and has no force in time: simulate it by harmonic balance"
+    )]
+    NoTimeDomain {
+        /// Index in the list of sources.
+        source_index: usize,
+        /// Its law.
+        effect: &'static str,
+    },
+    /// The total mass is not positive definite.
+    #[error("the mass matrix with its mass sources is not positive definite")]
+    MassNotPositive,
+    /// Nonsense as number of steps or frequency.
+    #[error("{steps} steps in a period of {period_s} s: give at least 8 steps and a positive period")]
+    BadStep {
+        /// Steps a period.
+        steps: usize,
+        /// Period, s.
+        period_s: f64,
+    },
+    /// Gauss and Seidel did not come to rest.
+    #[error("the forces of a time step at {time_s:.6e} s were not found: take more steps a period than {steps}")]
+    StepFailed {
+        /// Time, s.
+        time_s: f64,
+        /// Steps a period.
+        steps: usize,
+    },
+    /// No periodic motion within the periods allowed.
+    #[error(
+        "the motion is not periodic after {periods} periods (still changing by {change:.1e} a period): allow more periods"
+    )]
+    NotSettled {
+        /// Periods run.
+        periods: usize,
+        /// Relative change of the last period.
+        change: f64,
+    },
+    /// The computation was asked to stop.
+    #[error(transparent)]
+    Cancelled(#[from] crate::control::Cancelled),
+}
+
+/// A model at one excitation with a constant time step, and its present state.
+pub struct TimeModel {
+    pub(crate) steps: usize,
+    pub(crate) step: f64,
+    pub(crate) omega: f64,
+    propagator: Propagator,
+    elements: Vec<Element>,
+    /// Receptance between elements over one step, m/N, row by row.
+    receptance: Vec<f64>,
+    /// Mean force of each driven DOF over each step of a period, N.
+    drive: Vec<Vec<f64>>,
+    /// Scaled displacements, then velocities.
+    pub(crate) state: Vec<f64>,
+    next: Vec<f64>,
+    /// Mean force of each element over the last step, N.
+    pub(crate) forces: Vec<f64>,
+    /// Steps since time zero.
+    pub(crate) count: usize,
+}
+
+impl TimeModel {
+    /// At rest, `steps` steps a period of the excitation.
+    pub fn new(
+        structure: &Structure,
+        sources: &[Source],
+        excitation: &Excitation,
+        steps: usize,
+    ) -> Result<Self, TimeError> {
+        let period = TAU / excitation.omega;
+        if steps < 8 || !(period > 0.0 && period.is_finite()) {
+            return Err(TimeError::BadStep { steps, period_s: period });
+        }
+        let matrices = structure.matrices().ok_or(TimeError::NoMatrices)?;
+        let (linear, elements) = sort(structure, matrices, sources)?;
+        let step = period / steps as f64;
+        let patterns = patterns(structure.len(), &elements, excitation);
+        let [mass, damping, stiffness] = &linear;
+        let propagator =
+            Propagator::new(mass, damping, stiffness, &patterns, step).ok_or(TimeError::MassNotPositive)?;
+        let between = |a: &Element, j: usize| a.leg.relative(|i| propagator.displacement(i, j));
+        let receptance = elements.iter().flat_map(|a| (0..elements.len()).map(move |j| (a, j)));
+        let receptance = receptance.map(|(a, j)| between(a, j)).collect();
+        let forces = vec![0.0; elements.len()];
+        let zeros = vec![0.0; 2 * structure.len()];
+        let drive = drive(excitation, steps);
+        let omega = excitation.omega;
+        let (state, next) = (zeros.clone(), zeros);
+        Ok(Self { steps, step, omega, propagator, elements, receptance, drive, state, next, forces, count: 0 })
+    }
+
+    /// Starts at time zero of a periodic response.
+    pub fn start_from(&mut self, response: &Response) {
+        let (displacement, velocity) = response.state_at(0.0);
+        self.start(&displacement, &velocity);
+    }
+
+    /// Starts at time zero with displacements (m) and velocities (m/s) of all DOFs, memories fresh.
+    pub fn start(&mut self, displacement: &[f64], velocity: &[f64]) {
+        let n = self.propagator.size;
+        for i in 0..n {
+            self.state[i] = self.propagator.scale * displacement[i];
+            self.state[n + i] = velocity[i];
+        }
+        self.count = 0;
+        for element in &mut self.elements {
+            element.restart(element.leg.relative(|i| displacement[i]));
+        }
+    }
+
+    /// Number of degrees of freedom.
+    pub fn len(&self) -> usize {
+        self.propagator.size
+    }
+
+    /// Whether there is no degree of freedom; never true.
+    pub fn is_empty(&self) -> bool {
+        self.propagator.size == 0
+    }
+
+    /// Time, s.
+    pub fn time(&self) -> f64 {
+        self.count as f64 * self.step
+    }
+
+    /// Displacement of DOF `i`, m.
+    pub fn displacement(&self, i: usize) -> f64 {
+        self.state[i] / self.propagator.scale
+    }
+
+    /// Velocity of DOF `i`, m/s.
+    pub fn velocity(&self, i: usize) -> f64 {
+        self.state[self.propagator.size + i]
+    }
+
+    /// Source, leg and mean force (N) over the last step of every nonlinear element.
+    pub fn element_forces(&self) -> impl Iterator<Item = (usize, Leg, f64)> + '_ {
+        self.elements.iter().zip(&self.forces).map(|(e, &f)| (e.source, e.leg, f))
+    }
+
+    pub(crate) fn scale(&self) -> f64 {
+        self.propagator.scale
+    }
+
+    /// One step.
+    pub fn advance(&mut self) -> Result<(), TimeError> {
+        self.propagator.advance(&self.state, &mut self.next);
+        let phase = self.count % self.steps;
+        let count = self.elements.len();
+        for (input, drive) in self.drive.iter().enumerate() {
+            self.propagator.push(count + input, drive[phase], &mut self.next);
+        }
+        let relative = |leg: Leg, y: &[f64]| leg.relative(|i| y[i]) / self.propagator.scale;
+        let before: Vec<f64> = self.elements.iter().map(|e| relative(e.leg, &self.state)).collect();
+        let free: Vec<f64> = self.elements.iter().zip(&before).map(|(e, d)| relative(e.leg, &self.next) - d).collect();
+        if !self.balance(&before, &free) {
+            return Err(TimeError::StepFailed { time_s: self.time(), steps: self.steps });
+        }
+        for i in 0..count {
+            self.propagator.push(i, -self.forces[i], &mut self.next);
+        }
+        std::mem::swap(&mut self.state, &mut self.next);
+        for element in &mut self.elements {
+            let d = element.leg.relative(|i| self.state[i]) / self.propagator.scale;
+            element.commit(d, self.step);
+        }
+        self.count += 1;
+        Ok(())
+    }
+
+    /// Forces of the elements over the step, from displacements `before` and their free change.
+    fn balance(&mut self, before: &[f64], free: &[f64]) -> bool {
+        let count = self.elements.len();
+        for _ in 0..SWEEPS {
+            let (mut change, mut largest) = (0.0_f64, 0.0_f64);
+            for i in 0..count {
+                let row = &self.receptance[i * count..(i + 1) * count];
+                let others: f64 = (0..count).filter(|&j| j != i).map(|j| row[j] * self.forces[j]).sum();
+                let old = self.forces[i];
+                let new = self.elements[i].force(before[i], row[i], free[i] - others, self.step, old);
+                self.forces[i] = new;
+                change = change.max((new - old).abs());
+                largest = largest.max(new.abs());
+            }
+            if count == 1 || change <= 1e-12 * largest {
+                return self.forces.iter().all(|f| f.is_finite());
+            }
+        }
+        false
+    }
+}
+
+/// `M`, `C`, `K` with the linear sources, and the elements of all others.
+fn sort(
+    structure: &Structure,
+    matrices: &SystemMatrices,
+    sources: &[Source],
+) -> Result<([Mat<f64>; 3], Vec<Element>), TimeError> {
+    let n = structure.len();
+    let mut linear = [matrices.mass.clone(), Mat::zeros(n, n), matrices.stiffness.clone()];
+    let mut elements = Vec::new();
+    for (index, source) in sources.iter().enumerate() {
+        let refuse = || TimeError::NoTimeDomain { source_index: index, effect: source.effect.name() };
+        match source.effect {
+            Effect::Mass => add_legs(&mut linear[0], source),
+            Effect::Viscous => add_legs(&mut linear[1], source),
+            Effect::Stiffness => add_legs(&mut linear[2], source),
+            Effect::StiffnessProportional | Effect::MassProportional => add_whole(&mut linear[1], structure, source),
+            Effect::Hysteretic | Effect::Fractional | Effect::LossFactor => return Err(refuse()),
+            _ => {
+                if let Some(law) = source.effect.law() {
+                    let new = |leg| Element::new(index, leg, source.effect, law, &source.parameters);
+                    elements.extend(source.place.legs().into_iter().map(new));
+                }
+            }
+        }
+    }
+    Ok((linear, elements))
+}
+
+fn add_legs(matrix: &mut Mat<f64>, source: &Source) {
+    for leg in source.place.legs() {
+        let value = source.parameters[0];
+        matrix[(leg.first, leg.first)] += value;
+        if let Some(second) = leg.second {
+            matrix[(second, second)] += value;
+            matrix[(leg.first, second)] -= value;
+            matrix[(second, leg.first)] -= value;
+        }
+    }
+}
+
+/// `beta K` or `alpha M`, of the whole structure or of a range of its elements.
+fn add_whole(damping: &mut Mat<f64>, structure: &Structure, source: &Source) {
+    let (Kind::Whole(law), Place::Whole(range), Some(matrices)) =
+        (source.effect.kind(), &source.place, structure.matrices())
+    else {
+        return;
+    };
+    let factor = source.parameters[0];
+    let mass = law.basis() == Basis::Mass;
+    let Some([first, last]) = range else {
+        let matrix = if mass { &matrices.mass } else { &matrices.stiffness };
+        *damping += Mat::from_fn(matrix.nrows(), matrix.ncols(), |i, j| factor * matrix[(i, j)]);
+        return;
+    };
+    for element in structure.elements().iter().take(last + 1).skip(*first) {
+        let local = if mass { &element.mass } else { &element.stiffness };
+        for (a, row) in element.dofs.iter().enumerate() {
+            for (b, column) in element.dofs.iter().enumerate() {
+                if let (Some(row), Some(column)) = (row, column) {
+                    damping[(*row, *column)] += factor * local[(a, b)];
+                }
+            }
+        }
+    }
+}
+
+/// Force patterns: of the elements first, then of the driven DOFs.
+fn patterns(n: usize, elements: &[Element], excitation: &Excitation) -> Mat<f64> {
+    let mut patterns = Mat::zeros(n, elements.len() + excitation.forces.len());
+    for (j, element) in elements.iter().enumerate() {
+        patterns[(element.leg.first, j)] = 1.0;
+        if let Some(second) = element.leg.second {
+            patterns[(second, j)] = -1.0;
+        }
+    }
+    for (j, force) in excitation.forces.iter().enumerate() {
+        patterns[(force.dof, elements.len() + j)] = 1.0;
+    }
+    patterns
+}
+
+/// Mean of each force over each step of the period.
+fn drive(excitation: &Excitation, steps: usize) -> Vec<Vec<f64>> {
+    let angle = TAU / steps as f64;
+    let mean = |force: &crate::response::harmonic_balance::HarmonicForce, n: usize| {
+        (1..=force.harmonics.len()).fold(force.mean, |sum, h| {
+            let half = 0.5 * h as f64 * angle;
+            let (sin, cos) = (2.0 * half * (n as f64 + 0.5)).sin_cos();
+            let f = force.amplitude(h);
+            sum + (f.re * cos - f.im * sin) * half.sin() / half
+        })
+    };
+    excitation.forces.iter().map(|force| (0..steps).map(|n| mean(force, n)).collect()).collect()
+}

@@ -1,0 +1,5 @@
+//! The forward model against independent routes: time stepping, closed forms, finite differences.
+#![allow(clippy::unwrap_used, reason = "tests")]
+
+mod against_time;
+mod support;

@@ -1,0 +1,59 @@
+//! Structures and comparisons that the tests share.
+
+use dashpot::control::Control;
+use dashpot::effects::{Effect, Place, Source};
+use dashpot::response::harmonic_balance::{Excitation, ForwardModel, Response, Settings};
+use dashpot::response::time_integration::{Settling, TimeModel};
+use dashpot::structure::Structure;
+use dashpot::structure::beam::{BeamParameters, Supports};
+use dashpot::structure::chain::ChainParameters;
+use faer::{Mat, c64};
+
+/// The five masses of the thesis' experiment (6.2).
+pub fn five_masses() -> Structure {
+    let chain = ChainParameters {
+        masses: vec![1.727, 5.122, 8.213, 2.609, 1.339],
+        ground_stiffness: vec![94263.0, 0.0, 0.0, 0.0, 0.0],
+        coupling_stiffness: vec![75136.0, 67744.0, 75466.0, 83396.0],
+    };
+    chain.build(&[]).unwrap()
+}
+
+/// The cantilever of the thesis (3.3.6).
+pub fn cantilever(elements: usize) -> Structure {
+    let supports = Supports::ClampedFree;
+    let (youngs_modulus, density) = (69e9, 2700.0);
+    BeamParameters { length: 0.56, breadth: 0.04, depth: 0.004, youngs_modulus, density, elements, supports }
+        .build(&[])
+        .unwrap()
+}
+
+/// A source between DOFs that acts.
+pub fn source(effect: Effect, dofs: &[usize], parameters: &[f64]) -> Source {
+    Source::known(effect, Place::Dofs(dofs.to_vec()), parameters)
+}
+
+/// A source of the whole structure.
+pub fn whole(effect: Effect, value: f64) -> Source {
+    Source::known(effect, Place::Whole(None), &[value])
+}
+
+/// Steady state by harmonic balance.
+pub fn balanced(structure: &Structure, sources: &[Source], excitation: &Excitation, settings: &Settings) -> Response {
+    let model = ForwardModel::new(structure, sources).unwrap();
+    model.respond(excitation, settings, None, &Control::unattended()).unwrap()
+}
+
+/// Harmonics 1..=5 by time stepping from rest.
+pub fn stepped(structure: &Structure, sources: &[Source], excitation: &Excitation, steps: usize) -> Mat<c64> {
+    let mut model = TimeModel::new(structure, sources, excitation, steps).unwrap();
+    model.settle(&Settling::default(), &Control::unattended()).unwrap();
+    model.harmonics(5).unwrap()
+}
+
+/// Largest difference of harmonic `h` over all DOFs, relative to the largest amplitude of that harmonic.
+pub fn difference(response: &Response, reference: &Mat<c64>, h: usize) -> f64 {
+    let n = reference.nrows();
+    let largest = (0..n).fold(0.0_f64, |m, i| m.max(reference[(i, h - 1)].norm()));
+    (0..n).fold(0.0_f64, |m, i| m.max((response.amplitude(i, h) - reference[(i, h - 1)]).norm())) / largest
+}
