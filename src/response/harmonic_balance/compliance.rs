@@ -95,16 +95,34 @@ impl LinearPart {
     /// `(stiffness K + mass M) x` for the two given factors.
     pub fn apply_matrices(&self, stiffness: c64, mass: c64, x: &[c64]) -> Vec<c64> {
         let matrices = self.matrices();
-        let mut result = multiply(&matrices.stiffness, stiffness, x);
-        if mass.norm_sqr() > 0.0 {
-            let inertia = multiply(&matrices.mass, mass, x);
-            result.iter_mut().zip(inertia).for_each(|(r, i)| *r += i);
+        if mass.norm_sqr() == 0.0 {
+            return multiply(&matrices.stiffness, stiffness, x);
+        }
+        let mut result = multiply(&matrices.mass, mass, x);
+        if stiffness.norm_sqr() > 0.0 {
+            let elastic = multiply(&matrices.stiffness, stiffness, x);
+            result.iter_mut().zip(elastic).for_each(|(r, e)| *r += e);
         }
         result
     }
 
+    /// `-omega_r^2 (M phi_r) (M phi_r)^T x`: the pseudo-force of a mode whose stiffness grows; `None` without such a mode.
+    pub fn apply_mode(&self, mode: usize, x: &[c64]) -> Option<Vec<c64>> {
+        let SystemMatrices { mass, stiffness } = self.matrices();
+        let basis = match &self.modal {
+            Some(basis) => basis.clone(),
+            None => Arc::new(modal_basis(mass, stiffness).ok()?),
+        };
+        let square = *basis.squares.get(mode)?;
+        let zero = c64::new(0.0, 0.0);
+        let shape: Vec<c64> = basis.shapes.col_as_slice(mode).iter().map(|&s| c64::new(s, 0.0)).collect();
+        let weighted = self.apply_matrices(zero, c64::new(1.0, 0.0), &shape);
+        let amplitude = weighted.iter().zip(x).fold(zero, |s, (w, x)| s + *w * *x);
+        Some(weighted.iter().map(|w| *w * amplitude * -square).collect())
+    }
+
     /// Factors of `K` and `M` in `Z(omega)`, without laws restricted to elements.
-    fn factors(&self, omega: f64) -> [c64; 2] {
+    pub fn factors(&self, omega: f64) -> [c64; 2] {
         let shift = if omega == 0.0 { self.floating_shift } else { 0.0 };
         let mut factors = [c64::new(1.0, REGULARISING_LOSS), c64::new(shift - omega * omega, 0.0)];
         if omega == 0.0 {

@@ -20,6 +20,12 @@ mod newton;
 mod outcome;
 mod solve;
 
+pub(crate) use condense::stiffness_of;
+pub(crate) use dense::Lu;
+pub(crate) use fourier::{add_amplitude, amplitude};
+pub(crate) use newton::Balance;
+pub(crate) use solve::{Prepared, richardson};
+
 pub use model::{Excitation, ForwardModel, HarmonicForce, ModelError, RunModel};
 pub use outcome::{Attempt, Response, ResponseError, SourceForce, Status, Step};
 

@@ -51,6 +51,24 @@ impl Prepared {
         Balance { condensed: &self.condensed, fourier: &self.fourier }
     }
 
+    /// Displacements of all DOFs per harmonic, 0 first, under the nonlinear leg forces `u`.
+    pub fn displacements(&self, run: &RunModel, excitation: &Excitation, u: &[f64]) -> Vec<Vec<c64>> {
+        let (condensed, width) = (&self.condensed, self.condensed.width());
+        let at = |h: usize| {
+            let mut loads: Vec<(usize, c64)> = excitation.forces.iter().map(|f| (f.dof, f.amplitude(h))).collect();
+            for (leg, part) in condensed.legs.iter().zip(u.chunks_exact(width)) {
+                push_leg(&mut loads, leg.leg, amplitude(part, h));
+            }
+            for (leg, force) in condensed.linear_legs.iter().zip(condensed.linear_forces(h, u, 1.0)) {
+                push_leg(&mut loads, leg.leg, force);
+            }
+            let mut x = vec![c64::new(0.0, 0.0); run.len()];
+            run.compliance(h).apply_at(&loads, &mut x);
+            x
+        };
+        (0..=condensed.harmonics).map(at).collect()
+    }
+
     /// Leg forces of another number of harmonics brought to this one.
     pub fn adapt(&self, unknowns: &[f64]) -> Vec<f64> {
         let count = self.condensed.legs.len();
@@ -279,30 +297,20 @@ fn predicted(u: &[f64], level: f64, before: &(f64, Vec<f64>), next: f64) -> Vec<
 /// Displacements of all DOFs and forces of all sources from the nonlinear leg forces.
 pub(crate) fn assemble(run: &RunModel, prepared: &Prepared, excitation: &Excitation, u: Vec<f64>) -> Response {
     let condensed = &prepared.condensed;
-    let (n, order, width) = (run.len(), condensed.harmonics, condensed.width());
-    let mut mean = vec![0.0; n];
-    let mut harmonics = Mat::zeros(n, order);
+    let (order, width) = (condensed.harmonics, condensed.width());
+    let x = prepared.displacements(run, excitation, &u);
     let mut forces = blank_forces(condensed);
-    let mut x = vec![c64::new(0.0, 0.0); n];
     for h in 0..=order {
-        let mut loads: Vec<(usize, c64)> = excitation.forces.iter().map(|f| (f.dof, f.amplitude(h))).collect();
         let nonlinear = u.chunks_exact(width).map(|c| amplitude(c, h));
         let values = nonlinear.chain(condensed.linear_forces(h, &u, 1.0));
         for (force, value) in forces.iter_mut().zip(values) {
-            push_leg(&mut loads, force.leg, value);
             if h == 0 { force.mean = value.re } else { force.harmonics.push(value) }
-        }
-        run.compliance(h).apply_at(&loads, &mut x);
-        if h == 0 {
-            mean.iter_mut().zip(&x).for_each(|(m, x)| *m = x.re);
-        } else {
-            harmonics.col_as_slice_mut(h - 1).copy_from_slice(&x);
         }
     }
     Response {
         omega: excitation.omega,
-        mean,
-        harmonics,
+        mean: x[0].iter().map(|x| x.re).collect(),
+        harmonics: Mat::from_fn(run.len(), order, |i, h| x[h + 1][i]),
         status: Status::Converged,
         truncation: vec![0.0; order],
         forces,

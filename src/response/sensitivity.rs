@@ -1,0 +1,281 @@
+//! Derivatives of a periodic response by parameters, by implicit differentiation of the converged balance.
+//!
+//! ```text
+//! Z_h X_h + L F_h = F_ext,h,     F = Phi(F, D, p),     D_h = L^T X_h
+//!
+//! dX_lin,h = -A_h (dZ_h X_h),     J dF = Phi_p + Phi_D L^T dX_lin,     dX_h = dX_lin,h - A_h L dF_h
+//! ```
+//!
+//! with `A_h` the receptance of the linear rest and `J = 1 - Phi_F + Phi_D C` the Jacobian of the balance, factorised once.
+//! Where the response is extrapolated from two numbers of harmonics, so are its derivatives.
+
+use super::harmonic_balance::{Balance, Excitation, Lu, Prepared, Response, ResponseError, RunModel};
+use super::harmonic_balance::{add_amplitude, amplitude, richardson, stiffness_of};
+use crate::effects::effect::Kind;
+use crate::effects::{Motion, Source};
+use faer::{Mat, c64};
+use std::f64::consts::TAU;
+
+/// What a response is differentiated by.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Unknown {
+    /// Parameter `parameter` of source `source` in the list of sources (linear, nonlinear or of the whole structure).
+    Source {
+        /// Index of the source.
+        source: usize,
+        /// Index of the parameter.
+        parameter: usize,
+    },
+    /// Relative change of the stiffness matrix (of Young's modulus), by 1.
+    Stiffness,
+    /// Relative change of the mass matrix (of the density, where there are no lumped masses), by 1.
+    Mass,
+    /// Mass in kg added at a DOF (row).
+    LumpedMass(usize),
+    /// Relative change of the stiffness of one undamped mode by 1: `dK = omega_r^2 (M phi_r)(M phi_r)^T`.
+    ModeStiffness(usize),
+}
+
+/// Why derivatives cannot be had.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum SensitivityError {
+    /// The unknown does not exist.
+    #[error("{unknown:?} is not in this model: it has {sources} sources and {size} degrees of freedom")]
+    NoSuchUnknown {
+        /// What was asked for.
+        unknown: Unknown,
+        /// Number of sources.
+        sources: usize,
+        /// Degrees of freedom.
+        size: usize,
+    },
+    /// At a turning point the response is not differentiable.
+    #[error(
+        "the response at {frequency_hz:.6} Hz is at a turning point, where it has no derivatives: move the frequency or the force a little"
+    )]
+    TurningPoint {
+        /// Fundamental frequency, Hz.
+        frequency_hz: f64,
+    },
+    /// The response belongs to other sources.
+    #[error("the response was computed with other sources: compute it anew with these")]
+    OtherSources,
+    /// The model itself.
+    #[error(transparent)]
+    Response(#[from] ResponseError),
+}
+
+/// Derivatives of all displacement amplitudes: for each unknown an n x H matrix (column `h - 1` is harmonic `h`), m per
+/// unit of the unknown.
+///
+/// `response` is that of `run` with `sources` to `excitation`.
+pub fn sensitivities(
+    run: &RunModel,
+    sources: &[Source],
+    excitation: &Excitation,
+    response: &Response,
+    unknowns: &[Unknown],
+) -> Result<Vec<Mat<c64>>, SensitivityError> {
+    for unknown in unknowns {
+        check(*unknown, sources, run.len())?;
+    }
+    let run = run.fitting(sources);
+    let mut fine = at_order(&run, sources, excitation, response, &response.unknowns, response.order(), unknowns)?;
+    if let Some(coarse) = &response.coarse {
+        let legs = response.unknowns.len() / (2 * response.order() + 1);
+        let order = (coarse.len() / legs.max(1) - 1) / 2;
+        let below = at_order(&run, sources, excitation, response, coarse, order, unknowns)?;
+        let weight = richardson(order, response.order());
+        for (fine, below) in fine.iter_mut().zip(&below) {
+            for h in 0..order {
+                for i in 0..fine.nrows() {
+                    let correction = (fine[(i, h)] - below[(i, h)]) * weight;
+                    fine[(i, h)] += correction;
+                }
+            }
+        }
+    }
+    Ok(fine)
+}
+
+fn check(unknown: Unknown, sources: &[Source], size: usize) -> Result<(), SensitivityError> {
+    let exists = match unknown {
+        Unknown::Source { source, parameter } => {
+            sources.get(source).is_some_and(|s| parameter < s.effect.parameters().len())
+        }
+        Unknown::Stiffness | Unknown::Mass => true,
+        Unknown::LumpedMass(row) | Unknown::ModeStiffness(row) => row < size,
+    };
+    let missing = SensitivityError::NoSuchUnknown { unknown, sources: sources.len(), size };
+    if exists { Ok(()) } else { Err(missing) }
+}
+
+/// The converged balance at one number of harmonics, differentiated.
+struct Differentiated<'a> {
+    run: &'a RunModel,
+    sources: &'a [Source],
+    prepared: &'a Prepared,
+    balance: Balance<'a>,
+    u: &'a [f64],
+    motion: Vec<f64>,
+    /// Displacements per harmonic, 0 first.
+    displacements: Vec<Vec<c64>>,
+}
+
+fn at_order(
+    run: &RunModel,
+    sources: &[Source],
+    excitation: &Excitation,
+    response: &Response,
+    u: &[f64],
+    order: usize,
+    unknowns: &[Unknown],
+) -> Result<Vec<Mat<c64>>, SensitivityError> {
+    let prepared = Prepared::new(run, sources, excitation, order)?;
+    if prepared.condensed.size() != u.len() {
+        return Err(SensitivityError::OtherSources);
+    }
+    let balance = prepared.balance();
+    let state = balance.state(u, 1.0);
+    let turning = || SensitivityError::TurningPoint { frequency_hz: response.omega / TAU };
+    let lu = Lu::new(u.len(), balance.jacobian(&state.answers)).ok_or_else(turning)?;
+    let motion = prepared.condensed.motion(u, 1.0);
+    let displacements = prepared.displacements(run, excitation, u);
+    let at = Differentiated { run, sources, prepared: &prepared, balance, u, motion, displacements };
+    let one = |&unknown: &Unknown| {
+        let loads = at.loads(unknown);
+        let mut linear = at.linear_change(&loads);
+        let mut change = at.balance.answer_change(&state.answers, &at.leg_motion(&linear));
+        at.add_parameter(unknown, &mut change);
+        lu.solve(&mut change);
+        at.add_legs(&change, &mut linear);
+        Mat::from_fn(run.len(), order, |i, h| linear[h + 1].get(i).copied().unwrap_or(c64::new(0.0, 0.0)))
+    };
+    Ok(unknowns.iter().map(one).collect())
+}
+
+impl Differentiated<'_> {
+    fn omega(&self, h: usize) -> f64 {
+        h as f64 * self.prepared.condensed.omega
+    }
+
+    /// Pseudo-forces `-dZ_h X_h` at all DOFs per harmonic; empty where there is none.
+    fn loads(&self, unknown: Unknown) -> Vec<Vec<c64>> {
+        let linear = self.run.linear();
+        let load = |h: usize| -> Vec<c64> {
+            let (x, w) = (&self.displacements[h], self.omega(h));
+            let zero = c64::new(0.0, 0.0);
+            match unknown {
+                Unknown::Stiffness => linear.apply_matrices(-linear.factors(w)[0], zero, x),
+                Unknown::Mass => linear.apply_matrices(zero, -linear.factors(w)[1], x),
+                Unknown::LumpedMass(dof) => {
+                    let mut load = vec![zero; x.len()];
+                    load[dof] = x[dof] * (w * w);
+                    load
+                }
+                Unknown::ModeStiffness(mode) => linear.apply_mode(mode, x).unwrap_or_default(),
+                Unknown::Source { source, parameter } => self.source_load(source, parameter, h),
+            }
+        };
+        (0..self.displacements.len()).map(load).collect()
+    }
+
+    /// Pseudo-force of a linear source; empty for a nonlinear one.
+    fn source_load(&self, source: usize, parameter: usize, h: usize) -> Vec<c64> {
+        let (x, w) = (&self.displacements[h], self.omega(h));
+        let given = &self.sources[source];
+        match given.effect.kind() {
+            // The force of a whole-structure law is proportional to its only parameter.
+            Kind::Whole(law) => self.run.linear().apply_whole(given, -law.factor(1.0, w), x),
+            Kind::Relative(_) => {
+                let condensed = &self.prepared.condensed;
+                let mut load = Vec::new();
+                for leg in condensed.linear_legs.iter().filter(|l| l.source == source).map(|l| l.leg) {
+                    load.resize(x.len(), c64::new(0.0, 0.0));
+                    let force = stiffness_by_parameter(given, parameter, w) * leg.relative(|i| x[i]);
+                    load[leg.first] -= force;
+                    if let Some(second) = leg.second {
+                        load[second] += force;
+                    }
+                }
+                load
+            }
+            Kind::Channel(_) => Vec::new(),
+        }
+    }
+
+    /// Displacements of the linear rest under the pseudo-forces, per harmonic; empty where there is no force.
+    fn linear_change(&self, loads: &[Vec<c64>]) -> Vec<Vec<c64>> {
+        let respond = |(h, load): (usize, &Vec<c64>)| {
+            if load.is_empty() {
+                Vec::new()
+            } else {
+                self.prepared.condensed.linear_response(self.run.compliance(h), h, load)
+            }
+        };
+        loads.iter().enumerate().map(respond).collect()
+    }
+
+    /// Coefficients of the relative motions of the nonlinear legs.
+    fn leg_motion(&self, x: &[Vec<c64>]) -> Vec<f64> {
+        let width = self.prepared.condensed.width();
+        let mut motion = vec![0.0; self.u.len()];
+        for (leg, part) in self.prepared.condensed.legs.iter().zip(motion.chunks_exact_mut(width)) {
+            for (h, x) in x.iter().enumerate().filter(|(_, x)| !x.is_empty()) {
+                add_amplitude(part, h, leg.leg.relative(|i| x[i]));
+            }
+        }
+        motion
+    }
+
+    /// Adds `Phi_p` of the legs that belong to the unknown.
+    fn add_parameter(&self, unknown: Unknown, change: &mut [f64]) {
+        let Unknown::Source { source, parameter } = unknown else { return };
+        let (condensed, width) = (&self.prepared.condensed, self.prepared.condensed.width());
+        for (i, leg) in condensed.legs.iter().enumerate().filter(|(_, leg)| leg.source == source) {
+            let range = i * width..(i + 1) * width;
+            let (force, motion) = (&self.u[range.clone()], &self.motion[range.clone()]);
+            let direct = leg.by_parameter(&self.prepared.fourier, condensed.omega, parameter, force, motion);
+            change[range].iter_mut().zip(direct).for_each(|(c, d)| *c += d);
+        }
+    }
+
+    /// Adds what a change of the leg forces does.
+    fn add_legs(&self, forces: &[f64], x: &mut [Vec<c64>]) {
+        let (condensed, width) = (&self.prepared.condensed, self.prepared.condensed.width());
+        if forces.is_empty() {
+            return;
+        }
+        for (h, x) in x.iter_mut().enumerate() {
+            let mut load = vec![c64::new(0.0, 0.0); self.run.len()];
+            for (leg, part) in condensed.legs.iter().zip(forces.chunks_exact(width)) {
+                let force = amplitude(part, h);
+                load[leg.leg.first] -= force;
+                if let Some(second) = leg.leg.second {
+                    load[second] += force;
+                }
+            }
+            let change = condensed.linear_response(self.run.compliance(h), h, &load);
+            x.resize(change.len(), c64::new(0.0, 0.0));
+            x.iter_mut().zip(change).for_each(|(x, c)| *x += c);
+        }
+    }
+}
+
+/// Derivative of the dynamic stiffness of a linear law, from its force on a motion of unit amplitude.
+fn stiffness_by_parameter(source: &Source, parameter: usize, omega: f64) -> c64 {
+    let Some(law) = source.effect.law() else { return c64::new(0.0, 0.0) };
+    if omega > 0.0 {
+        let motion = Motion::cosine(omega, 1.0, 4);
+        let mut force = [0.0; 4];
+        law.parameter_tangent(&source.parameters, parameter, &motion, &mut force);
+        return c64::new(0.5 * (force[0] - force[2]), -0.5 * (force[1] - force[3]));
+    }
+    let mut unit = source.clone();
+    if source.effect.parameters()[parameter].linear {
+        unit.parameters[parameter] = 1.0;
+        return stiffness_of(&unit, 0.0);
+    }
+    // No linear law has a static stiffness that depends on a parameter it is not proportional to.
+    c64::new(0.0, 0.0)
+}
