@@ -1,1 +1,9 @@
-fn main() {}
+//! The program: arguments to the command line.
+
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    // Two cores and matrices of tens of rows: threads of the linear algebra cost more than they give.
+    faer::set_global_parallelism(faer::Par::Seq);
+    dashpot::cli::run(std::env::args_os())
+}

@@ -1,1 +1,68 @@
-//! The command line.
+//! The command line: arguments in, a table or one JSON document out.
+//!
+//! Exit status: 0 done, 1 the input is at fault (one line on standard error), 2 wrong usage.
+
+mod arguments;
+mod export;
+mod identify;
+mod simulate;
+mod table;
+
+use arguments::{Arguments, Command};
+use clap::Parser;
+use std::ffi::OsString;
+use std::io::{self, Write};
+use std::process::ExitCode;
+
+/// Runs the program on its arguments, the first of which is its name.
+pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
+    let arguments = match Arguments::try_parse_from(arguments) {
+        Ok(arguments) => arguments,
+        Err(error) => {
+            // Help and version go to standard output with status 0, wrong usage to standard error with status 2.
+            let _ = error.print();
+            return ExitCode::from(u8::try_from(error.exit_code()).unwrap_or(2));
+        }
+    };
+    match execute(&arguments.command) {
+        Ok(text) => print(&text),
+        Err(error) => {
+            eprintln!("{}", one_line(&error));
+            ExitCode::from(1)
+        }
+    }
+}
+
+fn execute(command: &Command) -> anyhow::Result<String> {
+    match command {
+        Command::Identify(arguments) => identify::run(arguments),
+        Command::Simulate(arguments) => simulate::run(arguments),
+        Command::Export(arguments) => export::run(arguments),
+    }
+}
+
+/// Prints to standard output; a reader that has left early, such as `head`, is no failure.
+fn print(text: &str) -> ExitCode {
+    let mut out = io::stdout().lock();
+    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) if error.kind() == io::ErrorKind::BrokenPipe => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("standard output cannot be written: {error}");
+            ExitCode::from(1)
+        }
+    }
+}
+
+/// The whole chain of an error in one line.
+fn one_line(error: &anyhow::Error) -> String {
+    let mut parts: Vec<String> = Vec::new();
+    for cause in error.chain() {
+        let text = cause.to_string();
+        // Transparent errors repeat their cause's words.
+        if parts.last().is_none_or(|last| !last.ends_with(&text)) {
+            parts.push(text);
+        }
+    }
+    parts.join(": ").split_whitespace().collect::<Vec<_>>().join(" ")
+}

@@ -1,0 +1,88 @@
+//! What can be asked on the command line.
+
+use crate::exchange::export::Format;
+use clap::builder::PossibleValuesParser;
+use clap::builder::TypedValueParser;
+use clap::{Args, Parser, Subcommand, ValueEnum};
+use std::path::PathBuf;
+
+/// Tells where a structure loses its energy, how much and by which mechanism.
+#[derive(Debug, Parser)]
+#[command(name = "dashpot", version, arg_required_else_help = true)]
+pub(super) struct Arguments {
+    #[command(subcommand)]
+    pub command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+pub(super) enum Command {
+    /// Identify the sources of damping: matrix, energy shares, damping ratios
+    Identify(Identify),
+    /// Make steady-state records of the model of a project
+    Simulate(Simulate),
+    /// Write identified matrices and sources for another program
+    Export(Export),
+}
+
+#[derive(Debug, Args)]
+pub(super) struct Identify {
+    /// Project file
+    pub file: PathBuf,
+    /// Print one JSON document in place of a table
+    #[arg(long)]
+    pub json: bool,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct Simulate {
+    /// Project file with known sources, and a force and a frequency at each run
+    pub file: PathBuf,
+    /// Folder for the records; made if it is not there
+    #[arg(long)]
+    pub out: PathBuf,
+    /// Standard deviation of white noise over the root mean square of each channel, such as 0.05
+    #[arg(long, default_value_t = 0.0, value_parser = noise)]
+    pub noise: f64,
+    /// Seed of the noise
+    #[arg(long, default_value_t = 1)]
+    pub seed: u64,
+    /// Significant digits of the samples; as many as read back the same unless given
+    #[arg(long, value_parser = clap::value_parser!(u8).range(1..=17))]
+    pub digits: Option<u8>,
+    /// What is written
+    #[arg(long = "as", value_enum, default_value_t = Records::Time)]
+    pub records: Records,
+}
+
+/// Form of simulated measurements.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(super) enum Records {
+    /// A time record a run
+    Time,
+    /// One file of fitted harmonics, harmonics.csv
+    Harmonics,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct Export {
+    /// Project file
+    pub file: PathBuf,
+    /// Format
+    #[arg(long, value_parser = format())]
+    pub to: Format,
+    /// File to write; formats that need several put the others beside it
+    #[arg(long)]
+    pub out: PathBuf,
+}
+
+fn noise(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(ratio) if (0.0..=10.0).contains(&ratio) => Ok(ratio),
+        _ => Err("give a ratio from 0 to 10, such as 0.05 for 5 %".to_owned()),
+    }
+}
+
+fn format() -> impl TypedValueParser<Value = Format> {
+    PossibleValuesParser::new(Format::ALL.map(Format::name))
+        .try_map(|name| Format::from_name(&name).ok_or_else(|| format!("no format {name}")))
+}

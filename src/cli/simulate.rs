@@ -1,0 +1,118 @@
+//! `dashpot simulate`: steady-state records of the model of a project at its runs' frequencies and forces.
+
+use super::arguments::{Records, Simulate};
+use crate::control::Control;
+use crate::effects::{Source, State};
+use crate::exchange::project::{Plan, open};
+use crate::exchange::records::{write_harmonics, write_record};
+use crate::measurement::{Channel, HarmonicFit, Quantity, Record};
+use crate::response::dynamic_stiffness::DynamicStiffness;
+use crate::response::simulation::{HarmonicForce, recorded, usual_channels};
+use crate::response::synthesis::{Noise, sampling_times, synthesise};
+use anyhow::{Context, anyhow, bail};
+use faer::c64;
+use std::f64::consts::TAU;
+use std::fs;
+
+/// Makes the records and says what was written.
+pub(super) fn run(arguments: &Simulate) -> anyhow::Result<String> {
+    let plan = open(&arguments.file)?;
+    let name = arguments.file.display();
+    let sources: Vec<Source> = plan.sources.iter().filter(|s| s.state == State::Known).cloned().collect();
+    refuse_nonlinear(&sources).with_context(|| format!("{name}"))?;
+    let stiffness = DynamicStiffness::new(&plan.structure, &sources).with_context(|| format!("{name}"))?;
+    if plan.runs.is_empty() {
+        bail!("{name}: there is no [[run]] to simulate; add runs with file, frequency, force_dof and force_n");
+    }
+    let mut simulated = Vec::new();
+    for index in 0..plan.runs.len() {
+        let context = || format!("{name}: run {}", plan.runs[index].file);
+        simulated.push(simulate(&plan, &stiffness, index, arguments).with_context(context)?);
+    }
+    write(&plan, &simulated, arguments)
+}
+
+fn refuse_nonlinear(sources: &[Source]) -> anyhow::Result<()> {
+    match sources.iter().find(|source| !source.effect.is_linear()) {
+        None => Ok(()),
+        Some(source) => bail!(
+            "simulate holds for linear laws so far, and a {} source is known here; set its state to \"off\" or use a linear law",
+            source.effect
+        ),
+    }
+}
+
+/// A run's frequency, forces, channels and times: from the recipe, or from the record that is there.
+struct Test {
+    omega: f64,
+    forces: Vec<HarmonicForce>,
+    channels: Vec<Channel>,
+    time: Vec<f64>,
+}
+
+fn simulate(plan: &Plan, stiffness: &DynamicStiffness<'_>, index: usize, arguments: &Simulate) -> anyhow::Result<Record> {
+    let test = if plan.runs[index].force.is_some() { from_recipe(plan, index)? } else { from_record(plan, index)? };
+    let motions = recorded(stiffness, test.omega, &test.forces, &test.channels, &plan.sensors)?;
+    let stream = index as u64;
+    let noise = (arguments.noise > 0.0).then_some(Noise { ratio: arguments.noise, seed: arguments.seed, stream });
+    Ok(synthesise(test.omega, &test.time, &motions, noise)?)
+}
+
+fn from_recipe(plan: &Plan, index: usize) -> anyhow::Result<Test> {
+    let run = &plan.runs[index];
+    let force = run.force.ok_or_else(|| anyhow!("force_dof and force_n are missing"))?;
+    let frequency = run.frequency_hz.ok_or_else(|| anyhow!("frequency is missing; give it in Hz"))?;
+    let omega = TAU * frequency;
+    let forces = vec![HarmonicForce { dof: force.dof, amplitudes: vec![c64::new(force.amplitude_n, 0.0)] }];
+    let table = plan.simulate();
+    let channels = if table.channels.is_empty() {
+        usual_channels(&plan.structure, &forces)
+    } else {
+        plan.channels(&table.channels)?
+    };
+    Ok(Test { omega, forces, channels, time: sampling_times(omega, table.periods as f64, table.samples) })
+}
+
+/// The measured force's harmonics drive the model; what was recorded is recorded again.
+fn from_record(plan: &Plan, index: usize) -> anyhow::Result<Test> {
+    let run = plan.run(index, &Control::unattended())?;
+    let record = run.record.ok_or_else(|| anyhow!("there is no record to take the force from"))?;
+    let of_force = |fit: &&crate::measurement::ChannelFit| fit.channel.quantity == Quantity::Force;
+    let forces = run.fit.channels.iter().filter(of_force);
+    let forces =
+        forces.map(|fit| HarmonicForce { dof: fit.channel.dof, amplitudes: fit.amplitudes.clone() }).collect();
+    let channels = record.channels().to_vec();
+    Ok(Test { omega: run.fit.omega, forces, channels, time: record.time().to_vec() })
+}
+
+fn write(plan: &Plan, records: &[Record], arguments: &Simulate) -> anyhow::Result<String> {
+    let folder = &arguments.out;
+    fs::create_dir_all(folder).with_context(|| format!("{}: the folder cannot be made", folder.display()))?;
+    if arguments.records == Records::Harmonics {
+        let path = folder.join("harmonics.csv");
+        let fits = fits(plan, records)?;
+        let named: Vec<(&str, &HarmonicFit)> = plan.runs.iter().map(|run| run.file.as_str()).zip(&fits).collect();
+        write_harmonics(&path, &named, &plan.structure)?;
+        return Ok(format!("{} runs are in {}\n", records.len(), path.display()));
+    }
+    for (run, record) in plan.runs.iter().zip(records) {
+        let path = folder.join(&run.file);
+        if let Some(parent) = path.parent() {
+            fs::create_dir_all(parent).with_context(|| format!("{}: the folder cannot be made", parent.display()))?;
+        }
+        write_record(&path, record, &plan.structure, arguments.digits.map(usize::from))?;
+    }
+    Ok(format!("{} records are in {}\n", records.len(), folder.display()))
+}
+
+fn fits(plan: &Plan, records: &[Record]) -> anyhow::Result<Vec<HarmonicFit>> {
+    let harmonics = plan.settings().harmonics;
+    plan.runs
+        .iter()
+        .zip(records)
+        .map(|(run, record)| {
+            let frequency = run.frequency_hz.ok_or_else(|| anyhow!("run {}: frequency is missing", run.file))?;
+            Ok(crate::measurement::fit::fit(record, TAU * frequency, harmonics)?)
+        })
+        .collect()
+}
