@@ -16,12 +16,8 @@ pub(super) struct Arguments {
 
 #[derive(Debug, Subcommand)]
 pub(super) enum Command {
-    /// Identify the sources of damping: matrix, energy shares, damping ratios
-    Identify(Identify),
     /// Make steady-state records of the model of a project
     Simulate(Simulate),
-    /// Write identified matrices and sources for another program
-    Export(Export),
 }
 
 #[derive(Debug, Args)]

@@ -3,8 +3,6 @@
 //! Exit status: 0 done, 1 the input is at fault (one line on standard error), 2 wrong usage.
 
 mod arguments;
-mod export;
-mod identify;
 mod simulate;
 mod table;
 
@@ -35,9 +33,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
 
 fn execute(command: &Command) -> anyhow::Result<String> {
     match command {
-        Command::Identify(arguments) => identify::run(arguments),
         Command::Simulate(arguments) => simulate::run(arguments),
-        Command::Export(arguments) => export::run(arguments),
     }
 }
 

@@ -5,9 +5,10 @@ use crate::control::Control;
 use crate::effects::{Source, State};
 use crate::exchange::project::{Plan, open};
 use crate::exchange::records::{write_harmonics, write_record};
-use crate::measurement::{Channel, HarmonicFit, Quantity, Record};
+use crate::measurement::channel::ChannelName;
+use crate::measurement::{Channel, ChannelFit, HarmonicFit, Quantity, Record, fit, frequency};
 use crate::response::dynamic_stiffness::DynamicStiffness;
-use crate::response::simulation::{HarmonicForce, recorded, usual_channels};
+use crate::response::simulation::{HarmonicForce, recorded, transfer, usual_channels};
 use crate::response::synthesis::{Noise, sampling_times, synthesise};
 use anyhow::{Context, anyhow, bail};
 use faer::c64;
@@ -68,21 +69,41 @@ fn from_recipe(plan: &Plan, index: usize) -> anyhow::Result<Test> {
     let channels = if table.channels.is_empty() {
         usual_channels(&plan.structure, &forces)
     } else {
-        plan.channels(&table.channels)?
+        channels(plan)?
     };
     Ok(Test { omega, forces, channels, time: sampling_times(omega, table.periods as f64, table.samples) })
 }
 
-/// The measured force's harmonics drive the model; what was recorded is recorded again.
+/// The measured force's harmonics, freed of the channel's known errors, drive the model; what was recorded is recorded
+/// again.
 fn from_record(plan: &Plan, index: usize) -> anyhow::Result<Test> {
-    let run = plan.run(index, &Control::unattended())?;
-    let record = run.record.ok_or_else(|| anyhow!("there is no record to take the force from"))?;
-    let of_force = |fit: &&crate::measurement::ChannelFit| fit.channel.quantity == Quantity::Force;
-    let forces = run.fit.channels.iter().filter(of_force);
-    let forces =
-        forces.map(|fit| HarmonicForce { dof: fit.channel.dof, amplitudes: fit.amplitudes.clone() }).collect();
-    let channels = record.channels().to_vec();
-    Ok(Test { omega: run.fit.omega, forces, channels, time: record.time().to_vec() })
+    let record = plan.record(index, &Control::unattended())?;
+    let fit = fit_record(plan, index, &record)?;
+    let truth = |fitted: &ChannelFit| {
+        let amplitude = |(h, y): (usize, &c64)| y / transfer(&plan.sensors, &fitted.channel, (h + 1) as f64 * fit.omega);
+        HarmonicForce { dof: fitted.channel.dof, amplitudes: fitted.amplitudes.iter().enumerate().map(amplitude).collect() }
+    };
+    let forces = fit.channels.iter().filter(|fitted| fitted.channel.quantity == Quantity::Force).map(truth).collect();
+    Ok(Test { omega: fit.omega, forces, channels: record.channels().to_vec(), time: record.time().to_vec() })
+}
+
+fn fit_record(plan: &Plan, index: usize, record: &Record) -> anyhow::Result<HarmonicFit> {
+    let harmonics = plan.settings().harmonics;
+    let omega = match plan.runs[index].frequency_hz {
+        Some(frequency) => TAU * frequency,
+        None => frequency::estimate(record, harmonics)?.omega,
+    };
+    Ok(fit::fit(record, omega, harmonics)?)
+}
+
+/// The channels named in `[simulate]`.
+fn channels(plan: &Plan) -> anyhow::Result<Vec<Channel>> {
+    let channel = |text: &String| {
+        let name = ChannelName::parse(text)?;
+        let dof = plan.structure.require_dof(&name.label)?;
+        Ok(Channel { quantity: name.quantity, dof, label: name.label })
+    };
+    plan.simulate().channels.iter().map(channel).collect()
 }
 
 fn write(plan: &Plan, records: &[Record], arguments: &Simulate) -> anyhow::Result<String> {
@@ -106,13 +127,5 @@ fn write(plan: &Plan, records: &[Record], arguments: &Simulate) -> anyhow::Resul
 }
 
 fn fits(plan: &Plan, records: &[Record]) -> anyhow::Result<Vec<HarmonicFit>> {
-    let harmonics = plan.settings().harmonics;
-    plan.runs
-        .iter()
-        .zip(records)
-        .map(|(run, record)| {
-            let frequency = run.frequency_hz.ok_or_else(|| anyhow!("run {}: frequency is missing", run.file))?;
-            Ok(crate::measurement::fit::fit(record, TAU * frequency, harmonics)?)
-        })
-        .collect()
+    records.iter().enumerate().map(|(index, record)| fit_record(plan, index, record)).collect()
 }

@@ -1,8 +1,11 @@
-//! What the structure is predicted to do: frequency response and steady state.
+//! What the structure is predicted to do: frequency response, periodic steady state, records of it.
+
 pub mod dynamic_stiffness;
 pub mod frequency_response;
 pub mod harmonic_balance;
 pub mod linear_matrices;
 pub mod sensitivity;
+pub mod simulation;
 pub mod steady_state;
+pub mod synthesis;
 pub mod time_integration;

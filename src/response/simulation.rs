@@ -59,7 +59,7 @@ pub fn recorded(
 }
 
 /// Ratio of recorded to true amplitude of a channel at circular frequency `w` (rad/s).
-fn transfer(sensors: &[Source], channel: &Channel, w: f64) -> c64 {
+pub fn transfer(sensors: &[Source], channel: &Channel, w: f64) -> c64 {
     let name = channel.to_string();
     let mut ratio = c64::new(1.0, 0.0);
     for sensor in sensors {
