@@ -6,9 +6,9 @@ use crate::effects::{Source, State};
 use crate::exchange::project::{Plan, open};
 use crate::exchange::records::{write_harmonics, write_record};
 use crate::measurement::channel::ChannelName;
-use crate::measurement::{Channel, ChannelFit, HarmonicFit, Quantity, Record, fit, frequency};
-use crate::response::dynamic_stiffness::DynamicStiffness;
-use crate::response::simulation::{HarmonicForce, recorded, transfer, usual_channels};
+use crate::measurement::{Channel, ChannelFit, HarmonicFit, Quantity, Record, fit::fit, frequency};
+use crate::response::harmonic_balance::{Excitation, ForwardModel, HarmonicForce, Settings};
+use crate::response::simulation::{recorded, transfer, usual_channels};
 use crate::response::synthesis::{Noise, sampling_times, synthesise};
 use anyhow::{Context, anyhow, bail};
 use faer::c64;
@@ -20,43 +20,32 @@ pub(super) fn run(arguments: &Simulate) -> anyhow::Result<String> {
     let plan = open(&arguments.file)?;
     let name = arguments.file.display();
     let sources: Vec<Source> = plan.sources.iter().filter(|s| s.state == State::Known).cloned().collect();
-    refuse_nonlinear(&sources).with_context(|| format!("{name}"))?;
-    let stiffness = DynamicStiffness::new(&plan.structure, &sources).with_context(|| format!("{name}"))?;
+    let model = ForwardModel::new(&plan.structure, &sources).with_context(|| format!("{name}"))?;
     if plan.runs.is_empty() {
         bail!("{name}: there is no [[run]] to simulate; add runs with file, frequency, force_dof and force_n");
     }
     let mut simulated = Vec::new();
     for index in 0..plan.runs.len() {
         let context = || format!("{name}: run {}", plan.runs[index].file);
-        simulated.push(simulate(&plan, &stiffness, index, arguments).with_context(context)?);
+        simulated.push(simulate(&plan, &model, index, arguments).with_context(context)?);
     }
     write(&plan, &simulated, arguments)
 }
 
-fn refuse_nonlinear(sources: &[Source]) -> anyhow::Result<()> {
-    match sources.iter().find(|source| !source.effect.is_linear()) {
-        None => Ok(()),
-        Some(source) => bail!(
-            "simulate holds for linear laws so far, and a {} source is known here; set its state to \"off\" or use a linear law",
-            source.effect
-        ),
-    }
-}
-
-/// A run's frequency, forces, channels and times: from the recipe, or from the record that is there.
+/// What drives a run, what is recorded and when: from the recipe, or from the record that is there.
 struct Test {
-    omega: f64,
-    forces: Vec<HarmonicForce>,
+    excitation: Excitation,
     channels: Vec<Channel>,
     time: Vec<f64>,
 }
 
-fn simulate(plan: &Plan, stiffness: &DynamicStiffness<'_>, index: usize, arguments: &Simulate) -> anyhow::Result<Record> {
+fn simulate(plan: &Plan, model: &ForwardModel, index: usize, arguments: &Simulate) -> anyhow::Result<Record> {
     let test = if plan.runs[index].force.is_some() { from_recipe(plan, index)? } else { from_record(plan, index)? };
-    let motions = recorded(stiffness, test.omega, &test.forces, &test.channels, &plan.sensors)?;
+    let response = model.respond(&test.excitation, &Settings::default(), None, &Control::unattended())?;
+    let motions = recorded(&response, &test.excitation, &test.channels, &plan.sensors);
     let stream = index as u64;
     let noise = (arguments.noise > 0.0).then_some(Noise { ratio: arguments.noise, seed: arguments.seed, stream });
-    Ok(synthesise(test.omega, &test.time, &motions, noise)?)
+    Ok(synthesise(test.excitation.omega, &test.time, &motions, noise)?)
 }
 
 fn from_recipe(plan: &Plan, index: usize) -> anyhow::Result<Test> {
@@ -64,14 +53,11 @@ fn from_recipe(plan: &Plan, index: usize) -> anyhow::Result<Test> {
     let force = run.force.ok_or_else(|| anyhow!("force_dof and force_n are missing"))?;
     let frequency = run.frequency_hz.ok_or_else(|| anyhow!("frequency is missing; give it in Hz"))?;
     let omega = TAU * frequency;
-    let forces = vec![HarmonicForce { dof: force.dof, amplitudes: vec![c64::new(force.amplitude_n, 0.0)] }];
+    let excitation = Excitation::sine(omega, force.dof, c64::new(force.amplitude_n, 0.0));
     let table = plan.simulate();
-    let channels = if table.channels.is_empty() {
-        usual_channels(&plan.structure, &forces)
-    } else {
-        channels(plan)?
-    };
-    Ok(Test { omega, forces, channels, time: sampling_times(omega, table.periods as f64, table.samples) })
+    let channels =
+        if table.channels.is_empty() { usual_channels(&plan.structure, &excitation) } else { channels(plan)? };
+    Ok(Test { excitation, channels, time: sampling_times(omega, table.periods as f64, table.samples) })
 }
 
 /// The measured force's harmonics, freed of the channel's known errors, drive the model; what was recorded is recorded
@@ -80,11 +66,14 @@ fn from_record(plan: &Plan, index: usize) -> anyhow::Result<Test> {
     let record = plan.record(index, &Control::unattended())?;
     let fit = fit_record(plan, index, &record)?;
     let truth = |fitted: &ChannelFit| {
-        let amplitude = |(h, y): (usize, &c64)| y / transfer(&plan.sensors, &fitted.channel, (h + 1) as f64 * fit.omega);
-        HarmonicForce { dof: fitted.channel.dof, amplitudes: fitted.amplitudes.iter().enumerate().map(amplitude).collect() }
+        let amplitude =
+            |(h, y): (usize, &c64)| y / transfer(&plan.sensors, &fitted.channel, (h + 1) as f64 * fit.omega);
+        let harmonics = fitted.amplitudes.iter().enumerate().map(amplitude).collect();
+        HarmonicForce { dof: fitted.channel.dof, mean: 0.0, harmonics }
     };
     let forces = fit.channels.iter().filter(|fitted| fitted.channel.quantity == Quantity::Force).map(truth).collect();
-    Ok(Test { omega: fit.omega, forces, channels: record.channels().to_vec(), time: record.time().to_vec() })
+    let excitation = Excitation { omega: fit.omega, forces };
+    Ok(Test { excitation, channels: record.channels().to_vec(), time: record.time().to_vec() })
 }
 
 fn fit_record(plan: &Plan, index: usize, record: &Record) -> anyhow::Result<HarmonicFit> {
@@ -93,7 +82,7 @@ fn fit_record(plan: &Plan, index: usize, record: &Record) -> anyhow::Result<Harm
         Some(frequency) => TAU * frequency,
         None => frequency::estimate(record, harmonics)?.omega,
     };
-    Ok(fit::fit(record, omega, harmonics)?)
+    Ok(fit(record, omega, harmonics)?)
 }
 
 /// The channels named in `[simulate]`.

@@ -1,61 +1,49 @@
-//! What a model's sensors would show: linear steady state under given forces, recorded through the measuring chain.
+//! What a model's sensors would show: periodic steady state under given forces, recorded through the measuring chain.
 //!
 //! `Y_h = T(h omega) (i h omega)^k X_h` with `k` the derivatives of the channel's quantity and `T` the transfer of its
-//! known errors (delay, gain); `Z(h omega) X_h = F_h`.
+//! known errors (delay, gain).
 
-use super::dynamic_stiffness::{DynamicStiffness, DynamicStiffnessError};
-use super::steady_state::steady_state;
+use super::harmonic_balance::{Excitation, Response};
 use super::synthesis::ChannelMotion;
 use crate::effects::effect::Kind;
 use crate::effects::{Place, Source};
 use crate::measurement::{Channel, Quantity};
+use crate::structure::Structure;
 use faer::c64;
 
-/// Complex amplitudes of harmonics 1, 2, ... of the force at one DOF, N.
-#[derive(Debug, Clone, PartialEq)]
-pub struct HarmonicForce {
-    /// Row of the DOF.
-    pub dof: usize,
-    /// Amplitudes.
-    pub amplitudes: Vec<c64>,
-}
-
-/// What each of `channels` shows in steady state at `omega` (rad/s) under `forces`.
+/// What each of `channels` shows of `response` under `excitation`, in SI units.
 ///
 /// `sensors` are sources of effects `delay` and `gain` at channels; they act on what is recorded, forces included.
-///
-/// # Errors
-/// [`DynamicStiffnessError`] at an undamped resonance.
 pub fn recorded(
-    stiffness: &DynamicStiffness<'_>,
-    omega: f64,
-    forces: &[HarmonicForce],
+    response: &Response,
+    excitation: &Excitation,
     channels: &[Channel],
     sensors: &[Source],
-) -> Result<Vec<ChannelMotion>, DynamicStiffnessError> {
-    let harmonics = forces.iter().map(|force| force.amplitudes.len()).max().unwrap_or(0);
-    let zero = c64::new(0.0, 0.0);
-    let mut spectrum = vec![vec![zero; stiffness.size()]; harmonics];
-    for force in forces {
-        for (h, amplitude) in force.amplitudes.iter().enumerate() {
-            spectrum[h][force.dof] += amplitude;
-        }
-    }
-    let response = steady_state(stiffness, omega, &spectrum)?;
+) -> Vec<ChannelMotion> {
     let show = |channel: &Channel| {
-        let amplitudes = (0..harmonics)
-            .map(|h| {
-                let w = (h + 1) as f64 * omega;
-                let truth = match channel.quantity.derivatives() {
-                    None => spectrum[h][channel.dof],
-                    Some(order) => response[h][channel.dof] * c64::new(0.0, w).powi(order),
-                };
-                truth * transfer(sensors, channel, w)
-            })
-            .collect();
-        ChannelMotion { channel: channel.clone(), mean: 0.0, amplitudes }
+        let amplitude = |h: usize| {
+            let w = h as f64 * excitation.omega;
+            let truth = match channel.quantity.derivatives() {
+                None => force(excitation, channel.dof, h),
+                Some(order) => response.amplitude(channel.dof, h) * c64::new(0.0, w).powi(order),
+            };
+            truth * transfer(sensors, channel, w)
+        };
+        let mean = match channel.quantity {
+            Quantity::Force => force(excitation, channel.dof, 0).re,
+            Quantity::Displacement => response.mean[channel.dof],
+            Quantity::Velocity | Quantity::Acceleration => 0.0,
+        };
+        let mean = mean * transfer(sensors, channel, 0.0).re;
+        let harmonics = response.order().max(excitation.forces.iter().map(|f| f.harmonics.len()).max().unwrap_or(0));
+        ChannelMotion { channel: channel.clone(), mean, amplitudes: (1..=harmonics).map(amplitude).collect() }
     };
-    Ok(channels.iter().map(show).collect())
+    channels.iter().map(show).collect()
+}
+
+/// Complex amplitude of harmonic `h` of all forces at a DOF, N.
+fn force(excitation: &Excitation, dof: usize, h: usize) -> c64 {
+    excitation.forces.iter().filter(|force| force.dof == dof).map(|force| force.amplitude(h)).sum()
 }
 
 /// Ratio of recorded to true amplitude of a channel at circular frequency `w` (rad/s).
@@ -73,9 +61,9 @@ pub fn transfer(sensors: &[Source], channel: &Channel, w: f64) -> c64 {
 }
 
 /// The force channels and every translation's acceleration, which is what is recorded unless the project says otherwise.
-pub fn usual_channels(structure: &crate::structure::Structure, forces: &[HarmonicForce]) -> Vec<Channel> {
+pub fn usual_channels(structure: &Structure, excitation: &Excitation) -> Vec<Channel> {
     let channel = |quantity, dof| Channel { quantity, dof, label: structure.label(dof).to_owned() };
-    let driven = forces.iter().map(|force| channel(Quantity::Force, force.dof));
+    let driven = excitation.forces.iter().map(|force| channel(Quantity::Force, force.dof));
     let translations = (0..structure.len()).filter(|&dof| !structure.dofs()[dof].direction.is_rotation());
     driven.chain(translations.map(|dof| channel(Quantity::Acceleration, dof))).collect()
 }
