@@ -265,4 +265,12 @@ fn runs_and_settings() {
         "[simulate]\nsamples = 2\n",
         "p.toml:9: `samples = 2` is not a usable number; it must be between 16 and 100000000",
     );
+    chain(
+        "[simulate]\nchannels = [\"acc@1 [m/s^2]\", \"acc@4 [m/s^2]\"]\n",
+        "p.toml:9: there is no DOF \"4\"; labels near it: 3, 2, 1",
+    );
+    let message =
+        plan(&format!("{CHAIN}[simulate]\nchannels = [\"acc@1 [furlong]\"]\n"), Path::new("p.toml")).unwrap_err();
+    assert!(message.to_string().starts_with("p.toml:9: "), "{message}");
+    assert!(message.to_string().contains("furlong"), "{message}");
 }

@@ -5,7 +5,6 @@
 use super::error::{TableError, TableProblem, number, quote};
 use crate::structure::MOST_DOFS;
 use faer::Mat;
-use std::fmt::Write as _;
 
 /// Reads a square matrix from the text of a file called `file` in messages.
 pub fn parse_market(text: &str, file: &str) -> Result<Mat<f64>, TableError> {
@@ -129,26 +128,6 @@ impl Builder {
     }
 }
 
-/// The text of a Matrix Market file: `coordinate real`, `symmetric` where the matrix is exactly so, numbers that read
-/// back to the same bits. `comment` is one line.
-pub fn market_text(matrix: &Mat<f64>, comment: &str) -> String {
-    let (rows, columns) = matrix.shape();
-    let symmetric = rows == columns && (0..rows).all(|i| (0..i).all(|j| matrix[(i, j)] == matrix[(j, i)]));
-    let mut entries = String::new();
-    let mut count = 0;
-    for j in 0..columns {
-        for i in if symmetric { j } else { 0 }..rows {
-            if matrix[(i, j)] != 0.0 {
-                count += 1;
-                let _ = writeln!(entries, "{} {} {:e}", i + 1, j + 1, matrix[(i, j)]);
-            }
-        }
-    }
-    let symmetry = if symmetric { "symmetric" } else { "general" };
-    let comment = quote(comment);
-    format!("%%MatrixMarket matrix coordinate real {symmetry}\n% {comment}\n{rows} {columns} {count}\n{entries}")
-}
-
 #[cfg(test)]
 mod tests {
     #![allow(clippy::unwrap_used, reason = "tests")]
@@ -165,14 +144,6 @@ mod tests {
             "%%matrixmarket MATRIX array real general\n2 2\n2 -1.5\n-1.5 3e-3",
         ] {
             assert_eq!(parse_market(text, "a").unwrap(), expected, "{text}");
-        }
-    }
-
-    #[test]
-    fn written_matrices_read_back_to_the_bit() {
-        for matrix in [mat![[1.0 / 3.0, 1e-300], [1e-300, -2.2e22]], mat![[0.0, 0.1], [0.2, 0.3]]] {
-            let text = market_text(&matrix, "mass\nin kg");
-            assert_eq!(parse_market(&text, "a").unwrap(), matrix);
         }
     }
 

@@ -5,7 +5,7 @@ pub mod market;
 pub mod table;
 
 pub use error::{TableError, TableProblem};
-pub use market::{market_text, parse_market};
+pub use market::parse_market;
 
 use crate::structure::Node;
 use crate::structure::imported::ImportedDof;

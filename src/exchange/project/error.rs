@@ -4,6 +4,7 @@ use crate::effects::source::SourceError;
 use crate::exchange::matrices::TableError;
 use crate::exchange::records::RecordFileError;
 use crate::measurement::FitError;
+use crate::measurement::channel::ChannelError;
 use crate::structure::StructureError;
 use std::fmt;
 
@@ -15,13 +16,19 @@ pub struct ProjectError {
     /// Line of the file, from 1, where one is at fault.
     pub line: Option<usize>,
     /// What is wrong.
-    pub problem: Problem,
+    pub problem: Box<Problem>,
+}
+
+impl ProjectError {
+    pub(super) fn new(file: &str, line: Option<usize>, problem: Problem) -> Self {
+        Self { file: file.to_owned(), line, problem: Box::new(problem) }
+    }
 }
 
 impl fmt::Display for ProjectError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         // Tables and records name their own file and line, which is where the user must look.
-        if matches!(self.problem, Problem::Table(_) | Problem::Record(_)) {
+        if matches!(*self.problem, Problem::Table(_) | Problem::Record(_)) {
             return write!(f, "{}", self.problem);
         }
         match self.line {
@@ -82,11 +89,13 @@ pub enum Problem {
     #[error("cancelled")]
     Cancelled,
     #[error("{0}")]
-    Structure(StructureError),
+    Structure(Box<StructureError>),
     #[error("{0}")]
-    Source(SourceError),
+    Source(Box<SourceError>),
+    #[error("{0}")]
+    Channel(Box<ChannelError>),
     #[error("{0}")]
     Table(TableError),
     #[error("{0}")]
-    Record(RecordFileError),
+    Record(Box<RecordFileError>),
 }

@@ -2,13 +2,11 @@
 
 use super::error::{Problem, ProjectError};
 use super::plan::{Plan, open};
-use super::sensors::correct;
 use crate::control::Control;
-use crate::effects::Place;
+use crate::effects::{Effect, Place, Source};
 use crate::exchange::Project;
-use crate::exchange::records::HarmonicsRun;
-use crate::measurement::{FitError, HarmonicFit, Record, Run, fit, frequency};
-use std::f64::consts::TAU;
+use crate::measurement::run::Correction;
+use crate::measurement::{Channel, Quantity, Run};
 use std::path::Path;
 use std::sync::Arc;
 
@@ -35,7 +33,9 @@ impl Plan {
             runs.push(self.run(index, &Control::unattended())?);
             control.report((index + 1) as f64 / self.runs.len() as f64);
         }
-        runs.extend(self.harmonics()?.into_iter().map(|run| self.fitted(run)));
+        let corrections = self.corrections();
+        let fitted = self.harmonics()?.into_iter();
+        runs.extend(fitted.map(|run| Run::from_harmonics(run.name, None, true, run.fit, &corrections)));
         self.check_sensors(&runs)?;
         Ok(Project {
             title: self.file.project.title,
@@ -54,36 +54,39 @@ impl Plan {
     pub fn run(&self, index: usize, control: &Control) -> Result<Run, ProjectError> {
         let planned = &self.runs[index];
         let record = self.record(index, control)?;
-        let fit = fitted(&record, planned.frequency_hz, self.settings().harmonics).map_err(|error| {
-            let key = if planned.frequency_hz.is_some() { "frequency" } else { "file" };
-            self.run_error(index, key, Problem::Fit { file: planned.file.clone(), error })
-        })?;
-        let mut run = Run {
-            file: planned.file.clone(),
-            level: planned.level,
-            enabled: planned.enabled,
-            record: Some(Arc::new(record)),
-            noise_ratio: noise_ratio(&fit),
-            fit,
-            findings: Vec::new(),
-        };
-        correct(&mut run.fit, &self.sensors);
-        Ok(run)
+        let (file, settings) = (planned.file.clone(), self.settings());
+        let (level, enabled, frequency_hz) = (planned.level, planned.enabled, planned.frequency_hz);
+        let corrections = self.corrections();
+        Run::from_record(file, level, enabled, Arc::new(record), frequency_hz, settings.harmonics, &corrections)
+            .map_err(|error| {
+                let key = if frequency_hz.is_some() { "frequency" } else { "file" };
+                self.run_error(index, key, Problem::Fit { file: planned.file.clone(), error })
+            })
     }
 
-    /// A run whose harmonics were fitted elsewhere.
-    fn fitted(&self, run: HarmonicsRun) -> Run {
-        let mut fit = run.fit;
-        correct(&mut fit, &self.sensors);
-        Run {
-            file: run.name,
-            level: None,
-            enabled: true,
-            record: None,
-            noise_ratio: noise_ratio(&fit),
-            fit,
-            findings: Vec::new(),
+    /// Known errors of the measuring chain, one entry a channel.
+    pub fn corrections(&self) -> Vec<Correction> {
+        let mut corrections: Vec<Correction> = Vec::new();
+        for sensor in &self.sensors {
+            let Some(channel) = self.channel(sensor) else { continue };
+            let at = corrections.iter().position(|known| known.channel == channel).unwrap_or(corrections.len());
+            if at == corrections.len() {
+                corrections.push(Correction { channel, delay: 0.0, gain: 1.0 });
+            }
+            match sensor.effect {
+                Effect::Delay => corrections[at].delay = sensor.parameters[0],
+                _ => corrections[at].gain = sensor.parameters[0],
+            }
         }
+        corrections
+    }
+
+    /// The channel of a sensor.
+    fn channel(&self, sensor: &Source) -> Option<Channel> {
+        let Place::Channel(name) = &sensor.place else { return None };
+        let (word, label) = name.split_once('@')?;
+        let quantity = Quantity::from_word(word)?;
+        Some(Channel { quantity, dof: self.structure.dof(label)?, label: label.to_owned() })
     }
 
     /// A correction whose channel is in no record would silently do nothing.
@@ -100,33 +103,4 @@ impl Plan {
         }
         Ok(())
     }
-
-    fn error(&self, line: Option<usize>, problem: Problem) -> ProjectError {
-        ProjectError { file: self.path.display().to_string(), line, problem }
-    }
-}
-
-/// Harmonics at the frequency that is given or, without one, found in the record.
-fn fitted(record: &Record, frequency_hz: Option<f64>, harmonics: usize) -> Result<HarmonicFit, FitError> {
-    match frequency_hz {
-        Some(frequency_hz) => fit(record, TAU * frequency_hz, harmonics),
-        None => {
-            let found = frequency::estimate(record, harmonics)?;
-            let fitted = fit(record, found.omega, harmonics)?;
-            Ok(HarmonicFit { omega_deviation: found.deviation, ..fitted })
-        }
-    }
-}
-
-/// Noise over signal, root mean square over the channels that show anything.
-fn noise_ratio(fit: &HarmonicFit) -> f64 {
-    let power =
-        |channel: &crate::measurement::ChannelFit| 0.5 * channel.amplitudes.iter().map(|y| y.norm_sqr()).sum::<f64>();
-    let ratios: Vec<f64> = fit
-        .channels
-        .iter()
-        .filter(|channel| power(channel) > 0.0)
-        .map(|channel| channel.noise * channel.noise / power(channel))
-        .collect();
-    if ratios.is_empty() { 0.0 } else { (ratios.iter().sum::<f64>() / ratios.len() as f64).sqrt() }
 }

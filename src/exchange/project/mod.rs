@@ -7,7 +7,6 @@ pub mod load;
 mod parse;
 pub mod plan;
 mod reader;
-pub mod sensors;
 mod sources;
 mod structure;
 

@@ -1,7 +1,10 @@
 //! From text to [`ProjectFile`]: every key known, every value of its type; nothing else is read.
 
 use super::error::{Problem, ProjectError};
-use super::file::*;
+use super::file::{
+    CandidatesTable, FORMAT, HarmonicsTable, Header, Label, Lines, MatricesTable, PointsTable, ProjectFile, RunTable,
+    SensorTable, Shape, SimulateTable, SourceTable, StructureTable,
+};
 use super::reader::{Origin, Table, one_line};
 use crate::balance::{Expansion, Weights};
 use crate::effects::family::Family;
@@ -63,7 +66,7 @@ impl ProjectFile {
 fn header(root: &Table<'_>) -> Read<Header> {
     let table = root.need("project", "[project]", root.table("project", "[project]")?)?;
     let format = table.need("format", "format = 1", table.whole("format")?)?;
-    if format > FORMAT as i64 {
+    if format.unsigned_abs() > FORMAT && format > 0 {
         return Err(table.error("format", Problem::Newer { found: format.unsigned_abs() }));
     }
     if format < 1 {

@@ -8,7 +8,7 @@ use crate::control::Control;
 use crate::effects::Source;
 use crate::exchange::records::{HarmonicsRun, read_harmonics, read_record_with};
 use crate::identify::Settings;
-use crate::measurement::Record;
+use crate::measurement::{ChannelName, Record};
 use crate::structure::Structure;
 use std::path::{Path, PathBuf};
 
@@ -62,7 +62,7 @@ pub struct PlannedForce {
 /// [`ProjectError`] with file and line of the first thing that is wrong.
 pub fn open(path: &Path) -> Result<Plan, ProjectError> {
     let name = path.display().to_string();
-    let wrong = |problem| ProjectError { file: name.clone(), line: None, problem };
+    let wrong = |problem| ProjectError::new(&name, None, problem);
     let bytes = std::fs::read(path).map_err(|error| wrong(Problem::Unreadable { reason: error.to_string() }))?;
     let text = String::from_utf8(bytes)
         .map_err(|error| wrong(Problem::NotText { position: error.utf8_error().valid_up_to() + 1 }))?;
@@ -79,6 +79,7 @@ pub fn plan(text: &str, path: &Path) -> Result<Plan, ProjectError> {
     let sources = sources(&file, &structure, at)?;
     let sensors = sensors(&file.sensor, &structure, at)?;
     let runs = runs(&file, &structure, folder, at)?;
+    recorded(&file.simulate.channels, &structure).map_err(|problem| at.error(lines.simulate, problem))?;
     Ok(Plan { path: path.to_owned(), structure, sources, sensors, runs, file, lines })
 }
 
@@ -94,7 +95,8 @@ fn runs(file: &ProjectFile, structure: &Structure, folder: &Path, at: At<'_>) ->
         let force = match (&table.force_dof, table.force_n) {
             (Some(label), Some(amplitude_n)) => {
                 let dof = structure.require_dof(&label.0);
-                let dof = dof.map_err(|error| at.error(line(lines, "force_dof"), Problem::Structure(error)))?;
+                let dof =
+                    dof.map_err(|error| at.error(line(lines, "force_dof"), Problem::Structure(Box::new(error))))?;
                 Some(PlannedForce { dof, amplitude_n })
             }
             _ => None,
@@ -111,6 +113,15 @@ fn runs(file: &ProjectFile, structure: &Structure, folder: &Path, at: At<'_>) ->
     Ok(runs)
 }
 
+/// Checks the channels that `simulate` is to record.
+fn recorded(channels: &[String], structure: &Structure) -> Result<(), Problem> {
+    for text in channels {
+        let name = ChannelName::parse(text).map_err(|error| Problem::Channel(Box::new(error)))?;
+        structure.require_dof(&name.label).map_err(|error| Problem::Structure(Box::new(error)))?;
+    }
+    Ok(())
+}
+
 impl Plan {
     /// Settings of the analysis.
     pub fn settings(&self) -> &Settings {
@@ -124,8 +135,11 @@ impl Plan {
 
     /// The problem at a key of run number `run`.
     pub(super) fn run_error(&self, run: usize, key: &str, problem: Problem) -> ProjectError {
-        let line = line(&self.lines.run[run], key);
-        ProjectError { file: self.path.display().to_string(), line: Some(line), problem }
+        self.error(Some(line(&self.lines.run[run], key)), problem)
+    }
+
+    pub(super) fn error(&self, line: Option<usize>, problem: Problem) -> ProjectError {
+        ProjectError::new(&self.path.display().to_string(), line, problem)
     }
 
     /// Reads the record of run number `run`, as it was recorded.
@@ -141,7 +155,7 @@ impl Plan {
             return Err(self.run_error(run, "file", problem));
         }
         read_record_with(&planned.path, &self.structure, control)
-            .map_err(|error| self.run_error(run, "file", Problem::Record(error)))
+            .map_err(|error| self.run_error(run, "file", Problem::Record(Box::new(error))))
     }
 
     /// Reads the runs of every `[[harmonics]]` file, as they were measured.
@@ -149,16 +163,14 @@ impl Plan {
         let folder = self.path.parent().unwrap_or(Path::new(""));
         let mut runs = Vec::new();
         for (i, table) in self.file.harmonics.iter().enumerate() {
-            let wrong = |problem| ProjectError {
-                file: self.path.display().to_string(),
-                line: Some(self.lines.harmonics[i]),
-                problem,
-            };
+            let wrong = |problem| self.error(Some(self.lines.harmonics[i]), problem);
             let path = folder.join(&table.file);
             if !path.is_file() {
                 return Err(wrong(Problem::NoRecord { file: table.file.clone() }));
             }
-            runs.extend(read_harmonics(&path, &self.structure).map_err(|error| wrong(Problem::Record(error)))?);
+            runs.extend(
+                read_harmonics(&path, &self.structure).map_err(|error| wrong(Problem::Record(Box::new(error))))?,
+            );
         }
         Ok(runs)
     }

@@ -15,12 +15,12 @@ impl Origin<'_> {
     /// Line, from 1, of a byte of the text.
     pub fn line(self, offset: usize) -> usize {
         let end = offset.min(self.text.len());
-        1 + self.text.as_bytes()[..end].iter().filter(|&&byte| byte == b'\n').count()
+        self.text.as_bytes()[..end].split(|&byte| byte == b'\n').count()
     }
 
     /// The problem at a byte of the text.
     pub fn error(self, offset: usize, problem: Problem) -> ProjectError {
-        ProjectError { file: self.file.to_owned(), line: Some(self.line(offset)), problem }
+        ProjectError::new(self.file, Some(self.line(offset)), problem)
     }
 }
 

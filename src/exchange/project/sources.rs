@@ -6,7 +6,7 @@ use crate::effects::effect::Kind;
 use crate::effects::source::SourceError;
 use crate::effects::{Effect, Place, Source, State};
 use crate::measurement::Quantity;
-use crate::structure::Structure;
+use crate::structure::{Structure, StructureError};
 use std::collections::BTreeMap;
 
 /// Where problems of a project are said to be.
@@ -18,8 +18,16 @@ pub(super) struct At<'a> {
 
 impl At<'_> {
     pub fn error(self, line: usize, problem: Problem) -> ProjectError {
-        ProjectError { file: self.file.to_owned(), line: Some(line), problem }
+        ProjectError::new(self.file, Some(line), problem)
     }
+}
+
+fn structure_problem(error: StructureError) -> Problem {
+    Problem::Structure(Box::new(error))
+}
+
+fn source_problem(error: SourceError) -> Problem {
+    Problem::Source(Box::new(error))
 }
 
 /// Line of a key, or of the table without it.
@@ -69,7 +77,7 @@ fn blamed(lines: &BTreeMap<String, usize>, problem: &Problem) -> usize {
         Problem::Structure(_) => "dofs",
         Problem::EmptyFamily { .. } => "where",
         Problem::ChannelLaw { .. } => "law",
-        Problem::Source(error) => match error {
+        Problem::Source(error) => match &**error {
             SourceError::OutOfRange { name, .. } => name,
             SourceError::NeedsWhole { .. } | SourceError::PairedWithItself { .. } => "dofs",
             SourceError::NoSuchElements { .. } => "elements",
@@ -90,14 +98,14 @@ fn single(table: &SourceTable, structure: &Structure) -> Result<Source, Problem>
         }
         Kind::Relative(_) => {
             let rows = table.dofs.iter().map(|label| structure.require_dof(&label.0));
-            Place::Dofs(rows.collect::<Result<_, _>>().map_err(Problem::Structure)?)
+            Place::Dofs(rows.collect::<Result<_, _>>().map_err(structure_problem)?)
         }
-        Kind::Whole(_) if !table.dofs.is_empty() => return Err(Problem::Source(SourceError::NeedsWhole { effect })),
+        Kind::Whole(_) if !table.dofs.is_empty() => return Err(source_problem(SourceError::NeedsWhole { effect })),
         Kind::Whole(_) => Place::Whole(table.elements.map(|range| elements(effect, range, structure)).transpose()?),
     };
     let values: Vec<(&str, f64)> = table.parameters.iter().map(|(name, &value)| (name.as_str(), value)).collect();
-    let source = Source::named(effect, place, table.state, &values).map_err(Problem::Source)?;
-    source.check_on(structure).map_err(Problem::Source)?;
+    let source = Source::named(effect, place, table.state, &values).map_err(source_problem)?;
+    source.check_on(structure).map_err(source_problem)?;
     Ok(source)
 }
 
@@ -107,7 +115,7 @@ fn elements(effect: Effect, range: [i64; 2], structure: &Structure) -> Result<[u
     let number = |n: i64| usize::try_from(n).unwrap_or(0);
     let (first, last) = (number(range[0]), number(range[1]));
     if first == 0 || last == 0 {
-        return Err(Problem::Source(SourceError::NoSuchElements { effect, first, last, count }));
+        return Err(source_problem(SourceError::NoSuchElements { effect, first, last, count }));
     }
     Ok([first - 1, last - 1])
 }
@@ -119,8 +127,8 @@ fn family(table: &CandidatesTable, structure: &Structure) -> Result<Vec<Source>,
     let values: Vec<(&str, f64)> = table.parameters.iter().map(|(name, &value)| (name.as_str(), value)).collect();
     let mut sources = Vec::new();
     for candidate in table.family.candidates(table.law, structure) {
-        let source = Source::named(table.law, candidate.place, State::Candidate, &values).map_err(Problem::Source)?;
-        source.check_on(structure).map_err(Problem::Source)?;
+        let source = Source::named(table.law, candidate.place, State::Candidate, &values).map_err(source_problem)?;
+        source.check_on(structure).map_err(source_problem)?;
         sources.push(source);
     }
     if sources.is_empty() { Err(Problem::EmptyFamily { family: table.family.name() }) } else { Ok(sources) }
@@ -136,7 +144,7 @@ pub(super) fn sensors(tables: &[SensorTable], structure: &Structure, at: At<'_>)
         for (effect, value) in [(Effect::Delay, table.delay), (Effect::Gain, table.gain)] {
             let Some(value) = value else { continue };
             let source = Source::known(effect, Place::Channel(name.clone()), &[value]);
-            source.check().map_err(|error| at.error(line, Problem::Source(error)))?;
+            source.check().map_err(|error| at.error(line, source_problem(error)))?;
             if let Some(k) = sensors.iter().position(|other| other.is_same(&source)) {
                 let what = format!("the {effect} of \"{name}\"");
                 return Err(at.error(line, Problem::Twice { what, first: first[k] }));
@@ -158,6 +166,6 @@ fn channel(name: &str, structure: &Structure) -> Result<String, Problem> {
     let (word, label) = name.trim().split_once('@').ok_or_else(wrong)?;
     let quantity = Quantity::from_word(&word.trim().to_lowercase()).ok_or_else(wrong)?;
     let label = label.trim();
-    structure.require_dof(label).map_err(Problem::Structure)?;
+    structure.require_dof(label).map_err(structure_problem)?;
     Ok(format!("{}@{label}", quantity.word()))
 }

@@ -26,7 +26,7 @@ pub(super) fn structure(table: &StructureTable, folder: &Path, at: At<'_>) -> Re
             PointParameters { dofs, positions: points.positions.clone() }.build()
         }
     };
-    built.map_err(|error| at.error(blamed(&error, table, at), Problem::Structure(error)))
+    built.map_err(|error| at.error(blamed(&error, table, at), Problem::Structure(Box::new(error))))
 }
 
 fn imported(files: &MatricesTable, folder: &Path) -> Result<ImportedParameters, Problem> {
