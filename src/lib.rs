@@ -26,7 +26,7 @@
 //! # The floors
 //!
 //! Dependence runs downwards only (`tests/floors.rs` holds it): [`control`], [`math`] - [`structure`], [`effects`],
-//! [`measurement`] - [`response`], [`balance`] - [`identify`] - [`exchange`] - [`cli`].
+//! [`measurement`] - [`response`], [`balance`] - [`identify`] - [`exchange`], [`session`] - [`cli`].
 
 pub mod balance;
 pub mod cli;
@@ -37,4 +37,5 @@ pub mod identify;
 pub mod math;
 pub mod measurement;
 pub mod response;
+pub mod session;
 pub mod structure;

@@ -1,0 +1,181 @@
+//! Every change of a document, as data: a click, a line of a script and a test say the same words.
+//!
+//! In JSON a command is an object with one key, such as `{"add_source": {"law": "viscous", "dofs": ["3"]}}`.
+
+use crate::balance::{Expansion, Weights};
+use crate::effects::{Effect, Family, State};
+use crate::structure::beam::Supports;
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+
+/// A source to draw.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SourceSpec {
+    /// The law.
+    pub law: Effect,
+    /// Labels of its DOFs; none for a law of the whole structure.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub dofs: Vec<String>,
+    /// First and last beam element, from 1, of a law of the whole structure.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub elements: Option<[i64; 2]>,
+    /// What identification may do with it; a candidate where nothing is said.
+    #[serde(default = "candidate")]
+    pub state: State,
+    /// Parameters by name, SI units.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub parameters: BTreeMap<String, f64>,
+}
+
+fn candidate() -> State {
+    State::Candidate
+}
+
+/// Which source of the document: its law and its place. The state is needed only where a known source and a sought one of
+/// the same law lie on top of each other.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SourceAt {
+    /// The law.
+    pub law: Effect,
+    /// Labels of its DOFs, in either direction.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub dofs: Vec<String>,
+    /// First and last beam element, from 1.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub elements: Option<[i64; 2]>,
+    /// Its state.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub state: Option<State>,
+}
+
+/// A setting of the analysis and its new value.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Setting {
+    /// Harmonics fitted to each channel.
+    Harmonics(usize),
+    /// Expansion to all DOFs.
+    Expansion(Expansion),
+    /// Best single columns kept; 0 = all sets.
+    Keep(usize),
+    /// Weights of the rows.
+    Weights(Weights),
+    /// Most sources in a set.
+    MaxSources(usize),
+    /// Angle in degrees below which the search stops.
+    StopAngleDeg(f64),
+}
+
+/// A change of the document.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+#[expect(missing_docs, reason = "fields are those of the project file, whose format is documented")]
+pub enum Command {
+    /// Names the project.
+    SetTitle(String),
+    /// Replaces the free text.
+    SetNotes(String),
+    /// Draws a source. Refused where the same one is drawn already.
+    AddSource(SourceSpec),
+    /// Takes a source out.
+    RemoveSource(SourceAt),
+    /// Makes a source known, candidate, forced, off or reference. To force a source is to set it `forced`.
+    SetSourceState { source: SourceAt, state: State },
+    /// Sets parameters by name; those not named stay.
+    SetSourceParameters { source: SourceAt, parameters: BTreeMap<String, f64> },
+    /// Draws a family of candidates.
+    AddCandidates {
+        law: Effect,
+        #[serde(rename = "where")]
+        family: Family,
+        #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+        parameters: BTreeMap<String, f64>,
+    },
+    /// Takes a family out.
+    RemoveCandidates {
+        law: Effect,
+        #[serde(rename = "where")]
+        family: Family,
+    },
+    /// Sets a number of the structure by its key, such as `length` or `masses[2]` (counted from 1).
+    SetStructureParameter { name: String, value: f64 },
+    /// Sets several numbers of the structure at once.
+    SetStructureParameters(BTreeMap<String, f64>),
+    /// Holds the ends of the beam otherwise.
+    SetSupports(Supports),
+    /// Sets the lumped mass at a DOF, kg; none takes it off.
+    SetLumpedMass { dof: String, mass: Option<f64> },
+    /// Adds records; paths are relative to the project.
+    ImportRuns(Vec<String>),
+    /// Takes a run out; its record stays where it is.
+    RemoveRun(String),
+    /// Uses a run or not.
+    SetRunUse {
+        file: String,
+        #[serde(rename = "use")]
+        enabled: bool,
+    },
+    /// Sets the frequency of a run, Hz; none estimates it from the record.
+    SetRunFrequency { file: String, frequency: Option<f64> },
+    /// Labels the force level of a run.
+    SetRunLevel { file: String, level: Option<i64> },
+    /// States the known errors of a channel: delay in s and gain; none of both forgets them.
+    SetSensor { channel: String, delay: Option<f64>, gain: Option<f64> },
+    /// Changes a setting of the analysis.
+    SetSetting(Setting),
+}
+
+impl Command {
+    /// What the command does in a few words, as shown after "Undo".
+    pub fn label(&self) -> String {
+        match self {
+            Self::SetTitle(_) => "change title".into(),
+            Self::SetNotes(_) => "change notes".into(),
+            Self::AddSource(spec) => format!("add {}", words(spec.law)),
+            Self::RemoveSource(at) => format!("remove {}", words(at.law)),
+            Self::SetSourceState { source, state } => format!("make {} {}", words(source.law), state_word(*state)),
+            Self::SetSourceParameters { source, .. } => format!("change {}", words(source.law)),
+            Self::AddCandidates { law, .. } => format!("add {} candidates", words(*law)),
+            Self::RemoveCandidates { law, .. } => format!("remove {} candidates", words(*law)),
+            Self::SetStructureParameter { name, .. } => format!("change {}", name.replace('_', " ")),
+            Self::SetStructureParameters(_) => "change structure".into(),
+            Self::SetSupports(_) => "change supports".into(),
+            Self::SetLumpedMass { mass: Some(_), .. } => "set lumped mass".into(),
+            Self::SetLumpedMass { mass: None, .. } => "remove lumped mass".into(),
+            Self::ImportRuns(files) => counted("import", files.len(), "run"),
+            Self::RemoveRun(_) => "remove run".into(),
+            Self::SetRunUse { enabled: true, .. } => "use run".into(),
+            Self::SetRunUse { enabled: false, .. } => "leave out run".into(),
+            Self::SetRunFrequency { .. } => "change frequency of run".into(),
+            Self::SetRunLevel { .. } => "change level of run".into(),
+            Self::SetSensor { channel, .. } => format!("change sensor {channel}"),
+            Self::SetSetting(_) => "change setting".into(),
+        }
+    }
+}
+
+fn counted(verb: &str, count: usize, noun: &str) -> String {
+    if count == 1 { format!("{verb} {noun}") } else { format!("{verb} {count} {noun}s") }
+}
+
+fn state_word(state: State) -> &'static str {
+    match state {
+        State::Known => "known",
+        State::Candidate => "candidate",
+        State::Forced => "forced",
+        State::Off => "off",
+        State::Reference => "reference",
+    }
+}
+
+/// The thing an engineer calls the law, such as dashpot for `viscous`.
+fn words(law: Effect) -> String {
+    match law {
+        Effect::Viscous => "dashpot".into(),
+        Effect::Coulomb => "friction pad".into(),
+        Effect::Stiffness => "spring".into(),
+        other => other.name().replace('_', " "),
+    }
+}

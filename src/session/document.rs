@@ -1,0 +1,141 @@
+//! The saved, undoable project, always valid: a change that would break it is refused with its reason.
+
+use super::{sources, structure};
+use crate::effects::source::SourceError;
+use crate::effects::{Effect, Source};
+use crate::exchange::project::ProjectError;
+use crate::exchange::project::file::ProjectFile;
+use crate::structure::{Structure, StructureError};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+/// Why a change was refused; the document is as it was.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[expect(missing_docs, reason = "the messages say it")]
+pub enum Refusal {
+    #[error("`{law}` is already drawn between the same DOFs ({place}); change that one instead")]
+    DrawnTwice { law: Effect, place: String },
+    #[error("there is no `{law}` at {place}; choose a source of the pattern")]
+    NoSuchSource { law: Effect, place: String },
+    #[error("`{law}` is an error of a measuring channel, not a source; set it on the channel")]
+    ChannelLaw { law: Effect },
+    #[error("the family `{family}` of `{law}` is already drawn")]
+    FamilyTwice { law: Effect, family: &'static str },
+    #[error("the family `{family}` of `{law}` is not drawn")]
+    NoSuchFamily { law: Effect, family: &'static str },
+    #[error("the family `{family}` finds no place on this structure; choose another")]
+    EmptyFamily { family: &'static str },
+    #[error("a {kind} has no number `{name}`; it has {known}")]
+    NoSuchNumber { kind: &'static str, name: String, known: String },
+    #[error("`{name}` must be a whole number of at least 1, not {value}")]
+    NotWhole { name: String, value: f64 },
+    #[error("only a beam has supports; this structure is a {kind}")]
+    NoSupports { kind: &'static str },
+    #[error("a structure of points has no mass matrix to add a lumped mass to")]
+    MassOnPoints,
+    #[error("there is no lumped mass at DOF {dof}")]
+    NoLumpedMass { dof: String },
+    #[error("the run {file} is not in the project; choose one of its runs")]
+    NoSuchRun { file: String },
+    #[error("the run {file} is in the project already")]
+    RunTwice { file: String },
+    #[error("no file is named; choose at least one record")]
+    NoFile,
+    #[error("`{name}` must be {range}, not {value}")]
+    OutOfRange { name: &'static str, range: &'static str, value: f64 },
+    #[error("`{channel}` is not a channel of this structure; write force@DOF, acc@DOF, vel@DOF or disp@DOF")]
+    NoSuchChannel { channel: String },
+    #[error("an empty text cannot be the name of a file")]
+    EmptyName,
+    #[error("the project cannot be written as TOML: {reason}")]
+    NotWritable { reason: String },
+    #[error(transparent)]
+    Structure(#[from] StructureError),
+    #[error(transparent)]
+    Source(#[from] SourceError),
+    #[error(transparent)]
+    Project(#[from] ProjectError),
+}
+
+/// Counts the changes of each part of a document, so that a result knows what it was computed from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, PartialOrd, Ord)]
+pub struct Revisions {
+    /// Any part.
+    pub any: u64,
+    /// Structure.
+    pub structure: u64,
+    /// Runs, sensors and how records are fitted.
+    pub measurements: u64,
+    /// Sources and families.
+    pub sources: u64,
+    /// Settings.
+    pub settings: u64,
+}
+
+impl Revisions {
+    /// Counts what differs between two states of a document.
+    pub fn advance(&mut self, old: &ProjectFile, new: &ProjectFile) {
+        let step = |differs: bool, count: &mut u64| *count += u64::from(differs);
+        step(old != new, &mut self.any);
+        step(old.structure != new.structure, &mut self.structure);
+        let fitted = |f: &ProjectFile| f.analysis.harmonics;
+        let measured = old.run != new.run || old.harmonics != new.harmonics || old.sensor != new.sensor;
+        step(measured || fitted(old) != fitted(new), &mut self.measurements);
+        step(old.source != new.source || old.candidates != new.candidates, &mut self.sources);
+        step(old.analysis != new.analysis, &mut self.settings);
+    }
+}
+
+/// A project file with what follows from it at once: its structure and its sources. Cloning shares everything.
+#[derive(Debug, Clone)]
+pub struct Document {
+    file: Arc<ProjectFile>,
+    structure: Arc<Structure>,
+    sources: Arc<Vec<Source>>,
+    folder: PathBuf,
+}
+
+impl PartialEq for Document {
+    /// Two documents are equal if their files are.
+    fn eq(&self, other: &Self) -> bool {
+        self.file == other.file
+    }
+}
+
+impl Document {
+    /// Checks the file and builds what follows from it; `folder` is where the project's files are.
+    pub fn new(file: ProjectFile, folder: &Path) -> Result<Self, Refusal> {
+        let structure = Arc::new(structure::build(&file.structure, folder)?);
+        let sources = Arc::new(sources::expand(&file, &structure)?);
+        Ok(Self { file: Arc::new(file), structure, sources, folder: folder.to_owned() })
+    }
+
+    /// The document with another file; the structure is rebuilt only if it changed.
+    pub fn with(&self, file: ProjectFile) -> Result<Self, Refusal> {
+        if file.structure != self.file.structure {
+            return Self::new(file, &self.folder);
+        }
+        let sources = Arc::new(sources::expand(&file, &self.structure)?);
+        Ok(Self { file: Arc::new(file), sources, ..self.clone() })
+    }
+
+    /// The project file as data.
+    pub fn file(&self) -> &Arc<ProjectFile> {
+        &self.file
+    }
+
+    /// The structure with its lumped masses.
+    pub fn structure(&self) -> &Arc<Structure> {
+        &self.structure
+    }
+
+    /// Sources: those drawn one by one, then the members of the families.
+    pub fn sources(&self) -> &Arc<Vec<Source>> {
+        &self.sources
+    }
+
+    /// Folder of the project, to which its files are relative.
+    pub fn folder(&self) -> &Path {
+        &self.folder
+    }
+}

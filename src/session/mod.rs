@@ -1,0 +1,20 @@
+//! The one engine that the window, the command line and the tests speak to: a document, commands that change it, undo,
+//! jobs in the background, results that know what they were computed from, and saving.
+
+pub mod apply;
+pub mod command;
+pub mod derived;
+pub mod document;
+pub mod history;
+pub mod jobs;
+pub mod recent;
+pub mod save;
+pub mod script;
+#[expect(clippy::module_inception, reason = "the session is what the floor is for")]
+pub mod session;
+mod sources;
+mod structure;
+
+pub use command::{Command, Setting, SourceAt, SourceSpec};
+pub use document::{Document, Refusal, Revisions};
+pub use session::Session;

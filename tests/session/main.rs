@@ -1,0 +1,9 @@
+//! The session: laws of undo, commands as data, results that are never shown stale, saving that survives a kill.
+#![allow(clippy::unwrap_used, reason = "tests")]
+
+mod commands;
+mod derived;
+mod kill;
+mod laws;
+mod saving;
+mod support;

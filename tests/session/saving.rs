@@ -1,0 +1,74 @@
+//! Dirty state, autosave and recovery, recent files.
+
+use crate::support::BEAM;
+use dashpot::session::recent::{MOST_RECENT, Recent};
+use dashpot::session::save::autosave_path;
+use dashpot::session::{Command, Session};
+
+fn title(text: &str) -> Command {
+    Command::SetTitle(text.into())
+}
+
+#[test]
+fn what_a_crash_left_is_recovered_and_saving_forgets_it() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("project.toml");
+    std::fs::write(&path, BEAM).unwrap();
+    let mut session = Session::open(&path).unwrap();
+    assert!(!session.is_dirty() && !session.autosave().unwrap());
+    session.apply(&title("changed")).unwrap();
+    assert!(session.is_dirty() && session.autosave().unwrap());
+    assert!(!session.autosave().unwrap(), "nothing new to keep");
+    assert_eq!(std::fs::read_to_string(&path).unwrap(), BEAM);
+    drop(session);
+
+    let mut session = Session::open(&path).unwrap();
+    assert!(session.recover().unwrap());
+    assert_eq!(session.document().file().project.title, "changed");
+    assert_eq!(session.history().undo_label(), Some("recover unsaved changes"));
+    session.save().unwrap();
+    assert!(!session.is_dirty() && !autosave_path(&path).exists());
+    session.undo();
+    assert!(session.is_dirty());
+    session.redo();
+    assert!(!session.is_dirty());
+    assert!(!Session::open(&path).unwrap().recover().unwrap());
+}
+
+#[test]
+fn a_save_that_fails_leaves_the_file_and_stays_dirty() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("project.toml");
+    std::fs::write(&path, BEAM).unwrap();
+    let mut session = Session::open(&path).unwrap();
+    session.apply(&title("changed")).unwrap();
+    let error = session.save_as(&folder.path().join("absent/project.toml")).unwrap_err();
+    assert!(error.to_string().contains("absent"), "{error}");
+    assert!(session.is_dirty() && session.path() == Some(path.as_path()));
+}
+
+#[test]
+fn a_damaged_autosave_is_no_harm() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("project.toml");
+    std::fs::write(&path, BEAM).unwrap();
+    std::fs::write(autosave_path(&path), "[project]\nformat = ").unwrap();
+    assert!(!Session::open(&path).unwrap().recover().unwrap());
+}
+
+#[test]
+fn recent_files_are_few_and_newest_first() {
+    let folder = tempfile::tempdir().unwrap();
+    let store = folder.path().join("config/recent.json");
+    let mut recent = Recent::load(&store);
+    for number in 0..20 {
+        recent.add(&folder.path().join(format!("{number}.toml"))).unwrap();
+    }
+    recent.add(&folder.path().join("15.toml")).unwrap();
+    let read = Recent::load(&store);
+    assert_eq!(read, recent);
+    assert_eq!(read.files().len(), MOST_RECENT);
+    assert!(read.files()[0].ends_with("15.toml") && read.files()[1].ends_with("19.toml"));
+    std::fs::write(&store, "not JSON").unwrap();
+    assert!(Recent::load(&store).files().is_empty());
+}
