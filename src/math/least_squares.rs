@@ -5,8 +5,11 @@
 //! are left out: the solution is then that of least norm in scaled units, and the rank says so.
 
 use super::nnls::norm;
+use faer::diag::Diag;
+use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::solvers::Solve;
-use faer::{Col, Mat, MatRef, Side};
+use faer::linalg::svd::{ComputeSvdVectors, SvdParams, svd, svd_scratch};
+use faer::{Auto, Col, Mat, MatRef, Par, Side};
 
 /// Singular values below this part of the largest count as zero.
 const RANK_TOLERANCE: f64 = 1e-12;
@@ -49,19 +52,17 @@ impl LeastSquares {
         let (m, n) = a.shape();
         let scale: Vec<f64> = (0..n).map(|j| column_scale(a, j)).collect();
         let scaled = Mat::from_fn(m, n, |i, j| a[(i, j)] / scale[j]);
-        let failed = LinearError::NoConvergence { rows: m, columns: n };
         let (q, r) = if m > n {
             let qr = scaled.qr();
             (qr.compute_thin_Q(), qr.thin_R().to_owned())
         } else {
             (Mat::identity(m, m), scaled)
         };
-        let svd = r.thin_svd().map_err(|_| failed)?;
-        let singular_values: Vec<f64> = svd.S().column_vector().iter().copied().collect();
+        let (u, singular_values, v) = thin_svd(r.as_ref())?;
         let largest = singular_values.first().copied().unwrap_or(0.0);
         let rank = singular_values.iter().filter(|&&s| s > RANK_TOLERANCE * largest).count();
-        let backward = Mat::from_fn(n, rank, |i, k| svd.V()[(i, k)] / singular_values[k] / scale[i]);
-        let forward = svd.U().subcols(0, rank).transpose() * q.transpose();
+        let backward = Mat::from_fn(n, rank, |i, k| v[(i, k)] / singular_values[k] / scale[i]);
+        let forward = u.subcols(0, rank).transpose() * q.transpose();
         Ok(Self { a: a.to_owned(), backward, forward, singular_values, rank })
     }
 
@@ -177,13 +178,30 @@ pub fn solve_symmetric(a: MatRef<'_, f64>, b: MatRef<'_, f64>) -> Result<Mat<f64
 /// # Errors
 /// [`LinearError`] when an entry is not finite or the singular values do not converge.
 pub fn pseudo_inverse(a: MatRef<'_, f64>, tolerance: f64) -> Result<Mat<f64>, LinearError> {
+    let (u, s, v) = thin_svd(a)?;
+    let rank = s.iter().filter(|&&value| value > tolerance * s[0]).count();
+    let scaled = Mat::from_fn(a.ncols(), rank, |i, k| v[(i, k)] / s[k]);
+    Ok(scaled * u.subcols(0, rank).transpose())
+}
+
+/// `A = U S V^T` with singular values in descending order: `U` is m x k, `V` n x k, k the smaller of m and n.
+///
+/// By QR iteration at any size, for the reason given at [`super::eigen::symmetric`]. Use it in place of `faer`'s own.
+///
+/// # Errors
+/// [`LinearError`] when an entry is not finite or the iteration does not converge.
+pub fn thin_svd(a: MatRef<'_, f64>) -> Result<(Mat<f64>, Vec<f64>, Mat<f64>), LinearError> {
     check_finite(a)?;
     let (rows, columns) = a.shape();
-    let svd = a.thin_svd().map_err(|_| LinearError::NoConvergence { rows, columns })?;
-    let s: Vec<f64> = svd.S().column_vector().iter().copied().collect();
-    let rank = s.iter().filter(|&&v| v > tolerance * s[0]).count();
-    let scaled = Mat::from_fn(columns, rank, |i, k| svd.V()[(i, k)] / s[k]);
-    Ok(scaled * svd.U().subcols(0, rank).transpose())
+    let k = rows.min(columns);
+    let iteration = SvdParams { recursion_threshold: usize::MAX, ..Auto::<f64>::auto() };
+    let thin = ComputeSvdVectors::Thin;
+    let memory = &mut MemBuffer::new(svd_scratch::<f64>(rows, columns, thin, thin, Par::Seq, iteration.into()));
+    let (mut u, mut s, mut v) = (Mat::zeros(rows, k), Diag::zeros(k), Mat::zeros(columns, k));
+    let stack = MemStack::new(memory);
+    svd(a, s.as_mut(), Some(u.as_mut()), Some(v.as_mut()), Par::Seq, stack, iteration.into())
+        .map_err(|_| LinearError::NoConvergence { rows, columns })?;
+    Ok((u, s.column_vector().iter().copied().collect(), v))
 }
 
 #[cfg(test)]

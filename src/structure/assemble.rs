@@ -123,11 +123,12 @@ fn symmetric(matrix: &'static str, a: MatRef<'_, f64>) -> Result<Mat<f64>, Struc
 
 /// Names the DOF that takes the largest part in the eigenvector of the least eigenvalue.
 fn mass_error(mass: MatRef<'_, f64>, structure: &Structure) -> StructureError {
-    let Ok(eigen) = mass.self_adjoint_eigen(Side::Lower) else {
+    let Ok(eigen) = eigen::symmetric(mass) else {
         return StructureError::MassNotPositive { least: f64::NAN, dof: structure.label(0).to_string() };
     };
-    let row = (0..mass.nrows()).max_by(|&i, &j| eigen.U()[(i, 0)].abs().total_cmp(&eigen.U()[(j, 0)].abs()));
-    let least = eigen.S().column_vector()[0];
+    let share = |i: usize| eigen.vectors[(i, 0)].abs();
+    let row = (0..mass.nrows()).max_by(|&i, &j| share(i).total_cmp(&share(j)));
+    let least = eigen.values[0];
     StructureError::MassNotPositive { least, dof: structure.label(row.unwrap_or(0)).to_string() }
 }
 
