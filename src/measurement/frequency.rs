@@ -30,7 +30,7 @@ const STANDSTILL: f64 = 1e-13;
 const FEW_PERIODS: f64 = 8.0;
 
 /// Share of the highest line at which a line at a half, a third ... of its frequency is the fundamental.
-const SUBHARMONIC: f64 = 0.05;
+const SUBHARMONIC: f64 = 0.02;
 
 /// How far such a line must stand out of those around it.
 const PROMINENCE: f64 = 8.0;

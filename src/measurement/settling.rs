@@ -87,8 +87,19 @@ fn ends(time: &[f64], period: f64, parts: usize) -> Option<[Range<usize>; 2]> {
     Some([index(0.0)..index(length), index(late)..index(late + length)])
 }
 
-/// The fundamental of every channel in a range of samples, with its variance for noise of variance 1.
-fn fundamentals(record: &Record, fit: &HarmonicFit, range: Range<usize>) -> Option<(Vec<c64>, f64)> {
+/// The fundamentals in a part of the record.
+struct Part {
+    /// Fundamental of every channel.
+    fundamentals: Vec<c64>,
+    /// Variance of a fundamental for noise of variance 1.
+    unit_variance: f64,
+    /// Variance of a fundamental from harmonics above those fitted: a part ends up to a sample beside its period, and
+    /// that sample adds `2 r / n`, with `r` what repeats and was not fitted.
+    cut: Vec<f64>,
+}
+
+/// The fundamental of every channel in a range of samples.
+fn part(record: &Record, fit: &HarmonicFit, range: Range<usize>) -> Option<Part> {
     let time = &record.time()[range.clone()];
     if time.len() < 8 {
         return None;
@@ -96,19 +107,28 @@ fn fundamentals(record: &Record, fit: &HarmonicFit, range: Range<usize>) -> Opti
     let harmonics = resolvable(time, fit.omega, fit.harmonics()).ok()?;
     let values: Vec<&[f64]> = record.samples.iter().map(|samples| &samples[range.clone()]).collect();
     let solved = solve(time, &values, fit.omega, harmonics).ok()?;
-    let amplitudes = (0..values.len()).map(|c| solved.amplitudes(c, fit.omega).0[0]).collect();
     let covariance = solved.amplitudes(0, fit.omega).1;
-    // The larger of both variances: the deviation of no part is then understated.
-    Some((amplitudes, covariance[(0, 0)].max(covariance[(1, 1)])))
+    let cut = |c: usize| {
+        let unfitted = (solved.residual_variance(c) - fit.channels[c].noise.powi(2)).max(0.0);
+        (2.0 / time.len() as f64).powi(2) * unfitted
+    };
+    Some(Part {
+        fundamentals: (0..values.len()).map(|c| solved.amplitudes(c, fit.omega).0[0]).collect(),
+        // The larger of both variances: the deviation of no part is then understated.
+        unit_variance: covariance[(0, 0)].max(covariance[(1, 1)]),
+        cut: (0..values.len()).map(cut).collect(),
+    })
 }
 
 /// The largest change of a fundamental between the ends of the record that is significant and matters.
 fn drift(record: &Record, fit: &HarmonicFit, parts: usize) -> Option<Drift> {
     let [first, last] = ends(record.time(), fit.period(), parts)?;
-    let (before, variance_before) = fundamentals(record, fit, first)?;
-    let (after, variance_after) = fundamentals(record, fit, last)?;
-    let unit_variance = variance_before + variance_after;
-    let (turn, turn_variance) = common_turn(fit, &before, &after, unit_variance);
+    let (first, last) = (part(record, fit, first)?, part(record, fit, last)?);
+    let variance = |c: usize| {
+        fit.channels[c].noise.powi(2) * (first.unit_variance + last.unit_variance) + first.cut[c] + last.cut[c]
+    };
+    let (before, after) = (&first.fundamentals, &last.fundamentals);
+    let (turn, turn_variance) = common_turn(fit, before, after, variance);
     let freedom = (record.len() - 2 * fit.harmonics() - 2) as f64;
     // Quantile of F(2, freedom), times two: both parts of a complex number against an estimated variance.
     let limit = freedom * (DRIFT_BY_CHANCE.powf(-2.0 / freedom) - 1.0);
@@ -116,7 +136,7 @@ fn drift(record: &Record, fit: &HarmonicFit, parts: usize) -> Option<Drift> {
     let drifts = (0..before.len()).filter_map(|c| {
         let back = c64::new(turn.cos(), -turn.sin());
         let change = after[c] * back - before[c];
-        let own = fit.channels[c].noise.powi(2) * unit_variance;
+        let own = variance(c);
         // Along the channel's own direction lies the change of amplitude; across it the turn is uncertain too.
         let size = before[c].re.hypot(before[c].im);
         let along = if size > 0.0 { before[c] / size } else { c64::new(1.0, 0.0) };
@@ -132,12 +152,12 @@ fn drift(record: &Record, fit: &HarmonicFit, parts: usize) -> Option<Drift> {
 }
 
 /// Angle by which the forces (without one: all channels) turn from `before` to `after`, and its variance.
-fn common_turn(fit: &HarmonicFit, before: &[c64], after: &[c64], unit_variance: f64) -> (f64, f64) {
+fn common_turn(fit: &HarmonicFit, before: &[c64], after: &[c64], variance: impl Fn(usize) -> f64) -> (f64, f64) {
     let forces: Vec<usize> = fit.force_channels().into_iter().filter(|&c| fit.channels[c].noise > 0.0).collect();
     let used = if forces.is_empty() { (0..before.len()).collect() } else { forces };
     let (mut product, mut information) = (c64::new(0.0, 0.0), 0.0);
     for c in used {
-        let variance = fit.channels[c].noise.powi(2) * unit_variance;
+        let variance = variance(c);
         if variance > 0.0 {
             product += before[c].conj() * after[c] / variance;
             information += (before[c].re.powi(2) + before[c].im.powi(2)) / variance;

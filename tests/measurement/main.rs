@@ -1,0 +1,9 @@
+//! Harmonic fits, their covariance, the frequency, and the quality of records.
+
+#![allow(clippy::unwrap_used, missing_docs, reason = "tests")]
+
+mod fits;
+mod flags;
+mod frequencies;
+mod runs;
+mod signals;
