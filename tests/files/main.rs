@@ -4,3 +4,4 @@
 mod projects;
 mod projects_bad;
 mod projects_random;
+mod records;

@@ -16,8 +16,7 @@ pub(super) struct Table<'a> {
     pub(super) header_line: u64,
     /// Number that a decimal comma is allowed in: separators other than the comma leave it free.
     decimal_comma: bool,
-    /// Length of the text, bytes.
-    length: usize,
+    text: &'a [u8],
     at: At<'a>,
 }
 
@@ -38,7 +37,7 @@ impl<'a> Table<'a> {
             header: Vec::new(),
             header_line: 1,
             decimal_comma: separator != b',',
-            length: text.len(),
+            text,
             at,
         };
         if !table.next()? {
@@ -70,13 +69,17 @@ impl<'a> Table<'a> {
 
     /// Line of the current row, from 1.
     pub(super) fn line(&self) -> u64 {
-        // The parser counts the line breaks it has passed, that of this row included unless it ends the file.
-        self.row.position().map_or(1, csv::Position::line)
+        // A row's position is where the one before ended: blank lines between them are counted here.
+        self.row.position().map_or(1, |position| {
+            let behind = &self.text[(position.byte() as usize).min(self.text.len())..];
+            let blank = behind.iter().take_while(|byte| matches!(byte, b'\n' | b'\r'));
+            position.line() + blank.filter(|&&byte| byte == b'\n').count() as u64
+        })
     }
 
     /// Share of the text that has been read.
     pub(super) fn progress(&self) -> f64 {
-        self.rows.position().byte() as f64 / self.length.max(1) as f64
+        self.rows.position().byte() as f64 / self.text.len().max(1) as f64
     }
 
     /// Cells of the current row up to the last that is not empty.
