@@ -1,5 +1,191 @@
-//! Which sources, how large, how certain.
+//! Which sources, how large, how certain: from runs to identified damping.
+//!
+//! Two equations are at hand, both linear in the coefficients at a given motion:
+//! the energy equation `G c = e` (one row a run, [`crate::balance`]), and, where mass and stiffness are known and agree with
+//! the data, the response equation (real and imaginary part of every sensor and harmonic, [`response_form`]), whose
+//! least squares solution is the maximum likelihood estimate. [`identify`] searches the best sets of each size, decides
+//! where to stop, and says why.
 
+mod collinear;
+pub mod error;
+mod finish;
+pub mod outcome;
+mod problem;
+mod response_form;
+pub mod results;
+mod search;
 pub mod settings;
+mod solve;
+mod state;
+mod stopping;
+mod system;
+mod warnings;
 
+pub use error::IdentifyError;
+pub use outcome::{Estimate, Form, Outcome, RankedAlternative, RunOutcome, Status, Step};
+pub use results::Results;
 pub use settings::Settings;
+
+use crate::balance::{Expansion, Weights};
+use crate::control::Control;
+use crate::effects::Source;
+use crate::measurement::Run;
+use crate::structure::Structure;
+use problem::Problem;
+use search::{SizeRanking, search};
+use state::State;
+use stopping::Decision;
+use system::System;
+
+/// Most passes of search and refit; each starts from the motion that the last accepted set gives.
+const PASSES: usize = 5;
+/// Steps from the start to a damping that balances the energy.
+const START_STEPS: usize = 8;
+
+/// Identifies the sources of `runs`: all that are enabled.
+///
+/// `sources` in state known act at their values; candidates and forced ones are the columns; the others are ignored.
+///
+/// # Errors
+/// [`IdentifyError`]: what is missing and how to mend it; or cancelled.
+pub fn identify(
+    structure: &Structure,
+    sources: &[Source],
+    runs: &[Run],
+    settings: &Settings,
+    control: &Control,
+) -> Result<Outcome, IdentifyError> {
+    let mut problem = Problem::new(structure, sources, runs, settings)?;
+    let start = balanced_start(&problem, control)?;
+    problem.drop_unobservable(&start)?;
+    control.report(0.1);
+    let found = match response_start(&problem, &start, control)? {
+        Some(state) => passes(&problem, state, Form::Response, control)?,
+        None => energy_passes(&problem, start, control)?,
+    };
+    control.report(0.9);
+    finish::outcome(&problem, found)
+}
+
+/// What the passes end with.
+pub(crate) struct Found {
+    pub state: State,
+    pub system: System,
+    pub rankings: Vec<SizeRanking>,
+    pub decision: Decision,
+    pub form: Form,
+}
+
+/// A motion and coefficients (of all columns) that balance the energy, however they may be distributed.
+fn balanced_start(problem: &Problem<'_>, control: &Control) -> Result<State, IdentifyError> {
+    let mut state = State::start(problem)?;
+    if problem.expander.method() != Expansion::Dynamic {
+        return Ok(state);
+    }
+    for step in 0..START_STEPS {
+        control.check()?;
+        let coefficients = solve::all_columns(&System::energy(problem, &state, Weights::Energy))?;
+        if step > 1 && close(&coefficients, &state.coefficients, 1e-4) {
+            break;
+        }
+        let model_error = if step < START_STEPS / 2 { 0.1 } else { 0.01 };
+        state = state.moved_to(problem, coefficients, model_error)?;
+    }
+    Ok(state)
+}
+
+/// The state for the response form, if that form is wanted and even possible: with all columns at its disposal the model
+/// must reach the data.
+fn response_start(problem: &Problem<'_>, start: &State, control: &Control) -> Result<Option<State>, IdentifyError> {
+    let wanted = matches!(problem.settings.weights, Weights::Auto | Weights::Noise);
+    if problem.expander.method() != Expansion::Dynamic || !wanted || problem.columns.is_empty() {
+        return Ok(None);
+    }
+    let mut state = start.moved_to(problem, start.coefficients.clone(), 0.0)?;
+    let mut adequate = false;
+    for _ in 0..START_STEPS {
+        control.check()?;
+        let system = System::response(problem, &state)?;
+        let coefficients = solve::all_columns(&system)?;
+        if coefficients.iter().all(|&c| c == 0.0) {
+            return Ok(None);
+        }
+        adequate = response_form::is_adequate(problem, &system, &coefficients);
+        let settled = close(&coefficients, &state.coefficients, 1e-3);
+        state = state.moved_to(problem, coefficients, 0.0)?;
+        if settled {
+            break;
+        }
+    }
+    Ok(adequate.then_some(state))
+}
+
+fn energy_passes(problem: &Problem<'_>, start: State, control: &Control) -> Result<Found, IdentifyError> {
+    let start = if problem.expander.method() == Expansion::Dynamic {
+        let model_error = start.adequate_model_error(problem)?;
+        start.moved_to(problem, start.coefficients.clone(), model_error)?
+    } else {
+        start
+    };
+    passes(problem, start, Form::Energy, control)
+}
+
+/// Search, decide, refit at the accepted set; again until the set does not change.
+fn passes(problem: &Problem<'_>, start: State, form: Form, control: &Control) -> Result<Found, IdentifyError> {
+    let mut state = start;
+    let mut last: Option<Vec<usize>> = None;
+    let mut best: Option<Found> = None;
+    for pass in 0..PASSES {
+        let system = System::of(form, problem, &state)?;
+        let rankings = search(problem, &system, control)?;
+        let decision = stopping::decide(problem, &state, &system, &rankings, form);
+        let set = rankings[decision.accepted].best().columns.clone();
+        let settled = last.as_ref() == Some(&set);
+        let coefficients = rankings[decision.accepted].best().coefficients.clone();
+        state = refit(problem, state, &set, &coefficients, form, control)?;
+        let system = System::of(form, problem, &state)?;
+        best = Some(Found { state: state.clone(), system, rankings, decision, form });
+        control.report(0.1 + 0.8 * (pass + 1) as f64 / PASSES as f64);
+        if settled {
+            break;
+        }
+        last = Some(set);
+    }
+    let mut found = best.ok_or(IdentifyError::NoCandidates)?;
+    // The history is told at the motion that was accepted.
+    found.rankings = search(problem, &found.system, control)?;
+    found.decision = stopping::decide(problem, &found.state, &found.system, &found.rankings, form);
+    Ok(found)
+}
+
+/// Solves for the coefficients of one set, moves to the motion that they give, and so on until nothing changes.
+fn refit(
+    problem: &Problem<'_>,
+    state: State,
+    set: &[usize],
+    coefficients: &[f64],
+    form: Form,
+    control: &Control,
+) -> Result<State, IdentifyError> {
+    let model_error = state.model_error;
+    let mut state = state.moved_to(problem, solve::scattered(problem.columns.len(), set, coefficients), model_error)?;
+    if problem.expander.method() != Expansion::Dynamic && !problem.weights_follow_coefficients() {
+        return Ok(state);
+    }
+    for _ in 0..20 {
+        control.check()?;
+        let fit = solve::fit(&System::of(form, problem, &state)?, set)?;
+        let next = solve::scattered(problem.columns.len(), set, &fit.coefficients);
+        let settled = close(&next, &state.coefficients, 1e-11);
+        state = state.moved_to(problem, next, model_error)?;
+        if settled {
+            break;
+        }
+    }
+    Ok(state)
+}
+
+/// Whether two coefficient vectors differ by no more than `tolerance` relative to each coefficient.
+fn close(a: &[f64], b: &[f64], tolerance: f64) -> bool {
+    a.iter().zip(b).all(|(x, y)| (x - y).abs() <= tolerance * x.abs().max(y.abs()))
+}

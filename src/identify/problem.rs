@@ -1,0 +1,190 @@
+//! What is asked: columns, known sources, runs in use.
+
+use super::state::State;
+use super::{IdentifyError, Settings};
+use crate::balance::energy::is_observable;
+use crate::balance::{Expander, Measured, Weights};
+use crate::effects::{Place, Source, State as SourceState};
+use crate::measurement::{Flag, Run};
+use crate::structure::Structure;
+
+/// The question in the form in which the solver takes it.
+pub(crate) struct Problem<'a> {
+    pub structure: &'a Structure,
+    pub sources: &'a [Source],
+    pub runs: &'a [Run],
+    pub settings: &'a Settings,
+    /// Sources that may be selected, at unit coefficient.
+    pub columns: Vec<Source>,
+    /// Index of each column in `sources`.
+    pub column_source: Vec<usize>,
+    /// Columns that are in every set.
+    pub forced: Vec<usize>,
+    /// Sources in the model at their values.
+    pub known: Vec<Source>,
+    /// Index of each known source in `sources`.
+    pub known_source: Vec<usize>,
+    pub measured: Vec<Measured>,
+    /// Index of each run in use in `runs`.
+    pub run_index: Vec<usize>,
+    pub expander: Expander<'a>,
+    pub warnings: Vec<String>,
+}
+
+impl<'a> Problem<'a> {
+    /// Sorts sources and runs.
+    pub fn new(
+        structure: &'a Structure,
+        sources: &'a [Source],
+        runs: &'a [Run],
+        settings: &'a Settings,
+    ) -> Result<Self, IdentifyError> {
+        let mut warnings = Vec::new();
+        let run_index = runs_in_use(runs, &mut warnings);
+        if run_index.is_empty() {
+            return Err(IdentifyError::NoRuns);
+        }
+        let measured: Result<Vec<Measured>, _> = run_index.iter().map(|&r| Measured::new(&runs[r])).collect();
+        let measured = measured?;
+        let highest = measured.iter().map(|m| m.frequency(m.harmonics() - 1)).fold(0.0, f64::max);
+        let expander = Expander::new(structure, settings.expansion, highest)?;
+        let mut problem = Self {
+            structure,
+            sources,
+            runs,
+            settings,
+            columns: Vec::new(),
+            column_source: Vec::new(),
+            forced: Vec::new(),
+            known: Vec::new(),
+            known_source: Vec::new(),
+            measured,
+            run_index,
+            expander,
+            warnings,
+        };
+        problem.sort_sources()?;
+        problem.check_counts()?;
+        Ok(problem)
+    }
+
+    fn sort_sources(&mut self) -> Result<(), IdentifyError> {
+        for (index, source) in self.sources.iter().enumerate() {
+            let identifiable = source.effect.dissipates() && source.effect.coefficient().is_some();
+            match source.state {
+                SourceState::Known => {
+                    self.known.push(source.clone());
+                    self.known_source.push(index);
+                }
+                SourceState::Forced if !identifiable => {
+                    let source_name = describe(source, self.structure);
+                    let reason = "it takes out no energy in proportion to a coefficient".to_string();
+                    return Err(IdentifyError::ForcedImpossible { source_name, reason });
+                }
+                SourceState::Candidate | SourceState::Forced if identifiable => {
+                    if source.state == SourceState::Forced {
+                        self.forced.push(self.columns.len());
+                    }
+                    self.columns.push(source.with_coefficient(1.0));
+                    self.column_source.push(index);
+                }
+                _ => {}
+            }
+        }
+        if self.columns.is_empty() { Err(IdentifyError::NoCandidates) } else { Ok(()) }
+    }
+
+    fn check_counts(&self) -> Result<(), IdentifyError> {
+        let (forced, runs, max_sources) = (self.forced.len(), self.measured.len(), self.settings.max_sources);
+        if forced > runs {
+            return Err(IdentifyError::TooManyForced { forced, runs });
+        }
+        if forced > max_sources || max_sources == 0 {
+            return Err(IdentifyError::MaxSources { max_sources, forced });
+        }
+        Ok(())
+    }
+
+    /// Leaves out columns whose motion is not known in every run.
+    pub fn drop_unobservable(&mut self, state: &State) -> Result<(), IdentifyError> {
+        let method = self.expander.method();
+        let keep: Vec<bool> = self.columns.iter().map(|c| is_observable(c, &state.runs, method)).collect();
+        if keep.iter().all(|k| *k) {
+            return self.check_input(state);
+        }
+        if let Some(&j) = self.forced.iter().find(|&&j| !keep[j]) {
+            let source_name = describe(&self.columns[j], self.structure);
+            let reason = "its motion is not measured in every run".to_string();
+            return Err(IdentifyError::ForcedImpossible { source_name, reason });
+        }
+        let left_out = keep.iter().filter(|k| !**k).count();
+        self.warnings.push(format!("{left_out} candidates are left out: their motion is not measured in every run"));
+        let forced: Vec<usize> = self.forced.iter().map(|&j| self.column_source[j]).collect();
+        let mut flags = keep.iter();
+        self.columns.retain(|_| *flags.next().unwrap_or(&false));
+        let mut flags = keep.iter();
+        self.column_source.retain(|_| *flags.next().unwrap_or(&false));
+        self.forced = (0..self.columns.len()).filter(|&j| forced.contains(&self.column_source[j])).collect();
+        if self.columns.is_empty() {
+            return Err(IdentifyError::NoCandidates);
+        }
+        self.check_input(state)
+    }
+
+    fn check_input(&self, state: &State) -> Result<(), IdentifyError> {
+        if state.equation.input.iter().all(|&e| e <= 0.0) { Err(IdentifyError::NoInput) } else { Ok(()) }
+    }
+
+    /// Whether deviations are known from the data in every run.
+    pub fn is_noisy(&self) -> bool {
+        self.measured.iter().all(|m| m.noisy)
+    }
+
+    /// Whether the rows' weights change with the coefficients.
+    pub fn weights_follow_coefficients(&self) -> bool {
+        match self.settings.weights {
+            Weights::Noise => true,
+            Weights::Auto => self.is_noisy(),
+            Weights::None | Weights::Energy => false,
+        }
+    }
+
+    /// Known sources and the columns with positive coefficients, at their values.
+    pub fn acting(&self, coefficients: &[f64]) -> Vec<Source> {
+        let identified = self.columns.iter().zip(coefficients).filter(|(_, c)| **c > 0.0);
+        self.known.iter().cloned().chain(identified.map(|(source, &c)| source.with_coefficient(c))).collect()
+    }
+}
+
+/// Enabled runs that have settled; if none has, all enabled ones.
+fn runs_in_use(runs: &[Run], warnings: &mut Vec<String>) -> Vec<usize> {
+    let enabled: Vec<usize> = (0..runs.len()).filter(|&r| runs[r].enabled).collect();
+    let settled = |&r: &usize| runs[r].findings.iter().all(|f| f.flag != Flag::NotSettled);
+    let used: Vec<usize> = enabled.iter().copied().filter(settled).collect();
+    if used.is_empty() && !enabled.is_empty() {
+        warnings.push("no run has settled, so the energy balance may not hold; record longer".to_string());
+        return enabled;
+    }
+    for &r in enabled.iter().filter(|r| !used.contains(r)) {
+        warnings.push(format!("{}: not settled, so it is left out", runs[r].file));
+    }
+    used
+}
+
+/// A source in words, such as `viscous at 3` or `coulomb between 1 and 2`.
+pub(crate) fn describe(source: &Source, structure: &Structure) -> String {
+    let label = |&dof: &usize| structure.dofs().get(dof).map_or("?", |d| d.label.as_str());
+    match &source.place {
+        Place::Dofs(dofs) => {
+            let labels: Vec<&str> = dofs.iter().map(label).collect();
+            match labels.as_slice() {
+                [one] => format!("{} at {one}", source.effect),
+                [first, second] => format!("{} between {first} and {second}", source.effect),
+                _ => format!("{} along {}", source.effect, labels.join(", ")),
+            }
+        }
+        Place::Whole(None) => source.effect.to_string(),
+        Place::Whole(Some([first, last])) => format!("{} of elements {} to {}", source.effect, first + 1, last + 1),
+        Place::Channel(name) => format!("{} of {name}", source.effect),
+    }
+}

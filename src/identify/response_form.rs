@@ -1,0 +1,195 @@
+//! The response equation: `Y_h = S H (F_h + D X_h - sum_j c_j q_j,h(X))`, with `H = (K - w^2 M + D)^-1`, `D` the stand-in
+//! stiffness of all sources at the present coefficients, and `q_j` the force of source `j` at unit coefficient on the
+//! present motion `X`.
+//!
+//! It is exact in `c` at the true motion, and at the present coefficients its Jacobian is that of the response (for linear
+//! laws). Rows are whitened by the covariance `sigma_Y^2 + S H sigma_F^2 H^H S^T` of sensors and force, so that least squares
+//! iterated with the motion is the maximum likelihood estimate with the true force as a nuisance.
+
+use super::{problem::Problem, solve, state::State, system::System};
+use crate::balance::action::{self, DofForce, Field, Secant};
+use crate::balance::{Expanded, Measured};
+use crate::effects::Source;
+use crate::math::statistics::chi_square_quantile;
+use faer::{Mat, c64};
+
+/// Probability of a larger residual below which the model does not agree with the data.
+const DISAGREES: f64 = 1e-6;
+/// Residual per freedom that is let pass in any case: the noise is itself estimated.
+const TOLERATED: f64 = 1.5;
+/// Relative misfit up to which the form is used where the noise is not known.
+const SMALL_MISFIT: f64 = 0.05;
+
+/// All rows of all runs.
+pub(super) fn system(problem: &Problem<'_>, state: &State) -> System {
+    let acting = problem.acting(&state.coefficients);
+    let mut rows: Vec<(Vec<f64>, f64, usize)> = Vec::new();
+    for (r, (measured, expanded)) in state.runs.iter().enumerate() {
+        let forces = Forces::new(problem, measured, expanded, &acting);
+        for k in 0..measured.harmonics() {
+            harmonic_rows(measured, expanded, &forces, k, r, &mut rows);
+        }
+    }
+    let n = problem.columns.len();
+    System {
+        a: Mat::from_fn(rows.len(), n, |i, j| rows[i].0[j]),
+        b: rows.iter().map(|row| row.1).collect(),
+        run: rows.iter().map(|row| row.2).collect(),
+        deviation: problem.is_noisy().then(|| vec![1.0; rows.len()]),
+    }
+}
+
+/// Forces at the present motion of one run.
+struct Forces {
+    /// Of each column at unit coefficient.
+    columns: Vec<Vec<DofForce>>,
+    /// `F + D X` less the known sources' forces, n x harmonics.
+    driving: Vec<DofForce>,
+}
+
+impl Forces {
+    fn new(problem: &Problem<'_>, measured: &Measured, expanded: &Expanded, acting: &[Source]) -> Self {
+        let field = expanded.field(measured);
+        let columns = problem.columns.iter().map(|s| action::force(s, problem.structure, field)).collect();
+        let mut driving: Vec<DofForce> = (0..measured.forces.len())
+            .map(|j| {
+                let values = (0..measured.harmonics()).map(|k| measured.forces.values[(j, k)]).collect();
+                (measured.forces.dofs[j], values)
+            })
+            .collect();
+        for source in acting {
+            driving.extend(secant_force(problem, source, field));
+        }
+        for source in &problem.known {
+            let negated = |(dof, f): DofForce| (dof, f.iter().map(|v| -v).collect());
+            driving.extend(action::force(source, problem.structure, field).into_iter().map(negated));
+        }
+        Self { columns, driving }
+    }
+}
+
+/// `D X` of one source.
+fn secant_force(problem: &Problem<'_>, source: &Source, field: Field<'_>) -> Vec<DofForce> {
+    if source.effect.is_linear() {
+        return action::force(source, problem.structure, field);
+    }
+    let harmonics = field.numbers.len();
+    let mut list = Vec::new();
+    for k in 0..harmonics {
+        let Some(Secant::Legs(legs)) = action::secant(source, field, k) else { continue };
+        for (leg, z) in legs {
+            let mut force = vec![c64::new(0.0, 0.0); harmonics];
+            force[k] = z * leg.relative(|dof| field.x[(dof, k)]);
+            if let Some(second) = leg.second {
+                list.push((second, force.iter().map(|f| -f).collect()));
+            }
+            list.push((leg.first, force));
+        }
+    }
+    list
+}
+
+/// `S H` times a force at harmonic `k`, one value a sensor.
+fn at_sensors(receptance: &Mat<c64>, force: &[DofForce], k: usize) -> Vec<c64> {
+    (0..receptance.ncols()).map(|s| force.iter().map(|(dof, f)| receptance[(*dof, s)] * f[k]).sum()).collect()
+}
+
+fn harmonic_rows(
+    measured: &Measured,
+    expanded: &Expanded,
+    forces: &Forces,
+    k: usize,
+    run: usize,
+    rows: &mut Vec<(Vec<f64>, f64, usize)>,
+) {
+    let receptance = &expanded.receptance[k];
+    let s = measured.sensors.len();
+    let factor = cholesky(&covariance(measured, receptance, k));
+    let predicted = at_sensors(receptance, &forces.driving, k);
+    let mut residual: Vec<c64> = (0..s).map(|i| measured.sensors.values[(i, k)] - predicted[i]).collect();
+    whiten(&factor, &mut residual);
+    let columns: Vec<Vec<c64>> = forces
+        .columns
+        .iter()
+        .map(|force| {
+            let mut column: Vec<c64> = at_sensors(receptance, force, k).into_iter().map(|v| -v).collect();
+            whiten(&factor, &mut column);
+            column
+        })
+        .collect();
+    for i in 0..s {
+        rows.push((columns.iter().map(|c| c[i].re).collect(), residual[i].re, run));
+        rows.push((columns.iter().map(|c| c[i].im).collect(), residual[i].im, run));
+    }
+}
+
+/// Covariance (per real part) of the sensors' residual.
+fn covariance(measured: &Measured, receptance: &Mat<c64>, k: usize) -> Mat<c64> {
+    let s = measured.sensors.len();
+    Mat::from_fn(s, s, |a, b| {
+        let own = if a == b { measured.sensors.deviations[(a, k)].powi(2) } else { 0.0 };
+        let force: c64 = (0..measured.forces.len())
+            .map(|j| {
+                let dof = measured.forces.dofs[j];
+                receptance[(dof, a)] * receptance[(dof, b)].conj() * measured.forces.deviations[(j, k)].powi(2)
+            })
+            .sum();
+        force + own
+    })
+}
+
+/// Lower factor `L` of a Hermitian positive definite matrix, `L L^H`.
+fn cholesky(a: &Mat<c64>) -> Mat<c64> {
+    let n = a.nrows();
+    let mut l: Mat<c64> = Mat::zeros(n, n);
+    for j in 0..n {
+        for i in j..n {
+            let known: c64 = (0..j).map(|k| l[(i, k)] * l[(j, k)].conj()).sum();
+            let rest = a[(i, j)] - known;
+            // Positive up to rounding: the sensors' own variance is in the diagonal.
+            l[(i, j)] = if i == j { c64::new(rest.re.max(f64::EPSILON * a[(i, i)].re).sqrt(), 0.0) } else { rest / l[(j, j)] };
+        }
+    }
+    l
+}
+
+/// `v := L^-1 v`.
+fn whiten(l: &Mat<c64>, v: &mut [c64]) {
+    for i in 0..v.len() {
+        let known: c64 = (0..i).map(|k| l[(i, k)] * v[k]).sum();
+        v[i] = (v[i] - known) / l[(i, i)];
+    }
+}
+
+/// Whether all columns together bring the model to the data.
+pub(super) fn is_adequate(problem: &Problem<'_>, system: &System, coefficients: &[f64]) -> bool {
+    let columns: Vec<usize> = (0..problem.columns.len()).collect();
+    let chi_square = system.chi_square(&columns, coefficients);
+    if problem.is_noisy() {
+        let freedom = solve::freedom(system.rows(), coefficients.iter().filter(|c| **c > 0.0).count());
+        return chi_square < (TOLERATED * freedom as f64).max(chi_square_quantile(1.0 - DISAGREES, freedom));
+    }
+    // Without known noise the deviations are nominal: the same part of every channel.
+    let nominal = crate::balance::measured::NOMINAL;
+    (chi_square / system.rows() as f64).sqrt() * nominal < SMALL_MISFIT
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn cholesky_rebuilds_the_matrix_and_whitens() {
+        let l0 = Mat::from_fn(3, 3, |i, j| {
+            if i == j { c64::new(1.0 + i as f64, 0.0) } else if i > j { c64::new(0.3, 0.2 * i as f64) } else { c64::new(0.0, 0.0) }
+        });
+        let a = &l0 * l0.adjoint();
+        let l = cholesky(&a);
+        let mut v: Vec<c64> = (0..3).map(|i| (0..=i).map(|j| l0[(i, j)] * (j as f64 + 1.0)).sum()).collect();
+        whiten(&l, &mut v);
+        for i in 0..3 {
+            assert!((v[i] - (i as f64 + 1.0)).norm() < 1e-14);
+            assert!((0..3).all(|j| (l[(i, j)] - l0[(i, j)]).norm() < 1e-14));
+        }
+    }
+}

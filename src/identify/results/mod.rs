@@ -1,0 +1,56 @@
+//! What is shown of the accepted set: matrices, energy shares, damped modes.
+
+pub mod matrices;
+pub mod modes;
+pub mod shares;
+
+use crate::balance::{Expanded, Measured};
+use crate::effects::Source;
+use crate::structure::Structure;
+use faer::Mat;
+
+pub use matrices::{EquivalentViscous, LawMatrix};
+pub use modes::ModeResult;
+
+/// What the results are computed from.
+pub(crate) struct ResultsInput<'a> {
+    pub structure: &'a Structure,
+    pub runs: &'a [(Measured, Expanded)],
+    /// Known and accepted sources at their values.
+    pub acting: &'a [Source],
+    /// Accepted columns at unit coefficient.
+    pub columns: Vec<Source>,
+    /// Covariance of the coefficients of `columns`.
+    pub covariance: &'a Mat<f64>,
+}
+
+/// Results of the accepted set with the known sources.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Results {
+    /// Identified viscous damping matrix, n x n, N s/m.
+    pub viscous: Mat<f64>,
+    /// One matrix for each other law: its coefficient times `sum L L^T` (or the structure's matrix).
+    pub others: Vec<LawMatrix>,
+    /// Viscous coefficients that take out as much energy as each acting source.
+    pub equivalent: EquivalentViscous,
+    /// Energy-equivalent viscous matrix over all runs, n x n, N s/m.
+    pub equivalent_viscous: Mat<f64>,
+    /// Share of all dissipated energy at each DOF, per cent; adds up to 100.
+    pub energy_percent: Vec<f64>,
+    /// Damped modes; empty without mass and stiffness.
+    pub modes: Vec<ModeResult>,
+}
+
+/// Computes all results.
+pub(crate) fn results(input: &ResultsInput<'_>) -> Results {
+    let equivalent = matrices::equivalent(input.structure, input.runs, input.acting);
+    let equivalent_viscous = matrices::weighted_sum(input.structure, input.acting, &equivalent.overall);
+    Results {
+        viscous: matrices::viscous(input.structure, input.acting),
+        others: matrices::others(input.structure, input.acting),
+        energy_percent: shares::by_dof(input.structure, input.runs, input.acting),
+        modes: modes::damped(input, &equivalent),
+        equivalent,
+        equivalent_viscous,
+    }
+}

@@ -1,0 +1,156 @@
+//! The best sets of each size.
+//!
+//! The thesis' search (4.2.4): with `keep` > 0 every set holds at least one of the `keep` columns that are best alone, with
+//! positive coefficients only; forced columns are in every set. Where sets are few, all are looked at; else branch and bound
+//! proves the best. Beside them the best set without the `keep` rule, where it is another one.
+
+use super::{IdentifyError, problem::Problem, system::System};
+use crate::control::Control;
+use crate::math::subsets::{RankedSet, Ranking, SubsetProblem, branch_and_bound, combinations, exhaustive};
+use faer::Mat;
+
+/// Sets up to which all are looked at.
+const FEW: f64 = 40_000.0;
+/// Nodes of the tree after which the proof is given up.
+const NODES: u64 = 400_000;
+/// Sets asked for of one size, so that enough remain after the `keep` rule.
+const ASKED: usize = 60;
+/// Sets reported of one size.
+const REPORTED: usize = 10;
+/// Columns above which the search is made among the most promising.
+const MANY: usize = 200;
+
+/// The best sets of one size.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct SizeRanking {
+    /// Best first; columns are those of the problem. Never empty.
+    pub sets: Vec<RankedSet>,
+    /// The best without the `keep` rule, where it differs from the first of `sets`.
+    pub best_of_all: Option<RankedSet>,
+    /// Whether the best is proved to be the best of all that the rules allow.
+    pub proved: bool,
+    /// Sets or nodes looked at.
+    pub looked_at: u64,
+}
+
+impl SizeRanking {
+    /// The best set.
+    pub fn best(&self) -> &RankedSet {
+        &self.sets[0]
+    }
+}
+
+/// The best sets of each size from the smallest to the largest that the settings and the data allow.
+pub(crate) fn search(problem: &Problem<'_>, system: &System, control: &Control) -> Result<Vec<SizeRanking>, IdentifyError> {
+    let (a, b) = system.compressed();
+    let chosen = promising(&a, &b, &problem.forced)?;
+    let reduced = Mat::from_fn(a.nrows(), chosen.len(), |i, j| a[(i, chosen[j])]);
+    let forced: Vec<usize> = problem.forced.iter().filter_map(|f| chosen.iter().position(|c| c == f)).collect();
+    let least = forced.len().max(1);
+    let most = problem.settings.max_sources.min(chosen.len()).min(system.rows());
+    let task = Task { a: &reduced, b: &b, forced: &forced, keep: problem.settings.keep, all: chosen.len() == a.ncols() };
+    let singles = task.singles(control)?;
+    let mut rankings: Vec<SizeRanking> = Vec::new();
+    for size in least..=most {
+        control.check()?;
+        if let Some(mut ranking) = task.of_size(size, &singles, control)? {
+            let rename = |set: &mut RankedSet| set.columns.iter_mut().for_each(|j| *j = chosen[*j]);
+            ranking.sets.iter_mut().for_each(rename);
+            ranking.best_of_all.iter_mut().for_each(rename);
+            let exact = ranking.best().angle < 1e-9;
+            rankings.push(ranking);
+            if exact {
+                break;
+            }
+        }
+    }
+    if rankings.is_empty() { Err(IdentifyError::NothingFits) } else { Ok(rankings) }
+}
+
+/// All columns, or the most promising of very many: those that explain most of what the best so far leave, in rounds.
+fn promising(a: &Mat<f64>, b: &[f64], forced: &[usize]) -> Result<Vec<usize>, IdentifyError> {
+    let n = a.ncols();
+    if n <= MANY {
+        return Ok((0..n).collect());
+    }
+    let norms: Vec<f64> = (0..n).map(|j| a.col(j).iter().map(|v| v * v).sum::<f64>().sqrt()).collect();
+    let mut chosen: Vec<usize> = forced.to_vec();
+    let mut residual = b.to_vec();
+    while chosen.len() < MANY {
+        let mut order: Vec<(f64, usize)> = (0..n)
+            .filter(|j| !chosen.contains(j) && norms[*j] > 0.0)
+            .map(|j| ((0..b.len()).map(|i| a[(i, j)] * residual[i]).sum::<f64>() / norms[j], j))
+            .collect();
+        order.sort_by(|x, y| y.0.total_cmp(&x.0));
+        if order.is_empty() {
+            break;
+        }
+        chosen.extend(order.iter().take(MANY / 10).map(|(_, j)| *j));
+        let part = Mat::from_fn(b.len(), chosen.len(), |i, j| a[(i, chosen[j])]);
+        let solution = crate::math::nnls::nnls(part.as_ref(), b)?.solution;
+        for i in 0..b.len() {
+            residual[i] = b[i] - (0..chosen.len()).map(|j| part[(i, j)] * solution[j]).sum::<f64>();
+        }
+    }
+    chosen.sort_unstable();
+    Ok(chosen)
+}
+
+/// The search among given columns.
+struct Task<'a> {
+    a: &'a Mat<f64>,
+    b: &'a [f64],
+    forced: &'a [usize],
+    keep: usize,
+    /// Whether these are all columns of the problem.
+    all: bool,
+}
+
+impl Task<'_> {
+    /// Columns in the order of how well each does alone.
+    fn singles(&self, control: &Control) -> Result<Vec<usize>, IdentifyError> {
+        let ranking = self.run(self.a, 1, &[], self.a.ncols(), control)?;
+        Ok(ranking.sets.into_iter().map(|set| set.columns[0]).collect())
+    }
+
+    fn run(
+        &self,
+        a: &Mat<f64>,
+        size: usize,
+        forced: &[usize],
+        keep: usize,
+        control: &Control,
+    ) -> Result<Ranking, IdentifyError> {
+        let problem = SubsetProblem { a: a.as_ref(), b: self.b, size, keep, forced, node_limit: NODES };
+        let sets = combinations(a.ncols() - forced.len(), size - forced.len());
+        Ok(if sets <= FEW { exhaustive(&problem, control)? } else { branch_and_bound(&problem, control)? })
+    }
+
+    fn of_size(&self, size: usize, singles: &[usize], control: &Control) -> Result<Option<SizeRanking>, IdentifyError> {
+        let ranking = self.run(self.a, size, self.forced, ASKED, control)?;
+        let (mut proved, mut looked_at) = (ranking.proved, ranking.nodes);
+        let kept: Vec<usize> =
+            singles.iter().copied().filter(|j| !self.forced.contains(j)).take(self.keep).collect();
+        let allowed = |set: &RankedSet| {
+            self.keep == 0 || size == self.forced.len() || set.columns.iter().any(|j| kept.contains(j))
+        };
+        let best_of_all = ranking.sets.first().cloned();
+        let mut sets: Vec<RankedSet> = ranking.sets.into_iter().filter(allowed).collect();
+        if sets.is_empty() {
+            for &j in &kept {
+                let mut forced = self.forced.to_vec();
+                forced.push(j);
+                let part = self.run(self.a, size, &forced, REPORTED, control)?;
+                proved &= part.proved;
+                looked_at += part.nodes;
+                sets.extend(part.sets.into_iter().filter(|s| s.coefficients.iter().all(|c| *c > 0.0)));
+            }
+            sets.sort_by(|x, y| x.residual_norm.total_cmp(&y.residual_norm));
+            sets.dedup_by(|x, y| x.columns == y.columns);
+        }
+        sets.truncate(REPORTED);
+        let Some(first) = sets.first() else { return Ok(None) };
+        let best_of_all = best_of_all.filter(|best| best.columns != first.columns);
+        Ok(Some(SizeRanking { best_of_all, sets, proved: proved && self.all, looked_at }))
+    }
+}

@@ -1,0 +1,69 @@
+//! The motion of all runs at given coefficients, and the energy equation there.
+
+use super::{IdentifyError, problem::Problem};
+use crate::balance::expansion::Acting;
+use crate::balance::{EnergyEquation, Expanded, Measured};
+
+/// Misfit at the sensors, in deviations, that a sensible model error leaves.
+const FITTED: f64 = 1.2;
+
+/// Where the iteration stands.
+#[derive(Debug, Clone)]
+pub(crate) struct State {
+    pub runs: Vec<(Measured, Expanded)>,
+    pub equation: EnergyEquation,
+    /// Of all columns.
+    pub coefficients: Vec<f64>,
+    /// Relative error of the model in `dynamic` expansion.
+    pub model_error: f64,
+}
+
+impl State {
+    /// The motion when nothing is known of the sources but those given.
+    pub fn start(problem: &Problem<'_>) -> Result<Self, IdentifyError> {
+        let mut runs = Vec::new();
+        for measured in &problem.measured {
+            let acting = Acting { sources: &problem.known, motion: None, model_error: 1.0 };
+            runs.push((measured.clone(), problem.expander.expand(measured, acting)?));
+        }
+        Self::with(problem, runs, vec![0.0; problem.columns.len()], 1.0)
+    }
+
+    fn with(
+        problem: &Problem<'_>,
+        runs: Vec<(Measured, Expanded)>,
+        coefficients: Vec<f64>,
+        model_error: f64,
+    ) -> Result<Self, IdentifyError> {
+        let equation = EnergyEquation::new(problem.structure, &runs, &problem.columns, &problem.known)?;
+        Ok(Self { runs, equation, coefficients, model_error })
+    }
+
+    /// The motion at other coefficients. Expansions that do not look at them are kept.
+    pub fn moved_to(&self, problem: &Problem<'_>, coefficients: Vec<f64>, model_error: f64) -> Result<Self, IdentifyError> {
+        if self.runs.iter().all(|(_, expanded)| expanded.receptance.is_empty()) {
+            return Ok(Self { coefficients, model_error, ..self.clone() });
+        }
+        let sources = problem.acting(&coefficients);
+        let mut runs = Vec::new();
+        for (measured, before) in &self.runs {
+            let acting = Acting { sources: &sources, motion: Some(&before.x), model_error };
+            runs.push((measured.clone(), problem.expander.expand(measured, acting)?));
+        }
+        Self::with(problem, runs, coefficients, model_error)
+    }
+
+    /// The least model error with which the expansion follows the sensors to their noise.
+    pub fn adequate_model_error(&self, problem: &Problem<'_>) -> Result<f64, IdentifyError> {
+        let mut model_error = 1e-6;
+        while problem.is_noisy() && model_error < 1.0 {
+            let moved = self.moved_to(problem, self.coefficients.clone(), model_error)?;
+            let squares: f64 = moved.runs.iter().map(|(_, e)| e.misfit.powi(2)).sum();
+            if (squares / moved.runs.len() as f64).sqrt() < FITTED {
+                return Ok(model_error);
+            }
+            model_error *= 3.0;
+        }
+        Ok(if problem.is_noisy() { 1.0 } else { 1e-2 })
+    }
+}

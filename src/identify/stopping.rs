@@ -1,0 +1,181 @@
+//! Where to stop: the smallest set whose residual is within the noise (chi-square), more only on strong evidence (the
+//! Bayesian criterion, extended by the number of sets that were to choose from), confirmed by leaving out runs. Without
+//! known noise the angle rules, as in the thesis.
+
+use super::outcome::{Form, Status};
+use super::problem::{Problem, describe};
+use super::search::SizeRanking;
+use super::state::State;
+use super::system::System;
+use super::{solve, system};
+use crate::balance::Weights;
+use crate::math::statistics::chi_square_quantile;
+
+/// Probability of a larger residual below which a set does not explain the data.
+const REJECTED: f64 = 0.01;
+/// Difference of the criterion that counts as strong evidence for one more source.
+const STRONG: f64 = 6.0;
+
+/// Which set is accepted, and why.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Decision {
+    /// Index into the rankings.
+    pub accepted: usize,
+    pub status: Status,
+    pub reason: String,
+}
+
+/// How well the best set of one size does.
+struct Score {
+    count: usize,
+    chi_square: f64,
+    freedom: usize,
+    criterion: f64,
+}
+
+/// Decides among the best sets of each size.
+pub(crate) fn decide(
+    problem: &Problem<'_>,
+    state: &State,
+    system: &System,
+    rankings: &[SizeRanking],
+    form: Form,
+) -> Decision {
+    let angle_rules = problem.settings.weights == Weights::None || !problem.is_noisy();
+    if angle_rules && form == Form::Energy || !problem.is_noisy() {
+        return by_angle(problem, state, system, rankings, form);
+    }
+    let scores: Vec<Score> = rankings.iter().map(|r| score(problem, system, r)).collect();
+    let within = scores.iter().position(|s| s.chi_square <= chi_square_quantile(1.0 - REJECTED, s.freedom));
+    match within {
+        Some(first) => within_noise(problem, system, rankings, &scores, first),
+        None => above_noise(&scores),
+    }
+}
+
+fn score(problem: &Problem<'_>, system: &System, ranking: &SizeRanking) -> Score {
+    let best = ranking.best();
+    let chi_square = system.chi_square(&best.columns, &best.coefficients);
+    let (count, rows) = (best.columns.len(), system.rows());
+    Score { count, chi_square, freedom: solve::freedom(rows, count), criterion: chi_square + penalty(problem, count, rows) }
+}
+
+/// `k ln d + 2 ln (number of sets of size k)`: the extended Bayesian criterion of Chen and Chen (2008).
+pub(crate) fn penalty(problem: &Problem<'_>, count: usize, rows: usize) -> f64 {
+    let (free, chosen) = (problem.columns.len() - problem.forced.len(), count.saturating_sub(problem.forced.len()));
+    count as f64 * (rows as f64).ln() + 2.0 * crate::math::subsets::combinations(free, chosen).max(1.0).ln()
+}
+
+fn within_noise(
+    problem: &Problem<'_>,
+    system: &System,
+    rankings: &[SizeRanking],
+    scores: &[Score],
+    first: usize,
+) -> Decision {
+    let mut accepted = first;
+    for k in first + 1..scores.len() {
+        if scores[k].criterion < scores[accepted].criterion - STRONG {
+            accepted = k;
+        }
+    }
+    let score = &scores[accepted];
+    let mut reason = format!(
+        "{} source{}: chi-square {:.3} with {} degrees of freedom, within the noise",
+        score.count,
+        plural(score.count),
+        score.chi_square,
+        score.freedom
+    );
+    if accepted > first {
+        reason += "; more than the noise asks for, on strong evidence";
+    }
+    reason += &confirmation(system, rankings, accepted);
+    let _ = problem;
+    Decision { accepted, status: Status::WithinNoise, reason }
+}
+
+/// What leaving out each run says of the accepted set against the next smaller one.
+fn confirmation(system: &System, rankings: &[SizeRanking], accepted: usize) -> String {
+    let error = |k: usize| solve::held_out(system, &rankings[k].best().columns);
+    let Some(own) = error(accepted) else { return "; too few runs to leave one out".to_string() };
+    match accepted.checked_sub(1).and_then(error) {
+        Some(before) if own < before => {
+            format!("; confirmed by leaving out runs (error {:.3} after {:.3} deviations)", own.sqrt(), before.sqrt())
+        }
+        Some(before) => {
+            format!("; leaving out runs does not confirm it (error {:.3} after {:.3} deviations)", own.sqrt(), before.sqrt())
+        }
+        None => format!("; left-out runs are met to {:.3} deviations", own.sqrt()),
+    }
+}
+
+/// No set reaches the noise: the noise is taken from the best residual, and the criterion decides.
+fn above_noise(scores: &[Score]) -> Decision {
+    let scale = scores.iter().map(|s| s.chi_square / s.freedom as f64).fold(f64::INFINITY, f64::min).max(1.0);
+    let criterion = |s: &Score| s.chi_square / scale + (s.criterion - s.chi_square);
+    let accepted = (0..scores.len()).min_by(|&a, &b| criterion(&scores[a]).total_cmp(&criterion(&scores[b]))).unwrap_or(0);
+    let reason = format!(
+        "no set reaches the noise (residual {:.3} deviations at best); {} source{} by the Bayesian criterion",
+        scale.sqrt(),
+        scores[accepted].count,
+        plural(scores[accepted].count)
+    );
+    Decision { accepted, status: Status::AboveNoise, reason }
+}
+
+/// The first set below the angle of the settings, else the one with the smallest angle.
+fn by_angle(problem: &Problem<'_>, state: &State, system: &System, rankings: &[SizeRanking], form: Form) -> Decision {
+    let energy = if form == Form::Energy { None } else { Some(system::System::energy(problem, state, problem.settings.weights)) };
+    let angle = |r: &SizeRanking| match &energy {
+        None => r.best().angle.to_degrees(),
+        Some(energy) => angle_deg(energy, &r.best().columns, &r.best().coefficients),
+    };
+    let limit = problem.settings.stop_angle_deg;
+    if let Some(accepted) = rankings.iter().position(|r| angle(r) < limit) {
+        let count = rankings[accepted].best().columns.len();
+        let reason = format!(
+            "{count} source{}: the angle of {} deg is below the limit of {limit} deg",
+            plural(count),
+            short(angle(&rankings[accepted]))
+        );
+        return Decision { accepted, status: Status::BelowAngle, reason };
+    }
+    let accepted =
+        (0..rankings.len()).min_by(|&a, &b| angle(&rankings[a]).total_cmp(&angle(&rankings[b]))).unwrap_or(0);
+    let best = rankings[accepted].best();
+    let names: Vec<String> = best.columns.iter().map(|&j| describe(&problem.columns[j], problem.structure)).collect();
+    let reason = format!(
+        "no set of up to {} sources comes below the limit of {limit} deg; the nearest, {}, is at {} deg",
+        problem.settings.max_sources,
+        names.join(", "),
+        short(angle(&rankings[accepted]))
+    );
+    let _ = system;
+    Decision { accepted, status: Status::AboveAngle, reason }
+}
+
+/// Angle in degrees between `b` and `A_S c`: `asin(|A_S c - b| / |b|)`.
+pub(crate) fn angle_deg(system: &System, columns: &[usize], coefficients: &[f64]) -> f64 {
+    relative_residual(system, columns, coefficients).min(1.0).asin().to_degrees()
+}
+
+/// `|A_S c - b| / |b|`.
+pub(crate) fn relative_residual(system: &System, columns: &[usize], coefficients: &[f64]) -> f64 {
+    let (mut error, mut size) = (0.0, 0.0);
+    for i in 0..system.rows() {
+        let model: f64 = columns.iter().zip(coefficients).map(|(&j, c)| system.a[(i, j)] * c).sum();
+        error += (model - system.b[i]).powi(2);
+        size += system.b[i].powi(2);
+    }
+    if size > 0.0 { (error / size).sqrt() } else { 0.0 }
+}
+
+fn plural(count: usize) -> &'static str {
+    if count == 1 { "" } else { "s" }
+}
+
+/// Three significant digits.
+fn short(value: f64) -> String {
+    if value != 0.0 && value.abs() < 1e-3 { format!("{value:.2e}") } else { format!("{value:.3}") }
+}
