@@ -19,9 +19,13 @@ pub enum IdentifyError {
     TooManyForced { forced: usize, runs: usize },
     #[error("max_sources is {max_sources} but {forced} sources are forced; raise max_sources")]
     MaxSources { max_sources: usize, forced: usize },
-    #[error("the exciters put no energy in: input energy is not positive in any run; check the sign and place of the force channel")]
+    #[error(
+        "the exciters put no energy in: input energy is not positive in any run; check the sign and place of the force channel"
+    )]
     NoInput,
-    #[error("no set of sources with positive coefficients explains the energy; check the signs of force and motion channels")]
+    #[error(
+        "no set of sources with positive coefficients explains the energy; check the signs of force and motion channels"
+    )]
     NothingFits,
     #[error(transparent)]
     Balance(#[from] BalanceError),

@@ -166,4 +166,3 @@ impl Teller<'_> {
 fn percent(part: f64, whole: f64) -> f64 {
     if whole > 0.0 { 100.0 * part / whole } else { 0.0 }
 }
-

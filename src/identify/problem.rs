@@ -12,7 +12,6 @@ use crate::structure::Structure;
 pub(crate) struct Problem<'a> {
     pub structure: &'a Structure,
     pub sources: &'a [Source],
-    pub runs: &'a [Run],
     pub settings: &'a Settings,
     /// Sources that may be selected, at unit coefficient.
     pub columns: Vec<Source>,
@@ -51,7 +50,6 @@ impl<'a> Problem<'a> {
         let mut problem = Self {
             structure,
             sources,
-            runs,
             settings,
             columns: Vec::new(),
             column_source: Vec::new(),

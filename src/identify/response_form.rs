@@ -147,7 +147,8 @@ fn cholesky(a: &Mat<c64>) -> Mat<c64> {
             let known: c64 = (0..j).map(|k| l[(i, k)] * l[(j, k)].conj()).sum();
             let rest = a[(i, j)] - known;
             // Positive up to rounding: the sensors' own variance is in the diagonal.
-            l[(i, j)] = if i == j { c64::new(rest.re.max(f64::EPSILON * a[(i, i)].re).sqrt(), 0.0) } else { rest / l[(j, j)] };
+            l[(i, j)] =
+                if i == j { c64::new(rest.re.max(f64::EPSILON * a[(i, i)].re).sqrt(), 0.0) } else { rest / l[(j, j)] };
         }
     }
     l
@@ -181,7 +182,13 @@ mod tests {
     #[test]
     fn cholesky_rebuilds_the_matrix_and_whitens() {
         let l0 = Mat::from_fn(3, 3, |i, j| {
-            if i == j { c64::new(1.0 + i as f64, 0.0) } else if i > j { c64::new(0.3, 0.2 * i as f64) } else { c64::new(0.0, 0.0) }
+            if i == j {
+                c64::new(1.0 + i as f64, 0.0)
+            } else if i > j {
+                c64::new(0.3, 0.2 * i as f64)
+            } else {
+                c64::new(0.0, 0.0)
+            }
         });
         let a = &l0 * l0.adjoint();
         let l = cholesky(&a);

@@ -41,14 +41,19 @@ impl SizeRanking {
 }
 
 /// The best sets of each size from the smallest to the largest that the settings and the data allow.
-pub(crate) fn search(problem: &Problem<'_>, system: &System, control: &Control) -> Result<Vec<SizeRanking>, IdentifyError> {
+pub(crate) fn search(
+    problem: &Problem<'_>,
+    system: &System,
+    control: &Control,
+) -> Result<Vec<SizeRanking>, IdentifyError> {
     let (a, b) = system.compressed();
     let chosen = promising(&a, &b, &problem.forced)?;
     let reduced = Mat::from_fn(a.nrows(), chosen.len(), |i, j| a[(i, chosen[j])]);
     let forced: Vec<usize> = problem.forced.iter().filter_map(|f| chosen.iter().position(|c| c == f)).collect();
     let least = forced.len().max(1);
     let most = problem.settings.max_sources.min(chosen.len()).min(system.rows());
-    let task = Task { a: &reduced, b: &b, forced: &forced, keep: problem.settings.keep, all: chosen.len() == a.ncols() };
+    let task =
+        Task { a: &reduced, b: &b, forced: &forced, keep: problem.settings.keep, all: chosen.len() == a.ncols() };
     let singles = task.singles(control)?;
     let mut rankings: Vec<SizeRanking> = Vec::new();
     for size in least..=most {
@@ -129,8 +134,7 @@ impl Task<'_> {
     fn of_size(&self, size: usize, singles: &[usize], control: &Control) -> Result<Option<SizeRanking>, IdentifyError> {
         let ranking = self.run(self.a, size, self.forced, ASKED, control)?;
         let (mut proved, mut looked_at) = (ranking.proved, ranking.nodes);
-        let kept: Vec<usize> =
-            singles.iter().copied().filter(|j| !self.forced.contains(j)).take(self.keep).collect();
+        let kept: Vec<usize> = singles.iter().copied().filter(|j| !self.forced.contains(j)).take(self.keep).collect();
         let allowed = |set: &RankedSet| {
             self.keep == 0 || size == self.forced.len() || set.columns.iter().any(|j| kept.contains(j))
         };

@@ -44,7 +44,9 @@ pub(crate) fn fit(system: &System, set: &[usize]) -> Result<Fit, IdentifyError> 
     let (a, b) = system.part(set, None);
     let coefficients = nnls(a.as_ref(), &b)?.solution;
     let chi_square = system.chi_square(set, &coefficients);
-    let scale: Vec<f64> = (0..set.len()).map(|j| crate::math::nnls::norm(a.col(j).iter().copied().collect::<Vec<f64>>().as_slice())).collect();
+    let scale: Vec<f64> = (0..set.len())
+        .map(|j| crate::math::nnls::norm(a.col(j).iter().copied().collect::<Vec<f64>>().as_slice()))
+        .collect();
     let unit = Mat::from_fn(a.nrows(), a.ncols(), |i, j| if scale[j] > 0.0 { a[(i, j)] / scale[j] } else { 0.0 });
     let (covariance, condition) = covariance(system, &unit, &scale, chi_square);
     let deviations = (0..set.len()).map(|j| covariance[(j, j)].sqrt()).collect();

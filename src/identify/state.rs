@@ -40,7 +40,12 @@ impl State {
     }
 
     /// The motion at other coefficients. Expansions that do not look at them are kept.
-    pub fn moved_to(&self, problem: &Problem<'_>, coefficients: Vec<f64>, model_error: f64) -> Result<Self, IdentifyError> {
+    pub fn moved_to(
+        &self,
+        problem: &Problem<'_>,
+        coefficients: Vec<f64>,
+        model_error: f64,
+    ) -> Result<Self, IdentifyError> {
         if self.runs.iter().all(|(_, expanded)| expanded.receptance.is_empty()) {
             return Ok(Self { coefficients, model_error, ..self.clone() });
         }

@@ -5,9 +5,9 @@
 use super::outcome::{Form, Status};
 use super::problem::{Problem, describe};
 use super::search::SizeRanking;
+use super::solve;
 use super::state::State;
 use super::system::System;
-use super::{solve, system};
 use crate::balance::Weights;
 use crate::math::statistics::chi_square_quantile;
 
@@ -43,12 +43,12 @@ pub(crate) fn decide(
 ) -> Decision {
     let angle_rules = problem.settings.weights == Weights::None || !problem.is_noisy();
     if angle_rules && form == Form::Energy || !problem.is_noisy() {
-        return by_angle(problem, state, system, rankings, form);
+        return by_angle(problem, state, rankings, form);
     }
     let scores: Vec<Score> = rankings.iter().map(|r| score(problem, system, r)).collect();
     let within = scores.iter().position(|s| s.chi_square <= chi_square_quantile(1.0 - REJECTED, s.freedom));
     match within {
-        Some(first) => within_noise(problem, system, rankings, &scores, first),
+        Some(first) => within_noise(system, rankings, &scores, first),
         None => above_noise(&scores),
     }
 }
@@ -57,7 +57,12 @@ fn score(problem: &Problem<'_>, system: &System, ranking: &SizeRanking) -> Score
     let best = ranking.best();
     let chi_square = system.chi_square(&best.columns, &best.coefficients);
     let (count, rows) = (best.columns.len(), system.rows());
-    Score { count, chi_square, freedom: solve::freedom(rows, count), criterion: chi_square + penalty(problem, count, rows) }
+    Score {
+        count,
+        chi_square,
+        freedom: solve::freedom(rows, count),
+        criterion: chi_square + penalty(problem, count, rows),
+    }
 }
 
 /// `k ln d + 2 ln (number of sets of size k)`: the extended Bayesian criterion of Chen and Chen (2008).
@@ -66,13 +71,7 @@ pub(crate) fn penalty(problem: &Problem<'_>, count: usize, rows: usize) -> f64 {
     count as f64 * (rows as f64).ln() + 2.0 * crate::math::subsets::combinations(free, chosen).max(1.0).ln()
 }
 
-fn within_noise(
-    problem: &Problem<'_>,
-    system: &System,
-    rankings: &[SizeRanking],
-    scores: &[Score],
-    first: usize,
-) -> Decision {
+fn within_noise(system: &System, rankings: &[SizeRanking], scores: &[Score], first: usize) -> Decision {
     let mut accepted = first;
     for k in first + 1..scores.len() {
         if scores[k].criterion < scores[accepted].criterion - STRONG {
@@ -91,7 +90,6 @@ fn within_noise(
         reason += "; more than the noise asks for, on strong evidence";
     }
     reason += &confirmation(system, rankings, accepted);
-    let _ = problem;
     Decision { accepted, status: Status::WithinNoise, reason }
 }
 
@@ -104,7 +102,11 @@ fn confirmation(system: &System, rankings: &[SizeRanking], accepted: usize) -> S
             format!("; confirmed by leaving out runs (error {:.3} after {:.3} deviations)", own.sqrt(), before.sqrt())
         }
         Some(before) => {
-            format!("; leaving out runs does not confirm it (error {:.3} after {:.3} deviations)", own.sqrt(), before.sqrt())
+            format!(
+                "; leaving out runs does not confirm it (error {:.3} after {:.3} deviations)",
+                own.sqrt(),
+                before.sqrt()
+            )
         }
         None => format!("; left-out runs are met to {:.3} deviations", own.sqrt()),
     }
@@ -114,7 +116,8 @@ fn confirmation(system: &System, rankings: &[SizeRanking], accepted: usize) -> S
 fn above_noise(scores: &[Score]) -> Decision {
     let scale = scores.iter().map(|s| s.chi_square / s.freedom as f64).fold(f64::INFINITY, f64::min).max(1.0);
     let criterion = |s: &Score| s.chi_square / scale + (s.criterion - s.chi_square);
-    let accepted = (0..scores.len()).min_by(|&a, &b| criterion(&scores[a]).total_cmp(&criterion(&scores[b]))).unwrap_or(0);
+    let accepted =
+        (0..scores.len()).min_by(|&a, &b| criterion(&scores[a]).total_cmp(&criterion(&scores[b]))).unwrap_or(0);
     let reason = format!(
         "no set reaches the noise (residual {:.3} deviations at best); {} source{} by the Bayesian criterion",
         scale.sqrt(),
@@ -125,8 +128,9 @@ fn above_noise(scores: &[Score]) -> Decision {
 }
 
 /// The first set below the angle of the settings, else the one with the smallest angle.
-fn by_angle(problem: &Problem<'_>, state: &State, system: &System, rankings: &[SizeRanking], form: Form) -> Decision {
-    let energy = if form == Form::Energy { None } else { Some(system::System::energy(problem, state, problem.settings.weights)) };
+fn by_angle(problem: &Problem<'_>, state: &State, rankings: &[SizeRanking], form: Form) -> Decision {
+    let energy =
+        if form == Form::Energy { None } else { Some(System::energy(problem, state, problem.settings.weights)) };
     let angle = |r: &SizeRanking| match &energy {
         None => r.best().angle.to_degrees(),
         Some(energy) => angle_deg(energy, &r.best().columns, &r.best().coefficients),
@@ -151,7 +155,6 @@ fn by_angle(problem: &Problem<'_>, state: &State, system: &System, rankings: &[S
         names.join(", "),
         short(angle(&rankings[accepted]))
     );
-    let _ = system;
     Decision { accepted, status: Status::AboveAngle, reason }
 }
 

@@ -76,7 +76,10 @@ fn few_runs(problem: &Problem<'_>, found: &Found, set: &[usize]) -> Option<Strin
     let runs = problem.measured.len();
     let other = found.rankings[found.decision.accepted].sets.get(1);
     (set.len() >= runs && other.is_some()).then(|| {
-        format!("{} sources from {runs} runs: other sets fit as well; measure more runs or name fewer candidates", set.len())
+        format!(
+            "{} sources from {runs} runs: other sets fit as well; measure more runs or name fewer candidates",
+            set.len()
+        )
     })
 }
 

@@ -1,4 +1,7 @@
 //! Published numbers, at the tolerance that the source supports.
 #![allow(clippy::unwrap_used, reason = "tests")]
 
+mod case_beam;
+mod case_friction;
+mod energy_support;
 mod structures;

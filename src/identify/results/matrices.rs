@@ -51,9 +51,8 @@ pub(crate) fn equivalent(structure: &Structure, runs: &[(Measured, Expanded)], a
         .iter()
         .map(|(measured, expanded)| {
             let field = expanded.field(measured);
-            let pair = |s: &Source| {
-                (action::energy(s, structure, field), action::energy(&dashpot(s), structure, field))
-            };
+            let pair =
+                |s: &Source| (action::energy(s, structure, field), action::energy(&dashpot(s), structure, field));
             acting.iter().map(pair).collect()
         })
         .collect();
@@ -88,7 +87,8 @@ pub(crate) fn viscous(structure: &Structure, acting: &[Source]) -> Mat<f64> {
 
 /// One matrix for each dissipative law that is not viscous.
 pub(crate) fn others(structure: &Structure, acting: &[Source]) -> Vec<LawMatrix> {
-    let wanted = |effect: Effect| effect.dissipates() && !is_viscous(effect) && acting.iter().any(|s| s.effect == effect);
+    let wanted =
+        |effect: Effect| effect.dissipates() && !is_viscous(effect) && acting.iter().any(|s| s.effect == effect);
     Effect::ALL
         .into_iter()
         .filter(|&effect| wanted(effect))

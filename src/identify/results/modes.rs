@@ -41,7 +41,9 @@ pub(crate) fn damped(input: &ResultsInput<'_>, equivalent: &EquivalentViscous) -
         .map(|(s, c)| if is_hysteretic(s.effect) || !s.effect.dissipates() { 0.0 } else { *c })
         .collect();
     let c = weighted_sum(input.structure, input.acting, &constant);
-    let Ok(modes) = damped_modes(linear.mass.as_ref(), linear.stiffness.as_ref(), c.as_ref()) else { return Vec::new() };
+    let Ok(modes) = damped_modes(linear.mass.as_ref(), linear.stiffness.as_ref(), c.as_ref()) else {
+        return Vec::new();
+    };
     let half_power = half_power_ratios(input, &modes);
     let ends = modes.iter().zip(half_power);
     ends.map(|(mode, half)| result(input, mode, half)).collect()
@@ -61,7 +63,9 @@ fn result(input: &ResultsInput<'_>, mode: &DampedMode, half_power_ratio: Option<
     }
     let slopes: Vec<f64> = input.columns.iter().map(|s| slope(input.structure, mode, s)).collect();
     let variance: f64 = (0..slopes.len())
-        .map(|i| (0..slopes.len()).map(|j| slopes[i] * finite(input.covariance[(i, j)], i == j) * slopes[j]).sum::<f64>())
+        .map(|i| {
+            (0..slopes.len()).map(|j| slopes[i] * finite(input.covariance[(i, j)], i == j) * slopes[j]).sum::<f64>()
+        })
         .sum();
     ModeResult {
         frequency_hz: mode.frequency_hz,
@@ -117,8 +121,10 @@ fn half_power_ratios(input: &ResultsInput<'_>, modes: &[DampedMode]) -> Vec<Opti
         }
         let dof = (0..mode.shape.len()).max_by(|&a, &b| mode.shape[a].norm().total_cmp(&mode.shape[b].norm()))?;
         let width = 4.0 * mode.damping_ratio.max(1e-9);
-        let grid: Vec<f64> =
-            (0..POINTS).map(|i| omega * (1.0 + width * (2.0 * i as f64 / (POINTS - 1) as f64 - 1.0))).filter(|w| *w > 0.0).collect();
+        let grid: Vec<f64> = (0..POINTS)
+            .map(|i| omega * (1.0 + width * (2.0 * i as f64 / (POINTS - 1) as f64 - 1.0)))
+            .filter(|w| *w > 0.0)
+            .collect();
         let receptance: Result<Vec<c64>, _> =
             grid.iter().map(|&w| frequency_response::modal(modes, dof, dof, w)).collect();
         frequency_response::half_power(&grid, &receptance.ok()?).map(|h: HalfPower| h.damping_ratio())

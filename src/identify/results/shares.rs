@@ -41,9 +41,8 @@ fn add(source: &Source, structure: &Structure, field: Field<'_>, sum: &mut [f64]
             let sizes: Vec<(usize, f64)> = action::force(source, structure, field)
                 .into_iter()
                 .map(|(dof, f)| {
-                    let work: f64 = (0..f.len())
-                        .map(|k| field.numbers[k] as f64 * (field.x[(dof, k)].conj() * f[k]).im)
-                        .sum();
+                    let work: f64 =
+                        (0..f.len()).map(|k| field.numbers[k] as f64 * (field.x[(dof, k)].conj() * f[k]).im).sum();
                     (dof, work.abs())
                 })
                 .collect();
@@ -70,5 +69,9 @@ fn parts(leg: Leg, field: Field<'_>) -> Vec<(usize, f64)> {
         (0..field.numbers.len()).map(square).sum::<f64>().sqrt()
     };
     let (a, b) = (speed(leg.first), speed(second));
-    if a + b > 0.0 { vec![(leg.first, a / (a + b)), (second, b / (a + b))] } else { vec![(leg.first, 0.5), (second, 0.5)] }
+    if a + b > 0.0 {
+        vec![(leg.first, a / (a + b)), (second, b / (a + b))]
+    } else {
+        vec![(leg.first, 0.5), (second, 0.5)]
+    }
 }

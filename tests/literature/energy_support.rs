@@ -1,0 +1,122 @@
+//! The cantilever of section 5.2 and its runs, computed directly from the linear model.
+
+use dashpot::balance::{Expansion, Weights};
+use dashpot::effects::{Effect, Place, Source, State};
+use dashpot::identify::{Outcome, Settings, Step};
+use dashpot::measurement::{Channel, ChannelFit, HarmonicFit, Quantity, Run};
+use dashpot::structure::Structure;
+use dashpot::structure::beam::{BeamParameters, Supports};
+use faer::linalg::solvers::Solve;
+use faer::{Mat, c64};
+
+pub fn cantilever() -> Structure {
+    let beam = BeamParameters {
+        length: 0.56,
+        breadth: 0.04,
+        depth: 0.004,
+        youngs_modulus: 69e9,
+        density: 2700.0,
+        elements: 10,
+        supports: Supports::ClampedFree,
+    };
+    beam.build(&[]).unwrap()
+}
+
+/// The thesis' settings: single-mode expansion, rows as they are, five best single columns.
+pub fn thesis_settings() -> Settings {
+    Settings {
+        harmonics: 1,
+        expansion: Expansion::SingleMode,
+        keep: 5,
+        weights: Weights::None,
+        max_sources: 4,
+        stop_angle_deg: 0.001,
+    }
+}
+
+/// Candidates of a law at every DOF.
+pub fn each_dof(structure: &Structure, effect: Effect) -> Vec<Source> {
+    (0..structure.len()).map(|dof| Source::candidate(effect, Place::Dofs(vec![dof]))).collect()
+}
+
+/// Gives the candidate at a DOF (1-based label) another state.
+pub fn force_candidate(sources: &mut [Source], label: usize) {
+    sources.iter_mut().filter(|s| s.place == Place::Dofs(vec![label - 1])).for_each(|s| s.state = State::Forced);
+}
+
+/// One noise-free channel with one harmonic.
+pub fn channel(quantity: Quantity, structure: &Structure, dof: usize, amplitude: c64) -> ChannelFit {
+    ChannelFit {
+        channel: Channel { quantity, dof, label: structure.label(dof).to_string() },
+        offset: 0.0,
+        slope: 0.0,
+        amplitudes: vec![amplitude],
+        covariance: Mat::zeros(2, 2),
+        noise: 0.0,
+    }
+}
+
+pub fn run(name: String, omega: f64, channels: Vec<ChannelFit>) -> Run {
+    Run {
+        file: name,
+        level: None,
+        enabled: true,
+        record: None,
+        fit: HarmonicFit { omega, omega_deviation: 0.0, channels },
+        noise_ratio: 0.0,
+        findings: Vec::new(),
+    }
+}
+
+/// Displacement under a unit force at DOF 19 with dashpots (label, N s/m) to the ground: an LU of its own, not the engine's.
+pub fn displacement(structure: &Structure, dashpots: &[(usize, f64)], omega: f64) -> Vec<c64> {
+    let matrices = structure.matrices().unwrap();
+    let n = structure.len();
+    let mut z =
+        Mat::from_fn(n, n, |i, j| c64::new(matrices.stiffness[(i, j)] - omega * omega * matrices.mass[(i, j)], 0.0));
+    for &(label, c) in dashpots {
+        z[(label - 1, label - 1)] += c64::new(0.0, omega * c);
+    }
+    let x = z.partial_piv_lu().solve(Mat::from_fn(n, 1, |i, _| c64::new(if i == 18 { 1.0 } else { 0.0 }, 0.0)));
+    (0..n).map(|i| x[(i, 0)]).collect()
+}
+
+/// Runs at the first eight undamped natural frequencies, unit force at DOF 19, accelerometers at 7, 11, 19.
+pub fn resonant_runs(structure: &Structure, dashpots: &[(usize, f64)]) -> Vec<Run> {
+    let modes = structure.modes().unwrap();
+    (0..8)
+        .map(|r| {
+            let omega = modes.omega[r];
+            let x = displacement(structure, dashpots, omega);
+            let mut channels = vec![channel(Quantity::Force, structure, 18, c64::new(1.0, 0.0))];
+            for dof in [6, 10, 18] {
+                channels.push(channel(Quantity::Acceleration, structure, dof, -x[dof] * omega * omega));
+            }
+            run(format!("mode {}", r + 1), omega, channels)
+        })
+        .collect()
+}
+
+/// Labels of a step's sources (1-based) and their coefficients.
+pub fn told(step: &Step, sources: &[Source]) -> (Vec<usize>, Vec<f64>) {
+    let label = |s: usize| if let Place::Dofs(dofs) = &sources[s].place { dofs[0] + 1 } else { 0 };
+    (step.sources.iter().map(|e| label(e.source)).collect(), step.sources.iter().map(|e| e.coefficient).collect())
+}
+
+/// Checks one step against printed places, coefficients and angle.
+pub fn assert_step(
+    outcome: &Outcome,
+    sources: &[Source],
+    places: &[usize],
+    coefficients: &[f64],
+    angle_deg: f64,
+    tolerance: f64,
+) {
+    let step = outcome.steps.iter().find(|s| s.count == places.len()).unwrap();
+    let (labels, values) = told(step, sources);
+    assert_eq!(labels, places, "at {} deg", step.angle_deg);
+    for (value, printed) in values.iter().zip(coefficients) {
+        assert!((value - printed).abs() <= tolerance, "{labels:?}: {values:?} instead of {coefficients:?}");
+    }
+    assert!((step.angle_deg - angle_deg).abs() <= 6e-4, "{labels:?}: {} deg", step.angle_deg);
+}
