@@ -16,6 +16,10 @@ pub(super) struct Arguments {
 
 #[derive(Debug, Subcommand)]
 pub(super) enum Command {
+    /// Identify the sources of damping: matrix, energy shares, damping ratios
+    Identify(Identify),
+    /// Write identified matrices and sources for another program
+    Export(Export),
     /// Make steady-state records of the model of a project
     Simulate(Simulate),
 }

@@ -3,7 +3,12 @@
 //! Exit status: 0 done, 1 the input is at fault (one line on standard error), 2 wrong usage.
 
 mod arguments;
+mod export;
+mod identify;
+mod identify_json;
+mod identify_table;
 mod simulate;
+mod source_json;
 mod table;
 
 use arguments::{Arguments, Command};
@@ -33,6 +38,8 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
 
 fn execute(command: &Command) -> anyhow::Result<String> {
     match command {
+        Command::Identify(arguments) => identify::run(arguments),
+        Command::Export(arguments) => export::run(arguments),
         Command::Simulate(arguments) => simulate::run(arguments),
     }
 }

@@ -7,8 +7,8 @@ use crate::exchange::project::{Plan, open};
 use crate::exchange::records::{write_harmonics, write_record};
 use crate::measurement::channel::ChannelName;
 use crate::measurement::{Channel, ChannelFit, HarmonicFit, Quantity, Record, fit::fit, frequency};
-use crate::response::harmonic_balance::{Excitation, ForwardModel, HarmonicForce, Settings};
-use crate::response::simulation::{recorded, transfer, usual_channels};
+use crate::response::harmonic_balance::{Excitation, HarmonicForce};
+use crate::response::simulation::{Simulator, recorded, transfer, usual_channels};
 use crate::response::synthesis::{Noise, sampling_times, synthesise};
 use anyhow::{Context, anyhow, bail};
 use faer::c64;
@@ -20,7 +20,7 @@ pub(super) fn run(arguments: &Simulate) -> anyhow::Result<String> {
     let plan = open(&arguments.file)?;
     let name = arguments.file.display();
     let sources: Vec<Source> = plan.sources.iter().filter(|s| s.state == State::Known).cloned().collect();
-    let model = ForwardModel::new(&plan.structure, &sources).with_context(|| format!("{name}"))?;
+    let model = Simulator::new(&plan.structure, &sources).with_context(|| format!("{name}"))?;
     if plan.runs.is_empty() {
         bail!("{name}: there is no [[run]] to simulate; add runs with file, frequency, force_dof and force_n");
     }
@@ -39,9 +39,9 @@ struct Test {
     time: Vec<f64>,
 }
 
-fn simulate(plan: &Plan, model: &ForwardModel, index: usize, arguments: &Simulate) -> anyhow::Result<Record> {
+fn simulate(plan: &Plan, model: &Simulator<'_>, index: usize, arguments: &Simulate) -> anyhow::Result<Record> {
     let test = if plan.runs[index].force.is_some() { from_recipe(plan, index)? } else { from_record(plan, index)? };
-    let response = model.respond(&test.excitation, &Settings::default(), None, &Control::unattended())?;
+    let response = model.respond(&test.excitation, &Control::unattended())?;
     let motions = recorded(&response, &test.excitation, &test.channels, &plan.sensors);
     let stream = index as u64;
     let noise = (arguments.noise > 0.0).then_some(Noise { ratio: arguments.noise, seed: arguments.seed, stream });

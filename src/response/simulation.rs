@@ -3,19 +3,90 @@
 //! `Y_h = T(h omega) (i h omega)^k X_h` with `k` the derivatives of the channel's quantity and `T` the transfer of its
 //! known errors (delay, gain).
 
-use super::harmonic_balance::{Excitation, Response};
+use super::dynamic_stiffness::{DynamicStiffness, DynamicStiffnessError};
+use super::harmonic_balance::{Excitation, ForwardModel, ModelError, ResponseError, Settings};
+use super::steady_state::steady_state;
 use super::synthesis::ChannelMotion;
+use crate::control::Control;
 use crate::effects::effect::Kind;
 use crate::effects::{Place, Source};
 use crate::measurement::{Channel, Quantity};
 use crate::structure::Structure;
-use faer::c64;
+use faer::{Mat, c64};
+
+/// Why there is no steady state to record.
+#[derive(Debug, thiserror::Error)]
+#[expect(missing_docs, reason = "the messages are those of the solvers")]
+pub enum SimulationError {
+    #[error(transparent)]
+    Model(#[from] ModelError),
+    #[error(transparent)]
+    Linear(#[from] DynamicStiffnessError),
+    #[error(transparent)]
+    Nonlinear(#[from] ResponseError),
+}
+
+/// Periodic displacement of every DOF, m.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SteadyState {
+    /// Static part, n values.
+    pub mean: Vec<f64>,
+    /// Complex amplitudes, n x H.
+    pub harmonics: Mat<c64>,
+}
+
+impl SteadyState {
+    /// Complex amplitude of harmonic `h` (from 1) at a DOF, 0 beyond the last harmonic.
+    fn amplitude(&self, dof: usize, h: usize) -> c64 {
+        if h <= self.harmonics.ncols() { self.harmonics[(dof, h - 1)] } else { c64::new(0.0, 0.0) }
+    }
+}
+
+/// The structure with sources, ready for any number of runs.
+#[derive(Debug)]
+pub enum Simulator<'a> {
+    /// All laws are linear: each harmonic is solved directly, which loses nothing at a resonance.
+    Linear(DynamicStiffness<'a>),
+    /// Some law is not: harmonic balance.
+    Nonlinear(ForwardModel),
+}
+
+impl<'a> Simulator<'a> {
+    /// Takes every source at its values, whatever its state.
+    pub fn new(structure: &'a Structure, sources: &[Source]) -> Result<Self, SimulationError> {
+        if sources.iter().all(|source| source.effect.is_linear()) {
+            Ok(Self::Linear(DynamicStiffness::new(structure, sources)?))
+        } else {
+            Ok(Self::Nonlinear(ForwardModel::new(structure, sources)?))
+        }
+    }
+
+    /// Steady state under `excitation`.
+    pub fn respond(&self, excitation: &Excitation, control: &Control) -> Result<SteadyState, SimulationError> {
+        match self {
+            Self::Linear(stiffness) => linear(stiffness, excitation),
+            Self::Nonlinear(model) => {
+                let response = model.respond(excitation, &Settings::default(), None, control)?;
+                Ok(SteadyState { mean: response.mean, harmonics: response.harmonics })
+            }
+        }
+    }
+}
+
+fn linear(stiffness: &DynamicStiffness<'_>, excitation: &Excitation) -> Result<SteadyState, SimulationError> {
+    let n = stiffness.size();
+    let harmonics = excitation.forces.iter().map(|force| force.harmonics.len()).max().unwrap_or(0);
+    let forces: Vec<Vec<c64>> =
+        (1..=harmonics).map(|h| (0..n).map(|dof| force(excitation, dof, h)).collect()).collect();
+    let response = steady_state(stiffness, excitation.omega, &forces)?;
+    Ok(SteadyState { mean: vec![0.0; n], harmonics: Mat::from_fn(n, harmonics, |dof, h| response[h][dof]) })
+}
 
 /// What each of `channels` shows of `response` under `excitation`, in SI units.
 ///
 /// `sensors` are sources of effects `delay` and `gain` at channels; they act on what is recorded, forces included.
 pub fn recorded(
-    response: &Response,
+    response: &SteadyState,
     excitation: &Excitation,
     channels: &[Channel],
     sensors: &[Source],
@@ -35,7 +106,7 @@ pub fn recorded(
             Quantity::Velocity | Quantity::Acceleration => 0.0,
         };
         let mean = mean * transfer(sensors, channel, 0.0).re;
-        let harmonics = response.order().max(excitation.forces.iter().map(|f| f.harmonics.len()).max().unwrap_or(0));
+        let harmonics = response.harmonics.ncols().max(excitation.forces.iter().map(|f| f.harmonics.len()).max().unwrap_or(0));
         ChannelMotion { channel: channel.clone(), mean, amplitudes: (1..=harmonics).map(amplitude).collect() }
     };
     channels.iter().map(show).collect()

@@ -1,0 +1,191 @@
+//! `identify` for a reader: runs, selection, sources, energy, modes, each a table with units.
+
+use super::table::{digits, number, table};
+use crate::effects::{Place, Source, State};
+use crate::exchange::Project;
+use crate::identify::{Estimate, Outcome, Step};
+use crate::structure::Structure;
+use faer::Mat;
+use std::f64::consts::TAU;
+
+/// Shares of energy below this many per cent are summed up.
+const LEAST_SHARE: f64 = 0.05;
+/// Modes that are printed; `--json` has all.
+const MOST_MODES: usize = 10;
+/// DOFs up to which the matrix is printed in full; `--json` and `export` have all.
+const MOST_DOFS: usize = 8;
+
+/// The whole report.
+pub(super) fn report(project: &Project, outcome: &Outcome) -> String {
+    let parts = [
+        format!("{}\n", project.title),
+        runs(project, outcome),
+        selection(project, outcome),
+        format!("Accepted: {} sources. {}\n", outcome.accepted_step().count, outcome.reason),
+        sources(project, outcome),
+        indistinguishable(project, outcome),
+        energy(project, outcome),
+        modes(outcome),
+        matrix(&project.structure, &outcome.results.viscous),
+    ];
+    parts.into_iter().filter(|part| !part.is_empty()).collect::<Vec<_>>().join("\n")
+}
+
+fn head(cells: &[&str]) -> Vec<String> {
+    cells.iter().map(|&cell| cell.to_owned()).collect()
+}
+
+fn runs(project: &Project, outcome: &Outcome) -> String {
+    let mut rows = vec![head(&["run", "Hz", "level", "input J", "identified J", "noise %", "flags"])];
+    let mut reasons = String::new();
+    for (index, run) in project.runs.iter().enumerate() {
+        let found = outcome.runs.iter().find(|r| r.run == index);
+        let energy = |value: Option<f64>| value.map_or("not used".to_owned(), number);
+        let flags: Vec<String> = run
+            .findings
+            .iter()
+            .map(|f| serde_json::to_value(f.flag).ok().and_then(|v| v.as_str().map(str::to_owned)).unwrap_or_default())
+            .collect();
+        rows.push(vec![
+            run.file.clone(),
+            digits(run.fit.omega / TAU, 6),
+            run.level.map_or("-".to_owned(), |level| level.to_string()),
+            energy(found.map(|r| r.input_energy)),
+            energy(found.map(|r| r.identified_energy)),
+            digits(100.0 * run.noise_ratio, 2),
+            flags.join(" "),
+        ]);
+        for (finding, flag) in run.findings.iter().zip(&flags) {
+            reasons.push_str(&format!("  {} {flag}: {}\n", run.file, finding.reason));
+        }
+    }
+    format!("Runs\n{}{reasons}", table(&rows))
+}
+
+fn selection(project: &Project, outcome: &Outcome) -> String {
+    let mut rows = vec![head(&["", "count", "angle deg", "energy error %", "sources"])];
+    for (index, step) in outcome.steps.iter().enumerate() {
+        rows.push(vec![
+            if index == outcome.accepted { ">".to_owned() } else { String::new() },
+            step.count.to_string(),
+            number(step.angle_deg),
+            digits(100.0 * step.relative_error, 3),
+            set(project, step),
+        ]);
+    }
+    format!("Selection\n{}", table(&rows))
+}
+
+fn set(project: &Project, step: &Step) -> String {
+    let one = |estimate: &Estimate| {
+        let source = &project.sources[estimate.source];
+        format!("{} {} {}", source.effect, place_text(source, &project.structure), number(estimate.coefficient))
+    };
+    step.sources.iter().map(one).collect::<Vec<_>>().join(", ")
+}
+
+/// DOF labels joined by dashes, the whole structure, or the channel's name.
+pub(super) fn place_text(source: &Source, structure: &Structure) -> String {
+    match &source.place {
+        Place::Dofs(dofs) => dofs.iter().map(|&d| structure.label(d)).collect::<Vec<_>>().join("-"),
+        Place::Whole(None) => "structure".to_owned(),
+        Place::Whole(Some([first, last])) => format!("elements {}-{}", first + 1, last + 1),
+        Place::Channel(name) => name.clone(),
+    }
+}
+
+fn sources(project: &Project, outcome: &Outcome) -> String {
+    let mut rows = vec![head(&["law", "place", "", "value", "deviation", "unit", "energy %", "reference"])];
+    let references: Vec<&Source> = project.sources.iter().filter(|s| s.state == State::Reference).collect();
+    for estimate in &outcome.sources {
+        let source = &project.sources[estimate.source];
+        let reference = references.iter().find(|r| r.effect == source.effect && r.place.is_same(&source.place));
+        rows.push(vec![
+            source.effect.name().to_owned(),
+            place_text(source, &project.structure),
+            if source.state == State::Known { "known" } else { "identified" }.to_owned(),
+            number(estimate.coefficient),
+            if source.state == State::Known { "-".to_owned() } else { digits(estimate.deviation, 2) },
+            unit(source).to_owned(),
+            digits(estimate.energy_percent, 3),
+            reference.map_or("-".to_owned(), |r| number(r.coefficient())),
+        ]);
+    }
+    let found = |reference: &Source| {
+        let same = |e: &&Estimate| {
+            let source = &project.sources[e.source];
+            source.effect == reference.effect && source.place.is_same(&reference.place)
+        };
+        outcome.sources.iter().find(same).is_some()
+    };
+    let mut text = format!("Sources\n{}", table(&rows));
+    for missing in references.iter().filter(|reference| !found(reference)) {
+        let place = place_text(missing, &project.structure);
+        let value = number(missing.coefficient());
+        text.push_str(&format!("  reference not found: {} {place} {value} {}\n", missing.effect, unit(missing)));
+    }
+    text
+}
+
+fn unit(source: &Source) -> &'static str {
+    source.effect.coefficient().map_or("", |k| source.effect.parameters()[k].unit)
+}
+
+fn indistinguishable(project: &Project, outcome: &Outcome) -> String {
+    let name = |index: usize| {
+        let source = &project.sources[index];
+        format!("{} {}", source.effect, place_text(source, &project.structure))
+    };
+    let lines = outcome.collinear.iter().filter(|group| !group.others.is_empty()).map(|group| {
+        let others: Vec<String> = group.others.iter().map(|&(index, _)| name(index)).collect();
+        format!("  {} could as well be {}\n", name(group.source), others.join(" or "))
+    });
+    let text: String = lines.collect();
+    if text.is_empty() { text } else { format!("What the data cannot tell apart\n{text}") }
+}
+
+fn energy(project: &Project, outcome: &Outcome) -> String {
+    let mut rows = vec![head(&["DOF", "energy %"])];
+    let mut rest = 0.0;
+    for (dof, &percent) in project.structure.dofs().iter().zip(&outcome.results.energy_percent) {
+        if percent.abs() >= LEAST_SHARE {
+            rows.push(vec![dof.label.clone(), digits(percent, 3)]);
+        } else {
+            rest += percent;
+        }
+    }
+    rows.push(vec!["others".to_owned(), digits(rest, 3)]);
+    format!("Energy dissipated at each degree of freedom\n{}", table(&rows))
+}
+
+fn modes(outcome: &Outcome) -> String {
+    if outcome.results.modes.is_empty() {
+        return String::new();
+    }
+    let mut rows = vec![head(&["mode", "Hz", "damping ratio", "deviation", "half-power"])];
+    for (index, mode) in outcome.results.modes.iter().take(MOST_MODES).enumerate() {
+        rows.push(vec![
+            (index + 1).to_string(),
+            digits(mode.frequency_hz, 5),
+            number(mode.damping_ratio),
+            digits(mode.damping_ratio_deviation, 2),
+            mode.half_power_ratio.map_or("-".to_owned(), number),
+        ]);
+    }
+    let more = outcome.results.modes.len().saturating_sub(MOST_MODES);
+    let note = if more > 0 { format!("  {more} more modes are in --json\n") } else { String::new() };
+    format!("Damped modes of the identified model\n{}{note}", table(&rows))
+}
+
+fn matrix(structure: &Structure, c: &Mat<f64>) -> String {
+    if c.nrows() > MOST_DOFS || c.norm_max() == 0.0 {
+        return String::new();
+    }
+    let mut rows =
+        vec![std::iter::once(String::new()).chain(structure.dofs().iter().map(|d| d.label.clone())).collect()];
+    for (i, dof) in structure.dofs().iter().enumerate() {
+        let cells = (0..c.ncols()).map(|j| number(c[(i, j)]));
+        rows.push(std::iter::once(dof.label.clone()).chain(cells).collect());
+    }
+    format!("Viscous damping matrix, N s/m\n{}", table(&rows))
+}
