@@ -43,7 +43,6 @@ impl SteadyState {
 }
 
 /// The structure with sources, ready for any number of runs.
-#[derive(Debug)]
 pub enum Simulator<'a> {
     /// All laws are linear: each harmonic is solved directly, which loses nothing at a resonance.
     Linear(DynamicStiffness<'a>),
@@ -106,7 +105,8 @@ pub fn recorded(
             Quantity::Velocity | Quantity::Acceleration => 0.0,
         };
         let mean = mean * transfer(sensors, channel, 0.0).re;
-        let harmonics = response.harmonics.ncols().max(excitation.forces.iter().map(|f| f.harmonics.len()).max().unwrap_or(0));
+        let harmonics =
+            response.harmonics.ncols().max(excitation.forces.iter().map(|f| f.harmonics.len()).max().unwrap_or(0));
         ChannelMotion { channel: channel.clone(), mean, amplitudes: (1..=harmonics).map(amplitude).collect() }
     };
     channels.iter().map(show).collect()
