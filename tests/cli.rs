@@ -1,5 +1,5 @@
 //! The program from outside: exit statuses, one line on standard error, nothing written where something is wrong.
-#![allow(clippy::unwrap_used, reason = "tests")]
+#![allow(clippy::disallowed_methods, clippy::unwrap_used, reason = "tests")]
 
 use std::fs;
 use std::path::Path;

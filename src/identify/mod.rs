@@ -105,7 +105,7 @@ fn response_start(problem: &Problem<'_>, start: &State, control: &Control) -> Re
     let mut adequate = false;
     for _ in 0..START_STEPS {
         control.check()?;
-        let system = System::response(problem, &state)?;
+        let system = System::response(problem, &state);
         let coefficients = solve::all_columns(&system)?;
         if coefficients.iter().all(|&c| c == 0.0) {
             return Ok(None);
@@ -136,14 +136,14 @@ fn passes(problem: &Problem<'_>, start: State, form: Form, control: &Control) ->
     let mut last: Option<Vec<usize>> = None;
     let mut best: Option<Found> = None;
     for pass in 0..PASSES {
-        let system = System::of(form, problem, &state)?;
+        let system = System::of(form, problem, &state);
         let rankings = search(problem, &system, control)?;
         let decision = stopping::decide(problem, &state, &system, &rankings, form);
         let set = rankings[decision.accepted].best().columns.clone();
         let settled = last.as_ref() == Some(&set);
         let coefficients = rankings[decision.accepted].best().coefficients.clone();
         state = refit(problem, state, &set, &coefficients, form, control)?;
-        let system = System::of(form, problem, &state)?;
+        let system = System::of(form, problem, &state);
         best = Some(Found { state: state.clone(), system, rankings, decision, form });
         control.report(0.1 + 0.8 * (pass + 1) as f64 / PASSES as f64);
         if settled {
@@ -174,7 +174,7 @@ fn refit(
     }
     for _ in 0..20 {
         control.check()?;
-        let fit = solve::fit(&System::of(form, problem, &state)?, set)?;
+        let fit = solve::fit(&System::of(form, problem, &state), set)?;
         let next = solve::scattered(problem.columns.len(), set, &fit.coefficients);
         let settled = close(&next, &state.coefficients, 1e-11);
         state = state.moved_to(problem, next, model_error)?;

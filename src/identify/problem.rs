@@ -108,7 +108,7 @@ impl<'a> Problem<'a> {
         let method = self.expander.method();
         let keep: Vec<bool> = self.columns.iter().map(|c| is_observable(c, &state.runs, method)).collect();
         if keep.iter().all(|k| *k) {
-            return self.check_input(state);
+            return check_input(state);
         }
         if let Some(&j) = self.forced.iter().find(|&&j| !keep[j]) {
             let source_name = describe(&self.columns[j], self.structure);
@@ -126,11 +126,7 @@ impl<'a> Problem<'a> {
         if self.columns.is_empty() {
             return Err(IdentifyError::NoCandidates);
         }
-        self.check_input(state)
-    }
-
-    fn check_input(&self, state: &State) -> Result<(), IdentifyError> {
-        if state.equation.input.iter().all(|&e| e <= 0.0) { Err(IdentifyError::NoInput) } else { Ok(()) }
+        check_input(state)
     }
 
     /// Whether deviations are known from the data in every run.
@@ -185,4 +181,8 @@ pub(crate) fn describe(source: &Source, structure: &Structure) -> String {
         Place::Whole(Some([first, last])) => format!("{} of elements {} to {}", source.effect, first + 1, last + 1),
         Place::Channel(name) => format!("{} of {name}", source.effect),
     }
+}
+
+fn check_input(state: &State) -> Result<(), IdentifyError> {
+    if state.equation.input.iter().all(|&e| e <= 0.0) { Err(IdentifyError::NoInput) } else { Ok(()) }
 }

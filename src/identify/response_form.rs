@@ -181,14 +181,10 @@ mod tests {
 
     #[test]
     fn cholesky_rebuilds_the_matrix_and_whitens() {
-        let l0 = Mat::from_fn(3, 3, |i, j| {
-            if i == j {
-                c64::new(1.0 + i as f64, 0.0)
-            } else if i > j {
-                c64::new(0.3, 0.2 * i as f64)
-            } else {
-                c64::new(0.0, 0.0)
-            }
+        let l0 = Mat::from_fn(3, 3, |i, j| match i.cmp(&j) {
+            std::cmp::Ordering::Equal => c64::new(1.0 + i as f64, 0.0),
+            std::cmp::Ordering::Greater => c64::new(0.3, 0.2 * i as f64),
+            std::cmp::Ordering::Less => c64::new(0.0, 0.0),
         });
         let a = &l0 * l0.adjoint();
         let l = cholesky(&a);

@@ -1,7 +1,7 @@
 //! Weighted linear equations `A c = b` for the coefficients of all columns, in either form.
 
 use super::outcome::Form;
-use super::{IdentifyError, problem::Problem, response_form, state::State};
+use super::{problem::Problem, response_form, state::State};
 use crate::balance::{Weights, weights};
 use faer::Mat;
 
@@ -19,9 +19,9 @@ pub(crate) struct System {
 
 impl System {
     /// The equation of a form at a state.
-    pub fn of(form: Form, problem: &Problem<'_>, state: &State) -> Result<Self, IdentifyError> {
+    pub fn of(form: Form, problem: &Problem<'_>, state: &State) -> Self {
         match form {
-            Form::Energy => Ok(Self::energy(problem, state, problem.settings.weights)),
+            Form::Energy => Self::energy(problem, state, problem.settings.weights),
             Form::Response => Self::response(problem, state),
         }
     }
@@ -49,8 +49,8 @@ impl System {
     }
 
     /// The response equation, whitened.
-    pub fn response(problem: &Problem<'_>, state: &State) -> Result<Self, IdentifyError> {
-        Ok(response_form::system(problem, state))
+    pub fn response(problem: &Problem<'_>, state: &State) -> Self {
+        response_form::system(problem, state)
     }
 
     /// Number of rows.

@@ -195,7 +195,7 @@ impl Solved<'_> {
         let amplitudes =
             (0..harmonics).map(|h| c64::new(unknowns[2 * h + 2], -unknowns[2 * h + 3]) * turns[h]).collect();
         // (a, -b) are the real and imaginary part in the middle of the record; turning is a rotation of each pair.
-        let sign = |i: usize| if i % 2 == 0 { 1.0 } else { -1.0 };
+        let sign = |i: usize| if i.is_multiple_of(2) { 1.0 } else { -1.0 };
         let inverse = &self.design.inverse;
         let middle = Mat::from_fn(2 * harmonics, 2 * harmonics, |i, j| sign(i) * sign(j) * inverse[(i + 2, j + 2)]);
         (amplitudes, turn_covariance(&middle, &turns))
@@ -214,7 +214,7 @@ pub(super) fn turn_covariance(covariance: &Mat<f64>, factors: &[c64]) -> Mat<f64
     let n = covariance.nrows();
     let block = |i: usize| {
         let z = factors[i / 2];
-        if i % 2 == 0 { [z.re, -z.im] } else { [z.im, z.re] }
+        if i.is_multiple_of(2) { [z.re, -z.im] } else { [z.im, z.re] }
     };
     Mat::from_fn(n, n, |i, j| {
         let (a, b) = (block(i), block(j));

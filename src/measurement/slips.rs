@@ -37,7 +37,7 @@ fn slip(record: &Record, fit: &HarmonicFit, given_hz: f64, lead: &[usize]) -> Op
     let Frequency { omega, deviation } = refine(record, fit.omega, fit.harmonics(), lead).ok()?;
     let slip = (omega - fit.omega).abs() * record.duration();
     // Beyond a line of the spectrum the refinement may have run into a neighbouring valley.
-    if slip > TAU || slip < SLIP || slip < SLIP_DEVIATIONS * deviation * record.duration() {
+    if !(SLIP..=TAU).contains(&slip) || slip < SLIP_DEVIATIONS * deviation * record.duration() {
         return None;
     }
     Some(format!(

@@ -3,7 +3,7 @@
 
 use crate::control::Control;
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::sync::mpsc::{Receiver, TryRecvError, sync_channel};
+use std::sync::mpsc::{Receiver, sync_channel};
 use std::time::Duration;
 
 /// The job ended without a result.
@@ -67,10 +67,7 @@ impl<K, T: Send + 'static> Job<K, T> {
 impl<K, T> Job<K, T> {
     /// The result, once it is there; it is given out once.
     pub fn poll(&self) -> Option<Result<T, JobError>> {
-        match self.result.try_recv() {
-            Ok(result) => Some(result),
-            Err(TryRecvError::Empty | TryRecvError::Disconnected) => None,
-        }
+        self.result.try_recv().ok()
     }
 
     /// Waits for the result, at most so long.

@@ -64,7 +64,7 @@ pub(super) fn set_number(shape: &mut Shape, name: &str, value: f64) -> Result<()
 }
 
 fn whole(name: &str, value: f64) -> Result<usize, Refusal> {
-    let usable = value >= 1.0 && value <= 1e9 && value.fract() == 0.0;
+    let usable = (1.0..=1e9).contains(&value) && value.fract() == 0.0;
     if usable { Ok(value as usize) } else { Err(Refusal::NotWhole { name: name.into(), value }) }
 }
 

@@ -10,7 +10,7 @@ use std::path::PathBuf;
 fn exported(format: Format, name: &str) -> (tempfile::TempDir, PathBuf, Vec<String>) {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join(name);
-    let sample = Sample::new();
+    let sample = Sample::beam();
     let written = write(&sample.identified(), format, &path).unwrap();
     assert_eq!(written.paths[0], path);
     assert!(written.paths.iter().all(|p| p.is_file()));
@@ -26,7 +26,7 @@ fn text(path: &std::path::Path) -> String {
 fn csv_reads_back() {
     let (folder, path, warnings) = exported(Format::Csv, "c.csv");
     assert!(warnings.is_empty());
-    let sample = Sample::new();
+    let sample = Sample::beam();
     let read = |name: &str| {
         let rows: Vec<Vec<String>> = csv::Reader::from_path(folder.path().join(name))
             .unwrap()
@@ -67,13 +67,13 @@ fn matrix_market_reads_back() {
         count += 1;
     }
     assert_eq!(count, size[2]);
-    assert_eq!(read, Sample::new().viscous);
+    assert_eq!(read, Sample::beam().viscous);
 }
 
 #[test]
 fn matlab_reads_back() {
     let (_folder, path, _) = exported(Format::Mat, "c.mat");
-    let sample = Sample::new();
+    let sample = Sample::beam();
     let variables = mat5::read(&fs::read(path).unwrap());
     assert_eq!(variables["C"].numbers(), &sample.viscous);
     assert_eq!(variables["C_coulomb"].numbers(), &sample.others[0].1);
@@ -91,7 +91,7 @@ fn matlab_reads_back() {
 #[test]
 fn json_reads_back() {
     let (_folder, path, _) = exported(Format::Json, "c.json");
-    let sample = Sample::new();
+    let sample = Sample::beam();
     let document: serde_json::Value = serde_json::from_str(&text(&path)).unwrap();
     let at = |name: &str, i: usize, j: usize| document["matrix"][name][i][j].as_f64().unwrap();
     assert_eq!(Mat::from_fn(6, 6, |i, j| at("viscous", i, j)), sample.viscous);
@@ -138,7 +138,7 @@ fn nastran_dashpots_read_back() {
             read[(j, i)] -= c;
         }
     }
-    assert_near(&read, &Sample::new().viscous);
+    assert_near(&read, &Sample::beam().viscous);
 }
 
 /// Ten digits are the least that a large field holds.
@@ -171,7 +171,7 @@ fn nastran_matrix_reads_back() {
             assert_eq!(line.split_whitespace().collect::<Vec<_>>(), ["DMIG", "CDAMP", "0", "6", "2", "0"]);
         }
     }
-    assert_near(&read, &Sample::new().viscous);
+    assert_near(&read, &Sample::beam().viscous);
 }
 
 #[test]
@@ -197,14 +197,14 @@ fn abaqus_reads_back() {
             assert!(block[0].contains("DASHPOT1"));
         }
     }
-    assert_eq!(read, Sample::new().viscous);
+    assert_eq!(read, Sample::beam().viscous);
 }
 
 #[test]
 fn a_folder_that_is_not_there_is_said_in_one_line_and_nothing_is_left() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("missing").join("c.csv");
-    let error = write(&Sample::new().identified(), Format::Csv, &path).unwrap_err().to_string();
+    let error = write(&Sample::beam().identified(), Format::Csv, &path).unwrap_err().to_string();
     assert!(error.contains("c.csv") && error.contains("choose a folder") && !error.contains('\n'), "{error}");
     assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0);
 }
@@ -214,6 +214,6 @@ fn an_old_file_is_replaced_whole() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("c.json");
     fs::write(&path, "x".repeat(1_000_000)).unwrap();
-    write(&Sample::new().identified(), Format::Json, &path).unwrap();
+    write(&Sample::beam().identified(), Format::Json, &path).unwrap();
     assert!(serde_json::from_str::<serde_json::Value>(&text(&path)).is_ok());
 }

@@ -1,5 +1,5 @@
 //! Every export is read back by an independent reader and compared at full precision.
-#![allow(clippy::unwrap_used, missing_docs, reason = "tests")]
+#![allow(clippy::disallowed_methods, clippy::unwrap_used, missing_docs, reason = "tests")]
 
 mod formats;
 mod mat5;
@@ -21,7 +21,7 @@ pub struct Sample {
 }
 
 impl Sample {
-    pub fn new() -> Self {
+    pub fn beam() -> Self {
         let structure = BeamParameters {
             length: 0.56,
             breadth: 0.04,

@@ -1,5 +1,5 @@
 //! Good, odd and bad files: every bad one is refused in one line that says where, what and how to mend it.
-#![allow(clippy::unwrap_used, missing_docs, reason = "tests")]
+#![allow(clippy::disallowed_methods, clippy::unwrap_used, missing_docs, reason = "tests")]
 
 mod projects;
 mod projects_bad;

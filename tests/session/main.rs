@@ -1,5 +1,5 @@
 //! The session: laws of undo, commands as data, results that are never shown stale, saving that survives a kill.
-#![allow(clippy::unwrap_used, reason = "tests")]
+#![allow(clippy::disallowed_methods, clippy::unwrap_used, reason = "tests")]
 
 mod commands;
 mod derived;

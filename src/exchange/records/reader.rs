@@ -69,7 +69,7 @@ fn parse_record_with(
             }
         }
         time.push(now);
-        if time.len() % ROWS_PER_REPORT == 0 {
+        if time.len().is_multiple_of(ROWS_PER_REPORT) {
             control.report(table.progress());
             control.check().map_err(|_| at.file(RecordProblem::Cancelled))?;
         }
