@@ -51,7 +51,8 @@ fn main() -> Result<()> {
     faer::set_global_parallelism(faer::Par::Seq);
     let words: Vec<String> = std::env::args().skip(1).filter(|a| !a.starts_with("--")).collect();
     let force_noise = std::env::args().any(|a| a == "--force-noise");
-    let seeds: u64 = words.first().map_or(Ok(200), |w| w.parse()).context("the first argument is the number of seeds")?;
+    let seeds: u64 =
+        words.first().map_or(Ok(200), |w| w.parse()).context("the first argument is the number of seeds")?;
     let wanted = words.get(1).map_or("all", String::as_str);
     let structure = BeamParameters {
         length: 0.56,
@@ -63,8 +64,14 @@ fn main() -> Result<()> {
         supports: Supports::ClampedFree,
     }
     .build(&[])?;
-    println!("{seeds} seeds, {} % noise on {}", NOISE * 100.0, if force_noise { "all channels" } else { "accelerometers" });
-    println!("case      samples  places  number  both    form   rms error % (DOF 3, 5, 13, 17)    deviation of z-scores");
+    println!(
+        "{seeds} seeds, {} % noise on {}",
+        NOISE * 100.0,
+        if force_noise { "all channels" } else { "accelerometers" }
+    );
+    println!(
+        "case      samples  places  number  both    form   rms error % (DOF 3, 5, 13, 17)    deviation of z-scores"
+    );
     for case in cases(&structure)?.iter().filter(|c| wanted == "all" || c.name == wanted) {
         let started = std::time::Instant::now();
         let tally = repeat(&structure, case, seeds, force_noise)?;
@@ -112,11 +119,8 @@ fn repeat(structure: &Structure, case: &Case, seeds: u64, force_noise: bool) -> 
 
 /// Acceleration amplitudes (complex) of the sensors in each run under a unit force.
 fn clean_runs(structure: &Structure, case: &Case) -> Result<Vec<Vec<faer::c64>>> {
-    let sources: Vec<Source> = case
-        .dashpots
-        .iter()
-        .map(|&(dof, c)| Source::known(Effect::Viscous, Place::Dofs(vec![dof]), &[c]))
-        .collect();
+    let sources: Vec<Source> =
+        case.dashpots.iter().map(|&(dof, c)| Source::known(Effect::Viscous, Place::Dofs(vec![dof]), &[c])).collect();
     let stiffness = DynamicStiffness::new(structure, &sources)?;
     let mut force = vec![faer::c64::new(0.0, 0.0); structure.len()];
     force[DRIVE] = faer::c64::new(1.0, 0.0);
@@ -135,7 +139,8 @@ fn noisy_runs(case: &Case, clean: &[Vec<faer::c64>], seed: u64, force_noise: boo
         let time: Vec<f64> = (0..case.samples).map(|n| PERIODS * period * n as f64 / case.samples as f64).collect();
         let unit = faer::c64::new(1.0, 0.0);
         let mut channels = vec![named(Quantity::Force, DRIVE)];
-        let mut samples = vec![signal(&time, TAU * frequency, unit, if force_noise { NOISE } else { 0.0 }, &mut random)?];
+        let mut samples =
+            vec![signal(&time, TAU * frequency, unit, if force_noise { NOISE } else { 0.0 }, &mut random)?];
         for (&dof, &amplitude) in SENSORS.iter().zip(amplitudes) {
             channels.push(named(Quantity::Acceleration, dof));
             samples.push(signal(&time, TAU * frequency, amplitude, NOISE, &mut random)?);
@@ -151,13 +156,7 @@ fn named(quantity: Quantity, dof: usize) -> Channel {
 }
 
 /// `Re(amplitude exp(i omega t))` with white noise of `noise` times its root mean square.
-fn signal(
-    time: &[f64],
-    omega: f64,
-    amplitude: faer::c64,
-    noise: f64,
-    random: &mut ChaCha8Rng,
-) -> Result<Vec<f64>> {
+fn signal(time: &[f64], omega: f64, amplitude: faer::c64, noise: f64, random: &mut ChaCha8Rng) -> Result<Vec<f64>> {
     let white = Normal::new(0.0, noise * amplitude.norm() / std::f64::consts::SQRT_2)?;
     let value = |t: &f64| amplitude.re * (omega * t).cos() - amplitude.im * (omega * t).sin();
     Ok(time.iter().map(|t| value(t) + white.sample(random)).collect())

@@ -200,14 +200,12 @@ fn combine(all: Vec<Amplitudes>) -> Option<Amplitudes> {
 
 /// Fits at the given frequency, or at that found in the record, whose deviation is then kept.
 pub fn fit_at(record: &Record, frequency_hz: Option<f64>, harmonics: usize) -> Result<HarmonicFit, FitError> {
-    match frequency_hz {
-        Some(frequency_hz) => fit(record, TAU * frequency_hz, harmonics),
-        None => {
-            let found = frequency::estimate(record, harmonics)?;
-            let fit = fit(record, found.omega, harmonics)?;
-            Ok(HarmonicFit { omega_deviation: found.deviation, ..fit })
-        }
+    if let Some(frequency_hz) = frequency_hz {
+        return fit(record, TAU * frequency_hz, harmonics);
     }
+    let found = frequency::estimate(record, harmonics)?;
+    let fit = fit(record, found.omega, harmonics)?;
+    Ok(HarmonicFit { omega_deviation: found.deviation, ..fit })
 }
 
 /// The fit with the known errors of its channels taken out.

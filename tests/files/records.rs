@@ -82,6 +82,7 @@ fn rotations_and_points_have_their_units() {
 }
 
 #[test]
+#[expect(clippy::too_many_lines, reason = "one line for each bad file")]
 fn bad_files_are_named_in_one_line() {
     let header = "time [s],force@1 [N],acc@3 [m/s^2]\n";
     let rows = |from: &str, to: &str| format!("{header}{}", ROWS.replace(from, to));

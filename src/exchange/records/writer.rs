@@ -1,6 +1,7 @@
 //! Writes a time record as CSV in SI units.
 
 use super::error::{At, RecordFileError, RecordProblem};
+use crate::exchange::atomic::write_atomically;
 use crate::measurement::{Channel, Record};
 use crate::structure::Structure;
 use std::fmt::Write as _;
@@ -66,5 +67,5 @@ pub(super) fn push_number(text: &mut String, value: f64, digits: Option<usize>) 
 pub(super) fn save(path: &Path, text: &str) -> Result<(), RecordFileError> {
     let name = path.display().to_string();
     let failed = |reason: String| At { file: &name }.file(RecordProblem::Unwritable { reason });
-    std::fs::write(path, text).map_err(|error| failed(error.to_string()))
+    write_atomically(path, text.as_bytes()).map_err(|error| failed(error.to_string()))
 }
