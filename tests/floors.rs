@@ -31,7 +31,7 @@ const FORBIDDEN: [(&str, u32, &str); 14] = [
     ("std::fs", 4, "files are read and written in exchange"),
     ("std::path", 4, "paths belong to exchange"),
     ("std::env", 5, "the environment belongs to the command line"),
-    ("std::time", 5, "results do not depend on the clock"),
+    ("std::time", 4, "results do not depend on the clock; only a session waits"),
     ("SystemTime", 5, "results do not depend on the clock"),
     ("std::thread", 4, "threads belong to session"),
     ("static mut", 6, "there is no global state"),
