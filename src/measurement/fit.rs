@@ -6,7 +6,8 @@
 //! of the noise times the inverse normal matrix. The noise is the scatter between periods (`noise.rs`) where the record
 //! holds two or more, else the residual over its degrees of freedom.
 
-use super::design::{Design, dot};
+use super::design::Design;
+use super::lanes::dot;
 use super::noise::Lag;
 use super::{Channel, Record};
 use faer::{Mat, c64};
@@ -161,8 +162,8 @@ pub(super) fn resolvable(time: &[f64], omega: f64, harmonics: usize) -> Result<u
     Ok(harmonics.min(highest as usize).min(by_count))
 }
 
-/// Fits slices of channels at slices of times. Each channel is solved, and its residual solved again: the digits that
-/// a large offset costs come back so.
+/// Fits slices of channels at slices of times. Where an offset, a slope or a broken period costs digits, the residual is
+/// solved again, and they come back.
 pub(super) fn solve<'a>(
     time: &'a [f64],
     values: &[&[f64]],
@@ -172,13 +173,21 @@ pub(super) fn solve<'a>(
     let undetermined = FitError::Undetermined { frequency_hz: omega / TAU };
     let design = Design::new(time, omega, harmonics).ok_or(undetermined)?;
     let mut unknowns: Vec<Vec<f64>> = design.products(values).iter().map(|b| design.solve(b)).collect();
-    let (residuals, products) = design.residuals(values, &unknowns);
-    for (u, b) in unknowns.iter_mut().zip(&products) {
-        for (u, correction) in u.iter_mut().zip(design.solve(b)) {
+    let residuals = design.residuals(values, &unknowns);
+    let lost = (0..values.len()).filter(|&c| loses_digits(&design, &unknowns[c]));
+    for c in lost.collect::<Vec<_>>() {
+        let products = design.products(&[&residuals[c]]);
+        for (u, correction) in unknowns[c].iter_mut().zip(design.solve(&products[0])) {
             *u += correction;
         }
     }
     Ok(Solved { design, unknowns, residuals })
+}
+
+/// Whether the amplitudes lose more than a digit to the offset, the slope or columns that resemble each other.
+fn loses_digits(design: &Design<'_>, unknowns: &[f64]) -> bool {
+    let largest = |values: &[f64]| values.iter().fold(0.0_f64, |most, u| most.max(u.abs()));
+    design.independence < 0.1 || largest(&unknowns[..2]) > 10.0 * largest(&unknowns[2..])
 }
 
 impl Solved<'_> {

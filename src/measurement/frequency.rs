@@ -10,8 +10,8 @@
 //!
 //! where `P` takes out what the columns `B` explain (variable projection: amplitudes follow the frequency).
 
-use super::design::dot;
 use super::fit::{Solved, resolvable, solve};
+use super::lanes::dot;
 use super::noise::Lag;
 use super::{FitError, Quantity, Record};
 use crate::math::spectrum::Spectrum;

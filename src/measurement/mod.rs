@@ -1,9 +1,12 @@
 //! Validated records: what was measured, the harmonics fitted to it with their covariance, and what is wrong with it.
 
+mod any_columns;
 pub mod channel;
 mod design;
+mod even_columns;
 pub mod fit;
 pub mod frequency;
+mod lanes;
 mod noise;
 pub mod quality;
 pub mod record;

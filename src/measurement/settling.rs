@@ -172,8 +172,11 @@ fn fall(record: &Record, fit: &HarmonicFit) -> Option<(usize, f64)> {
     let references = references(fit);
     let middle = record.time()[0] + 0.5 * (record.duration() - fit.period());
     let falls = (0..fit.channels.len()).filter(|&c| references[c] > 0.0).filter_map(|c| {
-        let (early, late): (Vec<_>, Vec<_>) =
-            lag.differences(record.samples(c)).partition(|(n, _)| record.time()[*n] < middle);
+        let (mut early, mut late) = (Vec::new(), Vec::new());
+        lag.each(
+            record.samples(c),
+            |n, d| if record.time()[n] < middle { early.push(d * d) } else { late.push(d * d) },
+        );
         let (early, early_deviation) = scatter(&early)?;
         let (late, late_deviation) = scatter(&late)?;
         let fallen = (early / late).ln() / early_deviation.hypot(late_deviation);
@@ -184,15 +187,12 @@ fn fall(record: &Record, fit: &HarmonicFit) -> Option<(usize, f64)> {
 }
 
 /// Median over blocks of the mean squared difference, and its relative deviation.
-fn scatter(differences: &[(usize, f64)]) -> Option<(f64, f64)> {
-    let size = differences.len() / BLOCKS;
+fn scatter(squares: &[f64]) -> Option<(f64, f64)> {
+    let size = squares.len() / BLOCKS;
     if size < FEWEST_IN_BLOCK {
         return None;
     }
-    let means: Vec<f64> = differences
-        .chunks_exact(size)
-        .map(|block| block.iter().map(|(_, d)| d * d).sum::<f64>() / size as f64)
-        .collect();
+    let means: Vec<f64> = squares.chunks_exact(size).map(|block| block.iter().sum::<f64>() / size as f64).collect();
     let deviation = (2.0 * SHARED * MEDIAN_PENALTY / (size * BLOCKS) as f64).sqrt();
     Some((median(&means), deviation))
 }

@@ -1,0 +1,30 @@
+//! Sums and scalar products in eight lanes, which the compiler turns into vector instructions.
+
+/// Lanes: enough to hide the latency of an addition.
+pub(super) const LANES: usize = 8;
+
+/// Sum in eight lanes.
+pub(super) fn sum(x: &[f64]) -> f64 {
+    let chunks = x.chunks_exact(LANES);
+    let rest: f64 = chunks.remainder().iter().sum();
+    let mut lanes = [0.0; LANES];
+    for chunk in chunks {
+        for (lane, value) in lanes.iter_mut().zip(chunk) {
+            *lane += value;
+        }
+    }
+    rest + lanes.iter().sum::<f64>()
+}
+
+/// Scalar product in eight lanes.
+pub(super) fn dot(x: &[f64], y: &[f64]) -> f64 {
+    let (xs, ys) = (x.chunks_exact(LANES), y.chunks_exact(LANES));
+    let rest: f64 = xs.remainder().iter().zip(ys.remainder()).map(|(a, b)| a * b).sum();
+    let mut lanes = [0.0; LANES];
+    for (a, b) in xs.zip(ys) {
+        for i in 0..LANES {
+            lanes[i] += a[i] * b[i];
+        }
+    }
+    rest + lanes.iter().sum::<f64>()
+}
