@@ -2,5 +2,7 @@
 #![allow(clippy::unwrap_used, reason = "tests")]
 
 mod against_time;
+mod closed_forms;
 mod derivatives;
+mod folds;
 mod support;

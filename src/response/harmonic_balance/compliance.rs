@@ -138,7 +138,7 @@ impl LinearPart {
     }
 
     /// `Z(omega)`, n x n.
-    fn dynamic_stiffness(&self, omega: f64) -> Mat<c64> {
+    pub fn dynamic_stiffness(&self, omega: f64) -> Mat<c64> {
         let [fk, fm] = self.factors(omega);
         let SystemMatrices { mass, stiffness } = self.matrices();
         let mut z = Mat::from_fn(self.len(), self.len(), |i, j| fk * stiffness[(i, j)] + fm * mass[(i, j)]);

@@ -11,6 +11,7 @@
 
 mod compliance;
 mod condense;
+mod continuation;
 mod dense;
 mod fourier;
 mod friction;
@@ -19,6 +20,7 @@ mod model;
 mod newton;
 mod outcome;
 mod solve;
+mod stability;
 
 pub(crate) use condense::stiffness_of;
 pub(crate) use dense::Lu;
@@ -26,8 +28,10 @@ pub(crate) use fourier::{add_amplitude, amplitude};
 pub(crate) use newton::Balance;
 pub(crate) use solve::{Prepared, richardson};
 
+pub use continuation::{Sweep, SweepEnd, SweepPoint, SweepSettings, branches, nearest, sweep};
 pub use model::{Excitation, ForwardModel, HarmonicForce, ModelError, RunModel};
 pub use outcome::{Attempt, Response, ResponseError, SourceForce, Status, Step};
+pub use stability::{is_stable, multipliers};
 
 /// How many harmonics, and how exactly.
 #[derive(Debug, Clone, Copy, PartialEq)]

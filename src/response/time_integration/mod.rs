@@ -17,5 +17,7 @@ mod model;
 mod propagator;
 mod settle;
 
+pub(crate) use propagator::Propagator;
+
 pub use model::{TimeError, TimeModel};
 pub use settle::{Samples, Settling};

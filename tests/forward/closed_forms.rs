@@ -1,0 +1,161 @@
+//! Harmonic balance against solutions known in closed form.
+
+use super::support::{balanced, five_masses, source, whole};
+use dashpot::effects::{Effect, Source};
+use dashpot::response::harmonic_balance::{Excitation, Response, Settings};
+use dashpot::structure::Structure;
+use dashpot::structure::chain::ChainParameters;
+use faer::c64;
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
+
+fn oscillator(mass: f64, stiffness: f64) -> Structure {
+    ChainParameters { masses: vec![mass], ground_stiffness: vec![stiffness], coupling_stiffness: vec![] }
+        .build(&[])
+        .unwrap()
+}
+
+fn driven(sources: &[Source], omega: f64, force: f64, settings: &Settings) -> Response {
+    balanced(&oscillator(2.0, 800.0), sources, &Excitation::sine(omega, 0, c64::new(force, 0.0)), settings)
+}
+
+/// Greatest displacement of DOF 0 over the period.
+fn peak(response: &Response) -> f64 {
+    let period = TAU / response.omega;
+    (0..20_000).fold(0.0_f64, |m, n| m.max(response.state_at(period * f64::from(n) / 20_000.0).0[0].abs()))
+}
+
+/// Energy per cycle taken out by source force number `index`: `pi sum_h h Im(F_h conj(D_h))`.
+fn energy(response: &Response, index: usize) -> f64 {
+    let force = &response.forces[index];
+    let term = |h: usize| {
+        let d = force.leg.relative(|i| response.amplitude(i, h));
+        h as f64 * (force.harmonics[h - 1] * d.conj()).im
+    };
+    PI * (1..=force.harmonics.len()).map(term).sum::<f64>()
+}
+
+/// Den Hartog (1931): motion without stops, `x_max / (P/k) = sqrt(V^2 - (R/P)^2 U^2)`, `V = 1/(1 - b^2)`,
+/// `U = sin(pi/b) / (b (1 + cos(pi/b)))`, `b = w/wn`.
+#[test]
+fn den_hartogs_oscillator_with_dry_friction() {
+    let (stiffness, force) = (800.0, 10.0);
+    for (b, ratio) in [(0.6_f64, 0.2_f64), (0.8, 0.3), (1.3, 0.25), (1.8, 0.3)] {
+        let response = driven(&[source(Effect::Coulomb, &[0], &[ratio * force])], b * 20.0, force, &Settings::default());
+        let v = 1.0 / (1.0 - b * b);
+        let u = (PI / b).sin() / (b * (1.0 + (PI / b).cos()));
+        let expected = force / stiffness * (v * v - (ratio * u).powi(2)).sqrt();
+        let found = peak(&response);
+        assert!((found / expected - 1.0).abs() < 1e-3, "w/wn {b}: {found} {expected}");
+    }
+}
+
+/// Friction above the driving force holds everything.
+#[test]
+fn dry_friction_above_the_force_holds() {
+    let response = driven(&[source(Effect::Coulomb, &[0], &[10.5])], 18.0, 10.0, &Settings::default());
+    assert!(peak(&response) < 1e-8 * 10.0 / 800.0);
+    assert!((response.forces[0].harmonics[0] - c64::new(10.0, 0.0)).norm() < 1e-6);
+}
+
+/// One harmonic: `F_1 = 8/(3 pi) c w^2 |X| X i`, and `4/pi F_c` for friction.
+#[test]
+fn equivalent_dampers_of_one_harmonic() {
+    let (c, omega) = (30.0, 18.0);
+    let response = driven(&[source(Effect::Quadratic, &[0], &[c])], omega, 10.0, &Settings::fixed(1));
+    let x = response.amplitude(0, 1);
+    let expected = x * c64::new(0.0, 8.0 / (3.0 * PI) * c * omega * omega * x.norm());
+    assert!((response.forces[0].harmonics[0] - expected).norm() < 1e-4 * expected.norm());
+    let settings = Settings { estimate: false, ..Settings::fixed(1) };
+    let response = driven(&[source(Effect::Coulomb, &[0], &[2.0])], omega, 10.0, &settings);
+    assert!((response.forces[0].harmonics[0].norm() - 8.0 / PI).abs() < 5e-3);
+}
+
+#[test]
+fn energy_of_jenkins_and_iwan_elements() {
+    for element in [
+        source(Effect::ElasticSlider, &[0], &[600.0, 3.0]),
+        source(Effect::Iwan, &[0], &[600.0, 3.0, -0.4, 1.5]),
+    ] {
+        let response = driven(&[element.clone(), source(Effect::Viscous, &[0], &[2.0])], 20.0, 10.0, &Settings::default());
+        let law = element.effect.law().unwrap();
+        let expected = law.energy_per_cycle(&element.parameters, peak(&response), 20.0).unwrap();
+        assert!(expected > 0.0);
+        let found = energy(&response, 0);
+        assert!((found / expected - 1.0).abs() < 2e-3, "{}: {found} {expected}", element.effect);
+    }
+}
+
+#[test]
+fn a_fractional_element_on_an_oscillator() {
+    let (c, order, omega) = (40.0, 0.35_f64, 18.0_f64);
+    let response = driven(&[source(Effect::Fractional, &[0], &[c, order])], omega, 10.0, &Settings::default());
+    let (sin, cos) = (order * FRAC_PI_2).sin_cos();
+    let element = c64::new(cos, sin) * (c * omega.powf(order));
+    let expected = c64::new(10.0, 0.0) / (c64::new(800.0 - 2.0 * omega * omega, 0.0) + element);
+    assert!((response.amplitude(0, 1) - expected).norm() < 1e-9 * expected.norm());
+}
+
+/// What the exciter puts in, all sources together take out.
+#[test]
+fn energy_is_balanced() {
+    let sources = [
+        source(Effect::Viscous, &[2], &[20.0]),
+        source(Effect::Quadratic, &[1, 2], &[500.0]),
+        source(Effect::CubicStiffness, &[3], &[1e11]),
+        source(Effect::ElasticSlider, &[4], &[2e4, 3.0]),
+    ];
+    let excitation = Excitation::sine(TAU * 21.5, 4, c64::new(20.0, 5.0));
+    let response = balanced(&five_masses(), &sources, &excitation, &Settings::default());
+    // Power of f on v = i w x over a cycle: pi Im(F conj(X)).
+    let input = PI * (c64::new(20.0, 5.0) * response.amplitude(4, 1).conj()).im;
+    let taken: f64 = (0..response.forces.len()).map(|i| energy(&response, i)).sum();
+    assert!((taken / input - 1.0).abs() < 1e-7, "{taken} {input}");
+}
+
+/// The linear path agrees with the closed form of a damped oscillator, at its very resonance as well.
+#[test]
+fn a_linear_oscillator_at_resonance() {
+    let response = driven(&[source(Effect::Viscous, &[0], &[0.4])], 20.0, 10.0, &Settings::default());
+    let expected = c64::new(10.0, 0.0) / c64::new(0.0, 20.0 * 0.4);
+    assert!((response.amplitude(0, 1) - expected).norm() < 1e-7 * expected.norm());
+}
+
+/// A structure that floats, of many DOFs, where modes stand in for the inverse.
+#[test]
+fn modes_satisfy_the_equations_of_motion() {
+    let mut masses = vec![1.0; 70];
+    masses[0] = 2.0;
+    let chain = ChainParameters { masses, ground_stiffness: vec![0.0; 70], coupling_stiffness: vec![1e6; 69] };
+    let structure = chain.build(&[]).unwrap();
+    let sources = [
+        whole(Effect::LossFactor, 0.02),
+        source(Effect::Viscous, &[30, 31], &[40.0]),
+        source(Effect::Coulomb, &[69], &[1.0]),
+    ];
+    let excitation = Excitation::sine(100.0, 0, c64::new(30.0, 0.0));
+    let response = balanced(&structure, &sources, &excitation, &Settings { estimate: false, ..Settings::fixed(7) });
+    // The seventh harmonic is not extrapolated: it must satisfy the equations of motion.
+    let matrices = structure.matrices().unwrap();
+    let h = 7;
+    let w = 100.0 * h as f64;
+    let friction = response.forces.iter().find(|f| f.source == 2).unwrap().harmonics[h - 1];
+    let dashpot = response.forces.iter().find(|f| f.source == 1).unwrap().harmonics[h - 1];
+    let mut worst = 0.0_f64;
+    for i in 0..70 {
+        let mut sum = c64::new(0.0, 0.0);
+        for j in 0..70 {
+            let z = c64::new(matrices.stiffness[(i, j)], 0.02 * matrices.stiffness[(i, j)])
+                - c64::new(w * w * matrices.mass[(i, j)], 0.0);
+            sum += z * response.amplitude(j, h);
+        }
+        let external = match i {
+            69 => -friction,
+            30 => -dashpot,
+            31 => dashpot,
+            _ => c64::new(0.0, 0.0),
+        };
+        worst = worst.max((sum - external).norm());
+    }
+    assert!(friction.norm() > 0.01, "the test needs a seventh harmonic");
+    assert!(worst < 1e-7 * friction.norm(), "{worst:.1e} {friction}");
+}

@@ -1,0 +1,122 @@
+//! Turning points: Duffing's oscillator against its backbone and fold, all branches, stability against time stepping.
+
+use super::support::{five_masses, source, whole};
+use dashpot::control::Control;
+use dashpot::effects::{Effect, Source};
+use dashpot::response::harmonic_balance::{
+    Excitation, ForwardModel, Settings, SweepEnd, SweepSettings, branches, multipliers, nearest, sweep,
+};
+use dashpot::response::time_integration::{Settling, TimeModel};
+use dashpot::structure::Structure;
+use dashpot::structure::chain::ChainParameters;
+use faer::c64;
+
+const M: f64 = 1.0;
+const C: f64 = 0.1;
+const K: f64 = 1.0;
+const K3: f64 = 0.5;
+
+fn oscillator() -> Structure {
+    ChainParameters { masses: vec![M], ground_stiffness: vec![K], coupling_stiffness: vec![] }.build(&[]).unwrap()
+}
+
+fn duffing() -> Vec<Source> {
+    vec![source(Effect::Viscous, &[0], &[C]), source(Effect::CubicStiffness, &[0], &[K3])]
+}
+
+/// With one harmonic the balance is `F^2 = A^2 ((k - m w^2 + 3/4 k3 A^2)^2 + (c w)^2)`: amplitudes `A` at `w`, by
+/// bisection between the sign changes on a fine grid.
+fn amplitudes(force: f64, w: f64) -> Vec<f64> {
+    let gap = |a: f64| a * ((K - M * w * w + 0.75 * K3 * a * a).hypot(C * w)) - force;
+    let grid: Vec<f64> = (0..20_000).map(|i| f64::from(i) * 5e-4).collect();
+    let mut roots = Vec::new();
+    for pair in grid.windows(2).filter(|p| gap(p[0]) * gap(p[1]) <= 0.0) {
+        let (mut low, mut high) = (pair[0], pair[1]);
+        for _ in 0..60 {
+            let middle = 0.5 * (low + high);
+            if gap(low) * gap(middle) <= 0.0 { high = middle } else { low = middle }
+        }
+        roots.push(low);
+    }
+    roots
+}
+
+#[test]
+fn one_harmonic_of_duffing_has_the_textbook_branches() {
+    let (force, omega) = (0.4, 1.5);
+    let model = ForwardModel::new(&oscillator(), &duffing()).unwrap();
+    let excitation = Excitation::sine(omega, 0, c64::new(force, 0.0));
+    let settings = SweepSettings { harmonics: 1, ..SweepSettings::default() };
+    let found = branches(&model, &excitation, [0.3, 3.0], &settings, &Control::unattended()).unwrap();
+    let mut amplitude: Vec<f64> = found.iter().map(|p| p.response.amplitude(0, 1).norm()).collect();
+    amplitude.sort_by(f64::total_cmp);
+    let expected = amplitudes(force, omega);
+    assert_eq!(expected.len(), 3, "the test's own numbers");
+    assert_eq!(amplitude.len(), 3, "{amplitude:?} {expected:?}");
+    for (a, e) in amplitude.iter().zip(&expected) {
+        assert!((a - e).abs() < 1e-7 * e, "{a} {e}");
+    }
+    // The middle one is unstable, the others are not.
+    for point in &found {
+        let middle = (point.response.amplitude(0, 1).norm() - expected[1]).abs() < 1e-6;
+        assert_eq!(point.stable, !middle);
+    }
+    let measured = [(0, 1, found[0].response.amplitude(0, 1) * 1.05)];
+    assert_eq!(nearest(&found, &measured), Some(0));
+}
+
+#[test]
+fn the_peak_of_duffing_lies_on_its_backbone() {
+    let model = ForwardModel::new(&oscillator(), &duffing()).unwrap();
+    let excitation = Excitation::sine(1.0, 0, c64::new(0.2, 0.0));
+    let settings = SweepSettings { largest_step: 0.003, ..SweepSettings::default() };
+    let curve = sweep(&model, &excitation, [0.5, 2.5], &settings, &Control::unattended()).unwrap();
+    assert_eq!(curve.end, SweepEnd::Reached);
+    let peak = curve
+        .points
+        .iter()
+        .max_by(|a, b| a.response.amplitude(0, 1).norm().total_cmp(&b.response.amplitude(0, 1).norm()))
+        .unwrap();
+    let (a, w) = (peak.response.amplitude(0, 1).norm(), peak.response.omega);
+    // Energy: F = c w A at the peak; backbone: k + 3/4 k3 A^2 = m w^2, to the order of the third harmonic.
+    assert!((C * w * a / 0.2 - 1.0).abs() < 1e-2, "{}", C * w * a);
+    assert!(((K + 0.75 * K3 * a * a) / (M * w * w) - 1.0).abs() < 2e-2);
+    // Up the curve, back past the fold, and on: two turning points, between them unstable.
+    let turns = curve.points.windows(2).filter(|p| p[0].stable != p[1].stable).count();
+    assert_eq!(turns, 2);
+    let backwards = curve.points.windows(2).filter(|p| p[1].response.omega < p[0].response.omega);
+    assert!(backwards.map(|p| p[1].stable).filter(|s| *s).count() <= 2);
+}
+
+#[test]
+fn both_stable_branches_hold_in_time_and_the_unstable_one_does_not() {
+    let model = ForwardModel::new(&oscillator(), &duffing()).unwrap();
+    let excitation = Excitation::sine(1.5, 0, c64::new(0.4, 0.0));
+    let settings = SweepSettings { harmonics: 9, ..SweepSettings::default() };
+    let found = branches(&model, &excitation, [0.3, 3.0], &settings, &Control::unattended()).unwrap();
+    assert_eq!(found.iter().filter(|p| p.stable).count(), 2);
+    for point in &found {
+        let mut time = TimeModel::new(&oscillator(), &duffing(), &excitation, 2000).unwrap();
+        time.start_from(&point.response);
+        let waiting = Settling { accelerate: false, tolerance: 1e-7, most_periods: 400 };
+        time.settle(&waiting, &Control::unattended()).unwrap();
+        let settled = time.harmonics(1).unwrap()[(0, 0)];
+        let stays = (settled - point.response.amplitude(0, 1)).norm() < 1e-3 * settled.norm();
+        assert_eq!(stays, point.stable, "{settled} {}", point.response.amplitude(0, 1));
+    }
+}
+
+#[test]
+fn multipliers_of_a_linear_structure_are_those_of_its_damped_modes() {
+    let structure = five_masses();
+    // A cubic spring too weak to matter makes the response nonlinear in name only.
+    let sources = [whole(Effect::MassProportional, 2.0), source(Effect::CubicStiffness, &[0], &[1e-9])];
+    let model = ForwardModel::new(&structure, &sources).unwrap();
+    let excitation = Excitation::sine(100.0, 0, c64::new(1.0, 0.0));
+    let response = model.respond(&excitation, &Settings::default(), None, &Control::unattended()).unwrap();
+    let found = multipliers(&model.at(100.0), &sources, &excitation, &response).unwrap();
+    // With alpha M every mode decays as exp(-alpha t / 2).
+    let expected = (-0.5 * 2.0 * std::f64::consts::TAU / 100.0_f64).exp();
+    assert_eq!(found.len(), 10);
+    assert!(found.iter().all(|m| (m.norm() - expected).abs() < 1e-9));
+}
