@@ -40,7 +40,8 @@ fn energy(response: &Response, index: usize) -> f64 {
 fn den_hartogs_oscillator_with_dry_friction() {
     let (stiffness, force) = (800.0, 10.0);
     for (b, ratio) in [(0.6_f64, 0.2_f64), (0.8, 0.3), (1.3, 0.25), (1.8, 0.3)] {
-        let response = driven(&[source(Effect::Coulomb, &[0], &[ratio * force])], b * 20.0, force, &Settings::default());
+        let response =
+            driven(&[source(Effect::Coulomb, &[0], &[ratio * force])], b * 20.0, force, &Settings::default());
         let v = 1.0 / (1.0 - b * b);
         let u = (PI / b).sin() / (b * (1.0 + (PI / b).cos()));
         let expected = force / stiffness * (v * v - (ratio * u).powi(2)).sqrt();
@@ -72,11 +73,11 @@ fn equivalent_dampers_of_one_harmonic() {
 
 #[test]
 fn energy_of_jenkins_and_iwan_elements() {
-    for element in [
-        source(Effect::ElasticSlider, &[0], &[600.0, 3.0]),
-        source(Effect::Iwan, &[0], &[600.0, 3.0, -0.4, 1.5]),
-    ] {
-        let response = driven(&[element.clone(), source(Effect::Viscous, &[0], &[2.0])], 20.0, 10.0, &Settings::default());
+    for element in
+        [source(Effect::ElasticSlider, &[0], &[600.0, 3.0]), source(Effect::Iwan, &[0], &[600.0, 3.0, -0.4, 1.5])]
+    {
+        let response =
+            driven(&[element.clone(), source(Effect::Viscous, &[0], &[2.0])], 20.0, 10.0, &Settings::default());
         let law = element.effect.law().unwrap();
         let expected = law.energy_per_cycle(&element.parameters, peak(&response), 20.0).unwrap();
         assert!(expected > 0.0);

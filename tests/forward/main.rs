@@ -5,4 +5,5 @@ mod against_time;
 mod closed_forms;
 mod derivatives;
 mod folds;
+mod robustness;
 mod support;

@@ -26,7 +26,7 @@ const FOLDING_LEVELS: f64 = 6.0;
 pub(crate) fn samples_for(condensed: &Condensed) -> usize {
     let sharp = condensed.legs.iter().any(NonlinearLeg::takes_force);
     let factor = if sharp { 32 } else { 16 };
-    (factor * (condensed.harmonics + 1)).next_power_of_two()
+    (factor * (condensed.harmonics + 1)).next_power_of_two().max(128)
 }
 
 /// Condensed system and tables of one run at a number of harmonics.
