@@ -11,6 +11,7 @@
 use super::Settings;
 use super::dense::Lu;
 use super::model::{Excitation, ForwardModel, RunModel};
+use super::newton::relative;
 use super::outcome::{Response, ResponseError};
 use super::solve::{Prepared, assemble};
 use super::stability::is_stable;
@@ -220,7 +221,7 @@ impl Tracer<'_> {
             let prepared = self.prepared(omega).ok()?;
             let balance = prepared.balance();
             let state = balance.state(&u, 1.0);
-            if balance.relative(&state.residual, &u) <= self.settings.tolerance {
+            if relative(&state.residual, &u) <= self.settings.tolerance {
                 return Some((self.oriented(u, omega, &place.tangent)?, iteration));
             }
             if column.is_none() || iteration == 3 {

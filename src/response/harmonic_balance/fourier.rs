@@ -6,6 +6,7 @@
 
 use faer::c64;
 use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
+use std::f64::consts::TAU;
 use std::sync::Arc;
 
 /// The two transforms of one number of samples, for a number of harmonics.
@@ -26,7 +27,7 @@ impl std::fmt::Debug for Fourier {
 impl Fourier {
     /// Harmonics 1..=`harmonics` at `samples` equal steps of one period; `samples` is even and above `4 harmonics`.
     pub fn new(harmonics: usize, samples: usize) -> Self {
-        debug_assert!(samples % 2 == 0 && samples > 4 * harmonics);
+        debug_assert!(samples.is_multiple_of(2) && samples > 4 * harmonics);
         let mut planner = RealFftPlanner::new();
         let (forward, backward) = (planner.plan_fft_forward(samples), planner.plan_fft_inverse(samples));
         Self { harmonics, samples, forward, backward }
@@ -56,6 +57,17 @@ impl Fourier {
         }
         let done = self.backward.process(&mut spectrum, samples);
         debug_assert!(done.is_ok(), "lengths are those of the plan");
+    }
+
+    /// Samples of the function whose coefficient number `k` is 1 and all others 0.
+    pub fn wave(&self, k: usize, samples: &mut [f64]) {
+        let turn = TAU / self.samples as f64;
+        let h = k.div_ceil(2);
+        for (n, s) in samples.iter_mut().enumerate() {
+            // The angle is reduced before it is rounded.
+            let (sin, cos) = (turn * ((h * n) % self.samples) as f64).sin_cos();
+            *s = if k == 2 * h && k > 0 { sin } else { cos };
+        }
     }
 
     /// Complex spectrum `sum_n y_n exp(-i k theta_n) / N` for `k` up to half the samples. Spoils `samples`.
@@ -195,8 +207,10 @@ mod tests {
         for k in 0..7 {
             let mut unit = vec![0.0; 7];
             unit[k] = 1.0;
-            let (mut samples, mut column) = (vec![0.0; 40], vec![0.0; 7]);
+            let (mut samples, mut column, mut wave) = (vec![0.0; 40], vec![0.0; 7], vec![0.0; 40]);
             fourier.synthesise(&unit, &mut samples);
+            fourier.wave(k, &mut wave);
+            assert!(samples.iter().zip(&wave).all(|(s, w)| (s - w).abs() < 1e-14), "{k}");
             samples.iter_mut().zip(&weight).for_each(|(s, w)| *s *= w);
             fourier.project(&samples, &mut column);
             for row in 0..7 {

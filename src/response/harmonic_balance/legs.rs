@@ -187,11 +187,10 @@ impl NonlinearLeg {
         self.law.force(&self.parameters, &sampled_motion, &mut samples);
         fourier.project(&samples, &mut value);
         let mut by_motion = vec![0.0; width * width];
-        let mut unit = vec![0.0; width];
+        // Laws with memory look at displacements only.
+        let mut direction = Motion { velocity: Vec::new(), acceleration: Vec::new(), ..sampled_motion.clone() };
         for k in 0..width {
-            unit[k] = 1.0;
-            let direction = sampled(fourier, omega, &unit);
-            unit[k] = 0.0;
+            fourier.wave(k, &mut direction.displacement);
             self.law.tangent(&self.parameters, &sampled_motion, &direction, &mut samples);
             fourier.project(&samples, &mut column);
             for (row, c) in column.iter().enumerate() {

@@ -115,19 +115,12 @@ impl Balance<'_> {
         change
     }
 
-    /// Largest residual relative to the largest force.
-    pub fn relative(&self, residual: &[f64], u: &[f64]) -> f64 {
-        let largest = |x: &[f64]| x.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
-        let answer = largest(u) + largest(residual);
-        if answer == 0.0 { 0.0 } else { largest(residual) / answer }
-    }
-
     /// Iterates `u` to the balance under `level` times the excitation.
     pub fn solve(&self, u: &mut Vec<f64>, level: f64, tolerance: f64) -> Ending {
         let mut state = self.state(u, level);
         let mut best = (f64::INFINITY, u.clone());
         for steps in 0..STEPS {
-            let residual = self.relative(&state.residual, u);
+            let residual = relative(&state.residual, u);
             if residual < best.0 {
                 best = (residual, u.clone());
             }
@@ -167,4 +160,11 @@ impl Balance<'_> {
         }
         moved(best.1)
     }
+}
+
+/// Largest residual relative to the largest force.
+pub(crate) fn relative(residual: &[f64], u: &[f64]) -> f64 {
+    let largest = |x: &[f64]| x.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
+    let answer = largest(u) + largest(residual);
+    if answer == 0.0 { 0.0 } else { largest(residual) / answer }
 }
