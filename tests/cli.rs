@@ -42,7 +42,7 @@ fn bad_projects_end_with_status_1_one_line_and_nothing_written() {
             "p.toml:11: [[source]] has no key `stat`; did you mean `state`?",
         ),
         (&GOOD.replace("c = 3", "c = nan"), "p.toml:12: `c = nan` is not a usable number"),
-        (&GOOD.replace("masses = [1, 2]", "masses = [1, 0]"), "p.toml:"),
+        (&GOOD.replace("masses = [1, 2]", "masses = [1, 0]"), "p.toml:5: mass 2 is 0 kg"),
         (&GOOD.replace("acc@1 [m/s^2]", "acc@1 [kg]"), "p.toml:19: "),
         (&GOOD.replace("force_n = 5\n", ""), "p.toml:16: `force_dof` is there without `force_n`; give both or none"),
     ];

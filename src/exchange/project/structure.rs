@@ -56,6 +56,8 @@ fn blamed(error: &StructureError, table: &StructureTable, at: At<'_>) -> usize {
         return line(&at.lines.structure, "dofs");
     }
     let said = error.to_string();
-    let key = at.lines.structure.keys().find(|key| !key.is_empty() && said.starts_with(key.as_str()));
+    // Messages begin with the key, or with its singular and a number: "mass 2 is ..." is about `masses`.
+    let word = said.split(' ').next().unwrap_or_default();
+    let key = at.lines.structure.keys().find(|key| *key == word || **key == format!("{word}es"));
     line(&at.lines.structure, key.map_or("", String::as_str))
 }
