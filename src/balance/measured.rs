@@ -105,7 +105,9 @@ impl Measured {
         let mut list: Vec<(usize, f64)> =
             self.sensors_at(dof).map(|s| (s, self.sensors.deviations[(s, k)].powi(-2))).collect();
         let sum: f64 = list.iter().map(|(_, w)| w).sum();
-        list.iter_mut().for_each(|(_, w)| *w /= sum);
+        for (_, weight) in &mut list {
+            *weight /= sum;
+        }
         list
     }
 }

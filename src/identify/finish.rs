@@ -11,10 +11,10 @@ use crate::balance::{action, weights};
 use crate::math::subsets::RankedSet;
 
 /// Builds the outcome.
-pub(super) fn outcome(problem: &Problem<'_>, found: Found) -> Result<Outcome, IdentifyError> {
+pub(super) fn outcome(problem: &Problem<'_>, found: &Found) -> Result<Outcome, IdentifyError> {
     let energy = System::energy(problem, &found.state, problem.settings.weights);
-    let known: Vec<Vec<f64>> = known_energies(problem, &found);
-    let teller = Teller { problem, found: &found, energy: &energy, known: &known };
+    let known: Vec<Vec<f64>> = known_energies(problem, found);
+    let teller = Teller { problem, found, energy: &energy, known: &known };
     let mut steps = Vec::new();
     for ranking in &found.rankings {
         steps.push(teller.step(ranking)?);
@@ -42,8 +42,8 @@ pub(super) fn outcome(problem: &Problem<'_>, found: Found) -> Result<Outcome, Id
         weights: weights::resolve(problem.settings.weights, &found.state.runs),
         model_error: found.state.model_error,
         runs: teller.runs(&steps[accepted], &acting),
-        collinear: collinear::groups(problem, &found),
-        warnings: warnings::all(problem, &found, &fit, &set),
+        collinear: collinear::groups(problem, found),
+        warnings: warnings::all(problem, found, &fit, &set),
         results: results::results(&input),
         covariance: (0..k).map(|i| (0..k).map(|j| fit.covariance[(i, j)]).collect()).collect(),
         steps,

@@ -56,15 +56,16 @@ pub fn identify(
     control: &Control,
 ) -> Result<Outcome, IdentifyError> {
     let mut problem = Problem::new(structure, sources, runs, settings)?;
+    let first = State::start(&problem)?;
+    problem.drop_unobservable(&first)?;
     let start = balanced_start(&problem, control)?;
-    problem.drop_unobservable(&start)?;
     control.report(0.1);
     let found = match response_start(&problem, &start, control)? {
         Some(state) => passes(&problem, state, Form::Response, control)?,
         None => energy_passes(&problem, start, control)?,
     };
     control.report(0.9);
-    finish::outcome(&problem, found)
+    finish::outcome(&problem, &found)
 }
 
 /// What the passes end with.
@@ -105,7 +106,7 @@ fn response_start(problem: &Problem<'_>, start: &State, control: &Control) -> Re
     let mut adequate = false;
     for _ in 0..START_STEPS {
         control.check()?;
-        let system = System::response(problem, &state);
+        let system = System::of(Form::Response, problem, &state);
         let coefficients = solve::all_columns(&system)?;
         if coefficients.iter().all(|&c| c == 0.0) {
             return Ok(None);
@@ -142,7 +143,7 @@ fn passes(problem: &Problem<'_>, start: State, form: Form, control: &Control) ->
         let set = rankings[decision.accepted].best().columns.clone();
         let settled = last.as_ref() == Some(&set);
         let coefficients = rankings[decision.accepted].best().coefficients.clone();
-        state = refit(problem, state, &set, &coefficients, form, control)?;
+        state = refit(problem, &state, &set, &coefficients, form, control)?;
         let system = System::of(form, problem, &state);
         best = Some(Found { state: state.clone(), system, rankings, decision, form });
         control.report(0.1 + 0.8 * (pass + 1) as f64 / PASSES as f64);
@@ -161,7 +162,7 @@ fn passes(problem: &Problem<'_>, start: State, form: Form, control: &Control) ->
 /// Solves for the coefficients of one set, moves to the motion that they give, and so on until nothing changes.
 fn refit(
     problem: &Problem<'_>,
-    state: State,
+    state: &State,
     set: &[usize],
     coefficients: &[f64],
     form: Form,

@@ -106,6 +106,12 @@ impl<'a> Problem<'a> {
     /// Leaves out columns whose motion is not known in every run.
     pub fn drop_unobservable(&mut self, state: &State) -> Result<(), IdentifyError> {
         let method = self.expander.method();
+        for source in self.known.iter().filter(|s| s.effect.dissipates() && !is_observable(s, &state.runs, method)) {
+            let name = describe(source, self.structure);
+            self.warnings.push(format!(
+                "{name} is known, but its motion is not measured, so its energy is not subtracted in full"
+            ));
+        }
         let keep: Vec<bool> = self.columns.iter().map(|c| is_observable(c, &state.runs, method)).collect();
         if keep.iter().all(|k| *k) {
             return check_input(state);
@@ -150,6 +156,10 @@ impl<'a> Problem<'a> {
     }
 }
 
+fn check_input(state: &State) -> Result<(), IdentifyError> {
+    if state.equation.input.iter().all(|&e| e <= 0.0) { Err(IdentifyError::NoInput) } else { Ok(()) }
+}
+
 /// Enabled runs that have settled; if none has, all enabled ones.
 fn runs_in_use(runs: &[Run], warnings: &mut Vec<String>) -> Vec<usize> {
     let enabled: Vec<usize> = (0..runs.len()).filter(|&r| runs[r].enabled).collect();
@@ -181,8 +191,4 @@ pub(crate) fn describe(source: &Source, structure: &Structure) -> String {
         Place::Whole(Some([first, last])) => format!("{} of elements {} to {}", source.effect, first + 1, last + 1),
         Place::Channel(name) => format!("{} of {name}", source.effect),
     }
-}
-
-fn check_input(state: &State) -> Result<(), IdentifyError> {
-    if state.equation.input.iter().all(|&e| e <= 0.0) { Err(IdentifyError::NoInput) } else { Ok(()) }
 }

@@ -10,11 +10,11 @@ use crate::math::subsets::{RankedSet, Ranking, SubsetProblem, branch_and_bound, 
 use faer::Mat;
 
 /// Sets up to which all are looked at.
-const FEW: f64 = 40_000.0;
+const FEW: f64 = 500.0;
 /// Nodes of the tree after which the proof is given up.
 const NODES: u64 = 400_000;
-/// Sets asked for of one size, so that enough remain after the `keep` rule.
-const ASKED: usize = 60;
+/// Sets asked for of one size where the `keep` rule applies, so that some remain.
+const ASKED: usize = 30;
 /// Sets reported of one size.
 const REPORTED: usize = 10;
 /// Columns above which the search is made among the most promising.
@@ -132,7 +132,8 @@ impl Task<'_> {
     }
 
     fn of_size(&self, size: usize, singles: &[usize], control: &Control) -> Result<Option<SizeRanking>, IdentifyError> {
-        let ranking = self.run(self.a, size, self.forced, ASKED, control)?;
+        let asked = if self.keep == 0 { REPORTED } else { ASKED };
+        let ranking = self.run(self.a, size, self.forced, asked, control)?;
         let (mut proved, mut looked_at) = (ranking.proved, ranking.nodes);
         let kept: Vec<usize> = singles.iter().copied().filter(|j| !self.forced.contains(j)).take(self.keep).collect();
         let allowed = |set: &RankedSet| {

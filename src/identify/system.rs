@@ -22,7 +22,7 @@ impl System {
     pub fn of(form: Form, problem: &Problem<'_>, state: &State) -> Self {
         match form {
             Form::Energy => Self::energy(problem, state, problem.settings.weights),
-            Form::Response => Self::response(problem, state),
+            Form::Response => response_form::system(problem, state),
         }
     }
 
@@ -46,11 +46,6 @@ impl System {
             run: (0..rows).collect(),
             deviation,
         }
-    }
-
-    /// The response equation, whitened.
-    pub fn response(problem: &Problem<'_>, state: &State) -> Self {
-        response_form::system(problem, state)
     }
 
     /// Number of rows.

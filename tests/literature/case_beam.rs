@@ -7,7 +7,10 @@ use dashpot::identify::{Outcome, Status, identify};
 use dashpot::structure::damped_modes::damped_modes;
 use faer::Mat;
 
-const CASE_1: [(usize, f64); 4] = [(3, 0.1), (5, 0.1), (13, 0.1), (17, 0.1)];
+/// Label and coefficient, N s/m.
+type Dashpot = (usize, f64);
+
+const CASE_1: [Dashpot; 4] = [(3, 0.1), (5, 0.1), (13, 0.1), (17, 0.1)];
 const CASE_2: [(usize, f64); 4] = [(3, 0.01), (5, 0.5), (13, 0.1), (17, 1.0)];
 
 fn solve(dashpots: &[(usize, f64)], sources: &[Source]) -> Outcome {
@@ -51,13 +54,15 @@ fn table_5_4_damping_ratios() {
     let matrices = structure.matrices().unwrap();
     let ratios = |dashpots: &[(usize, f64)]| -> Vec<f64> {
         let mut c = Mat::<f64>::zeros(20, 20);
-        dashpots.iter().for_each(|&(label, value)| c[(label - 1, label - 1)] = value);
+        for &(label, value) in dashpots {
+            c[(label - 1, label - 1)] = value;
+        }
         let modes = damped_modes(matrices.mass.as_ref(), matrices.stiffness.as_ref(), c.as_ref()).unwrap();
         modes.iter().map(|m| m.damping_ratio).collect()
     };
     let original = ratios(&CASE_1);
     // The printed coefficients of one, two and three equivalent dashpots, and the printed errors in per cent.
-    let rows: [(&[(usize, f64)], [f64; 10]); 3] = [
+    let rows: [(&[Dashpot], [f64; 10]); 3] = [
         (&[(19, 0.107)], [4.09, 44.15, 24.74, 16.66, 73.13, 14.82, 2.68, 53.99, 35.49, 47.96]),
         (&[(13, 0.151), (19, 0.059)], [0.14, 0.07, 12.60, 9.68, 7.97, 1.99, 4.23, 15.07, 31.11, 27.87]),
         (&[(5, 0.212), (15, 0.127), (17, 0.055)], [0.13, 0.22, 1.22, 0.95, 2.90, 4.51, 11.37, 15.81, 0.51, 2.62]),

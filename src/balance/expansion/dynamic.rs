@@ -114,7 +114,7 @@ impl Harmonic {
             })
             .collect();
         let prior = Prior::new(model, measured, &driven, acting.model_error, k);
-        prior.update(measured, k, driven, receptance, &x0)
+        prior.update(measured, k, &driven, receptance, &x0)
     }
 }
 
@@ -139,7 +139,9 @@ impl Prior {
         let sensors = &measured.sensors.dofs;
         let mut v = model.residual_variances(omega, ASSUMED_LOSS);
         let scale = model_error.powi(2) * strain_energy(model, measured, k);
-        v.iter_mut().for_each(|value| *value *= scale);
+        for value in &mut v {
+            *value *= scale;
+        }
         let noise: Vec<f64> = (0..driven.ncols()).map(|j| measured.forces.deviations[(j, k)].powi(2)).collect();
         let entry = |i: usize, other: usize| -> c64 {
             let force: c64 = (0..driven.ncols()).map(|j| driven[(i, j)] * driven[(other, j)].conj() * noise[j]).sum();
@@ -156,7 +158,7 @@ impl Prior {
         }
     }
 
-    fn update(self, measured: &Measured, k: usize, driven: Mat<c64>, receptance: Mat<c64>, x0: &[c64]) -> Harmonic {
+    fn update(self, measured: &Measured, k: usize, driven: &Mat<c64>, receptance: Mat<c64>, x0: &[c64]) -> Harmonic {
         let (n, sensors) = (x0.len(), &measured.sensors.dofs);
         let s = sensors.len();
         // Scaled by the sensors' deviations so that amplitudes of very different size do not hurt.

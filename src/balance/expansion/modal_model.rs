@@ -69,7 +69,9 @@ impl ModalModel {
         for k in 0..m {
             z[(k, k)] = c64::new(self.omega[k].powi(2) - omega * omega, 0.0);
         }
-        secants.iter().for_each(|secant| self.add_secant(structure, secant, &mut z));
+        for secant in secants {
+            self.add_secant(structure, secant, &mut z);
+        }
         // An undamped resonance hit exactly: the least loss that keeps the answer finite.
         for k in 0..m {
             if z[(k, k)].norm() < 1e-9 * omega * omega {

@@ -21,7 +21,9 @@ pub(crate) fn by_dof(structure: &Structure, runs: &[(Measured, Expanded)], actin
     }
     let total: f64 = sum.iter().sum();
     if total > 0.0 {
-        sum.iter_mut().for_each(|value| *value *= 100.0 / total);
+        for value in &mut sum {
+            *value *= 100.0 / total;
+        }
     }
     sum
 }

@@ -1,0 +1,9 @@
+//! Simulate, identify, same: models that carry their own exact answer.
+#![allow(clippy::unwrap_used, reason = "tests")]
+
+mod bad_input;
+mod beam;
+mod chain;
+mod noise;
+mod points;
+mod support;
