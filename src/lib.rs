@@ -26,13 +26,14 @@
 //! # The floors
 //!
 //! Dependence runs downwards only (`tests/floors.rs` holds it): [`control`], [`math`] - [`structure`], [`effects`],
-//! [`measurement`] - [`response`], [`balance`] - [`identify`] - [`exchange`], [`session`] - [`cli`].
+//! [`measurement`] - [`response`], [`balance`] - [`identify`], [`explain`] - [`exchange`], [`session`] - [`cli`].
 
 pub mod balance;
 pub mod cli;
 pub mod control;
 pub mod effects;
 pub mod exchange;
+pub mod explain;
 pub mod identify;
 pub mod math;
 pub mod measurement;

@@ -1,0 +1,184 @@
+//! Predicted against measured amplitude of every channel, run and harmonic.
+//!
+//! Error of a channel in a run: `|Y - Y_model| / max(|Y|, largest |Y| of that quantity in the run / 20)`, vectors over
+//! the harmonics. Error of all: root mean square over the used runs and channels. The noise floor is the same measure of
+//! the residual that noise and truncation alone would leave.
+
+use super::data::{Data, ExplainError, Problem, RunData, is_used, size};
+use super::energy::energy_error;
+use super::noise::{Transfers, Whitening};
+use super::points::{PointsEnergy, energies};
+use super::predict::{FINAL, Predictor, RunPrediction};
+use crate::control::Control;
+use crate::effects::Source;
+use crate::math::statistics::root_mean_square;
+use crate::response::harmonic_balance::{Excitation, HarmonicForce};
+use faer::c64;
+
+/// One harmonic of a channel.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct HarmonicComparison {
+    /// Order, from 1.
+    pub harmonic: usize,
+    /// Measured complex amplitude `a - i b` of `a cos + b sin`, SI units.
+    pub measured: c64,
+    /// That of the model.
+    pub model: c64,
+    /// Standard deviation of a real part of their difference, were the model exact.
+    pub deviation: f64,
+}
+
+/// One channel of a run.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ChannelComparison {
+    /// Name, such as `acc@7`.
+    pub channel: String,
+    /// Row of its DOF.
+    pub dof: usize,
+    /// Relative error.
+    pub error: f64,
+    /// What it would be were the model exact.
+    pub noise_floor: f64,
+    /// Harmonics.
+    pub harmonics: Vec<HarmonicComparison>,
+}
+
+/// One run.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RunComparison {
+    /// Index in the project's runs.
+    pub index: usize,
+    /// Whether it takes part in the error.
+    pub used: bool,
+    /// Root mean square over the channels; that of the energy where there is no response to predict.
+    pub error: f64,
+    /// `|input - taken out by known sources| / |input|` at the measured motion.
+    pub energy_error: f64,
+    /// Channels; none for `points`.
+    pub channels: Vec<ChannelComparison>,
+}
+
+/// The model against the measurement.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Comparison {
+    /// Root mean square relative error over used runs and channels.
+    pub error: f64,
+    /// What it would be were the model exact.
+    pub noise_floor: f64,
+    /// Root mean square of the energy errors of the used runs.
+    pub energy_error: f64,
+    /// Every run in the order of the project.
+    pub runs: Vec<RunComparison>,
+}
+
+/// Compares the model of `problem`, with `effects` added to its known sources, with the measurement.
+pub fn compare(problem: &Problem, effects: &[Source], control: &Control) -> Result<Comparison, ExplainError> {
+    if problem.structure.matrices().is_none() {
+        return Ok(of_energies(problem, &energies(problem, effects)?));
+    }
+    Data::new(problem)?;
+    let data = Data::every(problem)?;
+    let predictor = Predictor::new(problem.structure, problem.known(), &data)?;
+    let mut runs = Vec::with_capacity(data.runs.len());
+    for (r, run) in data.runs.iter().enumerate() {
+        control.check()?;
+        let file = || problem.runs[run.index].file.clone();
+        let failed = |reason| ExplainError::Response { file: file(), reason };
+        let prediction = predictor.predict(r, run, effects, &FINAL, None, control).map_err(failed)?;
+        let transfers = transfers(&predictor, r, run, effects, control).map_err(failed)?;
+        let noise = Whitening::new(run, &transfers, &prediction.truncation);
+        let used = is_used(&problem.runs[run.index]);
+        let energy = energy_error(problem.structure, &predictor.sources(effects), run, &prediction);
+        runs.push(of_run(run, &prediction, &noise, used, energy));
+        control.report((r + 1) as f64 / data.runs.len() as f64);
+    }
+    Ok(summary(runs))
+}
+
+/// Response of every channel to a unit of every force channel, `[harmonic][force][channel]`, by the linear sources of
+/// the model; measured where a single force drives a fundamental.
+pub(crate) fn transfers(
+    predictor: &Predictor,
+    r: usize,
+    run: &RunData,
+    effects: &[Source],
+    control: &Control,
+) -> Result<Transfers, crate::response::harmonic_balance::ResponseError> {
+    let mut sources = predictor.sources(effects);
+    sources.retain(|s| s.effect.is_linear());
+    let mut a: Transfers = vec![Vec::new(); run.harmonics];
+    for force in &run.forces {
+        let ones = vec![c64::new(1.0, 0.0); run.harmonics];
+        let forces = vec![HarmonicForce { dof: force.dof, mean: 0.0, harmonics: ones }];
+        let excitation = Excitation { omega: run.omega, forces };
+        let unit = predictor.run(r).respond(&sources, &excitation, &FINAL, None, control)?;
+        for (h, a) in a.iter_mut().enumerate() {
+            let w = (h + 1) as f64 * run.omega;
+            let of = |c: &super::data::ChannelData| c.from_displacement(w) * unit.amplitude(c.dof, h + 1);
+            a.push(run.responses.iter().map(of).collect());
+        }
+    }
+    if let [force] = &run.forces[..]
+        && force.measured.first().is_some_and(|f| f.norm() > 0.0)
+    {
+        a[0][0] = run.responses.iter().map(|c| c.measured[0] / force.measured[0]).collect();
+    }
+    Ok(a)
+}
+
+fn of_run(run: &RunData, prediction: &RunPrediction, noise: &Whitening, used: bool, energy: f64) -> RunComparison {
+    let channels: Vec<ChannelComparison> = run
+        .responses
+        .iter()
+        .enumerate()
+        .map(|(c, channel)| {
+            let model = &prediction.channels[c];
+            let difference: Vec<c64> = channel.measured.iter().zip(model).map(|(y, m)| y - m).collect();
+            let scale = run.scale(c);
+            let relative = |x: f64| if scale > 0.0 { x / scale } else { 0.0 };
+            let harmonic = |(i, (&measured, &model)): (usize, (&c64, &c64))| HarmonicComparison {
+                harmonic: i + 1,
+                measured,
+                model,
+                deviation: noise.deviation(c, i + 1),
+            };
+            ChannelComparison {
+                channel: channel.name.clone(),
+                dof: channel.dof,
+                error: relative(size(&difference)),
+                noise_floor: relative(noise.expected(c).sqrt()),
+                harmonics: channel.measured.iter().zip(model).enumerate().map(harmonic).collect(),
+            }
+        })
+        .collect();
+    let errors: Vec<f64> = channels.iter().map(|c| c.error).collect();
+    RunComparison { index: run.index, used, error: root_mean_square(&errors), energy_error: energy, channels }
+}
+
+fn summary(runs: Vec<RunComparison>) -> Comparison {
+    let used = || runs.iter().filter(|run| run.used);
+    let of = |value: fn(&ChannelComparison) -> f64| -> f64 {
+        let values: Vec<f64> = used().flat_map(|run| run.channels.iter().map(value)).collect();
+        root_mean_square(&values)
+    };
+    let (error, noise_floor) = (of(|c| c.error), of(|c| c.noise_floor));
+    let energies: Vec<f64> = used().map(|run| run.energy_error).collect();
+    Comparison { error, noise_floor, energy_error: root_mean_square(&energies), runs }
+}
+
+/// For `points`: errors are those of the energy.
+fn of_energies(problem: &Problem, energies: &[PointsEnergy]) -> Comparison {
+    let mut runs = Vec::with_capacity(energies.len());
+    let (mut errors, mut floors) = (Vec::new(), Vec::new());
+    for energy in energies {
+        let error = energy.error();
+        let used = is_used(&problem.runs[energy.index]);
+        if used {
+            errors.push(error);
+            floors.push(energy.noise());
+        }
+        runs.push(RunComparison { index: energy.index, used, error, energy_error: error, channels: Vec::new() });
+    }
+    let error = root_mean_square(&errors);
+    Comparison { error, noise_floor: root_mean_square(&floors), energy_error: error, runs }
+}

@@ -1,0 +1,203 @@
+//! Levenberg and Marquardt's method for a weighted residual of unit variance, and the variables it works in.
+//!
+//! Parameters that are positive are fitted in their logarithm, those within limits between them, others in units of
+//! their start, so that steps are of order one whatever the unit.
+
+use crate::effects::{Parameter, Source};
+use crate::math::least_squares::solve_symmetric;
+use faer::Mat;
+
+/// Least and largest damping factor before a descent gives up.
+const DAMPING: [f64; 2] = [1e-9, 1e8];
+
+/// One variable behind a parameter.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Variable {
+    /// `p = exp(theta)`.
+    Log,
+    /// `p = unit theta`.
+    Scaled(f64),
+    /// `p = low + (high - low) / (1 + exp(-theta))`.
+    Between(f64, f64),
+}
+
+impl Variable {
+    fn new(parameter: &Parameter, value: f64) -> Self {
+        if parameter.least.is_finite() && parameter.greatest.is_finite() {
+            Self::Between(parameter.least, parameter.greatest)
+        } else if parameter.least >= 0.0 {
+            Self::Log
+        } else {
+            Self::Scaled(if value == 0.0 { 1e-6 } else { value.abs() })
+        }
+    }
+
+    fn from_value(self, value: f64) -> f64 {
+        match self {
+            Self::Log => value.max(1e-300).ln(),
+            Self::Scaled(unit) => value / unit,
+            Self::Between(low, high) => {
+                let share = ((value - low) / (high - low)).clamp(1e-6, 1.0 - 1e-6);
+                (share / (1.0 - share)).ln()
+            }
+        }
+    }
+
+    fn to_value(self, theta: f64) -> f64 {
+        match self {
+            Self::Log => theta.clamp(-600.0, 600.0).exp(),
+            Self::Scaled(unit) => unit * theta,
+            Self::Between(low, high) => low + (high - low) / (1.0 + (-theta.clamp(-30.0, 30.0)).exp()),
+        }
+    }
+
+    /// Derivative of the parameter by the variable.
+    fn slope(self, theta: f64) -> f64 {
+        match self {
+            Self::Log => self.to_value(theta),
+            Self::Scaled(unit) => unit,
+            Self::Between(low, high) => {
+                let share = (self.to_value(theta) - low) / (high - low);
+                (high - low) * share * (1.0 - share)
+            }
+        }
+    }
+}
+
+/// The variables of the parameters of some effects, in order.
+#[derive(Debug, Clone)]
+pub(crate) struct Variables {
+    template: Vec<Source>,
+    variables: Vec<Variable>,
+}
+
+impl Variables {
+    /// All parameters of `effects`, with their variables at the start.
+    pub fn new(effects: &[Source]) -> (Self, Vec<f64>) {
+        let mut variables = Vec::new();
+        let mut start = Vec::new();
+        for effect in effects {
+            for (parameter, &value) in effect.effect.parameters().iter().zip(&effect.parameters) {
+                let variable = Variable::new(parameter, value);
+                variables.push(variable);
+                start.push(variable.from_value(value));
+            }
+        }
+        (Self { template: effects.to_vec(), variables }, start)
+    }
+
+    /// Number of variables.
+    pub fn len(&self) -> usize {
+        self.variables.len()
+    }
+
+    /// The effects at `theta`.
+    pub fn effects(&self, theta: &[f64]) -> Vec<Source> {
+        let mut effects = self.template.clone();
+        let values = self.variables.iter().zip(theta).map(|(v, &t)| v.to_value(t));
+        effects.iter_mut().flat_map(|e| e.parameters.iter_mut()).zip(values).for_each(|(p, v)| *p = v);
+        effects
+    }
+
+    /// Derivative of each parameter by its variable.
+    pub fn slopes(&self, theta: &[f64]) -> Vec<f64> {
+        self.variables.iter().zip(theta).map(|(v, &t)| v.slope(t)).collect()
+    }
+}
+
+/// Where a descent ended.
+#[derive(Debug, Clone)]
+pub(crate) struct Descent {
+    pub theta: Vec<f64>,
+    pub chi_square: f64,
+    /// Residual of unit variance at `theta`.
+    pub residual: Vec<f64>,
+    /// Its derivative, one column a variable.
+    pub jacobian: Mat<f64>,
+}
+
+impl Descent {
+    /// Covariance of the variables for a residual of unit variance; infinite where the data say nothing.
+    pub fn deviations(&self) -> Vec<f64> {
+        let n = self.theta.len();
+        let normal = self.jacobian.transpose() * &self.jacobian;
+        match solve_symmetric(normal.as_ref(), Mat::<f64>::identity(n, n).as_ref()) {
+            Ok(inverse) => (0..n).map(|i| inverse[(i, i)].max(0.0).sqrt()).collect(),
+            Err(_) => vec![f64::INFINITY; n],
+        }
+    }
+}
+
+/// A residual as a function of the variables.
+pub(crate) trait Residual {
+    /// Error that stops the descent.
+    type Error;
+    /// Residual of unit variance.
+    fn residual(&mut self, theta: &[f64]) -> Result<Vec<f64>, Self::Error>;
+    /// Its derivative at `theta`, where the residual is `at`.
+    fn jacobian(&mut self, theta: &[f64], at: &[f64]) -> Result<Mat<f64>, Self::Error>;
+}
+
+/// Descends from `theta` in at most `steps` steps.
+pub(crate) fn descend<R: Residual>(problem: &mut R, theta: &[f64], steps: usize) -> Result<Descent, R::Error> {
+    let mut theta = theta.to_vec();
+    let mut residual = problem.residual(&theta)?;
+    let mut chi_square = square(&residual);
+    let mut jacobian = problem.jacobian(&theta, &residual)?;
+    let mut damping = 1e-3;
+    for _ in 0..steps {
+        let Some((next, after, chi)) = step(problem, &theta, &residual, &jacobian, chi_square, &mut damping)? else {
+            break;
+        };
+        let gained = chi_square - chi;
+        (theta, residual, chi_square) = (next, after, chi);
+        if gained < 1e-2 + 1e-5 * chi_square {
+            break;
+        }
+        jacobian = problem.jacobian(&theta, &residual)?;
+    }
+    Ok(Descent { theta, chi_square, residual, jacobian })
+}
+
+/// The next point of a descent with its residual.
+type Point = (Vec<f64>, Vec<f64>, f64);
+
+/// A step that lowers the residual; none if there is no such step.
+fn step<R: Residual>(
+    problem: &mut R,
+    theta: &[f64],
+    residual: &[f64],
+    jacobian: &Mat<f64>,
+    chi_square: f64,
+    damping: &mut f64,
+) -> Result<Option<Point>, R::Error> {
+    let n = theta.len();
+    let normal = jacobian.transpose() * jacobian;
+    let gradient = Mat::from_fn(n, 1, |k, _| jacobian.col_as_slice(k).iter().zip(residual).map(|(j, r)| j * r).sum());
+    while *damping < DAMPING[1] {
+        let damped = Mat::from_fn(n, n, |i, j| {
+            normal[(i, j)] + if i == j { *damping * normal[(i, i)].max(1e-12) + 1e-12 } else { 0.0 }
+        });
+        if let Ok(move_) = solve_symmetric(damped.as_ref(), gradient.as_ref()) {
+            // Half a natural unit at most, three for a logarithm would leave the valley.
+            let largest = (0..n).fold(0.0_f64, |m, k| m.max(move_[(k, 0)].abs()));
+            let share = if largest > 1.5 { 1.5 / largest } else { 1.0 };
+            let next: Vec<f64> = (0..n).map(|k| theta[k] - share * move_[(k, 0)]).collect();
+            let after = problem.residual(&next)?;
+            let chi = square(&after);
+            if chi.is_finite() && chi < chi_square {
+                *damping = (*damping * 0.2).max(DAMPING[0]);
+                return Ok(Some((next, after, chi)));
+            }
+            if share == 1.0 && (chi_square - chi).abs() < 1e-6 * chi_square {
+                return Ok(None);
+            }
+        }
+        *damping *= 8.0;
+    }
+    Ok(None)
+}
+
+fn square(residual: &[f64]) -> f64 {
+    residual.iter().map(|r| r * r).sum()
+}

@@ -1,0 +1,258 @@
+//! Then the law: the free force of a place is regressed on the motion there.
+//!
+//! With the free forces `g_r,h` of weights `w_r,h` and the motion `D_r,h = D_lin - C g` that they imply, the parameters
+//! `p` of a law minimise
+//!
+//! ```text
+//! J(p) = sum_r,h w_r,h | g_r,h - F_h(D_r; p) |^2
+//! ```
+//!
+//! from the best of a grid of shapes, whose scale is linear. Errors of a channel are regressed alike: the free relative
+//! error is `t - 1` of a response, `1 - 1/t` of a force.
+
+use super::data::Data;
+use super::descent::{Descent, Residual, Variables, descend};
+use super::place::FreeForce;
+use super::shapes::{Range, scaled, shapes};
+use super::spots::{Receptances, Spot};
+use crate::effects::{ChannelLaw, Effect, Law, Motion, Sampling, Source, State, effect::Kind};
+use faer::{Mat, c64};
+use std::convert::Infallible;
+
+/// Samples a period.
+const SAMPLES: usize = 128;
+
+/// The free forces of one place and the motions they imply.
+pub(crate) struct PlaceData {
+    spot: Spot,
+    /// `[run][harmonic]`.
+    forces: Vec<Vec<FreeForce>>,
+    /// One a run; at rest for channels.
+    motions: Vec<Motion>,
+    sampling: Sampling,
+    /// Range of the motion.
+    pub range: Range,
+}
+
+/// A law fitted to the free forces of a place.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LawFit {
+    /// Effect with its parameters.
+    pub source: Source,
+    /// Weighted squared difference `J` of free force and law.
+    pub misfit: f64,
+}
+
+impl PlaceData {
+    /// Motions under the recorded forces and the free forces of all `spots` (this place is number `own` of them).
+    pub fn new(
+        receptances: &Receptances,
+        data: &Data,
+        spots: &[Spot],
+        forces: &[Vec<Vec<FreeForce>>],
+        own: usize,
+    ) -> Self {
+        let sampling = Sampling::new(SAMPLES);
+        let motions: Vec<Motion> = data
+            .runs
+            .iter()
+            .enumerate()
+            .map(|(r, run)| {
+                let at = |h: usize| motion(receptances, r, h, spots, forces, own);
+                let harmonics: Vec<c64> = (1..=run.harmonics).map(at).collect();
+                sampling.motion(run.omega, 0.0, &harmonics)
+            })
+            .collect();
+        let range = range(&motions);
+        Self { spot: spots[own].clone(), forces: forces[own].clone(), motions, sampling, range }
+    }
+
+    /// Number of real data.
+    pub fn count(&self) -> usize {
+        2 * self.forces.iter().flatten().filter(|f| f.weight > 0.0).count()
+    }
+
+    /// Fits `effect`; `None` if it cannot act here or its best scale has an unphysical sign.
+    pub fn fit(&self, effect: Effect) -> Option<LawFit> {
+        match (effect.kind(), &self.spot) {
+            (Kind::Relative(law), Spot::Leg(_)) => self.fit_law(effect, law),
+            (Kind::Channel(law), Spot::Response(_) | Spot::Force(_)) => self.fit_channel(effect, law),
+            _ => None,
+        }
+    }
+
+    fn fit_law(&self, effect: Effect, law: &'static dyn Law) -> Option<LawFit> {
+        let mut best: Option<(f64, Vec<f64>)> = None;
+        for mut p in shapes(effect, &self.range) {
+            let (scale, misfit) = self.scale(law, &p);
+            let signed = effect.parameters()[0].least < 0.0;
+            if !scale.is_finite() || scale == 0.0 || (scale < 0.0 && !signed) {
+                continue;
+            }
+            scaled(effect).iter().for_each(|&k| p[k] *= scale);
+            if best.as_ref().is_none_or(|(least, _)| misfit < *least) {
+                best = Some((misfit, p));
+            }
+        }
+        let (misfit, parameters) = best?;
+        let source = Source { effect, place: self.spot.place(), state: State::Known, parameters };
+        if effect.parameters().len() == 1 {
+            return Some(LawFit { source, misfit });
+        }
+        let (variables, start) = Variables::new(std::slice::from_ref(&source));
+        let Ok(Descent { theta, chi_square, .. }) = descend(&mut Equation { data: self, law, variables: &variables }, &start, 12);
+        Some(LawFit { source: variables.effects(&theta).remove(0), misfit: chi_square })
+    }
+
+    /// Best scale of the force at `p`, and the misfit with it.
+    fn scale(&self, law: &dyn Law, p: &[f64]) -> (f64, f64) {
+        let (mut product, mut square, mut total) = (0.0, 0.0, 0.0);
+        for (motion, forces) in self.motions.iter().zip(&self.forces) {
+            for (free, f) in forces.iter().zip(self.law_force(law, p, motion, forces.len())) {
+                product += free.weight * (f.conj() * free.value).re;
+                square += free.weight * f.norm_sqr();
+                total += free.weight * free.value.norm_sqr();
+            }
+        }
+        if square > 0.0 { (product / square, total - product * product / square) } else { (0.0, total) }
+    }
+
+    fn law_force(&self, law: &dyn Law, p: &[f64], motion: &Motion, order: usize) -> Vec<c64> {
+        if law.dynamic_stiffness(p, motion.omega).is_some() {
+            let at = |(i, d): (usize, &c64)| {
+                law.dynamic_stiffness(p, (i + 1) as f64 * motion.omega).unwrap_or(c64::new(0.0, 0.0)) * d
+            };
+            return motion.harmonics.iter().enumerate().map(at).collect();
+        }
+        let mut samples = vec![0.0; motion.len()];
+        law.force(p, motion, &mut samples);
+        let mut harmonics = vec![c64::new(0.0, 0.0); order];
+        self.sampling.analyse(&samples, &mut harmonics);
+        harmonics
+    }
+
+    fn fit_channel(&self, effect: Effect, law: &dyn ChannelLaw) -> Option<LawFit> {
+        let force = matches!(self.spot, Spot::Force(_));
+        let value = |t: c64| if force { 1.0 - 1.0 / t } else { t - 1.0 };
+        let misfit = |p: f64| -> f64 {
+            let runs = self.forces.iter().zip(&self.motions);
+            let of = |(forces, motion): (&Vec<FreeForce>, &Motion)| -> f64 {
+                let at = |(i, free): (usize, &FreeForce)| {
+                    free.weight * (free.value - value(law.transfer(p, (i + 1) as f64 * motion.omega))).norm_sqr()
+                };
+                forces.iter().enumerate().map(at).sum()
+            };
+            runs.map(of).sum()
+        };
+        let step = if effect == Effect::Delay { 1e-7 / self.range.omega.max(1e-3) * 100.0 } else { 1e-5 };
+        let mut p = law.neutral();
+        for _ in 0..12 {
+            // Newton's method by differences: the misfit is nearly quadratic in the only parameter.
+            let (low, mid, high) = (misfit(p - step), misfit(p), misfit(p + step));
+            let curvature = (high - 2.0 * mid + low) / (step * step);
+            if curvature <= 0.0 {
+                break;
+            }
+            let change = -(high - low) / (2.0 * step) / curvature;
+            p += change;
+            if effect == Effect::Gain {
+                p = p.clamp(0.05, 20.0);
+            }
+        }
+        if !p.is_finite() || !effect.parameters()[0].allows(p) {
+            return None;
+        }
+        let source = Source { effect, place: self.spot.place(), state: State::Known, parameters: vec![p] };
+        Some(LawFit { source, misfit: misfit(p) })
+    }
+}
+
+/// Motion of place number `own` at harmonic `h` of run `r`.
+fn motion(
+    receptances: &Receptances,
+    r: usize,
+    h: usize,
+    spots: &[Spot],
+    forces: &[Vec<Vec<FreeForce>>],
+    own: usize,
+) -> c64 {
+    let Spot::Leg(leg) = spots[own] else { return c64::new(0.0, 0.0) };
+    let mut d = receptances.driven(r, h, leg);
+    for (spot, list) in spots.iter().zip(forces) {
+        let Spot::Leg(other) = *spot else { continue };
+        let coupling = leg.relative(|i| other.relative(|j| receptances.entry(r, h, i, j)));
+        d -= coupling * shrunk(&list[r], h);
+    }
+    d
+}
+
+/// A free force drawn to zero where the data hardly see it: harmonics are no larger than the fundamental over the order.
+fn shrunk(forces: &[FreeForce], h: usize) -> c64 {
+    let free = forces[h - 1];
+    if h == 1 {
+        return free.value;
+    }
+    let prior = (forces[0].value.norm() / h as f64).powi(2);
+    free.value * (prior * free.weight / (1.0 + prior * free.weight))
+}
+
+fn range(motions: &[Motion]) -> Range {
+    let peak = |x: &[f64]| x.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
+    let sizes: Vec<f64> = motions.iter().map(|m| peak(&m.displacement)).collect();
+    let logs: f64 = motions.iter().map(|m| m.omega.ln()).sum();
+    Range {
+        displacement: sizes.iter().fold(0.0, |m, &s| f64::max(m, s)),
+        least: sizes.iter().fold(f64::INFINITY, |m, &s| f64::min(m, s)),
+        velocity: motions.iter().map(|m| peak(&m.velocity)).fold(0.0, f64::max),
+        omega: (logs / motions.len().max(1) as f64).exp(),
+    }
+}
+
+/// The regression of one law with parameters that shape it.
+struct Equation<'a> {
+    data: &'a PlaceData,
+    law: &'static dyn Law,
+    variables: &'a Variables,
+}
+
+impl Equation<'_> {
+    fn rows(&self, value: impl Fn(usize, &Motion, usize) -> Vec<c64>, measured: f64) -> Vec<f64> {
+        let mut rows = Vec::with_capacity(self.data.count());
+        for (r, (motion, forces)) in self.data.motions.iter().zip(&self.data.forces).enumerate() {
+            for (free, f) in forces.iter().zip(value(r, motion, forces.len())) {
+                let difference = (free.value * measured - f) * free.weight.sqrt();
+                rows.extend([difference.re, difference.im]);
+            }
+        }
+        rows
+    }
+}
+
+impl Residual for Equation<'_> {
+    type Error = Infallible;
+
+    fn residual(&mut self, theta: &[f64]) -> Result<Vec<f64>, Infallible> {
+        let p = &self.variables.effects(theta)[0].parameters;
+        Ok(self.rows(|_, motion, order| self.data.law_force(self.law, p, motion, order), 1.0))
+    }
+
+    fn jacobian(&mut self, theta: &[f64], _at: &[f64]) -> Result<Mat<f64>, Infallible> {
+        let p = &self.variables.effects(theta)[0].parameters;
+        let slopes = self.variables.slopes(theta);
+        let columns: Vec<Vec<f64>> = (0..p.len())
+            .map(|k| {
+                self.rows(
+                    |_, motion, order| {
+                        let mut samples = vec![0.0; motion.len()];
+                        self.law.parameter_tangent(p, k, motion, &mut samples);
+                        let mut harmonics = vec![c64::new(0.0, 0.0); order];
+                        self.data.sampling.analyse(&samples, &mut harmonics);
+                        harmonics.iter().map(|f| *f * slopes[k]).collect()
+                    },
+                    0.0,
+                )
+            })
+            .collect();
+        Ok(Mat::from_fn(columns[0].len(), columns.len(), |i, k| columns[k][i]))
+    }
+}
