@@ -12,10 +12,10 @@ use faer::c64;
 
 /// How exactly responses are computed in the search.
 pub(crate) const SEARCH: Settings =
-    Settings { harmonics: 7, most_harmonics: 15, watched: 7, truncation: 1e-4, tolerance: 1e-8 };
+    Settings { harmonics: 7, most_harmonics: 15, watched: 7, truncation: 1e-4, tolerance: 1e-8, estimate: false };
 /// How exactly they are computed for results.
 pub(crate) const FINAL: Settings =
-    Settings { harmonics: 15, most_harmonics: 31, watched: 7, truncation: 1e-5, tolerance: 1e-9 };
+    Settings { harmonics: 15, most_harmonics: 31, watched: 7, truncation: 1e-5, tolerance: 1e-9, estimate: true };
 
 /// Predicted response of one run.
 #[derive(Debug, Clone)]
