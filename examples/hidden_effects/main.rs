@@ -44,7 +44,12 @@ fn kindness(mode: &str, beam: bool, random: &mut Random) -> Kindness {
     match mode {
         "hard" => Kindness { sensors: 3, runs: 9, noise: 0.025, size: random.within(0.02, 0.06), ..clean },
         "detuned" => Kindness { detuned: random.within(0.001, 0.02), sensors: 5, ..clean },
-        _ => Kindness { sensors: 3 + random.below(many - 2), noise: random.within(0.002, 0.03), size: random.within(0.1, 0.5), ..clean },
+        _ => Kindness {
+            sensors: 3 + random.below(many - 2),
+            noise: random.within(0.002, 0.03),
+            size: random.within(0.1, 0.5),
+            ..clean
+        },
     }
 }
 
@@ -84,20 +89,25 @@ fn run(project: &Hidden, kindness: Kindness, tally: &mut Tally) {
     let placed = first.is_some_and(|s| place(&s.added.source) || s.indistinguishable_from.iter().any(place));
     tally.place += usize::from(placed);
     let last = &diagnosis.steps[diagnosis.steps.len() - 1];
-    let found = project.truth.iter().all(|t| last.added.iter().any(|a| a.source.is_same(t))) && last.added.len() == project.truth.len();
+    let found = project.truth.iter().all(|t| last.added.iter().any(|a| a.source.is_same(t)))
+        && last.added.len() == project.truth.len();
     tally.all_found += usize::from(found);
     tally.to_floor += usize::from(last.error <= 1.2 * diagnosis.noise_floor);
     if let Some(suggestion) = first
         && let Some(truth) = project.truth.iter().find(|t| t.is_same(&suggestion.added.source))
     {
         let pairs = truth.parameters.iter().zip(&suggestion.added.source.parameters).zip(&suggestion.added.deviations);
-        tally.parameters_within_3 += usize::from(pairs.clone().all(|((t, p), d)| (t - p).abs() <= 3.0 * d + 1e-3 * t.abs()));
+        tally.parameters_within_3 +=
+            usize::from(pairs.clone().all(|((t, p), d)| (t - p).abs() <= 3.0 * d + 1e-3 * t.abs()));
     }
     report(project, kindness, &diagnosis, found, seconds);
 }
 
 fn report(project: &Hidden, kindness: Kindness, diagnosis: &Diagnosis, found: bool, seconds: f64) {
-    let name = |s: &Source| format!("{} {:?} {:.3e?}", s.effect.name(), s.place, s.parameters);
+    let name = |s: &Source| {
+        let values: Vec<String> = s.parameters.iter().map(|p| format!("{p:.4e}")).collect();
+        format!("{} {:?} {}", s.effect.name(), s.place, values.join(" "))
+    };
     let truth: Vec<String> = project.truth.iter().map(name).collect();
     let mark = if found { "ok  " } else { "MISS" };
     println!(
@@ -114,6 +124,14 @@ fn report(project: &Hidden, kindness: Kindness, diagnosis: &Diagnosis, found: bo
     let shown = if found { 1 } else { 4 };
     for s in diagnosis.suggestions.iter().take(shown) {
         let d: Vec<String> = s.added.deviations.iter().map(|d| format!("{d:.1e}")).collect();
-        println!("        p={:.3} err {:.4} held {:.4} {} +-{}  ~{}", s.probability, s.error_after, s.held_out_error_after, name(&s.added.source), d.join(","), s.indistinguishable_from.len());
+        println!(
+            "        p={:.3} err {:.4} held {:.4} {} +-{}  ~{}",
+            s.probability,
+            s.error_after,
+            s.held_out_error_after,
+            name(&s.added.source),
+            d.join(","),
+            s.indistinguishable_from.len()
+        );
     }
 }

@@ -110,7 +110,11 @@ fn known(beam: bool, factor: f64) -> Vec<Source> {
         let whole = Source::known(Effect::StiffnessProportional, Place::Whole(None), &[4e-5 * factor]);
         vec![whole, at(Effect::Viscous, &[6], &[0.25 * factor])]
     } else {
-        vec![at(Effect::Viscous, &[0], &[8.0 * factor]), at(Effect::Viscous, &[2, 3], &[9.0 * factor]), at(Effect::Viscous, &[4], &[3.0 * factor])]
+        vec![
+            at(Effect::Viscous, &[0], &[8.0 * factor]),
+            at(Effect::Viscous, &[2, 3], &[9.0 * factor]),
+            at(Effect::Viscous, &[4], &[3.0 * factor]),
+        ]
     }
 }
 
@@ -154,7 +158,9 @@ fn excitations(structure: &Structure, kindness: Kindness, random: &mut Random) -
                 let f = force * [0.3, 1.0, 2.5][level] * random.within(0.9, 1.1);
                 let turn = c64::new(0.0, random.within(0.0, TAU)).exp();
                 let mut excitation = Excitation::sine(omega, dof, turn * f);
-                excitation.forces[0].harmonics.extend([c64::new(0.002 * f, 0.001 * f), c64::new(-0.004 * f, 0.003 * f)]);
+                excitation.forces[0]
+                    .harmonics
+                    .extend([c64::new(0.002 * f, 0.001 * f), c64::new(-0.004 * f, 0.003 * f)]);
                 list.push(excitation);
             }
         }
@@ -177,7 +183,9 @@ fn place(effect: Effect, structure: &Structure, sensors: &[usize], force: usize,
         Kind::Whole(_) => Place::Whole(None),
         Kind::Channel(_) => {
             let n = random.below(sensors.len() + 1);
-            let name = sensors.get(n).map_or(format!("force@{}", structure.label(force)), |&s| format!("acc@{}", structure.label(s)));
+            let name = sensors
+                .get(n)
+                .map_or(format!("force@{}", structure.label(force)), |&s| format!("acc@{}", structure.label(s)));
             Place::Channel(name)
         }
         Kind::Relative(_) => {
@@ -205,7 +213,9 @@ fn size(
 ) -> Option<Source> {
     match source.effect {
         Effect::Delay => source.parameters = vec![random.within(2e-4, 8e-4) * target / 0.3],
-        Effect::Gain => source.parameters = vec![1.0 + target * random.within(0.4, 0.8) * (random.uniform() - 0.5).signum()],
+        Effect::Gain => {
+            source.parameters = vec![1.0 + target * random.within(0.4, 0.8) * (random.uniform() - 0.5).signum()]
+        }
         _ => {}
     }
     if matches!(source.effect.kind(), Kind::Channel(_)) {
@@ -218,7 +228,9 @@ fn size(
     let before: Vec<_> = excitations.iter().map(|e| respond(&base, e)).collect::<Option<Vec<_>>>()?;
     let leg = source.place.legs().first().copied();
     let largest = |weight: &dyn Fn(f64) -> f64| -> f64 {
-        let at = |r: &dashpot::response::harmonic_balance::Response| leg.map_or(1.0, |l| l.relative(|i| r.amplitude(i, 1)).norm());
+        let at = |r: &dashpot::response::harmonic_balance::Response| {
+            leg.map_or(1.0, |l| l.relative(|i| r.amplitude(i, 1)).norm())
+        };
         before.iter().map(|r| weight(r.omega) * at(r)).fold(0.0, f64::max)
     };
     let (d, v) = (largest(&|_| 1.0), largest(&|w| w));
@@ -270,7 +282,8 @@ fn size(
 /// Harmonics of displacement (n x 15) and its mean in steady state, by time integration where there is a force in time.
 fn steady(structure: &Structure, sources: &[Source], excitation: &Excitation) -> Option<(Mat<c64>, Vec<f64>)> {
     let control = Control::unattended();
-    let acting: Vec<Source> = sources.iter().filter(|s| !matches!(s.effect.kind(), Kind::Channel(_))).cloned().collect();
+    let acting: Vec<Source> =
+        sources.iter().filter(|s| !matches!(s.effect.kind(), Kind::Channel(_))).cloned().collect();
     let harmonic = |s: &Source| matches!(s.effect, Effect::Hysteretic | Effect::Fractional | Effect::LossFactor);
     if acting.iter().any(harmonic) || acting.iter().all(|s| s.effect.is_linear()) {
         let model = ForwardModel::new(structure, &acting).ok()?;
@@ -331,5 +344,13 @@ fn record(
     }
     let record = Record::new(time, channels, samples).unwrap();
     let fit = fit::fit(&record, omega, 7).unwrap();
-    Run { file: format!("run-{:02}.csv", index + 1), level: None, enabled: true, record: None, fit, noise_ratio: noise, findings: Vec::new() }
+    Run {
+        file: format!("run-{:02}.csv", index + 1),
+        level: None,
+        enabled: true,
+        record: None,
+        fit,
+        noise_ratio: noise,
+        findings: Vec::new(),
+    }
 }

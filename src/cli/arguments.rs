@@ -20,6 +20,10 @@ pub(super) enum Command {
     Identify(Identify),
     /// Write identified matrices and sources for another program
     Export(Export),
+    /// Compare the model with the measurement: error per run, channel and harmonic
+    Compare(Analysis),
+    /// Name the effect that the model lacks, ranked, with evidence
+    Diagnose(Diagnose),
     /// Make steady-state records of the model of a project
     Simulate(Simulate),
 }
@@ -31,6 +35,27 @@ pub(super) struct Identify {
     /// Print one JSON document in place of a table
     #[arg(long)]
     pub json: bool,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct Analysis {
+    /// Project file
+    pub file: PathBuf,
+    /// Print one JSON document in place of a table
+    #[arg(long)]
+    pub json: bool,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct Diagnose {
+    /// Project file
+    pub file: PathBuf,
+    /// Print one JSON document in place of a table
+    #[arg(long)]
+    pub json: bool,
+    /// Write the project with the best suggestion added
+    #[arg(long)]
+    pub apply: Option<PathBuf>,
 }
 
 #[derive(Debug, Args)]

@@ -3,6 +3,8 @@
 //! Exit status: 0 done, 1 the input is at fault (one line on standard error), 2 wrong usage.
 
 mod arguments;
+mod compare;
+mod diagnose;
 mod export;
 mod identify;
 mod identify_json;
@@ -40,6 +42,8 @@ fn execute(command: &Command) -> anyhow::Result<String> {
     match command {
         Command::Identify(arguments) => identify::run(arguments),
         Command::Export(arguments) => export::run(arguments),
+        Command::Compare(arguments) => compare::run(arguments),
+        Command::Diagnose(arguments) => diagnose::run(arguments),
         Command::Simulate(arguments) => simulate::run(arguments),
     }
 }

@@ -1,6 +1,8 @@
 //! Which effect is missing: ranked suggestions, the steps to a model that agrees with the data, a verdict.
 
 use super::data::{Data, ExplainError, Problem};
+use super::evidence::sentences;
+use super::next_test::next_test;
 use super::predict::{FINAL, Predictor, RunPrediction};
 use super::refit::Refit;
 use super::search::{Base, scale_of};
@@ -224,7 +226,8 @@ impl Search<'_> {
             let probability = containing(&top.refits, &weights, &item.source);
             let alike = alike(&top.refits, &best, &item.source, top.scale);
             let held = base.bench().held_out_error(&alone)?;
-            let evidence = super::evidence::sentences(base, &item.source, &item.deviations, diagnosis.error_before, alone.error)?;
+            let others: Vec<Source> = best.effects.iter().filter(|e| !e.is_same(&item.source)).cloned().collect();
+            let evidence = sentences(base, item, &others, diagnosis.error_before, alone.error)?;
             diagnosis.suggestions.push(Suggestion {
                 added: item.clone(),
                 error_after: alone.error,
@@ -235,6 +238,9 @@ impl Search<'_> {
             });
         }
         self.alternatives(top, &weights, diagnosis)?;
+        if let Some(rival) = top.refits.get(1) {
+            diagnosis.next_test = next_test(base, &best.effects, &rival.effects)?.into_iter().collect();
+        }
         let sure = diagnosis.suggestions.first().is_some_and(|s| s.probability >= 0.5);
         diagnosis.verdict = if sure { Verdict::Missing } else { Verdict::Undecided };
         Ok(())

@@ -1,28 +1,40 @@
-//! Fingerprints that need no model of the law, and the sentences an engineer would say.
+//! The sentences an engineer would say for a suggestion.
 
 use super::data::ExplainError;
+use super::diagnose::Added;
+use super::fingerprint::fingerprint;
 use super::search::Base;
 use crate::effects::{Place, Source};
 
-/// The sentences for an effect that was fitted.
+/// The sentences for an effect that was fitted beside `others`.
 pub(crate) fn sentences(
     base: &Base,
-    source: &Source,
-    deviations: &[f64],
+    added: &Added,
+    others: &[Source],
     before: f64,
     after: f64,
 ) -> Result<Vec<String>, ExplainError> {
-    let mut said = vec![source.effect.sentence().to_string(), values(source, deviations)];
-    said.push(format!("The error falls from {:.3} % to {:.3} %.", 100.0 * before, 100.0 * after));
-    if let Place::Dofs(dofs) = &source.place {
-        let labels: Vec<&str> = dofs.iter().map(|&d| base.predictor.structure().label(d)).collect();
-        said.push(format!("A force at DOF {} explains the residual of all channels at once.", labels.join(" - ")));
+    let source = &added.source;
+    let mut said = vec![source.effect.sentence().to_string(), values(source, &added.deviations)];
+    said.push(format!("With it alone the error goes from {:.3} % to {:.3} %.", 100.0 * before, 100.0 * after));
+    match &source.place {
+        Place::Dofs(_) => {
+            if let Some(data) = base.place_data(others, source)?
+                && let Some(found) = fingerprint(&data)
+            {
+                said.extend(found.sentences());
+            }
+        }
+        Place::Channel(channel) => {
+            said.push(format!("All other channels agree with the model once {channel} is corrected."));
+        }
+        Place::Whole(_) => said.push("It acts on every mode; no single place explains it.".to_string()),
     }
     Ok(said)
 }
 
 /// Parameters with their deviations and units.
-fn values(source: &Source, deviations: &[f64]) -> String {
+pub(crate) fn values(source: &Source, deviations: &[f64]) -> String {
     let list = source.effect.parameters().iter().zip(&source.parameters).zip(deviations);
     let each: Vec<String> = list
         .map(|((p, value), d)| format!("{} = {value:.4e} +- {d:.1e} {}", p.name, p.unit).trim_end().to_string())

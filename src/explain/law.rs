@@ -34,6 +34,21 @@ pub(crate) struct PlaceData {
     pub range: Range,
 }
 
+/// Ratio of the fundamental of a free force to that of its motion in one run.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Ratio {
+    /// `g / D`, N/m.
+    pub ratio: c64,
+    /// Standard deviation of a real part, N/m.
+    pub deviation: f64,
+    /// One over its square.
+    pub weight: f64,
+    /// `|D|`, m.
+    pub amplitude: f64,
+    /// Circular frequency, rad/s.
+    pub omega: f64,
+}
+
 /// A law fitted to the free forces of a place.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LawFit {
@@ -65,6 +80,25 @@ impl PlaceData {
             .collect();
         let range = range(&motions);
         Self { spot: spots[own].clone(), forces: forces[own].clone(), motions, sampling, range }
+    }
+
+    /// Force over motion at the fundamental of every run in which both can be seen.
+    pub fn ratios(&self) -> Vec<Ratio> {
+        let of = |(motion, forces): (&Motion, &Vec<FreeForce>)| {
+            let (d, free) = (*motion.harmonics.first()?, *forces.first()?);
+            let amplitude = d.norm();
+            (amplitude > 0.0 && free.weight > 0.0).then(|| {
+                let weight = free.weight * amplitude * amplitude;
+                Ratio {
+                    ratio: free.value / d,
+                    deviation: weight.sqrt().recip(),
+                    weight,
+                    amplitude,
+                    omega: motion.omega,
+                }
+            })
+        };
+        self.motions.iter().zip(&self.forces).filter_map(of).collect()
     }
 
     /// Number of real data.
@@ -100,7 +134,8 @@ impl PlaceData {
             return Some(LawFit { source, misfit });
         }
         let (variables, start) = Variables::new(std::slice::from_ref(&source));
-        let Ok(Descent { theta, chi_square, .. }) = descend(&mut Equation { data: self, law, variables: &variables }, &start, 12);
+        let Ok(Descent { theta, chi_square, .. }) =
+            descend(&mut Equation { data: self, law, variables: &variables }, &start, 12);
         Some(LawFit { source: variables.effects(&theta).remove(0), misfit: chi_square })
     }
 
@@ -196,7 +231,7 @@ fn shrunk(forces: &[FreeForce], h: usize) -> c64 {
     free.value * (prior * free.weight / (1.0 + prior * free.weight))
 }
 
-fn range(motions: &[Motion]) -> Range {
+pub(super) fn range(motions: &[Motion]) -> Range {
     let peak = |x: &[f64]| x.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
     let sizes: Vec<f64> = motions.iter().map(|m| peak(&m.displacement)).collect();
     let logs: f64 = motions.iter().map(|m| m.omega.ln()).sum();

@@ -19,7 +19,9 @@ mod descent;
 pub mod diagnose;
 pub mod energy;
 mod evidence;
+pub mod fingerprint;
 pub mod law;
+mod next_test;
 pub mod noise;
 pub mod place;
 pub mod points;
@@ -31,5 +33,5 @@ pub mod shapes;
 pub mod spots;
 
 pub use compare::{Comparison, compare};
-pub use diagnose::{Diagnosis, diagnose};
 pub use data::{ExplainError, Problem};
+pub use diagnose::{Diagnosis, diagnose};

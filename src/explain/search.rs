@@ -126,6 +126,19 @@ impl<'a> Base<'a> {
         Ok(self.ranked(self.refit_all(&drafts)?))
     }
 
+    /// The free force of the place of `source` when the model has `others`; none for whole-structure laws.
+    pub fn place_data(&self, others: &[Source], source: &Source) -> Result<Option<PlaceData>, ExplainError> {
+        let (screen, mut receptances) = self.screen(others)?;
+        let Some(at) = screen.spots.iter().position(|spot| spot.place().is_same(&source.place)) else {
+            return Ok(None);
+        };
+        let spots = vec![screen.spots[at].clone()];
+        if let Spot::Leg(leg) = spots[0] {
+            receptances.need_leg(leg, self.control)?;
+        }
+        Ok(Some(PlaceData::new(&receptances, self.data, &spots, &screen.forces(&[at]), 0)))
+    }
+
     /// Fits the drafts on the response.
     pub fn refit_all(&self, drafts: &[Draft]) -> Result<Vec<Refit>, ExplainError> {
         drafts.iter().map(|draft| self.bench().refit(&draft.effects, STEPS, &SEARCH)).collect()

@@ -1,0 +1,108 @@
+//! `dashpot compare`: model against measurement, error per run, channel and harmonic.
+
+use super::arguments::Analysis;
+use super::table::{number, table};
+use crate::control::Control;
+use crate::exchange::{Project, project::load};
+use crate::explain::{Comparison, Problem, compare};
+use crate::structure::Structure;
+use anyhow::Context;
+use faer::c64;
+use serde_json::{Value, json};
+
+/// Compares and prints.
+pub(super) fn run(arguments: &Analysis) -> anyhow::Result<String> {
+    let control = Control::unattended();
+    let project = load(&arguments.file, &control)?;
+    let comparison =
+        compare(&problem(&project), &[], &control).with_context(|| arguments.file.display().to_string())?;
+    if arguments.json {
+        return Ok(format!("{}\n", serde_json::to_string_pretty(&document(&project, &comparison))?));
+    }
+    Ok(text(&project, &comparison))
+}
+
+/// What is compared and explained of a project.
+pub(super) fn problem(project: &Project) -> Problem<'_> {
+    Problem { structure: &project.structure, sources: &project.sources, runs: &project.runs }
+}
+
+/// The `[cos, sin]` parts of a complex amplitude.
+fn parts(amplitude: c64) -> Value {
+    json!([amplitude.re, -amplitude.im])
+}
+
+fn document(project: &Project, comparison: &Comparison) -> Value {
+    let runs: Vec<Value> = comparison
+        .runs
+        .iter()
+        .map(|run| {
+            let source = &project.runs[run.index];
+            let channel = |c: &crate::explain::compare::ChannelComparison| {
+                let harmonic = |h: &crate::explain::compare::HarmonicComparison| {
+                    json!({"harmonic": h.harmonic, "measured": parts(h.measured), "model": parts(h.model),
+                           "standard_deviation": h.deviation})
+                };
+                let harmonics: Vec<Value> = c.harmonics.iter().map(harmonic).collect();
+                json!({"channel": c.channel, "error": c.error, "noise_floor": c.noise_floor, "harmonics": harmonics})
+            };
+            json!({
+                "file": source.file,
+                "frequency_hz": source.fit.omega / std::f64::consts::TAU,
+                "level": source.level,
+                "flags": flags(source),
+                "used": run.used,
+                "error": run.error,
+                "energy_error": run.energy_error,
+                "channels": run.channels.iter().map(channel).collect::<Vec<_>>(),
+            })
+        })
+        .collect();
+    json!({
+        "title": project.title,
+        "of": measure(&project.structure),
+        "error": comparison.error,
+        "noise_floor": comparison.noise_floor,
+        "energy_error": comparison.energy_error,
+        "runs": runs,
+    })
+}
+
+/// What the errors are errors of.
+fn measure(structure: &Structure) -> &'static str {
+    if structure.matrices().is_some() { "response" } else { "energy" }
+}
+
+/// Flags of a run, each once.
+pub(super) fn flags(run: &crate::measurement::Run) -> Vec<Value> {
+    let mut flags: Vec<Value> = Vec::new();
+    for finding in &run.findings {
+        let flag = json!(finding.flag);
+        if !flags.contains(&flag) {
+            flags.push(flag);
+        }
+    }
+    flags
+}
+
+fn text(project: &Project, comparison: &Comparison) -> String {
+    let mut rows = vec![["run", "Hz", "error %", "energy error %", "worst channel", ""].map(str::to_owned).to_vec()];
+    for run in &comparison.runs {
+        let source = &project.runs[run.index];
+        let worst = run.channels.iter().max_by(|a, b| a.error.total_cmp(&b.error));
+        let worst = worst.map_or_else(String::new, |c| format!("{} {}", c.channel, number(100.0 * c.error)));
+        let note = if run.used { String::new() } else { "not used".to_owned() };
+        let frequency = number(source.fit.omega / std::f64::consts::TAU);
+        let errors = [run.error, run.energy_error].map(|e| number(100.0 * e));
+        rows.push(vec![source.file.clone(), frequency, errors[0].clone(), errors[1].clone(), worst, note]);
+    }
+    format!(
+        "{}\n\n{}\nerror of the {} {} %, noise floor {} %, energy error {} %\n",
+        project.title,
+        table(&rows),
+        measure(&project.structure),
+        number(100.0 * comparison.error),
+        number(100.0 * comparison.noise_floor),
+        number(100.0 * comparison.energy_error),
+    )
+}

@@ -1,0 +1,214 @@
+//! `dashpot diagnose`: which effect is missing, ranked, with evidence.
+
+use super::arguments::Diagnose;
+use super::compare::{flags, problem};
+use super::table::{number, table};
+use crate::control::Control;
+use crate::effects::{Place, Source};
+use crate::exchange::{Project, project::load};
+use crate::explain::diagnose::{Added, Diagnosis, Suggestion, diagnose};
+use crate::structure::Structure;
+use anyhow::{Context, bail};
+use serde_json::{Map, Value, json};
+use std::path::Path;
+
+/// Diagnoses, prints, and writes the project with the best suggestion where asked.
+pub(super) fn run(arguments: &Diagnose) -> anyhow::Result<String> {
+    let control = Control::unattended();
+    let project = load(&arguments.file, &control)?;
+    let diagnosis = diagnose(&problem(&project), &control).with_context(|| arguments.file.display().to_string())?;
+    if let Some(out) = &arguments.apply {
+        apply(&arguments.file, out, &project, &diagnosis)?;
+    }
+    if arguments.json {
+        return Ok(format!("{}\n", serde_json::to_string_pretty(&document(&project, &diagnosis))?));
+    }
+    Ok(text(&project, &diagnosis))
+}
+
+/// Labels of the DOFs of a place; none for the whole structure and channels.
+fn labels(structure: &Structure, place: &Place) -> Vec<String> {
+    match place {
+        Place::Dofs(dofs) => dofs.iter().map(|&dof| structure.label(dof).to_owned()).collect(),
+        Place::Whole(_) | Place::Channel(_) => Vec::new(),
+    }
+}
+
+/// Effect and place: `dofs`, or `channel` for an error of one.
+fn named(structure: &Structure, source: &Source) -> Map<String, Value> {
+    let mut map = Map::new();
+    map.insert("effect".into(), json!(source.effect.name()));
+    match &source.place {
+        Place::Channel(channel) => map.insert("channel".into(), json!(channel)),
+        place => map.insert("dofs".into(), json!(labels(structure, place))),
+    };
+    map
+}
+
+fn with_values(structure: &Structure, added: &Added) -> Map<String, Value> {
+    let mut map = named(structure, &added.source);
+    let by_name = |values: &[f64]| -> Value {
+        let list = added.source.effect.parameters().iter().zip(values);
+        // JSON knows no infinity: a parameter that the data do not fix has no deviation.
+        Value::Object(list.map(|(p, v)| (p.name.to_owned(), json!(v.is_finite().then_some(*v)))).collect())
+    };
+    map.insert("parameters".into(), by_name(&added.source.parameters));
+    map.insert("standard_deviation".into(), by_name(&added.deviations));
+    map
+}
+
+fn suggestion(structure: &Structure, suggestion: &Suggestion) -> Value {
+    let mut map = with_values(structure, &suggestion.added);
+    let alike: Vec<Value> =
+        suggestion.indistinguishable_from.iter().map(|s| Value::Object(named(structure, s))).collect();
+    map.insert("error_after".into(), json!(suggestion.error_after));
+    map.insert("held_out_error_after".into(), json!(suggestion.held_out_error_after));
+    map.insert("probability".into(), json!(suggestion.probability));
+    map.insert("evidence".into(), json!(suggestion.evidence));
+    map.insert("indistinguishable_from".into(), json!(alike));
+    Value::Object(map)
+}
+
+fn document(project: &Project, diagnosis: &Diagnosis) -> Value {
+    let structure = &project.structure;
+    let run = |run: &crate::measurement::Run| json!({"file": run.file, "frequency_hz": run.fit.omega / std::f64::consts::TAU, "flags": flags(run)});
+    let step = |step: &crate::explain::diagnose::Step| {
+        let added: Vec<Value> = step.added.iter().map(|a| Value::Object(with_values(structure, a))).collect();
+        json!({"added": added, "error": step.error})
+    };
+    let test = |test: &crate::explain::diagnose::NextTest| {
+        json!({"frequency_hz": test.frequency_hz, "force_dof": structure.label(test.force_dof), "force_n": test.force,
+               "why": test.why})
+    };
+    json!({
+        "title": project.title,
+        "error_before": diagnosis.error_before,
+        "noise_floor": diagnosis.noise_floor,
+        "verdict": diagnosis.verdict.word(),
+        "runs": project.runs.iter().map(run).collect::<Vec<_>>(),
+        "suggestions": diagnosis.suggestions.iter().map(|s| suggestion(structure, s)).collect::<Vec<_>>(),
+        "steps": diagnosis.steps.iter().map(step).collect::<Vec<_>>(),
+        "next_test": diagnosis.next_test.iter().map(test).collect::<Vec<_>>(),
+    })
+}
+
+/// Effect and place in words.
+fn title(structure: &Structure, source: &Source) -> String {
+    let place = match &source.place {
+        Place::Channel(channel) => format!("of {channel}"),
+        Place::Whole(_) => "of the whole structure".to_owned(),
+        place @ Place::Dofs(_) => format!("at {}", labels(structure, place).join(" - ")),
+    };
+    format!("{} {place}", source.effect.title())
+}
+
+fn text(project: &Project, diagnosis: &Diagnosis) -> String {
+    let structure = &project.structure;
+    let mut lines = format!(
+        "{}\n\nerror {} %, noise floor {} %: {}\n",
+        project.title,
+        number(100.0 * diagnosis.error_before),
+        number(100.0 * diagnosis.noise_floor),
+        diagnosis.verdict.word()
+    );
+    if !diagnosis.suggestions.is_empty() {
+        let mut rows = vec![["missing", "probability %", "error after %", "parameters"].map(str::to_owned).to_vec()];
+        for s in &diagnosis.suggestions {
+            let list = s.added.source.effect.parameters().iter().zip(&s.added.source.parameters);
+            let values: Vec<String> = list.map(|(p, v)| format!("{} {}", p.name, number(*v))).collect();
+            let numbers = [s.probability, s.error_after].map(|x| number(100.0 * x));
+            rows.push(vec![
+                title(structure, &s.added.source),
+                numbers[0].clone(),
+                numbers[1].clone(),
+                values.join(", "),
+            ]);
+        }
+        lines.push_str(&format!("\n{}", table(&rows)));
+        for sentence in &diagnosis.suggestions[0].evidence {
+            lines.push_str(&format!("  {sentence}\n"));
+        }
+    }
+    lines.push_str("\nsteps\n");
+    for step in &diagnosis.steps {
+        let names: Vec<String> = step.added.iter().map(|a| title(structure, &a.source)).collect();
+        let what = if names.is_empty() { "the model as it is".to_owned() } else { names.join(", ") };
+        lines.push_str(&format!("  {} %  {what}\n", number(100.0 * step.error)));
+    }
+    for test in &diagnosis.next_test {
+        lines.push_str(&format!(
+            "\nnext test: {} Hz, {} N at DOF {}: {}\n",
+            number(test.frequency_hz),
+            number(test.force),
+            structure.label(test.force_dof),
+            test.why
+        ));
+    }
+    lines
+}
+
+/// Writes the project with the best suggestion added as `known`; comments and everything else stay as they are.
+fn apply(file: &Path, out: &Path, project: &Project, diagnosis: &Diagnosis) -> anyhow::Result<()> {
+    let context = || file.display().to_string();
+    let text = std::fs::read_to_string(file).with_context(context)?;
+    let mut document: toml_edit::DocumentMut = text.parse().with_context(context)?;
+    if let Some(best) = diagnosis.suggestions.first() {
+        let source = &best.added.source;
+        let mut entry = toml_edit::Table::new();
+        let name = if let Place::Channel(channel) = &source.place {
+            entry["channel"] = toml_edit::value(channel.as_str());
+            "sensor"
+        } else {
+            entry["law"] = toml_edit::value(source.effect.name());
+            let dofs = labels(&project.structure, &source.place);
+            if !dofs.is_empty() {
+                entry["dofs"] = toml_edit::value(dofs.into_iter().map(label).collect::<toml_edit::Array>());
+            }
+            entry["state"] = toml_edit::value("known");
+            "source"
+        };
+        for (parameter, value) in source.effect.parameters().iter().zip(&source.parameters) {
+            entry[parameter.name] = toml_edit::value(*value);
+        }
+        let list = document.entry(name).or_insert_with(|| toml_edit::ArrayOfTables::new().into());
+        let Some(list) = list.as_array_of_tables_mut() else {
+            bail!("{}: write `{name}` as [[{name}]] tables, so that one can be added", file.display());
+        };
+        list.push(entry);
+    }
+    if let (Some(from), Some(to)) = (file.parent(), out.parent())
+        && from.canonicalize().ok() != if to.as_os_str().is_empty() { Path::new(".") } else { to }.canonicalize().ok()
+    {
+        relocate(&mut document, from);
+    }
+    std::fs::write(out, document.to_string()).with_context(|| out.display().to_string())
+}
+
+/// A label as files write it: a whole number where it is one.
+fn label(label: String) -> toml_edit::Value {
+    match label.parse::<i64>() {
+        Ok(number) if number.to_string() == label => number.into(),
+        _ => label.into(),
+    }
+}
+
+/// Makes the paths of a project absolute, since the copy lies in another folder.
+fn relocate(document: &mut toml_edit::DocumentMut, folder: &Path) {
+    let folder = folder.canonicalize().unwrap_or_else(|_| folder.to_path_buf());
+    let absolute = |table: &mut toml_edit::Table, key: &str| {
+        if let Some(path) = table.get(key).and_then(toml_edit::Item::as_str) {
+            let path = folder.join(path).display().to_string();
+            table[key] = toml_edit::value(path);
+        }
+    };
+    for name in ["run", "harmonics"] {
+        if let Some(list) = document.get_mut(name).and_then(toml_edit::Item::as_array_of_tables_mut) {
+            list.iter_mut().for_each(|table| absolute(table, "file"));
+        }
+    }
+    if let Some(structure) = document.get_mut("structure").and_then(toml_edit::Item::as_table_mut) {
+        for key in ["mass", "stiffness", "nodes", "dofs", "lines"] {
+            absolute(structure, key);
+        }
+    }
+}

@@ -1,0 +1,62 @@
+//! The diagnosis names the hidden effect, its place and its size, and nothing where nothing is hidden.
+
+use super::suite::{Hidden, Kindness, Random, hidden};
+use dashpot::control::Control;
+use dashpot::effects::Effect;
+use dashpot::explain::diagnose::{Diagnosis, Verdict, diagnose};
+
+fn project(effects: &[Effect], beam: bool, seed: u64) -> (Hidden, Diagnosis) {
+    let kindness = Kindness { beam, sensors: 5, runs: 9, noise: 0.01, size: 0.25, detuned: 0.0 };
+    let project = hidden(effects, kindness, &mut Random::new(seed)).unwrap();
+    let diagnosis = diagnose(&project.problem(), &Control::unattended()).unwrap();
+    (project, diagnosis)
+}
+
+fn is_named(effect: Effect, beam: bool, seed: u64) {
+    let (project, diagnosis) = project(&[effect], beam, seed);
+    let truth = &project.truth[0];
+    let first = &diagnosis.suggestions[0];
+    assert!(first.added.source.is_same(truth), "hidden {truth:?}, named {:?}", first.added.source);
+    for ((found, exact), deviation) in
+        first.added.source.parameters.iter().zip(&truth.parameters).zip(&first.added.deviations)
+    {
+        assert!((found - exact).abs() < 5.0 * deviation + 0.01 * exact.abs(), "{found} +- {deviation}, hidden {exact}");
+    }
+    assert_eq!(diagnosis.verdict, Verdict::Missing);
+    let last = &diagnosis.steps[diagnosis.steps.len() - 1];
+    assert!(last.error < 1.25 * diagnosis.noise_floor, "{} above the floor {}", last.error, diagnosis.noise_floor);
+}
+
+#[test]
+fn linear_effects_are_named() {
+    is_named(Effect::Viscous, true, 1);
+    is_named(Effect::Hysteretic, false, 2);
+    is_named(Effect::Stiffness, false, 3);
+    is_named(Effect::Mass, true, 4);
+}
+
+#[test]
+fn friction_is_named() {
+    is_named(Effect::Coulomb, true, 11);
+    is_named(Effect::Coulomb, false, 12);
+}
+
+#[test]
+fn a_cubic_spring_is_named() {
+    is_named(Effect::CubicStiffness, false, 13);
+}
+
+#[test]
+fn faults_of_channels_are_not_explained_by_damping() {
+    is_named(Effect::Delay, true, 21);
+    is_named(Effect::Gain, false, 22);
+}
+
+#[test]
+fn a_model_that_agrees_gets_no_suggestion() {
+    for (beam, seed) in [(true, 31), (false, 32), (false, 33)] {
+        let (_, diagnosis) = project(&[], beam, seed);
+        assert_eq!(diagnosis.verdict, Verdict::Adequate);
+        assert!(diagnosis.suggestions.is_empty());
+    }
+}

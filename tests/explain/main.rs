@@ -1,0 +1,8 @@
+//! Projects with a hidden effect: the comparison sees it, the diagnosis names it.
+#![allow(clippy::unwrap_used, reason = "tests")]
+
+mod comparison;
+mod hidden;
+#[path = "../../examples/hidden_effects/suite.rs"]
+#[allow(dead_code, reason = "shared with the example, which uses all of it")]
+mod suite;
