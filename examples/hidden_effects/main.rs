@@ -1,6 +1,7 @@
 //! Hides effects, diagnoses, and prints how often the right one was named: the table of `docs/explain.md`.
 //!
 //! `cargo run --example hidden_effects -- [seeds] [effect name or all] [clean|hard|detuned|two|none]`
+#![allow(clippy::unwrap_used, reason = "a study, not a library: a failure ends it with its place")]
 
 mod suite;
 

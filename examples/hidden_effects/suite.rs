@@ -5,7 +5,7 @@
 use dashpot::control::Control;
 use dashpot::effects::{Effect, Place, Source, effect::Kind};
 use dashpot::explain::Problem;
-use dashpot::measurement::{Channel, Quantity, Record, Run, fit};
+use dashpot::measurement::{Channel, Quantity, Record, Run, fit::fit};
 use dashpot::response::harmonic_balance::{Excitation, ForwardModel, Settings};
 use dashpot::response::time_integration::{Settling, TimeModel};
 use dashpot::structure::Structure;
@@ -214,7 +214,7 @@ fn size(
     match source.effect {
         Effect::Delay => source.parameters = vec![random.within(2e-4, 8e-4) * target / 0.3],
         Effect::Gain => {
-            source.parameters = vec![1.0 + target * random.within(0.4, 0.8) * (random.uniform() - 0.5).signum()]
+            source.parameters = vec![1.0 + target * random.within(0.4, 0.8) * (random.uniform() - 0.5).signum()];
         }
         _ => {}
     }
@@ -343,7 +343,7 @@ fn record(
         add(Channel { quantity: Quantity::Acceleration, dof, label }, amplitudes, random);
     }
     let record = Record::new(time, channels, samples).unwrap();
-    let fit = fit::fit(&record, omega, 7).unwrap();
+    let fit = fit(&record, omega, 7).unwrap();
     Run {
         file: format!("run-{:02}.csv", index + 1),
         level: None,

@@ -4,6 +4,7 @@ use super::arguments::Analysis;
 use super::table::{number, table};
 use crate::control::Control;
 use crate::exchange::{Project, project::load};
+use crate::explain::compare::{ChannelComparison, HarmonicComparison};
 use crate::explain::{Comparison, Problem, compare};
 use crate::structure::Structure;
 use anyhow::Context;
@@ -38,8 +39,8 @@ fn document(project: &Project, comparison: &Comparison) -> Value {
         .iter()
         .map(|run| {
             let source = &project.runs[run.index];
-            let channel = |c: &crate::explain::compare::ChannelComparison| {
-                let harmonic = |h: &crate::explain::compare::HarmonicComparison| {
+            let channel = |c: &ChannelComparison| {
+                let harmonic = |h: &HarmonicComparison| {
                     json!({"harmonic": h.harmonic, "measured": parts(h.measured), "model": parts(h.model),
                            "standard_deviation": h.deviation})
                 };

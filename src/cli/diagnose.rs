@@ -181,7 +181,8 @@ fn apply(file: &Path, out: &Path, project: &Project, diagnosis: &Diagnosis) -> a
     {
         relocate(&mut document, from);
     }
-    std::fs::write(out, document.to_string()).with_context(|| out.display().to_string())
+    crate::exchange::atomic::write_atomically(out, document.to_string().as_bytes())
+        .with_context(|| out.display().to_string())
 }
 
 /// A label as files write it: a whole number where it is one.

@@ -32,7 +32,7 @@ impl Variable {
         }
     }
 
-    fn from_value(self, value: f64) -> f64 {
+    fn unknown_of(self, value: f64) -> f64 {
         match self {
             Self::Log => value.max(1e-300).ln(),
             Self::Scaled(unit) => value / unit,
@@ -80,7 +80,7 @@ impl Variables {
             for (parameter, &value) in effect.effect.parameters().iter().zip(&effect.parameters) {
                 let variable = Variable::new(parameter, value);
                 variables.push(variable);
-                start.push(variable.from_value(value));
+                start.push(variable.unknown_of(value));
             }
         }
         (Self { template: effects.to_vec(), variables }, start)

@@ -36,6 +36,7 @@ pub(crate) struct PlaceData {
 
 /// Ratio of the fundamental of a free force to that of its motion in one run.
 #[derive(Debug, Clone, Copy)]
+#[expect(clippy::struct_field_names, reason = "the ratio is what the struct is about")]
 pub(crate) struct Ratio {
     /// `g / D`, N/m.
     pub ratio: c64,

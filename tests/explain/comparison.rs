@@ -4,6 +4,7 @@ use super::suite::{Kindness, Random, hidden};
 use dashpot::control::Control;
 use dashpot::effects::Effect;
 use dashpot::explain::compare;
+use dashpot::explain::compare::ChannelComparison;
 
 fn kindness(beam: bool) -> Kindness {
     Kindness { beam, sensors: 4, runs: 9, noise: 0.02, size: 0.3, detuned: 0.0 }
@@ -40,9 +41,7 @@ fn a_sensor_at_a_node_does_not_rule() {
     let project = hidden(&[Effect::Viscous], kindness(true), &mut Random::new(5)).unwrap();
     let comparison = compare(&project.problem(), &[], &Control::unattended()).unwrap();
     for run in &comparison.runs {
-        let size = |c: &dashpot::explain::compare::ChannelComparison| {
-            c.harmonics.iter().map(|h| h.measured.norm_sqr()).sum::<f64>().sqrt()
-        };
+        let size = |c: &ChannelComparison| c.harmonics.iter().map(|h| h.measured.norm_sqr()).sum::<f64>().sqrt();
         let largest = run.channels.iter().map(size).fold(0.0, f64::max);
         for channel in &run.channels {
             let difference: f64 = channel.harmonics.iter().map(|h| (h.measured - h.model).norm_sqr()).sum();

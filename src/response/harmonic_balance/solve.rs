@@ -72,7 +72,7 @@ impl Prepared {
     /// Leg forces of another number of harmonics brought to this one.
     pub fn adapt(&self, unknowns: &[f64]) -> Vec<f64> {
         let count = self.condensed.legs.len();
-        if count == 0 || !unknowns.len().is_multiple_of(count) {
+        if count == 0 || unknowns.is_empty() || !unknowns.len().is_multiple_of(count) {
             return vec![0.0; self.condensed.size()];
         }
         unknowns.chunks_exact(unknowns.len() / count).flat_map(|c| resized(c, self.condensed.harmonics)).collect()
