@@ -1,0 +1,89 @@
+//! Numbers in words: three to four significant digits, always with a unit.
+
+/// `value` with `digits` significant digits, in plain notation between 1e-3 and 1e5, else as `1.23e-7` with a real minus.
+pub fn significant(value: f64, digits: usize) -> String {
+    if value == 0.0 {
+        return "0".to_owned();
+    }
+    if !value.is_finite() {
+        return "–".to_owned();
+    }
+    let rounded = format!("{value:.*e}", digits.saturating_sub(1));
+    let exponent: i32 = rounded.rsplit('e').next().and_then(|e| e.parse().ok()).unwrap_or(0);
+    let text = if (-3..5).contains(&exponent) {
+        let decimals = (digits as i32 - 1 - exponent).max(0) as usize;
+        format!("{value:.decimals$}")
+    } else {
+        rounded
+    };
+    text.replace('-', "−")
+}
+
+/// `value` with four significant digits and `unit`.
+pub fn with_unit(value: f64, unit: &str) -> String {
+    if unit.is_empty() { significant(value, 4) } else { format!("{} {}", significant(value, 4), pretty_unit(unit)) }
+}
+
+/// `value ± deviation unit`, both to the digit that the deviation supports.
+pub fn with_deviation(value: f64, deviation: f64, unit: &str) -> String {
+    let unit = pretty_unit(unit);
+    if deviation <= 0.0 || !deviation.is_finite() {
+        return format!("{} {unit}", significant(value, 4)).trim_end().to_owned();
+    }
+    let decimals = (1.0 - deviation.log10().floor()).clamp(0.0, 12.0) as usize;
+    if decimals <= 6 {
+        return format!("{value:.decimals$} ± {deviation:.decimals$} {unit}").replace('-', "−").trim_end().to_owned();
+    }
+    format!("{} ± {} {unit}", significant(value, 4), significant(deviation, 2)).trim_end().to_owned()
+}
+
+/// An SI unit with dots and superscripts, from its spelling in ASCII: `N s^2/m^2` to `N·s²/m²`.
+pub fn pretty_unit(unit: &str) -> String {
+    unit.replace("^2", "²").replace("^3", "³").replace(' ', "·")
+}
+
+/// `value` (in the base unit) with a prefix from n to G: `1.23 mJ`.
+pub fn prefixed(value: f64, unit: &str) -> String {
+    const PREFIXES: [(f64, &str); 7] =
+        [(1e9, "G"), (1e6, "M"), (1e3, "k"), (1.0, ""), (1e-3, "m"), (1e-6, "µ"), (1e-9, "n")];
+    if value == 0.0 || !value.is_finite() {
+        return format!("{} {unit}", significant(value, 3));
+    }
+    let (scale, prefix) = PREFIXES.into_iter().find(|(scale, _)| value.abs() >= 0.9995 * scale).unwrap_or((1e-9, "n"));
+    format!("{} {prefix}{unit}", significant(value / scale, 3))
+}
+
+/// A share as per cent.
+pub fn percent(share: f64) -> String {
+    let p = 100.0 * share;
+    if p != 0.0 && p.abs() < 0.01 { "<0.01 %".to_owned() } else { format!("{} %", significant(p, 3)) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{percent, prefixed, pretty_unit, significant, with_deviation, with_unit};
+
+    #[test]
+    fn numbers_keep_their_significant_digits() {
+        assert_eq!(significant(0.107_23, 4), "0.1072");
+        assert_eq!(significant(-6.505, 4), "−6.505");
+        assert_eq!(significant(12_345.6, 4), "12346");
+        assert_eq!(significant(9.9996, 4), "10.00");
+        assert_eq!(significant(2.1e-9, 3), "2.10e−9");
+        assert_eq!(significant(0.0, 3), "0");
+        assert_eq!(significant(f64::NAN, 3), "–");
+    }
+
+    #[test]
+    fn units_follow_their_numbers() {
+        assert_eq!(with_unit(0.2, "N s/m"), "0.2000 N·s/m");
+        assert_eq!(pretty_unit("N s^2/m^2"), "N·s²/m²");
+        assert_eq!(with_deviation(0.1072, 0.0021, "N s/m"), "0.1072 ± 0.0021 N·s/m");
+        assert_eq!(with_deviation(512.3, 13.0, "N"), "512 ± 13 N");
+        assert_eq!(with_deviation(3.0, 0.0, "N"), "3.000 N");
+        assert_eq!(prefixed(0.001_234, "J"), "1.23 mJ");
+        assert_eq!(prefixed(2.11e11, "Pa"), "211 GPa");
+        assert_eq!(percent(0.000_02), "<0.01 %");
+        assert_eq!(percent(0.4567), "45.7 %");
+    }
+}

@@ -1,0 +1,156 @@
+//! Where everything stands on the screen: pure geometry, tested with numbers.
+
+mod beam;
+mod lanes;
+mod row;
+mod wire;
+
+use super::model::{Scene, Support};
+use crate::structure::StructureKind;
+use egui::{Pos2, Rect, Vec2};
+
+/// The direction from which a wire model is looked at.
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize)]
+pub struct Camera {
+    /// Turn about the vertical axis, rad.
+    pub yaw: f32,
+    /// Height of the eye above the horizon, rad.
+    pub pitch: f32,
+    /// Magnification; 1 fills the pane.
+    pub zoom: f32,
+}
+
+impl Default for Camera {
+    fn default() -> Self {
+        Self { yaw: -0.6, pitch: 0.45, zoom: 1.0 }
+    }
+}
+
+/// A DOF that can be pointed at.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Handle {
+    /// Row of the DOF.
+    pub dof: usize,
+    /// Centre.
+    pub pos: Pos2,
+    /// Half its size.
+    pub radius: f32,
+    /// Whether it is a rotation.
+    pub rotation: bool,
+    /// Left centre of its label.
+    pub label: Pos2,
+    /// Whether the label is shown unless asked for.
+    pub labelled: bool,
+}
+
+/// The end of something that is fixed to the ground.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Ground {
+    /// Middle of the ground line.
+    pub pos: Pos2,
+    /// Direction into the ground, unit length.
+    pub into: Vec2,
+    /// Length of the ground line.
+    pub width: f32,
+}
+
+/// One leg of a source: leads from its DOFs and the symbol between `glyph[0]` and `glyph[1]`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Part {
+    /// Thin lines from the DOFs to the symbol.
+    pub leads: Vec<[Pos2; 2]>,
+    /// Ends of the symbol.
+    pub glyph: [Pos2; 2],
+    /// Where it meets the ground, if it does.
+    pub ground: Option<Ground>,
+}
+
+/// A source with all its legs.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PlacedSource {
+    /// Index into [`Scene::sources`].
+    pub slot: usize,
+    /// Its legs.
+    pub parts: Vec<Part>,
+}
+
+/// A mass of a chain, or a point.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MassBox {
+    /// Row of its DOF.
+    pub dof: usize,
+    /// Outline.
+    pub rect: Rect,
+    /// Round for a point without a mass matrix.
+    pub round: bool,
+}
+
+/// A support of a beam.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PlacedSupport {
+    /// Node.
+    pub pos: Pos2,
+    /// Direction into the ground.
+    pub into: Vec2,
+    /// How it holds.
+    pub support: Support,
+}
+
+/// Everything with its place.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Layout {
+    /// The structure at rest, drawn faintly when it is deflected.
+    pub rest: Vec<Vec<Pos2>>,
+    /// The structure as it stands.
+    pub body: Vec<Vec<Pos2>>,
+    /// Masses.
+    pub masses: Vec<MassBox>,
+    /// Springs of the structure, as legs.
+    pub springs: Vec<Part>,
+    /// Supports of a beam.
+    pub supports: Vec<PlacedSupport>,
+    /// DOFs.
+    pub handles: Vec<Handle>,
+    /// Sources.
+    pub sources: Vec<PlacedSource>,
+    /// Accelerometers and the like: DOF row and place.
+    pub sensors: Vec<(usize, Pos2)>,
+    /// Exciters: tail and tip of the arrow of force.
+    pub exciters: Vec<(usize, [Pos2; 2])>,
+}
+
+impl Layout {
+    /// Places a scene in `area`; `shape` is a displacement per DOF of any scale, drawn with its largest translation at a
+    /// fixed size.
+    pub fn new(scene: &Scene, area: Rect, camera: Camera, shape: Option<&[f64]>) -> Self {
+        let shape = shape.filter(|s| s.len() == scene.dofs.len());
+        let unit = shape.map(|s| normalised(scene, s));
+        let unit = unit.as_deref();
+        match scene.kind {
+            StructureKind::Beam => beam::place(scene, area, unit),
+            StructureKind::Chain => row::place(scene, area, unit),
+            _ if row::fits(scene) => row::place(scene, area, unit),
+            _ => wire::place(scene, area, camera, unit),
+        }
+    }
+
+    /// The handle of a DOF.
+    pub fn handle(&self, dof: usize) -> Option<&Handle> {
+        self.handles.iter().find(|h| h.dof == dof)
+    }
+
+    /// Whether the mouse can turn it.
+    pub fn turns(scene: &Scene) -> bool {
+        !matches!(scene.kind, StructureKind::Beam | StructureKind::Chain) && !row::fits(scene)
+    }
+}
+
+/// Scaled so that the largest translation in `reference` size is 1; all zero stays zero.
+fn normalised(scene: &Scene, shape: &[f64]) -> Vec<f64> {
+    let largest = scene.translations().iter().map(|&d| shape[d].abs()).fold(0.0, f64::max);
+    let scale = if largest > 0.0 { 1.0 / largest } else { 0.0 };
+    shape.iter().map(|v| v * scale).collect()
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,209 @@
+//! Paints a layout; decides nothing.
+
+use super::hit::Target;
+use super::layout::{Handle, Layout, Part};
+use super::model::{Scene, Support};
+use super::symbols;
+use crate::effects::{Effect, State};
+use crate::window::theme::{self, Palette};
+use egui::{Align2, Color32, Painter, Pos2, Rect, Shape, Stroke, StrokeKind, vec2};
+
+/// What is to stand out.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Marks<'a> {
+    /// Under the pointer.
+    pub hovered: Option<Target>,
+    /// Selected.
+    pub selected: Option<Target>,
+    /// Share of every DOF, 0 to 1, drawn as a halo.
+    pub shares: Option<&'a [f32]>,
+    /// Rubber line of a drag, with the law that would be drawn.
+    pub rubber: Option<(Effect, [Pos2; 2])>,
+    /// Rectangle of a sweep.
+    pub span: Option<Rect>,
+    /// Whether states of sources are told apart (pattern) or only what was identified stands out.
+    pub editing: bool,
+}
+
+/// Paints everything.
+pub fn paint(painter: &Painter, palette: &Palette, scene: &Scene, layout: &Layout, marks: &Marks<'_>) {
+    halos(painter, palette, layout, marks);
+    structure(painter, palette, scene, layout);
+    for source in &layout.sources {
+        let s = &scene.sources[source.slot];
+        let target = Some(Target::Source(source.slot));
+        let stroke = source_stroke(palette, s.state, s.identified.is_some(), marks.editing);
+        if target == marks.selected || target == marks.hovered {
+            glow(painter, palette, &source.parts, target == marks.selected);
+        }
+        for part in &source.parts {
+            paint_part(painter, palette, s.effect, part, stroke, s.state == State::Candidate && s.identified.is_none());
+        }
+    }
+    for handle in &layout.handles {
+        paint_handle(painter, palette, scene, handle, marks);
+    }
+    instruments(painter, palette, layout);
+    drag(painter, palette, marks);
+}
+
+fn halos(painter: &Painter, palette: &Palette, layout: &Layout, marks: &Marks<'_>) {
+    let Some(shares) = marks.shares else { return };
+    for handle in &layout.handles {
+        let share = shares.get(handle.dof).copied().unwrap_or(0.0);
+        if share > 0.001 {
+            let radius = handle.radius + 4.0 + 14.0 * share.sqrt();
+            painter.circle_filled(handle.pos, radius, palette.model.gamma_multiply(0.16 + 0.3 * share));
+        }
+    }
+}
+
+fn structure(painter: &Painter, palette: &Palette, scene: &Scene, layout: &Layout) {
+    for line in &layout.rest {
+        painter.extend(Shape::dashed_line(line, theme::hair(palette.weak.gamma_multiply(0.7)), 5.0, 4.0));
+    }
+    let width = if scene.dofs.len() > 60 { theme::pen(palette.ink) } else { Stroke::new(4.0, palette.ink) };
+    for line in &layout.body {
+        painter.add(Shape::line(line.clone(), width));
+    }
+    for spring in &layout.springs {
+        paint_part(painter, palette, Effect::Stiffness, spring, theme::pen(palette.ink), false);
+    }
+    for support in &layout.supports {
+        match support.support {
+            Support::Clamped => {
+                let wall = Stroke::new(2.4, palette.ink);
+                symbols::ground(painter, support.pos, support.into, 54.0, wall);
+            }
+            Support::Pinned => {
+                let foot = support.pos + support.into * 18.0;
+                let side = support.into.rot90() * 10.0;
+                painter.add(Shape::closed_line(vec![support.pos, foot + side, foot - side], theme::pen(palette.ink)));
+                symbols::ground(painter, foot, support.into, 30.0, theme::pen(palette.ink));
+            }
+        }
+    }
+}
+
+/// The line of a source by its state.
+pub fn source_stroke(palette: &Palette, state: State, identified: bool, editing: bool) -> Stroke {
+    if identified {
+        return Stroke::new(2.2, palette.model);
+    }
+    match state {
+        State::Candidate if editing => Stroke::new(1.4, palette.weak),
+        State::Candidate => Stroke::new(1.2, palette.weak.gamma_multiply(0.45)),
+        State::Forced => Stroke::new(2.0, palette.accent),
+        State::Known => Stroke::new(2.0, palette.ink),
+        State::Off => Stroke::new(1.2, palette.line),
+        State::Reference => Stroke::new(1.4, palette.missing),
+    }
+}
+
+fn glow(painter: &Painter, palette: &Palette, parts: &[Part], strong: bool) {
+    let colour = palette.accent.gamma_multiply(if strong { 0.26 } else { 0.13 });
+    for part in parts {
+        let [a, b] = part.glyph;
+        painter.line_segment([a, b], Stroke::new(20.0, colour));
+    }
+}
+
+fn paint_part(painter: &Painter, palette: &Palette, effect: Effect, part: &Part, stroke: Stroke, dashed: bool) {
+    let thin = Stroke::new(1.0_f32.min(stroke.width), stroke.color);
+    for lead in &part.leads {
+        if dashed {
+            painter.extend(Shape::dashed_line(lead, thin, 3.0, 3.0));
+        } else {
+            painter.line_segment(*lead, thin);
+        }
+    }
+    symbols::draw(painter, effect, part.glyph, stroke);
+    if let Some(ground) = part.ground {
+        let colour = palette.canvas.lerp_to_gamma(stroke.color, 0.9);
+        symbols::ground(painter, ground.pos, ground.into, ground.width, Stroke::new(1.4, colour));
+    }
+}
+
+fn paint_handle(painter: &Painter, palette: &Palette, scene: &Scene, handle: &Handle, marks: &Marks<'_>) {
+    let target = Some(Target::Dof(handle.dof));
+    let (hovered, selected) = (target == marks.hovered, target == marks.selected);
+    let mass = scene_mass(scene, handle);
+    if let Some(round) = mass {
+        mass_body(painter, palette, handle, round, hovered || selected);
+    } else if handle.rotation {
+        rotation(painter, palette, handle, hovered || selected);
+    } else {
+        let measured = !scene.dofs[handle.dof].sensors.is_empty();
+        let fill = if measured { palette.measured } else { palette.canvas };
+        let radius = if hovered || selected { handle.radius + 1.5 } else { handle.radius };
+        painter.circle(handle.pos, radius, fill, theme::pen(if measured { palette.measured } else { palette.ink }));
+    }
+    if selected {
+        painter.circle_stroke(handle.pos, handle.radius + 6.0, Stroke::new(2.0, palette.accent));
+    } else if hovered {
+        painter.circle_stroke(handle.pos, handle.radius + 5.0, Stroke::new(1.5, palette.accent.gamma_multiply(0.7)));
+    }
+    if handle.labelled || hovered || selected {
+        let colour = if selected || hovered { palette.accent } else { palette.weak };
+        let (align, colour) =
+            if mass.is_some() { (Align2::CENTER_CENTER, palette.ink) } else { (Align2::LEFT_CENTER, colour) };
+        painter.text(handle.label, align, &scene.dofs[handle.dof].label, theme::font(theme::size::SMALL), colour);
+    }
+}
+
+/// Whether the handle is a mass of a row, and if so whether it is round.
+fn scene_mass(scene: &Scene, handle: &Handle) -> Option<bool> {
+    (handle.radius > 8.0).then_some(scene.springs.is_empty() && scene.kind != crate::structure::StructureKind::Chain)
+}
+
+fn mass_body(painter: &Painter, palette: &Palette, handle: &Handle, round: bool, lit: bool) {
+    let stroke = theme::bold(if lit { palette.accent } else { palette.ink });
+    if round {
+        painter.circle(handle.pos, handle.radius, palette.raised, stroke);
+    } else {
+        let rect = Rect::from_center_size(handle.pos, vec2(2.0 * handle.radius, 2.0 * handle.radius));
+        painter.rect(rect, 3.0, palette.raised, stroke, StrokeKind::Middle);
+    }
+}
+
+/// A bent arrow.
+fn rotation(painter: &Painter, palette: &Palette, handle: &Handle, lit: bool) {
+    let colour = if lit { palette.accent } else { palette.weak.gamma_multiply(0.8) };
+    let r = handle.radius + 0.5;
+    let at = |degrees: f32| {
+        let (s, c) = degrees.to_radians().sin_cos();
+        handle.pos + vec2(r * c, -r * s)
+    };
+    let arc = (0..=10).map(|k| at(-40.0 + 25.0 * k as f32)).collect();
+    painter.add(Shape::line(arc, Stroke::new(1.3, colour)));
+    let tip = at(-40.0);
+    painter.add(Shape::convex_polygon(
+        vec![tip + vec2(-2.5, 2.5), tip + vec2(3.5, 0.5), tip + vec2(-0.5, -3.5)],
+        colour,
+        Stroke::NONE,
+    ));
+}
+
+fn instruments(painter: &Painter, palette: &Palette, layout: &Layout) {
+    for &(_, pos) in &layout.sensors {
+        let body = Rect::from_center_size(pos, vec2(10.0, 7.0));
+        painter.rect(body, 1.5, palette.measured, Stroke::NONE, StrokeKind::Middle);
+    }
+    for &(_, ends) in &layout.exciters {
+        symbols::arrow(painter, ends, Stroke::new(2.2, palette.accent));
+        let away = (ends[0] - ends[1]).normalized();
+        let at = ends[0] + away * 8.0;
+        painter.text(at, Align2::CENTER_CENTER, "F", theme::font(theme::size::BODY), palette.accent);
+    }
+}
+
+fn drag(painter: &Painter, palette: &Palette, marks: &Marks<'_>) {
+    if let Some((effect, ends)) = marks.rubber {
+        painter.line_segment(ends, Stroke::new(18.0, palette.accent.gamma_multiply(0.12)));
+        symbols::draw(painter, effect, ends, theme::pen(palette.accent));
+    }
+    if let Some(span) = marks.span {
+        let fill: Color32 = palette.accent.gamma_multiply(0.10);
+        painter.rect(span, 3.0, fill, theme::hair(palette.accent), StrokeKind::Middle);
+    }
+}

@@ -1,0 +1,202 @@
+//! Engineering symbols of the laws: each drawn between two points, its body of fixed size in the middle.
+
+use crate::effects::Effect;
+use egui::{Color32, Painter, Pos2, Shape, Stroke, Vec2};
+
+/// Length of a symbol's body, points.
+pub const BODY: f32 = 28.0;
+const HALF_WIDTH: f32 = 7.0;
+
+/// A pen in the frame of one symbol: `x` along it from -1/2 to 1/2 of its body, `y` across in points.
+struct Pen<'a> {
+    painter: &'a Painter,
+    middle: Pos2,
+    along: Vec2,
+    across: Vec2,
+    stroke: Stroke,
+}
+
+/// Draws the symbol of `effect` from `from` to `to`.
+pub fn draw(painter: &Painter, effect: Effect, [from, to]: [Pos2; 2], stroke: Stroke) {
+    let length = (to - from).length();
+    if length < 4.0 {
+        return;
+    }
+    let direction = (to - from) / length;
+    let body = BODY.min(0.8 * length);
+    let pen = Pen {
+        painter,
+        middle: from + (to - from) / 2.0,
+        along: direction * body,
+        across: direction.rot90() * (body / BODY),
+        stroke,
+    };
+    painter.line_segment([from, pen.at(-0.5, 0.0)], stroke);
+    painter.line_segment([pen.at(0.5, 0.0), to], stroke);
+    pen.body(effect);
+}
+
+impl Pen<'_> {
+    fn at(&self, x: f32, y: f32) -> Pos2 {
+        self.middle + self.along * x + self.across * y
+    }
+
+    fn line(&self, points: &[(f32, f32)]) {
+        let points = points.iter().map(|&(x, y)| self.at(x, y)).collect();
+        self.painter.add(Shape::line(points, self.stroke));
+    }
+
+    fn fill(&self, points: &[(f32, f32)], colour: Color32) {
+        let points = points.iter().map(|&(x, y)| self.at(x, y)).collect();
+        self.painter.add(Shape::convex_polygon(points, colour, self.stroke));
+    }
+
+    fn body(&self, effect: Effect) {
+        let faint = self.stroke.color.gamma_multiply(0.28);
+        match effect {
+            Effect::Viscous => self.dashpot(-0.5, 0.5),
+            Effect::MassProportional => self.whole("M"),
+            Effect::StiffnessProportional => self.whole("K"),
+            Effect::Quadratic => {
+                self.fill(&[(-0.2, -HALF_WIDTH), (0.5, -HALF_WIDTH), (0.5, HALF_WIDTH), (-0.2, HALF_WIDTH)], faint);
+                self.dashpot(-0.5, 0.5);
+            }
+            Effect::Power => {
+                self.dashpot(-0.5, 0.5);
+                self.arrow();
+            }
+            Effect::Coulomb => self.pads(-0.5, 0.5, self.stroke.color),
+            Effect::Stribeck => {
+                self.pads(-0.5, 0.5, faint);
+                self.line(&[(-0.3, -9.0), (0.0, -7.0), (0.3, -9.0)]);
+            }
+            Effect::ElasticSlider => {
+                self.spring(-0.5, -0.02, 3);
+                self.pads(0.0, 0.5, self.stroke.color);
+            }
+            Effect::Iwan => {
+                self.line(&[(-0.5, -5.0), (-0.5, 5.0)]);
+                self.line(&[(0.5, -5.0), (0.5, 5.0)]);
+                for y in [-5.0, 5.0] {
+                    self.zigzag(-0.5, 0.05, 3, y, 2.5);
+                    self.line(&[(0.05, y), (0.5, y)]);
+                    self.fill(&[(0.15, y - 2.5), (0.4, y - 2.5), (0.4, y + 2.5), (0.15, y + 2.5)], faint);
+                }
+            }
+            Effect::Maxwell => {
+                self.spring(-0.5, -0.05, 3);
+                self.dashpot(-0.05, 0.5);
+            }
+            Effect::LossFactor => {
+                self.spring(-0.5, 0.5, 4);
+                self.letter("ηK");
+            }
+            Effect::Hysteretic => {
+                self.spring(-0.5, 0.5, 4);
+                let ring = (0..=24).map(|k| {
+                    let a = std::f32::consts::TAU * k as f32 / 24.0;
+                    (0.42 * a.cos(), 10.0 * a.sin())
+                });
+                self.line(&ring.collect::<Vec<_>>());
+            }
+            Effect::Fractional => self.fill(&[(-0.5, 0.0), (0.0, -8.0), (0.5, 0.0), (0.0, 8.0)], faint),
+            Effect::Stiffness => self.spring(-0.5, 0.5, 5),
+            Effect::CubicStiffness => {
+                self.spring(-0.5, 0.5, 5);
+                self.arrow();
+            }
+            Effect::QuadraticStiffness => {
+                self.spring(-0.5, 0.5, 5);
+                self.line(&[(-0.4, 9.0), (0.4, 9.0)]);
+            }
+            Effect::Gap => {
+                self.spring(-0.5, 0.1, 3);
+                self.line(&[(0.12, -HALF_WIDTH), (0.12, HALF_WIDTH)]);
+                self.line(&[(0.36, -HALF_WIDTH), (0.36, HALF_WIDTH)]);
+                self.line(&[(0.36, 0.0), (0.5, 0.0)]);
+            }
+            Effect::Mass => {
+                self.fill(&[(-0.36, -9.0), (0.36, -9.0), (0.36, 9.0), (-0.36, 9.0)], faint);
+                self.line(&[(-0.5, 0.0), (-0.36, 0.0)]);
+                self.line(&[(0.36, 0.0), (0.5, 0.0)]);
+            }
+            Effect::Delay | Effect::Gain => self.line(&[(-0.5, 0.0), (0.5, 0.0)]),
+        }
+    }
+
+    /// A dashpot on a matrix of the whole structure.
+    fn whole(&self, matrix: &str) {
+        self.dashpot(-0.5, 0.5);
+        self.letter(matrix);
+    }
+
+    fn letter(&self, text: &str) {
+        let font = crate::window::theme::font(crate::window::theme::size::SMALL - 1.5);
+        let at = self.middle - Vec2::new(0.0, 13.0);
+        self.painter.text(at, egui::Align2::CENTER_CENTER, text, font, self.stroke.color);
+    }
+
+    /// Cup and piston between `a` and `b`.
+    fn dashpot(&self, a: f32, b: f32) {
+        let at = |t: f32| a + (b - a) * t;
+        self.line(&[(at(0.0), 0.0), (at(0.55), 0.0)]);
+        self.line(&[(at(0.55), 1.0 - HALF_WIDTH), (at(0.55), HALF_WIDTH - 1.0)]);
+        self.line(&[(at(0.28), -HALF_WIDTH), (at(0.8), -HALF_WIDTH), (at(0.8), HALF_WIDTH), (at(0.28), HALF_WIDTH)]);
+        self.line(&[(at(0.8), 0.0), (at(1.0), 0.0)]);
+    }
+
+    /// A rod that slides between two pressed pads.
+    fn pads(&self, a: f32, b: f32, fill: Color32) {
+        let at = |t: f32| a + (b - a) * t;
+        self.line(&[(a, 0.0), (at(0.72), 0.0)]);
+        for side in [-1.0, 1.0] {
+            let (near, far) = (2.5 * side, 7.5 * side);
+            self.fill(&[(at(0.25), near), (at(0.75), near), (at(0.75), far), (at(0.25), far)], fill);
+            self.line(&[(at(0.5), far), (at(0.5), 9.5 * side), (at(0.9), 9.5 * side), (at(0.9), 0.0)]);
+        }
+        self.line(&[(at(0.9), 0.0), (b, 0.0)]);
+    }
+
+    fn spring(&self, a: f32, b: f32, coils: usize) {
+        self.zigzag(a, b, coils, 0.0, 6.0);
+    }
+
+    fn zigzag(&self, a: f32, b: f32, coils: usize, y: f32, height: f32) {
+        let n = 2 * coils;
+        let mut points = vec![(a, y)];
+        for k in 0..n {
+            let side = if k % 2 == 0 { -height } else { height };
+            points.push((a + (b - a) * (k as f32 + 0.5) / n as f32, y + side));
+        }
+        points.push((b, y));
+        self.line(&points);
+    }
+
+    /// A slanted arrow across the body: the sign for a variable element.
+    fn arrow(&self) {
+        self.line(&[(-0.4, 10.0), (0.4, -10.0)]);
+        self.line(&[(0.22, -9.5), (0.4, -10.0), (0.38, -4.5)]);
+    }
+}
+
+/// The ground: a line with hatches.
+pub fn ground(painter: &Painter, pos: Pos2, into: Vec2, width: f32, stroke: Stroke) {
+    let across = into.rot90();
+    let half = width / 2.0;
+    painter.line_segment([pos - across * half, pos + across * half], stroke);
+    let thin = Stroke::new(stroke.width * 0.7, stroke.color);
+    let count = (width / 5.0).floor().max(2.0);
+    for k in 0..count as usize {
+        let start = pos + across * (-half + width * (k as f32 + 0.75) / count);
+        painter.line_segment([start, start + into * 5.0 - across * 4.0], thin);
+    }
+}
+
+/// An arrow with a filled head.
+pub fn arrow(painter: &Painter, [tail, tip]: [Pos2; 2], stroke: Stroke) {
+    let direction = (tip - tail).normalized();
+    let base = tip - direction * 9.0;
+    painter.line_segment([tail, base], stroke);
+    let side = direction.rot90() * 4.5;
+    painter.add(Shape::convex_polygon(vec![tip, base + side, base - side], stroke.color, Stroke::NONE));
+}

@@ -1,0 +1,162 @@
+//! The schematic as a widget: joins model, layout, hit test and paint, and gives back intents.
+
+use super::gesture::{self, Drag, Intent};
+use super::hit::{self, Target};
+use super::paint::{self, Marks};
+use super::{Camera, Layout, Scene};
+use crate::effects::Effect;
+use crate::window::theme::{self, Palette};
+use egui::{Align2, CursorIcon, Key, Rect, Response, Role, Sense, Ui, Vec2, WidgetInfo};
+
+/// What the widget remembers between frames; neither saved nor undone.
+#[derive(Debug, Clone, Default)]
+pub struct ViewState {
+    /// Direction of view of a wire model.
+    pub camera: Camera,
+    /// A drag in progress.
+    pub drag: Option<Drag>,
+}
+
+/// What to show.
+#[derive(Debug, Clone, Copy)]
+pub struct View<'a> {
+    /// The scene.
+    pub scene: &'a Scene,
+    /// Displacement per DOF.
+    pub shape: Option<&'a [f64]>,
+    /// Share per DOF.
+    pub shares: Option<&'a [f32]>,
+    /// Selected DOF or source slot.
+    pub selected: Option<Target>,
+    /// The law that clicks and drags draw; `None` where the pattern is not edited.
+    pub law: Option<Effect>,
+    /// A line in the top left corner: what is shown.
+    pub caption: &'a str,
+}
+
+impl View<'_> {
+    /// Shows the schematic in all the room there is; gives back what was asked for.
+    pub fn show(&self, ui: &mut Ui, state: &mut ViewState) -> Vec<Intent> {
+        let palette = Palette::of(ui.visuals());
+        let (area, canvas) = ui.allocate_exact_size(ui.available_size(), Sense::click_and_drag());
+        canvas.widget_info(|| WidgetInfo::labeled(Role::Image, true, "Schematic"));
+        let layout = Layout::new(self.scene, area, state.camera, self.shape);
+        let mut intents = self.handles(ui, &canvas, &layout);
+        let hovered = canvas.hover_pos().and_then(|p| hit::at(&layout, p));
+        self.gestures(ui, &canvas, &layout, state, &mut intents);
+        if hovered.is_some() {
+            ui.set_cursor_icon(CursorIcon::PointingHand);
+        }
+        let drag = state.drag;
+        let rubber = drag.and_then(|d| self.rubber(&layout, &d));
+        let marks = Marks {
+            hovered,
+            selected: self.selected,
+            shares: self.shares,
+            rubber,
+            span: drag.and_then(|d| d.span()),
+            editing: self.law.is_some(),
+        };
+        let painter = ui.painter_at(area);
+        painter.rect_filled(area, 6.0, palette.canvas);
+        paint::paint(&painter, palette, self.scene, &layout, &marks);
+        let corner = area.left_top() + Vec2::splat(12.0);
+        painter.text(corner, Align2::LEFT_TOP, self.caption, theme::font(theme::size::SMALL), palette.weak);
+        self.tooltip(&canvas, hovered, drag.is_some());
+        intents
+    }
+
+    /// A node in the accessibility tree for every DOF and source, reached by Tab and pressed with Enter.
+    fn handles(&self, ui: &mut Ui, canvas: &Response, layout: &Layout) -> Vec<Intent> {
+        let mut intents = Vec::new();
+        for handle in &layout.handles {
+            let rect = Rect::from_center_size(handle.pos, Vec2::splat(2.0 * handle.radius));
+            let label = self.scene.describe(handle.dof);
+            self.node(ui, canvas.id.with(("dof", handle.dof)), rect, label, Target::Dof(handle.dof), &mut intents);
+        }
+        for source in &layout.sources {
+            let Some(part) = source.parts.first() else { continue };
+            let middle = part.glyph[0] + (part.glyph[1] - part.glyph[0]) / 2.0;
+            let rect = Rect::from_center_size(middle, Vec2::splat(16.0));
+            let target = Target::Source(source.slot);
+            self.node(ui, canvas.id.with(("source", source.slot)), rect, self.name(source.slot), target, &mut intents);
+        }
+        intents
+    }
+
+    fn node(&self, ui: &Ui, id: egui::Id, rect: Rect, label: String, target: Target, intents: &mut Vec<Intent>) {
+        let response = ui.interact(rect, id, Sense::focusable_noninteractive());
+        response.widget_info(|| WidgetInfo::labeled(Role::Button, true, &label));
+        if response.has_focus() {
+            ui.painter().circle_stroke(
+                rect.center(),
+                0.5 * rect.width() + 5.0,
+                theme::pen(Palette::of(ui.visuals()).accent),
+            );
+            if ui.input(|i| i.key_pressed(Key::Enter)) {
+                intents.push(gesture::click(self.scene, Some(target), self.selected, self.law.is_some()));
+            }
+        }
+    }
+
+    fn gestures(&self, ui: &Ui, canvas: &Response, layout: &Layout, state: &mut ViewState, intents: &mut Vec<Intent>) {
+        let pointer = canvas.interact_pointer_pos();
+        if canvas.clicked()
+            && let Some(at) = pointer
+        {
+            intents.push(gesture::click(self.scene, hit::at(layout, at), self.selected, self.law.is_some()));
+        }
+        if canvas.drag_started()
+            && let Some(start) = ui.input(|i| i.pointer.press_origin())
+        {
+            let drag = Drag::begin(layout, start);
+            let turns = Layout::turns(self.scene) && drag.from.is_none();
+            state.drag = (self.law.is_some() && !turns).then_some(drag);
+        }
+        if let (Some(drag), Some(now)) = (&mut state.drag, pointer) {
+            drag.now = now;
+        } else if canvas.dragged() && Layout::turns(self.scene) {
+            state.camera.yaw -= 0.008 * canvas.drag_delta().x;
+            state.camera.pitch = (state.camera.pitch + 0.008 * canvas.drag_delta().y).clamp(-1.57, 1.57);
+        }
+        if canvas.drag_stopped()
+            && let Some(drag) = state.drag.take()
+            && let Some(dofs) = drag.dofs(layout)
+        {
+            intents.push(Intent::Draw(dofs));
+        }
+        if canvas.hovered() && Layout::turns(self.scene) {
+            let scroll = ui.input(|i| i.smooth_scroll_delta().y);
+            state.camera.zoom = (state.camera.zoom * (0.002 * scroll).exp()).clamp(0.3, 8.0);
+        }
+    }
+
+    fn rubber(&self, layout: &Layout, drag: &Drag) -> Option<(Effect, [egui::Pos2; 2])> {
+        let from = layout.handle(drag.from?)?.pos;
+        let to = hit::dof(layout, drag.now).and_then(|d| layout.handle(d)).map_or(drag.now, |h| h.pos);
+        Some((self.law?, [from, to]))
+    }
+
+    fn tooltip(&self, canvas: &Response, hovered: Option<Target>, dragging: bool) {
+        let Some(target) = hovered.filter(|_| !dragging) else { return };
+        let text = match target {
+            Target::Dof(dof) => self.scene.describe(dof),
+            Target::Source(slot) => self.name(slot),
+        };
+        canvas.clone().on_hover_text_at_pointer(text);
+    }
+
+    /// What a source is, in words: `Source viscous, DOF 7 to ground, candidate`.
+    fn name(&self, slot: usize) -> String {
+        let source = &self.scene.sources[slot];
+        let labels: Vec<&str> = source.dofs.iter().map(|&d| self.scene.dofs[d].label.as_str()).collect();
+        let place = match labels[..] {
+            [one] => format!("DOF {one} to ground"),
+            [a, b] => format!("between DOF {a} and {b}"),
+            _ => format!("chain {}", labels.join("–")),
+        };
+        let state = crate::window::words::state(source.state);
+        let value = source.identified.as_ref().map_or_else(String::new, |v| format!(", {v}"));
+        format!("Source {}, {place}, {state}{value}", crate::window::words::effect(source.effect))
+    }
+}

@@ -1,0 +1,98 @@
+//! Names for people of what has names in files.
+
+use crate::effects::{Effect, Place, State};
+use crate::measurement::{Flag, Quantity};
+use crate::structure::{Structure, StructureKind};
+
+/// A law in words.
+pub fn effect(effect: Effect) -> &'static str {
+    match effect {
+        Effect::Viscous => "viscous dashpot",
+        Effect::Coulomb => "dry friction",
+        Effect::Quadratic => "quadratic dashpot",
+        Effect::Power => "power-law dashpot",
+        Effect::Hysteretic => "hysteretic spring",
+        Effect::Stribeck => "Stribeck friction",
+        Effect::ElasticSlider => "elastic slider",
+        Effect::Maxwell => "Maxwell element",
+        Effect::Iwan => "Iwan joint",
+        Effect::Fractional => "fractional element",
+        Effect::Stiffness => "spring",
+        Effect::CubicStiffness => "cubic spring",
+        Effect::QuadraticStiffness => "quadratic spring",
+        Effect::Gap => "gap",
+        Effect::Mass => "mass",
+        Effect::LossFactor => "loss factor",
+        Effect::StiffnessProportional => "stiffness damping",
+        Effect::MassProportional => "mass damping",
+        Effect::Delay => "channel delay",
+        Effect::Gain => "channel gain",
+    }
+}
+
+/// A state in words.
+pub fn state(state: State) -> &'static str {
+    match state {
+        State::Known => "known",
+        State::Candidate => "candidate",
+        State::Forced => "forced",
+        State::Off => "off",
+        State::Reference => "reference",
+    }
+}
+
+/// A flag in words.
+pub fn flag(flag: Flag) -> &'static str {
+    match flag {
+        Flag::NotSettled => "not settled",
+        Flag::Noisy => "noisy",
+        Flag::Clipped => "clipped",
+        Flag::MissingSamples => "missing samples",
+        Flag::DeadChannel => "dead channel",
+        Flag::WrongFrequency => "wrong frequency",
+        Flag::PhaseSensitive => "phase sensitive",
+    }
+}
+
+/// A quantity with its SI unit, for an axis.
+pub fn axis(quantity: Quantity, rotation: bool) -> &'static str {
+    match (quantity, rotation) {
+        (Quantity::Force, false) => "Force, N",
+        (Quantity::Force, true) => "Moment, N·m",
+        (Quantity::Acceleration, false) => "Acceleration, m/s²",
+        (Quantity::Acceleration, true) => "Angular acceleration, rad/s²",
+        (Quantity::Velocity, false) => "Velocity, m/s",
+        (Quantity::Velocity, true) => "Angular velocity, rad/s",
+        (Quantity::Displacement, false) => "Displacement, m",
+        (Quantity::Displacement, true) => "Rotation, rad",
+    }
+}
+
+/// A kind of structure in words.
+pub fn kind(kind: StructureKind) -> &'static str {
+    match kind {
+        StructureKind::Beam => "Euler-Bernoulli beam",
+        StructureKind::Chain => "chain of masses",
+        StructureKind::Matrices => "imported matrices",
+        StructureKind::Points => "points without a model",
+    }
+}
+
+/// A place by the labels of its DOFs: `7 to ground`, `7–9`, `1–3–5`, `whole structure`, `acc@7`.
+pub fn place(structure: &Structure, place: &Place) -> String {
+    match place {
+        Place::Dofs(dofs) if dofs.len() == 1 => format!("{} to ground", structure.label(dofs[0])),
+        Place::Dofs(dofs) => dofs.iter().map(|&d| structure.label(d)).collect::<Vec<_>>().join("–"),
+        Place::Whole(None) => "whole structure".to_owned(),
+        Place::Whole(Some([first, last])) => format!("elements {}–{}", first + 1, last + 1),
+        Place::Channel(channel) => channel.clone(),
+    }
+}
+
+/// The same, shorter: `7`, `7–9`.
+pub fn short_place(structure: &Structure, at: &Place) -> String {
+    match at {
+        Place::Dofs(dofs) if dofs.len() == 1 => structure.label(dofs[0]).to_owned(),
+        _ => place(structure, at),
+    }
+}
