@@ -40,3 +40,5 @@ pub mod measurement;
 pub mod response;
 pub mod session;
 pub mod structure;
+#[cfg(feature = "window")]
+pub mod window;

@@ -1,0 +1,101 @@
+//! Arguments that ask for the window or for a picture of it.
+
+use super::picture::{Picture, picture};
+use super::view::Stage;
+use clap::Parser;
+use std::ffi::OsString;
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+/// Draws a stage of the window without a display.
+#[derive(Debug, Parser)]
+#[command(name = "dashpot picture")]
+struct PictureArguments {
+    /// Project file; without it, the start screen.
+    file: Option<PathBuf>,
+    /// Stage: start, measure, structure, pattern, select or result.
+    #[arg(long, default_value = "measure")]
+    stage: String,
+    /// PNG file to write.
+    #[arg(long)]
+    out: PathBuf,
+    /// Width x height in pixels.
+    #[arg(long, default_value = "1600x1000", value_parser = size)]
+    size: [u32; 2],
+    /// Theme: light or dark.
+    #[arg(long, default_value = "light", value_parser = ["light", "dark"])]
+    theme: String,
+    /// Pane of the result: energy, damping, bode, nyquist or hysteresis.
+    #[arg(long)]
+    pane: Option<String>,
+}
+
+/// Does what the arguments ask for, where they ask for the window: none, one project file, or `picture`.
+pub fn run(arguments: &[OsString]) -> Option<ExitCode> {
+    match arguments.get(1..).unwrap_or_default() {
+        [] => Some(code(super::open(None))),
+        [first, ..] if first == "picture" => Some(match PictureArguments::try_parse_from(&arguments[1..]) {
+            Ok(arguments) => code(draw(arguments)),
+            Err(error) => {
+                let _ = error.print();
+                ExitCode::from(u8::try_from(error.exit_code()).unwrap_or(2))
+            }
+        }),
+        [file] if is_project(file) => Some(code(super::open(Some(PathBuf::from(file))))),
+        _ => None,
+    }
+}
+
+fn is_project(argument: &OsString) -> bool {
+    PathBuf::from(argument).extension().is_some_and(|e| e.eq_ignore_ascii_case("toml"))
+}
+
+fn draw(arguments: PictureArguments) -> Result<(), String> {
+    let stage = match arguments.stage.as_str() {
+        "start" => Stage::Measure,
+        name => Stage::from_name(name).ok_or_else(|| {
+            let known: Vec<String> = Stage::ALL.iter().map(|s| s.label().to_lowercase()).collect();
+            format!("--stage {name}: there is no such stage; choose start, {}", known.join(", "))
+        })?,
+    };
+    picture(&Picture {
+        file: arguments.file.filter(|_| arguments.stage != "start"),
+        stage,
+        pane: arguments.pane,
+        size: arguments.size,
+        dark: arguments.theme == "dark",
+        out: arguments.out,
+    })
+}
+
+fn size(text: &str) -> Result<[u32; 2], String> {
+    let fault = || "write width x height in pixels, from 640x480 to 8000x8000, such as 1600x1000".to_owned();
+    let (width, height) = text.split_once('x').ok_or_else(fault)?;
+    let parse = |t: &str| t.parse::<u32>().map_err(|_| fault());
+    let [width, height] = [parse(width)?, parse(height)?];
+    let fits = (640..=8000).contains(&width) && (480..=8000).contains(&height);
+    if fits { Ok([width, height]) } else { Err(fault()) }
+}
+
+fn code(result: Result<(), String>) -> ExitCode {
+    match result {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("{error}");
+            ExitCode::from(1)
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::size;
+
+    #[test]
+    fn sizes_are_read_or_refused_in_one_line() {
+        assert_eq!(size("1600x1000"), Ok([1600, 1000]));
+        for bad in ["1600", "0x10", "x", "99999x99999", "-1x700"] {
+            assert!(size(bad).is_err(), "{bad}");
+        }
+    }
+}

@@ -1,0 +1,79 @@
+//! The forward model of what was identified, as the result shows it: frequency responses and steady states.
+
+use super::plots::bode::Response;
+use super::plots::hysteresis::{self, Loop};
+use crate::effects::{Effect, Source};
+use crate::exchange::Project;
+use crate::identify::{self, Outcome};
+use crate::measurement::Quantity;
+use crate::response::dynamic_stiffness::DynamicStiffness;
+use faer::c64;
+
+/// The sources of the answer at their values; a law that is not linear stands as the dashpot that takes out as much energy.
+pub fn acting(p: &Project, outcome: &Outcome) -> Vec<Source> {
+    let one = |(k, estimate): (usize, &identify::Estimate)| {
+        let source = p.sources.get(estimate.source)?.with_coefficient(estimate.coefficient);
+        if source.effect.is_linear() {
+            return Some(source);
+        }
+        let c = outcome.results.equivalent.overall.get(k).copied().unwrap_or(0.0);
+        Some(Source::known(Effect::Viscous, source.place, &[c]))
+    };
+    outcome.sources.iter().enumerate().filter_map(one).collect()
+}
+
+/// Frequencies from a little below the lowest run to a little above the highest, closer together near the modes.
+pub fn frequencies(p: &Project, outcome: &Outcome) -> Vec<f64> {
+    let runs = || p.runs.iter().map(|r| r.fit.omega);
+    let low = 0.5 * runs().fold(f64::INFINITY, f64::min);
+    let high = 1.6 * runs().fold(0.0, f64::max);
+    let mut omega: Vec<f64> = (0..=400).map(|k| low * (high / low).powf(f64::from(k) / 400.0)).collect();
+    for mode in &outcome.results.modes {
+        let centre = std::f64::consts::TAU * mode.frequency_hz;
+        let width = (mode.damping_ratio * centre).max(1e-5 * centre);
+        for k in -60..=60 {
+            let x = f64::from(k) / 12.0;
+            omega.push(centre + width * x.sinh());
+        }
+    }
+    omega.retain(|w| (low..=high).contains(w));
+    omega.sort_by(f64::total_cmp);
+    omega.dedup();
+    omega
+}
+
+/// The receptance between two DOFs at `omega` (rad/s).
+///
+/// # Errors
+/// One line: an undamped resonance, or cancelled.
+pub fn receptance(
+    structure: &crate::structure::Structure,
+    sources: &[Source],
+    omega: Vec<f64>,
+    [response, excitation]: [usize; 2],
+    control: &crate::control::Control,
+) -> Result<Response, String> {
+    let stiffness = DynamicStiffness::new(structure, sources).map_err(|e| e.to_string())?;
+    let quantity = crate::response::frequency_response::Quantity::Receptance;
+    let values =
+        crate::response::frequency_response::direct(&stiffness, response, excitation, &omega, quantity, control)
+            .map_err(|e| e.to_string())?;
+    Ok(Response { response, excitation, omega, receptance: values })
+}
+
+/// Loops at the model's steady state under the measured force's fundamental.
+///
+/// # Errors
+/// One line: no matrices, or an undamped resonance.
+pub fn run_loops(p: &Project, outcome: &Outcome, run: usize) -> Result<Vec<Loop>, String> {
+    let r = p.runs.get(run).ok_or("there is no such run")?;
+    let stiffness = DynamicStiffness::new(&p.structure, &acting(p, outcome)).map_err(|e| e.to_string())?;
+    let mut force = vec![c64::new(0.0, 0.0); p.structure.len()];
+    for channel in r.fit.channels.iter().filter(|c| c.channel.quantity == Quantity::Force) {
+        force[channel.channel.dof] += channel.amplitudes.first().copied().unwrap_or_default();
+    }
+    let x = stiffness.solve(r.fit.omega, &force).map_err(|e| e.to_string())?;
+    let sources: Vec<Source> =
+        outcome.sources.iter().filter_map(|e| Some(p.sources.get(e.source)?.with_coefficient(e.coefficient))).collect();
+    Ok(hysteresis::loops(p, run, &x, &sources))
+}

@@ -1,0 +1,167 @@
+//! Menus and the bar of stages.
+
+use crate::window::app::{App, Ask};
+use crate::window::commands::Command;
+use crate::window::theme::{self, Palette, size, space};
+use crate::window::view::Stage;
+use crate::window::widgets::UiExt;
+use egui::{
+    Align, Align2, Button, Color32, Frame, Layout, Margin, Panel, Rect, RichText, Role, Sense, Ui, WidgetInfo, vec2,
+};
+
+/// Where a stage stands, and why in one line.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Mark {
+    kind: Kind,
+    /// The reason.
+    pub reason: String,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Kind {
+    Empty,
+    Done,
+    Attention,
+}
+
+impl Mark {
+    /// Nothing there yet.
+    pub fn empty(reason: &str) -> Self {
+        Self { kind: Kind::Empty, reason: reason.to_owned() }
+    }
+
+    /// In order.
+    pub fn done(reason: &str) -> Self {
+        Self { kind: Kind::Done, reason: reason.to_owned() }
+    }
+
+    /// Something should be looked at.
+    pub fn attention(reason: &str) -> Self {
+        Self { kind: Kind::Attention, reason: reason.to_owned() }
+    }
+}
+
+/// Shows both bars.
+pub fn show(ui: &mut Ui, app: &App, asks: &mut Vec<Ask>) {
+    let palette = Palette::of(ui.visuals());
+    let bar = Frame::new().fill(palette.pane).inner_margin(Margin::symmetric(10, 4));
+    Panel::top("menu").frame(bar).show(ui, |ui| {
+        egui::MenuBar::new().ui(ui, |ui| {
+            menus(ui, app, asks);
+            let title = app.document.as_ref().map_or_else(String::new, |d| {
+                let unsaved = if d.session().is_dirty() { "  (unsaved)" } else { "" };
+                format!("{}{unsaved}", d.project.title)
+            });
+            ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+                ui.hint(title);
+            });
+        });
+    });
+    if app.document.is_some() {
+        let bar = Frame::new().fill(palette.pane).inner_margin(Margin { left: 10, right: 10, top: 2, bottom: 0 });
+        Panel::top("stages").frame(bar).show(ui, |ui| stages(ui, app, asks));
+    }
+}
+
+fn menus(ui: &mut Ui, app: &App, asks: &mut Vec<Ask>) {
+    let open = app.document.is_some();
+    ui.menu_button("File", |ui| {
+        entry(ui, Command::Open, true, None, asks);
+        let dirty = app.document.as_ref().is_some_and(|d| d.session().is_dirty());
+        entry(ui, Command::Save, dirty, None, asks);
+        entry(ui, Command::Close, open, None, asks);
+        ui.separator();
+        entry(ui, Command::Quit, true, None, asks);
+    });
+    ui.menu_button("Edit", |ui| {
+        let undo = app.document.as_ref().and_then(|d| d.session().history().undo_label());
+        let redo = app.document.as_ref().and_then(|d| d.session().history().redo_label());
+        entry(ui, Command::Undo, undo.is_some(), undo, asks);
+        entry(ui, Command::Redo, redo.is_some(), redo, asks);
+        ui.separator();
+        entry(ui, Command::RemoveSelected, app.view.source.is_some(), None, asks);
+        entry(ui, Command::ClearCandidates, open, None, asks);
+    });
+    ui.menu_button("View", |ui| {
+        for command in [Command::Measure, Command::Structure, Command::Pattern, Command::Select, Command::Result] {
+            entry(ui, command, open, None, asks);
+        }
+        ui.separator();
+        entry(ui, Command::Shape, open, None, asks);
+        entry(ui, Command::Animate, open, None, asks);
+        ui.separator();
+        entry(ui, Command::Theme, true, None, asks);
+    });
+    ui.menu_button("Help", |ui| entry(ui, Command::Keys, true, None, asks));
+}
+
+fn entry(ui: &mut Ui, command: Command, enabled: bool, object: Option<&str>, asks: &mut Vec<Ask>) {
+    let e = command.entry();
+    let text = object.map_or_else(|| e.label.to_owned(), |object| format!("{} {object}", e.label));
+    let mut button = Button::new(text);
+    if let Some(keys) = e.keys {
+        button = button.shortcut_text(ui.ctx().format_shortcut(&keys));
+    }
+    if ui.add_enabled(enabled, button).on_hover_text(e.tooltip).clicked() {
+        asks.push(Ask::Command(command));
+        ui.close();
+    }
+}
+
+fn stages(ui: &mut Ui, app: &App, asks: &mut Vec<Ask>) {
+    ui.horizontal(|ui| {
+        ui.spacing_mut().item_spacing.x = 2.0;
+        for (k, stage) in Stage::ALL.into_iter().enumerate() {
+            if k > 0 {
+                chevron(ui);
+            }
+            if tab(ui, stage, app.view.stage == stage, &app.mark(stage)) {
+                asks.push(Ask::Stage(stage));
+            }
+        }
+        ui.add_space(space::L);
+        let mark = app.mark(app.view.stage);
+        let colour = if mark.kind == Kind::Attention { ui.palette().warning } else { ui.palette().weak };
+        ui.label(RichText::new(mark.reason).size(size::SMALL).color(colour));
+    });
+}
+
+fn chevron(ui: &mut Ui) {
+    let (rect, _) = ui.allocate_exact_size(vec2(12.0, 34.0), Sense::hover());
+    let c = rect.center();
+    let points = vec![c + vec2(-2.0, -4.0), c + vec2(2.0, 0.0), c + vec2(-2.0, 4.0)];
+    ui.painter().add(egui::Shape::line(points, theme::hair(ui.palette().weak)));
+}
+
+/// A stage with its mark; true when it was clicked.
+fn tab(ui: &mut Ui, stage: Stage, open: bool, mark: &Mark) -> bool {
+    let palette = ui.palette();
+    let galley =
+        ui.painter().layout_no_wrap(stage.label().to_owned(), theme::font(size::HEADING), Color32::PLACEHOLDER);
+    let (rect, response) = ui.allocate_exact_size(vec2(galley.size().x + 40.0, 34.0), Sense::click());
+    response.widget_info(|| WidgetInfo::selected(Role::Tab, true, open, stage.label()));
+    let painter = ui.painter();
+    if response.hovered() {
+        painter.rect_filled(rect.shrink2(vec2(0.0, 3.0)), 5.0, palette.raised);
+    }
+    let ink = if open { palette.accent } else { palette.ink };
+    let centre = rect.left_center() + vec2(15.0, 0.0);
+    match mark.kind {
+        Kind::Empty => drop(painter.circle_stroke(centre, 4.5, theme::pen(palette.weak))),
+        Kind::Done => {
+            painter.circle_filled(centre, 6.5, palette.good);
+            let tick = vec![centre + vec2(-2.8, 0.2), centre + vec2(-0.8, 2.4), centre + vec2(3.0, -2.2)];
+            painter.add(egui::Shape::line(tick, theme::pen(palette.pane)));
+        }
+        Kind::Attention => {
+            painter.circle_filled(centre, 6.5, palette.warning);
+            painter.text(centre, Align2::CENTER_CENTER, "!", theme::font(size::SMALL), palette.pane);
+        }
+    }
+    painter.galley(rect.left_center() + vec2(28.0, -0.5 * galley.size().y), galley, ink);
+    if open {
+        let line = Rect::from_min_max(rect.left_bottom() - vec2(0.0, 2.5), rect.right_bottom());
+        painter.rect_filled(line, 1.0, palette.accent);
+    }
+    response.on_hover_text(&mark.reason).clicked()
+}

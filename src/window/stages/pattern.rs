@@ -1,0 +1,154 @@
+//! Pattern: the palette of laws, families at one click, the list of sources.
+
+use super::split;
+use crate::effects::effect::Kind;
+use crate::effects::{Effect, Family, State};
+use crate::exchange::Project;
+use crate::window::app::{App, Ask};
+use crate::window::commands::Command;
+use crate::window::document::Edit;
+use crate::window::schematic::{paint::source_stroke, symbols};
+use crate::window::theme::{self, size, space};
+use crate::window::view::View;
+use crate::window::widgets::UiExt;
+use crate::window::words;
+use egui::{Align2, RichText, Role, ScrollArea, Sense, StrokeKind, Ui, WidgetInfo, pos2, vec2};
+use egui_extras::{Column, TableBuilder};
+
+/// Shows the stage.
+pub fn show(ui: &mut Ui, app: &mut App, asks: &mut Vec<Ask>) {
+    let Some(document) = &app.document else { return };
+    let p = &document.project;
+    let mut law = app.view.law;
+    let (mut chosen, mut drawn) = (None, Vec::new());
+    split(ui, 0.48, |ui| palette(ui, &mut law, &mut drawn), |ui| chosen = sources(ui, p, &app.view, asks));
+    asks.extend(drawn);
+    app.view.law = law;
+    if let Some(source) = chosen {
+        (app.view.source, app.view.dof) = (Some(source), None);
+    }
+}
+
+fn palette(ui: &mut Ui, law: &mut Effect, asks: &mut Vec<Ask>) {
+    ui.title("Laws", "what a click on the schematic draws");
+    ui.add_space(space::XS);
+    let families = 64.0;
+    let height = (ui.available_height() - families).max(80.0);
+    ScrollArea::vertical().max_height(height).auto_shrink(false).show(ui, |ui| {
+        ui.horizontal_wrapped(|ui| {
+            ui.spacing_mut().item_spacing = vec2(6.0, 6.0);
+            for effect in Effect::ALL {
+                if !matches!(effect.kind(), Kind::Channel(_)) && tile(ui, effect, effect == *law) {
+                    *law = effect;
+                }
+            }
+        });
+    });
+    ui.add_space(space::XS);
+    ui.horizontal_wrapped(|ui| {
+        let weak = ui.palette().weak;
+        ui.label(RichText::new("Add at".to_owned()).color(weak));
+        if matches!(law.kind(), Kind::Whole(_)) {
+            if ui.button("Whole structure").clicked() {
+                asks.push(Ask::Edit(Edit::DrawWhole(*law)));
+            }
+            return;
+        }
+        for (family, label) in [
+            (Family::EachTranslation, "Each translation"),
+            (Family::EachDof, "Each DOF"),
+            (Family::EachPair, "Each pair"),
+            (Family::Chain, "One chain"),
+        ] {
+            if ui.button(label).clicked() {
+                asks.push(Ask::Edit(Edit::DrawFamily(*law, family)));
+            }
+        }
+    });
+}
+
+/// A law with its symbol; true when it was clicked.
+fn tile(ui: &mut Ui, effect: Effect, chosen: bool) -> bool {
+    let palette = ui.palette();
+    let (rect, response) = ui.allocate_exact_size(vec2(118.0, 56.0), Sense::click());
+    let name = words::effect(effect);
+    response.widget_info(|| WidgetInfo::selected(Role::Button, true, chosen, name));
+    let lit = chosen || response.hovered() || response.has_focus();
+    let fill = if chosen { palette.accent_faint } else { palette.canvas };
+    let line = theme::hair(if lit { palette.accent } else { palette.line });
+    ui.painter().rect(rect, 5.0, fill, line, StrokeKind::Inside);
+    let ink = if chosen { palette.accent } else { palette.ink };
+    let y = rect.top() + 21.0;
+    symbols::draw(ui.painter(), effect, [pos2(rect.left() + 28.0, y), pos2(rect.right() - 28.0, y)], theme::pen(ink));
+    let at = pos2(rect.center().x, rect.bottom() - 10.0);
+    ui.painter().text(at, Align2::CENTER_CENTER, name, theme::font(size::SMALL), ink);
+    response.on_hover_text(parameters(effect)).clicked()
+}
+
+fn parameters(effect: Effect) -> String {
+    let one = |p: &crate::effects::Parameter| {
+        if p.unit.is_empty() {
+            p.name.to_owned()
+        } else {
+            format!("{}, {}", p.name, crate::window::format::pretty_unit(p.unit))
+        }
+    };
+    effect.parameters().iter().map(one).collect::<Vec<_>>().join("\n")
+}
+
+/// The list of sources; the one that was clicked.
+fn sources(ui: &mut Ui, p: &Project, view: &View, asks: &mut Vec<Ask>) -> Option<usize> {
+    let mut chosen = None;
+    let palette = ui.palette();
+    ui.horizontal(|ui| {
+        ui.title("Sources", "");
+        let count = |state: State| p.sources.iter().filter(|s| s.state == state).count();
+        for state in [State::Candidate, State::Forced, State::Known, State::Reference, State::Off] {
+            if count(state) > 0 {
+                let colour = source_stroke(palette, state, false, true).color;
+                ui.pill(&format!("{} {}", count(state), words::state(state)), colour);
+            }
+        }
+        if count(State::Candidate) > 0 && ui.small_button(Command::ClearCandidates.entry().label).clicked() {
+            asks.push(Ask::Command(Command::ClearCandidates));
+        }
+    });
+    if p.sources.is_empty() {
+        ui.empty("No sources yet", "Click a DOF on the schematic, or add a family of candidates at the left.");
+        return None;
+    }
+    ui.add_space(space::XS);
+    ui.style_mut().interaction.selectable_labels = false;
+    TableBuilder::new(ui)
+        .striped(true)
+        .sense(Sense::click())
+        .cell_layout(egui::Layout::left_to_right(egui::Align::Center))
+        .column(Column::exact(56.0))
+        .column(Column::exact(150.0))
+        .column(Column::remainder().clip(true))
+        .column(Column::exact(96.0))
+        .header(space::ROW, |mut header| {
+            for name in ["", "Law", "Place", "State"] {
+                header.col(|ui| drop(ui.hint(name)));
+            }
+        })
+        .body(|body| {
+            body.rows(space::ROW, p.sources.len(), |mut row| {
+                let index = row.index();
+                let s = &p.sources[index];
+                row.set_selected(view.source == Some(index));
+                let stroke = source_stroke(palette, s.state, false, true);
+                row.col(|ui| {
+                    let (rect, _) = ui.allocate_exact_size(vec2(46.0, space::ROW), Sense::hover());
+                    symbols::draw(ui.painter(), s.effect, [rect.left_center(), rect.right_center()], stroke);
+                });
+                row.col(|ui| drop(ui.label(words::effect(s.effect))));
+                row.col(|ui| drop(ui.label(words::place(&p.structure, &s.place))));
+                row.col(|ui| drop(ui.pill(words::state(s.state), stroke.color)));
+                if row.response().clicked() {
+                    chosen = Some(index);
+                }
+            });
+        });
+    chosen
+}

@@ -1,0 +1,138 @@
+//! What is looked at: stage, selection, shape. Neither saved with the project nor undone.
+
+use super::schematic::view::ViewState;
+use crate::effects::Effect;
+use crate::response::frequency_response::Quantity;
+
+/// A stage of the work.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Hash)]
+#[expect(missing_docs, reason = "the names say it")]
+pub enum Stage {
+    #[default]
+    Measure,
+    Structure,
+    Pattern,
+    Select,
+    Result,
+}
+
+impl Stage {
+    /// All stages, in the order of the work.
+    pub const ALL: [Self; 5] = [Self::Measure, Self::Structure, Self::Pattern, Self::Select, Self::Result];
+
+    /// Name on its tab.
+    pub fn label(self) -> &'static str {
+        match self {
+            Self::Measure => "Measure",
+            Self::Structure => "Structure",
+            Self::Pattern => "Pattern",
+            Self::Select => "Select",
+            Self::Result => "Result",
+        }
+    }
+
+    /// The stage of that name, in any case.
+    pub fn from_name(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|s| s.label().eq_ignore_ascii_case(name))
+    }
+}
+
+/// A pane of the result.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[expect(missing_docs, reason = "the names say it")]
+pub enum Pane {
+    #[default]
+    Energy,
+    Damping,
+    Bode,
+    Nyquist,
+    Hysteresis,
+}
+
+impl Pane {
+    /// All panes.
+    pub const ALL: [Self; 5] = [Self::Energy, Self::Damping, Self::Bode, Self::Nyquist, Self::Hysteresis];
+
+    /// Name on its tab.
+    pub fn label(self) -> &'static str {
+        match self {
+            Self::Energy => "Energy",
+            Self::Damping => "Damping",
+            Self::Bode => "Bode",
+            Self::Nyquist => "Nyquist",
+            Self::Hysteresis => "Hysteresis",
+        }
+    }
+
+    /// The pane of that name, in any case.
+    ///
+    /// # Errors
+    /// One line with the names there are.
+    pub fn from_name(name: &str) -> Result<Self, String> {
+        let names = Self::ALL.map(|p| p.label().to_lowercase()).join(", ");
+        Self::ALL
+            .into_iter()
+            .find(|p| p.label().eq_ignore_ascii_case(name))
+            .ok_or_else(|| format!("--pane {name}: there is no such pane; choose {names}"))
+    }
+}
+
+/// What is looked at.
+#[derive(Debug, Clone)]
+pub struct View {
+    /// Stage that is open.
+    pub stage: Stage,
+    /// Selected run.
+    pub run: usize,
+    /// Selected channel of the run.
+    pub channel: usize,
+    /// Selected mode.
+    pub mode: usize,
+    /// Step of the selection that is looked at; `None` is the accepted one.
+    pub step: Option<usize>,
+    /// Pane of the result.
+    pub pane: Pane,
+    /// Whether the matrix shows DOFs without damping too.
+    pub whole_matrix: bool,
+    /// What is divided by the force in frequency responses.
+    pub quantity: Quantity,
+    /// Selected DOF.
+    pub dof: Option<usize>,
+    /// Selected source, index in the project.
+    pub source: Option<usize>,
+    /// Law that is drawn.
+    pub law: Effect,
+    /// Whether the schematic is deflected.
+    pub shape: bool,
+    /// Whether it moves.
+    pub animate: bool,
+    /// Phase of the motion, rad.
+    pub phase: f64,
+    /// Of the schematic.
+    pub schematic: ViewState,
+    /// Whether the list of keys is open.
+    pub keys: bool,
+}
+
+impl Default for View {
+    fn default() -> Self {
+        Self {
+            stage: Stage::Measure,
+            run: 0,
+            channel: 0,
+            mode: 0,
+            step: None,
+            pane: Pane::Energy,
+            whole_matrix: false,
+            quantity: Quantity::Receptance,
+            dof: None,
+            source: None,
+            law: Effect::Viscous,
+            shape: true,
+            animate: false,
+            phase: 0.0,
+            schematic: ViewState::default(),
+            keys: false,
+        }
+    }
+}
