@@ -1,0 +1,7 @@
+//! The window, driven by accessible labels and real pointer events, and pictured by a software adapter.
+#![allow(clippy::unwrap_used, clippy::disallowed_methods, reason = "tests")]
+
+mod events;
+mod path;
+mod pictures;
+mod support;

@@ -1,0 +1,149 @@
+//! A small project with records that carry their own answer, and a window on it.
+
+use dashpot::control::Control;
+use dashpot::effects::{Effect, Place, Source};
+use dashpot::response::dynamic_stiffness::DynamicStiffness;
+use dashpot::structure::Structure;
+use dashpot::structure::beam::{BeamParameters, Supports};
+use dashpot::structure::chain::ChainParameters;
+use dashpot::window::App;
+use dashpot::window::document::Document;
+use egui_kittest::Harness;
+use faer::c64;
+use std::f64::consts::TAU;
+use std::fmt::Write as _;
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+/// A project in a folder of its own.
+pub struct Sample {
+    _folder: tempfile::TempDir,
+    /// Its file.
+    pub path: PathBuf,
+}
+
+/// A cantilever of five elements with dashpots of 0.3 and 0.8 N s/m at DOFs 3 and 7, measured at 5 and 9.
+pub fn beam() -> Sample {
+    let parameters = BeamParameters {
+        length: 0.5,
+        breadth: 0.04,
+        depth: 0.004,
+        youngs_modulus: 69e9,
+        density: 2700.0,
+        elements: 5,
+        supports: Supports::ClampedFree,
+    };
+    let structure = parameters.build(&[]).unwrap();
+    let head = "[project]\nformat = 1\ntitle = \"Test beam\"\n[structure]\nkind = \"beam\"\nlength = 0.5\nbreadth = 0.04\n\
+                depth = 0.004\nyoungs_modulus = 69e9\ndensity = 2700.0\nelements = 5\nsupports = \"clamped-free\"\n\
+                [[candidates]]\nlaw = \"viscous\"\nwhere = \"each-translation\"\n";
+    let truth = [(2, 0.3), (6, 0.8)].map(|(d, c)| Source::known(Effect::Viscous, Place::Dofs(vec![d]), &[c]));
+    write(head, &structure, &truth, 8, &[4, 8])
+}
+
+/// Four masses with a dashpot between the second and the third and a known one at the first.
+pub fn chain() -> Sample {
+    let parameters = ChainParameters {
+        masses: vec![1.0, 2.0, 1.5, 1.0],
+        ground_stiffness: vec![4000.0, 0.0, 0.0, 2000.0],
+        coupling_stiffness: vec![3000.0, 5000.0, 4000.0],
+    };
+    let structure = parameters.build(&[]).unwrap();
+    let head = "[project]\nformat = 1\ntitle = \"Test chain\"\n[structure]\nkind = \"chain\"\nmasses = [1.0, 2.0, 1.5, 1.0]\n\
+                ground_stiffness = [4000.0, 0.0, 0.0, 2000.0]\ncoupling_stiffness = [3000.0, 5000.0, 4000.0]\n\
+                [[source]]\nlaw = \"viscous\"\ndofs = [1]\nstate = \"known\"\nc = 1.0\n\
+                [[candidates]]\nlaw = \"viscous\"\nwhere = \"each-pair\"\n";
+    let truth = [
+        Source::known(Effect::Viscous, Place::Dofs(vec![0]), &[1.0]),
+        Source::known(Effect::Viscous, Place::Dofs(vec![1, 2]), &[6.0]),
+    ];
+    write(head, &structure, &truth, 3, &[0, 1, 2, 3])
+}
+
+/// Records at the natural frequencies, written as CSV.
+fn write(head: &str, structure: &Structure, truth: &[Source], force: usize, sensors: &[usize]) -> Sample {
+    let folder = tempfile::tempdir().unwrap();
+    let modes = structure.modes().unwrap();
+    let stiffness = DynamicStiffness::new(structure, truth).unwrap();
+    let mut text = head.to_owned();
+    for r in 0..modes.len().min(4) {
+        let omega = modes.omega[r];
+        let mut load = vec![c64::new(0.0, 0.0); structure.len()];
+        load[force] = c64::new(1.0, 0.0);
+        let x = stiffness.solve(omega, &load).unwrap();
+        let name = format!("run-{:02}.csv", r + 1);
+        std::fs::write(folder.path().join(&name), record(structure, &x, omega, force, sensors)).unwrap();
+        write!(text, "[[run]]\nfile = \"{name}\"\nfrequency = {:.9}\n", omega / TAU).unwrap();
+    }
+    let path = folder.path().join("project.toml");
+    std::fs::write(&path, text).unwrap();
+    Sample { _folder: folder, path }
+}
+
+/// Twelve periods of the steady state with a little noise that is the same on every machine.
+fn record(structure: &Structure, x: &[c64], omega: f64, force: usize, sensors: &[usize]) -> String {
+    let mut text = format!("time [s],force@{} [N]", structure.label(force));
+    for &s in sensors {
+        write!(text, ",acc@{} [m/s^2]", structure.label(s)).unwrap();
+    }
+    let n = 600;
+    let mut seed = 12345_u64;
+    let mut noise = || {
+        seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        2e-3 * ((seed >> 33) as f64 / f64::from(1_u32 << 31) - 0.5)
+    };
+    for k in 0..n {
+        let t = 12.0 * TAU / omega * f64::from(k) / f64::from(n);
+        let wave = |a: c64, noise: f64| a.re * (omega * t).cos() - a.im * (omega * t).sin() + noise * a.re.hypot(a.im);
+        write!(text, "\n{t:.12e},{:.9e}", wave(c64::new(1.0, 0.0), noise())).unwrap();
+        for &s in sensors {
+            write!(text, ",{:.9e}", wave(x[s] * (-omega * omega), noise())).unwrap();
+        }
+    }
+    text
+}
+
+/// The document of a sample, without a window.
+pub fn document(path: &Path) -> Document {
+    Document::open(path, &Control::unattended()).unwrap().0
+}
+
+/// A window without anything open.
+pub fn start() -> Harness<'static, App> {
+    window(None, egui::Theme::Light)
+}
+
+/// A window on a project, settled.
+pub fn open(sample: &Sample, theme: egui::Theme) -> Harness<'static, App> {
+    let mut harness = window(Some(sample.path.clone()), theme);
+    settle(&mut harness);
+    harness
+}
+
+fn window(file: Option<PathBuf>, theme: egui::Theme) -> Harness<'static, App> {
+    let mut harness =
+        Harness::builder().with_size(egui::vec2(1440.0, 900.0)).with_max_steps(40).wgpu().build_eframe(move |cc| {
+            dashpot::window::theme::install(&cc.egui_ctx);
+            cc.egui_ctx.set_theme(theme);
+            let mut app = App::default();
+            if let Some(file) = file {
+                app.open(&cc.egui_ctx, file);
+                app.settle().unwrap();
+            }
+            app
+        });
+    harness.run_steps(3);
+    harness
+}
+
+/// Steps until no job runs, at most a minute.
+pub fn settle(harness: &mut Harness<'_, App>) {
+    let start = Instant::now();
+    harness.run_steps(2);
+    while harness.state().running().is_some() {
+        assert!(start.elapsed() < Duration::from_secs(60), "{:?} still runs", harness.state().running());
+        std::thread::sleep(Duration::from_millis(5));
+        harness.run_steps(1);
+    }
+    harness.run_steps(3);
+}
