@@ -15,7 +15,7 @@ use egui::{CentralPanel, Context, Frame, Margin, Panel, Theme, Ui};
 use std::path::PathBuf;
 
 /// Longest wait for a project where nobody can cancel.
-const LONGEST: std::time::Duration = std::time::Duration::from_secs(600);
+const LONGEST: std::time::Duration = std::time::Duration::from_mins(10);
 
 /// A message that stays until it is closed.
 #[derive(Debug, Clone, PartialEq)]

@@ -149,7 +149,7 @@ impl Derived {
         let p = &document.project;
         let channels = || p.runs.iter().flat_map(|r| &r.fit.channels).map(|c| &c.channel);
         let excitation = channels().find(|c| c.quantity == Quantity::Force).map(|c| c.dof);
-        let sensor = channels().filter(|c| c.quantity != Quantity::Force).map(|c| c.dof).last();
+        let sensor = channels().filter(|c| c.quantity != Quantity::Force).map(|c| c.dof).next_back();
         let (Some(excitation), Some(sensor)) = (excitation, sensor) else {
             return Some(Err("No run has a force and a motion.".to_owned()));
         };

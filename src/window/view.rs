@@ -79,6 +79,7 @@ impl Pane {
 
 /// What is looked at.
 #[derive(Debug, Clone)]
+#[expect(clippy::struct_excessive_bools, reason = "each is a switch of its own on the screen")]
 pub struct View {
     /// Stage that is open.
     pub stage: Stage,

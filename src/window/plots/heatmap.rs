@@ -32,7 +32,7 @@ impl HeatMap<'_> {
         let palette = ui.palette();
         let n = self.rows.len().max(1) as f32;
         let room = ui.available_size() - vec2(LABEL, LABEL + 4.0);
-        let cell = (room.x / n).min(room.y / n).min(92.0).max(4.0);
+        let cell = (room.x / n).min(room.y / n).clamp(4.0, 92.0);
         let (area, response) = ui.allocate_exact_size(vec2(LABEL + n * cell, LABEL + n * cell), Sense::hover());
         response.widget_info(|| WidgetInfo::labeled(egui::Role::Image, true, self.words()));
         let origin = area.min + vec2(LABEL, LABEL);

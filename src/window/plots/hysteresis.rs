@@ -111,7 +111,7 @@ mod tests {
         let (x, f) = (c64::new(0.3, -0.8), c64::new(2.0, 0.5));
         let points = ellipse(x, f);
         let work: f64 = points.windows(2).map(|p| 0.5 * (p[0][1] + p[1][1]) * (p[1][0] - p[0][0])).sum();
-        let expected = std::f64::consts::PI * (f.im * x.re - f.re * x.im) * -1.0;
+        let expected = -(std::f64::consts::PI * (f.im * x.re - f.re * x.im));
         assert!((work.abs() - expected.abs()).abs() < 1e-3, "{work} {expected}");
     }
 }

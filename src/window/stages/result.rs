@@ -156,7 +156,7 @@ fn damping(ui: &mut Ui, outcome: &Outcome) {
                     ui.number(format::with_deviation(ratio, deviation, "%"));
                 });
                 row.col(|ui| {
-                    let text = mode.half_power_ratio.map_or_else(|| "–".to_owned(), |z| format::percent(z));
+                    let text = mode.half_power_ratio.map_or_else(|| "–".to_owned(), format::percent);
                     ui.number(text);
                 });
             });

@@ -18,7 +18,7 @@ pub fn show(ui: &mut Ui, app: &mut App) {
     let p = &document.project;
     if p.structure.matrices().is_none() {
         ui.pane(|ui| {
-            ui.empty("Points without a model", "No mass or stiffness is given: the energy balance needs none.")
+            ui.empty("Points without a model", "No mass or stiffness is given: the energy balance needs none.");
         });
         return;
     }
