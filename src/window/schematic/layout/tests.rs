@@ -1,3 +1,5 @@
+//! Positions of the schematic, checked with numbers.
+
 #![allow(clippy::unwrap_used, reason = "tests")]
 use super::{Camera, Layout};
 use crate::effects::{Effect, Place, Source};
