@@ -7,3 +7,4 @@ mod derivatives;
 mod folds;
 mod robustness;
 mod support;
+mod transients;

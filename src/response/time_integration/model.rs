@@ -4,7 +4,7 @@ use super::element::Element;
 use super::propagator::Propagator;
 use crate::effects::law::Basis;
 use crate::effects::{Effect, Leg, Place, Source, effect::Kind};
-use crate::response::harmonic_balance::{Excitation, Response};
+use crate::response::harmonic_balance::{Excitation, HarmonicForce, Response};
 use crate::structure::{Structure, SystemMatrices};
 use faer::Mat;
 use std::f64::consts::TAU;
@@ -73,6 +73,8 @@ pub struct TimeModel {
     receptance: Vec<f64>,
     /// Mean force of each driven DOF over each step of a period, N.
     drive: Vec<Vec<f64>>,
+    /// Force of each driven DOF at the start of each step of a period, N.
+    instant_drive: Vec<Vec<f64>>,
     /// Scaled displacements, then velocities.
     pub(crate) state: Vec<f64>,
     next: Vec<f64>,
@@ -106,10 +108,23 @@ impl TimeModel {
         let receptance = receptance.map(|(a, j)| between(a, j)).collect();
         let forces = vec![0.0; elements.len()];
         let zeros = vec![0.0; 2 * structure.len()];
-        let drive = drive(excitation, steps);
+        let (drive, instant_drive) = (drive(excitation, steps, true), drive(excitation, steps, false));
         let omega = excitation.omega;
         let (state, next) = (zeros.clone(), zeros);
-        Ok(Self { steps, step, omega, propagator, elements, receptance, drive, state, next, forces, count: 0 })
+        Ok(Self {
+            steps,
+            step,
+            omega,
+            propagator,
+            elements,
+            receptance,
+            drive,
+            instant_drive,
+            state,
+            next,
+            forces,
+            count: 0,
+        })
     }
 
     /// Starts at time zero of a periodic response.
@@ -154,6 +169,13 @@ impl TimeModel {
     /// Velocity of DOF `i`, m/s.
     pub fn velocity(&self, i: usize) -> f64 {
         self.state[self.propagator.size + i]
+    }
+
+    /// Accelerations (m/s^2) of all DOFs at the present instant, under the given forces of the nonlinear elements (N).
+    pub(crate) fn acceleration(&self, elements: impl Iterator<Item = f64>) -> Vec<f64> {
+        let phase = self.count % self.steps;
+        let drive = self.instant_drive.iter().map(|drive| drive[phase]);
+        self.propagator.acceleration(&self.state, elements.map(|f| -f).chain(drive))
     }
 
     /// Source, leg and mean force (N) over the last step of every nonlinear element.
@@ -294,16 +316,17 @@ fn patterns(n: usize, elements: &[Element], excitation: &Excitation) -> Mat<f64>
     patterns
 }
 
-/// Mean of each force over each step of the period.
-fn drive(excitation: &Excitation, steps: usize) -> Vec<Vec<f64>> {
+/// Each force over the steps of the period: its mean over each, or its value at the start of each.
+fn drive(excitation: &Excitation, steps: usize, mean: bool) -> Vec<Vec<f64>> {
     let angle = TAU / steps as f64;
-    let mean = |force: &crate::response::harmonic_balance::HarmonicForce, n: usize| {
+    let value = |force: &HarmonicForce, n: usize| {
         (1..=force.harmonics.len()).fold(force.mean, |sum, h| {
             let half = 0.5 * h as f64 * angle;
-            let (sin, cos) = (2.0 * half * (n as f64 + 0.5)).sin_cos();
+            let (share, shift) = if mean { (half.sin() / half, 0.5) } else { (1.0, 0.0) };
+            let (sin, cos) = (2.0 * half * (n as f64 + shift)).sin_cos();
             let f = force.amplitude(h);
-            sum + (f.re * cos - f.im * sin) * half.sin() / half
+            sum + (f.re * cos - f.im * sin) * share
         })
     };
-    excitation.forces.iter().map(|force| (0..steps).map(|n| mean(force, n)).collect()).collect()
+    excitation.forces.iter().map(|force| (0..steps).map(|n| value(force, n)).collect()).collect()
 }

@@ -23,6 +23,8 @@ pub(crate) struct Propagator {
     transition: Mat<f64>,
     /// `b_i`, 2n x inputs.
     inputs: Mat<f64>,
+    /// `[-M^-1 K, -M^-1 C, M^-1 l_i]`, n x (2n + inputs).
+    rates: Mat<f64>,
 }
 
 impl Propagator {
@@ -50,10 +52,15 @@ impl Propagator {
             };
             value * step
         });
+        let rates = Mat::from_fn(n, size, |i, j| match j {
+            j if j < n => -k[(i, j)],
+            j if j < 2 * n => -c[(i, j - n)],
+            j => b[(i, j - 2 * n)],
+        });
         let exponential = exponential(&a);
         let transition = exponential.submatrix(0, 0, 2 * n, 2 * n).to_owned();
         let inputs = exponential.submatrix(0, 2 * n, 2 * n, inputs).to_owned();
-        Some(Self { size: n, scale, transition, inputs })
+        Some(Self { size: n, scale, transition, inputs, rates })
     }
 
     /// `next = exp(A h) state`.
@@ -73,6 +80,20 @@ impl Propagator {
                 *x += b * force;
             }
         }
+    }
+
+    /// Accelerations (m/s^2) of all DOFs in `state` under forces of all patterns.
+    pub fn acceleration(&self, state: &[f64], forces: impl Iterator<Item = f64>) -> Vec<f64> {
+        let n = self.size;
+        let displacements = state[..n].iter().map(|x| x / self.scale);
+        let all = displacements.chain(state[n..].iter().copied()).chain(forces);
+        let mut result = vec![0.0; n];
+        for (j, value) in all.enumerate() {
+            for (x, r) in result.iter_mut().zip(self.rates.col_as_slice(j)) {
+                *x += r * value;
+            }
+        }
+        result
     }
 
     /// Displacement (m) of DOF `i` at the end of a step under a unit force of pattern `input` from rest.
@@ -121,6 +142,8 @@ mod tests {
         let b = (v0 + decay * a) / wd;
         let expected = f / k + e * (a * (wd * t).cos() + b * (wd * t).sin());
         assert!((next[0] / propagator.scale - expected).abs() < 1e-13);
+        let acceleration = propagator.acceleration(&[propagator.scale * x0, v0], std::iter::once(f))[0];
+        assert!((acceleration - (f - k * x0 - c * v0) / m).abs() < 1e-12);
         let rate = e * ((b * wd - decay * a) * (wd * t).cos() - (a * wd + decay * b) * (wd * t).sin());
         assert!((next[1] - rate).abs() < 1e-12);
     }

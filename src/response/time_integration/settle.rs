@@ -39,6 +39,8 @@ pub struct Samples {
     pub displacement: Mat<f64>,
     /// Velocity, m/s.
     pub velocity: Mat<f64>,
+    /// Acceleration, m/s^2; where a force jumps, the mean of both sides.
+    pub acceleration: Mat<f64>,
 }
 
 impl TimeModel {
@@ -72,16 +74,34 @@ impl TimeModel {
     pub fn record(&mut self, steps: usize) -> Result<Samples, TimeError> {
         let n = self.len();
         let mut time = Vec::with_capacity(steps);
-        let (mut displacement, mut velocity) = (Mat::zeros(steps, n), Mat::zeros(steps, n));
+        let blank = Mat::zeros(steps, n);
+        let mut samples =
+            Samples { time: Vec::new(), displacement: blank.clone(), velocity: blank.clone(), acceleration: blank };
         for row in 0..steps {
             time.push(self.time());
             for i in 0..n {
-                displacement[(row, i)] = self.displacement(i);
-                velocity[(row, i)] = self.velocity(i);
+                samples.displacement[(row, i)] = self.displacement(i);
+                samples.velocity[(row, i)] = self.velocity(i);
             }
+            let before = Instant { state: self.state.clone(), count: self.count, forces: self.forces.clone() };
             self.advance()?;
+            for (i, a) in self.acceleration_between(before).into_iter().enumerate() {
+                samples.acceleration[(row, i)] = a;
+            }
         }
-        Ok(Samples { time, displacement, velocity })
+        Ok(Samples { time, ..samples })
+    }
+
+    /// Acceleration at an instant, from the mean forces of the step before it and of the one just made.
+    fn acceleration_between(&mut self, mut before: Instant) -> Vec<f64> {
+        std::mem::swap(&mut self.state, &mut before.state);
+        std::mem::swap(&mut self.count, &mut before.count);
+        // At the very start there is no step before.
+        let old = |k: usize| if self.count == 0 { self.forces[k] } else { before.forces[k] };
+        let result = self.acceleration((0..self.forces.len()).map(|k| 0.5 * (old(k) + self.forces[k])));
+        std::mem::swap(&mut self.state, &mut before.state);
+        std::mem::swap(&mut self.count, &mut before.count);
+        result
     }
 
     /// Complex displacement amplitudes (m) of harmonics 1..=`order` over the next period: n rows, one column a harmonic.
@@ -114,6 +134,13 @@ impl TimeModel {
         }
         if size == 0.0 { 0.0 } else { (difference / size).sqrt() }
     }
+}
+
+/// An instant that was left.
+struct Instant {
+    state: Vec<f64>,
+    count: usize,
+    forces: Vec<f64>,
 }
 
 /// Anderson's mixing.
