@@ -1,6 +1,6 @@
 //! A program that does nothing but save is killed at random moments: the disk always holds the old file or the new one.
 
-use crate::support::{BEAM, file};
+use crate::support::file;
 use dashpot::session::save::{autosave, autosave_path, save};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -37,10 +37,14 @@ fn victim() {
 /// Number of the state that the file holds, complete to the last byte.
 fn held(path: &Path) -> u64 {
     let text = std::fs::read_to_string(path).unwrap();
-    let read = dashpot::exchange::project::ProjectFile::parse(&text, "project.toml").unwrap().0;
-    let n: u64 = read.project.title.parse().unwrap();
-    assert_eq!(text, state(n).to_toml().unwrap(), "state {n} is not whole");
-    n
+    whole(&text).unwrap_or_else(|| panic!("{} holds no whole state, but {} bytes", path.display(), text.len()))
+}
+
+/// Number of the state that the text is, if it is one to the last byte.
+fn whole(text: &str) -> Option<u64> {
+    let read = dashpot::exchange::project::ProjectFile::parse(text, "project.toml").ok()?.0;
+    let n: u64 = read.project.title.parse().ok()?;
+    (text == state(n).to_toml().unwrap()).then_some(n)
 }
 
 fn said(lines: &[String], word: &str) -> u64 {
@@ -50,7 +54,8 @@ fn said(lines: &[String], word: &str) -> u64 {
 
 fn kill_once(folder: &Path, after: Duration) -> u64 {
     let path = folder.join("project.toml");
-    save(&state(0), &path).unwrap();
+    // Plainly: nobody kills this write, and a sync takes long on a busy disk.
+    std::fs::write(&path, state(0).to_toml().unwrap()).unwrap();
     let mut child = Command::new(std::env::current_exe().unwrap())
         .args(["--exact", "kill::victim", "--ignored", "--nocapture"])
         .env(FOLDER, folder)
@@ -76,12 +81,33 @@ fn kill_once(folder: &Path, after: Duration) -> u64 {
     now
 }
 
+/// In memory where the system has such a folder. What a killed program leaves is decided by the order of its calls, not by
+/// the disk, and without waiting for syncs far more kills fall into the work. A power cut is another test than this.
+fn folder_of_memory() -> tempfile::TempDir {
+    tempfile::tempdir_in("/dev/shm").or_else(|_| tempfile::tempdir()).unwrap()
+}
+
+/// Time of an autosave and a save here and now: a sync takes a millisecond on one disk and a second on a busy one.
+fn round_time() -> Duration {
+    let folder = folder_of_memory();
+    let path = folder.path().join("project.toml");
+    let start = std::time::Instant::now();
+    autosave(&state(1), &path).unwrap();
+    save(&state(1), &path).unwrap();
+    start.elapsed()
+}
+
 fn kills(count: u64) {
     let mut random = ChaCha8Rng::seed_from_u64(5);
     let mut most = 0;
-    for _ in 0..count {
-        let folder = tempfile::tempdir().unwrap();
-        most = most.max(kill_once(folder.path(), Duration::from_micros(random.random_range(0..20_000))));
+    let round = round_time();
+    let start = std::time::Instant::now();
+    for done in 0..count {
+        if done % 10 == 0 {
+            println!("{done} kills after {:.1} s, at most {most} saves", start.elapsed().as_secs_f64());
+        }
+        let folder = folder_of_memory();
+        most = most.max(kill_once(folder.path(), round.mul_f64(random.random_range(0.0..4.0))));
     }
     assert!(most > 0, "no kill came after a save: the test tests nothing");
 }
@@ -92,21 +118,16 @@ fn hundred_kills_leave_the_old_file_or_the_new_one() {
 }
 
 #[test]
-#[ignore = "half a minute"]
+#[ignore = "a minute"]
 fn thousand_kills_leave_the_old_file_or_the_new_one() {
     kills(1000);
 }
 
 #[test]
-fn the_beam_of_the_tests_is_what_they_kill() {
-    assert!(BEAM.contains("clamped-free") && held_is_exact());
-}
-
-/// The check of [`held`] can fail: a file cut short is found out.
-fn held_is_exact() -> bool {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("cut.toml");
+fn a_state_that_is_not_whole_is_found_out() {
     let text = state(3).to_toml().unwrap();
-    std::fs::write(&path, text.replace("000000003 \"", "000000002 \"")).unwrap();
-    std::panic::catch_unwind(|| held(&path)).is_err()
+    assert_eq!(whole(&text), Some(3));
+    assert_eq!(whole(&text.replacen("000000003 ", "000000002 ", 1)), None, "one byte of another state");
+    assert_eq!(whole(&text[..text.len() / 2]), None, "cut short");
+    assert_eq!(whole(""), None);
 }
