@@ -8,6 +8,7 @@
 use super::model::ModelError;
 use crate::effects::law::Basis;
 use crate::effects::{Leg, Source, effect::Kind, place::Place};
+use crate::structure::modes::modes;
 use crate::structure::{Structure, SystemMatrices};
 use faer::linalg::solvers::Solve;
 use faer::{Mat, Side, c64};
@@ -41,8 +42,10 @@ pub(crate) struct LinearPart {
 impl LinearPart {
     /// Takes matrices and the whole-structure laws of `sources`.
     pub fn new(structure: Arc<Structure>, sources: &[Source]) -> Result<Self, ModelError> {
-        let SystemMatrices { mass, stiffness } = structure.matrices().ok_or(ModelError::NoMatrices)?;
-        let modal = if mass.nrows() > DENSE { Some(Arc::new(modal_basis(mass, stiffness)?)) } else { None };
+        let matrices = structure.matrices().ok_or(ModelError::NoMatrices)?;
+        let SystemMatrices { mass, stiffness } = matrices;
+        mass.llt(Side::Lower).map_err(|_| ModelError::MassNotPositive)?;
+        let modal = if mass.nrows() > DENSE { Some(Arc::new(modal_basis(matrices)?)) } else { None };
         let floating_shift = floating_shift(mass, stiffness);
         let part = Self { structure, whole: Vec::new(), modal, floating_shift };
         Ok(part.with_whole(sources))
@@ -108,10 +111,9 @@ impl LinearPart {
 
     /// `-omega_r^2 (M phi_r) (M phi_r)^T x`: the pseudo-force of a mode whose stiffness grows; `None` without such a mode.
     pub fn apply_mode(&self, mode: usize, x: &[c64]) -> Option<Vec<c64>> {
-        let SystemMatrices { mass, stiffness } = self.matrices();
         let basis = match &self.modal {
             Some(basis) => basis.clone(),
-            None => Arc::new(modal_basis(mass, stiffness).ok()?),
+            None => Arc::new(modal_basis(self.matrices()).ok()?),
         };
         let square = *basis.squares.get(mode)?;
         let zero = c64::new(0.0, 0.0);
@@ -241,19 +243,10 @@ fn multiply(matrix: &Mat<f64>, factor: c64, x: &[c64]) -> Vec<c64> {
     result
 }
 
-/// Undamped modes by Cholesky factors of the mass.
-fn modal_basis(mass: &Mat<f64>, stiffness: &Mat<f64>) -> Result<ModalBasis, ModelError> {
-    let llt = mass.llt(Side::Lower).map_err(|_| ModelError::MassNotPositive)?;
-    let mut reduced = stiffness.clone();
-    let par = faer::get_global_parallelism();
-    faer::linalg::triangular_solve::solve_lower_triangular_in_place(llt.L(), reduced.as_mut(), par);
-    let mut reduced = reduced.transpose().to_owned();
-    faer::linalg::triangular_solve::solve_lower_triangular_in_place(llt.L(), reduced.as_mut(), par);
-    let eigen = reduced.self_adjoint_eigen(Side::Lower).map_err(|_| ModelError::NoModes)?;
-    let mut shapes = eigen.U().to_owned();
-    faer::linalg::triangular_solve::solve_upper_triangular_in_place(llt.L().transpose(), shapes.as_mut(), par);
-    let squares = (0..mass.nrows()).map(|r| eigen.S().column_vector()[r].max(0.0)).collect();
-    Ok(ModalBasis { squares, shapes })
+/// Undamped modes, `phi^T M phi = 1`.
+fn modal_basis(matrices: &SystemMatrices) -> Result<ModalBasis, ModelError> {
+    let modes = modes(matrices).map_err(|error| ModelError::NoModes { reason: error.to_string() })?;
+    Ok(ModalBasis { squares: modes.omega.iter().map(|w| w * w).collect(), shapes: modes.shapes })
 }
 
 /// Zero for a structure that is held; for one that floats, a shift of `K` by `M` far below its stiffness.

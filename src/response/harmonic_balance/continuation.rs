@@ -9,6 +9,7 @@
 //! point is judged by Floquet's multipliers.
 
 use super::Settings;
+use super::arc::bordered;
 use super::dense::Lu;
 use super::model::{Excitation, ForwardModel, RunModel};
 use super::newton::relative;
@@ -237,19 +238,6 @@ impl Tracer<'_> {
         }
         None
     }
-}
-
-/// Factors of `[J, R_w; t_F w_u, t_w w_w]`.
-fn bordered(jacobian: &[f64], column: &[f64], tangent: &[f64], wu: f64, ww: f64) -> Option<Lu> {
-    let n = column.len();
-    let mut matrix = Vec::with_capacity((n + 1) * (n + 1));
-    for (row, last) in jacobian.chunks_exact(n).zip(column) {
-        matrix.extend_from_slice(row);
-        matrix.push(*last);
-    }
-    matrix.extend(tangent[..n].iter().map(|t| t * wu));
-    matrix.push(tangent[n] * ww);
-    Lu::new(n + 1, matrix)
 }
 
 /// All periodic responses at the excitation's frequency that lie on the curve through `range` (rad/s), each with its

@@ -9,6 +9,7 @@
 //! Harmonics are added until the response no longer changes (`solve`); turning points are passed by arc length
 //! (`continuation`); stability is that of Floquet's multipliers (`stability`).
 
+mod arc;
 mod compliance;
 mod condense;
 mod continuation;

@@ -23,10 +23,11 @@ pub enum ModelError {
     #[error("the mass matrix is not positive definite: every degree of freedom needs mass")]
     MassNotPositive,
     /// Eigenvalues were not found.
-    #[error(
-        "the natural modes of mass and stiffness were not found: check the matrices for values that are not finite"
-    )]
-    NoModes,
+    #[error("the natural modes were not found: {reason}")]
+    NoModes {
+        /// What went wrong.
+        reason: String,
+    },
     /// A DOF beyond the matrices.
     #[error("a source or force acts on row {dof} of {size} degrees of freedom (counted from zero)")]
     NoSuchDof {

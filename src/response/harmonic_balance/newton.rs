@@ -115,6 +115,14 @@ impl Balance<'_> {
         change
     }
 
+    /// Derivative of the residual by the level of the excitation: `-Phi_D D_lin`.
+    pub fn by_level(&self, answers: &[Answer]) -> Vec<f64> {
+        let still = vec![0.0; self.condensed.size()];
+        let mut change = self.answer_change(answers, &self.condensed.motion(&still, 1.0));
+        change.iter_mut().for_each(|c| *c = -*c);
+        change
+    }
+
     /// Iterates `u` to the balance under `level` times the excitation.
     pub fn solve(&self, u: &mut Vec<f64>, level: f64, tolerance: f64) -> Ending {
         let mut state = self.state(u, level);

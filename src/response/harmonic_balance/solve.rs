@@ -2,6 +2,7 @@
 //! where it turns back; then more harmonics until the watched ones rest.
 
 use super::Settings;
+use super::arc::level_arc;
 use super::condense::{Condensed, push_leg, split};
 use super::dense::Lu;
 use super::fourier::{Fourier, amplitude};
@@ -236,9 +237,15 @@ fn at_order(
             return Ok(assemble(run, prepared, excitation, u));
         }
     }
-    let (ending, reached) = raise(&balance, &mut u, settings.tolerance, control)?;
+    let (ending, mut reached) = raise(&balance, &mut u, settings.tolerance, control)?;
     record(Attempt::Level, ending);
     if ending.converged {
+        return Ok(assemble(run, prepared, excitation, u));
+    }
+    let (found, arc) = level_arc(&balance, settings.tolerance, control)?;
+    record(Attempt::Arc, arc.ending);
+    reached = reached.max(arc.reached);
+    if let Some(u) = found {
         return Ok(assemble(run, prepared, excitation, u));
     }
     Err(ResponseError::NotConverged {
@@ -246,7 +253,7 @@ fn at_order(
         level: reached,
         harmonics,
         steps: history.iter().map(|s| s.steps).sum(),
-        residual: ending.residual,
+        residual: arc.ending.residual.min(ending.residual),
     })
 }
 

@@ -1,0 +1,126 @@
+//! The last resort of a single response: the force raised from nothing along the arc, so that the path may turn back.
+//!
+//! ```text
+//! R(F, s) = 0,  D = s D_lin - C F,      t_F (F - F_0) / F_ref^2 + t_s (s - s_0) = step
+//! ```
+//!
+//! The first point at which the path reaches the full force, `s = 1`, is the answer.
+
+use super::dense::Lu;
+use super::newton::{Balance, Ending, relative};
+use super::outcome::ResponseError;
+use crate::control::Control;
+
+/// Most points of the path.
+const MOST_POINTS: usize = 400;
+/// Smallest and largest step of the arc.
+const STEPS: [f64; 2] = [1e-7, 0.2];
+
+/// What the arc came to.
+pub(crate) struct ArcEnding {
+    pub ending: Ending,
+    /// Greatest share of the excitation on the path.
+    pub reached: f64,
+}
+
+/// A point of the path with its direction.
+struct Point {
+    u: Vec<f64>,
+    level: f64,
+    tangent: Vec<f64>,
+}
+
+/// Leg forces under the whole excitation, if the path from nothing comes there.
+pub(crate) fn level_arc(
+    balance: &Balance,
+    tolerance: f64,
+    control: &Control,
+) -> Result<(Option<Vec<f64>>, ArcEnding), ResponseError> {
+    let size = balance.condensed.size();
+    let mut result = ArcEnding { ending: Ending { converged: false, steps: 0, residual: f64::INFINITY }, reached: 0.0 };
+    // Leg forces are measured by those that hold all legs at once, or their like.
+    let scale = reference(balance);
+    let mut up = vec![0.0; size + 1];
+    up[size] = 1.0;
+    let Some(mut point) = oriented(balance, vec![0.0; size], 0.0, &up, scale) else {
+        return Ok((None, result));
+    };
+    let mut step = 0.02;
+    for _ in 0..MOST_POINTS {
+        control.check()?;
+        let Some((next, steps)) = advance(balance, &point, step, tolerance, scale) else {
+            step *= 0.3;
+            if step < STEPS[0] {
+                break;
+            }
+            continue;
+        };
+        result.ending.steps += steps;
+        result.reached = result.reached.max(next.level.min(1.0));
+        if next.level >= 1.0 {
+            let share = (1.0 - point.level) / (next.level - point.level);
+            let mut u: Vec<f64> = point.u.iter().zip(&next.u).map(|(a, b)| a + share * (b - a)).collect();
+            let last = balance.solve(&mut u, 1.0, tolerance);
+            result.ending = Ending { steps: result.ending.steps + last.steps, ..last };
+            return Ok((last.converged.then_some(u), result));
+        }
+        point = next;
+        step = if steps <= 3 { (1.5 * step).min(STEPS[1]) } else { step };
+    }
+    Ok((None, result))
+}
+
+/// Size of the leg forces, N^2: of the laws' answers to the motion without any force.
+fn reference(balance: &Balance) -> f64 {
+    let still = vec![0.0; balance.condensed.size()];
+    let answer = balance.residual(&still, 1.0);
+    answer.iter().map(|x| x * x).sum::<f64>().clamp(f64::MIN_POSITIVE, f64::MAX)
+}
+
+/// The point with its tangent in the direction of `previous`.
+fn oriented(balance: &Balance, u: Vec<f64>, level: f64, previous: &[f64], scale: f64) -> Option<Point> {
+    let state = balance.state(&u, level);
+    let column = balance.by_level(&state.answers);
+    let mut tangent = vec![0.0; u.len() + 1];
+    tangent[u.len()] = 1.0;
+    bordered(&balance.jacobian(&state.answers), &column, previous, 1.0 / scale, 1.0)?.solve(&mut tangent);
+    let (last, forces) = tangent.split_last()?;
+    let norm = (forces.iter().map(|t| t * t / scale).sum::<f64>() + last * last).sqrt();
+    tangent.iter_mut().for_each(|t| *t /= norm);
+    Some(Point { u, level, tangent })
+}
+
+/// One step along the arc with its number of corrections; `None` if they do not converge.
+fn advance(balance: &Balance, point: &Point, step: f64, tolerance: f64, scale: f64) -> Option<(Point, usize)> {
+    let count = point.u.len();
+    let mut u: Vec<f64> = point.u.iter().zip(&point.tangent).map(|(x, t)| x + step * t).collect();
+    let mut level = point.level + step * point.tangent[count];
+    for iteration in 0..12 {
+        let state = balance.state(&u, level);
+        if relative(&state.residual, &u) <= 1e3 * tolerance {
+            return Some((oriented(balance, u, level, &point.tangent, scale)?, iteration));
+        }
+        let column = balance.by_level(&state.answers);
+        let lu = bordered(&balance.jacobian(&state.answers), &column, &point.tangent, 1.0 / scale, 1.0)?;
+        let along: f64 = u.iter().zip(&point.u).zip(&point.tangent).map(|((x, o), t)| (x - o) * t / scale).sum();
+        let mut change = state.residual;
+        change.push(along + (level - point.level) * point.tangent[count] - step);
+        lu.solve(&mut change);
+        u.iter_mut().zip(&change).for_each(|(x, c)| *x -= c);
+        level -= change[count];
+    }
+    None
+}
+
+/// Factors of `[J, column; t_F w_u, t_last w_last]`.
+pub(crate) fn bordered(jacobian: &[f64], column: &[f64], tangent: &[f64], weight: f64, last_weight: f64) -> Option<Lu> {
+    let n = column.len();
+    let mut matrix = Vec::with_capacity((n + 1) * (n + 1));
+    for (row, last) in jacobian.chunks_exact(n).zip(column) {
+        matrix.extend_from_slice(row);
+        matrix.push(*last);
+    }
+    matrix.extend(tangent[..n].iter().map(|t| t * weight));
+    matrix.push(tangent[n] * last_weight);
+    Lu::new(n + 1, matrix)
+}
