@@ -106,3 +106,82 @@ fn a_reader_that_leaves_early_is_no_failure() {
     assert!(!text(&output.stderr).contains("panicked"), "{}", text(&output.stderr));
     assert_eq!(output.status.code(), Some(0));
 }
+
+const SOUGHT: &str = "[project]\nformat = 1\ntitle = \"Two masses\"\n[structure]\nkind = \"chain\"\nmasses = [1, 2]\n\
+    ground_stiffness = [1e4, 0]\ncoupling_stiffness = [2e4]\n[[candidates]]\nlaw = \"viscous\"\nwhere = \"each-pair\"\n\
+    [[run]]\nfile = \"made/run-01.csv\"\nfrequency = 12\n";
+
+/// Folder with simulated records in `made` and a project that seeks the dashpot of 3 N s/m between the masses.
+fn measured() -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    let recipe = GOOD.replace("\"acc@1 [m/s^2]\"", "\"acc@1 [m/s^2]\", \"acc@2 [m/s^2]\"");
+    fs::write(folder.path().join("recipe.toml"), recipe).unwrap();
+    fs::write(folder.path().join("p.toml"), SOUGHT).unwrap();
+    let made = dashpot(&["simulate", "recipe.toml", "--out", "made", "--noise", "0.001"], folder.path());
+    assert_eq!(made.status.code(), Some(0), "{}", text(&made.stderr));
+    folder
+}
+
+fn json(arguments: &[&str], folder: &Path) -> serde_json::Value {
+    let output = dashpot(arguments, folder);
+    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    serde_json::from_slice(&output.stdout).unwrap()
+}
+
+#[test]
+fn identify_prints_a_table_or_one_document() {
+    let folder = measured();
+    let found = json(&["identify", "p.toml", "--json"], folder.path());
+    assert_eq!(found["title"], "Two masses");
+    assert_eq!(found["sources"][0]["dofs"], serde_json::json!(["1", "2"]));
+    let c = found["sources"][0]["parameters"]["c"].as_f64().unwrap();
+    assert!((c / 3.0 - 1.0).abs() < 0.01, "{c}");
+    assert_eq!(found["matrix"]["viscous"][0][1].as_f64().unwrap(), -c);
+    let table = dashpot(&["identify", "p.toml"], folder.path());
+    assert!(
+        text(&table.stdout).contains("Two masses")
+            && serde_json::from_slice::<serde_json::Value>(&table.stdout).is_err()
+    );
+}
+
+#[test]
+fn export_writes_the_matrix_and_names_what_it_wrote() {
+    let folder = measured();
+    let output = dashpot(&["export", "p.toml", "--to", "mtx", "--out", "c.mtx"], folder.path());
+    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    assert!(text(&output.stdout).contains("c.mtx"));
+    assert!(fs::read_to_string(folder.path().join("c.mtx")).unwrap().starts_with("%%MatrixMarket matrix"));
+    let refused = dashpot(&["export", "p.toml", "--to", "word", "--out", "c.doc"], folder.path());
+    assert_eq!(refused.status.code(), Some(2));
+}
+
+#[test]
+fn compare_and_diagnose_speak_of_what_is_missing() {
+    let folder = measured();
+    let compared = json(&["compare", "p.toml", "--json"], folder.path());
+    assert_eq!(compared["runs"][0]["channels"].as_array().unwrap().len(), 2);
+    assert!(compared["error"].as_f64() > compared["noise_floor"].as_f64());
+    let diagnosed = json(&["diagnose", "p.toml", "--json", "--apply", "better.toml"], folder.path());
+    assert!(diagnosed["verdict"].is_string() && diagnosed["steps"].is_array());
+    assert!(folder.path().join("better.toml").exists());
+}
+
+#[test]
+fn a_script_is_played_on_a_project_that_stays_as_it_is() {
+    let folder = measured();
+    let script = r#"[{"add_source": {"law": "coulomb", "dofs": ["1"]}}, {"set_title": "Played"}, "undo"]"#;
+    fs::write(folder.path().join("s.json"), script).unwrap();
+    let output = dashpot(&["run", "s.json", "p.toml", "--out", "q.toml"], folder.path());
+    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    assert_eq!(text(&output.stderr), "1 add friction pad\n2 change title\n3 undo change title\n");
+    assert_eq!(fs::read_to_string(folder.path().join("p.toml")).unwrap(), SOUGHT);
+    let played = fs::read_to_string(folder.path().join("q.toml")).unwrap();
+    assert!(played.contains("coulomb") && played.contains("Two masses"));
+    let printed = dashpot(&["run", "s.json", "p.toml"], folder.path());
+    assert_eq!(text(&printed.stdout), played);
+
+    fs::write(folder.path().join("s.json"), r#"[{"remove_source": {"law": "coulomb", "dofs": ["2"]}}]"#).unwrap();
+    let refused = dashpot(&["run", "s.json", "p.toml"], folder.path());
+    assert_eq!(refused.status.code(), Some(1));
+    assert!(text(&refused.stderr).starts_with("s.json: step 1 of the script"), "{}", text(&refused.stderr));
+}

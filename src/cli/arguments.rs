@@ -26,6 +26,8 @@ pub(super) enum Command {
     Diagnose(Diagnose),
     /// Make steady-state records of the model of a project
     Simulate(Simulate),
+    /// Play a script of commands on a project, as the window would do them
+    Run(Run),
 }
 
 #[derive(Debug, Args)]
@@ -98,6 +100,17 @@ pub(super) struct Export {
     /// File to write; formats that need several put the others beside it
     #[arg(long)]
     pub out: PathBuf,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct Run {
+    /// Script: a JSON list of commands, see docs/formats.md
+    pub script: PathBuf,
+    /// Project file; it stays as it is
+    pub file: PathBuf,
+    /// Project file to write; standard output unless given
+    #[arg(long)]
+    pub out: Option<PathBuf>,
 }
 
 fn noise(text: &str) -> Result<f64, String> {

@@ -5,7 +5,9 @@ use super::compare::{flags, problem};
 use super::table::{number, table};
 use crate::control::Control;
 use crate::effects::{Place, Source};
-use crate::exchange::{Project, project::load};
+use crate::exchange::Project;
+use crate::exchange::project::load;
+use crate::exchange::project::relocate::{canonical, renamed};
 use crate::explain::diagnose::{Added, Diagnosis, Suggestion, diagnose};
 use crate::structure::Structure;
 use anyhow::{Context, bail};
@@ -176,10 +178,10 @@ fn apply(file: &Path, out: &Path, project: &Project, diagnosis: &Diagnosis) -> a
         };
         list.push(entry);
     }
-    if let (Some(from), Some(to)) = (file.parent(), out.parent())
-        && from.canonicalize().ok() != if to.as_os_str().is_empty() { Path::new(".") } else { to }.canonicalize().ok()
-    {
-        relocate(&mut document, from);
+    let folder = |path: &Path| canonical(path.parent().unwrap_or(Path::new("")));
+    let (from, to) = (folder(file).with_context(context)?, folder(out).with_context(|| out.display().to_string())?);
+    if from != to {
+        relocate(&mut document, &from, &to);
     }
     crate::exchange::atomic::write_atomically(out, document.to_string().as_bytes())
         .with_context(|| out.display().to_string())
@@ -193,23 +195,22 @@ fn label(label: String) -> toml_edit::Value {
     }
 }
 
-/// Makes the paths of a project absolute, since the copy lies in another folder.
-fn relocate(document: &mut toml_edit::DocumentMut, folder: &Path) {
-    let folder = folder.canonicalize().unwrap_or_else(|_| folder.to_path_buf());
-    let absolute = |table: &mut toml_edit::Table, key: &str| {
-        if let Some(path) = table.get(key).and_then(toml_edit::Item::as_str) {
-            let path = folder.join(path).display().to_string();
-            table[key] = toml_edit::value(path);
+/// Names the files of a project from the folder of the copy.
+fn relocate(document: &mut toml_edit::DocumentMut, from: &Path, to: &Path) {
+    let rename = |table: &mut toml_edit::Table, key: &str| {
+        if let Some(name) = table.get(key).and_then(toml_edit::Item::as_str) {
+            let name = renamed(name, from, to);
+            table[key] = toml_edit::value(name);
         }
     };
     for name in ["run", "harmonics"] {
         if let Some(list) = document.get_mut(name).and_then(toml_edit::Item::as_array_of_tables_mut) {
-            list.iter_mut().for_each(|table| absolute(table, "file"));
+            list.iter_mut().for_each(|table| rename(table, "file"));
         }
     }
     if let Some(structure) = document.get_mut("structure").and_then(toml_edit::Item::as_table_mut) {
         for key in ["mass", "stiffness", "nodes", "dofs", "lines"] {
-            absolute(structure, key);
+            rename(structure, key);
         }
     }
 }

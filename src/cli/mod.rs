@@ -9,6 +9,7 @@ mod export;
 mod identify;
 mod identify_json;
 mod identify_table;
+mod play;
 mod simulate;
 mod source_json;
 mod table;
@@ -45,6 +46,7 @@ fn execute(command: &Command) -> anyhow::Result<String> {
         Command::Compare(arguments) => compare::run(arguments),
         Command::Diagnose(arguments) => diagnose::run(arguments),
         Command::Simulate(arguments) => simulate::run(arguments),
+        Command::Run(arguments) => play::run(arguments),
     }
 }
 

@@ -1,5 +1,6 @@
 //! The saved, undoable project, always valid: a change that would break it is refused with its reason.
 
+use super::save::SaveError;
 use super::{sources, structure};
 use crate::effects::source::SourceError;
 use crate::effects::{Effect, Source};
@@ -122,6 +123,18 @@ impl Document {
     /// The project file as data.
     pub fn file(&self) -> &Arc<ProjectFile> {
         &self.file
+    }
+
+    /// The project file as it is written into `folder`: its records and matrices named from there.
+    ///
+    /// # Errors
+    /// [`SaveError::Disk`] where the folder does not exist.
+    pub fn file_in(&self, folder: &Path) -> Result<ProjectFile, SaveError> {
+        self.file.relocated(&self.folder, folder).map_err(|error| SaveError::Disk {
+            action: "save the project",
+            reason: error.to_string(),
+            path: folder.into(),
+        })
     }
 
     /// The structure with its lumped masses.

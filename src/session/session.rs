@@ -35,7 +35,7 @@ impl Session {
     /// What the reader of projects says, or what makes the document invalid.
     pub fn open(path: &Path) -> Result<Self, Refusal> {
         let plan = open(path)?;
-        let document = Document::new(plan.file, path.parent().unwrap_or(Path::new("")))?;
+        let document = Document::new(plan.file, parent(path))?;
         let saved = Some(document.file().clone());
         Ok(Self { path: Some(path.to_owned()), saved, ..Self::new(document) })
     }
@@ -127,18 +127,18 @@ impl Session {
     /// [`SaveError`]; then the file is as it was and the document still unsaved.
     pub fn save(&mut self) -> Result<(), SaveError> {
         let path = self.path.clone().ok_or(SaveError::NoPath)?;
-        save::save(self.document.file(), &path)?;
+        save::save(&self.document.file_in(parent(&path))?, &path)?;
         self.saved = Some(self.document.file().clone());
         self.kept = None;
         Ok(())
     }
 
-    /// Saves the document under another name in the same folder, to which its files are relative, and goes on with that.
+    /// Saves the document under another name and goes on with that; files are then named from its folder.
     ///
     /// # Errors
     /// [`SaveError`]; then the session goes on with the old file.
     pub fn save_as(&mut self, path: &Path) -> Result<(), SaveError> {
-        save::save(self.document.file(), path)?;
+        save::save(&self.document.file_in(parent(path))?, path)?;
         self.path = Some(path.to_owned());
         self.saved = Some(self.document.file().clone());
         self.kept = None;
@@ -154,8 +154,12 @@ impl Session {
         if !self.is_dirty() || self.kept.as_ref() == Some(self.document.file()) {
             return Ok(false);
         }
-        save::autosave(self.document.file(), path)?;
+        save::autosave(&self.document.file_in(parent(path))?, path)?;
         self.kept = Some(self.document.file().clone());
         Ok(true)
     }
+}
+
+fn parent(path: &Path) -> &Path {
+    path.parent().unwrap_or(Path::new(""))
 }

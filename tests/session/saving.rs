@@ -48,6 +48,26 @@ fn a_save_that_fails_leaves_the_file_and_stays_dirty() {
 }
 
 #[test]
+fn saved_in_another_folder_it_names_the_same_records() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("project.toml");
+    std::fs::write(&path, format!("{BEAM}\n[[run]]\nfile = \"data/run-01.csv\"\n")).unwrap();
+    let other = folder.path().join("copies");
+    std::fs::create_dir(&other).unwrap();
+    let mut session = Session::open(&path).unwrap();
+    session.apply(&title("copy")).unwrap();
+    session.save_as(&other.join("copy.toml")).unwrap();
+    let named = || Session::open(&other.join("copy.toml")).unwrap().document().file().run.last().unwrap().file.clone();
+    assert_eq!(named(), "../data/run-01.csv");
+    assert!(!session.is_dirty());
+    session.undo();
+    session.save().unwrap();
+    assert_eq!(named(), "../data/run-01.csv", "undo and save go on with the new folder");
+    session.save_as(&path).unwrap();
+    assert_eq!(Session::open(&path).unwrap().document().file().run.last().unwrap().file, "data/run-01.csv");
+}
+
+#[test]
 fn a_damaged_autosave_is_no_harm() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("project.toml");

@@ -7,6 +7,7 @@ pub mod load;
 mod parse;
 pub mod plan;
 mod reader;
+pub mod relocate;
 mod sources;
 mod structure;
 
