@@ -4,6 +4,7 @@ use super::commands::{self, Command};
 use super::derived::Derived;
 use super::document::{Document, Edit};
 use super::frame;
+use super::photograph::Photograph;
 use super::schematic::gesture::Intent;
 use super::stages;
 use super::theme::{Palette, space};
@@ -56,6 +57,8 @@ pub struct App {
     pub view: View,
     /// Last message.
     pub message: Option<Message>,
+    /// A photograph that is to be taken.
+    pub photograph: Option<Photograph>,
     loading: Option<Job<(), Loaded>>,
     /// Time of the last autosave, s.
     kept: f64,
@@ -127,6 +130,10 @@ impl App {
     pub fn frame(&mut self, ui: &mut Ui) {
         self.poll();
         let ctx = ui.ctx().clone();
+        let busy = self.running().is_some();
+        if let Some(photograph) = &mut self.photograph {
+            photograph.frame(&ctx, busy);
+        }
         let mut asks: Vec<Ask> = commands::pressed(&ctx).into_iter().map(Ask::Command).collect();
         asks.extend(dropped(&ctx).map(Ask::Open));
         self.advance(&ctx);

@@ -7,6 +7,17 @@ use std::ffi::OsString;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
+/// Opens the window.
+#[derive(Debug, Parser)]
+#[command(name = "dashpot")]
+struct WindowArguments {
+    /// Project file; without it, the start screen.
+    file: Option<PathBuf>,
+    /// Writes what the window shows once everything has settled, says how long the first frame took, and closes.
+    #[arg(long, value_name = "PNG", hide = true)]
+    photograph: Option<PathBuf>,
+}
+
 /// Draws a stage of the window without a display.
 #[derive(Debug, Parser)]
 #[command(name = "dashpot picture")]
@@ -30,20 +41,24 @@ struct PictureArguments {
     pane: Option<String>,
 }
 
-/// Does what the arguments ask for, where they ask for the window: none, one project file, or `picture`.
+/// Does what the arguments ask for, where they ask for the window: none, a project file, or `picture`.
 pub fn run(arguments: &[OsString]) -> Option<ExitCode> {
     match arguments.get(1..).unwrap_or_default() {
-        [] => Some(code(super::open(None))),
-        [first, ..] if first == "picture" => Some(match PictureArguments::try_parse_from(&arguments[1..]) {
-            Ok(arguments) => code(draw(arguments)),
-            Err(error) => {
-                let _ = error.print();
-                ExitCode::from(u8::try_from(error.exit_code()).unwrap_or(2))
-            }
-        }),
-        [file] if is_project(file) => Some(code(super::open(Some(PathBuf::from(file))))),
+        [] => Some(code(super::open(None, None))),
+        [first, ..] if first == "picture" => {
+            Some(PictureArguments::try_parse_from(&arguments[1..]).map_or_else(|e| usage(&e), |a| code(draw(a))))
+        }
+        [first, ..] if is_project(first) || first == "--photograph" => {
+            let opened = |a: WindowArguments| code(super::open(a.file, a.photograph));
+            Some(WindowArguments::try_parse_from(arguments).map_or_else(|e| usage(&e), opened))
+        }
         _ => None,
     }
+}
+
+fn usage(error: &clap::Error) -> ExitCode {
+    let _ = error.print();
+    ExitCode::from(u8::try_from(error.exit_code()).unwrap_or(2))
 }
 
 fn is_project(argument: &OsString) -> bool {

@@ -8,6 +8,7 @@ pub mod document;
 pub mod format;
 pub mod forward;
 pub mod frame;
+pub mod photograph;
 pub mod picture;
 pub mod plots;
 pub mod schematic;
@@ -18,15 +19,17 @@ pub mod widgets;
 pub mod words;
 
 pub use app::App;
+pub use photograph::Photograph;
 pub use picture::{Picture, picture};
 
 use std::path::PathBuf;
 
-/// Opens the window, with a project or on the start screen, and returns when it is closed.
+/// Opens the window, with a project or on the start screen, and returns when it is closed. With `photograph` it writes
+/// what it shows there once everything has settled, and closes by itself.
 ///
 /// # Errors
 /// One line that says why no window could be opened.
-pub fn open(file: Option<PathBuf>) -> Result<(), String> {
+pub fn open(file: Option<PathBuf>, photograph: Option<PathBuf>) -> Result<(), String> {
     let viewport = egui::ViewportBuilder::default()
         .with_title("Dashpot")
         .with_app_id("dashpot")
@@ -36,6 +39,7 @@ pub fn open(file: Option<PathBuf>) -> Result<(), String> {
     let create = move |cc: &eframe::CreationContext<'_>| {
         theme::install(&cc.egui_ctx);
         let mut app = App::default();
+        app.photograph = photograph.map(Photograph::new);
         if let Some(file) = file {
             app.open(&cc.egui_ctx, file);
         }

@@ -1,17 +1,30 @@
 //! Pictures of the stages, compared with those that were looked at and stored; `UPDATE_SNAPSHOTS=1` rewrites them.
 
 use crate::support::{Sample, beam, chain, open, settle, start};
+use dashpot::window::App;
 use dashpot::window::view::{Pane, Stage};
 use egui::Theme;
+use egui_kittest::{Harness, SnapshotResults};
 
-fn picture(sample: &Sample, theme: Theme, stage: Stage, pane: Pane, name: &str) {
-    let mut harness = open(sample, theme);
-    harness.state_mut().view.stage = stage;
-    harness.state_mut().view.pane = pane;
-    settle(&mut harness);
-    harness.remove_cursor();
-    settle(&mut harness);
-    harness.snapshot(name);
+/// One window on a sample, pictured at one stage after the other.
+struct Pictures {
+    harness: Harness<'static, App>,
+    results: SnapshotResults,
+}
+
+impl Pictures {
+    fn of(sample: &Sample, theme: Theme) -> Self {
+        Self { harness: open(sample, theme), results: SnapshotResults::new() }
+    }
+
+    fn take(&mut self, stage: Stage, pane: Pane, name: &str) {
+        self.harness.state_mut().view.stage = stage;
+        self.harness.state_mut().view.pane = pane;
+        settle(&mut self.harness);
+        self.harness.remove_cursor();
+        settle(&mut self.harness);
+        self.results.add(self.harness.try_snapshot(name));
+    }
 }
 
 #[test]
@@ -25,31 +38,33 @@ fn start_screen() {
 #[test]
 fn stages_of_a_beam() {
     let sample = beam();
+    let mut pictures = Pictures::of(&sample, Theme::Light);
     for stage in Stage::ALL {
-        let name = stage.label().to_lowercase();
-        picture(&sample, Theme::Light, stage, Pane::Energy, &name);
+        pictures.take(stage, Pane::Energy, &stage.label().to_lowercase());
     }
 }
 
 #[test]
 fn panes_of_the_result() {
     let sample = beam();
+    let mut pictures = Pictures::of(&sample, Theme::Light);
     for pane in [Pane::Damping, Pane::Bode, Pane::Nyquist, Pane::Hysteresis] {
-        let name = format!("result-{}", pane.label().to_lowercase());
-        picture(&sample, Theme::Light, Stage::Result, pane, &name);
+        pictures.take(Stage::Result, pane, &format!("result-{}", pane.label().to_lowercase()));
     }
 }
 
 #[test]
 fn dark_theme() {
     let sample = beam();
-    picture(&sample, Theme::Dark, Stage::Select, Pane::Energy, "select-dark");
-    picture(&sample, Theme::Dark, Stage::Result, Pane::Bode, "result-bode-dark");
+    let mut pictures = Pictures::of(&sample, Theme::Dark);
+    pictures.take(Stage::Select, Pane::Energy, "select-dark");
+    pictures.take(Stage::Result, Pane::Bode, "result-bode-dark");
 }
 
 #[test]
 fn chain_of_masses() {
     let sample = chain();
-    picture(&sample, Theme::Light, Stage::Structure, Pane::Energy, "chain-structure");
-    picture(&sample, Theme::Light, Stage::Pattern, Pane::Energy, "chain-pattern");
+    let mut pictures = Pictures::of(&sample, Theme::Light);
+    pictures.take(Stage::Structure, Pane::Energy, "chain-structure");
+    pictures.take(Stage::Pattern, Pane::Energy, "chain-pattern");
 }

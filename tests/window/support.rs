@@ -122,7 +122,7 @@ pub fn open(sample: &Sample, theme: egui::Theme) -> Harness<'static, App> {
 
 fn window(file: Option<PathBuf>, theme: egui::Theme) -> Harness<'static, App> {
     let mut harness =
-        Harness::builder().with_size(egui::vec2(1440.0, 900.0)).with_max_steps(40).wgpu().build_eframe(move |cc| {
+        Harness::builder().with_size(egui::vec2(1440.0, 900.0)).with_theme(theme).wgpu().build_eframe(move |cc| {
             dashpot::window::theme::install(&cc.egui_ctx);
             cc.egui_ctx.set_theme(theme);
             let mut app = App::default();

@@ -24,7 +24,9 @@ fn left(ui: &mut Ui, app: &App, asks: &mut Vec<Ask>) {
     if let Some((name, progress)) = app.running() {
         ui.add(ProgressBar::new(progress as f32).desired_width(120.0).desired_height(6.0).fill(palette.accent));
         ui.label(name);
-    } else if let Some(message) = &app.message {
+        ui.separator();
+    }
+    if let Some(message) = &app.message {
         let colour = if message.failed { palette.error } else { palette.ink };
         let room = ui.available_width() - 420.0;
         let text = Label::new(RichText::new(&message.text).color(colour)).truncate();
@@ -38,7 +40,7 @@ fn left(ui: &mut Ui, app: &App, asks: &mut Vec<Ask>) {
         if ui.small_button("Dismiss").clicked() {
             asks.push(Ask::Dismiss);
         }
-    } else {
+    } else if app.running().is_none() {
         ui.hint("Ready");
     }
 }
