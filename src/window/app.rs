@@ -348,7 +348,8 @@ impl App {
 }
 
 impl eframe::App for App {
-    fn ui(&mut self, ui: &mut Ui, _frame: &mut eframe::Frame) {
+    fn ui(&mut self, ui: &mut Ui, frame: &mut eframe::Frame) {
+        super::solid::install(ui.ctx(), frame.wgpu_render_state());
         self.frame(ui);
     }
 }

@@ -12,6 +12,7 @@ pub mod photograph;
 pub mod picture;
 pub mod plots;
 pub mod schematic;
+pub mod solid;
 pub mod stages;
 pub mod theme;
 pub mod view;

@@ -17,7 +17,7 @@ pub struct Picture {
     pub file: Option<PathBuf>,
     /// Stage.
     pub stage: Stage,
-    /// Pane of the result, by name.
+    /// Pane of the result, by name; `matrix` shows the matrix as bars in space.
     pub pane: Option<String>,
     /// Width and height, pixels.
     pub size: [u32; 2],
@@ -42,10 +42,12 @@ pub fn picture(picture: &Picture) -> Result<(), String> {
     }
     app.view.stage = picture.stage;
     if let Some(name) = &picture.pane {
-        app.view.pane = Pane::from_name(name)?;
+        app.view.matrix_in_space = name == "matrix";
+        app.view.pane = if name == "matrix" { Pane::Energy } else { Pane::from_name(name)? };
     }
     let [width, height] = picture.size;
     let state = render_state()?;
+    super::solid::install(&ctx, Some(&state));
     let mut painter = Painter { state: &state, size: picture.size };
     let size = Vec2::new(width as f32, height as f32);
     let pixels = painter.settle(&ctx, size, &mut app)?;

@@ -95,6 +95,8 @@ pub struct View {
     pub pane: Pane,
     /// Whether the matrix shows DOFs without damping too.
     pub whole_matrix: bool,
+    /// Whether the matrix is shown as bars in space.
+    pub matrix_in_space: bool,
     /// What is divided by the force in frequency responses.
     pub quantity: Quantity,
     /// Selected DOF.
@@ -125,6 +127,7 @@ impl Default for View {
             step: None,
             pane: Pane::Energy,
             whole_matrix: false,
+            matrix_in_space: false,
             quantity: Quantity::Receptance,
             dof: None,
             source: None,

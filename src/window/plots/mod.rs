@@ -3,6 +3,7 @@
 pub mod angle;
 pub mod bars;
 pub mod bode;
+pub mod drawing;
 pub mod energy;
 pub mod heatmap;
 pub mod hysteresis;

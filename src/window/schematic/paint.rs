@@ -23,12 +23,18 @@ pub struct Marks<'a> {
     pub span: Option<Rect>,
     /// Whether states of sources are told apart (pattern) or only what was identified stands out.
     pub editing: bool,
+    /// Whether the structure is drawn in space beneath; lines and halos are then left out here.
+    pub in_space: bool,
 }
 
 /// Paints everything.
 pub fn paint(painter: &Painter, palette: &Palette, scene: &Scene, layout: &Layout, marks: &Marks<'_>) {
-    halos(painter, palette, layout, marks);
-    structure(painter, palette, scene, layout);
+    if marks.in_space {
+        at_rest(painter, palette, layout);
+    } else {
+        halos(painter, palette, layout, marks);
+        structure(painter, palette, scene, layout);
+    }
     for source in &layout.sources {
         let s = &scene.sources[source.slot];
         let target = Some(Target::Source(source.slot));
@@ -58,10 +64,14 @@ fn halos(painter: &Painter, palette: &Palette, layout: &Layout, marks: &Marks<'_
     }
 }
 
-fn structure(painter: &Painter, palette: &Palette, scene: &Scene, layout: &Layout) {
+fn at_rest(painter: &Painter, palette: &Palette, layout: &Layout) {
     for line in &layout.rest {
         painter.extend(Shape::dashed_line(line, theme::hair(palette.weak.gamma_multiply(0.7)), 5.0, 4.0));
     }
+}
+
+fn structure(painter: &Painter, palette: &Palette, scene: &Scene, layout: &Layout) {
+    at_rest(painter, palette, layout);
     let width = if scene.dofs.len() > 60 { theme::pen(palette.ink) } else { Stroke::new(4.0, palette.ink) };
     for line in &layout.body {
         painter.add(Shape::line(line.clone(), width));

@@ -5,8 +5,13 @@ use super::hit::{self, Target};
 use super::paint::{self, Marks};
 use super::{Camera, Layout, Scene};
 use crate::effects::Effect;
+use crate::window::format;
+use crate::window::solid::{self, wire::Wire};
 use crate::window::theme::{self, Palette};
 use egui::{Align2, CursorIcon, Key, Rect, Response, Role, Sense, Ui, Vec2, WidgetInfo};
+
+/// Points about a node of a wire model within which it is pointed at.
+const NODE_REACH: f32 = 4.0;
 
 /// What the widget remembers between frames; neither saved nor undone.
 #[derive(Debug, Clone, Default)]
@@ -56,13 +61,19 @@ impl View<'_> {
             rubber,
             span: drag.and_then(|d| d.span()),
             editing: self.law.is_some(),
+            in_space: layout.space.is_some() && solid::available(ui.ctx()),
         };
         let painter = ui.painter_at(area);
         painter.rect_filled(area, 6.0, palette.canvas);
+        if let Some(space) = layout.space.as_ref().filter(|_| marks.in_space) {
+            let wire = Wire { scene: self.scene, space, shares: self.shares };
+            wire.paint(&painter, palette, canvas.id.with("wire"), area);
+        }
         paint::paint(&painter, palette, self.scene, &layout, &marks);
         let corner = area.left_top() + Vec2::splat(12.0);
         painter.text(corner, Align2::LEFT_TOP, self.caption, theme::font(theme::size::SMALL), palette.weak);
-        self.tooltip(&canvas, hovered, drag.is_some());
+        let node = canvas.hover_pos().filter(|_| hovered.is_none()).and_then(|at| self.node_at(&layout, at));
+        self.tooltip(&canvas, hovered, node, drag.is_some());
         intents
     }
 
@@ -116,8 +127,7 @@ impl View<'_> {
         if let (Some(drag), Some(now)) = (&mut state.drag, pointer) {
             drag.now = now;
         } else if canvas.dragged() && Layout::turns(self.scene) {
-            state.camera.yaw -= 0.008 * canvas.drag_delta().x;
-            state.camera.pitch = (state.camera.pitch + 0.008 * canvas.drag_delta().y).clamp(-1.57, 1.57);
+            state.camera.turn(canvas.drag_delta());
         }
         if canvas.drag_stopped()
             && let Some(drag) = state.drag.take()
@@ -126,8 +136,7 @@ impl View<'_> {
             intents.push(Intent::Draw(dofs));
         }
         if canvas.hovered() && Layout::turns(self.scene) {
-            let scroll = ui.input(|i| i.smooth_scroll_delta().y);
-            state.camera.zoom = (state.camera.zoom * (0.002 * scroll).exp()).clamp(0.3, 8.0);
+            state.camera.zoom_by(ui.input(|i| i.smooth_scroll_delta().y));
         }
     }
 
@@ -137,11 +146,23 @@ impl View<'_> {
         Some((self.law?, [from, to]))
     }
 
-    fn tooltip(&self, canvas: &Response, hovered: Option<Target>, dragging: bool) {
-        let Some(target) = hovered.filter(|_| !dragging) else { return };
-        let text = match target {
-            Target::Dof(dof) => self.scene.describe(dof),
-            Target::Source(slot) => self.name(slot),
+    /// The node of a wire model that is nearest to the eye under the pointer.
+    fn node_at(&self, layout: &Layout, at: egui::Pos2) -> Option<usize> {
+        let space = layout.space.as_ref()?;
+        let wire = Wire { scene: self.scene, space, shares: self.shares };
+        wire.pick(&space.projection.ray(at, wire.reach()), NODE_REACH)
+    }
+
+    fn tooltip(&self, canvas: &Response, hovered: Option<Target>, node: Option<usize>, dragging: bool) {
+        let text = match (hovered.filter(|_| !dragging), node) {
+            (Some(Target::Dof(dof)), _) => self.scene.describe(dof),
+            (Some(Target::Source(slot)), _) => self.name(slot),
+            (None, Some(node)) if !dragging => {
+                let node = &self.scene.nodes[node];
+                let [x, y, z] = node.position.map(|v| format::significant(v, 4));
+                format!("Node {} at ({x}, {y}, {z}) m", node.label)
+            }
+            _ => return,
         };
         canvas.clone().on_hover_text_at_pointer(text);
     }

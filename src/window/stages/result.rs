@@ -11,7 +11,7 @@ use crate::window::plots::{bars, bode::Diagram, heatmap, hysteresis};
 use crate::window::theme::space;
 use crate::window::view::{Pane, View};
 use crate::window::widgets::UiExt;
-use crate::window::{format, words};
+use crate::window::{format, solid, words};
 use egui::{Align, Layout, ScrollArea, Ui};
 use egui_extras::{Column, TableBuilder};
 
@@ -21,12 +21,17 @@ pub fn show(ui: &mut Ui, app: &mut App, _asks: &mut [Ask]) {
     let Some(outcome) = super::outcome(ui, &mut app.derived, document) else { return };
     let p = &document.project;
     let (derived, view) = (&mut app.derived, &mut app.view);
-    let mut whole = view.whole_matrix;
-    split(ui, 0.40, |ui| matrix(ui, p, &outcome, &mut whole), |ui| panes(ui, document, &outcome, derived, view));
-    app.view.whole_matrix = whole;
+    let (mut whole, mut in_space) = (view.whole_matrix, view.matrix_in_space);
+    split(
+        ui,
+        0.40,
+        |ui| matrix(ui, p, &outcome, &mut whole, &mut in_space),
+        |ui| panes(ui, document, &outcome, derived, view),
+    );
+    (app.view.whole_matrix, app.view.matrix_in_space) = (whole, in_space);
 }
 
-fn matrix(ui: &mut Ui, p: &Project, outcome: &Outcome, whole: &mut bool) {
+fn matrix(ui: &mut Ui, p: &Project, outcome: &Outcome, whole: &mut bool, in_space: &mut bool) {
     let results = &outcome.results;
     let linear = results.others.is_empty();
     let (matrix, name) = if linear {
@@ -38,6 +43,11 @@ fn matrix(ui: &mut Ui, p: &Project, outcome: &Outcome, whole: &mut bool) {
         ui.title("Damping matrix", &format!("N·s/m, {name}"));
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             ui.checkbox(whole, "All DOFs");
+            for (shown, name) in [(true, "3-D"), (false, "Map")] {
+                if ui.selectable_label(*in_space == shown, name).clicked() {
+                    *in_space = shown;
+                }
+            }
         });
     });
     let occupied = heatmap::occupied(matrix);
@@ -48,7 +58,12 @@ fn matrix(ui: &mut Ui, p: &Project, outcome: &Outcome, whole: &mut bool) {
     }
     let labels: Vec<String> = p.structure.dofs().iter().map(|d| d.label.clone()).collect();
     ui.add_space(space::XS);
-    heatmap::HeatMap { matrix, rows: &rows, labels: &labels, unit: "N s/m" }.show(ui);
+    let map = heatmap::HeatMap { matrix, rows: &rows, labels: &labels, unit: "N s/m" };
+    if *in_space {
+        solid::bars::Bars::new(&map).show(ui, "matrix in space", map.unit);
+    } else {
+        map.show(ui);
+    }
 }
 
 fn panes(ui: &mut Ui, document: &Document, outcome: &Outcome, derived: &mut Derived, view: &mut View) {

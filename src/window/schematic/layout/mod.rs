@@ -7,24 +7,10 @@ mod wire;
 
 use super::model::{Scene, Support};
 use crate::structure::StructureKind;
+pub use crate::window::solid::Camera;
+use crate::window::solid::Projection;
 use egui::{Pos2, Rect, Vec2};
-
-/// The direction from which a wire model is looked at.
-#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize)]
-pub struct Camera {
-    /// Turn about the vertical axis, rad.
-    pub yaw: f32,
-    /// Height of the eye above the horizon, rad.
-    pub pitch: f32,
-    /// Magnification; 1 fills the pane.
-    pub zoom: f32,
-}
-
-impl Default for Camera {
-    fn default() -> Self {
-        Self { yaw: -0.6, pitch: 0.45, zoom: 1.0 }
-    }
-}
+use nalgebra::Vector3;
 
 /// A DOF that can be pointed at.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -96,6 +82,17 @@ pub struct PlacedSupport {
     pub support: Support,
 }
 
+/// A wire model in space, as it stands on the screen.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Space {
+    /// How it is looked at.
+    pub projection: Projection,
+    /// Nodes as they are drawn, m.
+    pub nodes: Vec<Vector3<f32>>,
+    /// How far each node is drawn from its place at rest, m.
+    pub moved: Vec<f32>,
+}
+
 /// Everything with its place.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Layout {
@@ -117,6 +114,8 @@ pub struct Layout {
     pub sensors: Vec<(usize, Pos2)>,
     /// Exciters: tail and tip of the arrow of force.
     pub exciters: Vec<(usize, [Pos2; 2])>,
+    /// Of a wire model.
+    pub space: Option<Space>,
 }
 
 impl Layout {

@@ -1,13 +1,11 @@
-//! A wire model in space: turned by yaw and pitch, projected in parallel, fitted to the pane.
-//!
-//! ```text
-//! right = ( cos yaw, sin yaw, 0 )      up = ( -sin yaw sin pitch, cos yaw sin pitch, cos pitch )
-//! ```
+//! A wire model in space: turned by yaw and pitch, projected in parallel by [`Projection`], fitted to the pane.
 
-use super::{Camera, Ground, Handle, Layout, Part, PlacedSource, beam::rank};
+use super::{Camera, Ground, Handle, Layout, Part, PlacedSource, Space, beam::rank};
 use crate::structure::Direction;
 use crate::window::schematic::model::Scene;
+use crate::window::solid::Projection;
 use egui::{Pos2, Rect, Vec2, vec2};
+use nalgebra::Vector3;
 
 const MARGIN: f32 = 64.0;
 const ARROW: f32 = 13.0;
@@ -16,12 +14,11 @@ const DEFLECTION: f64 = 0.09;
 
 struct Frame<'a> {
     scene: &'a Scene,
-    shape: Option<&'a [f64]>,
-    camera: Camera,
-    middle: [f64; 3],
-    extent: f64,
-    scale: f32,
-    origin: Pos2,
+    projection: Projection,
+    /// Nodes as they stand, deflected where there is a shape.
+    nodes: Vec<Vector3<f32>>,
+    /// Nodes at rest.
+    rest: Vec<Vector3<f32>>,
     alone: Vec<bool>,
 }
 
@@ -38,6 +35,11 @@ pub(super) fn place(scene: &Scene, area: Rect, camera: Camera, shape: Option<&[f
     Layout {
         rest: if shape.is_some() { scene.lines.iter().map(|l| line(l, false)).collect() } else { Vec::new() },
         body: scene.lines.iter().map(|l| line(l, true)).collect(),
+        space: Some(Space {
+            projection: frame.projection,
+            nodes: frame.nodes.clone(),
+            moved: frame.nodes.iter().zip(&frame.rest).map(|(a, b)| (a - b).norm()).collect(),
+        }),
         handles: (0..scene.dofs.len()).map(|d| frame.handle(d)).collect(),
         sources: (0..scene.sources.len()).map(|s| frame.source(s)).collect(),
         sensors: marked(|d| !d.sensors.is_empty()).map(|d| (d, frame.handle(d).pos + vec2(0.0, -9.0))).collect(),
@@ -48,54 +50,36 @@ pub(super) fn place(scene: &Scene, area: Rect, camera: Camera, shape: Option<&[f
 
 impl<'a> Frame<'a> {
     fn new(scene: &'a Scene, area: Rect, camera: Camera, shape: Option<&'a [f64]>) -> Self {
-        let (middle, extent) = bounds(scene);
         let alone = (0..scene.nodes.len()).map(|n| scene.dofs.iter().filter(|d| d.node == n).count() <= 1).collect();
-        let mut frame = Self { scene, shape, camera, middle, extent, scale: 1.0, origin: area.center(), alone };
-        frame.fit(area);
-        frame
-    }
-
-    /// Chooses scale and origin so that all nodes at rest fit, whatever their number.
-    fn fit(&mut self, area: Rect) {
-        let mut seen = Rect::NOTHING;
-        for node in &self.scene.nodes {
-            seen.extend_with(self.flat(node.position).to_pos2());
-        }
-        let room = (area.size() - Vec2::splat(2.0 * MARGIN)).max(Vec2::splat(40.0));
-        let size = seen.size().max(Vec2::splat(1e-9));
-        self.scale = (room.x / size.x).min(room.y / size.y) * self.camera.zoom;
-        self.origin = area.center() - seen.center().to_vec2() * self.scale;
-    }
-
-    /// Right and down, in metres, of a point seen from the camera.
-    fn flat(&self, p: [f64; 3]) -> Vec2 {
-        let [x, y, z] = [0, 1, 2].map(|k| (p[k] - self.middle[k]) as f32);
-        let (sy, cy) = self.camera.yaw.sin_cos();
-        let (sp, cp) = self.camera.pitch.sin_cos();
-        vec2(cy * x + sy * y, -(-sy * sp * x + cy * sp * y + cp * z))
-    }
-
-    fn node(&self, node: usize, deflected: bool) -> Pos2 {
-        let mut p = self.scene.nodes[node].position;
-        if let Some(shape) = self.shape.filter(|_| deflected) {
-            for (row, dof) in self.scene.dofs.iter().enumerate().filter(|(_, d)| d.node == node) {
+        let rest: Vec<_> = scene.nodes.iter().map(|n| Vector3::from(n.position.map(|v| v as f32))).collect();
+        let room =
+            Rect::from_center_size(area.center(), (area.size() - Vec2::splat(2.0 * MARGIN)).max(Vec2::splat(40.0)));
+        let projection = Projection::fit(&rest, camera, room);
+        let mut nodes = rest.clone();
+        if let Some(shape) = shape {
+            let size = (DEFLECTION * extent(scene)) as f32;
+            for (row, dof) in scene.dofs.iter().enumerate() {
                 if let Some(axis) = axis(dof.direction) {
-                    p[axis] += DEFLECTION * self.extent * shape[row];
+                    nodes[dof.node][axis] += size * shape[row] as f32;
                 }
             }
         }
-        self.origin + self.flat(p) * self.scale
+        Self { scene, projection, nodes, rest, alone }
+    }
+
+    fn node(&self, node: usize, deflected: bool) -> Pos2 {
+        self.projection.at(if deflected { self.nodes[node] } else { self.rest[node] })
     }
 
     /// Unit direction on the screen in which a DOF moves; up where it points at the eye.
     fn along(&self, dof: usize) -> Vec2 {
-        let mut p = self.middle;
-        match self.scene.dofs[dof].direction {
-            Direction::X | Direction::Rx => p[0] += 1.0,
-            Direction::Y | Direction::Ry => p[1] += 1.0,
-            Direction::Z | Direction::Rz => p[2] += 1.0,
-        }
-        let v = self.flat(p);
+        let axis = match self.scene.dofs[dof].direction {
+            Direction::X | Direction::Rx => Vector3::x(),
+            Direction::Y | Direction::Ry => Vector3::y(),
+            Direction::Z | Direction::Rz => Vector3::z(),
+        };
+        let [right, up, _] = self.projection.camera.axes();
+        let v = vec2(right.dot(&axis), -up.dot(&axis));
         if v.length() < 0.15 { Vec2::UP } else { v.normalized() }
     }
 
@@ -155,12 +139,11 @@ fn axis(direction: Direction) -> Option<usize> {
     }
 }
 
-/// Middle and largest dimension of all nodes, m.
-fn bounds(scene: &Scene) -> ([f64; 3], f64) {
+/// Largest dimension of all nodes, m.
+fn extent(scene: &Scene) -> f64 {
     let range = |k: usize| {
         let at = || scene.nodes.iter().map(|n| n.position[k]);
-        (at().fold(f64::INFINITY, f64::min), at().fold(f64::NEG_INFINITY, f64::max))
+        at().fold(f64::NEG_INFINITY, f64::max) - at().fold(f64::INFINITY, f64::min)
     };
-    let ranges = [range(0), range(1), range(2)];
-    (ranges.map(|(a, b)| 0.5 * (a + b)), ranges.iter().map(|(a, b)| b - a).fold(0.0, f64::max))
+    (0..3).map(range).fold(0.0, f64::max)
 }
