@@ -10,7 +10,7 @@ pub mod symbols;
 pub mod view;
 
 #[cfg(test)]
-mod samples;
+pub(crate) mod samples;
 
 pub use layout::{Camera, Layout};
 pub use model::Scene;

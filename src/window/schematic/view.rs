@@ -16,8 +16,8 @@ const NODE_REACH: f32 = 4.0;
 /// What the widget remembers between frames; neither saved nor undone.
 #[derive(Debug, Clone, Default)]
 pub struct ViewState {
-    /// Direction of view of a wire model.
-    pub camera: Camera,
+    /// Direction of view of a wire model; `None` is the one from which it fills the pane best.
+    pub camera: Option<Camera>,
     /// A drag in progress.
     pub drag: Option<Drag>,
 }
@@ -45,10 +45,14 @@ impl View<'_> {
         let palette = Palette::of(ui.visuals());
         let (area, canvas) = ui.allocate_exact_size(ui.available_size(), Sense::click_and_drag());
         canvas.widget_info(|| WidgetInfo::labeled(Role::Image, true, "Schematic"));
-        let layout = Layout::new(self.scene, area, state.camera, self.shape);
+        let camera = state.camera.unwrap_or_else(|| Layout::home(self.scene, area));
+        let layout = Layout::new(self.scene, area, camera, self.shape);
         let mut intents = self.handles(ui, &canvas, &layout);
         let hovered = canvas.hover_pos().and_then(|p| hit::at(&layout, p));
         self.gestures(ui, &canvas, &layout, state, &mut intents);
+        if Layout::turns(self.scene) {
+            turn(ui, &canvas, state, camera);
+        }
         if hovered.is_some() {
             ui.set_cursor_icon(CursorIcon::PointingHand);
         }
@@ -126,17 +130,12 @@ impl View<'_> {
         }
         if let (Some(drag), Some(now)) = (&mut state.drag, pointer) {
             drag.now = now;
-        } else if canvas.dragged() && Layout::turns(self.scene) {
-            state.camera.turn(canvas.drag_delta());
         }
         if canvas.drag_stopped()
             && let Some(drag) = state.drag.take()
             && let Some(dofs) = drag.dofs(layout)
         {
             intents.push(Intent::Draw(dofs));
-        }
-        if canvas.hovered() && Layout::turns(self.scene) {
-            state.camera.zoom_by(ui.input(|i| i.smooth_scroll_delta().y));
         }
     }
 
@@ -179,5 +178,22 @@ impl View<'_> {
         let state = crate::window::words::state(source.state);
         let value = source.identified.as_ref().map_or_else(String::new, |v| format!(", {v}"));
         format!("Source {}, {place}, {state}{value}", crate::window::words::effect(source.effect))
+    }
+}
+
+/// A drag that draws nothing turns a wire model, the wheel magnifies it, a double click goes back.
+fn turn(ui: &Ui, canvas: &Response, state: &mut ViewState, mut camera: Camera) {
+    let before = camera;
+    if canvas.dragged() && state.drag.is_none() {
+        camera.turn(canvas.drag_delta());
+    }
+    if canvas.hovered() {
+        camera.zoom_by(ui.input(|i| i.smooth_scroll_delta().y));
+    }
+    if camera != before {
+        state.camera = Some(camera);
+    }
+    if canvas.double_clicked() {
+        state.camera = None;
     }
 }

@@ -133,6 +133,11 @@ impl Layout {
         }
     }
 
+    /// The direction from which a scene in space fills `area` best; the default for all others.
+    pub fn home(scene: &Scene, area: Rect) -> Camera {
+        if Self::turns(scene) { wire::home(scene, area) } else { Camera::default() }
+    }
+
     /// The handle of a DOF.
     pub fn handle(&self, dof: usize) -> Option<&Handle> {
         self.handles.iter().find(|h| h.dof == dof)

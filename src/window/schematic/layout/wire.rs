@@ -48,13 +48,30 @@ pub(super) fn place(scene: &Scene, area: Rect, camera: Camera, shape: Option<&[f
     }
 }
 
+/// Nodes at rest.
+fn at_rest(scene: &Scene) -> Vec<Vector3<f32>> {
+    scene.nodes.iter().map(|n| Vector3::from(n.position.map(|v| v as f32))).collect()
+}
+
+/// The part of the pane that nodes may take; the rest is for symbols.
+fn inner(area: Rect) -> Rect {
+    Rect::from_center_size(area.center(), (area.size() - Vec2::splat(2.0 * MARGIN)).max(Vec2::splat(40.0)))
+}
+
+/// Of directions all around, the one at which the scale is largest; never along an axis, where lines hide each other.
+pub(super) fn home(scene: &Scene, area: Rect) -> Camera {
+    let nodes = at_rest(scene);
+    let camera = |k: u8| Camera { yaw: 0.3 + 0.1 * f32::from(k), ..Camera::default() };
+    let scale = |k: u8| Projection::fit(&nodes, camera(k), inner(area)).scale;
+    let best = (0..62).max_by(|a, b| scale(*a).total_cmp(&scale(*b))).unwrap_or(0);
+    camera(best)
+}
+
 impl<'a> Frame<'a> {
     fn new(scene: &'a Scene, area: Rect, camera: Camera, shape: Option<&'a [f64]>) -> Self {
         let alone = (0..scene.nodes.len()).map(|n| scene.dofs.iter().filter(|d| d.node == n).count() <= 1).collect();
-        let rest: Vec<_> = scene.nodes.iter().map(|n| Vector3::from(n.position.map(|v| v as f32))).collect();
-        let room =
-            Rect::from_center_size(area.center(), (area.size() - Vec2::splat(2.0 * MARGIN)).max(Vec2::splat(40.0)));
-        let projection = Projection::fit(&rest, camera, room);
+        let rest = at_rest(scene);
+        let projection = Projection::fit(&rest, camera, inner(area));
         let mut nodes = rest.clone();
         if let Some(shape) = shape {
             let size = (DEFLECTION * extent(scene)) as f32;
