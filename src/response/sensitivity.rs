@@ -10,7 +10,7 @@
 //! Where the response is extrapolated from two numbers of harmonics, so are its derivatives.
 
 use super::harmonic_balance::{Balance, Excitation, Lu, Prepared, Response, ResponseError, RunModel};
-use super::harmonic_balance::{add_amplitude, amplitude, richardson, stiffness_of};
+use super::harmonic_balance::{richardson, stiffness_of};
 use crate::effects::effect::Kind;
 use crate::effects::{Motion, Source};
 use faer::{Mat, c64};
@@ -81,9 +81,8 @@ pub fn sensitivities(
     }
     let run = run.fitting(sources);
     let mut fine = at_order(&run, sources, excitation, response, &response.unknowns, response.order(), unknowns)?;
-    if let Some(coarse) = &response.coarse {
-        let legs = response.unknowns.len() / (2 * response.order() + 1);
-        let order = (coarse.len() / legs.max(1) - 1) / 2;
+    if let Some((order, coarse)) = &response.coarse {
+        let order = *order;
         let below = at_order(&run, sources, excitation, response, coarse, order, unknowns)?;
         let weight = richardson(order, response.order());
         for (fine, below) in fine.iter_mut().zip(&below) {
@@ -145,7 +144,8 @@ fn at_order(
     let one = |&unknown: &Unknown| {
         let loads = at.loads(unknown);
         let mut linear = at.linear_change(&loads);
-        let mut change = at.balance.answer_change(&state.answers, &at.leg_motion(&linear));
+        let mut change =
+            at.balance.answer_change(&state.answers, &at.prepared.condensed.motion_of(|h| run.compliance(h), &linear));
         at.add_parameter(unknown, &mut change);
         lu.solve(&mut change);
         at.add_legs(&change, &mut linear);
@@ -216,18 +216,6 @@ impl Differentiated<'_> {
         loads.iter().enumerate().map(respond).collect()
     }
 
-    /// Coefficients of the relative motions of the nonlinear legs.
-    fn leg_motion(&self, x: &[Vec<c64>]) -> Vec<f64> {
-        let width = self.prepared.condensed.width();
-        let mut motion = vec![0.0; self.u.len()];
-        for (leg, part) in self.prepared.condensed.legs.iter().zip(motion.chunks_exact_mut(width)) {
-            for (h, x) in x.iter().enumerate().filter(|(_, x)| !x.is_empty()) {
-                add_amplitude(part, h, leg.leg.relative(|i| x[i]));
-            }
-        }
-        motion
-    }
-
     /// Adds `Phi_p` of the legs that belong to the unknown.
     fn add_parameter(&self, unknown: Unknown, change: &mut [f64]) {
         let Unknown::Source { source, parameter } = unknown else { return };
@@ -242,20 +230,11 @@ impl Differentiated<'_> {
 
     /// Adds what a change of the leg forces does.
     fn add_legs(&self, forces: &[f64], x: &mut [Vec<c64>]) {
-        let (condensed, width) = (&self.prepared.condensed, self.prepared.condensed.width());
         if forces.is_empty() {
             return;
         }
         for (h, x) in x.iter_mut().enumerate() {
-            let mut load = vec![c64::new(0.0, 0.0); self.run.len()];
-            for (leg, part) in condensed.legs.iter().zip(forces.chunks_exact(width)) {
-                let force = amplitude(part, h);
-                load[leg.leg.first] -= force;
-                if let Some(second) = leg.leg.second {
-                    load[second] += force;
-                }
-            }
-            let change = condensed.linear_response(self.run.compliance(h), h, &load);
+            let change = self.prepared.condensed.pulled(self.run.compliance(h), h, self.run.len(), forces);
             x.resize(change.len(), c64::new(0.0, 0.0));
             x.iter_mut().zip(change).for_each(|(x, c)| *x += c);
         }

@@ -1,11 +1,13 @@
 //! Receptance of the structure alone at one harmonic, `A_h = Z(h w)^-1`, ready to be asked for single entries.
 //!
-//! `Z(w) = (1 + 1e-11 i) K - w^2 M + sum of whole-structure laws`. Small structures keep the inverse itself; larger ones
+//! `Z(w) = (1 + 1e-14 i) K - w^2 M + sum of whole-structure laws`. Small structures keep the inverse itself; larger ones
 //! their undamped modes, `A = sum_r phi_r phi_r^T / z_r`, where the laws are diagonal. Sources between single DOFs are
-//! added afterwards (`condense`), so that one receptance serves every candidate. The loss factor 1e-11 keeps `Z`
-//! regular at an undamped natural frequency and is far below any damping that can be measured.
+//! added afterwards (`condense`), so that one receptance serves every candidate. The loss factor 1e-14 keeps `Z`
+//! regular at an undamped natural frequency and is far below any damping that can be measured; modes near resonance are
+//! set apart (`resonant`).
 
 use super::model::ModelError;
+use super::resonant::{Pattern, Resonant, damping, near};
 use crate::effects::law::Basis;
 use crate::effects::{Leg, Source, effect::Kind, place::Place};
 use crate::structure::modes::modes;
@@ -15,7 +17,7 @@ use faer::{Mat, Side, c64};
 use std::sync::Arc;
 
 /// Loss factor that keeps undamped structures regular at their natural frequencies.
-const REGULARISING_LOSS: f64 = 1e-11;
+const REGULARISING_LOSS: f64 = 1e-14;
 /// Up to this many degrees of freedom the inverse is formed at every harmonic.
 const DENSE: usize = 60;
 
@@ -34,7 +36,7 @@ pub(crate) struct LinearPart {
     structure: Arc<Structure>,
     /// Whole-structure laws: source, and its own matrix where it is restricted to elements.
     whole: Vec<(Source, Option<Arc<Mat<f64>>>)>,
-    modal: Option<Arc<ModalBasis>>,
+    basis: Arc<ModalBasis>,
     /// Shift of `K` by a multiple of `M` at rest, for structures that float.
     floating_shift: f64,
 }
@@ -45,9 +47,9 @@ impl LinearPart {
         let matrices = structure.matrices().ok_or(ModelError::NoMatrices)?;
         let SystemMatrices { mass, stiffness } = matrices;
         mass.llt(Side::Lower).map_err(|_| ModelError::MassNotPositive)?;
-        let modal = if mass.nrows() > DENSE { Some(Arc::new(modal_basis(matrices)?)) } else { None };
+        let basis = Arc::new(modal_basis(matrices)?);
         let floating_shift = floating_shift(mass, stiffness);
-        let part = Self { structure, whole: Vec::new(), modal, floating_shift };
+        let part = Self { structure, whole: Vec::new(), basis, floating_shift };
         Ok(part.with_whole(sources))
     }
 
@@ -111,16 +113,20 @@ impl LinearPart {
 
     /// `-omega_r^2 (M phi_r) (M phi_r)^T x`: the pseudo-force of a mode whose stiffness grows; `None` without such a mode.
     pub fn apply_mode(&self, mode: usize, x: &[c64]) -> Option<Vec<c64>> {
-        let basis = match &self.modal {
-            Some(basis) => basis.clone(),
-            None => Arc::new(modal_basis(self.matrices()).ok()?),
-        };
-        let square = *basis.squares.get(mode)?;
-        let zero = c64::new(0.0, 0.0);
-        let shape: Vec<c64> = basis.shapes.col_as_slice(mode).iter().map(|&s| c64::new(s, 0.0)).collect();
-        let weighted = self.apply_matrices(zero, c64::new(1.0, 0.0), &shape);
-        let amplitude = weighted.iter().zip(x).fold(zero, |s, (w, x)| s + *w * *x);
-        Some(weighted.iter().map(|w| *w * amplitude * -square).collect())
+        let square = *self.basis.squares.get(mode)?;
+        let weighted = self.times_mass(self.basis.shape(mode));
+        let amplitude = weighted.iter().zip(x).fold(c64::new(0.0, 0.0), |s, (w, x)| s + *x * *w);
+        Some(weighted.iter().map(|w| amplitude * (*w * -square)).collect())
+    }
+
+    /// `M x`.
+    pub fn times_mass(&self, x: &[f64]) -> Vec<f64> {
+        let mass = &self.matrices().mass;
+        let mut result = vec![0.0; x.len()];
+        for (j, value) in x.iter().enumerate() {
+            result.iter_mut().zip(mass.col_as_slice(j)).for_each(|(r, m)| *r += m * value);
+        }
+        result
     }
 
     /// Factors of `K` and `M` in `Z(omega)`, without laws restricted to elements.
@@ -153,32 +159,85 @@ impl LinearPart {
         z
     }
 
-    /// Receptance at `omega` (rad/s; 0 is static).
-    pub fn compliance(&self, omega: f64) -> Compliance {
-        match &self.modal {
-            Some(basis) if self.whole.iter().all(|(_, own)| own.is_none()) => {
-                let [fk, fm] = self.factors(omega);
-                let factors = basis.squares.iter().map(|&square| c64::new(1.0, 0.0) / (fk * square + fm)).collect();
-                Compliance::Modal { factors, basis: basis.clone() }
-            }
-            _ => {
-                let identity = Mat::<c64>::identity(self.len(), self.len());
-                Compliance::Dense(self.dynamic_stiffness(omega).partial_piv_lu().solve(identity))
-            }
+    /// Receptance at `omega` (rad/s; 0 is static); modes at resonance are set apart if `apart`.
+    pub fn compliance(&self, omega: f64, apart: bool) -> Compliance {
+        let factors = self.factors(omega);
+        let modes = if apart && omega > 0.0 { near(&self.basis, factors) } else { Vec::new() };
+        let mut resonant: Vec<Resonant> = modes.iter().map(|&r| Resonant::new(self, &self.basis, r)).collect();
+        let inverse = if self.len() > DENSE && self.whole.iter().all(|(_, own)| own.is_none()) {
+            self.modal_inverse(factors, &modes)
+        } else {
+            self.dense_inverse(omega, &modes)
+        };
+        for mode in &mut resonant {
+            let force: Vec<c64> = mode.pattern.iter().map(|&v| c64::new(v, 0.0)).collect();
+            let mut column = vec![c64::new(0.0, 0.0); self.len()];
+            inverse.apply(&force, &mut column);
+            mode.column = column;
         }
+        Compliance { inverse, resonant }
+    }
+
+    fn modal_inverse(&self, [fk, fm]: [c64; 2], damped: &[usize]) -> Inverse {
+        let mut stiffness: Vec<c64> = self.basis.squares.iter().map(|&square| fk * square + fm).collect();
+        for &r in damped {
+            stiffness[r] += damping(&self.basis, r);
+        }
+        let factors = stiffness.into_iter().map(|z| c64::new(1.0, 0.0) / z).collect();
+        Inverse::Modal { factors, basis: self.basis.clone() }
+    }
+
+    fn dense_inverse(&self, omega: f64, damped: &[usize]) -> Inverse {
+        let mut z = self.dynamic_stiffness(omega);
+        for &r in damped {
+            let weighted = self.times_mass(self.basis.shape(r));
+            let loss = damping(&self.basis, r);
+            z += Mat::from_fn(self.len(), self.len(), |i, j| loss * (weighted[i] * weighted[j]));
+        }
+        Inverse::Dense(z.partial_piv_lu().solve(Mat::<c64>::identity(self.len(), self.len())))
     }
 }
 
-/// Receptance matrix at one frequency.
+/// Receptance at one frequency with the modes at resonance there.
 #[derive(Debug)]
-pub(crate) enum Compliance {
+pub(crate) struct Compliance {
+    inverse: Inverse,
+    /// Modes damped in the receptance; each needs its leg.
+    pub resonant: Vec<Resonant>,
+}
+
+/// Receptance matrix.
+#[derive(Debug)]
+enum Inverse {
     Dense(Mat<c64>),
     Modal { factors: Vec<c64>, basis: Arc<ModalBasis> },
 }
 
 impl Compliance {
-    /// `L_a^T A L_b`, m/N.
-    pub fn between(&self, a: Leg, b: Leg) -> c64 {
+    /// `v_a^T A v_b`, m/N.
+    pub fn between(&self, a: Pattern, b: Pattern) -> c64 {
+        match (a, b) {
+            (Pattern::Leg(a), Pattern::Leg(b)) => self.inverse.between(a, b),
+            (Pattern::Leg(leg), Pattern::Resonant(r)) | (Pattern::Resonant(r), Pattern::Leg(leg)) => {
+                leg.relative(|i| self.resonant[r].column[i])
+            }
+            (Pattern::Resonant(p), Pattern::Resonant(q)) => self.resonant[p].motion(&self.resonant[q].column),
+        }
+    }
+
+    /// Displacements of all DOFs (m) under forces (N) at single DOFs.
+    pub fn apply_at(&self, forces: &[(usize, c64)], result: &mut [c64]) {
+        self.inverse.apply_at(forces, result);
+    }
+
+    /// Displacements of all DOFs under a force at every DOF.
+    pub fn apply(&self, force: &[c64], result: &mut [c64]) {
+        self.inverse.apply(force, result);
+    }
+}
+
+impl Inverse {
+    fn between(&self, a: Leg, b: Leg) -> c64 {
         match self {
             Self::Dense(inverse) => a.relative(|i| b.relative(|j| inverse[(i, j)])),
             Self::Modal { factors, basis } => {
@@ -191,8 +250,7 @@ impl Compliance {
         }
     }
 
-    /// Displacements of all DOFs (m) under forces (N) at single DOFs.
-    pub fn apply_at(&self, forces: &[(usize, c64)], result: &mut [c64]) {
+    fn apply_at(&self, forces: &[(usize, c64)], result: &mut [c64]) {
         result.fill(c64::new(0.0, 0.0));
         match self {
             Self::Dense(inverse) => {
@@ -212,14 +270,28 @@ impl Compliance {
         }
     }
 
-    /// Displacements of all DOFs under a force at every DOF.
-    pub fn apply(&self, force: &[c64], result: &mut [c64]) {
+    fn apply(&self, force: &[c64], result: &mut [c64]) {
         let loads: Vec<(usize, c64)> = force.iter().copied().enumerate().filter(|(_, f)| f.norm_sqr() > 0.0).collect();
         self.apply_at(&loads, result);
     }
 }
 
 impl ModalBasis {
+    /// Number of modes.
+    pub fn len(&self) -> usize {
+        self.squares.len()
+    }
+
+    /// Square of the natural circular frequency of mode `r`.
+    pub fn square(&self, r: usize) -> f64 {
+        self.squares[r]
+    }
+
+    /// Shape of mode `r`, n.
+    pub fn shape(&self, r: usize) -> &[f64] {
+        self.shapes.col_as_slice(r)
+    }
+
     fn combine(&self, modal: impl Iterator<Item = c64>, result: &mut [c64]) {
         for (r, q) in modal.enumerate() {
             for (x, shape) in result.iter_mut().zip(self.shapes.col_as_slice(r)) {

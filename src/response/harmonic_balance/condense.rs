@@ -5,13 +5,17 @@
 //! ```
 //!
 //! Linear sources between single DOFs are eliminated by Woodbury's identity from the receptance `A_h` of the structure:
-//! their forces are `g = S (d_l - G_lN F)`, `S = z (1 + G_ll z)^-1`, with `G = L^T A L` and `d = L^T A F_ext`.
+//! their forces are `g = S (d_l - G_lN F)`, `S = z (1 + G_ll z)^-1`, with `G = L^T A L` and `d = L^T A F_ext`. The legs of
+//! modes at resonance (`resonant`) are kept beside the nonlinear ones, each at its one harmonic.
+//!
+//! Unknowns: `2 H + 1` coefficients of each nonlinear leg, then cosine and sine of each mode at resonance.
 
 use super::compliance::Compliance;
 use super::dense::invert;
 use super::fourier::{add_amplitude, amplitude};
 use super::legs::NonlinearLeg;
 use super::model::{Excitation, ModelError};
+use super::resonant::Pattern;
 use crate::effects::{Leg, Source};
 use faer::c64;
 
@@ -23,21 +27,37 @@ pub(crate) struct LinearLeg {
     pub leg: Leg,
 }
 
-/// Quantities of one harmonic. `m` nonlinear and `k` linear legs.
+/// Quantities of one harmonic. `m` kept legs (nonlinear ones, then modes at resonance) and `k` linear legs.
 pub(crate) struct Level {
     /// `C_h`, m x m row by row, m/N.
-    pub coupling: Vec<c64>,
+    coupling: Vec<c64>,
     /// `D_lin,h`, m.
-    pub free: Vec<c64>,
+    free: Vec<c64>,
     /// `S`, k x k.
     elimination: Vec<c64>,
     /// `G_lN`, k x m.
     mixed: Vec<c64>,
     /// `d_l`, k.
     linear_free: Vec<c64>,
+    /// Dynamic stiffness of the modes at resonance, N/m.
+    pub resonant: Vec<c64>,
+    /// Number of modes at resonance at lower harmonics.
+    resonant_before: usize,
 }
 
-/// The system seen from its nonlinear legs.
+impl Level {
+    /// Number of kept legs.
+    pub fn count(&self) -> usize {
+        self.free.len()
+    }
+
+    /// Motion of kept leg `i` under a unit force of leg `j`, m/N, with the sign turned.
+    pub fn coupling(&self, i: usize, j: usize) -> c64 {
+        self.coupling[i * self.count() + j]
+    }
+}
+
+/// The system seen from its kept legs.
 pub(crate) struct Condensed {
     pub omega: f64,
     pub harmonics: usize,
@@ -45,6 +65,8 @@ pub(crate) struct Condensed {
     pub linear_legs: Vec<LinearLeg>,
     /// Harmonics 0..=H.
     pub levels: Vec<Level>,
+    /// Modes at resonance over all harmonics.
+    resonances: usize,
 }
 
 /// Splits sources into linear and nonlinear legs; whole-structure and channel effects are not among them.
@@ -80,15 +102,18 @@ impl Condensed {
         harmonics: usize,
     ) -> Result<Self, ModelError> {
         let (mut legs, linear_legs) = split(sources);
-        let mut levels = Vec::with_capacity(harmonics + 1);
+        let mut levels: Vec<Level> = Vec::with_capacity(harmonics + 1);
+        let mut resonances = 0;
         for h in 0..=harmonics {
-            levels.push(level(compliance(h), sources, &legs, &linear_legs, excitation, h)?);
+            let mut level = level(compliance(h), sources, &legs, &linear_legs, excitation, h)?;
+            level.resonant_before = resonances;
+            resonances += level.resonant.len();
+            levels.push(level);
         }
-        let count = legs.len();
         for (i, leg) in legs.iter_mut().enumerate() {
-            leg.weight = velocity_weight(&levels, excitation.omega, i * count + i);
+            leg.weight = velocity_weight(&levels, excitation.omega, i);
         }
-        Ok(Self { omega: excitation.omega, harmonics, legs, linear_legs, levels })
+        Ok(Self { omega: excitation.omega, harmonics, legs, linear_legs, levels, resonances })
     }
 
     /// Number of real coefficients of a leg, `2 H + 1`.
@@ -96,41 +121,127 @@ impl Condensed {
         2 * self.harmonics + 1
     }
 
-    /// Number of unknowns.
-    pub fn size(&self) -> usize {
+    /// Number of unknowns of nonlinear legs.
+    pub fn leg_size(&self) -> usize {
         self.width() * self.legs.len()
     }
 
-    /// Coefficients of the relative motions under `level` times the excitation and the leg forces `u`.
+    /// Number of unknowns.
+    pub fn size(&self) -> usize {
+        self.leg_size() + 2 * self.resonances
+    }
+
+    /// Index of the cosine of mode number `r` at resonance with harmonic `h`; its sine follows.
+    pub fn resonant_index(&self, h: usize, r: usize) -> usize {
+        self.leg_size() + 2 * (self.levels[h].resonant_before + r)
+    }
+
+    /// Complex amplitude of kept leg `j` at harmonic `h` in coefficients laid out as the unknowns.
+    pub fn get(&self, u: &[f64], h: usize, j: usize) -> c64 {
+        let (count, width) = (self.legs.len(), self.width());
+        if j < count {
+            return amplitude(&u[j * width..(j + 1) * width], h);
+        }
+        let k = self.resonant_index(h, j - count);
+        c64::new(u[k], -u[k + 1])
+    }
+
+    /// Adds to it.
+    pub fn add(&self, u: &mut [f64], h: usize, j: usize, value: c64) {
+        let (count, width) = (self.legs.len(), self.width());
+        if j < count {
+            return add_amplitude(&mut u[j * width..(j + 1) * width], h, value);
+        }
+        let k = self.resonant_index(h, j - count);
+        u[k] += value.re;
+        u[k + 1] -= value.im;
+    }
+
+    /// Coefficients of the motions of the kept legs under `level` times the excitation and the forces `u`.
     pub fn motion(&self, u: &[f64], level: f64) -> Vec<f64> {
-        let (width, count) = (self.width(), self.legs.len());
         let mut motion = vec![0.0; u.len()];
         for (h, at) in self.levels.iter().enumerate() {
-            for i in 0..count {
-                let mut d = at.free[i] * level;
-                for j in 0..count {
-                    d -= at.coupling[i * count + j] * amplitude(&u[j * width..(j + 1) * width], h);
-                }
-                add_amplitude(&mut motion[i * width..(i + 1) * width], h, d);
+            for i in 0..at.count() {
+                let pull = |j: usize| at.coupling(i, j) * self.get(u, h, j);
+                let d = (0..at.count()).fold(at.free[i] * level, |d, j| d - pull(j));
+                self.add(&mut motion, h, i, d);
             }
         }
         motion
     }
 
-    /// Forces of the linear legs at harmonic `h` when the nonlinear ones have the coefficients `u`.
+    /// Motions of the kept legs in displacements `x` of all DOFs per harmonic (empty: at rest).
+    pub fn motion_of<'a>(&self, compliance: impl Fn(usize) -> &'a Compliance, x: &[Vec<c64>]) -> Vec<f64> {
+        let mut motion = vec![0.0; self.size()];
+        for (h, x) in x.iter().enumerate().filter(|(_, x)| !x.is_empty()) {
+            for (i, leg) in self.legs.iter().enumerate() {
+                self.add(&mut motion, h, i, leg.leg.relative(|i| x[i]));
+            }
+            for (r, mode) in compliance(h).resonant.iter().enumerate() {
+                self.add(&mut motion, h, self.legs.len() + r, mode.motion(x));
+            }
+        }
+        motion
+    }
+
+    /// Forces of the linear legs at harmonic `h` when the kept ones have the coefficients `u`.
     pub fn linear_forces(&self, h: usize, u: &[f64], level: f64) -> Vec<c64> {
-        let (width, count, k) = (self.width(), self.legs.len(), self.linear_legs.len());
         let at = &self.levels[h];
-        let motion: Vec<c64> = (0..k)
+        let motion: Vec<c64> = (0..self.linear_legs.len())
             .map(|l| {
-                let pull = |j: usize| at.mixed[l * count + j] * amplitude(&u[j * width..(j + 1) * width], h);
-                (0..count).fold(at.linear_free[l] * level, |d, j| d - pull(j))
+                let pull = |j: usize| at.mixed[l * at.count() + j] * self.get(u, h, j);
+                (0..at.count()).fold(at.linear_free[l] * level, |d, j| d - pull(j))
             })
             .collect();
         multiply(&at.elimination, &motion)
     }
 
-    /// Response of the linear rest to forces at every DOF, at harmonic `h`: displacements of all DOFs.
+    /// Displacements of all DOFs at harmonic `h` under the external forces and the kept ones, `u`.
+    pub fn displacements(
+        &self,
+        compliance: &Compliance,
+        h: usize,
+        size: usize,
+        excitation: &Excitation,
+        u: &[f64],
+    ) -> Vec<c64> {
+        let mut loads: Vec<(usize, c64)> = excitation.forces.iter().map(|f| (f.dof, f.amplitude(h))).collect();
+        for (j, leg) in self.legs.iter().enumerate() {
+            push_leg(&mut loads, leg.leg, self.get(u, h, j));
+        }
+        for (leg, force) in self.linear_legs.iter().zip(self.linear_forces(h, u, 1.0)) {
+            push_leg(&mut loads, leg.leg, force);
+        }
+        let mut x = vec![c64::new(0.0, 0.0); size];
+        compliance.apply_at(&loads, &mut x);
+        self.subtract_resonant(compliance, h, u, &mut x);
+        x
+    }
+
+    /// Displacements of all DOFs at harmonic `h` under the kept forces `u` alone.
+    pub fn pulled(&self, compliance: &Compliance, h: usize, size: usize, u: &[f64]) -> Vec<c64> {
+        let mut force = vec![c64::new(0.0, 0.0); size];
+        for (j, leg) in self.legs.iter().enumerate() {
+            let mut loads = Vec::with_capacity(2);
+            push_leg(&mut loads, leg.leg, self.get(u, h, j));
+            loads.into_iter().for_each(|(i, f)| force[i] += f);
+        }
+        for (r, mode) in compliance.resonant.iter().enumerate() {
+            let p = self.get(u, h, self.legs.len() + r);
+            force.iter_mut().zip(&mode.pattern).for_each(|(f, v)| *f -= p * *v);
+        }
+        self.linear_response(compliance, h, &force)
+    }
+
+    /// Takes away what the forces of the modes at resonance do.
+    fn subtract_resonant(&self, compliance: &Compliance, h: usize, u: &[f64], x: &mut [c64]) {
+        for (r, mode) in compliance.resonant.iter().enumerate() {
+            let p = self.get(u, h, self.legs.len() + r);
+            x.iter_mut().zip(&mode.column).for_each(|(x, a)| *x -= *a * p);
+        }
+    }
+
+    /// Response of the linear rest (kept forces held) to forces at every DOF, at harmonic `h`: displacements of all DOFs.
     pub fn linear_response(&self, compliance: &Compliance, h: usize, force: &[c64]) -> Vec<c64> {
         let mut x = vec![c64::new(0.0, 0.0); force.len()];
         compliance.apply(force, &mut x);
@@ -164,12 +275,12 @@ pub(crate) fn push_leg(loads: &mut Vec<(usize, c64)>, leg: Leg, force: c64) {
 }
 
 /// Velocity weight of friction: the leg's own impedance, between the extremes over the harmonics.
-fn velocity_weight(levels: &[Level], omega: f64, index: usize) -> f64 {
+fn velocity_weight(levels: &[Level], omega: f64, leg: usize) -> f64 {
     let logs: Vec<f64> = levels
         .iter()
         .enumerate()
         .skip(1)
-        .map(|(h, at)| (h as f64 * omega * at.coupling[index].norm()).ln())
+        .map(|(h, at)| (h as f64 * omega * at.coupling(leg, leg).norm()).ln())
         .filter(|x| x.is_finite())
         .collect();
     if logs.is_empty() { 1.0 } else { 2.0 * (-logs.iter().sum::<f64>() / logs.len() as f64).exp() }
@@ -184,24 +295,26 @@ fn level(
     h: usize,
 ) -> Result<Level, ModelError> {
     let omega = h as f64 * excitation.omega;
-    let (m, k) = (legs.len(), linear.len());
-    let free = |leg: Leg| {
+    let kept: Vec<Pattern> = (legs.iter().map(|l| Pattern::Leg(l.leg)))
+        .chain((0..compliance.resonant.len()).map(Pattern::Resonant))
+        .collect();
+    let eliminated: Vec<Pattern> = linear.iter().map(|l| Pattern::Leg(l.leg)).collect();
+    let (m, k) = (kept.len(), eliminated.len());
+    let free = |at: &Pattern| {
         excitation.forces.iter().fold(c64::new(0.0, 0.0), |sum, force| {
             let value = force.amplitude(h);
-            if value.norm_sqr() == 0.0 { sum } else { sum + compliance.between(leg, force.leg()) * value }
+            if value.norm_sqr() == 0.0 { sum } else { sum + compliance.between(*at, Pattern::Leg(force.leg())) * value }
         })
     };
-    let table = |rows: &[Leg], columns: &[Leg]| -> Vec<c64> {
+    let table = |rows: &[Pattern], columns: &[Pattern]| -> Vec<c64> {
         rows.iter().flat_map(|&a| columns.iter().map(move |&b| compliance.between(a, b))).collect()
     };
-    let nonlinear_legs: Vec<Leg> = legs.iter().map(|l| l.leg).collect();
-    let linear_legs: Vec<Leg> = linear.iter().map(|l| l.leg).collect();
-    let mut coupling = table(&nonlinear_legs, &nonlinear_legs);
-    let mut free_motion: Vec<c64> = nonlinear_legs.iter().map(|&l| free(l)).collect();
-    let mixed = table(&linear_legs, &nonlinear_legs);
-    let linear_free: Vec<c64> = linear_legs.iter().map(|&l| free(l)).collect();
+    let mut coupling = table(&kept, &kept);
+    let mut free_motion: Vec<c64> = kept.iter().map(free).collect();
+    let mixed = table(&eliminated, &kept);
+    let linear_free: Vec<c64> = eliminated.iter().map(free).collect();
     let stiffness: Vec<c64> = linear.iter().map(|l| stiffness_of(&sources[l.source], omega)).collect();
-    let elimination = eliminate(&table(&linear_legs, &linear_legs), &stiffness)
+    let elimination = eliminate(&table(&eliminated, &eliminated), &stiffness)
         .ok_or(ModelError::SingularSources { frequency_hz: omega / std::f64::consts::TAU })?;
     if k > 0 {
         let pulled = multiply(&elimination, &linear_free);
@@ -216,7 +329,8 @@ fn level(
             }
         }
     }
-    Ok(Level { coupling, free: free_motion, elimination, mixed, linear_free })
+    let resonant = compliance.resonant.iter().map(|mode| mode.stiffness).collect();
+    Ok(Level { coupling, free: free_motion, elimination, mixed, linear_free, resonant, resonant_before: 0 })
 }
 
 /// Dynamic stiffness of a linear source between DOFs, N/m.

@@ -101,10 +101,11 @@ pub fn sweep(
     let tracer = Tracer { model, excitation, settings, width: (to - from).abs().max(1e-9 * from) };
     let fixed = Settings { tolerance: settings.tolerance, estimate: false, ..Settings::fixed(settings.harmonics) };
     let first = model.respond(&excitation.at(from), &fixed, None, control)?;
-    if first.unknowns.is_empty() {
+    if first.legs == 0 {
         return tracer.linear(range, control);
     }
-    let mut place = tracer.begin(first.unknowns.clone(), from, (to - from).signum())?;
+    let start = tracer.prepared(from)?.adapt(&tracer.run(from), &first);
+    let mut place = tracer.begin(start, from, (to - from).signum())?;
     let anchor = tracer.point(&place, true)?;
     let stable = is_stable(&model.at(from), model.sources(), &excitation.at(from), &anchor.response);
     let upright = if stable { place.sign } else { -place.sign };
@@ -143,7 +144,7 @@ pub fn sweep(
 
 impl Tracer<'_> {
     fn run(&self, omega: f64) -> RunModel {
-        self.model.at(omega)
+        self.model.plain_at(omega)
     }
 
     fn prepared(&self, omega: f64) -> Result<Prepared, ResponseError> {

@@ -20,12 +20,12 @@ mod legs;
 mod model;
 mod newton;
 mod outcome;
+mod resonant;
 mod solve;
 mod stability;
 
 pub(crate) use condense::stiffness_of;
 pub(crate) use dense::Lu;
-pub(crate) use fourier::{add_amplitude, amplitude};
 pub(crate) use newton::Balance;
 pub(crate) use solve::{Prepared, richardson};
 

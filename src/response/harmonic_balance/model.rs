@@ -167,7 +167,18 @@ impl ForwardModel {
 
     /// The model at one fundamental frequency (rad/s), which keeps the structure's receptance for many sources.
     pub fn at(&self, omega: f64) -> RunModel {
-        RunModel { omega, linear: self.linear.clone(), tables: self.tables.clone(), compliances: Arc::default() }
+        RunModel {
+            omega,
+            linear: self.linear.clone(),
+            tables: self.tables.clone(),
+            compliances: Arc::default(),
+            apart: true,
+        }
+    }
+
+    /// As [`Self::at`], but no mode is set apart at resonance, so that the unknowns are the same at every frequency.
+    pub(crate) fn plain_at(&self, omega: f64) -> RunModel {
+        RunModel { apart: false, ..self.at(omega) }
     }
 
     /// Periodic response to `excitation`; `start` is a response nearby (other force, frequency or sources).
@@ -193,6 +204,8 @@ pub struct RunModel {
     linear: Arc<LinearPart>,
     tables: Arc<Tables>,
     compliances: Arc<Receptances>,
+    /// Whether modes at resonance are set apart.
+    apart: bool,
 }
 
 /// Receptance per harmonic, 0 first.
@@ -222,7 +235,7 @@ impl RunModel {
     }
 
     pub(crate) fn compliance(&self, h: usize) -> &Compliance {
-        self.compliances.0[h].get_or_init(|| self.linear.compliance(h as f64 * self.omega))
+        self.compliances.0[h].get_or_init(|| self.linear.compliance(h as f64 * self.omega, self.apart))
     }
 
     pub(crate) fn linear(&self) -> &LinearPart {
@@ -239,7 +252,7 @@ impl RunModel {
             return self.clone();
         }
         let linear = Arc::new(self.linear.with_whole(sources));
-        Self { linear, compliances: Arc::default(), tables: self.tables.clone(), omega: self.omega }
+        Self { linear, compliances: Arc::default(), ..self.clone() }
     }
 
     /// Periodic response with `sources` (in place of those of the model) to `excitation`, whose frequency is that of

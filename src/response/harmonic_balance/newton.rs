@@ -1,10 +1,11 @@
 //! Damped Newton method on the balance of leg forces `R(F) = (1 + slack) F - Phi(F, D(F)) = 0`, with the Jacobian
-//! `J = 1 + slack - Phi_F + Phi_D C`.
+//! `J = 1 + slack - Phi_F + Phi_D C`. Modes at resonance answer with `Phi = z D` at their one harmonic.
 
 use super::condense::Condensed;
 use super::dense::Lu;
 use super::fourier::Fourier;
 use super::legs::{Answer, SLACK};
+use faer::c64;
 
 /// Halvings of a Newton step before it is taken all the same.
 const HALVINGS: usize = 7;
@@ -53,6 +54,7 @@ impl Balance<'_> {
                 *r = f * (1.0 + self.slack(i)) - p;
             }
         }
+        self.resonant_residual(u, &motion, &mut residual);
         residual
     }
 
@@ -69,20 +71,34 @@ impl Balance<'_> {
             }
             answers.push(answer);
         }
+        self.resonant_residual(u, &motion, &mut residual);
         State { residual, answers }
+    }
+
+    /// Harmonic, number there and stiffness of every mode at resonance.
+    fn resonances(&self) -> impl Iterator<Item = (usize, usize, c64)> {
+        let levels = self.condensed.levels.iter().enumerate();
+        levels.flat_map(|(h, level)| level.resonant.iter().enumerate().map(move |(r, z)| (h, r, *z)))
+    }
+
+    /// `p - z d` of the modes at resonance.
+    fn resonant_residual(&self, u: &[f64], motion: &[f64], residual: &mut [f64]) {
+        let (condensed, count) = (self.condensed, self.condensed.legs.len());
+        for (h, r, z) in self.resonances() {
+            let j = count + r;
+            condensed.add(residual, h, j, condensed.get(u, h, j) - z * condensed.get(motion, h, j));
+        }
     }
 
     /// Jacobian `dR/dF`, row by row.
     pub fn jacobian(&self, answers: &[Answer]) -> Vec<f64> {
-        let (size, width, count) = (self.condensed.size(), self.condensed.width(), answers.len());
+        let (size, width) = (self.condensed.size(), self.condensed.width());
         let mut jacobian = vec![0.0; size * size];
         for (i, answer) in answers.iter().enumerate() {
             for row in 0..width {
                 let out = &mut jacobian[(i * width + row) * size..(i * width + row + 1) * size];
                 let slopes = &answer.by_motion[row * width..(row + 1) * width];
-                for j in 0..count {
-                    self.add_coupled(i, j, slopes, &mut out[j * width..(j + 1) * width]);
-                }
+                self.add_coupled(i, slopes, out);
                 if let Some(by_force) = &answer.by_force {
                     let own = &by_force[row * width..(row + 1) * width];
                     out[i * width..(i + 1) * width].iter_mut().zip(own).for_each(|(x, s)| *x -= s);
@@ -90,18 +106,51 @@ impl Balance<'_> {
                 out[i * width + row] += 1.0 + self.slack(i);
             }
         }
+        self.resonant_rows(&mut jacobian);
         jacobian
     }
 
-    /// Adds a row of `Phi_D C_ij`.
-    fn add_coupled(&self, i: usize, j: usize, slopes: &[f64], out: &mut [f64]) {
-        let count = self.condensed.legs.len();
-        out[0] += slopes[0] * self.condensed.levels[0].coupling[i * count + j].re;
-        for (h, level) in self.condensed.levels.iter().enumerate().skip(1) {
-            let c = level.coupling[i * count + j];
-            let (a, b) = (slopes[2 * h - 1], slopes[2 * h]);
-            out[2 * h - 1] += a * c.re - b * c.im;
-            out[2 * h] += a * c.im + b * c.re;
+    /// Rows `1 + z C` of the modes at resonance.
+    fn resonant_rows(&self, jacobian: &mut [f64]) {
+        let (condensed, size) = (self.condensed, self.condensed.size());
+        for (h, r, z) in self.resonances() {
+            let (level, i) = (&condensed.levels[h], condensed.legs.len() + r);
+            let row = condensed.resonant_index(h, r);
+            jacobian[row * size + row] += 1.0;
+            jacobian[(row + 1) * size + row + 1] += 1.0;
+            for j in 0..level.count() {
+                let slope = z * level.coupling(i, j);
+                let column = self.columns(h, j)[0];
+                // (a - i b) -> slope (a - i b), cosine and sine.
+                jacobian[row * size + column] += slope.re;
+                jacobian[row * size + column + 1] += slope.im;
+                jacobian[(row + 1) * size + column] -= slope.im;
+                jacobian[(row + 1) * size + column + 1] += slope.re;
+            }
+        }
+    }
+
+    /// Indices of cosine and sine of kept leg `j` at harmonic `h >= 1`.
+    fn columns(&self, h: usize, j: usize) -> [usize; 2] {
+        let (count, width) = (self.condensed.legs.len(), self.condensed.width());
+        let first = if j < count { j * width + 2 * h - 1 } else { self.condensed.resonant_index(h, j - count) };
+        [first, first + 1]
+    }
+
+    /// Adds a row of `Phi_D C_i`, the slopes of leg `i` by its own coefficients given.
+    fn add_coupled(&self, i: usize, slopes: &[f64], out: &mut [f64]) {
+        for (h, level) in self.condensed.levels.iter().enumerate() {
+            for j in 0..level.count() {
+                let c = level.coupling(i, j);
+                if h == 0 {
+                    out[j * self.condensed.width()] += slopes[0] * c.re;
+                    continue;
+                }
+                let (a, b) = (slopes[2 * h - 1], slopes[2 * h]);
+                let [cos, sin] = self.columns(h, j);
+                out[cos] += a * c.re - b * c.im;
+                out[sin] += a * c.im + b * c.re;
+            }
         }
     }
 
@@ -111,6 +160,11 @@ impl Balance<'_> {
         let mut change = Vec::with_capacity(motion.len());
         for (answer, part) in answers.iter().zip(motion.chunks_exact(width)) {
             change.extend(answer.by_motion.chunks_exact(width).map(|row| super::fourier::dot(row, part)));
+        }
+        change.resize(motion.len(), 0.0);
+        for (h, r, z) in self.resonances() {
+            let j = answers.len() + r;
+            self.condensed.add(&mut change, h, j, z * self.condensed.get(motion, h, j));
         }
         change
     }

@@ -107,10 +107,12 @@ pub struct Response {
     pub forces: Vec<SourceForce>,
     /// Attempts in order.
     pub history: Vec<Step>,
-    /// Coefficients of the nonlinear leg forces, `2 H + 1` a leg.
+    /// Number of nonlinear legs.
+    pub(crate) legs: usize,
+    /// Coefficients of the nonlinear leg forces, `2 H + 1` a leg, then the forces of modes at resonance.
     pub(crate) unknowns: Vec<f64>,
-    /// Unknowns of the solution with fewer harmonics, where the response is extrapolated from both.
-    pub(crate) coarse: Option<Vec<f64>>,
+    /// Order and unknowns of the solution with fewer harmonics, where the response is extrapolated from both.
+    pub(crate) coarse: Option<(usize, Vec<f64>)>,
     /// Harmonics before extrapolation.
     pub(crate) raw: Option<Mat<c64>>,
 }
@@ -119,6 +121,13 @@ impl Response {
     /// Complex displacement amplitude (m) of row `dof` at harmonic `h >= 1`; 0 beyond the harmonics.
     pub fn amplitude(&self, dof: usize, h: usize) -> c64 {
         if h >= 1 && h <= self.harmonics.ncols() { self.harmonics[(dof, h - 1)] } else { c64::new(0.0, 0.0) }
+    }
+
+    /// Displacements of all DOFs as solved, before extrapolation, harmonics 0..=H.
+    pub(crate) fn displacements(&self) -> Vec<Vec<c64>> {
+        let amplitudes = self.raw.as_ref().unwrap_or(&self.harmonics);
+        let mean = self.mean.iter().map(|&x| c64::new(x, 0.0)).collect();
+        std::iter::once(mean).chain((0..self.order()).map(|h| amplitudes.col_as_slice(h).to_vec())).collect()
     }
 
     /// Number of harmonics.

@@ -3,7 +3,7 @@
 
 use super::Settings;
 use super::arc::level_arc;
-use super::condense::{Condensed, push_leg, split};
+use super::condense::{Condensed, split};
 use super::dense::Lu;
 use super::fourier::{Fourier, amplitude};
 use super::legs::{Manner, NonlinearLeg, resized};
@@ -52,31 +52,29 @@ impl Prepared {
         Balance { condensed: &self.condensed, fourier: &self.fourier }
     }
 
-    /// Displacements of all DOFs per harmonic, 0 first, under the nonlinear leg forces `u`.
+    /// Displacements of all DOFs per harmonic, 0 first, under the kept forces `u`.
     pub fn displacements(&self, run: &RunModel, excitation: &Excitation, u: &[f64]) -> Vec<Vec<c64>> {
-        let (condensed, width) = (&self.condensed, self.condensed.width());
-        let at = |h: usize| {
-            let mut loads: Vec<(usize, c64)> = excitation.forces.iter().map(|f| (f.dof, f.amplitude(h))).collect();
-            for (leg, part) in condensed.legs.iter().zip(u.chunks_exact(width)) {
-                push_leg(&mut loads, leg.leg, amplitude(part, h));
-            }
-            for (leg, force) in condensed.linear_legs.iter().zip(condensed.linear_forces(h, u, 1.0)) {
-                push_leg(&mut loads, leg.leg, force);
-            }
-            let mut x = vec![c64::new(0.0, 0.0); run.len()];
-            run.compliance(h).apply_at(&loads, &mut x);
-            x
-        };
-        (0..=condensed.harmonics).map(at).collect()
+        let at = |h: usize| self.condensed.displacements(run.compliance(h), h, run.len(), excitation, u);
+        (0..=self.condensed.harmonics).map(at).collect()
     }
 
-    /// Leg forces of another number of harmonics brought to this one.
-    pub fn adapt(&self, unknowns: &[f64]) -> Vec<f64> {
-        let count = self.condensed.legs.len();
-        if count == 0 || unknowns.is_empty() || !unknowns.len().is_multiple_of(count) {
-            return vec![0.0; self.condensed.size()];
+    /// The unknowns of a response nearby: leg forces cut or filled with zeros, modes at resonance from their motion.
+    pub fn adapt(&self, run: &RunModel, start: &Response) -> Vec<f64> {
+        let condensed = &self.condensed;
+        let mut u = vec![0.0; condensed.size()];
+        let (given, width) = (2 * start.order() + 1, condensed.width());
+        let common = start.legs.min(condensed.legs.len());
+        for (target, part) in u.chunks_exact_mut(width).zip(start.unknowns.chunks_exact(given)).take(common) {
+            target.copy_from_slice(&resized(part, condensed.harmonics));
         }
-        unknowns.chunks_exact(unknowns.len() / count).flat_map(|c| resized(c, self.condensed.harmonics)).collect()
+        let amplitudes = start.raw.as_ref().unwrap_or(&start.harmonics);
+        for h in 1..=condensed.harmonics.min(start.order()) {
+            for (r, mode) in run.compliance(h).resonant.iter().enumerate() {
+                let force = mode.stiffness * mode.motion(amplitudes.col_as_slice(h - 1));
+                condensed.add(&mut u, h, condensed.legs.len() + r, force);
+            }
+        }
+        u
     }
 }
 
@@ -97,7 +95,9 @@ pub(crate) fn respond(
     if legs.is_empty() {
         // A linear model answers at the driven harmonics only.
         let prepared = Prepared::new(run, sources, excitation, driven.clamp(1, MOST_HARMONICS))?;
-        return Ok(Response { status: Status::Linear, ..assemble(run, &prepared, excitation, Vec::new()) });
+        let mut u = vec![0.0; prepared.condensed.size()];
+        prepared.balance().solve(&mut u, 1.0, settings.tolerance);
+        return Ok(Response { status: Status::Linear, ..assemble(run, &prepared, excitation, u) });
     }
     let first = settings.harmonics.max(driven).clamp(1, MOST_HARMONICS);
     let mut ladder = Ladder { run, sources, excitation, settings, control, history: Vec::new() };
@@ -155,7 +155,7 @@ impl Ladder<'_> {
         }
         let order = (2 * response.order() + 1).min(MOST_HARMONICS);
         let prepared = Prepared::new(self.run, self.sources, self.excitation, order)?;
-        let mut u = prepared.adapt(&response.unknowns);
+        let mut u = prepared.adapt(self.run, &response);
         let balance = prepared.balance();
         let state = balance.state(&u, 1.0);
         let mut step = state.residual.clone();
@@ -194,7 +194,8 @@ fn extrapolated(coarse: &Response, fine: Response) -> Response {
     let raw = |response: &Response| response.raw.clone().unwrap_or_else(|| response.harmonics.clone());
     let (below, above) = (raw(coarse), fine.harmonics.clone());
     let weight = richardson(coarse.order(), fine.order());
-    let mut limit = Response { raw: Some(above.clone()), coarse: Some(coarse.unknowns.clone()), ..fine };
+    let mut limit =
+        Response { raw: Some(above.clone()), coarse: Some((coarse.order(), coarse.unknowns.clone())), ..fine };
     let mut corrections = vec![0.0_f64; limit.order()];
     for h in 0..below.ncols() {
         for i in 0..above.nrows() {
@@ -229,7 +230,7 @@ fn at_order(
         history.push(Step { harmonics, attempt, steps, residual, converged });
     };
     let folds = prepared.condensed.legs.iter().any(NonlinearLeg::folds);
-    let mut u = start.map_or_else(|| vec![0.0; prepared.condensed.size()], |s| prepared.adapt(&s.unknowns));
+    let mut u = start.map_or_else(|| vec![0.0; prepared.condensed.size()], |s| prepared.adapt(run, s));
     if start.is_some() || !folds {
         let ending = balance.solve(&mut u, 1.0, settings.tolerance);
         record(Attempt::Newton, ending);
@@ -308,7 +309,7 @@ pub(crate) fn assemble(run: &RunModel, prepared: &Prepared, excitation: &Excitat
     let x = prepared.displacements(run, excitation, &u);
     let mut forces = blank_forces(condensed);
     for h in 0..=order {
-        let nonlinear = u.chunks_exact(width).map(|c| amplitude(c, h));
+        let nonlinear = u[..condensed.leg_size()].chunks_exact(width).map(|c| amplitude(c, h));
         let values = nonlinear.chain(condensed.linear_forces(h, &u, 1.0));
         for (force, value) in forces.iter_mut().zip(values) {
             if h == 0 { force.mean = value.re } else { force.harmonics.push(value) }
@@ -322,6 +323,7 @@ pub(crate) fn assemble(run: &RunModel, prepared: &Prepared, excitation: &Excitat
         truncation: vec![0.0; order],
         forces,
         history: Vec::new(),
+        legs: condensed.legs.len(),
         unknowns: u,
         coarse: None,
         raw: None,

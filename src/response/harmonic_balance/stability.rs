@@ -30,10 +30,10 @@ pub fn multipliers(
     let run = run.fitting(sources);
     let prepared = Prepared::new(&run, sources, excitation, response.order()).ok()?;
     let condensed = &prepared.condensed;
-    if condensed.size() != response.unknowns.len() {
+    if condensed.legs.len() != response.legs {
         return None;
     }
-    let motion = condensed.motion(&response.unknowns, 1.0);
+    let motion = condensed.motion_of(|h| run.compliance(h), &response.displacements());
     let width = condensed.width();
     let slopes: Vec<Vec<[f64; 2]>> = (condensed.legs.iter().enumerate())
         .map(|(i, leg)| {
