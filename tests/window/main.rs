@@ -4,4 +4,6 @@
 mod events;
 mod path;
 mod pictures;
+mod space;
 mod support;
+mod wing;

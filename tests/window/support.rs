@@ -61,7 +61,7 @@ pub fn chain() -> Sample {
 }
 
 /// Records at the natural frequencies, written as CSV.
-fn write(head: &str, structure: &Structure, truth: &[Source], force: usize, sensors: &[usize]) -> Sample {
+pub fn write(head: &str, structure: &Structure, truth: &[Source], force: usize, sensors: &[usize]) -> Sample {
     let folder = tempfile::tempdir().unwrap();
     let modes = structure.modes().unwrap();
     let stiffness = DynamicStiffness::new(structure, truth).unwrap();

@@ -170,9 +170,6 @@ impl Bars {
         }
         let id = ui.scope_id().with(id);
         let (room, response) = ui.allocate_exact_size(ui.available_size(), Sense::click_and_drag());
-        response.widget_info(|| {
-            WidgetInfo::labeled(Role::Image, true, format!("Matrix in 3-D, {}", format::pretty_unit(unit)))
-        });
         let mut camera = ui.data(|d| d.get_temp(id)).unwrap_or(HOME);
         turn(ui, &response, &mut camera, HOME);
         ui.data_mut(|d| d.insert_temp(id, camera));
@@ -196,8 +193,14 @@ impl Bars {
             for (face, _) in self.faces(at, &projection) {
                 painter.add(egui::Shape::closed_line(face, theme::pen(palette.accent)));
             }
-            response.on_hover_text_at_pointer(self.describe(at, unit));
+            let corner = room.right_top() + Vec2::new(-4.0, 4.0);
+            let font = theme::font(theme::size::BODY);
+            painter.text(corner, egui::Align2::RIGHT_TOP, self.describe(at, unit), font, palette.ink);
         }
+        response.widget_info(|| {
+            let read = hovered.map_or_else(String::new, |at| format!(": {}", self.describe(at, unit)));
+            WidgetInfo::labeled(Role::Image, true, format!("Matrix in 3-D, {pretty}{read}"))
+        });
     }
 }
 
