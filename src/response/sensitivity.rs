@@ -28,24 +28,34 @@ pub enum Unknown {
     },
     /// Relative change of the stiffness matrix (of Young's modulus), by 1.
     Stiffness,
-    /// Relative change of the mass matrix (of the density, where there are no lumped masses), by 1.
+    /// Relative change of the mass matrix, lumped masses included, by 1.
     Mass,
+    /// Relative change of the mass of the elements (of the density), by 1; of the mass matrix where there are no elements.
+    Density,
     /// Mass in kg added at a DOF (row).
     LumpedMass(usize),
     /// Relative change of the stiffness of one undamped mode by 1: `dK = omega_r^2 (M phi_r)(M phi_r)^T`.
     ModeStiffness(usize),
+    /// Relative change by 1 of force number `.0` of the excitation at all its harmonics.
+    ForceScale(usize),
+    /// Time in s by which force number `.0` of the excitation acts earlier.
+    ForceAdvance(usize),
 }
 
 /// Why derivatives cannot be had.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum SensitivityError {
     /// The unknown does not exist.
-    #[error("{unknown:?} is not in this model: it has {sources} sources and {size} degrees of freedom")]
+    #[error(
+        "{unknown:?} is not in this model: it has {sources} sources, {forces} forces and {size} degrees of freedom"
+    )]
     NoSuchUnknown {
         /// What was asked for.
         unknown: Unknown,
         /// Number of sources.
         sources: usize,
+        /// Number of forces.
+        forces: usize,
         /// Degrees of freedom.
         size: usize,
     },
@@ -77,7 +87,7 @@ pub fn sensitivities(
     unknowns: &[Unknown],
 ) -> Result<Vec<Mat<c64>>, SensitivityError> {
     for unknown in unknowns {
-        check(*unknown, sources, run.len())?;
+        check(*unknown, sources, run.len(), excitation.forces.len())?;
     }
     let run = run.fitting(sources);
     let mut fine = at_order(&run, sources, excitation, response, &response.unknowns, response.order(), unknowns)?;
@@ -97,15 +107,16 @@ pub fn sensitivities(
     Ok(fine)
 }
 
-fn check(unknown: Unknown, sources: &[Source], size: usize) -> Result<(), SensitivityError> {
+fn check(unknown: Unknown, sources: &[Source], size: usize, forces: usize) -> Result<(), SensitivityError> {
     let exists = match unknown {
         Unknown::Source { source, parameter } => {
             sources.get(source).is_some_and(|s| parameter < s.effect.parameters().len())
         }
-        Unknown::Stiffness | Unknown::Mass => true,
+        Unknown::Stiffness | Unknown::Mass | Unknown::Density => true,
+        Unknown::ForceScale(force) | Unknown::ForceAdvance(force) => force < forces,
         Unknown::LumpedMass(row) | Unknown::ModeStiffness(row) => row < size,
     };
-    let missing = SensitivityError::NoSuchUnknown { unknown, sources: sources.len(), size };
+    let missing = SensitivityError::NoSuchUnknown { unknown, sources: sources.len(), forces, size };
     if exists { Ok(()) } else { Err(missing) }
 }
 
@@ -113,6 +124,7 @@ fn check(unknown: Unknown, sources: &[Source], size: usize) -> Result<(), Sensit
 struct Differentiated<'a> {
     run: &'a RunModel,
     sources: &'a [Source],
+    excitation: &'a Excitation,
     prepared: &'a Prepared,
     balance: Balance<'a>,
     u: &'a [f64],
@@ -140,7 +152,7 @@ fn at_order(
     let lu = Lu::new(u.len(), balance.jacobian(&state.answers)).ok_or_else(turning)?;
     let motion = prepared.condensed.motion(u, 1.0);
     let displacements = prepared.displacements(run, excitation, u);
-    let at = Differentiated { run, sources, prepared: &prepared, balance, u, motion, displacements };
+    let at = Differentiated { run, sources, excitation, prepared: &prepared, balance, u, motion, displacements };
     let one = |&unknown: &Unknown| {
         let loads = at.loads(unknown);
         let mut linear = at.linear_change(&loads);
@@ -168,10 +180,15 @@ impl Differentiated<'_> {
             match unknown {
                 Unknown::Stiffness => linear.apply_matrices(-linear.factors(w)[0], zero, x),
                 Unknown::Mass => linear.apply_matrices(zero, -linear.factors(w)[1], x),
-                Unknown::LumpedMass(dof) => {
-                    let mut load = vec![zero; x.len()];
-                    load[dof] = x[dof] * (w * w);
-                    load
+                Unknown::Density => linear.apply_density(-linear.factors(w)[1], x),
+                Unknown::LumpedMass(dof) => single(x.len(), dof, x[dof] * (w * w)),
+                Unknown::ForceScale(force) => {
+                    let force = &self.excitation.forces[force];
+                    single(x.len(), force.dof, force.amplitude(h))
+                }
+                Unknown::ForceAdvance(force) => {
+                    let force = &self.excitation.forces[force];
+                    single(x.len(), force.dof, force.amplitude(h) * c64::new(0.0, w))
                 }
                 Unknown::ModeStiffness(mode) => linear.apply_mode(mode, x).unwrap_or_default(),
                 Unknown::Source { source, parameter } => self.source_load(source, parameter, h),
@@ -239,6 +256,13 @@ impl Differentiated<'_> {
             x.iter_mut().zip(change).for_each(|(x, c)| *x += c);
         }
     }
+}
+
+/// A force at one DOF of `size`.
+fn single(size: usize, dof: usize, force: c64) -> Vec<c64> {
+    let mut load = vec![c64::new(0.0, 0.0); size];
+    load[dof] = force;
+    load
 }
 
 /// Derivative of the dynamic stiffness of a linear law, from its force on a motion of unit amplitude.

@@ -5,6 +5,7 @@ mod against_time;
 mod closed_forms;
 mod derivatives;
 mod folds;
+mod predictions;
 mod resonance;
 mod robustness;
 mod support;
