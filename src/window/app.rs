@@ -4,6 +4,8 @@ use super::commands::{self, Command};
 use super::derived::Derived;
 use super::document::{Document, Edit};
 use super::frame;
+use super::frame::dock::Desk;
+use super::frame::panes::Pane;
 use super::photograph::Photograph;
 use super::schematic::gesture::Intent;
 use super::stages;
@@ -12,7 +14,7 @@ use super::view::{Stage, View};
 use crate::effects::State;
 use crate::identify::Status;
 use crate::session::jobs::Job;
-use egui::{CentralPanel, Context, Frame, Margin, Panel, Theme, Ui};
+use egui::{CentralPanel, Context, Frame, Margin, Theme, Ui};
 use std::path::PathBuf;
 
 /// Longest wait for a project where nobody can cancel.
@@ -40,6 +42,8 @@ pub enum Ask {
     Stage(Stage),
     /// Something on the schematic.
     Schematic(Intent),
+    /// Open or close a pane of the stage.
+    Pane(Pane, bool),
     /// Close the message.
     Dismiss,
 }
@@ -55,6 +59,8 @@ pub struct App {
     pub derived: Derived,
     /// What is looked at.
     pub view: View,
+    /// How the panes lie.
+    pub desk: Desk,
     /// Last message.
     pub message: Option<Message>,
     /// A photograph that is to be taken.
@@ -157,25 +163,8 @@ impl App {
 
     fn work(&mut self, ui: &mut Ui, asks: &mut Vec<Ask>) {
         let palette = Palette::of(ui.visuals());
-        let desk = Frame::new().fill(palette.desk);
-        let side = desk.inner_margin(Margin { left: 0, right: 6, top: 6, bottom: 6 });
-        Panel::right("inspector").resizable(false).exact_size(290.0).frame(side).show_separator_line(false).show(
-            ui,
-            |ui| {
-                frame::inspector::show(ui, self, asks);
-            },
-        );
-        let height = (0.42 * ui.available_height()).clamp(240.0, 430.0);
-        let above = desk.inner_margin(Margin { left: 6, right: 6, top: 6, bottom: 0 });
-        Panel::top("schematic")
-            .resizable(true)
-            .default_size(height)
-            .min_size(200.0)
-            .frame(above)
-            .show_separator_line(false)
-            .show(ui, |ui| frame::schematic::show(ui, self, asks));
-        let below = desk.inner_margin(Margin::same(space::GAP as i8));
-        CentralPanel::default().frame(below).show(ui, |ui| stages::show(ui, self, asks));
+        let desk = Frame::new().fill(palette.desk).inner_margin(Margin::same(space::GAP as i8));
+        CentralPanel::default().frame(desk).show(ui, |ui| frame::dock::show(ui, self, asks));
     }
 
     fn advance(&mut self, ctx: &Context) {
@@ -197,6 +186,7 @@ impl App {
             Ask::Open(file) => self.open(ctx, file),
             Ask::Stage(stage) => self.view.stage = stage,
             Ask::Schematic(intent) => self.intent(intent),
+            Ask::Pane(pane, open) => self.desk.set_open(self.view.stage, pane, open),
             Ask::Dismiss => self.message = None,
         }
     }
@@ -263,6 +253,8 @@ impl App {
                 let last = self.document.as_ref().map_or(0, |d| d.project.runs.len().saturating_sub(1));
                 self.view.run = (self.view.run + 1).min(last);
             }
+            Command::StepEnd => self.view.step = None,
+            Command::ResetLayout => self.desk.reset(self.view.stage),
             Command::Keys => self.view.keys = !self.view.keys,
         }
     }

@@ -36,7 +36,7 @@ struct PictureArguments {
     /// Theme: light or dark.
     #[arg(long, default_value = "light", value_parser = ["light", "dark"])]
     theme: String,
-    /// Pane of the result: energy, damping, bode, nyquist or hysteresis; matrix shows the matrix in 3-D.
+    /// Pane that is to be in front, such as bode, nyquist, hysteresis, record or parameters; matrix is drawn in space.
     #[arg(long)]
     pane: Option<String>,
 }

@@ -24,8 +24,10 @@ pub enum Command {
     Result,
     StepBack,
     StepOn,
+    StepEnd,
     PreviousRun,
     NextRun,
+    ResetLayout,
     Keys,
 }
 
@@ -62,7 +64,7 @@ const fn entry(command: Command, label: &'static str, tooltip: &'static str, key
 }
 
 /// All commands.
-pub const TABLE: [Entry; 21] = [
+pub const TABLE: [Entry; 23] = [
     entry(Command::Open, "Open…", "Opens a project file.", ctrl(Key::O)),
     entry(Command::Save, "Save", "Writes the project to its file.", ctrl(Key::S)),
     entry(Command::Close, "Close project", "Goes back to the start screen.", ctrl(Key::W)),
@@ -86,8 +88,10 @@ pub const TABLE: [Entry; 21] = [
     entry(Command::Result, "Result", "Damping matrix, energy, frequency responses.", ctrl(Key::Num5)),
     entry(Command::StepBack, "Step back", "Looks at the set with one source less.", plain(Key::ArrowLeft)),
     entry(Command::StepOn, "Step", "Looks at the set with one source more.", plain(Key::ArrowRight)),
+    entry(Command::StepEnd, "To the best", "Looks at the accepted set again.", plain(Key::End)),
     entry(Command::PreviousRun, "Previous run", "Selects the run above.", plain(Key::ArrowUp)),
     entry(Command::NextRun, "Next run", "Selects the run below.", plain(Key::ArrowDown)),
+    entry(Command::ResetLayout, "Reset layout", "Puts the panes of this stage back to where they were at first.", None),
     entry(Command::Keys, "Keys", "Lists all keys.", plain(Key::F1)),
 ];
 

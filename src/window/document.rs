@@ -27,8 +27,12 @@ pub enum Edit {
     Remove(usize),
     /// Take all candidates away.
     ClearCandidates,
+    /// Force these sources, and let the search choose the other ones that were forced again.
+    Force(Vec<usize>),
     /// Use a run or leave it out.
     UseRun(usize, bool),
+    /// Any other change, in the words of the session.
+    Do(Command),
 }
 
 /// The open project.
@@ -103,6 +107,8 @@ impl Document {
                 let run = self.project.runs.get(*run).ok_or_else(|| format!("there is no run {}", run + 1))?;
                 Command::SetRunUse { file: run.file.clone(), enabled: *on }
             }
+            Edit::Do(command) => command.clone(),
+            Edit::Force(chosen) => return self.force(chosen),
             Edit::ClearCandidates => {
                 let candidates =
                     (0..self.project.sources.len()).filter(|&i| self.project.sources[i].state == State::Candidate);
@@ -112,11 +118,19 @@ impl Document {
         Ok(vec![one])
     }
 
+    fn force(&self, chosen: &[usize]) -> Result<Vec<Command>, String> {
+        let to = |i: usize, state: State| Ok(Command::SetSourceState { source: self.at(i)?, state });
+        let sources = self.project.sources.iter().enumerate();
+        let released = sources.filter(|(i, s)| s.state == State::Forced && !chosen.contains(i)).map(|(i, _)| i);
+        let forced = chosen.iter().filter(|&&i| self.project.sources.get(i).is_some_and(|s| s.state != State::Forced));
+        released.map(|i| to(i, State::Candidate)).chain(forced.map(|&i| to(i, State::Forced))).collect()
+    }
+
     /// Edits that belong together are undone together: all values of one drag, all candidates that are cleared.
     fn gesture(&mut self, edit: &Edit) -> Option<Gesture> {
         match edit {
             Edit::SetParameter(i, k, _) => Some(Gesture(((*i as u64) << 8) | *k as u64)),
-            Edit::ClearCandidates => {
+            Edit::ClearCandidates | Edit::Force(_) => {
                 self.gestures += 1;
                 Some(Gesture((1 << 60) | self.gestures))
             }

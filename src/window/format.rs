@@ -19,6 +19,13 @@ pub fn significant(value: f64, digits: usize) -> String {
     text.replace('-', "−")
 }
 
+/// A value as it is edited: all digits that it has, in powers of ten where that is shorter.
+pub fn editable(value: f64) -> String {
+    let plain = format!("{value}");
+    let text = if plain.len() > 9 || plain.ends_with("0000") { format!("{value:e}") } else { plain };
+    text.replace('-', "−")
+}
+
 /// `value` with four significant digits and `unit`.
 pub fn with_unit(value: f64, unit: &str) -> String {
     if unit.is_empty() { significant(value, 4) } else { format!("{} {}", significant(value, 4), pretty_unit(unit)) }
@@ -61,7 +68,7 @@ pub fn percent(share: f64) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::{percent, prefixed, pretty_unit, significant, with_deviation, with_unit};
+    use super::{editable, percent, prefixed, pretty_unit, significant, with_deviation, with_unit};
 
     #[test]
     fn numbers_keep_their_significant_digits() {
@@ -72,6 +79,14 @@ mod tests {
         assert_eq!(significant(2.1e-9, 3), "2.10e−9");
         assert_eq!(significant(0.0, 3), "0");
         assert_eq!(significant(f64::NAN, 3), "–");
+    }
+
+    #[test]
+    fn what_is_edited_keeps_all_its_digits() {
+        assert_eq!(editable(0.004), "0.004");
+        assert_eq!(editable(69e9), "6.9e10");
+        assert_eq!(editable(-2.1e-12), "−2.1e−12");
+        assert_eq!(editable(7850.0), "7850");
     }
 
     #[test]

@@ -1,8 +1,9 @@
 //! A stage drawn without a display, by the same code as the window, through wgpu.
 
 use super::app::App;
+use super::frame::panes::Pane;
 use super::theme;
-use super::view::{Pane, Stage};
+use super::view::Stage;
 use egui::{Context, Event, FullOutput, RawInput, Rect, Theme, Vec2, pos2};
 use egui_wgpu::{
     RenderState, RendererOptions, ScreenDescriptor, WgpuConfiguration, WgpuSetup, WgpuSetupCreateNew, wgpu,
@@ -17,7 +18,7 @@ pub struct Picture {
     pub file: Option<PathBuf>,
     /// Stage.
     pub stage: Stage,
-    /// Pane of the result, by name; `matrix` shows the matrix as bars in space.
+    /// Pane that is to be in front, by name; `matrix` shows the matrix as bars in space.
     pub pane: Option<String>,
     /// Width and height, pixels.
     pub size: [u32; 2],
@@ -43,7 +44,8 @@ pub fn picture(picture: &Picture) -> Result<(), String> {
     app.view.stage = picture.stage;
     if let Some(name) = &picture.pane {
         app.view.matrix_in_space = name == "matrix";
-        app.view.pane = if name == "matrix" { Pane::Energy } else { Pane::from_name(name)? };
+        let pane = if name == "matrix" { Pane::Matrix } else { Pane::from_name(name)? };
+        app.desk.set_open(picture.stage, pane, true);
     }
     let [width, height] = picture.size;
     let state = render_state()?;

@@ -3,9 +3,10 @@
 use super::schematic::view::ViewState;
 use crate::effects::Effect;
 use crate::response::frequency_response::Quantity;
+use serde::{Deserialize, Serialize};
 
 /// A stage of the work.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Hash)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Default, Hash, Serialize, Deserialize)]
 #[expect(missing_docs, reason = "the names say it")]
 pub enum Stage {
     #[default]
@@ -37,46 +38,6 @@ impl Stage {
     }
 }
 
-/// A pane of the result.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-#[expect(missing_docs, reason = "the names say it")]
-pub enum Pane {
-    #[default]
-    Energy,
-    Damping,
-    Bode,
-    Nyquist,
-    Hysteresis,
-}
-
-impl Pane {
-    /// All panes.
-    pub const ALL: [Self; 5] = [Self::Energy, Self::Damping, Self::Bode, Self::Nyquist, Self::Hysteresis];
-
-    /// Name on its tab.
-    pub fn label(self) -> &'static str {
-        match self {
-            Self::Energy => "Energy",
-            Self::Damping => "Damping",
-            Self::Bode => "Bode",
-            Self::Nyquist => "Nyquist",
-            Self::Hysteresis => "Hysteresis",
-        }
-    }
-
-    /// The pane of that name, in any case.
-    ///
-    /// # Errors
-    /// One line with the names there are.
-    pub fn from_name(name: &str) -> Result<Self, String> {
-        let names = Self::ALL.map(|p| p.label().to_lowercase()).join(", ");
-        Self::ALL
-            .into_iter()
-            .find(|p| p.label().eq_ignore_ascii_case(name))
-            .ok_or_else(|| format!("--pane {name}: there is no such pane; choose {names}"))
-    }
-}
-
 /// What is looked at.
 #[derive(Debug, Clone)]
 #[expect(clippy::struct_excessive_bools, reason = "each is a switch of its own on the screen")]
@@ -91,8 +52,6 @@ pub struct View {
     pub mode: usize,
     /// Step of the selection that is looked at; `None` is the accepted one.
     pub step: Option<usize>,
-    /// Pane of the result.
-    pub pane: Pane,
     /// Whether the matrix shows DOFs without damping too.
     pub whole_matrix: bool,
     /// Whether the matrix is shown as bars in space.
@@ -125,7 +84,6 @@ impl Default for View {
             channel: 0,
             mode: 0,
             step: None,
-            pane: Pane::Energy,
             whole_matrix: false,
             matrix_in_space: false,
             quantity: Quantity::Receptance,

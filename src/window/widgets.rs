@@ -1,8 +1,10 @@
 //! What all panes are made of, as one extension of `egui::Ui`.
 
+use super::format;
 use super::theme::{self, Palette, size, space};
 use egui::{
-    Align, Color32, CornerRadius, Frame, Label, Layout, Margin, Response, RichText, Sense, Ui, WidgetText, vec2,
+    Align, Color32, ComboBox, CornerRadius, DragValue, Frame, Label, Layout, Margin, Response, RichText, Sense, Ui,
+    WidgetText, vec2,
 };
 
 /// The program's own widgets.
@@ -25,6 +27,11 @@ pub trait UiExt {
     fn pane<R>(&mut self, content: impl FnOnce(&mut Ui) -> R) -> R;
     /// The button that a pane is about.
     fn primary(&mut self, text: &str) -> Response;
+    /// A name at the left and a value with its unit that can be edited at the right; the new value once it is meant:
+    /// after a drag or when the text is left, so that one gesture is one change.
+    fn quantity(&mut self, name: &str, value: f64, unit: &str) -> Option<f64>;
+    /// A choice among few words; the new one when another is chosen.
+    fn choice<T: Copy + PartialEq>(&mut self, name: &str, now: T, all: &[T], word: fn(T) -> &'static str) -> Option<T>;
     /// A short line and a name: the key to a curve.
     fn key(&mut self, colour: Color32, name: &str);
 }
@@ -98,6 +105,59 @@ impl UiExt for Ui {
         let p = self.palette();
         let text = RichText::new(text).color(p.text_on(p.accent));
         self.add(egui::Button::new(text).fill(p.accent).stroke(theme::hair(p.accent)))
+    }
+
+    fn quantity(&mut self, name: &str, value: f64, unit: &str) -> Option<f64> {
+        let unit = format::pretty_unit(unit);
+        let key = self.make_persistent_id(("quantity", name));
+        let mut shown = self.data(|d| d.get_temp::<f64>(key)).unwrap_or(value);
+        let response = self
+            .horizontal(|ui| {
+                let weak = ui.palette().weak;
+                let label = ui.add(Label::new(RichText::new(name).color(weak)).selectable(false));
+                ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+                    let (unit_label, width) = (RichText::new(&unit).size(size::SMALL).color(weak), 46.0);
+                    ui.allocate_ui_with_layout(vec2(width, space::ROW), Layout::left_to_right(Align::Center), |ui| {
+                        ui.set_width(width);
+                        ui.add(Label::new(unit_label).selectable(false));
+                    });
+                    let drag = DragValue::new(&mut shown)
+                        .speed((0.005 * value.abs()).max(1e-6))
+                        .custom_formatter(|v, _| format::editable(v))
+                        .custom_parser(|text| text.trim().replace('−', "-").parse().ok());
+                    ui.add_sized(vec2(96.0, 22.0), drag)
+                })
+                .inner
+                .labelled_by(label.id)
+            })
+            .inner;
+        if response.dragged() || response.has_focus() {
+            self.data_mut(|d| d.insert_temp(key, shown));
+            return None;
+        }
+        self.data_mut(|d| d.remove_temp::<f64>(key));
+        (shown != value && shown.is_finite()).then_some(shown)
+    }
+
+    fn choice<T: Copy + PartialEq>(&mut self, name: &str, now: T, all: &[T], word: fn(T) -> &'static str) -> Option<T> {
+        let mut chosen = now;
+        self.horizontal(|ui| {
+            let weak = ui.palette().weak;
+            let label = ui.add(Label::new(RichText::new(name).color(weak)).selectable(false));
+            ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+                ComboBox::from_id_salt(("choice", name))
+                    .selected_text(word(now))
+                    .width(150.0)
+                    .show_ui(ui, |ui| {
+                        for &one in all {
+                            ui.selectable_value(&mut chosen, one, word(one));
+                        }
+                    })
+                    .response
+                    .labelled_by(label.id);
+            });
+        });
+        (chosen != now).then_some(chosen)
     }
 
     fn key(&mut self, colour: Color32, name: &str) {

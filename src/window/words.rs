@@ -1,7 +1,9 @@
 //! Names for people of what has names in files.
 
+use crate::balance::{Expansion, Weights};
 use crate::effects::{Effect, Place, State};
 use crate::measurement::{Flag, Quantity};
+use crate::structure::beam::Supports;
 use crate::structure::{Structure, StructureKind};
 
 /// A law in words.
@@ -65,6 +67,38 @@ pub fn axis(quantity: Quantity, rotation: bool) -> &'static str {
         (Quantity::Velocity, true) => "Angular velocity, rad/s",
         (Quantity::Displacement, false) => "Displacement, m",
         (Quantity::Displacement, true) => "Rotation, rad",
+    }
+}
+
+/// A way of expansion in words.
+pub fn expansion(method: Expansion) -> &'static str {
+    match method {
+        Expansion::Auto => "automatic",
+        Expansion::None => "none",
+        Expansion::SingleMode => "nearest mode",
+        Expansion::Modes => "mode shapes",
+        Expansion::Dynamic => "dynamic model",
+    }
+}
+
+/// Weights of the energy equation in words.
+pub fn weights(weights: Weights) -> &'static str {
+    match weights {
+        Weights::Auto => "automatic",
+        Weights::None => "none",
+        Weights::Energy => "by energy",
+        Weights::Noise => "by noise",
+    }
+}
+
+/// How the ends of a beam are held, in words.
+pub fn supports(supports: Supports) -> &'static str {
+    match supports {
+        Supports::ClampedFree => "clamped, free",
+        Supports::FreeFree => "free, free",
+        Supports::PinnedPinned => "pinned, pinned",
+        Supports::ClampedClamped => "clamped, clamped",
+        Supports::ClampedPinned => "clamped, pinned",
     }
 }
 

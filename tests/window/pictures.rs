@@ -2,7 +2,8 @@
 
 use crate::support::{Sample, beam, chain, open, settle, start};
 use dashpot::window::App;
-use dashpot::window::view::{Pane, Stage};
+use dashpot::window::frame::panes::Pane;
+use dashpot::window::view::Stage;
 use egui::Theme;
 use egui_kittest::{Harness, SnapshotResults};
 
@@ -19,7 +20,7 @@ impl Pictures {
 
     fn take(&mut self, stage: Stage, pane: Pane, name: &str) {
         self.harness.state_mut().view.stage = stage;
-        self.harness.state_mut().view.pane = pane;
+        self.harness.state_mut().desk.set_open(stage, pane, true);
         settle(&mut self.harness);
         self.harness.remove_cursor();
         settle(&mut self.harness);
@@ -49,7 +50,7 @@ fn panes_of_the_result() {
     let sample = beam();
     let mut pictures = Pictures::of(&sample, Theme::Light);
     for pane in [Pane::Damping, Pane::Bode, Pane::Nyquist, Pane::Hysteresis] {
-        pictures.take(Stage::Result, pane, &format!("result-{}", pane.label().to_lowercase()));
+        pictures.take(Stage::Result, pane, &format!("result-{}", pane.title().to_lowercase()));
     }
 }
 

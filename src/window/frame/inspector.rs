@@ -14,14 +14,11 @@ use egui::{DragValue, ScrollArea, Ui};
 pub fn show(ui: &mut Ui, app: &App, asks: &mut Vec<Ask>) {
     let Some(document) = &app.document else { return };
     let p = &document.project;
-    ui.pane(|ui| {
-        ui.set_min_size(ui.available_size());
-        ScrollArea::vertical().auto_shrink(false).show(ui, |ui| match (app.view.source, app.view.dof) {
-            (Some(source), _) if source < p.sources.len() => self::source(ui, p, source, asks),
-            (_, Some(dof)) if dof < p.structure.len() => self::dof(ui, p, dof),
-            _ if app.view.stage == Stage::Measure && app.view.run < p.runs.len() => run(ui, p, app.view.run, asks),
-            _ => project(ui, p),
-        });
+    ScrollArea::vertical().auto_shrink(false).show(ui, |ui| match (app.view.source, app.view.dof) {
+        (Some(source), _) if source < p.sources.len() => self::source(ui, p, source, asks),
+        (_, Some(dof)) if dof < p.structure.len() => self::dof(ui, p, dof),
+        _ if app.view.stage == Stage::Measure && app.view.run < p.runs.len() => run(ui, p, app.view.run, asks),
+        _ => project(ui, p),
     });
 }
 

@@ -1,7 +1,9 @@
-//! What stands around the stages: bars, inspector, schematic, start screen.
+//! What stands around the stages: bars, docked panes, inspector, schematic, start screen.
 
+pub mod dock;
 pub mod inspector;
 pub mod keys;
+pub mod panes;
 pub mod schematic;
 pub mod start;
 pub mod status;

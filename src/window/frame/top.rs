@@ -90,6 +90,17 @@ fn menus(ui: &mut Ui, app: &App, asks: &mut Vec<Ask>) {
         entry(ui, Command::Shape, open, None, asks);
         entry(ui, Command::Animate, open, None, asks);
         ui.separator();
+        ui.add_enabled_ui(open, |ui| {
+            ui.menu_button("Panes", |ui| {
+                for (pane, mut shown) in app.desk.panes(app.view.stage) {
+                    if ui.checkbox(&mut shown, pane.title()).clicked() {
+                        asks.push(Ask::Pane(pane, shown));
+                    }
+                }
+            });
+        });
+        entry(ui, Command::ResetLayout, open, None, asks);
+        ui.separator();
         entry(ui, Command::Theme, true, None, asks);
     });
     ui.menu_button("Help", |ui| entry(ui, Command::Keys, true, None, asks));

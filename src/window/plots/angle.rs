@@ -13,7 +13,6 @@ const LEAST: f64 = 1e-8;
 /// Shows the chart with the step that is looked at as a filled point.
 pub fn show(ui: &mut Ui, outcome: &Outcome, current: usize, limit_deg: f64) {
     let palette = ui.palette();
-    ui.title("Angle against number of sources", "");
     keys(ui, &[(palette.model, "best set of each size"), (palette.weak, "alternatives"), (palette.missing, "limit")]);
     let height = |angle: f64| angle.max(LEAST).log10();
     let best: Vec<[f64; 2]> = outcome.steps.iter().map(|s| [s.count as f64, height(s.angle_deg)]).collect();

@@ -11,7 +11,6 @@ use egui_plot::{AxisHints, GridMark, HPlacement, Line, MarkerShape, PlotPoints, 
 /// Shows the chart for one step of the selection.
 pub fn show(ui: &mut Ui, p: &Project, outcome: &Outcome, current: usize) {
     let palette = ui.palette();
-    ui.title("Energy per period and run", "");
     keys(ui, &[(palette.measured, "measured input"), (palette.model, "identified")]);
     let Some(step) = outcome.steps.get(current) else { return };
     let height = |energy: f64| (energy > 0.0).then(|| energy.log10());

@@ -1,12 +1,9 @@
 //! Measure: the runs with what is wrong with them, the record with its fit, the spectrum.
 
-use super::split;
 use crate::exchange::Project;
-use crate::measurement::Run;
+use crate::measurement::{Quantity, Run};
 use crate::window::app::{App, Ask};
-use crate::window::derived::Trace;
 use crate::window::document::Edit;
-use crate::window::frame::inspector::frequency;
 use crate::window::plots::{record::RecordPlot, spectrum};
 use crate::window::theme::space;
 use crate::window::view::View;
@@ -14,57 +11,101 @@ use crate::window::widgets::UiExt;
 use crate::window::{format, words};
 use egui::{Sense, Ui};
 use egui_extras::{Column, TableBuilder, TableRow};
-use std::sync::Arc;
 
-/// Shows the stage.
-pub fn show(ui: &mut Ui, app: &mut App, asks: &mut Vec<Ask>) {
+const EMPTY: [&str; 2] =
+    ["No runs yet", "Import steady-state records with File > Import measurements, or drop them on this window."];
+
+/// The table of runs.
+pub fn runs(ui: &mut Ui, app: &mut App, asks: &mut Vec<Ask>) {
     let Some(document) = &app.document else { return };
-    let (view, derived) = (&mut app.view, &mut app.derived);
-    if document.project.runs.is_empty() {
-        ui.pane(|ui| ui.empty("No runs yet", "Add [[run]] entries with steady-state records to the project file."));
+    let p = &document.project;
+    if p.runs.is_empty() {
+        ui.empty(EMPTY[0], EMPTY[1]);
         return;
     }
-    let run = view.run.min(document.project.runs.len() - 1);
-    let channels = document.project.runs[run].fit.channels.len();
-    view.channel = view.channel.min(channels.saturating_sub(1));
-    let trace = derived.trace(document, run, view.channel);
-    let p = &document.project;
-    // Both halves choose: the table a run, the buttons a channel.
-    let mut chosen = (run, view.channel);
-    split(
-        ui,
-        0.40,
-        |ui| table(ui, p, view, &mut chosen.0, asks),
-        |ui| record(ui, &p.runs[run], run, &mut chosen.1, trace.as_ref()),
-    );
-    (app.view.run, app.view.channel) = chosen;
+    let mut chosen = app.view.run;
+    table(ui, p, &app.view, &mut chosen, asks);
+    app.view.run = chosen;
+}
+
+/// The record of a channel with the fitted curve on top and the residual under it.
+pub fn record(ui: &mut Ui, app: &mut App) {
+    let Some((run, channel)) = looked_at(app) else { return };
+    let Some(document) = &app.document else { return };
+    let r = &document.project.runs[run];
+    let mut chosen = channel;
+    channels(ui, r, &mut chosen);
+    app.view.channel = chosen;
+    let (Some(fit), trace) = (r.fit.channels.get(channel), app.derived.trace(document, run, channel)) else { return };
+    let Some(trace) = trace else {
+        amplitudes(ui, r, channel);
+        return;
+    };
+    let axis = words::axis(fit.channel.quantity, false);
+    let id = format!("{run} {}", fit.channel);
+    RecordPlot { trace: &trace, fit, omega: r.fit.omega, axis, id: &id }.show(ui);
+}
+
+/// The amplitude spectrum of the same channel.
+pub fn spectrum(ui: &mut Ui, app: &mut App) {
+    let Some((run, channel)) = looked_at(app) else { return };
+    let Some(document) = &app.document else { return };
+    let r = &document.project.runs[run];
+    let trace = app.derived.trace(document, run, channel);
+    let (Some(fit), Some(trace)) = (r.fit.channels.get(channel), trace) else {
+        ui.empty("No spectrum", "This run came as fitted harmonics.");
+        return;
+    };
+    let unit = words::axis(fit.channel.quantity, false).rsplit(", ").next().unwrap_or("");
+    match &trace.spectrum {
+        Some(s) => spectrum::show(ui, &format!("{run} {} spectrum", fit.channel), s, fit, r.fit.omega, unit),
+        None => ui.empty("No spectrum", "The record is too short for one."),
+    }
+}
+
+/// The run and the channel that are looked at, where there is any.
+fn looked_at(app: &mut App) -> Option<(usize, usize)> {
+    let runs = &app.document.as_ref()?.project.runs;
+    app.view.run = app.view.run.min(runs.len().checked_sub(1)?);
+    app.view.channel = app.view.channel.min(runs[app.view.run].fit.channels.len().checked_sub(1)?);
+    Some((app.view.run, app.view.channel))
+}
+
+fn channels(ui: &mut Ui, run: &Run, channel: &mut usize) {
+    ui.horizontal_wrapped(|ui| {
+        for (k, fit) in run.fit.channels.iter().enumerate() {
+            if ui.selectable_label(k == *channel, fit.channel.to_string()).clicked() {
+                *channel = k;
+            }
+        }
+    });
 }
 
 fn table(ui: &mut Ui, p: &Project, view: &View, chosen: &mut usize, asks: &mut Vec<Ask>) {
-    ui.title("Runs", "steady-state tests, one a frequency and level");
-    ui.add_space(space::XS);
     ui.style_mut().interaction.selectable_labels = false;
     TableBuilder::new(ui)
         .striped(true)
         .sense(Sense::click())
         .cell_layout(egui::Layout::left_to_right(egui::Align::Center))
-        .column(Column::exact(36.0))
-        .column(Column::remainder().at_least(70.0).clip(true))
-        .column(Column::exact(86.0))
+        .column(Column::exact(30.0))
+        .column(Column::remainder().at_least(64.0).clip(true))
+        .column(Column::exact(78.0))
+        .column(Column::exact(40.0))
+        .column(Column::exact(62.0))
         .column(Column::exact(64.0))
-        .column(Column::exact(118.0))
+        .column(Column::exact(112.0).clip(true))
         .header(space::ROW, |mut header| {
-            for (name, right) in
-                [("Use", false), ("File", false), ("Frequency", true), ("Noise", true), ("Flags", false)]
-            {
-                header.col(|ui| {
-                    if right {
-                        ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| ui.hint(name));
-                    } else {
-                        ui.hint(name);
-                    }
-                });
+            header.col(|ui| drop(ui.hint("Use")));
+            header.col(|ui| drop(ui.hint("File")));
+            for (name, what) in [
+                ("Frequency", "Frequency at which the harmonics are fitted."),
+                ("Level", "Label of the force level."),
+                ("Noise", "Noise over signal, root mean square over the channels."),
+                ("Harmonics", "Largest higher harmonic over the fundamental, over all motions."),
+            ] {
+                header.col(|ui| drop(super::head_right(ui, name).on_hover_text(what)));
             }
+            header.col(|ui| drop(ui.hint("   Flags")));
         })
         .body(|body| {
             body.rows(space::ROW, p.runs.len(), |mut row| {
@@ -91,49 +132,30 @@ fn cells(row: &mut TableRow<'_, '_>, run: &Run, index: usize, asks: &mut Vec<Ask
     });
     row.col(|ui| drop(ui.label(&run.file)));
     row.col(|ui| drop(ui.number(format!("{} Hz", format::significant(run.fit.omega / std::f64::consts::TAU, 4)))));
+    row.col(|ui| drop(ui.number(run.level.map_or_else(|| "–".to_owned(), |level| level.to_string()))));
     row.col(|ui| drop(ui.number(format::percent(run.noise_ratio))));
+    row.col(|ui| drop(ui.number(distortion(run).map_or_else(|| "–".to_owned(), format::percent))));
     row.col(|ui| {
+        ui.add_space(space::S);
         if let Some(first) = run.findings.first() {
             let more = run.findings.len() - 1;
             let text = words::flag(first.flag);
             let text = if more > 0 { format!("{text} +{more}") } else { text.to_owned() };
-            ui.pill(&text, ui.palette().warning).on_hover_text(frequency(run));
+            let reasons: Vec<&str> = run.findings.iter().map(|f| f.reason.as_str()).collect();
+            ui.pill(&text, ui.palette().warning).on_hover_text(reasons.join("\n"));
         }
     });
 }
 
-fn record(ui: &mut Ui, run: &Run, index: usize, channel: &mut usize, trace: Option<&Arc<Trace>>) {
-    let names: Vec<String> = run.fit.channels.iter().map(|c| c.channel.to_string()).collect();
-    ui.horizontal_wrapped(|ui| {
-        ui.title("Record", "");
-        for (k, name) in names.iter().enumerate() {
-            if ui.selectable_label(k == *channel, name).clicked() {
-                *channel = k;
-            }
-        }
-    });
-    let Some(fit) = run.fit.channels.get(*channel) else { return };
-    let Some(trace) = trace else {
-        amplitudes(ui, run, *channel);
-        return;
+/// The largest higher harmonic over the fundamental, over all motions of a run.
+fn distortion(run: &Run) -> Option<f64> {
+    let motions = run.fit.channels.iter().filter(|c| c.channel.quantity != Quantity::Force);
+    let share = |c: &crate::measurement::ChannelFit| {
+        let size = |y: &faer::c64| y.re.hypot(y.im);
+        let higher = c.amplitudes.iter().skip(1).map(size).fold(0.0, f64::max);
+        Some(higher / c.amplitudes.first().map(size).filter(|first| *first > 0.0)?)
     };
-    let axis = words::axis(fit.channel.quantity, false);
-    let unit = axis.rsplit(", ").next().unwrap_or("");
-    let id = format!("{index} {}", names[*channel]);
-    let room = ui.available_size();
-    let spectrum_width = 0.40 * room.x - space::S;
-    ui.horizontal_top(|ui| {
-        ui.vertical(|ui| {
-            ui.set_width(room.x - spectrum_width - space::XL);
-            RecordPlot { trace, fit, omega: run.fit.omega, axis, id: &id }.show(ui);
-        });
-        ui.vertical(|ui| {
-            ui.set_width(spectrum_width);
-            if let Some(s) = &trace.spectrum {
-                spectrum::show(ui, &format!("{id} spectrum"), s, fit, run.fit.omega, unit);
-            }
-        });
-    });
+    motions.filter_map(share).reduce(f64::max)
 }
 
 /// Amplitudes and phases of a run that came without a time record.

@@ -1,41 +1,44 @@
 //! The stages of the work, one file each; what several share.
 
 pub mod measure;
+pub mod parameters;
 pub mod pattern;
 pub mod result;
 pub mod select;
 pub mod structure;
 
 use super::app::{App, Ask};
-use super::view::Stage;
+use super::frame;
+use super::frame::panes::Pane;
 use egui::Ui;
 
-/// Shows the stage that is open.
-pub fn show(ui: &mut Ui, app: &mut App, asks: &mut Vec<Ask>) {
-    match app.view.stage {
-        Stage::Measure => measure::show(ui, app, asks),
-        Stage::Structure => structure::show(ui, app),
-        Stage::Pattern => pattern::show(ui, app, asks),
-        Stage::Select => select::show(ui, app, asks),
-        Stage::Result => result::show(ui, app, asks),
+/// Shows a pane.
+pub fn show(ui: &mut Ui, pane: Pane, app: &mut App, asks: &mut Vec<Ask>) {
+    match pane {
+        Pane::Schematic => frame::schematic::show(ui, app, asks),
+        Pane::Inspector => frame::inspector::show(ui, app, asks),
+        Pane::Runs => measure::runs(ui, app, asks),
+        Pane::Record => measure::record(ui, app),
+        Pane::Spectrum => measure::spectrum(ui, app),
+        Pane::Parameters => parameters::show(ui, app, asks),
+        Pane::Modes => structure::modes(ui, app),
+        Pane::Frequencies => structure::frequencies(ui, app),
+        Pane::ModeShape => structure::shape(ui, app),
+        Pane::Expansion => structure::expansion(ui, app),
+        Pane::Laws => pattern::laws(ui, app, asks),
+        Pane::Sources => pattern::sources(ui, app, asks),
+        Pane::Steps => select::steps(ui, app, asks),
+        Pane::Set => select::set(ui, app, asks),
+        Pane::Angle => select::angle(ui, app),
+        Pane::RunEnergy => select::energy(ui, app),
+        Pane::Matrix => result::matrix(ui, app),
+        Pane::Energy => result::energy(ui, app),
+        Pane::Damping => result::damping(ui, app),
+        Pane::Bode => result::bode(ui, app),
+        Pane::Nyquist => result::nyquist(ui, app),
+        Pane::Hysteresis => result::hysteresis(ui, app),
+        Pane::Values => result::values(ui, app),
     }
-}
-
-/// Splits the room into a left part of the given share and the rest.
-pub fn split(ui: &mut Ui, share: f32, left: impl FnOnce(&mut Ui), right: impl FnOnce(&mut Ui)) {
-    let room = ui.available_rect_before_wrap();
-    let gap = super::theme::space::GAP;
-    let width = (share * (room.width() - gap)).round();
-    let a = egui::Rect::from_min_size(room.min, egui::vec2(width, room.height()));
-    let b = egui::Rect::from_min_max(egui::pos2(a.right() + gap, room.top()), room.max);
-    for (rect, content) in [(a, Box::new(left) as Box<dyn FnOnce(&mut Ui) + '_>), (b, Box::new(right))] {
-        let mut child = ui.new_child(egui::UiBuilder::new().max_rect(rect));
-        super::widgets::UiExt::pane(&mut child, |ui| {
-            ui.set_min_size(ui.available_size());
-            content(ui);
-        });
-    }
-    ui.advance_cursor_after_rect(room);
 }
 
 /// The answer of the identification, or what is shown in its place.
@@ -47,14 +50,8 @@ pub fn outcome(
     use super::widgets::UiExt;
     match derived.outcome(ui.ctx(), document) {
         Some(Ok(outcome)) => return Some(outcome),
-        Some(Err(error)) => ui.pane(|ui| {
-            ui.set_min_size(ui.available_size());
-            ui.empty("Nothing was identified", &error);
-        }),
-        None => ui.pane(|ui| {
-            ui.set_min_size(ui.available_size());
-            ui.empty("Identification is running", "Its progress is in the bar below.");
-        }),
+        Some(Err(error)) => ui.empty("Nothing was identified", &error),
+        None => ui.empty("Identification is running", "Its progress is in the bar below."),
     }
     None
 }
@@ -66,9 +63,10 @@ pub fn coefficient(source: &crate::effects::Source, estimate: &crate::identify::
 }
 
 /// The name of a column of numbers.
-pub fn head_right(ui: &mut Ui, name: &str) {
+pub fn head_right(ui: &mut Ui, name: &str) -> egui::Response {
     ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
         ui.add_space(super::theme::space::XS);
-        super::widgets::UiExt::hint(ui, name);
-    });
+        super::widgets::UiExt::hint(ui, name)
+    })
+    .inner
 }

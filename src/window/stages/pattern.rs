@@ -1,6 +1,5 @@
 //! Pattern: the palette of laws, families at one click, the list of sources.
 
-use super::split;
 use crate::effects::effect::Kind;
 use crate::effects::{Effect, Family, State};
 use crate::exchange::Project;
@@ -15,24 +14,23 @@ use crate::window::words;
 use egui::{Align2, RichText, Role, ScrollArea, Sense, StrokeKind, Ui, WidgetInfo, pos2, vec2};
 use egui_extras::{Column, TableBuilder};
 
-/// Shows the stage.
-pub fn show(ui: &mut Ui, app: &mut App, asks: &mut Vec<Ask>) {
-    let Some(document) = &app.document else { return };
-    let p = &document.project;
+/// The palette of laws and the families of places.
+pub fn laws(ui: &mut Ui, app: &mut App, asks: &mut Vec<Ask>) {
     let mut law = app.view.law;
-    let (mut chosen, mut drawn) = (None, Vec::new());
-    split(ui, 0.48, |ui| palette(ui, &mut law, &mut drawn), |ui| chosen = sources(ui, p, &app.view, asks));
-    asks.extend(drawn);
+    palette(ui, &mut law, asks);
     app.view.law = law;
-    if let Some(source) = chosen {
+}
+
+/// The list of sources.
+pub fn sources(ui: &mut Ui, app: &mut App, asks: &mut Vec<Ask>) {
+    let Some(document) = &app.document else { return };
+    if let Some(source) = list(ui, &document.project, &app.view, asks) {
         (app.view.source, app.view.dof) = (Some(source), None);
     }
 }
 
 fn palette(ui: &mut Ui, law: &mut Effect, asks: &mut Vec<Ask>) {
-    ui.title("Laws", "what a click on the schematic draws");
-    ui.add_space(space::XS);
-    let families = 64.0;
+    let families = 40.0;
     let height = (ui.available_height() - families).max(80.0);
     ScrollArea::vertical().max_height(height).auto_shrink(false).show(ui, |ui| {
         ui.horizontal_wrapped(|ui| {
@@ -47,7 +45,7 @@ fn palette(ui: &mut Ui, law: &mut Effect, asks: &mut Vec<Ask>) {
     ui.add_space(space::XS);
     ui.horizontal_wrapped(|ui| {
         let weak = ui.palette().weak;
-        ui.label(RichText::new("Add at".to_owned()).color(weak));
+        ui.label(RichText::new(format!("Add {} at", words::effect(*law))).color(weak));
         if matches!(law.kind(), Kind::Whole(_)) {
             if ui.button("Whole structure").clicked() {
                 asks.push(Ask::Edit(Edit::DrawWhole(*law)));
@@ -97,11 +95,10 @@ fn parameters(effect: Effect) -> String {
 }
 
 /// The list of sources; the one that was clicked.
-fn sources(ui: &mut Ui, p: &Project, view: &View, asks: &mut Vec<Ask>) -> Option<usize> {
+fn list(ui: &mut Ui, p: &Project, view: &View, asks: &mut Vec<Ask>) -> Option<usize> {
     let mut chosen = None;
     let palette = ui.palette();
     ui.horizontal(|ui| {
-        ui.title("Sources", "");
         let count = |state: State| p.sources.iter().filter(|s| s.state == state).count();
         for state in [State::Candidate, State::Forced, State::Known, State::Reference, State::Off] {
             if count(state) > 0 {

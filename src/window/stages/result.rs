@@ -1,37 +1,58 @@
 //! Result: the damping matrix, energy shares, damping ratios, frequency responses, hysteresis.
 
-use super::split;
 use crate::exchange::Project;
 use crate::identify::Outcome;
 use crate::response::frequency_response::Quantity;
-use crate::window::app::{App, Ask};
-use crate::window::derived::Derived;
-use crate::window::document::Document;
+use crate::window::app::App;
 use crate::window::plots::{bars, bode::Diagram, heatmap, hysteresis};
 use crate::window::theme::space;
-use crate::window::view::{Pane, View};
 use crate::window::widgets::UiExt;
 use crate::window::{format, solid, words};
 use egui::{Align, Layout, ScrollArea, Ui};
 use egui_extras::{Column, TableBuilder};
+use std::sync::Arc;
 
-/// Shows the stage.
-pub fn show(ui: &mut Ui, app: &mut App, _asks: &mut [Ask]) {
+/// The answer, or what is shown in its place.
+fn ready(ui: &mut Ui, app: &mut App) -> Option<Arc<Outcome>> {
+    let document = app.document.as_ref()?;
+    super::outcome(ui, &mut app.derived, document)
+}
+
+/// The damping matrix as a heat map or as bars in space.
+pub fn matrix(ui: &mut Ui, app: &mut App) {
+    let Some(outcome) = ready(ui, app) else { return };
     let Some(document) = &app.document else { return };
-    let Some(outcome) = super::outcome(ui, &mut app.derived, document) else { return };
-    let p = &document.project;
-    let (derived, view) = (&mut app.derived, &mut app.view);
-    let (mut whole, mut in_space) = (view.whole_matrix, view.matrix_in_space);
-    split(
-        ui,
-        0.40,
-        |ui| matrix(ui, p, &outcome, &mut whole, &mut in_space),
-        |ui| panes(ui, document, &outcome, derived, view),
-    );
+    let (mut whole, mut in_space) = (app.view.whole_matrix, app.view.matrix_in_space);
+    heat(ui, &document.project, &outcome, &mut whole, &mut in_space);
     (app.view.whole_matrix, app.view.matrix_in_space) = (whole, in_space);
 }
 
-fn matrix(ui: &mut Ui, p: &Project, outcome: &Outcome, whole: &mut bool, in_space: &mut bool) {
+/// Shares of the energy by source and by DOF.
+pub fn energy(ui: &mut Ui, app: &mut App) {
+    let Some(outcome) = ready(ui, app) else { return };
+    let Some(document) = &app.document else { return };
+    shares(ui, &document.project, &outcome);
+}
+
+/// Damping ratios beside half-power values.
+pub fn damping(ui: &mut Ui, app: &mut App) {
+    let Some(outcome) = ready(ui, app) else { return };
+    ratios(ui, &outcome);
+}
+
+/// Magnitude and phase over frequency.
+pub fn bode(ui: &mut Ui, app: &mut App) {
+    response(ui, app, |diagram, ui, _| diagram.bode(ui));
+}
+
+/// Imaginary over real part near the selected run.
+pub fn nyquist(ui: &mut Ui, app: &mut App) {
+    response(ui, app, |diagram, ui, run| {
+        diagram.nyquist(ui, run);
+    });
+}
+
+fn heat(ui: &mut Ui, p: &Project, outcome: &Outcome, whole: &mut bool, in_space: &mut bool) {
     let results = &outcome.results;
     let linear = results.others.is_empty();
     let (matrix, name) = if linear {
@@ -40,7 +61,7 @@ fn matrix(ui: &mut Ui, p: &Project, outcome: &Outcome, whole: &mut bool, in_spac
         (&results.equivalent_viscous, "energy-equivalent viscous")
     };
     ui.horizontal(|ui| {
-        ui.title("Damping matrix", &format!("N·s/m, {name}"));
+        ui.hint(format!("N·s/m, {name}"));
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             ui.checkbox(whole, "All DOFs");
             for (shown, name) in [(true, "3-D"), (false, "Map")] {
@@ -66,34 +87,13 @@ fn matrix(ui: &mut Ui, p: &Project, outcome: &Outcome, whole: &mut bool, in_spac
     }
 }
 
-fn panes(ui: &mut Ui, document: &Document, outcome: &Outcome, derived: &mut Derived, view: &mut View) {
-    let p = &document.project;
-    ui.horizontal(|ui| {
-        for pane in Pane::ALL {
-            if ui.selectable_label(view.pane == pane, pane.label()).clicked() {
-                view.pane = pane;
-            }
+fn quantities(ui: &mut Ui, chosen: &mut Quantity) {
+    for (quantity, name) in
+        [(Quantity::Receptance, "Receptance"), (Quantity::Mobility, "Mobility"), (Quantity::Accelerance, "Accelerance")]
+    {
+        if ui.selectable_label(*chosen == quantity, name).clicked() {
+            *chosen = quantity;
         }
-        if matches!(view.pane, Pane::Bode | Pane::Nyquist) {
-            ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-                for (quantity, name) in [
-                    (Quantity::Accelerance, "Accelerance"),
-                    (Quantity::Mobility, "Mobility"),
-                    (Quantity::Receptance, "Receptance"),
-                ] {
-                    if ui.selectable_label(view.quantity == quantity, name).clicked() {
-                        view.quantity = quantity;
-                    }
-                }
-            });
-        }
-    });
-    ui.separator();
-    match view.pane {
-        Pane::Energy => shares(ui, p, outcome),
-        Pane::Damping => damping(ui, outcome),
-        Pane::Bode | Pane::Nyquist => response(ui, document, derived, view),
-        Pane::Hysteresis => loops(ui, document, derived, view),
     }
 }
 
@@ -140,7 +140,7 @@ fn shares(ui: &mut Ui, p: &Project, outcome: &Outcome) {
     });
 }
 
-fn damping(ui: &mut Ui, outcome: &Outcome) {
+fn ratios(ui: &mut Ui, outcome: &Outcome) {
     if outcome.results.modes.is_empty() {
         ui.empty("No modes", "Damping ratios need mass and stiffness.");
         return;
@@ -157,7 +157,7 @@ fn damping(ui: &mut Ui, outcome: &Outcome) {
         .header(space::ROW, |mut row| {
             row.col(|ui| drop(ui.hint("Mode")));
             for name in ["Frequency", "Damping ratio", "From half-power points"] {
-                row.col(|ui| super::head_right(ui, name));
+                row.col(|ui| drop(super::head_right(ui, name)));
             }
         })
         .body(|body| {
@@ -178,32 +178,103 @@ fn damping(ui: &mut Ui, outcome: &Outcome) {
         });
 }
 
-fn response(ui: &mut Ui, document: &Document, derived: &mut Derived, view: &View) {
+fn response(ui: &mut Ui, app: &mut App, draw: impl FnOnce(&Diagram<'_>, &mut Ui, f64)) {
+    if ready(ui, app).is_none() {
+        return;
+    }
+    let Some(document) = &app.document else { return };
     let p = &document.project;
-    match derived.response(ui.ctx(), document, view) {
+    match app.derived.response(ui.ctx(), document, &app.view) {
         None => ui.empty("The response is being computed", ""),
         Some(Err(error)) => ui.empty("There is no frequency response", &error),
         Some(Ok(response)) => {
             let labels = (p.structure.label(response.response), p.structure.label(response.excitation));
-            ui.hint(format!("DOF {} for a force at DOF {}; select another DOF on the schematic", labels.0, labels.1));
-            let diagram = Diagram { project: p, response: &response, quantity: view.quantity };
-            if view.pane == Pane::Bode {
-                diagram.bode(ui);
-            } else {
-                let run = p.runs.get(view.run).map_or(1.0, |r| r.fit.omega);
-                diagram.nyquist(ui, run);
-            }
+            ui.horizontal_wrapped(|ui| {
+                quantities(ui, &mut app.view.quantity);
+                ui.hint(format!("DOF {} for a force at DOF {}; select another on the schematic", labels.0, labels.1));
+            });
+            let diagram = Diagram { project: p, response: &response, quantity: app.view.quantity };
+            let run = p.runs.get(app.view.run).map_or(1.0, |r| r.fit.omega);
+            draw(&diagram, ui, run);
         }
     }
 }
 
-fn loops(ui: &mut Ui, document: &Document, derived: &mut Derived, view: &View) {
-    match derived.loops(document, view.run) {
+/// Loops of force over displacement of the selected run.
+pub fn hysteresis(ui: &mut Ui, app: &mut App) {
+    if ready(ui, app).is_none() {
+        return;
+    }
+    let Some(document) = &app.document else { return };
+    let run = app.view.run;
+    match app.derived.loops(document, run) {
         Err(error) => ui.empty("There are no loops", &error),
         Ok(loops) => {
-            let frequency = document.project.runs.get(view.run).map_or(0.0, |r| r.fit.omega / std::f64::consts::TAU);
-            ui.hint(format!("Run {}, {}; arrow keys choose another", view.run + 1, format::with_unit(frequency, "Hz")));
+            let frequency = document.project.runs.get(run).map_or(0.0, |r| r.fit.omega / std::f64::consts::TAU);
+            ui.hint(format!("Run {}, {}; arrow keys choose another", run + 1, format::with_unit(frequency, "Hz")));
             hysteresis::show(ui, loops);
         }
     }
+}
+
+/// Everything identified as a table that can be copied.
+pub fn values(ui: &mut Ui, app: &mut App) {
+    let Some(outcome) = ready(ui, app) else { return };
+    let Some(document) = &app.document else { return };
+    let p = &document.project;
+    ui.horizontal(|ui| {
+        ui.hint("Coefficients with one standard deviation");
+        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+            if ui
+                .button("Copy table")
+                .on_hover_text("Columns are separated by tabs, as spreadsheets want them.")
+                .clicked()
+            {
+                ui.ctx().copy_text(tabbed(p, &outcome));
+            }
+        });
+    });
+    ui.add_space(space::XS);
+    ui.style_mut().interaction.selectable_labels = false;
+    TableBuilder::new(ui)
+        .id_salt("values")
+        .striped(true)
+        .cell_layout(Layout::left_to_right(Align::Center))
+        .column(Column::exact(150.0))
+        .column(Column::remainder().at_least(80.0).clip(true))
+        .column(Column::exact(190.0))
+        .column(Column::exact(80.0))
+        .header(space::ROW, |mut row| {
+            row.col(|ui| drop(ui.hint("Law")));
+            row.col(|ui| drop(ui.hint("Place")));
+            row.col(|ui| drop(super::head_right(ui, "Coefficient")));
+            row.col(|ui| drop(super::head_right(ui, "Energy")));
+        })
+        .body(|body| {
+            body.rows(space::ROW, outcome.sources.len(), |mut row| {
+                let estimate = &outcome.sources[row.index()];
+                let Some(source) = p.sources.get(estimate.source) else { return };
+                row.col(|ui| drop(ui.label(words::effect(source.effect))));
+                row.col(|ui| drop(ui.label(words::place(&p.structure, &source.place))));
+                row.col(|ui| drop(ui.number(super::coefficient(source, estimate))));
+                row.col(|ui| drop(ui.number(format::percent(0.01 * estimate.energy_percent))));
+            });
+        });
+}
+
+/// The table with all digits, columns separated by tabs.
+fn tabbed(p: &Project, outcome: &Outcome) -> String {
+    let mut text = "law\tplace\tstate\tcoefficient\tdeviation\tunit\tenergy %\n".to_owned();
+    for e in &outcome.sources {
+        let Some(s) = p.sources.get(e.source) else { continue };
+        let unit = s.effect.coefficient().map_or("", |k| s.effect.parameters()[k].unit);
+        let place = words::place(&p.structure, &s.place);
+        let state = words::state(s.state);
+        let law = s.effect.name();
+        text.push_str(&format!(
+            "{law}\t{place}\t{state}\t{:e}\t{:e}\t{unit}\t{}\n",
+            e.coefficient, e.deviation, e.energy_percent
+        ));
+    }
+    text
 }

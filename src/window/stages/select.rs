@@ -1,65 +1,87 @@
 //! Select: one row a step, its coefficients and alternatives, the angle against the number of sources, energy per run.
 
-use super::split;
+use crate::effects::State;
 use crate::exchange::Project;
 use crate::identify::{Outcome, Status, Step};
 use crate::window::app::{App, Ask};
 use crate::window::commands::Command;
+use crate::window::document::Edit;
 use crate::window::plots::{angle, energy};
-use crate::window::theme::space;
+use crate::window::theme::{size, space};
 use crate::window::view::View;
 use crate::window::widgets::UiExt;
 use crate::window::{format, words};
 use egui::{Align, Layout, ScrollArea, Sense, Ui};
-use egui_extras::{Column, TableBuilder};
+use egui_extras::{Column, TableBuilder, TableRow};
+use std::sync::Arc;
 
-/// Shows the stage.
-pub fn show(ui: &mut Ui, app: &mut App, asks: &mut Vec<Ask>) {
+/// What the panes of the stage share: the answer and the step that is looked at.
+fn ready(ui: &mut Ui, app: &mut App) -> Option<(Arc<Outcome>, usize)> {
+    let document = app.document.as_ref()?;
+    let outcome = super::outcome(ui, &mut app.derived, document)?;
+    let current = app.view.step.unwrap_or(outcome.accepted).min(outcome.steps.len().checked_sub(1)?);
+    Some((outcome, current))
+}
+
+/// One row a step.
+pub fn steps(ui: &mut Ui, app: &mut App, asks: &mut Vec<Ask>) {
+    let Some((outcome, current)) = ready(ui, app) else { return };
     let Some(document) = &app.document else { return };
-    let Some(outcome) = super::outcome(ui, &mut app.derived, document) else { return };
-    let p = &document.project;
-    let current = app.view.step.unwrap_or(outcome.accepted).min(outcome.steps.len() - 1);
     let mut chosen = app.view.step;
-    split(
-        ui,
-        0.54,
-        |ui| {
-            header(ui, &outcome, current, asks);
-            let height = (0.48 * ui.available_height()).min(space::ROW * (outcome.steps.len() as f32 + 1.5) + 12.0);
-            steps(ui, p, &outcome, current, height, &mut chosen);
-            ui.separator();
-            details(ui, p, &outcome.steps[current]);
-        },
-        |ui| {
-            let height = 0.5 * ui.available_height();
-            ui.allocate_ui(egui::vec2(ui.available_width(), height), |ui| {
-                ui.set_height(height);
-                angle::show(ui, &outcome, current, p.settings.stop_angle_deg);
-            });
-            energy::show(ui, p, &outcome, current);
-        },
-    );
+    header(ui, &outcome, current, asks);
+    table(ui, &document.project, &outcome, current, &mut chosen);
     app.view.step = chosen;
+}
+
+/// The set that is looked at, what cannot be told from it, and the alternatives of its size.
+pub fn set(ui: &mut Ui, app: &mut App, asks: &mut Vec<Ask>) {
+    let Some((outcome, current)) = ready(ui, app) else { return };
+    let Some(document) = &app.document else { return };
+    let p = &document.project;
+    ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+        details(ui, p, &outcome.steps[current], asks);
+        if current == outcome.accepted {
+            doubts(ui, p, &outcome);
+        }
+        alternatives(ui, p, &outcome.steps[current], asks);
+    });
+}
+
+/// Angle against the number of sources.
+pub fn angle(ui: &mut Ui, app: &mut App) {
+    let Some((outcome, current)) = ready(ui, app) else { return };
+    let Some(document) = &app.document else { return };
+    angle::show(ui, &outcome, current, document.project.settings.stop_angle_deg);
+}
+
+/// Measured and identified energy of every run.
+pub fn energy(ui: &mut Ui, app: &mut App) {
+    let Some((outcome, current)) = ready(ui, app) else { return };
+    let Some(document) = &app.document else { return };
+    energy::show(ui, &document.project, &outcome, current);
 }
 
 fn header(ui: &mut Ui, outcome: &Outcome, current: usize, asks: &mut Vec<Ask>) {
     ui.horizontal(|ui| {
         let good = matches!(outcome.status, Status::WithinNoise | Status::BelowAngle);
-        ui.title("Steps", "");
         let colour = if good { ui.palette().good } else { ui.palette().warning };
         ui.pill(status(outcome.status), colour).on_hover_text(&outcome.reason);
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-            for (command, label, on) in [
-                (Command::StepOn, "Step", current + 1 < outcome.steps.len()),
-                (Command::StepBack, "Step back", current > 0),
+            for (command, on) in [
+                (Command::StepEnd, current != outcome.accepted),
+                (Command::StepOn, current + 1 < outcome.steps.len()),
+                (Command::StepBack, current > 0),
             ] {
-                if ui.add_enabled(on, egui::Button::new(label)).on_hover_text(command.entry().tooltip).clicked() {
+                let entry = command.entry();
+                let hover = |r: egui::Response| r.on_hover_text(entry.tooltip);
+                if hover(ui.add_enabled(on, egui::Button::new(entry.label))).clicked() {
                     asks.push(Ask::Command(command));
                 }
             }
         });
     });
     ui.hint(&outcome.reason);
+    ui.add_space(space::XS);
 }
 
 /// How the search ended, in words.
@@ -73,7 +95,7 @@ pub fn status(status: Status) -> &'static str {
 }
 
 /// The sources of a set as one line: `viscous dashpot 3, 5, 13`.
-pub fn set(p: &Project, sources: impl Iterator<Item = usize>) -> String {
+pub fn in_words(p: &Project, sources: impl Iterator<Item = usize>) -> String {
     let mut laws: Vec<(&'static str, Vec<String>)> = Vec::new();
     for source in sources.filter_map(|s| p.sources.get(s)) {
         let (law, place) = (words::effect(source.effect), words::short_place(&p.structure, &source.place));
@@ -85,43 +107,35 @@ pub fn set(p: &Project, sources: impl Iterator<Item = usize>) -> String {
     laws.iter().map(|(law, places)| format!("{law} {}", places.join(", "))).collect::<Vec<_>>().join("; ")
 }
 
-fn steps(ui: &mut Ui, p: &Project, outcome: &Outcome, current: usize, height: f32, chosen: &mut Option<usize>) {
+fn table(ui: &mut Ui, p: &Project, outcome: &Outcome, current: usize, chosen: &mut Option<usize>) {
     ui.style_mut().interaction.selectable_labels = false;
     TableBuilder::new(ui)
         .id_salt("steps")
         .striped(true)
         .sense(Sense::click())
         .cell_layout(Layout::left_to_right(Align::Center))
-        .auto_shrink([false, true])
-        .max_scroll_height(height)
+        .auto_shrink([false, false])
         .column(Column::exact(62.0))
         .column(Column::remainder().at_least(120.0).clip(true))
-        .column(Column::exact(76.0))
-        .column(Column::exact(84.0))
-        .column(Column::exact(86.0))
+        .column(Column::exact(78.0))
+        .column(Column::exact(80.0))
+        .column(Column::exact(74.0))
         .header(space::ROW, |mut row| {
             row.col(|ui| drop(ui.hint("Sources")));
-            row.col(|ui| drop(ui.hint("Which")));
-            for name in ["Angle", "Energy error", "χ² per row"] {
-                row.col(|ui| super::head_right(ui, name));
+            row.col(|ui| drop(ui.hint("Which, with coefficients ± one deviation")));
+            for (name, what) in [
+                ("Angle", "Angle between measured and identified energies of the runs."),
+                ("Energy error", "Distance of the identified energies from the measured, relative."),
+                ("χ² per row", "About 1 where the set explains the data to their noise."),
+            ] {
+                row.col(|ui| drop(super::head_right(ui, name).on_hover_text(what)));
             }
         })
         .body(|body| {
-            body.rows(space::ROW, outcome.steps.len(), |mut row| {
+            body.rows(2.0 * space::ROW - 6.0, outcome.steps.len(), |mut row| {
                 let k = row.index();
-                let step = &outcome.steps[k];
                 row.set_selected(k == current);
-                row.col(|ui| {
-                    ui.label(step.count.to_string());
-                    if k == outcome.accepted {
-                        ui.pill("best", ui.palette().model).on_hover_text(&outcome.reason);
-                    }
-                });
-                row.col(|ui| drop(ui.label(set(p, step.sources.iter().map(|s| s.source)))));
-                row.col(|ui| drop(ui.number(format!("{}°", format::significant(step.angle_deg, 4)))));
-                row.col(|ui| drop(ui.number(format::percent(step.relative_error))));
-                let per_row = step.chi_square / step.freedom.max(1) as f64;
-                row.col(|ui| drop(ui.number(format::significant(per_row, 3))));
+                cells(&mut row, p, outcome, k);
                 if row.response().clicked() {
                     *chosen = Some(k);
                 }
@@ -129,41 +143,98 @@ fn steps(ui: &mut Ui, p: &Project, outcome: &Outcome, current: usize, height: f3
         });
 }
 
-fn details(ui: &mut Ui, p: &Project, step: &Step) {
+fn cells(row: &mut TableRow<'_, '_>, p: &Project, outcome: &Outcome, k: usize) {
+    let step = &outcome.steps[k];
+    row.col(|ui| {
+        ui.label(step.count.to_string());
+        if k == outcome.accepted {
+            ui.pill("best", ui.palette().model).on_hover_text(&outcome.reason);
+        }
+    });
+    row.col(|ui| {
+        ui.vertical(|ui| {
+            ui.spacing_mut().item_spacing.y = 1.0;
+            ui.add_space(3.0);
+            ui.add(egui::Label::new(in_words(p, step.sources.iter().map(|s| s.source))).truncate());
+            let values: Vec<String> =
+                step.sources.iter().filter_map(|e| Some(super::coefficient(p.sources.get(e.source)?, e))).collect();
+            let text = egui::RichText::new(values.join(",  ")).size(size::SMALL).color(ui.palette().weak);
+            ui.add(egui::Label::new(text).truncate());
+        });
+    });
+    row.col(|ui| drop(ui.number(format!("{}°", format::significant(step.angle_deg, 4)))));
+    row.col(|ui| drop(ui.number(format::percent(step.relative_error))));
+    let per_row = step.chi_square / step.freedom.max(1) as f64;
+    row.col(|ui| drop(ui.number(format::significant(per_row, 3))));
+}
+
+fn details(ui: &mut Ui, p: &Project, step: &Step, asks: &mut Vec<Ask>) {
     let plural = if step.count == 1 { "source" } else { "sources" };
     let proved = if step.proved { "proved to be the best set of this size" } else { "the best set found" };
     ui.title(&format!("{} {plural}", step.count), proved);
-    ScrollArea::vertical().id_salt("details").auto_shrink(false).show(ui, |ui| {
-        egui::Grid::new("estimates").num_columns(4).min_col_width(90.0).spacing([space::L, space::XS]).show(ui, |ui| {
-            for name in ["Law", "Place", "Coefficient", "Energy"] {
-                ui.hint(name);
+    egui::Grid::new("estimates").num_columns(4).spacing([space::M, space::XS]).show(ui, |ui| {
+        for name in ["Source", "Coefficient", "Energy", ""] {
+            ui.hint(name);
+        }
+        ui.end_row();
+        for estimate in &step.sources {
+            let Some(source) = p.sources.get(estimate.source) else { continue };
+            ui.label(format!("{} {}", words::effect(source.effect), words::short_place(&p.structure, &source.place)));
+            ui.label(super::coefficient(source, estimate));
+            ui.label(format::percent(0.01 * estimate.energy_percent));
+            let forced = source.state == State::Forced;
+            let to = if forced { State::Candidate } else { State::Forced };
+            let text = if forced { "Release" } else { "Force" };
+            let hover = if forced { "Lets the search leave it out again." } else { "Every set must then hold it." };
+            if ui.small_button(text).on_hover_text(hover).clicked() {
+                asks.push(Ask::Edit(Edit::SetState(estimate.source, to)));
             }
             ui.end_row();
-            for estimate in &step.sources {
-                let Some(source) = p.sources.get(estimate.source) else { continue };
-                ui.label(words::effect(source.effect));
-                ui.label(words::place(&p.structure, &source.place));
-                ui.label(super::coefficient(source, estimate));
-                ui.label(format::percent(0.01 * estimate.energy_percent));
-                ui.end_row();
-            }
-        });
-        if step.alternatives.is_empty() {
-            return;
         }
-        ui.add_space(space::S);
-        ui.title("Alternatives", "other sets of the same size, next best first");
-        egui::Grid::new("alternatives").num_columns(2).min_col_width(90.0).spacing([space::L, space::XS]).show(
-            ui,
-            |ui| {
-                for other in &step.alternatives {
-                    ui.label(format!("{}°", format::significant(other.angle_deg, 4)));
-                    ui.label(set(p, other.sources.iter().copied()));
-                    ui.end_row();
-                }
-            },
-        );
     });
+}
+
+/// What the data cannot tell apart, and what the user should know.
+fn doubts(ui: &mut Ui, p: &Project, outcome: &Outcome) {
+    let warning = ui.palette().warning;
+    for collinear in &outcome.collinear {
+        let others: Vec<String> = collinear.others.iter().map(|(s, _)| in_words(p, std::iter::once(*s))).collect();
+        let one = in_words(p, std::iter::once(collinear.source));
+        ui.colored_label(warning, format!("{one} cannot be told from {}.", others.join(" or ")));
+    }
+    for text in &outcome.warnings {
+        ui.colored_label(warning, text);
+    }
+}
+
+fn alternatives(ui: &mut Ui, p: &Project, step: &Step, asks: &mut Vec<Ask>) {
+    ui.add_space(space::S);
+    if let Some(best) = &step.best_of_all {
+        let words = in_words(p, best.sources.iter().copied());
+        let angle = format::significant(best.angle_deg, 4);
+        ui.colored_label(
+            ui.palette().warning,
+            format!("Over all sets, {words} is better ({angle}°): the kept single columns hide it."),
+        );
+        branch(ui, &best.sources, "Branch to it", asks);
+    }
+    if step.alternatives.is_empty() {
+        return;
+    }
+    ui.title("Alternatives", "next best first; click one to branch from it");
+    for other in &step.alternatives {
+        let words = in_words(p, other.sources.iter().copied());
+        let text = format!("{}°   {words}", format::significant(other.angle_deg, 4));
+        branch(ui, &other.sources, &text, asks);
+    }
+}
+
+/// To branch from a set is to force its sources.
+fn branch(ui: &mut Ui, sources: &[usize], text: &str, asks: &mut Vec<Ask>) {
+    let button = egui::Button::new(text).frame(false).truncate();
+    if ui.add(button).on_hover_text("Forces these sources and searches on; Undo goes back.").clicked() {
+        asks.push(Ask::Edit(Edit::Force(sources.to_vec())));
+    }
 }
 
 /// The step that is looked at.

@@ -1,36 +1,43 @@
 //! Structure: natural frequencies beside the frequencies of the runs, mode shapes, which DOFs are measured.
 
-use super::split;
 use crate::exchange::Project;
+use crate::measurement::Quantity;
 use crate::structure::modes::Modes;
 use crate::window::app::App;
 use crate::window::theme::space;
 use crate::window::widgets::UiExt;
-use crate::window::{format, plots};
+use crate::window::{format, plots, words};
 use egui::{Sense, Ui};
 use egui_extras::{Column, TableBuilder};
 use egui_plot::{Bar, BarChart, MarkerShape, PlotPoints, Points, VLine};
 use std::f64::consts::TAU;
+use std::sync::Arc;
 
-/// Shows the stage.
-pub fn show(ui: &mut Ui, app: &mut App) {
-    let Some(document) = &app.document else { return };
-    let p = &document.project;
-    if p.structure.matrices().is_none() {
-        ui.pane(|ui| {
-            ui.empty("Points without a model", "No mass or stiffness is given: the energy balance needs none.");
-        });
-        return;
+/// The modes, once they are there; else what is shown in their place.
+fn ready(ui: &mut Ui, app: &mut App) -> Option<Arc<Modes>> {
+    let document = app.document.as_ref()?;
+    if document.project.structure.matrices().is_none() {
+        ui.empty("Points without a model", "No mass or stiffness is given: the energy balance needs none.");
+        return None;
     }
     match app.derived.modes(ui.ctx(), document) {
-        None => ui.pane(|ui| ui.empty("Modes are being computed", "This takes a moment for large matrices.")),
-        Some(Err(error)) => ui.pane(|ui| ui.empty("There are no modes", &error)),
+        None => ui.empty("Modes are being computed", "This takes a moment for large matrices."),
+        Some(Err(error)) => ui.empty("There are no modes", &error),
         Some(Ok(modes)) => {
-            let mut mode = app.view.mode.min(modes.len().saturating_sub(1));
-            split(ui, 0.40, |ui| table(ui, p, &modes, &mut mode), |ui| charts(ui, p, &modes, app.view.mode));
-            app.view.mode = mode;
+            app.view.mode = app.view.mode.min(modes.len().saturating_sub(1));
+            return Some(modes);
         }
     }
+    None
+}
+
+/// The table of natural frequencies.
+pub fn modes(ui: &mut Ui, app: &mut App) {
+    let Some(modes) = ready(ui, app) else { return };
+    let Some(document) = &app.document else { return };
+    let mut mode = app.view.mode;
+    table(ui, &document.project, &modes, &mut mode);
+    app.view.mode = mode;
 }
 
 /// The used run whose frequency is nearest to a mode, with its distance in per cent of the mode's frequency.
@@ -45,8 +52,6 @@ fn nearest(p: &Project, frequency: f64) -> Option<(usize, f64)> {
 }
 
 fn table(ui: &mut Ui, p: &Project, modes: &Modes, chosen: &mut usize) {
-    ui.title("Modes", "natural frequencies beside the runs that are near them");
-    ui.add_space(space::XS);
     ui.style_mut().interaction.selectable_labels = false;
     TableBuilder::new(ui)
         .striped(true)
@@ -57,15 +62,10 @@ fn table(ui: &mut Ui, p: &Project, modes: &Modes, chosen: &mut usize) {
         .column(Column::remainder().clip(true))
         .column(Column::exact(80.0))
         .header(space::ROW, |mut header| {
-            for (name, right) in [("Mode", false), ("Frequency", true), ("   Nearest run", false), ("Distance", true)] {
-                header.col(|ui| {
-                    if right {
-                        ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| ui.hint(name));
-                    } else {
-                        ui.hint(name);
-                    }
-                });
-            }
+            header.col(|ui| drop(ui.hint("Mode")));
+            header.col(|ui| drop(super::head_right(ui, "Frequency")));
+            header.col(|ui| drop(ui.hint("   Nearest run")));
+            header.col(|ui| drop(super::head_right(ui, "Run is")));
         })
         .body(|body| {
             body.rows(space::ROW, modes.len(), |mut row| {
@@ -94,16 +94,17 @@ fn table(ui: &mut Ui, p: &Project, modes: &Modes, chosen: &mut usize) {
         });
 }
 
-fn charts(ui: &mut Ui, p: &Project, modes: &Modes, mode: usize) {
-    let palette = ui.palette();
-    let height = ui.available_height();
-    ui.title("Natural frequencies and runs", "");
-    plots::keys(ui, &[(palette.model, "modes"), (palette.measured, "runs")]);
+/// Natural frequencies as lines, runs as points.
+pub fn frequencies(ui: &mut Ui, app: &mut App) {
+    let Some(modes) = ready(ui, app) else { return };
+    let Some(document) = &app.document else { return };
+    let (p, mode, palette) = (&document.project, app.view.mode, ui.palette());
+    plots::keys(ui, &[(palette.model, "natural frequencies"), (palette.measured, "runs")]);
     let runs: Vec<f64> = p.runs.iter().map(|r| r.fit.omega / TAU).collect();
     let highest = runs.iter().copied().fold(0.0, f64::max).max(modes.frequency_hz(2.min(modes.len() - 1)));
     let shown: Vec<usize> = (0..modes.len()).filter(|&r| modes.frequency_hz(r) <= 1.6 * highest).collect();
     plots::frame(ui, "mode frequencies", "Frequency, Hz", "Run")
-        .height(0.42 * height)
+        .height(ui.available_height())
         .include_x(0.0)
         .include_x(1.05 * shown.last().map_or(highest, |&r| modes.frequency_hz(r)))
         .include_y(0.0)
@@ -118,18 +119,23 @@ fn charts(ui: &mut Ui, p: &Project, modes: &Modes, mode: usize) {
             let points: PlotPoints<'_> = runs.iter().enumerate().map(|(k, f)| [*f, k as f64 + 1.0]).collect();
             plot.points(Points::new("runs", points).shape(MarkerShape::Circle).radius(4.0).color(palette.measured));
         });
-    ui.title(&format!("Shape of mode {}", mode + 1), "translations; measured DOFs are filled");
-    let measured = |dof: usize| {
-        p.runs
-            .iter()
-            .flat_map(|r| &r.fit.channels)
-            .any(|c| c.channel.dof == dof && c.channel.quantity != crate::measurement::Quantity::Force)
-    };
+}
+
+/// The translations of the selected mode as bars.
+pub fn shape(ui: &mut Ui, app: &mut App) {
+    let Some(modes) = ready(ui, app) else { return };
+    let Some(document) = &app.document else { return };
+    let (p, mode, palette) = (&document.project, app.view.mode, ui.palette());
+    let frequency = format::with_unit(modes.frequency_hz(mode), "Hz");
+    plots::keys(
+        ui,
+        &[(palette.measured, "measured"), (palette.weak, &format!("not measured; mode {}, {frequency}", mode + 1))],
+    );
     let shape = upright(modes.shape(mode), &p.structure.translations());
     let translations = p.structure.translations();
     let largest = translations.iter().map(|&d| shape[d].abs()).fold(f64::MIN_POSITIVE, f64::max);
     let bar = |(k, &d): (usize, &usize)| {
-        let colour = if measured(d) { palette.measured } else { palette.line };
+        let colour = if is_measured(p, d) { palette.measured } else { palette.weak.gamma_multiply(0.5) };
         Bar::new(k as f64, shape[d] / largest).width(0.7).fill(colour).name(format!("DOF {}", p.structure.label(d)))
     };
     let bars: Vec<Bar> = translations.iter().enumerate().map(bar).collect();
@@ -141,8 +147,54 @@ fn charts(ui: &mut Ui, p: &Project, modes: &Modes, mode: usize) {
     });
     plots::frame(ui, "mode shape", "DOF", "Relative displacement")
         .custom_x_axes(vec![x])
-        .height(ui.available_height() - 4.0)
+        .height(ui.available_height())
         .show(ui, |plot| plot.bar_chart(BarChart::new("shape", bars)));
+}
+
+/// Whether a motion of the DOF is measured in any run.
+fn is_measured(p: &Project, dof: usize) -> bool {
+    let channels = p.runs.iter().flat_map(|r| &r.fit.channels).map(|c| &c.channel);
+    channels.into_iter().any(|c| c.dof == dof && c.quantity != Quantity::Force)
+}
+
+/// What is measured, how the rest follows from it and how well.
+pub fn expansion(ui: &mut Ui, app: &mut App) {
+    let Some(document) = &app.document else { return };
+    let p = &document.project;
+    let all: Vec<usize> = (0..p.structure.len()).collect();
+    let labels: Vec<&str> = all.iter().filter(|&&d| is_measured(p, d)).map(|&d| p.structure.label(d)).collect();
+    ui.pair("Measured DOFs", format!("{} of {}", labels.len(), p.structure.len()));
+    ui.hint(labels.join(", "));
+    ui.add_space(space::S);
+    let Some(outcome) = super::outcome(ui, &mut app.derived, document) else { return };
+    ui.pair("Expansion to the others", words::expansion(outcome.expansion));
+    ui.pair("Model error it allows for", format::percent(outcome.model_error));
+    ui.add_space(space::S);
+    TableBuilder::new(ui)
+        .id_salt("expansion")
+        .striped(true)
+        .cell_layout(egui::Layout::left_to_right(egui::Align::Center))
+        .column(Column::remainder().at_least(80.0).clip(true))
+        .columns(Column::exact(104.0), 3)
+        .header(space::ROW, |mut row| {
+            row.col(|ui| drop(ui.hint("Run")));
+            for (name, what) in [
+                ("At sensors", "Measured minus expanded motion at the sensors, relative to the measured."),
+                ("In deviations", "The same in standard deviations of the noise: about 1 where the model agrees."),
+                ("At other DOFs", "Expected relative error of the expanded motion over all DOFs."),
+            ] {
+                row.col(|ui| drop(super::head_right(ui, name).on_hover_text(what)));
+            }
+        })
+        .body(|body| {
+            body.rows(space::ROW, outcome.runs.len(), |mut row| {
+                let r = &outcome.runs[row.index()];
+                row.col(|ui| drop(ui.label(p.runs.get(r.run).map_or("", |run| run.file.as_str()))));
+                row.col(|ui| drop(ui.number(format::percent(r.relative_misfit))));
+                row.col(|ui| drop(ui.number(format::significant(r.misfit, 3))));
+                row.col(|ui| drop(ui.number(format::percent(r.expansion_error))));
+            });
+        });
 }
 
 /// A shape with the sign that makes its largest translation positive.

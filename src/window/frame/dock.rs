@@ -1,0 +1,186 @@
+//! The desk: panes that can be moved, split, closed and brought back; each stage has its own arrangement, remembered.
+
+use super::panes::{Pane, arrangement};
+use crate::window::app::{App, Ask};
+use crate::window::stages;
+use crate::window::theme::{self, Palette, size, space};
+use crate::window::view::Stage;
+use egui::{
+    Color32, CornerRadius, Frame, Id, Margin, Rect, Response, Role, Sense, Stroke, Ui, WidgetInfo, WidgetText, vec2,
+};
+use egui_tiles::{Behavior, SimplificationOptions, TabState, Tile, TileId, Tiles, Tree, UiResponse};
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+
+/// Arrangements of the stages that were opened.
+#[derive(Debug, Clone, Default, Serialize, Deserialize)]
+pub struct Desk {
+    trees: BTreeMap<Stage, Tree<Pane>>,
+}
+
+impl Desk {
+    fn tree(&mut self, stage: Stage) -> &mut Tree<Pane> {
+        self.trees.entry(stage).or_insert_with(|| arrangement(stage))
+    }
+
+    /// Back to the arrangement that the program starts with.
+    pub fn reset(&mut self, stage: Stage) {
+        self.trees.remove(&stage);
+    }
+
+    /// Panes of a stage and whether each is open.
+    pub fn panes(&self, stage: Stage) -> Vec<(Pane, bool)> {
+        let initial;
+        let tiles = if let Some(tree) = self.trees.get(&stage) {
+            &tree.tiles
+        } else {
+            initial = arrangement(stage);
+            &initial.tiles
+        };
+        let mut panes: Vec<(Pane, bool)> = tiles
+            .iter()
+            .filter_map(|(id, tile)| match tile {
+                Tile::Pane(pane) => Some((*pane, tiles.is_visible(*id))),
+                Tile::Container(_) => None,
+            })
+            .collect();
+        panes.sort_unstable();
+        panes
+    }
+
+    /// Opens or closes a pane; one that is opened comes to the front of its tabs.
+    pub fn set_open(&mut self, stage: Stage, pane: Pane, open: bool) {
+        let tree = self.tree(stage);
+        let Some(tile) = tree.tiles.find_pane(&pane) else { return };
+        tree.set_visible(tile, open);
+        if open {
+            tree.make_active(|id, _| id == tile);
+        }
+    }
+}
+
+/// Shows the panes of the stage that is open.
+pub fn show(ui: &mut Ui, app: &mut App, asks: &mut Vec<Ask>) {
+    let stage = app.view.stage;
+    // The tree is taken out while its panes look at the application.
+    let mut tree = app.desk.trees.remove(&stage).unwrap_or_else(|| arrangement(stage));
+    tree.ui(&mut Panes { app, asks }, ui);
+    app.desk.trees.insert(stage, tree);
+}
+
+struct Panes<'a> {
+    app: &'a mut App,
+    asks: &'a mut Vec<Ask>,
+}
+
+impl Behavior<Pane> for Panes<'_> {
+    fn pane_ui(&mut self, ui: &mut Ui, _tile: TileId, pane: &mut Pane) -> UiResponse {
+        let palette = Palette::of(ui.visuals());
+        let below = CornerRadius { nw: 0, ne: 0, sw: 6, se: 6 };
+        let margin =
+            if *pane == Pane::Schematic { Margin::ZERO } else { Margin { left: 12, right: 12, top: 8, bottom: 8 } };
+        let rect = ui.max_rect();
+        ui.painter().rect_filled(rect, below, palette.pane);
+        Frame::new().inner_margin(margin).show(ui, |ui| {
+            ui.set_min_size(ui.available_size());
+            ui.push_id(*pane, |ui| stages::show(ui, *pane, self.app, self.asks));
+        });
+        UiResponse::None
+    }
+
+    fn tab_title_for_pane(&mut self, pane: &Pane) -> WidgetText {
+        pane.title().into()
+    }
+
+    fn tab_ui(&mut self, tiles: &mut Tiles<Pane>, ui: &mut Ui, id: Id, tile: TileId, state: &TabState) -> Response {
+        let palette = Palette::of(ui.visuals());
+        let title = self.tab_title_for_tile(tiles, tile).text().to_owned();
+        let galley = ui.painter().layout_no_wrap(title.clone(), theme::font(size::BODY), Color32::PLACEHOLDER);
+        let cross = 16.0;
+        let (_, rect) = ui.allocate_space(vec2(galley.size().x + 2.0 * space::M + cross, ui.available_height()));
+        let response = ui.interact(rect, id, Sense::click_and_drag());
+        response.widget_info(|| WidgetInfo::selected(Role::Tab, true, state.active, &title));
+        if state.is_being_dragged {
+            return response;
+        }
+        let hovered = ui.rect_contains_pointer(rect);
+        let alone = tiles
+            .parent_of(tile)
+            .and_then(|p| tiles.get_container(p))
+            .is_none_or(|c| c.children().filter(|child| tiles.is_visible_in_layout(**child)).count() < 2);
+        let ink = match (state.active, alone) {
+            (true, false) => palette.accent,
+            (true, true) => palette.ink,
+            _ if hovered => palette.ink,
+            _ => palette.weak,
+        };
+        let at = rect.left_center() + vec2(space::M, -0.5 * galley.size().y);
+        ui.painter().galley(at, galley, ink);
+        if state.active && !alone {
+            let line = Rect::from_min_max(
+                rect.left_bottom() + vec2(space::M - 2.0, -2.0),
+                rect.right_bottom() - vec2(cross + 6.0, 0.0),
+            );
+            ui.painter().rect_filled(line, 1.0, palette.accent);
+        }
+        if hovered {
+            self.close_button(tiles, ui, rect, tile, &title);
+        }
+        response
+    }
+
+    fn on_tab_close(&mut self, tiles: &mut Tiles<Pane>, tile: TileId) -> bool {
+        // Closed panes keep their place, so that View > Panes can bring them back to it.
+        tiles.set_visible(tile, false);
+        false
+    }
+
+    fn simplification_options(&self) -> SimplificationOptions {
+        SimplificationOptions { all_panes_must_have_tabs: true, ..SimplificationOptions::default() }
+    }
+
+    fn gap_width(&self, _style: &egui::Style) -> f32 {
+        space::GAP
+    }
+
+    fn min_size(&self) -> f32 {
+        140.0
+    }
+
+    fn tab_bar_height(&self, _style: &egui::Style) -> f32 {
+        30.0
+    }
+
+    fn tab_bar_color(&self, visuals: &egui::Visuals) -> Color32 {
+        Palette::of(visuals).pane
+    }
+
+    fn tab_bar_hline_stroke(&self, visuals: &egui::Visuals) -> Stroke {
+        theme::hair(Palette::of(visuals).line)
+    }
+
+    fn resize_stroke(&self, style: &egui::Style, state: egui_tiles::ResizeState) -> Stroke {
+        let palette = Palette::of(&style.visuals);
+        match state {
+            egui_tiles::ResizeState::Idle => Stroke::NONE,
+            egui_tiles::ResizeState::Hovering => theme::bold(palette.line),
+            egui_tiles::ResizeState::Dragging => theme::bold(palette.accent),
+        }
+    }
+}
+
+impl Panes<'_> {
+    fn close_button(&mut self, tiles: &mut Tiles<Pane>, ui: &mut Ui, tab: Rect, tile: TileId, title: &str) {
+        let palette = Palette::of(ui.visuals());
+        let rect = Rect::from_center_size(tab.right_center() - vec2(14.0, 0.0), vec2(14.0, 14.0));
+        let response = ui.interact(rect, ui.scope_id().with(("close", tile)), Sense::click());
+        response.widget_info(|| WidgetInfo::labeled(Role::Button, true, format!("Close {title}")));
+        let ink = if response.hovered() { palette.error } else { palette.weak };
+        let r = rect.shrink(3.5);
+        ui.painter().line_segment([r.left_top(), r.right_bottom()], theme::pen(ink));
+        ui.painter().line_segment([r.right_top(), r.left_bottom()], theme::pen(ink));
+        if response.on_hover_text("Closes the pane; View > Panes brings it back.").clicked() {
+            self.on_tab_close(tiles, tile);
+        }
+    }
+}
