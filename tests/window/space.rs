@@ -77,7 +77,7 @@ fn a_wing_is_drawn_in_space_and_turns_with_the_mouse() {
     }
     let mut harness = open(&sample, Theme::Light);
     let before = harness.state().view.schematic.camera;
-    let room = harness.get_by_label("Schematic").rect();
+    let room = harness.get_by_role_and_label(egui::accesskit::Role::Image, "Schematic").rect();
     let corner = room.left_bottom() + egui::vec2(30.0, -30.0);
     harness.hover_at(corner);
     harness.run_steps(1);

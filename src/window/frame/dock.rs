@@ -8,7 +8,7 @@ use crate::window::view::Stage;
 use egui::{
     Color32, CornerRadius, Frame, Id, Margin, Rect, Response, Role, Sense, Stroke, Ui, WidgetInfo, WidgetText, vec2,
 };
-use egui_tiles::{Behavior, SimplificationOptions, TabState, Tile, TileId, Tiles, Tree, UiResponse};
+use egui_tiles::{Behavior, SimplificationOptions, TabState, Tabs, Tile, TileId, Tiles, Tree, UiResponse};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
@@ -64,13 +64,15 @@ pub fn show(ui: &mut Ui, app: &mut App, asks: &mut Vec<Ask>) {
     let stage = app.view.stage;
     // The tree is taken out while its panes look at the application.
     let mut tree = app.desk.trees.remove(&stage).unwrap_or_else(|| arrangement(stage));
-    tree.ui(&mut Panes { app, asks }, ui);
+    tree.ui(&mut Panes { app, asks, alone: true }, ui);
     app.desk.trees.insert(stage, tree);
 }
 
 struct Panes<'a> {
     app: &'a mut App,
     asks: &'a mut Vec<Ask>,
+    /// Whether the tab that is drawn is the only one of its bar.
+    alone: bool,
 }
 
 impl Behavior<Pane> for Panes<'_> {
@@ -104,11 +106,7 @@ impl Behavior<Pane> for Panes<'_> {
             return response;
         }
         let hovered = ui.rect_contains_pointer(rect);
-        let alone = tiles
-            .parent_of(tile)
-            .and_then(|p| tiles.get_container(p))
-            .is_none_or(|c| c.children().filter(|child| tiles.is_visible_in_layout(**child)).count() < 2);
-        let ink = match (state.active, alone) {
+        let ink = match (state.active, self.alone) {
             (true, false) => palette.accent,
             (true, true) => palette.ink,
             _ if hovered => palette.ink,
@@ -116,7 +114,7 @@ impl Behavior<Pane> for Panes<'_> {
         };
         let at = rect.left_center() + vec2(space::M, -0.5 * galley.size().y);
         ui.painter().galley(at, galley, ink);
-        if state.active && !alone {
+        if state.active && !self.alone {
             let line = Rect::from_min_max(
                 rect.left_bottom() + vec2(space::M - 2.0, -2.0),
                 rect.right_bottom() - vec2(cross + 6.0, 0.0),
@@ -127,6 +125,17 @@ impl Behavior<Pane> for Panes<'_> {
             self.close_button(tiles, ui, rect, tile, &title);
         }
         response
+    }
+
+    fn tab_bar_left_ui(&mut self, tiles: &Tiles<Pane>, _ui: &mut Ui, _tile: TileId, tabs: &Tabs) {
+        self.alone = tabs.children.iter().filter(|child| tiles.is_visible_in_layout(**child)).count() < 2;
+    }
+
+    fn top_bar_right_ui(&mut self, tiles: &Tiles<Pane>, ui: &mut Ui, _tile: TileId, tabs: &Tabs, _offset: &mut f32) {
+        if tabs.active.and_then(|tile| tiles.get_pane(&tile)) == Some(&Pane::Schematic) {
+            ui.add_space(space::S);
+            super::schematic::switches(ui, self.app, self.asks);
+        }
     }
 
     fn on_tab_close(&mut self, tiles: &mut Tiles<Pane>, tile: TileId) -> bool {

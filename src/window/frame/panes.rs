@@ -109,12 +109,12 @@ type Groups = &'static [(&'static [Pane], f32)];
 
 fn work(stage: Stage) -> Groups {
     match stage {
-        Stage::Measure => &[(&[Pane::Runs], 0.37), (&[Pane::Record], 0.36), (&[Pane::Spectrum], 0.27)],
+        Stage::Measure => &[(&[Pane::Runs], 0.40), (&[Pane::Record], 0.35), (&[Pane::Spectrum], 0.25)],
         Stage::Structure => {
             &[(&[Pane::Modes, Pane::Parameters, Pane::Expansion], 0.44), (&[Pane::Frequencies, Pane::ModeShape], 0.56)]
         }
         Stage::Pattern => &[(&[Pane::Laws], 0.48), (&[Pane::Sources], 0.52)],
-        Stage::Select => &[(&[Pane::Steps], 0.36), (&[Pane::Set], 0.36), (&[Pane::Angle, Pane::RunEnergy], 0.28)],
+        Stage::Select => &[(&[Pane::Steps], 0.42), (&[Pane::Set], 0.34), (&[Pane::Angle, Pane::RunEnergy], 0.24)],
         Stage::Result => &[
             (&[Pane::Matrix], 0.42),
             (&[Pane::Energy, Pane::Damping, Pane::Bode, Pane::Nyquist, Pane::Hysteresis, Pane::Values], 0.58),

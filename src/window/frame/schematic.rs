@@ -11,7 +11,7 @@ use crate::window::schematic::hit::Target;
 use crate::window::schematic::view::View;
 use crate::window::stages::select;
 use crate::window::view::Stage;
-use egui::{Align2, Rect, Ui, UiBuilder, vec2};
+use egui::Ui;
 use std::sync::Arc;
 
 /// Shows the schematic.
@@ -33,13 +33,11 @@ pub fn show(ui: &mut Ui, app: &mut App, asks: &mut Vec<Ask>) {
     let shape = shape.map(|s| s.iter().map(|v| v * app.view.phase.cos()).collect::<Vec<f64>>());
     let slot = |index: usize| scene.sources.iter().position(|s| s.index == index).map(Target::Source);
     let selected = app.view.source.and_then(slot).or(app.view.dof.map(Target::Dof));
-    let room = ui.available_rect_before_wrap();
     let law = (app.view.stage == Stage::Pattern).then_some(app.view.law).filter(|law| law.law().is_some());
     let view =
         View { scene: &scene, shape: shape.as_deref(), shares: shares.as_deref(), selected, law, caption: &caption };
     let intents = view.show(ui, &mut app.view.schematic);
     asks.extend(intents.into_iter().map(Ask::Schematic));
-    corner(ui, room, app, asks);
 }
 
 /// The scene with the values that were identified.
@@ -79,12 +77,11 @@ fn shape(ui: &Ui, app: &mut App) -> (Option<Vec<f64>>, String) {
     }
 }
 
-fn corner(ui: &mut Ui, room: Rect, app: &App, asks: &mut Vec<Ask>) {
-    if app.view.stage != Stage::Structure {
+/// Whether the shape is shown and moves, at the right of the pane's title.
+pub fn switches(ui: &mut Ui, app: &App, asks: &mut Vec<Ask>) {
+    if app.view.stage == Stage::Pattern {
         return;
     }
-    let rect = Align2::RIGHT_TOP.align_size_within_rect(vec2(180.0, 24.0), room.shrink(10.0));
-    let mut ui = ui.new_child(UiBuilder::new().max_rect(rect).layout(egui::Layout::right_to_left(egui::Align::Center)));
     for (command, on) in [(Command::Animate, app.view.animate), (Command::Shape, app.view.shape)] {
         let label = if command == Command::Shape { "Deflect" } else { "Animate" };
         if ui.selectable_label(on, label).on_hover_text(command.entry().tooltip).clicked() {

@@ -83,6 +83,7 @@ fn channels(ui: &mut Ui, run: &Run, channel: &mut usize) {
 
 fn table(ui: &mut Ui, p: &Project, view: &View, chosen: &mut usize, asks: &mut Vec<Ask>) {
     ui.style_mut().interaction.selectable_labels = false;
+    let levels = p.runs.iter().any(|r| r.level.is_some());
     TableBuilder::new(ui)
         .striped(true)
         .sense(Sense::click())
@@ -90,16 +91,16 @@ fn table(ui: &mut Ui, p: &Project, view: &View, chosen: &mut usize, asks: &mut V
         .column(Column::exact(30.0))
         .column(Column::remainder().at_least(64.0).clip(true))
         .column(Column::exact(78.0))
-        .column(Column::exact(40.0))
+        .column(Column::exact(if levels { 40.0 } else { 0.0 }))
         .column(Column::exact(62.0))
         .column(Column::exact(64.0))
-        .column(Column::exact(112.0).clip(true))
+        .column(Column::exact(104.0).clip(true))
         .header(space::ROW, |mut header| {
             header.col(|ui| drop(ui.hint("Use")));
             header.col(|ui| drop(ui.hint("File")));
             for (name, what) in [
                 ("Frequency", "Frequency at which the harmonics are fitted."),
-                ("Level", "Label of the force level."),
+                (if levels { "Level" } else { "" }, "Label of the force level."),
                 ("Noise", "Noise over signal, root mean square over the channels."),
                 ("Harmonics", "Largest higher harmonic over the fundamental, over all motions."),
             ] {
@@ -132,7 +133,7 @@ fn cells(row: &mut TableRow<'_, '_>, run: &Run, index: usize, asks: &mut Vec<Ask
     });
     row.col(|ui| drop(ui.label(&run.file)));
     row.col(|ui| drop(ui.number(format!("{} Hz", format::significant(run.fit.omega / std::f64::consts::TAU, 4)))));
-    row.col(|ui| drop(ui.number(run.level.map_or_else(|| "–".to_owned(), |level| level.to_string()))));
+    row.col(|ui| drop(ui.number(run.level.map_or_else(String::new, |level| level.to_string()))));
     row.col(|ui| drop(ui.number(format::percent(run.noise_ratio))));
     row.col(|ui| drop(ui.number(distortion(run).map_or_else(|| "–".to_owned(), format::percent))));
     row.col(|ui| {

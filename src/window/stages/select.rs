@@ -63,24 +63,25 @@ pub fn energy(ui: &mut Ui, app: &mut App) {
 
 fn header(ui: &mut Ui, outcome: &Outcome, current: usize, asks: &mut Vec<Ask>) {
     ui.horizontal(|ui| {
-        let good = matches!(outcome.status, Status::WithinNoise | Status::BelowAngle);
-        let colour = if good { ui.palette().good } else { ui.palette().warning };
-        ui.pill(status(outcome.status), colour).on_hover_text(&outcome.reason);
-        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-            for (command, on) in [
-                (Command::StepEnd, current != outcome.accepted),
-                (Command::StepOn, current + 1 < outcome.steps.len()),
-                (Command::StepBack, current > 0),
-            ] {
-                let entry = command.entry();
-                let hover = |r: egui::Response| r.on_hover_text(entry.tooltip);
-                if hover(ui.add_enabled(on, egui::Button::new(entry.label))).clicked() {
-                    asks.push(Ask::Command(command));
-                }
+        for (command, on) in [
+            (Command::StepBack, current > 0),
+            (Command::StepOn, current + 1 < outcome.steps.len()),
+            (Command::StepEnd, current != outcome.accepted),
+        ] {
+            let entry = command.entry();
+            let button = ui.add_enabled(on, egui::Button::new(entry.label));
+            if button.on_hover_text(entry.tooltip).clicked() {
+                asks.push(Ask::Command(command));
             }
-        });
+        }
     });
-    ui.hint(&outcome.reason);
+    let good = matches!(outcome.status, Status::WithinNoise | Status::BelowAngle);
+    let colour = if good { ui.palette().good } else { ui.palette().warning };
+    ui.horizontal(|ui| {
+        ui.pill(status(outcome.status), colour);
+        let reason = egui::RichText::new(&outcome.reason).size(size::SMALL).color(ui.palette().weak);
+        ui.add(egui::Label::new(reason).truncate()).on_hover_text(&outcome.reason);
+    });
     ui.add_space(space::XS);
 }
 
@@ -117,12 +118,12 @@ fn table(ui: &mut Ui, p: &Project, outcome: &Outcome, current: usize, chosen: &m
         .auto_shrink([false, false])
         .column(Column::exact(62.0))
         .column(Column::remainder().at_least(120.0).clip(true))
-        .column(Column::exact(78.0))
-        .column(Column::exact(80.0))
-        .column(Column::exact(74.0))
+        .column(Column::exact(76.0))
+        .column(Column::exact(82.0))
+        .column(Column::exact(70.0))
         .header(space::ROW, |mut row| {
             row.col(|ui| drop(ui.hint("Sources")));
-            row.col(|ui| drop(ui.hint("Which, with coefficients ± one deviation")));
+            row.col(|ui| drop(ui.hint("Which, with coefficients")));
             for (name, what) in [
                 ("Angle", "Angle between measured and identified energies of the runs."),
                 ("Energy error", "Distance of the identified energies from the measured, relative."),
@@ -148,7 +149,8 @@ fn cells(row: &mut TableRow<'_, '_>, p: &Project, outcome: &Outcome, k: usize) {
     row.col(|ui| {
         ui.label(step.count.to_string());
         if k == outcome.accepted {
-            ui.pill("best", ui.palette().model).on_hover_text(&outcome.reason);
+            let best = egui::RichText::new("best").size(size::SMALL).color(ui.palette().model);
+            ui.label(best).on_hover_text(&outcome.reason);
         }
     });
     row.col(|ui| {
