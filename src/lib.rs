@@ -26,9 +26,10 @@
 //! # The floors
 //!
 //! Dependence runs downwards only (`tests/floors.rs` holds it): [`control`], [`math`] - [`structure`], [`effects`],
-//! [`measurement`] - [`response`], [`balance`] - [`identify`], [`explain`] - [`exchange`], [`session`] - [`cli`].
+//! [`measurement`] - [`response`], [`balance`] - [`identify`], [`classical`], [`explain`] - [`exchange`], [`session`] - [`cli`].
 
 pub mod balance;
+pub mod classical;
 pub mod cli;
 pub mod control;
 pub mod effects;

@@ -1,6 +1,7 @@
 //! Numerical kernels that know nothing of structures.
 
 pub mod eigen;
+pub mod fill;
 pub mod least_squares;
 pub mod nnls;
 pub mod spectrum;

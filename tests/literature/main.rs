@@ -3,5 +3,6 @@
 
 mod case_beam;
 mod case_friction;
+mod comparison;
 mod energy_support;
 mod structures;

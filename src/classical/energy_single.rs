@@ -1,0 +1,106 @@
+//! Energy balance of one degree of freedom with viscous damping and friction (Liang and Feeny, 3.22-3.32):
+//!
+//! ```text
+//! c integral v^2 dt + F integral |v| dt = integral f v dt
+//! ```
+//!
+//! one row a run, least squares. **Needs** force and displacement in steady state; two runs of different amplitude over
+//! frequency for both parameters. **Limits**: equivalent parameters of the amplitudes and frequencies measured; with one
+//! harmonic the friction column is `4 |X|`, parallel to the viscous one where `w |X|` is the same in every run.
+
+use super::ClassicalError;
+use crate::math::fill::filled;
+use crate::math::least_squares::LeastSquares;
+use faer::c64;
+use std::f64::consts::{PI, TAU};
+
+/// Samples of one period for the friction column of several harmonics.
+const SAMPLES: usize = 4096;
+
+/// One steady state: complex amplitudes of harmonics 1, 2, ...
+#[derive(Debug, Clone, PartialEq)]
+pub struct SteadyState {
+    /// Fundamental circular frequency, rad/s.
+    pub omega: f64,
+    /// Displacement, m.
+    pub displacement: Vec<c64>,
+    /// Force, N.
+    pub force: Vec<c64>,
+}
+
+impl SteadyState {
+    /// Work of the force over one period, J.
+    pub fn input(&self) -> f64 {
+        super::hysteresis_loop::from_harmonics(self.omega, &self.displacement, &self.force, 1.0).area
+    }
+
+    /// `integral v^2 dt`, m^2/s.
+    pub fn viscous(&self) -> f64 {
+        let term = |(h, x): (usize, &c64)| ((h + 1) as f64).powi(2) * x.norm_sqr();
+        PI * self.omega * self.displacement.iter().enumerate().map(term).sum::<f64>()
+    }
+
+    /// `integral |v| dt`, m.
+    pub fn friction(&self) -> f64 {
+        if let [only] = self.displacement.as_slice() {
+            return 4.0 * only.norm();
+        }
+        // The path length: the distance between successive positions.
+        let at = |i: usize| -> f64 {
+            let angle = TAU * (i % SAMPLES) as f64 / SAMPLES as f64;
+            let turned = |(h, x): (usize, &c64)| (x * c64::from_polar(1.0, (h + 1) as f64 * angle)).re;
+            self.displacement.iter().enumerate().map(turned).sum()
+        };
+        (0..SAMPLES).map(|i| (at(i + 1) - at(i)).abs()).sum()
+    }
+}
+
+/// Parameters and their standard deviations from the residual of the rows.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SingleDegree {
+    /// Viscous coefficient, N s/m.
+    pub c: f64,
+    /// Friction force, N; 0 where only `c` was sought.
+    pub friction: f64,
+    /// Standard deviation of each; 0 where no row is to spare.
+    pub deviation: [f64; 2],
+}
+
+/// `c` alone (3.30).
+///
+/// # Errors
+/// [`ClassicalError::Few`] without a run.
+pub fn viscous(runs: &[SteadyState]) -> Result<SingleDegree, ClassicalError> {
+    fit(runs, 1)
+}
+
+/// `c` and the friction force (3.32).
+///
+/// # Errors
+/// [`ClassicalError::Few`] below two runs; [`ClassicalError::Missing`] where the runs cannot tell the two apart.
+pub fn viscous_and_friction(runs: &[SteadyState]) -> Result<SingleDegree, ClassicalError> {
+    fit(runs, 2)
+}
+
+fn fit(runs: &[SteadyState], unknowns: usize) -> Result<SingleDegree, ClassicalError> {
+    if runs.len() < unknowns {
+        return Err(ClassicalError::Few { what: "steady states", needed: unknowns, found: runs.len() });
+    }
+    // Rows divided by their energy: a strong run must not drown the weak ones, which hold the friction.
+    let input: Vec<f64> = runs.iter().map(SteadyState::input).collect();
+    let rows =
+        filled(runs.len(), unknowns, |i, j| (if j == 0 { runs[i].viscous() } else { runs[i].friction() }) / input[i]);
+    let problem = LeastSquares::new(rows.as_ref())?;
+    if problem.condition() > 1e8 {
+        let what = "runs of different velocity: friction and viscous damping take out energy in the same proportion";
+        return Err(ClassicalError::Missing { what: what.to_string() });
+    }
+    let solution = problem.solve(&vec![1.0; runs.len()])?;
+    let deviations = problem.standard_deviations(solution.variance);
+    let second = |values: &[f64]| values.get(1).copied().unwrap_or(0.0);
+    Ok(SingleDegree {
+        c: solution.x[0],
+        friction: second(&solution.x),
+        deviation: [deviations[0], second(&deviations)],
+    })
+}

@@ -1,0 +1,126 @@
+//! Liang's energy balance of every DOF (3.119-3.125): what the forces on one DOF do over a period, with the elastic and
+//! inertial exchange between DOFs taken from the model,
+//!
+//! ```text
+//! sum_j c_j tau_ij = beta_i        tau_ij = work of the unit source j on DOF i
+//! beta_i = work of (f_i - sum_{l != i} (k_il x_l + m_il x_l'')) at x_i'
+//! ```
+//!
+//! rows are DOFs x runs, plain least squares. **Needs** mass and stiffness and the motion of all DOFs under steady periodic
+//! forces, and a pattern of sources. (Liang asks for a diagonal mass matrix; its other entries are no obstacle and are
+//! taken along.) **Limits**: energy that DOFs pass to each other is far larger than what is lost, so small errors
+//! of stiffness or phase ruin single rows; only their sum over all DOFs, the energy balance of the whole, is robust.
+
+use super::{ClassicalError, Damping};
+use crate::balance::action::{self, Field};
+use crate::balance::{Expanded, Measured};
+use crate::effects::{Effect, Source};
+use crate::math::least_squares::LeastSquares;
+use crate::structure::Structure;
+use faer::{Mat, c64};
+use std::f64::consts::PI;
+
+/// Part of the largest coefficient that is rounding.
+const ROUNDING: f64 = 1e-9;
+
+/// What the balance of every DOF gives.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Balanced {
+    /// Coefficient of each source, in its unit; may be negative.
+    pub coefficients: Vec<f64>,
+    /// The viscous ones as a matrix.
+    pub damping: Damping,
+}
+
+/// Coefficients of `columns` (taken at unit coefficient) from the work at every DOF.
+///
+/// # Errors
+/// [`ClassicalError::Missing`] without matrices, columns, or the motion of every DOF; those of the linear algebra.
+pub fn liang(
+    structure: &Structure,
+    runs: &[(Measured, Expanded)],
+    columns: &[Source],
+) -> Result<Balanced, ClassicalError> {
+    let missing = |what: &str| Err(ClassicalError::Missing { what: what.to_string() });
+    if structure.matrices().is_none() {
+        return missing("mass and stiffness matrices");
+    }
+    if columns.is_empty() {
+        return missing("candidate sources: the pattern whose coefficients are sought");
+    }
+    if runs.is_empty() || runs.iter().any(|(_, expanded)| expanded.known.iter().any(|k| !k)) {
+        return missing("the motion of every DOF in every run");
+    }
+    let n = structure.len();
+    let units: Vec<Source> = columns.iter().map(|source| source.with_coefficient(1.0)).collect();
+    let mut rows = Mat::zeros(n * runs.len(), columns.len());
+    let mut right = Vec::with_capacity(n * runs.len());
+    for (r, (measured, expanded)) in runs.iter().enumerate() {
+        let field = expanded.field(measured);
+        for (j, source) in units.iter().enumerate() {
+            for (dof, force) in action::force(source, structure, field) {
+                rows[(n * r + dof, j)] += work(field, dof, &force);
+            }
+        }
+        right.extend(remaining(structure, measured, field));
+    }
+    let problem = LeastSquares::new(rows.as_ref())?;
+    let coefficients = problem.solve(&right)?.x;
+    let mut damping = Damping::viscous(matrix(&units, &coefficients, n));
+    if problem.rank() < columns.len() {
+        let note = format!("{} of {} coefficients are fixed by the data", problem.rank(), columns.len());
+        damping.notes.push(note);
+    }
+    let largest = coefficients.iter().fold(0.0_f64, |m, c| m.max(c.abs()));
+    if coefficients.iter().any(|&c| c < -ROUNDING * largest) {
+        damping.notes.push("some coefficients are negative, which no damper is".to_string());
+    }
+    Ok(Balanced { coefficients, damping })
+}
+
+/// Work of a force (one value a kept harmonic) at a DOF over one period, J.
+fn work(field: Field<'_>, dof: usize, force: &[c64]) -> f64 {
+    let term = |k: usize| field.numbers[k] as f64 * (field.x[(dof, k)].conj() * force[k]).im;
+    PI * (0..force.len()).map(term).sum::<f64>()
+}
+
+/// `beta_i` of one run.
+fn remaining(structure: &Structure, measured: &Measured, field: Field<'_>) -> Vec<f64> {
+    let Some(matrices) = structure.matrices() else { return Vec::new() };
+    let n = structure.len();
+    (0..n)
+        .map(|i| {
+            let force: Vec<c64> = (0..measured.harmonics())
+                .map(|k| {
+                    let square = measured.frequency(k).powi(2);
+                    let applied = (0..measured.forces.len())
+                        .filter(|&s| measured.forces.dofs[s] == i)
+                        .map(|s| measured.forces.values[(s, k)])
+                        .sum::<c64>();
+                    let exchanged = (0..n)
+                        .filter(|&l| l != i)
+                        .map(|l| field.x[(l, k)] * (matrices.stiffness[(i, l)] - square * matrices.mass[(i, l)]))
+                        .sum::<c64>();
+                    applied - exchanged
+                })
+                .collect();
+            work(field, i, &force)
+        })
+        .collect()
+}
+
+/// `sum c_j L_j L_j^T` of the viscous sources.
+fn matrix(units: &[Source], coefficients: &[f64], n: usize) -> Mat<f64> {
+    let mut c = Mat::zeros(n, n);
+    for (source, &value) in units.iter().zip(coefficients).filter(|(source, _)| source.effect == Effect::Viscous) {
+        for leg in source.place.legs() {
+            c[(leg.first, leg.first)] += value;
+            if let Some(second) = leg.second {
+                c[(second, second)] += value;
+                c[(leg.first, second)] -= value;
+                c[(second, leg.first)] -= value;
+            }
+        }
+    }
+    c
+}

@@ -1,0 +1,72 @@
+//! Minas and Inman (3.106-3.108): the entries of a symmetric `C` from the eigenvalue problem itself,
+//!
+//! ```text
+//! C psi_p = -(lambda_p M + K / lambda_p) psi_p        real and imaginary parts, 2 n m rows, n (n + 1) / 2 unknowns
+//! ```
+//!
+//! by least squares, each mode scaled to unit length. **Needs** mass, stiffness and complex modes at all DOFs (or matrices
+//! reduced to the DOFs measured, [`reduced`]). **Limits**: with fewer modes than DOFs the rows do not fix all entries and
+//! the shortest solution is taken; errors of `M` and `K` all end in `C`; a reduced model is stiffer than the structure.
+
+use super::linear::{column, packed, times, unpacked};
+use super::{ClassicalError, Damping, ModalData};
+use crate::math::fill::filled;
+use crate::math::least_squares::{LeastSquares, solve_symmetric};
+use faer::{Mat, MatRef};
+
+/// Most DOFs: above, the unknowns are too many for a dense solution.
+pub const MOST_DEGREES: usize = 40;
+
+/// `C` of (3.108).
+///
+/// # Errors
+/// [`ClassicalError::TooLarge`], [`ClassicalError::Few`], [`ClassicalError::Sizes`], and those of the linear algebra.
+pub fn minas_inman(m: MatRef<'_, f64>, k: MatRef<'_, f64>, modes: &ModalData) -> Result<Damping, ClassicalError> {
+    let n = m.nrows();
+    modes.check(n, 1)?;
+    if n > MOST_DEGREES {
+        return Err(ClassicalError::TooLarge { limit: MOST_DEGREES, found: n });
+    }
+    let unknowns = n * (n + 1) / 2;
+    let mut rows = Mat::zeros(2 * n * modes.len(), unknowns);
+    let mut right = vec![0.0; rows.nrows()];
+    for (p, &lambda) in modes.poles.iter().enumerate() {
+        let psi = column(modes.shapes.as_ref(), p);
+        let size = psi.iter().map(faer::c64::norm_sqr).sum::<f64>().sqrt();
+        let (mass, stiffness) = (times(m, &psi), times(k, &psi));
+        for i in 0..n {
+            let at = 2 * (n * p + i);
+            for (j, value) in psi.iter().enumerate() {
+                rows[(at, packed(i, j))] += value.re / size;
+                rows[(at + 1, packed(i, j))] += value.im / size;
+            }
+            let force = -(mass[i] * lambda + stiffness[i] / lambda) / size;
+            right[at] = force.re;
+            right[at + 1] = force.im;
+        }
+    }
+    let problem = LeastSquares::new(rows.as_ref())?;
+    let mut damping = Damping::viscous(unpacked(&problem.solve(&right)?.x, n));
+    if problem.rank() < unknowns {
+        let note = format!("{} of {unknowns} entries are fixed by the modes; the shortest solution", problem.rank());
+        damping.notes.push(note);
+    }
+    Ok(damping)
+}
+
+/// Mass and stiffness condensed to the DOFs `kept` by the static shapes (Guyan): `T^T M T`, `T^T K T`.
+///
+/// # Errors
+/// Those of the linear algebra, when the DOFs left out can move freely.
+pub fn reduced(m: MatRef<'_, f64>, k: MatRef<'_, f64>, kept: &[usize]) -> Result<(Mat<f64>, Mat<f64>), ClassicalError> {
+    let n = m.nrows();
+    let others: Vec<usize> = (0..n).filter(|i| !kept.contains(i)).collect();
+    let inner = filled(others.len(), others.len(), |i, j| k[(others[i], others[j])]);
+    let side = filled(others.len(), kept.len(), |i, j| -k[(others[i], kept[j])]);
+    let static_shapes = if others.is_empty() { side } else { solve_symmetric(inner.as_ref(), side.as_ref())? };
+    let t = filled(n, kept.len(), |i, j| match kept.iter().position(|&row| row == i) {
+        Some(at) => f64::from(u8::from(at == j)),
+        None => others.iter().position(|&row| row == i).map_or(0.0, |row| static_shapes[(row, j)]),
+    });
+    Ok((t.transpose() * m * &t, t.transpose() * k * &t))
+}

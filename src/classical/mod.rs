@@ -1,0 +1,35 @@
+//! The methods that stood before the energy balance (chapter 3), side by side: one file a method, each opening with its
+//! equations, what it needs and where it fails.
+//!
+//! Three families. *One degree of freedom*: [`log_decrement`], [`half_power`], [`circle_fit`], [`hysteresis_loop`],
+//! [`energy_single`] give damping ratios. *Full receptance*: [`chen`], [`lee_kim`], [`instrumental`], [`fritzen`],
+//! [`phani_woodhouse`] need the response of every DOF, most of them to a force at every DOF. *Complex modes*:
+//! [`lancaster`], [`pilkey_inman`], [`ibrahim`], [`minas_inman`], [`adhikari_woodhouse`], [`frf_inverse`].
+//! [`liang`] balances the energy of every DOF.
+//!
+//! [`errors`] measures them against a known truth (3.117, 3.132-3.135).
+
+pub mod adhikari_woodhouse;
+pub mod chen;
+pub mod circle_fit;
+pub mod data;
+pub mod energy_single;
+pub mod error;
+pub mod errors;
+pub mod frf_inverse;
+pub mod fritzen;
+pub mod half_power;
+pub mod hysteresis_loop;
+pub mod ibrahim;
+pub mod instrumental;
+pub mod lancaster;
+pub mod lee_kim;
+pub mod liang;
+mod linear;
+pub mod log_decrement;
+pub mod minas_inman;
+pub mod phani_woodhouse;
+pub mod pilkey_inman;
+
+pub use data::{Damping, DecayRecord, LoadCase, ModalData, ReceptanceData};
+pub use error::ClassicalError;

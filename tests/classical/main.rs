@@ -1,0 +1,8 @@
+//! The classical methods on data whose answer is known: exact where theory says so, else the error that theory gives.
+#![allow(clippy::unwrap_used, reason = "tests")]
+
+mod energy_methods;
+mod modal_methods;
+mod receptance_methods;
+mod single_degree;
+mod support;
