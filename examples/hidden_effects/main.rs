@@ -1,138 +1,149 @@
-//! Hides effects, diagnoses, and prints how often the right one was named: the table of `docs/explain.md`.
+//! Hides effects in projects, diagnoses them, and prints how often the right one was named: the table of
+//! `docs/explain.md`.
 //!
-//! `cargo run --example hidden_effects -- [seeds] [effect name or all] [clean|hard|detuned|two|none]`
+//! `cargo run --profile suite --example hidden_effects -- make FOLDER [FILTER] [SEEDS]` writes the projects,
+//! `... -- judge FOLDER [FILTER]` diagnoses them. A filter is a part of the names, such as `clean-beam` or `coulomb`.
 #![allow(clippy::unwrap_used, reason = "a study, not a library: a failure ends it with its place")]
 
+mod files;
+mod judge;
+mod random;
+mod records;
+mod sizing;
+mod specimen;
+#[allow(dead_code, reason = "shared with the tests, which use all of it")]
 mod suite;
 
-use dashpot::control::Control;
-use dashpot::effects::{Effect, Source};
-use dashpot::explain::diagnose::{Diagnosis, diagnose};
-use std::time::Instant;
-use suite::{Hidden, Kindness, Random, hidden};
+use dashpot::effects::{Effect, effect::Kind};
+use judge::Tally;
+use random::Random;
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use suite::{Kindness, hidden};
+
+/// Projects diagnosed at the same time.
+const WORKERS: usize = 2;
 
 fn main() {
-    let args: Vec<String> = std::env::args().collect();
-    let seeds: u64 = args.get(1).and_then(|a| a.parse().ok()).unwrap_or(1);
-    let which = args.get(2).map_or("all", String::as_str);
-    let mode = args.get(3).map_or("clean", String::as_str);
-    let mut tally = Tally::default();
-    let effects: Vec<Effect> = Effect::ALL.into_iter().filter(|e| which == "all" || e.name() == which).collect();
+    let arguments: Vec<String> = std::env::args().collect();
+    let argument = |k: usize| arguments.get(k).map_or("", String::as_str);
+    let folder = Path::new(argument(2));
+    match argument(1) {
+        "make" => make(folder, argument(3), argument(4).parse().unwrap_or(1)),
+        "judge" => judge_all(folder, argument(3)),
+        _ => println!("make FOLDER [FILTER] [SEEDS] | judge FOLDER [FILTER]"),
+    }
+}
+
+/// One project to be made.
+struct Case {
+    name: String,
+    effects: Vec<Effect>,
+    kindness: Kindness,
+    random: Random,
+}
+
+fn cases(seeds: u64) -> Vec<Case> {
+    let mut cases = Vec::new();
     for seed in 0..seeds {
-        for (k, &effect) in effects.iter().enumerate() {
-            for beam in [true, false] {
-                let mut random = Random::new(seed * 1000 + k as u64 * 10 + u64::from(beam) + 7);
-                let kindness = kindness(mode, beam, &mut random);
-                let set = match mode {
-                    "none" => vec![],
-                    "two" => vec![effect, effects[random.below(effects.len())]],
-                    _ => vec![effect],
-                };
-                let Some(project) = hidden(&set, kindness, &mut random) else {
-                    println!("{:<24} no project", effect.name());
-                    continue;
-                };
-                run(&project, kindness, &mut tally);
+        for (c, class) in ["clean", "hard", "detuned", "two", "none", "points"].into_iter().enumerate() {
+            for (k, &effect) in Effect::ALL.iter().enumerate() {
+                for beam in [true, false] {
+                    let number = seed * 10_000 + c as u64 * 1000 + k as u64 * 10 + u64::from(beam);
+                    cases.extend(case(class, effect, beam, seed, Random::new(number)));
+                }
             }
         }
     }
-    println!("{tally:?}");
+    cases
 }
 
-fn kindness(mode: &str, beam: bool, random: &mut Random) -> Kindness {
-    let many = if beam { 8 } else { 5 };
-    let clean = Kindness { beam, sensors: many, runs: 18, noise: 0.005, size: 0.3, detuned: 0.0 };
-    match mode {
-        "hard" => Kindness { sensors: 3, runs: 9, noise: 0.025, size: random.within(0.02, 0.06), ..clean },
-        "detuned" => Kindness { detuned: random.within(0.001, 0.02), sensors: 5, ..clean },
-        _ => Kindness {
-            sensors: 3 + random.below(many - 2),
-            noise: random.within(0.002, 0.03),
-            size: random.within(0.1, 0.5),
-            ..clean
-        },
+fn case(class: &str, effect: Effect, beam: bool, seed: u64, mut random: Random) -> Option<Case> {
+    let relative = |e: Effect| matches!(e.kind(), Kind::Relative(_)) && e.dissipates();
+    if class == "points" && (beam || !relative(effect)) {
+        return None;
     }
+    let r = &mut random;
+    let clean = Kindness {
+        beam,
+        points: false,
+        sensors: 3 + r.below(5),
+        runs: 12 + r.below(13),
+        levels: 2 + r.below(3),
+        noise: r.within(0.002, 0.015),
+        size: r.within(0.08, 0.4),
+        detuned: 0.0,
+        unsettled: r.uniform() < 0.15,
+    };
+    let kindness = match class {
+        "hard" => {
+            let (noise, size) = (r.within(0.02, 0.03), r.within(0.02, 0.06));
+            Kindness { sensors: 3, runs: 8 + r.below(3), levels: 2, noise, size, ..clean }
+        }
+        "detuned" => Kindness { detuned: r.within(0.001, 0.02) * r.sign(), ..clean },
+        "points" => Kindness { points: true, noise: r.within(0.002, 0.01), ..clean },
+        "none" => Kindness { noise: r.within(0.002, 0.03), points: !beam && r.uniform() < 0.3, ..clean },
+        _ => clean,
+    };
+    let effects = match class {
+        "none" => vec![],
+        "two" => vec![effect, Effect::ALL[r.below(Effect::ALL.len())]],
+        _ => vec![effect],
+    };
+    let structure = if beam { "beam" } else { "chain" };
+    let names: Vec<&str> = effects.iter().map(|e| e.name()).collect();
+    let word = if names.is_empty() { effect.name().to_string() } else { names.join("+") };
+    Some(Case { name: format!("{class}-{structure}-{word}-{seed}"), effects, kindness, random })
 }
 
-#[derive(Debug, Default)]
-struct Tally {
-    projects: usize,
-    first: usize,
-    top3: usize,
-    place: usize,
-    all_found: usize,
-    adequate: usize,
-    parameters_within_3: usize,
-    to_floor: usize,
-    seconds: f64,
+/// Does `work` on every item, several at a time.
+fn in_parallel<T: Send>(items: Vec<T>, work: impl Fn(T) + Sync) {
+    let (next, items) = (AtomicUsize::new(0), Mutex::new(items.into_iter().map(Some).collect::<Vec<_>>()));
+    let take = || items.lock().unwrap().get_mut(next.fetch_add(1, Ordering::Relaxed)).and_then(Option::take);
+    std::thread::scope(|scope| {
+        for _ in 0..WORKERS {
+            scope.spawn(|| {
+                while let Some(item) = take() {
+                    work(item);
+                }
+            });
+        }
+    });
 }
 
-fn run(project: &Hidden, kindness: Kindness, tally: &mut Tally) {
-    let start = Instant::now();
-    let diagnosis = diagnose(&project.problem(), &Control::unattended());
-    let seconds = start.elapsed().as_secs_f64();
-    let diagnosis = match diagnosis {
-        Ok(diagnosis) => diagnosis,
-        Err(error) => {
-            println!("failed: {error}");
-            tally.projects += 1;
+fn make(folder: &Path, filter: &str, seeds: u64) {
+    let wanted = cases(seeds).into_iter().filter(|c| c.name.contains(filter)).collect();
+    in_parallel(wanted, |mut case: Case| {
+        let target = folder.join(&case.name);
+        if target.join("project.toml").exists() {
             return;
         }
-    };
-    tally.projects += 1;
-    tally.seconds += seconds;
-    tally.adequate += usize::from(diagnosis.suggestions.is_empty());
-    let hits = |s: &Source| project.truth.iter().any(|t| t.effect == s.effect);
-    let first = diagnosis.suggestions.first();
-    tally.first += usize::from(first.is_some_and(|s| hits(&s.added.source)));
-    tally.top3 += usize::from(diagnosis.suggestions.iter().take(3).any(|s| hits(&s.added.source)));
-    let place = |s: &Source| project.truth.iter().any(|t| t.place.is_same(&s.place));
-    let placed = first.is_some_and(|s| place(&s.added.source) || s.indistinguishable_from.iter().any(place));
-    tally.place += usize::from(placed);
-    let last = &diagnosis.steps[diagnosis.steps.len() - 1];
-    let found = project.truth.iter().all(|t| last.added.iter().any(|a| a.source.is_same(t)))
-        && last.added.len() == project.truth.len();
-    tally.all_found += usize::from(found);
-    tally.to_floor += usize::from(last.error <= 1.2 * diagnosis.noise_floor);
-    if let Some(suggestion) = first
-        && let Some(truth) = project.truth.iter().find(|t| t.is_same(&suggestion.added.source))
-    {
-        let pairs = truth.parameters.iter().zip(&suggestion.added.source.parameters).zip(&suggestion.added.deviations);
-        tally.parameters_within_3 +=
-            usize::from(pairs.clone().all(|((t, p), d)| (t - p).abs() <= 3.0 * d + 1e-3 * t.abs()));
-    }
-    report(project, kindness, &diagnosis, found, seconds);
+        // Some effects at some places cannot be made as large as wanted, or have no periodic motion: another draw.
+        let project = (0..6).find_map(|_| hidden(&case.effects, case.kindness, &mut case.random));
+        match project {
+            Some(project) => files::write(&target, &case.name, &project),
+            None => println!("{}: no project", case.name),
+        }
+    });
 }
 
-fn report(project: &Hidden, kindness: Kindness, diagnosis: &Diagnosis, found: bool, seconds: f64) {
-    let name = |s: &Source| {
-        let values: Vec<String> = s.parameters.iter().map(|p| format!("{p:.4e}")).collect();
-        format!("{} {:?} {}", s.effect.name(), s.place, values.join(" "))
-    };
-    let truth: Vec<String> = project.truth.iter().map(name).collect();
-    let mark = if found { "ok  " } else { "MISS" };
-    println!(
-        "{mark} {seconds:5.2}s {} s{} n{:.3} | {} | {:.4} -> {:.4} floor {:.4} {}",
-        if kindness.beam { "beam" } else { "chain" },
-        kindness.sensors,
-        kindness.noise,
-        truth.join(" + "),
-        diagnosis.error_before,
-        diagnosis.steps[diagnosis.steps.len() - 1].error,
-        diagnosis.noise_floor,
-        diagnosis.verdict.word(),
-    );
-    let shown = if found { 1 } else { 4 };
-    for s in diagnosis.suggestions.iter().take(shown) {
-        let d: Vec<String> = s.added.deviations.iter().map(|d| format!("{d:.1e}")).collect();
-        println!(
-            "        p={:.3} err {:.4} held {:.4} {} +-{}  ~{}",
-            s.probability,
-            s.error_after,
-            s.held_out_error_after,
-            name(&s.added.source),
-            d.join(","),
-            s.indistinguishable_from.len()
-        );
+fn judge_all(folder: &Path, filter: &str) {
+    let entries = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
+    let mut folders: Vec<PathBuf> = entries.filter(|p| p.join("project.toml").exists()).collect();
+    folders.retain(|p| p.file_name().unwrap().to_string_lossy().contains(filter));
+    folders.sort();
+    let tallies: Mutex<BTreeMap<String, Tally>> = Mutex::default();
+    in_parallel(folders, |path: PathBuf| {
+        let (line, tally) = judge::judge(&path);
+        println!("{line}");
+        let name = path.file_name().unwrap().to_string_lossy().to_string();
+        let class = name.split('-').next().unwrap_or_default().to_string();
+        tallies.lock().unwrap().entry(class).or_default().add(&tally);
+    });
+    println!("{}", Tally::head());
+    for (class, tally) in tallies.into_inner().unwrap() {
+        println!("{class:10} | {}", tally.row());
     }
 }

@@ -8,7 +8,7 @@ use crate::exchange::records::{write_harmonics, write_record};
 use crate::measurement::channel::ChannelName;
 use crate::measurement::{Channel, ChannelFit, HarmonicFit, Quantity, Record, fit::fit, frequency};
 use crate::response::harmonic_balance::{Excitation, HarmonicForce};
-use crate::response::simulation::{Simulator, recorded, transfer, usual_channels};
+use crate::response::simulation::{Simulator, integrated, recorded, transfer, usual_channels};
 use crate::response::synthesis::{Noise, sampling_times, synthesise};
 use anyhow::{Context, anyhow, bail};
 use faer::c64;
@@ -41,7 +41,13 @@ struct Test {
 
 fn simulate(plan: &Plan, model: &Simulator<'_>, index: usize, arguments: &Simulate) -> anyhow::Result<Record> {
     let test = if plan.runs[index].force.is_some() { from_recipe(plan, index)? } else { from_record(plan, index)? };
-    let response = model.respond(&test.excitation, &Control::unattended())?;
+    let control = Control::unattended();
+    let response = if plan.simulate().integrate {
+        let known: Vec<Source> = plan.sources.iter().filter(|s| s.state == State::Known).cloned().collect();
+        integrated(&plan.structure, &known, &test.excitation, &control)?
+    } else {
+        model.respond(&test.excitation, &control)?
+    };
     let motions = recorded(&response, &test.excitation, &test.channels, &plan.sensors);
     let stream = index as u64;
     let noise = (arguments.noise > 0.0).then_some(Noise { ratio: arguments.noise, seed: arguments.seed, stream });

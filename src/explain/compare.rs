@@ -8,7 +8,7 @@ use super::data::{Data, ExplainError, Problem, RunData, is_used, size};
 use super::energy::energy_error;
 use super::noise::{Transfers, Whitening};
 use super::points::{PointsEnergy, energies};
-use super::predict::{FINAL, Predictor, RunPrediction};
+use super::predict::{FINAL, Predictor, RunPrediction, transfer};
 use crate::control::Control;
 use crate::effects::Source;
 use crate::math::statistics::root_mean_square;
@@ -114,7 +114,9 @@ pub(crate) fn transfers(
         let unit = predictor.run(r).respond(&sources, &excitation, &FINAL, None, control)?;
         for (h, a) in a.iter_mut().enumerate() {
             let w = (h + 1) as f64 * run.omega;
-            let of = |c: &super::data::ChannelData| c.from_displacement(w) * unit.amplitude(c.dof, h + 1);
+            let of = |c: &super::data::ChannelData| {
+                transfer(effects, &c.name, w) * c.from_displacement(w) * unit.amplitude(c.dof, h + 1)
+            };
             a.push(run.responses.iter().map(of).collect());
         }
     }

@@ -3,14 +3,15 @@
 use super::data::ExplainError;
 use super::diagnose::Added;
 use super::fingerprint::fingerprint;
+use super::refit::Refit;
 use super::search::Base;
 use crate::effects::{Place, Source};
 
-/// The sentences for an effect that was fitted beside `others`.
+/// The sentences for an effect of the set `best`.
 pub(crate) fn sentences(
     base: &Base,
     added: &Added,
-    others: &[Source],
+    best: &Refit,
     before: f64,
     after: f64,
 ) -> Result<Vec<String>, ExplainError> {
@@ -19,7 +20,7 @@ pub(crate) fn sentences(
     said.push(format!("With it alone the error goes from {:.3} % to {:.3} %.", 100.0 * before, 100.0 * after));
     match &source.place {
         Place::Dofs(_) => {
-            if let Some(data) = base.place_data(others, source)?
+            if let Some(data) = base.place_data(best, source)?
                 && let Some(found) = fingerprint(&data)
             {
                 said.extend(found.sentences());

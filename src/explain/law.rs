@@ -10,11 +10,12 @@
 //! from the best of a grid of shapes, whose scale is linear. Errors of a channel are regressed alike: the free relative
 //! error is `t - 1` of a response, `1 - 1/t` of a force.
 
-use super::data::Data;
+use super::data::{Data, RunData};
 use super::descent::{Descent, Residual, Variables, descend};
 use super::place::FreeForce;
 use super::shapes::{Range, scaled, shapes};
-use super::spots::{Receptances, Spot};
+use super::spots::Spot;
+use super::start::{Fields, relative};
 use crate::effects::{ChannelLaw, Effect, Law, Motion, Sampling, Source, State, effect::Kind};
 use faer::{Mat, c64};
 use std::convert::Infallible;
@@ -60,27 +61,19 @@ pub struct LawFit {
 }
 
 impl PlaceData {
-    /// Motions under the recorded forces and the free forces of all `spots` (this place is number `own` of them).
-    pub fn new(
-        receptances: &Receptances,
-        data: &Data,
-        spots: &[Spot],
-        forces: &[Vec<Vec<FreeForce>>],
-        own: usize,
-    ) -> Self {
+    /// The free `forces` of one of `spots` (number `own`) with the motion `fields` that they imply.
+    pub fn new(data: &Data, spot: &Spot, forces: &[Vec<FreeForce>], fields: &Fields) -> Self {
         let sampling = Sampling::new(SAMPLES);
-        let motions: Vec<Motion> = data
-            .runs
-            .iter()
-            .enumerate()
-            .map(|(r, run)| {
-                let at = |h: usize| motion(receptances, r, h, spots, forces, own);
-                let harmonics: Vec<c64> = (1..=run.harmonics).map(at).collect();
-                sampling.motion(run.omega, 0.0, &harmonics)
-            })
-            .collect();
+        let motion = |(run, field): (&RunData, &Mat<c64>)| {
+            let harmonics = match spot {
+                Spot::Leg(leg) => relative(field, *leg),
+                Spot::Response(_) | Spot::Force(_) => vec![c64::new(0.0, 0.0); run.harmonics],
+            };
+            sampling.motion(run.omega, 0.0, &harmonics)
+        };
+        let motions: Vec<Motion> = data.runs.iter().zip(fields).map(motion).collect();
         let range = range(&motions);
-        Self { spot: spots[own].clone(), forces: forces[own].clone(), motions, sampling, range }
+        Self { spot: spot.clone(), forces: forces.to_vec(), motions, sampling, range }
     }
 
     /// Force over motion at the fundamental of every run in which both can be seen.
@@ -203,27 +196,8 @@ impl PlaceData {
     }
 }
 
-/// Motion of place number `own` at harmonic `h` of run `r`.
-fn motion(
-    receptances: &Receptances,
-    r: usize,
-    h: usize,
-    spots: &[Spot],
-    forces: &[Vec<Vec<FreeForce>>],
-    own: usize,
-) -> c64 {
-    let Spot::Leg(leg) = spots[own] else { return c64::new(0.0, 0.0) };
-    let mut d = receptances.driven(r, h, leg);
-    for (spot, list) in spots.iter().zip(forces) {
-        let Spot::Leg(other) = *spot else { continue };
-        let coupling = leg.relative(|i| other.relative(|j| receptances.entry(r, h, i, j)));
-        d -= coupling * shrunk(&list[r], h);
-    }
-    d
-}
-
 /// A free force drawn to zero where the data hardly see it: harmonics are no larger than the fundamental over the order.
-fn shrunk(forces: &[FreeForce], h: usize) -> c64 {
+pub(super) fn shrunk(forces: &[FreeForce], h: usize) -> c64 {
     let free = forces[h - 1];
     if h == 1 {
         return free.value;

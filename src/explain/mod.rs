@@ -13,6 +13,7 @@
 //! whatever the law ([`place`]); the law is read from that force against the motion ([`law`]); the short list is fitted
 //! on the response itself ([`refit`]) and ranked by evidence ([`diagnose`]).
 
+mod climb;
 pub mod compare;
 pub mod data;
 mod descent;
@@ -23,6 +24,7 @@ pub mod fingerprint;
 pub mod law;
 mod next_test;
 pub mod noise;
+mod outcome;
 pub mod place;
 pub mod points;
 mod points_search;
@@ -31,6 +33,8 @@ pub mod refit;
 mod search;
 pub mod shapes;
 pub mod spots;
+mod start;
+pub mod tuning;
 
 pub use compare::{Comparison, compare};
 pub use data::{ExplainError, Problem};

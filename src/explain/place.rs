@@ -15,7 +15,9 @@ use super::predict::{Predictor, RunPrediction};
 use super::spots::{Receptances, Spot};
 use crate::control::Control;
 use crate::effects::Leg;
-use faer::c64;
+use crate::math::least_squares::solve_symmetric;
+use faer::{Mat, c64};
+use std::borrow::Cow;
 
 /// Part of a second column that must be independent of the first.
 const INDEPENDENCE: f64 = 1e-6;
@@ -23,6 +25,8 @@ const INDEPENDENCE: f64 = 1e-6;
 /// Whitened residual and columns of one harmonic of one run.
 #[derive(Debug, Clone)]
 struct Cell {
+    /// `e`.
+    residual: Vec<c64>,
     /// `|e|^2`.
     total: f64,
     /// `a_s^H e` by spot.
@@ -31,6 +35,8 @@ struct Cell {
     columns: Vec<Vec<c64>>,
     /// `|a_s|^2` by spot.
     squares: Vec<f64>,
+    /// `B`, one column a correction of the model; none where corrections do nothing.
+    slopes: Vec<Vec<c64>>,
 }
 
 /// The residual of a model seen from every place.
@@ -40,6 +46,17 @@ pub struct Screen {
     pub spots: Vec<Spot>,
     /// `[run][harmonic]`.
     cells: Vec<Vec<Cell>>,
+    /// Present corrections of the model in units of their prior deviations.
+    corrections: Vec<f64>,
+}
+
+/// Corrections of the model that are free while places are looked at.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Freedom {
+    /// Their values in units of their prior deviations.
+    pub values: Vec<f64>,
+    /// Derivatives of the fundamentals, `[run][correction][channel]`.
+    pub slopes: Vec<Vec<Vec<c64>>>,
 }
 
 /// A free complex force with its variance.
@@ -68,6 +85,7 @@ impl Screen {
         predictions: &[RunPrediction],
         noise: &[Whitening],
         receptances: &mut Receptances,
+        freedom: &Freedom,
         control: &Control,
     ) -> Result<Self, ExplainError> {
         let spots = Spot::all(predictor.structure(), data);
@@ -87,11 +105,14 @@ impl Screen {
                     .collect();
                 let products = columns.iter().map(|a| dot(a, &e)).collect();
                 let squares = columns.iter().map(|a| dot(a, a).re).collect();
-                Cell { total: dot(&e, &e).re, products, columns, squares }
+                let free = freedom.slopes.get(r).filter(|_| h == 1);
+                let slopes =
+                    free.map_or_else(Vec::new, |all| all.iter().map(|slope| noise[r].apply(1, |c| slope[c])).collect());
+                Cell { total: dot(&e, &e).re, residual: e, products, columns, squares, slopes }
             };
             cells.push((1..=run.harmonics).map(at).collect());
         }
-        Ok(Self { spots, cells })
+        Ok(Self { spots, cells, corrections: freedom.values.clone() })
     }
 
     /// Squared whitened residual of the model as it is.
@@ -101,7 +122,7 @@ impl Screen {
 
     /// Every single place, best first.
     pub fn singles(&self) -> Vec<Placing> {
-        let of = |s: usize| Placing { spots: vec![s], chi_square: self.sum(|cell| cell.left_by(s)) };
+        let of = |s: usize| Placing { spots: vec![s], chi_square: self.left(&[s], |cell| cell.left_by(s)) };
         sorted((0..self.spots.len()).map(of).collect())
     }
 
@@ -111,7 +132,7 @@ impl Screen {
         let mut best: Vec<Placing> = Vec::new();
         for i in 0..count {
             for j in i + 1..count {
-                let chi_square = self.sum(|cell| cell.left_by_pair(i, j));
+                let chi_square = self.left(&[i, j], |cell| cell.left_by_pair(i, j));
                 if best.len() < 4 * most || chi_square < best[best.len() - 1].chi_square {
                     best.push(Placing { spots: vec![i, j], chi_square });
                 }
@@ -127,11 +148,47 @@ impl Screen {
         self.cells.iter().flatten().map(of).sum()
     }
 
+    /// What free forces at `spots` and the corrections leave; `of` is what the forces alone leave of a cell.
+    fn left(&self, spots: &[usize], of: impl Fn(&Cell) -> f64) -> f64 {
+        let alone = self.sum(of);
+        let Some((change, gain)) = self.corrected(spots) else { return alone };
+        let prior: f64 = self.corrections.iter().map(|u| u * u).sum();
+        if change.is_empty() { alone } else { alone + prior - gain }
+    }
+
+    /// Change of the corrections that fits best together with free forces at `spots`, and by how much it lowers the
+    /// squared residual with its prior: `(1 + sum B^H P B) du = sum B^H P e - u`.
+    fn corrected(&self, spots: &[usize]) -> Option<(Vec<f64>, f64)> {
+        let q = self.corrections.len();
+        if q == 0 {
+            return None;
+        }
+        let mut normal = Mat::from_fn(q, q, |i, j| if i == j { 1.0 } else { 0.0 });
+        let mut right = Mat::from_fn(q, 1, |k, _| -self.corrections[k]);
+        for cell in self.cells.iter().flatten().filter(|cell| !cell.slopes.is_empty()) {
+            let basis = cell.basis(spots);
+            let shares: Vec<Vec<c64>> = cell.slopes.iter().map(|b| basis.iter().map(|v| dot(v, b)).collect()).collect();
+            let seen: Vec<c64> = basis.iter().map(|v| dot(v, &cell.residual)).collect();
+            for i in 0..q {
+                right[(i, 0)] += (dot(&cell.slopes[i], &cell.residual) - dot(&shares[i], &seen)).re;
+                for j in 0..=i {
+                    normal[(i, j)] += (dot(&cell.slopes[i], &cell.slopes[j]) - dot(&shares[i], &shares[j])).re;
+                }
+            }
+        }
+        let full = Mat::from_fn(q, q, |i, j| if i >= j { normal[(i, j)] } else { normal[(j, i)] });
+        let change = solve_symmetric(full.as_ref(), right.as_ref()).ok()?;
+        let change: Vec<f64> = (0..q).map(|k| change[(k, 0)]).collect();
+        let gain = change.iter().enumerate().map(|(k, x)| x * right[(k, 0)]).sum();
+        Some((change, gain))
+    }
+
     /// The free force of each spot of a placing, `[spot][run][harmonic]`, the others there too.
     pub fn forces(&self, spots: &[usize]) -> Vec<Vec<Vec<FreeForce>>> {
+        let change = self.corrected(spots).map_or_else(Vec::new, |(change, _)| change);
         let mut forces = vec![Vec::with_capacity(self.cells.len()); spots.len()];
         for run in &self.cells {
-            let solved: Vec<Vec<FreeForce>> = run.iter().map(|cell| cell.solve(spots)).collect();
+            let solved: Vec<Vec<FreeForce>> = run.iter().map(|cell| cell.corrected(&change).solve(spots)).collect();
             for (k, list) in forces.iter_mut().enumerate() {
                 list.push(solved.iter().map(|cell| cell[k]).collect());
             }
@@ -169,6 +226,38 @@ fn unit(
 }
 
 impl Cell {
+    /// Orthonormal columns that span those of `spots`.
+    fn basis(&self, spots: &[usize]) -> Vec<Vec<c64>> {
+        let mut basis: Vec<Vec<c64>> = Vec::with_capacity(spots.len());
+        for &s in spots {
+            let mut v = self.columns[s].clone();
+            for b in &basis {
+                let share = dot(b, &v);
+                v.iter_mut().zip(b).for_each(|(v, b)| *v -= share * b);
+            }
+            let size = dot(&v, &v).re;
+            if size > INDEPENDENCE * self.squares[s] && size > 0.0 {
+                let scale = size.sqrt().recip();
+                basis.push(v.iter().map(|v| *v * scale).collect());
+            }
+        }
+        basis
+    }
+
+    /// The cell after a change of the corrections.
+    fn corrected(&self, change: &[f64]) -> Cow<'_, Self> {
+        if self.slopes.is_empty() || change.is_empty() {
+            return Cow::Borrowed(self);
+        }
+        let mut cell = self.clone();
+        for (b, x) in self.slopes.iter().zip(change) {
+            cell.residual.iter_mut().zip(b).for_each(|(e, b)| *e -= *b * *x);
+        }
+        cell.total = dot(&cell.residual, &cell.residual).re;
+        cell.products = cell.columns.iter().map(|a| dot(a, &cell.residual)).collect();
+        Cow::Owned(cell)
+    }
+
     fn left_by(&self, s: usize) -> f64 {
         if self.squares[s] > 0.0 { self.total - self.products[s].norm_sqr() / self.squares[s] } else { self.total }
     }

@@ -326,6 +326,7 @@ fn conclude(balance: &Balance, rungs: &[Vec<Fitted>]) -> Diagnosis {
         suggestions: Vec::new(),
         steps: vec![Step { added: Vec::new(), error: before }],
         next_test: Vec::new(),
+        corrections: Vec::new(),
     };
     let (Some(first), Some(top)) = (rungs.first(), rungs.last()) else {
         let e = balance.weighted();

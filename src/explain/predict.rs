@@ -4,12 +4,14 @@
 //! that channel (1 without). An error of a force channel divides the recorded force: the structure felt `F / t_f`.
 
 use super::data::{Data, ExplainError, RunData};
+use super::tuning::Tuning;
 use crate::control::Control;
 use crate::effects::{Effect, Place, Source, effect::Kind};
 use crate::response::harmonic_balance::{Excitation, ForwardModel, Response, ResponseError, RunModel, Settings};
 use crate::response::sensitivity::{SensitivityError, Unknown, sensitivities};
 use crate::structure::Structure;
 use faer::c64;
+use std::sync::Arc;
 
 /// How exactly responses are computed in the search.
 pub(crate) const SEARCH: Settings =
@@ -27,6 +29,8 @@ pub struct RunPrediction {
     pub truncation: Vec<Vec<f64>>,
     /// The response behind it.
     pub response: Response,
+    /// Whether it is an answer to the forces; if none was found, the prediction is to rest.
+    pub found: bool,
 }
 
 /// What the recorded amplitudes of a run are differentiated by.
@@ -66,6 +70,9 @@ pub struct Predictor {
     model: ForwardModel,
     runs: Vec<RunModel>,
     known: Vec<Source>,
+    /// Structure and known sources as the project states them.
+    stated: Arc<(Structure, Vec<Source>)>,
+    omegas: Vec<f64>,
 }
 
 /// Transfer of the errors among `effects` of the channel of that name at circular frequency `w`.
@@ -85,8 +92,23 @@ impl Predictor {
     /// Prepares the structure with its known sources for the runs of `data`.
     pub fn new(structure: &Structure, known: Vec<Source>, data: &Data) -> Result<Self, ExplainError> {
         let model = ForwardModel::new(structure, &known)?;
-        let runs = data.runs.iter().map(|run| model.at(run.omega)).collect();
-        Ok(Self { model, runs, known })
+        let omegas: Vec<f64> = data.runs.iter().map(|run| run.omega).collect();
+        let runs = omegas.iter().map(|&omega| model.at(omega)).collect();
+        let stated = Arc::new((structure.clone(), known.clone()));
+        Ok(Self { model, runs, known, stated, omegas })
+    }
+
+    /// The same with the stated structure and known sources corrected.
+    pub fn tuned(&self, tuning: &Tuning) -> Result<Self, ExplainError> {
+        let known = tuning.known(&self.stated.1);
+        let model = ForwardModel::new(&tuning.structure(&self.stated.0), &known)?;
+        let runs = self.omegas.iter().map(|&omega| model.at(omega)).collect();
+        Ok(Self { model, runs, known, stated: self.stated.clone(), omegas: self.omegas.clone() })
+    }
+
+    /// Everything that may be corrected, not corrected yet.
+    pub fn free_tuning(&self) -> Tuning {
+        Tuning::free(&self.stated.0, &self.stated.1, &self.omegas)
     }
 
     /// Known sources.
@@ -211,7 +233,7 @@ fn recorded(data: &RunData, effects: &[Source], response: Response) -> RunPredic
         let error = |h: usize| response.truncation.get(h - 1).copied().unwrap_or(0.0);
         truncation.push((1..=data.harmonics).map(|h| factor(h).norm() * error(h)).collect());
     }
-    RunPrediction { channels, truncation, response }
+    RunPrediction { channels, truncation, response, found: true }
 }
 
 /// Relative derivative of the transfer of the channel of that name by its own error, if that is what `by` names.

@@ -2,22 +2,28 @@
 
 use super::compare::transfers;
 use super::data::{Data, ExplainError};
-use super::law::PlaceData;
+use super::law::{PlaceData, shrunk};
 use super::noise::Whitening;
-use super::place::{Placing, Screen};
+use super::place::{FreeForce, Freedom, Placing, Screen};
 use super::predict::{FINAL, Predictor, RunPrediction, SEARCH};
-use super::refit::{Bench, Refit};
+use super::refit::{Bench, Refit, Starts};
 use super::spots::{Receptances, Spot};
+use super::start::{Fields, start};
+use super::tuning::Tuning;
 use crate::control::Control;
 use crate::effects::{Effect, Place, Source, State, effect::Kind};
 use crate::math::statistics::bayesian_information;
+use faer::{Mat, c64};
+use std::rc::Rc;
 
 /// Places whose laws are looked at.
 const PLACES: usize = 24;
 /// Pairs of places whose laws are looked at.
 const PAIRS: usize = 16;
 /// Sets that are fitted on the response.
-const REFITS: usize = 9;
+const REFITS: usize = 10;
+/// Of these, sets that are fitted with all harmonics that matter.
+const POLISHED: usize = 6;
 /// Most laws of one place that are fitted on the response.
 const LAWS_AT_ONE_PLACE: usize = 4;
 /// Steps of a fit on the response.
@@ -28,25 +34,42 @@ const STEPS: usize = 12;
 pub(crate) struct Draft {
     pub effects: Vec<Source>,
     pub score: f64,
+    /// Motion that the data show if the effects are right.
+    fields: Rc<Fields>,
 }
 
 /// Everything that a search needs about one base model.
 pub(crate) struct Base<'a> {
+    /// The known model, corrected by `tuning`.
     pub predictor: &'a Predictor,
     pub data: &'a Data,
     pub control: &'a Control,
+    /// Corrections of the model that are free, at their present values.
+    pub tuning: Tuning,
     /// Predictions of the base model.
     pub predictions: Vec<RunPrediction>,
     /// Noise of the residuals.
     pub noise: Vec<Whitening>,
 }
 
+/// The residual of a model seen from every place.
+struct View<'a> {
+    screen: Screen,
+    receptances: Receptances<'a>,
+    predictions: Vec<RunPrediction>,
+}
+
 impl<'a> Base<'a> {
     /// The known model itself.
-    pub fn new(predictor: &'a Predictor, data: &'a Data, control: &'a Control) -> Result<Self, ExplainError> {
+    pub fn new(
+        predictor: &'a Predictor,
+        data: &'a Data,
+        tuning: Tuning,
+        control: &'a Control,
+    ) -> Result<Self, ExplainError> {
         let bench = Bench { predictor, data, noise: &[], control };
         let predictions = bench.predict(&[], &FINAL, &[])?;
-        let mut base = Self { predictor, data, control, predictions, noise: Vec::new() };
+        let mut base = Self { predictor, data, control, tuning, predictions, noise: Vec::new() };
         base.noise = base.whitenings(&[], &base.predictions)?;
         Ok(base)
     }
@@ -73,114 +96,150 @@ impl<'a> Base<'a> {
         self.noise.iter().map(Whitening::len).sum()
     }
 
-    /// The residual of the known model with `effects` seen from every place.
-    fn screen(&self, effects: &[Source]) -> Result<(Screen, Receptances<'a>), ExplainError> {
-        let mut receptances = Receptances::new(self.predictor, self.data, effects);
-        let own;
-        let predictions = if effects.is_empty() {
-            &self.predictions
-        } else {
-            own = self.bench().predict(effects, &SEARCH, &[])?;
-            &own
-        };
-        let args = (self.predictor, self.data, &self.noise);
-        let screen = Screen::new(args.0, args.1, predictions, args.2, &mut receptances, self.control)?;
-        Ok((screen, receptances))
+    /// The model of a fit: the predictor with its corrections.
+    pub fn predictor_of(&self, refit: &Refit) -> Result<Predictor, ExplainError> {
+        if refit.tuning.is_empty() { Ok(self.predictor.clone()) } else { self.predictor.tuned(&refit.tuning) }
     }
 
-    /// Sets of `effects` and one more, fitted on the response, best first by evidence.
-    pub fn singles(&self, effects: &[Source]) -> Result<Vec<Refit>, ExplainError> {
-        let (screen, mut receptances) = self.screen(effects)?;
+    /// The residual of the known model, or of a fit, seen from every place.
+    fn view<'b>(&'b self, predictor: &'b Predictor, of: Option<&Refit>) -> Result<View<'b>, ExplainError> {
+        let effects = of.map_or(&[][..], |refit| &refit.effects);
+        let mut receptances = Receptances::new(predictor, self.data, effects);
+        let bench = Bench { predictor, ..self.bench() };
+        let predictions = match of {
+            None => self.predictions.clone(),
+            Some(refit) => bench.predict(effects, &FINAL, &refit.starts)?,
+        };
+        let tuning = of.map_or(&self.tuning, |refit| &refit.tuning);
+        let deviations = tuning.knobs.iter().map(super::tuning::Knob::deviation);
+        let freedom = Freedom {
+            values: tuning.values.iter().zip(deviations).map(|(v, s)| v / s).collect(),
+            slopes: if tuning.is_empty() { Vec::new() } else { bench.tuning_slopes(effects, tuning, &predictions) },
+        };
+        let (data, noise) = (self.data, &self.noise);
+        let screen = Screen::new(predictor, data, &predictions, noise, &mut receptances, &freedom, self.control)?;
+        Ok(View { screen, receptances, predictions })
+    }
+
+    /// Sets of the effects of `from` and one more, fitted on the response, best first by evidence.
+    pub fn singles(&self, from: Option<&Refit>) -> Result<Vec<Refit>, ExplainError> {
+        let predictor = from.map_or_else(|| Ok(self.predictor.clone()), |refit| self.predictor_of(refit))?;
+        let mut view = self.view(&predictor, from)?;
+        let effects = from.map_or(&[][..], |refit| &refit.effects);
         let mut drafts = Vec::new();
-        for placing in screen.singles().into_iter().take(PLACES) {
+        for placing in view.screen.singles().into_iter().take(PLACES) {
             self.control.check()?;
-            for options in self.laws(&screen, &mut receptances, &placing, effects)? {
+            for options in self.laws(&mut view, &placing, effects)? {
                 drafts.extend(options.into_iter().map(|d| Draft { score: d.score + placing.chi_square, ..d }));
             }
         }
         let mut drafts = short_list(drafts, REFITS);
         drafts.iter_mut().for_each(|d| d.effects = joined(effects, &d.effects));
-        let mut refits = self.refit_all(&drafts)?;
-        refits.extend(self.whole(effects)?);
+        let mut refits = self.refit_all(&drafts, from)?;
+        refits.extend(self.whole(from)?);
         Ok(self.ranked(refits))
     }
 
     /// Sets of two new effects at the pairs of places that explain most.
-    pub fn pairs(&self, effects: &[Source]) -> Result<Vec<Refit>, ExplainError> {
-        let (screen, mut receptances) = self.screen(effects)?;
+    pub fn pairs(&self) -> Result<Vec<Refit>, ExplainError> {
+        let mut view = self.view(self.predictor, None)?;
         let mut drafts = Vec::new();
-        for placing in screen.pairs(PAIRS) {
+        for placing in view.screen.pairs(PAIRS) {
             self.control.check()?;
-            let options = self.laws(&screen, &mut receptances, &placing, effects)?;
+            let options = self.laws(&mut view, &placing, &[])?;
             let [first, second] = &options[..] else { continue };
             for a in first.iter().take(3) {
                 for b in second.iter().take(3) {
                     let score = placing.chi_square + a.score + b.score;
-                    drafts.push(Draft { effects: joined(&a.effects, &b.effects), score });
+                    drafts.push(Draft { effects: joined(&a.effects, &b.effects), score, fields: a.fields.clone() });
                 }
             }
         }
         drafts.sort_by(|a, b| a.score.total_cmp(&b.score));
         drafts.truncate(REFITS);
-        drafts.iter_mut().for_each(|d| d.effects = joined(effects, &d.effects));
-        Ok(self.ranked(self.refit_all(&drafts)?))
+        Ok(self.ranked(self.refit_all(&drafts, None)?))
     }
 
-    /// The free force of the place of `source` when the model has `others`; none for whole-structure laws.
-    pub fn place_data(&self, others: &[Source], source: &Source) -> Result<Option<PlaceData>, ExplainError> {
-        let (screen, mut receptances) = self.screen(others)?;
-        let Some(at) = screen.spots.iter().position(|spot| spot.place().is_same(&source.place)) else {
+    /// The free force of the place of `source` when the model has the other effects of `refit`; none for whole-structure
+    /// laws.
+    pub fn place_data(&self, refit: &Refit, source: &Source) -> Result<Option<PlaceData>, ExplainError> {
+        let predictor = self.predictor_of(refit)?;
+        let mut others = refit.clone();
+        others.effects.retain(|e| !e.is_same(source));
+        others.starts.clear();
+        let mut view = self.view(&predictor, Some(&others))?;
+        let Some(at) = view.screen.spots.iter().position(|spot| spot.place().is_same(&source.place)) else {
             return Ok(None);
         };
-        let spots = vec![screen.spots[at].clone()];
-        if let Spot::Leg(leg) = spots[0] {
-            receptances.need_leg(leg, self.control)?;
-        }
-        Ok(Some(PlaceData::new(&receptances, self.data, &spots, &screen.forces(&[at]), 0)))
+        let (forces, fields) = self.free(&mut view, &[at])?;
+        Ok(Some(PlaceData::new(self.data, &view.screen.spots[at], &forces[0], &fields)))
     }
 
-    /// Fits the drafts on the response.
-    pub fn refit_all(&self, drafts: &[Draft]) -> Result<Vec<Refit>, ExplainError> {
-        drafts.iter().map(|draft| self.bench().refit(&draft.effects, STEPS, &SEARCH)).collect()
+    /// Fits the drafts on the response, from the motion that the data show.
+    fn refit_all(&self, drafts: &[Draft], from: Option<&Refit>) -> Result<Vec<Refit>, ExplainError> {
+        let tuning = from.map_or(&self.tuning, |refit| &refit.tuning);
+        let fit = |draft: &Draft| {
+            let sources = self.predictor.sources(&draft.effects);
+            let runs = self.data.runs.iter().zip(draft.fields.iter());
+            let starts: Starts = runs.map(|(run, field)| start(&sources, run.omega, field)).collect();
+            self.bench().refit(&draft.effects, tuning, STEPS, &SEARCH, &starts)
+        };
+        drafts.iter().map(fit).collect()
+    }
+
+    /// Free forces of the spots of a placing, and the motion they imply.
+    fn free(&self, view: &mut View, spots: &[usize]) -> Result<(Vec<Vec<Vec<FreeForce>>>, Fields), ExplainError> {
+        for &s in spots {
+            if let Spot::Leg(leg) = view.screen.spots[s] {
+                view.receptances.need_leg(leg, self.control)?;
+            }
+        }
+        let forces = view.screen.forces(spots);
+        let n = self.predictor.structure().len();
+        let field = |(r, run): (usize, &super::data::RunData)| {
+            let response = &view.predictions[r].response;
+            let mut field = Mat::from_fn(n, run.harmonics, |i, h| response.amplitude(i, h + 1));
+            for (&s, list) in spots.iter().zip(&forces) {
+                let Spot::Leg(leg) = view.screen.spots[s] else { continue };
+                for h in 1..=run.harmonics {
+                    let force = shrunk(&list[r], h);
+                    for i in 0..n {
+                        field[(i, h - 1)] -= leg.relative(|j| view.receptances.entry(r, h, i, j)) * force;
+                    }
+                }
+            }
+            field
+        };
+        let fields: Vec<Mat<c64>> = self.data.runs.iter().enumerate().map(field).collect();
+        Ok((forces, fields))
     }
 
     /// Laws fitted to the free forces of each spot of a placing, best first; the score is their misfit with its penalty.
-    fn laws(
-        &self,
-        screen: &Screen,
-        receptances: &mut Receptances,
-        placing: &Placing,
-        effects: &[Source],
-    ) -> Result<Vec<Vec<Draft>>, ExplainError> {
-        let spots: Vec<Spot> = placing.spots.iter().map(|&s| screen.spots[s].clone()).collect();
-        for spot in &spots {
-            if let Spot::Leg(leg) = spot {
-                receptances.need_leg(*leg, self.control)?;
-            }
-        }
-        let forces = screen.forces(&placing.spots);
-        let mut all = Vec::with_capacity(spots.len());
-        for own in 0..spots.len() {
-            let data = PlaceData::new(receptances, self.data, &spots, &forces, own);
+    fn laws(&self, view: &mut View, placing: &Placing, effects: &[Source]) -> Result<Vec<Vec<Draft>>, ExplainError> {
+        let (forces, fields) = self.free(view, &placing.spots)?;
+        let fields = Rc::new(fields);
+        let of = |(&s, forces): (&usize, &Vec<Vec<FreeForce>>)| {
+            let data = PlaceData::new(self.data, &view.screen.spots[s], forces, &fields);
             let fits = Effect::ALL.into_iter().filter_map(|effect| data.fit(effect));
             let fresh = fits.filter(|fit| !effects.iter().any(|e| e.is_same(&fit.source)));
             let mut drafts: Vec<Draft> = fresh
                 .map(|fit| {
                     let score = bayesian_information(fit.misfit, fit.source.parameters.len(), data.count());
-                    Draft { effects: vec![fit.source], score }
+                    Draft { effects: vec![fit.source], score, fields: fields.clone() }
                 })
                 .collect();
             drafts.sort_by(|a, b| a.score.total_cmp(&b.score));
-            all.push(drafts);
-        }
-        Ok(all)
+            drafts
+        };
+        Ok(placing.spots.iter().zip(&forces).map(of).collect())
     }
 
-    /// The laws of the whole structure, each from a light and a heavy start.
-    fn whole(&self, effects: &[Source]) -> Result<Vec<Refit>, ExplainError> {
+    /// The laws of the whole structure, from a light start.
+    fn whole(&self, from: Option<&Refit>) -> Result<Vec<Refit>, ExplainError> {
+        let effects = from.map_or(&[][..], |refit| &refit.effects);
+        let tuning = from.map_or(&self.tuning, |refit| &refit.tuning);
         let mut found = Vec::new();
         for effect in Effect::ALL.into_iter().filter(|e| matches!(e.kind(), Kind::Whole(_))) {
-            let place = Place::Whole(None);
             if effects.iter().any(|e| e.effect == effect) {
                 continue;
             }
@@ -190,19 +249,53 @@ impl<'a> Base<'a> {
                 Effect::MassProportional => omega.exp(),
                 _ => 1.0,
             };
-            let start = Source { effect, place, state: State::Known, parameters: vec![3e-3 * unit] };
-            found.push(self.bench().refit(&joined(effects, &[start]), STEPS, &SEARCH)?);
+            let place = Place::Whole(None);
+            let light = Source { effect, place, state: State::Known, parameters: vec![3e-3 * unit] };
+            found.push(self.bench().refit(&joined(effects, &[light]), tuning, STEPS, &SEARCH, &[])?);
         }
         Ok(found)
     }
 
-    /// Information criterion of a fit, its squared residual scaled by what the best model leaves beyond the noise.
-    pub fn evidence(&self, refit: &Refit, scale: f64) -> f64 {
-        bayesian_information(refit.chi_square / scale.max(1.0), refit.parameters, self.count())
+    /// Fits the best of `refits` again with all harmonics that matter and the noise of the best of them, truncation
+    /// included; the others follow as they are.
+    pub fn polished(&self, refits: Vec<Refit>) -> Result<(Vec<Refit>, Vec<Whitening>), ExplainError> {
+        let mut best = refits;
+        let rest = best.split_off(POLISHED.min(best.len()));
+        let mut noise = self.noise.clone();
+        for steps in [8, 4] {
+            let bench = Bench { noise: &noise, ..self.bench() };
+            let again = |r: &Refit| bench.refit(&r.effects, &r.tuning, steps, &FINAL, &r.starts);
+            best = self.ranked(best.iter().map(again).collect::<Result<Vec<_>, _>>()?);
+            let Some(first) = best.first() else { break };
+            let predictor = self.predictor_of(first)?;
+            let tuned = Base { predictor: &predictor, ..self.shallow() };
+            let predictions = tuned.bench().predict(&first.effects, &FINAL, &first.starts)?;
+            noise = tuned.whitenings(&first.effects, &predictions)?;
+        }
+        best.extend(rest);
+        Ok((best, noise))
     }
 
-    /// Best first; what is over-fitted twice is left out.
-    fn ranked(&self, mut refits: Vec<Refit>) -> Vec<Refit> {
+    /// The same model and data without what was computed of them.
+    pub fn shallow(&self) -> Base<'_> {
+        Base {
+            predictor: self.predictor,
+            data: self.data,
+            control: self.control,
+            tuning: self.tuning.clone(),
+            predictions: Vec::new(),
+            noise: Vec::new(),
+        }
+    }
+
+    /// Information criterion of a fit, its squared residual scaled by what the best model leaves beyond the noise.
+    pub fn evidence(&self, refit: &Refit, scale: f64) -> f64 {
+        let fit = bayesian_information(refit.chi_square / scale.max(1.0), refit.parameters, self.count());
+        fit + refit.tuning_cost
+    }
+
+    /// Best first.
+    pub fn ranked(&self, mut refits: Vec<Refit>) -> Vec<Refit> {
         refits.retain(|r| r.chi_square.is_finite());
         let scale = scale_of(&refits, self.count());
         refits.sort_by(|a, b| self.evidence(a, scale).total_cmp(&self.evidence(b, scale)));
@@ -220,18 +313,42 @@ fn joined(first: &[Source], second: &[Source]) -> Vec<Source> {
     first.iter().chain(second).cloned().collect()
 }
 
-/// The best drafts, no more than a few at one place.
+/// The best drafts, no more than a few at one place, each with the simpler laws that it contains as limits.
 fn short_list(mut drafts: Vec<Draft>, most: usize) -> Vec<Draft> {
     drafts.sort_by(|a, b| a.score.total_cmp(&b.score));
     let mut kept: Vec<Draft> = Vec::new();
-    for draft in drafts {
+    for draft in &drafts {
         let here = kept.iter().filter(|k| k.effects[0].place == draft.effects[0].place).count();
         if here < LAWS_AT_ONE_PLACE {
-            kept.push(draft);
+            kept.push(draft.clone());
         }
         if kept.len() == most {
             break;
         }
     }
+    for draft in kept.clone().iter().take(LAWS_AT_ONE_PLACE) {
+        let (effect, place) = (draft.effects[0].effect, &draft.effects[0].place);
+        for simpler in limits(effect) {
+            let is = |d: &&Draft| d.effects[0].effect == *simpler && d.effects[0].place == *place;
+            if kept.iter().any(|d| is(&d)) {
+                continue;
+            }
+            kept.extend(drafts.iter().find(is).cloned());
+        }
+    }
     kept
+}
+
+/// Simpler laws that a law becomes at the ends of its parameters.
+fn limits(effect: Effect) -> &'static [Effect] {
+    match effect {
+        Effect::ElasticSlider => &[Effect::Stiffness, Effect::Coulomb],
+        Effect::Iwan => &[Effect::ElasticSlider, Effect::Stiffness, Effect::Coulomb],
+        Effect::Maxwell => &[Effect::Viscous, Effect::Stiffness],
+        Effect::Fractional => &[Effect::Viscous, Effect::Stiffness, Effect::Hysteretic],
+        Effect::Power => &[Effect::Viscous, Effect::Quadratic, Effect::Coulomb],
+        Effect::Stribeck => &[Effect::Coulomb],
+        Effect::Gap => &[Effect::Stiffness],
+        _ => &[],
+    }
 }

@@ -88,12 +88,6 @@ impl<'a> Receptances<'a> {
         self.columns.get(&dof).map_or(c64::new(0.0, 0.0), |column| column[r][(row, h - 1)])
     }
 
-    /// Relative displacement of `leg` under the recorded forces of the run.
-    pub fn driven(&self, r: usize, h: usize, leg: Leg) -> c64 {
-        let forces = self.data.runs[r].forces.iter();
-        forces.map(|f| leg.relative(|i| self.entry(r, h, i, f.dof)) * f.measured[h - 1]).sum()
-    }
-
     /// Recorded amplitude of `channel` for a unit force on the structure at `leg` (its law feels `-1`).
     pub fn channel(&self, r: usize, run: &RunData, h: usize, channel: &ChannelData, leg: Leg) -> c64 {
         let displacement = leg.relative(|i| self.entry(r, h, i, channel.dof));

@@ -1,13 +1,24 @@
 //! The comparison: at the noise floor for an exact model, well above it for a wrong one.
 
-use super::suite::{Kindness, Random, hidden};
+use super::random::Random;
+use super::suite::{Kindness, hidden};
 use dashpot::control::Control;
 use dashpot::effects::Effect;
 use dashpot::explain::compare;
 use dashpot::explain::compare::ChannelComparison;
 
 fn kindness(beam: bool) -> Kindness {
-    Kindness { beam, sensors: 4, runs: 9, noise: 0.02, size: 0.3, detuned: 0.0 }
+    Kindness {
+        beam,
+        points: false,
+        sensors: 4,
+        runs: 9,
+        levels: 3,
+        noise: 0.02,
+        size: 0.3,
+        detuned: 0.0,
+        unsettled: false,
+    }
 }
 
 #[test]

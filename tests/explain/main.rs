@@ -3,6 +3,16 @@
 
 mod comparison;
 mod hidden;
+#[path = "../../examples/hidden_effects/random.rs"]
+#[allow(dead_code, reason = "shared with the example, which uses all of it")]
+mod random;
+#[path = "../../examples/hidden_effects/records.rs"]
+mod records;
+#[path = "../../examples/hidden_effects/sizing.rs"]
+mod sizing;
+#[path = "../../examples/hidden_effects/specimen.rs"]
+#[allow(dead_code, reason = "shared with the example, which uses all of it")]
+mod specimen;
 #[path = "../../examples/hidden_effects/suite.rs"]
 #[allow(dead_code, reason = "shared with the example, which uses all of it")]
 mod suite;

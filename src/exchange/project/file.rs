@@ -207,11 +207,14 @@ pub struct SimulateTable {
     pub samples: usize,
     /// Periods in the record.
     pub periods: usize,
+    /// Whether the motion is stepped through time until it is periodic, rather than found by harmonic balance.
+    #[serde(default)]
+    pub integrate: bool,
 }
 
 impl Default for SimulateTable {
     fn default() -> Self {
-        Self { channels: Vec::new(), samples: 1000, periods: 20 }
+        Self { channels: Vec::new(), samples: 1000, periods: 20, integrate: false }
     }
 }
 

@@ -320,11 +320,12 @@ fn analysis(root: &Table<'_>) -> Read<Settings> {
 fn simulate(root: &Table<'_>, lines: &mut Lines) -> Read<SimulateTable> {
     let mut recipe = SimulateTable::default();
     let Some(table) = root.table("simulate", "[simulate]")? else { return Ok(recipe) };
-    table.only(&["channels", "samples", "periods"])?;
+    table.only(&["channels", "samples", "periods", "integrate"])?;
     lines.simulate = table.line_of("channels");
     recipe.channels = table.texts("channels")?.unwrap_or_default();
     let range = "between 16 and 100000000";
     recipe.samples = table.count("samples", 16, MOST_SAMPLES, range)?.unwrap_or(recipe.samples);
     recipe.periods = table.count("periods", 1, MOST_SAMPLES, "at least 1")?.unwrap_or(recipe.periods);
+    recipe.integrate = table.flag("integrate")?.unwrap_or(false);
     Ok(recipe)
 }

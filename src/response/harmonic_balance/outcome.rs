@@ -118,6 +118,23 @@ pub struct Response {
 }
 
 impl Response {
+    /// A start from leg forces alone: `2 H + 1` coefficients for every nonlinear relative motion, in the order of the
+    /// sources.
+    pub(crate) fn from_leg_forces(omega: f64, unknowns: Vec<f64>) -> Self {
+        Self {
+            omega,
+            mean: Vec::new(),
+            harmonics: Mat::zeros(0, 0),
+            status: Status::Converged,
+            truncation: Vec::new(),
+            forces: Vec::new(),
+            history: Vec::new(),
+            unknowns,
+            coarse: None,
+            raw: None,
+        }
+    }
+
     /// Complex displacement amplitude (m) of row `dof` at harmonic `h >= 1`; 0 beyond the harmonics.
     pub fn amplitude(&self, dof: usize, h: usize) -> c64 {
         if h >= 1 && h <= self.harmonics.ncols() { self.harmonics[(dof, h - 1)] } else { c64::new(0.0, 0.0) }

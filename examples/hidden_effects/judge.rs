@@ -1,0 +1,160 @@
+//! Diagnoses a project and scores the answer against what was hidden.
+
+use super::files::truth;
+use dashpot::control::Control;
+use dashpot::effects::Source;
+use dashpot::exchange::project::load;
+use dashpot::explain::Problem;
+use dashpot::explain::diagnose::{Diagnosis, Suggestion, Verdict, diagnose};
+use std::fmt::Write as _;
+use std::path::Path;
+use std::time::Instant;
+
+/// Counts over projects of one class.
+#[derive(Debug, Default, Clone)]
+pub struct Tally {
+    pub projects: usize,
+    pub effect: usize,
+    pub top3: usize,
+    pub place: usize,
+    pub all: usize,
+    pub adequate: usize,
+    pub to_floor: usize,
+    /// Projects whose first suggestion is right, and of those the parameters within three deviations.
+    pub compared: usize,
+    pub within: usize,
+    /// Relative errors of parameters.
+    pub errors: Vec<f64>,
+    pub seconds: Vec<f64>,
+}
+
+impl Tally {
+    pub fn add(&mut self, other: &Self) {
+        self.projects += other.projects;
+        self.effect += other.effect;
+        self.top3 += other.top3;
+        self.place += other.place;
+        self.all += other.all;
+        self.adequate += other.adequate;
+        self.to_floor += other.to_floor;
+        self.compared += other.compared;
+        self.within += other.within;
+        self.errors.extend(&other.errors);
+        self.seconds.extend(&other.seconds);
+    }
+
+    pub fn row(&self) -> String {
+        let n = self.projects.max(1) as f64;
+        let share = |k: usize| format!("{:5.1}", 100.0 * k as f64 / n);
+        let median = |list: &[f64]| {
+            let mut list = list.to_vec();
+            list.sort_by(f64::total_cmp);
+            list.get(list.len() / 2).copied().unwrap_or(f64::NAN)
+        };
+        format!(
+            "{:4} | {} | {} | {} | {} | {} | {} | {:3}/{:3} | {:7.3} | {:6.2}",
+            self.projects,
+            share(self.effect),
+            share(self.top3),
+            share(self.place),
+            share(self.all),
+            share(self.to_floor),
+            share(self.adequate),
+            self.within,
+            self.compared,
+            100.0 * median(&self.errors),
+            median(&self.seconds),
+        )
+    }
+
+    pub fn head() -> &'static str {
+        "class      |    n | effect| top-3 | place | all   | floor | adequ.| within  | median% | seconds"
+    }
+}
+
+/// Diagnoses the project in `folder`; the line to print and its score.
+pub fn judge(folder: &Path) -> (String, Tally) {
+    let hidden = truth(folder);
+    let name = folder.file_name().unwrap().to_string_lossy().to_string();
+    let mut tally = Tally { projects: 1, ..Tally::default() };
+    let control = Control::unattended();
+    let project = load(&folder.join("project.toml"), &control).unwrap();
+    let start = Instant::now();
+    let problem = Problem { structure: &project.structure, sources: &project.sources, runs: &project.runs };
+    let diagnosis = match diagnose(&problem, &control) {
+        Ok(diagnosis) => diagnosis,
+        Err(error) => return (format!("FAIL {name}: {error}"), tally),
+    };
+    let seconds = start.elapsed().as_secs_f64();
+    tally.seconds.push(seconds);
+    let mark = score(&hidden, &diagnosis, &mut tally);
+    let last = &diagnosis.steps[diagnosis.steps.len() - 1];
+    let mut line = format!(
+        "{mark} {seconds:5.2}s {name} | {} | {:.4} -> {:.4} floor {:.4} {}",
+        hidden.iter().map(named).collect::<Vec<_>>().join(" + "),
+        diagnosis.error_before,
+        last.error,
+        diagnosis.noise_floor,
+        diagnosis.verdict.word(),
+    );
+    for s in diagnosis.suggestions.iter().take(if mark.trim() == "ok" { 1 } else { 4 }) {
+        let d: Vec<String> = s.added.deviations.iter().map(|d| format!("{d:.1e}")).collect();
+        let alike: Vec<String> =
+            s.indistinguishable_from.iter().map(|s| format!("{} {:?}", s.effect, s.place)).collect();
+        let _ = write!(
+            line,
+            "\n        p={:.3} err {:.4} held {:.4} {} +-{}  ~ {}",
+            s.probability,
+            s.error_after,
+            s.held_out_error_after,
+            named(&s.added.source),
+            d.join(","),
+            alike.join(", ")
+        );
+    }
+    (line, tally)
+}
+
+fn score(hidden: &[Source], diagnosis: &Diagnosis, tally: &mut Tally) -> String {
+    let last = &diagnosis.steps[diagnosis.steps.len() - 1];
+    tally.adequate = usize::from(diagnosis.verdict == Verdict::Adequate && diagnosis.suggestions.is_empty());
+    tally.to_floor = usize::from(last.error <= 1.2 * diagnosis.noise_floor);
+    if hidden.is_empty() {
+        return if tally.adequate == 1 { "ok  " } else { "MISS" }.to_string();
+    }
+    let law = |s: &Suggestion| hidden.iter().any(|t| t.effect == s.added.source.effect);
+    let first = diagnosis.suggestions.first();
+    let right = first.is_some_and(law);
+    let top3 = diagnosis.suggestions.iter().take(3).any(law);
+    let at = |s: &Source| hidden.iter().any(|t| t.place.is_same(&s.place));
+    let placed = first.is_some_and(|s| at(&s.added.source) || s.indistinguishable_from.iter().any(at));
+    let all = hidden.iter().all(|t| last.added.iter().any(|a| a.source.is_same(t))) && last.added.len() == hidden.len();
+    tally.effect = usize::from(right);
+    tally.top3 = usize::from(top3);
+    tally.place = usize::from(placed);
+    tally.all = usize::from(all);
+    let mut far = false;
+    for (truth, added) in hidden.iter().filter_map(|t| Some((t, last.added.iter().find(|a| a.source.is_same(t))?))) {
+        tally.compared += 1;
+        let values = truth.parameters.iter().zip(&added.source.parameters).zip(&added.deviations);
+        let good = values.clone().all(|((t, p), d)| (t - p).abs() <= 3.0 * d);
+        tally.within += usize::from(good);
+        far |= !good;
+        // A gain is judged by its difference from one.
+        tally.errors.extend(values.map(|((t, p), _)| ((p - t) / t).abs()));
+    }
+    let floor = tally.to_floor == 1;
+    match (all, right && placed) {
+        (true, _) if floor && !far => "ok  ",
+        (true, _) if floor => "far ",
+        (true, _) => "high",
+        (_, true) => "part",
+        _ => "MISS",
+    }
+    .to_string()
+}
+
+fn named(s: &Source) -> String {
+    let values: Vec<String> = s.parameters.iter().map(|p| format!("{p:.4e}")).collect();
+    format!("{} {:?} {}", s.effect.name(), s.place, values.join(" "))
+}

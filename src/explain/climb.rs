@@ -1,0 +1,171 @@
+//! The ladder from the model as it is to one that agrees with the data: effects one at a time or by pairs, and, where
+//! effects alone do not get there, corrections of the model beside them.
+
+use super::data::ExplainError;
+use super::noise::Whitening;
+use super::predict::FINAL;
+use super::refit::{Refit, starts_of};
+use super::search::{Base, scale_of};
+use crate::effects::Source;
+
+/// Most effects that are added.
+const MOST_EFFECTS: usize = 3;
+/// Evidence (difference of the information criterion) that an effect must bring: its own, and that of having been
+/// chosen among thousands.
+const EVIDENCE: f64 = 25.0;
+/// What freeing the corrections of the model costs in evidence.
+const FREEDOM: f64 = 15.0;
+/// Deviations of the sum of squares within which a model agrees with the data.
+const AGREES: f64 = 4.0;
+/// Steps of a fit of the corrections alone.
+const STEPS: usize = 20;
+
+/// Sets of effects of one size, fitted, best first.
+pub(crate) struct Rung {
+    pub refits: Vec<Refit>,
+    /// Squared residual per datum of the best, at least 1.
+    pub scale: f64,
+    /// Noise with the truncation of the best.
+    pub noise: Vec<Whitening>,
+}
+
+/// Where a search ended.
+pub(crate) struct Found {
+    /// The model corrected but without effects, where corrections were freed.
+    pub bare: Option<Refit>,
+    pub rungs: Vec<Rung>,
+    /// Whether the last rung agrees with the data.
+    pub agrees: bool,
+}
+
+/// Whether a squared residual with `parameters` fitted is that of noise.
+pub(crate) fn agrees(base: &Base, chi_square: f64, parameters: usize) -> bool {
+    let n = base.count().saturating_sub(parameters) as f64;
+    chi_square <= n + AGREES * (2.0 * n).sqrt()
+}
+
+/// The search, first with the model as it is, then with its corrections free.
+pub(crate) fn explain<'a>(base: &'a Base<'a>, before: f64) -> Result<super::outcome::Outcome<'a>, ExplainError> {
+    let mut exact = Found { bare: None, rungs: Vec::new(), agrees: false };
+    climb(base, &mut exact, (before, 0, 0.0), 1)?;
+    if exact.agrees {
+        return Ok(super::outcome::Outcome { base, found: exact });
+    }
+    let tuned = with_corrections(base, exact.rungs.first())?;
+    if !tuned.agrees {
+        let last = exact.rungs.last().map_or((before, 0, 0.0), |r| level(&r.refits[0]));
+        climb(base, &mut exact, last, MOST_EFFECTS)?;
+    }
+    let best = if cost(base, &tuned, before) + FREEDOM < cost(base, &exact, before) { tuned } else { exact };
+    Ok(super::outcome::Outcome { base, found: best })
+}
+
+fn level(refit: &Refit) -> (f64, usize, f64) {
+    (refit.chi_square, refit.parameters, refit.tuning_cost)
+}
+
+/// Evidence of where a search ended; the smaller, the better.
+fn cost(base: &Base, found: &Found, before: f64) -> f64 {
+    let last = found.rungs.last().map(|r| &r.refits[0]).or(found.bare.as_ref());
+    let choice = EVIDENCE * found.rungs.len() as f64;
+    last.map_or(before, |refit| base.evidence(refit, 1.0) + choice)
+}
+
+/// The search with the corrections of the model free.
+fn with_corrections(base: &Base, exact: Option<&Rung>) -> Result<Found, ExplainError> {
+    let free = base.predictor.free_tuning();
+    let bench = base.bench();
+    let starts = starts_of(base.predictions.clone());
+    let bare = bench.refit(&[], &free, STEPS, &FINAL, &starts)?;
+    let mut found = Found {
+        agrees: agrees(base, bare.chi_square, bare.tuning.knobs.len()),
+        bare: Some(bare.clone()),
+        rungs: Vec::new(),
+    };
+    if found.agrees {
+        return Ok(found);
+    }
+    // Effects that explain much without corrections, with them; then places again, seen from the corrected model.
+    let mut refits = Vec::new();
+    for refit in exact.iter().flat_map(|rung| &rung.refits).take(4) {
+        refits.push(bench.refit(&refit.effects, &free, STEPS, &FINAL, &refit.starts)?);
+    }
+    let mut from = bare.clone();
+    for _ in 0..2 {
+        refits.extend(corrected_singles(base, &from)?);
+        refits = base.ranked(refits);
+        refits.dedup_by(|a, b| same_set(&a.effects, &b.effects));
+        let Some(best) = refits.first() else { break };
+        let moved = best.tuning.values.iter().zip(&from.tuning.values).any(|(a, b)| (a - b).abs() > 2e-4);
+        if agrees(base, best.chi_square, best.parameters) || !moved {
+            break;
+        }
+        from = Refit { effects: Vec::new(), ..best.clone() };
+    }
+    let before = level(&bare);
+    add_rung(base, &mut found, refits, before)?;
+    if let (false, Some(rung)) = (found.agrees, found.rungs.last()) {
+        let last = level(&rung.refits[0]);
+        climb(base, &mut found, last, MOST_EFFECTS - 1)?;
+    }
+    Ok(found)
+}
+
+/// Single effects at the places that the model with the corrections of `from` shows.
+fn corrected_singles(base: &Base, from: &Refit) -> Result<Vec<Refit>, ExplainError> {
+    let predictor = base.predictor.tuned(&from.tuning)?;
+    let mut tuned = Base::new(&predictor, base.data, from.tuning.clone(), base.control)?;
+    tuned.noise.clone_from(&base.noise);
+    tuned.singles(None)
+}
+
+/// Adds rungs as long as the data demand them, up to `most`.
+fn climb(base: &Base, found: &mut Found, mut last: (f64, usize, f64), most: usize) -> Result<(), ExplainError> {
+    while found.rungs.len() < most && !found.agrees {
+        let refits = next(base, &found.rungs, found.bare.is_some())?;
+        if !add_rung(base, found, refits, last)? {
+            break;
+        }
+        last = found.rungs.last().map_or(last, |r| level(&r.refits[0]));
+        base.control.report(0.3 * found.rungs.len() as f64);
+    }
+    Ok(())
+}
+
+/// Adds the rung of these fits if the best of them has the evidence.
+fn add_rung(base: &Base, found: &mut Found, refits: Vec<Refit>, last: (f64, usize, f64)) -> Result<bool, ExplainError> {
+    let (refits, noise) = base.polished(refits)?;
+    let Some(best) = refits.first() else { return Ok(false) };
+    if best.parameters >= base.count() {
+        return Ok(false);
+    }
+    let scale = scale_of(&refits, base.count());
+    let penalty = best.parameters.saturating_sub(last.1) as f64 * (base.count() as f64).ln();
+    let gain = (last.0 - best.chi_square) / scale + last.2 - best.tuning_cost - penalty;
+    if gain < EVIDENCE {
+        return Ok(false);
+    }
+    found.agrees = agrees(base, best.chi_square, best.parameters + best.tuning.knobs.len());
+    found.rungs.push(Rung { refits, scale, noise });
+    Ok(true)
+}
+
+/// Sets of one effect more than the last rung.
+fn next(base: &Base, rungs: &[Rung], corrected: bool) -> Result<Vec<Refit>, ExplainError> {
+    let Some(last) = rungs.last() else { return base.singles(None) };
+    let quiet = Base { noise: last.noise.clone(), predictions: base.predictions.clone(), ..base.shallow() };
+    let mut refits = Vec::new();
+    for start in last.refits.iter().take(2) {
+        refits.extend(quiet.singles(Some(start))?);
+    }
+    if rungs.len() == 1 && !corrected {
+        refits.extend(quiet.pairs()?);
+    }
+    let mut refits = base.ranked(refits);
+    refits.dedup_by(|a, b| same_set(&a.effects, &b.effects));
+    Ok(refits)
+}
+
+pub(crate) fn same_set(a: &[Source], b: &[Source]) -> bool {
+    a.len() == b.len() && a.iter().all(|x| b.iter().any(|y| x.is_same(y)))
+}
