@@ -26,6 +26,9 @@ const REFITS: usize = 10;
 const POLISHED: usize = 6;
 /// Most laws of one place that are fitted on the response.
 const LAWS_AT_ONE_PLACE: usize = 4;
+/// What every parameter of a law beyond its first costs in evidence besides its information criterion: where one law
+/// contains another as a limit, the simpler wins unless the data demand the other.
+const EXTRA: f64 = 8.0;
 /// Steps of a fit on the response.
 const STEPS: usize = 12;
 
@@ -291,7 +294,8 @@ impl<'a> Base<'a> {
     /// Information criterion of a fit, its squared residual scaled by what the best model leaves beyond the noise.
     pub fn evidence(&self, refit: &Refit, scale: f64) -> f64 {
         let fit = bayesian_information(refit.chi_square / scale.max(1.0), refit.parameters, self.count());
-        fit + refit.tuning_cost
+        let extra: usize = refit.effects.iter().map(|e| e.parameters.len() - 1).sum();
+        fit + refit.tuning_cost + EXTRA * extra as f64
     }
 
     /// Best first.

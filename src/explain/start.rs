@@ -15,7 +15,7 @@ pub(crate) type Fields = Vec<Mat<c64>>;
 /// `field`; none where no law needs a start.
 pub(crate) fn start(sources: &[Source], omega: f64, field: &Mat<c64>) -> Option<Response> {
     let sampling = Sampling::new(SAMPLES);
-    let mut unknowns = Vec::new();
+    let mut unknowns: Vec<f64> = Vec::new();
     for source in sources.iter().filter(|s| !s.effect.is_linear()) {
         let Some(law) = source.effect.law() else { continue };
         for leg in source.place.legs() {
@@ -30,8 +30,8 @@ pub(crate) fn start(sources: &[Source], omega: f64, field: &Mat<c64>) -> Option<
             unknowns.extend(coefficients);
         }
     }
-    let usable = !unknowns.is_empty() && unknowns.iter().all(|u| u.is_finite());
-    usable.then(|| Response::from_leg_forces(omega, unknowns))
+    let usable = !unknowns.is_empty() && unknowns.iter().all(|u: &f64| u.is_finite());
+    usable.then(|| Response::near(omega, field.clone(), unknowns))
 }
 
 /// Relative displacement of a leg, one value a harmonic.

@@ -26,6 +26,7 @@ mod stability;
 
 pub(crate) use condense::stiffness_of;
 pub(crate) use dense::Lu;
+pub(crate) use fourier::add_amplitude;
 pub(crate) use newton::Balance;
 pub(crate) use solve::{Prepared, richardson};
 

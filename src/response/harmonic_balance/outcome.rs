@@ -118,17 +118,18 @@ pub struct Response {
 }
 
 impl Response {
-    /// A start from leg forces alone: `2 H + 1` coefficients for every nonlinear relative motion, in the order of the
-    /// sources.
-    pub(crate) fn from_leg_forces(omega: f64, unknowns: Vec<f64>) -> Self {
+    /// A start near a motion: displacement amplitudes (m, n x H) with `2 H + 1` coefficients of force for every nonlinear
+    /// relative motion, in the order of the sources.
+    pub(crate) fn near(omega: f64, harmonics: Mat<c64>, unknowns: Vec<f64>) -> Self {
         Self {
             omega,
-            mean: Vec::new(),
-            harmonics: Mat::zeros(0, 0),
+            mean: vec![0.0; harmonics.nrows()],
             status: Status::Converged,
-            truncation: Vec::new(),
+            truncation: vec![0.0; harmonics.ncols()],
             forces: Vec::new(),
             history: Vec::new(),
+            legs: unknowns.len() / (2 * harmonics.ncols() + 1),
+            harmonics,
             unknowns,
             coarse: None,
             raw: None,
