@@ -1,13 +1,19 @@
-//! Periodic responses by harmonic balance: one response against time stepping, a sweep through folds, growth in size.
+//! Periodic responses by harmonic balance: one response against time stepping, a sweep through folds, growth in size, and
+//! the comparison of a model with 24 runs.
 
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
 use dashpot::control::Control;
 use dashpot::effects::{Effect, Place, Source};
+use dashpot::explain::{Problem, compare};
+use dashpot::measurement::{Run, fit::fit};
 use dashpot::response::harmonic_balance::{Excitation, ForwardModel, Settings, SweepSettings, sweep};
 use dashpot::response::sensitivity::{Unknown, sensitivities};
+use dashpot::response::simulation::{SteadyState, recorded, usual_channels};
+use dashpot::response::synthesis::{Noise, sampling_times, synthesise};
 use dashpot::response::time_integration::{Settling, TimeModel};
 use dashpot::structure::Structure;
 use dashpot::structure::beam::{BeamParameters, Supports};
+use dashpot::structure::chain::ChainParameters;
 use faer::c64;
 use std::f64::consts::TAU;
 use std::hint::black_box;
@@ -109,10 +115,18 @@ fn growth(c: &mut Criterion) {
             b.iter(|| run.respond(&sources, &excitation, &settings, None, &control).map(black_box));
         });
     }
+    // A chain, not a beam: a beam of a thousand elements has no digits left in its first modes.
     for n in [20, 200, 2000] {
-        let sources = friction(n, 3);
-        let Ok(model) = ForwardModel::new(&beam(n / 2), &sources) else { continue };
-        let excitation = Excitation::sine(TAU * 10.0, n - 2, c64::new(1.0, 0.0));
+        let at = |share: usize, f: f64| source(Effect::Coulomb, n * share / 4 - 1, &[f]);
+        let sources = [damped(), at(1, 0.1), at(2, 0.2), at(4, 0.3)];
+        let chain = ChainParameters {
+            masses: vec![1.0 / n as f64; n],
+            ground_stiffness: [vec![1e3 * n as f64], vec![0.0; n - 1]].concat(),
+            coupling_stiffness: vec![1e3 * n as f64; n - 1],
+        };
+        let Ok(structure) = chain.build(&[]) else { continue };
+        let Ok(model) = ForwardModel::new(&structure, &sources) else { continue };
+        let excitation = Excitation::sine(TAU * 7.0, n - 1, c64::new(1.0, 0.0));
         group.bench_function(BenchmarkId::new("structure_dofs", n), |b| {
             b.iter(|| model.respond(&excitation, &settings, None, &control).map(black_box));
         });
@@ -120,5 +134,42 @@ fn growth(c: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, one_response, folds, growth);
+/// 24 runs of the beam with friction: eight frequencies, three forces.
+fn measured() -> (Structure, Vec<Source>, Vec<Run>) {
+    let (structure, sources) = (beam(10), friction(20, 3));
+    let mut runs = Vec::new();
+    let Ok(model) = ForwardModel::new(&structure, &sources) else { return (structure, sources, runs) };
+    for k in 0..24 {
+        let hz = [9.5, 10.2, 11.0, 60.0, 65.0, 70.0, 175.0, 185.0][k % 8];
+        let excitation = Excitation::sine(TAU * hz, 18, c64::new([1.0, 2.0, 4.0][k / 8], 0.0));
+        let Ok(response) = model.respond(&excitation, &Settings::default(), None, &Control::unattended()) else {
+            continue;
+        };
+        let state = SteadyState { mean: response.mean, harmonics: response.harmonics };
+        let motions = recorded(&state, &excitation, &usual_channels(&structure, &excitation)[..5], &[]);
+        let noise = Noise { ratio: 0.01, seed: 1, stream: k as u64 };
+        let time = sampling_times(excitation.omega, 20.0, 1000);
+        let Ok(record) = synthesise(excitation.omega, &time, &motions, Some(noise)) else { continue };
+        let Ok(fit) = fit(&record, excitation.omega, 7) else { continue };
+        let file = format!("run-{k:02}.csv");
+        let run = Run { file, level: None, enabled: true, record: None, fit, noise_ratio: 0.01, findings: Vec::new() };
+        runs.push(run);
+    }
+    (structure, sources, runs)
+}
+
+fn comparison(c: &mut Criterion) {
+    let (structure, sources, runs) = measured();
+    let mut group = c.benchmark_group("compare");
+    group.sample_size(10);
+    for (name, sources) in [("linear_model", &sources[..2]), ("three_frictions", &sources[..])] {
+        let problem = Problem { structure: &structure, sources, runs: &runs };
+        group.bench_function(BenchmarkId::new(name, runs.len()), |b| {
+            b.iter(|| compare(&problem, &[], &Control::unattended()).map(black_box));
+        });
+    }
+    group.finish();
+}
+
+criterion_group!(benches, one_response, folds, growth, comparison);
 criterion_main!(benches);

@@ -77,6 +77,59 @@ fn good_projects_end_with_status_0_and_their_records() {
 }
 
 #[test]
+fn records_are_written_inside_their_folder_only() {
+    let folder = tempfile::tempdir().unwrap();
+    let absolute = folder.path().join("away.csv").display().to_string();
+    for name in ["../away.csv", "deep/../../away.csv", &absolute] {
+        fs::write(folder.path().join("p.toml"), GOOD.replace("run-01.csv", name)).unwrap();
+        let output = dashpot(&["simulate", "p.toml", "--out", "made"], folder.path());
+        let message = text(&output.stderr);
+        assert_eq!(output.status.code(), Some(1), "{message}");
+        assert_eq!(message.lines().count(), 1, "{message}");
+        assert!(message.starts_with(&format!("p.toml:14: the record {name} would be written outside")), "{message}");
+        assert_eq!(names(folder.path()), ["p.toml"], "nothing else is written");
+    }
+    fs::write(folder.path().join("p.toml"), GOOD.replace("run-01.csv", "deep/run-01.csv")).unwrap();
+    let output = dashpot(&["simulate", "p.toml", "--out", "made"], folder.path());
+    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    assert_eq!(names(&folder.path().join("made/deep")), ["run-01.csv"]);
+}
+
+#[test]
+fn records_are_made_by_time_integration_on_request() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("p.toml"), GOOD).unwrap();
+    let made = |out: &str, more: &[&str]| {
+        let output = dashpot(&[&["simulate", "p.toml", "--out", out], more].concat(), folder.path());
+        assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+        let record = fs::read_to_string(folder.path().join(out).join("run-01.csv")).unwrap();
+        let value = |line: &str| line.rsplit(',').next().unwrap().parse::<f64>().unwrap();
+        record.lines().skip(1).map(value).collect::<Vec<f64>>()
+    };
+    let (balanced, timed) = (made("a", &[]), made("b", &["--by", "time"]));
+    let largest = balanced.iter().fold(0.0_f64, |m, y| m.max(y.abs()));
+    assert!(balanced.iter().zip(&timed).all(|(a, b)| (a - b).abs() < 1e-3 * largest));
+    // From rest the motion is another at first and comes to the same.
+    let rising = made("c", &["--transient", "1"]);
+    let difference = |range: std::ops::Range<usize>| {
+        range.map(|n| (balanced[n] - rising[n]).abs()).fold(0.0_f64, f64::max) / largest
+    };
+    assert!(difference(0..50) > 0.1 && difference(0..50) > difference(150..200), "{}", difference(0..50));
+    fs::write(
+        folder.path().join("p.toml"),
+        GOOD.replace("viscous", "hysteretic").replace("c = 3", "loss_stiffness = 3"),
+    )
+    .unwrap();
+    let output = dashpot(&["simulate", "p.toml", "--out", "d", "--by", "time"], folder.path());
+    assert_eq!(output.status.code(), Some(1));
+    assert!(
+        text(&output.stderr).starts_with("p.toml: run run-01.csv: source 0 (hysteretic)"),
+        "{}",
+        text(&output.stderr)
+    );
+}
+
+#[test]
 fn wrong_usage_ends_with_status_2() {
     let folder = tempfile::tempdir().unwrap();
     for arguments in [&["simulate"] as &[&str], &["fly", "p.toml"], &["simulate", "p.toml", "--out"], &["--wings"]] {

@@ -79,6 +79,24 @@ pub(super) struct Simulate {
     /// What is written
     #[arg(long = "as", value_enum, default_value_t = Records::Time)]
     pub records: Records,
+    /// How the motion is computed
+    #[arg(long, value_enum, default_value_t = Method::Balance)]
+    pub by: Method,
+    /// Share of the periodic motion missing at the start of each record: 1 is from rest; implies `--by time`
+    #[arg(long, default_value_t = 0.0, value_name = "FRACTION", value_parser = fraction)]
+    pub transient: f64,
+    /// Steps of the time integration a period
+    #[arg(long, default_value_t = 4000, value_parser = clap::value_parser!(u32).range(100..=1_000_000))]
+    pub steps: u32,
+}
+
+/// How simulated motions are computed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(super) enum Method {
+    /// Harmonic balance: the periodic motion itself
+    Balance,
+    /// Time integration until the motion is periodic
+    Time,
 }
 
 /// Form of simulated measurements.
@@ -117,6 +135,13 @@ fn noise(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(ratio) if (0.0..=10.0).contains(&ratio) => Ok(ratio),
         _ => Err("give a ratio from 0 to 10, such as 0.05 for 5 %".to_owned()),
+    }
+}
+
+fn fraction(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(fraction) if (0.0..=1.0).contains(&fraction) => Ok(fraction),
+        _ => Err("give a fraction from 0 (periodic) to 1 (from rest)".to_owned()),
     }
 }
 

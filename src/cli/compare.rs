@@ -5,11 +5,16 @@ use super::table::{number, table};
 use crate::control::Control;
 use crate::exchange::{Project, project::load};
 use crate::explain::compare::{ChannelComparison, HarmonicComparison};
+use crate::explain::groups::Group;
+use crate::explain::whiteness::Whiteness;
 use crate::explain::{Comparison, Problem, compare};
 use crate::structure::Structure;
 use anyhow::Context;
 use faer::c64;
 use serde_json::{Value, json};
+
+/// Probability of chance below which a dependence is called one.
+const SIGNIFICANT: f64 = 0.001;
 
 /// Compares and prints.
 pub(super) fn run(arguments: &Analysis) -> anyhow::Result<String> {
@@ -47,16 +52,21 @@ fn document(project: &Project, comparison: &Comparison) -> Value {
                 let harmonics: Vec<Value> = c.harmonics.iter().map(harmonic).collect();
                 json!({"channel": c.channel, "error": c.error, "noise_floor": c.noise_floor, "harmonics": harmonics})
             };
-            json!({
+            let mut entry = json!({
                 "file": source.file,
                 "frequency_hz": source.fit.omega / std::f64::consts::TAU,
                 "level": source.level,
                 "flags": flags(source),
                 "used": run.used,
                 "error": run.error,
+                "noise_floor": run.noise_floor,
                 "energy_error": run.energy_error,
                 "channels": run.channels.iter().map(channel).collect::<Vec<_>>(),
-            })
+            });
+            if let Some(branch) = run.branch {
+                entry["branch"] = json!({"name": branch.name(), "stable": branch.stable, "all": branch.all});
+            }
+            entry
         })
         .collect();
     json!({
@@ -66,7 +76,21 @@ fn document(project: &Project, comparison: &Comparison) -> Value {
         "noise_floor": comparison.noise_floor,
         "energy_error": comparison.energy_error,
         "runs": runs,
+        "levels": groups("level", &comparison.levels),
+        "channels": groups("channel", &comparison.channels),
+        "harmonics": groups("harmonic", &comparison.harmonics),
+        "whiteness": comparison.whiteness.iter().map(whiteness).collect::<Vec<_>>(),
     })
+}
+
+/// Errors by level, channel or harmonic.
+fn groups(key: &str, groups: &[Group]) -> Vec<Value> {
+    let entry = |g: &Group| json!({key: g.name, "error": g.error, "noise_floor": g.noise_floor, "runs": g.runs});
+    groups.iter().map(entry).collect()
+}
+
+fn whiteness(test: &Whiteness) -> Value {
+    json!({"of": test.of.word(), "statistic": test.statistic, "freedom": test.freedom, "probability": test.probability})
 }
 
 /// What the errors are errors of.
@@ -92,18 +116,45 @@ fn text(project: &Project, comparison: &Comparison) -> String {
         let source = &project.runs[run.index];
         let worst = run.channels.iter().max_by(|a, b| a.error.total_cmp(&b.error));
         let worst = worst.map_or_else(String::new, |c| format!("{} {}", c.channel, number(100.0 * c.error)));
-        let note = if run.used { String::new() } else { "not used".to_owned() };
+        let mut note = if run.used { String::new() } else { "not used".to_owned() };
+        if let Some(branch) = run.branch {
+            note.push_str(&format!("{} of {} stable motions", branch.name(), branch.stable));
+        }
         let frequency = number(source.fit.omega / std::f64::consts::TAU);
         let errors = [run.error, run.energy_error].map(|e| number(100.0 * e));
         rows.push(vec![source.file.clone(), frequency, errors[0].clone(), errors[1].clone(), worst, note]);
     }
+    let parts = [("level", &comparison.levels), ("channel", &comparison.channels), ("harmonic", &comparison.harmonics)];
+    let parts: String = parts.into_iter().map(|(name, groups)| part(name, groups)).collect();
+    let lead = match project.structure.matrices() {
+        Some(_) => "",
+        None => "Without mass and stiffness no response can be predicted: energies are compared.\n",
+    };
     format!(
-        "{}\n\n{}\nerror of the {} {} %, noise floor {} %, energy error {} %\n",
+        "{}\n{lead}\n{}{parts}\nerror of the {} {} %, noise floor {} %, energy error {} %\n{}",
         project.title,
         table(&rows),
         measure(&project.structure),
         number(100.0 * comparison.error),
         number(100.0 * comparison.noise_floor),
         number(100.0 * comparison.energy_error),
+        comparison.whiteness.iter().map(sentence).collect::<String>(),
     )
+}
+
+/// Table of the errors by level, channel or harmonic, where there is more than one.
+fn part(name: &str, groups: &[Group]) -> String {
+    if groups.len() < 2 {
+        return String::new();
+    }
+    let mut rows = vec![[name, "error %", "noise floor %"].map(str::to_owned).to_vec()];
+    rows.extend(groups.iter().map(|g| vec![g.name.clone(), number(100.0 * g.error), number(100.0 * g.noise_floor)]));
+    format!("\n{}", table(&rows))
+}
+
+/// What a test of whiteness says.
+fn sentence(test: &Whiteness) -> String {
+    let verdict = if test.probability < SIGNIFICANT { "depends" } else { "does not depend" };
+    let chance = number(100.0 * test.probability);
+    format!("what is left {verdict} on {} (by chance: {chance} %)\n", test.of.word())
 }

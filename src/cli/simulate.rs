@@ -1,6 +1,6 @@
 //! `dashpot simulate`: steady-state records of the model of a project at its runs' frequencies and forces.
 
-use super::arguments::{Records, Simulate};
+use super::arguments::{Method, Records, Simulate};
 use crate::control::Control;
 use crate::effects::{Source, State};
 use crate::exchange::project::{Plan, open};
@@ -9,7 +9,8 @@ use crate::measurement::channel::ChannelName;
 use crate::measurement::{Channel, ChannelFit, HarmonicFit, Quantity, Record, fit::fit, frequency};
 use crate::response::harmonic_balance::{Excitation, HarmonicForce};
 use crate::response::simulation::{Simulator, integrated, recorded, transfer, usual_channels};
-use crate::response::synthesis::{Noise, sampling_times, synthesise};
+use crate::response::simulation_in_time::{InTime, Recorder, record_in_time};
+use crate::response::synthesis::{self, Noise, sampling_times, synthesise};
 use anyhow::{Context, anyhow, bail};
 use faer::c64;
 use std::f64::consts::TAU;
@@ -21,13 +22,26 @@ pub(super) fn run(arguments: &Simulate) -> anyhow::Result<String> {
     let name = arguments.file.display();
     let sources: Vec<Source> = plan.sources.iter().filter(|s| s.state == State::Known).cloned().collect();
     let model = Simulator::new(&plan.structure, &sources).with_context(|| format!("{name}"))?;
+    plan.records_stay_inside()?;
     if plan.runs.is_empty() {
         bail!("{name}: there is no [[run]] to simulate; add runs with file, frequency, force_dof and force_n");
     }
     let mut simulated = Vec::new();
     for index in 0..plan.runs.len() {
         let context = || format!("{name}: run {}", plan.runs[index].file);
-        simulated.push(simulate(&plan, &model, index, arguments).with_context(context)?);
+        let test = if plan.runs[index].force.is_some() { from_recipe(&plan, index) } else { from_record(&plan, index) };
+        let test = test.with_context(context)?;
+        let noise = (arguments.noise > 0.0).then_some(Noise {
+            ratio: arguments.noise,
+            seed: arguments.seed,
+            stream: index as u64,
+        });
+        let record = if arguments.by == Method::Time || arguments.transient > 0.0 {
+            in_time(&plan, &sources, &test, arguments, noise)
+        } else {
+            balanced(&plan, &sources, &model, &test, noise)
+        };
+        simulated.push(record.with_context(context)?);
     }
     write(&plan, &simulated, arguments)
 }
@@ -39,19 +53,35 @@ struct Test {
     time: Vec<f64>,
 }
 
-fn simulate(plan: &Plan, model: &Simulator<'_>, index: usize, arguments: &Simulate) -> anyhow::Result<Record> {
-    let test = if plan.runs[index].force.is_some() { from_recipe(plan, index)? } else { from_record(plan, index)? };
+fn balanced(
+    plan: &Plan,
+    sources: &[Source],
+    model: &Simulator<'_>,
+    test: &Test,
+    noise: Option<Noise>,
+) -> anyhow::Result<Record> {
     let control = Control::unattended();
     let response = if plan.simulate().integrate {
-        let known: Vec<Source> = plan.sources.iter().filter(|s| s.state == State::Known).cloned().collect();
-        integrated(&plan.structure, &known, &test.excitation, &control)?
+        integrated(&plan.structure, sources, &test.excitation, &control)?
     } else {
         model.respond(&test.excitation, &control)?
     };
     let motions = recorded(&response, &test.excitation, &test.channels, &plan.sensors);
-    let stream = index as u64;
-    let noise = (arguments.noise > 0.0).then_some(Noise { ratio: arguments.noise, seed: arguments.seed, stream });
     Ok(synthesise(test.excitation.omega, &test.time, &motions, noise)?)
+}
+
+fn in_time(
+    plan: &Plan,
+    sources: &[Source],
+    test: &Test,
+    arguments: &Simulate,
+    noise: Option<Noise>,
+) -> anyhow::Result<Record> {
+    let recorder = Recorder { channels: &test.channels, sensors: &plan.sensors, time: &test.time };
+    let settings = InTime { steps: arguments.steps as usize, transient: arguments.transient };
+    let control = Control::unattended();
+    let samples = record_in_time(&plan.structure, sources, &test.excitation, &recorder, &settings, &control)?;
+    Ok(synthesis::record(&test.time, test.channels.clone(), samples, noise)?)
 }
 
 fn from_recipe(plan: &Plan, index: usize) -> anyhow::Result<Test> {

@@ -4,11 +4,14 @@
 //! the harmonics. Error of all: root mean square over the used runs and channels. The noise floor is the same measure of
 //! the residual that noise and truncation alone would leave.
 
+use super::branch::{Branch, nearest};
 use super::data::{Data, ExplainError, Problem, RunData, is_used, size};
 use super::energy::energy_error;
+use super::groups::{Group, by_channel, by_harmonic, by_level};
 use super::noise::{Transfers, Whitening};
 use super::points::{PointsEnergy, energies};
 use super::predict::{FINAL, Predictor, RunPrediction, transfer};
+use super::whiteness::{Left, Whiteness, numbered, whiteness};
 use crate::control::Control;
 use crate::effects::Source;
 use crate::math::statistics::root_mean_square;
@@ -39,6 +42,8 @@ pub struct ChannelComparison {
     pub error: f64,
     /// What it would be were the model exact.
     pub noise_floor: f64,
+    /// What errors are measured by, SI units.
+    pub scale: f64,
     /// Harmonics.
     pub harmonics: Vec<HarmonicComparison>,
 }
@@ -52,6 +57,10 @@ pub struct RunComparison {
     pub used: bool,
     /// Root mean square over the channels; that of the energy where there is no response to predict.
     pub error: f64,
+    /// What the error would be were the model exact.
+    pub noise_floor: f64,
+    /// Which of several periodic motions the model was taken to be on; none where there is only one.
+    pub branch: Option<Branch>,
     /// `|input - taken out by known sources| / |input|` at the measured motion.
     pub energy_error: f64,
     /// Channels; none for `points`.
@@ -69,30 +78,100 @@ pub struct Comparison {
     pub energy_error: f64,
     /// Every run in the order of the project.
     pub runs: Vec<RunComparison>,
+    /// By the level of the force: the labels of the runs, or the amplitude of the force where they have none.
+    pub levels: Vec<Group>,
+    /// By channel; none for `points`.
+    pub channels: Vec<Group>,
+    /// By harmonic; none for `points`.
+    pub harmonics: Vec<Group>,
+    /// Whether what is left depends on anything; none for `points`.
+    pub whiteness: Vec<Whiteness>,
 }
 
 /// Compares the model of `problem`, with `effects` added to its known sources, with the measurement.
 pub fn compare(problem: &Problem, effects: &[Source], control: &Control) -> Result<Comparison, ExplainError> {
     if problem.structure.matrices().is_none() {
-        return Ok(of_energies(problem, &energies(problem, effects)?));
+        return of_energies(problem, &energies(problem, effects)?);
     }
     Data::new(problem)?;
     let data = Data::every(problem)?;
     let predictor = Predictor::new(problem.structure, problem.known(), &data)?;
+    let levels = Levels::new(problem, &data);
+    let frequencies = numbered(&data.runs.iter().map(|run| run.omega).collect::<Vec<f64>>(), SAME_FREQUENCY);
+    let (names, mut left) = (data.channel_names(), Vec::new());
     let mut runs = Vec::with_capacity(data.runs.len());
     for (r, run) in data.runs.iter().enumerate() {
         control.check()?;
         let file = || problem.runs[run.index].file.clone();
         let failed = |reason| ExplainError::Response { file: file(), reason };
-        let prediction = predictor.predict(r, run, effects, &FINAL, None, control).map_err(failed)?;
+        let (prediction, branch) = nearest(&predictor, r, run, effects, control).map_err(failed)?;
         let transfers = transfers(&predictor, r, run, effects, control).map_err(failed)?;
         let noise = Whitening::new(run, &transfers, &prediction.truncation);
         let used = is_used(&problem.runs[run.index]);
         let energy = energy_error(problem.structure, &predictor.sources(effects), run, &prediction);
-        runs.push(of_run(run, &prediction, &noise, used, energy));
+        if used {
+            add_left(&mut left, run, &prediction, &noise, ([frequencies[r], levels.numbers[r]], &names[0]));
+        }
+        runs.push(RunComparison { branch, ..of_run(run, &prediction, &noise, used, energy) });
         control.report((r + 1) as f64 / data.runs.len() as f64);
     }
-    Ok(summary(runs))
+    Ok(Comparison { whiteness: whiteness(&left), ..summary(runs, &levels) })
+}
+
+/// Runs whose frequencies differ by less than this share are of one frequency.
+const SAME_FREQUENCY: f64 = 1e-3;
+/// Runs without labels whose forces differ by less than this share are of one level.
+const SAME_LEVEL: f64 = 0.2;
+
+/// Levels of the runs: labels where there are any, else amplitudes of the force.
+struct Levels {
+    numbers: Vec<usize>,
+    names: Vec<String>,
+}
+
+impl Levels {
+    fn new(problem: &Problem, data: &Data) -> Self {
+        let labels = data.runs.iter().map(|run| problem.runs[run.index].level);
+        if let Some(labels) = labels.collect::<Option<Vec<i64>>>() {
+            let mut sorted = labels.clone();
+            sorted.sort_unstable();
+            sorted.dedup();
+            let number = |label: &i64| sorted.iter().position(|s| s == label).unwrap_or(0);
+            return Self {
+                numbers: labels.iter().map(number).collect(),
+                names: labels.iter().map(i64::to_string).collect(),
+            };
+        }
+        let force = |run: &RunData| run.forces.iter().map(|f| f.measured.first().map_or(0.0, |f| f.norm())).sum();
+        let forces: Vec<f64> = data.runs.iter().map(force).collect();
+        let numbers = numbered(&forces, SAME_LEVEL);
+        let name = |number: &usize| {
+            let own = forces.iter().zip(&numbers).filter(|(_, n)| *n == number).map(|(f, _)| *f);
+            let (least, most) = own.fold((f64::INFINITY, 0.0_f64), |(a, b), f| (a.min(f), b.max(f)));
+            if most > 1.01 * least { format!("{least:.3} to {most:.3} N") } else { format!("{most:.3} N") }
+        };
+        let names = numbers.iter().map(name).collect();
+        Self { numbers, names }
+    }
+}
+
+/// Adds the whitened residuals of a run, turned by the phase of the model.
+fn add_left(
+    left: &mut Vec<Left>,
+    run: &RunData,
+    prediction: &RunPrediction,
+    noise: &Whitening,
+    ([frequency, level], names): ([usize; 2], &[String]),
+) {
+    for h in 1..=run.harmonics {
+        let values = noise.apply(h, |c| run.responses[c].measured[h - 1] - prediction.channels[c][h - 1]);
+        for (&c, value) in run.alive.iter().zip(values) {
+            let model = prediction.channels[c][h - 1];
+            let turn = if model.norm() > 0.0 { model.conj() / model.norm() } else { c64::new(1.0, 0.0) };
+            let channel = names.iter().position(|name| *name == run.responses[c].name).unwrap_or(0);
+            left.push(Left { groups: [frequency, level, channel, h], value: value * turn });
+        }
+    }
 }
 
 /// Response of every channel to a unit of every force channel, `[harmonic][force][channel]`, by the linear sources of
@@ -149,15 +228,18 @@ fn of_run(run: &RunData, prediction: &RunPrediction, noise: &Whitening, used: bo
                 dof: channel.dof,
                 error: relative(size(&difference)),
                 noise_floor: relative(noise.expected(c).sqrt()),
+                scale,
                 harmonics: channel.measured.iter().zip(model).enumerate().map(harmonic).collect(),
             }
         })
         .collect();
     let errors: Vec<f64> = channels.iter().map(|c| c.error).collect();
-    RunComparison { index: run.index, used, error: root_mean_square(&errors), energy_error: energy, channels }
+    let floors: Vec<f64> = channels.iter().map(|c| c.noise_floor).collect();
+    let (error, noise_floor) = (root_mean_square(&errors), root_mean_square(&floors));
+    RunComparison { index: run.index, used, error, noise_floor, branch: None, energy_error: energy, channels }
 }
 
-fn summary(runs: Vec<RunComparison>) -> Comparison {
+fn summary(runs: Vec<RunComparison>, levels: &Levels) -> Comparison {
     let used = || runs.iter().filter(|run| run.used);
     let of = |value: fn(&ChannelComparison) -> f64| -> f64 {
         let values: Vec<f64> = used().flat_map(|run| run.channels.iter().map(value)).collect();
@@ -165,11 +247,15 @@ fn summary(runs: Vec<RunComparison>) -> Comparison {
     };
     let (error, noise_floor) = (of(|c| c.error), of(|c| c.noise_floor));
     let energies: Vec<f64> = used().map(|run| run.energy_error).collect();
-    Comparison { error, noise_floor, energy_error: root_mean_square(&energies), runs }
+    let energy_error = root_mean_square(&energies);
+    let (channels, harmonics) = (by_channel(&runs), by_harmonic(&runs));
+    let levels = by_level(&runs, |run| levels.names[run.index].clone());
+    Comparison { error, noise_floor, energy_error, runs, levels, channels, harmonics, whiteness: Vec::new() }
 }
 
 /// For `points`: errors are those of the energy.
-fn of_energies(problem: &Problem, energies: &[PointsEnergy]) -> Comparison {
+fn of_energies(problem: &Problem, energies: &[PointsEnergy]) -> Result<Comparison, ExplainError> {
+    let levels = Levels::new(problem, &Data::every(problem)?);
     let mut runs = Vec::with_capacity(energies.len());
     let (mut errors, mut floors) = (Vec::new(), Vec::new());
     for energy in energies {
@@ -179,8 +265,21 @@ fn of_energies(problem: &Problem, energies: &[PointsEnergy]) -> Comparison {
             errors.push(error);
             floors.push(energy.noise());
         }
-        runs.push(RunComparison { index: energy.index, used, error, energy_error: error, channels: Vec::new() });
+        let (noise_floor, channels) = (energy.noise(), Vec::new());
+        let energy_error = error;
+        runs.push(RunComparison {
+            index: energy.index,
+            used,
+            error,
+            noise_floor,
+            branch: None,
+            energy_error,
+            channels,
+        });
     }
     let error = root_mean_square(&errors);
-    Comparison { error, noise_floor: root_mean_square(&floors), energy_error: error, runs }
+    let levels = by_level(&runs, |run| levels.names[run.index].clone());
+    let (noise_floor, channels, harmonics) = (root_mean_square(&floors), Vec::new(), Vec::new());
+    let whiteness = Vec::new();
+    Ok(Comparison { error, noise_floor, energy_error: error, runs, levels, channels, harmonics, whiteness })
 }

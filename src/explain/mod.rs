@@ -13,6 +13,7 @@
 //! whatever the law ([`place`]); the law is read from that force against the motion ([`law`]); the short list is fitted
 //! on the response itself ([`refit`]) and ranked by evidence ([`diagnose`]).
 
+mod branch;
 mod climb;
 pub mod compare;
 pub mod data;
@@ -21,6 +22,7 @@ pub mod diagnose;
 pub mod energy;
 mod evidence;
 pub mod fingerprint;
+pub mod groups;
 pub mod law;
 mod next_test;
 pub mod noise;
@@ -35,6 +37,7 @@ pub mod shapes;
 pub mod spots;
 mod start;
 pub mod tuning;
+pub mod whiteness;
 
 pub use compare::{Comparison, compare};
 pub use data::{ExplainError, Problem};

@@ -147,6 +147,20 @@ impl Predictor {
         Ok(recorded(data, effects, response))
     }
 
+    /// Predictions of run number `r` on every periodic motion of the model, each with whether it is stable; several only
+    /// where a stiffness law folds the response.
+    pub fn branches(
+        &self,
+        r: usize,
+        data: &RunData,
+        effects: &[Source],
+        settings: &Settings,
+        control: &Control,
+    ) -> Result<Vec<(RunPrediction, bool)>, ResponseError> {
+        let found = self.runs[r].branches(&self.sources(effects), &excitation(data, effects), settings, control)?;
+        Ok(found.into_iter().map(|(response, stable)| (recorded(data, effects, response), stable)).collect())
+    }
+
     /// [`Self::predict`] with the derivatives of every recorded amplitude by each of `by`.
     ///
     /// The response is solved once; then one factorisation serves all unknowns, each of which costs about one linear

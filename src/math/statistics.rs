@@ -16,6 +16,17 @@ pub fn chi_square_cdf(x: f64, freedom: usize) -> f64 {
     ChiSquared::new(freedom as f64).map_or(1.0, |distribution| distribution.cdf(x))
 }
 
+/// `P(X > x)` for chi-square with `freedom` degrees of freedom, exact where it is tiny; 0 for `freedom == 0`, NaN for NaN.
+pub fn chi_square_tail(x: f64, freedom: usize) -> f64 {
+    if x.is_nan() {
+        return f64::NAN;
+    }
+    if x <= 0.0 && freedom > 0 {
+        return 1.0;
+    }
+    ChiSquared::new(freedom as f64).map_or(0.0, |distribution| distribution.sf(x))
+}
+
 /// Value that chi-square with `freedom` degrees of freedom stays below with `probability` (clamped to 0..1); 0 for
 /// `freedom == 0`.
 pub fn chi_square_quantile(probability: f64, freedom: usize) -> f64 {
@@ -121,6 +132,8 @@ mod tests {
             assert!((chi_square_cdf(x, 2) - (1.0 - (-x / 2.0).exp())).abs() < 1e-12);
         }
         assert_eq!(chi_square_cdf(1.0, 0), 1.0);
+        assert!((chi_square_tail(400.0, 2) / (-200.0_f64).exp() - 1.0).abs() < 1e-9);
+        assert_eq!((chi_square_tail(1.0, 0), chi_square_tail(0.0, 3)), (0.0, 1.0));
     }
 
     #[test]

@@ -6,6 +6,7 @@ pub mod harmonic_balance;
 pub mod linear_matrices;
 pub mod sensitivity;
 pub mod simulation;
+pub mod simulation_in_time;
 pub mod steady_state;
 pub mod synthesis;
 pub mod time_integration;

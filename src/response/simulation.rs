@@ -8,9 +8,9 @@ use super::harmonic_balance::{Excitation, ForwardModel, ModelError, ResponseErro
 use super::steady_state::steady_state;
 use super::synthesis::ChannelMotion;
 use super::time_integration::{Settling, TimeError, TimeModel};
-use crate::control::Control;
+use crate::control::{Cancelled, Control};
 use crate::effects::effect::Kind;
-use crate::effects::{Place, Source};
+use crate::effects::{Effect, Place, Source};
 use crate::measurement::{Channel, Quantity};
 use crate::structure::Structure;
 use faer::{Mat, c64};
@@ -27,6 +27,8 @@ pub enum SimulationError {
     Nonlinear(#[from] ResponseError),
     #[error(transparent)]
     Stepped(#[from] TimeError),
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
 }
 
 /// Periodic displacement of every DOF, m.
@@ -157,6 +159,18 @@ pub fn transfer(sensors: &[Source], channel: &Channel, w: f64) -> c64 {
         }
     }
     ratio
+}
+
+/// Known delay (s) and gain of a channel, 0 and 1 without errors.
+pub(super) fn sensor_errors(sensors: &[Source], channel: &Channel) -> [f64; 2] {
+    let place = Place::Channel(channel.to_string());
+    sensors.iter().filter(|sensor| sensor.place == place).fold([0.0, 1.0], |[delay, gain], sensor| {
+        match sensor.effect {
+            Effect::Delay => [delay + sensor.parameters[0], gain],
+            Effect::Gain => [delay, gain * sensor.parameters[0]],
+            _ => [delay, gain],
+        }
+    })
 }
 
 /// The force channels and every translation's acceleration, which is what is recorded unless the project says otherwise.

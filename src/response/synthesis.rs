@@ -46,11 +46,24 @@ pub fn synthesise(
     motions: &[ChannelMotion],
     noise: Option<Noise>,
 ) -> Result<Record, RecordError> {
-    let mut samples: Vec<Vec<f64>> = motions.iter().map(|motion| signal(omega, time, motion)).collect();
+    let samples: Vec<Vec<f64>> = motions.iter().map(|motion| signal(omega, time, motion)).collect();
+    let channels = motions.iter().map(|motion| motion.channel.clone()).collect();
+    record(time, channels, samples, noise)
+}
+
+/// A record of given samples (SI units, one list a channel) at `time` (s), with the noise added.
+///
+/// # Errors
+/// As [`synthesise`].
+pub fn record(
+    time: &[f64],
+    channels: Vec<Channel>,
+    mut samples: Vec<Vec<f64>>,
+    noise: Option<Noise>,
+) -> Result<Record, RecordError> {
     if let Some(noise) = noise {
         contaminate(&mut samples, noise);
     }
-    let channels = motions.iter().map(|motion| motion.channel.clone()).collect();
     Record::new(time.to_vec(), channels, samples)
 }
 

@@ -1,7 +1,7 @@
 //! Every law on the five masses and on the beam: harmonic balance against time stepping from rest, which knows nothing of
 //! it. Fundamental within 0.1 % (amplitude and phase), third harmonic within 1 % of itself.
 
-use super::support::{balanced, cantilever, difference, five_masses, source, stepped, whole};
+use super::support::{balanced, cantilever, difference, five_masses, source, stepped, stepped_from, whole};
 use dashpot::effects::{Effect, Source};
 use dashpot::response::harmonic_balance::{Excitation, Settings};
 use dashpot::structure::Structure;
@@ -106,4 +106,52 @@ fn friction_and_sliders_on_the_beam() {
         let sources = [&damping[..], &[extra]].concat();
         agrees(name, &structure, &sources, &excitation, steps, true);
     }
+}
+
+/// A source on the beam with a little damping, driven at the tip by 1 N near the first mode. `harmonic` is the one that is
+/// compared beside the fundamental, 0 for none.
+fn on_beam(name: &str, extra: Source, steps: usize, harmonic: usize) {
+    let structure = cantilever(5);
+    let sources = [whole(Effect::StiffnessProportional, 2e-5), source(Effect::Viscous, &[2], &[0.2]), extra];
+    let excitation = Excitation::sine(TAU * 10.0, 8, c64::new(1.0, 0.0));
+    let response = balanced(&structure, &sources, &excitation, &Settings::default());
+    let reference = stepped_from(&response, &structure, &sources, &excitation, steps);
+    let first = difference(&response, &reference, 1);
+    assert!(first < 1e-3, "{name}: fundamental off by {first:.2e}");
+    if harmonic > 0 {
+        assert!(response.amplitude(8, harmonic).norm() > 1e-5 * response.amplitude(8, 1).norm(), "{name}: too weak");
+        let error = difference(&response, &reference, harmonic);
+        assert!(error < 1e-2, "{name}: harmonic {harmonic} off by {error:.2e}");
+    }
+}
+
+#[test]
+fn linear_laws_on_the_beam() {
+    on_beam("viscous", source(Effect::Viscous, &[4, 8], &[0.3]), 500, 0);
+    on_beam("maxwell", source(Effect::Maxwell, &[6], &[200.0, 5.0]), 1000, 0);
+    on_beam("stiffness", source(Effect::Stiffness, &[4], &[100.0]), 500, 0);
+    on_beam("mass", source(Effect::Mass, &[8], &[0.05]), 500, 0);
+    on_beam("mass-proportional", whole(Effect::MassProportional, 2.0), 500, 0);
+    let part = Source::known(Effect::StiffnessProportional, dashpot::effects::Place::Whole(Some([1, 2])), &[1e-3]);
+    on_beam("stiffness-proportional, two elements", part, 500, 0);
+}
+
+#[test]
+fn smooth_laws_on_the_beam() {
+    on_beam("quadratic", source(Effect::Quadratic, &[6], &[0.3]), 1000, 3);
+    on_beam("power 1.5", source(Effect::Power, &[4, 8], &[0.3, 1.5]), 1000, 3);
+    on_beam("power 0.5", source(Effect::Power, &[8], &[0.2, 0.5]), 2000, 3);
+    on_beam("cubic", source(Effect::CubicStiffness, &[4], &[2e5]), 2000, 3);
+    on_beam("quadratic stiffness", source(Effect::QuadraticStiffness, &[8], &[500.0]), 2000, 2);
+    on_beam("gap", source(Effect::Gap, &[8], &[100.0, 5e-3]), 4000, 3);
+}
+
+#[test]
+fn friction_laws_on_the_beam() {
+    on_beam("slipping", source(Effect::Coulomb, &[8], &[0.3]), 2000, 3);
+    on_beam("between two nodes", source(Effect::Coulomb, &[4, 8], &[0.3]), 4000, 3);
+    on_beam("stuck", source(Effect::Coulomb, &[4], &[30.0]), 1000, 0);
+    on_beam("stribeck", source(Effect::Stribeck, &[8], &[0.3, 0.4, 0.3]), 4000, 3);
+    on_beam("elastic slider", source(Effect::ElasticSlider, &[8], &[200.0, 0.4]), 2000, 3);
+    on_beam("stuck elastic slider", source(Effect::ElasticSlider, &[8], &[50.0, 40.0]), 1000, 0);
 }

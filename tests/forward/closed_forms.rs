@@ -96,6 +96,19 @@ fn a_fractional_element_on_an_oscillator() {
     assert!((response.amplitude(0, 1) - expected).norm() < 1e-9 * expected.norm());
 }
 
+/// Laws without a force in time: `k + i h` and `k (1 + i eta)`.
+#[test]
+fn hysteretic_elements_and_the_loss_factor_on_an_oscillator() {
+    let omega = 19.5;
+    for (law, loss) in
+        [(source(Effect::Hysteretic, &[0], &[30.0]), 30.0), (whole(Effect::LossFactor, 0.03), 0.03 * 800.0)]
+    {
+        let response = driven(&[law], omega, 10.0, &Settings::default());
+        let expected = c64::new(10.0, 0.0) / c64::new(800.0 - 2.0 * omega * omega, loss);
+        assert!((response.amplitude(0, 1) - expected).norm() < 1e-10 * expected.norm());
+    }
+}
+
 /// What the exciter puts in, all sources together take out.
 #[test]
 fn energy_is_balanced() {

@@ -88,6 +88,25 @@ fn the_peak_of_duffing_lies_on_its_backbone() {
     assert!(backwards.map(|p| p[1].stable).filter(|s| *s).count() <= 2);
 }
 
+/// At a fold of one harmonic the number of amplitudes in closed form changes between one and three.
+#[test]
+fn the_folds_of_duffing_are_where_its_closed_form_folds() {
+    let force = 0.4;
+    let model = ForwardModel::new(&oscillator(), &duffing()).unwrap();
+    let excitation = Excitation::sine(1.0, 0, c64::new(force, 0.0));
+    let settings = SweepSettings { harmonics: 1, largest_step: 2e-3, ..SweepSettings::default() };
+    let curve = sweep(&model, &excitation, [0.5, 3.0], &settings, &Control::unattended()).unwrap();
+    let omega: Vec<f64> = curve.points.iter().map(|p| p.response.omega).collect();
+    let folds: Vec<f64> = omega.windows(3).filter(|w| (w[1] - w[0]) * (w[2] - w[1]) < 0.0).map(|w| w[1]).collect();
+    assert_eq!(folds.len(), 2, "{folds:?}");
+    for fold in folds {
+        let count = |share: f64| amplitudes(force, fold * share).len();
+        let mut sides = [count(1.0 - 1e-3), count(1.0 + 1e-3)];
+        sides.sort_unstable();
+        assert_eq!(sides, [1, 3], "fold at {fold}");
+    }
+}
+
 #[test]
 fn both_stable_branches_hold_in_time_and_the_unstable_one_does_not() {
     let model = ForwardModel::new(&oscillator(), &duffing()).unwrap();

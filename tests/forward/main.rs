@@ -3,9 +3,11 @@
 
 mod against_time;
 mod closed_forms;
+mod comparison;
 mod derivatives;
 mod folds;
 mod predictions;
+mod recorded;
 mod resonance;
 mod robustness;
 mod support;

@@ -51,6 +51,20 @@ pub fn stepped(structure: &Structure, sources: &[Source], excitation: &Excitatio
     model.harmonics(5).unwrap()
 }
 
+/// Harmonics 1..=5 by time stepping from the state of a response nearby: what it settles to is its own.
+pub fn stepped_from(
+    start: &Response,
+    structure: &Structure,
+    sources: &[Source],
+    excitation: &Excitation,
+    steps: usize,
+) -> Mat<c64> {
+    let mut model = TimeModel::new(structure, sources, excitation, steps).unwrap();
+    model.start_from(start);
+    model.settle(&Settling::default(), &Control::unattended()).unwrap();
+    model.harmonics(5).unwrap()
+}
+
 /// Largest difference of harmonic `h` over all DOFs, relative to the largest amplitude of that harmonic.
 pub fn difference(response: &Response, reference: &Mat<c64>, h: usize) -> f64 {
     let n = reference.nrows();

@@ -84,6 +84,10 @@ pub enum Problem {
     NotSimulated { file: String },
     #[error("the record {file} is not there; correct `file`, which is relative to the project")]
     NoRecord { file: String },
+    #[error(
+        "the record {file} would be written outside the folder of the records; name a file inside it, without `..`"
+    )]
+    OutsideFolder { file: String },
     #[error("record {file}: {error}")]
     Fit { file: String, error: FitError },
     #[error("cancelled")]

@@ -10,7 +10,7 @@ use crate::exchange::records::{HarmonicsRun, read_harmonics, read_record_with};
 use crate::identify::Settings;
 use crate::measurement::{ChannelName, Record};
 use crate::structure::Structure;
-use std::path::{Path, PathBuf};
+use std::path::{Component, Path, PathBuf};
 
 /// A project whose structure and sources are built and whose records are not read yet.
 #[derive(Debug, Clone)]
@@ -140,6 +140,21 @@ impl Plan {
 
     pub(super) fn error(&self, line: Option<usize>, problem: Problem) -> ProjectError {
         ProjectError::new(&self.path.display().to_string(), line, problem)
+    }
+
+    /// Checks that every record, put into another folder under its name, stays inside that folder.
+    ///
+    /// # Errors
+    /// [`Problem::OutsideFolder`] for a name that is absolute or goes up.
+    pub fn records_stay_inside(&self) -> Result<(), ProjectError> {
+        let inside = |part: Component<'_>| matches!(part, Component::Normal(_) | Component::CurDir);
+        match self.runs.iter().position(|run| !Path::new(&run.file).components().all(inside)) {
+            Some(run) => {
+                let file = self.runs[run].file.clone();
+                Err(self.run_error(run, "file", Problem::OutsideFolder { file }))
+            }
+            None => Ok(()),
+        }
     }
 
     /// Reads the record of run number `run`, as it was recorded.

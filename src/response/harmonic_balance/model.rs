@@ -98,6 +98,11 @@ impl Excitation {
         Self { omega, forces: vec![HarmonicForce { dof, mean: 0.0, harmonics: vec![amplitude] }] }
     }
 
+    /// Highest harmonic of the forces.
+    pub fn order(&self) -> usize {
+        self.forces.iter().map(|force| force.harmonics.len()).max().unwrap_or(0)
+    }
+
     /// The same forces at another frequency (rad/s).
     #[must_use]
     pub fn at(&self, omega: f64) -> Self {
@@ -265,16 +270,33 @@ impl RunModel {
         start: Option<&Response>,
         control: &Control,
     ) -> Result<Response, ResponseError> {
+        let at = self.ready(sources, excitation)?;
+        super::solve::respond(&at, sources, excitation, settings, start, control)
+    }
+
+    /// All periodic responses to `excitation` that lie on the curve of the response against the level of the force, up to
+    /// three times the force, each with whether small disturbances die out; several where stiffness laws fold that curve.
+    pub fn branches(
+        &self,
+        sources: &[Source],
+        excitation: &Excitation,
+        settings: &super::Settings,
+        control: &Control,
+    ) -> Result<Vec<(Response, bool)>, ResponseError> {
+        let at = self.ready(sources, excitation)?;
+        super::solve::branches(&at, sources, excitation, settings, control)
+    }
+
+    /// This model at the excitation's frequency with the whole-structure laws of `sources`, all places checked.
+    fn ready(&self, sources: &[Source], excitation: &Excitation) -> Result<Self, ModelError> {
         check(sources, self.len())?;
         for force in &excitation.forces {
             check_dof(force.dof, self.len())?;
         }
-        let at = if excitation.omega == self.omega {
-            self.fitting(sources)
-        } else {
-            Self { omega: excitation.omega, compliances: Arc::default(), ..self.clone() }.fitting(sources)
-        };
-        super::solve::respond(&at, sources, excitation, settings, start, control)
+        if excitation.omega == self.omega {
+            return Ok(self.fitting(sources));
+        }
+        Ok(Self { omega: excitation.omega, compliances: Arc::default(), ..self.clone() }.fitting(sources))
     }
 
     /// Fundamental frequency, Hz.

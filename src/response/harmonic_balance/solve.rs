@@ -2,7 +2,7 @@
 //! where it turns back; then more harmonics until the watched ones rest.
 
 use super::Settings;
-use super::arc::level_arc;
+use super::arc::{all_crossings, level_arc};
 use super::condense::{Condensed, split};
 use super::dense::Lu;
 use super::fourier::{Fourier, amplitude};
@@ -10,6 +10,7 @@ use super::legs::{Manner, NonlinearLeg, resized};
 use super::model::{Excitation, MOST_HARMONICS, RunModel};
 use super::newton::{Balance, Ending};
 use super::outcome::{Attempt, Response, ResponseError, SourceForce, Status, Step};
+use super::stability::is_stable;
 use crate::control::Control;
 use crate::effects::Source;
 use faer::{Mat, c64};
@@ -90,7 +91,7 @@ pub(crate) fn respond(
     if !(excitation.omega > 0.0 && excitation.omega.is_finite()) {
         return Err(ResponseError::BadFrequency { frequency_hz: excitation.omega / TAU });
     }
-    let driven = excitation.forces.iter().map(|f| f.harmonics.len()).max().unwrap_or(0);
+    let driven = excitation.order();
     let legs = split(sources).0;
     if legs.is_empty() {
         // A linear model answers at the driven harmonics only.
@@ -103,8 +104,14 @@ pub(crate) fn respond(
     let mut ladder = Ladder { run, sources, excitation, settings, control, history: Vec::new() };
     let sharp = legs.iter().any(|leg| leg.manner() == Manner::Friction);
     let coarse = if sharp { ((first - 1) / 2).max(driven).max(1) } else { first };
-    let bottom = ladder.solve(coarse, start)?;
-    let mut response = if coarse < first { ladder.climb(bottom, first, sharp)? } else { ladder.estimated(bottom)? };
+    let bottom = ladder.lowest(coarse, driven.max(1), start)?;
+    let mut response = if bottom.status == Status::FellBack {
+        ladder.estimated(bottom)?
+    } else if coarse < first {
+        ladder.climb(bottom, first, sharp)?
+    } else {
+        ladder.estimated(bottom)?
+    };
     while response.status != Status::FellBack && !rests(&response, settings) {
         let finer = (2 * response.order() + 1).min(MOST_HARMONICS);
         if finer > settings.most_harmonics || finer == response.order() {
@@ -116,6 +123,37 @@ pub(crate) fn respond(
     }
     response.history = ladder.history;
     Ok(response)
+}
+
+/// See [`RunModel::branches`].
+pub(crate) fn branches(
+    run: &RunModel,
+    sources: &[Source],
+    excitation: &Excitation,
+    settings: &Settings,
+    control: &Control,
+) -> Result<Vec<(Response, bool)>, ResponseError> {
+    let one = respond(run, sources, excitation, settings, None, control)?;
+    if !split(sources).0.iter().any(NonlinearLeg::folds) {
+        return Ok(vec![(one, true)]);
+    }
+    let prepared = Prepared::new(run, sources, excitation, settings.harmonics.max(excitation.order()))?;
+    let crossings = all_crossings(&prepared.balance(), settings.tolerance, control)?;
+    if crossings.len() < 2 {
+        return Ok(vec![(one, true)]);
+    }
+    let mut found = Vec::with_capacity(crossings.len());
+    for u in crossings {
+        let start = assemble(run, &prepared, excitation, u);
+        // A solution with more harmonics that is not found on this branch is not one of its own.
+        let response = match respond(run, sources, excitation, settings, Some(&start), control) {
+            Err(ResponseError::NotConverged { .. }) => start,
+            other => other?,
+        };
+        let stable = is_stable(run, sources, excitation, &response);
+        found.push((response, stable));
+    }
+    Ok(found)
 }
 
 /// Solutions of one run with growing numbers of harmonics.
@@ -134,6 +172,21 @@ impl Ladder<'_> {
         self.control.check()?;
         let prepared = Prepared::new(self.run, self.sources, self.excitation, order)?;
         at_order(self.run, &prepared, self.excitation, self.settings, start, self.control, &mut self.history)
+    }
+
+    /// The balance at `order` harmonics, or at the most for which one is found by halving them down to `least`.
+    fn lowest(&mut self, order: usize, least: usize, start: Option<&Response>) -> Result<Response, ResponseError> {
+        match self.solve(order, start) {
+            Err(ResponseError::NotConverged { .. }) if order > least => {
+                let fewer = ((order - 1) / 2).max(least);
+                let below = self.lowest(fewer, least, start)?;
+                match self.solve(order, Some(&below)) {
+                    Err(ResponseError::NotConverged { .. }) => Ok(Response { status: Status::FellBack, ..below }),
+                    other => other,
+                }
+            }
+            other => other,
+        }
     }
 
     /// From a solution to one with more harmonics; stays, and says so, where that does not converge.

@@ -11,6 +11,8 @@ use std::f64::consts::TAU;
 
 /// Sweeps of Gauss and Seidel over the nonlinear elements of one step.
 const SWEEPS: usize = 500;
+/// Change of a force, relative to the greatest so far, that counts as rounding.
+const ROUNDING: f64 = 1e-10;
 
 /// Why a model cannot be stepped through time.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -80,6 +82,8 @@ pub struct TimeModel {
     next: Vec<f64>,
     /// Mean force of each element over the last step, N.
     pub(crate) forces: Vec<f64>,
+    /// Greatest force of an element so far, N.
+    greatest: f64,
     /// Steps since time zero.
     pub(crate) count: usize,
 }
@@ -123,6 +127,7 @@ impl TimeModel {
             state,
             next,
             forces,
+            greatest: 0.0,
             count: 0,
         })
     }
@@ -216,8 +221,10 @@ impl TimeModel {
     /// Forces of the elements over the step, from displacements `before` and their free change.
     fn balance(&mut self, before: &[f64], free: &[f64]) -> bool {
         let count = self.elements.len();
+        let mut change = 0.0_f64;
         for _ in 0..SWEEPS {
-            let (mut change, mut largest) = (0.0_f64, 0.0_f64);
+            let mut largest = 0.0_f64;
+            change = 0.0;
             for i in 0..count {
                 let row = &self.receptance[i * count..(i + 1) * count];
                 let others: f64 = (0..count).filter(|&j| j != i).map(|j| row[j] * self.forces[j]).sum();
@@ -227,11 +234,13 @@ impl TimeModel {
                 change = change.max((new - old).abs());
                 largest = largest.max(new.abs());
             }
+            self.greatest = self.greatest.max(largest);
             if count == 1 || change <= 1e-12 * largest {
                 return self.forces.iter().all(|f| f.is_finite());
             }
         }
-        false
+        // Where all forces pass zero together, their sum is at rest long before their ratio is.
+        change <= ROUNDING * self.greatest && self.forces.iter().all(|f| f.is_finite())
     }
 }
 

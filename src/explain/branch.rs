@@ -1,0 +1,71 @@
+//! Which periodic motion was measured, where the model has several: the stable one nearest to the measurement.
+
+use super::data::RunData;
+use super::predict::{FINAL, Predictor, RunPrediction};
+use crate::control::Control;
+use crate::effects::Source;
+use crate::response::harmonic_balance::ResponseError;
+use faer::c64;
+
+/// The branch on which the model was compared.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Branch {
+    /// Its place among the stable motions by size, from 0, the smallest.
+    pub number: usize,
+    /// Number of stable motions.
+    pub stable: usize,
+    /// Number of all motions found, unstable ones included.
+    pub all: usize,
+}
+
+impl Branch {
+    /// `lower`, `upper`, or `branch 2` among more than two.
+    pub fn name(&self) -> String {
+        match (self.number, self.stable) {
+            (0, 2) => "lower".to_owned(),
+            (1, 2) => "upper".to_owned(),
+            (n, _) => format!("branch {}", n + 1),
+        }
+    }
+}
+
+/// The prediction of run number `r` that is nearest to what was measured, and its branch where there are several.
+pub(crate) fn nearest(
+    predictor: &Predictor,
+    r: usize,
+    run: &RunData,
+    effects: &[Source],
+    control: &Control,
+) -> Result<(RunPrediction, Option<Branch>), ResponseError> {
+    let found = predictor.branches(r, run, effects, &FINAL, control)?;
+    if found.len() < 2 {
+        let first = found.into_iter().next().map(|(prediction, _)| prediction);
+        let prediction = first.map_or_else(|| predictor.predict(r, run, effects, &FINAL, None, control), Ok)?;
+        return Ok((prediction, None));
+    }
+    let all = found.len();
+    let any_stable = found.iter().any(|(_, stable)| *stable);
+    let mut stable: Vec<RunPrediction> =
+        found.into_iter().filter(|(_, stable)| *stable || !any_stable).map(|(prediction, _)| prediction).collect();
+    stable.sort_by(|a, b| largest(a).total_cmp(&largest(b)));
+    let distances: Vec<f64> = stable.iter().map(|prediction| distance(run, prediction)).collect();
+    let number = (0..stable.len()).min_by(|&a, &b| distances[a].total_cmp(&distances[b])).unwrap_or(0);
+    let branch = Branch { number, stable: stable.len(), all };
+    Ok((stable.swap_remove(number), (all > 1).then_some(branch)))
+}
+
+/// Greatest fundamental displacement of the response.
+fn largest(prediction: &RunPrediction) -> f64 {
+    (0..prediction.response.mean.len()).fold(0.0, |m, dof| m.max(prediction.response.amplitude(dof, 1).norm()))
+}
+
+/// Sum over the channels of the squared relative errors.
+fn distance(run: &RunData, prediction: &RunPrediction) -> f64 {
+    let of = |c: usize| {
+        let pairs = run.responses[c].measured.iter().zip(&prediction.channels[c]);
+        let difference: f64 = pairs.map(|(y, m): (&c64, &c64)| (y - m).norm_sqr()).sum();
+        let scale = run.scale(c);
+        if scale > 0.0 { difference / (scale * scale) } else { 0.0 }
+    };
+    (0..run.responses.len()).map(of).sum()
+}

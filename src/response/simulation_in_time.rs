@@ -1,0 +1,151 @@
+//! Records by time integration: of the settled periodic motion, or of the motion on its way there.
+//!
+//! The record of a channel is `gain y(t - delay)` with `y` interpolated between the steps of the integrator. A transient
+//! starts from `1 - fraction` times the periodic state: fraction 1 is the structure switched on at rest.
+
+use super::harmonic_balance::{Excitation, ForwardModel, ResponseError, Settings};
+use super::simulation::{SimulationError, sensor_errors};
+use super::time_integration::{Samples, Settling, TimeModel};
+use crate::control::Control;
+use crate::effects::Source;
+use crate::measurement::{Channel, Quantity};
+use crate::structure::Structure;
+use std::f64::consts::TAU;
+
+/// How to integrate.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct InTime {
+    /// Steps a period of the fundamental.
+    pub steps: usize,
+    /// Share of the periodic motion that is missing at the start of the record, 0 to 1.
+    pub transient: f64,
+}
+
+impl Default for InTime {
+    fn default() -> Self {
+        Self { steps: 4000, transient: 0.0 }
+    }
+}
+
+/// What is recorded.
+#[derive(Debug, Clone, Copy)]
+pub struct Recorder<'a> {
+    /// Channels, in the order of the record.
+    pub channels: &'a [Channel],
+    /// Errors of the measuring chain: sources of effects `delay` and `gain` at channels.
+    pub sensors: &'a [Source],
+    /// Instants of the samples, s, rising.
+    pub time: &'a [f64],
+}
+
+/// Samples of every channel, SI units, of `structure` with `sources` under `excitation`.
+///
+/// # Errors
+/// [`SimulationError`]: laws that have no force in time, steps that fail, a motion that does not become periodic.
+pub fn record_in_time(
+    structure: &Structure,
+    sources: &[Source],
+    excitation: &Excitation,
+    recorder: &Recorder,
+    in_time: &InTime,
+    control: &Control,
+) -> Result<Vec<Vec<f64>>, SimulationError> {
+    let mut model = TimeModel::new(structure, sources, excitation, in_time.steps)?;
+    match ForwardModel::new(structure, sources)?.respond(excitation, &Settings::default(), None, control) {
+        Ok(response) => model.start_from(&response),
+        // Without a start nearby the motion is sought from rest.
+        Err(ResponseError::NotConverged { .. }) => {}
+        Err(other) => return Err(other.into()),
+    }
+    model.settle(&Settling::default(), control)?;
+    if in_time.transient > 0.0 {
+        let share = 1.0 - in_time.transient;
+        let state = |value: &dyn Fn(usize) -> f64| (0..model.len()).map(|i| share * value(i)).collect::<Vec<f64>>();
+        let (displacement, velocity) = (state(&|i| model.displacement(i)), state(&|i| model.velocity(i)));
+        model.start(&displacement, &velocity);
+    }
+    let track = Track::new(&mut model, excitation, recorder, in_time.transient > 0.0, control)?;
+    let signal = |(c, channel): (usize, &Channel)| {
+        let [delay, gain] = sensor_errors(recorder.sensors, channel);
+        let at = |&t: &f64| match channel.quantity {
+            Quantity::Force => gain * force(excitation, channel.dof, t - delay),
+            _ => gain * track.at(c, t - delay),
+        };
+        recorder.time.iter().map(at).collect()
+    };
+    Ok(recorder.channels.iter().enumerate().map(signal).collect())
+}
+
+/// Force on a DOF at time `t`, N.
+fn force(excitation: &Excitation, dof: usize, t: f64) -> f64 {
+    let wave = |h: usize, f: faer::c64| {
+        let (sin, cos) = (h as f64 * excitation.omega * t).sin_cos();
+        f.re * cos - f.im * sin
+    };
+    let of = |force: &super::harmonic_balance::HarmonicForce| {
+        (1..=force.harmonics.len()).fold(force.mean, |sum, h| sum + wave(h, force.amplitude(h)))
+    };
+    excitation.forces.iter().filter(|force| force.dof == dof).map(of).sum()
+}
+
+/// What the channels show at the steps of the integrator.
+struct Track {
+    step: f64,
+    /// Time of the first step, s: a whole number of periods.
+    origin: f64,
+    /// Whether the steps are one period that goes on for ever.
+    periodic: bool,
+    /// One list a channel.
+    values: Vec<Vec<f64>>,
+}
+
+impl Track {
+    /// One period, or all of a transient.
+    fn new(
+        model: &mut TimeModel,
+        excitation: &Excitation,
+        recorder: &Recorder,
+        transient: bool,
+        control: &Control,
+    ) -> Result<Self, SimulationError> {
+        let period = TAU / excitation.omega;
+        let [first, last] = [recorder.time.first(), recorder.time.last()].map(|t| t.copied().unwrap_or(0.0));
+        let origin = (first / period).floor() * period;
+        let early = recorder.channels.iter().map(|c| -sensor_errors(recorder.sensors, c)[0]).fold(0.0, f64::max);
+        let periods = if transient { ((last - origin + early) / period).ceil() as usize + 1 } else { 1 };
+        let mut values = vec![Vec::new(); recorder.channels.len()];
+        for k in 0..periods {
+            control.check()?;
+            let samples = model.record(model.steps)?;
+            for (values, channel) in values.iter_mut().zip(recorder.channels) {
+                if let Some(shown) = shown(&samples, channel) {
+                    values.extend_from_slice(shown);
+                }
+            }
+            control.report((k + 1) as f64 / periods as f64);
+        }
+        Ok(Self { step: model.step, origin, periodic: !transient, values })
+    }
+
+    /// Value of a channel at time `t`; before a transient begins, that of its beginning.
+    fn at(&self, channel: usize, t: f64) -> f64 {
+        let values = &self.values[channel];
+        let steps = (t - self.origin) / self.step;
+        let count = values.len();
+        let steps = if self.periodic { steps.rem_euclid(count as f64) } else { steps.clamp(0.0, (count - 1) as f64) };
+        let n = (steps as usize).min(count - 1);
+        let next = if n + 1 < count { n + 1 } else { usize::from(!self.periodic) * n };
+        values[n] + (steps - n as f64) * (values[next] - values[n])
+    }
+}
+
+/// The motion that a response channel sees; none for forces.
+fn shown<'a>(samples: &'a Samples, channel: &Channel) -> Option<&'a [f64]> {
+    let motion = match channel.quantity {
+        Quantity::Force => return None,
+        Quantity::Displacement => &samples.displacement,
+        Quantity::Velocity => &samples.velocity,
+        Quantity::Acceleration => &samples.acceleration,
+    };
+    Some(motion.col_as_slice(channel.dof))
+}
