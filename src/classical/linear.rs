@@ -2,7 +2,7 @@
 
 use super::ClassicalError;
 use crate::math::fill::{filled, filled_complex};
-use faer::linalg::solvers::Solve;
+use dashpot_numerics::{ComplexLu, RealLu};
 use faer::{Mat, MatRef, c64};
 use std::f64::consts::TAU;
 
@@ -10,7 +10,7 @@ use std::f64::consts::TAU;
 pub(super) fn inverse(a: MatRef<'_, c64>, what: &'static str, omega: f64) -> Result<Mat<c64>, ClassicalError> {
     let n = a.nrows();
     let identity = filled_complex(n, n, |i, j| c64::new(f64::from(u8::from(i == j)), 0.0));
-    let x = a.partial_piv_lu().solve(identity);
+    let x = ComplexLu::new(a).solve(identity.as_ref());
     let finite = x.col_iter().all(|c| c.iter().all(|v| v.re.is_finite() && v.im.is_finite()));
     if finite { Ok(x) } else { Err(ClassicalError::Singular { what, frequency_hz: omega / TAU }) }
 }
@@ -22,7 +22,7 @@ pub(super) fn solve(
     what: &'static str,
     omega: f64,
 ) -> Result<Mat<f64>, ClassicalError> {
-    let x = a.partial_piv_lu().solve(b);
+    let x = RealLu::new(a).solve(b);
     let finite = x.col_iter().all(|c| c.iter().all(|v| v.is_finite()));
     if finite { Ok(x) } else { Err(ClassicalError::Singular { what, frequency_hz: omega / TAU }) }
 }

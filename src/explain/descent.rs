@@ -5,6 +5,7 @@
 
 use crate::effects::{Parameter, Source};
 use crate::math::least_squares::solve_symmetric;
+use dashpot_numerics::transposed_product;
 use faer::Mat;
 
 /// Least and largest damping factor before a descent gives up.
@@ -120,7 +121,7 @@ impl Descent {
     /// Covariance of the variables for a residual of unit variance; infinite where the data say nothing.
     pub fn deviations(&self) -> Vec<f64> {
         let n = self.theta.len();
-        let normal = self.jacobian.transpose() * &self.jacobian;
+        let normal = transposed_product(self.jacobian.as_ref(), self.jacobian.as_ref());
         match solve_symmetric(normal.as_ref(), Mat::<f64>::identity(n, n).as_ref()) {
             Ok(inverse) => (0..n).map(|i| inverse[(i, i)].max(0.0).sqrt()).collect(),
             Err(_) => vec![f64::INFINITY; n],
@@ -172,7 +173,7 @@ fn step<R: Residual>(
     damping: &mut f64,
 ) -> Result<Option<Point>, R::Error> {
     let n = theta.len();
-    let normal = jacobian.transpose() * jacobian;
+    let normal = transposed_product(jacobian.as_ref(), jacobian.as_ref());
     let gradient = Mat::from_fn(n, 1, |k, _| jacobian.col_as_slice(k).iter().zip(residual).map(|(j, r)| j * r).sum());
     while *damping < DAMPING[1] {
         let damped = Mat::from_fn(n, n, |i, j| {

@@ -17,6 +17,7 @@ use crate::control::Control;
 use crate::effects::{Effect, Leg, Motion, Place, Source, State};
 use crate::math::statistics::{bayesian_information, evidence_weights, root_mean_square};
 use crate::structure::Structure;
+use dashpot_numerics::transposed_product;
 use faer::{Mat, c64};
 use std::convert::Infallible;
 
@@ -143,7 +144,7 @@ impl<'a> Balance<'a> {
     /// Error of each run by the linearised fit without it: the residual over one less its leverage.
     fn held_out(&self, effects: &[Source], residual: &[f64], jacobian: &Mat<f64>) -> f64 {
         let n = jacobian.ncols();
-        let normal = jacobian.transpose() * jacobian;
+        let normal = transposed_product(jacobian.as_ref(), jacobian.as_ref());
         let identity = Mat::<f64>::identity(n, n);
         let Ok(inverse) = crate::math::least_squares::solve_symmetric(normal.as_ref(), identity.as_ref()) else {
             return root_mean_square(&self.errors(effects));

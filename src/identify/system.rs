@@ -78,8 +78,7 @@ impl System {
             return (self.a.clone(), self.b.clone());
         }
         let both = Mat::from_fn(self.rows(), n + 1, |i, j| if j < n { self.a[(i, j)] } else { self.b[i] });
-        let qr = both.qr();
-        let r = qr.thin_R();
+        let r = dashpot_numerics::triangle(both.as_ref());
         (Mat::from_fn(n + 1, n, |i, j| r[(i, j)]), (0..=n).map(|i| r[(i, n)]).collect())
     }
 }

@@ -3,11 +3,8 @@
 //! The generalised problem is reduced by the Cholesky factor `M = L L^T` to `L^-1 K L^-T y = omega^2 y`, `x = L^-T y`, so
 //! that `X^T M X = I` to rounding.
 
-use faer::diag::Diag;
-use faer::dyn_stack::{MemBuffer, MemStack};
-use faer::linalg::evd::{ComputeEigenvectors, SelfAdjointEvdParams, self_adjoint_evd, self_adjoint_evd_scratch};
-use faer::linalg::triangular_solve::{solve_lower_triangular_in_place, solve_upper_triangular_in_place};
-use faer::{Auto, Mat, MatRef, Par, Side, c64};
+use dashpot_numerics::Cholesky;
+use faer::{Mat, MatRef, c64};
 
 /// Why an eigenvalue problem has no answer.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -43,42 +40,27 @@ pub fn generalised_symmetric(k: MatRef<'_, f64>, m: MatRef<'_, f64>) -> Result<S
     }
     check_finite(k)?;
     check_finite(m)?;
-    let factor = m.llt(Side::Lower).map_err(|_| EigenError::NotPositiveDefinite { least: least_eigenvalue(m) })?;
-    let l = factor.L();
-    let mut half = symmetrised(k);
-    solve_lower_triangular_in_place(l, half.as_mut(), Par::Seq);
-    let mut reduced = half.transpose().to_owned();
-    solve_lower_triangular_in_place(l, reduced.as_mut(), Par::Seq);
-    let SymmetricEigen { values, mut vectors } = symmetric(symmetrised(reduced.as_ref()).as_ref())?;
-    solve_upper_triangular_in_place(l.transpose(), vectors.as_mut(), Par::Seq);
+    let factor = Cholesky::new(m).ok_or_else(|| EigenError::NotPositiveDefinite { least: least_eigenvalue(m) })?;
+    let (values, vectors) =
+        dashpot_numerics::generalised_symmetric(k, &factor).ok_or(EigenError::NoConvergence { size: n })?;
     Ok(SymmetricEigen { values, vectors })
 }
 
 /// Eigenvalues in ascending order and orthonormal vectors of a symmetric matrix (lower triangle), by QR iteration.
 ///
-/// `faer`'s own `self_adjoint_eigen` divides and conquers from 128 rows on; on matrices whose eigenvalues span many orders
-/// of magnitude, such as the stiffness of a beam, version 0.24 then gives vectors with residuals of 1e-4 of the largest
-/// eigenvalue. Use this function in its place.
-///
 /// # Errors
 /// [`EigenError`] when an entry is not finite or the iteration does not converge.
 pub fn symmetric(a: MatRef<'_, f64>) -> Result<SymmetricEigen, EigenError> {
     check_finite(a)?;
-    let n = a.nrows();
-    let iteration = SelfAdjointEvdParams { recursion_threshold: usize::MAX, ..Auto::<f64>::auto() };
-    let scratch = self_adjoint_evd_scratch::<f64>(n, ComputeEigenvectors::Yes, Par::Seq, iteration.into());
-    let (mut vectors, mut values) = (Mat::zeros(n, n), Diag::zeros(n));
-    let memory = &mut MemBuffer::new(scratch);
-    self_adjoint_evd(a, values.as_mut(), Some(vectors.as_mut()), Par::Seq, MemStack::new(memory), iteration.into())
-        .map_err(|_| EigenError::NoConvergence { size: n })?;
-    Ok(SymmetricEigen { values: values.column_vector().iter().copied().collect(), vectors })
+    let (values, vectors) = dashpot_numerics::symmetric(a).ok_or(EigenError::NoConvergence { size: a.nrows() })?;
+    Ok(SymmetricEigen { values, vectors })
 }
 
 /// Least eigenvalue of a symmetric matrix; NaN when it does not converge.
 pub fn least_eigenvalue(a: MatRef<'_, f64>) -> f64 {
-    match a.self_adjoint_eigenvalues(Side::Lower) {
-        Ok(values) => values.iter().copied().fold(f64::INFINITY, f64::min),
-        Err(_) => f64::NAN,
+    match dashpot_numerics::symmetric_values(a) {
+        Some(values) => values.into_iter().fold(f64::INFINITY, f64::min),
+        None => f64::NAN,
     }
 }
 
@@ -88,8 +70,7 @@ pub fn least_eigenvalue(a: MatRef<'_, f64>) -> f64 {
 /// [`EigenError`] when an entry is not finite or the iteration does not converge.
 pub fn real_general(a: MatRef<'_, f64>) -> Result<(Vec<c64>, Mat<c64>), EigenError> {
     check_finite(a)?;
-    let eigen = a.eigen().map_err(|_| EigenError::NoConvergence { size: a.nrows() })?;
-    Ok((eigen.S().column_vector().iter().copied().collect(), eigen.U().to_owned()))
+    dashpot_numerics::real_general(a).ok_or(EigenError::NoConvergence { size: a.nrows() })
 }
 
 /// Eigenvalues and right eigenvectors (columns) of a general complex matrix.
@@ -105,8 +86,7 @@ pub fn complex_general(a: MatRef<'_, c64>) -> Result<(Vec<c64>, Mat<c64>), Eigen
             }
         }
     }
-    let eigen = a.eigen().map_err(|_| EigenError::NoConvergence { size: a.nrows() })?;
-    Ok((eigen.S().column_vector().iter().copied().collect(), eigen.U().to_owned()))
+    dashpot_numerics::complex_general(a).ok_or(EigenError::NoConvergence { size: a.nrows() })
 }
 
 /// `(A + A^T) / 2`.

@@ -5,11 +5,8 @@
 //! are left out: the solution is then that of least norm in scaled units, and the rank says so.
 
 use super::nnls::norm;
-use faer::diag::Diag;
-use faer::dyn_stack::{MemBuffer, MemStack};
-use faer::linalg::solvers::Solve;
-use faer::linalg::svd::{ComputeSvdVectors, SvdParams, svd, svd_scratch};
-use faer::{Auto, Col, Mat, MatRef, Par, Side};
+use dashpot_numerics::{Cholesky, product, product_transposed, solve_indefinite, thin_qr, transposed_product};
+use faer::{Mat, MatRef};
 
 /// Singular values below this part of the largest count as zero.
 const RANK_TOLERANCE: f64 = 1e-12;
@@ -52,17 +49,12 @@ impl LeastSquares {
         let (m, n) = a.shape();
         let scale: Vec<f64> = (0..n).map(|j| column_scale(a, j)).collect();
         let scaled = Mat::from_fn(m, n, |i, j| a[(i, j)] / scale[j]);
-        let (q, r) = if m > n {
-            let qr = scaled.qr();
-            (qr.compute_thin_Q(), qr.thin_R().to_owned())
-        } else {
-            (Mat::identity(m, m), scaled)
-        };
+        let (q, r) = if m > n { thin_qr(scaled.as_ref()) } else { (Mat::identity(m, m), scaled) };
         let (u, singular_values, v) = thin_svd(r.as_ref())?;
         let largest = singular_values.first().copied().unwrap_or(0.0);
         let rank = singular_values.iter().filter(|&&s| s > RANK_TOLERANCE * largest).count();
         let backward = Mat::from_fn(n, rank, |i, k| v[(i, k)] / singular_values[k] / scale[i]);
-        let forward = u.subcols(0, rank).transpose() * q.transpose();
+        let forward = transposed_product(u.subcols(0, rank), q.transpose());
         Ok(Self { a: a.to_owned(), backward, forward, singular_values, rank })
     }
 
@@ -90,24 +82,24 @@ impl LeastSquares {
         if b.len() != self.a.nrows() {
             return Err(LinearError::Sizes { rows: self.a.nrows(), values: b.len() });
         }
-        let rhs = Col::from_fn(b.len(), |i| b[i]);
-        let x = &self.backward * (&self.forward * &rhs);
-        let residual = rhs - &self.a * &x;
-        let residual: Vec<f64> = residual.iter().copied().collect();
+        let rhs = Mat::from_fn(b.len(), 1, |i, _| b[i]);
+        let x = product(self.backward.as_ref(), product(self.forward.as_ref(), rhs.as_ref()).as_ref());
+        let model = product(self.a.as_ref(), x.as_ref());
+        let residual: Vec<f64> = b.iter().zip(model.col_as_slice(0)).map(|(b, y)| b - y).collect();
         let freedom = b.len().saturating_sub(self.rank);
         let residual_norm = norm(&residual);
         let variance = if freedom == 0 { 0.0 } else { residual_norm.powi(2) / freedom as f64 };
-        Ok(Solution { x: x.iter().copied().collect(), residual, residual_norm, freedom, variance })
+        Ok(Solution { x: x.col_as_slice(0).to_vec(), residual, residual_norm, freedom, variance })
     }
 
     /// `(A^T A)^-1`, n x n: times the variance of one row it is the covariance of the solution.
     pub fn inverse_normal(&self) -> Mat<f64> {
-        &self.backward * self.backward.transpose()
+        product_transposed(self.backward.as_ref(), self.backward.as_ref())
     }
 
     /// Moore-Penrose inverse, n x m (of the matrix with unit columns, scaled back).
     pub fn pseudo_inverse(&self) -> Mat<f64> {
-        &self.backward * &self.forward
+        product(self.backward.as_ref(), self.forward.as_ref())
     }
 
     /// Standard deviation of every unknown for independent rows of the given variance.
@@ -165,10 +157,7 @@ pub fn solve_symmetric(a: MatRef<'_, f64>, b: MatRef<'_, f64>) -> Result<Mat<f64
         return Err(LinearError::Sizes { rows: n, values: b.nrows() });
     }
     check_finite(a)?;
-    let x = match a.llt(Side::Lower) {
-        Ok(factor) => factor.solve(b),
-        Err(_) => a.lblt(Side::Lower).solve(b),
-    };
+    let x = Cholesky::new(a).map_or_else(|| solve_indefinite(a, b), |factor| factor.solve(b));
     check_finite(x.as_ref()).map_err(|_| LinearError::Singular { size: n })?;
     Ok(x)
 }
@@ -181,27 +170,17 @@ pub fn pseudo_inverse(a: MatRef<'_, f64>, tolerance: f64) -> Result<Mat<f64>, Li
     let (u, s, v) = thin_svd(a)?;
     let rank = s.iter().filter(|&&value| value > tolerance * s[0]).count();
     let scaled = Mat::from_fn(a.ncols(), rank, |i, k| v[(i, k)] / s[k]);
-    Ok(scaled * u.subcols(0, rank).transpose())
+    Ok(product_transposed(scaled.as_ref(), u.subcols(0, rank)))
 }
 
 /// `A = U S V^T` with singular values in descending order: `U` is m x k, `V` n x k, k the smaller of m and n.
-///
-/// By QR iteration at any size, for the reason given at [`super::eigen::symmetric`]. Use it in place of `faer`'s own.
 ///
 /// # Errors
 /// [`LinearError`] when an entry is not finite or the iteration does not converge.
 pub fn thin_svd(a: MatRef<'_, f64>) -> Result<(Mat<f64>, Vec<f64>, Mat<f64>), LinearError> {
     check_finite(a)?;
     let (rows, columns) = a.shape();
-    let k = rows.min(columns);
-    let iteration = SvdParams { recursion_threshold: usize::MAX, ..Auto::<f64>::auto() };
-    let thin = ComputeSvdVectors::Thin;
-    let memory = &mut MemBuffer::new(svd_scratch::<f64>(rows, columns, thin, thin, Par::Seq, iteration.into()));
-    let (mut u, mut s, mut v) = (Mat::zeros(rows, k), Diag::zeros(k), Mat::zeros(columns, k));
-    let stack = MemStack::new(memory);
-    svd(a, s.as_mut(), Some(u.as_mut()), Some(v.as_mut()), Par::Seq, stack, iteration.into())
-        .map_err(|_| LinearError::NoConvergence { rows, columns })?;
-    Ok((u, s.column_vector().iter().copied().collect(), v))
+    dashpot_numerics::thin_svd(a).ok_or(LinearError::NoConvergence { rows, columns })
 }
 
 #[cfg(test)]

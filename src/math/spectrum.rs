@@ -2,7 +2,7 @@
 //!
 //! A sine of amplitude `a` at the middle of a bin shows as `a`; the mean is taken out before the window is applied.
 
-use realfft::RealFftPlanner;
+use dashpot_numerics::RealTransform;
 use std::f64::consts::TAU;
 
 /// One-sided amplitude spectrum.
@@ -34,9 +34,7 @@ impl Spectrum {
         let mean = super::statistics::mean(signal);
         let window = |k: usize| 0.5 - 0.5 * (TAU * k as f64 / n as f64).cos();
         let mut input: Vec<f64> = signal.iter().enumerate().map(|(k, v)| (v - mean) * window(k)).collect();
-        let transform = RealFftPlanner::<f64>::new().plan_fft_forward(n);
-        let mut lines = transform.make_output_vec();
-        transform.process(&mut input, &mut lines).ok()?;
+        let lines = RealTransform::new(n).forward(&mut input);
         let gain = 4.0 / n as f64; // the window's mean is 1/2, and half of the amplitude is at negative frequencies
         let amplitude = lines.iter().map(|z| gain * z.re.hypot(z.im)).collect();
         Some(Self { resolution_hz: 1.0 / (n as f64 * time_step), amplitude })

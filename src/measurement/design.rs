@@ -9,8 +9,8 @@
 
 use super::any_columns::AnyColumns;
 use super::even_columns::EvenColumns;
-use faer::linalg::solvers::Solve;
-use faer::{Mat, Side};
+use dashpot_numerics::Cholesky;
+use faer::Mat;
 
 /// Least share of a column that is not explained by those before it: less, and its coefficient has lost six of sixteen
 /// digits. A record that holds a period is far from it unless most of the period is missing.
@@ -161,12 +161,12 @@ fn invert(normal: &Mat<f64>) -> Option<(Mat<f64>, f64)> {
         return None;
     }
     let unit = Mat::from_fn(p, p, |i, j| normal[(i, j)] / (scale[i] * scale[j]));
-    let factor = unit.llt(Side::Lower).ok()?;
-    let independence = (0..p).map(|i| factor.L()[(i, i)].powi(2)).fold(1.0, f64::min);
+    let factor = Cholesky::new(unit.as_ref())?;
+    let independence = (0..p).map(|i| factor.factor()[(i, i)].powi(2)).fold(1.0, f64::min);
     if independence < LEAST_INDEPENDENCE {
         return None;
     }
-    let inverse = factor.solve(Mat::<f64>::identity(p, p));
+    let inverse = factor.solve(Mat::<f64>::identity(p, p).as_ref());
     let scaled = Mat::from_fn(p, p, |i, j| 0.5 * (inverse[(i, j)] + inverse[(j, i)]) / (scale[i] * scale[j]));
     Some((scaled, independence))
 }

@@ -11,7 +11,7 @@ use crate::effects::effect::Kind;
 use crate::effects::law::Basis;
 use crate::effects::{Law, Leg, Place, Source, WholeLaw};
 use crate::structure::{Structure, SystemMatrices};
-use faer::linalg::solvers::{PartialPivLu, Solve};
+use dashpot_numerics::ComplexLu;
 use faer::{Mat, c64};
 
 /// Why a linear response cannot be computed.
@@ -96,7 +96,7 @@ impl<'a> DynamicStiffness<'a> {
 
     /// Factorises `Z(omega)` for any number of forces.
     pub fn factorise(&self, omega: f64) -> FactorisedStiffness {
-        FactorisedStiffness { lu: self.matrix(omega).partial_piv_lu(), omega, size: self.size() }
+        FactorisedStiffness { lu: ComplexLu::new(self.matrix(omega).as_ref()), omega, size: self.size() }
     }
 
     /// Complex amplitudes `X = Z^-1 F` of the displacement, m, for force amplitudes `F` in N, n values each.
@@ -110,7 +110,7 @@ impl<'a> DynamicStiffness<'a> {
 
 /// Factors of `Z` at one frequency.
 pub struct FactorisedStiffness {
-    lu: PartialPivLu<c64>,
+    lu: ComplexLu,
     omega: f64,
     size: usize,
 }
@@ -124,7 +124,7 @@ impl FactorisedStiffness {
         if force.len() != self.size {
             return Err(DynamicStiffnessError::ForceSize { found: force.len(), size: self.size });
         }
-        let x = self.lu.solve(Mat::from_fn(self.size, 1, |i, _| force[i]));
+        let x = self.lu.solve(Mat::from_fn(self.size, 1, |i, _| force[i]).as_ref());
         self.checked((0..self.size).map(|i| x[(i, 0)]).collect())
     }
 

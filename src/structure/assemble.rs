@@ -3,7 +3,8 @@
 use super::error::{nearest, positive};
 use super::{Dof, Element, Node, Structure, StructureError, StructureKind, SystemMatrices};
 use crate::math::eigen;
-use faer::{Mat, MatRef, Side};
+use dashpot_numerics::Cholesky;
+use faer::{Mat, MatRef};
 use serde::{Deserialize, Serialize};
 use std::collections::HashSet;
 
@@ -84,7 +85,7 @@ fn checked(
         let row = structure.require_dof(&extra.dof)?;
         mass[(row, row)] += extra.mass;
     }
-    if mass.llt(Side::Lower).is_err() {
+    if Cholesky::new(mass.as_ref()).is_none() {
         return Err(mass_error(mass.as_ref(), structure));
     }
     Ok(SystemMatrices { mass, stiffness })

@@ -12,6 +12,7 @@
 use super::modes::{Modes, failure};
 use super::{StructureError, SystemMatrices, modes};
 use crate::math::eigen;
+use dashpot_numerics::{product, transposed_product};
 use faer::{ColRef, Mat, MatRef, c64};
 use std::f64::consts::TAU;
 
@@ -162,7 +163,7 @@ fn modal_matrix(undamped: &Modes, c: MatRef<'_, f64>) -> Result<Mat<f64>, Struct
     if c.shape() != (n, n) {
         return Err(StructureError::DampingSize { rows: c.nrows(), columns: c.ncols(), size: n });
     }
-    let modal = undamped.shapes.transpose() * c * &undamped.shapes;
+    let modal = transposed_product(undamped.shapes.as_ref(), product(c, undamped.shapes.as_ref()).as_ref());
     Ok(eigen::symmetrised(modal.as_ref()))
 }
 
@@ -194,7 +195,7 @@ fn physical(undamped: &Modes, modal_shapes: &[Vec<c64>]) -> Vec<Vec<c64>> {
     let n = undamped.shapes.nrows();
     let part = |pick: fn(&c64) -> f64| {
         let q = Mat::from_fn(n, modal_shapes.len(), |i, j| pick(&modal_shapes[j][i]));
-        &undamped.shapes * q
+        product(undamped.shapes.as_ref(), q.as_ref())
     };
     let (re, im) = (part(|v| v.re), part(|v| v.im));
     (0..modal_shapes.len()).map(|j| (0..n).map(|i| c64::new(re[(i, j)], im[(i, j)])).collect()).collect()

@@ -12,7 +12,7 @@ use crate::balance::action::{self, Field, Secant};
 use crate::effects::Source;
 use crate::effects::law::Basis;
 use crate::structure::Structure;
-use faer::linalg::solvers::Solve;
+use dashpot_numerics::ComplexLu;
 use faer::{Mat, c64};
 
 /// Loss factor assumed where no damping is known yet, and in the model's error.
@@ -168,7 +168,7 @@ impl Prior {
             self.to_sensors[(sensors[a], b)] / (sigma[a] * sigma[b]) + own
         });
         let scaled = Mat::from_fn(s, n, |b, i| (self.to_sensors[(i, b)] / sigma[b]).conj());
-        let solved = innovation.partial_piv_lu().solve(scaled);
+        let solved = ComplexLu::new(innovation.as_ref()).solve(scaled.as_ref());
         let gain = Mat::from_fn(n, s, |i, b| solved[(b, i)].conj() / sigma[b]);
         let residual: Vec<c64> = (0..s).map(|b| measured.sensors.values[(b, k)] - x0[sensors[b]]).collect();
         let x = (0..n).map(|i| x0[i] + (0..s).map(|b| gain[(i, b)] * residual[b]).sum::<c64>()).collect();

@@ -9,7 +9,7 @@ use crate::balance::BalanceError;
 use crate::balance::action::Secant;
 use crate::effects::law::Basis;
 use crate::structure::Structure;
-use faer::linalg::solvers::Solve;
+use dashpot_numerics::ComplexLu;
 use faer::{Mat, c64};
 
 /// DOFs up to which every mode is retained.
@@ -79,7 +79,7 @@ impl ModalModel {
             }
         }
         let right = Mat::from_fn(m, dofs.len(), |k, j| c64::new(self.shapes[(dofs[j], k)], 0.0));
-        let q = z.partial_piv_lu().solve(right);
+        let q = ComplexLu::new(z.as_ref()).solve(right.as_ref());
         let rest: Vec<f64> = self.omega[m..].iter().map(|w| 1.0 / (w * w - omega * omega)).collect();
         Mat::from_fn(self.size(), dofs.len(), |i, j| {
             let low: c64 = (0..m).map(|k| q[(k, j)] * self.shapes[(i, k)]).sum();

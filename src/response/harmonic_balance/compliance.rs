@@ -12,8 +12,8 @@ use crate::effects::law::Basis;
 use crate::effects::{Leg, Source, effect::Kind, place::Place};
 use crate::structure::modes::modes;
 use crate::structure::{Structure, SystemMatrices};
-use faer::linalg::solvers::Solve;
-use faer::{Mat, Side, c64};
+use dashpot_numerics::{Cholesky, ComplexLu};
+use faer::{Mat, c64};
 use std::sync::Arc;
 
 /// Loss factor that keeps undamped structures regular at their natural frequencies.
@@ -46,7 +46,7 @@ impl LinearPart {
     pub fn new(structure: Arc<Structure>, sources: &[Source]) -> Result<Self, ModelError> {
         let matrices = structure.matrices().ok_or(ModelError::NoMatrices)?;
         let SystemMatrices { mass, stiffness } = matrices;
-        mass.llt(Side::Lower).map_err(|_| ModelError::MassNotPositive)?;
+        Cholesky::new(mass.as_ref()).ok_or(ModelError::MassNotPositive)?;
         let basis = Arc::new(modal_basis(matrices)?);
         let floating_shift = floating_shift(mass, stiffness);
         let part = Self { structure, whole: Vec::new(), basis, floating_shift };
@@ -203,7 +203,7 @@ impl LinearPart {
             let loss = damping(&self.basis, r);
             z += Mat::from_fn(self.len(), self.len(), |i, j| loss * (weighted[i] * weighted[j]));
         }
-        Inverse::Dense(z.partial_piv_lu().solve(Mat::<c64>::identity(self.len(), self.len())))
+        Inverse::Dense(ComplexLu::new(z.as_ref()).solve(Mat::<c64>::identity(self.len(), self.len()).as_ref()))
     }
 }
 
@@ -334,8 +334,8 @@ fn modal_basis(matrices: &SystemMatrices) -> Result<ModalBasis, ModelError> {
 fn floating_shift(mass: &Mat<f64>, stiffness: &Mat<f64>) -> f64 {
     let n = mass.nrows();
     let trace = |a: &Mat<f64>| (0..n).map(|i| a[(i, i)]).sum::<f64>();
-    let held = stiffness.llt(Side::Lower).is_ok_and(|llt| {
-        let l = llt.L();
+    let held = Cholesky::new(stiffness.as_ref()).is_some_and(|llt| {
+        let l = llt.factor();
         (0..n).all(|i| l[(i, i)] * l[(i, i)] > 1e-13 * stiffness[(i, i)])
     });
     if held { 0.0 } else { 1e-12 * trace(stiffness) / trace(mass) }

@@ -1,7 +1,7 @@
 //! Dense factorisations of the small matrices of Newton's method: own kernels where a general library's set-up would cost
 //! more than the work, faer above.
 
-use faer::linalg::solvers::{PartialPivLu, Solve};
+use dashpot_numerics::RealLu;
 use faer::{Mat, c64};
 
 /// Sizes up to here are factorised in place by the plain algorithm.
@@ -15,7 +15,7 @@ pub(crate) struct Lu {
 
 enum Kind {
     Plain { factors: Vec<f64>, order: Vec<usize>, sign: f64 },
-    Library(Box<PartialPivLu<f64>>),
+    Library(RealLu),
 }
 
 impl Lu {
@@ -27,11 +27,11 @@ impl Lu {
         let kind = if size <= PLAIN {
             plain(size, matrix)?
         } else {
-            let lu = Mat::from_fn(size, size, |i, j| matrix[i * size + j]).partial_piv_lu();
-            if (0..size).any(|i| lu.U()[(i, i)] == 0.0) {
+            let lu = RealLu::new(Mat::from_fn(size, size, |i, j| matrix[i * size + j]).as_ref());
+            if (0..size).any(|i| lu.pivot(i) == 0.0) {
                 return None;
             }
-            Kind::Library(Box::new(lu))
+            Kind::Library(lu)
         };
         Some(Self { size, kind })
     }
@@ -56,7 +56,7 @@ impl Lu {
             }
             Kind::Library(lu) => {
                 let mut column = Mat::from_fn(n, 1, |i, _| rhs[i]);
-                lu.solve_in_place(&mut column);
+                lu.solve_in_place(column.as_mut());
                 for (i, x) in rhs.iter_mut().enumerate() {
                     *x = column[(i, 0)];
                 }
@@ -71,9 +71,8 @@ impl Lu {
                 (0..self.size).fold(*sign, |s, i| s * factors[i * self.size + i].signum())
             }
             Kind::Library(lu) => {
-                let exchanges = lu.P().arrays().0;
-                let diagonal = (0..self.size).fold(1.0, |s, i| s * lu.U()[(i, i)].signum());
-                diagonal * permutation_sign(exchanges)
+                let diagonal = (0..self.size).fold(1.0, |s, i| s * lu.pivot(i).signum());
+                diagonal * permutation_sign(lu.order())
             }
         }
     }

@@ -4,33 +4,23 @@
 //! amplitude is `Y_h = c_h - i s_h`. With `N > 4 H` samples the projection of a sampled product is free of aliasing up to
 //! the second power; kinks alias as `1 / N^2`.
 
+use dashpot_numerics::RealTransform;
 use faer::c64;
-use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
 use std::f64::consts::TAU;
-use std::sync::Arc;
 
 /// The two transforms of one number of samples, for a number of harmonics.
-#[derive(Clone)]
+#[derive(Debug, Clone)]
 pub(crate) struct Fourier {
     harmonics: usize,
     samples: usize,
-    forward: Arc<dyn RealToComplex<f64>>,
-    backward: Arc<dyn ComplexToReal<f64>>,
-}
-
-impl std::fmt::Debug for Fourier {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(f, "Fourier {{ harmonics: {}, samples: {} }}", self.harmonics, self.samples)
-    }
+    transform: RealTransform,
 }
 
 impl Fourier {
     /// Harmonics 1..=`harmonics` at `samples` equal steps of one period; `samples` is even and above `4 harmonics`.
     pub fn new(harmonics: usize, samples: usize) -> Self {
         debug_assert!(samples.is_multiple_of(2) && samples > 4 * harmonics);
-        let mut planner = RealFftPlanner::new();
-        let (forward, backward) = (planner.plan_fft_forward(samples), planner.plan_fft_inverse(samples));
-        Self { harmonics, samples, forward, backward }
+        Self { harmonics, samples, transform: RealTransform::new(samples) }
     }
 
     /// Highest harmonic.
@@ -55,8 +45,7 @@ impl Fourier {
         for (x, pair) in spectrum[1..].iter_mut().zip(coefficients[1..].chunks_exact(2)) {
             *x = c64::new(0.5 * pair[0], -0.5 * pair[1]);
         }
-        let done = self.backward.process(&mut spectrum, samples);
-        debug_assert!(done.is_ok(), "lengths are those of the plan");
+        self.transform.backward(&mut spectrum, samples);
     }
 
     /// Samples of the function whose coefficient number `k` is 1 and all others 0.
@@ -72,9 +61,7 @@ impl Fourier {
 
     /// Complex spectrum `sum_n y_n exp(-i k theta_n) / N` for `k` up to half the samples. Spoils `samples`.
     fn spectrum(&self, samples: &mut [f64]) -> Vec<c64> {
-        let mut spectrum = vec![c64::new(0.0, 0.0); self.samples / 2 + 1];
-        let done = self.forward.process(samples, &mut spectrum);
-        debug_assert!(done.is_ok(), "lengths are those of the plan");
+        let mut spectrum = self.transform.forward(samples);
         let scale = 1.0 / self.samples as f64;
         spectrum.iter_mut().for_each(|x| *x *= scale);
         spectrum

@@ -45,7 +45,7 @@ pub fn multipliers(
     let step = TAU / excitation.omega / prepared.fourier.samples() as f64;
     let propagator = propagator(&run, sources, excitation.omega, &legs, step)?;
     let map = period_map(&propagator, &legs, &slopes, step)?;
-    map.eigenvalues().ok()
+    dashpot_numerics::eigenvalues(map.as_ref())
 }
 
 /// Whether small disturbances of `response` die out.

@@ -9,8 +9,8 @@
 //! the displacement of that step, the energy balance holds to rounding. `s` (rad/s) brings displacement and velocity to
 //! one unit.
 
-use faer::linalg::solvers::Solve;
-use faer::{Mat, Side};
+use dashpot_numerics::{Cholesky, product};
+use faer::Mat;
 
 /// The propagator of one step.
 #[derive(Debug, Clone)]
@@ -38,8 +38,8 @@ impl Propagator {
         step: f64,
     ) -> Option<Self> {
         let (n, inputs) = (mass.nrows(), patterns.ncols());
-        let llt = mass.llt(Side::Lower).ok()?;
-        let (k, c, b) = (llt.solve(stiffness), llt.solve(damping), llt.solve(patterns));
+        let llt = Cholesky::new(mass.as_ref())?;
+        let (k, c, b) = (llt.solve(stiffness.as_ref()), llt.solve(damping.as_ref()), llt.solve(patterns.as_ref()));
         let scale = (0..n).fold(0.0_f64, |m, i| m.max(k[(i, i)].abs())).sqrt().max(1.0 / step);
         let size = 2 * n + inputs;
         let a = Mat::from_fn(size, size, |i, j| {
@@ -111,12 +111,12 @@ fn exponential(a: &Mat<f64>) -> Mat<f64> {
     let mut sum = Mat::<f64>::identity(n, n);
     let mut term = Mat::<f64>::identity(n, n);
     for k in 1..=14 {
-        term = &term * &scaled;
+        term = product(term.as_ref(), scaled.as_ref());
         term *= faer::Scale(1.0 / f64::from(k));
         sum += &term;
     }
     for _ in 0..halvings {
-        sum = &sum * &sum;
+        sum = product(sum.as_ref(), sum.as_ref());
     }
     sum
 }

@@ -6,7 +6,6 @@
 
 use super::model::{TimeError, TimeModel};
 use crate::control::Control;
-use faer::linalg::solvers::SolveLstsq;
 use faer::{Mat, c64};
 use std::f64::consts::TAU;
 
@@ -179,7 +178,7 @@ impl Mixer {
         });
         let last = &self.history[count].1;
         let rhs = Mat::from_fn(n + count, 1, |i, _| if i < n { weight(i) * last[i] } else { 0.0 });
-        let mix = matrix.qr().solve_lstsq(rhs);
+        let mix = dashpot_numerics::least_squares(matrix.as_ref(), rhs.as_ref());
         let mut state = after.to_vec();
         for k in 0..count {
             let share = mix[(k, 0)];

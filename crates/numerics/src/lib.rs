@@ -1,0 +1,16 @@
+//! Dense linear algebra and Fourier transforms without type parameters.
+//!
+//! `faer`'s factorisations and `rustfft`'s kernels are generic and so are compiled anew in every crate that calls them,
+//! which cost two minutes a build. Here they are compiled once, optimised, for the numbers that the program knows.
+
+mod eigen;
+mod factor;
+mod fourier;
+mod product;
+mod singular;
+
+pub use eigen::{complex_general, eigenvalues, generalised_symmetric, real_general, symmetric, symmetric_values};
+pub use factor::{Cholesky, ComplexLu, RealLu, least_squares, solve_indefinite, thin_qr, triangle};
+pub use fourier::RealTransform;
+pub use product::{product, product_transposed, transposed_product};
+pub use singular::thin_svd;
