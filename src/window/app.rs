@@ -7,6 +7,7 @@ use super::frame;
 use super::frame::dock::Desk;
 use super::frame::panes::Pane;
 use super::photograph::Photograph;
+use super::plots::export::Exports;
 use super::schematic::gesture::Intent;
 use super::stages;
 use super::theme::{Palette, space};
@@ -65,6 +66,8 @@ pub struct App {
     pub message: Option<Message>,
     /// A photograph that is to be taken.
     pub photograph: Option<Photograph>,
+    /// Plots that are being written to files.
+    pub exports: Exports,
     loading: Option<Job<(), Loaded>>,
     /// Time of the last autosave, s.
     kept: f64,
@@ -156,6 +159,9 @@ impl App {
             frame::start::show(ui, &mut asks);
         }
         frame::keys::show(&ctx, &mut self.view);
+        if let Some((text, failed)) = self.exports.poll(&ctx) {
+            self.message = Some(Message { text, failed });
+        }
         for ask in asks {
             self.answer(&ctx, ask);
         }

@@ -39,6 +39,9 @@ struct PictureArguments {
     /// Pane that is to be in front, such as bode, nyquist, hysteresis, record or parameters; matrix is drawn in space.
     #[arg(long)]
     pane: Option<String>,
+    /// Folder that takes every plot on the screen as SVG and PNG.
+    #[arg(long)]
+    plots: Option<PathBuf>,
 }
 
 /// Does what the arguments ask for, where they ask for the window: none, a project file, or `picture`.
@@ -80,6 +83,7 @@ fn draw(arguments: PictureArguments) -> Result<(), String> {
         size: arguments.size,
         dark: arguments.theme == "dark",
         out: arguments.out,
+        plots: arguments.plots,
     })
 }
 

@@ -19,9 +19,9 @@ use std::sync::Arc;
 #[derive(Debug)]
 pub struct Trace {
     /// Record minus fit, at every sample.
-    pub residual: Pyramid,
+    pub residual: Arc<Pyramid>,
     /// The record.
-    pub record: Pyramid,
+    pub record: Arc<Pyramid>,
     /// Its spectrum; `None` where it is too short.
     pub spectrum: Option<Spectrum>,
 }
@@ -99,8 +99,8 @@ impl Derived {
             .collect();
         let step = (time.last()? - time.first()?) / (time.len().max(2) - 1) as f64;
         let trace = Arc::new(Trace {
-            residual: Pyramid::new(time, &residual),
-            record: Pyramid::new(time, samples),
+            residual: Arc::new(Pyramid::new(time, &residual)),
+            record: Arc::new(Pyramid::new(time, samples)),
             spectrum: Spectrum::new(samples, step),
         });
         self.traces.insert((run, channel), Arc::clone(&trace));

@@ -8,6 +8,7 @@ pub mod document;
 pub mod format;
 pub mod forward;
 pub mod frame;
+pub mod offscreen;
 pub mod photograph;
 pub mod picture;
 pub mod plots;

@@ -130,3 +130,9 @@ pub fn short_place(structure: &Structure, at: &Place) -> String {
         _ => place(structure, at),
     }
 }
+
+/// With a capital letter at the start.
+pub fn capital(text: &str) -> String {
+    let mut letters = text.chars();
+    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
+}

@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used, clippy::disallowed_methods, reason = "tests")]
 
 mod events;
+mod export;
 mod path;
 mod pictures;
 mod space;

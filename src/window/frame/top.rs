@@ -2,6 +2,7 @@
 
 use crate::window::app::{App, Ask};
 use crate::window::commands::Command;
+use crate::window::plots::export;
 use crate::window::theme::{self, Palette, size, space};
 use crate::window::view::Stage;
 use crate::window::widgets::UiExt;
@@ -71,6 +72,8 @@ fn menus(ui: &mut Ui, app: &App, asks: &mut Vec<Ask>) {
         entry(ui, Command::Save, dirty, None, asks);
         entry(ui, Command::Close, open, None, asks);
         ui.separator();
+        plots(ui);
+        ui.separator();
         entry(ui, Command::Quit, true, None, asks);
     });
     ui.menu_button("Edit", |ui| {
@@ -104,6 +107,25 @@ fn menus(ui: &mut Ui, app: &App, asks: &mut Vec<Ask>) {
         entry(ui, Command::Theme, true, None, asks);
     });
     ui.menu_button("Help", |ui| entry(ui, Command::Keys, true, None, asks));
+}
+
+/// The plots on the screen, to be written to files.
+fn plots(ui: &mut Ui) {
+    let shown = export::shown(ui.ctx());
+    ui.add_enabled_ui(!shown.is_empty(), |ui| {
+        ui.menu_button("Export plot", |ui| {
+            for title in shown {
+                ui.menu_button(&title, |ui| {
+                    for (kind, label) in [(export::Kind::Svg, "SVG…"), (export::Kind::Png, "PNG…")] {
+                        if ui.button(label).clicked() {
+                            export::want(ui.ctx(), &title, kind);
+                            ui.close();
+                        }
+                    }
+                });
+            }
+        });
+    });
 }
 
 fn entry(ui: &mut Ui, command: Command, enabled: bool, object: Option<&str>, asks: &mut Vec<Ask>) {

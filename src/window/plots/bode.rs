@@ -1,13 +1,13 @@
 //! Bode and Nyquist diagrams: the model's curve with the measured points on it.
 
-use super::{axis, curve, frame, keys, log};
+use super::figure::{Axis, Figure, Look, Ticks};
+use super::show::Stack;
 use crate::exchange::Project;
 use crate::measurement::Quantity as Measured;
 use crate::response::frequency_response::Quantity;
 use crate::window::format;
 use crate::window::widgets::UiExt;
-use egui::{Id, Ui};
-use egui_plot::{AxisHints, CoordinatesFormatter, Corner, GridMark, HPlacement, MarkerShape, PlotPoints, Points};
+use egui::Ui;
 use faer::c64;
 use std::f64::consts::TAU;
 
@@ -24,9 +24,20 @@ pub struct Response {
     pub receptance: Vec<c64>,
 }
 
-/// Measured receptances at the fundamental of every used run: circular frequency, value, run.
-pub fn measured(p: &Project, response: usize, excitation: usize) -> Vec<(f64, c64, usize)> {
-    let one = |(k, run): (usize, &crate::measurement::Run)| {
+/// A measured receptance at the fundamental of a run.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Point {
+    /// Circular frequency, rad/s.
+    pub omega: f64,
+    /// Receptance, m/N.
+    pub value: c64,
+    /// Standard deviation of its real and of its imaginary part over its magnitude: those of motion and force together.
+    pub deviation: f64,
+}
+
+/// Measured receptances at the fundamentals of all used runs that have both channels.
+pub fn measured(p: &Project, response: usize, excitation: usize) -> Vec<Point> {
+    let one = |run: &crate::measurement::Run| {
         let channel =
             |want: &dyn Fn(&crate::measurement::Channel) -> bool| run.fit.channels.iter().find(|c| want(&c.channel));
         let force = channel(&|c| c.quantity == Measured::Force && c.dof == excitation)?;
@@ -35,9 +46,13 @@ pub fn measured(p: &Project, response: usize, excitation: usize) -> Vec<(f64, c6
         let omega = run.fit.omega;
         let turn = (0..order).fold(c64::new(1.0, 0.0), |z, _| z * c64::new(0.0, omega));
         let value = *motion.amplitudes.first()? / (turn * force.amplitudes.first()?);
-        Some((omega, value, k))
+        let relative = |c: &crate::measurement::ChannelFit| {
+            let y = c.amplitudes.first().copied().unwrap_or_default();
+            c.deviation(1) / y.re.hypot(y.im)
+        };
+        Some(Point { omega, value, deviation: relative(motion).hypot(relative(force)) })
     };
-    p.runs.iter().enumerate().filter(|(_, r)| r.enabled).filter_map(one).collect()
+    p.runs.iter().filter(|r| r.enabled).filter_map(one).collect()
 }
 
 /// A frequency response and what is divided by the force.
@@ -52,9 +67,9 @@ pub struct Diagram<'a> {
 }
 
 impl Diagram<'_> {
-    fn points(&self) -> Vec<(f64, c64, usize)> {
+    fn points(&self) -> Vec<Point> {
         let r = self.response;
-        let scaled = |(omega, h, run)| (omega, h * self.quantity.factor(omega), run);
+        let scaled = |p: Point| Point { value: p.value * self.quantity.factor(p.omega), ..p };
         measured(self.project, r.response, r.excitation).into_iter().map(scaled).collect()
     }
 
@@ -63,98 +78,63 @@ impl Diagram<'_> {
         r.omega.iter().zip(&r.receptance).map(|(&w, &h)| (w, h * self.quantity.factor(w))).collect()
     }
 
+    fn name(&self) -> &'static str {
+        match self.quantity {
+            Quantity::Receptance => "Receptance",
+            Quantity::Mobility => "Mobility",
+            Quantity::Accelerance => "Accelerance",
+        }
+    }
+
+    /// Title of what is exported: which quantity between which DOFs.
+    fn title(&self, kind: &str) -> String {
+        let label = |dof: usize| self.project.structure.label(dof);
+        let r = self.response;
+        format!("{kind}, {} of DOF {} for a force at DOF {}", self.name(), label(r.response), label(r.excitation))
+    }
+
     /// Magnitude and phase over frequency, both axes of frequency logarithmic and linked.
     pub fn bode(&self, ui: &mut Ui) {
         let palette = ui.palette();
-        keys(ui, &[(palette.model, "model"), (palette.measured, "measured")]);
         let (model, points) = (self.model(), self.points());
-        let magnitude = |w: f64, h: c64| [(w / TAU).log10(), h.re.hypot(h.im).max(f64::MIN_POSITIVE).log10()];
-        let phase = |w: f64, h: c64| [(w / TAU).log10(), h.im.atan2(h.re).to_degrees()];
-        let group = Id::unique("bode");
+        let size = |h: c64| h.re.hypot(h.im);
+        let phase = |h: c64| h.im.atan2(h.re).to_degrees();
+        let frequency = || Axis::log("Frequency", "Hz").ticks(Ticks::Frequency);
+        let at = |f: &dyn Fn(c64) -> f64| points.iter().map(|p| [p.omega / TAU, f(p.value)]).collect::<Vec<_>>();
         let unit = format::pretty_unit(self.quantity.unit());
-        let height = ui.available_height() - 4.0;
-        let x_axis =
-            |label: &str| axis(AxisHints::new_x(), palette, label).formatter(|mark, _| log::frequency(mark.value));
-        let y_axis = axis(AxisHints::new_y(), palette, &format!("Magnitude, {unit}"))
-            .placement(HPlacement::Left)
-            .min_thickness(56.0)
-            .formatter(|mark, _| log::label(mark.value));
-        let marker = |points: Vec<[f64; 2]>| {
-            Points::new("measured", PlotPoints::from(points))
-                .shape(MarkerShape::Circle)
-                .radius(4.0)
-                .color(palette.measured)
-        };
-        let read = move |p: &egui_plot::PlotPoint, _: &egui_plot::PlotBounds| {
-            format!(
-                "{} Hz   {} {unit}",
-                format::significant(10f64.powf(p.x), 4),
-                format::significant(10f64.powf(p.y), 3)
-            )
-        };
-        frame(ui, "bode magnitude", "", "")
-            .custom_x_axes(vec![x_axis("")])
-            .custom_y_axes(vec![y_axis])
-            .x_grid_spacer(|input| log::decades(&input))
-            .y_grid_spacer(|input| log::decades(&input))
-            .link_axis(group, [true, false])
-            .link_cursor(group, [true, false])
-            .coordinates_formatter(Corner::RightTop, CoordinatesFormatter::new(read))
-            .height(0.60 * height)
-            .show_axes([false, true])
-            .show(ui, |plot| {
-                plot.line(curve(
-                    "model",
-                    model.iter().map(|&(w, h)| magnitude(w, h)).collect::<Vec<_>>(),
-                    palette.model,
-                    1.8,
-                ));
-                plot.points(marker(points.iter().map(|&(w, h, _)| magnitude(w, h)).collect()));
-            });
-        let degrees = axis(AxisHints::new_y(), palette, "Phase, °").placement(HPlacement::Left).min_thickness(56.0);
-        let right_angles = |_: egui_plot::GridInput| {
-            [-180.0, -90.0, 0.0, 90.0, 180.0].map(|value| GridMark { value, step_size: 90.0 }).to_vec()
-        };
-        frame(ui, "bode phase", "", "")
-            .custom_x_axes(vec![x_axis("Frequency, Hz").min_thickness(32.0)])
-            .custom_y_axes(vec![degrees])
-            .x_grid_spacer(|input| log::decades(&input))
-            .y_grid_spacer(right_angles)
-            .include_y(-185.0)
-            .include_y(185.0)
-            .link_axis(group, [true, false])
-            .link_cursor(group, [true, false])
-            .height(0.40 * height)
-            .show(ui, |plot| {
-                for piece in unwrapped(model.iter().map(|&(w, h)| phase(w, h))) {
-                    plot.line(curve("model", piece, palette.model, 1.8));
-                }
-                plot.points(marker(points.iter().map(|&(w, h, _)| phase(w, h)).collect()));
-            });
+        let magnitude = Figure::new("Magnitude", frequency(), Axis::log(self.name(), &unit))
+            .points("model", palette.model, Look::Line(1.8), model.iter().map(|&(w, h)| [w / TAU, size(h)]).collect())
+            .points("measured", palette.measured, Look::Dots(4.0), at(&size))
+            .deviation(points.iter().map(|p| p.deviation * size(p.value)).collect());
+        let degrees = Axis::new("Phase", "°").ticks(Ticks::RightAngles).include(&[-185.0, 185.0]);
+        let mut angle = Figure::new("Phase", frequency(), degrees);
+        for piece in unwrapped(model.iter().map(|&(w, h)| [w / TAU, phase(h)])) {
+            angle = angle.points("model", palette.model, Look::Line(1.8), piece);
+        }
+        let angle = angle
+            .points("measured", palette.measured, Look::Dots(4.0), at(&phase))
+            .deviation(points.iter().map(|p| p.deviation.to_degrees()).collect());
+        let figures = vec![(magnitude, 0.60), (angle, 0.40)];
+        Stack { id: "bode", title: &self.title("Bode diagram"), figures, keys: true }.show(ui);
     }
 
     /// Imaginary over real part within a band about `centre` (rad/s).
     pub fn nyquist(&self, ui: &mut Ui, centre: f64) {
         let palette = ui.palette();
-        keys(ui, &[(palette.model, "model"), (palette.measured, "measured")]);
         let near = |w: f64| (w / centre).ln().abs() < 0.08;
         let plane = |h: c64| [h.re, h.im];
-        let line: Vec<[f64; 2]> = self.model().into_iter().filter(|&(w, _)| near(w)).map(|(_, h)| plane(h)).collect();
-        let points: Vec<[f64; 2]> =
-            self.points().into_iter().filter(|&(w, _, _)| near(w)).map(|(_, h, _)| plane(h)).collect();
+        let line = self.model().into_iter().filter(|&(w, _)| near(w)).map(|(_, h)| plane(h)).collect();
+        let points: Vec<Point> = self.points().into_iter().filter(|p| near(p.omega)).collect();
         let unit = format::pretty_unit(self.quantity.unit());
-        let (x, y) = (format!("Real part, {unit}"), format!("Imaginary part, {unit}"));
-        frame(ui, "nyquist", &x, &y)
-            .data_aspect(1.0)
-            .include_x(0.0)
-            .include_y(0.0)
-            .set_margin_fraction(egui::vec2(0.08, 0.08))
-            .height(ui.available_height() - 4.0)
-            .show(ui, |plot| {
-                plot.line(curve("model", line, palette.model, 1.8));
-                let marker = Points::new("measured", PlotPoints::from(points)).shape(MarkerShape::Circle);
-                plot.points(marker.radius(5.0).color(palette.measured));
-            });
+        let x = Axis::new("Real part", &unit).include(&[0.0]);
+        let y = Axis::new("Imaginary part", &unit).include(&[0.0]);
+        let mut figure = Figure::new(self.name(), x, y)
+            .points("model", palette.model, Look::Line(1.8), line)
+            .points("measured", palette.measured, Look::Dots(5.0), points.iter().map(|p| plane(p.value)).collect())
+            .deviation(points.iter().map(|p| p.deviation * p.value.re.hypot(p.value.im)).collect());
+        (figure.square, figure.margin) = (true, 0.08);
+        Stack { id: "nyquist", title: &self.title("Nyquist diagram"), figures: vec![(figure, 1.0)], keys: true }
+            .show(ui);
     }
 }
 

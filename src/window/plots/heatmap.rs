@@ -1,9 +1,11 @@
 //! A symmetric matrix as a heat map with its numbers.
 
+use super::drawing::Drawing;
+use super::export;
 use crate::window::format;
-use crate::window::theme::{self, size};
+use crate::window::theme::{self, Palette, size};
 use crate::window::widgets::UiExt;
-use egui::{Align2, Rect, Sense, StrokeKind, Ui, WidgetInfo, pos2, vec2};
+use egui::{Align2, Pos2, Rect, Sense, Stroke, Ui, Vec2, WidgetInfo, pos2, vec2};
 use faer::Mat;
 
 /// A matrix with the labels of its rows.
@@ -24,54 +26,133 @@ pub fn occupied(matrix: &Mat<f64>) -> Vec<usize> {
     (0..matrix.nrows()).filter(|&i| (0..matrix.ncols()).any(|j| matrix[(i, j)] != 0.0)).collect()
 }
 
+/// Room for labels at the left and above.
 const LABEL: f32 = 30.0;
+/// Room for the scale of colours at the right.
+const SCALE: f32 = 66.0;
+
+/// Where the cells stand.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Cells {
+    origin: Pos2,
+    cell: f32,
+}
 
 impl HeatMap<'_> {
-    /// Shows it as large as the room allows.
-    pub fn show(&self, ui: &mut Ui) {
-        let palette = ui.palette();
-        let n = self.rows.len().max(1) as f32;
-        let room = ui.available_size() - vec2(LABEL, LABEL + 4.0);
-        let cell = (room.x / n).min(room.y / n).clamp(4.0, 92.0);
-        let (area, response) = ui.allocate_exact_size(vec2(LABEL + n * cell, LABEL + n * cell), Sense::hover());
+    /// Shows it as large as the room allows; `title` is that of the exported picture.
+    pub fn show(&self, ui: &mut Ui, title: &str) {
+        let (area, response) = ui.allocate_exact_size(ui.available_size(), Sense::click());
         response.widget_info(|| WidgetInfo::labeled(egui::Role::Image, true, self.words()));
-        let origin = area.min + vec2(LABEL, LABEL);
-        let largest = self.rows.iter().flat_map(|&i| self.rows.iter().map(move |&j| self.matrix[(i, j)].abs()));
-        let largest = largest.fold(f64::MIN_POSITIVE, f64::max);
-        let painter = ui.painter();
-        let font = theme::font(size::SMALL.min(0.30 * cell + 2.0));
-        let label_font = theme::font(size::SMALL.min(0.8 * cell).max(6.0));
+        let mut drawing = Drawing::new(area.size(), ui.palette().canvas, title);
+        let cells = self.draw(&mut drawing, Rect::from_min_size(Pos2::ZERO, area.size()), ui.palette());
+        drawing.paint(&ui.painter_at(area), area.min);
+        if let Some(pointer) = response.hover_pos()
+            && let Some([i, j]) = self.at(cells, pointer - area.min.to_vec2())
+        {
+            let value = format::with_unit(self.matrix[(i, j)], self.unit);
+            response.clone().on_hover_text_at_pointer(format!("({}, {})  {value}", self.labels[i], self.labels[j]));
+        }
+        let paper = |palette: &Palette| {
+            let mut drawing = Drawing::new(vec2(720.0, 660.0), palette.canvas, title);
+            drawing.words(pos2(16.0, 20.0), Align2::LEFT_CENTER, title, size::HEADING, palette.ink);
+            self.draw(&mut drawing, Rect::from_min_max(pos2(16.0, 48.0), pos2(704.0, 644.0)), palette);
+            drawing
+        };
+        export::offer(ui, &[response], title, &paper, &|| self.table());
+    }
+
+    /// Row and column of the matrix under a point.
+    fn at(&self, cells: Cells, at: Pos2) -> Option<[usize; 2]> {
+        let at = ((at - cells.origin) / cells.cell).floor();
+        let row = |v: f32| (v >= 0.0).then_some(v as usize).and_then(|k| self.rows.get(k).copied());
+        Some([row(at.y)?, row(at.x)?])
+    }
+
+    fn draw(&self, drawing: &mut Drawing, room: Rect, palette: &Palette) -> Cells {
+        let n = self.rows.len().max(1) as f32;
+        let cell = ((room.width() - LABEL - SCALE) / n).min((room.height() - LABEL - 4.0) / n).clamp(2.0, 92.0);
+        let cells = Cells { origin: room.min + vec2(LABEL, LABEL), cell };
+        let ground = Rect::from_min_size(cells.origin, Vec2::splat(n * cell));
+        if cell < 8.0 {
+            drawing.rect(ground, palette.raised, Stroke::NONE);
+        }
+        let largest = self.largest();
+        let type_size = size::SMALL.min(0.30 * cell + 2.0);
+        let every = (13.0 / cell).ceil().max(1.0) as usize;
         for (r, &i) in self.rows.iter().enumerate() {
-            let (x, y) = (origin.x + (r as f32 + 0.5) * cell, origin.y + (r as f32 + 0.5) * cell);
-            let label = &self.labels[i];
-            painter.text(pos2(x, origin.y - 8.0), Align2::CENTER_BOTTOM, label, label_font.clone(), palette.weak);
-            painter.text(pos2(origin.x - 8.0, y), Align2::RIGHT_CENTER, label, label_font.clone(), palette.weak);
+            if r % every == 0 {
+                self.labels(drawing, cells, r, palette);
+            }
             for (c, &j) in self.rows.iter().enumerate() {
                 let value = self.matrix[(i, j)];
-                let at = origin + vec2(c as f32 * cell, r as f32 * cell);
-                let rect = Rect::from_min_size(at, vec2(cell, cell)).shrink(0.5);
+                if value == 0.0 && cell < 8.0 {
+                    continue; // the ground shows through
+                }
+                let at = cells.origin + vec2(c as f32 * cell, r as f32 * cell);
+                let rect = Rect::from_min_size(at, Vec2::splat(cell)).shrink((0.02 * cell).min(0.5));
                 let fill = if value == 0.0 { palette.raised } else { palette.diverging((value / largest) as f32) };
-                painter.rect_filled(rect, 1.5, fill);
+                drawing.rect(rect, fill, Stroke::NONE);
                 if cell >= 30.0 && value != 0.0 {
                     let text = format::significant(value, 3);
-                    painter.text(rect.center(), Align2::CENTER_CENTER, text, font.clone(), palette.text_on(fill));
+                    drawing.words(rect.center(), Align2::CENTER_CENTER, text, type_size, palette.text_on(fill));
                 }
             }
         }
-        painter.rect_stroke(
-            Rect::from_min_size(origin, vec2(n * cell, n * cell)),
-            2.0,
-            theme::hair(palette.line),
-            StrokeKind::Outside,
-        );
-        if let Some(pointer) = response.hover_pos() {
-            let at = ((pointer - origin) / cell).floor();
-            let row = |v: f32| (v >= 0.0).then_some(v as usize).and_then(|k| self.rows.get(k).copied());
-            if let (Some(j), Some(i)) = (row(at.x), row(at.y)) {
-                let value = format::with_unit(self.matrix[(i, j)], self.unit);
-                response.on_hover_text_at_pointer(format!("({}, {})  {value}", self.labels[i], self.labels[j]));
-            }
+        drawing.rect(ground, egui::Color32::TRANSPARENT, theme::hair(palette.line));
+        self.scale(drawing, ground, palette);
+        cells
+    }
+
+    fn labels(&self, drawing: &mut Drawing, cells: Cells, r: usize, palette: &Palette) {
+        let middle = (r as f32 + 0.5) * cells.cell;
+        let label = &self.labels[self.rows[r]];
+        let at = cells.origin + vec2(middle, -8.0);
+        drawing.words(at, Align2::CENTER_BOTTOM, label.clone(), size::SMALL, palette.weak);
+        let at = cells.origin + vec2(-8.0, middle);
+        drawing.words(at, Align2::RIGHT_CENTER, label.clone(), size::SMALL, palette.weak);
+    }
+
+    /// The scale of colours at the right, as high as the cells; only the half that occurs.
+    fn scale(&self, drawing: &mut Drawing, cells: Rect, palette: &Palette) {
+        const STEPS: usize = 40;
+        let largest = self.largest();
+        let negative = self.rows.iter().any(|&i| self.rows.iter().any(|&j| self.matrix[(i, j)] < 0.0));
+        let low = if negative { -1.0 } else { 0.0 };
+        let height = cells.height().min(220.0);
+        let bar = Rect::from_min_size(cells.right_top() + vec2(14.0, 24.0), vec2(10.0, height - 24.0));
+        for k in 0..STEPS {
+            let share = 1.0 - (1.0 - low) * (k as f32 + 0.5) / STEPS as f32;
+            let top = bar.top() + bar.height() * k as f32 / STEPS as f32;
+            let strip =
+                Rect::from_min_size(pos2(bar.left(), top), vec2(bar.width(), bar.height() / STEPS as f32 + 0.5));
+            drawing.rect(strip, palette.diverging(share), Stroke::NONE);
         }
+        drawing.rect(bar, egui::Color32::TRANSPARENT, theme::hair(palette.line));
+        let unit = format::pretty_unit(self.unit);
+        drawing.words(cells.right_top() + vec2(14.0, 6.0), Align2::LEFT_CENTER, unit, size::SMALL, palette.weak);
+        let ends: &[f32] = if negative { &[1.0, 0.0, -1.0] } else { &[1.0, 0.0] };
+        for &share in ends {
+            let y = bar.top() + bar.height() * (1.0 - share) / (1.0 - low);
+            let text = format::significant(f64::from(share) * largest, 3);
+            drawing.words(pos2(bar.right() + 5.0, y), Align2::LEFT_CENTER, text, size::SMALL, palette.weak);
+        }
+    }
+
+    /// Largest magnitude among the cells.
+    fn largest(&self) -> f64 {
+        let all = self.rows.iter().flat_map(|&i| self.rows.iter().map(move |&j| self.matrix[(i, j)].abs()));
+        all.fold(f64::MIN_POSITIVE, f64::max)
+    }
+
+    /// The shown rows with their labels as a table with tabs.
+    pub fn table(&self) -> String {
+        let mut text = self.unit.to_owned();
+        self.rows.iter().for_each(|&j| text += &format!("\t{}", self.labels[j]));
+        for &i in self.rows {
+            text += &format!("\n{}", self.labels[i]);
+            self.rows.iter().for_each(|&j| text += &format!("\t{:e}", self.matrix[(i, j)]));
+        }
+        text + "\n"
     }
 
     /// All values that are not zero, row by row, for screen readers and tests.
@@ -95,7 +176,8 @@ impl HeatMap<'_> {
 
 #[cfg(test)]
 mod tests {
-    use super::occupied;
+    use super::{Cells, HeatMap, occupied};
+    use egui::pos2;
     use faer::Mat;
 
     #[test]
@@ -104,5 +186,17 @@ mod tests {
         m[(1, 3)] = 2.0;
         m[(3, 1)] = 2.0;
         assert_eq!(occupied(&m), [1, 3]);
+    }
+
+    #[test]
+    fn cells_are_found_and_tabled() {
+        let m = Mat::from_fn(3, 3, |i, j| (10 * i + j) as f64);
+        let labels = ["a", "b", "c"].map(str::to_owned);
+        let map = HeatMap { matrix: &m, rows: &[0, 2], labels: &labels, unit: "N s/m" };
+        let cells = Cells { origin: pos2(30.0, 30.0), cell: 20.0 };
+        assert_eq!(map.at(cells, pos2(51.0, 35.0)), Some([0, 2]));
+        assert_eq!(map.at(cells, pos2(29.0, 35.0)), None);
+        assert_eq!(map.at(cells, pos2(71.0, 35.0)), None);
+        assert_eq!(map.table(), "N s/m\ta\tc\na\t0e0\t2e0\nc\t2e1\t2.2e1\n");
     }
 }

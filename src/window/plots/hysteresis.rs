@@ -1,11 +1,14 @@
 //! Loops of force over displacement: of the exciter, measured and of the model, and of each source.
 
-use super::{curve, frame, keys};
+use super::export;
+use super::figure::{Axis, Figure, Look};
+use super::sheet::{Panel, Sheet};
+use super::show::{Place, key_row};
 use crate::effects::{Motion, Source};
 use crate::exchange::Project;
 use crate::measurement::Quantity;
 use crate::window::widgets::UiExt;
-use crate::window::words;
+use crate::window::{format, words};
 use egui::{Ui, vec2};
 use faer::c64;
 use std::f64::consts::TAU;
@@ -69,40 +72,72 @@ fn ellipse(x: c64, f: c64) -> Vec<[f64; 2]> {
     (0..=SAMPLES).map(at).collect()
 }
 
+/// Work per period of the force of a closed loop, J: the integral of `f dx` by the trapezoidal rule.
+pub fn area(points: &[[f64; 2]]) -> f64 {
+    points.windows(2).map(|p| 0.5 * (p[0][1] + p[1][1]) * (p[1][0] - p[0][0])).sum()
+}
+
+impl Loop {
+    /// What it encloses, in words: `model 1.23 mJ, measured 1.25 mJ`.
+    fn energies(&self) -> String {
+        let one = |name: &str, points: &[[f64; 2]]| {
+            (!points.is_empty()).then(|| format!("{name} {}", format::prefixed(area(points), "J")))
+        };
+        [one("model", &self.model), one("measured", &self.measured)]
+            .into_iter()
+            .flatten()
+            .collect::<Vec<_>>()
+            .join(", ")
+    }
+
+    fn figure(&self, palette: &crate::window::theme::Palette) -> Figure {
+        let title = format!("{}: area {}", self.name, self.energies());
+        let mut figure = Figure::new(&title, Axis::new("Displacement", "m"), Axis::new("Force", "N"))
+            .points("measured", palette.measured, Look::Line(2.4), self.measured.clone())
+            .points("model", palette.model, Look::Line(1.6), self.model.clone());
+        figure.margin = 0.08;
+        figure
+    }
+}
+
 /// Shows loops side by side, as many as there is room for.
-pub fn show(ui: &mut Ui, loops: &[Loop]) {
+pub fn show(ui: &mut Ui, title: &str, loops: &[Loop]) {
     let palette = ui.palette();
-    keys(ui, &[(palette.model, "model"), (palette.measured, "measured")]);
+    let figures: Vec<Figure> = loops.iter().map(|l| l.figure(palette)).collect();
+    key_row(ui, figures.iter());
     let columns = ((ui.available_width() / 250.0) as usize).clamp(1, loops.len().max(1));
     let rows = loops.len().div_ceil(columns).clamp(1, 2);
-    let size =
-        vec2(ui.available_width() / columns as f32 - 8.0, (ui.available_height() / rows as f32 - 10.0).max(150.0));
+    let room = ui.available_size();
+    let size = vec2(room.x / columns as f32 - 8.0, (room.y / rows as f32 - 10.0).max(150.0));
+    let (mut panels, mut responses) = (Vec::new(), Vec::new());
     egui::ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
-        for (k, row) in loops.chunks(columns).enumerate() {
+        for (k, (row, shown)) in loops.chunks(columns).zip(figures.chunks(columns)).enumerate() {
             ui.horizontal_top(|ui| {
-                for (j, one) in row.iter().enumerate() {
+                for (j, (one, figure)) in row.iter().zip(shown).enumerate() {
                     ui.allocate_ui(size, |ui| {
                         ui.vertical(|ui| {
                             ui.set_width(size.x);
-                            ui.hint(one.name.as_str());
-                            frame(ui, &format!("loop {k} {j}"), "Displacement, m", "Force, N")
-                                .height(size.y - 24.0)
-                                .set_margin_fraction(vec2(0.08, 0.08))
-                                .show(ui, |plot| {
-                                    plot.line(curve("measured", one.measured.clone(), palette.measured, 2.4));
-                                    plot.line(curve("model", one.model.clone(), palette.model, 1.6));
-                                });
+                            ui.label(words::capital(&one.name));
+                            ui.hint(format!("area {}", one.energies()));
+                            let id = format!("loop {k} {j}");
+                            let place = Place { id: &id, height: size.y - 48.0, group: None, ruler: true };
+                            let out = place.show(ui, figure);
+                            let (low, high) = (out.transform.bounds().min(), out.transform.bounds().max());
+                            let bounds = [[low[0], high[0]], [low[1], high[1]]];
+                            panels.push(Panel { figure: figure.clone(), bounds });
+                            responses.push(out.response);
                         });
                     });
                 }
             });
         }
     });
+    export::offer_sheet(ui, &responses, Sheet { title: title.to_owned(), columns, panels });
 }
 
 #[cfg(test)]
 mod tests {
-    use super::ellipse;
+    use super::{area, ellipse};
     use faer::c64;
 
     #[test]
@@ -110,7 +145,7 @@ mod tests {
         // Work per period of f on x: integral f dx = -pi Im(F conj X) ... with x = Re X e^{iwt}: pi (F_im X_re - F_re X_im).
         let (x, f) = (c64::new(0.3, -0.8), c64::new(2.0, 0.5));
         let points = ellipse(x, f);
-        let work: f64 = points.windows(2).map(|p| 0.5 * (p[0][1] + p[1][1]) * (p[1][0] - p[0][0])).sum();
+        let work = area(&points);
         let expected = -(std::f64::consts::PI * (f.im * x.re - f.re * x.im));
         assert!((work.abs() - expected.abs()).abs() < 1e-3, "{work} {expected}");
     }

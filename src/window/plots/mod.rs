@@ -5,12 +5,18 @@ pub mod bars;
 pub mod bode;
 pub mod drawing;
 pub mod energy;
+pub mod export;
+pub mod figure;
 pub mod heatmap;
 pub mod hysteresis;
 pub mod log;
 pub mod pyramid;
 pub mod record;
+pub mod sheet;
+pub mod show;
 pub mod spectrum;
+pub mod svg;
+pub mod ticks;
 
 use super::theme::{Palette, size, space};
 use super::widgets::UiExt;

@@ -1,12 +1,13 @@
 //! A time record with the fitted curve on top, and the residual under it on the same time axis.
 
-use super::{curve, frame, keys, readout};
+use super::figure::{Axis, Curve, Data, Figure, Look};
+use super::show::Stack;
 use crate::measurement::ChannelFit;
 use crate::window::derived::Trace;
 use crate::window::widgets::UiExt;
-use egui::{Id, Ui};
-use egui_plot::PlotUi;
+use egui::Ui;
 use faer::c64;
+use std::sync::Arc;
 
 /// Periods shown at first.
 const PERIODS: f64 = 6.0;
@@ -43,69 +44,24 @@ impl RecordPlot<'_> {
     pub fn show(&self, ui: &mut Ui) {
         let palette = ui.palette();
         let [start, end] = self.trace.record.span();
-        let period = std::f64::consts::TAU / self.omega;
-        let visible = (start + PERIODS * period).min(end);
-        let group = Id::unique(("record", self.id));
-        keys(ui, &[(palette.measured, "measured"), (palette.model, "fitted harmonics"), (palette.missing, "residual")]);
-        let height = ui.available_height() - 4.0;
-        let unit = self.axis.rsplit(", ").next().unwrap_or("");
-        let (corner, format) = readout("t, s", unit);
-        frame(ui, &format!("{} record", self.id), "", self.axis)
-            .height(0.62 * height)
-            .default_x_bounds(start, visible)
-            .link_axis(group, [true, false])
-            .link_cursor(group, [true, false])
-            .coordinates_formatter(corner, format)
-            .show_axes([false, true])
-            .show(ui, |plot| {
-                let [from, to, columns] = seen(plot);
-                plot.line(curve(
-                    "measured",
-                    self.trace.record.polyline(from, to, columns as usize),
-                    palette.measured,
-                    1.3,
-                ));
-                plot.line(curve("fitted", self.curve(from, to, columns), palette.model, 1.5));
-            });
-        let (corner, format) = readout("t, s", unit);
-        frame(ui, &format!("{} residual", self.id), "Time, s", "Residual")
-            .height(0.38 * height)
-            .default_x_bounds(start, visible)
-            .link_axis(group, [true, false])
-            .link_cursor(group, [true, false])
-            .coordinates_formatter(corner, format)
-            .include_y(0.0)
-            .show(ui, |plot| {
-                let [from, to, columns] = seen(plot);
-                plot.line(curve(
-                    "residual",
-                    self.trace.residual.polyline(from, to, columns as usize),
-                    palette.missing,
-                    1.1,
-                ));
-            });
+        let visible = Some([start, (start + PERIODS * std::f64::consts::TAU / self.omega).min(end)]);
+        let time = || Axis::new("Time", "s");
+        let mut record = Figure::new("Record", time(), Axis::of(self.axis))
+            .with("measured", palette.measured, Look::Line(1.3), Data::Record(Arc::clone(&self.trace.record)))
+            .with("fitted harmonics", palette.model, Look::Line(1.5), self.fitted([start, end]));
+        let y = Axis::new("Residual", self.axis.rsplit(", ").next().unwrap_or("")).include(&[0.0]);
+        let rest = Data::Record(Arc::clone(&self.trace.residual));
+        let mut residual = Figure::new("Residual", time(), y).with("residual", palette.missing, Look::Line(1.1), rest);
+        (record.start, residual.start) = (visible, visible);
+        let figures = vec![(record, 0.60), (residual, 0.40)];
+        Stack { id: self.id, title: &format!("Record, {}", self.id), figures, keys: true }.show(ui);
     }
 
-    fn curve(&self, from: f64, to: f64, columns: f64) -> Vec<[f64; 2]> {
-        let [start, end] = self.trace.record.span();
-        let (from, to) = (from.max(start), to.min(end));
-        // Beyond this many periods the curve is a band: its extremes are those of the record.
-        let n = (2.0 * columns) as usize;
-        let middle = 0.5 * (start + end);
-        (0..=n)
-            .map(|k| {
-                let t = from + (to - from) * k as f64 / n as f64;
-                [t, fitted(self.fit, self.omega, middle, t)]
-            })
-            .collect()
+    /// Beyond about a period a column of pixels the curve is a band: its extremes are those of the record.
+    fn fitted(&self, span: [f64; 2]) -> Data {
+        let (fit, omega, middle) = (self.fit.clone(), self.omega, 0.5 * (span[0] + span[1]));
+        Data::Function(Curve(Arc::new(move |t| fitted(&fit, omega, middle, t))), span)
     }
-}
-
-/// First and last time in sight and the columns of pixels between.
-fn seen(plot: &PlotUi<'_>) -> [f64; 3] {
-    let bounds = plot.plot_bounds();
-    let columns = f64::from(plot.transform().frame().width()).max(1.0);
-    [bounds.min()[0], bounds.max()[0], columns]
 }
 
 #[cfg(test)]

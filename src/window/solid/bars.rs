@@ -6,11 +6,12 @@
 use super::camera::{Camera, Projection};
 use super::frame::{RuledBox, round_step};
 use super::mesh::Mesh;
-use super::paint::{Solid, available};
+use super::paint::{Solid, available, shade};
 use super::pick::{Ray, nearest};
 use super::turn::turn;
 use crate::window::format;
 use crate::window::plots::drawing::Drawing;
+use crate::window::plots::export;
 use crate::window::plots::heatmap::HeatMap;
 use crate::window::theme::{self, Palette};
 use crate::window::widgets::UiExt;
@@ -136,8 +137,8 @@ impl Bars {
         Projection::fit(&self.ruled("").corners(), camera, inner)
     }
 
-    /// The faces of a bar that are turned to the eye, as areas on the screen.
-    pub fn faces(&self, at: [usize; 2], p: &Projection) -> Vec<(Vec<egui::Pos2>, f32)> {
+    /// The faces of a bar that are turned to the eye, as areas on the screen with their outward unit vectors.
+    pub fn faces(&self, at: [usize; 2], p: &Projection) -> Vec<(Vec<egui::Pos2>, Vector3<f32>)> {
         let [low, high] = self.body(at);
         let toward = p.camera.axes()[2];
         let mut faces = Vec::new();
@@ -154,21 +155,23 @@ impl Bars {
                 c[v] = if b { high[v] } else { low[v] };
                 p.at(c)
             };
-            faces.push((
-                vec![corner(false, false), corner(true, false), corner(true, true), corner(false, true)],
-                toward[axis].abs(),
-            ));
+            let mut normal = Vector3::zeros();
+            normal[axis] = toward[axis].signum();
+            let round = vec![corner(false, false), corner(true, false), corner(true, true), corner(false, true)];
+            faces.push((round, normal));
         }
         faces
     }
 
-    /// Shows it in the room there is; it is turned with the mouse and the arrow keys.
-    pub fn show(&self, ui: &mut Ui, id: &str, unit: &str) {
+    /// Shows it in the room there is; it is turned with the mouse and the arrow keys. `map` is what it was made of, `title`
+    /// that of the exported picture.
+    pub fn show(&self, ui: &mut Ui, title: &str, map: &HeatMap<'_>) {
+        let unit = map.unit;
         if !available(ui.ctx()) {
             ui.empty("No graphics adapter", super::paint::NO_ADAPTER);
             return;
         }
-        let id = ui.scope_id().with(id);
+        let id = ui.scope_id().with(title);
         let (room, response) = ui.allocate_exact_size(ui.available_size(), Sense::click_and_drag());
         let mut camera = ui.data(|d| d.get_temp(id)).unwrap_or(HOME);
         turn(ui, &response, &mut camera, HOME);
@@ -201,6 +204,36 @@ impl Bars {
             let read = hovered.map_or_else(String::new, |at| format!(": {}", self.describe(at, unit)));
             WidgetInfo::labeled(Role::Image, true, format!("Matrix in 3-D, {pretty}{read}"))
         });
+        let paper = |palette: &Palette| self.drawing(title, unit, camera, palette);
+        export::offer(ui, &[response], title, &paper, &|| map.table());
+    }
+
+    /// The picture as areas: bars from back to front, so that those in front cover those behind.
+    fn drawing(&self, title: &str, unit: &str, camera: Camera, palette: &Palette) -> Drawing {
+        let mut drawing = Drawing::new(Vec2::new(900.0, 700.0), palette.canvas, title);
+        let room = Rect::from_min_max(egui::pos2(20.0, 40.0), egui::pos2(880.0, 690.0));
+        let p = self.projection(Camera { zoom: 1.0, ..camera }, room);
+        let unit = format::pretty_unit(unit);
+        let ruled = self.ruled(&unit);
+        drawing.words(egui::pos2(16.0, 20.0), egui::Align2::LEFT_CENTER, title, theme::size::HEADING, palette.ink);
+        ruled.back(&mut drawing, &p, palette);
+        let mut shown: Vec<[usize; 2]> = self.cells().filter(|&at| self.value(at) != 0.0).collect();
+        // Bars on a grid never cross: the distance of their feet orders them.
+        let depth = |at: &[usize; 2]| {
+            let [low, high] = self.body(*at);
+            p.depth(Vector3::new(0.5 * (low.x + high.x), 0.5 * (low.y + high.y), 0.0))
+        };
+        shown.sort_by(|a, b| depth(a).total_cmp(&depth(b)));
+        for at in shown {
+            let colour = palette.diverging((self.value(at) / self.largest) as f32);
+            for (face, normal) in self.faces(at, &p) {
+                let shade = shade(camera, normal);
+                let [r, g, b, _] = colour.to_array().map(|c| (f32::from(c) * shade) as u8);
+                drawing.area(face, egui::Color32::from_rgb(r, g, b), theme::hair(palette.canvas.gamma_multiply(0.4)));
+            }
+        }
+        ruled.rulers(&mut drawing, &p, palette, None);
+        drawing
     }
 }
 

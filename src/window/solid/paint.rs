@@ -1,6 +1,6 @@
 //! A solid picture as a shape of egui: prepared in a texture of its own before egui's pass, laid into it in its turn.
 
-use super::camera::Projection;
+use super::camera::{Camera, Projection};
 use super::mesh::Mesh;
 use super::pipeline::Studio;
 use egui::{Context, Id, Painter, Rect};
@@ -60,6 +60,17 @@ pub fn graphics(ctx: &Context) -> Option<RenderState> {
     ctx.data(|d| d.get_temp(Id::NULL.with("graphics state")))
 }
 
+/// Unit vector to the light: from the left and above, fixed to the eye.
+fn light(camera: Camera) -> Vector3<f32> {
+    let [right, up, toward] = camera.axes();
+    (toward * 0.8 - right * 0.45 + up * 0.55).normalize()
+}
+
+/// Brightness of a face with an outward unit vector; what the shader computes.
+pub fn shade(camera: Camera, normal: Vector3<f32>) -> f32 {
+    AMBIENT + (1.0 - AMBIENT) * normal.dot(&light(camera)).max(0.0)
+}
+
 impl Solid {
     /// Adds it to what is painted.
     pub fn paint(self, painter: &Painter) {
@@ -69,8 +80,7 @@ impl Solid {
     }
 
     fn uniform(&self) -> SceneUniform {
-        let [right, up, toward] = self.projection.camera.axes();
-        let light: Vector3<f32> = (toward * 0.8 - right * 0.45 + up * 0.55).normalize();
+        let light = light(self.projection.camera);
         SceneUniform {
             clip: self.projection.clip(self.viewport, self.reach),
             light: [light.x, light.y, light.z, AMBIENT],

@@ -42,7 +42,7 @@ pub fn record(ui: &mut Ui, app: &mut App) {
         return;
     };
     let axis = words::axis(fit.channel.quantity, false);
-    let id = format!("{run} {}", fit.channel);
+    let id = format!("run {} {}", run + 1, fit.channel);
     RecordPlot { trace: &trace, fit, omega: r.fit.omega, axis, id: &id }.show(ui);
 }
 
@@ -58,7 +58,7 @@ pub fn spectrum(ui: &mut Ui, app: &mut App) {
     };
     let unit = words::axis(fit.channel.quantity, false).rsplit(", ").next().unwrap_or("");
     match &trace.spectrum {
-        Some(s) => spectrum::show(ui, &format!("{run} {} spectrum", fit.channel), s, fit, r.fit.omega, unit),
+        Some(s) => spectrum::show(ui, &format!("spectrum, run {} {}", run + 1, fit.channel), s, fit, r.fit.omega, unit),
         None => ui.empty("No spectrum", "The record is too short for one."),
     }
 }

@@ -81,9 +81,9 @@ fn heat(ui: &mut Ui, p: &Project, outcome: &Outcome, whole: &mut bool, in_space:
     ui.add_space(space::XS);
     let map = heatmap::HeatMap { matrix, rows: &rows, labels: &labels, unit: "N s/m" };
     if *in_space {
-        solid::bars::Bars::new(&map).show(ui, "matrix in space", map.unit);
+        solid::bars::Bars::new(&map).show(ui, "Damping matrix in space", &map);
     } else {
-        map.show(ui);
+        map.show(ui, "Damping matrix");
     }
 }
 
@@ -110,7 +110,7 @@ fn shares(ui: &mut Ui, p: &Project, outcome: &Outcome) {
                 colour: if known { palette.weak } else { palette.model },
             })
         };
-        bars::show(ui, &outcome.sources.iter().filter_map(bar).collect::<Vec<_>>(), 190.0);
+        bars::show(ui, "Energy by source", &outcome.sources.iter().filter_map(bar).collect::<Vec<_>>(), 190.0);
         ui.add_space(space::M);
         ui.title("By degree of freedom", "where it is lost; adds up to 100 %");
         let by_dof: Vec<bars::Bar> = outcome
@@ -125,7 +125,7 @@ fn shares(ui: &mut Ui, p: &Project, outcome: &Outcome) {
                 colour: palette.model,
             })
             .collect();
-        bars::show(ui, &by_dof, 190.0);
+        bars::show(ui, "Energy by degree of freedom", &by_dof, 190.0);
         ui.add_space(space::M);
         ui.title("Coefficients", "with one standard deviation");
         for estimate in &outcome.sources {
@@ -212,7 +212,7 @@ pub fn hysteresis(ui: &mut Ui, app: &mut App) {
         Ok(loops) => {
             let frequency = document.project.runs.get(run).map_or(0.0, |r| r.fit.omega / std::f64::consts::TAU);
             ui.hint(format!("Run {}, {}; arrow keys choose another", run + 1, format::with_unit(frequency, "Hz")));
-            hysteresis::show(ui, loops);
+            hysteresis::show(ui, &format!("Hysteresis of run {}", run + 1), loops);
         }
     }
 }

@@ -1,0 +1,228 @@
+//! Copying values and writing plots to files: a context menu on each plot, and a list of what is on the screen for the menu.
+//!
+//! A plot is asked for by its title; it answers at its next frame with its drawing and its values, so that nothing is
+//! prepared that nobody wants. Dialogs and writing run in the background.
+
+use super::drawing::Drawing;
+use super::sheet::Sheet;
+use super::svg;
+use crate::exchange::atomic::write_atomically;
+use crate::session::jobs::Job;
+use crate::window::offscreen::Offscreen;
+use crate::window::solid::paint::graphics;
+use crate::window::theme::Palette;
+use crate::window::widgets::UiExt;
+use egui::{Context, Id, Response, Ui, Vec2, vec2};
+use egui_wgpu::RenderState;
+use std::path::{Path, PathBuf};
+
+/// Size of an exported plot in points; a PNG has twice as many pixels.
+const PAPER: Vec2 = vec2(900.0, 560.0);
+/// Pixels of a PNG a point.
+const FINE: f32 = 2.0;
+
+/// A kind of file.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Kind {
+    /// Scalable vector graphics.
+    Svg,
+    /// Pixels.
+    Png,
+}
+
+impl Kind {
+    fn ending(self) -> &'static str {
+        match self {
+            Self::Svg => "svg",
+            Self::Png => "png",
+        }
+    }
+}
+
+/// Titles that were asked for and as what.
+type Wanted = Vec<(String, Kind)>;
+/// Drawings that wait to be written.
+type Ready = Vec<(Kind, Drawing)>;
+
+fn wanted_id() -> Id {
+    Id::NULL.with("wanted plot")
+}
+
+fn shown_id() -> Id {
+    Id::NULL.with("shown plots")
+}
+
+fn ready_id() -> Id {
+    Id::NULL.with("drawn plots")
+}
+
+/// Asks the plot of that title for its drawing.
+pub fn want(ctx: &Context, title: &str, kind: Kind) {
+    ctx.data_mut(|d| d.get_temp_mut_or_default::<Wanted>(wanted_id()).push((title.to_owned(), kind)));
+    ctx.request_repaint();
+}
+
+/// Titles of the plots on the screen, in the order in which they were drawn.
+pub fn shown(ctx: &Context) -> Vec<String> {
+    let now = ctx.cumulative_frame_nr();
+    let list: Vec<(u64, String)> = ctx.data(|d| d.get_temp(shown_id())).unwrap_or_default();
+    list.into_iter().filter(|(frame, _)| now - frame <= 1).map(|(_, title)| title).collect()
+}
+
+fn register(ctx: &Context, title: &str) {
+    let now = ctx.cumulative_frame_nr();
+    ctx.data_mut(|d| {
+        let list: &mut Vec<(u64, String)> = d.get_temp_mut_or_default(shown_id());
+        list.retain(|(frame, other)| now - frame <= 1 && other != title);
+        list.push((now, title.to_owned()));
+    });
+}
+
+/// Offers a sheet of plots for copying and export.
+pub fn offer_sheet(ui: &Ui, responses: &[Response], sheet: Sheet) {
+    let title = sheet.title.clone();
+    let draw = |palette: &Palette| sheet.drawing(PAPER, palette);
+    offer(ui, responses, &title, &draw, &|| sheet.table());
+}
+
+/// Offers whatever can be drawn and tabled for copying and export.
+pub fn offer(
+    ui: &Ui,
+    responses: &[Response],
+    title: &str,
+    draw: &dyn Fn(&Palette) -> Drawing,
+    table: &dyn Fn() -> String,
+) {
+    let ctx = ui.ctx();
+    register(ctx, title);
+    for response in responses {
+        response.context_menu(|ui| menu(ui, title, table));
+    }
+    let wanted: Wanted = ctx.data(|d| d.get_temp(wanted_id())).unwrap_or_default();
+    let (own, others): (Wanted, Wanted) = wanted.into_iter().partition(|(t, _)| t == title);
+    if own.is_empty() {
+        return;
+    }
+    ctx.data_mut(|d| {
+        d.insert_temp(wanted_id(), others);
+        let ready: &mut Ready = d.get_temp_mut_or_default(ready_id());
+        ready.extend(own.into_iter().map(|(_, kind)| (kind, draw(ui.palette()))));
+    });
+    ctx.request_repaint();
+}
+
+fn menu(ui: &mut Ui, title: &str, table: &dyn Fn() -> String) {
+    if ui.button("Copy values").on_hover_text("As a table with tabs, for a spreadsheet.").clicked() {
+        ui.copy_text(table());
+        ui.close();
+    }
+    for (kind, label) in [(Kind::Svg, "Export as SVG…"), (Kind::Png, "Export as PNG…")] {
+        if ui.button(label).clicked() {
+            want(ui.ctx(), title, kind);
+            ui.close();
+        }
+    }
+    ui.separator();
+    ui.hint("Drag pans, right drag zooms a box, double click shows all.");
+}
+
+/// What became of an export, in one line; failed where the second is true.
+pub type Ending = (String, bool);
+
+/// Exports under way.
+#[derive(Debug, Default)]
+pub struct Exports {
+    /// Where files go without a dialog; `None` asks.
+    pub folder: Option<PathBuf>,
+    jobs: Vec<Job<(), Option<Result<PathBuf, String>>>>,
+}
+
+impl Exports {
+    /// Starts what was asked for; gives back how an export ended, once.
+    pub fn poll(&mut self, ctx: &Context) -> Option<Ending> {
+        let ready: Ready = ctx.data_mut(|d| d.remove_temp(ready_id())).unwrap_or_default();
+        for (kind, drawing) in ready {
+            let (state, wake, folder) = (graphics(ctx), ctx.clone(), self.folder.clone());
+            let work = move |_: &crate::control::Control| {
+                let path = target(kind, &drawing, folder.as_deref())?;
+                Some(write(&drawing, kind, &path, state).map(|()| path))
+            };
+            match Job::start("Exporting", (), move || wake.request_repaint(), work) {
+                Ok(job) => self.jobs.push(job),
+                Err(error) => return Some((error.to_string(), true)),
+            }
+        }
+        let (k, result) = self.jobs.iter().enumerate().find_map(|(k, job)| Some((k, job.poll()?)))?;
+        self.jobs.swap_remove(k);
+        match result {
+            Ok(None) => None,
+            Ok(Some(Ok(path))) => Some((format!("Written: {}", path.display()), false)),
+            Ok(Some(Err(error))) => Some((error, true)),
+            Err(error) => Some((error.to_string(), true)),
+        }
+    }
+
+    /// Whether a file is being written or asked for.
+    pub fn busy(&self) -> bool {
+        !self.jobs.is_empty()
+    }
+}
+
+/// The file: in a folder by the drawing's title, else by a dialog, which blocks until it is closed.
+fn target(kind: Kind, drawing: &Drawing, folder: Option<&Path>) -> Option<PathBuf> {
+    let ending = kind.ending();
+    let name = format!("{}.{ending}", file_name(&drawing.title));
+    match folder {
+        Some(folder) => Some(folder.join(name)),
+        None => rfd::FileDialog::new().set_file_name(name).add_filter(ending, &[ending]).save_file(),
+    }
+}
+
+/// A title as the name of a file: letters and figures in lower case, all else as single hyphens.
+pub fn file_name(title: &str) -> String {
+    let words = title.split(|c: char| !c.is_alphanumeric()).filter(|w| !w.is_empty());
+    words.map(str::to_lowercase).collect::<Vec<_>>().join("-")
+}
+
+/// Writes a drawing to a file; blocks.
+///
+/// # Errors
+/// One line: the file, or the adapter where pixels are asked for.
+pub fn write(drawing: &Drawing, kind: Kind, path: &Path, state: Option<RenderState>) -> Result<(), String> {
+    let bytes = match kind {
+        Kind::Svg => svg::write(drawing).into_bytes(),
+        Kind::Png => png(drawing, state)?,
+    };
+    write_atomically(path, &bytes).map_err(|e| format!("{}: cannot be written ({e})", path.display()))
+}
+
+/// The drawing as a PNG file.
+///
+/// # Errors
+/// One line where there is no adapter.
+pub fn png(drawing: &Drawing, state: Option<RenderState>) -> Result<Vec<u8>, String> {
+    let pixels = [drawing.size.x * FINE, drawing.size.y * FINE].map(|v| v.round() as u32);
+    let offscreen = Offscreen::beside(state, pixels, FINE)?;
+    let ctx = Context::default();
+    crate::window::theme::install(&ctx);
+    let rgba = offscreen.settle(&ctx, &mut |ui| {
+        let painter = ui.painter();
+        painter.rect_filled(ui.max_rect().expand(100.0), 0.0, drawing.ground);
+        drawing.paint(painter, egui::Pos2::ZERO);
+        false
+    })?;
+    let image = image::RgbaImage::from_raw(pixels[0], pixels[1], rgba).ok_or("the picture has the wrong size")?;
+    let mut bytes = std::io::Cursor::new(Vec::new());
+    image.write_to(&mut bytes, image::ImageFormat::Png).map_err(|e| e.to_string())?;
+    Ok(bytes.into_inner())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::file_name;
+
+    #[test]
+    fn titles_make_names_of_files() {
+        assert_eq!(file_name("Bode diagram, Receptance of DOF 7 (z)"), "bode-diagram-receptance-of-dof-7-z");
+    }
+}

@@ -1,0 +1,212 @@
+//! Plots on the screen: drag pans, right drag zooms a box, double click resets, the pointer reads out values, the context
+//! menu copies and exports.
+
+use super::export;
+use super::figure::{Axis, Figure, Look, Series, Ticks};
+use super::sheet::{Panel, Sheet};
+use super::{axis, curve, frame, keys, ticks};
+use crate::window::format::significant;
+use crate::window::widgets::UiExt;
+use egui::{Id, Ui, vec2};
+use egui_plot::{
+    AxisHints, Bar, BarChart, CoordinatesFormatter, Corner, HLine, HPlacement, HoverPosition, Line, LineStyle,
+    MarkerShape, PlotBounds, PlotPoint, PlotPoints, PlotResponse, PlotUi, Points, VLine,
+};
+
+/// Plots of one sheet: its title, and each plot with its share of the height.
+#[derive(Debug)]
+pub struct Stack<'a> {
+    /// Tells it from others on the screen; another one starts with fresh axes.
+    pub id: &'a str,
+    /// Title of what is exported.
+    pub title: &'a str,
+    /// Plots from top to bottom with their shares of the height; they share the axis of x.
+    pub figures: Vec<(Figure, f32)>,
+    /// Whether a row of keys stands above.
+    pub keys: bool,
+}
+
+impl Stack<'_> {
+    /// Shows the plots under each other in the room there is.
+    pub fn show(self, ui: &mut Ui) {
+        if self.keys {
+            key_row(ui, self.figures.iter().map(|(f, _)| f));
+        }
+        let group = (self.figures.len() > 1).then(|| Id::unique(("stack", self.id)));
+        let height = ui.available_height() - 4.0;
+        let last = self.figures.len().saturating_sub(1);
+        let mut panels = Vec::new();
+        let mut responses = Vec::new();
+        for (k, (figure, share)) in self.figures.into_iter().enumerate() {
+            let place = Place { id: &format!("{} {k}", self.id), height: share * height, group, ruler: k == last };
+            let out = place.show(ui, &figure);
+            let (low, high) = (out.transform.bounds().min(), out.transform.bounds().max());
+            panels.push(Panel { figure, bounds: [[low[0], high[0]], [low[1], high[1]]] });
+            responses.push(out.response);
+        }
+        let sheet = Sheet { title: self.title.to_owned(), columns: 1, panels };
+        export::offer_sheet(ui, &responses, sheet);
+    }
+}
+
+/// A row of keys to all series that have a name.
+pub fn key_row<'a>(ui: &mut Ui, figures: impl Iterator<Item = &'a Figure>) {
+    let mut entries: Vec<(egui::Color32, &str)> = Vec::new();
+    for series in figures.flat_map(|f| &f.series) {
+        if !series.name.is_empty() && entries.iter().all(|(_, name)| *name != series.name) {
+            entries.push((series.colour, &series.name));
+        }
+    }
+    keys(ui, &entries);
+}
+
+/// Where and how a plot stands on the screen.
+#[derive(Debug, Clone, Copy)]
+pub struct Place<'a> {
+    /// Tells it from others.
+    pub id: &'a str,
+    /// Height, points.
+    pub height: f32,
+    /// Plots whose axes of x and cursors move together.
+    pub group: Option<Id>,
+    /// Whether the axis of x is labelled.
+    pub ruler: bool,
+}
+
+impl Place<'_> {
+    /// Shows a plot.
+    pub fn show(&self, ui: &mut Ui, figure: &Figure) -> PlotResponse<()> {
+        let palette = ui.palette();
+        let (x, y) = (figure.x.clone(), figure.y.clone());
+        let (xt, yt) = (figure.x.clone(), figure.y.clone());
+        let x_label = if self.ruler { figure.x.label() } else { String::new() };
+        let x_axis = axis(AxisHints::new_x(), palette, &x_label)
+            .min_thickness(if self.ruler { 32.0 } else { 14.0 })
+            .formatter(move |mark, _| ticks::label(&xt, mark));
+        let y_axis = axis(AxisHints::new_y(), palette, &figure.y.label())
+            .placement(HPlacement::Left)
+            .min_thickness(56.0)
+            .formatter(move |mark, _| ticks::label(&yt, mark));
+        let mut plot = frame(ui, self.id, "", "")
+            .custom_x_axes(vec![x_axis])
+            .custom_y_axes(vec![y_axis])
+            .height(self.height)
+            .show_axes([self.ruler, true])
+            .coordinates_formatter(Corner::RightTop, read_out(&figure.x, &figure.y))
+            .set_margin_fraction(vec2(figure.margin, 0.08))
+            .label_formatter(near(figure));
+        if needs_marks(&figure.x) {
+            plot = plot.x_grid_spacer(move |input| ticks::marks(&x, &input));
+        }
+        if needs_marks(&figure.y) {
+            plot = plot.y_grid_spacer(move |input| ticks::marks(&y, &input));
+        }
+        if let Some(group) = self.group {
+            plot = plot.link_axis(group, [true, false]).link_cursor(group, [true, false]);
+        }
+        if figure.square {
+            plot = plot.data_aspect(1.0);
+        }
+        if let Some([from, to]) = figure.start {
+            plot = plot.default_x_bounds(from, to);
+        }
+        for v in figure.x.include.iter().filter_map(|v| figure.x.place(*v)) {
+            plot = plot.include_x(v);
+        }
+        for v in figure.y.include.iter().filter_map(|v| figure.y.place(*v)) {
+            plot = plot.include_y(v);
+        }
+        plot.show(ui, |plot| figure.series.iter().for_each(|s| series(plot, figure, s)))
+    }
+}
+
+fn needs_marks(axis: &Axis) -> bool {
+    axis.ticks != Ticks::Auto || axis.scale == super::figure::Scale::Log
+}
+
+/// The values under the pointer, in the corner.
+fn read_out<'a>(x: &Axis, y: &Axis) -> CoordinatesFormatter<'a> {
+    let (x, y) = (x.clone(), y.clone());
+    let one = |axis: &Axis, place: f64| match &axis.ticks {
+        Ticks::Names(names) => names.get(place.round().max(0.0) as usize).cloned().unwrap_or_default(),
+        Ticks::Whole => format!("{} {:.0}", axis.name, place),
+        _ => format!("{} {}", significant(axis.value(place), 4), axis.unit),
+    };
+    CoordinatesFormatter::new(move |p: &PlotPoint, _: &PlotBounds| format!("{}   {}", one(&x, p.x), one(&y, p.y)))
+}
+
+/// The values of the point that the pointer is near to.
+fn near<'a>(figure: &Figure) -> impl Fn(&HoverPosition<'_>) -> Option<String> + use<'a> {
+    let (x, y) = (figure.x.clone(), figure.y.clone());
+    let deviations: Vec<(String, Vec<f64>)> =
+        figure.series.iter().map(|s| (s.name.clone(), s.deviation.clone())).collect();
+    move |hover| match hover {
+        HoverPosition::NearDataPoint { plot_name, position, index } => {
+            let own = deviations.iter().find(|(name, _)| name == plot_name);
+            let deviation = own.and_then(|(_, d)| d.get(*index)).copied().unwrap_or(0.0);
+            let (u, v) = (x.value(position.x), y.value(position.y));
+            let value = crate::window::format::with_deviation(v, deviation, &y.unit);
+            Some(format!("{plot_name}\n{} {}\n{value}", significant(u, 5), x.unit))
+        }
+        HoverPosition::Elsewhere { .. } => None,
+    }
+}
+
+fn series(plot: &mut PlotUi<'_>, figure: &Figure, series: &Series) {
+    let bounds = plot.plot_bounds();
+    let columns = f64::from(plot.transform().frame().width()).max(1.0);
+    let [from, to] = [bounds.min()[0], bounds.max()[0]].map(|v| figure.x.value(v));
+    let points = series.points(from, to, columns as usize);
+    let places: Vec<[f64; 2]> =
+        points.iter().filter_map(|p| Some([figure.x.place(p[0])?, figure.y.place(p[1])?])).collect();
+    let name = series.name.as_str();
+    let markers = |radius: f32, filled: bool, places: Vec<[f64; 2]>| {
+        let points = Points::new(name, PlotPoints::from(places)).shape(MarkerShape::Circle);
+        points.radius(radius).filled(filled).color(series.colour)
+    };
+    match series.look {
+        Look::Line(width) => {
+            let places = thinned(plot, places);
+            plot.line(curve(name, places, series.colour, width));
+        }
+        Look::Dashed(width) => plot.line(curve(name, places, series.colour, width).style(LineStyle::dashed_dense())),
+        Look::Dots(radius) => plot.points(markers(radius, true, places)),
+        Look::Rings(radius) => plot.points(markers(radius, false, places)),
+        Look::Bars(width) => {
+            let bar = |p: &[f64; 2]| Bar::new(p[0], p[1]).width(width).fill(series.colour);
+            plot.bar_chart(BarChart::new(name, places.iter().map(bar).collect()).allow_hover(false));
+        }
+        Look::Uprights(width) => places.iter().for_each(|p| {
+            plot.vline(VLine::new(name, p[0]).color(series.colour).width(width).allow_hover(false));
+        }),
+        Look::Levels(width) => points.iter().filter_map(|p| figure.y.place(p[1])).for_each(|y| {
+            let line = HLine::new(name, y).color(series.colour).width(width).style(LineStyle::dashed_loose());
+            plot.hline(line.allow_hover(false));
+        }),
+    }
+    let least = figure.least();
+    for (&point, &d) in points.iter().zip(&series.deviation) {
+        let ends = figure.deviation_bar(point, d, least);
+        if let [Some(a), Some(b)] = ends.map(|p| Some([figure.x.place(p[0])?, figure.y.place(p[1])?])) {
+            plot.line(Line::new(name, vec![a, b]).color(series.colour).width(1.4).allow_hover(false));
+        }
+    }
+}
+
+/// Without points that fall on the last one kept: dense curves are drawn whole at steep places.
+fn thinned(plot: &PlotUi<'_>, places: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
+    const NEAR: f32 = 0.4;
+    let transform = plot.transform();
+    let seen = |p: &[f64; 2]| transform.position_from_point(&PlotPoint::new(p[0], p[1]));
+    let last = places.len().saturating_sub(1);
+    let mut kept: Vec<[f64; 2]> = Vec::with_capacity(places.len());
+    let mut before = None;
+    for (k, p) in places.into_iter().enumerate() {
+        let at = seen(&p);
+        if k == last || before.is_none_or(|b: egui::Pos2| b.distance(at) > NEAR) {
+            before = Some(at);
+            kept.push(p);
+        }
+    }
+    kept
+}

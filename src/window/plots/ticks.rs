@@ -1,0 +1,102 @@
+//! Lines of an axis and what stands beside them; the same on the screen and in a file.
+
+use super::figure::{Axis, Scale, Ticks};
+use super::{log, tick};
+use crate::window::solid::frame::round_step;
+use egui_plot::{GridInput, GridMark};
+
+/// A line of the grid: its place, its label (may be empty), and whether it stands out.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Rule {
+    /// Place along the axis.
+    pub at: f64,
+    /// What stands beside it.
+    pub label: String,
+    /// Whether it stands out.
+    pub strong: bool,
+}
+
+/// Grid lines for the plot on the screen.
+pub fn marks(axis: &Axis, input: &GridInput) -> Vec<GridMark> {
+    let (low, high) = input.bounds;
+    match (&axis.ticks, axis.scale) {
+        (Ticks::Auto | Ticks::Frequency, Scale::Log) => log::decades(input),
+        (Ticks::Whole | Ticks::Names(_), _) => {
+            let step = ((high - low) / 24.0).ceil().max(1.0);
+            multiples(low, high, step).map(|value| GridMark { value, step_size: step }).collect()
+        }
+        (Ticks::RightAngles, _) => {
+            multiples(low, high, 90.0).map(|value| GridMark { value, step_size: 90.0 }).collect()
+        }
+        _ => {
+            let step = round_step((high - low).max(f64::MIN_POSITIVE), 6.0);
+            multiples(low, high, step).map(|value| GridMark { value, step_size: step }).collect()
+        }
+    }
+}
+
+fn multiples(low: f64, high: f64, step: f64) -> impl Iterator<Item = f64> {
+    let first = (low / step).ceil();
+    let count = ((high / step).floor() - first).clamp(-1.0, 400.0) as i64;
+    (0..=count).map(move |k| (first + k as f64) * step)
+}
+
+/// What stands beside a line.
+pub fn label(axis: &Axis, mark: GridMark) -> String {
+    match (&axis.ticks, axis.scale) {
+        (Ticks::Frequency, Scale::Log) => log::frequency(mark.value),
+        (Ticks::Auto, Scale::Log) => log::label(mark.value),
+        (Ticks::Names(names), _) => {
+            let k = mark.value.round();
+            let whole = (mark.value - k).abs() < 1e-6 && k >= 0.0;
+            if whole { names.get(k as usize).cloned().unwrap_or_default() } else { String::new() }
+        }
+        _ => tick(mark.value, mark.step_size),
+    }
+}
+
+/// Lines between two places for a drawing of `length` points.
+pub fn rules(axis: &Axis, [low, high]: [f64; 2], length: f32) -> Vec<Rule> {
+    let parts = (length / 80.0).clamp(2.0, 9.0);
+    let marks = match (&axis.ticks, axis.scale) {
+        (Ticks::Auto | Ticks::Frequency, Scale::Linear) => {
+            let step = round_step(high - low, f64::from(parts));
+            multiples(low, high, step).map(|value| GridMark { value, step_size: step }).collect()
+        }
+        _ => marks(axis, &GridInput { bounds: (low, high), base_step_size: (high - low) / f64::from(parts) }),
+    };
+    let log = axis.scale == Scale::Log;
+    marks
+        .into_iter()
+        .map(|mark| Rule { at: mark.value, label: label(axis, mark), strong: !log || mark.step_size >= 1.0 })
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::rules;
+    use crate::window::plots::figure::{Axis, Ticks};
+
+    #[test]
+    fn lines_are_round_numbers_with_labels() {
+        let r = rules(&Axis::new("t", "s"), [0.03, 1.02], 500.0);
+        let at: Vec<f64> = r.iter().map(|r| (r.at * 100.0).round() / 100.0).collect();
+        assert_eq!(at, [0.2, 0.4, 0.6, 0.8, 1.0]);
+        assert_eq!(r[0].label, "0.2");
+    }
+
+    #[test]
+    fn decades_stand_out_on_a_logarithmic_axis() {
+        let r = rules(&Axis::log("H", "m/N"), [-3.2, -0.9], 300.0);
+        let strong: Vec<&str> = r.iter().filter(|r| r.strong).map(|r| r.label.as_str()).collect();
+        assert_eq!(strong, ["0.001", "0.01", "0.1"]);
+        assert!(r.len() > 15, "the lines between are there");
+    }
+
+    #[test]
+    fn names_stand_at_whole_numbers() {
+        let axis = Axis::new("DOF", "").ticks(Ticks::Names(["1z", "2z"].map(str::to_owned).to_vec().into()));
+        let labels: Vec<String> = rules(&axis, [-0.5, 1.5], 200.0).into_iter().map(|r| r.label).collect();
+        assert_eq!(labels, ["1z", "2z"]);
+    }
+}

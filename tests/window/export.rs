@@ -1,0 +1,103 @@
+//! Plots leave the window: as SVG, as PNG, and as a table on the clipboard.
+
+use crate::support::{beam, open, settle};
+use dashpot::window::App;
+use dashpot::window::frame::panes::Pane;
+use dashpot::window::plots::export::{Kind, shown, want};
+use dashpot::window::view::Stage;
+use egui::{OutputCommand, PointerButton, Theme};
+use egui_kittest::Harness;
+use egui_kittest::kittest::Queryable;
+use std::path::Path;
+use std::time::{Duration, Instant};
+
+/// Writes every plot on the screen into a folder; gives back their number.
+fn export_all(harness: &mut Harness<'_, App>, folder: &Path) -> usize {
+    harness.state_mut().exports.folder = Some(folder.to_owned());
+    let titles = shown(&harness.ctx);
+    for title in &titles {
+        want(&harness.ctx, title, Kind::Svg);
+        want(&harness.ctx, title, Kind::Png);
+    }
+    harness.run_steps(2);
+    let start = Instant::now();
+    while harness.state().exports.busy() {
+        assert!(start.elapsed() < Duration::from_mins(2), "exports have not ended");
+        std::thread::sleep(Duration::from_millis(20));
+        harness.run_steps(1);
+    }
+    titles.len()
+}
+
+#[test]
+fn every_plot_is_written_as_svg_and_as_png() {
+    let mut harness = open(&beam(), Theme::Light);
+    let folder = tempfile::tempdir().unwrap();
+    let mut count = 0;
+    for (stage, pane, in_space) in [
+        (Stage::Measure, Pane::Record, false),
+        (Stage::Measure, Pane::Spectrum, false),
+        (Stage::Select, Pane::RunEnergy, false),
+        (Stage::Result, Pane::Energy, true),
+        (Stage::Result, Pane::Bode, false),
+        (Stage::Result, Pane::Nyquist, false),
+        (Stage::Result, Pane::Hysteresis, false),
+    ] {
+        let app = harness.state_mut();
+        (app.view.stage, app.view.matrix_in_space) = (stage, in_space);
+        app.desk.set_open(stage, pane, true);
+        settle(&mut harness);
+        count += export_all(&mut harness, folder.path());
+        assert!(harness.state().message.as_ref().is_none_or(|m| !m.failed), "{:?}", harness.state().message);
+    }
+    assert!(count >= 10, "{count} plots were on the screen");
+    let files: Vec<_> = std::fs::read_dir(folder.path()).unwrap().map(|f| f.unwrap().path()).collect();
+    let ends = |e: &str| files.iter().filter(|f| f.extension().is_some_and(|x| x == e)).collect::<Vec<_>>();
+    assert_eq!(ends("svg").len(), ends("png").len());
+    for word in ["bode", "nyquist", "hysteresis", "record", "spectrum", "damping-matrix-in-space", "energy-by-source"] {
+        assert!(files.iter().any(|f| f.to_string_lossy().contains(word)), "{word} in {files:?}");
+    }
+    for svg in ends("svg") {
+        let text = std::fs::read_to_string(svg).unwrap();
+        let mut reader = quick_xml::Reader::from_str(&text);
+        while reader.read_event().unwrap() != quick_xml::events::Event::Eof {}
+        assert!(text.contains("<text"), "{}", svg.display());
+    }
+    for png in ends("png") {
+        let picture = image::open(png).unwrap().to_rgb8();
+        let ground = *picture.get_pixel(0, 0);
+        let inked = picture.pixels().filter(|p| **p != ground).count();
+        assert!(picture.width() >= 1400 && inked > 2000, "{}: {inked} pixels", png.display());
+    }
+}
+
+#[test]
+fn the_context_menu_of_a_plot_copies_its_values() {
+    let mut harness = open(&beam(), Theme::Light);
+    harness.state_mut().view.stage = Stage::Result;
+    settle(&mut harness);
+    let plot = harness.get_by_label_contains("Matrix;").rect().center();
+    harness.hover_at(plot);
+    harness.run_steps(1);
+    for pressed in [true, false] {
+        let modifiers = egui::Modifiers::NONE;
+        harness.event(egui::Event::PointerButton { pos: plot, button: PointerButton::Secondary, pressed, modifiers });
+        harness.run_steps(1);
+    }
+    harness.run_steps(2);
+    harness.get_by_label("Copy values").click();
+    let mut copied = None;
+    for _ in 0..4 {
+        harness.step();
+        let commands = &harness.output().platform_output.commands;
+        copied = copied.or(commands.iter().find_map(|c| match c {
+            OutputCommand::CopyText(text) => Some(text.clone()),
+            _ => None,
+        }));
+    }
+    let copied = copied.expect("something was copied");
+    let rows: Vec<Vec<&str>> = copied.lines().map(|l| l.split('\t').collect()).collect();
+    assert_eq!(rows[0], ["N s/m", "3", "7"]);
+    let value: f64 = rows[1][1].parse().unwrap();
+    assert!((value - 0.3).abs() < 0.01, "{copied}");
+}
