@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used, reason = "tests")]
 
 mod against_time;
+mod case_three;
 mod closed_forms;
 mod comparison;
 mod derivatives;
