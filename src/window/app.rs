@@ -2,23 +2,26 @@
 
 use super::commands::{self, Command};
 use super::derived::Derived;
-use super::document::{Document, Edit};
+use super::document::{Applied, Document};
+use super::edits::Edit;
+use super::files::{self, Pick};
 use super::frame;
 use super::frame::dock::Desk;
+use super::frame::leave::{Changes, Leave};
 use super::frame::panes::Pane;
 use super::photograph::Photograph;
 use super::plots::export::Exports;
 use super::schematic::gesture::Intent;
-use super::stages;
 use super::theme::{Palette, space};
 use super::view::{Stage, View};
-use crate::effects::State;
-use crate::identify::Status;
-use crate::session::jobs::Job;
-use egui::{CentralPanel, Context, Frame, Margin, Theme, Ui};
-use std::path::PathBuf;
+use super::work::{Done, Work};
+use crate::control::Control;
+use crate::exchange::export::Format;
+use crate::session::recent::Recent;
+use egui::{CentralPanel, Context, Frame, Margin, Ui};
+use std::path::{Path, PathBuf};
 
-/// Longest wait for a project where nobody can cancel.
+/// Longest wait for a piece of work where nobody can cancel.
 const LONGEST: std::time::Duration = std::time::Duration::from_mins(10);
 
 /// A message that stays until it is closed.
@@ -39,17 +42,27 @@ pub enum Ask {
     Edit(Edit),
     /// A project file.
     Open(PathBuf),
+    /// A new project from a template, by its number.
+    New(usize),
+    /// Records to append.
+    Import(Vec<PathBuf>),
+    /// Another name for the project.
+    SaveAs(PathBuf),
+    /// What was identified in a format; where to, is asked.
+    ExportAs(Format),
+    /// What was identified, to a file.
+    Export(Format, PathBuf),
     /// A stage.
     Stage(Stage),
     /// Something on the schematic.
     Schematic(Intent),
+    /// What becomes of unsaved changes.
+    Leave(Changes),
     /// Open or close a pane of the stage.
     Pane(Pane, bool),
     /// Close the message.
     Dismiss,
 }
-
-type Loaded = Result<(Document, bool), String>;
 
 /// The whole window.
 #[derive(Debug, Default)]
@@ -62,13 +75,21 @@ pub struct App {
     pub view: View,
     /// How the panes lie.
     pub desk: Desk,
-    /// Last message.
+    /// Last message, until it is closed.
     pub message: Option<Message>,
+    /// All messages, oldest first.
+    pub messages: Vec<Message>,
     /// A photograph that is to be taken.
     pub photograph: Option<Photograph>,
     /// Plots that are being written to files.
     pub exports: Exports,
-    loading: Option<Job<(), Loaded>>,
+    /// Files opened last, where they are remembered.
+    pub recent: Option<Recent>,
+    /// Where the user wants to go, while it is asked what becomes of unsaved changes.
+    pub leaving: Option<Leave>,
+    /// Whether the program may close.
+    pub(super) closing: bool,
+    work: Work,
     /// Time of the last autosave, s.
     kept: f64,
 }
@@ -76,23 +97,20 @@ pub struct App {
 impl App {
     /// Starts to read a project file in the background.
     pub fn open(&mut self, ctx: &Context, file: PathBuf) {
-        let name = file.file_name().map_or_else(String::new, |n| n.to_string_lossy().into_owned());
-        let work = move |control: &crate::control::Control| Document::open(&file, control);
-        let wake = ctx.clone();
-        match Job::start(&format!("Reading {name}"), (), move || wake.request_repaint(), work) {
-            Ok(job) => self.loading = Some(job),
-            Err(error) => self.fail(error.to_string()),
-        }
+        let started = self.work.load(ctx, file);
+        self.note(started);
     }
 
     /// Waits for everything that runs; for pictures and tests.
     ///
     /// # Errors
     /// The message of what failed.
-    pub fn settle(&mut self) -> Result<(), String> {
-        if let Some(job) = self.loading.take() {
-            let loaded = job.wait(LONGEST).ok_or("the project is read for ten minutes and has not ended")?;
-            self.loaded(loaded.map_err(|e| e.to_string())?);
+    pub fn settle(&mut self, ctx: &Context) -> Result<(), String> {
+        for done in self.work.wait(LONGEST) {
+            match done {
+                Ok(done) => self.done(ctx, done),
+                Err(error) => self.fail(error.to_string()),
+            }
         }
         match &self.message {
             Some(message) if message.failed => Err(message.text.clone()),
@@ -100,77 +118,125 @@ impl App {
         }
     }
 
-    fn loaded(&mut self, loaded: Loaded) {
-        let (document, recovered) = match loaded {
-            Ok(loaded) => loaded,
-            Err(error) => return self.fail(error),
-        };
+    fn poll(&mut self, ctx: &Context) {
+        for done in self.work.poll() {
+            match done {
+                Ok(done) => self.done(ctx, done),
+                Err(error) => self.fail(error.to_string()),
+            }
+        }
+    }
+
+    fn done(&mut self, ctx: &Context, done: Done) {
+        match done {
+            Done::Loaded(Ok((document, recovered))) => self.loaded(*document, recovered),
+            Done::Changed(Ok(ready)) => {
+                let finished = self.document.as_mut().map_or(Ok(()), |d| d.finish(*ready));
+                self.note(finished);
+                self.view.step = None;
+            }
+            Done::Picked(pick, paths) => self.picked(ctx, pick, paths),
+            Done::Said(Ok(text)) => self.say(text),
+            Done::Loaded(Err(error)) | Done::Changed(Err(error)) | Done::Said(Err(error)) => self.fail(error),
+        }
+    }
+
+    /// Takes over a project that was read or made.
+    pub fn loaded(&mut self, document: Document, recovered: bool) {
+        if let (Some(recent), Some(path)) = (&mut self.recent, document.session().path()) {
+            let path = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
+            let kept = recent.add(&path).map_err(|e| e.to_string());
+            self.note(kept);
+        }
         self.document = Some(document);
         self.derived = Derived::default();
-        self.view = View { law: self.view.law, ..View::default() };
-        let text = "Unsaved changes of the last session were recovered; Undo takes them back.".to_owned();
-        self.message = recovered.then_some(Message { text, failed: false });
+        self.view = View { law: self.view.law, tour: self.view.tour, ..View::default() };
+        self.message = None;
+        if recovered {
+            self.say("Unsaved changes of the last session were recovered; Undo takes them back.".to_owned());
+        }
     }
 
-    fn fail(&mut self, text: String) {
+    fn picked(&mut self, ctx: &Context, pick: Pick, paths: Vec<PathBuf>) {
+        let Some(first) = paths.first().cloned() else { return };
+        match pick {
+            Pick::Open => self.leave(ctx, Leave::Open(first)),
+            Pick::Import => self.import(ctx, &paths),
+            Pick::SaveAs => self.save_as(&first),
+            Pick::Export(format) => self.export(ctx, format, first),
+        }
+    }
+
+    /// Says that something went well.
+    pub fn say(&mut self, text: String) {
+        self.message = Some(Message { text, failed: false });
+        self.messages.extend(self.message.clone());
+    }
+
+    /// Says that something failed, with its reason.
+    pub fn fail(&mut self, text: String) {
         self.message = Some(Message { text, failed: true });
+        self.messages.extend(self.message.clone());
     }
 
-    fn poll(&mut self) {
-        match self.loading.as_ref().and_then(Job::poll) {
-            Some(Ok(loaded)) => {
-                self.loading = None;
-                self.loaded(loaded);
-            }
-            Some(Err(error)) => {
-                self.loading = None;
-                self.fail(error.to_string());
-            }
-            None => {}
+    fn note(&mut self, result: Result<(), String>) {
+        if let Err(error) = result {
+            self.fail(error);
         }
     }
 
     /// Name and progress of what runs.
     pub fn running(&self) -> Option<(&str, f64)> {
-        self.loading.as_ref().map(|j| (j.name(), j.progress())).or_else(|| self.derived.running())
+        self.work.running().or_else(|| self.derived.running())
+    }
+
+    /// Gives up what runs, on the user's wish.
+    pub(super) fn stop(&mut self) {
+        if self.running().is_none() {
+            return;
+        }
+        self.work.cancel();
+        if let Some(document) = &self.document {
+            self.derived.cancel(document);
+        }
+        self.say("Cancelled.".to_owned());
     }
 
     /// Draws one frame and does what was asked for in it.
     pub fn frame(&mut self, ui: &mut Ui) {
-        self.poll();
         let ctx = ui.ctx().clone();
+        self.poll(&ctx);
         let busy = self.running().is_some();
         if let Some(photograph) = &mut self.photograph {
             photograph.frame(&ctx, busy);
         }
         let mut asks: Vec<Ask> = commands::pressed(&ctx).into_iter().map(Ask::Command).collect();
-        asks.extend(dropped(&ctx).map(Ask::Open));
+        asks.extend(dropped(&ctx));
+        self.ask_before_closing(&ctx);
         self.advance(&ctx);
         self.autosave(ctx.input(|i| i.time));
         if let Some(document) = &self.document {
             // What is downstream is computed by itself, in the background.
+            self.derived.keep_up(document);
             self.derived.outcome(&ctx, document);
         }
         frame::top::show(ui, self, &mut asks);
         frame::status::show(ui, self, &mut asks);
         if self.document.is_some() {
-            self.work(ui, &mut asks);
+            let desk = Frame::new().fill(Palette::of(ui.visuals()).desk).inner_margin(Margin::same(space::GAP as i8));
+            CentralPanel::default().frame(desk).show(ui, |ui| frame::dock::show(ui, self, &mut asks));
         } else {
-            frame::start::show(ui, &mut asks);
+            frame::start::show(ui, self.recent.as_ref().map_or(&[], Recent::files), &mut asks);
         }
-        frame::keys::show(&ctx, &mut self.view);
+        frame::help::show(&ctx, self, &mut asks);
+        frame::notice::show(&ctx, self, &mut asks);
+        frame::leave::show(&ctx, self, &mut asks);
         if let Some((text, failed)) = self.exports.poll(&ctx) {
-            self.message = Some(Message { text, failed });
+            if failed { self.fail(text) } else { self.say(text) }
         }
         for ask in asks {
             self.answer(&ctx, ask);
         }
-    }
-
-    fn work(&mut self, ui: &mut Ui, asks: &mut Vec<Ask>) {
-        let palette = Palette::of(ui.visuals());
-        let desk = Frame::new().fill(palette.desk).inner_margin(Margin::same(space::GAP as i8));
-        CentralPanel::default().frame(desk).show(ui, |ui| frame::dock::show(ui, self, asks));
     }
 
     fn advance(&mut self, ctx: &Context) {
@@ -188,89 +254,119 @@ impl App {
     pub fn answer(&mut self, ctx: &Context, ask: Ask) {
         match ask {
             Ask::Command(command) => self.command(ctx, command),
-            Ask::Edit(edit) => self.edit(&edit),
-            Ask::Open(file) => self.open(ctx, file),
+            Ask::Edit(edit) => self.edit(ctx, &edit),
+            Ask::Open(file) => self.leave(ctx, Leave::Open(file)),
+            Ask::New(template) => self.leave(ctx, Leave::New(template)),
+            Ask::Leave(changes) => self.left(ctx, changes),
+            Ask::Import(files) => self.import(ctx, &files),
+            Ask::SaveAs(path) => self.save_as(&path),
+            Ask::ExportAs(format) => {
+                let asked = self.work.pick(ctx, Pick::Export(format));
+                self.note(asked);
+            }
+            Ask::Export(format, path) => self.export(ctx, format, path),
             Ask::Stage(stage) => self.view.stage = stage,
-            Ask::Schematic(intent) => self.intent(intent),
+            Ask::Schematic(intent) => self.intent(ctx, intent),
             Ask::Pane(pane, open) => self.desk.set_open(self.view.stage, pane, open),
             Ask::Dismiss => self.message = None,
         }
     }
 
-    fn edit(&mut self, edit: &Edit) {
+    /// Changes the document, at once or when its records are read; or says why not.
+    pub fn edit(&mut self, ctx: &Context, edit: &Edit) {
         let Some(document) = &mut self.document else { return };
         match document.apply(edit) {
-            Ok(drawn) => {
+            Ok(Applied::Done(drawn)) => {
                 self.message = None;
                 self.view.step = None;
                 let gone = matches!(edit, Edit::Remove(_) | Edit::ClearCandidates);
                 self.view.source = drawn.or(self.view.source.filter(|_| !gone));
             }
+            Ok(Applied::Waits(waiting)) => {
+                let started = self.work.change(ctx, *waiting);
+                self.note(started);
+            }
             Err(error) => self.fail(error),
         }
     }
 
-    fn intent(&mut self, intent: Intent) {
+    fn intent(&mut self, ctx: &Context, intent: Intent) {
         match intent {
             Intent::SelectDof(dof) => (self.view.dof, self.view.source) = (Some(dof), None),
             Intent::SelectSource(source) => (self.view.dof, self.view.source) = (None, Some(source)),
             Intent::ClearSelection => (self.view.dof, self.view.source) = (None, None),
             Intent::Draw(dofs) => {
                 self.view.dof = None;
-                self.edit(&Edit::Draw(self.view.law, dofs));
+                self.edit(ctx, &Edit::Draw(self.view.law, dofs));
             }
-            Intent::CycleSource(source) => self.edit(&Edit::Cycle(source)),
-            Intent::RemoveSource(source) => self.edit(&Edit::Remove(source)),
+            Intent::CycleSource(source) => self.edit(ctx, &Edit::Cycle(source)),
+            Intent::RemoveSource(source) => self.edit(ctx, &Edit::Remove(source)),
+            Intent::Edit(edit) => self.edit(ctx, &edit),
         }
     }
 
-    fn command(&mut self, ctx: &Context, command: Command) {
-        match command {
-            Command::Open => self.ask_for_file(ctx),
-            Command::Close => self.document = None,
-            Command::Quit => ctx.send_viewport_cmd(egui::ViewportCommand::Close),
-            Command::Save => self.save(),
-            Command::Undo => {
-                self.document.as_mut().and_then(Document::undo);
-                self.view.source = None;
-            }
-            Command::Redo => {
-                self.document.as_mut().and_then(Document::redo);
-                self.view.source = None;
-            }
-            Command::RemoveSelected => {
-                if let Some(source) = self.view.source {
-                    self.edit(&Edit::Remove(source));
-                }
-            }
-            Command::ClearCandidates => self.edit(&Edit::ClearCandidates),
-            Command::Theme => ctx.set_theme(if ctx.theme() == Theme::Dark { Theme::Light } else { Theme::Dark }),
-            Command::Shape => self.view.shape = !self.view.shape,
-            Command::Animate => self.view.animate = !self.view.animate,
-            Command::Measure => self.view.stage = Stage::Measure,
-            Command::Structure => self.view.stage = Stage::Structure,
-            Command::Pattern => self.view.stage = Stage::Pattern,
-            Command::Select => self.view.stage = Stage::Select,
-            Command::Result => self.view.stage = Stage::Result,
-            Command::StepBack => self.step(false),
-            Command::StepOn => self.step(true),
-            Command::PreviousRun => self.view.run = self.view.run.saturating_sub(1),
-            Command::NextRun => {
-                let last = self.document.as_ref().map_or(0, |d| d.project.runs.len().saturating_sub(1));
-                self.view.run = (self.view.run + 1).min(last);
-            }
-            Command::StepEnd => self.view.step = None,
-            Command::ResetLayout => self.desk.reset(self.view.stage),
-            Command::Keys => self.view.keys = !self.view.keys,
+    fn import(&mut self, ctx: &Context, files: &[PathBuf]) {
+        if self.document.is_none() {
+            return self.fail("There is no project to import measurements into; open or make one first.".to_owned());
         }
+        let files = files.iter().map(|f| f.display().to_string()).collect();
+        self.edit(ctx, &Edit::Do(crate::session::Command::ImportRuns(files)));
     }
 
-    fn save(&mut self) {
-        let Some(document) = &mut self.document else { return };
-        match document.save() {
-            Ok(()) => self.message = Some(Message { text: "Saved.".to_owned(), failed: false }),
+    /// Makes a new project from a template.
+    pub(super) fn new_from(&mut self, template: usize) {
+        let Some(template) = super::templates::ALL.get(template) else { return };
+        match Document::new(template.text) {
+            Ok(document) => {
+                self.loaded(document, false);
+                self.view.stage = Stage::Structure;
+                self.desk.set_open(Stage::Structure, Pane::Parameters, true);
+                self.say("A new project; give it a name with Save as, then import measurements.".to_owned());
+            }
             Err(error) => self.fail(error),
         }
+    }
+
+    fn save_as(&mut self, path: &Path) {
+        let Some(document) = &mut self.document else { return };
+        let saved = document.save_as(path);
+        if let (Some(recent), Ok(())) = (&mut self.recent, &saved) {
+            let kept = recent.add(path).map_err(|e| e.to_string());
+            self.note(kept);
+        }
+        match saved {
+            Ok(()) => self.say(format!("Saved as {}.", path.display())),
+            Err(error) => self.fail(error),
+        }
+    }
+
+    fn export(&mut self, ctx: &Context, format: Format, path: PathBuf) {
+        let Some(document) = &self.document else { return };
+        match self.derived.known_outcome(document) {
+            Some(Ok(outcome)) => {
+                let (project, outcome) = (document.project.clone(), outcome.clone());
+                self.run(ctx, "Exporting", move |_| files::export(&project, &outcome, format, &path));
+            }
+            Some(Err(error)) => self.fail(error.clone()),
+            None => self.fail("Identification is still running; export when it has ended.".to_owned()),
+        }
+    }
+
+    /// Runs something in the background that ends with a sentence to say.
+    pub fn run(
+        &mut self,
+        ctx: &Context,
+        name: &str,
+        work: impl FnOnce(&Control) -> Result<String, String> + Send + 'static,
+    ) {
+        let started = self.work.say(ctx, name, work);
+        self.note(started);
+    }
+
+    /// Shows a dialog of the desktop.
+    pub(super) fn pick(&mut self, ctx: &Context, pick: Pick) {
+        let asked = self.work.pick(ctx, pick);
+        self.note(asked);
     }
 
     /// Keeps unsaved changes beside the file now and then.
@@ -284,65 +380,6 @@ impl App {
             self.fail(error);
         }
     }
-
-    /// Looks at the set with one source more or less.
-    fn step(&mut self, on: bool) {
-        let Some(Some(Ok(outcome))) = self.document.as_ref().map(|d| self.derived.known_outcome(d)) else { return };
-        let now = self.view.step.unwrap_or(outcome.accepted);
-        let last = outcome.steps.len().saturating_sub(1);
-        self.view.step = Some(if on { (now + 1).min(last) } else { now.saturating_sub(1).min(last) });
-    }
-
-    fn ask_for_file(&mut self, ctx: &Context) {
-        let picked = rfd::FileDialog::new().add_filter("Dashpot project", &["toml"]).pick_file();
-        if let Some(file) = picked {
-            self.open(ctx, file);
-        }
-    }
-
-    /// State of the stage for its mark: whether it needs attention and why, in one line.
-    pub fn mark(&self, stage: Stage) -> frame::top::Mark {
-        use frame::top::Mark;
-        let Some(document) = &self.document else { return Mark::empty("No project is open.") };
-        let p = &document.project;
-        match stage {
-            Stage::Measure if p.runs.is_empty() => Mark::empty("No runs: add [[run]] entries to the project file."),
-            Stage::Measure => {
-                let flagged = p.runs.iter().filter(|r| r.enabled && !r.findings.is_empty()).count();
-                let used = p.runs.iter().filter(|r| r.enabled).count();
-                if flagged > 0 {
-                    Mark::attention(&format!("{flagged} of {used} used runs are flagged."))
-                } else {
-                    Mark::done(&format!("{used} runs are used, none is flagged."))
-                }
-            }
-            Stage::Structure if p.structure.matrices().is_none() => {
-                Mark::done("Points: energy balance only, no model.")
-            }
-            Stage::Structure => Mark::done(&format!("{} degrees of freedom.", p.structure.len())),
-            Stage::Pattern => {
-                let open = p.sources.iter().filter(|s| matches!(s.state, State::Candidate | State::Forced)).count();
-                if open == 0 {
-                    Mark::empty("No candidates: click on the schematic or add a family.")
-                } else {
-                    Mark::done(&format!("{open} candidates."))
-                }
-            }
-            Stage::Select | Stage::Result => match self.derived.known_outcome(document) {
-                None => Mark::empty("Identification has not ended yet."),
-                Some(Err(error)) => Mark::attention(error),
-                Some(Ok(outcome)) => {
-                    let text = format!(
-                        "{} sources: {}.",
-                        outcome.accepted_step().count,
-                        stages::select::status(outcome.status)
-                    );
-                    let good = matches!(outcome.status, Status::WithinNoise | Status::BelowAngle);
-                    if good { Mark::done(&text) } else { Mark::attention(&text) }
-                }
-            },
-        }
-    }
 }
 
 impl eframe::App for App {
@@ -350,9 +387,17 @@ impl eframe::App for App {
         super::solid::install(ui.ctx(), frame.wgpu_render_state());
         self.frame(ui);
     }
+
+    fn save(&mut self, storage: &mut dyn eframe::Storage) {
+        eframe::set_value(storage, "desk", &self.desk);
+    }
 }
 
-fn dropped(ctx: &Context) -> impl Iterator<Item = PathBuf> {
-    let files = ctx.input(|i| i.raw.dropped_files.clone());
-    files.into_iter().map(|f| f.path().to_path_buf())
+/// A dropped project is opened, dropped records are appended.
+fn dropped(ctx: &Context) -> Vec<Ask> {
+    let files: Vec<PathBuf> = ctx.input(|i| i.raw.dropped_files.iter().map(|f| f.path().to_path_buf()).collect());
+    let is_project = |f: &Path| f.extension().is_some_and(|e| e.eq_ignore_ascii_case("toml"));
+    let (projects, records): (Vec<PathBuf>, Vec<PathBuf>) = files.into_iter().partition(|f| is_project(f));
+    let records = (!records.is_empty()).then_some(Ask::Import(records));
+    projects.into_iter().map(Ask::Open).chain(records).collect()
 }

@@ -7,13 +7,16 @@ use egui::{Key, KeyboardShortcut, Modifiers};
 #[expect(missing_docs, reason = "the table below says what each does")]
 pub enum Command {
     Open,
+    Import,
     Save,
+    SaveAs,
     Close,
     Quit,
     Undo,
     Redo,
     RemoveSelected,
     ClearCandidates,
+    Cancel,
     Theme,
     Shape,
     Animate,
@@ -28,7 +31,10 @@ pub enum Command {
     PreviousRun,
     NextRun,
     ResetLayout,
+    Messages,
+    Tour,
     Keys,
+    About,
 }
 
 /// One row of the table.
@@ -64,9 +70,21 @@ const fn entry(command: Command, label: &'static str, tooltip: &'static str, key
 }
 
 /// All commands.
-pub const TABLE: [Entry; 23] = [
+pub const TABLE: [Entry; 29] = [
     entry(Command::Open, "Open…", "Opens a project file.", ctrl(Key::O)),
+    entry(
+        Command::Import,
+        "Import measurements…",
+        "Appends records to the runs; those that are there stay.",
+        ctrl(Key::I),
+    ),
     entry(Command::Save, "Save", "Writes the project to its file.", ctrl(Key::S)),
+    entry(
+        Command::SaveAs,
+        "Save as…",
+        "Writes the project under another name and goes on with that.",
+        ctrl_shift(Key::S),
+    ),
     entry(Command::Close, "Close project", "Goes back to the start screen.", ctrl(Key::W)),
     entry(Command::Quit, "Quit", "Closes the window.", ctrl(Key::Q)),
     entry(Command::Undo, "Undo", "Takes back the last edit.", ctrl(Key::Z)),
@@ -78,6 +96,7 @@ pub const TABLE: [Entry; 23] = [
         "Takes all candidates away; known and forced sources stay.",
         None,
     ),
+    entry(Command::Cancel, "Cancel", "Gives up what is being computed.", ctrl(Key::Period)),
     entry(Command::Theme, "Dark theme", "Changes between light and dark.", ctrl(Key::D)),
     entry(Command::Shape, "Deflect the schematic", "Shows the shape of the selected run or mode.", plain(Key::S)),
     entry(Command::Animate, "Animate", "Moves the shape on the schematic.", plain(Key::Space)),
@@ -92,7 +111,10 @@ pub const TABLE: [Entry; 23] = [
     entry(Command::PreviousRun, "Previous run", "Selects the run above.", plain(Key::ArrowUp)),
     entry(Command::NextRun, "Next run", "Selects the run below.", plain(Key::ArrowDown)),
     entry(Command::ResetLayout, "Reset layout", "Puts the panes of this stage back to where they were at first.", None),
+    entry(Command::Messages, "Messages", "Lists all that was said.", ctrl(Key::M)),
+    entry(Command::Tour, "Tour", "Ten steps through the program on a sample.", None),
     entry(Command::Keys, "Keys", "Lists all keys.", plain(Key::F1)),
+    entry(Command::About, "About Dashpot", "What the program is and what it rests on.", None),
 ];
 
 impl Command {

@@ -10,6 +10,7 @@ use super::view::View;
 use crate::identify::{self, Outcome};
 use crate::math::spectrum::Spectrum;
 use crate::measurement::Quantity;
+use crate::session::Revisions;
 use crate::session::jobs::{Job, JobError};
 use crate::structure::modes::Modes;
 use std::collections::HashMap;
@@ -26,6 +27,9 @@ pub struct Trace {
     pub spectrum: Option<Spectrum>,
 }
 
+/// Displacement of every DOF in a run; empty where it cannot be expanded.
+pub type Motion = Vec<faer::c64>;
+
 /// Revision, response DOF, excited DOF.
 type Asked = (u64, usize, usize);
 
@@ -39,11 +43,66 @@ pub struct Derived {
     outcome_job: Option<Job<u64, Result<Outcome, String>>>,
     response: Option<(Asked, Result<Arc<Response>, String>)>,
     response_job: Option<Job<Asked, Result<Response, String>>>,
+    motions: Option<(u64, Result<Arc<Vec<Motion>>, String>)>,
+    motions_job: Option<Job<u64, Result<Vec<Motion>, String>>>,
+    seen: Revisions,
     loops: Option<((u64, usize), Result<Vec<Loop>, String>)>,
     traces: HashMap<(usize, usize), Arc<Trace>>,
 }
 
 impl Derived {
+    /// Forgets what no longer belongs to the document as it stands.
+    pub fn keep_up(&mut self, document: &Document) {
+        let now = document.session().revisions();
+        if self.seen.structure != now.structure {
+            (self.modes, self.modes_job) = (None, None);
+        }
+        if self.seen.structure != now.structure || self.seen.measurements != now.measurements {
+            self.traces.clear();
+        }
+        self.seen = now;
+    }
+
+    /// Gives up what is being computed; it starts again with the next change.
+    pub fn cancel(&mut self, document: &Document) {
+        const WHY: &str = "It was cancelled; the next change computes it again.";
+        if self.outcome_job.take().is_some() {
+            self.outcome = Some((document.revision(), Err(WHY.to_owned())));
+        }
+        if let Some(job) = self.response_job.take() {
+            self.response = Some((*job.key(), Err(WHY.to_owned())));
+        }
+        if self.modes_job.take().is_some() {
+            self.modes = Some(Err(WHY.to_owned()));
+        }
+        if self.motions_job.take().is_some() {
+            self.motions = Some((document.revision(), Err(WHY.to_owned())));
+        }
+    }
+
+    /// The motion of every DOF in every run at its fundamental, m or rad: measured where it is, expanded where it is not.
+    pub fn motions(&mut self, ctx: &egui::Context, document: &Document) -> Option<Result<Arc<Vec<Motion>>, String>> {
+        let outcome = self.known_outcome(document)?.as_ref().ok().map(Arc::clone);
+        let revision = document.revision();
+        if let Some((done, motions)) = &self.motions
+            && *done == revision
+        {
+            return Some(motions.clone());
+        }
+        if self.motions_job.as_ref().is_none_or(|job| *job.key() != revision) {
+            let p = document.project.clone();
+            let work = move |_: &crate::control::Control| forward::motions(&p, outcome.as_deref());
+            match Job::start("Expanding the runs", revision, wake(ctx), work) {
+                Ok(job) => self.motions_job = Some(job),
+                Err(error) => self.motions = Some((revision, Err(error.to_string()))),
+            }
+        }
+        let result = self.motions_job.as_ref().and_then(Job::poll)?;
+        self.motions_job = None;
+        self.motions = Some((revision, joined(result)));
+        self.motions.as_ref().map(|(_, motions)| motions.clone())
+    }
+
     /// The scene of the schematic.
     pub fn scene(&mut self, document: &Document) -> Arc<Scene> {
         if let Some((revision, scene)) = &self.scene
@@ -57,7 +116,7 @@ impl Derived {
         scene
     }
 
-    /// Undamped modes, computed in the background once: edits do not change the structure.
+    /// Undamped modes, computed in the background.
     pub fn modes(&mut self, ctx: &egui::Context, document: &Document) -> Option<Result<Arc<Modes>, String>> {
         if self.modes.is_none() && self.modes_job.is_none() {
             let structure = document.project.structure.clone();
@@ -79,7 +138,8 @@ impl Derived {
         let outcome = self.outcome_job.as_ref().map(|j| (j.name(), j.progress()));
         let modes = self.modes_job.as_ref().map(|j| (j.name(), j.progress()));
         let response = self.response_job.as_ref().map(|j| (j.name(), j.progress()));
-        outcome.or(modes).or(response)
+        let motions = self.motions_job.as_ref().map(|j| (j.name(), j.progress()));
+        outcome.or(modes).or(response).or(motions)
     }
 
     /// A channel of a run, by its index in the fit; `None` where the run has no record of it.

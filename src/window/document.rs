@@ -1,47 +1,58 @@
 //! The project that is open: a session (commands, undo, saving) and beside it the records that were read and fitted.
+//!
+//! A change whose records were read before is made at once. One that needs records that were not (an import, another
+//! number of harmonics) is made once they are read in the background; when that fails or is cancelled, nothing has changed.
 
+use super::edits::Edit;
+use super::records::{Fitted, Missing, Records};
 use crate::control::Control;
-use crate::effects::{Effect, Family, Place, Source, State};
-use crate::exchange::{self, Project};
+use crate::exchange::Project;
+use crate::exchange::project::ProjectFile;
 use crate::session::history::Gesture;
-use crate::session::{Command, Session, SourceAt, SourceSpec};
-use std::collections::BTreeMap;
+use crate::session::{self, Command, Session};
 use std::path::Path;
-
-/// A change of the document in terms of what is on the screen: DOF rows and indices of sources and runs.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Edit {
-    /// A candidate of a law on DOFs: one to the ground, two between, more a chain.
-    Draw(Effect, Vec<usize>),
-    /// A candidate of a law of the whole structure.
-    DrawWhole(Effect),
-    /// Candidates of a law at all places of a family.
-    DrawFamily(Effect, Family),
-    /// Candidate, forced, known, off, candidate.
-    Cycle(usize),
-    /// A state.
-    SetState(usize, State),
-    /// A parameter of a source.
-    SetParameter(usize, usize, f64),
-    /// Take a source away.
-    Remove(usize),
-    /// Take all candidates away.
-    ClearCandidates,
-    /// Force these sources, and let the search choose the other ones that were forced again.
-    Force(Vec<usize>),
-    /// Use a run or leave it out.
-    UseRun(usize, bool),
-    /// Any other change, in the words of the session.
-    Do(Command),
-}
 
 /// The open project.
 #[derive(Debug, Clone)]
 pub struct Document {
     session: Session,
+    records: Records,
     /// As it stands, with its records.
     pub project: Project,
     gestures: u64,
+}
+
+/// A change that waits for records.
+#[derive(Debug)]
+pub struct Waiting {
+    commands: Vec<Command>,
+    missing: Missing,
+}
+
+/// A change whose records are read.
+#[derive(Debug)]
+pub struct Ready {
+    commands: Vec<Command>,
+    fitted: Fitted,
+}
+
+/// What became of an edit.
+#[derive(Debug)]
+pub enum Applied {
+    /// It is made; the source that it drew.
+    Done(Option<usize>),
+    /// Records are to be read first: [`Waiting::read`], then [`Document::finish`].
+    Waits(Box<Waiting>),
+}
+
+impl Waiting {
+    /// Reads what is missing; long work.
+    ///
+    /// # Errors
+    /// One line: file, line, what is wrong and how to mend it; or cancelled.
+    pub fn read(self, control: &Control) -> Result<Ready, String> {
+        Ok(Ready { commands: self.commands, fitted: self.missing.read(control)? })
+    }
 }
 
 impl Document {
@@ -52,12 +63,35 @@ impl Document {
     /// One line: file, line, what is wrong and how to mend it.
     pub fn open(path: &Path, control: &Control) -> Result<(Self, bool), String> {
         let mut session = Session::open(path).map_err(|e| e.to_string())?;
-        let project = exchange::project::load(path, control).map_err(|e| e.to_string())?;
+        let saved = session.document().clone();
+        let mut records = Records::default();
+        if let Some(missing) = records.missing(&saved) {
+            records.take(missing.read(control)?);
+        }
         // What was left behind may be damaged; the file itself is in order then.
-        let recovered = session.recover().unwrap_or(false);
-        let mut document = Self { session, project, gestures: 0 };
-        document.refresh();
-        Ok((document, recovered))
+        let mut recovered = session.recover().unwrap_or(false);
+        if let Some(missing) = records.missing(session.document()) {
+            match missing.read(control) {
+                Ok(fitted) => records.take(fitted),
+                Err(_) => recovered = session.undo().is_none(),
+            }
+        }
+        Ok((Self::of(session, records), recovered))
+    }
+
+    /// A new project that has no file yet, from the text of a template.
+    ///
+    /// # Errors
+    /// One line.
+    pub fn new(template: &str) -> Result<Self, String> {
+        let (file, _) = ProjectFile::parse(template, "template").map_err(|e| e.to_string())?;
+        let document = session::Document::new(file, Path::new("")).map_err(|e| e.to_string())?;
+        Ok(Self::of(Session::new(document), Records::default()))
+    }
+
+    fn of(session: Session, records: Records) -> Self {
+        let project = project(session.document(), &records);
+        Self { session, records, project, gestures: 0 }
     }
 
     /// The session under it.
@@ -70,124 +104,45 @@ impl Document {
         self.session.revisions().any
     }
 
-    /// Applies an edit; gives back the source that it drew.
+    /// Applies an edit, or says what is to be read first.
     ///
     /// # Errors
     /// One sentence that says why it cannot be done; the document is then unchanged.
-    pub fn apply(&mut self, edit: &Edit) -> Result<Option<usize>, String> {
-        let commands = self.commands(edit)?;
-        let gesture = self.gesture(edit);
+    pub fn apply(&mut self, edit: &Edit) -> Result<Applied, String> {
+        let commands = edit.commands(&self.project.structure, &self.project.sources)?;
+        let mut after = self.session.document().clone();
         for command in &commands {
+            after = after.after(command).map_err(|e| e.to_string())?;
+        }
+        if let Some(missing) = self.records.missing(&after) {
+            return Ok(Applied::Waits(Box::new(Waiting { commands, missing })));
+        }
+        self.make(&commands)?;
+        Ok(Applied::Done(edit.drawn(&self.project.sources)))
+    }
+
+    /// Makes a change whose records were read.
+    ///
+    /// # Errors
+    /// One sentence, where the document has changed in between so that it cannot be made any more.
+    pub fn finish(&mut self, ready: Ready) -> Result<(), String> {
+        self.records.take(ready.fitted);
+        self.make(&ready.commands)
+    }
+
+    /// Commands of one edit are undone together.
+    fn make(&mut self, commands: &[Command]) -> Result<(), String> {
+        self.gestures += 1;
+        let gesture = (commands.len() > 1).then_some(Gesture(self.gestures));
+        for command in commands {
             self.session.apply_in(command, gesture).map_err(|e| e.to_string())?;
         }
         self.refresh();
-        Ok(self.drawn(edit))
+        Ok(())
     }
 
-    /// The words of the session for an edit.
-    fn commands(&self, edit: &Edit) -> Result<Vec<Command>, String> {
-        let one = match edit {
-            Edit::Draw(law, dofs) => Command::AddSource(self.spec(*law, dofs)?),
-            Edit::DrawWhole(law) => Command::AddSource(self.spec(*law, &[])?),
-            Edit::DrawFamily(law, family) => {
-                Command::AddCandidates { law: *law, family: *family, parameters: BTreeMap::new() }
-            }
-            Edit::Cycle(i) => Command::SetSourceState { source: self.at(*i)?, state: next(self.source(*i)?.state) },
-            Edit::SetState(i, state) => Command::SetSourceState { source: self.at(*i)?, state: *state },
-            Edit::SetParameter(i, k, value) => {
-                let name = self.source(*i)?.effect.parameters().get(*k).map(|p| p.name);
-                let name = name.ok_or_else(|| format!("there is no parameter {}", k + 1))?;
-                Command::SetSourceParameters {
-                    source: self.at(*i)?,
-                    parameters: BTreeMap::from([(name.into(), *value)]),
-                }
-            }
-            Edit::Remove(i) => Command::RemoveSource(self.at(*i)?),
-            Edit::UseRun(run, on) => {
-                let run = self.project.runs.get(*run).ok_or_else(|| format!("there is no run {}", run + 1))?;
-                Command::SetRunUse { file: run.file.clone(), enabled: *on }
-            }
-            Edit::Do(command) => command.clone(),
-            Edit::Force(chosen) => return self.force(chosen),
-            Edit::ClearCandidates => {
-                let candidates =
-                    (0..self.project.sources.len()).filter(|&i| self.project.sources[i].state == State::Candidate);
-                return candidates.map(|i| Ok(Command::RemoveSource(self.at(i)?))).collect();
-            }
-        };
-        Ok(vec![one])
-    }
-
-    fn force(&self, chosen: &[usize]) -> Result<Vec<Command>, String> {
-        let to = |i: usize, state: State| Ok(Command::SetSourceState { source: self.at(i)?, state });
-        let sources = self.project.sources.iter().enumerate();
-        let released = sources.filter(|(i, s)| s.state == State::Forced && !chosen.contains(i)).map(|(i, _)| i);
-        let forced = chosen.iter().filter(|&&i| self.project.sources.get(i).is_some_and(|s| s.state != State::Forced));
-        released.map(|i| to(i, State::Candidate)).chain(forced.map(|&i| to(i, State::Forced))).collect()
-    }
-
-    /// Edits that belong together are undone together: all values of one drag, all candidates that are cleared.
-    fn gesture(&mut self, edit: &Edit) -> Option<Gesture> {
-        match edit {
-            Edit::SetParameter(i, k, _) => Some(Gesture(((*i as u64) << 8) | *k as u64)),
-            Edit::ClearCandidates | Edit::Force(_) => {
-                self.gestures += 1;
-                Some(Gesture((1 << 60) | self.gestures))
-            }
-            _ => None,
-        }
-    }
-
-    fn source(&self, i: usize) -> Result<&Source, String> {
-        self.project
-            .sources
-            .get(i)
-            .ok_or_else(|| format!("there is no source {} of {}", i + 1, self.project.sources.len()))
-    }
-
-    fn spec(&self, law: Effect, dofs: &[usize]) -> Result<SourceSpec, String> {
-        let dofs = self.labels(dofs)?;
-        Ok(SourceSpec { law, dofs, elements: None, state: State::Candidate, parameters: BTreeMap::new() })
-    }
-
-    fn at(&self, i: usize) -> Result<SourceAt, String> {
-        let source = self.source(i)?;
-        let (dofs, elements) = match &source.place {
-            Place::Dofs(dofs) => (self.labels(dofs)?, None),
-            Place::Whole(range) => (Vec::new(), range.map(|r| r.map(|e| e as i64 + 1))),
-            Place::Channel(_) => return Err("an error of a channel is not a source".to_owned()),
-        };
-        Ok(SourceAt { law: source.effect, dofs, elements, state: Some(source.state) })
-    }
-
-    fn labels(&self, dofs: &[usize]) -> Result<Vec<String>, String> {
-        let label = |&d: &usize| {
-            let dof = self.project.structure.dofs().get(d);
-            dof.map(|d| d.label.clone()).ok_or_else(|| format!("there is no DOF in row {}", d + 1))
-        };
-        dofs.iter().map(label).collect()
-    }
-
-    fn drawn(&self, edit: &Edit) -> Option<usize> {
-        let place = match edit {
-            Edit::Draw(_, dofs) => Place::Dofs(dofs.clone()),
-            Edit::DrawWhole(_) => Place::Whole(None),
-            _ => return None,
-        };
-        let (Edit::Draw(law, _) | Edit::DrawWhole(law)) = edit else { return None };
-        let wanted = Source::candidate(*law, place);
-        self.project.sources.iter().position(|s| s.state == State::Candidate && s.is_same(&wanted))
-    }
-
-    /// Takes sources and use of runs over from the session.
     fn refresh(&mut self) {
-        let document = self.session.document();
-        self.project.sources = document.sources().as_ref().clone();
-        for run in &mut self.project.runs {
-            if let Some(table) = document.file().run.iter().find(|t| t.file == run.file) {
-                run.enabled = table.enabled;
-            }
-        }
+        self.project = project(self.session.document(), &self.records);
     }
 
     /// Takes back the last edit; its name, where there is one.
@@ -212,6 +167,23 @@ impl Document {
         self.session.save().map_err(|e| e.to_string())
     }
 
+    /// Saves under another name and goes on with that.
+    ///
+    /// # Errors
+    /// One line; then it goes on with the old file.
+    pub fn save_as(&mut self, path: &Path) -> Result<(), String> {
+        self.session.save_as(path).map_err(|e| e.to_string())
+    }
+
+    /// Forgets what was kept beside the file for the case of a crash: the user does not want the changes.
+    ///
+    /// # Errors
+    /// One line.
+    pub fn forget(&self) -> Result<(), String> {
+        let Some(path) = self.session.path() else { return Ok(()) };
+        session::save::forget_autosave(path).map_err(|e| e.to_string())
+    }
+
     /// Keeps unsaved changes beside the file, for the case of a crash.
     ///
     /// # Errors
@@ -221,22 +193,27 @@ impl Document {
     }
 }
 
-/// The state that a click leads to.
-fn next(state: State) -> State {
-    match state {
-        State::Candidate => State::Forced,
-        State::Forced => State::Known,
-        State::Known => State::Off,
-        State::Off | State::Reference => State::Candidate,
+/// A state of the document with its records, as the engine takes it.
+fn project(state: &session::Document, records: &Records) -> Project {
+    let file = state.file();
+    Project {
+        title: file.project.title.clone(),
+        notes: file.project.notes.clone(),
+        structure: state.structure().as_ref().clone(),
+        sources: state.sources().as_ref().clone(),
+        runs: records.runs(state),
+        settings: file.analysis.clone(),
     }
 }
 
 #[cfg(test)]
 mod tests {
     #![allow(clippy::unwrap_used, clippy::disallowed_methods, reason = "tests")]
-    use super::{Document, Edit};
+    use super::{Applied, Document};
     use crate::control::Control;
     use crate::effects::{Effect, Family, State};
+    use crate::session::Command;
+    use crate::window::edits::Edit;
 
     const CHAIN: &str = "[project]\nformat = 1\ntitle = \"Chain\"\n[structure]\nkind = \"chain\"\nmasses = [1.0, 2.0, 1.0]\n\
                          ground_stiffness = [100.0, 0.0, 0.0]\ncoupling_stiffness = [50.0, 80.0]\n";
@@ -253,7 +230,7 @@ mod tests {
     #[test]
     fn a_source_drawn_twice_is_refused_with_a_reason() {
         let (_folder, mut d) = document();
-        assert_eq!(d.apply(&Edit::Draw(Effect::Viscous, vec![2])), Ok(Some(0)));
+        assert!(matches!(d.apply(&Edit::Draw(Effect::Viscous, vec![2])), Ok(Applied::Done(Some(0)))));
         let error = d.apply(&Edit::Draw(Effect::Viscous, vec![2])).unwrap_err();
         assert!(error.contains("already drawn"), "{error}");
         assert_eq!(d.project.sources.len(), 1);
@@ -293,7 +270,12 @@ mod tests {
     #[test]
     fn what_is_not_there_is_refused_and_nothing_changes() {
         let (_folder, mut d) = document();
-        for edit in [Edit::Cycle(7), Edit::Remove(0), Edit::UseRun(0, false), Edit::Draw(Effect::Viscous, vec![99])] {
+        for edit in [
+            Edit::Cycle(7),
+            Edit::Remove(0),
+            Edit::UseRun("run.csv".into(), false),
+            Edit::Draw(Effect::Viscous, vec![99]),
+        ] {
             assert!(d.apply(&edit).is_err(), "{edit:?}");
         }
         assert_eq!(d.revision(), 0);
@@ -306,5 +288,75 @@ mod tests {
         d.save().unwrap();
         let (again, _) = Document::open(&folder.path().join("project.toml"), &Control::unattended()).unwrap();
         assert_eq!(again.project.sources, d.project.sources);
+    }
+
+    const RECORD: &str = "time [s],force@1 [N],acc@2 [m/s^2]\n";
+
+    fn record(folder: &tempfile::TempDir, name: &str, hertz: f64) -> String {
+        let mut text = RECORD.to_owned();
+        for k in 0..400 {
+            let t = 0.01 * f64::from(k) / hertz;
+            let phase = std::f64::consts::TAU * hertz * t;
+            text += &format!("{t:.9},{:.9},{:.9}\n", phase.cos(), 0.2 * (phase - 0.3).cos());
+        }
+        let path = folder.path().join(name);
+        std::fs::write(&path, text).unwrap();
+        path.display().to_string()
+    }
+
+    fn import(d: &mut Document, paths: &[&str]) -> Result<(), String> {
+        let command = Command::ImportRuns(paths.iter().map(|p| (*p).to_owned()).collect());
+        match d.apply(&Edit::Do(command))? {
+            Applied::Waits(waiting) => d.finish(waiting.read(&Control::unattended())?),
+            Applied::Done(_) => Ok(()),
+        }
+    }
+
+    #[test]
+    fn imports_append_and_undo_and_redo_read_nothing_again() {
+        let (folder, mut d) = document();
+        let (one, two) = (record(&folder, "one.csv", 3.0), record(&folder, "two.csv", 5.0));
+        import(&mut d, &[&one]).unwrap();
+        import(&mut d, &[&two]).unwrap();
+        assert_eq!(d.project.runs.iter().map(|r| r.file.as_str()).collect::<Vec<_>>(), ["one.csv", "two.csv"]);
+        std::fs::remove_file(folder.path().join("one.csv")).unwrap();
+        assert!(d.undo().is_some() && d.undo().is_some());
+        assert!(d.project.runs.is_empty());
+        assert!(d.redo().is_some() && d.redo().is_some());
+        assert_eq!(d.project.runs.len(), 2);
+    }
+
+    #[test]
+    fn a_wrong_file_is_refused_with_its_line_and_changes_nothing() {
+        let (folder, mut d) = document();
+        let good = record(&folder, "good.csv", 3.0);
+        let bad = folder.path().join("bad.csv");
+        std::fs::write(&bad, format!("{RECORD}0.0,1.0,0.1\n0.1,x,0.2\n")).unwrap();
+        let error = import(&mut d, &[&good, &bad.display().to_string()]).unwrap_err();
+        assert!(error.contains("bad.csv, line 3"), "{error}");
+        assert!(d.project.runs.is_empty() && d.revision() == 0);
+    }
+
+    #[test]
+    fn another_number_of_harmonics_fits_the_records_anew() {
+        let (folder, mut d) = document();
+        import(&mut d, &[&record(&folder, "one.csv", 3.0)]).unwrap();
+        let before = d.project.runs[0].fit.harmonics();
+        let edit = Edit::Do(Command::SetSetting(crate::session::Setting::Harmonics(before - 2)));
+        let Applied::Waits(waiting) = d.apply(&edit).unwrap() else { panic!("nothing is to be fitted") };
+        d.finish(waiting.read(&Control::unattended()).unwrap()).unwrap();
+        assert_eq!(d.project.runs[0].fit.harmonics(), before - 2);
+        d.undo();
+        assert_eq!(d.project.runs[0].fit.harmonics(), before);
+    }
+
+    #[test]
+    fn a_number_of_the_structure_changes_its_matrices() {
+        let (_folder, mut d) = document();
+        let mass = |d: &Document| d.project.structure.matrices().unwrap().mass[(1, 1)];
+        d.apply(&Edit::Do(Command::SetStructureParameter { name: "masses[2]".into(), value: 3.5 })).unwrap();
+        assert_eq!(mass(&d), 3.5);
+        d.undo();
+        assert_eq!(mass(&d), 2.0);
     }
 }

@@ -19,10 +19,10 @@ pub fn significant(value: f64, digits: usize) -> String {
     text.replace('-', "−")
 }
 
-/// A value as it is edited: all digits that it has, in powers of ten where that is shorter.
+/// A value as it is edited: all digits that it has, in powers of ten where it is very large or very small.
 pub fn editable(value: f64) -> String {
-    let plain = format!("{value}");
-    let text = if plain.len() > 9 || plain.ends_with("0000") { format!("{value:e}") } else { plain };
+    let plain = value == 0.0 || (1e-4..1e6).contains(&value.abs());
+    let text = if plain { format!("{value}") } else { format!("{value:e}") };
     text.replace('-', "−")
 }
 
@@ -87,6 +87,7 @@ mod tests {
         assert_eq!(editable(69e9), "6.9e10");
         assert_eq!(editable(-2.1e-12), "−2.1e−12");
         assert_eq!(editable(7850.0), "7850");
+        assert_eq!(editable(13.066_184_254), "13.066184254");
     }
 
     #[test]

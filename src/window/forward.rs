@@ -2,6 +2,8 @@
 
 use super::plots::bode::Response;
 use super::plots::hysteresis::{self, Loop};
+use crate::balance::expansion::Acting;
+use crate::balance::{Expander, Measured};
 use crate::effects::{Effect, Source};
 use crate::exchange::Project;
 use crate::identify::{self, Outcome};
@@ -59,6 +61,23 @@ pub fn receptance(
         crate::response::frequency_response::direct(&stiffness, response, excitation, &omega, quantity, control)
             .map_err(|e| e.to_string())?;
     Ok(Response { response, excitation, omega, receptance: values })
+}
+
+/// The motion of every DOF in every run at its fundamental, m or rad, expanded with the damping that was identified.
+///
+/// # Errors
+/// One line: the structure has no modes.
+pub fn motions(p: &Project, outcome: Option<&Outcome>) -> Result<Vec<Vec<c64>>, String> {
+    let highest = p.runs.iter().map(|r| r.fit.omega).fold(0.0, f64::max);
+    let expander = Expander::new(&p.structure, p.settings.expansion, highest).map_err(|e| e.to_string())?;
+    let damping = outcome.map_or_else(Vec::new, |outcome| acting(p, outcome));
+    let one = |run: &crate::measurement::Run| {
+        let measured = Measured::new(run).ok()?;
+        let acting = Acting { sources: &damping, motion: None, model_error: outcome.map_or(1.0, |o| o.model_error) };
+        let expanded = expander.expand(&measured, acting).ok()?;
+        Some((0..p.structure.len()).map(|d| expanded.x[(d, 0)]).collect())
+    };
+    Ok(p.runs.iter().map(|run| one(run).unwrap_or_default()).collect())
 }
 
 /// Loops at the model's steady state under the measured force's fundamental.

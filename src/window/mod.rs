@@ -1,29 +1,37 @@
 //! The window: reads the document, draws it, and turns gestures into edits. Holds no physics.
 
+mod act;
 pub mod app;
 pub mod arguments;
 pub mod commands;
 pub mod derived;
 pub mod document;
+pub mod edits;
+pub mod files;
 pub mod format;
 pub mod forward;
 pub mod frame;
+mod marks;
 pub mod offscreen;
 pub mod photograph;
 pub mod picture;
 pub mod plots;
+pub mod records;
 pub mod schematic;
 pub mod solid;
 pub mod stages;
+pub mod templates;
 pub mod theme;
 pub mod view;
 pub mod widgets;
 pub mod words;
+pub mod work;
 
 pub use app::App;
 pub use photograph::Photograph;
 pub use picture::{Picture, picture};
 
+use crate::session::recent::Recent;
 use std::path::PathBuf;
 
 /// Opens the window, with a project or on the start screen, and returns when it is closed. With `photograph` it writes
@@ -37,10 +45,15 @@ pub fn open(file: Option<PathBuf>, photograph: Option<PathBuf>) -> Result<(), St
         .with_app_id("dashpot")
         .with_inner_size([1440.0, 900.0])
         .with_min_inner_size([960.0, 640.0]);
-    let options = eframe::NativeOptions { viewport, ..eframe::NativeOptions::default() };
+    let persist_window = photograph.is_none();
+    let options = eframe::NativeOptions { viewport, persist_window, ..eframe::NativeOptions::default() };
     let create = move |cc: &eframe::CreationContext<'_>| {
         theme::install(&cc.egui_ctx);
         let mut app = App::default();
+        if let Some(desk) = cc.storage.and_then(|storage| eframe::get_value(storage, "desk")) {
+            app.desk = desk;
+        }
+        app.recent = eframe::storage_dir("dashpot").map(|folder| Recent::load(&folder.join("recent.json")));
         app.photograph = photograph.map(Photograph::new);
         if let Some(file) = file {
             app.open(&cc.egui_ctx, file);

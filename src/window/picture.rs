@@ -39,7 +39,7 @@ pub fn picture(picture: &Picture) -> Result<(), String> {
     let mut app = App::default();
     if let Some(file) = &picture.file {
         app.open(&ctx, file.clone());
-        app.settle()?;
+        app.settle(&ctx)?;
     }
     app.view.stage = picture.stage;
     if let Some(name) = &picture.pane {
@@ -61,7 +61,7 @@ pub fn picture(picture: &Picture) -> Result<(), String> {
             export::want(&ctx, &title, export::Kind::Png);
         }
         offscreen.settle(&ctx, &mut frame)?;
-        app.settle()?;
+        app.settle(&ctx)?;
     }
     let image = image::RgbaImage::from_raw(width, height, pixels).ok_or("the picture has the wrong size")?;
     image.save(&picture.out).map_err(|e| format!("{}: cannot be written ({e})", picture.out.display()))

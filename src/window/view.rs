@@ -74,6 +74,14 @@ pub struct View {
     pub schematic: ViewState,
     /// Whether the list of keys is open.
     pub keys: bool,
+    /// Whether the list of messages is open.
+    pub messages: bool,
+    /// Whether it is said what the program is.
+    pub about: bool,
+    /// Step of the tour.
+    pub tour: Option<usize>,
+    /// Step of the tour whose stage and pane have been opened.
+    pub tour_shown: Option<usize>,
 }
 
 impl Default for View {
@@ -95,6 +103,10 @@ impl Default for View {
             phase: 0.0,
             schematic: ViewState::default(),
             keys: false,
+            messages: false,
+            about: false,
+            tour: None,
+            tour_shown: None,
         }
     }
 }

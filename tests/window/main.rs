@@ -1,10 +1,15 @@
 //! The window, driven by accessible labels and real pointer events, and pictured by a software adapter.
 #![allow(clippy::unwrap_used, clippy::disallowed_methods, reason = "tests")]
 
+mod desk;
 mod events;
 mod export;
+mod history;
+mod journey;
 mod path;
 mod pictures;
 mod space;
+mod states;
 mod support;
+mod values;
 mod wing;

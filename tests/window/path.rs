@@ -12,7 +12,7 @@ use egui_kittest::kittest::Queryable;
 fn the_start_screen_offers_samples_and_a_file() {
     let harness = start();
     harness.get_by_label("Open a project…");
-    harness.get_by_label("Cantilever, one dashpot");
+    harness.get_by_label("Cantilever, unequal dashpots");
     harness.get_by_label("Five points, no model");
     assert!(harness.query_by_label("Measure").is_none(), "there are no stages without a project");
 }
@@ -52,7 +52,7 @@ fn sources_are_drawn_by_click_and_drag_and_taken_back() {
     harness.get_by_label_contains("DOF 7, translation").click();
     harness.run_steps(3);
     assert_eq!(drawn(&harness).len(), before.len() + 1);
-    harness.get_by_label_contains("already drawn");
+    assert!(harness.query_all_by_label_contains("already drawn").count() > 0);
 
     let (from, to) = (at(&harness, "1"), at(&harness, "5"));
     harness.hover_at(from);

@@ -49,7 +49,7 @@ fn stages_of_a_beam() {
 fn panes_of_the_result() {
     let sample = beam();
     let mut pictures = Pictures::of(&sample, Theme::Light);
-    for pane in [Pane::Damping, Pane::Bode, Pane::Nyquist, Pane::Hysteresis] {
+    for pane in [Pane::Damping, Pane::Bode, Pane::Nyquist, Pane::Hysteresis, Pane::Values] {
         pictures.take(Stage::Result, pane, &format!("result-{}", pane.title().to_lowercase()));
     }
 }

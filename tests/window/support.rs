@@ -128,7 +128,7 @@ fn window(file: Option<PathBuf>, theme: egui::Theme) -> Harness<'static, App> {
             let mut app = App::default();
             if let Some(file) = file {
                 app.open(&cc.egui_ctx, file);
-                app.settle().unwrap();
+                app.settle(&cc.egui_ctx).unwrap();
             }
             app
         });
@@ -146,4 +146,27 @@ pub fn settle(harness: &mut Harness<'_, App>) {
         harness.run_steps(1);
     }
     harness.run_steps(3);
+}
+
+#[derive(Debug)]
+struct Dropped(PathBuf);
+
+impl egui::DroppedFile for Dropped {
+    fn path(&self) -> &Path {
+        &self.0
+    }
+
+    fn bytes(&self) -> Result<Vec<u8>, String> {
+        std::fs::read(&self.0).map_err(|e| e.to_string())
+    }
+}
+
+/// Drops files on the window.
+pub fn drop_files(harness: &mut Harness<'_, App>, files: &[PathBuf]) {
+    for file in files {
+        harness.input_mut().dropped_files.push(std::sync::Arc::new(Dropped(file.clone())));
+    }
+    harness.step();
+    harness.input_mut().dropped_files.clear();
+    harness.run_steps(2);
 }

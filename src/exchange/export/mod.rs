@@ -7,6 +7,9 @@ mod json;
 pub mod mat5;
 mod mtx;
 mod nastran;
+mod outcome;
+
+pub use outcome::write_outcome;
 
 use super::atomic::write_atomically;
 use crate::effects::{Effect, Source};

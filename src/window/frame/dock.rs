@@ -48,6 +48,13 @@ impl Desk {
         panes
     }
 
+    /// Where a pane was drawn last; `None` where it is closed or behind another.
+    pub fn rect(&self, stage: Stage, pane: Pane) -> Option<Rect> {
+        let tiles = &self.trees.get(&stage)?.tiles;
+        let parent = tiles.parent_of(tiles.find_pane(&pane)?)?;
+        tiles.rect(tiles.find_pane(&pane)?).and(tiles.rect(parent))
+    }
+
     /// Opens or closes a pane; one that is opened comes to the front of its tabs.
     pub fn set_open(&mut self, stage: Stage, pane: Pane, open: bool) {
         let tree = self.tree(stage);
@@ -64,7 +71,13 @@ pub fn show(ui: &mut Ui, app: &mut App, asks: &mut Vec<Ask>) {
     let stage = app.view.stage;
     // The tree is taken out while its panes look at the application.
     let mut tree = app.desk.trees.remove(&stage).unwrap_or_else(|| arrangement(stage));
-    tree.ui(&mut Panes { app, asks, alone: true }, ui);
+    let mut panes = Panes { app, asks, alone: true, closed: None };
+    tree.ui(&mut panes, ui);
+    // Closed panes keep their place, so that View > Panes can bring them back to it.
+    if let Some(tile) = panes.closed {
+        tree.set_visible(tile, false);
+        ui.ctx().request_repaint();
+    }
     app.desk.trees.insert(stage, tree);
 }
 
@@ -73,6 +86,8 @@ struct Panes<'a> {
     asks: &'a mut Vec<Ask>,
     /// Whether the tab that is drawn is the only one of its bar.
     alone: bool,
+    /// The pane that is to be closed after this frame.
+    closed: Option<TileId>,
 }
 
 impl Behavior<Pane> for Panes<'_> {
@@ -122,7 +137,7 @@ impl Behavior<Pane> for Panes<'_> {
             ui.painter().rect_filled(line, 1.0, palette.accent);
         }
         if hovered {
-            self.close_button(tiles, ui, rect, tile, &title);
+            self.close_button(ui, rect, tile, &title);
         }
         response
     }
@@ -136,12 +151,6 @@ impl Behavior<Pane> for Panes<'_> {
             ui.add_space(space::S);
             super::schematic::switches(ui, self.app, self.asks);
         }
-    }
-
-    fn on_tab_close(&mut self, tiles: &mut Tiles<Pane>, tile: TileId) -> bool {
-        // Closed panes keep their place, so that View > Panes can bring them back to it.
-        tiles.set_visible(tile, false);
-        false
     }
 
     fn simplification_options(&self) -> SimplificationOptions {
@@ -179,7 +188,7 @@ impl Behavior<Pane> for Panes<'_> {
 }
 
 impl Panes<'_> {
-    fn close_button(&mut self, tiles: &mut Tiles<Pane>, ui: &mut Ui, tab: Rect, tile: TileId, title: &str) {
+    fn close_button(&mut self, ui: &mut Ui, tab: Rect, tile: TileId, title: &str) {
         let palette = Palette::of(ui.visuals());
         let rect = Rect::from_center_size(tab.right_center() - vec2(14.0, 0.0), vec2(14.0, 14.0));
         let response = ui.interact(rect, ui.scope_id().with(("close", tile)), Sense::click());
@@ -189,7 +198,7 @@ impl Panes<'_> {
         ui.painter().line_segment([r.left_top(), r.right_bottom()], theme::pen(ink));
         ui.painter().line_segment([r.right_top(), r.left_bottom()], theme::pen(ink));
         if response.on_hover_text("Closes the pane; View > Panes brings it back.").clicked() {
-            self.on_tab_close(tiles, tile);
+            self.closed = Some(tile);
         }
     }
 }

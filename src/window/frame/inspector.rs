@@ -1,14 +1,18 @@
 //! What is selected, with every value and its unit.
 
+use crate::balance::{Expansion, Weights};
 use crate::effects::{Place, State};
 use crate::exchange::Project;
+use crate::exchange::project::ProjectFile;
+use crate::identify::Settings;
+use crate::session::{Command, Setting};
 use crate::window::app::{App, Ask};
-use crate::window::document::Edit;
+use crate::window::edits::Edit;
 use crate::window::theme::space;
 use crate::window::view::Stage;
 use crate::window::widgets::UiExt;
 use crate::window::{format, words};
-use egui::{DragValue, ScrollArea, Ui};
+use egui::{ScrollArea, Ui};
 
 /// Shows the inspector.
 pub fn show(ui: &mut Ui, app: &App, asks: &mut Vec<Ask>) {
@@ -16,16 +20,27 @@ pub fn show(ui: &mut Ui, app: &App, asks: &mut Vec<Ask>) {
     let p = &document.project;
     ScrollArea::vertical().auto_shrink(false).show(ui, |ui| match (app.view.source, app.view.dof) {
         (Some(source), _) if source < p.sources.len() => self::source(ui, p, source, asks),
-        (_, Some(dof)) if dof < p.structure.len() => self::dof(ui, p, dof),
+        (_, Some(dof)) if dof < p.structure.len() => {
+            self::dof(ui, p, dof);
+            sensors(ui, p, document.session().document().file(), dof, asks);
+        }
         _ if app.view.stage == Stage::Measure && app.view.run < p.runs.len() => run(ui, p, app.view.run, asks),
-        _ => project(ui, p),
+        _ => project(ui, p, asks),
     });
 }
 
-fn project(ui: &mut Ui, p: &Project) {
+fn set(asks: &mut Vec<Ask>, command: Command) {
+    asks.push(Ask::Edit(Edit::Do(command)));
+}
+
+fn project(ui: &mut Ui, p: &Project, asks: &mut Vec<Ask>) {
     ui.title("Project", "");
-    ui.add_space(space::XS);
-    ui.label(&p.title);
+    let mut title = p.title.clone();
+    let field = ui.add(egui::TextEdit::singleline(&mut title).desired_width(f32::INFINITY));
+    field.widget_info(|| egui::WidgetInfo::labeled(egui::Role::TextInput, true, "Title"));
+    if field.changed() {
+        set(asks, Command::SetTitle(title));
+    }
     if !p.notes.is_empty() {
         ui.hint(&p.notes);
     }
@@ -41,13 +56,34 @@ fn project(ui: &mut Ui, p: &Project) {
         }
     }
     ui.add_space(space::M);
-    ui.title("Analysis", "");
-    ui.pair("Harmonics fitted", p.settings.harmonics.to_string());
-    ui.pair("Most sources", p.settings.max_sources.to_string());
-    ui.pair("Best single columns kept", p.settings.keep.to_string());
-    ui.pair("Stops below", format!("{}°", format::significant(p.settings.stop_angle_deg, 2)));
+    analysis(ui, &p.settings, asks);
     ui.add_space(space::M);
-    ui.hint("Select a DOF, a source or a run to see its values.");
+    ui.hint("Select a DOF, a source or a run to see and change its values.");
+}
+
+fn analysis(ui: &mut Ui, s: &Settings, asks: &mut Vec<Ask>) {
+    ui.title("Analysis", "");
+    let counts: [(&str, usize, fn(usize) -> Setting); 3] = [
+        ("Harmonics fitted", s.harmonics, Setting::Harmonics),
+        ("Most sources", s.max_sources, Setting::MaxSources),
+        ("Columns kept, 0: all", s.keep, Setting::Keep),
+    ];
+    for (name, value, setting) in counts {
+        if let Some(new) = ui.quantity(name, value as f64, "") {
+            set(asks, Command::SetSetting(setting(new.round().max(0.0) as usize)));
+        }
+    }
+    if let Some(new) = ui.quantity("Stops below", s.stop_angle_deg, "°") {
+        set(asks, Command::SetSetting(Setting::StopAngleDeg(new)));
+    }
+    let expansions = [Expansion::Auto, Expansion::None, Expansion::SingleMode, Expansion::Modes, Expansion::Dynamic];
+    if let Some(new) = ui.choice("Expansion", s.expansion, &expansions, words::expansion) {
+        set(asks, Command::SetSetting(Setting::Expansion(new)));
+    }
+    let weights = [Weights::Auto, Weights::None, Weights::Energy, Weights::Noise];
+    if let Some(new) = ui.choice("Weights", s.weights, &weights, words::weights) {
+        set(asks, Command::SetSetting(Setting::Weights(new)));
+    }
 }
 
 fn run(ui: &mut Ui, p: &Project, index: usize, asks: &mut Vec<Ask>) {
@@ -56,13 +92,13 @@ fn run(ui: &mut Ui, p: &Project, index: usize, asks: &mut Vec<Ask>) {
     ui.add_space(space::XS);
     let mut used = r.enabled;
     if ui.checkbox(&mut used, "Used in the analysis").changed() {
-        asks.push(Ask::Edit(Edit::UseRun(index, used)));
+        asks.push(Ask::Edit(Edit::UseRun(r.file.clone(), used)));
     }
     ui.pair("Frequency", frequency(r));
-    ui.pair("Period", format::prefixed(r.fit.period(), "s"));
-    if let Some(level) = r.level {
-        ui.pair("Force level", level.to_string());
+    if r.record.is_some() {
+        adjust(ui, r, asks);
     }
+    ui.pair("Period", format::prefixed(r.fit.period(), "s"));
     ui.pair("Noise over signal", format::percent(r.noise_ratio));
     if let Some(record) = &r.record {
         ui.pair("Samples a channel", record.time().len().to_string());
@@ -79,6 +115,51 @@ fn run(ui: &mut Ui, p: &Project, index: usize, asks: &mut Vec<Ask>) {
         ui.add_space(space::XS);
         ui.pill(words::flag(finding.flag), ui.palette().warning);
         ui.label(&finding.reason);
+    }
+}
+
+/// What can be said about a run: its frequency, its level, whether it belongs to the project at all.
+fn adjust(ui: &mut Ui, r: &crate::measurement::Run, asks: &mut Vec<Ask>) {
+    let hertz = r.fit.omega / std::f64::consts::TAU;
+    let file = || r.file.clone();
+    if let Some(new) = ui.quantity("Fit at", hertz, "Hz") {
+        set(asks, Command::SetRunFrequency { file: file(), frequency: (new > 0.0).then_some(new) });
+    }
+    if let Some(new) = ui.quantity("Force level", r.level.unwrap_or(0) as f64, "") {
+        set(asks, Command::SetRunLevel { file: file(), level: (new != 0.0).then_some(new.round() as i64) });
+    }
+    ui.horizontal(|ui| {
+        if ui.small_button("Estimate the frequency").clicked() {
+            set(asks, Command::SetRunFrequency { file: file(), frequency: None });
+        }
+        if ui.small_button("Remove run").clicked() {
+            set(asks, Command::RemoveRun(file()));
+        }
+    });
+}
+
+/// Known errors of the channels of a DOF.
+fn sensors(ui: &mut Ui, p: &Project, file: &ProjectFile, dof: usize, asks: &mut Vec<Ask>) {
+    let mut names: Vec<String> = Vec::new();
+    for channel in p.runs.iter().flat_map(|r| &r.fit.channels).map(|c| &c.channel).filter(|c| c.dof == dof) {
+        let name = channel.to_string();
+        if !names.contains(&name) {
+            names.push(name);
+        }
+    }
+    for channel in names {
+        ui.add_space(space::S);
+        ui.title(&channel, "known errors of the channel");
+        let table = file.sensor.iter().find(|t| t.channel == channel);
+        let (delay, gain) = (table.and_then(|t| t.delay), table.and_then(|t| t.gain));
+        if let Some(new) = ui.quantity(&format!("Delay of {channel}"), delay.unwrap_or(0.0), "s") {
+            let delay = (new != 0.0).then_some(new);
+            set(asks, Command::SetSensor { channel: channel.clone(), delay, gain });
+        }
+        if let Some(new) = ui.quantity(&format!("Gain of {channel}"), gain.unwrap_or(1.0), "") {
+            let gain = (new != 1.0).then_some(new);
+            set(asks, Command::SetSensor { channel: channel.clone(), delay, gain });
+        }
     }
 }
 
@@ -143,16 +224,7 @@ fn source(ui: &mut Ui, p: &Project, index: usize, asks: &mut Vec<Ask>) {
             ui.pair(parameter.name, "identified");
             continue;
         }
-        let mut value = s.parameters[k];
-        let changed = ui
-            .horizontal(|ui| {
-                ui.hint(parameter.name);
-                let speed = (0.01 * value.abs()).max(1e-6);
-                let suffix = format!(" {}", format::pretty_unit(parameter.unit));
-                ui.add(DragValue::new(&mut value).speed(speed).suffix(suffix).max_decimals(6)).changed()
-            })
-            .inner;
-        if changed {
+        if let Some(value) = ui.quantity(parameter.name, s.parameters[k], parameter.unit) {
             asks.push(Ask::Edit(Edit::SetParameter(index, k, value)));
         }
     }

@@ -1,8 +1,11 @@
 //! What stands around the stages: bars, docked panes, inspector, schematic, start screen.
 
 pub mod dock;
+pub mod help;
+pub mod icons;
 pub mod inspector;
-pub mod keys;
+pub mod leave;
+pub mod notice;
 pub mod panes;
 pub mod schematic;
 pub mod start;

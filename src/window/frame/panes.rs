@@ -114,7 +114,7 @@ fn work(stage: Stage) -> Groups {
             &[(&[Pane::Modes, Pane::Parameters, Pane::Expansion], 0.44), (&[Pane::Frequencies, Pane::ModeShape], 0.56)]
         }
         Stage::Pattern => &[(&[Pane::Laws], 0.48), (&[Pane::Sources], 0.52)],
-        Stage::Select => &[(&[Pane::Steps], 0.42), (&[Pane::Set], 0.34), (&[Pane::Angle, Pane::RunEnergy], 0.24)],
+        Stage::Select => &[(&[Pane::Steps], 0.44), (&[Pane::Set], 0.30), (&[Pane::Angle, Pane::RunEnergy], 0.26)],
         Stage::Result => &[
             (&[Pane::Matrix], 0.42),
             (&[Pane::Energy, Pane::Damping, Pane::Bode, Pane::Nyquist, Pane::Hysteresis, Pane::Values], 0.58),

@@ -12,6 +12,7 @@ use crate::window::schematic::view::View;
 use crate::window::stages::select;
 use crate::window::view::Stage;
 use egui::Ui;
+use faer::c64;
 use std::sync::Arc;
 
 /// Shows the schematic.
@@ -29,13 +30,14 @@ pub fn show(ui: &mut Ui, app: &mut App, asks: &mut Vec<Ask>) {
         let total: Vec<f32> = outcome.results.energy_percent.iter().map(|v| 0.01 * *v as f32).collect();
         shares = (app.view.stage == Stage::Result).then_some(total);
     }
-    let (shape, caption) = shape(ui, app);
-    let shape = shape.map(|s| s.iter().map(|v| v * app.view.phase.cos()).collect::<Vec<f64>>());
+    let (moved, caption) = moved(ui, app, &scene);
+    let shape = moved.as_ref().map(|m| m.at(app.view.phase));
+    let largest = moved.map_or(0.0, |m| m.largest);
     let slot = |index: usize| scene.sources.iter().position(|s| s.index == index).map(Target::Source);
     let selected = app.view.source.and_then(slot).or(app.view.dof.map(Target::Dof));
     let law = (app.view.stage == Stage::Pattern).then_some(app.view.law).filter(|law| law.law().is_some());
-    let view =
-        View { scene: &scene, shape: shape.as_deref(), shares: shares.as_deref(), selected, law, caption: &caption };
+    let (shape, shares) = (shape.as_deref(), shares.as_deref());
+    let view = View { scene: &scene, shape, largest, shares, selected, law, caption: &caption };
     let intents = view.show(ui, &mut app.view.schematic);
     asks.extend(intents.into_iter().map(Ask::Schematic));
 }
@@ -52,26 +54,60 @@ fn identified(scene: &Scene, p: &Project, estimates: &[Estimate]) -> Scene {
     scene
 }
 
-/// The shape that the stage is about, and what it is.
-fn shape(ui: &Ui, app: &mut App) -> (Option<Vec<f64>>, String) {
+/// A motion of all DOFs, `Re(x exp(i phase))`, real at its largest translation.
+struct Moved {
+    x: Vec<c64>,
+    largest: f64,
+}
+
+impl Moved {
+    fn new(scene: &Scene, x: &[c64]) -> Option<Self> {
+        let size = |d: &usize| x.get(*d).map_or(0.0, |v| v.re.hypot(v.im));
+        let most = scene.translations().into_iter().max_by(|a, b| size(a).total_cmp(&size(b)))?;
+        let largest = size(&most);
+        let turn = (largest > 0.0).then(|| x[most].conj() / largest)?;
+        Some(Self { x: x.iter().map(|v| v * turn).collect(), largest })
+    }
+
+    fn at(&self, phase: f64) -> Vec<f64> {
+        let (sin, cos) = phase.sin_cos();
+        self.x.iter().map(|v| v.re * cos - v.im * sin).collect()
+    }
+}
+
+/// The motion that the stage is about, and what it is.
+fn moved(ui: &Ui, app: &mut App, scene: &Scene) -> (Option<Moved>, String) {
     let Some(document) = &app.document else { return (None, String::new()) };
-    if app.view.stage == Stage::Pattern {
-        let verb = "Click a DOF: source to ground  ·  drag to another DOF: between them  ·  sweep: chain  ·  click again: state";
-        return (None, verb.to_owned());
+    match app.view.stage {
+        Stage::Pattern => {
+            let verb = "Click a DOF: source to ground  ·  drag to another DOF: between them  ·  sweep: chain  ·  click again: state";
+            (None, verb.to_owned())
+        }
+        _ if !app.view.shape => (None, String::new()),
+        Stage::Structure => mode(ui, app, scene),
+        _ => {
+            let Some(Ok(motions)) = app.derived.motions(ui.ctx(), document) else { return (None, String::new()) };
+            let (run, runs) = (app.view.run, &document.project.runs);
+            let moved = motions.get(run).and_then(|x| Moved::new(scene, x));
+            let caption = runs.get(run).filter(|_| moved.is_some()).map_or_else(String::new, |r| {
+                let (frequency, size) =
+                    (r.fit.omega / std::f64::consts::TAU, moved.as_ref().map_or(0.0, |m| m.largest));
+                let (frequency, size) = (format::with_unit(frequency, "Hz"), format::prefixed(size, "m"));
+                format!("Run {}   {frequency}   largest {size}", run + 1)
+            });
+            (moved, caption)
+        }
     }
-    if !app.view.shape || app.view.stage != Stage::Structure {
-        return (None, String::new());
-    }
+}
+
+fn mode(ui: &Ui, app: &mut App, scene: &Scene) -> (Option<Moved>, String) {
+    let Some(document) = &app.document else { return (None, String::new()) };
+    let number = app.view.mode;
     match app.derived.modes(ui.ctx(), document) {
-        Some(Ok(modes)) if app.view.mode < modes.len() => {
-            let frequency = format::with_unit(modes.frequency_hz(app.view.mode), "Hz");
-            (
-                Some(crate::window::stages::structure::upright(
-                    modes.shape(app.view.mode),
-                    &document.project.structure.translations(),
-                )),
-                format!("Mode {}   {frequency}", app.view.mode + 1),
-            )
+        Some(Ok(modes)) if number < modes.len() => {
+            let x: Vec<c64> = modes.shape(number).iter().map(|&v| c64::new(v, 0.0)).collect();
+            let frequency = format::with_unit(modes.frequency_hz(number), "Hz");
+            (Moved::new(scene, &x), format!("Mode {}   {frequency}", number + 1))
         }
         _ => (None, String::new()),
     }

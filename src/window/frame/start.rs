@@ -2,6 +2,7 @@
 
 use crate::window::app::Ask;
 use crate::window::commands::Command;
+use crate::window::templates;
 use crate::window::theme::{self, Palette, size, space};
 use crate::window::widgets::UiExt;
 use egui::{CentralPanel, Frame, Margin, Rect, RichText, Role, Sense, StrokeKind, Ui, WidgetInfo, pos2, vec2};
@@ -17,33 +18,33 @@ struct Sample {
 
 const SAMPLES: [Sample; 6] = [
     Sample {
+        folder: "cantilever-case-2",
+        title: "Cantilever, unequal dashpots",
+        sentence: "Four dampers that differ a hundredfold, three accelerometers, 5 % noise. The tour is on this one.",
+        picture: |p, c, r| beam(p, c, r, &[2, 3, 7, 9], &[]),
+    },
+    Sample {
         folder: "cantilever-case-1",
-        title: "Cantilever, one dashpot",
-        sentence: "A steel strip with a single air damper somewhere along it: find it from three accelerometers.",
-        picture: |p, c, r| beam(p, c, r, &[8]),
+        title: "Cantilever, equal dashpots",
+        sentence: "Four equal dampers on an aluminium strip: find them among twenty candidates.",
+        picture: |p, c, r| beam(p, c, r, &[2, 3, 7, 9], &[]),
     },
     Sample {
         folder: "cantilever-case-1a",
-        title: "Cantilever, dashpot between sensors",
-        sentence: "The same strip; the damper acts where nothing is measured.",
-        picture: |p, c, r| beam(p, c, r, &[5]),
+        title: "Cantilever, one place known",
+        sentence: "The same test, but one damper's place is known: it is forced and its value identified.",
+        picture: |p, c, r| beam(p, c, r, &[2, 3, 7, 9], &[2]),
     },
     Sample {
-        folder: "cantilever-case-2",
-        title: "Cantilever, four dashpots",
-        sentence: "Four dampers at once, in noise: how many does the data support?",
-        picture: |p, c, r| beam(p, c, r, &[2, 4, 7, 10]),
-    },
-    Sample {
-        folder: "cantilever-harmonics",
-        title: "Cantilever, from fitted harmonics",
-        sentence: "Another program has fitted the harmonics already; only their amplitudes are given.",
-        picture: |p, c, r| beam(p, c, r, &[3, 9]),
+        folder: "cantilever-case-2-rounded",
+        title: "Cantilever, beside the resonances",
+        sentence: "Driven at rounded frequencies, where one mode does not describe the shape.",
+        picture: |p, c, r| beam(p, c, r, &[2, 3, 7, 9], &[]),
     },
     Sample {
         folder: "five-masses",
         title: "Five masses",
-        sentence: "A chain of masses and springs with two dashpots between them.",
+        sentence: "A chain with known dashpots to the ground and two unknown ones between masses.",
         picture: chain,
     },
     Sample {
@@ -63,7 +64,7 @@ pub fn samples_folder() -> Option<PathBuf> {
 }
 
 /// Shows the start screen.
-pub fn show(ui: &mut Ui, asks: &mut Vec<Ask>) {
+pub fn show(ui: &mut Ui, recent: &[PathBuf], asks: &mut Vec<Ask>) {
     let palette = Palette::of(ui.visuals());
     let desk = Frame::new().fill(palette.desk).inner_margin(Margin::same(space::XL as i8));
     CentralPanel::default().frame(desk).show(ui, |ui| {
@@ -75,6 +76,7 @@ pub fn show(ui: &mut Ui, asks: &mut Vec<Ask>) {
                 ui.set_width(width);
                 heading(ui, asks);
                 cards(ui, width, asks);
+                files(ui, recent, asks);
             });
         });
     });
@@ -91,6 +93,17 @@ fn heading(ui: &mut Ui, asks: &mut Vec<Ask>) {
     ui.horizontal(|ui| {
         if ui.primary("Open a project…").on_hover_text(Command::Open.entry().tooltip).clicked() {
             asks.push(Ask::Command(Command::Open));
+        }
+        ui.menu_button("New…", |ui| {
+            for (k, template) in templates::ALL.iter().enumerate() {
+                if ui.button(template.name).clicked() {
+                    asks.push(Ask::New(k));
+                    ui.close();
+                }
+            }
+        });
+        if ui.button("Take the tour").on_hover_text(Command::Tour.entry().tooltip).clicked() {
+            asks.push(Ask::Command(Command::Tour));
         }
         ui.hint("or drop its file on this window, or begin with a sample");
     });
@@ -120,6 +133,20 @@ fn cards(ui: &mut Ui, width: f32, asks: &mut Vec<Ask>) {
     }
 }
 
+/// The files opened last.
+fn files(ui: &mut Ui, recent: &[PathBuf], asks: &mut Vec<Ask>) {
+    if recent.is_empty() {
+        return;
+    }
+    ui.add_space(space::S);
+    ui.title("Opened last", "");
+    for path in recent.iter().take(5) {
+        if ui.link(path.display().to_string()).clicked() {
+            asks.push(Ask::Open(path.clone()));
+        }
+    }
+}
+
 fn card(ui: &mut Ui, width: f32, sample: &Sample, file: Option<&Path>) -> bool {
     let palette = ui.palette();
     let present = file.is_some_and(Path::exists);
@@ -144,7 +171,8 @@ fn card(ui: &mut Ui, width: f32, sample: &Sample, file: Option<&Path>) -> bool {
     response.clicked()
 }
 
-fn beam(painter: &egui::Painter, palette: &Palette, r: Rect, dashpots: &[usize]) {
+/// Dashpots stand at nodes of ten; those whose place is known are drawn in ink.
+fn beam(painter: &egui::Painter, palette: &Palette, r: Rect, dashpots: &[usize], known: &[usize]) {
     use crate::effects::Effect;
     use crate::window::schematic::symbols;
     let axis = r.top() + 40.0;
@@ -156,10 +184,11 @@ fn beam(painter: &egui::Painter, palette: &Palette, r: Rect, dashpots: &[usize])
     painter.add(egui::Shape::line(curve, egui::Stroke::new(4.0, palette.ink)));
     for &k in dashpots {
         let (top, foot) = (pos2(at(k), axis - lift(k as f32)), pos2(at(k), r.bottom() - 12.0));
-        symbols::draw(painter, Effect::Viscous, [top, foot], theme::pen(palette.model));
-        symbols::ground(painter, foot, egui::Vec2::DOWN, 20.0, theme::hair(palette.model));
+        let colour = if known.contains(&k) { palette.accent } else { palette.model };
+        symbols::draw(painter, Effect::Viscous, [top, foot], theme::pen(colour));
+        symbols::ground(painter, foot, egui::Vec2::DOWN, 20.0, theme::hair(colour));
     }
-    for k in [3, 6, 10] {
+    for k in [4, 6, 10] {
         let body = Rect::from_center_size(pos2(at(k), axis - lift(k as f32) - 6.0), vec2(10.0, 7.0));
         painter.rect_filled(body, 1.5, palette.measured);
     }
@@ -176,7 +205,7 @@ fn chain(painter: &egui::Painter, palette: &Palette, r: Rect) {
         let k = k as f32;
         let (from, to) = (if k == 0.0 { x(0.0) } else { x(k) + 11.0 }, x(k + 1.0) - 13.0);
         symbols::draw(painter, Effect::Stiffness, [pos2(from, y - 9.0), pos2(to, y - 9.0)], theme::pen(palette.ink));
-        if k == 1.0 || k == 3.0 {
+        if k == 2.0 || k == 4.0 {
             symbols::draw(
                 painter,
                 Effect::Viscous,
@@ -194,7 +223,7 @@ fn points(painter: &egui::Painter, palette: &Palette, r: Rect) {
     use crate::window::schematic::symbols;
     let step = (r.width() - 60.0) / 4.0;
     let at = |k: usize| pos2(r.left() + 30.0 + step * k as f32, r.center().y);
-    for k in [0, 2] {
+    for k in [1, 3] {
         symbols::draw(painter, Effect::Viscous, [at(k), at(k + 1)], theme::pen(palette.model));
     }
     for k in 0..5 {

@@ -1,10 +1,12 @@
-//! The status bar: what runs, the last message, what the project holds.
+//! The status bar: what runs and how to stop it, the last message, the error now and the noise under it.
 
+use crate::identify::Outcome;
 use crate::window::app::{App, Ask};
-use crate::window::theme::Palette;
+use crate::window::commands::Command;
+use crate::window::theme::{Palette, size};
 use crate::window::widgets::UiExt;
-use crate::window::words;
-use egui::{Align, Frame, Label, Layout, Margin, Panel, ProgressBar, RichText, Ui};
+use crate::window::{format, words};
+use egui::{Align, Button, Frame, Layout, Margin, Panel, ProgressBar, RichText, Ui};
 
 /// Shows the bar.
 pub fn show(ui: &mut Ui, app: &App, asks: &mut Vec<Ask>) {
@@ -13,47 +15,67 @@ pub fn show(ui: &mut Ui, app: &App, asks: &mut Vec<Ask>) {
     Panel::bottom("status").frame(bar).show(ui, |ui| {
         ui.horizontal(|ui| {
             ui.set_min_height(22.0);
-            left(ui, app, asks);
-            ui.with_layout(Layout::right_to_left(Align::Center), |ui| summary(ui, app));
+            running(ui, app, asks);
+            ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+                summary(ui, app);
+                ui.with_layout(Layout::left_to_right(Align::Center), |ui| message(ui, app, asks));
+            });
         });
     });
 }
 
-fn left(ui: &mut Ui, app: &App, asks: &mut Vec<Ask>) {
+fn running(ui: &mut Ui, app: &App, asks: &mut Vec<Ask>) {
+    let Some((name, progress)) = app.running() else { return };
     let palette = ui.palette();
-    if let Some((name, progress)) = app.running() {
-        ui.add(ProgressBar::new(progress as f32).desired_width(120.0).desired_height(6.0).fill(palette.accent));
-        ui.label(name);
-        ui.separator();
+    ui.add(ProgressBar::new(progress as f32).desired_width(110.0).desired_height(6.0).fill(palette.accent));
+    ui.label(name);
+    if ui.small_button("Cancel").on_hover_text(Command::Cancel.entry().tooltip).clicked() {
+        asks.push(Ask::Command(Command::Cancel));
     }
-    if let Some(message) = &app.message {
-        let colour = if message.failed { palette.error } else { palette.ink };
-        let room = ui.available_width() - 420.0;
-        let text = Label::new(RichText::new(&message.text).color(colour)).truncate();
-        ui.scope(|ui| {
-            ui.set_max_width(room.max(200.0));
-            ui.add(text).on_hover_text(&message.text);
-        });
-        if ui.small_button("Copy").clicked() {
-            ui.ctx().copy_text(message.text.clone());
+    ui.separator();
+}
+
+/// The last message; a click lists all.
+fn message(ui: &mut Ui, app: &App, asks: &mut Vec<Ask>) {
+    let palette = ui.palette();
+    let Some(message) = app.messages.last() else {
+        if app.running().is_none() {
+            ui.hint("Ready");
         }
-        if ui.small_button("Dismiss").clicked() {
-            asks.push(Ask::Dismiss);
-        }
-    } else if app.running().is_none() {
-        ui.hint("Ready");
+        return;
+    };
+    let colour = if message.failed { palette.error } else { palette.weak };
+    if ui.small_button("Copy").on_hover_text("Copies the last message.").clicked() {
+        ui.ctx().copy_text(message.text.clone());
     }
+    let text = RichText::new(&message.text).size(size::SMALL).color(colour);
+    let line = Button::new(text).frame(false).truncate();
+    if ui.add(line).on_hover_text("Click to list all messages.").clicked() {
+        asks.push(Ask::Command(Command::Messages));
+    }
+}
+
+/// Error of the accepted set and what the noise alone would leave, both relative to the measured energy.
+pub fn error_and_floor(outcome: &Outcome) -> (f64, f64) {
+    let square =
+        |f: &dyn Fn(&crate::identify::RunOutcome) -> f64| outcome.runs.iter().map(|r| f(r).powi(2)).sum::<f64>();
+    let measured = square(&|r| r.input_energy).max(f64::MIN_POSITIVE);
+    (outcome.accepted_step().relative_error, (square(&|r| r.energy_deviation) / measured).sqrt())
 }
 
 fn summary(ui: &mut Ui, app: &App) {
     let Some(document) = &app.document else { return };
     let p = &document.project;
     let used = p.runs.iter().filter(|r| r.enabled).count();
-    let noise = p.runs.iter().filter(|r| r.enabled).map(|r| r.noise_ratio).fold(0.0, f64::max);
-    let mut parts = vec![words::kind(p.structure.kind()).to_owned(), format!("{} DOFs", p.structure.len())];
-    parts.push(format!("{used} of {} runs used", p.runs.len()));
-    if noise > 0.0 {
-        parts.push(format!("noise up to {}", crate::window::format::percent(noise)));
+    let mut parts = Vec::new();
+    if let Some(Ok(outcome)) = app.derived.known_outcome(document) {
+        let (error, floor) = error_and_floor(outcome);
+        parts.push(format!("energy error {}", format::percent(error)));
+        if floor > 0.0 {
+            parts.push(format!("noise floor {}", format::percent(floor)));
+        }
     }
+    parts.push(format!("{used} of {} runs", p.runs.len()));
+    parts.push(format!("{}, {} DOFs", words::kind(p.structure.kind()), p.structure.len()));
     ui.hint(parts.join("   ·   "));
 }

@@ -1,11 +1,14 @@
 //! Menus and the bar of stages.
 
+use crate::exchange::export::Format;
+use crate::session::recent::Recent;
 use crate::window::app::{App, Ask};
 use crate::window::commands::Command;
 use crate::window::plots::export;
 use crate::window::theme::{self, Palette, size, space};
 use crate::window::view::Stage;
 use crate::window::widgets::UiExt;
+use crate::window::{files, templates};
 use egui::{
     Align, Align2, Button, Color32, Frame, Layout, Margin, Panel, Rect, RichText, Role, Sense, Ui, WidgetInfo, vec2,
 };
@@ -66,16 +69,7 @@ pub fn show(ui: &mut Ui, app: &App, asks: &mut Vec<Ask>) {
 
 fn menus(ui: &mut Ui, app: &App, asks: &mut Vec<Ask>) {
     let open = app.document.is_some();
-    ui.menu_button("File", |ui| {
-        entry(ui, Command::Open, true, None, asks);
-        let dirty = app.document.as_ref().is_some_and(|d| d.session().is_dirty());
-        entry(ui, Command::Save, dirty, None, asks);
-        entry(ui, Command::Close, open, None, asks);
-        ui.separator();
-        plots(ui);
-        ui.separator();
-        entry(ui, Command::Quit, true, None, asks);
-    });
+    ui.menu_button("File", |ui| file(ui, app, asks));
     ui.menu_button("Edit", |ui| {
         let undo = app.document.as_ref().and_then(|d| d.session().history().undo_label());
         let redo = app.document.as_ref().and_then(|d| d.session().history().redo_label());
@@ -104,9 +98,59 @@ fn menus(ui: &mut Ui, app: &App, asks: &mut Vec<Ask>) {
         });
         entry(ui, Command::ResetLayout, open, None, asks);
         ui.separator();
+        entry(ui, Command::Messages, true, None, asks);
         entry(ui, Command::Theme, true, None, asks);
     });
-    ui.menu_button("Help", |ui| entry(ui, Command::Keys, true, None, asks));
+    ui.menu_button("Help", |ui| {
+        for command in [Command::Tour, Command::Keys, Command::About] {
+            entry(ui, command, true, None, asks);
+        }
+    });
+}
+
+fn file(ui: &mut Ui, app: &App, asks: &mut Vec<Ask>) {
+    let open = app.document.is_some();
+    ui.menu_button("New from template", |ui| {
+        for (k, template) in templates::ALL.iter().enumerate() {
+            if ui.button(template.name).clicked() {
+                asks.push(Ask::New(k));
+                ui.close();
+            }
+        }
+    });
+    entry(ui, Command::Open, true, None, asks);
+    let recent = app.recent.as_ref().map_or(&[][..], Recent::files);
+    ui.add_enabled_ui(!recent.is_empty(), |ui| {
+        ui.menu_button("Open recent", |ui| {
+            for path in recent {
+                if ui.button(path.display().to_string()).clicked() {
+                    asks.push(Ask::Open(path.clone()));
+                    ui.close();
+                }
+            }
+        });
+    });
+    ui.separator();
+    entry(ui, Command::Import, open, None, asks);
+    ui.separator();
+    let dirty = app.document.as_ref().is_some_and(|d| d.session().is_dirty());
+    entry(ui, Command::Save, dirty, None, asks);
+    entry(ui, Command::SaveAs, open, None, asks);
+    let known = app.document.as_ref().and_then(|d| app.derived.known_outcome(d)).is_some_and(Result::is_ok);
+    ui.add_enabled_ui(known, |ui| {
+        ui.menu_button("Export", |ui| {
+            for format in Format::ALL {
+                if ui.button(files::words(format)).clicked() {
+                    asks.push(Ask::ExportAs(format));
+                    ui.close();
+                }
+            }
+        });
+    });
+    plots(ui);
+    ui.separator();
+    entry(ui, Command::Close, open, None, asks);
+    entry(ui, Command::Quit, true, None, asks);
 }
 
 /// The plots on the screen, to be written to files.
@@ -171,27 +215,29 @@ fn tab(ui: &mut Ui, stage: Stage, open: bool, mark: &Mark) -> bool {
     let palette = ui.palette();
     let galley =
         ui.painter().layout_no_wrap(stage.label().to_owned(), theme::font(size::HEADING), Color32::PLACEHOLDER);
-    let (rect, response) = ui.allocate_exact_size(vec2(galley.size().x + 40.0, 34.0), Sense::click());
+    let (rect, response) = ui.allocate_exact_size(vec2(galley.size().x + 58.0, 34.0), Sense::click());
     response.widget_info(|| WidgetInfo::selected(Role::Tab, true, open, stage.label()));
     let painter = ui.painter();
     if response.hovered() {
         painter.rect_filled(rect.shrink2(vec2(0.0, 3.0)), 5.0, palette.raised);
     }
     let ink = if open { palette.accent } else { palette.ink };
-    let centre = rect.left_center() + vec2(15.0, 0.0);
+    let icon = Rect::from_center_size(rect.left_center() + vec2(17.0, 0.0), vec2(15.0, 15.0));
+    super::icons::stage(painter, stage, icon, ink);
+    let centre = rect.right_center() - vec2(13.0, 0.0);
     match mark.kind {
-        Kind::Empty => drop(painter.circle_stroke(centre, 4.5, theme::pen(palette.weak))),
+        Kind::Empty => drop(painter.circle_stroke(centre, 4.0, theme::pen(palette.weak))),
         Kind::Done => {
-            painter.circle_filled(centre, 6.5, palette.good);
+            painter.circle_filled(centre, 6.0, palette.good);
             let tick = vec![centre + vec2(-2.8, 0.2), centre + vec2(-0.8, 2.4), centre + vec2(3.0, -2.2)];
             painter.add(egui::Shape::line(tick, theme::pen(palette.pane)));
         }
         Kind::Attention => {
-            painter.circle_filled(centre, 6.5, palette.warning);
+            painter.circle_filled(centre, 6.0, palette.warning);
             painter.text(centre, Align2::CENTER_CENTER, "!", theme::font(size::SMALL), palette.pane);
         }
     }
-    painter.galley(rect.left_center() + vec2(28.0, -0.5 * galley.size().y), galley, ink);
+    painter.galley(rect.left_center() + vec2(31.0, -0.5 * galley.size().y), galley, ink);
     if open {
         let line = Rect::from_min_max(rect.left_bottom() - vec2(0.0, 2.5), rect.right_bottom());
         painter.rect_filled(line, 1.0, palette.accent);

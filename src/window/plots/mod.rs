@@ -79,7 +79,7 @@ pub fn readout<'a>(x: &'a str, y: &'a str) -> (Corner, egui_plot::CoordinatesFor
 
 /// A row of keys to curves above a plot.
 pub fn keys(ui: &mut Ui, entries: &[(Color32, &str)]) {
-    ui.horizontal(|ui| {
+    ui.horizontal_wrapped(|ui| {
         for (colour, name) in entries {
             ui.key(*colour, name);
             ui.add_space(space::S);

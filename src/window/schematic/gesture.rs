@@ -2,6 +2,7 @@
 
 use super::hit::{self, Target};
 use super::{Layout, Scene};
+use crate::window::edits::Edit;
 use egui::{Pos2, Rect};
 
 /// What the user asked for on the schematic; DOFs are matrix rows, sources are indices in the project.
@@ -19,6 +20,8 @@ pub enum Intent {
     CycleSource(usize),
     /// Take a source away.
     RemoveSource(usize),
+    /// Another change of the document.
+    Edit(Edit),
 }
 
 /// A drag in progress.

@@ -4,6 +4,7 @@
 pub mod gesture;
 pub mod hit;
 pub mod layout;
+pub mod menu;
 pub mod model;
 pub mod paint;
 pub mod symbols;

@@ -208,8 +208,15 @@ fn instruments(painter: &Painter, palette: &Palette, layout: &Layout) {
 }
 
 fn drag(painter: &Painter, palette: &Palette, marks: &Marks<'_>) {
-    if let Some((effect, ends)) = marks.rubber {
-        painter.line_segment(ends, Stroke::new(18.0, palette.accent.gamma_multiply(0.12)));
+    if let Some((effect, [from, to])) = marks.rubber {
+        // Beside the structure, so that the symbol can be told from it.
+        let along = (to - from).normalized();
+        let across = if along.x < 0.0 { vec2(along.y, -along.x) } else { vec2(-along.y, along.x) } * 34.0;
+        let ends = [from + across, to + across];
+        painter.line_segment(ends, Stroke::new(22.0, palette.accent.gamma_multiply(0.10)));
+        for (point, end) in [from, to].into_iter().zip(ends) {
+            painter.extend(Shape::dashed_line(&[point, end], theme::hair(palette.accent), 3.0, 3.0));
+        }
         symbols::draw(painter, effect, ends, theme::pen(palette.accent));
     }
     if let Some(span) = marks.span {

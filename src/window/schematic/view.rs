@@ -20,6 +20,8 @@ pub struct ViewState {
     pub camera: Option<Camera>,
     /// A drag in progress.
     pub drag: Option<Drag>,
+    /// What the menu that is open is about.
+    pub menu: Option<Target>,
 }
 
 /// What to show.
@@ -29,6 +31,8 @@ pub struct View<'a> {
     pub scene: &'a Scene,
     /// Displacement per DOF.
     pub shape: Option<&'a [f64]>,
+    /// The translation that is drawn at the fixed size.
+    pub largest: f64,
     /// Share per DOF.
     pub shares: Option<&'a [f32]>,
     /// Selected DOF or source slot.
@@ -46,10 +50,14 @@ impl View<'_> {
         let (area, canvas) = ui.allocate_exact_size(ui.available_size(), Sense::click_and_drag());
         canvas.widget_info(|| WidgetInfo::labeled(Role::Image, true, "Schematic"));
         let camera = state.camera.unwrap_or_else(|| Layout::home(self.scene, area));
-        let layout = Layout::new(self.scene, area, camera, self.shape);
+        let layout = Layout::at_scale(self.scene, area, camera, self.shape, self.largest);
         let mut intents = self.handles(ui, &canvas, &layout);
         let hovered = canvas.hover_pos().and_then(|p| hit::at(&layout, p));
         self.gestures(ui, &canvas, &layout, state, &mut intents);
+        if canvas.secondary_clicked() {
+            state.menu = hovered;
+        }
+        canvas.context_menu(|ui| super::menu::show(ui, self.scene, state.menu, &mut intents));
         if Layout::turns(self.scene) {
             turn(ui, &canvas, state, camera);
         }

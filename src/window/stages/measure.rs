@@ -3,7 +3,7 @@
 use crate::exchange::Project;
 use crate::measurement::{Quantity, Run};
 use crate::window::app::{App, Ask};
-use crate::window::document::Edit;
+use crate::window::edits::Edit;
 use crate::window::plots::{record::RecordPlot, spectrum};
 use crate::window::theme::space;
 use crate::window::view::View;
@@ -128,7 +128,7 @@ fn cells(row: &mut TableRow<'_, '_>, run: &Run, index: usize, asks: &mut Vec<Ask
             egui::WidgetInfo::selected(egui::Role::CheckBox, true, used, format!("Use run {}", index + 1))
         });
         if response.changed() {
-            asks.push(Ask::Edit(Edit::UseRun(index, used)));
+            asks.push(Ask::Edit(Edit::UseRun(run.file.clone(), used)));
         }
     });
     row.col(|ui| drop(ui.label(&run.file)));

@@ -50,10 +50,22 @@ pub fn outcome(
     use super::widgets::UiExt;
     match derived.outcome(ui.ctx(), document) {
         Some(Ok(outcome)) => return Some(outcome),
+        Some(Err(_)) if document.project.runs.iter().all(|r| !r.enabled) => {
+            ui.empty("No runs to identify from", "Import measurements, or tick the runs that are to be used.");
+        }
         Some(Err(error)) => ui.empty("Nothing was identified", &error),
         None => ui.empty("Identification is running", "Its progress is in the bar below."),
     }
     None
+}
+
+/// The same for panes beside the one that says why: empty until there is an answer.
+pub fn outcome_quietly(
+    ui: &mut Ui,
+    derived: &mut super::derived::Derived,
+    document: &super::document::Document,
+) -> Option<std::sync::Arc<crate::identify::Outcome>> {
+    derived.outcome(ui.ctx(), document)?.ok()
 }
 
 /// A coefficient with its deviation and unit.

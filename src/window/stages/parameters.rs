@@ -5,7 +5,7 @@ use crate::session::Command;
 use crate::structure::beam::{BeamParameters, Supports};
 use crate::structure::chain::ChainParameters;
 use crate::window::app::{App, Ask};
-use crate::window::document::Edit;
+use crate::window::edits::Edit;
 use crate::window::theme::space;
 use crate::window::widgets::UiExt;
 use crate::window::words;

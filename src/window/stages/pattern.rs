@@ -5,7 +5,7 @@ use crate::effects::{Effect, Family, State};
 use crate::exchange::Project;
 use crate::window::app::{App, Ask};
 use crate::window::commands::Command;
-use crate::window::document::Edit;
+use crate::window::edits::Edit;
 use crate::window::schematic::{paint::source_stroke, symbols};
 use crate::window::theme::{self, size, space};
 use crate::window::view::View;
@@ -30,7 +30,7 @@ pub fn sources(ui: &mut Ui, app: &mut App, asks: &mut Vec<Ask>) {
 }
 
 fn palette(ui: &mut Ui, law: &mut Effect, asks: &mut Vec<Ask>) {
-    let families = 40.0;
+    let families = 44.0;
     let height = (ui.available_height() - families).max(80.0);
     ScrollArea::vertical().max_height(height).auto_shrink(false).show(ui, |ui| {
         ui.horizontal_wrapped(|ui| {
@@ -45,7 +45,7 @@ fn palette(ui: &mut Ui, law: &mut Effect, asks: &mut Vec<Ask>) {
     ui.add_space(space::XS);
     ui.horizontal_wrapped(|ui| {
         let weak = ui.palette().weak;
-        ui.label(RichText::new(format!("Add {} at", words::effect(*law))).color(weak));
+        ui.label(RichText::new("Add at").color(weak));
         if matches!(law.kind(), Kind::Whole(_)) {
             if ui.button("Whole structure").clicked() {
                 asks.push(Ask::Edit(Edit::DrawWhole(*law)));

@@ -20,8 +20,8 @@ fn ready(ui: &mut Ui, app: &mut App) -> Option<Arc<Outcome>> {
 
 /// The damping matrix as a heat map or as bars in space.
 pub fn matrix(ui: &mut Ui, app: &mut App) {
-    let Some(outcome) = ready(ui, app) else { return };
     let Some(document) = &app.document else { return };
+    let Some(outcome) = super::outcome_quietly(ui, &mut app.derived, document) else { return };
     let (mut whole, mut in_space) = (app.view.whole_matrix, app.view.matrix_in_space);
     heat(ui, &document.project, &outcome, &mut whole, &mut in_space);
     (app.view.whole_matrix, app.view.matrix_in_space) = (whole, in_space);

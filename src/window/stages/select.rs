@@ -5,7 +5,7 @@ use crate::exchange::Project;
 use crate::identify::{Outcome, Status, Step};
 use crate::window::app::{App, Ask};
 use crate::window::commands::Command;
-use crate::window::document::Edit;
+use crate::window::edits::Edit;
 use crate::window::plots::{angle, energy};
 use crate::window::theme::{size, space};
 use crate::window::view::View;
@@ -16,16 +16,17 @@ use egui_extras::{Column, TableBuilder, TableRow};
 use std::sync::Arc;
 
 /// What the panes of the stage share: the answer and the step that is looked at.
-fn ready(ui: &mut Ui, app: &mut App) -> Option<(Arc<Outcome>, usize)> {
+fn ready(ui: &mut Ui, app: &mut App, says_why: bool) -> Option<(Arc<Outcome>, usize)> {
     let document = app.document.as_ref()?;
-    let outcome = super::outcome(ui, &mut app.derived, document)?;
+    let look = if says_why { super::outcome } else { super::outcome_quietly };
+    let outcome = look(ui, &mut app.derived, document)?;
     let current = app.view.step.unwrap_or(outcome.accepted).min(outcome.steps.len().checked_sub(1)?);
     Some((outcome, current))
 }
 
 /// One row a step.
 pub fn steps(ui: &mut Ui, app: &mut App, asks: &mut Vec<Ask>) {
-    let Some((outcome, current)) = ready(ui, app) else { return };
+    let Some((outcome, current)) = ready(ui, app, true) else { return };
     let Some(document) = &app.document else { return };
     let mut chosen = app.view.step;
     header(ui, &outcome, current, asks);
@@ -35,7 +36,7 @@ pub fn steps(ui: &mut Ui, app: &mut App, asks: &mut Vec<Ask>) {
 
 /// The set that is looked at, what cannot be told from it, and the alternatives of its size.
 pub fn set(ui: &mut Ui, app: &mut App, asks: &mut Vec<Ask>) {
-    let Some((outcome, current)) = ready(ui, app) else { return };
+    let Some((outcome, current)) = ready(ui, app, false) else { return };
     let Some(document) = &app.document else { return };
     let p = &document.project;
     ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
@@ -49,14 +50,14 @@ pub fn set(ui: &mut Ui, app: &mut App, asks: &mut Vec<Ask>) {
 
 /// Angle against the number of sources.
 pub fn angle(ui: &mut Ui, app: &mut App) {
-    let Some((outcome, current)) = ready(ui, app) else { return };
+    let Some((outcome, current)) = ready(ui, app, false) else { return };
     let Some(document) = &app.document else { return };
     angle::show(ui, &outcome, current, document.project.settings.stop_angle_deg);
 }
 
 /// Measured and identified energy of every run.
 pub fn energy(ui: &mut Ui, app: &mut App) {
-    let Some((outcome, current)) = ready(ui, app) else { return };
+    let Some((outcome, current)) = ready(ui, app, false) else { return };
     let Some(document) = &app.document else { return };
     energy::show(ui, &document.project, &outcome, current);
 }
@@ -172,18 +173,15 @@ fn cells(row: &mut TableRow<'_, '_>, p: &Project, outcome: &Outcome, k: usize) {
 
 fn details(ui: &mut Ui, p: &Project, step: &Step, asks: &mut Vec<Ask>) {
     let plural = if step.count == 1 { "source" } else { "sources" };
-    let proved = if step.proved { "proved to be the best set of this size" } else { "the best set found" };
+    let proved = if step.proved { "proved to be the best" } else { "the best set found" };
     ui.title(&format!("{} {plural}", step.count), proved);
-    egui::Grid::new("estimates").num_columns(4).spacing([space::M, space::XS]).show(ui, |ui| {
-        for name in ["Source", "Coefficient", "Energy", ""] {
+    egui::Grid::new("estimates").num_columns(3).spacing([space::M, space::XS]).show(ui, |ui| {
+        for name in ["", "Source", "Coefficient"] {
             ui.hint(name);
         }
         ui.end_row();
         for estimate in &step.sources {
             let Some(source) = p.sources.get(estimate.source) else { continue };
-            ui.label(format!("{} {}", words::effect(source.effect), words::short_place(&p.structure, &source.place)));
-            ui.label(super::coefficient(source, estimate));
-            ui.label(format::percent(0.01 * estimate.energy_percent));
             let forced = source.state == State::Forced;
             let to = if forced { State::Candidate } else { State::Forced };
             let text = if forced { "Release" } else { "Force" };
@@ -191,6 +189,9 @@ fn details(ui: &mut Ui, p: &Project, step: &Step, asks: &mut Vec<Ask>) {
             if ui.small_button(text).on_hover_text(hover).clicked() {
                 asks.push(Ask::Edit(Edit::SetState(estimate.source, to)));
             }
+            ui.label(format!("{} {}", words::effect(source.effect), words::short_place(&p.structure, &source.place)));
+            let share = format::percent(0.01 * estimate.energy_percent);
+            ui.label(super::coefficient(source, estimate)).on_hover_text(format!("{share} of the energy"));
             ui.end_row();
         }
     });

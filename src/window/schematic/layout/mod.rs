@@ -122,8 +122,16 @@ impl Layout {
     /// Places a scene in `area`; `shape` is a displacement per DOF of any scale, drawn with its largest translation at a
     /// fixed size.
     pub fn new(scene: &Scene, area: Rect, camera: Camera, shape: Option<&[f64]>) -> Self {
+        let largest = shape.map_or(0.0, |s| largest(scene, s));
+        Self::at_scale(scene, area, camera, shape, largest)
+    }
+
+    /// The same where the translation that is drawn at the fixed size is given: one moment of a motion that is larger at
+    /// others.
+    pub fn at_scale(scene: &Scene, area: Rect, camera: Camera, shape: Option<&[f64]>, largest: f64) -> Self {
         let shape = shape.filter(|s| s.len() == scene.dofs.len());
-        let unit = shape.map(|s| normalised(scene, s));
+        let scale = if largest > 0.0 { 1.0 / largest } else { 0.0 };
+        let unit = shape.map(|s| s.iter().map(|v| v * scale).collect::<Vec<f64>>());
         let unit = unit.as_deref();
         match scene.kind {
             StructureKind::Beam => beam::place(scene, area, unit),
@@ -149,11 +157,9 @@ impl Layout {
     }
 }
 
-/// Scaled so that the largest translation in `reference` size is 1; all zero stays zero.
-fn normalised(scene: &Scene, shape: &[f64]) -> Vec<f64> {
-    let largest = scene.translations().iter().map(|&d| shape[d].abs()).fold(0.0, f64::max);
-    let scale = if largest > 0.0 { 1.0 / largest } else { 0.0 };
-    shape.iter().map(|v| v * scale).collect()
+/// The largest translation of a shape.
+pub fn largest(scene: &Scene, shape: &[f64]) -> f64 {
+    scene.translations().iter().filter_map(|&d| shape.get(d)).map(|v| v.abs()).fold(0.0, f64::max)
 }
 
 #[cfg(test)]

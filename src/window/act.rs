@@ -1,0 +1,136 @@
+//! What each command of the table does.
+
+use super::app::App;
+use super::commands::Command;
+use super::document::Document;
+use super::edits::Edit;
+use super::files::Pick;
+use super::frame::leave::{Changes, Leave};
+use super::view::Stage;
+use egui::{Context, Theme, ViewportCommand};
+
+impl App {
+    /// Does a command of the table.
+    pub fn command(&mut self, ctx: &Context, command: Command) {
+        match command {
+            Command::Open => self.pick(ctx, Pick::Open),
+            Command::Import => self.pick(ctx, Pick::Import),
+            Command::Close => self.leave(ctx, Leave::Close),
+            Command::Quit => self.leave(ctx, Leave::Quit),
+            Command::Save => {
+                self.save(ctx);
+            }
+            Command::SaveAs => self.pick(ctx, Pick::SaveAs),
+            Command::Undo => self.history(Document::undo),
+            Command::Redo => self.history(Document::redo),
+            Command::RemoveSelected => {
+                if let Some(source) = self.view.source {
+                    self.edit(ctx, &Edit::Remove(source));
+                }
+            }
+            Command::ClearCandidates => self.edit(ctx, &Edit::ClearCandidates),
+            Command::Cancel => self.stop(),
+            Command::Theme => ctx.set_theme(if ctx.theme() == Theme::Dark { Theme::Light } else { Theme::Dark }),
+            Command::Shape => self.view.shape = !self.view.shape,
+            Command::Animate => self.view.animate = !self.view.animate,
+            Command::Measure => self.view.stage = Stage::Measure,
+            Command::Structure => self.view.stage = Stage::Structure,
+            Command::Pattern => self.view.stage = Stage::Pattern,
+            Command::Select => self.view.stage = Stage::Select,
+            Command::Result => self.view.stage = Stage::Result,
+            Command::StepBack => self.step(false),
+            Command::StepOn => self.step(true),
+            Command::StepEnd => self.view.step = None,
+            Command::PreviousRun => self.view.run = self.view.run.saturating_sub(1),
+            Command::NextRun => {
+                let last = self.document.as_ref().map_or(0, |d| d.project.runs.len().saturating_sub(1));
+                self.view.run = (self.view.run + 1).min(last);
+            }
+            Command::ResetLayout => self.desk.reset(self.view.stage),
+            Command::Messages => self.view.messages = !self.view.messages,
+            Command::Tour => self.view.tour = if self.view.tour.is_some() { None } else { Some(0) },
+            Command::Keys => self.view.keys = !self.view.keys,
+            Command::About => self.view.about = !self.view.about,
+        }
+    }
+
+    /// Back or forth in the history; what was selected may not be there any more.
+    fn history(&mut self, step: fn(&mut Document) -> Option<String>) {
+        self.document.as_mut().and_then(step);
+        self.view.source = None;
+        self.view.step = None;
+    }
+
+    /// Saves the project; whether it is saved now.
+    fn save(&mut self, ctx: &Context) -> bool {
+        let Some(document) = &mut self.document else { return false };
+        if document.session().path().is_none() {
+            self.pick(ctx, Pick::SaveAs);
+            return false;
+        }
+        let saved = document.save();
+        match &saved {
+            Ok(()) => self.say("Saved.".to_owned()),
+            Err(error) => self.fail(error.clone()),
+        }
+        saved.is_ok()
+    }
+
+    /// Goes, or asks first what becomes of unsaved changes.
+    pub(super) fn leave(&mut self, ctx: &Context, to: Leave) {
+        if self.document.as_ref().is_some_and(|d| d.session().is_dirty()) {
+            self.leaving = Some(to);
+        } else {
+            self.go(ctx, to);
+        }
+    }
+
+    /// The answer to what becomes of unsaved changes.
+    pub(super) fn left(&mut self, ctx: &Context, changes: Changes) {
+        let Some(to) = self.leaving.take() else { return };
+        match changes {
+            Changes::Keep => {}
+            Changes::Save => {
+                if self.save(ctx) {
+                    self.go(ctx, to);
+                }
+            }
+            Changes::Discard => {
+                if let Some(Err(error)) = self.document.as_ref().map(Document::forget) {
+                    self.fail(error);
+                }
+                self.go(ctx, to);
+            }
+        }
+    }
+
+    fn go(&mut self, ctx: &Context, to: Leave) {
+        match to {
+            Leave::Close => self.document = None,
+            Leave::Open(file) => self.open(ctx, file),
+            Leave::New(template) => self.new_from(template),
+            Leave::Quit => {
+                self.closing = true;
+                ctx.send_viewport_cmd(ViewportCommand::Close);
+            }
+        }
+    }
+
+    /// The desktop wants to close the window: not before it is asked what becomes of unsaved changes.
+    pub(super) fn ask_before_closing(&mut self, ctx: &Context) {
+        let asked = ctx.input(|i| i.viewport().close_requested());
+        let dirty = self.document.as_ref().is_some_and(|d| d.session().is_dirty());
+        if asked && dirty && !self.closing {
+            ctx.send_viewport_cmd(ViewportCommand::CancelClose);
+            self.leaving = Some(Leave::Quit);
+        }
+    }
+
+    /// Looks at the set with one source more or less.
+    fn step(&mut self, on: bool) {
+        let Some(Some(Ok(outcome))) = self.document.as_ref().map(|d| self.derived.known_outcome(d)) else { return };
+        let now = self.view.step.unwrap_or(outcome.accepted);
+        let last = outcome.steps.len().saturating_sub(1);
+        self.view.step = Some(if on { (now + 1).min(last) } else { now.saturating_sub(1).min(last) });
+    }
+}

@@ -1,0 +1,133 @@
+//! Changes in terms of what is on the screen, said in the words of the session.
+
+use crate::effects::{Effect, Family, Place, Source, State};
+use crate::session::{Command, SourceAt, SourceSpec};
+use crate::structure::Structure;
+use std::collections::BTreeMap;
+
+/// A change of the document in terms of what is on the screen: DOF rows and indices of sources.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Edit {
+    /// A candidate of a law on DOFs: one to the ground, two between, more a chain.
+    Draw(Effect, Vec<usize>),
+    /// A candidate of a law of the whole structure.
+    DrawWhole(Effect),
+    /// Candidates of a law at all places of a family.
+    DrawFamily(Effect, Family),
+    /// Candidate, forced, known, off, candidate.
+    Cycle(usize),
+    /// A state.
+    SetState(usize, State),
+    /// A parameter of a source.
+    SetParameter(usize, usize, f64),
+    /// Take a source away.
+    Remove(usize),
+    /// Take all candidates away.
+    ClearCandidates,
+    /// Force these sources, and let the search choose the other ones that were forced again.
+    Force(Vec<usize>),
+    /// Use a run, by its name, or leave it out.
+    UseRun(String, bool),
+    /// Any other change, in the words of the session.
+    Do(Command),
+}
+
+impl Edit {
+    /// The commands of the session that do it, undone together.
+    ///
+    /// # Errors
+    /// One sentence that says what is not there.
+    pub fn commands(&self, structure: &Structure, sources: &[Source]) -> Result<Vec<Command>, String> {
+        let on = Shown { structure, sources };
+        let one = match self {
+            Self::Draw(law, dofs) => Command::AddSource(on.spec(*law, dofs)?),
+            Self::DrawWhole(law) => Command::AddSource(on.spec(*law, &[])?),
+            Self::DrawFamily(law, family) => {
+                Command::AddCandidates { law: *law, family: *family, parameters: BTreeMap::new() }
+            }
+            Self::Cycle(i) => Command::SetSourceState { source: on.at(*i)?, state: next(on.source(*i)?.state) },
+            Self::SetState(i, state) => Command::SetSourceState { source: on.at(*i)?, state: *state },
+            Self::SetParameter(i, k, value) => on.parameter(*i, *k, *value)?,
+            Self::Remove(i) => Command::RemoveSource(on.at(*i)?),
+            Self::UseRun(file, enabled) => Command::SetRunUse { file: file.clone(), enabled: *enabled },
+            Self::Do(command) => command.clone(),
+            Self::Force(chosen) => return on.force(chosen),
+            Self::ClearCandidates => {
+                let candidates = (0..sources.len()).filter(|&i| sources[i].state == State::Candidate);
+                return candidates.map(|i| Ok(Command::RemoveSource(on.at(i)?))).collect();
+            }
+        };
+        Ok(vec![one])
+    }
+
+    /// The source that was drawn, by its index in what the document holds now.
+    pub fn drawn(&self, sources: &[Source]) -> Option<usize> {
+        let (law, place) = match self {
+            Self::Draw(law, dofs) => (law, Place::Dofs(dofs.clone())),
+            Self::DrawWhole(law) => (law, Place::Whole(None)),
+            _ => return None,
+        };
+        let wanted = Source::candidate(*law, place);
+        sources.iter().position(|s| s.state == State::Candidate && s.is_same(&wanted))
+    }
+}
+
+/// What is on the screen.
+struct Shown<'a> {
+    structure: &'a Structure,
+    sources: &'a [Source],
+}
+
+impl Shown<'_> {
+    fn source(&self, i: usize) -> Result<&Source, String> {
+        let all = self.sources;
+        all.get(i).ok_or_else(|| format!("there is no source {} of {}", i + 1, all.len()))
+    }
+
+    fn spec(&self, law: Effect, dofs: &[usize]) -> Result<SourceSpec, String> {
+        let dofs = self.labels(dofs)?;
+        Ok(SourceSpec { law, dofs, elements: None, state: State::Candidate, parameters: BTreeMap::new() })
+    }
+
+    fn at(&self, i: usize) -> Result<SourceAt, String> {
+        let source = self.source(i)?;
+        let (dofs, elements) = match &source.place {
+            Place::Dofs(dofs) => (self.labels(dofs)?, None),
+            Place::Whole(range) => (Vec::new(), range.map(|r| r.map(|e| e as i64 + 1))),
+            Place::Channel(_) => return Err("an error of a channel is not a source".to_owned()),
+        };
+        Ok(SourceAt { law: source.effect, dofs, elements, state: Some(source.state) })
+    }
+
+    fn labels(&self, dofs: &[usize]) -> Result<Vec<String>, String> {
+        let label = |&d: &usize| {
+            let dof = self.structure.dofs().get(d);
+            dof.map(|d| d.label.clone()).ok_or_else(|| format!("there is no DOF in row {}", d + 1))
+        };
+        dofs.iter().map(label).collect()
+    }
+
+    fn parameter(&self, i: usize, k: usize, value: f64) -> Result<Command, String> {
+        let name = self.source(i)?.effect.parameters().get(k).map(|p| p.name);
+        let name = name.ok_or_else(|| format!("there is no parameter {}", k + 1))?;
+        Ok(Command::SetSourceParameters { source: self.at(i)?, parameters: BTreeMap::from([(name.into(), value)]) })
+    }
+
+    fn force(&self, chosen: &[usize]) -> Result<Vec<Command>, String> {
+        let to = |i: usize, state: State| Ok(Command::SetSourceState { source: self.at(i)?, state });
+        let sources = self.sources.iter().enumerate();
+        let released = sources.filter(|(i, s)| s.state == State::Forced && !chosen.contains(i)).map(|(i, _)| i);
+        let forced = chosen.iter().filter(|&&i| self.sources.get(i).is_some_and(|s| s.state != State::Forced));
+        released.map(|i| to(i, State::Candidate)).chain(forced.map(|&i| to(i, State::Forced))).collect()
+    }
+}
+
+/// The state that a click leads to.
+fn next(state: State) -> State {
+    match state {
+        State::Candidate => State::Forced,
+        State::Forced => State::Known,
+        State::Known => State::Off,
+        State::Off | State::Reference => State::Candidate,
+    }
+}

@@ -1,0 +1,81 @@
+//! Files that the user is asked for, in the desktop's own dialogs.
+
+use crate::exchange::Project;
+use crate::exchange::export::{Format, write_outcome};
+use crate::identify::Outcome;
+use rfd::AsyncFileDialog;
+use std::path::{Path, PathBuf};
+
+/// Name of the work that waits for a dialog.
+pub const ASKING: &str = "Choosing a file";
+
+/// What a file is asked for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Pick {
+    /// A project to open.
+    Open,
+    /// Records to append.
+    Import,
+    /// Where to save the project.
+    SaveAs,
+    /// Where to write what was identified.
+    Export(Format),
+}
+
+/// Shows the dialog; what was chosen, empty where it was closed.
+pub fn ask(pick: Pick) -> impl Future<Output = Vec<PathBuf>> + Send {
+    let dialog = AsyncFileDialog::new();
+    let dialog = match pick {
+        Pick::Open => dialog.set_title("Open a project").add_filter("Dashpot project", &["toml"]),
+        Pick::Import => dialog.set_title("Import measurements").add_filter("Records", &["csv", "txt", "tsv"]),
+        Pick::SaveAs => dialog.set_title("Save the project as").set_file_name("project.toml"),
+        Pick::Export(format) => dialog.set_title("Export").set_file_name(format!("damping.{}", extension(format))),
+    };
+    async move {
+        let paths = |files: Vec<rfd::FileHandle>| files.iter().map(|f| f.path().to_path_buf()).collect();
+        match pick {
+            Pick::Open => paths(dialog.pick_file().await.into_iter().collect()),
+            Pick::Import => paths(dialog.pick_files().await.unwrap_or_default()),
+            Pick::SaveAs | Pick::Export(_) => paths(dialog.save_file().await.into_iter().collect()),
+        }
+    }
+}
+
+/// Writes what was identified in a format of another program, and says what was written.
+///
+/// # Errors
+/// One line.
+pub fn export(project: &Project, outcome: &Outcome, format: Format, path: &Path) -> Result<String, String> {
+    let written = write_outcome(project, outcome, format, path).map_err(|e| e.to_string())?;
+    let names: Vec<String> = written.paths.iter().map(|p| p.display().to_string()).collect();
+    let mut text = format!("Written: {}.", names.join(", "));
+    for warning in written.warnings {
+        text.push(' ');
+        text.push_str(&warning);
+    }
+    Ok(text)
+}
+
+/// Usual extension of a format.
+pub fn extension(format: Format) -> &'static str {
+    match format {
+        Format::Csv => "csv",
+        Format::Mtx => "mtx",
+        Format::Mat => "mat",
+        Format::Json => "json",
+        Format::Nastran => "bdf",
+        Format::Abaqus => "inp",
+    }
+}
+
+/// A format in words, for the menu.
+pub fn words(format: Format) -> &'static str {
+    match format {
+        Format::Csv => "CSV table…",
+        Format::Mtx => "Matrix Market…",
+        Format::Mat => "MATLAB…",
+        Format::Json => "JSON…",
+        Format::Nastran => "NASTRAN DMIG and CDAMP2…",
+        Format::Abaqus => "Abaqus dashpots…",
+    }
+}

@@ -1,0 +1,251 @@
+//! Help: the list of keys, the tour of ten steps, and what the program is.
+
+use super::panes::Pane;
+use crate::window::app::{App, Ask};
+use crate::window::commands::TABLE;
+use crate::window::theme::{Palette, size, space};
+use crate::window::view::Stage;
+use crate::window::widgets::UiExt;
+use egui::{Context, Grid, Id, LayerId, Order, Rect, RichText, ScrollArea, StrokeKind, Window, pos2, vec2};
+
+/// Shows what is open of it.
+pub fn show(ctx: &Context, app: &mut App, asks: &mut Vec<Ask>) {
+    keys(ctx, &mut app.view.keys);
+    about(ctx, &mut app.view.about);
+    tour(ctx, app, asks);
+}
+
+fn keys(ctx: &Context, open: &mut bool) {
+    Window::new("Keys").open(open).resizable(false).collapsible(false).show(ctx, |ui| {
+        ScrollArea::vertical().max_height(560.0).show(ui, |ui| {
+            Grid::new("keys").num_columns(3).spacing([space::L, space::XS]).show(ui, |ui| {
+                for entry in &TABLE {
+                    let Some(keys) = entry.keys else { continue };
+                    ui.label(ui.ctx().format_shortcut(&keys));
+                    ui.label(entry.label);
+                    ui.hint(entry.tooltip);
+                    ui.end_row();
+                }
+            });
+        });
+        ui.add_space(space::S);
+        ui.hint("On the schematic: Tab goes from DOF to DOF and from source to source, Enter is a click.");
+        ui.hint("In plots: drag pans, right drag zooms into a box, double click shows all again.");
+    });
+}
+
+fn about(ctx: &Context, open: &mut bool) {
+    Window::new("About Dashpot").open(open).resizable(false).collapsible(false).show(ctx, |ui| {
+        ui.set_max_width(420.0);
+        ui.label(RichText::new("Dashpot").size(size::FIGURE));
+        ui.hint(format!("Version {}", env!("CARGO_PKG_VERSION")));
+        ui.add_space(space::S);
+        ui.label("Tells where a structure loses its energy, how much and by which mechanism.");
+        ui.add_space(space::S);
+        ui.label("Over a period of steady vibration what the exciter puts in is what the dampers take out: G c = e.");
+        ui.hint("After M. Prandina, Spatial Damping Identification, University of Liverpool 2010.");
+        ui.hint("MIT or Apache-2.0.");
+    });
+}
+
+/// A step of the tour: the stage and the pane that it points at, its title and its text.
+type Step = (Stage, Option<Pane>, &'static str, &'static str);
+
+/// The tour.
+pub const TOUR: [Step; 10] = [
+    (
+        Stage::Measure,
+        Some(Pane::Runs),
+        "1 of 10: the runs",
+        "Each row is a steady-state test: one frequency, one level. Noise and harmonics are measured, flags say in words \
+         what is wrong. Untick a run to leave it out; all results follow by themselves.",
+    ),
+    (
+        Stage::Measure,
+        Some(Pane::Record),
+        "2 of 10: record and fit",
+        "The measured channel in blue, the fitted harmonics in orange, what is left over under them. A residual with a \
+         pattern means that the fit misses something.",
+    ),
+    (
+        Stage::Structure,
+        Some(Pane::Modes),
+        "3 of 10: the structure",
+        "Natural frequencies beside the runs that are near them. Click a mode to see its shape on the schematic; Space \
+         makes it move. Parameters, in the next tab, can be edited.",
+    ),
+    (
+        Stage::Pattern,
+        Some(Pane::Laws),
+        "4 of 10: the laws",
+        "What might lose energy, in the symbols that engineers draw. Choose a law here, then draw it on the schematic; the \
+         buttons below add a whole family at once.",
+    ),
+    (
+        Stage::Pattern,
+        Some(Pane::Schematic),
+        "5 of 10: draw the pattern",
+        "Click a DOF: a source to the ground. Drag from DOF to DOF: between them. Sweep over a span: a chain. Click a source \
+         again to make it candidate, forced, known or off.",
+    ),
+    (
+        Stage::Select,
+        Some(Pane::Steps),
+        "6 of 10: step by step",
+        "One row a number of sources: the best set, its coefficients with deviations, the angle between measured and \
+         identified energies. The arrow keys step.",
+    ),
+    (
+        Stage::Select,
+        Some(Pane::Set),
+        "7 of 10: alternatives",
+        "Other sets of the same size, next best first. Click one to branch from it, or force a source that you know to be \
+         there. Undo goes back.",
+    ),
+    (
+        Stage::Result,
+        Some(Pane::Matrix),
+        "8 of 10: the damping matrix",
+        "What was identified, as a map or as bars in space that the mouse turns. File > Export hands it to NASTRAN, \
+         Abaqus, MATLAB and others.",
+    ),
+    (
+        Stage::Result,
+        Some(Pane::Bode),
+        "9 of 10: does the model fit?",
+        "Measured points on the model's curve: receptance, mobility or accelerance. Nyquist, hysteresis and damping ratios \
+         are in the tabs beside it.",
+    ),
+    (
+        Stage::Result,
+        None,
+        "10 of 10: make it yours",
+        "Panes can be dragged by their titles, split and closed; View > Reset layout puts them back. File > New makes a \
+         project of your own, and records are dropped on the window. F1 lists the keys.",
+    ),
+];
+
+fn tour(ctx: &Context, app: &mut App, asks: &mut Vec<Ask>) {
+    let Some(step) = app.view.tour else { return };
+    if app.document.is_none() {
+        begin(app, asks);
+        return;
+    }
+    let (stage, pane, title, text) = TOUR[step.min(TOUR.len() - 1)];
+    if app.view.tour_shown != Some(step) {
+        app.view.tour_shown = Some(step);
+        app.view.stage = stage;
+        if let Some(pane) = pane {
+            app.desk.set_open(stage, pane, true);
+        }
+        ctx.request_repaint();
+        return;
+    }
+    let target = pane.and_then(|pane| app.desk.rect(stage, pane));
+    let palette = Palette::of(&ctx.global_style().visuals);
+    if let Some(rect) = target {
+        let painter = ctx.layer_painter(LayerId::new(Order::Foreground, Id::unique("tour frame")));
+        painter.rect_stroke(rect.expand(2.0), 6.0, egui::Stroke::new(3.0, palette.accent), StrokeKind::Outside);
+    }
+    let response = Window::new("Tour")
+        .id(Id::unique("tour"))
+        .title_bar(false)
+        .resizable(false)
+        .order(Order::Tooltip)
+        .fixed_pos(beside(target, ctx.content_rect()))
+        .show(ctx, |ui| card(ui, step, title, text));
+    match response.and_then(|r| r.inner).unwrap_or(Turn::Stay) {
+        Turn::Stay => {}
+        Turn::Back => app.view.tour = Some(step.saturating_sub(1)),
+        Turn::Next if step + 1 < TOUR.len() => app.view.tour = Some(step + 1),
+        Turn::Next | Turn::End => (app.view.tour, app.view.tour_shown) = (None, None),
+    }
+}
+
+/// Without a project the tour begins on the sample.
+fn begin(app: &mut App, asks: &mut Vec<Ask>) {
+    if app.running().is_some() {
+        return;
+    }
+    if let Some(folder) = super::start::samples_folder() {
+        asks.push(Ask::Open(folder.join("cantilever-case-2").join("project.toml")));
+    } else {
+        app.view.tour = None;
+        app.fail("The samples are not here: open a project, then take the tour on it.".to_owned());
+    }
+}
+
+enum Turn {
+    Stay,
+    Back,
+    Next,
+    End,
+}
+
+fn card(ui: &mut egui::Ui, step: usize, title: &str, text: &str) -> Turn {
+    ui.set_width(CARD - 30.0);
+    ui.label(RichText::new(title).size(size::HEADING).strong());
+    ui.add_space(space::XS);
+    ui.label(text);
+    ui.add_space(space::S);
+    let mut turn = Turn::Stay;
+    ui.horizontal(|ui| {
+        let last = step + 1 == TOUR.len();
+        if ui.primary(if last { "Finish" } else { "Next" }).clicked() {
+            turn = Turn::Next;
+        }
+        if ui.add_enabled(step > 0, egui::Button::new("Back")).clicked() {
+            turn = Turn::Back;
+        }
+        if !last && ui.button("End tour").clicked() {
+            turn = Turn::End;
+        }
+    });
+    turn
+}
+
+/// Width of the card, points.
+const CARD: f32 = 360.0;
+
+/// Where the card stands: right of what it points at, else left of it, else above it, else in the middle.
+fn beside(target: Option<Rect>, screen: Rect) -> egui::Pos2 {
+    let height = 190.0;
+    let Some(r) = target else { return screen.center() - vec2(0.5 * CARD, 0.5 * height) };
+    let y = r.top().clamp(screen.top() + 8.0, screen.bottom() - height - 30.0);
+    if r.right() + CARD + 20.0 < screen.right() {
+        pos2(r.right() + 12.0, y)
+    } else if r.left() - CARD - 20.0 > screen.left() {
+        pos2(r.left() - CARD - 12.0, y)
+    } else {
+        let above = r.top() - height > screen.top() + 90.0;
+        let y = if above { r.top() - height } else { r.bottom() + 12.0 };
+        pos2(r.center().x - 0.5 * CARD, y)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{CARD, TOUR, beside};
+    use egui::{Rect, pos2, vec2};
+
+    #[test]
+    fn the_card_never_covers_what_it_points_at_and_stays_on_the_screen() {
+        let screen = Rect::from_min_size(pos2(0.0, 0.0), vec2(1440.0, 900.0));
+        for target in [
+            Rect::from_min_max(pos2(6.0, 430.0), pos2(460.0, 860.0)),
+            Rect::from_min_max(pos2(700.0, 430.0), pos2(1100.0, 860.0)),
+            Rect::from_min_max(pos2(6.0, 76.0), pos2(1130.0, 426.0)),
+        ] {
+            let card = Rect::from_min_size(beside(Some(target), screen), vec2(CARD, 180.0));
+            assert!(screen.contains_rect(card), "{card:?}");
+            assert!(!card.intersects(target), "{card:?} covers {target:?}");
+        }
+    }
+
+    #[test]
+    fn the_tour_has_ten_numbered_steps() {
+        for (k, (_, _, title, _)) in TOUR.iter().enumerate() {
+            assert!(title.starts_with(&format!("{} of 10", k + 1)));
+        }
+    }
+}

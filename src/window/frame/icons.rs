@@ -1,0 +1,44 @@
+//! Symbols of the stages, drawn by lines of our own.
+
+use crate::window::view::Stage;
+use egui::{Color32, Painter, Pos2, Rect, Shape, Stroke, pos2};
+
+/// Draws the symbol of a stage into a square.
+pub fn stage(painter: &Painter, stage: Stage, rect: Rect, colour: Color32) {
+    let pen = Stroke::new(1.5, colour);
+    // Coordinates in the square from 0 to 1, y upwards.
+    let at = |x: f32, y: f32| pos2(rect.left() + x * rect.width(), rect.bottom() - y * rect.height());
+    let line = |points: &[(f32, f32)]| {
+        let points: Vec<Pos2> = points.iter().map(|&(x, y)| at(x, y)).collect();
+        painter.add(Shape::line(points, pen));
+    };
+    let bar =
+        |x: f32, height: f32| painter.rect_filled(Rect::from_two_pos(at(x, 0.08), at(x + 0.2, height)), 0.5, colour);
+    match stage {
+        Stage::Measure => {
+            let wave: Vec<(f32, f32)> = (0..=24)
+                .map(|k| k as f32 / 24.0)
+                .map(|x| (x, 0.5 + 0.38 * (std::f32::consts::TAU * 1.5 * x).sin()))
+                .collect();
+            line(&wave);
+        }
+        Stage::Structure => {
+            line(&[(0.06, 0.1), (0.06, 0.9)]);
+            let beam: Vec<(f32, f32)> =
+                (0..=12).map(|k| k as f32 / 12.0).map(|x| (0.06 + 0.94 * x, 0.4 + 0.42 * x * x)).collect();
+            line(&beam);
+        }
+        Stage::Pattern => {
+            line(&[(0.0, 0.5), (0.34, 0.5)]);
+            line(&[(0.72, 0.86), (0.34, 0.86), (0.34, 0.14), (0.72, 0.14)]);
+            line(&[(0.56, 0.72), (0.56, 0.28)]);
+            line(&[(0.56, 0.5), (1.0, 0.5)]);
+        }
+        Stage::Select => line(&[(0.0, 0.92), (0.3, 0.92), (0.3, 0.5), (0.65, 0.5), (0.65, 0.14), (1.0, 0.14)]),
+        Stage::Result => {
+            bar(0.06, 0.45);
+            bar(0.40, 0.92);
+            bar(0.74, 0.62);
+        }
+    }
+}

@@ -1,0 +1,60 @@
+//! What is asked before unsaved changes are left behind.
+
+use crate::window::app::{App, Ask};
+use crate::window::theme::{size, space};
+use crate::window::widgets::UiExt;
+use egui::{Context, Id, Modal, RichText};
+use std::path::PathBuf;
+
+/// Where the user wants to go.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Leave {
+    /// Out of the program.
+    Quit,
+    /// Back to the start screen.
+    Close,
+    /// To another project.
+    Open(PathBuf),
+    /// To a new project, by the number of its template.
+    New(usize),
+}
+
+/// What the user wants to become of the changes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Changes {
+    /// Save them, then go.
+    Save,
+    /// Forget them and go.
+    Discard,
+    /// Stay.
+    Keep,
+}
+
+/// Asks while somebody wants to leave.
+pub fn show(ctx: &Context, app: &App, asks: &mut Vec<Ask>) {
+    if app.leaving.is_none() {
+        return;
+    }
+    let title = app.document.as_ref().map_or_else(String::new, |d| d.project.title.clone());
+    let modal = Modal::new(Id::unique("leave")).show(ctx, |ui| {
+        ui.set_width(360.0);
+        ui.label(RichText::new("Save the changes?").size(size::HEADING));
+        ui.add_space(space::XS);
+        ui.label(format!("\"{title}\" has changes that are not saved."));
+        ui.add_space(space::M);
+        ui.horizontal(|ui| {
+            if ui.primary("Save").clicked() {
+                asks.push(Ask::Leave(Changes::Save));
+            }
+            if ui.button("Discard").clicked() {
+                asks.push(Ask::Leave(Changes::Discard));
+            }
+            if ui.button("Stay").clicked() {
+                asks.push(Ask::Leave(Changes::Keep));
+            }
+        });
+    });
+    if modal.should_close() {
+        asks.push(Ask::Leave(Changes::Keep));
+    }
+}

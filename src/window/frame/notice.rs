@@ -1,0 +1,58 @@
+//! Notifications that stay until they are closed, and the list of all messages.
+
+use crate::window::app::{App, Ask};
+use crate::window::theme::{self, Palette, space};
+use crate::window::widgets::UiExt;
+use egui::{Align, Align2, Area, Context, Frame, Id, Label, Layout, Margin, Order, RichText, ScrollArea, Window, vec2};
+
+/// Shows the failure that was not closed yet, and the list where it is open.
+pub fn show(ctx: &Context, app: &mut App, asks: &mut Vec<Ask>) {
+    if let Some(message) = app.message.as_ref().filter(|m| m.failed) {
+        card(ctx, &message.text, asks);
+    }
+    let mut open = app.view.messages;
+    Window::new("Messages").open(&mut open).default_size([520.0, 260.0]).collapsible(false).show(ctx, |ui| {
+        if app.messages.is_empty() {
+            ui.hint("Nothing has been said yet.");
+            return;
+        }
+        if ui.button("Copy all").clicked() {
+            let lines: Vec<&str> = app.messages.iter().map(|m| m.text.as_str()).collect();
+            ui.ctx().copy_text(lines.join("\n"));
+        }
+        ScrollArea::vertical().auto_shrink(false).stick_to_bottom(true).show(ui, |ui| {
+            for message in &app.messages {
+                let colour = if message.failed { ui.palette().error } else { ui.palette().ink };
+                ui.add(Label::new(RichText::new(&message.text).color(colour)).wrap());
+            }
+        });
+    });
+    app.view.messages = open;
+}
+
+fn card(ctx: &Context, text: &str, asks: &mut Vec<Ask>) {
+    let palette = Palette::of(&ctx.global_style().visuals);
+    Area::new(Id::unique("notice")).order(Order::Foreground).anchor(Align2::RIGHT_BOTTOM, vec2(-14.0, -44.0)).show(
+        ctx,
+        |ui| {
+            Frame::new()
+                .fill(palette.pane)
+                .stroke(theme::pen(palette.error))
+                .corner_radius(egui::CornerRadius::same(6))
+                .inner_margin(Margin::same(12))
+                .show(ui, |ui| {
+                    ui.set_width(380.0);
+                    ui.add(Label::new(RichText::new(text).color(palette.ink)).wrap());
+                    ui.add_space(space::XS);
+                    ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+                        if ui.button("Close").clicked() {
+                            asks.push(Ask::Dismiss);
+                        }
+                        if ui.button("Copy").clicked() {
+                            ui.ctx().copy_text(text.to_owned());
+                        }
+                    });
+                });
+        },
+    );
+}

@@ -1,0 +1,118 @@
+//! Records that were read and fitted, kept for every state of the document that needs them: undo reads no file again.
+
+use crate::control::Control;
+use crate::exchange::project::file::{ProjectFile, RunTable};
+use crate::exchange::project::{Plan, plan};
+use crate::measurement::Run;
+use crate::session::Document as State;
+use std::collections::HashMap;
+use std::hash::{DefaultHasher, Hash, Hasher};
+use std::path::PathBuf;
+
+/// What the fit of a record depends on.
+type Key = (String, u64);
+
+/// Fitted runs by what they depend on; one entry a record, several runs for a file of harmonics.
+#[derive(Debug, Clone, Default)]
+pub struct Records {
+    kept: HashMap<Key, Vec<Run>>,
+}
+
+/// Records that a change needs and that are still to be read: long work.
+#[derive(Debug, Clone)]
+pub struct Missing {
+    file: ProjectFile,
+    folder: PathBuf,
+    runs: Vec<(usize, Key)>,
+    harmonics: Vec<Key>,
+}
+
+/// Records that were read.
+#[derive(Debug)]
+pub struct Fitted(Vec<(Key, Vec<Run>)>);
+
+impl Records {
+    /// The runs of a state of the document in the order of its file, as far as their records were read.
+    pub fn runs(&self, state: &State) -> Vec<Run> {
+        let (file, on) = (state.file(), common(state));
+        let recorded = file.run.iter().filter_map(|table| {
+            let mut run = self.kept.get(&run_key(table, on))?.first()?.clone();
+            (run.enabled, run.level) = (table.enabled, table.level);
+            Some(run)
+        });
+        let fitted = file.harmonics.iter().filter_map(|table| self.kept.get(&(table.file.clone(), on)));
+        recorded.chain(fitted.flatten().cloned()).collect()
+    }
+
+    /// What a state of the document needs and is not read yet.
+    pub fn missing(&self, state: &State) -> Option<Missing> {
+        let (file, on) = (state.file(), common(state));
+        let runs: Vec<(usize, Key)> = file.run.iter().enumerate().map(|(k, table)| (k, run_key(table, on))).collect();
+        let runs: Vec<(usize, Key)> = runs.into_iter().filter(|(_, key)| !self.kept.contains_key(key)).collect();
+        let harmonics: Vec<Key> = file.harmonics.iter().map(|table| (table.file.clone(), on)).collect();
+        let harmonics = if harmonics.iter().all(|key| self.kept.contains_key(key)) { Vec::new() } else { harmonics };
+        let (file, folder) = (ProjectFile::clone(file), state.folder().to_owned());
+        (!runs.is_empty() || !harmonics.is_empty()).then_some(Missing { file, folder, runs, harmonics })
+    }
+
+    /// Keeps what was read.
+    pub fn take(&mut self, fitted: Fitted) {
+        self.kept.extend(fitted.0);
+    }
+}
+
+impl Missing {
+    /// Reads and fits.
+    ///
+    /// # Errors
+    /// One line: file, line, what is wrong and how to mend it; or cancelled.
+    pub fn read(self, control: &Control) -> Result<Fitted, String> {
+        let text = self.file.to_toml().map_err(|e| e.to_string())?;
+        let plan = plan(&text, &self.folder.join("project.toml")).map_err(|e| e.to_string())?;
+        let mut fitted = Vec::new();
+        let count = self.runs.len() + self.harmonics.len();
+        for (done, (index, key)) in self.runs.into_iter().enumerate() {
+            control.check().map_err(|e| e.to_string())?;
+            // The reader reports on its own file; a child's share of the whole is not known to it.
+            fitted.push((key, vec![plan.run(index, control).map_err(|e| e.to_string())?]));
+            control.report((done + 1) as f64 / count as f64);
+        }
+        if !self.harmonics.is_empty() {
+            fitted.extend(harmonics(&plan, &self.harmonics)?);
+        }
+        Ok(Fitted(fitted))
+    }
+}
+
+/// Runs that came as fitted harmonics; each file's runs bear its name or stand in its order.
+fn harmonics(plan: &Plan, keys: &[Key]) -> Result<Vec<(Key, Vec<Run>)>, String> {
+    let corrections = plan.corrections();
+    let one = |(index, key): (usize, &Key)| {
+        let mut alone = plan.clone();
+        alone.file.harmonics = vec![plan.file.harmonics[index].clone()];
+        let read = alone.harmonics().map_err(|e| e.to_string())?;
+        let runs = read.into_iter().map(|r| Run::from_harmonics(r.name, None, true, r.fit, &corrections)).collect();
+        Ok((key.clone(), runs))
+    };
+    keys.iter().enumerate().map(one).collect()
+}
+
+/// What all fits of a state depend on: number of harmonics, errors of the channels, rows of the DOFs.
+fn common(state: &State) -> u64 {
+    let mut hasher = DefaultHasher::new();
+    let file = state.file();
+    file.analysis.harmonics.hash(&mut hasher);
+    for sensor in &file.sensor {
+        (&sensor.channel, sensor.delay.map(f64::to_bits), sensor.gain.map(f64::to_bits)).hash(&mut hasher);
+    }
+    for dof in state.structure().dofs() {
+        dof.label.hash(&mut hasher);
+    }
+    hasher.finish()
+}
+
+fn run_key(table: &RunTable, common: u64) -> Key {
+    let mut hasher = DefaultHasher::new();
+    (common, table.frequency.map(f64::to_bits)).hash(&mut hasher);
+    (table.file.clone(), hasher.finish())
+}

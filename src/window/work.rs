@@ -1,0 +1,118 @@
+//! What runs in the background on behalf of the window: reading, fitting, asking for files, exporting. Nothing of it may
+//! hold up a frame.
+
+use super::document::{Document, Ready, Waiting};
+use super::files::{self, Pick};
+use crate::control::Control;
+use crate::session::jobs::{Job, JobError};
+use egui::Context;
+use std::path::PathBuf;
+use std::time::Duration;
+
+/// How a piece of work ended.
+#[derive(Debug)]
+pub enum Done {
+    /// A project was read; whether unsaved changes of a crash were recovered.
+    Loaded(Result<(Box<Document>, bool), String>),
+    /// The records that a change waited for were read.
+    Changed(Result<Box<Ready>, String>),
+    /// Files were chosen, or none.
+    Picked(Pick, Vec<PathBuf>),
+    /// Something that ends with a sentence.
+    Said(Result<String, String>),
+}
+
+/// All that runs.
+#[derive(Debug, Default)]
+pub struct Work {
+    jobs: Vec<Job<(), Done>>,
+}
+
+impl Work {
+    fn start(
+        &mut self,
+        ctx: &Context,
+        name: &str,
+        work: impl FnOnce(&Control) -> Done + Send + 'static,
+    ) -> Result<(), String> {
+        let wake = ctx.clone();
+        let job = Job::start(name, (), move || wake.request_repaint(), work).map_err(|e| e.to_string())?;
+        self.jobs.push(job);
+        Ok(())
+    }
+
+    /// Reads a project; one that is being read is given up.
+    ///
+    /// # Errors
+    /// One line, where no thread can be started.
+    pub fn load(&mut self, ctx: &Context, file: PathBuf) -> Result<(), String> {
+        let name = file.file_name().map_or_else(String::new, |n| n.to_string_lossy().into_owned());
+        self.jobs.retain(|job| !job.name().starts_with("Reading"));
+        self.start(ctx, &format!("Reading {name}"), move |control| {
+            Done::Loaded(Document::open(&file, control).map(|(document, recovered)| (Box::new(document), recovered)))
+        })
+    }
+
+    /// Reads the records that a change waits for.
+    ///
+    /// # Errors
+    /// One line, where no thread can be started.
+    pub fn change(&mut self, ctx: &Context, waiting: Waiting) -> Result<(), String> {
+        self.start(ctx, "Reading and fitting records", move |control| {
+            Done::Changed(waiting.read(control).map(Box::new))
+        })
+    }
+
+    /// Asks for files in the desktop's own dialog.
+    ///
+    /// # Errors
+    /// One line, where no thread can be started.
+    pub fn pick(&mut self, ctx: &Context, pick: Pick) -> Result<(), String> {
+        if self.jobs.iter().any(|job| job.name() == files::ASKING) {
+            return Ok(());
+        }
+        let asked = files::ask(pick);
+        self.start(ctx, files::ASKING, move |_| Done::Picked(pick, pollster::block_on(asked)))
+    }
+
+    /// Runs something that ends with a sentence.
+    ///
+    /// # Errors
+    /// One line, where no thread can be started.
+    pub fn say(
+        &mut self,
+        ctx: &Context,
+        name: &str,
+        work: impl FnOnce(&Control) -> Result<String, String> + Send + 'static,
+    ) -> Result<(), String> {
+        self.start(ctx, name, move |control| Done::Said(work(control)))
+    }
+
+    /// What has ended since the last look; work that broke down as its message.
+    pub fn poll(&mut self) -> Vec<Result<Done, JobError>> {
+        let mut ended = Vec::new();
+        self.jobs.retain(|job| match job.poll() {
+            Some(result) => {
+                ended.push(result);
+                false
+            }
+            None => true,
+        });
+        ended
+    }
+
+    /// Waits for everything that runs, each at most so long; for pictures and tests.
+    pub fn wait(&mut self, longest: Duration) -> Vec<Result<Done, JobError>> {
+        self.jobs.drain(..).filter_map(|job| job.wait(longest)).collect()
+    }
+
+    /// Name and progress of what runs; a file dialog is no work.
+    pub fn running(&self) -> Option<(&str, f64)> {
+        self.jobs.iter().find(|job| job.name() != files::ASKING).map(|job| (job.name(), job.progress()))
+    }
+
+    /// Gives up all that runs.
+    pub fn cancel(&mut self) {
+        self.jobs.clear();
+    }
+}
