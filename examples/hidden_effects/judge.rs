@@ -90,12 +90,14 @@ pub fn judge(folder: &Path) -> (String, Tally) {
     let mark = score(&hidden, &diagnosis, &mut tally);
     let last = &diagnosis.steps[diagnosis.steps.len() - 1];
     let mut line = format!(
-        "{mark} {seconds:5.2}s {name} | {} | {:.4} -> {:.4} floor {:.4} {}",
+        "{mark} {seconds:5.2}s {name} | {} | {:.4} -> {:.4} floor {:.4} misfit {:.2} {} {}",
         hidden.iter().map(named).collect::<Vec<_>>().join(" + "),
         diagnosis.error_before,
         last.error,
         diagnosis.noise_floor,
+        last.misfit,
         diagnosis.verdict.word(),
+        if diagnosis.corrections.is_empty() { "" } else { "corrected" },
     );
     for s in diagnosis.suggestions.iter().take(if mark.trim() == "ok" { 1 } else { 4 }) {
         let d: Vec<String> = s.added.deviations.iter().map(|d| format!("{d:.1e}")).collect();

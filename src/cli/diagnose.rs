@@ -4,11 +4,13 @@ use super::arguments::Diagnose;
 use super::compare::{flags, problem};
 use super::table::{number, table};
 use crate::control::Control;
-use crate::effects::{Place, Source};
+use crate::effects::{Place, Source, State};
 use crate::exchange::Project;
 use crate::exchange::project::load;
 use crate::exchange::project::relocate::{canonical, renamed};
-use crate::explain::diagnose::{Added, Diagnosis, Suggestion, diagnose};
+use crate::explain::diagnose::{Added, Correction, Diagnosis, Suggestion, diagnose};
+use crate::explain::shapes::scaled;
+use crate::explain::tuning::Knob;
 use crate::structure::Structure;
 use anyhow::{Context, bail};
 use serde_json::{Map, Value, json};
@@ -71,12 +73,56 @@ fn suggestion(structure: &Structure, suggestion: &Suggestion) -> Value {
     Value::Object(map)
 }
 
+/// A correction of what the model states: `what`, its place or mode, and the factor on it.
+fn correction(project: &Project, correction: &Correction) -> Value {
+    let mut map = Map::new();
+    let what = match &correction.knob {
+        Knob::Stiffness => "stiffness",
+        Knob::Mass => "mass",
+        Knob::Mode(_) => "mode",
+        Knob::Spring(..) => "spring",
+        Knob::Known(_) => "source",
+    };
+    map.insert("what".into(), json!(what));
+    match &correction.knob {
+        Knob::Mode(mode) => drop(map.insert("mode".into(), json!(mode + 1))),
+        Knob::Spring(dofs, _) => {
+            drop(map.insert("dofs".into(), json!(labels(&project.structure, &Place::Dofs(dofs.clone())))));
+        }
+        Knob::Known(index) => {
+            if let Some(source) = problem(project).known().get(*index) {
+                map.extend(named(&project.structure, source));
+            }
+        }
+        Knob::Stiffness | Knob::Mass => {}
+    }
+    map.insert("factor".into(), json!(correction.factor));
+    map.insert("standard_deviation".into(), json!(correction.deviation));
+    Value::Object(map)
+}
+
+/// A correction in words.
+fn corrected(project: &Project, correction: &Correction) -> String {
+    let what = match &correction.knob {
+        Knob::Stiffness => "all stiffness".to_owned(),
+        Knob::Mass => "all mass".to_owned(),
+        Knob::Mode(mode) => format!("stiffness of mode {}", mode + 1),
+        Knob::Spring(dofs, _) => {
+            format!("spring at {}", labels(&project.structure, &Place::Dofs(dofs.clone())).join(" - "))
+        }
+        Knob::Known(index) => {
+            problem(project).known().get(*index).map_or_else(String::new, |s| title(&project.structure, s))
+        }
+    };
+    format!("  {what}: times {:.4} +- {:.4}", correction.factor, correction.deviation)
+}
+
 fn document(project: &Project, diagnosis: &Diagnosis) -> Value {
     let structure = &project.structure;
     let run = |run: &crate::measurement::Run| json!({"file": run.file, "frequency_hz": run.fit.omega / std::f64::consts::TAU, "flags": flags(run)});
     let step = |step: &crate::explain::diagnose::Step| {
         let added: Vec<Value> = step.added.iter().map(|a| Value::Object(with_values(structure, a))).collect();
-        json!({"added": added, "error": step.error})
+        json!({"added": added, "error": step.error, "misfit": step.misfit})
     };
     let test = |test: &crate::explain::diagnose::NextTest| {
         json!({"frequency_hz": test.frequency_hz, "force_dof": structure.label(test.force_dof), "force_n": test.force,
@@ -90,6 +136,7 @@ fn document(project: &Project, diagnosis: &Diagnosis) -> Value {
         "runs": project.runs.iter().map(run).collect::<Vec<_>>(),
         "suggestions": diagnosis.suggestions.iter().map(|s| suggestion(structure, s)).collect::<Vec<_>>(),
         "steps": diagnosis.steps.iter().map(step).collect::<Vec<_>>(),
+        "corrections": diagnosis.corrections.iter().map(|c| correction(project, c)).collect::<Vec<_>>(),
         "next_test": diagnosis.next_test.iter().map(test).collect::<Vec<_>>(),
     })
 }
@@ -129,6 +176,12 @@ fn text(project: &Project, diagnosis: &Diagnosis) -> String {
         lines.push_str(&format!("\n{}", table(&rows)));
         for sentence in &diagnosis.suggestions[0].evidence {
             lines.push_str(&format!("  {sentence}\n"));
+        }
+    }
+    if !diagnosis.corrections.is_empty() {
+        lines.push_str("\nthe model is detuned; corrected beside that\n");
+        for correction in &diagnosis.corrections {
+            lines.push_str(&format!("{}\n", corrected(project, correction)));
         }
     }
     lines.push_str("\nsteps\n");
@@ -178,6 +231,11 @@ fn apply(file: &Path, out: &Path, project: &Project, diagnosis: &Diagnosis) -> a
         };
         list.push(entry);
     }
+    for correction in &diagnosis.corrections {
+        if !correct(&mut document, project, correction) {
+            eprintln!("not written, for want of a key for it:{}", corrected(project, correction));
+        }
+    }
     let folder = |path: &Path| canonical(path.parent().unwrap_or(Path::new("")));
     let (from, to) = (folder(file).with_context(context)?, folder(out).with_context(|| out.display().to_string())?);
     if from != to {
@@ -185,6 +243,63 @@ fn apply(file: &Path, out: &Path, project: &Project, diagnosis: &Diagnosis) -> a
     }
     crate::exchange::atomic::write_atomically(out, document.to_string().as_bytes())
         .with_context(|| out.display().to_string())
+}
+
+/// Multiplies what the file states by the factor of a correction; whether it could.
+fn correct(document: &mut toml_edit::DocumentMut, project: &Project, correction: &Correction) -> bool {
+    let factor = correction.factor;
+    if let Knob::Known(index) = correction.knob {
+        let acts = |s: &&Source| s.state == State::Known && !matches!(s.place, Place::Channel(_));
+        let known = project.sources.iter().enumerate().filter(|(_, s)| acts(s)).nth(index);
+        let list = document.get_mut("source").and_then(toml_edit::Item::as_array_of_tables_mut);
+        let (Some((row, source)), Some(list)) = (known, list) else { return false };
+        let Some(table) = list.get_mut(row) else { return false };
+        let mut keys = scaled(source.effect).iter().map(|&k| source.effect.parameters()[k].name);
+        return keys.all(|key| multiply(table.get_mut(key), factor));
+    }
+    let Some(structure) = document.get_mut("structure").and_then(toml_edit::Item::as_table_mut) else { return false };
+    match &correction.knob {
+        Knob::Stiffness if structure.contains_key("youngs_modulus") => {
+            multiply(structure.get_mut("youngs_modulus"), factor)
+        }
+        Knob::Stiffness => {
+            multiply(structure.get_mut("coupling_stiffness"), factor)
+                && multiply(structure.get_mut("ground_stiffness"), factor)
+        }
+        Knob::Mass => {
+            if let Some(lumped) = structure.get_mut("lumped_mass").and_then(toml_edit::Item::as_array_of_tables_mut) {
+                lumped.iter_mut().for_each(|table| {
+                    multiply(table.get_mut("mass"), factor);
+                });
+            }
+            let key = if structure.contains_key("density") { "density" } else { "masses" };
+            multiply(structure.get_mut(key), factor)
+        }
+        Knob::Spring(dofs, _) => {
+            let key = if dofs.len() == 1 { "ground_stiffness" } else { "coupling_stiffness" };
+            let list = structure.get_mut(key).and_then(toml_edit::Item::as_array_mut);
+            list.and_then(|l| l.get_mut(dofs[0])).is_some_and(|value| scale(value, factor))
+        }
+        Knob::Mode(_) | Knob::Known(_) => false,
+    }
+}
+
+/// Multiplies a number, or every number of a list; whether there was one.
+fn multiply(item: Option<&mut toml_edit::Item>, factor: f64) -> bool {
+    let Some(value) = item.and_then(toml_edit::Item::as_value_mut) else { return false };
+    match value.as_array_mut() {
+        Some(list) => list.iter_mut().all(|v| scale(v, factor)),
+        None => scale(value, factor),
+    }
+}
+
+fn scale(value: &mut toml_edit::Value, factor: f64) -> bool {
+    let number = value.as_float().or_else(|| value.as_integer().map(|i| i as f64));
+    let decor = value.decor().clone();
+    let Some(number) = number else { return false };
+    *value = toml_edit::Value::from(number * factor);
+    *value.decor_mut() = decor;
+    true
 }
 
 /// A label as files write it: a whole number where it is one.

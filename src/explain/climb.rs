@@ -3,6 +3,7 @@
 
 use super::data::ExplainError;
 use super::noise::Whitening;
+use super::outcome::Outcome;
 use super::predict::FINAL;
 use super::refit::{Refit, starts_of};
 use super::search::{Base, scale_of};
@@ -17,6 +18,10 @@ const EVIDENCE: f64 = 25.0;
 const FREEDOM: f64 = 15.0;
 /// Deviations of the sum of squares within which a model agrees with the data.
 const AGREES: f64 = 4.0;
+/// How many times the squared residual of noise free forces may leave where the laws behind them may still explain it.
+const REACH: f64 = 4.0;
+/// Scaled squared residual within which places are worth trying with a law that was found elsewhere.
+const ELSEWHERE: f64 = 40.0;
 /// Steps of a fit of the corrections alone.
 const STEPS: usize = 20;
 
@@ -44,20 +49,38 @@ pub(crate) fn agrees(base: &Base, chi_square: f64, parameters: usize) -> bool {
     chi_square <= n + AGREES * (2.0 * n).sqrt()
 }
 
-/// The search, first with the model as it is, then with its corrections free.
-pub(crate) fn explain<'a>(base: &'a Base<'a>, before: f64) -> Result<super::outcome::Outcome<'a>, ExplainError> {
-    let mut exact = Found { bare: None, rungs: Vec::new(), agrees: false };
-    climb(base, &mut exact, (before, 0, 0.0), 1)?;
-    if exact.agrees {
-        return Ok(super::outcome::Outcome { base, found: exact });
+/// The search: with the model as it is, so far as free forces at one place or two could explain the data at all, then
+/// with its corrections free.
+pub(crate) fn explain<'a>(base: &'a Base<'a>, before: f64) -> Result<Outcome<'a>, ExplainError> {
+    let none = || Found { bare: None, rungs: Vec::new(), agrees: false };
+    let mut exact = none();
+    let reach = base.reach()?;
+    let within = |least: f64| least <= REACH * (base.count() as f64 + AGREES * (2.0 * base.count() as f64).sqrt());
+    if within(reach.single) {
+        climb(base, &mut exact, (before, 0, 0.0), 1)?;
+    } else {
+        add_rung(base, &mut exact, base.ranked(base.whole(None)?), (before, 0, 0.0))?;
+        exact = if exact.agrees { exact } else { none() };
     }
-    let tuned = with_corrections(base, exact.rungs.first())?;
-    if !tuned.agrees {
+    if exact.agrees {
+        return Ok(Outcome { base, found: exact });
+    }
+    let mut tuned = with_corrections(base, exact.rungs.first(), false)?;
+    if !tuned.agrees && within(reach.pair) {
         let last = exact.rungs.last().map_or((before, 0, 0.0), |r| level(&r.refits[0]));
         climb(base, &mut exact, last, MOST_EFFECTS)?;
     }
+    if !tuned.agrees && !exact.agrees {
+        let more = with_corrections(base, tuned.rungs.first(), true)?;
+        if cost(base, &more, before) + FREEDOM < cost(base, &tuned, before) {
+            tuned = more;
+        }
+    }
+    if !tuned.agrees && exact.rungs.is_empty() {
+        climb(base, &mut exact, (before, 0, 0.0), 2)?;
+    }
     let best = if cost(base, &tuned, before) + FREEDOM < cost(base, &exact, before) { tuned } else { exact };
-    Ok(super::outcome::Outcome { base, found: best })
+    Ok(Outcome { base, found: best })
 }
 
 fn level(refit: &Refit) -> (f64, usize, f64) {
@@ -71,9 +94,9 @@ fn cost(base: &Base, found: &Found, before: f64) -> f64 {
     last.map_or(before, |refit| base.evidence(refit, 1.0) + choice)
 }
 
-/// The search with the corrections of the model free.
-fn with_corrections(base: &Base, exact: Option<&Rung>) -> Result<Found, ExplainError> {
-    let free = base.predictor.free_tuning();
+/// The search with the corrections of the model free; `before` are sets of one effect found with fewer of them.
+fn with_corrections(base: &Base, before: Option<&Rung>, each: bool) -> Result<Found, ExplainError> {
+    let free = base.predictor.free_tuning(each);
     let bench = base.bench();
     let starts = starts_of(base.predictions.clone());
     let bare = bench.refit(&[], &free, STEPS, &FINAL, &starts)?;
@@ -87,14 +110,13 @@ fn with_corrections(base: &Base, exact: Option<&Rung>) -> Result<Found, ExplainE
     }
     // Effects that explain much without corrections, with them; then places again, seen from the corrected model.
     let mut refits = Vec::new();
-    for refit in exact.iter().flat_map(|rung| &rung.refits).take(4) {
+    for refit in before.iter().flat_map(|rung| &rung.refits).take(4) {
         refits.push(bench.refit(&refit.effects, &free, STEPS, &FINAL, &refit.starts)?);
     }
     let mut from = bare.clone();
     for _ in 0..2 {
         refits.extend(corrected_singles(base, &from)?);
-        refits = base.ranked(refits);
-        refits.dedup_by(|a, b| same_set(&a.effects, &b.effects));
+        refits = distinct(base.ranked(refits));
         let Some(best) = refits.first() else { break };
         let moved = best.tuning.values.iter().zip(&from.tuning.values).any(|(a, b)| (a - b).abs() > 2e-4);
         if agrees(base, best.chi_square, best.parameters) || !moved {
@@ -102,8 +124,7 @@ fn with_corrections(base: &Base, exact: Option<&Rung>) -> Result<Found, ExplainE
         }
         from = Refit { effects: Vec::new(), ..best.clone() };
     }
-    let before = level(&bare);
-    add_rung(base, &mut found, refits, before)?;
+    add_rung(base, &mut found, refits, level(&bare))?;
     if let (false, Some(rung)) = (found.agrees, found.rungs.last()) {
         let last = level(&rung.refits[0]);
         climb(base, &mut found, last, MOST_EFFECTS - 1)?;
@@ -134,7 +155,18 @@ fn climb(base: &Base, found: &mut Found, mut last: (f64, usize, f64), most: usiz
 
 /// Adds the rung of these fits if the best of them has the evidence.
 fn add_rung(base: &Base, found: &mut Found, refits: Vec<Refit>, last: (f64, usize, f64)) -> Result<bool, ExplainError> {
-    let (refits, noise) = base.polished(refits)?;
+    let (mut refits, mut noise) = base.polished(refits)?;
+    let Some(best) = refits.first() else { return Ok(false) };
+    if let Some(source) = best.effects.last() {
+        let quiet = Base { noise: noise.clone(), predictions: base.predictions.clone(), ..base.shallow() };
+        let margin = ELSEWHERE * scale_of(&refits, base.count());
+        let fresh = |r: &Refit| !refits.iter().any(|known| same_set(&known.effects, &r.effects));
+        let moved: Vec<Refit> = quiet.elsewhere(best, source, margin)?.into_iter().filter(fresh).collect();
+        if !moved.is_empty() {
+            refits.extend(moved);
+            (refits, noise) = quiet.polished(base.ranked(refits))?;
+        }
+    }
     let Some(best) = refits.first() else { return Ok(false) };
     if best.parameters >= base.count() {
         return Ok(false);
@@ -161,9 +193,18 @@ fn next(base: &Base, rungs: &[Rung], corrected: bool) -> Result<Vec<Refit>, Expl
     if rungs.len() == 1 && !corrected {
         refits.extend(quiet.pairs()?);
     }
-    let mut refits = base.ranked(refits);
-    refits.dedup_by(|a, b| same_set(&a.effects, &b.effects));
-    Ok(refits)
+    Ok(distinct(base.ranked(refits)))
+}
+
+/// The best fit of every set.
+fn distinct(refits: Vec<Refit>) -> Vec<Refit> {
+    let mut kept: Vec<Refit> = Vec::with_capacity(refits.len());
+    for refit in refits {
+        if !kept.iter().any(|k| same_set(&k.effects, &refit.effects)) {
+            kept.push(refit);
+        }
+    }
+    kept
 }
 
 pub(crate) fn same_set(a: &[Source], b: &[Source]) -> bool {

@@ -215,6 +215,8 @@ fn of_run(run: &RunData, prediction: &RunPrediction, noise: &Whitening, used: bo
         .map(|(c, channel)| {
             let model = &prediction.channels[c];
             let difference: Vec<c64> = channel.measured.iter().zip(model).map(|(y, m)| y - m).collect();
+            let residual = |k: usize, h: usize| run.responses[k].measured[h - 1] - prediction.channels[k][h - 1];
+            let floor = noise.expected_given(c, residual).sqrt();
             let scale = run.scale(c);
             let relative = |x: f64| if scale > 0.0 { x / scale } else { 0.0 };
             let harmonic = |(i, (&measured, &model)): (usize, (&c64, &c64))| HarmonicComparison {
@@ -227,7 +229,7 @@ fn of_run(run: &RunData, prediction: &RunPrediction, noise: &Whitening, used: bo
                 channel: channel.name.clone(),
                 dof: channel.dof,
                 error: relative(size(&difference)),
-                noise_floor: relative(noise.expected(c).sqrt()),
+                noise_floor: relative(floor),
                 scale,
                 harmonics: channel.measured.iter().zip(model).enumerate().map(harmonic).collect(),
             }

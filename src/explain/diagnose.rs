@@ -64,6 +64,8 @@ pub struct Step {
     pub added: Vec<Added>,
     /// Error, as in `compare`.
     pub error: f64,
+    /// Squared residual per datum in units of the noise: 1 for a model that agrees.
+    pub misfit: f64,
 }
 
 /// A run that would tell suggestions apart or pin a parameter down.
@@ -124,7 +126,11 @@ pub fn diagnose(problem: &Problem, control: &Control) -> Result<Diagnosis, Expla
         noise_floor: noise_floor(&base, &[], &base.predictions),
         verdict: Verdict::Adequate,
         suggestions: Vec::new(),
-        steps: vec![Step { added: Vec::new(), error: bench.error(&base.predictions) }],
+        steps: vec![Step {
+            added: Vec::new(),
+            error: bench.error(&base.predictions),
+            misfit: before / base.count().max(1) as f64,
+        }],
         next_test: Vec::new(),
         corrections: Vec::new(),
     };
@@ -138,10 +144,11 @@ pub fn diagnose(problem: &Problem, control: &Control) -> Result<Diagnosis, Expla
 pub(crate) fn noise_floor(base: &Base, effects: &[Source], predictions: &[RunPrediction]) -> f64 {
     let Ok(noise) = base.whitenings(effects, predictions) else { return f64::NAN };
     let mut floors = Vec::new();
-    for (run, noise) in base.data.runs.iter().zip(&noise) {
+    for ((run, noise), prediction) in base.data.runs.iter().zip(&noise).zip(predictions) {
+        let residual = |k: usize, h: usize| run.responses[k].measured[h - 1] - prediction.channels[k][h - 1];
         for c in 0..run.responses.len() {
             let scale = run.scale(c);
-            floors.push(if scale > 0.0 { noise.expected(c).sqrt() / scale } else { 0.0 });
+            floors.push(if scale > 0.0 { noise.expected_given(c, residual).sqrt() / scale } else { 0.0 });
         }
     }
     root_mean_square(&floors)

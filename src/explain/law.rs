@@ -110,7 +110,7 @@ impl PlaceData {
     }
 
     fn fit_law(&self, effect: Effect, law: &'static dyn Law) -> Option<LawFit> {
-        let mut best: Option<(f64, Vec<f64>)> = None;
+        let mut grid: Vec<(f64, Vec<f64>)> = Vec::new();
         for mut p in shapes(effect, &self.range) {
             let (scale, misfit) = self.scale(law, &p);
             let signed = effect.parameters()[0].least < 0.0;
@@ -118,19 +118,25 @@ impl PlaceData {
                 continue;
             }
             scaled(effect).iter().for_each(|&k| p[k] *= scale);
-            if best.as_ref().is_none_or(|(least, _)| misfit < *least) {
-                best = Some((misfit, p));
-            }
+            grid.push((misfit, p));
         }
-        let (misfit, parameters) = best?;
-        let source = Source { effect, place: self.spot.place(), state: State::Known, parameters };
+        grid.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let source =
+            |p: &[f64]| Source { effect, place: self.spot.place(), state: State::Known, parameters: p.to_vec() };
+        let (misfit, parameters) = grid.first()?;
         if effect.parameters().len() == 1 {
-            return Some(LawFit { source, misfit });
+            return Some(LawFit { source: source(parameters), misfit: *misfit });
         }
-        let (variables, start) = Variables::new(std::slice::from_ref(&source));
-        let Ok(Descent { theta, chi_square, .. }) =
-            descend(&mut Equation { data: self, law, variables: &variables }, &start, 12);
-        Some(LawFit { source: variables.effects(&theta).remove(0), misfit: chi_square })
+        // Laws of many parameters have many valleys.
+        let starts = if effect.parameters().len() > 2 { 4 } else { 1 };
+        let descent = |(_, p): &(f64, Vec<f64>)| {
+            let (variables, start) = Variables::new(&[source(p)]);
+            let Ok(Descent { theta, chi_square, .. }) =
+                descend(&mut Equation { data: self, law, variables: &variables }, &start, 15);
+            LawFit { source: variables.effects(&theta).remove(0), misfit: chi_square }
+        };
+        let fits = grid.iter().take(starts).map(descent);
+        fits.filter(|f| f.misfit.is_finite()).min_by(|a, b| a.misfit.total_cmp(&b.misfit))
     }
 
     /// Best scale of the force at `p`, and the misfit with it.

@@ -15,6 +15,8 @@ use faer::c64;
 const OWN: f64 = 2e-4;
 /// The same, relative to the fundamental of the channel, for its higher harmonics.
 const FUNDAMENTAL: f64 = 2e-5;
+/// Squared whitened residual per datum up to which a residual counts as noise.
+const NOISY: f64 = 2.5;
 /// Noise assumed where a file gives harmonics without deviations, relative to the channel's size.
 const ASSUMED: f64 = 5e-3;
 
@@ -29,6 +31,10 @@ pub struct Whitening {
     alive: Vec<usize>,
     /// Expected `|e_c,h|^2`, `[channel][harmonic]`, of all channels, without the allowance.
     expected: Vec<Vec<f64>>,
+    /// The part of it that is each channel's own.
+    own: Vec<Vec<f64>>,
+    /// Where a single force drives the run: variance of a real part of its noise, and `a`, per harmonic.
+    force: Vec<Option<(f64, Vec<c64>)>>,
 }
 
 /// Standard deviation per real part of channel data `(size, measured deviation)`, never zero.
@@ -40,15 +46,23 @@ impl Whitening {
     /// Noise of `run` for a model of transfers `a` whose prediction has the error `truncation[channel][harmonic]`.
     pub fn new(run: &RunData, a: &Transfers, truncation: &[Vec<f64>]) -> Self {
         let mut expected = vec![vec![0.0; run.harmonics]; run.responses.len()];
+        let mut own = expected.clone();
+        let mut force = Vec::with_capacity(run.harmonics);
         let mut factors = Vec::with_capacity(run.harmonics);
         for h in 0..run.harmonics {
             let full = covariance(run, a, truncation, h, false);
             for (c, e) in expected.iter_mut().enumerate() {
                 e[h] = 2.0 * full[c * run.responses.len() + c].re;
             }
+            let single = if let [only] = &run.forces[..] { Some(only) } else { None };
+            let known = single.map(|f| (own_deviation(f.size(), f.deviation[h]).powi(2), a[h][0].clone()));
+            for (c, o) in own.iter_mut().enumerate() {
+                o[h] = expected[c][h] - known.as_ref().map_or(0.0, |(s, a)| 2.0 * s * a[c].norm_sqr());
+            }
+            force.push(known);
             factors.push(cholesky(&select(&covariance(run, a, truncation, h, true), &run.alive, run.responses.len())));
         }
-        Self { factors, alive: run.alive.clone(), expected }
+        Self { factors, alive: run.alive.clone(), expected, own, force }
     }
 
     /// Number of real values of a whitened run.
@@ -72,9 +86,25 @@ impl Whitening {
         result
     }
 
-    /// Expected `|e_c|^2` over the harmonics of response channel `c`, were the model exact.
-    pub fn expected(&self, c: usize) -> f64 {
-        self.expected[c].iter().sum()
+    /// Expected `|e_c|^2` over the harmonics of response channel `c`, were the model exact, given what the residual
+    /// `e(c, h)` shows of the noise of the force: that is one number a harmonic, often the largest of all, and its scatter
+    /// must not pass for an error of the model. Where the residual is more than noise it shows nothing.
+    pub fn expected_given(&self, c: usize, e: impl Fn(usize, usize) -> c64) -> f64 {
+        let at = |(i, force): (usize, &Option<(f64, Vec<c64>)>)| {
+            let h = i + 1;
+            let white: f64 = self.apply(h, |k| e(k, h)).iter().map(c64::norm_sqr).sum();
+            let Some((variance, a)) = force.as_ref().filter(|_| white < NOISY * 2.0 * self.alive.len() as f64) else {
+                return self.expected[c][i];
+            };
+            let (mut product, mut square) = (c64::new(0.0, 0.0), 0.0);
+            for &k in self.alive.iter().filter(|&&k| self.own[k][i] > 0.0) {
+                product += a[k].conj() * e(k, h) * (2.0 / self.own[k][i]);
+                square += a[k].norm_sqr() * (2.0 / self.own[k][i]);
+            }
+            let left = 1.0 / (1.0 / variance.max(f64::MIN_POSITIVE) + square);
+            self.own[c][i] + a[c].norm_sqr() * ((product * left).norm_sqr() + 2.0 * left)
+        };
+        self.force.iter().enumerate().map(at).sum()
     }
 
     /// Standard deviation of one real part of harmonic `h` (from 1) of channel `c`.

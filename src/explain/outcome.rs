@@ -50,7 +50,8 @@ impl Outcome<'_> {
         let weights = evidence_weights(&criteria);
         let ordered = order(&quiet.bench(), best, &rungs[0])?;
         for set in &ordered {
-            diagnosis.steps.push(Step { added: added(set, top.scale), error: set.error });
+            let misfit = set.chi_square / base.count().max(1) as f64;
+            diagnosis.steps.push(Step { added: added(set, top.scale), error: set.error, misfit });
         }
         let final_set = added(ordered.last().unwrap_or(best), top.scale);
         for item in &final_set {

@@ -7,191 +7,23 @@
 //! one column a law, place and shape of its grid. All columns and all pairs of columns are looked at; the best are
 //! fitted in all their parameters. What takes no energy (springs, masses) cannot be seen.
 
-use super::data::{ExplainError, Problem, RunData};
-use super::descent::{Residual, Variables, descend};
+use super::data::{ExplainError, Problem};
 use super::diagnose::{Added, Diagnosis, Step, Suggestion, Verdict};
-use super::energy::taken;
-use super::points::{PointsEnergy, displacement, energies};
-use super::shapes::{Range, scaled, shapes};
+use super::points_balance::{Balance, Column, Fitted};
+use super::shapes::scaled;
 use crate::control::Control;
-use crate::effects::{Effect, Leg, Motion, Place, Source, State};
+use crate::effects::Source;
 use crate::math::statistics::{bayesian_information, evidence_weights, root_mean_square};
-use crate::structure::Structure;
-use dashpot_numerics::transposed_product;
-use faer::{Mat, c64};
-use std::convert::Infallible;
 
 /// Sets that are fitted in all their parameters, at each number of effects.
 const REFITS: usize = 24;
 /// Evidence that an effect must bring.
 const EVIDENCE: f64 = 15.0;
-/// Allowance for what no model matches, relative to the energy of the run.
-const ALLOWANCE: f64 = 5e-4;
 /// Difference of the squared residual within which two suggestions cannot be told apart.
 const ALIKE: f64 = 9.0;
-/// Samples a period.
-const SAMPLES: usize = 256;
-
-/// Energies of the used runs as data.
-struct Balance<'a> {
-    structure: &'a Structure,
-    runs: Vec<RunData>,
-    /// Input less what is known, J.
-    missing: Vec<f64>,
-    input: Vec<f64>,
-    deviation: Vec<f64>,
-}
-
-/// One column: a source of unit scale and its energies.
-struct Column {
-    source: Source,
-    /// Energy over the deviation, one a run.
-    weighted: Vec<f64>,
-}
-
-/// A set fitted in all its parameters.
-#[derive(Clone)]
-struct Fitted {
-    added: Vec<Added>,
-    chi_square: f64,
-    parameters: usize,
-    error: f64,
-    held_out: f64,
-}
-
-impl<'a> Balance<'a> {
-    fn new(problem: &'a Problem, effects: &[Source]) -> Result<Self, ExplainError> {
-        let data = super::data::Data::new(problem)?;
-        let used = |e: &PointsEnergy| data.runs.iter().any(|r| r.index == e.index);
-        let plain: Vec<PointsEnergy> = energies(problem, &[])?.into_iter().filter(used).collect();
-        let noisy: Vec<PointsEnergy> = energies(problem, effects)?.into_iter().filter(used).collect();
-        let deviation = noisy.iter().map(|e| e.deviation.hypot(ALLOWANCE * e.input).max(f64::MIN_POSITIVE));
-        Ok(Self {
-            structure: problem.structure,
-            missing: plain.iter().map(|e| e.input - e.taken).collect(),
-            input: plain.iter().map(|e| e.input).collect(),
-            deviation: deviation.collect(),
-            runs: data.runs,
-        })
-    }
-
-    fn weighted(&self) -> Vec<f64> {
-        self.missing.iter().zip(&self.deviation).map(|(e, d)| e / d).collect()
-    }
-
-    fn energies(&self, source: &Source) -> Vec<f64> {
-        let of = |run: &RunData| taken(self.structure, source, run.omega, &|dof| displacement(run, dof));
-        self.runs.iter().map(of).collect()
-    }
-
-    fn columns(&self) -> Vec<Column> {
-        let ground = (0..self.structure.len()).map(|dof| vec![dof]);
-        let pairs = self.structure.neighbours().into_iter().map(|pair| pair.to_vec());
-        let mut columns = Vec::new();
-        for dofs in ground.chain(pairs) {
-            let Some(range) = self.range(&dofs) else { continue };
-            for effect in Effect::ALL.into_iter().filter(|e| e.law().is_some() && e.dissipates()) {
-                for parameters in shapes(effect, &range) {
-                    let source = Source { effect, place: Place::Dofs(dofs.clone()), state: State::Known, parameters };
-                    let weighted: Vec<f64> =
-                        self.energies(&source).iter().zip(&self.deviation).map(|(e, d)| e / d).collect();
-                    if weighted.iter().all(|w| w.is_finite()) && weighted.iter().any(|w| *w > 0.0) {
-                        columns.push(Column { source, weighted });
-                    }
-                }
-            }
-        }
-        columns
-    }
-
-    /// Range of the motion at a place; none where nothing moves.
-    fn range(&self, dofs: &[usize]) -> Option<Range> {
-        let leg = Leg { first: dofs[0], second: dofs.get(1).copied() };
-        let motions = self.runs.iter().map(|run| {
-            let relative = |h: usize| leg.relative(|dof| displacement(run, dof)[h]);
-            let harmonics: Vec<c64> = (0..run.harmonics).map(relative).collect();
-            Motion::new(run.omega, 0.0, &harmonics, SAMPLES)
-        });
-        let range = super::law::range(&motions.collect::<Vec<_>>());
-        (range.displacement > 0.0).then_some(range)
-    }
-
-    /// Relative error per run with `effects`.
-    fn errors(&self, effects: &[Source]) -> Vec<f64> {
-        let mut left = self.missing.clone();
-        for effect in effects {
-            left.iter_mut().zip(self.energies(effect)).for_each(|(l, e)| *l -= e);
-        }
-        left.iter().zip(&self.input).map(|(l, e)| if *e == 0.0 { 1.0 } else { (l / e).abs() }).collect()
-    }
-
-    fn fit(&self, effects: &[Source]) -> Fitted {
-        let (variables, start) = Variables::new(effects);
-        let Ok(descent) = descend(&mut OnEnergy { balance: self, variables: &variables }, &start, 20);
-        let found = variables.effects(&descent.theta);
-        let slopes = variables.slopes(&descent.theta);
-        let mut deviations = descent.deviations().into_iter().zip(slopes).map(|(d, s)| d * s.abs());
-        let added = found.iter().map(|source| {
-            let own = deviations.by_ref().take(source.parameters.len()).collect();
-            Added { source: source.clone(), deviations: own }
-        });
-        let added = added.collect();
-        let error = root_mean_square(&self.errors(&found));
-        let held_out = self.held_out(&found, &descent.residual, &descent.jacobian);
-        Fitted { added, chi_square: descent.chi_square, parameters: variables.len(), error, held_out }
-    }
-
-    /// Error of each run by the linearised fit without it: the residual over one less its leverage.
-    fn held_out(&self, effects: &[Source], residual: &[f64], jacobian: &Mat<f64>) -> f64 {
-        let n = jacobian.ncols();
-        let normal = transposed_product(jacobian.as_ref(), jacobian.as_ref());
-        let identity = Mat::<f64>::identity(n, n);
-        let Ok(inverse) = crate::math::least_squares::solve_symmetric(normal.as_ref(), identity.as_ref()) else {
-            return root_mean_square(&self.errors(effects));
-        };
-        let errors: Vec<f64> = (0..residual.len())
-            .map(|r| {
-                let row = |i: usize, k: usize| jacobian[(r, i)] * inverse[(i, k)] * jacobian[(r, k)];
-                let leverage: f64 = (0..n).map(|i| (0..n).map(|k| row(i, k)).sum::<f64>()).sum();
-                let scale = if self.input[r] == 0.0 { 1.0 } else { self.input[r].abs() };
-                residual[r] * self.deviation[r] / scale / (1.0 - leverage.min(0.9))
-            })
-            .collect();
-        root_mean_square(&errors)
-    }
-}
-
-/// Weighted difference of energies as a function of the variables.
-struct OnEnergy<'a> {
-    balance: &'a Balance<'a>,
-    variables: &'a Variables,
-}
-
-impl Residual for OnEnergy<'_> {
-    type Error = Infallible;
-
-    fn residual(&mut self, theta: &[f64]) -> Result<Vec<f64>, Infallible> {
-        let mut left = self.balance.missing.clone();
-        for effect in self.variables.effects(theta) {
-            left.iter_mut().zip(self.balance.energies(&effect)).for_each(|(l, e)| *l -= e);
-        }
-        Ok(left.iter().zip(&self.balance.deviation).map(|(l, d)| l / d).collect())
-    }
-
-    fn jacobian(&mut self, theta: &[f64], at: &[f64]) -> Result<Mat<f64>, Infallible> {
-        let step = 1e-5;
-        let mut jacobian = Mat::zeros(at.len(), theta.len());
-        for k in 0..theta.len() {
-            let mut moved = theta.to_vec();
-            moved[k] += step;
-            let Ok(after) = self.residual(&moved);
-            for (r, (a, b)) in after.iter().zip(at).enumerate() {
-                jacobian[(r, k)] = (a - b) / step;
-            }
-        }
-        Ok(jacobian)
-    }
-}
+/// What every parameter of a law beyond its first costs besides the information criterion: the simpler law wins unless the
+/// data demand the other.
+const EXTRA: f64 = 4.0;
 
 /// Squared residual and scales of one column or two with non-negative scales; none if a scale is not positive.
 fn solve(columns: &[&Column], e: &[f64]) -> Option<(f64, Vec<f64>)> {
@@ -240,7 +72,16 @@ fn climb(balance: &Balance, control: &Control) -> Result<Vec<Vec<Fitted>>, Expla
         if agrees(last.0, n, last.1) || columns.is_empty() {
             break;
         }
-        let fits = ranked(balance, &drafts(&columns, &e, count), n);
+        let mut sets = drafts(&columns, &e, count);
+        let before: Vec<Vec<Source>> = match rungs.last() {
+            None => vec![Vec::new()],
+            Some(fits) => fits.iter().take(3).map(|f| f.added.iter().map(|a| a.source.clone()).collect()).collect(),
+        };
+        for set in before {
+            let fresh = balance.faults().into_iter().filter(|f| !set.iter().any(|s| s.is_same(f)));
+            sets.extend(fresh.map(|f| set.iter().cloned().chain(std::iter::once(f)).collect()));
+        }
+        let fits = ranked(balance, &sets, n);
         let Some(best) = fits.first() else { break };
         let scale = (best.chi_square / (n - best.parameters).max(1) as f64).max(1.0);
         let penalty = (best.parameters as f64 - last.1 as f64) * (n as f64).ln();
@@ -313,7 +154,8 @@ fn ranked(balance: &Balance, drafts: &[Vec<Source>], n: usize) -> Vec<Fitted> {
 }
 
 fn criterion(fit: &Fitted, n: usize) -> f64 {
-    bayesian_information(fit.chi_square, fit.parameters, n)
+    let extra: usize = fit.added.iter().map(|a| a.source.parameters.len() - 1).sum();
+    bayesian_information(fit.chi_square, fit.parameters, n) + EXTRA * extra as f64
 }
 
 fn conclude(balance: &Balance, rungs: &[Vec<Fitted>]) -> Diagnosis {
@@ -325,18 +167,20 @@ fn conclude(balance: &Balance, rungs: &[Vec<Fitted>]) -> Diagnosis {
         noise_floor: root_mean_square(&relative.collect::<Vec<_>>()),
         verdict: Verdict::Adequate,
         suggestions: Vec::new(),
-        steps: vec![Step { added: Vec::new(), error: before }],
+        steps: vec![Step { added: Vec::new(), error: before, misfit: square(&balance.weighted()) / n as f64 }],
         next_test: Vec::new(),
         corrections: Vec::new(),
     };
     let (Some(first), Some(top)) = (rungs.first(), rungs.last()) else {
         let e = balance.weighted();
-        if !agrees(e.iter().map(|x| x * x).sum(), n, 0) {
+        if !agrees(square(&e), n, 0) {
             diagnosis.verdict = Verdict::Undecided;
         }
         return diagnosis;
     };
-    diagnosis.steps.extend(rungs.iter().map(|r| Step { added: r[0].added.clone(), error: r[0].error }));
+    let step =
+        |r: &Vec<Fitted>| Step { added: r[0].added.clone(), error: r[0].error, misfit: r[0].chi_square / n as f64 };
+    diagnosis.steps.extend(rungs.iter().map(step));
     let weights = evidence_weights(&top.iter().map(|f| criterion(f, n)).collect::<Vec<_>>());
     for fit in top {
         for added in &fit.added {
@@ -361,6 +205,10 @@ fn conclude(balance: &Balance, rungs: &[Vec<Fitted>]) -> Diagnosis {
     let sure = diagnosis.suggestions.first().is_some_and(|s| s.probability >= 0.5);
     diagnosis.verdict = if sure { Verdict::Missing } else { Verdict::Undecided };
     diagnosis
+}
+
+fn square(values: &[f64]) -> f64 {
+    values.iter().map(|x| x * x).sum()
 }
 
 fn contains(fit: &Fitted, source: &Source) -> bool {

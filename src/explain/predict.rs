@@ -106,9 +106,9 @@ impl Predictor {
         Ok(Self { model, runs, known, stated: self.stated.clone(), omegas: self.omegas.clone() })
     }
 
-    /// Everything that may be corrected, not corrected yet.
-    pub fn free_tuning(&self) -> Tuning {
-        Tuning::free(&self.stated.0, &self.stated.1, &self.omegas)
+    /// What may be corrected, not corrected yet; with `each` also modes or springs one by one.
+    pub fn free_tuning(&self, each: bool) -> Tuning {
+        Tuning::free(&self.stated.0, &self.stated.1, &self.omegas, each)
     }
 
     /// Known sources.

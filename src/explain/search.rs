@@ -29,6 +29,10 @@ const LAWS_AT_ONE_PLACE: usize = 4;
 /// What every parameter of a law beyond its first costs in evidence besides its information criterion: where one law
 /// contains another as a limit, the simpler wins unless the data demand the other.
 const EXTRA: f64 = 8.0;
+/// Drafts whose score is this many times that of the best are not fitted.
+const HOPELESS: f64 = 5.0;
+/// Places at which the law found is tried too, where no law can tell them apart.
+const ELSEWHERE: usize = 6;
 /// Steps of a fit on the response.
 const STEPS: usize = 12;
 
@@ -53,6 +57,12 @@ pub(crate) struct Base<'a> {
     pub predictions: Vec<RunPrediction>,
     /// Noise of the residuals.
     pub noise: Vec<Whitening>,
+}
+
+/// Least squared residual that free forces leave.
+pub(crate) struct Reach {
+    pub single: f64,
+    pub pair: f64,
 }
 
 /// The residual of a model seen from every place.
@@ -124,6 +134,13 @@ impl<'a> Base<'a> {
         Ok(View { screen, receptances, predictions })
     }
 
+    /// How little free forces at one place, or at two, leave of the squared residual.
+    pub fn reach(&self) -> Result<Reach, ExplainError> {
+        let view = self.view(self.predictor, None)?;
+        let least = |placings: Vec<Placing>| placings.first().map_or(f64::INFINITY, |p| p.chi_square);
+        Ok(Reach { single: least(view.screen.singles()), pair: least(view.screen.pairs(1)) })
+    }
+
     /// Sets of the effects of `from` and one more, fitted on the response, best first by evidence.
     pub fn singles(&self, from: Option<&Refit>) -> Result<Vec<Refit>, ExplainError> {
         let predictor = from.map_or_else(|| Ok(self.predictor.clone()), |refit| self.predictor_of(refit))?;
@@ -176,6 +193,32 @@ impl<'a> Base<'a> {
         };
         let (forces, fields) = self.free(&mut view, &[at])?;
         Ok(Some(PlaceData::new(self.data, &view.screen.spots[at], &forces[0], &fields)))
+    }
+
+    /// The set `best` with its effect `source` at other places that leave no more than `margin` beyond what its own place
+    /// leaves to a free force.
+    pub fn elsewhere(&self, best: &Refit, source: &Source, margin: f64) -> Result<Vec<Refit>, ExplainError> {
+        let predictor = self.predictor_of(best)?;
+        let mut others = best.clone();
+        others.effects.retain(|e| !e.is_same(source));
+        others.starts.clear();
+        let mut view = self.view(&predictor, Some(&others))?;
+        let placings = view.screen.singles();
+        let place = |view: &View, p: &Placing| view.screen.spots[p.spots[0]].place();
+        let Some(own) = placings.iter().find(|p| place(&view, p).is_same(&source.place)) else { return Ok(Vec::new()) };
+        let near: Vec<Placing> = placings
+            .iter()
+            .filter(|p| p.chi_square < own.chi_square + margin && !place(&view, p).is_same(&source.place))
+            .take(ELSEWHERE)
+            .cloned()
+            .collect();
+        let mut drafts = Vec::new();
+        for placing in near {
+            let options = self.laws(&mut view, &placing, &others.effects)?;
+            let same = options.into_iter().flatten().find(|d| d.effects[0].effect == source.effect);
+            drafts.extend(same.map(|d| Draft { effects: joined(&others.effects, &d.effects), ..d }));
+        }
+        self.refit_all(&drafts, Some(&others))
     }
 
     /// Fits the drafts on the response, from the motion that the data show.
@@ -238,7 +281,7 @@ impl<'a> Base<'a> {
     }
 
     /// The laws of the whole structure, from a light start.
-    fn whole(&self, from: Option<&Refit>) -> Result<Vec<Refit>, ExplainError> {
+    pub fn whole(&self, from: Option<&Refit>) -> Result<Vec<Refit>, ExplainError> {
         let effects = from.map_or(&[][..], |refit| &refit.effects);
         let tuning = from.map_or(&self.tuning, |refit| &refit.tuning);
         let mut found = Vec::new();
@@ -320,8 +363,9 @@ fn joined(first: &[Source], second: &[Source]) -> Vec<Source> {
 /// The best drafts, no more than a few at one place, each with the simpler laws that it contains as limits.
 fn short_list(mut drafts: Vec<Draft>, most: usize) -> Vec<Draft> {
     drafts.sort_by(|a, b| a.score.total_cmp(&b.score));
+    let hopeless = drafts.first().map_or(f64::INFINITY, |best| HOPELESS * best.score.abs() + 300.0);
     let mut kept: Vec<Draft> = Vec::new();
-    for draft in &drafts {
+    for draft in drafts.iter().filter(|d| d.score < hopeless) {
         let here = kept.iter().filter(|k| k.effects[0].place == draft.effects[0].place).count();
         if here < LAWS_AT_ONE_PLACE {
             kept.push(draft.clone());

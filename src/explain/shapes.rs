@@ -43,9 +43,9 @@ pub fn shapes(effect: Effect, range: &Range) -> Vec<Vec<f64>> {
             let velocities = geometric(0.02 * range.velocity, 0.8 * range.velocity, 5);
             velocities.into_iter().flat_map(|v| [1.3, 2.0, 4.0].map(|s| vec![1.0, s, v])).collect()
         }
-        Effect::Iwan => geometric(0.1 * range.least.max(0.05 * range.displacement), 3.0 * range.displacement, 5)
+        Effect::Iwan => geometric(0.1 * range.least.max(0.05 * range.displacement), 3.0 * range.displacement, 6)
             .into_iter()
-            .flat_map(|x| [-0.7, -0.3].into_iter().flat_map(move |chi| [0.3, 3.0].map(|b| vec![1.0, x, chi, b])))
+            .flat_map(|x| [-0.7, -0.4, -0.1].into_iter().flat_map(move |chi| [0.3, 1.5].map(|b| vec![1.0, x, chi, b])))
             .collect(),
         _ => vec![vec![1.0; effect.parameters().len()]],
     }

@@ -48,11 +48,13 @@ pub struct Tuning {
 }
 
 impl Tuning {
-    /// No correction yet, of whatever may be corrected: all stiffness and mass, the modes that the runs excite (for a
-    /// chain its springs), and every known source.
-    pub fn free(structure: &Structure, known: &[Source], omegas: &[f64]) -> Self {
+    /// No correction yet, of all stiffness and mass and of every known source; with `each` also of the modes that the runs
+    /// excite (for a chain, of its springs).
+    pub fn free(structure: &Structure, known: &[Source], omegas: &[f64], each: bool) -> Self {
         let mut knobs = vec![Knob::Stiffness, Knob::Mass];
-        if structure.kind() == StructureKind::Chain {
+        if !each {
+            // The few that most wrong models need.
+        } else if structure.kind() == StructureKind::Chain {
             knobs.extend(springs(structure));
         } else {
             knobs.extend(modes_in_band(structure, omegas).into_iter().map(Knob::Mode));
@@ -96,7 +98,9 @@ impl Tuning {
         {
             for knob in &self.knobs {
                 if let Knob::Mode(r) = knob {
-                    let weighted = &own * modes.shapes.col(*r);
+                    let shape = modes.shapes.col_as_slice(*r);
+                    let row = |i: usize| own.col_as_slice(i).iter().zip(shape).map(|(m, x)| m * x).sum::<f64>();
+                    let weighted: Vec<f64> = (0..own.ncols()).map(row).collect();
                     let size = (self.factor(knob) - 1.0) * stiffness * modes.omega[*r].powi(2);
                     for j in 0..own.ncols() {
                         for i in 0..own.nrows() {
