@@ -5,7 +5,13 @@ use super::predict::{FINAL, Predictor, RunPrediction};
 use crate::control::Control;
 use crate::effects::Source;
 use crate::response::harmonic_balance::ResponseError;
+use crate::response::harmonic_balance::Settings;
 use faer::c64;
+
+/// Truncation error as a share of the smallest noise of a channel's fundamental.
+const SHARE: f64 = 0.1;
+/// Largest truncation error, relative to the largest amplitude.
+const COARSEST: f64 = 1e-3;
 
 /// The branch on which the model was compared.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -37,10 +43,11 @@ pub(crate) fn nearest(
     effects: &[Source],
     control: &Control,
 ) -> Result<(RunPrediction, Option<Branch>), ResponseError> {
-    let found = predictor.branches(r, run, effects, &FINAL, control)?;
+    let settings = settings(run);
+    let found = predictor.branches(r, run, effects, &settings, control)?;
     if found.len() < 2 {
         let first = found.into_iter().next().map(|(prediction, _)| prediction);
-        let prediction = first.map_or_else(|| predictor.predict(r, run, effects, &FINAL, None, control), Ok)?;
+        let prediction = first.map_or_else(|| predictor.predict(r, run, effects, &settings, None, control), Ok)?;
         return Ok((prediction, None));
     }
     let all = found.len();
@@ -52,6 +59,17 @@ pub(crate) fn nearest(
     let number = (0..stable.len()).min_by(|&a, &b| distances[a].total_cmp(&distances[b])).unwrap_or(0);
     let branch = Branch { number, stable: stable.len(), all };
     Ok((stable.swap_remove(number), (all > 1).then_some(branch)))
+}
+
+/// No more harmonics than the noise of the run lets see; what is cut off counts as noise.
+fn settings(run: &RunData) -> Settings {
+    let of = |c: &usize| {
+        let channel = &run.responses[*c];
+        channel.deviation.first().map_or(0.0, |d| d / channel.size())
+    };
+    let noise = run.alive.iter().map(of).filter(|n| n.is_finite()).fold(f64::INFINITY, f64::min);
+    let seen = if noise.is_finite() { SHARE * noise } else { 0.0 };
+    Settings { truncation: seen.clamp(FINAL.truncation, COARSEST), ..FINAL }
 }
 
 /// Greatest fundamental displacement of the response.
