@@ -90,6 +90,8 @@ pub struct App {
     /// Whether the program may close.
     pub(super) closing: bool,
     work: Work,
+    /// Title of the window.
+    named: String,
     /// Time of the last autosave, s.
     kept: f64,
 }
@@ -213,6 +215,7 @@ impl App {
         let mut asks: Vec<Ask> = commands::pressed(&ctx).into_iter().map(Ask::Command).collect();
         asks.extend(dropped(&ctx));
         self.ask_before_closing(&ctx);
+        self.name_window(&ctx);
         self.advance(&ctx);
         self.autosave(ctx.input(|i| i.time));
         if let Some(document) = &self.document {
@@ -236,6 +239,19 @@ impl App {
         }
         for ask in asks {
             self.answer(&ctx, ask);
+        }
+    }
+
+    /// The project's title stands in the title of the window.
+    fn name_window(&mut self, ctx: &Context) {
+        let named = |d: &Document| {
+            let mark = if d.session().is_dirty() { "*" } else { "" };
+            format!("{}{mark} – Dashpot", d.project.title)
+        };
+        let name = self.document.as_ref().map_or_else(|| "Dashpot".to_owned(), named);
+        if name != self.named {
+            self.named.clone_from(&name);
+            ctx.send_viewport_cmd(egui::ViewportCommand::Title(name));
         }
     }
 

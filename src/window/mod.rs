@@ -43,6 +43,7 @@ pub fn open(file: Option<PathBuf>, photograph: Option<PathBuf>) -> Result<(), St
     let viewport = egui::ViewportBuilder::default()
         .with_title("Dashpot")
         .with_app_id("dashpot")
+        .with_icon(frame::icons::application())
         .with_inner_size([1440.0, 900.0])
         .with_min_inner_size([960.0, 640.0]);
     let persist_window = photograph.is_none();

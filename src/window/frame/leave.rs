@@ -3,7 +3,7 @@
 use crate::window::app::{App, Ask};
 use crate::window::theme::{size, space};
 use crate::window::widgets::UiExt;
-use egui::{Context, Id, Modal, RichText};
+use egui::{Context, Frame, Id, Margin, Modal, RichText};
 use std::path::PathBuf;
 
 /// Where the user wants to go.
@@ -36,7 +36,8 @@ pub fn show(ctx: &Context, app: &App, asks: &mut Vec<Ask>) {
         return;
     }
     let title = app.document.as_ref().map_or_else(String::new, |d| d.project.title.clone());
-    let modal = Modal::new(Id::unique("leave")).show(ctx, |ui| {
+    let frame = Frame::popup(&ctx.global_style()).inner_margin(Margin::same(18));
+    let modal = Modal::new(Id::unique("leave")).frame(frame).show(ctx, |ui| {
         ui.set_width(360.0);
         ui.label(RichText::new("Save the changes?").size(size::HEADING));
         ui.add_space(space::XS);

@@ -25,9 +25,9 @@ pub fn show(ui: &mut Ui, outcome: &Outcome, current: usize, limit_deg: f64) {
     let y = Axis::log("Angle", "°").include(&[limit_deg.max(LEAST)]);
     let figure = Figure::new("Angle against number of sources", x, y)
         .points("limit", palette.missing, Look::Levels(1.4), vec![[1.0, limit_deg.max(LEAST)]])
-        .points("alternatives", palette.weak.gamma_multiply(0.6), Look::Dots(3.0), others)
-        .points("best set of each size", palette.model, Look::Line(1.8), best.clone())
-        .points("best set of each size", palette.model, Look::Dots(4.5), best)
+        .points("others", palette.weak.gamma_multiply(0.6), Look::Dots(3.0), others)
+        .points("best sets", palette.model, Look::Line(1.8), best.clone())
+        .points("best sets", palette.model, Look::Dots(4.5), best)
         .points("accepted", palette.model, Look::Rings(8.0), accepted)
         .points("looked at", palette.accent, Look::Dots(6.0), chosen);
     Stack { id: "angle", title: "Angle against number of sources", figures: vec![(figure, 1.0)], keys: true }.show(ui);

@@ -85,7 +85,9 @@ impl Place<'_> {
             .formatter(move |mark, _| ticks::label(&xt, mark));
         let y_axis = axis(AxisHints::new_y(), palette, &figure.y.label())
             .placement(HPlacement::Left)
-            .min_thickness(56.0)
+            .min_thickness(62.0)
+            // Lines of text lie closer than words beside each other.
+            .label_spacing(egui::Rangef::new(13.0, 20.0))
             .formatter(move |mark, _| ticks::label(&yt, mark));
         let mut plot = frame(ui, self.id, "", "")
             .custom_x_axes(vec![x_axis])

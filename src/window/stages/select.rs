@@ -175,26 +175,25 @@ fn details(ui: &mut Ui, p: &Project, step: &Step, asks: &mut Vec<Ask>) {
     let plural = if step.count == 1 { "source" } else { "sources" };
     let proved = if step.proved { "proved to be the best" } else { "the best set found" };
     ui.title(&format!("{} {plural}", step.count), proved);
-    egui::Grid::new("estimates").num_columns(3).spacing([space::M, space::XS]).show(ui, |ui| {
-        for name in ["", "Source", "Coefficient"] {
-            ui.hint(name);
-        }
-        ui.end_row();
-        for estimate in &step.sources {
-            let Some(source) = p.sources.get(estimate.source) else { continue };
-            let forced = source.state == State::Forced;
-            let to = if forced { State::Candidate } else { State::Forced };
-            let text = if forced { "Release" } else { "Force" };
-            let hover = if forced { "Lets the search leave it out again." } else { "Every set must then hold it." };
-            if ui.small_button(text).on_hover_text(hover).clicked() {
+    for estimate in &step.sources {
+        let Some(source) = p.sources.get(estimate.source) else { continue };
+        let forced = source.state == State::Forced;
+        let to = if forced { State::Candidate } else { State::Forced };
+        let text = if forced { "Release" } else { "Force" };
+        let hover = if forced { "Lets the search leave it out again." } else { "Every set must then hold it." };
+        let share = format::percent(0.01 * estimate.energy_percent);
+        ui.horizontal(|ui| {
+            if ui.button(text).on_hover_text(hover).clicked() {
                 asks.push(Ask::Edit(Edit::SetState(estimate.source, to)));
             }
-            ui.label(format!("{} {}", words::effect(source.effect), words::short_place(&p.structure, &source.place)));
-            let share = format::percent(0.01 * estimate.energy_percent);
-            ui.label(super::coefficient(source, estimate)).on_hover_text(format!("{share} of the energy"));
-            ui.end_row();
-        }
-    });
+            ui.vertical(|ui| {
+                ui.spacing_mut().item_spacing.y = 1.0;
+                let place = words::short_place(&p.structure, &source.place);
+                ui.label(format!("{} {place}", words::effect(source.effect)));
+                ui.hint(format!("{},  {share} of the energy", super::coefficient(source, estimate)));
+            });
+        });
+    }
 }
 
 /// What the data cannot tell apart, and what the user should know.
