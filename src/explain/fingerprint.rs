@@ -7,7 +7,7 @@
 //! `p` of `c_eq` is 0 for a viscous dashpot, -1 for Coulomb friction, +1 for quadratic damping; `q` is -1 for hysteretic
 //! damping. `p` of `k_eq` is 0 for a spring, +2 for a cubic one; `q` is 2 for a mass.
 
-use super::law::PlaceData;
+use super::law::{PlaceData, Ratio};
 use crate::math::least_squares::LeastSquares;
 use faer::{Mat, c64};
 
@@ -32,11 +32,15 @@ const SPREAD: f64 = 0.05;
 
 /// The powers of the fundamental of a free force; none where too few runs show it.
 pub(crate) fn fingerprint(data: &PlaceData) -> Option<Fingerprint> {
-    let points = data.ratios();
+    of_ratios(&data.ratios())
+}
+
+/// The powers that the ratios of force to motion follow.
+pub(crate) fn of_ratios(points: &[Ratio]) -> Option<Fingerprint> {
     let strength = |part: fn(c64) -> f64| points.iter().map(|p| (part(p.ratio) * p.weight).abs()).sum::<f64>();
     let damping = strength(|z| z.im) >= strength(|z| z.re);
     let mut rows: Vec<[f64; 3]> = Vec::new();
-    for p in &points {
+    for p in points {
         let value = if damping { p.ratio.im / p.omega } else { p.ratio.re };
         let relative = p.deviation / if damping { p.ratio.im.abs() } else { p.ratio.re.abs() };
         if relative < 0.3 {

@@ -78,21 +78,25 @@ impl PlaceData {
 
     /// Force over motion at the fundamental of every run in which both can be seen.
     pub fn ratios(&self) -> Vec<Ratio> {
-        let of = |(motion, forces): (&Motion, &Vec<FreeForce>)| {
+        self.ratios_by_run().into_iter().map(|(_, ratio)| ratio).collect()
+    }
+
+    /// The same with the number of the run in the data.
+    pub fn ratios_by_run(&self) -> Vec<(usize, Ratio)> {
+        let of = |(r, (motion, forces)): (usize, (&Motion, &Vec<FreeForce>))| {
             let (d, free) = (*motion.harmonics.first()?, *forces.first()?);
             let amplitude = d.norm();
-            (amplitude > 0.0 && free.weight > 0.0).then(|| {
-                let weight = free.weight * amplitude * amplitude;
-                Ratio {
-                    ratio: free.value / d,
-                    deviation: weight.sqrt().recip(),
-                    weight,
-                    amplitude,
-                    omega: motion.omega,
-                }
-            })
+            let weight = free.weight * amplitude * amplitude;
+            let ratio = || Ratio {
+                ratio: free.value / d,
+                deviation: weight.sqrt().recip(),
+                weight,
+                amplitude,
+                omega: motion.omega,
+            };
+            (amplitude > 0.0 && free.weight > 0.0).then(|| (r, ratio()))
         };
-        self.motions.iter().zip(&self.forces).filter_map(of).collect()
+        self.motions.iter().zip(&self.forces).enumerate().filter_map(of).collect()
     }
 
     /// Number of real data.

@@ -33,6 +33,7 @@ pub mod points;
 mod points_balance;
 mod points_search;
 pub mod predict;
+pub mod prints;
 pub mod refit;
 mod search;
 pub mod shapes;
