@@ -96,6 +96,11 @@ impl Session {
         Some(label)
     }
 
+    /// Goes back to a document as it was earlier, as an action that can be undone.
+    pub fn return_to(&mut self, document: &Document, label: &str) {
+        self.go_to(document.clone(), label.into(), None);
+    }
+
     /// The document.
     pub fn document(&self) -> &Document {
         &self.document

@@ -38,6 +38,7 @@ impl App {
             Command::Pattern => self.view.stage = Stage::Pattern,
             Command::Select => self.view.stage = Stage::Select,
             Command::Result => self.view.stage = Stage::Result,
+            Command::Explain => self.view.stage = Stage::Explain,
             Command::StepBack => self.step(false),
             Command::StepOn => self.step(true),
             Command::StepEnd => self.view.step = None,

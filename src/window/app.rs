@@ -12,6 +12,7 @@ use super::frame::panes::Pane;
 use super::photograph::Photograph;
 use super::plots::export::Exports;
 use super::schematic::gesture::Intent;
+use super::stages;
 use super::theme::{Palette, space};
 use super::view::{Stage, View};
 use super::work::{Done, Work};
@@ -60,6 +61,8 @@ pub enum Ask {
     Leave(Changes),
     /// Open or close a pane of the stage.
     Pane(Pane, bool),
+    /// Something in the stage Explain.
+    Explain(stages::explain::Deed),
     /// Close the message.
     Dismiss,
 }
@@ -222,6 +225,8 @@ impl App {
             // What is downstream is computed by itself, in the background.
             self.derived.keep_up(document);
             self.derived.outcome(&ctx, document);
+            let wanted = stages::explain::wanted(document, &self.view, &self.derived.explained);
+            self.derived.explained.update(&ctx, document, &wanted);
         }
         frame::top::show(ui, self, &mut asks);
         frame::status::show(ui, self, &mut asks);
@@ -284,6 +289,7 @@ impl App {
             Ask::Stage(stage) => self.view.stage = stage,
             Ask::Schematic(intent) => self.intent(ctx, intent),
             Ask::Pane(pane, open) => self.desk.set_open(self.view.stage, pane, open),
+            Ask::Explain(deed) => stages::explain::answer(self, ctx, deed),
             Ask::Dismiss => self.message = None,
         }
     }

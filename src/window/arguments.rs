@@ -24,7 +24,7 @@ struct WindowArguments {
 struct PictureArguments {
     /// Project file; without it, the start screen.
     file: Option<PathBuf>,
-    /// Stage: start, measure, structure, pattern, select or result.
+    /// Stage: start, measure, structure, pattern, select, result or explain.
     #[arg(long, default_value = "measure")]
     stage: String,
     /// PNG file to write.

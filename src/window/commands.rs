@@ -25,6 +25,7 @@ pub enum Command {
     Pattern,
     Select,
     Result,
+    Explain,
     StepBack,
     StepOn,
     StepEnd,
@@ -70,7 +71,7 @@ const fn entry(command: Command, label: &'static str, tooltip: &'static str, key
 }
 
 /// All commands.
-pub const TABLE: [Entry; 29] = [
+pub const TABLE: [Entry; 30] = [
     entry(Command::Open, "Open…", "Opens a project file.", ctrl(Key::O)),
     entry(
         Command::Import,
@@ -105,6 +106,7 @@ pub const TABLE: [Entry; 29] = [
     entry(Command::Pattern, "Pattern", "Draws where energy may be lost.", ctrl(Key::Num3)),
     entry(Command::Select, "Select", "Which sources, step by step.", ctrl(Key::Num4)),
     entry(Command::Result, "Result", "Damping matrix, energy, frequency responses.", ctrl(Key::Num5)),
+    entry(Command::Explain, "Explain", "Where the model fails, and what it lacks.", ctrl(Key::Num6)),
     entry(Command::StepBack, "Step back", "Looks at the set with one source less.", plain(Key::ArrowLeft)),
     entry(Command::StepOn, "Step", "Looks at the set with one source more.", plain(Key::ArrowRight)),
     entry(Command::StepEnd, "To the best", "Looks at the accepted set again.", plain(Key::End)),

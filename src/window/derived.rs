@@ -1,6 +1,7 @@
 //! What is computed from the document, each remembering the revision it was computed from.
 
 use super::document::Document;
+use super::explained::Explained;
 use super::forward;
 use super::plots::bode::Response;
 use super::plots::hysteresis::Loop;
@@ -48,6 +49,8 @@ pub struct Derived {
     seen: Revisions,
     loops: Option<((u64, usize), Result<Vec<Loop>, String>)>,
     traces: HashMap<(usize, usize), Arc<Trace>>,
+    /// Of the stage Explain.
+    pub explained: Explained,
 }
 
 impl Derived {
@@ -66,6 +69,7 @@ impl Derived {
     /// Gives up what is being computed; it starts again with the next change.
     pub fn cancel(&mut self, document: &Document) {
         const WHY: &str = "It was cancelled; the next change computes it again.";
+        self.explained.cancel();
         if self.outcome_job.take().is_some() {
             self.outcome = Some((document.revision(), Err(WHY.to_owned())));
         }
@@ -139,7 +143,7 @@ impl Derived {
         let modes = self.modes_job.as_ref().map(|j| (j.name(), j.progress()));
         let response = self.response_job.as_ref().map(|j| (j.name(), j.progress()));
         let motions = self.motions_job.as_ref().map(|j| (j.name(), j.progress()));
-        outcome.or(modes).or(response).or(motions)
+        outcome.or(modes).or(response).or(motions).or_else(|| self.explained.running())
     }
 
     /// A channel of a run, by its index in the fit; `None` where the run has no record of it.

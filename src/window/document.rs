@@ -159,6 +159,24 @@ impl Document {
         label
     }
 
+    /// Goes to an earlier or later state: by undo or redo where these lead there, else as an action of its own.
+    pub fn go_to(&mut self, target: &session::Document, label: &str, is_there: impl Fn(&session::Document) -> bool) {
+        let way = [Session::undo, Session::redo].into_iter().find_map(|step| {
+            let mut trial = self.session.clone();
+            while step(&mut trial).is_some() {
+                if is_there(trial.document()) {
+                    return Some(trial);
+                }
+            }
+            None
+        });
+        match way {
+            Some(session) => self.session = session,
+            None => self.session.return_to(target, label),
+        }
+        self.refresh();
+    }
+
     /// Saves to the project's file.
     ///
     /// # Errors

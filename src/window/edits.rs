@@ -30,6 +30,8 @@ pub enum Edit {
     UseRun(String, bool),
     /// Any other change, in the words of the session.
     Do(Command),
+    /// Several such changes, undone together.
+    All(Vec<Command>),
 }
 
 impl Edit {
@@ -51,6 +53,7 @@ impl Edit {
             Self::Remove(i) => Command::RemoveSource(on.at(*i)?),
             Self::UseRun(file, enabled) => Command::SetRunUse { file: file.clone(), enabled: *enabled },
             Self::Do(command) => command.clone(),
+            Self::All(commands) => return Ok(commands.clone()),
             Self::Force(chosen) => return on.force(chosen),
             Self::ClearCandidates => {
                 let candidates = (0..sources.len()).filter(|&i| sources[i].state == State::Candidate);

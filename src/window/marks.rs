@@ -35,6 +35,7 @@ impl App {
                     Mark::done(&format!("{open} candidates."))
                 }
             }
+            Stage::Explain => stages::explain::mark(document, &self.derived.explained),
             Stage::Select | Stage::Result => match self.derived.known_outcome(document) {
                 None => Mark::empty("Identification has not ended yet."),
                 Some(Err(_)) if p.runs.iter().all(|r| !r.enabled) => Mark::empty("There are no runs to identify from."),

@@ -1,12 +1,14 @@
 //! The window: reads the document, draws it, and turns gestures into edits. Holds no physics.
 
 mod act;
+pub mod additions;
 pub mod app;
 pub mod arguments;
 pub mod commands;
 pub mod derived;
 pub mod document;
 pub mod edits;
+pub mod explained;
 pub mod files;
 pub mod format;
 pub mod forward;

@@ -130,6 +130,11 @@ impl Palette {
         self.line.lerp_to_gamma(self.model, share.clamp(0.0, 1.0).powf(0.7))
     }
 
+    /// Colour of an error from 0 (just above the noise) to 1 (largest), from a tint to the colour of what is missing.
+    pub fn error_shade(&self, share: f32) -> Color32 {
+        self.canvas.lerp_to_gamma(self.missing, 0.14 + 0.86 * share.clamp(0.0, 1.0))
+    }
+
     /// Ink or canvas, whichever is easier to read on `ground`.
     pub fn text_on(&self, ground: Color32) -> Color32 {
         let luminance = |c: Color32| 0.299 * f32::from(c.r()) + 0.587 * f32::from(c.g()) + 0.114 * f32::from(c.b());
@@ -271,9 +276,9 @@ mod tests {
     #[test]
     fn numbers_on_a_heat_map_can_be_read() {
         for p in [&LIGHT, &DARK] {
-            for step in -10..=10 {
-                let ground = p.diverging(step as f32 / 10.0);
-                assert!(contrast(Palette::text_on(p, ground), ground) >= 3.0, "step {step}");
+            let shades = (0..=10).map(|step| p.error_shade(step as f32 / 10.0));
+            for ground in (-10..=10).map(|step| p.diverging(step as f32 / 10.0)).chain(shades) {
+                assert!(contrast(Palette::text_on(p, ground), ground) >= 3.0, "{ground:?}");
             }
         }
     }

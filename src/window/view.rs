@@ -1,6 +1,7 @@
 //! What is looked at: stage, selection, shape. Neither saved with the project nor undone.
 
 use super::schematic::view::ViewState;
+use super::stages::explain::look::Look;
 use crate::effects::Effect;
 use crate::response::frequency_response::Quantity;
 use serde::{Deserialize, Serialize};
@@ -15,11 +16,13 @@ pub enum Stage {
     Pattern,
     Select,
     Result,
+    Explain,
 }
 
 impl Stage {
     /// All stages, in the order of the work.
-    pub const ALL: [Self; 5] = [Self::Measure, Self::Structure, Self::Pattern, Self::Select, Self::Result];
+    pub const ALL: [Self; 6] =
+        [Self::Measure, Self::Structure, Self::Pattern, Self::Select, Self::Result, Self::Explain];
 
     /// Name on its tab.
     pub fn label(self) -> &'static str {
@@ -29,6 +32,7 @@ impl Stage {
             Self::Pattern => "Pattern",
             Self::Select => "Select",
             Self::Result => "Result",
+            Self::Explain => "Explain",
         }
     }
 
@@ -82,6 +86,8 @@ pub struct View {
     pub tour: Option<usize>,
     /// Step of the tour whose stage and pane have been opened.
     pub tour_shown: Option<usize>,
+    /// Of the stage Explain.
+    pub explain: Look,
 }
 
 impl Default for View {
@@ -107,6 +113,7 @@ impl Default for View {
             about: false,
             tour: None,
             tour_shown: None,
+            explain: Look::default(),
         }
     }
 }

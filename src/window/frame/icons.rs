@@ -40,6 +40,12 @@ pub fn stage(painter: &Painter, stage: Stage, rect: Rect, colour: Color32) {
             bar(0.40, 0.92);
             bar(0.74, 0.62);
         }
+        Stage::Explain => {
+            // A magnifying glass.
+            let ring = (0..=20).map(|k| std::f32::consts::TAU * k as f32 / 20.0);
+            line(&ring.map(|a| (0.40 + 0.32 * a.cos(), 0.60 + 0.32 * a.sin())).collect::<Vec<_>>());
+            line(&[(0.64, 0.36), (0.96, 0.04)]);
+        }
     }
 }
 

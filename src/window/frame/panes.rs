@@ -31,11 +31,15 @@ pub enum Pane {
     Nyquist,
     Hysteresis,
     Values,
+    ErrorMap,
+    Cell,
+    Missing,
+    Ledger,
 }
 
 impl Pane {
     /// All panes.
-    pub const ALL: [Self; 23] = [
+    pub const ALL: [Self; 27] = [
         Self::Schematic,
         Self::Inspector,
         Self::Runs,
@@ -59,6 +63,10 @@ impl Pane {
         Self::Nyquist,
         Self::Hysteresis,
         Self::Values,
+        Self::ErrorMap,
+        Self::Cell,
+        Self::Missing,
+        Self::Ledger,
     ];
 
     /// Title on its tab.
@@ -87,6 +95,10 @@ impl Pane {
             Self::Nyquist => "Nyquist",
             Self::Hysteresis => "Hysteresis",
             Self::Values => "Values",
+            Self::ErrorMap => "Error map",
+            Self::Cell => "Measured on modelled",
+            Self::Missing => "What is missing?",
+            Self::Ledger => "Ledger",
         }
     }
 
@@ -119,19 +131,20 @@ fn work(stage: Stage) -> Groups {
             (&[Pane::Matrix], 0.42),
             (&[Pane::Energy, Pane::Damping, Pane::Bode, Pane::Nyquist, Pane::Hysteresis, Pane::Values], 0.58),
         ],
+        // Arranged on its own below: the map and the cards need the height.
+        Stage::Explain => &[],
     }
 }
 
 /// The arrangement that a stage starts with: schematic over the panes of the stage, inspector at the right.
 pub fn arrangement(stage: Stage) -> Tree<Pane> {
+    if stage == Stage::Explain {
+        return explain();
+    }
     let mut tiles = Tiles::default();
     let groups: Vec<(TileId, f32)> =
         work(stage).iter().map(|(panes, share)| (tabs(&mut tiles, panes), *share)).collect();
-    let mut row = Linear::new(LinearDir::Horizontal, groups.iter().map(|g| g.0).collect());
-    for (tile, share) in groups {
-        row.shares.set_share(tile, share);
-    }
-    let row = tiles.insert_container(Container::Linear(row));
+    let row = shared(&mut tiles, LinearDir::Horizontal, &groups);
     let schematic = tabs(&mut tiles, &[Pane::Schematic]);
     let left =
         tiles.insert_container(Container::Linear(Linear::new_binary(LinearDir::Vertical, [schematic, row], 0.45)));
@@ -139,6 +152,30 @@ pub fn arrangement(stage: Stage) -> Tree<Pane> {
     let whole = Linear::new_binary(LinearDir::Horizontal, [left, inspector], 0.79);
     let root = tiles.insert_container(Container::Linear(whole));
     Tree::new(egui::Id::unique(("panes of", stage)), root, tiles)
+}
+
+/// Schematic, error map and its cell above each other; the suggestions in full height; ledger and inspector at the right.
+fn explain() -> Tree<Pane> {
+    let mut tiles = Tiles::default();
+    let rows = [(Pane::Schematic, 0.30), (Pane::ErrorMap, 0.30), (Pane::Cell, 0.40)];
+    let rows = rows.map(|(pane, share)| (tabs(&mut tiles, &[pane]), share));
+    let left = shared(&mut tiles, LinearDir::Vertical, &rows);
+    let columns = [
+        (left, 0.43),
+        (tabs(&mut tiles, &[Pane::Missing]), 0.35),
+        (tabs(&mut tiles, &[Pane::Ledger, Pane::Inspector]), 0.22),
+    ];
+    let root = shared(&mut tiles, LinearDir::Horizontal, &columns);
+    Tree::new(egui::Id::unique(("panes of", Stage::Explain)), root, tiles)
+}
+
+/// Tiles side by side or above each other, each with its share.
+fn shared(tiles: &mut Tiles<Pane>, direction: LinearDir, parts: &[(TileId, f32)]) -> TileId {
+    let mut line = Linear::new(direction, parts.iter().map(|p| p.0).collect());
+    for &(tile, share) in parts {
+        line.shares.set_share(tile, share);
+    }
+    tiles.insert_container(Container::Linear(line))
 }
 
 fn tabs(tiles: &mut Tiles<Pane>, panes: &[Pane]) -> TileId {

@@ -9,7 +9,7 @@ use crate::window::format;
 use crate::window::schematic::Scene;
 use crate::window::schematic::hit::Target;
 use crate::window::schematic::view::View;
-use crate::window::stages::select;
+use crate::window::stages::{explain, select};
 use crate::window::view::Stage;
 use egui::Ui;
 use faer::c64;
@@ -30,14 +30,21 @@ pub fn show(ui: &mut Ui, app: &mut App, asks: &mut Vec<Ask>) {
         let total: Vec<f32> = outcome.results.energy_percent.iter().map(|v| 0.01 * *v as f32).collect();
         shares = (app.view.stage == Stage::Result).then_some(total);
     }
+    let mut errors = None;
+    if app.view.stage == Stage::Explain {
+        let laid = explain::errors(&scene, document, &app.view, &app.derived.explained);
+        (scene, shares, errors) = (laid.scene, laid.shares, Some(laid.caption));
+    }
     let (moved, caption) = moved(ui, app, &scene);
+    let of_errors = errors.is_some();
+    let caption = errors.unwrap_or(caption);
     let shape = moved.as_ref().map(|m| m.at(app.view.phase));
     let largest = moved.map_or(0.0, |m| m.largest);
     let slot = |index: usize| scene.sources.iter().position(|s| s.index == index).map(Target::Source);
     let selected = app.view.source.and_then(slot).or(app.view.dof.map(Target::Dof));
     let law = (app.view.stage == Stage::Pattern).then_some(app.view.law).filter(|law| law.law().is_some());
     let (shape, shares) = (shape.as_deref(), shares.as_deref());
-    let view = View { scene: &scene, shape, largest, shares, selected, law, caption: &caption };
+    let view = View { scene: &scene, shape, largest, shares, errors: of_errors, selected, law, caption: &caption };
     let intents = view.show(ui, &mut app.view.schematic);
     asks.extend(intents.into_iter().map(Ask::Schematic));
 }

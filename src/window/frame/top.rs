@@ -80,7 +80,9 @@ fn menus(ui: &mut Ui, app: &App, asks: &mut Vec<Ask>) {
         entry(ui, Command::ClearCandidates, open, None, asks);
     });
     ui.menu_button("View", |ui| {
-        for command in [Command::Measure, Command::Structure, Command::Pattern, Command::Select, Command::Result] {
+        for command in
+            [Command::Measure, Command::Structure, Command::Pattern, Command::Select, Command::Result, Command::Explain]
+        {
             entry(ui, command, open, None, asks);
         }
         ui.separator();

@@ -53,6 +53,8 @@ pub struct SceneSource {
     pub state: State,
     /// Identified value in the step that is shown, as text with unit.
     pub identified: Option<String>,
+    /// Whether it is no source of the project but one that is suggested.
+    pub suggested: bool,
 }
 
 /// A spring that belongs to the structure (of a chain).
@@ -116,6 +118,7 @@ impl Scene {
                 dofs: dofs.clone(),
                 state: source.state,
                 identified: None,
+                suggested: false,
             }),
             _ => None,
         };

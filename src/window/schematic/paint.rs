@@ -17,6 +17,8 @@ pub struct Marks<'a> {
     pub selected: Option<Target>,
     /// Share of every DOF, 0 to 1, drawn as a halo.
     pub shares: Option<&'a [f32]>,
+    /// Whether the shares are those of the model's error.
+    pub errors: bool,
     /// Rubber line of a drag, with the law that would be drawn.
     pub rubber: Option<(Effect, [Pos2; 2])>,
     /// Rectangle of a sweep.
@@ -38,7 +40,11 @@ pub fn paint(painter: &Painter, palette: &Palette, scene: &Scene, layout: &Layou
     for source in &layout.sources {
         let s = &scene.sources[source.slot];
         let target = Some(Target::Source(source.slot));
-        let stroke = source_stroke(palette, s.state, s.identified.is_some(), marks.editing);
+        let stroke = if s.suggested {
+            Stroke::new(2.4, palette.missing)
+        } else {
+            source_stroke(palette, s.state, s.identified.is_some(), marks.editing)
+        };
         if target == marks.selected || target == marks.hovered {
             glow(painter, palette, &source.parts, target == marks.selected);
         }
@@ -59,7 +65,8 @@ fn halos(painter: &Painter, palette: &Palette, layout: &Layout, marks: &Marks<'_
         let share = shares.get(handle.dof).copied().unwrap_or(0.0);
         if share > 0.001 {
             let radius = handle.radius + 4.0 + 14.0 * share.sqrt();
-            painter.circle_filled(handle.pos, radius, palette.model.gamma_multiply(0.16 + 0.3 * share));
+            let colour = if marks.errors { palette.missing } else { palette.model };
+            painter.circle_filled(handle.pos, radius, colour.gamma_multiply(0.16 + 0.3 * share));
         }
     }
 }

@@ -93,11 +93,7 @@ impl Pen<'_> {
             }
             Effect::Hysteretic => {
                 self.spring(-0.5, 0.5, 4);
-                let ring = (0..=24).map(|k| {
-                    let a = std::f32::consts::TAU * k as f32 / 24.0;
-                    (0.42 * a.cos(), 10.0 * a.sin())
-                });
-                self.line(&ring.collect::<Vec<_>>());
+                self.ring(0.42, 10.0);
             }
             Effect::Fractional => self.fill(&[(-0.5, 0.0), (0.0, -8.0), (0.5, 0.0), (0.0, 8.0)], faint),
             Effect::Stiffness => self.spring(-0.5, 0.5, 5),
@@ -120,8 +116,32 @@ impl Pen<'_> {
                 self.line(&[(-0.5, 0.0), (-0.36, 0.0)]);
                 self.line(&[(0.36, 0.0), (0.5, 0.0)]);
             }
-            Effect::Delay | Effect::Gain => self.line(&[(-0.5, 0.0), (0.5, 0.0)]),
+            Effect::Delay => self.clock(),
+            Effect::Gain => self.amplifier(faint),
         }
+    }
+
+    fn ring(&self, width: f32, height: f32) {
+        let point = |k: i32| {
+            let (sin, cos) = (std::f32::consts::TAU * k as f32 / 24.0).sin_cos();
+            (width * cos, height * sin)
+        };
+        self.line(&(0..=24).map(point).collect::<Vec<_>>());
+    }
+
+    /// A clock in the line: a channel is late.
+    fn clock(&self) {
+        self.line(&[(-0.5, 0.0), (-0.3, 0.0)]);
+        self.line(&[(0.3, 0.0), (0.5, 0.0)]);
+        self.ring(0.3, 0.3 * BODY);
+        self.line(&[(0.0, -5.5), (0.0, 0.0), (0.15, 2.5)]);
+    }
+
+    /// A triangle in the line: a channel reads too much or too little.
+    fn amplifier(&self, faint: Color32) {
+        self.line(&[(-0.5, 0.0), (-0.28, 0.0)]);
+        self.fill(&[(-0.28, -8.0), (0.3, 0.0), (-0.28, 8.0)], faint);
+        self.line(&[(0.3, 0.0), (0.5, 0.0)]);
     }
 
     /// A dashpot on a matrix of the whole structure.

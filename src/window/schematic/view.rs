@@ -35,6 +35,8 @@ pub struct View<'a> {
     pub largest: f64,
     /// Share per DOF.
     pub shares: Option<&'a [f32]>,
+    /// Whether the shares are those of the model's error, not of the energy.
+    pub errors: bool,
     /// Selected DOF or source slot.
     pub selected: Option<Target>,
     /// The law that clicks and drags draw; `None` where the pattern is not edited.
@@ -70,6 +72,7 @@ impl View<'_> {
             hovered,
             selected: self.selected,
             shares: self.shares,
+            errors: self.errors,
             rubber,
             span: drag.and_then(|d| d.span()),
             editing: self.law.is_some(),
@@ -183,7 +186,7 @@ impl View<'_> {
             [a, b] => format!("between DOF {a} and {b}"),
             _ => format!("chain {}", labels.join("–")),
         };
-        let state = crate::window::words::state(source.state);
+        let state = if source.suggested { "suggested" } else { crate::window::words::state(source.state) };
         let value = source.identified.as_ref().map_or_else(String::new, |v| format!(", {v}"));
         format!("Source {}, {place}, {state}{value}", crate::window::words::effect(source.effect))
     }

@@ -1,5 +1,6 @@
 //! The stages of the work, one file each; what several share.
 
+pub mod explain;
 pub mod measure;
 pub mod parameters;
 pub mod pattern;
@@ -38,6 +39,10 @@ pub fn show(ui: &mut Ui, pane: Pane, app: &mut App, asks: &mut Vec<Ask>) {
         Pane::Nyquist => result::nyquist(ui, app),
         Pane::Hysteresis => result::hysteresis(ui, app),
         Pane::Values => result::values(ui, app),
+        Pane::ErrorMap => explain::panes::error_map(ui, app, asks),
+        Pane::Cell => explain::panes::cell(ui, app, asks),
+        Pane::Missing => explain::panes::missing(ui, app, asks),
+        Pane::Ledger => explain::panes::way(ui, app, asks),
     }
 }
 

@@ -1,0 +1,264 @@
+//! What is computed for the stage Explain, each by the model it was computed from: comparisons, diagnoses, fingerprints,
+//! response curves; and the ledger of all models that were looked at.
+
+pub mod curve;
+pub mod ledger;
+pub mod model;
+pub mod shelf;
+
+use super::document::Document;
+use crate::control::Control;
+use crate::effects::{Place, Source};
+use crate::exchange::Project;
+use crate::explain::prints::{self, Print};
+use crate::explain::{self, Comparison, Diagnosis, Problem};
+use curve::Curve;
+use egui::Context;
+use ledger::Ledger;
+use model::Key;
+use shelf::{Kept, Shelf};
+use std::sync::Arc;
+
+/// A model with or without an effect on trial.
+pub type Tried = (Key, Option<Source>);
+
+/// What the stage wants to see beside the comparison.
+#[derive(Debug, Clone, Default)]
+pub struct Wanted {
+    /// Whether suggestions are wanted.
+    pub diagnosis: bool,
+    /// The effect on trial.
+    pub trial: Option<Source>,
+    /// The suggestion whose fingerprint is shown.
+    pub print: Option<Source>,
+    /// The run whose neighbourhood is shown.
+    pub curve: Option<usize>,
+}
+
+/// Everything computed for the stage.
+#[derive(Debug)]
+pub struct Explained {
+    key: Option<(u64, Key)>,
+    /// The project as the jobs read it, shared by all of one revision.
+    project: Option<(u64, Arc<Project>)>,
+    comparisons: Shelf<Tried, Comparison>,
+    trials: Shelf<Tried, Comparison>,
+    diagnoses: Shelf<Key, Diagnosis>,
+    prints: Shelf<Tried, Option<Print>>,
+    curves: Shelf<(Key, usize), Curve>,
+    trial_curves: Shelf<(Tried, usize), Curve>,
+    /// The way so far.
+    pub ledger: Ledger,
+}
+
+impl Default for Explained {
+    fn default() -> Self {
+        Self {
+            key: None,
+            project: None,
+            comparisons: Shelf::new("Comparing"),
+            trials: Shelf::new("Trying"),
+            diagnoses: Shelf::new("Searching for what is missing"),
+            prints: Shelf::new("Fingerprint"),
+            curves: Shelf::new("Frequency response"),
+            trial_curves: Shelf::new("Frequency response"),
+            ledger: Ledger::default(),
+        }
+    }
+}
+
+fn problem(p: &Project) -> Problem<'_> {
+    Problem { structure: &p.structure, sources: &p.sources, runs: &p.runs }
+}
+
+impl Explained {
+    /// The key of the document as it stands.
+    pub fn key(&mut self, document: &Document) -> Key {
+        if let Some((revision, key)) = &self.key
+            && *revision == document.revision()
+        {
+            return key.clone();
+        }
+        let fresh = Key::new(document.session().document());
+        let key = match &self.key {
+            Some((_, old)) if *old == fresh => old.clone(),
+            _ => fresh,
+        };
+        self.key = Some((document.revision(), key.clone()));
+        key
+    }
+
+    fn project(&mut self, document: &Document) -> Arc<Project> {
+        if let Some((revision, project)) = &self.project
+            && *revision == document.revision()
+        {
+            return Arc::clone(project);
+        }
+        let project = Arc::new(document.project.clone());
+        self.project = Some((document.revision(), Arc::clone(&project)));
+        project
+    }
+
+    /// Takes in what has been computed and starts what is wanted and not there yet.
+    pub fn update(&mut self, ctx: &Context, document: &Document, wanted: &Wanted) {
+        self.collect();
+        if document.project.runs.is_empty() {
+            return;
+        }
+        let key = self.key(document);
+        let p = &self.project(document);
+        let tried = (key.clone(), None);
+        self.comparisons.want(ctx, &tried, || compare_job(p, None));
+        let Some(Ok(comparison)) = self.comparisons.get(&tried) else { return };
+        self.ledger.visit(&key, document.session().document(), comparison);
+        if wanted.diagnosis {
+            self.diagnoses.want(ctx, &key, || {
+                let p = Arc::clone(p);
+                move |control: &Control| explain::diagnose(&problem(&p), control).map_err(|e| e.to_string())
+            });
+        }
+        self.on_trial(ctx, p, &key, wanted);
+        match &wanted.print {
+            Some(source) => {
+                let asked = (key.clone(), Some(source.clone()));
+                let diagnosis = self.diagnoses.get(&key).and_then(|d| d.as_ref().ok()).map(Arc::clone);
+                self.prints.want(ctx, &asked, || print_job(p, diagnosis, source));
+            }
+            None => self.prints.rest(),
+        }
+        match wanted.curve.filter(|_| p.structure.matrices().is_some()) {
+            Some(run) => self.curves.want(ctx, &(key, run), || curve_job(p, None, run)),
+            None => self.curves.rest(),
+        }
+    }
+
+    fn collect(&mut self) {
+        self.comparisons.collect();
+        self.trials.collect();
+        self.diagnoses.collect();
+        self.prints.collect();
+        self.curves.collect();
+        self.trial_curves.collect();
+    }
+
+    fn on_trial(&mut self, ctx: &Context, p: &Arc<Project>, key: &Key, wanted: &Wanted) {
+        let Some(source) = &wanted.trial else {
+            self.trials.rest();
+            self.trial_curves.rest();
+            return;
+        };
+        let tried = (key.clone(), Some(source.clone()));
+        self.trials.want(ctx, &tried, || compare_job(p, Some(source)));
+        // An error of a channel does not change how the structure moves.
+        let moves = !matches!(source.place, Place::Channel(_));
+        if let Some(run) = wanted.curve.filter(|_| moves && p.structure.matrices().is_some()) {
+            self.trial_curves.want(ctx, &(tried, run), || curve_job(p, Some(source), run));
+        }
+    }
+
+    /// The comparison of the document as it stands, if it is there; starts nothing.
+    pub fn comparison(&self, document: &Document) -> Option<&Kept<Comparison>> {
+        self.comparisons.get(&(self.current(document)?, None))
+    }
+
+    /// The last comparison of any model: what is shown, faded, while the next one runs.
+    pub fn last_comparison(&self) -> Option<&Arc<Comparison>> {
+        self.comparisons.last()
+    }
+
+    /// The comparison with an effect on trial.
+    pub fn trial(&self, document: &Document, source: &Source) -> Option<&Kept<Comparison>> {
+        self.trials.get(&(self.current(document)?, Some(source.clone())))
+    }
+
+    /// The diagnosis of the document as it stands.
+    pub fn diagnosis(&self, document: &Document) -> Option<&Kept<Diagnosis>> {
+        self.diagnoses.get(&self.current(document)?)
+    }
+
+    /// Whether the search on the document as it stands was cancelled.
+    pub fn is_cancelled(&self, document: &Document) -> bool {
+        self.current(document).is_some_and(|key| self.diagnoses.is_cancelled(&key))
+    }
+
+    /// The fingerprint of a suggestion.
+    pub fn print(&self, document: &Document, source: &Source) -> Option<&Kept<Option<Print>>> {
+        self.prints.get(&(self.current(document)?, Some(source.clone())))
+    }
+
+    /// The response curve of the model near a run.
+    pub fn curve(&self, document: &Document, run: usize) -> Option<&Kept<Curve>> {
+        self.curves.get(&(self.current(document)?, run))
+    }
+
+    /// The response curve with an effect on trial.
+    pub fn trial_curve(&self, document: &Document, source: &Source, run: usize) -> Option<&Kept<Curve>> {
+        self.trial_curves.get(&((self.current(document)?, Some(source.clone())), run))
+    }
+
+    fn current(&self, document: &Document) -> Option<Key> {
+        self.key.as_ref().filter(|(revision, _)| *revision == document.revision()).map(|(_, key)| key.clone())
+    }
+
+    /// Number `index` of the sources that act in the model.
+    pub fn known(&self, document: &Document, index: usize) -> Option<Source> {
+        self.current(document)?.0.known.get(index).cloned()
+    }
+
+    /// Name and progress of what runs; the search first, since it takes longest.
+    pub fn running(&self) -> Option<(&str, f64)> {
+        let others = self.comparisons.running().or_else(|| self.trials.running()).or_else(|| self.prints.running());
+        self.diagnoses.running().or(others).or_else(|| self.curves.running()).or_else(|| self.trial_curves.running())
+    }
+
+    /// Stops all that runs.
+    pub fn cancel(&mut self) {
+        self.diagnoses.cancel();
+        self.trials.cancel();
+        self.prints.cancel();
+        self.curves.cancel();
+        self.trial_curves.cancel();
+    }
+
+    /// Starts again what was cancelled or failed.
+    pub fn retry(&mut self) {
+        self.diagnoses.retry();
+        self.comparisons.retry();
+        self.trials.retry();
+        self.prints.retry();
+        self.curves.retry();
+        self.trial_curves.retry();
+    }
+}
+
+fn compare_job(
+    p: &Arc<Project>,
+    trial: Option<&Source>,
+) -> impl FnOnce(&Control) -> Result<Comparison, String> + use<> {
+    let (p, effects) = (Arc::clone(p), trial.cloned().into_iter().collect::<Vec<_>>());
+    move |control| explain::compare(&problem(&p), &effects, control).map_err(|e| e.to_string())
+}
+
+/// The fingerprint of a suggestion beside the other effects that were found.
+fn print_job(
+    p: &Arc<Project>,
+    diagnosis: Option<Arc<Diagnosis>>,
+    source: &Source,
+) -> impl FnOnce(&Control) -> Result<Option<Print>, String> + use<> {
+    let (p, source) = (Arc::clone(p), source.clone());
+    move |control| {
+        let steps = diagnosis.as_ref().and_then(|d| d.steps.last());
+        let found: Vec<Source> = steps.map_or_else(Vec::new, |s| s.added.iter().map(|a| a.source.clone()).collect());
+        let corrections = diagnosis.as_ref().map_or(&[][..], |d| &d.corrections);
+        prints::print(&problem(&p), &found, corrections, &source, control).map_err(|e| e.to_string())
+    }
+}
+
+fn curve_job(
+    p: &Arc<Project>,
+    trial: Option<&Source>,
+    run: usize,
+) -> impl FnOnce(&Control) -> Result<Curve, String> + use<> {
+    let (p, effects) = (Arc::clone(p), trial.cloned().into_iter().collect::<Vec<_>>());
+    move |control| curve::curve(&p, &effects, run, control)
+}

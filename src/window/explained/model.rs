@@ -1,0 +1,96 @@
+//! What a comparison depends on, as a key: two documents with the same model and the same measurements share their results.
+
+use crate::effects::effect::Kind;
+use crate::effects::{Place, Source, State};
+use crate::exchange::project::file::{RunTable, SensorTable, StructureTable};
+use crate::session::Document;
+use crate::structure::Structure;
+use crate::window::words;
+use std::sync::Arc;
+
+/// Model and measurements of a document.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Model {
+    structure: StructureTable,
+    runs: Vec<RunTable>,
+    sensors: Vec<SensorTable>,
+    harmonics: usize,
+    /// Sources that act in the model.
+    pub known: Vec<Source>,
+}
+
+/// A model shared by everything that was computed from it.
+#[derive(Debug, Clone)]
+pub struct Key(pub Arc<Model>);
+
+impl PartialEq for Key {
+    fn eq(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.0, &other.0) || self.0 == other.0
+    }
+}
+
+impl Key {
+    /// The key of a document.
+    pub fn new(document: &Document) -> Self {
+        let file = document.file();
+        let acts = |s: &&Source| s.state == State::Known && !matches!(s.effect.kind(), Kind::Channel(_));
+        Self(Arc::new(Model {
+            structure: file.structure.clone(),
+            runs: file.run.clone(),
+            sensors: file.sensor.clone(),
+            harmonics: file.analysis.harmonics,
+            known: document.sources().iter().filter(acts).cloned().collect(),
+        }))
+    }
+}
+
+impl Model {
+    /// What was changed on the way from `before` to this, in a few words.
+    pub fn change(&self, before: &Self, structure: &Structure) -> String {
+        let mut said: Vec<String> = Vec::new();
+        let name = |s: &Source| format!("{} {}", words::effect(s.effect), at(structure, &s.place));
+        let twin = |list: &[Source], s: &Source| list.iter().find(|other| other.is_same(s)).cloned();
+        for source in &self.known {
+            match twin(&before.known, source) {
+                None => said.push(format!("+ {}", name(source))),
+                Some(old) if old.parameters != source.parameters => said.push(format!("{} changed", name(source))),
+                Some(_) => {}
+            }
+        }
+        let gone = before.known.iter().filter(|s| twin(&self.known, s).is_none());
+        said.extend(gone.map(|s| format!("− {}", name(s))));
+        for sensor in &self.sensors {
+            if !before.sensors.contains(sensor) {
+                said.push(format!("{} corrected", sensor.channel));
+            }
+        }
+        let lost = |s: &&SensorTable| !self.sensors.iter().any(|other| other.channel == s.channel);
+        said.extend(before.sensors.iter().filter(lost).map(|s| format!("{} not corrected", s.channel)));
+        if self.structure != before.structure {
+            said.push("structure changed".to_owned());
+        }
+        if self.runs != before.runs || self.harmonics != before.harmonics {
+            said.push("measurements changed".to_owned());
+        }
+        match said.len() {
+            0 => "the same model".to_owned(),
+            1..=2 => said.join(", "),
+            many => format!("{} and {} more", said[0], many - 1),
+        }
+    }
+}
+
+/// A place after the name of an effect: `at DOF 15`, `between DOF 3 and 5`, `of acc@7`.
+pub fn at(structure: &Structure, place: &Place) -> String {
+    let label = |d: &usize| structure.label(*d).to_owned();
+    match place {
+        Place::Dofs(dofs) => match &dofs[..] {
+            [one] => format!("at DOF {}", label(one)),
+            [a, b] => format!("between DOF {} and {}", label(a), label(b)),
+            many => format!("along DOF {}", many.iter().map(label).collect::<Vec<_>>().join("–")),
+        },
+        Place::Whole(None) => "of the whole structure".to_owned(),
+        Place::Whole(Some([first, last])) => format!("of elements {}–{}", first + 1, last + 1),
+        Place::Channel(channel) => format!("of {channel}"),
+    }
+}

@@ -1,0 +1,147 @@
+//! Results by what they were computed from: what was computed once is there at once when undo leads back to it.
+
+use crate::control::Control;
+use crate::session::jobs::Job;
+use std::sync::Arc;
+
+/// Results kept; the oldest goes first.
+const MOST: usize = 32;
+
+/// A result or one line that says why there is none.
+pub type Kept<T> = Result<Arc<T>, String>;
+
+/// Results of one kind, and the job for one more.
+#[derive(Debug)]
+pub struct Shelf<K, T> {
+    name: &'static str,
+    done: Vec<(K, Kept<T>)>,
+    job: Option<Job<K, Result<T, String>>>,
+    cancelled: Option<K>,
+}
+
+impl<K: Clone + PartialEq, T: Send + 'static> Shelf<K, T> {
+    /// An empty shelf; `name` is that of its jobs in the status bar.
+    pub fn new(name: &'static str) -> Self {
+        Self { name, done: Vec::new(), job: None, cancelled: None }
+    }
+
+    /// Takes in a finished job and starts one for `key` unless its result is there, on its way, or cancelled; a job for
+    /// another key is dropped, which cancels it. `make` collects what the job needs.
+    pub fn want<W>(&mut self, ctx: &egui::Context, key: &K, make: impl FnOnce() -> W)
+    where
+        W: FnOnce(&Control) -> Result<T, String> + Send + 'static,
+    {
+        self.collect();
+        let there = self.get(key).is_some() || self.cancelled.as_ref() == Some(key);
+        if there || self.job.as_ref().is_some_and(|job| job.key() == key) {
+            return;
+        }
+        let wake = ctx.clone();
+        match Job::start(self.name, key.clone(), move || wake.request_repaint(), make()) {
+            Ok(job) => self.job = Some(job),
+            Err(error) => self.keep(key.clone(), Err(error.to_string())),
+        }
+    }
+
+    /// Takes in a finished job.
+    pub fn collect(&mut self) {
+        let Some(result) = self.job.as_ref().and_then(Job::poll) else { return };
+        let Some(job) = self.job.take() else { return };
+        let result = result.map_err(|e| e.to_string()).and_then(|value| value.map(Arc::new));
+        self.keep(job.key().clone(), result);
+    }
+
+    fn keep(&mut self, key: K, result: Kept<T>) {
+        if self.done.len() == MOST {
+            drop(self.done.remove(0));
+        }
+        self.done.push((key, result));
+    }
+
+    /// Nothing is asked for any more: what runs is dropped.
+    pub fn rest(&mut self) {
+        self.collect();
+        self.job = None;
+    }
+
+    /// The result for `key`, if it is there.
+    pub fn get(&self, key: &K) -> Option<&Kept<T>> {
+        self.done.iter().find(|(of, _)| of == key).map(|(_, result)| result)
+    }
+
+    /// The last good result, of whatever key.
+    pub fn last(&self) -> Option<&Arc<T>> {
+        self.done.iter().rev().find_map(|(_, result)| result.as_ref().ok())
+    }
+
+    /// Name and progress of the running job.
+    pub fn running(&self) -> Option<(&str, f64)> {
+        self.job.as_ref().map(|job| (job.name(), job.progress()))
+    }
+
+    /// Stops the running job; it is not started again for its key until [`Shelf::retry`].
+    pub fn cancel(&mut self) {
+        if let Some(job) = self.job.take() {
+            self.cancelled = Some(job.key().clone());
+        }
+    }
+
+    /// Whether the work for `key` was cancelled.
+    pub fn is_cancelled(&self, key: &K) -> bool {
+        self.cancelled.as_ref() == Some(key)
+    }
+
+    /// Forgets that work was cancelled and what failed.
+    pub fn retry(&mut self) {
+        self.cancelled = None;
+        self.done.retain(|(_, result)| result.is_ok());
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "tests")]
+    use super::Shelf;
+    use crate::control::Control;
+    use std::time::{Duration, Instant};
+
+    fn wait(shelf: &mut Shelf<u32, u32>, key: u32) -> u32 {
+        let start = Instant::now();
+        loop {
+            shelf.want(&egui::Context::default(), &key, || move |_: &Control| Ok(10 * key));
+            if let Some(result) = shelf.get(&key) {
+                return **result.as_ref().unwrap();
+            }
+            assert!(start.elapsed() < Duration::from_secs(20));
+            std::thread::sleep(Duration::from_millis(1));
+        }
+    }
+
+    #[test]
+    fn a_result_is_computed_once_and_is_there_when_asked_for_again() {
+        let mut shelf = Shelf::new("Work");
+        assert_eq!((wait(&mut shelf, 1), wait(&mut shelf, 2)), (10, 20));
+        shelf.want(&egui::Context::default(), &1, || |_: &Control| panic!("it is there already"));
+        assert_eq!(**shelf.get(&1).unwrap().as_ref().unwrap(), 10);
+        assert!(shelf.running().is_none());
+    }
+
+    #[test]
+    fn what_was_cancelled_is_not_started_again_before_it_is_asked_for() {
+        let mut shelf: Shelf<u32, u32> = Shelf::new("Work");
+        let slow = || {
+            |control: &Control| {
+                while control.check().is_ok() {
+                    std::thread::sleep(Duration::from_millis(1));
+                }
+                Err("cancelled".to_owned())
+            }
+        };
+        shelf.want(&egui::Context::default(), &1, slow);
+        shelf.cancel();
+        shelf.want(&egui::Context::default(), &1, slow);
+        assert!(shelf.is_cancelled(&1) && shelf.running().is_none());
+        shelf.retry();
+        assert_eq!(wait(&mut shelf, 1), 10);
+    }
+}

@@ -1,0 +1,234 @@
+//! One suggestion: symbol, law and place, size, probability, error before and after, evidence, fingerprint, buttons.
+
+use super::gauge::Gauge;
+use super::{Deed, Scene, fingerprint};
+use crate::effects::{Place, Source};
+use crate::explain::Diagnosis;
+use crate::explain::diagnose::Suggestion;
+use crate::window::app::Ask;
+use crate::window::explained::model::at;
+use crate::window::format;
+use crate::window::schematic::symbols;
+use crate::window::theme::{self, size, space};
+use crate::window::widgets::UiExt;
+use crate::window::words;
+use egui::{
+    Align2, CornerRadius, Frame, Margin, Rect, RichText, Role, Sense, StrokeKind, Ui, Vec2, WidgetInfo, pos2, vec2,
+};
+
+/// Height of the fingerprint plot.
+const PLOT: f32 = 150.0;
+
+/// A suggestion to show.
+pub struct Card<'a> {
+    /// Document and results.
+    pub scene: &'a Scene<'a>,
+    /// The whole answer.
+    pub diagnosis: &'a Diagnosis,
+    /// This one.
+    pub suggestion: &'a Suggestion,
+    /// Probability among what is not ruled out.
+    pub probability: f64,
+    /// Place in the ranking, from 1.
+    pub rank: usize,
+    /// Whether all of it is shown.
+    pub unfolded: bool,
+}
+
+impl Card<'_> {
+    /// Shows it; true when its head was clicked.
+    pub fn show(&self, ui: &mut Ui, on_trial: bool, asks: &mut Vec<Ask>) -> bool {
+        let palette = ui.palette();
+        let line = if on_trial { palette.missing } else { palette.line };
+        Frame::new()
+            .fill(palette.canvas)
+            .stroke(theme::hair(line))
+            .corner_radius(CornerRadius::same(6))
+            .inner_margin(Margin::symmetric(10, 6))
+            .show(ui, |ui| {
+                let clicked = self.head(ui);
+                if self.unfolded {
+                    self.body(ui, on_trial, asks);
+                }
+                clicked
+            })
+            .inner
+    }
+
+    fn title(&self) -> String {
+        name(self.scene, &self.suggestion.added.source)
+    }
+
+    /// Symbol, name, probability; for folded cards the error after it too.
+    fn head(&self, ui: &mut Ui) -> bool {
+        let palette = ui.palette();
+        let source = &self.suggestion.added.source;
+        let height = if self.unfolded { 40.0 } else { 26.0 };
+        let (area, response) = ui.allocate_exact_size(vec2(ui.available_width(), height), Sense::click());
+        let label = format!("Suggestion {}: {}, probability {}", self.rank, self.title(), chance(self.probability));
+        response.widget_info(|| WidgetInfo::selected(Role::Button, true, self.unfolded, &label));
+        let painter = ui.painter();
+        let symbol = Rect::from_min_size(area.min, vec2(if self.unfolded { 62.0 } else { 46.0 }, height));
+        glyph(ui, source, symbol);
+        let ink = if response.hovered() || response.has_focus() { palette.accent } else { palette.ink };
+        let left = symbol.right() + 10.0;
+        let middle = area.center().y;
+        let chance = chance(self.probability);
+        if self.unfolded {
+            painter.text(pos2(left, middle - 9.0), Align2::LEFT_CENTER, self.title(), theme::font(size::HEADING), ink);
+            let law = source.effect.sentence().split(':').next().unwrap_or_default().trim_end_matches('.').to_owned();
+            let room = area.right() - left - 66.0;
+            let galley = painter.layout(law, theme::font(size::SMALL), palette.weak, room);
+            let clip = Rect::from_min_size(pos2(left, middle + 2.0), vec2(room, 15.0));
+            ui.painter_at(clip).galley(clip.min, galley, palette.weak);
+            painter.text(
+                pos2(area.right(), middle - 8.0),
+                Align2::RIGHT_CENTER,
+                chance,
+                theme::font(size::HEADING + 2.0),
+                palette.ink,
+            );
+            painter.text(
+                pos2(area.right(), middle + 10.0),
+                Align2::RIGHT_CENTER,
+                "probability",
+                theme::font(size::SMALL),
+                palette.weak,
+            );
+        } else {
+            painter.text(pos2(left, middle), Align2::LEFT_CENTER, self.title(), theme::font(size::BODY), ink);
+            painter.text(
+                pos2(area.right(), middle),
+                Align2::RIGHT_CENTER,
+                chance,
+                theme::font(size::BODY),
+                palette.ink,
+            );
+            let after = format!("error {}", format::percent(self.suggestion.error_after));
+            let at = pos2(area.right() - 66.0, middle);
+            painter.text(at, Align2::RIGHT_CENTER, after, theme::font(size::SMALL), palette.weak);
+        }
+        response.clicked()
+    }
+
+    fn body(&self, ui: &mut Ui, on_trial: bool, asks: &mut Vec<Ask>) {
+        let s = self.suggestion;
+        self.sizes(ui);
+        let floor = self.diagnosis.noise_floor;
+        let (before, after, held_out) = (self.diagnosis.error_before, s.error_after, s.held_out_error_after);
+        Gauge { before, after, held_out, floor }.show(ui);
+        self.buttons(ui, on_trial, asks);
+        if !s.indistinguishable_from.is_empty() {
+            let others: Vec<String> = s.indistinguishable_from.iter().map(|o| name(self.scene, o)).collect();
+            let text = format!("These data cannot tell it from: {}.", others.join("; "));
+            ui.label(RichText::new(text).size(size::BODY - 1.0).color(ui.palette().warning));
+        }
+        match self.scene.explained.print(self.scene.document, &s.added.source) {
+            Some(Ok(print)) => {
+                if let Some(print) = print.as_ref() {
+                    fingerprint::show(ui, print, PLOT);
+                }
+            }
+            Some(Err(error)) => drop(ui.hint(format!("No fingerprint: {error}"))),
+            None if matches!(s.added.source.place, Place::Whole(_)) => {}
+            None => drop(ui.hint("The fingerprint is being computed.")),
+        }
+        for sentence in &s.evidence {
+            ui.label(RichText::new(polished(sentence)).size(size::BODY - 1.0));
+        }
+    }
+
+    /// Parameters with deviation and unit, side by side.
+    fn sizes(&self, ui: &mut Ui) {
+        let added = &self.suggestion.added;
+        ui.horizontal_wrapped(|ui| {
+            for (k, parameter) in added.source.effect.parameters().iter().enumerate() {
+                let (Some(value), Some(deviation)) = (added.source.parameters.get(k), added.deviations.get(k)) else {
+                    continue;
+                };
+                ui.label(RichText::new(parameter.name.replace('_', " ")).color(ui.palette().weak));
+                ui.label(format::with_deviation(*value, *deviation, parameter.unit));
+                ui.add_space(space::S);
+            }
+        });
+    }
+
+    fn buttons(&self, ui: &mut Ui, on_trial: bool, asks: &mut Vec<Ask>) {
+        let source = &self.suggestion.added.source;
+        ui.horizontal(|ui| {
+            let tip = "Shows the map and the curves as they would be; nothing is saved.";
+            if ui.add(egui::Button::new("Try").selected(on_trial)).on_hover_text(tip).clicked() {
+                asks.push(Ask::Explain(if on_trial { Deed::Stop } else { Deed::Try(source.clone()) }));
+            }
+            let tip = "Puts the effect into the model as known; undo takes it back.";
+            if ui.primary("Add").on_hover_text(tip).clicked() {
+                asks.push(Ask::Explain(Deed::Add(source.clone())));
+            }
+            let tip = "Rules this effect out at this place; it can be taken back below.";
+            if ui.button("Not this").on_hover_text(tip).clicked() {
+                asks.push(Ask::Explain(Deed::Exclude(source.clone())));
+            }
+        });
+    }
+}
+
+/// `Dry friction at DOF 15`.
+pub fn name(scene: &Scene<'_>, source: &Source) -> String {
+    let text = format!("{} {}", words::effect(source.effect), at(&scene.document.project.structure, &source.place));
+    let mut letters = text.chars();
+    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
+}
+
+/// A probability to the digits that mean something.
+pub fn chance(probability: f64) -> String {
+    match 100.0 * probability {
+        p if p > 99.9 => "> 99.9 %".to_owned(),
+        p if p < 0.1 => "< 0.1 %".to_owned(),
+        p if p < 10.0 => format!("{p:.1} %"),
+        p => format!("{p:.0} %"),
+    }
+}
+
+/// A sentence of the engine in the typography of the window.
+pub fn polished(sentence: &str) -> String {
+    let mut text = sentence.replace("+-", "±").replace("^2", "²").replace("^3", "³");
+    for digit in '0'..='9' {
+        text = text
+            .replace(&format!(" -{digit}"), &format!(" −{digit}"))
+            .replace(&format!("e-{digit}"), &format!("e−{digit}"));
+    }
+    text
+}
+
+/// The symbol of an effect between its ends, with the ground where it is held there.
+fn glyph(ui: &Ui, source: &Source, area: Rect) {
+    let palette = ui.palette();
+    let painter = ui.painter();
+    painter.rect(area, 4.0, palette.pane, theme::hair(palette.line), StrokeKind::Inside);
+    let stroke = theme::pen(palette.missing);
+    let ground = matches!(&source.place, Place::Dofs(dofs) if dofs.len() == 1);
+    let (left, right) =
+        (area.left_center() + vec2(5.0, 0.0), area.right_center() - vec2(if ground { 10.0 } else { 5.0 }, 0.0));
+    symbols::draw(painter, source.effect, [left, right], stroke);
+    if ground {
+        symbols::ground(painter, right, Vec2::RIGHT, 0.55 * area.height(), theme::hair(palette.missing));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{chance, polished};
+
+    #[test]
+    fn probabilities_are_not_more_certain_than_they_are() {
+        assert_eq!(chance(1.0), "> 99.9 %");
+        assert_eq!(chance(0.973), "97 %");
+        assert_eq!(chance(0.02), "2.0 %");
+        assert_eq!(chance(1e-9), "< 0.1 %");
+    }
+
+    #[test]
+    fn sentences_have_real_signs() {
+        assert_eq!(polished("to the power -0.99 +- 0.01; 2e-3 N s^2/m^2"), "to the power −0.99 ± 0.01; 2e−3 N s²/m²");
+    }
+}

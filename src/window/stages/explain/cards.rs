@@ -1,0 +1,206 @@
+//! What is missing? The verdict, the ranked suggestions as cards, and what the user has ruled out.
+
+use super::card;
+use super::grid::in_words;
+use super::look::Look;
+use super::{Deed, Scene};
+use crate::effects::{Place, Source};
+use crate::explain::Diagnosis;
+use crate::explain::diagnose::{Suggestion, Verdict};
+use crate::explain::tuning::Knob;
+use crate::window::app::Ask;
+use crate::window::explained::model::at;
+use crate::window::format;
+use crate::window::theme::{self, size, space};
+use crate::window::widgets::UiExt;
+use crate::window::words;
+use egui::{Align, Layout, RichText, ScrollArea, Sense, Ui, vec2};
+
+/// Suggestions that are not ruled out, with probabilities that add up to what they did before.
+pub fn ranked<'a>(diagnosis: &'a Diagnosis, look: &Look) -> Vec<(&'a Suggestion, f64)> {
+    let left: Vec<&Suggestion> = diagnosis.suggestions.iter().filter(|s| !look.rules_out(&s.added.source)).collect();
+    let total = |list: &mut dyn Iterator<Item = &Suggestion>| list.map(|s| s.probability).sum::<f64>();
+    let all = total(&mut diagnosis.suggestions.iter());
+    let kept = total(&mut left.iter().copied());
+    let factor = if kept > 0.0 && left.len() < diagnosis.suggestions.len() { all / kept } else { 1.0 };
+    left.into_iter().map(|s| (s, (s.probability * factor).min(1.0))).collect()
+}
+
+/// The suggestion whose card is open.
+pub fn open<'a>(diagnosis: &'a Diagnosis, look: &Look) -> Option<&'a Suggestion> {
+    let list = ranked(diagnosis, look);
+    let wanted = look.open.as_ref().and_then(|source| list.iter().find(|(s, _)| s.added.source.is_same(source)));
+    wanted.or(list.first()).map(|(s, _)| *s)
+}
+
+/// Shows the pane.
+pub fn show(ui: &mut Ui, scene: &Scene<'_>, look: &mut Look, asks: &mut Vec<Ask>) {
+    match scene.explained.diagnosis(scene.document) {
+        None if scene.explained.is_cancelled(scene.document) => {
+            ui.hint("The search was cancelled.");
+            if ui.button("Search again").clicked() {
+                asks.push(Ask::Explain(Deed::Retry));
+            }
+        }
+        None => {
+            ui.horizontal(|ui| {
+                ui.spinner();
+                ui.label("Every effect is tried at every place.");
+            });
+            ui.hint(
+                "Place before law: where does a free force explain the difference? Then: which law does it follow?",
+            );
+        }
+        Some(Err(error)) => {
+            ui.colored_label(ui.palette().error, error);
+            if ui.button("Search again").clicked() {
+                asks.push(Ask::Explain(Deed::Retry));
+            }
+        }
+        Some(Ok(diagnosis)) => {
+            ScrollArea::vertical().id_salt("cards").auto_shrink(false).show(ui, |ui| {
+                answer(ui, scene, diagnosis, look, asks);
+            });
+        }
+    }
+}
+
+/// The verdict as a sentence.
+pub fn sentence(diagnosis: &Diagnosis) -> String {
+    let times = diagnosis.error_before / diagnosis.noise_floor.max(f64::MIN_POSITIVE);
+    let (error, floor) = (in_words(diagnosis.error_before), format::percent(diagnosis.noise_floor));
+    match diagnosis.verdict {
+        Verdict::Adequate => {
+            format!("Its error of {error} is within what noise alone makes ({floor}). Nothing more is suggested.")
+        }
+        _ if diagnosis.error_before > 10.0 => {
+            format!("The model is wrong by {error}: at these frequencies hardly anything in it takes out energy.")
+        }
+        Verdict::Missing => {
+            format!("The model is wrong by {error}, {} times what noise alone makes.", format::significant(times, 2))
+        }
+        Verdict::Undecided => format!(
+            "The model is wrong by {error}, {} times the noise, and these data cannot tell what would mend it.",
+            format::significant(times, 2)
+        ),
+    }
+}
+
+fn answer(ui: &mut Ui, scene: &Scene<'_>, diagnosis: &Diagnosis, look: &mut Look, asks: &mut Vec<Ask>) {
+    if diagnosis.verdict == Verdict::Adequate {
+        adequate(ui, scene, diagnosis);
+    } else {
+        let colour = if diagnosis.verdict == Verdict::Missing { ui.palette().missing } else { ui.palette().warning };
+        ui.label(RichText::new(sentence(diagnosis)).color(colour));
+    }
+    corrections(ui, scene, diagnosis);
+    if diagnosis.verdict == Verdict::Undecided {
+        next_tests(ui, scene, diagnosis);
+    }
+    ui.add_space(space::XS);
+    let list = ranked(diagnosis, look);
+    let chosen = open(diagnosis, look).map(|s| s.added.source.clone());
+    for (rank, (suggestion, probability)) in list.iter().enumerate() {
+        let source = &suggestion.added.source;
+        let unfolded = chosen.as_ref().is_some_and(|c| c.is_same(source));
+        let card = card::Card { scene, diagnosis, suggestion, probability: *probability, rank: rank + 1, unfolded };
+        if card.show(ui, look.trial.as_ref().is_some_and(|t| t.is_same(source)), asks) {
+            look.open = Some(source.clone());
+        }
+        ui.add_space(space::XS);
+    }
+    if list.is_empty() && !diagnosis.suggestions.is_empty() {
+        ui.hint("Everything that was suggested is ruled out.");
+    }
+    excluded(ui, scene, &look.excluded, asks);
+}
+
+/// What the model states wrongly and the search corrected beside the effects.
+fn corrections(ui: &mut Ui, scene: &Scene<'_>, diagnosis: &Diagnosis) {
+    if diagnosis.corrections.is_empty() {
+        return;
+    }
+    ui.title("The model is detuned", "corrected in the search, not in the project");
+    for correction in &diagnosis.corrections {
+        let change = format::with_deviation(100.0 * (correction.factor - 1.0), 100.0 * correction.deviation, "%");
+        let sign = if correction.factor > 1.0 { "+" } else { "" };
+        ui.pair(&knob(scene, &correction.knob), format!("{sign}{change}"));
+    }
+}
+
+/// What a correction corrects.
+fn knob(scene: &Scene<'_>, knob: &Knob) -> String {
+    let structure = &scene.document.project.structure;
+    match knob {
+        Knob::Stiffness => "All stiffness".to_owned(),
+        Knob::Mass => "All mass".to_owned(),
+        Knob::Mode(mode) => format!("Stiffness of mode {}", mode + 1),
+        Knob::Spring(dofs, _) => format!("Spring {}", at(structure, &Place::Dofs(dofs.clone()))),
+        Knob::Known(index) => {
+            let known = scene.explained.known(scene.document, *index);
+            known.map_or_else(|| "A known source".to_owned(), |source| card::name(scene, &source))
+        }
+    }
+}
+
+/// The end of the way: the model explains the data, and what brought it there.
+fn adequate(ui: &mut Ui, scene: &Scene<'_>, diagnosis: &Diagnosis) {
+    let palette = ui.palette();
+    ui.add_space(space::M);
+    ui.horizontal(|ui| {
+        let (area, _) = ui.allocate_exact_size(vec2(30.0, 30.0), Sense::hover());
+        let c = area.center();
+        ui.painter().circle_filled(c, 13.0, palette.good);
+        let tick = vec![c + vec2(-5.6, 0.4), c + vec2(-1.6, 4.8), c + vec2(6.0, -4.4)];
+        ui.painter().add(egui::Shape::line(tick, theme::bold(palette.pane)));
+        ui.label(RichText::new("The model now explains the data").size(size::HEADING + 2.0));
+    });
+    ui.add_space(space::XS);
+    ui.label(sentence(diagnosis));
+    let ledger = &scene.explained.ledger;
+    let path = ledger.path();
+    if path.len() < 2 {
+        return;
+    }
+    ui.add_space(space::M);
+    ui.title("The way", "what was changed since the project was opened");
+    for step in path {
+        let step = &ledger.steps()[step];
+        ui.pair(&step.label, in_words(step.error));
+    }
+}
+
+/// The tests that would decide, in words; nothing where nothing is missing.
+pub fn next_tests(ui: &mut Ui, scene: &Scene<'_>, diagnosis: &Diagnosis) {
+    if diagnosis.verdict == Verdict::Adequate || diagnosis.next_test.is_empty() {
+        return;
+    }
+    let structure = &scene.document.project.structure;
+    ui.title("Next test", "what would tell most");
+    for test in &diagnosis.next_test {
+        let label = structure.dofs().get(test.force_dof).map_or("?", |d| d.label.as_str());
+        let (frequency, force) = (format::with_unit(test.frequency_hz, "Hz"), format::with_unit(test.force, "N"));
+        ui.label(format!("{frequency} with {force} at DOF {label}"));
+        ui.hint(format!("{}.", card::polished(test.why.trim_end_matches('.'))));
+    }
+}
+
+fn excluded(ui: &mut Ui, scene: &Scene<'_>, excluded: &[Source], asks: &mut Vec<Ask>) {
+    if excluded.is_empty() {
+        return;
+    }
+    ui.add_space(space::S);
+    ui.hint("Ruled out by you");
+    let structure = &scene.document.project.structure;
+    for source in excluded {
+        ui.horizontal(|ui| {
+            let name = format!("{} {}", words::effect(source.effect), at(structure, &source.place));
+            ui.label(RichText::new(name).strikethrough().color(ui.palette().weak));
+            ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+                if ui.small_button("Take back").clicked() {
+                    asks.push(Ask::Explain(Deed::Restore(source.clone())));
+                }
+            });
+        });
+    }
+}

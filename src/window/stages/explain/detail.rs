@@ -1,0 +1,80 @@
+//! Measured against model in the cell that was clicked: along frequency, along level, over a period, as a loop.
+
+use super::along::Along;
+use super::cycle::Cycle;
+use super::look::{Look, Tab};
+use super::samples;
+use crate::exchange::Project;
+use crate::explain::Comparison;
+use crate::window::explained::curve::{Curve, neighbourhood};
+use crate::window::format;
+use crate::window::widgets::UiExt;
+use egui::{Align, Layout, Ui};
+
+/// What is shown of one cell.
+pub struct Detail<'a> {
+    /// The project.
+    pub project: &'a Project,
+    /// Model against measurement.
+    pub comparison: &'a Comparison,
+    /// The same with the effect on trial.
+    pub trial: Option<&'a Comparison>,
+    /// Selected run.
+    pub run: usize,
+    /// Selected channel.
+    pub channel: &'a str,
+    /// The model's curve near the run.
+    pub curve: Option<&'a Curve>,
+    /// The curve with the effect on trial.
+    pub trial_curve: Option<&'a Curve>,
+}
+
+impl Detail<'_> {
+    /// Shows tabs and the plot that is chosen.
+    pub fn show(&self, ui: &mut Ui, look: &mut Look) {
+        let p = self.project;
+        let Some(run) = p.runs.get(self.run) else { return };
+        ui.horizontal(|ui| {
+            let level = run.level.map_or_else(String::new, |l| format!(", level {l}"));
+            let frequency = format::with_unit(run.frequency_hz(), "Hz");
+            ui.title(self.channel, &format!("run {}, {frequency}{level}", self.run + 1));
+            ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+                ui.spacing_mut().item_spacing.x = 2.0;
+                for tab in Tab::ALL.into_iter().rev() {
+                    if ui.selectable_label(look.tab == tab, tab.label()).on_hover_text(tab.tooltip()).clicked() {
+                        look.tab = tab;
+                    }
+                }
+            });
+        });
+        let Some(now) = samples::channel(self.comparison, self.run, self.channel) else {
+            ui.empty("Nothing to compare", "This run does not have the channel.");
+            return;
+        };
+        let trial = self.trial.and_then(|c| samples::channel(c, self.run, self.channel));
+        let index = samples::index(p, self.run, self.channel);
+        let Some(fitted) = index.and_then(|k| run.fit.channels.get(k)) else { return };
+        let rotation = p.structure.dofs().get(now.dof).is_some_and(|d| d.direction.is_rotation());
+        let cycle = Cycle { fit: &run.fit, now, trial, quantity: fitted.channel.quantity, rotation };
+        match look.tab {
+            Tab::Time => cycle.time(ui),
+            Tab::Loop => cycle.hysteresis(ui),
+            Tab::Frequency | Tab::Level => self.along(ui, look.tab),
+        }
+    }
+
+    fn along(&self, ui: &mut Ui, tab: Tab) {
+        let list = samples::samples(self.project, self.comparison, self.trial, self.channel);
+        let near = neighbourhood(self.project, self.run).map(|(near, _)| near).unwrap_or_default();
+        let along = Along {
+            samples: &list,
+            run: self.run,
+            near: &near,
+            channel: samples::index(self.project, self.run, self.channel).unwrap_or(0),
+            unit: samples::unit(self.project, self.run, self.channel),
+            curve: self.curve,
+            trial: self.trial_curve,
+        };
+        if tab == Tab::Frequency { along.frequency(ui) } else { along.level(ui) }
+    }
+}

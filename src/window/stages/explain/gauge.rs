@@ -1,0 +1,63 @@
+//! The error before and after as one bar on a logarithmic scale, with the noise floor.
+
+use super::grid::{Scale, in_words};
+use crate::window::theme::{self, size};
+use crate::window::widgets::UiExt;
+use egui::{Align2, Rect, Role, Sense, Stroke, Ui, WidgetInfo, pos2, vec2};
+
+/// Errors to show, as shares.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Gauge {
+    /// Of the model as it is.
+    pub before: f64,
+    /// With the effect.
+    pub after: f64,
+    /// On runs that were left out of the fit.
+    pub held_out: f64,
+    /// What noise alone leaves.
+    pub floor: f64,
+}
+
+impl Gauge {
+    /// `Error 14.4 % to 0.31 %, on left-out runs 0.33 %, noise floor 0.31 %`.
+    pub fn words(&self) -> String {
+        let [before, after, held, floor] = [self.before, self.after, self.held_out, self.floor].map(in_words);
+        format!("Error {before} to {after}, on left-out runs {held}, noise floor {floor}")
+    }
+
+    /// Shows the bar and its figures under it.
+    pub fn show(&self, ui: &mut Ui) {
+        let palette = ui.palette();
+        let (area, response) = ui.allocate_exact_size(vec2(ui.available_width(), 30.0), Sense::hover());
+        response.widget_info(|| WidgetInfo::labeled(Role::Label, true, self.words()));
+        let painter = ui.painter();
+        let most = self.before.max(self.after);
+        let scale = Scale::new(0.6 * self.floor.min(self.after).max(1e-3 * most), 1.3 * most);
+        let bar = Rect::from_min_size(area.min + vec2(0.0, 3.0), vec2(area.width(), 8.0));
+        let x = |value: f64| bar.left() + bar.width() * scale.share(value);
+        painter.rect_filled(bar, 3.0, palette.raised);
+        let (a, b) = (x(self.after.min(self.before)), x(most));
+        let gain = Rect::from_min_max(pos2(a, bar.top()), pos2(b, bar.bottom()));
+        let better = self.after <= self.before;
+        let colour = if better { palette.missing } else { palette.warning };
+        painter.rect_filled(gain, 2.0, colour.gamma_multiply(0.35));
+        painter.rect_filled(
+            Rect::from_min_max(pos2(bar.left(), bar.top()), pos2(x(self.after), bar.bottom())),
+            3.0,
+            colour,
+        );
+        let tick = |x: f64, colour, width| {
+            let x = x as f32;
+            painter.line_segment([pos2(x, bar.top() - 3.0), pos2(x, bar.bottom() + 3.0)], Stroke::new(width, colour));
+        };
+        tick(f64::from(x(self.floor)), palette.ink, 1.6);
+        tick(f64::from(b), palette.weak, 1.2);
+        let font = theme::font(size::SMALL);
+        let below = bar.bottom() + 4.0;
+        let [before, after, held, floor] = [self.before, self.after, self.held_out, self.floor].map(in_words);
+        let left = format!("error {before} to {after}");
+        painter.text(pos2(bar.left(), below), Align2::LEFT_TOP, left, font.clone(), palette.ink);
+        let right = format!("left-out runs {held}   noise {floor}");
+        painter.text(pos2(bar.right(), below), Align2::RIGHT_TOP, right, font, palette.weak);
+    }
+}

@@ -1,0 +1,69 @@
+//! What is looked at in the stage: order of the map, plot of the cell, card that is open, effect on trial, what is ruled out.
+
+use crate::effects::Source;
+
+/// A plot of the selected cell.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[expect(missing_docs, reason = "the names say it")]
+pub enum Tab {
+    #[default]
+    Frequency,
+    Level,
+    Time,
+    Loop,
+}
+
+impl Tab {
+    /// All of them.
+    pub const ALL: [Self; 4] = [Self::Frequency, Self::Level, Self::Time, Self::Loop];
+
+    /// Name on its tab.
+    pub fn label(self) -> &'static str {
+        match self {
+            Self::Frequency => "Frequency",
+            Self::Level => "Level",
+            Self::Time => "Time",
+            Self::Loop => "Loop",
+        }
+    }
+
+    /// What it shows, in one sentence.
+    pub fn tooltip(self) -> &'static str {
+        match self {
+            Self::Frequency => "Amplitude and phase along frequency near the selected run, with the model's curve.",
+            Self::Level => "Amplitude and phase along the force level at the frequency of the selected run.",
+            Self::Time => "One period, measured and modelled, and what is left over.",
+            Self::Loop => "Force of the exciter over displacement, measured and modelled.",
+        }
+    }
+}
+
+/// State of the stage; neither saved nor undone.
+#[derive(Debug, Clone)]
+pub struct Look {
+    /// Whether runs and channels stand in order of their error.
+    pub worst_first: bool,
+    /// Plot of the selected cell.
+    pub tab: Tab,
+    /// Suggestion whose card is open; `None` opens the first.
+    pub open: Option<Source>,
+    /// Effect on trial.
+    pub trial: Option<Source>,
+    /// Whether the worst cell was chosen already; afterwards the user chooses.
+    pub chosen: bool,
+    /// Effects that the user has ruled out.
+    pub excluded: Vec<Source>,
+}
+
+impl Default for Look {
+    fn default() -> Self {
+        Self { worst_first: true, tab: Tab::default(), open: None, trial: None, chosen: false, excluded: Vec::new() }
+    }
+}
+
+impl Look {
+    /// Whether the user has ruled an effect out at its place.
+    pub fn rules_out(&self, source: &Source) -> bool {
+        self.excluded.iter().any(|other| other.is_same(source))
+    }
+}

@@ -1,0 +1,236 @@
+//! The error map: one cell a run and channel, coloured from the noise floor to the largest error; its legend.
+
+use super::grid::{Cell, ENERGY, Grid, Scale, in_words};
+use crate::exchange::Project;
+use crate::window::format;
+use crate::window::theme::{self, Palette, size};
+use crate::window::widgets::UiExt;
+use egui::{
+    Align2, Color32, Pos2, Rect, Role, ScrollArea, Sense, Shape, Stroke, StrokeKind, Ui, Vec2, WidgetInfo, pos2, vec2,
+};
+
+/// Most cells that are nodes of their own for screen readers.
+const MANY: usize = 800;
+const HEAD: f32 = 18.0;
+/// Pieces of the legend's colours.
+const STEPS: usize = 48;
+
+/// What the map shows.
+pub struct Map<'a> {
+    /// Project, for frequencies and levels.
+    pub project: &'a Project,
+    /// Numbers.
+    pub grid: &'a Grid,
+    /// Colours.
+    pub scale: Scale,
+    /// Selected run and channel.
+    pub selected: Option<(usize, &'a str)>,
+    /// Whether it is that of an earlier model while the present one is computed.
+    pub stale: bool,
+}
+
+impl Map<'_> {
+    /// Shows the map no higher than `most`; gives back the cell that was clicked, as run and row.
+    pub fn show(&self, ui: &mut Ui, most: f32) -> Option<(usize, String)> {
+        let font = theme::font(size::SMALL);
+        let width = |name: &String| ui.painter().layout_no_wrap(name.clone(), font.clone(), Color32::WHITE).size().x;
+        let label = self.grid.channels.iter().map(width).fold(24.0, f32::max) + 10.0;
+        let (columns, rows) = (self.grid.runs.len().max(1) as f32, self.grid.channels.len().max(1) as f32);
+        let cell = vec2(
+            ((ui.available_width() - label - 2.0) / columns).clamp(7.0, 64.0),
+            ((most - HEAD) / rows).clamp(12.0, 26.0),
+        );
+        let extent = vec2(label + columns * cell.x, HEAD + rows * cell.y);
+        let mut clicked = None;
+        ScrollArea::both().id_salt("map").max_height(most.max(60.0)).auto_shrink([false, true]).show(ui, |ui| {
+            let (area, response) = ui.allocate_exact_size(extent, Sense::click());
+            response.widget_info(|| WidgetInfo::labeled(Role::Image, true, "Error map"));
+            let sheet = Sheet { origin: area.min + vec2(label, HEAD), cell };
+            self.head(ui, area, &sheet);
+            self.cells(ui, &sheet);
+            if self.grid.runs.len() * self.grid.channels.len() <= MANY {
+                clicked = self.nodes(ui, &sheet);
+            } else if let Some((row, column)) = response.interact_pointer_pos().and_then(|p| self.at(&sheet, p)) {
+                clicked = response.clicked().then(|| (self.grid.runs[column], self.grid.channels[row].clone()));
+            }
+            if let Some((row, column)) = response.hover_pos().and_then(|p| self.at(&sheet, p)) {
+                response.on_hover_text_at_pointer(self.words(row, column));
+            }
+        });
+        clicked
+    }
+
+    fn head(&self, ui: &Ui, area: Rect, sheet: &Sheet) {
+        let (palette, font) = (ui.palette(), theme::font(size::SMALL));
+        let painter = ui.painter();
+        let step = (22.0 / sheet.cell.x).ceil().max(1.0) as usize;
+        let selected = self.selected.map(|(run, _)| run);
+        let corner = pos2(sheet.origin.x - 6.0, area.top() + 0.5 * HEAD);
+        painter.text(corner, Align2::RIGHT_CENTER, "run", font.clone(), palette.weak);
+        for (k, &run) in self.grid.runs.iter().enumerate() {
+            if k % step != 0 && selected != Some(run) {
+                continue;
+            }
+            let at = pos2(sheet.rect(0, k).center().x, area.top() + 0.5 * HEAD);
+            let colour = if selected == Some(run) { palette.accent } else { palette.weak };
+            painter.text(at, Align2::CENTER_CENTER, run + 1, font.clone(), colour);
+        }
+        for (row, name) in self.grid.channels.iter().enumerate() {
+            let at = pos2(sheet.origin.x - 6.0, sheet.rect(row, 0).center().y);
+            let lit = self.selected.is_some_and(|(_, channel)| channel == name);
+            let colour = if lit { palette.accent } else { palette.ink };
+            painter.text(at, Align2::RIGHT_CENTER, name, font.clone(), colour);
+        }
+    }
+
+    fn cells(&self, ui: &Ui, sheet: &Sheet) {
+        let palette = ui.palette();
+        let font = theme::font(size::SMALL - 0.5);
+        for (row, cells) in self.grid.cells.iter().enumerate() {
+            for (column, cell) in cells.iter().enumerate() {
+                let rect = sheet.rect(row, column).shrink(0.5);
+                let Some(cell) = cell else {
+                    ui.painter().rect_stroke(rect, 1.5, theme::hair(palette.line), StrokeKind::Inside);
+                    continue;
+                };
+                let fill = shade(palette, &self.scale, *cell, self.stale);
+                ui.painter().rect_filled(rect, 1.5, fill);
+                if !self.grid.used[column] {
+                    hatch(ui, rect, palette.weak);
+                } else if sheet.cell.x >= 34.0 {
+                    let text = if cell.error > 10.0 {
+                        "> 1000".to_owned()
+                    } else {
+                        format::significant(100.0 * cell.error, 2)
+                    };
+                    ui.painter().text(rect.center(), Align2::CENTER_CENTER, text, font.clone(), palette.text_on(fill));
+                }
+            }
+        }
+        let place = self.selected.and_then(|(run, channel)| {
+            let column = self.grid.runs.iter().position(|&r| r == run)?;
+            Some((self.grid.channels.iter().position(|c| c == channel)?, column))
+        });
+        if let Some((row, column)) = place {
+            let rect = sheet.rect(row, column);
+            ui.painter().rect_stroke(rect, 2.0, Stroke::new(2.0, palette.accent), StrokeKind::Outside);
+        }
+    }
+
+    /// Every cell reached by Tab and read aloud.
+    fn nodes(&self, ui: &mut Ui, sheet: &Sheet) -> Option<(usize, String)> {
+        let mut clicked = None;
+        for (row, channel) in self.grid.channels.iter().enumerate() {
+            for (column, &run) in self.grid.runs.iter().enumerate() {
+                if self.grid.cells[row][column].is_none() {
+                    continue;
+                }
+                let id = ui.scope_id().with(("cell", channel, run));
+                let response = ui.interact(sheet.rect(row, column), id, Sense::click());
+                let chosen = self.selected == Some((run, channel));
+                response.widget_info(|| WidgetInfo::selected(Role::Button, true, chosen, self.words(row, column)));
+                if response.has_focus() {
+                    let stroke = theme::pen(ui.palette().accent);
+                    ui.painter().rect_stroke(sheet.rect(row, column), 2.0, stroke, StrokeKind::Outside);
+                }
+                if response.clicked() {
+                    clicked = Some((run, channel.clone()));
+                }
+                response.on_hover_text(self.words(row, column));
+            }
+        }
+        clicked
+    }
+
+    fn at(&self, sheet: &Sheet, pointer: Pos2) -> Option<(usize, usize)> {
+        let at = ((pointer - sheet.origin) / sheet.cell).floor();
+        let inside = at.x >= 0.0 && at.y >= 0.0;
+        let (row, column) = (at.y as usize, at.x as usize);
+        (inside && row < self.grid.channels.len() && column < self.grid.runs.len()).then_some((row, column))
+    }
+
+    /// `Run 3, 10.4 Hz, level 2, acc@7: error 23.1 %, noise floor 0.31 %`.
+    fn words(&self, row: usize, column: usize) -> String {
+        let (index, channel) = (self.grid.runs[column], &self.grid.channels[row]);
+        let run = &self.project.runs[index];
+        let level = run.level.map_or_else(String::new, |l| format!(", level {l}"));
+        let what = if channel == ENERGY { "energy" } else { channel };
+        let Some(cell) = self.grid.cells[row][column] else { return format!("Run {}: no {channel}", index + 1) };
+        format!(
+            "Run {}, {}{level}, {what}: error {}, noise floor {}{}",
+            index + 1,
+            format::with_unit(run.frequency_hz(), "Hz"),
+            in_words(cell.error),
+            format::percent(cell.noise_floor),
+            if self.grid.used[column] { "" } else { ", not used" }
+        )
+    }
+}
+
+/// Where cells stand.
+struct Sheet {
+    origin: Pos2,
+    cell: Vec2,
+}
+
+impl Sheet {
+    fn rect(&self, row: usize, column: usize) -> Rect {
+        Rect::from_min_size(self.origin + self.cell * vec2(column as f32, row as f32), self.cell)
+    }
+}
+
+/// Colour of a cell: that of the ground where the error is noise.
+fn shade(palette: &Palette, scale: &Scale, cell: Cell, stale: bool) -> Color32 {
+    let colour = if cell.is_noise() { palette.raised } else { palette.error_shade(scale.share(cell.error)) };
+    if stale { palette.pane.lerp_to_gamma(colour, 0.45) } else { colour }
+}
+
+/// Slanted lines over a run that takes no part.
+fn hatch(ui: &Ui, rect: Rect, colour: Color32) {
+    let painter = ui.painter_at(rect);
+    let mut x = rect.left() - rect.height();
+    while x < rect.right() {
+        let line = [pos2(x, rect.bottom()), pos2(x + rect.height(), rect.top())];
+        painter.line_segment(line, Stroke::new(1.0, colour.gamma_multiply(0.6)));
+        x += 5.0;
+    }
+}
+
+/// The scale of colours with its ends, round values and the noise floor.
+pub fn legend(ui: &mut Ui, scale: &Scale) {
+    let palette = ui.palette();
+    let font = theme::font(size::SMALL);
+    let (area, _) = ui.allocate_exact_size(vec2(ui.available_width(), 28.0), Sense::hover());
+    let painter = ui.painter();
+    let noise = Rect::from_min_size(area.min + vec2(0.0, 1.0), vec2(16.0, 9.0));
+    painter.rect(noise, 2.0, palette.raised, theme::hair(palette.line), StrokeKind::Inside);
+    let below = noise.bottom() + 2.0;
+    let bar = Rect::from_min_max(pos2(area.left() + 78.0, noise.top()), pos2(area.right() - 30.0, noise.bottom()));
+    for k in 0..STEPS {
+        let at = |k: usize| bar.left() + bar.width() * k as f32 / STEPS as f32;
+        let piece = Rect::from_min_max(pos2(at(k), bar.top()), pos2(at(k + 1) + 0.5, bar.bottom()));
+        painter.rect_filled(piece, 0.0, palette.error_shade((k as f32 + 0.5) / STEPS as f32));
+    }
+    painter.text(pos2(area.left(), below), Align2::LEFT_TOP, "noise", font.clone(), palette.weak);
+    let mark = |value: f64, text: String, colour: Color32| {
+        let x = bar.left() + bar.width() * scale.share(value);
+        painter.line_segment([pos2(x, bar.top() - 1.0), pos2(x, bar.bottom() + 2.0)], theme::hair(colour));
+        painter.text(pos2(x, below), Align2::CENTER_TOP, text, font.clone(), colour);
+    };
+    mark(scale.floor, format!("floor {}", format::percent(scale.floor)), palette.ink);
+    let clear = |v: &f64| bar.width() * scale.share(*v) > 62.0 && bar.width() * (1.0 - scale.share(*v)) > 34.0;
+    for value in scale.ticks().into_iter().filter(clear) {
+        mark(value, trimmed(value), palette.weak);
+    }
+    mark(scale.most, in_words(scale.most), palette.weak);
+    painter.add(Shape::rect_stroke(bar, 2.0, theme::hair(palette.line), StrokeKind::Outside));
+}
+
+/// A round share as per cent without trailing zeros.
+fn trimmed(share: f64) -> String {
+    if share > 10.0 {
+        return format!("1e{:.0} %", (100.0 * share).log10());
+    }
+    let value = (100.0 * share * 1e6).round() / 1e6;
+    format!("{value} %")
+}

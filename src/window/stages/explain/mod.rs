@@ -1,0 +1,169 @@
+//! Explain: where the model fails (error map), what is missing (suggestions), the way so far (ledger).
+
+mod along;
+mod card;
+mod cards;
+mod cycle;
+mod detail;
+mod fingerprint;
+mod gauge;
+pub mod grid;
+mod ledger;
+pub mod look;
+mod map;
+pub mod panes;
+mod samples;
+mod schematic;
+
+use crate::effects::{Source, State};
+use crate::explain::diagnose::Verdict;
+use crate::window::additions;
+use crate::window::app::App;
+use crate::window::document::Document;
+use crate::window::edits::Edit;
+use crate::window::explained::model::{Key, at};
+use crate::window::explained::{Explained, Wanted};
+use crate::window::format;
+use crate::window::frame::top::Mark;
+use crate::window::view::{Stage, View};
+use crate::window::words;
+use egui::Context;
+pub use schematic::{Errors, errors};
+
+/// What may be asked for in the stage.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Deed {
+    /// Preview an effect.
+    Try(Source),
+    /// End the preview.
+    Stop,
+    /// Put an effect into the model.
+    Add(Source),
+    /// Rule an effect out at its place.
+    Exclude(Source),
+    /// Take that back.
+    Restore(Source),
+    /// Go to a step of the ledger.
+    Return(usize),
+    /// Put what was identified into the model.
+    TakeOver,
+    /// Start it again.
+    Retry,
+}
+
+/// What the panes read.
+pub struct Scene<'a> {
+    /// The open project.
+    pub document: &'a Document,
+    /// What was computed from it.
+    pub explained: &'a Explained,
+}
+
+/// What is to be computed for what is looked at.
+pub fn wanted(document: &Document, view: &View, explained: &Explained) -> Wanted {
+    if view.stage != Stage::Explain {
+        return Wanted::default();
+    }
+    let look = &view.explain;
+    let found = explained.diagnosis(document).and_then(|d| d.as_ref().ok());
+    let print = found.and_then(|d| cards::open(d, look)).map(|s| s.added.source.clone());
+    let curve = (look.tab == look::Tab::Frequency).then_some(view.run);
+    Wanted { diagnosis: true, trial: look.trial.clone(), print, curve }
+}
+
+/// Does what was asked for.
+pub fn answer(app: &mut App, ctx: &Context, deed: Deed) {
+    match deed {
+        Deed::Try(source) => app.view.explain.trial = Some(source),
+        Deed::Stop => app.view.explain.trial = None,
+        Deed::Add(source) => {
+            app.view.explain.trial = None;
+            app.view.explain.open = None;
+            add(app, ctx, &source);
+        }
+        Deed::Exclude(source) => {
+            let look = &mut app.view.explain;
+            look.trial = look.trial.take().filter(|t| !t.is_same(&source));
+            if !look.rules_out(&source) {
+                look.excluded.push(source);
+            }
+        }
+        Deed::Restore(source) => app.view.explain.excluded.retain(|s| !s.is_same(&source)),
+        Deed::Return(step) => go_back(app, step),
+        Deed::TakeOver => take_over(app, ctx),
+        Deed::Retry => app.derived.explained.retry(),
+    }
+}
+
+fn go_back(app: &mut App, step: usize) {
+    let (Some(document), Some(step_there)) = (&mut app.document, app.derived.explained.ledger.steps().get(step)) else {
+        return;
+    };
+    document.go_to(&step_there.document, &format!("go to step {step}"), |d| Key::new(d) == step_there.key);
+    app.view.explain.trial = None;
+    app.view.explain.open = None;
+    app.view.source = None;
+}
+
+/// Puts an effect into the model and says so.
+fn add(app: &mut App, ctx: &Context, source: &Source) {
+    let Some(document) = &app.document else { return };
+    let file = document.session().document().file();
+    let place = at(&document.project.structure, &source.place);
+    match additions::add(source, &document.project, file) {
+        Ok(command) => {
+            app.edit(ctx, &Edit::Do(command));
+            if app.message.as_ref().is_none_or(|m| !m.failed) {
+                app.say(format!("Added: {} {place}. Undo takes it back.", words::effect(source.effect)));
+            }
+        }
+        Err(error) => app.fail(error),
+    }
+}
+
+/// What the identification found becomes known.
+fn take_over(app: &mut App, ctx: &Context) {
+    let Some(document) = &app.document else { return };
+    let Some(Ok(outcome)) = app.derived.known_outcome(document) else { return };
+    let sources = &document.project.sources;
+    let sought = |s: usize| sources.get(s).is_some_and(|s| matches!(s.state, State::Candidate | State::Forced));
+    let found: Vec<(usize, f64)> =
+        outcome.sources.iter().filter(|e| sought(e.source)).map(|e| (e.source, e.coefficient)).collect();
+    match additions::take_over(&found, &document.project) {
+        Ok(commands) => app.edit(ctx, &Edit::All(commands)),
+        Err(error) => app.fail(error),
+    }
+}
+
+/// Where the model stands against the data, in one line.
+pub fn mark(document: &Document, explained: &Explained) -> Mark {
+    if document.project.runs.is_empty() {
+        return Mark::empty("No runs to compare the model with.");
+    }
+    let comparison = match explained.comparison(document) {
+        None => return Mark::empty("The comparison of model and measurement is running."),
+        Some(Err(error)) => return Mark::attention(error),
+        Some(Ok(comparison)) => comparison,
+    };
+    let (error, floor) = (grid::in_words(comparison.error), format::percent(comparison.noise_floor));
+    match explained.diagnosis(document) {
+        Some(Ok(d)) if d.verdict == Verdict::Adequate => {
+            Mark::done(&format!("The model explains the data: error {error}, noise floor {floor}."))
+        }
+        Some(Ok(d)) => {
+            let best = d.suggestions.first().map_or_else(String::new, |s| {
+                let source = &s.added.source;
+                format!(
+                    " Best guess: {} {}.",
+                    words::effect(source.effect),
+                    at(&document.project.structure, &source.place)
+                )
+            });
+            Mark::attention(&format!("The model is wrong by {error}, noise floor {floor}.{best}"))
+        }
+        _ if comparison.error <= 1.2 * comparison.noise_floor => {
+            Mark::done(&format!("Error {error}, at the noise floor {floor}."))
+        }
+        _ => Mark::attention(&format!("The model is wrong by {error}, noise floor {floor}.")),
+    }
+}

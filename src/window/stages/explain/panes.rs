@@ -1,0 +1,222 @@
+//! The panes of the stage, each on its own: error map, the cell that was clicked, suggestions, ledger.
+
+use super::detail::Detail;
+use super::grid::{ENERGY, Grid, Scale, in_words};
+use super::look::Look;
+use super::map::{self, Map};
+use super::{Deed, Scene, card, cards, ledger, samples};
+use crate::effects::{Source, State};
+use crate::explain::Comparison;
+use crate::window::app::{App, Ask};
+use crate::window::explained::curve::Curve;
+use crate::window::explained::shelf::Kept;
+use crate::window::theme::{size, space};
+use crate::window::widgets::UiExt;
+use egui::{Align, Label, Layout, RichText, Ui};
+use std::sync::Arc;
+
+/// What the map and the cell show.
+struct Shown<'a> {
+    /// Of the model as it stands, or of the last one while that is computed.
+    comparison: &'a Comparison,
+    /// Whether it is of an earlier model.
+    stale: bool,
+    /// Effect on trial and the comparison with it, once it is there.
+    trial: Option<(&'a Source, Option<&'a Comparison>)>,
+}
+
+impl<'a> Shown<'a> {
+    /// What there is; otherwise says why there is nothing.
+    fn new(ui: &mut Ui, scene: &Scene<'a>, look: &'a Look, asks: &mut Vec<Ask>) -> Option<Self> {
+        let (document, explained) = (scene.document, scene.explained);
+        let now = match explained.comparison(document) {
+            Some(Err(error)) => {
+                ui.title("The model cannot be compared", "");
+                ui.colored_label(ui.palette().error, error);
+                if ui.button("Compare again").clicked() {
+                    asks.push(Ask::Explain(Deed::Retry));
+                }
+                return None;
+            }
+            Some(Ok(comparison)) => Some(comparison),
+            None => None,
+        };
+        let Some(comparison) = now.or(explained.last_comparison()) else {
+            ui.empty("The model is being compared", "Its progress is in the bar below.");
+            return None;
+        };
+        let trial = look.trial.as_ref().filter(|_| now.is_some());
+        let tried = |t: &Source| explained.trial(document, t).and_then(|c| c.as_ref().ok()).map(Arc::as_ref);
+        Some(Self { comparison, stale: now.is_none(), trial: trial.map(|t| (t, tried(t))) })
+    }
+
+    fn tried(&self) -> Option<&'a Comparison> {
+        self.trial.and_then(|(_, comparison)| comparison)
+    }
+}
+
+/// The error map with its legend.
+pub fn error_map(ui: &mut Ui, app: &mut App, asks: &mut Vec<Ask>) {
+    let Some(document) = &app.document else { return };
+    let p = &document.project;
+    if p.runs.is_empty() {
+        ui.empty("Nothing to compare with", "Add [[run]] entries with steady-state records to the project.");
+        return;
+    }
+    let scene = Scene { document, explained: &app.derived.explained };
+    let look = app.view.explain.clone();
+    let Some(shown) = Shown::new(ui, &scene, &look, asks) else { return };
+    let previewed = shown.tried().unwrap_or(shown.comparison);
+    let grid = Grid::new(previewed, look.worst_first);
+    let scale = Scale::new(scene.explained.ledger.least_floor(), scene.explained.ledger.worst());
+    let worst_first = head(ui, &scene, look.worst_first, previewed, asks);
+    if let Some((source, tried)) = shown.trial {
+        preview(ui, &scene, source, shown.comparison, tried, asks);
+    }
+    let run = app.view.run.min(p.runs.len() - 1);
+    let name = samples::selected(p, run, app.view.channel);
+    let selected = if grid.channels[0] == ENERGY { Some(ENERGY) } else { name.as_deref() };
+    let selected = selected.map(|channel| (run, channel));
+    let map = Map { project: p, grid: &grid, scale, selected, stale: shown.stale };
+    let most = ui.available_height() - 62.0;
+    let clicked = map.show(ui, most);
+    ui.add_space(space::XS);
+    map::legend(ui, &scale);
+    ui.add(Label::new(RichText::new(left_over(previewed)).size(size::SMALL).color(ui.palette().weak)).truncate());
+    let worst = || grid.runs.first().zip(grid.channels.first()).map(|(run, channel)| (*run, channel.clone()));
+    let first = !look.chosen && look.worst_first && app.view.run == 0;
+    app.view.explain.chosen = true;
+    if let Some((run, channel)) = clicked.or_else(|| worst().filter(|_| first)) {
+        app.view.channel = samples::index(p, run, &channel).unwrap_or(app.view.channel);
+        app.view.run = run;
+    }
+    app.view.explain.worst_first = worst_first;
+}
+
+/// Whether what is left over depends on anything, in one sentence.
+fn left_over(comparison: &Comparison) -> String {
+    /// Probability below which noise alone is not believed.
+    const RARE: f64 = 0.01;
+    let on: Vec<&str> = comparison.whiteness.iter().filter(|w| w.probability < RARE).map(|w| w.of.word()).collect();
+    match &on[..] {
+        _ if comparison.whiteness.is_empty() => String::new(),
+        [] => "What is left looks like noise: it depends on nothing.".to_owned(),
+        [one] => format!("What is left depends on {one}: it is not noise."),
+        [rest @ .., last] => format!("What is left depends on {} and {last}: it is not noise.", rest.join(", ")),
+    }
+}
+
+/// Measured against model in the selected cell.
+pub fn cell(ui: &mut Ui, app: &mut App, asks: &mut Vec<Ask>) {
+    let Some(document) = &app.document else { return };
+    let p = &document.project;
+    let scene = Scene { document, explained: &app.derived.explained };
+    let mut look = app.view.explain.clone();
+    let before = look.clone();
+    let Some(shown) = Shown::new(ui, &scene, &before, asks) else { return };
+    if shown.comparison.runs.iter().all(|r| r.channels.is_empty()) {
+        ui.empty("Energies only", "Points have no model of mass and stiffness: the energy of each run is compared.");
+        return;
+    }
+    let run = app.view.run.min(p.runs.len().saturating_sub(1));
+    let Some(name) = samples::selected(p, run, app.view.channel) else {
+        ui.empty("No motion", "The selected run measures forces only.");
+        return;
+    };
+    let good = |found: Option<&Kept<Curve>>| found.and_then(|c| c.as_ref().ok()).map(Arc::clone);
+    let own = good(scene.explained.curve(document, run));
+    let other = shown.trial.and_then(|(t, _)| good(scene.explained.trial_curve(document, t, run)));
+    let detail = Detail {
+        project: p,
+        comparison: shown.comparison,
+        trial: shown.tried(),
+        run,
+        channel: &name,
+        curve: own.as_deref(),
+        trial_curve: other.as_deref(),
+    };
+    detail.show(ui, &mut look);
+    app.view.explain = look;
+}
+
+/// What is missing?
+pub fn missing(ui: &mut Ui, app: &mut App, asks: &mut Vec<Ask>) {
+    let Some(document) = &app.document else { return };
+    let mut look = app.view.explain.clone();
+    cards::show(ui, &Scene { document, explained: &app.derived.explained }, &mut look, asks);
+    app.view.explain = look;
+}
+
+/// The way so far.
+pub fn way(ui: &mut Ui, app: &App, asks: &mut Vec<Ask>) {
+    let Some(document) = &app.document else { return };
+    ledger::show(ui, &Scene { document, explained: &app.derived.explained }, asks);
+}
+
+/// Title and order of the map; gives back whether the worst stands first.
+fn head(ui: &mut Ui, scene: &Scene<'_>, worst_first: bool, comparison: &Comparison, asks: &mut Vec<Ask>) -> bool {
+    let mut order = worst_first;
+    ui.horizontal(|ui| {
+        let text = format!(
+            "error {}, energy error {}; cells in %",
+            in_words(comparison.error),
+            in_words(comparison.energy_error)
+        );
+        ui.hint(text);
+        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+            ui.spacing_mut().item_spacing.x = 2.0;
+            for (worst, label) in [(false, "In order"), (true, "Worst first")] {
+                if ui.selectable_label(worst_first == worst, label).clicked() {
+                    order = worst;
+                }
+            }
+        });
+    });
+    let p = &scene.document.project;
+    let known = p.sources.iter().any(|s| s.state == State::Known);
+    let sought = p.sources.iter().any(|s| matches!(s.state, State::Candidate | State::Forced));
+    if !known && sought {
+        ui.horizontal(|ui| {
+            ui.label(
+                RichText::new("The model has no damping yet: only known sources act in it.")
+                    .color(ui.palette().warning),
+            );
+            let tip = "Makes the identified sources known at their values.";
+            if ui.small_button("Take over what was identified").on_hover_text(tip).clicked() {
+                asks.push(Ask::Explain(Deed::TakeOver));
+            }
+        });
+    }
+    order
+}
+
+/// The line that says that what is shown is not so.
+fn preview(
+    ui: &mut Ui,
+    scene: &Scene<'_>,
+    source: &Source,
+    now: &Comparison,
+    tried: Option<&Comparison>,
+    asks: &mut Vec<Ask>,
+) {
+    ui.horizontal(|ui| {
+        let name = card::name(scene, source);
+        ui.pill("Preview", ui.palette().missing);
+        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+            if ui.small_button("End preview").clicked() {
+                asks.push(Ask::Explain(Deed::Stop));
+            }
+            let text = match (tried, scene.explained.trial(scene.document, source)) {
+                (Some(tried), _) => {
+                    let (before, after) = (in_words(now.error), in_words(tried.error));
+                    format!("{name}: error {after} instead of {before}")
+                }
+                (None, Some(Err(error))) => error.clone(),
+                (None, _) => format!("{name} is being tried"),
+            };
+            ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
+                ui.add(Label::new(text.as_str()).truncate()).on_hover_text(text);
+            });
+        });
+    });
+}
