@@ -3,7 +3,9 @@
 
 mod desk;
 mod events;
+mod explain;
 mod export;
+mod friction;
 mod history;
 mod journey;
 mod path;

@@ -17,7 +17,7 @@ use std::time::{Duration, Instant};
 
 /// A project in a folder of its own.
 pub struct Sample {
-    _folder: tempfile::TempDir,
+    pub _folder: tempfile::TempDir,
     /// Its file.
     pub path: PathBuf,
 }

@@ -1,0 +1,138 @@
+//! The walk through Explain: see where the model fails, learn what is missing, try it, add it, watch the error fall, undo.
+
+use crate::friction::{FORCE, ROW, friction};
+use crate::support::{beam, open, settle};
+use dashpot::effects::{Effect, Place, Source, State};
+use dashpot::explain::diagnose::Verdict;
+use dashpot::window::App;
+use dashpot::window::stages::explain::look::Tab;
+use dashpot::window::view::Stage;
+use egui::{Key, Modifiers, Theme, accesskit::Role};
+use egui_kittest::Harness;
+use egui_kittest::kittest::Queryable;
+
+fn explain(theme: Theme) -> (crate::support::Sample, Harness<'static, App>) {
+    let sample = friction();
+    let mut harness = open(&sample, theme);
+    harness.get_by_role_and_label(Role::Tab, "Explain").click();
+    settle(&mut harness);
+    (sample, harness)
+}
+
+fn press(harness: &mut Harness<'_, App>, label: &str) {
+    harness.get_by_role_and_label(Role::Button, label).click();
+    settle(harness);
+}
+
+fn picture(harness: &mut Harness<'_, App>, name: &str) {
+    harness.remove_cursor();
+    settle(harness);
+    harness.snapshot(name);
+}
+
+/// Error and noise floor of the model as it stands.
+fn error(harness: &Harness<'_, App>) -> [f64; 2] {
+    let app = harness.state();
+    let comparison = app.derived.explained.comparison(app.document.as_ref().unwrap()).unwrap().as_ref().unwrap();
+    [comparison.error, comparison.noise_floor]
+}
+
+fn verdict(harness: &Harness<'_, App>) -> Verdict {
+    let app = harness.state();
+    app.derived.explained.diagnosis(app.document.as_ref().unwrap()).unwrap().as_ref().unwrap().verdict
+}
+
+fn friction_of<'a>(harness: &'a Harness<'_, App>) -> Option<&'a Source> {
+    let sources = &harness.state().document.as_ref().unwrap().project.sources;
+    sources.iter().find(|s| s.effect == Effect::Coulomb && s.state == State::Known)
+}
+
+#[test]
+fn the_hidden_friction_is_named_tried_added_and_taken_back() {
+    let (_sample, mut harness) = explain(Theme::Light);
+    let [before, floor] = error(&harness);
+    assert!((0.10..0.60).contains(&before), "the model without friction is wrong by {before}");
+    assert!(before > 10.0 * floor);
+    assert_eq!(verdict(&harness), Verdict::Missing);
+    harness.get_by_label_contains("Suggestion 1: Dry friction at DOF 7, probability");
+    picture(&mut harness, "explain-before");
+
+    press(&mut harness, "Try");
+    let app = harness.state();
+    let source = app.view.explain.trial.clone().unwrap();
+    let tried = app.derived.explained.trial(app.document.as_ref().unwrap(), &source).unwrap().as_ref().unwrap().error;
+    assert!(tried < 2.0 * floor, "with the friction the error would be {tried}");
+    assert!(friction_of(&harness).is_none() && error(&harness)[0] == before, "a preview changes nothing");
+    picture(&mut harness, "explain-try");
+
+    press(&mut harness, "Add");
+    let added = friction_of(&harness).unwrap();
+    assert_eq!(added.place, Place::Dofs(vec![ROW]));
+    assert!((added.parameters[0] / FORCE - 1.0).abs() < 0.02, "{added:?}");
+    let [after, floor] = error(&harness);
+    assert!(after < 1.2 * floor, "error {after}, noise floor {floor}");
+    assert_eq!(verdict(&harness), Verdict::Adequate);
+    harness.get_by_label_contains("The model now explains the data");
+    picture(&mut harness, "explain-after");
+
+    harness.key_press_modifiers(Modifiers::COMMAND, Key::Z);
+    settle(&mut harness);
+    assert!(friction_of(&harness).is_none());
+    assert_eq!(error(&harness)[0], before);
+    assert_eq!(verdict(&harness), Verdict::Missing);
+
+    // All steps are kept: forward again by a click on the ledger, and back.
+    harness.get_by_label_contains("Step 1: + dry friction at DOF 7").click();
+    settle(&mut harness);
+    assert!(friction_of(&harness).is_some() && error(&harness)[0] == after);
+    harness.get_by_label_contains("Step 0: Model as opened").click();
+    settle(&mut harness);
+    assert!(friction_of(&harness).is_none() && error(&harness)[0] == before);
+    assert_eq!(harness.state().derived.explained.ledger.steps().len(), 2);
+}
+
+#[test]
+fn what_is_ruled_out_makes_room_for_the_next_and_can_be_taken_back() {
+    let (_sample, mut harness) = explain(Theme::Light);
+    press(&mut harness, "Not this");
+    assert!(harness.query_by_label_contains("Suggestion 1: Dry friction at DOF 7").is_none());
+    harness.get_by_label_contains("Suggestion 1:");
+    harness.get_by_label("Ruled out by you");
+    press(&mut harness, "Take back");
+    harness.get_by_label_contains("Suggestion 1: Dry friction at DOF 7");
+}
+
+#[test]
+fn a_click_on_the_map_chooses_run_and_channel_for_all_panes() {
+    let (_sample, mut harness) = explain(Theme::Light);
+    harness.get_by_label_contains("Run 8, 13.10 Hz, level 2, acc@5: error").click();
+    settle(&mut harness);
+    assert_eq!(harness.state().view.run, 7);
+    harness.get_by_label_contains("run 8, 13.10 Hz, level 2");
+    for tab in [Tab::Level, Tab::Time, Tab::Loop, Tab::Frequency] {
+        harness.get_by_role_and_label(Role::Button, tab.label()).click();
+        settle(&mut harness);
+        assert_eq!(harness.state().view.explain.tab, tab);
+        if tab != Tab::Frequency {
+            picture(&mut harness, &format!("explain-{}", tab.label().to_lowercase()));
+        }
+    }
+}
+
+#[test]
+fn what_was_identified_is_taken_over_into_the_model() {
+    let sample = beam();
+    let mut harness = open(&sample, Theme::Light);
+    harness.state_mut().view.stage = Stage::Explain;
+    settle(&mut harness);
+    press(&mut harness, "Take over what was identified");
+    let [after, floor] = error(&harness);
+    assert!(after < 3.0 * floor, "error {after}, noise floor {floor}");
+}
+
+#[test]
+fn the_walk_in_the_dark() {
+    let (_sample, mut harness) = explain(Theme::Dark);
+    press(&mut harness, "Try");
+    picture(&mut harness, "explain-try-dark");
+}
