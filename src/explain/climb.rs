@@ -22,6 +22,8 @@ const AGREES: f64 = 4.0;
 const REACH: f64 = 4.0;
 /// Scaled squared residual within which places are worth trying with a law that was found elsewhere.
 const ELSEWHERE: f64 = 40.0;
+/// Prior deviations up to which a correction is believed without looking for an effect.
+const LIKELY: f64 = 3.0;
 /// Steps of a fit of the corrections alone.
 const STEPS: usize = 20;
 
@@ -79,6 +81,8 @@ pub(crate) fn explain<'a>(base: &'a Base<'a>, before: f64) -> Result<Outcome<'a>
     if !tuned.agrees && exact.rungs.is_empty() {
         climb(base, &mut exact, (before, 0, 0.0), 2)?;
     }
+    pruned(base, &mut tuned)?;
+    pruned(base, &mut exact)?;
     let best = if cost(base, &tuned, before) + FREEDOM < cost(base, &exact, before) { tuned } else { exact };
     Ok(Outcome { base, found: best })
 }
@@ -101,7 +105,7 @@ fn with_corrections(base: &Base, before: Option<&Rung>, each: bool) -> Result<Fo
     let starts = starts_of(base.predictions.clone());
     let bare = bench.refit(&[], &free, STEPS, &FINAL, &starts)?;
     let mut found = Found {
-        agrees: agrees(base, bare.chi_square, bare.tuning.knobs.len()),
+        agrees: agrees(base, bare.chi_square, bare.tuning.knobs.len()) && likely(&bare),
         bare: Some(bare.clone()),
         rungs: Vec::new(),
     };
@@ -129,7 +133,38 @@ fn with_corrections(base: &Base, before: Option<&Rung>, each: bool) -> Result<Fo
         let last = level(&rung.refits[0]);
         climb(base, &mut found, last, MOST_EFFECTS - 1)?;
     }
+    if found.rungs.is_empty() {
+        found.agrees = agrees(base, bare.chi_square, bare.tuning.knobs.len());
+    }
     Ok(found)
+}
+
+/// Whether no correction is farther from nothing than models are wrong: else an effect may pass for a correction.
+fn likely(bare: &Refit) -> bool {
+    let priors = bare.tuning.knobs.iter().map(super::tuning::Knob::deviation);
+    bare.tuning.values.iter().zip(priors).all(|(v, s)| v.abs() <= LIKELY * s)
+}
+
+/// Drops effects that the last set of a search no longer needs, now that the others are there.
+fn pruned(base: &Base, found: &mut Found) -> Result<(), ExplainError> {
+    while let Some(best) = found.rungs.last().map(|rung| rung.refits[0].clone()).filter(|r| r.effects.len() > 1) {
+        let mut refits = Vec::new();
+        for k in 0..best.effects.len() {
+            let mut fewer = best.effects.clone();
+            fewer.remove(k);
+            refits.push(base.bench().refit(&fewer, &best.tuning, 10, &FINAL, &best.starts)?);
+        }
+        let (refits, noise) = base.polished(base.ranked(refits))?;
+        let enough = |r: &Refit| base.evidence(r, 1.0) < base.evidence(&best, 1.0) + EVIDENCE;
+        let Some(first) = refits.first().filter(|r| enough(r)) else { break };
+        found.agrees = agrees(base, first.chi_square, first.parameters + first.tuning.knobs.len());
+        found.rungs.pop();
+        let scale = scale_of(&refits, base.count());
+        let before = found.rungs.pop().map_or_else(Vec::new, |rung| rung.refits);
+        let refits = distinct(base.ranked(refits.into_iter().chain(before).collect()));
+        found.rungs.push(Rung { refits, scale, noise });
+    }
+    Ok(())
 }
 
 /// Single effects at the places that the model with the corrections of `from` shows.

@@ -11,6 +11,9 @@ use faer::Mat;
 /// Least and largest damping factor before a descent gives up.
 const DAMPING: [f64; 2] = [1e-9, 1e8];
 
+/// Added to the diagonal of a normal matrix of unit diagonal, so that its inverse exists.
+const RIDGE: f64 = 1e-12;
+
 /// One variable behind a parameter.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Variable {
@@ -118,14 +121,25 @@ pub(crate) struct Descent {
 }
 
 impl Descent {
-    /// Covariance of the variables for a residual of unit variance; infinite where the data say nothing.
+    /// Standard deviations of the variables for a residual of unit variance; infinite where the data say nothing, very
+    /// large where they cannot tell variables apart. A variable that does nothing leaves those of the others alone.
     pub fn deviations(&self) -> Vec<f64> {
         let n = self.theta.len();
         let normal = transposed_product(self.jacobian.as_ref(), self.jacobian.as_ref());
-        match solve_symmetric(normal.as_ref(), Mat::<f64>::identity(n, n).as_ref()) {
-            Ok(inverse) => (0..n).map(|i| inverse[(i, i)].max(0.0).sqrt()).collect(),
-            Err(_) => vec![f64::INFINITY; n],
+        let sizes: Vec<f64> = (0..n).map(|i| normal[(i, i)].max(0.0).sqrt()).collect();
+        let largest = sizes.iter().fold(0.0_f64, |m, &s| m.max(s));
+        let seen: Vec<usize> = (0..n).filter(|&i| sizes[i] > 1e-9 * largest && sizes[i].is_finite()).collect();
+        let scaled = Mat::from_fn(seen.len(), seen.len(), |a, b| {
+            let (i, j) = (seen[a], seen[b]);
+            normal[(i, j)] / (sizes[i] * sizes[j]) + if a == b { RIDGE } else { 0.0 }
+        });
+        let mut deviations = vec![f64::INFINITY; n];
+        if let Ok(inverse) = solve_symmetric(scaled.as_ref(), Mat::<f64>::identity(seen.len(), seen.len()).as_ref()) {
+            for (a, &i) in seen.iter().enumerate() {
+                deviations[i] = inverse[(a, a)].max(0.0).sqrt() / sizes[i];
+            }
         }
+        deviations
     }
 }
 

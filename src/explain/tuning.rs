@@ -33,7 +33,7 @@ impl Knob {
         match self {
             Self::Stiffness | Self::Mass | Self::Spring(..) => 0.03,
             Self::Mode(_) => 0.02,
-            Self::Known(_) => 0.2,
+            Self::Known(_) => 0.15,
         }
     }
 }
