@@ -173,7 +173,9 @@ impl LinearPart {
         let factors = self.factors(omega);
         let modes = if apart && omega > 0.0 { near(&self.basis, factors) } else { Vec::new() };
         let mut resonant: Vec<Resonant> = modes.iter().map(|&r| Resonant::new(self, &self.basis, r)).collect();
-        let inverse = if self.len() > DENSE && self.whole.iter().all(|(_, own)| own.is_none()) {
+        // A sweep asks each frequency for a few entries only.
+        let modal = self.len() > DENSE || !apart;
+        let inverse = if modal && self.whole.iter().all(|(_, own)| own.is_none()) {
             self.modal_inverse(factors, &modes)
         } else {
             self.dense_inverse(omega, &modes)

@@ -67,6 +67,8 @@ pub(crate) struct Condensed {
     pub levels: Vec<Level>,
     /// Modes at resonance over all harmonics.
     resonances: usize,
+    /// Whether laws and forces allow motions whose second half period mirrors the first: odd harmonics alone.
+    pub odd: bool,
 }
 
 /// Splits sources into linear and nonlinear legs; whole-structure and channel effects are not among them.
@@ -113,7 +115,8 @@ impl Condensed {
         for (i, leg) in legs.iter_mut().enumerate() {
             leg.weight = velocity_weight(&levels, excitation.omega, i);
         }
-        Ok(Self { omega: excitation.omega, harmonics, legs, linear_legs, levels, resonances })
+        let odd = legs.iter().all(NonlinearLeg::is_odd) && excitation.is_odd();
+        Ok(Self { omega: excitation.omega, harmonics, legs, linear_legs, levels, resonances, odd })
     }
 
     /// Number of real coefficients of a leg, `2 H + 1`.

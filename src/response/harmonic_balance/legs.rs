@@ -83,6 +83,11 @@ impl NonlinearLeg {
         matches!(self.effect, Effect::CubicStiffness | Effect::QuadraticStiffness | Effect::Gap | Effect::Stribeck)
     }
 
+    /// Whether the opposite motion is answered by the opposite force.
+    pub fn is_odd(&self) -> bool {
+        self.effect != Effect::QuadraticStiffness
+    }
+
     /// Whether the law looks at the leg's own force.
     pub fn takes_force(&self) -> bool {
         matches!(self.manner(), Manner::Friction | Manner::Resolvent)

@@ -98,6 +98,14 @@ impl Excitation {
         Self { omega, forces: vec![HarmonicForce { dof, mean: 0.0, harmonics: vec![amplitude] }] }
     }
 
+    /// Whether all forces have odd harmonics only.
+    pub(crate) fn is_odd(&self) -> bool {
+        let even = |force: &HarmonicForce| {
+            force.mean == 0.0 && force.harmonics.iter().skip(1).step_by(2).all(|f| f.norm_sqr() == 0.0)
+        };
+        self.forces.iter().all(even)
+    }
+
     /// Highest harmonic of the forces.
     pub fn order(&self) -> usize {
         self.forces.iter().map(|force| force.harmonics.len()).max().unwrap_or(0)

@@ -9,6 +9,8 @@ use faer::c64;
 
 /// Halvings of a Newton step before it is taken all the same.
 const HALVINGS: usize = 7;
+/// Even harmonics below this share of the largest force are rounding.
+const EVEN: f64 = 1e-13;
 /// Newton steps at one level.
 const STEPS: usize = 60;
 
@@ -189,9 +191,7 @@ impl Balance<'_> {
             if residual <= tolerance {
                 return Ending { converged: true, steps, residual };
             }
-            let Some(lu) = Lu::new(u.len(), self.jacobian(&state.answers)) else { break };
-            let mut step = state.residual.clone();
-            lu.solve(&mut step);
+            let Some(step) = self.step(u, &state) else { break };
             if step.iter().any(|x| !x.is_finite()) {
                 break;
             }
@@ -201,6 +201,41 @@ impl Balance<'_> {
         u.clone_from(&best.1);
         // A residual at the level of rounding of a stiff law is an answer.
         Ending { converged: best.0 <= 100.0 * tolerance, steps: STEPS, residual: best.0 }
+    }
+
+    /// Newton's step. A motion of odd harmonics alone stays one, and only they are solved for.
+    fn step(&self, u: &[f64], state: &State) -> Option<Vec<f64>> {
+        let jacobian = self.jacobian(&state.answers);
+        let size = u.len();
+        let Some(kept) = self.odd_unknowns(u, &state.residual) else {
+            let mut step = state.residual.clone();
+            Lu::new(size, jacobian)?.solve(&mut step);
+            return Some(step);
+        };
+        let block = kept.iter().flat_map(|&i| kept.iter().map(move |&j| (i, j))).map(|(i, j)| jacobian[i * size + j]);
+        let mut part: Vec<f64> = kept.iter().map(|&i| state.residual[i]).collect();
+        Lu::new(kept.len(), block.collect())?.solve(&mut part);
+        let mut step = vec![0.0; size];
+        kept.iter().zip(part).for_each(|(&i, s)| step[i] = s);
+        Some(step)
+    }
+
+    /// Indices of the unknowns of odd harmonics, if all others and their residuals are nothing but rounding.
+    fn odd_unknowns(&self, u: &[f64], residual: &[f64]) -> Option<Vec<usize>> {
+        let condensed = self.condensed;
+        if !condensed.odd {
+            return None;
+        }
+        let mut is_odd = vec![false; u.len()];
+        for (h, level) in condensed.levels.iter().enumerate().filter(|(h, _)| h % 2 == 1) {
+            (0..level.count()).flat_map(|j| self.columns(h, j)).for_each(|k| is_odd[k] = true);
+        }
+        let largest = u.iter().chain(residual).fold(0.0_f64, |m, x| m.max(x.abs()));
+        let silent = |k: usize| u[k].abs() <= EVEN * largest && residual[k].abs() <= EVEN * largest;
+        if (0..u.len()).any(|k| !is_odd[k] && !silent(k)) {
+            return None;
+        }
+        Some((0..u.len()).filter(|&k| is_odd[k]).collect())
     }
 
     /// The longest of the halved steps that lowers the residual; the full step if none does.
