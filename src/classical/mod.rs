@@ -7,7 +7,8 @@
 //! [`lancaster`], [`pilkey_inman`], [`ibrahim`], [`minas_inman`], [`adhikari_woodhouse`], [`frf_inverse`].
 //! [`liang`] balances the energy of every DOF.
 //!
-//! [`errors`] measures them against a known truth (3.117, 3.132-3.135).
+//! [`responses`] takes the lines of the runs, [`poly_reference`] or [`resonant`] the complex modes from them, and
+//! [`side_by_side`] applies every method that the data allow. [`errors`] measures them against a known truth (3.117, 3.132-3.135).
 
 pub mod adhikari_woodhouse;
 pub mod chen;
@@ -27,9 +28,17 @@ pub mod lee_kim;
 pub mod liang;
 mod linear;
 pub mod log_decrement;
+pub mod method;
 pub mod minas_inman;
 pub mod phani_woodhouse;
 pub mod pilkey_inman;
+pub mod poly_reference;
+mod ratios;
+mod refine;
+pub mod resonant;
+pub mod responses;
+pub mod side_by_side;
 
 pub use data::{Damping, DecayRecord, LoadCase, ModalData, ReceptanceData};
 pub use error::ClassicalError;
+pub use responses::FrequencyResponses;

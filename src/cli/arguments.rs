@@ -26,6 +26,10 @@ pub(super) enum Command {
     Diagnose(Diagnose),
     /// Make steady-state records of the model of a project
     Simulate(Simulate),
+    /// Apply the classical methods side by side to the same runs
+    Methods(Analysis),
+    /// Write a structure of a known kind as matrices with nodes, DOFs and lines
+    Build(Build),
     /// Play a script of commands on a project, as the window would do them
     Run(Run),
 }
@@ -106,6 +110,23 @@ pub(super) enum Records {
     Time,
     /// One file of fitted harmonics, harmonics.csv
     Harmonics,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct Build {
+    /// Structure
+    #[arg(value_enum)]
+    pub kind: Buildable,
+    /// Folder for the files; made if it is not there
+    #[arg(long)]
+    pub out: PathBuf,
+}
+
+/// Structures that `build` knows.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(super) enum Buildable {
+    /// The heavy Goland wing: a box of rods, shear panels and membranes with 180 DOFs
+    Wing,
 }
 
 #[derive(Debug, Args)]

@@ -3,12 +3,14 @@
 //! Exit status: 0 done, 1 the input is at fault (one line on standard error), 2 wrong usage.
 
 mod arguments;
+mod build;
 mod compare;
 mod diagnose;
 mod export;
 mod identify;
 mod identify_json;
 mod identify_table;
+mod methods;
 mod play;
 mod simulate;
 mod source_json;
@@ -46,6 +48,8 @@ fn execute(command: &Command) -> anyhow::Result<String> {
         Command::Compare(arguments) => compare::run(arguments),
         Command::Diagnose(arguments) => diagnose::run(arguments),
         Command::Simulate(arguments) => simulate::run(arguments),
+        Command::Methods(arguments) => methods::run(arguments),
+        Command::Build(arguments) => build::run(arguments),
         Command::Run(arguments) => play::run(arguments),
     }
 }

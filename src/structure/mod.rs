@@ -8,6 +8,7 @@ mod error;
 pub mod imported;
 pub mod modes;
 pub mod points;
+pub mod wing;
 
 pub use assemble::{LumpedMass, MOST_DOFS};
 pub use error::StructureError;

@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used, reason = "tests")]
 
 mod energy_methods;
+mod extraction;
 mod modal_methods;
 mod receptance_methods;
 mod single_degree;

@@ -6,3 +6,4 @@ mod case_friction;
 mod comparison;
 mod energy_support;
 mod structures;
+mod wing;

@@ -3,9 +3,11 @@
 pub mod error;
 pub mod market;
 pub mod table;
+mod write;
 
 pub use error::{TableError, TableProblem};
 pub use market::parse_market;
+pub use write::write_tables;
 
 use crate::structure::Node;
 use crate::structure::imported::ImportedDof;

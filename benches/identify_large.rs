@@ -1,0 +1,93 @@
+//! Identification of large structures: chains of n masses, 2.5 n candidates to the ground, between neighbours and between
+//! next neighbours, 60 runs with ten sensors; four dashpots in truth. States how time grows with n.
+
+use criterion::{Criterion, criterion_group, criterion_main};
+use dashpot::control::Control;
+use dashpot::effects::{Effect, Place, Source};
+use dashpot::identify::{Settings, identify};
+use dashpot::measurement::{Channel, ChannelFit, HarmonicFit, Quantity, Run};
+use dashpot::response::dynamic_stiffness::DynamicStiffness;
+use dashpot::structure::Structure;
+use dashpot::structure::chain::ChainParameters;
+use faer::{Mat, c64};
+use std::time::Duration;
+
+const RUNS: usize = 60;
+const SENSORS: usize = 10;
+/// Standard deviation of a channel over its amplitude.
+const NOISE: f64 = 1e-3;
+
+fn chain(n: usize) -> Structure {
+    let parameters = ChainParameters {
+        masses: (0..n).map(|i| 1.0 + 0.1 * (0.7 * i as f64).sin()).collect(),
+        ground_stiffness: (0..n).map(|i| if i % 50 == 0 { 1e4 } else { 100.0 }).collect(),
+        coupling_stiffness: (1..n).map(|i| 1e6 * (1.0 + 0.2 * (0.3 * i as f64).cos())).collect(),
+    };
+    parameters.build(&[]).unwrap_or_else(|error| panic!("{error}"))
+}
+
+fn candidates(n: usize) -> Vec<Source> {
+    let grounded = (0..n).map(|i| vec![i]);
+    let near = (0..n - 1).map(|i| vec![i, i + 1]);
+    let far = (0..n - 2).step_by(2).map(|i| vec![i, i + 2]);
+    grounded.chain(near).chain(far).map(|dofs| Source::candidate(Effect::Viscous, Place::Dofs(dofs))).collect()
+}
+
+fn runs(structure: &Structure) -> Vec<Run> {
+    let n = structure.len();
+    let at = |part: f64| (part * n as f64) as usize;
+    let truth: Vec<Source> = [(at(0.21), 3.0), (at(0.47), 2.0), (at(0.66), 5.0), (at(0.9), 1.0)]
+        .iter()
+        .map(|&(dof, c)| Source::known(Effect::Viscous, Place::Dofs(vec![dof]), &[c]))
+        .collect();
+    let stiffness = DynamicStiffness::new(structure, &truth).unwrap_or_else(|error| panic!("{error}"));
+    let drives = [at(0.03), at(0.36), at(0.75)];
+    let sensors: Vec<usize> = (0..SENSORS).map(|s| at((s as f64 + 0.5) / SENSORS as f64)).chain(drives).collect();
+    (0..RUNS)
+        .map(|r| {
+            let omega = 11.0 + 0.9 * (r / 3) as f64;
+            let drive = drives[r % 3];
+            let column = stiffness.factorise(omega).receptance_column(drive).unwrap_or_else(|error| panic!("{error}"));
+            let channel = |quantity, dof: usize, value: c64| {
+                let variance = (NOISE * value.norm()).powi(2);
+                ChannelFit {
+                    channel: Channel { quantity, dof, label: structure.label(dof).to_string() },
+                    offset: 0.0,
+                    slope: 0.0,
+                    amplitudes: vec![value],
+                    covariance: Mat::from_fn(2, 2, |i, j| if i == j { variance } else { 0.0 }),
+                    noise: NOISE * value.norm(),
+                }
+            };
+            let mut channels = vec![channel(Quantity::Force, drive, c64::new(1.0, 0.0))];
+            channels.extend(sensors.iter().map(|&dof| channel(Quantity::Displacement, dof, column[dof])));
+            let fit = HarmonicFit { omega, omega_deviation: 0.0, channels };
+            Run {
+                file: format!("{r}"),
+                level: None,
+                enabled: true,
+                record: None,
+                fit,
+                noise_ratio: 0.0,
+                findings: vec![],
+            }
+        })
+        .collect()
+}
+
+fn bench(c: &mut Criterion) {
+    let mut group = c.benchmark_group("identify");
+    group.sample_size(10).warm_up_time(Duration::from_millis(1)).measurement_time(Duration::from_secs(5));
+    for n in [250, 500, 1000, 2000] {
+        let structure = chain(n);
+        let (sources, runs) = (candidates(n), runs(&structure));
+        let settings = Settings { max_sources: 6, harmonics: 1, ..Settings::default() };
+        let title = format!("{n} DOFs, {} candidates, {RUNS} runs", sources.len());
+        group.bench_function(title, |bencher| {
+            bencher.iter(|| identify(&structure, &sources, &runs, &settings, &Control::unattended()));
+        });
+    }
+}
+
+criterion_group!(benches, bench);
+criterion_main!(benches);

@@ -1,0 +1,156 @@
+//! Methods of [`super::side_by_side`] that give damping ratios only, applied to the peaks and runs of each mode.
+
+use super::side_by_side::{Applied, Data, Ratio, missing};
+use super::{ClassicalError, FrequencyResponses, half_power, resonant};
+use std::f64::consts::{PI, TAU};
+
+/// Relative distance within which a ratio belongs to a mode of the model.
+const SAME_MODE: f64 = 0.05;
+
+/// Least ratio of velocities between runs of one mode that can tell friction from viscous damping.
+const LEVELS: f64 = 1.5;
+/// Least part of a mode's largest displacement at the drive that shows the mode there.
+const SEEN: f64 = 0.2;
+
+impl Data<'_> {
+    /// Ratios only, one a mode of the model at most.
+    fn of_ratios(&self, found: impl IntoIterator<Item = (f64, f64)>, what: &str) -> Result<Applied, ClassicalError> {
+        let mut ratios: Vec<Ratio> = Vec::new();
+        for (omega, ratio) in found {
+            let Some(mode) = self.model.nearest(omega) else { continue };
+            let near = (omega - self.model.omega[mode]).abs() < SAME_MODE * self.model.omega[mode];
+            if near && ratio.is_finite() && ratios.iter().all(|r| r.mode != mode) {
+                ratios.push(Ratio { mode, frequency_hz: omega / TAU, ratio });
+            }
+        }
+        ratios.sort_by_key(|r| r.mode);
+        if ratios.is_empty() {
+            return missing(what);
+        }
+        Ok(Applied { damping: None, ratios, eps_p: None, errors: None })
+    }
+
+    /// Sensor and drive with the largest response at a line.
+    fn loudest(responses: &FrequencyResponses, line: usize) -> (usize, usize) {
+        let h = &responses.values[line];
+        let pairs = (0..h.nrows()).flat_map(|i| (0..h.ncols()).map(move |j| (i, j)));
+        pairs.max_by(|a, b| h[*a].norm().total_cmp(&h[*b].norm())).unwrap_or((0, 0))
+    }
+
+    /// Peaks of the pair that responds most at each natural frequency.
+    pub(super) fn half_power(&self) -> Result<Applied, ClassicalError> {
+        let responses = self.responses()?;
+        let found = self.model.omega.iter().filter_map(|&omega| {
+            let line = responses.omega.partition_point(|&w| w < omega).min(responses.omega.len() - 1);
+            let (sensor, drive) = Self::loudest(responses, line);
+            let peaks = half_power::peaks(&responses.omega, &responses.series(sensor, drive));
+            let nearest = |a: &half_power::HalfPower| (a.omega_peak - omega).abs();
+            let peak = peaks.into_iter().min_by(|a, b| nearest(a).total_cmp(&nearest(b)))?;
+            Some((peak.omega_peak, peak.damping_ratio()))
+        });
+        let found: Vec<(f64, f64)> = found.collect();
+        self.of_ratios(found, "lines on both flanks of a resonance peak")
+    }
+
+    /// Lines within two half-power widths of each pole that was extracted.
+    pub(super) fn circle_fit(&self) -> Result<Applied, ClassicalError> {
+        let (responses, modal) = (self.responses()?, self.modal()?);
+        let found = modal.poles.iter().filter_map(|pole| {
+            let inside = |w: &f64| (w - pole.norm()).abs() < 2.5 * pole.re.abs();
+            let lines: Vec<usize> = (0..responses.omega.len()).filter(|&k| inside(&responses.omega[k])).collect();
+            let (sensor, drive) = Self::loudest(responses, *lines.get(lines.len() / 2)?);
+            let omega: Vec<f64> = lines.iter().map(|&k| responses.omega[k]).collect();
+            let values: Vec<_> = lines.iter().map(|&k| responses.values[k][(sensor, drive)]).collect();
+            let circle = super::circle_fit::circle_fit(&omega, &values).ok().filter(|_| omega.len() >= 5)?;
+            Some((circle.omega, circle.damping_ratio))
+        });
+        let found: Vec<(f64, f64)> = found.collect();
+        self.of_ratios(found, "five lines within a half-power band or more")
+    }
+
+    /// Loss of the drive's loop over the energy of the nearest mode: `zeta = area / (2 pi w_r^2 |q|^2)`.
+    pub(super) fn loops(&self) -> Result<Applied, ClassicalError> {
+        let found: Vec<(f64, f64)> = self.modal_losses().iter().map(|l| (l.omega, l.ratio())).collect();
+        self.of_ratios(found, "runs near a resonance with a sensor at the drive")
+    }
+
+    /// Viscous part of the single-degree balance over all runs of a mode.
+    pub(super) fn energy_single(&self) -> Result<Applied, ClassicalError> {
+        let losses = self.modal_losses();
+        let mut found = Vec::new();
+        let mut why = "two runs of different level near one resonance".to_string();
+        for mode in 0..self.model.len() {
+            let states: Vec<_> = losses.iter().filter(|l| l.mode == mode).map(ModalLoss::state).collect();
+            if states.len() < 2 {
+                continue;
+            }
+            let speeds = states.iter().map(|s| s.omega * s.displacement[0].norm());
+            let (least, most) = speeds.fold((f64::INFINITY, 0.0_f64), |(a, b), v| (a.min(v), b.max(v)));
+            if most < LEVELS * least {
+                continue;
+            }
+            match super::energy_single::viscous_and_friction(&states) {
+                Ok(fit) => found.push((self.model.omega[mode], fit.c / (2.0 * self.model.omega[mode]))),
+                Err(error) => why = error.to_string(),
+            }
+        }
+        self.of_ratios(found, &why)
+    }
+
+    /// Runs within reach of a mode, by the drive's motion.
+    fn modal_losses(&self) -> Vec<ModalLoss> {
+        let Some(responses) = &self.responses else { return Vec::new() };
+        let runs = self.runs.iter().filter(|run| run.enabled);
+        let mut losses: Vec<ModalLoss> = runs
+            .filter_map(|run| {
+                let [force] = run.fit.force_channels()[..] else { return None };
+                let drive = run.fit.channels[force].channel.dof;
+                responses.sensors.contains(&drive).then_some(())?;
+                let (f, x) = (run.fit.force(drive)?.amplitudes, run.fit.displacement(drive)?.amplitudes);
+                let mode = self.model.nearest(run.fit.omega)?;
+                let near = (run.fit.omega - self.model.omega[mode]).abs() < resonant::NEAR * self.model.omega[mode];
+                let phi = self.model.shapes[(drive, mode)];
+                let largest = self.model.shapes.col(mode).norm_max();
+                let area = super::hysteresis_loop::from_harmonics(run.fit.omega, &x, &f, 1.0).area;
+                let q = x[0].norm() / phi.abs();
+                let seen = phi.abs() > SEEN * largest;
+                (near && seen).then_some(ModalLoss {
+                    mode,
+                    omega: run.fit.omega,
+                    area,
+                    q,
+                    natural: self.model.omega[mode],
+                })
+            })
+            .collect();
+        losses.sort_by(|a, b| (a.omega - a.natural).abs().total_cmp(&(b.omega - b.natural).abs()));
+        losses
+    }
+}
+
+/// What one run loses near one mode.
+struct ModalLoss {
+    mode: usize,
+    omega: f64,
+    natural: f64,
+    /// J a period.
+    area: f64,
+    /// Modal amplitude, kg^(1/2) m.
+    q: f64,
+}
+
+impl ModalLoss {
+    fn ratio(&self) -> f64 {
+        self.area / (TAU * self.omega * self.natural * self.q * self.q)
+    }
+
+    /// As one degree of freedom of unit mass.
+    fn state(&self) -> super::energy_single::SteadyState {
+        let force = faer::c64::new(0.0, self.area / (PI * self.q));
+        super::energy_single::SteadyState {
+            omega: self.omega,
+            displacement: vec![faer::c64::new(self.q, 0.0)],
+            force: vec![force],
+        }
+    }
+}

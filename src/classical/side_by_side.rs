@@ -1,0 +1,319 @@
+//! Every method that the data allow, on the same runs; for each that cannot run, why.
+
+use super::method::Method;
+use super::poly_reference::{Extraction, extract};
+use super::{ClassicalError, Damping, FrequencyResponses, ModalData, ReceptanceData, errors, resonant};
+use crate::balance::expansion::Acting;
+use crate::balance::{Expander, Expansion, Measured};
+use crate::control::Control;
+use crate::effects::{Source, State};
+use crate::math::fill::filled_complex;
+use crate::measurement::Run;
+use crate::response::linear_matrices::LinearMatrices;
+use crate::structure::damped_modes::{DampedMode, damped_modes_from};
+use crate::structure::modes::Modes;
+use crate::structure::{Structure, SystemMatrices};
+use faer::Mat;
+
+/// A damping ratio that a method gives.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Ratio {
+    /// Mode of the model, from 0.
+    pub mode: usize,
+    /// Hz.
+    pub frequency_hz: f64,
+    /// Damping ratio.
+    pub ratio: f64,
+}
+
+/// Distance from a known truth.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Errors {
+    /// `eps_C` (3.135), per cent.
+    pub eps_c: f64,
+    /// Largest entry of `|I - MAC|` (3.134).
+    pub mac: f64,
+    /// Root mean square relative error of the ratios of the modes measured, per cent.
+    pub ratios: f64,
+}
+
+/// What one method gave.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Applied {
+    /// The matrix; `None` for methods that give ratios only.
+    pub damping: Option<Damping>,
+    /// Ratios as measured, or of the model's modes with the matrix.
+    pub ratios: Vec<Ratio>,
+    /// `eps_p` (3.117), per cent, of the perturbation.
+    pub eps_p: Option<f64>,
+    /// Where a truth is known.
+    pub errors: Option<Errors>,
+}
+
+/// One method and its outcome, or why it cannot run, in one line.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Entry {
+    /// The method.
+    pub method: Method,
+    /// Its outcome.
+    pub outcome: Result<Applied, String>,
+}
+
+/// All methods on one set of runs.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SideBySide {
+    /// How the complex modes were found, in words; empty where there are none.
+    pub modes_from: String,
+    /// The complex modes at all DOFs.
+    pub modal: Option<ModalData>,
+    /// The stabilisation diagram, where lines were enough.
+    pub extraction: Option<Extraction>,
+    /// Every method.
+    pub entries: Vec<Entry>,
+    /// The known truth, where sources of state reference or known are viscous.
+    pub reference: Option<Mat<f64>>,
+    /// Standard deviation of each mode's ratio between the methods over its mean, `(mode, spread)`.
+    pub spread: Vec<(usize, f64)>,
+}
+
+/// What the methods work on.
+pub(super) struct Data<'a> {
+    structure: &'a Structure,
+    matrices: &'a SystemMatrices,
+    pub(super) model: Modes,
+    sources: &'a [Source],
+    pub(super) runs: &'a [Run],
+    pub(super) responses: Option<FrequencyResponses>,
+    receptance: Option<ReceptanceData>,
+    modal: Result<ModalData, String>,
+}
+
+/// Applies every method.
+///
+/// # Errors
+/// [`ClassicalError::Missing`] for a structure without matrices; [`ClassicalError::Cancelled`].
+pub fn side_by_side(
+    structure: &Structure,
+    sources: &[Source],
+    runs: &[Run],
+    control: &Control,
+) -> Result<SideBySide, ClassicalError> {
+    let Some(matrices) = structure.matrices() else {
+        let what = "mass and stiffness matrices: the classical methods work on a model".to_string();
+        return Err(ClassicalError::Missing { what });
+    };
+    let model = structure.modes()?;
+    let responses = FrequencyResponses::from_runs(runs);
+    let (extraction, modal, modes_from) = complex_modes(matrices, &model, responses.as_ref(), control)?;
+    let receptance = responses.as_ref().and_then(|r| r.full(structure.len()));
+    let data = Data { structure, matrices, model, sources, runs, responses, receptance, modal };
+    let reference = reference(structure, sources);
+    let truth = match &reference {
+        Some(c) => Some((c, damped_modes_from(&data.model, c.as_ref())?)),
+        None => None,
+    };
+    let mut entries = Vec::new();
+    for (k, method) in Method::ALL.into_iter().enumerate() {
+        control.check()?;
+        control.report(0.5 + 0.5 * k as f64 / Method::ALL.len() as f64);
+        let outcome = data.apply(method).and_then(|applied| data.judged(applied, truth.as_ref()));
+        entries.push(Entry { method, outcome: outcome.map_err(|error| error.to_string()) });
+    }
+    let spread = spread(&entries, data.model.len());
+    Ok(SideBySide { modes_from, modal: data.modal.ok(), extraction, entries, reference, spread })
+}
+
+/// `C` of the reference and known viscous sources; `None` without a reference.
+fn reference(structure: &Structure, sources: &[Source]) -> Option<Mat<f64>> {
+    let acting: Vec<Source> =
+        sources.iter().filter(|s| matches!(s.state, State::Reference | State::Known)).cloned().collect();
+    let any = sources.iter().any(|s| s.state == State::Reference);
+    let all = LinearMatrices::new(structure, &acting).ok()?;
+    (any && all.others.is_empty() && all.viscous.norm_max() > 0.0).then_some(all.viscous)
+}
+
+/// Complex modes: from many lines by the poly-reference estimator, else from runs near the resonances.
+type Found = (Option<Extraction>, Result<ModalData, String>, String);
+
+fn complex_modes(
+    matrices: &SystemMatrices,
+    model: &Modes,
+    responses: Option<&FrequencyResponses>,
+    control: &Control,
+) -> Result<Found, ClassicalError> {
+    let Some(responses) = responses else {
+        return Ok((None, Err("needs runs with one exciter each".to_string()), String::new()));
+    };
+    match extract(responses, control) {
+        Ok(extraction) if !extraction.modes.is_empty() => {
+            let at_sensors = extraction.modal_data(responses);
+            let full = expanded(model, responses, &at_sensors)?;
+            let words = format!("{} modes by the poly-reference estimator", full.len());
+            return Ok((Some(extraction), Ok(full), words));
+        }
+        Err(ClassicalError::Cancelled) => return Err(ClassicalError::Cancelled),
+        _ => {}
+    }
+    Ok(match resonant::from_runs(matrices, model, responses) {
+        Ok(modal) => {
+            let words = format!("{} modes from runs near the resonances, with the model's help", modal.len());
+            (None, Ok(modal), words)
+        }
+        Err(error) => (None, Err(error.to_string()), String::new()),
+    })
+}
+
+/// Shapes at all DOFs.
+fn expanded(model: &Modes, responses: &FrequencyResponses, modal: &ModalData) -> Result<ModalData, ClassicalError> {
+    let mut shapes = Vec::new();
+    for (p, pole) in modal.poles.iter().enumerate() {
+        let values = super::linear::column(modal.shapes.as_ref(), p);
+        let r = model.nearest(pole.norm()).unwrap_or(p);
+        shapes.push(resonant::expanded(model, &responses.sensors, &values, r)?);
+    }
+    let n = model.shapes.nrows();
+    let full = filled_complex(n, shapes.len(), |i, p| shapes[p][i]);
+    Ok(ModalData { poles: modal.poles.clone(), shapes: full, scaled: modal.scaled })
+}
+
+pub(super) fn missing<T>(what: impl Into<String>) -> Result<T, ClassicalError> {
+    Err(ClassicalError::Missing { what: what.into() })
+}
+
+impl Data<'_> {
+    fn apply(&self, method: Method) -> Result<Applied, ClassicalError> {
+        let (m, k) = (self.matrices.mass.as_ref(), self.matrices.stiffness.as_ref());
+        let damping = match method {
+            Method::LogDecrement => return missing("a free decay; the runs are steady states"),
+            Method::HalfPower => return self.half_power(),
+            Method::CircleFit => return self.circle_fit(),
+            Method::HysteresisLoop => return self.loops(),
+            Method::EnergySingle => return self.energy_single(),
+            Method::Chen => super::chen::chen(self.receptance()?)?,
+            Method::LeeKim => super::lee_kim::lee_kim(self.receptance()?)?,
+            Method::LeeKimViscous => super::lee_kim::lee_kim_viscous(self.receptance()?)?,
+            Method::Instrumental => super::instrumental::instrumental(self.receptance()?)?.damping,
+            Method::Fritzen => super::fritzen::fritzen(&self.loads()?)?.damping,
+            Method::Lancaster => super::lancaster::lancaster(m, self.modal()?)?,
+            Method::PilkeyInmanIterative => super::pilkey_inman::iterative(m, self.modal()?)?,
+            Method::PilkeyInmanDirect => super::pilkey_inman::direct(m, k, self.modal()?)?,
+            Method::Ibrahim => super::ibrahim::ibrahim(m, &self.model, self.modal()?)?,
+            Method::MinasInman => super::minas_inman::minas_inman(m, k, self.modal()?)?,
+            Method::AdhikariWoodhouse => return self.perturbation(),
+            Method::AdhikariWoodhouseSymmetric => super::adhikari_woodhouse::symmetric(m, self.modal()?)?,
+            Method::FrfInverse => super::frf_inverse::frf_inverse(&self.model, self.modal()?)?,
+            Method::Liang => self.liang()?,
+            Method::PhaniWoodhouse => self.phani_woodhouse()?,
+        };
+        Ok(Applied { damping: Some(damping), ratios: Vec::new(), eps_p: None, errors: None })
+    }
+
+    pub(super) fn modal(&self) -> Result<&ModalData, ClassicalError> {
+        match &self.modal {
+            Ok(modal) => Ok(modal),
+            Err(why) => missing(format!("complex modes, which {why}")),
+        }
+    }
+
+    pub(super) fn responses(&self) -> Result<&FrequencyResponses, ClassicalError> {
+        self.responses.as_ref().map_or_else(|| missing("runs with one exciter each"), Ok)
+    }
+
+    fn receptance(&self) -> Result<&ReceptanceData, ClassicalError> {
+        let n = self.structure.len();
+        let (sensors, drives) = self.responses.as_ref().map_or((0, 0), |r| (r.sensors.len(), r.drives.len()));
+        self.receptance.as_ref().map_or_else(
+            || missing(format!("the full receptance matrix: {drives} of {n} DOFs are driven, {sensors} measured")),
+            Ok,
+        )
+    }
+
+    fn loads(&self) -> Result<Vec<super::LoadCase>, ClassicalError> {
+        let (n, responses) = (self.structure.len(), self.responses()?);
+        let measured = responses.sensors.len();
+        responses.loads(n).map_or_else(|| missing(format!("a sensor at every DOF: {measured} of {n} are measured")), Ok)
+    }
+
+    fn perturbation(&self) -> Result<Applied, ClassicalError> {
+        let (m, modal) = (self.matrices.mass.as_ref(), self.modal()?);
+        let damping = super::adhikari_woodhouse::original(m, modal)?;
+        let eps_p = super::adhikari_woodhouse::projection_error(m, modal)?;
+        Ok(Applied { damping: Some(damping), ratios: Vec::new(), eps_p: Some(eps_p), errors: None })
+    }
+
+    /// The motion of all DOFs by the model, and the candidates as the pattern.
+    fn liang(&self) -> Result<Damping, ClassicalError> {
+        let columns: Vec<Source> = self
+            .sources
+            .iter()
+            .filter(|s| matches!(s.state, State::Candidate | State::Forced) && s.effect.dissipates())
+            .filter(|s| s.effect.coefficient().is_some())
+            .cloned()
+            .collect();
+        let complete = self.responses.as_ref().is_some_and(|r| r.sensors.len() == self.structure.len());
+        if !complete {
+            return missing("a sensor at every DOF: an expanded motion passes no energy between DOFs");
+        }
+        let top = self.runs.iter().map(|run| 8.0 * run.fit.omega).fold(0.0, f64::max);
+        let wrong = |error: crate::balance::BalanceError| ClassicalError::Missing { what: error.to_string() };
+        let expander = Expander::new(self.structure, Expansion::None, top).map_err(wrong)?;
+        let mut runs = Vec::new();
+        for run in self.runs.iter().filter(|run| run.enabled) {
+            let measured = Measured::new(run).map_err(wrong)?;
+            let motion = expander.expand(&measured, Acting::NOTHING).map_err(wrong)?;
+            runs.push((measured, motion));
+        }
+        Ok(super::liang::liang(self.structure, &runs, &columns)?.damping)
+    }
+
+    fn phani_woodhouse(&self) -> Result<Damping, ClassicalError> {
+        let receptance = self.receptance()?;
+        let modal = self.modal()?;
+        let ratios: Vec<f64> = (0..modal.len()).map(|p| modal.damping_ratio(p)).collect();
+        super::phani_woodhouse::phani_woodhouse(receptance, &self.model, &ratios)
+    }
+
+    /// Ratios of the matrix, and errors where the truth is known.
+    fn judged(
+        &self,
+        mut applied: Applied,
+        truth: Option<&(&Mat<f64>, Vec<DampedMode>)>,
+    ) -> Result<Applied, ClassicalError> {
+        let Some(damping) = &applied.damping else { return Ok(applied) };
+        let c = crate::math::eigen::symmetrised(damping.viscous.as_ref());
+        let modes = damped_modes_from(&self.model, c.as_ref())?;
+        applied.ratios = modes
+            .iter()
+            .filter(|mode| mode.lambda.im > 0.0)
+            .enumerate()
+            .map(|(mode, m)| Ratio { mode, frequency_hz: m.frequency_hz, ratio: m.damping_ratio })
+            .collect();
+        if let Some((known, exact)) = truth {
+            let (m, k) = (self.matrices.mass.as_ref(), self.matrices.stiffness.as_ref());
+            let mac = errors::generalised_mac(m, k, (&modes, c.as_ref()), (exact, known.as_ref()));
+            let count = self.modal.as_ref().map_or(exact.len(), ModalData::len).min(modes.len()).min(exact.len());
+            let relative = |p: usize| (modes[p].damping_ratio / exact[p].damping_ratio - 1.0).powi(2);
+            let mean = (0..count).filter(|&p| exact[p].damping_ratio > 1e-9).map(relative).sum::<f64>() / count as f64;
+            applied.errors = Some(Errors {
+                eps_c: errors::matrix_error(known.as_ref(), damping.viscous.as_ref()),
+                mac: errors::mac_error(mac.as_ref()).norm_max(),
+                ratios: 100.0 * mean.sqrt(),
+            });
+        }
+        Ok(applied)
+    }
+}
+
+/// Standard deviation over mean of each mode's ratio between methods, where two methods or more give one.
+fn spread(entries: &[Entry], modes: usize) -> Vec<(usize, f64)> {
+    (0..modes)
+        .filter_map(|mode| {
+            let of =
+                |entry: &Entry| entry.outcome.as_ref().ok()?.ratios.iter().find(|r| r.mode == mode).map(|r| r.ratio);
+            let values: Vec<f64> = entries.iter().filter_map(of).collect();
+            let mean = crate::math::statistics::mean(&values);
+            let deviation = crate::math::statistics::standard_deviation(&values);
+            (values.len() >= 2 && mean != 0.0).then(|| (mode, deviation / mean.abs()))
+        })
+        .collect()
+}

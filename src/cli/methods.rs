@@ -1,0 +1,145 @@
+//! `dashpot methods`: every classical method that the data allow, beside the reference where one is known.
+
+use super::arguments::Analysis;
+use super::table::{digits, number, table};
+use crate::classical::side_by_side::{Applied, Entry, SideBySide, side_by_side};
+use crate::control::Control;
+use crate::exchange::Project;
+use crate::exchange::project::load;
+use anyhow::Context;
+use faer::Mat;
+use serde_json::{Map, Value, json};
+
+/// Ratios printed a method; `--json` has all.
+const MOST_MODES: usize = 6;
+/// DOFs up to which matrices are printed; `--json` has all.
+const MOST_DOFS: usize = 8;
+
+pub(super) fn run(arguments: &Analysis) -> anyhow::Result<String> {
+    let control = Control::unattended();
+    let project = load(&arguments.file, &control)?;
+    let found = side_by_side(&project.structure, &project.sources, &project.runs, &control)
+        .with_context(|| arguments.file.display().to_string())?;
+    Ok(if arguments.json { format!("{:#}\n", document(&project, &found)) } else { report(&project, &found) })
+}
+
+fn report(project: &Project, found: &SideBySide) -> String {
+    let mut text = format!("{}\n\n", project.title);
+    if !found.modes_from.is_empty() {
+        text += &format!("Complex modes: {}\n\n", found.modes_from);
+    }
+    let shown = found.entries.iter().filter_map(|e| e.outcome.as_ref().ok()).map(|a| a.ratios.len()).max();
+    let count = shown.unwrap_or(0).min(MOST_MODES);
+    let mut head: Vec<String> = ["method", "eps_C %", "eps_p %", "MAC error"].map(str::to_owned).to_vec();
+    head.extend((1..=count).map(|mode| format!("zeta {mode} %")));
+    let mut rows = vec![head];
+    rows.extend(found.entries.iter().filter_map(|e| Some(row(e, e.outcome.as_ref().ok()?, count))));
+    let mut last = vec!["spread of the methods, %".to_owned(), String::new(), String::new(), String::new()];
+    last.extend((0..count).map(|mode| {
+        let one = found.spread.iter().find(|(m, _)| *m == mode);
+        one.map_or("-".to_owned(), |(_, s)| digits(100.0 * s, 3))
+    }));
+    rows.push(last);
+    text += &format!("Methods\n{}\n", table(&rows));
+    text += &notes(found);
+    text += &matrices(project, found);
+    text += "Cannot run\n";
+    for entry in &found.entries {
+        if let Err(why) = &entry.outcome {
+            text += &format!("  {}: {why}\n", entry.method.title());
+        }
+    }
+    text
+}
+
+fn row(entry: &Entry, applied: &Applied, count: usize) -> Vec<String> {
+    let optional = |value: Option<f64>| value.map_or("-".to_owned(), number);
+    let mut cells = vec![
+        entry.method.title().to_owned(),
+        optional(applied.errors.map(|e| e.eps_c)),
+        optional(applied.eps_p),
+        optional(applied.errors.map(|e| e.mac)),
+    ];
+    let ratio = |mode: usize| applied.ratios.iter().find(|r| r.mode == mode).map(|r| 100.0 * r.ratio);
+    cells.extend((0..count).map(|mode| optional(ratio(mode))));
+    cells
+}
+
+fn notes(found: &SideBySide) -> String {
+    let of = |entry: &Entry| -> Vec<String> {
+        let damping = entry.outcome.as_ref().ok().and_then(|applied| applied.damping.as_ref());
+        damping
+            .map(|d| d.notes.iter().map(|note| format!("  {}: {note}\n", entry.method.title())).collect())
+            .unwrap_or_default()
+    };
+    let lines: Vec<String> = found.entries.iter().flat_map(of).collect();
+    if lines.is_empty() { String::new() } else { format!("Remarks\n{}\n", lines.concat()) }
+}
+
+fn matrices(project: &Project, found: &SideBySide) -> String {
+    if project.structure.len() > MOST_DOFS {
+        return String::new();
+    }
+    let print = |title: &str, c: &Mat<f64>| {
+        let labels = project.structure.dofs().iter().map(|dof| dof.label.clone());
+        let mut rows = vec![std::iter::once("C, N s/m".to_owned()).chain(labels.clone()).collect::<Vec<_>>()];
+        for (i, label) in labels.enumerate() {
+            rows.push(std::iter::once(label).chain((0..c.ncols()).map(|j| number(c[(i, j)]))).collect());
+        }
+        format!("{title}\n{}\n", table(&rows))
+    };
+    let one = |entry: &Entry| -> Option<String> {
+        let damping = entry.outcome.as_ref().ok()?.damping.as_ref()?;
+        Some(print(entry.method.title(), &damping.viscous))
+    };
+    let reference = found.reference.as_ref().map(|c| print("Reference", c));
+    reference.into_iter().chain(found.entries.iter().filter_map(one)).collect()
+}
+
+fn document(project: &Project, found: &SideBySide) -> Value {
+    let labels: Vec<&str> = project.structure.dofs().iter().map(|dof| dof.label.as_str()).collect();
+    let spread = found.spread.iter().map(|(mode, spread)| json!({"mode": mode + 1, "relative_deviation": spread}));
+    json!({
+        "title": project.title,
+        "dofs": labels,
+        "modes_from": found.modes_from,
+        "reference": found.reference.as_ref().map(rows),
+        "methods": found.entries.iter().map(entry).collect::<Vec<_>>(),
+        "spread": spread.collect::<Vec<_>>(),
+    })
+}
+
+fn entry(entry: &Entry) -> Value {
+    let [name, needs, limits] = entry.method.words();
+    let mut map = Map::new();
+    map.insert("method".into(), json!(entry.method));
+    map.insert("name".into(), json!(name));
+    map.insert("needs".into(), json!(needs));
+    map.insert("limits".into(), json!(limits));
+    match &entry.outcome {
+        Err(why) => {
+            map.insert("ran".into(), json!(false));
+            map.insert("reason".into(), json!(why));
+        }
+        Ok(applied) => {
+            map.insert("ran".into(), json!(true));
+            let ratio = |r: &crate::classical::side_by_side::Ratio| json!({"mode": r.mode + 1, "frequency_hz": r.frequency_hz, "damping_ratio": r.ratio});
+            map.insert("modes".into(), applied.ratios.iter().map(ratio).collect());
+            if let Some(damping) = &applied.damping {
+                map.insert("viscous".into(), rows(&damping.viscous));
+                map.insert("structural".into(), json!(damping.structural.as_ref().map(rows)));
+                map.insert("notes".into(), json!(damping.notes));
+            }
+            map.insert("eps_c_percent".into(), json!(applied.errors.map(|e| e.eps_c)));
+            map.insert("eps_p_percent".into(), json!(applied.eps_p));
+            map.insert("mac_error".into(), json!(applied.errors.map(|e| e.mac)));
+            map.insert("ratio_error_percent".into(), json!(applied.errors.map(|e| e.ratios)));
+        }
+    }
+    Value::Object(map)
+}
+
+fn rows(matrix: &Mat<f64>) -> Value {
+    let row = |i: usize| (0..matrix.ncols()).map(|j| matrix[(i, j)]).collect::<Vec<_>>();
+    json!((0..matrix.nrows()).map(row).collect::<Vec<_>>())
+}
