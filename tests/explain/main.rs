@@ -8,6 +8,8 @@ mod hidden;
 mod random;
 #[path = "../../examples/hidden_effects/records.rs"]
 mod records;
+mod robust;
+mod samples;
 #[path = "../../examples/hidden_effects/sizing.rs"]
 mod sizing;
 #[path = "../../examples/hidden_effects/specimen.rs"]

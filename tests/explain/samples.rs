@@ -1,0 +1,43 @@
+//! The samples with a hidden effect: what is named is what their truth holds.
+
+use dashpot::control::Control;
+use dashpot::effects::{Effect, Place};
+use dashpot::exchange::project::load;
+use dashpot::explain::Problem;
+use dashpot::explain::diagnose::{Diagnosis, Verdict, diagnose};
+use std::path::Path;
+
+fn diagnosis(name: &str) -> Diagnosis {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("sample-data").join(name).join("project.toml");
+    let control = Control::unattended();
+    let project = load(&path, &control).unwrap();
+    let problem = Problem { structure: &project.structure, sources: &project.sources, runs: &project.runs };
+    diagnose(&problem, &control).unwrap()
+}
+
+fn is_named(name: &str, effect: Effect, place: &Place, value: f64) {
+    let diagnosis = diagnosis(name);
+    let first = &diagnosis.suggestions[0].added;
+    assert_eq!((first.source.effect, &first.source.place), (effect, place), "{name}");
+    assert!((first.source.parameters[0] / value - 1.0).abs() < 0.01, "{name}: {:?}", first.source.parameters);
+    assert_eq!(diagnosis.verdict, Verdict::Missing);
+    let last = &diagnosis.steps[diagnosis.steps.len() - 1];
+    assert!(last.error < 1.2 * diagnosis.noise_floor, "{name}: {} above {}", last.error, diagnosis.noise_floor);
+}
+
+#[test]
+fn friction_of_the_cantilever() {
+    is_named("cantilever-friction", Effect::Coulomb, &Place::Dofs(vec![12]), 0.15);
+    let before = diagnosis("cantilever-friction").error_before;
+    assert!((0.1..0.6).contains(&before), "{before}");
+}
+
+#[test]
+fn hardening_spring_of_the_five_masses() {
+    is_named("five-masses-cubic", Effect::CubicStiffness, &Place::Dofs(vec![1]), 3e9);
+}
+
+#[test]
+fn late_accelerometer() {
+    is_named("cantilever-late-sensor", Effect::Delay, &Place::Channel("acc@9".into()), 1.2e-4);
+}
