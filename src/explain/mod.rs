@@ -34,6 +34,7 @@ mod points_balance;
 mod points_search;
 pub mod predict;
 pub mod prints;
+mod reach;
 pub mod refit;
 mod search;
 pub mod shapes;

@@ -59,15 +59,9 @@ pub(crate) struct Base<'a> {
     pub noise: Vec<Whitening>,
 }
 
-/// Least squared residual that free forces leave.
-pub(crate) struct Reach {
-    pub single: f64,
-    pub pair: f64,
-}
-
 /// The residual of a model seen from every place.
-struct View<'a> {
-    screen: Screen,
+pub(super) struct View<'a> {
+    pub(super) screen: Screen,
     receptances: Receptances<'a>,
     predictions: Vec<RunPrediction>,
 }
@@ -115,7 +109,7 @@ impl<'a> Base<'a> {
     }
 
     /// The residual of the known model, or of a fit, seen from every place.
-    fn view<'b>(&'b self, predictor: &'b Predictor, of: Option<&Refit>) -> Result<View<'b>, ExplainError> {
+    pub(super) fn view<'b>(&'b self, predictor: &'b Predictor, of: Option<&Refit>) -> Result<View<'b>, ExplainError> {
         let effects = of.map_or(&[][..], |refit| &refit.effects);
         let mut receptances = Receptances::new(predictor, self.data, effects);
         let bench = Bench { predictor, ..self.bench() };
@@ -132,13 +126,6 @@ impl<'a> Base<'a> {
         let (data, noise) = (self.data, &self.noise);
         let screen = Screen::new(predictor, data, &predictions, noise, &mut receptances, &freedom, self.control)?;
         Ok(View { screen, receptances, predictions })
-    }
-
-    /// How little free forces at one place, or at two, leave of the squared residual.
-    pub fn reach(&self) -> Result<Reach, ExplainError> {
-        let view = self.view(self.predictor, None)?;
-        let least = |placings: Vec<Placing>| placings.first().map_or(f64::INFINITY, |p| p.chi_square);
-        Ok(Reach { single: least(view.screen.singles()), pair: least(view.screen.pairs(1)) })
     }
 
     /// Sets of the effects of `from` and one more, fitted on the response, best first by evidence.

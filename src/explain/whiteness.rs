@@ -161,7 +161,7 @@ mod tests {
     #[test]
     fn a_mean_or_a_size_of_one_group_is_seen() {
         for seed in 0..20 {
-            assert!(sample(seed, |_| 1.0, |g| if g == 2 { 2.0 } else { 0.0 }).probability < 1e-3);
+            assert!(sample(seed, |_| 1.0, |g| if g == 2 { 3.0 } else { 0.0 }).probability < 1e-3);
             assert!(sample(seed, |g| if g == 1 { 4.0 } else { 1.0 }, |_| 0.0).probability < 1e-3);
         }
     }

@@ -96,7 +96,7 @@ mod tests {
     const CHAIN: &str = "[project]\nformat = 1\ntitle = \"Chain\"\n[structure]\nkind = \"chain\"\nmasses = [1.0, 2.0]\n\
                          ground_stiffness = [100.0, 0.0]\ncoupling_stiffness = [50.0]\n\
                          [[harmonics]]\nfile = \"h.csv\"\n";
-    const HARMONICS: &str = "run,frequency_hz,channel,harmonic,cos,sin\na,2.0,force@1 [N],1,1.0,0.0\n\
+    const HARMONICS: &str = "run,frequency_hz,channel,harmonic,cos,sin\na,2.0,force@1 [N],1,1.0,0.0\na,2.0,force@1 [N],2,0.0,0.0\n\
                              a,2.0,acc@2 [m/s^2],1,0.3,-0.4\na,2.0,acc@2 [m/s^2],2,0.01,0.02\n";
 
     fn document() -> (tempfile::TempDir, Document) {

@@ -1,13 +1,14 @@
 //! The application: one document, what is derived from it, what is looked at; every frame reads and asks.
 
-use super::commands::{self, Command};
+pub use super::ask::{Ask, Message};
+use super::commands;
 use super::derived::Derived;
 use super::document::{Applied, Document};
 use super::edits::Edit;
 use super::files::{self, Pick};
 use super::frame;
 use super::frame::dock::Desk;
-use super::frame::leave::{Changes, Leave};
+use super::frame::leave::Leave;
 use super::frame::panes::Pane;
 use super::photograph::Photograph;
 use super::plots::export::Exports;
@@ -24,48 +25,6 @@ use std::path::{Path, PathBuf};
 
 /// Longest wait for a piece of work where nobody can cancel.
 const LONGEST: std::time::Duration = std::time::Duration::from_mins(10);
-
-/// A message that stays until it is closed.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Message {
-    /// What happened.
-    pub text: String,
-    /// Whether something failed.
-    pub failed: bool,
-}
-
-/// What a pane may ask for.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Ask {
-    /// A command of the table.
-    Command(Command),
-    /// A change of the document.
-    Edit(Edit),
-    /// A project file.
-    Open(PathBuf),
-    /// A new project from a template, by its number.
-    New(usize),
-    /// Records to append.
-    Import(Vec<PathBuf>),
-    /// Another name for the project.
-    SaveAs(PathBuf),
-    /// What was identified in a format; where to, is asked.
-    ExportAs(Format),
-    /// What was identified, to a file.
-    Export(Format, PathBuf),
-    /// A stage.
-    Stage(Stage),
-    /// Something on the schematic.
-    Schematic(Intent),
-    /// What becomes of unsaved changes.
-    Leave(Changes),
-    /// Open or close a pane of the stage.
-    Pane(Pane, bool),
-    /// Something in the stage Explain.
-    Explain(stages::explain::Deed),
-    /// Close the message.
-    Dismiss,
-}
 
 /// The whole window.
 #[derive(Debug, Default)]

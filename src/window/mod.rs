@@ -4,6 +4,7 @@ mod act;
 pub mod additions;
 pub mod app;
 pub mod arguments;
+pub mod ask;
 pub mod commands;
 pub mod derived;
 pub mod document;

@@ -1,0 +1,53 @@
+//! What panes ask the window for, and what it answers.
+
+use super::commands::Command;
+use super::edits::Edit;
+use super::frame::leave::Changes;
+use super::frame::panes::Pane;
+use super::schematic::gesture::Intent;
+use super::stages;
+use super::view::Stage;
+use crate::exchange::export::Format;
+use std::path::PathBuf;
+
+/// A message that stays until it is closed.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Message {
+    /// What happened.
+    pub text: String,
+    /// Whether something failed.
+    pub failed: bool,
+}
+
+/// What a pane may ask for.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Ask {
+    /// A command of the table.
+    Command(Command),
+    /// A change of the document.
+    Edit(Edit),
+    /// A project file.
+    Open(PathBuf),
+    /// A new project from a template, by its number.
+    New(usize),
+    /// Records to append.
+    Import(Vec<PathBuf>),
+    /// Another name for the project.
+    SaveAs(PathBuf),
+    /// What was identified in a format; where to, is asked.
+    ExportAs(Format),
+    /// What was identified, to a file.
+    Export(Format, PathBuf),
+    /// A stage.
+    Stage(Stage),
+    /// Something on the schematic.
+    Schematic(Intent),
+    /// What becomes of unsaved changes.
+    Leave(Changes),
+    /// Open or close a pane of the stage.
+    Pane(Pane, bool),
+    /// Something in the stage Explain.
+    Explain(stages::explain::Deed),
+    /// Close the message.
+    Dismiss,
+}
