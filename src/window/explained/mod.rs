@@ -19,6 +19,9 @@ use model::Key;
 use shelf::{Kept, Shelf};
 use std::sync::Arc;
 
+/// Error beyond which a model lacks its damping altogether, and the search waits until it is asked for.
+pub const HOPELESS: f64 = 10.0;
+
 /// A model with or without an effect on trial.
 pub type Tried = (Key, Option<Source>);
 
@@ -27,6 +30,8 @@ pub type Tried = (Key, Option<Source>);
 pub struct Wanted {
     /// Whether suggestions are wanted.
     pub diagnosis: bool,
+    /// Whether even for a model that is far from the data.
+    pub anyway: bool,
     /// The effect on trial.
     pub trial: Option<Source>,
     /// The suggestion whose fingerprint is shown.
@@ -111,7 +116,7 @@ impl Explained {
         self.comparisons.want(ctx, &tried, || compare_job(p, None));
         let Some(Ok(comparison)) = self.comparisons.get(&tried) else { return };
         self.ledger.visit(&key, document.session().document(), comparison);
-        if wanted.diagnosis {
+        if wanted.diagnosis && (wanted.anyway || comparison.error <= HOPELESS) {
             self.diagnoses.want(ctx, &key, || {
                 let p = Arc::clone(p);
                 move |control: &Control| explain::diagnose(&problem(&p), control).map_err(|e| e.to_string())

@@ -9,6 +9,7 @@ use crate::explain::Diagnosis;
 use crate::explain::diagnose::{Suggestion, Verdict};
 use crate::explain::tuning::Knob;
 use crate::window::app::Ask;
+use crate::window::explained::HOPELESS;
 use crate::window::explained::model::at;
 use crate::window::format;
 use crate::window::theme::{self, size, space};
@@ -42,6 +43,13 @@ pub fn show(ui: &mut Ui, scene: &Scene<'_>, look: &mut Look, asks: &mut Vec<Ask>
                 asks.push(Ask::Explain(Deed::Retry));
             }
         }
+        None if far_off(scene) && !look.anyway => {
+            ui.label("The model is wrong by > 1000 %: at these frequencies hardly anything in it takes out energy.");
+            ui.hint("Give it the damping that is known, or take over what was identified; then its errors say something.");
+            if ui.button("Search anyway").clicked() {
+                asks.push(Ask::Explain(Deed::Search));
+            }
+        }
         None => {
             ui.horizontal(|ui| {
                 ui.spinner();
@@ -63,6 +71,12 @@ pub fn show(ui: &mut Ui, scene: &Scene<'_>, look: &mut Look, asks: &mut Vec<Ask>
             });
         }
     }
+}
+
+/// Whether the model is so far from the data that it lacks its damping altogether.
+fn far_off(scene: &Scene<'_>) -> bool {
+    let comparison = scene.explained.comparison(scene.document).and_then(|c| c.as_ref().ok());
+    comparison.is_some_and(|c| c.error > HOPELESS)
 }
 
 /// The verdict as a sentence.

@@ -51,13 +51,15 @@ pub struct Look {
     pub trial: Option<Source>,
     /// Whether the worst cell was chosen already; afterwards the user chooses.
     pub chosen: bool,
+    /// Whether to search though the model is far from the data.
+    pub anyway: bool,
     /// Effects that the user has ruled out.
     pub excluded: Vec<Source>,
 }
 
 impl Default for Look {
     fn default() -> Self {
-        Self { worst_first: true, tab: Tab::default(), open: None, trial: None, chosen: false, excluded: Vec::new() }
+        Self { worst_first: true, tab: Tab::default(), open: None, trial: None, chosen: false, anyway: false, excluded: Vec::new() }
     }
 }
 

@@ -49,6 +49,8 @@ pub enum Deed {
     TakeOver,
     /// Start it again.
     Retry,
+    /// Search though the model is far from the data.
+    Search,
 }
 
 /// What the panes read.
@@ -68,7 +70,7 @@ pub fn wanted(document: &Document, view: &View, explained: &Explained) -> Wanted
     let found = explained.diagnosis(document).and_then(|d| d.as_ref().ok());
     let print = found.and_then(|d| cards::open(d, look)).map(|s| s.added.source.clone());
     let curve = (look.tab == look::Tab::Frequency).then_some(view.run);
-    Wanted { diagnosis: true, trial: look.trial.clone(), print, curve }
+    Wanted { diagnosis: true, anyway: look.anyway, trial: look.trial.clone(), print, curve }
 }
 
 /// Does what was asked for.
@@ -92,6 +94,7 @@ pub fn answer(app: &mut App, ctx: &Context, deed: Deed) {
         Deed::Return(step) => go_back(app, step),
         Deed::TakeOver => take_over(app, ctx),
         Deed::Retry => app.derived.explained.retry(),
+        Deed::Search => app.view.explain.anyway = true,
     }
 }
 
