@@ -45,7 +45,9 @@ pub fn show(ui: &mut Ui, scene: &Scene<'_>, look: &mut Look, asks: &mut Vec<Ask>
         }
         None if far_off(scene) && !look.anyway => {
             ui.label("The model is wrong by > 1000 %: at these frequencies hardly anything in it takes out energy.");
-            ui.hint("Give it the damping that is known, or take over what was identified; then its errors say something.");
+            ui.hint(
+                "Give it the damping that is known, or take over what was identified; then its errors say something.",
+            );
             if ui.button("Search anyway").clicked() {
                 asks.push(Ask::Explain(Deed::Search));
             }

@@ -59,7 +59,15 @@ pub struct Look {
 
 impl Default for Look {
     fn default() -> Self {
-        Self { worst_first: true, tab: Tab::default(), open: None, trial: None, chosen: false, anyway: false, excluded: Vec::new() }
+        Self {
+            worst_first: true,
+            tab: Tab::default(),
+            open: None,
+            trial: None,
+            chosen: false,
+            anyway: false,
+            excluded: Vec::new(),
+        }
     }
 }
 
