@@ -160,9 +160,7 @@ impl App {
             return;
         }
         self.work.cancel();
-        if let Some(document) = &self.document {
-            self.derived.cancel(document);
-        }
+        self.derived.cancel();
         self.say("Cancelled.".to_owned());
     }
 

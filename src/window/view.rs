@@ -52,6 +52,8 @@ pub struct View {
     pub run: usize,
     /// Selected channel of the run.
     pub channel: usize,
+    /// Whether the records of all channels are shown under each other.
+    pub every_channel: bool,
     /// Selected mode.
     pub mode: usize,
     /// Step of the selection that is looked at; `None` is the accepted one.
@@ -96,6 +98,7 @@ impl Default for View {
             stage: Stage::Measure,
             run: 0,
             channel: 0,
+            every_channel: false,
             mode: 0,
             step: None,
             whole_matrix: false,

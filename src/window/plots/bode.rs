@@ -106,7 +106,7 @@ impl Diagram<'_> {
             .points("model", palette.model, Look::Line(1.8), model.iter().map(|&(w, h)| [w / TAU, size(h)]).collect())
             .points("measured", palette.measured, Look::Dots(4.0), at(&size))
             .deviation(points.iter().map(|p| p.deviation * size(p.value)).collect());
-        let degrees = Axis::new("Phase", "°").ticks(Ticks::RightAngles).include(&[-185.0, 185.0]);
+        let degrees = Axis::new("Phase", "°").ticks(Ticks::RightAngles).include(&[-180.0, 0.0]);
         let mut angle = Figure::new("Phase", frequency(), degrees);
         for piece in unwrapped(model.iter().map(|&(w, h)| [w / TAU, phase(h)])) {
             angle = angle.points("model", palette.model, Look::Line(1.8), piece);

@@ -80,6 +80,9 @@ pub fn area(points: &[[f64; 2]]) -> f64 {
 impl Loop {
     /// What it encloses, in words: `model 1.23 mJ, measured 1.25 mJ`.
     fn energies(&self) -> String {
+        if self.measured.is_empty() {
+            return format::prefixed(area(&self.model), "J");
+        }
         let one = |name: &str, points: &[[f64; 2]]| {
             (!points.is_empty()).then(|| format!("{name} {}", format::prefixed(area(points), "J")))
         };

@@ -1,26 +1,66 @@
 //! Long records drawn fast: minimum and maximum of blocks of samples, level over level, so that a frame touches about as
 //! many numbers as it has columns of pixels.
 
+use crate::measurement::Record;
+use std::sync::Arc;
+
 /// Samples in a block of the lowest level.
 const BLOCK: usize = 16;
 /// Blocks in a block of the next level.
 const RATIO: usize = 4;
 
+/// Where the samples are: of its own, or those of a record, which are never copied.
+#[derive(Debug, Clone, PartialEq)]
+enum Samples {
+    Own(Vec<f64>, Vec<f64>),
+    Row(Arc<Record>, usize),
+    Beside(Arc<Record>, Vec<f64>),
+}
+
+impl Samples {
+    fn time(&self) -> &[f64] {
+        match self {
+            Self::Own(time, _) => time,
+            Self::Row(record, _) | Self::Beside(record, _) => record.time(),
+        }
+    }
+
+    fn values(&self) -> &[f64] {
+        match self {
+            Self::Own(_, values) | Self::Beside(_, values) => values,
+            Self::Row(record, row) => record.samples(*row),
+        }
+    }
+}
+
 /// Extremes of blocks at every level, beside the samples themselves.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Pyramid {
-    time: Vec<f64>,
-    samples: Vec<f64>,
+    samples: Samples,
     levels: Vec<Vec<[f64; 2]>>,
 }
 
 impl Pyramid {
-    /// Builds all levels; `time` increases and is as long as `samples`.
+    /// Of samples of its own; `time` increases and is as long as `samples`.
     pub fn new(time: &[f64], samples: &[f64]) -> Self {
+        Self::build(Samples::Own(time.to_vec(), samples.to_vec()))
+    }
+
+    /// Of a row of a record.
+    pub fn of_record(record: Arc<Record>, row: usize) -> Self {
+        Self::build(Samples::Row(record, row))
+    }
+
+    /// Of other values at the times of a record.
+    pub fn beside(record: Arc<Record>, values: Vec<f64>) -> Self {
+        Self::build(Samples::Beside(record, values))
+    }
+
+    fn build(samples: Samples) -> Self {
         let extremes = |block: &[f64]| {
             block.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], &v| [low.min(v), high.max(v)])
         };
-        let mut levels: Vec<Vec<[f64; 2]>> = vec![samples.chunks(BLOCK).map(extremes).collect()];
+        let mut levels: Vec<Vec<[f64; 2]>> = vec![samples.values().chunks(BLOCK).map(extremes).collect()];
         while let Some(top) = levels.last().filter(|top| top.len() > 512) {
             let join = |block: &[[f64; 2]]| {
                 block.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], [low, high]| [a.min(*low), b.max(*high)])
@@ -28,19 +68,20 @@ impl Pyramid {
             let next = top.chunks(RATIO).map(join).collect();
             levels.push(next);
         }
-        Self { time: time.to_vec(), samples: samples.to_vec(), levels }
+        Self { samples, levels }
     }
 
     /// A polyline for the samples between `from` and `to` that looks the same as all of them on `columns` columns of pixels.
     pub fn polyline(&self, from: f64, to: f64, columns: usize) -> Vec<[f64; 2]> {
-        let first = self.time.partition_point(|&t| t < from).saturating_sub(1);
-        let last = (self.time.partition_point(|&t| t <= to) + 1).min(self.time.len());
+        let (time, samples) = (self.samples.time(), self.samples.values());
+        let first = time.partition_point(|&t| t < from).saturating_sub(1);
+        let last = (time.partition_point(|&t| t <= to) + 1).min(time.len());
         if first >= last {
             return Vec::new();
         }
         let most = 4 * columns.max(1);
         if last - first <= most {
-            return (first..last).map(|i| [self.time[i], self.samples[i]]).collect();
+            return (first..last).map(|i| [time[i], samples[i]]).collect();
         }
         let mut size = BLOCK;
         let mut level = 0;
@@ -50,7 +91,7 @@ impl Pyramid {
         }
         let block = |b: usize| {
             let [low, high] = self.levels[level][b];
-            let t = self.time[(b * size).min(self.time.len() - 1)];
+            let t = time[(b * size).min(time.len() - 1)];
             [[t, low], [t, high]]
         };
         (first / size..last.div_ceil(size)).flat_map(block).collect()
@@ -58,12 +99,14 @@ impl Pyramid {
 
     /// Least and greatest sample.
     pub fn range(&self) -> [f64; 2] {
-        self.samples.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], &v| [a.min(v), b.max(v)])
+        let top = self.levels.last().into_iter().flatten();
+        top.fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], [low, high]| [a.min(*low), b.max(*high)])
     }
 
     /// Times of the first and of the last sample.
     pub fn span(&self) -> [f64; 2] {
-        [self.time.first().copied().unwrap_or(0.0), self.time.last().copied().unwrap_or(0.0)]
+        let time = self.samples.time();
+        [time.first().copied().unwrap_or(0.0), time.last().copied().unwrap_or(0.0)]
     }
 }
 

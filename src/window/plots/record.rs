@@ -3,7 +3,7 @@
 use super::figure::{Axis, Curve, Data, Figure, Look};
 use super::show::Stack;
 use crate::measurement::ChannelFit;
-use crate::window::derived::Trace;
+use crate::window::traces::Trace;
 use crate::window::widgets::UiExt;
 use egui::Ui;
 use faer::c64;
@@ -62,6 +62,31 @@ impl RecordPlot<'_> {
         let (fit, omega, middle) = (self.fit.clone(), self.omega, 0.5 * (span[0] + span[1]));
         Data::Function(Curve(Arc::new(move |t| fitted(&fit, omega, middle, t))), span)
     }
+}
+
+/// Height of a lane below which the lanes are scrolled.
+const LANE: f32 = 64.0;
+
+/// Records of all channels of a run under each other on one axis of time.
+pub fn lanes(ui: &mut Ui, run: usize, shown: &[(&ChannelFit, Arc<Trace>)], omega: f64) {
+    let palette = ui.palette();
+    let lane = |(fit, trace): &(&ChannelFit, Arc<Trace>)| {
+        let [start, end] = trace.record.span();
+        let unit = crate::window::words::axis(fit.channel.quantity, false).rsplit(", ").next().unwrap_or("");
+        let mut figure =
+            Figure::new(&fit.channel.to_string(), Axis::new("Time", "s"), Axis::new(&fit.channel.to_string(), unit))
+                .with("measured", palette.measured, Look::Line(1.2), Data::Record(Arc::clone(&trace.record)));
+        figure.start = Some([start, (start + PERIODS * std::f64::consts::TAU / omega).min(end)]);
+        (figure, 1.0 / shown.len() as f32)
+    };
+    let figures = shown.iter().map(lane).collect();
+    let title = format!("Records of run {}", run + 1);
+    let height = (LANE * shown.len() as f32).max(ui.available_height() - 8.0);
+    egui::ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+        ui.allocate_ui(egui::vec2(ui.available_width(), height), |ui| {
+            Stack { id: &title, title: &title, figures, keys: false }.show(ui);
+        });
+    });
 }
 
 #[cfg(test)]

@@ -2,7 +2,8 @@
 //! menu copies and exports.
 
 use super::export;
-use super::figure::{Axis, Figure, Look, Series, Ticks};
+use super::figure::{Axis, Data, Figure, Look, Scale, Series, Ticks};
+use super::polyline::Polyline;
 use super::sheet::{Panel, Sheet};
 use super::{axis, curve, frame, keys, ticks};
 use crate::window::format::significant;
@@ -97,9 +98,7 @@ impl Place<'_> {
             .coordinates_formatter(Corner::RightTop, read_out(&figure.x, &figure.y))
             .set_margin_fraction(vec2(figure.margin, 0.08))
             .label_formatter(near(figure));
-        if needs_marks(&figure.x) {
-            plot = plot.x_grid_spacer(move |input| ticks::marks(&x, &input));
-        }
+        plot = plot.x_grid_spacer(move |input| ticks::marks(&x, &input));
         if needs_marks(&figure.y) {
             plot = plot.y_grid_spacer(move |input| ticks::marks(&y, &input));
         }
@@ -123,7 +122,7 @@ impl Place<'_> {
 }
 
 fn needs_marks(axis: &Axis) -> bool {
-    axis.ticks != Ticks::Auto || axis.scale == super::figure::Scale::Log
+    axis.ticks != Ticks::Auto || axis.scale == Scale::Log
 }
 
 /// The values under the pointer, in the corner.
@@ -167,10 +166,10 @@ fn series(plot: &mut PlotUi<'_>, figure: &Figure, series: &Series) {
         points.radius(radius).filled(filled).color(series.colour)
     };
     match series.look {
-        Look::Line(width) => {
-            let places = thinned(plot, places);
+        Look::Line(width) if matches!(series.data, Data::Record(_)) => {
             plot.line(curve(name, places, series.colour, width));
         }
+        Look::Line(width) => plot.add(Polyline::new(name, &places, egui::Stroke::new(width, series.colour))),
         Look::Dashed(width) => plot.line(curve(name, places, series.colour, width).style(LineStyle::dashed_dense())),
         Look::Dots(radius) => plot.points(markers(radius, true, places)),
         Look::Rings(radius) => plot.points(markers(radius, false, places)),
@@ -193,22 +192,4 @@ fn series(plot: &mut PlotUi<'_>, figure: &Figure, series: &Series) {
             plot.line(Line::new(name, vec![a, b]).color(series.colour).width(1.4).allow_hover(false));
         }
     }
-}
-
-/// Without points that fall on the last one kept: dense curves are drawn whole at steep places.
-fn thinned(plot: &PlotUi<'_>, places: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
-    const NEAR: f32 = 0.4;
-    let transform = plot.transform();
-    let seen = |p: &[f64; 2]| transform.position_from_point(&PlotPoint::new(p[0], p[1]));
-    let last = places.len().saturating_sub(1);
-    let mut kept: Vec<[f64; 2]> = Vec::with_capacity(places.len());
-    let mut before = None;
-    for (k, p) in places.into_iter().enumerate() {
-        let at = seen(&p);
-        if k == last || before.is_none_or(|b: egui::Pos2| b.distance(at) > NEAR) {
-            before = Some(at);
-            kept.push(p);
-        }
-    }
-    kept
 }

@@ -22,14 +22,16 @@ pub fn marks(axis: &Axis, input: &GridInput) -> Vec<GridMark> {
     match (&axis.ticks, axis.scale) {
         (Ticks::Auto | Ticks::Frequency, Scale::Log) => log::decades(input),
         (Ticks::Whole | Ticks::Names(_), _) => {
-            let step = ((high - low) / 24.0).ceil().max(1.0);
+            let step = (3.0 * input.base_step_size).ceil().max(((high - low) / 24.0).ceil()).max(1.0);
             multiples(low, high, step).map(|value| GridMark { value, step_size: step }).collect()
         }
         (Ticks::RightAngles, _) => {
             multiples(low, high, 90.0).map(|value| GridMark { value, step_size: 90.0 }).collect()
         }
         _ => {
-            let step = round_step((high - low).max(f64::MIN_POSITIVE), 6.0);
+            // The least step of the plot stands for eight points on the screen; a label needs about sixty.
+            let parts = ((high - low) / (8.0 * input.base_step_size)).clamp(1.5, 9.0);
+            let step = round_step((high - low).max(f64::MIN_POSITIVE), parts);
             multiples(low, high, step).map(|value| GridMark { value, step_size: step }).collect()
         }
     }
@@ -63,7 +65,7 @@ pub fn rules(axis: &Axis, [low, high]: [f64; 2], length: f32) -> Vec<Rule> {
             let step = round_step(high - low, f64::from(parts));
             multiples(low, high, step).map(|value| GridMark { value, step_size: step }).collect()
         }
-        _ => marks(axis, &GridInput { bounds: (low, high), base_step_size: (high - low) / f64::from(parts) }),
+        _ => marks(axis, &GridInput { bounds: (low, high), base_step_size: 8.0 * (high - low) / f64::from(length) }),
     };
     let log = axis.scale == Scale::Log;
     marks

@@ -3,9 +3,14 @@
 use crate::exchange::Project;
 use crate::measurement::{Quantity, Run};
 use crate::window::app::{App, Ask};
+use crate::window::background::CANCELLED;
+use crate::window::derived::Derived;
+use crate::window::document::Document;
 use crate::window::edits::Edit;
-use crate::window::plots::{record::RecordPlot, spectrum};
+use crate::window::plots::record::{self, RecordPlot};
+use crate::window::plots::spectrum;
 use crate::window::theme::space;
+use crate::window::traces::Traced;
 use crate::window::view::View;
 use crate::window::widgets::UiExt;
 use crate::window::{format, words};
@@ -34,16 +39,43 @@ pub fn record(ui: &mut Ui, app: &mut App) {
     let Some(document) = &app.document else { return };
     let r = &document.project.runs[run];
     let mut chosen = channel;
-    channels(ui, r, &mut chosen);
-    app.view.channel = chosen;
-    let (Some(fit), trace) = (r.fit.channels.get(channel), app.derived.trace(document, run, channel)) else { return };
-    let Some(trace) = trace else {
-        amplitudes(ui, r, channel);
+    let mut every = app.view.every_channel;
+    channels(ui, r, &mut chosen, &mut every);
+    (app.view.channel, app.view.every_channel) = (chosen, every);
+    if every {
+        lanes(ui, &mut app.derived, document, run);
         return;
-    };
-    let axis = words::axis(fit.channel.quantity, false);
-    let id = format!("run {} {}", run + 1, fit.channel);
-    RecordPlot { trace: &trace, fit, omega: r.fit.omega, axis, id: &id }.show(ui);
+    }
+    let Some(fit) = r.fit.channels.get(channel) else { return };
+    match app.derived.trace(ui.ctx(), document, run, channel) {
+        Traced::Absent => amplitudes(ui, r, channel),
+        Traced::Coming => ui.empty("The record is being prepared", ""),
+        Traced::Cancelled => ui.empty("There is no record to show", CANCELLED),
+        Traced::Ready(trace) => {
+            let axis = words::axis(fit.channel.quantity, false);
+            let id = format!("run {} {}", run + 1, fit.channel);
+            RecordPlot { trace: &trace, fit, omega: r.fit.omega, axis, id: &id }.show(ui);
+        }
+    }
+}
+
+/// All channels of a run under each other on one axis of time.
+fn lanes(ui: &mut Ui, derived: &mut Derived, document: &Document, run: usize) {
+    let r = &document.project.runs[run];
+    let mut shown = Vec::new();
+    for (k, fit) in r.fit.channels.iter().enumerate() {
+        match derived.trace(ui.ctx(), document, run, k) {
+            Traced::Ready(trace) => shown.push((fit, trace)),
+            Traced::Absent => {}
+            Traced::Coming => return ui.empty("The records are being prepared", ""),
+            Traced::Cancelled => return ui.empty("There are no records to show", CANCELLED),
+        }
+    }
+    if shown.is_empty() {
+        ui.empty("No time records", "This run came as fitted harmonics.");
+        return;
+    }
+    record::lanes(ui, run, &shown, r.fit.omega);
 }
 
 /// The amplitude spectrum of the same channel.
@@ -51,10 +83,12 @@ pub fn spectrum(ui: &mut Ui, app: &mut App) {
     let Some((run, channel)) = looked_at(app) else { return };
     let Some(document) = &app.document else { return };
     let r = &document.project.runs[run];
-    let trace = app.derived.trace(document, run, channel);
-    let (Some(fit), Some(trace)) = (r.fit.channels.get(channel), trace) else {
-        ui.empty("No spectrum", "This run came as fitted harmonics.");
-        return;
+    let Some(fit) = r.fit.channels.get(channel) else { return };
+    let trace = match app.derived.trace(ui.ctx(), document, run, channel) {
+        Traced::Absent => return ui.empty("No spectrum", "This run came as fitted harmonics."),
+        Traced::Coming => return ui.empty("The spectrum is being prepared", ""),
+        Traced::Cancelled => return ui.empty("There is no spectrum to show", CANCELLED),
+        Traced::Ready(trace) => trace,
     };
     let unit = words::axis(fit.channel.quantity, false).rsplit(", ").next().unwrap_or("");
     match &trace.spectrum {
@@ -71,11 +105,14 @@ fn looked_at(app: &mut App) -> Option<(usize, usize)> {
     Some((app.view.run, app.view.channel))
 }
 
-fn channels(ui: &mut Ui, run: &Run, channel: &mut usize) {
+fn channels(ui: &mut Ui, run: &Run, channel: &mut usize, every: &mut bool) {
     ui.horizontal_wrapped(|ui| {
+        if ui.selectable_label(*every, "All").on_hover_text("All channels on one axis of time.").clicked() {
+            *every = true;
+        }
         for (k, fit) in run.fit.channels.iter().enumerate() {
-            if ui.selectable_label(k == *channel, fit.channel.to_string()).clicked() {
-                *channel = k;
+            if ui.selectable_label(!*every && k == *channel, fit.channel.to_string()).clicked() {
+                (*channel, *every) = (k, false);
             }
         }
     });

@@ -1,17 +1,18 @@
 //! Pattern: the palette of laws, families at one click, the list of sources.
 
 use crate::effects::effect::Kind;
-use crate::effects::{Effect, Family, State};
+use crate::effects::{Effect, Family, Source, State};
 use crate::exchange::Project;
 use crate::window::app::{App, Ask};
 use crate::window::commands::Command;
 use crate::window::edits::Edit;
+use crate::window::plots::localisation;
 use crate::window::schematic::{paint::source_stroke, symbols};
 use crate::window::theme::{self, size, space};
 use crate::window::view::View;
 use crate::window::widgets::UiExt;
 use crate::window::words;
-use egui::{Align2, RichText, Role, ScrollArea, Sense, StrokeKind, Ui, WidgetInfo, pos2, vec2};
+use egui::{Align2, Response, RichText, Role, ScrollArea, Sense, StrokeKind, Ui, WidgetInfo, pos2, vec2};
 use egui_extras::{Column, TableBuilder};
 
 /// The palette of laws and the families of places.
@@ -142,10 +143,22 @@ fn list(ui: &mut Ui, p: &Project, view: &View, asks: &mut Vec<Ask>) -> Option<us
                 row.col(|ui| drop(ui.label(words::effect(s.effect))));
                 row.col(|ui| drop(ui.label(words::place(&p.structure, &s.place))));
                 row.col(|ui| drop(ui.pill(words::state(s.state), stroke.color)));
-                if row.response().clicked() {
+                if localised(row.response(), p, s).clicked() {
                     chosen = Some(index);
                 }
             });
         });
     chosen
+}
+
+/// A row that shows where the source under the pointer stands in the damping matrix.
+fn localised(response: Response, p: &Project, source: &Source) -> Response {
+    let legs = source.place.legs();
+    if legs.is_empty() {
+        return response;
+    }
+    response.on_hover_ui(|ui| {
+        ui.label("Where it stands in the matrix");
+        localisation::show(ui, &legs, |dof| p.structure.label(dof).to_owned());
+    })
 }

@@ -207,12 +207,13 @@ pub fn hysteresis(ui: &mut Ui, app: &mut App) {
     }
     let Some(document) = &app.document else { return };
     let run = app.view.run;
-    match app.derived.loops(document, run) {
-        Err(error) => ui.empty("There are no loops", &error),
-        Ok(loops) => {
+    match app.derived.loops(ui.ctx(), document, run) {
+        None => ui.empty("The loops are being computed", ""),
+        Some(Err(error)) => ui.empty("There are no loops", &error),
+        Some(Ok(loops)) => {
             let frequency = document.project.runs.get(run).map_or(0.0, |r| r.fit.omega / std::f64::consts::TAU);
             ui.hint(format!("Run {}, {}; arrow keys choose another", run + 1, format::with_unit(frequency, "Hz")));
-            hysteresis::show(ui, &format!("Hysteresis of run {}", run + 1), loops);
+            hysteresis::show(ui, &format!("Hysteresis of run {}", run + 1), &loops);
         }
     }
 }

@@ -1,0 +1,138 @@
+//! Records, residuals and spectra ready to be drawn, computed in the background, a channel of a run each.
+
+use super::plots::pyramid::Pyramid;
+use super::plots::record::fitted;
+use crate::control::Control;
+use crate::math::spectrum::Spectrum;
+use crate::measurement::{ChannelFit, Record, Run};
+use crate::session::jobs::Job;
+use egui::Context;
+use std::collections::{HashMap, HashSet};
+use std::f64::consts::TAU;
+use std::sync::Arc;
+
+/// Jobs at a time.
+const AT_ONCE: usize = 2;
+/// Traces that are kept.
+const KEPT: usize = 64;
+
+/// One channel of a record, ready to be drawn.
+#[derive(Debug, Clone)]
+pub struct Trace {
+    /// The record.
+    pub record: Arc<Pyramid>,
+    /// Record minus fit, at every sample.
+    pub residual: Arc<Pyramid>,
+    /// Its spectrum up to a little above the highest harmonic; `None` where it is too short.
+    pub spectrum: Option<Arc<Pyramid>>,
+}
+
+/// What is known of a channel.
+#[derive(Debug, Clone)]
+pub enum Traced {
+    /// The run came without a time record.
+    Absent,
+    /// It is being computed.
+    Coming,
+    /// It was being computed and was given up.
+    Cancelled,
+    /// Here it is.
+    Ready(Arc<Trace>),
+}
+
+/// Run, channel, and what its fit depends on: frequency and number of harmonics.
+type Key = (usize, usize, u64, usize);
+
+/// Traces and the jobs that compute them.
+#[derive(Debug, Default)]
+pub struct Traces {
+    done: HashMap<Key, (u64, Arc<Trace>)>,
+    jobs: HashMap<Key, Job<(), Option<Trace>>>,
+    given_up: HashSet<Key>,
+    clock: u64,
+}
+
+impl Traces {
+    /// A channel of a run, by its index in the fit.
+    pub fn get(&mut self, ctx: &Context, runs: &[Run], run: usize, channel: usize) -> Traced {
+        let Some(r) = runs.get(run) else { return Traced::Absent };
+        let (Some(record), Some(fit)) = (&r.record, r.fit.channels.get(channel)) else { return Traced::Absent };
+        let key = (run, channel, r.fit.omega.to_bits(), fit.amplitudes.len());
+        self.clock += 1;
+        self.collect();
+        if let Some((used, trace)) = self.done.get_mut(&key) {
+            *used = self.clock;
+            return Traced::Ready(Arc::clone(trace));
+        }
+        if self.given_up.contains(&key) {
+            return Traced::Cancelled;
+        }
+        if !self.jobs.contains_key(&key) && self.jobs.len() < AT_ONCE {
+            let (record, fit, omega, wake) = (Arc::clone(record), fit.clone(), r.fit.omega, ctx.clone());
+            let work = move |control: &Control| trace(&record, &fit, omega, control);
+            if let Ok(job) = Job::start("Preparing records", (), move || wake.request_repaint(), work) {
+                self.jobs.insert(key, job);
+            }
+        }
+        Traced::Coming
+    }
+
+    fn collect(&mut self) {
+        let (done, clock) = (&mut self.done, self.clock);
+        self.jobs.retain(|key, job| match job.poll() {
+            Some(Ok(Some(trace))) => {
+                done.insert(*key, (clock, Arc::new(trace)));
+                false
+            }
+            Some(_) => false,
+            None => true,
+        });
+        while self.done.len() > KEPT {
+            let Some(oldest) = self.done.iter().min_by_key(|(_, (used, _))| *used).map(|(key, _)| *key) else { return };
+            self.done.remove(&oldest);
+        }
+    }
+
+    /// Forgets everything.
+    pub fn clear(&mut self) {
+        *self = Self::default();
+    }
+
+    /// Gives up what is being computed.
+    pub fn cancel(&mut self) {
+        self.given_up.extend(self.jobs.drain().map(|(key, _)| key));
+    }
+
+    /// Name and progress of a job, if one runs.
+    pub fn running(&self) -> Option<(&str, f64)> {
+        self.jobs.values().next().map(|job| (job.name(), job.progress()))
+    }
+}
+
+/// Computes a trace; `None` where the channel is not in the record, or cancelled.
+pub fn trace(record: &Arc<Record>, fit: &ChannelFit, omega: f64, control: &Control) -> Option<Trace> {
+    let row = record.channels().iter().position(|c| *c == fit.channel)?;
+    let (time, samples) = (record.time(), record.samples(row));
+    let (first, last) = (*time.first()?, *time.last()?);
+    let middle = 0.5 * (first + last);
+    let residual: Vec<f64> = time.iter().zip(samples).map(|(&t, y)| y - fitted(fit, omega, middle, t)).collect();
+    control.report(0.4);
+    control.check().ok()?;
+    let whole = Pyramid::of_record(Arc::clone(record), row);
+    let residual = Pyramid::beside(Arc::clone(record), residual);
+    control.report(0.7);
+    control.check().ok()?;
+    let step = (last - first) / (time.len().max(2) - 1) as f64;
+    let spectrum = Spectrum::new(samples, step).map(|s| Arc::new(lines(&s, fit, omega)));
+    Some(Trace { record: Arc::new(whole), residual: Arc::new(residual), spectrum })
+}
+
+/// Lines of a spectrum up to a little above the highest harmonic; what lies far below the highest is drawn at a floor.
+fn lines(spectrum: &Spectrum, fit: &ChannelFit, omega: f64) -> Pyramid {
+    let last = omega / TAU * (fit.amplitudes.len() as f64 + 1.5);
+    let shown = spectrum.amplitude.len().min((last / spectrum.resolution_hz).ceil() as usize + 2).max(2);
+    let floor = 1e-7 * spectrum.amplitude.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
+    let frequency: Vec<f64> = (1..shown).map(|k| spectrum.frequency_hz(k)).collect();
+    let amplitude: Vec<f64> = (1..shown).map(|k| spectrum.amplitude.get(k).map_or(floor, |a| a.max(floor))).collect();
+    Pyramid::new(&frequency, &amplitude)
+}
