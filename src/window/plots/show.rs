@@ -5,10 +5,11 @@ use super::export;
 use super::figure::{Axis, Data, Figure, Look, Scale, Series, Ticks};
 use super::polyline::Polyline;
 use super::sheet::{Panel, Sheet};
-use super::{axis, curve, frame, keys, ticks};
+use super::{axis, curve, frame, ticks};
 use crate::window::format::significant;
+use crate::window::theme;
 use crate::window::widgets::UiExt;
-use egui::{Id, Ui, vec2};
+use egui::{Id, Role, Sense, Shape, Ui, WidgetInfo, vec2};
 use egui_plot::{
     AxisHints, Bar, BarChart, CoordinatesFormatter, Corner, HLine, HPlacement, HoverPosition, Line, LineStyle,
     MarkerShape, PlotBounds, PlotPoint, PlotPoints, PlotResponse, PlotUi, Points, VLine,
@@ -50,15 +51,36 @@ impl Stack<'_> {
     }
 }
 
-/// A row of keys to all series that have a name.
+/// A row of keys to all series that have a name, each with the mark it is drawn with.
 pub fn key_row<'a>(ui: &mut Ui, figures: impl Iterator<Item = &'a Figure>) {
-    let mut entries: Vec<(egui::Color32, &str)> = Vec::new();
+    let mut entries: Vec<&Series> = Vec::new();
     for series in figures.flat_map(|f| &f.series) {
-        if !series.name.is_empty() && entries.iter().all(|(_, name)| *name != series.name) {
-            entries.push((series.colour, &series.name));
+        if !series.name.is_empty() && entries.iter().all(|e| e.name != series.name) {
+            entries.push(series);
         }
     }
-    keys(ui, &entries);
+    ui.horizontal_wrapped(|ui| entries.into_iter().for_each(|series| key(ui, series)));
+}
+
+/// A mark and a name that stay together where the row wraps.
+fn key(ui: &mut Ui, series: &Series) {
+    let palette = ui.palette();
+    let text = ui.painter().layout_no_wrap(series.name.clone(), theme::font(theme::size::SMALL), palette.weak);
+    let size = vec2(22.0 + text.size().x + theme::space::S, text.size().y.max(14.0));
+    let (rect, response) = ui.allocate_exact_size(size, Sense::hover());
+    response.widget_info(|| WidgetInfo::labeled(Role::Label, true, &series.name));
+    let (left, middle) = (rect.left_center(), rect.left_center() + vec2(8.0, 0.0));
+    let painter = ui.painter();
+    match series.look {
+        Look::Dots(_) => drop(painter.circle_filled(middle, 3.5, series.colour)),
+        Look::Rings(_) => drop(painter.circle_stroke(middle, 4.0, theme::pen(series.colour))),
+        Look::Dashed(_) | Look::Levels(_) => {
+            let ends = [left, left + vec2(16.0, 0.0)];
+            painter.extend(Shape::dashed_line(&ends, theme::pen(series.colour), 4.0, 3.0));
+        }
+        _ => drop(painter.line_segment([left, left + vec2(16.0, 0.0)], theme::bold(series.colour))),
+    }
+    painter.galley(rect.left_center() + vec2(22.0, -0.5 * text.size().y), text, palette.weak);
 }
 
 /// Where and how a plot stands on the screen.
