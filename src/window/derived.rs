@@ -109,7 +109,11 @@ impl Derived {
     /// Name and progress of the job that runs, if one does.
     pub fn running(&self) -> Option<(&str, f64)> {
         let slots = self.outcome.running().or(self.modes.running()).or(self.response.running());
-        slots.or(self.motions.running()).or(self.loops.running()).or(self.traces.running()).or_else(|| self.explained.running())
+        slots
+            .or(self.motions.running())
+            .or(self.loops.running())
+            .or(self.traces.running())
+            .or_else(|| self.explained.running())
     }
 
     /// A channel of a run, by its index in the fit.
