@@ -109,7 +109,8 @@ impl Window {
 fn bench(c: &mut Criterion) {
     let ctx = Context::default();
     dashpot::window::theme::install(&ctx);
-    let mut app = App { document: Some(document()), ..App::default() };
+    let mut app = App::default();
+    app.document = Some(document());
     app.view.stage = Stage::Measure;
     app.view.every_channel = true;
     app.desk.set_open(Stage::Measure, Pane::Record, true);
