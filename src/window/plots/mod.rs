@@ -30,7 +30,7 @@ pub fn frame<'a>(ui: &Ui, id: &str, x: &'a str, y: &'a str) -> Plot<'a> {
     let palette = ui.palette();
     Plot::new(id.to_owned())
         .custom_x_axes(vec![axis(AxisHints::new_x(), palette, x).min_thickness(if x.is_empty() { 14.0 } else { 32.0 })])
-        .custom_y_axes(vec![axis(AxisHints::new_y(), palette, y).placement(HPlacement::Left).min_thickness(52.0)])
+        .custom_y_axes(vec![upright(palette, y).min_thickness(52.0)])
         .grid_color(palette.grid)
         .cursor_color(palette.weak)
         .set_margin_fraction(vec2(0.0, 0.08))
@@ -48,6 +48,12 @@ pub fn axis<'a>(hints: AxisHints<'a>, palette: &Palette, label: &str) -> AxisHin
         .tick_label_font(FontId::proportional(size::SMALL))
         .label_spacing(egui::Rangef::new(22.0, 34.0))
         .formatter(|mark, _| tick(mark.value, mark.step_size))
+}
+
+/// A vertical axis at the left; lines of text lie closer than words beside each other.
+pub fn upright<'a>(palette: &Palette, label: &str) -> AxisHints<'a> {
+    let hints = axis(AxisHints::new_y(), palette, label).placement(HPlacement::Left);
+    hints.label_spacing(egui::Rangef::new(13.0, 20.0))
 }
 
 /// A number at a grid line, with as many digits as the step asks for.

@@ -1,17 +1,16 @@
 //! One channel along frequency (with the model's curve through its turning points) and along the force level.
 
-use super::cycle::round;
+use super::cycle::{lines, round};
 use super::samples::{Sample, phase};
 use crate::window::explained::curve::Curve;
 use crate::window::format;
-use crate::window::plots::{axis, curve as line, frame, keys, log};
+use crate::window::plots::{curve as line, frame, keys, log, upright};
 use crate::window::solid::frame::round_step;
 use crate::window::theme::Palette;
 use crate::window::widgets::UiExt;
 use egui::{Color32, Id, Ui};
 use egui_plot::{
-    AxisHints, CoordinatesFormatter, Corner, GridInput, GridMark, HPlacement, LineStyle, MarkerShape, Plot, PlotPoints,
-    PlotUi, Points,
+    CoordinatesFormatter, Corner, GridInput, GridMark, LineStyle, MarkerShape, Plot, PlotPoints, PlotUi, Points,
 };
 use faer::c64;
 
@@ -61,7 +60,7 @@ impl Along<'_> {
         let label = format!("Magnitude, {}", per_force(self.unit));
         let plots = [
             (self.magnitude_plot(ui, "frequency magnitude", "", &label), 0.60, true),
-            (phase_plot(ui, "frequency phase", "Frequency, Hz"), 0.40, false),
+            (phase_plot(ui, "frequency phase", "Frequency, Hz", 0.40 * height), 0.40, false),
         ];
         for (plot, share, tall) in plots {
             let y = |z: c64| if tall { decades(z) } else { phase(z) };
@@ -102,8 +101,8 @@ impl Along<'_> {
         let palette = ui.palette();
         let label = format!("Magnitude, {}", per_force(self.unit));
         let plots = [
-            (level_plot(ui, &label, self.unit), 0.60, true),
-            (phase_plot(ui, "level phase", "Force amplitude, N"), 0.40, false),
+            (level_plot(ui, &label, self.unit, 0.60 * height), 0.60, true),
+            (phase_plot(ui, "level phase", "Force amplitude, N", 0.40 * height), 0.40, false),
         ];
         for (plot, share, tall) in plots {
             let y = |z: c64| if tall { z.norm() } else { phase(z) };
@@ -155,10 +154,7 @@ impl Along<'_> {
 
     fn magnitude_plot<'a>(&self, ui: &Ui, id: &str, x: &'a str, label: &str) -> Plot<'a> {
         let palette = ui.palette();
-        let y_axis = axis(AxisHints::new_y(), palette, label)
-            .placement(HPlacement::Left)
-            .min_thickness(56.0)
-            .formatter(|mark, _| log::frequency(mark.value));
+        let y_axis = upright(palette, label).min_thickness(56.0).formatter(|mark, _| magnitude(mark));
         let unit = per_force(self.unit);
         let read = move |p: &egui_plot::PlotPoint, _: &egui_plot::PlotBounds| {
             format!("{}   {} {unit}", format::significant(p.x, 4), format::significant(10f64.powf(p.y), 3))
@@ -166,15 +162,15 @@ impl Along<'_> {
         frame(ui, id, x, "")
             .custom_y_axes(vec![y_axis])
             .x_grid_spacer(round)
-            .y_grid_spacer(|input| log::decades(&input))
+            .y_grid_spacer(magnitudes)
             .coordinates_formatter(Corner::RightTop, CoordinatesFormatter::new(read))
             .show_axes([!x.is_empty(), true])
     }
 }
 
 /// Magnitude on a linear axis: a linear structure shows a level line.
-fn level_plot<'a>(ui: &Ui, label: &str, unit: &str) -> Plot<'a> {
-    let y_axis = axis(AxisHints::new_y(), ui.palette(), label).placement(HPlacement::Left).min_thickness(56.0);
+fn level_plot<'a>(ui: &Ui, label: &str, unit: &str, height: f32) -> Plot<'a> {
+    let y_axis = upright(ui.palette(), label).min_thickness(56.0);
     let unit = per_force(unit);
     let read = move |p: &egui_plot::PlotPoint, _: &egui_plot::PlotBounds| {
         format!("{} N   {} {unit}", format::significant(p.x, 4), format::significant(p.y, 3))
@@ -182,26 +178,52 @@ fn level_plot<'a>(ui: &Ui, label: &str, unit: &str) -> Plot<'a> {
     frame(ui, "level magnitude", "", "")
         .custom_y_axes(vec![y_axis])
         .x_grid_spacer(round)
-        .y_grid_spacer(round)
+        .y_grid_spacer(lines(height))
         .coordinates_formatter(Corner::RightTop, CoordinatesFormatter::new(read))
         .show_axes([false, true])
 }
 
-fn phase_plot<'a>(ui: &Ui, id: &str, x: &'a str) -> Plot<'a> {
-    let degrees = axis(AxisHints::new_y(), ui.palette(), "Phase, °").placement(HPlacement::Left).min_thickness(56.0);
+fn phase_plot<'a>(ui: &Ui, id: &str, x: &'a str, height: f32) -> Plot<'a> {
+    let degrees = upright(ui.palette(), "Phase, °").min_thickness(56.0);
     frame(ui, id, x, "")
         .custom_y_axes(vec![degrees])
         .x_grid_spacer(round)
-        .y_grid_spacer(coarse)
+        .y_grid_spacer(lines(height))
         .set_margin_fraction(egui::vec2(0.0, 0.15))
 }
 
-/// A few round numbers on a low plot.
-fn coarse(input: GridInput) -> Vec<GridMark> {
-    let step = round_step((input.bounds.1 - input.bounds.0).max(f64::MIN_POSITIVE), 3.0);
-    let first = (input.bounds.0 / step).ceil() as i64;
-    let last = (input.bounds.1 / step).floor() as i64;
-    (first..=last.min(first + 20)).map(|k| GridMark { value: k as f64 * step, step_size: step }).collect()
+/// Lines at 1, 2 and 5 of each decade; where the range is short, at round numbers.
+fn magnitudes(input: GridInput) -> Vec<GridMark> {
+    let (low, high) = input.bounds;
+    if high - low > 20.0 {
+        return log::decades(&input);
+    }
+    let decades = low.floor() as i32..=high.ceil() as i32;
+    let all = decades.flat_map(|d| {
+        [(1.0, 1.0), (2.0, 0.3), (5.0, 0.3)]
+            .map(|(m, step_size)| GridMark { value: f64::from(d) + f64::log10(m), step_size })
+    });
+    let inside: Vec<GridMark> = all.filter(|mark| (low..=high).contains(&mark.value)).collect();
+    if inside.len() > 1 {
+        return inside;
+    }
+    let ends = [low, high].map(|v| 10f64.powf(v));
+    let step = round_step((ends[1] - ends[0]).max(f64::MIN_POSITIVE), 3.0);
+    let first = (ends[0] / step).ceil() as i64;
+    (first..first + 8)
+        .map(|k| GridMark { value: (k as f64 * step).log10(), step_size: 0.3 * (high - low) })
+        .filter(|mark| mark.value <= high)
+        .collect()
+}
+
+/// A number on an axis of magnitudes, without zeros at its end.
+fn magnitude(mark: GridMark) -> String {
+    let text = format::significant(10f64.powf(mark.value), 3);
+    if text.contains('.') && !text.contains('e') {
+        text.trim_end_matches('0').trim_end_matches('.').to_owned()
+    } else {
+        text
+    }
 }
 
 /// `(m/s²)/N`.

@@ -5,6 +5,7 @@ use crate::measurement::{HarmonicFit, Quantity};
 use crate::window::format;
 use crate::window::plots::figure::Axis;
 use crate::window::plots::{curve, frame, keys, ticks};
+use crate::window::solid::frame::round_step;
 use crate::window::widgets::UiExt;
 use crate::window::words;
 use egui::Ui;
@@ -53,6 +54,18 @@ pub fn round(input: GridInput) -> Vec<GridMark> {
     ticks::marks(&Axis::new("", ""), &input)
 }
 
+/// The same on an axis so many points high, far enough apart for their numbers.
+pub fn lines(height: f32) -> impl Fn(GridInput) -> Vec<GridMark> {
+    // The names under the axis take a part of the height.
+    let parts = f64::from((height - 30.0) / 40.0).max(1.5);
+    move |input| {
+        let (low, high) = input.bounds;
+        let step = round_step((high - low).max(f64::MIN_POSITIVE), parts);
+        let (first, last) = ((low / step).ceil() as i64, (high / step).floor() as i64);
+        (first..=last.min(first + 40)).map(|k| GridMark { value: k as f64 * step, step_size: step }).collect()
+    }
+}
+
 fn largest(values: &[f64]) -> f64 {
     values.iter().fold(0.0, |m, v| m.max(v.abs()))
 }
@@ -85,12 +98,13 @@ impl Cycle<'_> {
         let (measured, model) = (of(self.now, false), of(self.now, true));
         let rest: Vec<f64> = measured.iter().zip(&model).map(|(y, m)| y - m).collect();
         let label = words::axis(self.quantity, self.rotation);
+        let height = ui.available_height() - 6.0;
         frame(ui, "one period", "Time, ms", label)
             .include_x(0.0)
             .include_x(milli * period)
             .x_grid_spacer(round)
-            .y_grid_spacer(round)
-            .height(ui.available_height() - 6.0)
+            .y_grid_spacer(lines(height))
+            .height(height)
             .show(ui, |plot| {
                 plot.line(curve("rest", points(&rest), palette.weak, 1.0));
                 plot.line(curve("measured", points(&measured), palette.measured, 2.6));
@@ -127,11 +141,12 @@ impl Cycle<'_> {
         let x =
             format!("Displacement at DOF {}, {prefix}{base}", self.now.channel.rsplit('@').next().unwrap_or_default());
         let y = format!("Force at DOF {}, N", force.channel.label);
+        let height = ui.available_height() - 6.0;
         frame(ui, "loop", &x, &y)
             .set_margin_fraction(egui::vec2(0.05, 0.08))
             .x_grid_spacer(round)
-            .y_grid_spacer(round)
-            .height(ui.available_height() - 6.0)
+            .y_grid_spacer(lines(height))
+            .height(height)
             .coordinates_formatter(
                 egui_plot::Corner::RightTop,
                 egui_plot::CoordinatesFormatter::new(move |p, _| {

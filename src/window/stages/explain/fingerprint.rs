@@ -2,11 +2,11 @@
 
 use crate::explain::prints::{Against, Measure, Print, PrintPoint};
 use crate::window::format;
-use crate::window::plots::{axis, curve, frame, log, tick};
+use crate::window::plots::{axis, curve, frame, log, tick, upright};
 use crate::window::theme::{Palette, size};
 use crate::window::widgets::UiExt;
 use egui::{Align2, Ui};
-use egui_plot::{AxisHints, HPlacement, LineStyle, MarkerShape, PlotPoint, PlotPoints, PlotUi, Points, Text};
+use egui_plot::{AxisHints, LineStyle, MarkerShape, PlotPoint, PlotPoints, PlotUi, Points, Text};
 
 /// Title of the plot and what the slope says, in one line each.
 pub fn words(print: &Print) -> (String, String) {
@@ -47,8 +47,7 @@ pub fn show(ui: &mut Ui, print: &Print, height: f32) {
     };
     let x_label = if print.against == Against::Amplitude { "Amplitude at the place, m" } else { "Frequency, Hz" };
     let place = move |x: f64, y: f64| if powers { [x.log10(), y.log10()] } else { [x, y] };
-    let y_axis = axis(AxisHints::new_y(), palette, &y_label)
-        .placement(HPlacement::Left)
+    let y_axis = upright(palette, &y_label)
         .min_thickness(52.0)
         .formatter(move |mark, _| if powers { log::frequency(mark.value) } else { tick(mark.value, mark.step_size) });
     let x_axis = axis(AxisHints::new_x(), palette, x_label)

@@ -6,11 +6,11 @@ use crate::explain::diagnose::Verdict;
 use crate::window::app::Ask;
 use crate::window::explained::ledger::Ledger;
 use crate::window::format;
-use crate::window::plots::{axis, curve, frame, keys, log};
+use crate::window::plots::{curve, frame, keys, log, upright};
 use crate::window::theme::{self, size, space};
 use crate::window::widgets::UiExt;
 use egui::{Align2, Role, ScrollArea, Sense, Ui, WidgetInfo, pos2, vec2};
-use egui_plot::{AxisHints, GridMark, HPlacement, LineStyle, MarkerShape, PlotPoints, Points};
+use egui_plot::{GridMark, LineStyle, MarkerShape, PlotPoints, Points};
 
 /// Shows chart and steps.
 pub fn show(ui: &mut Ui, scene: &Scene<'_>, asks: &mut Vec<Ask>) {
@@ -55,19 +55,18 @@ fn ahead(scene: &Scene<'_>) -> Vec<[f64; 2]> {
     start.enumerate().map(|(k, error)| [(ledger.current() + k) as f64, percent(error)]).collect()
 }
 
-/// Per cent on a logarithmic axis.
+/// Per cent on a logarithmic axis, which ends where an error says nothing more.
 fn percent(share: f64) -> f64 {
-    (100.0 * share).max(1e-6).log10()
+    (100.0 * share).clamp(1e-6, 1e4).log10()
 }
 
 fn chart(ui: &mut Ui, ledger: &Ledger, ahead: &[[f64; 2]], height: f32) {
     let palette = ui.palette();
     let steps = ledger.steps();
     let at = |k: usize| [k as f64, percent(steps[k].error)];
-    let y_axis = axis(AxisHints::new_y(), palette, "Error, %")
-        .placement(HPlacement::Left)
+    let y_axis = upright(palette, "Error, %")
         .min_thickness(46.0)
-        .formatter(|mark, _| log::frequency(mark.value));
+        .formatter(|mark, _| if mark.step_size >= 1.0 { log::label(mark.value) } else { log::frequency(mark.value) });
     let whole = |input: egui_plot::GridInput| {
         let (low, high) = input.bounds;
         (low.ceil() as i64..=high.floor() as i64).map(|k| GridMark { value: k as f64, step_size: 1.0 }).collect()
