@@ -7,6 +7,23 @@ use egui::{
     WidgetText, vec2,
 };
 
+/// Width of a value that can be edited, points.
+const VALUE: f32 = 92.0;
+/// Width of its unit, points.
+const UNIT: f32 = 36.0;
+
+/// A name at the left that leaves `rest` points of the row.
+fn name_left(ui: &mut Ui, name: &str, rest: f32) -> Response {
+    let weak = ui.palette().weak;
+    let room = vec2((ui.available_width() - rest - space::S).max(20.0), space::ROW);
+    let label = Label::new(RichText::new(name).color(weak)).selectable(false).truncate();
+    ui.allocate_ui_with_layout(room, Layout::left_to_right(Align::Center), |ui| {
+        ui.set_min_width(room.x);
+        ui.add(label)
+    })
+    .inner
+}
+
 /// The program's own widgets.
 pub trait UiExt {
     /// Colours of the theme in force.
@@ -113,22 +130,14 @@ impl UiExt for Ui {
         let mut shown = self.data(|d| d.get_temp::<f64>(key)).unwrap_or(value);
         let response = self
             .horizontal(|ui| {
-                let weak = ui.palette().weak;
-                let label = ui.add(Label::new(RichText::new(name).color(weak)).selectable(false));
-                ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-                    let (unit_label, width) = (RichText::new(&unit).size(size::SMALL).color(weak), 46.0);
-                    ui.allocate_ui_with_layout(vec2(width, space::ROW), Layout::left_to_right(Align::Center), |ui| {
-                        ui.set_width(width);
-                        ui.add(Label::new(unit_label).selectable(false));
-                    });
-                    let drag = DragValue::new(&mut shown)
-                        .speed((0.005 * value.abs()).max(1e-6))
-                        .custom_formatter(|v, _| format::editable(v))
-                        .custom_parser(|text| text.trim().replace('−', "-").parse().ok());
-                    ui.add_sized(vec2(96.0, 22.0), drag)
-                })
-                .inner
-                .labelled_by(label.id)
+                let label = name_left(ui, name, VALUE + UNIT + 2.0 * space::S);
+                let drag = DragValue::new(&mut shown)
+                    .speed((0.005 * value.abs()).max(1e-6))
+                    .custom_formatter(|v, _| format::editable(v))
+                    .custom_parser(|text| text.trim().replace('−', "-").parse().ok());
+                let response = ui.add_sized(vec2(VALUE, 22.0), drag).labelled_by(label.id);
+                ui.hint(&unit);
+                response
             })
             .inner;
         if response.dragged() || response.has_focus() {
@@ -142,20 +151,18 @@ impl UiExt for Ui {
     fn choice<T: Copy + PartialEq>(&mut self, name: &str, now: T, all: &[T], word: fn(T) -> &'static str) -> Option<T> {
         let mut chosen = now;
         self.horizontal(|ui| {
-            let weak = ui.palette().weak;
-            let label = ui.add(Label::new(RichText::new(name).color(weak)).selectable(false));
-            ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-                ComboBox::from_id_salt(("choice", name))
-                    .selected_text(word(now))
-                    .width(150.0)
-                    .show_ui(ui, |ui| {
-                        for &one in all {
-                            ui.selectable_value(&mut chosen, one, word(one));
-                        }
-                    })
-                    .response
-                    .labelled_by(label.id);
-            });
+            let width = VALUE + UNIT + space::S;
+            let label = name_left(ui, name, width + space::S);
+            ComboBox::from_id_salt(("choice", name))
+                .selected_text(word(now))
+                .width(width)
+                .show_ui(ui, |ui| {
+                    for &one in all {
+                        ui.selectable_value(&mut chosen, one, word(one));
+                    }
+                })
+                .response
+                .labelled_by(label.id);
         });
         (chosen != now).then_some(chosen)
     }

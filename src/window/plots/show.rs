@@ -9,7 +9,7 @@ use super::{axis, curve, frame, ticks};
 use crate::window::format::significant;
 use crate::window::theme;
 use crate::window::widgets::UiExt;
-use egui::{Id, Role, Sense, Shape, Ui, WidgetInfo, vec2};
+use egui::{Id, Rangef, Role, Sense, Shape, Ui, WidgetInfo, vec2};
 use egui_plot::{
     AxisHints, Bar, BarChart, CoordinatesFormatter, Corner, HLine, HPlacement, HoverPosition, Line, LineStyle,
     MarkerShape, PlotBounds, PlotPoint, PlotPoints, PlotResponse, PlotUi, Points, VLine,
@@ -105,12 +105,17 @@ impl Place<'_> {
         let x_label = if self.ruler { figure.x.label() } else { String::new() };
         let x_axis = axis(AxisHints::new_x(), palette, &x_label)
             .min_thickness(if self.ruler { 32.0 } else { 14.0 })
+            .label_spacing(if figure.x.ticks == Ticks::Whole {
+                Rangef::new(12.0, 18.0)
+            } else {
+                Rangef::new(22.0, 34.0)
+            })
             .formatter(move |mark, _| ticks::label(&xt, mark));
         let y_axis = axis(AxisHints::new_y(), palette, &figure.y.label())
             .placement(HPlacement::Left)
             .min_thickness(62.0)
             // Lines of text lie closer than words beside each other.
-            .label_spacing(egui::Rangef::new(13.0, 20.0))
+            .label_spacing(Rangef::new(13.0, 20.0))
             .formatter(move |mark, _| ticks::label(&yt, mark));
         let mut plot = frame(ui, self.id, "", "")
             .custom_x_axes(vec![x_axis])

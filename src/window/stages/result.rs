@@ -191,7 +191,8 @@ fn response(ui: &mut Ui, app: &mut App, draw: impl FnOnce(&Diagram<'_>, &mut Ui,
             let labels = (p.structure.label(response.response), p.structure.label(response.excitation));
             ui.horizontal_wrapped(|ui| {
                 quantities(ui, &mut app.view.quantity);
-                ui.hint(format!("DOF {} for a force at DOF {}; select another on the schematic", labels.0, labels.1));
+                ui.hint(format!("DOF {} for a force at DOF {}", labels.0, labels.1))
+                    .on_hover_text("Select another DOF on the schematic.");
             });
             let diagram = Diagram { project: p, response: &response, quantity: app.view.quantity };
             let run = p.runs.get(app.view.run).map_or(1.0, |r| r.fit.omega);

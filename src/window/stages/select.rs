@@ -118,7 +118,7 @@ fn table(ui: &mut Ui, p: &Project, outcome: &Outcome, current: usize, chosen: &m
         .cell_layout(Layout::left_to_right(Align::Center))
         .auto_shrink([false, false])
         .column(Column::exact(62.0))
-        .column(Column::remainder().at_least(120.0).clip(true))
+        .column(Column::remainder().at_least(60.0).clip(true))
         .column(Column::exact(76.0))
         .column(Column::exact(82.0))
         .column(Column::exact(70.0))
@@ -223,7 +223,7 @@ fn alternatives(ui: &mut Ui, p: &Project, step: &Step, asks: &mut Vec<Ask>) {
     if step.alternatives.is_empty() {
         return;
     }
-    ui.title("Alternatives", "next best first; click one to branch from it");
+    ui.title("Alternatives", "click one to branch from it");
     for other in &step.alternatives {
         let words = in_words(p, other.sources.iter().copied());
         let text = format!("{}°   {words}", format::significant(other.angle_deg, 4));

@@ -170,7 +170,8 @@ impl<'a> Frame<'a> {
         let shift = (rank as f32 - 0.5 * (count as f32 - 1.0)) * pitch;
         let node = self.handle(dof).pos;
         if self.scene.dofs[dof].direction.is_rotation() {
-            let foot = pos2(node.x + shift, self.axis - ROTATION_UP - 40.0);
+            // It goes with its node: the ground of a rotation is drawn beside it, not at a place in space.
+            let foot = pos2(node.x + shift, node.y - 40.0);
             let start = pos2(node.x + shift, node.y - 8.0);
             let leads = if shift == 0.0 { Vec::new() } else { vec![[node, start]] };
             return Part {
