@@ -115,5 +115,6 @@ storms!(
     very_many_events_at_structure: Structure,
     very_many_events_at_pattern: Pattern,
     very_many_events_at_select: Select,
-    very_many_events_at_result: Result
+    very_many_events_at_result: Result,
+    very_many_events_at_explain: Explain
 );
