@@ -64,6 +64,11 @@ fn running_work() {
     while harness.state().running().is_none_or(|(_, progress)| progress < 0.39) {
         harness.run_steps(1);
     }
+    // What is drawn of the records is prepared in the background too, and cannot be waited for while this job runs.
+    for _ in 0..100 {
+        std::thread::sleep(std::time::Duration::from_millis(10));
+        harness.run_steps(1);
+    }
     picture(&mut harness, "running");
 }
 
