@@ -99,7 +99,7 @@ impl Diagram<'_> {
         let (model, points) = (self.model(), self.points());
         let size = |h: c64| h.re.hypot(h.im);
         let phase = |h: c64| h.im.atan2(h.re).to_degrees();
-        let frequency = || Axis::log("Frequency", "Hz").ticks(Ticks::Frequency);
+        let frequency = || Axis::log("Frequency", "Hz").ticks(Ticks::OneTwoFive);
         let at = |f: &dyn Fn(c64) -> f64| points.iter().map(|p| [p.omega / TAU, f(p.value)]).collect::<Vec<_>>();
         let unit = format::pretty_unit(self.quantity.unit());
         let magnitude = Figure::new("Magnitude", frequency(), Axis::log(self.name(), &unit))

@@ -11,15 +11,20 @@ use crate::session::jobs::Job;
 use crate::window::offscreen::Offscreen;
 use crate::window::solid::paint::graphics;
 use crate::window::theme::Palette;
+use crate::window::wake::wake;
 use crate::window::widgets::UiExt;
 use egui::{Context, Id, Response, Ui, Vec2, vec2};
 use egui_wgpu::RenderState;
 use std::path::{Path, PathBuf};
+use std::time::Duration;
 
 /// Size of an exported plot in points; a PNG has twice as many pixels.
 const PAPER: Vec2 = vec2(900.0, 560.0);
 /// Pixels of a PNG a point.
 const FINE: f32 = 2.0;
+
+/// Longest wait for a file that is being written when the window closes.
+const PATIENCE: Duration = Duration::from_secs(3);
 
 /// A kind of file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -142,12 +147,12 @@ impl Exports {
     pub fn poll(&mut self, ctx: &Context) -> Option<Ending> {
         let ready: Ready = ctx.data_mut(|d| d.remove_temp(ready_id())).unwrap_or_default();
         for (kind, drawing) in ready {
-            let (state, wake, folder) = (graphics(ctx), ctx.clone(), self.folder.clone());
+            let (state, folder) = (graphics(ctx), self.folder.clone());
             let work = move |_: &crate::control::Control| {
                 let path = target(kind, &drawing, folder.as_deref())?;
                 Some(write(&drawing, kind, &path, state).map(|()| path))
             };
-            match Job::start("Exporting", (), move || wake.request_repaint(), work) {
+            match Job::start("Exporting", (), wake(ctx), work) {
                 Ok(job) => self.jobs.push(job),
                 Err(error) => return Some((error.to_string(), true)),
             }
@@ -215,6 +220,15 @@ pub fn png(drawing: &Drawing, state: Option<RenderState>) -> Result<Vec<u8>, Str
     let mut bytes = std::io::Cursor::new(Vec::new());
     image.write_to(&mut bytes, image::ImageFormat::Png).map_err(|e| e.to_string())?;
     Ok(bytes.into_inner())
+}
+
+impl Drop for Exports {
+    /// Files that are being written are finished: their jobs hold the graphics device, which must not be left to them.
+    fn drop(&mut self) {
+        for job in &self.jobs {
+            drop(job.wait(PATIENCE));
+        }
+    }
 }
 
 #[cfg(test)]

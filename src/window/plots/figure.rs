@@ -20,8 +20,8 @@ pub enum Scale {
 pub enum Ticks {
     /// Round numbers, or decades.
     Auto,
-    /// Decades with 2 and 5 between, as frequencies are read.
-    Frequency,
+    /// Decades with 2 and 5 between, as frequencies are read; round numbers where the range is short.
+    OneTwoFive,
     /// Whole numbers.
     Whole,
     /// Multiples of 90.
@@ -126,6 +126,8 @@ pub enum Look {
     Line(f32),
     /// A broken line of a width.
     Dashed(f32),
+    /// A dotted line of a width.
+    Dotted(f32),
     /// Filled points of a radius.
     Dots(f32),
     /// Rings of a radius.
@@ -169,6 +171,17 @@ impl Series {
     }
 }
 
+/// Words at a point of a plot.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Label {
+    /// The point x, y at the lower right end of the words.
+    pub at: [f64; 2],
+    /// The words.
+    pub text: String,
+    /// Their colour.
+    pub colour: Color32,
+}
+
 /// A plot.
 #[derive(Debug, Clone)]
 pub struct Figure {
@@ -180,6 +193,8 @@ pub struct Figure {
     pub y: Axis,
     /// Series from back to front.
     pub series: Vec<Series>,
+    /// Words at points.
+    pub labels: Vec<Label>,
     /// Whether a unit is as long on both axes.
     pub square: bool,
     /// Free room at each side of the curves, as a share of the width.
@@ -191,7 +206,16 @@ pub struct Figure {
 impl Figure {
     /// An empty plot.
     pub fn new(title: &str, x: Axis, y: Axis) -> Self {
-        Self { title: title.into(), x, y, series: Vec::new(), square: false, margin: 0.0, start: None }
+        Self {
+            title: title.into(),
+            x,
+            y,
+            series: Vec::new(),
+            labels: Vec::new(),
+            square: false,
+            margin: 0.0,
+            start: None,
+        }
     }
 
     /// With one more series.

@@ -1,5 +1,7 @@
 //! Logarithmic axes: the plot holds log10 of the value, the grid shows decades and the lines between.
 
+use crate::window::format::significant;
+use crate::window::solid::frame::round_step;
 use egui_plot::{GridInput, GridMark};
 
 /// Lines at 1, 2, ..., 9 of each decade; decades stand out.
@@ -34,25 +36,53 @@ pub fn label(value: f64) -> String {
     }
 }
 
-/// Label on an axis of frequency: decades, and 2 and 5 between them.
-pub fn frequency(value: f64) -> String {
-    let plain = 10f64.powf(value);
-    let lead = plain / 10f64.powf(value.floor());
-    let shown = [1.0, 2.0, 5.0, 10.0].iter().any(|m| (lead - m).abs() < 1e-6);
-    if shown {
-        super::super::format::significant(plain, if plain < 1.0 { 1 } else { 4 })
-            .trim_end_matches(".000")
-            .trim_end_matches(".00")
-            .trim_end_matches(".0")
-            .to_owned()
+/// Step that tells a line at a round number of a short range from decades and the lines between.
+const ROUND: f64 = 0.05;
+
+/// Decades and the lines between; where fewer than two of 1, 2 and 5 are in sight, lines at round numbers.
+pub fn one_two_five(input: &GridInput) -> Vec<GridMark> {
+    let mut marks = decades(input);
+    let (low, high) = input.bounds;
+    if high - low > 2.0 || marks.iter().filter(|m| leads(m.value)).count() > 1 {
+        // Lines with a label stand out from those between.
+        for mark in marks.iter_mut().filter(|m| m.step_size < 1.0 && leads(m.value)) {
+            mark.step_size = 0.4;
+        }
+        return marks;
+    }
+    let ends = [low, high].map(|v| 10f64.powf(v));
+    let step = round_step((ends[1] - ends[0]).max(f64::MIN_POSITIVE), 3.0);
+    let first = (ends[0] / step).ceil() as i64;
+    (first..first + 8)
+        .map(|k| GridMark { value: (k as f64 * step).log10(), step_size: ROUND })
+        .filter(|mark| mark.value <= high)
+        .collect()
+}
+
+/// Whether a place stands for 1, 2 or 5 times a power of ten.
+fn leads(value: f64) -> bool {
+    let lead = 10f64.powf(value - value.floor());
+    [1.0, 2.0, 5.0, 10.0].iter().any(|m| (lead - m).abs() < 1e-6)
+}
+
+/// Label of such a line: 1, 2 and 5 of each decade, and every round number of a short range.
+pub fn one_two_five_label(mark: GridMark) -> String {
+    if mark.step_size != ROUND && !leads(mark.value) {
+        return String::new();
+    }
+    let plain = 10f64.powf(mark.value);
+    let text = significant(plain, if plain < 1.0 { 3 } else { 4 });
+    let (digits, exponent) = text.find('e').map_or((text.as_str(), ""), |at| text.split_at(at));
+    if digits.contains('.') {
+        format!("{}{exponent}", digits.trim_end_matches('0').trim_end_matches('.'))
     } else {
-        String::new()
+        text
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{decades, label};
+    use super::{decades, label, one_two_five, one_two_five_label};
     use egui_plot::GridInput;
 
     #[test]
@@ -64,5 +94,17 @@ mod tests {
         let marks = decades(&GridInput { bounds: (-1.0, 1.0), base_step_size: 0.1 });
         assert_eq!(marks.iter().filter(|m| m.step_size == 1.0).count(), 3);
         assert!(marks.iter().any(|m| (m.value - 2f64.log10()).abs() < 1e-12));
+    }
+
+    #[test]
+    fn a_short_range_has_round_numbers_and_a_long_one_has_1_2_and_5() {
+        let labels = |low: f64, high: f64| -> Vec<String> {
+            let input = GridInput { bounds: (low.log10(), high.log10()), base_step_size: 0.01 };
+            one_two_five(&input).into_iter().map(one_two_five_label).filter(|l| !l.is_empty()).collect()
+        };
+        assert_eq!(labels(0.9, 11.0), ["1", "2", "5", "10"]);
+        assert_eq!(labels(0.03, 0.11), ["0.05", "0.1"]);
+        assert_eq!(labels(6.1, 8.9), ["7", "8"]);
+        assert_eq!(labels(0.9e-4, 3e-4), ["1e−4", "2e−4"]);
     }
 }

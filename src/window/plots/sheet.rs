@@ -85,6 +85,11 @@ impl Panel {
         for series in &self.figure.series {
             self.series(drawing, series, area);
         }
+        for label in &self.figure.labels {
+            if let Some(at) = self.at(label.at, area) {
+                drawing.words(at, Align2::RIGHT_BOTTOM, label.text.clone(), size::SMALL, label.colour);
+            }
+        }
         drawing.marks.push(Mark::Whole);
         drawing.rect(area, Color32::TRANSPARENT, theme::hair(palette.line));
     }
@@ -140,7 +145,7 @@ impl Panel {
         let stroke = |width: f32| Stroke::new(width, series.colour);
         match series.look {
             Look::Line(width) => drawing.line(places, stroke(width)),
-            Look::Dashed(width) => {
+            Look::Dashed(width) | Look::Dotted(width) => {
                 drawing.marks.push(Mark::Line { points: places, stroke: stroke(width), dashed: true });
             }
             Look::Dots(radius) => disc(drawing, &places, radius, series.colour, Stroke::NONE),
@@ -192,7 +197,7 @@ fn key(drawing: &mut Drawing, series: &Series, at: Pos2) {
         Look::Bars(_) => {
             drawing.rect(Rect::from_center_size(middle, vec2(12.0, 8.0)), series.colour, Stroke::NONE);
         }
-        Look::Dashed(_) | Look::Levels(_) => {
+        Look::Dashed(_) | Look::Dotted(_) | Look::Levels(_) => {
             let stroke = Stroke::new(1.6, series.colour);
             drawing.marks.push(Mark::Line { points: vec![at, at + vec2(16.0, 0.0)], stroke, dashed: true });
         }

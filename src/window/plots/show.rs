@@ -2,17 +2,17 @@
 //! menu copies and exports.
 
 use super::export;
-use super::figure::{Axis, Data, Figure, Look, Scale, Series, Ticks};
+use super::figure::{Axis, Data, Figure, Label, Look, Scale, Series, Ticks};
 use super::polyline::Polyline;
 use super::sheet::{Panel, Sheet};
 use super::{axis, curve, frame, ticks};
 use crate::window::format::significant;
 use crate::window::theme;
 use crate::window::widgets::UiExt;
-use egui::{Id, Rangef, Role, Sense, Shape, Ui, WidgetInfo, vec2};
+use egui::{Align2, Id, Rangef, RichText, Role, Sense, Shape, Ui, WidgetInfo, vec2};
 use egui_plot::{
     AxisHints, Bar, BarChart, CoordinatesFormatter, Corner, HLine, HPlacement, HoverPosition, Line, LineStyle,
-    MarkerShape, PlotBounds, PlotPoint, PlotPoints, PlotResponse, PlotUi, Points, VLine,
+    MarkerShape, PlotBounds, PlotPoint, PlotPoints, PlotResponse, PlotUi, Points, Text, VLine,
 };
 
 /// Plots of one sheet: its title, and each plot with its share of the height.
@@ -74,7 +74,7 @@ fn key(ui: &mut Ui, series: &Series) {
     match series.look {
         Look::Dots(_) => drop(painter.circle_filled(middle, 3.5, series.colour)),
         Look::Rings(_) => drop(painter.circle_stroke(middle, 4.0, theme::pen(series.colour))),
-        Look::Dashed(_) | Look::Levels(_) => {
+        Look::Dashed(_) | Look::Dotted(_) | Look::Levels(_) => {
             let ends = [left, left + vec2(16.0, 0.0)];
             painter.extend(Shape::dashed_line(&ends, theme::pen(series.colour), 4.0, 3.0));
         }
@@ -117,7 +117,7 @@ impl Place<'_> {
             // Lines of text lie closer than words beside each other.
             .label_spacing(Rangef::new(13.0, 20.0))
             .formatter(move |mark, _| ticks::label(&yt, mark));
-        let mut plot = frame(ui, self.id, "", "")
+        let mut plot = frame(ui, self.id)
             .custom_x_axes(vec![x_axis])
             .custom_y_axes(vec![y_axis])
             .height(self.height)
@@ -144,7 +144,10 @@ impl Place<'_> {
         for v in figure.y.include.iter().filter_map(|v| figure.y.place(*v)) {
             plot = plot.include_y(v);
         }
-        plot.show(ui, |plot| figure.series.iter().for_each(|s| series(plot, figure, s)))
+        plot.show(ui, |plot| {
+            figure.series.iter().for_each(|s| series(plot, figure, s));
+            figure.labels.iter().for_each(|l| words(plot, figure, l));
+        })
     }
 }
 
@@ -180,6 +183,13 @@ fn near<'a>(figure: &Figure) -> impl Fn(&HoverPosition<'_>) -> Option<String> + 
     }
 }
 
+/// Words at a point, ending there.
+fn words(plot: &mut PlotUi<'_>, figure: &Figure, label: &Label) {
+    let (Some(x), Some(y)) = (figure.x.place(label.at[0]), figure.y.place(label.at[1])) else { return };
+    let text = RichText::new(&label.text).size(theme::size::SMALL).color(label.colour);
+    plot.text(Text::new("", PlotPoint::new(x, y), text).anchor(Align2::RIGHT_BOTTOM).allow_hover(false));
+}
+
 fn series(plot: &mut PlotUi<'_>, figure: &Figure, series: &Series) {
     let bounds = plot.plot_bounds();
     let columns = f64::from(plot.transform().frame().width()).max(1.0);
@@ -198,6 +208,7 @@ fn series(plot: &mut PlotUi<'_>, figure: &Figure, series: &Series) {
         }
         Look::Line(width) => plot.add(Polyline::new(name, &places, egui::Stroke::new(width, series.colour))),
         Look::Dashed(width) => plot.line(curve(name, places, series.colour, width).style(LineStyle::dashed_dense())),
+        Look::Dotted(width) => plot.line(curve(name, places, series.colour, width).style(LineStyle::dotted_dense())),
         Look::Dots(radius) => plot.points(markers(radius, true, places)),
         Look::Rings(radius) => plot.points(markers(radius, false, places)),
         Look::Bars(width) => {

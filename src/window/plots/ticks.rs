@@ -20,7 +20,8 @@ pub struct Rule {
 pub fn marks(axis: &Axis, input: &GridInput) -> Vec<GridMark> {
     let (low, high) = input.bounds;
     match (&axis.ticks, axis.scale) {
-        (Ticks::Auto | Ticks::Frequency, Scale::Log) => log::decades(input),
+        (Ticks::Auto, Scale::Log) => log::decades(input),
+        (Ticks::OneTwoFive, Scale::Log) => log::one_two_five(input),
         (Ticks::Whole | Ticks::Names(_), _) => {
             let step = (3.0 * input.base_step_size).ceil().max(((high - low) / 24.0).ceil()).max(1.0);
             multiples(low, high, step).map(|value| GridMark { value, step_size: step }).collect()
@@ -46,7 +47,7 @@ fn multiples(low: f64, high: f64, step: f64) -> impl Iterator<Item = f64> {
 /// What stands beside a line.
 pub fn label(axis: &Axis, mark: GridMark) -> String {
     match (&axis.ticks, axis.scale) {
-        (Ticks::Frequency, Scale::Log) => log::frequency(mark.value),
+        (Ticks::OneTwoFive, Scale::Log) => log::one_two_five_label(mark),
         (Ticks::Auto, Scale::Log) => log::label(mark.value),
         (Ticks::Names(names), _) => {
             let k = mark.value.round();
@@ -61,7 +62,7 @@ pub fn label(axis: &Axis, mark: GridMark) -> String {
 pub fn rules(axis: &Axis, [low, high]: [f64; 2], length: f32) -> Vec<Rule> {
     let parts = (length / 80.0).clamp(2.0, 9.0);
     let marks = match (&axis.ticks, axis.scale) {
-        (Ticks::Auto | Ticks::Frequency, Scale::Linear) => {
+        (Ticks::Auto | Ticks::OneTwoFive, Scale::Linear) => {
             let step = round_step(high - low, f64::from(parts));
             multiples(low, high, step).map(|value| GridMark { value, step_size: step }).collect()
         }

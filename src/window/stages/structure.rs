@@ -4,12 +4,13 @@ use crate::exchange::Project;
 use crate::measurement::Quantity;
 use crate::structure::modes::Modes;
 use crate::window::app::App;
+use crate::window::plots::figure::{Axis, Figure, Look, Ticks};
+use crate::window::plots::show::Stack;
 use crate::window::theme::space;
 use crate::window::widgets::UiExt;
-use crate::window::{format, plots, words};
+use crate::window::{format, words};
 use egui::{Sense, Ui};
 use egui_extras::{Column, TableBuilder};
-use egui_plot::{Bar, BarChart, MarkerShape, PlotPoints, Points, VLine};
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
@@ -99,26 +100,24 @@ pub fn frequencies(ui: &mut Ui, app: &mut App) {
     let Some(modes) = ready(ui, app) else { return };
     let Some(document) = &app.document else { return };
     let (p, mode, palette) = (&document.project, app.view.mode, ui.palette());
-    plots::keys(ui, &[(palette.model, "natural frequencies"), (palette.measured, "runs")]);
     let runs: Vec<f64> = p.runs.iter().map(|r| r.fit.omega / TAU).collect();
     let highest = runs.iter().copied().fold(0.0, f64::max).max(modes.frequency_hz(2.min(modes.len() - 1)));
     let shown: Vec<usize> = (0..modes.len()).filter(|&r| modes.frequency_hz(r) <= 1.6 * highest).collect();
-    plots::frame(ui, "mode frequencies", "Frequency, Hz", "Run")
-        .height(ui.available_height())
-        .include_x(0.0)
-        .include_x(1.05 * shown.last().map_or(highest, |&r| modes.frequency_hz(r)))
-        .include_y(0.0)
-        .include_y(runs.len() as f64 + 1.0)
-        .show(ui, |plot| {
-            for &r in &shown {
-                let width = if r == mode { 2.4 } else { 1.2 };
-                plot.vline(
-                    VLine::new(format!("mode {}", r + 1), modes.frequency_hz(r)).color(palette.model).width(width),
-                );
-            }
-            let points: PlotPoints<'_> = runs.iter().enumerate().map(|(k, f)| [*f, k as f64 + 1.0]).collect();
-            plot.points(Points::new("runs", points).shape(MarkerShape::Circle).radius(4.0).color(palette.measured));
-        });
+    let last = shown.last().map_or(highest, |&r| modes.frequency_hz(r));
+    let x = Axis::new("Frequency", "Hz").include(&[0.0, 1.05 * last]);
+    let y = Axis::new("Run", "").ticks(Ticks::Whole).include(&[0.0, runs.len() as f64 + 1.0]);
+    let line = |r: usize| vec![[modes.frequency_hz(r), 0.0]];
+    let figure = Figure::new("Natural frequencies and runs", x, y)
+        .points(
+            "natural frequencies",
+            palette.model,
+            Look::Uprights(1.2),
+            shown.iter().flat_map(|&r| line(r)).collect(),
+        )
+        .points("selected mode", palette.accent, Look::Uprights(2.4), line(mode))
+        .points("runs", palette.measured, Look::Dots(4.0), (1..).zip(runs).map(|(k, f)| [f, f64::from(k)]).collect());
+    let title = "Natural frequencies and runs";
+    Stack { id: "mode frequencies", title, figures: vec![(figure, 1.0)], keys: true }.show(ui);
 }
 
 /// The translations of the selected mode as bars.
@@ -127,28 +126,21 @@ pub fn shape(ui: &mut Ui, app: &mut App) {
     let Some(document) = &app.document else { return };
     let (p, mode, palette) = (&document.project, app.view.mode, ui.palette());
     let frequency = format::with_unit(modes.frequency_hz(mode), "Hz");
-    plots::keys(
-        ui,
-        &[(palette.measured, "measured"), (palette.weak, &format!("not measured; mode {}, {frequency}", mode + 1))],
-    );
-    let shape = upright(modes.shape(mode), &p.structure.translations());
     let translations = p.structure.translations();
+    let shape = upright(modes.shape(mode), &translations);
     let largest = translations.iter().map(|&d| shape[d].abs()).fold(f64::MIN_POSITIVE, f64::max);
-    let bar = |(k, &d): (usize, &usize)| {
-        let colour = if is_measured(p, d) { palette.measured } else { palette.weak.gamma_multiply(0.5) };
-        Bar::new(k as f64, shape[d] / largest).width(0.7).fill(colour).name(format!("DOF {}", p.structure.label(d)))
+    let bars = |measured: bool| -> Vec<[f64; 2]> {
+        let wanted = |(_, d): &(usize, &usize)| is_measured(p, **d) == measured;
+        translations.iter().enumerate().filter(wanted).map(|(k, &d)| [k as f64, shape[d] / largest]).collect()
     };
-    let bars: Vec<Bar> = translations.iter().enumerate().map(bar).collect();
-    let labels: Vec<String> = translations.iter().map(|&d| p.structure.label(d).to_owned()).collect();
-    let x = plots::axis(egui_plot::AxisHints::new_x(), palette, "DOF").formatter(move |mark, _| {
-        let k = mark.value.round();
-        let whole = (mark.value - k).abs() < 1e-6 && k >= 0.0;
-        if whole { labels.get(k as usize).cloned().unwrap_or_default() } else { String::new() }
-    });
-    plots::frame(ui, "mode shape", "DOF", "Relative displacement")
-        .custom_x_axes(vec![x])
-        .height(ui.available_height())
-        .show(ui, |plot| plot.bar_chart(BarChart::new("shape", bars)));
+    let labels: Arc<[String]> = translations.iter().map(|&d| p.structure.label(d).to_owned()).collect();
+    let title = format!("Shape of mode {}, {frequency}", mode + 1);
+    let x = Axis::new("DOF", "").ticks(Ticks::Names(labels)).include(&[-0.5, translations.len() as f64 - 0.5]);
+    let figure = Figure::new(&title, x, Axis::new("Relative displacement", ""))
+        .points("measured", palette.measured, Look::Bars(0.7), bars(true))
+        .points("not measured", palette.weak.gamma_multiply(0.5), Look::Bars(0.7), bars(false));
+    ui.hint(&title);
+    Stack { id: "mode shape", title: &title, figures: vec![(figure, 1.0)], keys: true }.show(ui);
 }
 
 /// Whether a motion of the DOF is measured in any run.

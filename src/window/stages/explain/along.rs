@@ -1,17 +1,13 @@
 //! One channel along frequency (with the model's curve through its turning points) and along the force level.
 
-use super::cycle::{lines, round};
 use super::samples::{Sample, phase};
 use crate::window::explained::curve::Curve;
 use crate::window::format;
-use crate::window::plots::{curve as line, frame, keys, log, upright};
-use crate::window::solid::frame::round_step;
+use crate::window::plots::figure::{Axis, Figure, Look, Ticks};
+use crate::window::plots::show::Stack;
 use crate::window::theme::Palette;
 use crate::window::widgets::UiExt;
-use egui::{Color32, Id, Ui};
-use egui_plot::{
-    CoordinatesFormatter, Corner, GridInput, GridMark, LineStyle, MarkerShape, Plot, PlotPoints, PlotUi, Points,
-};
+use egui::Ui;
 use faer::c64;
 
 /// Share by which forces of one level may differ.
@@ -21,6 +17,8 @@ const SAME_FREQUENCY: f64 = 0.015;
 
 /// What is plotted.
 pub struct Along<'a> {
+    /// Name of the channel.
+    pub name: &'a str,
     /// Runs of the channel.
     pub samples: &'a [Sample],
     /// Selected run.
@@ -37,51 +35,55 @@ pub struct Along<'a> {
     pub trial: Option<&'a Curve>,
 }
 
-impl Along<'_> {
-    fn legend(&self, ui: &mut Ui) {
-        let palette = ui.palette();
-        let mut entries = vec![(palette.measured, "measured"), (palette.model, "model")];
-        if self.samples.iter().any(|s| s.trial.is_some()) {
-            entries.push((palette.missing, "with the effect on trial"));
-        }
-        keys(ui, &entries);
-    }
+/// One of the two plots under each other.
+#[derive(Clone, Copy, PartialEq)]
+enum Part {
+    Magnitude,
+    Phase,
+}
 
+impl Part {
+    fn of(self, z: c64) -> f64 {
+        match self {
+            Self::Magnitude => z.norm(),
+            Self::Phase => phase(z),
+        }
+    }
+}
+
+impl Along<'_> {
     /// Magnitude and phase over the force, along frequency.
     pub fn frequency(&self, ui: &mut Ui) {
-        self.legend(ui);
         let Some(own) = self.samples.iter().find(|s| s.run == self.run) else { return };
         let near = |s: &&Sample| self.near.contains(&s.run);
         let level = |s: &Sample| (s.force / own.force).ln().abs() < SAME_LEVEL;
         let (same, other): (Vec<&Sample>, Vec<&Sample>) = self.samples.iter().filter(near).partition(|s| level(s));
-        let height = ui.available_height() - 6.0;
-        let group = Id::unique("along frequency");
         let palette = ui.palette();
-        let label = format!("Magnitude, {}", per_force(self.unit));
-        let plots = [
-            (self.magnitude_plot(ui, "frequency magnitude", "", &label), 0.60, true),
-            (phase_plot(ui, "frequency phase", "Frequency, Hz", 0.40 * height), 0.40, false),
-        ];
-        for (plot, share, tall) in plots {
-            let y = |z: c64| if tall { decades(z) } else { phase(z) };
-            plot.height(share * height).link_axis(group, [true, false]).link_cursor(group, [true, false]).show(
-                ui,
-                |plot| {
-                    let faint = palette.measured.gamma_multiply(0.35);
-                    mark(plot, other.iter().map(|s| [s.frequency, y(s.measured)]), faint, MarkerShape::Circle, 2.5);
-                    for (found, colour) in [(self.curve, palette.model), (self.trial, palette.missing)] {
-                        let dashed = colour == palette.missing;
-                        if let Some(found) = found {
-                            self.draw_curve(plot, found, colour, dashed, &y);
-                        }
-                    }
-                    let points = |of: &dyn Fn(&Sample) -> Option<c64>| -> Vec<[f64; 2]> {
-                        same.iter().filter_map(|s| Some([s.frequency, y(of(s)?)])).collect()
-                    };
-                    self.series(plot, palette, &points, false);
-                },
+        let figure = |part: Part| {
+            let y = match part {
+                Part::Magnitude => Axis::log("Magnitude", &per_force(self.unit)).ticks(Ticks::OneTwoFive),
+                Part::Phase => Axis::new("Phase", "°"),
+            };
+            let others = other.iter().map(|s| [s.frequency, part.of(s.measured)]).collect();
+            let faint = palette.measured.gamma_multiply(0.35);
+            let mut figure = Figure::new(title(part), Axis::new("Frequency", "Hz"), y).points(
+                "at other levels",
+                faint,
+                Look::Dots(2.5),
+                others,
             );
-        }
+            for (curve, name, colour, look) in [
+                (self.curve, "model", palette.model, Look::Line(1.8)),
+                (self.trial, "with the effect on trial", palette.missing, Look::Dashed(1.8)),
+            ] {
+                for (stable, piece) in curve.map(|c| pieces(c, self.channel, part)).unwrap_or_default() {
+                    figure = figure.points(name, colour, if stable { look } else { Look::Dotted(1.8) }, piece);
+                }
+            }
+            self.samples_on(figure, palette, &same, &|s| s.frequency, part)
+        };
+        let figures = vec![(figure(Part::Magnitude), 0.60), (figure(Part::Phase), 0.40)];
+        self.stack(ui, "frequency", figures);
     }
 
     /// Magnitude and phase over the force, along the force.
@@ -95,134 +97,59 @@ impl Along<'_> {
             ui.empty("One level only", &format!("At {frequency} there is no run at another force."));
             return;
         }
-        self.legend(ui);
-        let height = ui.available_height() - 6.0;
-        let group = Id::unique("along level");
         let palette = ui.palette();
-        let label = format!("Magnitude, {}", per_force(self.unit));
-        let plots = [
-            (level_plot(ui, &label, self.unit, 0.60 * height), 0.60, true),
-            (phase_plot(ui, "level phase", "Force amplitude, N", 0.40 * height), 0.40, false),
-        ];
-        for (plot, share, tall) in plots {
-            let y = |z: c64| if tall { z.norm() } else { phase(z) };
-            let plot = plot.height(share * height).link_axis(group, [true, false]).link_cursor(group, [true, false]);
-            plot.set_margin_fraction(egui::vec2(0.06, 0.12)).show(ui, |plot| {
-                let points = |of: &dyn Fn(&Sample) -> Option<c64>| -> Vec<[f64; 2]> {
-                    list.iter().filter_map(|s| Some([s.force, y(of(s)?)])).collect()
-                };
-                self.series(plot, palette, &points, true);
-            });
-        }
-    }
-
-    /// Measured, modelled and tried points, joined by lines where there is no curve between them.
-    fn series(
-        &self,
-        plot: &mut PlotUi<'_>,
-        palette: &Palette,
-        points: &dyn Fn(&dyn Fn(&Sample) -> Option<c64>) -> Vec<[f64; 2]>,
-        joined: bool,
-    ) {
-        let measured = points(&|s| Some(s.measured));
-        let (model, trial) = (points(&|s| Some(s.model)), points(&|s| s.trial));
-        if joined {
-            plot.line(line("measured", measured.clone(), palette.measured, 1.2));
-            plot.line(line("model", model.clone(), palette.model, 1.8));
-            plot.line(line("trial", trial.clone(), palette.missing, 1.8).style(LineStyle::dashed_dense()));
-        }
-        let ring = |points: Vec<[f64; 2]>, colour, shape, radius| {
-            Points::new("", PlotPoints::from(points)).shape(shape).radius(radius).color(colour).filled(false)
-        };
-        plot.points(ring(model, palette.model, MarkerShape::Circle, 5.5).allow_hover(false));
-        plot.points(ring(trial, palette.missing, MarkerShape::Diamond, 6.0).allow_hover(false));
-        mark(plot, measured.into_iter(), palette.measured, MarkerShape::Circle, 3.5);
-        let own = points(&|s| (s.run == self.run).then_some(s.measured));
-        plot.points(ring(own, palette.accent, MarkerShape::Circle, 8.0).allow_hover(false));
-    }
-
-    fn draw_curve(&self, plot: &mut PlotUi<'_>, found: &Curve, colour: Color32, dashed: bool, y: &dyn Fn(c64) -> f64) {
-        for (stable, piece) in pieces(found, self.channel, y) {
-            let style = match (stable, dashed) {
-                (false, _) => LineStyle::dotted_dense(),
-                (true, true) => LineStyle::dashed_dense(),
-                (true, false) => LineStyle::Solid,
+        let figure = |part: Part| {
+            let y = match part {
+                // Linear: a linear structure shows a level line.
+                Part::Magnitude => Axis::new("Magnitude", &per_force(self.unit)),
+                Part::Phase => Axis::new("Phase", "°"),
             };
-            plot.line(line("", piece, colour, 1.8).style(style));
-        }
-    }
-
-    fn magnitude_plot<'a>(&self, ui: &Ui, id: &str, x: &'a str, label: &str) -> Plot<'a> {
-        let palette = ui.palette();
-        let y_axis = upright(palette, label).min_thickness(56.0).formatter(|mark, _| magnitude(mark));
-        let unit = per_force(self.unit);
-        let read = move |p: &egui_plot::PlotPoint, _: &egui_plot::PlotBounds| {
-            format!("{}   {} {unit}", format::significant(p.x, 4), format::significant(10f64.powf(p.y), 3))
+            let joined = |of: &dyn Fn(&Sample) -> Option<c64>| -> Vec<[f64; 2]> {
+                list.iter().filter_map(|s| Some([s.force, part.of(of(s)?)])).collect()
+            };
+            let figure = Figure::new(title(part), Axis::new("Force amplitude", "N"), y)
+                .points("measured", palette.measured, Look::Line(1.2), joined(&|s| Some(s.measured)))
+                .points("model", palette.model, Look::Line(1.8), joined(&|s| Some(s.model)))
+                .points("with the effect on trial", palette.missing, Look::Dashed(1.8), joined(&|s| s.trial));
+            let mut figure = self.samples_on(figure, palette, &list, &|s| s.force, part);
+            figure.margin = 0.06;
+            figure
         };
-        frame(ui, id, x, "")
-            .custom_y_axes(vec![y_axis])
-            .x_grid_spacer(round)
-            .y_grid_spacer(magnitudes)
-            .coordinates_formatter(Corner::RightTop, CoordinatesFormatter::new(read))
-            .show_axes([!x.is_empty(), true])
+        let figures = vec![(figure(Part::Magnitude), 0.60), (figure(Part::Phase), 0.40)];
+        self.stack(ui, "level", figures);
+    }
+
+    fn stack(&self, ui: &mut Ui, along: &str, mut figures: Vec<(Figure, f32)>) {
+        // What is not there has no key.
+        figures.iter_mut().for_each(|(f, _)| f.series.retain(|s| !s.points(0.0, f64::INFINITY, 1).is_empty()));
+        let title = format!("{} along {along}, run {}", self.name, self.run + 1);
+        Stack { id: &title, title: &title, figures, keys: true }.show(ui);
+    }
+
+    /// Measured points, and what the model and the effect on trial predict for them, with a ring about the selected run.
+    fn samples_on(
+        &self,
+        figure: Figure,
+        palette: &Palette,
+        list: &[&Sample],
+        x: &dyn Fn(&Sample) -> f64,
+        part: Part,
+    ) -> Figure {
+        let points = |of: &dyn Fn(&Sample) -> Option<c64>| -> Vec<[f64; 2]> {
+            list.iter().filter_map(|s| Some([x(s), part.of(of(s)?)])).collect()
+        };
+        figure
+            .points("model", palette.model, Look::Rings(5.5), points(&|s| Some(s.model)))
+            .points("with the effect on trial", palette.missing, Look::Rings(7.0), points(&|s| s.trial))
+            .points("measured", palette.measured, Look::Dots(3.5), points(&|s| Some(s.measured)))
+            .points("", palette.accent, Look::Rings(9.0), points(&|s| (s.run == self.run).then_some(s.measured)))
     }
 }
 
-/// Magnitude on a linear axis: a linear structure shows a level line.
-fn level_plot<'a>(ui: &Ui, label: &str, unit: &str, height: f32) -> Plot<'a> {
-    let y_axis = upright(ui.palette(), label).min_thickness(56.0);
-    let unit = per_force(unit);
-    let read = move |p: &egui_plot::PlotPoint, _: &egui_plot::PlotBounds| {
-        format!("{} N   {} {unit}", format::significant(p.x, 4), format::significant(p.y, 3))
-    };
-    frame(ui, "level magnitude", "", "")
-        .custom_y_axes(vec![y_axis])
-        .x_grid_spacer(round)
-        .y_grid_spacer(lines(height))
-        .coordinates_formatter(Corner::RightTop, CoordinatesFormatter::new(read))
-        .show_axes([false, true])
-}
-
-fn phase_plot<'a>(ui: &Ui, id: &str, x: &'a str, height: f32) -> Plot<'a> {
-    let degrees = upright(ui.palette(), "Phase, °").min_thickness(56.0);
-    frame(ui, id, x, "")
-        .custom_y_axes(vec![degrees])
-        .x_grid_spacer(round)
-        .y_grid_spacer(lines(height))
-        .set_margin_fraction(egui::vec2(0.0, 0.15))
-}
-
-/// Lines at 1, 2 and 5 of each decade; where the range is short, at round numbers.
-fn magnitudes(input: GridInput) -> Vec<GridMark> {
-    let (low, high) = input.bounds;
-    if high - low > 20.0 {
-        return log::decades(&input);
-    }
-    let decades = low.floor() as i32..=high.ceil() as i32;
-    let all = decades.flat_map(|d| {
-        [(1.0, 1.0), (2.0, 0.3), (5.0, 0.3)]
-            .map(|(m, step_size)| GridMark { value: f64::from(d) + f64::log10(m), step_size })
-    });
-    let inside: Vec<GridMark> = all.filter(|mark| (low..=high).contains(&mark.value)).collect();
-    if inside.len() > 1 {
-        return inside;
-    }
-    let ends = [low, high].map(|v| 10f64.powf(v));
-    let step = round_step((ends[1] - ends[0]).max(f64::MIN_POSITIVE), 3.0);
-    let first = (ends[0] / step).ceil() as i64;
-    (first..first + 8)
-        .map(|k| GridMark { value: (k as f64 * step).log10(), step_size: 0.3 * (high - low) })
-        .filter(|mark| mark.value <= high)
-        .collect()
-}
-
-/// A number on an axis of magnitudes, without zeros at its end.
-fn magnitude(mark: GridMark) -> String {
-    let text = format::significant(10f64.powf(mark.value), 3);
-    if text.contains('.') && !text.contains('e') {
-        text.trim_end_matches('0').trim_end_matches('.').to_owned()
-    } else {
-        text
+fn title(part: Part) -> &'static str {
+    match part {
+        Part::Magnitude => "Magnitude",
+        Part::Phase => "Phase",
     }
 }
 
@@ -232,31 +159,16 @@ fn per_force(unit: &str) -> String {
     if unit.contains('/') { format!("({unit})/N") } else { format!("{unit}/N") }
 }
 
-fn decades(z: c64) -> f64 {
-    z.norm().max(f64::MIN_POSITIVE).log10()
-}
-
-fn mark(
-    plot: &mut PlotUi<'_>,
-    points: impl Iterator<Item = [f64; 2]>,
-    colour: Color32,
-    shape: MarkerShape,
-    radius: f32,
-) {
-    let points: Vec<[f64; 2]> = points.collect();
-    plot.points(Points::new("", PlotPoints::from(points)).shape(shape).radius(radius).color(colour).allow_hover(false));
-}
-
 /// The curve in pieces of one stability, cut where a phase jumps by a turn; pieces share their ends.
-fn pieces(found: &Curve, channel: usize, y: &dyn Fn(c64) -> f64) -> Vec<(bool, Vec<[f64; 2]>)> {
+fn pieces(found: &Curve, channel: usize, part: Part) -> Vec<(bool, Vec<[f64; 2]>)> {
     let mut pieces: Vec<(bool, Vec<[f64; 2]>)> = Vec::new();
     for point in &found.points {
         let Some(z) = point.ratios.get(channel) else { continue };
-        let at = [point.frequency, y(*z)];
+        let at = [point.frequency, part.of(*z)];
         match pieces.last_mut() {
             Some((stable, piece)) => {
                 let last = piece.last().copied().unwrap_or(at);
-                let jumps = (at[1] - last[1]).abs() > 180.0;
+                let jumps = part == Part::Phase && (at[1] - last[1]).abs() > 180.0;
                 if *stable == point.stable && !jumps {
                     piece.push(at);
                 } else {
@@ -272,7 +184,7 @@ fn pieces(found: &Curve, channel: usize, y: &dyn Fn(c64) -> f64) -> Vec<(bool, V
 
 #[cfg(test)]
 mod tests {
-    use super::{per_force, phase, pieces};
+    use super::{Part, per_force, pieces};
     use crate::window::explained::curve::{Curve, CurvePoint};
     use faer::c64;
 
@@ -280,7 +192,7 @@ mod tests {
     fn a_curve_is_cut_where_it_loses_stability_and_where_its_phase_jumps() {
         let point = |frequency: f64, degrees: f64, stable| {
             let (s, c) = degrees.to_radians().sin_cos();
-            CurvePoint { frequency, ratios: vec![c64::new(c, s)], stable }
+            CurvePoint { frequency, ratios: vec![1e3 * c64::new(c, s)], stable }
         };
         let points = vec![
             point(1.0, 170.0, true),
@@ -289,9 +201,13 @@ mod tests {
             point(2.5, -150.0, false),
             point(2.6, -140.0, true),
         ];
-        let found = pieces(&Curve { force: 1.0, points }, 0, &phase);
-        let shape: Vec<(bool, usize)> = found.iter().map(|(stable, piece)| (*stable, piece.len())).collect();
-        assert_eq!(shape, [(true, 1), (true, 2), (false, 2), (true, 2)]);
+        let curve = Curve { force: 1.0, points };
+        let shape = |part| -> Vec<(bool, usize)> {
+            pieces(&curve, 0, part).iter().map(|(stable, piece)| (*stable, piece.len())).collect()
+        };
+        assert_eq!(shape(Part::Phase), [(true, 1), (true, 2), (false, 2), (true, 2)]);
+        assert_eq!(shape(Part::Magnitude), [(true, 3), (false, 2), (true, 2)]);
+        let found = pieces(&curve, 0, Part::Phase);
         assert_eq!(found[2].1[0], found[1].1[1], "pieces meet where the curve turns");
     }
 

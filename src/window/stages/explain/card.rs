@@ -126,7 +126,7 @@ impl Card<'_> {
         match self.scene.explained.print(self.scene.document, &s.added.source) {
             Some(Ok(print)) => {
                 if let Some(print) = print.as_ref() {
-                    fingerprint::show(ui, print, PLOT);
+                    fingerprint::show(ui, print, &self.title(), PLOT);
                 }
             }
             Some(Err(error)) => drop(ui.hint(format!("No fingerprint: {error}"))),

@@ -55,7 +55,7 @@ impl Detail<'_> {
         let index = samples::index(p, self.run, self.channel);
         let Some(fitted) = index.and_then(|k| run.fit.channels.get(k)) else { return };
         let rotation = p.structure.dofs().get(now.dof).is_some_and(|d| d.direction.is_rotation());
-        let cycle = Cycle { fit: &run.fit, now, trial, quantity: fitted.channel.quantity, rotation };
+        let cycle = Cycle { run: self.run, fit: &run.fit, now, trial, quantity: fitted.channel.quantity, rotation };
         match look.tab {
             Tab::Time => cycle.time(ui),
             Tab::Loop => cycle.hysteresis(ui),
@@ -67,6 +67,7 @@ impl Detail<'_> {
         let list = samples::samples(self.project, self.comparison, self.trial, self.channel);
         let near = neighbourhood(self.project, self.run).map(|(near, _)| near).unwrap_or_default();
         let along = Along {
+            name: self.channel,
             samples: &list,
             run: self.run,
             near: &near,

@@ -2,11 +2,11 @@
 
 use crate::explain::prints::{Against, Measure, Print, PrintPoint};
 use crate::window::format;
-use crate::window::plots::{axis, curve, frame, log, tick, upright};
+use crate::window::plots::figure::{Axis, Figure, Label, Look, Ticks};
+use crate::window::plots::show::Stack;
 use crate::window::theme::{Palette, size};
 use crate::window::widgets::UiExt;
-use egui::{Align2, Ui};
-use egui_plot::{AxisHints, LineStyle, MarkerShape, PlotPoint, PlotPoints, PlotUi, Points, Text};
+use egui::Ui;
 
 /// Title of the plot and what the slope says, in one line each.
 pub fn words(print: &Print) -> (String, String) {
@@ -29,56 +29,53 @@ pub fn words(print: &Print) -> (String, String) {
     (format!("{what} against {against}"), slope)
 }
 
-/// Shows the plot `height` points high.
-pub fn show(ui: &mut Ui, print: &Print, height: f32) {
+/// Shows the plot `height` points high; `name` is of the suggestion that it belongs to.
+pub fn show(ui: &mut Ui, print: &Print, name: &str, height: f32) {
     let palette = ui.palette();
-    let powers = matches!(print.measure, Measure::Damping | Measure::Stiffness);
     let (title, slope) = words(print);
     ui.horizontal(|ui| {
-        ui.hint(title);
+        let at = print.at_frequency.map_or_else(String::new, |f| format!(" at {}", format::with_unit(f, "Hz")));
+        ui.hint(format!("{title}{at}"));
         ui.label(egui::RichText::new(slope).size(size::SMALL).color(palette.missing).strong());
     });
-    let at = print.at_frequency.map_or_else(String::new, |f| format!(" at {}", format::with_unit(f, "Hz")));
-    let y_label = match print.measure {
-        Measure::Damping => format!("N·s/m{at}"),
-        Measure::Stiffness => format!("N/m{at}"),
-        Measure::Phase => "Phase, °".to_owned(),
-        Measure::Ratio => "Ratio".to_owned(),
-    };
-    let x_label = if print.against == Against::Amplitude { "Amplitude at the place, m" } else { "Frequency, Hz" };
-    let place = move |x: f64, y: f64| if powers { [x.log10(), y.log10()] } else { [x, y] };
-    let y_axis = upright(palette, &y_label)
-        .min_thickness(52.0)
-        .formatter(move |mark, _| if powers { log::frequency(mark.value) } else { tick(mark.value, mark.step_size) });
-    let x_axis = axis(AxisHints::new_x(), palette, x_label)
-        .min_thickness(32.0)
-        .formatter(move |mark, _| if powers { log::frequency(mark.value) } else { tick(mark.value, mark.step_size) });
-    let mut plot = frame(ui, "fingerprint", x_label, "")
-        .custom_x_axes(vec![x_axis])
-        .custom_y_axes(vec![y_axis])
-        .set_margin_fraction(egui::vec2(0.05, 0.12))
-        .height(height);
-    if powers {
-        plot = plot.x_grid_spacer(|input| log::decades(&input)).y_grid_spacer(|input| log::decades(&input));
-    } else if print.measure == Measure::Phase {
-        plot = plot.include_x(0.0).include_y(0.0);
-    } else {
-        plot = plot.include_y(1.0);
-    }
-    plot.show(ui, |plot| {
-        if powers {
-            laws(plot, palette, print);
-        }
-        trend(plot, palette, print, powers);
-        for p in &print.points {
-            let low = if powers { (p.y - p.deviation).max(0.05 * p.y) } else { p.y - p.deviation };
-            let bar = vec![place(p.x, low), place(p.x, p.y + p.deviation)];
-            plot.line(curve("deviation", bar, palette.measured, 1.2));
-        }
-        let points: Vec<[f64; 2]> = print.points.iter().map(|p| place(p.x, p.y)).collect();
-        let points = Points::new("runs", PlotPoints::from(points)).shape(MarkerShape::Circle);
-        plot.points(points.radius(3.0).color(palette.measured).allow_hover(false));
+    let figures = vec![(figure(print, palette), 1.0)];
+    let title = format!("{name}: {title}");
+    ui.allocate_ui(egui::vec2(ui.available_width(), height), |ui| {
+        Stack { id: &title, title: &title, figures, keys: false }.show(ui);
     });
+}
+
+/// Whether powers of the abscissa are shown, on logarithmic axes.
+fn powers(print: &Print) -> bool {
+    matches!(print.measure, Measure::Damping | Measure::Stiffness)
+}
+
+/// Runs with deviations, the fitted trend, and the powers of simple laws.
+fn figure(print: &Print, palette: &Palette) -> Figure {
+    let powers = powers(print);
+    let axis = |name, unit| {
+        if powers { Axis::log(name, unit).ticks(Ticks::OneTwoFive) } else { Axis::new(name, unit) }
+    };
+    let x =
+        if print.against == Against::Amplitude { axis("Amplitude at the place", "m") } else { axis("Frequency", "Hz") };
+    let y = match print.measure {
+        Measure::Damping => axis("Damping", "N·s/m"),
+        Measure::Stiffness => axis("Stiffness", "N/m"),
+        Measure::Phase => axis("Phase", "°").include(&[0.0]),
+        Measure::Ratio => axis("Ratio", "").include(&[1.0]),
+    };
+    let x = if print.measure == Measure::Phase { x.include(&[0.0]) } else { x };
+    let mut figure = Figure::new(&words(print).0, x, y);
+    figure.margin = 0.05;
+    if powers && print.against == Against::Amplitude {
+        figure = laws(figure, palette, print);
+    }
+    if let Some(line) = trend(print) {
+        figure = figure.points("trend", palette.missing, Look::Line(2.0), line);
+    }
+    figure
+        .points("runs", palette.measured, Look::Dots(3.0), print.points.iter().map(|p| [p.x, p.y]).collect())
+        .deviation(print.points.iter().map(|p| p.deviation).collect())
 }
 
 /// Middle of the cloud in logarithms, and the ends of its abscissa.
@@ -91,14 +88,11 @@ fn cloud(points: &[PrintPoint]) -> ([f64; 2], [f64; 2]) {
 }
 
 /// Faint lines with the powers of simple laws through the middle of the cloud, no further up and down than it reaches.
-fn laws(plot: &mut PlotUi<'_>, palette: &Palette, print: &Print) {
+fn laws(mut figure: Figure, palette: &Palette, print: &Print) -> Figure {
     let ([x, y], ends) = cloud(&print.points);
     let heights = print.points.iter().map(|p| p.y.log10());
     let [low, high] = heights.fold([f64::INFINITY, f64::NEG_INFINITY], |[l, h], v| [l.min(v), h.max(v)]);
     let margin = 0.15 * (high - low).max(0.3);
-    if print.against != Against::Amplitude {
-        return;
-    }
     for (name, power) in print.laws() {
         let inside = |v: f64| (low - margin..=high + margin).contains(&v);
         let points: Vec<[f64; 2]> = (0..=40)
@@ -108,25 +102,25 @@ fn laws(plot: &mut PlotUi<'_>, palette: &Palette, print: &Print) {
             .collect();
         // At its right end, where lines of different powers are apart; the trend covers the one that it follows.
         if let (Some(&[x, y]), true) = (points.last(), print.slope.is_none_or(|s| (s[0] - power).abs() > 0.3)) {
-            let text = egui::RichText::new(*name).size(size::SMALL).color(palette.weak);
-            plot.text(Text::new("law", PlotPoint::new(x, y + 0.03 * (high - low)), text).anchor(Align2::RIGHT_BOTTOM));
+            let at = [x, y + 0.03 * (high - low)].map(|v| 10f64.powf(v));
+            figure.labels.push(Label { at, text: (*name).to_owned(), colour: palette.weak });
         }
-        plot.line(curve("law", points, palette.weak.gamma_multiply(0.7), 1.0).style(LineStyle::dashed_dense()));
+        let points = points.into_iter().map(|p| p.map(|v| 10f64.powf(v))).collect();
+        figure = figure.points("", palette.weak.gamma_multiply(0.7), Look::Dashed(1.0), points);
     }
+    figure
 }
 
-/// The fitted line.
-fn trend(plot: &mut PlotUi<'_>, palette: &Palette, print: &Print, powers: bool) {
-    let Some([slope, _]) = print.slope else { return };
-    let line: Vec<[f64; 2]> = if powers {
+/// Ends of the fitted line.
+fn trend(print: &Print) -> Option<Vec<[f64; 2]>> {
+    let [slope, _] = print.slope?;
+    if powers(print) {
         let ([x, y], ends) = cloud(&print.points);
-        ends.map(|at| [at, y + slope * (at - x)]).to_vec()
-    } else {
-        let most = print.points.iter().map(|p| p.x).fold(0.0, f64::max);
-        let height = |x: f64| if print.measure == Measure::Phase { slope * x } else { slope };
-        [0.0, most].map(|x| [x, height(x)]).to_vec()
-    };
-    plot.line(curve("trend", line, palette.missing, 2.0));
+        return Some(ends.map(|at| [at, y + slope * (at - x)].map(|v| 10f64.powf(v))).to_vec());
+    }
+    let most = print.points.iter().map(|p| p.x).fold(0.0, f64::max);
+    let height = |x: f64| if print.measure == Measure::Phase { slope * x } else { slope };
+    Some([0.0, most].map(|x| [x, height(x)]).to_vec())
 }
 
 #[cfg(test)]

@@ -5,12 +5,11 @@ use super::{Deed, Scene, cards};
 use crate::explain::diagnose::Verdict;
 use crate::window::app::Ask;
 use crate::window::explained::ledger::Ledger;
-use crate::window::format;
-use crate::window::plots::{curve, frame, keys, log, upright};
+use crate::window::plots::figure::{Axis, Figure, Look, Ticks};
+use crate::window::plots::show::Stack;
 use crate::window::theme::{self, size, space};
 use crate::window::widgets::UiExt;
 use egui::{Align2, Role, ScrollArea, Sense, Ui, WidgetInfo, pos2, vec2};
-use egui_plot::{GridMark, LineStyle, MarkerShape, PlotPoints, Points};
 
 /// Shows chart and steps.
 pub fn show(ui: &mut Ui, scene: &Scene<'_>, asks: &mut Vec<Ask>) {
@@ -20,14 +19,8 @@ pub fn show(ui: &mut Ui, scene: &Scene<'_>, asks: &mut Vec<Ask>) {
         return;
     }
     let ahead = ahead(scene);
-    let palette = ui.palette();
-    let mut entries = vec![(palette.model, "error"), (palette.ink, "noise floor")];
-    if ahead.len() > 1 {
-        entries.push((palette.missing, "as suggested"));
-    }
-    keys(ui, &entries);
-    let height = (0.42 * ui.available_height()).clamp(120.0, 210.0);
-    chart(ui, ledger, &ahead, height);
+    let height = (0.42 * ui.available_height()).clamp(140.0, 230.0);
+    ui.allocate_ui(vec2(ui.available_width(), height), |ui| chart(ui, ledger, &ahead));
     ui.add_space(space::XS);
     ScrollArea::vertical().id_salt("ledger").auto_shrink(false).show(ui, |ui| {
         for k in 0..ledger.steps().len() {
@@ -55,61 +48,47 @@ fn ahead(scene: &Scene<'_>) -> Vec<[f64; 2]> {
     start.enumerate().map(|(k, error)| [(ledger.current() + k) as f64, percent(error)]).collect()
 }
 
-/// Per cent on a logarithmic axis, which ends where an error says nothing more.
+/// Per cent, within what an axis can show.
 fn percent(share: f64) -> f64 {
-    (100.0 * share).clamp(1e-6, 1e4).log10()
+    (100.0 * share).clamp(1e-6, 1e4)
 }
 
-fn chart(ui: &mut Ui, ledger: &Ledger, ahead: &[[f64; 2]], height: f32) {
+fn chart(ui: &mut Ui, ledger: &Ledger, ahead: &[[f64; 2]]) {
     let palette = ui.palette();
     let steps = ledger.steps();
     let at = |k: usize| [k as f64, percent(steps[k].error)];
-    let y_axis = upright(palette, "Error, %")
-        .min_thickness(46.0)
-        .formatter(|mark, _| if mark.step_size >= 1.0 { log::label(mark.value) } else { log::frequency(mark.value) });
-    let whole = |input: egui_plot::GridInput| {
-        let (low, high) = input.bounds;
-        (low.ceil() as i64..=high.floor() as i64).map(|k| GridMark { value: k as f64, step_size: 1.0 }).collect()
-    };
-    let floor = steps[ledger.current()].noise_floor;
+    let floor = percent(steps[ledger.current()].noise_floor);
     let last = ahead.last().map_or(0.0, |p| p[0]).max(steps.len() as f64 - 1.0).max(1.0);
-    frame(ui, "ledger chart", "Step", "")
-        .custom_y_axes(vec![y_axis])
-        .x_grid_spacer(whole)
-        .y_grid_spacer(|input| log::decades(&input))
-        .include_x(-0.4)
-        .include_x(last + 0.4)
-        .include_y(percent(0.6 * floor))
-        .height(height)
-        .coordinates_formatter(
-            egui_plot::Corner::RightTop,
-            egui_plot::CoordinatesFormatter::new(|p, _| format!("{} %", format::significant(10f64.powf(p.y), 3))),
-        )
-        .show(ui, |plot| {
-            let line = vec![[-0.4, percent(floor)], [last + 0.4, percent(floor)]];
-            plot.line(curve("noise floor", line, palette.ink, 1.2).style(LineStyle::dashed_loose()));
-            if ahead.len() > 1 {
-                let dashed = curve("as suggested", ahead.to_vec(), palette.missing, 1.4);
-                plot.line(dashed.style(LineStyle::dashed_dense()));
-                let rings = Points::new("as suggested", PlotPoints::from(ahead[1..].to_vec()));
-                let rings = rings.shape(MarkerShape::Circle).radius(4.5).filled(false).color(palette.missing);
-                plot.points(rings.allow_hover(false));
-            }
-            let path = ledger.path();
-            for (k, step) in steps.iter().enumerate() {
-                let Some(parent) = step.parent else { continue };
-                let on = path.contains(&k);
-                let colour = if on { palette.model } else { palette.weak.gamma_multiply(0.6) };
-                plot.line(curve("way", vec![at(parent), at(k)], colour, if on { 2.0 } else { 1.2 }));
-            }
-            let all: Vec<[f64; 2]> = (0..steps.len()).map(at).collect();
-            let dots = |points: Vec<[f64; 2]>, radius: f32, colour| {
-                let points = Points::new("step", PlotPoints::from(points)).shape(MarkerShape::Circle);
-                points.radius(radius).color(colour).allow_hover(false)
-            };
-            plot.points(dots(all, 4.0, palette.model));
-            plot.points(dots(vec![at(ledger.current())], 6.5, palette.accent));
-        });
+    let x = Axis::new("Step", "").ticks(Ticks::Whole).include(&[-0.4, last + 0.4]);
+    let y = Axis::log("Error", "%").ticks(Ticks::OneTwoFive).include(&[0.6 * floor]);
+    let mut figure = Figure::new("Error against steps", x, y).points(
+        "noise floor",
+        palette.ink,
+        Look::Levels(1.2),
+        vec![[0.0, floor]],
+    );
+    if ahead.len() > 1 {
+        figure = figure.points("as suggested", palette.missing, Look::Dashed(1.4), ahead.to_vec()).points(
+            "as suggested",
+            palette.missing,
+            Look::Rings(4.5),
+            ahead[1..].to_vec(),
+        );
+    }
+    let path = ledger.path();
+    for (k, step) in steps.iter().enumerate() {
+        let Some(parent) = step.parent else { continue };
+        let on = path.contains(&k);
+        let colour = if on { palette.model } else { palette.weak.gamma_multiply(0.6) };
+        figure = figure.points("", colour, Look::Line(if on { 2.0 } else { 1.2 }), vec![at(parent), at(k)]);
+    }
+    let figure = figure.points("error", palette.model, Look::Dots(4.0), (0..steps.len()).map(at).collect()).points(
+        "now",
+        palette.accent,
+        Look::Dots(6.5),
+        vec![at(ledger.current())],
+    );
+    Stack { id: "ledger chart", title: "Error against steps", figures: vec![(figure, 1.0)], keys: true }.show(ui);
 }
 
 /// One step as a row; true when it was clicked.
