@@ -3,7 +3,6 @@
 
 pub mod apply;
 pub mod command;
-pub mod derived;
 pub mod document;
 pub mod history;
 pub mod jobs;

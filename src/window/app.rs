@@ -16,6 +16,7 @@ use super::schematic::gesture::Intent;
 use super::stages;
 use super::theme::{Palette, space};
 use super::view::{Stage, View};
+use super::wake::Guard;
 use super::work::{Done, Work};
 use crate::control::Control;
 use crate::exchange::export::Format;
@@ -52,6 +53,8 @@ pub struct App {
     /// Whether the program may close.
     pub(super) closing: bool,
     work: Work,
+    /// Lets no job hold the window when it closes.
+    guard: Guard,
     /// Title of the window.
     named: String,
     /// Time of the last autosave, s.
@@ -167,6 +170,7 @@ impl App {
     /// Draws one frame and does what was asked for in it.
     pub fn frame(&mut self, ui: &mut Ui) {
         let ctx = ui.ctx().clone();
+        self.guard.watch(&ctx);
         self.poll(&ctx);
         let busy = self.running().is_some();
         if let Some(photograph) = &mut self.photograph {

@@ -2,6 +2,7 @@
 
 use crate::control::Control;
 use crate::session::jobs::{Job, JobError};
+use crate::window::wake::wake;
 use egui::Context;
 use std::sync::Arc;
 
@@ -39,8 +40,7 @@ impl<K: Clone + PartialEq, T: Send + 'static> Slot<K, T> {
             return Some(result.clone());
         }
         if self.job.as_ref().is_none_or(|job| job.key() != key) {
-            let wake = ctx.clone();
-            match Job::start(self.name, key.clone(), move || wake.request_repaint(), work()) {
+            match Job::start(self.name, key.clone(), wake(ctx), work()) {
                 Ok(job) => self.job = Some(job),
                 Err(error) => self.done = Some((key.clone(), Err(error.to_string()))),
             }

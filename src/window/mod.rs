@@ -28,6 +28,7 @@ pub mod templates;
 pub mod theme;
 pub mod traces;
 pub mod view;
+pub mod wake;
 pub mod widgets;
 pub mod words;
 pub mod work;

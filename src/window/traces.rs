@@ -2,6 +2,7 @@
 
 use super::plots::pyramid::Pyramid;
 use super::plots::record::fitted;
+use super::wake::wake;
 use crate::control::Control;
 use crate::math::spectrum::Spectrum;
 use crate::measurement::{ChannelFit, Record, Run};
@@ -68,9 +69,9 @@ impl Traces {
             return Traced::Cancelled;
         }
         if !self.jobs.contains_key(&key) && self.jobs.len() < AT_ONCE {
-            let (record, fit, omega, wake) = (Arc::clone(record), fit.clone(), r.fit.omega, ctx.clone());
+            let (record, fit, omega) = (Arc::clone(record), fit.clone(), r.fit.omega);
             let work = move |control: &Control| trace(&record, &fit, omega, control);
-            if let Ok(job) = Job::start("Preparing records", (), move || wake.request_repaint(), work) {
+            if let Ok(job) = Job::start("Preparing records", (), wake(ctx), work) {
                 self.jobs.insert(key, job);
             }
         }

@@ -3,6 +3,7 @@
 
 use super::document::{Document, Ready, Waiting};
 use super::files::{self, Pick};
+use super::wake::wake;
 use crate::control::Control;
 use crate::session::jobs::{Job, JobError};
 use egui::Context;
@@ -35,8 +36,7 @@ impl Work {
         name: &str,
         work: impl FnOnce(&Control) -> Done + Send + 'static,
     ) -> Result<(), String> {
-        let wake = ctx.clone();
-        let job = Job::start(name, (), move || wake.request_repaint(), work).map_err(|e| e.to_string())?;
+        let job = Job::start(name, (), wake(ctx), work).map_err(|e| e.to_string())?;
         self.jobs.push(job);
         Ok(())
     }

@@ -2,7 +2,6 @@
 #![allow(clippy::disallowed_methods, clippy::unwrap_used, reason = "tests")]
 
 mod commands;
-mod derived;
 mod kill;
 mod laws;
 mod saving;

@@ -2,6 +2,7 @@
 
 use crate::control::Control;
 use crate::session::jobs::Job;
+use crate::window::wake::wake;
 use std::sync::Arc;
 
 /// Results kept; the oldest goes first.
@@ -36,8 +37,7 @@ impl<K: Clone + PartialEq, T: Send + 'static> Shelf<K, T> {
         if there || self.job.as_ref().is_some_and(|job| job.key() == key) {
             return;
         }
-        let wake = ctx.clone();
-        match Job::start(self.name, key.clone(), move || wake.request_repaint(), make()) {
+        match Job::start(self.name, key.clone(), wake(ctx), make()) {
             Ok(job) => self.job = Some(job),
             Err(error) => self.keep(key.clone(), Err(error.to_string())),
         }
