@@ -72,7 +72,7 @@ mod tests {
     #[test]
     fn a_job_asks_for_a_frame() {
         let ctx = Context::default();
-        std::thread::spawn(wake(&ctx)).join().unwrap();
+        wake(&ctx)();
         assert!(ctx.has_requested_repaint());
     }
 
