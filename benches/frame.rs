@@ -95,14 +95,16 @@ impl Window {
         Event::PointerButton { pos, button: PointerButton::Primary, pressed, modifiers: Modifiers::NONE }
     }
 
-    fn settle(&mut self) {
-        for k in 0..20_000 {
-            self.frame(Vec::new());
-            if k > 10 && self.app.running().is_none() {
-                return;
-            }
-            std::thread::sleep(std::time::Duration::from_millis(2));
+    /// Frames until nothing is computed and what is drawn stays the same: records are prepared in the background.
+    fn settle(&mut self) -> usize {
+        let (mut last, mut same) = (0, 0);
+        while same < 100 {
+            let triangles = self.frame(Vec::new());
+            same = if triangles == last && self.app.running().is_none() { same + 1 } else { 0 };
+            last = triangles;
+            std::thread::sleep(std::time::Duration::from_millis(5));
         }
+        last
     }
 }
 
@@ -113,17 +115,21 @@ fn bench(c: &mut Criterion) {
     app.document = Some(document());
     app.view.stage = Stage::Measure;
     app.view.every_channel = true;
-    app.desk.set_open(Stage::Measure, Pane::Record, true);
+    // The record has the whole window, so that all channels are in sight.
+    for pane in [Pane::Schematic, Pane::Inspector, Pane::Runs, Pane::Spectrum] {
+        app.desk.set_open(Stage::Measure, pane, false);
+    }
     let mut window = Window { ctx, app, time: 0.0 };
-    window.settle();
-    let at = pos2(1050.0, 760.0);
+    let at = pos2(1000.0, 400.0);
     window.frame(vec![Event::PointerMoved(at)]);
+    println!("{} triangles close up", window.settle());
     c.bench_function("frame, 16 x 1 000 000 samples, close up", |b| b.iter(|| black_box(window.frame(Vec::new()))));
     for pressed in [true, false, true, false] {
         window.frame(vec![Window::button(at, pressed)]);
     }
-    window.settle();
-    println!("{} triangles with all samples in sight", window.frame(Vec::new()));
+    let all = window.settle();
+    assert!(all > CHANNELS * 4000, "all channels are drawn from edge to edge: {all} triangles");
+    println!("{all} triangles with all samples in sight");
     c.bench_function("frame, 16 x 1 000 000 samples, all", |b| b.iter(|| black_box(window.frame(Vec::new()))));
     window.frame(vec![Window::button(at, true)]);
     let mut turn = 0_u32;
@@ -134,6 +140,7 @@ fn bench(c: &mut Criterion) {
             black_box(window.frame(vec![Event::PointerMoved(pos2(x, at.y))]))
         });
     });
+    println!("{} triangles while dragged", window.frame(vec![Event::PointerMoved(pos2(at.x + 200.0, at.y))]));
 }
 
 criterion_group!(benches, bench);

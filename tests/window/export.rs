@@ -71,19 +71,21 @@ fn every_plot_is_written_as_svg_and_as_png() {
     }
 }
 
-#[test]
-fn the_context_menu_of_a_plot_copies_its_values() {
-    let mut harness = open(&beam(), Theme::Light);
-    harness.state_mut().view.stage = Stage::Result;
-    settle(&mut harness);
-    let plot = harness.get_by_label_contains("Matrix;").rect().center();
+/// Clicks with a button of the pointer, so many times at once.
+fn click(harness: &mut Harness<'_, App>, pos: egui::Pos2, button: PointerButton, times: usize) {
+    for pressed in [true, false].into_iter().cycle().take(2 * times) {
+        let event = egui::Event::PointerButton { pos, button, pressed, modifiers: egui::Modifiers::NONE };
+        // All in one frame: frames of a harness are too far apart for a double click.
+        harness.input_mut().events.push(event);
+    }
+    harness.run_steps(1);
+}
+
+/// Chooses "Copy values" in the context menu of the plot at a point; gives back what was copied.
+fn copy_values(harness: &mut Harness<'_, App>, plot: egui::Pos2) -> String {
     harness.hover_at(plot);
     harness.run_steps(1);
-    for pressed in [true, false] {
-        let modifiers = egui::Modifiers::NONE;
-        harness.event(egui::Event::PointerButton { pos: plot, button: PointerButton::Secondary, pressed, modifiers });
-        harness.run_steps(1);
-    }
+    click(harness, plot, PointerButton::Secondary, 1);
     harness.run_steps(2);
     harness.get_by_label("Copy values").click();
     let mut copied = None;
@@ -95,7 +97,45 @@ fn the_context_menu_of_a_plot_copies_its_values() {
             _ => None,
         }));
     }
-    let copied = copied.expect("something was copied");
+    copied.expect("something was copied")
+}
+
+#[test]
+fn a_double_click_shows_all_of_a_record_and_another_its_start() {
+    let mut harness = open(&beam(), Theme::Light);
+    harness.state_mut().view.stage = Stage::Measure;
+    settle(&mut harness);
+    let plot = harness.get_by_label("residual").rect().center() + egui::vec2(0.0, 120.0);
+    // Last time of the first block that is in sight, s.
+    let last = |text: &str| -> f64 {
+        let row = text.lines().take_while(|l| !l.is_empty()).last().unwrap();
+        row.split('\t').next().unwrap().parse().unwrap()
+    };
+    let start = last(&copy_values(&mut harness, plot));
+    let span = harness.state().document.as_ref().unwrap().project.runs[0]
+        .record
+        .as_ref()
+        .unwrap()
+        .time()
+        .last()
+        .copied()
+        .unwrap();
+    assert!(start < 0.7 * span, "the first periods: {start} of {span}");
+    for expected in [span, start] {
+        click(&mut harness, plot, PointerButton::Primary, 2);
+        settle(&mut harness);
+        let shown = last(&copy_values(&mut harness, plot));
+        assert!((shown - expected).abs() < 0.05 * span, "{shown} after a double click, {expected} expected");
+    }
+}
+
+#[test]
+fn the_context_menu_of_a_plot_copies_its_values() {
+    let mut harness = open(&beam(), Theme::Light);
+    harness.state_mut().view.stage = Stage::Result;
+    settle(&mut harness);
+    let plot = harness.get_by_label_contains("Matrix;").rect().center();
+    let copied = copy_values(&mut harness, plot);
     let rows: Vec<Vec<&str>> = copied.lines().map(|l| l.split('\t').collect()).collect();
     assert_eq!(rows[0], ["N s/m", "3", "7"]);
     let value: f64 = rows[1][1].parse().unwrap();

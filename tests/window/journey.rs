@@ -132,6 +132,33 @@ fn what_runs_shows_its_progress_and_can_be_cancelled() {
 }
 
 #[test]
+fn a_long_record_is_read_with_progress_and_can_be_given_up() {
+    let sample = beam();
+    let mut text = "time [s],force@9 [N],acc@5 [m/s^2],acc@9 [m/s^2]\n".to_owned();
+    for k in 0..400_000 {
+        let (s, c) = (1e-3 * f64::from(k)).sin_cos();
+        text += &format!("{:.6},{c:.8},{s:.8},{c:.8}\n", 1e-4 * f64::from(k));
+    }
+    let long = sample.path.with_file_name("long.csv");
+    std::fs::write(&long, text).unwrap();
+    let mut harness = open(&sample, Theme::Light);
+    crate::support::drop_files(&mut harness, &[long]);
+    let start = std::time::Instant::now();
+    let progress = |h: &Harness<'_, App>| h.state().running().map(|(_, progress)| progress);
+    let mut seen = vec![0.0];
+    while *seen.last().unwrap() < 0.3 {
+        seen.push(progress(&harness).expect("the record is being read"));
+        harness.run_steps(1);
+        assert!(start.elapsed() < std::time::Duration::from_mins(1));
+    }
+    assert!(seen.is_sorted(), "progress goes forwards: {seen:?}");
+    click(&mut harness, "Cancel");
+    settle(&mut harness);
+    harness.get_by_label("Cancelled.");
+    assert_eq!(harness.state().document.as_ref().unwrap().project.runs.len(), 4, "nothing was added");
+}
+
+#[test]
 fn a_source_is_drawn_with_the_keyboard_alone() {
     let sample = beam();
     let mut harness = open(&sample, Theme::Light);

@@ -25,7 +25,7 @@ use super::widgets::UiExt;
 use egui::{Color32, FontId, Ui};
 use egui_plot::{AxisHints, Line, Plot, PlotPoints};
 
-/// A plot in the program's style: drag pans, right drag zooms a box, double click resets.
+/// A plot in the program's style: drag pans, right drag zooms a box, double click shows all.
 fn frame<'a>(ui: &Ui, id: &str) -> Plot<'a> {
     let palette = ui.palette();
     Plot::new(id.to_owned())

@@ -1,4 +1,4 @@
-//! Plots on the screen: drag pans, right drag zooms a box, double click resets, the pointer reads out values, the context
+//! Plots on the screen: drag pans, right drag zooms a box, double click shows all, the pointer reads out values, the context
 //! menu copies and exports.
 
 use super::export;
@@ -145,10 +145,22 @@ impl Place<'_> {
             plot = plot.include_y(v);
         }
         plot.show(ui, |plot| {
+            reset(plot, figure);
             figure.series.iter().for_each(|s| series(plot, figure, s));
             figure.labels.iter().for_each(|l| words(plot, figure, l));
         })
     }
+}
+
+/// A double click shows all of a plot that starts with a part, and where all is in sight that part again; the plot's own
+/// reset knows the part only.
+fn reset(plot: &mut PlotUi<'_>, figure: &Figure) {
+    let (Some(part), true) = (figure.start, plot.response().double_clicked()) else { return };
+    let all = figure.bounds()[0];
+    let now = plot.plot_bounds();
+    let whole = now.width() >= 0.98 * (all[1] - all[0]);
+    let [from, to] = if whole { part } else { all };
+    plot.set_plot_bounds_x(from..=to);
 }
 
 fn needs_marks(axis: &Axis) -> bool {
