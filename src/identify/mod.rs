@@ -9,6 +9,7 @@
 mod collinear;
 pub mod error;
 mod finish;
+mod layouts;
 pub mod outcome;
 mod problem;
 mod response_form;

@@ -13,6 +13,10 @@ use faer::Mat;
 const FEW: f64 = 500.0;
 /// Nodes of the tree after which the proof is given up.
 const NODES: u64 = 400_000;
+/// The same for sets of more than [`LARGE`] sources, where a proof is out of reach in most cases and each node costs more.
+const NODES_LARGE: u64 = 40_000;
+/// Sources above which a set is large.
+const LARGE: usize = 8;
 /// Sets asked for of one size where the `keep` rule applies, so that some remain.
 const ASKED: usize = 30;
 /// Sets reported of one size.
@@ -126,7 +130,8 @@ impl Task<'_> {
         keep: usize,
         control: &Control,
     ) -> Result<Ranking, IdentifyError> {
-        let problem = SubsetProblem { a: a.as_ref(), b: self.b, size, keep, forced, node_limit: NODES };
+        let node_limit = if size > LARGE { NODES_LARGE } else { NODES };
+        let problem = SubsetProblem { a: a.as_ref(), b: self.b, size, keep, forced, node_limit };
         let sets = combinations(a.ncols() - forced.len(), size - forced.len());
         Ok(if sets <= FEW { exhaustive(&problem, control)? } else { branch_and_bound(&problem, control)? })
     }

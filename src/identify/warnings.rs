@@ -16,6 +16,7 @@ pub(super) fn all(problem: &Problem<'_>, found: &Found, fit: &solve::Fit, set: &
     list.extend(single_mode(problem));
     list.extend(parallel_laws(problem, found));
     list.extend(few_runs(problem, found, set));
+    list.extend(super::layouts::warning(problem, found, set.len()));
     list.extend(uncertain(problem, fit, set));
     if fit.condition > WORST_CONDITION {
         list.push(format!(
