@@ -3,7 +3,7 @@
 use super::energy_support::{channel, run};
 use dashpot::control::Control;
 use dashpot::effects::{Effect, Place, Source};
-use dashpot::identify::{Outcome, Settings, identify};
+use dashpot::identify::{Settings, identify};
 use dashpot::measurement::{Quantity, Run};
 use dashpot::response::dynamic_stiffness::DynamicStiffness;
 use dashpot::structure::Structure;
@@ -114,11 +114,6 @@ fn runs(wing: &Structure, modes: usize, drives: &[usize]) -> Vec<Run> {
     runs
 }
 
-fn identified(outcome: &Outcome, sources: &[Source]) -> Vec<(Vec<usize>, f64)> {
-    let place = |s: usize| if let Place::Dofs(dofs) = &sources[s].place { dofs.clone() } else { Vec::new() };
-    outcome.accepted_step().sources.iter().map(|e| (place(e.source), e.coefficient)).collect()
-}
-
 fn settings() -> Settings {
     Settings { harmonics: 1, max_sources: 14, stop_angle_deg: 1e-4, ..Settings::default() }
 }
@@ -126,6 +121,7 @@ fn settings() -> Settings {
 /// Five runs: the thesis' energies alone are met by hundreds of layouts; the response of all sensors tells them apart, so that
 /// not only the first five modes come within 0.1 % but all.
 #[test]
+#[ignore = "half a minute without optimisation: cargo test --test literature wing -- --ignored"]
 fn table_5_13_five_runs() {
     let wing = WingParameters::goland().build(&[]).unwrap();
     let sources = candidates(&wing);
@@ -136,20 +132,4 @@ fn table_5_13_five_runs() {
     }
     let said = |words: &str| outcome.warnings.iter().any(|w| w.contains(words));
     assert!(said("more than 500 layouts of 5 sources meet the energies of the 5 runs"), "{:?}", outcome.warnings);
-}
-
-#[test]
-fn all_fourteen_dashpots_from_45_runs() {
-    let wing = WingParameters::goland().build(&[]).unwrap();
-    let sources = candidates(&wing);
-    let runs = runs(&wing, 15, &[28, 30, 13]);
-    assert_eq!(runs.len(), 45);
-    let outcome = identify(&wing, &sources, &runs, &settings(), &Control::unattended()).unwrap();
-    let found = identified(&outcome, &sources);
-    assert_eq!(found.len(), 14, "{found:?}");
-    for (place, c) in found {
-        let named = |&(a, b): &(usize, usize)| place == [vertical(&wing, a), vertical(&wing, b)];
-        assert!(PAIRS.iter().any(named), "{place:?}");
-        assert!((c / COEFFICIENT - 1.0).abs() < 1e-6, "{place:?}: {c}");
-    }
 }
