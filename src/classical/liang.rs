@@ -32,7 +32,8 @@ pub struct Balanced {
     pub damping: Damping,
 }
 
-/// Coefficients of `columns` (taken at unit coefficient) from the work at every DOF.
+/// Coefficients of `columns` (taken at unit coefficient) from the work at every DOF, less that of the `known` sources at
+/// their values; these are in the matrix too.
 ///
 /// # Errors
 /// [`ClassicalError::Missing`] without matrices, columns, or the motion of every DOF; those of the linear algebra.
@@ -40,6 +41,7 @@ pub fn liang(
     structure: &Structure,
     runs: &[(Measured, Expanded)],
     columns: &[Source],
+    known: &[Source],
 ) -> Result<Balanced, ClassicalError> {
     let missing = |what: &str| Err(ClassicalError::Missing { what: what.to_string() });
     if structure.matrices().is_none() {
@@ -54,7 +56,7 @@ pub fn liang(
     let n = structure.len();
     let units: Vec<Source> = columns.iter().map(|source| source.with_coefficient(1.0)).collect();
     let mut rows = Mat::zeros(n * runs.len(), columns.len());
-    let mut right = Vec::with_capacity(n * runs.len());
+    let mut right: Vec<f64> = Vec::with_capacity(n * runs.len());
     for (r, (measured, expanded)) in runs.iter().enumerate() {
         let field = expanded.field(measured);
         for (j, source) in units.iter().enumerate() {
@@ -62,11 +64,18 @@ pub fn liang(
                 rows[(n * r + dof, j)] += work(field, dof, &force);
             }
         }
+        let first = right.len();
         right.extend(remaining(structure, measured, field));
+        for source in known {
+            for (dof, force) in action::force(source, structure, field) {
+                right[first + dof] -= work(field, dof, &force);
+            }
+        }
     }
     let problem = LeastSquares::new(rows.as_ref())?;
     let coefficients = problem.solve(&right)?.x;
-    let mut damping = Damping::viscous(matrix(&units, &coefficients, n));
+    let values: Vec<f64> = known.iter().map(Source::coefficient).collect();
+    let mut damping = Damping::viscous(matrix(&units, &coefficients, n) + matrix(known, &values, n));
     if problem.rank() < columns.len() {
         let note = format!("{} of {} coefficients are fixed by the data", problem.rank(), columns.len());
         damping.notes.push(note);

@@ -30,6 +30,7 @@ mod linear;
 pub mod log_decrement;
 pub mod method;
 pub mod minas_inman;
+mod neighbours;
 pub mod phani_woodhouse;
 pub mod pilkey_inman;
 pub mod poly_reference;

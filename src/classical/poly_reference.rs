@@ -8,9 +8,10 @@
 //!
 //! with `X = w_o [1 z z^2 ...]`, `Y = -X (x) H_o`, rows weighted by `1 / |H_o|` for noise in proportion. Poles are the eigenvalues of
 //! the companion matrix; those that return from order to order with a frequency and damping that do not move are modes:
-//! the stabilisation diagram. **Needs** receptances with several lines within every half-power band. **Limits**: modes
+//! the stabilisation diagram. Then every band is fitted again with the modes of the others taken off ([`super::neighbours`]). **Needs** receptances with several lines within every half-power band. **Limits**: modes
 //! that show as one peak are told apart only by several drives or sensors; the linear estimate alone is biased by noise.
 
+use super::neighbours::{self, Stretch};
 use super::refine::{Band, refine};
 use super::responses::FrequencyResponses;
 use super::{ClassicalError, ModalData};
@@ -120,19 +121,18 @@ pub fn extract(responses: &FrequencyResponses, control: &Control) -> Result<Extr
         let (what, found) = ("lines of frequency response around a resonance", responses.omega.len());
         return Err(ClassicalError::Few { what, needed: 2 * LEAST_LINES, found });
     }
-    let mut extraction = Extraction { modes: Vec::new(), diagram: Vec::new() };
+    let mut diagram = Vec::new();
+    let mut stretches = Vec::new();
     for (k, &(first, last)) in bands.iter().enumerate() {
         control.check()?;
         control.report(k as f64 / bands.len() as f64);
         let band = Band::new(responses, first, last);
-        let (diagram, stable) = stable_poles(&band)?;
-        extraction.diagram.extend(diagram);
-        extraction.modes.extend(physical(&band, stable)?);
+        let (poles, stable) = stable_poles(&band)?;
+        diagram.extend(poles);
+        let modes = physical(&band, stable)?;
+        stretches.push(Stretch { band, modes });
     }
-    extraction.modes.retain(|mode| mode.pole.re < 0.0 && mode.pole.im > 0.0);
-    extraction.modes.sort_by(|a, b| a.pole.norm().total_cmp(&b.pole.norm()));
-    extraction.modes.dedup_by(|b, a| (b.pole - a.pole).norm() < a.pole.re.abs());
-    Ok(extraction)
+    Ok(Extraction { modes: neighbours::settled(stretches, control)?, diagram })
 }
 
 /// Refined modes of a band without those that only mend the fit: poles that leave the band, and weak ones beside a strong

@@ -7,8 +7,11 @@ use std::f64::consts::{PI, TAU};
 /// Relative distance within which a ratio belongs to a mode of the model.
 const SAME_MODE: f64 = 0.05;
 
-/// Least ratio of velocities between runs of one mode that can tell friction from viscous damping.
+/// Least ratio of forces between runs of one mode that can tell friction from viscous damping: along one sweep the other
+/// modes' share of the motion would pass for friction.
 const LEVELS: f64 = 1.5;
+/// Least number of lines within a half-power band that show its width.
+const LEAST_INSIDE: usize = 3;
 /// Least part of a mode's largest displacement at the drive that shows the mode there.
 const SEEN: f64 = 0.2;
 
@@ -46,10 +49,12 @@ impl Data<'_> {
             let peaks = half_power::peaks(&responses.omega, &responses.series(sensor, drive));
             let nearest = |a: &half_power::HalfPower| (a.omega_peak - omega).abs();
             let peak = peaks.into_iter().min_by(|a, b| nearest(a).total_cmp(&nearest(b)))?;
-            Some((peak.omega_peak, peak.damping_ratio()))
+            let half = peak.damping_ratio() * peak.omega_peak;
+            let inside = responses.omega.iter().filter(|&w| (w - peak.omega_peak).abs() < half).count();
+            (inside >= LEAST_INSIDE).then_some((peak.omega_peak, peak.damping_ratio()))
         });
         let found: Vec<(f64, f64)> = found.collect();
-        self.of_ratios(found, "lines on both flanks of a resonance peak")
+        self.of_ratios(found, "three lines within the half-power band of a peak, and lines on both flanks")
     }
 
     /// Lines within two half-power widths of each pole that was extracted.
@@ -84,12 +89,16 @@ impl Data<'_> {
             if states.len() < 2 {
                 continue;
             }
-            let speeds = states.iter().map(|s| s.omega * s.displacement[0].norm());
-            let (least, most) = speeds.fold((f64::INFINITY, 0.0_f64), |(a, b), v| (a.min(v), b.max(v)));
+            let levels = losses.iter().filter(|l| l.mode == mode).map(|l| l.force);
+            let (least, most) = levels.fold((f64::INFINITY, 0.0_f64), |(a, b), v| (a.min(v), b.max(v)));
             if most < LEVELS * least {
                 continue;
             }
             match super::energy_single::viscous_and_friction(&states) {
+                Ok(fit) if fit.c < 0.0 || fit.friction < 0.0 => {
+                    why =
+                        "runs that agree with viscous damping and friction: one of them came out negative".to_string();
+                }
                 Ok(fit) => found.push((self.model.omega[mode], fit.c / (2.0 * self.model.omega[mode]))),
                 Err(error) => why = error.to_string(),
             }
@@ -110,7 +119,9 @@ impl Data<'_> {
                 let mode = self.model.nearest(run.fit.omega)?;
                 let near = (run.fit.omega - self.model.omega[mode]).abs() < resonant::NEAR * self.model.omega[mode];
                 let phi = self.model.shapes[(drive, mode)];
-                let largest = self.model.shapes.col(mode).norm_max();
+                let translations = self.structure.translations();
+                let at = |dof: usize| self.model.shapes[(dof, mode)].abs();
+                let largest = translations.into_iter().map(at).fold(0.0, f64::max);
                 let area = super::hysteresis_loop::from_harmonics(run.fit.omega, &x, &f, 1.0).area;
                 let q = x[0].norm() / phi.abs();
                 let seen = phi.abs() > SEEN * largest;
@@ -118,6 +129,7 @@ impl Data<'_> {
                     mode,
                     omega: run.fit.omega,
                     area,
+                    force: f[0].norm(),
                     q,
                     natural: self.model.omega[mode],
                 })
@@ -135,6 +147,8 @@ struct ModalLoss {
     natural: f64,
     /// J a period.
     area: f64,
+    /// Amplitude at the drive, N.
+    force: f64,
     /// Modal amplitude, kg^(1/2) m.
     q: f64,
 }

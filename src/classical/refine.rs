@@ -24,6 +24,9 @@ const FLOOR: f64 = 0.02;
 pub(super) struct Band {
     /// Circular frequencies, rad/s.
     pub omega: Vec<f64>,
+    /// As measured: they rule the weights.
+    measured: Vec<Mat<c64>>,
+    /// What is fitted: the measured, other modes taken off where they are known.
     values: Vec<Mat<c64>>,
     /// Largest magnitude over the band by sensor and drive.
     largest: Vec<Vec<f64>>,
@@ -35,7 +38,21 @@ impl Band {
         let top = |i: usize, j: usize| values.iter().map(|h| h[(i, j)].norm()).fold(f64::MIN_POSITIVE, f64::max);
         let drives = responses.drives.len();
         let largest = (0..responses.sensors.len()).map(|i| (0..drives).map(|j| top(i, j)).collect()).collect();
-        Self { omega: responses.omega[first..=last].to_vec(), largest, values }
+        Self { omega: responses.omega[first..=last].to_vec(), largest, measured: values.clone(), values }
+    }
+
+    /// Takes off what is known already: the modes of `others` with their conjugates, and the conjugates of the band's `own`.
+    pub fn take_off(&mut self, others: &[&ExtractedMode], own: &[ExtractedMode]) {
+        for (k, &w) in self.omega.iter().enumerate() {
+            let s = c64::new(0.0, w);
+            let known = |i: usize, j: usize| -> c64 {
+                let conjugate = |m: &ExtractedMode| m.residues[(i, j)].conj() / (s - m.pole.conj());
+                let direct = |m: &ExtractedMode| m.residues[(i, j)] / (s - m.pole);
+                others.iter().map(|m| direct(m) + conjugate(m)).sum::<c64>() + own.iter().map(conjugate).sum::<c64>()
+            };
+            let measured = &self.measured[k];
+            self.values[k] = filled_complex(measured.nrows(), measured.ncols(), |i, j| measured[(i, j)] - known(i, j));
+        }
     }
 
     pub fn sensors(&self) -> usize {
@@ -61,7 +78,7 @@ impl Band {
     }
 
     fn scale(&self, line: usize, sensor: usize, drive: usize) -> f64 {
-        self.values[line][(sensor, drive)].norm().max(FLOOR * self.largest[sensor][drive])
+        self.measured[line][(sensor, drive)].norm().max(FLOOR * self.largest[sensor][drive])
     }
 }
 

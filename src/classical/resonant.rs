@@ -3,10 +3,11 @@
 //!
 //! ```text
 //! y = x - sum_{j != r} phi_j phi_j^T f / (w_j^2 - w^2) = psi_r (psi_r^T f) / (i w - lambda_r)        psi^T M psi ~ 1 / (2 i w_r)
+//! phi_r^T M y = phi_r^T f / (2 i w_r (i w - lambda_r))
 //! ```
 //!
-//! The undamped motion of the other modes is taken off, so that what is left has the shape of the damped mode, and its size at
-//! the drive gives the pole. **Needs** mass, stiffness, a run within [`NEAR`] of the natural frequency and a sensor at its
+//! The undamped motion of the other modes is taken off, so that what is left has the shape of the damped mode, and its modal
+//! amplitude gives the pole. **Needs** mass, stiffness, a run within [`NEAR`] of the natural frequency and a sensor at its
 //! drive. **Limits**: errors are of second order in the damping; errors of the model all end in the shapes. Where lines are many
 //! [`super::poly_reference`] does without the model.
 
@@ -20,6 +21,8 @@ use faer::c64;
 
 /// Largest distance of a run from a natural frequency, as a part of it.
 pub const NEAR: f64 = 0.012;
+/// Condition of the shapes at the sensors above which the highest modes are left out.
+const WORST_CONDITION: f64 = 1e3;
 
 /// The lowest modes, up to the first without a run near it; scaled (3.82) by the mass matrix.
 ///
@@ -44,9 +47,12 @@ pub fn from_runs(
         let left: Vec<c64> = responses.sensors.iter().enumerate().map(|(s, &dof)| h[(s, drive)] - rest(dof)).collect();
         let full = expanded(model, &responses.sensors, &left, r)?;
         // psi^T M psi = 1 / (2 i w) to first order.
-        let size = (form(&full, matrices.mass.as_ref(), &full) * c64::new(0.0, 2.0 * model.omega[r])).sqrt();
+        let twice = c64::new(0.0, 2.0 * model.omega[r]);
+        let size = (form(&full, matrices.mass.as_ref(), &full) * twice).sqrt();
         let psi: Vec<c64> = full.iter().map(|v| v / size).collect();
-        let lambda = c64::new(0.0, omega) - psi[at_drive] * psi[at_drive] / full[at_drive];
+        let own: Vec<c64> = model.shapes.col(r).iter().map(|&v| c64::new(v, 0.0)).collect();
+        let modal = form(&own, matrices.mass.as_ref(), &full);
+        let lambda = c64::new(0.0, omega) - c64::new(model.shapes[(at_drive, r)], 0.0) / (twice * modal);
         if !(lambda.re < 0.0 && lambda.im > 0.0) {
             break;
         }
@@ -85,13 +91,25 @@ pub fn expanded(model: &Modes, sensors: &[usize], values: &[c64], r: usize) -> R
         sensors.iter().zip(values).for_each(|(&dof, &v)| full[dof] = v);
         return Ok(full);
     }
-    let mut picked = vec![r];
-    picked.extend((0..model.len()).filter(|&j| j != r).take(sensors.len() - 1));
-    let basis = filled(sensors.len(), picked.len(), |s, k| model.shapes[(sensors[s], picked[k])]);
-    let problem = LeastSquares::new(basis.as_ref())?;
+    let (problem, picked) = basis(model, sensors, r)?;
     let re = problem.solve(&values.iter().map(|v| v.re).collect::<Vec<_>>())?.x;
     let im = problem.solve(&values.iter().map(|v| v.im).collect::<Vec<_>>())?.x;
     let at =
         |i: usize| picked.iter().enumerate().map(|(k, &j)| c64::new(re[k], im[k]) * model.shapes[(i, j)]).sum::<c64>();
     Ok((0..n).map(at).collect())
+}
+
+/// Mode `r` and the lowest others at the sensors: as many as these tell apart.
+fn basis(model: &Modes, sensors: &[usize], r: usize) -> Result<(LeastSquares, Vec<usize>), ClassicalError> {
+    let mut picked = vec![r];
+    picked.extend((0..model.len()).filter(|&j| j != r).take(sensors.len() - 1));
+    loop {
+        let shapes = filled(sensors.len(), picked.len(), |s, k| model.shapes[(sensors[s], picked[k])]);
+        let problem = LeastSquares::new(shapes.as_ref())?;
+        if picked.len() == 1 || (problem.rank() == picked.len() && problem.condition() < WORST_CONDITION) {
+            return Ok((problem, picked));
+        }
+        // The highest mode is the one that the sensors see least of.
+        picked.truncate((picked.len() - 1).min(9 * picked.len() / 10).max(1));
+    }
 }

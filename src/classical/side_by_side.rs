@@ -8,6 +8,7 @@ use crate::balance::{Expander, Expansion, Measured};
 use crate::control::Control;
 use crate::effects::{Source, State};
 use crate::math::fill::filled_complex;
+use crate::math::statistics::{median, robust_deviation};
 use crate::measurement::Run;
 use crate::response::linear_matrices::LinearMatrices;
 use crate::structure::damped_modes::{DampedMode, damped_modes_from};
@@ -72,13 +73,17 @@ pub struct SideBySide {
     pub entries: Vec<Entry>,
     /// The known truth, where sources of state reference or known are viscous.
     pub reference: Option<Mat<f64>>,
-    /// Standard deviation of each mode's ratio between the methods over its mean, `(mode, spread)`.
+    /// Number of the lowest modes whose ratios the data show: by complex modes or by the methods that give ratios only.
+    pub measured: usize,
+    /// Ratios of the known truth.
+    pub reference_ratios: Vec<Ratio>,
+    /// Deviation of each measured mode's ratio between the methods over their median, `(mode, spread)`.
     pub spread: Vec<(usize, f64)>,
 }
 
 /// What the methods work on.
 pub(super) struct Data<'a> {
-    structure: &'a Structure,
+    pub(super) structure: &'a Structure,
     matrices: &'a SystemMatrices,
     pub(super) model: Modes,
     sources: &'a [Source],
@@ -119,8 +124,31 @@ pub fn side_by_side(
         let outcome = data.apply(method).and_then(|applied| data.judged(applied, truth.as_ref()));
         entries.push(Entry { method, outcome: outcome.map_err(|error| error.to_string()) });
     }
-    let spread = spread(&entries, data.model.len());
-    Ok(SideBySide { modes_from, modal: data.modal.ok(), extraction, entries, reference, spread })
+    let reference_ratios = truth.map_or_else(Vec::new, |(_, modes)| ratios(&modes));
+    let measured = measured(&entries, data.modal.as_ref().map_or(0, ModalData::len));
+    let spread = spread(&entries, measured);
+    Ok(SideBySide {
+        modes_from,
+        modal: data.modal.ok(),
+        extraction,
+        entries,
+        reference,
+        measured,
+        reference_ratios,
+        spread,
+    })
+}
+
+/// Modes up to the highest that is seen.
+fn measured(entries: &[Entry], complex: usize) -> usize {
+    let only_ratios = entries.iter().filter_map(|e| e.outcome.as_ref().ok()).filter(|a| a.damping.is_none());
+    only_ratios.flat_map(|a| &a.ratios).map(|r| r.mode + 1).fold(complex, usize::max)
+}
+
+/// Ratios of oscillating modes, ascending.
+fn ratios(modes: &[DampedMode]) -> Vec<Ratio> {
+    let oscillating = modes.iter().filter(|mode| mode.lambda.im > 0.0).enumerate();
+    oscillating.map(|(mode, m)| Ratio { mode, frequency_hz: m.frequency_hz, ratio: m.damping_ratio }).collect()
 }
 
 /// `C` of the reference and known viscous sources; `None` without a reference.
@@ -142,7 +170,7 @@ fn complex_modes(
     control: &Control,
 ) -> Result<Found, ClassicalError> {
     let Some(responses) = responses else {
-        return Ok((None, Err("needs runs with one exciter each".to_string()), String::new()));
+        return Ok((None, Err("no run has exactly one exciter".to_string()), String::new()));
     };
     match extract(responses, control) {
         Ok(extraction) if !extraction.modes.is_empty() => {
@@ -154,13 +182,16 @@ fn complex_modes(
         Err(ClassicalError::Cancelled) => return Err(ClassicalError::Cancelled),
         _ => {}
     }
-    Ok(match resonant::from_runs(matrices, model, responses) {
-        Ok(modal) => {
-            let words = format!("{} modes from runs near the resonances, with the model's help", modal.len());
-            (None, Ok(modal), words)
-        }
-        Err(error) => (None, Err(error.to_string()), String::new()),
-    })
+    if let Ok(modal) = resonant::from_runs(matrices, model, responses) {
+        let words = format!("{} modes from runs near the resonances, with the model's help", modal.len());
+        return Ok((None, Ok(modal), words));
+    }
+    let why = format!(
+        "no resonance has lines enough, and no run lies within {} % of {:.2} Hz, the lowest mode, with a sensor at its drive",
+        100.0 * resonant::NEAR,
+        model.frequency_hz(0)
+    );
+    Ok((None, Err(why), String::new()))
 }
 
 /// Shapes at all DOFs.
@@ -211,7 +242,7 @@ impl Data<'_> {
     pub(super) fn modal(&self) -> Result<&ModalData, ClassicalError> {
         match &self.modal {
             Ok(modal) => Ok(modal),
-            Err(why) => missing(format!("complex modes, which {why}")),
+            Err(why) => missing(format!("complex modes: {why}")),
         }
     }
 
@@ -254,16 +285,16 @@ impl Data<'_> {
         if !complete {
             return missing("a sensor at every DOF: an expanded motion passes no energy between DOFs");
         }
-        let top = self.runs.iter().map(|run| 8.0 * run.fit.omega).fold(0.0, f64::max);
         let wrong = |error: crate::balance::BalanceError| ClassicalError::Missing { what: error.to_string() };
-        let expander = Expander::new(self.structure, Expansion::None, top).map_err(wrong)?;
+        let expander = Expander::new(self.structure, Expansion::None, &[]).map_err(wrong)?;
         let mut runs = Vec::new();
         for run in self.runs.iter().filter(|run| run.enabled) {
             let measured = Measured::new(run).map_err(wrong)?;
             let motion = expander.expand(&measured, Acting::NOTHING).map_err(wrong)?;
             runs.push((measured, motion));
         }
-        Ok(super::liang::liang(self.structure, &runs, &columns)?.damping)
+        let known: Vec<Source> = self.sources.iter().filter(|s| s.state == State::Known).cloned().collect();
+        Ok(super::liang::liang(self.structure, &runs, &columns, &known)?.damping)
     }
 
     fn phani_woodhouse(&self) -> Result<Damping, ClassicalError> {
@@ -282,12 +313,7 @@ impl Data<'_> {
         let Some(damping) = &applied.damping else { return Ok(applied) };
         let c = crate::math::eigen::symmetrised(damping.viscous.as_ref());
         let modes = damped_modes_from(&self.model, c.as_ref())?;
-        applied.ratios = modes
-            .iter()
-            .filter(|mode| mode.lambda.im > 0.0)
-            .enumerate()
-            .map(|(mode, m)| Ratio { mode, frequency_hz: m.frequency_hz, ratio: m.damping_ratio })
-            .collect();
+        applied.ratios = ratios(&modes);
         if let Some((known, exact)) = truth {
             let (m, k) = (self.matrices.mass.as_ref(), self.matrices.stiffness.as_ref());
             let mac = errors::generalised_mac(m, k, (&modes, c.as_ref()), (exact, known.as_ref()));
@@ -304,16 +330,17 @@ impl Data<'_> {
     }
 }
 
-/// Standard deviation over mean of each mode's ratio between methods, where two methods or more give one.
-fn spread(entries: &[Entry], modes: usize) -> Vec<(usize, f64)> {
-    (0..modes)
+/// Robust deviation over median of the ratio of each mode that was measured, where two methods or more give one: what a
+/// method says of other modes is its own invention, and one that fails must not hide how well the others agree.
+fn spread(entries: &[Entry], measured: usize) -> Vec<(usize, f64)> {
+    let ratio = |entry: &Entry, mode: usize| -> Option<f64> {
+        entry.outcome.as_ref().ok()?.ratios.iter().find(|r| r.mode == mode).map(|r| r.ratio)
+    };
+    (0..measured)
         .filter_map(|mode| {
-            let of =
-                |entry: &Entry| entry.outcome.as_ref().ok()?.ratios.iter().find(|r| r.mode == mode).map(|r| r.ratio);
-            let values: Vec<f64> = entries.iter().filter_map(of).collect();
-            let mean = crate::math::statistics::mean(&values);
-            let deviation = crate::math::statistics::standard_deviation(&values);
-            (values.len() >= 2 && mean != 0.0).then(|| (mode, deviation / mean.abs()))
+            let values: Vec<f64> = entries.iter().filter_map(|entry| ratio(entry, mode)).collect();
+            let middle = median(&values);
+            (values.len() >= 2 && middle != 0.0).then(|| (mode, robust_deviation(&values) / middle.abs()))
         })
         .collect()
 }

@@ -2,7 +2,8 @@
 
 use super::arguments::Analysis;
 use super::table::{digits, number, table};
-use crate::classical::side_by_side::{Applied, Entry, SideBySide, side_by_side};
+use crate::classical::ModalData;
+use crate::classical::side_by_side::{Applied, Entry, Ratio, SideBySide, side_by_side};
 use crate::control::Control;
 use crate::exchange::Project;
 use crate::exchange::project::load;
@@ -28,18 +29,23 @@ fn report(project: &Project, found: &SideBySide) -> String {
     if !found.modes_from.is_empty() {
         text += &format!("Complex modes: {}\n\n", found.modes_from);
     }
-    let shown = found.entries.iter().filter_map(|e| e.outcome.as_ref().ok()).map(|a| a.ratios.len()).max();
-    let count = shown.unwrap_or(0).min(MOST_MODES);
+    let count = found.measured.min(MOST_MODES);
     let mut head: Vec<String> = ["method", "eps_C %", "eps_p %", "MAC error"].map(str::to_owned).to_vec();
     head.extend((1..=count).map(|mode| format!("zeta {mode} %")));
     let mut rows = vec![head];
     rows.extend(found.entries.iter().filter_map(|e| Some(row(e, e.outcome.as_ref().ok()?, count))));
-    let mut last = vec!["spread of the methods, %".to_owned(), String::new(), String::new(), String::new()];
-    last.extend((0..count).map(|mode| {
-        let one = found.spread.iter().find(|(m, _)| *m == mode);
-        one.map_or("-".to_owned(), |(_, s)| digits(100.0 * s, 3))
-    }));
-    rows.push(last);
+    let named = |name: &str, value: &dyn Fn(usize) -> Option<f64>| -> Vec<String> {
+        let first = [name, "", "", ""].map(str::to_owned);
+        let cell = |mode| value(mode).map_or("-".to_owned(), |v| digits(100.0 * v, 3));
+        first.into_iter().chain((0..count).map(cell)).collect()
+    };
+    rows.push(named("spread of the methods, %", &|mode| found.spread.iter().find(|s| s.0 == mode).map(|s| s.1)));
+    if let Some(modal) = &found.modal {
+        rows.push(named("complex modes as measured", &|mode| (mode < modal.len()).then(|| modal.damping_ratio(mode))));
+    }
+    if !found.reference_ratios.is_empty() {
+        rows.push(named("reference", &|mode| found.reference_ratios.get(mode).map(|r| r.ratio)));
+    }
     text += &format!("Methods\n{}\n", table(&rows));
     text += &notes(found);
     text += &matrices(project, found);
@@ -103,7 +109,10 @@ fn document(project: &Project, found: &SideBySide) -> Value {
         "title": project.title,
         "dofs": labels,
         "modes_from": found.modes_from,
+        "measured_modes": found.measured,
+        "complex_modes": found.modal.as_ref().map_or_else(Vec::new, complex_modes),
         "reference": found.reference.as_ref().map(rows),
+        "reference_modes": found.reference_ratios.iter().map(ratio).collect::<Vec<_>>(),
         "methods": found.entries.iter().map(entry).collect::<Vec<_>>(),
         "spread": spread.collect::<Vec<_>>(),
     })
@@ -123,7 +132,6 @@ fn entry(entry: &Entry) -> Value {
         }
         Ok(applied) => {
             map.insert("ran".into(), json!(true));
-            let ratio = |r: &crate::classical::side_by_side::Ratio| json!({"mode": r.mode + 1, "frequency_hz": r.frequency_hz, "damping_ratio": r.ratio});
             map.insert("modes".into(), applied.ratios.iter().map(ratio).collect());
             if let Some(damping) = &applied.damping {
                 map.insert("viscous".into(), rows(&damping.viscous));
@@ -137,6 +145,15 @@ fn entry(entry: &Entry) -> Value {
         }
     }
     Value::Object(map)
+}
+
+fn ratio(r: &Ratio) -> Value {
+    json!({"mode": r.mode + 1, "frequency_hz": r.frequency_hz, "damping_ratio": r.ratio})
+}
+
+fn complex_modes(modal: &ModalData) -> Vec<Value> {
+    let hz = |p: usize| modal.poles[p].norm() / std::f64::consts::TAU;
+    (0..modal.len()).map(|p| json!({"frequency_hz": hz(p), "damping_ratio": modal.damping_ratio(p)})).collect()
 }
 
 fn rows(matrix: &Mat<f64>) -> Value {

@@ -45,8 +45,7 @@ impl<'a> Problem<'a> {
         }
         let measured: Result<Vec<Measured>, _> = run_index.iter().map(|&r| Measured::new(&runs[r])).collect();
         let measured = measured?;
-        let highest = measured.iter().map(|m| m.frequency(m.harmonics() - 1)).fold(0.0, f64::max);
-        let expander = Expander::new(structure, settings.expansion, highest)?;
+        let expander = Expander::new(structure, settings.expansion, &measured)?;
         let mut problem = Self {
             structure,
             sources,

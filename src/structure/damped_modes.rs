@@ -194,7 +194,7 @@ fn scale(q: &mut [c64], factor: c64) {
 fn physical(undamped: &Modes, modal_shapes: &[Vec<c64>]) -> Vec<Vec<c64>> {
     let n = undamped.shapes.nrows();
     let part = |pick: fn(&c64) -> f64| {
-        let q = Mat::from_fn(n, modal_shapes.len(), |i, j| pick(&modal_shapes[j][i]));
+        let q = Mat::from_fn(undamped.len(), modal_shapes.len(), |i, j| pick(&modal_shapes[j][i]));
         product(undamped.shapes.as_ref(), q.as_ref())
     };
     let (re, im) = (part(|v| v.re), part(|v| v.im));

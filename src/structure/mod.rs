@@ -6,6 +6,7 @@ pub mod chain;
 pub mod damped_modes;
 mod error;
 pub mod imported;
+pub mod lowest_modes;
 pub mod modes;
 pub mod points;
 pub mod wing;

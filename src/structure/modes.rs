@@ -13,7 +13,7 @@ const RIGID: f64 = 64.0 * f64::EPSILON;
 pub struct Modes {
     /// Natural circular frequencies, rad/s; exactly 0 for rigid body modes.
     pub omega: Vec<f64>,
-    /// Mass-normalised shapes, one column a mode, n x n.
+    /// Mass-normalised shapes, one column a mode: n x n, or n x m where only the lowest m are known.
     pub shapes: Mat<f64>,
 }
 
@@ -58,8 +58,12 @@ pub fn modes(matrices: &SystemMatrices) -> Result<Modes, StructureError> {
     if least < -RIGID.max(1e-12) * highest * (n as f64).sqrt() {
         return Err(StructureError::NegativeStiffness { least });
     }
-    let omega = eigen.values.iter().map(|&v| if v <= RIGID * highest { 0.0 } else { v.sqrt() }).collect();
-    Ok(Modes { omega, shapes: eigen.vectors })
+    Ok(Modes { omega: frequencies(&eigen.values, RIGID * highest), shapes: eigen.vectors })
+}
+
+/// `omega` of `omega^2`; 0 for those of rigid bodies, up to `rounding`.
+pub(super) fn frequencies(squares: &[f64], rounding: f64) -> Vec<f64> {
+    squares.iter().map(|&v| if v <= rounding { 0.0 } else { v.sqrt() }).collect()
 }
 
 pub(super) fn failure(error: &EigenError) -> StructureError {

@@ -68,16 +68,16 @@ pub fn receptance(
 /// # Errors
 /// One line: the structure has no modes.
 pub fn motions(p: &Project, outcome: Option<&Outcome>) -> Result<Vec<Vec<c64>>, String> {
-    let highest = p.runs.iter().map(|r| r.fit.omega).fold(0.0, f64::max);
-    let expander = Expander::new(&p.structure, p.settings.expansion, highest).map_err(|e| e.to_string())?;
+    let measured: Vec<Option<Measured>> = p.runs.iter().map(|run| Measured::new(run).ok()).collect();
+    let usable: Vec<Measured> = measured.iter().flatten().cloned().collect();
+    let expander = Expander::new(&p.structure, p.settings.expansion, &usable).map_err(|e| e.to_string())?;
     let damping = outcome.map_or_else(Vec::new, |outcome| acting(p, outcome));
-    let one = |run: &crate::measurement::Run| {
-        let measured = Measured::new(run).ok()?;
+    let one = |measured: &Measured| {
         let acting = Acting { sources: &damping, motion: None, model_error: outcome.map_or(1.0, |o| o.model_error) };
-        let expanded = expander.expand(&measured, acting).ok()?;
+        let expanded = expander.expand(measured, acting).ok()?;
         Some((0..p.structure.len()).map(|d| expanded.x[(d, 0)]).collect())
     };
-    Ok(p.runs.iter().map(|run| one(run).unwrap_or_default()).collect())
+    Ok(measured.iter().map(|run| run.as_ref().and_then(one).unwrap_or_default()).collect())
 }
 
 /// Loops at the model's steady state under the measured force's fundamental.

@@ -25,7 +25,7 @@ fn channel(structure: &Structure, quantity: Quantity, dof: usize, amplitude: c64
 fn runs(structure: &Structure, sensors: usize) -> Vec<(Measured, Expanded)> {
     let lines = [21.0, 33.0, 42.0, 53.0, 65.0];
     let h = receptance(structure, &damping(), &Mat::zeros(5, 5), &lines);
-    let expander = Expander::new(structure, Expansion::None, 1e3).unwrap();
+    let expander = Expander::new(structure, Expansion::None, &[]).unwrap();
     (0..lines.len())
         .map(|k| {
             let mut channels = vec![channel(structure, Quantity::Force, 4, c64::new(2.0, 0.5))];
@@ -59,7 +59,7 @@ fn pattern() -> Vec<Source> {
 #[test]
 fn liang_is_exact_on_the_pattern_that_holds_the_truth() {
     let structure = five_masses();
-    let found = liang(&structure, &runs(&structure, 5), &pattern()).unwrap();
+    let found = liang(&structure, &runs(&structure, 5), &pattern(), &[]).unwrap();
     assert_exact(&found.damping.viscous, &damping());
     assert!(found.damping.notes.is_empty(), "{:?}", found.damping.notes);
 }
@@ -67,6 +67,6 @@ fn liang_is_exact_on_the_pattern_that_holds_the_truth() {
 #[test]
 fn liang_needs_every_sensor() {
     let structure = five_masses();
-    let error = liang(&structure, &runs(&structure, 4), &pattern()).unwrap_err();
+    let error = liang(&structure, &runs(&structure, 4), &pattern(), &[]).unwrap_err();
     assert_eq!(error, ClassicalError::Missing { what: "the motion of every DOF in every run".to_string() });
 }

@@ -1,6 +1,7 @@
 //! The classical methods on data whose answer is known: exact where theory says so, else the error that theory gives.
 #![allow(clippy::unwrap_used, reason = "tests")]
 
+mod all_methods;
 mod energy_methods;
 mod extraction;
 mod modal_methods;

@@ -75,11 +75,11 @@ pub struct Expander<'a> {
 }
 
 impl<'a> Expander<'a> {
-    /// Prepares a method; `Auto` becomes `Dynamic` where there are mass and stiffness, else `None`.
+    /// Prepares a method for `runs`; `Auto` becomes `Dynamic` where there are mass and stiffness, else `None`.
     ///
     /// # Errors
     /// [`BalanceError::NoMatrices`] and [`BalanceError::Modes`].
-    pub fn new(structure: &'a Structure, method: Expansion, highest_omega: f64) -> Result<Self, BalanceError> {
+    pub fn new(structure: &'a Structure, method: Expansion, runs: &[Measured]) -> Result<Self, BalanceError> {
         let method = match method {
             Expansion::Auto if structure.matrices().is_some() => Expansion::Dynamic,
             Expansion::Auto => Expansion::None,
@@ -90,7 +90,9 @@ impl<'a> Expander<'a> {
         } else if structure.matrices().is_none() {
             return Err(BalanceError::NoMatrices { method: name(method) });
         } else {
-            Some(ModalModel::new(structure, highest_omega)?)
+            let highest = runs.iter().map(|m| m.frequency(m.harmonics() - 1)).fold(0.0, f64::max);
+            let places = runs.iter().flat_map(|m| m.forces.dofs.iter().chain(&m.sensors.dofs));
+            Some(ModalModel::new(structure, highest, places.copied().collect())?)
         };
         Ok(Self { structure, method, model })
     }

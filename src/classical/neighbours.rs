@@ -1,0 +1,82 @@
+//! Modes of neighbouring bands: each band is fitted again with the modes of all others taken off, with their conjugates,
+//! until nothing moves.
+//!
+//! ```text
+//! H - sum_{other} (R / (i w - lambda) + conjugate pole) - sum_{own} R* / (i w - lambda*) = sum_{own} R / (i w - lambda) + P + Q (w - w0)
+//! ```
+//!
+//! The straight line of a single band does not follow the tail of a close neighbour; once that is taken off only modes outside
+//! of all lines are left to it. Without noise the true modes are where this ends.
+
+use super::ClassicalError;
+use super::poly_reference::ExtractedMode;
+use super::refine::{Band, refine};
+use crate::control::Control;
+
+/// Most rounds over all bands.
+const ROUNDS: usize = 40;
+/// Part of a decay rate ...
+const SETTLED: f64 = 1e-9;
+/// ... or of a pole's standard deviation below which its moves do not count.
+const WITHIN_NOISE: f64 = 0.01;
+
+/// A band and its modes.
+pub(super) struct Stretch {
+    pub band: Band,
+    pub modes: Vec<ExtractedMode>,
+}
+
+/// All modes, ascending.
+pub(super) fn settled(mut stretches: Vec<Stretch>, control: &Control) -> Result<Vec<ExtractedMode>, ClassicalError> {
+    without_doubles(&mut stretches);
+    for _ in 0..ROUNDS {
+        let mut moving = false;
+        for k in 0..stretches.len() {
+            control.check()?;
+            moving |= fit_again(&mut stretches, k)?;
+        }
+        if !moving {
+            break;
+        }
+    }
+    without_doubles(&mut stretches);
+    let mut modes: Vec<ExtractedMode> = stretches.into_iter().flat_map(|s| s.modes).collect();
+    modes.sort_by(|a, b| a.pole.norm().total_cmp(&b.pole.norm()));
+    Ok(modes)
+}
+
+/// One mode that two bands found belongs to the first; growing and overdamped ones to none.
+fn without_doubles(stretches: &mut [Stretch]) {
+    let mut seen: Vec<faer::c64> = Vec::new();
+    for stretch in stretches {
+        stretch.modes.retain(|mode| {
+            let alike = |pole: &faer::c64| (mode.pole - pole).norm() < mode.pole.re.abs().min(pole.re.abs());
+            let keep = mode.pole.re < 0.0 && mode.pole.im > 0.0 && !seen.iter().any(alike);
+            seen.extend(keep.then_some(mode.pole));
+            keep
+        });
+    }
+}
+
+/// Whether a mode of band `k` moved.
+fn fit_again(stretches: &mut [Stretch], k: usize) -> Result<bool, ClassicalError> {
+    let (before, rest) = stretches.split_at_mut(k);
+    let Some((own, after)) = rest.split_first_mut() else { return Ok(false) };
+    if own.modes.is_empty() {
+        return Ok(false);
+    }
+    let others: Vec<&ExtractedMode> = before.iter().chain(after.iter()).flat_map(|s| &s.modes).collect();
+    own.band.take_off(&others, &own.modes);
+    let start: Vec<faer::c64> = own.modes.iter().map(|mode| mode.pole).collect();
+    let modes = refine(&own.band, &start)?;
+    let sound = modes.iter().all(|mode| mode.pole.re < 0.0 && mode.pole.im > 0.0);
+    if !sound {
+        return Ok(false);
+    }
+    let moved = |(new, old): (&ExtractedMode, &ExtractedMode)| {
+        (new.pole - old.pole).norm() > (SETTLED * new.pole.re.abs()).max(WITHIN_NOISE * new.deviation)
+    };
+    let moving = modes.iter().zip(&own.modes).any(moved);
+    own.modes = modes;
+    Ok(moving)
+}
