@@ -142,7 +142,7 @@ fn a_long_record_is_read_with_progress_and_can_be_given_up() {
     let long = sample.path.with_file_name("long.csv");
     std::fs::write(&long, text).unwrap();
     let mut harness = open(&sample, Theme::Light);
-    crate::support::drop_files(&mut harness, &[long]);
+    drop_files(&mut harness, &[long]);
     let start = std::time::Instant::now();
     let progress = |h: &Harness<'_, App>| h.state().running().map(|(_, progress)| progress);
     let mut seen = vec![0.0];
