@@ -44,6 +44,8 @@ fn friction(n: usize, count: usize) -> Vec<Source> {
 }
 
 fn one_response(c: &mut Criterion) {
+    // As the program does: threads cost more than they save on matrices of this size.
+    faer::set_global_parallelism(faer::Par::Seq);
     let mut group = c.benchmark_group("one_response");
     let structure = beam(10);
     let sources = friction(20, 3);

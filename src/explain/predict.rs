@@ -75,6 +75,16 @@ pub struct Predictor {
     omegas: Vec<f64>,
 }
 
+/// The model at every frequency; runs of one frequency share what is computed there.
+fn run_models(model: &ForwardModel, omegas: &[f64]) -> Vec<RunModel> {
+    let mut runs: Vec<RunModel> = Vec::with_capacity(omegas.len());
+    for &omega in omegas {
+        let same = runs.iter().find(|run| run.omega() == omega).cloned();
+        runs.push(same.unwrap_or_else(|| model.at(omega)));
+    }
+    runs
+}
+
 /// Transfer of the errors among `effects` of the channel of that name at circular frequency `w`.
 pub(crate) fn transfer(effects: &[Source], name: &str, w: f64) -> c64 {
     let mut product = c64::new(1.0, 0.0);
@@ -93,7 +103,7 @@ impl Predictor {
     pub fn new(structure: &Structure, known: Vec<Source>, data: &Data) -> Result<Self, ExplainError> {
         let model = ForwardModel::new(structure, &known)?;
         let omegas: Vec<f64> = data.runs.iter().map(|run| run.omega).collect();
-        let runs = omegas.iter().map(|&omega| model.at(omega)).collect();
+        let runs = run_models(&model, &omegas);
         let stated = Arc::new((structure.clone(), known.clone()));
         Ok(Self { model, runs, known, stated, omegas })
     }
@@ -102,7 +112,7 @@ impl Predictor {
     pub fn tuned(&self, tuning: &Tuning) -> Result<Self, ExplainError> {
         let known = tuning.known(&self.stated.1);
         let model = ForwardModel::new(&tuning.structure(&self.stated.0), &known)?;
-        let runs = self.omegas.iter().map(|&omega| model.at(omega)).collect();
+        let runs = run_models(&model, &self.omegas);
         Ok(Self { model, runs, known, stated: self.stated.clone(), omegas: self.omegas.clone() })
     }
 

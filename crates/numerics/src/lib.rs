@@ -8,9 +8,11 @@ mod factor;
 mod fourier;
 mod product;
 mod singular;
+mod small;
 
 pub use eigen::{complex_general, eigenvalues, generalised_symmetric, real_general, symmetric, symmetric_values};
 pub use factor::{Cholesky, ComplexLu, RealLu, least_squares, solve_indefinite, thin_qr, triangle};
 pub use fourier::RealTransform;
 pub use product::{product, product_transposed, transposed_product};
 pub use singular::thin_svd;
+pub use small::RowLu;

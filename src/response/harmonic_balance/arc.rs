@@ -8,7 +8,8 @@
 //! Each point at which the path passes the full force, `s = 1`, is an answer.
 
 use super::dense::Lu;
-use super::newton::{Balance, Ending, relative};
+use super::iterate::Ending;
+use super::newton::{Balance, relative};
 use super::outcome::ResponseError;
 use crate::control::Control;
 

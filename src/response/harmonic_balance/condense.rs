@@ -67,6 +67,8 @@ pub(crate) struct Condensed {
     pub levels: Vec<Level>,
     /// Modes at resonance over all harmonics.
     resonances: usize,
+    /// Whether every law answers the opposite motion by the opposite force.
+    pub mirrored: bool,
     /// Whether laws and forces allow motions whose second half period mirrors the first: odd harmonics alone.
     pub odd: bool,
 }
@@ -115,8 +117,9 @@ impl Condensed {
         for (i, leg) in legs.iter_mut().enumerate() {
             leg.weight = velocity_weight(&levels, excitation.omega, i);
         }
-        let odd = legs.iter().all(NonlinearLeg::is_odd) && excitation.is_odd();
-        Ok(Self { omega: excitation.omega, harmonics, legs, linear_legs, levels, resonances, odd })
+        let mirrored = legs.iter().all(NonlinearLeg::is_odd);
+        let odd = mirrored && excitation.is_odd();
+        Ok(Self { omega: excitation.omega, harmonics, legs, linear_legs, levels, resonances, mirrored, odd })
     }
 
     /// Number of real coefficients of a leg, `2 H + 1`.
@@ -137,6 +140,12 @@ impl Condensed {
     /// Index of the cosine of mode number `r` at resonance with harmonic `h`; its sine follows.
     pub fn resonant_index(&self, h: usize, r: usize) -> usize {
         self.leg_size() + 2 * (self.levels[h].resonant_before + r)
+    }
+
+    /// Index of the cosine of kept leg `j` at harmonic `h >= 1`; its sine follows.
+    pub fn index(&self, h: usize, j: usize) -> usize {
+        let count = self.legs.len();
+        if j < count { j * self.width() + 2 * h - 1 } else { self.resonant_index(h, j - count) }
     }
 
     /// Complex amplitude of kept leg `j` at harmonic `h` in coefficients laid out as the unknowns.

@@ -1,7 +1,9 @@
 //! Response over frequency through turning points, by arc-length continuation.
 //!
 //! ```text
-//! R(F, w) = 0,      t_F (F - F_0) / F_ref^2 + t_w (w - w_0) / W^2 = s        W: width of the range
+//! R(F, w) = 0,      t_F (F - F_0) / F_ref^2 + t_w (w - w_0) / W^2 = s
+//!
+//! F_ref: a few times the size of F,  W: width of the range
 //! ```
 //!
 //! Each point is predicted along the tangent `t` and corrected by Newton's method on both equations together, so that `w`
@@ -38,6 +40,10 @@ impl Default for SweepSettings {
         Self { harmonics: 7, tolerance: 1e-9, largest_step: 0.01, most_points: 5000 }
     }
 }
+
+/// Weight of a relative change of the leg forces beside one of the frequency by the whole range: forces may change by a
+/// larger share in a step, since their size changes over decades along a curve.
+const FORCE_WEIGHT: f64 = 0.04;
 
 /// One point of the response curve.
 #[derive(Debug, Clone)]
@@ -173,7 +179,7 @@ impl Tracer<'_> {
     /// Weights of the arc length: of a leg force and of the frequency.
     fn weights(&self, u: &[f64]) -> (f64, f64) {
         let size = u.iter().map(|x| x * x).sum::<f64>().max(f64::MIN_POSITIVE);
-        (1.0 / size, 1.0 / (self.width * self.width))
+        (FORCE_WEIGHT / size, 1.0 / (self.width * self.width))
     }
 
     /// Derivative of the residual by the frequency (rad/s).

@@ -1,77 +1,52 @@
-//! Dense factorisations of the small matrices of Newton's method: own kernels where a general library's set-up would cost
-//! more than the work, faer above.
+//! Dense factorisations of the matrices of Newton's method: plain kernels where a general library's set-up would cost more
+//! than the work, faer above.
 
-use dashpot_numerics::RealLu;
+use dashpot_numerics::{RealLu, RowLu};
 use faer::{Mat, c64};
 
 /// Sizes up to here are factorised in place by the plain algorithm.
-const PLAIN: usize = 64;
+const SMALL: usize = 200;
 
 /// LU factors of a real square matrix with row exchanges.
-pub(crate) struct Lu {
-    size: usize,
-    kind: Kind,
-}
-
-enum Kind {
-    Plain { factors: Vec<f64>, order: Vec<usize>, sign: f64 },
-    Library(RealLu),
+pub(crate) enum Lu {
+    Small(RowLu),
+    Large { size: usize, lu: RealLu },
 }
 
 impl Lu {
     /// Factors of the `size x size` matrix given row by row; `None` if it is singular or not finite.
     pub fn new(size: usize, matrix: Vec<f64>) -> Option<Self> {
+        if size <= SMALL {
+            return RowLu::new(size, matrix).map(Self::Small);
+        }
         if matrix.iter().any(|x| !x.is_finite()) {
             return None;
         }
-        let kind = if size <= PLAIN {
-            plain(size, matrix)?
-        } else {
-            let lu = RealLu::new(Mat::from_fn(size, size, |i, j| matrix[i * size + j]).as_ref());
-            if (0..size).any(|i| lu.pivot(i) == 0.0) {
-                return None;
-            }
-            Kind::Library(lu)
-        };
-        Some(Self { size, kind })
+        let lu = RealLu::new(Mat::from_fn(size, size, |i, j| matrix[i * size + j]).as_ref());
+        if (0..size).any(|i| lu.pivot(i) == 0.0) {
+            return None;
+        }
+        Some(Self::Large { size, lu })
     }
 
     /// Replaces `rhs` by the solution.
     pub fn solve(&self, rhs: &mut [f64]) {
-        let n = self.size;
-        match &self.kind {
-            Kind::Plain { factors, order, .. } => {
-                let given: Vec<f64> = order.iter().map(|&i| rhs[i]).collect();
-                rhs.copy_from_slice(&given);
-                for i in 1..n {
-                    let row = &factors[i * n..i * n + i];
-                    let sum: f64 = row.iter().zip(rhs.iter()).map(|(a, x)| a * x).sum();
-                    rhs[i] -= sum;
-                }
-                for i in (0..n).rev() {
-                    let row = &factors[i * n..(i + 1) * n];
-                    let sum: f64 = (i + 1..n).map(|j| row[j] * rhs[j]).sum();
-                    rhs[i] = (rhs[i] - sum) / row[i];
-                }
-            }
-            Kind::Library(lu) => {
-                let mut column = Mat::from_fn(n, 1, |i, _| rhs[i]);
+        match self {
+            Self::Small(lu) => lu.solve(rhs),
+            Self::Large { size, lu } => {
+                let mut column = Mat::from_fn(*size, 1, |i, _| rhs[i]);
                 lu.solve_in_place(column.as_mut());
-                for (i, x) in rhs.iter_mut().enumerate() {
-                    *x = column[(i, 0)];
-                }
+                rhs.iter_mut().enumerate().for_each(|(i, x)| *x = column[(i, 0)]);
             }
         }
     }
 
     /// Sign of the determinant, -1 or 1.
     pub fn sign(&self) -> f64 {
-        match &self.kind {
-            Kind::Plain { factors, sign, .. } => {
-                (0..self.size).fold(*sign, |s, i| s * factors[i * self.size + i].signum())
-            }
-            Kind::Library(lu) => {
-                let diagonal = (0..self.size).fold(1.0, |s, i| s * lu.pivot(i).signum());
+        match self {
+            Self::Small(lu) => lu.sign(),
+            Self::Large { size, lu } => {
+                let diagonal = (0..*size).fold(1.0, |s, i| s * lu.pivot(i).signum());
                 diagonal * permutation_sign(lu.order())
             }
         }
@@ -94,37 +69,6 @@ fn permutation_sign(order: &[usize]) -> f64 {
         }
     }
     sign
-}
-
-fn plain(n: usize, mut a: Vec<f64>) -> Option<Kind> {
-    let mut order: Vec<usize> = (0..n).collect();
-    let mut sign = 1.0;
-    for k in 0..n {
-        let pivot = (k..n).max_by(|&i, &j| a[i * n + k].abs().total_cmp(&a[j * n + k].abs()))?;
-        if a[pivot * n + k] == 0.0 {
-            return None;
-        }
-        if pivot != k {
-            order.swap(pivot, k);
-            sign = -sign;
-            for j in 0..n {
-                a.swap(pivot * n + j, k * n + j);
-            }
-        }
-        let (above, below) = a.split_at_mut((k + 1) * n);
-        let row = &above[k * n..];
-        let inverse = 1.0 / row[k];
-        for lower in below.chunks_exact_mut(n) {
-            let factor = lower[k] * inverse;
-            lower[k] = factor;
-            if factor != 0.0 {
-                for (x, y) in lower[k + 1..].iter_mut().zip(&row[k + 1..]) {
-                    *x -= factor * y;
-                }
-            }
-        }
-    }
-    Some(Kind::Plain { factors: a, order, sign })
 }
 
 /// Inverse of a small complex matrix given row by row, by Gauss and Jordan with row exchanges; `None` if singular.
@@ -166,7 +110,7 @@ mod tests {
 
     #[test]
     fn both_kernels_solve_and_agree_on_the_sign() {
-        for n in [3, 9, 80] {
+        for n in [3, 9, 210] {
             let a = example(n);
             let x: Vec<f64> = (0..n).map(|i| i as f64 - 1.5).collect();
             let mut b: Vec<f64> = a.chunks_exact(n).map(|row| row.iter().zip(&x).map(|(p, q)| p * q).sum()).collect();

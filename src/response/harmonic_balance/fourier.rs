@@ -14,13 +14,48 @@ pub(crate) struct Fourier {
     harmonics: usize,
     samples: usize,
     transform: RealTransform,
+    parity: Parity,
+}
+
+/// Which entries of matrices from harmonics to harmonics are wanted.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Parity {
+    /// All.
+    All,
+    /// From odd harmonics to odd ones and from even ones to even ones.
+    Split,
+    /// From odd harmonics to odd ones.
+    Odd,
 }
 
 impl Fourier {
     /// Harmonics 1..=`harmonics` at `samples` equal steps of one period; `samples` is even and above `4 harmonics`.
     pub fn new(harmonics: usize, samples: usize) -> Self {
         debug_assert!(samples.is_multiple_of(2) && samples > 4 * harmonics);
-        Self { harmonics, samples, transform: RealTransform::new(samples) }
+        Self { harmonics, samples, transform: RealTransform::new(samples), parity: Parity::All }
+    }
+
+    /// The same with fewer entries of matrices wanted.
+    pub fn with(&self, parity: Parity) -> Self {
+        Self { parity, ..self.clone() }
+    }
+
+    /// Harmonics of wanted rows, without the mean.
+    pub fn orders(&self) -> impl Iterator<Item = usize> + use<> {
+        (1..=self.harmonics).step_by(1 + usize::from(self.parity == Parity::Odd))
+    }
+
+    /// Indices of wanted rows.
+    pub fn rows(&self) -> impl Iterator<Item = usize> + use<> {
+        let mean = if self.parity == Parity::Odd { None } else { Some(0) };
+        mean.into_iter().chain(self.orders().flat_map(|h| [2 * h - 1, 2 * h]))
+    }
+
+    /// Harmonics of wanted columns in rows of harmonic `h`, without the mean.
+    pub fn partners(&self, h: usize) -> impl Iterator<Item = usize> + use<> {
+        let all = self.parity == Parity::All;
+        let first = if all || h % 2 == 1 { 1 } else { 2 };
+        (first..=self.harmonics).step_by(if all { 1 } else { 2 })
     }
 
     /// Highest harmonic.
@@ -96,6 +131,7 @@ impl Fourier {
 
     /// The matrix of "synthesise, multiply by `weight` sample by sample, project": `width x width`, row by row.
     /// Products of two harmonics are sums of harmonics, so the spectrum of `weight` up to `2 H` is all that is needed.
+    /// Entries that are not wanted are zero or undefined.
     pub fn multiplier(&self, weight: &[f64]) -> Vec<f64> {
         let width = self.width();
         let spectrum = self.spectrum(&mut weight.to_vec());
@@ -103,11 +139,11 @@ impl Fourier {
         let sin = |q: isize| -spectrum[q.unsigned_abs()].im * q.signum() as f64;
         let mut matrix = vec![0.0; width * width];
         matrix[0] = spectrum[0].re;
-        for h in 1..=self.harmonics {
+        for h in self.orders() {
             let (c, s) = (2 * h - 1, 2 * h);
             (matrix[c], matrix[s]) = (cos(h), sin(h as isize));
             (matrix[c * width], matrix[s * width]) = (2.0 * cos(h), 2.0 * sin(h as isize));
-            for k in 1..=self.harmonics {
+            for k in self.partners(h) {
                 let (ck, sk) = (2 * k - 1, 2 * k);
                 let (sum, difference) = (h + k, h.abs_diff(k));
                 let sin_difference = sin(h as isize - k as isize);

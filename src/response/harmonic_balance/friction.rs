@@ -132,7 +132,7 @@ pub(crate) fn answer(leg: &NonlinearLeg, fourier: &Fourier, omega: f64, force: &
         by_velocity.iter_mut().zip(taken.iter().zip(&given)).for_each(|(x, (t, g))| *x += g - t);
     }
     let mut by_motion = vec![0.0; fourier.width() * fourier.width()];
-    add_velocity_columns(&mut by_motion, &by_velocity, omega, fourier.harmonics());
+    add_velocity_columns(&mut by_motion, &by_velocity, omega, fourier);
     Answer { value, by_force: Some(by_force), by_motion }
 }
 
@@ -147,11 +147,12 @@ fn edge_multiplier(fourier: &Fourier, weights: impl Iterator<Item = [f64; 2]>) -
     let mut matrix = fourier.multiplier(&sum);
     let sharp = difference.iter().any(|&d| d != 0.0);
     let odd = if sharp { fourier.multiplier(&difference) } else { Vec::new() };
-    for row in 0..width {
-        let given = 1.0 / fourier.half_angle(row.div_ceil(2)).cos();
+    let angles: Vec<(f64, f64)> = (0..=fourier.harmonics()).map(|h| fourier.half_angle(h).sin_cos()).collect();
+    for row in fourier.rows() {
+        let given = 1.0 / angles[row.div_ceil(2)].1;
         matrix[row * width] *= given;
-        for h in 1..=fourier.harmonics() {
-            let (sin, cos) = fourier.half_angle(h).sin_cos();
+        for h in fourier.partners(row.div_ceil(2)) {
+            let (sin, cos) = angles[h];
             let (c, s) = (row * width + 2 * h - 1, row * width + 2 * h);
             // cos(h (t +- e)) = cos h t cos h e -+ sin h t sin h e, and alike for the sine.
             let (oc, os) = if sharp { (odd[c], odd[s]) } else { (0.0, 0.0) };

@@ -179,7 +179,7 @@ impl NonlinearLeg {
         };
         let slopes = part(|i| i.by_velocity);
         if slopes.iter().any(|&s| s != 0.0) {
-            add_velocity_columns(&mut by_motion, &fourier.multiplier(&slopes), omega, fourier.harmonics());
+            add_velocity_columns(&mut by_motion, &fourier.multiplier(&slopes), omega, fourier);
         }
         Answer { value, by_force, by_motion }
     }
@@ -194,7 +194,7 @@ impl NonlinearLeg {
         let mut by_motion = vec![0.0; width * width];
         // Laws with memory look at displacements only.
         let mut direction = Motion { velocity: Vec::new(), acceleration: Vec::new(), ..sampled_motion.clone() };
-        for k in 0..width {
+        for k in fourier.rows() {
             fourier.wave(k, &mut direction.displacement);
             self.law.tangent(&self.parameters, &sampled_motion, &direction, &mut samples);
             fourier.project(&samples, &mut column);
@@ -259,10 +259,10 @@ impl NonlinearLeg {
 }
 
 /// Adds `T_v Omega`: a slope by the velocity seen as one by the displacement coefficients.
-pub(crate) fn add_velocity_columns(by_motion: &mut [f64], by_velocity: &[f64], omega: f64, harmonics: usize) {
-    let width = 2 * harmonics + 1;
-    for row in 0..width {
-        for h in 1..=harmonics {
+pub(crate) fn add_velocity_columns(by_motion: &mut [f64], by_velocity: &[f64], omega: f64, fourier: &Fourier) {
+    let width = fourier.width();
+    for row in fourier.rows() {
+        for h in fourier.partners(row.div_ceil(2)) {
             let w = h as f64 * omega;
             by_motion[row * width + 2 * h - 1] -= w * by_velocity[row * width + 2 * h];
             by_motion[row * width + 2 * h] += w * by_velocity[row * width + 2 * h - 1];

@@ -5,7 +5,7 @@
 //! ```
 //!
 //! The linear rest is condensed exactly to the relative motions of the nonlinear sources (`condense`), whose forces are
-//! found by a damped Newton method with analytic Jacobian (`newton`, `legs`). Friction is set-valued, not regularised.
+//! found by a damped Newton method with analytic Jacobian (`iterate`, `newton`, `legs`). Friction is set-valued, not regularised.
 //! Harmonics are added until the response no longer changes (`solve`); turning points are passed by arc length
 //! (`continuation`); stability is that of Floquet's multipliers (`stability`).
 
@@ -16,6 +16,8 @@ mod continuation;
 mod dense;
 mod fourier;
 mod friction;
+mod iterate;
+mod kept;
 mod legs;
 mod model;
 mod newton;

@@ -83,6 +83,9 @@ impl HarmonicForce {
     }
 }
 
+/// Forces below this share of all shape no motion.
+const SMALL_SHARE: f64 = 0.05;
+
 /// What drives the structure in one run.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Excitation {
@@ -109,6 +112,18 @@ impl Excitation {
     /// Highest harmonic of the forces.
     pub fn order(&self) -> usize {
         self.forces.iter().map(|force| force.harmonics.len()).max().unwrap_or(0)
+    }
+
+    /// Highest harmonic above which there is only a small share of the forces.
+    pub(crate) fn essential(&self) -> usize {
+        let power = |h: usize| self.forces.iter().map(|force| force.amplitude(h).norm_sqr()).sum::<f64>();
+        let powers: Vec<f64> = (1..=self.order()).map(power).collect();
+        let small = SMALL_SHARE * SMALL_SHARE * powers.iter().sum::<f64>();
+        let above = powers.iter().rev().scan(0.0, |sum, p| {
+            *sum += p;
+            Some(*sum)
+        });
+        self.order() - above.take_while(|&sum| sum <= small).count()
     }
 
     /// The same forces at another frequency (rad/s).
@@ -332,4 +347,22 @@ fn check(sources: &[Source], size: usize) -> Result<(), ModelError> {
         }
     }
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn harmonics_of_noise_are_not_essential() {
+        let real = |x: &f64| c64::new(*x, 0.0);
+        let of = |values: &[f64]| {
+            let harmonics = values.iter().map(real).collect();
+            Excitation { omega: 1.0, forces: vec![HarmonicForce { dof: 0, mean: 0.0, harmonics }] }.essential()
+        };
+        assert_eq!(of(&[1.0]), 1);
+        assert_eq!(of(&[1.0, 0.01, 0.02, 0.0]), 1);
+        assert_eq!(of(&[1.0, 0.01, 0.2, 0.03]), 3);
+        assert_eq!(of(&[0.0, 0.0]), 0);
+    }
 }

@@ -8,7 +8,8 @@ use super::dense::Lu;
 use super::fourier::{Fourier, amplitude};
 use super::legs::{Manner, NonlinearLeg, resized};
 use super::model::{Excitation, MOST_HARMONICS, RunModel};
-use super::newton::{Balance, Ending};
+use super::iterate::Ending;
+use super::newton::Balance;
 use super::outcome::{Attempt, Response, ResponseError, SourceForce, Status, Step};
 use super::stability::is_stable;
 use crate::control::Control;
@@ -103,8 +104,8 @@ pub(crate) fn respond(
     let first = settings.harmonics.max(driven).clamp(1, MOST_HARMONICS);
     let mut ladder = Ladder { run, sources, excitation, settings, control, history: Vec::new() };
     let sharp = legs.iter().any(|leg| leg.manner() == Manner::Friction);
-    let coarse = if sharp { ((first - 1) / 2).max(driven).max(1) } else { first };
-    let bottom = ladder.lowest(coarse, driven.max(1), start)?;
+    let coarse = if sharp { ((first - 1) / 2).max(excitation.essential()).max(1) } else { first };
+    let bottom = ladder.lowest(coarse, driven.clamp(1, coarse), start)?;
     let mut response = if bottom.status == Status::FellBack {
         ladder.estimated(bottom)?
     } else if coarse < first {
