@@ -67,7 +67,6 @@ fn measured() -> (Structure, Vec<Source>, Vec<Run>) {
     (structure, sources, runs)
 }
 
-
 use std::time::Instant;
 fn main() {
     faer::set_global_parallelism(faer::Par::Seq);
@@ -91,10 +90,26 @@ fn main() {
         let (structure, sources, runs) = measured();
         let model = ForwardModel::new(&structure, &sources).unwrap();
         for run in &runs {
-            let forces = run.fit.channels.iter().filter(|c| c.channel.quantity == dashpot::measurement::Quantity::Force)
-                .map(|c| dashpot::response::harmonic_balance::HarmonicForce { dof: c.channel.dof, mean: 0.0, harmonics: c.amplitudes.clone() }).collect();
+            let forces = run
+                .fit
+                .channels
+                .iter()
+                .filter(|c| c.channel.quantity == dashpot::measurement::Quantity::Force)
+                .map(|c| dashpot::response::harmonic_balance::HarmonicForce {
+                    dof: c.channel.dof,
+                    mean: 0.0,
+                    harmonics: c.amplitudes.clone(),
+                })
+                .collect();
             let excitation = Excitation { omega: run.fit.omega, forces };
-            let settings = Settings { harmonics: 15, most_harmonics: 31, watched: 7, truncation: 3.2e-5, tolerance: 1e-9, estimate: true };
+            let settings = Settings {
+                harmonics: 15,
+                most_harmonics: 31,
+                watched: 7,
+                truncation: 3.2e-5,
+                tolerance: 1e-9,
+                estimate: true,
+            };
             let at = model.at(excitation.omega);
             let mut best = f64::INFINITY;
             for _ in 0..5 {
@@ -105,9 +120,14 @@ fn main() {
             }
             let r = at.respond(&sources, &excitation, &settings, None, &Control::unattended()).unwrap();
             let largest = r.amplitude(18, 1).norm();
-            println!("{:7.2} Hz {:.2} ms {:?} {:?} trunc {:?}", run.fit.omega / TAU, best * 1e3, r.status,
+            println!(
+                "{:7.2} Hz {:.2} ms {:?} {:?} trunc {:?}",
+                run.fit.omega / TAU,
+                best * 1e3,
+                r.status,
                 r.history.iter().map(|s| (s.harmonics, s.steps, s.attempt)).collect::<Vec<_>>(),
-                r.truncation.iter().take(5).map(|t| (t / largest * 1e6).round()).collect::<Vec<_>>());
+                r.truncation.iter().take(5).map(|t| (t / largest * 1e6).round()).collect::<Vec<_>>()
+            );
         }
     }
     if what == "sweep" {
@@ -121,7 +141,16 @@ fn main() {
         println!("{} points {:?} {:.1} ms", curve.points.len(), curve.end, t.elapsed().as_secs_f64() * 1e3);
         for (i, p) in curve.points.iter().enumerate().filter(|(i, _)| i % 10 == 0 || curve.points.len() - i < 20) {
             let a = |h| p.response.amplitude(18, h);
-            println!("{i} {:.6} {} {:.5e} {:.3} {:.3e} {:.3e} {:.3e}", p.response.omega / TAU, p.stable, a(1).norm(), a(1).arg(), a(3).norm(), a(5).norm(), a(7).norm());
+            println!(
+                "{i} {:.6} {} {:.5e} {:.3} {:.3e} {:.3e} {:.3e}",
+                p.response.omega / TAU,
+                p.stable,
+                a(1).norm(),
+                a(1).arg(),
+                a(3).norm(),
+                a(5).norm(),
+                a(7).norm()
+            );
         }
     }
 }

@@ -8,7 +8,7 @@ use crate::exchange::records::{write_harmonics, write_record};
 use crate::measurement::channel::ChannelName;
 use crate::measurement::{Channel, ChannelFit, HarmonicFit, Quantity, Record, fit::fit, frequency};
 use crate::response::harmonic_balance::{Excitation, HarmonicForce};
-use crate::response::simulation::{Simulator, integrated, recorded, transfer, usual_channels};
+use crate::response::simulation::{Simulator, recorded, transfer, usual_channels};
 use crate::response::simulation_in_time::{InTime, Recorder, record_in_time};
 use crate::response::synthesis::{self, Noise, sampling_times, synthesise};
 use anyhow::{Context, anyhow, bail};
@@ -36,10 +36,10 @@ pub(super) fn run(arguments: &Simulate) -> anyhow::Result<String> {
             seed: arguments.seed,
             stream: index as u64,
         });
-        let record = if arguments.by == Method::Time || arguments.transient > 0.0 {
+        let record = if arguments.by == Method::Time || arguments.transient > 0.0 || plan.simulate().integrate {
             in_time(&plan, &sources, &test, arguments, noise)
         } else {
-            balanced(&plan, &sources, &model, &test, noise)
+            balanced(&plan, &model, &test, noise)
         };
         simulated.push(record.with_context(context)?);
     }
@@ -53,19 +53,9 @@ struct Test {
     time: Vec<f64>,
 }
 
-fn balanced(
-    plan: &Plan,
-    sources: &[Source],
-    model: &Simulator<'_>,
-    test: &Test,
-    noise: Option<Noise>,
-) -> anyhow::Result<Record> {
+fn balanced(plan: &Plan, model: &Simulator<'_>, test: &Test, noise: Option<Noise>) -> anyhow::Result<Record> {
     let control = Control::unattended();
-    let response = if plan.simulate().integrate {
-        integrated(&plan.structure, sources, &test.excitation, &control)?
-    } else {
-        model.respond(&test.excitation, &control)?
-    };
+    let response = model.respond(&test.excitation, &control)?;
     let motions = recorded(&response, &test.excitation, &test.channels, &plan.sensors);
     Ok(synthesise(test.excitation.omega, &test.time, &motions, noise)?)
 }

@@ -7,7 +7,7 @@ use super::dynamic_stiffness::{DynamicStiffness, DynamicStiffnessError};
 use super::harmonic_balance::{Excitation, ForwardModel, ModelError, ResponseError, Settings};
 use super::steady_state::steady_state;
 use super::synthesis::ChannelMotion;
-use super::time_integration::{Settling, TimeError, TimeModel};
+use super::time_integration::TimeError;
 use crate::control::{Cancelled, Control};
 use crate::effects::effect::Kind;
 use crate::effects::{Effect, Place, Source};
@@ -75,31 +75,6 @@ impl<'a> Simulator<'a> {
             }
         }
     }
-}
-
-/// Steps of a period in time integration: kinks of friction alias as their square.
-const STEPS: usize = 2048;
-/// Harmonics taken from the integrated motion.
-const HARMONICS: usize = 31;
-
-/// Steady state by stepping through time until the motion is periodic: a route that shares nothing with harmonic balance
-/// but the first guess. For laws with a force in time.
-pub fn integrated(
-    structure: &Structure,
-    sources: &[Source],
-    excitation: &Excitation,
-    control: &Control,
-) -> Result<SteadyState, SimulationError> {
-    let mut model = TimeModel::new(structure, sources, excitation, STEPS)?;
-    let balance = ForwardModel::new(structure, sources)?;
-    if let Ok(start) = balance.respond(excitation, &Settings::default(), None, control) {
-        model.start_from(&start);
-    }
-    model.settle(&Settling { tolerance: 1e-7, ..Settling::default() }, control)?;
-    let harmonics = model.harmonics(HARMONICS)?;
-    let samples = model.record(STEPS)?.displacement;
-    let mean = |dof: usize| samples.col(dof).iter().sum::<f64>() / STEPS as f64;
-    Ok(SteadyState { mean: (0..structure.len()).map(mean).collect(), harmonics })
 }
 
 fn linear(stiffness: &DynamicStiffness<'_>, excitation: &Excitation) -> Result<SteadyState, SimulationError> {

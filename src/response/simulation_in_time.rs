@@ -1,16 +1,23 @@
-//! Records by time integration: of the settled periodic motion, or of the motion on its way there.
+//! Records by time integration: of the periodic motion, or of the motion on its way there.
 //!
-//! The record of a channel is `gain y(t - delay)` with `y` interpolated between the steps of the integrator. A transient
-//! starts from `1 - fraction` times the periodic state: fraction 1 is the structure switched on at rest.
+//! The periodic motion is recorded by its harmonics, as a data recorder with a filter against aliasing would. A transient
+//! starts from `1 - fraction` times the periodic state, so that fraction 1 is the structure switched on at rest; there the
+//! record of a channel is `gain y(t - delay)` with `y` interpolated between the steps of the integrator.
 
 use super::harmonic_balance::{Excitation, ForwardModel, ResponseError, Settings};
-use super::simulation::{SimulationError, sensor_errors};
+use super::simulation::{SimulationError, SteadyState, recorded, sensor_errors};
+use super::synthesis::signals;
 use super::time_integration::{Samples, Settling, TimeModel};
 use crate::control::Control;
 use crate::effects::Source;
 use crate::measurement::{Channel, Quantity};
 use crate::structure::Structure;
 use std::f64::consts::TAU;
+
+/// Harmonics taken from the periodic motion.
+const HARMONICS: usize = 31;
+/// Change of the state over a period that counts as none, relative to the state.
+const PERIODIC: f64 = 1e-7;
 
 /// How to integrate.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -50,21 +57,17 @@ pub fn record_in_time(
     in_time: &InTime,
     control: &Control,
 ) -> Result<Vec<Vec<f64>>, SimulationError> {
-    let mut model = TimeModel::new(structure, sources, excitation, in_time.steps)?;
-    match ForwardModel::new(structure, sources)?.respond(excitation, &Settings::default(), None, control) {
-        Ok(response) => model.start_from(&response),
-        // Without a start nearby the motion is sought from rest.
-        Err(ResponseError::NotConverged { .. }) => {}
-        Err(other) => return Err(other.into()),
+    let mut model = settled(structure, sources, excitation, in_time.steps, control)?;
+    if in_time.transient == 0.0 {
+        let state = steady_state(&mut model)?;
+        let motions = recorded(&state, excitation, recorder.channels, recorder.sensors);
+        return Ok(signals(excitation.omega, recorder.time, &motions));
     }
-    model.settle(&Settling::default(), control)?;
-    if in_time.transient > 0.0 {
-        let share = 1.0 - in_time.transient;
-        let state = |value: &dyn Fn(usize) -> f64| (0..model.len()).map(|i| share * value(i)).collect::<Vec<f64>>();
-        let (displacement, velocity) = (state(&|i| model.displacement(i)), state(&|i| model.velocity(i)));
-        model.start(&displacement, &velocity);
-    }
-    let track = Track::new(&mut model, excitation, recorder, in_time.transient > 0.0, control)?;
+    let share = 1.0 - in_time.transient;
+    let state = |value: &dyn Fn(usize) -> f64| (0..model.len()).map(|i| share * value(i)).collect::<Vec<f64>>();
+    let (displacement, velocity) = (state(&|i| model.displacement(i)), state(&|i| model.velocity(i)));
+    model.start(&displacement, &velocity);
+    let track = Track::new(&mut model, excitation, recorder, control)?;
     let signal = |(c, channel): (usize, &Channel)| {
         let [delay, gain] = sensor_errors(recorder.sensors, channel);
         let at = |&t: &f64| match channel.quantity {
@@ -74,6 +77,33 @@ pub fn record_in_time(
         recorder.time.iter().map(at).collect()
     };
     Ok(recorder.channels.iter().enumerate().map(signal).collect())
+}
+
+/// The model in its periodic motion: a route that shares nothing with harmonic balance but the first guess.
+fn settled(
+    structure: &Structure,
+    sources: &[Source],
+    excitation: &Excitation,
+    steps: usize,
+    control: &Control,
+) -> Result<TimeModel, SimulationError> {
+    let mut model = TimeModel::new(structure, sources, excitation, steps)?;
+    match ForwardModel::new(structure, sources)?.respond(excitation, &Settings::default(), None, control) {
+        Ok(response) => model.start_from(&response),
+        // Without a start nearby the motion is sought from rest.
+        Err(ResponseError::NotConverged { .. }) => {}
+        Err(other) => return Err(other.into()),
+    }
+    model.settle(&Settling { tolerance: PERIODIC, ..Settling::default() }, control)?;
+    Ok(model)
+}
+
+/// Mean and harmonics of the next period.
+fn steady_state(model: &mut TimeModel) -> Result<SteadyState, SimulationError> {
+    let harmonics = model.harmonics(HARMONICS.min(model.steps / 4))?;
+    let samples = model.record(model.steps)?.displacement;
+    let mean = |dof: usize| samples.col(dof).iter().sum::<f64>() / model.steps as f64;
+    Ok(SteadyState { mean: (0..model.len()).map(mean).collect(), harmonics })
 }
 
 /// Force on a DOF at time `t`, N.
@@ -93,26 +123,23 @@ struct Track {
     step: f64,
     /// Time of the first step, s: a whole number of periods.
     origin: f64,
-    /// Whether the steps are one period that goes on for ever.
-    periodic: bool,
     /// One list a channel.
     values: Vec<Vec<f64>>,
 }
 
 impl Track {
-    /// One period, or all of a transient.
+    /// From the start of the record to its end.
     fn new(
         model: &mut TimeModel,
         excitation: &Excitation,
         recorder: &Recorder,
-        transient: bool,
         control: &Control,
     ) -> Result<Self, SimulationError> {
         let period = TAU / excitation.omega;
         let [first, last] = [recorder.time.first(), recorder.time.last()].map(|t| t.copied().unwrap_or(0.0));
         let origin = (first / period).floor() * period;
         let early = recorder.channels.iter().map(|c| -sensor_errors(recorder.sensors, c)[0]).fold(0.0, f64::max);
-        let periods = if transient { ((last - origin + early) / period).ceil() as usize + 1 } else { 1 };
+        let periods = ((last - origin + early) / period).ceil() as usize + 1;
         let mut values = vec![Vec::new(); recorder.channels.len()];
         for k in 0..periods {
             control.check()?;
@@ -124,17 +151,17 @@ impl Track {
             }
             control.report((k + 1) as f64 / periods as f64);
         }
-        Ok(Self { step: model.step, origin, periodic: !transient, values })
+        Ok(Self { step: model.step, origin, values })
     }
 
-    /// Value of a channel at time `t`; before a transient begins, that of its beginning.
+    /// Value of a channel at time `t`; before the start, that at the start.
     fn at(&self, channel: usize, t: f64) -> f64 {
         let values = &self.values[channel];
         let steps = (t - self.origin) / self.step;
         let count = values.len();
-        let steps = if self.periodic { steps.rem_euclid(count as f64) } else { steps.clamp(0.0, (count - 1) as f64) };
+        let steps = steps.clamp(0.0, (count - 1) as f64);
         let n = (steps as usize).min(count - 1);
-        let next = if n + 1 < count { n + 1 } else { usize::from(!self.periodic) * n };
+        let next = (n + 1).min(count - 1);
         values[n] + (steps - n as f64) * (values[next] - values[n])
     }
 }

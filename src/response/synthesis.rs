@@ -46,7 +46,7 @@ pub fn synthesise(
     motions: &[ChannelMotion],
     noise: Option<Noise>,
 ) -> Result<Record, RecordError> {
-    let samples: Vec<Vec<f64>> = motions.iter().map(|motion| signal(omega, time, motion)).collect();
+    let samples = signals(omega, time, motions);
     let channels = motions.iter().map(|motion| motion.channel.clone()).collect();
     record(time, channels, samples, noise)
 }
@@ -65,6 +65,11 @@ pub fn record(
         contaminate(&mut samples, noise);
     }
     Record::new(time.to_vec(), channels, samples)
+}
+
+/// The channels at `time` (s) without noise, one list a channel.
+pub fn signals(omega: f64, time: &[f64], motions: &[ChannelMotion]) -> Vec<Vec<f64>> {
+    motions.iter().map(|motion| signal(omega, time, motion)).collect()
 }
 
 fn signal(omega: f64, time: &[f64], motion: &ChannelMotion) -> Vec<f64> {

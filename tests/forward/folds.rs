@@ -1,15 +1,16 @@
 //! Turning points: Duffing's oscillator against its backbone and fold, all branches, stability against time stepping.
 
-use super::support::{five_masses, source, whole};
+use super::support::{cantilever, elastic, five_masses, source, whole};
 use dashpot::control::Control;
 use dashpot::effects::{Effect, Source};
 use dashpot::response::harmonic_balance::{
-    Excitation, ForwardModel, Settings, SweepEnd, SweepSettings, branches, multipliers, nearest, sweep,
+    Excitation, ForwardModel, Settings, Sweep, SweepEnd, SweepSettings, branches, multipliers, nearest, sweep,
 };
 use dashpot::response::time_integration::{Settling, TimeModel};
 use dashpot::structure::Structure;
 use dashpot::structure::chain::ChainParameters;
 use faer::c64;
+use std::f64::consts::TAU;
 
 const M: f64 = 1.0;
 const C: f64 = 0.1;
@@ -135,7 +136,74 @@ fn multipliers_of_a_linear_structure_are_those_of_its_damped_modes() {
     let response = model.respond(&excitation, &Settings::default(), None, &Control::unattended()).unwrap();
     let found = multipliers(&model.at(100.0), &sources, &excitation, &response).unwrap();
     // With alpha M every mode decays as exp(-alpha t / 2).
-    let expected = (-0.5 * 2.0 * std::f64::consts::TAU / 100.0_f64).exp();
+    let expected = (-0.5 * 2.0 * TAU / 100.0_f64).exp();
     assert_eq!(found.len(), 10);
     assert!(found.iter().all(|m| (m.norm() - expected).abs() < 1e-9));
+}
+
+/// The beam with a cubic spring at its tip, damped by `beta` K and driven there by `force` N.
+fn hardening_beam(beta: f64, force: f64) -> (Structure, Vec<Source>, Excitation) {
+    let sources = vec![whole(Effect::StiffnessProportional, beta), source(Effect::CubicStiffness, &[8], &[5e6])];
+    (cantilever(5), sources, Excitation::sine(60.0, 8, c64::new(force, 0.0)))
+}
+
+const BEAM_RANGE: [f64; 2] = [TAU * 6.0, TAU * 20.0];
+
+/// Frequencies (rad/s) at which the curve turns back.
+fn turns(curve: &Sweep) -> Vec<f64> {
+    let omega: Vec<f64> = curve.points.iter().map(|p| p.response.omega).collect();
+    omega.windows(3).filter(|w| (w[1] - w[0]) * (w[2] - w[1]) < 0.0).map(|w| w[1]).collect()
+}
+
+/// With damping of 0.07 % the peak is a thousand times as high as wide.
+#[test]
+fn a_sweep_of_a_hardly_damped_beam_passes_its_folds() {
+    for (beta, force) in [(2e-4, 0.03), (2e-5, 0.003), (4e-6, 0.003)] {
+        let (structure, sources, excitation) = hardening_beam(beta, force);
+        let model = ForwardModel::new(&structure, &sources).unwrap();
+        let control = Control::unattended();
+        let curve = sweep(&model, &excitation, BEAM_RANGE, &SweepSettings::default(), &control).unwrap();
+        assert_eq!(curve.end, SweepEnd::Reached, "{beta}: {} points", curve.points.len());
+        assert!(curve.points.len() < 1500, "{beta}: {} points", curve.points.len());
+        let turns = turns(&curve);
+        assert_eq!(turns.len(), 2, "{beta}: {turns:?}");
+        assert!(turns[0] > turns[1]);
+        let between = excitation.at(0.5 * (turns[0] + turns[1]));
+        let found = branches(&model, &between, BEAM_RANGE, &SweepSettings::default(), &control).unwrap();
+        let stable: Vec<bool> = found.iter().map(|p| p.stable).collect();
+        assert_eq!(stable, [true, false, true], "{beta}");
+        let amplitude: Vec<f64> = found.iter().map(|p| p.response.amplitude(8, 1).norm()).collect();
+        assert!(amplitude[0] > amplitude[1] && amplitude[1] > amplitude[2], "{beta}: {amplitude:?}");
+        // Energy per cycle: what the force puts in, the damping of the structure takes out.
+        for point in &found {
+            let input = force * -point.response.amplitude(8, 1).im;
+            let lost = |h: usize| (h as f64).powi(2) * beta * between.omega * elastic(&structure, &point.response, h);
+            let taken: f64 = (1..=7).map(lost).sum();
+            assert!((taken / input - 1.0).abs() < 1e-5, "{beta}: {taken} {input}");
+        }
+    }
+}
+
+/// Stepped through time, both stable motions stay and a motion beside the unstable one leaves it.
+#[test]
+fn both_stable_motions_of_the_beam_hold_in_time() {
+    let (structure, sources, excitation) = hardening_beam(2e-4, 0.03);
+    let model = ForwardModel::new(&structure, &sources).unwrap();
+    let control = Control::unattended();
+    let curve = sweep(&model, &excitation, BEAM_RANGE, &SweepSettings::default(), &control).unwrap();
+    let turns = turns(&curve);
+    let excitation = excitation.at(0.4 * turns[0] + 0.6 * turns[1]);
+    let found = branches(&model, &excitation, BEAM_RANGE, &SweepSettings::default(), &control).unwrap();
+    assert_eq!(found.len(), 3);
+    for point in &found {
+        let mut time = TimeModel::new(&structure, &sources, &excitation, 500).unwrap();
+        let (mut displacement, velocity) = point.response.state_at(0.0);
+        displacement.iter_mut().for_each(|x| *x *= 1.02);
+        time.start(&displacement, &velocity);
+        (0..150 * 500).for_each(|_| time.advance().unwrap());
+        let settled = time.harmonics(1).unwrap()[(8, 0)];
+        let expected = point.response.amplitude(8, 1);
+        let stays = (settled - expected).norm() < 5e-3 * expected.norm();
+        assert_eq!(stays, point.stable, "{settled} {expected}");
+    }
 }

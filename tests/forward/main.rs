@@ -7,6 +7,7 @@ mod closed_forms;
 mod comparison;
 mod derivatives;
 mod folds;
+mod harmonic_laws;
 mod predictions;
 mod recorded;
 mod resonance;

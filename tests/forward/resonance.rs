@@ -155,3 +155,80 @@ fn derivatives_at_a_natural_frequency() {
         }
     }
 }
+
+/// Known springs and masses shift the natural frequencies; nothing damps but a nonlinear source. With one harmonic its
+/// force is a dynamic stiffness times its motion: with that in its place, a direct solve gives the same motion.
+#[test]
+fn nonlinear_sources_alone_at_shifted_natural_frequencies() {
+    let settings = Settings { estimate: false, tolerance: 1e-12, ..Settings::fixed(1) };
+    let (beam, masses) = (cantilever(10), five_masses());
+    let many = ChainParameters {
+        masses: vec![1.0; 70],
+        ground_stiffness: [vec![1e5], vec![0.0; 69]].concat(),
+        coupling_stiffness: vec![1e5; 69],
+    };
+    let many = many.build(&[]).unwrap();
+    let spring = |dofs: &[usize], k: f64| source(Effect::Stiffness, dofs, &[k]);
+    let mass = |dof: usize, m: f64| source(Effect::Mass, &[dof], &[m]);
+    for (name, structure, linear, damper, dof, force) in [
+        ("a spring", &masses, vec![spring(&[2], 3e4)], source(Effect::Quadratic, &[2], &[200.0]), 4, 20.0),
+        (
+            "spring, mass",
+            &masses,
+            vec![spring(&[0, 3], -2e4), mass(1, 0.7)],
+            source(Effect::Power, &[3], &[60.0, 0.6]),
+            4,
+            20.0,
+        ),
+        ("beam", &beam, vec![spring(&[12], 900.0), mass(18, 0.02)], source(Effect::Quadratic, &[18], &[0.3]), 18, 1.0),
+        (
+            "many",
+            &many,
+            vec![spring(&[40], 4e3), spring(&[3, 9], 2e4)],
+            source(Effect::Quadratic, &[69], &[40.0]),
+            69,
+            1.0,
+        ),
+    ] {
+        let shifted = natural_frequencies(structure, &linear);
+        for (r, &omega) in shifted.iter().enumerate().take(3) {
+            for share in [1.0, 1.0 + 1e-9] {
+                let excitation = Excitation::sine(share * omega, dof, c64::new(force, 0.0));
+                let sources = [&linear[..], std::slice::from_ref(&damper)].concat();
+                let response = balanced(structure, &sources, &excitation, &settings);
+                let place = damper.place.legs()[0];
+                let answer = response.forces.iter().find(|f| f.source == linear.len()).unwrap().harmonics[0];
+                let z = answer / place.relative(|i| response.amplitude(i, 1));
+                let equivalent = [
+                    source(Effect::Stiffness, &[place.first], &[z.re]),
+                    source(Effect::Hysteretic, &[place.first], &[z.im]),
+                ];
+                let all = [&linear[..], &equivalent].concat();
+                let mut load = vec![c64::new(0.0, 0.0); structure.len()];
+                load[dof] = c64::new(force, 0.0);
+                let direct = DynamicStiffness::new(structure, &all).unwrap().solve(excitation.omega, &load).unwrap();
+                let largest = direct.iter().fold(0.0_f64, |m, x| m.max(x.norm()));
+                let error =
+                    (0..structure.len()).fold(0.0_f64, |m, i| m.max((response.amplitude(i, 1) - direct[i]).norm()));
+                assert!(error < 1e-9 * largest, "{name}, mode {r}: off by {:.1e}", error / largest);
+            }
+        }
+    }
+}
+
+/// Natural circular frequencies of the structure with springs and masses.
+fn natural_frequencies(structure: &Structure, linear: &[Source]) -> Vec<f64> {
+    let mut matrices = structure.matrices().unwrap().clone();
+    for source in linear {
+        let matrix = if source.effect == Effect::Mass { &mut matrices.mass } else { &mut matrices.stiffness };
+        for leg in source.place.legs() {
+            let ends = [Some((leg.first, 1.0)), leg.second.map(|j| (j, -1.0))];
+            for (i, a) in ends.into_iter().flatten() {
+                for (j, b) in ends.into_iter().flatten() {
+                    matrix[(i, j)] += a * b * source.parameters[0];
+                }
+            }
+        }
+    }
+    dashpot::structure::modes::modes(&matrices).unwrap().omega
+}

@@ -71,3 +71,15 @@ pub fn difference(response: &Response, reference: &Mat<c64>, h: usize) -> f64 {
     let largest = (0..n).fold(0.0_f64, |m, i| m.max(reference[(i, h - 1)].norm()));
     (0..n).fold(0.0_f64, |m, i| m.max((response.amplitude(i, h) - reference[(i, h - 1)]).norm())) / largest
 }
+
+/// `X_h^H K X_h`: four times the mean, twice the greatest elastic energy of harmonic `h`, J.
+pub fn elastic(structure: &Structure, response: &Response, h: usize) -> f64 {
+    let stiffness = &structure.matrices().unwrap().stiffness;
+    let mut sum = 0.0;
+    for i in 0..structure.len() {
+        for j in 0..structure.len() {
+            sum += (response.amplitude(i, h).conj() * response.amplitude(j, h)).re * stiffness[(i, j)];
+        }
+    }
+    sum
+}

@@ -186,7 +186,7 @@ impl LinearPart {
             inverse.apply(&force, &mut column);
             mode.column = column;
         }
-        Compliance { inverse, resonant }
+        Compliance { inverse, resonant, apart }
     }
 
     fn modal_inverse(&self, [fk, fm]: [c64; 2], damped: &[usize]) -> Inverse {
@@ -215,6 +215,8 @@ pub(crate) struct Compliance {
     inverse: Inverse,
     /// Modes damped in the receptance; each needs its leg.
     pub resonant: Vec<Resonant>,
+    /// Whether what is at resonance is set apart.
+    pub apart: bool,
 }
 
 /// Receptance matrix.

@@ -6,16 +6,16 @@
 //!
 //! Linear sources between single DOFs are eliminated by Woodbury's identity from the receptance `A_h` of the structure:
 //! their forces are `g = S (d_l - G_lN F)`, `S = z (1 + G_ll z)^-1`, with `G = L^T A L` and `d = L^T A F_ext`. The legs of
-//! modes at resonance (`resonant`) are kept beside the nonlinear ones, each at its one harmonic.
+//! modes at resonance (`resonant`) are kept beside the nonlinear ones, each at its one harmonic; so are linear legs where
+//! they put the structure at resonance and `1 + z G` is almost singular.
 //!
-//! Unknowns: `2 H + 1` coefficients of each nonlinear leg, then cosine and sine of each mode at resonance.
+//! Unknowns: `2 H + 1` coefficients of each nonlinear leg, then cosine and sine of each of the others that are kept.
 
 use super::compliance::Compliance;
-use super::dense::invert;
 use super::fourier::{add_amplitude, amplitude};
 use super::legs::NonlinearLeg;
+use super::level::{Level, level, multiply};
 use super::model::{Excitation, ModelError};
-use super::resonant::Pattern;
 use crate::effects::{Leg, Source};
 use faer::c64;
 
@@ -27,36 +27,6 @@ pub(crate) struct LinearLeg {
     pub leg: Leg,
 }
 
-/// Quantities of one harmonic. `m` kept legs (nonlinear ones, then modes at resonance) and `k` linear legs.
-pub(crate) struct Level {
-    /// `C_h`, m x m row by row, m/N.
-    coupling: Vec<c64>,
-    /// `D_lin,h`, m.
-    free: Vec<c64>,
-    /// `S`, k x k.
-    elimination: Vec<c64>,
-    /// `G_lN`, k x m.
-    mixed: Vec<c64>,
-    /// `d_l`, k.
-    linear_free: Vec<c64>,
-    /// Dynamic stiffness of the modes at resonance, N/m.
-    pub resonant: Vec<c64>,
-    /// Number of modes at resonance at lower harmonics.
-    resonant_before: usize,
-}
-
-impl Level {
-    /// Number of kept legs.
-    pub fn count(&self) -> usize {
-        self.free.len()
-    }
-
-    /// Motion of kept leg `i` under a unit force of leg `j`, m/N, with the sign turned.
-    pub fn coupling(&self, i: usize, j: usize) -> c64 {
-        self.coupling[i * self.count() + j]
-    }
-}
-
 /// The system seen from its kept legs.
 pub(crate) struct Condensed {
     pub omega: f64,
@@ -65,7 +35,7 @@ pub(crate) struct Condensed {
     pub linear_legs: Vec<LinearLeg>,
     /// Harmonics 0..=H.
     pub levels: Vec<Level>,
-    /// Modes at resonance over all harmonics.
+    /// Modes at resonance and linear legs that are kept, over all harmonics.
     resonances: usize,
     /// Whether every law answers the opposite motion by the opposite force.
     pub mirrored: bool,
@@ -192,13 +162,26 @@ impl Condensed {
             for (r, mode) in compliance(h).resonant.iter().enumerate() {
                 self.add(&mut motion, h, self.legs.len() + r, mode.motion(x));
             }
+            for (j, leg) in self.kept_linear(h) {
+                self.add(&mut motion, h, j, leg.relative(|i| x[i]));
+            }
         }
         motion
+    }
+
+    /// Numbers of the linear legs among those kept at harmonic `h`.
+    pub fn kept_linear(&self, h: usize) -> impl Iterator<Item = (usize, Leg)> {
+        let first = self.levels[h].count().saturating_sub(self.linear_legs.len());
+        let kept = if self.levels[h].keeps_linear { &self.linear_legs[..] } else { &[] };
+        kept.iter().enumerate().map(move |(l, linear)| (first + l, linear.leg))
     }
 
     /// Forces of the linear legs at harmonic `h` when the kept ones have the coefficients `u`.
     pub fn linear_forces(&self, h: usize, u: &[f64], level: f64) -> Vec<c64> {
         let at = &self.levels[h];
+        if at.keeps_linear {
+            return self.kept_linear(h).map(|(j, _)| self.get(u, h, j)).collect();
+        }
         let motion: Vec<c64> = (0..self.linear_legs.len())
             .map(|l| {
                 let pull = |j: usize| at.mixed[l * at.count() + j] * self.get(u, h, j);
@@ -233,9 +216,10 @@ impl Condensed {
     /// Displacements of all DOFs at harmonic `h` under the kept forces `u` alone.
     pub fn pulled(&self, compliance: &Compliance, h: usize, size: usize, u: &[f64]) -> Vec<c64> {
         let mut force = vec![c64::new(0.0, 0.0); size];
-        for (j, leg) in self.legs.iter().enumerate() {
+        let legs = self.legs.iter().map(|l| l.leg).enumerate();
+        for (j, leg) in legs.chain(self.kept_linear(h)) {
             let mut loads = Vec::with_capacity(2);
-            push_leg(&mut loads, leg.leg, self.get(u, h, j));
+            push_leg(&mut loads, leg, self.get(u, h, j));
             loads.into_iter().for_each(|(i, f)| force[i] += f);
         }
         for (r, mode) in compliance.resonant.iter().enumerate() {
@@ -264,7 +248,7 @@ impl Condensed {
 
     /// Takes away what the linear legs do when they would move by `motion` without their forces.
     fn subtract_linear(&self, compliance: &Compliance, h: usize, motion: &[c64], x: &mut [c64]) {
-        if motion.is_empty() {
+        if motion.is_empty() || self.levels[h].keeps_linear {
             return;
         }
         let forces = multiply(&self.levels[h].elimination, motion);
@@ -298,70 +282,8 @@ fn velocity_weight(levels: &[Level], omega: f64, leg: usize) -> f64 {
     if logs.is_empty() { 1.0 } else { 2.0 * (-logs.iter().sum::<f64>() / logs.len() as f64).exp() }
 }
 
-fn level(
-    compliance: &Compliance,
-    sources: &[Source],
-    legs: &[NonlinearLeg],
-    linear: &[LinearLeg],
-    excitation: &Excitation,
-    h: usize,
-) -> Result<Level, ModelError> {
-    let omega = h as f64 * excitation.omega;
-    let kept: Vec<Pattern> = (legs.iter().map(|l| Pattern::Leg(l.leg)))
-        .chain((0..compliance.resonant.len()).map(Pattern::Resonant))
-        .collect();
-    let eliminated: Vec<Pattern> = linear.iter().map(|l| Pattern::Leg(l.leg)).collect();
-    let (m, k) = (kept.len(), eliminated.len());
-    let free = |at: &Pattern| {
-        excitation.forces.iter().fold(c64::new(0.0, 0.0), |sum, force| {
-            let value = force.amplitude(h);
-            if value.norm_sqr() == 0.0 { sum } else { sum + compliance.between(*at, Pattern::Leg(force.leg())) * value }
-        })
-    };
-    let table = |rows: &[Pattern], columns: &[Pattern]| -> Vec<c64> {
-        rows.iter().flat_map(|&a| columns.iter().map(move |&b| compliance.between(a, b))).collect()
-    };
-    let mut coupling = table(&kept, &kept);
-    let mut free_motion: Vec<c64> = kept.iter().map(free).collect();
-    let mixed = table(&eliminated, &kept);
-    let linear_free: Vec<c64> = eliminated.iter().map(free).collect();
-    let stiffness: Vec<c64> = linear.iter().map(|l| stiffness_of(&sources[l.source], omega)).collect();
-    let elimination = eliminate(&table(&eliminated, &eliminated), &stiffness)
-        .ok_or(ModelError::SingularSources { frequency_hz: omega / std::f64::consts::TAU })?;
-    if k > 0 {
-        let pulled = multiply(&elimination, &linear_free);
-        for i in 0..m {
-            free_motion[i] -= (0..k).fold(c64::new(0.0, 0.0), |s, l| s + mixed[l * m + i] * pulled[l]);
-        }
-        for j in 0..m {
-            let column: Vec<c64> = (0..k).map(|l| mixed[l * m + j]).collect();
-            let pulled = multiply(&elimination, &column);
-            for i in 0..m {
-                coupling[i * m + j] -= (0..k).fold(c64::new(0.0, 0.0), |s, l| s + mixed[l * m + i] * pulled[l]);
-            }
-        }
-    }
-    let resonant = compliance.resonant.iter().map(|mode| mode.stiffness).collect();
-    Ok(Level { coupling, free: free_motion, elimination, mixed, linear_free, resonant, resonant_before: 0 })
-}
-
 /// Dynamic stiffness of a linear source between DOFs, N/m.
 pub(crate) fn stiffness_of(source: &Source, omega: f64) -> c64 {
     let law = source.effect.law();
     law.and_then(|law| law.dynamic_stiffness(&source.parameters, omega)).unwrap_or(c64::new(0.0, 0.0))
-}
-
-/// `S = z (1 + G z)^-1`, k x k.
-fn eliminate(g: &[c64], z: &[c64]) -> Option<Vec<c64>> {
-    let k = z.len();
-    let one = |i: usize, j: usize| c64::new(if i == j { 1.0 } else { 0.0 }, 0.0);
-    let system: Vec<c64> = (0..k * k).map(|n| one(n / k, n % k) + g[n] * z[n % k]).collect();
-    let inverse = invert(k, system)?;
-    Some((0..k * k).map(|n| z[n / k] * inverse[n]).collect())
-}
-
-/// Square matrix, row by row, times a vector.
-fn multiply(matrix: &[c64], x: &[c64]) -> Vec<c64> {
-    let row = |row: &[c64]| row.iter().zip(x).fold(c64::new(0.0, 0.0), |s, (a, b)| s + *a * *b);
-    matrix.chunks_exact(x.len().max(1)).map(row).collect()
 }

@@ -19,6 +19,7 @@ mod friction;
 mod iterate;
 mod kept;
 mod legs;
+mod level;
 mod model;
 mod newton;
 mod outcome;

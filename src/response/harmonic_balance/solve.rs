@@ -6,9 +6,9 @@ use super::arc::{all_crossings, level_arc};
 use super::condense::{Condensed, split};
 use super::dense::Lu;
 use super::fourier::{Fourier, amplitude};
-use super::legs::{Manner, NonlinearLeg, resized};
-use super::model::{Excitation, MOST_HARMONICS, RunModel};
 use super::iterate::Ending;
+use super::legs::{Manner, NonlinearLeg, resized};
+use super::model::{Excitation, MOST_HARMONICS, ModelError, RunModel};
 use super::newton::Balance;
 use super::outcome::{Attempt, Response, ResponseError, SourceForce, Status, Step};
 use super::stability::is_stable;
@@ -60,7 +60,7 @@ impl Prepared {
         (0..=self.condensed.harmonics).map(at).collect()
     }
 
-    /// The unknowns of a response nearby: leg forces cut or filled with zeros, modes at resonance from their motion.
+    /// The unknowns of a response nearby: leg forces cut or filled with zeros, those of what is at resonance from its motion.
     pub fn adapt(&self, run: &RunModel, start: &Response) -> Vec<f64> {
         let condensed = &self.condensed;
         let mut u = vec![0.0; condensed.size()];
@@ -71,9 +71,11 @@ impl Prepared {
         }
         let amplitudes = start.raw.as_ref().unwrap_or(&start.harmonics);
         for h in 1..=condensed.harmonics.min(start.order()) {
-            for (r, mode) in run.compliance(h).resonant.iter().enumerate() {
-                let force = mode.stiffness * mode.motion(amplitudes.col_as_slice(h - 1));
-                condensed.add(&mut u, h, condensed.legs.len() + r, force);
+            let (x, stiffness) = (amplitudes.col_as_slice(h - 1), &condensed.levels[h].resonant);
+            let modes = run.compliance(h).resonant.iter().map(|mode| mode.motion(x));
+            let legs = condensed.kept_linear(h).map(|(_, leg)| leg.relative(|i| x[i]));
+            for (r, (motion, z)) in modes.chain(legs).zip(stiffness).enumerate() {
+                condensed.add(&mut u, h, condensed.legs.len() + r, *z * motion);
             }
         }
         u
@@ -98,7 +100,9 @@ pub(crate) fn respond(
         // A linear model answers at the driven harmonics only.
         let prepared = Prepared::new(run, sources, excitation, driven.clamp(1, MOST_HARMONICS))?;
         let mut u = vec![0.0; prepared.condensed.size()];
-        prepared.balance().solve(&mut u, 1.0, settings.tolerance);
+        if !prepared.balance().solve(&mut u, 1.0, settings.tolerance).converged {
+            return Err(ModelError::SingularSources { frequency_hz: excitation.omega / TAU }.into());
+        }
         return Ok(Response { status: Status::Linear, ..assemble(run, &prepared, excitation, u) });
     }
     let first = settings.harmonics.max(driven).clamp(1, MOST_HARMONICS);
