@@ -1,6 +1,8 @@
 //! LU factors of matrices of some tens to some hundreds of rows, where a general library's set-up would cost more than
 //! the work. The loops run in the widest vector instructions that the machine has.
 
+#![expect(clippy::inline_always, reason = "only what is inlined is compiled for the wide instructions")]
+
 use pulp::Arch;
 
 /// `P A = L U` of a real square matrix, stored row by row.
