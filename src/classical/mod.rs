@@ -8,7 +8,8 @@
 //! [`liang`] balances the energy of every DOF.
 //!
 //! [`responses`] takes the lines of the runs, [`poly_reference`] or [`resonant`] the complex modes from them, and
-//! [`side_by_side`] applies every method that the data allow. [`errors`] measures them against a known truth (3.117, 3.132-3.135).
+//! [`side_by_side`] applies every method that the data allow. [`measured_ratios`]
+//! gives ratios with deviations, for use beside the energies. [`errors`] measures them against a known truth (3.117, 3.132-3.135).
 
 pub mod adhikari_woodhouse;
 pub mod chen;
@@ -28,6 +29,7 @@ pub mod lee_kim;
 pub mod liang;
 mod linear;
 pub mod log_decrement;
+pub mod measured_ratios;
 pub mod method;
 pub mod minas_inman;
 mod neighbours;

@@ -1,17 +1,13 @@
 //! Methods of [`super::side_by_side`] that give damping ratios only, applied to the peaks and runs of each mode.
 
+use super::measured_ratios::{SAME_MODE, circle_ratios, half_power_ratios};
 use super::side_by_side::{Applied, Data, Ratio, missing};
-use super::{ClassicalError, FrequencyResponses, half_power, resonant};
+use super::{ClassicalError, resonant};
 use std::f64::consts::{PI, TAU};
-
-/// Relative distance within which a ratio belongs to a mode of the model.
-const SAME_MODE: f64 = 0.05;
 
 /// Least ratio of forces between runs of one mode that can tell friction from viscous damping: along one sweep the other
 /// modes' share of the motion would pass for friction.
 const LEVELS: f64 = 1.5;
-/// Least number of lines within a half-power band that show its width.
-const LEAST_INSIDE: usize = 3;
 /// Least part of a mode's largest displacement at the drive that shows the mode there.
 const SEEN: f64 = 0.2;
 
@@ -33,44 +29,18 @@ impl Data<'_> {
         Ok(Applied { damping: None, ratios, eps_p: None, errors: None })
     }
 
-    /// Sensor and drive with the largest response at a line.
-    fn loudest(responses: &FrequencyResponses, line: usize) -> (usize, usize) {
-        let h = &responses.values[line];
-        let pairs = (0..h.nrows()).flat_map(|i| (0..h.ncols()).map(move |j| (i, j)));
-        pairs.max_by(|a, b| h[*a].norm().total_cmp(&h[*b].norm())).unwrap_or((0, 0))
-    }
-
-    /// Peaks of the pair that responds most at each natural frequency.
     pub(super) fn half_power(&self) -> Result<Applied, ClassicalError> {
-        let responses = self.responses()?;
-        let found = self.model.omega.iter().filter_map(|&omega| {
-            let line = responses.omega.partition_point(|&w| w < omega).min(responses.omega.len() - 1);
-            let (sensor, drive) = Self::loudest(responses, line);
-            let peaks = half_power::peaks(&responses.omega, &responses.series(sensor, drive));
-            let nearest = |a: &half_power::HalfPower| (a.omega_peak - omega).abs();
-            let peak = peaks.into_iter().min_by(|a, b| nearest(a).total_cmp(&nearest(b)))?;
-            let half = peak.damping_ratio() * peak.omega_peak;
-            let inside = responses.omega.iter().filter(|&w| (w - peak.omega_peak).abs() < half).count();
-            (inside >= LEAST_INSIDE).then_some((peak.omega_peak, peak.damping_ratio()))
-        });
-        let found: Vec<(f64, f64)> = found.collect();
-        self.of_ratios(found, "three lines within the half-power band of a peak, and lines on both flanks")
+        let found = half_power_ratios(&self.model, self.responses()?);
+        let what = "three lines within the half-power band of a peak, and lines on both flanks";
+        self.of_ratios(found.iter().map(|r| (r.omega, r.ratio)), what)
     }
 
-    /// Lines within two half-power widths of each pole that was extracted.
     pub(super) fn circle_fit(&self) -> Result<Applied, ClassicalError> {
-        let (responses, modal) = (self.responses()?, self.modal()?);
-        let found = modal.poles.iter().filter_map(|pole| {
-            let inside = |w: &f64| (w - pole.norm()).abs() < 2.5 * pole.re.abs();
-            let lines: Vec<usize> = (0..responses.omega.len()).filter(|&k| inside(&responses.omega[k])).collect();
-            let (sensor, drive) = Self::loudest(responses, *lines.get(lines.len() / 2)?);
-            let omega: Vec<f64> = lines.iter().map(|&k| responses.omega[k]).collect();
-            let values: Vec<_> = lines.iter().map(|&k| responses.values[k][(sensor, drive)]).collect();
-            let circle = super::circle_fit::circle_fit(&omega, &values).ok().filter(|_| omega.len() >= 5)?;
-            Some((circle.omega, circle.damping_ratio))
-        });
-        let found: Vec<(f64, f64)> = found.collect();
-        self.of_ratios(found, "five lines within a half-power band or more")
+        let found = circle_ratios(&self.model, self.responses()?);
+        self.of_ratios(
+            found.iter().map(|r| (r.omega, r.ratio)),
+            "five lines around a peak, three within its half-power band",
+        )
     }
 
     /// Loss of the drive's loop over the energy of the nearest mode: `zeta = area / (2 pi w_r^2 |q|^2)`.

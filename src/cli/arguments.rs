@@ -41,6 +41,10 @@ pub(super) struct Identify {
     /// Print one JSON document in place of a table
     #[arg(long)]
     pub json: bool,
+    /// Damping ratios as further equations: `half-power` or `circle-fit` of the runs themselves, or a CSV file with
+    /// columns `frequency_hz,damping_ratio,deviation`
+    #[arg(long)]
+    pub ratios: Option<PathBuf>,
 }
 
 #[derive(Debug, Args)]

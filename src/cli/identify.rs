@@ -3,15 +3,20 @@
 use super::arguments::Identify;
 use super::identify_json::document;
 use super::identify_table::report;
+use crate::classical::FrequencyResponses;
+use crate::classical::measured_ratios::{circle_ratios, half_power_ratios};
 use crate::control::Control;
 use crate::exchange::Project;
 use crate::exchange::project::load;
-use crate::identify::{Outcome, identify};
+use crate::exchange::ratios::read_ratios;
+use crate::identify::{Outcome, identify_with_ratios};
+use crate::measurement::MeasuredRatio;
 use anyhow::Context;
+use std::f64::consts::TAU;
 use std::path::Path;
 
 pub(super) fn run(arguments: &Identify) -> anyhow::Result<String> {
-    let (project, outcome) = identified(&arguments.file)?;
+    let (project, outcome) = identified(&arguments.file, arguments.ratios.as_deref())?;
     for warning in &outcome.warnings {
         eprintln!("warning: {warning}");
     }
@@ -21,11 +26,32 @@ pub(super) fn run(arguments: &Identify) -> anyhow::Result<String> {
     Ok(report(&project, &outcome))
 }
 
-/// Loads and identifies a project.
-pub(super) fn identified(file: &Path) -> anyhow::Result<(Project, Outcome)> {
+/// Loads and identifies a project, with damping ratios if they are asked for.
+pub(super) fn identified(file: &Path, ratios: Option<&Path>) -> anyhow::Result<(Project, Outcome)> {
     let control = Control::unattended();
     let project = load(file, &control)?;
-    let outcome = identify(&project.structure, &project.sources, &project.runs, &project.settings, &control)
+    let ratios = ratios.map_or_else(|| Ok(Vec::new()), |choice| measured(&project, choice))?;
+    for r in &ratios {
+        let [value, deviation] = [r.ratio, r.deviation].map(|v| 100.0 * v);
+        eprintln!("damping ratio at {:.4} Hz: {value:.4} % +- {deviation:.4} %", r.omega / TAU);
+    }
+    let (structure, sources) = (&project.structure, &project.sources);
+    let outcome = identify_with_ratios(structure, sources, &project.runs, &ratios, &project.settings, &control)
         .with_context(|| file.display().to_string())?;
     Ok((project, outcome))
+}
+
+fn measured(project: &Project, choice: &Path) -> anyhow::Result<Vec<MeasuredRatio>> {
+    let by = match choice.to_str() {
+        Some("half-power") => half_power_ratios,
+        Some("circle-fit") => circle_ratios,
+        _ => return Ok(read_ratios(choice)?),
+    };
+    let responses = FrequencyResponses::from_runs(&project.runs).context("no run has exactly one exciter")?;
+    let found = by(&project.structure.modes()?, &responses);
+    anyhow::ensure!(
+        !found.is_empty(),
+        "no resonance has three runs within its half-power band: measure more frequencies, or give the ratios in a file"
+    );
+    Ok(found)
 }

@@ -4,6 +4,7 @@ pub mod atomic;
 pub mod export;
 pub mod matrices;
 pub mod project;
+pub mod ratios;
 pub mod records;
 
 use crate::effects::Source;

@@ -27,6 +27,18 @@ pub enum IdentifyError {
         "no set of sources with positive coefficients explains the energy; check the signs of force and motion channels"
     )]
     NothingFits,
+    #[error("damping ratios need mass and stiffness, which this structure lacks; leave them out")]
+    RatioWithoutModel,
+    #[error(
+        "the damping ratio at {frequency_hz:.4} Hz belongs to no mode of the model; mend its frequency or remove it"
+    )]
+    RatioOfNoMode { frequency_hz: f64 },
+    #[error("the damping ratio at {frequency_hz:.4} Hz is {ratio}; give one between 0 and 1, and its deviation")]
+    RatioValue { frequency_hz: f64, ratio: f64 },
+    #[error(
+        "damping ratios cannot stand beside {source_name}, whose damping depends on the amplitude; leave the ratios out or set its state to \"off\""
+    )]
+    RatioOfAmplitude { source_name: String },
     #[error(transparent)]
     Balance(#[from] BalanceError),
     #[error(transparent)]

@@ -18,10 +18,12 @@ const MANY: usize = 200;
 /// Nodes of the tree after which the count is a lower bound.
 const NODES: u64 = 60_000;
 
-/// A warning where layouts are many; `None` where runs outnumber the accepted sources by two or more.
+/// A warning where layouts are many; `None` where runs outnumber the accepted sources by two or more, or damping ratios
+/// stand beside the energies.
 pub(super) fn warning(problem: &Problem<'_>, found: &Found, accepted: usize) -> Option<String> {
     let runs = problem.measured.len();
-    if accepted + 1 < runs || problem.columns.len() > MANY || problem.columns.len() <= runs {
+    if problem.ratios.is_some() || accepted + 1 < runs || problem.columns.len() > MANY || problem.columns.len() <= runs
+    {
         return None;
     }
     let size = accepted.min(runs);

@@ -12,6 +12,7 @@ mod finish;
 mod layouts;
 pub mod outcome;
 mod problem;
+mod ratio_rows;
 mod response_form;
 pub mod results;
 mod search;
@@ -30,7 +31,7 @@ pub use settings::Settings;
 use crate::balance::{Expansion, Weights};
 use crate::control::Control;
 use crate::effects::Source;
-use crate::measurement::Run;
+use crate::measurement::{MeasuredRatio, Run};
 use crate::structure::Structure;
 use problem::Problem;
 use search::{SizeRanking, search};
@@ -56,7 +57,22 @@ pub fn identify(
     settings: &Settings,
     control: &Control,
 ) -> Result<Outcome, IdentifyError> {
-    let mut problem = Problem::new(structure, sources, runs, settings)?;
+    identify_with_ratios(structure, sources, runs, &[], settings, control)
+}
+
+/// [`identify`] with measured damping ratios as rows beside those of the runs, each weighted by its deviation.
+///
+/// # Errors
+/// As [`identify`]; and ratios that belong to no mode, or that stand beside laws whose damping depends on the amplitude.
+pub fn identify_with_ratios(
+    structure: &Structure,
+    sources: &[Source],
+    runs: &[Run],
+    ratios: &[MeasuredRatio],
+    settings: &Settings,
+    control: &Control,
+) -> Result<Outcome, IdentifyError> {
+    let mut problem = Problem::new(structure, sources, runs, ratios, settings)?;
     let first = State::start(&problem)?;
     problem.drop_unobservable(&first)?;
     let start = balanced_start(&problem, control)?;

@@ -1,11 +1,12 @@
 //! What is asked: columns, known sources, runs in use.
 
+use super::ratio_rows::RatioRows;
 use super::state::State;
 use super::{IdentifyError, Settings};
 use crate::balance::energy::is_observable;
 use crate::balance::{Expander, Measured, Weights};
 use crate::effects::{Place, Source, State as SourceState};
-use crate::measurement::{Flag, Run};
+use crate::measurement::{Flag, MeasuredRatio, Run};
 use crate::structure::Structure;
 
 /// The question in the form in which the solver takes it.
@@ -27,6 +28,8 @@ pub(crate) struct Problem<'a> {
     /// Index of each run in use in `runs`.
     pub run_index: Vec<usize>,
     pub expander: Expander<'a>,
+    /// Damping ratios beside the runs.
+    pub ratios: Option<RatioRows>,
     pub warnings: Vec<String>,
 }
 
@@ -36,6 +39,7 @@ impl<'a> Problem<'a> {
         structure: &'a Structure,
         sources: &'a [Source],
         runs: &'a [Run],
+        ratios: &[MeasuredRatio],
         settings: &'a Settings,
     ) -> Result<Self, IdentifyError> {
         let mut warnings = Vec::new();
@@ -58,9 +62,11 @@ impl<'a> Problem<'a> {
             measured,
             run_index,
             expander,
+            ratios: None,
             warnings,
         };
         problem.sort_sources()?;
+        problem.ratios = RatioRows::new(structure, [&problem.known, &problem.columns], ratios)?;
         problem.check_counts()?;
         Ok(problem)
     }
@@ -92,7 +98,7 @@ impl<'a> Problem<'a> {
     }
 
     fn check_counts(&self) -> Result<(), IdentifyError> {
-        let (forced, runs, max_sources) = (self.forced.len(), self.measured.len(), self.settings.max_sources);
+        let (forced, runs, max_sources) = (self.forced.len(), self.equations(), self.settings.max_sources);
         if forced > runs {
             return Err(IdentifyError::TooManyForced { forced, runs });
         }
@@ -132,6 +138,11 @@ impl<'a> Problem<'a> {
             return Err(IdentifyError::NoCandidates);
         }
         check_input(state)
+    }
+
+    /// Energies and damping ratios.
+    pub fn equations(&self) -> usize {
+        self.measured.len() + self.ratios.as_ref().map_or(0, RatioRows::len)
     }
 
     /// Whether deviations are known from the data in every run.

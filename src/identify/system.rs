@@ -18,11 +18,15 @@ pub(crate) struct System {
 }
 
 impl System {
-    /// The equation of a form at a state.
+    /// The equation of a form at a state, with the damping ratios that stand beside it.
     pub fn of(form: Form, problem: &Problem<'_>, state: &State) -> Self {
-        match form {
+        let system = match form {
             Form::Energy => Self::energy(problem, state, problem.settings.weights),
             Form::Response => response_form::system(problem, state),
+        };
+        match &problem.ratios {
+            Some(ratios) => ratios.append(problem, state, form, system),
+            None => system,
         }
     }
 

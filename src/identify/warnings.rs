@@ -74,7 +74,7 @@ fn parallel_laws(problem: &Problem<'_>, found: &Found) -> Vec<String> {
 
 /// As many sources as equations explain anything.
 fn few_runs(problem: &Problem<'_>, found: &Found, set: &[usize]) -> Option<String> {
-    let runs = problem.measured.len();
+    let runs = problem.equations();
     let other = found.rankings[found.decision.accepted].sets.get(1);
     (set.len() >= runs && other.is_some()).then(|| {
         format!(

@@ -1,10 +1,13 @@
 //! All methods on one set of runs of the five masses: sweeps under five exciters, noise-free.
 
 use super::support::*;
+use dashpot::classical::FrequencyResponses;
+use dashpot::classical::measured_ratios::{circle_ratios, half_power_ratios};
 use dashpot::classical::method::Method;
 use dashpot::classical::side_by_side::{Applied, SideBySide, side_by_side};
 use dashpot::control::Control;
 use dashpot::effects::{Effect, Place, Source, State};
+use dashpot::measurement::MeasuredRatio;
 use dashpot::measurement::{Channel, ChannelFit, HarmonicFit, Quantity, Run};
 use dashpot::structure::Structure;
 use faer::{Mat, c64};
@@ -141,4 +144,23 @@ fn reasons_are_one_line_each() {
         assert!(reason.lines().count() == 1 && reason.len() < 160, "{reason}");
     }
     assert!(found.modal.is_none() && found.spread.is_empty());
+}
+
+/// Ratios for use beside the energies: near the truth by what they say of themselves.
+#[test]
+fn measured_ratios_know_their_deviation() {
+    let structure = five_masses();
+    let (runs, model) = (sweep(&structure), structure.modes().unwrap());
+    let responses = FrequencyResponses::from_runs(&runs).unwrap();
+    let exact = modal(&structure, &truth(), 5);
+    let found: [Vec<MeasuredRatio>; 2] = [half_power_ratios(&model, &responses), circle_ratios(&model, &responses)];
+    for ratios in found {
+        assert_eq!(ratios.len(), 5);
+        for (p, r) in ratios.iter().enumerate() {
+            let known = exact.damping_ratio(p);
+            let off = (r.ratio - known).abs();
+            assert!(off < 3.0 * r.deviation + 1e-3 * known, "mode {}: {r:?} {known}", p + 1);
+            assert!(r.deviation < 0.2 * known, "mode {}: {r:?} {known}", p + 1);
+        }
+    }
 }

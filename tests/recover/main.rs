@@ -6,4 +6,5 @@ mod beam;
 mod chain;
 mod noise;
 mod points;
+mod ratios;
 mod support;

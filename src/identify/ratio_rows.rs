@@ -1,0 +1,182 @@
+//! Damping ratios as rows beside the energies (proposed as future work in chapter 7 of the source).
+//!
+//! ```text
+//! sum_j (d zeta_r / d c_j) c_j = zeta_measured - zeta_r(c0) + sum_j (d zeta_r / d c_j) c0_j
+//! ```
+//!
+//! the ratio of a damped mode of the model, linearised at the present coefficients; iterated with them it is exact. Each row is
+//! weighted by the ratio's standard deviation. A ratio says nothing of laws whose damping depends on the amplitude (friction), so
+//! it cannot join where such a law is known or a candidate.
+
+use super::outcome::Form;
+use super::{IdentifyError, problem::Problem, problem::describe, state::State, system::System};
+use crate::effects::{Effect, Source};
+use crate::math::fill::filled;
+use crate::math::statistics::root_mean_square;
+use crate::measurement::MeasuredRatio;
+use crate::response::linear_matrices::{LinearMatrices, unit_matrix};
+use crate::structure::damped_modes::{DampedMode, damped_modes_from};
+use crate::structure::modes::{Modes, modes};
+use crate::structure::{Structure, SystemMatrices};
+use std::f64::consts::TAU;
+
+/// Relative distance of frequencies within which a ratio belongs to a mode.
+const SAME_MODE: f64 = 0.05;
+/// Least deviation of a ratio, relative to it: rounding.
+const LEAST: f64 = 1e-9;
+/// Relative error that the energies are taken to have where their noise is not known.
+const UNKNOWN: f64 = 0.01;
+
+/// The ratios and the undamped modes that they belong to.
+pub(crate) struct RatioRows {
+    ratios: Vec<MeasuredRatio>,
+    modes: Modes,
+    /// Undamped mode of each ratio.
+    place: Vec<usize>,
+}
+
+impl RatioRows {
+    /// Pairs ratios with modes of the model, known stiffnesses and masses in it.
+    pub fn new(
+        structure: &Structure,
+        sources: [&[Source]; 2],
+        ratios: &[MeasuredRatio],
+    ) -> Result<Option<Self>, IdentifyError> {
+        if ratios.is_empty() {
+            return Ok(None);
+        }
+        let [known, columns] = sources;
+        let other = |s: &&Source| s.effect.dissipates() && !is_constant(s.effect);
+        if let Some(source) = known.iter().chain(columns).find(other) {
+            return Err(IdentifyError::RatioOfAmplitude { source_name: describe(source, structure) });
+        }
+        let linear = LinearMatrices::new(structure, known).map_err(|_| IdentifyError::RatioWithoutModel)?;
+        let matrices = SystemMatrices { mass: linear.mass, stiffness: linear.stiffness };
+        let modes = modes(&matrices).map_err(|_| IdentifyError::RatioWithoutModel)?;
+        let place: Result<Vec<usize>, IdentifyError> = ratios.iter().map(|ratio| place(&modes, ratio)).collect();
+        Ok(Some(Self { ratios: ratios.to_vec(), place: place?, modes }))
+    }
+
+    /// Number of ratios.
+    pub fn len(&self) -> usize {
+        self.ratios.len()
+    }
+
+    /// Adds the rows to the system of a form at a state.
+    pub fn append(&self, problem: &Problem<'_>, state: &State, form: Form, system: System) -> System {
+        let acting = problem.acting(&state.coefficients);
+        let Some(damped) = self.damped(problem.structure, &acting) else { return system };
+        let weigh = Weigh::new(&system, form);
+        let row = |(ratio, mode): (&MeasuredRatio, &DampedMode)| {
+            let by = |s: &Source| slope(problem.structure, mode, s);
+            let slopes: Vec<f64> = problem.columns.iter().map(by).collect();
+            let hysteretic = acting.iter().filter(|s| is_hysteretic(s.effect));
+            let present = mode.damping_ratio + hysteretic.map(|s| by(s) * s.coefficient()).sum::<f64>();
+            let linear: f64 = slopes.iter().zip(&state.coefficients).map(|(a, c)| a * c).sum();
+            let deviation = ratio.deviation.max(LEAST * ratio.ratio);
+            Row {
+                slopes,
+                right: ratio.ratio - present + linear,
+                factor: weigh.factor(ratio.ratio, deviation),
+                deviation,
+            }
+        };
+        let rows: Vec<Row> = self.ratios.iter().zip(&damped).map(row).collect();
+        extended(system, &rows)
+    }
+
+    /// The damped mode of each ratio at the sources that act.
+    fn damped(&self, structure: &Structure, acting: &[Source]) -> Option<Vec<DampedMode>> {
+        let constant: Vec<Source> = acting.iter().filter(|s| !is_hysteretic(s.effect)).cloned().collect();
+        let linear = LinearMatrices::new(structure, &constant).ok()?;
+        let all = damped_modes_from(&self.modes, linear.viscous.as_ref()).ok()?;
+        let nearest = |omega: f64| {
+            let distance = |m: &&DampedMode| (m.lambda.norm() - omega).abs();
+            let oscillating = all.iter().filter(|m| m.lambda.im > 0.0);
+            oscillating.min_by(|a, b| distance(a).total_cmp(&distance(b))).cloned()
+        };
+        self.place.iter().map(|&r| nearest(self.modes.omega[r])).collect()
+    }
+}
+
+/// The mode that a ratio belongs to.
+fn place(modes: &Modes, ratio: &MeasuredRatio) -> Result<usize, IdentifyError> {
+    let hz = ratio.omega / TAU;
+    if !(ratio.ratio > 0.0 && ratio.ratio < 1.0 && ratio.deviation >= 0.0 && ratio.deviation.is_finite()) {
+        return Err(IdentifyError::RatioValue { frequency_hz: hz, ratio: ratio.ratio });
+    }
+    let found = modes.nearest(ratio.omega).filter(|&r| (modes.omega[r] - ratio.omega).abs() < SAME_MODE * ratio.omega);
+    found.ok_or(IdentifyError::RatioOfNoMode { frequency_hz: hz })
+}
+
+/// Whether a law's damping is the same at every amplitude.
+fn is_constant(effect: Effect) -> bool {
+    matches!(effect, Effect::Viscous | Effect::StiffnessProportional | Effect::MassProportional)
+        || is_hysteretic(effect)
+}
+
+fn is_hysteretic(effect: Effect) -> bool {
+    matches!(effect, Effect::Hysteretic | Effect::LossFactor)
+}
+
+/// `d zeta / d coefficient` of a source at a damped mode.
+fn slope(structure: &Structure, mode: &DampedMode, source: &Source) -> f64 {
+    let form = if source.place.legs().is_empty() {
+        unit_matrix(structure, source).map_or(faer::c64::new(0.0, 0.0), |b| mode.quadratic_form(b.as_ref()))
+    } else {
+        source.place.legs().iter().map(|leg| leg.relative(|dof| mode.shape[dof])).map(|d| d * d).sum()
+    };
+    let equivalent = if is_hysteretic(source.effect) { 1.0 / mode.lambda.norm() } else { 1.0 };
+    mode.sensitivity(form).damping_ratio * equivalent
+}
+
+/// How the rows of a system are weighted.
+struct Weigh {
+    form: Form,
+    /// Root mean square of the deviations of its rows, where they are known.
+    deviation: Option<f64>,
+    /// The same of its right side.
+    size: f64,
+}
+
+impl Weigh {
+    fn new(system: &System, form: Form) -> Self {
+        let deviation = system.deviation.as_deref().map(root_mean_square);
+        Self { form, deviation, size: root_mean_square(&system.b) }
+    }
+
+    /// A row of deviation `deviation` counts as one of the energies' or the response's of as many times its own.
+    fn factor(&self, ratio: f64, deviation: f64) -> f64 {
+        match (self.deviation, self.form) {
+            (Some(typical), _) => typical / deviation,
+            (None, Form::Response) => 1.0 / deviation,
+            (None, Form::Energy) => self.size / ratio * (UNKNOWN * ratio / deviation).min(1.0),
+        }
+    }
+}
+
+/// One ratio as a row.
+struct Row {
+    slopes: Vec<f64>,
+    right: f64,
+    factor: f64,
+    deviation: f64,
+}
+
+/// The system with more rows, each as if of a run of its own.
+fn extended(system: System, rows: &[Row]) -> System {
+    let (first, next) = (system.rows(), system.run.last().map_or(0, |r| r + 1));
+    let a = filled(first + rows.len(), system.a.ncols(), |i, j| match i.checked_sub(first) {
+        None => system.a[(i, j)],
+        Some(k) => rows[k].slopes[j] * rows[k].factor,
+    });
+    let mut extended = System { a, ..system };
+    for (k, row) in rows.iter().enumerate() {
+        extended.b.push(row.right * row.factor);
+        extended.run.push(next + k);
+        if let Some(deviations) = &mut extended.deviation {
+            deviations.push(row.deviation * row.factor);
+        }
+    }
+    extended
+}
