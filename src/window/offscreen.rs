@@ -3,7 +3,8 @@
 use super::solid;
 use egui::{Context, Event, FullOutput, RawInput, Rect, Ui, Vec2, pos2};
 use egui_wgpu::{
-    RenderState, Renderer, RendererOptions, ScreenDescriptor, WgpuConfiguration, WgpuSetup, WgpuSetupCreateNew, wgpu,
+    RenderState, Renderer, RendererOptions, ScreenDescriptor, WgpuConfiguration, WgpuError, WgpuSetup,
+    WgpuSetupCreateNew, wgpu,
 };
 use std::sync::Arc;
 use std::time::Duration;
@@ -156,9 +157,10 @@ impl Offscreen {
     }
 }
 
-/// Opens an adapter, a software one before any other.
-fn adapter() -> Result<RenderState, String> {
+/// How an adapter without a display is chosen among those of `backends`: a software one before any other.
+pub fn setup(backends: wgpu::Backends) -> WgpuSetup {
     let mut setup = WgpuSetupCreateNew::without_display_handle();
+    setup.instance_descriptor.backends = backends;
     setup.native_adapter_selector = Some(Arc::new(|adapters, _surface| {
         let rank = |a: &&wgpu::Adapter| match a.get_info().device_type {
             wgpu::DeviceType::Cpu => 0,
@@ -167,13 +169,22 @@ fn adapter() -> Result<RenderState, String> {
         };
         adapters.iter().min_by_key(rank).cloned().ok_or_else(|| "none".to_owned())
     }));
-    let setup = WgpuSetup::CreateNew(setup);
-    let instance = pollster::block_on(setup.new_instance());
-    let configuration = WgpuConfiguration { wgpu_setup: setup, ..WgpuConfiguration::default() };
-    pollster::block_on(RenderState::create(&configuration, &instance, None, RendererOptions::PREDICTABLE)).map_err(|_| {
+    WgpuSetup::CreateNew(setup)
+}
+
+/// Opens an adapter. OpenGL is asked only where nothing else is there: without a display its libraries complain.
+fn adapter() -> Result<RenderState, String> {
+    open(wgpu::Backends::PRIMARY).or_else(|_| open(wgpu::Backends::GL)).map_err(|_| {
         "no graphics adapter: install a Vulkan driver; the packages libvulkan1 and mesa-vulkan-drivers hold one in software"
             .to_owned()
     })
+}
+
+fn open(backends: wgpu::Backends) -> Result<RenderState, WgpuError> {
+    let setup = setup(backends);
+    let instance = pollster::block_on(setup.new_instance());
+    let configuration = WgpuConfiguration { wgpu_setup: setup, ..WgpuConfiguration::default() };
+    pollster::block_on(RenderState::create(&configuration, &instance, None, RendererOptions::PREDICTABLE))
 }
 
 fn attachment(view: &wgpu::TextureView) -> wgpu::RenderPassColorAttachment<'_> {

@@ -121,17 +121,20 @@ pub fn open(sample: &Sample, theme: egui::Theme) -> Harness<'static, App> {
 }
 
 fn window(file: Option<PathBuf>, theme: egui::Theme) -> Harness<'static, App> {
+    let setup = dashpot::window::offscreen::setup(wgpu::Backends::PRIMARY);
     let mut harness =
-        Harness::builder().with_size(egui::vec2(1440.0, 900.0)).with_theme(theme).wgpu().build_eframe(move |cc| {
-            dashpot::window::theme::install(&cc.egui_ctx);
-            cc.egui_ctx.set_theme(theme);
-            let mut app = App::default();
-            if let Some(file) = file {
-                app.open(&cc.egui_ctx, file);
-                app.settle(&cc.egui_ctx).unwrap();
-            }
-            app
-        });
+        Harness::builder().with_size(egui::vec2(1440.0, 900.0)).with_theme(theme).wgpu_setup(setup).build_eframe(
+            move |cc| {
+                dashpot::window::theme::install(&cc.egui_ctx);
+                cc.egui_ctx.set_theme(theme);
+                let mut app = App::default();
+                if let Some(file) = file {
+                    app.open(&cc.egui_ctx, file);
+                    app.settle(&cc.egui_ctx).unwrap();
+                }
+                app
+            },
+        );
     harness.run_steps(3);
     harness
 }
