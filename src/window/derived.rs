@@ -10,6 +10,7 @@ use super::plots::hysteresis::Loop;
 use super::schematic::Scene;
 use super::traces::{Traced, Traces};
 use super::view::View;
+use crate::classical::side_by_side::{SideBySide, side_by_side};
 use crate::control::Control;
 use crate::identify::{self, Outcome};
 use crate::measurement::Quantity;
@@ -33,6 +34,7 @@ pub struct Derived {
     response: Slot<Asked, Response>,
     motions: Slot<u64, Vec<Motion>>,
     loops: Slot<(u64, usize), Vec<Loop>>,
+    methods: Slot<u64, SideBySide>,
     traces: Traces,
     seen: Revisions,
     /// Of the stage Explain.
@@ -48,6 +50,7 @@ impl Default for Derived {
             response: Slot::new("Frequency response"),
             motions: Slot::new("Expanding the runs"),
             loops: Slot::new("Hysteresis"),
+            methods: Slot::new("Classical methods"),
             traces: Traces::default(),
             seen: Revisions::default(),
             explained: Explained::default(),
@@ -73,6 +76,7 @@ impl Derived {
         self.modes.cancel();
         self.motions.cancel();
         self.loops.cancel();
+        self.methods.cancel();
         self.traces.cancel();
     }
 
@@ -112,6 +116,7 @@ impl Derived {
         slots
             .or(self.motions.running())
             .or(self.loops.running())
+            .or(self.methods.running())
             .or(self.traces.running())
             .or_else(|| self.explained.running())
     }
@@ -128,6 +133,14 @@ impl Derived {
             move |control: &Control| {
                 identify::identify(&p.structure, &p.sources, &p.runs, &p.settings, control).map_err(|e| e.to_string())
             }
+        })
+    }
+
+    /// Every classical method that the data allow; `None` while they run.
+    pub fn methods(&mut self, ctx: &Context, document: &Document) -> Option<Result<Arc<SideBySide>, String>> {
+        self.methods.get(ctx, &document.revision(), || {
+            let p = document.project.clone();
+            move |control: &Control| side_by_side(&p.structure, &p.sources, &p.runs, control).map_err(|e| e.to_string())
         })
     }
 

@@ -2,6 +2,7 @@
 
 use super::schematic::view::ViewState;
 use super::stages::explain::look::Look;
+use crate::classical::method::Method;
 use crate::effects::Effect;
 use crate::response::frequency_response::Quantity;
 use serde::{Deserialize, Serialize};
@@ -64,6 +65,8 @@ pub struct View {
     pub matrix_in_space: bool,
     /// What is divided by the force in frequency responses.
     pub quantity: Quantity,
+    /// Classical method whose matrix is shown; `None` is the first that gives one.
+    pub method: Option<Method>,
     /// Selected DOF.
     pub dof: Option<usize>,
     /// Selected source, index in the project.
@@ -104,6 +107,7 @@ impl Default for View {
             whole_matrix: false,
             matrix_in_space: false,
             quantity: Quantity::Receptance,
+            method: None,
             dof: None,
             source: None,
             law: Effect::Viscous,

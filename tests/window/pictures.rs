@@ -68,4 +68,5 @@ fn chain_of_masses() {
     let mut pictures = Pictures::of(&sample, Theme::Light);
     pictures.take(Stage::Structure, Pane::Energy, "chain-structure");
     pictures.take(Stage::Pattern, Pane::Energy, "chain-pattern");
+    pictures.take(Stage::Result, Pane::Methods, "chain-methods");
 }

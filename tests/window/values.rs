@@ -11,8 +11,9 @@ use egui_kittest::kittest::Queryable;
 use serde_json::Value;
 use std::process::Command;
 
-fn identified(sample: &Sample) -> Value {
-    let output = Command::new(env!("CARGO_BIN_EXE_dashpot")).arg("identify").arg(&sample.path).arg("--json").output();
+/// The document that a command prints for a sample.
+fn printed(command: &str, sample: &Sample) -> Value {
+    let output = Command::new(env!("CARGO_BIN_EXE_dashpot")).arg(command).arg(&sample.path).arg("--json").output();
     let output = output.unwrap();
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     serde_json::from_slice(&output.stdout).unwrap()
@@ -39,7 +40,7 @@ fn coefficient(source: &Value) -> String {
 }
 
 fn check(sample: &Sample) {
-    let json = identified(sample);
+    let json = printed("identify", sample);
     let mut harness = open(sample, Theme::Light);
     look(&mut harness, Stage::Measure, Pane::Runs);
     for run in json["runs"].as_array().unwrap() {
@@ -89,4 +90,30 @@ fn a_beam_shows_the_values_of_the_command_line() {
 #[test]
 fn a_chain_shows_the_values_of_the_command_line() {
     check(&chain());
+}
+
+#[test]
+fn the_classical_methods_are_those_of_the_command_line() {
+    let sample = chain();
+    let json = printed("methods", &sample);
+    let mut harness = open(&sample, Theme::Light);
+    look(&mut harness, Stage::Result, Pane::Methods);
+    let (mut ran, mut refused) = (0, 0);
+    for method in json["methods"].as_array().unwrap() {
+        let name = method["name"].as_str().unwrap();
+        if method["ran"].as_bool().unwrap() {
+            assert!(said(&harness, name) > 0, "{name}");
+            let first = method["modes"].as_array().unwrap().iter().find(|m| m["mode"] == 1);
+            if let Some(mode) = first {
+                let ratio = format::significant(100.0 * number(&mode["damping_ratio"]), 3);
+                assert!(said(&harness, &ratio) > 0, "{name} {ratio}");
+            }
+            ran += 1;
+        } else {
+            let line = format!("{name}: {}", method["reason"].as_str().unwrap());
+            assert!(said(&harness, &line) > 0, "{line}");
+            refused += 1;
+        }
+    }
+    assert!(ran >= 3 && refused >= 3, "{ran} ran, {refused} cannot");
 }

@@ -31,6 +31,7 @@ pub enum Pane {
     Nyquist,
     Hysteresis,
     Values,
+    Methods,
     ErrorMap,
     Cell,
     Missing,
@@ -39,7 +40,7 @@ pub enum Pane {
 
 impl Pane {
     /// All panes.
-    pub const ALL: [Self; 27] = [
+    pub const ALL: [Self; 28] = [
         Self::Schematic,
         Self::Inspector,
         Self::Runs,
@@ -63,6 +64,7 @@ impl Pane {
         Self::Nyquist,
         Self::Hysteresis,
         Self::Values,
+        Self::Methods,
         Self::ErrorMap,
         Self::Cell,
         Self::Missing,
@@ -95,6 +97,7 @@ impl Pane {
             Self::Nyquist => "Nyquist",
             Self::Hysteresis => "Hysteresis",
             Self::Values => "Values",
+            Self::Methods => "Methods",
             Self::ErrorMap => "Error map",
             Self::Cell => "Measured on modelled",
             Self::Missing => "What is missing?",
@@ -129,7 +132,18 @@ fn work(stage: Stage) -> Groups {
         Stage::Select => &[(&[Pane::Steps], 0.44), (&[Pane::Set], 0.30), (&[Pane::Angle, Pane::RunEnergy], 0.26)],
         Stage::Result => &[
             (&[Pane::Matrix], 0.42),
-            (&[Pane::Energy, Pane::Damping, Pane::Bode, Pane::Nyquist, Pane::Hysteresis, Pane::Values], 0.58),
+            (
+                &[
+                    Pane::Energy,
+                    Pane::Damping,
+                    Pane::Bode,
+                    Pane::Nyquist,
+                    Pane::Hysteresis,
+                    Pane::Values,
+                    Pane::Methods,
+                ],
+                0.58,
+            ),
         ],
         // Arranged on its own below: the map and the cards need the height.
         Stage::Explain => &[],

@@ -19,6 +19,8 @@ pub struct HeatMap<'a> {
     pub labels: &'a [String],
     /// Unit of the values.
     pub unit: &'a str,
+    /// Magnitude of the strongest colour where maps are compared; `None` is the largest in sight.
+    pub scale: Option<f64>,
 }
 
 /// Rows with an entry that is not zero.
@@ -70,7 +72,7 @@ impl HeatMap<'_> {
 
     fn draw(&self, drawing: &mut Drawing, room: Rect, palette: &Palette) -> Cells {
         let n = self.rows.len().max(1) as f32;
-        let cell = ((room.width() - LABEL - SCALE) / n).min((room.height() - LABEL - 4.0) / n).clamp(2.0, 92.0);
+        let cell = ((room.width() - LABEL - SCALE) / n).min((room.height() - LABEL - 10.0) / n).clamp(2.0, 92.0);
         let cells = Cells { origin: room.min + vec2(LABEL, LABEL), cell };
         let ground = Rect::from_min_size(cells.origin, Vec2::splat(n * cell));
         if cell < 8.0 {
@@ -138,8 +140,11 @@ impl HeatMap<'_> {
         }
     }
 
-    /// Largest magnitude among the cells.
+    /// Magnitude of the strongest colour.
     fn largest(&self) -> f64 {
+        if let Some(scale) = self.scale.filter(|s| *s > 0.0) {
+            return scale;
+        }
         let all = self.rows.iter().flat_map(|&i| self.rows.iter().map(move |&j| self.matrix[(i, j)].abs()));
         all.fold(f64::MIN_POSITIVE, f64::max)
     }
@@ -192,7 +197,7 @@ mod tests {
     fn cells_are_found_and_tabled() {
         let m = Mat::from_fn(3, 3, |i, j| (10 * i + j) as f64);
         let labels = ["a", "b", "c"].map(str::to_owned);
-        let map = HeatMap { matrix: &m, rows: &[0, 2], labels: &labels, unit: "N s/m" };
+        let map = HeatMap { matrix: &m, rows: &[0, 2], labels: &labels, unit: "N s/m", scale: None };
         let cells = Cells { origin: pos2(30.0, 30.0), cell: 20.0 };
         assert_eq!(map.at(cells, pos2(51.0, 35.0)), Some([0, 2]));
         assert_eq!(map.at(cells, pos2(29.0, 35.0)), None);

@@ -2,6 +2,7 @@
 
 pub mod explain;
 pub mod measure;
+pub mod methods;
 pub mod parameters;
 pub mod pattern;
 pub mod result;
@@ -39,6 +40,7 @@ pub fn show(ui: &mut Ui, pane: Pane, app: &mut App, asks: &mut Vec<Ask>) {
         Pane::Nyquist => result::nyquist(ui, app),
         Pane::Hysteresis => result::hysteresis(ui, app),
         Pane::Values => result::values(ui, app),
+        Pane::Methods => methods::show(ui, app),
         Pane::ErrorMap => explain::panes::error_map(ui, app, asks),
         Pane::Cell => explain::panes::cell(ui, app, asks),
         Pane::Missing => explain::panes::missing(ui, app, asks),
