@@ -149,7 +149,9 @@ fn applied_row(
 
 /// What all methods are held against: the spread between them, the modes as measured, the truth where it is known.
 fn summary(body: &mut TableBody<'_>, found: &SideBySide, errors: usize, modes: usize) {
-    let spread = |mode: usize| found.spread.iter().find(|s| s.0 == mode).map(|s| format!("{} %", format::significant(100.0 * s.1, 2)));
+    let spread = |mode: usize| {
+        found.spread.iter().find(|s| s.0 == mode).map(|s| format!("{} %", format::significant(100.0 * s.1, 2)))
+    };
     let figure = |ratio: f64| format::significant(100.0 * ratio, 3);
     let measured = |mode: usize| found.modal.as_ref().filter(|m| mode < m.len()).map(|m| figure(m.damping_ratio(mode)));
     let truth = |mode: usize| found.reference_ratios.get(mode).map(|r| figure(r.ratio));
