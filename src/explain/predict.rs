@@ -115,7 +115,7 @@ impl Predictor {
     pub fn tuned(&self, tuning: &Tuning) -> Result<Self, ExplainError> {
         let known = tuning.known(&self.stated.1);
         let model = ForwardModel::new(&tuning.structure(&self.stated.0), &known)?;
-let runs = run_models(&self.omegas, |omega| model.briefly_at(omega));
+        let runs = run_models(&self.omegas, |omega| model.briefly_at(omega));
         Ok(Self { model, runs, known, stated: self.stated.clone(), omegas: self.omegas.clone() })
     }
 
