@@ -12,6 +12,7 @@ mod finish;
 mod layouts;
 pub mod outcome;
 mod problem;
+mod promising;
 mod ratio_rows;
 mod response_form;
 pub mod results;
@@ -192,7 +193,8 @@ fn refit(
     }
     for _ in 0..20 {
         control.check()?;
-        let fit = solve::fit(&System::of(form, problem, &state), set)?;
+        let own: Vec<usize> = (0..set.len()).collect();
+        let fit = solve::fit(&System::of_set(form, problem, &state, set), &own)?;
         let next = solve::scattered(problem.columns.len(), set, &fit.coefficients);
         let settled = close(&next, &state.coefficients, 1e-11);
         state = state.moved_to(problem, next, model_error)?;

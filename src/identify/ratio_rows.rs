@@ -62,17 +62,17 @@ impl RatioRows {
         self.ratios.len()
     }
 
-    /// Adds the rows to the system of a form at a state.
-    pub fn append(&self, problem: &Problem<'_>, state: &State, form: Form, system: System) -> System {
+    /// Adds the rows to the system of a form at a state, whose columns are those of `set`.
+    pub fn append(&self, problem: &Problem<'_>, state: &State, form: Form, system: System, set: &[usize]) -> System {
         let acting = problem.acting(&state.coefficients);
         let Some(damped) = self.damped(problem.structure, &acting) else { return system };
         let weigh = Weigh::new(&system, form);
         let row = |(ratio, mode): (&MeasuredRatio, &DampedMode)| {
             let by = |s: &Source| slope(problem.structure, mode, s);
-            let slopes: Vec<f64> = problem.columns.iter().map(by).collect();
+            let slopes: Vec<f64> = set.iter().map(|&j| by(&problem.columns[j])).collect();
             let hysteretic = acting.iter().filter(|s| is_hysteretic(s.effect));
             let present = mode.damping_ratio + hysteretic.map(|s| by(s) * s.coefficient()).sum::<f64>();
-            let linear: f64 = slopes.iter().zip(&state.coefficients).map(|(a, c)| a * c).sum();
+            let linear: f64 = slopes.iter().zip(set).map(|(a, &j)| a * state.coefficients[j]).sum();
             let deviation = ratio.deviation.max(LEAST * ratio.ratio);
             Row {
                 slopes,

@@ -20,19 +20,18 @@ const TOLERATED: f64 = 1.5;
 /// Relative misfit up to which the form is used where the noise is not known.
 const SMALL_MISFIT: f64 = 0.05;
 
-/// All rows of all runs.
-pub(super) fn system(problem: &Problem<'_>, state: &State) -> System {
+/// All rows of all runs, for the columns of `set`.
+pub(super) fn system(problem: &Problem<'_>, state: &State, set: &[usize]) -> System {
     let acting = problem.acting(&state.coefficients);
     let mut rows: Vec<(Vec<f64>, f64, usize)> = Vec::new();
     for (r, (measured, expanded)) in state.runs.iter().enumerate() {
-        let forces = Forces::new(problem, measured, expanded, &acting);
+        let forces = Forces::new(problem, measured, expanded, &acting, set);
         for k in 0..measured.harmonics() {
             harmonic_rows(measured, expanded, &forces, k, r, &mut rows);
         }
     }
-    let n = problem.columns.len();
     System {
-        a: Mat::from_fn(rows.len(), n, |i, j| rows[i].0[j]),
+        a: Mat::from_fn(rows.len(), set.len(), |i, j| rows[i].0[j]),
         b: rows.iter().map(|row| row.1).collect(),
         run: rows.iter().map(|row| row.2).collect(),
         deviation: problem.is_noisy().then(|| vec![1.0; rows.len()]),
@@ -48,9 +47,10 @@ struct Forces {
 }
 
 impl Forces {
-    fn new(problem: &Problem<'_>, measured: &Measured, expanded: &Expanded, acting: &[Source]) -> Self {
+    fn new(problem: &Problem<'_>, measured: &Measured, expanded: &Expanded, acting: &[Source], set: &[usize]) -> Self {
         let field = expanded.field(measured);
-        let columns = problem.columns.iter().map(|s| action::force(s, problem.structure, field)).collect();
+        let force = |&j: &usize| action::force(&problem.columns[j], problem.structure, field);
+        let columns = set.iter().map(force).collect();
         let mut driving: Vec<DofForce> = (0..measured.forces.len())
             .map(|j| {
                 let values = (0..measured.harmonics()).map(|k| measured.forces.values[(j, k)]).collect();

@@ -4,6 +4,7 @@
 //! positive coefficients only; forced columns are in every set. Where sets are few, all are looked at; else branch and bound
 //! proves the best. Beside them the best set without the `keep` rule, where it is another one.
 
+use super::promising::promising;
 use super::{IdentifyError, problem::Problem, system::System};
 use crate::control::Control;
 use crate::math::subsets::{RankedSet, Ranking, SubsetProblem, branch_and_bound, combinations, exhaustive};
@@ -15,14 +16,14 @@ const FEW: f64 = 500.0;
 const NODES: u64 = 400_000;
 /// The same for sets of more than [`LARGE`] sources, where a proof is out of reach in most cases and each node costs more.
 const NODES_LARGE: u64 = 40_000;
-/// Sources above which a set is large.
+/// The same among the most promising of very many columns, where nothing is proved for all of them anyway.
+const NODES_AMONG: u64 = 2000;
+/// Sources up to which a set is not large.
 const LARGE: usize = 8;
 /// Sets asked for of one size where the `keep` rule applies, so that some remain.
 const ASKED: usize = 30;
 /// Sets reported of one size.
 const REPORTED: usize = 10;
-/// Columns above which the search is made among the most promising.
-const MANY: usize = 200;
 
 /// The best sets of one size.
 #[derive(Debug, Clone, PartialEq)]
@@ -50,14 +51,18 @@ pub(crate) fn search(
     system: &System,
     control: &Control,
 ) -> Result<Vec<SizeRanking>, IdentifyError> {
-    let (a, b) = system.compressed();
-    let chosen = promising(&a, &b, &problem.forced)?;
-    let reduced = Mat::from_fn(a.nrows(), chosen.len(), |i, j| a[(i, chosen[j])]);
+    let chosen = promising(system, &problem.forced)?;
+    let (reduced, b) = system.compressed(&chosen);
     let forced: Vec<usize> = problem.forced.iter().filter_map(|f| chosen.iter().position(|c| c == f)).collect();
     let least = forced.len().max(1);
     let most = problem.settings.max_sources.min(chosen.len()).min(system.rows());
-    let task =
-        Task { a: &reduced, b: &b, forced: &forced, keep: problem.settings.keep, all: chosen.len() == a.ncols() };
+    let task = Task {
+        a: &reduced,
+        b: &b,
+        forced: &forced,
+        keep: problem.settings.keep,
+        all: chosen.len() == system.a.ncols(),
+    };
     let singles = task.singles(control)?;
     let mut rankings: Vec<SizeRanking> = Vec::new();
     for size in least..=most {
@@ -74,35 +79,6 @@ pub(crate) fn search(
         }
     }
     if rankings.is_empty() { Err(IdentifyError::NothingFits) } else { Ok(rankings) }
-}
-
-/// All columns, or the most promising of very many: those that explain most of what the best so far leave, in rounds.
-fn promising(a: &Mat<f64>, b: &[f64], forced: &[usize]) -> Result<Vec<usize>, IdentifyError> {
-    let n = a.ncols();
-    if n <= MANY {
-        return Ok((0..n).collect());
-    }
-    let norms: Vec<f64> = (0..n).map(|j| a.col(j).iter().map(|v| v * v).sum::<f64>().sqrt()).collect();
-    let mut chosen: Vec<usize> = forced.to_vec();
-    let mut residual = b.to_vec();
-    while chosen.len() < MANY {
-        let mut order: Vec<(f64, usize)> = (0..n)
-            .filter(|j| !chosen.contains(j) && norms[*j] > 0.0)
-            .map(|j| ((0..b.len()).map(|i| a[(i, j)] * residual[i]).sum::<f64>() / norms[j], j))
-            .collect();
-        order.sort_by(|x, y| y.0.total_cmp(&x.0));
-        if order.is_empty() {
-            break;
-        }
-        chosen.extend(order.iter().take(MANY / 10).map(|(_, j)| *j));
-        let part = Mat::from_fn(b.len(), chosen.len(), |i, j| a[(i, chosen[j])]);
-        let solution = crate::math::nnls::nnls(part.as_ref(), b)?.solution;
-        for i in 0..b.len() {
-            residual[i] = b[i] - (0..chosen.len()).map(|j| part[(i, j)] * solution[j]).sum::<f64>();
-        }
-    }
-    chosen.sort_unstable();
-    Ok(chosen)
 }
 
 /// The search among given columns.
@@ -130,7 +106,11 @@ impl Task<'_> {
         keep: usize,
         control: &Control,
     ) -> Result<Ranking, IdentifyError> {
-        let node_limit = if size > LARGE { NODES_LARGE } else { NODES };
+        let node_limit = match size {
+            _ if !self.all => NODES_AMONG,
+            1..=LARGE => NODES,
+            _ => NODES_LARGE,
+        };
         let problem = SubsetProblem { a: a.as_ref(), b: self.b, size, keep, forced, node_limit };
         let sets = combinations(a.ncols() - forced.len(), size - forced.len());
         Ok(if sets <= FEW { exhaustive(&problem, control)? } else { branch_and_bound(&problem, control)? })

@@ -1,5 +1,6 @@
 //! Non-negative least squares on some columns, with standard deviations and condition.
 
+use super::promising::{non_negative, promising};
 use super::{IdentifyError, system::System};
 use crate::math::least_squares::LeastSquares;
 use crate::math::nnls::nnls;
@@ -19,10 +20,11 @@ pub(crate) struct Fit {
     pub condition: f64,
 }
 
-/// Coefficients of every column at once; not sparse.
+/// Coefficients of every column at once (of very many, of the most promising); not sparse.
 pub(crate) fn all_columns(system: &System) -> Result<Vec<f64>, IdentifyError> {
-    let (a, b) = system.compressed();
-    Ok(nnls(a.as_ref(), &b)?.solution)
+    let chosen = promising(system, &[])?;
+    let solution = non_negative(system, &chosen)?;
+    Ok(scattered(system.a.ncols(), &chosen, &solution))
 }
 
 /// A vector over all columns that holds the coefficients of a set and is zero elsewhere.

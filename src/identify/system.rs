@@ -3,6 +3,7 @@
 use super::outcome::Form;
 use super::{problem::Problem, response_form, state::State};
 use crate::balance::{Weights, weights};
+use crate::math::fill::filled;
 use faer::Mat;
 
 /// Rows of unit variance where the noise is known.
@@ -20,12 +21,22 @@ pub(crate) struct System {
 impl System {
     /// The equation of a form at a state, with the damping ratios that stand beside it.
     pub fn of(form: Form, problem: &Problem<'_>, state: &State) -> Self {
+        let all: Vec<usize> = (0..problem.columns.len()).collect();
+        Self::of_set(form, problem, state, &all)
+    }
+
+    /// The same for the columns of a set alone, in its order; all others must have a coefficient of zero.
+    pub fn of_set(form: Form, problem: &Problem<'_>, state: &State, set: &[usize]) -> Self {
         let system = match form {
-            Form::Energy => Self::energy(problem, state, problem.settings.weights),
-            Form::Response => response_form::system(problem, state),
+            Form::Energy => {
+                let whole = Self::energy(problem, state, problem.settings.weights);
+                let a = filled(whole.rows(), set.len(), |i, j| whole.a[(i, set[j])]);
+                Self { a, ..whole }
+            }
+            Form::Response => response_form::system(problem, state, set),
         };
         match &problem.ratios {
-            Some(ratios) => ratios.append(problem, state, form, system),
+            Some(ratios) => ratios.append(problem, state, form, system, set),
             None => system,
         }
     }
@@ -75,14 +86,14 @@ impl System {
             .sum()
     }
 
-    /// The same least squares problem in no more rows than columns + 1, by QR.
-    pub fn compressed(&self) -> (Mat<f64>, Vec<f64>) {
-        let n = self.a.ncols();
+    /// The least squares problem of some columns in no more rows than they are, plus one, by QR.
+    pub fn compressed(&self, columns: &[usize]) -> (Mat<f64>, Vec<f64>) {
+        let n = columns.len();
         if self.rows() <= n + 1 {
-            return (self.a.clone(), self.b.clone());
+            return self.part(columns, None);
         }
-        let both = Mat::from_fn(self.rows(), n + 1, |i, j| if j < n { self.a[(i, j)] } else { self.b[i] });
-        let r = dashpot_numerics::triangle(both.as_ref());
-        (Mat::from_fn(n + 1, n, |i, j| r[(i, j)]), (0..=n).map(|i| r[(i, n)]).collect())
+        let entry = |i: usize, j: usize| columns.get(j).map_or(self.b[i], |&column| self.a[(i, column)]);
+        let r = dashpot_numerics::triangle(filled(self.rows(), n + 1, entry).as_ref());
+        (filled(n + 1, n, |i, j| r[(i, j)]), (0..=n).map(|i| r[(i, n)]).collect())
     }
 }

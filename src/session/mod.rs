@@ -13,7 +13,6 @@ pub mod script;
 pub mod session;
 mod sources;
 mod structure;
-pub mod workers;
 
 pub use command::{Command, Setting, SourceAt, SourceSpec};
 pub use document::{Document, Refusal, Revisions};
