@@ -1,24 +1,61 @@
 //! Progress and cancellation of a long computation, passed down to every function that may take more than a frame.
 
-use std::sync::Arc;
+use std::fmt::Debug;
 use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
+use std::sync::{Arc, Mutex, PoisonError};
 
 /// The computation was asked to stop and did.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 #[error("cancelled")]
 pub struct Cancelled;
 
+/// Who does independent pieces of work, perhaps several at a time. The engine has no threads of its own; whoever calls it
+/// may lend some.
+pub trait Workers: Debug + Send + Sync {
+    /// Calls `piece` once with every number below `count`, in any order, and returns when all are done.
+    fn each(&self, count: usize, piece: &(dyn Fn(usize) + Sync));
+}
+
 /// A handle shared by whoever waits and whoever works. Cloning shares the same state.
 #[derive(Debug, Clone, Default)]
 pub struct Control {
     cancelled: Arc<AtomicBool>,
     parts_per_million: Arc<AtomicU32>,
+    workers: Option<Arc<dyn Workers>>,
 }
 
 impl Control {
     /// A control that nobody watches and nobody cancels.
     pub fn unattended() -> Self {
         Self::default()
+    }
+
+    /// The same control with others to share independent work among.
+    #[must_use]
+    pub fn with_workers(self, workers: Arc<dyn Workers>) -> Self {
+        Self { workers: Some(workers), ..self }
+    }
+
+    /// `piece` of every number below `count`, in order; what it gives must not depend on the order in which it is asked.
+    pub fn map<T: Send>(&self, count: usize, piece: impl Fn(usize) -> T + Sync) -> Vec<T> {
+        let Some(workers) = self.workers.as_ref().filter(|_| count > 1) else { return (0..count).map(piece).collect() };
+        let done: Vec<Mutex<Option<T>>> = (0..count).map(|_| Mutex::new(None)).collect();
+        workers.each(count, &|k| {
+            let value = piece(k);
+            *done[k].lock().unwrap_or_else(PoisonError::into_inner) = Some(value);
+        });
+        let taken = done.into_iter().enumerate();
+        // A piece that was left out is done here.
+        let value = |(k, slot): (usize, Mutex<Option<T>>)| {
+            slot.into_inner().unwrap_or_else(PoisonError::into_inner).unwrap_or_else(|| piece(k))
+        };
+        taken.map(value).collect()
+    }
+
+    /// Moves the progress by this share of what remains: for searches whose length nobody knows beforehand.
+    pub fn advance(&self, share: f64) {
+        let now = self.progress();
+        self.report(now + (1.0 - now) * share.clamp(0.0, 1.0));
     }
 
     /// States the share of the work that is done, 0 to 1.
@@ -40,5 +77,37 @@ impl Control {
     /// Fails with [`Cancelled`] once [`Control::cancel`] was called; call it in every outer loop.
     pub fn check(&self) -> Result<(), Cancelled> {
         if self.cancelled.load(Ordering::Relaxed) { Err(Cancelled) } else { Ok(()) }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Does the odd pieces first and forgets the last one.
+    #[derive(Debug)]
+    struct Unruly;
+
+    impl Workers for Unruly {
+        fn each(&self, count: usize, piece: &(dyn Fn(usize) + Sync)) {
+            (0..count - 1).filter(|k| k % 2 == 1).chain((0..count - 1).filter(|k| k % 2 == 0)).for_each(piece);
+        }
+    }
+
+    #[test]
+    fn pieces_come_back_in_order_whoever_does_them() {
+        let control = Control::unattended().with_workers(Arc::new(Unruly));
+        assert_eq!(control.map(7, |k| k * k), Control::unattended().map(7, |k| k * k));
+    }
+
+    #[test]
+    fn progress_that_advances_never_goes_back_nor_ends() {
+        let control = Control::unattended();
+        let mut last = 0.0;
+        for _ in 0..40 {
+            control.advance(0.1);
+            assert!(control.progress() > last && control.progress() < 1.0);
+            last = control.progress();
+        }
     }
 }

@@ -11,8 +11,9 @@ use dashpot::structure::Structure;
 use faer::{Mat, c64};
 use std::f64::consts::TAU;
 
-/// Steps of a period in time integration.
+/// Steps of a period in time integration; friction jumps, which costs an order of accuracy.
 const STEPS: usize = 1024;
+const STEPS_OF_FRICTION: usize = 4096;
 /// Samples of a period in the record, and periods.
 const SAMPLES: usize = 64;
 const PERIODS: usize = 12;
@@ -41,7 +42,9 @@ pub fn steady(structure: &Structure, sources: &[Source], excitation: &Excitation
     if acting.iter().any(harmonic) || acting.iter().all(|s| s.effect.is_linear()) {
         return Some(balanced()?.harmonics.clone());
     }
-    let mut model = TimeModel::new(structure, &acting, excitation, STEPS).ok()?;
+    let jumps = acting.iter().any(|s| matches!(s.effect, Effect::Coulomb | Effect::Stribeck));
+    let steps = if jumps { STEPS_OF_FRICTION } else { STEPS };
+    let mut model = TimeModel::new(structure, &acting, excitation, steps).ok()?;
     // A start near the periodic motion saves most of the periods; time stepping alone decides where it ends.
     if let Some(start) = balanced() {
         model.start_from(&start);

@@ -1,10 +1,12 @@
 //! `dashpot compare`: model against measurement, error per run, channel and harmonic.
 
 use super::arguments::Analysis;
+use super::diagnose::{corrected, correction};
 use super::table::{number, table};
 use crate::control::Control;
 use crate::exchange::{Project, project::load};
 use crate::explain::compare::{ChannelComparison, HarmonicComparison};
+use crate::explain::detuning::{Detuning, detuning};
 use crate::explain::groups::Group;
 use crate::explain::whiteness::Whiteness;
 use crate::explain::{Comparison, Problem, compare};
@@ -22,10 +24,33 @@ pub(super) fn run(arguments: &Analysis) -> anyhow::Result<String> {
     let project = load(&arguments.file, &control)?;
     let comparison =
         compare(&problem(&project), &[], &control).with_context(|| arguments.file.display().to_string())?;
+    let reading = detuning(&problem(&project), &control).with_context(|| arguments.file.display().to_string())?;
     if arguments.json {
-        return Ok(format!("{}\n", serde_json::to_string_pretty(&document(&project, &comparison))?));
+        let mut document = document(&project, &comparison);
+        if let Some(reading) = &reading {
+            document["reading"] = read(&project, reading);
+        }
+        return Ok(format!("{}\n", serde_json::to_string_pretty(&document)?));
     }
-    Ok(text(&project, &comparison))
+    Ok(format!("{}{}", text(&project, &comparison), reading.map_or_else(String::new, |r| in_words(&project, &r))))
+}
+
+/// Whether the model is detuned or lacks an effect.
+fn read(project: &Project, reading: &Detuning) -> Value {
+    let corrections: Vec<Value> = reading.corrections.iter().map(|c| correction(project, c)).collect();
+    json!({"word": reading.reading.word(), "share": reading.share, "error_after": reading.error_after,
+           "corrections": corrections})
+}
+
+fn in_words(project: &Project, reading: &Detuning) -> String {
+    let mut lines = format!("{}\n", reading.reading.sentence());
+    if !reading.corrections.is_empty() {
+        let [share, after] = [reading.share, reading.error_after].map(|x| number(100.0 * x));
+        lines
+            .push_str(&format!("corrections explain {share} % of the squared difference, error with them {after} %\n"));
+        reading.corrections.iter().for_each(|c| lines.push_str(&format!("{}\n", corrected(project, c))));
+    }
+    lines
 }
 
 /// What is compared and explained of a project.

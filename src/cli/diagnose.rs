@@ -8,19 +8,23 @@ use crate::effects::{Place, Source, State};
 use crate::exchange::Project;
 use crate::exchange::project::load;
 use crate::exchange::project::relocate::{canonical, renamed};
-use crate::explain::diagnose::{Added, Correction, Diagnosis, Suggestion, diagnose};
+use crate::explain::diagnose::{Added, Correction, Diagnosis, Suggestion, diagnose_telling};
 use crate::explain::shapes::scaled;
 use crate::explain::tuning::Knob;
+use crate::session::workers::Threads;
 use crate::structure::Structure;
 use anyhow::{Context, bail};
 use serde_json::{Map, Value, json};
 use std::path::Path;
+use std::sync::Arc;
 
 /// Diagnoses, prints, and writes the project with the best suggestion where asked.
 pub(super) fn run(arguments: &Diagnose) -> anyhow::Result<String> {
-    let control = Control::unattended();
+    let control = Control::unattended().with_workers(Arc::new(Threads::default()));
     let project = load(&arguments.file, &control)?;
-    let diagnosis = diagnose(&problem(&project), &control).with_context(|| arguments.file.display().to_string())?;
+    let early = |found: &[Suggestion]| eprint!("{}", first_words(&project.structure, found));
+    let diagnosis =
+        diagnose_telling(&problem(&project), &control, &early).with_context(|| arguments.file.display().to_string())?;
     if let Some(out) = &arguments.apply {
         apply(&arguments.file, out, &project, &diagnosis)?;
     }
@@ -28,6 +32,14 @@ pub(super) fn run(arguments: &Diagnose) -> anyhow::Result<String> {
         return Ok(format!("{}\n", serde_json::to_string_pretty(&document(&project, &diagnosis))?));
     }
     Ok(text(&project, &diagnosis))
+}
+
+/// The first suggestions while the search goes on.
+fn first_words(structure: &Structure, found: &[Suggestion]) -> String {
+    let line = |s: &Suggestion| {
+        format!("looking into {}: error {} %\n", title(structure, &s.added.source), number(100.0 * s.error_after))
+    };
+    found.iter().take(3).map(line).collect()
 }
 
 /// Labels of the DOFs of a place; none for the whole structure and channels.
@@ -74,7 +86,7 @@ fn suggestion(structure: &Structure, suggestion: &Suggestion) -> Value {
 }
 
 /// A correction of what the model states: `what`, its place or mode, and the factor on it.
-fn correction(project: &Project, correction: &Correction) -> Value {
+pub(super) fn correction(project: &Project, correction: &Correction) -> Value {
     let mut map = Map::new();
     let what = match &correction.knob {
         Knob::Stiffness => "stiffness",
@@ -102,7 +114,7 @@ fn correction(project: &Project, correction: &Correction) -> Value {
 }
 
 /// A correction in words.
-fn corrected(project: &Project, correction: &Correction) -> String {
+pub(super) fn corrected(project: &Project, correction: &Correction) -> String {
     let what = match &correction.knob {
         Knob::Stiffness => "all stiffness".to_owned(),
         Knob::Mass => "all mass".to_owned(),

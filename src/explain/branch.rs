@@ -48,7 +48,7 @@ pub(crate) fn nearest(
     if found.len() < 2 {
         let first = found.into_iter().next().map(|(prediction, _)| prediction);
         let prediction = first.map_or_else(|| predictor.predict(r, run, effects, &settings, None, control), Ok)?;
-        return Ok((prediction, None));
+        return Ok((predictor.refined(r, run, effects, prediction, control)?, None));
     }
     let all = found.len();
     let any_stable = found.iter().any(|(_, stable)| *stable);

@@ -2,12 +2,14 @@
 //! effects alone do not get there, corrections of the model beside them.
 
 use super::data::ExplainError;
+use super::fits::STEPS;
 use super::noise::Whitening;
-use super::outcome::Outcome;
-use super::predict::FINAL;
+use super::outcome::{self, Outcome};
+use super::predict::{FINAL, SEARCH};
 use super::refit::{Refit, starts_of};
 use super::search::{Base, scale_of};
-use crate::effects::Source;
+use super::tuning::Tuning;
+use crate::effects::{Effect, Place, Source};
 
 /// Most effects that are added.
 const MOST_EFFECTS: usize = 3;
@@ -18,14 +20,22 @@ const EVIDENCE: f64 = 25.0;
 const FREEDOM: f64 = 15.0;
 /// Deviations of the sum of squares within which a model agrees with the data.
 const AGREES: f64 = 4.0;
+/// Deviations within which it agrees so well that no further effect is looked for.
+const SETTLED: f64 = 1.5;
+/// Squared residual per datum beyond which it is not noise that hides an effect, but what no model matches.
+const DOUBTFUL: f64 = 1.5;
+/// Evidence that an effect must bring where the model agrees without it.
+const CONFIRMED: f64 = 50.0;
+/// Share of the squared residual of the model as it is, and error of the response, that nobody's records and integrators
+/// are better than: what is left below both is no further effect.
+const LAST: f64 = 4e-4;
+const LAST_ERROR: f64 = 2e-3;
 /// How many times the squared residual of noise free forces may leave where the laws behind them may still explain it.
 const REACH: f64 = 4.0;
 /// Scaled squared residual within which places are worth trying with a law that was found elsewhere.
 const ELSEWHERE: f64 = 40.0;
 /// Prior deviations up to which a correction is believed without looking for an effect.
 const LIKELY: f64 = 3.0;
-/// Steps of a fit of the corrections alone.
-const STEPS: usize = 20;
 
 /// Sets of effects of one size, fitted, best first.
 pub(crate) struct Rung {
@@ -43,6 +53,15 @@ pub(crate) struct Found {
     pub rungs: Vec<Rung>,
     /// Whether the last rung agrees with the data.
     pub agrees: bool,
+    /// Squared residual of the model as it is.
+    pub before: f64,
+}
+
+impl Found {
+    /// The fit at which the search ended.
+    fn best(&self) -> Option<&Refit> {
+        self.rungs.last().map(|r| &r.refits[0]).or(self.bare.as_ref())
+    }
 }
 
 /// Whether a squared residual with `parameters` fitted is that of noise.
@@ -51,29 +70,61 @@ pub(crate) fn agrees(base: &Base, chi_square: f64, parameters: usize) -> bool {
     chi_square <= n + AGREES * (2.0 * n).sqrt()
 }
 
+/// Whether what a fit leaves is no more than what records and integrators are wrong by, where the model as it is has the
+/// squared residual `before`.
+fn nearly(base: &Base, refit: &Refit, before: f64) -> bool {
+    let n = base.count() as f64;
+    let excess = (refit.chi_square - n).max(0.0);
+    let beyond_noise = refit.error * (excess / refit.chi_square.max(f64::MIN_POSITIVE)).sqrt();
+    excess < LAST * (before - n) && beyond_noise < LAST_ERROR
+}
+
+/// One effect more where a set agrees with the data, if it has overwhelming evidence: the sum of squares alone may hide
+/// an effect that others stand in for.
+fn confirm(base: &Base, found: &mut Found) -> Result<(), ExplainError> {
+    let Some(last) = found.rungs.last().filter(|_| found.rungs.len() < MOST_EFFECTS) else { return Ok(()) };
+    let best = &last.refits[0];
+    let (n, parameters) = (base.count() as f64, best.parameters + best.tuning.knobs.len());
+    let settled = |refit: &Refit| refit.chi_square <= n - parameters as f64 + SETTLED * (2.0 * n).sqrt();
+    if settled(best) || best.chi_square > DOUBTFUL * n {
+        return Ok(());
+    }
+    let quiet = Base { noise: last.noise.clone(), predictions: base.predictions.clone(), ..base.shallow() };
+    let (refits, noise) = quiet.polished(quiet.singles(Some(best))?)?;
+    let Some(more) = refits.first() else { return Ok(()) };
+    if base.evidence(more, 1.0) + CONFIRMED < base.evidence(best, 1.0) && settled(more) {
+        let scale = scale_of(&refits, base.count());
+        found.rungs.push(Rung { refits, scale, noise });
+    }
+    Ok(())
+}
+
 /// The search: with the model as it is, so far as free forces at one place or two could explain the data at all, then
 /// with its corrections free.
 pub(crate) fn explain<'a>(base: &'a Base<'a>, before: f64) -> Result<Outcome<'a>, ExplainError> {
-    let none = || Found { bare: None, rungs: Vec::new(), agrees: false };
+    let none = || Found { bare: None, rungs: Vec::new(), agrees: false, before };
     let mut exact = none();
     let reach = base.reach()?;
     let within = |least: f64| least <= REACH * (base.count() as f64 + AGREES * (2.0 * base.count() as f64).sqrt());
     if within(reach.single) {
         climb(base, &mut exact, (before, 0, 0.0), 1)?;
     } else {
-        add_rung(base, &mut exact, base.ranked(base.whole(None)?), (before, 0, 0.0))?;
+        add_rung(base, &mut exact, base.ranked(base.whole(None, STEPS)?), (before, 0, 0.0))?;
         exact = if exact.agrees { exact } else { none() };
     }
     if exact.agrees {
+        confirm(base, &mut exact)?;
         return Ok(Outcome { base, found: exact });
     }
-    let mut tuned = with_corrections(base, exact.rungs.first(), false)?;
-    if !tuned.agrees && within(reach.pair) {
+    let mut tuned = with_corrections(base, exact.rungs.first(), false, before)?;
+    // Corrections beyond what models are wrong by may stand in for effects.
+    let sound = tuned.agrees && tuned.best().is_none_or(likely);
+    if !sound && within(reach.pair) {
         let last = exact.rungs.last().map_or((before, 0, 0.0), |r| level(&r.refits[0]));
         climb(base, &mut exact, last, MOST_EFFECTS)?;
     }
     if !tuned.agrees && !exact.agrees {
-        let more = with_corrections(base, tuned.rungs.first(), true)?;
+        let more = with_corrections(base, tuned.rungs.first(), true, before)?;
         if cost(base, &more, before) + FREEDOM < cost(base, &tuned, before) {
             tuned = more;
         }
@@ -93,13 +144,13 @@ fn level(refit: &Refit) -> (f64, usize, f64) {
 
 /// Evidence of where a search ended; the smaller, the better.
 fn cost(base: &Base, found: &Found, before: f64) -> f64 {
-    let last = found.rungs.last().map(|r| &r.refits[0]).or(found.bare.as_ref());
     let choice = EVIDENCE * found.rungs.len() as f64;
-    last.map_or(before, |refit| base.evidence(refit, 1.0) + choice)
+    found.best().map_or(before, |refit| base.evidence(refit, 1.0) + choice)
 }
 
-/// The search with the corrections of the model free; `before` are sets of one effect found with fewer of them.
-fn with_corrections(base: &Base, before: Option<&Rung>, each: bool) -> Result<Found, ExplainError> {
+/// The search with the corrections of the model free; `before` are sets of one effect found with fewer of them, `first` is
+/// the squared residual of the model as it is.
+fn with_corrections(base: &Base, before: Option<&Rung>, each: bool, first: f64) -> Result<Found, ExplainError> {
     let free = base.predictor.free_tuning(each);
     let bench = base.bench();
     let starts = starts_of(base.predictions.clone());
@@ -108,6 +159,7 @@ fn with_corrections(base: &Base, before: Option<&Rung>, each: bool) -> Result<Fo
         agrees: agrees(base, bare.chi_square, bare.tuning.knobs.len()) && likely(&bare),
         bare: Some(bare.clone()),
         rungs: Vec::new(),
+        before: first,
     };
     if found.agrees {
         return Ok(found);
@@ -115,15 +167,16 @@ fn with_corrections(base: &Base, before: Option<&Rung>, each: bool) -> Result<Fo
     // Effects that explain much without corrections, with them; then places again, seen from the corrected model.
     let mut refits = Vec::new();
     for refit in before.iter().flat_map(|rung| &rung.refits).take(4) {
-        refits.push(bench.refit(&refit.effects, &free, STEPS, &FINAL, &refit.starts)?);
+        refits.push(bench.refit(&refit.effects, &free, STEPS, &SEARCH, &refit.starts)?);
     }
+    refits.extend(faults_of_forces(base, &bare, &free)?);
     let mut from = bare.clone();
     for _ in 0..2 {
         refits.extend(corrected_singles(base, &from)?);
         refits = distinct(base.ranked(refits));
         let Some(best) = refits.first() else { break };
         let moved = best.tuning.values.iter().zip(&from.tuning.values).any(|(a, b)| (a - b).abs() > 2e-4);
-        if agrees(base, best.chi_square, best.parameters) || !moved {
+        if agrees(base, best.chi_square, best.parameters) || nearly(base, best, first) || !moved {
             break;
         }
         from = Refit { effects: Vec::new(), ..best.clone() };
@@ -134,15 +187,33 @@ fn with_corrections(base: &Base, before: Option<&Rung>, each: bool) -> Result<Fo
         climb(base, &mut found, last, MOST_EFFECTS - 1)?;
     }
     if found.rungs.is_empty() {
-        found.agrees = agrees(base, bare.chi_square, bare.tuning.knobs.len());
+        found.agrees = agrees(base, bare.chi_square, bare.tuning.knobs.len()) && plausible(&bare);
     }
     Ok(found)
 }
 
 /// Whether no correction is farther from nothing than models are wrong: else an effect may pass for a correction.
-fn likely(bare: &Refit) -> bool {
+pub(crate) fn likely(bare: &Refit) -> bool {
     let priors = bare.tuning.knobs.iter().map(super::tuning::Knob::deviation);
     bare.tuning.values.iter().zip(priors).all(|(v, s)| v.abs() <= LIKELY * s)
+}
+
+/// Whether corrections that agree with the data may be believed where no effect does better.
+fn plausible(bare: &Refit) -> bool {
+    let priors = bare.tuning.knobs.iter().map(super::tuning::Knob::deviation);
+    bare.tuning.values.iter().zip(priors).all(|(v, s)| v.abs() <= 2.0 * LIKELY * s)
+}
+
+/// Errors of the force channels beside the corrections, where these go further than models are wrong by: a force read too
+/// large looks like a structure of less stiffness, mass and damping.
+fn faults_of_forces(base: &Base, bare: &Refit, free: &Tuning) -> Result<Vec<Refit>, ExplainError> {
+    if likely(bare) {
+        return Ok(Vec::new());
+    }
+    let [_, forces] = base.data.channel_names();
+    let fault = |name: &String| Source::known(Effect::Gain, Place::Channel(name.clone()), &[1.02]);
+    let fit = |name: &String| base.bench().refit(&[fault(name)], free, STEPS, &SEARCH, &[]);
+    forces.iter().map(fit).collect()
 }
 
 /// Drops effects that the last set of a search no longer needs, now that the others are there.
@@ -157,7 +228,8 @@ fn pruned(base: &Base, found: &mut Found) -> Result<(), ExplainError> {
         let (refits, noise) = base.polished(base.ranked(refits))?;
         let enough = |r: &Refit| base.evidence(r, 1.0) < base.evidence(&best, 1.0) + EVIDENCE;
         let Some(first) = refits.first().filter(|r| enough(r)) else { break };
-        found.agrees = agrees(base, first.chi_square, first.parameters + first.tuning.knobs.len());
+        let all = first.parameters + first.tuning.knobs.len();
+        found.agrees = agrees(base, first.chi_square, all) || nearly(base, first, found.before);
         found.rungs.pop();
         let scale = scale_of(&refits, base.count());
         let before = found.rungs.pop().map_or_else(Vec::new, |rung| rung.refits);
@@ -183,13 +255,15 @@ fn climb(base: &Base, found: &mut Found, mut last: (f64, usize, f64), most: usiz
             break;
         }
         last = found.rungs.last().map_or(last, |r| level(&r.refits[0]));
-        base.control.report(0.3 * found.rungs.len() as f64);
     }
     Ok(())
 }
 
 /// Adds the rung of these fits if the best of them has the evidence.
 fn add_rung(base: &Base, found: &mut Found, refits: Vec<Refit>, last: (f64, usize, f64)) -> Result<bool, ExplainError> {
+    if found.rungs.is_empty() {
+        (base.early)(&outcome::early(base, &refits));
+    }
     let (mut refits, mut noise) = base.polished(refits)?;
     let Some(best) = refits.first() else { return Ok(false) };
     if let Some(source) = best.effects.last() {
@@ -212,7 +286,8 @@ fn add_rung(base: &Base, found: &mut Found, refits: Vec<Refit>, last: (f64, usiz
     if gain < EVIDENCE {
         return Ok(false);
     }
-    found.agrees = agrees(base, best.chi_square, best.parameters + best.tuning.knobs.len());
+    let all = best.parameters + best.tuning.knobs.len();
+    found.agrees = agrees(base, best.chi_square, all) || nearly(base, best, found.before);
     found.rungs.push(Rung { refits, scale, noise });
     Ok(true)
 }

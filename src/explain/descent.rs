@@ -118,6 +118,8 @@ pub(crate) struct Descent {
     pub residual: Vec<f64>,
     /// Its derivative, one column a variable.
     pub jacobian: Mat<f64>,
+    /// By how much the squared residual would still fall were the derivative the same everywhere.
+    pub to_go: f64,
 }
 
 impl Descent {
@@ -153,25 +155,66 @@ pub(crate) trait Residual {
     fn jacobian(&mut self, theta: &[f64], at: &[f64]) -> Result<Mat<f64>, Self::Error>;
 }
 
+/// A descent has arrived when no more than this is to be gained, in units of the squared residual per datum.
+const ARRIVED: f64 = 0.02;
+/// Steps in a row that gain no more than that before a descent gives up.
+const IDLE: usize = 3;
+
 /// Descends from `theta` in at most `steps` steps.
 pub(crate) fn descend<R: Residual>(problem: &mut R, theta: &[f64], steps: usize) -> Result<Descent, R::Error> {
     let mut theta = theta.to_vec();
     let mut residual = problem.residual(&theta)?;
     let mut chi_square = square(&residual);
     let mut jacobian = problem.jacobian(&theta, &residual)?;
-    let mut damping = 1e-3;
+    let mut equations = Normal::new(&jacobian, &residual);
+    let (mut damping, mut idle) = (1e-3, 0);
     for _ in 0..steps {
-        let Some((next, after, chi)) = step(problem, &theta, &residual, &jacobian, chi_square, &mut damping)? else {
-            break;
-        };
-        let gained = chi_square - chi;
-        (theta, residual, chi_square) = (next, after, chi);
-        if gained < 1e-2 + 1e-5 * chi_square {
+        let enough = ARRIVED * (chi_square / residual.len().max(1) as f64).max(1.0);
+        if equations.to_go() < enough {
             break;
         }
+        let Some((next, after, chi)) = step(problem, &theta, &equations, chi_square, &mut damping)? else { break };
+        idle = if chi_square - chi < enough { idle + 1 } else { 0 };
+        (theta, residual, chi_square) = (next, after, chi);
         jacobian = problem.jacobian(&theta, &residual)?;
+        equations = Normal::new(&jacobian, &residual);
+        if idle == IDLE {
+            break;
+        }
     }
-    Ok(Descent { theta, chi_square, residual, jacobian })
+    Ok(Descent { theta, chi_square, residual, jacobian, to_go: equations.to_go() })
+}
+
+/// Normal equations of a linearised residual: `N move = g`.
+struct Normal {
+    matrix: Mat<f64>,
+    gradient: Mat<f64>,
+}
+
+impl Normal {
+    fn new(jacobian: &Mat<f64>, residual: &[f64]) -> Self {
+        let product = |k: usize| jacobian.col_as_slice(k).iter().zip(residual).map(|(j, r)| j * r).sum();
+        Self {
+            matrix: transposed_product(jacobian.as_ref(), jacobian.as_ref()),
+            gradient: Mat::from_fn(jacobian.ncols(), 1, |k, _| product(k)),
+        }
+    }
+
+    /// `(N + damping diag N)^-1 g`.
+    fn move_by(&self, damping: f64) -> Option<Mat<f64>> {
+        let n = self.gradient.nrows();
+        let damped = Mat::from_fn(n, n, |i, j| {
+            self.matrix[(i, j)] + if i == j { damping * self.matrix[(i, i)].max(1e-12) + 1e-12 } else { 0.0 }
+        });
+        solve_symmetric(damped.as_ref(), self.gradient.as_ref()).ok()
+    }
+
+    /// `g^T N^-1 g`.
+    fn to_go(&self) -> f64 {
+        let Some(full) = self.move_by(DAMPING[0]) else { return f64::INFINITY };
+        let gain: f64 = (0..full.nrows()).map(|k| full[(k, 0)] * self.gradient[(k, 0)]).sum();
+        gain.max(0.0)
+    }
 }
 
 /// The next point of a descent with its residual.
@@ -181,30 +224,23 @@ type Point = (Vec<f64>, Vec<f64>, f64);
 fn step<R: Residual>(
     problem: &mut R,
     theta: &[f64],
-    residual: &[f64],
-    jacobian: &Mat<f64>,
+    equations: &Normal,
     chi_square: f64,
     damping: &mut f64,
 ) -> Result<Option<Point>, R::Error> {
-    let n = theta.len();
-    let normal = transposed_product(jacobian.as_ref(), jacobian.as_ref());
-    let gradient = Mat::from_fn(n, 1, |k, _| jacobian.col_as_slice(k).iter().zip(residual).map(|(j, r)| j * r).sum());
     while *damping < DAMPING[1] {
-        let damped = Mat::from_fn(n, n, |i, j| {
-            normal[(i, j)] + if i == j { *damping * normal[(i, i)].max(1e-12) + 1e-12 } else { 0.0 }
-        });
-        if let Ok(move_) = solve_symmetric(damped.as_ref(), gradient.as_ref()) {
+        if let Some(move_) = equations.move_by(*damping) {
             // Half a natural unit at most, three for a logarithm would leave the valley.
-            let largest = (0..n).fold(0.0_f64, |m, k| m.max(move_[(k, 0)].abs()));
+            let largest = (0..theta.len()).fold(0.0_f64, |m, k| m.max(move_[(k, 0)].abs()));
             let share = if largest > 1.5 { 1.5 / largest } else { 1.0 };
-            let next: Vec<f64> = (0..n).map(|k| theta[k] - share * move_[(k, 0)]).collect();
+            let next: Vec<f64> = theta.iter().enumerate().map(|(k, x)| x - share * move_[(k, 0)]).collect();
             let after = problem.residual(&next)?;
             let chi = square(&after);
             if chi.is_finite() && chi < chi_square {
                 *damping = (*damping * 0.2).max(DAMPING[0]);
                 return Ok(Some((next, after, chi)));
             }
-            if share == 1.0 && (chi_square - chi).abs() < 1e-6 * chi_square {
+            if share == 1.0 && (chi_square - chi).abs() < 1e-9 * chi_square {
                 return Ok(None);
             }
         }

@@ -111,14 +111,29 @@ pub struct Correction {
     pub deviation: f64,
 }
 
+/// Is told of suggestions as soon as there are any, before they are fitted to the end: their errors and probabilities are
+/// provisional. It may be told several times; what it was told last replaces what it was told before.
+pub type Early<'a> = dyn Fn(&[Suggestion]) + Sync + 'a;
+
 /// Finds what the model of `problem` lacks.
 pub fn diagnose(problem: &Problem, control: &Control) -> Result<Diagnosis, ExplainError> {
+    diagnose_telling(problem, control, &|_| {})
+}
+
+/// [`diagnose`], with the first suggestions told to `early` while the search goes on.
+pub fn diagnose_telling(problem: &Problem, control: &Control, early: &Early) -> Result<Diagnosis, ExplainError> {
+    let diagnosis = searched(problem, control, early)?;
+    control.report(1.0);
+    Ok(diagnosis)
+}
+
+fn searched(problem: &Problem, control: &Control, early: &Early) -> Result<Diagnosis, ExplainError> {
     if problem.structure.matrices().is_none() {
         return super::points_search::diagnose(problem, control);
     }
     let data = Data::new(problem)?;
     let predictor = Predictor::new(problem.structure, problem.known(), &data)?;
-    let base = Base::new(&predictor, &data, Tuning::default(), control)?;
+    let base = Base { early, ..Base::new(&predictor, &data, Tuning::default(), control)? };
     let bench = base.bench();
     let before = square(&bench.residual(&base.predictions));
     let diagnosis = Diagnosis {

@@ -85,15 +85,56 @@ impl Fingerprint {
             ));
         }
         if let Some([q, d]) = self.by_frequency {
-            let note = match (self.damping, q) {
-                (true, q) if q < -0.7 => "hysteretic damping has -1",
-                (true, q) if q.abs() < 0.2 => "a viscous damper has 0",
-                (false, q) if q > 1.4 => "a mass has +2",
-                (false, q) if q.abs() < 0.2 => "a spring has 0",
-                _ => "between the simple laws",
-            };
+            let note = self.frequency_note(q);
             said.push(format!("With the frequency it goes to the power {q:.2} +- {d:.2}: {note}."));
         }
         said
+    }
+    /// What a power `q` of the frequency says beside that of the amplitude: at one amplitude of displacement, a law of
+    /// velocity alone has the same power in both, one of displacement alone loses one power of frequency.
+    fn frequency_note(&self, q: f64) -> &'static str {
+        let p = self.by_amplitude.map(|[p, _]| p);
+        let near = |x: f64, to: f64| (x - to).abs() < 0.3;
+        let along = |to: f64| p.is_none_or(|p| near(p, to));
+        match (self.damping, q) {
+            (true, q) if near(q, -1.0) && p.is_none() => "dry friction and hysteretic damping have -1",
+            (true, q) if near(q, -1.0) && along(-1.0) => "dry friction, whose force knows no speed, has -1 here too",
+            (true, q) if near(q, -1.0) && along(0.0) => "hysteretic damping has -1",
+            (true, q) if near(q, 0.0) && along(0.0) => "a viscous damper has 0",
+            (true, q) if near(q, 1.0) && along(1.0) => "quadratic damping has +1 here too",
+            (true, q) if q > -1.0 && q < 0.0 && along(0.0) => {
+                "between hysteretic (-1) and viscous (0), as fractional damping"
+            }
+            (true, q) if p.is_some_and(|p| near(q, p)) => {
+                "the same power as of the amplitude, as of a force of velocity alone"
+            }
+            (false, q) if q > 1.4 => "a mass has +2",
+            (false, q) if near(q, 0.0) => "a spring has 0",
+            _ => "between the simple laws",
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn said(damping: bool, p: Option<f64>, q: f64) -> String {
+        let exponent = |x| [x, 0.02];
+        let print = Fingerprint { damping, by_amplitude: p.map(exponent), by_frequency: Some(exponent(q)), runs: 12 };
+        print.sentences().pop().unwrap_or_default()
+    }
+
+    #[test]
+    fn the_frequency_is_read_beside_the_amplitude() {
+        assert!(said(true, Some(-1.0), -1.0).contains("dry friction"));
+        assert!(!said(true, Some(-1.0), -1.0).contains("hysteretic"));
+        assert!(said(true, Some(0.0), -1.0).contains("hysteretic damping has -1"));
+        assert!(said(true, None, -1.0).contains("dry friction and hysteretic"));
+        assert!(said(true, Some(1.0), 1.0).contains("quadratic"));
+        assert!(said(true, Some(0.0), -0.5).contains("fractional"));
+        assert!(said(true, Some(0.5), 0.5).contains("velocity alone"));
+        assert!(said(false, Some(0.0), 2.0).contains("mass"));
+        assert!(said(true, Some(-1.0), 0.0).contains("between the simple laws"));
     }
 }

@@ -22,6 +22,8 @@ use std::convert::Infallible;
 
 /// Samples a period.
 const SAMPLES: usize = 128;
+/// Deviations of the squared misfit within which a law explains a free force.
+const ENOUGH: f64 = 3.0;
 
 /// The free forces of one place and the motions they imply.
 pub(crate) struct PlaceData {
@@ -102,6 +104,19 @@ impl PlaceData {
     /// Number of real data.
     pub fn count(&self) -> usize {
         2 * self.forces.iter().flatten().filter(|f| f.weight > 0.0).count()
+    }
+
+    /// Fits every effect that can act here; those of many parameters only where simpler ones leave more than noise.
+    pub fn fits(&self) -> Vec<LawFit> {
+        let simple = |effect: &Effect| effect.parameters().len() <= 2;
+        let (few, many): (Vec<Effect>, Vec<Effect>) = Effect::ALL.into_iter().partition(simple);
+        let mut fits: Vec<LawFit> = few.into_iter().filter_map(|effect| self.fit(effect)).collect();
+        let count = self.count() as f64;
+        let noise = count + ENOUGH * (2.0 * count).sqrt();
+        if !fits.iter().any(|fit| fit.misfit < noise) {
+            fits.extend(many.into_iter().filter_map(|effect| self.fit(effect)));
+        }
+        fits
     }
 
     /// Fits `effect`; `None` if it cannot act here or its best scale has an unphysical sign.

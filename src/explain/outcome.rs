@@ -4,15 +4,17 @@ use super::climb::{Found, Rung, same_set};
 use super::data::ExplainError;
 use super::diagnose::{Added, Correction, Diagnosis, Step, Suggestion, Verdict, noise_floor};
 use super::evidence::sentences;
-use super::next_test::next_test;
+use super::next_test::{next_test, pinning_test};
 use super::predict::FINAL;
 use super::refit::{Bench, Refit};
-use super::search::Base;
+use super::search::{Base, scale_of};
 use crate::effects::Source;
 use crate::math::statistics::evidence_weights;
 
 /// Difference of the scaled squared residual within which two suggestions cannot be told apart.
 const ALIKE: f64 = 9.0;
+/// Probability from which on the next best set is worth a test of its own.
+const RIVAL: f64 = 1e-3;
 /// Most suggestions.
 const MOST: usize = 8;
 
@@ -68,13 +70,32 @@ impl Outcome<'_> {
             });
         }
         alternatives(&quiet.bench(), top, &weights, &mut diagnosis)?;
-        if let Some(rival) = top.refits.get(1) {
-            diagnosis.next_test = next_test(&quiet, &best.effects, &rival.effects)?.into_iter().collect();
+        // Nothing is ambiguous where the next best has next to no probability: then the size is what is least certain.
+        let rival = top.refits.get(1).filter(|_| weights.get(1).is_some_and(|w| *w > RIVAL));
+        diagnosis.next_test = match rival {
+            Some(rival) => next_test(&quiet, &best.effects, &rival.effects)?,
+            None => pinning_test(&quiet, best)?,
         }
+        .into_iter()
+        .collect();
         let sure = diagnosis.suggestions.first().is_some_and(|s| s.probability >= 0.5);
         diagnosis.verdict = if sure { Verdict::Missing } else { Verdict::Undecided };
         Ok(diagnosis)
     }
+}
+
+/// Suggestions of fits that are not finished: for somebody who waits.
+pub(crate) fn early(base: &Base, refits: &[Refit]) -> Vec<Suggestion> {
+    let scale = scale_of(refits, base.count());
+    let weights = evidence_weights(&refits.iter().map(|r| base.evidence(r, scale)).collect::<Vec<_>>());
+    let of = |(refit, &probability): (&Refit, &f64)| {
+        let added = added(refit, scale).pop()?;
+        let evidence = vec![added.source.effect.sentence().to_string()];
+        let (error_after, held_out_error_after) = (refit.error, refit.error);
+        let indistinguishable_from = Vec::new();
+        Some(Suggestion { added, error_after, held_out_error_after, probability, evidence, indistinguishable_from })
+    };
+    refits.iter().zip(&weights).take(MOST).filter_map(of).collect()
 }
 
 /// The effects of the best set in the order in which they help, each prefix fitted.
@@ -138,7 +159,7 @@ fn alternatives(bench: &Bench, top: &Rung, weights: &[f64], diagnosis: &mut Diag
 }
 
 /// Corrections that moved, with their deviations.
-fn corrections(refit: &Refit) -> Vec<Correction> {
+pub(crate) fn corrections(refit: &Refit) -> Vec<Correction> {
     let values = refit.tuning.values.iter().zip(&refit.tuning_deviations);
     let of = |(knob, (v, d)): (&super::tuning::Knob, (&f64, &f64))| Correction {
         knob: knob.clone(),

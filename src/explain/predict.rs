@@ -20,6 +20,9 @@ pub(crate) const SEARCH: Settings =
 pub(crate) const FINAL: Settings =
     Settings { harmonics: 15, most_harmonics: 31, watched: 7, truncation: 1e-5, tolerance: 1e-9, estimate: true };
 
+/// The same where truncation would still show above the noise: nearly sticking friction.
+const FINEST: Settings = Settings { most_harmonics: 63, ..FINAL };
+
 /// Predicted response of one run.
 #[derive(Debug, Clone)]
 pub struct RunPrediction {
@@ -76,11 +79,11 @@ pub struct Predictor {
 }
 
 /// The model at every frequency; runs of one frequency share what is computed there.
-fn run_models(model: &ForwardModel, omegas: &[f64]) -> Vec<RunModel> {
+fn run_models(omegas: &[f64], at: impl Fn(f64) -> RunModel) -> Vec<RunModel> {
     let mut runs: Vec<RunModel> = Vec::with_capacity(omegas.len());
     for &omega in omegas {
         let same = runs.iter().find(|run| run.omega() == omega).cloned();
-        runs.push(same.unwrap_or_else(|| model.at(omega)));
+        runs.push(same.unwrap_or_else(|| at(omega)));
     }
     runs
 }
@@ -103,7 +106,7 @@ impl Predictor {
     pub fn new(structure: &Structure, known: Vec<Source>, data: &Data) -> Result<Self, ExplainError> {
         let model = ForwardModel::new(structure, &known)?;
         let omegas: Vec<f64> = data.runs.iter().map(|run| run.omega).collect();
-        let runs = run_models(&model, &omegas);
+        let runs = run_models(&omegas, |omega| model.at(omega));
         let stated = Arc::new((structure.clone(), known.clone()));
         Ok(Self { model, runs, known, stated, omegas })
     }
@@ -112,7 +115,7 @@ impl Predictor {
     pub fn tuned(&self, tuning: &Tuning) -> Result<Self, ExplainError> {
         let known = tuning.known(&self.stated.1);
         let model = ForwardModel::new(&tuning.structure(&self.stated.0), &known)?;
-        let runs = run_models(&model, &self.omegas);
+        let runs = run_models(&self.omegas, |omega| model.briefly_at(omega));
         Ok(Self { model, runs, known, stated: self.stated.clone(), omegas: self.omegas.clone() })
     }
 
@@ -155,6 +158,39 @@ impl Predictor {
         let excitation = excitation(data, effects);
         let response = self.runs[r].respond(&self.sources(effects), &excitation, settings, start, control)?;
         Ok(recorded(data, effects, response))
+    }
+
+    /// [`Self::predict`] with as many harmonics as the noise of the run lets see: [`FINAL`], and more where that shows.
+    pub(crate) fn predict_well(
+        &self,
+        r: usize,
+        data: &RunData,
+        effects: &[Source],
+        start: Option<&Response>,
+        control: &Control,
+    ) -> Result<RunPrediction, ResponseError> {
+        let prediction = self.predict(r, data, effects, &FINAL, start, control)?;
+        self.refined(r, data, effects, prediction, control)
+    }
+
+    /// `prediction`, or one of more harmonics beside it where its truncation shows above the noise.
+    pub(crate) fn refined(
+        &self,
+        r: usize,
+        data: &RunData,
+        effects: &[Source],
+        prediction: RunPrediction,
+        control: &Control,
+    ) -> Result<RunPrediction, ResponseError> {
+        let shows = |c: &usize| {
+            let channel = &data.responses[*c];
+            let pairs = prediction.truncation[*c].iter().zip(&channel.deviation);
+            pairs.clone().any(|(t, d)| *d > 0.0 && t > d)
+        };
+        if !data.alive.iter().any(shows) {
+            return Ok(prediction);
+        }
+        self.predict(r, data, effects, &FINEST, Some(&prediction.response), control)
     }
 
     /// Predictions of run number `r` on every periodic motion of the model, each with whether it is stable; several only
@@ -254,7 +290,7 @@ fn recorded(data: &RunData, effects: &[Source], response: Response) -> RunPredic
             transfer(effects, &channel.name, w) * channel.from_displacement(w)
         };
         channels.push((1..=data.harmonics).map(|h| factor(h) * response.amplitude(channel.dof, h)).collect());
-        let error = |h: usize| response.truncation.get(h - 1).copied().unwrap_or(0.0);
+        let error = |h: usize| response.truncation_at(channel.dof, h);
         truncation.push((1..=data.harmonics).map(|h| factor(h).norm() * error(h)).collect());
     }
     RunPrediction { channels, truncation, response, found: true }

@@ -17,6 +17,9 @@ use faer::{Mat, c64};
 /// Groups of runs that are left out in turn.
 const FOLDS: usize = 4;
 
+/// Share of what remains of a search that one predicted run is taken for: a search asks for thousands of them.
+const PACE: f64 = 2e-4;
+
 /// A response of each run to start from.
 pub(crate) type Starts = Vec<Option<Response>>;
 
@@ -67,8 +70,14 @@ impl Bench<'_> {
     ) -> Result<Vec<RunPrediction>, ExplainError> {
         let run = |(r, run): (usize, &RunData)| {
             self.control.check()?;
+            self.control.advance(PACE);
             let start = starts.get(r).and_then(Option::as_ref);
-            match self.predictor.predict(r, run, effects, settings, start, self.control) {
+            let predicted = if *settings == FINAL {
+                self.predictor.predict_well(r, run, effects, start, self.control)
+            } else {
+                self.predictor.predict(r, run, effects, settings, start, self.control)
+            };
+            match predicted {
                 Ok(prediction) => Ok(prediction),
                 Err(ResponseError::Cancelled(cancelled)) => Err(cancelled.into()),
                 Err(_) => self.at_rest(r),

@@ -2,39 +2,41 @@
 
 use super::compare::transfers;
 use super::data::{Data, ExplainError};
+use super::diagnose::Early;
 use super::law::{PlaceData, shrunk};
+use super::limits::{at_limit, limits};
 use super::noise::Whitening;
 use super::place::{FreeForce, Freedom, Placing, Screen};
-use super::predict::{FINAL, Predictor, RunPrediction, SEARCH};
-use super::refit::{Bench, Refit, Starts};
+use super::predict::{FINAL, Predictor, RunPrediction};
+use super::refit::{Bench, Refit};
 use super::spots::{Receptances, Spot};
-use super::start::{Fields, start};
+use super::start::Fields;
 use super::tuning::Tuning;
 use crate::control::Control;
-use crate::effects::{Effect, Place, Source, State, effect::Kind};
+use crate::effects::Source;
 use crate::math::statistics::bayesian_information;
 use faer::{Mat, c64};
-use std::rc::Rc;
+use std::sync::Arc;
 
 /// Places whose laws are looked at.
 const PLACES: usize = 24;
+/// Places whose laws are looked at before the others.
+const AHEAD: usize = 2;
 /// Pairs of places whose laws are looked at.
 const PAIRS: usize = 16;
 /// Sets that are fitted on the response.
 const REFITS: usize = 10;
-/// Of these, sets that are fitted with all harmonics that matter.
-const POLISHED: usize = 6;
 /// Most laws of one place that are fitted on the response.
 const LAWS_AT_ONE_PLACE: usize = 4;
 /// What every parameter of a law beyond its first costs in evidence besides its information criterion: where one law
 /// contains another as a limit, the simpler wins unless the data demand the other.
 const EXTRA: f64 = 8.0;
+/// What a law costs that is fitted next to a simpler one: records are not so exact that they could tell.
+const POSING: f64 = 20.0;
 /// Drafts whose score is this many times that of the best are not fitted.
 const HOPELESS: f64 = 5.0;
 /// Places at which the law found is tried too, where no law can tell them apart.
 const ELSEWHERE: usize = 6;
-/// Steps of a fit on the response.
-const STEPS: usize = 12;
 
 /// A set of effects with its score before it is fitted on the response.
 #[derive(Debug, Clone)]
@@ -42,7 +44,7 @@ pub(crate) struct Draft {
     pub effects: Vec<Source>,
     pub score: f64,
     /// Motion that the data show if the effects are right.
-    fields: Rc<Fields>,
+    pub(super) fields: Arc<Fields>,
 }
 
 /// Everything that a search needs about one base model.
@@ -57,6 +59,8 @@ pub(crate) struct Base<'a> {
     pub predictions: Vec<RunPrediction>,
     /// Noise of the residuals.
     pub noise: Vec<Whitening>,
+    /// Who is told of the first suggestions.
+    pub early: &'a Early<'a>,
 }
 
 /// The residual of a model seen from every place.
@@ -76,7 +80,7 @@ impl<'a> Base<'a> {
     ) -> Result<Self, ExplainError> {
         let bench = Bench { predictor, data, noise: &[], control };
         let predictions = bench.predict(&[], &FINAL, &[])?;
-        let mut base = Self { predictor, data, control, tuning, predictions, noise: Vec::new() };
+        let mut base = Self { predictor, data, control, tuning, predictions, noise: Vec::new(), early: &|_| {} };
         base.noise = base.whitenings(&[], &base.predictions)?;
         Ok(base)
     }
@@ -134,26 +138,24 @@ impl<'a> Base<'a> {
         let mut view = self.view(&predictor, from)?;
         let effects = from.map_or(&[][..], |refit| &refit.effects);
         let mut drafts = Vec::new();
-        for placing in view.screen.singles().into_iter().take(PLACES) {
-            self.control.check()?;
-            for options in self.laws(&mut view, &placing, effects)? {
-                drafts.extend(options.into_iter().map(|d| Draft { score: d.score + placing.chi_square, ..d }));
-            }
+        let placings = self.worth_while(&mut view, effects)?;
+        for (placing, laws) in placings.iter().zip(self.all_laws(&mut view, &placings, effects)?) {
+            let options = laws.into_iter().flatten();
+            drafts.extend(options.map(|d| Draft { score: d.score + placing.chi_square, ..d }));
         }
         let mut drafts = short_list(drafts, REFITS);
         drafts.iter_mut().for_each(|d| d.effects = joined(effects, &d.effects));
-        let mut refits = self.refit_all(&drafts, from)?;
-        refits.extend(self.whole(from)?);
-        Ok(self.ranked(refits))
+        let mut begun = self.begun(&drafts, from)?;
+        begun.extend(self.whole(from, super::fits::FIRST_STEPS)?);
+        Ok(self.ranked(self.finished(begun)?))
     }
 
     /// Sets of two new effects at the pairs of places that explain most.
     pub fn pairs(&self) -> Result<Vec<Refit>, ExplainError> {
         let mut view = self.view(self.predictor, None)?;
         let mut drafts = Vec::new();
-        for placing in view.screen.pairs(PAIRS) {
-            self.control.check()?;
-            let options = self.laws(&mut view, &placing, &[])?;
+        let placings = view.screen.pairs(PAIRS);
+        for (placing, options) in placings.iter().zip(self.all_laws(&mut view, &placings, &[])?) {
             let [first, second] = &options[..] else { continue };
             for a in first.iter().take(3) {
                 for b in second.iter().take(3) {
@@ -178,7 +180,8 @@ impl<'a> Base<'a> {
         let Some(at) = view.screen.spots.iter().position(|spot| spot.place().is_same(&source.place)) else {
             return Ok(None);
         };
-        let (forces, fields) = self.free(&mut view, &[at])?;
+        self.need(&mut view, &[at])?;
+        let (forces, fields) = self.free(&view, &[at]);
         Ok(Some(PlaceData::new(self.data, &view.screen.spots[at], &forces[0], &fields)))
     }
 
@@ -200,33 +203,25 @@ impl<'a> Base<'a> {
             .cloned()
             .collect();
         let mut drafts = Vec::new();
-        for placing in near {
-            let options = self.laws(&mut view, &placing, &others.effects)?;
+        for options in self.all_laws(&mut view, &near, &others.effects)? {
             let same = options.into_iter().flatten().find(|d| d.effects[0].effect == source.effect);
             drafts.extend(same.map(|d| Draft { effects: joined(&others.effects, &d.effects), ..d }));
         }
         self.refit_all(&drafts, Some(&others))
     }
 
-    /// Fits the drafts on the response, from the motion that the data show.
-    fn refit_all(&self, drafts: &[Draft], from: Option<&Refit>) -> Result<Vec<Refit>, ExplainError> {
-        let tuning = from.map_or(&self.tuning, |refit| &refit.tuning);
-        let fit = |draft: &Draft| {
-            let sources = self.predictor.sources(&draft.effects);
-            let runs = self.data.runs.iter().zip(draft.fields.iter());
-            let starts: Starts = runs.map(|(run, field)| start(&sources, run.omega, field)).collect();
-            self.bench().refit(&draft.effects, tuning, STEPS, &SEARCH, &starts)
-        };
-        drafts.iter().map(fit).collect()
-    }
-
-    /// Free forces of the spots of a placing, and the motion they imply.
-    fn free(&self, view: &mut View, spots: &[usize]) -> Result<(Vec<Vec<Vec<FreeForce>>>, Fields), ExplainError> {
+    /// Computes the receptances of the spots.
+    fn need(&self, view: &mut View, spots: &[usize]) -> Result<(), ExplainError> {
         for &s in spots {
             if let Spot::Leg(leg) = view.screen.spots[s] {
                 view.receptances.need_leg(leg, self.control)?;
             }
         }
+        Ok(())
+    }
+
+    /// Free forces of the spots of a placing, and the motion they imply; their receptances are there.
+    fn free(&self, view: &View, spots: &[usize]) -> (Vec<Vec<Vec<FreeForce>>>, Fields) {
         let forces = view.screen.forces(spots);
         let n = self.predictor.structure().len();
         let field = |(r, run): (usize, &super::data::RunData)| {
@@ -244,17 +239,48 @@ impl<'a> Base<'a> {
             field
         };
         let fields: Vec<Mat<c64>> = self.data.runs.iter().enumerate().map(field).collect();
-        Ok((forces, fields))
+        (forces, fields)
+    }
+
+    /// Places whose laws may become the best: what the best place leaves to its best law bounds what others may leave.
+    fn worth_while(&self, view: &mut View, effects: &[Source]) -> Result<Vec<Placing>, ExplainError> {
+        let mut placings = view.screen.singles();
+        placings.truncate(PLACES);
+        let first = &placings[..placings.len().min(AHEAD)];
+        let scores = self.all_laws(view, first, effects)?.into_iter().zip(first).filter_map(|(laws, placing)| {
+            let best = laws.into_iter().flatten().map(|d| d.score).fold(f64::INFINITY, f64::min);
+            (best < f64::INFINITY).then_some(best + placing.chi_square)
+        });
+        let bound = hopeless(scores.fold(f64::INFINITY, f64::min));
+        placings.retain(|p| p.chi_square < bound);
+        Ok(placings)
+    }
+
+    /// [`Self::laws`] of every placing.
+    fn all_laws(
+        &self,
+        view: &mut View,
+        placings: &[Placing],
+        effects: &[Source],
+    ) -> Result<Vec<Vec<Vec<Draft>>>, ExplainError> {
+        for placing in placings {
+            self.need(view, &placing.spots)?;
+        }
+        let view = &*view;
+        let of = |k: usize| {
+            self.control.check()?;
+            Ok(self.laws(view, &placings[k], effects))
+        };
+        self.control.map(placings.len(), of).into_iter().collect()
     }
 
     /// Laws fitted to the free forces of each spot of a placing, best first; the score is their misfit with its penalty.
-    fn laws(&self, view: &mut View, placing: &Placing, effects: &[Source]) -> Result<Vec<Vec<Draft>>, ExplainError> {
-        let (forces, fields) = self.free(view, &placing.spots)?;
-        let fields = Rc::new(fields);
+    fn laws(&self, view: &View, placing: &Placing, effects: &[Source]) -> Vec<Vec<Draft>> {
+        let (forces, fields) = self.free(view, &placing.spots);
+        let fields = Arc::new(fields);
         let of = |(&s, forces): (&usize, &Vec<Vec<FreeForce>>)| {
             let data = PlaceData::new(self.data, &view.screen.spots[s], forces, &fields);
-            let fits = Effect::ALL.into_iter().filter_map(|effect| data.fit(effect));
-            let fresh = fits.filter(|fit| !effects.iter().any(|e| e.is_same(&fit.source)));
+            let fresh = data.fits().into_iter().filter(|fit| !effects.iter().any(|e| e.is_same(&fit.source)));
             let mut drafts: Vec<Draft> = fresh
                 .map(|fit| {
                     let score = bayesian_information(fit.misfit, fit.source.parameters.len(), data.count());
@@ -264,49 +290,7 @@ impl<'a> Base<'a> {
             drafts.sort_by(|a, b| a.score.total_cmp(&b.score));
             drafts
         };
-        Ok(placing.spots.iter().zip(&forces).map(of).collect())
-    }
-
-    /// The laws of the whole structure, from a light start.
-    pub fn whole(&self, from: Option<&Refit>) -> Result<Vec<Refit>, ExplainError> {
-        let effects = from.map_or(&[][..], |refit| &refit.effects);
-        let tuning = from.map_or(&self.tuning, |refit| &refit.tuning);
-        let mut found = Vec::new();
-        for effect in Effect::ALL.into_iter().filter(|e| matches!(e.kind(), Kind::Whole(_))) {
-            if effects.iter().any(|e| e.effect == effect) {
-                continue;
-            }
-            let omega = self.data.runs.iter().map(|r| r.omega.ln()).sum::<f64>() / self.data.runs.len() as f64;
-            let unit = match effect {
-                Effect::StiffnessProportional => (-omega).exp(),
-                Effect::MassProportional => omega.exp(),
-                _ => 1.0,
-            };
-            let place = Place::Whole(None);
-            let light = Source { effect, place, state: State::Known, parameters: vec![3e-3 * unit] };
-            found.push(self.bench().refit(&joined(effects, &[light]), tuning, STEPS, &SEARCH, &[])?);
-        }
-        Ok(found)
-    }
-
-    /// Fits the best of `refits` again with all harmonics that matter and the noise of the best of them, truncation
-    /// included; the others follow as they are.
-    pub fn polished(&self, refits: Vec<Refit>) -> Result<(Vec<Refit>, Vec<Whitening>), ExplainError> {
-        let mut best = refits;
-        let rest = best.split_off(POLISHED.min(best.len()));
-        let mut noise = self.noise.clone();
-        for steps in [8, 4] {
-            let bench = Bench { noise: &noise, ..self.bench() };
-            let again = |r: &Refit| bench.refit(&r.effects, &r.tuning, steps, &FINAL, &r.starts);
-            best = self.ranked(best.iter().map(again).collect::<Result<Vec<_>, _>>()?);
-            let Some(first) = best.first() else { break };
-            let predictor = self.predictor_of(first)?;
-            let tuned = Base { predictor: &predictor, ..self.shallow() };
-            let predictions = tuned.bench().predict(&first.effects, &FINAL, &first.starts)?;
-            noise = tuned.whitenings(&first.effects, &predictions)?;
-        }
-        best.extend(rest);
-        Ok((best, noise))
+        placing.spots.iter().zip(&forces).map(of).collect()
     }
 
     /// The same model and data without what was computed of them.
@@ -318,6 +302,7 @@ impl<'a> Base<'a> {
             tuning: self.tuning.clone(),
             predictions: Vec::new(),
             noise: Vec::new(),
+            early: self.early,
         }
     }
 
@@ -325,7 +310,8 @@ impl<'a> Base<'a> {
     pub fn evidence(&self, refit: &Refit, scale: f64) -> f64 {
         let fit = bayesian_information(refit.chi_square / scale.max(1.0), refit.parameters, self.count());
         let extra: usize = refit.effects.iter().map(|e| e.parameters.len() - 1).sum();
-        fit + refit.tuning_cost + EXTRA * extra as f64
+        let posing = refit.effects.iter().filter(|e| at_limit(e)).count();
+        fit + refit.tuning_cost + EXTRA * extra as f64 + POSING * posing as f64
     }
 
     /// Best first.
@@ -343,14 +329,19 @@ pub(crate) fn scale_of(refits: &[Refit], count: usize) -> f64 {
     least.fold(f64::INFINITY, f64::min).clamp(1.0, 1e12)
 }
 
-fn joined(first: &[Source], second: &[Source]) -> Vec<Source> {
+pub(super) fn joined(first: &[Source], second: &[Source]) -> Vec<Source> {
     first.iter().chain(second).cloned().collect()
+}
+
+/// Score beyond which drafts are not fitted where the best has the score `best`.
+fn hopeless(best: f64) -> f64 {
+    HOPELESS * best.abs() + 300.0
 }
 
 /// The best drafts, no more than a few at one place, each with the simpler laws that it contains as limits.
 fn short_list(mut drafts: Vec<Draft>, most: usize) -> Vec<Draft> {
     drafts.sort_by(|a, b| a.score.total_cmp(&b.score));
-    let hopeless = drafts.first().map_or(f64::INFINITY, |best| HOPELESS * best.score.abs() + 300.0);
+    let hopeless = hopeless(drafts.first().map_or(f64::INFINITY, |best| best.score));
     let mut kept: Vec<Draft> = Vec::new();
     for draft in drafts.iter().filter(|d| d.score < hopeless) {
         let here = kept.iter().filter(|k| k.effects[0].place == draft.effects[0].place).count();
@@ -372,18 +363,4 @@ fn short_list(mut drafts: Vec<Draft>, most: usize) -> Vec<Draft> {
         }
     }
     kept
-}
-
-/// Simpler laws that a law becomes at the ends of its parameters.
-fn limits(effect: Effect) -> &'static [Effect] {
-    match effect {
-        Effect::ElasticSlider => &[Effect::Stiffness, Effect::Coulomb],
-        Effect::Iwan => &[Effect::ElasticSlider, Effect::Stiffness, Effect::Coulomb],
-        Effect::Maxwell => &[Effect::Viscous, Effect::Stiffness],
-        Effect::Fractional => &[Effect::Viscous, Effect::Stiffness, Effect::Hysteretic],
-        Effect::Power => &[Effect::Viscous, Effect::Quadratic, Effect::Coulomb],
-        Effect::Stribeck => &[Effect::Coulomb],
-        Effect::Gap => &[Effect::Stiffness],
-        _ => &[],
-    }
 }

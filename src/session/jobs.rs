@@ -1,8 +1,10 @@
 //! Long work in the background: a pure blocking function on a named thread, its progress and cancel in a [`Control`], its
 //! result in a channel of one place. Dropping the job cancels it.
 
+use super::workers::Threads;
 use crate::control::Control;
 use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::Arc;
 use std::sync::mpsc::{Receiver, sync_channel};
 use std::time::Duration;
 
@@ -47,7 +49,7 @@ impl<K, T: Send + 'static> Job<K, T> {
         wake: impl FnOnce() + Send + 'static,
         work: impl FnOnce(&Control) -> T + Send + 'static,
     ) -> Result<Self, JobError> {
-        let control = Control::default();
+        let control = Control::default().with_workers(Arc::new(Threads::default()));
         let (sender, result) = sync_channel(1);
         let (inside, title) = (control.clone(), name.to_owned());
         let body = move || {

@@ -13,6 +13,7 @@ pub mod script;
 pub mod session;
 mod sources;
 mod structure;
+pub mod workers;
 
 pub use command::{Command, Setting, SourceAt, SourceSpec};
 pub use document::{Document, Refusal, Revisions};

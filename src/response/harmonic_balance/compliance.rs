@@ -168,13 +168,14 @@ impl LinearPart {
         z
     }
 
-    /// Receptance at `omega` (rad/s; 0 is static); modes at resonance are set apart if `apart`.
-    pub fn compliance(&self, omega: f64, apart: bool) -> Compliance {
+    /// Receptance at `omega` (rad/s; 0 is static); modes at resonance are set apart if `apart`. With `summed` modes are
+    /// summed where that is exact, which is cheaper unless many entries are asked for.
+    pub fn compliance(&self, omega: f64, apart: bool, summed: bool) -> Compliance {
         let factors = self.factors(omega);
         let modes = if apart && omega > 0.0 { near(&self.basis, factors) } else { Vec::new() };
         let mut resonant: Vec<Resonant> = modes.iter().map(|&r| Resonant::new(self, &self.basis, r)).collect();
         // A sweep asks each frequency for a few entries only.
-        let modal = self.len() > DENSE || !apart;
+        let modal = self.len() > DENSE || !apart || summed;
         let inverse = if modal && self.whole.iter().all(|(_, own)| own.is_none()) {
             self.modal_inverse(factors, &modes)
         } else {

@@ -201,7 +201,13 @@ impl ForwardModel {
             tables: self.tables.clone(),
             compliances: Arc::default(),
             apart: true,
+            summed: false,
         }
+    }
+
+    /// As [`Self::at`], for a model that will be asked for few responses: nothing is inverted beforehand.
+    pub(crate) fn briefly_at(&self, omega: f64) -> RunModel {
+        RunModel { summed: true, ..self.at(omega) }
     }
 
     /// As [`Self::at`], but no mode is set apart at resonance, so that the unknowns are the same at every frequency.
@@ -234,6 +240,8 @@ pub struct RunModel {
     compliances: Arc<Receptances>,
     /// Whether modes at resonance are set apart.
     apart: bool,
+    /// Whether modes are summed rather than matrices inverted.
+    summed: bool,
 }
 
 /// Receptance per harmonic, 0 first.
@@ -263,7 +271,7 @@ impl RunModel {
     }
 
     pub(crate) fn compliance(&self, h: usize) -> &Compliance {
-        self.compliances.0[h].get_or_init(|| self.linear.compliance(h as f64 * self.omega, self.apart))
+        self.compliances.0[h].get_or_init(|| self.linear.compliance(h as f64 * self.omega, self.apart, self.summed))
     }
 
     pub(crate) fn linear(&self) -> &LinearPart {
@@ -280,7 +288,8 @@ impl RunModel {
             return self.clone();
         }
         let linear = Arc::new(self.linear.with_whole(sources));
-        Self { linear, compliances: Arc::default(), ..self.clone() }
+        // Such a model is asked for one response or two before the laws change again.
+        Self { linear, compliances: Arc::default(), summed: true, ..self.clone() }
     }
 
     /// Periodic response with `sources` (in place of those of the model) to `excitation`, whose frequency is that of

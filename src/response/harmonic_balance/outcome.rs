@@ -103,6 +103,8 @@ pub struct Response {
     pub status: Status,
     /// Estimated error (m) of each harmonic by truncation of the series, largest over all DOFs; 0 for linear models.
     pub truncation: Vec<f64>,
+    /// The same for every DOF (m, rad for rotations): n rows, column `h - 1` is harmonic `h`.
+    pub truncation_by_dof: Mat<f64>,
     /// Forces of all sources between single DOFs.
     pub forces: Vec<SourceForce>,
     /// Attempts in order.
@@ -126,6 +128,7 @@ impl Response {
             mean: vec![0.0; harmonics.nrows()],
             status: Status::Converged,
             truncation: vec![0.0; harmonics.ncols()],
+            truncation_by_dof: Mat::zeros(harmonics.nrows(), harmonics.ncols()),
             forces: Vec::new(),
             history: Vec::new(),
             legs: unknowns.len() / (2 * harmonics.ncols() + 1),
@@ -139,6 +142,19 @@ impl Response {
     /// Complex displacement amplitude (m) of row `dof` at harmonic `h >= 1`; 0 beyond the harmonics.
     pub fn amplitude(&self, dof: usize, h: usize) -> c64 {
         if h >= 1 && h <= self.harmonics.ncols() { self.harmonics[(dof, h - 1)] } else { c64::new(0.0, 0.0) }
+    }
+
+    /// The same response with the estimated truncation error (m) of every DOF and harmonic, n x H.
+    #[must_use]
+    pub(crate) fn with_truncation(self, by_dof: Mat<f64>) -> Self {
+        let largest = |h: usize| by_dof.col_as_slice(h).iter().fold(0.0_f64, |m, &e| m.max(e));
+        Self { truncation: (0..by_dof.ncols()).map(largest).collect(), truncation_by_dof: by_dof, ..self }
+    }
+
+    /// Estimated truncation error (m) of row `dof` at harmonic `h >= 1`; 0 beyond the harmonics.
+    pub fn truncation_at(&self, dof: usize, h: usize) -> f64 {
+        let known = h >= 1 && h <= self.truncation_by_dof.ncols() && dof < self.truncation_by_dof.nrows();
+        if known { self.truncation_by_dof[(dof, h - 1)] } else { 0.0 }
     }
 
     /// Displacements of all DOFs as solved, before extrapolation, harmonics 0..=H.

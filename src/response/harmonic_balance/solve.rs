@@ -198,7 +198,10 @@ impl Ladder<'_> {
     fn climb(&mut self, below: Response, order: usize, sharp: bool) -> Result<Response, ResponseError> {
         match self.solve(order, Some(&below)) {
             Ok(fine) if sharp => Ok(extrapolated(&below, fine)),
-            Ok(fine) => Ok(Response { truncation: change(&below, &fine, fine.order(), 0.5), ..fine }),
+            Ok(fine) => {
+                let by_dof = change(&below, &fine, fine.order(), 0.5);
+                Ok(fine.with_truncation(by_dof))
+            }
             Err(ResponseError::NotConverged { .. }) => {
                 Ok(Response { status: Status::FellBack, ..self.estimated(below)? })
             }
@@ -222,8 +225,8 @@ impl Ladder<'_> {
             u.iter_mut().zip(&step).for_each(|(x, s)| *x -= s);
         }
         let finer = assemble(self.run, &prepared, self.excitation, u);
-        let truncation = change(&response, &finer, response.order(), 1.0);
-        Ok(Response { truncation, ..response })
+        let by_dof = change(&response, &finer, response.order(), 1.0);
+        Ok(response.with_truncation(by_dof))
     }
 }
 
@@ -234,11 +237,9 @@ fn rests(response: &Response, settings: &Settings) -> bool {
     response.truncation.iter().take(settings.watched).all(|&t| t <= settings.truncation * largest)
 }
 
-/// `share` of the largest change of each harmonic over all DOFs.
-fn change(a: &Response, b: &Response, order: usize, share: f64) -> Vec<f64> {
-    let difference =
-        |h: usize| (0..b.mean.len()).fold(0.0_f64, |m, i| m.max((b.amplitude(i, h) - a.amplitude(i, h)).norm()));
-    (1..=order).map(|h| share * difference(h)).collect()
+/// `share` of the change of each harmonic of every DOF.
+fn change(a: &Response, b: &Response, order: usize, share: f64) -> Mat<f64> {
+    Mat::from_fn(b.mean.len(), order, |i, h| share * (b.amplitude(i, h + 1) - a.amplitude(i, h + 1)).norm())
 }
 
 /// Weight of the correction `fine - coarse` that takes the error, proportional to `1 / (H + 1/2)` for jumps, away.
@@ -254,21 +255,23 @@ fn extrapolated(coarse: &Response, fine: Response) -> Response {
     let weight = richardson(coarse.order(), fine.order());
     let mut limit =
         Response { raw: Some(above.clone()), coarse: Some((coarse.order(), coarse.unknowns.clone())), ..fine };
-    let mut corrections = vec![0.0_f64; limit.order()];
+    let mut corrections = Mat::zeros(above.nrows(), limit.order());
     for h in 0..below.ncols() {
         for i in 0..above.nrows() {
             let correction = (above[(i, h)] - below[(i, h)]) * weight;
             limit.harmonics[(i, h)] += correction;
-            corrections[h] = corrections[h].max(correction.norm());
+            corrections[(i, h)] = correction.norm();
         }
     }
-    // A second extrapolation shows what the first has left; one alone leaves a fifth of itself at most (see the tests).
-    limit.truncation = if coarse.raw.is_some() {
-        change(coarse, &limit, limit.order(), 0.5)
-    } else {
-        corrections.iter().map(|c| 0.2 * c).collect()
-    };
-    limit
+    // A second extrapolation shows what the first has left; one alone leaves a fifth
+    // of itself at most where it is largest (see the tests), but that of a single DOF may be small by chance.
+    if coarse.raw.is_some() {
+        let by_dof = change(coarse, &limit, limit.order(), 0.5);
+        return limit.with_truncation(by_dof);
+    }
+    let mut first = limit.with_truncation(corrections);
+    first.truncation.iter_mut().for_each(|t| *t *= 0.2);
+    first
 }
 
 /// The solution at one number of harmonics.
@@ -379,6 +382,7 @@ pub(crate) fn assemble(run: &RunModel, prepared: &Prepared, excitation: &Excitat
         harmonics: Mat::from_fn(run.len(), order, |i, h| x[h + 1][i]),
         status: Status::Converged,
         truncation: vec![0.0; order],
+        truncation_by_dof: Mat::zeros(run.len(), order),
         forces,
         history: Vec::new(),
         legs: condensed.legs.len(),

@@ -1,0 +1,45 @@
+//! Laws that contain simpler ones as limits of their parameters.
+
+use crate::effects::{Effect, Source};
+
+/// Distance of an exponent or an order from that of a simpler law within which they are taken for the same.
+const CLOSE: f64 = 0.03;
+
+/// Simpler laws that a law becomes at the ends of its parameters.
+pub(crate) fn limits(effect: Effect) -> &'static [Effect] {
+    match effect {
+        Effect::ElasticSlider => &[Effect::Stiffness, Effect::Coulomb],
+        Effect::Iwan => &[Effect::ElasticSlider, Effect::Stiffness, Effect::Coulomb],
+        Effect::Maxwell => &[Effect::Viscous, Effect::Stiffness],
+        Effect::Fractional => &[Effect::Viscous, Effect::Stiffness, Effect::Hysteretic],
+        Effect::Power => &[Effect::Viscous, Effect::Quadratic, Effect::Coulomb],
+        Effect::Stribeck => &[Effect::Coulomb],
+        Effect::Gap => &[Effect::Stiffness],
+        _ => &[],
+    }
+}
+
+/// Whether the parameters of `source` are all but those of a simpler law.
+pub(crate) fn at_limit(source: &Source) -> bool {
+    let p = &source.parameters;
+    match source.effect {
+        Effect::Power => [0.0, 1.0, 2.0].iter().any(|e| (p[1] - e).abs() < CLOSE),
+        Effect::Fractional => p[1] < CLOSE || p[1] > 1.0 - CLOSE,
+        Effect::Stribeck => (p[1] / p[0] - 1.0).abs() < CLOSE,
+        _ => false,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::effects::Place;
+
+    #[test]
+    fn powers_next_to_whole_numbers_pose_as_other_laws() {
+        let power = |e: f64| Source::known(Effect::Power, Place::Dofs(vec![0]), &[1.0, e]);
+        assert!([0.002, 0.99, 1.98].iter().all(|&e| at_limit(&power(e))));
+        assert!([0.5, 1.5, 2.5].iter().all(|&e| !at_limit(&power(e))));
+        assert!(!limits(Effect::Power).is_empty());
+    }
+}
