@@ -4,6 +4,7 @@ pub mod dynamic_stiffness;
 pub mod frequency_response;
 pub mod harmonic_balance;
 pub mod linear_matrices;
+pub mod portrait;
 pub mod sensitivity;
 pub mod simulation;
 pub mod simulation_in_time;

@@ -50,6 +50,7 @@ impl App {
             Command::ResetLayout => self.desk.reset(self.view.stage),
             Command::Messages => self.view.messages = !self.view.messages,
             Command::Tour => self.view.tour = if self.view.tour.is_some() { None } else { Some(0) },
+            Command::Laws => self.learn.open = !self.learn.open,
             Command::Keys => self.view.keys = !self.view.keys,
             Command::About => self.view.about = !self.view.about,
         }

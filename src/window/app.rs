@@ -10,6 +10,7 @@ use super::frame;
 use super::frame::dock::Desk;
 use super::frame::leave::Leave;
 use super::frame::panes::Pane;
+use super::learn::{self, Learn};
 use super::photograph::Photograph;
 use super::plots::export::Exports;
 use super::schematic::gesture::Intent;
@@ -52,6 +53,8 @@ pub struct App {
     pub leaving: Option<Leave>,
     /// Whether the program may close.
     pub(super) closing: bool,
+    /// The page of laws.
+    pub learn: Learn,
     work: Work,
     /// Lets no job hold the window when it closes.
     guard: Guard,
@@ -154,7 +157,7 @@ impl App {
 
     /// Name and progress of what runs.
     pub fn running(&self) -> Option<(&str, f64)> {
-        self.work.running().or_else(|| self.derived.running())
+        self.work.running().or_else(|| self.derived.running()).or_else(|| self.learn.running())
     }
 
     /// Gives up what runs, on the user's wish.
@@ -164,6 +167,7 @@ impl App {
         }
         self.work.cancel();
         self.derived.cancel();
+        self.learn.cancel();
         self.say("Cancelled.".to_owned());
     }
 
@@ -191,7 +195,9 @@ impl App {
         }
         frame::top::show(ui, self, &mut asks);
         frame::status::show(ui, self, &mut asks);
-        if self.document.is_some() {
+        if self.learn.open {
+            learn::show(ui, self, &mut asks);
+        } else if self.document.is_some() {
             let desk = Frame::new().fill(Palette::of(ui.visuals()).desk).inner_margin(Margin::same(space::GAP as i8));
             CentralPanel::default().frame(desk).show(ui, |ui| frame::dock::show(ui, self, &mut asks));
         } else {

@@ -34,6 +34,7 @@ pub enum Command {
     ResetLayout,
     Messages,
     Tour,
+    Laws,
     Keys,
     About,
 }
@@ -71,7 +72,7 @@ const fn entry(command: Command, label: &'static str, tooltip: &'static str, key
 }
 
 /// All commands.
-pub const TABLE: [Entry; 30] = [
+pub const TABLE: [Entry; 31] = [
     entry(Command::Open, "Open…", "Opens a project file.", ctrl(Key::O)),
     entry(
         Command::Import,
@@ -115,6 +116,7 @@ pub const TABLE: [Entry; 30] = [
     entry(Command::ResetLayout, "Reset layout", "Puts the panes of this stage back to where they were at first.", None),
     entry(Command::Messages, "Messages", "Lists all that was said.", ctrl(Key::M)),
     entry(Command::Tour, "Tour", "Ten steps through the program on a sample.", None),
+    entry(Command::Laws, "Laws of damping", "What each law looks like on a small structure.", ctrl(Key::L)),
     entry(Command::Keys, "Keys", "Lists all keys.", plain(Key::F1)),
     entry(Command::About, "About Dashpot", "What the program is and what it rests on.", None),
 ];

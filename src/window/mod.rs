@@ -15,6 +15,7 @@ pub mod files;
 pub mod format;
 pub mod forward;
 pub mod frame;
+pub mod learn;
 mod marks;
 pub mod offscreen;
 pub mod photograph;

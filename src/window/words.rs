@@ -32,6 +32,11 @@ pub fn effect(effect: Effect) -> &'static str {
     }
 }
 
+/// The name of a parameter for readers: `Loss stiffness`; a single letter stays what it is.
+pub fn parameter(name: &str) -> String {
+    if name.len() == 1 { name.to_owned() } else { capital(&name.replace('_', " ")) }
+}
+
 /// A state in words.
 pub fn state(state: State) -> &'static str {
     match state {

@@ -8,6 +8,7 @@ mod comparison;
 mod derivatives;
 mod folds;
 mod harmonic_laws;
+mod portrait;
 mod predictions;
 mod recorded;
 mod resonance;

@@ -8,6 +8,7 @@ mod export;
 mod friction;
 mod history;
 mod journey;
+mod laws;
 mod path;
 mod pictures;
 mod space;

@@ -1,5 +1,6 @@
 //! What stands around the stages: bars, docked panes, inspector, schematic, start screen.
 
+pub mod cards;
 pub mod dock;
 pub mod help;
 pub mod icons;

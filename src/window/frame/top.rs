@@ -61,7 +61,7 @@ pub fn show(ui: &mut Ui, app: &App, asks: &mut Vec<Ask>) {
             });
         });
     });
-    if app.document.is_some() {
+    if app.document.is_some() && !app.learn.open {
         let bar = Frame::new().fill(palette.pane).inner_margin(Margin { left: 10, right: 10, top: 2, bottom: 0 });
         Panel::top("stages").frame(bar).show(ui, |ui| stages(ui, app, asks));
     }
@@ -104,7 +104,7 @@ fn menus(ui: &mut Ui, app: &App, asks: &mut Vec<Ask>) {
         entry(ui, Command::Theme, true, None, asks);
     });
     ui.menu_button("Help", |ui| {
-        for command in [Command::Tour, Command::Keys, Command::About] {
+        for command in [Command::Tour, Command::Laws, Command::Keys, Command::About] {
             entry(ui, command, true, None, asks);
         }
     });

@@ -2,7 +2,7 @@
 //! menu copies and exports.
 
 use super::export;
-use super::figure::{Axis, Data, Figure, Label, Look, Scale, Series, Ticks};
+use super::figure::{Axis, Data, Figure, Label, Look, Series, Ticks};
 use super::polyline::Polyline;
 use super::sheet::{Panel, Sheet};
 use super::{axis, curve, frame, ticks};
@@ -125,10 +125,8 @@ impl Place<'_> {
             .coordinates_formatter(Corner::RightTop, read_out(&figure.x, &figure.y))
             .set_margin_fraction(vec2(figure.margin, 0.08))
             .label_formatter(near(figure));
-        plot = plot.x_grid_spacer(move |input| ticks::marks(&x, &input));
-        if needs_marks(&figure.y) {
-            plot = plot.y_grid_spacer(move |input| ticks::marks(&y, &input));
-        }
+        plot = plot.x_grid_spacer(move |input| ticks::marks(&x, &input, ticks::ACROSS));
+        plot = plot.y_grid_spacer(move |input| ticks::marks(&y, &input, ticks::UPWARDS));
         if let Some(group) = self.group {
             plot = plot.link_axis(group, [true, false]).link_cursor(group, [true, false]);
         }
@@ -161,10 +159,6 @@ fn reset(plot: &mut PlotUi<'_>, figure: &Figure) {
     let whole = now.width() >= 0.98 * (all[1] - all[0]);
     let [from, to] = if whole { part } else { all };
     plot.set_plot_bounds_x(from..=to);
-}
-
-fn needs_marks(axis: &Axis) -> bool {
-    axis.ticks != Ticks::Auto || axis.scale == Scale::Log
 }
 
 /// The values under the pointer, in the corner.

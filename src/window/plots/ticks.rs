@@ -16,8 +16,13 @@ pub struct Rule {
     pub strong: bool,
 }
 
-/// Grid lines for the plot on the screen.
-pub fn marks(axis: &Axis, input: &GridInput) -> Vec<GridMark> {
+/// Points that a label takes along the axis of x.
+pub const ACROSS: f64 = 64.0;
+/// Points that a label takes along the axis of y.
+pub const UPWARDS: f64 = 36.0;
+
+/// Grid lines for the plot on the screen, labels `room` points apart.
+pub fn marks(axis: &Axis, input: &GridInput, room: f64) -> Vec<GridMark> {
     let (low, high) = input.bounds;
     match (&axis.ticks, axis.scale) {
         (Ticks::Auto, Scale::Log) => log::decades(input),
@@ -30,8 +35,8 @@ pub fn marks(axis: &Axis, input: &GridInput) -> Vec<GridMark> {
             multiples(low, high, 90.0).map(|value| GridMark { value, step_size: 90.0 }).collect()
         }
         _ => {
-            // The least step of the plot stands for eight points on the screen; a label needs about sixty.
-            let parts = ((high - low) / (8.0 * input.base_step_size)).clamp(1.5, 9.0);
+            // The least step of the plot stands for eight points on the screen.
+            let parts = (8.0 / room * (high - low) / input.base_step_size).clamp(2.0, 9.0);
             let step = round_step((high - low).max(f64::MIN_POSITIVE), parts);
             multiples(low, high, step).map(|value| GridMark { value, step_size: step }).collect()
         }
@@ -66,7 +71,11 @@ pub fn rules(axis: &Axis, [low, high]: [f64; 2], length: f32) -> Vec<Rule> {
             let step = round_step(high - low, f64::from(parts));
             multiples(low, high, step).map(|value| GridMark { value, step_size: step }).collect()
         }
-        _ => marks(axis, &GridInput { bounds: (low, high), base_step_size: 8.0 * (high - low) / f64::from(length) }),
+        _ => marks(
+            axis,
+            &GridInput { bounds: (low, high), base_step_size: 8.0 * (high - low) / f64::from(length) },
+            ACROSS,
+        ),
     };
     let log = axis.scale == Scale::Log;
     marks

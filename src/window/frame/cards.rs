@@ -1,0 +1,202 @@
+//! The samples as cards: what each is for, with a picture.
+
+use crate::effects::Effect;
+use crate::window::schematic::symbols;
+use crate::window::theme::{self, Palette, size};
+use crate::window::widgets::UiExt;
+use egui::{Align2, Painter, Rect, Role, Sense, Shape, Stroke, StrokeKind, Ui, Vec2, WidgetInfo, pos2, vec2};
+use std::path::Path;
+
+/// A sample project.
+pub struct Sample {
+    /// Its folder among the samples.
+    pub folder: &'static str,
+    title: &'static str,
+    sentence: &'static str,
+    picture: fn(&Painter, &Palette, Rect),
+}
+
+/// Samples to find dampers in.
+pub const DAMPERS: [Sample; 7] = [
+    Sample {
+        folder: "cantilever-case-2",
+        title: "Cantilever, unequal dashpots",
+        sentence: "Four dampers that differ a hundredfold, three accelerometers, 5 % noise. The tour is here.",
+        picture: |p, c, r| beam(p, c, r, &[2, 3, 7, 9], &[], None),
+    },
+    Sample {
+        folder: "cantilever-case-1",
+        title: "Cantilever, equal dashpots",
+        sentence: "Four equal dampers on an aluminium strip: find them among twenty candidates.",
+        picture: |p, c, r| beam(p, c, r, &[2, 3, 7, 9], &[], None),
+    },
+    Sample {
+        folder: "cantilever-case-1a",
+        title: "Cantilever, one place known",
+        sentence: "The place of one damper is known: it is forced and its value identified.",
+        picture: |p, c, r| beam(p, c, r, &[2, 3, 7, 9], &[2], None),
+    },
+    Sample {
+        folder: "cantilever-case-2-rounded",
+        title: "Cantilever, beside resonances",
+        sentence: "Driven at rounded frequencies, where one mode does not describe the shape.",
+        picture: |p, c, r| beam(p, c, r, &[2, 3, 7, 9], &[], None),
+    },
+    Sample {
+        folder: "five-masses",
+        title: "Five masses",
+        sentence: "Known dashpots to the ground, two unknown ones between masses; the classical methods beside.",
+        picture: |p, c, r| chain(p, c, r, None),
+    },
+    Sample {
+        folder: "five-masses-points",
+        title: "Five points, no model",
+        sentence: "Energy balance alone: no mass and no stiffness is known.",
+        picture: points,
+    },
+    Sample {
+        folder: "goland-wing",
+        title: "Goland wing",
+        sentence: "A wing box with fourteen dashpots, imported as matrices and drawn in space.",
+        picture: wing,
+    },
+];
+
+/// Samples of which the model lacks something.
+pub const HIDDEN: [Sample; 4] = [
+    Sample {
+        folder: "cantilever-friction",
+        title: "Something rubs",
+        sentence: "A cantilever at four levels; viscous dashpots do not explain it.",
+        picture: |p, c, r| beam(p, c, r, &[3, 9], &[], Some(7)),
+    },
+    Sample {
+        folder: "five-masses-friction",
+        title: "Two things are wrong",
+        sentence: "Five masses: something rubs, and a mass is not what the drawing says.",
+        picture: |p, c, r| chain(p, c, r, Some(2)),
+    },
+    Sample {
+        folder: "five-masses-cubic",
+        title: "Peaks lean over",
+        sentence: "Five masses whose frequencies rise with the level.",
+        picture: |p, c, r| chain(p, c, r, Some(4)),
+    },
+    Sample {
+        folder: "cantilever-late-sensor",
+        title: "A phase that is off",
+        sentence: "Is it damping, or does a sensor deceive?",
+        picture: |p, c, r| beam(p, c, r, &[3, 9], &[], Some(5)),
+    },
+];
+
+/// Height of a card, points.
+const HEIGHT: f32 = 176.0;
+
+/// Shows a card; true when it was clicked.
+pub fn card(ui: &mut Ui, width: f32, sample: &Sample, file: Option<&Path>) -> bool {
+    let palette = ui.palette();
+    let present = file.is_some_and(Path::exists);
+    let sense = if present { Sense::click() } else { Sense::hover() };
+    let (rect, response) = ui.allocate_exact_size(vec2(width, HEIGHT), sense);
+    response.widget_info(|| WidgetInfo::labeled(Role::Button, present, sample.title));
+    let lit = response.hovered() && present || response.has_focus();
+    let line = theme::hair(if lit { palette.accent } else { palette.line });
+    ui.painter().rect(rect, 8.0, palette.pane, line, StrokeKind::Inside);
+    let picture = Rect::from_min_max(rect.left_top() + vec2(12.0, 12.0), pos2(rect.right() - 12.0, rect.top() + 94.0));
+    ui.painter().rect_filled(picture, 5.0, palette.canvas);
+    (sample.picture)(&ui.painter_at(picture), palette, picture);
+    let text = |size: f32, string: &str, colour| {
+        ui.painter().layout(string.to_owned(), theme::font(size), colour, width - 28.0)
+    };
+    let title = text(size::HEADING, sample.title, palette.ink);
+    let sentence = text(size::BODY - 0.5, sample.sentence, palette.weak);
+    let at = pos2(rect.left() + 14.0, picture.bottom() + 10.0);
+    let below = at + vec2(0.0, title.size().y + 4.0);
+    ui.painter().galley(at, title, palette.ink);
+    ui.painter().galley(below, sentence, palette.weak);
+    response.clicked()
+}
+
+/// Dashpots stand at nodes of ten; those whose place is known are drawn in ink.
+fn beam(painter: &Painter, palette: &Palette, r: Rect, dashpots: &[usize], known: &[usize], lacks: Option<usize>) {
+    let axis = r.top() + 40.0;
+    let (left, right) = (r.left() + 34.0, r.right() - 24.0);
+    let at = |k: usize| left + (right - left) * k as f32 / 10.0;
+    let lift = |k: f32| 15.0 * (k / 10.0).powi(2);
+    let curve = (0..=40).map(|k| pos2(left + (right - left) * k as f32 / 40.0, axis - lift(k as f32 / 4.0))).collect();
+    symbols::ground(painter, pos2(left, axis), Vec2::LEFT, 36.0, theme::bold(palette.ink));
+    painter.add(Shape::line(curve, Stroke::new(4.0, palette.ink)));
+    for &k in dashpots {
+        let (top, foot) = (pos2(at(k), axis - lift(k as f32)), pos2(at(k), r.bottom() - 12.0));
+        let colour = if known.contains(&k) { palette.accent } else { palette.model };
+        symbols::draw(painter, Effect::Viscous, [top, foot], theme::pen(colour));
+        symbols::ground(painter, foot, Vec2::DOWN, 20.0, theme::hair(colour));
+    }
+    if let Some(k) = lacks {
+        question(painter, palette, pos2(at(k), axis + 22.0));
+    }
+    for k in [4, 6, 10] {
+        let body = Rect::from_center_size(pos2(at(k), axis - lift(k as f32) - 6.0), vec2(10.0, 7.0));
+        painter.rect_filled(body, 1.5, palette.measured);
+    }
+}
+
+fn chain(painter: &Painter, palette: &Palette, r: Rect, lacks: Option<usize>) {
+    let step = (r.width() - 30.0) / 5.2;
+    let x = |k: f32| r.left() + 16.0 + step * k;
+    let y = r.center().y;
+    symbols::ground(painter, pos2(x(0.0), y), Vec2::LEFT, 40.0, theme::bold(palette.ink));
+    for k in 0..5 {
+        let k = k as f32;
+        let (from, to) = (if k == 0.0 { x(0.0) } else { x(k) + 11.0 }, x(k + 1.0) - 13.0);
+        symbols::draw(painter, Effect::Stiffness, [pos2(from, y - 9.0), pos2(to, y - 9.0)], theme::pen(palette.ink));
+        if lacks.is_none() && (k == 2.0 || k == 4.0) {
+            symbols::draw(
+                painter,
+                Effect::Viscous,
+                [pos2(from, y + 10.0), pos2(to, y + 10.0)],
+                theme::pen(palette.model),
+            );
+        }
+        let mass = Rect::from_center_size(pos2(x(k + 1.0) - 1.0, y), vec2(24.0, 40.0));
+        painter.rect(mass, 3.0, palette.raised, theme::bold(palette.ink), StrokeKind::Middle);
+    }
+    if let Some(k) = lacks {
+        question(painter, palette, pos2(x(k as f32 + 0.5), y + 14.0));
+    }
+}
+
+/// What is not known.
+fn question(painter: &Painter, palette: &Palette, at: egui::Pos2) {
+    painter.text(at, Align2::CENTER_CENTER, "?", theme::font(28.0), palette.missing);
+}
+
+/// Ribs and spars of a wing seen from above and behind.
+fn wing(painter: &Painter, palette: &Palette, r: Rect) {
+    let (root, span) = (pos2(r.left() + 36.0, r.center().y + 11.0), r.width() - 84.0);
+    let at = |rib: f32, chord: f32| pos2(root.x + span * rib + 26.0 * chord, root.y + 17.0 * chord - 24.0 * rib);
+    let ends = |a, b, line| {
+        painter.line_segment([a, b], line);
+    };
+    for chord in [-1.0, 0.0, 1.0] {
+        ends(at(0.0, chord), at(1.0, chord), theme::bold(palette.ink));
+    }
+    for rib in 0..=7_u8 {
+        let share = f32::from(rib) / 7.0;
+        ends(at(share, -1.0), at(share, 1.0), theme::pen(palette.ink));
+        let place = at(share, if rib % 2 == 0 { 1.0 } else { -1.0 });
+        painter.circle_filled(place, 3.5, palette.model);
+    }
+}
+
+fn points(painter: &Painter, palette: &Palette, r: Rect) {
+    let step = (r.width() - 60.0) / 4.0;
+    let at = |k: usize| pos2(r.left() + 30.0 + step * k as f32, r.center().y);
+    for k in [1, 3] {
+        symbols::draw(painter, Effect::Viscous, [at(k), at(k + 1)], theme::pen(palette.model));
+    }
+    for k in 0..5 {
+        painter.circle(at(k), 10.0, palette.raised, theme::bold(palette.measured));
+    }
+}
