@@ -6,8 +6,8 @@ use dashpot::effects::{Effect, Place, Source};
 use dashpot::exchange::records::write_record;
 use dashpot::measurement::{Channel, Quantity};
 use dashpot::response::harmonic_balance::Excitation;
-use dashpot::response::simulation::{Simulator, recorded};
-use dashpot::response::synthesis::{Noise, sampling_times, synthesise};
+use dashpot::response::simulation_in_time::{InTime, Recorder, record_in_time};
+use dashpot::response::synthesis::{Noise, record, sampling_times};
 use dashpot::structure::beam::{BeamParameters, Supports};
 use faer::c64;
 use std::f64::consts::TAU;
@@ -38,7 +38,6 @@ pub fn friction() -> Sample {
     let structure = parameters.build(&[]).unwrap();
     let source = |effect, dof, value| Source::known(effect, Place::Dofs(vec![dof]), &[value]);
     let truth = [source(Effect::Viscous, 2, 0.3), source(Effect::Viscous, 8, 0.2), source(Effect::Coulomb, ROW, FORCE)];
-    let model = Simulator::new(&structure, &truth).unwrap();
     let channel = |quantity, dof: usize| Channel { quantity, dof, label: structure.label(dof).to_owned() };
     let mut channels = vec![channel(Quantity::Force, 8)];
     channels.extend([2, 4, 8].map(|dof| channel(Quantity::Acceleration, dof)));
@@ -49,11 +48,14 @@ pub fn friction() -> Sample {
         for frequency in [12.4, 13.1, 13.9, 80.0, 82.0, 84.5] {
             number += 1;
             let excitation = Excitation::sine(TAU * frequency, 8, c64::new(force, 0.0));
-            let response = model.respond(&excitation, &Control::unattended()).unwrap();
-            let motions = recorded(&response, &excitation, &channels, &[]);
             let noise = Noise { ratio: NOISE, seed: 5, stream: number };
             let time = sampling_times(TAU * frequency, 12.0, 600);
-            let record = synthesise(TAU * frequency, &time, &motions, Some(noise)).unwrap();
+            let recorder = Recorder { channels: &channels, sensors: &[], time: &time };
+            // By time steps, not by the model that is to find the pad.
+            let control = Control::unattended();
+            let samples =
+                record_in_time(&structure, &truth, &excitation, &recorder, &InTime::default(), &control).unwrap();
+            let record = record(&time, channels.clone(), samples, Some(noise)).unwrap();
             let name = format!("run-{number:02}.csv");
             write_record(&folder.path().join(&name), &record, &structure, None).unwrap();
             let level = level + 1;
