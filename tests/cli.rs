@@ -44,6 +44,18 @@ fn bad_projects_end_with_status_1_one_line_and_nothing_written() {
         (&GOOD.replace("c = 3", "c = nan"), "p.toml:12: `c = nan` is not a usable number"),
         (&GOOD.replace("masses = [1, 2]", "masses = [1, 0]"), "p.toml:5: mass 2 is 0 kg"),
         (&GOOD.replace("acc@1 [m/s^2]", "acc@1 [kg]"), "p.toml:19: "),
+        (
+            &GOOD.replace("frequency = 12\n", ""),
+            "p.toml:14: run run-01.csv: the frequency is not given and there is no record to take it from; add `frequency",
+        ),
+        (
+            &GOOD.replace("force_dof = 2\nforce_n = 5\n", ""),
+            "p.toml:14: the record run-01.csv is not there; correct `file`, which is relative to the project",
+        ),
+        (
+            &GOOD.replace("law = \"viscous\"", "law = \"coulomb\"").replace("c = 3", "c = 3\nforce = 1"),
+            "p.toml:12: [[source]] has no key `c`; it takes",
+        ),
         (&GOOD.replace("force_n = 5\n", ""), "p.toml:16: `force_dof` is there without `force_n`; give both or none"),
     ];
     for (project, expected) in cases {
@@ -109,6 +121,10 @@ fn records_are_made_by_time_integration_on_request() {
     let (balanced, timed) = (made("a", &[]), made("b", &["--by", "time"]));
     let largest = balanced.iter().fold(0.0_f64, |m, y| m.max(y.abs()));
     assert!(balanced.iter().zip(&timed).all(|(a, b)| (a - b).abs() < 1e-3 * largest));
+    // The project may ask for it as well: it is one thing.
+    fs::write(folder.path().join("p.toml"), GOOD.replace("[simulate]", "[simulate]\nintegrate = true")).unwrap();
+    assert_eq!(made("e", &[]), timed);
+    fs::write(folder.path().join("p.toml"), GOOD).unwrap();
     // From rest the motion is another at first and comes to the same.
     let rising = made("c", &["--transient", "1"]);
     let difference = |range: std::ops::Range<usize>| {
@@ -122,11 +138,8 @@ fn records_are_made_by_time_integration_on_request() {
     .unwrap();
     let output = dashpot(&["simulate", "p.toml", "--out", "d", "--by", "time"], folder.path());
     assert_eq!(output.status.code(), Some(1));
-    assert!(
-        text(&output.stderr).starts_with("p.toml: run run-01.csv: source 0 (hysteretic)"),
-        "{}",
-        text(&output.stderr)
-    );
+    let message = text(&output.stderr);
+    assert!(message.starts_with("p.toml:14: run run-01.csv: law `hysteretic` is defined harmonic by"), "{message}");
 }
 
 #[test]

@@ -3,7 +3,7 @@
 use super::arguments::{Method, Records, Simulate};
 use crate::control::Control;
 use crate::effects::{Source, State};
-use crate::exchange::project::{Plan, open};
+use crate::exchange::project::{Plan, PlannedForce, ProjectError, open};
 use crate::exchange::records::{write_harmonics, write_record};
 use crate::measurement::channel::ChannelName;
 use crate::measurement::{Channel, ChannelFit, HarmonicFit, Quantity, Record, fit::fit, frequency};
@@ -28,22 +28,26 @@ pub(super) fn run(arguments: &Simulate) -> anyhow::Result<String> {
     }
     let mut simulated = Vec::new();
     for index in 0..plan.runs.len() {
-        let context = || format!("{name}: run {}", plan.runs[index].file);
-        let test = if plan.runs[index].force.is_some() { from_recipe(&plan, index) } else { from_record(&plan, index) };
-        let test = test.with_context(context)?;
         let noise = (arguments.noise > 0.0).then_some(Noise {
             ratio: arguments.noise,
             seed: arguments.seed,
             stream: index as u64,
         });
-        let record = if arguments.by == Method::Time || arguments.transient > 0.0 || plan.simulate().integrate {
-            in_time(&plan, &sources, &test, arguments, noise)
-        } else {
-            balanced(&plan, &model, &test, noise)
-        };
-        simulated.push(record.with_context(context)?);
+        let record = test(&plan, index).and_then(|test| {
+            if arguments.by == Method::Time || arguments.transient > 0.0 || plan.simulate().integrate {
+                in_time(&plan, &sources, &test, arguments, noise)
+            } else {
+                balanced(&plan, &model, &test, noise)
+            }
+        });
+        simulated.push(record.map_err(|error| at_run(&plan, index, error))?);
     }
     write(&plan, &simulated, arguments)
+}
+
+/// An error with the line of its run, unless it says already where it is.
+fn at_run(plan: &Plan, index: usize, error: anyhow::Error) -> anyhow::Error {
+    if error.downcast_ref::<ProjectError>().is_some() { error } else { error.context(plan.place_of_run(index)) }
 }
 
 /// What drives a run, what is recorded and when: from the recipe, or from the record that is there.
@@ -74,10 +78,18 @@ fn in_time(
     Ok(synthesis::record(&test.time, test.channels.clone(), samples, noise)?)
 }
 
-fn from_recipe(plan: &Plan, index: usize) -> anyhow::Result<Test> {
+fn test(plan: &Plan, index: usize) -> anyhow::Result<Test> {
+    match plan.runs[index].force {
+        Some(force) => from_recipe(plan, index, force),
+        None => from_record(plan, index),
+    }
+}
+
+fn from_recipe(plan: &Plan, index: usize, force: PlannedForce) -> anyhow::Result<Test> {
     let run = &plan.runs[index];
-    let force = run.force.ok_or_else(|| anyhow!("force_dof and force_n are missing"))?;
-    let frequency = run.frequency_hz.ok_or_else(|| anyhow!("frequency is missing; give it in Hz"))?;
+    let missing =
+        || anyhow!("the frequency is not given and there is no record to take it from; add `frequency = ...` in Hz");
+    let frequency = run.frequency_hz.ok_or_else(missing)?;
     let omega = TAU * frequency;
     let excitation = Excitation::sine(omega, force.dof, c64::new(force.amplitude_n, 0.0));
     let table = plan.simulate();

@@ -30,7 +30,9 @@ pub enum DynamicStiffnessError {
     Row { effect: String, row: usize, size: usize },
     #[error("the force has {found} values but the structure has {size} degrees of freedom")]
     ForceSize { found: usize, size: usize },
-    #[error("the dynamic stiffness is singular at {frequency_hz} Hz: nothing limits the response there")]
+    #[error(
+        "the dynamic stiffness is singular at {frequency_hz} Hz: nothing limits the response there; add damping or move the frequency"
+    )]
     Singular { frequency_hz: f64 },
     #[error("the modal sum does not hold for a rigid body mode: compute the response directly")]
     RigidBody,

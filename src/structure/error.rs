@@ -32,7 +32,9 @@ pub enum StructureError {
         "the mass matrix is not positive definite (least eigenvalue {least:.3e}, largest at DOF {dof}): every DOF needs mass"
     )]
     MassNotPositive { least: f64, dof: String },
-    #[error("the stiffness matrix is not positive semi-definite: omega^2 = {least:.3e} rad^2/s^2 for the lowest mode")]
+    #[error(
+        "the stiffness matrix is not positive semi-definite: omega^2 = {least:.3e} rad^2/s^2 for the lowest mode; correct the matrix"
+    )]
     NegativeStiffness { least: f64 },
     #[error("{name} is {value}: give a finite number of metres")]
     NotAPosition { name: String, value: f64 },

@@ -133,6 +133,12 @@ impl Plan {
         &self.file.simulate
     }
 
+    /// File, line and record of run number `run`, as messages begin.
+    pub fn place_of_run(&self, run: usize) -> String {
+        let line = line(&self.lines.run[run], "file");
+        format!("{}:{line}: run {}", self.path.display(), self.runs[run].file)
+    }
+
     /// The problem at a key of run number `run`.
     pub(super) fn run_error(&self, run: usize, key: &str, problem: Problem) -> ProjectError {
         self.error(Some(line(&self.lines.run[run], key)), problem)

@@ -7,6 +7,7 @@
 use dashpot_numerics::RealTransform;
 use faer::c64;
 use std::f64::consts::TAU;
+use std::sync::Arc;
 
 /// The two transforms of one number of samples, for a number of harmonics.
 #[derive(Debug, Clone)]
@@ -14,6 +15,8 @@ pub(crate) struct Fourier {
     harmonics: usize,
     samples: usize,
     transform: RealTransform,
+    /// Cosine and sine at the samples of one turn.
+    circle: Arc<Vec<[f64; 2]>>,
     parity: Parity,
 }
 
@@ -32,7 +35,12 @@ impl Fourier {
     /// Harmonics 1..=`harmonics` at `samples` equal steps of one period; `samples` is even and above `4 harmonics`.
     pub fn new(harmonics: usize, samples: usize) -> Self {
         debug_assert!(samples.is_multiple_of(2) && samples > 4 * harmonics);
-        Self { harmonics, samples, transform: RealTransform::new(samples), parity: Parity::All }
+        let at = |n: usize| {
+            let (sin, cos) = (TAU * n as f64 / samples as f64).sin_cos();
+            [cos, sin]
+        };
+        let circle = Arc::new((0..samples).map(at).collect());
+        Self { harmonics, samples, transform: RealTransform::new(samples), circle, parity: Parity::All }
     }
 
     /// The same with fewer entries of matrices wanted.
@@ -85,12 +93,12 @@ impl Fourier {
 
     /// Samples of the function whose coefficient number `k` is 1 and all others 0.
     pub fn wave(&self, k: usize, samples: &mut [f64]) {
-        let turn = TAU / self.samples as f64;
         let h = k.div_ceil(2);
-        for (n, s) in samples.iter_mut().enumerate() {
-            // The angle is reduced before it is rounded.
-            let (sin, cos) = (turn * ((h * n) % self.samples) as f64).sin_cos();
-            *s = if k == 2 * h && k > 0 { sin } else { cos };
+        let part = usize::from(k == 2 * h && k > 0);
+        let mut at = 0;
+        for s in samples.iter_mut() {
+            *s = self.circle[at][part];
+            at = (at + h) % self.samples;
         }
     }
 

@@ -22,7 +22,7 @@ pub enum TimeError {
     NoMatrices,
     /// A law that exists only in steady state.
     #[error(
-        "source {source_index} ({effect}) is defined harmonic by harmonic and has no force in time: simulate it by harmonic balance"
+        "law `{effect}` is defined harmonic by harmonic and has no force in time: simulate it by harmonic balance, without `--by time`, `--transient` and `integrate = true`"
     )]
     NoTimeDomain {
         /// Index in the list of sources.
@@ -31,7 +31,9 @@ pub enum TimeError {
         effect: &'static str,
     },
     /// The total mass is not positive definite.
-    #[error("the mass matrix with its mass sources is not positive definite")]
+    #[error(
+        "the mass matrix with its `mass` sources is not positive definite, so the model cannot be stepped through time: correct the negative masses"
+    )]
     MassNotPositive,
     /// Nonsense as number of steps or frequency.
     #[error("{steps} steps in a period of {period_s} s: give at least 8 steps and a positive period")]
@@ -42,7 +44,9 @@ pub enum TimeError {
         period_s: f64,
     },
     /// Gauss and Seidel did not come to rest.
-    #[error("the forces of a time step at {time_s:.6e} s were not found: take more steps a period than {steps}")]
+    #[error(
+        "the forces of a time step at {time_s:.6e} s were not found: take more steps a period (`--steps`) than {steps}"
+    )]
     StepFailed {
         /// Time, s.
         time_s: f64,
@@ -51,7 +55,7 @@ pub enum TimeError {
     },
     /// No periodic motion within the periods allowed.
     #[error(
-        "the motion is not periodic after {periods} periods (still changing by {change:.1e} a period): allow more periods"
+        "no periodic motion was found by stepping through {periods} periods (it still changes by {change:.1e} a period): take more steps a period (`--steps`), add damping, or simulate by harmonic balance"
     )]
     NotSettled {
         /// Periods run.
