@@ -11,12 +11,14 @@ use dashpot::response::sensitivity::{Unknown, sensitivities};
 use dashpot::response::simulation::{SteadyState, recorded, usual_channels};
 use dashpot::response::synthesis::{Noise, sampling_times, synthesise};
 use dashpot::response::time_integration::{Settling, TimeError, TimeModel};
+use dashpot::session::workers::Threads;
 use dashpot::structure::Structure;
 use dashpot::structure::beam::{BeamParameters, Supports};
 use dashpot::structure::chain::ChainParameters;
 use faer::{Mat, c64};
 use std::f64::consts::TAU;
 use std::hint::black_box;
+use std::sync::Arc;
 
 fn beam(elements: usize) -> Structure {
     let (youngs_modulus, density, supports) = (69e9, 2700.0, Supports::ClampedFree);
@@ -204,9 +206,12 @@ fn comparison(c: &mut Criterion) {
     group.sample_size(10);
     for (name, sources) in [("linear_model", &sources[..2]), ("three_frictions", &sources[..])] {
         let problem = Problem { structure: &structure, sources, runs: &runs };
-        group.bench_function(BenchmarkId::new(name, runs.len()), |b| {
-            b.iter(|| compare(&problem, &[], &Control::unattended()).map(black_box));
-        });
+        let shared = Control::unattended().with_workers(Arc::new(Threads::default()));
+        for (threads, control) in [("one_thread", Control::unattended()), ("all_threads", shared)] {
+            group.bench_function(BenchmarkId::new(format!("{name}/{threads}"), runs.len()), |b| {
+                b.iter(|| compare(&problem, &[], &control).map(black_box));
+            });
+        }
     }
     group.finish();
 }

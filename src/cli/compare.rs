@@ -10,17 +10,19 @@ use crate::explain::detuning::{Detuning, detuning};
 use crate::explain::groups::Group;
 use crate::explain::whiteness::Whiteness;
 use crate::explain::{Comparison, Problem, compare};
+use crate::session::workers::Threads;
 use crate::structure::Structure;
 use anyhow::Context;
 use faer::c64;
 use serde_json::{Value, json};
+use std::sync::Arc;
 
 /// Probability of chance below which a dependence is called one.
 const SIGNIFICANT: f64 = 0.001;
 
 /// Compares and prints.
 pub(super) fn run(arguments: &Analysis) -> anyhow::Result<String> {
-    let control = Control::unattended();
+    let control = Control::unattended().with_workers(Arc::new(Threads::default()));
     let project = load(&arguments.file, &control)?;
     let comparison =
         compare(&problem(&project), &[], &control).with_context(|| arguments.file.display().to_string())?;

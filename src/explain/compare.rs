@@ -17,6 +17,7 @@ use crate::effects::Source;
 use crate::math::statistics::root_mean_square;
 use crate::response::harmonic_balance::{Excitation, HarmonicForce};
 use faer::c64;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// One harmonic of a channel.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -98,23 +99,27 @@ pub fn compare(problem: &Problem, effects: &[Source], control: &Control) -> Resu
     let predictor = Predictor::new(problem.structure, problem.known(), &data)?;
     let levels = Levels::new(problem, &data);
     let frequencies = numbered(&data.runs.iter().map(|run| run.omega).collect::<Vec<f64>>(), SAME_FREQUENCY);
-    let (names, mut left) = (data.channel_names(), Vec::new());
-    let mut runs = Vec::with_capacity(data.runs.len());
-    for (r, run) in data.runs.iter().enumerate() {
+    let names = data.channel_names();
+    let done = AtomicUsize::new(0);
+    let one = |r: usize| -> Result<(RunComparison, Vec<Left>), ExplainError> {
         control.check()?;
-        let file = || problem.runs[run.index].file.clone();
-        let failed = |reason| ExplainError::Response { file: file(), reason };
+        let run = &data.runs[r];
+        let failed = |reason| ExplainError::Response { file: problem.runs[run.index].file.clone(), reason };
         let (prediction, branch) = nearest(&predictor, r, run, effects, control).map_err(failed)?;
         let transfers = transfers(&predictor, r, run, effects, control).map_err(failed)?;
         let noise = Whitening::new(run, &transfers, &prediction.truncation);
         let used = is_used(&problem.runs[run.index]);
         let energy = energy_error(problem.structure, &predictor.sources(effects), run, &prediction);
+        let mut left = Vec::new();
         if used {
             add_left(&mut left, run, &prediction, &noise, ([frequencies[r], levels.numbers[r]], &names[0]));
         }
-        runs.push(RunComparison { branch, ..of_run(run, &prediction, &noise, used, energy) });
-        control.report((r + 1) as f64 / data.runs.len() as f64);
-    }
+        control.report((done.fetch_add(1, Ordering::Relaxed) + 1) as f64 / data.runs.len() as f64);
+        Ok((RunComparison { branch, ..of_run(run, &prediction, &noise, used, energy) }, left))
+    };
+    let compared = control.map(data.runs.len(), one).into_iter().collect::<Result<Vec<_>, _>>()?;
+    let (runs, left): (Vec<RunComparison>, Vec<Vec<Left>>) = compared.into_iter().unzip();
+    let left = left.concat();
     Ok(Comparison { whiteness: whiteness(&left), ..summary(runs, &levels) })
 }
 
