@@ -30,6 +30,9 @@ const CONFIRMED: f64 = 50.0;
 /// are better than: what is left below both is no further effect.
 const LAST: f64 = 4e-4;
 const LAST_ERROR: f64 = 2e-3;
+/// The same for what corrections of the model may still explain, but no further effect of any size.
+const MOSTLY: f64 = 2e-3;
+const MOSTLY_ERROR: f64 = 6e-3;
 /// How many times the squared residual of noise free forces may leave where the laws behind them may still explain it.
 const REACH: f64 = 4.0;
 /// Scaled squared residual within which places are worth trying with a law that was found elsewhere.
@@ -73,10 +76,32 @@ pub(crate) fn agrees(base: &Base, chi_square: f64, parameters: usize) -> bool {
 /// Whether what a fit leaves is no more than what records and integrators are wrong by, where the model as it is has the
 /// squared residual `before`.
 fn nearly(base: &Base, refit: &Refit, before: f64) -> bool {
+    small(base, refit, before, [LAST, LAST_ERROR])
+}
+
+/// Whether what a fit leaves beyond the noise is below a `share` of the squared residual `before`, and below an `error` of
+/// the response.
+fn small(base: &Base, refit: &Refit, before: f64, [share, error]: [f64; 2]) -> bool {
     let n = base.count() as f64;
     let excess = (refit.chi_square - n).max(0.0);
     let beyond_noise = refit.error * (excess / refit.chi_square.max(f64::MIN_POSITIVE)).sqrt();
-    excess < LAST * (before - n) && beyond_noise < LAST_ERROR
+    excess < share * (before - n) && beyond_noise < error
+}
+
+/// The effects found, with the corrections of the model free beside them.
+fn same_with_corrections(base: &Base, exact: &Found) -> Result<Found, ExplainError> {
+    let free = base.predictor.free_tuning(false);
+    let mut found = Found { bare: None, rungs: Vec::new(), agrees: false, before: exact.before };
+    let Some(last) = exact.rungs.last() else { return Ok(found) };
+    let best = last.refits.iter().take(2);
+    let fit = |refit: &Refit| base.bench().refit(&refit.effects, &free, STEPS, &SEARCH, &refit.starts);
+    let refits = best.map(fit).collect::<Result<Vec<_>, _>>()?;
+    let (refits, noise) = base.polished(base.ranked(refits))?;
+    let Some(best) = refits.first() else { return Ok(found) };
+    let all = best.parameters + best.tuning.knobs.len();
+    found.agrees = agrees(base, best.chi_square, all) || nearly(base, best, exact.before);
+    found.rungs.push(Rung { scale: scale_of(&refits, base.count()), refits, noise });
+    Ok(found)
 }
 
 /// One effect more where a set agrees with the data, if it has overwhelming evidence: the sum of squares alone may hide
@@ -115,6 +140,11 @@ pub(crate) fn explain<'a>(base: &'a Base<'a>, before: f64) -> Result<Outcome<'a>
     if exact.agrees {
         confirm(base, &mut exact)?;
         return Ok(Outcome { base, found: exact });
+    }
+    if exact.best().is_some_and(|refit| small(base, refit, before, [MOSTLY, MOSTLY_ERROR])) {
+        let tuned = same_with_corrections(base, &exact)?;
+        let better = cost(base, &tuned, before) + FREEDOM < cost(base, &exact, before);
+        return Ok(Outcome { base, found: if better { tuned } else { exact } });
     }
     let mut tuned = with_corrections(base, exact.rungs.first(), false, before)?;
     // Corrections beyond what models are wrong by may stand in for effects.

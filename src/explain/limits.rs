@@ -30,6 +30,11 @@ pub(crate) fn at_limit(source: &Source) -> bool {
     }
 }
 
+/// Whether `source` is Coulomb friction by another name, which is always looked at beside it: a force that knows no speed.
+pub(crate) fn disguised(source: &Source) -> bool {
+    source.effect == Effect::Power && source.parameters[1] < CLOSE
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -41,3 +41,12 @@ fn hardening_spring_of_the_five_masses() {
 fn late_accelerometer() {
     is_named("cantilever-late-sensor", Effect::Delay, &Place::Channel("acc@9".into()), 1.2e-4);
 }
+
+#[test]
+fn friction_and_a_wrong_mass_of_the_five_masses() {
+    let diagnosis = diagnosis("five-masses-friction");
+    let last = &diagnosis.steps[diagnosis.steps.len() - 1];
+    let effects: Vec<Effect> = last.added.iter().map(|a| a.source.effect).collect();
+    assert!(effects.contains(&Effect::Coulomb) && effects.contains(&Effect::Mass) && effects.len() == 2, "{effects:?}");
+    assert!(last.error < 1.2 * diagnosis.noise_floor, "{} above {}", last.error, diagnosis.noise_floor);
+}
