@@ -10,7 +10,7 @@ use faer::c64;
 fn is_finite(seed: u64) {
     let mut random = Random::new(900 + seed);
     let kindness = Kindness {
-        beam: seed % 5 == 0,
+        beam: seed.is_multiple_of(5),
         points: seed % 4 == 1,
         sensors: 2,
         runs: 2 + seed as usize % 3,
