@@ -85,7 +85,9 @@ fn peak_gigabytes() -> f64 {
 fn bench(c: &mut Criterion) {
     let mut group = c.benchmark_group("identify");
     group.sample_size(10).warm_up_time(Duration::from_millis(1)).measurement_time(Duration::from_secs(5));
-    for n in [250, 500, 1000, 2000] {
+    // A number on the command line is the only size.
+    let only = std::env::args().find_map(|argument| argument.parse::<usize>().ok());
+    for n in [250, 500, 1000, 2000].into_iter().filter(|&n| only.is_none_or(|only| n == only)) {
         let structure = chain(n);
         let (sources, runs) = (candidates(n), runs(&structure));
         let settings = Settings { max_sources: 6, harmonics: 1, ..Settings::default() };
@@ -99,7 +101,7 @@ fn bench(c: &mut Criterion) {
         let gigabytes = peak_gigabytes();
         println!("{title}: {seconds:.2} s, {gigabytes:.2} GB at most; {:?}, {}", outcome.form, found.join(", "));
         // Once is enough for the large ones.
-        if n <= 500 {
+        if n <= 500 && only.is_none() {
             group.bench_function(title, |bencher| {
                 bencher.iter(|| identify(&structure, &sources, &runs, &settings, &Control::unattended()));
             });

@@ -44,6 +44,10 @@ use system::System;
 const PASSES: usize = 5;
 /// Steps from the start to a damping that balances the energy.
 const START_STEPS: usize = 8;
+/// The same where columns are very many and each step costs seconds.
+const START_STEPS_OF_MANY: usize = 4;
+/// Part of its standard deviation that a coefficient may still move by when the motion has settled.
+const SETTLED: f64 = 1e-4;
 
 /// Identifies the sources of `runs`: all that are enabled.
 ///
@@ -101,13 +105,14 @@ fn balanced_start(problem: &Problem<'_>, control: &Control) -> Result<State, Ide
     if problem.expander.method() != Expansion::Dynamic {
         return Ok(state);
     }
-    for step in 0..START_STEPS {
+    let steps = start_steps(problem);
+    for step in 0..steps {
         control.check()?;
         let coefficients = solve::all_columns(&System::energy(problem, &state, Weights::Energy))?;
         if step > 1 && close(&coefficients, &state.coefficients, 1e-4) {
             break;
         }
-        let model_error = if step < START_STEPS / 2 { 0.1 } else { 0.01 };
+        let model_error = if step < steps / 2 { 0.1 } else { 0.01 };
         state = state.moved_to(problem, coefficients, model_error)?;
     }
     Ok(state)
@@ -120,9 +125,9 @@ fn response_start(problem: &Problem<'_>, start: &State, control: &Control) -> Re
     if problem.expander.method() != Expansion::Dynamic || !wanted || problem.columns.is_empty() {
         return Ok(None);
     }
-    let mut state = start.moved_to(problem, start.coefficients.clone(), 0.0)?;
+    let mut state = start.in_motion(problem, start.coefficients.clone(), 0.0)?;
     let mut adequate = false;
-    for _ in 0..START_STEPS {
+    for _ in 0..start_steps(problem) {
         control.check()?;
         let system = System::of(Form::Response, problem, &state);
         let coefficients = solve::all_columns(&system)?;
@@ -131,12 +136,16 @@ fn response_start(problem: &Problem<'_>, start: &State, control: &Control) -> Re
         }
         adequate = response_form::is_adequate(problem, &system, &coefficients);
         let settled = close(&coefficients, &state.coefficients, 1e-3);
-        state = state.moved_to(problem, coefficients, 0.0)?;
+        state = state.in_motion(problem, coefficients, 0.0)?;
         if settled {
             break;
         }
     }
-    Ok(adequate.then_some(state))
+    if adequate { state.balanced(problem).map(Some) } else { Ok(None) }
+}
+
+fn start_steps(problem: &Problem<'_>) -> usize {
+    if problem.columns.len() > promising::MANY { START_STEPS_OF_MANY } else { START_STEPS }
 }
 
 fn energy_passes(problem: &Problem<'_>, start: State, control: &Control) -> Result<Found, IdentifyError> {
@@ -196,13 +205,21 @@ fn refit(
         let own: Vec<usize> = (0..set.len()).collect();
         let fit = solve::fit(&System::of_set(form, problem, &state, set), &own)?;
         let next = solve::scattered(problem.columns.len(), set, &fit.coefficients);
-        let settled = close(&next, &state.coefficients, 1e-11);
-        state = state.moved_to(problem, next, model_error)?;
+        let still = |k: usize| {
+            let change = (next[set[k]] - state.coefficients[set[k]]).abs();
+            let noise = if problem.is_noisy() { SETTLED * fit.deviations[k] } else { 0.0 };
+            change <= (1e-11 * next[set[k]].abs()).max(noise)
+        };
+        let settled = own.iter().all(|&k| still(k));
+        state = match form {
+            Form::Response => state.in_motion(problem, next, model_error)?,
+            Form::Energy => state.moved_to(problem, next, model_error)?,
+        };
         if settled {
             break;
         }
     }
-    Ok(state)
+    if form == Form::Response { state.balanced(problem) } else { Ok(state) }
 }
 
 /// Whether two coefficient vectors differ by no more than `tolerance` relative to each coefficient.

@@ -46,7 +46,19 @@ impl State {
         coefficients: Vec<f64>,
         model_error: f64,
     ) -> Result<Self, IdentifyError> {
-        if self.runs.iter().all(|(_, expanded)| expanded.receptance.is_empty()) {
+        let moved = self.in_motion(problem, coefficients, model_error)?;
+        if moved.is_fixed() { Ok(moved) } else { moved.balanced(problem) }
+    }
+
+    /// The same with the energy equation of before, where only the response is asked: with thousands of columns the energies
+    /// cost more than the motion. [`Self::balanced`] makes it good.
+    pub fn in_motion(
+        &self,
+        problem: &Problem<'_>,
+        coefficients: Vec<f64>,
+        model_error: f64,
+    ) -> Result<Self, IdentifyError> {
+        if self.is_fixed() {
             return Ok(Self { coefficients, model_error, ..self.clone() });
         }
         let sources = problem.acting(&coefficients);
@@ -55,7 +67,17 @@ impl State {
             let acting = Acting { sources: &sources, motion: Some(&before.x), model_error };
             runs.push((measured.clone(), problem.expander.expand(measured, acting)?));
         }
-        Self::with(problem, runs, coefficients, model_error)
+        Ok(Self { runs, equation: self.equation.clone(), coefficients, model_error })
+    }
+
+    /// The energy equation at the present motion.
+    pub fn balanced(self, problem: &Problem<'_>) -> Result<Self, IdentifyError> {
+        Self::with(problem, self.runs, self.coefficients, self.model_error)
+    }
+
+    /// Whether the motion does not depend on the coefficients.
+    fn is_fixed(&self) -> bool {
+        self.runs.iter().all(|(_, expanded)| expanded.receptance.is_empty())
     }
 
     /// The least model error with which the expansion follows the sensors to their noise.
