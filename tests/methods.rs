@@ -126,3 +126,49 @@ fn text_has_a_row_a_method_and_the_reference() {
     let message = String::from_utf8(points.stderr).unwrap();
     assert!(message.contains("needs mass and stiffness matrices") && message.lines().count() == 1, "{message}");
 }
+
+#[test]
+fn incompleteness_has_a_row_a_case_and_says_which_damping() {
+    let output = methods("five-masses", &["--incompleteness", "--json"]);
+    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+    let found: Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!(found["damping"], "known");
+    let cases = found["cases"].as_array().unwrap();
+    let whole: Vec<&Value> = cases.iter().filter(|c| c["sensors"].as_array().unwrap().len() == 5).collect();
+    assert_eq!(whole.iter().map(|c| c["modes"].as_u64().unwrap()).collect::<Vec<_>>(), [1, 2, 3, 4, 5]);
+    let last = whole[4]["methods"].as_array().unwrap();
+    let lancaster = last.iter().find(|m| m["method"] == "lancaster").unwrap();
+    assert!(lancaster["eps_c_percent"].as_f64().unwrap() < 1e-4, "{lancaster}");
+    assert!(whole[4]["eps_p_percent"].as_f64().unwrap() < 1e-6);
+    let text = String::from_utf8(methods("five-masses", &["--incompleteness"]).stdout).unwrap();
+    assert!(text.contains("5 of 5 DOFs measured: 1 2 3 4 5") && text.contains("eps_p %"), "{text}");
+    assert!(text.contains("where the damping is the known one"), "{text}");
+    let points = methods("five-masses-points", &["--incompleteness"]);
+    assert_eq!(points.status.code(), Some(1));
+    assert_eq!(String::from_utf8(points.stderr).unwrap().lines().count(), 1);
+}
+
+/// Without a known damping that of the energy balance takes its place.
+#[test]
+fn incompleteness_without_a_known_damping() {
+    let folder = tempfile::tempdir().unwrap();
+    let sample = Path::new(env!("CARGO_MANIFEST_DIR")).join("sample-data/five-masses");
+    for file in std::fs::read_dir(&sample).unwrap() {
+        let path = file.unwrap().path();
+        std::fs::copy(&path, folder.path().join(path.file_name().unwrap())).unwrap();
+    }
+    let file = folder.path().join("project.toml");
+    let text = std::fs::read_to_string(&file).unwrap();
+    let without =
+        text.replace("state = \"reference\"", "state = \"off\"").replace("state = \"known\"", "state = \"candidate\"");
+    assert_ne!(text, without);
+    std::fs::write(&file, without).unwrap();
+    let output = Command::new(env!("CARGO_BIN_EXE_dashpot")).arg("methods").arg(&file).arg("--incompleteness").output();
+    let output = output.unwrap();
+    let text = String::from_utf8(output.stdout).unwrap();
+    assert!(
+        text.contains("where the damping is the identified one"),
+        "{text}{}",
+        String::from_utf8_lossy(&output.stderr)
+    );
+}

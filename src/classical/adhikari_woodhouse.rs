@@ -46,11 +46,19 @@ pub fn original(m: MatRef<'_, f64>, modes: &ModalData) -> Result<Damping, Classi
     Ok(damping)
 }
 
+/// Most modes of the symmetric variant, whose unknowns are all pairs of them.
+const MOST_MODES: usize = 40;
+
 /// The variant whose `C` is symmetric.
 ///
 /// # Errors
-/// As [`original`].
+/// [`ClassicalError::Missing`] for more than 40 modes; else as [`original`].
 pub fn symmetric(m: MatRef<'_, f64>, modes: &ModalData) -> Result<Damping, ClassicalError> {
+    if modes.len() > MOST_MODES {
+        let what =
+            format!("at most {MOST_MODES} complex modes, not {}: its unknowns are all pairs of them", modes.len());
+        return Err(ClassicalError::Missing { what });
+    }
     let turned = turned(m, modes)?;
     let left = LeastSquares::new(turned.u.as_ref())?.pseudo_inverse();
     let skew = skew_part(&turned)?;

@@ -9,7 +9,8 @@
 //!
 //! [`responses`] takes the lines of the runs, [`poly_reference`] or [`resonant`] the complex modes from them, and
 //! [`side_by_side`] applies every method that the data allow. [`measured_ratios`]
-//! gives ratios with deviations, for use beside the energies. [`errors`] measures them against a known truth (3.117, 3.132-3.135).
+//! gives ratios with deviations, for use beside the energies. [`errors`] measures them against a known truth (3.117, 3.132-3.135);
+//! [`incompleteness`] draws them against the number of modes and sensors.
 
 pub mod adhikari_woodhouse;
 pub mod chen;
@@ -23,6 +24,7 @@ pub mod fritzen;
 pub mod half_power;
 pub mod hysteresis_loop;
 pub mod ibrahim;
+pub mod incompleteness;
 pub mod instrumental;
 pub mod lancaster;
 pub mod lee_kim;

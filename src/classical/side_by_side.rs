@@ -1,5 +1,6 @@
 //! Every method that the data allow, on the same runs; for each that cannot run, why.
 
+use super::incompleteness::known_damping;
 use super::method::Method;
 use super::poly_reference::{Extraction, extract};
 use super::{ClassicalError, Damping, FrequencyResponses, ModalData, ReceptanceData, errors, resonant};
@@ -10,7 +11,6 @@ use crate::effects::{Source, State};
 use crate::math::fill::filled_complex;
 use crate::math::statistics::{median, robust_deviation};
 use crate::measurement::Run;
-use crate::response::linear_matrices::LinearMatrices;
 use crate::structure::damped_modes::{DampedMode, damped_modes_from};
 use crate::structure::modes::Modes;
 use crate::structure::{Structure, SystemMatrices};
@@ -153,11 +153,7 @@ fn ratios(modes: &[DampedMode]) -> Vec<Ratio> {
 
 /// `C` of the reference and known viscous sources; `None` without a reference.
 fn reference(structure: &Structure, sources: &[Source]) -> Option<Mat<f64>> {
-    let acting: Vec<Source> =
-        sources.iter().filter(|s| matches!(s.state, State::Reference | State::Known)).cloned().collect();
-    let any = sources.iter().any(|s| s.state == State::Reference);
-    let all = LinearMatrices::new(structure, &acting).ok()?;
-    (any && all.others.is_empty() && all.viscous.norm_max() > 0.0).then_some(all.viscous)
+    sources.iter().any(|s| s.state == State::Reference).then(|| known_damping(structure, sources)).flatten()
 }
 
 /// Complex modes: from many lines by the poly-reference estimator, else from runs near the resonances.

@@ -27,7 +27,7 @@ pub(super) enum Command {
     /// Make steady-state records of the model of a project
     Simulate(Simulate),
     /// Apply the classical methods side by side to the same runs
-    Methods(Analysis),
+    Methods(Methods),
     /// Write a structure of a known kind as matrices with nodes, DOFs and lines
     Build(Build),
     /// Play a script of commands on a project, as the window would do them
@@ -54,6 +54,18 @@ pub(super) struct Analysis {
     /// Print one JSON document in place of a table
     #[arg(long)]
     pub json: bool,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct Methods {
+    /// Project file
+    pub file: PathBuf,
+    /// Print one JSON document in place of a table
+    #[arg(long)]
+    pub json: bool,
+    /// Errors of the methods against the number of modes and sensors measured, in place of the methods on the runs
+    #[arg(long)]
+    pub incompleteness: bool,
 }
 
 #[derive(Debug, Args)]

@@ -1,6 +1,6 @@
 //! `dashpot methods`: every classical method that the data allow, beside the reference where one is known.
 
-use super::arguments::Analysis;
+use super::arguments::Methods;
 use super::table::{digits, number, table};
 use crate::classical::ModalData;
 use crate::classical::side_by_side::{Applied, Entry, Ratio, SideBySide, side_by_side};
@@ -16,7 +16,7 @@ const MOST_MODES: usize = 6;
 /// DOFs up to which matrices are printed; `--json` has all.
 const MOST_DOFS: usize = 8;
 
-pub(super) fn run(arguments: &Analysis) -> anyhow::Result<String> {
+pub(super) fn run(arguments: &Methods) -> anyhow::Result<String> {
     let control = Control::unattended();
     let project = load(&arguments.file, &control)?;
     let found = side_by_side(&project.structure, &project.sources, &project.runs, &control)

@@ -10,6 +10,7 @@ mod export;
 mod identify;
 mod identify_json;
 mod identify_table;
+mod incompleteness;
 mod methods;
 mod play;
 mod simulate;
@@ -48,6 +49,7 @@ fn execute(command: &Command) -> anyhow::Result<String> {
         Command::Compare(arguments) => compare::run(arguments),
         Command::Diagnose(arguments) => diagnose::run(arguments),
         Command::Simulate(arguments) => simulate::run(arguments),
+        Command::Methods(arguments) if arguments.incompleteness => incompleteness::run(arguments),
         Command::Methods(arguments) => methods::run(arguments),
         Command::Build(arguments) => build::run(arguments),
         Command::Run(arguments) => play::run(arguments),

@@ -5,5 +5,6 @@ mod case_beam;
 mod case_friction;
 mod comparison;
 mod energy_support;
+mod incompleteness;
 mod structures;
 mod wing;
