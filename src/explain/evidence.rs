@@ -6,6 +6,7 @@ use super::fingerprint::fingerprint;
 use super::refit::Refit;
 use super::search::Base;
 use crate::effects::{Place, Source};
+use crate::math::numerals::with_deviation;
 
 /// The sentences for an effect of the set `best`.
 pub(crate) fn sentences(
@@ -38,7 +39,7 @@ pub(crate) fn sentences(
 pub(crate) fn values(source: &Source, deviations: &[f64]) -> String {
     let list = source.effect.parameters().iter().zip(&source.parameters).zip(deviations);
     let each: Vec<String> = list
-        .map(|((p, value), d)| format!("{} = {value:.4e} +- {d:.1e} {}", p.name, p.unit).trim_end().to_string())
+        .map(|((p, value), d)| format!("{} = {} {}", p.name, with_deviation(*value, *d), p.unit).trim_end().to_string())
         .collect();
     format!("Fitted on the response: {}.", each.join(", "))
 }

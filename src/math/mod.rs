@@ -4,6 +4,7 @@ pub mod eigen;
 pub mod fill;
 pub mod least_squares;
 pub mod nnls;
+pub mod numerals;
 pub mod spectrum;
 pub mod statistics;
 pub mod subsets;

@@ -20,6 +20,7 @@ impl App {
             Command::Save => {
                 self.save(ctx);
             }
+            Command::Report => self.pick(ctx, Pick::Report),
             Command::SaveAs => self.pick(ctx, Pick::SaveAs),
             Command::Undo => self.history(Document::undo),
             Command::Redo => self.history(Document::redo),

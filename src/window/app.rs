@@ -13,6 +13,7 @@ use super::frame::panes::Pane;
 use super::learn::{self, Learn};
 use super::photograph::Photograph;
 use super::plots::export::Exports;
+use super::report;
 use super::schematic::gesture::Intent;
 use super::stages;
 use super::theme::{Palette, space};
@@ -134,6 +135,7 @@ impl App {
             Pick::Import => self.import(ctx, &paths),
             Pick::SaveAs => self.save_as(&first),
             Pick::Export(format) => self.export(ctx, format, first),
+            Pick::Report => self.report(ctx, first),
         }
     }
 
@@ -338,6 +340,18 @@ impl App {
             }
             Some(Err(error)) => self.fail(error.clone()),
             None => self.fail("Identification is still running; export when it has ended.".to_owned()),
+        }
+    }
+
+    fn report(&mut self, ctx: &Context, path: PathBuf) {
+        let Some(document) = &self.document else { return };
+        match self.derived.known_outcome(document) {
+            Some(Ok(outcome)) => {
+                let (project, outcome) = (document.project.clone(), outcome.clone());
+                self.run(ctx, "Report", move |control| report::write(&project, &outcome, &path, control));
+            }
+            Some(Err(error)) => self.fail(error.clone()),
+            None => self.fail("Identification is still running; ask for the report when it has ended.".to_owned()),
         }
     }
 

@@ -10,6 +10,7 @@ pub enum Command {
     Import,
     Save,
     SaveAs,
+    Report,
     Close,
     Quit,
     Undo,
@@ -72,7 +73,7 @@ const fn entry(command: Command, label: &'static str, tooltip: &'static str, key
 }
 
 /// All commands.
-pub const TABLE: [Entry; 31] = [
+pub const TABLE: [Entry; 32] = [
     entry(Command::Open, "Open…", "Opens a project file.", ctrl(Key::O)),
     entry(
         Command::Import,
@@ -87,6 +88,7 @@ pub const TABLE: [Entry; 31] = [
         "Writes the project under another name and goes on with that.",
         ctrl_shift(Key::S),
     ),
+    entry(Command::Report, "Report…", "Writes all results with their plots into one HTML file.", ctrl(Key::R)),
     entry(Command::Close, "Close project", "Goes back to the start screen.", ctrl(Key::W)),
     entry(Command::Quit, "Quit", "Closes the window.", ctrl(Key::Q)),
     entry(Command::Undo, "Undo", "Takes back the last edit.", ctrl(Key::Z)),

@@ -20,6 +20,8 @@ pub enum Pick {
     SaveAs,
     /// Where to write what was identified.
     Export(Format),
+    /// Where to write the report.
+    Report,
 }
 
 /// Shows the dialog; what was chosen, empty where it was closed.
@@ -29,6 +31,7 @@ pub fn ask(pick: Pick) -> impl Future<Output = Vec<PathBuf>> + Send {
         Pick::Open => dialog.set_title("Open a project").add_filter("Dashpot project", &["toml"]),
         Pick::Import => dialog.set_title("Import measurements").add_filter("Records", &["csv", "txt", "tsv"]),
         Pick::SaveAs => dialog.set_title("Save the project as").set_file_name("project.toml"),
+        Pick::Report => dialog.set_title("Report").set_file_name("report.html").add_filter("HTML", &["html"]),
         Pick::Export(format) => dialog.set_title("Export").set_file_name(format!("damping.{}", extension(format))),
     };
     async move {
@@ -36,7 +39,7 @@ pub fn ask(pick: Pick) -> impl Future<Output = Vec<PathBuf>> + Send {
         match pick {
             Pick::Open => paths(dialog.pick_file().await.into_iter().collect()),
             Pick::Import => paths(dialog.pick_files().await.unwrap_or_default()),
-            Pick::SaveAs | Pick::Export(_) => paths(dialog.save_file().await.into_iter().collect()),
+            Pick::SaveAs | Pick::Export(_) | Pick::Report => paths(dialog.save_file().await.into_iter().collect()),
         }
     }
 }

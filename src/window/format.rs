@@ -1,22 +1,11 @@
 //! Numbers in words: three to four significant digits, always with a unit.
 
-/// `value` with `digits` significant digits, in plain notation between 1e-3 and 1e5, else as `1.23e-7` with a real minus.
+use crate::math::numerals;
+
+/// `value` with `digits` significant digits, in plain notation between 1e-3 and 1e5, else as `1.23e−7` with a real minus; a dash
+/// for what is no number.
 pub fn significant(value: f64, digits: usize) -> String {
-    if value == 0.0 {
-        return "0".to_owned();
-    }
-    if !value.is_finite() {
-        return "–".to_owned();
-    }
-    let rounded = format!("{value:.*e}", digits.saturating_sub(1));
-    let exponent: i32 = rounded.rsplit('e').next().and_then(|e| e.parse().ok()).unwrap_or(0);
-    let text = if (-3..5).contains(&exponent) {
-        let decimals = (digits as i32 - 1 - exponent).max(0) as usize;
-        format!("{value:.decimals$}")
-    } else {
-        rounded
-    };
-    text.replace('-', "−")
+    if value.is_finite() { numerals::significant(value, digits).replace('-', "−") } else { "–".to_owned() }
 }
 
 /// A value as it is edited: all digits that it has, in powers of ten where it is very large or very small.
@@ -31,17 +20,10 @@ pub fn with_unit(value: f64, unit: &str) -> String {
     if unit.is_empty() { significant(value, 4) } else { format!("{} {}", significant(value, 4), pretty_unit(unit)) }
 }
 
-/// `value ± deviation unit`, both to the digit that the deviation supports.
+/// `value ± deviation unit`, both to the digit that the deviation supports and under one power of ten.
 pub fn with_deviation(value: f64, deviation: f64, unit: &str) -> String {
-    let unit = pretty_unit(unit);
-    if deviation <= 0.0 || !deviation.is_finite() {
-        return format!("{} {unit}", significant(value, 4)).trim_end().to_owned();
-    }
-    let decimals = (1.0 - deviation.log10().floor()).clamp(0.0, 12.0) as usize;
-    if decimals <= 6 {
-        return format!("{value:.decimals$} ± {deviation:.decimals$} {unit}").replace('-', "−").trim_end().to_owned();
-    }
-    format!("{} ± {} {unit}", significant(value, 4), significant(deviation, 2)).trim_end().to_owned()
+    let numbers = numerals::with_deviation(value, deviation).replace("+-", "±").replace('-', "−");
+    format!("{numbers} {}", pretty_unit(unit)).trim_end().to_owned()
 }
 
 /// An SI unit with dots and superscripts, from its spelling in ASCII: `N s^2/m^2` to `N·s²/m²`.
@@ -71,14 +53,11 @@ mod tests {
     use super::{editable, percent, prefixed, pretty_unit, significant, with_deviation, with_unit};
 
     #[test]
-    fn numbers_keep_their_significant_digits() {
-        assert_eq!(significant(0.107_23, 4), "0.1072");
+    fn numbers_have_real_signs() {
         assert_eq!(significant(-6.505, 4), "−6.505");
-        assert_eq!(significant(12_345.6, 4), "12346");
-        assert_eq!(significant(9.9996, 4), "10.00");
         assert_eq!(significant(2.1e-9, 3), "2.10e−9");
-        assert_eq!(significant(0.0, 3), "0");
         assert_eq!(significant(f64::NAN, 3), "–");
+        assert_eq!(with_deviation(-6e-3, 5.8e-8, "m"), "(−6.000000 ± 0.000058)e−3 m");
     }
 
     #[test]

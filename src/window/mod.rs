@@ -22,6 +22,7 @@ pub mod photograph;
 pub mod picture;
 pub mod plots;
 pub mod records;
+pub mod report;
 pub mod schematic;
 pub mod solid;
 pub mod stages;

@@ -119,6 +119,11 @@ impl Palette {
         if visuals.dark_mode { &DARK } else { &LIGHT }
     }
 
+    /// The palette of what is printed.
+    pub fn paper() -> &'static Self {
+        &LIGHT
+    }
+
     /// Colour of a signed share from -1 to 1: blue below zero, canvas at zero, vermilion above.
     pub fn diverging(&self, share: f32) -> Color32 {
         let end = if share < 0.0 { self.measured } else { self.model };

@@ -11,6 +11,7 @@ mod journey;
 mod laws;
 mod path;
 mod pictures;
+mod report;
 mod space;
 mod states;
 mod support;

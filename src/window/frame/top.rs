@@ -149,6 +149,7 @@ fn file(ui: &mut Ui, app: &App, asks: &mut Vec<Ask>) {
             }
         });
     });
+    entry(ui, Command::Report, known, None, asks);
     plots(ui);
     ui.separator();
     entry(ui, Command::Close, open, None, asks);

@@ -3,6 +3,7 @@
 use super::figure::{Axis, Figure, Look, Ticks};
 use super::show::Stack;
 use crate::identify::Outcome;
+use crate::window::theme::Palette;
 use crate::window::widgets::UiExt;
 use egui::Ui;
 
@@ -11,7 +12,12 @@ const LEAST: f64 = 1e-8;
 
 /// Shows the chart with the step that is looked at as a filled point.
 pub fn show(ui: &mut Ui, outcome: &Outcome, current: usize, limit_deg: f64) {
-    let palette = ui.palette();
+    let figures = vec![(figure(ui.palette(), outcome, current, limit_deg), 1.0)];
+    Stack { id: "angle", title: "Angle against number of sources", figures, keys: true }.show(ui);
+}
+
+/// The chart as a plot.
+pub fn figure(palette: &Palette, outcome: &Outcome, current: usize, limit_deg: f64) -> Figure {
     let best: Vec<[f64; 2]> = outcome.steps.iter().map(|s| [s.count as f64, s.angle_deg.max(LEAST)]).collect();
     let others = outcome
         .steps
@@ -23,12 +29,11 @@ pub fn show(ui: &mut Ui, outcome: &Outcome, current: usize, limit_deg: f64) {
     let most = outcome.steps.last().map_or(1, |s| s.count) as f64;
     let x = Axis::new("Number of sources", "").ticks(Ticks::Whole).include(&[0.5, most + 0.5]);
     let y = Axis::log("Angle", "°").include(&[limit_deg.max(LEAST)]);
-    let figure = Figure::new("Angle against number of sources", x, y)
+    Figure::new("Angle against number of sources", x, y)
         .points("limit", palette.missing, Look::Levels(1.4), vec![[1.0, limit_deg.max(LEAST)]])
         .points("others", palette.weak.gamma_multiply(0.6), Look::Dots(3.0), others)
         .points("best sets", palette.model, Look::Line(1.8), best.clone())
         .points("best sets", palette.model, Look::Dots(4.5), best)
         .points("accepted", palette.model, Look::Rings(8.0), accepted)
-        .points("looked at", palette.accent, Look::Dots(6.0), chosen);
-    Stack { id: "angle", title: "Angle against number of sources", figures: vec![(figure, 1.0)], keys: true }.show(ui);
+        .points("looked at", palette.accent, Look::Dots(6.0), chosen)
 }

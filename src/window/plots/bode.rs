@@ -6,6 +6,7 @@ use crate::exchange::Project;
 use crate::measurement::Quantity as Measured;
 use crate::response::frequency_response::Quantity;
 use crate::window::format;
+use crate::window::theme::Palette;
 use crate::window::widgets::UiExt;
 use egui::Ui;
 use faer::c64;
@@ -87,15 +88,26 @@ impl Diagram<'_> {
     }
 
     /// Title of what is exported: which quantity between which DOFs.
-    fn title(&self, kind: &str) -> String {
+    pub fn title(&self, kind: &str) -> String {
         let label = |dof: usize| self.project.structure.label(dof);
         let r = self.response;
-        format!("{kind}, {} of DOF {} for a force at DOF {}", self.name(), label(r.response), label(r.excitation))
+        format!(
+            "{kind}, {} of DOF {} for a force at DOF {}",
+            self.name().to_lowercase(),
+            label(r.response),
+            label(r.excitation)
+        )
     }
 
     /// Magnitude and phase over frequency, both axes of frequency logarithmic and linked.
     pub fn bode(&self, ui: &mut Ui) {
-        let palette = ui.palette();
+        let [magnitude, phase] = self.bode_figures(ui.palette());
+        let figures = vec![(magnitude, 0.60), (phase, 0.40)];
+        Stack { id: "bode", title: &self.title("Bode diagram"), figures, keys: true }.show(ui);
+    }
+
+    /// Magnitude and phase as plots.
+    pub fn bode_figures(&self, palette: &Palette) -> [Figure; 2] {
         let (model, points) = (self.model(), self.points());
         let size = |h: c64| h.re.hypot(h.im);
         let phase = |h: c64| h.im.atan2(h.re).to_degrees();
@@ -114,13 +126,17 @@ impl Diagram<'_> {
         let angle = angle
             .points("measured", palette.measured, Look::Dots(4.0), at(&phase))
             .deviation(points.iter().map(|p| p.deviation.to_degrees()).collect());
-        let figures = vec![(magnitude, 0.60), (angle, 0.40)];
-        Stack { id: "bode", title: &self.title("Bode diagram"), figures, keys: true }.show(ui);
+        [magnitude, angle]
     }
 
     /// Imaginary over real part within a band about `centre` (rad/s).
     pub fn nyquist(&self, ui: &mut Ui, centre: f64) {
-        let palette = ui.palette();
+        let figures = vec![(self.nyquist_figure(ui.palette(), centre), 1.0)];
+        Stack { id: "nyquist", title: &self.title("Nyquist diagram"), figures, keys: true }.show(ui);
+    }
+
+    /// The same as a plot.
+    pub fn nyquist_figure(&self, palette: &Palette, centre: f64) -> Figure {
         let near = |w: f64| (w / centre).ln().abs() < 0.08;
         let plane = |h: c64| [h.re, h.im];
         let line = self.model().into_iter().filter(|&(w, _)| near(w)).map(|(_, h)| plane(h)).collect();
@@ -133,8 +149,7 @@ impl Diagram<'_> {
             .points("measured", palette.measured, Look::Dots(5.0), points.iter().map(|p| plane(p.value)).collect())
             .deviation(points.iter().map(|p| p.deviation * p.value.re.hypot(p.value.im)).collect());
         (figure.square, figure.margin) = (true, 0.08);
-        Stack { id: "nyquist", title: &self.title("Nyquist diagram"), figures: vec![(figure, 1.0)], keys: true }
-            .show(ui);
+        figure
     }
 }
 

@@ -4,15 +4,21 @@ use super::figure::{Axis, Figure, Look, Ticks};
 use super::show::Stack;
 use crate::exchange::Project;
 use crate::identify::Outcome;
+use crate::window::theme::Palette;
 use crate::window::widgets::UiExt;
 use egui::Ui;
 
 /// Shows the chart for one step of the selection.
 pub fn show(ui: &mut Ui, p: &Project, outcome: &Outcome, current: usize) {
-    let palette = ui.palette();
-    let Some(step) = outcome.steps.get(current) else { return };
+    let figures = vec![(figure(ui.palette(), p, outcome, current), 1.0)];
+    Stack { id: "energy", title: "Energy per period and run", figures, keys: true }.show(ui);
+}
+
+/// The chart as a plot.
+pub fn figure(palette: &Palette, p: &Project, outcome: &Outcome, current: usize) -> Figure {
+    let step = outcome.steps.get(current).map_or(&[][..], |s| &s.identified_energy[..]);
     let number = |run: usize| run as f64 + 1.0;
-    let pairs = || outcome.runs.iter().zip(&step.identified_energy);
+    let pairs = || outcome.runs.iter().zip(step);
     let measured = pairs().map(|(r, _)| [number(r.run), r.input_energy]).collect();
     let identified = pairs().map(|(r, &e)| [number(r.run), e]).collect();
     let x = Axis::new("Run", "").ticks(Ticks::Whole).include(&[0.5, p.runs.len() as f64 + 0.5]);
@@ -21,11 +27,10 @@ pub fn show(ui: &mut Ui, p: &Project, outcome: &Outcome, current: usize) {
         let ends = vec![[number(r.run), r.input_energy], [number(r.run), e]];
         figure = figure.points("", palette.missing, Look::Line(2.0), ends);
     }
-    let figure = figure.points("measured input", palette.measured, Look::Dots(4.0), measured).points(
+    figure.points("measured input", palette.measured, Look::Dots(4.0), measured).points(
         "identified",
         palette.model,
         Look::Rings(6.5),
         identified,
-    );
-    Stack { id: "energy", title: "Energy per period and run", figures: vec![(figure, 1.0)], keys: true }.show(ui);
+    )
 }

@@ -54,13 +54,17 @@ impl HeatMap<'_> {
             let value = format::with_unit(self.matrix[(i, j)], self.unit);
             response.clone().on_hover_text_at_pointer(format!("({}, {})  {value}", self.labels[i], self.labels[j]));
         }
-        let paper = |palette: &Palette| {
-            let mut drawing = Drawing::new(vec2(720.0, 660.0), palette.canvas, title);
-            drawing.words(pos2(16.0, 20.0), Align2::LEFT_CENTER, title, size::HEADING, palette.ink);
-            self.draw(&mut drawing, Rect::from_min_max(pos2(16.0, 48.0), pos2(704.0, 644.0)), palette);
-            drawing
-        };
-        export::offer(ui, &[response], title, &paper, &|| self.table());
+        export::offer(ui, &[response], title, &|palette| self.paper(title, palette), &|| self.table());
+    }
+
+    /// It with its title, for a file.
+    pub fn paper(&self, title: &str, palette: &Palette) -> Drawing {
+        let room = Rect::from_min_max(pos2(16.0, 48.0), pos2(704.0, 644.0));
+        let used = LABEL + self.rows.len() as f32 * self.cell(room) + 16.0;
+        let mut drawing = Drawing::new(vec2(720.0, room.top() + used), palette.canvas, title);
+        drawing.words(pos2(16.0, 20.0), Align2::LEFT_CENTER, title, size::HEADING, palette.ink);
+        self.draw(&mut drawing, room, palette);
+        drawing
     }
 
     /// Row and column of the matrix under a point.
@@ -70,9 +74,15 @@ impl HeatMap<'_> {
         Some([row(at.y)?, row(at.x)?])
     }
 
-    fn draw(&self, drawing: &mut Drawing, room: Rect, palette: &Palette) -> Cells {
+    /// Side of a cell that fits into `room`.
+    fn cell(&self, room: Rect) -> f32 {
         let n = self.rows.len().max(1) as f32;
-        let cell = ((room.width() - LABEL - SCALE) / n).min((room.height() - LABEL - 10.0) / n).clamp(2.0, 92.0);
+        ((room.width() - LABEL - SCALE) / n).min((room.height() - LABEL - 10.0) / n).clamp(2.0, 92.0)
+    }
+
+    fn draw(&self, drawing: &mut Drawing, room: Rect, palette: &Palette) -> Cells {
+        let n = self.rows.len() as f32;
+        let cell = self.cell(room);
         let cells = Cells { origin: room.min + vec2(LABEL, LABEL), cell };
         let ground = Rect::from_min_size(cells.origin, Vec2::splat(n * cell));
         if cell < 8.0 {

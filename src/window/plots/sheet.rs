@@ -51,7 +51,8 @@ impl Sheet {
         let cell = vec2(room.width() / columns as f32, room.height() / rows as f32);
         for (k, panel) in self.panels.iter().enumerate() {
             let corner = room.min + vec2((k % columns) as f32 * cell.x, (k / columns) as f32 * cell.y);
-            panel.draw(&mut drawing, Rect::from_min_size(corner, cell), palette);
+            let outer = Rect::from_min_size(corner, cell);
+            panel.fitted(inner(outer)).draw(&mut drawing, outer, palette);
         }
         drawing
     }
@@ -63,6 +64,21 @@ pub fn inner(outer: Rect) -> Rect {
 }
 
 impl Panel {
+    /// The same with equal lengths along both axes where the plot asks for it: more is in sight of one of them.
+    fn fitted(&self, area: Rect) -> Self {
+        let mut panel = self.clone();
+        if self.figure.square {
+            let length = |[low, high]: [f64; 2]| high - low;
+            let sides = [f64::from(area.width()), f64::from(area.height())];
+            let scale = (length(self.bounds[0]) / sides[0]).max(length(self.bounds[1]) / sides[1]);
+            for (bounds, side) in panel.bounds.iter_mut().zip(sides) {
+                let more = 0.5 * (scale * side - length(*bounds));
+                *bounds = [bounds[0] - more, bounds[1] + more];
+            }
+        }
+        panel
+    }
+
     /// Where a point x, y of the data stands in `area`; `None` for what has no place on the axes.
     pub fn at(&self, [x, y]: [f64; 2], area: Rect) -> Option<Pos2> {
         let share = |place: f64, [low, high]: [f64; 2]| ((place - low) / (high - low)) as f32;
@@ -98,7 +114,10 @@ impl Panel {
     fn head(&self, drawing: &mut Drawing, outer: Rect, palette: &Palette) {
         let y = outer.top() + 24.0;
         let mut x = outer.left() + LEFT;
-        drawing.words(pos2(x, y - 16.0), Align2::LEFT_CENTER, self.figure.title.clone(), size::BODY, palette.ink);
+        // A plot alone bears its name already as that of the sheet.
+        if self.figure.title != drawing.title {
+            drawing.words(pos2(x, y - 16.0), Align2::LEFT_CENTER, self.figure.title.clone(), size::BODY, palette.ink);
+        }
         let mut seen: Vec<&str> = vec![""];
         for series in &self.figure.series {
             if seen.contains(&series.name.as_str()) {

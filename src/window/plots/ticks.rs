@@ -31,7 +31,7 @@ pub fn marks(axis: &Axis, input: &GridInput, room: f64) -> Vec<GridMark> {
             let step = (3.0 * input.base_step_size).ceil().max(((high - low) / 24.0).ceil()).max(1.0);
             multiples(low, high, step).map(|value| GridMark { value, step_size: step }).collect()
         }
-        (Ticks::RightAngles, _) => {
+        (Ticks::RightAngles, _) if multiples(low, high, 90.0).nth(1).is_some() => {
             multiples(low, high, 90.0).map(|value| GridMark { value, step_size: 90.0 }).collect()
         }
         _ => {

@@ -62,7 +62,7 @@ impl Along<'_> {
         let figure = |part: Part| {
             let y = match part {
                 Part::Magnitude => Axis::log("Magnitude", &per_force(self.unit)).ticks(Ticks::OneTwoFive),
-                Part::Phase => Axis::new("Phase", "°"),
+                Part::Phase => Axis::new("Phase", "°").ticks(Ticks::RightAngles),
             };
             let others = other.iter().map(|s| [s.frequency, part.of(s.measured)]).collect();
             let faint = palette.measured.gamma_multiply(0.35);

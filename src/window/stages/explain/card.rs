@@ -111,6 +111,23 @@ impl Card<'_> {
         response.clicked()
     }
 
+    /// What explains the data as well: effects as simple are a warning, those with more parameters only not needed.
+    fn rivals(&self, ui: &mut Ui) {
+        let own = self.suggestion.added.source.parameters.len();
+        let all = self.suggestion.indistinguishable_from.iter();
+        let (needless, equal): (Vec<&Source>, Vec<&Source>) = all.partition(|o| o.parameters.len() > own);
+        let [warning, weak] = [ui.palette().warning, ui.palette().weak];
+        let mut say = |what: &str, list: &[&Source], colour| {
+            if !list.is_empty() {
+                let names: Vec<String> = list.iter().map(|o| name(self.scene, o)).collect();
+                let text = format!("{what}: {}.", names.join("; "));
+                ui.label(RichText::new(text).size(size::BODY - 1.0).color(colour));
+            }
+        };
+        say("These data cannot tell it from", &equal, warning);
+        say("No better, with more parameters", &needless, weak);
+    }
+
     fn body(&self, ui: &mut Ui, on_trial: bool, asks: &mut Vec<Ask>) {
         let s = self.suggestion;
         self.sizes(ui);
@@ -118,11 +135,7 @@ impl Card<'_> {
         let (before, after, held_out) = (self.diagnosis.error_before, s.error_after, s.held_out_error_after);
         Gauge { before, after, held_out, floor }.show(ui);
         self.buttons(ui, on_trial, asks);
-        if !s.indistinguishable_from.is_empty() {
-            let others: Vec<String> = s.indistinguishable_from.iter().map(|o| name(self.scene, o)).collect();
-            let text = format!("These data cannot tell it from: {}.", others.join("; "));
-            ui.label(RichText::new(text).size(size::BODY - 1.0).color(ui.palette().warning));
-        }
+        self.rivals(ui);
         match self.scene.explained.print(self.scene.document, &s.added.source) {
             Some(Ok(print)) => {
                 if let Some(print) = print.as_ref() {

@@ -1,0 +1,65 @@
+//! Numbers in words: as many digits as are known.
+
+/// `value +- deviation`, both to the digit that the deviation supports and under one power of ten; four significant digits
+/// where the deviation is not known.
+pub fn with_deviation(value: f64, deviation: f64) -> String {
+    if deviation <= 0.0 || !deviation.is_finite() || !value.is_finite() {
+        return significant(value, 4);
+    }
+    let power = value.abs().max(deviation).log10().floor() as i32;
+    let places = decimals(deviation);
+    if places <= 6 && power < 6 {
+        return format!("{value:.places$} +- {deviation:.places$}");
+    }
+    let scale = 10f64.powi(-power);
+    let places = decimals(deviation * scale);
+    format!("({:.places$} +- {:.places$})e{power}", value * scale, deviation * scale)
+}
+
+/// `value` with `digits` significant digits, in plain notation between 1e-3 and 1e5, else as `1.23e-7`; `-` for what is no number.
+pub fn significant(value: f64, digits: usize) -> String {
+    if value == 0.0 {
+        return "0".to_owned();
+    }
+    if !value.is_finite() {
+        return "-".to_owned();
+    }
+    let rounded = format!("{value:.*e}", digits.saturating_sub(1));
+    let exponent: i32 = rounded.rsplit('e').next().and_then(|e| e.parse().ok()).unwrap_or(0);
+    if !(-3..5).contains(&exponent) {
+        return rounded;
+    }
+    let decimals = (digits as i32 - 1 - exponent).max(0) as usize;
+    format!("{value:.decimals$}")
+}
+
+/// Decimal places at which a deviation has two digits.
+fn decimals(deviation: f64) -> usize {
+    (1.0 - deviation.log10().floor()).clamp(0.0, 12.0) as usize
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_deviation_rules_the_digits() {
+        assert_eq!(with_deviation(0.1072, 0.0021), "0.1072 +- 0.0021");
+        assert_eq!(with_deviation(512.3, 13.0), "512 +- 13");
+        assert_eq!(with_deviation(0.006_018, 5.8e-8), "(6.018000 +- 0.000058)e-3");
+        assert_eq!(with_deviation(-1.2347e8, 2.1e6), "(-1.235 +- 0.021)e8");
+        assert_eq!(with_deviation(3.0, 0.0), "3.000");
+        assert_eq!(with_deviation(3.0, f64::INFINITY), "3.000");
+    }
+
+    #[test]
+    fn numbers_keep_their_significant_digits() {
+        assert_eq!(significant(0.107_23, 4), "0.1072");
+        assert_eq!(significant(-6.505, 4), "-6.505");
+        assert_eq!(significant(12_345.6, 4), "12346");
+        assert_eq!(significant(9.9996, 4), "10.00");
+        assert_eq!(significant(2.1e-9, 3), "2.10e-9");
+        assert_eq!(significant(0.0, 3), "0");
+        assert_eq!(significant(f64::NAN, 3), "-");
+    }
+}
