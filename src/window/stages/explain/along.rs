@@ -82,7 +82,7 @@ impl Along<'_> {
             }
             self.samples_on(figure, palette, &same, &|s| s.frequency, part)
         };
-        let figures = vec![(figure(Part::Magnitude), 0.60), (figure(Part::Phase), 0.40)];
+        let figures = vec![(figure(Part::Magnitude), 0.54), (figure(Part::Phase), 0.46)];
         self.stack(ui, "frequency", figures);
     }
 
@@ -115,7 +115,7 @@ impl Along<'_> {
             figure.margin = 0.06;
             figure
         };
-        let figures = vec![(figure(Part::Magnitude), 0.60), (figure(Part::Phase), 0.40)];
+        let figures = vec![(figure(Part::Magnitude), 0.54), (figure(Part::Phase), 0.46)];
         self.stack(ui, "level", figures);
     }
 
