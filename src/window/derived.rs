@@ -10,6 +10,8 @@ use super::plots::hysteresis::Loop;
 use super::schematic::Scene;
 use super::traces::{Traced, Traces};
 use super::view::View;
+use crate::classical::FrequencyResponses;
+use crate::classical::incompleteness::{self, Grid, Incompleteness};
 use crate::classical::side_by_side::{SideBySide, side_by_side};
 use crate::control::Control;
 use crate::identify::{self, Outcome};
@@ -35,6 +37,7 @@ pub struct Derived {
     motions: Slot<u64, Vec<Motion>>,
     loops: Slot<(u64, usize), Vec<Loop>>,
     methods: Slot<u64, SideBySide>,
+    incompleteness: Slot<u64, Incompleteness>,
     traces: Traces,
     seen: Revisions,
     /// Of the stage Explain.
@@ -51,6 +54,7 @@ impl Default for Derived {
             motions: Slot::new("Expanding the runs"),
             loops: Slot::new("Hysteresis"),
             methods: Slot::new("Classical methods"),
+            incompleteness: Slot::new("Study of incompleteness"),
             traces: Traces::default(),
             seen: Revisions::default(),
             explained: Explained::default(),
@@ -77,6 +81,7 @@ impl Derived {
         self.motions.cancel();
         self.loops.cancel();
         self.methods.cancel();
+        self.incompleteness.cancel();
         self.traces.cancel();
     }
 
@@ -117,6 +122,7 @@ impl Derived {
             .or(self.motions.running())
             .or(self.loops.running())
             .or(self.methods.running())
+            .or(self.incompleteness.running())
             .or(self.traces.running())
             .or_else(|| self.explained.running())
     }
@@ -141,6 +147,31 @@ impl Derived {
         self.methods.get(ctx, &document.revision(), || {
             let p = document.project.clone();
             move |control: &Control| side_by_side(&p.structure, &p.sources, &p.runs, control).map_err(|e| e.to_string())
+        })
+    }
+
+    /// Errors of the classical methods on this structure against modes and sensors: with its known damping, else with the
+    /// identified one; `None` while it is computed.
+    pub fn incompleteness(
+        &mut self,
+        ctx: &Context,
+        document: &Document,
+    ) -> Option<Result<Arc<Incompleteness>, String>> {
+        let p = &document.project;
+        let truth = match incompleteness::known_damping(&p.structure, &p.sources) {
+            Some(known) => known,
+            None => match self.known_outcome(document)? {
+                Ok(outcome) => outcome.results.equivalent_viscous.clone(),
+                Err(error) => return Some(Err(error.clone())),
+            },
+        };
+        self.incompleteness.get(ctx, &document.revision(), || {
+            let structure = p.structure.clone();
+            let own = FrequencyResponses::from_runs(&p.runs).map_or_else(Vec::new, |r| r.sensors);
+            move |control: &Control| {
+                let grid = Grid::new(&structure, &own);
+                incompleteness::incompleteness(&structure, truth.as_ref(), &grid, control).map_err(|e| e.to_string())
+            }
         })
     }
 

@@ -4,6 +4,7 @@ use super::app::App;
 use super::frame::top::Mark;
 use super::stages;
 use super::view::Stage;
+use super::words;
 use crate::effects::State;
 use crate::identify::Status;
 
@@ -42,8 +43,8 @@ impl App {
                 Some(Err(error)) => Mark::attention(error),
                 Some(Ok(outcome)) => {
                     let text = format!(
-                        "{} sources: {}.",
-                        outcome.accepted_step().count,
+                        "{}: {}.",
+                        words::counted(outcome.accepted_step().count, "source"),
                         stages::select::status(outcome.status)
                     );
                     let good = matches!(outcome.status, Status::WithinNoise | Status::BelowAngle);

@@ -2,6 +2,7 @@
 
 use super::schematic::view::ViewState;
 use super::stages::explain::look::Look;
+use super::stages::incompleteness::Choice;
 use crate::classical::method::Method;
 use crate::effects::Effect;
 use crate::response::frequency_response::Quantity;
@@ -67,6 +68,8 @@ pub struct View {
     pub quantity: Quantity,
     /// Classical method whose matrix is shown; `None` is the first that gives one.
     pub method: Option<Method>,
+    /// Of the study of incompleteness.
+    pub incompleteness: Choice,
     /// Selected DOF.
     pub dof: Option<usize>,
     /// Selected source, index in the project.
@@ -108,6 +111,7 @@ impl Default for View {
             matrix_in_space: false,
             quantity: Quantity::Receptance,
             method: None,
+            incompleteness: Choice::default(),
             dof: None,
             source: None,
             law: Effect::Viscous,

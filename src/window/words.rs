@@ -136,6 +136,11 @@ pub fn short_place(structure: &Structure, at: &Place) -> String {
     }
 }
 
+/// A number of things in words: `1 source`, `3 sources`.
+pub fn counted(count: usize, noun: &str) -> String {
+    format!("{count} {noun}{}", if count == 1 { "" } else { "s" })
+}
+
 /// With a capital letter at the start.
 pub fn capital(text: &str) -> String {
     let mut letters = text.chars();

@@ -69,4 +69,5 @@ fn chain_of_masses() {
     pictures.take(Stage::Structure, Pane::Energy, "chain-structure");
     pictures.take(Stage::Pattern, Pane::Energy, "chain-pattern");
     pictures.take(Stage::Result, Pane::Methods, "chain-methods");
+    pictures.take(Stage::Result, Pane::Incompleteness, "chain-incompleteness");
 }

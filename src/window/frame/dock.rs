@@ -114,7 +114,7 @@ impl Behavior<Pane> for Panes<'_> {
         let title = self.tab_title_for_tile(tiles, tile).text().to_owned();
         let galley = ui.painter().layout_no_wrap(title.clone(), theme::font(size::BODY), Color32::PLACEHOLDER);
         let cross = 16.0;
-        let (_, rect) = ui.allocate_space(vec2(galley.size().x + 2.0 * space::M + cross, ui.available_height()));
+        let (_, rect) = ui.allocate_space(vec2(galley.size().x + space::M + cross, ui.available_height()));
         let response = ui.interact(rect, id, Sense::click_and_drag());
         response.widget_info(|| WidgetInfo::selected(Role::Tab, true, state.active, &title));
         if state.is_being_dragged {
@@ -132,7 +132,7 @@ impl Behavior<Pane> for Panes<'_> {
         if state.active && !self.alone {
             let line = Rect::from_min_max(
                 rect.left_bottom() + vec2(space::M - 2.0, -2.0),
-                rect.right_bottom() - vec2(cross + 6.0, 0.0),
+                rect.right_bottom() - vec2(cross - 2.0, 0.0),
             );
             ui.painter().rect_filled(line, 1.0, palette.accent);
         }
@@ -190,7 +190,7 @@ impl Behavior<Pane> for Panes<'_> {
 impl Panes<'_> {
     fn close_button(&mut self, ui: &mut Ui, tab: Rect, tile: TileId, title: &str) {
         let palette = Palette::of(ui.visuals());
-        let rect = Rect::from_center_size(tab.right_center() - vec2(14.0, 0.0), vec2(14.0, 14.0));
+        let rect = Rect::from_center_size(tab.right_center() - vec2(8.0, 0.0), vec2(14.0, 14.0));
         let response = ui.interact(rect, ui.scope_id().with(("close", tile)), Sense::click());
         response.widget_info(|| WidgetInfo::labeled(Role::Button, true, format!("Close {title}")));
         let ink = if response.hovered() { palette.error } else { palette.weak };

@@ -32,6 +32,7 @@ pub enum Pane {
     Hysteresis,
     Values,
     Methods,
+    Incompleteness,
     ErrorMap,
     Cell,
     Missing,
@@ -40,7 +41,7 @@ pub enum Pane {
 
 impl Pane {
     /// All panes.
-    pub const ALL: [Self; 28] = [
+    pub const ALL: [Self; 29] = [
         Self::Schematic,
         Self::Inspector,
         Self::Runs,
@@ -65,6 +66,7 @@ impl Pane {
         Self::Hysteresis,
         Self::Values,
         Self::Methods,
+        Self::Incompleteness,
         Self::ErrorMap,
         Self::Cell,
         Self::Missing,
@@ -98,6 +100,7 @@ impl Pane {
             Self::Hysteresis => "Hysteresis",
             Self::Values => "Values",
             Self::Methods => "Methods",
+            Self::Incompleteness => "Incompleteness",
             Self::ErrorMap => "Error map",
             Self::Cell => "Measured on modelled",
             Self::Missing => "What is missing?",
@@ -131,7 +134,7 @@ fn work(stage: Stage) -> Groups {
         Stage::Pattern => &[(&[Pane::Laws], 0.48), (&[Pane::Sources], 0.52)],
         Stage::Select => &[(&[Pane::Steps], 0.44), (&[Pane::Set], 0.30), (&[Pane::Angle, Pane::RunEnergy], 0.26)],
         Stage::Result => &[
-            (&[Pane::Matrix], 0.42),
+            (&[Pane::Matrix, Pane::Values], 0.42),
             (
                 &[
                     Pane::Energy,
@@ -139,8 +142,8 @@ fn work(stage: Stage) -> Groups {
                     Pane::Bode,
                     Pane::Nyquist,
                     Pane::Hysteresis,
-                    Pane::Values,
                     Pane::Methods,
+                    Pane::Incompleteness,
                 ],
                 0.58,
             ),

@@ -36,7 +36,7 @@ pub fn marks(axis: &Axis, input: &GridInput, room: f64) -> Vec<GridMark> {
         }
         _ => {
             // The least step of the plot stands for eight points on the screen.
-            let parts = (8.0 / room * (high - low) / input.base_step_size).clamp(2.0, 9.0);
+            let parts = (8.0 / room * (high - low) / input.base_step_size).clamp(3.0, 9.0);
             let step = round_step((high - low).max(f64::MIN_POSITIVE), parts);
             multiples(low, high, step).map(|value| GridMark { value, step_size: step }).collect()
         }

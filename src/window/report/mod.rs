@@ -104,8 +104,9 @@ fn identified(page: &mut Page, p: &Project, outcome: &Outcome) {
     page.chapter("Where the energy is lost");
     let step = outcome.accepted_step();
     page.sentence(&format!(
-        "{} sources explain the energies to {} (angle {}°).",
-        step.count,
+        "{} explain{} the energies to {} (angle {}°).",
+        words::counted(step.count, "source"),
+        if step.count == 1 { "s" } else { "" },
         format::percent(step.relative_error),
         format::significant(step.angle_deg, 4)
     ));

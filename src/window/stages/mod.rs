@@ -1,6 +1,7 @@
 //! The stages of the work, one file each; what several share.
 
 pub mod explain;
+pub mod incompleteness;
 pub mod measure;
 pub mod methods;
 pub mod parameters;
@@ -41,6 +42,7 @@ pub fn show(ui: &mut Ui, pane: Pane, app: &mut App, asks: &mut Vec<Ask>) {
         Pane::Hysteresis => result::hysteresis(ui, app),
         Pane::Values => result::values(ui, app),
         Pane::Methods => methods::show(ui, app),
+        Pane::Incompleteness => incompleteness::show(ui, app),
         Pane::ErrorMap => explain::panes::error_map(ui, app, asks),
         Pane::Cell => explain::panes::cell(ui, app, asks),
         Pane::Missing => explain::panes::missing(ui, app, asks),
