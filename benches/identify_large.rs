@@ -7,9 +7,11 @@ use dashpot::effects::{Effect, Place, Source};
 use dashpot::identify::{Settings, identify};
 use dashpot::measurement::{Channel, ChannelFit, HarmonicFit, Quantity, Run};
 use dashpot::response::dynamic_stiffness::DynamicStiffness;
+use dashpot::session::workers::Threads;
 use dashpot::structure::Structure;
 use dashpot::structure::chain::ChainParameters;
 use faer::{Mat, c64};
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 const RUNS: usize = 60;
@@ -92,8 +94,9 @@ fn bench(c: &mut Criterion) {
         let (sources, runs) = (candidates(n), runs(&structure));
         let settings = Settings { max_sources: 6, harmonics: 1, ..Settings::default() };
         let title = format!("{n} DOFs, {} candidates, {RUNS} runs", sources.len());
+        let control = Control::unattended().with_workers(Arc::new(Threads::default()));
         let start = Instant::now();
-        let outcome = identify(&structure, &sources, &runs, &settings, &Control::unattended());
+        let outcome = identify(&structure, &sources, &runs, &settings, &control);
         let seconds = start.elapsed().as_secs_f64();
         let outcome = outcome.unwrap_or_else(|error| panic!("{error}"));
         let step = outcome.accepted_step();
@@ -103,7 +106,7 @@ fn bench(c: &mut Criterion) {
         // Once is enough for the large ones.
         if n <= 500 && only.is_none() {
             group.bench_function(title, |bencher| {
-                bencher.iter(|| identify(&structure, &sources, &runs, &settings, &Control::unattended()));
+                bencher.iter(|| identify(&structure, &sources, &runs, &settings, &control));
             });
         }
     }

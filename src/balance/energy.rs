@@ -7,7 +7,9 @@
 use super::action;
 use super::expansion::Expanded;
 use super::{BalanceError, Expansion, Measured};
+use crate::control::Control;
 use crate::effects::{Place, Source};
+use crate::math::fill::filled;
 use crate::structure::Structure;
 use faer::{Mat, c64};
 use std::f64::consts::PI;
@@ -29,7 +31,8 @@ pub fn unit(source: &Source) -> Source {
 }
 
 impl EnergyEquation {
-    /// Writes the equation for `columns` (taken at unit coefficient) with `known` sources subtracted at their values.
+    /// Writes the equation for `columns` (taken at unit coefficient) with `known` sources subtracted at their values; runs are
+    /// shared among the workers of `control`.
     ///
     /// # Errors
     /// [`BalanceError::DriveUnmeasured`] where neither a sensor nor an expansion gives the drive point's motion.
@@ -38,21 +41,22 @@ impl EnergyEquation {
         runs: &[(Measured, Expanded)],
         columns: &[Source],
         known: &[Source],
+        control: &Control,
     ) -> Result<Self, BalanceError> {
         let units: Vec<Source> = columns.iter().map(unit).collect();
-        let mut g = Mat::zeros(runs.len(), columns.len());
-        let (mut e, mut input) = (Vec::new(), Vec::new());
-        for (r, (measured, expanded)) in runs.iter().enumerate() {
-            let field = expanded.field(measured);
-            for (j, source) in units.iter().enumerate() {
-                g[(r, j)] = action::energy(source, structure, field);
-            }
+        let rows = control.map(runs.len(), |r| {
+            let (measured, expanded) = &runs[r];
+            let energy = |source: &Source| action::energy(source, structure, expanded.field(measured));
             let put_in = input_energy(structure, measured, expanded)?;
-            let taken: f64 = known.iter().map(|source| action::energy(source, structure, field)).sum();
-            input.push(put_in);
-            e.push(put_in - taken);
-        }
-        Ok(Self { g, e, input })
+            let taken: f64 = known.iter().map(energy).sum();
+            Ok((units.iter().map(energy).collect::<Vec<f64>>(), put_in, put_in - taken))
+        });
+        let rows = rows.into_iter().collect::<Result<Vec<_>, BalanceError>>()?;
+        Ok(Self {
+            g: filled(runs.len(), columns.len(), |r, j| rows[r].0[j]),
+            input: rows.iter().map(|row| row.1).collect(),
+            e: rows.iter().map(|row| row.2).collect(),
+        })
     }
 
     /// `G_S c` for some of the columns, J, one value a run.

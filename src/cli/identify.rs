@@ -11,9 +11,11 @@ use crate::exchange::project::load;
 use crate::exchange::ratios::read_ratios;
 use crate::identify::{Outcome, identify_with_ratios};
 use crate::measurement::MeasuredRatio;
+use crate::session::workers::Threads;
 use anyhow::Context;
 use std::f64::consts::TAU;
 use std::path::Path;
+use std::sync::Arc;
 
 pub(super) fn run(arguments: &Identify) -> anyhow::Result<String> {
     let (project, outcome) = identified(&arguments.file, arguments.ratios.as_deref())?;
@@ -28,7 +30,7 @@ pub(super) fn run(arguments: &Identify) -> anyhow::Result<String> {
 
 /// Loads and identifies a project, with damping ratios if they are asked for.
 pub(super) fn identified(file: &Path, ratios: Option<&Path>) -> anyhow::Result<(Project, Outcome)> {
-    let control = Control::unattended();
+    let control = Control::unattended().with_workers(Arc::new(Threads::default()));
     let project = load(file, &control)?;
     let ratios = ratios.map_or_else(|| Ok(Vec::new()), |choice| measured(&project, choice))?;
     for r in &ratios {

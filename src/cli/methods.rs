@@ -7,9 +7,11 @@ use crate::classical::side_by_side::{Applied, Entry, Ratio, SideBySide, side_by_
 use crate::control::Control;
 use crate::exchange::Project;
 use crate::exchange::project::load;
+use crate::session::workers::Threads;
 use anyhow::Context;
 use faer::Mat;
 use serde_json::{Map, Value, json};
+use std::sync::Arc;
 
 /// Ratios printed a method; `--json` has all.
 const MOST_MODES: usize = 6;
@@ -17,7 +19,7 @@ const MOST_MODES: usize = 6;
 const MOST_DOFS: usize = 8;
 
 pub(super) fn run(arguments: &Methods) -> anyhow::Result<String> {
-    let control = Control::unattended();
+    let control = Control::unattended().with_workers(Arc::new(Threads::default()));
     let project = load(&arguments.file, &control)?;
     let found = side_by_side(&project.structure, &project.sources, &project.runs, &control)
         .with_context(|| arguments.file.display().to_string())?;

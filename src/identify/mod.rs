@@ -44,8 +44,6 @@ use system::System;
 const PASSES: usize = 5;
 /// Steps from the start to a damping that balances the energy.
 const START_STEPS: usize = 8;
-/// The same where columns are very many and each step costs seconds.
-const START_STEPS_OF_MANY: usize = 4;
 /// Part of its standard deviation that a coefficient may still move by when the motion has settled.
 const SETTLED: f64 = 1e-4;
 
@@ -77,10 +75,13 @@ pub fn identify_with_ratios(
     settings: &Settings,
     control: &Control,
 ) -> Result<Outcome, IdentifyError> {
-    let mut problem = Problem::new(structure, sources, runs, ratios, settings)?;
-    let first = State::start(&problem)?;
+    let mut problem = Problem::new(structure, sources, runs, ratios, settings, control)?;
+    let mut first = State::start(&problem)?;
     problem.drop_unobservable(&first)?;
-    let start = balanced_start(&problem, control)?;
+    if first.coefficients.len() != problem.columns.len() {
+        first = State::start(&problem)?;
+    }
+    let start = balanced_start(&problem, first, control)?;
     control.report(0.1);
     let found = match response_start(&problem, &start, control)? {
         Some(state) => passes(&problem, state, Form::Response, control)?,
@@ -100,19 +101,18 @@ pub(crate) struct Found {
 }
 
 /// A motion and coefficients (of all columns) that balance the energy, however they may be distributed.
-fn balanced_start(problem: &Problem<'_>, control: &Control) -> Result<State, IdentifyError> {
-    let mut state = State::start(problem)?;
+fn balanced_start(problem: &Problem<'_>, first: State, control: &Control) -> Result<State, IdentifyError> {
+    let mut state = first;
     if problem.expander.method() != Expansion::Dynamic {
         return Ok(state);
     }
-    let steps = start_steps(problem);
-    for step in 0..steps {
+    for step in 0..START_STEPS {
         control.check()?;
         let coefficients = solve::all_columns(&System::energy(problem, &state, Weights::Energy))?;
         if step > 1 && close(&coefficients, &state.coefficients, 1e-4) {
             break;
         }
-        let model_error = if step < steps / 2 { 0.1 } else { 0.01 };
+        let model_error = if step < START_STEPS / 2 { 0.1 } else { 0.01 };
         state = state.moved_to(problem, coefficients, model_error)?;
     }
     Ok(state)
@@ -126,26 +126,30 @@ fn response_start(problem: &Problem<'_>, start: &State, control: &Control) -> Re
         return Ok(None);
     }
     let mut state = start.in_motion(problem, start.coefficients.clone(), 0.0)?;
-    let mut adequate = false;
-    for _ in 0..start_steps(problem) {
+    let mut best: Option<(f64, State)> = None;
+    for step in 0..START_STEPS {
         control.check()?;
         let system = System::of(Form::Response, problem, &state);
-        let coefficients = solve::all_columns(&system)?;
+        let mut coefficients = solve::all_columns(&system)?;
         if coefficients.iter().all(|&c| c == 0.0) {
             return Ok(None);
         }
-        adequate = response_form::is_adequate(problem, &system, &coefficients);
-        let settled = close(&coefficients, &state.coefficients, 1e-3);
-        state = state.in_motion(problem, coefficients, 0.0)?;
-        if settled {
+        let chi_square = response_form::chi_square(problem, &system, &coefficients);
+        if response_form::is_adequate(problem, &system, &coefficients, chi_square)
+            && best.as_ref().is_none_or(|(least, _)| chi_square < *least)
+        {
+            best = Some((chi_square, state.clone()));
+        }
+        if close(&coefficients, &state.coefficients, 1e-3) {
             break;
         }
+        // Whole steps may swing between two motions for ever.
+        if step > 0 {
+            coefficients.iter_mut().zip(&state.coefficients).for_each(|(new, old)| *new = 0.5 * (*new + old));
+        }
+        state = state.in_motion(problem, coefficients, 0.0)?;
     }
-    if adequate { state.balanced(problem).map(Some) } else { Ok(None) }
-}
-
-fn start_steps(problem: &Problem<'_>) -> usize {
-    if problem.columns.len() > promising::MANY { START_STEPS_OF_MANY } else { START_STEPS }
+    best.map(|(_, state)| state.balanced(problem)).transpose()
 }
 
 fn energy_passes(problem: &Problem<'_>, start: State, control: &Control) -> Result<Found, IdentifyError> {

@@ -5,6 +5,7 @@ use super::state::State;
 use super::{IdentifyError, Settings};
 use crate::balance::energy::is_observable;
 use crate::balance::{Expander, Measured, Weights};
+use crate::control::Control;
 use crate::effects::{Place, Source, State as SourceState};
 use crate::measurement::{Flag, MeasuredRatio, Run};
 use crate::structure::Structure;
@@ -31,6 +32,7 @@ pub(crate) struct Problem<'a> {
     /// Damping ratios beside the runs.
     pub ratios: Option<RatioRows>,
     pub warnings: Vec<String>,
+    pub control: Control,
 }
 
 impl<'a> Problem<'a> {
@@ -41,6 +43,7 @@ impl<'a> Problem<'a> {
         runs: &'a [Run],
         ratios: &[MeasuredRatio],
         settings: &'a Settings,
+        control: &Control,
     ) -> Result<Self, IdentifyError> {
         let mut warnings = Vec::new();
         let run_index = runs_in_use(runs, &mut warnings);
@@ -64,6 +67,7 @@ impl<'a> Problem<'a> {
             expander,
             ratios: None,
             warnings,
+            control: control.clone(),
         };
         problem.sort_sources()?;
         problem.ratios = RatioRows::new(structure, [&problem.known, &problem.columns], ratios)?;

@@ -23,19 +23,26 @@ const SMALL_MISFIT: f64 = 0.05;
 /// All rows of all runs, for the columns of `set`.
 pub(super) fn system(problem: &Problem<'_>, state: &State, set: &[usize]) -> System {
     let acting = problem.acting(&state.coefficients);
-    let mut rows: Vec<(Vec<f64>, f64, usize)> = Vec::new();
-    for (r, (measured, expanded)) in state.runs.iter().enumerate() {
+    let parts = problem.control.map(state.runs.len(), |r| {
+        let (measured, expanded) = &state.runs[r];
         let forces = Forces::new(problem, measured, expanded, &acting, set);
-        for k in 0..measured.harmonics() {
-            harmonic_rows(measured, expanded, &forces, k, r, &mut rows);
-        }
+        (0..measured.harmonics()).map(|k| harmonic_rows(measured, expanded, &forces, k)).collect::<Vec<Rows>>()
+    });
+    let rows: usize = parts.iter().flatten().map(|part| part.b.len()).sum();
+    let mut a = Mat::zeros(rows, set.len());
+    let (mut b, mut run) = (Vec::with_capacity(rows), Vec::with_capacity(rows));
+    for (r, part) in parts.iter().enumerate().flat_map(|(r, parts)| parts.iter().map(move |part| (r, part))) {
+        a.subrows_mut(b.len(), part.b.len()).copy_from(&part.a);
+        b.extend(&part.b);
+        run.resize(b.len(), r);
     }
-    System {
-        a: Mat::from_fn(rows.len(), set.len(), |i, j| rows[i].0[j]),
-        b: rows.iter().map(|row| row.1).collect(),
-        run: rows.iter().map(|row| row.2).collect(),
-        deviation: problem.is_noisy().then(|| vec![1.0; rows.len()]),
-    }
+    System { a, b, run, deviation: problem.is_noisy().then(|| vec![1.0; rows]) }
+}
+
+/// Rows of one harmonic of one run: real and imaginary part of every sensor in turn.
+struct Rows {
+    a: Mat<f64>,
+    b: Vec<f64>,
 }
 
 /// Forces at the present motion of one run.
@@ -94,33 +101,23 @@ fn at_sensors(receptance: &Mat<c64>, force: &[DofForce], k: usize) -> Vec<c64> {
     (0..receptance.ncols()).map(|s| force.iter().map(|(dof, f)| receptance[(*dof, s)] * f[k]).sum()).collect()
 }
 
-fn harmonic_rows(
-    measured: &Measured,
-    expanded: &Expanded,
-    forces: &Forces,
-    k: usize,
-    run: usize,
-    rows: &mut Vec<(Vec<f64>, f64, usize)>,
-) {
+fn harmonic_rows(measured: &Measured, expanded: &Expanded, forces: &Forces, k: usize) -> Rows {
     let receptance = &expanded.receptance[k];
     let s = measured.sensors.len();
     let factor = cholesky(&covariance(measured, receptance, k));
     let predicted = at_sensors(receptance, &forces.driving, k);
     let mut residual: Vec<c64> = (0..s).map(|i| measured.sensors.values[(i, k)] - predicted[i]).collect();
     whiten(&factor, &mut residual);
-    let columns: Vec<Vec<c64>> = forces
-        .columns
-        .iter()
-        .map(|force| {
-            let mut column: Vec<c64> = at_sensors(receptance, force, k).into_iter().map(|v| -v).collect();
-            whiten(&factor, &mut column);
-            column
-        })
-        .collect();
-    for i in 0..s {
-        rows.push((columns.iter().map(|c| c[i].re).collect(), residual[i].re, run));
-        rows.push((columns.iter().map(|c| c[i].im).collect(), residual[i].im, run));
+    let mut a = Mat::zeros(2 * s, forces.columns.len());
+    for (j, force) in forces.columns.iter().enumerate() {
+        let mut column = at_sensors(receptance, force, k);
+        whiten(&factor, &mut column);
+        for (i, value) in column.iter().enumerate() {
+            a[(2 * i, j)] = -value.re;
+            a[(2 * i + 1, j)] = -value.im;
+        }
     }
+    Rows { a, b: residual.iter().flat_map(|v| [v.re, v.im]).collect() }
 }
 
 /// Covariance (per real part) of the sensors' residual.
@@ -162,10 +159,14 @@ fn whiten(l: &Mat<c64>, v: &mut [c64]) {
     }
 }
 
-/// Whether all columns together bring the model to the data.
-pub(super) fn is_adequate(problem: &Problem<'_>, system: &System, coefficients: &[f64]) -> bool {
-    let columns: Vec<usize> = (0..problem.columns.len()).collect();
-    let chi_square = system.chi_square(&columns, coefficients);
+/// What all columns together leave.
+pub(super) fn chi_square(problem: &Problem<'_>, system: &System, coefficients: &[f64]) -> f64 {
+    let used: Vec<usize> = (0..problem.columns.len()).filter(|&j| coefficients[j] != 0.0).collect();
+    system.chi_square(&used, &used.iter().map(|&j| coefficients[j]).collect::<Vec<f64>>())
+}
+
+/// Whether all columns together bring the model to the data, given what they leave.
+pub(super) fn is_adequate(problem: &Problem<'_>, system: &System, coefficients: &[f64], chi_square: f64) -> bool {
     if problem.is_noisy() {
         let freedom = solve::freedom(system.rows(), coefficients.iter().filter(|c| **c > 0.0).count());
         return chi_square < (TOLERATED * freedom as f64).max(chi_square_quantile(1.0 - DISAGREES, freedom));

@@ -17,7 +17,7 @@ const NODES: u64 = 400_000;
 /// The same for sets of more than [`LARGE`] sources, where a proof is out of reach in most cases and each node costs more.
 const NODES_LARGE: u64 = 40_000;
 /// The same among the most promising of very many columns, where nothing is proved for all of them anyway.
-const NODES_AMONG: u64 = 2000;
+const NODES_AMONG: u64 = 40;
 /// Sources up to which a set is not large.
 const LARGE: usize = 8;
 /// Sets asked for of one size where the `keep` rule applies, so that some remain.

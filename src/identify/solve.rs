@@ -27,6 +27,12 @@ pub(crate) fn all_columns(system: &System) -> Result<Vec<f64>, IdentifyError> {
     Ok(scattered(system.a.ncols(), &chosen, &solution))
 }
 
+/// Coefficients of a set alone.
+pub(crate) fn coefficients(system: &System, set: &[usize]) -> Result<Vec<f64>, IdentifyError> {
+    let (a, b) = system.part(set, None);
+    Ok(nnls(a.as_ref(), &b)?.solution)
+}
+
 /// A vector over all columns that holds the coefficients of a set and is zero elsewhere.
 pub(crate) fn scattered(n: usize, set: &[usize], coefficients: &[f64]) -> Vec<f64> {
     let mut all = vec![0.0; n];

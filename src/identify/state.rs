@@ -21,11 +21,12 @@ pub(crate) struct State {
 impl State {
     /// The motion when nothing is known of the sources but those given.
     pub fn start(problem: &Problem<'_>) -> Result<Self, IdentifyError> {
-        let mut runs = Vec::new();
-        for measured in &problem.measured {
+        let runs = problem.control.map(problem.measured.len(), |r| {
             let acting = Acting { sources: &problem.known, motion: None, model_error: 1.0 };
-            runs.push((measured.clone(), problem.expander.expand(measured, acting)?));
-        }
+            let measured = &problem.measured[r];
+            Ok((measured.clone(), problem.expander.expand(measured, acting)?))
+        });
+        let runs = runs.into_iter().collect::<Result<_, IdentifyError>>()?;
         Self::with(problem, runs, vec![0.0; problem.columns.len()], 1.0)
     }
 
@@ -35,7 +36,8 @@ impl State {
         coefficients: Vec<f64>,
         model_error: f64,
     ) -> Result<Self, IdentifyError> {
-        let equation = EnergyEquation::new(problem.structure, &runs, &problem.columns, &problem.known)?;
+        let equation =
+            EnergyEquation::new(problem.structure, &runs, &problem.columns, &problem.known, &problem.control)?;
         Ok(Self { runs, equation, coefficients, model_error })
     }
 
@@ -62,11 +64,12 @@ impl State {
             return Ok(Self { coefficients, model_error, ..self.clone() });
         }
         let sources = problem.acting(&coefficients);
-        let mut runs = Vec::new();
-        for (measured, before) in &self.runs {
+        let runs = problem.control.map(self.runs.len(), |r| {
+            let (measured, before) = &self.runs[r];
             let acting = Acting { sources: &sources, motion: Some(&before.x), model_error };
-            runs.push((measured.clone(), problem.expander.expand(measured, acting)?));
-        }
+            Ok((measured.clone(), problem.expander.expand(measured, acting)?))
+        });
+        let runs = runs.into_iter().collect::<Result<_, IdentifyError>>()?;
         Ok(Self { runs, equation: self.equation.clone(), coefficients, model_error })
     }
 
@@ -84,7 +87,8 @@ impl State {
     pub fn adequate_model_error(&self, problem: &Problem<'_>) -> Result<f64, IdentifyError> {
         let mut model_error = 1e-6;
         while problem.is_noisy() && model_error < 1.0 {
-            let moved = self.moved_to(problem, self.coefficients.clone(), model_error)?;
+            problem.control.check()?;
+            let moved = self.in_motion(problem, self.coefficients.clone(), model_error)?;
             let squares: f64 = moved.runs.iter().map(|(_, e)| e.misfit.powi(2)).sum();
             if (squares / moved.runs.len() as f64).sqrt() < FITTED {
                 return Ok(model_error);

@@ -84,8 +84,17 @@ pub fn norm(x: &[f64]) -> f64 {
     largest * x.iter().map(|v| (v / largest).powi(2)).sum::<f64>().sqrt()
 }
 
+/// Eight sums side by side: one sum alone waits for each addition to end.
 fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(x, y)| x * y).sum()
+    let (first, second) = (a.chunks_exact(8), b.chunks_exact(8));
+    let rest: f64 = first.remainder().iter().zip(second.remainder()).map(|(x, y)| x * y).sum();
+    let mut sums = [0.0; 8];
+    for (x, y) in first.zip(second) {
+        for k in 0..8 {
+            sums[k] += x[k] * y[k];
+        }
+    }
+    sums.iter().sum::<f64>() + rest
 }
 
 /// The scaled problem and the state of the active-set iteration.
@@ -100,6 +109,68 @@ struct Problem {
     /// Columns in use, in the order of admission.
     passive: Vec<usize>,
     residual: Vec<f64>,
+    basis: Basis,
+}
+
+/// Orthonormal columns of those in use, `A_P = Q R`. Kept from one step to the next as far as the columns are the same: a column
+/// that is tried costs one orthogonalisation, not that of all.
+#[derive(Default)]
+struct Basis {
+    order: Vec<usize>,
+    q: Vec<Vec<f64>>,
+    /// Column k holds the k + 1 entries above and on the diagonal.
+    r: Vec<Vec<f64>>,
+    /// `Q^T b`.
+    image: Vec<f64>,
+}
+
+impl Basis {
+    /// Makes it the basis of `columns[order]` by modified Gram-Schmidt with reorthogonalisation; false if these are dependent.
+    fn follow(&mut self, order: &[usize], columns: &[Vec<f64>], b: &[f64]) -> bool {
+        let same = self.order.iter().zip(order).take_while(|(a, b)| a == b).count();
+        self.order.truncate(same);
+        self.q.truncate(same);
+        self.r.truncate(same);
+        self.image.truncate(same);
+        order[same..].iter().all(|&j| self.append(j, &columns[j], b))
+    }
+
+    fn append(&mut self, j: usize, column: &[f64], b: &[f64]) -> bool {
+        let mut v = column.to_vec();
+        let mut r = vec![0.0; self.q.len()];
+        for _ in 0..2 {
+            for (entry, unit) in r.iter_mut().zip(&self.q) {
+                let projection = dot(unit, &v);
+                *entry += projection;
+                subtract(&mut v, projection, unit);
+            }
+        }
+        let rest = norm(&v);
+        if rest < INDEPENDENCE {
+            return false;
+        }
+        v.iter_mut().for_each(|value| *value /= rest);
+        r.push(rest);
+        self.image.push(dot(&v, b));
+        self.q.push(v);
+        self.r.push(r);
+        self.order.push(j);
+        true
+    }
+
+    /// `R^-1 Q^T b`.
+    fn solution(&self) -> Vec<f64> {
+        let p = self.order.len();
+        let mut x = self.image.clone();
+        for k in (0..p).rev() {
+            x[k] /= self.r[k][k];
+            let value = x[k];
+            for (entry, above) in x[..k].iter_mut().zip(&self.r[k]) {
+                *entry -= value * above;
+            }
+        }
+        x
+    }
 }
 
 impl Problem {
@@ -109,7 +180,8 @@ impl Problem {
         let scale: Vec<f64> = columns.iter_mut().map(|c| normalise(c)).collect();
         let mut b = b.to_vec();
         let b_norm = normalise(&mut b);
-        Ok(Self { x: vec![0.0; columns.len()], residual: b.clone(), columns, scale, b, b_norm, passive: Vec::new() })
+        let (x, residual) = (vec![0.0; columns.len()], b.clone());
+        Ok(Self { x, residual, columns, scale, b, b_norm, passive: Vec::new(), basis: Basis::default() })
     }
 
     fn solve(&mut self) -> Result<usize, NnlsError> {
@@ -198,35 +270,9 @@ impl Problem {
         });
     }
 
-    /// Least squares on the columns in use by modified Gram-Schmidt with reorthogonalisation; `None` if they are dependent.
-    fn unbounded_solution(&self) -> Option<Vec<f64>> {
-        let p = self.passive.len();
-        let mut q: Vec<Vec<f64>> = Vec::with_capacity(p);
-        let mut r = vec![vec![0.0; p]; p];
-        for (k, &j) in self.passive.iter().enumerate() {
-            let mut v = self.columns[j].clone();
-            for _ in 0..2 {
-                for (i, unit) in q.iter().enumerate() {
-                    let projection = dot(unit, &v);
-                    r[i][k] += projection;
-                    subtract(&mut v, projection, unit);
-                }
-            }
-            r[k][k] = norm(&v);
-            if r[k][k] < INDEPENDENCE {
-                return None;
-            }
-            for value in &mut v {
-                *value /= r[k][k];
-            }
-            q.push(v);
-        }
-        let mut x = vec![0.0; p];
-        for k in (0..p).rev() {
-            let known: f64 = (k + 1..p).map(|i| r[k][i] * x[i]).sum();
-            x[k] = (dot(&q[k], &self.b) - known) / r[k][k];
-        }
-        Some(x)
+    /// Least squares on the columns in use; `None` if they are dependent.
+    fn unbounded_solution(&mut self) -> Option<Vec<f64>> {
+        self.basis.follow(&self.passive, &self.columns, &self.b).then(|| self.basis.solution())
     }
 
     fn update_residual(&mut self) {

@@ -37,7 +37,7 @@ pub struct Results {
     pub equivalent_viscous: Mat<f64>,
     /// Share of all dissipated energy at each DOF, per cent; adds up to 100.
     pub energy_percent: Vec<f64>,
-    /// Damped modes; empty without mass and stiffness.
+    /// Damped modes (above 600 DOFs those in the band of the runs); empty without mass and stiffness.
     pub modes: Vec<ModeResult>,
 }
 

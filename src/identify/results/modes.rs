@@ -9,12 +9,21 @@ use crate::effects::effect::Kind;
 use crate::effects::{Effect, Source};
 use crate::response::frequency_response::{self, HalfPower};
 use crate::response::linear_matrices::{LinearMatrices, unit_matrix};
-use crate::structure::Structure;
-use crate::structure::damped_modes::{DampedMode, damped_modes};
-use faer::c64;
+use crate::structure::damped_modes::{DampedMode, damped_modes_from};
+use crate::structure::lowest_modes::LowestModes;
+use crate::structure::modes::modes;
+use crate::structure::{Structure, StructureError, SystemMatrices};
+use faer::{Mat, c64};
 
 /// Points of a half-power curve.
 const POINTS: usize = 241;
+
+/// DOFs up to which all modes are computed: twice as many cost eight times the time.
+const ALL: usize = 600;
+/// Undamped modes of larger structures, as a multiple of the highest frequency of the runs ...
+const BAND: f64 = 4.0;
+/// ... and the least number of them.
+const LEAST: usize = 60;
 
 /// One damped mode of the identified model.
 #[derive(Debug, Clone, PartialEq)]
@@ -31,7 +40,7 @@ pub struct ModeResult {
     pub shape: Vec<c64>,
 }
 
-/// All damped modes; empty without mass and stiffness.
+/// The damped modes, of large structures those in the band of the runs; empty without mass and stiffness.
 pub(crate) fn damped(input: &ResultsInput<'_>, equivalent: &EquivalentViscous) -> Vec<ModeResult> {
     let Ok(linear) = LinearMatrices::new(input.structure, input.acting) else { return Vec::new() };
     let constant: Vec<f64> = input
@@ -41,12 +50,30 @@ pub(crate) fn damped(input: &ResultsInput<'_>, equivalent: &EquivalentViscous) -
         .map(|(s, c)| if is_hysteretic(s.effect) || !s.effect.dissipates() { 0.0 } else { *c })
         .collect();
     let c = weighted_sum(input.structure, input.acting, &constant);
-    let Ok(modes) = damped_modes(linear.mass.as_ref(), linear.stiffness.as_ref(), c.as_ref()) else {
-        return Vec::new();
-    };
+    let matrices = SystemMatrices { mass: linear.mass, stiffness: linear.stiffness };
+    let Ok(modes) = modes_of(&matrices, &c, input) else { return Vec::new() };
     let half_power = half_power_ratios(input, &modes);
     let ends = modes.iter().zip(half_power);
     ends.map(|(mode, half)| result(input, mode, half)).collect()
+}
+
+/// All modes; of a structure of more than [`ALL`] DOFs those of the band of the runs, in the space of the undamped modes up to
+/// [`BAND`] times as high: those above change them as little as their stiffness is larger.
+fn modes_of(
+    matrices: &SystemMatrices,
+    c: &Mat<f64>,
+    input: &ResultsInput<'_>,
+) -> Result<Vec<DampedMode>, StructureError> {
+    let highest = input.runs.iter().map(|(m, _)| m.omega).fold(0.0, f64::max);
+    if c.nrows() > ALL
+        && let Some(lowest) = LowestModes::new(matrices, BAND * highest, LEAST)?
+    {
+        let mut modes = damped_modes_from(&lowest.modes, c.as_ref())?;
+        modes.retain(|mode| mode.lambda.norm() <= 1.2 * highest);
+        return Ok(modes);
+    }
+    let undamped = modes(matrices)?;
+    damped_modes_from(&undamped, c.as_ref())
 }
 
 fn is_hysteretic(effect: Effect) -> bool {

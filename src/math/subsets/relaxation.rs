@@ -12,6 +12,9 @@ const GRADIENT: f64 = 1e-13;
 /// Squared sine under which a column counts as dependent in the normal matrix; the slow route takes over.
 const PIVOT: f64 = 1e-11;
 
+/// Errors of a solution by the normal matrix, in units of the last digit over the least pivot.
+const ROUNDING: f64 = 64.0;
+
 /// Normal matrix and right-hand side of the unit problem.
 pub(super) struct Normal {
     pub n: usize,
@@ -32,6 +35,41 @@ impl Normal {
             }
         }
         Self { n, gram, h: unit.columns.iter().map(|c| dot(c, &unit.b)).collect() }
+    }
+}
+
+impl Normal {
+    /// Whether least squares without bounds on `set` gives a coefficient that is negative beyond rounding: then the best with
+    /// bounds leaves a column out, and the set is none of its size. False where rounding hides it.
+    pub fn has_negative(&self, set: &[usize]) -> bool {
+        let k = set.len();
+        let mut factor = vec![0.0; k * k];
+        let mut x: Vec<f64> = set.iter().map(|&j| self.h[j]).collect();
+        let mut least = 1.0_f64;
+        for i in 0..k {
+            for j in 0..=i {
+                let known: f64 = (0..j).map(|l| factor[i * k + l] * factor[j * k + l]).sum();
+                let rest = self.gram[set[i] * self.n + set[j]] - known;
+                if i == j {
+                    if rest <= PIVOT {
+                        return false;
+                    }
+                    least = least.min(rest);
+                    factor[i * k + i] = rest.sqrt();
+                } else {
+                    factor[i * k + j] = rest / factor[j * k + j];
+                }
+            }
+            let known: f64 = (0..i).map(|l| factor[i * k + l] * x[l]).sum();
+            x[i] = (x[i] - known) / factor[i * k + i];
+        }
+        for i in (0..k).rev() {
+            let known: f64 = (i + 1..k).map(|l| factor[l * k + i] * x[l]).sum();
+            x[i] = (x[i] - known) / factor[i * k + i];
+        }
+        let size = x.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
+        let rounding = ROUNDING * f64::EPSILON / least * size;
+        x.iter().any(|v| *v < -rounding)
     }
 }
 

@@ -187,7 +187,9 @@ impl Search<'_> {
         let goal = self.goal();
         node.schur.pairs(goal, signs, |p, q| {
             set.extend([p, q]);
-            self.unit.try_set(&set, &mut self.best)?;
+            if !(signs && self.normal.has_negative(&set)) {
+                self.unit.try_set(&set, &mut self.best)?;
+            }
             set.truncate(set.len() - 2);
             Ok(self.goal())
         })
