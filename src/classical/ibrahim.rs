@@ -11,11 +11,14 @@
 
 use super::linear::column;
 use super::{ClassicalError, Damping, ModalData};
-use crate::math::eigen::{real_general, symmetrised};
+use crate::math::eigen::{least_eigenvalue, real_general, symmetrised};
 use crate::math::fill::filled;
 use crate::math::least_squares::{LeastSquares, solve_symmetric};
 use crate::structure::modes::Modes;
 use faer::{Mat, MatRef, c64};
+
+/// Least eigenvalue of the modal mass below which two shapes are one.
+const DISTINCT: f64 = 1e-6;
 
 /// `C` from measured modes and the undamped modes of the model.
 ///
@@ -85,6 +88,10 @@ fn corrected_mass(m: MatRef<'_, f64>, stiffness: MatRef<'_, f64>) -> Result<Mat<
         }
     }
     let modal = symmetrised((phi.transpose() * m * &phi).as_ref());
+    if least_eigenvalue(modal.as_ref()) < DISTINCT {
+        let what = "natural frequencies that all differ: the shapes of equal ones cannot be told apart".to_string();
+        return Err(ClassicalError::Missing { what });
+    }
     let identity = Mat::<f64>::identity(n, n);
     let inverse = solve_symmetric(modal.as_ref(), identity.as_ref())?;
     let middle = &inverse * (&identity - &modal) * &inverse;

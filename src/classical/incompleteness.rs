@@ -9,7 +9,7 @@ use super::adhikari_woodhouse::{original, projection_error, symmetric};
 use super::errors::{generalised_mac, mac_error, matrix_error};
 use super::linear::column;
 use super::method::Method;
-use super::resonant::expanded;
+use super::resonant::{expanded, is_seen};
 use super::{ClassicalError, Damping, ModalData};
 use super::{frf_inverse, ibrahim, lancaster, minas_inman, pilkey_inman};
 use crate::control::Control;
@@ -46,7 +46,8 @@ const MOST_WITH_MAC: usize = 60;
 pub struct Grid {
     /// Sets of sensors: DOFs by index, ascending. A set with all DOFs needs no expansion.
     pub sensors: Vec<Vec<usize>>,
-    /// Numbers of lowest modes measured, ascending; with fewer sensors than DOFs those up to the number of sensors are taken.
+    /// Numbers of lowest modes measured, ascending; with fewer sensors than DOFs those up to the number of sensors are
+    /// taken, and only below the first mode that they do not see.
     pub modes: Vec<usize>,
     /// Whether MAC errors are wanted.
     pub mac: bool,
@@ -183,7 +184,9 @@ pub fn incompleteness(
         .iter()
         .enumerate()
         .flat_map(|(s, set)| {
-            let most = if set.len() == n { exact.len() } else { set.len().min(exact.len()) };
+            // A mode that no sensor sees cannot be measured, nor those above it counted.
+            let seen = (0..exact.len()).take_while(|&r| is_seen(&model, set, r)).count();
+            let most = if set.len() == n { exact.len() } else { set.len().min(seen) };
             grid.modes.iter().filter(move |&&m| m >= 1 && m <= most).map(move |&m| (s, m))
         })
         .collect();

@@ -19,6 +19,8 @@ use crate::structure::SystemMatrices;
 use crate::structure::modes::Modes;
 use faer::c64;
 
+/// Part of a mode's largest motion below which a set of sensors does not see it.
+const UNSEEN: f64 = 1e-4;
 /// Largest distance of a run from a natural frequency, as a part of it.
 pub const NEAR: f64 = 0.012;
 /// Condition of the shapes at the sensors above which the highest modes are left out.
@@ -99,10 +101,16 @@ pub fn expanded(model: &Modes, sensors: &[usize], values: &[c64], r: usize) -> R
     Ok((0..n).map(at).collect())
 }
 
+/// Whether mode `r` moves any of the sensors noticeably.
+pub(super) fn is_seen(model: &Modes, sensors: &[usize], r: usize) -> bool {
+    let most = sensors.iter().map(|&dof| model.shapes[(dof, r)].abs()).fold(0.0, f64::max);
+    most > UNSEEN * model.shapes.col(r).norm_max()
+}
+
 /// Mode `r` and the lowest others at the sensors: as many as these tell apart.
 fn basis(model: &Modes, sensors: &[usize], r: usize) -> Result<(LeastSquares, Vec<usize>), ClassicalError> {
     let mut picked = vec![r];
-    picked.extend((0..model.len()).filter(|&j| j != r).take(sensors.len() - 1));
+    picked.extend((0..model.len()).filter(|&j| j != r && is_seen(model, sensors, j)).take(sensors.len() - 1));
     loop {
         let shapes = filled(sensors.len(), picked.len(), |s, k| model.shapes[(sensors[s], picked[k])]);
         let problem = LeastSquares::new(shapes.as_ref())?;

@@ -19,6 +19,11 @@ use std::f64::consts::TAU;
 /// Poles below this part of the largest are those of rigid bodies.
 const ZERO_POLE: f64 = 1e-12;
 
+/// Relative distance of poles that count as one.
+const SAME_POLE: f64 = 1e-10;
+/// Square of the part of a shape that another one leaves, below which the two are parallel.
+const PARALLEL: f64 = 1e-10;
+
 /// One damped mode: a pair of complex poles, given by the one above the real axis, or one real (overdamped) pole.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DampedMode {
@@ -108,14 +113,16 @@ pub fn damped_modes_from(undamped: &Modes, c: MatRef<'_, f64>) -> Result<Vec<Dam
     let largest = values.iter().fold(0.0_f64, |l, v| l.max(v.norm()));
     let smallest = if rigid > 0 { ZERO_POLE * largest } else { 0.0 };
     let kept: Vec<usize> = (0..values.len()).filter(|&r| values[r].im >= 0.0 && values[r].norm() > smallest).collect();
-    let modal_shapes: Vec<Vec<c64>> = kept
-        .iter()
-        .map(|&r| {
-            let mut q = displacement(&undamped.omega, rigid, values[r], vectors.col(r));
-            normalise(&mut q, values[r], &modal);
-            q
-        })
-        .collect();
+    let mut modal_shapes: Vec<Vec<c64>> = Vec::new();
+    for (place, &r) in kept.iter().enumerate() {
+        let mut q = displacement(&undamped.omega, rigid, values[r], vectors.col(r));
+        normalise(&mut q, values[r], &modal);
+        let alike = |&p: &usize| (values[kept[p]] - values[r]).norm() <= SAME_POLE * values[r].norm();
+        for p in (0..place).filter(alike) {
+            separate(&mut q, &modal_shapes[p], values[r], &modal);
+        }
+        modal_shapes.push(q);
+    }
     let still = (0..rigid).map(|r| {
         let shape = undamped.shapes.col(r).iter().map(|&v| c64::new(v, 0.0)).collect();
         DampedMode::new(c64::new(0.0, 0.0), shape)
@@ -165,6 +172,22 @@ fn modal_matrix(undamped: &Modes, c: MatRef<'_, f64>) -> Result<Mat<f64>, Struct
     }
     let modal = transposed_product(undamped.shapes.as_ref(), product(c, undamped.shapes.as_ref()).as_ref());
     Ok(eigen::symmetrised(modal.as_ref()))
+}
+
+/// Takes the part of `other` out of `q`, a shape of the same pole: what a solver gives there is any basis, and a receptance is
+/// the sum over shapes with `psi_p^T (2 lambda M + C) psi_q = 0`. Shapes of a defective pole are parallel and stay.
+fn separate(q: &mut [c64], other: &[c64], lambda: c64, modal: &Mat<f64>) {
+    let mut product = lambda * 2.0 * q.iter().zip(other).map(|(a, b)| a * b).sum::<c64>();
+    for (j, right) in q.iter().enumerate() {
+        let column: c64 = other.iter().enumerate().map(|(i, left)| left * modal[(i, j)]).sum();
+        product += column * right;
+    }
+    let size = |v: &[c64]| v.iter().map(c64::norm_sqr).sum::<f64>();
+    let mut rest: Vec<c64> = q.iter().zip(other).map(|(a, b)| a - product * b).collect();
+    if size(&rest) > PARALLEL * size(q) {
+        normalise(&mut rest, lambda, modal);
+        q.copy_from_slice(&rest);
+    }
 }
 
 /// Scales modal coordinates so that `2 lambda q^T q + q^T C q = 1`.

@@ -155,3 +155,38 @@ fn many_degrees_of_freedom_keep_their_precision() {
         assert!((norm_form(s, &c, mode) - c64::new(1.0, 0.0)).norm() < 1e-7);
     }
 }
+
+/// Three equal oscillators beside a damped one: the solver may give any basis of the threefold pole, the receptance
+/// `sum psi psi^T / (i w - lambda) + conjugate` needs shapes that are orthogonal in `2 lambda M + C`.
+#[test]
+fn shapes_of_equal_poles_add_up_to_the_receptance() {
+    let m = Mat::<f64>::identity(4, 4);
+    let mut k = Mat::<f64>::identity(4, 4) * faer::Scale(100.0);
+    k[(3, 3)] = 250.0;
+    let turn = Mat::from_fn(4, 4, |i, j| if i == j { 1.0 } else { 0.3 * ((i * 4 + j) as f64 * 1.7).sin() });
+    let turned = |a: &Mat<f64>| turn.transpose() * a * &turn;
+    let mut c = Mat::<f64>::zeros(4, 4);
+    c[(3, 3)] = 0.8;
+    let (m, k, c) = (turned(&m), turned(&k), turned(&c));
+    let modes = damped_modes(m.as_ref(), k.as_ref(), c.as_ref()).unwrap();
+    assert_eq!(modes.len(), 4);
+    let omega = 6.0;
+    let s = c64::new(0.0, omega);
+    let direct = Mat::from_fn(4, 4, |i, j| c64::new(k[(i, j)] - omega * omega * m[(i, j)], omega * c[(i, j)]));
+    let sum = Mat::from_fn(4, 4, |i, j| {
+        modes
+            .iter()
+            .map(|mode| {
+                let residue = mode.shape[i] * mode.shape[j];
+                residue / (s - mode.lambda) + residue.conj() / (s - mode.lambda.conj())
+            })
+            .sum::<c64>()
+    });
+    let product = &direct * &sum;
+    for i in 0..4 {
+        for j in 0..4 {
+            let one = if i == j { 1.0 } else { 0.0 };
+            assert!((product[(i, j)] - one).norm() < 1e-9, "{i} {j} {}", product[(i, j)]);
+        }
+    }
+}
