@@ -8,7 +8,7 @@ use super::outcome::{self, Outcome};
 use super::predict::{FINAL, SEARCH};
 use super::refit::{Refit, starts_of};
 use super::search::{Base, scale_of};
-use super::tuning::Tuning;
+use super::tuning::{Knob, Tuning};
 use crate::effects::{Effect, Place, Source};
 
 /// Most effects that are added.
@@ -130,7 +130,9 @@ pub(crate) fn explain<'a>(base: &'a Base<'a>, before: f64) -> Result<Outcome<'a>
     let none = || Found { bare: None, rungs: Vec::new(), agrees: false, before };
     let mut exact = none();
     let reach = base.reach()?;
-    let within = |least: f64| least <= REACH * (base.count() as f64 + AGREES * (2.0 * base.count() as f64).sqrt());
+    let n = base.count() as f64;
+    let noise = REACH * (n + AGREES * (2.0 * n).sqrt());
+    let within = |least: f64| least <= noise || least - n < LAST * (before - n);
     if within(reach.single) {
         climb(base, &mut exact, (before, 0, 0.0), 1)?;
     } else {
@@ -159,7 +161,7 @@ pub(crate) fn explain<'a>(base: &'a Base<'a>, before: f64) -> Result<Outcome<'a>
             tuned = more;
         }
     }
-    if !tuned.agrees && exact.rungs.is_empty() {
+    if !tuned.agrees && exact.rungs.is_empty() && reach.pair < cost(base, &tuned, before) {
         climb(base, &mut exact, (before, 0, 0.0), 2)?;
     }
     pruned(base, &mut tuned)?;
@@ -200,8 +202,11 @@ fn with_corrections(base: &Base, before: Option<&Rung>, each: bool, first: f64) 
         refits.push(bench.refit(&refit.effects, &free, STEPS, &SEARCH, &refit.starts)?);
     }
     refits.extend(faults_of_forces(base, &bare, &free)?);
+    refits.extend(beside_known(base, &bare, &free)?);
+    refits = distinct(base.ranked(refits));
+    let done = refits.first().is_some_and(|best| fits_well(base, &found, best));
     let mut from = bare.clone();
-    for _ in 0..2 {
+    for _ in 0..if done { 0 } else { 2 } {
         refits.extend(corrected_singles(base, &from)?);
         refits = distinct(base.ranked(refits));
         let Some(best) = refits.first() else { break };
@@ -224,13 +229,13 @@ fn with_corrections(base: &Base, before: Option<&Rung>, each: bool, first: f64) 
 
 /// Whether no correction is farther from nothing than models are wrong: else an effect may pass for a correction.
 pub(crate) fn likely(bare: &Refit) -> bool {
-    let priors = bare.tuning.knobs.iter().map(super::tuning::Knob::deviation);
+    let priors = bare.tuning.knobs.iter().map(Knob::deviation);
     bare.tuning.values.iter().zip(priors).all(|(v, s)| v.abs() <= LIKELY * s)
 }
 
 /// Whether corrections that agree with the data may be believed where no effect does better.
 fn plausible(bare: &Refit) -> bool {
-    let priors = bare.tuning.knobs.iter().map(super::tuning::Knob::deviation);
+    let priors = bare.tuning.knobs.iter().map(Knob::deviation);
     bare.tuning.values.iter().zip(priors).all(|(v, s)| v.abs() <= 2.0 * LIKELY * s)
 }
 
@@ -244,6 +249,22 @@ fn faults_of_forces(base: &Base, bare: &Refit, free: &Tuning) -> Result<Vec<Refi
     let fault = |name: &String| Source::known(Effect::Gain, Place::Channel(name.clone()), &[1.02]);
     let fit = |name: &String| base.bench().refit(&[fault(name)], free, STEPS, &SEARCH, &[]);
     forces.iter().map(fit).collect()
+}
+
+/// Effects seen from a model whose known sources are as stated, where their corrections go further than known sizes are
+/// wrong by: what is missing may act where something known does, which would grow in its stead.
+fn beside_known(base: &Base, bare: &Refit, free: &Tuning) -> Result<Vec<Refit>, ExplainError> {
+    let known = |knob: &Knob| matches!(knob, Knob::Known(_));
+    let grown = |(knob, v): (&Knob, &f64)| known(knob) && v.abs() > LIKELY * knob.deviation();
+    if !bare.tuning.knobs.iter().zip(&bare.tuning.values).any(grown) {
+        return Ok(Vec::new());
+    }
+    let as_stated = free.only(|knob| !known(knob));
+    let from = base.bench().refit(&[], &as_stated, STEPS, &SEARCH, &[])?;
+    let seen = corrected_singles(base, &from)?;
+    let freed =
+        |refit: &Refit| base.bench().refit(&refit.effects, &refit.tuning.within(free), STEPS, &SEARCH, &refit.starts);
+    seen.iter().take(4).map(freed).collect()
 }
 
 /// Drops effects that the last set of a search no longer needs, now that the others are there.
@@ -296,6 +317,12 @@ fn add_rung(base: &Base, found: &mut Found, refits: Vec<Refit>, last: (f64, usiz
     }
     let (mut refits, mut noise) = base.polished(refits)?;
     let Some(best) = refits.first() else { return Ok(false) };
+    if !fits_well(base, found, best) {
+        let more = base.wider(best)?;
+        refits.extend(more);
+        (refits, noise) = base.polished(distinct(base.ranked(refits)))?;
+    }
+    let Some(best) = refits.first() else { return Ok(false) };
     if let Some(source) = best.effects.last() {
         let quiet = Base { noise: noise.clone(), predictions: base.predictions.clone(), ..base.shallow() };
         let margin = ELSEWHERE * scale_of(&refits, base.count());
@@ -316,10 +343,15 @@ fn add_rung(base: &Base, found: &mut Found, refits: Vec<Refit>, last: (f64, usiz
     if gain < EVIDENCE {
         return Ok(false);
     }
-    let all = best.parameters + best.tuning.knobs.len();
-    found.agrees = agrees(base, best.chi_square, all) || nearly(base, best, found.before);
+    found.agrees = fits_well(base, found, best);
     found.rungs.push(Rung { refits, scale, noise });
     Ok(true)
+}
+
+/// Whether a fit agrees with the data, or all but.
+fn fits_well(base: &Base, found: &Found, refit: &Refit) -> bool {
+    let all = refit.parameters + refit.tuning.knobs.len();
+    agrees(base, refit.chi_square, all) || nearly(base, refit, found.before)
 }
 
 /// Sets of one effect more than the last rung.

@@ -10,6 +10,10 @@ use crate::effects::{Effect, Place, Source, State, effect::Kind};
 
 /// Of these, sets that are fitted with all harmonics that matter.
 const POLISHED: usize = 6;
+/// The same where even the best leaves more than this of its squared residual per datum: there, all harmonics are not what
+/// is missing.
+const ROUGHLY: usize = 2;
+const COARSE: f64 = 30.0;
 /// Steps of a fit on the response: of all drafts, and of those that may still become the best.
 pub(super) const FIRST_STEPS: usize = 4;
 pub(super) const STEPS: usize = 20;
@@ -83,7 +87,8 @@ impl Base<'_> {
         let scale = scale_of(&best, self.count());
         let bound = best.first().map_or(0.0, |r| self.evidence(r, scale)) + HOPELESS_FIT;
         let near = best.iter().take_while(|r| self.evidence(r, scale) < bound).count();
-        let rest = best.split_off(near.clamp(1, POLISHED).min(best.len()));
+        let most = if scale > COARSE { ROUGHLY } else { POLISHED };
+        let rest = best.split_off(near.clamp(1, most).min(best.len()));
         let mut noise = self.noise.clone();
         for steps in [8, 4] {
             let bench = Bench { noise: &noise, ..self.bench() };

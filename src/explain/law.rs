@@ -128,7 +128,8 @@ impl PlaceData {
         }
     }
 
-    fn fit_law(&self, effect: Effect, law: &'static dyn Law) -> Option<LawFit> {
+    /// Shapes of `effect` with their best scale, best first, each with what it leaves of the free force.
+    fn grid(&self, effect: Effect, law: &dyn Law) -> Vec<(f64, Vec<f64>)> {
         let mut grid: Vec<(f64, Vec<f64>)> = Vec::new();
         for mut p in shapes(effect, &self.range) {
             let (scale, misfit) = self.scale(law, &p);
@@ -140,6 +141,21 @@ impl PlaceData {
             grid.push((misfit, p));
         }
         grid.sort_by(|a, b| a.0.total_cmp(&b.0));
+        grid
+    }
+
+    /// Best shapes of `effect` as they are, for fits that start from somewhere sensible.
+    pub fn starts(&self, effect: Effect, most: usize) -> Vec<LawFit> {
+        let (Kind::Relative(law), Spot::Leg(_)) = (effect.kind(), &self.spot) else { return Vec::new() };
+        let fit = |(misfit, parameters)| LawFit {
+            source: Source { effect, place: self.spot.place(), state: State::Known, parameters },
+            misfit,
+        };
+        self.grid(effect, law).into_iter().take(most).map(fit).collect()
+    }
+
+    fn fit_law(&self, effect: Effect, law: &'static dyn Law) -> Option<LawFit> {
+        let grid = self.grid(effect, law);
         let source =
             |p: &[f64]| Source { effect, place: self.spot.place(), state: State::Known, parameters: p.to_vec() };
         let (misfit, parameters) = grid.first()?;

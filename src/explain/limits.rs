@@ -19,6 +19,15 @@ pub(crate) fn limits(effect: Effect) -> &'static [Effect] {
     }
 }
 
+/// Laws of several parameters that a law may have been taken for: those that contain it or one of its limits, and itself.
+pub(crate) fn wider(effect: Effect) -> Vec<Effect> {
+    let common = |other: Effect| limits(other).iter().any(|&l| l == effect || limits(effect).contains(&l));
+    Effect::ALL
+        .into_iter()
+        .filter(|&other| other.parameters().len() > 1 && (other == effect || common(other)))
+        .collect()
+}
+
 /// Whether the parameters of `source` are all but those of a simpler law.
 pub(crate) fn at_limit(source: &Source) -> bool {
     let p = &source.parameters;
@@ -39,6 +48,13 @@ pub(crate) fn disguised(source: &Source) -> bool {
 mod tests {
     use super::*;
     use crate::effects::Place;
+
+    #[test]
+    fn what_may_hide_behind_a_law_contains_it_or_shares_a_limit() {
+        assert_eq!(wider(Effect::Quadratic), [Effect::Power]);
+        assert!(wider(Effect::Coulomb).contains(&Effect::Stribeck) && wider(Effect::Stribeck).contains(&Effect::Iwan));
+        assert!(wider(Effect::Mass).is_empty());
+    }
 
     #[test]
     fn powers_next_to_whole_numbers_pose_as_other_laws() {

@@ -45,6 +45,7 @@ pub mod spots;
 mod start;
 pub mod tuning;
 pub mod whiteness;
+mod wider;
 
 pub use compare::{Comparison, compare};
 pub use data::{ExplainError, Problem};

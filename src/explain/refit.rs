@@ -219,8 +219,8 @@ fn finished(
     let deviations = effects.iter().map(|e| own.by_ref().take(e.parameters.len()).collect()).collect();
     let knobs = &descent.theta[parameters..];
     let penalty: f64 = knobs.iter().map(|u| u * u).sum();
-    // Occam's factor: how far the data narrow each correction down.
-    let occam: f64 = all[parameters..].iter().map(|d| -2.0 * d.clamp(1e-12, 1.0).ln()).sum();
+    // Occam's factor: how far the data narrow the corrections down together.
+    let occam = descent.knowledge(parameters);
     Refit {
         tuning_deviations: all[parameters..].iter().zip(priors).map(|(d, s)| d * s).collect(),
         chi_square: descent.chi_square - penalty,

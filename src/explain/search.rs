@@ -211,7 +211,7 @@ impl<'a> Base<'a> {
     }
 
     /// Computes the receptances of the spots.
-    fn need(&self, view: &mut View, spots: &[usize]) -> Result<(), ExplainError> {
+    pub(super) fn need(&self, view: &mut View, spots: &[usize]) -> Result<(), ExplainError> {
         for &s in spots {
             if let Spot::Leg(leg) = view.screen.spots[s] {
                 view.receptances.need_leg(leg, self.control)?;
@@ -221,7 +221,7 @@ impl<'a> Base<'a> {
     }
 
     /// Free forces of the spots of a placing, and the motion they imply; their receptances are there.
-    fn free(&self, view: &View, spots: &[usize]) -> (Vec<Vec<Vec<FreeForce>>>, Fields) {
+    pub(super) fn free(&self, view: &View, spots: &[usize]) -> (Vec<Vec<Vec<FreeForce>>>, Fields) {
         let forces = view.screen.forces(spots);
         let n = self.predictor.structure().len();
         let field = |(r, run): (usize, &super::data::RunData)| {

@@ -75,6 +75,21 @@ impl Tuning {
         Self { knobs: self.knobs.clone(), values: values.to_vec() }
     }
 
+    /// Those of the corrections that are `wanted`.
+    #[must_use]
+    pub fn only(&self, wanted: impl Fn(&Knob) -> bool) -> Self {
+        let kept = self.knobs.iter().zip(&self.values).filter(|(knob, _)| wanted(knob));
+        let (knobs, values) = kept.map(|(knob, v)| (knob.clone(), *v)).unzip();
+        Self { knobs, values }
+    }
+
+    /// All corrections of `all`, at these values where they are among these.
+    #[must_use]
+    pub fn within(&self, all: &Self) -> Self {
+        let at = |(knob, v): (&Knob, &f64)| self.knobs.iter().position(|k| k == knob).map_or(*v, |k| self.values[k]);
+        Self { knobs: all.knobs.clone(), values: all.knobs.iter().zip(&all.values).map(at).collect() }
+    }
+
     fn factor(&self, knob: &Knob) -> f64 {
         let at = self.knobs.iter().position(|k| k == knob);
         at.map_or(1.0, |k| self.values[k].clamp(-2.0, 2.0).exp())
@@ -202,6 +217,14 @@ mod tests {
             let expected = 0.5 * (0.02 + 0.01 + if r == 1 { 0.04 } else { 0.0 });
             assert!(((after[r] / before[r]).ln() - expected).abs() < 1e-9, "mode {r}");
         }
+    }
+
+    #[test]
+    fn corrections_left_out_come_back_as_they_were() {
+        let all = Tuning { knobs: vec![Knob::Stiffness, Knob::Known(0), Knob::Mass], values: vec![0.1, 0.2, 0.3] };
+        let some = all.only(|knob| !matches!(knob, Knob::Known(_)));
+        assert_eq!(some.values, [0.1, 0.3]);
+        assert_eq!(some.with(&[1.0, 3.0]).within(&all), all.with(&[1.0, 0.2, 3.0]));
     }
 
     #[test]
