@@ -197,9 +197,10 @@ fn text(project: &Project, diagnosis: &Diagnosis) -> String {
         }
     }
     lines.push_str("\nsteps\n");
-    for step in &diagnosis.steps {
+    for (k, step) in diagnosis.steps.iter().enumerate() {
         let names: Vec<String> = step.added.iter().map(|a| title(structure, &a.source)).collect();
-        let what = if names.is_empty() { "the model as it is".to_owned() } else { names.join(", ") };
+        let without = if k == 0 { "the model as it is" } else { "the model corrected" };
+        let what = if names.is_empty() { without.to_owned() } else { names.join(", ") };
         lines.push_str(&format!("  {} %  {what}\n", number(100.0 * step.error)));
     }
     for test in &diagnosis.next_test {

@@ -33,6 +33,8 @@ impl Outcome<'_> {
             diagnosis.verdict = if self.found.agrees { Verdict::Adequate } else { Verdict::Undecided };
             if let Some(bare) = &self.found.bare {
                 diagnosis.corrections = corrections(bare);
+                let misfit = bare.chi_square / base.count() as f64;
+                diagnosis.steps.push(Step { added: Vec::new(), error: bare.error, misfit });
             }
             return Ok(diagnosis);
         };

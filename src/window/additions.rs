@@ -76,7 +76,7 @@ pub fn take_over(found: &[(usize, f64)], p: &Project) -> Result<Vec<Command>, St
 }
 
 /// Labels of the DOFs of a place, or its range of elements counted from 1.
-fn labels(place: &Place, structure: &Structure) -> (Vec<String>, Option<[i64; 2]>) {
+pub fn labels(place: &Place, structure: &Structure) -> (Vec<String>, Option<[i64; 2]>) {
     match place {
         Place::Dofs(dofs) => (dofs.iter().map(|&d| structure.label(d).to_owned()).collect(), None),
         Place::Whole(range) => (Vec::new(), range.map(|r| r.map(|e| e as i64 + 1))),

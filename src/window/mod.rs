@@ -7,6 +7,7 @@ pub mod arguments;
 pub mod ask;
 pub mod background;
 pub mod commands;
+pub mod corrections;
 pub mod derived;
 pub mod document;
 pub mod edits;

@@ -1,8 +1,9 @@
 //! The walk through Explain: see where the model fails, learn what is missing, try it, add it, watch the error fall, undo.
 
 use crate::friction::{FORCE, ROW, friction};
-use crate::support::{beam, open, settle};
+use crate::support::{beam, detuned, open, settle};
 use dashpot::effects::{Effect, Place, Source, State};
+use dashpot::exchange::project::file::Shape;
 use dashpot::explain::diagnose::Verdict;
 use dashpot::window::App;
 use dashpot::window::stages::explain::look::Tab;
@@ -135,4 +136,28 @@ fn the_walk_in_the_dark() {
     let (_sample, mut harness) = explain(Theme::Dark);
     press(&mut harness, "Try");
     picture(&mut harness, "explain-try-dark");
+}
+
+#[test]
+fn a_detuned_model_is_corrected_and_lacks_nothing() {
+    let sample = detuned();
+    let mut harness = open(&sample, Theme::Light);
+    harness.get_by_role_and_label(Role::Tab, "Explain").click();
+    settle(&mut harness);
+    let [before, floor] = error(&harness);
+    assert!(before > 20.0 * floor, "the detuned model is wrong by {before}, noise {floor}");
+    assert_eq!(verdict(&harness), Verdict::Adequate, "no effect is missing");
+    harness.get_by_label("The model is detuned");
+    picture(&mut harness, "explain-detuned");
+    press(&mut harness, "Correct the model");
+    let [after, floor] = error(&harness);
+    assert!(after < 1.2 * floor, "error {after}, noise floor {floor}");
+    let modulus = harness.state().document.as_ref().unwrap().session().document().file().structure.clone();
+    let Shape::Beam(corrected) = modulus.shape else { panic!("a beam") };
+    let ratio = corrected.youngs_modulus / corrected.density / (70.4e9 / 2700.0);
+    assert!((ratio - 1.0).abs() < 1e-3, "stiffness over mass is off by {ratio}");
+    picture(&mut harness, "explain-corrected");
+    harness.key_press_modifiers(Modifiers::COMMAND, Key::Z);
+    settle(&mut harness);
+    assert_eq!(error(&harness)[0], before);
 }

@@ -41,6 +41,26 @@ pub fn beam() -> Sample {
     write(head, &structure, &truth, 8, &[4, 8])
 }
 
+/// A cantilever whose project states Young's modulus 2 % too low and a dashpot 15 % too small, and lacks nothing else.
+pub fn detuned() -> Sample {
+    let parameters = BeamParameters {
+        length: 0.5,
+        breadth: 0.04,
+        depth: 0.004,
+        youngs_modulus: 70.4e9,
+        density: 2700.0,
+        elements: 5,
+        supports: Supports::ClampedFree,
+    };
+    let structure = parameters.build(&[]).unwrap();
+    let head = "[project]\nformat = 1\ntitle = \"Detuned beam\"\n[structure]\nkind = \"beam\"\nlength = 0.5\nbreadth = 0.04\n\
+                depth = 0.004\nyoungs_modulus = 69e9\ndensity = 2700.0\nelements = 5\nsupports = \"clamped-free\"\n\
+                [[source]]\nlaw = \"viscous\"\ndofs = [3]\nstate = \"known\"\nc = 1.5\n\
+                [[source]]\nlaw = \"viscous\"\ndofs = [7]\nstate = \"known\"\nc = 1.7\n";
+    let truth = [(2, 1.5), (6, 2.0)].map(|(d, c)| Source::known(Effect::Viscous, Place::Dofs(vec![d]), &[c]));
+    write(head, &structure, &truth, 8, &[2, 4, 8])
+}
+
 /// Four masses with a dashpot between the second and the third and a known one at the first.
 pub fn chain() -> Sample {
     let parameters = ChainParameters {

@@ -47,6 +47,11 @@ impl Key {
 impl Model {
     /// What was changed on the way from `before` to this, in a few words.
     pub fn change(&self, before: &Self, structure: &Structure) -> String {
+        let same_laws = self.known.len() == before.known.len()
+            && self.known.iter().zip(&before.known).all(|(now, then)| now.is_same(then));
+        if self.structure != before.structure && self.known != before.known && same_laws {
+            return "model corrected".to_owned();
+        }
         let mut said: Vec<String> = Vec::new();
         let name = |s: &Source| format!("{} {}", words::effect(s.effect), at(structure, &s.place));
         let twin = |list: &[Source], s: &Source| list.iter().find(|other| other.is_same(s)).cloned();

@@ -9,13 +9,17 @@ use crate::explain::Diagnosis;
 use crate::explain::diagnose::{Suggestion, Verdict};
 use crate::explain::tuning::Knob;
 use crate::window::app::Ask;
+use crate::window::corrections::{self, Adopted};
 use crate::window::explained::HOPELESS;
 use crate::window::explained::model::at;
 use crate::window::format;
 use crate::window::theme::{self, size, space};
 use crate::window::widgets::UiExt;
 use crate::window::words;
-use egui::{Align, Layout, RichText, ScrollArea, Sense, Ui, vec2};
+use egui::{Align, Button, Layout, RichText, ScrollArea, Sense, Ui, vec2};
+
+/// How many times the noise floor an error must be to be more than noise.
+const BEYOND: f64 = 1.2;
 
 /// Suggestions that are not ruled out, with probabilities that add up to what they did before.
 pub fn ranked<'a>(diagnosis: &'a Diagnosis, look: &Look) -> Vec<(&'a Suggestion, f64)> {
@@ -81,11 +85,24 @@ fn far_off(scene: &Scene<'_>) -> bool {
     comparison.is_some_and(|c| c.error > HOPELESS)
 }
 
+/// Whether nothing is missing once the model is corrected, but the model as it stands does not explain the data.
+pub fn is_detuned(diagnosis: &Diagnosis) -> bool {
+    let beyond = diagnosis.error_before > BEYOND * diagnosis.noise_floor;
+    diagnosis.verdict == Verdict::Adequate && !diagnosis.corrections.is_empty() && beyond
+}
+
 /// The verdict as a sentence.
 pub fn sentence(diagnosis: &Diagnosis) -> String {
     let times = diagnosis.error_before / diagnosis.noise_floor.max(f64::MIN_POSITIVE);
     let (error, floor) = (in_words(diagnosis.error_before), format::percent(diagnosis.noise_floor));
     match diagnosis.verdict {
+        Verdict::Adequate if is_detuned(diagnosis) => {
+            let after = diagnosis.steps.last().map_or(diagnosis.noise_floor, |s| s.error);
+            let after = in_words(after);
+            format!(
+                "It is only detuned: with the corrections below its error falls from {error} to {after} (noise {floor})."
+            )
+        }
         Verdict::Adequate => {
             format!("Its error of {error} is within what noise alone makes ({floor}). Nothing more is suggested.")
         }
@@ -109,7 +126,7 @@ fn answer(ui: &mut Ui, scene: &Scene<'_>, diagnosis: &Diagnosis, look: &mut Look
         let colour = if diagnosis.verdict == Verdict::Missing { ui.palette().missing } else { ui.palette().warning };
         ui.label(RichText::new(sentence(diagnosis)).color(colour));
     }
-    corrections(ui, scene, diagnosis);
+    detuned(ui, scene, diagnosis, asks);
     if diagnosis.verdict == Verdict::Undecided {
         next_tests(ui, scene, diagnosis);
     }
@@ -132,16 +149,38 @@ fn answer(ui: &mut Ui, scene: &Scene<'_>, diagnosis: &Diagnosis, look: &mut Look
 }
 
 /// What the model states wrongly and the search corrected beside the effects.
-fn corrections(ui: &mut Ui, scene: &Scene<'_>, diagnosis: &Diagnosis) {
+fn detuned(ui: &mut Ui, scene: &Scene<'_>, diagnosis: &Diagnosis, asks: &mut Vec<Ask>) {
     if diagnosis.corrections.is_empty() {
         return;
     }
-    ui.title("The model is detuned", "corrected in the search, not in the project");
+    ui.add_space(space::XS);
+    ui.title("The model is detuned", "corrected in the search, not yet in the project");
     for correction in &diagnosis.corrections {
         let change = format::with_deviation(100.0 * (correction.factor - 1.0), 100.0 * correction.deviation, "%");
         let sign = if correction.factor > 1.0 { "+" } else { "" };
         ui.pair(&knob(scene, &correction.knob), format!("{sign}{change}"));
     }
+    let adopted = adopted(scene, diagnosis);
+    ui.horizontal(|ui| {
+        let tip = "Multiplies what the project states by these factors. Undo takes it back.";
+        let can = !adopted.commands.is_empty();
+        if ui.add_enabled(can, Button::new("Correct the model")).on_hover_text(tip).clicked() {
+            asks.push(Ask::Explain(Deed::Correct));
+        }
+        if !adopted.left.is_empty() {
+            let left: Vec<String> =
+                adopted.left.iter().map(|&k| knob(scene, &diagnosis.corrections[k].knob).to_lowercase()).collect();
+            ui.hint(format!("The project has no number for: {}.", left.join(", ")));
+        }
+    });
+    ui.add_space(space::XS);
+}
+
+/// The commands that take the corrections over.
+pub fn adopted(scene: &Scene<'_>, diagnosis: &Diagnosis) -> Adopted {
+    let known = |index: usize| scene.explained.known(scene.document, index);
+    let file = scene.document.session().document().file();
+    corrections::adopt(&diagnosis.corrections, &known, &scene.document.project, file)
 }
 
 /// What a correction corrects.
@@ -169,7 +208,9 @@ fn adequate(ui: &mut Ui, scene: &Scene<'_>, diagnosis: &Diagnosis) {
         ui.painter().circle_filled(c, 13.0, palette.good);
         let tick = vec![c + vec2(-5.6, 0.4), c + vec2(-1.6, 4.8), c + vec2(6.0, -4.4)];
         ui.painter().add(egui::Shape::line(tick, theme::bold(palette.pane)));
-        ui.label(RichText::new("The model now explains the data").size(size::HEADING + 2.0));
+        let detuned = is_detuned(diagnosis);
+        let said = if detuned { "No effect is missing" } else { "The model now explains the data" };
+        ui.label(RichText::new(said).size(size::HEADING + 2.0));
     });
     ui.add_space(space::XS);
     ui.label(sentence(diagnosis));

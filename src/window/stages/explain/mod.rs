@@ -47,6 +47,8 @@ pub enum Deed {
     Return(usize),
     /// Put what was identified into the model.
     TakeOver,
+    /// Put the corrections that the search found into the model.
+    Correct,
     /// Start it again.
     Retry,
     /// Search though the model is far from the data.
@@ -93,6 +95,7 @@ pub fn answer(app: &mut App, ctx: &Context, deed: Deed) {
         Deed::Restore(source) => app.view.explain.excluded.retain(|s| !s.is_same(&source)),
         Deed::Return(step) => go_back(app, step),
         Deed::TakeOver => take_over(app, ctx),
+        Deed::Correct => correct(app, ctx),
         Deed::Retry => app.derived.explained.retry(),
         Deed::Search => app.view.explain.anyway = true,
     }
@@ -124,6 +127,18 @@ fn add(app: &mut App, ctx: &Context, source: &Source) {
     }
 }
 
+/// What the search corrected is corrected in the project too.
+fn correct(app: &mut App, ctx: &Context) {
+    let Some(document) = &app.document else { return };
+    let scene = Scene { document, explained: &app.derived.explained };
+    let Some(Ok(diagnosis)) = scene.explained.diagnosis(document) else { return };
+    let commands = cards::adopted(&scene, diagnosis).commands;
+    app.edit(ctx, &Edit::All(commands));
+    if app.message.as_ref().is_none_or(|m| !m.failed) {
+        app.say("The model is corrected. Undo takes it back.".to_owned());
+    }
+}
+
 /// What the identification found becomes known.
 fn take_over(app: &mut App, ctx: &Context) {
     let Some(document) = &app.document else { return };
@@ -150,6 +165,9 @@ pub fn mark(document: &Document, explained: &Explained) -> Mark {
     };
     let (error, floor) = (grid::in_words(comparison.error), format::percent(comparison.noise_floor));
     match explained.diagnosis(document) {
+        Some(Ok(d)) if cards::is_detuned(d) => {
+            Mark::attention(&format!("The model is detuned: error {error}, noise floor {floor}. No effect is missing."))
+        }
         Some(Ok(d)) if d.verdict == Verdict::Adequate => {
             Mark::done(&format!("The model explains the data: error {error}, noise floor {floor}."))
         }

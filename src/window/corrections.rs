@@ -1,0 +1,176 @@
+//! What becomes of the corrections of the model that a search found: other numbers of the structure and of its known sources.
+
+use super::additions::labels;
+use crate::effects::{Effect, Source, State};
+use crate::exchange::Project;
+use crate::exchange::project::file::{ProjectFile, Shape, StructureTable};
+use crate::explain::diagnose::Correction;
+use crate::explain::shapes::scaled;
+use crate::explain::tuning::Knob;
+use crate::session::{Command, SourceAt};
+use std::collections::BTreeMap;
+
+/// How corrections are taken over.
+#[derive(Debug, Default)]
+pub struct Adopted {
+    /// The commands that do it, to be undone together.
+    pub commands: Vec<Command>,
+    /// Which corrections the project has no number for, by their place in the list.
+    pub left: Vec<usize>,
+}
+
+/// Multiplies what the project states by the factors of `corrections`; `known` gives the known source of an index.
+pub fn adopt(
+    corrections: &[Correction],
+    known: &dyn Fn(usize) -> Option<Source>,
+    project: &Project,
+    file: &ProjectFile,
+) -> Adopted {
+    let mut adopted = Adopted::default();
+    let mut numbers = Numbers { table: &file.structure, values: BTreeMap::new() };
+    for (k, correction) in corrections.iter().enumerate() {
+        let factor = correction.factor;
+        let done = match &correction.knob {
+            Knob::Stiffness => numbers.stiffness(factor),
+            Knob::Mass => {
+                adopted.commands.extend(lumped(&file.structure, factor));
+                numbers.mass(factor)
+            }
+            Knob::Spring(dofs, _) => numbers.spring(dofs, factor),
+            Knob::Known(index) => match known(*index) {
+                Some(source) => {
+                    adopted.commands.push(resized(&source, factor, project));
+                    true
+                }
+                None => false,
+            },
+            Knob::Mode(_) => false,
+        };
+        if !done {
+            adopted.left.push(k);
+        }
+    }
+    if !numbers.values.is_empty() {
+        adopted.commands.push(Command::SetStructureParameters(numbers.values));
+    }
+    adopted
+}
+
+/// Numbers of the structure under their keys as they will be.
+struct Numbers<'a> {
+    table: &'a StructureTable,
+    values: BTreeMap<String, f64>,
+}
+
+impl Numbers<'_> {
+    fn scale(&mut self, key: String, value: f64, factor: f64) {
+        *self.values.entry(key).or_insert(value) *= factor;
+    }
+
+    fn list(&mut self, name: &str, values: &[f64], factor: f64) {
+        for (k, &value) in values.iter().enumerate().filter(|(_, v)| **v != 0.0) {
+            self.scale(format!("{name}[{}]", k + 1), value, factor);
+        }
+    }
+
+    fn stiffness(&mut self, factor: f64) -> bool {
+        match &self.table.shape {
+            Shape::Beam(beam) => self.scale("youngs_modulus".to_owned(), beam.youngs_modulus, factor),
+            Shape::Chain(chain) => {
+                self.list("ground_stiffness", &chain.ground_stiffness, factor);
+                self.list("coupling_stiffness", &chain.coupling_stiffness, factor);
+            }
+            Shape::Matrices(_) | Shape::Points(_) => return false,
+        }
+        true
+    }
+
+    fn mass(&mut self, factor: f64) -> bool {
+        match &self.table.shape {
+            Shape::Beam(beam) => self.scale("density".to_owned(), beam.density, factor),
+            Shape::Chain(chain) => self.list("masses", &chain.masses, factor),
+            Shape::Matrices(_) | Shape::Points(_) => return false,
+        }
+        true
+    }
+
+    /// A spring of a chain, to the ground or between neighbours.
+    fn spring(&mut self, dofs: &[usize], factor: f64) -> bool {
+        let Shape::Chain(chain) = &self.table.shape else { return false };
+        let (name, list) = match dofs.len() {
+            1 => ("ground_stiffness", &chain.ground_stiffness),
+            _ => ("coupling_stiffness", &chain.coupling_stiffness),
+        };
+        let Some((k, value)) = dofs.iter().min().and_then(|&k| Some((k, *list.get(k)?))) else { return false };
+        self.scale(format!("{name}[{}]", k + 1), value, factor);
+        true
+    }
+}
+
+/// Lumped masses belong to all mass, where density or masses do.
+fn lumped(table: &StructureTable, factor: f64) -> Vec<Command> {
+    if !matches!(table.shape, Shape::Beam(_) | Shape::Chain(_)) {
+        return Vec::new();
+    }
+    let scaled = |mass: f64| Some(mass * factor);
+    let one = |l: &crate::structure::LumpedMass| Command::SetLumpedMass { dof: l.dof.clone(), mass: scaled(l.mass) };
+    table.lumped_mass.iter().map(one).collect()
+}
+
+/// A known source of another size: its coefficient, or stiffness and force together.
+fn resized(source: &Source, factor: f64, project: &Project) -> Command {
+    let (dofs, elements) = labels(&source.place, &project.structure);
+    let effect: Effect = source.effect;
+    let parameters = scaled(effect)
+        .iter()
+        .map(|&k| (effect.parameters()[k].name.to_owned(), source.parameters[k] * factor))
+        .collect();
+    let at = SourceAt { law: effect, dofs, elements, state: Some(State::Known) };
+    Command::SetSourceParameters { source: at, parameters }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, clippy::disallowed_methods, reason = "tests")]
+
+    use super::*;
+    use crate::control::Control;
+    use crate::window::document::Document;
+    use crate::window::edits::Edit;
+
+    const CHAIN: &str = "[project]\nformat = 1\ntitle = \"Chain\"\n[structure]\nkind = \"chain\"\nmasses = [1.0, 2.0]\n\
+                         ground_stiffness = [100.0, 0.0]\ncoupling_stiffness = [50.0]\n\
+                         [[structure.lumped_mass]]\ndof = 2\nmass = 0.5\n\
+                         [[source]]\nlaw = \"viscous\"\ndofs = [1, 2]\nstate = \"known\"\nc = 2.0\n";
+
+    fn correction(knob: Knob, factor: f64) -> Correction {
+        Correction { knob, factor, deviation: 0.01 }
+    }
+
+    #[test]
+    fn corrections_multiply_what_the_project_states_and_are_undone_together() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("project.toml");
+        std::fs::write(&path, CHAIN).unwrap();
+        let mut d = Document::open(&path, &Control::unattended()).unwrap().0;
+        let before = d.session().document().file().clone();
+        let list = [
+            correction(Knob::Stiffness, 1.1),
+            correction(Knob::Mass, 0.9),
+            correction(Knob::Spring(vec![1, 0], 50.0), 1.2),
+            correction(Knob::Known(0), 1.5),
+            correction(Knob::Mode(3), 1.01),
+        ];
+        let known = |k: usize| d.project.sources.iter().filter(|s| s.state == State::Known).nth(k).cloned();
+        let adopted = adopt(&list, &known, &d.project, &before);
+        assert_eq!(adopted.left, [4], "a mode has no number in the project");
+        d.apply(&Edit::All(adopted.commands)).unwrap();
+        let stiffness = d.project.structure.matrices().unwrap().stiffness.clone();
+        assert!((stiffness[(0, 1)] + 50.0 * 1.1 * 1.2).abs() < 1e-9 && (stiffness[(0, 0)] - 176.0).abs() < 1e-9);
+        let mass = d.project.structure.matrices().unwrap().mass.clone();
+        assert!((mass[(1, 1)] - 2.25).abs() < 1e-12 && (mass[(0, 0)] - 0.9).abs() < 1e-12);
+        assert!((d.project.sources[0].parameters[0] - 3.0).abs() < 1e-12);
+        d.undo().unwrap();
+        assert_eq!(*d.session().document().file(), before);
+    }
+}
