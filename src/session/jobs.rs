@@ -6,6 +6,7 @@ use crate::control::Control;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, sync_channel};
+use std::thread::JoinHandle;
 use std::time::Duration;
 
 /// The job ended without a result.
@@ -36,6 +37,7 @@ pub struct Job<K, T> {
     key: K,
     control: Control,
     result: Receiver<Result<T, JobError>>,
+    thread: JoinHandle<()>,
 }
 
 impl<K, T: Send + 'static> Job<K, T> {
@@ -61,8 +63,8 @@ impl<K, T: Send + 'static> Job<K, T> {
             }
         };
         let failed = |error: std::io::Error| JobError::NotStarted { name: name.into(), reason: error.to_string() };
-        std::thread::Builder::new().name(name.into()).spawn(body).map_err(failed)?;
-        Ok(Self { name: name.into(), key, control, result })
+        let thread = std::thread::Builder::new().name(name.into()).spawn(body).map_err(failed)?;
+        Ok(Self { name: name.into(), key, control, result, thread })
     }
 }
 
@@ -90,6 +92,11 @@ impl<K, T> Job<K, T> {
     /// Share of the work that is done, 0 to 1.
     pub fn progress(&self) -> f64 {
         self.control.progress()
+    }
+
+    /// Name and progress while it runs; `None` once it has ended, whether its result was asked for or not.
+    pub fn running(&self) -> Option<(&str, f64)> {
+        (!self.thread.is_finished()).then(|| (self.name(), self.progress()))
     }
 
     /// Asks it to stop.

@@ -4,10 +4,16 @@ use super::app::App;
 use super::commands::Command;
 use super::document::Document;
 use super::edits::Edit;
-use super::files::Pick;
+use super::files::{self, Pick};
 use super::frame::leave::{Changes, Leave};
+use super::report;
 use super::view::Stage;
+use crate::control::Control;
+use crate::exchange::Project;
+use crate::exchange::export::Format;
+use crate::identify::Outcome;
 use egui::{Context, Theme, ViewportCommand};
+use std::path::PathBuf;
 
 impl App {
     /// Does a command of the table.
@@ -117,6 +123,34 @@ impl App {
                 ctx.send_viewport_cmd(ViewportCommand::Close);
             }
         }
+    }
+
+    /// Writes something of what was identified, in the background.
+    fn write_identified(
+        &mut self,
+        ctx: &Context,
+        name: &str,
+        work: impl FnOnce(&Project, &Outcome, &Control) -> Result<String, String> + Send + 'static,
+    ) {
+        let Some(document) = &self.document else { return };
+        match self.derived.known_outcome(document) {
+            Some(Ok(outcome)) => {
+                let (project, outcome) = (document.project.clone(), outcome.clone());
+                self.run(ctx, name, move |control| work(&project, &outcome, control));
+            }
+            Some(Err(error)) => self.fail(error.clone()),
+            None => self.fail("Identification is still running; ask again when it has ended.".to_owned()),
+        }
+    }
+
+    /// Hands what was identified to another program.
+    pub(super) fn export(&mut self, ctx: &Context, format: Format, path: PathBuf) {
+        self.write_identified(ctx, "Exporting", move |p, outcome, _| files::export(p, outcome, format, &path));
+    }
+
+    /// Writes the report.
+    pub(super) fn report(&mut self, ctx: &Context, path: PathBuf) {
+        self.write_identified(ctx, "Report", move |p, outcome, control| report::write(p, outcome, &path, control));
     }
 
     /// The desktop wants to close the window: not before it is asked what becomes of unsaved changes.

@@ -5,7 +5,7 @@ use super::commands;
 use super::derived::Derived;
 use super::document::{Applied, Document};
 use super::edits::Edit;
-use super::files::{self, Pick};
+use super::files::Pick;
 use super::frame;
 use super::frame::dock::Desk;
 use super::frame::leave::Leave;
@@ -13,7 +13,6 @@ use super::frame::panes::Pane;
 use super::learn::{self, Learn};
 use super::photograph::Photograph;
 use super::plots::export::Exports;
-use super::report;
 use super::schematic::gesture::Intent;
 use super::stages;
 use super::theme::{Palette, space};
@@ -21,7 +20,6 @@ use super::view::{Stage, View};
 use super::wake::Guard;
 use super::work::{Done, Work};
 use crate::control::Control;
-use crate::exchange::export::Format;
 use crate::session::recent::Recent;
 use egui::{CentralPanel, Context, Frame, Margin, Ui};
 use std::path::{Path, PathBuf};
@@ -328,30 +326,6 @@ impl App {
         match saved {
             Ok(()) => self.say(format!("Saved as {}.", path.display())),
             Err(error) => self.fail(error),
-        }
-    }
-
-    fn export(&mut self, ctx: &Context, format: Format, path: PathBuf) {
-        let Some(document) = &self.document else { return };
-        match self.derived.known_outcome(document) {
-            Some(Ok(outcome)) => {
-                let (project, outcome) = (document.project.clone(), outcome.clone());
-                self.run(ctx, "Exporting", move |_| files::export(&project, &outcome, format, &path));
-            }
-            Some(Err(error)) => self.fail(error.clone()),
-            None => self.fail("Identification is still running; export when it has ended.".to_owned()),
-        }
-    }
-
-    fn report(&mut self, ctx: &Context, path: PathBuf) {
-        let Some(document) = &self.document else { return };
-        match self.derived.known_outcome(document) {
-            Some(Ok(outcome)) => {
-                let (project, outcome) = (document.project.clone(), outcome.clone());
-                self.run(ctx, "Report", move |control| report::write(&project, &outcome, &path, control));
-            }
-            Some(Err(error)) => self.fail(error.clone()),
-            None => self.fail("Identification is still running; ask for the report when it has ended.".to_owned()),
         }
     }
 

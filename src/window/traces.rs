@@ -106,7 +106,7 @@ impl Traces {
 
     /// Name and progress of a job, if one runs.
     pub fn running(&self) -> Option<(&str, f64)> {
-        self.jobs.values().next().map(|job| (job.name(), job.progress()))
+        self.jobs.values().find_map(Job::running)
     }
 }
 

@@ -164,7 +164,7 @@ pub fn settle(harness: &mut Harness<'_, App>) {
     let start = Instant::now();
     harness.run_steps(2);
     while harness.state().running().is_some() {
-        assert!(start.elapsed() < Duration::from_mins(10), "{:?} still runs", harness.state().running());
+        assert!(start.elapsed() < Duration::from_mins(3), "{:?} still runs", harness.state().running());
         std::thread::sleep(Duration::from_millis(5));
         harness.run_steps(1);
     }

@@ -76,7 +76,7 @@ impl<K: Clone + PartialEq, T: Send + 'static> Shelf<K, T> {
 
     /// Name and progress of the running job.
     pub fn running(&self) -> Option<(&str, f64)> {
-        self.job.as_ref().map(|job| (job.name(), job.progress()))
+        self.job.as_ref().and_then(Job::running)
     }
 
     /// Stops the running job; it is not started again for its key until [`Shelf::retry`].
