@@ -6,6 +6,7 @@ use dashpot::effects::Source;
 use dashpot::exchange::project::load;
 use dashpot::explain::Problem;
 use dashpot::explain::diagnose::{Diagnosis, Suggestion, Verdict, diagnose};
+use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::path::Path;
 use std::time::Instant;
@@ -70,6 +71,34 @@ impl Tally {
     pub fn head() -> &'static str {
         "class      |    n | effect| top-3 | place | all   | floor | adequ.| within  | median% | seconds"
     }
+}
+
+/// All classes together against what is asked for: the first effect and its place where one is hidden, all effects where
+/// two are, the error after everywhere.
+pub fn totals(tallies: &BTreeMap<String, Tally>) -> String {
+    let sum = |wanted: &dyn Fn(&str) -> bool| {
+        let mut sum = Tally::default();
+        tallies.iter().filter(|(class, _)| wanted(class)).for_each(|(_, tally)| sum.add(tally));
+        sum
+    };
+    let (hidden, none) = (sum(&|class| class != "none"), sum(&|class| class == "none"));
+    let (two, all) = (sum(&|class| class == "two"), sum(&|_| true));
+    let close = hidden.errors.iter().filter(|&&e| e < 0.1).count();
+    let lines = [
+        ("effect first", hidden.effect, hidden.projects, ">= 95"),
+        ("effect among the first three", hidden.top3, hidden.projects, ">= 99"),
+        ("place exact or in its group", hidden.place, hidden.projects, ">= 95"),
+        ("parameters within three deviations", hidden.within, hidden.compared, ">= 95"),
+        ("parameters within 10 %", close, hidden.errors.len(), ""),
+        ("two effects both found, no more", two.all, two.projects, ">= 85"),
+        ("false alarms", none.projects - none.adequate, none.projects, "<= 3"),
+        ("error after within 1.2 floors", all.to_floor, all.projects, ">= 95"),
+    ];
+    let line = |(what, count, of, asked): (&str, usize, usize, &str)| {
+        let share = 100.0 * count as f64 / of.max(1) as f64;
+        format!("{what:36} {count:4} of {of:4} {share:6.1} %  {asked}\n")
+    };
+    lines.map(line).concat()
 }
 
 /// Diagnoses the project in `folder`; the line to print and its score.

@@ -143,7 +143,9 @@ fn judge_all(folder: &Path, filter: &str) {
         tallies.lock().unwrap().entry(class).or_default().add(&tally);
     });
     println!("{}", Tally::head());
-    for (class, tally) in tallies.into_inner().unwrap() {
+    let tallies = tallies.into_inner().unwrap();
+    for (class, tally) in &tallies {
         println!("{class:10} | {}", tally.row());
     }
+    println!("{}", judge::totals(&tallies));
 }
