@@ -1,6 +1,7 @@
 //! What can be asked on the command line.
 
 use crate::exchange::export::Format;
+use crate::exchange::records::harmonics::HIGHEST_HARMONIC;
 use clap::builder::PossibleValuesParser;
 use clap::builder::TypedValueParser;
 use clap::{Args, Parser, Subcommand, ValueEnum};
@@ -28,6 +29,8 @@ pub(super) enum Command {
     Simulate(Simulate),
     /// Apply the classical methods side by side to the same runs
     Methods(Methods),
+    /// Rewrite a measurement file: into SI units, or into fitted harmonics
+    Convert(Convert),
     /// Write a structure of a known kind as matrices with nodes, DOFs and lines
     Build(Build),
     /// Play a script of commands on a project, as the window would do them
@@ -129,6 +132,28 @@ pub(super) enum Records {
 }
 
 #[derive(Debug, Args)]
+pub(super) struct Convert {
+    /// Time record or harmonics file, in any CSV that is understood
+    #[arg(value_name = "IN")]
+    pub input: PathBuf,
+    /// File to write
+    #[arg(value_name = "OUT")]
+    pub output: PathBuf,
+    /// What is written; the same as is read unless given
+    #[arg(long = "as", value_enum)]
+    pub records: Option<Records>,
+    /// Fundamental frequency in Hz for harmonics; estimated from the record unless given
+    #[arg(long, value_parser = positive)]
+    pub frequency: Option<f64>,
+    /// Harmonics that are fitted
+    #[arg(long, default_value_t = 7, value_parser = harmonics)]
+    pub harmonics: usize,
+    /// Significant digits of the samples; as many as read back the same unless given
+    #[arg(long, value_parser = clap::value_parser!(u8).range(1..=17))]
+    pub digits: Option<u8>,
+}
+
+#[derive(Debug, Args)]
 pub(super) struct Build {
     /// Structure
     #[arg(value_enum)]
@@ -172,6 +197,20 @@ fn noise(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(ratio) if (0.0..=10.0).contains(&ratio) => Ok(ratio),
         _ => Err("give a ratio from 0 to 10, such as 0.05 for 5 %".to_owned()),
+    }
+}
+
+fn positive(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(value) if value > 0.0 && value.is_finite() => Ok(value),
+        _ => Err("give a frequency above 0 Hz, such as 10.4".to_owned()),
+    }
+}
+
+fn harmonics(text: &str) -> Result<usize, String> {
+    match text.parse::<usize>() {
+        Ok(count) if (1..=HIGHEST_HARMONIC).contains(&count) => Ok(count),
+        _ => Err(format!("give a number of harmonics from 1 to {HIGHEST_HARMONIC}")),
     }
 }
 

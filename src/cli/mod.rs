@@ -5,6 +5,7 @@
 mod arguments;
 mod build;
 mod compare;
+mod convert;
 mod diagnose;
 mod export;
 mod identify;
@@ -51,6 +52,7 @@ fn execute(command: &Command) -> anyhow::Result<String> {
         Command::Simulate(arguments) => simulate::run(arguments),
         Command::Methods(arguments) if arguments.incompleteness => incompleteness::run(arguments),
         Command::Methods(arguments) => methods::run(arguments),
+        Command::Convert(arguments) => convert::run(arguments),
         Command::Build(arguments) => build::run(arguments),
         Command::Run(arguments) => play::run(arguments),
     }

@@ -2,6 +2,7 @@
 
 pub mod error;
 pub mod harmonics;
+pub mod places;
 pub mod reader;
 mod table;
 pub mod writer;
