@@ -43,7 +43,6 @@ fn late_accelerometer() {
 }
 
 #[test]
-#[ignore = "minutes in the development profile: cargo test --release --test explain -- --ignored"]
 fn friction_and_a_wrong_mass_of_the_five_masses() {
     let diagnosis = diagnosis("five-masses-friction");
     let last = &diagnosis.steps[diagnosis.steps.len() - 1];
