@@ -269,6 +269,24 @@ pub fn secant(source: &Source, field: Field<'_>, k: usize) -> Option<Secant> {
     }
 }
 
+/// `D X` of one source whose stand-in stiffnesses lie between DOFs: forces on DOFs, one value a harmonic of `field`, N.
+pub fn secant_force(source: &Source, field: Field<'_>) -> Vec<DofForce> {
+    let harmonics = field.numbers.len();
+    let mut list = Vec::new();
+    for k in 0..harmonics {
+        let Some(Secant::Legs(legs)) = secant(source, field, k) else { continue };
+        for (leg, z) in legs {
+            let mut force = vec![c64::new(0.0, 0.0); harmonics];
+            force[k] = z * leg.relative(|dof| field.x[(dof, k)]);
+            if let Some(second) = leg.second {
+                list.push((second, force.iter().map(|f| -f).collect()));
+            }
+            list.push((leg.first, force));
+        }
+    }
+    list
+}
+
 #[cfg(test)]
 mod tests {
     #![allow(clippy::unwrap_used, reason = "tests")]

@@ -7,9 +7,19 @@ use clap::builder::TypedValueParser;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;
 
+/// What the window adds.
+#[cfg(feature = "window")]
+const WINDOW: &str = "\
+The window:
+  dashpot [FILE]                 Open it on a project, or on the start screen
+  dashpot picture FILE --stage STAGE --out PNG
+                                 Draw a stage without a display
+  dashpot report FILE --out HTML Write all results with their plots into one file";
+
 /// Tells where a structure loses its energy, how much and by which mechanism.
 #[derive(Debug, Parser)]
 #[command(name = "dashpot", version, arg_required_else_help = true)]
+#[cfg_attr(feature = "window", command(after_help = WINDOW))]
 pub(super) struct Arguments {
     #[command(subcommand)]
     pub command: Command,

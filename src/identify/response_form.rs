@@ -7,7 +7,7 @@
 //! iterated with the motion is the maximum likelihood estimate with the true force as a nuisance.
 
 use super::{problem::Problem, solve, state::State, system::System};
-use crate::balance::action::{self, DofForce, Field, Secant};
+use crate::balance::action::{self, DofForce, Field};
 use crate::balance::{Expanded, Measured};
 use crate::effects::Source;
 use crate::math::statistics::chi_square_quantile;
@@ -78,22 +78,10 @@ impl Forces {
 /// `D X` of one source.
 fn secant_force(problem: &Problem<'_>, source: &Source, field: Field<'_>) -> Vec<DofForce> {
     if source.effect.is_linear() {
-        return action::force(source, problem.structure, field);
+        action::force(source, problem.structure, field)
+    } else {
+        action::secant_force(source, field)
     }
-    let harmonics = field.numbers.len();
-    let mut list = Vec::new();
-    for k in 0..harmonics {
-        let Some(Secant::Legs(legs)) = action::secant(source, field, k) else { continue };
-        for (leg, z) in legs {
-            let mut force = vec![c64::new(0.0, 0.0); harmonics];
-            force[k] = z * leg.relative(|dof| field.x[(dof, k)]);
-            if let Some(second) = leg.second {
-                list.push((second, force.iter().map(|f| -f).collect()));
-            }
-            list.push((leg.first, force));
-        }
-    }
-    list
 }
 
 /// `S H` times a force at harmonic `k`, one value a sensor.

@@ -6,6 +6,7 @@
 //! until another step succeeds: every set of columns in use has a smaller residual than the one before, so no set comes
 //! back and the iteration ends.
 
+use dashpot_numerics::dot;
 use faer::MatRef;
 
 /// Part of a unit column that must be independent of the columns in use; below it the column is taken as dependent.
@@ -82,19 +83,6 @@ pub fn norm(x: &[f64]) -> f64 {
         return largest;
     }
     largest * x.iter().map(|v| (v / largest).powi(2)).sum::<f64>().sqrt()
-}
-
-/// Eight sums side by side: one sum alone waits for each addition to end.
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    let (first, second) = (a.chunks_exact(8), b.chunks_exact(8));
-    let rest: f64 = first.remainder().iter().zip(second.remainder()).map(|(x, y)| x * y).sum();
-    let mut sums = [0.0; 8];
-    for (x, y) in first.zip(second) {
-        for k in 0..8 {
-            sums[k] += x[k] * y[k];
-        }
-    }
-    sums.iter().sum::<f64>() + rest
 }
 
 /// The scaled problem and the state of the active-set iteration.

@@ -4,7 +4,7 @@
 //! channel is multiplied with the block while it is there.
 
 use super::design::Sums;
-use super::lanes::{dot, sum};
+use dashpot_numerics::{dot, sum};
 use std::ops::Range;
 
 /// Samples of a block: with 16 columns, half of a first-level cache.

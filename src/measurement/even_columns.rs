@@ -10,7 +10,7 @@
 //! ```
 
 use super::design::Sums;
-use super::lanes::{LANES, dot, sum};
+use dashpot_numerics::{LANES, dot, sum};
 use faer::c64;
 
 /// Half of the samples of a block.

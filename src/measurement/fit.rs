@@ -7,9 +7,9 @@
 //! holds two or more, else the residual over its degrees of freedom.
 
 use super::design::Design;
-use super::lanes::dot;
 use super::noise::Lag;
 use super::{Channel, Record};
+use dashpot_numerics::dot;
 use faer::{Mat, c64};
 use std::f64::consts::TAU;
 

@@ -11,10 +11,10 @@
 //! where `P` takes out what the columns `B` explain (variable projection: amplitudes follow the frequency).
 
 use super::fit::{Solved, resolvable, solve};
-use super::lanes::dot;
 use super::noise::Lag;
 use super::{FitError, Quantity, Record};
 use crate::math::spectrum::Spectrum;
+use dashpot_numerics::dot;
 use std::f64::consts::TAU;
 
 /// Most steps of the refinement; four are usual.

@@ -6,7 +6,6 @@ mod design;
 mod even_columns;
 pub mod fit;
 pub mod frequency;
-mod lanes;
 mod noise;
 pub mod quality;
 pub mod ratio;

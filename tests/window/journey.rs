@@ -1,6 +1,6 @@
 //! The whole way of an engineer who has never seen the program, by labels and by the pointer alone.
 
-use crate::support::{beam, document, drop_files, open, settle, start};
+use crate::support::{beam, document, drag, drop_files, open, settle, start};
 use dashpot::effects::{Place, State};
 use dashpot::window::App;
 use dashpot::window::app::Ask;
@@ -19,19 +19,6 @@ fn click(harness: &mut Harness<'_, App>, label: &str) {
 fn tab(harness: &mut Harness<'_, App>, label: &str) {
     harness.get_by_role_and_label(Role::Tab, label).click();
     settle(harness);
-}
-
-fn drag(harness: &mut Harness<'_, App>, from: egui::Pos2, to: egui::Pos2) {
-    harness.hover_at(from);
-    harness.run_steps(1);
-    harness.drag_at(from);
-    harness.run_steps(1);
-    for k in 1..=4 {
-        harness.hover_at(from + (to - from) * (k as f32 / 4.0));
-        harness.run_steps(1);
-    }
-    harness.drop_at(to);
-    harness.run_steps(3);
 }
 
 fn places(harness: &Harness<'_, App>) -> Vec<(Place, State)> {

@@ -1,6 +1,6 @@
 //! The path of an engineer from a project to its result, by labels and by the pointer.
 
-use crate::support::{beam, chain, document, open, settle, start};
+use crate::support::{beam, chain, document, drag, open, settle, start};
 use dashpot::control::Control;
 use dashpot::effects::{Effect, Place, State};
 use dashpot::window::format;
@@ -55,16 +55,7 @@ fn sources_are_drawn_by_click_and_drag_and_taken_back() {
     assert!(harness.query_all_by_label_contains("already drawn").count() > 0);
 
     let (from, to) = (at(&harness, "1"), at(&harness, "5"));
-    harness.hover_at(from);
-    harness.run_steps(1);
-    harness.drag_at(from);
-    harness.run_steps(1);
-    for k in 1..=4 {
-        harness.hover_at(from + (to - from) * (k as f32 / 4.0));
-        harness.run_steps(1);
-    }
-    harness.drop_at(to);
-    harness.run_steps(3);
+    drag(&mut harness, from, to);
     assert!(drawn(&harness).iter().any(|s| s.place == Place::Dofs(vec![0, 4])), "{:?}", drawn(&harness));
 
     let changes = drawn(&harness).len() - before.len();

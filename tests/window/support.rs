@@ -176,6 +176,20 @@ pub fn settle(harness: &mut Harness<'_, App>) {
     harness.run_steps(3);
 }
 
+/// Draws with the pointer from one place to another.
+pub fn drag(harness: &mut Harness<'_, App>, from: egui::Pos2, to: egui::Pos2) {
+    harness.hover_at(from);
+    harness.run_steps(1);
+    harness.drag_at(from);
+    harness.run_steps(1);
+    for k in 1..=4 {
+        harness.hover_at(from + (to - from) * (k as f32 / 4.0));
+        harness.run_steps(1);
+    }
+    harness.drop_at(to);
+    harness.run_steps(3);
+}
+
 #[derive(Debug)]
 struct Dropped(PathBuf);
 

@@ -6,6 +6,7 @@
 mod eigen;
 mod factor;
 mod fourier;
+mod lanes;
 mod product;
 mod singular;
 mod small;
@@ -13,6 +14,7 @@ mod small;
 pub use eigen::{complex_general, eigenvalues, generalised_symmetric, real_general, symmetric, symmetric_values};
 pub use factor::{Cholesky, ComplexLu, RealLu, least_squares, solve_indefinite, thin_qr, triangle};
 pub use fourier::RealTransform;
+pub use lanes::{LANES, dot, sum};
 pub use product::{product, product_transposed, transposed_product};
 pub use singular::thin_svd;
 pub use small::RowLu;

@@ -3,6 +3,7 @@
 
 #![expect(clippy::inline_always, reason = "only what is inlined is compiled for the wide instructions")]
 
+use crate::dot;
 use pulp::Arch;
 
 /// `P A = L U` of a real square matrix, stored row by row.
@@ -85,20 +86,6 @@ fn substitute(lu: &RowLu, rhs: &mut [f64]) {
         let (head, known) = rhs.split_at_mut(i + 1);
         head[i] = (head[i] - dot(&row[i + 1..], known)) / row[i];
     }
-}
-
-/// Scalar product in eight lanes, which the compiler turns into vector instructions.
-#[inline(always)]
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    let mut lanes = [0.0; 8];
-    let (a8, b8) = (a.chunks_exact(8), b.chunks_exact(8));
-    let rest: f64 = a8.remainder().iter().zip(b8.remainder()).map(|(x, y)| x * y).sum();
-    for (x, y) in a8.zip(b8) {
-        for (lane, (p, q)) in lanes.iter_mut().zip(x.iter().zip(y)) {
-            *lane += p * q;
-        }
-    }
-    lanes.iter().sum::<f64>() + rest
 }
 
 #[cfg(test)]

@@ -9,7 +9,6 @@ use super::modal_model::ModalModel;
 use super::{Acting, Expanded, state_misfit};
 use crate::balance::Measured;
 use crate::balance::action::{self, Field, Secant};
-use crate::effects::Source;
 use crate::effects::law::Basis;
 use crate::structure::Structure;
 use dashpot_numerics::ComplexLu;
@@ -55,26 +54,9 @@ pub fn pseudo_forces(structure: &Structure, measured: &Measured, acting: Acting<
         for (dof, force) in action::force(source, structure, field) {
             sum.push((dof, force.iter().map(|f| -f).collect()));
         }
-        sum.extend(secant_force(source, field));
+        sum.extend(action::secant_force(source, field));
     }
     sum
-}
-
-fn secant_force(source: &Source, field: Field<'_>) -> Vec<(usize, Vec<c64>)> {
-    let harmonics = field.numbers.len();
-    let mut list = Vec::new();
-    for k in 0..harmonics {
-        let Some(Secant::Legs(legs)) = action::secant(source, field, k) else { continue };
-        for (leg, z) in legs {
-            let mut force = vec![c64::new(0.0, 0.0); harmonics];
-            force[k] = z * leg.relative(|dof| field.x[(dof, k)]);
-            if let Some(second) = leg.second {
-                list.push((second, force.iter().map(|f| -f).collect()));
-            }
-            list.push((leg.first, force));
-        }
-    }
-    list
 }
 
 /// The expansion of one harmonic.

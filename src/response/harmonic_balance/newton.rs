@@ -5,6 +5,7 @@ use super::condense::Condensed;
 use super::fourier::Fourier;
 use super::kept::{DROPPED, Kept};
 use super::legs::{Answer, SLACK};
+use dashpot_numerics::dot;
 use faer::c64;
 
 /// A condensed system with the tables of its harmonics.
@@ -149,7 +150,7 @@ impl Balance<'_> {
         let width = self.condensed.width();
         let mut change = Vec::with_capacity(motion.len());
         for (answer, part) in answers.iter().zip(motion.chunks_exact(width)) {
-            change.extend(answer.by_motion.chunks_exact(width).map(|row| super::fourier::dot(row, part)));
+            change.extend(answer.by_motion.chunks_exact(width).map(|row| dot(row, part)));
         }
         change.resize(motion.len(), 0.0);
         for (h, r, z) in self.resonances() {

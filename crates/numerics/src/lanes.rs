@@ -1,10 +1,11 @@
 //! Sums and scalar products in eight lanes, which the compiler turns into vector instructions.
 
 /// Lanes: enough to hide the latency of an addition.
-pub(super) const LANES: usize = 8;
+pub const LANES: usize = 8;
 
 /// Sum in eight lanes.
-pub(super) fn sum(x: &[f64]) -> f64 {
+#[inline]
+pub fn sum(x: &[f64]) -> f64 {
     let chunks = x.chunks_exact(LANES);
     let rest: f64 = chunks.remainder().iter().sum();
     let mut lanes = [0.0; LANES];
@@ -16,8 +17,10 @@ pub(super) fn sum(x: &[f64]) -> f64 {
     rest + lanes.iter().sum::<f64>()
 }
 
-/// Scalar product in eight lanes.
-pub(super) fn dot(x: &[f64], y: &[f64]) -> f64 {
+/// Scalar product in eight lanes; of what both have.
+#[inline(always)]
+#[expect(clippy::inline_always, reason = "only what is inlined is compiled for the wide instructions")]
+pub fn dot(x: &[f64], y: &[f64]) -> f64 {
     let (xs, ys) = (x.chunks_exact(LANES), y.chunks_exact(LANES));
     let rest: f64 = xs.remainder().iter().zip(ys.remainder()).map(|(a, b)| a * b).sum();
     let mut lanes = [0.0; LANES];
