@@ -248,7 +248,7 @@ fn faults_of_forces(base: &Base, bare: &Refit, free: &Tuning) -> Result<Vec<Refi
     let [_, forces] = base.data.channel_names();
     let fault = |name: &String| Source::known(Effect::Gain, Place::Channel(name.clone()), &[1.02]);
     let fit = |name: &String| base.bench().refit(&[fault(name)], free, STEPS, &SEARCH, &[]);
-    forces.iter().map(fit).collect()
+    forces.iter().filter(|name| base.data.allows(&fault(name))).map(fit).collect()
 }
 
 /// Effects seen from a model whose known sources are as stated, where their corrections go further than known sizes are

@@ -161,6 +161,8 @@ impl RunData {
 pub struct Data {
     /// Runs in the order of the project.
     pub runs: Vec<RunData>,
+    /// Effects at places where somebody knows better: they are not suggested.
+    pub excluded: Vec<Source>,
 }
 
 impl Data {
@@ -168,13 +170,19 @@ impl Data {
     pub fn new(problem: &Problem) -> Result<Self, ExplainError> {
         let used = problem.runs.iter().enumerate().filter(|(_, run)| is_used(run));
         let runs = used.map(|(index, run)| RunData::new(index, run)).collect::<Result<Vec<_>, _>>()?;
-        if runs.is_empty() { Err(ExplainError::NoRuns) } else { Ok(Self { runs }) }
+        if runs.is_empty() { Err(ExplainError::NoRuns) } else { Ok(Self { runs, excluded: Vec::new() }) }
     }
 
     /// All runs, whether used or not, for a display of every run.
     pub fn every(problem: &Problem) -> Result<Self, ExplainError> {
         let runs = problem.runs.iter().enumerate();
-        Ok(Self { runs: runs.map(|(index, run)| RunData::new(index, run)).collect::<Result<Vec<_>, _>>()? })
+        let runs = runs.map(|(index, run)| RunData::new(index, run)).collect::<Result<Vec<_>, _>>()?;
+        Ok(Self { runs, excluded: Vec::new() })
+    }
+
+    /// Whether an effect at its place may be suggested.
+    pub fn allows(&self, source: &Source) -> bool {
+        !self.excluded.iter().any(|other| other.is_same(source))
     }
 
     /// Names of all response channels and of all force channels, each once.

@@ -122,16 +122,32 @@ pub fn diagnose(problem: &Problem, control: &Control) -> Result<Diagnosis, Expla
 
 /// [`diagnose`], with the first suggestions told to `early` while the search goes on.
 pub fn diagnose_telling(problem: &Problem, control: &Control, early: &Early) -> Result<Diagnosis, ExplainError> {
-    let diagnosis = searched(problem, control, early)?;
+    diagnose_without(problem, &[], control, early)
+}
+
+/// [`diagnose_telling`] where the effects `excluded`, each at its place, are known not to be what is missing: it finds what
+/// else it could be. Their parameters do not matter.
+pub fn diagnose_without(
+    problem: &Problem,
+    excluded: &[Source],
+    control: &Control,
+    early: &Early,
+) -> Result<Diagnosis, ExplainError> {
+    let diagnosis = searched(problem, excluded, control, early)?;
     control.report(1.0);
     Ok(diagnosis)
 }
 
-fn searched(problem: &Problem, control: &Control, early: &Early) -> Result<Diagnosis, ExplainError> {
+fn searched(
+    problem: &Problem,
+    excluded: &[Source],
+    control: &Control,
+    early: &Early,
+) -> Result<Diagnosis, ExplainError> {
     if problem.structure.matrices().is_none() {
-        return super::points_search::diagnose(problem, control);
+        return super::points_search::diagnose(problem, excluded, control);
     }
-    let data = Data::new(problem)?;
+    let data = Data { excluded: excluded.to_vec(), ..Data::new(problem)? };
     let predictor = Predictor::new(problem.structure, problem.known(), &data)?;
     let base = Base { early, ..Base::new(&predictor, &data, Tuning::default(), control)? };
     let bench = base.bench();

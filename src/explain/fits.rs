@@ -74,7 +74,9 @@ impl Base<'_> {
         let whole = Effect::ALL.into_iter().filter(|e| matches!(e.kind(), Kind::Whole(_)));
         let sets: Vec<Vec<Source>> = whole
             .filter(|&effect| !effects.iter().any(|e| e.effect == effect))
-            .map(|effect| joined(effects, &[light(effect)]))
+            .map(light)
+            .filter(|source| self.data.allows(source))
+            .map(|source| joined(effects, &[source]))
             .collect();
         let fit = |k: usize| self.bench().refit(&sets[k], tuning, steps, &SEARCH, &[]);
         self.control.map(sets.len(), fit).into_iter().collect()

@@ -50,22 +50,24 @@ fn solve(columns: &[&Column], e: &[f64]) -> Option<(f64, Vec<f64>)> {
 }
 
 /// Diagnoses a `points` problem.
-pub(crate) fn diagnose(problem: &Problem, control: &Control) -> Result<Diagnosis, ExplainError> {
+pub(crate) fn diagnose(problem: &Problem, excluded: &[Source], control: &Control) -> Result<Diagnosis, ExplainError> {
     let first = Balance::new(problem, &[])?;
-    let best = climb(&first, control)?;
+    let best = climb(&first, excluded, control)?;
     // The noise of the motion counts once it is known how much energy the new sources take.
     let effects: Vec<Source> =
         best.last().map(|r| r[0].added.iter().map(|a| a.source.clone()).collect()).unwrap_or_default();
     let balance = Balance::new(problem, &effects)?;
-    let rungs = climb(&balance, control)?;
+    let rungs = climb(&balance, excluded, control)?;
     Ok(conclude(&balance, &rungs))
 }
 
-fn climb(balance: &Balance, control: &Control) -> Result<Vec<Vec<Fitted>>, ExplainError> {
+fn climb(balance: &Balance, excluded: &[Source], control: &Control) -> Result<Vec<Vec<Fitted>>, ExplainError> {
+    let allowed = |source: &Source| !excluded.iter().any(|other| other.is_same(source));
     let e = balance.weighted();
     let n = e.len();
     let mut last = (e.iter().map(|x| x * x).sum::<f64>(), 0);
-    let columns = if agrees(last.0, n, 0) { Vec::new() } else { balance.columns() };
+    let mut columns = if agrees(last.0, n, 0) { Vec::new() } else { balance.columns() };
+    columns.retain(|column| allowed(&column.source));
     let mut rungs: Vec<Vec<Fitted>> = Vec::new();
     for count in 1..=2 {
         control.check()?;
@@ -78,7 +80,8 @@ fn climb(balance: &Balance, control: &Control) -> Result<Vec<Vec<Fitted>>, Expla
             Some(fits) => fits.iter().take(3).map(|f| f.added.iter().map(|a| a.source.clone()).collect()).collect(),
         };
         for set in before {
-            let fresh = balance.faults().into_iter().filter(|f| !set.iter().any(|s| s.is_same(f)));
+            let faults = balance.faults().into_iter().filter(allowed);
+            let fresh = faults.filter(|f| !set.iter().any(|s| s.is_same(f)));
             sets.extend(fresh.map(|f| set.iter().cloned().chain(std::iter::once(f)).collect()));
         }
         let fits = ranked(balance, &sets, n);

@@ -280,8 +280,11 @@ impl<'a> Base<'a> {
         let fields = Arc::new(fields);
         let of = |(&s, forces): (&usize, &Vec<Vec<FreeForce>>)| {
             let data = PlaceData::new(self.data, &view.screen.spots[s], forces, &fields);
-            let fresh = data.fits().into_iter().filter(|fit| !effects.iter().any(|e| e.is_same(&fit.source)));
-            let mut drafts: Vec<Draft> = fresh
+            let fresh = |source: &Source| !effects.iter().any(|e| e.is_same(source)) && self.data.allows(source);
+            let mut drafts: Vec<Draft> = data
+                .fits()
+                .into_iter()
+                .filter(|fit| fresh(&fit.source))
                 .map(|fit| {
                     let score = bayesian_information(fit.misfit, fit.source.parameters.len(), data.count());
                     Draft { effects: vec![fit.source], score, fields: fields.clone() }

@@ -32,7 +32,8 @@ impl Base<'_> {
             let fits = wider(source.effect).into_iter().flat_map(|effect| data.starts(effect, SHAPES));
             let draft =
                 |effect| Draft { effects: joined(&others.effects, &[effect]), score: 0.0, fields: fields.clone() };
-            let drafts: Vec<Draft> = fits.map(|fit| draft(fit.source)).collect();
+            let drafts: Vec<Draft> =
+                fits.map(|fit| fit.source).filter(|source| self.data.allows(source)).map(draft).collect();
             refits.extend(self.refit_all(&drafts, Some(&others))?);
         }
         Ok(refits)

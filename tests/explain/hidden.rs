@@ -3,8 +3,9 @@
 use super::random::Random;
 use super::suite::{Hidden, Kindness, hidden};
 use dashpot::control::Control;
-use dashpot::effects::Effect;
-use dashpot::explain::diagnose::{Diagnosis, Verdict, diagnose};
+use dashpot::effects::{Effect, Source};
+use dashpot::explain::diagnose::{Diagnosis, Suggestion, Verdict, diagnose, diagnose_without};
+use std::sync::Mutex;
 
 fn project(effects: &[Effect], beam: bool, seed: u64) -> (Hidden, Diagnosis) {
     let kindness = Kindness {
@@ -63,6 +64,22 @@ fn a_cubic_spring_is_named() {
 fn faults_of_channels_are_not_explained_by_damping() {
     is_named(Effect::Delay, true, 21);
     is_named(Effect::Gain, false, 22);
+}
+
+#[test]
+fn what_is_ruled_out_is_not_suggested_and_the_search_finds_what_else_it_could_be() {
+    let (project, first) = project(&[Effect::Coulomb], true, 11);
+    let excluded = [first.suggestions[0].added.source.clone()];
+    let allowed = |source: &Source| !excluded[0].is_same(source);
+    let told = Mutex::new(Vec::new());
+    let early = |found: &[Suggestion]| told.lock().unwrap().extend(found.iter().map(|s| s.added.source.clone()));
+    let second = diagnose_without(&project.problem(), &excluded, &Control::unattended(), &early).unwrap();
+    assert!(!second.suggestions.is_empty() && second.verdict != Verdict::Adequate);
+    let said = second.suggestions.iter().flat_map(|s| s.indistinguishable_from.iter().chain([&s.added.source]));
+    let steps = second.steps.iter().flat_map(|step| step.added.iter().map(|a| &a.source));
+    assert!(said.chain(steps).all(allowed) && told.into_inner().unwrap().iter().all(allowed));
+    let (left, before) = (second.steps.last().unwrap().error, second.error_before);
+    assert!(left < 0.7 * before, "what comes next leaves {left} of {before}");
 }
 
 #[test]
