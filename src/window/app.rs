@@ -27,6 +27,9 @@ use std::path::{Path, PathBuf};
 /// Longest wait for a piece of work where nobody can cancel.
 const LONGEST: std::time::Duration = std::time::Duration::from_mins(10);
 
+/// Longest time between two looks at the progress of what runs.
+const REFRESH: std::time::Duration = std::time::Duration::from_millis(50);
+
 /// The whole window.
 #[derive(Debug, Default)]
 pub struct App {
@@ -190,6 +193,7 @@ impl App {
             // What is downstream is computed by itself, in the background.
             self.derived.keep_up(document);
             self.derived.outcome(&ctx, document);
+            stages::explain::keep_up(&mut self.view.explain, document, &self.derived.explained);
             let wanted = stages::explain::wanted(document, &self.view, &self.derived.explained);
             self.derived.explained.update(&ctx, document, &wanted);
         }
@@ -234,7 +238,7 @@ impl App {
             ctx.request_repaint_after(std::time::Duration::from_millis(16));
         }
         if self.running().is_some() {
-            ctx.request_repaint_after(std::time::Duration::from_millis(100));
+            ctx.request_repaint_after(REFRESH);
         }
     }
 

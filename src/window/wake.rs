@@ -20,7 +20,7 @@ impl Bell {
     }
 
     /// Asks for a frame.
-    fn ring(&self) {
+    pub fn ring(&self) {
         if let Some(ctx) = &*self.0.lock() {
             ctx.request_repaint();
         }

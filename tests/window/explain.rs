@@ -10,7 +10,8 @@ use dashpot::window::stages::explain::look::Tab;
 use dashpot::window::view::Stage;
 use egui::{Key, Modifiers, Theme, accesskit::Role};
 use egui_kittest::Harness;
-use egui_kittest::kittest::Queryable;
+use egui_kittest::kittest::{NodeT, Queryable};
+use std::time::Duration;
 
 fn explain(theme: Theme) -> (crate::support::Sample, Harness<'static, App>) {
     let sample = friction();
@@ -101,6 +102,54 @@ fn what_is_ruled_out_makes_room_for_the_next_and_can_be_taken_back() {
     harness.get_by_label("Ruled out by you");
     press(&mut harness, "Take back");
     harness.get_by_label_contains("Suggestion 1: Dry friction at DOF 7");
+}
+
+/// Steps until the search has told its first suggestions; gives back what its bar showed on the way.
+fn until_told(harness: &mut Harness<'_, App>) -> Vec<f64> {
+    let mut bar = Vec::new();
+    loop {
+        harness.step();
+        let app = harness.state();
+        let document = app.document.as_ref().unwrap();
+        assert!(app.derived.explained.diagnosis(document).is_none(), "the search ended before it was heard of");
+        if let Some((_, progress)) = app.running().filter(|(name, _)| name.starts_with("Searching")) {
+            bar.push(progress);
+            let delay = harness.output().viewport_output[&egui::ViewportId::ROOT].repaint_delay;
+            assert!(delay <= Duration::from_millis(100), "the next look at the progress is in {delay:?}");
+        }
+        if !app.derived.explained.suggestions(document).0.is_empty() {
+            return bar;
+        }
+    }
+}
+
+#[test]
+fn the_first_suggestions_are_shown_before_the_search_has_ended() {
+    let sample = friction();
+    let mut harness = open(&sample, Theme::Light);
+    harness.get_by_role_and_label(Role::Tab, "Explain").click();
+    let bar = until_told(&mut harness);
+    assert!(bar.is_sorted(), "the bar went back: {bar:?}");
+    assert!(bar.last() > bar.first(), "the bar moves without any event: {bar:?}");
+    // Held where it is.
+    press(&mut harness, "Cancel");
+    harness.get_by_label_contains("Provisional suggestion 1: Dry friction at DOF 7, probability about");
+    assert!(harness.get_by_role_and_label(Role::Button, "Add").accesskit_node().is_disabled());
+    picture(&mut harness, "explain-provisional");
+
+    press(&mut harness, "Try");
+    let early = harness.state().view.explain.trial.clone().unwrap();
+    harness.get_by_role_and_label(Role::Button, "Search again").click();
+    until_told(&mut harness);
+    settle(&mut harness);
+    assert!(harness.query_by_label_contains("Provisional").is_none());
+    harness.get_by_label_contains("Suggestion 1: Dry friction at DOF 7, probability");
+    assert!(!harness.get_by_role_and_label(Role::Button, "Add").accesskit_node().is_disabled());
+    // What is on trial has the size that was found in the end.
+    let app = harness.state();
+    let (found, _) = app.derived.explained.suggestions(app.document.as_ref().unwrap());
+    let trial = app.view.explain.trial.as_ref().unwrap();
+    assert!(trial.is_same(&early) && *trial == found[0].added.source);
 }
 
 #[test]

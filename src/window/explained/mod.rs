@@ -2,6 +2,7 @@
 //! response curves; and the ledger of all models that were looked at.
 
 pub mod curve;
+pub mod early;
 pub mod ledger;
 pub mod model;
 pub mod shelf;
@@ -10,9 +11,11 @@ use super::document::Document;
 use crate::control::Control;
 use crate::effects::{Place, Source};
 use crate::exchange::Project;
+use crate::explain::diagnose::{Suggestion, diagnose_telling};
 use crate::explain::prints::{self, Print};
 use crate::explain::{self, Comparison, Diagnosis, Problem};
 use curve::Curve;
+use early::Early;
 use egui::Context;
 use ledger::Ledger;
 use model::Key;
@@ -49,6 +52,7 @@ pub struct Explained {
     comparisons: Shelf<Tried, Comparison>,
     trials: Shelf<Tried, Comparison>,
     diagnoses: Shelf<Key, Diagnosis>,
+    early: Early,
     prints: Shelf<Tried, Option<Print>>,
     curves: Shelf<(Key, usize), Curve>,
     trial_curves: Shelf<(Tried, usize), Curve>,
@@ -64,6 +68,7 @@ impl Default for Explained {
             comparisons: Shelf::new("Comparing"),
             trials: Shelf::new("Trying"),
             diagnoses: Shelf::new("Searching for what is missing"),
+            early: Early::default(),
             prints: Shelf::new("Fingerprint"),
             curves: Shelf::new("Frequency response"),
             trial_curves: Shelf::new("Frequency response"),
@@ -118,8 +123,10 @@ impl Explained {
         self.ledger.visit(&key, document.session().document(), comparison);
         if wanted.diagnosis && (wanted.anyway || comparison.error <= HOPELESS) {
             self.diagnoses.want(ctx, &key, || {
-                let p = Arc::clone(p);
-                move |control: &Control| explain::diagnose(&problem(&p), control).map_err(|e| e.to_string())
+                let (p, told) = (Arc::clone(p), self.early.expect(ctx, &key));
+                move |control: &Control| {
+                    diagnose_telling(&problem(&p), control, &|found| told.put(found)).map_err(|e| e.to_string())
+                }
             });
         }
         self.on_trial(ctx, p, &key, wanted);
@@ -141,6 +148,7 @@ impl Explained {
         self.comparisons.collect();
         self.trials.collect();
         self.diagnoses.collect();
+        self.early.collect();
         self.prints.collect();
         self.curves.collect();
         self.trial_curves.collect();
@@ -179,6 +187,16 @@ impl Explained {
     /// The diagnosis of the document as it stands.
     pub fn diagnosis(&self, document: &Document) -> Option<&Kept<Diagnosis>> {
         self.diagnoses.get(&self.current(document)?)
+    }
+
+    /// Suggestions for the document as it stands, best first, and whether they are provisional: told by a search that has
+    /// not ended.
+    pub fn suggestions(&self, document: &Document) -> (&[Suggestion], bool) {
+        match (self.diagnosis(document), self.current(document)) {
+            (Some(Ok(diagnosis)), _) => (&diagnosis.suggestions, false),
+            (None, Some(key)) => (self.early.of(&key), true),
+            (Some(Err(_)), _) | (None, None) => (&[], false),
+        }
     }
 
     /// Whether the search on the document as it stands was cancelled.

@@ -3,7 +3,6 @@
 use super::gauge::Gauge;
 use super::{Deed, Scene, fingerprint};
 use crate::effects::{Place, Source};
-use crate::explain::Diagnosis;
 use crate::explain::diagnose::Suggestion;
 use crate::window::app::Ask;
 use crate::window::explained::model::at;
@@ -23,8 +22,6 @@ const PLOT: f32 = 150.0;
 pub struct Card<'a> {
     /// Document and results.
     pub scene: &'a Scene<'a>,
-    /// The whole answer.
-    pub diagnosis: &'a Diagnosis,
     /// This one.
     pub suggestion: &'a Suggestion,
     /// Probability among what is not ruled out.
@@ -33,6 +30,8 @@ pub struct Card<'a> {
     pub rank: usize,
     /// Whether all of it is shown.
     pub unfolded: bool,
+    /// Whether the search has not ended: nothing of it is final.
+    pub provisional: bool,
 }
 
 impl Card<'_> {
@@ -65,7 +64,9 @@ impl Card<'_> {
         let source = &self.suggestion.added.source;
         let height = if self.unfolded { 40.0 } else { 26.0 };
         let (area, response) = ui.allocate_exact_size(vec2(ui.available_width(), height), Sense::click());
-        let label = format!("Suggestion {}: {}, probability {}", self.rank, self.title(), chance(self.probability));
+        let (so_far, chance) = (self.provisional, chance(self.probability));
+        let (kind, about) = if so_far { ("Provisional suggestion", "about ") } else { ("Suggestion", "") };
+        let label = format!("{kind} {}: {}, probability {about}{chance}", self.rank, self.title());
         response.widget_info(|| WidgetInfo::selected(Role::Button, true, self.unfolded, &label));
         let painter = ui.painter();
         let symbol = Rect::from_min_size(area.min, vec2(if self.unfolded { 62.0 } else { 46.0 }, height));
@@ -73,7 +74,8 @@ impl Card<'_> {
         let ink = if response.hovered() || response.has_focus() { palette.accent } else { palette.ink };
         let left = symbol.right() + 10.0;
         let middle = area.center().y;
-        let chance = chance(self.probability);
+        let weight = if so_far { palette.weak } else { palette.ink };
+        let under = if so_far { "so far" } else { "probability" };
         if self.unfolded {
             painter.text(pos2(left, middle - 9.0), Align2::LEFT_CENTER, self.title(), theme::font(size::HEADING), ink);
             let law = source.effect.sentence().split(':').next().unwrap_or_default().trim_end_matches('.').to_owned();
@@ -86,24 +88,18 @@ impl Card<'_> {
                 Align2::RIGHT_CENTER,
                 chance,
                 theme::font(size::HEADING + 2.0),
-                palette.ink,
+                weight,
             );
             painter.text(
                 pos2(area.right(), middle + 10.0),
                 Align2::RIGHT_CENTER,
-                "probability",
+                under,
                 theme::font(size::SMALL),
                 palette.weak,
             );
         } else {
             painter.text(pos2(left, middle), Align2::LEFT_CENTER, self.title(), theme::font(size::BODY), ink);
-            painter.text(
-                pos2(area.right(), middle),
-                Align2::RIGHT_CENTER,
-                chance,
-                theme::font(size::BODY),
-                palette.ink,
-            );
+            painter.text(pos2(area.right(), middle), Align2::RIGHT_CENTER, chance, theme::font(size::BODY), weight);
             let after = format!("error {}", format::percent(self.suggestion.error_after));
             let at = pos2(area.right() - 66.0, middle);
             painter.text(at, Align2::RIGHT_CENTER, after, theme::font(size::SMALL), palette.weak);
@@ -131,23 +127,41 @@ impl Card<'_> {
     fn body(&self, ui: &mut Ui, on_trial: bool, asks: &mut Vec<Ask>) {
         let s = self.suggestion;
         self.sizes(ui);
-        let floor = self.diagnosis.noise_floor;
-        let (before, after, held_out) = (self.diagnosis.error_before, s.error_after, s.held_out_error_after);
+        let ([before, floor], after) = (self.errors(), s.error_after);
+        let held_out = (!self.provisional).then_some(s.held_out_error_after);
         Gauge { before, after, held_out, floor }.show(ui);
         self.buttons(ui, on_trial, asks);
+        if self.provisional {
+            ui.hint("Left-out runs, rivals and fingerprint follow when the search has ended.");
+            return;
+        }
         self.rivals(ui);
-        match self.scene.explained.print(self.scene.document, &s.added.source) {
+        self.fingerprint(ui);
+        for sentence in &s.evidence {
+            ui.label(RichText::new(polished(sentence)).size(size::BODY - 1.0));
+        }
+    }
+
+    /// Error of the model as it is and noise floor, as shares.
+    fn errors(&self) -> [f64; 2] {
+        let (document, explained) = (self.scene.document, self.scene.explained);
+        let found = explained.diagnosis(document).and_then(|d| d.as_ref().ok());
+        let compared = || explained.comparison(document).and_then(|c| c.as_ref().ok());
+        let found = found.map(|d| [d.error_before, d.noise_floor]);
+        found.or_else(|| compared().map(|c| [c.error, c.noise_floor])).unwrap_or([self.suggestion.error_after, 0.0])
+    }
+
+    fn fingerprint(&self, ui: &mut Ui) {
+        let source = &self.suggestion.added.source;
+        match self.scene.explained.print(self.scene.document, source) {
             Some(Ok(print)) => {
                 if let Some(print) = print.as_ref() {
                     fingerprint::show(ui, print, &self.title(), PLOT);
                 }
             }
             Some(Err(error)) => drop(ui.hint(format!("No fingerprint: {error}"))),
-            None if matches!(s.added.source.place, Place::Whole(_)) => {}
+            None if matches!(source.place, Place::Whole(_)) => {}
             None => drop(ui.hint("The fingerprint is being computed.")),
-        }
-        for sentence in &s.evidence {
-            ui.label(RichText::new(polished(sentence)).size(size::BODY - 1.0));
         }
     }
 
@@ -174,7 +188,9 @@ impl Card<'_> {
                 asks.push(Ask::Explain(if on_trial { Deed::Stop } else { Deed::Try(source.clone()) }));
             }
             let tip = "Puts the effect into the model as known; undo takes it back.";
-            if ui.primary("Add").on_hover_text(tip).clicked() {
+            let wait = "Its size is not final: it can be added when the search has ended. Try shows what it would do.";
+            let add = ui.add_enabled_ui(!self.provisional, |ui| ui.primary("Add")).inner;
+            if add.on_hover_text(tip).on_disabled_hover_text(wait).clicked() {
                 asks.push(Ask::Explain(Deed::Add(source.clone())));
             }
             let tip = "Rules this effect out at this place; it can be taken back below.";

@@ -22,18 +22,18 @@ use egui::{Align, Button, Layout, RichText, ScrollArea, Sense, Ui, vec2};
 const BEYOND: f64 = 1.2;
 
 /// Suggestions that are not ruled out, with probabilities that add up to what they did before.
-pub fn ranked<'a>(diagnosis: &'a Diagnosis, look: &Look) -> Vec<(&'a Suggestion, f64)> {
-    let left: Vec<&Suggestion> = diagnosis.suggestions.iter().filter(|s| !look.rules_out(&s.added.source)).collect();
+pub fn ranked<'a>(suggestions: &'a [Suggestion], look: &Look) -> Vec<(&'a Suggestion, f64)> {
+    let left: Vec<&Suggestion> = suggestions.iter().filter(|s| !look.rules_out(&s.added.source)).collect();
     let total = |list: &mut dyn Iterator<Item = &Suggestion>| list.map(|s| s.probability).sum::<f64>();
-    let all = total(&mut diagnosis.suggestions.iter());
+    let all = total(&mut suggestions.iter());
     let kept = total(&mut left.iter().copied());
-    let factor = if kept > 0.0 && left.len() < diagnosis.suggestions.len() { all / kept } else { 1.0 };
+    let factor = if kept > 0.0 && left.len() < suggestions.len() { all / kept } else { 1.0 };
     left.into_iter().map(|s| (s, (s.probability * factor).min(1.0))).collect()
 }
 
 /// The suggestion whose card is open.
-pub fn open<'a>(diagnosis: &'a Diagnosis, look: &Look) -> Option<&'a Suggestion> {
-    let list = ranked(diagnosis, look);
+pub fn open<'a>(suggestions: &'a [Suggestion], look: &Look) -> Option<&'a Suggestion> {
+    let list = ranked(suggestions, look);
     let wanted = look.open.as_ref().and_then(|source| list.iter().find(|(s, _)| s.added.source.is_same(source)));
     wanted.or(list.first()).map(|(s, _)| *s)
 }
@@ -42,10 +42,13 @@ pub fn open<'a>(diagnosis: &'a Diagnosis, look: &Look) -> Option<&'a Suggestion>
 pub fn show(ui: &mut Ui, scene: &Scene<'_>, look: &mut Look, asks: &mut Vec<Ask>) {
     match scene.explained.diagnosis(scene.document) {
         None if scene.explained.is_cancelled(scene.document) => {
-            ui.hint("The search was cancelled.");
-            if ui.button("Search again").clicked() {
-                asks.push(Ask::Explain(Deed::Retry));
-            }
+            ui.horizontal(|ui| {
+                ui.label("The search was cancelled.");
+                if ui.button("Search again").clicked() {
+                    asks.push(Ask::Explain(Deed::Retry));
+                }
+            });
+            provisional(ui, scene, look, asks);
         }
         None if far_off(scene) && !look.anyway => {
             ui.label("The model is wrong by > 1000 %: at these frequencies hardly anything in it takes out energy.");
@@ -56,15 +59,7 @@ pub fn show(ui: &mut Ui, scene: &Scene<'_>, look: &mut Look, asks: &mut Vec<Ask>
                 asks.push(Ask::Explain(Deed::Search));
             }
         }
-        None => {
-            ui.horizontal(|ui| {
-                ui.spinner();
-                ui.label("Every effect is tried at every place.");
-            });
-            ui.hint(
-                "Place before law: where does a free force explain the difference? Then: which law does it follow?",
-            );
-        }
+        None => searching(ui, scene, look, asks),
         Some(Err(error)) => {
             ui.colored_label(ui.palette().error, error);
             if ui.button("Search again").clicked() {
@@ -76,6 +71,31 @@ pub fn show(ui: &mut Ui, scene: &Scene<'_>, look: &mut Look, asks: &mut Vec<Ask>
                 answer(ui, scene, diagnosis, look, asks);
             });
         }
+    }
+}
+
+/// The search goes on: what it does, then the cards that it has so far.
+fn searching(ui: &mut Ui, scene: &Scene<'_>, look: &mut Look, asks: &mut Vec<Ask>) {
+    let found = !scene.explained.suggestions(scene.document).0.is_empty();
+    let doing =
+        if found { "The best so far are being fitted to the end." } else { "Every effect is tried at every place." };
+    ui.horizontal(|ui| {
+        ui.spinner();
+        ui.label(doing);
+    });
+    if !found {
+        ui.hint("Place before law: where does a free force explain the difference? Then: which law does it follow?");
+    }
+    provisional(ui, scene, look, asks);
+}
+
+/// The cards that a search has told before its end.
+fn provisional(ui: &mut Ui, scene: &Scene<'_>, look: &mut Look, asks: &mut Vec<Ask>) {
+    let (found, _) = scene.explained.suggestions(scene.document);
+    if !found.is_empty() {
+        ui.hint("Provisional: sizes, errors and probabilities may still change, and the order with them.");
+        ui.add_space(space::XS);
+        ScrollArea::vertical().id_salt("cards").auto_shrink(false).show(ui, |ui| list(ui, scene, look, asks));
     }
 }
 
@@ -131,18 +151,24 @@ fn answer(ui: &mut Ui, scene: &Scene<'_>, diagnosis: &Diagnosis, look: &mut Look
         next_tests(ui, scene, diagnosis);
     }
     ui.add_space(space::XS);
-    let list = ranked(diagnosis, look);
-    let chosen = open(diagnosis, look).map(|s| s.added.source.clone());
+    list(ui, scene, look, asks);
+}
+
+/// One card for every suggestion, final or provisional, then what is ruled out.
+fn list(ui: &mut Ui, scene: &Scene<'_>, look: &mut Look, asks: &mut Vec<Ask>) {
+    let (suggestions, provisional) = scene.explained.suggestions(scene.document);
+    let list = ranked(suggestions, look);
+    let chosen = open(suggestions, look).map(|s| s.added.source.clone());
     for (rank, (suggestion, probability)) in list.iter().enumerate() {
         let source = &suggestion.added.source;
         let unfolded = chosen.as_ref().is_some_and(|c| c.is_same(source));
-        let card = card::Card { scene, diagnosis, suggestion, probability: *probability, rank: rank + 1, unfolded };
+        let card = card::Card { scene, suggestion, probability: *probability, rank: rank + 1, unfolded, provisional };
         if card.show(ui, look.trial.as_ref().is_some_and(|t| t.is_same(source)), asks) {
             look.open = Some(source.clone());
         }
         ui.add_space(space::XS);
     }
-    if list.is_empty() && !diagnosis.suggestions.is_empty() {
+    if list.is_empty() && !suggestions.is_empty() {
         ui.hint("Everything that was suggested is ruled out.");
     }
     excluded(ui, scene, &look.excluded, asks);

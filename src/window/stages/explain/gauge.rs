@@ -12,17 +12,25 @@ pub struct Gauge {
     pub before: f64,
     /// With the effect.
     pub after: f64,
-    /// On runs that were left out of the fit.
-    pub held_out: f64,
+    /// On runs that were left out of the fit; none where the fit is not finished.
+    pub held_out: Option<f64>,
     /// What noise alone leaves.
     pub floor: f64,
 }
 
 impl Gauge {
-    /// `Error 14.4 % to 0.31 %, on left-out runs 0.33 %, noise floor 0.31 %`.
+    /// What stands under the bar: `error 14.4 % to 0.31 %` and `left-out runs 0.33 %   noise 0.31 %`.
+    fn figures(&self) -> [String; 2] {
+        let [before, after, floor] = [self.before, self.after, self.floor].map(in_words);
+        match self.held_out.map(in_words) {
+            Some(held) => [format!("error {before} to {after}"), format!("left-out runs {held}   noise {floor}")],
+            None => [format!("error {before} to about {after}"), format!("noise {floor}")],
+        }
+    }
+
+    /// The same in one line.
     pub fn words(&self) -> String {
-        let [before, after, held, floor] = [self.before, self.after, self.held_out, self.floor].map(in_words);
-        format!("Error {before} to {after}, on left-out runs {held}, noise floor {floor}")
+        self.figures().join(", ").replace("   ", ", ")
     }
 
     /// Shows the bar and its figures under it.
@@ -54,10 +62,8 @@ impl Gauge {
         tick(f64::from(b), palette.weak, 1.2);
         let font = theme::font(size::SMALL);
         let below = bar.bottom() + 4.0;
-        let [before, after, held, floor] = [self.before, self.after, self.held_out, self.floor].map(in_words);
-        let left = format!("error {before} to {after}");
+        let [left, right] = self.figures();
         painter.text(pos2(bar.left(), below), Align2::LEFT_TOP, left, font.clone(), palette.ink);
-        let right = format!("left-out runs {held}   noise {floor}");
         painter.text(pos2(bar.right(), below), Align2::RIGHT_TOP, right, font, palette.weak);
     }
 }

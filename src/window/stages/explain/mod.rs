@@ -70,9 +70,18 @@ pub fn wanted(document: &Document, view: &View, explained: &Explained) -> Wanted
     }
     let look = &view.explain;
     let found = explained.diagnosis(document).and_then(|d| d.as_ref().ok());
-    let print = found.and_then(|d| cards::open(d, look)).map(|s| s.added.source.clone());
+    let print = found.and_then(|d| cards::open(&d.suggestions, look)).map(|s| s.added.source.clone());
     let curve = (look.tab == look::Tab::Frequency).then_some(view.run);
     Wanted { diagnosis: true, anyway: look.anyway, trial: look.trial.clone(), print, curve }
+}
+
+/// An effect on trial takes the sizes of its suggestion, which a search corrects on its way.
+pub fn keep_up(look: &mut look::Look, document: &Document, explained: &Explained) {
+    let Some(trial) = &mut look.trial else { return };
+    let (suggestions, _) = explained.suggestions(document);
+    if let Some(found) = suggestions.iter().find(|s| s.added.source.is_same(trial)) {
+        trial.clone_from(&found.added.source);
+    }
 }
 
 /// Does what was asked for.
@@ -171,20 +180,20 @@ pub fn mark(document: &Document, explained: &Explained) -> Mark {
         Some(Ok(d)) if d.verdict == Verdict::Adequate => {
             Mark::done(&format!("The model explains the data: error {error}, noise floor {floor}."))
         }
-        Some(Ok(d)) => {
-            let best = d.suggestions.first().map_or_else(String::new, |s| {
-                let source = &s.added.source;
-                format!(
-                    " Best guess: {} {}.",
-                    words::effect(source.effect),
-                    at(&document.project.structure, &source.place)
-                )
-            });
-            Mark::attention(&format!("The model is wrong by {error}, noise floor {floor}.{best}"))
-        }
-        _ if comparison.error <= 1.2 * comparison.noise_floor => {
+        None | Some(Err(_)) if comparison.error <= 1.2 * comparison.noise_floor => {
             Mark::done(&format!("Error {error}, at the noise floor {floor}."))
         }
-        _ => Mark::attention(&format!("The model is wrong by {error}, noise floor {floor}.")),
+        _ => Mark::attention(&format!(
+            "The model is wrong by {error}, noise floor {floor}.{}",
+            best_guess(document, explained)
+        )),
     }
+}
+
+/// The first suggestion, as a sentence after another one.
+fn best_guess(document: &Document, explained: &Explained) -> String {
+    let (suggestions, provisional) = explained.suggestions(document);
+    let Some(source) = suggestions.first().map(|s| &s.added.source) else { return String::new() };
+    let so_far = if provisional { " so far" } else { "" };
+    format!(" Best guess{so_far}: {} {}.", words::effect(source.effect), at(&document.project.structure, &source.place))
 }

@@ -26,7 +26,7 @@ pub struct Errors {
 /// Errors and suggestion for the schematic.
 pub fn errors(scene: &Arc<Scene>, document: &Document, view: &View, explained: &Explained) -> Errors {
     let look = &view.explain;
-    let best = explained.diagnosis(document).and_then(|d| d.as_ref().ok()).and_then(|d| cards::open(d, look));
+    let best = cards::open(explained.suggestions(document).0, look);
     let suggested = look.trial.as_ref().or(best.map(|s| &s.added.source));
     let tried = look.trial.as_ref().and_then(|t| explained.trial(document, t)).and_then(|t| t.as_ref().ok());
     let comparison = tried.or_else(|| explained.comparison(document).and_then(|c| c.as_ref().ok()));

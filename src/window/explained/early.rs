@@ -1,0 +1,54 @@
+//! What a search tells before it has ended.
+
+use super::model::Key;
+use crate::explain::diagnose::Suggestion;
+use crate::window::wake::Bell;
+use egui::Context;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+
+/// Where a search on its own thread leaves what it has found so far.
+#[derive(Debug, Clone)]
+pub struct Mailbox {
+    latest: Arc<Mutex<Option<Vec<Suggestion>>>>,
+    bell: Bell,
+}
+
+impl Mailbox {
+    fn latest(&self) -> MutexGuard<'_, Option<Vec<Suggestion>>> {
+        self.latest.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Leaves suggestions, in place of those that nobody has fetched yet, and asks for a frame.
+    pub fn put(&self, found: &[Suggestion]) {
+        *self.latest() = Some(found.to_vec());
+        self.bell.ring();
+    }
+}
+
+/// The provisional suggestions of the last search that was started.
+#[derive(Debug, Default)]
+pub struct Early {
+    search: Option<(Key, Mailbox)>,
+    found: Vec<Suggestion>,
+}
+
+impl Early {
+    /// A mailbox for a new search; what an earlier one told is forgotten.
+    pub fn expect(&mut self, ctx: &Context, key: &Key) -> Mailbox {
+        let mailbox = Mailbox { latest: Arc::default(), bell: Bell::of(ctx) };
+        self.search = Some((key.clone(), mailbox.clone()));
+        self.found.clear();
+        mailbox
+    }
+
+    /// Fetches what was told since the last look.
+    pub fn collect(&mut self) {
+        let told = self.search.as_ref().and_then(|(_, mailbox)| mailbox.latest().take());
+        self.found = told.unwrap_or_else(|| std::mem::take(&mut self.found));
+    }
+
+    /// What the search on the model of `key` has told; none for another model.
+    pub fn of(&self, key: &Key) -> &[Suggestion] {
+        if self.search.as_ref().is_some_and(|(of, _)| of == key) { &self.found } else { &[] }
+    }
+}
