@@ -1,5 +1,8 @@
 //! Numbers in words: as many digits as are known.
 
+/// Decimal places that are written out for a number that is not small.
+const MOST_PLACES: usize = 8;
+
 /// `value +- deviation`, both to the digit that the deviation supports and under one power of ten; four significant digits
 /// where the deviation is not known.
 pub fn with_deviation(value: f64, deviation: f64) -> String {
@@ -8,7 +11,8 @@ pub fn with_deviation(value: f64, deviation: f64) -> String {
     }
     let power = value.abs().max(deviation).log10().floor() as i32;
     let places = decimals(deviation);
-    if places <= 6 && power < 6 {
+    let most = if power >= -3 { MOST_PLACES } else { 6 };
+    if places <= most && power < 6 {
         return format!("{value:.places$} +- {deviation:.places$}");
     }
     let scale = 10f64.powi(-power);
@@ -47,6 +51,9 @@ mod tests {
         assert_eq!(with_deviation(0.1072, 0.0021), "0.1072 +- 0.0021");
         assert_eq!(with_deviation(512.3, 13.0), "512 +- 13");
         assert_eq!(with_deviation(0.006_018, 5.8e-8), "(6.018000 +- 0.000058)e-3");
+        assert_eq!(with_deviation(0.135_292_8, 2.8e-6), "0.1352928 +- 0.0000028");
+        assert_eq!(with_deviation(0.006_018, 5.8e-7), "0.00601800 +- 0.00000058");
+        assert_eq!(with_deviation(0.000_601_8, 5.8e-7), "(6.0180 +- 0.0058)e-4");
         assert_eq!(with_deviation(-1.2347e8, 2.1e6), "(-1.235 +- 0.021)e8");
         assert_eq!(with_deviation(3.0, 0.0), "3.000");
         assert_eq!(with_deviation(3.0, f64::INFINITY), "3.000");

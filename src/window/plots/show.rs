@@ -15,6 +15,10 @@ use egui_plot::{
     MarkerShape, PlotBounds, PlotPoint, PlotPoints, PlotResponse, PlotUi, Points, Text, VLine,
 };
 
+/// Share of the height of a square plot, above its lower left corner, that belongs to the labels of the axis of x: those of
+/// both axes are as long there, and would touch.
+const CORNER: f64 = 0.04;
+
 /// Plots of one sheet: its title, and each plot with its share of the height.
 #[derive(Debug)]
 pub struct Stack<'a> {
@@ -101,7 +105,7 @@ impl Place<'_> {
     pub fn show(&self, ui: &mut Ui, figure: &Figure) -> PlotResponse<()> {
         let palette = ui.palette();
         let (x, y) = (figure.x.clone(), figure.y.clone());
-        let (xt, yt) = (figure.x.clone(), figure.y.clone());
+        let (xt, yt, square) = (figure.x.clone(), figure.y.clone(), figure.square);
         let x_label = if self.ruler { figure.x.label() } else { String::new() };
         let x_axis = axis(AxisHints::new_x(), palette, &x_label)
             .min_thickness(if self.ruler { 32.0 } else { 14.0 })
@@ -116,7 +120,11 @@ impl Place<'_> {
             .min_thickness(62.0)
             // Lines of text lie closer than words beside each other.
             .label_spacing(Rangef::new(13.0, 20.0))
-            .formatter(move |mark, _| ticks::label(&yt, mark));
+            .formatter(move |mark, range| {
+                let height = range.end() - range.start();
+                let corner = square && self.ruler && mark.value - range.start() < CORNER * height;
+                if corner { String::new() } else { ticks::label(&yt, mark) }
+            });
         let mut plot = frame(ui, self.id)
             .custom_x_axes(vec![x_axis])
             .custom_y_axes(vec![y_axis])
