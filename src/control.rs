@@ -17,11 +17,19 @@ pub trait Workers: Debug + Send + Sync {
 }
 
 /// A handle shared by whoever waits and whoever works. Cloning shares the same state.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone)]
 pub struct Control {
     cancelled: Arc<AtomicBool>,
     parts_per_million: Arc<AtomicU32>,
     workers: Option<Arc<dyn Workers>>,
+    /// Where this part of the work starts and ends in the whole.
+    span: [f64; 2],
+}
+
+impl Default for Control {
+    fn default() -> Self {
+        Self { cancelled: Arc::default(), parts_per_million: Arc::default(), workers: None, span: [0.0, 1.0] }
+    }
 }
 
 impl Control {
@@ -52,19 +60,30 @@ impl Control {
         taken.map(value).collect()
     }
 
+    /// The same control for piece number `index` of `count` pieces of this work: what the piece reports moves the progress
+    /// of the whole through its share.
+    #[must_use]
+    pub fn piece(&self, index: usize, count: usize) -> Self {
+        let [from, to] = self.span;
+        let at = |k: usize| from + (to - from) * (k as f64 / count.max(1) as f64).min(1.0);
+        Self { span: [at(index), at(index + 1)], ..self.clone() }
+    }
+
     /// Moves the progress by this share of what remains: for searches whose length nobody knows beforehand.
     pub fn advance(&self, share: f64) {
-        let now = self.progress();
+        let [from, to] = self.span;
+        let now = if to > from { (self.progress() - from) / (to - from) } else { 1.0 }.clamp(0.0, 1.0);
         self.report(now + (1.0 - now) * share.clamp(0.0, 1.0));
     }
 
-    /// States the share of the work that is done, 0 to 1.
+    /// States the share of this work that is done, 0 to 1.
     pub fn report(&self, fraction: f64) {
-        let ppm = (fraction.clamp(0.0, 1.0) * 1e6) as u32;
+        let [from, to] = self.span;
+        let ppm = ((from + (to - from) * fraction.clamp(0.0, 1.0)) * 1e6) as u32;
         self.parts_per_million.store(ppm, Ordering::Relaxed);
     }
 
-    /// The share of the work that is done, 0 to 1.
+    /// The share of the whole work that is done, 0 to 1.
     pub fn progress(&self) -> f64 {
         f64::from(self.parts_per_million.load(Ordering::Relaxed)) * 1e-6
     }
@@ -98,6 +117,26 @@ mod tests {
     fn pieces_come_back_in_order_whoever_does_them() {
         let control = Control::unattended().with_workers(Arc::new(Unruly));
         assert_eq!(control.map(7, |k| k * k), Control::unattended().map(7, |k| k * k));
+    }
+
+    #[test]
+    fn pieces_move_one_progress_on_and_are_cancelled_together() {
+        let control = Control::unattended();
+        let mut seen = Vec::new();
+        for k in 0..3 {
+            let piece = control.piece(k, 3);
+            for part in 0..2 {
+                let inner = piece.piece(part, 2);
+                inner.advance(0.5);
+                seen.push(control.progress());
+                inner.report(1.0);
+                seen.push(control.progress());
+            }
+        }
+        assert!(seen.is_sorted() && seen[0] > 0.08 && seen[0] < 0.09, "{seen:?}");
+        assert!((control.progress() - 1.0).abs() < 1e-5);
+        control.piece(1, 3).cancel();
+        assert!(control.check().is_err());
     }
 
     #[test]

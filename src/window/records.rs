@@ -73,9 +73,9 @@ impl Missing {
         let count = self.runs.len() + self.harmonics.len();
         for (done, (index, key)) in self.runs.into_iter().enumerate() {
             control.check().map_err(|e| e.to_string())?;
-            // The reader reports on its own file; a child's share of the whole is not known to it.
-            fitted.push((key, vec![plan.run(index, control).map_err(|e| e.to_string())?]));
-            control.report((done + 1) as f64 / count as f64);
+            let piece = control.piece(done, count);
+            fitted.push((key, vec![plan.run(index, &piece).map_err(|e| e.to_string())?]));
+            piece.report(1.0);
         }
         if !self.harmonics.is_empty() {
             fitted.extend(harmonics(&plan, &self.harmonics)?);

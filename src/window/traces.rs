@@ -8,6 +8,7 @@ use crate::math::spectrum::Spectrum;
 use crate::measurement::{ChannelFit, Record, Run};
 use crate::session::jobs::Job;
 use egui::Context;
+use std::cell::Cell;
 use std::collections::{HashMap, HashSet};
 use std::f64::consts::TAU;
 use std::sync::Arc;
@@ -50,7 +51,33 @@ pub struct Traces {
     done: HashMap<Key, (u64, Arc<Trace>)>,
     jobs: HashMap<Key, Job<(), Option<Trace>>>,
     given_up: HashSet<Key>,
+    batch: Batch,
     clock: u64,
+}
+
+/// What was asked for while jobs ran: one bar over all of it.
+#[derive(Debug, Default)]
+struct Batch {
+    keys: HashSet<Key>,
+    /// How far the bar has come; it never goes back, though more may be asked for on the way.
+    reached: Cell<f64>,
+}
+
+impl Batch {
+    /// One more; the first of a new batch where nothing is being done.
+    fn ask(&mut self, key: Key, idle: bool) {
+        if idle && !self.keys.contains(&key) {
+            *self = Self::default();
+        }
+        self.keys.insert(key);
+    }
+
+    /// Place of the bar, where `share` of each is done.
+    fn progress(&self, share: impl Fn(&Key) -> f64) -> f64 {
+        let done = self.keys.iter().map(share).sum::<f64>() / self.keys.len().max(1) as f64;
+        self.reached.set(self.reached.get().max(done));
+        self.reached.get()
+    }
 }
 
 impl Traces {
@@ -68,6 +95,7 @@ impl Traces {
         if self.given_up.contains(&key) {
             return Traced::Cancelled;
         }
+        self.batch.ask(key, self.jobs.is_empty());
         if !self.jobs.contains_key(&key) && self.jobs.len() < AT_ONCE {
             let (record, fit, omega) = (Arc::clone(record), fit.clone(), r.fit.omega);
             let work = move |control: &Control| trace(&record, &fit, omega, control);
@@ -104,9 +132,12 @@ impl Traces {
         self.given_up.extend(self.jobs.drain().map(|(key, _)| key));
     }
 
-    /// Name and progress of a job, if one runs.
+    /// Name and progress of what is being prepared, all records together.
     pub fn running(&self) -> Option<(&str, f64)> {
-        self.jobs.values().find_map(Job::running)
+        let (name, _) = self.jobs.values().find_map(Job::running)?;
+        let finished = |key: &Key| if self.done.contains_key(key) { 1.0 } else { 0.0 };
+        let share = |key: &Key| self.jobs.get(key).map_or_else(|| finished(key), Job::progress);
+        Some((name, self.batch.progress(share)))
     }
 }
 
@@ -136,4 +167,25 @@ fn lines(spectrum: &Spectrum, fit: &ChannelFit, omega: f64) -> Pyramid {
     let frequency: Vec<f64> = (1..shown).map(|k| spectrum.frequency_hz(k)).collect();
     let amplitude: Vec<f64> = (1..shown).map(|k| spectrum.amplitude.get(k).map_or(floor, |a| a.max(floor))).collect();
     Pyramid::new(&frequency, &amplitude)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Batch;
+
+    #[test]
+    fn one_bar_runs_over_all_records_and_never_back() {
+        let mut batch = Batch::default();
+        let keys = [0, 1, 2].map(|run| (run, 0, 0, 7));
+        keys[..2].iter().for_each(|&key| batch.ask(key, true));
+        let half = |key: &super::Key| if *key == keys[0] { 1.0 } else { 0.0 };
+        batch.ask(keys[1], false);
+        assert!(batch.progress(half) <= 0.5 + 1e-12);
+        batch.ask(keys[2], false);
+        let seen = [batch.progress(half), batch.progress(|_| 0.9), batch.progress(|_| 1.0)];
+        assert!(seen.is_sorted() && seen[2] == 1.0, "{seen:?}");
+        // Another batch starts anew.
+        batch.ask((9, 0, 0, 7), true);
+        assert!(batch.progress(|_| 0.0) == 0.0);
+    }
 }

@@ -30,8 +30,9 @@ impl Plan {
         let mut runs = Vec::with_capacity(self.runs.len());
         for index in 0..self.runs.len() {
             control.check().map_err(|_| self.error(None, Problem::Cancelled))?;
-            runs.push(self.run(index, &Control::unattended())?);
-            control.report((index + 1) as f64 / self.runs.len() as f64);
+            let piece = control.piece(index, self.runs.len());
+            runs.push(self.run(index, &piece)?);
+            piece.report(1.0);
         }
         let corrections = self.corrections();
         let fitted = self.harmonics()?.into_iter();
