@@ -8,7 +8,7 @@ use crate::effects::{Place, Source, State};
 use crate::exchange::Project;
 use crate::exchange::project::load;
 use crate::exchange::project::relocate::{canonical, renamed};
-use crate::explain::diagnose::{Added, Correction, Diagnosis, Suggestion, diagnose_telling};
+use crate::explain::diagnose::{Added, Correction, Diagnosis, Suggestion, diagnose_without};
 use crate::explain::shapes::scaled;
 use crate::explain::tuning::Knob;
 use crate::session::workers::Threads;
@@ -23,8 +23,8 @@ pub(super) fn run(arguments: &Diagnose) -> anyhow::Result<String> {
     let control = Control::unattended().with_workers(Arc::new(Threads::default()));
     let project = load(&arguments.file, &control)?;
     let early = |found: &[Suggestion]| eprint!("{}", first_words(&project.structure, found));
-    let diagnosis =
-        diagnose_telling(&problem(&project), &control, &early).with_context(|| arguments.file.display().to_string())?;
+    let diagnosis = diagnose_without(&problem(&project), &project.ruled_out, &control, &early)
+        .with_context(|| arguments.file.display().to_string())?;
     if let Some(out) = &arguments.apply {
         apply(&arguments.file, out, &project, &diagnosis)?;
     }

@@ -23,6 +23,8 @@ pub struct Project {
     pub structure: Structure,
     /// Sources with the families of candidates expanded.
     pub sources: Vec<Source>,
+    /// Effects at places that are known not to be what the model lacks; their parameters mean nothing.
+    pub ruled_out: Vec<Source>,
     /// Runs in the order of the file; channels corrected for their known errors.
     pub runs: Vec<Run>,
     /// Settings of the analysis.

@@ -1,10 +1,11 @@
 //! What each command does to a project file. The caller checks the whole file afterwards and keeps the old one if it fails.
 
-use super::command::{Command, Setting, SourceAt, SourceSpec};
+use super::command::{Command, EffectAt, Setting, SourceAt, SourceSpec};
 use super::document::{Document, Refusal};
 use super::{sources, structure};
 use crate::effects::{Effect, Family, State};
 use crate::exchange::project::file::{CandidatesTable, ProjectFile, RunTable, SensorTable, Shape, SourceTable};
+use crate::exchange::project::ruled_out::RuledOutTable;
 use crate::measurement::Quantity;
 use crate::structure::LumpedMass;
 use crate::structure::Structure;
@@ -48,6 +49,8 @@ fn change(file: &mut ProjectFile, command: &Command, on: &Structure, folder: &Pa
         Command::SetRunFrequency { file: run, frequency } => set_frequency(file, run, *frequency),
         Command::SetRunLevel { file: run, level } => set(&mut run_of(file, run)?.level, *level),
         Command::SetSensor { channel, delay, gain } => set_sensor(file, channel, [*delay, *gain], on),
+        Command::RuleOut(at) => rule_out(file, at, on),
+        Command::Allow(at) => allow(file, at, on),
         Command::SetSetting(setting) => set_setting(file, *setting),
     }
 }
@@ -194,6 +197,32 @@ fn set_sensor(file: &mut ProjectFile, channel: &str, values: [Option<f64>; 2], o
     if delay.is_some() || gain.is_some() {
         file.sensor.push(SensorTable { channel: channel.into(), delay, gain });
     }
+    Ok(())
+}
+
+fn ruled_out(at: &EffectAt) -> RuledOutTable {
+    let EffectAt { law, dofs, elements, channel } = at.clone();
+    RuledOutTable { law, dofs: sources::labels(&dofs), elements, channel }
+}
+
+/// Where an effect is among those that are ruled out.
+fn ruled_out_at(file: &ProjectFile, at: &EffectAt, on: &Structure) -> Result<Option<usize>, Refusal> {
+    let wanted = sources::ruled_out(&ruled_out(at), on)?;
+    let same = |table: &RuledOutTable| table.source(on).is_ok_and(|source| source.is_same(&wanted));
+    Ok(file.ruled_out.iter().position(same))
+}
+
+fn rule_out(file: &mut ProjectFile, at: &EffectAt, on: &Structure) -> Done {
+    if ruled_out_at(file, at, on)?.is_some() {
+        return Err(Refusal::RuledOutTwice { law: at.law });
+    }
+    file.ruled_out.push(ruled_out(at));
+    Ok(())
+}
+
+fn allow(file: &mut ProjectFile, at: &EffectAt, on: &Structure) -> Done {
+    let index = ruled_out_at(file, at, on)?.ok_or(Refusal::NotRuledOut { law: at.law })?;
+    file.ruled_out.remove(index);
     Ok(())
 }
 

@@ -50,6 +50,23 @@ pub struct SourceAt {
     pub state: Option<State>,
 }
 
+/// An effect at a place of the structure or in a channel.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct EffectAt {
+    /// The law.
+    pub law: Effect,
+    /// Labels of its DOFs, in either direction.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub dofs: Vec<String>,
+    /// First and last beam element, from 1.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub elements: Option<[i64; 2]>,
+    /// Channel of an error of the measuring chain, such as `acc@7`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub channel: Option<String>,
+}
+
 /// A setting of the analysis and its new value.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
@@ -123,6 +140,10 @@ pub enum Command {
     SetRunLevel { file: String, level: Option<i64> },
     /// States the known errors of a channel: delay in s and gain; none of both forgets them.
     SetSensor { channel: String, delay: Option<f64>, gain: Option<f64> },
+    /// States that an effect at its place is not what the model lacks: the search suggests others.
+    RuleOut(EffectAt),
+    /// Takes that back.
+    Allow(EffectAt),
     /// Changes a setting of the analysis.
     SetSetting(Setting),
 }
@@ -151,6 +172,8 @@ impl Command {
             Self::SetRunFrequency { .. } => "change frequency of run".into(),
             Self::SetRunLevel { .. } => "change level of run".into(),
             Self::SetSensor { channel, .. } => format!("change sensor {channel}"),
+            Self::RuleOut(at) => format!("rule out {}", words(at.law)),
+            Self::Allow(at) => format!("allow {} again", words(at.law)),
             Self::SetSetting(_) => "change setting".into(),
         }
     }

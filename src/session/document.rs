@@ -46,6 +46,12 @@ pub enum Refusal {
     OutOfRange { name: &'static str, range: &'static str, value: f64 },
     #[error("`{channel}` is not a channel of this structure; write force@DOF, acc@DOF, vel@DOF or disp@DOF")]
     NoSuchChannel { channel: String },
+    #[error("`{law}` is ruled out there already")]
+    RuledOutTwice { law: Effect },
+    #[error("`{law}` is not ruled out there")]
+    NotRuledOut { law: Effect },
+    #[error("`{law}` cannot be ruled out: {reason}")]
+    NoSuchPlace { law: Effect, reason: String },
     #[error("an empty text cannot be the name of a file")]
     EmptyName,
     #[error("the project cannot be written as TOML: {reason}")]
@@ -69,6 +75,8 @@ pub struct Revisions {
     pub measurements: u64,
     /// Sources and families.
     pub sources: u64,
+    /// Effects that are ruled out.
+    pub ruled_out: u64,
     /// Settings.
     pub settings: u64,
 }
@@ -83,6 +91,7 @@ impl Revisions {
         let measured = old.run != new.run || old.harmonics != new.harmonics || old.sensor != new.sensor;
         step(measured || fitted(old) != fitted(new), &mut self.measurements);
         step(old.source != new.source || old.candidates != new.candidates, &mut self.sources);
+        step(old.ruled_out != new.ruled_out, &mut self.ruled_out);
         step(old.analysis != new.analysis, &mut self.settings);
     }
 }
@@ -93,6 +102,7 @@ pub struct Document {
     file: Arc<ProjectFile>,
     structure: Arc<Structure>,
     sources: Arc<Vec<Source>>,
+    ruled_out: Arc<Vec<Source>>,
     folder: PathBuf,
 }
 
@@ -105,10 +115,13 @@ impl PartialEq for Document {
 
 impl Document {
     /// Checks the file and builds what follows from it; `folder` is where the project's files are.
-    pub fn new(file: ProjectFile, folder: &Path) -> Result<Self, Refusal> {
+    pub fn new(mut file: ProjectFile, folder: &Path) -> Result<Self, Refusal> {
         let structure = Arc::new(structure::build(&file.structure, folder)?);
         let sources = Arc::new(sources::expand(&file, &structure)?);
-        Ok(Self { file: Arc::new(file), structure, sources, folder: folder.to_owned() })
+        // What was said of a place goes with the place.
+        file.ruled_out.retain(|table| table.source(&structure).is_ok());
+        let ruled_out = Arc::new(ruled_out(&file, &structure));
+        Ok(Self { file: Arc::new(file), structure, sources, ruled_out, folder: folder.to_owned() })
     }
 
     /// The document with another file; the structure is rebuilt only if it changed.
@@ -117,7 +130,8 @@ impl Document {
             return Self::new(file, &self.folder);
         }
         let sources = Arc::new(sources::expand(&file, &self.structure)?);
-        Ok(Self { file: Arc::new(file), sources, ..self.clone() })
+        let ruled_out = Arc::new(ruled_out(&file, &self.structure));
+        Ok(Self { file: Arc::new(file), sources, ruled_out, ..self.clone() })
     }
 
     /// The project file as data.
@@ -147,8 +161,17 @@ impl Document {
         &self.sources
     }
 
+    /// Effects at places that the user has ruled out; their parameters mean nothing.
+    pub fn ruled_out(&self) -> &Arc<Vec<Source>> {
+        &self.ruled_out
+    }
+
     /// Folder of the project, to which its files are relative.
     pub fn folder(&self) -> &Path {
         &self.folder
     }
+}
+
+fn ruled_out(file: &ProjectFile, structure: &Structure) -> Vec<Source> {
+    file.ruled_out.iter().filter_map(|table| table.source(structure).ok()).collect()
 }

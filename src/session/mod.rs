@@ -15,6 +15,6 @@ mod sources;
 mod structure;
 pub mod workers;
 
-pub use command::{Command, Setting, SourceAt, SourceSpec};
+pub use command::{Command, EffectAt, Setting, SourceAt, SourceSpec};
 pub use document::{Document, Refusal, Revisions};
 pub use session::Session;

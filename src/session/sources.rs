@@ -6,6 +6,7 @@ use crate::effects::effect::Kind;
 use crate::effects::source::SourceError;
 use crate::effects::{Effect, Place, Source, State};
 use crate::exchange::project::file::{CandidatesTable, Label, ProjectFile, SourceTable};
+use crate::exchange::project::ruled_out::RuledOutTable;
 use crate::structure::Structure;
 use std::collections::BTreeMap;
 
@@ -144,6 +145,11 @@ fn written(source: &Source, parameters: &BTreeMap<String, f64>, structure: &Stru
         _ => None,
     };
     SourceTable { law: source.effect, dofs, elements, state: source.state, parameters: parameters.clone() }
+}
+
+/// The effect that is ruled out, or why it cannot act there.
+pub(super) fn ruled_out(table: &RuledOutTable, structure: &Structure) -> Result<Source, Refusal> {
+    table.source(structure).map_err(|problem| Refusal::NoSuchPlace { law: table.law, reason: problem.to_string() })
 }
 
 /// Labels as the file has them.

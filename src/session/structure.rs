@@ -31,6 +31,7 @@ fn from_files(table: &StructureTable, folder: &Path) -> Result<Structure, Refusa
         source: Vec::new(),
         candidates: Vec::new(),
         sensor: Vec::new(),
+        ruled_out: Vec::new(),
         run: Vec::new(),
         harmonics: Vec::new(),
         analysis: Settings::default(),

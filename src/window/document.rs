@@ -219,6 +219,7 @@ fn project(state: &session::Document, records: &Records) -> Project {
         notes: file.project.notes.clone(),
         structure: state.structure().as_ref().clone(),
         sources: state.sources().as_ref().clone(),
+        ruled_out: state.ruled_out().as_ref().clone(),
         runs: records.runs(state),
         settings: file.analysis.clone(),
     }

@@ -1,7 +1,8 @@
 //! Scripts, refusals with their reasons, families that are written out when one member is changed.
 
-use crate::support::session;
-use dashpot::effects::State;
+use crate::support::{BEAM, session};
+use dashpot::effects::{Effect, Place, State};
+use dashpot::session::Session;
 use dashpot::session::script::{parse, play};
 
 fn refused(script: &str) -> String {
@@ -42,6 +43,9 @@ fn refusals_name_what_would_do() {
         (r#"[{"set_structure_parameter": {"name": "length", "value": -1}}]"#, "length"),
         (r#"[{"set_run_use": {"file": "x.csv", "use": false}}]"#, "x.csv"),
         (r#"[{"import_runs": ["run-01.csv"]}]"#, "already"),
+        (r#"[{"rule_out": {"law": "coulomb", "dofs": ["99"]}}]"#, "99"),
+        (r#"[{"rule_out": {"law": "delay", "dofs": ["3"]}}]"#, "channel"),
+        (r#"[{"allow": {"law": "coulomb", "dofs": ["3"]}}]"#, "not ruled out"),
         (r#"["undo"]"#, "nothing to undo"),
     ] {
         let said = refused(script);
@@ -75,4 +79,39 @@ fn revisions_count_only_the_parts_that_changed() {
     assert_eq!((drawn.sources, drawn.measurements), (titled.sources + 1, titled.measurements));
     session.undo();
     assert_eq!(session.revisions().sources, drawn.sources + 1);
+}
+
+#[test]
+fn what_is_ruled_out_is_undone_saved_and_goes_with_its_place() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("project.toml");
+    std::fs::write(&path, BEAM).unwrap();
+    let mut session = Session::open(&path).unwrap();
+    let script = r#"[{"rule_out": {"law": "coulomb", "dofs": ["7"]}},
+                     {"rule_out": {"law": "viscous", "dofs": ["5", "3"]}},
+                     {"rule_out": {"law": "gain", "channel": "acc@7"}},
+                     {"rule_out": {"law": "loss_factor"}}]"#;
+    assert_eq!(play(&mut session, &parse(script).unwrap()).unwrap()[0], "rule out friction pad");
+    let all = session.document().ruled_out().clone();
+    assert_eq!(all[0].place, Place::Dofs(vec![6]));
+    assert_eq!((all[1].place.clone(), all[2].effect), (Place::Dofs(vec![4, 2]), Effect::Gain));
+    assert_eq!(session.document().sources().len(), 1, "what is ruled out is no source");
+    let twice = r#"[{"rule_out": {"law": "viscous", "dofs": ["3", "5"]}}]"#;
+    assert!(play(&mut session, &parse(twice).unwrap()).unwrap_err().to_string().contains("already"));
+
+    session.save().unwrap();
+    let text = std::fs::read_to_string(&path).unwrap();
+    assert!(text.contains("[[ruled_out]]"), "{text}");
+    assert_eq!(Session::open(&path).unwrap().document().ruled_out(), &all);
+
+    assert_eq!(session.undo().unwrap(), "rule out loss factor");
+    assert_eq!(session.document().ruled_out().len(), 3);
+    play(&mut session, &parse(r#"[{"allow": {"law": "coulomb", "dofs": ["7"]}}]"#).unwrap()).unwrap();
+    assert_eq!(session.document().ruled_out().len(), 2);
+    session.undo();
+    // With fewer elements there is no DOF 7 any more: neither a reason to refuse the change nor to keep what was said of it.
+    play(&mut session, &parse(r#"[{"set_structure_parameter": {"name": "elements", "value": 3}}]"#).unwrap()).unwrap();
+    assert!(session.document().ruled_out().iter().all(|s| s.effect == Effect::Viscous));
+    session.undo();
+    assert_eq!(session.document().ruled_out().len(), 3);
 }

@@ -1,5 +1,6 @@
 //! The project file as plain data, one field a key, as it is written; where each part stood is in [`Lines`].
 
+use super::ruled_out::RuledOutTable;
 use crate::effects::family::Family;
 use crate::effects::{Effect, State};
 use crate::identify::Settings;
@@ -28,6 +29,9 @@ pub struct ProjectFile {
     /// Tables `[[sensor]]`.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub sensor: Vec<SensorTable>,
+    /// Tables `[[ruled_out]]`.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub ruled_out: Vec<RuledOutTable>,
     /// Tables `[[run]]`.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub run: Vec<RunTable>,
@@ -241,6 +245,8 @@ pub struct Lines {
     pub candidates: Vec<BTreeMap<String, usize>>,
     /// Tables `[[sensor]]`.
     pub sensor: Vec<usize>,
+    /// Keys of each `[[ruled_out]]`.
+    pub ruled_out: Vec<BTreeMap<String, usize>>,
     /// Keys of each `[[run]]`.
     pub run: Vec<BTreeMap<String, usize>>,
     /// Tables `[[harmonics]]`.

@@ -43,6 +43,7 @@ impl Plan {
             notes: self.file.project.notes,
             structure: self.structure,
             sources: self.sources,
+            ruled_out: self.ruled_out,
             runs,
             settings: self.file.analysis,
         })

@@ -8,6 +8,7 @@ mod parse;
 pub mod plan;
 mod reader;
 pub mod relocate;
+pub mod ruled_out;
 mod sources;
 mod structure;
 

@@ -6,6 +6,7 @@ use super::file::{
     SensorTable, Shape, SimulateTable, SourceTable, StructureTable,
 };
 use super::reader::{Origin, Table, one_line};
+use super::ruled_out;
 use crate::balance::{Expansion, Weights};
 use crate::effects::family::Family;
 use crate::effects::{Effect, State};
@@ -16,8 +17,8 @@ use crate::structure::chain::ChainParameters;
 use std::collections::BTreeMap;
 use toml::de::DeTable;
 
-const TABLES: [&str; 9] =
-    ["project", "structure", "source", "candidates", "sensor", "run", "harmonics", "analysis", "simulate"];
+const TABLES: [&str; 10] =
+    ["project", "structure", "source", "candidates", "sensor", "ruled_out", "run", "harmonics", "analysis", "simulate"];
 const BEAM: [&str; 9] =
     ["kind", "lumped_mass", "length", "breadth", "depth", "youngs_modulus", "density", "elements", "supports"];
 const CHAIN: [&str; 5] = ["kind", "lumped_mass", "masses", "ground_stiffness", "coupling_stiffness"];
@@ -54,6 +55,7 @@ impl ProjectFile {
             source: sources(&root, &mut lines)?,
             candidates: candidates(&root, &mut lines)?,
             sensor: sensors(&root, &mut lines)?,
+            ruled_out: ruled_out::parse(&root, &mut lines)?,
             run: runs(&root, &mut lines)?,
             harmonics: harmonics(&root, &mut lines)?,
             analysis: analysis(&root)?,
@@ -78,7 +80,7 @@ fn header(root: &Table<'_>) -> Read<Header> {
     Ok(Header { format: FORMAT, title, notes: table.text("notes")?.unwrap_or_default() })
 }
 
-fn key_lines(table: &Table<'_>) -> BTreeMap<String, usize> {
+pub(super) fn key_lines(table: &Table<'_>) -> BTreeMap<String, usize> {
     let keys = table.keys().into_iter().map(|key| (key.to_owned(), table.line_of(key)));
     keys.chain([(String::new(), table.line())]).collect()
 }
@@ -196,7 +198,7 @@ fn sources(root: &Table<'_>, lines: &mut Lines) -> Read<Vec<SourceTable>> {
 }
 
 /// `elements = [first, last]`, from 1.
-fn elements(table: &Table<'_>) -> Read<Option<[i64; 2]>> {
+pub(super) fn elements(table: &Table<'_>) -> Read<Option<[i64; 2]>> {
     let Some(numbers) = table.numbers("elements")? else { return Ok(None) };
     match numbers[..] {
         [a, b] if a.fract() == 0.0 && b.fract() == 0.0 => Ok(Some([a as i64, b as i64])),

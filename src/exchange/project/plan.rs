@@ -2,6 +2,7 @@
 
 use super::error::{Problem, ProjectError};
 use super::file::{Lines, ProjectFile, SimulateTable};
+use super::ruled_out::ruled_out;
 use super::sources::{At, line, sensors, sources};
 use super::structure::structure;
 use crate::control::Control;
@@ -25,6 +26,8 @@ pub struct Plan {
     pub sources: Vec<Source>,
     /// Known errors of the measuring chain: `delay` and `gain` at channels.
     pub sensors: Vec<Source>,
+    /// Effects at places that are known not to be what the model lacks.
+    pub ruled_out: Vec<Source>,
     /// Runs in the order of the file.
     pub runs: Vec<PlannedRun>,
     pub(super) lines: Lines,
@@ -78,9 +81,10 @@ pub fn plan(text: &str, path: &Path) -> Result<Plan, ProjectError> {
     let structure = structure(&file.structure, folder, at)?;
     let sources = sources(&file, &structure, at)?;
     let sensors = sensors(&file.sensor, &structure, at)?;
+    let ruled_out = ruled_out(&file.ruled_out, &structure, at)?;
     let runs = runs(&file, &structure, folder, at)?;
     recorded(&file.simulate.channels, &structure).map_err(|problem| at.error(lines.simulate, problem))?;
-    Ok(Plan { path: path.to_owned(), structure, sources, sensors, runs, file, lines })
+    Ok(Plan { path: path.to_owned(), structure, sources, sensors, ruled_out, runs, file, lines })
 }
 
 fn runs(file: &ProjectFile, structure: &Structure, folder: &Path, at: At<'_>) -> Result<Vec<PlannedRun>, ProjectError> {

@@ -1,7 +1,7 @@
 //! Sources and sensors of a project on its structure: labels found, families expanded, repetitions refused.
 
 use super::error::{Problem, ProjectError};
-use super::file::{CandidatesTable, Lines, ProjectFile, SensorTable, SourceTable};
+use super::file::{CandidatesTable, Label, Lines, ProjectFile, SensorTable, SourceTable};
 use crate::effects::effect::Kind;
 use crate::effects::source::SourceError;
 use crate::effects::{Effect, Place, Source, State};
@@ -72,7 +72,7 @@ fn clashes(a: &Source, b: &Source) -> bool {
 }
 
 /// Line of the key that a problem of a source is about.
-fn blamed(lines: &BTreeMap<String, usize>, problem: &Problem) -> usize {
+pub(super) fn blamed(lines: &BTreeMap<String, usize>, problem: &Problem) -> usize {
     let key = match problem {
         Problem::Structure(_) => "dofs",
         Problem::EmptyFamily { .. } => "where",
@@ -88,21 +88,31 @@ fn blamed(lines: &BTreeMap<String, usize>, problem: &Problem) -> usize {
     line(lines, key)
 }
 
-fn single(table: &SourceTable, structure: &Structure) -> Result<Source, Problem> {
-    let effect = table.law;
-    let place = match effect.kind() {
+/// The place of a law on DOFs, or of one of the whole structure with its range of elements.
+pub(super) fn at_place(
+    effect: Effect,
+    dofs: &[Label],
+    range: Option<[i64; 2]>,
+    structure: &Structure,
+) -> Result<Place, Problem> {
+    Ok(match effect.kind() {
         Kind::Channel(_) => return Err(Problem::ChannelLaw { law: effect.name() }),
-        Kind::Relative(_) if table.elements.is_some() => {
+        Kind::Relative(_) if range.is_some() => {
             let hint = "`elements` restricts laws of the whole structure only, so leave it out".to_owned();
             return Err(Problem::UnknownKey { table: format!("law `{effect}`"), key: "elements".into(), hint });
         }
         Kind::Relative(_) => {
-            let rows = table.dofs.iter().map(|label| structure.require_dof(&label.0));
+            let rows = dofs.iter().map(|label| structure.require_dof(&label.0));
             Place::Dofs(rows.collect::<Result<_, _>>().map_err(structure_problem)?)
         }
-        Kind::Whole(_) if !table.dofs.is_empty() => return Err(source_problem(SourceError::NeedsWhole { effect })),
-        Kind::Whole(_) => Place::Whole(table.elements.map(|range| elements(effect, range, structure)).transpose()?),
-    };
+        Kind::Whole(_) if !dofs.is_empty() => return Err(source_problem(SourceError::NeedsWhole { effect })),
+        Kind::Whole(_) => Place::Whole(range.map(|range| elements(effect, range, structure)).transpose()?),
+    })
+}
+
+fn single(table: &SourceTable, structure: &Structure) -> Result<Source, Problem> {
+    let effect = table.law;
+    let place = at_place(effect, &table.dofs, table.elements, structure)?;
     let values: Vec<(&str, f64)> = table.parameters.iter().map(|(name, &value)| (name.as_str(), value)).collect();
     let source = Source::named(effect, place, table.state, &values).map_err(source_problem)?;
     source.check_on(structure).map_err(source_problem)?;
@@ -157,7 +167,7 @@ pub(super) fn sensors(tables: &[SensorTable], structure: &Structure, at: At<'_>)
 }
 
 /// The channel's name as all channels are named, with a label of the structure.
-fn channel(name: &str, structure: &Structure) -> Result<String, Problem> {
+pub(super) fn channel(name: &str, structure: &Structure) -> Result<String, Problem> {
     let wrong = || Problem::NotAllowed {
         key: "channel".into(),
         value: super::reader::one_line(name),
