@@ -156,8 +156,9 @@ fn at_order(
     let one = |&unknown: &Unknown| {
         let loads = at.loads(unknown);
         let mut linear = at.linear_change(&loads);
-        let mut change =
-            at.balance.answer_change(&state.answers, &at.prepared.condensed.motion_of(|h| run.compliance(h), &linear));
+        let mut motion = at.prepared.condensed.motion_of(|h| run.compliance(h), &linear);
+        at.add_softening(unknown, &mut motion);
+        let mut change = at.balance.answer_change(&state.answers, &motion);
         at.add_parameter(unknown, &mut change);
         lu.solve(&mut change);
         at.add_legs(&change, &mut linear);
@@ -231,6 +232,16 @@ impl Differentiated<'_> {
             }
         };
         loads.iter().enumerate().map(respond).collect()
+    }
+
+    /// Adds what a slider moves on when the spring `k` before it gets stiffer: `F / k^2`.
+    fn add_softening(&self, unknown: Unknown, motion: &mut [f64]) {
+        let Unknown::Source { source, parameter: 0 } = unknown else { return };
+        let (legs, width) = (&self.prepared.condensed.legs, self.prepared.condensed.width());
+        for (i, leg) in legs.iter().enumerate().filter(|(_, leg)| leg.source == source) {
+            let part = motion.iter_mut().zip(self.u).skip(i * width).take(width);
+            part.for_each(|(m, f)| *m += f * leg.flexibility * leg.flexibility);
+        }
     }
 
     /// Adds `Phi_p` of the legs that belong to the unknown.

@@ -16,7 +16,8 @@ use super::fourier::{add_amplitude, amplitude};
 use super::legs::NonlinearLeg;
 use super::level::{Level, level, multiply};
 use super::model::{Excitation, ModelError};
-use crate::effects::{Leg, Source};
+use super::resonant::Pattern;
+use crate::effects::{Effect, Leg, Source};
 use faer::c64;
 
 /// A linear source at one leg.
@@ -43,8 +44,24 @@ pub(crate) struct Condensed {
     pub odd: bool,
 }
 
-/// Splits sources into linear and nonlinear legs; whole-structure and channel effects are not among them.
-pub(crate) fn split(sources: &[Source]) -> (Vec<NonlinearLeg>, Vec<LinearLeg>) {
+/// Stiffness of the spring of an elastic slider, relative to that of the structure there at the fundamental, from which on
+/// it is friction behind a spring: marched through the period it would be stiffer than Newton's method can follow.
+const STIFF: f64 = 100.0;
+
+/// Splits sources into linear and nonlinear legs; whole-structure and channel effects are not among them. `compliance` is
+/// the receptance of the structure at the fundamental.
+pub(crate) fn split(sources: &[Source], compliance: &Compliance) -> (Vec<NonlinearLeg>, Vec<LinearLeg>) {
+    let (mut nonlinear, linear) = separated(sources);
+    for leg in nonlinear.iter_mut().filter(|leg| leg.effect == Effect::ElasticSlider) {
+        let stiffness = leg.parameters[0];
+        if stiffness * compliance.between(Pattern::Leg(leg.leg), Pattern::Leg(leg.leg)).norm() > STIFF {
+            leg.flexibility = 1.0 / stiffness;
+        }
+    }
+    (nonlinear, linear)
+}
+
+fn separated(sources: &[Source]) -> (Vec<NonlinearLeg>, Vec<LinearLeg>) {
     let (mut nonlinear, mut linear) = (Vec::new(), Vec::new());
     for (index, source) in sources.iter().enumerate() {
         let Some(law) = source.effect.law() else { continue };
@@ -60,6 +77,7 @@ pub(crate) fn split(sources: &[Source]) -> (Vec<NonlinearLeg>, Vec<LinearLeg>) {
                     parameters,
                     law,
                     weight: 1.0,
+                    flexibility: 0.0,
                 });
             }
         }
@@ -75,7 +93,7 @@ impl Condensed {
         excitation: &Excitation,
         harmonics: usize,
     ) -> Result<Self, ModelError> {
-        let (mut legs, linear_legs) = split(sources);
+        let (mut legs, linear_legs) = split(sources, compliance(1));
         let mut levels: Vec<Level> = Vec::with_capacity(harmonics + 1);
         let mut resonances = 0;
         for h in 0..=harmonics {

@@ -14,9 +14,14 @@ use super::fourier::{Fourier, differentiate};
 use super::legs::{Answer, NonlinearLeg, add_velocity_columns};
 use crate::effects::Effect;
 
+/// Number of the parameter that is the largest force at rest: the only one of Coulomb's law, the second of the others.
+fn bounding(leg: &NonlinearLeg) -> usize {
+    usize::from(leg.effect != Effect::Coulomb)
+}
+
 /// Largest force at rest, N.
 fn bound(leg: &NonlinearLeg) -> f64 {
-    leg.parameters[usize::from(leg.effect == Effect::Stribeck)].max(0.0)
+    leg.parameters[bounding(leg)].max(0.0)
 }
 
 /// Smooth part `g(v) = (F_c - F_s) (1 - exp(-|v| / v_s)) sgn v` of the Stribeck law, and its slope; none for Coulomb.
@@ -174,7 +179,7 @@ pub(crate) fn by_parameter(
 ) -> Vec<f64> {
     let at = histories(leg, fourier, omega, force, motion);
     let bound = bound(leg);
-    let bounding = k == usize::from(leg.effect == Effect::Stribeck);
+    let bounding = k == bounding(leg);
     let clamped: Vec<f64> = (0..at.edge.len())
         .map(|n| {
             let (m, edges) = (next(n, &at.edge), &at.edge);
@@ -216,5 +221,8 @@ fn falling_by(leg: &NonlinearLeg, k: usize, v: f64) -> f64 {
 pub(crate) fn slope(leg: &NonlinearLeg, f: f64, v: f64) -> [f64; 2] {
     let [g, slope] = falling(leg, v);
     let sticks = (f - g + leg.weight * v).abs() < bound(leg);
+    if leg.flexibility > 0.0 {
+        return [if sticks { 1.0 / leg.flexibility } else { 0.0 }, 0.0];
+    }
     [0.0, if sticks { 1e3 * leg.weight } else { slope }]
 }

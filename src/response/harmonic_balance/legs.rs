@@ -33,6 +33,9 @@ pub(crate) struct NonlinearLeg {
     pub law: &'static dyn Law,
     /// Velocity weight `r` of the clamp, N s/m.
     pub weight: f64,
+    /// Flexibility of the spring in series with the slider, m/N, where an elastic slider is so stiff that it is taken as
+    /// friction behind a spring; the leg's motion is that of the slider then. Zero otherwise.
+    pub flexibility: f64,
 }
 
 /// How a law is to be asked.
@@ -73,6 +76,7 @@ impl NonlinearLeg {
         match self.effect {
             Effect::Coulomb | Effect::Stribeck => Manner::Friction,
             Effect::Power if self.parameters[1] < 1.0 => Manner::Resolvent,
+            Effect::ElasticSlider if self.flexibility > 0.0 => Manner::Friction,
             Effect::ElasticSlider | Effect::Iwan => Manner::Memory,
             _ => Manner::Pointwise,
         }

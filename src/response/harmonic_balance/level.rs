@@ -92,6 +92,10 @@ pub(crate) fn level(
         keeps_linear,
     };
     level.eliminate();
+    for (i, leg) in legs.iter().enumerate() {
+        // A slider behind a spring moves by less than its ends do.
+        level.coupling[i * (kept.len() + 1)] += leg.flexibility;
+    }
     Ok(level)
 }
 

@@ -95,7 +95,7 @@ pub(crate) fn respond(
         return Err(ResponseError::BadFrequency { frequency_hz: excitation.omega / TAU });
     }
     let driven = excitation.order();
-    let legs = split(sources).0;
+    let legs = split(sources, run.compliance(1)).0;
     if legs.is_empty() {
         // A linear model answers at the driven harmonics only.
         let prepared = Prepared::new(run, sources, excitation, driven.clamp(1, MOST_HARMONICS))?;
@@ -139,7 +139,7 @@ pub(crate) fn branches(
     control: &Control,
 ) -> Result<Vec<(Response, bool)>, ResponseError> {
     let one = respond(run, sources, excitation, settings, None, control)?;
-    if !split(sources).0.iter().any(NonlinearLeg::folds) {
+    if !split(sources, run.compliance(1)).0.iter().any(NonlinearLeg::folds) {
         return Ok(vec![(one, true)]);
     }
     let prepared = Prepared::new(run, sources, excitation, settings.harmonics.max(excitation.order()))?;

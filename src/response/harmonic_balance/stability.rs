@@ -33,7 +33,7 @@ pub fn multipliers(
     if condensed.legs.len() != response.legs {
         return None;
     }
-    let motion = condensed.motion_of(|h| run.compliance(h), &response.displacements());
+    let motion = condensed.motion(&response.unknowns, 1.0);
     let width = condensed.width();
     let slopes: Vec<Vec<[f64; 2]>> = (condensed.legs.iter().enumerate())
         .map(|(i, leg)| {
