@@ -14,6 +14,7 @@ use super::data::{Data, RunData};
 use super::descent::{Descent, Residual, Variables, descend};
 use super::place::FreeForce;
 use super::shapes::{Range, scaled, shapes};
+use super::sliding::{held, sizes, slides};
 use super::spots::Spot;
 use super::start::{Fields, relative};
 use crate::effects::{ChannelLaw, Effect, Law, Motion, Sampling, Source, State, effect::Kind};
@@ -24,6 +25,8 @@ use std::convert::Infallible;
 const SAMPLES: usize = 128;
 /// Deviations of the squared misfit within which a law explains a free force.
 const ENOUGH: f64 = 3.0;
+/// Step of a variable for difference quotients: friction has kinks, and the step is to see past those of single samples.
+const STEP: f64 = 1e-3;
 
 /// The free forces of one place and the motions they imply.
 pub(crate) struct PlaceData {
@@ -32,6 +35,10 @@ pub(crate) struct PlaceData {
     forces: Vec<Vec<FreeForce>>,
     /// One a run; at rest for channels.
     motions: Vec<Motion>,
+    /// Samples of the free force, one list a run.
+    histories: Vec<Vec<f64>>,
+    /// Impedance of the structure between the DOFs of a leg, N s/m, one a run.
+    impedances: Vec<f64>,
     sampling: Sampling,
     /// Range of the motion.
     pub range: Range,
@@ -63,8 +70,9 @@ pub struct LawFit {
 }
 
 impl PlaceData {
-    /// The free `forces` of one of `spots` (number `own`) with the motion `fields` that they imply.
-    pub fn new(data: &Data, spot: &Spot, forces: &[Vec<FreeForce>], fields: &Fields) -> Self {
+    /// The free `forces` of a spot with the motion `fields` that they imply; `impedances` (N s/m, one a run) are those of
+    /// the structure there.
+    pub fn new(data: &Data, spot: &Spot, forces: &[Vec<FreeForce>], fields: &Fields, impedances: Vec<f64>) -> Self {
         let sampling = Sampling::new(SAMPLES);
         let motion = |(run, field): (&RunData, &Mat<c64>)| {
             let harmonics = match spot {
@@ -75,7 +83,12 @@ impl PlaceData {
         };
         let motions: Vec<Motion> = data.runs.iter().zip(fields).map(motion).collect();
         let range = range(&motions);
-        Self { spot: spot.clone(), forces: forces.to_vec(), motions, sampling, range }
+        let history = |list: &Vec<FreeForce>| {
+            let harmonics: Vec<c64> = (1..=list.len()).map(|h| shrunk(list, h)).collect();
+            sampling.motion(1.0, 0.0, &harmonics).displacement
+        };
+        let histories = forces.iter().map(history).collect();
+        Self { spot: spot.clone(), forces: forces.to_vec(), motions, histories, impedances, sampling, range }
     }
 
     /// Force over motion at the fundamental of every run in which both can be seen.
@@ -131,6 +144,11 @@ impl PlaceData {
     /// Shapes of `effect` with their best scale, best first, each with what it leaves of the free force.
     fn grid(&self, effect: Effect, law: &dyn Law) -> Vec<(f64, Vec<f64>)> {
         let mut grid: Vec<(f64, Vec<f64>)> = Vec::new();
+        if slides(effect) {
+            grid.extend(self.sizes(effect).into_iter().map(|p| (self.left_by_friction(effect, &p), p)));
+            grid.sort_by(|a, b| a.0.total_cmp(&b.0));
+            return grid;
+        }
         for mut p in shapes(effect, &self.range) {
             let (scale, misfit) = self.scale(law, &p);
             let signed = effect.parameters()[0].least < 0.0;
@@ -159,7 +177,7 @@ impl PlaceData {
         let source =
             |p: &[f64]| Source { effect, place: self.spot.place(), state: State::Known, parameters: p.to_vec() };
         let (misfit, parameters) = grid.first()?;
-        if effect.parameters().len() == 1 {
+        if effect.parameters().len() == 1 && !slides(effect) {
             return Some(LawFit { source: source(parameters), misfit: *misfit });
         }
         // Laws of many parameters have many valleys.
@@ -167,7 +185,7 @@ impl PlaceData {
         let descent = |(_, p): &(f64, Vec<f64>)| {
             let (variables, start) = Variables::new(&[source(p)]);
             let Ok(Descent { theta, chi_square, .. }) =
-                descend(&mut Equation { data: self, law, variables: &variables }, &start, 15);
+                descend(&mut Equation { data: self, effect, law, variables: &variables }, &start, 15);
             LawFit { source: variables.effects(&theta).remove(0), misfit: chi_square }
         };
         let fits = grid.iter().take(starts).map(descent);
@@ -185,6 +203,46 @@ impl PlaceData {
             }
         }
         if square > 0.0 { (product / square, total - product * product / square) } else { (0.0, total) }
+    }
+
+    /// Shapes of friction in sizes that the free forces suggest.
+    fn sizes(&self, effect: Effect) -> Vec<Vec<f64>> {
+        let amplitudes = self.forces.iter().filter(|f| !f.is_empty()).map(|f| f[0].value.norm()).collect();
+        let sizes = sizes(amplitudes);
+        let largest = |p: &[f64]| p[usize::from(effect == Effect::Stribeck)];
+        let shapes = shapes(effect, &self.range);
+        let of = |shape: &Vec<f64>, size: f64| {
+            let mut p = shape.clone();
+            scaled(effect).iter().for_each(|&k| p[k] *= size / largest(shape));
+            p
+        };
+        shapes.iter().flat_map(|shape| sizes.iter().map(move |&size| of(shape, size))).collect()
+    }
+
+    /// What friction of the parameters `p` leaves of the free force.
+    fn left_by_friction(&self, effect: Effect, p: &[f64]) -> f64 {
+        self.rows(1.0, |r, order| self.friction(effect, p, r, order)).iter().map(|d| d * d).sum()
+    }
+
+    /// Harmonics of the force that friction of the parameters `p` would hold in run `r`.
+    fn friction(&self, effect: Effect, p: &[f64], r: usize, order: usize) -> Vec<c64> {
+        let samples = held(effect, p, &self.histories[r], &self.motions[r], self.impedances[r]);
+        let mut harmonics = vec![c64::new(0.0, 0.0); order];
+        self.sampling.analyse(&samples, &mut harmonics);
+        harmonics
+    }
+
+    /// Weighted differences between the free forces, times `measured`, and those of a law, which is given the run and the
+    /// number of harmonics.
+    fn rows(&self, measured: f64, law: impl Fn(usize, usize) -> Vec<c64>) -> Vec<f64> {
+        let mut rows = Vec::with_capacity(self.count());
+        for (r, forces) in self.forces.iter().enumerate() {
+            for (free, f) in forces.iter().zip(law(r, forces.len())) {
+                let difference = (free.value * measured - f) * free.weight.sqrt();
+                rows.extend([difference.re, difference.im]);
+            }
+        }
+        rows
     }
 
     fn law_force(&self, law: &dyn Law, p: &[f64], motion: &Motion, order: usize) -> Vec<c64> {
@@ -262,20 +320,35 @@ pub(super) fn range(motions: &[Motion]) -> Range {
 /// The regression of one law with parameters that shape it.
 struct Equation<'a> {
     data: &'a PlaceData,
+    effect: Effect,
     law: &'static dyn Law,
     variables: &'a Variables,
 }
 
 impl Equation<'_> {
-    fn rows(&self, value: impl Fn(usize, &Motion, usize) -> Vec<c64>, measured: f64) -> Vec<f64> {
-        let mut rows = Vec::with_capacity(self.data.count());
-        for (r, (motion, forces)) in self.data.motions.iter().zip(&self.data.forces).enumerate() {
-            for (free, f) in forces.iter().zip(value(r, motion, forces.len())) {
-                let difference = (free.value * measured - f) * free.weight.sqrt();
-                rows.extend([difference.re, difference.im]);
-            }
+    fn parameters(&self, theta: &[f64]) -> Vec<f64> {
+        self.variables.effects(theta).remove(0).parameters
+    }
+
+    /// Derivative of the residual by variable `k`, whose parameter has the derivative `slope`.
+    fn column(&self, theta: &[f64], at: &[f64], k: usize, slope: f64) -> Vec<f64> {
+        if slides(self.effect) {
+            let mut moved = theta.to_vec();
+            moved[k] += STEP;
+            let p = self.parameters(&moved);
+            let there = self.data.rows(1.0, |r, order| self.data.friction(self.effect, &p, r, order));
+            return there.iter().zip(at).map(|(b, a)| (b - a) / STEP).collect();
         }
-        rows
+        let p = self.parameters(theta);
+        let change = |r: usize, order: usize| -> Vec<c64> {
+            let motion = &self.data.motions[r];
+            let mut samples = vec![0.0; motion.len()];
+            self.law.parameter_tangent(&p, k, motion, &mut samples);
+            let mut harmonics = vec![c64::new(0.0, 0.0); order];
+            self.data.sampling.analyse(&samples, &mut harmonics);
+            harmonics.iter().map(|f| *f * slope).collect()
+        };
+        self.data.rows(0.0, change)
     }
 }
 
@@ -283,27 +356,18 @@ impl Residual for Equation<'_> {
     type Error = Infallible;
 
     fn residual(&mut self, theta: &[f64]) -> Result<Vec<f64>, Infallible> {
-        let p = &self.variables.effects(theta)[0].parameters;
-        Ok(self.rows(|_, motion, order| self.data.law_force(self.law, p, motion, order), 1.0))
+        let p = self.parameters(theta);
+        let data = self.data;
+        Ok(data.rows(1.0, |r, order| match slides(self.effect) {
+            true => data.friction(self.effect, &p, r, order),
+            false => data.law_force(self.law, &p, &data.motions[r], order),
+        }))
     }
 
-    fn jacobian(&mut self, theta: &[f64], _at: &[f64]) -> Result<Mat<f64>, Infallible> {
-        let p = &self.variables.effects(theta)[0].parameters;
+    fn jacobian(&mut self, theta: &[f64], at: &[f64]) -> Result<Mat<f64>, Infallible> {
         let slopes = self.variables.slopes(theta);
-        let columns: Vec<Vec<f64>> = (0..p.len())
-            .map(|k| {
-                self.rows(
-                    |_, motion, order| {
-                        let mut samples = vec![0.0; motion.len()];
-                        self.law.parameter_tangent(p, k, motion, &mut samples);
-                        let mut harmonics = vec![c64::new(0.0, 0.0); order];
-                        self.data.sampling.analyse(&samples, &mut harmonics);
-                        harmonics.iter().map(|f| *f * slopes[k]).collect()
-                    },
-                    0.0,
-                )
-            })
-            .collect();
-        Ok(Mat::from_fn(columns[0].len(), columns.len(), |i, k| columns[k][i]))
+        let columns: Vec<Vec<f64>> =
+            slopes.iter().enumerate().map(|(k, slope)| self.column(theta, at, k, *slope)).collect();
+        Ok(Mat::from_fn(at.len(), columns.len(), |i, k| columns[k][i]))
     }
 }

@@ -41,6 +41,7 @@ mod reach;
 pub mod refit;
 mod search;
 pub mod shapes;
+mod sliding;
 pub mod spots;
 mod start;
 pub mod tuning;

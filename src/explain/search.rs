@@ -182,7 +182,7 @@ impl<'a> Base<'a> {
         };
         self.need(&mut view, &[at])?;
         let (forces, fields) = self.free(&view, &[at]);
-        Ok(Some(PlaceData::new(self.data, &view.screen.spots[at], &forces[0], &fields)))
+        Ok(Some(self.at_place(&view, at, &forces[0], &fields)))
     }
 
     /// The set `best` with its effect `source` at other places that leave no more than `margin` beyond what its own place
@@ -242,6 +242,17 @@ impl<'a> Base<'a> {
         (forces, fields)
     }
 
+    /// The free `forces` of spot `s` with the motion `fields` that they imply.
+    pub(super) fn at_place(&self, view: &View, s: usize, forces: &[Vec<FreeForce>], fields: &Fields) -> PlaceData {
+        let spot = &view.screen.spots[s];
+        let impedance = |(r, run): (usize, &super::data::RunData)| match spot {
+            Spot::Leg(leg) => view.receptances.impedance(r, run, *leg),
+            Spot::Response(_) | Spot::Force(_) => 0.0,
+        };
+        let impedances = self.data.runs.iter().enumerate().map(impedance).collect();
+        PlaceData::new(self.data, spot, forces, fields, impedances)
+    }
+
     /// Places whose laws may become the best: what the best place leaves to its best law bounds what others may leave.
     fn worth_while(&self, view: &mut View, effects: &[Source]) -> Result<Vec<Placing>, ExplainError> {
         let mut placings = view.screen.singles();
@@ -279,7 +290,7 @@ impl<'a> Base<'a> {
         let (forces, fields) = self.free(view, &placing.spots);
         let fields = Arc::new(fields);
         let of = |(&s, forces): (&usize, &Vec<Vec<FreeForce>>)| {
-            let data = PlaceData::new(self.data, &view.screen.spots[s], forces, &fields);
+            let data = self.at_place(view, s, forces, &fields);
             let fresh = |source: &Source| !effects.iter().any(|e| e.is_same(source)) && self.data.allows(source);
             let mut drafts: Vec<Draft> = data
                 .fits()

@@ -88,6 +88,17 @@ impl<'a> Receptances<'a> {
         self.columns.get(&dof).map_or(c64::new(0.0, 0.0), |column| column[r][(row, h - 1)])
     }
 
+    /// Impedance of the structure between the DOFs of `leg` in run `r`, whose columns were needed before: force over
+    /// velocity, N s/m, the geometric mean over the harmonics.
+    pub fn impedance(&self, r: usize, run: &RunData, leg: Leg) -> f64 {
+        let mobility = |h: usize| {
+            let own = leg.relative(|i| leg.relative(|j| self.entry(r, h, i, j)));
+            (h as f64 * run.omega * own.norm()).ln()
+        };
+        let logs: Vec<f64> = (1..=run.harmonics).map(mobility).filter(|x| x.is_finite()).collect();
+        if logs.is_empty() { 0.0 } else { (-logs.iter().sum::<f64>() / logs.len() as f64).exp() }
+    }
+
     /// Recorded amplitude of `channel` for a unit force on the structure at `leg` (its law feels `-1`).
     pub fn channel(&self, r: usize, run: &RunData, h: usize, channel: &ChannelData, leg: Leg) -> c64 {
         let displacement = leg.relative(|i| self.entry(r, h, i, channel.dof));

@@ -2,7 +2,6 @@
 //! own fits may have ended in a valley of the wrong side while the model was still far off.
 
 use super::data::ExplainError;
-use super::law::PlaceData;
 use super::limits::wider;
 use super::refit::Refit;
 use super::search::{Base, Draft, joined};
@@ -27,7 +26,7 @@ impl Base<'_> {
             };
             self.need(&mut view, &[at])?;
             let (forces, fields) = self.free(&view, &[at]);
-            let data = PlaceData::new(self.data, &view.screen.spots[at], &forces[0], &fields);
+            let data = self.at_place(&view, at, &forces[0], &fields);
             let fields = Arc::new(fields);
             let fits = wider(source.effect).into_iter().flat_map(|effect| data.starts(effect, SHAPES));
             let draft =
