@@ -69,7 +69,7 @@ fn settings(run: &RunData) -> Settings {
     };
     let noise = run.alive.iter().map(of).filter(|n| n.is_finite()).fold(f64::INFINITY, f64::min);
     let seen = if noise.is_finite() { SHARE * noise } else { 0.0 };
-    Settings { truncation: seen.clamp(FINAL.truncation, COARSEST), ..FINAL }
+    Settings { truncation: seen.clamp(FINAL.truncation, COARSEST), patience: usize::MAX, ..FINAL }
 }
 
 /// Greatest fundamental displacement of the response.

@@ -13,12 +13,26 @@ use crate::structure::Structure;
 use faer::c64;
 use std::sync::Arc;
 
-/// How exactly responses are computed in the search.
-pub(crate) const SEARCH: Settings =
-    Settings { harmonics: 7, most_harmonics: 15, watched: 7, truncation: 1e-4, tolerance: 1e-8, estimate: false };
+/// How exactly responses are computed in the search. What is not answered soon is far from what was measured.
+pub(crate) const SEARCH: Settings = Settings {
+    harmonics: 7,
+    most_harmonics: 15,
+    watched: 7,
+    truncation: 1e-4,
+    tolerance: 1e-8,
+    estimate: false,
+    patience: 150,
+};
 /// How exactly they are computed for results.
-pub(crate) const FINAL: Settings =
-    Settings { harmonics: 15, most_harmonics: 31, watched: 7, truncation: 1e-5, tolerance: 1e-9, estimate: true };
+pub(crate) const FINAL: Settings = Settings {
+    harmonics: 15,
+    most_harmonics: 31,
+    watched: 7,
+    truncation: 1e-5,
+    tolerance: 1e-9,
+    estimate: true,
+    patience: 600,
+};
 
 /// The same where truncation would still show above the noise: nearly sticking friction.
 const FINEST: Settings = Settings { most_harmonics: 63, ..FINAL };

@@ -73,6 +73,7 @@ fn friction_on_the_five_masses() {
 #[test]
 fn sliders_on_the_five_masses() {
     on_masses("elastic slider", &[source(Effect::ElasticSlider, &[2], &[2e4, 5.0])], 2000, true);
+    on_masses("stiff elastic slider", &[source(Effect::ElasticSlider, &[2], &[5e6, 5.0])], 8000, true);
     on_masses("iwan", &[source(Effect::Iwan, &[2], &[2e4, 5.0, -0.5, 1.0])], 2000, true);
 }
 

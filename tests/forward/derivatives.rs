@@ -65,6 +65,7 @@ fn every_parameter_of_every_law() {
         source(Effect::Hysteretic, &[2], &[500.0]),
         source(Effect::Stribeck, &[2], &[5.0, 7.0, 0.01]),
         source(Effect::ElasticSlider, &[2], &[2e4, 5.0]),
+        source(Effect::ElasticSlider, &[2], &[1e7, 5.0]),
         source(Effect::Maxwell, &[2], &[2e4, 50.0]),
         source(Effect::Iwan, &[2], &[2e4, 5.0, -0.5, 1.0]),
         source(Effect::Fractional, &[2], &[100.0, 0.4]),

@@ -7,6 +7,7 @@
 //!
 //! Each point at which the path passes the full force, `s = 1`, is an answer.
 
+use super::Settings;
 use super::dense::Lu;
 use super::iterate::Ending;
 use super::newton::{Balance, relative};
@@ -19,6 +20,8 @@ const MOST_POINTS: usize = 400;
 const TOP: f64 = 3.0;
 /// Answers closer than this share of their size are one.
 const SAME: f64 = 1e-6;
+/// Newton steps back to the path.
+const CORRECTIONS: usize = 12;
 /// Smallest and largest step of the arc.
 const STEPS: [f64; 2] = [1e-7, 0.2];
 
@@ -39,11 +42,11 @@ struct Point {
 /// Leg forces under the whole excitation, if the path from nothing comes there.
 pub(crate) fn level_arc(
     balance: &Balance,
-    tolerance: f64,
+    settings: &Settings,
     control: &Control,
 ) -> Result<(Option<Vec<f64>>, ArcEnding), ResponseError> {
     let mut found = None;
-    let ending = trace(balance, [tolerance, 1.0], control, |u, last| {
+    let ending = trace(balance, ([settings.tolerance, 1.0], settings.patience), control, |u, last| {
         found = last.converged.then(|| u.to_vec());
         false
     })?;
@@ -57,7 +60,7 @@ pub(crate) fn all_crossings(
     control: &Control,
 ) -> Result<Vec<Vec<f64>>, ResponseError> {
     let mut found: Vec<Vec<f64>> = Vec::new();
-    trace(balance, [tolerance, TOP], control, |u, last| {
+    trace(balance, ([tolerance, TOP], usize::MAX), control, |u, last| {
         if last.converged && !found.iter().any(|other| alike(other, u)) {
             found.push(u.to_vec());
         }
@@ -76,7 +79,7 @@ fn alike(a: &[f64], b: &[f64]) -> bool {
 /// enough.
 fn trace(
     balance: &Balance,
-    [tolerance, top]: [f64; 2],
+    ([tolerance, top], patience): ([f64; 2], usize),
     control: &Control,
     mut visit: impl FnMut(&[f64], Ending) -> bool,
 ) -> Result<ArcEnding, ResponseError> {
@@ -91,7 +94,11 @@ fn trace(
     let mut step = 0.02;
     for _ in 0..MOST_POINTS {
         control.check()?;
+        if result.ending.steps > patience {
+            break;
+        }
         let Some((next, steps)) = advance(balance, &point, step, tolerance, least) else {
+            result.ending.steps += CORRECTIONS;
             step *= 0.3;
             if step < STEPS[0] {
                 break;
@@ -150,7 +157,7 @@ fn advance(balance: &Balance, point: &Point, step: f64, tolerance: f64, least: f
     let count = point.u.len();
     let mut u: Vec<f64> = point.u.iter().zip(&point.tangent).map(|(x, t)| x + step * t).collect();
     let mut level = point.level + step * point.tangent[count];
-    for iteration in 0..12 {
+    for iteration in 0..CORRECTIONS {
         let state = balance.state(&u, level);
         if relative(&state.residual, &u) <= 1e3 * tolerance {
             return Some((oriented(balance, u, level, &point.tangent, least)?, iteration));

@@ -30,7 +30,9 @@ fn falling(leg: &NonlinearLeg, v: f64) -> [f64; 2] {
         return [0.0; 2];
     }
     let [sliding, resting, velocity] = [leg.parameters[0], leg.parameters[1], leg.parameters[2]];
-    let decay = (-v.abs() / velocity).exp();
+    let speeds = v.abs() / velocity;
+    // Beyond, nothing is left of the exponential, which takes long to say so.
+    let decay = if speeds < 40.0 { (-speeds).exp() } else { 0.0 };
     [(sliding - resting) * (1.0 - decay) * v.signum(), (sliding - resting) * decay / velocity]
 }
 

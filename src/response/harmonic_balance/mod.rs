@@ -53,11 +53,21 @@ pub struct Settings {
     pub estimate: bool,
     /// Relative residual of the force balance.
     pub tolerance: f64,
+    /// Newton steps for one number of harmonics from which on no new attempt is made and the response is given up.
+    pub patience: usize,
 }
 
 impl Default for Settings {
     fn default() -> Self {
-        Self { harmonics: 7, most_harmonics: 127, watched: 7, truncation: 5e-5, estimate: true, tolerance: 1e-10 }
+        Self {
+            harmonics: 7,
+            most_harmonics: 127,
+            watched: 7,
+            truncation: 5e-5,
+            estimate: true,
+            tolerance: 1e-10,
+            patience: usize::MAX,
+        }
     }
 }
 

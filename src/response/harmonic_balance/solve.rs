@@ -299,12 +299,12 @@ fn at_order(
             return Ok(assemble(run, prepared, excitation, u));
         }
     }
-    let (ending, mut reached) = raise(&balance, &mut u, settings.tolerance, control)?;
+    let (ending, mut reached) = raise(&balance, &mut u, settings, control)?;
     record(Attempt::Level, ending);
     if ending.converged {
         return Ok(assemble(run, prepared, excitation, u));
     }
-    let (found, arc) = level_arc(&balance, settings.tolerance, control)?;
+    let (found, arc) = level_arc(&balance, settings, control)?;
     record(Attempt::Arc, arc.ending);
     reached = reached.max(arc.reached);
     if let Some(u) = found {
@@ -323,7 +323,7 @@ fn at_order(
 fn raise(
     balance: &Balance,
     u: &mut Vec<f64>,
-    tolerance: f64,
+    settings: &Settings,
     control: &Control,
 ) -> Result<(Ending, f64), ResponseError> {
     u.fill(0.0);
@@ -334,7 +334,7 @@ fn raise(
         control.check()?;
         let next = f64::min(level + step, 1.0);
         let mut trial = predicted(u, level, &before, next);
-        let ending = balance.solve(&mut trial, next, tolerance);
+        let ending = balance.solve(&mut trial, next, settings.tolerance);
         total.steps += ending.steps;
         if ending.converged {
             before = (level, std::mem::replace(u, trial));
@@ -346,7 +346,7 @@ fn raise(
         } else {
             step *= 0.4;
             total.residual = ending.residual;
-            if step < LEAST_LEVEL_STEP {
+            if step < LEAST_LEVEL_STEP || total.steps > settings.patience {
                 break;
             }
         }
