@@ -6,7 +6,7 @@ use super::fits::STEPS;
 use super::noise::Whitening;
 use super::outcome::{self, Outcome};
 use super::predict::{FINAL, SEARCH};
-use super::refit::{Refit, starts_of};
+use super::refit::Refit;
 use super::search::{Base, scale_of};
 use super::tuning::{Knob, Tuning};
 use crate::effects::{Effect, Place, Source};
@@ -185,8 +185,7 @@ fn cost(base: &Base, found: &Found, before: f64) -> f64 {
 fn with_corrections(base: &Base, before: Option<&Rung>, each: bool, first: f64) -> Result<Found, ExplainError> {
     let free = base.predictor.free_tuning(each);
     let bench = base.bench();
-    let starts = starts_of(base.predictions.clone());
-    let bare = bench.refit(&[], &free, STEPS, &FINAL, &starts)?;
+    let bare = base.bare(&free, &FINAL)?;
     let mut found = Found {
         agrees: agrees(base, bare.chi_square, bare.tuning.knobs.len()) && likely(&bare),
         bare: Some(bare.clone()),

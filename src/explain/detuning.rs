@@ -8,10 +8,9 @@
 use super::climb::{agrees, likely};
 use super::data::{Data, ExplainError, Problem};
 use super::diagnose::Correction;
-use super::fits::STEPS;
 use super::outcome::corrections;
 use super::predict::{Predictor, SEARCH};
-use super::refit::starts_of;
+
 use super::search::Base;
 use super::tuning::Tuning;
 use crate::control::Control;
@@ -89,7 +88,7 @@ pub fn detuning(problem: &Problem, control: &Control) -> Result<Option<Detuning>
         return Ok(Some(Detuning { reading: Reading::Agrees, share: 0.0, error_after, corrections: Vec::new() }));
     }
     let free = predictor.free_tuning(false);
-    let fit = bench.refit(&[], &free, STEPS, &SEARCH, &starts_of(base.predictions.clone()))?;
+    let fit = base.bare(&free, &SEARCH)?;
     let noise = base.count() as f64;
     let share = ((before - fit.chi_square) / (before - noise).max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
     let reading = match (likely(&fit), agrees(&base, fit.chi_square, free.knobs.len())) {

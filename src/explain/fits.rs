@@ -1,6 +1,7 @@
 //! Fits of drafts on the response: all of them a little, the promising ones to the end, the best with all harmonics.
 
 use super::data::ExplainError;
+use super::limits::is_limit;
 use super::noise::Whitening;
 use super::predict::{FINAL, SEARCH};
 use super::refit::{Bench, Refit, Starts};
@@ -90,7 +91,13 @@ impl Base<'_> {
         let bound = best.first().map_or(0.0, |r| self.evidence(r, scale)) + HOPELESS_FIT;
         let near = best.iter().take_while(|r| self.evidence(r, scale) < bound).count();
         let most = if scale > COARSE { ROUGHLY } else { POLISHED };
-        let rest = best.split_off(near.clamp(1, most).min(best.len()));
+        let mut rest = best.split_off(near.clamp(1, most).min(best.len()));
+        // Few harmonics speak for laws that can bend to what they lack: the simpler ones are to be heard as well.
+        if let Some(set) = best.first().map(|r| r.effects.clone()) {
+            let (simpler, others) = rest.into_iter().partition(|r| is_limit(&r.effects, &set));
+            best.extend::<Vec<Refit>>(simpler);
+            rest = others;
+        }
         let mut noise = self.noise.clone();
         for steps in [8, 4] {
             let bench = Bench { noise: &noise, ..self.bench() };

@@ -39,9 +39,23 @@ pub(crate) fn at_limit(source: &Source) -> bool {
     }
 }
 
-/// Whether `source` is Coulomb friction by another name, which is always looked at beside it: a force that knows no speed.
+/// Whether `source` is Coulomb friction by another name, which is always looked at beside it: a force that knows no speed,
+/// or friction that does not fall from rest to sliding, as what a series of few harmonics leaves of a jump.
 pub(crate) fn disguised(source: &Source) -> bool {
-    source.effect == Effect::Power && source.parameters[1] < CLOSE
+    let p = &source.parameters;
+    match source.effect {
+        Effect::Power => p[1] < CLOSE,
+        Effect::Stribeck => p[1] <= p[0],
+        _ => false,
+    }
+}
+
+/// Whether the set `simple` differs from `set` in no more than laws that are limits of those in `set`, at the same places.
+pub(crate) fn is_limit(simple: &[Source], set: &[Source]) -> bool {
+    let stands = |a: &Source, b: &Source| {
+        a.place.is_same(&b.place) && (a.effect == b.effect || limits(b.effect).contains(&a.effect))
+    };
+    simple.len() == set.len() && simple.iter().zip(set).all(|(a, b)| stands(a, b))
 }
 
 #[cfg(test)]

@@ -13,6 +13,7 @@
 //! whatever the law ([`place`]); the law is read from that force against the motion ([`law`]); the short list is fitted
 //! on the response itself ([`refit`]) and ranked by evidence ([`diagnose`]).
 
+mod bare;
 mod branch;
 mod climb;
 pub mod compare;
