@@ -157,6 +157,13 @@ impl Response {
         if known { self.truncation_by_dof[(dof, h - 1)] } else { 0.0 }
     }
 
+    /// Displacements of all DOFs as solved, before extrapolation, harmonics 0..=H.
+    pub(crate) fn displacements(&self) -> Vec<Vec<c64>> {
+        let amplitudes = self.raw.as_ref().unwrap_or(&self.harmonics);
+        let mean = self.mean.iter().map(|&x| c64::new(x, 0.0)).collect();
+        std::iter::once(mean).chain((0..self.order()).map(|h| amplitudes.col_as_slice(h).to_vec())).collect()
+    }
+
     /// Number of harmonics.
     pub fn order(&self) -> usize {
         self.harmonics.ncols()

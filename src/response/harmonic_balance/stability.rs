@@ -33,8 +33,12 @@ pub fn multipliers(
     if condensed.legs.len() != response.legs {
         return None;
     }
-    let motion = condensed.motion(&response.unknowns, 1.0);
+    let mut motion = condensed.motion_of(|h| run.compliance(h), &response.displacements());
     let width = condensed.width();
+    for (i, leg) in condensed.legs.iter().enumerate() {
+        let part = motion.iter_mut().zip(&response.unknowns).skip(i * width).take(width);
+        part.for_each(|(d, f)| *d -= leg.flexibility * f);
+    }
     let slopes: Vec<Vec<[f64; 2]>> = (condensed.legs.iter().enumerate())
         .map(|(i, leg)| {
             let range = i * width..(i + 1) * width;
