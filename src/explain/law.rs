@@ -358,9 +358,12 @@ impl Residual for Equation<'_> {
     fn residual(&mut self, theta: &[f64]) -> Result<Vec<f64>, Infallible> {
         let p = self.parameters(theta);
         let data = self.data;
-        Ok(data.rows(1.0, |r, order| match slides(self.effect) {
-            true => data.friction(self.effect, &p, r, order),
-            false => data.law_force(self.law, &p, &data.motions[r], order),
+        Ok(data.rows(1.0, |r, order| {
+            if slides(self.effect) {
+                data.friction(self.effect, &p, r, order)
+            } else {
+                data.law_force(self.law, &p, &data.motions[r], order)
+            }
         }))
     }
 
