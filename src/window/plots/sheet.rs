@@ -142,8 +142,11 @@ impl Panel {
         for rule in ticks::rules(&self.figure.y, ys, 1.6 * area.height()) {
             let y = area.bottom() - ((rule.at - ys[0]) / (ys[1] - ys[0])) as f32 * area.height();
             drawing.line([pos2(area.left(), y), pos2(area.right(), y)], line(rule.strong));
-            let at = pos2(area.left() - 6.0, y);
-            drawing.words(at, Align2::RIGHT_CENTER, rule.label, size::SMALL, palette.weak);
+            // Where both axes have long labels, those of the corner would touch.
+            if !self.figure.square || y < area.bottom() - 10.0 {
+                let at = pos2(area.left() - 6.0, y);
+                drawing.words(at, Align2::RIGHT_CENTER, rule.label, size::SMALL, palette.weak);
+            }
         }
         let below = pos2(area.center().x, area.bottom() + 30.0);
         drawing.words(below, Align2::CENTER_CENTER, self.figure.x.label(), size::SMALL, palette.ink);
