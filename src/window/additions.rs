@@ -4,7 +4,7 @@
 use crate::effects::{Effect, Place, Source, State};
 use crate::exchange::Project;
 use crate::exchange::project::file::ProjectFile;
-use crate::session::{Command, SourceAt, SourceSpec};
+use crate::session::{Command, EffectAt, SourceAt, SourceSpec};
 use crate::structure::Structure;
 use std::collections::BTreeMap;
 
@@ -73,6 +73,16 @@ pub fn take_over(found: &[(usize, f64)], p: &Project) -> Result<Vec<Command>, St
         commands.push(Command::SetSourceParameters { source: known, parameters });
     }
     Ok(commands)
+}
+
+/// An effect at its place, in the words of the session.
+pub fn effect_at(source: &Source, structure: &Structure) -> EffectAt {
+    let (dofs, elements) = labels(&source.place, structure);
+    let channel = match &source.place {
+        Place::Channel(channel) => Some(channel.clone()),
+        Place::Dofs(_) | Place::Whole(_) => None,
+    };
+    EffectAt { law: source.effect, dofs, elements, channel }
 }
 
 /// Labels of the DOFs of a place, or its range of elements counted from 1.

@@ -99,9 +99,11 @@ impl Document {
         &self.session
     }
 
-    /// Grows with every change; what is derived from the project remembers it.
+    /// Grows with every change of structure, measurements, sources or settings; what is derived from the project remembers it.
+    /// Neither its title nor what is ruled out matters to any of that.
     pub fn revision(&self) -> u64 {
-        self.session.revisions().any
+        let r = self.session.revisions();
+        r.structure + r.measurements + r.sources + r.settings
     }
 
     /// Applies an edit, or says what is to be read first.

@@ -4,8 +4,9 @@ use crate::friction::{FORCE, ROW, friction};
 use crate::support::{beam, detuned, open, settle};
 use dashpot::effects::{Effect, Place, Source, State};
 use dashpot::exchange::project::file::Shape;
-use dashpot::explain::diagnose::Verdict;
+use dashpot::explain::diagnose::{Suggestion, Verdict};
 use dashpot::window::App;
+use dashpot::window::explained::Standing;
 use dashpot::window::stages::explain::look::Tab;
 use dashpot::window::view::Stage;
 use egui::{Key, Modifiers, Theme, accesskit::Role};
@@ -96,12 +97,38 @@ fn the_hidden_friction_is_named_tried_added_and_taken_back() {
 #[test]
 fn what_is_ruled_out_makes_room_for_the_next_and_can_be_taken_back() {
     let (_sample, mut harness) = explain(Theme::Light);
-    press(&mut harness, "Not this");
+    let is_friction =
+        |s: &Suggestion| s.added.source.effect == Effect::Coulomb && s.added.source.place == Place::Dofs(vec![ROW]);
+    harness.get_by_role_and_label(Role::Button, "Not this").click();
+    harness.run_steps(3);
+    // The next best is there at once, while it is searched for what else it could be.
     assert!(harness.query_by_label_contains("Suggestion 1: Dry friction at DOF 7").is_none());
     harness.get_by_label_contains("Suggestion 1:");
     harness.get_by_label("Ruled out by you");
+    harness.get_by_label("It is searched for what else it could be.");
+    assert!(harness.state().running().is_some_and(|(name, _)| name.starts_with("Searching")));
+    press(&mut harness, "Cancel");
+    harness.get_by_label("The search was cancelled.");
+    picture(&mut harness, "explain-not-this");
+    press(&mut harness, "Search again");
+    let app = harness.state();
+    let (found, standing) = app.derived.explained.suggestions(app.document.as_ref().unwrap());
+    assert!(standing == Standing::Final && !found.is_empty() && !found.iter().any(is_friction));
+    assert!(error(&harness)[0] > 0.1, "the model is as it was");
+    let next = found[0].clone();
+    picture(&mut harness, "explain-else");
+
+    // It is a change like others: undone and repeated at once, without another search.
+    harness.key_press_modifiers(Modifiers::COMMAND, Key::Z);
+    harness.run_steps(3);
+    harness.get_by_label_contains("Suggestion 1: Dry friction at DOF 7");
+    harness.key_press_modifiers(Modifiers::COMMAND | Modifiers::SHIFT, Key::Z);
+    harness.run_steps(3);
+    let app = harness.state();
+    assert_eq!(app.derived.explained.suggestions(app.document.as_ref().unwrap()).0[0], next);
     press(&mut harness, "Take back");
     harness.get_by_label_contains("Suggestion 1: Dry friction at DOF 7");
+    assert_eq!(harness.state().derived.explained.ledger.steps().len(), 1, "the model was the same all the way");
 }
 
 /// Steps until the search has told its first suggestions; gives back what its bar showed on the way.

@@ -1,6 +1,6 @@
 //! What a search tells before it has ended.
 
-use super::model::Key;
+use super::model::Search;
 use crate::explain::diagnose::Suggestion;
 use crate::window::wake::Bell;
 use egui::Context;
@@ -28,15 +28,15 @@ impl Mailbox {
 /// The provisional suggestions of the last search that was started.
 #[derive(Debug, Default)]
 pub struct Early {
-    search: Option<(Key, Mailbox)>,
+    search: Option<(Search, Mailbox)>,
     found: Vec<Suggestion>,
 }
 
 impl Early {
     /// A mailbox for a new search; what an earlier one told is forgotten.
-    pub fn expect(&mut self, ctx: &Context, key: &Key) -> Mailbox {
+    pub fn expect(&mut self, ctx: &Context, search: &Search) -> Mailbox {
         let mailbox = Mailbox { latest: Arc::default(), bell: Bell::of(ctx) };
-        self.search = Some((key.clone(), mailbox.clone()));
+        self.search = Some((search.clone(), mailbox.clone()));
         self.found.clear();
         mailbox
     }
@@ -47,8 +47,8 @@ impl Early {
         self.found = told.unwrap_or_else(|| std::mem::take(&mut self.found));
     }
 
-    /// What the search on the model of `key` has told; none for another model.
-    pub fn of(&self, key: &Key) -> &[Suggestion] {
-        if self.search.as_ref().is_some_and(|(of, _)| of == key) { &self.found } else { &[] }
+    /// What `search` has told; nothing for another one.
+    pub fn of(&self, search: &Search) -> &[Suggestion] {
+        if self.search.as_ref().is_some_and(|(of, _)| of == search) { &self.found } else { &[] }
     }
 }

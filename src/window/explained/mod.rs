@@ -11,14 +11,14 @@ use super::document::Document;
 use crate::control::Control;
 use crate::effects::{Place, Source};
 use crate::exchange::Project;
-use crate::explain::diagnose::{Suggestion, diagnose_telling};
+use crate::explain::diagnose::{Suggestion, diagnose_without};
 use crate::explain::prints::{self, Print};
 use crate::explain::{self, Comparison, Diagnosis, Problem};
 use curve::Curve;
-use early::Early;
+use early::{Early, Mailbox};
 use egui::Context;
 use ledger::Ledger;
-use model::Key;
+use model::{Key, Search};
 use shelf::{Kept, Shelf};
 use std::sync::Arc;
 
@@ -51,9 +51,9 @@ pub struct Explained {
     project: Option<(u64, Arc<Project>)>,
     comparisons: Shelf<Tried, Comparison>,
     trials: Shelf<Tried, Comparison>,
-    diagnoses: Shelf<Key, Diagnosis>,
+    diagnoses: Shelf<Search, Diagnosis>,
     early: Early,
-    prints: Shelf<Tried, Option<Print>>,
+    prints: Shelf<(Search, Source), Option<Print>>,
     curves: Shelf<(Key, usize), Curve>,
     trial_curves: Shelf<(Tried, usize), Curve>,
     /// The way so far.
@@ -75,6 +75,17 @@ impl Default for Explained {
             ledger: Ledger::default(),
         }
     }
+}
+
+/// How far suggestions may be trusted.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Standing {
+    /// The search has ended.
+    Final,
+    /// It has not: sizes, errors and probabilities may still change.
+    Provisional,
+    /// They are of an earlier search on the same model, before something else was ruled out or allowed again.
+    Before,
 }
 
 fn problem(p: &Project) -> Problem<'_> {
@@ -117,23 +128,19 @@ impl Explained {
         }
         let key = self.key(document);
         let p = &self.project(document);
+        let search = Search::new(key.clone(), document.session().document());
         let tried = (key.clone(), None);
         self.comparisons.want(ctx, &tried, || compare_job(p, None));
         let Some(Ok(comparison)) = self.comparisons.get(&tried) else { return };
         self.ledger.visit(&key, document.session().document(), comparison);
         if wanted.diagnosis && (wanted.anyway || comparison.error <= HOPELESS) {
-            self.diagnoses.want(ctx, &key, || {
-                let (p, told) = (Arc::clone(p), self.early.expect(ctx, &key));
-                move |control: &Control| {
-                    diagnose_telling(&problem(&p), control, &|found| told.put(found)).map_err(|e| e.to_string())
-                }
-            });
+            self.diagnoses.want(ctx, &search, || search_job(p, &search, self.early.expect(ctx, &search)));
         }
         self.on_trial(ctx, p, &key, wanted);
         match &wanted.print {
             Some(source) => {
-                let asked = (key.clone(), Some(source.clone()));
-                let diagnosis = self.diagnoses.get(&key).and_then(|d| d.as_ref().ok()).map(Arc::clone);
+                let asked = (search.clone(), source.clone());
+                let diagnosis = self.diagnoses.get(&search).and_then(|d| d.as_ref().ok()).map(Arc::clone);
                 self.prints.want(ctx, &asked, || print_job(p, diagnosis, source));
             }
             None => self.prints.rest(),
@@ -186,27 +193,35 @@ impl Explained {
 
     /// The diagnosis of the document as it stands.
     pub fn diagnosis(&self, document: &Document) -> Option<&Kept<Diagnosis>> {
-        self.diagnoses.get(&self.current(document)?)
+        self.diagnoses.get(&self.search(document)?)
     }
 
-    /// Suggestions for the document as it stands, best first, and whether they are provisional: told by a search that has
-    /// not ended.
-    pub fn suggestions(&self, document: &Document) -> (&[Suggestion], bool) {
-        match (self.diagnosis(document), self.current(document)) {
-            (Some(Ok(diagnosis)), _) => (&diagnosis.suggestions, false),
-            (None, Some(key)) => (self.early.of(&key), true),
-            (Some(Err(_)), _) | (None, None) => (&[], false),
+    /// Suggestions for the document as it stands, best first, and how far they may be trusted. What the user has ruled out
+    /// meanwhile may still be among them.
+    pub fn suggestions(&self, document: &Document) -> (&[Suggestion], Standing) {
+        let Some(search) = self.search(document) else { return (&[], Standing::Provisional) };
+        match self.diagnoses.get(&search) {
+            Some(Ok(diagnosis)) => return (&diagnosis.suggestions, Standing::Final),
+            Some(Err(_)) => return (&[], Standing::Final),
+            None => {}
+        }
+        let early = self.early.of(&search);
+        let before = || self.diagnoses.find(|other| other.model == search.model);
+        match before() {
+            Some(diagnosis) if early.is_empty() => (&diagnosis.suggestions, Standing::Before),
+            _ => (early, Standing::Provisional),
         }
     }
 
     /// Whether the search on the document as it stands was cancelled.
     pub fn is_cancelled(&self, document: &Document) -> bool {
-        self.current(document).is_some_and(|key| self.diagnoses.is_cancelled(&key))
+        self.search(document).is_some_and(|search| self.diagnoses.is_cancelled(&search))
     }
 
     /// The fingerprint of a suggestion.
     pub fn print(&self, document: &Document, source: &Source) -> Option<&Kept<Option<Print>>> {
-        self.prints.get(&(self.current(document)?, Some(source.clone())))
+        let search = self.search(document)?;
+        self.prints.get(&(search, source.clone()))
     }
 
     /// The response curve of the model near a run.
@@ -217,6 +232,10 @@ impl Explained {
     /// The response curve with an effect on trial.
     pub fn trial_curve(&self, document: &Document, source: &Source, run: usize) -> Option<&Kept<Curve>> {
         self.trial_curves.get(&((self.current(document)?, Some(source.clone())), run))
+    }
+
+    fn search(&self, document: &Document) -> Option<Search> {
+        Some(Search::new(self.current(document)?, document.session().document()))
     }
 
     fn current(&self, document: &Document) -> Option<Key> {
@@ -251,6 +270,18 @@ impl Explained {
         self.prints.retry();
         self.curves.retry();
         self.trial_curves.retry();
+    }
+}
+
+fn search_job(
+    p: &Arc<Project>,
+    search: &Search,
+    told: Mailbox,
+) -> impl FnOnce(&Control) -> Result<Diagnosis, String> + use<> {
+    let (p, search) = (Arc::clone(p), search.clone());
+    move |control| {
+        let early = |found: &[Suggestion]| told.put(found);
+        diagnose_without(&problem(&p), search.ruled_out(), control, &early).map_err(|e| e.to_string())
     }
 }
 

@@ -29,6 +29,35 @@ impl PartialEq for Key {
     }
 }
 
+/// What a search depends on: the model, and what it is not to suggest.
+#[derive(Debug, Clone)]
+pub struct Search {
+    /// Model and measurements.
+    pub model: Key,
+    ruled_out: Arc<Vec<Source>>,
+}
+
+impl PartialEq for Search {
+    fn eq(&self, other: &Self) -> bool {
+        let among = |list: &[Source], source: &Source| list.iter().any(|s| s.is_same(source));
+        self.model == other.model
+            && self.ruled_out.len() == other.ruled_out.len()
+            && self.ruled_out.iter().all(|source| among(&other.ruled_out, source))
+    }
+}
+
+impl Search {
+    /// The search on the model of `model` for what `document` has not ruled out.
+    pub fn new(model: Key, document: &Document) -> Self {
+        Self { model, ruled_out: Arc::clone(document.ruled_out()) }
+    }
+
+    /// What it is not to suggest.
+    pub fn ruled_out(&self) -> &[Source] {
+        &self.ruled_out
+    }
+}
+
 impl Key {
     /// The key of a document.
     pub fn new(document: &Document) -> Self {

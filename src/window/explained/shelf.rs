@@ -74,6 +74,11 @@ impl<K: Clone + PartialEq, T: Send + 'static> Shelf<K, T> {
         self.done.iter().rev().find_map(|(_, result)| result.as_ref().ok())
     }
 
+    /// The last good result of a key that `fits`.
+    pub fn find(&self, fits: impl Fn(&K) -> bool) -> Option<&Arc<T>> {
+        self.done.iter().rev().filter(|(key, _)| fits(key)).find_map(|(_, result)| result.as_ref().ok())
+    }
+
     /// Name and progress of the running job.
     pub fn running(&self) -> Option<(&str, f64)> {
         self.job.as_ref().and_then(Job::running)

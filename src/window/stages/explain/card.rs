@@ -5,14 +5,17 @@ use super::{Deed, Scene, fingerprint};
 use crate::effects::{Place, Source};
 use crate::explain::diagnose::Suggestion;
 use crate::window::app::Ask;
+use crate::window::explained::Standing;
 use crate::window::explained::model::at;
 use crate::window::format;
 use crate::window::schematic::symbols;
 use crate::window::theme::{self, size, space};
 use crate::window::widgets::UiExt;
 use crate::window::words;
+use egui::text::{LayoutJob, TextFormat};
 use egui::{
-    Align2, CornerRadius, Frame, Margin, Rect, RichText, Role, Sense, StrokeKind, Ui, Vec2, WidgetInfo, pos2, vec2,
+    Align2, CornerRadius, Frame, Label, Margin, Rect, RichText, Role, Sense, StrokeKind, Ui, Vec2, WidgetInfo, pos2,
+    vec2,
 };
 
 /// Height of the fingerprint plot.
@@ -30,11 +33,15 @@ pub struct Card<'a> {
     pub rank: usize,
     /// Whether all of it is shown.
     pub unfolded: bool,
-    /// Whether the search has not ended: nothing of it is final.
-    pub provisional: bool,
+    /// How far it may be trusted.
+    pub standing: Standing,
 }
 
 impl Card<'_> {
+    fn is_provisional(&self) -> bool {
+        self.standing == Standing::Provisional
+    }
+
     /// Shows it; true when its head was clicked.
     pub fn show(&self, ui: &mut Ui, on_trial: bool, asks: &mut Vec<Ask>) -> bool {
         let palette = ui.palette();
@@ -64,7 +71,7 @@ impl Card<'_> {
         let source = &self.suggestion.added.source;
         let height = if self.unfolded { 40.0 } else { 26.0 };
         let (area, response) = ui.allocate_exact_size(vec2(ui.available_width(), height), Sense::click());
-        let (so_far, chance) = (self.provisional, chance(self.probability));
+        let (so_far, chance) = (self.is_provisional(), chance(self.probability));
         let (kind, about) = if so_far { ("Provisional suggestion", "about ") } else { ("Suggestion", "") };
         let label = format!("{kind} {}: {}, probability {about}{chance}", self.rank, self.title());
         response.widget_info(|| WidgetInfo::selected(Role::Button, true, self.unfolded, &label));
@@ -128,10 +135,10 @@ impl Card<'_> {
         let s = self.suggestion;
         self.sizes(ui);
         let ([before, floor], after) = (self.errors(), s.error_after);
-        let held_out = (!self.provisional).then_some(s.held_out_error_after);
+        let held_out = (!self.is_provisional()).then_some(s.held_out_error_after);
         Gauge { before, after, held_out, floor }.show(ui);
         self.buttons(ui, on_trial, asks);
-        if self.provisional {
+        if self.is_provisional() {
             ui.hint("Left-out runs, rivals and fingerprint follow when the search has ended.");
             return;
         }
@@ -161,7 +168,8 @@ impl Card<'_> {
             }
             Some(Err(error)) => drop(ui.hint(format!("No fingerprint: {error}"))),
             None if matches!(source.place, Place::Whole(_)) => {}
-            None => drop(ui.hint("The fingerprint is being computed.")),
+            None if self.standing == Standing::Final => drop(ui.hint("The fingerprint is being computed.")),
+            None => drop(ui.hint("The fingerprint follows when the search has ended.")),
         }
     }
 
@@ -173,8 +181,15 @@ impl Card<'_> {
                 let (Some(value), Some(deviation)) = (added.source.parameters.get(k), added.deviations.get(k)) else {
                     continue;
                 };
-                ui.label(RichText::new(parameter.name.replace('_', " ")).color(ui.palette().weak));
-                ui.label(format::with_deviation(*value, *deviation, parameter.unit));
+                // Name and value stay together where the row wraps.
+                let mut text = LayoutJob::default();
+                let palette = ui.palette();
+                let mut say = |words: &str, colour| {
+                    text.append(words, 0.0, TextFormat::simple(theme::font(size::BODY), colour));
+                };
+                say(&format!("{}  ", parameter.name.replace('_', " ")), palette.weak);
+                say(&format::with_deviation(*value, *deviation, parameter.unit), palette.ink);
+                ui.add(Label::new(text).extend());
                 ui.add_space(space::S);
             }
         });
@@ -189,11 +204,11 @@ impl Card<'_> {
             }
             let tip = "Puts the effect into the model as known; undo takes it back.";
             let wait = "Its size is not final: it can be added when the search has ended. Try shows what it would do.";
-            let add = ui.add_enabled_ui(!self.provisional, |ui| ui.primary("Add")).inner;
+            let add = ui.add_enabled_ui(!self.is_provisional(), |ui| ui.primary("Add")).inner;
             if add.on_hover_text(tip).on_disabled_hover_text(wait).clicked() {
                 asks.push(Ask::Explain(Deed::Add(source.clone())));
             }
-            let tip = "Rules this effect out at this place; it can be taken back below.";
+            let tip = "Rules this effect out at this place and searches for what else it could be; undo takes it back.";
             if ui.button("Not this").on_hover_text(tip).clicked() {
                 asks.push(Ask::Explain(Deed::Exclude(source.clone())));
             }

@@ -3,15 +3,16 @@
 use super::card;
 use super::grid::in_words;
 use super::look::Look;
+use super::ranking::{open, ranked};
 use super::{Deed, Scene};
 use crate::effects::{Place, Source};
 use crate::explain::Diagnosis;
-use crate::explain::diagnose::{Suggestion, Verdict};
+use crate::explain::diagnose::Verdict;
 use crate::explain::tuning::Knob;
 use crate::window::app::Ask;
 use crate::window::corrections::{self, Adopted};
-use crate::window::explained::HOPELESS;
 use crate::window::explained::model::at;
+use crate::window::explained::{HOPELESS, Standing};
 use crate::window::format;
 use crate::window::theme::{self, size, space};
 use crate::window::widgets::UiExt;
@@ -20,23 +21,6 @@ use egui::{Align, Button, Layout, RichText, ScrollArea, Sense, Ui, vec2};
 
 /// How many times the noise floor an error must be to be more than noise.
 const BEYOND: f64 = 1.2;
-
-/// Suggestions that are not ruled out, with probabilities that add up to what they did before.
-pub fn ranked<'a>(suggestions: &'a [Suggestion], look: &Look) -> Vec<(&'a Suggestion, f64)> {
-    let left: Vec<&Suggestion> = suggestions.iter().filter(|s| !look.rules_out(&s.added.source)).collect();
-    let total = |list: &mut dyn Iterator<Item = &Suggestion>| list.map(|s| s.probability).sum::<f64>();
-    let all = total(&mut suggestions.iter());
-    let kept = total(&mut left.iter().copied());
-    let factor = if kept > 0.0 && left.len() < suggestions.len() { all / kept } else { 1.0 };
-    left.into_iter().map(|s| (s, (s.probability * factor).min(1.0))).collect()
-}
-
-/// The suggestion whose card is open.
-pub fn open<'a>(suggestions: &'a [Suggestion], look: &Look) -> Option<&'a Suggestion> {
-    let list = ranked(suggestions, look);
-    let wanted = look.open.as_ref().and_then(|source| list.iter().find(|(s, _)| s.added.source.is_same(source)));
-    wanted.or(list.first()).map(|(s, _)| *s)
-}
 
 /// Shows the pane.
 pub fn show(ui: &mut Ui, scene: &Scene<'_>, look: &mut Look, asks: &mut Vec<Ask>) {
@@ -48,7 +32,7 @@ pub fn show(ui: &mut Ui, scene: &Scene<'_>, look: &mut Look, asks: &mut Vec<Ask>
                     asks.push(Ask::Explain(Deed::Retry));
                 }
             });
-            provisional(ui, scene, look, asks);
+            so_far(ui, scene, look, asks);
         }
         None if far_off(scene) && !look.anyway => {
             ui.label("The model is wrong by > 1000 %: at these frequencies hardly anything in it takes out energy.");
@@ -74,29 +58,33 @@ pub fn show(ui: &mut Ui, scene: &Scene<'_>, look: &mut Look, asks: &mut Vec<Ask>
     }
 }
 
-/// The search goes on: what it does, then the cards that it has so far.
+/// The search goes on: what it does, then the cards that there are so far.
 fn searching(ui: &mut Ui, scene: &Scene<'_>, look: &mut Look, asks: &mut Vec<Ask>) {
-    let found = !scene.explained.suggestions(scene.document).0.is_empty();
-    let doing =
-        if found { "The best so far are being fitted to the end." } else { "Every effect is tried at every place." };
+    let (found, standing) = scene.explained.suggestions(scene.document);
+    let doing = match standing {
+        Standing::Before => "It is searched for what else it could be.",
+        _ if found.is_empty() => "Every effect is tried at every place.",
+        _ => "The best so far are being fitted to the end.",
+    };
     ui.horizontal(|ui| {
         ui.spinner();
         ui.label(doing);
     });
-    if !found {
+    if found.is_empty() {
         ui.hint("Place before law: where does a free force explain the difference? Then: which law does it follow?");
     }
-    provisional(ui, scene, look, asks);
+    so_far(ui, scene, look, asks);
 }
 
-/// The cards that a search has told before its end.
-fn provisional(ui: &mut Ui, scene: &Scene<'_>, look: &mut Look, asks: &mut Vec<Ask>) {
-    let (found, _) = scene.explained.suggestions(scene.document);
-    if !found.is_empty() {
-        ui.hint("Provisional: sizes, errors and probabilities may still change, and the order with them.");
-        ui.add_space(space::XS);
-        ScrollArea::vertical().id_salt("cards").auto_shrink(false).show(ui, |ui| list(ui, scene, look, asks));
+/// The cards that there are before a search has ended: what it has told, or what was left of the search before.
+fn so_far(ui: &mut Ui, scene: &Scene<'_>, look: &mut Look, asks: &mut Vec<Ask>) {
+    match scene.explained.suggestions(scene.document) {
+        ([], _) => {}
+        (_, Standing::Before) => drop(ui.hint("These are the next best of the search before.")),
+        _ => drop(ui.hint("Provisional: sizes, errors and probabilities may still change, and the order with them.")),
     }
+    ui.add_space(space::XS);
+    ScrollArea::vertical().id_salt("cards").auto_shrink(false).show(ui, |ui| list(ui, scene, look, asks));
 }
 
 /// Whether the model is so far from the data that it lacks its damping altogether.
@@ -154,24 +142,24 @@ fn answer(ui: &mut Ui, scene: &Scene<'_>, diagnosis: &Diagnosis, look: &mut Look
     list(ui, scene, look, asks);
 }
 
-/// One card for every suggestion, final or provisional, then what is ruled out.
+/// What is ruled out, then one card for every other suggestion.
 fn list(ui: &mut Ui, scene: &Scene<'_>, look: &mut Look, asks: &mut Vec<Ask>) {
-    let (suggestions, provisional) = scene.explained.suggestions(scene.document);
-    let list = ranked(suggestions, look);
-    let chosen = open(suggestions, look).map(|s| s.added.source.clone());
+    let (list, standing) = ranked(scene.document, scene.explained);
+    let ruled_out = scene.document.session().document().ruled_out();
+    excluded(ui, scene, ruled_out, asks);
+    let chosen = open(scene.document, scene.explained, look).map(|(s, _)| s.added.source.clone());
     for (rank, (suggestion, probability)) in list.iter().enumerate() {
         let source = &suggestion.added.source;
         let unfolded = chosen.as_ref().is_some_and(|c| c.is_same(source));
-        let card = card::Card { scene, suggestion, probability: *probability, rank: rank + 1, unfolded, provisional };
+        let card = card::Card { scene, suggestion, probability: *probability, rank: rank + 1, unfolded, standing };
         if card.show(ui, look.trial.as_ref().is_some_and(|t| t.is_same(source)), asks) {
             look.open = Some(source.clone());
         }
         ui.add_space(space::XS);
     }
-    if list.is_empty() && !suggestions.is_empty() {
-        ui.hint("Everything that was suggested is ruled out.");
+    if list.is_empty() && !ruled_out.is_empty() && standing == Standing::Final {
+        ui.hint("Beside what is ruled out, nothing that was tried explains the difference.");
     }
-    excluded(ui, scene, &look.excluded, asks);
 }
 
 /// What the model states wrongly and the search corrected beside the effects.
@@ -272,7 +260,6 @@ fn excluded(ui: &mut Ui, scene: &Scene<'_>, excluded: &[Source], asks: &mut Vec<
     if excluded.is_empty() {
         return;
     }
-    ui.add_space(space::S);
     ui.hint("Ruled out by you");
     let structure = &scene.document.project.structure;
     for source in excluded {
@@ -286,4 +273,5 @@ fn excluded(ui: &mut Ui, scene: &Scene<'_>, excluded: &[Source], asks: &mut Vec<
             });
         });
     }
+    ui.add_space(space::XS);
 }

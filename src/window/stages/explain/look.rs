@@ -1,4 +1,4 @@
-//! What is looked at in the stage: order of the map, plot of the cell, card that is open, effect on trial, what is ruled out.
+//! What is looked at in the stage: order of the map, plot of the cell, card that is open, effect on trial.
 
 use crate::effects::Source;
 
@@ -53,27 +53,10 @@ pub struct Look {
     pub chosen: bool,
     /// Whether to search though the model is far from the data.
     pub anyway: bool,
-    /// Effects that the user has ruled out.
-    pub excluded: Vec<Source>,
 }
 
 impl Default for Look {
     fn default() -> Self {
-        Self {
-            worst_first: true,
-            tab: Tab::default(),
-            open: None,
-            trial: None,
-            chosen: false,
-            anyway: false,
-            excluded: Vec::new(),
-        }
-    }
-}
-
-impl Look {
-    /// Whether the user has ruled an effect out at its place.
-    pub fn rules_out(&self, source: &Source) -> bool {
-        self.excluded.iter().any(|other| other.is_same(source))
+        Self { worst_first: true, tab: Tab::default(), open: None, trial: None, chosen: false, anyway: false }
     }
 }

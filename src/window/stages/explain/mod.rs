@@ -12,17 +12,19 @@ mod ledger;
 pub mod look;
 mod map;
 pub mod panes;
+mod ranking;
 mod samples;
 mod schematic;
 
 use crate::effects::{Source, State};
 use crate::explain::diagnose::Verdict;
+use crate::session::Command;
 use crate::window::additions;
 use crate::window::app::App;
 use crate::window::document::Document;
 use crate::window::edits::Edit;
 use crate::window::explained::model::{Key, at};
-use crate::window::explained::{Explained, Wanted};
+use crate::window::explained::{Explained, Standing, Wanted};
 use crate::window::format;
 use crate::window::frame::top::Mark;
 use crate::window::view::{Stage, View};
@@ -69,8 +71,8 @@ pub fn wanted(document: &Document, view: &View, explained: &Explained) -> Wanted
         return Wanted::default();
     }
     let look = &view.explain;
-    let found = explained.diagnosis(document).and_then(|d| d.as_ref().ok());
-    let print = found.and_then(|d| cards::open(&d.suggestions, look)).map(|s| s.added.source.clone());
+    let open = ranking::open(document, explained, look).filter(|(_, standing)| *standing == Standing::Final);
+    let print = open.map(|(s, _)| s.added.source.clone());
     let curve = (look.tab == look::Tab::Frequency).then_some(view.run);
     Wanted { diagnosis: true, anyway: look.anyway, trial: look.trial.clone(), print, curve }
 }
@@ -97,11 +99,14 @@ pub fn answer(app: &mut App, ctx: &Context, deed: Deed) {
         Deed::Exclude(source) => {
             let look = &mut app.view.explain;
             look.trial = look.trial.take().filter(|t| !t.is_same(&source));
-            if !look.rules_out(&source) {
-                look.excluded.push(source);
-            }
+            look.open = look.open.take().filter(|t| !t.is_same(&source));
+            rule_out(app, ctx, &source);
         }
-        Deed::Restore(source) => app.view.explain.excluded.retain(|s| !s.is_same(&source)),
+        Deed::Restore(source) => {
+            let Some(document) = &app.document else { return };
+            let at = additions::effect_at(&source, &document.project.structure);
+            app.edit(ctx, &Edit::Do(Command::Allow(at)));
+        }
         Deed::Return(step) => go_back(app, step),
         Deed::TakeOver => take_over(app, ctx),
         Deed::Correct => correct(app, ctx),
@@ -133,6 +138,19 @@ fn add(app: &mut App, ctx: &Context, source: &Source) {
             }
         }
         Err(error) => app.fail(error),
+    }
+}
+
+/// Rules an effect out at its place and says so; the search for others follows by itself.
+fn rule_out(app: &mut App, ctx: &Context, source: &Source) {
+    let Some(document) = &app.document else { return };
+    let structure = &document.project.structure;
+    let said =
+        format!("Ruled out: {} {}. Undo takes it back.", words::effect(source.effect), at(structure, &source.place));
+    let command = Command::RuleOut(additions::effect_at(source, structure));
+    app.edit(ctx, &Edit::Do(command));
+    if app.message.as_ref().is_none_or(|m| !m.failed) {
+        app.say(said);
     }
 }
 
@@ -192,8 +210,8 @@ pub fn mark(document: &Document, explained: &Explained) -> Mark {
 
 /// The first suggestion, as a sentence after another one.
 fn best_guess(document: &Document, explained: &Explained) -> String {
-    let (suggestions, provisional) = explained.suggestions(document);
-    let Some(source) = suggestions.first().map(|s| &s.added.source) else { return String::new() };
-    let so_far = if provisional { " so far" } else { "" };
+    let (suggestions, standing) = ranking::ranked(document, explained);
+    let Some(source) = suggestions.first().map(|(s, _)| &s.added.source) else { return String::new() };
+    let so_far = if standing == Standing::Final { "" } else { " so far" };
     format!(" Best guess{so_far}: {} {}.", words::effect(source.effect), at(&document.project.structure, &source.place))
 }

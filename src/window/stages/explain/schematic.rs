@@ -1,7 +1,7 @@
 //! What the schematic shows in the stage: the error at every sensor, and the suggested source in its place.
 
-use super::cards;
 use super::grid::{Scale, in_words};
+use super::ranking;
 use crate::effects::{Place, Source, State};
 use crate::explain::Comparison;
 use crate::window::document::Document;
@@ -26,8 +26,8 @@ pub struct Errors {
 /// Errors and suggestion for the schematic.
 pub fn errors(scene: &Arc<Scene>, document: &Document, view: &View, explained: &Explained) -> Errors {
     let look = &view.explain;
-    let best = cards::open(explained.suggestions(document).0, look);
-    let suggested = look.trial.as_ref().or(best.map(|s| &s.added.source));
+    let best = ranking::open(document, explained, look);
+    let suggested = look.trial.as_ref().or(best.map(|(s, _)| &s.added.source));
     let tried = look.trial.as_ref().and_then(|t| explained.trial(document, t)).and_then(|t| t.as_ref().ok());
     let comparison = tried.or_else(|| explained.comparison(document).and_then(|c| c.as_ref().ok()));
     let shares = comparison
