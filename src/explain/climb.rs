@@ -1,18 +1,18 @@
 //! The ladder from the model as it is to one that agrees with the data: effects one at a time or by pairs, and, where
 //! effects alone do not get there, corrections of the model beside them.
 
+use super::corrected::{corrected, likely, same_with_corrections, with_corrections};
 use super::data::ExplainError;
 use super::fits::STEPS;
 use super::noise::Whitening;
 use super::outcome::{self, Outcome};
-use super::predict::{FINAL, SEARCH};
+use super::predict::FINAL;
 use super::refit::Refit;
 use super::search::{Base, scale_of};
-use super::tuning::{Knob, Tuning};
-use crate::effects::{Effect, Place, Source};
+use crate::effects::Source;
 
 /// Most effects that are added.
-const MOST_EFFECTS: usize = 3;
+pub(super) const MOST_EFFECTS: usize = 3;
 /// Evidence (difference of the information criterion) that an effect must bring: its own, and that of having been
 /// chosen among thousands.
 const EVIDENCE: f64 = 25.0;
@@ -33,13 +33,12 @@ const LAST_ERROR: f64 = 2e-3;
 /// The same for what corrections of the model may still explain, but no further effect of any size.
 const MOSTLY: f64 = 2e-3;
 const MOSTLY_ERROR: f64 = 6e-3;
+/// Share of the squared residual below which what corrections leave speaks for a detuned model.
+const DETUNED: f64 = 0.1;
 /// How many times the squared residual of noise free forces may leave where the laws behind them may still explain it.
 const REACH: f64 = 4.0;
 /// Scaled squared residual within which places are worth trying with a law that was found elsewhere.
 const ELSEWHERE: f64 = 40.0;
-/// Prior deviations up to which a correction is believed without looking for an effect.
-const LIKELY: f64 = 3.0;
-
 /// Sets of effects of one size, fitted, best first.
 pub(crate) struct Rung {
     pub refits: Vec<Refit>,
@@ -75,7 +74,7 @@ pub(crate) fn agrees(base: &Base, chi_square: f64, parameters: usize) -> bool {
 
 /// Whether what a fit leaves is no more than what records and integrators are wrong by, where the model as it is has the
 /// squared residual `before`.
-fn nearly(base: &Base, refit: &Refit, before: f64) -> bool {
+pub(super) fn nearly(base: &Base, refit: &Refit, before: f64) -> bool {
     small(base, refit, before, [LAST, LAST_ERROR])
 }
 
@@ -86,22 +85,6 @@ fn small(base: &Base, refit: &Refit, before: f64, [share, error]: [f64; 2]) -> b
     let excess = (refit.chi_square - n).max(0.0);
     let beyond_noise = refit.error * (excess / refit.chi_square.max(f64::MIN_POSITIVE)).sqrt();
     excess < share * (before - n) && beyond_noise < error
-}
-
-/// The effects found, with the corrections of the model free beside them.
-fn same_with_corrections(base: &Base, exact: &Found) -> Result<Found, ExplainError> {
-    let free = base.predictor.free_tuning(false);
-    let mut found = Found { bare: None, rungs: Vec::new(), agrees: false, before: exact.before };
-    let Some(last) = exact.rungs.last() else { return Ok(found) };
-    let best = last.refits.iter().take(2);
-    let fit = |refit: &Refit| base.bench().refit(&refit.effects, &free, STEPS, &SEARCH, &refit.starts);
-    let refits = best.map(fit).collect::<Result<Vec<_>, _>>()?;
-    let (refits, noise) = base.polished(base.ranked(refits))?;
-    let Some(best) = refits.first() else { return Ok(found) };
-    let all = best.parameters + best.tuning.knobs.len();
-    found.agrees = agrees(base, best.chi_square, all) || nearly(base, best, exact.before);
-    found.rungs.push(Rung { scale: scale_of(&refits, base.count()), refits, noise });
-    Ok(found)
 }
 
 /// One effect more where a set agrees with the data, if it has overwhelming evidence: the sum of squares alone may hide
@@ -148,7 +131,13 @@ pub(crate) fn explain<'a>(base: &'a Base<'a>, before: f64) -> Result<Outcome<'a>
         let better = cost(base, &tuned, before) + FREEDOM < cost(base, &exact, before);
         return Ok(Outcome { base, found: if better { tuned } else { exact } });
     }
-    let mut tuned = with_corrections(base, exact.rungs.first(), false, before)?;
+    let bare = corrected(base, false)?;
+    let detuned = bare.chi_square < DETUNED * before;
+    if !detuned && !within(reach.single) && within(reach.pair) && two_at_once(base, &mut exact)? {
+        confirm(base, &mut exact)?;
+        return Ok(Outcome { base, found: exact });
+    }
+    let mut tuned = with_corrections(base, exact.rungs.first(), bare, before)?;
     // Corrections beyond what models are wrong by may stand in for effects.
     let sound = tuned.agrees && tuned.best().is_none_or(likely);
     if !sound && within(reach.pair) {
@@ -156,7 +145,7 @@ pub(crate) fn explain<'a>(base: &'a Base<'a>, before: f64) -> Result<Outcome<'a>
         climb(base, &mut exact, last, MOST_EFFECTS)?;
     }
     if !tuned.agrees && !exact.agrees {
-        let more = with_corrections(base, tuned.rungs.first(), true, before)?;
+        let more = with_corrections(base, tuned.rungs.first(), corrected(base, true)?, before)?;
         if cost(base, &more, before) + FREEDOM < cost(base, &tuned, before) {
             tuned = more;
         }
@@ -170,7 +159,7 @@ pub(crate) fn explain<'a>(base: &'a Base<'a>, before: f64) -> Result<Outcome<'a>
     Ok(Outcome { base, found: best })
 }
 
-fn level(refit: &Refit) -> (f64, usize, f64) {
+pub(super) fn level(refit: &Refit) -> (f64, usize, f64) {
     (refit.chi_square, refit.parameters, refit.tuning_cost)
 }
 
@@ -180,90 +169,14 @@ fn cost(base: &Base, found: &Found, before: f64) -> f64 {
     found.best().map_or(before, |refit| base.evidence(refit, 1.0) + choice)
 }
 
-/// The search with the corrections of the model free; `before` are sets of one effect found with fewer of them, `first` is
-/// the squared residual of the model as it is.
-fn with_corrections(base: &Base, before: Option<&Rung>, each: bool, first: f64) -> Result<Found, ExplainError> {
-    let free = base.predictor.free_tuning(each);
-    let bench = base.bench();
-    let bare = base.bare(&free, &FINAL)?;
-    let mut found = Found {
-        agrees: agrees(base, bare.chi_square, bare.tuning.knobs.len()) && likely(&bare),
-        bare: Some(bare.clone()),
-        rungs: Vec::new(),
-        before: first,
-    };
+/// Whether two effects at once agree with the data; then they are what was found.
+fn two_at_once(base: &Base, found: &mut Found) -> Result<bool, ExplainError> {
+    let (refits, noise) = base.polished(distinct(base.pairs()?))?;
+    found.agrees = refits.first().is_some_and(|best| fits_well(base, found, best));
     if found.agrees {
-        return Ok(found);
+        found.rungs.push(Rung { scale: scale_of(&refits, base.count()), refits, noise });
     }
-    // Effects that explain much without corrections, with them; then places again, seen from the corrected model.
-    let mut refits = Vec::new();
-    for refit in before.iter().flat_map(|rung| &rung.refits).take(4) {
-        refits.push(bench.refit(&refit.effects, &free, STEPS, &SEARCH, &refit.starts)?);
-    }
-    refits.extend(faults_of_forces(base, &bare, &free)?);
-    refits.extend(beside_known(base, &bare, &free)?);
-    refits = distinct(base.ranked(refits));
-    let done = refits.first().is_some_and(|best| fits_well(base, &found, best));
-    let mut from = bare.clone();
-    for _ in 0..if done { 0 } else { 2 } {
-        refits.extend(corrected_singles(base, &from)?);
-        refits = distinct(base.ranked(refits));
-        let Some(best) = refits.first() else { break };
-        let moved = best.tuning.values.iter().zip(&from.tuning.values).any(|(a, b)| (a - b).abs() > 2e-4);
-        if agrees(base, best.chi_square, best.parameters) || nearly(base, best, first) || !moved {
-            break;
-        }
-        from = Refit { effects: Vec::new(), ..best.clone() };
-    }
-    add_rung(base, &mut found, refits, level(&bare))?;
-    if let (false, Some(rung)) = (found.agrees, found.rungs.last()) {
-        let last = level(&rung.refits[0]);
-        climb(base, &mut found, last, MOST_EFFECTS - 1)?;
-    }
-    if found.rungs.is_empty() {
-        found.agrees = agrees(base, bare.chi_square, bare.tuning.knobs.len()) && plausible(&bare);
-    }
-    Ok(found)
-}
-
-/// Whether no correction is farther from nothing than models are wrong: else an effect may pass for a correction.
-pub(crate) fn likely(bare: &Refit) -> bool {
-    let priors = bare.tuning.knobs.iter().map(Knob::deviation);
-    bare.tuning.values.iter().zip(priors).all(|(v, s)| v.abs() <= LIKELY * s)
-}
-
-/// Whether corrections that agree with the data may be believed where no effect does better.
-fn plausible(bare: &Refit) -> bool {
-    let priors = bare.tuning.knobs.iter().map(Knob::deviation);
-    bare.tuning.values.iter().zip(priors).all(|(v, s)| v.abs() <= 2.0 * LIKELY * s)
-}
-
-/// Errors of the force channels beside the corrections, where these go further than models are wrong by: a force read too
-/// large looks like a structure of less stiffness, mass and damping.
-fn faults_of_forces(base: &Base, bare: &Refit, free: &Tuning) -> Result<Vec<Refit>, ExplainError> {
-    if likely(bare) {
-        return Ok(Vec::new());
-    }
-    let [_, forces] = base.data.channel_names();
-    let fault = |name: &String| Source::known(Effect::Gain, Place::Channel(name.clone()), &[1.02]);
-    let fit = |name: &String| base.bench().refit(&[fault(name)], free, STEPS, &SEARCH, &[]);
-    forces.iter().filter(|name| base.data.allows(&fault(name))).map(fit).collect()
-}
-
-/// Effects seen from a model whose known sources are as stated, where their corrections go further than known sizes are
-/// wrong by: what is missing may act where something known does, which would grow in its stead.
-fn beside_known(base: &Base, bare: &Refit, free: &Tuning) -> Result<Vec<Refit>, ExplainError> {
-    let known = |knob: &Knob| matches!(knob, Knob::Known(_));
-    let grown = |(knob, v): (&Knob, &f64)| known(knob) && v.abs() > LIKELY * knob.deviation();
-    if !bare.tuning.knobs.iter().zip(&bare.tuning.values).any(grown) {
-        return Ok(Vec::new());
-    }
-    let as_stated = free.only(|knob| !known(knob));
-    let from = base.bench().refit(&[], &as_stated, STEPS, &SEARCH, &[])?;
-    let seen = corrected_singles(base, &from)?;
-    let freed =
-        |refit: &Refit| base.bench().refit(&refit.effects, &refit.tuning.within(free), STEPS, &SEARCH, &refit.starts);
-    seen.iter().take(4).map(freed).collect()
+    Ok(found.agrees)
 }
 
 /// Drops effects that the last set of a search no longer needs, now that the others are there.
@@ -289,16 +202,13 @@ fn pruned(base: &Base, found: &mut Found) -> Result<(), ExplainError> {
     Ok(())
 }
 
-/// Single effects at the places that the model with the corrections of `from` shows.
-fn corrected_singles(base: &Base, from: &Refit) -> Result<Vec<Refit>, ExplainError> {
-    let predictor = base.predictor.tuned(&from.tuning)?;
-    let mut tuned = Base::new(&predictor, base.data, from.tuning.clone(), base.control)?;
-    tuned.noise.clone_from(&base.noise);
-    tuned.singles(None)
-}
-
 /// Adds rungs as long as the data demand them, up to `most`.
-fn climb(base: &Base, found: &mut Found, mut last: (f64, usize, f64), most: usize) -> Result<(), ExplainError> {
+pub(super) fn climb(
+    base: &Base,
+    found: &mut Found,
+    mut last: (f64, usize, f64),
+    most: usize,
+) -> Result<(), ExplainError> {
     while found.rungs.len() < most && !found.agrees {
         let refits = next(base, &found.rungs, found.bare.is_some())?;
         if !add_rung(base, found, refits, last)? {
@@ -310,7 +220,12 @@ fn climb(base: &Base, found: &mut Found, mut last: (f64, usize, f64), most: usiz
 }
 
 /// Adds the rung of these fits if the best of them has the evidence.
-fn add_rung(base: &Base, found: &mut Found, refits: Vec<Refit>, last: (f64, usize, f64)) -> Result<bool, ExplainError> {
+pub(super) fn add_rung(
+    base: &Base,
+    found: &mut Found,
+    refits: Vec<Refit>,
+    last: (f64, usize, f64),
+) -> Result<bool, ExplainError> {
     if found.rungs.is_empty() {
         (base.early)(&outcome::early(base, &refits));
     }
@@ -348,7 +263,7 @@ fn add_rung(base: &Base, found: &mut Found, refits: Vec<Refit>, last: (f64, usiz
 }
 
 /// Whether a fit agrees with the data, or all but.
-fn fits_well(base: &Base, found: &Found, refit: &Refit) -> bool {
+pub(super) fn fits_well(base: &Base, found: &Found, refit: &Refit) -> bool {
     let all = refit.parameters + refit.tuning.knobs.len();
     agrees(base, refit.chi_square, all) || nearly(base, refit, found.before)
 }
@@ -368,7 +283,7 @@ fn next(base: &Base, rungs: &[Rung], corrected: bool) -> Result<Vec<Refit>, Expl
 }
 
 /// The best fit of every set.
-fn distinct(refits: Vec<Refit>) -> Vec<Refit> {
+pub(super) fn distinct(refits: Vec<Refit>) -> Vec<Refit> {
     let mut kept: Vec<Refit> = Vec::with_capacity(refits.len());
     for refit in refits {
         if !kept.iter().any(|k| same_set(&k.effects, &refit.effects)) {

@@ -5,12 +5,12 @@
 //! share = (chi^2 - chi^2 with corrections) / (chi^2 - N)
 //! ```
 
-use super::climb::{agrees, likely};
+use super::climb::agrees;
+use super::corrected::likely;
 use super::data::{Data, ExplainError, Problem};
 use super::diagnose::Correction;
 use super::outcome::corrections;
 use super::predict::{Predictor, SEARCH};
-
 use super::search::Base;
 use super::tuning::Tuning;
 use crate::control::Control;

@@ -17,6 +17,7 @@ mod bare;
 mod branch;
 mod climb;
 pub mod compare;
+mod corrected;
 pub mod data;
 mod descent;
 pub mod detuning;

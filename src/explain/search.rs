@@ -166,6 +166,8 @@ impl<'a> Base<'a> {
         }
         drafts.sort_by(|a, b| a.score.total_cmp(&b.score));
         drafts.truncate(REFITS);
+        let bound = hopeless(drafts.first().map_or(f64::INFINITY, |best| best.score));
+        drafts.retain(|d| d.score < bound);
         Ok(self.ranked(self.refit_all(&drafts, None)?))
     }
 
