@@ -133,7 +133,9 @@ pub(crate) fn explain<'a>(base: &'a Base<'a>, before: f64) -> Result<Outcome<'a>
     }
     let bare = corrected(base, false)?;
     let detuned = bare.chi_square < DETUNED * before;
-    if !detuned && !within(reach.single) && within(reach.pair) && two_at_once(base, &mut exact)? {
+    // Free forces at two places explain whatever two sensors see.
+    let telling = base.data.runs.iter().all(|run| run.alive.len() > 2);
+    if telling && !detuned && !within(reach.single) && within(reach.pair) && two_at_once(base, &mut exact)? {
         confirm(base, &mut exact)?;
         return Ok(Outcome { base, found: exact });
     }
