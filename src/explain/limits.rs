@@ -50,6 +50,17 @@ pub(crate) fn disguised(source: &Source) -> bool {
     }
 }
 
+/// Whether an effect with these standard deviations of its parameters may be suggested where those of `excluded` may not: it
+/// is none of them, nor a law that has one of them as a limit and a parameter that the data do not determine, which may be
+/// the same by another name.
+pub fn is_allowed(excluded: &[Source], source: &Source, deviations: &[f64]) -> bool {
+    let out = |law: Effect| excluded.iter().any(|other| other.effect == law && other.place.is_same(&source.place));
+    let undetermined = |(d, p): (&f64, &f64)| d.is_nan() || *d >= p.abs();
+    let open = deviations.iter().zip(&source.parameters).any(undetermined);
+    let disguise = open && limits(source.effect).iter().any(|&law| out(law));
+    !(disguise || out(source.effect))
+}
+
 /// Whether the set `simple` differs from `set` in no more than laws that are limits of those in `set`, at the same places.
 pub(crate) fn is_limit(simple: &[Source], set: &[Source]) -> bool {
     let stands = |a: &Source, b: &Source| {
@@ -68,6 +79,18 @@ mod tests {
         assert_eq!(wider(Effect::Quadratic), [Effect::Power]);
         assert!(wider(Effect::Coulomb).contains(&Effect::Stribeck) && wider(Effect::Stribeck).contains(&Effect::Iwan));
         assert!(wider(Effect::Mass).is_empty());
+    }
+
+    #[test]
+    fn what_is_excluded_does_not_come_back_by_another_name() {
+        let at = |dof, effect, parameters: &[f64]| Source::known(effect, Place::Dofs(vec![dof]), parameters);
+        let excluded = [at(6, Effect::Coulomb, &[1.0])];
+        let falls = [0.2, 0.3, 0.05];
+        assert!(!is_allowed(&excluded, &at(6, Effect::Coulomb, &[0.2]), &[0.01]));
+        assert!(!is_allowed(&excluded, &at(6, Effect::Stribeck, &falls), &[0.01, 0.4, 0.01]));
+        assert!(is_allowed(&excluded, &at(6, Effect::Stribeck, &falls), &[0.01, 0.02, 0.01]));
+        assert!(is_allowed(&excluded, &at(4, Effect::Stribeck, &falls), &[0.01, 0.4, 0.01]));
+        assert!(is_allowed(&excluded, &at(6, Effect::Viscous, &[0.2]), &[0.3]));
     }
 
     #[test]

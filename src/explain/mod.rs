@@ -28,7 +28,7 @@ pub mod fingerprint;
 mod fits;
 pub mod groups;
 pub mod law;
-mod limits;
+pub mod limits;
 mod next_test;
 pub mod noise;
 mod on_response;

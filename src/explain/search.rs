@@ -4,7 +4,7 @@ use super::compare::transfers;
 use super::data::{Data, ExplainError};
 use super::diagnose::Early;
 use super::law::{PlaceData, shrunk};
-use super::limits::{at_limit, disguised, limits};
+use super::limits::{at_limit, disguised, is_allowed, limits};
 use super::noise::Whitening;
 use super::place::{FreeForce, Freedom, Placing, Screen};
 use super::predict::{FINAL, Predictor, RunPrediction};
@@ -332,7 +332,8 @@ impl<'a> Base<'a> {
 
     /// Best first.
     pub fn ranked(&self, mut refits: Vec<Refit>) -> Vec<Refit> {
-        refits.retain(|r| r.chi_square.is_finite() && !r.effects.iter().any(disguised));
+        let allowed = |(e, d): (&Source, &Vec<f64>)| !disguised(e) && is_allowed(&self.data.excluded, e, d);
+        refits.retain(|r| r.chi_square.is_finite() && r.effects.iter().zip(&r.deviations).all(allowed));
         let scale = scale_of(&refits, self.count());
         refits.sort_by(|a, b| self.evidence(a, scale).total_cmp(&self.evidence(b, scale)));
         refits

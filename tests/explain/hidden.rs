@@ -68,7 +68,7 @@ fn faults_of_channels_are_not_explained_by_damping() {
 
 #[test]
 fn what_is_ruled_out_is_not_suggested_and_the_search_finds_what_else_it_could_be() {
-    let (project, first) = project(&[Effect::Coulomb], true, 11);
+    let (project, first) = project(&[Effect::Mass], false, 4);
     let excluded = [first.suggestions[0].added.source.clone()];
     let allowed = |source: &Source| !excluded[0].is_same(source);
     let told = Mutex::new(Vec::new());

@@ -116,7 +116,6 @@ fn what_is_ruled_out_makes_room_for_the_next_and_can_be_taken_back() {
     assert!(standing == Standing::Final && !found.is_empty() && !found.iter().any(is_friction));
     assert!(error(&harness)[0] > 0.1, "the model is as it was");
     let next = found[0].clone();
-    picture(&mut harness, "explain-else");
 
     // It is a change like others: undone and repeated at once, without another search.
     harness.key_press_modifiers(Modifiers::COMMAND, Key::Z);

@@ -2,6 +2,7 @@
 
 use super::look::Look;
 use crate::explain::diagnose::Suggestion;
+use crate::explain::limits::is_allowed;
 use crate::window::document::Document;
 use crate::window::explained::{Explained, Standing};
 
@@ -10,7 +11,7 @@ use crate::window::explained::{Explained, Standing};
 pub fn ranked<'a>(document: &Document, explained: &'a Explained) -> (Vec<(&'a Suggestion, f64)>, Standing) {
     let (all, standing) = explained.suggestions(document);
     let ruled_out = document.session().document().ruled_out();
-    let allowed = |s: &&Suggestion| !ruled_out.iter().any(|other| other.is_same(&s.added.source));
+    let allowed = |s: &&Suggestion| is_allowed(ruled_out, &s.added.source, &s.added.deviations);
     let left: Vec<&Suggestion> = all.iter().filter(allowed).collect();
     let total: f64 = all.iter().map(|s| s.probability).sum();
     let kept: f64 = left.iter().map(|s| s.probability).sum();
