@@ -4,7 +4,7 @@ use super::compare::transfers;
 use super::data::{Data, ExplainError};
 use super::diagnose::Early;
 use super::law::{PlaceData, shrunk};
-use super::limits::{at_limit, disguised, is_allowed, limits};
+use super::limits::{at_limit, disguised, is_allowed, is_limit, limits};
 use super::noise::Whitening;
 use super::place::{FreeForce, Freedom, Placing, Screen};
 use super::predict::{FINAL, Predictor, RunPrediction};
@@ -13,7 +13,7 @@ use super::spots::{Receptances, Spot};
 use super::start::Fields;
 use super::tuning::Tuning;
 use crate::control::Control;
-use crate::effects::Source;
+use crate::effects::{Effect, Source};
 use crate::math::statistics::bayesian_information;
 use faer::{Mat, c64};
 use std::sync::Arc;
@@ -35,6 +35,8 @@ const EXTRA: f64 = 8.0;
 const POSING: f64 = 20.0;
 /// Drafts whose score is this many times that of the best are not fitted.
 const HOPELESS: f64 = 5.0;
+/// Score, in units of that of a draft, below which a simpler one is as good for a start.
+const CLEARLY: f64 = 1.5;
 /// Places at which the law found is tried too, where no law can tell them apart.
 const ELSEWHERE: usize = 6;
 
@@ -165,6 +167,7 @@ impl<'a> Base<'a> {
             }
         }
         drafts.sort_by(|a, b| a.score.total_cmp(&b.score));
+        drafts = needed(drafts);
         drafts.truncate(REFITS);
         let bound = hopeless(drafts.first().map_or(f64::INFINITY, |best| best.score));
         drafts.retain(|d| d.score < bound);
@@ -353,6 +356,15 @@ pub(super) fn joined(first: &[Source], second: &[Source]) -> Vec<Source> {
 /// Score beyond which drafts are not fitted where the best has the score `best`.
 fn hopeless(best: f64) -> f64 {
     HOPELESS * best.abs() + 300.0
+}
+
+/// Drafts without falling friction where plain friction explains the free forces as well: its responses take longest, and it
+/// is fitted where plain friction leaves something.
+fn needed(drafts: Vec<Draft>) -> Vec<Draft> {
+    let falling = |d: &Draft| d.effects.iter().filter(|e| e.effect == Effect::Stribeck).count();
+    let plainer = |a: &Draft, b: &Draft| falling(a) < falling(b) && is_limit(&a.effects, &b.effects);
+    let needless = |d: &Draft| drafts.iter().any(|s| s.score < CLEARLY * d.score.abs() && plainer(s, d));
+    drafts.iter().filter(|d| !needless(d)).cloned().collect()
 }
 
 /// The best drafts, no more than a few at one place, each with the simpler laws that it contains as limits.
