@@ -180,9 +180,9 @@ impl Data {
         Ok(Self { runs, excluded: Vec::new() })
     }
 
-    /// Whether an effect at its place may be suggested.
+    /// Whether an effect at its place may be suggested: not one that is ruled out, and none of more parameters than runs.
     pub fn allows(&self, source: &Source) -> bool {
-        !self.excluded.iter().any(|other| other.is_same(source))
+        source.parameters.len() <= self.runs.len() && !self.excluded.iter().any(|other| other.is_same(source))
     }
 
     /// Names of all response channels and of all force channels, each once.

@@ -174,7 +174,8 @@ impl Predictor {
         Ok(recorded(data, effects, response))
     }
 
-    /// [`Self::predict`] with as many harmonics as the noise of the run lets see: [`FINAL`], and more where that shows.
+    /// [`Self::predict`] with as many harmonics as the noise of the run lets see: [`FINAL`], and more where that shows, or
+    /// where the response nearby has more.
     pub(crate) fn predict_well(
         &self,
         r: usize,
@@ -183,6 +184,9 @@ impl Predictor {
         start: Option<&Response>,
         control: &Control,
     ) -> Result<RunPrediction, ResponseError> {
+        if let Some(start) = start.filter(|s| s.order() > FINAL.most_harmonics) {
+            return self.predict(r, data, effects, &FINEST, Some(start), control);
+        }
         let prediction = self.predict(r, data, effects, &FINAL, start, control)?;
         self.refined(r, data, effects, prediction, control)
     }

@@ -333,10 +333,11 @@ impl<'a> Base<'a> {
         fit + refit.tuning_cost + EXTRA * extra as f64 + POSING * posing as f64
     }
 
-    /// Best first.
+    /// Best first; none of more parameters than runs.
     pub fn ranked(&self, mut refits: Vec<Refit>) -> Vec<Refit> {
         let allowed = |(e, d): (&Source, &Vec<f64>)| !disguised(e) && is_allowed(&self.data.excluded, e, d);
-        refits.retain(|r| r.chi_square.is_finite() && r.effects.iter().zip(&r.deviations).all(allowed));
+        let few = |r: &Refit| r.parameters <= self.data.runs.len();
+        refits.retain(|r| r.chi_square.is_finite() && few(r) && r.effects.iter().zip(&r.deviations).all(allowed));
         let scale = scale_of(&refits, self.count());
         refits.sort_by(|a, b| self.evidence(a, scale).total_cmp(&self.evidence(b, scale)));
         refits
