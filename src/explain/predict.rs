@@ -21,7 +21,7 @@ pub(crate) const SEARCH: Settings = Settings {
     truncation: 1e-4,
     tolerance: 1e-8,
     estimate: false,
-    patience: 150,
+    patience: 80,
 };
 /// How exactly they are computed for results.
 pub(crate) const FINAL: Settings = Settings {
@@ -31,7 +31,7 @@ pub(crate) const FINAL: Settings = Settings {
     truncation: 1e-5,
     tolerance: 1e-9,
     estimate: true,
-    patience: 600,
+    patience: 250,
 };
 
 /// The same where truncation would still show above the noise: nearly sticking friction.
