@@ -1,12 +1,14 @@
 //! Fits of drafts on the response: all of them a little, the promising ones to the end, the best with all harmonics.
 
+use super::climb::same_set;
 use super::data::ExplainError;
-use super::limits::is_limit;
+use super::limits::{is_limit, simpler};
 use super::noise::Whitening;
 use super::predict::{FINAL, SEARCH};
 use super::refit::{Bench, Refit, Starts};
 use super::search::{Base, Draft, joined, scale_of};
 use super::start::start;
+use super::tuning::Tuning;
 use crate::effects::{Effect, Place, Source, State, effect::Kind};
 
 /// Of these, sets that are fitted with all harmonics that matter.
@@ -20,6 +22,8 @@ pub(super) const FIRST_STEPS: usize = 4;
 pub(super) const STEPS: usize = 20;
 /// Gain of the squared residual, in units of what the best leaves per datum, that is worth going on for.
 const LEFT: f64 = 0.1;
+/// Share of its squared residual that a fit has to go from which on it has not arrived.
+const FAR: f64 = 0.1;
 /// Share of its squared residual that a fit under way is trusted to gain.
 const PROMISE: f64 = 0.9;
 /// Evidence by which a fit under way may be promised to lag behind the best and still be followed.
@@ -44,8 +48,14 @@ impl Base<'_> {
         self.control.map(drafts.len(), first).into_iter().collect()
     }
 
-    /// The fits that may still become the best, followed to the end; the others as they are.
+    /// The fits that may still become the best, followed to the end; the others as they are. Valleys are long where
+    /// corrections are free beside effects much like them: those that still promise to be the best go on once more.
     pub(super) fn finished(&self, begun: Vec<Refit>) -> Result<Vec<Refit>, ExplainError> {
+        let once = self.followed(begun)?;
+        self.followed(once)
+    }
+
+    fn followed(&self, begun: Vec<Refit>) -> Result<Vec<Refit>, ExplainError> {
         let scale = scale_of(&begun, self.count());
         let best = begun.iter().map(|r| self.evidence(r, scale)).fold(f64::INFINITY, f64::min);
         let promised = |r: &Refit| self.evidence(r, scale) - r.descent.to_go.min(PROMISE * r.chi_square) / scale;
@@ -83,6 +93,22 @@ impl Base<'_> {
         self.control.map(sets.len(), fit).into_iter().collect()
     }
 
+    /// The sets of `refits` in which a law is all but a simpler one, with that in its stead.
+    fn by_their_name(&self, refits: &[Refit]) -> Result<Vec<Refit>, ExplainError> {
+        let named = |refit: &Refit| -> Option<(Vec<Source>, Tuning)> {
+            refit.effects.iter().any(|e| simpler(e).is_some()).then(|| {
+                let effects = refit.effects.iter().map(|e| simpler(e).unwrap_or_else(|| e.clone())).collect();
+                (effects, refit.tuning.clone())
+            })
+        };
+        let fresh = |(effects, _): &(Vec<Source>, Tuning)| {
+            !refits.iter().any(|r| same_set(&r.effects, effects)) && effects.iter().all(|e| self.data.allows(e))
+        };
+        let sets: Vec<(Vec<Source>, Tuning)> = refits.iter().filter_map(named).filter(fresh).collect();
+        let fit = |k: usize| self.bench().refit(&sets[k].0, &sets[k].1, STEPS, &SEARCH, &[]);
+        self.control.map(sets.len(), fit).into_iter().collect()
+    }
+
     /// Fits the best of `refits` again with all harmonics that matter and the noise of the best of them, truncation
     /// included; the others follow as they are.
     pub fn polished(&self, refits: Vec<Refit>) -> Result<(Vec<Refit>, Vec<Whitening>), ExplainError> {
@@ -98,10 +124,16 @@ impl Base<'_> {
             best.extend::<Vec<Refit>>(simpler);
             rest = others;
         }
+        best.extend(self.by_their_name(&best)?);
         let mut noise = self.noise.clone();
         for steps in [8, 4] {
             let bench = Bench { noise: &noise, ..self.bench() };
-            let again = |k: usize| bench.refit(&best[k].effects, &best[k].tuning, steps, &FINAL, &best[k].starts);
+            let again = |k: usize| {
+                let refit = &best[k];
+                let arrived = refit.descent.to_go < FAR * refit.chi_square;
+                let steps = if arrived { steps } else { STEPS };
+                bench.refit(&refit.effects, &refit.tuning, steps, &FINAL, &refit.starts)
+            };
             let refits = self.control.map(best.len(), again).into_iter().collect::<Result<Vec<_>, _>>()?;
             best = self.ranked(refits);
             let Some(first) = best.first() else { break };

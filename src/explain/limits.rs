@@ -28,15 +28,19 @@ pub(crate) fn wider(effect: Effect) -> Vec<Effect> {
         .collect()
 }
 
-/// Whether the parameters of `source` are all but those of a simpler law.
-pub(crate) fn at_limit(source: &Source) -> bool {
+/// The simpler law whose parameters those of `source` all but are; none if it is no such.
+pub(crate) fn simpler(source: &Source) -> Option<Source> {
     let p = &source.parameters;
-    match source.effect {
-        Effect::Power => [0.0, 1.0, 2.0].iter().any(|e| (p[1] - e).abs() < CLOSE),
-        Effect::Fractional => p[1] < CLOSE || p[1] > 1.0 - CLOSE,
-        Effect::Stribeck => (p[1] / p[0] - 1.0).abs() < CLOSE,
-        _ => false,
-    }
+    let near = |value: f64, limit: f64| (value - limit).abs() < CLOSE;
+    let effect = match source.effect {
+        Effect::Power if near(p[1], 0.0) => Effect::Coulomb,
+        Effect::Power | Effect::Fractional if near(p[1], 1.0) => Effect::Viscous,
+        Effect::Power if near(p[1], 2.0) => Effect::Quadratic,
+        Effect::Fractional if near(p[1], 0.0) => Effect::Stiffness,
+        Effect::Stribeck if near(p[1] / p[0], 1.0) => Effect::Coulomb,
+        _ => return None,
+    };
+    Some(Source { effect, parameters: vec![p[0]], ..source.clone() })
 }
 
 /// Whether `source` is Coulomb friction by another name, which is always looked at beside it: a force that knows no speed,
@@ -96,8 +100,9 @@ mod tests {
     #[test]
     fn powers_next_to_whole_numbers_pose_as_other_laws() {
         let power = |e: f64| Source::known(Effect::Power, Place::Dofs(vec![0]), &[1.0, e]);
-        assert!([0.002, 0.99, 1.98].iter().all(|&e| at_limit(&power(e))));
-        assert!([0.5, 1.5, 2.5].iter().all(|&e| !at_limit(&power(e))));
+        let limit = |e: f64| simpler(&power(e)).map(|s| s.effect);
+        assert_eq!([0.002, 0.99, 1.98].map(limit), [Effect::Coulomb, Effect::Viscous, Effect::Quadratic].map(Some));
+        assert!([0.5, 1.5, 2.5].iter().all(|&e| limit(e).is_none()));
         assert!(!limits(Effect::Power).is_empty());
     }
 }

@@ -4,7 +4,7 @@ use super::compare::transfers;
 use super::data::{Data, ExplainError};
 use super::diagnose::Early;
 use super::law::{PlaceData, shrunk};
-use super::limits::{at_limit, disguised, is_allowed, is_limit, limits};
+use super::limits::{disguised, is_allowed, is_limit, limits, simpler};
 use super::noise::Whitening;
 use super::place::{FreeForce, Freedom, Placing, Screen};
 use super::predict::{FINAL, Predictor, RunPrediction};
@@ -23,7 +23,7 @@ const PLACES: usize = 24;
 /// Places whose laws are looked at before the others.
 const AHEAD: usize = 2;
 /// Pairs of places whose laws are looked at.
-const PAIRS: usize = 16;
+const PAIRS: usize = 48;
 /// Sets that are fitted on the response.
 const REFITS: usize = 10;
 /// Most laws of one place that are fitted on the response.
@@ -329,7 +329,7 @@ impl<'a> Base<'a> {
     pub fn evidence(&self, refit: &Refit, scale: f64) -> f64 {
         let fit = bayesian_information(refit.chi_square / scale.max(1.0), refit.parameters, self.count());
         let extra: usize = refit.effects.iter().map(|e| e.parameters.len() - 1).sum();
-        let posing = refit.effects.iter().filter(|e| at_limit(e)).count();
+        let posing = refit.effects.iter().filter(|e| simpler(e).is_some()).count();
         fit + refit.tuning_cost + EXTRA * extra as f64 + POSING * posing as f64
     }
 
