@@ -176,6 +176,15 @@ const ARRIVED: f64 = 0.02;
 /// Steps in a row that gain no more than that before a descent gives up.
 const IDLE: usize = 3;
 
+/// Longest step, in natural units (a logarithm, a prior deviation), and the damping up to which it is raised to keep within.
+const LONGEST: f64 = 1.5;
+const FIRM: f64 = 1.0;
+/// Damping up to which steps are straight: beyond, the valley bends.
+const STRAIGHT: f64 = 1e-2;
+/// Share of a step at which its bend is measured, and largest share of the bend in the step.
+const AHEAD: f64 = 0.1;
+const BENT: f64 = 0.4;
+
 /// Descends from `theta` in at most `steps` steps.
 pub(crate) fn descend<R: Residual>(problem: &mut R, theta: &[f64], steps: usize) -> Result<Descent, R::Error> {
     let mut theta = theta.to_vec();
@@ -189,7 +198,9 @@ pub(crate) fn descend<R: Residual>(problem: &mut R, theta: &[f64], steps: usize)
         if equations.to_go() < enough {
             break;
         }
-        let Some((next, after, chi)) = step(problem, &theta, &equations, chi_square, &mut damping)? else { break };
+        let Some((next, after, chi)) = step(problem, &theta, (&residual, &jacobian), &equations, &mut damping)? else {
+            break;
+        };
         idle = if chi_square - chi < enough { idle + 1 } else { 0 };
         (theta, residual, chi_square) = (next, after, chi);
         jacobian = problem.jacobian(&theta, &residual)?;
@@ -218,11 +229,16 @@ impl Normal {
 
     /// `(N + damping diag N)^-1 g`.
     fn move_by(&self, damping: f64) -> Option<Mat<f64>> {
-        let n = self.gradient.nrows();
+        self.solve(damping, &self.gradient)
+    }
+
+    /// `(N + damping diag N)^-1` of a column.
+    fn solve(&self, damping: f64, column: &Mat<f64>) -> Option<Mat<f64>> {
+        let n = column.nrows();
         let damped = Mat::from_fn(n, n, |i, j| {
             self.matrix[(i, j)] + if i == j { damping * self.matrix[(i, i)].max(1e-12) + 1e-12 } else { 0.0 }
         });
-        solve_symmetric(damped.as_ref(), self.gradient.as_ref()).ok()
+        solve_symmetric(damped.as_ref(), column.as_ref()).ok()
     }
 
     /// `g^T N^-1 g`.
@@ -236,20 +252,32 @@ impl Normal {
 /// The next point of a descent with its residual.
 type Point = (Vec<f64>, Vec<f64>, f64);
 
-/// A step that lowers the residual; none if there is no such step.
+/// A step that lowers the residual, whose value and derivative at `theta` are given; none if there is no such step.
 fn step<R: Residual>(
     problem: &mut R,
     theta: &[f64],
+    (residual, jacobian): (&[f64], &Mat<f64>),
     equations: &Normal,
-    chi_square: f64,
     damping: &mut f64,
 ) -> Result<Option<Point>, R::Error> {
+    let chi_square = square(residual);
     while *damping < DAMPING[1] {
-        if let Some(move_) = equations.move_by(*damping) {
-            // Half a natural unit at most, three for a logarithm would leave the valley.
-            let largest = (0..theta.len()).fold(0.0_f64, |m, k| m.max(move_[(k, 0)].abs()));
-            let share = if largest > 1.5 { 1.5 / largest } else { 1.0 };
-            let next: Vec<f64> = theta.iter().enumerate().map(|(k, x)| x - share * move_[(k, 0)]).collect();
+        if let Some(straight) = equations.move_by(*damping) {
+            let straight: Vec<f64> = (0..theta.len()).map(|k| -straight[(k, 0)]).collect();
+            // What the data hardly know would run away, and cut short with it all the others would hardly move.
+            let largest = straight.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+            if largest > LONGEST && *damping < FIRM {
+                *damping *= 4.0;
+                continue;
+            }
+            let share = if largest > LONGEST { LONGEST / largest } else { 1.0 };
+            let moved = |by: &[f64]| -> Vec<f64> { theta.iter().zip(by).map(|(x, d)| x + share * d).collect() };
+            let bend = if *damping > STRAIGHT && share == 1.0 {
+                bend(problem, theta, (residual, jacobian), equations, *damping, &straight)?
+            } else {
+                None
+            };
+            let next = moved(bend.as_ref().unwrap_or(&straight));
             let after = problem.residual(&next)?;
             let chi = square(&after);
             if chi.is_finite() && chi < chi_square {
@@ -265,6 +293,31 @@ fn step<R: Residual>(
     Ok(None)
 }
 
+/// The step along the valley, which bends: the straight one and half the geodesic acceleration (Transtrum, Machta and
+/// Sethna 2011), from the second derivative of the residual in its direction; none where that says nothing.
+fn bend<R: Residual>(
+    problem: &mut R,
+    theta: &[f64],
+    (residual, jacobian): (&[f64], &Mat<f64>),
+    equations: &Normal,
+    damping: f64,
+    straight: &[f64],
+) -> Result<Option<Vec<f64>>, R::Error> {
+    let there: Vec<f64> = theta.iter().zip(straight).map(|(x, d)| x + AHEAD * d).collect();
+    let after = problem.residual(&there)?;
+    let slope = |i: usize| (0..theta.len()).map(|k| jacobian[(i, k)] * straight[k]).sum::<f64>();
+    let second: Vec<f64> = (after.iter().zip(residual).enumerate())
+        .map(|(i, (b, a))| 2.0 / AHEAD * ((b - a) / AHEAD - slope(i)))
+        .collect();
+    let product = |k: usize| jacobian.col_as_slice(k).iter().zip(&second).map(|(j, r)| j * r).sum();
+    let column = Mat::from_fn(theta.len(), 1, |k, _| product(k));
+    let Some(acceleration) = equations.solve(damping, &column) else { return Ok(None) };
+    let size = |x: &[f64]| x.iter().map(|x| x * x).sum::<f64>().sqrt();
+    let half: Vec<f64> = (0..theta.len()).map(|k| -0.5 * acceleration[(k, 0)]).collect();
+    let small = size(&half) <= BENT * size(straight);
+    Ok(small.then(|| straight.iter().zip(&half).map(|(s, h)| s + h).collect()))
+}
+
 fn square(residual: &[f64]) -> f64 {
     residual.iter().map(|r| r * r).sum()
 }
@@ -272,6 +325,30 @@ fn square(residual: &[f64]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// Rosenbrock's valley, stretched: `10 k (y - x^2)` and `1 - x`.
+    struct Valley(usize);
+
+    impl Residual for Valley {
+        type Error = std::convert::Infallible;
+
+        fn residual(&mut self, at: &[f64]) -> Result<Vec<f64>, Self::Error> {
+            self.0 += 1;
+            Ok(vec![1e3 * (at[1] - at[0] * at[0]), 1.0 - at[0]])
+        }
+
+        fn jacobian(&mut self, at: &[f64], _: &[f64]) -> Result<Mat<f64>, Self::Error> {
+            Ok(Mat::from_fn(2, 2, |i, j| [[-2e3 * at[0], 1e3], [-1.0, 0.0]][i][j]))
+        }
+    }
+
+    #[test]
+    fn a_descent_follows_a_valley_that_bends() {
+        let mut valley = Valley(0);
+        let Ok(descent) = descend(&mut valley, &[-1.2, 1.0], 200);
+        assert!((descent.theta[0] - 1.0).abs() < 0.2, "{:?}", descent.theta);
+        assert!(valley.0 < 200, "{} residuals", valley.0);
+    }
 
     #[test]
     fn what_is_known_of_variables_is_the_determinant_that_others_leave() {
