@@ -4,6 +4,7 @@
 use super::corrected::{corrected, likely, same_with_corrections, with_corrections};
 use super::data::ExplainError;
 use super::fits::STEPS;
+use super::limits::is_limit;
 use super::noise::Whitening;
 use super::outcome::{self, Outcome};
 use super::predict::FINAL;
@@ -174,6 +175,7 @@ fn cost(base: &Base, found: &Found, before: f64) -> f64 {
 /// Whether two effects at once agree with the data; then they are what was found.
 fn two_at_once(base: &Base, found: &mut Found) -> Result<bool, ExplainError> {
     let (refits, noise) = base.polished(distinct(base.pairs()?))?;
+    let refits = plainest(base, found, refits);
     found.agrees = refits.first().is_some_and(|best| fits_well(base, found, best));
     if found.agrees {
         found.rungs.push(Rung { scale: scale_of(&refits, base.count()), refits, noise });
@@ -249,6 +251,7 @@ pub(super) fn add_rung(
             (refits, noise) = quiet.polished(base.ranked(refits))?;
         }
     }
+    let refits = plainest(base, found, refits);
     let Some(best) = refits.first() else { return Ok(false) };
     if best.parameters >= base.count() {
         return Ok(false);
@@ -262,6 +265,19 @@ pub(super) fn add_rung(
     found.agrees = fits_well(base, found, best);
     found.rungs.push(Rung { refits, scale, noise });
     Ok(true)
+}
+
+/// Without the sets whose laws contain simpler ones that leave no more than records and integrators are wrong by: what
+/// little such laws explain beyond is as likely an error of those.
+fn plainest(base: &Base, found: &Found, mut refits: Vec<Refit>) -> Vec<Refit> {
+    let contains = |set: &Refit, simple: &Refit| {
+        simple.parameters < set.parameters && is_limit(&simple.effects, &set.effects) && fits_well(base, found, simple)
+    };
+    while let Some(best) = refits.first() {
+        let Some(simple) = refits.iter().find(|r| contains(best, r)).cloned() else { break };
+        refits.retain(|set| !contains(set, &simple));
+    }
+    refits
 }
 
 /// Whether a fit agrees with the data, or all but.
