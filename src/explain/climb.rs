@@ -31,6 +31,9 @@ const CONFIRMED: f64 = 50.0;
 /// are better than: what is left below both is no further effect.
 const LAST: f64 = 4e-4;
 const LAST_ERROR: f64 = 2e-3;
+/// The same for a law that another contains.
+const PLAIN: f64 = 1e-4;
+const PLAIN_ERROR: f64 = 1e-3;
 /// The same for what corrections of the model may still explain, but no further effect of any size.
 const MOSTLY: f64 = 2e-3;
 const MOSTLY_ERROR: f64 = 6e-3;
@@ -270,8 +273,9 @@ pub(super) fn add_rung(
 /// Without the sets whose laws contain simpler ones that leave no more than records and integrators are wrong by: what
 /// little such laws explain beyond is as likely an error of those.
 fn plainest(base: &Base, found: &Found, mut refits: Vec<Refit>) -> Vec<Refit> {
+    let enough = |refit: &Refit| small(base, refit, found.before, [PLAIN, PLAIN_ERROR]);
     let contains = |set: &Refit, simple: &Refit| {
-        simple.parameters < set.parameters && is_limit(&simple.effects, &set.effects) && fits_well(base, found, simple)
+        simple.parameters < set.parameters && is_limit(&simple.effects, &set.effects) && enough(simple)
     };
     while let Some(best) = refits.first() {
         let Some(simple) = refits.iter().find(|r| contains(best, r)).cloned() else { break };
