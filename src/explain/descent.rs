@@ -326,7 +326,7 @@ fn square(residual: &[f64]) -> f64 {
 mod tests {
     use super::*;
 
-    /// Rosenbrock's valley, stretched: `10 k (y - x^2)` and `1 - x`.
+    /// Rosenbrock's valley: `10 (y - x^2)` and `1 - x`.
     struct Valley(usize);
 
     impl Residual for Valley {
@@ -334,11 +334,11 @@ mod tests {
 
         fn residual(&mut self, at: &[f64]) -> Result<Vec<f64>, Self::Error> {
             self.0 += 1;
-            Ok(vec![1e3 * (at[1] - at[0] * at[0]), 1.0 - at[0]])
+            Ok(vec![10.0 * (at[1] - at[0] * at[0]), 1.0 - at[0]])
         }
 
         fn jacobian(&mut self, at: &[f64], _: &[f64]) -> Result<Mat<f64>, Self::Error> {
-            Ok(Mat::from_fn(2, 2, |i, j| [[-2e3 * at[0], 1e3], [-1.0, 0.0]][i][j]))
+            Ok(Mat::from_fn(2, 2, |i, j| [[-20.0 * at[0], 10.0], [-1.0, 0.0]][i][j]))
         }
     }
 
@@ -346,8 +346,8 @@ mod tests {
     fn a_descent_follows_a_valley_that_bends() {
         let mut valley = Valley(0);
         let Ok(descent) = descend(&mut valley, &[-1.2, 1.0], 200);
-        assert!((descent.theta[0] - 1.0).abs() < 0.2, "{:?}", descent.theta);
-        assert!(valley.0 < 200, "{} residuals", valley.0);
+        assert!((descent.theta[0] - 1.0).abs() < 1e-2, "{:?}", descent.theta);
+        assert!(valley.0 < 60, "{} residuals", valley.0);
     }
 
     #[test]

@@ -17,6 +17,8 @@ const POLISHED: usize = 6;
 /// is missing.
 const ROUGHLY: usize = 2;
 const COARSE: f64 = 30.0;
+/// The same from which on no simpler law is heard beside the best.
+const HOPELESSLY_COARSE: f64 = 1e3;
 /// Steps of a fit on the response: of all drafts, and of those that may still become the best.
 pub(super) const FIRST_STEPS: usize = 4;
 pub(super) const STEPS: usize = 20;
@@ -119,7 +121,7 @@ impl Base<'_> {
         let most = if scale > COARSE { ROUGHLY } else { POLISHED };
         let mut rest = best.split_off(near.clamp(1, most).min(best.len()));
         // Few harmonics speak for laws that can bend to what they lack: the simpler ones are to be heard as well.
-        if let Some(set) = best.first().map(|r| r.effects.clone()) {
+        if let Some(set) = best.first().filter(|_| scale < HOPELESSLY_COARSE).map(|r| r.effects.clone()) {
             let (simpler, others) = rest.into_iter().partition(|r| is_limit(&r.effects, &set));
             best.extend::<Vec<Refit>>(simpler);
             rest = others;
