@@ -100,6 +100,7 @@ mod tests {
             lines: Vec::new(),
             matrices: None,
             elements: Vec::new(),
+            lumped: Vec::new(),
         }
     }
 

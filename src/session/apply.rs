@@ -4,6 +4,7 @@ use super::command::{Command, EffectAt, Setting, SourceAt, SourceSpec};
 use super::document::{Document, Refusal};
 use super::{sources, structure};
 use crate::effects::{Effect, Family, State};
+use crate::exchange::project::correction::CorrectionTable;
 use crate::exchange::project::file::{CandidatesTable, ProjectFile, RunTable, SensorTable, Shape, SourceTable};
 use crate::exchange::project::ruled_out::RuledOutTable;
 use crate::measurement::Quantity;
@@ -43,6 +44,7 @@ fn change(file: &mut ProjectFile, command: &Command, on: &Structure, folder: &Pa
         Command::SetStructureParameters(values) => set_numbers(file, values),
         Command::SetSupports(supports) => set_supports(file, *supports),
         Command::SetLumpedMass { dof, mass } => set_lumped(file, dof, *mass, on),
+        Command::CorrectStructure(tables) => correct_structure(file, tables),
         Command::ImportRuns(files) => import_runs(file, files, folder),
         Command::RemoveRun(run) => remove_run(file, run),
         Command::SetRunUse { file: run, enabled } => set(&mut run_of(file, run)?.enabled, *enabled),
@@ -90,6 +92,20 @@ fn set_state(file: &mut ProjectFile, at: &SourceAt, state: State, on: &Structure
 fn set_parameters(file: &mut ProjectFile, at: &SourceAt, values: &BTreeMap<String, f64>, on: &Structure) -> Done {
     let index = sources::find(file, at, on)?;
     file.source[index].parameters.extend(values.iter().map(|(name, &value)| (name.clone(), value)));
+    Ok(())
+}
+
+/// A part that is corrected already is corrected further by the product of the factors.
+#[expect(clippy::unnecessary_wraps, reason = "an arm of `change` ends with the outcome of its change")]
+fn correct_structure(file: &mut ProjectFile, tables: &[CorrectionTable]) -> Done {
+    for table in tables {
+        let same =
+            |other: &&mut CorrectionTable| CorrectionTable { factor: table.factor, ..(**other).clone() } == *table;
+        match file.structure.correction.iter_mut().find(same) {
+            Some(earlier) => earlier.factor *= table.factor,
+            None => file.structure.correction.push(table.clone()),
+        }
+    }
     Ok(())
 }
 

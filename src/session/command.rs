@@ -4,6 +4,7 @@
 
 use crate::balance::{Expansion, Weights};
 use crate::effects::{Effect, Family, State};
+use crate::exchange::project::correction::CorrectionTable;
 use crate::structure::beam::Supports;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -124,6 +125,8 @@ pub enum Command {
     SetSupports(Supports),
     /// Sets the lumped mass at a DOF, kg; none takes it off.
     SetLumpedMass { dof: String, mass: Option<f64> },
+    /// Multiplies parts of the structure that have no number of their own by factors.
+    CorrectStructure(Vec<CorrectionTable>),
     /// Adds records; paths are relative to the project.
     ImportRuns(Vec<String>),
     /// Takes a run out; its record stays where it is.
@@ -165,6 +168,7 @@ impl Command {
             Self::SetSupports(_) => "change supports".into(),
             Self::SetLumpedMass { mass: Some(_), .. } => "set lumped mass".into(),
             Self::SetLumpedMass { mass: None, .. } => "remove lumped mass".into(),
+            Self::CorrectStructure(_) => "correct structure".into(),
             Self::ImportRuns(files) => counted("import", files.len(), "run"),
             Self::RemoveRun(_) => "remove run".into(),
             Self::SetRunUse { enabled: true, .. } => "use run".into(),

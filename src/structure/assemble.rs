@@ -39,7 +39,8 @@ impl Parts {
     pub(super) fn finish(self, lumped: &[LumpedMass]) -> Result<Structure, StructureError> {
         let Self { kind, dofs, nodes, lines, matrices, elements } = self;
         check_labels(&dofs, &nodes)?;
-        let mut structure = Structure { kind, dofs, nodes, lines, matrices: None, elements };
+        let mut structure = Structure { kind, dofs, nodes, lines, matrices: None, elements, lumped: Vec::new() };
+        structure.lumped = lumped.iter().filter_map(|mass| structure.dof(&mass.dof)).collect();
         structure.matrices = matrices.map(|matrices| checked(matrices, lumped, &structure)).transpose()?;
         Ok(structure)
     }

@@ -99,6 +99,8 @@ pub struct Structure {
     pub(crate) lines: Vec<[usize; 2]>,
     pub(crate) matrices: Option<SystemMatrices>,
     pub(crate) elements: Vec<Element>,
+    /// Rows with a lumped mass.
+    pub(crate) lumped: Vec<usize>,
 }
 
 impl Structure {
@@ -135,6 +137,11 @@ impl Structure {
     /// Mass and stiffness; `None` for `points`.
     pub fn matrices(&self) -> Option<&SystemMatrices> {
         self.matrices.as_ref()
+    }
+
+    /// Rows of the DOFs with a lumped mass.
+    pub fn lumped(&self) -> &[usize] {
+        &self.lumped
     }
 
     /// Finite elements; empty unless the structure is a beam.

@@ -3,11 +3,13 @@
 use super::additions::labels;
 use crate::diagnosis::candidates::start_grids::scaled;
 use crate::diagnosis::diagnose::Correction;
-use crate::diagnosis::updating::parameters::Knob;
+use crate::diagnosis::updating::parameters::UpdatingParameter;
 use crate::effects::{Effect, Source, State};
 use crate::exchange::Project;
+use crate::exchange::project::correction::CorrectionTable;
 use crate::exchange::project::file::{ProjectFile, Shape, StructureTable};
 use crate::session::{Command, SourceAt};
+use crate::structure::Part;
 use std::collections::BTreeMap;
 
 /// How corrections are taken over.
@@ -28,27 +30,27 @@ pub fn adopt(
 ) -> Adopted {
     let mut adopted = Adopted::default();
     let mut numbers = Numbers { table: &file.structure, values: BTreeMap::new() };
+    let mut tables = Vec::new();
     for (k, correction) in corrections.iter().enumerate() {
         let factor = correction.factor;
-        let done = match &correction.knob {
-            Knob::Stiffness => numbers.stiffness(factor),
-            Knob::Mass => {
-                adopted.commands.extend(lumped(&file.structure, factor));
-                numbers.mass(factor)
-            }
-            Knob::Spring(dofs, _) => numbers.spring(dofs, factor),
-            Knob::Known(index) => match known(*index) {
-                Some(source) => {
-                    adopted.commands.push(resized(&source, factor, project));
-                    true
+        match &correction.parameter {
+            UpdatingParameter::Structure(part) => {
+                if *part == Part::Mass {
+                    adopted.commands.extend(lumped(&file.structure, factor));
                 }
-                None => false,
+                if !numbers.part(*part, factor) {
+                    tables.push(CorrectionTable::of(&project.structure, *part, factor));
+                }
+            }
+            UpdatingParameter::Known(index) => match known(*index) {
+                Some(source) => adopted.commands.push(resized(&source, factor, project)),
+                None => adopted.left.push(k),
             },
-            Knob::Mode(_) => false,
-        };
-        if !done {
-            adopted.left.push(k);
+            UpdatingParameter::Gain(_) | UpdatingParameter::Delay(_) => adopted.left.push(k),
         }
+    }
+    if !tables.is_empty() {
+        adopted.commands.push(Command::CorrectStructure(tables));
     }
     if !numbers.values.is_empty() {
         adopted.commands.push(Command::SetStructureParameters(numbers.values));
@@ -73,6 +75,18 @@ impl Numbers<'_> {
         }
     }
 
+    /// Whether the project has a number for the part.
+    fn part(&mut self, part: Part, factor: f64) -> bool {
+        match part {
+            Part::Stiffness => self.stiffness(factor),
+            Part::Mass => self.mass(factor),
+            Part::GroundSpring(dof) => self.spring("ground_stiffness", dof, factor),
+            Part::Coupling([first, second]) if second == first + 1 => self.spring("coupling_stiffness", first, factor),
+            Part::PointMass(dof) if self.table.lumped_mass.is_empty() => self.spring("masses", dof, factor),
+            _ => false,
+        }
+    }
+
     fn stiffness(&mut self, factor: f64) -> bool {
         match &self.table.shape {
             Shape::Beam(beam) => self.scale("youngs_modulus".to_owned(), beam.youngs_modulus, factor),
@@ -94,14 +108,15 @@ impl Numbers<'_> {
         true
     }
 
-    /// A spring of a chain, to the ground or between neighbours.
-    fn spring(&mut self, dofs: &[usize], factor: f64) -> bool {
+    /// Number `k` of a list of a chain.
+    fn spring(&mut self, name: &str, k: usize, factor: f64) -> bool {
         let Shape::Chain(chain) = &self.table.shape else { return false };
-        let (name, list) = match dofs.len() {
-            1 => ("ground_stiffness", &chain.ground_stiffness),
-            _ => ("coupling_stiffness", &chain.coupling_stiffness),
+        let list = match name {
+            "ground_stiffness" => &chain.ground_stiffness,
+            "coupling_stiffness" => &chain.coupling_stiffness,
+            _ => &chain.masses,
         };
-        let Some((k, value)) = dofs.iter().min().and_then(|&k| Some((k, *list.get(k)?))) else { return false };
+        let Some(&value) = list.get(k) else { return false };
         self.scale(format!("{name}[{}]", k + 1), value, factor);
         true
     }
@@ -143,8 +158,8 @@ mod tests {
                          [[structure.lumped_mass]]\ndof = 2\nmass = 0.5\n\
                          [[source]]\nlaw = \"viscous\"\ndofs = [1, 2]\nstate = \"known\"\nc = 2.0\n";
 
-    fn correction(knob: Knob, factor: f64) -> Correction {
-        Correction { knob, factor, deviation: 0.01 }
+    fn correction(parameter: UpdatingParameter, factor: f64) -> Correction {
+        Correction { parameter, factor, deviation: 0.01 }
     }
 
     #[test]
@@ -155,15 +170,15 @@ mod tests {
         let mut d = Document::open(&path, &Control::unattended()).unwrap().0;
         let before = d.session().document().file().clone();
         let list = [
-            correction(Knob::Stiffness, 1.1),
-            correction(Knob::Mass, 0.9),
-            correction(Knob::Spring(vec![1, 0], 50.0), 1.2),
-            correction(Knob::Known(0), 1.5),
-            correction(Knob::Mode(3), 1.01),
+            correction(UpdatingParameter::Structure(Part::Stiffness), 1.1),
+            correction(UpdatingParameter::Structure(Part::Mass), 0.9),
+            correction(UpdatingParameter::Structure(Part::Coupling([0, 1])), 1.2),
+            correction(UpdatingParameter::Known(0), 1.5),
+            correction(UpdatingParameter::Gain("acc@1".to_owned()), 1.01),
         ];
         let known = |k: usize| d.project.sources.iter().filter(|s| s.state == State::Known).nth(k).cloned();
         let adopted = adopt(&list, &known, &d.project, &before);
-        assert_eq!(adopted.left, [4], "a mode has no number in the project");
+        assert_eq!(adopted.left, [4], "a gain is no number of the model");
         d.apply(&Edit::All(adopted.commands)).unwrap();
         let stiffness = d.project.structure.matrices().unwrap().stiffness.clone();
         assert!((stiffness[(0, 1)] + 50.0 * 1.1 * 1.2).abs() < 1e-9 && (stiffness[(0, 0)] - 176.0).abs() < 1e-9);

@@ -221,7 +221,7 @@ fn a_detuned_model_is_corrected_and_lacks_nothing() {
     settle(&mut harness);
     let [before, floor] = error(&harness);
     assert!(before > 20.0 * floor, "the detuned model is wrong by {before}, noise {floor}");
-    assert_eq!(verdict(&harness), Verdict::Adequate, "no effect is missing");
+    assert_eq!(verdict(&harness), Verdict::Detuned, "no effect is missing");
     harness.get_by_label("The model is detuned");
     picture(&mut harness, "explain-detuned");
     press(&mut harness, "Correct the model");

@@ -10,14 +10,16 @@
 //! from the best of a grid of shapes, whose scale is linear. Errors of a channel are regressed alike: the free relative
 //! error is `t - 1` of a response, `1 - 1/t` of a force.
 
+use crate::diagnosis::candidates::eliminator::Eliminator;
 use crate::diagnosis::candidates::friction::{held, sizes, slides};
 use crate::diagnosis::candidates::start::{Fields, relative};
 use crate::diagnosis::candidates::start_grids::{Range, scaled, shapes};
-use crate::diagnosis::localisation::free_force::FreeForce;
+use crate::diagnosis::localisation::free_force::{ForceFreedom, FreeForce};
 use crate::diagnosis::localisation::location::Spot;
 use crate::diagnosis::residual::data::{Data, RunData};
 use crate::diagnosis::selection::levenberg_marquardt::{Descent, Residual, Variables, descend};
 use crate::effects::{ChannelLaw, Effect, Law, Motion, Sampling, Source, State, effect::Kind};
+use dashpot_numerics::dot;
 use faer::{Mat, c64};
 use std::convert::Infallible;
 
@@ -40,6 +42,8 @@ pub(crate) struct PlaceData {
     /// Impedance of the structure between the DOFs of a leg, N s/m, one a run.
     impedances: Vec<f64>,
     sampling: Sampling,
+    /// Parameters that were free beside the force.
+    freedom: Option<Eliminator>,
     /// Range of the motion.
     pub range: Range,
 }
@@ -72,7 +76,14 @@ pub struct LawFit {
 impl PlaceData {
     /// The free `forces` of a spot with the motion `fields` that they imply; `impedances` (N s/m, one a run) are those of
     /// the structure there.
-    pub fn new(data: &Data, spot: &Spot, forces: &[Vec<FreeForce>], fields: &Fields, impedances: Vec<f64>) -> Self {
+    pub fn new(
+        data: &Data,
+        spot: &Spot,
+        forces: &[Vec<FreeForce>],
+        fields: &Fields,
+        impedances: Vec<f64>,
+        freedom: Option<ForceFreedom>,
+    ) -> Self {
         let sampling = Sampling::new(SAMPLES);
         let motion = |(run, field): (&RunData, &Mat<c64>)| {
             let harmonics = match spot {
@@ -88,7 +99,8 @@ impl PlaceData {
             sampling.motion(1.0, 0.0, &harmonics).displacement
         };
         let histories = forces.iter().map(history).collect();
-        Self { spot: spot.clone(), forces: forces.to_vec(), motions, histories, impedances, sampling, range }
+        let freedom = freedom.map(|freedom| Eliminator::new(forces, &freedom));
+        Self { spot: spot.clone(), forces: forces.to_vec(), motions, histories, impedances, sampling, freedom, range }
     }
 
     /// Force over motion at the fundamental of every run in which both can be seen.
@@ -194,14 +206,10 @@ impl PlaceData {
 
     /// Best scale of the force at `p`, and the misfit with it.
     fn scale(&self, law: &dyn Law, p: &[f64]) -> (f64, f64) {
-        let (mut product, mut square, mut total) = (0.0, 0.0, 0.0);
-        for (motion, forces) in self.motions.iter().zip(&self.forces) {
-            for (free, f) in forces.iter().zip(self.law_force(law, p, motion, forces.len())) {
-                product += free.weight * (f.conj() * free.value).re;
-                square += free.weight * f.norm_sqr();
-                total += free.weight * free.value.norm_sqr();
-            }
-        }
+        let none = |_: usize, order: usize| vec![c64::new(0.0, 0.0); order];
+        let measured = self.rows(1.0, none);
+        let force = self.rows(0.0, |r, order| self.law_force(law, p, &self.motions[r], order));
+        let (product, square, total) = (-dot(&measured, &force), dot(&force, &force), dot(&measured, &measured));
         if square > 0.0 { (product / square, total - product * product / square) } else { (0.0, total) }
     }
 
@@ -242,7 +250,10 @@ impl PlaceData {
                 rows.extend([difference.re, difference.im]);
             }
         }
-        rows
+        match &self.freedom {
+            Some(freedom) => freedom.eliminated(rows),
+            None => rows,
+        }
     }
 
     fn law_force(&self, law: &dyn Law, p: &[f64], motion: &Motion, order: usize) -> Vec<c64> {
@@ -263,14 +274,11 @@ impl PlaceData {
         let force = matches!(self.spot, Spot::Force(_));
         let value = |t: c64| if force { 1.0 - 1.0 / t } else { t - 1.0 };
         let misfit = |p: f64| -> f64 {
-            let runs = self.forces.iter().zip(&self.motions);
-            let of = |(forces, motion): (&Vec<FreeForce>, &Motion)| -> f64 {
-                let at = |(i, free): (usize, &FreeForce)| {
-                    free.weight * (free.value - value(law.transfer(p, (i + 1) as f64 * motion.omega))).norm_sqr()
-                };
-                forces.iter().enumerate().map(at).sum()
+            let of = |r: usize, order: usize| {
+                (1..=order).map(|h| value(law.transfer(p, h as f64 * self.motions[r].omega))).collect()
             };
-            runs.map(of).sum()
+            let rows = self.rows(1.0, of);
+            dot(&rows, &rows)
         };
         let step = if effect == Effect::Delay { 1e-7 / self.range.omega.max(1e-3) * 100.0 } else { 1e-5 };
         let mut p = law.neutral();

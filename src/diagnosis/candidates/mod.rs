@@ -1,5 +1,6 @@
 //! Laws regressed on the identified force of a place: start grids, special cases, fingerprints.
 
+mod eliminator;
 pub mod fingerprint;
 pub mod fingerprint_plot;
 pub mod friction;

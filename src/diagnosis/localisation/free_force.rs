@@ -50,6 +50,9 @@ pub struct Screen {
     cells: Vec<Vec<Cell>>,
     /// Present values of the updating parameters in units of their prior deviations.
     reference: Vec<f64>,
+    /// Squared residual per datum that even the best place leaves, at least 1: the parameters are not to explain what is
+    /// no noise.
+    misfit: f64,
 }
 
 /// Parameters that are free while places are looked at, by what they do to the fundamentals.
@@ -118,12 +121,63 @@ impl Screen {
             };
             cells.push((1..=run.harmonics).map(at).collect());
         }
-        Ok(Self { spots, cells, reference: freedom.values.clone() })
+        let mut screen = Self { spots, cells, reference: freedom.values.clone(), misfit: 1.0 };
+        screen.adjust();
+        Ok(screen)
     }
 
     /// Squared whitened residual of the model as it is.
     pub fn total(&self) -> f64 {
         self.cells.iter().flatten().map(|cell| cell.total).sum()
+    }
+
+    /// Sets the misfit by what the best place leaves, with the parameters first held, then free.
+    fn adjust(&mut self) {
+        let count: usize = self.cells.iter().flatten().map(|cell| 2 * cell.residual.len()).sum();
+        let forces: usize = self.cells.iter().map(|run| 2 * run.len()).sum();
+        let freedom = count.saturating_sub(forces).max(count / 8).max(1) as f64;
+        let spots = 0..self.spots.len();
+        let held = spots.clone().map(|s| self.sum(|cell| cell.left_by(s))).fold(f64::INFINITY, f64::min);
+        self.misfit = (held / freedom).max(1.0);
+        for _ in 0..2 {
+            let free = spots.clone().map(|s| self.left(&[s], |cell| cell.left_by(s))).fold(f64::INFINITY, f64::min);
+            self.misfit = (free / freedom).clamp(1.0, self.misfit);
+        }
+    }
+
+    /// Standardised updating parameters that fit best together with free forces at `spots`.
+    pub(crate) fn updated(&self, spots: &[usize]) -> Vec<f64> {
+        match self.freed(spots) {
+            Some(freed) => self.reference.iter().zip(&freed.change).map(|(u, change)| u + change).collect(),
+            None => self.reference.clone(),
+        }
+    }
+
+    /// How the free force at one spot would change with the parameters that are free; `None` where none is.
+    pub(crate) fn freedom(&self, spot: usize) -> Option<ForceFreedom> {
+        let freed = self.freed(&[spot])?;
+        let of_run = |run: &Vec<Cell>| {
+            let cell = run.first()?;
+            let square = cell.squares[spot];
+            if square <= 0.0 {
+                return None;
+            }
+            let by = |b: &Vec<c64>| -dot(&cell.columns[spot], b) / square;
+            let own: Vec<c64> = cell.own.iter().map(by).collect();
+            let local = cell.eliminate(&[spot], self.misfit);
+            let q = cell.slopes.len();
+            let follow =
+                |j: usize| own.iter().enumerate().fold(c64::new(0.0, 0.0), |s, (k, o)| s + *o * local.solved[(k, j)]);
+            let common = (0..q).map(|j| by(&cell.slopes[j]) - follow(j)).collect();
+            let part = |z: c64, i: usize| if i == 0 { z.re } else { z.im };
+            let spread = |i: usize, j: usize| {
+                let sum = |k: usize| (0..own.len()).map(|l| local.inverse[(k, l)] * part(own[l], j)).sum::<f64>();
+                (0..own.len()).map(|k| part(own[k], i) * sum(k)).sum::<f64>()
+            };
+            Some(RunForceFreedom { common, own: [spread(0, 0), spread(0, 1), spread(1, 1)] })
+        };
+        let runs = self.cells.iter().map(of_run).collect();
+        Some(ForceFreedom { runs, information: freed.normal })
     }
 
     /// Every single place, best first.
@@ -159,7 +213,7 @@ impl Screen {
         let alone = self.sum(of);
         let Some(freed) = self.freed(spots) else { return alone };
         let prior: f64 = self.reference.iter().map(|u| u * u).sum();
-        alone + prior - freed.gain
+        alone + self.misfit * prior - freed.gain
     }
 
     /// Changes of the parameters that fit best together with free forces at `spots`; those of a run are eliminated first:
@@ -169,11 +223,11 @@ impl Screen {
         if self.cells.iter().flatten().all(|cell| cell.slopes.is_empty() && cell.own.is_empty()) {
             return None;
         }
-        let mut normal = Mat::from_fn(q, q, |i, j| if i == j { 1.0 } else { 0.0 });
-        let mut right: Vec<f64> = self.reference.iter().map(|u| -u).collect();
+        let mut normal = Mat::from_fn(q, q, |i, j| if i == j { self.misfit } else { 0.0 });
+        let mut right: Vec<f64> = self.reference.iter().map(|u| -self.misfit * u).collect();
         let (mut gain, mut solved) = (0.0, Vec::with_capacity(self.cells.len()));
         for run in &self.cells {
-            let Some(local) = run.first().map(|cell| cell.eliminate(spots)) else { continue };
+            let Some(local) = run.first().map(|cell| cell.eliminate(spots, self.misfit)) else { continue };
             for (i, value) in right.iter_mut().enumerate().take(local.right.len()) {
                 *value += local.right[i];
                 (0..q).for_each(|j| normal[(i, j)] += local.normal[(i, j)]);
@@ -186,16 +240,17 @@ impl Screen {
         let change: Vec<f64> = (0..q).map(|k| change[(k, 0)]).collect();
         gain += change.iter().zip(&right).map(|(x, b)| x * b).sum::<f64>();
         let own = solved.iter().map(|local| local.own(&change)).collect();
-        Some(Freed { change, own, gain })
+        Some(Freed { change, own, gain, normal })
     }
 
     /// The free force of each spot of a placing, `[spot][run][harmonic]`, the others there too.
     pub fn forces(&self, spots: &[usize]) -> Vec<Vec<Vec<FreeForce>>> {
-        let freed = self.freed(spots).unwrap_or_default();
+        let freed = self.freed(spots);
+        let (change, all) = freed.map_or_else(Default::default, |freed| (freed.change, freed.own));
         let mut forces = vec![Vec::with_capacity(self.cells.len()); spots.len()];
         for (r, run) in self.cells.iter().enumerate() {
-            let own = freed.own.get(r).map_or(&[][..], Vec::as_slice);
-            let at = |cell: &Cell| cell.corrected(&freed.change, own).solve(spots);
+            let own = all.get(r).map_or(&[][..], Vec::as_slice);
+            let at = |cell: &Cell| cell.corrected(&change, own).solve(spots);
             let solved: Vec<Vec<FreeForce>> = run.iter().map(at).collect();
             for (k, list) in forces.iter_mut().enumerate() {
                 list.push(solved.iter().map(|cell| cell[k]).collect());
@@ -267,7 +322,7 @@ impl Cell {
     }
 
     /// Normal equations of the common parameters where free forces at `spots` and the run's own parameters are eliminated.
-    fn eliminate(&self, spots: &[usize]) -> Eliminated {
+    fn eliminate(&self, spots: &[usize], misfit: f64) -> Eliminated {
         let basis = self.basis(spots);
         let all: Vec<&Vec<c64>> = self.slopes.iter().chain(&self.own).collect();
         let shares: Vec<Vec<c64>> = all.iter().map(|b| basis.iter().map(|v| dot(v, b)).collect()).collect();
@@ -275,15 +330,18 @@ impl Cell {
         let product = |i: usize, j: usize| (dot(all[i], all[j]) - dot(&shares[i], &shares[j])).re;
         let load = |i: usize| (dot(all[i], &self.residual) - dot(&shares[i], &seen)).re;
         let (q, p) = (self.slopes.len(), self.own.len());
-        let inner = Mat::from_fn(p, p, |i, j| product(q + i, q + j) + f64::from(u8::from(i == j)));
+        let inner = Mat::from_fn(p, p, |i, j| product(q + i, q + j) + if i == j { misfit } else { 0.0 });
         let outer = Mat::from_fn(p, q + 1, |i, j| if j < q { product(q + i, j) } else { load(q + i) });
-        let solved = solve_symmetric(inner.as_ref(), outer.as_ref()).unwrap_or_else(|_| Mat::zeros(p, q + 1));
+        let inverse = solve_symmetric(inner.as_ref(), Mat::<f64>::identity(p, p).as_ref());
+        let inverse = inverse.unwrap_or_else(|_| Mat::zeros(p, p));
+        let solved = &inverse * &outer;
         let eliminated = |i: usize, j: usize| (0..p).map(|k| outer[(k, i)] * solved[(k, j)]).sum::<f64>();
         Eliminated {
             normal: Mat::from_fn(q, q, |i, j| product(i, j) - eliminated(i, j)),
             right: (0..q).map(|i| load(i) - eliminated(i, q)).collect(),
             gain: eliminated(q, q),
             solved,
+            inverse,
         }
     }
 
@@ -332,7 +390,7 @@ impl Cell {
 }
 
 /// Changes of the parameters that were free beside free forces.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone)]
 struct Freed {
     /// Of the common ones, in units of their prior deviations.
     change: Vec<f64>,
@@ -340,6 +398,26 @@ struct Freed {
     own: Vec<Vec<f64>>,
     /// By how much they lower the squared residual with its prior.
     gain: f64,
+    /// Normal matrix of the common ones, free forces and own ones eliminated.
+    normal: Mat<f64>,
+}
+
+/// How a free force would change with parameters that are free.
+#[derive(Debug, Clone)]
+pub(crate) struct ForceFreedom {
+    /// At the fundamental of every run; `None` where the place is not seen.
+    pub runs: Vec<Option<RunForceFreedom>>,
+    /// Information on the common parameters, free forces eliminated, q x q.
+    pub information: Mat<f64>,
+}
+
+/// The same in one run.
+#[derive(Debug, Clone)]
+pub(crate) struct RunForceFreedom {
+    /// Derivatives by the standardised common parameters, N.
+    pub common: Vec<c64>,
+    /// Covariance by the run's own parameters: of the real part, of both, of the imaginary part, N^2.
+    pub own: [f64; 3],
 }
 
 /// Normal equations of a run whose own parameters are eliminated.
@@ -350,6 +428,8 @@ struct Eliminated {
     gain: f64,
     /// Own parameters, one column a common one whose change takes its share off, the last as they are without.
     solved: Mat<f64>,
+    /// Covariance of the own ones, free forces eliminated.
+    inverse: Mat<f64>,
 }
 
 impl Eliminated {

@@ -54,8 +54,7 @@ impl Outcome<'_> {
         let predictions = quiet.bench().predict(&best.effects, &FINAL, &best.starts)?;
         diagnosis.noise_floor = noise_floor(&quiet, &best.effects, &predictions);
         diagnosis.corrections = corrections(&quiet, &predictions);
-        let criteria: Vec<f64> = top.refits.iter().map(|r| base.evidence(r, top.scale)).collect();
-        let weights = evidence_weights(&criteria);
+        let weights = evidence_weights(&top.costs);
         let ordered = order(&quiet.bench(), best, &rungs[0])?;
         for set in &ordered {
             let misfit = set.chi_square / base.count().max(1) as f64;

@@ -5,7 +5,7 @@
 
 use crate::effects::{Parameter, Source};
 use crate::math::least_squares::solve_symmetric;
-use dashpot_numerics::{Cholesky, transposed_product};
+use dashpot_numerics::transposed_product;
 use faer::Mat;
 
 /// Least and largest damping factor before a descent gives up.

@@ -13,7 +13,7 @@ use crate::diagnosis::residual::prediction::{FINAL, Predictor, RunPrediction};
 use crate::diagnosis::residual::whitening::Whitening;
 use crate::diagnosis::selection::fitted_model::{Bench, Refit};
 use crate::diagnosis::updating::noise_model::{Linearisation, NoiseModel};
-use crate::effects::{Effect, Source};
+use crate::effects::{Effect, Source, effect::Kind};
 use crate::math::statistics::bayesian_information;
 use faer::{Mat, c64};
 use std::sync::Arc;
@@ -247,7 +247,7 @@ impl<'a> Base<'a> {
             Spot::Response(_) | Spot::Force(_) => 0.0,
         };
         let impedances = self.data.runs.iter().enumerate().map(impedance).collect();
-        PlaceData::new(self.data, spot, forces, fields, impedances)
+        PlaceData::new(self.data, spot, forces, fields, impedances, view.screen.freedom(s))
     }
 
     /// Places whose laws may become the best: what the best place leaves to its best law bounds what others may leave.
@@ -325,14 +325,45 @@ impl<'a> Base<'a> {
         fit + EXTRA * extra as f64 + POSING * posing as f64
     }
 
+    /// Evidence of each fit, their squared residuals scaled by what the best leaves.
+    pub fn costs(&self, refits: &[Refit]) -> Vec<f64> {
+        let scale = scale_of(refits, self.count());
+        refits.iter().map(|refit| self.evidence(refit, scale)).collect()
+    }
+
     /// Best first; none of more parameters than runs.
     pub fn ranked(&self, mut refits: Vec<Refit>) -> Vec<Refit> {
         let allowed = |(e, d): (&Source, &Vec<f64>)| !disguised(e) && is_allowed(&self.data.excluded, e, d);
         let few = |r: &Refit| r.parameters <= self.data.runs.len();
-        refits.retain(|r| r.chi_square.is_finite() && few(r) && r.effects.iter().zip(&r.deviations).all(allowed));
+        refits.retain(|r| {
+            r.chi_square.is_finite()
+                && few(r)
+                && r.effects.iter().zip(&r.deviations).all(allowed)
+                && r.effects.iter().zip(&r.deviations).all(is_real)
+        });
         let scale = scale_of(&refits, self.count());
         refits.sort_by(|a, b| self.evidence(a, scale).total_cmp(&self.evidence(b, scale)));
         refits
+    }
+}
+
+/// Bounds of the gain of a channel: beyond, it is not this channel.
+const GAINS: [f64; 2] = [0.2, 5.0];
+/// Relative deviation of the size of an effect from which on there may as well be none.
+const VOID: f64 = 0.5;
+
+/// Whether an effect with the standard deviations of its parameters is one: of a size that the data know, within bounds.
+fn is_real((source, deviations): (&Source, &Vec<f64>)) -> bool {
+    let value = source.parameters[0];
+    match source.effect.kind() {
+        Kind::Channel(law) => {
+            let bounded = law.neutral() == 0.0 || (GAINS[0]..=GAINS[1]).contains(&value);
+            bounded && (value - law.neutral()).abs() * VOID > deviations[0]
+        }
+        Kind::Relative(_) | Kind::Whole(_) => {
+            let known = |(p, d): (&f64, &f64)| p.abs() * VOID > *d;
+            source.parameters.iter().zip(deviations).any(known)
+        }
     }
 }
 

@@ -45,6 +45,8 @@ pub(crate) struct Rung {
     pub scale: f64,
     /// Noise with the truncation of the best.
     pub noise: Arc<NoiseModel>,
+    /// Evidence of each, the smaller the better.
+    pub costs: Vec<f64>,
 }
 
 /// Where a search ended.
@@ -94,7 +96,7 @@ fn confirm(base: &Base, found: &mut Found) -> Result<(), DiagnosisError> {
     let Some(more) = refits.first() else { return Ok(()) };
     if base.evidence(more, 1.0) + CONFIRMED < base.evidence(best, 1.0) && settled(more) {
         let scale = scale_of(&refits, base.count());
-        found.rungs.push(Rung { refits, scale, noise });
+        found.rungs.push(Rung { costs: base.costs(&refits), refits, scale, noise });
     }
     Ok(())
 }
@@ -119,7 +121,8 @@ pub(crate) fn explain<'a>(base: Base<'a>, before: f64) -> Result<Outcome<'a>, Di
         return Ok(Outcome { base, found: exact });
     }
     let bare = base.bare()?;
-    let corrected = cost(&bare, None);
+    let (likely, _) = bare.with_likely_scales(None)?;
+    let corrected = cost(&likely, None);
     // Free forces at two places explain whatever two sensors see.
     let telling = base.data.runs.iter().all(|run| run.alive.len() > 2);
     let detuned = corrected < DETUNED * before;
@@ -127,14 +130,19 @@ pub(crate) fn explain<'a>(base: Base<'a>, before: f64) -> Result<Outcome<'a>, Di
         confirm(&base, &mut exact)?;
         return Ok(Outcome { base, found: exact });
     }
-    beside_updating(bare, corrected, before)
+    beside_updating(bare, likely, corrected, before)
 }
 
 /// The search with the updating parameters free: at each stage the candidates seen from the model as it was updated last,
 /// then the model updated beside the best of them, and the candidates again.
-fn beside_updating<'a>(bare: Base<'a>, corrected: f64, before: f64) -> Result<Outcome<'a>, DiagnosisError> {
+fn beside_updating<'a>(
+    bare: Base<'a>,
+    mut likely: Base<'a>,
+    corrected: f64,
+    before: f64,
+) -> Result<Outcome<'a>, DiagnosisError> {
     let mut found = Found { updated: true, rungs: Vec::new(), agrees: false, before };
-    let (mut here, mut least) = (bare, corrected);
+    let (mut here, mut least) = (bare.localised()?, corrected);
     while found.rungs.len() < MOST_EFFECTS {
         let from = found.rungs.last().map(|rung| rung.refits[0].clone());
         let refits = here.singles(from.as_ref())?;
@@ -142,25 +150,27 @@ fn beside_updating<'a>(bare: Base<'a>, corrected: f64, before: f64) -> Result<Ou
             (here.early)(&conclusion::early(&here, &refits));
         }
         let Some((there, refits)) = updated_beside(&here, from.as_ref(), refits)? else { break };
-        let best = &refits[0];
-        let now = cost(&there, Some(best));
-        let scale = scale_of(&refits, there.count());
-        if (least - now) / scale < EVIDENCE || best.parameters >= there.count() {
+        let Some(weighed) = weighed(&there, refits)? else { break };
+        let best = &weighed.refits[0];
+        let scale = scale_of(&weighed.refits, there.count());
+        if (least - weighed.least) / scale < EVIDENCE || best.parameters >= there.count() {
             break;
         }
-        found.agrees = agrees(&there, best.chi_square, best.parameters);
-        found.rungs.push(Rung { scale, noise: there.noise.clone(), refits });
-        (here, least) = (there, now);
+        found.agrees = agrees(&weighed.base, best.chi_square, best.parameters);
+        least = weighed.least;
+        let noise = weighed.base.noise.clone();
+        found.rungs.push(Rung { scale, noise, refits: weighed.refits, costs: weighed.costs });
+        (here, likely) = (there, weighed.base);
         if found.agrees {
             break;
         }
     }
     if found.rungs.is_empty() {
-        let residual = here.bench().residual(&here.predictions);
-        found.agrees = agrees(&here, residual.iter().map(|r| r * r).sum(), 0);
+        let residual = likely.bench().residual(&likely.predictions);
+        found.agrees = agrees(&likely, residual.iter().map(|r| r * r).sum(), 0);
     }
-    pruned(&here, &mut found)?;
-    Ok(Outcome { base: here, found })
+    pruned(&likely, &mut found)?;
+    Ok(Outcome { base: likely, found })
 }
 
 /// Times that the model is updated beside the best candidate and the candidates are fitted again.
@@ -200,6 +210,42 @@ fn updated_beside<'a>(
     Ok(there.filter(|_| !refits.is_empty()).map(|there| (there, refits)))
 }
 
+/// Candidates weighed by their evidence, each with the scales that are most likely beside it.
+struct Weighed<'a> {
+    /// The model with the scales of the best.
+    base: Base<'a>,
+    /// Best first.
+    refits: Vec<Refit>,
+    costs: Vec<f64>,
+    least: f64,
+}
+
+/// Candidates whose scales are estimated.
+const WEIGHED: usize = 4;
+
+fn weighed<'a>(there: &Base<'a>, refits: Vec<Refit>) -> Result<Option<Weighed<'a>>, DiagnosisError> {
+    let count = refits.len().min(WEIGHED);
+    let one = |k: usize| -> Result<(f64, Base<'a>, Refit), DiagnosisError> {
+        let (base, refit) = there.with_likely_scales(Some(&refits[k]))?;
+        let refit = refit.unwrap_or_else(|| refits[k].clone());
+        Ok((cost(&base, Some(&refit)), base, refit))
+    };
+    let mut all = there.control.map(count, one).into_iter().collect::<Result<Vec<_>, _>>()?;
+    all.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let mut costs: Vec<f64> = all.iter().map(|(cost, _, _)| *cost).collect();
+    let Some(least) = costs.first().copied() else { return Ok(None) };
+    let mut weighed: Vec<Refit> = all.iter().map(|(_, _, refit)| refit.clone()).collect();
+    // Those that were far behind before their scales were estimated stay behind.
+    let behind = refits.get(count - 1).map_or(0.0, |last| there.evidence(last, 1.0));
+    for refit in refits.iter().skip(count) {
+        let worst = costs[count - 1];
+        costs.push(worst + there.evidence(refit, 1.0) - behind);
+        weighed.push(refit.clone());
+    }
+    let base = all.swap_remove(0).1;
+    Ok(Some(Weighed { base, refits: weighed, costs, least }))
+}
+
 pub(crate) fn level(refit: &Refit) -> (f64, usize) {
     (refit.chi_square, refit.parameters)
 }
@@ -219,7 +265,7 @@ fn two_at_once(base: &Base, found: &mut Found) -> Result<bool, DiagnosisError> {
     let refits = plainest(base, found, refits);
     found.agrees = refits.first().is_some_and(|best| fits_well(base, found, best));
     if found.agrees {
-        found.rungs.push(Rung { scale: scale_of(&refits, base.count()), refits, noise });
+        found.rungs.push(Rung { scale: scale_of(&refits, base.count()), costs: base.costs(&refits), refits, noise });
     }
     Ok(found.agrees)
 }
@@ -241,7 +287,7 @@ fn pruned(base: &Base, found: &mut Found) -> Result<(), DiagnosisError> {
         let scale = scale_of(&refits, base.count());
         let before = found.rungs.pop().map_or_else(Vec::new, |rung| rung.refits);
         let refits = distinct(base.ranked(refits.into_iter().chain(before).collect()));
-        found.rungs.push(Rung { refits, scale, noise });
+        found.rungs.push(Rung { costs: base.costs(&refits), refits, scale, noise });
     }
     Ok(())
 }
@@ -298,7 +344,7 @@ pub(crate) fn add_rung(
         return Ok(false);
     }
     found.agrees = fits_well(base, found, best);
-    found.rungs.push(Rung { refits, scale, noise });
+    found.rungs.push(Rung { costs: base.costs(&refits), refits, scale, noise });
     Ok(true)
 }
 

@@ -94,6 +94,19 @@ impl Marginalisation {
         (0..self.slopes.len()).map(|k| solved[(k, 0)]).collect()
     }
 
+    /// The parameters (standardised) that fit the whitened residual `rows` where its variance is `misfit` rather than 1.
+    pub fn solve_with_misfit(&self, rows: &[f64], misfit: f64) -> Vec<f64> {
+        let q = self.slopes.len();
+        let full: Vec<f64> = rows.iter().zip(&self.offset).map(|(r, o)| r + o).collect();
+        let prior = |i: usize, j: usize| if i == j { misfit } else { 0.0 };
+        let normal = Mat::from_fn(q, q, |i, j| dot(&self.slopes[i], &self.slopes[j]) + prior(i, j));
+        let right = Mat::from_fn(q, 1, |k, _| dot(&self.slopes[k], &full));
+        match Cholesky::new(normal.as_ref()) {
+            Some(factor) => factor.solve(right.as_ref()).col_as_slice(0).to_vec(),
+            None => self.updating.standardised(),
+        }
+    }
+
     /// Variances of the standardised parameters, the effects being known.
     pub fn variances(&self) -> Vec<f64> {
         let Some(factor) = &self.factor else { return Vec::new() };

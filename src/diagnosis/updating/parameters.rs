@@ -53,6 +53,9 @@ pub struct Scales {
 }
 
 impl Scales {
+    /// Those of the search, before they are estimated beside each candidate: wide enough for what laboratories report,
+    /// narrow enough that they leave to an effect what is an effect's.
+    pub const SEARCH: Self = Self { model: 0.02, known: 0.2, gain: 0.01, phase: 3e-3, shift: 5e-4, response: 3e-3 };
     /// Where their estimation starts, and what is kept where the data cannot tell: what laboratories report.
     pub const START: Self = Self { model: 0.01, known: 0.2, gain: 3e-3, phase: 1e-3, shift: 2e-4, response: 1e-3 };
     /// Least: below any measurement.
@@ -133,7 +136,7 @@ impl Updating {
             parameters.extend(forces.into_iter().map(UpdatingParameter::Gain));
         }
         let logs = omegas.iter().map(|w| w.ln()).sum::<f64>() / omegas.len().max(1) as f64;
-        Self { values: vec![0.0; parameters.len()], parameters, scales: Scales::START, omega: logs.exp() }
+        Self { values: vec![0.0; parameters.len()], parameters, scales: Scales::SEARCH, omega: logs.exp() }
     }
 
     /// Number of parameters.
@@ -223,6 +226,8 @@ fn unknown(part: Part) -> Unknown {
 /// Parts of a structure that are wrong independently of each other, as far as its kind shows them.
 fn parts(structure: &Structure, omegas: &[f64]) -> Vec<Part> {
     let mut parts = vec![Part::Stiffness, Part::Mass];
+    let chain = structure.elements().is_empty() && structure.kind() == StructureKind::Chain;
+    parts.extend(structure.lumped().iter().filter(|_| !chain).map(|&row| Part::PointMass(row)));
     let count = structure.elements().len();
     if count > 0 {
         let groups = ELEMENT_GROUPS.min(count);

@@ -5,10 +5,10 @@ use super::error::{Problem, ProjectError};
 use super::file::{Label, Lines};
 use super::reader::Table;
 use crate::structure::{Part, Structure};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// Kinds of parts.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 #[expect(missing_docs, reason = "the names say it")]
 pub enum Corrected {
@@ -40,18 +40,19 @@ impl Corrected {
 }
 
 /// Table `[[structure.correction]]`.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct CorrectionTable {
     /// Kind of part.
     pub what: Corrected,
     /// DOFs of a spring (one: to the ground) or of a mass.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub dofs: Vec<Label>,
     /// First and last element, from 1.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub elements: Option<[i64; 2]>,
     /// Mode, from 1.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub mode: Option<i64>,
     /// Factor, positive.
     pub factor: f64,

@@ -58,6 +58,14 @@ impl Points {
         let node = |dof: &Dof| Node { label: dof.label.clone(), position: [dof.node as f64, 0.0, 0.0] };
         let nodes = self.dofs.iter().map(node).collect();
         let kind = StructureKind::Points;
-        Structure { kind, nodes, dofs: self.dofs, lines: Vec::new(), matrices: None, elements: Vec::new() }
+        Structure {
+            kind,
+            nodes,
+            dofs: self.dofs,
+            lines: Vec::new(),
+            matrices: None,
+            elements: Vec::new(),
+            lumped: Vec::new(),
+        }
     }
 }

@@ -7,8 +7,9 @@ use super::ranking::{open, ranked};
 use super::{Deed, Scene};
 use crate::diagnosis::Diagnosis;
 use crate::diagnosis::diagnose::Verdict;
-use crate::diagnosis::updating::parameters::Knob;
+use crate::diagnosis::updating::parameters::UpdatingParameter;
 use crate::effects::{Place, Source};
+use crate::structure::Part;
 use crate::window::app::Ask;
 use crate::window::corrections::{self, Adopted};
 use crate::window::explained::model::at;
@@ -95,8 +96,7 @@ fn far_off(scene: &Scene<'_>) -> bool {
 
 /// Whether nothing is missing once the model is corrected, but the model as it stands does not explain the data.
 pub fn is_detuned(diagnosis: &Diagnosis) -> bool {
-    let beyond = diagnosis.error_before > BEYOND * diagnosis.noise_floor;
-    diagnosis.verdict == Verdict::Adequate && !diagnosis.corrections.is_empty() && beyond
+    diagnosis.verdict == Verdict::Detuned
 }
 
 /// The verdict as a sentence.
@@ -104,7 +104,7 @@ pub fn sentence(diagnosis: &Diagnosis) -> String {
     let times = diagnosis.error_before / diagnosis.noise_floor.max(f64::MIN_POSITIVE);
     let (error, floor) = (in_words(diagnosis.error_before), format::percent(diagnosis.noise_floor));
     match diagnosis.verdict {
-        Verdict::Adequate if is_detuned(diagnosis) => {
+        Verdict::Detuned => {
             let after = diagnosis.steps.last().map_or(diagnosis.noise_floor, |s| s.error);
             let after = in_words(after);
             format!(
@@ -120,6 +120,10 @@ pub fn sentence(diagnosis: &Diagnosis) -> String {
         Verdict::Missing => {
             format!("The model is wrong by {error}, {} times what noise alone makes.", format::significant(times, 2))
         }
+        Verdict::Unexplained => format!(
+            "The model is wrong by {error}, {} times the noise, and no law known here gives what it lacks.",
+            format::significant(times, 2)
+        ),
         Verdict::Undecided => format!(
             "The model is wrong by {error}, {} times the noise, and these data cannot tell what would mend it.",
             format::significant(times, 2)
@@ -128,7 +132,7 @@ pub fn sentence(diagnosis: &Diagnosis) -> String {
 }
 
 fn answer(ui: &mut Ui, scene: &Scene<'_>, diagnosis: &Diagnosis, look: &mut Look, asks: &mut Vec<Ask>) {
-    if diagnosis.verdict == Verdict::Adequate {
+    if matches!(diagnosis.verdict, Verdict::Adequate | Verdict::Detuned) {
         adequate(ui, scene, diagnosis);
     } else {
         let colour = if diagnosis.verdict == Verdict::Missing { ui.palette().missing } else { ui.palette().warning };
@@ -172,7 +176,7 @@ fn detuned(ui: &mut Ui, scene: &Scene<'_>, diagnosis: &Diagnosis, asks: &mut Vec
     for correction in &diagnosis.corrections {
         let change = format::with_deviation(100.0 * (correction.factor - 1.0), 100.0 * correction.deviation, "%");
         let sign = if correction.factor > 1.0 { "+" } else { "" };
-        ui.pair(&knob(scene, &correction.knob), format!("{sign}{change}"));
+        ui.pair(&corrected(scene, &correction.parameter), format!("{sign}{change}"));
     }
     let adopted = adopted(scene, diagnosis);
     ui.horizontal(|ui| {
@@ -182,8 +186,11 @@ fn detuned(ui: &mut Ui, scene: &Scene<'_>, diagnosis: &Diagnosis, asks: &mut Vec
             asks.push(Ask::Explain(Deed::Correct));
         }
         if !adopted.left.is_empty() {
-            let left: Vec<String> =
-                adopted.left.iter().map(|&k| knob(scene, &diagnosis.corrections[k].knob).to_lowercase()).collect();
+            let left: Vec<String> = adopted
+                .left
+                .iter()
+                .map(|&k| corrected(scene, &diagnosis.corrections[k].parameter).to_lowercase())
+                .collect();
             ui.hint(format!("The project has no number for: {}.", left.join(", ")));
         }
     });
@@ -198,17 +205,27 @@ pub fn adopted(scene: &Scene<'_>, diagnosis: &Diagnosis) -> Adopted {
 }
 
 /// What a correction corrects.
-fn knob(scene: &Scene<'_>, knob: &Knob) -> String {
+fn corrected(scene: &Scene<'_>, parameter: &UpdatingParameter) -> String {
     let structure = &scene.document.project.structure;
-    match knob {
-        Knob::Stiffness => "All stiffness".to_owned(),
-        Knob::Mass => "All mass".to_owned(),
-        Knob::Mode(mode) => format!("Stiffness of mode {}", mode + 1),
-        Knob::Spring(dofs, _) => format!("Spring {}", at(structure, &Place::Dofs(dofs.clone()))),
-        Knob::Known(index) => {
+    let place = |dofs: &[usize]| at(structure, &Place::Dofs(dofs.to_vec()));
+    let elements = |[first, last]: [usize; 2]| format!("elements {} to {}", first + 1, last + 1);
+    match parameter {
+        UpdatingParameter::Structure(part) => match *part {
+            Part::Stiffness => "All stiffness".to_owned(),
+            Part::Mass => "All mass".to_owned(),
+            Part::Mode(mode) => format!("Stiffness of mode {}", mode + 1),
+            Part::GroundSpring(dof) => format!("Spring {}", place(&[dof])),
+            Part::Coupling(pair) => format!("Spring {}", place(&pair)),
+            Part::PointMass(dof) => format!("Mass {}", place(&[dof])),
+            Part::ElementStiffness(range) => format!("Stiffness of {}", elements(range)),
+            Part::ElementMass(range) => format!("Mass of {}", elements(range)),
+        },
+        UpdatingParameter::Known(index) => {
             let known = scene.explained.known(scene.document, *index);
             known.map_or_else(|| "A known source".to_owned(), |source| card::name(scene, &source))
         }
+        UpdatingParameter::Gain(channel) => format!("Gain of {channel}"),
+        UpdatingParameter::Delay(channel) => format!("Delay of {channel}"),
     }
 }
 
@@ -243,7 +260,7 @@ fn adequate(ui: &mut Ui, scene: &Scene<'_>, diagnosis: &Diagnosis) {
 
 /// The tests that would decide, in words; nothing where nothing is missing.
 pub fn next_tests(ui: &mut Ui, scene: &Scene<'_>, diagnosis: &Diagnosis) {
-    if diagnosis.verdict == Verdict::Adequate || diagnosis.next_test.is_empty() {
+    if matches!(diagnosis.verdict, Verdict::Adequate | Verdict::Detuned) || diagnosis.next_test.is_empty() {
         return;
     }
     let structure = &scene.document.project.structure;
