@@ -3,6 +3,7 @@
 mod assemble;
 pub mod beam;
 pub mod chain;
+mod coupling;
 pub mod damped_modes;
 mod error;
 pub mod imported;
@@ -12,6 +13,7 @@ pub mod points;
 pub mod wing;
 
 pub use assemble::{LumpedMass, MOST_DOFS};
+pub use coupling::Coupled;
 pub use error::StructureError;
 
 use faer::Mat;
