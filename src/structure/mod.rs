@@ -6,6 +6,7 @@ pub mod chain;
 mod coupling;
 pub mod damped_modes;
 mod error;
+pub mod factors;
 pub mod imported;
 pub mod lowest_modes;
 pub mod modes;
@@ -15,6 +16,7 @@ pub mod wing;
 pub use assemble::{LumpedMass, MOST_DOFS};
 pub use coupling::Coupled;
 pub use error::StructureError;
+pub use factors::Part;
 
 use faer::Mat;
 use serde::{Deserialize, Serialize};
