@@ -17,7 +17,8 @@ pub(super) const NOT_PERIODIC: f64 = 1.0;
 pub(super) fn free_decay(record: &Record, fit: &HarmonicFit) -> Option<Finding> {
     let references = references(fit);
     let channel = (0..references.len()).max_by(|&a, &b| references[a].total_cmp(&references[b]))?;
-    let (_, sizes) = blocks(record, fit, channel)?;
+    let (_, blocks) = blocks(record, fit)?;
+    let sizes = &blocks[channel];
     let falling = sizes.windows(2).filter(|pair| pair[1] < pair[0]).count();
     let (first, last) = (sizes[0], sizes[sizes.len() - 1]);
     let decays = last < FALLEN * first && falling as f64 >= FALLING * (sizes.len() - 1) as f64;

@@ -1,9 +1,11 @@
 //! Whether the force starts or ends within the record: a record that was switched on before the exciter, or a test whose
 //! amplitude is run up, held and run down.
 //!
-//! The fundamental of each block of whole periods is compared with the median block. Of a transient the response grows
-//! or falls while the force stays as it is; here the force itself does.
+//! The fundamental of each block of whole periods is compared with the blocks in which it is largest. Of a transient the
+//! response grows or falls while the force stays as it is; here the force itself does. What falls off behind a steady part
+//! is run down, whatever the force: a friction damper that is moved ever less still gives the same force.
 
+use super::run::references;
 use super::settling::part;
 use super::{HarmonicFit, Record};
 use crate::math::statistics::median;
@@ -12,10 +14,14 @@ use crate::math::statistics::median;
 const BLOCKS: usize = 12;
 /// Fewest blocks in which a ramp can be told from the rest.
 const FEWEST: usize = 5;
-/// Share of the median amplitude below which a block at an end is no part of the steady test.
+/// Fewest blocks of a steady part.
+const FEWEST_STEADY: usize = 2;
+/// Share of its level below which a block at an end is no part of the steady test, and below which it is a ramp at all: an
+/// end block of a ramp averages half of it or less.
 const STEADY: f64 = 0.9;
-/// Deviation of the steady blocks up to which the force is held at all: a decay has no steady part.
-const HELD: f64 = 0.1;
+const RAMP: f64 = 0.75;
+/// Noise over signal of a channel from which on its blocks say nothing; ramps themselves look like much noise.
+const UNCLEAR: f64 = 0.7;
 
 /// The steady part of a record whose force is run up or down.
 #[derive(Debug, Clone, PartialEq)]
@@ -46,28 +52,50 @@ impl Ramps {
     }
 }
 
-/// Run-up and run-down of the force, or of the first channel where no force is recorded.
-pub(super) fn find(record: &Record, fit: &HarmonicFit) -> Option<Ramps> {
-    let channel = fit.force_channels().first().copied().unwrap_or(0);
-    let (ends, sizes) = blocks(record, fit, channel)?;
-    let level = median(&sizes);
-    if level <= 0.0 {
-        return None;
-    }
-    let low = |size: &&f64| **size < STEADY * level;
-    let (first, last) = (sizes.iter().take_while(low).count(), sizes.iter().rev().take_while(low).count());
-    let steady = sizes.get(first..sizes.len().saturating_sub(last))?;
-    let held = steady.iter().all(|size| (size / level - 1.0).abs() < HELD);
-    if first + last == 0 || 2 * steady.len() < sizes.len() || !held {
-        return None;
-    }
-    let up = (first > 0).then(|| ends[first]);
-    let down = (last > 0).then(|| ends[sizes.len() - last]);
-    Some(Ramps { channel, up, down })
+/// How a channel's amplitude begins and ends.
+struct Ends {
+    channel: usize,
+    /// Blocks at the start and at the end below the steady level.
+    low: [usize; 2],
+    /// Whether the outermost of them is far below it.
+    ramp: [bool; 2],
 }
 
-/// Times at which the blocks begin, with the end of the last, and the amplitude of the fundamental in each.
-pub(super) fn blocks(record: &Record, fit: &HarmonicFit, channel: usize) -> Option<(Vec<f64>, Vec<f64>)> {
+impl Ends {
+    fn new(channel: usize, sizes: &[f64]) -> Option<Self> {
+        let most = sizes.iter().fold(0.0_f64, |most, size| most.max(*size));
+        let upper: Vec<f64> = sizes.iter().copied().filter(|size| *size >= STEADY * most).collect();
+        let level = median(&upper);
+        let low = |size: &&f64| **size < STEADY * level;
+        let counts = [sizes.iter().take_while(low).count(), sizes.iter().rev().take_while(low).count()];
+        let steady = sizes.get(counts[0]..sizes.len().saturating_sub(counts[1]))?;
+        let held = level > 0.0 && steady.len() >= FEWEST_STEADY && !steady.iter().any(|size| low(&size));
+        let ramp = [sizes[0], sizes[sizes.len() - 1]].map(|size| size < RAMP * level);
+        held.then_some(Self { channel, low: counts, ramp })
+    }
+}
+
+/// Run-up and run-down of the force, or of all that moves.
+pub(super) fn find(record: &Record, fit: &HarmonicFit) -> Option<Ramps> {
+    let (times, blocks) = blocks(record, fit)?;
+    let references = references(fit);
+    let clear = |c: &usize| references[*c] > 0.0 && fit.channels[*c].noise < UNCLEAR * references[*c];
+    let ends: Vec<Ends> = (0..fit.channels.len()).filter(clear).filter_map(|c| Ends::new(c, &blocks[c])).collect();
+    let forces = fit.force_channels();
+    let by_force = ends.iter().find(|e| forces.contains(&e.channel) && (e.ramp[0] || e.ramp[1]));
+    let seen = by_force.or_else(|| ends.iter().find(|e| e.ramp[1]))?;
+    let [first, last] = [0, 1].map(|side| ends.iter().map(|e| e.low[side]).max().unwrap_or(0));
+    let count = times.len() - 1;
+    if first + last + FEWEST_STEADY > count {
+        return None;
+    }
+    let up = (first > 0).then(|| times[first]);
+    let down = (last > 0).then(|| times[count - last]);
+    Some(Ramps { channel: seen.channel, up, down })
+}
+
+/// Times at which the blocks begin, with the end of the last, and the amplitude of the fundamental of each channel in each.
+pub(super) fn blocks(record: &Record, fit: &HarmonicFit) -> Option<(Vec<f64>, Vec<Vec<f64>>)> {
     let time = record.time();
     let step = record.duration() / (time.len() - 1) as f64;
     let periods = ((record.duration() + step) / fit.period() + 1e-9).floor() as usize;
@@ -75,10 +103,16 @@ pub(super) fn blocks(record: &Record, fit: &HarmonicFit, channel: usize) -> Opti
     if count < FEWEST {
         return None;
     }
-    let end = |k: usize| time[0] + (k * each) as f64 * fit.period();
-    let index = |k: usize| time.partition_point(|t| *t < end(k) - 0.01 * step);
-    let size = |k: usize| Some(part(record, fit, index(k)..index(k + 1))?.fundamentals[channel].norm());
-    // What is left of the record behind the last whole block belongs to it.
-    let sizes = (0..count).map(size).collect::<Option<Vec<f64>>>()?;
-    Some(((0..=count).map(end).collect(), sizes))
+    // What is left of the record belongs to no block; the last ones are counted from its end.
+    let spare = (periods - each * count) as f64 * fit.period();
+    let begin = |k: usize| time[0] + (k * each) as f64 * fit.period() + if 2 * k >= count { spare } else { 0.0 };
+    let index = |t: f64| time.partition_point(|at| *at < t - 0.01 * step);
+    let of_block = |k: usize| {
+        let (from, to) = (begin(k), begin(k) + each as f64 * fit.period());
+        Some(part(record, fit, index(from)..index(to))?.fundamentals)
+    };
+    let found = (0..count).map(of_block).collect::<Option<Vec<_>>>()?;
+    let sizes = (0..fit.channels.len()).map(|c| found.iter().map(|block| block[c].norm()).collect()).collect();
+    let end = begin(count - 1) + each as f64 * fit.period();
+    Some(((0..count).map(begin).chain([end]).collect(), sizes))
 }
