@@ -67,6 +67,8 @@ fn runs(structure: &Structure) -> Vec<Run> {
             Run {
                 file: format!("{r}"),
                 level: None,
+                session: None,
+                insisted: false,
                 enabled: true,
                 record: None,
                 fit,

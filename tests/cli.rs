@@ -251,3 +251,93 @@ fn a_script_is_played_on_a_project_that_stays_as_it_is() {
     assert_eq!(refused.status.code(), Some(1));
     assert!(text(&refused.stderr).starts_with("s.json: step 1 of the script"), "{}", text(&refused.stderr));
 }
+
+/// Writes `made/run-01.csv` anew: force and accelerations at 12 Hz, each times `shape(t)`.
+fn reshape(folder: &Path, shape: impl Fn(f64) -> f64) {
+    let path = folder.join("made/run-01.csv");
+    let text = fs::read_to_string(&path).unwrap();
+    let mut lines = text.lines();
+    let mut made = format!("{}\n", lines.next().unwrap());
+    for line in lines {
+        let numbers: Vec<f64> = line.split(',').map(|cell| cell.parse().unwrap()).collect();
+        let rest: String = numbers[1..].iter().map(|y| format!(",{}", y * shape(numbers[0]))).collect();
+        made.push_str(&format!("{}{rest}\n", numbers[0]));
+    }
+    fs::write(path, made).unwrap();
+}
+
+#[test]
+fn runs_that_are_not_steady_are_told_and_used_where_the_user_insists() {
+    let folder = measured();
+    reshape(folder.path(), |t| (t / 0.3).min(1.0));
+    let refused = dashpot(&["compare", "p.toml"], folder.path());
+    assert_eq!(refused.status.code(), Some(1));
+    let said = text(&refused.stderr);
+    assert!(said.contains("no run can be compared") && said.contains("is run up until"), "{said}");
+    let insisting = SOUGHT.replace("frequency = 12\n", "frequency = 12\nuse = true\n");
+    fs::write(folder.path().join("p.toml"), insisting).unwrap();
+    let printed = dashpot(&["compare", "p.toml"], folder.path());
+    let table = text(&printed.stdout);
+    assert!(table.contains("not-settled") && table.contains("is run up until"), "{table}");
+    assert!(!table.contains("left out"), "{table}");
+    let document = json(&["compare", "p.toml", "--json"], folder.path());
+    assert_eq!(document["runs"][0]["used"], true);
+    assert_eq!(document["runs"][0]["findings"][0]["flag"], "not-settled");
+
+    reshape(folder.path(), |t| (-8.0 * t).exp());
+    let decaying = fs::read_to_string(folder.path().join("made/run-01.csv")).unwrap();
+    let forceless: String = decaying
+        .lines()
+        .map(|l| format!("{},{}\n", l.split(',').next().unwrap(), l.split(',').nth(2).unwrap()))
+        .collect();
+    fs::write(folder.path().join("made/run-01.csv"), forceless).unwrap();
+    fs::write(folder.path().join("p.toml"), SOUGHT).unwrap();
+    let refused = dashpot(&["compare", "p.toml"], folder.path());
+    assert!(text(&refused.stderr).contains("is a free decay, no steady sine"), "{}", text(&refused.stderr));
+}
+
+/// A mass without any spring, with a dashpot: the model predicts it, and what is missing is found.
+#[test]
+fn a_mass_without_a_spring_is_compared_and_diagnosed() {
+    let folder = tempfile::tempdir().unwrap();
+    let run =
+        |k: usize| format!("[[run]]\nfile = \"run-{k}.csv\"\nfrequency = {}\nforce_dof = 1\nforce_n = 10\n", 2 * k);
+    let head = "[project]\nformat = 1\n[structure]\nkind = \"chain\"\nmasses = [2]\nground_stiffness = [0]\ncoupling_stiffness = []\n";
+    let dashpots = "[[source]]\nlaw = \"viscous\"\ndofs = [1]\nstate = \"known\"\nc = 20\n";
+    let runs: String = (1..4).map(run).collect();
+    fs::write(folder.path().join("p.toml"), format!("{head}{dashpots}{runs}")).unwrap();
+    let made = dashpot(&["simulate", "p.toml", "--out", ".", "--noise", "0.002"], folder.path());
+    assert_eq!(made.status.code(), Some(0), "{}", text(&made.stderr));
+    let whole = json(&["compare", "p.toml", "--json"], folder.path());
+    assert!(whole["error"].as_f64().unwrap() < 0.002, "{}", whole["error"]);
+    fs::write(folder.path().join("p.toml"), format!("{head}{runs}")).unwrap();
+    let found = json(&["diagnose", "p.toml", "--json"], folder.path());
+    // Alone on its mass, a dashpot to the ground is damping in proportion to the mass.
+    let alike = ["viscous", "mass_proportional"];
+    assert!(alike.contains(&found["suggestions"][0]["effect"].as_str().unwrap()), "{}", found["suggestions"][0]);
+    assert!(found["suggestions"][0]["error_after"].as_f64().unwrap() < 0.002);
+}
+
+/// An undamped model at resonance says nothing but that its damping is still to be found.
+#[test]
+fn damping_that_identify_finds_is_taken_over_before_the_model_is_compared() {
+    let folder = tempfile::tempdir().unwrap();
+    let recipe = "[project]\nformat = 1\n[structure]\nkind = \"chain\"\nmasses = [1]\nground_stiffness = [1e4]\ncoupling_stiffness = []\n\
+        [[source]]\nlaw = \"viscous\"\ndofs = [1]\nstate = \"known\"\nc = 0.2\n\
+        [[run]]\nfile = \"a.csv\"\nfrequency = 15.91549430918953\nforce_dof = 1\nforce_n = 1\n\
+        [[run]]\nfile = \"b.csv\"\nfrequency = 15.8\nforce_dof = 1\nforce_n = 1\n";
+    fs::write(folder.path().join("p.toml"), recipe).unwrap();
+    dashpot(&["simulate", "p.toml", "--out", ".", "--noise", "0.001"], folder.path());
+    fs::write(folder.path().join("p.toml"), recipe.replace("state = \"known\"\nc = 0.2", "state = \"candidate\""))
+        .unwrap();
+    let output = dashpot(&["compare", "p.toml", "--json"], folder.path());
+    assert!(text(&output.stderr).contains("the model has no damping yet"), "{}", text(&output.stderr));
+    let document: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert!(document["error"].as_f64().unwrap() < 0.01, "{}", document["error"]);
+    let c = document["identified"][0]["parameters"]["c"].as_f64().unwrap();
+    assert!((c / 0.2 - 1.0).abs() < 0.01, "{c}");
+    let found = json(&["diagnose", "p.toml", "--json", "--identified", "--apply", "q.toml"], folder.path());
+    assert_eq!(found["identified"][0]["effect"], "viscous");
+    let again = json(&["compare", "q.toml", "--json"], folder.path());
+    assert!(again["error"].as_f64().unwrap() < 0.01 && again.get("identified").is_none(), "{}", again["error"]);
+}

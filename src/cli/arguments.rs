@@ -67,6 +67,9 @@ pub(super) struct Analysis {
     /// Print one JSON document in place of a table
     #[arg(long)]
     pub json: bool,
+    /// Take what `identify` finds as known first
+    #[arg(long)]
+    pub identified: bool,
 }
 
 #[derive(Debug, Args)]
@@ -91,6 +94,9 @@ pub(super) struct Diagnose {
     /// Write the project with the best suggestion added
     #[arg(long)]
     pub apply: Option<PathBuf>,
+    /// Take what `identify` finds as known first
+    #[arg(long)]
+    pub identified: bool,
 }
 
 #[derive(Debug, Args)]

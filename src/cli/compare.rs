@@ -2,6 +2,8 @@
 
 use super::arguments::Analysis;
 use super::diagnose::{corrected, correction};
+use super::identified;
+use super::run_flags::{self, flags};
 use super::table::{number, table};
 use crate::control::Control;
 use crate::diagnosis::compare::{ChannelComparison, HarmonicComparison};
@@ -23,7 +25,9 @@ const SIGNIFICANT: f64 = 0.001;
 /// Compares and prints.
 pub(super) fn run(arguments: &Analysis) -> anyhow::Result<String> {
     let control = Control::unattended().with_workers(Arc::new(Threads::default()));
-    let project = load(&arguments.file, &control)?;
+    let mut project = load(&arguments.file, &control)?;
+    run_flags::check(&project, &arguments.file)?;
+    let taken = identified::take_over(&mut project, arguments.identified, &arguments.file, &control)?;
     let comparison =
         compare(&problem(&project), &[], &control).with_context(|| arguments.file.display().to_string())?;
     let reading = detuning(&problem(&project), &control).with_context(|| arguments.file.display().to_string())?;
@@ -31,10 +35,30 @@ pub(super) fn run(arguments: &Analysis) -> anyhow::Result<String> {
         let mut document = document(&project, &comparison);
         if let Some(reading) = &reading {
             document["reading"] = read(&project, reading);
+            if drowned(&comparison, reading) {
+                document["reading"]["word"] = json!("noise");
+            }
+        }
+        if !taken.is_empty() {
+            document["identified"] = identified::document(&project, &taken);
         }
         return Ok(format!("{}\n", serde_json::to_string_pretty(&document)?));
     }
-    Ok(format!("{}{}", text(&project, &comparison), reading.map_or_else(String::new, |r| in_words(&project, &r))))
+    let words = match &reading {
+        Some(reading) if drowned(&comparison, reading) => DROWNED.to_owned(),
+        Some(reading) => in_words(&project, reading),
+        None => String::new(),
+    };
+    Ok(format!("{}{words}{}", text(&project, &comparison), run_flags::text(&project)))
+}
+
+/// Error from which on a model that is within the noise of its data says nothing of either.
+const MOST_OF_IT: f64 = 0.5;
+const DROWNED: &str = "the noise is as large as the signal: whether the model agrees cannot be said\n";
+
+/// Whether an agreement is only that of a model with noise.
+fn drowned(comparison: &Comparison, reading: &Detuning) -> bool {
+    matches!(reading.reading.word(), "agrees" | "detuned") && comparison.error.min(comparison.noise_floor) > MOST_OF_IT
 }
 
 /// Whether the model is detuned or lacks an effect.
@@ -84,6 +108,8 @@ fn document(project: &Project, comparison: &Comparison) -> Value {
                 "frequency_hz": source.fit.omega / std::f64::consts::TAU,
                 "level": source.level,
                 "flags": flags(source),
+                "findings": run_flags::findings(source),
+                "session": source.session,
                 "used": run.used,
                 "error": run.error,
                 "noise_floor": run.noise_floor,
@@ -123,18 +149,6 @@ fn whiteness(test: &Whiteness) -> Value {
 /// What the errors are errors of.
 fn measure(structure: &Structure) -> &'static str {
     if structure.matrices().is_some() { "response" } else { "energy" }
-}
-
-/// Flags of a run, each once.
-pub(super) fn flags(run: &crate::measurement::Run) -> Vec<Value> {
-    let mut flags: Vec<Value> = Vec::new();
-    for finding in &run.findings {
-        let flag = json!(finding.flag);
-        if !flags.contains(&flag) {
-            flags.push(flag);
-        }
-    }
-    flags
 }
 
 fn text(project: &Project, comparison: &Comparison) -> String {

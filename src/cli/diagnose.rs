@@ -1,7 +1,10 @@
 //! `dashpot diagnose`: which effect is missing, ranked, with evidence.
 
+use super::addition;
 use super::arguments::Diagnose;
-use super::compare::{flags, problem};
+use super::compare::problem;
+use super::identified;
+use super::run_flags::{self, flags};
 use super::table::{number, table};
 use crate::control::Control;
 use crate::diagnosis::candidates::start_grids::scaled;
@@ -14,8 +17,8 @@ use crate::exchange::project::load;
 use crate::exchange::project::relocate::{canonical, renamed};
 use crate::session::workers::Threads;
 use crate::structure::Part;
-use crate::structure::Structure;
-use anyhow::{Context, bail};
+use crate::structure::{Coupled, Structure};
+use anyhow::Context;
 use serde_json::{Map, Value, json};
 use std::path::Path;
 use std::sync::Arc;
@@ -23,17 +26,42 @@ use std::sync::Arc;
 /// Diagnoses, prints, and writes the project with the best suggestion where asked.
 pub(super) fn run(arguments: &Diagnose) -> anyhow::Result<String> {
     let control = Control::unattended().with_workers(Arc::new(Threads::default()));
-    let project = load(&arguments.file, &control)?;
+    let mut project = load(&arguments.file, &control)?;
+    run_flags::check(&project, &arguments.file)?;
+    let written = project.sources.clone();
+    let taken = identified::take_over(&mut project, arguments.identified, &arguments.file, &control)?;
     let early = |found: &[Suggestion]| eprint!("{}", first_words(&project.structure, found));
     let diagnosis = diagnose_without(&problem(&project), &project.ruled_out, &control, &early)
         .with_context(|| arguments.file.display().to_string())?;
     if let Some(out) = &arguments.apply {
-        apply(&arguments.file, out, &project, &diagnosis)?;
+        apply(&arguments.file, out, &Written { project: &project, sources: &written, taken: &taken }, &diagnosis)?;
     }
     if arguments.json {
-        return Ok(format!("{}\n", serde_json::to_string_pretty(&document(&project, &diagnosis))?));
+        let mut document = document(&project, &diagnosis);
+        if !taken.is_empty() {
+            document["identified"] = identified::document(&project, &taken);
+        }
+        return Ok(format!("{}\n", serde_json::to_string_pretty(&document)?));
     }
-    Ok(text(&project, &diagnosis))
+    Ok(format!("{}{}", text(&project, &diagnosis), run_flags::text(&project)))
+}
+
+/// A project with what its file says of its sources and what was taken over beside them.
+struct Written<'a> {
+    project: &'a Project,
+    sources: &'a [Source],
+    taken: &'a [Source],
+}
+
+impl Written<'_> {
+    /// The project as its file will be once what was taken over is in its tables, in their order.
+    fn with_tables(&self, tables: usize) -> Project {
+        let mut sources = self.sources[..tables.min(self.sources.len())].to_vec();
+        let there = |s: &Source| sources.iter().any(|t| t.state == State::Known && t.is_same(s));
+        let new: Vec<Source> = self.taken.iter().filter(|s| !there(s)).cloned().collect();
+        sources.extend(new);
+        Project { sources, ..self.project.clone() }
+    }
 }
 
 /// The first suggestions while the search goes on.
@@ -45,7 +73,7 @@ fn first_words(structure: &Structure, found: &[Suggestion]) -> String {
 }
 
 /// Labels of the DOFs of a place; none for the whole structure and channels.
-fn labels(structure: &Structure, place: &Place) -> Vec<String> {
+pub(super) fn labels(structure: &Structure, place: &Place) -> Vec<String> {
     match place {
         Place::Dofs(dofs) => dofs.iter().map(|&dof| structure.label(dof).to_owned()).collect(),
         Place::Whole(_) | Place::Channel(_) => Vec::new(),
@@ -147,7 +175,10 @@ pub(super) fn corrected(project: &Project, correction: &Correction) -> String {
 
 fn document(project: &Project, diagnosis: &Diagnosis) -> Value {
     let structure = &project.structure;
-    let run = |run: &crate::measurement::Run| json!({"file": run.file, "frequency_hz": run.fit.omega / std::f64::consts::TAU, "flags": flags(run)});
+    let run = |run: &crate::measurement::Run| {
+        json!({"file": run.file, "frequency_hz": run.fit.omega / std::f64::consts::TAU, "flags": flags(run),
+        "findings": run_flags::findings(run)})
+    };
     let step = |step: &crate::diagnosis::diagnose::Step| {
         let added: Vec<Value> = step.added.iter().map(|a| Value::Object(with_values(structure, a))).collect();
         json!({"added": added, "error": step.error, "misfit": step.misfit})
@@ -156,8 +187,10 @@ fn document(project: &Project, diagnosis: &Diagnosis) -> Value {
         json!({"frequency_hz": test.frequency_hz, "force_dof": structure.label(test.force_dof), "force_n": test.force,
                "why": test.why})
     };
+    let neighbours = structure.coupled().map(|coupled| neighbours(structure, &coupled));
     json!({
         "title": project.title,
+        "neighbours": neighbours,
         "error_before": diagnosis.error_before,
         "noise_floor": diagnosis.noise_floor,
         "verdict": diagnosis.verdict.word(),
@@ -168,6 +201,32 @@ fn document(project: &Project, diagnosis: &Diagnosis) -> Value {
         "next_test": diagnosis.next_test.iter().map(test).collect::<Vec<_>>(),
     })
 }
+
+/// Where no lines say which DOFs are neighbours: the pairs that were looked at, and where they come from.
+fn neighbours(structure: &Structure, coupled: &Coupled) -> Value {
+    let pairs: Vec<[&str; 2]> = coupled.pairs.iter().map(|pair| pair.map(|i| structure.label(i))).collect();
+    json!({"from": if coupled.strongest_only { "strongest stiffness" } else { "stiffness" }, "pairs": pairs})
+}
+
+/// The same in a sentence.
+fn neighbours_in_words(structure: &Structure, coupled: &Coupled) -> String {
+    let pairs: Vec<String> = coupled
+        .pairs
+        .iter()
+        .take(MOST_PAIRS)
+        .map(|&[i, j]| format!("{}-{}", structure.label(i), structure.label(j)))
+        .collect();
+    let more = coupled.pairs.len().saturating_sub(MOST_PAIRS);
+    let more = if more > 0 { format!(" and {more} more") } else { String::new() };
+    let what = match coupled.strongest_only {
+        true => "the matrices couple nearly everything, and the strongest of each DOF are taken for",
+        false => "the pairs that the stiffness couples are taken for",
+    };
+    format!("\nno lines are given: {what} neighbours: {}{more}\n", pairs.join(", "))
+}
+
+/// Most pairs that a sentence lists.
+const MOST_PAIRS: usize = 16;
 
 /// Effect and place in words.
 fn title(structure: &Structure, source: &Source) -> String {
@@ -212,6 +271,9 @@ fn text(project: &Project, diagnosis: &Diagnosis) -> String {
             lines.push_str(&format!("{}\n", corrected(project, correction)));
         }
     }
+    if let Some(coupled) = structure.coupled() {
+        lines.push_str(&neighbours_in_words(structure, &coupled));
+    }
     lines.push_str("\nsteps\n");
     for (k, step) in diagnosis.steps.iter().enumerate() {
         let names: Vec<String> = step.added.iter().map(|a| title(structure, &a.source)).collect();
@@ -232,38 +294,23 @@ fn text(project: &Project, diagnosis: &Diagnosis) -> String {
 }
 
 /// Writes the project with the best suggestion added as `known`; comments and everything else stay as they are.
-fn apply(file: &Path, out: &Path, project: &Project, diagnosis: &Diagnosis) -> anyhow::Result<()> {
+fn apply(file: &Path, out: &Path, written: &Written, diagnosis: &Diagnosis) -> anyhow::Result<()> {
     let context = || file.display().to_string();
     let text = std::fs::read_to_string(file).with_context(context)?;
     let mut document: toml_edit::DocumentMut = text.parse().with_context(context)?;
-    if let Some(best) = diagnosis.suggestions.first() {
-        let source = &best.added.source;
-        let mut entry = toml_edit::Table::new();
-        let name = if let Place::Channel(channel) = &source.place {
-            entry["channel"] = toml_edit::value(channel.as_str());
-            "sensor"
-        } else {
-            entry["law"] = toml_edit::value(source.effect.name());
-            let dofs = labels(&project.structure, &source.place);
-            if !dofs.is_empty() {
-                entry["dofs"] = toml_edit::value(dofs.into_iter().map(label).collect::<toml_edit::Array>());
-            }
-            entry["state"] = toml_edit::value("known");
-            "source"
-        };
-        for (parameter, value) in source.effect.parameters().iter().zip(&source.parameters) {
-            entry[parameter.name] = toml_edit::value(*value);
-        }
-        let list = document.entry(name).or_insert_with(|| toml_edit::ArrayOfTables::new().into());
-        let Some(list) = list.as_array_of_tables_mut() else {
-            bail!("{}: write `{name}` as [[{name}]] tables, so that one can be added", file.display());
-        };
-        list.push(entry);
+    let tables = document.get("source").and_then(toml_edit::Item::as_array_of_tables).map_or(0, |list| list.len());
+    let before = Project { sources: written.sources[..tables].to_vec(), ..written.project.clone() };
+    for source in written.taken {
+        addition::add(&mut document, &before, source).with_context(context)?;
     }
+    let project = &written.with_tables(tables);
     for correction in &diagnosis.corrections {
         if !correct(&mut document, project, correction) {
             eprintln!("not written, for want of a key for it:{}", corrected(project, correction));
         }
+    }
+    if let Some(best) = diagnosis.suggestions.first() {
+        addition::add(&mut document, project, &best.added.source).with_context(context)?;
     }
     let folder = |path: &Path| canonical(path.parent().unwrap_or(Path::new("")));
     let (from, to) = (folder(file).with_context(context)?, folder(out).with_context(|| out.display().to_string())?);
@@ -353,7 +400,7 @@ fn scale(value: &mut toml_edit::Value, factor: f64) -> bool {
 }
 
 /// A label as files write it: a whole number where it is one.
-fn label(label: String) -> toml_edit::Value {
+pub(super) fn label(label: String) -> toml_edit::Value {
     match label.parse::<i64>() {
         Ok(number) if number.to_string() == label => number.into(),
         _ => label.into(),

@@ -2,18 +2,21 @@
 //!
 //! Exit status: 0 done, 1 the input is at fault (one line on standard error), 2 wrong usage.
 
+mod addition;
 mod arguments;
 mod build;
 mod compare;
 mod convert;
 mod diagnose;
 mod export;
+mod identified;
 mod identify;
 mod identify_json;
 mod identify_table;
 mod incompleteness;
 mod methods;
 mod play;
+mod run_flags;
 mod simulate;
 mod source_json;
 mod table;

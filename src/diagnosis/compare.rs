@@ -10,6 +10,7 @@ use crate::diagnosis::residual::branch::{Branch, nearest};
 use crate::diagnosis::residual::breakdown::{Group, by_channel, by_harmonic, by_level};
 use crate::diagnosis::residual::data::{Data, DiagnosisError, Problem, RunData, is_used, size};
 use crate::diagnosis::residual::energy_balance::energy_error;
+use crate::diagnosis::residual::levels::Levels;
 use crate::diagnosis::residual::prediction::{FINAL, Predictor, RunPrediction, transfer};
 use crate::diagnosis::residual::whiteness::{Left, Whiteness, numbered, whiteness};
 use crate::diagnosis::residual::whitening::{Transfers, Whitening};
@@ -125,41 +126,6 @@ pub fn compare(problem: &Problem, effects: &[Source], control: &Control) -> Resu
 
 /// Runs whose frequencies differ by less than this share are of one frequency.
 const SAME_FREQUENCY: f64 = 1e-3;
-/// Runs without labels whose forces differ by less than this share are of one level.
-const SAME_LEVEL: f64 = 0.2;
-
-/// Levels of the runs: labels where there are any, else amplitudes of the force.
-struct Levels {
-    numbers: Vec<usize>,
-    names: Vec<String>,
-}
-
-impl Levels {
-    fn new(problem: &Problem, data: &Data) -> Self {
-        let labels = data.runs.iter().map(|run| problem.runs[run.index].level);
-        if let Some(labels) = labels.collect::<Option<Vec<i64>>>() {
-            let mut sorted = labels.clone();
-            sorted.sort_unstable();
-            sorted.dedup();
-            let number = |label: &i64| sorted.iter().position(|s| s == label).unwrap_or(0);
-            return Self {
-                numbers: labels.iter().map(number).collect(),
-                names: labels.iter().map(i64::to_string).collect(),
-            };
-        }
-        let force = |run: &RunData| run.forces.iter().map(|f| f.measured.first().map_or(0.0, |f| f.norm())).sum();
-        let forces: Vec<f64> = data.runs.iter().map(force).collect();
-        let numbers = numbered(&forces, SAME_LEVEL);
-        let name = |number: &usize| {
-            let own = forces.iter().zip(&numbers).filter(|(_, n)| *n == number).map(|(f, _)| *f);
-            let (least, most) = own.fold((f64::INFINITY, 0.0_f64), |(a, b), f| (a.min(f), b.max(f)));
-            if most > 1.01 * least { format!("{least:.3} to {most:.3} N") } else { format!("{most:.3} N") }
-        };
-        let names = numbers.iter().map(name).collect();
-        Self { numbers, names }
-    }
-}
-
 /// Adds the whitened residuals of a run, turned by the phase of the model.
 fn add_left(
     left: &mut Vec<Left>,

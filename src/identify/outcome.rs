@@ -16,6 +16,8 @@ pub enum Status {
     BelowAngle,
     /// No set is below the angle limit; the accepted one has the smallest angle.
     AboveAngle,
+    /// As many sources as equations: any set fits, and nothing is left to judge it by.
+    NothingLeft,
 }
 
 /// Which equation was solved.

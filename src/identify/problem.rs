@@ -174,17 +174,18 @@ fn check_input(state: &State) -> Result<(), IdentifyError> {
     if state.equation.input.iter().all(|&e| e <= 0.0) { Err(IdentifyError::NoInput) } else { Ok(()) }
 }
 
-/// Enabled runs that have settled; if none has, all enabled ones.
+/// Enabled runs of a steady motion, or insisted on; if there is none, all enabled ones.
 fn runs_in_use(runs: &[Run], warnings: &mut Vec<String>) -> Vec<usize> {
     let enabled: Vec<usize> = (0..runs.len()).filter(|&r| runs[r].enabled).collect();
-    let settled = |&r: &usize| runs[r].findings.iter().all(|f| f.flag != Flag::NotSettled);
-    let used: Vec<usize> = enabled.iter().copied().filter(settled).collect();
+    let used: Vec<usize> = enabled.iter().copied().filter(|&r| runs[r].is_used()).collect();
     if used.is_empty() && !enabled.is_empty() {
         warnings.push("no run has settled, so the energy balance may not hold; record longer".to_string());
         return enabled;
     }
     for &r in enabled.iter().filter(|r| !used.contains(r)) {
-        warnings.push(format!("{}: not settled, so it is left out", runs[r].file));
+        let settles = runs[r].why_not_steady().is_none_or(|finding| finding.flag == Flag::NotSettled);
+        let why = if settles { "not settled" } else { "not periodic" };
+        warnings.push(format!("{}: {why}, so it is left out", runs[r].file));
     }
     used
 }

@@ -41,6 +41,21 @@ pub(crate) fn decide(
     rankings: &[SizeRanking],
     form: Form,
 ) -> Decision {
+    let decision = decided(problem, state, system, rankings, form);
+    let count = rankings[decision.accepted].best().columns.len();
+    if matches!(decision.status, Status::AboveNoise | Status::AboveAngle) || count < system.rows() {
+        return decision;
+    }
+    let reason = format!(
+        "{count} source{} from {} equation{}: nothing is left to judge them by; measure more runs or name fewer candidates",
+        plural(count),
+        system.rows(),
+        plural(system.rows())
+    );
+    Decision { status: Status::NothingLeft, reason, ..decision }
+}
+
+fn decided(problem: &Problem<'_>, state: &State, system: &System, rankings: &[SizeRanking], form: Form) -> Decision {
     let angle_rules = problem.settings.weights == Weights::None || !problem.is_noisy();
     if angle_rules && form == Form::Energy || !problem.is_noisy() {
         return by_angle(problem, state, rankings, form);

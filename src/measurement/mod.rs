@@ -2,12 +2,14 @@
 
 mod any_columns;
 pub mod channel;
+mod decay;
 mod design;
 mod even_columns;
 pub mod fit;
 pub mod frequency;
 mod noise;
 pub mod quality;
+mod ramps;
 pub mod ratio;
 pub mod record;
 pub mod run;

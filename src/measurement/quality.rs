@@ -4,7 +4,7 @@
 
 use super::record::Record;
 use super::run::references;
-use super::{ChannelFit, HarmonicFit, settling, slips, stuck};
+use super::{ChannelFit, HarmonicFit, decay, settling, slips, stuck};
 use faer::c64;
 use serde::{Deserialize, Serialize};
 
@@ -26,6 +26,8 @@ pub enum Flag {
     WrongFrequency,
     /// A phase error of a degree would change the energy by several per cent.
     PhaseSensitive,
+    /// What is recorded is no periodic motion of this frequency: a free decay, noise, other sines.
+    NotPeriodic,
 }
 
 /// A flag with its reason in words and numbers.
@@ -58,9 +60,14 @@ pub fn assess(record: &Record, fit: &HarmonicFit, frequency_hz: Option<f64>) -> 
 /// What takes the record to see; the fit is that of the record as it is, known errors not corrected.
 pub(super) fn assess_record(record: &Record, fit: &HarmonicFit, frequency_hz: Option<f64>) -> Vec<Finding> {
     let slip = frequency_hz.and_then(|given| slips::wrong_frequency(record, fit, given));
-    // A record at another frequency shows drift everywhere; the frequency is what has to be mended.
-    let drift = if slip.is_some() { None } else { settling::not_settled(record, fit) };
-    let mut findings: Vec<Finding> = drift.into_iter().chain(slip).collect();
+    // A free decay has a frequency that moves; a record at another frequency shows drift everywhere, and the frequency is
+    // what has to be mended.
+    let free = if fit.force_channels().is_empty() { decay::free_decay(record, fit) } else { None };
+    let mut findings: Vec<Finding> = match (free, slip) {
+        (Some(free), _) => vec![free],
+        (None, Some(slip)) => vec![slip],
+        (None, None) => decay::not_periodic(fit).or_else(|| settling::not_settled(record, fit)).into_iter().collect(),
+    };
     findings.extend(stuck::clipped(record, fit));
     findings.extend(stuck::missing_samples(record, fit));
     findings

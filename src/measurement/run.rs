@@ -5,7 +5,7 @@
 //! accelerations (6.5, 6.6).
 
 use super::fit::{fit, turn_covariance};
-use super::{Channel, ChannelFit, Finding, FitError, HarmonicFit, Quantity, Record, frequency, quality};
+use super::{Channel, ChannelFit, Finding, FitError, Flag, HarmonicFit, Quantity, Record, frequency, quality};
 use faer::{Mat, c64};
 use std::f64::consts::TAU;
 use std::sync::Arc;
@@ -21,8 +21,12 @@ pub struct Run {
     pub file: String,
     /// Label of the force level.
     pub level: Option<i64>,
+    /// Name of the session it was measured in: what was dismounted or re-seated between two sessions may differ.
+    pub session: Option<String>,
     /// Whether the user wants it used.
     pub enabled: bool,
+    /// Whether the user says so in so many words (`use = true`), which a flag does not overrule.
+    pub insisted: bool,
     /// Time record, where there is one.
     pub record: Option<Arc<Record>>,
     /// Harmonics of every channel.
@@ -73,7 +77,8 @@ impl Run {
         let mut findings = quality::assess_record(&record, &raw, frequency_hz);
         let fit = corrected(raw, corrections);
         findings.extend(quality::assess_harmonics(&fit));
-        Ok(Self { file, level, enabled, record: Some(record), fit, noise_ratio, findings })
+        let (session, insisted) = (None, false);
+        Ok(Self { file, level, session, enabled, insisted, record: Some(record), fit, noise_ratio, findings })
     }
 
     /// Takes harmonics that were fitted elsewhere.
@@ -86,7 +91,19 @@ impl Run {
     ) -> Self {
         let fit = corrected(fit, corrections);
         let findings = quality::assess_harmonics(&fit);
-        Self { file, level, enabled, record: None, noise_ratio: noise_ratio(&fit), fit, findings }
+        let (session, insisted) = (None, false);
+        Self { file, level, session, enabled, insisted, record: None, noise_ratio: noise_ratio(&fit), fit, findings }
+    }
+
+    /// Whether it takes part in fits and errors: it is wanted, and its record is of a steady motion or is wanted all the
+    /// same.
+    pub fn is_used(&self) -> bool {
+        self.enabled && (self.insisted || self.why_not_steady().is_none())
+    }
+
+    /// The finding that keeps it from being used unless it is insisted on.
+    pub fn why_not_steady(&self) -> Option<&Finding> {
+        self.findings.iter().find(|finding| matches!(finding.flag, Flag::NotSettled | Flag::NotPeriodic))
     }
 
     /// Circular frequency, rad/s.

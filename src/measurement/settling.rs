@@ -1,9 +1,11 @@
 //! Whether a transient has died out.
 //!
 //! Two signs. Near the driving frequency a transient changes the harmonics: those of the first third and of the last,
-//! and of both halves, are compared, `|Y_last exp(-i phi) - Y_first|` against its deviation and against what matters.
-//! `phi` is the turn of the force: a frequency that is slightly off turns all channels alike, and is no transient.
-//! Away from the driving frequency a transient does not repeat from period to period and dies out: the scatter between
+//! and of both halves, are compared, `|Y_last / z - Y_first|` against its deviation and against what matters.
+//! `z = F_last / F_first` is what the force does meanwhile: a frequency that is slightly off turns all channels alike, and
+//! a level that drifts slowly (shakers warm up) scales them alike. Neither is a transient: harmonics fitted to the whole
+//! record are means, whose ratio to the force stays what it was. A force that starts or ends within the record is found
+//! first (`ramps`). Away from the driving frequency a transient does not repeat from period to period and dies out: the scatter between
 //! periods is larger in the first half than in the second.
 //!
 //! The parts compared are whole periods and begin at the same phase, so that harmonics above those fitted change both
@@ -28,6 +30,10 @@ const DRIFT_BY_CHANCE: f64 = 1e-5;
 /// Deviations by which the scatter must fall from the first half to the second.
 const FALL_DEVIATIONS: f64 = 5.0;
 
+/// Change of the force over the record up to which the response follows it in proportion: beyond it laws that depend on
+/// the amplitude bend the mean.
+const LEVEL_DRIFT: f64 = 0.02;
+
 /// Blocks of either half whose scatter is compared by the median, so that a single spike decides nothing.
 const BLOCKS: usize = 3;
 
@@ -49,6 +55,9 @@ struct Drift {
 
 /// The finding that a transient has not died out, for the channel that shows it most.
 pub(super) fn not_settled(record: &Record, fit: &HarmonicFit) -> Option<Finding> {
+    if let Some(ramps) = super::ramps::find(record, fit) {
+        return Some(Finding { flag: Flag::NotSettled, reason: ramps.reason(fit) });
+    }
     let name = |c: usize| fit.channels[c].channel.to_string();
     let drifts =
         [(3, "third"), (2, "half")].into_iter().filter_map(|(parts, word)| Some((drift(record, fit, parts)?, word)));
@@ -88,9 +97,9 @@ fn ends(time: &[f64], period: f64, parts: usize) -> Option<[Range<usize>; 2]> {
 }
 
 /// The fundamentals in a part of the record.
-struct Part {
+pub(super) struct Part {
     /// Fundamental of every channel.
-    fundamentals: Vec<c64>,
+    pub fundamentals: Vec<c64>,
     /// Variance of a fundamental for noise of variance 1.
     unit_variance: f64,
     /// Variance of a fundamental from harmonics above those fitted: a part ends up to a sample beside its period, and
@@ -99,7 +108,7 @@ struct Part {
 }
 
 /// The fundamental of every channel in a range of samples.
-fn part(record: &Record, fit: &HarmonicFit, range: Range<usize>) -> Option<Part> {
+pub(super) fn part(record: &Record, fit: &HarmonicFit, range: Range<usize>) -> Option<Part> {
     let time = &record.time()[range.clone()];
     if time.len() < 8 {
         return None;
@@ -128,21 +137,21 @@ fn drift(record: &Record, fit: &HarmonicFit, parts: usize) -> Option<Drift> {
         fit.channels[c].noise.powi(2) * (first.unit_variance + last.unit_variance) + first.cut[c] + last.cut[c]
     };
     let (before, after) = (&first.fundamentals, &last.fundamentals);
-    let (turn, turn_variance) = common_turn(fit, before, after, variance);
+    let (change_of_force, turn_variance) = common_change(fit, before, after, variance);
     let freedom = (record.len() - 2 * fit.harmonics() - 2) as f64;
     // Quantile of F(2, freedom), times two: both parts of a complex number against an estimated variance.
     let limit = freedom * (DRIFT_BY_CHANCE.powf(-2.0 / freedom) - 1.0);
     let references = references(fit);
     let drifts = (0..before.len()).filter_map(|c| {
-        let back = c64::new(turn.cos(), -turn.sin());
-        let change = after[c] * back - before[c];
+        let change = after[c] / change_of_force - before[c];
         let own = variance(c);
-        // Along the channel's own direction lies the change of amplitude; across it the turn is uncertain too.
+        // Along the channel's own direction lies the change of amplitude, across it the turn: both as uncertain as what
+        // is known of the force.
         let size = before[c].re.hypot(before[c].im);
         let along = if size > 0.0 { before[c] / size } else { c64::new(1.0, 0.0) };
         let split = change * along.conj();
         let across = own + size * size * turn_variance;
-        let significant = split.re.powi(2) / own + split.im.powi(2) / across > limit;
+        let significant = (split.re.powi(2) + split.im.powi(2)) / across > limit;
         let amplitude = SQRT_2 * references[c];
         let relative = split.re.hypot(split.im) / amplitude;
         let explained = (own + across).sqrt() / amplitude;
@@ -151,19 +160,24 @@ fn drift(record: &Record, fit: &HarmonicFit, parts: usize) -> Option<Drift> {
     drifts.max_by(|a, b| a.relative.total_cmp(&b.relative))
 }
 
-/// Angle by which the forces (without one: all channels) turn from `before` to `after`, and its variance.
-fn common_turn(fit: &HarmonicFit, before: &[c64], after: &[c64], variance: impl Fn(usize) -> f64) -> (f64, f64) {
+/// Ratio of the forces after to before (without a force: the turn of all channels), and its variance.
+fn common_change(fit: &HarmonicFit, before: &[c64], after: &[c64], variance: impl Fn(usize) -> f64) -> (c64, f64) {
     let forces: Vec<usize> = fit.force_channels().into_iter().filter(|&c| fit.channels[c].noise > 0.0).collect();
-    let used = if forces.is_empty() { (0..before.len()).collect() } else { forces };
+    let used = if forces.is_empty() { (0..before.len()).collect() } else { forces.clone() };
     let (mut product, mut information) = (c64::new(0.0, 0.0), 0.0);
     for c in used {
         let variance = variance(c);
         if variance > 0.0 {
             product += before[c].conj() * after[c] / variance;
-            information += (before[c].re.powi(2) + before[c].im.powi(2)) / variance;
+            information += before[c].norm_sqr() / variance;
         }
     }
-    if information > 0.0 { (product.im.atan2(product.re), 1.0 / information) } else { (0.0, 0.0) }
+    if information <= 0.0 || product.norm_sqr() == 0.0 {
+        return (c64::new(1.0, 0.0), 0.0);
+    }
+    let ratio = product.norm() / information;
+    let follows = !forces.is_empty() && (ratio - 1.0).abs() < LEVEL_DRIFT;
+    (product / product.norm() * if follows { ratio } else { 1.0 }, 1.0 / information)
 }
 
 /// The channel whose scatter between periods falls most, with the amplitude of what dies out over its own.

@@ -47,7 +47,7 @@ fn change(file: &mut ProjectFile, command: &Command, on: &Structure, folder: &Pa
         Command::CorrectStructure(tables) => correct_structure(file, tables),
         Command::ImportRuns(files) => import_runs(file, files, folder),
         Command::RemoveRun(run) => remove_run(file, run),
-        Command::SetRunUse { file: run, enabled } => set(&mut run_of(file, run)?.enabled, *enabled),
+        Command::SetRunUse { file: run, enabled } => set(&mut run_of(file, run)?.enabled, Some(*enabled)),
         Command::SetRunFrequency { file: run, frequency } => set_frequency(file, run, *frequency),
         Command::SetRunLevel { file: run, level } => set(&mut run_of(file, run)?.level, *level),
         Command::SetSensor { channel, delay, gain } => set_sensor(file, channel, [*delay, *gain], on),
@@ -168,7 +168,7 @@ fn import_run(file: &mut ProjectFile, name: String) -> Done {
     if file.run.iter().any(|run| run.file == name) {
         return Err(Refusal::RunTwice { file: name });
     }
-    file.run.push(RunTable { file: name, frequency: None, level: None, enabled: true, force_dof: None, force_n: None });
+    file.run.push(RunTable { file: name, ..RunTable::default() });
     Ok(())
 }
 

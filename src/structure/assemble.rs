@@ -152,9 +152,12 @@ impl Structure {
     }
 
     /// Every pair of neighbouring translations: consecutive nodes of a beam, consecutive masses, equal directions of
-    /// nodes joined by a line for imported matrices, every pair for points.
+    /// nodes joined by a line for imported matrices or, without lines, coupled by the stiffness, every pair for points.
     pub fn neighbours(&self) -> Vec<[usize; 2]> {
         let rows = self.translations();
+        if let Some(coupled) = self.coupled() {
+            return coupled.pairs;
+        }
         if self.kind == StructureKind::Points {
             return rows.iter().enumerate().flat_map(|(k, &i)| rows[k + 1..].iter().map(move |&j| [i, j])).collect();
         }

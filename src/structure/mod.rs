@@ -3,6 +3,7 @@
 mod assemble;
 pub mod beam;
 pub mod chain;
+mod coupling;
 pub mod damped_modes;
 mod error;
 pub mod factors;
@@ -13,6 +14,7 @@ pub mod points;
 pub mod wing;
 
 pub use assemble::{LumpedMass, MOST_DOFS};
+pub use coupling::Coupled;
 pub use error::StructureError;
 pub use factors::Part;
 

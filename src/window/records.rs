@@ -37,7 +37,8 @@ impl Records {
         let (file, on) = (state.file(), common(state));
         let recorded = file.run.iter().filter_map(|table| {
             let mut run = self.kept.get(&run_key(table, on))?.first()?.clone();
-            (run.enabled, run.level) = (table.enabled, table.level);
+            (run.enabled, run.insisted) = (table.enabled != Some(false), table.enabled == Some(true));
+            (run.level, run.session) = (table.level, table.session.clone());
             Some(run)
         });
         let fitted = file.harmonics.iter().filter_map(|table| self.kept.get(&(table.file.clone(), on)));
@@ -91,7 +92,7 @@ fn harmonics(plan: &Plan, keys: &[Key]) -> Result<Vec<(Key, Vec<Run>)>, String> 
         let mut alone = plan.clone();
         alone.file.harmonics = vec![plan.file.harmonics[index].clone()];
         let read = alone.harmonics().map_err(|e| e.to_string())?;
-        let runs = read.into_iter().map(|r| Run::from_harmonics(r.name, None, true, r.fit, &corrections)).collect();
+        let runs = read.into_iter().map(|r| r.run(&corrections)).collect();
         Ok((key.clone(), runs))
     };
     keys.iter().enumerate().map(one).collect()

@@ -58,6 +58,7 @@ pub fn flag(flag: Flag) -> &'static str {
         Flag::DeadChannel => "dead channel",
         Flag::WrongFrequency => "wrong frequency",
         Flag::PhaseSensitive => "phase sensitive",
+        Flag::NotPeriodic => "not periodic",
     }
 }
 

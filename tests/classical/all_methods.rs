@@ -73,6 +73,8 @@ fn sweep(structure: &Structure) -> Vec<Run> {
             runs.push(Run {
                 file: format!("{drive} {k}"),
                 level: None,
+                session: None,
+                insisted: false,
                 enabled: true,
                 record: None,
                 fit: HarmonicFit { omega: TAU * f, omega_deviation: 0.0, channels },

@@ -37,6 +37,8 @@ fn runs(structure: &Structure, sensors: usize) -> Vec<(Measured, Expanded)> {
             let run = Run {
                 file: format!("{k}"),
                 level: None,
+                session: None,
+                insisted: false,
                 enabled: true,
                 record: None,
                 fit,

@@ -276,3 +276,40 @@ fn records_are_fitted_and_corrected() {
         "{message}"
     );
 }
+
+/// Runs carry their session and level, from their table or from their file; `use = true` is told from no word at all.
+#[test]
+fn runs_have_sessions_levels_and_a_use_that_insists() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("p.toml");
+    let text = "[project]\nformat = 1\n[structure]\nkind = \"chain\"\nmasses = [1]\nground_stiffness = [1e4]\n\
+        coupling_stiffness = []\n[[run]]\nfile = \"one.csv\"\nfrequency = 5\nsession = \"monday\"\nuse = true\n\
+        [[harmonics]]\nfile = \"h.csv\"\nlevel = 4\nsession = \"tuesday\"\nuse = false\n\
+        [[harmonics]]\nfile = \"stepped.csv\"\nforce = \"force@1 [N]\"\nresponse = \"acc@1 [m/s^2]\"\nphase_of = \"disp\"\n";
+    std::fs::write(&path, text).unwrap();
+    std::fs::write(folder.path().join("one.csv"), record(5.0, 3.0, [4.0, -6.0]).replace("@b", "@1")).unwrap();
+    let harmonics = "run,frequency_hz,channel,harmonic,cos,sin\nh1,20,force@1 [N],1,1,0\nh1,20,acc@1 [g],1,0,2\n";
+    std::fs::write(folder.path().join("h.csv"), harmonics).unwrap();
+    let stepped = "level,frequency_hz,force,amplitude,phase_deg\n1,15,2,0.5,-90\n2,16,4,0.9,-80\n";
+    std::fs::write(folder.path().join("stepped.csv"), stepped).unwrap();
+
+    let project = load(&path, &Control::unattended()).unwrap();
+    let found: Vec<_> =
+        project.runs.iter().map(|run| (run.level, run.session.as_deref(), run.enabled, run.insisted)).collect();
+    let expected = [
+        (None, Some("monday"), true, true),
+        (Some(4), Some("tuesday"), false, false),
+        (Some(1), None, true, false),
+        (Some(2), None, true, false),
+    ];
+    assert_eq!(found, expected);
+    let acceleration = project.runs[2].fit.channels[1].amplitudes[0];
+    assert!((acceleration - c64::new(0.0, 0.5)).norm() < 1e-12, "{acceleration}");
+
+    std::fs::write(&path, text.replace("phase_of = \"disp\"", "phase_of = \"force\"")).unwrap();
+    let said = load(&path, &Control::unattended()).unwrap_err().to_string();
+    assert!(said.contains("`phase_of = \"force\"` is not understood"), "{said}");
+    let (file, _) = ProjectFile::parse(text, "p.toml").unwrap();
+    let (again, _) = ProjectFile::parse(&file.to_toml().unwrap(), "again.toml").unwrap();
+    assert_eq!(again, file);
+}

@@ -101,7 +101,7 @@ proptest! {
         file.sensor[0].gain = Some(gain);
         file.run[0].frequency = frequency;
         file.run[0].level = level;
-        file.run[0].enabled = enabled;
+        file.run[0].enabled = Some(enabled);
         file.run[0].file = label;
         file.simulate.samples = samples;
         let text = file.to_toml().unwrap();

@@ -164,3 +164,83 @@ fn phase_sensitivity_is_that_of_the_loss_angle() {
     assert!(sensitivity < 1e-9);
     assert_eq!(flags, []);
 }
+
+fn reasons(record: &Record, frequency_hz: f64) -> Vec<(Flag, String)> {
+    let fit = fit(record, TAU * frequency_hz, 7).unwrap();
+    assess(record, &fit, Some(frequency_hz)).into_iter().map(|finding| (finding.flag, finding.reason)).collect()
+}
+
+/// Shakers warm up: the level creeps by half a per cent, the response follows, and the ratio of both stays what it was.
+#[test]
+fn a_level_that_creeps_is_no_transient() {
+    for share in [0.002, 0.005, -0.01] {
+        let creeping = changed(&beam(1e-4), 10.0, even(4000, 1000.0), 3, |_, t, y| y * (1.0 + share * t / 4.0));
+        assert_eq!(flags(&creeping, 10.0), [], "{share}");
+        let before = fit(&record(&beam(0.0), 10.0, even(4000, 1000.0), 3), TAU * 10.0, 1).unwrap();
+        let after = fit(&creeping, TAU * 10.0, 1).unwrap();
+        let ratio =
+            |fit: &dashpot::measurement::HarmonicFit| fit.channels[1].amplitudes[0] / fit.channels[0].amplitudes[0];
+        assert!((ratio(&after) / ratio(&before) - 1.0).norm() < 1e-4, "{share}");
+    }
+    // A response that creeps on its own under a steady force is one.
+    let alone = changed(
+        &beam(1e-4),
+        10.0,
+        even(4000, 1000.0),
+        3,
+        |c, t, y| if c == 0 { y } else { y * (1.0 + 0.01 * t / 4.0) },
+    );
+    assert_eq!(flags(&alone, 10.0), [Flag::NotSettled]);
+}
+
+#[test]
+fn a_test_that_is_run_up_and_down_is_told_where_it_is_steady() {
+    let ramp =
+        |up: f64, down: f64| move |_: usize, t: f64, y: f64| y * (t / up).min(1.0).min((10.0 - t) / down).max(0.0);
+    let found = reasons(&changed(&beam(1e-3), 10.0, even(10_000, 1000.0), 1, ramp(2.0, 1.5)), 10.0);
+    assert_eq!(found.len(), 1, "{found:?}");
+    assert!(found[0].1.contains("is run up until") && found[0].1.contains("and down from"), "{}", found[0].1);
+    let up = reasons(&changed(&beam(1e-3), 10.0, even(10_000, 1000.0), 1, ramp(2.0, 1e-9)), 10.0);
+    assert!(up[0].1.contains("is run up until") && !up[0].1.contains("down"), "{}", up[0].1);
+}
+
+/// A friction damper whose amplitude is run up in two cycles, held for three and run down in two: the force slips at its
+/// limit from the second cycle on, so that the motion shows the ramps better than the force does.
+#[test]
+fn ramps_of_a_friction_damper_are_seen_in_its_motion() {
+    let signals = [
+        Signal::new(Quantity::Force, 0, &[z(0.0, 9000.0)], 40.0),
+        Signal::new(Quantity::Displacement, 0, &[z(0.01, 0.0)], 1e-6),
+    ];
+    let size = |t: f64| (t / 2.0).min(1.0).min((7.0 - t) / 2.0).max(0.0);
+    let moved =
+        changed(
+            &signals,
+            1.0,
+            even(7000, 1000.0),
+            1,
+            |c, t, y| if c == 1 { y * size(t) } else { y * (4.0 * size(t)).min(1.0) },
+        );
+    let found = reasons(&moved, 1.0);
+    assert!(found[0].1.contains("is run up until 2.0") && found[0].1.contains("down from 5.0"), "{found:?}");
+}
+
+#[test]
+fn what_is_no_steady_sine_is_told_so() {
+    let free = || vec![Signal::new(Quantity::Acceleration, 0, &[z(1.0, 0.0)], 1e-4)];
+    let decay = changed(&free(), 10.0, even(4000, 1000.0), 1, |_, t, y| y * (-t).exp());
+    let found = reasons(&decay, 10.0);
+    assert_eq!(found[0].0, Flag::NotPeriodic, "{found:?}");
+    assert!(found[0].1.contains("is a free decay"), "{}", found[0].1);
+    let noise = record(&beam(3.0), 10.0, even(4000, 1000.0), 1);
+    assert!(
+        reasons(&noise, 10.0).iter().any(|(flag, why)| *flag == Flag::NotPeriodic && why.contains("is no sine of 10"))
+    );
+    // A sum of sines of which the fit holds one.
+    let several = changed(&beam(1e-3), 10.0, even(4000, 1000.0), 1, |c, t, y| {
+        let size = [1.0, 40.0, 24.0][c];
+        y + size * ((TAU * 13.3 * t).cos() + (TAU * 17.9 * t).cos() + (TAU * 7.1 * t).cos())
+    });
+    assert!(flags(&several, 10.0).iter().any(|f| matches!(f, Flag::NotPeriodic | Flag::WrongFrequency)));
+    assert!(!flags(&record(&beam(0.3), 10.0, even(2000, 1000.0), 1), 10.0).contains(&Flag::NotPeriodic));
+}

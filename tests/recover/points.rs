@@ -3,7 +3,7 @@
 use super::support::*;
 use dashpot::control::Control;
 use dashpot::effects::{Effect, Motion, Source};
-use dashpot::identify::{Settings, identify};
+use dashpot::identify::{Settings, Status, identify};
 use dashpot::measurement::{Quantity, Run};
 use dashpot::structure::Structure;
 use dashpot::structure::points::PointParameters;
@@ -94,4 +94,21 @@ fn unmeasured_candidates_are_left_out_and_said_so() {
     let outcome = identify(&five_points(), &candidates(), &runs, &all_sets(), &Control::unattended()).unwrap();
     assert_found(&outcome, &[(6, 15.0)], 1e-8);
     assert!(outcome.warnings.iter().any(|w| w.starts_with("4 candidates are left out")), "{:?}", outcome.warnings);
+}
+
+/// Two sources from two runs fit whatever they are: that is no agreement.
+#[test]
+fn as_many_sources_as_runs_leave_nothing_to_judge_by() {
+    let truth = [source(Effect::Viscous, &[1, 2], 15.0), source(Effect::Viscous, &[3, 4], 4.0)];
+    let rig = Rig::near_modes(&five_masses(), 2, 1.01, 0, &[0, 1, 2, 3, 4]);
+    let runs = rig.runs(&five_masses(), &truth);
+    for runs in [runs.clone(), with_noise(&runs, 1e-3, 1)] {
+        let outcome = identify(&five_points(), &candidates(), &runs, &all_sets(), &Control::unattended()).unwrap();
+        if accepted(&outcome).len() == 2 {
+            assert_eq!(outcome.status, Status::NothingLeft, "{}", outcome.reason);
+            assert!(outcome.reason.contains("nothing is left to judge them by"), "{}", outcome.reason);
+        }
+    }
+    let exact = identify(&five_points(), &candidates(), &runs, &all_sets(), &Control::unattended()).unwrap();
+    assert_eq!(exact.status, Status::NothingLeft);
 }

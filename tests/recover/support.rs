@@ -99,7 +99,9 @@ pub fn run(name: String, omega: f64, channels: Vec<ChannelFit>) -> Run {
     Run {
         file: name,
         level: None,
+        session: None,
         enabled: true,
+        insisted: false,
         record: None,
         fit: HarmonicFit { omega, omega_deviation: 0.0, channels },
         noise_ratio: 0.0,

@@ -2,7 +2,7 @@
 
 use crate::control::Cancelled;
 use crate::effects::{Source, effect::Kind, source::State};
-use crate::measurement::{ChannelFit, Flag, Quantity, Run};
+use crate::measurement::{ChannelFit, Quantity, Run};
 use crate::response::harmonic_balance::{Excitation, HarmonicForce, ModelError, ResponseError};
 use crate::structure::Structure;
 use faer::c64;
@@ -49,7 +49,7 @@ impl Problem<'_> {
 
 /// Whether a run takes part in fits and errors.
 pub fn is_used(run: &Run) -> bool {
-    run.enabled && !run.findings.iter().any(|finding| finding.flag == Flag::NotSettled)
+    run.is_used()
 }
 
 /// One channel of a run.

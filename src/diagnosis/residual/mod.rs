@@ -4,6 +4,7 @@ pub mod branch;
 pub mod breakdown;
 pub mod data;
 pub mod energy_balance;
+pub(crate) mod levels;
 pub mod prediction;
 pub mod run_nuisance;
 pub mod whiteness;

@@ -5,6 +5,7 @@ use super::ruled_out::RuledOutTable;
 use crate::effects::family::Family;
 use crate::effects::{Effect, State};
 use crate::identify::Settings;
+use crate::measurement::Quantity;
 use crate::structure::LumpedMass;
 use crate::structure::beam::BeamParameters;
 use crate::structure::chain::ChainParameters;
@@ -192,7 +193,7 @@ pub struct SensorTable {
 }
 
 /// Table `[[run]]`.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize)]
 pub struct RunTable {
     /// Record, relative to the project.
     pub file: String,
@@ -202,9 +203,12 @@ pub struct RunTable {
     /// Label of the force level.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub level: Option<i64>,
-    /// Key `use`.
-    #[serde(rename = "use", skip_serializing_if = "Clone::clone")]
-    pub enabled: bool,
+    /// Name of the session it was measured in.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub session: Option<String>,
+    /// Key `use`: `false` leaves the run out, `true` takes it even where it is flagged.
+    #[serde(rename = "use", skip_serializing_if = "Option::is_none")]
+    pub enabled: Option<bool>,
     /// DOF of the force in a recipe.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub force_dof: Option<Label>,
@@ -214,10 +218,32 @@ pub struct RunTable {
 }
 
 /// Table `[[harmonics]]`.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Default, PartialEq, Eq, Serialize)]
 pub struct HarmonicsTable {
     /// File of fitted coefficients, relative to the project.
     pub file: String,
+    /// Channel of the column `force` of a stepped-sine table, with its unit, such as `force@1 [N]`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub force: Option<String>,
+    /// Channel of its columns `amplitude` and `phase_deg`, such as `acc@7 [g]`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub response: Option<String>,
+    /// Quantity whose phases a stepped-sine table gives (`disp`, `vel`, `acc`), where it is not that of the channel.
+    #[serde(skip_serializing_if = "Option::is_none", serialize_with = "word")]
+    pub phase_of: Option<Quantity>,
+    /// Label of the force level of all its runs that name none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub level: Option<i64>,
+    /// Name of the session of all its runs that name none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub session: Option<String>,
+    /// Key `use`, as at `[[run]]`.
+    #[serde(rename = "use", skip_serializing_if = "Option::is_none")]
+    pub enabled: Option<bool>,
+}
+
+fn word<S: Serializer>(quantity: &Option<Quantity>, serializer: S) -> Result<S::Ok, S::Error> {
+    quantity.map(Quantity::word).serialize(serializer)
 }
 
 /// Table `[simulate]`: what `simulate` records.

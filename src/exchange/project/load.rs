@@ -35,8 +35,7 @@ impl Plan {
             piece.report(1.0);
         }
         let corrections = self.corrections();
-        let fitted = self.harmonics()?.into_iter();
-        runs.extend(fitted.map(|run| Run::from_harmonics(run.name, None, true, run.fit, &corrections)));
+        runs.extend(self.harmonics()?.into_iter().map(|run| run.run(&corrections)));
         self.check_sensors(&runs)?;
         Ok(Project {
             title: self.file.project.title,
@@ -60,6 +59,7 @@ impl Plan {
         let (level, enabled, frequency_hz) = (planned.level, planned.enabled, planned.frequency_hz);
         let corrections = self.corrections();
         Run::from_record(file, level, enabled, Arc::new(record), frequency_hz, settings.harmonics, &corrections)
+            .map(|run| Run { session: planned.session.clone(), insisted: planned.insisted, ..run })
             .map_err(|error| {
                 let key = if frequency_hz.is_some() { "frequency" } else { "file" };
                 self.run_error(index, key, Problem::Fit { file: planned.file.clone(), error })

@@ -12,6 +12,7 @@ use crate::balance::{Expansion, Weights};
 use crate::effects::family::Family;
 use crate::effects::{Effect, State};
 use crate::identify::Settings;
+use crate::measurement::Quantity;
 use crate::structure::LumpedMass;
 use crate::structure::beam::{BeamParameters, Supports};
 use crate::structure::chain::ChainParameters;
@@ -251,7 +252,7 @@ fn sensors(root: &Table<'_>, lines: &mut Lines) -> Read<Vec<SensorTable>> {
 fn runs(root: &Table<'_>, lines: &mut Lines) -> Read<Vec<RunTable>> {
     let mut runs = Vec::new();
     for table in root.tables("run", "[[run]]")? {
-        table.only(&["file", "frequency", "level", "use", "force_dof", "force_n"])?;
+        table.only(&["file", "frequency", "level", "session", "use", "force_dof", "force_n"])?;
         let frequency = table.number("frequency")?;
         if let Some(value) = frequency.filter(|f| *f <= 0.0) {
             let (key, range) = ("frequency".to_owned(), "above 0 Hz");
@@ -272,7 +273,8 @@ fn runs(root: &Table<'_>, lines: &mut Lines) -> Read<Vec<RunTable>> {
             file: table.need("file", "file = \"run-01.csv\"", table.text("file")?)?,
             frequency,
             level: table.whole("level")?,
-            enabled: table.flag("use")?.unwrap_or(true),
+            session: table.text("session")?,
+            enabled: table.flag("use")?,
             force_dof,
             force_n,
         });
@@ -284,8 +286,17 @@ fn runs(root: &Table<'_>, lines: &mut Lines) -> Read<Vec<RunTable>> {
 fn harmonics(root: &Table<'_>, lines: &mut Lines) -> Read<Vec<HarmonicsTable>> {
     let mut files = Vec::new();
     for table in root.tables("harmonics", "[[harmonics]]")? {
-        table.only(&["file"])?;
-        files.push(HarmonicsTable { file: table.need("file", "file = \"harmonics.csv\"", table.text("file")?)? });
+        table.only(&["file", "force", "response", "phase_of", "level", "session", "use"])?;
+        let phases = [Quantity::Displacement, Quantity::Velocity, Quantity::Acceleration].map(Quantity::word);
+        files.push(HarmonicsTable {
+            file: table.need("file", "file = \"harmonics.csv\"", table.text("file")?)?,
+            force: table.text("force")?,
+            response: table.text("response")?,
+            phase_of: table.word("phase_of", &phases, Quantity::from_word)?,
+            level: table.whole("level")?,
+            session: table.text("session")?,
+            enabled: table.flag("use")?,
+        });
         lines.harmonics.push(table.line());
     }
     Ok(files)

@@ -7,9 +7,9 @@ use super::sources::{At, line, sensors, sources};
 use super::structure::structure;
 use crate::control::Control;
 use crate::effects::Source;
-use crate::exchange::records::{HarmonicsRun, read_harmonics, read_record_with};
+use crate::exchange::records::{SteppedSine, read_harmonics_as, read_record_with};
 use crate::identify::Settings;
-use crate::measurement::{ChannelName, Record};
+use crate::measurement::{ChannelName, Correction, HarmonicFit, Record, Run};
 use crate::structure::Structure;
 use std::path::{Component, Path, PathBuf};
 
@@ -44,10 +44,38 @@ pub struct PlannedRun {
     pub frequency_hz: Option<f64>,
     /// Label of the force level.
     pub level: Option<i64>,
+    /// Name of the session it was measured in.
+    pub session: Option<String>,
     /// Whether the user wants it used.
     pub enabled: bool,
+    /// Whether the user says so by `use = true`.
+    pub insisted: bool,
     /// Force of the recipe, `amplitude_n cos(omega t)`, where it is given.
     pub force: Option<PlannedForce>,
+}
+
+/// A run that came as fitted harmonics, with what its table or its file says of it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Fitted {
+    /// Name in the file.
+    pub name: String,
+    /// Harmonics as measured, known errors of the channels not corrected.
+    pub fit: HarmonicFit,
+    /// Label of the force level.
+    pub level: Option<i64>,
+    /// Name of the session.
+    pub session: Option<String>,
+    /// Key `use`.
+    pub enabled: Option<bool>,
+}
+
+impl Fitted {
+    /// The run with its channels corrected.
+    pub fn run(self, corrections: &[Correction]) -> Run {
+        let Self { name, fit, level, session, enabled } = self;
+        let run = Run::from_harmonics(name, level, enabled != Some(false), fit, corrections);
+        Run { session, insisted: enabled == Some(true), ..run }
+    }
 }
 
 /// A harmonic force of a recipe.
@@ -110,7 +138,9 @@ fn runs(file: &ProjectFile, structure: &Structure, folder: &Path, at: At<'_>) ->
             path: folder.join(&table.file),
             frequency_hz: table.frequency,
             level: table.level,
-            enabled: table.enabled,
+            session: table.session.clone(),
+            enabled: table.enabled != Some(false),
+            insisted: table.enabled == Some(true),
             force,
         });
     }
@@ -184,7 +214,7 @@ impl Plan {
     }
 
     /// Reads the runs of every `[[harmonics]]` file, as they were measured.
-    pub fn harmonics(&self) -> Result<Vec<HarmonicsRun>, ProjectError> {
+    pub fn harmonics(&self) -> Result<Vec<Fitted>, ProjectError> {
         let folder = self.path.parent().unwrap_or(Path::new(""));
         let mut runs = Vec::new();
         for (i, table) in self.file.harmonics.iter().enumerate() {
@@ -193,9 +223,20 @@ impl Plan {
             if !path.is_file() {
                 return Err(wrong(Problem::NoRecord { file: table.file.clone() }));
             }
-            runs.extend(
-                read_harmonics(&path, &self.structure).map_err(|error| wrong(Problem::Record(Box::new(error))))?,
-            );
+            let stepped = SteppedSine {
+                force: table.force.as_deref(),
+                response: table.response.as_deref(),
+                phase_of: table.phase_of,
+            };
+            let read = read_harmonics_as(&path, &self.structure, &stepped);
+            let read = read.map_err(|error| wrong(Problem::Record(Box::new(error))))?;
+            runs.extend(read.into_iter().map(|run| Fitted {
+                level: run.level.or(table.level),
+                session: run.session.or_else(|| table.session.clone()),
+                enabled: table.enabled,
+                name: run.name,
+                fit: run.fit,
+            }));
         }
         Ok(runs)
     }

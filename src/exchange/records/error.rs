@@ -109,6 +109,17 @@ pub enum RecordProblem {
     HarmonicTwice { run: String, harmonic: usize },
     #[error("run {run} has no harmonic {harmonic} of this channel, but has {highest}; add the row")]
     MissingHarmonic { run: String, harmonic: usize, highest: usize },
+    #[error("which channel the column \"{column}\" is, is not said; give `{key}` at [[harmonics]], such as `{key} = \"{}\"`",
+            if *key == "force" { "force@1 [N]" } else { "acc@1 [m/s^2]" })]
+    WhichChannel { column: String, key: &'static str },
+    #[error("a phase column fits no single channel (\"{of}\"); name its channel behind it, such as `phase_deg acc@7`")]
+    WhosePhase { of: String },
+    #[error("there is no force; add a column such as force@1 [N] with its amplitudes")]
+    NoForceColumn,
+    #[error("{channel} has no phase; add the column `phase_deg {channel}`")]
+    NoPhase { channel: String },
+    #[error("\"{text}\" is not the number of a level; write a whole number")]
+    BadLevel { text: String },
 }
 
 /// Makes errors of one file.

@@ -4,6 +4,7 @@
 
 use super::error::{At, RecordFileError, RecordProblem};
 use super::reader::channel;
+use super::stepped_sine::{self, SteppedSine};
 use super::table::{Table, quote};
 use super::writer::{channel_name, push_number, quoted, save};
 use crate::measurement::{Channel, ChannelFit, HarmonicFit};
@@ -25,13 +26,29 @@ pub struct HarmonicsRun {
     pub name: String,
     /// Its harmonics; covariance and noise are zero where the file gives no deviations.
     pub fit: HarmonicFit,
+    /// Label of the force level, where the file has it.
+    pub level: Option<i64>,
+    /// Name of the session, where the file has it.
+    pub session: Option<String>,
 }
 
 /// Reads every run in the harmonics file at `path`, in the order in which they appear.
 pub fn read_harmonics(path: &Path, structure: &Structure) -> Result<Vec<HarmonicsRun>, RecordFileError> {
+    read_harmonics_as(path, structure, &SteppedSine::default())
+}
+
+/// [`read_harmonics`] of a file that may be a stepped-sine table instead, whose columns `stepped` explains.
+pub fn read_harmonics_as(
+    path: &Path,
+    structure: &Structure,
+    stepped: &SteppedSine,
+) -> Result<Vec<HarmonicsRun>, RecordFileError> {
     let name = path.display().to_string();
     let bytes = std::fs::read(path)
         .map_err(|error| At { file: &name }.file(RecordProblem::Unreadable { reason: error.to_string() }))?;
+    if stepped_sine::is_one(&bytes, &name)? {
+        return stepped_sine::parse(&bytes, &name, structure, stepped);
+    }
     parse_harmonics(&bytes, &name, structure)
 }
 
@@ -178,7 +195,8 @@ impl PendingRun {
             channels.push(pending.finish(highest).map_err(missing)?);
         }
         let omega = TAU * self.frequency_hz;
-        Ok(HarmonicsRun { name: self.name, fit: HarmonicFit { omega, omega_deviation: 0.0, channels } })
+        let fit = HarmonicFit { omega, omega_deviation: 0.0, channels };
+        Ok(HarmonicsRun { name: self.name, fit, level: None, session: None })
     }
 }
 

@@ -4,10 +4,12 @@ pub mod error;
 pub mod harmonics;
 pub mod places;
 pub mod reader;
+pub mod stepped_sine;
 mod table;
 pub mod writer;
 
 pub use error::{RecordFileError, RecordProblem};
-pub use harmonics::{HarmonicsRun, parse_harmonics, read_harmonics, write_harmonics};
+pub use harmonics::{HarmonicsRun, parse_harmonics, read_harmonics, read_harmonics_as, write_harmonics};
 pub use reader::{parse_record, read_record, read_record_with};
+pub use stepped_sine::SteppedSine;
 pub use writer::write_record;

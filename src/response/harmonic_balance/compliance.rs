@@ -343,7 +343,12 @@ fn floating_shift(mass: &Mat<f64>, stiffness: &Mat<f64>) -> f64 {
         let l = llt.factor();
         (0..n).all(|i| l[(i, i)] * l[(i, i)] > 1e-13 * stiffness[(i, i)])
     });
-    if held { 0.0 } else { 1e-12 * trace(stiffness) / trace(mass) }
+    match (held, trace(stiffness)) {
+        (true, _) => 0.0,
+        // Nothing but mass: any shift is as good, for nothing says where it rests.
+        (false, 0.0) => 1.0,
+        (false, stiffness) => 1e-12 * stiffness / trace(mass),
+    }
 }
 
 /// Mass or stiffness matrix of a range of elements alone.

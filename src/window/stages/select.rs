@@ -93,6 +93,7 @@ pub fn status(status: Status) -> &'static str {
         Status::AboveNoise => "does not reach the noise",
         Status::BelowAngle => "below the angle limit",
         Status::AboveAngle => "above the angle limit",
+        Status::NothingLeft => "nothing is left to judge by",
     }
 }
 

@@ -1,0 +1,91 @@
+//! Takes over what `identify` finds before a model is compared: a project whose damping is still to be found has a model
+//! without any, and nothing limits its response at resonance.
+
+use super::compare::problem;
+use super::diagnose::labels;
+use crate::control::Control;
+use crate::diagnosis::compare;
+use crate::effects::{Source, State};
+use crate::exchange::Project;
+use crate::identify::identify;
+use anyhow::Context;
+use serde_json::{Value, json};
+use std::path::Path;
+
+/// Error of an undamped model, relative, from which on the comparison tells only that its damping is missing.
+const MEANINGLESS: f64 = 10.0;
+
+/// Makes what `identify` finds known in `project`, where `asked` or where the model has no damping, candidates for it, and
+/// an error that says nothing else. Gives what was taken over.
+///
+/// # Errors
+/// What keeps the project from being identified.
+pub(super) fn take_over(
+    project: &mut Project,
+    asked: bool,
+    file: &Path,
+    control: &Control,
+) -> anyhow::Result<Vec<Source>> {
+    if !asked && !is_meaningless(project, control) {
+        return Ok(Vec::new());
+    }
+    let outcome = identify(&project.structure, &project.sources, &project.runs, &project.settings, control)
+        .with_context(|| format!("{}: what damps it could not be identified", file.display()))?;
+    let found: Vec<(usize, f64)> = outcome
+        .sources
+        .iter()
+        .filter(|e| is_sought(&project.sources[e.source]) && e.coefficient > 0.0)
+        .map(|e| (e.source, e.coefficient))
+        .collect();
+    let taken: Vec<Source> = found.iter().map(|&(index, c)| known(&project.sources[index], c)).collect();
+    project.sources.iter_mut().filter(|s| is_sought(s)).for_each(|s| s.state = State::Off);
+    for source in &taken {
+        let coefficient = source.effect.coefficient();
+        let there = project.sources.iter_mut().find(|s| s.state == State::Known && s.is_same(source));
+        match (there, coefficient) {
+            (Some(there), Some(k)) => there.parameters[k] += source.parameters[k],
+            _ => project.sources.push(source.clone()),
+        }
+    }
+    eprintln!("{}", sentence(project, &taken, asked));
+    Ok(taken)
+}
+
+fn known(source: &Source, coefficient: f64) -> Source {
+    Source { state: State::Known, ..source.with_coefficient(coefficient) }
+}
+
+fn is_sought(source: &Source) -> bool {
+    matches!(source.state, State::Candidate | State::Forced)
+}
+
+/// Whether nothing damps the model, something might, and it is at a resonance without it.
+fn is_meaningless(project: &Project, control: &Control) -> bool {
+    let damps = |s: &Source| s.effect.dissipates();
+    let known = problem(project).known().iter().any(damps);
+    let sought = project.sources.iter().any(|s| is_sought(s) && damps(s));
+    let error = || compare(&problem(project), &[], control).map_or(0.0, |c| c.error);
+    !known && sought && error() > MEANINGLESS
+}
+
+fn sentence(project: &Project, taken: &[Source], asked: bool) -> String {
+    let place = |s: &Source| {
+        let labels = labels(&project.structure, &s.place).join("-");
+        if labels.is_empty() { s.effect.to_string() } else { format!("{} at {labels}", s.effect) }
+    };
+    let names: Vec<String> = taken.iter().map(place).collect();
+    let what = if names.is_empty() { "nothing".to_owned() } else { names.join(", ") };
+    let why = if asked { "" } else { "the model has no damping yet; " };
+    format!("{why}what `identify` finds is taken as known: {what}")
+}
+
+/// What was taken over, as in the suggestions.
+pub(super) fn document(project: &Project, taken: &[Source]) -> Value {
+    let entry = |s: &Source| {
+        let names = s.effect.parameters().iter().map(|p| p.name);
+        let values: serde_json::Map<String, Value> =
+            names.zip(&s.parameters).map(|(name, v)| (name.to_owned(), json!(v))).collect();
+        json!({"effect": s.effect.name(), "dofs": labels(&project.structure, &s.place), "parameters": values})
+    };
+    Value::Array(taken.iter().map(entry).collect())
+}
