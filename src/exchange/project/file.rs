@@ -4,6 +4,7 @@ use super::ruled_out::RuledOutTable;
 use crate::effects::family::Family;
 use crate::effects::{Effect, State};
 use crate::identify::Settings;
+use crate::measurement::Kind;
 use crate::structure::LumpedMass;
 use crate::structure::beam::BeamParameters;
 use crate::structure::chain::ChainParameters;
@@ -180,6 +181,18 @@ pub struct RunTable {
     /// Frequency, Hz; estimated where it is left out.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub frequency: Option<f64>,
+    /// Kind of the run.
+    #[serde(skip_serializing_if = "Kind::is_steady")]
+    pub kind: Kind,
+    /// First instant of the part that is used, s.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub start_s: Option<f64>,
+    /// Last instant of the part that is used, s.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub end_s: Option<f64>,
+    /// Label of the session: runs without re-assembly between them.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub session: Option<Label>,
     /// Label of the force level.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub level: Option<i64>,
@@ -192,6 +205,24 @@ pub struct RunTable {
     /// Amplitude of the force in a recipe, N.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub force_n: Option<f64>,
+}
+
+impl RunTable {
+    /// A steady run of a record of which nothing else is said.
+    pub fn of(file: String) -> Self {
+        Self {
+            file,
+            frequency: None,
+            kind: Kind::Steady,
+            start_s: None,
+            end_s: None,
+            session: None,
+            level: None,
+            enabled: true,
+            force_dof: None,
+            force_n: None,
+        }
+    }
 }
 
 /// Table `[[harmonics]]`.

@@ -11,6 +11,7 @@ use crate::balance::{Expansion, Weights};
 use crate::effects::family::Family;
 use crate::effects::{Effect, State};
 use crate::identify::Settings;
+use crate::measurement::{Kind, Part};
 use crate::structure::LumpedMass;
 use crate::structure::beam::{BeamParameters, Supports};
 use crate::structure::chain::ChainParameters;
@@ -25,6 +26,9 @@ const CHAIN: [&str; 5] = ["kind", "lumped_mass", "masses", "ground_stiffness", "
 const MATRICES: [&str; 7] = ["kind", "lumped_mass", "mass", "stiffness", "nodes", "dofs", "lines"];
 const POINTS: [&str; 4] = ["kind", "lumped_mass", "dofs", "positions"];
 const ANALYSIS: [&str; 6] = ["harmonics", "expansion", "keep", "weights", "max_sources", "stop_angle_deg"];
+
+const RUN: [&str; 10] =
+    ["file", "frequency", "kind", "start_s", "end_s", "session", "level", "use", "force_dof", "force_n"];
 
 /// Most harmonics, sources and so on that a setting may ask for.
 const MOST: usize = 1000;
@@ -239,12 +243,14 @@ fn sensors(root: &Table<'_>, lines: &mut Lines) -> Read<Vec<SensorTable>> {
 fn runs(root: &Table<'_>, lines: &mut Lines) -> Read<Vec<RunTable>> {
     let mut runs = Vec::new();
     for table in root.tables("run", "[[run]]")? {
-        table.only(&["file", "frequency", "level", "use", "force_dof", "force_n"])?;
+        table.only(&RUN)?;
         let frequency = table.number("frequency")?;
         if let Some(value) = frequency.filter(|f| *f <= 0.0) {
             let (key, range) = ("frequency".to_owned(), "above 0 Hz");
             return Err(table.error("frequency", Problem::OutOfRange { key, value: value.to_string(), range }));
         }
+        let kind = table.word("kind", &Kind::NAMES, Kind::from_name)?.unwrap_or_default();
+        let part = part(&table)?;
         let (force_dof, force_n) = (table.label("force_dof")?.map(Label), table.number("force_n")?);
         match (&force_dof, force_n) {
             (Some(_), None) => {
@@ -259,6 +265,10 @@ fn runs(root: &Table<'_>, lines: &mut Lines) -> Read<Vec<RunTable>> {
         runs.push(RunTable {
             file: table.need("file", "file = \"run-01.csv\"", table.text("file")?)?,
             frequency,
+            kind,
+            start_s: part.start_s,
+            end_s: part.end_s,
+            session: table.label("session")?.map(Label),
             level: table.whole("level")?,
             enabled: table.flag("use")?.unwrap_or(true),
             force_dof,
@@ -267,6 +277,18 @@ fn runs(root: &Table<'_>, lines: &mut Lines) -> Read<Vec<RunTable>> {
         lines.run.push(key_lines(&table));
     }
     Ok(runs)
+}
+
+/// `start_s` and `end_s`.
+fn part(table: &Table<'_>) -> Read<Part> {
+    let part = Part { start_s: table.number("start_s")?, end_s: table.number("end_s")? };
+    if let (Some(start), Some(end)) = (part.start_s, part.end_s)
+        && end <= start
+    {
+        let (key, range) = ("end_s".to_owned(), "later than start_s");
+        return Err(table.error("end_s", Problem::OutOfRange { key, value: end.to_string(), range }));
+    }
+    Ok(part)
 }
 
 fn harmonics(root: &Table<'_>, lines: &mut Lines) -> Read<Vec<HarmonicsTable>> {

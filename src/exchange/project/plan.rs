@@ -1,7 +1,7 @@
 //! A project before its records are read: what `simulate` needs, and the first half of loading.
 
 use super::error::{Problem, ProjectError};
-use super::file::{Lines, ProjectFile, SimulateTable};
+use super::file::{Lines, ProjectFile, RunTable, SimulateTable};
 use super::ruled_out::ruled_out;
 use super::sources::{At, line, sensors, sources};
 use super::structure::structure;
@@ -9,7 +9,7 @@ use crate::control::Control;
 use crate::effects::Source;
 use crate::exchange::records::{HarmonicsRun, read_harmonics, read_record_with};
 use crate::identify::Settings;
-use crate::measurement::{ChannelName, Record};
+use crate::measurement::{ChannelName, Kind, Part, Record};
 use crate::structure::Structure;
 use std::path::{Component, Path, PathBuf};
 
@@ -42,6 +42,12 @@ pub struct PlannedRun {
     pub path: PathBuf,
     /// Frequency, Hz, where it is given.
     pub frequency_hz: Option<f64>,
+    /// Kind of the run.
+    pub kind: Kind,
+    /// Part of the record that is used.
+    pub part: Part,
+    /// Label of the session.
+    pub session: Option<String>,
     /// Label of the force level.
     pub level: Option<i64>,
     /// Whether the user wants it used.
@@ -91,7 +97,7 @@ fn runs(file: &ProjectFile, structure: &Structure, folder: &Path, at: At<'_>) ->
     let mut runs: Vec<PlannedRun> = Vec::new();
     for (i, table) in file.run.iter().enumerate() {
         let lines = &at.lines.run[i];
-        if let Some(first) = runs.iter().position(|other| other.file == table.file) {
+        if let Some(first) = runs.iter().position(|other| is_same(other, table)) {
             let what = format!("the record \"{}\"", table.file);
             let first = line(&at.lines.run[first], "file");
             return Err(at.error(line(lines, "file"), Problem::Twice { what, first }));
@@ -109,12 +115,20 @@ fn runs(file: &ProjectFile, structure: &Structure, folder: &Path, at: At<'_>) ->
             file: table.file.clone(),
             path: folder.join(&table.file),
             frequency_hz: table.frequency,
+            kind: table.kind,
+            part: Part { start_s: table.start_s, end_s: table.end_s },
+            session: table.session.as_ref().map(|label| label.0.clone()),
             level: table.level,
             enabled: table.enabled,
             force,
         });
     }
     Ok(runs)
+}
+
+/// Whether both are the same part of the same file.
+fn is_same(run: &PlannedRun, table: &RunTable) -> bool {
+    run.file == table.file && run.part == Part { start_s: table.start_s, end_s: table.end_s }
 }
 
 /// Checks the channels that `simulate` is to record.
