@@ -66,6 +66,13 @@ impl Record {
         Ok(part.with_resolution(self.resolution.clone()))
     }
 
+    /// The record with every channel rounded; `round` mends the samples and gives the step of the rounding.
+    #[must_use]
+    pub fn quantised(mut self, round: impl Fn(&mut [f64]) -> f64) -> Self {
+        self.resolution = self.samples.iter_mut().map(|samples| round(samples)).collect();
+        self
+    }
+
     /// States the steps in which the numbers of each channel were written (SI units, 0 for exact), one a channel. The
     /// fit counts their rounding as noise: it may repeat in every period and then shows in no scatter.
     #[must_use]

@@ -1,5 +1,6 @@
 //! The project file as plain data, one field a key, as it is written; where each part stood is in [`Lines`].
 
+use super::excitation::ExcitationTable;
 use super::ruled_out::RuledOutTable;
 use crate::effects::family::Family;
 use crate::effects::{Effect, State};
@@ -205,6 +206,9 @@ pub struct RunTable {
     /// Amplitude of the force in a recipe, N.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub force_n: Option<f64>,
+    /// What is done to the structure in a recipe of a test that is not steady.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub excitation: Option<ExcitationTable>,
 }
 
 impl RunTable {
@@ -221,6 +225,7 @@ impl RunTable {
             enabled: true,
             force_dof: None,
             force_n: None,
+            excitation: None,
         }
     }
 }
@@ -233,7 +238,7 @@ pub struct HarmonicsTable {
 }
 
 /// Table `[simulate]`: what `simulate` records.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct SimulateTable {
     /// Channels with their units, such as `acc@7 [m/s^2]`; empty: the force and every translation's acceleration.
     #[serde(skip_serializing_if = "Vec::is_empty")]
@@ -245,11 +250,28 @@ pub struct SimulateTable {
     /// Whether the motion is stepped through time until it is periodic, rather than found by harmonic balance.
     #[serde(default)]
     pub integrate: bool,
+    /// Samples a second of tests that are not steady, Hz.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub rate_hz: Option<f64>,
+    /// Bits of the converter; exact without.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub bits: Option<u32>,
+    /// Whether signals are filtered against aliasing before they are sampled.
+    #[serde(skip_serializing_if = "Clone::clone")]
+    pub filter: bool,
 }
 
 impl Default for SimulateTable {
     fn default() -> Self {
-        Self { channels: Vec::new(), samples: 1000, periods: 20, integrate: false }
+        Self {
+            channels: Vec::new(),
+            samples: 1000,
+            periods: 20,
+            integrate: false,
+            rate_hz: None,
+            bits: None,
+            filter: true,
+        }
     }
 }
 

@@ -2,6 +2,7 @@
 //! read and fitted).
 
 pub mod error;
+pub mod excitation;
 pub mod file;
 pub mod load;
 mod parse;
@@ -15,4 +16,4 @@ mod structure;
 pub use error::{Problem, ProjectError};
 pub use file::{Lines, ProjectFile};
 pub use load::load;
-pub use plan::{Plan, PlannedForce, PlannedRun, open, plan};
+pub use plan::{Plan, PlannedForce, PlannedRun, PlannedTest, open, plan};

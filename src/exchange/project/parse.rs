@@ -1,6 +1,7 @@
 //! From text to [`ProjectFile`]: every key known, every value of its type; nothing else is read.
 
 use super::error::{Problem, ProjectError};
+use super::excitation;
 use super::file::{
     CandidatesTable, FORMAT, HarmonicsTable, Header, Label, Lines, MatricesTable, PointsTable, ProjectFile, RunTable,
     SensorTable, Shape, SimulateTable, SourceTable, StructureTable,
@@ -27,8 +28,8 @@ const MATRICES: [&str; 7] = ["kind", "lumped_mass", "mass", "stiffness", "nodes"
 const POINTS: [&str; 4] = ["kind", "lumped_mass", "dofs", "positions"];
 const ANALYSIS: [&str; 6] = ["harmonics", "expansion", "keep", "weights", "max_sources", "stop_angle_deg"];
 
-const RUN: [&str; 10] =
-    ["file", "frequency", "kind", "start_s", "end_s", "session", "level", "use", "force_dof", "force_n"];
+const RUN: [&str; 11] =
+    ["file", "frequency", "kind", "start_s", "end_s", "session", "level", "use", "force_dof", "force_n", "excitation"];
 
 /// Most harmonics, sources and so on that a setting may ask for.
 const MOST: usize = 1000;
@@ -273,6 +274,7 @@ fn runs(root: &Table<'_>, lines: &mut Lines) -> Read<Vec<RunTable>> {
             enabled: table.flag("use")?.unwrap_or(true),
             force_dof,
             force_n,
+            excitation: excitation::parse(&table)?,
         });
         lines.run.push(key_lines(&table));
     }
@@ -344,12 +346,19 @@ fn analysis(root: &Table<'_>) -> Read<Settings> {
 fn simulate(root: &Table<'_>, lines: &mut Lines) -> Read<SimulateTable> {
     let mut recipe = SimulateTable::default();
     let Some(table) = root.table("simulate", "[simulate]")? else { return Ok(recipe) };
-    table.only(&["channels", "samples", "periods", "integrate"])?;
+    table.only(&["channels", "samples", "periods", "integrate", "rate_hz", "bits", "filter"])?;
     lines.simulate = table.line_of("channels");
     recipe.channels = table.texts("channels")?.unwrap_or_default();
     let range = "between 16 and 100000000";
     recipe.samples = table.count("samples", 16, MOST_SAMPLES, range)?.unwrap_or(recipe.samples);
     recipe.periods = table.count("periods", 1, MOST_SAMPLES, "at least 1")?.unwrap_or(recipe.periods);
     recipe.integrate = table.flag("integrate")?.unwrap_or(false);
+    recipe.rate_hz = table.number("rate_hz")?;
+    if let Some(value) = recipe.rate_hz.filter(|rate| *rate <= 0.0) {
+        let (key, range) = ("rate_hz".to_owned(), "above 0 Hz");
+        return Err(table.error("rate_hz", Problem::OutOfRange { key, value: value.to_string(), range }));
+    }
+    recipe.bits = table.count("bits", 4, 32, "between 4 and 32")?.map(|bits| bits as u32);
+    recipe.filter = table.flag("filter")?.unwrap_or(true);
     Ok(recipe)
 }

@@ -10,6 +10,7 @@ use crate::effects::Source;
 use crate::exchange::records::{HarmonicsRun, read_harmonics, read_record_with};
 use crate::identify::Settings;
 use crate::measurement::{ChannelName, Kind, Part, Record};
+use crate::response::recording::Loading;
 use crate::structure::Structure;
 use std::path::{Component, Path, PathBuf};
 
@@ -54,6 +55,19 @@ pub struct PlannedRun {
     pub enabled: bool,
     /// Force of the recipe, `amplitude_n cos(omega t)`, where it is given.
     pub force: Option<PlannedForce>,
+    /// Test of a recipe that is not steady, where it is given.
+    pub test: Option<PlannedTest>,
+}
+
+/// A test of a recipe that is not steady.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PlannedTest {
+    /// Row of the DOF.
+    pub dof: usize,
+    /// Length of the record, s.
+    pub duration_s: f64,
+    /// What is done.
+    pub loading: Loading,
 }
 
 /// A harmonic force of a recipe.
@@ -111,6 +125,15 @@ fn runs(file: &ProjectFile, structure: &Structure, folder: &Path, at: At<'_>) ->
             }
             _ => None,
         };
+        let test = match &table.excitation {
+            Some(excitation) => {
+                let dof = structure
+                    .require_dof(&excitation.dof.0)
+                    .map_err(|error| at.error(line(lines, "excitation"), Problem::Structure(Box::new(error))))?;
+                Some(PlannedTest { dof, duration_s: excitation.duration_s, loading: excitation.loading })
+            }
+            None => None,
+        };
         runs.push(PlannedRun {
             file: table.file.clone(),
             path: folder.join(&table.file),
@@ -121,6 +144,7 @@ fn runs(file: &ProjectFile, structure: &Structure, folder: &Path, at: At<'_>) ->
             level: table.level,
             enabled: table.enabled,
             force,
+            test,
         });
     }
     Ok(runs)
@@ -189,7 +213,7 @@ impl Plan {
         let planned = &self.runs[run];
         if !planned.path.is_file() {
             let file = planned.file.clone();
-            let simulated = planned.force.is_some();
+            let simulated = planned.force.is_some() || planned.test.is_some();
             let problem = if simulated { Problem::NotSimulated { file } } else { Problem::NoRecord { file } };
             return Err(self.run_error(run, "file", problem));
         }
