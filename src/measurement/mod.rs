@@ -8,6 +8,7 @@ pub mod fit;
 pub mod frequency;
 pub mod kind;
 mod noise;
+pub mod proposal;
 pub mod quality;
 pub mod ratio;
 pub mod record;
@@ -15,6 +16,7 @@ pub mod run;
 mod settling;
 mod slips;
 mod stuck;
+mod transient_quality;
 pub mod transient_run;
 
 pub use channel::{Channel, ChannelName, Quantity, Unit};

@@ -4,7 +4,7 @@
 //! polynomial through six of them (error below 1e-3 of the amplitude up to a fifth of the sampling rate).
 
 use super::run::Correction;
-use super::{Channel, Finding, Kind, Part, Quantity, Record};
+use super::{Channel, Finding, Flag, Kind, Part, Quantity, Record, transient_quality};
 use std::borrow::Cow;
 use std::ops::Range;
 use std::sync::Arc;
@@ -53,6 +53,8 @@ pub struct TransientLabel {
     pub session: Option<String>,
     /// Whether the user wants it used.
     pub enabled: bool,
+    /// Time constant of the exponential window that the recorder laid over the motion from the start of the record on, s.
+    pub exponential_window_s: Option<f64>,
 }
 
 /// Why a record makes no transient run.
@@ -88,9 +90,15 @@ impl TransientRun {
         if record.channels().iter().all(|channel| channel.quantity == Quantity::Force) {
             return Err(TransientRunError::NoMotion);
         }
-        let record = corrected(record, corrections);
-        let TransientLabel { file, kind, part, level, session, enabled } = label;
-        Ok(Self { file, record, kind, part, level, session, enabled, findings: Vec::new(), samples })
+        let mut record = corrected(record, corrections);
+        if let Some(constant) = label.exponential_window_s {
+            record = unwindowed(&record, constant);
+        }
+        let TransientLabel { file, kind, part, level, session, enabled, exponential_window_s } = label;
+        let mut run = Self { file, record, kind, part, level, session, enabled, findings: Vec::new(), samples };
+        run.findings = transient_quality::assess(&run);
+        run.findings.extend(exponential_window_s.map(|constant| windowed(&run, constant)));
+        Ok(run)
     }
 
     /// Numbers of the samples of the record that are used.
@@ -174,6 +182,29 @@ fn corrected(record: Arc<Record>, corrections: &[Correction]) -> Arc<Record> {
     Arc::new(mended)
 }
 
+/// The record before the exponential window `exp(-t / constant)` was laid over its motion.
+fn unwindowed(record: &Record, constant: f64) -> Arc<Record> {
+    let mut mended = record.clone();
+    for (channel, samples) in mended.channels.iter().zip(&mut mended.samples) {
+        if channel.quantity != Quantity::Force {
+            let start = mended.time[0];
+            samples.iter_mut().zip(&mended.time).for_each(|(y, t)| *y *= ((t - start) / constant).exp());
+        }
+    }
+    Arc::new(mended)
+}
+
+/// What is said of an exponential window.
+fn windowed(run: &TransientRun, constant: f64) -> Finding {
+    let last = run.time()[run.len() - 1] - run.record.time()[0];
+    let reason = format!(
+        "an exponential window of time constant {constant} s was taken out, which adds {:.4} 1/s to the decay of every mode; noise at the end grows {:.3} times",
+        1.0 / constant,
+        (last / constant).exp()
+    );
+    Finding { flag: Flag::ExponentialWindow, reason }
+}
+
 /// `y(n + shift)` between the samples; beyond the ends the last polynomial goes on for no more than the shift.
 fn shifted(samples: &[f64], shift: f64) -> Cow<'_, [f64]> {
     if shift == 0.0 {
@@ -220,6 +251,15 @@ mod tests {
         let run = TransientRun::new(label(None, None), record(|t| gain * wave(t - delay)), &[correction]).unwrap();
         let worst = (3..396).map(|n| (run.samples(0)[n] - wave(run.time()[n])).abs()).fold(0.0, f64::max);
         assert!(worst < 1e-5, "{worst}");
+    }
+
+    #[test]
+    fn an_exponential_window_is_taken_out() {
+        let wave = |t: f64| (TAU * 3.0 * t).sin();
+        let label = TransientLabel { exponential_window_s: Some(0.8), ..label(None, None) };
+        let run = TransientRun::new(label, record(|t| wave(t) * (-t / 0.8).exp()), &[]).unwrap();
+        assert!((0..400).all(|n| (run.samples(0)[n] - wave(run.time()[n])).abs() < 1e-12));
+        assert!(run.findings.iter().any(|f| f.flag == Flag::ExponentialWindow));
     }
 
     #[test]

@@ -90,6 +90,8 @@ pub enum Problem {
     OutsideFolder { file: String },
     #[error("record {file}: {error}")]
     Fit { file: String, error: FitError },
+    #[error("record {file}: {error}; it looks like kind = \"{kind}\": {reason}")]
+    NotSteady { file: String, error: FitError, kind: &'static str, reason: String },
     #[error("record {file} between start_s and end_s: {error}")]
     Part { file: String, error: RecordError },
     #[error("record {file}: {error}")]

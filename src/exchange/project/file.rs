@@ -191,6 +191,9 @@ pub struct RunTable {
     /// Last instant of the part that is used, s.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub end_s: Option<f64>,
+    /// Time constant of an exponential window over the motion, s.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub exponential_window_s: Option<f64>,
     /// Label of the session: runs without re-assembly between them.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub session: Option<Label>,
@@ -220,6 +223,7 @@ impl RunTable {
             kind: Kind::Steady,
             start_s: None,
             end_s: None,
+            exponential_window_s: None,
             session: None,
             level: None,
             enabled: true,

@@ -5,6 +5,7 @@ use super::plan::{Plan, open};
 use crate::control::Control;
 use crate::effects::{Effect, Place, Source};
 use crate::exchange::Project;
+use crate::measurement::proposal::{Proposal, propose};
 use crate::measurement::run::Correction;
 use crate::measurement::{Channel, Kind, Quantity, Run, TransientLabel, TransientRun, TransientRunError};
 use std::path::Path;
@@ -69,11 +70,18 @@ impl Plan {
         let (file, settings) = (planned.file.clone(), self.settings());
         let (level, enabled, frequency_hz) = (planned.level, planned.enabled, planned.frequency_hz);
         let corrections = self.corrections();
-        Run::from_record(file, level, enabled, Arc::new(record), frequency_hz, settings.harmonics, &corrections)
-            .map_err(|error| {
+        let record = Arc::new(record);
+        Run::from_record(file, level, enabled, record.clone(), frequency_hz, settings.harmonics, &corrections).map_err(
+            |error| {
                 let key = if frequency_hz.is_some() { "frequency" } else { "file" };
-                self.run_error(index, key, Problem::Fit { file: planned.file.clone(), error })
-            })
+                let (file, looks_like) = (planned.file.clone(), propose(&record));
+                let problem = match looks_like {
+                    Proposal { kind: Kind::Steady, .. } => Problem::Fit { file, error },
+                    Proposal { kind, reason, .. } => Problem::NotSteady { file, error, kind: kind.name(), reason },
+                };
+                self.run_error(index, key, problem)
+            },
+        )
     }
 
     /// Reads the record of run number `index`, which is not steady.
@@ -90,6 +98,7 @@ impl Plan {
             level: planned.level,
             session: planned.session.clone(),
             enabled: planned.enabled,
+            exponential_window_s: planned.exponential_window_s,
         };
         TransientRun::new(label, Arc::new(record), &self.corrections()).map_err(|error| {
             let key = if matches!(error, TransientRunError::PartTooShort { .. }) { "start_s" } else { "file" };

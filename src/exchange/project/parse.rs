@@ -28,8 +28,20 @@ const MATRICES: [&str; 7] = ["kind", "lumped_mass", "mass", "stiffness", "nodes"
 const POINTS: [&str; 4] = ["kind", "lumped_mass", "dofs", "positions"];
 const ANALYSIS: [&str; 6] = ["harmonics", "expansion", "keep", "weights", "max_sources", "stop_angle_deg"];
 
-const RUN: [&str; 11] =
-    ["file", "frequency", "kind", "start_s", "end_s", "session", "level", "use", "force_dof", "force_n", "excitation"];
+const RUN: [&str; 12] = [
+    "file",
+    "frequency",
+    "kind",
+    "start_s",
+    "end_s",
+    "session",
+    "level",
+    "use",
+    "force_dof",
+    "force_n",
+    "excitation",
+    "exponential_window_s",
+];
 
 /// Most harmonics, sources and so on that a setting may ask for.
 const MOST: usize = 1000;
@@ -269,6 +281,7 @@ fn runs(root: &Table<'_>, lines: &mut Lines) -> Read<Vec<RunTable>> {
             kind,
             start_s: part.start_s,
             end_s: part.end_s,
+            exponential_window_s: exponential_window(&table)?,
             session: table.label("session")?.map(Label),
             level: table.whole("level")?,
             enabled: table.flag("use")?.unwrap_or(true),
@@ -279,6 +292,17 @@ fn runs(root: &Table<'_>, lines: &mut Lines) -> Read<Vec<RunTable>> {
         lines.run.push(key_lines(&table));
     }
     Ok(runs)
+}
+
+fn exponential_window(table: &Table<'_>) -> Read<Option<f64>> {
+    let constant = table.number("exponential_window_s")?;
+    match constant.filter(|constant| *constant <= 0.0) {
+        Some(value) => {
+            let (key, range) = ("exponential_window_s".to_owned(), "above 0 s");
+            Err(table.error("exponential_window_s", Problem::OutOfRange { key, value: value.to_string(), range }))
+        }
+        None => Ok(constant),
+    }
 }
 
 /// `start_s` and `end_s`.

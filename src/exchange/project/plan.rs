@@ -47,6 +47,8 @@ pub struct PlannedRun {
     pub kind: Kind,
     /// Part of the record that is used.
     pub part: Part,
+    /// Time constant of an exponential window over the motion, s.
+    pub exponential_window_s: Option<f64>,
     /// Label of the session.
     pub session: Option<String>,
     /// Label of the force level.
@@ -140,6 +142,7 @@ fn runs(file: &ProjectFile, structure: &Structure, folder: &Path, at: At<'_>) ->
             frequency_hz: table.frequency,
             kind: table.kind,
             part: Part { start_s: table.start_s, end_s: table.end_s },
+            exponential_window_s: table.exponential_window_s,
             session: table.session.as_ref().map(|label| label.0.clone()),
             level: table.level,
             enabled: table.enabled,
