@@ -105,7 +105,8 @@ pub fn cases() -> Vec<Case> {
         name: "cantilever, decay",
         structure: cantilever(),
         truth: vec![truth(Effect::Coulomb, 14, 0.01)],
-        candidates: candidates(&[Effect::Viscous, Effect::Coulomb], &[2, 6, 10, 14, 18]),
+        // A ring-down in one mode tells the law, not the place.
+        candidates: candidates(&[Effect::Viscous, Effect::Coulomb], &[14]),
         kind: Kind::Decay,
         loading: Loading::Release { displacement_m: 0.003, mode: None },
         dof: 18,

@@ -79,14 +79,11 @@ impl Motion {
         let sensors = orders.iter().copied().zip(variances).collect();
         let force_variance = force_numbers.iter().map(|&c| difference_variance(run.samples(c))).collect();
         let quiet = |end: &dyn Fn(&[f64]) -> bool| numbers.iter().chain(&force_numbers).all(|&c| end(run.samples(c)));
-        let first = if quiet(&is_quiet_start) { 0 } else { memory / 2 };
-        let last = if quiet(&|y| is_quiet(&y[y.len() - (y.len() / 50).max(8)..], y)) {
-            n
-        } else {
-            n.saturating_sub(memory / 2)
-        };
+        let first = if quiet(&is_quiet_start) { 0 } else { memory };
+        let last =
+            if quiet(&|y| is_quiet(&y[y.len() - (y.len() / 50).max(8)..], y)) { n } else { n.saturating_sub(memory) };
         if last < first + 16 {
-            let (needed_s, found_s) = ((memory + 16) as f64 * step, n as f64 * step);
+            let (needed_s, found_s) = ((2 * memory + 16) as f64 * step, n as f64 * step);
             return Err(WindowError::TooShort { file: run.file.clone(), needed_s, found_s });
         }
         let (mut q, mut v, mut lines) = (Vec::new(), Vec::new(), Vec::new());
