@@ -112,7 +112,7 @@ fn rms(samples: &[f64]) -> f64 {
     (samples.iter().map(|y| (y - mean).powi(2)).sum::<f64>() / samples.len().max(1) as f64).sqrt()
 }
 
-/// A decay that is not over at the end of the part, where the record goes on; and one that an exponential window has cut.
+/// A decay that is not over at the end of the part, where the record goes on.
 fn cut_decay(run: &TransientRun) -> Option<Finding> {
     if run.kind != Kind::Decay {
         return None;

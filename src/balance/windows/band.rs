@@ -63,7 +63,7 @@ impl Band {
             let first = modes.frequency_hz(flexible[0]);
             let share = (next / last).min(1e3).powf(0.2);
             let high = if next > TOP[1] * rate {
-                [(TOP[0] * rate).min(last.max(TOP[0] * rate)), TOP[1] * rate]
+                TOP.map(|share| share * rate)
             } else {
                 [last * share, (next / share).min(TOP[1] * rate)]
             };
@@ -113,7 +113,7 @@ fn too_few(run: &TransientRun, modes: usize, sensors: usize) -> WindowError {
     WindowError::TooFewSensors { file: run.file.clone(), modes, sensors }
 }
 
-/// Half the circular frequency between lines of a transform of `length` samples, rad/s.
+/// Circular frequency between lines of a transform of `length` samples, rad/s.
 pub(super) fn line_omega(length: usize, step: f64) -> f64 {
     TAU / (length as f64 * step)
 }

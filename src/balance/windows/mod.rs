@@ -167,7 +167,7 @@ fn windows(motion: &Motion, dominant: usize) -> Option<Vec<(usize, usize)>> {
     let mut count = 0;
     while first + steps(count + each) <= last && ends.len() < MOST_ROWS {
         let window = (first + steps(count), first + steps(count + each));
-        if stands_out(window.0) && stands_out(window.1) || motion.forces.iter().any(|_| stands_out(window.1)) {
+        if stands_out(window.0) && stands_out(window.1) || !motion.forces.is_empty() && stands_out(window.1) {
             ends.push(window);
         } else if !ends.is_empty() {
             break;
