@@ -24,7 +24,8 @@ const FLOORS: [(&str, u32); 14] = [
 ];
 
 /// Who may see a neighbour on the same floor.
-const NEIGHBOURS: [(&str, &str); 3] = [("math", "control"), ("effects", "structure"), ("session", "exchange")];
+const NEIGHBOURS: [(&str, &str); 4] =
+    [("math", "control"), ("effects", "structure"), ("balance", "response"), ("session", "exchange")];
 
 /// Names that the engine must not say below the floor given, and why.
 const FORBIDDEN: [(&str, u32, &str); 14] = [

@@ -6,6 +6,7 @@ pub mod error;
 pub mod expansion;
 pub mod measured;
 pub mod weights;
+pub mod windows;
 
 pub use energy::EnergyEquation;
 pub use error::BalanceError;

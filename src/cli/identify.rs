@@ -9,8 +9,9 @@ use crate::control::Control;
 use crate::exchange::Project;
 use crate::exchange::project::load;
 use crate::exchange::ratios::read_ratios;
-use crate::identify::{Outcome, identify_with_ratios};
-use crate::measurement::MeasuredRatio;
+use crate::identify::{Measurements, Outcome, identify_measured};
+use crate::measurement::proposal::propose;
+use crate::measurement::{Kind, MeasuredRatio};
 use crate::session::workers::Threads;
 use anyhow::Context;
 use std::f64::consts::TAU;
@@ -32,15 +33,29 @@ pub(super) fn run(arguments: &Identify) -> anyhow::Result<String> {
 pub(super) fn identified(file: &Path, ratios: Option<&Path>) -> anyhow::Result<(Project, Outcome)> {
     let control = Control::unattended().with_workers(Arc::new(Threads::default()));
     let project = load(file, &control)?;
+    say_other_kinds(&project);
     let ratios = ratios.map_or_else(|| Ok(Vec::new()), |choice| measured(&project, choice))?;
     for r in &ratios {
         let [value, deviation] = [r.ratio, r.deviation].map(|v| 100.0 * v);
         eprintln!("damping ratio at {:.4} Hz: {value:.4} % +- {deviation:.4} %", r.omega / TAU);
     }
     let (structure, sources) = (&project.structure, &project.sources);
-    let outcome = identify_with_ratios(structure, sources, &project.runs, &ratios, &project.settings, &control)
+    let measured = Measurements { runs: &project.runs, transient_runs: &project.transient_runs, ratios: &ratios };
+    let outcome = identify_measured(structure, sources, measured, &project.settings, &control)
         .with_context(|| file.display().to_string())?;
     Ok((project, outcome))
+}
+
+/// Steady runs whose records look like something else, in words.
+fn say_other_kinds(project: &Project) {
+    for run in &project.runs {
+        let Some(record) = &run.record else { continue };
+        let proposal = propose(record);
+        if proposal.kind != Kind::Steady {
+            let (file, kind) = (&run.file, proposal.kind.name());
+            eprintln!("warning: {file} is taken as steady but looks like kind = \"{kind}\": {}", proposal.reason);
+        }
+    }
 }
 
 fn measured(project: &Project, choice: &Path) -> anyhow::Result<Vec<MeasuredRatio>> {

@@ -2,7 +2,9 @@
 
 use super::source_json::{estimate, place};
 use crate::exchange::Project;
+use crate::identify::outcome::WindowOutcome;
 use crate::identify::{Outcome, Step};
+use crate::measurement::TransientRun;
 use faer::Mat;
 use serde_json::{Map, Value, json};
 
@@ -18,6 +20,7 @@ pub(super) fn document(project: &Project, outcome: &Outcome) -> Value {
     json!({
         "title": project.title,
         "runs": runs(project, outcome),
+        "records": records(project, outcome),
         "selection": outcome.steps.iter().map(|step| selection(project, step)).collect::<Vec<_>>(),
         "accepted": outcome.accepted_step().count,
         "status": outcome.status,
@@ -55,6 +58,35 @@ fn runs(project: &Project, outcome: &Outcome) -> Vec<Value> {
             })
         })
         .collect()
+}
+
+/// Every run that is not steady; windows of those that are not used are null.
+fn records(project: &Project, outcome: &Outcome) -> Vec<Value> {
+    let window = |w: &WindowOutcome| {
+        json!({"start_s": w.span_s[0], "end_s": w.span_s[1], "input_energy_j": w.input_energy,
+               "released_energy_j": w.released_energy, "stored_energy_j": w.stored_energy,
+               "identified_energy_j": w.identified_energy, "standard_deviation_j": w.deviation})
+    };
+    let one = |(index, run): (usize, &TransientRun)| {
+        let found = outcome.records.iter().find(|record| record.record == index);
+        let windows = found.map(|record| record.windows.iter().map(window).collect::<Vec<_>>());
+        json!({
+            "file": run.file,
+            "kind": run.kind,
+            "start_s": run.time()[0],
+            "end_s": run.time()[run.len() - 1],
+            "level": run.level,
+            "session": run.session,
+            "used": found.is_some(),
+            "modes": found.map(|record| &record.modes),
+            "dominant_mode": found.map(|record| record.dominant),
+            "corner_hz": found.map(|record| record.corner_hz),
+            "windows": windows,
+            "flags": run.findings.iter().map(|finding| finding.flag).collect::<Vec<_>>(),
+            "reasons": run.findings.iter().map(|finding| finding.reason.as_str()).collect::<Vec<_>>(),
+        })
+    };
+    project.transient_runs.iter().enumerate().map(one).collect()
 }
 
 fn selection(project: &Project, step: &Step) -> Value {

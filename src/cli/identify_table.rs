@@ -3,6 +3,7 @@
 use super::table::{digits, number, table};
 use crate::effects::{Place, Source, State};
 use crate::exchange::Project;
+use crate::identify::outcome::WindowOutcome;
 use crate::identify::{Estimate, Outcome, Step};
 use crate::structure::Structure;
 use faer::Mat;
@@ -20,6 +21,7 @@ pub(super) fn report(project: &Project, outcome: &Outcome) -> String {
     let parts = [
         format!("{}\n", project.title),
         runs(project, outcome),
+        records(project, outcome),
         selection(project, outcome),
         format!("Accepted: {} sources. {}\n", outcome.accepted_step().count, outcome.reason),
         sources(project, outcome),
@@ -35,7 +37,39 @@ fn head(cells: &[&str]) -> Vec<String> {
     cells.iter().map(|&cell| cell.to_owned()).collect()
 }
 
+/// The runs that are not steady, each with the energies over all its windows.
+fn records(project: &Project, outcome: &Outcome) -> String {
+    let mut rows =
+        vec![head(&["record", "kind", "from s", "to s", "windows", "modes", "input J", "released J", "identified J"])];
+    let mut reasons = String::new();
+    for (index, run) in project.transient_runs.iter().enumerate() {
+        let found = outcome.records.iter().find(|record| record.record == index);
+        let windows = found.map_or(&[][..], |record| &record.windows);
+        let sum = |of: fn(&WindowOutcome) -> f64| number(windows.iter().map(of).sum());
+        let modes =
+            found.map_or(String::new(), |r| r.modes.iter().map(ToString::to_string).collect::<Vec<_>>().join(","));
+        rows.push(vec![
+            run.file.clone(),
+            run.kind.name().to_owned(),
+            digits(run.time()[0], 4),
+            digits(run.time()[run.len() - 1], 4),
+            windows.len().to_string(),
+            modes,
+            sum(|w| w.input_energy),
+            sum(|w| w.released_energy),
+            sum(|w| w.identified_energy),
+        ]);
+        for finding in &run.findings {
+            reasons.push_str(&format!("  {}: {}\n", run.file, finding.reason));
+        }
+    }
+    if rows.len() == 1 { String::new() } else { format!("Records\n{}{reasons}", table(&rows)) }
+}
+
 fn runs(project: &Project, outcome: &Outcome) -> String {
+    if project.runs.is_empty() {
+        return String::new();
+    }
     let mut rows = vec![head(&["run", "Hz", "level", "input J", "identified J", "noise %", "flags"])];
     let mut reasons = String::new();
     for (index, run) in project.runs.iter().enumerate() {

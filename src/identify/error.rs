@@ -1,6 +1,7 @@
 //! Why nothing could be identified.
 
 use crate::balance::BalanceError;
+use crate::balance::windows::WindowError;
 use crate::control::Cancelled;
 use crate::math::nnls::NnlsError;
 use crate::math::subsets::SubsetError;
@@ -41,6 +42,8 @@ pub enum IdentifyError {
     RatioOfAmplitude { source_name: String },
     #[error(transparent)]
     Balance(#[from] BalanceError),
+    #[error(transparent)]
+    Windows(#[from] WindowError),
     #[error(transparent)]
     Solve(#[from] NnlsError),
     #[error(transparent)]

@@ -1,12 +1,13 @@
 //! Puts the outcome together from what the passes found.
 
-use super::outcome::{Estimate, Outcome, RankedAlternative, RunOutcome, Step};
+use super::outcome::{Estimate, Outcome, RankedAlternative, RecordOutcome, RunOutcome, Step, WindowOutcome};
 use super::problem::Problem;
 use super::results::{self, ResultsInput};
 use super::search::SizeRanking;
 use super::stopping::{angle_deg, penalty};
 use super::system::System;
 use super::{Found, IdentifyError, collinear, solve, warnings};
+use crate::balance::windows::WindowRows;
 use crate::balance::{action, weights};
 use crate::math::subsets::RankedSet;
 
@@ -42,6 +43,7 @@ pub(super) fn outcome(problem: &Problem<'_>, found: &Found) -> Result<Outcome, I
         weights: weights::resolve(problem.settings.weights, &found.state.runs),
         model_error: found.state.model_error,
         runs: teller.runs(&steps[accepted], &acting),
+        records: teller.records(&steps[accepted]),
         collinear: collinear::groups(problem, found),
         warnings: warnings::all(problem, found, &fit, &set),
         results: results::results(&input),
@@ -58,9 +60,10 @@ fn known_energies(problem: &Problem<'_>, found: &Found) -> Vec<Vec<f64>> {
         let run = |(m, e): &(crate::balance::Measured, crate::balance::Expanded)| {
             action::energy(source, problem.structure, e.field(m))
         };
-        found.state.runs.iter().map(run).collect()
+        found.state.runs.iter().map(run).collect::<Vec<f64>>()
     };
-    problem.known.iter().map(of).collect()
+    let with_windows = |(k, source)| of(source).into_iter().chain(problem.windows.known(k)).collect();
+    problem.known.iter().enumerate().map(with_windows).collect()
 }
 
 struct Teller<'a> {
@@ -133,6 +136,31 @@ impl Teller<'_> {
             energy_percent: percent(self.known[k].iter().sum(), taken),
         };
         self.problem.known_source.iter().enumerate().map(estimate).collect()
+    }
+
+    fn records(&self, step: &Step) -> Vec<RecordOutcome> {
+        let mut next = self.found.state.runs.len();
+        let windows = &self.problem.windows;
+        let one = |(&record, rows): (&usize, &WindowRows)| {
+            let first = next;
+            next += rows.len();
+            let window = |k: usize| WindowOutcome {
+                span_s: rows.span_s[k],
+                input_energy: rows.input[k],
+                released_energy: rows.released[k],
+                stored_energy: rows.stored[k],
+                identified_energy: step.identified_energy[first + k],
+                deviation: rows.covariance[(k, k)].max(0.0).sqrt(),
+            };
+            RecordOutcome {
+                record,
+                windows: (0..rows.len()).map(window).collect(),
+                modes: rows.modes.iter().map(|r| r + 1).collect(),
+                dominant: rows.dominant + 1,
+                corner_hz: rows.corner_hz,
+            }
+        };
+        windows.record.iter().zip(&windows.rows).map(one).collect()
     }
 
     fn runs(&self, step: &Step, acting: &[crate::effects::Source]) -> Vec<RunOutcome> {

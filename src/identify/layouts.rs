@@ -22,7 +22,11 @@ const NODES: u64 = 60_000;
 /// stand beside the energies.
 pub(super) fn warning(problem: &Problem<'_>, found: &Found, accepted: usize) -> Option<String> {
     let runs = problem.measured.len();
-    if problem.ratios.is_some() || accepted + 1 < runs || problem.columns.len() > MANY || problem.columns.len() <= runs
+    if problem.ratios.is_some()
+        || !problem.windows.is_empty()
+        || accepted + 1 < runs
+        || problem.columns.len() > MANY
+        || problem.columns.len() <= runs
     {
         return None;
     }

@@ -23,6 +23,7 @@ mod state;
 mod stopping;
 mod system;
 mod warnings;
+mod window_columns;
 
 pub use error::IdentifyError;
 pub use outcome::{Estimate, Form, Outcome, RankedAlternative, RunOutcome, Status, Step};
@@ -32,7 +33,7 @@ pub use settings::Settings;
 use crate::balance::{Expansion, Weights};
 use crate::control::Control;
 use crate::effects::Source;
-use crate::measurement::{MeasuredRatio, Run};
+use crate::measurement::{MeasuredRatio, Run, TransientRun};
 use crate::structure::Structure;
 use problem::Problem;
 use search::{SizeRanking, search};
@@ -75,7 +76,33 @@ pub fn identify_with_ratios(
     settings: &Settings,
     control: &Control,
 ) -> Result<Outcome, IdentifyError> {
-    let mut problem = Problem::new(structure, sources, runs, ratios, settings, control)?;
+    identify_measured(structure, sources, Measurements { runs, transient_runs: &[], ratios }, settings, control)
+}
+
+/// Everything that was measured on one structure.
+#[derive(Debug, Clone, Copy)]
+pub struct Measurements<'a> {
+    /// Steady runs.
+    pub runs: &'a [Run],
+    /// Decays and transients.
+    pub transient_runs: &'a [TransientRun],
+    /// Damping ratios.
+    pub ratios: &'a [MeasuredRatio],
+}
+
+/// [`identify`] from steady runs, decays, transients and damping ratios together: all that are enabled, each row weighted by
+/// the covariance of its noise.
+///
+/// # Errors
+/// As [`identify_with_ratios`]; and records whose windows give no energy equation.
+pub fn identify_measured(
+    structure: &Structure,
+    sources: &[Source],
+    measured: Measurements<'_>,
+    settings: &Settings,
+    control: &Control,
+) -> Result<Outcome, IdentifyError> {
+    let mut problem = Problem::new(structure, sources, measured, settings, control)?;
     let mut first = State::start(&problem)?;
     problem.drop_unobservable(&first)?;
     if first.coefficients.len() != problem.columns.len() {

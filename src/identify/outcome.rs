@@ -110,6 +110,38 @@ pub struct RunOutcome {
     pub harmonics: Vec<usize>,
 }
 
+/// One record that is not steady.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RecordOutcome {
+    /// Index in the list of such runs given to `identify`.
+    pub record: usize,
+    /// The windows that it was divided into.
+    pub windows: Vec<WindowOutcome>,
+    /// Numbers of the modes in its band, from 1.
+    pub modes: Vec<usize>,
+    /// The mode that holds most energy, whose periods the windows hold.
+    pub dominant: usize,
+    /// Frequency below which motion is left out, Hz.
+    pub corner_hz: f64,
+}
+
+/// One window of a record.
+#[derive(Debug, Clone, PartialEq)]
+pub struct WindowOutcome {
+    /// Start and end, s.
+    pub span_s: [f64; 2],
+    /// Work of the exciters, J.
+    pub input_energy: f64,
+    /// Energy that the structure gave up: stored at the start less stored at the end, J.
+    pub released_energy: f64,
+    /// Energy of the structure at the start, J.
+    pub stored_energy: f64,
+    /// Energy taken out by the accepted sources and the known ones, J.
+    pub identified_energy: f64,
+    /// Standard deviation of (input + released - identified) from the noise, J.
+    pub deviation: f64,
+}
+
 /// Sources that the data cannot tell from an accepted one.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Collinear {
@@ -137,6 +169,8 @@ pub struct Outcome {
     pub model_error: f64,
     /// Runs in use, in the order given.
     pub runs: Vec<RunOutcome>,
+    /// Records that are not steady, in the order given.
+    pub records: Vec<RecordOutcome>,
     /// Best set of each size, ascending.
     pub steps: Vec<Step>,
     /// Index of the accepted step.

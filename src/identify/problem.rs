@@ -2,12 +2,13 @@
 
 use super::ratio_rows::RatioRows;
 use super::state::State;
-use super::{IdentifyError, Settings};
+use super::window_columns::WindowColumns;
+use super::{IdentifyError, Measurements, Settings};
 use crate::balance::energy::is_observable;
-use crate::balance::{Expander, Measured, Weights};
+use crate::balance::{Expander, Expansion, Measured, Weights};
 use crate::control::Control;
 use crate::effects::{Place, Source, State as SourceState};
-use crate::measurement::{Flag, MeasuredRatio, Run};
+use crate::measurement::{Flag, Run};
 use crate::structure::Structure;
 
 /// The question in the form in which the solver takes it.
@@ -31,6 +32,8 @@ pub(crate) struct Problem<'a> {
     pub expander: Expander<'a>,
     /// Damping ratios beside the runs.
     pub ratios: Option<RatioRows>,
+    /// Windows of records that are not steady.
+    pub windows: WindowColumns,
     pub warnings: Vec<String>,
     pub control: Control,
 }
@@ -40,19 +43,20 @@ impl<'a> Problem<'a> {
     pub fn new(
         structure: &'a Structure,
         sources: &'a [Source],
-        runs: &'a [Run],
-        ratios: &[MeasuredRatio],
+        given: Measurements<'_>,
         settings: &'a Settings,
         control: &Control,
     ) -> Result<Self, IdentifyError> {
-        let mut warnings = Vec::new();
+        let (mut warnings, runs) = (Vec::new(), given.runs);
         let run_index = runs_in_use(runs, &mut warnings);
-        if run_index.is_empty() {
+        if run_index.is_empty() && given.transient_runs.iter().all(|run| !run.enabled) {
             return Err(IdentifyError::NoRuns);
         }
         let measured: Result<Vec<Measured>, _> = run_index.iter().map(|&r| Measured::new(&runs[r])).collect();
         let measured = measured?;
-        let expander = Expander::new(structure, settings.expansion, &measured)?;
+        // Without steady runs there is no harmonic to expand.
+        let expansion = if measured.is_empty() { Expansion::None } else { settings.expansion };
+        let expander = Expander::new(structure, expansion, &measured)?;
         let mut problem = Self {
             structure,
             sources,
@@ -66,11 +70,14 @@ impl<'a> Problem<'a> {
             run_index,
             expander,
             ratios: None,
+            windows: WindowColumns::default(),
             warnings,
             control: control.clone(),
         };
         problem.sort_sources()?;
-        problem.ratios = RatioRows::new(structure, [&problem.known, &problem.columns], ratios)?;
+        problem.ratios = RatioRows::new(structure, [&problem.known, &problem.columns], given.ratios)?;
+        let (known, columns) = (&problem.known, &problem.columns);
+        problem.windows = WindowColumns::new(structure, known, columns, given.transient_runs, control)?;
         problem.check_counts()?;
         Ok(problem)
     }
@@ -138,6 +145,7 @@ impl<'a> Problem<'a> {
         let mut flags = keep.iter();
         self.column_source.retain(|_| *flags.next().unwrap_or(&false));
         self.forced = (0..self.columns.len()).filter(|&j| forced.contains(&self.column_source[j])).collect();
+        self.windows.retain(&keep);
         if self.columns.is_empty() {
             return Err(IdentifyError::NoCandidates);
         }
@@ -146,7 +154,7 @@ impl<'a> Problem<'a> {
 
     /// Energies and damping ratios.
     pub fn equations(&self) -> usize {
-        self.measured.len() + self.ratios.as_ref().map_or(0, RatioRows::len)
+        self.measured.len() + self.windows.len() + self.ratios.as_ref().map_or(0, RatioRows::len)
     }
 
     /// Whether deviations are known from the data in every run.
@@ -171,7 +179,8 @@ impl<'a> Problem<'a> {
 }
 
 fn check_input(state: &State) -> Result<(), IdentifyError> {
-    if state.equation.input.iter().all(|&e| e <= 0.0) { Err(IdentifyError::NoInput) } else { Ok(()) }
+    let steady = &state.equation.input[..state.runs.len()];
+    if !steady.is_empty() && steady.iter().all(|&e| e <= 0.0) { Err(IdentifyError::NoInput) } else { Ok(()) }
 }
 
 /// Enabled runs of a steady motion, or insisted on; if there is none, all enabled ones.

@@ -38,6 +38,7 @@ impl State {
     ) -> Result<Self, IdentifyError> {
         let equation =
             EnergyEquation::new(problem.structure, &runs, &problem.columns, &problem.known, &problem.control)?;
+        let equation = problem.windows.behind(equation);
         Ok(Self { runs, equation, coefficients, model_error })
     }
 

@@ -35,6 +35,12 @@ impl System {
             }
             Form::Response => response_form::system(problem, state, set),
         };
+        // Without steady runs the windows are the energy equation.
+        let system = if form == Form::Energy && problem.measured.is_empty() {
+            system
+        } else {
+            problem.windows.append(system, set)
+        };
         match &problem.ratios {
             Some(ratios) => ratios.append(problem, state, form, system, set),
             None => system,
@@ -49,18 +55,22 @@ impl System {
         // Without any coefficient yet the noise of G is unknown; the energy then is the better guide.
         let unknown = state.coefficients.iter().all(|c| *c == 0.0) && problem.known.is_empty();
         let used = if choice == Weights::Noise && unknown { Weights::Energy } else { choice };
-        let factors = weights::factors(used, structure, &state.runs, &equation.input, &acting);
+        let factors = weights::factors(used, structure, &state.runs, &equation.input[..state.runs.len()], &acting);
         let rows = factors.len();
         let deviation = problem.is_noisy().then(|| {
             let row = |r: usize| weights::residual_deviation(structure, &state.runs[r].0, &state.runs[r].1, &acting);
             (0..rows).map(|r| row(r) * factors[r]).collect()
         });
-        Self {
+        let system = Self {
             a: Mat::from_fn(rows, equation.g.ncols(), |r, j| equation.g[(r, j)] * factors[r]),
             b: equation.e.iter().zip(&factors).map(|(e, w)| e * w).collect(),
             run: (0..rows).collect(),
             deviation,
+        };
+        if rows > 0 {
+            return system;
         }
+        problem.windows.append(system, &(0..equation.g.ncols()).collect::<Vec<usize>>())
     }
 
     /// Number of rows.

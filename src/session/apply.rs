@@ -168,7 +168,7 @@ fn import_run(file: &mut ProjectFile, name: String) -> Done {
     if file.run.iter().any(|run| run.file == name) {
         return Err(Refusal::RunTwice { file: name });
     }
-    file.run.push(RunTable { file: name, ..RunTable::default() });
+    file.run.push(RunTable::of(name));
     Ok(())
 }
 

@@ -60,7 +60,15 @@ pub(crate) fn equivalent(structure: &Structure, runs: &[(Measured, Expanded)], a
     let total = |j: usize| energies.iter().fold((0.0, 0.0), |sum, row| (sum.0 + row[j].0, sum.1 + row[j].1));
     EquivalentViscous {
         by_run: energies.iter().map(|row| row.iter().map(|&pair| ratio(pair)).collect()).collect(),
-        overall: (0..acting.len()).map(|j| ratio(total(j))).collect(),
+        // Without steady runs a dashpot is still one.
+        overall: acting
+            .iter()
+            .enumerate()
+            .map(|(j, source)| match total(j) {
+                (_, unit) if unit == 0.0 && is_viscous(source.effect) => source.coefficient(),
+                pair => ratio(pair),
+            })
+            .collect(),
     }
 }
 

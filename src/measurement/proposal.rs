@@ -1,0 +1,176 @@
+//! The kind of run that a record looks like, read from the record itself.
+//!
+//! Root mean squares over blocks of time say where force acts and where motion is. No force while the motion dies away: a
+//! decay, from where the force ends. Force that acts all the time on few lines: steady. Everything else: transient.
+
+use super::{Kind, Part, Quantity, Record};
+use crate::math::spectrum::Spectrum;
+
+/// Blocks of time.
+const BLOCKS: usize = 100;
+/// Force, over its largest, that counts as none.
+const NO_FORCE: f64 = 0.02;
+/// Ratio of motion at the end to its largest below which it dies away.
+const DIES: f64 = 0.5;
+/// Length of a contact, over the record, below which the force is that of a hammer.
+const HAMMER: f64 = 0.1;
+/// Share of the power on the largest lines from which a signal is periodic.
+const PERIODIC: f64 = 0.8;
+
+/// What a record looks like.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Proposal {
+    /// Kind.
+    pub kind: Kind,
+    /// Part to be used.
+    pub part: Part,
+    /// Why, in one sentence with numbers and units.
+    pub reason: String,
+}
+
+/// What a record looks like.
+pub fn propose(record: &Record) -> Proposal {
+    let force = envelope(record, |quantity| quantity == Quantity::Force);
+    let motion = envelope(record, |quantity| quantity != Quantity::Force);
+    let most = force.iter().copied().fold(0.0, f64::max);
+    let acts: Vec<usize> = (0..force.len()).filter(|&b| force[b] > NO_FORCE * most).collect();
+    let at = |block: usize| record.time()[(block * record.len() / BLOCKS).min(record.len() - 1)];
+    match (acts.first(), acts.last()) {
+        (Some(&first), Some(&last)) if most > 0.0 && last + 2 < BLOCKS => {
+            after_force(record, &motion, [first, last], at)
+        }
+        (Some(_), Some(_)) if most > 0.0 => driven(record, Quantity::Force),
+        _ => free(record, &motion, at),
+    }
+}
+
+/// The force ends before the record does.
+fn after_force(record: &Record, motion: &[f64], [first, last]: [usize; 2], at: impl Fn(usize) -> f64) -> Proposal {
+    let (duration, end) = (record.duration(), at(last + 1));
+    let contact = (last + 1 - first) as f64 / BLOCKS as f64;
+    if contact < HAMMER {
+        let reason = format!(
+            "the force acts for less than {:.3} s of {duration:.3} s, from {:.3} s on, as a hammer's does",
+            contact * duration,
+            at(first)
+        );
+        return Proposal { kind: Kind::Transient, part: Part::default(), reason };
+    }
+    let left = motion[last + 1] / motion.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
+    if left > 0.1 {
+        let reason = format!("the force ends at {end:.3} s and the motion dies away from there");
+        return Proposal { kind: Kind::Decay, part: Part { start_s: Some(end), end_s: None }, reason };
+    }
+    let reason = format!("the force acts until {end:.3} s and the motion ends with it");
+    Proposal { kind: Kind::Transient, part: Part::default(), reason }
+}
+
+/// No force: the motion dies away, or is driven by what was not measured.
+fn free(record: &Record, motion: &[f64], at: impl Fn(usize) -> f64) -> Proposal {
+    let last = motion.len().saturating_sub(3);
+    let end = motion[last..].iter().sum::<f64>() / (motion.len() - last).max(1) as f64;
+    // The decay begins where the motion leaves the level of its largest blocks for good.
+    let most = motion.iter().copied().fold(0.0, f64::max);
+    let start = (0..motion.len()).rev().find(|&b| motion[b] > 0.9 * most).unwrap_or(0);
+    if most > 0.0 && end < DIES * most {
+        let from = if start <= 1 { None } else { Some(at(start)) };
+        let reason = format!(
+            "no force is measured, and the motion falls to {:.1} % of its largest from {:.3} s on",
+            100.0 * end / most,
+            at(start)
+        );
+        return Proposal { kind: Kind::Decay, part: Part { start_s: from, end_s: None }, reason };
+    }
+    driven(record, Quantity::Acceleration)
+}
+
+/// Steady where few lines hold the power.
+fn driven(record: &Record, quantity: Quantity) -> Proposal {
+    let like = |c: &usize| (record.channels()[*c].quantity == Quantity::Force) == (quantity == Quantity::Force);
+    let share = (0..record.channels().len()).filter(like).map(|c| concentration(record, c)).fold(0.0, f64::max);
+    let what = if quantity == Quantity::Force { "force" } else { "motion" };
+    let (kind, word) = if share >= PERIODIC { (Kind::Steady, "periodic") } else { (Kind::Transient, "not periodic") };
+    let reason =
+        format!("the {what} is {word}: {:.0} % of its power lies on one frequency and its multiples", 100.0 * share);
+    Proposal { kind, part: Part::default(), reason }
+}
+
+/// Share of a channel's power within two lines of its largest line and of the multiples of that.
+fn concentration(record: &Record, channel: usize) -> f64 {
+    let Some(spectrum) = Spectrum::new(record.samples(channel), record.step()) else { return 0.0 };
+    let power: Vec<f64> = spectrum.amplitude.iter().map(|a| a * a).collect();
+    let Some(top) = (1..power.len()).max_by(|&a, &b| power[a].total_cmp(&power[b])) else { return 0.0 };
+    let total: f64 = power[1..].iter().sum();
+    // At a multiple the frequency is known that much worse.
+    let near = |k: usize| (1..=7).any(|h| (k as f64 - (h * top) as f64).abs() <= 2.0 + 0.5 * (h - 1) as f64);
+    let lines: f64 = (1..power.len()).filter(|&k| near(k)).map(|k| power[k]).sum();
+    if total > 0.0 { lines / total } else { 0.0 }
+}
+
+/// Largest root mean square over the channels of a kind in each block, each channel less its mean at the end and over its
+/// largest; empty without such channels.
+fn envelope(record: &Record, wanted: impl Fn(Quantity) -> bool) -> Vec<f64> {
+    let mut most = Vec::new();
+    for c in (0..record.channels().len()).filter(|&c| wanted(record.channels()[c].quantity)) {
+        let samples = record.samples(c);
+        let tail = &samples[samples.len() - (samples.len() / 20).max(1)..];
+        let mean = tail.iter().sum::<f64>() / tail.len() as f64;
+        let largest = samples.iter().fold(0.0_f64, |m, y| m.max((y - mean).abs()));
+        if largest == 0.0 {
+            continue;
+        }
+        most.resize(BLOCKS, 0.0_f64);
+        for (b, value) in most.iter_mut().enumerate() {
+            let block =
+                b * samples.len() / BLOCKS..((b + 1) * samples.len() / BLOCKS).max(b * samples.len() / BLOCKS + 1);
+            let part = &samples[block.start.min(samples.len() - 1)..block.end.min(samples.len())];
+            let square = part.iter().map(|y| ((y - mean) / largest).powi(2)).sum::<f64>() / part.len().max(1) as f64;
+            *value = value.max(square.sqrt());
+        }
+    }
+    most
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "tests")]
+    use super::*;
+    use crate::measurement::Channel;
+    use std::f64::consts::TAU;
+
+    fn record(force: Option<&dyn Fn(f64) -> f64>, motion: &dyn Fn(f64) -> f64) -> Record {
+        let time: Vec<f64> = (0..4000).map(|n| 0.001 * f64::from(n)).collect();
+        let signal = |y: &dyn Fn(f64) -> f64| time.iter().map(|&t| y(t)).collect::<Vec<f64>>();
+        let channel = |quantity| Channel { quantity, dof: 0, label: "1".into() };
+        let mut channels = vec![channel(Quantity::Acceleration)];
+        let mut samples = vec![signal(motion)];
+        if let Some(force) = force {
+            channels.push(channel(Quantity::Force));
+            samples.push(signal(force));
+        }
+        Record::new(time, channels, samples).unwrap()
+    }
+
+    #[test]
+    fn records_are_what_they_look_like() {
+        let sine = |t: f64| (TAU * 20.0 * t).sin();
+        let decay = |t: f64| (TAU * 20.0 * t).sin() * (-1.5 * t).exp();
+        let sweep = |t: f64| (TAU * (5.0 + 10.0 * t) * t).sin();
+        let hit = |t: f64| if (0.5..0.51).contains(&t) { 1.0 } else { 0.0 };
+        let off = |t: f64| if t < 2.0 { sine(t) } else { 0.0 };
+        let rings = |t: f64| if t < 2.0 { sine(t) } else { sine(t) * (-2.0 * (t - 2.0)).exp() };
+        let kind = |record: &Record| propose(record).kind;
+        assert_eq!(kind(&record(Some(&sine), &sine)), Kind::Steady);
+        assert_eq!(kind(&record(None, &sine)), Kind::Steady);
+        assert_eq!(kind(&record(None, &decay)), Kind::Decay);
+        assert_eq!(kind(&record(Some(&sweep), &sweep)), Kind::Transient);
+        assert_eq!(kind(&record(Some(&hit), &decay)), Kind::Transient);
+        let switched = propose(&record(Some(&off), &rings));
+        assert_eq!(switched.kind, Kind::Decay);
+        assert!((switched.part.start_s.unwrap() - 2.0).abs() < 0.08, "{switched:?}");
+        // The exciter was not measured: steady first, then free.
+        let unseen = propose(&record(None, &rings));
+        assert_eq!(unseen.kind, Kind::Decay);
+        assert!((unseen.part.start_s.unwrap() - 2.0).abs() < 0.08, "{unseen:?}");
+    }
+}

@@ -1,0 +1,190 @@
+//! Quality of a record that is not steady: what an engineer should know before trusting it. Nothing is corrected here.
+
+use super::proposal::propose;
+use super::{Finding, Flag, Kind, Quantity, TransientRun};
+use crate::math::spectrum::Spectrum;
+
+/// Force, over its largest, that belongs to a contact.
+const CONTACT: f64 = 0.1;
+/// Longest force, over the record, that is a hammer's.
+const HAMMER: f64 = 0.1;
+/// Root mean square at the end over the largest from which a decay is cut off.
+const CUT: f64 = 0.2;
+/// Share of the power above 0.4 of the sampling rate that is too much.
+const OUT_OF_BAND: f64 = 0.05;
+/// Equal samples at an end of the range that are no chance.
+const CLIPPED: usize = 4;
+/// Mean of an acceleration over a third of the record, over its root mean square, that makes its integral drift.
+const DRIFT: f64 = 0.1;
+/// Half-power bands that two modes must be apart in the resolution of the record.
+const CLOSE: f64 = 2.0;
+
+/// Everything that is wrong with the part that is used.
+pub(super) fn assess(run: &TransientRun) -> Vec<Finding> {
+    let mut findings = Vec::new();
+    findings.extend(other_kind(run));
+    findings.extend(hammer(run));
+    findings.extend((0..run.channels().len()).filter_map(|c| clipped(run, c)));
+    findings.extend(cut_decay(run));
+    findings.extend(run.response_channels().into_iter().filter_map(|c| out_of_band(run, c)));
+    findings.extend(too_short(run));
+    findings.extend(run.response_channels().into_iter().filter_map(|c| drift(run, c)));
+    findings
+}
+
+fn finding(flag: Flag, reason: String) -> Finding {
+    Finding { flag, reason }
+}
+
+/// The whole record looks like a run of another kind.
+fn other_kind(run: &TransientRun) -> Option<Finding> {
+    if !run.part.is_whole() {
+        return None;
+    }
+    let proposal = propose(&run.record);
+    (proposal.kind != run.kind).then(|| {
+        finding(Flag::OtherKind, format!("it looks like kind \"{}\": {}", proposal.kind.name(), proposal.reason))
+    })
+}
+
+/// No quiet part before the contact; more than one contact.
+fn hammer(run: &TransientRun) -> Vec<Finding> {
+    let mut findings = Vec::new();
+    for c in run.force_channels() {
+        let contacts = contacts(run.samples(c));
+        let length: usize = contacts.iter().map(|(first, last)| last - first).sum();
+        if contacts.is_empty() || length as f64 > HAMMER * run.len() as f64 {
+            continue;
+        }
+        let time = |n: usize| run.time()[n];
+        let channel = &run.channels()[c];
+        if contacts[0].0 < 8.max(run.len() / 500) {
+            let reason = format!("{channel} acts from the start; record a quiet part before the hit (pre-trigger)");
+            findings.push(finding(Flag::NoPreTrigger, reason));
+        }
+        if contacts.len() > 1 {
+            let reason = format!(
+                "{channel} strikes {} times, at {:.4} s and {:.4} s; the energy balance holds all the same, as long as both are measured",
+                contacts.len(),
+                time(contacts[0].0),
+                time(contacts[1].0)
+            );
+            findings.push(finding(Flag::DoubleHit, reason));
+        }
+    }
+    findings
+}
+
+/// First and last sample of each contact; pauses shorter than the longest contact belong to it.
+fn contacts(force: &[f64]) -> Vec<(usize, usize)> {
+    let most = force.iter().fold(0.0_f64, |m, u| m.max(u.abs()));
+    if most == 0.0 {
+        return Vec::new();
+    }
+    let mut found: Vec<(usize, usize)> = Vec::new();
+    for n in (0..force.len()).filter(|&n| force[n].abs() > CONTACT * most) {
+        match found.last_mut() {
+            Some((first, last)) if n - *last <= (*last - *first).max(2) => *last = n,
+            _ => found.push((n, n)),
+        }
+    }
+    found
+}
+
+/// A channel that stands at the end of its range.
+fn clipped(run: &TransientRun, c: usize) -> Option<Finding> {
+    let samples = run.samples(c);
+    let most = samples.iter().fold(0.0_f64, |m, y| m.max(y.abs()));
+    let at_end = |y: &f64| y.abs() == most && most > 0.0;
+    let longest = samples.split(|y| !at_end(y)).map(<[f64]>::len).max().unwrap_or(0);
+    (longest >= CLIPPED).then(|| {
+        let channel = &run.channels()[c];
+        finding(
+            Flag::Clipped,
+            format!("{longest} samples of {channel} in a row stand at {most:.4e} (SI units), the end of its range"),
+        )
+    })
+}
+
+/// Root mean square over a part of a channel less its mean.
+fn rms(samples: &[f64]) -> f64 {
+    let mean = samples.iter().sum::<f64>() / samples.len().max(1) as f64;
+    (samples.iter().map(|y| (y - mean).powi(2)).sum::<f64>() / samples.len().max(1) as f64).sqrt()
+}
+
+/// A decay that is not over at the end of the part, where the record goes on.
+fn cut_decay(run: &TransientRun) -> Option<Finding> {
+    if run.kind != Kind::Decay {
+        return None;
+    }
+    let block = (run.len() / 20).max(8);
+    let left = |c: &usize| {
+        let samples = run.samples(*c);
+        let most = samples.chunks(block).map(rms).fold(0.0, f64::max);
+        if most > 0.0 { rms(&samples[samples.len() - block..]) / most } else { 0.0 }
+    };
+    let worst = run.response_channels().iter().map(left).fold(0.0, f64::max);
+    let goes_on = run.range().end < run.record.len();
+    (worst > CUT && goes_on).then(|| {
+        let reason =
+            format!("the part ends at {:.0} % of the largest motion and the record goes on; move end_s", 100.0 * worst);
+        finding(Flag::CutDecay, reason)
+    })
+}
+
+fn out_of_band(run: &TransientRun, c: usize) -> Option<Finding> {
+    let spectrum = Spectrum::new(run.samples(c), run.step())?;
+    let limit = 0.4 / run.step();
+    let power = |k: usize| spectrum.amplitude[k].powi(2);
+    let total: f64 = (1..spectrum.amplitude.len()).map(power).sum();
+    let above: f64 = (1..spectrum.amplitude.len()).filter(|&k| spectrum.frequency_hz(k) > limit).map(power).sum();
+    (total > 0.0 && above > OUT_OF_BAND * total).then(|| {
+        let reason = format!(
+            "{:.0} % of the power of {} lies above {limit:.4} Hz, where filters and sensors are no longer true; sample faster",
+            100.0 * above / total,
+            run.channels()[c]
+        );
+        finding(Flag::OutOfBand, reason)
+    })
+}
+
+/// Two peaks nearer than the record can resolve stand out as one broad one; told from the two largest peaks of a channel.
+fn too_short(run: &TransientRun) -> Option<Finding> {
+    let c = *run.response_channels().first()?;
+    let spectrum = Spectrum::new(run.samples(c), run.step())?;
+    let a = &spectrum.amplitude;
+    let mut peaks: Vec<usize> =
+        (2..a.len().saturating_sub(2)).filter(|&k| a[k] > a[k - 1] && a[k] >= a[k + 1]).collect();
+    peaks.sort_by(|&x, &y| a[y].total_cmp(&a[x]));
+    let [first, second] = [*peaks.first()?, *peaks.get(1)?];
+    let apart = first.abs_diff(second) as f64;
+    (a[second] > 0.3 * a[first] && apart <= 2.0 * CLOSE).then(|| {
+        let reason = format!(
+            "two modes at {:.4} Hz and {:.4} Hz are only {apart:.0} lines apart; {:.1} s or more tell them apart",
+            spectrum.frequency_hz(first),
+            spectrum.frequency_hz(second),
+            run.len() as f64 * run.step() * 4.0 * CLOSE / apart
+        );
+        finding(Flag::TooShort, reason)
+    })
+}
+
+/// An acceleration whose mean wanders.
+fn drift(run: &TransientRun, c: usize) -> Option<Finding> {
+    let channel = &run.channels()[c];
+    if channel.quantity != Quantity::Acceleration {
+        return None;
+    }
+    let samples = run.samples(c);
+    let (size, third) = (rms(samples), samples.len() / 3);
+    let means: Vec<f64> =
+        samples.chunks_exact(third.max(1)).map(|part| part.iter().sum::<f64>() / part.len() as f64).collect();
+    let spread = means.iter().fold(f64::MIN, |m, x| m.max(*x)) - means.iter().fold(f64::MAX, |m, x| m.min(*x));
+    (size > 0.0 && spread > DRIFT * size).then(|| {
+        let reason = format!(
+            "the mean of {channel} wanders by {:.0} % of its root mean square; its integrals drift and are kept above the lowest mode only",
+            100.0 * spread / size
+        );
+        finding(Flag::Drift, reason)
+    })
+}

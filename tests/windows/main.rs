@@ -1,0 +1,6 @@
+//! Identification on windows of decays and hammer tests: the right sources come out and their deviations are honest.
+#![allow(clippy::unwrap_used, reason = "tests")]
+
+mod honest;
+mod rows;
+mod support;

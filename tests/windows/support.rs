@@ -1,0 +1,131 @@
+//! Decays and hammer tests of the sample structures, by time integration in fine steps.
+
+use dashpot::control::Control;
+use dashpot::effects::{Effect, Place, Source};
+use dashpot::measurement::{Channel, Kind, Quantity, TransientLabel, TransientRun};
+use dashpot::response::recording::{Loading, TestRecord, TestSetup, record_test};
+use dashpot::response::synthesis::{Noise, record};
+use dashpot::structure::Structure;
+use dashpot::structure::beam::{BeamParameters, Supports};
+use dashpot::structure::chain::ChainParameters;
+use std::sync::Arc;
+
+/// The five masses of section 6.
+pub fn five_masses() -> Structure {
+    let chain = ChainParameters {
+        masses: vec![1.727, 5.122, 8.213, 2.609, 1.339],
+        ground_stiffness: vec![94263.0; 5],
+        coupling_stiffness: vec![75136.0, 67744.0, 75466.0, 83396.0],
+    };
+    chain.build(&[]).unwrap()
+}
+
+pub fn cantilever() -> Structure {
+    let beam = BeamParameters {
+        length: 0.56,
+        breadth: 0.04,
+        depth: 0.004,
+        youngs_modulus: 69e9,
+        density: 2700.0,
+        elements: 10,
+        supports: Supports::ClampedFree,
+    };
+    beam.build(&[]).unwrap()
+}
+
+/// A test and the truth behind it.
+pub struct Case {
+    pub name: &'static str,
+    pub structure: Structure,
+    pub truth: Vec<Source>,
+    pub candidates: Vec<Source>,
+    pub kind: Kind,
+    pub loading: Loading,
+    pub dof: usize,
+    pub sensors: Vec<usize>,
+    pub rate_hz: f64,
+    pub samples: usize,
+}
+
+impl Case {
+    pub fn channels(&self) -> Vec<Channel> {
+        let channel = |quantity, dof: usize| Channel { quantity, dof, label: self.structure.label(dof).to_owned() };
+        let force = (self.kind == Kind::Transient).then(|| channel(Quantity::Force, self.dof));
+        force.into_iter().chain(self.sensors.iter().map(|&dof| channel(Quantity::Acceleration, dof))).collect()
+    }
+
+    pub fn clean(&self) -> TestRecord {
+        let channels = self.channels();
+        let setup = TestSetup {
+            loading: &self.loading,
+            dof: self.dof,
+            channels: &channels,
+            sensors: &[],
+            rate_hz: self.rate_hz,
+            samples: self.samples,
+            filter: true,
+        };
+        record_test(&self.structure, &self.truth, &setup, &Control::unattended()).unwrap()
+    }
+
+    pub fn run(&self, clean: &TestRecord, noise: f64, seed: u64) -> TransientRun {
+        let noise = (noise > 0.0).then_some(Noise { ratio: noise, seed, stream: 0 });
+        let record = record(&clean.time, self.channels(), clean.samples.clone(), noise).unwrap();
+        let label = TransientLabel { file: self.name.into(), kind: self.kind, enabled: true, ..Default::default() };
+        TransientRun::new(label, Arc::new(record), &[]).unwrap()
+    }
+}
+
+fn candidates(effects: &[Effect], dofs: &[usize]) -> Vec<Source> {
+    let at = |&effect: &Effect| {
+        dofs.iter().map(move |&dof| Source::candidate(effect, Place::Dofs(vec![dof]))).collect::<Vec<Source>>()
+    };
+    effects.iter().flat_map(at).collect()
+}
+
+fn truth(effect: Effect, dof: usize, value: f64) -> Source {
+    Source::known(effect, Place::Dofs(vec![dof]), &[value])
+}
+
+/// A decay and a hammer test of each sample structure.
+pub fn cases() -> Vec<Case> {
+    let masses = || Case {
+        name: "five masses, decay",
+        structure: five_masses(),
+        truth: vec![truth(Effect::Viscous, 0, 12.0), truth(Effect::Viscous, 3, 20.0)],
+        candidates: candidates(&[Effect::Viscous], &[0, 1, 2, 3, 4]),
+        kind: Kind::Decay,
+        loading: Loading::Release { displacement_m: 0.002, mode: None },
+        dof: 0,
+        sensors: vec![0, 1, 2, 3, 4],
+        rate_hz: 1024.0,
+        samples: 3000,
+    };
+    let beam = || Case {
+        name: "cantilever, decay",
+        structure: cantilever(),
+        truth: vec![truth(Effect::Coulomb, 14, 0.01)],
+        // A ring-down in one mode tells the law, not the place.
+        candidates: candidates(&[Effect::Viscous, Effect::Coulomb], &[14]),
+        kind: Kind::Decay,
+        loading: Loading::Release { displacement_m: 0.003, mode: None },
+        dof: 18,
+        sensors: vec![6, 12, 18],
+        rate_hz: 1024.0,
+        samples: 2500,
+    };
+    let hammer = |peak_n, width_s| Loading::Impulse { peak_n, width_s, at_s: 0.2, again_s: None };
+    vec![
+        masses(),
+        Case { name: "five masses, hammer", kind: Kind::Transient, loading: hammer(200.0, 0.004), ..masses() },
+        beam(),
+        Case {
+            name: "cantilever, hammer",
+            kind: Kind::Transient,
+            loading: hammer(10.0, 0.006),
+            truth: vec![truth(Effect::Viscous, 6, 0.15), truth(Effect::Viscous, 18, 0.05)],
+            candidates: candidates(&[Effect::Viscous], &[2, 6, 10, 14, 18]),
+            ..beam()
+        },
+    ]
+}
