@@ -3,11 +3,12 @@
 use super::arguments::{Method, Records, Simulate};
 use crate::control::Control;
 use crate::effects::{Source, State};
-use crate::exchange::project::{Plan, PlannedForce, ProjectError, open};
+use crate::exchange::project::{Plan, PlannedForce, PlannedTest, ProjectError, open};
 use crate::exchange::records::{write_harmonics, write_record};
 use crate::measurement::channel::ChannelName;
 use crate::measurement::{Channel, ChannelFit, HarmonicFit, Quantity, Record, fit::fit, frequency};
 use crate::response::harmonic_balance::{Excitation, HarmonicForce};
+use crate::response::recording::{Loading, TestSetup, quantise, record_test};
 use crate::response::simulation::{Simulator, recorded, transfer, usual_channels};
 use crate::response::simulation_in_time::{InTime, Recorder, record_in_time};
 use crate::response::synthesis::{self, Noise, sampling_times, synthesise};
@@ -33,6 +34,11 @@ pub(super) fn run(arguments: &Simulate) -> anyhow::Result<String> {
             seed: arguments.seed,
             stream: index as u64,
         });
+        if let Some(test) = plan.runs[index].test {
+            let record = recorded_test(&plan, &sources, test, noise);
+            simulated.push(record.map_err(|error| at_run(&plan, index, error))?);
+            continue;
+        }
         let record = test(&plan, index).and_then(|test| {
             if arguments.by == Method::Time || arguments.transient > 0.0 || plan.simulate().integrate {
                 in_time(&plan, &sources, &test, arguments, noise)
@@ -76,6 +82,31 @@ fn in_time(
     let control = Control::unattended();
     let samples = record_in_time(&plan.structure, sources, &test.excitation, &recorder, &settings, &control)?;
     Ok(synthesis::record(&test.time, test.channels.clone(), samples, noise)?)
+}
+
+/// A test that is not steady, recorded with filter, noise and converter.
+fn recorded_test(plan: &Plan, sources: &[Source], test: PlannedTest, noise: Option<Noise>) -> anyhow::Result<Record> {
+    let table = plan.simulate();
+    let rate_hz = table.rate_hz.ok_or_else(|| anyhow!("the sampling rate is missing; add `rate_hz` to [simulate]"))?;
+    let samples = (test.duration_s * rate_hz).round() as usize;
+    if !(16..=100_000_000).contains(&samples) {
+        bail!("{samples} samples come of duration_s and rate_hz; between 16 and 100000000 can be recorded");
+    }
+    let force = Excitation::sine(TAU, test.dof, c64::new(0.0, 0.0));
+    let mut channels =
+        if table.channels.is_empty() { usual_channels(&plan.structure, &force) } else { channels(plan)? };
+    if matches!(test.loading, Loading::Release { .. }) {
+        channels.retain(|channel| channel.quantity != Quantity::Force);
+    }
+    let (sensors, filter) = (&plan.sensors, table.filter);
+    let setup =
+        TestSetup { loading: &test.loading, dof: test.dof, channels: &channels, sensors, rate_hz, samples, filter };
+    let made = record_test(&plan.structure, sources, &setup, &Control::unattended())?;
+    let record = synthesis::record(&made.time, channels, made.samples, noise)?;
+    Ok(match table.bits {
+        Some(bits) => record.quantised(|samples| quantise(samples, bits)),
+        None => record,
+    })
 }
 
 fn test(plan: &Plan, index: usize) -> anyhow::Result<Test> {

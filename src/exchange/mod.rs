@@ -9,7 +9,7 @@ pub mod records;
 
 use crate::effects::Source;
 use crate::identify::Settings;
-use crate::measurement::Run;
+use crate::measurement::{Run, TransientRun};
 use crate::structure::Structure;
 
 /// A project as read from its file, with all records loaded and fitted.
@@ -27,6 +27,8 @@ pub struct Project {
     pub ruled_out: Vec<Source>,
     /// Runs in the order of the file; channels corrected for their known errors.
     pub runs: Vec<Run>,
+    /// Decays and transients in the order of the file; channels corrected for their known errors.
+    pub transient_runs: Vec<TransientRun>,
     /// Settings of the analysis.
     pub settings: Settings,
 }

@@ -26,6 +26,22 @@ pub enum Flag {
     WrongFrequency,
     /// A phase error of a degree would change the energy by several per cent.
     PhaseSensitive,
+    /// The record looks like a run of another kind.
+    OtherKind,
+    /// There is no quiet part before the force sets in.
+    NoPreTrigger,
+    /// The hammer has struck more than once.
+    DoubleHit,
+    /// The part ends long before the decay does.
+    CutDecay,
+    /// There is motion beyond what the sampling can show.
+    OutOfBand,
+    /// The part is too short to tell two close modes apart.
+    TooShort,
+    /// The mean of a channel wanders, so that its integral drifts.
+    Drift,
+    /// An exponential window was laid over the record.
+    ExponentialWindow,
 }
 
 /// A flag with its reason in words and numbers.

@@ -1,6 +1,7 @@
 //! A time record in SI units that holds only finite numbers at times that never go back.
 
 use super::Channel;
+use std::ops::Range;
 
 /// Fewest samples of a record: one unknown more than offset, slope and one harmonic.
 pub const FEWEST_SAMPLES: usize = 5;
@@ -53,6 +54,23 @@ impl Record {
         }
         let resolution = vec![0.0; channels.len()];
         Ok(Self { time, channels, samples, resolution })
+    }
+
+    /// The samples of a range alone.
+    ///
+    /// # Errors
+    /// [`RecordError::TooFewSamples`].
+    pub fn part(&self, range: Range<usize>) -> Result<Self, RecordError> {
+        let samples = self.samples.iter().map(|values| values[range.clone()].to_vec()).collect();
+        let part = Self::new(self.time[range].to_vec(), self.channels.clone(), samples)?;
+        Ok(part.with_resolution(self.resolution.clone()))
+    }
+
+    /// The record with every channel rounded; `round` mends the samples and gives the step of the rounding.
+    #[must_use]
+    pub fn quantised(mut self, round: impl Fn(&mut [f64]) -> f64) -> Self {
+        self.resolution = self.samples.iter_mut().map(|samples| round(samples)).collect();
+        self
     }
 
     /// States the steps in which the numbers of each channel were written (SI units, 0 for exact), one a channel. The

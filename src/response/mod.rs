@@ -5,6 +5,7 @@ pub mod frequency_response;
 pub mod harmonic_balance;
 pub mod linear_matrices;
 pub mod portrait;
+pub mod recording;
 pub mod sensitivity;
 pub mod simulation;
 pub mod simulation_in_time;

@@ -27,6 +27,10 @@ pub enum SimulationError {
     Nonlinear(#[from] ResponseError),
     #[error(transparent)]
     Stepped(#[from] TimeError),
+    #[error("there is no mode {mode} to release the structure from; it has {count}")]
+    NoSuchMode { mode: usize, count: usize },
+    #[error("the structure cannot be released from a shape that moves DOF {dof}; name another DOF or mode")]
+    NoRelease { dof: String },
     #[error(transparent)]
     Cancelled(#[from] Cancelled),
 }
@@ -137,7 +141,7 @@ pub fn transfer(sensors: &[Source], channel: &Channel, w: f64) -> c64 {
 }
 
 /// Known delay (s) and gain of a channel, 0 and 1 without errors.
-pub(super) fn sensor_errors(sensors: &[Source], channel: &Channel) -> [f64; 2] {
+pub(crate) fn sensor_errors(sensors: &[Source], channel: &Channel) -> [f64; 2] {
     let place = Place::Channel(channel.to_string());
     sensors.iter().filter(|sensor| sensor.place == place).fold([0.0, 1.0], |[delay, gain], sensor| {
         match sensor.effect {

@@ -35,7 +35,7 @@ impl Records {
     /// The runs of a state of the document in the order of its file, as far as their records were read.
     pub fn runs(&self, state: &State) -> Vec<Run> {
         let (file, on) = (state.file(), common(state));
-        let recorded = file.run.iter().filter_map(|table| {
+        let recorded = file.run.iter().filter(|table| table.kind.is_steady()).filter_map(|table| {
             let mut run = self.kept.get(&run_key(table, on))?.first()?.clone();
             (run.enabled, run.level) = (table.enabled, table.level);
             Some(run)
@@ -47,7 +47,8 @@ impl Records {
     /// What a state of the document needs and is not read yet.
     pub fn missing(&self, state: &State) -> Option<Missing> {
         let (file, on) = (state.file(), common(state));
-        let runs: Vec<(usize, Key)> = file.run.iter().enumerate().map(|(k, table)| (k, run_key(table, on))).collect();
+        let steady = file.run.iter().enumerate().filter(|(_, table)| table.kind.is_steady());
+        let runs: Vec<(usize, Key)> = steady.map(|(k, table)| (k, run_key(table, on))).collect();
         let runs: Vec<(usize, Key)> = runs.into_iter().filter(|(_, key)| !self.kept.contains_key(key)).collect();
         let harmonics: Vec<Key> = file.harmonics.iter().map(|table| (table.file.clone(), on)).collect();
         let harmonics = if harmonics.iter().all(|key| self.kept.contains_key(key)) { Vec::new() } else { harmonics };
@@ -113,6 +114,7 @@ fn common(state: &State) -> u64 {
 
 fn run_key(table: &RunTable, common: u64) -> Key {
     let mut hasher = DefaultHasher::new();
-    (common, table.frequency.map(f64::to_bits)).hash(&mut hasher);
+    let part = [table.frequency, table.start_s, table.end_s];
+    (common, part.map(|value| value.map(f64::to_bits))).hash(&mut hasher);
     (table.file.clone(), hasher.finish())
 }

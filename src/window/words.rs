@@ -58,6 +58,14 @@ pub fn flag(flag: Flag) -> &'static str {
         Flag::DeadChannel => "dead channel",
         Flag::WrongFrequency => "wrong frequency",
         Flag::PhaseSensitive => "phase sensitive",
+        Flag::OtherKind => "other kind of run",
+        Flag::NoPreTrigger => "no pre-trigger",
+        Flag::DoubleHit => "double hit",
+        Flag::CutDecay => "decay cut off",
+        Flag::OutOfBand => "beyond the band",
+        Flag::TooShort => "too short",
+        Flag::Drift => "drift",
+        Flag::ExponentialWindow => "exponential window",
     }
 }
 

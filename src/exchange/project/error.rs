@@ -3,8 +3,8 @@
 use crate::effects::source::SourceError;
 use crate::exchange::matrices::TableError;
 use crate::exchange::records::RecordFileError;
-use crate::measurement::FitError;
 use crate::measurement::channel::ChannelError;
+use crate::measurement::{FitError, RecordError, TransientRunError};
 use crate::structure::StructureError;
 use std::fmt;
 
@@ -90,6 +90,10 @@ pub enum Problem {
     OutsideFolder { file: String },
     #[error("record {file}: {error}")]
     Fit { file: String, error: FitError },
+    #[error("record {file} between start_s and end_s: {error}")]
+    Part { file: String, error: RecordError },
+    #[error("record {file}: {error}")]
+    Transient { file: String, error: TransientRunError },
     #[error("cancelled")]
     Cancelled,
     #[error("{0}")]

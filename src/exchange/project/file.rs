@@ -1,10 +1,12 @@
 //! The project file as plain data, one field a key, as it is written; where each part stood is in [`Lines`].
 
 use super::correction::CorrectionTable;
+use super::excitation::ExcitationTable;
 use super::ruled_out::RuledOutTable;
 use crate::effects::family::Family;
 use crate::effects::{Effect, State};
 use crate::identify::Settings;
+use crate::measurement::Kind;
 use crate::structure::LumpedMass;
 use crate::structure::beam::BeamParameters;
 use crate::structure::chain::ChainParameters;
@@ -184,6 +186,18 @@ pub struct RunTable {
     /// Frequency, Hz; estimated where it is left out.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub frequency: Option<f64>,
+    /// Kind of the run.
+    #[serde(skip_serializing_if = "Kind::is_steady")]
+    pub kind: Kind,
+    /// First instant of the part that is used, s.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub start_s: Option<f64>,
+    /// Last instant of the part that is used, s.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub end_s: Option<f64>,
+    /// Label of the session: runs without re-assembly between them.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub session: Option<Label>,
     /// Label of the force level.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub level: Option<i64>,
@@ -196,6 +210,28 @@ pub struct RunTable {
     /// Amplitude of the force in a recipe, N.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub force_n: Option<f64>,
+    /// What is done to the structure in a recipe of a test that is not steady.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub excitation: Option<ExcitationTable>,
+}
+
+impl RunTable {
+    /// A steady run of a record of which nothing else is said.
+    pub fn of(file: String) -> Self {
+        Self {
+            file,
+            frequency: None,
+            kind: Kind::Steady,
+            start_s: None,
+            end_s: None,
+            session: None,
+            level: None,
+            enabled: true,
+            force_dof: None,
+            force_n: None,
+            excitation: None,
+        }
+    }
 }
 
 /// Table `[[harmonics]]`.
@@ -206,7 +242,7 @@ pub struct HarmonicsTable {
 }
 
 /// Table `[simulate]`: what `simulate` records.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct SimulateTable {
     /// Channels with their units, such as `acc@7 [m/s^2]`; empty: the force and every translation's acceleration.
     #[serde(skip_serializing_if = "Vec::is_empty")]
@@ -218,11 +254,28 @@ pub struct SimulateTable {
     /// Whether the motion is stepped through time until it is periodic, rather than found by harmonic balance.
     #[serde(default)]
     pub integrate: bool,
+    /// Samples a second of tests that are not steady, Hz.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub rate_hz: Option<f64>,
+    /// Bits of the converter; exact without.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub bits: Option<u32>,
+    /// Whether signals are filtered against aliasing before they are sampled.
+    #[serde(skip_serializing_if = "Clone::clone")]
+    pub filter: bool,
 }
 
 impl Default for SimulateTable {
     fn default() -> Self {
-        Self { channels: Vec::new(), samples: 1000, periods: 20, integrate: false }
+        Self {
+            channels: Vec::new(),
+            samples: 1000,
+            periods: 20,
+            integrate: false,
+            rate_hz: None,
+            bits: None,
+            filter: true,
+        }
     }
 }
 

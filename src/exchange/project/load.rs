@@ -6,7 +6,7 @@ use crate::control::Control;
 use crate::effects::{Effect, Place, Source};
 use crate::exchange::Project;
 use crate::measurement::run::Correction;
-use crate::measurement::{Channel, Quantity, Run};
+use crate::measurement::{Channel, Kind, Quantity, Run, TransientLabel, TransientRun, TransientRunError};
 use std::path::Path;
 use std::sync::Arc;
 
@@ -28,16 +28,20 @@ impl Plan {
             return Err(self.error(None, Problem::NothingMeasured));
         }
         let mut runs = Vec::with_capacity(self.runs.len());
+        let mut transient_runs = Vec::new();
         for index in 0..self.runs.len() {
             control.check().map_err(|_| self.error(None, Problem::Cancelled))?;
             let piece = control.piece(index, self.runs.len());
-            runs.push(self.run(index, &piece)?);
+            match self.runs[index].kind {
+                Kind::Steady => runs.push(self.run(index, &piece)?),
+                Kind::Decay | Kind::Transient => transient_runs.push(self.transient_run(index, &piece)?),
+            }
             piece.report(1.0);
         }
         let corrections = self.corrections();
         let fitted = self.harmonics()?.into_iter();
         runs.extend(fitted.map(|run| Run::from_harmonics(run.name, None, true, run.fit, &corrections)));
-        self.check_sensors(&runs)?;
+        self.check_sensors(&runs, &transient_runs)?;
         Ok(Project {
             title: self.file.project.title,
             notes: self.file.project.notes,
@@ -45,6 +49,7 @@ impl Plan {
             sources: self.sources,
             ruled_out: self.ruled_out,
             runs,
+            transient_runs,
             settings: self.file.analysis,
         })
     }
@@ -55,7 +60,12 @@ impl Plan {
     /// [`ProjectError`] for a record that cannot be read or fitted.
     pub fn run(&self, index: usize, control: &Control) -> Result<Run, ProjectError> {
         let planned = &self.runs[index];
-        let record = self.record(index, control)?;
+        let mut record = self.record(index, control)?;
+        if !planned.part.is_whole() {
+            let range = planned.part.samples(record.time());
+            let wrong = |error| Problem::Part { file: planned.file.clone(), error };
+            record = record.part(range).map_err(|error| self.run_error(index, "start_s", wrong(error)))?;
+        }
         let (file, settings) = (planned.file.clone(), self.settings());
         let (level, enabled, frequency_hz) = (planned.level, planned.enabled, planned.frequency_hz);
         let corrections = self.corrections();
@@ -64,6 +74,27 @@ impl Plan {
                 let key = if frequency_hz.is_some() { "frequency" } else { "file" };
                 self.run_error(index, key, Problem::Fit { file: planned.file.clone(), error })
             })
+    }
+
+    /// Reads the record of run number `index`, which is not steady.
+    ///
+    /// # Errors
+    /// [`ProjectError`] for a record that cannot be read or a part that holds no motion.
+    pub fn transient_run(&self, index: usize, control: &Control) -> Result<TransientRun, ProjectError> {
+        let planned = &self.runs[index];
+        let record = self.record(index, control)?;
+        let label = TransientLabel {
+            file: planned.file.clone(),
+            kind: planned.kind,
+            part: planned.part,
+            level: planned.level,
+            session: planned.session.clone(),
+            enabled: planned.enabled,
+        };
+        TransientRun::new(label, Arc::new(record), &self.corrections()).map_err(|error| {
+            let key = if matches!(error, TransientRunError::PartTooShort { .. }) { "start_s" } else { "file" };
+            self.run_error(index, key, Problem::Transient { file: planned.file.clone(), error })
+        })
     }
 
     /// Known errors of the measuring chain, one entry a channel.
@@ -92,9 +123,10 @@ impl Plan {
     }
 
     /// A correction whose channel is in no record would silently do nothing.
-    fn check_sensors(&self, runs: &[Run]) -> Result<(), ProjectError> {
-        let channels: Vec<String> =
-            runs.iter().flat_map(|run| &run.fit.channels).map(|channel| channel.channel.to_string()).collect();
+    fn check_sensors(&self, runs: &[Run], transient_runs: &[TransientRun]) -> Result<(), ProjectError> {
+        let steady = runs.iter().flat_map(|run| &run.fit.channels).map(|channel| channel.channel.to_string());
+        let others = transient_runs.iter().flat_map(TransientRun::channels).map(ToString::to_string);
+        let channels: Vec<String> = steady.chain(others).collect();
         for sensor in &self.sensors {
             let Place::Channel(name) = &sensor.place else { continue };
             if !channels.contains(name) {

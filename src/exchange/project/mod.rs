@@ -3,6 +3,7 @@
 
 pub mod correction;
 pub mod error;
+pub mod excitation;
 pub mod file;
 pub mod load;
 mod parse;
@@ -16,4 +17,4 @@ mod structure;
 pub use error::{Problem, ProjectError};
 pub use file::{Lines, ProjectFile};
 pub use load::load;
-pub use plan::{Plan, PlannedForce, PlannedRun, open, plan};
+pub use plan::{Plan, PlannedForce, PlannedRun, PlannedTest, open, plan};

@@ -2,6 +2,7 @@
 
 use super::correction;
 use super::error::{Problem, ProjectError};
+use super::excitation;
 use super::file::{
     CandidatesTable, FORMAT, HarmonicsTable, Header, Label, Lines, MatricesTable, PointsTable, ProjectFile, RunTable,
     SensorTable, Shape, SimulateTable, SourceTable, StructureTable,
@@ -12,6 +13,7 @@ use crate::balance::{Expansion, Weights};
 use crate::effects::family::Family;
 use crate::effects::{Effect, State};
 use crate::identify::Settings;
+use crate::measurement::{Kind, Part};
 use crate::structure::LumpedMass;
 use crate::structure::beam::{BeamParameters, Supports};
 use crate::structure::chain::ChainParameters;
@@ -36,6 +38,9 @@ const CHAIN: [&str; 6] = ["kind", "lumped_mass", "correction", "masses", "ground
 const MATRICES: [&str; 8] = ["kind", "lumped_mass", "correction", "mass", "stiffness", "nodes", "dofs", "lines"];
 const POINTS: [&str; 4] = ["kind", "lumped_mass", "dofs", "positions"];
 const ANALYSIS: [&str; 6] = ["harmonics", "expansion", "keep", "weights", "max_sources", "stop_angle_deg"];
+
+const RUN: [&str; 11] =
+    ["file", "frequency", "kind", "start_s", "end_s", "session", "level", "use", "force_dof", "force_n", "excitation"];
 
 /// Most harmonics, sources and so on that a setting may ask for.
 const MOST: usize = 1000;
@@ -251,12 +256,14 @@ fn sensors(root: &Table<'_>, lines: &mut Lines) -> Read<Vec<SensorTable>> {
 fn runs(root: &Table<'_>, lines: &mut Lines) -> Read<Vec<RunTable>> {
     let mut runs = Vec::new();
     for table in root.tables("run", "[[run]]")? {
-        table.only(&["file", "frequency", "level", "use", "force_dof", "force_n"])?;
+        table.only(&RUN)?;
         let frequency = table.number("frequency")?;
         if let Some(value) = frequency.filter(|f| *f <= 0.0) {
             let (key, range) = ("frequency".to_owned(), "above 0 Hz");
             return Err(table.error("frequency", Problem::OutOfRange { key, value: value.to_string(), range }));
         }
+        let kind = table.word("kind", &Kind::NAMES, Kind::from_name)?.unwrap_or_default();
+        let part = part(&table)?;
         let (force_dof, force_n) = (table.label("force_dof")?.map(Label), table.number("force_n")?);
         match (&force_dof, force_n) {
             (Some(_), None) => {
@@ -271,14 +278,31 @@ fn runs(root: &Table<'_>, lines: &mut Lines) -> Read<Vec<RunTable>> {
         runs.push(RunTable {
             file: table.need("file", "file = \"run-01.csv\"", table.text("file")?)?,
             frequency,
+            kind,
+            start_s: part.start_s,
+            end_s: part.end_s,
+            session: table.label("session")?.map(Label),
             level: table.whole("level")?,
             enabled: table.flag("use")?.unwrap_or(true),
             force_dof,
             force_n,
+            excitation: excitation::parse(&table)?,
         });
         lines.run.push(key_lines(&table));
     }
     Ok(runs)
+}
+
+/// `start_s` and `end_s`.
+fn part(table: &Table<'_>) -> Read<Part> {
+    let part = Part { start_s: table.number("start_s")?, end_s: table.number("end_s")? };
+    if let (Some(start), Some(end)) = (part.start_s, part.end_s)
+        && end <= start
+    {
+        let (key, range) = ("end_s".to_owned(), "later than start_s");
+        return Err(table.error("end_s", Problem::OutOfRange { key, value: end.to_string(), range }));
+    }
+    Ok(part)
 }
 
 fn harmonics(root: &Table<'_>, lines: &mut Lines) -> Read<Vec<HarmonicsTable>> {
@@ -334,12 +358,19 @@ fn analysis(root: &Table<'_>) -> Read<Settings> {
 fn simulate(root: &Table<'_>, lines: &mut Lines) -> Read<SimulateTable> {
     let mut recipe = SimulateTable::default();
     let Some(table) = root.table("simulate", "[simulate]")? else { return Ok(recipe) };
-    table.only(&["channels", "samples", "periods", "integrate"])?;
+    table.only(&["channels", "samples", "periods", "integrate", "rate_hz", "bits", "filter"])?;
     lines.simulate = table.line_of("channels");
     recipe.channels = table.texts("channels")?.unwrap_or_default();
     let range = "between 16 and 100000000";
     recipe.samples = table.count("samples", 16, MOST_SAMPLES, range)?.unwrap_or(recipe.samples);
     recipe.periods = table.count("periods", 1, MOST_SAMPLES, "at least 1")?.unwrap_or(recipe.periods);
     recipe.integrate = table.flag("integrate")?.unwrap_or(false);
+    recipe.rate_hz = table.number("rate_hz")?;
+    if let Some(value) = recipe.rate_hz.filter(|rate| *rate <= 0.0) {
+        let (key, range) = ("rate_hz".to_owned(), "above 0 Hz");
+        return Err(table.error("rate_hz", Problem::OutOfRange { key, value: value.to_string(), range }));
+    }
+    recipe.bits = table.count("bits", 4, 32, "between 4 and 32")?.map(|bits| bits as u32);
+    recipe.filter = table.flag("filter")?.unwrap_or(true);
     Ok(recipe)
 }

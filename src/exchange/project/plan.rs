@@ -1,7 +1,7 @@
 //! A project before its records are read: what `simulate` needs, and the first half of loading.
 
 use super::error::{Problem, ProjectError};
-use super::file::{Lines, ProjectFile, SimulateTable};
+use super::file::{Lines, ProjectFile, RunTable, SimulateTable};
 use super::ruled_out::ruled_out;
 use super::sources::{At, line, sensors, sources};
 use super::structure::structure;
@@ -9,7 +9,8 @@ use crate::control::Control;
 use crate::effects::Source;
 use crate::exchange::records::{HarmonicsRun, read_harmonics, read_record_with};
 use crate::identify::Settings;
-use crate::measurement::{ChannelName, Record};
+use crate::measurement::{ChannelName, Kind, Part, Record};
+use crate::response::recording::Loading;
 use crate::structure::Structure;
 use std::path::{Component, Path, PathBuf};
 
@@ -42,12 +43,31 @@ pub struct PlannedRun {
     pub path: PathBuf,
     /// Frequency, Hz, where it is given.
     pub frequency_hz: Option<f64>,
+    /// Kind of the run.
+    pub kind: Kind,
+    /// Part of the record that is used.
+    pub part: Part,
+    /// Label of the session.
+    pub session: Option<String>,
     /// Label of the force level.
     pub level: Option<i64>,
     /// Whether the user wants it used.
     pub enabled: bool,
     /// Force of the recipe, `amplitude_n cos(omega t)`, where it is given.
     pub force: Option<PlannedForce>,
+    /// Test of a recipe that is not steady, where it is given.
+    pub test: Option<PlannedTest>,
+}
+
+/// A test of a recipe that is not steady.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PlannedTest {
+    /// Row of the DOF.
+    pub dof: usize,
+    /// Length of the record, s.
+    pub duration_s: f64,
+    /// What is done.
+    pub loading: Loading,
 }
 
 /// A harmonic force of a recipe.
@@ -91,7 +111,7 @@ fn runs(file: &ProjectFile, structure: &Structure, folder: &Path, at: At<'_>) ->
     let mut runs: Vec<PlannedRun> = Vec::new();
     for (i, table) in file.run.iter().enumerate() {
         let lines = &at.lines.run[i];
-        if let Some(first) = runs.iter().position(|other| other.file == table.file) {
+        if let Some(first) = runs.iter().position(|other| is_same(other, table)) {
             let what = format!("the record \"{}\"", table.file);
             let first = line(&at.lines.run[first], "file");
             return Err(at.error(line(lines, "file"), Problem::Twice { what, first }));
@@ -105,16 +125,34 @@ fn runs(file: &ProjectFile, structure: &Structure, folder: &Path, at: At<'_>) ->
             }
             _ => None,
         };
+        let test = match &table.excitation {
+            Some(excitation) => {
+                let dof = structure
+                    .require_dof(&excitation.dof.0)
+                    .map_err(|error| at.error(line(lines, "excitation"), Problem::Structure(Box::new(error))))?;
+                Some(PlannedTest { dof, duration_s: excitation.duration_s, loading: excitation.loading })
+            }
+            None => None,
+        };
         runs.push(PlannedRun {
             file: table.file.clone(),
             path: folder.join(&table.file),
             frequency_hz: table.frequency,
+            kind: table.kind,
+            part: Part { start_s: table.start_s, end_s: table.end_s },
+            session: table.session.as_ref().map(|label| label.0.clone()),
             level: table.level,
             enabled: table.enabled,
             force,
+            test,
         });
     }
     Ok(runs)
+}
+
+/// Whether both are the same part of the same file.
+fn is_same(run: &PlannedRun, table: &RunTable) -> bool {
+    run.file == table.file && run.part == Part { start_s: table.start_s, end_s: table.end_s }
 }
 
 /// Checks the channels that `simulate` is to record.
@@ -175,7 +213,7 @@ impl Plan {
         let planned = &self.runs[run];
         if !planned.path.is_file() {
             let file = planned.file.clone();
-            let simulated = planned.force.is_some();
+            let simulated = planned.force.is_some() || planned.test.is_some();
             let problem = if simulated { Problem::NotSimulated { file } } else { Problem::NoRecord { file } };
             return Err(self.run_error(run, "file", problem));
         }

@@ -104,10 +104,46 @@ impl TimeModel {
         if steps < 8 || !(period > 0.0 && period.is_finite()) {
             return Err(TimeError::BadStep { steps, period_s: period });
         }
+        let driven: Vec<usize> = excitation.forces.iter().map(|force| force.dof).collect();
+        let drive = [drive(excitation, steps, true), drive(excitation, steps, false)];
+        Self::driven(structure, sources, &driven, drive, period / steps as f64)
+    }
+
+    /// At rest under any force: `force[n]` (N) at the instants `n step` on one DOF, straight between them; without it, free.
+    /// It may be stepped as often as the force has values less one.
+    pub fn under_force(
+        structure: &Structure,
+        sources: &[Source],
+        force: Option<(usize, &[f64])>,
+        step: f64,
+    ) -> Result<Self, TimeError> {
+        let mean = |values: &[f64]| {
+            let pairs = values.windows(2).map(|pair| 0.5 * (pair[0] + pair[1]));
+            pairs.chain(values.last().copied()).collect::<Vec<f64>>()
+        };
+        match force {
+            Some((dof, values)) if !values.is_empty() => {
+                Self::driven(structure, sources, &[dof], [vec![mean(values)], vec![values.to_vec()]], step)
+            }
+            _ => Self::driven(structure, sources, &[], [Vec::new(), Vec::new()], step),
+        }
+    }
+
+    /// Under given forces: their means over the steps and their values at the start of each.
+    fn driven(
+        structure: &Structure,
+        sources: &[Source],
+        driven: &[usize],
+        drive: [Vec<Vec<f64>>; 2],
+        step: f64,
+    ) -> Result<Self, TimeError> {
+        let steps = drive[0].first().map_or(usize::MAX, Vec::len);
+        if !(step > 0.0 && step.is_finite()) {
+            return Err(TimeError::BadStep { steps, period_s: step });
+        }
         let matrices = structure.matrices().ok_or(TimeError::NoMatrices)?;
         let (linear, elements) = sort(structure, matrices, sources)?;
-        let step = period / steps as f64;
-        let patterns = patterns(structure.len(), &elements, excitation);
+        let patterns = patterns(structure.len(), &elements, driven);
         let [mass, damping, stiffness] = &linear;
         let propagator =
             Propagator::new(mass, damping, stiffness, &patterns, step).ok_or(TimeError::MassNotPositive)?;
@@ -116,8 +152,8 @@ impl TimeModel {
         let receptance = receptance.map(|(a, j)| between(a, j)).collect();
         let forces = vec![0.0; elements.len()];
         let zeros = vec![0.0; 2 * structure.len()];
-        let (drive, instant_drive) = (drive(excitation, steps, true), drive(excitation, steps, false));
-        let omega = excitation.omega;
+        let [drive, instant_drive] = drive;
+        let omega = TAU / (step * steps as f64);
         let (state, next) = (zeros.clone(), zeros);
         Ok(Self {
             steps,
@@ -315,16 +351,16 @@ fn add_whole(damping: &mut Mat<f64>, structure: &Structure, source: &Source) {
 }
 
 /// Force patterns: of the elements first, then of the driven DOFs.
-fn patterns(n: usize, elements: &[Element], excitation: &Excitation) -> Mat<f64> {
-    let mut patterns = Mat::zeros(n, elements.len() + excitation.forces.len());
+fn patterns(n: usize, elements: &[Element], driven: &[usize]) -> Mat<f64> {
+    let mut patterns = Mat::zeros(n, elements.len() + driven.len());
     for (j, element) in elements.iter().enumerate() {
         patterns[(element.leg.first, j)] = 1.0;
         if let Some(second) = element.leg.second {
             patterns[(second, j)] = -1.0;
         }
     }
-    for (j, force) in excitation.forces.iter().enumerate() {
-        patterns[(force.dof, elements.len() + j)] = 1.0;
+    for (j, &dof) in driven.iter().enumerate() {
+        patterns[(dof, elements.len() + j)] = 1.0;
     }
     patterns
 }

@@ -1,0 +1,8 @@
+//! Records of tests that are not steady, as a data recorder would have written them: what drives the structure
+//! ([`loading`]), its motion by time integration, the filter against aliasing and the converter ([`recorder`]).
+
+pub mod loading;
+mod recorder;
+
+pub use loading::Loading;
+pub use recorder::{Release, TestRecord, TestSetup, quantise, record_test};

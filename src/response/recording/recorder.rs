@@ -1,0 +1,294 @@
+//! A test by time integration, recorded: finer steps than the record's, a filter against aliasing, a converter of so many bits.
+//!
+//! The filter is a sinc under a Kaiser window (Oppenheim and Schafer, *Discrete-Time Signal Processing*, 2010, 7.6) without
+//! delay: flat to 0.34 of the sampling rate, 80 dB down from 0.5. It is the same for forces and motions.
+
+use super::Loading;
+use crate::control::Control;
+use crate::effects::{Effect, Source};
+use crate::measurement::{Channel, Quantity};
+use crate::response::simulation::{SimulationError, sensor_errors};
+use crate::response::time_integration::{TimeError, TimeModel};
+use crate::structure::{Structure, modes::modes};
+use dashpot_numerics::solve_indefinite;
+use faer::Mat;
+use std::f64::consts::PI;
+
+/// Steps of the integrator in one of the record.
+const FINER: usize = 16;
+/// Half length of the filter, steps of the record.
+const HALF: usize = 16;
+/// Frequency at which the filter is down to one half, over the sampling rate.
+const CUT: f64 = 0.42;
+/// Shape of the Kaiser window: 80 dB.
+const BETA: f64 = 7.857;
+/// Steps that are integrated at a time.
+const CHUNK: usize = 2048;
+
+/// What is done and recorded.
+#[derive(Debug, Clone, Copy)]
+pub struct TestSetup<'a> {
+    /// What drives the structure.
+    pub loading: &'a Loading,
+    /// DOF of the force, or the one whose displacement a release names.
+    pub dof: usize,
+    /// Channels, in the order of the record.
+    pub channels: &'a [Channel],
+    /// Errors of the measuring chain.
+    pub sensors: &'a [Source],
+    /// Samples a second, Hz.
+    pub rate_hz: f64,
+    /// Samples a channel.
+    pub samples: usize,
+    /// Whether the signals are filtered before they are sampled.
+    pub filter: bool,
+}
+
+/// Instants and samples of every channel, SI units.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TestRecord {
+    /// Instants, s.
+    pub time: Vec<f64>,
+    /// One list a channel.
+    pub samples: Vec<Vec<f64>>,
+}
+
+/// State that a structure is released from.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Release {
+    /// Displacement of every DOF, m.
+    pub displacement: Vec<f64>,
+}
+
+/// Records a test of `structure` with `sources`.
+///
+/// # Errors
+/// [`SimulationError`]: laws that have no force in time, steps that fail, a release from a mode that is not there.
+pub fn record_test(
+    structure: &Structure,
+    sources: &[Source],
+    setup: &TestSetup,
+    control: &Control,
+) -> Result<TestRecord, SimulationError> {
+    let fine = 1.0 / (setup.rate_hz * FINER as f64);
+    let count = (setup.samples + HALF + 1) * FINER;
+    let force = setup.loading.force(setup.samples * FINER, fine).map(|mut force| {
+        force.resize(count + 1, 0.0);
+        force
+    });
+    let driven = force.as_deref().map(|force| (setup.dof, force));
+    let mut model = TimeModel::under_force(structure, sources, driven, fine)?;
+    if let Loading::Release { displacement_m, mode } = *setup.loading {
+        let release = release(structure, sources, setup.dof, displacement_m, mode)?;
+        model.start(&release.displacement, &vec![0.0; structure.len()]);
+    }
+    let signals = march(&mut model, setup, force.as_deref(), count, control)?;
+    let time: Vec<f64> = (0..setup.samples).map(|n| n as f64 / setup.rate_hz).collect();
+    let kernel = if setup.filter { kernel() } else { vec![1.0] };
+    let sample = |(c, signal): (usize, &Vec<f64>)| {
+        let [delay, gain] = sensor_errors(setup.sensors, &setup.channels[c]);
+        let early = if setup.channels[c].quantity == Quantity::Displacement { signal[0] } else { 0.0 };
+        let at = |n: usize| gain * filtered(signal, early, &kernel, n as f64 * FINER as f64 - delay / fine);
+        (0..setup.samples).map(at).collect()
+    };
+    Ok(TestRecord { samples: signals.iter().enumerate().map(sample).collect(), time })
+}
+
+/// What every channel shows at each of `count` fine steps.
+fn march(
+    model: &mut TimeModel,
+    setup: &TestSetup,
+    force: Option<&[f64]>,
+    count: usize,
+    control: &Control,
+) -> Result<Vec<Vec<f64>>, TimeError> {
+    let mut signals = vec![Vec::with_capacity(count); setup.channels.len()];
+    let mut done = 0;
+    while done < count {
+        control.check()?;
+        let chunk = CHUNK.min(count - done);
+        let motion = model.record(chunk)?;
+        for (signal, channel) in signals.iter_mut().zip(setup.channels) {
+            match channel.quantity {
+                Quantity::Force if channel.dof == setup.dof => match force {
+                    Some(force) => signal.extend_from_slice(&force[done..done + chunk]),
+                    None => signal.extend(std::iter::repeat_n(0.0, chunk)),
+                },
+                Quantity::Force => signal.extend(std::iter::repeat_n(0.0, chunk)),
+                Quantity::Displacement => signal.extend_from_slice(motion.displacement.col_as_slice(channel.dof)),
+                Quantity::Velocity => signal.extend_from_slice(motion.velocity.col_as_slice(channel.dof)),
+                Quantity::Acceleration => signal.extend_from_slice(motion.acceleration.col_as_slice(channel.dof)),
+            }
+        }
+        done += chunk;
+        control.report(done as f64 / count as f64);
+    }
+    Ok(signals)
+}
+
+/// The shape that the structure is held in, scaled to `displacement_m` at the DOF.
+fn release(
+    structure: &Structure,
+    sources: &[Source],
+    dof: usize,
+    displacement_m: f64,
+    mode: Option<usize>,
+) -> Result<Release, SimulationError> {
+    let matrices = structure.matrices().ok_or(TimeError::NoMatrices)?;
+    let n = structure.len();
+    let shape: Vec<f64> = match mode {
+        Some(number) => {
+            let modes = modes(matrices).map_err(|_| TimeError::NoMatrices)?;
+            let index = number.checked_sub(1).filter(|&r| r < modes.len());
+            modes.shape(index.ok_or(SimulationError::NoSuchMode { mode: number, count: modes.len() })?)
+        }
+        None => {
+            let mut stiffness = matrices.stiffness.clone();
+            for source in sources.iter().filter(|source| source.effect == Effect::Stiffness) {
+                for leg in source.place.legs() {
+                    let ends = [Some((leg.first, 1.0)), leg.second.map(|second| (second, -1.0))];
+                    for (i, a) in ends.iter().flatten() {
+                        for (j, b) in ends.iter().flatten() {
+                            stiffness[(*i, *j)] += a * b * source.parameters[0];
+                        }
+                    }
+                }
+            }
+            let load = Mat::from_fn(n, 1, |i, _| f64::from(u8::from(i == dof)));
+            solve_indefinite(stiffness.as_ref(), load.as_ref()).col(0).iter().copied().collect()
+        }
+    };
+    let scale = displacement_m / shape[dof];
+    if !scale.is_finite() || shape.iter().any(|x| !x.is_finite()) {
+        return Err(SimulationError::NoRelease { dof: structure.label(dof).to_owned() });
+    }
+    Ok(Release { displacement: shape.iter().map(|x| scale * x).collect() })
+}
+
+/// Weights of the filter at fine steps, from `-HALF` to `HALF` steps of the record; their sum is one.
+fn kernel() -> Vec<f64> {
+    let half = (HALF * FINER) as f64;
+    let weight = |k: usize| {
+        let x = k as f64 - half;
+        let t = 2.0 * CUT * x / FINER as f64;
+        let sinc = if x == 0.0 { 1.0 } else { (PI * t).sin() / (PI * t) };
+        sinc * bessel(BETA * (1.0 - (x / half).powi(2)).max(0.0).sqrt())
+    };
+    let weights: Vec<f64> = (0..=2 * HALF * FINER).map(weight).collect();
+    let sum: f64 = weights.iter().sum();
+    weights.into_iter().map(|w| w / sum).collect()
+}
+
+/// Modified Bessel function of the first kind, order zero.
+fn bessel(x: f64) -> f64 {
+    let mut term = 1.0;
+    let mut sum = 1.0;
+    for k in 1..60 {
+        term *= (0.5 * x / f64::from(k)).powi(2);
+        sum += term;
+    }
+    sum
+}
+
+/// The filtered signal at a place between fine steps; before the first there is `early`, after the last the last.
+fn filtered(signal: &[f64], early: f64, kernel: &[f64], place: f64) -> f64 {
+    let base = place.floor();
+    let share = place - base;
+    let half = (kernel.len() / 2) as i64;
+    let first = base as i64 - half;
+    let at = |n: i64| match usize::try_from(n) {
+        Ok(n) => signal[n.min(signal.len() - 1)],
+        Err(_) => early,
+    };
+    let value = |shift: i64| kernel.iter().zip(first + shift..).map(|(w, n)| w * at(n)).sum::<f64>();
+    if share == 0.0 { value(0) } else { (1.0 - share) * value(0) + share * value(1) }
+}
+
+/// Rounds a channel to the steps of a converter of so many bits whose range (1, 2 or 5 times a power of ten) holds it;
+/// gives the step.
+pub fn quantise(samples: &mut [f64], bits: u32) -> f64 {
+    let peak = samples.iter().fold(0.0_f64, |most, y| most.max(y.abs()));
+    if peak == 0.0 {
+        return 0.0;
+    }
+    let decade = 10f64.powf(peak.log10().floor());
+    let range = [1.0, 2.0, 5.0, 10.0].into_iter().map(|digit| digit * decade).find(|range| *range >= peak);
+    let step = range.unwrap_or(10.0 * decade) / 2f64.powi(bits as i32 - 1);
+    samples.iter_mut().for_each(|y| *y = (*y / step).round() * step);
+    step
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "tests")]
+    use super::*;
+    use crate::effects::Place;
+    use crate::structure::chain::ChainParameters;
+    use std::f64::consts::TAU;
+
+    fn oscillator() -> Structure {
+        let chain = ChainParameters {
+            masses: vec![2.0],
+            ground_stiffness: vec![2.0 * (TAU * 10.0).powi(2)],
+            coupling_stiffness: vec![],
+        };
+        chain.build(&[]).unwrap()
+    }
+
+    fn record(loading: &Loading, sources: &[Source], quantity: Quantity, samples: usize) -> TestRecord {
+        let channels = [Channel { quantity, dof: 0, label: "1".into() }];
+        let setup =
+            TestSetup { loading, dof: 0, channels: &channels, sensors: &[], rate_hz: 400.0, samples, filter: true };
+        record_test(&oscillator(), sources, &setup, &Control::unattended()).unwrap()
+    }
+
+    /// Dry friction takes `4 F / k` from the amplitude in every period, and the mass stops where `k |x| < F`.
+    #[test]
+    fn a_ring_down_under_dry_friction_falls_in_a_line_and_stops() {
+        let stiffness = 2.0 * (TAU * 10.0).powi(2);
+        let force = 0.0123 * stiffness * 0.01;
+        let friction = Source::known(Effect::Coulomb, Place::Dofs(vec![0]), &[force]);
+        let release = Loading::Release { displacement_m: 0.01, mode: None };
+        let made = record(&release, &[friction], Quantity::Displacement, 1600);
+        for period in 1..19 {
+            let expected = 0.01 - 4.0 * force / stiffness * f64::from(period);
+            let found = made.samples[0][40 * period as usize];
+            assert!((found - expected).abs() < 2e-6, "{period}: {found} {expected}");
+        }
+        let (last, before) = (made.samples[0][1599], made.samples[0][1500]);
+        assert!((last - before).abs() < 1e-9 && last.abs() <= force / stiffness, "{last}");
+    }
+
+    /// A mass struck by a short impulse moves off with its momentum.
+    #[test]
+    fn a_hammer_gives_its_momentum() {
+        let hammer = Loading::Impulse { peak_n: 100.0, width_s: 0.001, at_s: 0.1, again_s: None };
+        let made = record(&hammer, &[], Quantity::Velocity, 400);
+        let most = made.samples[0].iter().fold(0.0_f64, |m, v| m.max(v.abs()));
+        let expected = 2.0 / PI * 100.0 * 0.001 / 2.0;
+        assert!((most / expected - 1.0).abs() < 0.01, "{most} {expected}");
+    }
+
+    #[test]
+    fn the_filter_passes_what_it_should() {
+        let kernel = kernel();
+        let gain = |ratio: f64| {
+            let half = (kernel.len() / 2) as f64;
+            kernel
+                .iter()
+                .enumerate()
+                .map(|(k, w)| w * (TAU * ratio * (k as f64 - half) / FINER as f64).cos())
+                .sum::<f64>()
+        };
+        assert!((0..34).all(|k| (gain(0.01 * f64::from(k)) - 1.0).abs() < 3e-4));
+        assert!((50..700).all(|k| gain(0.01 * f64::from(k)).abs() < 3e-4));
+    }
+
+    #[test]
+    fn a_converter_rounds_to_its_steps() {
+        let mut samples = vec![0.3, -1.7, 0.001];
+        let step = quantise(&mut samples, 8);
+        assert_eq!(step, 2.0 / 128.0);
+        assert_eq!(samples, [19.0 * step, -109.0 * step, 0.0]);
+    }
+}
