@@ -2,9 +2,11 @@
 
 use super::arguments::Analysis;
 use super::diagnose::{corrected, correction};
+use super::records::{compared, only_records};
 use super::table::{number, table};
 use crate::control::Control;
 use crate::diagnosis::compare::{ChannelComparison, HarmonicComparison};
+use crate::diagnosis::records::RecordComparison;
 use crate::diagnosis::residual::breakdown::Group;
 use crate::diagnosis::residual::whiteness::Whiteness;
 use crate::diagnosis::updating::detuning::{Detuning, detuning};
@@ -24,6 +26,10 @@ const SIGNIFICANT: f64 = 0.001;
 pub(super) fn run(arguments: &Analysis) -> anyhow::Result<String> {
     let control = Control::unattended().with_workers(Arc::new(Threads::default()));
     let project = load(&arguments.file, &control)?;
+    let records = compared(&project, &arguments.file, &control)?;
+    if let Some(records) = records.as_ref().filter(|_| only_records(&project)) {
+        return of_records(&project, records, arguments.json);
+    }
     let comparison =
         compare(&problem(&project), &[], &control).with_context(|| arguments.file.display().to_string())?;
     let reading = detuning(&problem(&project), &control).with_context(|| arguments.file.display().to_string())?;
@@ -32,9 +38,28 @@ pub(super) fn run(arguments: &Analysis) -> anyhow::Result<String> {
         if let Some(reading) = &reading {
             document["reading"] = read(&project, reading);
         }
+        if let Some(records) = &records {
+            document["records"] = json!(super::records::document(&project, records));
+        }
         return Ok(format!("{}\n", serde_json::to_string_pretty(&document)?));
     }
-    Ok(format!("{}{}", text(&project, &comparison), reading.map_or_else(String::new, |r| in_words(&project, &r))))
+    let words = reading.map_or_else(String::new, |r| in_words(&project, &r));
+    let records = records.map_or_else(String::new, |r| super::records::text(&project, &r));
+    Ok(format!("{}{words}{records}", text(&project, &comparison)))
+}
+
+/// A project that holds nothing but records that are not steady.
+fn of_records(project: &Project, records: &RecordComparison, json: bool) -> anyhow::Result<String> {
+    if !json {
+        return Ok(format!("{}\n{}", project.title, super::records::text(project, records)));
+    }
+    let empty: [Value; 0] = [];
+    let document = json!({
+        "title": project.title, "of": measure(&project.structure), "error": records.error,
+        "noise_floor": records.noise_floor, "energy_error": null, "runs": empty, "levels": empty, "channels": empty,
+        "harmonics": empty, "whiteness": empty, "records": super::records::document(project, records),
+    });
+    Ok(format!("{}\n", serde_json::to_string_pretty(&document)?))
 }
 
 /// Whether the model is detuned or lacks an effect.

@@ -2,10 +2,12 @@
 
 use super::arguments::Diagnose;
 use super::compare::{flags, problem};
+use super::records::only_records;
 use super::table::{number, table};
 use crate::control::Control;
 use crate::diagnosis::candidates::start_grids::scaled;
-use crate::diagnosis::diagnose::{Added, Correction, Diagnosis, Suggestion, diagnose_without};
+use crate::diagnosis::diagnose::{Added, Correction, Diagnosis, Early, Suggestion, diagnose_without};
+use crate::diagnosis::records::{Records, diagnose_records};
 use crate::diagnosis::updating::parameters::UpdatingParameter;
 use crate::effects::{Place, Source, State};
 use crate::exchange::Project;
@@ -25,8 +27,7 @@ pub(super) fn run(arguments: &Diagnose) -> anyhow::Result<String> {
     let control = Control::unattended().with_workers(Arc::new(Threads::default()));
     let project = load(&arguments.file, &control)?;
     let early = |found: &[Suggestion]| eprint!("{}", first_words(&project.structure, found));
-    let diagnosis = diagnose_without(&problem(&project), &project.ruled_out, &control, &early)
-        .with_context(|| arguments.file.display().to_string())?;
+    let diagnosis = searched(&project, &control, &early).with_context(|| arguments.file.display().to_string())?;
     if let Some(out) = &arguments.apply {
         apply(&arguments.file, out, &project, &diagnosis)?;
     }
@@ -34,6 +35,15 @@ pub(super) fn run(arguments: &Diagnose) -> anyhow::Result<String> {
         return Ok(format!("{}\n", serde_json::to_string_pretty(&document(&project, &diagnosis))?));
     }
     Ok(text(&project, &diagnosis))
+}
+
+/// On the steady runs; on the records where there are no others.
+fn searched(project: &Project, control: &Control, early: &Early) -> anyhow::Result<Diagnosis> {
+    if !only_records(project) {
+        return Ok(diagnose_without(&problem(project), &project.ruled_out, control, early)?);
+    }
+    let records = Records::new(&project.structure, &project.sources, &project.transient_runs)?;
+    Ok(diagnose_records(&records, &project.ruled_out, control, early)?)
 }
 
 /// The first suggestions while the search goes on.

@@ -14,6 +14,7 @@ mod identify_table;
 mod incompleteness;
 mod methods;
 mod play;
+mod records;
 mod simulate;
 mod source_json;
 mod table;
@@ -49,6 +50,7 @@ fn execute(command: &Command) -> anyhow::Result<String> {
         Command::Export(arguments) => export::run(arguments),
         Command::Compare(arguments) => compare::run(arguments),
         Command::Diagnose(arguments) => diagnose::run(arguments),
+        Command::Amplitude(arguments) => records::amplitude(arguments),
         Command::Simulate(arguments) => simulate::run(arguments),
         Command::Methods(arguments) if arguments.incompleteness => incompleteness::run(arguments),
         Command::Methods(arguments) => methods::run(arguments),
