@@ -11,7 +11,6 @@ mod harmonic_laws;
 mod portrait;
 mod predictions;
 mod recorded;
-mod records;
 mod resonance;
 mod robustness;
 mod support;

@@ -3,10 +3,12 @@
 
 use super::amplitude::{AmplitudePoint, Band, amplitude_curve, peaks};
 use super::data::{RecordData, RecordError, Records};
-use super::fit::{Fit, FittedRecords, Free, channel_errors};
+use super::errors::channel_errors;
+use super::fit::{Fit, FittedRecords, Free};
 use crate::control::Control;
 use crate::effects::Source;
 use crate::math::statistics::root_mean_square;
+use crate::measurement::Kind;
 use dashpot_numerics::RealTransform;
 
 /// Parts of time and bands of frequency.
@@ -98,9 +100,13 @@ pub(crate) fn started(records: &Records, effects: &[Source], control: &Control) 
     Ok(fitted)
 }
 
-/// Share of every record that holds eight periods of its dominant motion.
+/// Share of every record that holds eight periods of its dominant motion; half of one that is driven, whose force holds the
+/// phase.
 pub(crate) fn short(records: &Records) -> f64 {
-    let share = |r: &RecordData| 8.0 / (r.dominant_hz * r.step * r.len() as f64);
+    let share = |r: &RecordData| {
+        let periods = 8.0 / (r.dominant_hz * r.step * r.len() as f64);
+        if r.kind == Kind::Transient { periods.max(0.5) } else { periods }
+    };
     records.list.iter().map(share).fold(0.08, f64::max).min(1.0)
 }
 

@@ -176,8 +176,8 @@ fn noise_of(signal: &[f64], step: f64) -> f64 {
     let Some(spectrum) = Spectrum::new(signal, step) else { return largest * 1e-3 };
     let count = spectrum.amplitude.len();
     let high = median(&spectrum.amplitude[count * 3 / 4..]);
-    // Amplitude of a line of white noise behind Hann's window: Rayleigh with a median of 1.177 sigma sqrt(6 / N).
-    let sigma = high / (1.177 * (6.0 / signal.len() as f64).sqrt());
+    // Amplitude of a line of white noise behind Hann's window: Rayleigh with a median of 0.8326 sigma sqrt(6 / N).
+    let sigma = high / (0.8326 * (6.0 / signal.len() as f64).sqrt());
     sigma.max(1e-6 * largest).max(f64::MIN_POSITIVE)
 }
 

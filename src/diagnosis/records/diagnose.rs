@@ -9,6 +9,7 @@
 
 use super::compare::{floors, short, started};
 use super::data::{RecordError, Records};
+use super::evidence::{evidence, misfit, parameters, scale};
 use super::fit::{Fit, FittedRecords, Free};
 use super::localisation::{LocatedForce, locate};
 use crate::control::Control;
@@ -40,7 +41,7 @@ const LAWS: [Effect; 13] = [
 /// Misfit (squared residual over noise) up to which a model agrees.
 const AGREES: f64 = 1.15;
 /// Places that are looked at, shapes of a law, fits that go on to longer parts and to whole records.
-const PLACES: usize = 3;
+const PLACES: usize = 2;
 const SHAPES: usize = 5;
 const LONGER: usize = 10;
 const WHOLE: usize = 5;
@@ -105,36 +106,6 @@ pub fn diagnose_records(
     Ok(diagnosis)
 }
 
-/// Squared residual a sample, over the noise.
-fn misfit(fit: &FittedRecords) -> f64 {
-    fit.chi_square / fit.count.max(1) as f64
-}
-
-/// Number of parameters of the effects of a fit.
-fn parameters(fit: &FittedRecords) -> usize {
-    fit.effects.iter().map(|e| e.parameters.len()).sum()
-}
-
-/// What one unit of evidence is worth in squared residual: the misfit of a fit times the samples over which what it leaves
-/// stays alike, at least 1.
-fn scale(fit: &FittedRecords) -> f64 {
-    let (mut own, mut next) = (0.0, 0.0);
-    for channel in fit.residual.iter().flatten() {
-        own += channel.iter().map(|e| e * e).sum::<f64>();
-        // The envelope of what is left decides, not its phase: squares of neighbours beside their mean.
-        let squares: Vec<f64> = channel.windows(2).map(|e| e[0].hypot(e[1])).collect();
-        next += squares.windows(2).map(|e| e[0].min(e[1]).powi(2)).sum::<f64>() / 2.0;
-    }
-    let alike = if own > 0.0 { (next / own).clamp(0.0, 0.98) } else { 0.0 };
-    let length = if misfit(fit) > 2.0 { ((1.0 + alike) / (1.0 - alike)).max(1.0) } else { 1.0 };
-    misfit(fit).max(1.0) * length
-}
-
-/// Evidence (smaller is better) on the scale of the best fit.
-fn evidence(fit: &FittedRecords, scale: f64) -> f64 {
-    fit.chi_square / scale + parameters(fit) as f64 * (fit.count as f64 / scale.sqrt()).max(2.0).ln()
-}
-
 struct Search<'a> {
     records: &'a Records<'a>,
     excluded: &'a [Source],
@@ -160,13 +131,20 @@ impl Search<'_> {
         let structure = self.records.structure;
         let mut all = Family::EachTranslation.places(structure);
         all.extend(Family::EachPair.places(structure));
-        // The law of a free force is not that of an effect found already: the model with it is nonlinear.
+        // Corrections may have been bent to what is missing: the model is asked as it is, too.
         let located: Vec<LocatedForce> = locate(self.records, &all, best.stiffness);
         if located.is_empty() {
             all.truncate(2 * PLACES);
             return all;
         }
-        located.into_iter().take(PLACES).map(|l| l.place).collect()
+        let plain = locate(self.records, &all, 0.0);
+        let mut places: Vec<Place> = Vec::new();
+        for one in located.into_iter().take(PLACES).chain(plain.into_iter().take(PLACES)) {
+            if !places.contains(&one.place) {
+                places.push(one.place);
+            }
+        }
+        places
     }
 
     /// Fits of `best` with one effect more, best first.
@@ -364,8 +342,11 @@ impl Search<'_> {
             return Ok(());
         }
         diagnosis.suggestions = self.suggestions(top)?;
-        for (suggestion, fit) in diagnosis.suggestions.iter_mut().zip(top) {
-            suggestion.held_out_error_after = self.held_out(fit)?;
+        for suggestion in &mut diagnosis.suggestions {
+            let own = |f: &&FittedRecords| f.effects.iter().any(|e| e.is_same(&suggestion.added.source));
+            if let Some(fit) = top.iter().find(own) {
+                suggestion.held_out_error_after = self.held_out(fit)?;
+            }
         }
         let sure = diagnosis.suggestions.first().is_some_and(|s| s.probability >= 0.5);
         diagnosis.verdict = if sure { Verdict::Missing } else { Verdict::Undecided };

@@ -9,11 +9,12 @@
 //! factors with priors. Of a record: `2 m` entries of its initial state, free, and a logarithm of stiffness with the prior of
 //! re-seating. Short parts are fitted first, so that a long record does not lose the phase.
 
-use super::data::{RecordData, RecordError, Records};
+use super::data::{RecordError, Records};
+use super::errors::channel_errors;
+use super::variables::{at_variable, scales, slopes, variable};
 use crate::control::Control;
 use crate::diagnosis::candidates::start_grids::scaled;
-use crate::effects::law::Parameter;
-use crate::effects::{Effect, Source};
+use crate::effects::Source;
 use crate::math::statistics::root_mean_square;
 use crate::response::transient::{TransientParameter, TransientResponse};
 use dashpot_numerics::Cholesky;
@@ -111,46 +112,6 @@ impl FittedRecords {
     }
 }
 
-/// `|y - y_model| / |y|` of every channel of a record over some samples; `|y|` at least a twentieth of the largest of its
-/// quantity.
-pub(crate) fn channel_errors(record: &RecordData, model: &[Vec<f64>], samples: std::ops::Range<usize>) -> Vec<f64> {
-    let size = |y: &[f64]| root_mean_square(&y[samples.clone()]);
-    let largest = |c: usize| {
-        let same = (0..record.channels.len()).filter(|&k| record.channels[k].quantity == record.channels[c].quantity);
-        same.map(|k| size(&record.samples[k])).fold(0.0, f64::max)
-    };
-    let of = |c: usize| {
-        let left: Vec<f64> = samples.clone().map(|n| record.samples[c][n] - model[c][n]).collect();
-        let scale = size(&record.samples[c]).max(largest(c) / 20.0);
-        if scale > 0.0 { root_mean_square(&left) / scale } else { 0.0 }
-    };
-    (0..record.channels.len()).map(of).collect()
-}
-
-/// How a parameter of a law is varied: its value and slope at `t`.
-fn at(parameter: &Parameter, scale: f64, t: f64) -> [f64; 2] {
-    let width = parameter.greatest - parameter.least;
-    if width.is_finite() {
-        let share = 1.0 / (1.0 + (-t).exp());
-        return [parameter.least + width * share, width * share * (1.0 - share)];
-    }
-    if parameter.least.is_finite() {
-        let size = t.clamp(-300.0, 300.0).exp();
-        return [parameter.least + size, size];
-    }
-    [scale * t, scale]
-}
-
-/// The variable at which [`at`] gives `value`.
-fn variable(parameter: &Parameter, scale: f64, value: f64) -> f64 {
-    let width = parameter.greatest - parameter.least;
-    if width.is_finite() {
-        let share = ((value - parameter.least) / width).clamp(1e-6, 1.0 - 1e-6);
-        return (share / (1.0 - share)).ln();
-    }
-    if parameter.least.is_finite() { (value - parameter.least).max(1e-300).ln() } else { value / scale }
-}
-
 /// A fit on the first part of every record.
 pub(crate) struct Fit<'a> {
     pub records: &'a Records<'a>,
@@ -218,7 +179,7 @@ impl Fit<'_> {
         let shared = self.shared(&best);
         let scaling: Vec<f64> = (0..size).map(|k| normal.matrix[(k, k)].max(1e-300).sqrt().recip()).collect();
         let unit = Mat::from_fn(size, size, |i, j| {
-            let ridge = if i == j { 1e-13 } else { 0.0 };
+            let ridge = if i == j { 1e-11 } else { 0.0 };
             normal.matrix[(i, j)] * scaling[i] * scaling[j] + ridge
         });
         let identity = Mat::<f64>::identity(size, size);
@@ -249,7 +210,7 @@ impl Fit<'_> {
             for (j, parameter) in effect.effect.parameters().iter().enumerate() {
                 let now = variable(parameter, scales[j], effect.parameters[j]);
                 let reach = if parameter.least.is_finite() { REACH } else { f64::INFINITY };
-                effect.parameters[j] = self::at(parameter, scales[j], now + change[k].clamp(-reach, reach))[0];
+                effect.parameters[j] = at_variable(parameter, scales[j], now + change[k].clamp(-reach, reach))[0];
                 k += 1;
             }
         }
@@ -281,7 +242,7 @@ impl Fit<'_> {
             let effect = &at.effects[source - offset];
             for (parameter, law) in effect.effect.parameters().iter().enumerate() {
                 let now = variable(law, slopes[parameter], effect.parameters[parameter]);
-                let slope = self::at(law, slopes[parameter], now)[1];
+                let slope = at_variable(law, slopes[parameter], now)[1];
                 list.push((TransientParameter::Source { source, parameter }, k, slope));
                 k += 1;
             }
@@ -410,19 +371,4 @@ fn solve(normal: &Normal, damping: f64) -> Option<Vec<f64>> {
     let x = Cholesky::new(matrix.as_ref())?.solve(rhs.as_ref());
     let change: Vec<f64> = (0..size).map(|i| x[(i, 0)] * scale[i]).collect();
     change.iter().all(|x| x.is_finite()).then_some(change)
-}
-
-/// Scales of parameters that may have either sign, by effect.
-fn scales(effects: &[Source]) -> Vec<Vec<f64>> {
-    effects.iter().map(|e| e.parameters.iter().map(|p| p.abs().max(1e-12)).collect()).collect()
-}
-
-/// Derivative of each law parameter by its variable.
-fn slopes(effects: &[Source], scales: &[Vec<f64>]) -> Vec<f64> {
-    let of = |(effect, scales): (&Source, &Vec<f64>)| -> Vec<f64> {
-        let list: &[Parameter] = Effect::parameters(effect.effect);
-        let slope = |(j, p): (usize, &Parameter)| at(p, scales[j], variable(p, scales[j], effect.parameters[j]))[1];
-        list.iter().enumerate().map(slope).collect()
-    };
-    effects.iter().zip(scales).flat_map(of).collect()
 }

@@ -9,9 +9,12 @@ pub mod amplitude;
 pub mod compare;
 pub mod data;
 pub mod diagnose;
+mod errors;
+mod evidence;
 pub mod fit;
 pub mod localisation;
 pub mod spectrum;
+mod variables;
 
 pub use compare::{RecordComparison, compare_records};
 pub use data::{RecordError, Records};

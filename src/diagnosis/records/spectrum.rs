@@ -39,23 +39,3 @@ pub fn fourier_integral(signal: &[f64], step: f64) -> Vec<c64> {
     }
     lines
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_decay_has_its_integral() {
-        let (rate, omega, step, count) = (0.7, 9.0, 0.01, 700);
-        let pole = c64::new(-rate, omega);
-        let signal: Vec<f64> = (0..count).map(|n| (pole * (step * n as f64)).exp().re).collect();
-        let lines = fourier_integral(&signal, step);
-        let length = step * (count - 1) as f64;
-        for (k, line) in lines.iter().enumerate().take(60) {
-            let w = c64::new(0.0, TAU * k as f64 / length);
-            let part = |p: c64| ((p * length).exp() - 1.0) / (p - w);
-            let exact = 0.5 * (part(pole) + part(pole.conj()));
-            assert!((line - exact).norm() < 1e-8, "line {k}: {line} against {exact}");
-        }
-    }
-}

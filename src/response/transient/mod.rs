@@ -10,6 +10,7 @@
 //! Derivatives by parameters of laws, stiffness, mass and the initial state are those of the same steps, the instants of
 //! reversals included.
 
+mod assembly;
 mod element;
 mod exponentials;
 mod march;

@@ -40,6 +40,10 @@ impl Reduction {
         patterns: &Mat<f64>,
     ) -> Result<Self, TransientError> {
         let kept = kept.min(modes.len());
+        if patterns.ncols() == 0 {
+            let basis = modes.shapes.subcols(0, kept).to_owned();
+            return Ok(Self { basis, omega: modes.omega[..kept].to_vec(), kept });
+        }
         let mut omega = modes.omega[..kept].to_vec();
         let phi = modes.shapes.subcols(0, kept);
         let lowest = omega.iter().copied().find(|w| *w > 0.0).unwrap_or(1.0);

@@ -107,7 +107,7 @@ impl LinearSystem {
         let backward = Mat::from_fn(2 * m, kept.len(), |i, k| vectors[(i, kept[k])]);
         let lambda: Vec<c64> = kept.iter().map(|&k| values[k]).collect();
         let weight = lambda.iter().map(|l| if l.im > 0.0 { 2.0 } else { 1.0 }).collect();
-        let pushes = mass.solve(patterns.as_ref());
+        let pushes = if patterns.ncols() == 0 { patterns.clone() } else { mass.solve(patterns.as_ref()) };
         let beta = (0..patterns.ncols()).map(|i| lifted(&forward, &pushes, i)).collect();
         let damping = matrices.damping.clone();
         Ok(Self { lambda, weight, forward, backward, beta, scale, rates, pushes, stiffness, damping, mass })
@@ -175,7 +175,8 @@ impl LinearSystem {
         };
         let (by_p, by_v) = (change(&by.stiffness, &k), change(&by.damping, &c));
         let rates = Mat::from_fn(m, 2 * m, |i, j| if j < m { by_p[(i, j)] / self.scale[j] } else { by_v[(i, j - m)] });
-        let through = product(lost.as_ref(), self.pushes.as_ref());
+        let none = self.pushes.ncols() == 0;
+        let through = if none { self.pushes.clone() } else { product(lost.as_ref(), self.pushes.as_ref()) };
         let pushes = Mat::from_fn(m, through.ncols(), |i, j| -through[(i, j)]);
         let count = self.lambda.len();
         let (mut direct, mut conjugate) = (Vec::with_capacity(count * count), Vec::with_capacity(count * count));
