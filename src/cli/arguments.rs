@@ -35,6 +35,8 @@ pub(super) enum Command {
     Compare(Analysis),
     /// Name the effect that the model lacks, ranked, with evidence
     Diagnose(Diagnose),
+    /// Frequency and damping ratio against amplitude, of decays and of what follows a hammer
+    Amplitude(Analysis),
     /// Make steady-state records of the model of a project
     Simulate(Simulate),
     /// Apply the classical methods side by side to the same runs

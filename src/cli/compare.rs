@@ -4,9 +4,11 @@ use super::arguments::Analysis;
 use super::diagnose::{corrected, correction};
 use super::identified;
 use super::run_flags::{self, flags};
+use super::records::{compared, only_records};
 use super::table::{number, table};
 use crate::control::Control;
 use crate::diagnosis::compare::{ChannelComparison, HarmonicComparison};
+use crate::diagnosis::records::RecordComparison;
 use crate::diagnosis::residual::breakdown::Group;
 use crate::diagnosis::residual::whiteness::Whiteness;
 use crate::diagnosis::updating::detuning::{Detuning, detuning};
@@ -26,6 +28,10 @@ const SIGNIFICANT: f64 = 0.001;
 pub(super) fn run(arguments: &Analysis) -> anyhow::Result<String> {
     let control = Control::unattended().with_workers(Arc::new(Threads::default()));
     let mut project = load(&arguments.file, &control)?;
+    let records = compared(&project, &arguments.file, &control)?;
+    if let Some(records) = records.as_ref().filter(|_| only_records(&project)) {
+        return of_records(&project, records, arguments.json);
+    }
     run_flags::check(&project, &arguments.file)?;
     let taken = identified::take_over(&mut project, arguments.identified, &arguments.file, &control)?;
     let comparison =
@@ -42,6 +48,9 @@ pub(super) fn run(arguments: &Analysis) -> anyhow::Result<String> {
         if !taken.is_empty() {
             document["identified"] = identified::document(&project, &taken);
         }
+        if let Some(records) = &records {
+            document["records"] = json!(super::records::document(&project, records));
+        }
         return Ok(format!("{}\n", serde_json::to_string_pretty(&document)?));
     }
     let words = match &reading {
@@ -49,7 +58,22 @@ pub(super) fn run(arguments: &Analysis) -> anyhow::Result<String> {
         Some(reading) => in_words(&project, reading),
         None => String::new(),
     };
-    Ok(format!("{}{words}{}", text(&project, &comparison), run_flags::text(&project)))
+    let records = records.map_or_else(String::new, |r| super::records::text(&project, &r));
+    Ok(format!("{}{words}{}{records}", text(&project, &comparison), run_flags::text(&project)))
+}
+
+/// A project that holds nothing but records that are not steady.
+fn of_records(project: &Project, records: &RecordComparison, json: bool) -> anyhow::Result<String> {
+    if !json {
+        return Ok(format!("{}\n{}", project.title, super::records::text(project, records)));
+    }
+    let empty: [Value; 0] = [];
+    let document = json!({
+        "title": project.title, "of": measure(&project.structure), "error": records.error,
+        "noise_floor": records.noise_floor, "energy_error": null, "runs": empty, "levels": empty, "channels": empty,
+        "harmonics": empty, "whiteness": empty, "records": super::records::document(project, records),
+    });
+    Ok(format!("{}\n", serde_json::to_string_pretty(&document)?))
 }
 
 /// Error from which on a model that is within the noise of its data says nothing of either.

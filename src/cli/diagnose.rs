@@ -4,11 +4,13 @@ use super::addition;
 use super::arguments::Diagnose;
 use super::compare::problem;
 use super::identified;
+use super::records::only_records;
 use super::run_flags::{self, flags};
 use super::table::{number, table};
 use crate::control::Control;
 use crate::diagnosis::candidates::start_grids::scaled;
-use crate::diagnosis::diagnose::{Added, Correction, Diagnosis, Suggestion, diagnose_without};
+use crate::diagnosis::diagnose::{Added, Correction, Diagnosis, Early, Suggestion, diagnose_without};
+use crate::diagnosis::records::{Records, diagnose_records};
 use crate::diagnosis::updating::parameters::UpdatingParameter;
 use crate::effects::{Place, Source, State};
 use crate::exchange::Project;
@@ -27,12 +29,13 @@ use std::sync::Arc;
 pub(super) fn run(arguments: &Diagnose) -> anyhow::Result<String> {
     let control = Control::unattended().with_workers(Arc::new(Threads::default()));
     let mut project = load(&arguments.file, &control)?;
-    run_flags::check(&project, &arguments.file)?;
+    if !only_records(&project) {
+        run_flags::check(&project, &arguments.file)?;
+    }
     let written = project.sources.clone();
     let taken = identified::take_over(&mut project, arguments.identified, &arguments.file, &control)?;
     let early = |found: &[Suggestion]| eprint!("{}", first_words(&project.structure, found));
-    let diagnosis = diagnose_without(&problem(&project), &project.ruled_out, &control, &early)
-        .with_context(|| arguments.file.display().to_string())?;
+    let diagnosis = searched(&project, &control, &early).with_context(|| arguments.file.display().to_string())?;
     if let Some(out) = &arguments.apply {
         apply(&arguments.file, out, &Written { project: &project, sources: &written, taken: &taken }, &diagnosis)?;
     }
@@ -62,6 +65,15 @@ impl Written<'_> {
         sources.extend(new);
         Project { sources, ..self.project.clone() }
     }
+}
+
+/// On the steady runs; on the records where there are no others.
+fn searched(project: &Project, control: &Control, early: &Early) -> anyhow::Result<Diagnosis> {
+    if !only_records(project) {
+        return Ok(diagnose_without(&problem(project), &project.ruled_out, control, early)?);
+    }
+    let records = Records::new(&project.structure, &project.sources, &project.transient_runs)?;
+    Ok(diagnose_records(&records, &project.ruled_out, control, early)?)
 }
 
 /// The first suggestions while the search goes on.

@@ -17,6 +17,7 @@ mod incompleteness;
 mod methods;
 mod play;
 mod run_flags;
+mod records;
 mod simulate;
 mod source_json;
 mod table;
@@ -58,6 +59,7 @@ fn execute(command: &Command) -> anyhow::Result<String> {
         Command::Export(arguments) => export::run(arguments),
         Command::Compare(arguments) => compare::run(arguments),
         Command::Diagnose(arguments) => diagnose::run(arguments),
+        Command::Amplitude(arguments) => records::amplitude(arguments),
         Command::Simulate(arguments) => simulate::run(arguments),
         Command::Methods(arguments) if arguments.incompleteness => incompleteness::run(arguments),
         Command::Methods(arguments) => methods::run(arguments),

@@ -18,6 +18,7 @@ pub mod compare;
 pub mod diagnose;
 pub mod localisation;
 pub mod points;
+pub mod records;
 pub mod residual;
 pub mod selection;
 pub mod updating;

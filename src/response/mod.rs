@@ -12,3 +12,4 @@ pub mod simulation_in_time;
 pub mod steady_state;
 pub mod synthesis;
 pub mod time_integration;
+pub mod transient;

@@ -1,0 +1,208 @@
+//! The model's records against the measured ones: by channel, by part of time (and so by amplitude), by band, and their
+//! amplitude curves by one estimator.
+
+use super::amplitude::{AmplitudePoint, Band, amplitude_curve, peaks};
+use super::data::{RecordData, RecordError, Records};
+use super::errors::channel_errors;
+use super::fit::{Fit, FittedRecords, Free};
+use crate::control::Control;
+use crate::effects::Source;
+use crate::math::statistics::root_mean_square;
+use crate::measurement::Kind;
+use dashpot_numerics::RealTransform;
+
+/// Parts of time and bands of frequency.
+const PARTS: usize = 8;
+/// Width of the band about a mode where a record shows several.
+const MODE_BAND: f64 = 0.3;
+
+/// A part of a record, in s or Hz.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RecordPart {
+    /// Where it begins and ends.
+    pub range: [f64; 2],
+    /// Root mean square of what was measured there over that of the whole record.
+    pub size: f64,
+    /// Relative error there: of the root mean square of the part for times, of the whole record for bands.
+    pub error: f64,
+}
+
+/// Curves of one mode in one channel.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ModeCurve {
+    /// Channel, such as `acc@7`.
+    pub channel: String,
+    /// Frequency near which the mode lies, Hz.
+    pub frequency_hz: f64,
+    /// As measured.
+    pub measured: Vec<AmplitudePoint>,
+    /// Of the model's record.
+    pub model: Vec<AmplitudePoint>,
+}
+
+/// One record.
+#[derive(Debug, Clone, PartialEq)]
+pub struct OneRecord {
+    /// Number among the transient runs of the project.
+    pub index: usize,
+    /// Relative error, root mean square over the channels.
+    pub error: f64,
+    /// What noise alone would leave.
+    pub noise_floor: f64,
+    /// Channel, its error and its noise floor.
+    pub channels: Vec<(String, [f64; 2])>,
+    /// By time.
+    pub times: Vec<RecordPart>,
+    /// By frequency.
+    pub bands: Vec<RecordPart>,
+    /// Samples of the model, one list a channel of motion.
+    pub model: Vec<Vec<f64>>,
+    /// Amplitude curves of the modes that stand out in the channel of greatest response.
+    pub curves: Vec<ModeCurve>,
+}
+
+/// All records.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RecordComparison {
+    /// Root mean square over records and channels.
+    pub error: f64,
+    /// What noise alone would leave.
+    pub noise_floor: f64,
+    /// One entry a record that is used.
+    pub records: Vec<OneRecord>,
+}
+
+/// Compares the model, with `effects` added, from the measured forces and initial states that are fitted with it.
+///
+/// # Errors
+/// [`RecordError`]: laws without a force in time, models that run away.
+pub fn compare_records(
+    records: &Records,
+    effects: &[Source],
+    control: &Control,
+) -> Result<RecordComparison, RecordError> {
+    let fitted = started(records, effects, control)?;
+    let one = |(r, record): (usize, &RecordData)| -> Result<OneRecord, RecordError> {
+        let model = fitted.predict(records, r, record.len(), &[])?.channels;
+        Ok(compared(record, model))
+    };
+    let list: Vec<OneRecord> = records.list.iter().enumerate().map(one).collect::<Result<_, _>>()?;
+    let over = |of: &dyn Fn(&OneRecord) -> f64| root_mean_square(&list.iter().map(of).collect::<Vec<f64>>());
+    Ok(RecordComparison { error: over(&|r| r.error), noise_floor: over(&|r| r.noise_floor), records: list })
+}
+
+/// The model with initial states only fitted, short parts first.
+pub(crate) fn started(records: &Records, effects: &[Source], control: &Control) -> Result<FittedRecords, RecordError> {
+    let mut fitted = FittedRecords::start(records, effects);
+    for (share, iterations) in [(short(records), 3), (0.4, 3), (1.0, 4)] {
+        fitted = Fit { records, free: Free { corrections: false }, share, control }.improve(&fitted, iterations)?;
+    }
+    Ok(fitted)
+}
+
+/// Share of every record that holds eight periods of its dominant motion; half of one that is driven, whose force holds the
+/// phase.
+pub(crate) fn short(records: &Records) -> f64 {
+    let share = |r: &RecordData| {
+        let periods = 8.0 / (r.dominant_hz * r.step * r.len() as f64);
+        if r.kind == Kind::Transient { periods.max(0.5) } else { periods }
+    };
+    records.list.iter().map(share).fold(0.08, f64::max).min(1.0)
+}
+
+fn compared(record: &RecordData, model: Vec<Vec<f64>>) -> OneRecord {
+    let errors = channel_errors(record, &model, 0..record.len());
+    let floors = floors(record);
+    let names = record.channels.iter().map(ToString::to_string);
+    let channels = names.zip(errors.iter().zip(&floors).map(|(e, f)| [*e, *f])).collect();
+    OneRecord {
+        index: record.index,
+        error: root_mean_square(&errors),
+        noise_floor: root_mean_square(&floors),
+        channels,
+        times: times(record, &model),
+        bands: bands(record, &model),
+        curves: curves(record, &model),
+        model,
+    }
+}
+
+/// Noise over signal of every channel, by the measure of [`channel_errors`].
+pub(crate) fn floors(record: &RecordData) -> Vec<f64> {
+    let clean = |c: usize| record.samples[c].iter().map(|y| y - record.noise[c]).collect::<Vec<f64>>();
+    let shifted: Vec<Vec<f64>> = (0..record.channels.len()).map(clean).collect();
+    channel_errors(record, &shifted, 0..record.len())
+}
+
+fn times(record: &RecordData, model: &[Vec<f64>]) -> Vec<RecordPart> {
+    let length = record.len() / PARTS;
+    let whole = |c: usize| root_mean_square(&record.samples[c]);
+    let part = |k: usize| {
+        let range = k * length..(k + 1) * length;
+        let errors = channel_errors(record, model, range.clone());
+        let sizes: Vec<f64> = (0..record.channels.len())
+            .map(|c| root_mean_square(&record.samples[c][range.clone()]) / whole(c).max(f64::MIN_POSITIVE))
+            .collect();
+        let at = |n: usize| record.first_s + n as f64 * record.step;
+        RecordPart {
+            range: [at(range.start), at(range.end)],
+            size: root_mean_square(&sizes),
+            error: root_mean_square(&errors),
+        }
+    };
+    if length < 4 { Vec::new() } else { (0..PARTS).map(part).collect() }
+}
+
+/// Octaves below the Nyquist frequency.
+fn bands(record: &RecordData, model: &[Vec<f64>]) -> Vec<RecordPart> {
+    let n = record.len();
+    let transform = RealTransform::new(n);
+    let square = |y: &[f64], from: usize, to: usize| -> f64 {
+        let mut work = y.to_vec();
+        let lines = transform.forward(&mut work);
+        lines[from..to.min(lines.len())].iter().map(|l| l.norm_sqr()).sum()
+    };
+    let lines = n / 2 + 1;
+    let mut parts = Vec::new();
+    let mut to = lines;
+    for _ in 0..PARTS {
+        let from = if parts.len() + 1 == PARTS { 1 } else { (to / 2).max(1) };
+        let of = |c: usize| {
+            let left: Vec<f64> = record.samples[c].iter().zip(&model[c]).map(|(y, m)| y - m).collect();
+            let whole = square(&record.samples[c], 1, lines).max(f64::MIN_POSITIVE);
+            [square(&left, from, to) / whole, square(&record.samples[c], from, to) / whole]
+        };
+        let all: Vec<[f64; 2]> = (0..record.channels.len()).map(of).collect();
+        let mean = |k: usize| (all.iter().map(|x| x[k]).sum::<f64>() / all.len() as f64).sqrt();
+        let hz = |k: usize| k as f64 / (n as f64 * record.step);
+        parts.push(RecordPart { range: [hz(from), hz(to)], size: mean(1), error: mean(0) });
+        to = from;
+        if to <= 1 {
+            break;
+        }
+    }
+    parts.reverse();
+    parts
+}
+
+fn curves(record: &RecordData, model: &[Vec<f64>]) -> Vec<ModeCurve> {
+    let over = |c: &usize| root_mean_square(&record.samples[*c]) / record.noise[*c];
+    let Some(c) = (0..record.channels.len()).max_by(|a, b| over(a).total_cmp(&over(b))) else { return Vec::new() };
+    // Where a force acts, the motion is not that of a decay: only what follows its end is read.
+    let loudest = record.forces.iter().flatten().fold(0.0_f64, |m, f| m.max(f.abs()));
+    let acts = |n: &usize| record.forces.iter().any(|list| list[*n].abs() > 0.02 * loudest);
+    let first = (0..record.len()).rev().find(acts).map_or(0, |n| n + 1);
+    let rest = record.len() - first;
+    if rest < 64 || (first > 0 && rest < record.len() / 4) {
+        return Vec::new();
+    }
+    let found = peaks(&record.samples[c][first..], record.step, 0.05, 4);
+    let width = if found.len() > 1 { MODE_BAND } else { 0.0 };
+    let start = record.first_s + first as f64 * record.step;
+    let curve = |&frequency_hz: &f64| {
+        let read = |y: &[f64]| amplitude_curve(&y[first..], record.step, start, Band { frequency_hz, width });
+        let channel = record.channels[c].to_string();
+        ModeCurve { channel, frequency_hz, measured: read(&record.samples[c]), model: read(&model[c]) }
+    };
+    found.iter().map(curve).collect()
+}

@@ -1,0 +1,202 @@
+//! The records of a project as they are fitted: forces, responses, noise, the modes that they show.
+
+use super::amplitude::peaks;
+use crate::control::Cancelled;
+use crate::effects::{Source, State, effect::Kind as EffectKind};
+use crate::math::spectrum::Spectrum;
+use crate::math::statistics::median;
+use crate::measurement::{Channel, Kind, TransientRun};
+use crate::response::transient::{SampledForces, TransientError, TransientModel, TransientSetup};
+use crate::structure::modes::Modes;
+use crate::structure::{Structure, StructureError};
+use std::f64::consts::TAU;
+
+/// Most modes that are followed one by one; the rest by residual flexibility.
+const MOST_MODES: usize = 8;
+/// Height over the noise from which a peak of the spectrum counts as a mode that is seen.
+const SEEN: f64 = 20.0;
+/// Phase of the highest seen motion that one step of the model may cover, rad.
+const STEP_PHASE: f64 = 0.2;
+
+/// Why records cannot be compared or explained.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[expect(missing_docs, reason = "the messages say it")]
+pub enum RecordError {
+    #[error("no decay or transient can be used: all are switched off; add one with `use = true`")]
+    NoRuns,
+    #[error("run {file}: {reason}")]
+    Model { file: String, reason: TransientError },
+    #[error(transparent)]
+    Structure(#[from] StructureError),
+    #[error(
+        "run {file} is a transient without a force channel: add force@DOF, or `kind = \"decay\"` for its free part"
+    )]
+    NoForce { file: String },
+    #[error(
+        "the fit of the records failed: their equations have no solution; check that each has motion above the noise"
+    )]
+    Singular,
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
+}
+
+/// One record.
+#[derive(Debug, Clone)]
+pub struct RecordData {
+    /// Number among the transient runs of the project.
+    pub index: usize,
+    /// Name of its file.
+    pub file: String,
+    /// Decay or transient.
+    pub kind: Kind,
+    /// Time of the first sample and between samples, s.
+    pub first_s: f64,
+    /// Time between samples, s.
+    pub step: f64,
+    /// Channels of motion.
+    pub channels: Vec<Channel>,
+    /// Their samples less their means where they are displacements of a decay, SI.
+    pub samples: Vec<Vec<f64>>,
+    /// Rows of the driven DOFs.
+    pub drives: Vec<usize>,
+    /// Their forces, N.
+    pub forces: Vec<Vec<f64>>,
+    /// Standard deviation of the noise of each channel.
+    pub noise: Vec<f64>,
+    /// Steps of the model from one sample to the next where a law is nonlinear.
+    pub substeps: usize,
+    /// Frequency of the highest peak, Hz.
+    pub dominant_hz: f64,
+}
+
+/// All that is fitted.
+#[derive(Debug, Clone)]
+pub struct Records<'a> {
+    /// Structure with matrices.
+    pub structure: &'a Structure,
+    /// Sources that are known.
+    pub known: Vec<Source>,
+    /// Undamped modes.
+    pub modes: Modes,
+    /// How many are followed.
+    pub kept: usize,
+    /// Records that are used.
+    pub list: Vec<RecordData>,
+}
+
+impl<'a> Records<'a> {
+    /// Takes the runs that are switched on.
+    ///
+    /// # Errors
+    /// [`RecordError`]: no run, no force, no matrices.
+    pub fn new(structure: &'a Structure, sources: &[Source], runs: &[TransientRun]) -> Result<Self, RecordError> {
+        let modes = structure.modes()?;
+        let acts = |s: &&Source| s.state == State::Known && !matches!(s.effect.kind(), EffectKind::Channel(_));
+        let known = sources.iter().filter(acts).cloned().collect();
+        let mut list = Vec::new();
+        for (index, run) in runs.iter().enumerate().filter(|(_, run)| run.enabled) {
+            list.push(record(index, run)?);
+        }
+        if list.is_empty() {
+            return Err(RecordError::NoRuns);
+        }
+        let top = list.iter().map(highest_hz).fold(0.0, f64::max);
+        let nyquist = list.iter().map(|r| 0.4 / r.step).fold(f64::INFINITY, f64::min);
+        let limit = (1.5 * top).min(nyquist);
+        let below = modes.omega.iter().filter(|w| **w <= TAU * limit).count();
+        let kept = below.clamp(1, MOST_MODES).min(modes.len());
+        Ok(Self { structure, known, modes, kept, list })
+    }
+
+    /// The model of a record with these sources and factors on stiffness and mass.
+    pub(crate) fn model(
+        &self,
+        record: &RecordData,
+        sources: &[Source],
+        factors: [f64; 2],
+    ) -> Result<TransientModel, RecordError> {
+        let (structure, modes, kept) = (self.structure, &self.modes, self.kept);
+        let (drives, channels) = (&record.drives[..], &record.channels[..]);
+        TransientModel::new(&TransientSetup { structure, modes, kept, sources, drives, channels, factors })
+            .map_err(|reason| RecordError::Model { file: record.file.clone(), reason })
+    }
+}
+
+impl RecordData {
+    /// Number of samples.
+    pub fn len(&self) -> usize {
+        self.samples[0].len()
+    }
+
+    /// Whether there is no sample; never true.
+    pub fn is_empty(&self) -> bool {
+        self.samples[0].is_empty()
+    }
+
+    /// The measured forces of the first `samples` samples.
+    pub(crate) fn excitation(&self, samples: usize, linear: bool) -> SampledForces {
+        let forces = self.forces.iter().map(|list| list[..samples].to_vec()).collect();
+        SampledForces { step: self.step, samples, forces, substeps: if linear { 1 } else { self.substeps } }
+    }
+}
+
+fn record(index: usize, run: &TransientRun) -> Result<RecordData, RecordError> {
+    let driven = run.force_channels();
+    if run.kind == Kind::Transient && driven.is_empty() {
+        return Err(RecordError::NoForce { file: run.file.clone() });
+    }
+    let seen = run.response_channels();
+    let channels: Vec<Channel> = seen.iter().map(|&c| run.channels()[c].clone()).collect();
+    let samples: Vec<Vec<f64>> = seen.iter().map(|&c| run.samples(c).to_vec()).collect();
+    let step = run.step();
+    let noise = samples.iter().map(|y| noise_of(y, step)).collect();
+    let mut record = RecordData {
+        index,
+        file: run.file.clone(),
+        kind: run.kind,
+        first_s: run.time()[0],
+        step,
+        channels,
+        samples,
+        drives: driven.iter().map(|&c| run.channels()[c].dof).collect(),
+        forces: driven.iter().map(|&c| run.samples(c).to_vec()).collect(),
+        noise,
+        substeps: 1,
+        dominant_hz: 0.0,
+    };
+    record.dominant_hz = dominant_hz(&record);
+    let phase = TAU * highest_hz(&record).min(3.0 * record.dominant_hz) * step;
+    record.substeps = ((phase / STEP_PHASE).ceil() as usize).clamp(1, 8);
+    Ok(record)
+}
+
+/// Noise of a signal from the highest quarter of its spectrum, taken as white; at least rounding of the largest sample.
+fn noise_of(signal: &[f64], step: f64) -> f64 {
+    let largest = signal.iter().fold(0.0_f64, |m, y| m.max(y.abs()));
+    let Some(spectrum) = Spectrum::new(signal, step) else { return largest * 1e-3 };
+    let count = spectrum.amplitude.len();
+    let high = median(&spectrum.amplitude[count * 3 / 4..]);
+    // Amplitude of a line of white noise behind Hann's window: Rayleigh with a median of 0.8326 sigma sqrt(6 / N).
+    let sigma = high / (0.8326 * (6.0 / signal.len() as f64).sqrt());
+    sigma.max(1e-6 * largest).max(f64::MIN_POSITIVE)
+}
+
+fn dominant_hz(record: &RecordData) -> f64 {
+    let best = |y: &Vec<f64>| Spectrum::new(y, record.step).and_then(|s| s.highest_peak());
+    let strongest = |c: usize| best(&record.samples[c]).map(|p| (p.amplitude / record.noise[c], p.frequency_hz));
+    let all = (0..record.samples.len()).filter_map(strongest);
+    all.max_by(|a, b| a.0.total_cmp(&b.0)).map_or(1.0 / (record.step * record.len() as f64), |p| p.1)
+}
+
+/// Highest frequency (Hz) at which a channel shows a peak well above the noise and not far below the highest.
+fn highest_hz(record: &RecordData) -> f64 {
+    let mut highest = record.dominant_hz;
+    for (c, y) in record.samples.iter().enumerate() {
+        let Some(spectrum) = Spectrum::new(y, record.step) else { continue };
+        let floor = SEEN * record.noise[c] * (6.0 / y.len() as f64).sqrt();
+        let seen = spectrum.peaks(0.003).into_iter().filter(|p| p.amplitude > floor);
+        highest = seen.map(|p| p.frequency_hz).fold(highest, f64::max);
+    }
+    let shown = peaks(&record.samples[0], record.step, 0.05, 1);
+    shown.into_iter().fold(highest, f64::max)
+}

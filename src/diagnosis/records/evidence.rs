@@ -1,0 +1,33 @@
+//! What a fit is worth: its misfit, and its evidence on the scale of what the best fit leaves.
+
+use super::fit::FittedRecords;
+
+/// Squared residual a sample, over the noise.
+pub(super) fn misfit(fit: &FittedRecords) -> f64 {
+    fit.chi_square / fit.count.max(1) as f64
+}
+
+/// Number of parameters of the effects of a fit.
+pub(super) fn parameters(fit: &FittedRecords) -> usize {
+    fit.effects.iter().map(|e| e.parameters.len()).sum()
+}
+
+/// What one unit of evidence is worth in squared residual: the misfit of a fit times the samples over which what it leaves
+/// stays alike, at least 1.
+pub(super) fn scale(fit: &FittedRecords) -> f64 {
+    let (mut own, mut next) = (0.0, 0.0);
+    for channel in fit.residual.iter().flatten() {
+        own += channel.iter().map(|e| e * e).sum::<f64>();
+        // The envelope of what is left decides, not its phase: squares of neighbours beside their mean.
+        let squares: Vec<f64> = channel.windows(2).map(|e| e[0].hypot(e[1])).collect();
+        next += squares.windows(2).map(|e| e[0].min(e[1]).powi(2)).sum::<f64>() / 2.0;
+    }
+    let alike = if own > 0.0 { (next / own).clamp(0.0, 0.98) } else { 0.0 };
+    let length = if misfit(fit) > 2.0 { ((1.0 + alike) / (1.0 - alike)).max(1.0) } else { 1.0 };
+    misfit(fit).max(1.0) * length
+}
+
+/// Evidence (smaller is better) on the scale of the best fit.
+pub(super) fn evidence(fit: &FittedRecords, scale: f64) -> f64 {
+    fit.chi_square / scale + parameters(fit) as f64 * (fit.count as f64 / scale.sqrt()).max(2.0).ln()
+}

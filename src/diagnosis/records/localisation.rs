@@ -1,0 +1,209 @@
+//! Where a force is missing, whatever its law: one free complex force a line of the spectrum at each place in turn.
+//!
+//! ```text
+//! D(w_k) X_k = B U_k - M (i w_k [x] + [x']) - C [x] - b_p G_k,    Y_k = (i w_k)^o S X_k + end terms
+//! R_k = a_k G_k + E_k s + noise,    a = -(i w)^o S D^-1 b_p
+//! ```
+//!
+//! `[x]`, `[x']` are differences between the ends of the record, `2 m` unknowns `s` that all lines share; `G_k` is projected
+//! out line by line (bordered least squares). What is left, over the noise, ranks the places.
+
+use super::data::{RecordData, Records};
+use super::spectrum::fourier_integral;
+use crate::effects::{Effect, Leg, Place, Source};
+use dashpot_numerics::{Cholesky, ComplexLu};
+use faer::{Mat, c64};
+use std::f64::consts::TAU;
+
+/// Most modes that the spectrum is expanded in.
+const MOST_MODES: usize = 30;
+/// Most lines of a record, those of greatest response.
+const MOST_LINES: usize = 250;
+/// Highest line, as a share of the sampling rate.
+const HIGHEST: f64 = 0.15;
+/// Share of a response by which the model may be wrong beside the noise.
+const MODEL_SHARE: f64 = 2e-3;
+
+/// A place with what is left when a free force acts there.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LocatedForce {
+    /// Where.
+    pub place: Place,
+    /// Squared residual a degree of freedom, over the noise.
+    pub misfit: f64,
+}
+
+/// Places from best to worst; empty where fewer than two channels see the motion, or known laws are nonlinear: then the
+/// spectrum cannot tell places apart. `stiffness` is the logarithm of the factor on all stiffness.
+pub fn locate(records: &Records, places: &[Place], stiffness: f64) -> Vec<LocatedForce> {
+    let linear = |s: &Source| matches!(s.effect, Effect::Viscous | Effect::Stiffness | Effect::Mass);
+    if records.list.iter().any(|r| r.channels.len() < 2) || !records.known.iter().all(linear) {
+        return Vec::new();
+    }
+    let expansion = Expansion::new(records, stiffness);
+    let lines: Vec<Vec<Line>> = records.list.iter().map(|r| expansion.lines(records, r)).collect();
+    let mut found: Vec<LocatedForce> = Vec::new();
+    for place in places {
+        let Some(leg) = place.legs().first().copied() else { continue };
+        let pattern = expansion.pattern(leg);
+        let (mut square, mut freedom) = (0.0, 0.0);
+        for list in &lines {
+            let [left, free] = misfit(list, &pattern, 2 * records.kept);
+            square += left;
+            freedom += free;
+        }
+        found.push(LocatedForce { place: place.clone(), misfit: square / freedom.max(1.0) });
+    }
+    found.sort_by(|a, b| a.misfit.total_cmp(&b.misfit));
+    found
+}
+
+/// The structure in its lowest modes.
+struct Expansion {
+    shapes: Mat<f64>,
+    squares: Vec<f64>,
+    mass: Mat<f64>,
+    damping: Mat<f64>,
+    stiffness: Mat<f64>,
+}
+
+/// One line of one record, whitened.
+struct Line {
+    measured: Vec<c64>,
+    /// Columns of the end differences.
+    ends: Vec<Vec<c64>>,
+    /// `(i w)^o S D^-1`, a row a channel.
+    responses: Mat<c64>,
+}
+
+impl Expansion {
+    fn new(records: &Records, stiffness: f64) -> Self {
+        let size = records.modes.len().min(MOST_MODES);
+        let shapes = records.modes.shapes.subcols(0, size).to_owned();
+        let squares = (0..size).map(|r| stiffness.exp() * records.modes.omega[r].powi(2)).collect();
+        let zero = Mat::zeros(size, size);
+        let mut all = Self { shapes, squares, mass: zero.clone(), damping: zero.clone(), stiffness: zero };
+        for source in &records.known {
+            for leg in source.place.legs() {
+                let b = all.pattern(leg);
+                let matrix = match source.effect {
+                    Effect::Mass => &mut all.mass,
+                    Effect::Viscous => &mut all.damping,
+                    _ => &mut all.stiffness,
+                };
+                *matrix += Mat::from_fn(size, size, |i, j| source.parameters[0] * b[i] * b[j]);
+            }
+        }
+        all
+    }
+
+    fn pattern(&self, leg: Leg) -> Vec<f64> {
+        (0..self.squares.len()).map(|r| leg.relative(|i| self.shapes[(i, r)])).collect()
+    }
+
+    /// Lines of a record, those of greatest response over the noise.
+    fn lines(&self, records: &Records, record: &RecordData) -> Vec<Line> {
+        let transform =
+            |list: &Vec<Vec<f64>>| -> Vec<Vec<c64>> { list.iter().map(|y| fourier_integral(y, record.step)).collect() };
+        let (responses, forces) = (transform(&record.samples), transform(&record.forces));
+        let length = record.step * (record.len() - 1) as f64;
+        let highest = (HIGHEST * length / record.step) as usize;
+        let floor = |c: usize| record.noise[c] * (0.5 * record.step * length).sqrt();
+        let height = |k: usize| (0..responses.len()).map(|c| (responses[c][k].norm() / floor(c)).powi(2)).sum::<f64>();
+        let mut numbers: Vec<usize> = (1..highest.min(responses[0].len())).collect();
+        numbers.sort_by(|&a, &b| height(b).total_cmp(&height(a)));
+        numbers.truncate(MOST_LINES);
+        let largest = |c: usize| responses[c].iter().skip(1).map(|y| y.norm()).fold(0.0, f64::max);
+        let peaks: Vec<f64> = (0..responses.len()).map(largest).collect();
+        let line = |&k: &usize| {
+            let y: Vec<c64> = responses.iter().map(|list| list[k]).collect();
+            let u: Vec<c64> = forces.iter().map(|list| list[k]).collect();
+            let weight = |c: usize| 1.0 / floor(c).hypot(MODEL_SHARE * y[c].norm()).hypot(1e-5 * peaks[c]);
+            let weights: Vec<f64> = (0..y.len()).map(weight).collect();
+            self.line(records.kept, record, TAU * k as f64 / length, &y, &u, &weights)
+        };
+        numbers.iter().map(line).collect()
+    }
+
+    fn line(&self, kept: usize, record: &RecordData, w: f64, y: &[c64], u: &[c64], weights: &[f64]) -> Line {
+        let size = self.squares.len();
+        let iw = c64::new(0.0, w);
+        let dynamic = Mat::from_fn(size, size, |i, j| {
+            let own = if i == j { self.squares[i] - w * w } else { 0.0 };
+            c64::new(own + self.stiffness[(i, j)] - w * w * self.mass[(i, j)], w * self.damping[(i, j)])
+        });
+        let order = |c: usize| record.channels[c].quantity.derivatives().unwrap_or(0);
+        let shape = |c: usize, r: usize| self.shapes[(record.channels[c].dof, r)];
+        // The dynamic stiffness is symmetric: rows of S D^-1 are columns of D^-1 S^T.
+        let sensed = Mat::from_fn(size, y.len(), |r, c| iw.powi(order(c)) * shape(c, r));
+        let solved = ComplexLu::new(dynamic.as_ref()).solve(sensed.as_ref());
+        let responses = Mat::from_fn(y.len(), size, |c, r| solved[(r, c)] * weights[c]);
+        let driven = |c: usize| -> c64 {
+            let push = |(dof, u): (&usize, &c64)| -> c64 {
+                (0..size).map(|r| responses[(c, r)] * self.shapes[(*dof, r)]).sum::<c64>() * *u
+            };
+            record.drives.iter().zip(u).map(push).sum()
+        };
+        let measured = (0..y.len()).map(|c| y[c] * weights[c] - driven(c)).collect();
+        let end = |j: usize| -> Vec<c64> {
+            let (r, velocity) = (j % kept, j >= kept);
+            let of = |c: usize| {
+                let direct = match (order(c), velocity) {
+                    (1, false) | (2, true) => c64::new(shape(c, r), 0.0),
+                    (2, false) => iw * shape(c, r),
+                    _ => c64::new(0.0, 0.0),
+                };
+                let inertia = |i: usize| f64::from(u8::from(i == r)) + self.mass[(i, r)];
+                let push = |i: usize| {
+                    if velocity { c64::new(inertia(i), 0.0) } else { iw * inertia(i) + self.damping[(i, r)] }
+                };
+                direct * weights[c] - (0..size).map(|i| responses[(c, i)] * push(i)).sum::<c64>()
+            };
+            (0..y.len()).map(of).collect()
+        };
+        Line { measured, ends: (0..2 * kept).map(end).collect(), responses }
+    }
+}
+
+/// Squared residual of the lines of a record with a free force along `pattern`, and its degrees of freedom.
+fn misfit(lines: &[Line], pattern: &[f64], unknowns: usize) -> [f64; 2] {
+    let mut matrix = Mat::<f64>::zeros(unknowns, unknowns);
+    let mut rhs = Mat::<f64>::zeros(unknowns, 1);
+    let (mut square, mut freedom) = (0.0, -(unknowns as f64));
+    for line in lines {
+        let count = line.measured.len();
+        let a: Vec<c64> =
+            (0..count).map(|c| pattern.iter().enumerate().map(|(r, b)| line.responses[(c, r)] * *b).sum()).collect();
+        let size: f64 = a.iter().map(|a| a.norm_sqr()).sum();
+        let projected = |x: &[c64]| -> Vec<c64> {
+            let share: c64 = if size > 0.0 {
+                a.iter().zip(x).map(|(a, x)| a.conj() * x).sum::<c64>() / size
+            } else {
+                c64::new(0.0, 0.0)
+            };
+            x.iter().zip(&a).map(|(x, a)| x - a * share).collect()
+        };
+        let inner = |a: &[c64], b: &[c64]| a.iter().zip(b).map(|(a, b)| (a.conj() * b).re).sum::<f64>();
+        let y = projected(&line.measured);
+        let ends: Vec<Vec<c64>> = line.ends.iter().map(|e| projected(e)).collect();
+        for i in 0..unknowns {
+            rhs[(i, 0)] += inner(&ends[i], &y);
+            for j in 0..unknowns {
+                matrix[(i, j)] += inner(&ends[i], &ends[j]);
+            }
+        }
+        square += inner(&y, &y);
+        freedom += 2.0 * (count as f64 - 1.0);
+    }
+    let scale: Vec<f64> = (0..unknowns).map(|i| matrix[(i, i)].max(1e-300).sqrt().recip()).collect();
+    let unit = Mat::from_fn(unknowns, unknowns, |i, j| {
+        let ridge = if i == j { 1e-10 } else { 0.0 };
+        matrix[(i, j)] * scale[i] * scale[j] + ridge
+    });
+    let scaled = Mat::from_fn(unknowns, 1, |i, _| rhs[(i, 0)] * scale[i]);
+    let explained = Cholesky::new(unit.as_ref()).map_or(0.0, |llt| {
+        let x = llt.solve(scaled.as_ref());
+        (0..unknowns).map(|i| x[(i, 0)] * scaled[(i, 0)]).sum()
+    });
+    [(square - explained).max(0.0), freedom]
+}

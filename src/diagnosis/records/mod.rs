@@ -1,0 +1,21 @@
+//! Records that are not steady - decays, hammers, sweeps, noise - compared with the model, and what the model lacks in them.
+//!
+//! The model's record follows from the measured force and an initial state that is fitted with it ([`fit`]); a free force at
+//! a place, on the spectrum of the whole record with its end states as unknowns, says where ([`localisation`]); laws at the
+//! places that matter are fitted on the record itself, short parts first ([`diagnose`]); frequency and damping ratio against
+//! amplitude are read by one estimator from record and model ([`amplitude`]).
+
+pub mod amplitude;
+pub mod compare;
+pub mod data;
+pub mod diagnose;
+mod errors;
+mod evidence;
+pub mod fit;
+pub mod localisation;
+pub mod spectrum;
+mod variables;
+
+pub use compare::{RecordComparison, compare_records};
+pub use data::{RecordError, Records};
+pub use diagnose::diagnose_records;

@@ -1,0 +1,115 @@
+//! Sorts sources into the linear part and elements, and assembles the reduced matrices with their derivatives.
+
+use super::element::Form;
+use super::model::{TransientError, TransientParameter, TransientSetup};
+use super::reduction::{RESIDUAL_DAMPING, Reduction};
+use super::system::Matrices;
+use crate::effects::law::Basis;
+use crate::effects::{Effect, Law, Leg, Place, Source, effect::Kind};
+use faer::Mat;
+
+/// A nonlinear relative motion: its source, leg, form, law and parameters.
+pub(super) type Nonlinear = (usize, Leg, Form, &'static dyn Law, Vec<f64>);
+
+/// Whether a source belongs to the linear part.
+pub(super) fn is_linear(effect: Effect) -> bool {
+    use Effect::{Mass, MassProportional, Stiffness, StiffnessProportional, Viscous};
+    matches!(effect, Mass | Viscous | Stiffness | StiffnessProportional | MassProportional)
+}
+
+/// The elements of a source that does not belong to the linear part.
+pub(super) fn nonlinear(index: usize, source: &Source) -> Result<Vec<Nonlinear>, TransientError> {
+    if is_linear(source.effect) || matches!(source.effect.kind(), Kind::Channel(_)) {
+        return Ok(Vec::new());
+    }
+    let refuse = TransientError::NoTimeDomain { effect: source.effect.name() };
+    let law = source.effect.law().ok_or(refuse.clone())?;
+    let form = Form::of(source.effect, law).ok_or(refuse)?;
+    Ok(source.place.legs().into_iter().map(|leg| (index, leg, form, law, source.parameters.clone())).collect())
+}
+
+pub(super) fn pattern_matrix(n: usize, legs: &[Leg]) -> Mat<f64> {
+    let mut patterns = Mat::zeros(n, legs.len());
+    for (j, leg) in legs.iter().enumerate() {
+        patterns[(leg.first, j)] += 1.0;
+        if let Some(second) = leg.second {
+            patterns[(second, j)] -= 1.0;
+        }
+    }
+    patterns
+}
+
+/// Reduced matrices with all linear sources, and their derivatives by every parameter of the linear part.
+pub(super) fn assemble(
+    setup: &TransientSetup,
+    reduction: &Reduction,
+    along: &dyn Fn(Leg) -> Vec<f64>,
+) -> (Matrices, Vec<(TransientParameter, Matrices)>) {
+    let size = reduction.omega.len();
+    let [stiff, heavy] = setup.factors;
+    let mut own = Matrices::zeros(size);
+    for r in 0..size {
+        own.mass[(r, r)] = heavy;
+        own.stiffness[(r, r)] = stiff * reduction.omega[r].powi(2);
+    }
+    let mut changes = Vec::new();
+    let mut total = own.clone();
+    let (mut by_stiffness, mut by_mass) = (Matrices::zeros(size), Matrices::zeros(size));
+    by_stiffness.stiffness = own.stiffness.clone();
+    by_mass.mass = own.mass.clone();
+    for (index, source) in setup.sources.iter().enumerate().filter(|(_, s)| is_linear(s.effect)) {
+        let unit = unit_matrix(setup, reduction, source, &own, along);
+        let mut by = Matrices::zeros(size);
+        let (value, scaled) = (source.parameters[0], faer::Scale(source.parameters[0]));
+        match source.effect {
+            Effect::Mass => (total.mass, by.mass) = (&total.mass + &unit * scaled, unit),
+            Effect::Stiffness => (total.stiffness, by.stiffness) = (&total.stiffness + &unit * scaled, unit),
+            _ => (total.damping, by.damping) = (&total.damping + &unit * scaled, unit),
+        }
+        match source.effect {
+            Effect::StiffnessProportional => by_stiffness.damping += &by.damping * faer::Scale(value),
+            Effect::MassProportional => by_mass.damping += &by.damping * faer::Scale(value),
+            _ => {}
+        }
+        changes.push((TransientParameter::Source { source: index, parameter: 0 }, by));
+    }
+    for r in reduction.kept..size {
+        total.damping[(r, r)] += 2.0 * RESIDUAL_DAMPING * reduction.omega[r];
+    }
+    changes.push((TransientParameter::Stiffness, by_stiffness));
+    changes.push((TransientParameter::Mass, by_mass));
+    (total, changes)
+}
+
+/// What a linear source of unit parameter adds to its matrix.
+fn unit_matrix(
+    setup: &TransientSetup,
+    reduction: &Reduction,
+    source: &Source,
+    own: &Matrices,
+    along: &dyn Fn(Leg) -> Vec<f64>,
+) -> Mat<f64> {
+    let size = reduction.omega.len();
+    if let (Kind::Whole(law), Place::Whole(range)) = (source.effect.kind(), &source.place) {
+        let mass = law.basis() == Basis::Mass;
+        let Some([first, last]) = range else { return if mass { own.mass.clone() } else { own.stiffness.clone() } };
+        let mut sum = Mat::zeros(size, size);
+        for element in setup.structure.elements().iter().take(last + 1).skip(*first) {
+            let local = if mass { &element.mass } else { &element.stiffness };
+            let row = |a: usize, r: usize| element.dofs[a].map_or(0.0, |i| reduction.basis[(i, r)]);
+            let nodes = element.dofs.len();
+            let factor = setup.factors[usize::from(mass)];
+            sum += Mat::from_fn(size, size, |r, s| {
+                let of = |(a, b): (usize, usize)| row(a, r) * local[(a, b)] * row(b, s);
+                factor * (0..nodes).flat_map(|a| (0..nodes).map(move |b| (a, b))).map(of).sum::<f64>()
+            });
+        }
+        return sum;
+    }
+    let mut sum = Mat::zeros(size, size);
+    for leg in source.place.legs() {
+        let b = along(leg);
+        sum += Mat::from_fn(size, size, |r, s| b[r] * b[s]);
+    }
+    sum
+}

@@ -1,0 +1,337 @@
+//! The nonlinear forces of one step: the mean force as a function of the displacement `x` made in it, and its derivatives.
+//!
+//! ```text
+//! laws of d and d'     F = f(d_0 + x/2, x/h)                                        (implicit midpoint)
+//! friction that slips  the same on the side of its sign; at rest the force that keeps it there
+//! Masing hysteresis    F = (F_0 + F_1) / 2,  F_1 = F_r + 2 B((d_1 - d_r) / 2)       (from the reversal r)
+//! Maxwell              F = c v + (F_0 - c v) (1 - e^-a) / a,  a = k h / c           (exact for a straight step)
+//! ```
+//!
+//! Each element solves `x + w F(x) = b` for itself, with the receptance `w` over the step.
+
+use crate::effects::{Effect, Law, Memory, Motion};
+use faer::c64;
+
+/// Share of a parameter by which the backbone of a law with memory is varied for its derivative.
+const VARIATION: f64 = 1e-5;
+/// Speed that stands for "just above rest", m/s.
+const CREEP: f64 = 1e-30;
+
+/// What kind of law an element has.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Form {
+    Smooth,
+    Friction,
+    Masing,
+    Maxwell,
+}
+
+impl Form {
+    /// Of an effect; `None` where it has no force in time that can be stepped here.
+    pub fn of(effect: Effect, law: &dyn Law) -> Option<Self> {
+        match effect {
+            Effect::ElasticSlider | Effect::Iwan => Some(Self::Masing),
+            Effect::Maxwell => Some(Self::Maxwell),
+            Effect::Power => Some(Self::Smooth),
+            _ if law.point(&typical(law), 0.0, 0.0, 1.0).is_none() => None,
+            _ if law.jumps() => Some(Self::Friction),
+            _ => Some(Self::Smooth),
+        }
+    }
+}
+
+fn typical(law: &dyn Law) -> Vec<f64> {
+    law.parameters().iter().map(|p| p.typical).collect()
+}
+
+/// Mean force of a step with its slopes.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Mean {
+    /// Force, N.
+    pub force: f64,
+    /// By the displacement made in the step, N/m.
+    pub by_step: f64,
+    /// By the displacement at its start.
+    pub by_start: f64,
+}
+
+/// A place on the way of a law with memory: displacement and force with their derivatives by all parameters.
+#[derive(Debug, Clone, Default)]
+struct Instant {
+    d: f64,
+    force: f64,
+    by: Vec<[f64; 2]>,
+}
+
+/// One relative motion with its law and the state of it.
+pub(super) struct Element {
+    pub source: usize,
+    pub form: Form,
+    parameters: Vec<f64>,
+    law: &'static dyn Law,
+    scratch: Motion,
+    /// The law at rest, and at rest with each parameter varied down and up, with the width of the variation.
+    backbone: Option<Box<dyn Memory>>,
+    varied: Vec<([Box<dyn Memory>; 2], f64)>,
+    last: Instant,
+    reversals: Vec<Instant>,
+    direction: f64,
+}
+
+impl Element {
+    /// At rest at the origin, differentiated by `count` parameters.
+    pub fn new(source: usize, form: Form, law: &'static dyn Law, parameters: &[f64], count: usize) -> Self {
+        let at = |k: usize, step: f64| {
+            let mut p = parameters.to_vec();
+            p[k] += step;
+            law.memory(&p)
+        };
+        let masing = form == Form::Masing;
+        let width = |k: usize| VARIATION * parameters[k].abs().max(1e-9);
+        let vary = |k: usize| Some(([at(k, -width(k))?, at(k, width(k))?], 2.0 * width(k)));
+        let varied = if masing && count > 0 { (0..parameters.len()).filter_map(vary).collect() } else { Vec::new() };
+        let backbone = if masing { law.memory(parameters) } else { None };
+        Self {
+            source,
+            form,
+            parameters: parameters.to_vec(),
+            law,
+            scratch: Motion::new(1.0, 0.0, &[c64::new(0.0, 0.0)], 1),
+            backbone,
+            varied,
+            last: Instant { by: vec![[0.0; 2]; count], ..Instant::default() },
+            reversals: Vec::new(),
+            direction: 0.0,
+        }
+    }
+
+    /// Greatest force at rest, N.
+    pub fn static_force(&self) -> f64 {
+        self.law.point(&self.parameters, 0.0, 0.0, CREEP).map_or(0.0, |p| p.force.abs())
+    }
+
+    /// Mean force of a step of `step` s from `d` (m) by `x`; `side` is the sign of the slip of friction.
+    pub fn mean(&self, d: f64, x: f64, step: f64, side: f64) -> Mean {
+        match self.form {
+            Form::Smooth | Form::Friction => {
+                let v = self.on_side(x / step, side);
+                let point = self.law.point(&self.parameters, 0.0, d + 0.5 * x, v).unwrap_or_default();
+                let (by_d, by_v) = (finite(point.by_displacement), finite(point.by_velocity));
+                let by_v = if self.form == Form::Friction && v * side <= CREEP { 0.0 } else { by_v };
+                Mean { force: point.force, by_step: 0.5 * by_d + by_v / step, by_start: by_d }
+            }
+            Form::Masing => {
+                let [force, slope] = self.branch(d + x);
+                Mean { force: 0.5 * (self.last.force + force), by_step: 0.5 * slope, by_start: 0.5 * slope }
+            }
+            Form::Maxwell => {
+                let (share, [_, c]) = (self.relaxed(step), [self.parameters[0], self.parameters[1]]);
+                let steady = c * x / step;
+                let force = steady + (self.last.force - steady) * share;
+                Mean { force, by_step: c / step * (1.0 - share), by_start: 0.0 }
+            }
+        }
+    }
+
+    fn on_side(&self, v: f64, side: f64) -> f64 {
+        if self.form == Form::Friction { side * (v * side).max(CREEP) } else { v }
+    }
+
+    /// Mean force that satisfies `x + w F(x) = b`, by Newton's method kept in a bracket; `guess` is a force nearby.
+    pub fn solve(&self, d: f64, w: f64, b: f64, step: f64, side: f64, guess: f64) -> f64 {
+        let mut x = b - w * guess;
+        let mut bracket = [f64::NEG_INFINITY, f64::INFINITY];
+        for _ in 0..100 {
+            let mean = self.mean(d, x, step, side);
+            let residual = x + w * mean.force - b;
+            let scale = b.abs() + (w * mean.force).abs() + x.abs();
+            if residual.abs() <= 4e-16 * scale {
+                return mean.force;
+            }
+            bracket[usize::from(residual > 0.0)] = x;
+            let newton = x - residual / (1.0 + w * mean.by_step);
+            let inside = newton > bracket[0] && newton < bracket[1];
+            let next = if inside || bracket.iter().any(|b| b.is_infinite()) {
+                newton
+            } else {
+                0.5 * (bracket[0] + bracket[1])
+            };
+            if !next.is_finite() || (next - x).abs() <= 1e-15 * scale {
+                break;
+            }
+            x = next;
+        }
+        (b - x) / w
+    }
+
+    /// Derivative of the mean force by parameter `theta` at fixed displacements: `own` is its number among the parameters of
+    /// the law, where it is one of them.
+    pub fn by_parameter(&mut self, theta: usize, own: Option<usize>, d: f64, x: f64, step: f64, side: f64) -> f64 {
+        match self.form {
+            Form::Smooth | Form::Friction => {
+                let v = self.on_side(x / step, side);
+                own.map_or(0.0, |k| self.at_instant(k, d + 0.5 * x, v))
+            }
+            Form::Masing => 0.5 * (self.last.by[theta][1] + self.branch_change(d + x, theta, own)),
+            Form::Maxwell => {
+                let share = self.relaxed(step);
+                let from_past = share * self.last.by[theta][1];
+                from_past + own.map_or(0.0, |k| self.maxwell_by(k, x, step))
+            }
+        }
+    }
+
+    /// Force at one instant, N, with its slopes by displacement and velocity; `held` is the force of friction at rest.
+    pub fn instant(&self, d: f64, v: f64, side: f64, held: f64) -> [f64; 3] {
+        match self.form {
+            Form::Friction if side == 0.0 => [held, 0.0, 0.0],
+            Form::Smooth | Form::Friction => {
+                let point = self.law.point(&self.parameters, 0.0, d, self.on_side(v, side)).unwrap_or_default();
+                [point.force, finite(point.by_displacement), finite(point.by_velocity)]
+            }
+            Form::Masing | Form::Maxwell => [self.last.force, 0.0, 0.0],
+        }
+    }
+
+    /// Derivative of [`Self::instant`] by parameter `theta` at fixed motion.
+    pub fn instant_by(&mut self, theta: usize, own: Option<usize>, d: f64, v: f64, side: f64) -> f64 {
+        match self.form {
+            Form::Smooth | Form::Friction => {
+                let v = self.on_side(v, side);
+                own.map_or(0.0, |k| self.at_instant(k, d, v))
+            }
+            Form::Masing | Form::Maxwell => self.last.by[theta][1],
+        }
+    }
+
+    /// Ends a step of `step` s at `d`; `change(theta)` gives the derivative of `d`, `own(theta)` as above.
+    pub fn commit(&mut self, d: f64, step: f64, change: impl Fn(usize) -> f64, own: impl Fn(usize) -> Option<usize>) {
+        let count = self.last.by.len();
+        match self.form {
+            Form::Smooth | Form::Friction => {}
+            Form::Masing => {
+                let [force, slope] = self.branch(d);
+                let moved =
+                    |theta: usize| [change(theta), slope * change(theta) + self.branch_change(d, theta, own(theta))];
+                let by = (0..count).map(moved).collect();
+                if self.turns(d) {
+                    self.reversals.push(self.last.clone());
+                }
+                let open = self.open(d, false);
+                self.reversals.truncate(open);
+                if d != self.last.d {
+                    self.direction = (d - self.last.d).signum();
+                }
+                self.last = Instant { d, force, by };
+            }
+            Form::Maxwell => {
+                let [k, c] = [self.parameters[0], self.parameters[1]];
+                let (x, decay) = (d - self.last.d, if c > 0.0 { (-k * step / c).exp() } else { 0.0 });
+                let steady = if step.is_finite() { c * x / step } else { 0.0 };
+                let force = steady + (self.last.force - steady) * decay;
+                let rest = self.last.force - steady;
+                let by = |theta: usize| {
+                    let [before, past] = self.last.by[theta];
+                    let explicit = match own(theta) {
+                        Some(0) if c > 0.0 => -rest * decay * step / c,
+                        Some(1) if c > 0.0 => x / step * (1.0 - decay) + rest * decay * k * step / (c * c),
+                        _ => 0.0,
+                    };
+                    let by_x = if step.is_finite() { c / step * (1.0 - decay) } else { 0.0 };
+                    let explicit = if explicit.is_finite() { explicit } else { 0.0 };
+                    [change(theta), past * decay + by_x * (change(theta) - before) + explicit]
+                };
+                let by = (0..count).map(by).collect();
+                self.last = Instant { d, force, by };
+            }
+        }
+    }
+
+    fn at_instant(&mut self, k: usize, d: f64, v: f64) -> f64 {
+        self.scratch.displacement[0] = d;
+        self.scratch.velocity[0] = v;
+        let mut value = [0.0];
+        self.law.smooth_parameter_tangent(&self.parameters, k, 0.0, &self.scratch, &mut value);
+        if value[0].is_finite() { value[0] } else { 0.0 }
+    }
+
+    /// Mean of `e^(-k t / c)` over a step.
+    fn relaxed(&self, step: f64) -> f64 {
+        let [k, c] = [self.parameters[0], self.parameters[1]];
+        let a = if c > 0.0 { k * step / c } else { f64::INFINITY };
+        match a {
+            a if a < 1e-6 => 1.0 - 0.5 * a,
+            a if a.is_infinite() => 0.0,
+            a => -(-a).exp_m1() / a,
+        }
+    }
+
+    fn maxwell_by(&self, k: usize, x: f64, step: f64) -> f64 {
+        let [stiffness, c] = [self.parameters[0], self.parameters[1]];
+        if c <= 0.0 || stiffness <= 0.0 {
+            return 0.0;
+        }
+        let a = stiffness * step / c;
+        let by_a = if a < 1e-4 { -0.5 + a / 3.0 } else { ((-a).exp() * (1.0 + a) - 1.0) / (a * a) };
+        let rest = self.last.force - c * x / step;
+        match k {
+            0 => rest * by_a * step / c,
+            _ => x / step * (1.0 - self.relaxed(step)) - rest * by_a * a / c,
+        }
+    }
+
+    /// Whether the motion turns at the last instant on its way to `d`.
+    fn turns(&self, d: f64) -> bool {
+        (d - self.last.d) * self.direction < 0.0
+    }
+
+    /// Reversals that stay open on the way to `d`, the last instant among them if `turned`.
+    fn open(&self, d: f64, turned: bool) -> usize {
+        let at = |i: usize| self.reversals.get(i).unwrap_or(&self.last).d;
+        let mut count = self.reversals.len() + usize::from(turned);
+        loop {
+            let closes = match count {
+                0 => return 0,
+                1 => (d - at(0)).abs() >= 2.0 * at(0).abs(),
+                _ => (d - at(count - 2)) * (at(count - 2) - at(count - 1)) >= 0.0,
+            };
+            if !closes {
+                return count;
+            }
+            count = count.saturating_sub(2);
+        }
+    }
+
+    /// Force and slope of Masing's branch at `d`.
+    fn branch(&self, d: f64) -> [f64; 2] {
+        let Some(backbone) = &self.backbone else { return [0.0; 2] };
+        match self.open(d, self.turns(d)) {
+            0 => backbone.trial(d, 1.0),
+            count => {
+                let from = self.reversals.get(count - 1).unwrap_or(&self.last);
+                let [half, slope] = backbone.trial(0.5 * (d - from.d), 1.0);
+                [from.force + 2.0 * half, slope]
+            }
+        }
+    }
+
+    /// Derivative of the force of the branch by `theta` at a fixed `d`.
+    fn branch_change(&self, d: f64, theta: usize, own: Option<usize>) -> f64 {
+        let explicit = |d: f64| {
+            own.and_then(|k| self.varied.get(k))
+                .map_or(0.0, |([low, high], width)| (high.trial(d, 1.0)[0] - low.trial(d, 1.0)[0]) / width)
+        };
+        match self.open(d, self.turns(d)) {
+            0 => explicit(d),
+            count => {
+                let from = self.reversals.get(count - 1).unwrap_or(&self.last);
+                let [_, slope] = self.branch(d);
+                from.by[theta][1] - slope * from.by[theta][0] + 2.0 * explicit(0.5 * (d - from.d))
+            }
+        }
+    }
+}
+
+fn finite(slope: f64) -> f64 {
+    if slope.is_finite() { slope } else { 0.0 }
+}

@@ -1,0 +1,22 @@
+//! Prediction of records that are not periodic - decays, hammers, sweeps, noise - with the derivatives that a fit needs.
+//!
+//! ```text
+//! M x'' + C x' + K x + sum_l L_l F_l(d_l, d_l', states) = B u(t),      y = S (x'', x' or x)
+//! ```
+//!
+//! Modes in the band and residual flexibility ([`reduction`]); the linear part moves exactly between samples in its damped
+//! modes, the measured force being linear there ([`system`], [`step`]); local forces are implicit with their mean over a step
+//! ([`element`]); friction is set-valued: it sticks or slips, and a reversal is located within the step ([`march`]).
+//! Derivatives by parameters of laws, stiffness, mass and the initial state are those of the same steps, the instants of
+//! reversals included.
+
+mod assembly;
+mod element;
+mod exponentials;
+mod march;
+mod model;
+mod reduction;
+mod step;
+mod system;
+
+pub use model::{SampledForces, TransientError, TransientModel, TransientParameter, TransientResponse, TransientSetup};

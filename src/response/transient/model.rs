@@ -1,0 +1,324 @@
+//! The model of a record: built once for a structure with its sources, predicted for any force and initial state.
+
+use super::assembly::{Nonlinear, assemble, is_linear, nonlinear, pattern_matrix};
+use super::element::{Element, Form};
+use super::march::{March, Sensitivity, View};
+use super::reduction::Reduction;
+use super::system::{Functional, LinearChange, LinearSystem, Matrices};
+use crate::effects::{Leg, Source};
+use crate::measurement::{Channel, Quantity};
+use crate::structure::Structure;
+use crate::structure::modes::Modes;
+use faer::{Mat, c64};
+
+/// Why a record cannot be predicted.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum TransientError {
+    /// `points` structures have no equation of motion.
+    #[error("the structure has no mass and stiffness matrices, so its records cannot be predicted")]
+    NoMatrices,
+    /// A law that exists only in steady state.
+    #[error(
+        "law `{effect}` is defined harmonic by harmonic and has no force in time: leave it out for decays and transients"
+    )]
+    NoTimeDomain {
+        /// Its law.
+        effect: &'static str,
+    },
+    /// Mass or stiffness that cannot be.
+    #[error("mass and stiffness with the linear sources are not positive definite: correct negative masses or springs")]
+    NotPositive,
+    /// The eigenvalue iteration failed.
+    #[error("the damped modes of the model were not found: check the sizes of its masses, springs and dashpots")]
+    NoModes,
+    /// Forces that are not finite.
+    #[error(
+        "the forces of a time step were not found: the motion grows without bounds, or a parameter is far too large"
+    )]
+    StepFailed,
+}
+
+/// What a model is made of.
+#[derive(Debug, Clone, Copy)]
+pub struct TransientSetup<'a> {
+    /// Structure with matrices.
+    pub structure: &'a Structure,
+    /// Its undamped modes.
+    pub modes: &'a Modes,
+    /// How many of them are followed; the rest by residual flexibility.
+    pub kept: usize,
+    /// Sources that act.
+    pub sources: &'a [Source],
+    /// Rows of the driven DOFs.
+    pub drives: &'a [usize],
+    /// Channels that are predicted; those of forces repeat the drive.
+    pub channels: &'a [Channel],
+    /// Factors on all stiffness and on all mass.
+    pub factors: [f64; 2],
+}
+
+/// A parameter by which records are differentiated.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum TransientParameter {
+    /// Parameter of a law, by its own unit.
+    Source {
+        /// Number of the source.
+        source: usize,
+        /// Number of the parameter.
+        parameter: usize,
+    },
+    /// Logarithm of the factor on all stiffness.
+    Stiffness,
+    /// Logarithm of the factor on all mass.
+    Mass,
+    /// Logarithm of the stiffness of a kept mode.
+    Mode(usize),
+    /// Entry of the initial state (see [`TransientModel::predict`]).
+    Initial(usize),
+}
+
+/// Measured forces at equal steps.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SampledForces {
+    /// Time from one sample to the next, s.
+    pub step: f64,
+    /// Number of samples.
+    pub samples: usize,
+    /// Forces, N, one list a driven DOF.
+    pub forces: Vec<Vec<f64>>,
+    /// Steps of the model from one sample to the next.
+    pub substeps: usize,
+}
+
+/// A predicted record.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TransientResponse {
+    /// `[channel][sample]`, SI units.
+    pub channels: Vec<Vec<f64>>,
+    /// `[parameter][channel][sample]`.
+    pub derivatives: Vec<Vec<Vec<f64>>>,
+    /// State at the last sample, in the terms of the initial one.
+    pub end: Vec<f64>,
+}
+
+/// What a channel shows.
+struct Sensor {
+    functional: Functional,
+    /// Shape along the reduced coordinates, for accelerations.
+    pattern: Option<Vec<f64>>,
+    /// The drive that a force channel repeats.
+    drive: Option<usize>,
+}
+
+/// A model that predicts records.
+pub struct TransientModel {
+    reduction: Reduction,
+    system: LinearSystem,
+    views: Vec<View>,
+    sensors: Vec<Sensor>,
+    legs: Vec<Nonlinear>,
+    changes: Vec<(TransientParameter, Matrices)>,
+}
+
+impl TransientModel {
+    /// Assembles the model.
+    ///
+    /// # Errors
+    /// [`TransientError`]: no matrices, laws without a force in time, masses or springs that cannot be.
+    pub fn new(setup: &TransientSetup) -> Result<Self, TransientError> {
+        let matrices = setup.structure.matrices().ok_or(TransientError::NoMatrices)?;
+        let mut legs = Vec::new();
+        for (index, source) in setup.sources.iter().enumerate() {
+            legs.extend(nonlinear(index, source)?);
+        }
+        let n = setup.structure.len();
+        let driven = |&dof: &usize| Leg { first: dof, second: None };
+        let places: Vec<Leg> = legs.iter().map(|(_, leg, ..)| *leg).chain(setup.drives.iter().map(driven)).collect();
+        let linear = setup.sources.iter().filter(|s| is_linear(s.effect)).flat_map(|s| s.place.legs());
+        let patterns = pattern_matrix(n, &places.iter().copied().chain(linear).collect::<Vec<_>>());
+        let reduction = Reduction::new(matrices, setup.modes, setup.kept, &patterns)?;
+        let size = reduction.omega.len();
+        let along = |leg: Leg| -> Vec<f64> { (0..size).map(|r| leg.relative(|i| reduction.basis[(i, r)])).collect() };
+        let inputs: Vec<Vec<f64>> = places.iter().map(|leg| along(*leg)).collect();
+        let inputs = Mat::from_fn(size, inputs.len(), |r, i| inputs[i][r]);
+        let (total, changes) = assemble(setup, &reduction, &along);
+        let system = LinearSystem::new(&total, &inputs)?;
+        let view = |leg: Leg| {
+            let of = |order| system.functional(&along(leg), order);
+            View { displacement: of(0), velocity: of(1), acceleration: of(2) }
+        };
+        let views = legs.iter().map(|(_, leg, ..)| view(*leg)).collect();
+        let sensor = |channel: &Channel| {
+            let pattern = along(driven(&channel.dof));
+            let order = channel.quantity.derivatives();
+            Sensor {
+                functional: system.functional(&pattern, order.unwrap_or(0)),
+                pattern: (order == Some(2)).then_some(pattern),
+                drive: match channel.quantity {
+                    Quantity::Force => Some(setup.drives.iter().position(|d| *d == channel.dof).unwrap_or(usize::MAX)),
+                    _ => None,
+                },
+            }
+        };
+        let sensors = setup.channels.iter().map(sensor).collect();
+        Ok(Self { reduction, system, views, sensors, legs, changes })
+    }
+
+    /// Number of kept modes `m`; an initial state has `2 m` entries.
+    pub fn kept(&self) -> usize {
+        self.reduction.kept
+    }
+
+    /// Whether every force is linear in the motion, so that a step between samples is exact.
+    pub fn is_linear(&self) -> bool {
+        self.legs.is_empty()
+    }
+
+    /// The record from `initial`: displacements of the kept modes times `sqrt(kg)`, then their velocities divided by the
+    /// natural frequency (those of rigid bodies as they are), and its derivatives by `parameters`.
+    ///
+    /// # Errors
+    /// [`TransientError::StepFailed`] where the motion grows without bounds.
+    pub fn predict(
+        &self,
+        forces: &SampledForces,
+        initial: &[f64],
+        parameters: &[TransientParameter],
+    ) -> Result<TransientResponse, TransientError> {
+        let substeps = forces.substeps.max(1);
+        let length = forces.step / substeps as f64;
+        let mut march = self.start(initial, parameters, length);
+        let count = self.sensors.len();
+        let mut channels = vec![Vec::with_capacity(forces.samples); count];
+        let mut derivatives = vec![vec![Vec::with_capacity(forces.samples); count]; parameters.len()];
+        let at = |n: usize| -> Vec<f64> { forces.forces.iter().map(|list| list[n]).collect() };
+        let mut u = at(0);
+        self.write(&mut march, &u, &mut channels, &mut derivatives);
+        for n in 1..forces.samples {
+            let next = at(n);
+            for k in 0..substeps {
+                let between = |share: f64| u.iter().zip(&next).map(|(a, b)| a + share * (b - a)).collect::<Vec<f64>>();
+                let share = |k: usize| k as f64 / substeps as f64;
+                march.advance(&between(share(k)), &between(share(k + 1)))?;
+            }
+            u = next;
+            self.write(&mut march, &u, &mut channels, &mut derivatives);
+        }
+        if !march.z.iter().all(|z| z.re.is_finite() && z.im.is_finite()) {
+            return Err(TransientError::StepFailed);
+        }
+        Ok(TransientResponse { channels, derivatives, end: self.state(&march.z) })
+    }
+
+    /// Unit of velocity entries of the initial state.
+    fn rate(&self, r: usize) -> f64 {
+        if self.reduction.omega[r] > 0.0 { self.reduction.omega[r] } else { 1.0 }
+    }
+
+    fn modes_of(&self, state: &[f64]) -> Vec<c64> {
+        let (kept, size) = (self.kept(), self.system.coordinates());
+        let mut displacement = vec![0.0; size];
+        let mut velocity = vec![0.0; size];
+        for r in 0..kept {
+            displacement[r] = state[r];
+            velocity[r] = state[kept + r] * self.rate(r);
+        }
+        self.system.modes_of(&displacement, &velocity)
+    }
+
+    fn state(&self, z: &[c64]) -> Vec<f64> {
+        let (p, v) = self.system.coordinates_of(z);
+        let kept = self.kept();
+        (0..kept).map(|r| p[r]).chain((0..kept).map(|r| v[r] / self.rate(r))).collect()
+    }
+
+    fn start(&self, initial: &[f64], parameters: &[TransientParameter], length: f64) -> March<'_> {
+        let element = |(source, _, form, law, p): &Nonlinear| Element::new(*source, *form, *law, p, parameters.len());
+        let elements = self.legs.iter().map(element).collect();
+        let sensitivities = parameters.iter().map(|p| self.sensitivity(*p, initial)).collect();
+        March::new(&self.system, &self.views, elements, self.modes_of(initial), sensitivities, length)
+    }
+
+    fn sensitivity(&self, parameter: TransientParameter, initial: &[f64]) -> Sensitivity {
+        let change = self.change(parameter);
+        let modes = match parameter {
+            TransientParameter::Initial(k) => {
+                let mut unit = vec![0.0; initial.len()];
+                unit[k] = 1.0;
+                self.modes_of(&unit)
+            }
+            _ => vec![c64::new(0.0, 0.0); self.system.lambda.len()],
+        };
+        let own = match parameter {
+            TransientParameter::Source { source, parameter } => Some((source, parameter)),
+            _ => None,
+        };
+        Sensitivity { modes, own, change, forces: vec![0.0; self.legs.len()] }
+    }
+
+    fn change(&self, parameter: TransientParameter) -> Option<LinearChange> {
+        if let TransientParameter::Mode(r) = parameter {
+            let mut by = Matrices::zeros(self.system.coordinates());
+            by.stiffness[(r, r)] = self.reduction.omega[r].powi(2);
+            return Some(self.system.change(&by));
+        }
+        self.changes.iter().find(|(p, _)| *p == parameter).map(|(_, by)| self.system.change(by))
+    }
+
+    /// What the channels show at the present sample under the drives `u`.
+    fn write(&self, march: &mut March, u: &[f64], channels: &mut [Vec<f64>], derivatives: &mut [Vec<Vec<f64>>]) {
+        let count = march.elements.len();
+        let motion: Vec<[f64; 2]> =
+            self.views.iter().map(|v| [v.displacement.at(&march.z), v.velocity.at(&march.z)]).collect();
+        let mut inputs = vec![0.0; count + u.len()];
+        let mut slopes = Vec::with_capacity(count);
+        for l in 0..count {
+            let [force, by_d, by_v] =
+                march.elements[l].instant(motion[l][0], motion[l][1], march.side[l], march.forces[l]);
+            inputs[l] = -force;
+            slopes.push([by_d, by_v]);
+        }
+        inputs[count..].copy_from_slice(u);
+        for (sensor, list) in self.sensors.iter().zip(channels) {
+            list.push(match sensor.drive {
+                Some(drive) => u.get(drive).copied().unwrap_or(0.0),
+                None => seen(&sensor.functional, &march.z, &inputs),
+            });
+        }
+        let mut pushes = vec![0.0; count + u.len()];
+        for (theta, lists) in derivatives.iter_mut().enumerate() {
+            for l in 0..count {
+                pushes[l] = -self.force_change(march, theta, l, motion[l], slopes[l]);
+            }
+            let s = &march.sensitivities[theta];
+            for (sensor, list) in self.sensors.iter().zip(lists) {
+                if sensor.drive.is_some() {
+                    list.push(0.0);
+                    continue;
+                }
+                let mut value = seen(&sensor.functional, &s.modes, &pushes);
+                if let (Some(pattern), Some(change)) = (&sensor.pattern, &s.change) {
+                    value += seen(&self.system.acceleration_change(pattern, change), &march.z, &inputs);
+                }
+                list.push(value);
+            }
+        }
+    }
+
+    /// Derivative of the present force of element `l`.
+    fn force_change(&self, march: &mut March, theta: usize, l: usize, motion: [f64; 2], slopes: [f64; 2]) -> f64 {
+        let s = &march.sensitivities[theta];
+        let element = &mut march.elements[l];
+        if element.form == Form::Friction && march.side[l] == 0.0 {
+            return s.forces[l];
+        }
+        let own = s.own.filter(|(source, _)| *source == element.source).map(|(_, k)| k);
+        let view = &self.views[l];
+        let moved = slopes[0] * view.displacement.at(&s.modes) + slopes[1] * view.velocity.at(&s.modes);
+        moved + element.instant_by(theta, own, motion[0], motion[1], march.side[l])
+    }
+}
+
+fn seen(functional: &Functional, z: &[c64], inputs: &[f64]) -> f64 {
+    functional.at(z) + functional.inputs.iter().zip(inputs).map(|(c, f)| c * f).sum::<f64>()
+}

@@ -1,0 +1,8 @@
+//! Records that are not steady: prediction with derivatives, exact spectrum, amplitude curves, what the model lacks.
+#![allow(clippy::unwrap_used, reason = "tests")]
+
+mod amplitude;
+mod diagnose;
+mod measured;
+mod prediction;
+mod spectrum;

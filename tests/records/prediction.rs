@@ -1,0 +1,175 @@
+//! Predicted records against closed forms, an independent fine integration, and differences of themselves.
+
+use dashpot::effects::{Effect, Place, Source};
+use dashpot::measurement::{Channel, Quantity};
+use dashpot::response::transient::{
+    SampledForces, TransientModel, TransientParameter, TransientResponse, TransientSetup,
+};
+use dashpot::structure::Structure;
+use dashpot::structure::beam::{BeamParameters, Supports};
+use dashpot::structure::chain::ChainParameters;
+
+fn mass_on_spring() -> Structure {
+    ChainParameters { masses: vec![1.0], ground_stiffness: vec![400.0], coupling_stiffness: vec![] }.build(&[]).unwrap()
+}
+
+fn beam() -> Structure {
+    let (length, breadth, depth) = (0.5, 0.04, 0.004);
+    let (youngs_modulus, density, elements) = (7e10, 2700.0, 6);
+    let supports = Supports::ClampedFree;
+    BeamParameters { length, breadth, depth, youngs_modulus, density, elements, supports }.build(&[]).unwrap()
+}
+
+fn known(effect: Effect, dofs: &[usize], parameters: &[f64]) -> Source {
+    Source::known(effect, Place::Dofs(dofs.to_vec()), parameters)
+}
+
+fn channels(list: &[(Quantity, usize)]) -> Vec<Channel> {
+    list.iter().map(|&(quantity, dof)| Channel { quantity, dof, label: (dof + 1).to_string() }).collect()
+}
+
+struct Case {
+    structure: Structure,
+    sources: Vec<Source>,
+    channels: Vec<Channel>,
+    drives: Vec<usize>,
+    kept: usize,
+    forces: SampledForces,
+    initial: Vec<f64>,
+    factors: [f64; 2],
+}
+
+impl Case {
+    fn run(&self, parameters: &[TransientParameter]) -> TransientResponse {
+        let modes = self.structure.modes().unwrap();
+        let setup = TransientSetup {
+            structure: &self.structure,
+            modes: &modes,
+            kept: self.kept,
+            sources: &self.sources,
+            drives: &self.drives,
+            channels: &self.channels,
+            factors: self.factors,
+        };
+        TransientModel::new(&setup).unwrap().predict(&self.forces, &self.initial, parameters).unwrap()
+    }
+
+    /// The case with a parameter moved.
+    fn moved(&self, parameter: TransientParameter, by: f64) -> TransientResponse {
+        let mut case = Self {
+            structure: self.structure.clone(),
+            sources: self.sources.clone(),
+            channels: self.channels.clone(),
+            drives: self.drives.clone(),
+            forces: self.forces.clone(),
+            initial: self.initial.clone(),
+            ..*self
+        };
+        match parameter {
+            TransientParameter::Source { source, parameter } => case.sources[source].parameters[parameter] += by,
+            TransientParameter::Stiffness => case.factors[0] *= by.exp(),
+            TransientParameter::Mass => case.factors[1] *= by.exp(),
+            TransientParameter::Initial(k) => case.initial[k] += by,
+            TransientParameter::Mode(_) => unreachable!("not moved here"),
+        }
+        case.run(&[])
+    }
+}
+
+fn quiet(step: f64, samples: usize, substeps: usize) -> SampledForces {
+    SampledForces { step, samples, forces: Vec::new(), substeps }
+}
+
+/// Dry friction takes `2 F / k` from every half swing and holds the mass where the spring cannot move it.
+#[test]
+fn friction_stops_where_it_should() {
+    let (f, k, omega) = (2.6, 400.0, 20.0);
+    let step = std::f64::consts::PI / omega / 16.0;
+    let case = Case {
+        structure: mass_on_spring(),
+        sources: vec![known(Effect::Coulomb, &[0], &[f])],
+        channels: channels(&[(Quantity::Displacement, 0), (Quantity::Acceleration, 0)]),
+        drives: vec![],
+        kept: 1,
+        forces: quiet(step, 130, 1),
+        initial: vec![0.05, 0.0],
+        factors: [1.0; 2],
+    };
+    let record = case.run(&[]);
+    let fall = f / k;
+    for half in 0..4 {
+        let expected = (0.05 - 2.0 * fall * half as f64) * if half % 2 == 0 { 1.0 } else { -1.0 };
+        let found = record.channels[0][16 * half];
+        assert!((found - expected).abs() < 1e-12, "half swing {half}: {found} against {expected}");
+    }
+    // After four half swings 0.05 - 8 f/k = -0.002 is within +-f/k: at rest.
+    let rest = 0.05 - 8.0 * fall;
+    assert!((record.channels[0][129] - rest).abs() < 1e-12);
+    assert!(record.channels[1][120..].iter().all(|a| a.abs() < 1e-9));
+}
+
+/// Derivatives by everything against central differences, through sticking, sliding and impacts.
+#[test]
+fn derivatives_are_those_of_the_record() {
+    let laws: Vec<(Effect, Vec<f64>)> = vec![
+        (Effect::Coulomb, vec![0.3]),
+        (Effect::Stribeck, vec![0.2, 0.35, 0.05]),
+        (Effect::CubicStiffness, vec![4e7]),
+        (Effect::QuadraticStiffness, vec![2e4]),
+        (Effect::Quadratic, vec![2.0]),
+        (Effect::Power, vec![0.8, 1.5]),
+        (Effect::Gap, vec![3e3, 4e-4]),
+        (Effect::ElasticSlider, vec![4e3, 0.4]),
+        (Effect::Iwan, vec![4e3, 0.8, -0.4, 0.5]),
+        (Effect::Maxwell, vec![3e3, 4.0]),
+        (Effect::Viscous, vec![0.4]),
+        (Effect::Mass, vec![0.02]),
+        (Effect::Stiffness, vec![300.0]),
+    ];
+    let step = 5e-4;
+    let drive: Vec<f64> =
+        (0..700).map(|n| if n < 20 { 12.0 * (n as f64 / 20.0 * 3.1416).sin() } else { 0.0 }).collect();
+    for (effect, values) in laws {
+        let case = Case {
+            structure: beam(),
+            sources: vec![known(Effect::Viscous, &[6], &[0.05]), known(effect, &[8], &values)],
+            channels: channels(&[(Quantity::Acceleration, 4), (Quantity::Displacement, 10)]),
+            drives: vec![10],
+            kept: 3,
+            forces: SampledForces { step, samples: 700, forces: vec![drive.clone()], substeps: 2 },
+            initial: vec![2e-4, 1e-5, 0.0, 1e-5, 0.0, 0.0],
+            factors: [1.0; 2],
+        };
+        let mut parameters: Vec<TransientParameter> =
+            (0..values.len()).map(|parameter| TransientParameter::Source { source: 1, parameter }).collect();
+        parameters.extend([
+            TransientParameter::Source { source: 0, parameter: 0 },
+            TransientParameter::Stiffness,
+            TransientParameter::Mass,
+            TransientParameter::Initial(0),
+            TransientParameter::Initial(4),
+        ]);
+        let record = case.run(&parameters);
+        for (theta, parameter) in parameters.iter().enumerate() {
+            let width = match parameter {
+                TransientParameter::Source { source, parameter } => {
+                    1e-5 * case.sources[*source].parameters[*parameter].abs()
+                }
+                TransientParameter::Initial(_) => 1e-9,
+                _ => 1e-6,
+            };
+            let (up, down) = (case.moved(*parameter, width), case.moved(*parameter, -width));
+            for c in 0..2 {
+                let found = &record.derivatives[theta][c];
+                let difference: Vec<f64> =
+                    up.channels[c].iter().zip(&down.channels[c]).map(|(a, b)| (a - b) / (2.0 * width)).collect();
+                let size = (difference.iter().map(|x| x * x).sum::<f64>()).sqrt();
+                let mut apart: Vec<f64> = found.iter().zip(&difference).map(|(a, b)| (a - b).abs()).collect();
+                // An instant at which a force jumps within the width of the difference shows in single samples.
+                apart.sort_by(f64::total_cmp);
+                let off = apart[..apart.len() - 12].iter().map(|x| x * x).sum::<f64>().sqrt();
+                assert!(off < 1e-2 * size, "{effect} {parameter:?} channel {c}: {:.2e}", off / size);
+            }
+        }
+    }
+}
