@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used, reason = "tests")]
 
 mod energies;
+mod knowledge;
 mod limits;
 mod memories;
 mod names;
