@@ -34,6 +34,9 @@ pub enum Manner {
     Memory,
 }
 
+/// From a direction to the tangent along it, both sampled.
+pub type Linearised<'a> = Box<dyn Fn(&Motion, &mut [f64]) + 'a>;
+
 /// What a law of the present instant looks at.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Variable {
@@ -82,6 +85,12 @@ pub trait Law: Sync {
 
     /// Directional (Gateaux) derivative of [`Law::force`] at `motion` along the periodic `direction`, N at every sample.
     fn tangent(&self, p: &[f64], motion: &Motion, direction: &Motion, tangent: &mut [f64]);
+
+    /// [`Law::tangent`] for many directions along one motion: gives the tangent of each. What a law computes of the motion
+    /// alone is computed once.
+    fn linearised<'a>(&'a self, p: &'a [f64], motion: &'a Motion) -> Linearised<'a> {
+        Box::new(move |direction, tangent| self.tangent(p, motion, direction, tangent))
+    }
 
     /// Derivative of [`Law::force`] by parameter number `k`, N per unit of that parameter at every sample.
     fn parameter_tangent(&self, p: &[f64], k: usize, motion: &Motion, tangent: &mut [f64]);

@@ -3,6 +3,7 @@
 pub mod description;
 pub mod effect;
 pub mod family;
+pub mod internal;
 pub mod law;
 pub mod laws;
 pub mod limits;

@@ -60,6 +60,13 @@ fn limits_are_the_simpler_law_where_they_hold() {
         (Effect::Iwan, &[1e3, 1e3, -0.5, 1.0], Effect::Stiffness, 0.05),
         (Effect::Iwan, &[1e7, 2.0, -0.5, 1.0], Effect::Coulomb, 0.08),
         (Effect::Iwan, &[1e4, 2.0, -0.5, 99.0], Effect::ElasticSlider, 0.03),
+        (Effect::BoucWen, &[1e3, 10.0, 2.0], Effect::Stiffness, 0.03),
+        (Effect::BoucWen, &[1e7, 2.0, 2.0], Effect::Coulomb, 0.08),
+        (Effect::BoucWen, &[1e4, 2.0, 40.0], Effect::ElasticSlider, 0.03),
+        (Effect::Dahl, &[1e3, 50.0], Effect::Stiffness, 0.03),
+        (Effect::Dahl, &[1e7, 2.0], Effect::Coulomb, 0.08),
+        (Effect::AsymmetricViscous, &[2.0, 2.03], Effect::Viscous, 0.02),
+        (Effect::AsymmetricCoulomb, &[2.0, 0.04], Effect::Coulomb, 0.03),
     ];
     for &(effect, p, simple, tolerance) in table {
         let source = Source::known(effect, Place::Dofs(vec![0]), p);
@@ -176,7 +183,7 @@ fn friction_holds_its_own_force() {
         }
         tried += 1;
     }
-    assert!(tried >= 4);
+    assert!(tried >= 6);
 }
 
 /// The speed at which a steep law meets a line of slope `-r`, its slope and its derivative by the parameters.

@@ -69,6 +69,10 @@ fn every_parameter_of_every_law() {
         source(Effect::Maxwell, &[2], &[2e4, 50.0]),
         source(Effect::Iwan, &[2], &[2e4, 5.0, -0.5, 1.0]),
         source(Effect::Fractional, &[2], &[100.0, 0.4]),
+        source(Effect::BoucWen, &[2], &[2e4, 5.0, 2.0]),
+        source(Effect::Dahl, &[2], &[2e4, 5.0]),
+        source(Effect::AsymmetricViscous, &[2], &[60.0, 10.0]),
+        source(Effect::AsymmetricCoulomb, &[2], &[5.0, 2.0]),
         source(Effect::Stiffness, &[1, 2], &[3e3]),
         source(Effect::CubicStiffness, &[2], &[1e11]),
         source(Effect::QuadraticStiffness, &[2], &[1e7]),
@@ -79,7 +83,18 @@ fn every_parameter_of_every_law() {
         whole(Effect::MassProportional, 2.0),
     ];
     // Kinks pass from sample to sample within the difference quotient: those laws are differentiated to less.
-    let rough = [Effect::Coulomb, Effect::Stribeck, Effect::ElasticSlider, Effect::Iwan, Effect::Gap, Effect::Power];
+    let rough = [
+        Effect::Coulomb,
+        Effect::Stribeck,
+        Effect::ElasticSlider,
+        Effect::Iwan,
+        Effect::Gap,
+        Effect::Power,
+        Effect::BoucWen,
+        Effect::Dahl,
+        Effect::AsymmetricViscous,
+        Effect::AsymmetricCoulomb,
+    ];
     for law in laws {
         let is_rough = rough.contains(&law.effect);
         let other =

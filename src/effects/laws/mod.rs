@@ -2,6 +2,7 @@
 //! written, and its file, which is also its name in project files.
 
 use super::effect::Kind;
+use super::internal::Internal;
 use super::linear::Linear;
 use super::masing::Masing;
 use super::memoryless::Memoryless;
@@ -64,6 +65,10 @@ laws! {
     Maxwell: Linear = maxwell,
     Iwan: Masing = iwan,
     Fractional: Linear = fractional,
+    BoucWen: Internal = bouc_wen,
+    Dahl: Internal = dahl,
+    AsymmetricViscous: Memoryless = asymmetric_viscous,
+    AsymmetricCoulomb: Memoryless = asymmetric_coulomb,
     Stiffness: Linear = stiffness,
     CubicStiffness: Memoryless = cubic_stiffness,
     QuadraticStiffness: Memoryless = quadratic_stiffness,

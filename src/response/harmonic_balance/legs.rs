@@ -172,9 +172,10 @@ impl NonlinearLeg {
         let mut by_motion = vec![0.0; width * width];
         // Laws with memory look at displacements only.
         let mut direction = Motion { velocity: Vec::new(), acceleration: Vec::new(), ..sampled_motion.clone() };
+        let tangent = self.law.linearised(&self.parameters, &sampled_motion);
         for k in fourier.rows() {
             fourier.wave(k, &mut direction.displacement);
-            self.law.tangent(&self.parameters, &sampled_motion, &direction, &mut samples);
+            tangent(&direction, &mut samples);
             fourier.project(&samples, &mut column);
             for (row, c) in column.iter().enumerate() {
                 by_motion[row * width + k] = *c;
