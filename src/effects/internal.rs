@@ -9,10 +9,13 @@
 //! the force is then that of the spring about the middle of the motion, which is the limit of small slip.
 
 use super::law::{Linearised, Manner};
+use super::turning::turning_points;
 use super::{Description, Law, Memory, Motion};
 
 /// Slope of the period's map from which on nothing slips.
 const SLIPLESS: f64 = 1.0 - 1e-9;
+/// Parts of the way from one turning point to the next for the energy; even.
+const PARTS: usize = 256;
 /// Most steps of Newton's method to the steady state.
 const STEPS: usize = 80;
 
@@ -183,18 +186,28 @@ impl<T: InternalLaw + Copy + Send + 'static> Law for Internal<T> {
         self.0.loop_energy(p, amplitude)
     }
 
-    /// By the closed form for one harmonic, else the work along the straight ways.
+    /// By the closed form for one harmonic, else the work on the way from each turning point of the motion to the next, by
+    /// Simpson's rule: a law that knows no rate knows nothing else of the motion.
     fn energy(&self, p: &[f64], motion: &Motion) -> f64 {
         if let [single] = motion.harmonics[..]
             && let Some(energy) = self.0.loop_energy(p, single.norm())
         {
             return energy;
         }
-        let mut force = vec![0.0; motion.len()];
-        self.force(p, motion, &mut force);
-        let (d, count) = (&motion.displacement, motion.len());
-        let work = |n: usize| 0.5 * (force[n] + force[(n + 1) % count]) * (d[(n + 1) % count] - d[n]);
-        (0..count).map(work).sum::<f64>().max(0.0)
+        let points = turning_points(motion);
+        let count = points.len();
+        let segment = |i: usize| {
+            let (from, to) = (points[i], points[(i + 1) % count]);
+            (0..PARTS).map(move |k| from + (to - from) * k as f64 / PARTS as f64)
+        };
+        let path: Vec<f64> = (0..count).flat_map(segment).collect();
+        let (ways, _) = self.ways(p, &path);
+        let force = |n: usize| ways[n % ways.len()].0;
+        let pair = |n: usize| {
+            let length = path[(n + 2) % path.len()] - path[n];
+            (force(n) + 4.0 * force(n + 1) + force(n + 2)) / 6.0 * length
+        };
+        (0..path.len()).step_by(2).map(pair).sum::<f64>().max(0.0)
     }
 }
 

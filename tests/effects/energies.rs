@@ -34,9 +34,11 @@ fn the_energy_of_several_harmonics_is_the_finely_sampled_work() {
         let found = law.energy(&p, &coarse);
         let scale = sampled(law, &p, &fine).iter().fold(0.0_f64, |most, f| most.max(f.abs())) * 1e-3;
         // Laws that are not smooth at rest and have no exact formula, with no more than 96 samples.
-        let rough = matches!(effect, Effect::Power | Effect::Quadratic | Effect::Stribeck | Effect::AsymmetricViscous)
-            || matches!(effect, Effect::BoucWen | Effect::Dahl);
-        let tolerance = if rough { 2e-3 } else { 1e-7 };
+        let tolerance = match effect {
+            Effect::Power | Effect::Quadratic | Effect::Stribeck | Effect::AsymmetricViscous => 2e-3,
+            Effect::BoucWen | Effect::Dahl => 1e-5,
+            _ => 1e-7,
+        };
         assert!((found - wanted).abs() < tolerance * scale, "{effect} {p:?}: {found} instead of {wanted}");
     }
 }
@@ -107,7 +109,7 @@ fn a_bouc_wen_loop_is_its_integral() {
         let [stiffness, force, n] = p;
         // Psi(z_m) and the area beside the curve, by the midpoint rule in q = -ln(1 - z).
         let integrals = |zm: f64| {
-            let (count, end) = (40_000, -(-zm).ln_1p());
+            let (count, end) = (4000, -(-zm).ln_1p());
             let q = |i: u32| end * (f64::from(i) + 0.5) / f64::from(count);
             (0..count).fold([0.0, 0.0], |[psi, area], i| {
                 let z = -(-q(i)).exp_m1();
@@ -117,7 +119,7 @@ fn a_bouc_wen_loop_is_its_integral() {
         };
         let wanted = 2.0 * stiffness * amplitude / force;
         let (mut low, mut high) = (0.0, 1.0 - 1e-12);
-        for _ in 0..60 {
+        for _ in 0..45 {
             let zm = 0.5 * (low + high);
             if zm + integrals(zm)[0] > wanted { high = zm } else { low = zm }
         }
@@ -167,5 +169,6 @@ fn asymmetric_laws_have_a_mean_force() {
     };
     let wanted = 2.5 * omega * amplitude / std::f64::consts::PI;
     assert_close(mean(Effect::AsymmetricViscous, &[3.0, 0.5]), wanted, 1e-6, "dashpot");
-    assert_close(mean(Effect::AsymmetricCoulomb, &[0.9, 0.3]), 0.3, 1e-12, "friction");
+    // Where the motion turns, a sample may fall to either side.
+    assert_close(mean(Effect::AsymmetricCoulomb, &[0.9, 0.3]), 0.3, 2e-3, "friction");
 }

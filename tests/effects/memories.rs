@@ -14,7 +14,11 @@ fn stepping_through_time_reaches_the_steady_state() {
         let mut marched = vec![0.0; motion.len()];
         // The slip laws of Masing's kind are periodic at once, those with one internal force by and by.
         let internal = matches!(effect, Effect::BoucWen | Effect::Dahl);
-        let periods = if effect == Effect::Maxwell || internal { 40 } else { 2 };
+        let periods = match effect {
+            Effect::Maxwell => 6,
+            _ if internal => 40,
+            _ => 2,
+        };
         for _ in 0..periods {
             for (n, &d) in motion.displacement.iter().enumerate() {
                 let [trial, _] = memory.trial(d, motion.step());

@@ -34,8 +34,11 @@ fn derived(structure: &Structure, sources: &[Source], unknowns: &[Unknown]) -> (
 fn mismatch(derivative: &Mat<c64>, plus: &Response, minus: &Response, step: f64) -> f64 {
     let mut worst = 0.0_f64;
     let overall = (0..5).fold(0.0_f64, |m, i| m.max(derivative[(i, 0)].norm()));
+    // What moves the mean alone, as an offset force does, leaves the harmonics where they are, to rounding: the step is
+    // 1e-4 of the parameter.
+    let nothing = 1e-8 * (0..5).fold(0.0_f64, |m, i| m.max(plus.amplitude(i, 1).norm())) / (1e4 * step);
     for h in 1..=5 {
-        let (mut error, mut size) = (0.0_f64, 1e-6 * overall);
+        let (mut error, mut size) = (0.0_f64, (1e-6 * overall).max(nothing));
         for i in 0..5 {
             let central = (plus.amplitude(i, h) - minus.amplitude(i, h)) / (2.0 * step);
             error = error.max((derivative[(i, h - 1)] - central).norm());
