@@ -195,6 +195,9 @@ impl<T: InternalLaw + Copy + Send + 'static> Law for Internal<T> {
             return energy;
         }
         let points = turning_points(motion);
+        if points.is_empty() {
+            return 0.0;
+        }
         let count = points.len();
         let segment = |i: usize| {
             let (from, to) = (points[i], points[(i + 1) % count]);

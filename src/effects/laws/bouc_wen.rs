@@ -70,8 +70,8 @@ struct Reached {
 fn risen(start: f64, way: f64, n: f64) -> Reached {
     // Beyond, nothing is left to rise.
     let way = way.min(41.0);
-    // A length that does not follow small changes of the exponent, so that differences by it are smooth.
-    let steps = (way / 0.02_f64.min(0.05 / n.ceil())).ceil().max(1.0) as usize;
+    // A length that steps between whole exponents, where nobody differentiates by it.
+    let steps = (way / 0.02_f64.min(0.05 / (n + 1.3).floor())).ceil().max(1.0) as usize;
     let h = way / steps as f64;
     let slope = |z: f64, w: f64| {
         if z <= 0.0 {
