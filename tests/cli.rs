@@ -239,7 +239,7 @@ fn a_script_is_played_on_a_project_that_stays_as_it_is() {
     fs::write(folder.path().join("s.json"), script).unwrap();
     let output = dashpot(&["run", "s.json", "p.toml", "--out", "q.toml"], folder.path());
     assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
-    assert_eq!(text(&output.stderr), "1 add friction pad\n2 change title\n3 undo change title\n");
+    assert_eq!(text(&output.stderr), "1 add Coulomb friction\n2 change title\n3 undo change title\n");
     assert_eq!(fs::read_to_string(folder.path().join("p.toml")).unwrap(), SOUGHT);
     let played = fs::read_to_string(folder.path().join("q.toml")).unwrap();
     assert!(played.contains("coulomb") && played.contains("Two masses"));

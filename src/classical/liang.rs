@@ -14,7 +14,7 @@
 use super::{ClassicalError, Damping};
 use crate::balance::action::{self, Field};
 use crate::balance::{Expanded, Measured};
-use crate::effects::{Effect, Source};
+use crate::effects::Source;
 use crate::math::least_squares::LeastSquares;
 use crate::structure::Structure;
 use faer::{Mat, c64};
@@ -121,7 +121,7 @@ fn remaining(structure: &Structure, measured: &Measured, field: Field<'_>) -> Ve
 /// `sum c_j L_j L_j^T` of the viscous sources.
 fn matrix(units: &[Source], coefficients: &[f64], n: usize) -> Mat<f64> {
     let mut c = Mat::zeros(n, n);
-    for (source, &value) in units.iter().zip(coefficients).filter(|(source, _)| source.effect == Effect::Viscous) {
+    for (source, &value) in units.iter().zip(coefficients).filter(|(source, _)| source.effect.is_dashpot()) {
         for leg in source.place.legs() {
             c[(leg.first, leg.first)] += value;
             if let Some(second) = leg.second {

@@ -11,6 +11,11 @@
 //! greatest |d| of the period lies on the backbone, so one period of marching that starts there is periodic at once,
 //! whatever came before.
 
+use super::law::Manner;
+use super::memory::MasingMemory;
+use super::turning::loop_ranges;
+use super::{Description, Law, Memory, Motion, SetValued};
+
 /// Marches a steady period: `out[n]` at every sample of `displacement` (m).
 ///
 /// `start(n)` is the value at the sample of greatest displacement, `branch(r, n)` what is added on the way from the
@@ -44,5 +49,85 @@ pub fn march(
         }
         out[n] = out[origin] + branch(origin, n);
         last = n;
+    }
+}
+
+/// A law given by its backbone.
+pub trait MasingLaw: Sync {
+    /// As [`Law::description`].
+    fn description(&self) -> &'static Description;
+
+    /// Force (N) of the backbone at displacement `d` (m) from rest: odd, concave for `d > 0`.
+    fn backbone(&self, p: &[f64], d: f64) -> f64;
+
+    /// Its slope, N/m.
+    fn slope(&self, p: &[f64], d: f64) -> f64;
+
+    /// Its derivative by parameter `k`.
+    fn by_parameter(&self, p: &[f64], k: usize, d: f64) -> f64;
+
+    /// Energy per cycle of `d = amplitude cos(omega t)`, J.
+    fn loop_energy(&self, p: &[f64], amplitude: f64) -> f64;
+
+    /// As [`Law::set_valued`].
+    fn set_valued(&self) -> Option<&dyn SetValued> {
+        None
+    }
+
+    /// As [`Law::series_stiffness`].
+    fn series_stiffness(&self, p: &[f64]) -> Option<f64> {
+        let _ = p;
+        None
+    }
+}
+
+/// A law of Masing's kind as a [`Law`].
+#[derive(Debug)]
+pub struct Masing<T>(pub T);
+
+impl<T: MasingLaw + Copy + Send + 'static> Law for Masing<T> {
+    fn description(&self) -> &'static Description {
+        self.0.description()
+    }
+
+    fn manner(&self, _p: &[f64]) -> Manner {
+        Manner::Memory
+    }
+
+    fn force(&self, p: &[f64], motion: &Motion, force: &mut [f64]) {
+        let (law, d) = (&self.0, &motion.displacement);
+        march(d, force, |n| law.backbone(p, d[n]), |r, n| 2.0 * law.backbone(p, 0.5 * (d[n] - d[r])));
+    }
+
+    fn tangent(&self, p: &[f64], motion: &Motion, direction: &Motion, tangent: &mut [f64]) {
+        let (law, d, e) = (&self.0, &motion.displacement, &direction.displacement);
+        march(d, tangent, |n| law.slope(p, d[n]) * e[n], |r, n| law.slope(p, 0.5 * (d[n] - d[r])) * (e[n] - e[r]));
+    }
+
+    fn parameter_tangent(&self, p: &[f64], k: usize, motion: &Motion, tangent: &mut [f64]) {
+        let (law, d) = (&self.0, &motion.displacement);
+        march(d, tangent, |n| law.by_parameter(p, k, d[n]), |r, n| 2.0 * law.by_parameter(p, k, 0.5 * (d[n] - d[r])));
+    }
+
+    fn set_valued(&self) -> Option<&dyn SetValued> {
+        self.0.set_valued()
+    }
+
+    fn series_stiffness(&self, p: &[f64]) -> Option<f64> {
+        self.0.series_stiffness(p)
+    }
+
+    fn memory(&self, p: &[f64]) -> Option<Box<dyn Memory>> {
+        let (law, p) = (self.0, p.to_vec());
+        Some(Box::new(MasingMemory::new(move |d| [law.backbone(&p, d), law.slope(&p, d)])))
+    }
+
+    fn energy_per_cycle(&self, p: &[f64], amplitude: f64, _omega: f64) -> Option<f64> {
+        Some(self.0.loop_energy(p, amplitude))
+    }
+
+    /// The sum over its closed loops.
+    fn energy(&self, p: &[f64], motion: &Motion) -> f64 {
+        loop_ranges(motion).into_iter().map(|range| self.0.loop_energy(p, 0.5 * range)).sum()
     }
 }

@@ -185,7 +185,7 @@ impl Source {
     /// for errors of channels. Energy balance (4.22): the entry `G_rj` for a unit coefficient.
     pub fn energy(&self, omega: f64, displacement: &dyn Fn(usize) -> Vec<c64>, samples: usize) -> Option<f64> {
         let law = self.effect.law()?;
-        if !law.dissipates() {
+        if !self.effect.dissipates() {
             return Some(0.0);
         }
         let linear = self.effect.is_linear();

@@ -10,7 +10,7 @@
 
 use super::outcome::Form;
 use super::{IdentifyError, problem::Problem, problem::describe, state::State, system::System};
-use crate::effects::{Effect, Source};
+use crate::effects::{Constant, Effect, Source};
 use crate::math::fill::filled;
 use crate::math::statistics::root_mean_square;
 use crate::measurement::MeasuredRatio;
@@ -111,12 +111,11 @@ fn place(modes: &Modes, ratio: &MeasuredRatio) -> Result<usize, IdentifyError> {
 
 /// Whether a law's damping is the same at every amplitude.
 fn is_constant(effect: Effect) -> bool {
-    matches!(effect, Effect::Viscous | Effect::StiffnessProportional | Effect::MassProportional)
-        || is_hysteretic(effect)
+    effect.adds_to(Constant::Viscous) || is_hysteretic(effect)
 }
 
 fn is_hysteretic(effect: Effect) -> bool {
-    matches!(effect, Effect::Hysteretic | Effect::LossFactor)
+    effect.adds_to(Constant::Hysteretic)
 }
 
 /// `d zeta / d coefficient` of a source at a damped mode.

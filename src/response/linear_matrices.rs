@@ -1,7 +1,7 @@
 //! Constant matrices of the linear sources: `M x'' + C x' + (K + i H) x = f`, from which damped modes follow.
 
 use super::dynamic_stiffness::{DynamicStiffnessError, add_leg, basis_matrix, checked_legs};
-use crate::effects::{Effect, Source};
+use crate::effects::{Constant, Source, effect::Kind};
 use crate::structure::Structure;
 use faer::Mat;
 
@@ -36,13 +36,13 @@ impl LinearMatrices {
             others: Vec::new(),
         };
         for (index, source) in sources.iter().enumerate() {
-            let target = match source.effect {
-                Effect::Mass => &mut all.mass,
-                Effect::Stiffness => &mut all.stiffness,
-                Effect::Viscous | Effect::StiffnessProportional | Effect::MassProportional => &mut all.viscous,
-                Effect::Hysteretic | Effect::LossFactor => &mut all.hysteretic,
-                Effect::Delay | Effect::Gain => continue,
-                _ => {
+            let target = match source.effect.constant() {
+                Some(Constant::Mass) => &mut all.mass,
+                Some(Constant::Stiffness) => &mut all.stiffness,
+                Some(Constant::Viscous) => &mut all.viscous,
+                Some(Constant::Hysteretic) => &mut all.hysteretic,
+                None if source.effect.is_of_channel() => continue,
+                None => {
                     all.others.push(index);
                     continue;
                 }
@@ -59,7 +59,7 @@ impl LinearMatrices {
 /// # Errors
 /// [`DynamicStiffnessError`] for a structure without matrices (whole-structure laws only) or places that do not exist.
 pub fn unit_matrix(structure: &Structure, source: &Source) -> Result<Mat<f64>, DynamicStiffnessError> {
-    if let crate::effects::effect::Kind::Whole(law) = source.effect.kind() {
+    if let Kind::Whole(law) = source.effect.kind() {
         let base = structure.matrices().ok_or(DynamicStiffnessError::NoMatrices)?;
         return basis_matrix(structure, base, &source.place, law.basis());
     }

@@ -4,7 +4,7 @@
 use super::harmonic_balance::{Excitation, ForwardModel, Settings, SweepPoint, SweepSettings, sweep};
 use super::time_integration::TimeModel;
 use crate::control::{Cancelled, Control};
-use crate::effects::{Effect, Motion, Place, Source};
+use crate::effects::{Motion, Source};
 use crate::structure::Structure;
 use faer::c64;
 use std::f64::consts::TAU;
@@ -102,7 +102,7 @@ pub fn portrait(setup: &Setup, control: &Control) -> Result<Portrait, Cancelled>
 
 impl Setup {
     fn sources(&self) -> Vec<Source> {
-        let background = |d: usize| Source::known(Effect::Viscous, Place::Dofs(vec![d]), &[self.background]);
+        let background = |d: usize| Source::dashpot(vec![d], self.background);
         let damped = (0..self.structure.len()).filter(|_| self.background > 0.0).map(background);
         damped.chain([self.source.clone()]).collect()
     }

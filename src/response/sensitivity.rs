@@ -9,10 +9,10 @@
 //! with `A_h` the receptance of the linear rest and `J = 1 - Phi_F + Phi_D C` the Jacobian of the balance, factorised once.
 //! Where the response is extrapolated from two numbers of harmonics, so are its derivatives.
 
+use super::harmonic_balance::richardson;
 use super::harmonic_balance::{Balance, Excitation, Lu, Prepared, Response, ResponseError, RunModel};
-use super::harmonic_balance::{richardson, stiffness_of};
+use crate::effects::Source;
 use crate::effects::effect::Kind;
-use crate::effects::{Motion, Source};
 use crate::structure::factors::{Part, Share};
 use faer::{Mat, c64};
 use std::f64::consts::TAU;
@@ -294,20 +294,8 @@ fn single(size: usize, dof: usize, force: c64) -> Vec<c64> {
     load
 }
 
-/// Derivative of the dynamic stiffness of a linear law, from its force on a motion of unit amplitude.
+/// Derivative of the dynamic stiffness of a linear law, N/m per unit of the parameter.
 fn stiffness_by_parameter(source: &Source, parameter: usize, omega: f64) -> c64 {
-    let Some(law) = source.effect.law() else { return c64::new(0.0, 0.0) };
-    if omega > 0.0 {
-        let motion = Motion::cosine(omega, 1.0, 4);
-        let mut force = [0.0; 4];
-        law.parameter_tangent(&source.parameters, parameter, &motion, &mut force);
-        return c64::new(0.5 * (force[0] - force[2]), -0.5 * (force[1] - force[3]));
-    }
-    let mut unit = source.clone();
-    if source.effect.parameters()[parameter].linear {
-        unit.parameters[parameter] = 1.0;
-        return stiffness_of(&unit, 0.0);
-    }
-    // No linear law has a static stiffness that depends on a parameter it is not proportional to.
-    c64::new(0.0, 0.0)
+    let law = source.effect.law();
+    law.and_then(|law| law.dynamic_stiffness_by(&source.parameters, parameter, omega)).unwrap_or(c64::new(0.0, 0.0))
 }

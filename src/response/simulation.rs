@@ -10,7 +10,7 @@ use super::synthesis::ChannelMotion;
 use super::time_integration::TimeError;
 use crate::control::{Cancelled, Control};
 use crate::effects::effect::Kind;
-use crate::effects::{Effect, Place, Source};
+use crate::effects::{Place, Source};
 use crate::measurement::{Channel, Quantity};
 use crate::structure::Structure;
 use faer::{Mat, c64};
@@ -144,9 +144,9 @@ pub fn transfer(sensors: &[Source], channel: &Channel, w: f64) -> c64 {
 pub(crate) fn sensor_errors(sensors: &[Source], channel: &Channel) -> [f64; 2] {
     let place = Place::Channel(channel.to_string());
     sensors.iter().filter(|sensor| sensor.place == place).fold([0.0, 1.0], |[delay, gain], sensor| {
-        match sensor.effect {
-            Effect::Delay => [delay + sensor.parameters[0], gain],
-            Effect::Gain => [delay, gain * sensor.parameters[0]],
+        match sensor.effect.kind() {
+            Kind::Channel(law) if law.turns_phase() => [law.joined(delay, sensor.parameters[0]), gain],
+            Kind::Channel(law) => [delay, law.joined(gain, sensor.parameters[0])],
             _ => [delay, gain],
         }
     })

@@ -205,13 +205,13 @@ fn set_sensor(file: &mut ProjectFile, channel: &str, values: [Option<f64>; 2], o
     Quantity::from_word(word).ok_or_else(wrong)?;
     on.require_dof(label)?;
     let [delay, gain] = values;
-    for (effect, value) in [(Effect::Delay, delay), (Effect::Gain, gain)] {
-        let Some(value) = value else { continue };
+    let table = SensorTable { channel: channel.into(), delay, gain };
+    for (effect, value) in table.errors() {
         crate::effects::Source::known(effect, crate::effects::Place::Channel(channel.into()), &[value]).check()?;
     }
     file.sensor.retain(|sensor| sensor.channel != channel);
-    if delay.is_some() || gain.is_some() {
-        file.sensor.push(SensorTable { channel: channel.into(), delay, gain });
+    if table.errors().next().is_some() {
+        file.sensor.push(table);
     }
     Ok(())
 }

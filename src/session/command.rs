@@ -157,12 +157,12 @@ impl Command {
         match self {
             Self::SetTitle(_) => "change title".into(),
             Self::SetNotes(_) => "change notes".into(),
-            Self::AddSource(spec) => format!("add {}", words(spec.law)),
-            Self::RemoveSource(at) => format!("remove {}", words(at.law)),
-            Self::SetSourceState { source, state } => format!("make {} {}", words(source.law), state_word(*state)),
-            Self::SetSourceParameters { source, .. } => format!("change {}", words(source.law)),
-            Self::AddCandidates { law, .. } => format!("add {} candidates", words(*law)),
-            Self::RemoveCandidates { law, .. } => format!("remove {} candidates", words(*law)),
+            Self::AddSource(spec) => format!("add {}", spec.law.noun()),
+            Self::RemoveSource(at) => format!("remove {}", at.law.noun()),
+            Self::SetSourceState { source, state } => format!("make {} {}", source.law.noun(), state_word(*state)),
+            Self::SetSourceParameters { source, .. } => format!("change {}", source.law.noun()),
+            Self::AddCandidates { law, .. } => format!("add {} candidates", law.noun()),
+            Self::RemoveCandidates { law, .. } => format!("remove {} candidates", law.noun()),
             Self::SetStructureParameter { name, .. } => format!("change {}", name.replace('_', " ")),
             Self::SetStructureParameters(_) => "change structure".into(),
             Self::SetSupports(_) => "change supports".into(),
@@ -176,8 +176,8 @@ impl Command {
             Self::SetRunFrequency { .. } => "change frequency of run".into(),
             Self::SetRunLevel { .. } => "change level of run".into(),
             Self::SetSensor { channel, .. } => format!("change sensor {channel}"),
-            Self::RuleOut(at) => format!("rule out {}", words(at.law)),
-            Self::Allow(at) => format!("allow {} again", words(at.law)),
+            Self::RuleOut(at) => format!("rule out {}", at.law.noun()),
+            Self::Allow(at) => format!("allow {} again", at.law.noun()),
             Self::SetSetting(_) => "change setting".into(),
         }
     }
@@ -194,15 +194,5 @@ fn state_word(state: State) -> &'static str {
         State::Forced => "forced",
         State::Off => "off",
         State::Reference => "reference",
-    }
-}
-
-/// The thing an engineer calls the law, such as dashpot for `viscous`.
-fn words(law: Effect) -> String {
-    match law {
-        Effect::Viscous => "dashpot".into(),
-        Effect::Coulomb => "friction pad".into(),
-        Effect::Stiffness => "spring".into(),
-        other => other.name().replace('_', " "),
     }
 }

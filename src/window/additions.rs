@@ -1,7 +1,7 @@
 //! What becomes of a suggestion that is added: a known source, a larger coefficient of one that is there, or a correction
 //! of a channel.
 
-use crate::effects::{Effect, Place, Source, State};
+use crate::effects::{Place, Source, State, effect::Kind};
 use crate::exchange::Project;
 use crate::exchange::project::file::ProjectFile;
 use crate::session::{Command, EffectAt, SourceAt, SourceSpec};
@@ -48,9 +48,9 @@ fn correct(channel: &str, error: &Source, file: &ProjectFile) -> Command {
     let known = file.sensor.iter().find(|sensor| sensor.channel == channel);
     let (mut delay, mut gain) = (known.and_then(|s| s.delay), known.and_then(|s| s.gain));
     let value = error.parameters.first().copied();
-    match error.effect {
-        Effect::Delay => delay = value.map(|more| delay.unwrap_or(0.0) + more),
-        _ => gain = value.map(|more| gain.unwrap_or(1.0) * more),
+    if let (Kind::Channel(law), Some(more)) = (error.effect.kind(), value) {
+        let known = if law.turns_phase() { &mut delay } else { &mut gain };
+        *known = Some(law.joined(known.unwrap_or(law.neutral()), more));
     }
     Command::SetSensor { channel: channel.to_owned(), delay, gain }
 }

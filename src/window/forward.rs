@@ -4,7 +4,7 @@ use super::plots::bode::Response;
 use super::plots::hysteresis::{self, Loop};
 use crate::balance::expansion::Acting;
 use crate::balance::{Expander, Measured};
-use crate::effects::{Effect, Source};
+use crate::effects::Source;
 use crate::exchange::Project;
 use crate::identify::{self, Outcome};
 use crate::measurement::Quantity;
@@ -19,7 +19,8 @@ pub fn acting(p: &Project, outcome: &Outcome) -> Vec<Source> {
             return Some(source);
         }
         let c = outcome.results.equivalent.overall.get(k).copied().unwrap_or(0.0);
-        Some(Source::known(Effect::Viscous, source.place, &[c]))
+        let dashpot = source.unit_dashpot();
+        Some(dashpot.with_coefficient(c))
     };
     outcome.sources.iter().enumerate().filter_map(one).collect()
 }

@@ -114,7 +114,7 @@ impl Default for View {
             incompleteness: Choice::default(),
             dof: None,
             source: None,
-            law: Effect::Viscous,
+            law: Effect::DASHPOT,
             shape: true,
             animate: false,
             phase: 0.0,

@@ -8,28 +8,7 @@ use crate::structure::{Structure, StructureKind};
 
 /// A law in words.
 pub fn effect(effect: Effect) -> &'static str {
-    match effect {
-        Effect::Viscous => "viscous dashpot",
-        Effect::Coulomb => "dry friction",
-        Effect::Quadratic => "quadratic dashpot",
-        Effect::Power => "power-law dashpot",
-        Effect::Hysteretic => "hysteretic spring",
-        Effect::Stribeck => "Stribeck friction",
-        Effect::ElasticSlider => "elastic slider",
-        Effect::Maxwell => "Maxwell element",
-        Effect::Iwan => "Iwan joint",
-        Effect::Fractional => "fractional element",
-        Effect::Stiffness => "spring",
-        Effect::CubicStiffness => "cubic spring",
-        Effect::QuadraticStiffness => "quadratic spring",
-        Effect::Gap => "gap",
-        Effect::Mass => "mass",
-        Effect::LossFactor => "loss factor",
-        Effect::StiffnessProportional => "stiffness damping",
-        Effect::MassProportional => "mass damping",
-        Effect::Delay => "channel delay",
-        Effect::Gain => "channel gain",
-    }
+    effect.noun()
 }
 
 /// The name of a parameter for readers: `Loss stiffness`; a single letter stays what it is.

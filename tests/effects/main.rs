@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used, reason = "tests")]
 
 mod energies;
+mod knowledge;
 mod limits;
 mod memories;
 mod names;
@@ -27,6 +28,10 @@ fn cases() -> Vec<(Effect, &'static dyn Law, Vec<f64>)> {
             &[&[1e4, 1.0, -0.5, 1.0], &[2e3, 3.0, -0.8, 0.2], &[3e3, 1.5, 0.0, 0.0], &[900.0, 80.0, -0.3, 2.0]],
         ),
         (Effect::Fractional, &[&[4.0, 0.3], &[4.0, 0.8]]),
+        (Effect::BoucWen, &[&[1e4, 1.0, 2.0], &[2e3, 1.5, 1.0], &[5e3, 2.0, 7.5]]),
+        (Effect::Dahl, &[&[1e4, 1.0], &[2e3, 2.0]]),
+        (Effect::AsymmetricViscous, &[&[3.0, 0.5], &[0.4, 2.0]]),
+        (Effect::AsymmetricCoulomb, &[&[0.9, 0.3], &[2.0, -1.0]]),
         (Effect::Stiffness, &[&[-300.0]]),
         (Effect::CubicStiffness, &[&[2e7]]),
         (Effect::QuadraticStiffness, &[&[-3e4]]),

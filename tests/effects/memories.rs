@@ -12,7 +12,13 @@ fn stepping_through_time_reaches_the_steady_state() {
         let Some(mut memory) = law.memory(&p) else { continue };
         tried.push(effect);
         let mut marched = vec![0.0; motion.len()];
-        let periods = if effect == Effect::Maxwell { 6 } else { 2 };
+        // The slip laws of Masing's kind are periodic at once, those with one internal force by and by.
+        let internal = matches!(effect, Effect::BoucWen | Effect::Dahl);
+        let periods = match effect {
+            Effect::Maxwell => 6,
+            _ if internal => 40,
+            _ => 2,
+        };
         for _ in 0..periods {
             for (n, &d) in motion.displacement.iter().enumerate() {
                 let [trial, _] = memory.trial(d, motion.step());
@@ -22,13 +28,17 @@ fn stepping_through_time_reaches_the_steady_state() {
         }
         let wanted = sampled(law, &p, &motion);
         let size = wanted.iter().fold(0.0_f64, |most, f| most.max(f.abs()));
-        let tolerance = if effect == Effect::Maxwell { 1e-3 } else { 1e-11 };
+        let tolerance = match effect {
+            Effect::Maxwell => 1e-3,
+            _ if internal => 1e-8,
+            _ => 1e-11,
+        };
         for (n, (a, b)) in marched.iter().zip(&wanted).enumerate() {
             assert!((a - b).abs() < tolerance * size, "{effect} {p:?}, sample {n}: {a} instead of {b}");
         }
     }
     tried.dedup();
-    assert_eq!(tried, [Effect::ElasticSlider, Effect::Maxwell, Effect::Iwan]);
+    assert_eq!(tried, [Effect::ElasticSlider, Effect::Maxwell, Effect::Iwan, Effect::BoucWen, Effect::Dahl]);
 }
 
 /// The slope is the derivative of the force, forwards and after a reversal.

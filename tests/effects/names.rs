@@ -30,6 +30,10 @@ fn parameters_are_those_of_the_contract() {
         "stiffness c",
         "stiffness force chi beta",
         "c order",
+        "stiffness force exponent",
+        "stiffness force",
+        "c_pull c_push",
+        "force offset",
         "stiffness",
         "stiffness",
         "stiffness",
@@ -62,10 +66,12 @@ fn linear_laws_and_lossless_laws_are_known() {
         "stiffness cubic_stiffness quadratic_stiffness gap mass delay gain"
     );
     // In the tables every effect has its own title, formula and sentence.
-    for text in [Effect::title, Effect::symbol, Effect::sentence] {
+    for text in [Effect::noun, Effect::title, Effect::symbol, Effect::sentence] {
         let all: std::collections::HashSet<_> = Effect::ALL.into_iter().map(text).collect();
         assert_eq!(all.len(), Effect::ALL.len());
     }
+    assert_eq!([Effect::Viscous.noun(), Effect::Viscous.title()], ["viscous dashpot", "Viscous dashpot"]);
+    assert_eq!([Effect::Iwan.noun(), Effect::Coulomb.title()], ["Iwan joint", "Coulomb friction"]);
 }
 
 /// Channel errors: the derivative is that of the transfer, and the neutral value changes nothing.

@@ -8,6 +8,7 @@ mod comparison;
 mod derivatives;
 mod folds;
 mod harmonic_laws;
+mod hysteresis;
 mod portrait;
 mod predictions;
 mod recorded;

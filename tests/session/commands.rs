@@ -19,8 +19,8 @@ fn a_script_says_what_a_hand_does() {
         {"set_setting": {"stop_angle_deg": 0.1}}
     ]"#;
     let labels = play(&mut session, &parse(script).unwrap()).unwrap();
-    assert_eq!(labels[0], "add dashpot");
-    assert_eq!(labels[2], "undo make dashpot forced");
+    assert_eq!(labels[0], "add viscous dashpot");
+    assert_eq!(labels[2], "undo make viscous dashpot forced");
     assert_eq!(session.document().sources()[1].state, State::Forced);
     assert_eq!(session.document().file().analysis.stop_angle_deg, 0.1);
 }
@@ -91,7 +91,7 @@ fn what_is_ruled_out_is_undone_saved_and_goes_with_its_place() {
                      {"rule_out": {"law": "viscous", "dofs": ["5", "3"]}},
                      {"rule_out": {"law": "gain", "channel": "acc@7"}},
                      {"rule_out": {"law": "loss_factor"}}]"#;
-    assert_eq!(play(&mut session, &parse(script).unwrap()).unwrap()[0], "rule out friction pad");
+    assert_eq!(play(&mut session, &parse(script).unwrap()).unwrap()[0], "rule out Coulomb friction");
     let all = session.document().ruled_out().clone();
     assert_eq!(all[0].place, Place::Dofs(vec![6]));
     assert_eq!((all[1].place.clone(), all[2].effect), (Place::Dofs(vec![4, 2]), Effect::Gain));

@@ -57,7 +57,7 @@ fn the_hidden_friction_is_named_tried_added_and_taken_back() {
     assert!((0.10..0.60).contains(&before), "the model without friction is wrong by {before}");
     assert!(before > 10.0 * floor);
     assert_eq!(verdict(&harness), Verdict::Missing);
-    harness.get_by_label_contains("Suggestion 1: Dry friction at DOF 7, probability");
+    harness.get_by_label_contains("Suggestion 1: Coulomb friction at DOF 7, probability");
     picture(&mut harness, "explain-before");
 
     press(&mut harness, "Try");
@@ -85,7 +85,7 @@ fn the_hidden_friction_is_named_tried_added_and_taken_back() {
     assert_eq!(verdict(&harness), Verdict::Missing);
 
     // All steps are kept: forward again by a click on the ledger, and back.
-    harness.get_by_label_contains("Step 1: + dry friction at DOF 7").click();
+    harness.get_by_label_contains("Step 1: + Coulomb friction at DOF 7").click();
     settle(&mut harness);
     assert!(friction_of(&harness).is_some() && error(&harness)[0] == after);
     harness.get_by_label_contains("Step 0: Model as opened").click();
@@ -102,7 +102,7 @@ fn what_is_ruled_out_makes_room_for_the_next_and_can_be_taken_back() {
     harness.get_by_role_and_label(Role::Button, "Not this").click();
     harness.run_steps(3);
     // The next best is there at once, while it is searched for what else it could be.
-    assert!(harness.query_by_label_contains("Suggestion 1: Dry friction at DOF 7").is_none());
+    assert!(harness.query_by_label_contains("Suggestion 1: Coulomb friction at DOF 7").is_none());
     harness.get_by_label_contains("Suggestion 1:");
     harness.get_by_label("Ruled out by you");
     harness.get_by_label("It is searched for what else it could be.");
@@ -120,13 +120,13 @@ fn what_is_ruled_out_makes_room_for_the_next_and_can_be_taken_back() {
     // It is a change like others: undone and repeated at once, without another search.
     harness.key_press_modifiers(Modifiers::COMMAND, Key::Z);
     harness.run_steps(3);
-    harness.get_by_label_contains("Suggestion 1: Dry friction at DOF 7");
+    harness.get_by_label_contains("Suggestion 1: Coulomb friction at DOF 7");
     harness.key_press_modifiers(Modifiers::COMMAND | Modifiers::SHIFT, Key::Z);
     harness.run_steps(3);
     let app = harness.state();
     assert_eq!(app.derived.explained.suggestions(app.document.as_ref().unwrap()).0[0], next);
     press(&mut harness, "Take back");
-    harness.get_by_label_contains("Suggestion 1: Dry friction at DOF 7");
+    harness.get_by_label_contains("Suggestion 1: Coulomb friction at DOF 7");
     assert_eq!(harness.state().derived.explained.ledger.steps().len(), 1, "the model was the same all the way");
 }
 
@@ -159,7 +159,7 @@ fn the_first_suggestions_are_shown_before_the_search_has_ended() {
     assert!(bar.last() > bar.first(), "the bar moves without any event: {bar:?}");
     // Held where it is.
     press(&mut harness, "Cancel");
-    harness.get_by_label_contains("Provisional suggestion 1: Dry friction at DOF 7, probability about");
+    harness.get_by_label_contains("Provisional suggestion 1: Coulomb friction at DOF 7, probability about");
     assert!(harness.get_by_role_and_label(Role::Button, "Add").accesskit_node().is_disabled());
     picture(&mut harness, "explain-provisional");
 
@@ -169,7 +169,7 @@ fn the_first_suggestions_are_shown_before_the_search_has_ended() {
     until_told(&mut harness);
     settle(&mut harness);
     assert!(harness.query_by_label_contains("Provisional").is_none());
-    harness.get_by_label_contains("Suggestion 1: Dry friction at DOF 7, probability");
+    harness.get_by_label_contains("Suggestion 1: Coulomb friction at DOF 7, probability");
     assert!(!harness.get_by_role_and_label(Role::Button, "Add").accesskit_node().is_disabled());
     // What is on trial has the size that was found in the end.
     let app = harness.state();

@@ -41,7 +41,7 @@ fn the_menu_of_a_degree_of_freedom() {
     settle(&mut harness);
     harness.get_by_label_contains("DOF 5, translation").click_secondary();
     harness.run_steps(4);
-    harness.get_by_label("Candidate: dry friction to the ground").click();
+    harness.get_by_label("Candidate: Coulomb friction to the ground").click();
     harness.run_steps(4);
     assert_eq!(harness.state().document.as_ref().unwrap().project.sources.len(), 6);
     settle(&mut harness);

@@ -1,32 +1,47 @@
 //! Coulomb friction: `F = force sgn(d')`, 0 at rest. Energy per cycle of `d = X cos(omega t)`: `4 force X`; of any
 //! periodic motion: `force` times the way travelled.
 //!
-//! The force is set-valued at rest, so the tangent of the law itself is zero almost everywhere. Solvers use the smoothed
-//! law `force v / sqrt(v^2 + width^2)` and take `width` to its limit.
+//! The force is set-valued at rest: solvers take any force within `+-force` there, exactly ([`SetValued`]).
 
-use crate::effects::law::Point;
+use crate::effects::description::Exponents;
+use crate::effects::law::{Point, Variable};
 use crate::effects::memoryless::sign;
+use crate::effects::symbol::{Mark, Tone};
 use crate::effects::turning::total_variation;
-use crate::effects::{Memoryless, Motion, Parameter};
+use crate::effects::{Description, MemorylessLaw, Motion, Parameter, SetValued};
 
 /// Coulomb friction.
 #[derive(Debug)]
 pub struct Coulomb;
 
-const PARAMETERS: [Parameter; 1] = [Parameter::coefficient("force", "N", "F_c")];
+const DESCRIPTION: Description = Description {
+    exponents: |_| Exponents::damping(-1.0, -1.0),
+    symbol: &[Mark::Pads(-0.5, 0.5, Tone::Full)],
+    example: &[0.4],
+    usual: true,
+    ..Description::new(
+        "Coulomb friction",
+        "F_c sgn(d')",
+        "A constant force against the motion: dry friction between sliding surfaces.",
+        &[Parameter::coefficient("force", "N", "F_c")],
+    )
+};
 
-impl Memoryless for Coulomb {
-    fn list(&self) -> &'static [Parameter] {
-        &PARAMETERS
+impl MemorylessLaw for Coulomb {
+    fn description(&self) -> &'static Description {
+        &DESCRIPTION
     }
 
-    fn at(&self, p: &[f64], width: f64, _d: f64, v: f64) -> Point {
-        let (value, slope) = sign(v, width);
-        Point { force: p[0] * value, by_displacement: 0.0, by_velocity: p[0] * slope }
+    fn variable(&self) -> Variable {
+        Variable::Velocity
     }
 
-    fn by_parameter(&self, _p: &[f64], _k: usize, width: f64, _d: f64, v: f64) -> f64 {
-        sign(v, width).0
+    fn at(&self, p: &[f64], _d: f64, v: f64) -> Point {
+        Point { force: p[0] * sign(v), ..Point::default() }
+    }
+
+    fn by_parameter(&self, _p: &[f64], _k: usize, _d: f64, v: f64) -> f64 {
+        sign(v)
     }
 
     fn cycle_energy(&self, p: &[f64], amplitude: f64, _omega: f64) -> Option<f64> {
@@ -37,7 +52,18 @@ impl Memoryless for Coulomb {
         Some(p[0] * total_variation(motion))
     }
 
-    fn is_discontinuous(&self) -> bool {
-        true
+    fn set_valued(&self) -> Option<&dyn SetValued> {
+        Some(self)
+    }
+}
+
+impl SetValued for Coulomb {
+    fn bounds(&self, p: &[f64]) -> [f64; 2] {
+        let bound = p[0].max(0.0);
+        [-bound, bound]
+    }
+
+    fn bounds_by(&self, _p: &[f64], _k: usize) -> [f64; 2] {
+        [-1.0, 1.0]
     }
 }

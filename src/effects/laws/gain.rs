@@ -1,17 +1,32 @@
 //! Gain of a channel: recorded `Y_h = gain` times the true one at every frequency.
 
-use crate::effects::{ChannelLaw, Parameter};
+use crate::effects::symbol::{Mark, Tone};
+use crate::effects::{ChannelLaw, Description, Parameter};
 use faer::c64;
 
 /// A channel that reads too large or too small.
 #[derive(Debug)]
 pub struct Gain;
 
-const PARAMETER: Parameter = Parameter::coefficient("gain", "", "g").above(0.0);
+const DESCRIPTION: Description = Description {
+    dissipates: false,
+    symbol: &[
+        // A triangle in the line: the channel reads too much or too little.
+        Mark::Line(&[(-0.5, 0.0), (-0.28, 0.0)]),
+        Mark::Area(&[(-0.28, -8.0), (0.3, 0.0), (-0.28, 8.0)], Tone::Faint),
+        Mark::Line(&[(0.3, 0.0), (0.5, 0.0)]),
+    ],
+    ..Description::new(
+        "channel gain",
+        "g y(t)",
+        "A channel that reads too large or too small: a wrong sensitivity.",
+        &[Parameter::coefficient("gain", "", "g").above(0.0)],
+    )
+};
 
 impl ChannelLaw for Gain {
-    fn parameter(&self) -> &'static Parameter {
-        &PARAMETER
+    fn description(&self) -> &'static Description {
+        &DESCRIPTION
     }
 
     fn transfer(&self, value: f64, _omega: f64) -> c64 {
@@ -24,5 +39,17 @@ impl ChannelLaw for Gain {
 
     fn neutral(&self) -> f64 {
         1.0
+    }
+
+    fn joined(&self, first: f64, second: f64) -> f64 {
+        first * second
+    }
+
+    fn turns_phase(&self) -> bool {
+        false
+    }
+
+    fn small_step(&self, _omega: f64) -> f64 {
+        1e-5
     }
 }

@@ -13,22 +13,70 @@
 //! continuous distribution is integrated exactly; there is no count of sliders. Energy per cycle of `d = X cos(omega t)`:
 //! `4 R X^(chi+3) / ((chi+2)(chi+3))` in partial slip; beyond, `4 (F_S X - integral phi^2 rho dphi)`.
 
-use crate::effects::law::Ends;
-use crate::effects::masing::march;
-use crate::effects::memory::MasingMemory;
-use crate::effects::turning::loop_ranges;
-use crate::effects::{Law, Memory, Motion, Parameter};
+use crate::effects::limits::{CLOSE, Limit};
+use crate::effects::masing::MasingLaw;
+use crate::effects::parameter::Ends;
+use crate::effects::range::geometric;
+use crate::effects::symbol::{Mark, Tone};
+use crate::effects::{Description, Effect, Parameter, Range};
 
 /// Parallel elastic sliders with power-law distributed yield forces.
-#[derive(Debug)]
+#[derive(Debug, Clone, Copy)]
 pub struct Iwan;
 
-const PARAMETERS: [Parameter; 4] = [
-    Parameter::shape("stiffness", "N/m", "K_T", 1e4),
-    Parameter::shape("force", "N", "F_S", 1.0),
-    Parameter::shape("chi", "", "chi", -0.5).within(-1.0, 0.0, Ends::OpenBelow),
-    Parameter::shape("beta", "", "beta", 1.0),
-];
+const fn spring(y: f32) -> Mark {
+    Mark::Spring { ends: (-0.5, 0.05), coils: 3, y, height: 2.5 }
+}
+
+const DESCRIPTION: Description = Description {
+    scaled: &[0, 1],
+    shapes,
+    limits: &[
+        // No slider slips by a share worth mentioning; all do at once; all slip together.
+        Limit { law: Effect::Stiffness, holds: sticks, parameters: |p| vec![p[0]] },
+        Limit { law: Effect::Coulomb, holds: slides, parameters: |p| vec![p[1]] },
+        Limit { law: Effect::ElasticSlider, holds: |p, _| CLOSE * p[3] > 1.0, parameters: |p| vec![p[0], p[1]] },
+    ],
+    symbol: &[
+        Mark::Line(&[(-0.5, -5.0), (-0.5, 5.0)]),
+        Mark::Line(&[(0.5, -5.0), (0.5, 5.0)]),
+        spring(-5.0),
+        Mark::Line(&[(0.05, -5.0), (0.5, -5.0)]),
+        Mark::Area(&[(0.15, -7.5), (0.4, -7.5), (0.4, -2.5), (0.15, -2.5)], Tone::Faint),
+        spring(5.0),
+        Mark::Line(&[(0.05, 5.0), (0.5, 5.0)]),
+        Mark::Area(&[(0.15, 2.5), (0.4, 2.5), (0.4, 7.5), (0.15, 7.5)], Tone::Faint),
+    ],
+    example: &[400.0, 1.0, -0.5, 1.0],
+    ..Description::new(
+        "Iwan joint",
+        "K_T + sliders F_S",
+        "A bolted joint: slip that starts small and spreads over the contact until all of it slides.",
+        &[
+            Parameter::shape("stiffness", "N/m", "K_T", 1e4),
+            Parameter::shape("force", "N", "F_S", 1.0),
+            Parameter::shape("chi", "", "chi", -0.5).within(-1.0, 0.0, Ends::OpenBelow),
+            Parameter::shape("beta", "", "beta", 1.0),
+        ],
+    )
+};
+
+fn shapes(range: &Range) -> Vec<Vec<f64>> {
+    geometric(0.1 * range.least.max(0.05 * range.displacement), 3.0 * range.displacement, 6)
+        .into_iter()
+        .flat_map(|x| [-0.7, -0.4, -0.1].into_iter().flat_map(move |chi| [0.3, 1.5].map(|b| vec![1.0, x, chi, b])))
+        .collect()
+}
+
+fn sticks(p: &[f64], range: &Range) -> bool {
+    let joint = Joint::new(p);
+    let u = joint.relative(range.displacement);
+    u < 1.0 && joint.slipped(u) / (u * (1.0 + joint.beta)) < CLOSE
+}
+
+fn slides(p: &[f64], range: &Range) -> bool {
+    Joint::new(p).relative(range.least) * CLOSE > 1.0
+}
 
 /// The joint in the variables of its backbone.
 struct Joint {
@@ -116,37 +164,24 @@ impl Joint {
     }
 }
 
-impl Law for Iwan {
-    fn parameters(&self) -> &'static [Parameter] {
-        &PARAMETERS
+impl MasingLaw for Iwan {
+    fn description(&self) -> &'static Description {
+        &DESCRIPTION
     }
 
-    fn force(&self, p: &[f64], motion: &Motion, force: &mut [f64]) {
-        let (joint, d) = (Joint::new(p), &motion.displacement);
-        march(d, force, |n| joint.backbone(d[n]), |r, n| 2.0 * joint.backbone(0.5 * (d[n] - d[r])));
+    fn backbone(&self, p: &[f64], d: f64) -> f64 {
+        Joint::new(p).backbone(d)
     }
 
-    fn tangent(&self, p: &[f64], motion: &Motion, direction: &Motion, tangent: &mut [f64]) {
-        let (joint, d, e) = (Joint::new(p), &motion.displacement, &direction.displacement);
-        march(d, tangent, |n| joint.slope(d[n]) * e[n], |r, n| joint.slope(0.5 * (d[n] - d[r])) * (e[n] - e[r]));
+    fn slope(&self, p: &[f64], d: f64) -> f64 {
+        Joint::new(p).slope(d)
     }
 
-    fn parameter_tangent(&self, p: &[f64], k: usize, motion: &Motion, tangent: &mut [f64]) {
-        let (joint, d) = (Joint::new(p), &motion.displacement);
-        march(d, tangent, |n| joint.by_parameter(k, d[n]), |r, n| 2.0 * joint.by_parameter(k, 0.5 * (d[n] - d[r])));
+    fn by_parameter(&self, p: &[f64], k: usize, d: f64) -> f64 {
+        Joint::new(p).by_parameter(k, d)
     }
 
-    fn memory(&self, p: &[f64]) -> Option<Box<dyn Memory>> {
-        let joint = Joint::new(p);
-        Some(Box::new(MasingMemory::new(move |d| [joint.backbone(d), joint.slope(d)])))
-    }
-
-    fn energy_per_cycle(&self, p: &[f64], amplitude: f64, _omega: f64) -> Option<f64> {
-        Some(Joint::new(p).energy(amplitude))
-    }
-
-    fn energy(&self, p: &[f64], motion: &Motion) -> f64 {
-        let joint = Joint::new(p);
-        loop_ranges(motion).into_iter().map(|range| joint.energy(0.5 * range)).sum()
+    fn loop_energy(&self, p: &[f64], amplitude: f64) -> f64 {
+        Joint::new(p).energy(amplitude)
     }
 }

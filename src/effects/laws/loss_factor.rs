@@ -1,18 +1,29 @@
 //! Loss factor of the material: `F_h = i loss_factor K X_h` at each harmonic; no force at rest.
 
+use crate::effects::description::Constant;
 use crate::effects::law::Basis;
-use crate::effects::{Parameter, WholeLaw};
+use crate::effects::symbol::Mark;
+use crate::effects::{Description, Parameter, WholeLaw};
 use faer::c64;
 
 /// Complex stiffness of the whole structure.
 #[derive(Debug)]
 pub struct LossFactor;
 
-const PARAMETER: Parameter = Parameter::coefficient("loss_factor", "", "eta");
+const DESCRIPTION: Description = Description {
+    constant: Some(Constant::Hysteretic),
+    symbol: &[Mark::spring(-0.5, 0.5, 4), Mark::Letter("ηK")],
+    ..Description::new(
+        "loss factor",
+        "i eta K x",
+        "A loss in proportion to the strain energy of the whole structure.",
+        &[Parameter::coefficient("loss_factor", "", "eta")],
+    )
+};
 
 impl WholeLaw for LossFactor {
-    fn parameter(&self) -> &'static Parameter {
-        &PARAMETER
+    fn description(&self) -> &'static Description {
+        &DESCRIPTION
     }
 
     fn basis(&self) -> Basis {

@@ -1,18 +1,29 @@
 //! Mass-proportional viscous damping: `F = alpha M x'`.
 
+use crate::effects::description::Constant;
 use crate::effects::law::Basis;
-use crate::effects::{Parameter, WholeLaw};
+use crate::effects::symbol::Mark;
+use crate::effects::{Description, Parameter, WholeLaw};
 use faer::c64;
 
 /// Viscous damping in proportion to the mass matrix.
 #[derive(Debug)]
 pub struct MassProportional;
 
-const PARAMETER: Parameter = Parameter::coefficient("alpha", "1/s", "alpha");
+const DESCRIPTION: Description = Description {
+    constant: Some(Constant::Viscous),
+    symbol: &[Mark::Dashpot(-0.5, 0.5), Mark::Letter("M")],
+    ..Description::new(
+        "mass-proportional damping",
+        "alpha M x'",
+        "Viscous damping in proportion to the mass matrix, greater in low modes.",
+        &[Parameter::coefficient("alpha", "1/s", "alpha")],
+    )
+};
 
 impl WholeLaw for MassProportional {
-    fn parameter(&self) -> &'static Parameter {
-        &PARAMETER
+    fn description(&self) -> &'static Description {
+        &DESCRIPTION
     }
 
     fn basis(&self) -> Basis {

@@ -1,25 +1,43 @@
 //! Quadratic (fluid) damping: `F = c d' |d'|`, `c` in N s^2/m^2. Energy per cycle of `d = X cos(omega t)`:
 //! `(8/3) c omega^2 X^3`.
 
-use crate::effects::law::Point;
-use crate::effects::{Memoryless, Parameter};
+use crate::effects::description::Exponents;
+use crate::effects::law::{Point, Variable};
+use crate::effects::symbol::{HALF_WIDTH, Mark, Tone};
+use crate::effects::{Description, MemorylessLaw, Parameter};
 
 /// Quadratic damping.
 #[derive(Debug)]
 pub struct Quadratic;
 
-const PARAMETERS: [Parameter; 1] = [Parameter::coefficient("c", "N s^2/m^2", "c_2")];
+const FLUID: &[(f32, f32)] = &[(-0.2, -HALF_WIDTH), (0.5, -HALF_WIDTH), (0.5, HALF_WIDTH), (-0.2, HALF_WIDTH)];
 
-impl Memoryless for Quadratic {
-    fn list(&self) -> &'static [Parameter] {
-        &PARAMETERS
+const DESCRIPTION: Description = Description {
+    exponents: |_| Exponents::damping(1.0, 1.0),
+    symbol: &[Mark::Area(FLUID, Tone::Faint), Mark::Dashpot(-0.5, 0.5)],
+    example: &[20.0],
+    ..Description::new(
+        "quadratic damping",
+        "c_2 d' |d'|",
+        "A force that grows with velocity squared: turbulent flow, air or water drag.",
+        &[Parameter::coefficient("c", "N s^2/m^2", "c_2")],
+    )
+};
+
+impl MemorylessLaw for Quadratic {
+    fn description(&self) -> &'static Description {
+        &DESCRIPTION
     }
 
-    fn at(&self, p: &[f64], _width: f64, _d: f64, v: f64) -> Point {
+    fn variable(&self) -> Variable {
+        Variable::Velocity
+    }
+
+    fn at(&self, p: &[f64], _d: f64, v: f64) -> Point {
         Point { force: p[0] * v * v.abs(), by_displacement: 0.0, by_velocity: 2.0 * p[0] * v.abs() }
     }
 
-    fn by_parameter(&self, _p: &[f64], _k: usize, _width: f64, _d: f64, v: f64) -> f64 {
+    fn by_parameter(&self, _p: &[f64], _k: usize, _d: f64, v: f64) -> f64 {
         v * v.abs()
     }
 

@@ -1,18 +1,29 @@
 //! Stiffness-proportional viscous damping: `F = beta K x'`.
 
+use crate::effects::description::Constant;
 use crate::effects::law::Basis;
-use crate::effects::{Parameter, WholeLaw};
+use crate::effects::symbol::Mark;
+use crate::effects::{Description, Parameter, WholeLaw};
 use faer::c64;
 
 /// Viscous damping in proportion to the stiffness matrix.
 #[derive(Debug)]
 pub struct StiffnessProportional;
 
-const PARAMETER: Parameter = Parameter::coefficient("beta", "s", "beta");
+const DESCRIPTION: Description = Description {
+    constant: Some(Constant::Viscous),
+    symbol: &[Mark::Dashpot(-0.5, 0.5), Mark::Letter("K")],
+    ..Description::new(
+        "stiffness-proportional damping",
+        "beta K x'",
+        "Viscous damping in proportion to the stiffness matrix, greater in high modes.",
+        &[Parameter::coefficient("beta", "s", "beta")],
+    )
+};
 
 impl WholeLaw for StiffnessProportional {
-    fn parameter(&self) -> &'static Parameter {
-        &PARAMETER
+    fn description(&self) -> &'static Description {
+        &DESCRIPTION
     }
 
     fn basis(&self) -> Basis {

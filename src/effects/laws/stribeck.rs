@@ -1,52 +1,74 @@
 //! Stribeck friction: `F = (force + (static_force - force) exp(-|d'| / velocity)) sgn(d')`, 0 at rest.
 //!
-//! The energy is `static_force` times the way travelled, exactly, less the smooth rest by the trapezoidal rule. The
-//! smoothed law has `sgn v -> v / m` and `|v| -> m` with `m = sqrt(v^2 + width^2)`.
+//! As a set of forces at rest: any within `+-static_force`, and the smooth part
+//! `g(v) = (force - static_force) (1 - exp(-|v| / velocity)) sgn v`. The energy is `static_force` times the way travelled,
+//! exactly, less the smooth part by the trapezoidal rule.
 
-use crate::effects::law::Point;
+use crate::effects::law::{Point, Variable};
+use crate::effects::limits::{Limit, alike};
 use crate::effects::memoryless::sign;
+use crate::effects::range::geometric;
+use crate::effects::symbol::{Mark, Tone};
 use crate::effects::turning::total_variation;
-use crate::effects::{Memoryless, Motion, Parameter};
+use crate::effects::{Description, Effect, MemorylessLaw, Motion, Parameter, SetValued};
 
 /// Friction that falls from a static to a sliding force with speed.
 #[derive(Debug)]
 pub struct Stribeck;
 
-const PARAMETERS: [Parameter; 3] = [
-    Parameter::shape("force", "N", "F_c", 1.0),
-    Parameter::shape("static_force", "N", "F_s", 1.5),
-    Parameter::shape("velocity", "m/s", "v_s", 0.01).above(0.0),
-];
+const DESCRIPTION: Description = Description {
+    scaled: &[0, 1],
+    folds: true,
+    shapes: |range| {
+        let velocities = geometric(0.02 * range.velocity, 0.8 * range.velocity, 5);
+        velocities.into_iter().flat_map(|v| [1.3, 2.0, 4.0].map(|s| vec![1.0, s, v])).collect()
+    },
+    limits: &[Limit { law: Effect::Coulomb, holds: |p, _| alike(p[1], p[0]), parameters: |p| vec![p[0]] }],
+    // What a series of few harmonics leaves of a jump looks like friction that rises from rest.
+    disguised: |p| p[1] <= p[0],
+    symbol: &[Mark::Pads(-0.5, 0.5, Tone::Faint), Mark::Line(&[(-0.3, -9.0), (0.0, -7.0), (0.3, -9.0)])],
+    example: &[0.3, 0.6, 0.05],
+    ..Description::new(
+        "Stribeck friction",
+        "F(|d'|) sgn(d')",
+        "Friction that falls from a static to a sliding force with speed: lubricated contacts.",
+        &[
+            Parameter::shape("force", "N", "F_c", 1.0),
+            Parameter::shape("static_force", "N", "F_s", 1.5),
+            Parameter::shape("velocity", "m/s", "v_s", 0.01).above(0.0),
+        ],
+    )
+};
 
-impl Memoryless for Stribeck {
-    fn list(&self) -> &'static [Parameter] {
-        &PARAMETERS
+/// What is left of the static force at velocity `v`, from 1 at rest to 0.
+fn decay(p: &[f64], v: f64) -> f64 {
+    let speeds = v.abs() / p[2];
+    // Beyond, nothing is left of the exponential, which takes long to say so.
+    if speeds < 40.0 { (-speeds).exp() } else { 0.0 }
+}
+
+impl MemorylessLaw for Stribeck {
+    fn description(&self) -> &'static Description {
+        &DESCRIPTION
     }
 
-    fn at(&self, p: &[f64], width: f64, _d: f64, v: f64) -> Point {
-        let [sliding, resting, velocity] = [p[0], p[1], p[2]];
-        let (value, slope) = sign(v, width);
-        let excess = (resting - sliding) * (-v.hypot(width) / velocity).exp();
-        Point {
-            force: (sliding + excess) * value,
-            by_displacement: 0.0,
-            by_velocity: (sliding + excess) * slope - excess * value * value / velocity,
-        }
+    fn variable(&self) -> Variable {
+        Variable::Velocity
     }
 
-    fn by_parameter(&self, p: &[f64], k: usize, width: f64, _d: f64, v: f64) -> f64 {
-        let (value, _) = sign(v, width);
-        let speed = v.hypot(width);
-        let decay = (-speed / p[2]).exp();
+    fn at(&self, p: &[f64], _d: f64, v: f64) -> Point {
+        let excess = (p[1] - p[0]) * decay(p, v);
+        let moving = if v == 0.0 { 0.0 } else { 1.0 };
+        Point { force: (p[0] + excess) * sign(v), by_displacement: 0.0, by_velocity: -excess / p[2] * moving }
+    }
+
+    fn by_parameter(&self, p: &[f64], k: usize, _d: f64, v: f64) -> f64 {
+        let decay = decay(p, v);
         match k {
-            0 => (1.0 - decay) * value,
-            1 => decay * value,
-            _ => (p[1] - p[0]) * decay * speed / (p[2] * p[2]) * value,
+            0 => (1.0 - decay) * sign(v),
+            1 => decay * sign(v),
+            _ => (p[1] - p[0]) * decay * v / (p[2] * p[2]),
         }
-    }
-
-    fn cycle_energy(&self, _p: &[f64], _amplitude: f64, _omega: f64) -> Option<f64> {
-        None
     }
 
     fn exact_energy(&self, p: &[f64], motion: &Motion) -> Option<f64> {
@@ -55,7 +77,36 @@ impl Memoryless for Stribeck {
         Some(p[1] * total_variation(motion) - (p[1] - p[0]) * lost)
     }
 
-    fn is_discontinuous(&self) -> bool {
+    fn set_valued(&self) -> Option<&dyn SetValued> {
+        Some(self)
+    }
+}
+
+impl SetValued for Stribeck {
+    fn bounds(&self, p: &[f64]) -> [f64; 2] {
+        let bound = p[1].max(0.0);
+        [-bound, bound]
+    }
+
+    fn bounds_by(&self, _p: &[f64], k: usize) -> [f64; 2] {
+        if k == 1 { [-1.0, 1.0] } else { [0.0; 2] }
+    }
+
+    fn has_smooth_part(&self) -> bool {
         true
+    }
+
+    fn smooth_part(&self, p: &[f64], v: f64) -> [f64; 2] {
+        let decay = decay(p, v);
+        [(p[0] - p[1]) * (1.0 - decay) * v.signum(), (p[0] - p[1]) * decay / p[2]]
+    }
+
+    fn smooth_part_by(&self, p: &[f64], k: usize, v: f64) -> f64 {
+        let decay = decay(p, v);
+        match k {
+            0 => (1.0 - decay) * v.signum(),
+            1 => (decay - 1.0) * v.signum(),
+            _ => (p[1] - p[0]) * decay * v / (p[2] * p[2]),
+        }
     }
 }

@@ -15,7 +15,7 @@ pub(super) fn dashpots(identified: &Identified, format: &str) -> (Vec<Dashpot>, 
     let mut found = Vec::new();
     let mut warnings = Vec::new();
     for source in identified.sources.iter().map(|s| &s.source) {
-        if source.effect == Effect::Viscous {
+        if source.effect.is_dashpot() {
             let c = source.coefficient();
             found.extend(source.place.legs().into_iter().map(|leg| Dashpot { leg, c }));
         } else {

@@ -194,6 +194,14 @@ pub struct SensorTable {
     pub gain: Option<f64>,
 }
 
+impl SensorTable {
+    /// The errors it states, each with its value: the keys are names of laws.
+    pub fn errors(&self) -> impl Iterator<Item = (Effect, f64)> {
+        let values = [("delay", self.delay), ("gain", self.gain)];
+        values.into_iter().filter_map(|(key, value)| Some((Effect::from_name(key)?, value?)))
+    }
+}
+
 /// Table `[[run]]`.
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]
 pub struct RunTable {

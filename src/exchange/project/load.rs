@@ -3,7 +3,7 @@
 use super::error::{Problem, ProjectError};
 use super::plan::{Plan, open};
 use crate::control::Control;
-use crate::effects::{Effect, Place, Source};
+use crate::effects::{Place, Source, effect::Kind};
 use crate::exchange::Project;
 use crate::measurement::proposal::{Proposal, propose};
 use crate::measurement::run::Correction;
@@ -114,8 +114,8 @@ impl Plan {
             if at == corrections.len() {
                 corrections.push(Correction { channel, delay: 0.0, gain: 1.0 });
             }
-            match sensor.effect {
-                Effect::Delay => corrections[at].delay = sensor.parameters[0],
+            match sensor.effect.kind() {
+                Kind::Channel(law) if law.turns_phase() => corrections[at].delay = sensor.parameters[0],
                 _ => corrections[at].gain = sensor.parameters[0],
             }
         }

@@ -151,8 +151,7 @@ pub(super) fn sensors(tables: &[SensorTable], structure: &Structure, at: At<'_>)
     for (i, table) in tables.iter().enumerate() {
         let line = at.lines.sensor[i];
         let name = channel(&table.channel, structure).map_err(|problem| at.error(line, problem))?;
-        for (effect, value) in [(Effect::Delay, table.delay), (Effect::Gain, table.gain)] {
-            let Some(value) = value else { continue };
+        for (effect, value) in table.errors() {
             let source = Source::known(effect, Place::Channel(name.clone()), &[value]);
             source.check().map_err(|error| at.error(line, source_problem(error)))?;
             if let Some(k) = sensors.iter().position(|other| other.is_same(&source)) {

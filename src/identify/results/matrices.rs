@@ -5,9 +5,7 @@
 
 use crate::balance::action;
 use crate::balance::{Expanded, Measured};
-use crate::effects::effect::Kind;
-use crate::effects::law::Basis;
-use crate::effects::{Effect, Source};
+use crate::effects::{Constant, Effect, Source};
 use crate::response::linear_matrices::unit_matrix;
 use crate::structure::Structure;
 use faer::Mat;
@@ -30,19 +28,9 @@ pub struct EquivalentViscous {
     pub overall: Vec<f64>,
 }
 
-/// The viscous law on the same place: a unit dashpot, or a unit factor of the same matrix times velocity.
-fn dashpot(source: &Source) -> Source {
-    let effect = match source.effect.kind() {
-        Kind::Whole(law) if law.basis() == Basis::Mass => Effect::MassProportional,
-        Kind::Whole(_) => Effect::StiffnessProportional,
-        Kind::Relative(_) | Kind::Channel(_) => Effect::Viscous,
-    };
-    Source::known(effect, source.place.clone(), &[1.0])
-}
-
 /// Whether the source is a constant damping matrix already.
 fn is_viscous(effect: Effect) -> bool {
-    matches!(effect, Effect::Viscous | Effect::StiffnessProportional | Effect::MassProportional)
+    effect.adds_to(Constant::Viscous)
 }
 
 /// Energy-equivalent viscous coefficients of all acting sources.
@@ -52,7 +40,7 @@ pub(crate) fn equivalent(structure: &Structure, runs: &[(Measured, Expanded)], a
         .map(|(measured, expanded)| {
             let field = expanded.field(measured);
             let pair =
-                |s: &Source| (action::energy(s, structure, field), action::energy(&dashpot(s), structure, field));
+                |s: &Source| (action::energy(s, structure, field), action::energy(&s.unit_dashpot(), structure, field));
             acting.iter().map(pair).collect()
         })
         .collect();

@@ -6,7 +6,7 @@
 use super::ResultsInput;
 use super::matrices::{EquivalentViscous, weighted_sum};
 use crate::effects::effect::Kind;
-use crate::effects::{Effect, Source};
+use crate::effects::{Constant, Effect, Source};
 use crate::response::frequency_response::{self, HalfPower};
 use crate::response::linear_matrices::{LinearMatrices, unit_matrix};
 use crate::structure::damped_modes::{DampedMode, damped_modes_from};
@@ -77,7 +77,7 @@ fn modes_of(
 }
 
 fn is_hysteretic(effect: Effect) -> bool {
-    matches!(effect, Effect::Hysteretic | Effect::LossFactor)
+    effect.adds_to(Constant::Hysteretic)
 }
 
 fn result(input: &ResultsInput<'_>, mode: &DampedMode, half_power_ratio: Option<f64>) -> ModeResult {
@@ -129,11 +129,11 @@ fn slope(structure: &Structure, mode: &DampedMode, source: &Source) -> f64 {
         }
         Kind::Channel(_) => return 0.0,
     };
-    let viscous = match source.effect {
-        Effect::Viscous | Effect::StiffnessProportional | Effect::MassProportional => 1.0,
-        Effect::Hysteretic | Effect::LossFactor => 1.0 / omega,
+    let viscous = match source.effect.constant() {
+        Some(Constant::Viscous) => 1.0,
+        Some(Constant::Hysteretic) => 1.0 / omega,
         // Amplitude decides for the others: the ratio between coefficient and equivalent dashpot is not one number.
-        _ => 0.0,
+        Some(Constant::Mass | Constant::Stiffness) | None => 0.0,
     };
     mode.sensitivity(form).damping_ratio * viscous
 }

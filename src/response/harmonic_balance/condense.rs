@@ -17,7 +17,7 @@ use super::legs::NonlinearLeg;
 use super::level::{Level, level, multiply};
 use super::model::{Excitation, ModelError};
 use super::resonant::Pattern;
-use crate::effects::{Effect, Leg, Source};
+use crate::effects::{Leg, Source};
 use faer::c64;
 
 /// A linear source at one leg.
@@ -52,8 +52,8 @@ const STIFF: f64 = 100.0;
 /// the receptance of the structure at the fundamental.
 pub(crate) fn split(sources: &[Source], compliance: &Compliance) -> (Vec<NonlinearLeg>, Vec<LinearLeg>) {
     let (mut nonlinear, linear) = separated(sources);
-    for leg in nonlinear.iter_mut().filter(|leg| leg.effect == Effect::ElasticSlider) {
-        let stiffness = leg.parameters[0];
+    for leg in &mut nonlinear {
+        let Some(stiffness) = leg.law.series_stiffness(&leg.parameters) else { continue };
         if stiffness * compliance.between(Pattern::Leg(leg.leg), Pattern::Leg(leg.leg)).norm() > STIFF {
             leg.flexibility = 1.0 / stiffness;
         }
@@ -66,19 +66,11 @@ fn separated(sources: &[Source]) -> (Vec<NonlinearLeg>, Vec<LinearLeg>) {
     for (index, source) in sources.iter().enumerate() {
         let Some(law) = source.effect.law() else { continue };
         for leg in source.place.legs() {
-            if law.dynamic_stiffness(&source.parameters, 1.0).is_some() {
+            if law.is_linear() {
                 linear.push(LinearLeg { source: index, leg });
             } else {
                 let parameters = source.parameters.clone();
-                nonlinear.push(NonlinearLeg {
-                    source: index,
-                    leg,
-                    effect: source.effect,
-                    parameters,
-                    law,
-                    weight: 1.0,
-                    flexibility: 0.0,
-                });
+                nonlinear.push(NonlinearLeg { source: index, leg, parameters, law, weight: 1.0, flexibility: 0.0 });
             }
         }
     }

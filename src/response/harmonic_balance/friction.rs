@@ -1,4 +1,4 @@
-//! Set-valued friction in harmonic balance: `Phi = P [ g(v) + clamp(s) ]`, `s = F - g(v) + r v`, `clamp` to +-`bound`.
+//! Set-valued friction in harmonic balance: `Phi = P [ g(v) + clamp(s) ]`, `s = F - g(v) + r v`, `clamp` to `low..high`.
 //!
 //! Jumps and kinks fall between samples. So the period is cut into cells around the samples, `s` is taken as straight
 //! from edge to edge, and its clamped mean over the cell is exact:
@@ -12,31 +12,29 @@
 
 use super::fourier::{Fourier, differentiate};
 use super::legs::{Answer, NonlinearLeg, add_velocity_columns};
-use crate::effects::Effect;
+use crate::effects::SetValued;
 
-/// Number of the parameter that is the largest force at rest: the only one of Coulomb's law, the second of the others.
-fn bounding(leg: &NonlinearLeg) -> usize {
-    usize::from(leg.effect != Effect::Coulomb)
+/// Least and greatest force at rest, N.
+fn bounds(leg: &NonlinearLeg) -> [f64; 2] {
+    leg.law.set_valued().map_or([0.0; 2], |law| law.bounds(&leg.parameters))
 }
 
-/// Largest force at rest, N.
-fn bound(leg: &NonlinearLeg) -> f64 {
-    leg.parameters[bounding(leg)].max(0.0)
+/// Whether there is a smooth part beside the clamp.
+fn is_falling(leg: &NonlinearLeg) -> bool {
+    leg.law.set_valued().is_some_and(SetValued::has_smooth_part)
 }
 
-/// Smooth part `g(v) = (F_c - F_s) (1 - exp(-|v| / v_s)) sgn v` of the Stribeck law, and its slope; none for Coulomb.
+/// Smooth part `g(v)` and its slope; none for friction of constant size.
 fn falling(leg: &NonlinearLeg, v: f64) -> [f64; 2] {
-    if leg.effect != Effect::Stribeck {
-        return [0.0; 2];
-    }
-    let [sliding, resting, velocity] = [leg.parameters[0], leg.parameters[1], leg.parameters[2]];
-    let speeds = v.abs() / velocity;
-    // Beyond, nothing is left of the exponential, which takes long to say so.
-    let decay = if speeds < 40.0 { (-speeds).exp() } else { 0.0 };
-    [(sliding - resting) * (1.0 - decay) * v.signum(), (sliding - resting) * decay / velocity]
+    leg.law.set_valued().map_or([0.0; 2], |law| law.smooth_part(&leg.parameters, v))
 }
 
-/// Histories of one period: at the edges before each sample, and the velocity at the samples (Stribeck only).
+/// Derivative of the smooth part by parameter `k`.
+fn falling_by(leg: &NonlinearLeg, k: usize, v: f64) -> f64 {
+    leg.law.set_valued().map_or(0.0, |law| law.smooth_part_by(&leg.parameters, k, v))
+}
+
+/// Histories of one period: at the edges before each sample, and the velocity at the samples (only where friction falls).
 struct Histories {
     /// `s` at the edges, N.
     edge: Vec<f64>,
@@ -50,22 +48,29 @@ fn histories(leg: &NonlinearLeg, fourier: &Fourier, omega: f64, force: &[f64], m
     let blank = vec![0.0; fourier.samples()];
     let mut rate = vec![0.0; motion.len()];
     differentiate(omega, motion, &mut rate);
-    let stribeck = leg.effect == Effect::Stribeck;
+    let falls = is_falling(leg);
     let (mut velocity, mut edge_velocity, mut edge) = (blank.clone(), blank.clone(), blank);
-    if stribeck {
+    if falls {
         fourier.synthesise(&rate, &mut velocity);
         fourier.synthesise(&fourier.at_edges(&rate), &mut edge_velocity);
     }
     let prediction: Vec<f64> = force.iter().zip(&rate).map(|(f, v)| f + leg.weight * v).collect();
     fourier.synthesise(&fourier.at_edges(&prediction), &mut edge);
-    if stribeck {
+    if falls {
         edge.iter_mut().zip(&edge_velocity).for_each(|(s, &v)| *s -= falling(leg, v)[0]);
     }
     Histories { edge, edge_velocity, velocity }
 }
 
-/// Mean over a cell of the clamped straight line from `a` to `b`, and its slopes by `a` and `b`.
-fn cell(a: f64, b: f64, bound: f64) -> [f64; 3] {
+/// Mean over a cell of the straight line from `a` to `b`, clamped to `low..high`, and its slopes by `a` and `b`.
+fn cell(a: f64, b: f64, [low, high]: [f64; 2]) -> [f64; 3] {
+    let (middle, bound) = (0.5 * (low + high), 0.5 * (high - low));
+    let [mean, by_a, by_b] = symmetric_cell(a - middle, b - middle, bound);
+    [middle + mean, by_a, by_b]
+}
+
+/// The same for limits of `+-bound`.
+fn symmetric_cell(a: f64, b: f64, bound: f64) -> [f64; 3] {
     let clamp = |s: f64| s.clamp(-bound, bound);
     let inside = a.abs() < bound && b.abs() < bound;
     if inside {
@@ -97,7 +102,7 @@ fn projected(leg: &NonlinearLeg, fourier: &Fourier, clamped: &[f64], smooth: &[f
     let mut value = vec![0.0; fourier.width()];
     fourier.project(clamped, &mut value);
     restore(fourier, &mut value);
-    if leg.effect == Effect::Stribeck {
+    if is_falling(leg) {
         let mut rest = vec![0.0; fourier.width()];
         fourier.project(smooth, &mut rest);
         value.iter_mut().zip(rest).for_each(|(v, r)| *v += r);
@@ -112,9 +117,9 @@ fn next(n: usize, edges: &[f64]) -> usize {
 /// `Phi`.
 pub(crate) fn value(leg: &NonlinearLeg, fourier: &Fourier, omega: f64, force: &[f64], motion: &[f64]) -> Vec<f64> {
     let at = histories(leg, fourier, omega, force, motion);
-    let bound = bound(leg);
+    let bounds = bounds(leg);
     let clamped: Vec<f64> =
-        (0..at.edge.len()).map(|n| cell(at.edge[n], at.edge[next(n, &at.edge)], bound)[0]).collect();
+        (0..at.edge.len()).map(|n| cell(at.edge[n], at.edge[next(n, &at.edge)], bounds)[0]).collect();
     let smooth: Vec<f64> = at.velocity.iter().map(|&v| falling(leg, v)[0]).collect();
     projected(leg, fourier, &clamped, &smooth)
 }
@@ -122,15 +127,15 @@ pub(crate) fn value(leg: &NonlinearLeg, fourier: &Fourier, omega: f64, force: &[
 /// `Phi` with its derivatives.
 pub(crate) fn answer(leg: &NonlinearLeg, fourier: &Fourier, omega: f64, force: &[f64], motion: &[f64]) -> Answer {
     let at = histories(leg, fourier, omega, force, motion);
-    let bound = bound(leg);
+    let bounds = bounds(leg);
     let cells: Vec<[f64; 3]> =
-        (0..at.edge.len()).map(|n| cell(at.edge[n], at.edge[next(n, &at.edge)], bound)).collect();
+        (0..at.edge.len()).map(|n| cell(at.edge[n], at.edge[next(n, &at.edge)], bounds)).collect();
     let clamped: Vec<f64> = cells.iter().map(|c| c[0]).collect();
     let smooth: Vec<f64> = at.velocity.iter().map(|&v| falling(leg, v)[0]).collect();
     let value = projected(leg, fourier, &clamped, &smooth);
     let by_force = edge_multiplier(fourier, cells.iter().map(|c| [c[1], c[2]]));
     let mut by_velocity: Vec<f64> = by_force.iter().map(|x| x * leg.weight).collect();
-    if leg.effect == Effect::Stribeck {
+    if is_falling(leg) {
         let slopes: Vec<f64> = at.edge_velocity.iter().map(|&v| falling(leg, v)[1]).collect();
         let pairs = cells.iter().enumerate().map(|(n, c)| [c[1] * slopes[n], c[2] * slopes[next(n, &slopes)]]);
         let taken = edge_multiplier(fourier, pairs);
@@ -180,13 +185,13 @@ pub(crate) fn by_parameter(
     motion: &[f64],
 ) -> Vec<f64> {
     let at = histories(leg, fourier, omega, force, motion);
-    let bound = bound(leg);
-    let bounding = k == bounding(leg);
+    let bounds = bounds(leg);
+    let bounds_by = leg.law.set_valued().map_or([0.0; 2], |law| law.bounds_by(&leg.parameters, k));
     let clamped: Vec<f64> = (0..at.edge.len())
         .map(|n| {
             let (m, edges) = (next(n, &at.edge), &at.edge);
-            let [_, by_a, by_b] = cell(edges[n], edges[m], bound);
-            let direct = if bounding { by_bound(edges[n], edges[m], bound) } else { 0.0 };
+            let [_, by_a, by_b] = cell(edges[n], edges[m], bounds);
+            let direct = by_bounds(edges[n], edges[m], bounds, bounds_by);
             direct - by_a * falling_by(leg, k, at.edge_velocity[n]) - by_b * falling_by(leg, k, at.edge_velocity[m])
         })
         .collect();
@@ -194,35 +199,28 @@ pub(crate) fn by_parameter(
     projected(leg, fourier, &clamped, &smooth)
 }
 
-/// Derivative by the bound of the clamped mean over a cell: the signed share of the cell that is clamped.
-fn by_bound(a: f64, b: f64, bound: f64) -> f64 {
-    if a == b {
-        return if a.abs() >= bound { a.signum() } else { 0.0 };
+/// Change of the clamped mean over a cell when the bounds change by `by`: the shares of the cell that are clamped.
+fn by_bounds(a: f64, b: f64, [low, high]: [f64; 2], by: [f64; 2]) -> f64 {
+    let (least, most) = (a.min(b), a.max(b));
+    if least == most {
+        return if least >= high {
+            by[1]
+        } else if least <= low {
+            by[0]
+        } else {
+            0.0
+        };
     }
-    let (low, high) = (a.min(b), a.max(b));
-    let above = (high - low.max(bound)).max(0.0);
-    let below = (high.min(-bound) - low).max(0.0);
-    (above - below) / (high - low)
-}
-
-/// Derivative of the smooth part of the Stribeck law by parameter `k`.
-fn falling_by(leg: &NonlinearLeg, k: usize, v: f64) -> f64 {
-    if leg.effect != Effect::Stribeck {
-        return 0.0;
-    }
-    let p = &leg.parameters;
-    let decay = (-v.abs() / p[2]).exp();
-    match k {
-        0 => (1.0 - decay) * v.signum(),
-        1 => (decay - 1.0) * v.signum(),
-        _ => (p[1] - p[0]) * decay * v / (p[2] * p[2]),
-    }
+    let above = (most - least.max(high)).max(0.0);
+    let below = (most.min(low) - least).max(0.0);
+    (above * by[1] + below * by[0]) / (most - least)
 }
 
 /// Local stiffness and damping at an instant: a damping that holds where friction sticks.
 pub(crate) fn slope(leg: &NonlinearLeg, f: f64, v: f64) -> [f64; 2] {
     let [g, slope] = falling(leg, v);
-    let sticks = (f - g + leg.weight * v).abs() < bound(leg);
+    let ([low, high], s) = (bounds(leg), f - g + leg.weight * v);
+    let sticks = s > low && s < high;
     if leg.flexibility > 0.0 {
         return [if sticks { 1.0 / leg.flexibility } else { 0.0 }, 0.0];
     }

@@ -4,19 +4,21 @@
 //! the balance asks for `F = Phi`:
 //!
 //! ```text
-//! laws of d and d'        Phi = P f(d, d')
-//! friction (set-valued)   Phi = P [ g(v) + clamp(F - g(v) + r v, -bound, bound) ]       any r > 0
+//! laws of d or d'         Phi = P f(d, d')
+//! friction (set-valued)   Phi = P [ g(v) + clamp(F - g(v) + r v, low, high) ]       any r > 0
+//! steep at rest           Phi = P f(v),  v the root of  f(v) + r v = F + r v
 //! laws with memory        Phi = P [ steady state of the marched law ]
 //! ```
 //!
-//! `P` projects samples on harmonics. The clamp is the exact statement of `|F - g| <= bound` at rest and
-//! `F - g = bound sgn(v)` when slipping (Alart and Curnier 1991; Nacivet, Pierre, Thouverez and Jezequel 2003), whatever
+//! `P` projects samples on harmonics. The clamp is the exact statement of `low <= F - g <= high` at
+//! rest and `F - g` at one of the bounds when slipping (Alart and Curnier 1991; Nacivet, Pierre, Thouverez and Jezequel 2003), whatever
 //! `r`: there is no regularised velocity, and full stick, `v = 0`, is a regular solution. `g` is the smooth part of the
 //! Stribeck law. Damping of a power below one is treated alike by its resolvent.
 
 use super::fourier::{Fourier, add_amplitude, amplitude, differentiate, to_complex};
 use super::friction;
-use crate::effects::{Effect, Law, Leg, Motion};
+use crate::effects::law::Variable;
+use crate::effects::{Law, Leg, Manner, Motion, Steep};
 
 /// Share by which a friction force is drawn to zero where the motion leaves it free (mean force in full stick, two
 /// frictions on one leg).
@@ -28,7 +30,6 @@ pub(crate) struct NonlinearLeg {
     /// Index of the source in the list given.
     pub source: usize,
     pub leg: Leg,
-    pub effect: Effect,
     pub parameters: Vec<f64>,
     pub law: &'static dyn Law,
     /// Velocity weight `r` of the clamp, N s/m.
@@ -36,19 +37,6 @@ pub(crate) struct NonlinearLeg {
     /// Flexibility of the spring in series with the slider, m/N, where an elastic slider is so stiff that it is taken as
     /// friction behind a spring; the leg's motion is that of the slider then. Zero otherwise.
     pub flexibility: f64,
-}
-
-/// How a law is to be asked.
-#[derive(Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Manner {
-    /// By displacement and velocity at one instant.
-    Pointwise,
-    /// By force and velocity between two instants (set-valued friction).
-    Friction,
-    /// By force and velocity at one instant (powers below one).
-    Resolvent,
-    /// By the whole period.
-    Memory,
 }
 
 /// Answer of a law at one instant: value and slopes by the leg's own force, displacement and velocity.
@@ -71,81 +59,67 @@ pub(crate) struct Answer {
 }
 
 impl NonlinearLeg {
-    /// How the law is asked.
+    /// How the law is asked. A slider behind a spring is asked as the friction of the slider alone.
     pub fn manner(&self) -> Manner {
-        match self.effect {
-            Effect::Coulomb | Effect::Stribeck => Manner::Friction,
-            Effect::Power if self.parameters[1] < 1.0 => Manner::Resolvent,
-            Effect::ElasticSlider if self.flexibility > 0.0 => Manner::Friction,
-            Effect::ElasticSlider | Effect::Iwan => Manner::Memory,
-            _ => Manner::Pointwise,
-        }
+        if self.flexibility > 0.0 { Manner::SetValued } else { self.law.manner(&self.parameters) }
     }
 
     /// Whether the force may answer a larger motion in more than one way (stiffness laws fold the response).
     pub fn folds(&self) -> bool {
-        matches!(self.effect, Effect::CubicStiffness | Effect::QuadraticStiffness | Effect::Gap | Effect::Stribeck)
+        self.law.description().folds
     }
 
     /// Whether the opposite motion is answered by the opposite force.
     pub fn is_odd(&self) -> bool {
-        self.effect != Effect::QuadraticStiffness
+        self.law.description().odd
     }
 
     /// Whether the law looks at the leg's own force.
     pub fn takes_force(&self) -> bool {
-        matches!(self.manner(), Manner::Friction | Manner::Resolvent)
+        matches!(self.manner(), Manner::SetValued | Manner::Steep)
     }
 
-    /// The law at one instant. `f` is the leg's force (looked at by friction only).
+    /// The law at one instant. `f` is the leg's force (looked at by steep laws only).
     fn instant(&self, f: f64, d: f64, v: f64) -> Instant {
-        match self.effect {
-            Effect::Power if self.parameters[1] < 1.0 => self.resolvent(f + self.weight * v),
-            _ => {
-                let point = self.law.point(&self.parameters, 0.0, d, v).unwrap_or_default();
-                Instant {
-                    value: point.force,
-                    by_force: 0.0,
-                    by_displacement: point.by_displacement,
-                    by_velocity: point.by_velocity,
-                }
-            }
+        if let Some(law) = self.steep() {
+            return self.resolvent(law, f + self.weight * v);
+        }
+        let point = self.law.point(&self.parameters, d, v).unwrap_or_default();
+        Instant {
+            value: point.force,
+            by_force: 0.0,
+            by_displacement: point.by_displacement,
+            by_velocity: point.by_velocity,
         }
     }
 
-    /// Force on the graph `F = c |v|^e sgn v`, `e < 1`, where `F + r v = s`.
-    fn resolvent(&self, s: f64) -> Instant {
-        let [c, e] = [self.parameters[0].max(0.0), self.parameters[1]];
-        let speed = resolvent_speed(c, e, self.weight, s.abs());
-        let steep = if speed > 0.0 { c * e * speed.powf(e - 1.0) } else { f64::INFINITY };
-        let by_force = if c == 0.0 { 0.0 } else { 1.0 - self.weight / (steep + self.weight) };
-        let by_force = if e == 0.0 && speed == 0.0 { 1.0 } else { by_force };
-        let value = (s.abs() - self.weight * speed) * s.signum();
-        Instant { value, by_force, by_displacement: 0.0, by_velocity: self.weight * by_force }
+    /// The law as one of infinite slope at rest, if it is to be asked so.
+    fn steep(&self) -> Option<&dyn Steep> {
+        self.law.steep().filter(|_| self.manner() == Manner::Steep)
     }
 
-    /// Derivative of the answer at one instant by parameter `k`, force and motion held.
-    fn instant_by_parameter(&self, k: usize, f: f64, v: f64) -> f64 {
-        let p = &self.parameters;
-        match self.effect {
-            Effect::Power if p[1] < 1.0 => {
-                let s = f + self.weight * v;
-                let speed = resolvent_speed(p[0].max(0.0), p[1], self.weight, s.abs());
-                if speed == 0.0 {
-                    return 0.0;
-                }
-                let raised = speed.powf(p[1]);
-                let by = if k == 0 { raised } else { p[0] * raised * speed.ln() };
-                let steep = p[0] * p[1] * raised / speed;
-                self.weight * by / (steep + self.weight) * s.signum()
-            }
-            _ => 0.0,
+    /// Force on the graph `F = f(v)` where `F + r v = s`.
+    fn resolvent(&self, law: &dyn Steep, s: f64) -> Instant {
+        let r = self.weight;
+        let speed = law.speed(&self.parameters, r, s.abs());
+        let by_force = 1.0 - r / (law.slope(&self.parameters, speed) + r);
+        let value = (s.abs() - r * speed) * s.signum();
+        Instant { value, by_force, by_displacement: 0.0, by_velocity: r * by_force }
+    }
+
+    /// Derivative of the resolvent by parameter `k`, force and motion held.
+    fn resolvent_by_parameter(&self, law: &dyn Steep, k: usize, s: f64) -> f64 {
+        let (p, r) = (&self.parameters, self.weight);
+        let speed = law.speed(p, r, s.abs());
+        if speed == 0.0 {
+            return 0.0;
         }
+        r * law.by(p, k, speed) / (law.slope(p, speed) + r) * s.signum()
     }
 
     /// `Phi` at the given coefficients of force and motion.
     pub fn value(&self, fourier: &Fourier, omega: f64, force: &[f64], motion: &[f64]) -> Vec<f64> {
-        if self.manner() == Manner::Friction {
+        if self.manner() == Manner::SetValued {
             return friction::value(self, fourier, omega, force, motion);
         }
         let mut samples = vec![0.0; fourier.samples()];
@@ -166,15 +140,15 @@ impl NonlinearLeg {
     pub fn answer(&self, fourier: &Fourier, omega: f64, force: &[f64], motion: &[f64]) -> Answer {
         match self.manner() {
             Manner::Memory => return self.memory_answer(fourier, omega, motion),
-            Manner::Friction => return friction::answer(self, fourier, omega, force, motion),
-            Manner::Pointwise | Manner::Resolvent => {}
+            Manner::SetValued => return friction::answer(self, fourier, omega, force, motion),
+            Manner::Linear | Manner::Pointwise | Manner::Steep => {}
         }
         let [f, d, v] = self.histories(fourier, omega, force, motion);
         let instants: Vec<Instant> = (0..f.len()).map(|n| self.instant(f[n], d[n], v[n])).collect();
         let part = |pick: fn(&Instant) -> f64| -> Vec<f64> { instants.iter().map(pick).collect() };
         let mut value = vec![0.0; fourier.width()];
         fourier.project(&part(|i| i.value), &mut value);
-        let set_valued = self.manner() == Manner::Resolvent;
+        let set_valued = self.manner() == Manner::Steep;
         let by_force = set_valued.then(|| fourier.multiplier(&part(|i| i.by_force)));
         let mut by_motion = if set_valued {
             vec![0.0; fourier.width() * fourier.width()]
@@ -198,9 +172,10 @@ impl NonlinearLeg {
         let mut by_motion = vec![0.0; width * width];
         // Laws with memory look at displacements only.
         let mut direction = Motion { velocity: Vec::new(), acceleration: Vec::new(), ..sampled_motion.clone() };
+        let tangent = self.law.linearised(&self.parameters, &sampled_motion);
         for k in fourier.rows() {
             fourier.wave(k, &mut direction.displacement);
-            self.law.tangent(&self.parameters, &sampled_motion, &direction, &mut samples);
+            tangent(&direction, &mut samples);
             fourier.project(&samples, &mut column);
             for (row, c) in column.iter().enumerate() {
                 by_motion[row * width + k] = *c;
@@ -211,14 +186,14 @@ impl NonlinearLeg {
 
     /// Derivative of `Phi` by parameter `k`, force and motion held.
     pub fn by_parameter(&self, fourier: &Fourier, omega: f64, k: usize, force: &[f64], motion: &[f64]) -> Vec<f64> {
-        if self.manner() == Manner::Friction {
+        if self.manner() == Manner::SetValued {
             return friction::by_parameter(self, fourier, omega, k, force, motion);
         }
         let mut samples = vec![0.0; fourier.samples()];
-        if self.manner() == Manner::Resolvent {
+        if let Some(law) = self.steep() {
             let [f, _, v] = self.histories(fourier, omega, force, motion);
             for (n, s) in samples.iter_mut().enumerate() {
-                *s = self.instant_by_parameter(k, f[n], v[n]);
+                *s = self.resolvent_by_parameter(law, k, f[n] + self.weight * v[n]);
             }
         } else {
             self.law.parameter_tangent(&self.parameters, k, &sampled(fourier, omega, motion), &mut samples);
@@ -232,7 +207,7 @@ impl NonlinearLeg {
     pub fn histories(&self, fourier: &Fourier, omega: f64, force: &[f64], motion: &[f64]) -> [Vec<f64>; 3] {
         let blank = vec![0.0; fourier.samples()];
         let [mut f, mut d, mut v] = [blank.clone(), blank.clone(), blank];
-        let velocity_law = matches!(self.effect, Effect::Quadratic | Effect::Power);
+        let velocity_law = self.law.variable() == Variable::Velocity;
         if self.takes_force() {
             fourier.synthesise(force, &mut f);
         } else if !velocity_law {
@@ -253,8 +228,8 @@ impl NonlinearLeg {
         let answer = |n: usize| {
             let instant = self.instant(f[n], d[n], v[n]);
             match self.manner() {
-                Manner::Friction => friction::slope(self, f[n], v[n]),
-                Manner::Resolvent if instant.by_force > 0.0 => [0.0, instant.by_velocity / (1.0 - instant.by_force)],
+                Manner::SetValued => friction::slope(self, f[n], v[n]),
+                Manner::Steep if instant.by_force > 0.0 => [0.0, instant.by_velocity / (1.0 - instant.by_force)],
                 _ => [instant.by_displacement, instant.by_velocity],
             }
         };
@@ -272,28 +247,6 @@ pub(crate) fn add_velocity_columns(by_motion: &mut [f64], by_velocity: &[f64], o
             by_motion[row * width + 2 * h] += w * by_velocity[row * width + 2 * h - 1];
         }
     }
-}
-
-/// Root `x >= 0` of `c x^e + r x = s` for `0 <= e < 1`, by Newton's method in `y = x^e` where that is well scaled.
-fn resolvent_speed(c: f64, e: f64, r: f64, s: f64) -> f64 {
-    if c == 0.0 || s == 0.0 {
-        return s / r;
-    }
-    if e < 1e-3 {
-        return (s - c).max(0.0) / r;
-    }
-    // In x^e the left side is convex and rising, so Newton from above falls monotonically to the root.
-    let mut y = (s / c).min((s / r).powf(e));
-    for _ in 0..60 {
-        let x = y.powf(1.0 / e);
-        let slope = c + r * x / (e * y.max(f64::MIN_POSITIVE));
-        let step = (c * y + r * x - s) / slope;
-        y = (y - step).max(0.0);
-        if step.abs() <= 1e-15 * y {
-            break;
-        }
-    }
-    y.powf(1.0 / e)
 }
 
 /// The motion of real coefficients as laws take it.

@@ -27,7 +27,6 @@ mod resonant;
 mod solve;
 mod stability;
 
-pub(crate) use condense::stiffness_of;
 pub(crate) use dense::Lu;
 pub(crate) use fourier::add_amplitude;
 pub(crate) use newton::Balance;

@@ -7,13 +7,13 @@ use super::condense::{Condensed, split};
 use super::dense::Lu;
 use super::fourier::{Fourier, amplitude};
 use super::iterate::Ending;
-use super::legs::{Manner, NonlinearLeg, resized};
+use super::legs::{NonlinearLeg, resized};
 use super::model::{Excitation, MOST_HARMONICS, ModelError, RunModel};
 use super::newton::Balance;
 use super::outcome::{Attempt, Response, ResponseError, SourceForce, Status, Step};
 use super::stability::is_stable;
 use crate::control::Control;
-use crate::effects::Source;
+use crate::effects::{Manner, Source};
 use faer::{Mat, c64};
 use std::f64::consts::TAU;
 use std::sync::Arc;
@@ -107,7 +107,7 @@ pub(crate) fn respond(
     }
     let first = settings.harmonics.max(driven).clamp(1, MOST_HARMONICS);
     let mut ladder = Ladder { run, sources, excitation, settings, control, history: Vec::new() };
-    let sharp = legs.iter().any(|leg| leg.manner() == Manner::Friction);
+    let sharp = legs.iter().any(|leg| leg.manner() == Manner::SetValued);
     let coarse = if sharp { ((first - 1) / 2).max(excitation.essential()).max(1) } else { first };
     let bottom = ladder.lowest(coarse, driven.clamp(1, coarse), start)?;
     let mut response = if bottom.status == Status::FellBack {

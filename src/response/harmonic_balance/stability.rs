@@ -8,11 +8,11 @@
 
 use super::condense::stiffness_of;
 use super::fourier::{Fourier, differentiate};
-use super::legs::{Manner, NonlinearLeg, sampled};
+use super::legs::{NonlinearLeg, sampled};
 use super::model::{Excitation, RunModel};
 use super::outcome::Response;
 use super::solve::Prepared;
-use crate::effects::{Effect, Leg, Source};
+use crate::effects::{Constant, Leg, Manner, Source};
 use crate::response::time_integration::Propagator;
 use faer::{Mat, c64};
 use std::f64::consts::TAU;
@@ -82,7 +82,7 @@ fn propagator(run: &RunModel, sources: &[Source], omega: f64, legs: &[Leg], step
         let value = stiffness_of(source, omega);
         for leg in source.place.legs() {
             spread(leg, |i, j, sign| z[(i, j)] += value * sign);
-            if source.effect == Effect::Mass {
+            if source.effect.adds_to(Constant::Mass) {
                 spread(leg, |i, j, sign| mass[(i, j)] += source.parameters[0] * sign);
             }
         }

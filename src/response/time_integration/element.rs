@@ -9,14 +9,13 @@
 //! Each element solves `x + w F(x) = b` for itself, with the receptance `w` of the leg over the step; the elements are
 //! brought together by Gauss and Seidel (projected where friction is set-valued).
 
-use crate::effects::{Effect, Law, Leg, Memory};
+use crate::effects::{Law, Leg, Manner, Memory, SetValued, Steep};
 
 /// One nonlinear relative motion in time.
 pub(crate) struct Element {
     pub source: usize,
     pub leg: Leg,
     pub parameters: Vec<f64>,
-    effect: Effect,
     law: &'static dyn Law,
     memory: Option<Box<dyn Memory>>,
     /// Force of the memory at the start of the step, N.
@@ -25,9 +24,9 @@ pub(crate) struct Element {
 
 impl Element {
     /// At rest at the origin.
-    pub fn new(source: usize, leg: Leg, effect: Effect, law: &'static dyn Law, parameters: &[f64]) -> Self {
+    pub fn new(source: usize, leg: Leg, law: &'static dyn Law, parameters: &[f64]) -> Self {
         let memory = law.memory(parameters);
-        Self { source, leg, parameters: parameters.to_vec(), effect, law, memory, remembered: 0.0 }
+        Self { source, leg, parameters: parameters.to_vec(), law, memory, remembered: 0.0 }
     }
 
     /// Forgets the past and goes to `d` (m).
@@ -46,68 +45,66 @@ impl Element {
 
     /// Mean force of the step that satisfies `x + w F(x) = b`, from displacement `d` (m); `guess` is a force nearby.
     pub fn force(&self, d: f64, w: f64, b: f64, step: f64, guess: f64) -> f64 {
-        match self.effect {
-            Effect::Coulomb => bounded(b / w, self.parameters[0]),
-            Effect::Stribeck if (b / w).abs() <= self.parameters[1] => b / w,
-            Effect::Power if self.parameters[1] < 1.0 => self.flat_power(w, b, step),
-            _ => (b - self.displacement(d, w, b, step, b - w * guess)) / w,
-        }
-    }
-
-    /// Slope-free solution for powers below one: `h v + w c v^e = |b|` for the speed `v`, by bisection.
-    fn flat_power(&self, w: f64, b: f64, step: f64) -> f64 {
-        let [c, e] = [self.parameters[0], self.parameters[1]];
-        let (mut low, mut high) = (0.0, b.abs() / step);
-        if w * c * high.powf(e) == 0.0 {
-            return 0.0;
-        }
-        for _ in 0..200 {
-            let v = 0.5 * (low + high);
-            if v <= low || v >= high {
-                break;
+        match self.law.manner(&self.parameters) {
+            Manner::SetValued => self.law.set_valued().map_or(0.0, |law| self.friction(law, w, b, step, guess)),
+            Manner::Steep => self.law.steep().map_or(0.0, |law| self.steep(law, w, b, step)),
+            Manner::Linear | Manner::Pointwise | Manner::Memory => {
+                let mean = |x: f64| self.mean_force(d, x, step);
+                (b - displacement(w, b, b - w * guess, mean)) / w
             }
-            if step * v + w * c * v.powf(e) > b.abs() { high = v } else { low = v }
         }
-        (b.abs() - step * low) / w * b.signum()
     }
 
-    /// Root `x` of `x + w F(x) = b` by Newton's method, kept in a bracket for laws that only resist.
-    fn displacement(&self, d: f64, w: f64, b: f64, step: f64, start: f64) -> f64 {
-        let mut x = start;
-        let mut bracket = [f64::NEG_INFINITY, f64::INFINITY];
-        for _ in 0..100 {
-            let [force, slope] = self.mean_force(d, x, step, b);
-            let residual = x + w * force - b;
-            bracket[usize::from(residual > 0.0)] = x;
-            let newton = x - residual / (1.0 + w * slope);
-            let inside = newton > bracket[0] && newton < bracket[1];
-            let next = if inside { newton } else { 0.5 * (bracket[0] + bracket[1]) };
-            let scale = b.abs() + (w * force).abs();
-            if !next.is_finite() || (next - x).abs() <= 1e-14 * scale {
-                return if next.is_finite() { next } else { x };
-            }
-            x = next;
+    /// Friction that holds if it can, else slips the way it is drawn.
+    fn friction(&self, law: &dyn SetValued, w: f64, b: f64, step: f64, guess: f64) -> f64 {
+        let [low, high] = law.bounds(&self.parameters);
+        let holding = b / w;
+        if (low..=high).contains(&holding) || !law.has_smooth_part() {
+            return holding.clamp(low, high.max(low));
         }
-        x
+        let (bound, direction) = if holding > high { (high, 1.0) } else { (low, -1.0) };
+        let slipping = |x: f64| {
+            let speed = (x / step * direction).max(0.0);
+            let [g, slope] = law.smooth_part(&self.parameters, direction * speed);
+            [bound + g, slope / step]
+        };
+        (b - displacement(w, b, b - w * guess, slipping)) / w
     }
 
-    /// Mean force and its slope by the displacement `x` of the step; `b` tells on which side friction slips.
-    fn mean_force(&self, d: f64, x: f64, step: f64, b: f64) -> [f64; 2] {
+    /// Force of infinite slope at rest: `f(v) + (h / w) v = |b| / w` for the speed `v`.
+    fn steep(&self, law: &dyn Steep, w: f64, b: f64, step: f64) -> f64 {
+        let speed = law.speed(&self.parameters, step / w, b.abs() / w);
+        (b.abs() - step * speed) / w * b.signum()
+    }
+
+    /// Mean force and its slope by the displacement `x` of the step.
+    fn mean_force(&self, d: f64, x: f64, step: f64) -> [f64; 2] {
         if let Some(memory) = &self.memory {
             let [force, slope] = memory.trial(d + x, step);
             return [0.5 * (self.remembered + force), 0.5 * slope];
         }
-        if self.effect == Effect::Stribeck {
-            let [sliding, resting, velocity] = [self.parameters[0], self.parameters[1], self.parameters[2]];
-            let speed = (x / step * b.signum()).max(0.0);
-            let excess = (resting - sliding) * (-speed / velocity).exp();
-            return [(sliding + excess) * b.signum(), -excess / (velocity * step)];
-        }
-        let point = self.law.point(&self.parameters, 0.0, d + 0.5 * x, x / step).unwrap_or_default();
+        let point = self.law.point(&self.parameters, d + 0.5 * x, x / step).unwrap_or_default();
         [point.force, 0.5 * point.by_displacement + point.by_velocity / step]
     }
 }
 
-fn bounded(value: f64, bound: f64) -> f64 {
-    value.clamp(-bound.max(0.0), bound.max(0.0))
+/// Root `x` of `x + w F(x) = b` by Newton's method from `start`, kept in a bracket for laws that only resist; `mean` gives
+/// the force and its slope by `x`.
+fn displacement(w: f64, b: f64, start: f64, mean: impl Fn(f64) -> [f64; 2]) -> f64 {
+    let mut x = start;
+    let mut bracket = [f64::NEG_INFINITY, f64::INFINITY];
+    for _ in 0..100 {
+        let [force, slope] = mean(x);
+        let residual = x + w * force - b;
+        bracket[usize::from(residual > 0.0)] = x;
+        let newton = x - residual / (1.0 + w * slope);
+        let inside = newton > bracket[0] && newton < bracket[1];
+        let next = if inside { newton } else { 0.5 * (bracket[0] + bracket[1]) };
+        let scale = b.abs() + (w * force).abs();
+        if !next.is_finite() || (next - x).abs() <= 1e-14 * scale {
+            return if next.is_finite() { next } else { x };
+        }
+        x = next;
+    }
+    x
 }

@@ -3,7 +3,7 @@
 use super::element::Element;
 use super::propagator::Propagator;
 use crate::effects::law::Basis;
-use crate::effects::{Effect, Leg, Place, Source, effect::Kind};
+use crate::effects::{Constant, Leg, Place, Source, effect::Kind};
 use crate::response::harmonic_balance::{Excitation, HarmonicForce, Response};
 use crate::structure::{Structure, SystemMatrices};
 use faer::Mat;
@@ -295,19 +295,23 @@ fn sort(
     let mut elements = Vec::new();
     for (index, source) in sources.iter().enumerate() {
         let refuse = || TimeError::NoTimeDomain { source_index: index, effect: source.effect.name() };
-        match source.effect {
-            Effect::Mass => add_legs(&mut linear[0], source),
-            Effect::Viscous => add_legs(&mut linear[1], source),
-            Effect::Stiffness => add_legs(&mut linear[2], source),
-            Effect::StiffnessProportional | Effect::MassProportional => add_whole(&mut linear[1], structure, source),
-            Effect::Hysteretic | Effect::Fractional | Effect::LossFactor => return Err(refuse()),
-            _ => {
-                if let Some(law) = source.effect.law() {
-                    let new = |leg| Element::new(index, leg, source.effect, law, &source.parameters);
-                    elements.extend(source.place.legs().into_iter().map(new));
+        let target = match source.effect.constant() {
+            Some(Constant::Mass) => 0,
+            Some(Constant::Viscous) => 1,
+            Some(Constant::Stiffness) => 2,
+            Some(Constant::Hysteretic) => return Err(refuse()),
+            None => {
+                let Some(law) = source.effect.law() else { continue };
+                if law.is_linear() && law.memory(&source.parameters).is_none() {
+                    return Err(refuse());
                 }
+                let new = |leg| Element::new(index, leg, law, &source.parameters);
+                elements.extend(source.place.legs().into_iter().map(new));
+                continue;
             }
-        }
+        };
+        add_legs(&mut linear[target], source);
+        add_whole(&mut linear[target], structure, source);
     }
     Ok((linear, elements))
 }

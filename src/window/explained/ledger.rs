@@ -133,7 +133,7 @@ mod tests {
         visit(&mut ledger, &session, 0.1);
         assert_eq!(ledger.path(), [0, 2], "the other way is kept beside this one");
         let labels: Vec<&str> = ledger.steps().iter().map(|s| s.label.as_str()).collect();
-        assert_eq!(labels, ["Model as opened", "+ viscous dashpot at DOF 1", "+ dry friction at DOF 2"]);
+        assert_eq!(labels, ["Model as opened", "+ viscous dashpot at DOF 1", "+ Coulomb friction at DOF 2"]);
         // A candidate does not act in the model: no step.
         let source = SourceAt { law: Effect::Coulomb, dofs: vec!["2".into()], elements: None, state: None };
         session.apply(&Command::SetSourceState { source, state: State::Candidate }).unwrap();

@@ -130,7 +130,7 @@ fn beam(painter: &Painter, palette: &Palette, r: Rect, dashpots: &[usize], known
     for &k in dashpots {
         let (top, foot) = (pos2(at(k), axis - lift(k as f32)), pos2(at(k), r.bottom() - 12.0));
         let colour = if known.contains(&k) { palette.accent } else { palette.model };
-        symbols::draw(painter, Effect::Viscous, [top, foot], theme::pen(colour));
+        symbols::draw(painter, Effect::DASHPOT, [top, foot], theme::pen(colour));
         symbols::ground(painter, foot, Vec2::DOWN, 20.0, theme::hair(colour));
     }
     if let Some(k) = lacks {
@@ -150,11 +150,11 @@ fn chain(painter: &Painter, palette: &Palette, r: Rect, lacks: Option<usize>) {
     for k in 0..5 {
         let k = k as f32;
         let (from, to) = (if k == 0.0 { x(0.0) } else { x(k) + 11.0 }, x(k + 1.0) - 13.0);
-        symbols::draw(painter, Effect::Stiffness, [pos2(from, y - 9.0), pos2(to, y - 9.0)], theme::pen(palette.ink));
+        symbols::draw(painter, Effect::SPRING, [pos2(from, y - 9.0), pos2(to, y - 9.0)], theme::pen(palette.ink));
         if lacks.is_none() && (k == 2.0 || k == 4.0) {
             symbols::draw(
                 painter,
-                Effect::Viscous,
+                Effect::DASHPOT,
                 [pos2(from, y + 10.0), pos2(to, y + 10.0)],
                 theme::pen(palette.model),
             );
@@ -194,7 +194,7 @@ fn points(painter: &Painter, palette: &Palette, r: Rect) {
     let step = (r.width() - 60.0) / 4.0;
     let at = |k: usize| pos2(r.left() + 30.0 + step * k as f32, r.center().y);
     for k in [1, 3] {
-        symbols::draw(painter, Effect::Viscous, [at(k), at(k + 1)], theme::pen(palette.model));
+        symbols::draw(painter, Effect::DASHPOT, [at(k), at(k + 1)], theme::pen(palette.model));
     }
     for k in 0..5 {
         painter.circle(at(k), 10.0, palette.raised, theme::bold(palette.measured));

@@ -111,7 +111,7 @@ pub struct Lesson {
 
 impl Default for Lesson {
     fn default() -> Self {
-        Self::new(System::OneMass, Effect::Viscous)
+        Self::new(System::OneMass, Effect::DASHPOT)
     }
 }
 
@@ -119,15 +119,15 @@ impl Lesson {
     /// A law with values at which its character shows.
     pub fn new(system: System, effect: Effect) -> Self {
         let frequency_hz = if system == System::OneMass { 3.4 } else { 1.2 };
-        let background = if effect == Effect::Viscous { 0.0 } else { 1.0 };
+        let background = if effect.is_dashpot() { 0.0 } else { 1.0 };
         let (force, displacement) = (1.0, 0.01);
-        let (at, parameters) = (At::Ground(0), typical(effect));
+        let (at, parameters) = (At::Ground(0), effect.description().example.to_vec());
         Self { system, effect, at, parameters, force, frequency_hz, displacement, background }
     }
 
     /// The laws of the page.
     pub fn laws() -> Vec<Effect> {
-        Effect::ALL.into_iter().filter(|e| e.law().is_some()).collect()
+        Effect::relative().map(|(effect, _)| effect).collect()
     }
 
     /// Least and greatest value of a parameter on its slider, and whether the slider is logarithmic.
@@ -136,7 +136,7 @@ impl Lesson {
             let margin = 0.02 * (parameter.greatest - parameter.least);
             return (parameter.least + margin, parameter.greatest - margin, false);
         }
-        let value = typical(effect).get(k).copied().unwrap_or(1.0);
+        let value = effect.description().example.get(k).copied().unwrap_or(1.0);
         (0.02 * value, 50.0 * value, true)
     }
 
@@ -154,28 +154,6 @@ impl Lesson {
             frequency_hz: self.frequency_hz,
             displacement: self.displacement,
         })
-    }
-}
-
-/// Parameters at which a law shows its character on the small structures.
-fn typical(effect: Effect) -> Vec<f64> {
-    match effect {
-        Effect::Viscous => vec![4.5],
-        Effect::Coulomb => vec![0.4],
-        Effect::Quadratic => vec![20.0],
-        Effect::Power => vec![2.0, 0.5],
-        Effect::Hysteretic => vec![50.0],
-        Effect::Stribeck => vec![0.3, 0.6, 0.05],
-        Effect::ElasticSlider => vec![400.0, 0.5],
-        Effect::Maxwell => vec![400.0, 8.0],
-        Effect::Iwan => vec![400.0, 1.0, -0.5, 1.0],
-        Effect::Fractional => vec![15.0, 0.5],
-        Effect::Stiffness => vec![200.0],
-        Effect::CubicStiffness => vec![3e5],
-        Effect::QuadraticStiffness => vec![1e4],
-        Effect::Gap => vec![1000.0, 0.005],
-        Effect::Mass => vec![0.5],
-        _ => effect.parameters().iter().map(|p| p.typical).collect(),
     }
 }
 

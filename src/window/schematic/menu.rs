@@ -10,9 +10,6 @@ use crate::window::widgets::UiExt;
 use crate::window::words;
 use egui::Ui;
 
-/// Laws that are offered for a DOF; all others are in the palette.
-const USUAL: [Effect; 4] = [Effect::Viscous, Effect::Coulomb, Effect::Hysteretic, Effect::Stiffness];
-
 /// Shows the entries for what was pointed at.
 pub fn show(ui: &mut Ui, scene: &Scene, target: Option<Target>, intents: &mut Vec<Intent>) {
     let chosen = match target {
@@ -33,7 +30,8 @@ fn dof(ui: &mut Ui, scene: &Scene, dof: usize) -> Option<Intent> {
     let label = &scene.dofs[dof].label;
     ui.hint(format!("DOF {label}"));
     let mut chosen = None;
-    for law in USUAL {
+    // All others are in the palette.
+    for law in Effect::ALL.into_iter().filter(|law| law.description().usual) {
         if ui.button(format!("Candidate: {} to the ground", words::effect(law))).clicked() {
             chosen = Some(Intent::Edit(Edit::Draw(law, vec![dof])));
         }

@@ -84,7 +84,7 @@ fn structure(painter: &Painter, palette: &Palette, scene: &Scene, layout: &Layou
         painter.add(Shape::line(line.clone(), width));
     }
     for spring in &layout.springs {
-        paint_part(painter, palette, Effect::Stiffness, spring, theme::pen(palette.ink), false);
+        paint_part(painter, palette, Effect::SPRING, spring, theme::pen(palette.ink), false);
     }
     for support in &layout.supports {
         match support.support {

@@ -1,11 +1,12 @@
-//! Engineering symbols of the laws: each drawn between two points, its body of fixed size in the middle.
+//! Engineering symbols of the laws: the marks that each law lists, drawn between two points, the body of fixed size in the
+//! middle.
 
 use crate::effects::Effect;
+use crate::effects::symbol::{HALF_WIDTH, Mark, Tone};
 use egui::{Color32, Painter, Pos2, Shape, Stroke, Vec2};
 
 /// Length of a symbol's body, points.
 pub const BODY: f32 = 28.0;
-const HALF_WIDTH: f32 = 7.0;
 
 /// A pen in the frame of one symbol: `x` along it from -1/2 to 1/2 of its body, `y` across in points.
 struct Pen<'a> {
@@ -33,7 +34,7 @@ pub fn draw(painter: &Painter, effect: Effect, [from, to]: [Pos2; 2], stroke: St
     };
     painter.line_segment([from, pen.at(-0.5, 0.0)], stroke);
     painter.line_segment([pen.at(0.5, 0.0), to], stroke);
-    pen.body(effect);
+    effect.description().symbol.iter().for_each(|mark| pen.mark(mark));
 }
 
 impl Pen<'_> {
@@ -51,73 +52,23 @@ impl Pen<'_> {
         self.painter.add(Shape::convex_polygon(points, colour, self.stroke));
     }
 
-    fn body(&self, effect: Effect) {
-        let faint = self.stroke.color.gamma_multiply(0.28);
-        match effect {
-            Effect::Viscous => self.dashpot(-0.5, 0.5),
-            Effect::MassProportional => self.whole("M"),
-            Effect::StiffnessProportional => self.whole("K"),
-            Effect::Quadratic => {
-                self.fill(&[(-0.2, -HALF_WIDTH), (0.5, -HALF_WIDTH), (0.5, HALF_WIDTH), (-0.2, HALF_WIDTH)], faint);
-                self.dashpot(-0.5, 0.5);
-            }
-            Effect::Power => {
-                self.dashpot(-0.5, 0.5);
-                self.arrow();
-            }
-            Effect::Coulomb => self.pads(-0.5, 0.5, self.stroke.color),
-            Effect::Stribeck => {
-                self.pads(-0.5, 0.5, faint);
-                self.line(&[(-0.3, -9.0), (0.0, -7.0), (0.3, -9.0)]);
-            }
-            Effect::ElasticSlider => {
-                self.spring(-0.5, -0.02, 3);
-                self.pads(0.0, 0.5, self.stroke.color);
-            }
-            Effect::Iwan => {
-                self.line(&[(-0.5, -5.0), (-0.5, 5.0)]);
-                self.line(&[(0.5, -5.0), (0.5, 5.0)]);
-                for y in [-5.0, 5.0] {
-                    self.zigzag(-0.5, 0.05, 3, y, 2.5);
-                    self.line(&[(0.05, y), (0.5, y)]);
-                    self.fill(&[(0.15, y - 2.5), (0.4, y - 2.5), (0.4, y + 2.5), (0.15, y + 2.5)], faint);
-                }
-            }
-            Effect::Maxwell => {
-                self.spring(-0.5, -0.05, 3);
-                self.dashpot(-0.05, 0.5);
-            }
-            Effect::LossFactor => {
-                self.spring(-0.5, 0.5, 4);
-                self.letter("ηK");
-            }
-            Effect::Hysteretic => {
-                self.spring(-0.5, 0.5, 4);
-                self.ring(0.42, 10.0);
-            }
-            Effect::Fractional => self.fill(&[(-0.5, 0.0), (0.0, -8.0), (0.5, 0.0), (0.0, 8.0)], faint),
-            Effect::Stiffness => self.spring(-0.5, 0.5, 5),
-            Effect::CubicStiffness => {
-                self.spring(-0.5, 0.5, 5);
-                self.arrow();
-            }
-            Effect::QuadraticStiffness => {
-                self.spring(-0.5, 0.5, 5);
-                self.line(&[(-0.4, 9.0), (0.4, 9.0)]);
-            }
-            Effect::Gap => {
-                self.spring(-0.5, 0.1, 3);
-                self.line(&[(0.12, -HALF_WIDTH), (0.12, HALF_WIDTH)]);
-                self.line(&[(0.36, -HALF_WIDTH), (0.36, HALF_WIDTH)]);
-                self.line(&[(0.36, 0.0), (0.5, 0.0)]);
-            }
-            Effect::Mass => {
-                self.fill(&[(-0.36, -9.0), (0.36, -9.0), (0.36, 9.0), (-0.36, 9.0)], faint);
-                self.line(&[(-0.5, 0.0), (-0.36, 0.0)]);
-                self.line(&[(0.36, 0.0), (0.5, 0.0)]);
-            }
-            Effect::Delay => self.clock(),
-            Effect::Gain => self.amplifier(faint),
+    fn mark(&self, mark: &Mark) {
+        match *mark {
+            Mark::Line(points) => self.line(points),
+            Mark::Area(points, tone) => self.fill(points, self.shade(tone)),
+            Mark::Dashpot(from, to) => self.dashpot(from, to),
+            Mark::Pads(from, to, tone) => self.pads(from, to, self.shade(tone)),
+            Mark::Spring { ends: (from, to), coils, y, height } => self.zigzag(from, to, usize::from(coils), y, height),
+            Mark::Ring(width, height) => self.ring(width, height),
+            Mark::Letter(text) => self.letter(text),
+            Mark::Arrow => self.arrow(),
+        }
+    }
+
+    fn shade(&self, tone: Tone) -> Color32 {
+        match tone {
+            Tone::Full => self.stroke.color,
+            Tone::Faint => self.stroke.color.gamma_multiply(0.28),
         }
     }
 
@@ -127,27 +78,6 @@ impl Pen<'_> {
             (width * cos, height * sin)
         };
         self.line(&(0..=24).map(point).collect::<Vec<_>>());
-    }
-
-    /// A clock in the line: a channel is late.
-    fn clock(&self) {
-        self.line(&[(-0.5, 0.0), (-0.3, 0.0)]);
-        self.line(&[(0.3, 0.0), (0.5, 0.0)]);
-        self.ring(0.3, 0.3 * BODY);
-        self.line(&[(0.0, -5.5), (0.0, 0.0), (0.15, 2.5)]);
-    }
-
-    /// A triangle in the line: a channel reads too much or too little.
-    fn amplifier(&self, faint: Color32) {
-        self.line(&[(-0.5, 0.0), (-0.28, 0.0)]);
-        self.fill(&[(-0.28, -8.0), (0.3, 0.0), (-0.28, 8.0)], faint);
-        self.line(&[(0.3, 0.0), (0.5, 0.0)]);
-    }
-
-    /// A dashpot on a matrix of the whole structure.
-    fn whole(&self, matrix: &str) {
-        self.dashpot(-0.5, 0.5);
-        self.letter(matrix);
     }
 
     fn letter(&self, text: &str) {
@@ -175,10 +105,6 @@ impl Pen<'_> {
             self.line(&[(at(0.5), far), (at(0.5), 9.5 * side), (at(0.9), 9.5 * side), (at(0.9), 0.0)]);
         }
         self.line(&[(at(0.9), 0.0), (b, 0.0)]);
-    }
-
-    fn spring(&self, a: f32, b: f32, coils: usize) {
-        self.zigzag(a, b, coils, 0.0, 6.0);
     }
 
     fn zigzag(&self, a: f32, b: f32, coils: usize, y: f32, height: f32) {

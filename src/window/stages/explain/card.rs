@@ -216,7 +216,7 @@ impl Card<'_> {
     }
 }
 
-/// `Dry friction at DOF 15`.
+/// `Coulomb friction at DOF 15`.
 pub fn name(scene: &Scene<'_>, source: &Source) -> String {
     let text = format!("{} {}", words::effect(source.effect), at(&scene.document.project.structure, &source.place));
     let mut letters = text.chars();

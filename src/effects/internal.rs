@@ -1,0 +1,236 @@
+//! Rate-independent hysteresis with one internal force that follows the displacement: `dF/dd = s(F, sgn d')`.
+//!
+//! The samples of a period are joined by straight ways, over each of which a law says where its force goes from where it
+//! was: `F_1 = step(F_0, d_1 - d_0)`. One period maps the force at its start to that at its end, rising with a slope below
+//! one; the steady state is where the two are the same, found by Newton's method in a bracket. Its derivatives are
+//! marched along with it and closed over the period alike.
+//!
+//! Where the motion is so small that nothing slips, the map gives back what it was given and any mean force would do;
+//! the force is then that of the spring about the middle of the motion, which is the limit of small slip.
+
+use super::law::{Linearised, Manner};
+use super::turning::turning_points;
+use super::{Description, Law, Memory, Motion};
+
+/// Slope of the period's map from which on nothing slips.
+const SLIPLESS: f64 = 1.0 - 1e-9;
+/// Parts of the way from one turning point to the next for the energy; even.
+const PARTS: usize = 256;
+/// Most steps of Newton's method to the steady state.
+const STEPS: usize = 80;
+
+/// Where a straight way leads the internal force.
+#[derive(Debug, Clone, Copy)]
+pub struct Way {
+    /// Force at the end, N.
+    pub force: f64,
+    /// Its derivative by the force at the start.
+    pub by_start: f64,
+    /// Its derivative by the way, N/m.
+    pub by_way: f64,
+}
+
+/// A law given by what one straight way does to its force.
+pub trait InternalLaw: Sync {
+    /// As [`Law::description`].
+    fn description(&self) -> &'static Description;
+
+    /// From the force `start` (N) over the straight `way` (m).
+    fn step(&self, p: &[f64], start: f64, way: f64) -> Way;
+
+    /// Derivative of the force at the end by parameter `k`, start and way held.
+    fn step_by(&self, p: &[f64], k: usize, start: f64, way: f64) -> f64;
+
+    /// Largest force, N: no way leads beyond it.
+    fn bound(&self, p: &[f64]) -> f64;
+
+    /// Energy per cycle of `d = amplitude cos(omega t)`, J, where a closed form exists.
+    fn loop_energy(&self, p: &[f64], amplitude: f64) -> Option<f64> {
+        let _ = (p, amplitude);
+        None
+    }
+}
+
+/// A law with one internal force as a [`Law`].
+#[derive(Debug)]
+pub struct Internal<T>(pub T);
+
+impl<T: InternalLaw> Internal<T> {
+    /// From one end of the period to the other: force and its derivative by that at the start.
+    fn period(&self, p: &[f64], d: &[f64], start: f64) -> [f64; 2] {
+        (0..d.len()).fold([start, 1.0], |[force, slope], n| {
+            let way = self.0.step(p, force, d[(n + 1) % d.len()] - d[n]);
+            [way.force, slope * way.by_start]
+        })
+    }
+
+    /// The force of a spring about the middle of the motion, within the bound.
+    fn unslipped(&self, p: &[f64], d: &[f64]) -> f64 {
+        let bound = self.0.bound(p);
+        (self.0.step(p, 0.0, 0.0).by_way * (d[0] - middle(d))).clamp(-bound, bound)
+    }
+
+    /// Force at the first sample in steady state, and the slope of the period's map there.
+    fn steady(&self, p: &[f64], d: &[f64]) -> [f64; 2] {
+        let bound = self.0.bound(p);
+        let (mut low, mut high, mut start) = (-bound, bound, self.unslipped(p, d));
+        let mut slope = 1.0;
+        for _ in 0..STEPS {
+            let [end, by_start] = self.period(p, d, start);
+            slope = by_start;
+            if slope > SLIPLESS {
+                break;
+            }
+            let rest = end - start;
+            if rest > 0.0 {
+                low = start
+            } else {
+                high = start
+            }
+            let newton = start + rest / (1.0 - slope);
+            let next = if newton > low && newton < high { newton } else { 0.5 * (low + high) };
+            let change = (next - start).abs();
+            start = next;
+            // The error left is that of the last change squared.
+            if change <= 1e-10 * bound {
+                break;
+            }
+        }
+        [start, slope]
+    }
+
+    /// The ways of one period in steady state, each with the force from which it starts, and the slope of the period's map.
+    fn ways(&self, p: &[f64], d: &[f64]) -> (Vec<(f64, Way)>, f64) {
+        let [mut force, slope] = self.steady(p, d);
+        let follow = |n: usize| {
+            let way = self.0.step(p, force, d[(n + 1) % d.len()] - d[n]);
+            (std::mem::replace(&mut force, way.force), way)
+        };
+        ((0..d.len()).map(follow).collect(), slope)
+    }
+}
+
+/// Carries a derivative around the period: `added(n)` comes in on the way from sample `n`; `unslipped` is its value at the
+/// first sample where nothing slips.
+fn carry(ways: &[(f64, Way)], slope: f64, unslipped: f64, added: impl Fn(usize) -> f64, out: &mut [f64]) {
+    let mut value = unslipped;
+    if slope <= SLIPLESS {
+        let around = ways.iter().enumerate().fold(0.0, |sum, (n, (_, way))| way.by_start * sum + added(n));
+        value = around / (1.0 - slope);
+    }
+    for (n, (out, (_, way))) in out.iter_mut().zip(ways).enumerate() {
+        *out = value;
+        value = way.by_start * value + added(n);
+    }
+}
+
+/// Middle between the extremes.
+fn middle(d: &[f64]) -> f64 {
+    let (least, most) = extremes(d);
+    0.5 * (d[least] + d[most])
+}
+
+/// Samples of the extremes.
+fn extremes(d: &[f64]) -> (usize, usize) {
+    (1..d.len()).fold((0, 0), |(least, most), n| {
+        (if d[n] < d[least] { n } else { least }, if d[n] > d[most] { n } else { most })
+    })
+}
+
+impl<T: InternalLaw + Copy + Send + 'static> Law for Internal<T> {
+    fn description(&self) -> &'static Description {
+        self.0.description()
+    }
+
+    fn manner(&self, _p: &[f64]) -> Manner {
+        Manner::Memory
+    }
+
+    fn force(&self, p: &[f64], motion: &Motion, force: &mut [f64]) {
+        let d = &motion.displacement;
+        let [mut now, _] = self.steady(p, d);
+        for (n, f) in force.iter_mut().enumerate() {
+            *f = now;
+            now = self.0.step(p, now, d[(n + 1) % d.len()] - d[n]).force;
+        }
+    }
+
+    fn tangent(&self, p: &[f64], motion: &Motion, direction: &Motion, tangent: &mut [f64]) {
+        self.linearised(p, motion)(direction, tangent);
+    }
+
+    fn linearised<'a>(&'a self, p: &'a [f64], motion: &'a Motion) -> Linearised<'a> {
+        let (ways, slope) = self.ways(p, &motion.displacement);
+        let (least, most) = extremes(&motion.displacement);
+        let stiffness = self.0.step(p, 0.0, 0.0).by_way;
+        Box::new(move |direction, tangent| {
+            let e = &direction.displacement;
+            let unslipped = stiffness * (e[0] - 0.5 * (e[least] + e[most]));
+            carry(&ways, slope, unslipped, |n| ways[n].1.by_way * (e[(n + 1) % e.len()] - e[n]), tangent);
+        })
+    }
+
+    fn parameter_tangent(&self, p: &[f64], k: usize, motion: &Motion, tangent: &mut [f64]) {
+        let d = &motion.displacement;
+        let (ways, slope) = self.ways(p, d);
+        let by = |n: usize| self.0.step_by(p, k, ways[n].0, d[(n + 1) % d.len()] - d[n]);
+        let added: Vec<f64> = (0..d.len()).map(by).collect();
+        carry(&ways, slope, self.0.step_by(p, k, 0.0, d[0] - middle(d)), |n| added[n], tangent);
+    }
+
+    fn memory(&self, p: &[f64]) -> Option<Box<dyn Memory>> {
+        Some(Box::new(InternalMemory { law: self.0, p: p.to_vec(), last: [0.0; 2] }))
+    }
+
+    fn energy_per_cycle(&self, p: &[f64], amplitude: f64, _omega: f64) -> Option<f64> {
+        self.0.loop_energy(p, amplitude)
+    }
+
+    /// By the closed form for one harmonic, else the work on the way from each turning point of the motion to the next, by
+    /// Simpson's rule: a law that knows no rate knows nothing else of the motion.
+    fn energy(&self, p: &[f64], motion: &Motion) -> f64 {
+        if let [single] = motion.harmonics[..]
+            && let Some(energy) = self.0.loop_energy(p, single.norm())
+        {
+            return energy;
+        }
+        let points = turning_points(motion);
+        if points.is_empty() {
+            return 0.0;
+        }
+        let count = points.len();
+        let segment = |i: usize| {
+            let (from, to) = (points[i], points[(i + 1) % count]);
+            (0..PARTS).map(move |k| from + (to - from) * k as f64 / PARTS as f64)
+        };
+        let path: Vec<f64> = (0..count).flat_map(segment).collect();
+        let (ways, _) = self.ways(p, &path);
+        let force = |n: usize| ways[n % ways.len()].0;
+        let pair = |n: usize| {
+            let length = path[(n + 2) % path.len()] - path[n];
+            (force(n) + 4.0 * force(n + 1) + force(n + 2)) / 6.0 * length
+        };
+        (0..path.len()).step_by(2).map(pair).sum::<f64>().max(0.0)
+    }
+}
+
+/// The law stepped through time from rest.
+struct InternalMemory<T> {
+    law: T,
+    p: Vec<f64>,
+    /// Displacement (m) and force (N) of the last instant.
+    last: [f64; 2],
+}
+
+impl<T: InternalLaw> Memory for InternalMemory<T> {
+    fn trial(&self, d: f64, _step: f64) -> [f64; 2] {
+        let way = self.law.step(&self.p, self.last[1], d - self.last[0]);
+        [way.force, way.by_way]
+    }
+
+    fn advance(&mut self, d: f64, step: f64) -> f64 {
+        let [force, _] = self.trial(d, step);
+        self.last = [d, force];
+        force
+    }
+}

@@ -1,0 +1,136 @@
+//! Bouc-Wen hysteresis (Bouc 1967; Wen 1976) that turns smoothly from stiffness to sliding, its two shape factors equal so
+//! that it unloads elastically:
+//!
+//! ```text
+//! dF/dd = stiffness (1 - |F / force|^exponent)    while |F| grows,    dF/dd = stiffness    while it falls
+//! ```
+//!
+//! Large exponents give the elastic slider. With `z = F / force` and `xi = stiffness d / force`, the way from 0 to `z` is
+//! `Psi(z) = integral_0^z du / (1 - u^exponent)`; the steady loop of `d = X cos(omega t)` turns at `z_m` with
+//! `z_m + Psi(z_m) = 2 stiffness X / force` and takes out `2 force^2 / stiffness (integral_0^z_m u dPsi - z_m^2 / 2)`.
+
+use crate::effects::internal::{InternalLaw, Way};
+use crate::effects::limits::{CLOSE, Limit};
+use crate::effects::parameter::Ends;
+use crate::effects::symbol::{Mark, Tone};
+use crate::effects::{Description, Effect, Parameter};
+
+/// Smooth hysteresis.
+#[derive(Debug, Clone, Copy)]
+pub struct BoucWen;
+
+const DESCRIPTION: Description = Description {
+    scaled: &[0, 1],
+    shapes: |range| {
+        let shape = |extension: f64| [1.2, 2.0, 5.0].map(|exponent| vec![1.0, extension, exponent]);
+        range.yields().into_iter().step_by(2).flat_map(shape).collect()
+    },
+    limits: &[
+        Limit {
+            law: Effect::Stiffness,
+            holds: |p, at| relative(p, at.displacement).powf(p[2]) < CLOSE,
+            parameters: |p| vec![p[0]],
+        },
+        Limit { law: Effect::Coulomb, holds: |p, at| relative(p, at.least) * CLOSE > 1.0, parameters: |p| vec![p[1]] },
+        Limit { law: Effect::ElasticSlider, holds: |p, _| CLOSE * p[2] > 1.0, parameters: |p| vec![p[0], p[1]] },
+    ],
+    symbol: &[
+        Mark::spring(-0.5, -0.02, 3),
+        Mark::Pads(0.0, 0.5, Tone::Faint),
+        Mark::Line(&[(-0.45, 9.0), (-0.3, 2.0), (-0.15, -6.0), (0.0, -9.0), (0.2, -10.0)]),
+    ],
+    example: &[400.0, 0.5, 2.0],
+    ..Description::new(
+        "Bouc-Wen hysteresis",
+        "k (1 - |F/F_y|^n) d'",
+        "A loop that bends over smoothly from stiffness to sliding: wire ropes, elastomers, riveted and bolted joints.",
+        &[
+            Parameter::shape("stiffness", "N/m", "k", 1e4).above(0.0),
+            Parameter::shape("force", "N", "F_y", 1.0).above(0.0),
+            Parameter::shape("exponent", "", "n", 2.0).within(1.0, 50.0, Ends::Closed),
+        ],
+    )
+};
+
+/// Displacement over that at which the initial stiffness gives the sliding force.
+fn relative(p: &[f64], d: f64) -> f64 {
+    p[0] * d / p[1]
+}
+
+/// `z` after a way, with its derivatives.
+struct Reached {
+    z: f64,
+    by_start: f64,
+    by_way: f64,
+    by_exponent: f64,
+}
+
+/// From `z >= 0` up the curve `dz/dxi = 1 - z^n` over `way >= 0`, by the classical Runge-Kutta method with steps so short
+/// that its error is below 1e-9; the derivative by `n` is carried along: `w' = -n z^(n-1) w - z^n ln z`.
+fn risen(start: f64, way: f64, n: f64) -> Reached {
+    // Beyond, nothing is left to rise.
+    let way = way.min(41.0);
+    // A length that steps between whole exponents, where nobody differentiates by it.
+    let steps = (way / 0.02_f64.min(0.05 / (n + 1.3).floor())).ceil().max(1.0) as usize;
+    let h = way / steps as f64;
+    let slope = |z: f64, w: f64| {
+        if z <= 0.0 {
+            return [1.0, 0.0];
+        }
+        let power = z.powf(n);
+        [1.0 - power, -n * power / z * w - power * z.ln()]
+    };
+    let [mut z, mut w] = [start, 0.0];
+    for _ in 0..steps {
+        let a = slope(z, w);
+        let b = slope(z + 0.5 * h * a[0], w + 0.5 * h * a[1]);
+        let c = slope(z + 0.5 * h * b[0], w + 0.5 * h * b[1]);
+        let d = slope(z + h * c[0], w + h * c[1]);
+        z = (z + h / 6.0 * (a[0] + 2.0 * (b[0] + c[0]) + d[0])).min(1.0);
+        w += h / 6.0 * (a[1] + 2.0 * (b[1] + c[1]) + d[1]);
+    }
+    let (rate, first) = (1.0 - z.powf(n), 1.0 - start.powf(n));
+    let by_start = if first > 1e-12 { rate / first } else { (-n * way).exp() };
+    Reached { z, by_start, by_way: rate, by_exponent: w }
+}
+
+/// From `z` over the signed way `xi`.
+fn reached(z: f64, xi: f64, n: f64) -> Reached {
+    let sign = if xi < 0.0 { -1.0 } else { 1.0 };
+    let (z, way) = (sign * z, xi.abs());
+    if z + way <= 0.0 {
+        return Reached { z: sign * (z + way), by_start: 1.0, by_way: 1.0, by_exponent: 0.0 };
+    }
+    let up = if z < 0.0 {
+        let up = risen(0.0, z + way, n);
+        Reached { by_start: up.by_way, ..up }
+    } else {
+        risen(z.min(1.0), way, n)
+    };
+    Reached { z: sign * up.z, by_exponent: sign * up.by_exponent, ..up }
+}
+
+impl InternalLaw for BoucWen {
+    fn description(&self) -> &'static Description {
+        &DESCRIPTION
+    }
+
+    fn step(&self, p: &[f64], start: f64, way: f64) -> Way {
+        let to = reached(start / p[1], relative(p, way), p[2]);
+        Way { force: p[1] * to.z, by_start: to.by_start, by_way: p[0] * to.by_way }
+    }
+
+    fn step_by(&self, p: &[f64], k: usize, start: f64, way: f64) -> f64 {
+        let (z, xi) = (start / p[1], relative(p, way));
+        let to = reached(z, xi, p[2]);
+        match k {
+            0 => way * to.by_way,
+            1 => to.z - z * to.by_start - xi * to.by_way,
+            _ => p[1] * to.by_exponent,
+        }
+    }
+
+    fn bound(&self, p: &[f64]) -> f64 {
+        p[1]
+    }
+}

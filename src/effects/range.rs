@@ -1,0 +1,46 @@
+//! Range of a relative motion over the runs: what the start grid of a law is laid over, and its limits are judged by.
+
+use super::Motion;
+
+/// Sizes of a relative motion over several runs.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Range {
+    /// Largest relative displacement, m.
+    pub displacement: f64,
+    /// Least of the runs' amplitudes, m.
+    pub least: f64,
+    /// Largest relative velocity, m/s.
+    pub velocity: f64,
+    /// Geometric mean of the circular frequencies, rad/s.
+    pub omega: f64,
+}
+
+impl Range {
+    /// Of a motion of which nothing is known: no comparison with it holds.
+    pub const UNKNOWN: Self = Self { displacement: f64::NAN, least: f64::NAN, velocity: f64::NAN, omega: f64::NAN };
+
+    /// Of sampled motions, one a run.
+    pub fn of(motions: &[Motion]) -> Self {
+        let peak = |x: &[f64]| x.iter().fold(0.0_f64, |most, v| most.max(v.abs()));
+        let sizes: Vec<f64> = motions.iter().map(|m| peak(&m.displacement)).collect();
+        let logarithms: f64 = motions.iter().map(|m| m.omega.ln()).sum();
+        Self {
+            displacement: sizes.iter().copied().fold(0.0, f64::max),
+            least: sizes.iter().copied().fold(f64::INFINITY, f64::min),
+            velocity: motions.iter().map(|m| peak(&m.velocity)).fold(0.0, f64::max),
+            omega: (logarithms / motions.len().max(1) as f64).exp(),
+        }
+    }
+
+    /// Extensions (m) at which a slider may begin to slip: from well below the least amplitude to the largest.
+    pub fn yields(&self) -> Vec<f64> {
+        geometric(0.3 * self.least.max(0.02 * self.displacement), 0.95 * self.displacement, 8)
+    }
+}
+
+/// `count` values from `first` to `last` in equal ratios.
+pub fn geometric(first: f64, last: f64, count: usize) -> Vec<f64> {
+    let (first, last) = (first.max(1e-300), last.max(1e-300));
+    let ratio = (last / first).powf(1.0 / (count.max(2) - 1) as f64);
+    (0..count).map(|k| first * ratio.powi(k as i32)).collect()
+}
