@@ -156,7 +156,7 @@ pub(crate) fn summary(number: u32, head: &[u8], origin: Place) -> Summary {
             55 => Summary::Shape(Box::new(shape::read_header(body)?)),
             2414 => Summary::Analysis(Box::new(analysis::read_header(body)?)),
             164 => Summary::Units(Units::read(body)?),
-            151 => Summary::Model(Box::new(Model::read(body)?)),
+            151 => Summary::Model(Box::new(Model::read(body))),
             15 | 82 | 2411 | 2412 => Summary::Geometry,
             _ => Summary::Unknown,
         })

@@ -13,6 +13,7 @@ mod sets;
 mod text;
 mod values;
 mod warning;
+mod write;
 
 pub use dof::Dof;
 pub use error::{Error, Problem};
@@ -29,3 +30,4 @@ pub use sets::units::Units;
 pub use sets::{Set, Unknown};
 pub use values::Values;
 pub use warning::{Fault, Warning};
+pub use write::{to_bytes, write};

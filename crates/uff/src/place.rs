@@ -22,6 +22,9 @@ impl fmt::Display for Place {
             if let Some(kind) = self.kind {
                 write!(f, " ({kind})")?;
             }
+            if self.line.is_none() && self.byte == 0 {
+                return Ok(()); // a set that is being written has no place yet
+            }
             write!(f, ", ")?;
         }
         match self.line {

@@ -87,7 +87,7 @@ fn kind(line: &[u8]) -> Option<KindLine> {
     let number = u32::try_from(integer(&text[..digits])?).ok()?;
     let rest = &text[digits..];
     let binary = number == 58 && rest.first().is_some_and(|b| matches!(b, b'b' | b'B'));
-    let plain = rest.first().is_none_or(|b| b.is_ascii_whitespace());
+    let plain = rest.first().is_none_or(u8::is_ascii_whitespace);
     let alone = binary || rest.iter().all(u8::is_ascii_whitespace);
     let known = alone && matches!(number, 15 | 18 | 55 | 58 | 82 | 151 | 164 | 2411 | 2412 | 2414 | 2420);
     (binary || plain).then_some(KindLine { number, binary, known })

@@ -166,6 +166,9 @@ fn first_integer(body: &mut Body<'_>, record: &'static str) -> Result<i64, Error
         .ok_or_else(|| body.error(line, Problem::Short { record, needed: 1, found: 0 }))
 }
 
+/// Numbers of a full line.
+const PER_LINE: usize = 6;
+
 /// Longer rows are not filled with zeros: a short file must not grow to many numbers.
 const MOST_FILLED: usize = 64;
 
@@ -193,7 +196,8 @@ pub(crate) fn read_rows(body: &mut Body<'_>, width: usize, row: impl Fn(&[i64]) 
         let mut last = line;
         while numbers.len() < wanted {
             let Some(next) = body.line() else { break };
-            if !numbers.is_empty() && wanted - numbers.len() > 1 && is_label(next.bytes) {
+            let full = numbers.len() % PER_LINE == 0 && wanted - numbers.len() == 1;
+            if !numbers.is_empty() && !full && is_label(next.bytes) {
                 body.back_to(next);
                 break;
             }
@@ -226,5 +230,5 @@ pub(crate) fn read_rows(body: &mut Body<'_>, width: usize, row: impl Fn(&[i64]) 
 fn is_label(line: &[u8]) -> bool {
     const WIDTH: usize = 10;
     let text = crate::number::trim(line);
-    text.len() <= WIDTH && text.iter().all(|b| b.is_ascii_digit())
+    text.len() <= WIDTH && text.iter().all(u8::is_ascii_digit)
 }

@@ -23,6 +23,7 @@ use units::Units;
 /// A data set with its numbers.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
+#[allow(clippy::large_enum_variant, reason = "a file has few sets, and almost all of them are functions")]
 pub enum Set {
     /// 151: what the file is about.
     Model(Model),
@@ -86,7 +87,7 @@ impl Set {
         }
         body.line();
         Ok(match number {
-            151 => Self::Model(Model::read(body)?),
+            151 => Self::Model(Model::read(body)),
             164 => Self::Units(Units::read(body)?),
             15 => Self::Nodes(nodes::read_single(body)?),
             2411 => Self::DoubleNodes(nodes::read_double(body)?),

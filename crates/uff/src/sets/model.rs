@@ -1,7 +1,6 @@
 //! Data set 151: what the file is about and what wrote it.
 
 use crate::body::Body;
-use crate::error::Error;
 use crate::text::{columns, decode, named};
 use crate::warning::Fault;
 
@@ -28,7 +27,7 @@ pub struct Model {
 
 impl Model {
     /// Missing lines stay empty: none of them is needed to understand the rest of the file.
-    pub(crate) fn read(body: &mut Body<'_>) -> Result<Self, Error> {
+    pub(crate) fn read(body: &mut Body<'_>) -> Self {
         let mut next = || -> String {
             let Some(line) = body.any_line() else { return String::new() };
             if !line.bytes.is_ascii() {
@@ -49,7 +48,7 @@ impl Model {
         let saved = next();
         let program = named(&next());
         let written = next();
-        Ok(Self {
+        Self {
             name,
             description,
             application,
@@ -58,6 +57,6 @@ impl Model {
             saved: date(&saved),
             program,
             written: date(&written),
-        })
+        }
     }
 }

@@ -44,6 +44,14 @@ pub struct Binary {
     pub(crate) format: i64,
 }
 
+impl Binary {
+    /// Binary data in an order, for a function that is to be written as 58b.
+    pub fn new(order: ByteOrder) -> Self {
+        let order_said = if order == ByteOrder::Big { 2 } else { 1 };
+        Self { order: Some(order), bytes: 0, lines: 11, order_said, format: 2 }
+    }
+}
+
 /// All that a function says of itself before its values.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FunctionHeader {

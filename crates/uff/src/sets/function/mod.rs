@@ -9,6 +9,7 @@ pub(crate) use header::{identification, read as read_header};
 pub use kind::FunctionKind;
 
 use crate::body::Body;
+use crate::dof::Dof;
 use crate::error::Error;
 use crate::values::Values;
 
@@ -24,6 +25,40 @@ pub struct Function {
 }
 
 impl Function {
+    /// A function in double precision with abscissas `start + i step`, to be written as text.
+    pub fn even(kind: FunctionKind, response: Dof, reference: Dof, start: f64, step: f64, values: Values) -> Self {
+        let header = FunctionHeader {
+            id: Default::default(),
+            kind,
+            number: 0,
+            version: 0,
+            load_case: 0,
+            response,
+            reference,
+            complex: values.is_complex(),
+            double: true,
+            count: values.len() as u64,
+            even: true,
+            start,
+            step,
+            z: 0.0,
+            abscissa: Axis::default(),
+            ordinate: Axis::default(),
+            denominator: Axis::default(),
+            z_axis: Axis::default(),
+            binary: None,
+        };
+        Self { header, uneven: None, values }
+    }
+
+    /// A function in double precision with an abscissa for each value, to be written as text.
+    pub fn uneven(kind: FunctionKind, response: Dof, reference: Dof, abscissas: Vec<f64>, values: Values) -> Self {
+        let mut function = Self::even(kind, response, reference, 0.0, 0.0, values);
+        function.header.even = false;
+        function.uneven = Some(abscissas);
+        function
+    }
+
     pub(crate) fn read(body: &mut Body<'_>) -> Result<Self, Error> {
         let header = header::read(body)?;
         let (uneven, values) =
