@@ -4,13 +4,13 @@ use super::arguments::Diagnose;
 use super::compare::{flags, problem};
 use super::table::{number, table};
 use crate::control::Control;
+use crate::diagnosis::candidates::start_grids::scaled;
+use crate::diagnosis::diagnose::{Added, Correction, Diagnosis, Suggestion, diagnose_without};
+use crate::diagnosis::updating::parameters::Knob;
 use crate::effects::{Place, Source, State};
 use crate::exchange::Project;
 use crate::exchange::project::load;
 use crate::exchange::project::relocate::{canonical, renamed};
-use crate::explain::diagnose::{Added, Correction, Diagnosis, Suggestion, diagnose_without};
-use crate::explain::shapes::scaled;
-use crate::explain::tuning::Knob;
 use crate::session::workers::Threads;
 use crate::structure::Structure;
 use anyhow::{Context, bail};
@@ -132,11 +132,11 @@ pub(super) fn corrected(project: &Project, correction: &Correction) -> String {
 fn document(project: &Project, diagnosis: &Diagnosis) -> Value {
     let structure = &project.structure;
     let run = |run: &crate::measurement::Run| json!({"file": run.file, "frequency_hz": run.fit.omega / std::f64::consts::TAU, "flags": flags(run)});
-    let step = |step: &crate::explain::diagnose::Step| {
+    let step = |step: &crate::diagnosis::diagnose::Step| {
         let added: Vec<Value> = step.added.iter().map(|a| Value::Object(with_values(structure, a))).collect();
         json!({"added": added, "error": step.error, "misfit": step.misfit})
     };
-    let test = |test: &crate::explain::diagnose::NextTest| {
+    let test = |test: &crate::diagnosis::diagnose::NextTest| {
         json!({"frequency_hz": test.frequency_hz, "force_dof": structure.label(test.force_dof), "force_n": test.force,
                "why": test.why})
     };
