@@ -1,4 +1,5 @@
 //! Faults of laboratories' files: those that are read over are told, the others are one clear line.
+#![allow(clippy::unwrap_used, clippy::too_many_lines, missing_docs, reason = "tests")]
 
 mod common;
 
@@ -201,7 +202,7 @@ fn refused() -> Vec<(&'static str, Vec<u8>, &'static str)> {
     let bytes = |text: String| text.into_bytes();
     let head = |n: usize| real.lines().take(n).map(|l| format!("{l}\n")).collect::<String>().into_bytes();
     let nodes = text(Set::Nodes(nodes()));
-    let double = text(Set::DoubleNodes(nodes()));
+    let double = text(Set::DoubleNodes(common::nodes()));
     let elements = text(Set::Elements(elements()));
     let shape = text(Set::Shape(shape(false, 3)));
     let analysis = text(Set::Analysis(analysis(false)));

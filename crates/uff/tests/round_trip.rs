@@ -1,4 +1,5 @@
 //! What is written reads back: binary to the last bit, text to its digits.
+#![allow(clippy::unwrap_used, clippy::too_many_lines, missing_docs, reason = "tests")]
 
 mod common;
 

@@ -98,12 +98,11 @@ fn node_labels(body: &mut Body<'_>, element: Line<'_>, count: usize) -> Result<V
     Ok(nodes)
 }
 
-/// Whole numbers in columns of ten, or separated by blanks.
+/// Whole numbers separated by blanks; in columns of ten where full columns have grown together.
 pub(super) fn integers(body: &Body<'_>, line: Line<'_>) -> Result<Vec<i64>, Error> {
     const WIDTH: usize = 10;
-    if let Some(numbers) = Body::integers(line)
-        && numbers.iter().all(|n| n.abs() < 10_i64.pow(WIDTH as u32))
-    {
+    let grown = line.bytes.split(u8::is_ascii_whitespace).any(|token| token.len() > WIDTH);
+    if let Some(numbers) = Body::integers(line).filter(|_| !grown) {
         return Ok(numbers);
     }
     let columns = crate::number::trim_end(line.bytes).chunks(WIDTH).map(crate::number::trim);

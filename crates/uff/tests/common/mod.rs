@@ -1,5 +1,5 @@
 //! Sets of every kind, from which files for the tests are made.
-#![allow(dead_code, reason = "each test uses some of it")]
+#![allow(dead_code, clippy::unwrap_used, missing_docs, reason = "tests; each uses some of it")]
 
 use uff::{
     Analysis, AnalysisHeader, Axis, Binary, ByteOrder, Dof, Element, Function, FunctionKind, Model, Node, Set, Shape,
@@ -8,7 +8,7 @@ use uff::{
 
 /// Numbers of all sizes that are exact in single precision.
 pub fn numbers(count: usize) -> Vec<f64> {
-    (0..count).map(|i| f64::from(((i as f32 * 0.37).sin() * 10f32.powi((i % 9) as i32 - 4)) as f32)).collect()
+    (0..count).map(|i| f64::from((i as f32 * 0.37).sin() * 10f32.powi((i % 9) as i32 - 4))).collect()
 }
 
 pub fn values(count: usize, complex: bool) -> Values {
@@ -86,7 +86,7 @@ pub fn shape(complex: bool, per_node: usize) -> Shape {
     let values = match values {
         Values::Real(all) if complex => Values::Complex(all.chunks_exact(2).map(|p| [p[0], -p[1]]).collect()),
         Values::Real(all) => Values::Real(all[..6 * per_node].to_vec()),
-        other => other,
+        complex @ Values::Complex(_) => complex,
     };
     Shape { header, nodes: (1..=6).collect(), values }
 }
