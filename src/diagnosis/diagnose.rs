@@ -5,9 +5,10 @@ use crate::diagnosis::residual::data::{Data, DiagnosisError, Problem};
 use crate::diagnosis::residual::prediction::{Predictor, RunPrediction};
 use crate::diagnosis::selection::search::Base;
 use crate::diagnosis::selection::stepwise;
-use crate::diagnosis::updating::parameters::{Knob, Tuning};
+use crate::diagnosis::updating::parameters::UpdatingParameter;
 use crate::effects::Source;
 use crate::math::statistics::root_mean_square;
+use std::sync::Arc;
 
 /// What the comparison of model and data says.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -18,6 +19,10 @@ pub enum Verdict {
     Missing,
     /// The model disagrees, and the data cannot tell the suggestions apart.
     Undecided,
+    /// What the model states is off, and nothing is missing.
+    Detuned,
+    /// Something is missing that no law known here, at any place, gives.
+    Unexplained,
 }
 
 impl Verdict {
@@ -27,6 +32,8 @@ impl Verdict {
             Self::Adequate => "adequate",
             Self::Missing => "missing",
             Self::Undecided => "undecided",
+            Self::Detuned => "detuned",
+            Self::Unexplained => "unexplained",
         }
     }
 }
@@ -104,7 +111,7 @@ pub struct Diagnosis {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Correction {
     /// What is corrected.
-    pub knob: Knob,
+    pub parameter: UpdatingParameter,
     /// Factor on it.
     pub factor: f64,
     /// Standard deviation of the factor.
@@ -148,8 +155,8 @@ fn searched(
         return crate::diagnosis::points::search::diagnose(problem, excluded, control);
     }
     let data = Data { excluded: excluded.to_vec(), ..Data::new(problem)? };
-    let predictor = Predictor::new(problem.structure, problem.known(), &data)?;
-    let base = Base { early, ..Base::new(&predictor, &data, Tuning::default(), control)? };
+    let predictor = Arc::new(Predictor::new(problem.structure, problem.known(), &data)?);
+    let base = Base::new(predictor, &data, control, early)?;
     let bench = base.bench();
     let before = square(&bench.residual(&base.predictions));
     let diagnosis = Diagnosis {
@@ -168,14 +175,14 @@ fn searched(
     if stepwise::agrees(&base, before, 0) {
         return Ok(diagnosis);
     }
-    stepwise::explain(&base, before)?.conclude(diagnosis)
+    stepwise::explain(base, before)?.conclude(diagnosis)
 }
 
 /// Error that noise and truncation alone would leave.
 pub(crate) fn noise_floor(base: &Base, effects: &[Source], predictions: &[RunPrediction]) -> f64 {
-    let Ok(noise) = base.whitenings(effects, predictions) else { return f64::NAN };
+    let Ok(noise) = base.noise_of(effects, predictions) else { return f64::NAN };
     let mut floors = Vec::new();
-    for ((run, noise), prediction) in base.data.runs.iter().zip(&noise).zip(predictions) {
+    for ((run, noise), prediction) in base.data.runs.iter().zip(&noise.runs).zip(predictions) {
         let residual = |k: usize, h: usize| run.responses[k].measured[h - 1] - prediction.channels[k][h - 1];
         for c in 0..run.responses.len() {
             let scale = run.scale(c);

@@ -15,10 +15,11 @@ use crate::diagnosis::residual::data::{Data, DiagnosisError, Problem, RunData};
 use crate::diagnosis::residual::energy_balance::measured_displacement;
 use crate::diagnosis::residual::prediction::{FINAL, Predictor, SEARCH};
 use crate::diagnosis::selection::search::Base;
-use crate::diagnosis::updating::parameters::Tuning;
+use crate::diagnosis::updating::parameters::Updating;
 use crate::effects::{Effect, Place, Source};
 use faer::c64;
 use std::f64::consts::{PI, TAU};
+use std::sync::Arc;
 
 /// What a fingerprint shows upwards.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -101,16 +102,17 @@ pub fn print(
     }
     let data = Data::new(problem)?;
     let predictor = Predictor::new(problem.structure, problem.known(), &data)?;
-    let tuning = Tuning {
-        knobs: corrections.iter().map(|c| c.knob.clone()).collect(),
+    let updating = Updating {
+        parameters: corrections.iter().map(|c| c.parameter.clone()).collect(),
         values: corrections.iter().map(|c| c.factor.ln()).collect(),
+        ..Updating::default()
     };
-    let predictor = if tuning.is_empty() { predictor } else { predictor.tuned(&tuning)? };
-    let base = Base::new(&predictor, &data, Tuning::default(), control)?;
+    let predictor = if updating.is_empty() { predictor } else { predictor.updated(&updating)? };
+    let base = Base::new(Arc::new(predictor), &data, control, &|_| {})?;
     match &source.place {
         Place::Dofs(_) => {
             let set: Vec<Source> = others.iter().chain(std::iter::once(source)).cloned().collect();
-            let refit = base.bench().refit(&set, &Tuning::default(), 1, &SEARCH, &[])?;
+            let refit = base.bench().refit(&set, 1, &SEARCH, &[])?;
             Ok(base.place_data(&refit, source)?.as_ref().and_then(|place| of_place(place, &data)))
         }
         Place::Channel(name) => of_channel(&base, &others, name, source.effect),
@@ -154,7 +156,7 @@ fn powers(ratios: &[(usize, Ratio)], found: &Fingerprint) -> Option<Print> {
 fn of_channel(base: &Base, others: &[Source], name: &str, effect: Effect) -> Result<Option<Print>, DiagnosisError> {
     let predictions = base.bench().predict(others, &FINAL, &[])?;
     let mut ratios: Vec<(usize, f64, c64, f64)> = Vec::new();
-    for ((run, prediction), noise) in base.data.runs.iter().zip(&predictions).zip(&base.noise) {
+    for ((run, prediction), noise) in base.data.runs.iter().zip(&predictions).zip(&base.noise.runs) {
         let Some(c) = run.responses.iter().position(|channel| channel.name == name) else { continue };
         let (measured, model) = (run.responses[c].measured[0], prediction.channels[c][0]);
         if model.norm() > 0.0 {

@@ -14,13 +14,12 @@ impl Base<'_> {
     /// The set `best` with each of its effects in turn replaced by laws that it may have been taken for, from their best
     /// shapes against the free force that the rest of `best` leaves at the place.
     pub fn wider(&self, best: &Refit) -> Result<Vec<Refit>, DiagnosisError> {
-        let predictor = self.predictor_of(best)?;
         let mut refits = Vec::new();
         for source in best.effects.iter().filter(|e| !wider(e.effect).is_empty()) {
             let mut others = best.clone();
             others.effects.retain(|e| !e.is_same(source));
             others.starts.clear();
-            let mut view = self.view(&predictor, Some(&others))?;
+            let mut view = self.view(Some(&others))?;
             let Some(at) = view.screen.spots.iter().position(|spot| spot.place().is_same(&source.place)) else {
                 continue;
             };
@@ -33,7 +32,7 @@ impl Base<'_> {
                 |effect| Draft { effects: joined(&others.effects, &[effect]), score: 0.0, fields: fields.clone() };
             let drafts: Vec<Draft> =
                 fits.map(|fit| fit.source).filter(|source| self.data.allows(source)).map(draft).collect();
-            refits.extend(self.refit_all(&drafts, Some(&others))?);
+            refits.extend(self.refit_all(&drafts)?);
         }
         Ok(refits)
     }

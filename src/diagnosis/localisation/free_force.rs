@@ -13,7 +13,7 @@ use crate::control::Control;
 use crate::diagnosis::localisation::location::{Receptances, Spot};
 use crate::diagnosis::residual::data::{Data, DiagnosisError};
 use crate::diagnosis::residual::prediction::{Predictor, RunPrediction};
-use crate::diagnosis::residual::whitening::Whitening;
+use crate::diagnosis::updating::noise_model::NoiseModel;
 use crate::effects::Leg;
 use crate::math::least_squares::solve_symmetric;
 use faer::{Mat, c64};
@@ -35,8 +35,10 @@ struct Cell {
     columns: Vec<Vec<c64>>,
     /// `|a_s|^2` by spot.
     squares: Vec<f64>,
-    /// `B`, one column a correction of the model; none where corrections do nothing.
+    /// `B`, one column an updating parameter; none where they do nothing.
     slopes: Vec<Vec<c64>>,
+    /// `V`, one column a parameter that is the run's own.
+    own: Vec<Vec<c64>>,
 }
 
 /// The residual of a model seen from every place.
@@ -46,17 +48,19 @@ pub struct Screen {
     pub spots: Vec<Spot>,
     /// `[run][harmonic]`.
     cells: Vec<Vec<Cell>>,
-    /// Present corrections of the model in units of their prior deviations.
-    corrections: Vec<f64>,
+    /// Present values of the updating parameters in units of their prior deviations.
+    reference: Vec<f64>,
 }
 
-/// Corrections of the model that are free while places are looked at.
+/// Parameters that are free while places are looked at, by what they do to the fundamentals.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Freedom {
-    /// Their values in units of their prior deviations.
+    /// Values of the updating parameters in units of their prior deviations.
     pub values: Vec<f64>,
-    /// Derivatives of the fundamentals, `[run][correction][channel]`.
+    /// Derivatives of the fundamentals by updating parameters, `[run][parameter][channel]`.
     pub slopes: Vec<Vec<Vec<c64>>>,
+    /// The same by what differs from run to run.
+    pub own: Vec<Vec<Vec<c64>>>,
 }
 
 /// A free complex force with its variance.
@@ -83,7 +87,7 @@ impl Screen {
         predictor: &Predictor,
         data: &Data,
         predictions: &[RunPrediction],
-        noise: &[Whitening],
+        noise: &NoiseModel,
         receptances: &mut Receptances,
         freedom: &Freedom,
         control: &Control,
@@ -98,21 +102,23 @@ impl Screen {
         for (r, run) in data.runs.iter().enumerate() {
             let at = |h: usize| {
                 let prediction = &predictions[r].channels;
-                let e = noise[r].apply(h, |c| run.responses[c].measured[h - 1] - prediction[c][h - 1]);
+                let e = noise.runs[r].apply(h, |c| run.responses[c].measured[h - 1] - prediction[c][h - 1]);
                 let columns: Vec<Vec<c64>> = spots
                     .iter()
-                    .map(|spot| noise[r].apply(h, |c| unit(receptances, r, data, h, c, spot, prediction)))
+                    .map(|spot| noise.runs[r].apply(h, |c| unit(receptances, r, data, h, c, spot, prediction)))
                     .collect();
                 let products = columns.iter().map(|a| dot(a, &e)).collect();
                 let squares = columns.iter().map(|a| dot(a, a).re).collect();
-                let free = freedom.slopes.get(r).filter(|_| h == 1);
-                let slopes =
-                    free.map_or_else(Vec::new, |all| all.iter().map(|slope| noise[r].apply(1, |c| slope[c])).collect());
-                Cell { total: dot(&e, &e).re, residual: e, products, columns, squares, slopes }
+                let whitened = |all: &[Vec<Vec<c64>>]| -> Vec<Vec<c64>> {
+                    let own = all.get(r).filter(|_| h == 1);
+                    own.map_or_else(Vec::new, |list| list.iter().map(|s| noise.runs[r].apply(1, |c| s[c])).collect())
+                };
+                let (slopes, own) = (whitened(&freedom.slopes), whitened(&freedom.own));
+                Cell { total: dot(&e, &e).re, residual: e, products, columns, squares, slopes, own }
             };
             cells.push((1..=run.harmonics).map(at).collect());
         }
-        Ok(Self { spots, cells, corrections: freedom.values.clone() })
+        Ok(Self { spots, cells, reference: freedom.values.clone() })
     }
 
     /// Squared whitened residual of the model as it is.
@@ -148,47 +154,49 @@ impl Screen {
         self.cells.iter().flatten().map(of).sum()
     }
 
-    /// What free forces at `spots` and the corrections leave; `of` is what the forces alone leave of a cell.
+    /// What free forces at `spots` and the parameters leave; `of` is what the forces alone leave of a cell.
     fn left(&self, spots: &[usize], of: impl Fn(&Cell) -> f64) -> f64 {
         let alone = self.sum(of);
-        let Some((change, gain)) = self.corrected(spots) else { return alone };
-        let prior: f64 = self.corrections.iter().map(|u| u * u).sum();
-        if change.is_empty() { alone } else { alone + prior - gain }
+        let Some(freed) = self.freed(spots) else { return alone };
+        let prior: f64 = self.reference.iter().map(|u| u * u).sum();
+        alone + prior - freed.gain
     }
 
-    /// Change of the corrections that fits best together with free forces at `spots`, and by how much it lowers the
-    /// squared residual with its prior: `(1 + sum B^H P B) du = sum B^H P e - u`.
-    fn corrected(&self, spots: &[usize]) -> Option<(Vec<f64>, f64)> {
-        let q = self.corrections.len();
-        if q == 0 {
+    /// Changes of the parameters that fit best together with free forces at `spots`; those of a run are eliminated first:
+    /// `(1 + sum B^H P B) du = sum B^H P e - u`.
+    fn freed(&self, spots: &[usize]) -> Option<Freed> {
+        let q = self.reference.len();
+        if self.cells.iter().flatten().all(|cell| cell.slopes.is_empty() && cell.own.is_empty()) {
             return None;
         }
         let mut normal = Mat::from_fn(q, q, |i, j| if i == j { 1.0 } else { 0.0 });
-        let mut right = Mat::from_fn(q, 1, |k, _| -self.corrections[k]);
-        for cell in self.cells.iter().flatten().filter(|cell| !cell.slopes.is_empty()) {
-            let basis = cell.basis(spots);
-            let shares: Vec<Vec<c64>> = cell.slopes.iter().map(|b| basis.iter().map(|v| dot(v, b)).collect()).collect();
-            let seen: Vec<c64> = basis.iter().map(|v| dot(v, &cell.residual)).collect();
-            for i in 0..q {
-                right[(i, 0)] += (dot(&cell.slopes[i], &cell.residual) - dot(&shares[i], &seen)).re;
-                for j in 0..=i {
-                    normal[(i, j)] += (dot(&cell.slopes[i], &cell.slopes[j]) - dot(&shares[i], &shares[j])).re;
-                }
+        let mut right: Vec<f64> = self.reference.iter().map(|u| -u).collect();
+        let (mut gain, mut solved) = (0.0, Vec::with_capacity(self.cells.len()));
+        for run in &self.cells {
+            let Some(local) = run.first().map(|cell| cell.eliminate(spots)) else { continue };
+            for (i, value) in right.iter_mut().enumerate().take(local.right.len()) {
+                *value += local.right[i];
+                (0..q).for_each(|j| normal[(i, j)] += local.normal[(i, j)]);
             }
+            gain += local.gain;
+            solved.push(local);
         }
-        let full = Mat::from_fn(q, q, |i, j| if i >= j { normal[(i, j)] } else { normal[(j, i)] });
-        let change = solve_symmetric(full.as_ref(), right.as_ref()).ok()?;
+        let column = Mat::from_fn(q, 1, |k, _| right[k]);
+        let change = if q > 0 { solve_symmetric(normal.as_ref(), column.as_ref()).ok()? } else { Mat::zeros(0, 1) };
         let change: Vec<f64> = (0..q).map(|k| change[(k, 0)]).collect();
-        let gain = change.iter().enumerate().map(|(k, x)| x * right[(k, 0)]).sum();
-        Some((change, gain))
+        gain += change.iter().zip(&right).map(|(x, b)| x * b).sum::<f64>();
+        let own = solved.iter().map(|local| local.own(&change)).collect();
+        Some(Freed { change, own, gain })
     }
 
     /// The free force of each spot of a placing, `[spot][run][harmonic]`, the others there too.
     pub fn forces(&self, spots: &[usize]) -> Vec<Vec<Vec<FreeForce>>> {
-        let change = self.corrected(spots).map_or_else(Vec::new, |(change, _)| change);
+        let freed = self.freed(spots).unwrap_or_default();
         let mut forces = vec![Vec::with_capacity(self.cells.len()); spots.len()];
-        for run in &self.cells {
-            let solved: Vec<Vec<FreeForce>> = run.iter().map(|cell| cell.corrected(&change).solve(spots)).collect();
+        for (r, run) in self.cells.iter().enumerate() {
+            let own = freed.own.get(r).map_or(&[][..], Vec::as_slice);
+            let at = |cell: &Cell| cell.corrected(&freed.change, own).solve(spots);
+            let solved: Vec<Vec<FreeForce>> = run.iter().map(at).collect();
             for (k, list) in forces.iter_mut().enumerate() {
                 list.push(solved.iter().map(|cell| cell[k]).collect());
             }
@@ -244,18 +252,39 @@ impl Cell {
         basis
     }
 
-    /// The cell after a change of the corrections.
-    fn corrected(&self, change: &[f64]) -> Cow<'_, Self> {
-        if self.slopes.is_empty() || change.is_empty() {
+    /// The cell after a change of the parameters, common ones and those of its run.
+    fn corrected(&self, change: &[f64], own: &[f64]) -> Cow<'_, Self> {
+        if self.slopes.is_empty() && self.own.is_empty() {
             return Cow::Borrowed(self);
         }
         let mut cell = self.clone();
-        for (b, x) in self.slopes.iter().zip(change) {
+        for (b, x) in self.slopes.iter().zip(change).chain(self.own.iter().zip(own)) {
             cell.residual.iter_mut().zip(b).for_each(|(e, b)| *e -= *b * *x);
         }
         cell.total = dot(&cell.residual, &cell.residual).re;
         cell.products = cell.columns.iter().map(|a| dot(a, &cell.residual)).collect();
         Cow::Owned(cell)
+    }
+
+    /// Normal equations of the common parameters where free forces at `spots` and the run's own parameters are eliminated.
+    fn eliminate(&self, spots: &[usize]) -> Eliminated {
+        let basis = self.basis(spots);
+        let all: Vec<&Vec<c64>> = self.slopes.iter().chain(&self.own).collect();
+        let shares: Vec<Vec<c64>> = all.iter().map(|b| basis.iter().map(|v| dot(v, b)).collect()).collect();
+        let seen: Vec<c64> = basis.iter().map(|v| dot(v, &self.residual)).collect();
+        let product = |i: usize, j: usize| (dot(all[i], all[j]) - dot(&shares[i], &shares[j])).re;
+        let load = |i: usize| (dot(all[i], &self.residual) - dot(&shares[i], &seen)).re;
+        let (q, p) = (self.slopes.len(), self.own.len());
+        let inner = Mat::from_fn(p, p, |i, j| product(q + i, q + j) + f64::from(u8::from(i == j)));
+        let outer = Mat::from_fn(p, q + 1, |i, j| if j < q { product(q + i, j) } else { load(q + i) });
+        let solved = solve_symmetric(inner.as_ref(), outer.as_ref()).unwrap_or_else(|_| Mat::zeros(p, q + 1));
+        let eliminated = |i: usize, j: usize| (0..p).map(|k| outer[(k, i)] * solved[(k, j)]).sum::<f64>();
+        Eliminated {
+            normal: Mat::from_fn(q, q, |i, j| product(i, j) - eliminated(i, j)),
+            right: (0..q).map(|i| load(i) - eliminated(i, q)).collect(),
+            gain: eliminated(q, q),
+            solved,
+        }
     }
 
     fn left_by(&self, s: usize) -> f64 {
@@ -299,6 +328,36 @@ impl Cell {
             FreeForce { value: (bi * gj - coupling * bj) / determinant, weight: determinant / gj },
             FreeForce { value: (bj * gi - coupling.conj() * bi) / determinant, weight: determinant / gi },
         ]
+    }
+}
+
+/// Changes of the parameters that were free beside free forces.
+#[derive(Debug, Clone, Default)]
+struct Freed {
+    /// Of the common ones, in units of their prior deviations.
+    change: Vec<f64>,
+    /// Of those of each run.
+    own: Vec<Vec<f64>>,
+    /// By how much they lower the squared residual with its prior.
+    gain: f64,
+}
+
+/// Normal equations of a run whose own parameters are eliminated.
+#[derive(Debug, Clone)]
+struct Eliminated {
+    normal: Mat<f64>,
+    right: Vec<f64>,
+    gain: f64,
+    /// Own parameters, one column a common one whose change takes its share off, the last as they are without.
+    solved: Mat<f64>,
+}
+
+impl Eliminated {
+    /// Own parameters after a `change` of the common ones.
+    fn own(&self, change: &[f64]) -> Vec<f64> {
+        let q = self.right.len();
+        let of = |k: usize| self.solved[(k, q)] - (0..q).map(|j| self.solved[(k, j)] * change[j]).sum::<f64>();
+        (0..self.solved.nrows()).map(of).collect()
     }
 }
 

@@ -5,5 +5,6 @@ pub mod breakdown;
 pub mod data;
 pub mod energy_balance;
 pub mod prediction;
+pub mod run_nuisance;
 pub mod whiteness;
 pub mod whitening;

@@ -5,7 +5,7 @@
 
 use crate::control::Control;
 use crate::diagnosis::residual::data::{Data, DiagnosisError, RunData};
-use crate::diagnosis::updating::parameters::Tuning;
+use crate::diagnosis::updating::parameters::Updating;
 use crate::effects::{Effect, Place, Source, effect::Kind};
 use crate::response::harmonic_balance::{Excitation, ForwardModel, Response, ResponseError, RunModel, Settings};
 use crate::response::sensitivity::{SensitivityError, Unknown, sensitivities};
@@ -125,17 +125,17 @@ impl Predictor {
         Ok(Self { model, runs, known, stated, omegas })
     }
 
-    /// The same with the stated structure and known sources corrected.
-    pub fn tuned(&self, tuning: &Tuning) -> Result<Self, DiagnosisError> {
-        let known = tuning.known(&self.stated.1);
-        let model = ForwardModel::new(&tuning.structure(&self.stated.0), &known)?;
-        let runs = run_models(&self.omegas, |omega| model.briefly_at(omega));
+    /// The same with the stated structure and known sources updated.
+    pub fn updated(&self, updating: &Updating) -> Result<Self, DiagnosisError> {
+        let known = updating.known(&self.stated.1);
+        let model = ForwardModel::new(&updating.structure(&self.stated.0), &known)?;
+        let runs = run_models(&self.omegas, |omega| model.at(omega));
         Ok(Self { model, runs, known, stated: self.stated.clone(), omegas: self.omegas.clone() })
     }
 
-    /// What may be corrected, not corrected yet; with `each` also modes or springs one by one.
-    pub fn free_tuning(&self, each: bool) -> Tuning {
-        Tuning::free(&self.stated.0, &self.stated.1, &self.omegas, each)
+    /// Structure and known sources as the project states them.
+    pub fn stated(&self) -> (&Structure, &[Source]) {
+        (&self.stated.0, &self.stated.1)
     }
 
     /// Known sources.

@@ -9,6 +9,7 @@
 //! `f`; under a single force it is measured, `Y / F`, at the fundamental.
 
 use crate::diagnosis::residual::data::RunData;
+use crate::diagnosis::residual::run_nuisance::RunNuisance;
 use faer::c64;
 
 /// Allowance for what no model matches, relative to the amplitude of the same harmonic.
@@ -33,6 +34,8 @@ pub struct Whitening {
     expected: Vec<Vec<f64>>,
     /// The part of it that is each channel's own.
     own: Vec<Vec<f64>>,
+    /// What differs from run to run, eliminated.
+    nuisance: RunNuisance,
     /// Where a single force drives the run: variance of a real part of its noise, and `a`, per harmonic.
     force: Vec<Option<(f64, Vec<c64>)>>,
 }
@@ -62,7 +65,25 @@ impl Whitening {
             force.push(known);
             factors.push(cholesky(&select(&covariance(run, a, truncation, h, true), &run.alive, run.responses.len())));
         }
-        Self { factors, alive: run.alive.clone(), expected, own, force }
+        Self { factors, alive: run.alive.clone(), expected, own, force, nuisance: RunNuisance::default() }
+    }
+
+    /// The same noise with local parameters of the run eliminated.
+    #[must_use]
+    pub fn with_nuisance(self, nuisance: RunNuisance) -> Self {
+        Self { nuisance, ..self }
+    }
+
+    /// What differs from run to run, eliminated.
+    pub fn nuisance(&self) -> &RunNuisance {
+        &self.nuisance
+    }
+
+    /// Whitened real and imaginary parts of all harmonics, local parameters not eliminated; `value(c, h)` is the entry of
+    /// response channel `c` at harmonic `h`.
+    pub fn rows(&self, value: impl Fn(usize, usize) -> c64) -> Vec<f64> {
+        let of = |h: usize| self.apply(h, |c| value(c, h));
+        (1..=self.factors.len()).flat_map(of).flat_map(|e| [e.re, e.im]).collect()
     }
 
     /// Number of real values of a whitened run.

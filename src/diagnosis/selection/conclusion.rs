@@ -2,12 +2,13 @@
 
 use crate::diagnosis::diagnose::{Added, Correction, Diagnosis, Step, Suggestion, Verdict, noise_floor};
 use crate::diagnosis::residual::data::DiagnosisError;
-use crate::diagnosis::residual::prediction::FINAL;
+use crate::diagnosis::residual::prediction::{FINAL, RunPrediction};
 use crate::diagnosis::selection::fitted_model::{Bench, Refit};
 use crate::diagnosis::selection::next_test::{next_test, pinning_test};
 use crate::diagnosis::selection::search::{Base, scale_of};
 use crate::diagnosis::selection::sentences::sentences;
 use crate::diagnosis::selection::stepwise::{Found, Rung, same_set};
+use crate::diagnosis::updating::parameters::UpdatingParameter;
 use crate::effects::Source;
 use crate::math::statistics::evidence_weights;
 
@@ -15,41 +16,44 @@ use crate::math::statistics::evidence_weights;
 const ALIKE: f64 = 9.0;
 /// Probability from which on the next best set is worth a test of its own.
 const RIVAL: f64 = 1e-3;
+/// Squared residual per datum that a model may leave which is only detuned.
+const TOLERATED: f64 = 4.0;
+/// Squared residual per datum from which on no law of the library gives what is missing.
+const UNEXPLAINED: f64 = 100.0;
 /// Most suggestions.
 const MOST: usize = 8;
 
 /// Where a search ended, with what it was made on.
 pub(crate) struct Outcome<'a> {
-    pub base: &'a Base<'a>,
+    pub base: Base<'a>,
     pub found: Found,
 }
 
 impl Outcome<'_> {
     /// Fills in what was found.
     pub fn conclude(&self, mut diagnosis: Diagnosis) -> Result<Diagnosis, DiagnosisError> {
-        let base = self.base;
+        let base = &self.base;
         let rungs = &self.found.rungs;
         let Some(top) = rungs.last() else {
-            diagnosis.verdict = if self.found.agrees { Verdict::Adequate } else { Verdict::Undecided };
-            if let Some(bare) = &self.found.bare {
-                diagnosis.corrections = corrections(bare);
-                let misfit = bare.chi_square / base.count() as f64;
-                diagnosis.steps.push(Step { added: Vec::new(), error: bare.error, misfit });
+            let bench = base.bench();
+            let misfit = square(&bench.residual(&base.predictions)) / base.count().max(1) as f64;
+            let error = bench.error(&base.predictions);
+            diagnosis.verdict = match (self.found.updated, misfit < TOLERATED) {
+                (true, true) => Verdict::Detuned,
+                (false, true) => Verdict::Adequate,
+                (_, false) => Verdict::Unexplained,
+            };
+            if self.found.updated {
+                diagnosis.corrections = corrections(base, &base.predictions);
+                diagnosis.steps.push(Step { added: Vec::new(), error, misfit });
             }
             return Ok(diagnosis);
         };
         let best = &top.refits[0];
-        let predictor = base.predictor_of(best)?;
-        let quiet = Base {
-            predictor: &predictor,
-            tuning: best.tuning.clone(),
-            predictions: base.predictions.clone(),
-            noise: top.noise.clone(),
-            ..base.shallow()
-        };
+        let quiet = Base { predictions: base.predictions.clone(), noise: top.noise.clone(), ..base.shallow() };
         let predictions = quiet.bench().predict(&best.effects, &FINAL, &best.starts)?;
         diagnosis.noise_floor = noise_floor(&quiet, &best.effects, &predictions);
-        diagnosis.corrections = corrections(best);
+        diagnosis.corrections = corrections(&quiet, &predictions);
         let criteria: Vec<f64> = top.refits.iter().map(|r| base.evidence(r, top.scale)).collect();
         let weights = evidence_weights(&criteria);
         let ordered = order(&quiet.bench(), best, &rungs[0])?;
@@ -81,7 +85,13 @@ impl Outcome<'_> {
         .into_iter()
         .collect();
         let sure = diagnosis.suggestions.first().is_some_and(|s| s.probability >= 0.5);
-        diagnosis.verdict = if sure { Verdict::Missing } else { Verdict::Undecided };
+        diagnosis.verdict = if best.chi_square / base.count().max(1) as f64 > UNEXPLAINED {
+            Verdict::Unexplained
+        } else if sure {
+            Verdict::Missing
+        } else {
+            Verdict::Undecided
+        };
         Ok(diagnosis)
     }
 }
@@ -112,8 +122,8 @@ fn order(bench: &Bench, best: &Refit, first: &Rung) -> Result<Vec<Refit>, Diagno
         let mut options = Vec::new();
         for k in 0..rest.len() {
             let set: Vec<Source> = chosen.iter().chain(std::iter::once(&rest[k])).cloned().collect();
-            let known = first.refits.iter().find(|r| same_set(&r.effects, &set) && r.tuning.knobs == best.tuning.knobs);
-            options.push(known.map_or_else(|| bench.refit(&set, &best.tuning, 8, &FINAL, &[]), |r| Ok(r.clone()))?);
+            let known = first.refits.iter().find(|r| same_set(&r.effects, &set));
+            options.push(known.map_or_else(|| bench.refit(&set, 8, &FINAL, &[]), |r| Ok(r.clone()))?);
         }
         let k = (0..rest.len()).min_by(|&a, &b| options[a].chi_square.total_cmp(&options[b].chi_square));
         let k = k.unwrap_or(0);
@@ -130,8 +140,8 @@ fn alone(bench: &Bench, source: &Source, best: &Refit, first: &Rung) -> Result<R
         return Ok(best.clone());
     }
     match first.refits.iter().find(|r| same_set(&r.effects, set)) {
-        Some(refit) => bench.refit(&refit.effects, &refit.tuning, 3, &FINAL, &refit.starts),
-        None => bench.refit(set, &best.tuning, 8, &FINAL, &[]),
+        Some(refit) => bench.refit(&refit.effects, 3, &FINAL, &refit.starts),
+        None => bench.refit(set, 8, &FINAL, &[]),
     }
 }
 
@@ -160,15 +170,25 @@ fn alternatives(bench: &Bench, top: &Rung, weights: &[f64], diagnosis: &mut Diag
     Ok(())
 }
 
-/// Corrections that moved, with their deviations.
-pub(crate) fn corrections(refit: &Refit) -> Vec<Correction> {
-    let values = refit.tuning.values.iter().zip(&refit.tuning_deviations);
-    let of = |(knob, (v, d)): (&crate::diagnosis::updating::parameters::Knob, (&f64, &f64))| Correction {
-        knob: knob.clone(),
-        factor: v.exp(),
-        deviation: d * v.exp(),
+/// Corrections of what the model states, at the reference of `base`, with their deviations.
+pub(crate) fn corrections(base: &Base, predictions: &[RunPrediction]) -> Vec<Correction> {
+    let updating = &base.linearisation.updating;
+    let variances = base.noise.updating.variances();
+    let _ = predictions;
+    let of = |(k, parameter): (usize, &UpdatingParameter)| {
+        let deviation = updating.prior(k) * variances.get(k)?.sqrt();
+        let factor = updating.values[k].exp();
+        parameter.is_of_model().then(|| Correction {
+            parameter: parameter.clone(),
+            factor,
+            deviation: deviation * factor,
+        })
     };
-    refit.tuning.knobs.iter().zip(values).map(of).collect()
+    updating.parameters.iter().enumerate().filter_map(of).collect()
+}
+
+fn square(values: &[f64]) -> f64 {
+    values.iter().map(|x| x * x).sum()
 }
 
 /// The effects of a fit; what the model leaves beyond the noise widens their deviations.

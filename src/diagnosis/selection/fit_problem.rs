@@ -1,10 +1,9 @@
 //! The residual on the response as a function of everything that is fitted, with its derivatives.
 
-use crate::diagnosis::residual::data::DiagnosisError;
+use crate::diagnosis::residual::data::{ChannelData, DiagnosisError, RunData};
 use crate::diagnosis::residual::prediction::{Predictor, RunPrediction, transfer};
 use crate::diagnosis::selection::fitted_model::{Bench, Starts};
 use crate::diagnosis::selection::levenberg_marquardt::{Residual, Variables};
-use crate::diagnosis::updating::parameters::Tuning;
 use crate::effects::{Source, effect::Kind};
 use crate::response::harmonic_balance::Settings;
 use crate::response::sensitivity::{Unknown, sensitivities};
@@ -16,36 +15,63 @@ const STEP: f64 = 1e-4;
 /// The model at one point of a descent.
 pub(crate) struct Trial {
     pub theta: Vec<f64>,
-    pub predictor: Option<Predictor>,
     pub predictions: Vec<RunPrediction>,
 }
 
-/// The residual on the response as a function of the variables of the effects and of the corrections.
+/// The residual on the response as a function of the variables of the effects.
 pub(crate) struct OnResponse<'a> {
     pub bench: Bench<'a>,
     pub variables: &'a Variables,
-    pub tuning: &'a Tuning,
-    pub priors: &'a [f64],
     pub settings: Settings,
     /// Responses at the last point that was accepted, from which trials start.
     pub starts: Starts,
     pub last: Option<Trial>,
 }
 
-impl OnResponse<'_> {
-    /// Effects, and logarithms of the corrections.
-    pub fn split(&self, theta: &[f64]) -> (Vec<Source>, Vec<f64>) {
-        let (effects, knobs) = theta.split_at(self.variables.len());
-        (self.variables.effects(effects), knobs.iter().zip(self.priors).map(|(u, s)| u * s).collect())
-    }
+/// Derivatives of the recorded amplitudes of a run, `[unknown][channel][harmonic - 1]`.
+pub(crate) type RunSlopes = Vec<Vec<Vec<c64>>>;
 
+/// Derivatives of the recorded amplitudes of run `r` by sums of unknowns with factors, one list of `[channel][harmonic]`
+/// a sum; `None` where the response has no derivatives. Zero where the prediction was not found.
+pub(crate) fn run_slopes(
+    predictor: &Predictor,
+    r: usize,
+    run: &RunData,
+    effects: &[Source],
+    prediction: &RunPrediction,
+    sums: &[Vec<(Unknown, f64)>],
+) -> Option<RunSlopes> {
+    if !prediction.found {
+        return Some(vec![vec![vec![ZERO; run.harmonics]; run.responses.len()]; sums.len()]);
+    }
+    let sources = predictor.sources(effects);
+    let unknowns: Vec<Unknown> = sums.iter().flatten().map(|(unknown, _)| *unknown).collect();
+    let excitation = run.excitation(|channel, w| transfer(effects, &channel.name, w));
+    let all = sensitivities(predictor.run(r), &sources, &excitation, &prediction.response, &unknowns).ok()?;
+    let mut rest = &all[..];
+    let mut slopes = Vec::with_capacity(sums.len());
+    for sum in sums {
+        let (own, others) = rest.split_at(sum.len());
+        rest = others;
+        let channel = |channel: &ChannelData| -> Vec<c64> {
+            let at = |h: usize| {
+                let w = h as f64 * run.omega;
+                let entry = |m: &Mat<c64>| if h <= m.ncols() { m[(channel.dof, h - 1)] } else { ZERO };
+                let change = own.iter().zip(sum).fold(ZERO, |s, (m, (_, factor))| s + entry(m) * *factor);
+                transfer(effects, &channel.name, w) * channel.from_displacement(w) * change
+            };
+            (1..=run.harmonics).map(at).collect()
+        };
+        slopes.push(run.responses.iter().map(channel).collect());
+    }
+    Some(slopes)
+}
+
+impl OnResponse<'_> {
     fn compute(&self, theta: &[f64]) -> Result<Trial, DiagnosisError> {
-        let (effects, values) = self.split(theta);
-        let predictor =
-            if self.tuning.is_empty() { None } else { Some(self.bench.predictor.tuned(&self.tuning.with(&values))?) };
-        let bench = Bench { predictor: predictor.as_ref().unwrap_or(self.bench.predictor), ..self.bench };
-        let predictions = bench.predict(&effects, &self.settings, &self.starts)?;
-        Ok(Trial { theta: theta.to_vec(), predictor, predictions })
+        let effects = self.variables.effects(theta);
+        let predictions = self.bench.predict(&effects, &self.settings, &self.starts)?;
+        Ok(Trial { theta: theta.to_vec(), predictions })
     }
 
     /// The model at `theta`, the last one if it was there.
@@ -56,53 +82,18 @@ impl OnResponse<'_> {
         }
     }
 
-    /// Derivatives of the recorded amplitudes of run `r`, one list of `[channel][harmonic]` a variable; none where the
-    /// response has no derivatives.
-    pub fn slopes(&self, trial: &Trial, r: usize) -> Option<Vec<Vec<Vec<c64>>>> {
-        let predictor = trial.predictor.as_ref().unwrap_or(self.bench.predictor);
-        let (effects, values) = self.split(&trial.theta);
-        let (run, response) = (&self.bench.data.runs[r], &trial.predictions[r].response);
-        if !trial.predictions[r].found {
-            return Some(vec![vec![vec![ZERO; run.harmonics]; run.responses.len()]; trial.theta.len()]);
-        }
-        let sources = predictor.sources(&effects);
-        let (unknowns, parts) = self.unknowns(&effects, &values, predictor.known());
-        let excitation = run.excitation(|channel, w| transfer(&effects, &channel.name, w));
-        let all = sensitivities(predictor.run(r), &sources, &excitation, response, &unknowns).ok()?;
-        let shown = |of: &[(usize, f64)]| -> Vec<Vec<c64>> {
-            let channel = |channel: &crate::diagnosis::residual::data::ChannelData| -> Vec<c64> {
-                let at = |h: usize| {
-                    let w = h as f64 * run.omega;
-                    let entry = |m: &Mat<c64>| if h <= m.ncols() { m[(channel.dof, h - 1)] } else { ZERO };
-                    let sum = of.iter().fold(ZERO, |s, (k, factor)| s + entry(&all[*k]) * *factor);
-                    transfer(&effects, &channel.name, w) * channel.from_displacement(w) * sum
-                };
-                (1..=run.harmonics).map(at).collect()
-            };
-            run.responses.iter().map(channel).collect()
-        };
-        Some(parts.iter().map(|of| shown(of)).collect())
-    }
-
-    /// What the response is differentiated by, and how each variable is made up of it.
-    fn unknowns(&self, effects: &[Source], values: &[f64], known: &[Source]) -> (Vec<Unknown>, Vec<Vec<(usize, f64)>>) {
-        let (mut unknowns, mut parts) = (Vec::new(), Vec::new());
-        let mut push = |list: Vec<(Unknown, f64)>| {
-            let at = unknowns.len();
-            parts.push(list.iter().enumerate().map(|(i, (_, factor))| (at + i, *factor)).collect());
-            unknowns.extend(list.iter().map(|(unknown, _)| *unknown));
-        };
-        let mut source = known.len();
+    /// What the response is differentiated by for each variable; nothing for errors of channels.
+    fn unknowns(&self, effects: &[Source]) -> Vec<Vec<(Unknown, f64)>> {
+        let mut source = self.bench.predictor.known().len();
+        let mut sums = Vec::new();
         for effect in effects {
             let channel = matches!(effect.effect.kind(), Kind::Channel(_));
             for parameter in 0..effect.parameters.len() {
-                push(if channel { Vec::new() } else { vec![(Unknown::Source { source, parameter }, 1.0)] });
+                sums.push(if channel { Vec::new() } else { vec![(Unknown::Source { source, parameter }, 1.0)] });
             }
             source += usize::from(!channel);
         }
-        let tuning = self.tuning.with(values);
-        (0..values.len()).for_each(|k| push(tuning.unknowns(k, known)));
-        (unknowns, parts)
+        sums
     }
 
     /// A column by differences.
@@ -129,8 +120,7 @@ impl Residual for OnResponse<'_> {
 
     fn residual(&mut self, theta: &[f64]) -> Result<Vec<f64>, DiagnosisError> {
         let trial = self.compute(theta)?;
-        let mut residual = self.bench.residual(&trial.predictions);
-        residual.extend(&theta[self.variables.len()..]);
+        let residual = self.bench.residual(&trial.predictions);
         self.last = Some(trial);
         Ok(residual)
     }
@@ -138,14 +128,14 @@ impl Residual for OnResponse<'_> {
     fn jacobian(&mut self, theta: &[f64], at: &[f64]) -> Result<Mat<f64>, DiagnosisError> {
         let trial = self.trial(theta)?;
         self.starts = trial.predictions.iter().map(|p| p.found.then(|| p.response.clone())).collect();
-        let (effects, count) = (self.variables.len(), theta.len());
-        let mut columns: Vec<Vec<f64>> = vec![Vec::with_capacity(at.len()); count];
-        let factors: Vec<f64> =
-            self.variables.slopes(&theta[..effects]).into_iter().chain(self.priors.iter().copied()).collect();
+        let effects = self.variables.effects(theta);
+        let (sums, factors) = (self.unknowns(&effects), self.variables.slopes(theta));
+        let mut columns: Vec<Vec<f64>> = vec![Vec::with_capacity(at.len()); theta.len()];
         let mut exact = true;
-        for r in 0..self.bench.data.runs.len() {
+        for (r, run) in self.bench.data.runs.iter().enumerate() {
             self.bench.control.check()?;
-            let Some(slopes) = self.slopes(&trial, r) else {
+            let prediction = &trial.predictions[r];
+            let Some(slopes) = run_slopes(self.bench.predictor, r, run, &effects, prediction, &sums) else {
                 exact = false;
                 break;
             };
@@ -154,17 +144,14 @@ impl Residual for OnResponse<'_> {
             }
         }
         let channels = self.of_channels();
-        for k in 0..count {
-            if !exact || channels.get(k).copied().unwrap_or(false) {
-                columns[k] = self.difference(theta, k, at)?;
-            }
-            columns[k].resize(at.len(), 0.0);
-            if k >= effects {
-                let row = at.len() - (count - k);
-                columns[k][row] = 1.0;
-            }
+        for (k, column) in columns.iter_mut().enumerate() {
+            *column = if !exact || channels[k] {
+                self.difference(theta, k, at)?
+            } else {
+                self.bench.noise.updating.column(std::mem::take(column))
+            };
         }
         self.last = Some(trial);
-        Ok(Mat::from_fn(at.len(), count, |i, k| columns[k][i]))
+        Ok(Mat::from_fn(at.len(), columns.len(), |i, k| columns[k][i]))
     }
 }

@@ -4,12 +4,12 @@ use crate::diagnosis::candidates::special_cases::{is_limit, simpler};
 use crate::diagnosis::candidates::start::start;
 use crate::diagnosis::residual::data::DiagnosisError;
 use crate::diagnosis::residual::prediction::{FINAL, SEARCH};
-use crate::diagnosis::residual::whitening::Whitening;
 use crate::diagnosis::selection::fitted_model::{Bench, Refit, Starts};
 use crate::diagnosis::selection::search::{Base, Draft, joined, scale_of};
 use crate::diagnosis::selection::stepwise::same_set;
-use crate::diagnosis::updating::parameters::Tuning;
+use crate::diagnosis::updating::noise_model::NoiseModel;
 use crate::effects::{Effect, Place, Source, State, effect::Kind};
+use std::sync::Arc;
 
 /// Of these, sets that are fitted with all harmonics that matter.
 const POLISHED: usize = 6;
@@ -33,19 +33,18 @@ const HOPELESS_FIT: f64 = 60.0;
 
 impl Base<'_> {
     /// Fits the drafts on the response: all of them a little, those that may still become the best to the end.
-    pub(crate) fn refit_all(&self, drafts: &[Draft], from: Option<&Refit>) -> Result<Vec<Refit>, DiagnosisError> {
-        self.finished(self.begun(drafts, from)?)
+    pub(crate) fn refit_all(&self, drafts: &[Draft]) -> Result<Vec<Refit>, DiagnosisError> {
+        self.finished(self.begun(drafts)?)
     }
 
     /// First steps of a fit of every draft, from the motion that the data show.
-    pub(crate) fn begun(&self, drafts: &[Draft], from: Option<&Refit>) -> Result<Vec<Refit>, DiagnosisError> {
-        let tuning = from.map_or(&self.tuning, |refit| &refit.tuning);
+    pub(crate) fn begun(&self, drafts: &[Draft]) -> Result<Vec<Refit>, DiagnosisError> {
         let first = |k: usize| {
             let draft = &drafts[k];
             let sources = self.predictor.sources(&draft.effects);
             let runs = self.data.runs.iter().zip(draft.fields.iter());
             let starts: Starts = runs.map(|(run, field)| start(&sources, run.omega, field)).collect();
-            self.bench().refit(&draft.effects, tuning, FIRST_STEPS, &SEARCH, &starts)
+            self.bench().refit(&draft.effects, FIRST_STEPS, &SEARCH, &starts)
         };
         self.control.map(drafts.len(), first).into_iter().collect()
     }
@@ -66,7 +65,7 @@ impl Base<'_> {
             if refit.descent.to_go < LEFT * scale || promised(refit) > best + HOPELESS_FIT {
                 return Ok(refit.clone());
             }
-            self.bench().refit(&refit.effects, &refit.tuning, STEPS, &SEARCH, &refit.starts)
+            self.bench().refit(&refit.effects, STEPS, &SEARCH, &refit.starts)
         };
         self.control.map(begun.len(), go_on).into_iter().collect()
     }
@@ -74,7 +73,6 @@ impl Base<'_> {
     /// The laws of the whole structure, from a light start.
     pub fn whole(&self, from: Option<&Refit>, steps: usize) -> Result<Vec<Refit>, DiagnosisError> {
         let effects = from.map_or(&[][..], |refit| &refit.effects);
-        let tuning = from.map_or(&self.tuning, |refit| &refit.tuning);
         let omega = self.data.runs.iter().map(|r| r.omega.ln()).sum::<f64>() / self.data.runs.len() as f64;
         let light = |effect: Effect| {
             let unit = match effect {
@@ -91,29 +89,27 @@ impl Base<'_> {
             .filter(|source| self.data.allows(source))
             .map(|source| joined(effects, &[source]))
             .collect();
-        let fit = |k: usize| self.bench().refit(&sets[k], tuning, steps, &SEARCH, &[]);
+        let fit = |k: usize| self.bench().refit(&sets[k], steps, &SEARCH, &[]);
         self.control.map(sets.len(), fit).into_iter().collect()
     }
 
     /// The sets of `refits` in which a law is all but a simpler one, with that in its stead.
     fn by_their_name(&self, refits: &[Refit]) -> Result<Vec<Refit>, DiagnosisError> {
-        let named = |refit: &Refit| -> Option<(Vec<Source>, Tuning)> {
-            refit.effects.iter().any(|e| simpler(e).is_some()).then(|| {
-                let effects = refit.effects.iter().map(|e| simpler(e).unwrap_or_else(|| e.clone())).collect();
-                (effects, refit.tuning.clone())
-            })
+        let named = |refit: &Refit| -> Option<Vec<Source>> {
+            let plain = || refit.effects.iter().map(|e| simpler(e).unwrap_or_else(|| e.clone())).collect();
+            refit.effects.iter().any(|e| simpler(e).is_some()).then(plain)
         };
-        let fresh = |(effects, _): &(Vec<Source>, Tuning)| {
+        let fresh = |effects: &Vec<Source>| {
             !refits.iter().any(|r| same_set(&r.effects, effects)) && effects.iter().all(|e| self.data.allows(e))
         };
-        let sets: Vec<(Vec<Source>, Tuning)> = refits.iter().filter_map(named).filter(fresh).collect();
-        let fit = |k: usize| self.bench().refit(&sets[k].0, &sets[k].1, STEPS, &SEARCH, &[]);
+        let sets: Vec<Vec<Source>> = refits.iter().filter_map(named).filter(fresh).collect();
+        let fit = |k: usize| self.bench().refit(&sets[k], STEPS, &SEARCH, &[]);
         self.control.map(sets.len(), fit).into_iter().collect()
     }
 
     /// Fits the best of `refits` again with all harmonics that matter and the noise of the best of them, truncation
     /// included; the others follow as they are.
-    pub fn polished(&self, refits: Vec<Refit>) -> Result<(Vec<Refit>, Vec<Whitening>), DiagnosisError> {
+    pub fn polished(&self, refits: Vec<Refit>) -> Result<(Vec<Refit>, Arc<NoiseModel>), DiagnosisError> {
         let mut best = refits;
         let scale = scale_of(&best, self.count());
         let bound = best.first().map_or(0.0, |r| self.evidence(r, scale)) + HOPELESS_FIT;
@@ -134,15 +130,13 @@ impl Base<'_> {
                 let refit = &best[k];
                 let arrived = refit.descent.to_go < FAR * refit.chi_square;
                 let steps = if arrived { steps } else { STEPS };
-                bench.refit(&refit.effects, &refit.tuning, steps, &FINAL, &refit.starts)
+                bench.refit(&refit.effects, steps, &FINAL, &refit.starts)
             };
             let refits = self.control.map(best.len(), again).into_iter().collect::<Result<Vec<_>, _>>()?;
             best = self.ranked(refits);
             let Some(first) = best.first() else { break };
-            let predictor = self.predictor_of(first)?;
-            let tuned = Base { predictor: &predictor, ..self.shallow() };
-            let predictions = tuned.bench().predict(&first.effects, &FINAL, &first.starts)?;
-            noise = tuned.whitenings(&first.effects, &predictions)?;
+            let predictions = self.bench().predict(&first.effects, &FINAL, &first.starts)?;
+            noise = Arc::new(self.noise_of(&first.effects, &predictions)?);
         }
         best.extend(rest);
         Ok((best, noise))

@@ -1,14 +1,12 @@
-//! The short list is judged on the response itself: the parameters of all added effects, and the corrections of the
-//! model where they are free, are fitted by Levenberg and Marquardt's method to the whitened amplitudes of all channels,
-//! runs and harmonics. Corrections carry their prior as one more datum each.
+//! The short list is judged on the response itself: the parameters of all added effects are fitted by Levenberg and
+//! Marquardt's method to the whitened amplitudes of all channels, runs and harmonics; updating parameters are eliminated.
 
 use crate::control::Control;
 use crate::diagnosis::residual::data::{Data, DiagnosisError, RunData, size};
 use crate::diagnosis::residual::prediction::{FINAL, Predictor, RunPrediction, SEARCH};
-use crate::diagnosis::residual::whitening::Whitening;
-use crate::diagnosis::selection::fit_problem::{OnResponse, Trial, ZERO};
+use crate::diagnosis::selection::fit_problem::{OnResponse, Trial};
 use crate::diagnosis::selection::levenberg_marquardt::{Descent, Variables, descend};
-use crate::diagnosis::updating::parameters::Tuning;
+use crate::diagnosis::updating::noise_model::NoiseModel;
 use crate::effects::Source;
 use crate::math::statistics::root_mean_square;
 use crate::response::harmonic_balance::{Response, ResponseError, Settings};
@@ -28,7 +26,7 @@ pub(crate) type Starts = Vec<Option<Response>>;
 pub(crate) struct Bench<'a> {
     pub predictor: &'a Predictor,
     pub data: &'a Data,
-    pub noise: &'a [Whitening],
+    pub noise: &'a NoiseModel,
     pub control: &'a Control,
 }
 
@@ -37,16 +35,10 @@ pub(crate) struct Bench<'a> {
 pub struct Refit {
     /// Effects with their parameters.
     pub effects: Vec<Source>,
-    /// Corrections of the model that were free.
-    pub tuning: Tuning,
     /// Standard deviation of every parameter, of every effect.
     pub deviations: Vec<Vec<f64>>,
-    /// Standard deviation of every correction.
-    pub tuning_deviations: Vec<f64>,
-    /// Squared whitened residual.
+    /// Squared whitened residual, the prior of updating parameters included.
     pub chi_square: f64,
-    /// What the corrections cost: their squared prior residual and Occam's factor of their freedom.
-    pub tuning_cost: f64,
     /// Number of fitted parameters of effects.
     pub parameters: usize,
     /// Relative root mean square error, as in `compare`.
@@ -58,7 +50,7 @@ pub struct Refit {
 impl Bench<'_> {
     /// Number of real data.
     pub fn count(&self) -> usize {
-        self.noise.iter().map(Whitening::len).sum()
+        self.noise.count()
     }
 
     /// Predicts every run; a run without a periodic answer is predicted to rest, and so fits nothing.
@@ -96,8 +88,14 @@ impl Bench<'_> {
         Ok(RunPrediction { found: false, ..resting })
     }
 
-    /// Whitened residual of all runs, real and imaginary parts.
+    /// Whitened residual of all runs, real and imaginary parts, updating parameters eliminated.
     pub fn residual(&self, predictions: &[RunPrediction]) -> Vec<f64> {
+        self.noise.updating.residual(self.at_reference(predictions))
+    }
+
+    /// Whitened residual of all runs with the updating parameters at their reference; what differs from run to run is
+    /// eliminated.
+    pub fn at_reference(&self, predictions: &[RunPrediction]) -> Vec<f64> {
         let mut rows = Vec::with_capacity(self.count());
         for (r, (run, prediction)) in self.data.runs.iter().zip(predictions).enumerate() {
             self.whitened(r, &mut rows, |c, h| run.responses[c].measured[h - 1] - prediction.channels[c][h - 1]);
@@ -106,10 +104,9 @@ impl Bench<'_> {
     }
 
     pub fn whitened(&self, r: usize, rows: &mut Vec<f64>, value: impl Fn(usize, usize) -> c64) {
-        for h in 1..=self.data.runs[r].harmonics {
-            let e = self.noise[r].apply(h, |c| value(c, h));
-            rows.extend(e.iter().flat_map(|e| [e.re, e.im]));
-        }
+        let mut own = self.noise.runs[r].rows(value);
+        self.noise.runs[r].nuisance().project(&mut own);
+        rows.extend(own);
     }
 
     /// Relative root mean square error of predictions over runs and channels.
@@ -126,53 +123,20 @@ impl Bench<'_> {
         root_mean_square(&errors)
     }
 
-    /// Fits all parameters of `effects`, and the corrections `tuning`, from where they are.
+    /// Fits all parameters of `effects` from where they are.
     pub fn refit(
         &self,
         effects: &[Source],
-        tuning: &Tuning,
         steps: usize,
         settings: &Settings,
         starts: &[Option<Response>],
     ) -> Result<Refit, DiagnosisError> {
-        let (variables, mut start) = Variables::new(effects);
-        let priors: Vec<f64> =
-            tuning.knobs.iter().map(crate::diagnosis::updating::parameters::Knob::deviation).collect();
-        start.extend(tuning.values.iter().zip(&priors).map(|(v, s)| v / s));
-        let starts = starts.to_vec();
-        let (bench, settings) = (*self, *settings);
-        let mut response =
-            OnResponse { bench, variables: &variables, tuning, priors: &priors, settings, starts, last: None };
+        let (variables, start) = Variables::new(effects);
+        let (bench, settings, starts) = (*self, *settings, starts.to_vec());
+        let mut response = OnResponse { bench, variables: &variables, settings, starts, last: None };
         let descent = descend(&mut response, &start, steps)?;
-        let (fitted, values) = response.split(&descent.theta);
         let trial = response.trial(&descent.theta)?;
-        Ok(finished(self, &variables, descent, fitted, tuning.with(&values), &priors, trial))
-    }
-
-    /// Derivatives of the recorded fundamentals by the corrections of the model in units of their prior deviation,
-    /// `[run][correction][channel]`; the predictor is the corrected one.
-    pub fn tuning_slopes(
-        &self,
-        effects: &[Source],
-        tuning: &Tuning,
-        predictions: &[RunPrediction],
-    ) -> Vec<Vec<Vec<c64>>> {
-        let (variables, mut theta) = Variables::new(effects);
-        let priors: Vec<f64> =
-            tuning.knobs.iter().map(crate::diagnosis::updating::parameters::Knob::deviation).collect();
-        theta.extend(tuning.values.iter().zip(&priors).map(|(v, s)| v / s));
-        let (bench, variables) = (*self, &variables);
-        let response =
-            OnResponse { bench, variables, tuning, priors: &priors, settings: FINAL, starts: Vec::new(), last: None };
-        let trial = Trial { theta, predictor: None, predictions: predictions.to_vec() };
-        let of_run = |r: usize| -> Vec<Vec<c64>> {
-            let Some(slopes) = response.slopes(&trial, r) else {
-                return vec![vec![ZERO; self.data.runs[r].responses.len()]; priors.len()];
-            };
-            let scaled = |(slope, s): (&Vec<Vec<c64>>, &f64)| slope.iter().map(|c| c[0] * *s).collect();
-            slopes[variables.len()..].iter().zip(&priors).map(scaled).collect()
-        };
-        (0..self.data.runs.len()).map(of_run).collect()
+        Ok(finished(self, &variables, descent, trial))
     }
 
     /// Error on runs that were left out: groups of runs in turn, the parameters refitted without them (linearised).
@@ -184,20 +148,19 @@ impl Bench<'_> {
         }
         let mut rows = 0;
         let mut fold_of_row = Vec::with_capacity(refit.descent.residual.len());
-        for (r, noise) in self.noise.iter().enumerate() {
+        for (r, noise) in self.noise.runs.iter().enumerate() {
             rows += noise.len();
             fold_of_row.resize(rows, r % folds);
         }
-        // The priors of corrections are never left out.
+        // The priors of updating parameters are never left out.
         fold_of_row.resize(refit.descent.residual.len(), usize::MAX);
-        let tuned = self.predictor.tuned(&refit.tuning)?;
         let mut predictions: Vec<Option<RunPrediction>> = vec![None; self.data.runs.len()];
         for fold in 0..folds {
             let theta = without(&refit.descent, &fold_of_row, fold);
             let effects = variables.effects(&theta[..variables.len()]);
             for (r, run) in self.data.runs.iter().enumerate().filter(|(r, _)| r % folds == fold) {
                 let start = refit.starts.get(r).and_then(Option::as_ref);
-                let predicted = tuned.predict(r, run, &effects, &FINAL, start, self.control);
+                let predicted = self.predictor.predict(r, run, &effects, &FINAL, start, self.control);
                 predictions[r] = Some(predicted.or_else(|_| self.at_rest(r))?);
             }
         }
@@ -205,33 +168,18 @@ impl Bench<'_> {
     }
 }
 
-fn finished(
-    bench: &Bench,
-    variables: &Variables,
-    descent: Descent,
-    effects: Vec<Source>,
-    tuning: Tuning,
-    priors: &[f64],
-    trial: Trial,
-) -> Refit {
-    let parameters = variables.len();
-    let slopes = variables.slopes(&descent.theta[..parameters]);
+fn finished(bench: &Bench, variables: &Variables, descent: Descent, trial: Trial) -> Refit {
+    let effects = variables.effects(&descent.theta);
+    let slopes = variables.slopes(&descent.theta);
     let all = descent.deviations();
     let mut own = all.iter().zip(&slopes).map(|(d, s)| d * s.abs());
     let deviations = effects.iter().map(|e| own.by_ref().take(e.parameters.len()).collect()).collect();
-    let knobs = &descent.theta[parameters..];
-    let penalty: f64 = knobs.iter().map(|u| u * u).sum();
-    // Occam's factor: how far the data narrow the corrections down together.
-    let occam = descent.knowledge(parameters);
     Refit {
-        tuning_deviations: all[parameters..].iter().zip(priors).map(|(d, s)| d * s).collect(),
-        chi_square: descent.chi_square - penalty,
-        tuning_cost: penalty + occam,
-        parameters,
+        chi_square: descent.chi_square,
+        parameters: variables.len(),
         error: bench.error(&trial.predictions),
         starts: starts_of(trial.predictions),
         effects,
-        tuning,
         deviations,
         descent,
     }

@@ -145,22 +145,6 @@ impl Descent {
     }
 }
 
-impl Descent {
-    /// `ln det` of what the data with the prior know of the variables from number `from` on, whatever the others before
-    /// them are: how far they are narrowed down together, where the prior of each is of unit variance.
-    pub fn knowledge(&self, from: usize) -> f64 {
-        let normal = transposed_product(self.jacobian.as_ref(), self.jacobian.as_ref());
-        let scale = |i: usize| if i < from { normal[(i, i)].max(f64::MIN_POSITIVE).sqrt() } else { 1.0 };
-        let n = self.theta.len();
-        let scaled = Mat::from_fn(n, n, |i, j| {
-            let ridge = if i == j && i < from { RIDGE } else { 0.0 };
-            normal[(i, j)] / (scale(i) * scale(j)) + ridge
-        });
-        let Some(factor) = Cholesky::new(scaled.as_ref()) else { return 0.0 };
-        (from..n).map(|k| 2.0 * factor.factor()[(k, k)].abs().ln()).sum::<f64>().max(0.0)
-    }
-}
-
 /// A residual as a function of the variables.
 pub(crate) trait Residual {
     /// Error that stops the descent.
@@ -348,25 +332,5 @@ mod tests {
         let Ok(descent) = descend(&mut valley, &[-1.2, 1.0], 200);
         assert!((descent.theta[0] - 1.0).abs() < 1e-2, "{:?}", descent.theta);
         assert!(valley.0 < 60, "{} residuals", valley.0);
-    }
-
-    #[test]
-    fn what_is_known_of_variables_is_the_determinant_that_others_leave() {
-        // Two corrections with priors of unit variance; the data see only their sum, or the sum of all three.
-        let of = |effect: f64| Descent {
-            theta: vec![0.0; 3],
-            chi_square: 0.0,
-            residual: vec![0.0; 3],
-            jacobian: Mat::from_fn(4, 3, |i, j| match (i, j) {
-                (0, 0) => effect,
-                (0, _) => 10.0,
-                (1, 0) | (2, 1) | (3, 2) => 1.0,
-                _ => 0.0,
-            }),
-            to_go: 0.0,
-        };
-        // det(I + a a^T) = 1 + a^T a; an effect like them takes its part away.
-        assert!((of(0.0).knowledge(1) - 201.0_f64.ln()).abs() < 1e-9);
-        assert!((of(10.0).knowledge(1) - (301.0_f64 / 101.0).ln()).abs() < 1e-9);
     }
 }

@@ -9,3 +9,4 @@ pub mod next_test;
 pub mod search;
 pub mod sentences;
 pub mod stepwise;
+pub mod updated;

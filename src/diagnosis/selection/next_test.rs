@@ -159,7 +159,7 @@ fn trial_information(base: &Base, best: &Refit, trial: &Trial) -> Option<Mat<f64
 
 /// Change of a sensor of the first run from one response to another, in units of the noise that its channel had.
 fn seen(base: &Base, c: usize, a: &Response, b: &Response) -> c64 {
-    let (run, noise) = (&base.data.runs[0], &base.noise[0]);
+    let (run, noise) = (&base.data.runs[0], &base.noise.runs[0]);
     let channel = &run.responses[c];
     let relative = noise.deviation(c, 1) / channel.size().max(f64::MIN_POSITIVE);
     let (x, y) = (a.amplitude(channel.dof, 1), b.amplitude(channel.dof, 1));

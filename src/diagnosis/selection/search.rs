@@ -12,7 +12,7 @@ use crate::diagnosis::residual::data::{Data, DiagnosisError};
 use crate::diagnosis::residual::prediction::{FINAL, Predictor, RunPrediction};
 use crate::diagnosis::residual::whitening::Whitening;
 use crate::diagnosis::selection::fitted_model::{Bench, Refit};
-use crate::diagnosis::updating::parameters::Tuning;
+use crate::diagnosis::updating::noise_model::{Linearisation, NoiseModel};
 use crate::effects::{Effect, Source};
 use crate::math::statistics::bayesian_information;
 use faer::{Mat, c64};
@@ -51,16 +51,16 @@ pub(crate) struct Draft {
 
 /// Everything that a search needs about one base model.
 pub(crate) struct Base<'a> {
-    /// The known model, corrected by `tuning`.
-    pub predictor: &'a Predictor,
+    /// The known model, its updating parameters at their reference.
+    pub predictor: Arc<Predictor>,
     pub data: &'a Data,
     pub control: &'a Control,
-    /// Corrections of the model that are free, at their present values.
-    pub tuning: Tuning,
+    /// What updating parameters do, at their reference.
+    pub linearisation: Arc<Linearisation>,
     /// Predictions of the base model.
     pub predictions: Vec<RunPrediction>,
     /// Noise of the residuals.
-    pub noise: Vec<Whitening>,
+    pub noise: Arc<NoiseModel>,
     /// Who is told of the first suggestions.
     pub early: &'a Early<'a>,
 }
@@ -75,69 +75,63 @@ pub(crate) struct View<'a> {
 impl<'a> Base<'a> {
     /// The known model itself.
     pub fn new(
-        predictor: &'a Predictor,
+        predictor: Arc<Predictor>,
         data: &'a Data,
-        tuning: Tuning,
         control: &'a Control,
+        early: &'a Early<'a>,
     ) -> Result<Self, DiagnosisError> {
-        let bench = Bench { predictor, data, noise: &[], control };
-        let predictions = bench.predict(&[], &FINAL, &[])?;
-        let mut base = Self { predictor, data, control, tuning, predictions, noise: Vec::new(), early: &|_| {} };
-        base.noise = base.whitenings(&[], &base.predictions)?;
+        let (linearisation, noise) = (Arc::default(), Arc::default());
+        let mut base = Self { predictor, data, control, linearisation, predictions: Vec::new(), noise, early };
+        base.predictions = base.bench().predict(&[], &FINAL, &[])?;
+        base.noise = Arc::new(base.noise_of(&[], &base.predictions)?);
         Ok(base)
     }
 
     /// Noise of the residual of a model with `effects` and its predictions.
-    pub fn whitenings(&self, effects: &[Source], of: &[RunPrediction]) -> Result<Vec<Whitening>, DiagnosisError> {
+    pub fn noise_of(&self, effects: &[Source], of: &[RunPrediction]) -> Result<NoiseModel, DiagnosisError> {
         let runs = self.data.runs.iter().enumerate();
-        runs.map(|(r, run)| {
-            let file = format!("number {}", run.index + 1);
-            let failed = |reason| DiagnosisError::Response { file, reason };
-            let a = transfers(self.predictor, r, run, effects, self.control).map_err(failed)?;
-            Ok(Whitening::new(run, &a, &of[r].truncation))
-        })
-        .collect()
+        let runs: Result<Vec<Whitening>, DiagnosisError> = runs
+            .map(|(r, run)| {
+                let file = format!("number {}", run.index + 1);
+                let failed = |reason| DiagnosisError::Response { file, reason };
+                let a = transfers(&self.predictor, r, run, effects, self.control).map_err(failed)?;
+                Ok(Whitening::new(run, &a, &of[r].truncation))
+            })
+            .collect();
+        Ok(NoiseModel::new(runs?, self.data, &self.linearisation))
     }
 
     /// What fits on the response are made with.
     pub fn bench(&self) -> Bench<'_> {
-        Bench { predictor: self.predictor, data: self.data, noise: &self.noise, control: self.control }
+        Bench { predictor: &self.predictor, data: self.data, noise: &self.noise, control: self.control }
     }
 
     /// Number of real data.
     pub fn count(&self) -> usize {
-        self.noise.iter().map(Whitening::len).sum()
-    }
-
-    /// The model of a fit: the predictor with its corrections.
-    pub fn predictor_of(&self, refit: &Refit) -> Result<Predictor, DiagnosisError> {
-        if refit.tuning.is_empty() { Ok(self.predictor.clone()) } else { self.predictor.tuned(&refit.tuning) }
+        self.noise.count()
     }
 
     /// The residual of the known model, or of a fit, seen from every place.
-    pub(crate) fn view<'b>(&'b self, predictor: &'b Predictor, of: Option<&Refit>) -> Result<View<'b>, DiagnosisError> {
+    pub(crate) fn view(&self, of: Option<&Refit>) -> Result<View<'_>, DiagnosisError> {
         let effects = of.map_or(&[][..], |refit| &refit.effects);
-        let mut receptances = Receptances::new(predictor, self.data, effects);
-        let bench = Bench { predictor, ..self.bench() };
+        let mut receptances = Receptances::new(&self.predictor, self.data, effects);
         let predictions = match of {
             None => self.predictions.clone(),
-            Some(refit) => bench.predict(effects, &FINAL, &refit.starts)?,
+            Some(refit) => self.bench().predict(effects, &FINAL, &refit.starts)?,
         };
-        let tuning = of.map_or(&self.tuning, |refit| &refit.tuning);
-        let deviations = tuning.knobs.iter().map(crate::diagnosis::updating::parameters::Knob::deviation);
+        let (data, noise) = (self.data, &*self.noise);
         let freedom = Freedom {
-            values: tuning.values.iter().zip(deviations).map(|(v, s)| v / s).collect(),
-            slopes: if tuning.is_empty() { Vec::new() } else { bench.tuning_slopes(effects, tuning, &predictions) },
+            values: self.linearisation.updating.standardised(),
+            slopes: self.linearisation.fundamentals(),
+            own: self.linearisation.own_fundamentals(data),
         };
-        let (data, noise) = (self.data, &self.noise);
-        let screen = Screen::new(predictor, data, &predictions, noise, &mut receptances, &freedom, self.control)?;
+        let screen = Screen::new(&self.predictor, data, &predictions, noise, &mut receptances, &freedom, self.control)?;
         Ok(View { screen, receptances, predictions })
     }
 
     /// Sets of the effects of `from` and one more, fitted on the response, best first by evidence.
     pub fn singles(&self, from: Option<&Refit>) -> Result<Vec<Refit>, DiagnosisError> {
-        let predictor = from.map_or_else(|| Ok(self.predictor.clone()), |refit| self.predictor_of(refit))?;
-        let mut view = self.view(&predictor, from)?;
+        let mut view = self.view(from)?;
         let effects = from.map_or(&[][..], |refit| &refit.effects);
         let mut drafts = Vec::new();
         let placings = self.worth_while(&mut view, effects)?;
@@ -147,14 +141,14 @@ impl<'a> Base<'a> {
         }
         let mut drafts = short_list(drafts, REFITS);
         drafts.iter_mut().for_each(|d| d.effects = joined(effects, &d.effects));
-        let mut begun = self.begun(&drafts, from)?;
+        let mut begun = self.begun(&drafts)?;
         begun.extend(self.whole(from, crate::diagnosis::selection::fits::FIRST_STEPS)?);
         Ok(self.ranked(self.finished(begun)?))
     }
 
     /// Sets of two new effects at the pairs of places that explain most.
     pub fn pairs(&self) -> Result<Vec<Refit>, DiagnosisError> {
-        let mut view = self.view(self.predictor, None)?;
+        let mut view = self.view(None)?;
         let mut drafts = Vec::new();
         let placings = view.screen.pairs(PAIRS);
         for (placing, options) in placings.iter().zip(self.all_laws(&mut view, &placings, &[])?) {
@@ -171,17 +165,16 @@ impl<'a> Base<'a> {
         drafts.truncate(REFITS);
         let bound = hopeless(drafts.first().map_or(f64::INFINITY, |best| best.score));
         drafts.retain(|d| d.score < bound);
-        Ok(self.ranked(self.refit_all(&drafts, None)?))
+        Ok(self.ranked(self.refit_all(&drafts)?))
     }
 
     /// The free force of the place of `source` when the model has the other effects of `refit`; none for whole-structure
     /// laws.
     pub fn place_data(&self, refit: &Refit, source: &Source) -> Result<Option<PlaceData>, DiagnosisError> {
-        let predictor = self.predictor_of(refit)?;
         let mut others = refit.clone();
         others.effects.retain(|e| !e.is_same(source));
         others.starts.clear();
-        let mut view = self.view(&predictor, Some(&others))?;
+        let mut view = self.view(Some(&others))?;
         let Some(at) = view.screen.spots.iter().position(|spot| spot.place().is_same(&source.place)) else {
             return Ok(None);
         };
@@ -193,11 +186,10 @@ impl<'a> Base<'a> {
     /// The set `best` with its effect `source` at other places that leave no more than `margin` beyond what its own place
     /// leaves to a free force.
     pub fn elsewhere(&self, best: &Refit, source: &Source, margin: f64) -> Result<Vec<Refit>, DiagnosisError> {
-        let predictor = self.predictor_of(best)?;
         let mut others = best.clone();
         others.effects.retain(|e| !e.is_same(source));
         others.starts.clear();
-        let mut view = self.view(&predictor, Some(&others))?;
+        let mut view = self.view(Some(&others))?;
         let placings = view.screen.singles();
         let place = |view: &View, p: &Placing| view.screen.spots[p.spots[0]].place();
         let Some(own) = placings.iter().find(|p| place(&view, p).is_same(&source.place)) else { return Ok(Vec::new()) };
@@ -212,7 +204,7 @@ impl<'a> Base<'a> {
             let same = options.into_iter().flatten().find(|d| d.effects[0].effect == source.effect);
             drafts.extend(same.map(|d| Draft { effects: joined(&others.effects, &d.effects), ..d }));
         }
-        self.refit_all(&drafts, Some(&others))
+        self.refit_all(&drafts)
     }
 
     /// Computes the receptances of the spots.
@@ -313,14 +305,14 @@ impl<'a> Base<'a> {
     }
 
     /// The same model and data without what was computed of them.
-    pub fn shallow(&self) -> Base<'_> {
+    pub fn shallow(&self) -> Base<'a> {
         Base {
-            predictor: self.predictor,
+            predictor: self.predictor.clone(),
             data: self.data,
             control: self.control,
-            tuning: self.tuning.clone(),
+            linearisation: self.linearisation.clone(),
             predictions: Vec::new(),
-            noise: Vec::new(),
+            noise: Arc::default(),
             early: self.early,
         }
     }
@@ -330,7 +322,7 @@ impl<'a> Base<'a> {
         let fit = bayesian_information(refit.chi_square / scale.max(1.0), refit.parameters, self.count());
         let extra: usize = refit.effects.iter().map(|e| e.parameters.len() - 1).sum();
         let posing = refit.effects.iter().filter(|e| simpler(e).is_some()).count();
-        fit + refit.tuning_cost + EXTRA * extra as f64 + POSING * posing as f64
+        fit + EXTRA * extra as f64 + POSING * posing as f64
     }
 
     /// Best first; none of more parameters than runs.

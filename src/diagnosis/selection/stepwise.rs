@@ -1,24 +1,22 @@
-//! The ladder from the model as it is to one that agrees with the data: effects one at a time or by pairs, and, where
-//! effects alone do not get there, corrections of the model beside them.
+//! Stepwise selection of effects, from the model as it is to one that agrees with the data: one at a time or by pairs,
+//! and, where effects alone do not get there, with updating parameters, run nuisance and their scales free beside them.
 
 use crate::diagnosis::candidates::special_cases::is_limit;
 use crate::diagnosis::residual::data::DiagnosisError;
 use crate::diagnosis::residual::prediction::FINAL;
-use crate::diagnosis::residual::whitening::Whitening;
 use crate::diagnosis::selection::conclusion::{self, Outcome};
 use crate::diagnosis::selection::fits::STEPS;
 use crate::diagnosis::selection::fitted_model::Refit;
 use crate::diagnosis::selection::search::{Base, scale_of};
-use crate::diagnosis::updating::corrected::{corrected, likely, same_with_corrections, with_corrections};
+use crate::diagnosis::updating::noise_model::NoiseModel;
 use crate::effects::Source;
+use std::sync::Arc;
 
 /// Most effects that are added.
 pub(crate) const MOST_EFFECTS: usize = 3;
 /// Evidence (difference of the information criterion) that an effect must bring: its own, and that of having been
 /// chosen among thousands.
 const EVIDENCE: f64 = 25.0;
-/// What freeing the corrections of the model costs in evidence.
-const FREEDOM: f64 = 15.0;
 /// Deviations of the sum of squares within which a model agrees with the data.
 const AGREES: f64 = 4.0;
 /// Deviations within which it agrees so well that no further effect is looked for.
@@ -34,9 +32,6 @@ const LAST_ERROR: f64 = 2e-3;
 /// The same for a law that another contains.
 const PLAIN: f64 = 1e-4;
 const PLAIN_ERROR: f64 = 1e-3;
-/// The same for what corrections of the model may still explain, but no further effect of any size.
-const MOSTLY: f64 = 2e-3;
-const MOSTLY_ERROR: f64 = 6e-3;
 /// Share of the squared residual below which what corrections leave speaks for a detuned model.
 const DETUNED: f64 = 0.1;
 /// How many times the squared residual of noise free forces may leave where the laws behind them may still explain it.
@@ -49,25 +44,18 @@ pub(crate) struct Rung {
     /// Squared residual per datum of the best, at least 1.
     pub scale: f64,
     /// Noise with the truncation of the best.
-    pub noise: Vec<Whitening>,
+    pub noise: Arc<NoiseModel>,
 }
 
 /// Where a search ended.
 pub(crate) struct Found {
-    /// The model corrected but without effects, where corrections were freed.
-    pub bare: Option<Refit>,
+    /// Whether updating parameters were freed.
+    pub updated: bool,
     pub rungs: Vec<Rung>,
     /// Whether the last rung agrees with the data.
     pub agrees: bool,
     /// Squared residual of the model as it is.
     pub before: f64,
-}
-
-impl Found {
-    /// The fit at which the search ended.
-    fn best(&self) -> Option<&Refit> {
-        self.rungs.last().map(|r| &r.refits[0]).or(self.bare.as_ref())
-    }
 }
 
 /// Whether a squared residual with `parameters` fitted is that of noise.
@@ -96,7 +84,7 @@ fn small(base: &Base, refit: &Refit, before: f64, [share, error]: [f64; 2]) -> b
 fn confirm(base: &Base, found: &mut Found) -> Result<(), DiagnosisError> {
     let Some(last) = found.rungs.last().filter(|_| found.rungs.len() < MOST_EFFECTS) else { return Ok(()) };
     let best = &last.refits[0];
-    let (n, parameters) = (base.count() as f64, best.parameters + best.tuning.knobs.len());
+    let (n, parameters) = (base.count() as f64, best.parameters);
     let settled = |refit: &Refit| refit.chi_square <= n - parameters as f64 + SETTLED * (2.0 * n).sqrt();
     if settled(best) || best.chi_square > DOUBTFUL * n {
         return Ok(());
@@ -112,67 +100,117 @@ fn confirm(base: &Base, found: &mut Found) -> Result<(), DiagnosisError> {
 }
 
 /// The search: with the model as it is, so far as free forces at one place or two could explain the data at all, then
-/// with its corrections free.
-pub(crate) fn explain<'a>(base: &'a Base<'a>, before: f64) -> Result<Outcome<'a>, DiagnosisError> {
-    let none = || Found { bare: None, rungs: Vec::new(), agrees: false, before };
+/// with its updating parameters free.
+pub(crate) fn explain<'a>(base: Base<'a>, before: f64) -> Result<Outcome<'a>, DiagnosisError> {
+    let none = || Found { updated: false, rungs: Vec::new(), agrees: false, before };
     let mut exact = none();
     let reach = base.reach()?;
     let n = base.count() as f64;
     let noise = REACH * (n + AGREES * (2.0 * n).sqrt());
     let within = |least: f64| least <= noise || least - n < LAST * (before - n);
     if within(reach.single) {
-        climb(base, &mut exact, (before, 0, 0.0), 1)?;
+        climb(&base, &mut exact, (before, 0), 1)?;
     } else {
-        add_rung(base, &mut exact, base.ranked(base.whole(None, STEPS)?), (before, 0, 0.0))?;
+        add_rung(&base, &mut exact, base.ranked(base.whole(None, STEPS)?), (before, 0))?;
         exact = if exact.agrees { exact } else { none() };
     }
     if exact.agrees {
-        confirm(base, &mut exact)?;
+        confirm(&base, &mut exact)?;
         return Ok(Outcome { base, found: exact });
     }
-    if exact.best().is_some_and(|refit| small(base, refit, before, [MOSTLY, MOSTLY_ERROR])) {
-        let tuned = same_with_corrections(base, &exact)?;
-        let better = cost(base, &tuned, before) + FREEDOM < cost(base, &exact, before);
-        return Ok(Outcome { base, found: if better { tuned } else { exact } });
-    }
-    let bare = corrected(base, false)?;
-    let detuned = bare.chi_square < DETUNED * before;
+    let bare = base.bare()?;
+    let corrected = cost(&bare, None);
     // Free forces at two places explain whatever two sensors see.
     let telling = base.data.runs.iter().all(|run| run.alive.len() > 2);
-    if telling && !detuned && !within(reach.single) && within(reach.pair) && two_at_once(base, &mut exact)? {
-        confirm(base, &mut exact)?;
+    let detuned = corrected < DETUNED * before;
+    if telling && !detuned && !within(reach.single) && within(reach.pair) && two_at_once(&base, &mut exact)? {
+        confirm(&base, &mut exact)?;
         return Ok(Outcome { base, found: exact });
     }
-    let mut tuned = with_corrections(base, exact.rungs.first(), bare, before)?;
-    // Corrections beyond what models are wrong by may stand in for effects.
-    let sound = tuned.agrees && tuned.best().is_none_or(likely);
-    if !sound && within(reach.pair) {
-        let last = exact.rungs.last().map_or((before, 0, 0.0), |r| level(&r.refits[0]));
-        climb(base, &mut exact, last, MOST_EFFECTS)?;
-    }
-    if !tuned.agrees && !exact.agrees {
-        let more = with_corrections(base, tuned.rungs.first(), corrected(base, true)?, before)?;
-        if cost(base, &more, before) + FREEDOM < cost(base, &tuned, before) {
-            tuned = more;
+    beside_updating(bare, corrected, before)
+}
+
+/// The search with the updating parameters free: at each stage the candidates seen from the model as it was updated last,
+/// then the model updated beside the best of them, and the candidates again.
+fn beside_updating<'a>(bare: Base<'a>, corrected: f64, before: f64) -> Result<Outcome<'a>, DiagnosisError> {
+    let mut found = Found { updated: true, rungs: Vec::new(), agrees: false, before };
+    let (mut here, mut least) = (bare, corrected);
+    while found.rungs.len() < MOST_EFFECTS {
+        let from = found.rungs.last().map(|rung| rung.refits[0].clone());
+        let refits = here.singles(from.as_ref())?;
+        if found.rungs.is_empty() {
+            (here.early)(&conclusion::early(&here, &refits));
+        }
+        let Some((there, refits)) = updated_beside(&here, from.as_ref(), refits)? else { break };
+        let best = &refits[0];
+        let now = cost(&there, Some(best));
+        let scale = scale_of(&refits, there.count());
+        if (least - now) / scale < EVIDENCE || best.parameters >= there.count() {
+            break;
+        }
+        found.agrees = agrees(&there, best.chi_square, best.parameters);
+        found.rungs.push(Rung { scale, noise: there.noise.clone(), refits });
+        (here, least) = (there, now);
+        if found.agrees {
+            break;
         }
     }
-    if !tuned.agrees && exact.rungs.is_empty() && reach.pair < cost(base, &tuned, before) {
-        climb(base, &mut exact, (before, 0, 0.0), 2)?;
+    if found.rungs.is_empty() {
+        let residual = here.bench().residual(&here.predictions);
+        found.agrees = agrees(&here, residual.iter().map(|r| r * r).sum(), 0);
     }
-    pruned(base, &mut tuned)?;
-    pruned(base, &mut exact)?;
-    let best = if cost(base, &tuned, before) + FREEDOM < cost(base, &exact, before) { tuned } else { exact };
-    Ok(Outcome { base, found: best })
+    pruned(&here, &mut found)?;
+    Ok(Outcome { base: here, found })
 }
 
-pub(crate) fn level(refit: &Refit) -> (f64, usize, f64) {
-    (refit.chi_square, refit.parameters, refit.tuning_cost)
+/// Times that the model is updated beside the best candidate and the candidates are fitted again.
+const UPDATES: usize = 3;
+/// Candidates that are followed while the model is updated.
+const FOLLOWED: usize = 6;
+/// Prior deviations by which an updating parameter may still move where the model counts as updated.
+const STILL: f64 = 0.1;
+/// The same from which on places are looked at again.
+const MOVED: f64 = 1.0;
+
+/// The model updated beside the best of `refits`, and the candidates fitted there, best first.
+fn updated_beside<'a>(
+    here: &Base<'a>,
+    from: Option<&Refit>,
+    mut refits: Vec<Refit>,
+) -> Result<Option<(Base<'a>, Vec<Refit>)>, DiagnosisError> {
+    let mut there: Option<Base<'a>> = None;
+    for round in 0..UPDATES {
+        let Some(best) = refits.first() else { return Ok(None) };
+        let at = there.as_ref().unwrap_or(here);
+        let distance = at.distance(&best.effects, &best.starts)?;
+        if round > 0 && distance < STILL {
+            break;
+        }
+        let moved = at.moved_to(&best.effects, &best.starts)?;
+        if distance > MOVED && round < UPDATES - 1 {
+            refits.extend(moved.singles(from)?.into_iter().take(FOLLOWED));
+            refits = distinct(refits);
+        }
+        refits.truncate(2 * FOLLOWED);
+        let fit = |k: usize| moved.bench().refit(&refits[k].effects, STEPS, &FINAL, &refits[k].starts);
+        let fitted = here.control.map(refits.len(), fit).into_iter().collect::<Result<Vec<_>, _>>()?;
+        refits = moved.ranked(fitted);
+        there = Some(moved);
+    }
+    Ok(there.filter(|_| !refits.is_empty()).map(|there| (there, refits)))
 }
 
-/// Evidence of where a search ended; the smaller, the better.
-fn cost(base: &Base, found: &Found, before: f64) -> f64 {
-    let choice = EVIDENCE * found.rungs.len() as f64;
-    found.best().map_or(before, |refit| base.evidence(refit, 1.0) + choice)
+pub(crate) fn level(refit: &Refit) -> (f64, usize) {
+    (refit.chi_square, refit.parameters)
+}
+
+/// Evidence of a model whose updating parameters are free, with the effects of `refit`; the smaller, the better.
+fn cost(base: &Base, refit: Option<&Refit>) -> f64 {
+    let fit = match refit {
+        Some(refit) => base.evidence(refit, 1.0),
+        None => base.bench().residual(&base.predictions).iter().map(|r| r * r).sum(),
+    };
+    fit + base.noise.cost()
 }
 
 /// Whether two effects at once agree with the data; then they are what was found.
@@ -193,13 +231,12 @@ fn pruned(base: &Base, found: &mut Found) -> Result<(), DiagnosisError> {
         for k in 0..best.effects.len() {
             let mut fewer = best.effects.clone();
             fewer.remove(k);
-            refits.push(base.bench().refit(&fewer, &best.tuning, 10, &FINAL, &best.starts)?);
+            refits.push(base.bench().refit(&fewer, 10, &FINAL, &best.starts)?);
         }
         let (refits, noise) = base.polished(base.ranked(refits))?;
         let enough = |r: &Refit| base.evidence(r, 1.0) < base.evidence(&best, 1.0) + EVIDENCE;
         let Some(first) = refits.first().filter(|r| enough(r)) else { break };
-        let all = first.parameters + first.tuning.knobs.len();
-        found.agrees = agrees(base, first.chi_square, all) || nearly(base, first, found.before);
+        found.agrees = agrees(base, first.chi_square, first.parameters) || nearly(base, first, found.before);
         found.rungs.pop();
         let scale = scale_of(&refits, base.count());
         let before = found.rungs.pop().map_or_else(Vec::new, |rung| rung.refits);
@@ -210,14 +247,9 @@ fn pruned(base: &Base, found: &mut Found) -> Result<(), DiagnosisError> {
 }
 
 /// Adds rungs as long as the data demand them, up to `most`.
-pub(crate) fn climb(
-    base: &Base,
-    found: &mut Found,
-    mut last: (f64, usize, f64),
-    most: usize,
-) -> Result<(), DiagnosisError> {
+pub(crate) fn climb(base: &Base, found: &mut Found, mut last: (f64, usize), most: usize) -> Result<(), DiagnosisError> {
     while found.rungs.len() < most && !found.agrees {
-        let refits = next(base, &found.rungs, found.bare.is_some())?;
+        let refits = next(base, &found.rungs)?;
         if !add_rung(base, found, refits, last)? {
             break;
         }
@@ -231,7 +263,7 @@ pub(crate) fn add_rung(
     base: &Base,
     found: &mut Found,
     refits: Vec<Refit>,
-    last: (f64, usize, f64),
+    last: (f64, usize),
 ) -> Result<bool, DiagnosisError> {
     if found.rungs.is_empty() {
         (base.early)(&conclusion::early(base, &refits));
@@ -261,7 +293,7 @@ pub(crate) fn add_rung(
     }
     let scale = scale_of(&refits, base.count());
     let penalty = best.parameters.saturating_sub(last.1) as f64 * (base.count() as f64).ln();
-    let gain = (last.0 - best.chi_square) / scale + last.2 - best.tuning_cost - penalty;
+    let gain = (last.0 - best.chi_square) / scale - penalty;
     if gain < EVIDENCE {
         return Ok(false);
     }
@@ -286,19 +318,18 @@ fn plainest(base: &Base, found: &Found, mut refits: Vec<Refit>) -> Vec<Refit> {
 
 /// Whether a fit agrees with the data, or all but.
 pub(crate) fn fits_well(base: &Base, found: &Found, refit: &Refit) -> bool {
-    let all = refit.parameters + refit.tuning.knobs.len();
-    agrees(base, refit.chi_square, all) || nearly(base, refit, found.before)
+    agrees(base, refit.chi_square, refit.parameters) || nearly(base, refit, found.before)
 }
 
 /// Sets of one effect more than the last rung.
-fn next(base: &Base, rungs: &[Rung], corrected: bool) -> Result<Vec<Refit>, DiagnosisError> {
+fn next(base: &Base, rungs: &[Rung]) -> Result<Vec<Refit>, DiagnosisError> {
     let Some(last) = rungs.last() else { return base.singles(None) };
     let quiet = Base { noise: last.noise.clone(), predictions: base.predictions.clone(), ..base.shallow() };
     let mut refits = Vec::new();
     for start in last.refits.iter().take(2) {
         refits.extend(quiet.singles(Some(start))?);
     }
-    if rungs.len() == 1 && !corrected {
+    if rungs.len() == 1 {
         refits.extend(quiet.pairs()?);
     }
     Ok(distinct(base.ranked(refits)))

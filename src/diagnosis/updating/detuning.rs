@@ -8,12 +8,12 @@
 use crate::control::Control;
 use crate::diagnosis::diagnose::Correction;
 use crate::diagnosis::residual::data::{Data, DiagnosisError, Problem};
-use crate::diagnosis::residual::prediction::{Predictor, SEARCH};
+use crate::diagnosis::residual::prediction::Predictor;
 use crate::diagnosis::selection::conclusion::corrections;
 use crate::diagnosis::selection::search::Base;
 use crate::diagnosis::selection::stepwise::agrees;
-use crate::diagnosis::updating::corrected::likely;
-use crate::diagnosis::updating::parameters::Tuning;
+use crate::diagnosis::updating::parameters::UpdatingParameter;
+use std::sync::Arc;
 
 /// Share of the squared residual from which on corrections explain most of it.
 const MOST: f64 = 0.9;
@@ -79,22 +79,42 @@ pub fn detuning(problem: &Problem, control: &Control) -> Result<Option<Detuning>
         return Ok(None);
     }
     let data = Data::new(problem)?;
-    let predictor = Predictor::new(problem.structure, problem.known(), &data)?;
-    let base = Base::new(&predictor, &data, Tuning::default(), control)?;
+    let predictor = Arc::new(Predictor::new(problem.structure, problem.known(), &data)?);
+    let base = Base::new(predictor, &data, control, &|_| {})?;
     let bench = base.bench();
-    let before: f64 = bench.residual(&base.predictions).iter().map(|r| r * r).sum();
+    let before = square(&bench.residual(&base.predictions));
     if agrees(&base, before, 0) {
         let error_after = bench.error(&base.predictions);
         return Ok(Some(Detuning { reading: Reading::Agrees, share: 0.0, error_after, corrections: Vec::new() }));
     }
-    let free = predictor.free_tuning(false);
-    let fit = base.bare(&free, &SEARCH)?;
+    let bare = base.bare()?;
+    let after = square(&bare.bench().residual(&bare.predictions));
     let noise = base.count() as f64;
-    let share = ((before - fit.chi_square) / (before - noise).max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
-    let reading = match (likely(&fit), agrees(&base, fit.chi_square, free.knobs.len())) {
+    let share = ((before - after) / (before - noise).max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
+    let reading = match (likely(&bare), agrees(&bare, after, 0)) {
         (true, true) => Reading::Detuned,
         (true, false) if share > MOST => Reading::DetunedAndMissing,
         _ => Reading::Missing,
     };
-    Ok(Some(Detuning { reading, share, error_after: fit.error, corrections: corrections(&fit) }))
+    let error_after = bare.bench().error(&bare.predictions);
+    Ok(Some(Detuning { reading, share, error_after, corrections: corrections(&bare, &bare.predictions) }))
+}
+
+/// Largest correction of a number of the model, as a logarithm, that is believed without looking for an effect.
+const LIKELY: f64 = 0.1;
+/// The same for the size of a known source.
+const LIKELY_SIZE: f64 = 0.5;
+
+/// Whether no updating parameter is farther from nothing than models are wrong: else an effect may pass for a correction.
+fn likely(base: &Base) -> bool {
+    let updating = &base.linearisation.updating;
+    updating.parameters.iter().zip(&updating.values).all(|(parameter, v)| match parameter {
+        UpdatingParameter::Structure(_) => v.abs() < LIKELY,
+        UpdatingParameter::Known(_) => v.abs() < LIKELY_SIZE,
+        UpdatingParameter::Gain(_) | UpdatingParameter::Delay(_) => true,
+    })
+}
+
+fn square(values: &[f64]) -> f64 {
+    values.iter().map(|x| x * x).sum()
 }
