@@ -24,6 +24,7 @@ const SIGNIFICANT: f64 = 0.001;
 pub(super) fn run(arguments: &Analysis) -> anyhow::Result<String> {
     let control = Control::unattended().with_workers(Arc::new(Threads::default()));
     let project = load(&arguments.file, &control)?;
+    super::tell_remarks(&project);
     let comparison =
         compare(&problem(&project), &[], &control).with_context(|| arguments.file.display().to_string())?;
     let reading = detuning(&problem(&project), &control).with_context(|| arguments.file.display().to_string())?;

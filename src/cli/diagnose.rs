@@ -24,6 +24,7 @@ use std::sync::Arc;
 pub(super) fn run(arguments: &Diagnose) -> anyhow::Result<String> {
     let control = Control::unattended().with_workers(Arc::new(Threads::default()));
     let project = load(&arguments.file, &control)?;
+    super::tell_remarks(&project);
     let early = |found: &[Suggestion]| eprint!("{}", first_words(&project.structure, found));
     let diagnosis = diagnose_without(&problem(&project), &project.ruled_out, &control, &early)
         .with_context(|| arguments.file.display().to_string())?;

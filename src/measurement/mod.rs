@@ -6,6 +6,7 @@ mod design;
 mod even_columns;
 pub mod fit;
 pub mod frequency;
+pub mod frf;
 mod noise;
 pub mod quality;
 pub mod ratio;

@@ -31,6 +31,8 @@ pub struct Run {
     pub noise_ratio: f64,
     /// What is wrong with the record, each with its reason in words.
     pub findings: Vec<Finding>,
+    /// Whether it is a line of a frequency response, per unit force: what depends on amplitude cannot be told from it.
+    pub per_unit_force: bool,
 }
 
 /// The known error of a channel: recorded = gain x true, late by the delay.
@@ -73,7 +75,8 @@ impl Run {
         let mut findings = quality::assess_record(&record, &raw, frequency_hz);
         let fit = corrected(raw, corrections);
         findings.extend(quality::assess_harmonics(&fit));
-        Ok(Self { file, level, enabled, record: Some(record), fit, noise_ratio, findings })
+        let record = Some(record);
+        Ok(Self { file, level, enabled, record, fit, noise_ratio, findings, per_unit_force: false })
     }
 
     /// Takes harmonics that were fitted elsewhere.
@@ -86,7 +89,8 @@ impl Run {
     ) -> Self {
         let fit = corrected(fit, corrections);
         let findings = quality::assess_harmonics(&fit);
-        Self { file, level, enabled, record: None, noise_ratio: noise_ratio(&fit), fit, findings }
+        let noise_ratio = noise_ratio(&fit);
+        Self { file, level, enabled, record: None, noise_ratio, fit, findings, per_unit_force: false }
     }
 
     /// Circular frequency, rad/s.

@@ -224,6 +224,7 @@ fn project(state: &session::Document, records: &Records) -> Project {
         ruled_out: state.ruled_out().as_ref().clone(),
         runs: records.runs(state),
         settings: file.analysis.clone(),
+        remarks: Vec::new(),
     }
 }
 

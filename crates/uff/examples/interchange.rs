@@ -1,6 +1,8 @@
 //! Reads a Universal File, prints every number as the bits of its float, and writes the file anew:
 //! `cargo run --example interchange FILE COPY`. For `tests/pyuff/interchange.py`.
 
+#![allow(clippy::disallowed_methods, reason = "an example outside the program")]
+
 use uff::{File, Set};
 
 fn main() -> Result<(), uff::Error> {

@@ -1,6 +1,7 @@
 //! The project file as plain data, one field a key, as it is written; where each part stood is in [`Lines`].
 
 use super::correction::CorrectionTable;
+use super::frf::FrfTable;
 use super::ruled_out::RuledOutTable;
 use crate::effects::family::Family;
 use crate::effects::{Effect, State};
@@ -39,6 +40,9 @@ pub struct ProjectFile {
     /// Tables `[[harmonics]]`.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub harmonics: Vec<HarmonicsTable>,
+    /// Tables `[[frf]]`.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub frf: Vec<FrfTable>,
     /// Table `[analysis]`.
     #[serde(skip_serializing_if = "is_default")]
     pub analysis: Settings,
@@ -257,6 +261,8 @@ pub struct Lines {
     pub run: Vec<BTreeMap<String, usize>>,
     /// Tables `[[harmonics]]`.
     pub harmonics: Vec<usize>,
+    /// Tables `[[frf]]`.
+    pub frf: Vec<usize>,
     /// Table `[simulate]`.
     pub simulate: usize,
 }

@@ -24,7 +24,7 @@ impl Plan {
     /// # Errors
     /// [`ProjectError`] for records that cannot be read or fitted, and for projects that measure nothing.
     pub fn load(self, control: &Control) -> Result<Project, ProjectError> {
-        if self.runs.is_empty() && self.file.harmonics.is_empty() {
+        if self.runs.is_empty() && self.file.harmonics.is_empty() && self.file.frf.is_empty() {
             return Err(self.error(None, Problem::NothingMeasured));
         }
         let mut runs = Vec::with_capacity(self.runs.len());
@@ -37,6 +37,12 @@ impl Plan {
         let corrections = self.corrections();
         let fitted = self.harmonics()?.into_iter();
         runs.extend(fitted.map(|run| Run::from_harmonics(run.name, None, true, run.fit, &corrections)));
+        let mut remarks = Vec::new();
+        for index in 0..self.file.frf.len() {
+            let chosen = self.frf(index, control)?;
+            runs.extend(chosen.runs);
+            remarks.extend(chosen.remarks);
+        }
         self.check_sensors(&runs)?;
         Ok(Project {
             title: self.file.project.title,
@@ -46,6 +52,7 @@ impl Plan {
             ruled_out: self.ruled_out,
             runs,
             settings: self.file.analysis,
+            remarks,
         })
     }
 

@@ -4,6 +4,7 @@
 pub mod correction;
 pub mod error;
 pub mod file;
+pub mod frf;
 pub mod load;
 mod parse;
 pub mod plan;
