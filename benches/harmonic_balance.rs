@@ -194,7 +194,16 @@ fn measured() -> (Structure, Vec<Source>, Vec<Run>) {
         let Ok(record) = synthesise(excitation.omega, &time, &motions, Some(noise)) else { continue };
         let Ok(fit) = fit(&record, excitation.omega, 7) else { continue };
         let file = format!("run-{k:02}.csv");
-        let run = Run { file, level: None, enabled: true, record: None, fit, noise_ratio: 0.01, findings: Vec::new() };
+        let run = Run {
+            file,
+            level: None,
+            enabled: true,
+            record: None,
+            fit,
+            noise_ratio: 0.01,
+            findings: Vec::new(),
+            per_unit_force: false,
+        };
         runs.push(run);
     }
     (structure, sources, runs)

@@ -25,7 +25,16 @@ fn measured(structure: &Structure, excitation: &Excitation, state: &SteadyState,
     let record = synthesise(excitation.omega, &time, &motions, Some(noise)).unwrap();
     let fit = fit(&record, excitation.omega, 5).unwrap();
     let file = format!("run-{stream}.csv");
-    Run { file, level: None, enabled: true, record: None, fit, noise_ratio: noise.ratio, findings: Vec::new() }
+    Run {
+        file,
+        level: None,
+        enabled: true,
+        record: None,
+        fit,
+        noise_ratio: noise.ratio,
+        findings: Vec::new(),
+        per_unit_force: false,
+    }
 }
 
 fn compared(structure: &Structure, sources: &[Source], runs: &[Run]) -> Comparison {
