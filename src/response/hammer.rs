@@ -3,7 +3,9 @@
 //! Each hit has the spectrum `F(f) = exp(-(f / f_c)^2)` times a strength that scatters; sensors add white noise. From `n`
 //! hits H1 and the coherence, as an analyser computes them:
 //!
-//!     H1 = sum conj(F) Y / sum |F|^2,   g2 = |sum conj(F) Y|^2 / (sum |F|^2 sum |Y|^2)
+//! ```text
+//! H1 = sum conj(F) Y / sum |F|^2,   g2 = |sum conj(F) Y|^2 / (sum |F|^2 sum |Y|^2)
+//! ```
 
 use faer::c64;
 use rand::SeedableRng;

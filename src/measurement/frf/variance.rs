@@ -4,7 +4,9 @@
 //! force leaves `n S_yy (1 - g2)` of the response's power in `n - 1` complex degrees of freedom, so that the real and the
 //! imaginary part of `H` each have the variance
 //!
-//!     v = (1 - g2) / (2 (n - 1) g2) |H|^2
+//! ```text
+//! v = (1 - g2) / (2 (n - 1) g2) |H|^2
+//! ```
 //!
 //! J. S. Bendat and A. G. Piersol, *Random Data*, 4th edition, (9.89), give it for large `n`, where `n - 1` is `n`.
 //! From the scatter: noise that is independent from line to line leaves the third difference of `H` with 20 times its
