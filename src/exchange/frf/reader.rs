@@ -190,6 +190,7 @@ fn no_pair_twice(found: &[Found]) -> Result<(), FrfProblem> {
 
 /// Gives a coherence to the response of the same DOFs; one without a response is left out.
 fn attach(found: &mut [Found], set: usize, coherence: &Function) -> Result<(), FrfProblem> {
+    const ROUNDING: f64 = 1e-3;
     let header = &coherence.header;
     let same = |one: &&mut Found| {
         let key = |dof: &uff::Dof| (dof.node, dof.direction.abs());
@@ -197,7 +198,6 @@ fn attach(found: &mut [Found], set: usize, coherence: &Function) -> Result<(), F
     };
     let Some(one) = found.iter_mut().find(same) else { return Ok(()) };
     let values: Vec<f64> = (0..coherence.values.len()).filter_map(|i| coherence.values.get(i)).map(|v| v[0]).collect();
-    const ROUNDING: f64 = 1e-3;
     if values.iter().any(|g2| *g2 < -ROUNDING || *g2 > 1.0 + ROUNDING) {
         return Err(FrfProblem::set(set, "this coherence is not between 0 and 1; export it without a scale"));
     }
