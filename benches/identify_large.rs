@@ -74,6 +74,7 @@ fn runs(structure: &Structure) -> Vec<Run> {
                 fit,
                 noise_ratio: 0.0,
                 findings: vec![],
+                per_unit_force: false,
             }
         })
         .collect()

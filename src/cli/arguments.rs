@@ -147,6 +147,8 @@ pub(super) enum Records {
     Time,
     /// One file of fitted harmonics, harmonics.csv
     Harmonics,
+    /// A hammer test of each [[frf]]: frequency responses with coherence, as a Universal File
+    Frf,
 }
 
 #[derive(Debug, Args)]

@@ -28,6 +28,7 @@ const SIGNIFICANT: f64 = 0.001;
 pub(super) fn run(arguments: &Analysis) -> anyhow::Result<String> {
     let control = Control::unattended().with_workers(Arc::new(Threads::default()));
     let mut project = load(&arguments.file, &control)?;
+    super::tell_remarks(&project);
     let records = compared(&project, &arguments.file, &control)?;
     if let Some(records) = records.as_ref().filter(|_| only_records(&project)) {
         return of_records(&project, records, arguments.json);

@@ -40,6 +40,9 @@ pub(super) fn run(arguments: &Convert) -> anyhow::Result<String> {
             write_harmonics(to, &named, &structure)?;
             format!("{} runs", runs.len())
         }
+        (_, Some(Records::Frf)) => {
+            bail!("{}: frequency responses are made by `dashpot simulate --as frf`, not from records", from.display())
+        }
         (Contents::Harmonics, Some(Records::Time)) => {
             bail!("{}: holds harmonics, not samples; `dashpot simulate` makes time records", from.display())
         }

@@ -29,6 +29,7 @@ use std::sync::Arc;
 pub(super) fn run(arguments: &Diagnose) -> anyhow::Result<String> {
     let control = Control::unattended().with_workers(Arc::new(Threads::default()));
     let mut project = load(&arguments.file, &control)?;
+    super::tell_remarks(&project);
     if !only_records(&project) {
         run_flags::check(&project, &arguments.file)?;
     }

@@ -19,6 +19,7 @@ mod play;
 mod run_flags;
 mod records;
 mod simulate;
+mod simulate_frf;
 mod source_json;
 mod table;
 
@@ -45,6 +46,11 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
             ExitCode::from(1)
         }
     }
+}
+
+/// What should be known of a project's measurements, beside the answer.
+fn tell_remarks(project: &crate::exchange::Project) {
+    project.remarks.iter().for_each(|remark| eprintln!("note: {remark}"));
 }
 
 /// What the program would print for these arguments, or the one line of its error: for programs that ask many times.

@@ -20,6 +20,9 @@ use std::fs;
 /// Makes the records and says what was written.
 pub(super) fn run(arguments: &Simulate) -> anyhow::Result<String> {
     let plan = open(&arguments.file)?;
+    if arguments.records == Records::Frf {
+        return super::simulate_frf::run(&plan, arguments);
+    }
     let name = arguments.file.display();
     let sources: Vec<Source> = plan.sources.iter().filter(|s| s.state == State::Known).cloned().collect();
     let model = Simulator::new(&plan.structure, &sources).with_context(|| format!("{name}"))?;

@@ -2,6 +2,7 @@
 
 pub mod atomic;
 pub mod export;
+pub mod frf;
 pub mod matrices;
 pub mod project;
 pub mod ratios;
@@ -31,4 +32,6 @@ pub struct Project {
     pub transient_runs: Vec<TransientRun>,
     /// Settings of the analysis.
     pub settings: Settings,
+    /// What the user should know of the measurements: lines chosen, faults that were read over.
+    pub remarks: Vec<String>,
 }

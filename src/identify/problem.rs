@@ -52,6 +52,7 @@ impl<'a> Problem<'a> {
         if run_index.is_empty() && given.transient_runs.iter().all(|run| !run.enabled) {
             return Err(IdentifyError::NoRuns);
         }
+        let per_unit_force = run_index.iter().any(|&r| runs[r].per_unit_force);
         let measured: Result<Vec<Measured>, _> = run_index.iter().map(|&r| Measured::new(&runs[r])).collect();
         let measured = measured?;
         // Without steady runs there is no harmonic to expand.
@@ -74,7 +75,7 @@ impl<'a> Problem<'a> {
             warnings,
             control: control.clone(),
         };
-        problem.sort_sources()?;
+        problem.sort_sources(per_unit_force)?;
         problem.ratios = RatioRows::new(structure, [&problem.known, &problem.columns], given.ratios)?;
         let (known, columns) = (&problem.known, &problem.columns);
         problem.windows = WindowColumns::new(structure, known, columns, given.transient_runs, control)?;
@@ -82,8 +83,22 @@ impl<'a> Problem<'a> {
         Ok(problem)
     }
 
-    fn sort_sources(&mut self) -> Result<(), IdentifyError> {
+    /// Sorts the sources; laws that depend on the amplitude are left out where the runs have none.
+    fn sort_sources(&mut self, per_unit_force: bool) -> Result<(), IdentifyError> {
+        let mut left_out: Vec<&str> = Vec::new();
         for (index, source) in self.sources.iter().enumerate() {
+            if per_unit_force
+                && !source.effect.is_linear()
+                && matches!(source.state, SourceState::Known | SourceState::Candidate | SourceState::Forced)
+            {
+                if source.state == SourceState::Forced {
+                    let source_name = describe(source, self.structure);
+                    let reason = "it depends on the amplitude, which frequency responses do not have".to_string();
+                    return Err(IdentifyError::ForcedImpossible { source_name, reason });
+                }
+                left_out.push(source.effect.name());
+                continue;
+            }
             let identifiable = source.effect.dissipates() && source.effect.coefficient().is_some();
             match source.state {
                 SourceState::Known => {
@@ -104,6 +119,15 @@ impl<'a> Problem<'a> {
                 }
                 _ => {}
             }
+        }
+        left_out.sort_unstable();
+        left_out.dedup();
+        if !left_out.is_empty() {
+            self.warnings.push(format!(
+                "{}: left out, for frequency responses are per unit force and cannot tell laws that depend on the \
+                 amplitude; measure runs at known forces for them",
+                left_out.join(", ")
+            ));
         }
         if self.columns.is_empty() { Err(IdentifyError::NoCandidates) } else { Ok(()) }
     }

@@ -8,6 +8,7 @@ mod even_columns;
 pub mod fit;
 pub mod frequency;
 pub mod kind;
+pub mod frf;
 mod noise;
 pub mod proposal;
 pub mod quality;

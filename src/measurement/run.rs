@@ -35,6 +35,8 @@ pub struct Run {
     pub noise_ratio: f64,
     /// What is wrong with the record, each with its reason in words.
     pub findings: Vec<Finding>,
+    /// Whether it is a line of a frequency response, per unit force: what depends on amplitude cannot be told from it.
+    pub per_unit_force: bool,
 }
 
 /// The known error of a channel: recorded = gain x true, late by the delay.
@@ -77,8 +79,9 @@ impl Run {
         let mut findings = quality::assess_record(&record, &raw, frequency_hz);
         let fit = corrected(raw, corrections);
         findings.extend(quality::assess_harmonics(&fit));
-        let (session, insisted) = (None, false);
-        Ok(Self { file, level, session, enabled, insisted, record: Some(record), fit, noise_ratio, findings })
+        let (session, insisted, per_unit_force) = (None, false, false);
+        let record = Some(record);
+        Ok(Self { file, level, session, enabled, insisted, record, fit, noise_ratio, findings, per_unit_force })
     }
 
     /// Takes harmonics that were fitted elsewhere.
@@ -91,8 +94,9 @@ impl Run {
     ) -> Self {
         let fit = corrected(fit, corrections);
         let findings = quality::assess_harmonics(&fit);
-        let (session, insisted) = (None, false);
-        Self { file, level, session, enabled, insisted, record: None, noise_ratio: noise_ratio(&fit), fit, findings }
+        let (session, insisted, per_unit_force) = (None, false, false);
+        let noise_ratio = noise_ratio(&fit);
+        Self { file, level, session, enabled, insisted, record: None, noise_ratio, fit, findings, per_unit_force }
     }
 
     /// Whether it takes part in fits and errors: it is wanted, and its record is of a steady motion or is wanted all the

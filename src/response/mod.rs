@@ -2,6 +2,7 @@
 
 pub mod dynamic_stiffness;
 pub mod frequency_response;
+pub mod hammer;
 pub mod harmonic_balance;
 pub mod linear_matrices;
 pub mod portrait;

@@ -37,6 +37,7 @@ fn from_files(table: &StructureTable, folder: &Path) -> Result<Structure, Refusa
         ruled_out: Vec::new(),
         run: Vec::new(),
         harmonics: Vec::new(),
+        frf: Vec::new(),
         analysis: Settings::default(),
         simulate: SimulateTable::default(),
     };

@@ -225,6 +225,7 @@ fn project(state: &session::Document, records: &Records) -> Project {
         runs: records.runs(state),
         transient_runs: Vec::new(),
         settings: file.analysis.clone(),
+        remarks: Vec::new(),
     }
 }
 

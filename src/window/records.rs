@@ -2,6 +2,7 @@
 
 use crate::control::Control;
 use crate::exchange::project::file::{ProjectFile, RunTable};
+use crate::exchange::project::frf::FrfTable;
 use crate::exchange::project::{Plan, plan};
 use crate::measurement::Run;
 use crate::session::Document as State;
@@ -25,6 +26,7 @@ pub struct Missing {
     folder: PathBuf,
     runs: Vec<(usize, Key)>,
     harmonics: Vec<Key>,
+    responses: Vec<(usize, Key)>,
 }
 
 /// Records that were read.
@@ -42,7 +44,8 @@ impl Records {
             Some(run)
         });
         let fitted = file.harmonics.iter().filter_map(|table| self.kept.get(&(table.file.clone(), on)));
-        recorded.chain(fitted.flatten().cloned()).collect()
+        let responses = file.frf.iter().filter_map(|table| self.kept.get(&frf_key(table, on)));
+        recorded.chain(fitted.flatten().cloned()).chain(responses.flatten().cloned()).collect()
     }
 
     /// What a state of the document needs and is not read yet.
@@ -53,8 +56,11 @@ impl Records {
         let runs: Vec<(usize, Key)> = runs.into_iter().filter(|(_, key)| !self.kept.contains_key(key)).collect();
         let harmonics: Vec<Key> = file.harmonics.iter().map(|table| (table.file.clone(), on)).collect();
         let harmonics = if harmonics.iter().all(|key| self.kept.contains_key(key)) { Vec::new() } else { harmonics };
+        let responses = file.frf.iter().enumerate().map(|(k, table)| (k, frf_key(table, on)));
+        let responses: Vec<(usize, Key)> = responses.filter(|(_, key)| !self.kept.contains_key(key)).collect();
         let (file, folder) = (ProjectFile::clone(file), state.folder().to_owned());
-        (!runs.is_empty() || !harmonics.is_empty()).then_some(Missing { file, folder, runs, harmonics })
+        let any = !runs.is_empty() || !harmonics.is_empty() || !responses.is_empty();
+        any.then_some(Missing { file, folder, runs, harmonics, responses })
     }
 
     /// Keeps what was read.
@@ -82,6 +88,9 @@ impl Missing {
         if !self.harmonics.is_empty() {
             fitted.extend(harmonics(&plan, &self.harmonics)?);
         }
+        for (index, key) in self.responses {
+            fitted.push((key, plan.frf(index, control).map_err(|e| e.to_string())?.runs));
+        }
         Ok(Fitted(fitted))
     }
 }
@@ -97,6 +106,13 @@ fn harmonics(plan: &Plan, keys: &[Key]) -> Result<Vec<(Key, Vec<Run>)>, String> 
         Ok((key.clone(), runs))
     };
     keys.iter().enumerate().map(one).collect()
+}
+
+/// Runs of a file of frequency responses depend on all that its table says.
+fn frf_key(table: &FrfTable, on: u64) -> Key {
+    let mut hasher = DefaultHasher::new();
+    (on, format!("{table:?}")).hash(&mut hasher);
+    (table.file.clone(), hasher.finish())
 }
 
 /// What all fits of a state depend on: number of harmonics, errors of the channels, rows of the DOFs.

@@ -80,6 +80,7 @@ fn sweep(structure: &Structure) -> Vec<Run> {
                 fit: HarmonicFit { omega: TAU * f, omega_deviation: 0.0, channels },
                 noise_ratio: 0.0,
                 findings: vec![],
+                per_unit_force: false,
             });
         }
     }

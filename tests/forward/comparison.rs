@@ -25,9 +25,8 @@ fn measured(structure: &Structure, excitation: &Excitation, state: &SteadyState,
     let record = synthesise(excitation.omega, &time, &motions, Some(noise)).unwrap();
     let fit = fit(&record, excitation.omega, 5).unwrap();
     let file = format!("run-{stream}.csv");
-    let (session, insisted) = (None, false);
     let (noise_ratio, findings) = (noise.ratio, Vec::new());
-    Run { file, level: None, session, enabled: true, insisted, record: None, fit, noise_ratio, findings }
+    Run { noise_ratio, findings, ..Run::from_harmonics(file, None, true, fit, &[]) }
 }
 
 fn compared(structure: &Structure, sources: &[Source], runs: &[Run]) -> Comparison {

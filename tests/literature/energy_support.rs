@@ -67,6 +67,7 @@ pub fn run(name: String, omega: f64, channels: Vec<ChannelFit>) -> Run {
         fit: HarmonicFit { omega, omega_deviation: 0.0, channels },
         noise_ratio: 0.0,
         findings: Vec::new(),
+        per_unit_force: false,
     }
 }
 

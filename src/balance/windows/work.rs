@@ -58,8 +58,8 @@ impl<'a> Works<'a> {
         }
         let Some(law) = source.effect.law() else { return };
         let parameters = &source.parameters;
-        if law.point(parameters, 0.0, 0.0, 1.0).is_some() {
-            let force = |d: f64, v: f64| law.point(parameters, 0.0, d, v).unwrap_or_default().force;
+        if law.point(parameters, 0.0, 1.0).is_some() {
+            let force = |d: f64, v: f64| law.point(parameters, d, v).unwrap_or_default().force;
             power.iter_mut().zip(d.iter().zip(v.iter())).for_each(|(p, (d, v))| *p += v * force(*d, *v));
         } else if law.dynamic_stiffness(parameters, 1.0).is_some() {
             let resolution = line_omega(motion.padded, motion.step);

@@ -1,6 +1,6 @@
 //! How parameters of laws are varied in a fit: logarithms where they are positive, so that no step leaves their range.
 
-use crate::effects::law::Parameter;
+use crate::effects::Parameter;
 use crate::effects::{Effect, Source};
 
 /// How a parameter of a law is varied: its value and slope at `t`.

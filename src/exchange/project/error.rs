@@ -1,6 +1,7 @@
 //! What can be wrong with a project, said in one line: file, line, what, and how to mend it.
 
 use crate::effects::source::SourceError;
+use crate::exchange::frf::FrfError;
 use crate::exchange::matrices::TableError;
 use crate::exchange::records::RecordFileError;
 use crate::measurement::channel::ChannelError;
@@ -108,4 +109,8 @@ pub enum Problem {
     Table(TableError),
     #[error("{0}")]
     Record(Box<RecordFileError>),
+    #[error("{0}")]
+    Frf(Box<FrfError>),
+    #[error("{file} has no usable line in the band; correct `band`")]
+    NoLines { file: String },
 }

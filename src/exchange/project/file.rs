@@ -2,6 +2,7 @@
 
 use super::correction::CorrectionTable;
 use super::excitation::ExcitationTable;
+use super::frf::FrfTable;
 use super::ruled_out::RuledOutTable;
 use crate::effects::family::Family;
 use crate::effects::{Effect, State};
@@ -42,6 +43,9 @@ pub struct ProjectFile {
     /// Tables `[[harmonics]]`.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub harmonics: Vec<HarmonicsTable>,
+    /// Tables `[[frf]]`.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub frf: Vec<FrfTable>,
     /// Table `[analysis]`.
     #[serde(skip_serializing_if = "is_default")]
     pub analysis: Settings,
@@ -360,6 +364,8 @@ pub struct Lines {
     pub run: Vec<BTreeMap<String, usize>>,
     /// Tables `[[harmonics]]`.
     pub harmonics: Vec<usize>,
+    /// Tables `[[frf]]`.
+    pub frf: Vec<usize>,
     /// Table `[simulate]`.
     pub simulate: usize,
 }

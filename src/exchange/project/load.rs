@@ -3,7 +3,7 @@
 use super::error::{Problem, ProjectError};
 use super::plan::{Plan, open};
 use crate::control::Control;
-use crate::effects::{Place, Source, effect::Kind};
+use crate::effects::{Place, Source, effect};
 use crate::exchange::Project;
 use crate::measurement::proposal::{Proposal, propose};
 use crate::measurement::run::Correction;
@@ -25,7 +25,7 @@ impl Plan {
     /// # Errors
     /// [`ProjectError`] for records that cannot be read or fitted, and for projects that measure nothing.
     pub fn load(self, control: &Control) -> Result<Project, ProjectError> {
-        if self.runs.is_empty() && self.file.harmonics.is_empty() {
+        if self.runs.is_empty() && self.file.harmonics.is_empty() && self.file.frf.is_empty() {
             return Err(self.error(None, Problem::NothingMeasured));
         }
         let mut runs = Vec::with_capacity(self.runs.len());
@@ -41,6 +41,12 @@ impl Plan {
         }
         let corrections = self.corrections();
         runs.extend(self.harmonics()?.into_iter().map(|run| run.run(&corrections)));
+        let mut remarks = Vec::new();
+        for index in 0..self.file.frf.len() {
+            let chosen = self.frf(index, control)?;
+            runs.extend(chosen.runs);
+            remarks.extend(chosen.remarks);
+        }
         self.check_sensors(&runs, &transient_runs)?;
         Ok(Project {
             title: self.file.project.title,
@@ -51,6 +57,7 @@ impl Plan {
             runs,
             transient_runs,
             settings: self.file.analysis,
+            remarks,
         })
     }
 
@@ -115,7 +122,7 @@ impl Plan {
                 corrections.push(Correction { channel, delay: 0.0, gain: 1.0 });
             }
             match sensor.effect.kind() {
-                Kind::Channel(law) if law.turns_phase() => corrections[at].delay = sensor.parameters[0],
+                effect::Kind::Channel(law) if law.turns_phase() => corrections[at].delay = sensor.parameters[0],
                 _ => corrections[at].gain = sensor.parameters[0],
             }
         }

@@ -5,6 +5,7 @@ pub mod correction;
 pub mod error;
 pub mod excitation;
 pub mod file;
+pub mod frf;
 pub mod load;
 mod parse;
 pub mod plan;

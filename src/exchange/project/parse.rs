@@ -7,6 +7,7 @@ use super::file::{
     CandidatesTable, FORMAT, HarmonicsTable, Header, Label, Lines, MatricesTable, PointsTable, ProjectFile, RunTable,
     SensorTable, Shape, SimulateTable, SourceTable, StructureTable,
 };
+use super::frf;
 use super::reader::{Origin, Table, one_line};
 use super::ruled_out;
 use crate::balance::{Expansion, Weights};
@@ -21,8 +22,19 @@ use crate::structure::chain::ChainParameters;
 use std::collections::BTreeMap;
 use toml::de::DeTable;
 
-const TABLES: [&str; 10] =
-    ["project", "structure", "source", "candidates", "sensor", "ruled_out", "run", "harmonics", "analysis", "simulate"];
+const TABLES: [&str; 11] = [
+    "project",
+    "structure",
+    "source",
+    "candidates",
+    "sensor",
+    "ruled_out",
+    "run",
+    "harmonics",
+    "frf",
+    "analysis",
+    "simulate",
+];
 const BEAM: [&str; 10] = [
     "kind",
     "lumped_mass",
@@ -87,6 +99,7 @@ impl ProjectFile {
             ruled_out: ruled_out::parse(&root, &mut lines)?,
             run: runs(&root, &mut lines)?,
             harmonics: harmonics(&root, &mut lines)?,
+            frf: frf::parse(&root, &mut lines)?,
             analysis: analysis(&root)?,
             simulate: simulate(&root, &mut lines)?,
         };

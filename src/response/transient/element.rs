@@ -33,8 +33,8 @@ impl Form {
             Effect::ElasticSlider | Effect::Iwan => Some(Self::Masing),
             Effect::Maxwell => Some(Self::Maxwell),
             Effect::Power => Some(Self::Smooth),
-            _ if law.point(&typical(law), 0.0, 0.0, 1.0).is_none() => None,
-            _ if law.jumps() => Some(Self::Friction),
+            _ if law.point(&typical(law), 0.0, 1.0).is_none() => None,
+            _ if law.set_valued().is_some() => Some(Self::Friction),
             _ => Some(Self::Smooth),
         }
     }
@@ -107,7 +107,7 @@ impl Element {
 
     /// Greatest force at rest, N.
     pub fn static_force(&self) -> f64 {
-        self.law.point(&self.parameters, 0.0, 0.0, CREEP).map_or(0.0, |p| p.force.abs())
+        self.law.point(&self.parameters, 0.0, CREEP).map_or(0.0, |p| p.force.abs())
     }
 
     /// Mean force of a step of `step` s from `d` (m) by `x`; `side` is the sign of the slip of friction.
@@ -115,7 +115,7 @@ impl Element {
         match self.form {
             Form::Smooth | Form::Friction => {
                 let v = self.on_side(x / step, side);
-                let point = self.law.point(&self.parameters, 0.0, d + 0.5 * x, v).unwrap_or_default();
+                let point = self.law.point(&self.parameters, d + 0.5 * x, v).unwrap_or_default();
                 let (by_d, by_v) = (finite(point.by_displacement), finite(point.by_velocity));
                 let by_v = if self.form == Form::Friction && v * side <= CREEP { 0.0 } else { by_v };
                 Mean { force: point.force, by_step: 0.5 * by_d + by_v / step, by_start: by_d }
@@ -186,7 +186,7 @@ impl Element {
         match self.form {
             Form::Friction if side == 0.0 => [held, 0.0, 0.0],
             Form::Smooth | Form::Friction => {
-                let point = self.law.point(&self.parameters, 0.0, d, self.on_side(v, side)).unwrap_or_default();
+                let point = self.law.point(&self.parameters, d, self.on_side(v, side)).unwrap_or_default();
                 [point.force, finite(point.by_displacement), finite(point.by_velocity)]
             }
             Form::Masing | Form::Maxwell => [self.last.force, 0.0, 0.0],
@@ -251,7 +251,7 @@ impl Element {
         self.scratch.displacement[0] = d;
         self.scratch.velocity[0] = v;
         let mut value = [0.0];
-        self.law.smooth_parameter_tangent(&self.parameters, k, 0.0, &self.scratch, &mut value);
+        self.law.parameter_tangent(&self.parameters, k, &self.scratch, &mut value);
         if value[0].is_finite() { value[0] } else { 0.0 }
     }
 

@@ -1,0 +1,34 @@
+//! What can be wrong with a file of frequency responses.
+
+/// A file of frequency responses that cannot be used.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[error("{file}: {problem}")]
+pub struct FrfError {
+    /// The file.
+    pub file: String,
+    /// What is wrong.
+    pub problem: FrfProblem,
+}
+
+/// What is wrong, where, and how to mend it.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[expect(missing_docs, reason = "the messages say it")]
+pub enum FrfProblem {
+    #[error("{0}")]
+    File(uff::Error),
+    #[error("{set}: {what}")]
+    Set { set: String, what: String },
+    #[error("has no frequency response; name a file with functions of type 4 (data set 58)")]
+    NoResponses,
+    #[error("cannot be written: {reason}; check the folder")]
+    Unwritable { reason: String },
+    #[error("node \"{node}\" has no number, as Universal Files need; number the nodes")]
+    NodeName { node: String },
+}
+
+impl FrfProblem {
+    /// The problem of a set, counted from 0.
+    pub(super) fn set(index: usize, what: impl Into<String>) -> Self {
+        Self::Set { set: format!("set {}", index + 1), what: what.into() }
+    }
+}

@@ -1,0 +1,218 @@
+//! Universal Files to measured frequency responses: functions of type 4, coherences of type 6 beside them.
+
+use super::error::{FrfError, FrfProblem};
+use super::names::place;
+use super::units::{Form, ratio};
+use crate::control::Control;
+use crate::measurement::frf::{FrequencyResponse, ResponseSet};
+use crate::measurement::{Channel, Quantity};
+use crate::structure::Structure;
+use faer::c64;
+use std::collections::BTreeMap;
+use std::path::Path;
+use uff::{File, Function, FunctionHeader, FunctionKind, Set, Summary};
+
+/// How a file is to be read.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct FrfSource {
+    /// What the functions relate; from their units where it is not given.
+    pub form: Option<Form>,
+    /// Factor from the file's numbers to SI, negative to reverse; from the units where it is not given.
+    pub scale: Option<f64>,
+    /// Number of averages.
+    pub averages: Option<usize>,
+    /// Whether responses and references are exchanged: a roving hammer gives columns by reciprocity.
+    pub reciprocity: bool,
+    /// DOFs of the file by name, such as `12:+Z`, and their labels in the structure.
+    pub dofs: BTreeMap<String, String>,
+}
+
+/// The functions of a file on their common frequencies, and the faults that were read over.
+pub fn read_responses(
+    path: &Path,
+    name: &str,
+    source: &FrfSource,
+    structure: &Structure,
+    control: &Control,
+) -> Result<(ResponseSet, Vec<String>), FrfError> {
+    let at = |problem| FrfError { file: path.display().to_string(), problem };
+    let mut file = File::open(path).map_err(|error| at(FrfProblem::File(error)))?;
+    Reader { file: &mut file, source, structure }.read(name, control).map_err(at)
+}
+
+struct Reader<'a> {
+    file: &'a mut File<std::fs::File>,
+    source: &'a FrfSource,
+    structure: &'a Structure,
+}
+
+/// A response in the file.
+struct Found {
+    set: usize,
+    function: FrequencyResponse,
+    pair: [uff::Dof; 2],
+}
+
+impl Reader<'_> {
+    fn read(mut self, name: &str, control: &Control) -> Result<(ResponseSet, Vec<String>), FrfProblem> {
+        let entries = self.file.sets().to_vec();
+        let units = entries.iter().find_map(|entry| match &entry.summary {
+            Summary::Units(units) => Some(units.clone()),
+            _ => None,
+        });
+        let mut faults: Vec<String> = self.file.warnings().iter().map(|fault| format!("{name}: {fault}")).collect();
+        let (mut found, mut frequencies, mut coherences) = (Vec::new(), Vec::new(), Vec::new());
+        for (set, entry) in entries.iter().enumerate() {
+            let Summary::Function(header) = &entry.summary else { continue };
+            if !matches!(header.kind, FunctionKind::FrequencyResponse | FunctionKind::Coherence) {
+                continue;
+            }
+            if control.check().is_err() {
+                break;
+            }
+            let reading = self.file.read(set).map_err(FrfProblem::File)?;
+            faults.extend(reading.warnings.iter().map(|fault| format!("{name}: {fault}")));
+            let Set::Function(function) = reading.set else { continue };
+            common_frequencies(&mut frequencies, &function, set)?;
+            if header.kind == FunctionKind::Coherence {
+                coherences.push((set, function));
+            } else {
+                found.push(self.response(set, &function, units.as_ref())?);
+            }
+        }
+        if found.is_empty() {
+            return Err(FrfProblem::NoResponses);
+        }
+        no_pair_twice(&found)?;
+        for (set, coherence) in coherences {
+            attach(&mut found, set, &coherence)?;
+        }
+        let functions = found.into_iter().map(|found| found.function).collect();
+        let mut set = ResponseSet {
+            name: name.to_string(),
+            frequencies_hz: frequencies,
+            functions,
+            averages: self.source.averages,
+        };
+        drop_zero(&mut set);
+        Ok((set, faults))
+    }
+
+    fn response(&mut self, set: usize, function: &Function, units: Option<&uff::Units>) -> Result<Found, FrfProblem> {
+        let header = &function.header;
+        let wrong = |what: String| FrfProblem::set(set, what);
+        let (form, scale) = self.form(header, units).map_err(wrong)?;
+        let pair = [header.response.clone(), header.reference.clone()];
+        let [response, reference] = if self.source.reciprocity { [&pair[1], &pair[0]] } else { [&pair[0], &pair[1]] };
+        let (response, sign) = place(response, &self.source.dofs, self.structure).map_err(wrong)?;
+        let (reference, other) = place(reference, &self.source.dofs, self.structure).map_err(wrong)?;
+        if form.is_inverse() && response != reference {
+            return Err(wrong(
+                "force over motion between different DOFs is not the inverse of a response; export motion over force"
+                    .to_string(),
+            ));
+        }
+        let factor = scale * sign * other;
+        let value = |i: usize| {
+            let [re, im] = function.values.get(i).unwrap_or([f64::NAN; 2]);
+            let value = c64::new(re, im) * factor;
+            if form.is_inverse() { c64::new(1.0, 0.0) / value } else { value }
+        };
+        let channel = |quantity, dof: usize| Channel { quantity, dof, label: self.structure.label(dof).to_string() };
+        let function = FrequencyResponse {
+            response: channel(form.quantity(), response),
+            reference: channel(Quantity::Force, reference),
+            values: (0..function.values.len()).map(value).collect(),
+            coherence: None,
+        };
+        Ok(Found { set, function, pair })
+    }
+
+    /// Form and factor to SI: from the project, else from the units of the file.
+    fn form(&self, header: &FunctionHeader, units: Option<&uff::Units>) -> Result<(Form, f64), String> {
+        match (self.source.form, self.source.scale) {
+            (Some(form), Some(scale)) => Ok((form, scale)),
+            (form, scale) => {
+                let ratio = ratio(header, units)?;
+                if form.is_some_and(|form| form != ratio.form) {
+                    return Err(format!(
+                        "its units are those of another form ({:?}); correct `form`, or give `scale` too",
+                        ratio.form
+                    ));
+                }
+                // With a form in the units, a scale corrects them.
+                Ok((ratio.form, ratio.to_si * scale.unwrap_or(1.0)))
+            }
+        }
+    }
+}
+
+/// Takes the frequencies of the first function and compares those of the others.
+fn common_frequencies(common: &mut Vec<f64>, function: &Function, set: usize) -> Result<(), FrfProblem> {
+    const SAME: f64 = 1e-6;
+    let unit = function.header.abscissa.unit.as_str();
+    if !matches!(unit, "" | "Hz" | "hz" | "HZ" | "1/s") {
+        return Err(FrfProblem::set(set, format!("its abscissa is in \"{unit}\"; export over frequency in Hz")));
+    }
+    let frequencies = function.abscissas();
+    if frequencies.iter().any(|f| !f.is_finite()) || frequencies.windows(2).any(|pair| pair[1] <= pair[0]) {
+        return Err(FrfProblem::set(set, "its frequencies do not increase; export over ascending frequencies"));
+    }
+    if common.is_empty() {
+        *common = frequencies;
+        return Ok(());
+    }
+    let same = common.len() == frequencies.len()
+        && common.iter().zip(&frequencies).all(|(a, b)| (a - b).abs() <= SAME * b.abs().max(1e-9));
+    if same {
+        return Ok(());
+    }
+    let what = "its frequencies are not those of the functions before it; put it into a file of its own";
+    Err(FrfProblem::set(set, what))
+}
+
+fn no_pair_twice(found: &[Found]) -> Result<(), FrfProblem> {
+    let mut seen: BTreeMap<(usize, usize), usize> = BTreeMap::new();
+    for one in found {
+        let pair = (one.function.response.dof, one.function.reference.dof);
+        if let Some(first) = seen.insert(pair, one.set) {
+            let what = format!(
+                "{} over {} is in set {} already; keep one of them",
+                one.function.response,
+                one.function.reference,
+                first + 1
+            );
+            return Err(FrfProblem::set(one.set, what));
+        }
+    }
+    Ok(())
+}
+
+/// Gives a coherence to the response of the same DOFs; one without a response is left out.
+fn attach(found: &mut [Found], set: usize, coherence: &Function) -> Result<(), FrfProblem> {
+    const ROUNDING: f64 = 1e-3;
+    let header = &coherence.header;
+    let same = |one: &&mut Found| {
+        let key = |dof: &uff::Dof| (dof.node, dof.direction.abs());
+        key(&one.pair[0]) == key(&header.response) && key(&one.pair[1]) == key(&header.reference)
+    };
+    let Some(one) = found.iter_mut().find(same) else { return Ok(()) };
+    let values: Vec<f64> = (0..coherence.values.len()).filter_map(|i| coherence.values.get(i)).map(|v| v[0]).collect();
+    if values.iter().any(|g2| *g2 < -ROUNDING || *g2 > 1.0 + ROUNDING) {
+        return Err(FrfProblem::set(set, "this coherence is not between 0 and 1; export it without a scale"));
+    }
+    one.function.coherence = Some(values);
+    Ok(())
+}
+
+/// Leaves out the line at 0 Hz, which is no motion.
+fn drop_zero(set: &mut ResponseSet) {
+    let from = set.frequencies_hz.iter().take_while(|f| **f <= 0.0).count();
+    set.frequencies_hz.drain(..from);
+    for function in &mut set.functions {
+        function.values.drain(..from);
+        if let Some(coherence) = &mut function.coherence {
+            coherence.drain(..from);
+        }
+    }
+}

@@ -1,0 +1,142 @@
+//! Tables `[[frf]]`: measured frequency responses as runs.
+
+use super::error::{Problem, ProjectError};
+use super::file::{Label, Lines};
+use super::plan::Plan;
+use super::reader::Table;
+use crate::control::Control;
+use crate::exchange::frf::{Form, FrfSource, read_responses};
+use crate::measurement::frf::{ChosenRuns, Selection};
+use serde::Serialize;
+use std::collections::BTreeMap;
+use std::path::Path;
+
+const KEYS: [&str; 9] = ["file", "form", "scale", "averages", "reciprocity", "band", "lines", "use", "dofs"];
+
+/// Lines that are used unless the project says otherwise: enough for many modes, few enough to stay fast.
+const USUAL_LINES: usize = 96;
+/// Most lines that may be asked for.
+const MOST_LINES: usize = 100_000;
+/// Most averages.
+const MOST_AVERAGES: usize = 1_000_000;
+
+/// Table `[[frf]]`.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct FrfTable {
+    /// Universal File, relative to the project.
+    pub file: String,
+    /// What the functions relate; from their units where it is left out.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub form: Option<Form>,
+    /// Factor from the file's numbers to SI, or on top of its units.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub scale: Option<f64>,
+    /// Number of averages.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub averages: Option<usize>,
+    /// Whether responses and references are exchanged.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub reciprocity: bool,
+    /// Band, Hz.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub band: Option<[f64; 2]>,
+    /// Most lines that become runs.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub lines: Option<usize>,
+    /// Key `use`.
+    #[serde(rename = "use", skip_serializing_if = "Clone::clone")]
+    pub enabled: bool,
+    /// DOFs of the file, such as `12:+Z`, and their labels in the structure.
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    pub dofs: BTreeMap<String, Label>,
+}
+
+/// Reads every `[[frf]]`.
+pub(super) fn parse(root: &Table<'_>, lines: &mut Lines) -> Result<Vec<FrfTable>, ProjectError> {
+    let mut tables = Vec::new();
+    for table in root.tables("frf", "[[frf]]")? {
+        table.only(&KEYS)?;
+        let scale = table.number("scale")?;
+        if scale == Some(0.0) {
+            let problem = Problem::OutOfRange { key: "scale".into(), value: "0".into(), range: "other than zero" };
+            return Err(table.error("scale", problem));
+        }
+        tables.push(FrfTable {
+            file: table.need("file", "file = \"hammer.uff\"", table.text("file")?)?,
+            form: table.word("form", &Form::WORDS, Form::from_word)?,
+            scale,
+            averages: table.count("averages", 1, MOST_AVERAGES, "between 1 and 1000000")?,
+            reciprocity: table.flag("reciprocity")?.unwrap_or(false),
+            band: band(&table)?,
+            lines: table.count("lines", 1, MOST_LINES, "between 1 and 100000")?,
+            enabled: table.flag("use")?.unwrap_or(true),
+            dofs: dofs(&table)?,
+        });
+        lines.frf.push(table.line());
+    }
+    Ok(tables)
+}
+
+fn band(table: &Table<'_>) -> Result<Option<[f64; 2]>, ProjectError> {
+    let Some(numbers) = table.numbers("band")? else { return Ok(None) };
+    match <[f64; 2]>::try_from(numbers.as_slice()) {
+        Ok(band) if band[0] >= 0.0 && band[1] > band[0] => Ok(Some(band)),
+        _ => {
+            let value = format!("{numbers:?}");
+            let range = "two ascending frequencies in Hz, such as [5, 400]";
+            Err(table.error("band", Problem::OutOfRange { key: "band".into(), value, range }))
+        }
+    }
+}
+
+fn dofs(table: &Table<'_>) -> Result<BTreeMap<String, Label>, ProjectError> {
+    let Some(map) = table.table("dofs", "[frf.dofs]")? else { return Ok(BTreeMap::new()) };
+    let mut dofs = BTreeMap::new();
+    for key in map.keys() {
+        if let Some(label) = map.label(key)? {
+            dofs.insert(key.to_string(), Label(label));
+        }
+    }
+    Ok(dofs)
+}
+
+impl FrfTable {
+    /// How its file is to be read.
+    pub fn source(&self) -> FrfSource {
+        FrfSource {
+            form: self.form,
+            scale: self.scale,
+            averages: self.averages,
+            reciprocity: self.reciprocity,
+            dofs: self.dofs.iter().map(|(name, label)| (name.clone(), label.0.clone())).collect(),
+        }
+    }
+
+    /// Which lines become runs.
+    pub fn selection(&self) -> Selection {
+        Selection { band: self.band.unwrap_or([0.0, f64::INFINITY]), most: self.lines.unwrap_or(USUAL_LINES) }
+    }
+}
+
+impl Plan {
+    /// Reads the frequency responses of table number `index` and makes runs of their most informative lines.
+    ///
+    /// # Errors
+    /// [`ProjectError`] with the line of the table, the file and the set.
+    pub fn frf(&self, index: usize, control: &Control) -> Result<ChosenRuns, ProjectError> {
+        let table = &self.file.frf[index];
+        let wrong = |problem| self.error(Some(self.lines.frf[index]), problem);
+        let path = self.path.parent().unwrap_or(Path::new("")).join(&table.file);
+        if !path.is_file() {
+            return Err(wrong(Problem::NoRecord { file: table.file.clone() }));
+        }
+        let (set, faults) = read_responses(&path, &table.file, &table.source(), &self.structure, control)
+            .map_err(|error| wrong(Problem::Frf(Box::new(error))))?;
+        let mut chosen = set.runs(table.selection(), table.enabled, &self.corrections());
+        if chosen.runs.is_empty() {
+            return Err(wrong(Problem::NoLines { file: table.file.clone() }));
+        }
+        chosen.remarks.extend(faults);
+        Ok(chosen)
+    }
+}
