@@ -68,7 +68,7 @@ fn tables() {
     );
     beam(
         "run = 3\n",
-        "p.toml:12: [structure] has no key `run`; it takes `kind`, `lumped_mass`, `length`, `breadth`, `depth`, \
+        "p.toml:12: [structure] has no key `run`; it takes `kind`, `lumped_mass`, `correction`, `length`, `breadth`, `depth`, \
         `youngs_modulus`, `density`, `elements`, `supports`",
     );
 }

@@ -10,7 +10,8 @@ use crate::measurement::Quantity;
 const SAME_LEVEL: f64 = 0.2;
 /// Scatter of a response within its levels, relative, up to which a controller may have held it.
 const HELD: f64 = 0.05;
-/// Scatter of the force within its levels from which on it was not what was held.
+/// Scatter of the force within its levels from which on it was not what was held; nor was it where it has more levels than
+/// a response that was held.
 const LOOSE: f64 = 0.15;
 
 /// The level of every run.
@@ -30,7 +31,10 @@ impl Levels {
         }
         let force = |run: &RunData| run.forces.iter().map(|f| f.measured.first().map_or(0.0, |f| f.norm())).sum();
         let forces = Self::by_amplitude(&data.runs.iter().map(force).collect::<Vec<f64>>(), "N");
-        if forces.scatter < LOOSE { forces.levels } else { held_response(data).unwrap_or(forces.levels) }
+        match held_response(data) {
+            Some(held) if forces.scatter > LOOSE || held.count < forces.count => held.levels,
+            _ => forces.levels,
+        }
     }
 
     fn labelled(labels: &[i64]) -> Self {
@@ -67,7 +71,7 @@ struct Grouped {
 }
 
 /// Levels by the response that scatters least within its own, where one was held.
-fn held_response(data: &Data) -> Option<Levels> {
+fn held_response(data: &Data) -> Option<Grouped> {
     let [names, _] = data.channel_names();
     let candidates = names.iter().filter_map(|name| {
         let amplitude = |run: &RunData| {
@@ -80,7 +84,7 @@ fn held_response(data: &Data) -> Option<Levels> {
         Some(Levels::by_amplitude(&amplitudes, &unit))
     });
     let held = candidates.filter(|g| g.scatter < HELD && 2 * g.count <= g.levels.numbers.len());
-    held.min_by(|a, b| a.scatter.total_cmp(&b.scatter)).map(|g| g.levels)
+    held.min_by(|a, b| a.scatter.total_cmp(&b.scatter))
 }
 
 #[cfg(test)]

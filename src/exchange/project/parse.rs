@@ -352,7 +352,8 @@ fn harmonics(root: &Table<'_>, lines: &mut Lines) -> Read<Vec<HarmonicsTable>> {
             file: table.need("file", "file = \"harmonics.csv\"", table.text("file")?)?,
             force: table.text("force")?,
             response: table.text("response")?,
-            phase_of: table.word("phase_of", &phases, Quantity::from_word)?,
+            phase_of: table
+                .word("phase_of", &phases, |word| Quantity::from_word(word).filter(|q| *q != Quantity::Force))?,
             level: table.whole("level")?,
             session: table.text("session")?,
             enabled: table.flag("use")?,
