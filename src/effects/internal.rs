@@ -83,9 +83,9 @@ impl<T: InternalLaw> Internal<T> {
             }
             let rest = end - start;
             if rest > 0.0 {
-                low = start
+                low = start;
             } else {
-                high = start
+                high = start;
             }
             let newton = start + rest / (1.0 - slope);
             let next = if newton > low && newton < high { newton } else { 0.5 * (low + high) };
