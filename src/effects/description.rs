@@ -53,6 +53,7 @@ impl Exponents {
 
 /// What is known of a law, whatever it acts on.
 #[derive(Debug, Clone, Copy)]
+#[expect(clippy::struct_excessive_bools, reason = "independent answers to independent questions")]
 pub struct Description {
     /// Its one name, as in the middle of a sentence: `viscous dashpot`.
     pub name: &'static str,

@@ -67,7 +67,7 @@ impl Effect {
 
     /// Whether the force is a linear function of the motion, harmonic by harmonic.
     pub fn is_linear(self) -> bool {
-        self.law().is_none_or(|law| law.is_linear())
+        self.law().is_none_or(Law::is_linear)
     }
 
     /// The constant matrix of the equation of motion to which it adds, if there is one.

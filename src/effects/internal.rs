@@ -83,16 +83,16 @@ impl<T: InternalLaw> Internal<T> {
             }
             let rest = end - start;
             if rest > 0.0 {
-                low = start
+                low = start;
             } else {
-                high = start
+                high = start;
             }
             let newton = start + rest / (1.0 - slope);
             let next = if newton > low && newton < high { newton } else { 0.5 * (low + high) };
             let change = (next - start).abs();
             start = next;
-            // The error left is that of the last change squared.
-            if change <= 1e-10 * bound {
+            // Newton converges quadratically: what is left is rounding.
+            if change <= 1e-13 * bound {
                 break;
             }
         }
