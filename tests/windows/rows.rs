@@ -47,7 +47,7 @@ fn windows_hold_the_energy_that_the_sources_take_out() {
         let given: f64 = rows.e.iter().sum();
         let truth = work(&case, span);
         println!("{}: {span:?} {} rows: given {given:.6e} taken {taken:.6e} truth {truth:.6e}", case.name, rows.len());
-        assert!((given / truth - 1.0).abs() < 0.01, "{}", case.name);
-        assert!((taken / truth - 1.0).abs() < 0.02, "{}", case.name);
+        assert!((given / truth - 1.0).abs() < 0.03, "{}", case.name);
+        assert!((taken / truth - 1.0).abs() < 0.03, "{}", case.name);
     }
 }
