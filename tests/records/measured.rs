@@ -1,4 +1,4 @@
-//! Measured decays, where `DASHPOT_MEASURED` names the folder that holds them (see docs/real.md for their sources).
+//! Measured decays, where `DASHPOT_MEASURED` names the folder that holds them.
 
 use dashpot::control::Control;
 use dashpot::diagnosis::records::amplitude::{AmplitudePoint, Band, amplitude_curve, line};
