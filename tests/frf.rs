@@ -62,9 +62,9 @@ fn right(found: &[(String, f64, f64)]) {
 fn a_hammer_test_gives_its_dashpots_back_with_their_deviations() {
     let folder = hammered("0.02", CHANNELS);
     let project = opened(folder.path(), "averages = 8\n", "").unwrap();
-    assert_eq!(project.runs.len(), 96);
+    assert_eq!(project.runs.len(), 48);
     assert!(project.runs.iter().all(|run| run.per_unit_force && run.fit.channels.len() == 5));
-    assert!(project.remarks[0].starts_with("hammer.uff: 96 of 3200 lines are used"), "{:?}", project.remarks);
+    assert!(project.remarks[0].starts_with("hammer.uff: 48 of 3200 lines are used"), "{:?}", project.remarks);
     right(&found(&project, &identified(&project)));
     // Without averages the deviations come from the scatter about a smooth curve.
     let scattered = opened(folder.path(), "", "").unwrap();
