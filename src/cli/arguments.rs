@@ -41,6 +41,8 @@ pub(super) enum Command {
     Methods(Methods),
     /// Rewrite a measurement file: into SI units, or into fitted harmonics
     Convert(Convert),
+    /// List what is in measurement files of any format: sets, channels, units, steps, first values
+    Contents(Contents),
     /// Write a structure of a known kind as matrices with nodes, DOFs and lines
     Build(Build),
     /// Play a script of commands on a project, as the window would do them
@@ -161,6 +163,16 @@ pub(super) struct Convert {
     /// Significant digits of the samples; as many as read back the same unless given
     #[arg(long, value_parser = clap::value_parser!(u8).range(1..=17))]
     pub digits: Option<u8>,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct Contents {
+    /// Measurement files, or folders of them
+    #[arg(required = true, value_name = "FILE")]
+    pub files: Vec<PathBuf>,
+    /// Print one JSON document in place of a tree
+    #[arg(long)]
+    pub json: bool,
 }
 
 #[derive(Debug, Args)]

@@ -5,6 +5,7 @@
 mod arguments;
 mod build;
 mod compare;
+mod contents;
 mod convert;
 mod diagnose;
 mod export;
@@ -53,6 +54,7 @@ fn execute(command: &Command) -> anyhow::Result<String> {
         Command::Methods(arguments) if arguments.incompleteness => incompleteness::run(arguments),
         Command::Methods(arguments) => methods::run(arguments),
         Command::Convert(arguments) => convert::run(arguments),
+        Command::Contents(arguments) => contents::run(arguments),
         Command::Build(arguments) => build::run(arguments),
         Command::Run(arguments) => play::run(arguments),
     }

@@ -3,7 +3,7 @@
 use crate::contents::Contents;
 use crate::error::{Fault, Read};
 use crate::file::Source;
-use crate::{hdf5, mat, npy, npz, tdms, text, wav, xlsx};
+use crate::{hdf5, mat, npy, npz, tdms, text, universal, wav, xlsx};
 use std::fs::File;
 use std::io::{BufReader, Read as _, Seek, SeekFrom};
 use std::path::Path;
@@ -55,6 +55,9 @@ pub(crate) fn open(path: &Path) -> Read<(Contents, Box<dyn Source>)> {
 
 /// What has no mark of its own, and what is known and not read.
 fn other(path: &Path, start: &[u8], length: u64) -> Read<(Contents, Box<dyn Source>)> {
+    if universal::is_universal(start, path) {
+        return universal::open(path);
+    }
     if mat::is_v4(start, length) {
         return mat::open_v4(path);
     }

@@ -24,6 +24,7 @@ mod tdms;
 mod text;
 mod tree;
 pub mod units;
+mod universal;
 mod wav;
 mod xlsx;
 

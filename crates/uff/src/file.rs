@@ -1,0 +1,173 @@
+//! A file: the list of its sets, made without parsing their numbers, and each set when it is asked for.
+
+use crate::body::Body;
+use crate::error::{Error, Problem};
+use crate::lines::Lines;
+use crate::place::Place;
+use crate::scan;
+use crate::sets::Set;
+use crate::sets::analysis::{self, AnalysisHeader};
+use crate::sets::function::{self, FunctionHeader};
+use crate::sets::model::Model;
+use crate::sets::shape::{self, ShapeHeader};
+use crate::sets::units::Units;
+use crate::warning::Warning;
+use std::io::{Cursor, Read, Seek};
+use std::ops::Range;
+use std::path::Path;
+
+/// A set in the list of a file.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Entry {
+    /// Number of the data set, such as 58; 0 where it cannot be read.
+    pub number: u32,
+    /// Whether it holds binary data (58b).
+    pub binary: bool,
+    /// Place of the record with its number.
+    pub place: Place,
+    /// Bytes from that record to the closing delimiter.
+    pub bytes: Range<u64>,
+    /// What its first records say.
+    pub summary: Summary,
+}
+
+/// What the first records of a set say.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub enum Summary {
+    /// A function.
+    Function(Box<FunctionHeader>),
+    /// Data at nodes (55).
+    Shape(Box<ShapeHeader>),
+    /// Analysis data (2414).
+    Analysis(Box<AnalysisHeader>),
+    /// Units.
+    Units(Units),
+    /// What the file is about.
+    Model(Box<Model>),
+    /// Nodes, elements and lines: they have no header.
+    Geometry,
+    /// A set that is not known here.
+    Unknown,
+    /// The first records cannot be read.
+    Unreadable(Error),
+}
+
+/// A set with its numbers and what was read over.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Reading {
+    /// The set.
+    pub set: Set,
+    /// Faults that were tolerated.
+    pub warnings: Vec<Warning>,
+}
+
+/// An open Universal File.
+///
+/// ```
+/// # fn main() -> Result<(), uff::Error> {
+/// let text = "    -1\n   164\n         1SI: Meter (newton)           2\n  1.0D+00  1.0D+00  1.0D+00\n  2.7315D+02\n    -1\n";
+/// let mut file = uff::File::from_bytes(text)?;
+/// assert_eq!(file.sets()[0].number, 164);
+/// let uff::Set::Units(units) = file.read(0)?.set else { unreachable!() };
+/// assert_eq!(units.temperature_offset, 273.15);
+/// # Ok(())
+/// # }
+/// ```
+pub struct File<R> {
+    lines: Lines<R>,
+    sets: Vec<Entry>,
+    warnings: Vec<Warning>,
+}
+
+impl File<std::fs::File> {
+    /// Opens a file and lists its sets; their numbers are read when they are asked for.
+    pub fn open(path: impl AsRef<Path>) -> Result<Self, Error> {
+        Self::scan(std::fs::File::open(path).map_err(io_at(0))?)
+    }
+}
+
+impl<B: AsRef<[u8]>> File<Cursor<B>> {
+    /// Lists the sets of a file in memory.
+    pub fn from_bytes(bytes: B) -> Result<Self, Error> {
+        Self::scan(Cursor::new(bytes))
+    }
+}
+
+impl<R: Read + Seek> File<R> {
+    /// Lists the sets of anything that can be read and searched. Long functions are passed over by a jump.
+    pub fn scan(input: R) -> Result<Self, Error> {
+        let mut lines = Lines::new(input).map_err(io_at(0))?;
+        let found = scan::scan(&mut lines)?;
+        Ok(Self { lines, sets: found.sets, warnings: found.warnings })
+    }
+
+    /// The sets in the order of the file.
+    pub fn sets(&self) -> &[Entry] {
+        &self.sets
+    }
+
+    /// Faults between the sets; those within a set come with [`Self::read`].
+    pub fn warnings(&self) -> &[Warning] {
+        &self.warnings
+    }
+
+    /// Size of the file in bytes.
+    pub fn length(&self) -> u64 {
+        self.lines.length
+    }
+
+    /// Reads set `i`, counted from 0.
+    pub fn read(&mut self, i: usize) -> Result<Reading, Error> {
+        let Some(entry) = self.sets.get(i) else {
+            let place = Place { set: Some(i), ..Place::default() };
+            return Err(Error { place, problem: Problem::NoSuchSet { sets: self.sets.len() } });
+        };
+        if let (0, Summary::Unreadable(error)) = (entry.number, &entry.summary) {
+            return Err(error.clone());
+        }
+        let length = entry.bytes.end - entry.bytes.start;
+        let bytes = self.lines.bytes(entry.bytes.start, length).map_err(|error| match error.kind() {
+            std::io::ErrorKind::OutOfMemory => {
+                Error { place: entry.place, problem: Problem::TooLarge { bytes: length } }
+            }
+            _ => Error { place: entry.place, problem: Problem::Io { reason: error.to_string() } },
+        })?;
+        let mut body = Body::new(&bytes, entry.place);
+        let set = Set::read(entry.number, &mut body)?;
+        Ok(Reading { set, warnings: body.warnings })
+    }
+
+    /// Reads all sets in turn; a set that cannot be read is an error in its place.
+    pub fn read_all(&mut self) -> Vec<Result<Reading, Error>> {
+        (0..self.sets.len()).map(|i| self.read(i)).collect()
+    }
+}
+
+/// Summary of a set from its first lines.
+pub(crate) fn summary(number: u32, head: &[u8], origin: Place) -> Summary {
+    let mut body = Body::new(head, origin);
+    let read = |body: &mut Body<'_>| -> Result<Summary, Error> {
+        if number == 58 {
+            return function::read_header(body).map(|header| Summary::Function(Box::new(header)));
+        }
+        body.line();
+        Ok(match number {
+            55 => Summary::Shape(Box::new(shape::read_header(body)?)),
+            2414 => Summary::Analysis(Box::new(analysis::read_header(body)?)),
+            164 => Summary::Units(Units::read(body)?),
+            151 => Summary::Model(Box::new(Model::read(body)?)),
+            15 | 82 | 2411 | 2412 => Summary::Geometry,
+            _ => Summary::Unknown,
+        })
+    };
+    read(&mut body).unwrap_or_else(Summary::Unreadable)
+}
+
+/// An error of the system at a byte.
+pub(crate) fn io_at(byte: u64) -> impl Fn(std::io::Error) -> Error {
+    move |error| {
+        let place = Place { byte, ..Place::default() };
+        Error { place, problem: Problem::Io { reason: error.to_string() } }
+    }
+}
