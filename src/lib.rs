@@ -26,15 +26,15 @@
 //! # The floors
 //!
 //! Dependence runs downwards only (`tests/floors.rs` holds it): [`control`], [`math`] - [`structure`], [`effects`],
-//! [`measurement`] - [`response`], [`balance`] - [`identify`], [`classical`], [`explain`] - [`exchange`], [`session`] - [`cli`].
+//! [`measurement`] - [`response`], [`balance`] - [`identify`], [`classical`], [`diagnosis`] - [`exchange`], [`session`] - [`cli`].
 
 pub mod balance;
 pub mod classical;
 pub mod cli;
 pub mod control;
+pub mod diagnosis;
 pub mod effects;
 pub mod exchange;
-pub mod explain;
 pub mod identify;
 pub mod math;
 pub mod measurement;

@@ -9,11 +9,11 @@ pub mod shelf;
 
 use super::document::Document;
 use crate::control::Control;
+use crate::diagnosis::candidates::fingerprint_plot::{self, Print};
+use crate::diagnosis::diagnose::{Suggestion, diagnose_without};
+use crate::diagnosis::{self, Comparison, Diagnosis, Problem};
 use crate::effects::{Place, Source};
 use crate::exchange::Project;
-use crate::explain::diagnose::{Suggestion, diagnose_without};
-use crate::explain::prints::{self, Print};
-use crate::explain::{self, Comparison, Diagnosis, Problem};
 use curve::Curve;
 use early::{Early, Mailbox};
 use egui::Context;

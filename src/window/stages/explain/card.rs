@@ -2,8 +2,8 @@
 
 use super::gauge::Gauge;
 use super::{Deed, Scene, fingerprint};
+use crate::diagnosis::diagnose::Suggestion;
 use crate::effects::{Place, Source};
-use crate::explain::diagnose::Suggestion;
 use crate::window::app::Ask;
 use crate::window::explained::Standing;
 use crate::window::explained::model::at;

@@ -1,6 +1,6 @@
 //! One period of a channel, and the loop of force over displacement, both from their harmonics.
 
-use crate::explain::compare::{ChannelComparison, HarmonicComparison};
+use crate::diagnosis::compare::{ChannelComparison, HarmonicComparison};
 use crate::measurement::{HarmonicFit, Quantity};
 use crate::window::plots::figure::{Axis, Figure, Look};
 use crate::window::plots::show::Stack;

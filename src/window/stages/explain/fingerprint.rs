@@ -1,6 +1,6 @@
 //! The fingerprint of a suggestion as a plot: the runs with their deviations, the fitted power, the powers of simple laws.
 
-use crate::explain::prints::{Against, Measure, Print, PrintPoint};
+use crate::diagnosis::candidates::fingerprint_plot::{Against, Measure, Print, PrintPoint};
 use crate::window::format;
 use crate::window::plots::figure::{Axis, Figure, Label, Look, Ticks};
 use crate::window::plots::show::Stack;
@@ -126,7 +126,7 @@ fn trend(print: &Print) -> Option<Vec<[f64; 2]>> {
 #[cfg(test)]
 mod tests {
     use super::words;
-    use crate::explain::prints::{Against, Measure, Print};
+    use crate::diagnosis::candidates::fingerprint_plot::{Against, Measure, Print};
 
     #[test]
     fn slopes_are_said_with_their_deviation() {

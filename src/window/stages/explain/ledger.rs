@@ -2,7 +2,7 @@
 
 use super::grid::in_words;
 use super::{Deed, Scene, cards};
-use crate::explain::diagnose::Verdict;
+use crate::diagnosis::diagnose::Verdict;
 use crate::window::app::Ask;
 use crate::window::explained::ledger::Ledger;
 use crate::window::plots::figure::{Axis, Figure, Look, Ticks};

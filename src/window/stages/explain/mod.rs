@@ -16,8 +16,8 @@ mod ranking;
 mod samples;
 mod schematic;
 
+use crate::diagnosis::diagnose::Verdict;
 use crate::effects::{Source, State};
-use crate::explain::diagnose::Verdict;
 use crate::session::Command;
 use crate::window::additions;
 use crate::window::app::App;

@@ -1,8 +1,8 @@
 //! What is known of one channel over the runs: measured, modelled and tried fundamentals over the force.
 
+use crate::diagnosis::Comparison;
+use crate::diagnosis::compare::ChannelComparison;
 use crate::exchange::Project;
-use crate::explain::Comparison;
-use crate::explain::compare::ChannelComparison;
 use crate::measurement::Quantity;
 use crate::window::explained::curve;
 use faer::c64;

@@ -2,8 +2,8 @@
 
 use super::grid::{Scale, in_words};
 use super::ranking;
+use crate::diagnosis::Comparison;
 use crate::effects::{Place, Source, State};
-use crate::explain::Comparison;
 use crate::window::document::Document;
 use crate::window::explained::Explained;
 use crate::window::explained::model::at;
