@@ -12,6 +12,7 @@ mod export;
 mod identify;
 mod identify_json;
 mod identify_table;
+mod import;
 mod incompleteness;
 mod methods;
 mod play;
@@ -61,6 +62,7 @@ fn execute(command: &Command) -> anyhow::Result<String> {
         Command::Methods(arguments) => methods::run(arguments),
         Command::Convert(arguments) => convert::run(arguments),
         Command::Contents(arguments) => contents::run(arguments),
+        Command::Import(arguments) => import::run(arguments),
         Command::Build(arguments) => build::run(arguments),
         Command::Run(arguments) => play::run(arguments),
     }

@@ -2,6 +2,7 @@
 
 pub mod atomic;
 pub mod export;
+pub mod mapping;
 pub mod matrices;
 pub mod project;
 pub mod ratios;

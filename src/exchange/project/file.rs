@@ -4,6 +4,7 @@ use super::correction::CorrectionTable;
 use super::ruled_out::RuledOutTable;
 use crate::effects::family::Family;
 use crate::effects::{Effect, State};
+use crate::exchange::mapping::ChannelTable;
 use crate::identify::Settings;
 use crate::structure::LumpedMass;
 use crate::structure::beam::BeamParameters;
@@ -33,6 +34,9 @@ pub struct ProjectFile {
     /// Tables `[[ruled_out]]`.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub ruled_out: Vec<RuledOutTable>,
+    /// Tables `[[channel]]`: how the channels of laboratory files are read.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub channel: Vec<ChannelTable>,
     /// Tables `[[run]]`.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub run: Vec<RunTable>,
@@ -196,6 +200,12 @@ pub struct RunTable {
     /// Amplitude of the force in a recipe, N.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub force_n: Option<f64>,
+    /// Set of a laboratory file, where it has several with the channels of the mapping.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub set: Option<String>,
+    /// Sampling rate of a laboratory file without time, Hz.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub sampling_hz: Option<f64>,
 }
 
 /// Table `[[harmonics]]`.
@@ -253,6 +263,8 @@ pub struct Lines {
     pub sensor: Vec<usize>,
     /// Keys of each `[[ruled_out]]`.
     pub ruled_out: Vec<BTreeMap<String, usize>>,
+    /// Tables `[[channel]]`.
+    pub channel: Vec<usize>,
     /// Keys of each `[[run]]`.
     pub run: Vec<BTreeMap<String, usize>>,
     /// Tables `[[harmonics]]`.

@@ -2,6 +2,7 @@
 //! read and fitted).
 
 pub mod correction;
+mod channel;
 pub mod error;
 pub mod file;
 pub mod load;
@@ -13,6 +14,7 @@ pub mod ruled_out;
 mod sources;
 mod structure;
 
+pub use channel::template;
 pub use error::{Problem, ProjectError};
 pub use file::{Lines, ProjectFile};
 pub use load::load;

@@ -1,5 +1,6 @@
 //! From text to [`ProjectFile`]: every key known, every value of its type; nothing else is read.
 
+use super::channel;
 use super::correction;
 use super::error::{Problem, ProjectError};
 use super::file::{
@@ -18,8 +19,19 @@ use crate::structure::chain::ChainParameters;
 use std::collections::BTreeMap;
 use toml::de::DeTable;
 
-const TABLES: [&str; 10] =
-    ["project", "structure", "source", "candidates", "sensor", "ruled_out", "run", "harmonics", "analysis", "simulate"];
+const TABLES: [&str; 11] = [
+    "project",
+    "structure",
+    "source",
+    "candidates",
+    "sensor",
+    "ruled_out",
+    "channel",
+    "run",
+    "harmonics",
+    "analysis",
+    "simulate",
+];
 const BEAM: [&str; 10] = [
     "kind",
     "lumped_mass",
@@ -67,6 +79,7 @@ impl ProjectFile {
             candidates: candidates(&root, &mut lines)?,
             sensor: sensors(&root, &mut lines)?,
             ruled_out: ruled_out::parse(&root, &mut lines)?,
+            channel: channel::parse(&root, &mut lines)?,
             run: runs(&root, &mut lines)?,
             harmonics: harmonics(&root, &mut lines)?,
             analysis: analysis(&root)?,
@@ -251,11 +264,16 @@ fn sensors(root: &Table<'_>, lines: &mut Lines) -> Read<Vec<SensorTable>> {
 fn runs(root: &Table<'_>, lines: &mut Lines) -> Read<Vec<RunTable>> {
     let mut runs = Vec::new();
     for table in root.tables("run", "[[run]]")? {
-        table.only(&["file", "frequency", "level", "use", "force_dof", "force_n"])?;
+        table.only(&["file", "frequency", "level", "use", "force_dof", "force_n", "set", "sampling_hz"])?;
         let frequency = table.number("frequency")?;
         if let Some(value) = frequency.filter(|f| *f <= 0.0) {
             let (key, range) = ("frequency".to_owned(), "above 0 Hz");
             return Err(table.error("frequency", Problem::OutOfRange { key, value: value.to_string(), range }));
+        }
+        let sampling_hz = table.number("sampling_hz")?;
+        if let Some(value) = sampling_hz.filter(|f| *f <= 0.0) {
+            let (key, range) = ("sampling_hz".to_owned(), "above 0 Hz");
+            return Err(table.error("sampling_hz", Problem::OutOfRange { key, value: value.to_string(), range }));
         }
         let (force_dof, force_n) = (table.label("force_dof")?.map(Label), table.number("force_n")?);
         match (&force_dof, force_n) {
@@ -275,6 +293,8 @@ fn runs(root: &Table<'_>, lines: &mut Lines) -> Read<Vec<RunTable>> {
             enabled: table.flag("use")?.unwrap_or(true),
             force_dof,
             force_n,
+            set: table.text("set")?,
+            sampling_hz,
         });
         lines.run.push(key_lines(&table));
     }

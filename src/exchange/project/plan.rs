@@ -7,6 +7,7 @@ use super::sources::{At, line, sensors, sources};
 use super::structure::structure;
 use crate::control::Control;
 use crate::effects::Source;
+use crate::exchange::mapping::{Template, reads_as_own, read_mapped};
 use crate::exchange::records::{HarmonicsRun, read_harmonics, read_record_with};
 use crate::identify::Settings;
 use crate::measurement::{ChannelName, Record};
@@ -46,6 +47,10 @@ pub struct PlannedRun {
     pub level: Option<i64>,
     /// Whether the user wants it used.
     pub enabled: bool,
+    /// Set of a laboratory file.
+    pub set: Option<String>,
+    /// Sampling rate of a laboratory file without time, Hz.
+    pub sampling_hz: Option<f64>,
     /// Force of the recipe, `amplitude_n cos(omega t)`, where it is given.
     pub force: Option<PlannedForce>,
 }
@@ -91,7 +96,7 @@ fn runs(file: &ProjectFile, structure: &Structure, folder: &Path, at: At<'_>) ->
     let mut runs: Vec<PlannedRun> = Vec::new();
     for (i, table) in file.run.iter().enumerate() {
         let lines = &at.lines.run[i];
-        if let Some(first) = runs.iter().position(|other| other.file == table.file) {
+        if let Some(first) = runs.iter().position(|other| other.file == table.file && other.set == table.set) {
             let what = format!("the record \"{}\"", table.file);
             let first = line(&at.lines.run[first], "file");
             return Err(at.error(line(lines, "file"), Problem::Twice { what, first }));
@@ -111,6 +116,8 @@ fn runs(file: &ProjectFile, structure: &Structure, folder: &Path, at: At<'_>) ->
             frequency_hz: table.frequency,
             level: table.level,
             enabled: table.enabled,
+            set: table.set.clone(),
+            sampling_hz: table.sampling_hz,
             force,
         });
     }
@@ -179,8 +186,13 @@ impl Plan {
             let problem = if simulated { Problem::NotSimulated { file } } else { Problem::NoRecord { file } };
             return Err(self.run_error(run, "file", problem));
         }
-        read_record_with(&planned.path, &self.structure, control)
-            .map_err(|error| self.run_error(run, "file", Problem::Record(Box::new(error))))
+        let template = Template { channels: &self.file.channel, set: planned.set.as_deref(), sampling_hz: planned.sampling_hz };
+        let read = if reads_as_own(&planned.path, template) {
+            read_record_with(&planned.path, &self.structure, control)
+        } else {
+            read_mapped(&planned.path, template, &self.structure)
+        };
+        read.map_err(|error| self.run_error(run, "file", Problem::Record(Box::new(error))))
     }
 
     /// Reads the runs of every `[[harmonics]]` file, as they were measured.

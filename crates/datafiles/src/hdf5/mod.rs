@@ -2,6 +2,7 @@
 //!
 //! The tree is made of headers and a few values of each data set; chunks that no listing shows are never read.
 
+mod lzf;
 mod value;
 
 use crate::contents::{Contents, Format};
@@ -33,6 +34,7 @@ struct Hdf5 {
 pub(crate) fn open(path: &Path, matlab: bool) -> Read<(Contents, Box<dyn Source>)> {
     let options = OpenOptions::default()
         .with_max_read_bytes((MOST_VALUES * 16) as usize)
+        .with_filter_registry(lzf::filters())
         .with_max_chunk_bytes(1 << 28)
         .with_max_object_header_bytes(1 << 24);
     let file = Hdf5File::open_with_options(path, options).map_err(wrong)?;

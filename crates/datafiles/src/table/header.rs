@@ -35,6 +35,10 @@ pub(crate) fn read(lines: &[HeaderLine], width: usize) -> Header {
     };
     if let Some(at) = names {
         header.take_names(&lines[at].cells, units.is_none());
+        // The word that labels the row is no name of the first column.
+        if width > 1 && NAME_WORDS.contains(&label(&lines[at].cells[0]).as_str()) {
+            header.names[0].clear();
+        }
     }
     if let Some(at) = units {
         header.take_units(&lines[at].cells);

@@ -147,7 +147,7 @@ impl Blocks {
                 let kept = cells[..block.columns.len()].to_vec();
                 return self.numbers(line, &kept);
             }
-            if numbers > words && !self.gap && block.rows > 1 {
+            if numbers > 0 && numbers >= words && !self.gap && block.rows > 1 {
                 let at = cells.iter().position(|cell| matches!(cell, Cell::Word(_))).unwrap_or_default();
                 let Cell::Word(word) = &cells[at] else { return Ok(()) };
                 return Err(Fault::line(

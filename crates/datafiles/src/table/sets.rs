@@ -112,7 +112,7 @@ fn axis_unit(header: &header::Header, at: usize, kind: Kind, clock: bool) -> Str
     }
 }
 
-/// The column of the abscissa: by its name or unit; without any names, a first column that rises evenly.
+/// The column of the abscissa: by its name or unit; where the first column has no name, that column if it rises evenly.
 fn find_axis(header: &header::Header, columns: &[Numbers], rows: usize) -> Option<(usize, Kind)> {
     let usable = |i: usize| columns[i].im.is_empty() && columns[i].re.len() == rows && ascending(&columns[i].re);
     if columns.len() < 2 {
@@ -128,7 +128,7 @@ fn find_axis(header: &header::Header, columns: &[Numbers], rows: usize) -> Optio
     if columns[0].clock && usable(0) {
         return Some((0, Kind::Time));
     }
-    let nameless = header.names.iter().all(String::is_empty) && header.units.iter().all(String::is_empty);
+    let nameless = header.names[0].is_empty() && header.units[0].is_empty();
     (nameless && rows > 3 && usable(0) && even_step(&columns[0].re).is_some()).then_some((0, Kind::Time))
 }
 

@@ -28,7 +28,9 @@ pub(crate) fn open(path: &Path) -> Read<(Contents, Box<dyn Source>)> {
 /// Opens the bytes of a text file.
 pub(crate) fn read(bytes: &[u8]) -> Read<(Contents, Box<dyn Source>)> {
     let (text, note) = decode(bytes)?;
-    let text = text.as_ref();
+    // A lone CR ended lines once.
+    let text = if !text.contains('\n') && text.contains('\r') { text.replace('\r', "\n") } else { text.into_owned() };
+    let text = text.as_str();
     if text.trim().is_empty() {
         return Err(Fault::new("is empty; export the record again"));
     }
@@ -67,9 +69,7 @@ fn table(text: &str) -> Read<(Contents, TableSource)> {
     Ok((contents, TableSource { sets: columns }))
 }
 
-/// Lines with their numbers from 1; `CR`, `LF` and both end a line.
+/// Lines with their numbers from 1.
 fn numbered(text: &str) -> impl Iterator<Item = (u64, &str)> {
-    let old = !text.contains('\n') && text.contains('\r');
-    let lines: Box<dyn Iterator<Item = &str>> = if old { Box::new(text.split('\r')) } else { Box::new(text.lines()) };
-    lines.enumerate().map(|(i, line)| (i as u64 + 1, line))
+    text.lines().enumerate().map(|(i, line)| (i as u64 + 1, line))
 }
