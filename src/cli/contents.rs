@@ -80,7 +80,8 @@ fn set(set: &Set) -> Value {
 }
 
 fn channel(channel: &Channel) -> Value {
-    let attributes: Map<String, Value> = channel.attributes.iter().map(|(word, value)| (word.clone(), json!(value))).collect();
+    let attributes: Map<String, Value> =
+        channel.attributes.iter().map(|(word, value)| (word.clone(), json!(value))).collect();
     json!({
         "name": channel.name,
         "unit": channel.unit,
@@ -110,7 +111,8 @@ fn tree(file: &DataFile) -> String {
     for set in &contents.sets {
         let name = if set.name.is_empty() { "(set)" } else { set.name.as_str() };
         text.push_str(&format!("  {name}: {}\n", set.kind.word()));
-        let width = set.channels.iter().take(MOST_LISTED).map(|channel| channel.name.chars().count()).max().unwrap_or(0);
+        let width =
+            set.channels.iter().take(MOST_LISTED).map(|channel| channel.name.chars().count()).max().unwrap_or(0);
         for channel in set.channels.iter().take(MOST_LISTED) {
             text.push_str(&format!("    {}\n", line(channel, &set.axis_unit, width.min(48))));
         }
@@ -136,7 +138,9 @@ fn line(channel: &Channel, axis_unit: &str, width: usize) -> String {
         .iter()
         .map(|number| match number {
             Number::Real(value) => short(*value),
-            Number::Complex([re, im]) => format!("{}{}i", short(*re), if *im < 0.0 { short(*im) } else { format!("+{}", short(*im)) }),
+            Number::Complex([re, im]) => {
+                format!("{}{}i", short(*re), if *im < 0.0 { short(*im) } else { format!("+{}", short(*im)) })
+            }
         })
         .collect();
     let dots = if channel.count > channel.first.len() as u64 { ", …" } else { "" };

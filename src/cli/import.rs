@@ -33,7 +33,10 @@ pub(super) fn run(arguments: &Import) -> anyhow::Result<String> {
         bail!("name the project to write by --out project.toml, or see the mapping by --propose");
     };
     let first = arguments.files[0].display();
-    ensure!(!mapping.channels.is_empty(), "{first}: no channel says by its name and unit what it measures; write a template by hand and give it by --map");
+    ensure!(
+        !mapping.channels.is_empty(),
+        "{first}: no channel says by its name and unit what it measures; write a template by hand and give it by --map"
+    );
     ensure!(
         !mapping.needs_sampling || arguments.sampling_hz.is_some(),
         "{first}: the file does not say the time between samples; give it by --sampling-hz"
@@ -44,7 +47,8 @@ pub(super) fn run(arguments: &Import) -> anyhow::Result<String> {
     for index in 0..planned.runs.len() {
         planned.record(index, &Control::unattended())?;
     }
-    write_atomically(out, text.as_bytes()).with_context(|| format!("{}: the project cannot be written", out.display()))?;
+    write_atomically(out, text.as_bytes())
+        .with_context(|| format!("{}: the project cannot be written", out.display()))?;
     let left = mapping.left.iter().map(|(name, why)| format!("not mapped: \"{name}\" ({why})\n")).collect::<String>();
     let (runs, channels) = (arguments.files.len(), mapping.channels.len());
     Ok(format!("{left}{runs} runs of {channels} channels are in {}\n", out.display()))

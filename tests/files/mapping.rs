@@ -77,19 +77,32 @@ fn what_cannot_be_mapped_is_one_line() {
         assert!(!error.contains('\n'), "{error}");
         error
     };
-    assert!(fail("\"Acc 2\"", "\"Acc 3\"").contains("channel \"Acc 3\": the file has no channel of that name; it has \"Kraft 1\", \"Acc 1\", \"Acc 2\""));
+    assert!(
+        fail("\"Acc 2\"", "\"Acc 3\"").contains(
+            "channel \"Acc 3\": the file has no channel of that name; it has \"Kraft 1\", \"Acc 1\", \"Acc 2\""
+        )
+    );
     assert!(fail("dof = 2\n", "dof = 5\n").contains("the structure has no DOF \"5\""));
     assert!(fail("sign = -1", "unit = \"mm\"").contains("`unit = \"mm\"` is not understood; use one of m/s^2"));
     assert!(fail("sign = -1", "sign = 2").contains("`sign = 2` is not a usable number; it must be 1 or -1"));
     assert!(fail("dof = 2\n", "dof = 1\n").contains("the channel acc@1 is given twice"));
     assert!(fail("quantity = \"force\"", "quantity = \"vel\"").contains("kN is not a unit of vel"));
     assert!(fail("file = \"lab.csv\"", "file = \"lab.csv\"\nset = \"B\"").contains("the file has no set \"B\""));
-    assert!(fail("file = \"lab.csv\"", "file = \"lab.csv\"\nsampling_hz = 2000").contains("is sampled at 1024 Hz and `sampling_hz` says 2000"));
+    assert!(
+        fail("file = \"lab.csv\"", "file = \"lab.csv\"\nsampling_hz = 2000")
+            .contains("is sampled at 1024 Hz and `sampling_hz` says 2000")
+    );
     std::fs::write(folder.path().join("lab.csv"), "Kraft 1 [N],Acc 1 [g],Acc 2 [Volts]\n1,2,3\n2,3,4\n").unwrap();
-    assert!(fail("x", "x").contains("the file does not say the time between samples; add `sampling_hz` to its [[run]]"));
+    assert!(
+        fail("x", "x").contains("the file does not say the time between samples; add `sampling_hz` to its [[run]]")
+    );
     let volts = fail("file = \"lab.csv\"", "file = \"lab.csv\"\nsampling_hz = 2000");
     assert!(volts.contains("\"Volts\" is no known unit; add `unit` to its [[channel]]"), "{volts}");
-    std::fs::write(folder.path().join("lab.csv"), "time [s],Acc 1 [g],Acc 1 [g],Acc 2 [g],Kraft 1 [N]\n1,2,3,4,5\n2,3,4,5,6\n").unwrap();
+    std::fs::write(
+        folder.path().join("lab.csv"),
+        "time [s],Acc 1 [g],Acc 1 [g],Acc 2 [g],Kraft 1 [N]\n1,2,3,4,5\n2,3,4,5,6\n",
+    )
+    .unwrap();
     assert!(fail("x", "x").contains("two channels of the set have that name"));
 }
 

@@ -32,7 +32,9 @@ pub(crate) fn kind_of(name: &str, unit: &str) -> Option<Kind> {
     let name = name.trim().to_lowercase();
     let unit = unit.trim().to_lowercase();
     let word = name.split(|c: char| !c.is_alphanumeric()).next().unwrap_or_default();
-    if matches!(unit.as_str(), "hz" | "khz" | "rad/s") && (name.is_empty() || word.starts_with('f') || word.starts_with("om")) {
+    if matches!(unit.as_str(), "hz" | "khz" | "rad/s")
+        && (name.is_empty() || word.starts_with('f') || word.starts_with("om"))
+    {
         return Some(Kind::Spectrum);
     }
     if word.starts_with("freq") || matches!(name.as_str(), "f" | "hz" | "frekvens") {
@@ -54,7 +56,10 @@ mod tests {
     #[test]
     fn steps_are_even_within_the_digits_that_were_written() {
         assert_eq!(even_step(&[0.0, 0.1, 0.2, 0.30000000000000004]), Some(0.1));
-        assert_eq!(even_step(&[0.0, 0.0009765625, 0.001953125, 0.002929688]).map(|step| (step * 1e7).round()), Some(9766.0));
+        assert_eq!(
+            even_step(&[0.0, 0.0009765625, 0.001953125, 0.002929688]).map(|step| (step * 1e7).round()),
+            Some(9766.0)
+        );
         assert_eq!(even_step(&[0.0, 0.1, 0.3]), None);
         assert_eq!(even_step(&[1.0]), None);
     }

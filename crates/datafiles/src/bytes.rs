@@ -115,7 +115,9 @@ pub(crate) fn check_size(count: u64, size: u64, available: u64, byte: u64) -> Re
         Some(bytes) if bytes <= available => Ok(bytes),
         _ => Err(Fault::byte(
             byte,
-            format!("states {count} values of {size} bytes and only {available} bytes follow; the file was cut short or is damaged: export it again"),
+            format!(
+                "states {count} values of {size} bytes and only {available} bytes follow; the file was cut short or is damaged: export it again"
+            ),
         )),
     }
 }

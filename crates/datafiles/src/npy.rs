@@ -49,7 +49,9 @@ impl Header {
     }
 
     fn parse(text: &str) -> Read<Self> {
-        let damaged = |what: &str| Fault::byte(10, format!("the header has no {what}; the file is damaged: save it again with numpy.save"));
+        let damaged = |what: &str| {
+            Fault::byte(10, format!("the header has no {what}; the file is damaged: save it again with numpy.save"))
+        };
         let descr = entry(text, "descr").ok_or_else(|| damaged("descr"))?;
         if descr.starts_with('[') {
             return Err(Fault::new("is an array of records; save each field as an array of its own"));
@@ -87,14 +89,23 @@ impl Header {
     }
 
     /// The node of an array that `available` bytes follow; `read` returns its values.
-    pub(crate) fn node(&self, id: usize, available: u64, peek: impl FnOnce(&[u64]) -> Read<Vec<[f64; 2]>>) -> Read<Node> {
+    pub(crate) fn node(
+        &self,
+        id: usize,
+        available: u64,
+        peek: impl FnOnce(&[u64]) -> Read<Vec<[f64; 2]>>,
+    ) -> Read<Node> {
         let Some(numbers) = self.numbers() else {
             if matches!(self.kind, 'U' | 'S') {
                 return Ok(Node::Skipped("it is text".to_owned()));
             }
-            return Ok(Node::Skipped(format!("its values ({}{}) are no numbers of up to 64 bits", self.kind, self.size)));
+            return Ok(Node::Skipped(format!(
+                "its values ({}{}) are no numbers of up to 64 bits",
+                self.kind, self.size
+            )));
         };
-        let count = self.shape.len().ok_or_else(|| Fault::byte(10, "the shape is larger than any file; save it again"))?;
+        let count =
+            self.shape.len().ok_or_else(|| Fault::byte(10, "the shape is larger than any file; save it again"))?;
         check_size(count, numbers.size(), available, 10)?;
         let peek = peek(&self.shape.wanted())?;
         Ok(Node::Array(Array { id, shape: self.shape.clone(), complex: numbers.complex, peek }))
@@ -123,7 +134,8 @@ impl Header {
             }
             let letter = |b: &[u8]| {
                 let array = [b[0], b[1], b[2], b[3]];
-                char::from_u32(if self.big { u32::from_be_bytes(array) } else { u32::from_le_bytes(array) }).unwrap_or('?')
+                char::from_u32(if self.big { u32::from_be_bytes(array) } else { u32::from_le_bytes(array) })
+                    .unwrap_or('?')
             };
             bytes.chunks_exact(4).map(letter).take_while(|&c| c != '\0').collect()
         };
@@ -147,7 +159,9 @@ impl Numbers {
 
 /// The value of a key of the dictionary.
 fn entry<'a>(text: &'a str, key: &str) -> Option<&'a str> {
-    let at = [format!("'{key}'"), format!("\"{key}\"")].iter().find_map(|key| text.find(key.as_str()).map(|at| at + key.len()))?;
+    let at = [format!("'{key}'"), format!("\"{key}\"")]
+        .iter()
+        .find_map(|key| text.find(key.as_str()).map(|at| at + key.len()))?;
     let rest = text[at..].trim_start().strip_prefix(':')?.trim_start();
     let end = match rest.chars().next()? {
         '(' => rest.find(')')? + 1,
@@ -208,7 +222,10 @@ mod tests {
         let header = Header::parse("{'descr': '>f4', 'fortran_order': True, 'shape': (3, 2), }").unwrap();
         assert_eq!((header.kind, header.size, header.big), ('f', 4, true));
         assert_eq!(header.shape, Shape::new([3, 2], true));
-        assert_eq!(Header::parse("{'descr': '<f8', 'fortran_order': False, 'shape': (), }").unwrap().shape.len(), Some(1));
+        assert_eq!(
+            Header::parse("{'descr': '<f8', 'fortran_order': False, 'shape': (), }").unwrap().shape.len(),
+            Some(1)
+        );
         assert!(Header::parse("{'descr': [('a', '<f8')], 'fortran_order': False, 'shape': (3,), }").is_err());
     }
 }

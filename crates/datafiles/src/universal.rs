@@ -25,7 +25,9 @@ struct Universal {
 pub(crate) fn is_universal(start: &[u8], path: &Path) -> bool {
     let text = String::from_utf8_lossy(start);
     let mut lines = text.lines().map(str::trim).filter(|line| !line.is_empty());
-    let named = path.extension().is_some_and(|end| ["uff", "unv", "uf", "ufb"].iter().any(|known| end.eq_ignore_ascii_case(known)));
+    let named = path
+        .extension()
+        .is_some_and(|end| ["uff", "unv", "uf", "ufb"].iter().any(|known| end.eq_ignore_ascii_case(known)));
     if named {
         return lines.any(|line| line == "-1");
     }
@@ -154,9 +156,23 @@ fn fill(set: &mut Set, reading: &Reading) {
                 }
             }
         }
-        uff::Set::Shape(shape) => shape_channels(set, &shape.header.id, shape.header.frequency(), shape.header.damping_ratio(), shape.nodes.len(), &shape.values),
+        uff::Set::Shape(shape) => shape_channels(
+            set,
+            &shape.header.id,
+            shape.header.frequency(),
+            shape.header.damping_ratio(),
+            shape.nodes.len(),
+            &shape.values,
+        ),
         uff::Set::Analysis(shape) => {
-            shape_channels(set, &shape.header.id, shape.header.frequency(), shape.header.damping_ratio(), shape.labels.len(), &shape.values);
+            shape_channels(
+                set,
+                &shape.header.id,
+                shape.header.frequency(),
+                shape.header.damping_ratio(),
+                shape.labels.len(),
+                &shape.values,
+            );
         }
         uff::Set::Nodes(nodes) | uff::Set::DoubleNodes(nodes) => {
             geometry(set, "nodes", nodes.len());
@@ -183,7 +199,12 @@ fn fill(set: &mut Set, reading: &Reading) {
         }
         uff::Set::Units(units) => {
             set.name.push_str(" units");
-            set.notes.push(format!("{}; lengths divided by {} are m, forces divided by {} are N", units.description.trim(), units.length, units.force));
+            set.notes.push(format!(
+                "{}; lengths divided by {} are m, forces divided by {} are N",
+                units.description.trim(),
+                units.length,
+                units.force
+            ));
         }
         _ => {}
     }
@@ -195,7 +216,14 @@ fn geometry(set: &mut Set, what: &str, count: usize) {
     set.notes.push(format!("{count} {what}"));
 }
 
-fn shape_channels(set: &mut Set, id: &[String; 5], frequency: Option<f64>, damping: Option<f64>, nodes: usize, values: &uff::Values) {
+fn shape_channels(
+    set: &mut Set,
+    id: &[String; 5],
+    frequency: Option<f64>,
+    damping: Option<f64>,
+    nodes: usize,
+    values: &uff::Values,
+) {
     set.kind = Kind::Shape;
     set.name = format!("{} shape", set.name);
     let name = id.iter().map(|line| line.trim()).find(|line| !line.is_empty()).unwrap_or("shape");

@@ -48,8 +48,14 @@ fn reader(path: &Path) -> Read<WavReader<BufReader<File>>> {
 
 fn wrong(error: hound::Error) -> Fault {
     match error {
+        // The library has no kind of its own for the end of the file.
+        hound::Error::IoError(error) if error.to_string().contains("enough bytes") => {
+            std::io::Error::from(std::io::ErrorKind::UnexpectedEof).into()
+        }
         hound::Error::IoError(error) => error.into(),
-        hound::Error::Unsupported => Fault::new("is a WAV file of a coding that is not read; save it as PCM or 32 bit float"),
+        hound::Error::Unsupported => {
+            Fault::new("is a WAV file of a coding that is not read; save it as PCM or 32 bit float")
+        }
         error => Fault::new(format!("is no readable WAV file ({error}); export it again as PCM or 32 bit float")),
     }
 }

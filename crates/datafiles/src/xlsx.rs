@@ -14,7 +14,8 @@ const LAST_COLUMN: u32 = 20_000;
 
 /// Opens a spreadsheet.
 pub(crate) fn open(reader: impl Bytes + Seek) -> Read<(Contents, Box<dyn Source>)> {
-    let wrong = |error: calamine::XlsxError| Fault::new(format!("is no readable spreadsheet ({error}); save it again as XLSX"));
+    let wrong =
+        |error: calamine::XlsxError| Fault::new(format!("is no readable spreadsheet ({error}); save it again as XLSX"));
     let mut book: Xlsx<_> = Xlsx::new(reader).map_err(wrong)?;
     let mut contents = Contents::new(Format::Xlsx);
     let mut sources = Vec::new();

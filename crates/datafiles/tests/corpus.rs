@@ -41,11 +41,18 @@ fn check(name: &str, file: &DataFile, entry: &Value) -> Vec<String> {
         wrong.push(format!("{name}: format {} for {}", contents.format.word(), entry["format"]));
     }
     let channels = entry["channels"].as_array().unwrap();
-    let listed: usize = contents.sets.iter().map(|set| set.channels.iter().filter(|channel| channel.name != "t" && channel.name != "time").count()).sum();
+    let listed: usize = contents
+        .sets
+        .iter()
+        .map(|set| set.channels.iter().filter(|channel| channel.name != "t" && channel.name != "time").count())
+        .sum();
     let extra = name == "v5.mat" || name == "v7.mat";
     if listed != channels.len() && !extra {
-        let names: Vec<String> =
-            contents.sets.iter().flat_map(|set| set.channels.iter().map(|c| format!("{}|{}", set.name, c.name))).collect();
+        let names: Vec<String> = contents
+            .sets
+            .iter()
+            .flat_map(|set| set.channels.iter().map(|c| format!("{}|{}", set.name, c.name)))
+            .collect();
         wrong.push(format!("{name}: {listed} channels for {}: {}", channels.len(), names.join(", ")));
     }
     for channel in channels {
@@ -62,7 +69,8 @@ fn check(name: &str, file: &DataFile, entry: &Value) -> Vec<String> {
         if listed.unit != text(2) {
             wrong.push(format!("{name}: {}: unit \"{}\" for {}", text(1), listed.unit, channel[2]));
         }
-        if listed.axis.step().map(|step| (step * 1e12).round()) != channel[3].as_f64().map(|step| (step * 1e12).round()) {
+        if listed.axis.step().map(|step| (step * 1e12).round()) != channel[3].as_f64().map(|step| (step * 1e12).round())
+        {
             wrong.push(format!("{name}: {}: step {:?} for {}", text(1), listed.axis.step(), channel[3]));
         }
         let values = match file.read(s, c) {
@@ -90,7 +98,9 @@ fn check(name: &str, file: &DataFile, entry: &Value) -> Vec<String> {
             wrong.push(format!("{name}: {}: first {first:?}", text(1)));
         }
         match file.axis(s, c) {
-            Ok(Some(axis)) if axis.len() != values.len() => wrong.push(format!("{name}: {}: axis of {}", text(1), axis.len())),
+            Ok(Some(axis)) if axis.len() != values.len() => {
+                wrong.push(format!("{name}: {}: axis of {}", text(1), axis.len()))
+            }
             Ok(_) => {}
             Err(error) => wrong.push(format!("{name}: {error}")),
         }
@@ -100,7 +110,8 @@ fn check(name: &str, file: &DataFile, entry: &Value) -> Vec<String> {
 
 #[test]
 fn every_file_reads_as_it_was_written() {
-    let expected: Value = serde_json::from_str(&std::fs::read_to_string(corpus().join("expected.json")).unwrap()).unwrap();
+    let expected: Value =
+        serde_json::from_str(&std::fs::read_to_string(corpus().join("expected.json")).unwrap()).unwrap();
     let mut wrong = Vec::new();
     for (name, entry) in expected.as_object().unwrap() {
         match open(&corpus().join(name)) {

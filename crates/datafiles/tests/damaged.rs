@@ -83,7 +83,8 @@ fn mutate(bytes: &mut Vec<u8>, random: &mut ChaCha8Rng) {
             }
             6 => bytes.truncate(at),
             _ => {
-                let odd: [&[u8]; 8] = [b"NaN", b"-1\n", b"1e999", b"\x00", b",,,", b"\"", b"\xFF\xFE", b"99999999999999999999"];
+                let odd: [&[u8]; 8] =
+                    [b"NaN", b"-1\n", b"1e999", b"\x00", b",,,", b"\"", b"\xFF\xFE", b"99999999999999999999"];
                 let piece = odd[random.random_range(0..odd.len())];
                 bytes.splice(at..at, piece.iter().copied());
             }
@@ -140,8 +141,16 @@ fn what_is_wrong_and_how_to_mend_it_is_said() {
     let cases: [(&str, &[u8], &str); 16] = [
         ("a.csv", b"", "a.csv: is empty (0 bytes); export the record again"),
         ("a.csv", b" \n\n", "a.csv: is empty; export the record again"),
-        ("a.csv", b"time [s],acc@7 [g]\n", "a.csv: is text without a row of numbers; export the measurement with its samples"),
-        ("a.csv", b"time,a\n0,1\n1,2\n2,x\n3,4\n", "a.csv, line 4: column 2: \"x\" is not a number; write one such as 1.25e-3, or leave the cell empty"),
+        (
+            "a.csv",
+            b"time [s],acc@7 [g]\n",
+            "a.csv: is text without a row of numbers; export the measurement with its samples",
+        ),
+        (
+            "a.csv",
+            b"time,a\n0,1\n1,2\n2,x\n3,4\n",
+            "a.csv, line 4: column 2: \"x\" is not a number; write one such as 1.25e-3, or leave the cell empty",
+        ),
         ("a.csv", b"time,a\n0,1\n1,2\n2,3,4\n", "a.csv, line 4: there are 3 cells and 2 columns above"),
         ("a.mat", b"MATLAB 5.0 MAT-file, cut", "a.mat, byte 124: the header of the MAT file is damaged or cut short"),
         ("a.tdms", b"TDSm", "a.tdms"),
@@ -163,7 +172,10 @@ fn what_is_wrong_and_how_to_mend_it_is_said() {
         assert!(found.contains(expected), "{found}\nfor {expected}");
     }
     let missing = open(&folder.path().join("none.csv")).unwrap_err().to_string();
-    assert!(missing.contains("cannot be read: No such file") && missing.ends_with("check the path and the permissions"), "{missing}");
+    assert!(
+        missing.contains("cannot be read: No such file") && missing.ends_with("check the path and the permissions"),
+        "{missing}"
+    );
 }
 
 #[test]

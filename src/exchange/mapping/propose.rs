@@ -77,11 +77,21 @@ impl Proposal {
 pub(super) fn own_name(set: &str, channel: &Channel) -> Option<ChannelTable> {
     let (quantity, label) = parse_name(&channel.name).ok()?;
     let unit = LabUnit::from_name(&channel.unit)?;
-    (unit.quantity == quantity).then(|| ChannelTable { set: Some(set.to_owned()), ..table(channel, None, quantity, label) })
+    (unit.quantity == quantity)
+        .then(|| ChannelTable { set: Some(set.to_owned()), ..table(channel, None, quantity, label) })
 }
 
 fn table(channel: &Channel, set: Option<String>, quantity: Quantity, label: String) -> ChannelTable {
-    ChannelTable { name: channel.name.clone(), set, quantity, dof: label, unit: None, sign: None, factor: None, delay: None }
+    ChannelTable {
+        name: channel.name.clone(),
+        set,
+        quantity,
+        dof: label,
+        unit: None,
+        sign: None,
+        factor: None,
+        delay: None,
+    }
 }
 
 fn one(channel: &Channel, set: Option<String>) -> Result<ChannelTable, &'static str> {
@@ -109,10 +119,13 @@ fn spoken(name: &str) -> Option<Quantity> {
 fn place_of(text: &str) -> Option<(String, Option<i64>)> {
     let text = text.trim();
     let end = text.rfind(|c: char| c.is_ascii_digit())? + 1;
-    let start = text[..end].rfind(|c: char| !c.is_ascii_digit()).map_or(0, |at| at + text[at..].chars().next().map_or(1, char::len_utf8));
+    let start = text[..end]
+        .rfind(|c: char| !c.is_ascii_digit())
+        .map_or(0, |at| at + text[at..].chars().next().map_or(1, char::len_utf8));
     let number = text[start..end].trim_start_matches('0');
     let number = if number.is_empty() { "0" } else { number };
-    let behind: String = text[end..].chars().filter(|c| !c.is_whitespace() && !matches!(c, ':' | '_' | ')' | ']')).collect();
+    let behind: String =
+        text[end..].chars().filter(|c| !c.is_whitespace() && !matches!(c, ':' | '_' | ')' | ']')).collect();
     let (sign, axis) = match behind.chars().next() {
         Some('-') => (Some(-1), &behind[1..]),
         Some('+') => (None, &behind[1..]),

@@ -33,7 +33,12 @@ struct At<'a> {
 impl At<'_> {
     fn error(&self, column: Option<&str>, problem: impl Into<String>) -> RecordFileError {
         let problem = RecordProblem::DataFile { problem: problem.into() };
-        RecordFileError { file: self.file.to_owned(), line: None, column: column.map(|name| format!("channel \"{name}\"")), problem }
+        RecordFileError {
+            file: self.file.to_owned(),
+            line: None,
+            column: column.map(|name| format!("channel \"{name}\"")),
+            problem,
+        }
     }
 }
 
@@ -61,7 +66,11 @@ pub(crate) fn reads_as_own(path: &Path, template: Template<'_>) -> bool {
 }
 
 /// Reads the record of a run from a laboratory file of any format.
-pub(crate) fn read_mapped(path: &Path, template: Template<'_>, structure: &Structure) -> Result<Record, RecordFileError> {
+pub(crate) fn read_mapped(
+    path: &Path,
+    template: Template<'_>,
+    structure: &Structure,
+) -> Result<Record, RecordFileError> {
     let name = path.display().to_string();
     let at = At { file: &name };
     let file = open(path).map_err(|error| data(&at, error))?;
@@ -73,7 +82,10 @@ pub(crate) fn read_mapped(path: &Path, template: Template<'_>, structure: &Struc
         template.channels
     };
     if channels.is_empty() {
-        return Err(at.error(None, "no [[channel]] says what its channels measure; `dashpot import FILE --propose` writes them"));
+        return Err(at.error(
+            None,
+            "no [[channel]] says what its channels measure; `dashpot import FILE --propose` writes them",
+        ));
     }
     let mut time: Option<Vec<f64>> = None;
     let (mut found, mut samples) = (Vec::new(), Vec::new());
@@ -109,12 +121,19 @@ fn own_channels(file: &DataFile) -> Vec<ChannelTable> {
 }
 
 /// Set and channel of a table of the mapping: exactly one.
-fn locate(file: &DataFile, table: &ChannelTable, run_set: Option<&str>, at: &At<'_>) -> Result<(usize, usize), RecordFileError> {
+fn locate(
+    file: &DataFile,
+    table: &ChannelTable,
+    run_set: Option<&str>,
+    at: &At<'_>,
+) -> Result<(usize, usize), RecordFileError> {
     let wanted = run_set.or(table.set.as_deref());
     let sets = &file.contents().sets;
     if let Some(wanted) = wanted.filter(|wanted| sets.iter().all(|set| set.name != *wanted)) {
         let names: Vec<String> = sets.iter().take(12).map(|set| format!("\"{}\"", set.name)).collect();
-        return Err(at.error(Some(&table.name), format!("the file has no set \"{wanted}\"; it has {}", names.join(", "))));
+        return Err(
+            at.error(Some(&table.name), format!("the file has no set \"{wanted}\"; it has {}", names.join(", ")))
+        );
     }
     let inside = |name: &str| wanted.is_none_or(|wanted| wanted == name);
     let places = sets.iter().enumerate().filter(|(_, set)| inside(&set.name)).flat_map(|(s, set)| {
@@ -143,7 +162,10 @@ fn locate(file: &DataFile, table: &ChannelTable, run_set: Option<&str>, at: &At<
 fn target(table: &ChannelTable, structure: &Structure, at: &At<'_>) -> Result<Channel, RecordFileError> {
     let label = table.dof.clone();
     let Some(dof) = structure.dof(&label) else {
-        return Err(at.error(Some(&table.name), format!("the structure has no DOF \"{label}\"; correct `dof` of its [[channel]]")));
+        return Err(at.error(
+            Some(&table.name),
+            format!("the structure has no DOF \"{label}\"; correct `dof` of its [[channel]]"),
+        ));
     };
     unit_suits(table, structure, dof, at)?;
     Ok(Channel { quantity: table.quantity, dof, label })
@@ -153,20 +175,33 @@ fn target(table: &ChannelTable, structure: &Structure, at: &At<'_>) -> Result<Ch
 fn unit_suits(table: &ChannelTable, structure: &Structure, dof: usize, at: &At<'_>) -> Result<(), RecordFileError> {
     let Some(unit) = table.unit.as_deref().and_then(LabUnit::from_name) else { return Ok(()) };
     let rotation = structure.dofs()[dof].direction.is_rotation();
-    if structure.kind() == StructureKind::Points || unit.rotation == rotation || unit.quantity == crate::measurement::Quantity::Force {
+    if structure.kind() == StructureKind::Points
+        || unit.rotation == rotation
+        || unit.quantity == crate::measurement::Quantity::Force
+    {
         return Ok(());
     }
     let kind = if rotation { "rotation" } else { "translation" };
     let name = table.unit.as_deref().unwrap_or_default();
-    Err(at.error(Some(&table.name), format!("DOF {} is a {kind} and is not measured in {name}; correct `unit` or `dof`", table.dof)))
+    Err(at.error(
+        Some(&table.name),
+        format!("DOF {} is a {kind} and is not measured in {name}; correct `unit` or `dof`", table.dof),
+    ))
 }
 
 /// Samples in SI units, with sign and calibration.
-fn values(file: &DataFile, set: usize, channel: usize, table: &ChannelTable, at: &At<'_>) -> Result<Vec<f64>, RecordFileError> {
+fn values(
+    file: &DataFile,
+    set: usize,
+    channel: usize,
+    table: &ChannelTable,
+    at: &At<'_>,
+) -> Result<Vec<f64>, RecordFileError> {
     let entry = &file.contents().sets[set].channels[channel];
     let kind = file.contents().sets[set].kind;
     if matches!(kind, Kind::Frf | Kind::Spectrum | Kind::Shape | Kind::Geometry | Kind::Matrix) || entry.complex {
-        let problem = format!("is of kind {}, and a run needs samples over time; choose a channel that has them", kind.word());
+        let problem =
+            format!("is of kind {}, and a run needs samples over time; choose a channel that has them", kind.word());
         return Err(at.error(Some(&table.name), problem));
     }
     if entry.count == 0 {
@@ -179,12 +214,17 @@ fn values(file: &DataFile, set: usize, channel: usize, table: &ChannelTable, at:
         let problem = if named.is_empty() {
             format!("the file says no unit; add `unit` to its [[channel]]: {known}")
         } else {
-            format!("\"{named}\" is no known unit; add `unit` to its [[channel]] ({known}), with `factor` for units a number")
+            format!(
+                "\"{named}\" is no known unit; add `unit` to its [[channel]] ({known}), with `factor` for units a number"
+            )
         };
         return Err(at.error(Some(&table.name), problem));
     };
     if unit.quantity != quantity {
-        return Err(at.error(Some(&table.name), format!("{named} is not a unit of {}; correct `quantity` or `unit` ({known})", quantity.word())));
+        return Err(at.error(
+            Some(&table.name),
+            format!("{named} is not a unit of {}; correct `quantity` or `unit` ({known})", quantity.word()),
+        ));
     }
     let factor = unit.to_si * table.factor.unwrap_or(1.0) * table.sign.unwrap_or(1) as f64;
     let read = file.read(set, channel).map_err(|error| data(at, error))?;
@@ -213,7 +253,11 @@ fn times(
         "us" | "µs" => 1e-6,
         "min" => 60.0,
         "h" => 3600.0,
-        other => return Err(at.error(Some(&table.name), format!("its abscissa is in \"{other}\", and a run needs time in s"))),
+        other => {
+            return Err(
+                at.error(Some(&table.name), format!("its abscissa is in \"{other}\", and a run needs time in s"))
+            );
+        }
     };
     match (axis, sampling_hz) {
         (None, None) => {
@@ -226,7 +270,10 @@ fn times(
                 && (rate * step * scale - 1.0).abs() > SAME_RATE
             {
                 let found = 1.0 / (step * scale);
-                return Err(at.error(Some(&table.name), format!("the file is sampled at {found} Hz and `sampling_hz` says {rate}; leave it out")));
+                return Err(at.error(
+                    Some(&table.name),
+                    format!("the file is sampled at {found} Hz and `sampling_hz` says {rate}; leave it out"),
+                ));
             }
             Ok(axis.into_iter().map(|time| time * scale).collect())
         }
@@ -234,9 +281,20 @@ fn times(
 }
 
 /// Channels of a run share their times.
-fn same_time(first: &[f64], own: &[f64], a: &ChannelTable, b: &ChannelTable, at: &At<'_>) -> Result<(), RecordFileError> {
+fn same_time(
+    first: &[f64],
+    own: &[f64],
+    a: &ChannelTable,
+    b: &ChannelTable,
+    at: &At<'_>,
+) -> Result<(), RecordFileError> {
     if first.len() != own.len() {
-        let problem = format!("has {} samples and \"{}\" has {}; map channels of one length and rate", own.len(), a.name, first.len());
+        let problem = format!(
+            "has {} samples and \"{}\" has {}; map channels of one length and rate",
+            own.len(),
+            a.name,
+            first.len()
+        );
         return Err(at.error(Some(&b.name), problem));
     }
     let step = if first.len() > 1 { (first[first.len() - 1] - first[0]) / (first.len() - 1) as f64 } else { 0.0 };
@@ -245,7 +303,13 @@ fn same_time(first: &[f64], own: &[f64], a: &ChannelTable, b: &ChannelTable, at:
     match first.iter().zip(own).position(far) {
         None => Ok(()),
         Some(i) => {
-            let problem = format!("sample {} is at {} s and that of \"{}\" at {} s; map channels of one start and rate", i + 1, own[i], a.name, first[i]);
+            let problem = format!(
+                "sample {} is at {} s and that of \"{}\" at {} s; map channels of one start and rate",
+                i + 1,
+                own[i],
+                a.name,
+                first[i]
+            );
             Err(at.error(Some(&b.name), problem))
         }
     }

@@ -56,7 +56,9 @@ fn one(table: &Table<'_>) -> Result<ChannelTable, ProjectError> {
     let unit = table.text("unit")?;
     let quantity = table.word("quantity", &QUANTITIES, Quantity::from_word)?;
     let quantity = table.need("quantity", "quantity = \"acc\"", quantity)?;
-    if let Some(value) = unit.as_deref().filter(|unit| LabUnit::from_name(unit).is_none_or(|unit| unit.quantity != quantity)) {
+    if let Some(value) =
+        unit.as_deref().filter(|unit| LabUnit::from_name(unit).is_none_or(|unit| unit.quantity != quantity))
+    {
         let allowed = LabUnit::names_of(quantity).to_owned();
         return Err(table.error("unit", Problem::NotAllowed { key: "unit".into(), value: one_line(value), allowed }));
     }

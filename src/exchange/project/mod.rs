@@ -1,8 +1,8 @@
 //! Project files: TOML to [`ProjectFile`] (as written), to [`Plan`] (built), to [`Project`](super::Project) (records
 //! read and fitted).
 
-pub mod correction;
 mod channel;
+pub mod correction;
 pub mod error;
 pub mod file;
 pub mod load;

@@ -7,7 +7,7 @@ use super::sources::{At, line, sensors, sources};
 use super::structure::structure;
 use crate::control::Control;
 use crate::effects::Source;
-use crate::exchange::mapping::{Template, reads_as_own, read_mapped};
+use crate::exchange::mapping::{Template, read_mapped, reads_as_own};
 use crate::exchange::records::{HarmonicsRun, read_harmonics, read_record_with};
 use crate::identify::Settings;
 use crate::measurement::{ChannelName, Record};
@@ -186,7 +186,8 @@ impl Plan {
             let problem = if simulated { Problem::NotSimulated { file } } else { Problem::NoRecord { file } };
             return Err(self.run_error(run, "file", problem));
         }
-        let template = Template { channels: &self.file.channel, set: planned.set.as_deref(), sampling_hz: planned.sampling_hz };
+        let template =
+            Template { channels: &self.file.channel, set: planned.set.as_deref(), sampling_hz: planned.sampling_hz };
         let read = if reads_as_own(&planned.path, template) {
             read_record_with(&planned.path, &self.structure, control)
         } else {

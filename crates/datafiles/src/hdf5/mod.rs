@@ -59,7 +59,10 @@ pub(crate) fn open(path: &Path, matlab: bool) -> Read<(Contents, Box<dyn Source>
 }
 
 fn wrong(error: impl std::fmt::Display) -> Fault {
-    Fault::new(format!("cannot be read as HDF5 ({}); it was cut short or is damaged: copy or export it again", one_line(&error.to_string(), 160)))
+    Fault::new(format!(
+        "cannot be read as HDF5 ({}); it was cut short or is damaged: copy or export it again",
+        one_line(&error.to_string(), 160)
+    ))
 }
 
 /// Objects that cells of MATLAB refer to, by their address.
@@ -137,7 +140,9 @@ impl Walk {
     fn count(&mut self) -> Read<()> {
         self.entries += 1;
         if self.entries > MOST_ENTRIES {
-            return Err(Fault::new(format!("has more than {MOST_ENTRIES} groups and data sets; export the measurement alone")));
+            return Err(Fault::new(format!(
+                "has more than {MOST_ENTRIES} groups and data sets; export the measurement alone"
+            )));
         }
         Ok(())
     }
@@ -157,7 +162,9 @@ impl Walk {
             }
             (_, Datatype::String { .. } | Datatype::VarLen { .. }) => texts(&dataset).unwrap_or_else(skipped),
             (_, dtype) if value::readable(dtype).is_some() => self.numbers(dataset).unwrap_or_else(skipped),
-            (_, Datatype::Compound { .. }) => Node::Skipped("its values are records; save each field as a data set".to_owned()),
+            (_, Datatype::Compound { .. }) => {
+                Node::Skipped("its values are records; save each field as a data set".to_owned())
+            }
             _ => Node::Skipped("its values are no numbers".to_owned()),
         };
         Entry { name, node, attributes }
@@ -168,7 +175,9 @@ impl Walk {
         if depth > DEEPEST || dataset.num_elements().is_ok_and(|count| count > MOST_TEXTS) {
             return Node::Skipped("the cell is too large or too deep; save its parts alone".to_owned());
         }
-        let Ok(bytes) = dataset.read_raw_bytes() else { return Node::Skipped("the references of the cell are damaged".to_owned()) };
+        let Ok(bytes) = dataset.read_raw_bytes() else {
+            return Node::Skipped("the references of the cell are damaged".to_owned());
+        };
         let mut entries = Vec::new();
         for (i, reference) in bytes.chunks_exact(8).enumerate() {
             let address = u64::from_le_bytes(reference.try_into().unwrap_or_default());
@@ -285,7 +294,9 @@ fn texts(dataset: &Dataset) -> Read<Node> {
 
 /// Attributes as words and values, those of MATLAB and of dimension scales left out.
 fn attributes(attributes: Vec<Attribute>) -> Vec<(String, String)> {
-    let own = |name: &str| name.starts_with("MATLAB_") || matches!(name, "H5PATH" | "CLASS" | "DIMENSION_LIST" | "REFERENCE_LIST" | "NAME");
+    let own = |name: &str| {
+        name.starts_with("MATLAB_") || matches!(name, "H5PATH" | "CLASS" | "DIMENSION_LIST" | "REFERENCE_LIST" | "NAME")
+    };
     let value = |attribute: &Attribute| {
         if let Ok(text) = attribute.read_string() {
             return Some(text);

@@ -19,7 +19,9 @@ pub(super) fn readable(dtype: &Datatype) -> Option<bool> {
 fn scalar(dtype: &Datatype) -> Option<(Scalar, bool)> {
     let big = |order: &ByteOrder| *order == ByteOrder::BigEndian;
     match dtype {
-        Datatype::FixedPoint { size, signed, byte_order } => Some((Scalar::integer(usize::from(*size), *signed)?, big(byte_order))),
+        Datatype::FixedPoint { size, signed, byte_order } => {
+            Some((Scalar::integer(usize::from(*size), *signed)?, big(byte_order)))
+        }
         Datatype::FloatingPoint { size, byte_order } => Some((Scalar::float(usize::from(*size))?, big(byte_order))),
         Datatype::Bitfield { size, byte_order } => Some((Scalar::integer(usize::from(*size), false)?, big(byte_order))),
         Datatype::Enum { base, .. } => scalar(base),

@@ -39,7 +39,8 @@ pub(crate) fn is_v4(start: &[u8], length: u64) -> bool {
         && (2..256).contains(&name)
         && u64::from(rows) * u64::from(columns) <= length
         && start.get(20..20 + name as usize - 1).is_some_and(|name| {
-            name.iter().all(|byte| byte.is_ascii_alphanumeric() || *byte == b'_') && name.first().is_some_and(u8::is_ascii_alphabetic)
+            name.iter().all(|byte| byte.is_ascii_alphanumeric() || *byte == b'_')
+                && name.first().is_some_and(u8::is_ascii_alphabetic)
         })
         && start.get(20 + name as usize - 1) == Some(&0)
 }
@@ -161,7 +162,9 @@ impl V4 {
             let code = flat.re.get((column * rows + row) as usize).copied().unwrap_or(0.0);
             char::from_u32(code as u32).unwrap_or(' ')
         };
-        Ok((0..rows).map(|row| one_line(&(0..columns).map(|column| letter(row, column)).collect::<String>(), 400)).collect())
+        Ok((0..rows)
+            .map(|row| one_line(&(0..columns).map(|column| letter(row, column)).collect::<String>(), 400))
+            .collect())
     }
 }
 

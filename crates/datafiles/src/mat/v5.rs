@@ -59,7 +59,10 @@ impl V5 {
     fn element(&mut self, at: u64, length: u64) -> Read<(Option<Entry>, u64)> {
         let (mut input, kind, end) = self.enter(at)?;
         if end > length {
-            return Err(Fault::byte(at, "states more bytes than follow; the file was cut short: copy or save it again"));
+            return Err(Fault::byte(
+                at,
+                "states more bytes than follow; the file was cut short: copy or save it again",
+            ));
         }
         if kind != MATRIX {
             return Ok((None, end));
@@ -184,7 +187,9 @@ impl Walk<'_> {
             return Ok((kind, bytes));
         }
         if size > most {
-            return Err(Fault::new(format!("a part of a header states {size} bytes; the file is damaged: save it again")));
+            return Err(Fault::new(format!(
+                "a part of a header states {size} bytes; the file is damaged: save it again"
+            )));
         }
         let bytes = self.input.some(size)?;
         self.input.skip(size.next_multiple_of(8) - size)?;
@@ -216,8 +221,13 @@ impl Walk<'_> {
             5 => Node::Skipped("it is sparse; save full(...) of it".to_owned()),
             6..=15 => Node::Array(self.numbers(&header)?),
             16 => Node::Skipped("it is a function".to_owned()),
-            17 => Node::Skipped("it is an object of MATLAB (string, table, datetime, timeseries); save its numbers as arrays".to_owned()),
-            other => return Err(Fault::new(format!("is of an unknown class {other}; the file is damaged: save it again"))),
+            17 => Node::Skipped(
+                "it is an object of MATLAB (string, table, datetime, timeseries); save its numbers as arrays"
+                    .to_owned(),
+            ),
+            other => {
+                return Err(Fault::new(format!("is of an unknown class {other}; the file is damaged: save it again")));
+            }
         };
         Ok(Some(Entry::new(name, node)))
     }
@@ -226,7 +236,9 @@ impl Walk<'_> {
     fn inner(&mut self, name: String, depth: usize) -> Read<Option<Entry>> {
         let (kind, size, _) = self.tag()?;
         if kind != MATRIX {
-            return Err(Fault::new(format!("\"{name}\" holds an element of type {kind} where a matrix must be; save the file again")));
+            return Err(Fault::new(format!(
+                "\"{name}\" holds an element of type {kind} where a matrix must be; save the file again"
+            )));
         }
         if size == 0 {
             return Ok(None);
@@ -256,7 +268,9 @@ impl Walk<'_> {
 
     fn count(header: &Header) -> Read<u64> {
         let product = header.extents.iter().try_fold(1_u64, |product, &extent| product.checked_mul(extent));
-        product.ok_or_else(|| Fault::new(format!("\"{}\" states more values than any file holds; save it again", header.name)))
+        product.ok_or_else(|| {
+            Fault::new(format!("\"{}\" states more values than any file holds; save it again", header.name))
+        })
     }
 
     fn cell(&mut self, header: &Header, depth: usize) -> Read<Node> {
@@ -290,7 +304,9 @@ impl Walk<'_> {
         if length == 0 || length > 4096 {
             return Err(Fault::new("its names of fields have no length; the file is damaged: save it again"));
         }
-        let name = |bytes: &[u8]| String::from_utf8_lossy(bytes.split(|&byte| byte == 0).next().unwrap_or_default()).into_owned();
+        let name = |bytes: &[u8]| {
+            String::from_utf8_lossy(bytes.split(|&byte| byte == 0).next().unwrap_or_default()).into_owned()
+        };
         let names: Vec<String> = names.chunks_exact(length).map(name).collect();
         let mut all = Vec::new();
         for i in 0..if names.is_empty() { 0 } else { count } {
@@ -323,7 +339,13 @@ impl Walk<'_> {
         };
         let letters: Vec<char> = match kind {
             4 | 17 | 3 => {
-                let pair = |pair: &[u8]| if self.big { u16::from_be_bytes([pair[0], pair[1]]) } else { u16::from_le_bytes([pair[0], pair[1]]) };
+                let pair = |pair: &[u8]| {
+                    if self.big {
+                        u16::from_be_bytes([pair[0], pair[1]])
+                    } else {
+                        u16::from_le_bytes([pair[0], pair[1]])
+                    }
+                };
                 char::decode_utf16(bytes.chunks_exact(2).map(pair)).map(|c| c.unwrap_or('?')).collect()
             }
             _ => String::from_utf8_lossy(&bytes).chars().collect(),
@@ -367,7 +389,11 @@ impl Walk<'_> {
             9 => Scalar::F64,
             12 => Scalar::I64,
             13 => Scalar::U64,
-            other => return Err(Fault::new(format!("\"{name}\" has numbers of an unknown type {other}; save the file again"))),
+            other => {
+                return Err(Fault::new(format!(
+                    "\"{name}\" has numbers of an unknown type {other}; save the file again"
+                )));
+            }
         };
         let width = scalar.size() as u64;
         if size / width != count {

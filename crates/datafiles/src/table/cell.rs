@@ -54,7 +54,9 @@ pub(crate) fn number(text: &str, comma: bool) -> Option<f64> {
         return None;
     }
     // A comma at the end of a word separates words, it is no decimal comma.
-    if comma && !text.as_bytes().windows(2).all(|pair| pair[0] != b',' || pair[1].is_ascii_digit()) || text.ends_with(',') {
+    if comma && !text.as_bytes().windows(2).all(|pair| pair[0] != b',' || pair[1].is_ascii_digit())
+        || text.ends_with(',')
+    {
         return None;
     }
     let mended: String = text
@@ -123,7 +125,8 @@ pub(crate) fn clock(text: &str) -> Option<f64> {
 }
 
 fn digits(text: &str) -> Option<u32> {
-    (!text.is_empty() && text.len() <= 4 && text.bytes().all(|byte| byte.is_ascii_digit())).then(|| text.parse().ok())?
+    (!text.is_empty() && text.len() <= 4 && text.bytes().all(|byte| byte.is_ascii_digit()))
+        .then(|| text.parse().ok())?
 }
 
 /// Days from 1970-01-01 of `2024-03-01`, `2024/03/01`, `01.03.2024`.

@@ -23,9 +23,12 @@ const UNIT_WORDS: [&str; 6] = ["unit", "units", "einheit", "einheiten", "y_unit"
 
 /// Reads the header of a block of `width` columns.
 pub(crate) fn read(lines: &[HeaderLine], width: usize) -> Header {
-    let mut header = Header { names: vec![String::new(); width], units: vec![String::new(); width], ..Header::default() };
+    let mut header =
+        Header { names: vec![String::new(); width], units: vec![String::new(); width], ..Header::default() };
     let labelled = |words: &[&str]| {
-        lines.iter().rposition(|line| width > 1 && line.cells.len() > 1 && words.contains(&label(&line.cells[0]).as_str()))
+        lines
+            .iter()
+            .rposition(|line| width > 1 && line.cells.len() > 1 && words.contains(&label(&line.cells[0]).as_str()))
     };
     // A row of names must fill the table; `Channel;7` above a table of three columns is a remark.
     let full = |at: &usize| lines[*at].cells.len() >= width.min(3);
@@ -71,7 +74,9 @@ fn units_row(cells: &[String]) -> bool {
     let filled: Vec<&String> = cells.iter().filter(|cell| !cell.is_empty()).collect();
     let bracketed = |cell: &String| stripped(uncommented(cell)) != uncommented(cell);
     let units = filled.iter().filter(|cell| is_unit(uncommented(cell)) || bracketed(cell)).count();
-    !filled.is_empty() && 2 * units > filled.len() && filled.iter().any(|cell| is_unit(uncommented(cell)) || bracketed(cell))
+    !filled.is_empty()
+        && 2 * units > filled.len()
+        && filled.iter().any(|cell| is_unit(uncommented(cell)) || bracketed(cell))
 }
 
 /// A cell without a comment sign in front.
@@ -115,9 +120,19 @@ pub(crate) fn step(cells: &[String]) -> Option<f64> {
     let key: String = line[..end].chars().take_while(|c| !c.is_ascii_digit()).collect();
     let plain: String = key.chars().filter(|c| c.is_alphanumeric()).collect();
     let rate = ["samplerate", "samplingrate", "samplefreq", "samplingfreq", "abtastrate", "abtastfreq", "messrate"];
-    let interval = ["samplinginterval", "sampleinterval", "sampleperiod", "samplingperiod", "timestep", "deltat", "deltax", "abtastintervall"];
+    let interval = [
+        "samplinginterval",
+        "sampleinterval",
+        "sampleperiod",
+        "samplingperiod",
+        "timestep",
+        "deltat",
+        "deltax",
+        "abtastintervall",
+    ];
     let is_rate = rate.iter().any(|word| plain.contains(word)) || matches!(plain.as_str(), "fs" | "fshz" | "sr");
-    let is_interval = interval.iter().any(|word| plain.contains(word)) || matches!(plain.as_str(), "dt" | "dts" | "dtms");
+    let is_interval =
+        interval.iter().any(|word| plain.contains(word)) || matches!(plain.as_str(), "dt" | "dts" | "dtms");
     if !is_rate && !is_interval {
         return None;
     }

@@ -100,7 +100,11 @@ impl Blocks {
             return Err(Fault::line(line, format!("has {width} columns; at most {MOST_COLUMNS} are read")));
         }
         let words = cells.iter().filter(|cell| matches!(cell, Cell::Word(_))).count();
-        if words == 0 { self.numbers(line, cells)? } else { self.words(line, cells, words)? }
+        if words == 0 {
+            self.numbers(line, cells)?
+        } else {
+            self.words(line, cells, words)?
+        }
         self.gap = false;
         Ok(())
     }
@@ -118,7 +122,9 @@ impl Blocks {
             } else {
                 return Err(Fault::line(
                     line,
-                    format!("there are {found} cells and {expected} columns above; give each row one cell a column (with a decimal comma, separate the columns by semicolons)"),
+                    format!(
+                        "there are {found} cells and {expected} columns above; give each row one cell a column (with a decimal comma, separate the columns by semicolons)"
+                    ),
                 ));
             }
         }
@@ -140,9 +146,11 @@ impl Blocks {
     fn words(&mut self, line: u64, cells: &[Cell], words: usize) -> Read<()> {
         if let Some(block) = &self.open {
             let numbers = cells.iter().filter(|cell| cell.is_number()).count();
-            let comment = matches!(cells.first(), Some(Cell::Word(word)) if word.starts_with(['#', '%', '!', '*', '/']));
+            let comment =
+                matches!(cells.first(), Some(Cell::Word(word)) if word.starts_with(['#', '%', '!', '*', '/']));
             // Words behind the last column are remarks.
-            let remark = cells[..cells.len().min(block.columns.len())].iter().all(|cell| !matches!(cell, Cell::Word(_)));
+            let remark =
+                cells[..cells.len().min(block.columns.len())].iter().all(|cell| !matches!(cell, Cell::Word(_)));
             if remark && numbers > 0 {
                 let kept = cells[..block.columns.len()].to_vec();
                 return self.numbers(line, &kept);
@@ -152,7 +160,11 @@ impl Blocks {
                 let Cell::Word(word) = &cells[at] else { return Ok(()) };
                 return Err(Fault::line(
                     line,
-                    format!("column {}: \"{}\" is not a number; write one such as 1.25e-3, or leave the cell empty", at + 1, one_line(word, 40)),
+                    format!(
+                        "column {}: \"{}\" is not a number; write one such as 1.25e-3, or leave the cell empty",
+                        at + 1,
+                        one_line(word, 40)
+                    ),
                 ));
             }
             if comment {

@@ -73,7 +73,10 @@ fn one(name: String, block: Block) -> (Set, Columns) {
         let name = if header.names[i].is_empty() { format!("column {}", i + 1) } else { header.names[i].clone() };
         let mut channel = Channel::new(name, header.units[i].clone(), numbers.re.len() as u64);
         if numbers.gaps > 0 {
-            set.notes.push(format!("\"{}\" has {} empty cells between its numbers; they read as NaN", channel.name, numbers.gaps));
+            set.notes.push(format!(
+                "\"{}\" has {} empty cells between its numbers; they read as NaN",
+                channel.name, numbers.gaps
+            ));
         }
         channel.axis = match (&axis_values, header.step) {
             (Some(_), _) => Axis::Stored { step },
@@ -105,7 +108,11 @@ fn axis_unit(header: &header::Header, at: usize, kind: Kind, clock: bool) -> Str
     let unit = header.units[at].clone();
     match kind {
         _ if clock || !unit.is_empty() && !matches!(unit.as_str(), "sec" | "secs" | "second" | "seconds") => {
-            if clock { "s".to_owned() } else { unit }
+            if clock {
+                "s".to_owned()
+            } else {
+                unit
+            }
         }
         Kind::Time => "s".to_owned(),
         _ => "Hz".to_owned(),

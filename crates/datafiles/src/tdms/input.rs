@@ -47,7 +47,10 @@ impl Input<'_> {
         let length = self.u32()?;
         if length > MOST_TEXT {
             let at = self.position()? - 4;
-            return Err(Fault::byte(at, format!("a text of {length} bytes is stated; the file is damaged: copy or export it again")));
+            return Err(Fault::byte(
+                at,
+                format!("a text of {length} bytes is stated; the file is damaged: copy or export it again"),
+            ));
         }
         Ok(String::from_utf8_lossy(&self.bytes(length.into())?).into_owned())
     }

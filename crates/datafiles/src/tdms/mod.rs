@@ -38,7 +38,11 @@ pub(crate) fn open(path: &Path) -> Read<(Contents, Box<dyn Source>)> {
     let mut contents = Contents::new(Format::Tdms);
     contents.notes = notes;
     let mut tdms = Tdms { path: path.to_owned(), sets: Vec::new() };
-    let root = objects.iter().find(|object| object.path.is_empty()).map(|object| object.properties.as_slice()).unwrap_or_default();
+    let root = objects
+        .iter()
+        .find(|object| object.path.is_empty())
+        .map(|object| object.properties.as_slice())
+        .unwrap_or_default();
     for group in objects.iter().filter(|object| object.path.len() == 1) {
         let mut set = Set::new(group.path[0].clone(), Kind::Table);
         set.notes.extend(group.properties.iter().take(30).map(|(name, value)| format!("{name}: {value}")));
@@ -48,7 +52,9 @@ pub(crate) fn open(path: &Path) -> Read<(Contents, Box<dyn Source>)> {
                 set.notes.push(format!("\"{}\" is not read: {why}", object.path[1]));
                 continue;
             }
-            let scaling = [&object.properties[..], &group.properties, root].iter().find_map(|properties| Scaling::read(properties));
+            let scaling = [&object.properties[..], &group.properties, root]
+                .iter()
+                .find_map(|properties| Scaling::read(properties));
             let scaling = match scaling.unwrap_or(Ok(Scaling::default())) {
                 Ok(scaling) => scaling,
                 Err(what) => {
@@ -75,7 +81,9 @@ pub(crate) fn open(path: &Path) -> Read<(Contents, Box<dyn Source>)> {
 
 impl Set {
     fn axis_unit_is_hertz(&self) -> bool {
-        self.channels.iter().any(|channel| channel.attribute("wf_xunit_string").is_some_and(|unit| unit.eq_ignore_ascii_case("hz")))
+        self.channels
+            .iter()
+            .any(|channel| channel.attribute("wf_xunit_string").is_some_and(|unit| unit.eq_ignore_ascii_case("hz")))
     }
 }
 

@@ -116,7 +116,8 @@ impl Run {
 /// Seconds from 1904 of a time: 64 bits of fraction and 64 of seconds, in the byte order of the file.
 pub(super) fn time(bytes: &[u8], big: bool) -> f64 {
     let (fraction, seconds) = if big { (bytes.get(8..), bytes.get(..8)) } else { (bytes.get(..8), bytes.get(8..)) };
-    let part = |bytes: Option<&[u8]>, scalar: Scalar| bytes.and_then(|bytes| scalar.get(bytes, big)).unwrap_or(f64::NAN);
+    let part =
+        |bytes: Option<&[u8]>, scalar: Scalar| bytes.and_then(|bytes| scalar.get(bytes, big)).unwrap_or(f64::NAN);
     part(seconds, Scalar::I64) + part(fraction, Scalar::U64) / 2f64.powi(64)
 }
 
@@ -145,7 +146,10 @@ impl Object {
     }
 
     pub(super) fn count(&self) -> u64 {
-        self.runs.iter().map(|run| run.count.saturating_mul(run.chunks.saturating_sub(1)).saturating_add(run.last)).sum()
+        self.runs
+            .iter()
+            .map(|run| run.count.saturating_mul(run.chunks.saturating_sub(1)).saturating_add(run.last))
+            .sum()
     }
 }
 
@@ -172,7 +176,12 @@ pub(super) fn property(input: &mut Input<'_>) -> Read<(String, Property)> {
         (0, _) => Property::Text(String::new()),
         (kind, _) => {
             let at = input.position()? - 4;
-            return Err(Fault::byte(at, format!("property \"{name}\" is of an unknown type {kind}; the file is damaged: copy or export it again")));
+            return Err(Fault::byte(
+                at,
+                format!(
+                    "property \"{name}\" is of an unknown type {kind}; the file is damaged: copy or export it again"
+                ),
+            ));
         }
     };
     Ok((name, value))

@@ -96,7 +96,10 @@ fn scale<'a>(i: usize, find: &impl Fn(&str) -> Option<&'a Property>) -> Result<S
             Ok(Scale::Table(source("Table_Input_Source"), points))
         }
         "Add" => Ok(Scale::Add(source("Add_Left_Operand_Input_Source"), source("Add_Right_Operand_Input_Source"))),
-        "Subtract" => Ok(Scale::Subtract(source("Subtract_Left_Operand_Input_Source"), source("Subtract_Right_Operand_Input_Source"))),
+        "Subtract" => Ok(Scale::Subtract(
+            source("Subtract_Left_Operand_Input_Source"),
+            source("Subtract_Right_Operand_Input_Source"),
+        )),
         "AdvancedAPI" => Ok(Scale::Polynomial(source("AdvancedAPI_Input_Source"), vec![0.0, 1.0])),
         other => Err(format!("its scale \"{}\" is not known; export it again as scaled values", one_line(other, 40))),
     }

@@ -56,7 +56,13 @@ struct Reader {
 pub(super) fn objects(path: &Path) -> Read<(Vec<Object>, Vec<String>)> {
     let length = std::fs::metadata(path)?.len();
     let mut file = BufReader::new(File::open(path)?);
-    let mut reader = Reader { objects: Vec::new(), known: HashMap::new(), indices: Vec::new(), active: Vec::new(), notes: Vec::new() };
+    let mut reader = Reader {
+        objects: Vec::new(),
+        known: HashMap::new(),
+        indices: Vec::new(),
+        active: Vec::new(),
+        notes: Vec::new(),
+    };
     let mut at = 0;
     while at + LEAD <= length {
         at = reader.segment(&mut file, at, length)?;
@@ -84,11 +90,14 @@ impl Reader {
         let (next, raw) = (input.u64()?, input.u64()?);
         let end = if next == u64::MAX { length } else { at.saturating_add(LEAD).saturating_add(next) };
         if end > length {
-            self.notes.push(format!("the segment at byte {at} goes on behind the end of the file: the recording was broken off"));
+            self.notes.push(format!(
+                "the segment at byte {at} goes on behind the end of the file: the recording was broken off"
+            ));
         }
         let end = end.min(length);
         if toc & META != 0 {
-            self.metadata(&mut input, toc & NEW_LIST != 0, end).map_err(|fault| fault.within(format!("segment at byte {at}")))?;
+            self.metadata(&mut input, toc & NEW_LIST != 0, end)
+                .map_err(|fault| fault.within(format!("segment at byte {at}")))?;
         }
         let data = at.saturating_add(LEAD).saturating_add(raw);
         if toc & RAW != 0 && data < end {
@@ -117,7 +126,10 @@ impl Reader {
                 self.objects[index].set(name, value);
             }
             if input.position()? > end {
-                return Err(Fault::byte(end, "the metadata go on behind their segment; the file is damaged: copy or export it again"));
+                return Err(Fault::byte(
+                    end,
+                    "the metadata go on behind their segment; the file is damaged: copy or export it again",
+                ));
             }
         }
         Ok(())
@@ -127,7 +139,9 @@ impl Reader {
         if let Some(&known) = self.known.get(path) {
             return Ok(known);
         }
-        let names = names(path).ok_or_else(|| Fault::new(format!("\"{path}\" is no path of an object; the file is damaged: copy or export it again")))?;
+        let names = names(path).ok_or_else(|| {
+            Fault::new(format!("\"{path}\" is no path of an object; the file is damaged: copy or export it again"))
+        })?;
         if self.objects.len() >= MOST_OBJECTS {
             return Err(Fault::new(format!("has more than {MOST_OBJECTS} objects; export the measurement alone")));
         }
@@ -155,7 +169,10 @@ impl Reader {
                 let count = input.u64()?;
                 let at = input.position()?;
                 if extents != 1 {
-                    return Err(Fault::byte(at, format!("data of {extents} extents are stated; the file is damaged: copy or export it again")));
+                    return Err(Fault::byte(
+                        at,
+                        format!("data of {extents} extents are stated; the file is damaged: copy or export it again"),
+                    ));
                 }
                 let coding = Coding::of(kind);
                 let bytes = if kind == 0x20 { input.u64()? } else { count.saturating_mul(coding.size()) };
@@ -166,14 +183,23 @@ impl Reader {
 
     /// Notes where the values of the raw data from byte `data` to `end` lie.
     fn data(&mut self, data: u64, end: u64, toc: u32) -> Read<()> {
-        let active: Vec<(usize, Index)> =
-            self.active.iter().filter_map(|(object, index)| Some((*object, index.clone()?))).filter(|(_, index)| index.count > 0).collect();
+        let active: Vec<(usize, Index)> = self
+            .active
+            .iter()
+            .filter_map(|(object, index)| Some((*object, index.clone()?)))
+            .filter(|(_, index)| index.count > 0)
+            .collect();
         if active.is_empty() {
             return Ok(());
         }
-        if let Some(object) = active.iter().find(|(_, index)| matches!(index.coding, Coding::Other(kind, 0) if kind != 0x20)) {
+        if let Some(object) =
+            active.iter().find(|(_, index)| matches!(index.coding, Coding::Other(kind, 0) if kind != 0x20))
+        {
             let name = self.objects[object.0].path.join("/");
-            return Err(Fault::byte(data, format!("channel \"{name}\" is of an unknown type; export it again as numbers")));
+            return Err(Fault::byte(
+                data,
+                format!("channel \"{name}\" is of an unknown type; export it again as numbers"),
+            ));
         }
         let big = toc & BIG != 0;
         if toc & DAQMX != 0 || active.iter().any(|(_, index)| index.daqmx.is_some()) {
@@ -198,7 +224,11 @@ impl Reader {
             let before = start - data;
             let partial = (rest.saturating_sub(before) / size).min(index.count);
             let (chunks, last) = if partial > 0 { (whole + 1, partial) } else { (whole, index.count) };
-            self.run(*object, index, Run { coding: index.coding, big, start, count: index.count, last, chunks, chunk, stride: size });
+            self.run(
+                *object,
+                index,
+                Run { coding: index.coding, big, start, count: index.count, last, chunks, chunk, stride: size },
+            );
             start = start.saturating_add(index.bytes);
         }
     }
@@ -209,7 +239,16 @@ impl Reader {
         let rows = (end - data) / row;
         let mut start = data;
         for (object, index) in active {
-            let run = Run { coding: index.coding, big, start, count: rows, last: rows, chunks: u64::from(rows > 0), chunk: 0, stride: row };
+            let run = Run {
+                coding: index.coding,
+                big,
+                start,
+                count: rows,
+                last: rows,
+                chunks: u64::from(rows > 0),
+                chunk: 0,
+                stride: row,
+            };
             self.run(*object, index, run);
             start += index.coding.size();
         }
@@ -238,9 +277,14 @@ impl Reader {
             let partial = (rest.saturating_sub(before) / width).min(index.count);
             let (chunks, last) = if partial > 0 { (whole + 1, partial) } else { (whole, index.count) };
             let start = data.saturating_add(before).saturating_add(daqmx.offset);
-            self.run(*object, index, Run { coding: index.coding, big, start, count: index.count, last, chunks, chunk, stride: width });
+            self.run(
+                *object,
+                index,
+                Run { coding: index.coding, big, start, count: index.count, last, chunks, chunk, stride: width },
+            );
             if daqmx.several {
-                self.objects[*object].skipped = Some("it is made of several raw channels; export it again as numbers".to_owned());
+                self.objects[*object].skipped =
+                    Some("it is made of several raw channels; export it again as numbers".to_owned());
             }
         }
         Ok(())
@@ -250,7 +294,10 @@ impl Reader {
         let object = &mut self.objects[object];
         match index.coding {
             Coding::Other(0x20, _) => object.skipped = Some("it is text".to_owned()),
-            Coding::Other(kind, _) => object.skipped = Some(format!("its values are of type {kind}, numbers of more than 64 bits; export it as double")),
+            Coding::Other(kind, _) => {
+                object.skipped =
+                    Some(format!("its values are of type {kind}, numbers of more than 64 bits; export it as double"))
+            }
             coding => {
                 let complex = matches!(coding, Coding::Complex(_));
                 if !object.runs.is_empty() && object.complex != complex {
@@ -305,5 +352,10 @@ fn daqmx(input: &mut Input<'_>, digital: bool) -> Read<Index> {
     let widths: Read<Vec<u64>> = (0..buffers).map(|_| input.u32().map(u64::from)).collect();
     let (scalar, buffer, offset) = first.ok_or_else(damaged)?;
     let coding = if digital { Coding::Other(0, 1) } else { Coding::Number(scalar) };
-    Ok(Index { coding, count, bytes: 0, daqmx: Some(Daqmx { buffer, offset, widths: widths?, several: scalers > 1 || digital }) })
+    Ok(Index {
+        coding,
+        count,
+        bytes: 0,
+        daqmx: Some(Daqmx { buffer, offset, widths: widths?, several: scalers > 1 || digital }),
+    })
 }

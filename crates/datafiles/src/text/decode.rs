@@ -18,7 +18,10 @@ pub(crate) fn decode(bytes: &[u8]) -> Read<(Cow<'_, str>, Option<&'static str>)>
     }
     match std::str::from_utf8(bytes) {
         Ok(text) => Ok((Cow::Borrowed(text), None)),
-        Err(_) => Ok((Cow::Owned(bytes.iter().map(|&byte| latin(byte)).collect()), Some("read as Latin-1 text: it is not UTF-8"))),
+        Err(_) => Ok((
+            Cow::Owned(bytes.iter().map(|&byte| latin(byte)).collect()),
+            Some("read as Latin-1 text: it is not UTF-8"),
+        )),
     }
 }
 

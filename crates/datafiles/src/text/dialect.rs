@@ -58,7 +58,8 @@ impl Dialect {
             let width = cells.iter().rposition(|cell| !cell.is_empty()).map_or(0, |last| last + 1);
             let numbers = cells.iter().filter(|cell| cell.is_number()).count();
             // A word in the last cell is a remark.
-            let words = cells[..width.saturating_sub(usize::from(width > 1))].iter().any(|cell| matches!(cell, Cell::Word(_)));
+            let words =
+                cells[..width.saturating_sub(usize::from(width > 1))].iter().any(|cell| matches!(cell, Cell::Word(_)));
             if numbers > 0 && !words {
                 *widths.entry(width).or_default() += 1;
             }

@@ -85,7 +85,12 @@ pub(super) fn read(text: &str) -> Read<(Contents, TableSource)> {
                 }
                 Place::Rows
             }
-            Place::Between => return Err(Fault::line(line, format!("\"{}\" belongs to no segment; export the file again", one_line(row, 40)))),
+            Place::Between => {
+                return Err(Fault::line(
+                    line,
+                    format!("\"{}\" belongs to no segment; export the file again", one_line(row, 40)),
+                ));
+            }
         };
     }
     if segments.is_empty() {
@@ -95,7 +100,8 @@ pub(super) fn read(text: &str) -> Read<(Contents, TableSource)> {
     let mut sources = Vec::new();
     let several = segments.len() > 1;
     for (i, segment) in segments.into_iter().enumerate() {
-        let (set, columns) = segment.finish(if several { format!("segment {}", i + 1) } else { String::new() }, head.x)?;
+        let (set, columns) =
+            segment.finish(if several { format!("segment {}", i + 1) } else { String::new() }, head.x)?;
         contents.sets.push(set);
         sources.push(columns);
     }
@@ -114,7 +120,19 @@ fn name(segments: &mut [Segment], cells: &[&str]) {
 
 /// Words that begin a segment.
 fn header_word(word: &str) -> bool {
-    matches!(word, "Channels" | "Samples" | "Notes" | "Test_Name" | "Test_Numbers" | "Test_Series" | "UUT_Name" | "UUT_M/N" | "UUT_S/N" | "Date")
+    matches!(
+        word,
+        "Channels"
+            | "Samples"
+            | "Notes"
+            | "Test_Name"
+            | "Test_Numbers"
+            | "Test_Series"
+            | "UUT_Name"
+            | "UUT_M/N"
+            | "UUT_S/N"
+            | "Date"
+    )
 }
 
 fn head<'a>(lines: &mut impl Iterator<Item = (u64, &'a str)>) -> Read<Head> {
@@ -160,7 +178,8 @@ impl Segment {
             match (number(cell, comma), self.columns.get_mut(i)) {
                 (Some(value), Some(column)) if !comment => column.push(value),
                 (None, Some(_)) if !comment => {
-                    let problem = format!("column {}: \"{}\" is not a number; export the file again", i + 1, one_line(cell, 40));
+                    let problem =
+                        format!("column {}: \"{}\" is not a number; export the file again", i + 1, one_line(cell, 40));
                     return Err(Fault::line(line, problem));
                 }
                 _ => {

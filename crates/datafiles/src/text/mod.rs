@@ -20,7 +20,9 @@ pub(crate) fn open(path: &Path) -> Read<(Contents, Box<dyn Source>)> {
     let length = std::fs::metadata(path)?.len();
     if length > MOST_TEXT {
         let size = length as f64 * 1e-9;
-        return Err(Fault::new(format!("is {size:.0} GB of text, too much for memory; cut it or export it as TDMS or HDF5")));
+        return Err(Fault::new(format!(
+            "is {size:.0} GB of text, too much for memory; cut it or export it as TDMS or HDF5"
+        )));
     }
     read(&std::fs::read(path)?)
 }
@@ -34,7 +36,8 @@ pub(crate) fn read(bytes: &[u8]) -> Read<(Contents, Box<dyn Source>)> {
     if text.trim().is_empty() {
         return Err(Fault::new("is empty; export the record again"));
     }
-    let (mut contents, source) = if text.trim_start().starts_with("LabVIEW Measurement") { lvm::read(text)? } else { table(text)? };
+    let (mut contents, source) =
+        if text.trim_start().starts_with("LabVIEW Measurement") { lvm::read(text)? } else { table(text)? };
     contents.notes.extend(note.map(str::to_owned));
     Ok((contents, Box::new(source)))
 }
@@ -63,7 +66,9 @@ fn table(text: &str) -> Read<(Contents, TableSource)> {
     let (sets, columns) = finish("", blocks);
     contents.sets = sets;
     // One column has no separator to tell the format by.
-    if contents.sets.iter().all(|set| set.channels.len() + usize::from(!set.axis_unit.is_empty()) < 2) && !text.contains([',', ';', '\t']) {
+    if contents.sets.iter().all(|set| set.channels.len() + usize::from(!set.axis_unit.is_empty()) < 2)
+        && !text.contains([',', ';', '\t'])
+    {
         contents.format = Format::Txt;
     }
     Ok((contents, TableSource { sets: columns }))

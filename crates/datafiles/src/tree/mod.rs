@@ -102,7 +102,8 @@ impl Shape {
             return Some(Cut { channels: 1, count: total, stride: 1, inner: 1, outer: 1 });
         }
         let longest = (0..self.extents.len()).max_by_key(|&i| (self.extents[i], usize::MAX - i))?;
-        let along = samples.and_then(|samples| self.extents.iter().position(|&extent| extent == samples)).unwrap_or(longest);
+        let along =
+            samples.and_then(|samples| self.extents.iter().position(|&extent| extent == samples)).unwrap_or(longest);
         let count = self.extents[along];
         let fast = if self.column_major { &self.extents[..along] } else { &self.extents[along + 1..] };
         let stride: u64 = fast.iter().product();

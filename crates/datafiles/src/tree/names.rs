@@ -17,33 +17,49 @@ pub(super) enum Sampling {
 pub(super) fn sampling(name: &str, value: f64) -> Option<Sampling> {
     let usable = value.is_finite() && value > 0.0;
     match plain(name).as_str() {
-        "fs" | "fsamp" | "fsample" | "fsampling" | "sr" | "samplerate" | "samplingrate" | "samplefrequency" | "samplingfrequency"
-        | "fshz" | "sampleratehz" | "samplingratehz" | "samplinghz" | "samplingfreq" | "samplefreq"
+        "fs" | "fsamp" | "fsample" | "fsampling" | "sr" | "samplerate" | "samplingrate" | "samplefrequency"
+        | "samplingfrequency" | "fshz" | "sampleratehz" | "samplingratehz" | "samplinghz" | "samplingfreq"
+        | "samplefreq"
             if usable =>
         {
             Some(Sampling::Step(1.0 / value))
         }
-        "dt" | "ts" | "deltat" | "dts" | "step" | "timestep" | "sampleinterval" | "samplinginterval" | "sampleperiod" | "samplingperiod"
-        | "wfincrement" | "xincrement" | "increment" | "dx" | "deltax" | "interval"
+        "dt" | "ts" | "deltat" | "dts" | "step" | "timestep" | "sampleinterval" | "samplinginterval"
+        | "sampleperiod" | "samplingperiod" | "wfincrement" | "xincrement" | "increment" | "dx" | "deltax"
+        | "interval"
             if usable =>
         {
             Some(Sampling::Step(value))
         }
-        "t0" | "x0" | "startvalue" | "xstart" | "start" | "starttime" if value.is_finite() => Some(Sampling::Start(value)),
+        "t0" | "x0" | "startvalue" | "xstart" | "start" | "starttime" if value.is_finite() => {
+            Some(Sampling::Start(value))
+        }
         _ => None,
     }
 }
 
 /// Whether a word names a unit.
 pub(super) fn is_unit_word(name: &str) -> bool {
-    matches!(plain(name).as_str(), "unit" | "units" | "unitstring" | "unitlabel" | "yunit" | "yunits" | "yunitlabel" | "engineeringunits" | "eu")
+    matches!(
+        plain(name).as_str(),
+        "unit" | "units" | "unitstring" | "unitlabel" | "yunit" | "yunits" | "yunitlabel" | "engineeringunits" | "eu"
+    )
 }
 
 /// Whether a word names the names of channels.
 pub(super) fn is_names_word(name: &str) -> bool {
     matches!(
         plain(name).as_str(),
-        "names" | "labels" | "channels" | "channelnames" | "channellabels" | "channelname" | "signals" | "signalnames" | "sensors" | "chnames"
+        "names"
+            | "labels"
+            | "channels"
+            | "channelnames"
+            | "channellabels"
+            | "channelname"
+            | "signals"
+            | "signalnames"
+            | "sensors"
+            | "chnames"
     )
 }
 

@@ -34,7 +34,11 @@ struct Abscissa {
 }
 
 /// Sets of a tree, and where their channels are.
-pub(crate) fn sets(entries: &[Entry], attributes: &[(String, String)], arrays: &dyn Arrays) -> Read<(Vec<Set>, Vec<Vec<Place>>)> {
+pub(crate) fn sets(
+    entries: &[Entry],
+    attributes: &[(String, String)],
+    arrays: &dyn Arrays,
+) -> Read<(Vec<Set>, Vec<Vec<Place>>)> {
     let mut made = Made { arrays, sets: Vec::new(), places: Vec::new() };
     made.group("", entries, attributes, Context::default(), 0)?;
     Ok((made.sets, made.places))
@@ -47,7 +51,14 @@ struct Made<'a> {
 }
 
 impl Made<'_> {
-    fn group(&mut self, path: &str, entries: &[Entry], attributes: &[(String, String)], above: Context, depth: usize) -> Read<()> {
+    fn group(
+        &mut self,
+        path: &str,
+        entries: &[Entry],
+        attributes: &[(String, String)],
+        above: Context,
+        depth: usize,
+    ) -> Read<()> {
         if self.signal(path, entries) {
             return Ok(());
         }
@@ -74,7 +85,15 @@ impl Made<'_> {
                     } else {
                         let axis = axis.as_ref().filter(|axis| axis.entry != i);
                         let is_axis = axis.is_none() && entries.get(i).is_some_and(|_| self.is_axis(entries, i));
-                        channels(&mut set, &mut places, entry, array, axis, if is_axis { Context::default() } else { context }, &labels);
+                        channels(
+                            &mut set,
+                            &mut places,
+                            entry,
+                            array,
+                            axis,
+                            if is_axis { Context::default() } else { context },
+                            &labels,
+                        );
                     }
                 }
                 Node::Text(texts) => note(&mut set, format!("{}: {}", entry.name, texts.join(", "))),
@@ -112,8 +131,12 @@ impl Made<'_> {
             let Node::Array(array) = &entry.node else { continue };
             let unit = names::unit_of(&entry.attributes).unwrap_or_default();
             let Some(kind) = kind_of(&entry.name, unit) else { continue };
-            let Some(count) = array.shape.len().filter(|&count| count > 1 && array.is_vector() && !array.complex) else { continue };
-            let others = |other: &Entry| matches!(&other.node, Node::Array(other) if other.shape.extents.contains(&count));
+            let Some(count) = array.shape.len().filter(|&count| count > 1 && array.is_vector() && !array.complex)
+            else {
+                continue;
+            };
+            let others =
+                |other: &Entry| matches!(&other.node, Node::Array(other) if other.shape.extents.contains(&count));
             if entries.iter().enumerate().all(|(j, other)| j == i || !others(other)) {
                 continue;
             }
@@ -143,9 +166,14 @@ impl Made<'_> {
     fn matrix(&mut self, path: &str, entry: &Entry, array: &Array) {
         let name = if path.is_empty() { entry.name.clone() } else { format!("{path}/{}", entry.name) };
         let mut set = Set::new(name, Kind::Matrix);
-        let mut channel = Channel::new(entry.name.clone(), names::unit_of(&entry.attributes).unwrap_or_default(), array.shape.len().unwrap_or(0));
+        let mut channel = Channel::new(
+            entry.name.clone(),
+            names::unit_of(&entry.attributes).unwrap_or_default(),
+            array.shape.len().unwrap_or(0),
+        );
         channel.complex = array.complex;
-        channel.first = (0..FIRST as u64).filter_map(|i| array.at(i)).map(|value| number(value, array.complex)).collect();
+        channel.first =
+            (0..FIRST as u64).filter_map(|i| array.at(i)).map(|value| number(value, array.complex)).collect();
         let extents: Vec<String> = array.shape.extents.iter().map(ToString::to_string).collect();
         let order = if array.shape.column_major { "columns" } else { "rows" };
         channel.attributes.push(("shape".to_owned(), extents.join(" x ")));
@@ -166,7 +194,8 @@ impl Made<'_> {
         let x_unit = names::text_at(entries, &["x_values", "quantity", "label"]).unwrap_or("s");
         let unit = names::text_at(entries, &["y_values", "quantity", "label"]).unwrap_or_default();
         let name = names::text_at(entries, &["function_record", "name"]).unwrap_or(path);
-        let stated = names::scalar_at(entries, &["x_values", "number_of_values"]).filter(|n| *n >= 1.0).map(|n| n as u64);
+        let stated =
+            names::scalar_at(entries, &["x_values", "number_of_values"]).filter(|n| *n >= 1.0).map(|n| n as u64);
         let Some(cut) = array.shape.cut(stated) else { return false };
         let frequency = kind_of("", x_unit) == Some(Kind::Spectrum);
         let kind = match (frequency, array.complex) {
@@ -215,7 +244,8 @@ impl Labels {
             Node::Text(texts) => Some(texts.clone()),
             _ => None,
         };
-        let find = |word: fn(&str) -> bool| entries.iter().find(|entry| word(&entry.name)).and_then(texts).unwrap_or_default();
+        let find =
+            |word: fn(&str) -> bool| entries.iter().find(|entry| word(&entry.name)).and_then(texts).unwrap_or_default();
         let unit_of = entries.iter().filter_map(|entry| {
             let lower = entry.name.to_lowercase();
             let name = ["_units", "_unit"].iter().find_map(|end| lower.strip_suffix(end))?;
@@ -225,7 +255,15 @@ impl Labels {
     }
 }
 
-fn channels(set: &mut Set, places: &mut Vec<Place>, entry: &Entry, array: &Array, axis: Option<&Abscissa>, context: Context, labels: &Labels) {
+fn channels(
+    set: &mut Set,
+    places: &mut Vec<Place>,
+    entry: &Entry,
+    array: &Array,
+    axis: Option<&Abscissa>,
+    context: Context,
+    labels: &Labels,
+) {
     let axis = axis.filter(|axis| array.shape.extents.contains(&axis.count));
     let Some(cut) = array.shape.cut(axis.map(|axis| axis.count)) else {
         note(set, format!("\"{}\" is not read: it would make too many channels; save it in pieces", entry.name));
@@ -235,12 +273,17 @@ fn channels(set: &mut Set, places: &mut Vec<Place>, entry: &Entry, array: &Array
     for (name, value) in &entry.attributes {
         own.take(value.parse().ok().and_then(|value| names::sampling(name, value)));
     }
-    let beside = labels.unit_of.iter().find(|(name, _)| *name == entry.name.to_lowercase()).map(|(_, unit)| unit.as_str());
+    let beside =
+        labels.unit_of.iter().find(|(name, _)| *name == entry.name.to_lowercase()).map(|(_, unit)| unit.as_str());
     for c in 0..cut.channels {
         let listed = |list: &[String]| (list.len() as u64 == cut.channels).then(|| list[c as usize].clone());
         let numbered = if cut.channels > 1 { format!("{}[{}]", entry.name, c + 1) } else { entry.name.clone() };
         let name = if cut.channels > 1 { listed(&labels.names).unwrap_or(numbered) } else { numbered };
-        let unit = names::unit_of(&entry.attributes).or(beside).map(str::to_owned).or_else(|| listed(&labels.units)).unwrap_or_default();
+        let unit = names::unit_of(&entry.attributes)
+            .or(beside)
+            .map(str::to_owned)
+            .or_else(|| listed(&labels.units))
+            .unwrap_or_default();
         let mut channel = Channel::new(name, unit, cut.count);
         channel.complex = array.complex;
         channel.attributes.clone_from(&entry.attributes);

@@ -87,7 +87,9 @@ impl Source for TreeSource {
         }
         let (from, step) = (place.cut.offset(place.channel) as usize, (place.cut.stride as usize).max(1));
         let count = place.cut.count as usize;
-        let pick = |all: &[f64]| all.get(from..).unwrap_or_default().iter().step_by(step).take(count).copied().collect::<Vec<_>>();
+        let pick = |all: &[f64]| {
+            all.get(from..).unwrap_or_default().iter().step_by(step).take(count).copied().collect::<Vec<_>>()
+        };
         let (re, im) = (pick(&flat.re), pick(&flat.im));
         if re.len() != count {
             return Err(Fault::new("has fewer values than its extents say; export it again"));
