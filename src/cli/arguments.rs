@@ -43,6 +43,10 @@ pub(super) enum Command {
     Methods(Methods),
     /// Rewrite a measurement file: into SI units, or into fitted harmonics
     Convert(Convert),
+    /// List what is in measurement files of any format: sets, channels, units, steps, first values
+    Contents(Contents),
+    /// Make a project of measurement files where they lie, by a mapping of their channels
+    Import(Import),
     /// Write a structure of a known kind as matrices with nodes, DOFs and lines
     Build(Build),
     /// Play a script of commands on a project, as the window would do them
@@ -171,6 +175,35 @@ pub(super) struct Convert {
     /// Significant digits of the samples; as many as read back the same unless given
     #[arg(long, value_parser = clap::value_parser!(u8).range(1..=17))]
     pub digits: Option<u8>,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct Contents {
+    /// Measurement files, or folders of them
+    #[arg(required = true, value_name = "FILE")]
+    pub files: Vec<PathBuf>,
+    /// Print one JSON document in place of a tree
+    #[arg(long)]
+    pub json: bool,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct Import {
+    /// Measurement files of one layout, one a run
+    #[arg(required = true, value_name = "FILE")]
+    pub files: Vec<PathBuf>,
+    /// Template, or project, whose [[channel]] tables say what the channels are; proposed from the first file unless given
+    #[arg(long)]
+    pub map: Option<PathBuf>,
+    /// Project to write
+    #[arg(long)]
+    pub out: Option<PathBuf>,
+    /// Print the mapping as a template and write nothing
+    #[arg(long)]
+    pub propose: bool,
+    /// Sampling rate in Hz of files that do not say it
+    #[arg(long, value_parser = positive)]
+    pub sampling_hz: Option<f64>,
 }
 
 #[derive(Debug, Args)]

@@ -3,8 +3,8 @@
 use super::arguments::Analysis;
 use super::diagnose::{corrected, correction};
 use super::identified;
-use super::run_flags::{self, flags};
 use super::records::{compared, only_records};
+use super::run_flags::{self, flags};
 use super::table::{number, table};
 use crate::control::Control;
 use crate::diagnosis::compare::{ChannelComparison, HarmonicComparison};

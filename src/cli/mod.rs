@@ -6,6 +6,7 @@ mod addition;
 mod arguments;
 mod build;
 mod compare;
+mod contents;
 mod convert;
 mod diagnose;
 mod export;
@@ -13,11 +14,12 @@ mod identified;
 mod identify;
 mod identify_json;
 mod identify_table;
+mod import;
 mod incompleteness;
 mod methods;
 mod play;
-mod run_flags;
 mod records;
+mod run_flags;
 mod simulate;
 mod simulate_frf;
 mod source_json;
@@ -70,6 +72,8 @@ fn execute(command: &Command) -> anyhow::Result<String> {
         Command::Methods(arguments) if arguments.incompleteness => incompleteness::run(arguments),
         Command::Methods(arguments) => methods::run(arguments),
         Command::Convert(arguments) => convert::run(arguments),
+        Command::Contents(arguments) => contents::run(arguments),
+        Command::Import(arguments) => import::run(arguments),
         Command::Build(arguments) => build::run(arguments),
         Command::Run(arguments) => play::run(arguments),
     }

@@ -35,6 +35,7 @@ fn from_files(table: &StructureTable, folder: &Path) -> Result<Structure, Refusa
         candidates: Vec::new(),
         sensor: Vec::new(),
         ruled_out: Vec::new(),
+        channel: Vec::new(),
         run: Vec::new(),
         harmonics: Vec::new(),
         frf: Vec::new(),

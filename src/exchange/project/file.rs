@@ -6,9 +6,10 @@ use super::frf::FrfTable;
 use super::ruled_out::RuledOutTable;
 use crate::effects::family::Family;
 use crate::effects::{Effect, State};
+use crate::exchange::mapping::ChannelTable;
 use crate::identify::Settings;
-use crate::measurement::Quantity;
 use crate::measurement::Kind;
+use crate::measurement::Quantity;
 use crate::structure::LumpedMass;
 use crate::structure::beam::BeamParameters;
 use crate::structure::chain::ChainParameters;
@@ -37,6 +38,9 @@ pub struct ProjectFile {
     /// Tables `[[ruled_out]]`.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub ruled_out: Vec<RuledOutTable>,
+    /// Tables `[[channel]]`: how the channels of laboratory files are read.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub channel: Vec<ChannelTable>,
     /// Tables `[[run]]`.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub run: Vec<RunTable>,
@@ -244,25 +248,18 @@ pub struct RunTable {
     /// What is done to the structure in a recipe of a test that is not steady.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub excitation: Option<ExcitationTable>,
+    /// Set of a laboratory file, where it has several with the channels of the mapping.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub set: Option<String>,
+    /// Sampling rate of a laboratory file without time, Hz.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub sampling_hz: Option<f64>,
 }
 
 impl RunTable {
     /// A steady run of a record of which nothing else is said.
     pub fn of(file: String) -> Self {
-        Self {
-            file,
-            frequency: None,
-            kind: Kind::Steady,
-            start_s: None,
-            end_s: None,
-            exponential_window_s: None,
-            session: None,
-            level: None,
-            enabled: None,
-            force_dof: None,
-            force_n: None,
-            excitation: None,
-        }
+        Self { file, ..Self::default() }
     }
 }
 
@@ -360,6 +357,8 @@ pub struct Lines {
     pub sensor: Vec<usize>,
     /// Keys of each `[[ruled_out]]`.
     pub ruled_out: Vec<BTreeMap<String, usize>>,
+    /// Tables `[[channel]]`.
+    pub channel: Vec<usize>,
     /// Keys of each `[[run]]`.
     pub run: Vec<BTreeMap<String, usize>>,
     /// Tables `[[harmonics]]`.

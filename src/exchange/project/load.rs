@@ -126,6 +126,14 @@ impl Plan {
                 _ => corrections[at].gain = sensor.parameters[0],
             }
         }
+        for table in &self.file.channel {
+            let (Some(delay), Some(dof)) = (table.delay, self.structure.dof(&table.dof)) else { continue };
+            let channel = Channel { quantity: table.quantity, dof, label: table.dof.clone() };
+            match corrections.iter_mut().find(|known| known.channel == channel) {
+                Some(known) => known.delay += delay,
+                None => corrections.push(Correction { channel, delay, gain: 1.0 }),
+            }
+        }
         corrections
     }
 

@@ -1,6 +1,7 @@
 //! Project files: TOML to [`ProjectFile`] (as written), to [`Plan`] (built), to [`Project`](super::Project) (records
 //! read and fitted).
 
+mod channel;
 pub mod correction;
 pub mod error;
 pub mod excitation;
@@ -15,6 +16,7 @@ pub mod ruled_out;
 mod sources;
 mod structure;
 
+pub use channel::template;
 pub use error::{Problem, ProjectError};
 pub use file::{Lines, ProjectFile};
 pub use load::load;

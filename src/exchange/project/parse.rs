@@ -1,5 +1,6 @@
 //! From text to [`ProjectFile`]: every key known, every value of its type; nothing else is read.
 
+use super::channel;
 use super::correction;
 use super::error::{Problem, ProjectError};
 use super::excitation;
@@ -22,13 +23,14 @@ use crate::structure::chain::ChainParameters;
 use std::collections::BTreeMap;
 use toml::de::DeTable;
 
-const TABLES: [&str; 11] = [
+const TABLES: [&str; 12] = [
     "project",
     "structure",
     "source",
     "candidates",
     "sensor",
     "ruled_out",
+    "channel",
     "run",
     "harmonics",
     "frf",
@@ -52,7 +54,9 @@ const MATRICES: [&str; 8] = ["kind", "lumped_mass", "correction", "mass", "stiff
 const POINTS: [&str; 4] = ["kind", "lumped_mass", "dofs", "positions"];
 const ANALYSIS: [&str; 6] = ["harmonics", "expansion", "keep", "weights", "max_sources", "stop_angle_deg"];
 
-const RUN: [&str; 12] = [
+const RUN: [&str; 14] = [
+    "set",
+    "sampling_hz",
     "file",
     "frequency",
     "kind",
@@ -97,6 +101,7 @@ impl ProjectFile {
             candidates: candidates(&root, &mut lines)?,
             sensor: sensors(&root, &mut lines)?,
             ruled_out: ruled_out::parse(&root, &mut lines)?,
+            channel: channel::parse(&root, &mut lines)?,
             run: runs(&root, &mut lines)?,
             harmonics: harmonics(&root, &mut lines)?,
             frf: frf::parse(&root, &mut lines)?,
@@ -290,6 +295,11 @@ fn runs(root: &Table<'_>, lines: &mut Lines) -> Read<Vec<RunTable>> {
         }
         let kind = table.word("kind", &Kind::NAMES, Kind::from_name)?.unwrap_or_default();
         let part = part(&table)?;
+        let sampling_hz = table.number("sampling_hz")?;
+        if let Some(value) = sampling_hz.filter(|f| *f <= 0.0) {
+            let (key, range) = ("sampling_hz".to_owned(), "above 0 Hz");
+            return Err(table.error("sampling_hz", Problem::OutOfRange { key, value: value.to_string(), range }));
+        }
         let (force_dof, force_n) = (table.label("force_dof")?.map(Label), table.number("force_n")?);
         match (&force_dof, force_n) {
             (Some(_), None) => {
@@ -314,6 +324,8 @@ fn runs(root: &Table<'_>, lines: &mut Lines) -> Read<Vec<RunTable>> {
             force_dof,
             force_n,
             excitation: excitation::parse(&table)?,
+            set: table.text("set")?,
+            sampling_hz,
         });
         lines.run.push(key_lines(&table));
     }

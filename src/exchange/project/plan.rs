@@ -7,6 +7,7 @@ use super::sources::{At, line, sensors, sources};
 use super::structure::structure;
 use crate::control::Control;
 use crate::effects::Source;
+use crate::exchange::mapping::{Template, read_mapped, reads_as_own};
 use crate::exchange::records::{SteppedSine, read_harmonics_as, read_record_with};
 use crate::identify::Settings;
 use crate::measurement::{ChannelName, Correction, HarmonicFit, Kind, Part, Record, Run};
@@ -57,6 +58,10 @@ pub struct PlannedRun {
     pub enabled: bool,
     /// Whether the user says so by `use = true`.
     pub insisted: bool,
+    /// Set of a laboratory file.
+    pub set: Option<String>,
+    /// Sampling rate of a laboratory file without time, Hz.
+    pub sampling_hz: Option<f64>,
     /// Force of the recipe, `amplitude_n cos(omega t)`, where it is given.
     pub force: Option<PlannedForce>,
     /// Test of a recipe that is not steady, where it is given.
@@ -173,6 +178,8 @@ fn runs(file: &ProjectFile, structure: &Structure, folder: &Path, at: At<'_>) ->
             session: table.session.clone(),
             enabled: table.enabled != Some(false),
             insisted: table.enabled == Some(true),
+            set: table.set.clone(),
+            sampling_hz: table.sampling_hz,
             force,
             test,
         });
@@ -182,7 +189,7 @@ fn runs(file: &ProjectFile, structure: &Structure, folder: &Path, at: At<'_>) ->
 
 /// Whether both are the same part of the same file.
 fn is_same(run: &PlannedRun, table: &RunTable) -> bool {
-    run.file == table.file && run.part == Part { start_s: table.start_s, end_s: table.end_s }
+    run.file == table.file && run.set == table.set && run.part == Part { start_s: table.start_s, end_s: table.end_s }
 }
 
 /// Checks the channels that `simulate` is to record.
@@ -247,8 +254,14 @@ impl Plan {
             let problem = if simulated { Problem::NotSimulated { file } } else { Problem::NoRecord { file } };
             return Err(self.run_error(run, "file", problem));
         }
-        read_record_with(&planned.path, &self.structure, control)
-            .map_err(|error| self.run_error(run, "file", Problem::Record(Box::new(error))))
+        let template =
+            Template { channels: &self.file.channel, set: planned.set.as_deref(), sampling_hz: planned.sampling_hz };
+        let read = if reads_as_own(&planned.path, template) {
+            read_record_with(&planned.path, &self.structure, control)
+        } else {
+            read_mapped(&planned.path, template, &self.structure)
+        };
+        read.map_err(|error| self.run_error(run, "file", Problem::Record(Box::new(error))))
     }
 
     /// Reads the runs of every `[[harmonics]]` file, as they were measured.

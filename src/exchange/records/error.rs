@@ -83,6 +83,8 @@ pub enum RecordProblem {
     TimeGoesBack { time: f64, before: f64 },
     #[error("{problem}")]
     Record { problem: RecordError },
+    #[error("{problem}")]
+    DataFile { problem: String },
     #[error("reading was cancelled")]
     Cancelled,
     #[error(

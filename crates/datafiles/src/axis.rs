@@ -1,0 +1,74 @@
+//! Whether stored abscissae are even, and which names mean time or frequency.
+
+use crate::contents::Kind;
+
+/// Largest deviation of a value from its place on an even abscissa, in steps: clocks jitter, and printed times are rounded.
+const JITTER: f64 = 0.01;
+
+/// Mean step where the values are even.
+pub(crate) fn even_step(values: &[f64]) -> Option<f64> {
+    let (first, last) = (*values.first()?, *values.last()?);
+    let steps = values.len().checked_sub(1).filter(|&steps| steps > 0)? as f64;
+    let step = (last - first) / steps;
+    let even = |(i, value): (usize, &f64)| (value - (first + i as f64 * step)).abs() <= JITTER * step.abs();
+    (step != 0.0 && step.is_finite() && values.iter().enumerate().all(even)).then(|| short(step))
+}
+
+/// The decimal number of twelve digits nearest to a step, where the step is it but for rounding.
+fn short(step: f64) -> f64 {
+    match format!("{step:.11e}").parse::<f64>() {
+        Ok(decimal) if (decimal - step).abs() <= 1e-12 * step.abs() => decimal,
+        _ => step,
+    }
+}
+
+/// Whether values never go back.
+pub(crate) fn ascending(values: &[f64]) -> bool {
+    values.windows(2).all(|pair| pair[1] >= pair[0]) && values.iter().all(|value| value.is_finite())
+}
+
+/// Time or frequency by the name or the unit of a column.
+pub(crate) fn kind_of(name: &str, unit: &str) -> Option<Kind> {
+    let name = name.trim().to_lowercase();
+    let unit = unit.trim().to_lowercase();
+    let word = name.split(|c: char| !c.is_alphanumeric()).next().unwrap_or_default();
+    if matches!(unit.as_str(), "hz" | "khz" | "rad/s")
+        && (name.is_empty() || word.starts_with('f') || word.starts_with("om"))
+    {
+        return Some(Kind::Spectrum);
+    }
+    if word.starts_with("freq") || matches!(name.as_str(), "f" | "hz" | "frekvens") {
+        return Some(Kind::Spectrum);
+    }
+    let timed = ["time", "zeit", "temps", "tiempo", "tempo", "timestamp", "elapsed", "uhrzeit"];
+    if timed.iter().any(|start| word.starts_with(start)) || name == "t" || name == "x_value" || name == "t_s" {
+        return Some(Kind::Time);
+    }
+    let second = matches!(unit.as_str(), "s" | "sec" | "secs" | "second" | "seconds" | "ms" | "us" | "µs" | "min");
+    (second && (name.is_empty() || word == "x" || word == "t")).then_some(Kind::Time)
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "tests")]
+    use super::*;
+
+    #[test]
+    fn steps_are_even_within_the_digits_that_were_written() {
+        assert_eq!(even_step(&[0.0, 0.1, 0.2, 0.30000000000000004]), Some(0.1));
+        assert_eq!(
+            even_step(&[0.0, 0.0009765625, 0.001953125, 0.002929688]).map(|step| (step * 1e7).round()),
+            Some(9766.0)
+        );
+        assert_eq!(even_step(&[0.0, 0.1, 0.3]), None);
+        assert_eq!(even_step(&[1.0]), None);
+    }
+
+    #[test]
+    fn names_of_abscissae() {
+        assert_eq!(kind_of("Zeit", "s"), Some(Kind::Time));
+        assert_eq!(kind_of("Frequency", "Hz"), Some(Kind::Spectrum));
+        assert_eq!(kind_of("force", "N"), None);
+        assert_eq!(kind_of("period", "s"), None);
+    }
+}

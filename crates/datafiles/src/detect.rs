@@ -1,0 +1,107 @@
+//! The format of a file by its first bytes.
+
+use crate::contents::Contents;
+use crate::error::{Fault, Read};
+use crate::file::Source;
+use crate::{hdf5, mat, npy, npz, tdms, text, universal, wav, xlsx};
+use std::fs::File;
+use std::io::{BufReader, Read as _, Seek, SeekFrom};
+use std::path::Path;
+
+/// Bytes that are looked at.
+const START: u64 = 4096;
+
+/// Opens a file of any format.
+pub(crate) fn open(path: &Path) -> Read<(Contents, Box<dyn Source>)> {
+    let kind = std::fs::metadata(path)?;
+    if kind.is_dir() {
+        return Err(Fault::new("is a folder; name a file in it"));
+    }
+    let mut file = File::open(path)?;
+    let mut start = Vec::new();
+    file.by_ref().take(START).read_to_end(&mut start)?;
+    if start.is_empty() {
+        return Err(Fault::new("is empty (0 bytes); export the record again"));
+    }
+    if start.starts_with(b"TDSm") {
+        return tdms::open(path);
+    }
+    if start.starts_with(b"TDSh") {
+        return Err(Fault::new("is the index of a TDMS file; open the .tdms file beside it"));
+    }
+    if start.starts_with(b"MATLAB 7.3") && hdf5_at(&mut file)? {
+        return hdf5::open(path, true);
+    }
+    if hdf5_at(&mut file)? {
+        return hdf5::open(path, false);
+    }
+    if start.len() >= 128 && matches!(&start[124..128], [0, 1, b'I', b'M'] | [1, 0, b'M', b'I']) {
+        return mat::open_v5(path);
+    }
+    if start.starts_with(b"MATLAB 5.0 MAT-file") || start.starts_with(b"MATLAB 7.3") {
+        return Err(Fault::byte(124, "the header of the MAT file is damaged or cut short; save the file again"));
+    }
+    if start.starts_with(b"\x93NUMPY") {
+        return npy::open(path);
+    }
+    if start.starts_with(b"RIFF") && start.get(8..12) == Some(b"WAVE") {
+        return wav::open(path);
+    }
+    if start.starts_with(b"PK\x03\x04") {
+        return zipped(path, file);
+    }
+    other(path, &start, kind.len())
+}
+
+/// What has no mark of its own, and what is known and not read.
+fn other(path: &Path, start: &[u8], length: u64) -> Read<(Contents, Box<dyn Source>)> {
+    if universal::is_universal(start, path) {
+        return universal::open(path);
+    }
+    if mat::is_v4(start, length) {
+        return mat::open_v4(path);
+    }
+    let known: [(&[u8], &str); 6] = [
+        (b"\xD0\xCF\x11\xE0", "is a spreadsheet or document of before 2007; save it as XLSX or CSV"),
+        (b"%PDF", "is a PDF document; export the measurement as CSV, UFF or MAT"),
+        (b"\x1F\x8B", "is packed by gzip; unpack it first"),
+        (b"RF64", "is a WAV file above 4 GB (RF64); cut it into shorter ones"),
+        (b"CDF\x01", "is a NetCDF file of version 3; save it as NetCDF 4 or HDF5"),
+        (b"\x89PNG", "is a picture; export the measurement as CSV, UFF or MAT"),
+    ];
+    if let Some((_, problem)) = known.iter().find(|(mark, _)| start.starts_with(mark)) {
+        return Err(Fault::new(*problem));
+    }
+    text::open(path)
+}
+
+/// Whether the mark of HDF5 stands at 0, 512, 1024, 2048 and so on, where a user block ends.
+fn hdf5_at(file: &mut File) -> Read<bool> {
+    let length = file.metadata()?.len();
+    let mut at = 0;
+    while at + 8 <= length && at <= 1 << 20 {
+        let mut mark = [0; 8];
+        file.seek(SeekFrom::Start(at))?;
+        file.read_exact(&mut mark)?;
+        if mark == *b"\x89HDF\r\n\x1a\n" {
+            return Ok(true);
+        }
+        at = if at == 0 { 512 } else { at * 2 };
+    }
+    Ok(false)
+}
+
+/// A spreadsheet or an archive of arrays.
+fn zipped(path: &Path, mut file: File) -> Read<(Contents, Box<dyn Source>)> {
+    file.seek(SeekFrom::Start(0))?;
+    let wrong = |error| Fault::new(format!("is a damaged ZIP archive ({error}); copy or save it again"));
+    let zip = zip::ZipArchive::new(BufReader::new(file)).map_err(wrong)?;
+    let names: Vec<String> = zip.file_names().filter_map(Result::ok).map(|name| name.into_owned()).collect();
+    if !names.is_empty() && names.iter().all(|name| name.ends_with(".npy")) {
+        return npz::open(path);
+    }
+    if names.iter().any(|name| name.starts_with("xl/")) {
+        return xlsx::open(BufReader::new(File::open(path)?));
+    }
+    Err(Fault::new("is a ZIP archive that is neither XLSX nor NPZ; unpack it first"))
+}

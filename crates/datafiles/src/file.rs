@@ -1,0 +1,129 @@
+//! Opening a file and reading its channels.
+
+use crate::contents::{Axis, Contents};
+use crate::detect;
+use crate::error::{Error, Fault, Read};
+use crate::guard::guarded;
+use std::path::{Path, PathBuf};
+
+/// Most values of one channel that are read into memory: 4 GiB of real numbers.
+pub(crate) const MOST_VALUES: u64 = 1 << 29;
+
+/// Values of a channel.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Values {
+    /// Real numbers.
+    Real(Vec<f64>),
+    /// Complex numbers: real and imaginary part.
+    Complex(Vec<[f64; 2]>),
+}
+
+impl Values {
+    /// Number of values.
+    pub fn len(&self) -> usize {
+        match self {
+            Self::Real(values) => values.len(),
+            Self::Complex(values) => values.len(),
+        }
+    }
+
+    /// Whether there is none.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+}
+
+/// Reads what [`Contents`] lists; indices were checked.
+pub(crate) trait Source: Send + Sync {
+    /// Values of a channel.
+    fn read(&self, set: usize, channel: usize) -> Read<Values>;
+
+    /// Abscissa of a channel whose axis is [`Axis::Stored`].
+    fn axis(&self, _set: usize, _channel: usize) -> Read<Vec<f64>> {
+        Err(Fault::new("the abscissa is not stored"))
+    }
+}
+
+/// A file that was opened: its tree, and its channels on request.
+pub struct DataFile {
+    path: PathBuf,
+    contents: Contents,
+    source: Box<dyn Source>,
+}
+
+impl std::fmt::Debug for DataFile {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("DataFile").field("path", &self.path).field("contents", &self.contents).finish_non_exhaustive()
+    }
+}
+
+/// Opens the file at `path`: tells its format by its content and lists what is in it. Values are left in the file.
+///
+/// # Errors
+/// [`Error`] for a file that cannot be read, is of no known format, or is damaged where its tree is written.
+pub fn open(path: &Path) -> Result<DataFile, Error> {
+    let name = path.display().to_string();
+    let opened = guarded(|| detect::open(path)).map_err(|fault| fault.of(&name))?;
+    let (contents, source) = opened;
+    Ok(DataFile { path: path.to_owned(), contents, source })
+}
+
+impl DataFile {
+    /// What is in the file.
+    pub fn contents(&self) -> &Contents {
+        &self.contents
+    }
+
+    /// Path as it was given.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// Reads channel number `channel` of set number `set`, in the unit of the file.
+    ///
+    /// # Errors
+    /// [`Error`] for a channel that the file does not have, that is damaged, or that is too large for memory.
+    pub fn read(&self, set: usize, channel: usize) -> Result<Values, Error> {
+        self.check(set, channel)?;
+        guarded(|| self.source.read(set, channel)).map_err(|fault| self.error(set, channel, fault))
+    }
+
+    /// Reads the abscissa of a channel in the unit of the set's abscissa; none where the file says none.
+    ///
+    /// # Errors
+    /// As [`Self::read`].
+    pub fn axis(&self, set: usize, channel: usize) -> Result<Option<Vec<f64>>, Error> {
+        self.check(set, channel)?;
+        let entry = &self.contents.sets[set].channels[channel];
+        match entry.axis {
+            Axis::None => Ok(None),
+            Axis::Even { start, step } => Ok(Some((0..entry.count).map(|i| start + i as f64 * step).collect())),
+            Axis::Stored { .. } => {
+                guarded(|| self.source.axis(set, channel)).map(Some).map_err(|fault| self.error(set, channel, fault))
+            }
+        }
+    }
+
+    fn error(&self, set: usize, channel: usize, fault: Fault) -> Error {
+        let set = &self.contents.sets[set];
+        let part = format!("set \"{}\", channel \"{}\"", set.name, set.channels[channel].name);
+        fault.within(part).of(&self.path.display().to_string())
+    }
+
+    fn check(&self, set: usize, channel: usize) -> Result<(), Error> {
+        let name = self.path.display().to_string();
+        let sets = &self.contents.sets;
+        let Some(entry) = sets.get(set).and_then(|set| set.channels.get(channel)) else {
+            return Err(Fault::new(format!("there is no channel {channel} in set {set}; list the contents")).of(&name));
+        };
+        if entry.count > MOST_VALUES {
+            let problem = format!(
+                "has {} values, {:.0} GB in memory; cut the record into shorter ones",
+                entry.count,
+                entry.count as f64 * 8e-9
+            );
+            return Err(self.error(set, channel, Fault::new(problem)));
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,326 @@
+//! HDF5 files, and MAT files of version 7.3, which are HDF5 with MATLAB's own attributes.
+//!
+//! The tree is made of headers and a few values of each data set; chunks that no listing shows are never read.
+
+mod lzf;
+mod value;
+
+use crate::contents::{Contents, Format};
+use crate::error::{Fault, Read, one_line};
+use crate::file::{MOST_VALUES, Source};
+use crate::tree::{Array, Arrays, Entry, Flat, Node, Shape, TreeSource, sets};
+use hdf5_reader::group::Group;
+use hdf5_reader::{Attribute, Dataset, Datatype, Hdf5File, OpenOptions, SliceInfo, SliceInfoElem};
+use std::collections::{BTreeMap, HashSet};
+use std::path::Path;
+use value::Value;
+
+/// Deepest groups.
+const DEEPEST: usize = 32;
+/// Most groups and data sets of a file.
+const MOST_ENTRIES: usize = 200_000;
+/// Data sets of at most so many values are read whole for their first ones.
+const SMALL: u64 = 4096;
+/// Most texts of a data set that are kept.
+const MOST_TEXTS: u64 = 4096;
+
+struct Hdf5 {
+    datasets: Vec<Dataset>,
+    // Data sets hold on to the file by themselves.
+    _file: Hdf5File,
+}
+
+/// Opens an HDF5 file; `matlab` where its user block is that of MATLAB 7.3.
+pub(crate) fn open(path: &Path, matlab: bool) -> Read<(Contents, Box<dyn Source>)> {
+    let options = OpenOptions::default()
+        .with_max_read_bytes((MOST_VALUES * 16) as usize)
+        .with_filter_registry(lzf::filters())
+        .with_max_chunk_bytes(1 << 28)
+        .with_max_object_header_bytes(1 << 24);
+    let file = Hdf5File::open_with_options(path, options).map_err(wrong)?;
+    let root = file.root_group().map_err(wrong)?;
+    let mut walk = Walk { matlab, datasets: Vec::new(), seen: HashSet::new(), references: BTreeMap::new(), entries: 0 };
+    if matlab && let Ok(group) = root.group("#refs#") {
+        walk.references = references(&group);
+    }
+    let mut entries = walk.group(&root, 0)?;
+    if matlab {
+        entries.retain(|entry| !entry.name.starts_with('#'));
+    }
+    let attributes = if matlab { Vec::new() } else { attributes(root.attributes().map_err(wrong)?) };
+    let arrays = Hdf5 { datasets: walk.datasets, _file: file };
+    let (sets, places) = sets(&entries, &attributes, &arrays)?;
+    let mut contents = Contents::new(if matlab { Format::Mat } else { Format::Hdf5 });
+    contents.sets = sets;
+    if contents.sets.is_empty() {
+        contents.notes.push("there is no data set of numbers".to_owned());
+    }
+    Ok((contents, Box::new(TreeSource::new(Box::new(arrays), places))))
+}
+
+fn wrong(error: impl std::fmt::Display) -> Fault {
+    Fault::new(format!(
+        "cannot be read as HDF5 ({}); it was cut short or is damaged: copy or export it again",
+        one_line(&error.to_string(), 160)
+    ))
+}
+
+/// Objects that cells of MATLAB refer to, by their address.
+fn references(group: &Group) -> BTreeMap<u64, Object> {
+    let Ok((groups, datasets)) = group.members() else { return BTreeMap::new() };
+    let groups = groups.into_iter().map(|group| (group.address(), Object::Group(group)));
+    groups.chain(datasets.into_iter().map(|dataset| (dataset.address(), Object::Dataset(dataset)))).collect()
+}
+
+#[derive(Clone)]
+enum Object {
+    Group(Group),
+    Dataset(Dataset),
+}
+
+struct Walk {
+    matlab: bool,
+    datasets: Vec<Dataset>,
+    /// Addresses of the groups that are being walked, against links that lead back.
+    seen: HashSet<u64>,
+    references: BTreeMap<u64, Object>,
+    entries: usize,
+}
+
+impl Walk {
+    fn group(&mut self, group: &Group, depth: usize) -> Read<Vec<Entry>> {
+        if depth > DEEPEST || !self.seen.insert(group.address()) {
+            return Ok(vec![Entry::new("…", Node::Skipped("it leads back to a group above it".to_owned()))]);
+        }
+        let mut entries = Vec::new();
+        let (groups, datasets) = match group.members() {
+            Ok(members) => members,
+            Err(_) => self.one_by_one(group, &mut entries)?,
+        };
+        for dataset in datasets {
+            self.count()?;
+            entries.push(self.dataset(dataset, depth));
+        }
+        for inner in groups {
+            self.count()?;
+            if self.matlab && inner.name().starts_with('#') {
+                continue;
+            }
+            let name = inner.name().to_owned();
+            let node = Node::Group(self.group(&inner, depth + 1)?);
+            let attributes = inner.attributes().map(attributes).unwrap_or_default();
+            entries.push(Entry { name, node, attributes });
+        }
+        self.seen.remove(&group.address());
+        Ok(entries)
+    }
+
+    /// Members where not all can be opened: those that cannot are said.
+    fn one_by_one(&self, group: &Group, entries: &mut Vec<Entry>) -> Read<(Vec<Group>, Vec<Dataset>)> {
+        let (groups, datasets) = group.member_names().map_err(wrong)?;
+        let mut found = (Vec::new(), Vec::new());
+        let skipped = |name: &str, error: hdf5_reader::error::Error| {
+            Entry::new(name, Node::Skipped(one_line(&error.to_string(), 120)))
+        };
+        for name in groups {
+            match group.group(&name) {
+                Ok(inner) => found.0.push(inner),
+                Err(error) => entries.push(skipped(&name, error)),
+            }
+        }
+        for name in datasets {
+            match group.dataset(&name) {
+                Ok(dataset) => found.1.push(dataset),
+                Err(error) => entries.push(skipped(&name, error)),
+            }
+        }
+        Ok(found)
+    }
+
+    fn count(&mut self) -> Read<()> {
+        self.entries += 1;
+        if self.entries > MOST_ENTRIES {
+            return Err(Fault::new(format!(
+                "has more than {MOST_ENTRIES} groups and data sets; export the measurement alone"
+            )));
+        }
+        Ok(())
+    }
+
+    fn dataset(&mut self, dataset: Dataset, depth: usize) -> Entry {
+        let name = dataset.name().rsplit('/').next().unwrap_or_default().to_owned();
+        let raw = dataset.attributes();
+        let class = raw.iter().find(|attribute| attribute.name == "MATLAB_class").and_then(|a| a.read_string().ok());
+        let empty = raw.iter().any(|attribute| attribute.name == "MATLAB_empty");
+        let attributes = attributes(raw);
+        let node = match (class.as_deref(), dataset.dtype()) {
+            _ if empty => Node::Text(vec![String::new()]),
+            (Some("char"), _) => text(&dataset).unwrap_or_else(skipped),
+            (Some("cell"), _) => self.cell(&dataset, depth),
+            (Some(class @ ("string" | "table" | "datetime" | "timetable" | "function_handle")), _) => {
+                Node::Skipped(format!("it is an object of MATLAB ({class}); save its numbers as arrays"))
+            }
+            (_, Datatype::String { .. } | Datatype::VarLen { .. }) => texts(&dataset).unwrap_or_else(skipped),
+            (_, dtype) if value::readable(dtype).is_some() => self.numbers(dataset).unwrap_or_else(skipped),
+            (_, Datatype::Compound { .. }) => {
+                Node::Skipped("its values are records; save each field as a data set".to_owned())
+            }
+            _ => Node::Skipped("its values are no numbers".to_owned()),
+        };
+        Entry { name, node, attributes }
+    }
+
+    /// A cell of MATLAB: references to what is in it.
+    fn cell(&mut self, dataset: &Dataset, depth: usize) -> Node {
+        if depth > DEEPEST || dataset.num_elements().is_ok_and(|count| count > MOST_TEXTS) {
+            return Node::Skipped("the cell is too large or too deep; save its parts alone".to_owned());
+        }
+        let Ok(bytes) = dataset.read_raw_bytes() else {
+            return Node::Skipped("the references of the cell are damaged".to_owned());
+        };
+        let mut entries = Vec::new();
+        for (i, reference) in bytes.chunks_exact(8).enumerate() {
+            let address = u64::from_le_bytes(reference.try_into().unwrap_or_default());
+            let name = format!("{{{}}}", i + 1);
+            let entry = match self.references.get(&address).cloned() {
+                Some(Object::Dataset(dataset)) => self.dataset(dataset, depth + 1),
+                Some(Object::Group(group)) => match self.group(&group, depth + 1) {
+                    Ok(entries) => Entry::new("", Node::Group(entries)),
+                    Err(fault) => Entry::new("", Node::Skipped(fault.problem)),
+                },
+                None => Entry::new("", Node::Skipped("it refers to nothing".to_owned())),
+            };
+            entries.push(Entry { name, ..entry });
+        }
+        let texts: Option<Vec<String>> = entries
+            .iter()
+            .map(|entry| match &entry.node {
+                Node::Text(texts) => Some(texts.join(" ")),
+                _ => None,
+            })
+            .collect();
+        match texts {
+            Some(texts) if !texts.is_empty() => Node::Text(texts),
+            _ => Node::Group(entries),
+        }
+    }
+
+    fn numbers(&mut self, dataset: Dataset) -> Read<Node> {
+        let mut extents = dataset.shape().to_vec();
+        if self.matlab {
+            extents.reverse();
+        }
+        let shape = Shape::new(extents, self.matlab);
+        let complex = value::readable(dataset.dtype()).unwrap_or(false);
+        let peek = peek(&dataset, &shape)?;
+        let id = self.datasets.len();
+        self.datasets.push(dataset);
+        Ok(Node::Array(Array { id, shape, complex, peek }))
+    }
+}
+
+fn skipped(fault: Fault) -> Node {
+    Node::Skipped(fault.problem)
+}
+
+/// Values that a listing shows: of small data sets all, of large ones the slabs at the start of each extent.
+fn peek(dataset: &Dataset, shape: &Shape) -> Read<Vec<[f64; 2]>> {
+    let wanted = shape.wanted();
+    let extents = dataset.shape();
+    let total = dataset.num_elements().map_err(wrong)?;
+    if total == 0 {
+        return Ok(Vec::new());
+    }
+    let mut found = BTreeMap::new();
+    if total <= SMALL || extents.is_empty() {
+        let all = dataset.read_array::<Value>().map_err(wrong)?;
+        found.extend(all.iter().enumerate().map(|(i, value)| (i as u64, value.0)));
+    } else {
+        for along in 0..extents.len() {
+            if total / extents[along] <= 4096 {
+                slab(dataset, along, 0..extents[along].min(3), &mut found)?;
+            }
+        }
+        let last: Vec<u64> = extents.iter().map(|extent| extent - 1).collect();
+        corner(dataset, &last, total - 1, &mut found)?;
+    }
+    Ok(wanted.iter().map(|place| found.get(place).copied().unwrap_or([f64::NAN; 2])).collect())
+}
+
+fn slab(dataset: &Dataset, along: usize, range: std::ops::Range<u64>, found: &mut BTreeMap<u64, [f64; 2]>) -> Read<()> {
+    let extents = dataset.shape();
+    let mut selection = SliceInfo::all(extents.len());
+    selection.selections[along] = SliceInfoElem::Slice { start: range.start, end: range.end, step: 1 };
+    let values = dataset.read_slice::<Value>(&selection).map_err(wrong)?;
+    let mut part = extents.to_vec();
+    part[along] = range.end - range.start;
+    for (i, value) in values.iter().enumerate() {
+        let (mut rest, mut place, mut weight) = (i as u64, 0, 1);
+        for axis in (0..extents.len()).rev() {
+            place += rest % part[axis] * weight;
+            rest /= part[axis];
+            weight *= extents[axis];
+        }
+        found.insert(place, value.0);
+    }
+    Ok(())
+}
+
+fn corner(dataset: &Dataset, at: &[u64], place: u64, found: &mut BTreeMap<u64, [f64; 2]>) -> Read<()> {
+    let one = |&i: &u64| SliceInfoElem::Slice { start: i, end: i + 1, step: 1 };
+    let values = dataset.read_slice::<Value>(&SliceInfo { selections: at.iter().map(one).collect() }).map_err(wrong)?;
+    found.extend(values.iter().next().map(|value| (place, value.0)));
+    Ok(())
+}
+
+/// Text of MATLAB: numbers of letters, columns first.
+fn text(dataset: &Dataset) -> Read<Node> {
+    if dataset.num_elements().map_err(wrong)? > 1 << 16 {
+        return Ok(Node::Text(vec!["(long text)".to_owned()]));
+    }
+    let values = dataset.read_array::<Value>().map_err(wrong)?;
+    let units = values.iter().map(|value| value.0[0] as u16);
+    let text: String = char::decode_utf16(units).map(|c| c.unwrap_or('?')).collect();
+    Ok(Node::Text(vec![one_line(&text, 400)]))
+}
+
+fn texts(dataset: &Dataset) -> Read<Node> {
+    if dataset.num_elements().map_err(wrong)? > MOST_TEXTS {
+        return Ok(Node::Skipped("it is text".to_owned()));
+    }
+    let texts = dataset.read_strings().map_err(wrong)?;
+    Ok(Node::Text(texts.iter().map(|text| one_line(text.trim_end_matches('\0'), 400)).collect()))
+}
+
+/// Attributes as words and values, those of MATLAB and of dimension scales left out.
+fn attributes(attributes: Vec<Attribute>) -> Vec<(String, String)> {
+    let own = |name: &str| {
+        name.starts_with("MATLAB_") || matches!(name, "H5PATH" | "CLASS" | "DIMENSION_LIST" | "REFERENCE_LIST" | "NAME")
+    };
+    let value = |attribute: &Attribute| {
+        if let Ok(text) = attribute.read_string() {
+            return Some(text);
+        }
+        if let Ok(texts) = attribute.read_strings() {
+            return Some(texts.join(", "));
+        }
+        let one = attribute.num_elements().is_ok_and(|count| count == 1);
+        one.then(|| attribute.read_as_f64().ok().map(|value| value.to_string())).flatten()
+    };
+    let pair = |attribute: Attribute| Some((attribute.name.clone(), one_line(&value(&attribute)?, 200)));
+    attributes.into_iter().filter(|attribute| !own(&attribute.name)).filter_map(pair).collect()
+}
+
+impl Arrays for Hdf5 {
+    fn read(&self, id: usize) -> Read<Flat> {
+        let dataset = self.datasets.get(id).ok_or_else(|| Fault::new("there is no such data set"))?;
+        if dataset.num_elements().map_err(wrong)? > MOST_VALUES {
+            return Err(Fault::new("is too large for memory; save it in pieces"));
+        }
+        let values = dataset.read_array_uncached::<Value>().map_err(wrong)?;
+        let re = values.iter().map(|value| value.0[0]).collect();
+        let complex = value::readable(dataset.dtype()).unwrap_or(false);
+        let im = if complex { values.iter().map(|value| value.0[1]).collect() } else { Vec::new() };
+        Ok(Flat { re, im })
+    }
+}

@@ -1,0 +1,66 @@
+//! A number of any HDF5 type as one or two of 64 bits.
+
+use crate::bytes::Scalar;
+use hdf5_reader::error::{ByteOrder, Error, Result};
+use hdf5_reader::{Datatype, H5Type, dtype_element_size};
+
+/// A real or complex number.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Value(pub [f64; 2]);
+
+/// Whether a type is numeric, and if so whether it is complex.
+pub(super) fn readable(dtype: &Datatype) -> Option<bool> {
+    match dtype {
+        Datatype::Compound { .. } => parts(dtype).map(|_| true),
+        other => scalar(other).map(|_| false),
+    }
+}
+
+fn scalar(dtype: &Datatype) -> Option<(Scalar, bool)> {
+    let big = |order: &ByteOrder| *order == ByteOrder::BigEndian;
+    match dtype {
+        Datatype::FixedPoint { size, signed, byte_order } => {
+            Some((Scalar::integer(usize::from(*size), *signed)?, big(byte_order)))
+        }
+        Datatype::FloatingPoint { size, byte_order } => Some((Scalar::float(usize::from(*size))?, big(byte_order))),
+        Datatype::Bitfield { size, byte_order } => Some((Scalar::integer(usize::from(*size), false)?, big(byte_order))),
+        Datatype::Enum { base, .. } => scalar(base),
+        _ => None,
+    }
+}
+
+/// Real and imaginary field of a record of two: `r, i` or `real, imag`.
+fn parts(dtype: &Datatype) -> Option<[(usize, &Datatype); 2]> {
+    let Datatype::Compound { fields, .. } = dtype else { return None };
+    let [re, im] = &fields[..] else { return None };
+    let named = |name: &str, words: [&str; 3]| words.contains(&name.to_lowercase().as_str());
+    let both = named(&re.name, ["r", "re", "real"]) && named(&im.name, ["i", "im", "imag"]);
+    (both && scalar(&re.datatype).is_some() && scalar(&im.datatype).is_some())
+        .then_some([(re.byte_offset as usize, &re.datatype), (im.byte_offset as usize, &im.datatype)])
+}
+
+fn number(bytes: &[u8], dtype: &Datatype) -> Option<f64> {
+    let (scalar, big) = scalar(dtype)?;
+    scalar.get(bytes, big)
+}
+
+impl H5Type for Value {
+    fn hdf5_type() -> Datatype {
+        Datatype::FloatingPoint { size: 8, byte_order: ByteOrder::LittleEndian }
+    }
+
+    fn from_bytes(bytes: &[u8], dtype: &Datatype) -> Result<Self> {
+        let value = match parts(dtype) {
+            Some(both) => {
+                let part = |(offset, dtype): (usize, &Datatype)| number(bytes.get(offset..)?, dtype);
+                part(both[0]).zip(part(both[1])).map(|(re, im)| [re, im])
+            }
+            None => number(bytes, dtype).map(|re| [re, 0.0]),
+        };
+        value.map(Self).ok_or_else(|| Error::InvalidData("a value is no number".to_owned()))
+    }
+
+    fn element_size(dtype: &Datatype) -> usize {
+        dtype_element_size(dtype).unwrap_or(1)
+    }
+}

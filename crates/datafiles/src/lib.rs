@@ -1,0 +1,33 @@
+//! Laboratory data files: opens what measuring systems write, shows what is in it before anything is read, and reads one
+//! channel at a time.
+//!
+//! [`open`] tells the format by the content, never by the ending alone, and returns a [`DataFile`]: a tree of sets and
+//! channels ([`Contents`]) that is cheap to make, and the values of each channel on request. The crate knows names, units,
+//! steps and numbers; what they measure and where is for its user to say.
+//!
+//! Memory is bounded: a length in a header never allocates more than the file could hold. Errors are one line with file,
+//! set, line or byte, what is wrong and how to mend it. Nothing panics on any input.
+
+mod axis;
+mod bytes;
+mod contents;
+mod detect;
+mod error;
+mod file;
+mod guard;
+mod hdf5;
+mod mat;
+mod npy;
+mod npz;
+mod table;
+mod tdms;
+mod text;
+mod tree;
+pub mod units;
+mod universal;
+mod wav;
+mod xlsx;
+
+pub use contents::{Axis, Channel, Contents, Format, Kind, Number, Set};
+pub use error::Error;
+pub use file::{DataFile, Values, open};

@@ -1,0 +1,183 @@
+//! Names, units and the sampling rate out of the lines above a block of numbers.
+
+use super::HeaderLine;
+use super::cell::number;
+use crate::units::{is_unit, split, stripped};
+
+/// What a header says.
+#[derive(Debug, Default)]
+pub(crate) struct Header {
+    /// Names of the columns, empty where there is none.
+    pub names: Vec<String>,
+    /// Units of the columns.
+    pub units: Vec<String>,
+    /// Time between samples, s, where a line says it.
+    pub step: Option<f64>,
+    /// The lines that are neither names nor units.
+    pub remarks: Vec<String>,
+}
+
+const NAME_WORDS: [&str; 9] =
+    ["name", "names", "channel", "channels", "kanal", "signal", "channel name", "channel_name", "kanalname"];
+const UNIT_WORDS: [&str; 6] = ["unit", "units", "einheit", "einheiten", "y_unit", "y_unit_label"];
+
+/// Reads the header of a block of `width` columns.
+pub(crate) fn read(lines: &[HeaderLine], width: usize) -> Header {
+    let mut header =
+        Header { names: vec![String::new(); width], units: vec![String::new(); width], ..Header::default() };
+    let labelled = |words: &[&str]| {
+        lines
+            .iter()
+            .rposition(|line| width > 1 && line.cells.len() > 1 && words.contains(&label(&line.cells[0]).as_str()))
+    };
+    // A row of names must fill the table; `Channel;7` above a table of three columns is a remark.
+    let full = |at: &usize| lines[*at].cells.len() >= width.min(3);
+    let (names, units) = match labelled(&UNIT_WORDS).filter(full) {
+        Some(units) => (labelled(&NAME_WORDS).filter(full).or_else(|| units.checked_sub(1)), Some(units)),
+        None => unlabelled(lines, width),
+    };
+    if let Some(at) = names {
+        header.take_names(&lines[at].cells, units.is_none());
+        // The word that labels the row is no name of the first column.
+        if width > 1 && NAME_WORDS.contains(&label(&lines[at].cells[0]).as_str()) {
+            header.names[0].clear();
+        }
+    }
+    if let Some(at) = units {
+        header.take_units(&lines[at].cells);
+    }
+    let used = |i: &usize| Some(*i) != names && Some(*i) != units;
+    for line in (0..lines.len()).filter(used).map(|i| &lines[i]) {
+        header.step = header.step.or_else(|| step(&line.cells));
+        header.remarks.push(line.cells.join(" ").trim().to_owned());
+    }
+    header
+}
+
+/// Rows of names and units by their place right above the numbers.
+fn unlabelled(lines: &[HeaderLine], width: usize) -> (Option<usize>, Option<usize>) {
+    let wide = |i: &usize| lines[*i].cells.len() >= width.saturating_sub(width / 4).max(1);
+    let Some(last) = (0..lines.len()).rev().find(wide) else { return (None, None) };
+    let above = last.checked_sub(1).filter(wide);
+    if units_row(&lines[last].cells) {
+        return (above, Some(last));
+    }
+    // Units above the names.
+    match above.filter(|&at| units_row(&lines[at].cells)) {
+        Some(at) => (Some(last), Some(at)),
+        None => (Some(last), None),
+    }
+}
+
+/// Whether most of the cells of a row are units.
+fn units_row(cells: &[String]) -> bool {
+    let filled: Vec<&String> = cells.iter().filter(|cell| !cell.is_empty()).collect();
+    let bracketed = |cell: &String| stripped(uncommented(cell)) != uncommented(cell);
+    let units = filled.iter().filter(|cell| is_unit(uncommented(cell)) || bracketed(cell)).count();
+    !filled.is_empty()
+        && 2 * units > filled.len()
+        && filled.iter().any(|cell| is_unit(uncommented(cell)) || bracketed(cell))
+}
+
+/// A cell without a comment sign in front.
+fn uncommented(cell: &str) -> &str {
+    cell.trim_start_matches(['#', '%', '!', '/', '*']).trim()
+}
+
+fn label(cell: &str) -> String {
+    uncommented(cell).trim_end_matches([':', '=']).trim().to_lowercase()
+}
+
+impl Header {
+    fn take_names(&mut self, cells: &[String], with_units: bool) {
+        for (i, cell) in cells.iter().take(self.names.len()).enumerate() {
+            let text = if i == 0 { uncommented(cell) } else { cell.trim() };
+            let (name, unit) = split(text);
+            if with_units || !unit.is_empty() {
+                (self.names[i], self.units[i]) = (name, unit);
+            } else {
+                text.clone_into(&mut self.names[i]);
+            }
+        }
+    }
+
+    fn take_units(&mut self, cells: &[String]) {
+        for (i, cell) in cells.iter().take(self.units.len()).enumerate() {
+            let unit = stripped(uncommented(cell));
+            if UNIT_WORDS.contains(&label(cell).as_str()) {
+                continue;
+            }
+            unit.clone_into(&mut self.units[i]);
+        }
+    }
+}
+
+/// The time between samples out of a line such as `Sampling rate: 2048 Hz` or `dt [s];0.001`.
+pub(crate) fn step(cells: &[String]) -> Option<f64> {
+    let line = cells.join(" ").to_lowercase();
+    let line = uncommented(&line);
+    let end = line.find(|c: char| c == ':' || c == '=').unwrap_or(line.len());
+    let key: String = line[..end].chars().take_while(|c| !c.is_ascii_digit()).collect();
+    let plain: String = key.chars().filter(|c| c.is_alphanumeric()).collect();
+    let rate = ["samplerate", "samplingrate", "samplefreq", "samplingfreq", "abtastrate", "abtastfreq", "messrate"];
+    let interval = [
+        "samplinginterval",
+        "sampleinterval",
+        "sampleperiod",
+        "samplingperiod",
+        "timestep",
+        "deltat",
+        "deltax",
+        "abtastintervall",
+    ];
+    let is_rate = rate.iter().any(|word| plain.contains(word)) || matches!(plain.as_str(), "fs" | "fshz" | "sr");
+    let is_interval =
+        interval.iter().any(|word| plain.contains(word)) || matches!(plain.as_str(), "dt" | "dts" | "dtms");
+    if !is_rate && !is_interval {
+        return None;
+    }
+    let rest = &line[key.len().min(line.len())..];
+    let value = rest
+        .split(|c: char| c.is_whitespace() || matches!(c, ':' | '=' | ';' | '[' | ']' | '(' | ')'))
+        .find_map(|word| number(word, false).or_else(|| number(word, true)))
+        .filter(|value| *value > 0.0 && value.is_finite())?;
+    let scale = if is_rate && line.contains("khz") {
+        1e3
+    } else if !is_rate && (line.contains(" ms") || line.contains("[ms]") || line.contains("(ms)")) {
+        1e-3
+    } else {
+        1.0
+    };
+    Some(if is_rate { 1.0 / (value * scale) } else { value * scale })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn lines(text: &[&str]) -> Vec<HeaderLine> {
+        text.iter().map(|line| HeaderLine { cells: line.split(';').map(str::to_owned).collect() }).collect()
+    }
+
+    #[test]
+    fn a_row_of_units_stands_below_the_names() {
+        let header = read(&lines(&["Test 7", "Time;Acc 1;Acc 2", "s;m/s^2;g"]), 3);
+        assert_eq!((header.names.join(","), header.units.join(",")), ("Time,Acc 1,Acc 2".into(), "s,m/s^2,g".into()));
+        assert_eq!(header.remarks, ["Test 7"]);
+    }
+
+    #[test]
+    fn labelled_rows_are_found_in_deep_headers() {
+        let header = read(&lines(&["Channel;A1;A2", "Unit;g;N", "Serial;12;13"]), 3);
+        assert_eq!((header.names[1].as_str(), header.units[2].as_str()), ("A1", "N"));
+    }
+
+    #[test]
+    fn rates_are_understood() {
+        let of = |text: &str| step(&text.split(';').map(str::to_owned).collect::<Vec<_>>());
+        assert_eq!(of("# Sampling rate: 2000 Hz"), Some(1.0 / 2000.0));
+        assert_eq!(of("Abtastrate;2,5 kHz"), Some(1.0 / 2500.0));
+        assert_eq!(of("dt = 0.5 ms"), Some(0.0005));
+        assert_eq!(of("date: 2024"), None);
+    }
+}

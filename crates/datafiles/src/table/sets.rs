@@ -1,0 +1,157 @@
+//! From blocks of numbers to sets: which column is the abscissa, how many values each has.
+
+use super::{Block, Numbers, header};
+use crate::axis::{ascending, even_step, kind_of};
+use crate::contents::{Axis, Channel, FIRST, Kind, Number, Set};
+use crate::error::{Fault, Read};
+use crate::file::{Source, Values};
+
+/// Values of a column.
+#[derive(Debug, Clone)]
+pub(crate) struct Column {
+    pub values: Values,
+    /// Row of its first value.
+    pub first: usize,
+}
+
+/// Columns of a set, one a channel, and the column of its abscissa.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Columns {
+    pub channels: Vec<Column>,
+    pub axis: Option<Vec<f64>>,
+}
+
+/// Tables that were read whole.
+#[derive(Debug)]
+pub(crate) struct TableSource {
+    pub sets: Vec<Columns>,
+}
+
+impl Source for TableSource {
+    fn read(&self, set: usize, channel: usize) -> Read<Values> {
+        let column = self.sets.get(set).and_then(|set| set.channels.get(channel));
+        column.map(|column| column.values.clone()).ok_or_else(|| Fault::new("there is no such column"))
+    }
+
+    fn axis(&self, set: usize, channel: usize) -> Read<Vec<f64>> {
+        let columns = self.sets.get(set).ok_or_else(|| Fault::new("there is no such table"))?;
+        let axis = columns.axis.as_ref().ok_or_else(|| Fault::new("the table has no abscissa"))?;
+        let column = &columns.channels[channel];
+        let end = column.first + column.values.len();
+        axis.get(column.first..end).map(<[f64]>::to_vec).ok_or_else(|| {
+            Fault::new("the column goes on where its abscissa has ended; fill the first column to the last row")
+        })
+    }
+}
+
+/// Sets and columns of the blocks of a table called `name`.
+pub(crate) fn finish(name: &str, blocks: Vec<Block>) -> (Vec<Set>, Vec<Columns>) {
+    let several = blocks.len() > 1;
+    let named = |i: usize| if several { format!("{name} {}", i + 1).trim().to_owned() } else { name.to_owned() };
+    blocks.into_iter().enumerate().map(|(i, block)| one(named(i), block)).unzip()
+}
+
+fn one(name: String, block: Block) -> (Set, Columns) {
+    let width = block.columns.len();
+    let header = header::read(&block.header, width);
+    let axis = find_axis(&header, &block.columns, block.rows);
+    let kind = axis.map_or(if header.step.is_some() { Kind::Time } else { Kind::Table }, |(_, kind)| kind);
+    let mut set = Set::new(name, kind);
+    set.notes.extend(header.remarks.iter().filter(|line| !line.is_empty()).take(20).cloned());
+    let axis_values = axis.map(|(at, _)| block.columns[at].re.clone());
+    let (mut columns, step) = (Columns::default(), axis_values.as_deref().and_then(even_step));
+    if let Some((at, _)) = axis {
+        set.axis_unit = axis_unit(&header, at, kind, block.columns[at].clock);
+        if header.names[at].is_empty() {
+            set.notes.push(format!("column {} rises evenly and has no name: it is taken as the time in s", at + 1));
+        }
+    }
+    for (i, numbers) in block.columns.into_iter().enumerate() {
+        if axis.is_some_and(|(at, _)| at == i) || unused(&numbers, &header.names[i]) {
+            continue;
+        }
+        let name = if header.names[i].is_empty() { format!("column {}", i + 1) } else { header.names[i].clone() };
+        let mut channel = Channel::new(name, header.units[i].clone(), numbers.re.len() as u64);
+        if numbers.gaps > 0 {
+            set.notes.push(format!(
+                "\"{}\" has {} empty cells between its numbers; they read as NaN",
+                channel.name, numbers.gaps
+            ));
+        }
+        channel.axis = match (&axis_values, header.step) {
+            (Some(_), _) => Axis::Stored { step },
+            (None, Some(step)) => Axis::Even { start: 0.0, step },
+            (None, None) => Axis::None,
+        };
+        let column = Column { first: numbers.first, values: values(numbers) };
+        channel.complex = matches!(column.values, Values::Complex(_));
+        channel.first = first(&column.values);
+        set.channels.push(channel);
+        columns.channels.push(column);
+    }
+    if set.kind == Kind::Spectrum && set.channels.iter().any(|channel| channel.complex) {
+        set.kind = Kind::Frf;
+    }
+    if set.axis_unit.is_empty() && set.kind == Kind::Time {
+        "s".clone_into(&mut set.axis_unit);
+    }
+    columns.axis = axis_values;
+    (set, columns)
+}
+
+/// A column that a separator at the end of rows makes.
+fn unused(numbers: &Numbers, name: &str) -> bool {
+    numbers.re.is_empty() && (name.is_empty() || name.eq_ignore_ascii_case("comment"))
+}
+
+fn axis_unit(header: &header::Header, at: usize, kind: Kind, clock: bool) -> String {
+    let unit = header.units[at].clone();
+    match kind {
+        _ if clock || !unit.is_empty() && !matches!(unit.as_str(), "sec" | "secs" | "second" | "seconds") => {
+            if clock {
+                "s".to_owned()
+            } else {
+                unit
+            }
+        }
+        Kind::Time => "s".to_owned(),
+        _ => "Hz".to_owned(),
+    }
+}
+
+/// The column of the abscissa: by its name or unit; where the first column has no name, that column if it rises evenly.
+fn find_axis(header: &header::Header, columns: &[Numbers], rows: usize) -> Option<(usize, Kind)> {
+    let usable = |i: usize| columns[i].im.is_empty() && columns[i].re.len() == rows && ascending(&columns[i].re);
+    if columns.len() < 2 {
+        return None;
+    }
+    let named = (0..columns.len().min(3)).find_map(|i| {
+        let kind = kind_of(&header.names[i], &header.units[i])?;
+        usable(i).then_some((i, kind))
+    });
+    if named.is_some() {
+        return named;
+    }
+    if columns[0].clock && usable(0) {
+        return Some((0, Kind::Time));
+    }
+    let nameless = header.names[0].is_empty() && header.units[0].is_empty();
+    (nameless && rows > 3 && usable(0) && even_step(&columns[0].re).is_some()).then_some((0, Kind::Time))
+}
+
+fn values(numbers: Numbers) -> Values {
+    if numbers.im.is_empty() {
+        return Values::Real(numbers.re);
+    }
+    let mut im = numbers.im;
+    im.resize(numbers.re.len(), 0.0);
+    Values::Complex(numbers.re.into_iter().zip(im).map(|(re, im)| [re, im]).collect())
+}
+
+/// The first values of a column for its entry.
+pub(crate) fn first(values: &Values) -> Vec<Number> {
+    match values {
+        Values::Real(values) => values.iter().take(FIRST).map(|&value| Number::Real(value)).collect(),
+        Values::Complex(values) => values.iter().take(FIRST).map(|&value| Number::Complex(value)).collect(),
+    }
+}

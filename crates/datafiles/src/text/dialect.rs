@@ -1,0 +1,144 @@
+//! Which separator and which decimal sign a text table uses: the pair under which most lines are rows of numbers.
+
+use crate::table::Cell;
+
+/// Lines that are looked at, from the start and from the middle.
+const SAMPLE: usize = 400;
+
+/// How a line is cut into cells.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Separator {
+    /// A letter.
+    Letter(char),
+    /// Any number of blanks and tabs.
+    Blanks,
+}
+
+/// Separator and decimal sign.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Dialect {
+    pub separator: Separator,
+    pub comma: bool,
+}
+
+/// Dialects in the order in which they are preferred.
+const CANDIDATES: [Dialect; 9] = [
+    Dialect { separator: Separator::Letter('\t'), comma: false },
+    Dialect { separator: Separator::Letter('\t'), comma: true },
+    Dialect { separator: Separator::Letter(';'), comma: false },
+    Dialect { separator: Separator::Letter(';'), comma: true },
+    Dialect { separator: Separator::Letter(','), comma: false },
+    Dialect { separator: Separator::Letter('|'), comma: false },
+    Dialect { separator: Separator::Letter('|'), comma: true },
+    Dialect { separator: Separator::Blanks, comma: false },
+    Dialect { separator: Separator::Blanks, comma: true },
+];
+
+impl Dialect {
+    /// Finds the dialect of a text; none where no line holds numbers.
+    pub(crate) fn sniff(text: &str) -> Option<Self> {
+        let sample = sample(text);
+        // The first of the best: later candidates must be better, not as good.
+        let mut best: Option<(usize, Self)> = None;
+        for candidate in CANDIDATES {
+            let score = candidate.score(&sample);
+            if score > best.map_or(0, |(most, _)| most) {
+                best = Some((score, candidate));
+            }
+        }
+        best.map(|(_, dialect)| dialect)
+    }
+
+    /// Lines of numbers of the commonest width; a line of several cells counts a little more than one of a single.
+    fn score(self, sample: &[&str]) -> usize {
+        let mut widths = std::collections::BTreeMap::<usize, usize>::new();
+        let mut cells = Vec::new();
+        for line in sample {
+            self.cells(line, &mut cells);
+            let width = cells.iter().rposition(|cell| !cell.is_empty()).map_or(0, |last| last + 1);
+            let numbers = cells.iter().filter(|cell| cell.is_number()).count();
+            // A word in the last cell is a remark.
+            let words =
+                cells[..width.saturating_sub(usize::from(width > 1))].iter().any(|cell| matches!(cell, Cell::Word(_)));
+            if numbers > 0 && !words {
+                *widths.entry(width).or_default() += 1;
+            }
+        }
+        let total: usize = widths.values().sum();
+        let (width, common) = widths.into_iter().max_by_key(|&(_, count)| count).unwrap_or((0, 0));
+        (2 * total + common) * 4 + usize::from(width > 1)
+    }
+
+    /// Cuts a line into cells.
+    pub(crate) fn cells(self, line: &str, cells: &mut Vec<Cell>) {
+        cells.clear();
+        match self.separator {
+            Separator::Blanks => cells.extend(line.split_whitespace().map(|word| Cell::parse(word, self.comma))),
+            Separator::Letter(letter) if line.contains('"') => {
+                cells.extend(quoted(line, letter).iter().map(|word| Cell::parse(word, self.comma)));
+            }
+            Separator::Letter(letter) => cells.extend(line.split(letter).map(|word| Cell::parse(word, self.comma))),
+        }
+    }
+}
+
+/// Cells of a line with quotes: a separator within quotes is none, a doubled quote is one.
+fn quoted(line: &str, separator: char) -> Vec<String> {
+    let (mut cells, mut cell, mut inside) = (Vec::new(), String::new(), false);
+    let mut letters = line.chars().peekable();
+    while let Some(letter) = letters.next() {
+        match letter {
+            '"' if inside && letters.peek() == Some(&'"') => {
+                letters.next();
+                cell.push('"');
+            }
+            '"' => inside = !inside,
+            _ if letter == separator && !inside => cells.push(std::mem::take(&mut cell)),
+            _ => cell.push(letter),
+        }
+    }
+    cells.push(cell);
+    cells
+}
+
+/// Lines from the start, and from the middle for headers that are longer.
+fn sample(text: &str) -> Vec<&str> {
+    let filled = |line: &&str| !line.trim().is_empty();
+    let mut sample: Vec<&str> = text.lines().filter(filled).take(SAMPLE).collect();
+    if sample.len() == SAMPLE {
+        let mut middle = text.len() / 2;
+        while !text.is_char_boundary(middle) {
+            middle += 1;
+        }
+        sample.extend(text[middle..].lines().skip(1).filter(filled).take(SAMPLE));
+    }
+    sample
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "tests")]
+    use super::*;
+
+    fn of(text: &str) -> (Separator, bool) {
+        let dialect = Dialect::sniff(text).unwrap();
+        (dialect.separator, dialect.comma)
+    }
+
+    #[test]
+    fn dialects_are_told_apart() {
+        use Separator::{Blanks, Letter};
+        assert_eq!(of("a,b\n1.0,2.0\n1.5,2.5\n"), (Letter(','), false));
+        assert_eq!(of("a;b\n1,0;2,0\n1,5;2,5\n"), (Letter(';'), true));
+        assert_eq!(of("a\tb\n1,0\t2,0\n"), (Letter('\t'), true));
+        assert_eq!(of("  1.0   2.0\n  1.5   2.5\n"), (Blanks, false));
+        assert_eq!(of("1,0 2,0\n1,5 2,5\n"), (Blanks, true));
+        assert_eq!(of("1, 2, 3\n4, 5, 6\n"), (Letter(','), false));
+        assert_eq!(of("time,a\n1.0D+00,2.0D-3\n"), (Letter(','), false));
+    }
+
+    #[test]
+    fn quotes_keep_their_separators() {
+        assert_eq!(quoted("\"a,b\",\"c\"\"d\",e", ','), ["a,b", "c\"d", "e"]);
+    }
+}

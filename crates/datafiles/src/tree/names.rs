@@ -1,0 +1,102 @@
+//! Words that files of arrays use for sampling rates, steps, units and names.
+
+use super::{Array, Entry, Node};
+
+fn plain(name: &str) -> String {
+    name.chars().filter(|c| c.is_alphanumeric()).collect::<String>().to_lowercase()
+}
+
+/// What a scalar says of the abscissa.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Sampling {
+    Step(f64),
+    Start(f64),
+}
+
+/// A sampling rate or step by the name of a scalar or an attribute.
+pub(super) fn sampling(name: &str, value: f64) -> Option<Sampling> {
+    let usable = value.is_finite() && value > 0.0;
+    match plain(name).as_str() {
+        "fs" | "fsamp" | "fsample" | "fsampling" | "sr" | "samplerate" | "samplingrate" | "samplefrequency"
+        | "samplingfrequency" | "fshz" | "sampleratehz" | "samplingratehz" | "samplinghz" | "samplingfreq"
+        | "samplefreq"
+            if usable =>
+        {
+            Some(Sampling::Step(1.0 / value))
+        }
+        "dt" | "ts" | "deltat" | "dts" | "step" | "timestep" | "sampleinterval" | "samplinginterval"
+        | "sampleperiod" | "samplingperiod" | "wfincrement" | "xincrement" | "increment" | "dx" | "deltax"
+        | "interval"
+            if usable =>
+        {
+            Some(Sampling::Step(value))
+        }
+        "t0" | "x0" | "startvalue" | "xstart" | "start" | "starttime" if value.is_finite() => {
+            Some(Sampling::Start(value))
+        }
+        _ => None,
+    }
+}
+
+/// Whether a word names a unit.
+pub(super) fn is_unit_word(name: &str) -> bool {
+    matches!(
+        plain(name).as_str(),
+        "unit" | "units" | "unitstring" | "unitlabel" | "yunit" | "yunits" | "yunitlabel" | "engineeringunits" | "eu"
+    )
+}
+
+/// Whether a word names the names of channels.
+pub(super) fn is_names_word(name: &str) -> bool {
+    matches!(
+        plain(name).as_str(),
+        "names"
+            | "labels"
+            | "channels"
+            | "channelnames"
+            | "channellabels"
+            | "channelname"
+            | "signals"
+            | "signalnames"
+            | "sensors"
+            | "chnames"
+    )
+}
+
+/// The unit among attributes.
+pub(super) fn unit_of(attributes: &[(String, String)]) -> Option<&str> {
+    attributes.iter().find(|(name, _)| is_unit_word(name)).map(|(_, value)| value.as_str())
+}
+
+/// The first text found under a path of names in a group.
+pub(super) fn text_at<'a>(entries: &'a [Entry], path: &[&str]) -> Option<&'a str> {
+    match &entry_at(entries, path)?.node {
+        Node::Text(texts) => texts.first().map(String::as_str),
+        _ => None,
+    }
+}
+
+/// The scalar under a path of names in a group.
+pub(super) fn scalar_at(entries: &[Entry], path: &[&str]) -> Option<f64> {
+    array_at(entries, path)?.scalar()
+}
+
+/// The array under a path of names in a group.
+pub(super) fn array_at<'a>(entries: &'a [Entry], path: &[&str]) -> Option<&'a Array> {
+    match &entry_at(entries, path)?.node {
+        Node::Array(array) => Some(array),
+        _ => None,
+    }
+}
+
+fn entry_at<'a>(entries: &'a [Entry], path: &[&str]) -> Option<&'a Entry> {
+    let (last, groups) = path.split_last()?;
+    let mut entries = entries;
+    for name in groups {
+        match &entries.iter().find(|entry| entry.name == *name)?.node {
+            Node::Group(inner) => entries = inner,
+            _ => return None,
+        }
+    }
+    entries.iter().find(|entry| entry.name == *last)
+}

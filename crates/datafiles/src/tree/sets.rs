@@ -1,0 +1,333 @@
+//! From a tree of named arrays to sets of channels.
+//!
+//! Arrays of one group are one set. A vector named as time or frequency is the abscissa of arrays as long as it; a scalar
+//! such as `fs` or `dt` gives an even one, in its group and in those below. Square matrices are sets of their own. A group
+//! of `x_values` and `y_values` is one signal (exports of Simcenter Testlab).
+
+use super::names::{self, Sampling};
+use super::source::Place;
+use super::{Array, Arrays, Cut, Entry, MOST_CHECKED, Node, Shape};
+use crate::axis::{ascending, even_step, kind_of};
+use crate::contents::{Axis, Channel, FIRST, Kind, Number, Set};
+use crate::error::{Read, one_line};
+
+/// Most notes that are kept of a group.
+const MOST_NOTES: usize = 40;
+/// Deepest groups that are looked into.
+const DEEPEST: usize = 64;
+
+/// What a group hands to those below it.
+#[derive(Debug, Clone, Copy, Default)]
+struct Context {
+    step: Option<f64>,
+    start: f64,
+}
+
+/// The abscissa of a group.
+struct Abscissa {
+    entry: usize,
+    id: usize,
+    count: u64,
+    step: Option<f64>,
+    kind: Kind,
+    unit: String,
+}
+
+/// Sets of a tree, and where their channels are.
+pub(crate) fn sets(
+    entries: &[Entry],
+    attributes: &[(String, String)],
+    arrays: &dyn Arrays,
+) -> Read<(Vec<Set>, Vec<Vec<Place>>)> {
+    let mut made = Made { arrays, sets: Vec::new(), places: Vec::new() };
+    made.group("", entries, attributes, Context::default(), 0)?;
+    Ok((made.sets, made.places))
+}
+
+struct Made<'a> {
+    arrays: &'a dyn Arrays,
+    sets: Vec<Set>,
+    places: Vec<Vec<Place>>,
+}
+
+impl Made<'_> {
+    fn group(
+        &mut self,
+        path: &str,
+        entries: &[Entry],
+        attributes: &[(String, String)],
+        above: Context,
+        depth: usize,
+    ) -> Read<()> {
+        if self.signal(path, entries) {
+            return Ok(());
+        }
+        let mut context = above;
+        let scalars = entries.iter().filter_map(|entry| match &entry.node {
+            Node::Array(array) => Some((entry.name.as_str(), array.scalar()?)),
+            _ => None,
+        });
+        let words = attributes.iter().filter_map(|(name, value)| Some((name.as_str(), value.parse().ok()?)));
+        for (name, value) in words.chain(scalars) {
+            context.take(names::sampling(name, value));
+        }
+        let axis = self.abscissa(entries)?;
+        let mut set = Set::new(path, Kind::Table);
+        let mut places = Vec::new();
+        let labels = Labels::of(entries);
+        for (i, entry) in entries.iter().enumerate() {
+            match &entry.node {
+                Node::Array(array) => {
+                    if let Some(value) = array.scalar() {
+                        note(&mut set, format!("{} = {value}", entry.name));
+                    } else if array.shape.is_square() {
+                        self.matrix(path, entry, array);
+                    } else {
+                        let axis = axis.as_ref().filter(|axis| axis.entry != i);
+                        let is_axis = axis.is_none() && entries.get(i).is_some_and(|_| self.is_axis(entries, i));
+                        channels(
+                            &mut set,
+                            &mut places,
+                            entry,
+                            array,
+                            axis,
+                            if is_axis { Context::default() } else { context },
+                            &labels,
+                        );
+                    }
+                }
+                Node::Text(texts) => note(&mut set, format!("{}: {}", entry.name, texts.join(", "))),
+                Node::Skipped(why) => note(&mut set, format!("\"{}\" is not read: {why}", entry.name)),
+                Node::Group(_) => {}
+            }
+        }
+        set.kind = kind(&set, axis.as_ref());
+        set.axis_unit = match (&axis, set.kind) {
+            (Some(axis), _) => axis.unit.clone(),
+            (None, Kind::Time) => "s".to_owned(),
+            _ => String::new(),
+        };
+        for (name, value) in attributes {
+            note(&mut set, format!("{name}: {value}"));
+        }
+        if !set.channels.is_empty() || entries.iter().any(|entry| matches!(entry.node, Node::Skipped(_))) {
+            self.sets.push(set);
+            self.places.push(places);
+        }
+        for entry in entries {
+            if let Node::Group(inner) = &entry.node
+                && depth < DEEPEST
+            {
+                let name = if path.is_empty() { entry.name.clone() } else { format!("{path}/{}", entry.name) };
+                self.group(&name, inner, &entry.attributes, context, depth + 1)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// The vector that is the abscissa of a group.
+    fn abscissa(&self, entries: &[Entry]) -> Read<Option<Abscissa>> {
+        for (i, entry) in entries.iter().enumerate() {
+            let Node::Array(array) = &entry.node else { continue };
+            let unit = names::unit_of(&entry.attributes).unwrap_or_default();
+            let Some(kind) = kind_of(&entry.name, unit) else { continue };
+            let Some(count) = array.shape.len().filter(|&count| count > 1 && array.is_vector() && !array.complex)
+            else {
+                continue;
+            };
+            let others =
+                |other: &Entry| matches!(&other.node, Node::Array(other) if other.shape.extents.contains(&count));
+            if entries.iter().enumerate().all(|(j, other)| j == i || !others(other)) {
+                continue;
+            }
+            let step = if count <= MOST_CHECKED {
+                let values = self.arrays.read(array.id)?.re;
+                if !ascending(&values) {
+                    continue;
+                }
+                even_step(&values)
+            } else {
+                step_of_peek(array, count)
+            };
+            let unit = match (unit, kind) {
+                ("", Kind::Time) => "s",
+                ("", _) => "Hz",
+                (unit, _) => unit,
+            };
+            return Ok(Some(Abscissa { entry: i, id: array.id, count, step, kind, unit: unit.to_owned() }));
+        }
+        Ok(None)
+    }
+
+    fn is_axis(&self, entries: &[Entry], i: usize) -> bool {
+        self.abscissa(entries).ok().flatten().is_some_and(|axis| axis.entry == i)
+    }
+
+    fn matrix(&mut self, path: &str, entry: &Entry, array: &Array) {
+        let name = if path.is_empty() { entry.name.clone() } else { format!("{path}/{}", entry.name) };
+        let mut set = Set::new(name, Kind::Matrix);
+        let mut channel = Channel::new(
+            entry.name.clone(),
+            names::unit_of(&entry.attributes).unwrap_or_default(),
+            array.shape.len().unwrap_or(0),
+        );
+        channel.complex = array.complex;
+        channel.first =
+            (0..FIRST as u64).filter_map(|i| array.at(i)).map(|value| number(value, array.complex)).collect();
+        let extents: Vec<String> = array.shape.extents.iter().map(ToString::to_string).collect();
+        let order = if array.shape.column_major { "columns" } else { "rows" };
+        channel.attributes.push(("shape".to_owned(), extents.join(" x ")));
+        channel.attributes.push(("order".to_owned(), order.to_owned()));
+        set.channels.push(channel);
+        let count = array.shape.len().unwrap_or(0);
+        let cut = Shape { extents: vec![count], column_major: true }.cut(None);
+        let Some(cut) = cut else { return };
+        self.sets.push(set);
+        self.places.push(vec![Place { id: array.id, cut, channel: 0, whole: true, axis: None }]);
+    }
+
+    /// A group of `x_values` and `y_values`, as Simcenter Testlab exports signals.
+    fn signal(&mut self, path: &str, entries: &[Entry]) -> bool {
+        let Some(array) = names::array_at(entries, &["y_values", "values"]) else { return false };
+        let Some(step) = names::scalar_at(entries, &["x_values", "increment"]) else { return false };
+        let start = names::scalar_at(entries, &["x_values", "start_value"]).unwrap_or(0.0);
+        let x_unit = names::text_at(entries, &["x_values", "quantity", "label"]).unwrap_or("s");
+        let unit = names::text_at(entries, &["y_values", "quantity", "label"]).unwrap_or_default();
+        let name = names::text_at(entries, &["function_record", "name"]).unwrap_or(path);
+        let stated =
+            names::scalar_at(entries, &["x_values", "number_of_values"]).filter(|n| *n >= 1.0).map(|n| n as u64);
+        let Some(cut) = array.shape.cut(stated) else { return false };
+        let frequency = kind_of("", x_unit) == Some(Kind::Spectrum);
+        let kind = match (frequency, array.complex) {
+            (true, true) => Kind::Frf,
+            (true, false) => Kind::Spectrum,
+            _ => Kind::Time,
+        };
+        let mut set = Set::new(path, kind);
+        x_unit.clone_into(&mut set.axis_unit);
+        let mut places = Vec::new();
+        for c in 0..cut.channels {
+            let label = if cut.channels > 1 { format!("{name}[{}]", c + 1) } else { name.to_owned() };
+            let mut channel = Channel::new(label, unit, cut.count);
+            channel.complex = array.complex;
+            channel.axis = Axis::Even { start, step };
+            channel.first = first(array, &cut, c);
+            set.channels.push(channel);
+            places.push(Place { id: array.id, cut: cut.clone(), channel: c, whole: false, axis: None });
+        }
+        self.sets.push(set);
+        self.places.push(places);
+        true
+    }
+}
+
+impl Context {
+    fn take(&mut self, sampling: Option<Sampling>) {
+        match sampling {
+            Some(Sampling::Step(step)) => self.step = Some(step),
+            Some(Sampling::Start(start)) => self.start = start,
+            None => {}
+        }
+    }
+}
+
+/// Names and units of columns that lie beside the array.
+struct Labels {
+    names: Vec<String>,
+    units: Vec<String>,
+    unit_of: Vec<(String, String)>,
+}
+
+impl Labels {
+    fn of(entries: &[Entry]) -> Self {
+        let texts = |entry: &Entry| match &entry.node {
+            Node::Text(texts) => Some(texts.clone()),
+            _ => None,
+        };
+        let find =
+            |word: fn(&str) -> bool| entries.iter().find(|entry| word(&entry.name)).and_then(texts).unwrap_or_default();
+        let unit_of = entries.iter().filter_map(|entry| {
+            let lower = entry.name.to_lowercase();
+            let name = ["_units", "_unit"].iter().find_map(|end| lower.strip_suffix(end))?;
+            Some((name.to_owned(), texts(entry)?.into_iter().next()?))
+        });
+        Self { names: find(names::is_names_word), units: find(names::is_unit_word), unit_of: unit_of.collect() }
+    }
+}
+
+fn channels(
+    set: &mut Set,
+    places: &mut Vec<Place>,
+    entry: &Entry,
+    array: &Array,
+    axis: Option<&Abscissa>,
+    context: Context,
+    labels: &Labels,
+) {
+    let axis = axis.filter(|axis| array.shape.extents.contains(&axis.count));
+    let Some(cut) = array.shape.cut(axis.map(|axis| axis.count)) else {
+        note(set, format!("\"{}\" is not read: it would make too many channels; save it in pieces", entry.name));
+        return;
+    };
+    let mut own = context;
+    for (name, value) in &entry.attributes {
+        own.take(value.parse().ok().and_then(|value| names::sampling(name, value)));
+    }
+    let beside =
+        labels.unit_of.iter().find(|(name, _)| *name == entry.name.to_lowercase()).map(|(_, unit)| unit.as_str());
+    for c in 0..cut.channels {
+        let listed = |list: &[String]| (list.len() as u64 == cut.channels).then(|| list[c as usize].clone());
+        let numbered = if cut.channels > 1 { format!("{}[{}]", entry.name, c + 1) } else { entry.name.clone() };
+        let name = if cut.channels > 1 { listed(&labels.names).unwrap_or(numbered) } else { numbered };
+        let unit = names::unit_of(&entry.attributes)
+            .or(beside)
+            .map(str::to_owned)
+            .or_else(|| listed(&labels.units))
+            .unwrap_or_default();
+        let mut channel = Channel::new(name, unit, cut.count);
+        channel.complex = array.complex;
+        channel.attributes.clone_from(&entry.attributes);
+        channel.axis = match (axis, own.step) {
+            (Some(axis), _) => Axis::Stored { step: axis.step },
+            (None, Some(step)) if cut.count > 1 => Axis::Even { start: own.start, step },
+            _ => Axis::None,
+        };
+        channel.first = first(array, &cut, c);
+        set.channels.push(channel);
+        places.push(Place { id: array.id, cut: cut.clone(), channel: c, whole: false, axis: axis.map(|axis| axis.id) });
+    }
+}
+
+fn kind(set: &Set, axis: Option<&Abscissa>) -> Kind {
+    let complex = set.channels.iter().any(|channel| channel.complex);
+    match axis.map(|axis| axis.kind) {
+        Some(Kind::Spectrum) if complex => Kind::Frf,
+        Some(kind) => kind,
+        None if set.channels.iter().any(|channel| channel.axis != Axis::None) => Kind::Time,
+        None => Kind::Table,
+    }
+}
+
+fn first(array: &Array, cut: &Cut, channel: u64) -> Vec<Number> {
+    let places = (0..cut.count.min(FIRST as u64)).map(|i| cut.offset(channel) + i * cut.stride);
+    places.filter_map(|place| array.at(place)).map(|value| number(value, array.complex)).collect()
+}
+
+fn number(value: [f64; 2], complex: bool) -> Number {
+    if complex { Number::Complex(value) } else { Number::Real(value[0]) }
+}
+
+/// Step of a long abscissa by its first and last values.
+fn step_of_peek(array: &Array, count: u64) -> Option<f64> {
+    let values: Vec<f64> = (0..3).chain([count - 1]).filter_map(|i| array.at(i)).map(|value| value[0]).collect();
+    let [a, b, c, last] = values[..] else { return None };
+    let step = (last - a) / (count - 1) as f64;
+    let near = |difference: f64| (difference - step).abs() <= 0.01 * step.abs();
+    (step > 0.0 && near(b - a) && near(c - b)).then_some(step)
+}
+
+fn note(set: &mut Set, text: String) {
+    if set.notes.len() < MOST_NOTES {
+        set.notes.push(one_line(&text, 160));
+    }
+}

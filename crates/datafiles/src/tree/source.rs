@@ -1,0 +1,109 @@
+//! Reads channels out of arrays.
+
+use super::Cut;
+use crate::error::{Fault, Read};
+use crate::file::{MOST_VALUES, Source, Values};
+use std::sync::{Arc, Mutex};
+
+/// All values of an array in the order of the file.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Flat {
+    pub re: Vec<f64>,
+    /// Empty for real arrays.
+    pub im: Vec<f64>,
+}
+
+impl Flat {
+    pub(crate) fn real(re: Vec<f64>) -> Self {
+        Self { re, im: Vec::new() }
+    }
+
+    /// Values at the places that a listing shows.
+    pub(crate) fn peek(&self, wanted: &[u64]) -> Vec<[f64; 2]> {
+        let at = |values: &[f64], i: u64| usize::try_from(i).ok().and_then(|i| values.get(i).copied());
+        wanted.iter().map(|&i| [at(&self.re, i).unwrap_or(f64::NAN), at(&self.im, i).unwrap_or(0.0)]).collect()
+    }
+}
+
+/// Reads whole arrays.
+pub(crate) trait Arrays: Send + Sync {
+    /// All values of array number `id`.
+    fn read(&self, id: usize) -> Read<Flat>;
+}
+
+/// Where a channel's values are.
+#[derive(Debug, Clone)]
+pub(crate) struct Place {
+    pub id: usize,
+    pub cut: Cut,
+    pub channel: u64,
+    /// Whether all values of the array are the channel: a matrix.
+    pub whole: bool,
+    /// Array of the abscissa.
+    pub axis: Option<usize>,
+}
+
+/// Channels of a file of arrays.
+pub(crate) struct TreeSource {
+    arrays: Box<dyn Arrays>,
+    sets: Vec<Vec<Place>>,
+    // Columns of one array are mostly read one after the other.
+    last: Mutex<Option<(usize, Arc<Flat>)>>,
+}
+
+impl TreeSource {
+    pub(crate) fn new(arrays: Box<dyn Arrays>, sets: Vec<Vec<Place>>) -> Self {
+        Self { arrays, sets, last: Mutex::new(None) }
+    }
+
+    fn array(&self, id: usize) -> Read<Arc<Flat>> {
+        if let Ok(last) = self.last.lock()
+            && let Some((known, flat)) = last.as_ref()
+            && *known == id
+        {
+            return Ok(Arc::clone(flat));
+        }
+        let flat = Arc::new(self.arrays.read(id)?);
+        if let Ok(mut last) = self.last.lock() {
+            *last = Some((id, Arc::clone(&flat)));
+        }
+        Ok(flat)
+    }
+
+    fn place(&self, set: usize, channel: usize) -> Read<&Place> {
+        self.sets.get(set).and_then(|set| set.get(channel)).ok_or_else(|| Fault::new("there is no such channel"))
+    }
+}
+
+impl Source for TreeSource {
+    fn read(&self, set: usize, channel: usize) -> Read<Values> {
+        let place = self.place(set, channel)?;
+        if place.cut.count.saturating_mul(place.cut.channels) > MOST_VALUES {
+            return Err(Fault::new("its array is too large for memory; save it in pieces"));
+        }
+        let flat = self.array(place.id)?;
+        if place.whole {
+            return Ok(values(flat.re.iter().copied(), flat.im.iter().copied(), !flat.im.is_empty()));
+        }
+        let (from, step) = (place.cut.offset(place.channel) as usize, (place.cut.stride as usize).max(1));
+        let count = place.cut.count as usize;
+        let pick = |all: &[f64]| {
+            all.get(from..).unwrap_or_default().iter().step_by(step).take(count).copied().collect::<Vec<_>>()
+        };
+        let (re, im) = (pick(&flat.re), pick(&flat.im));
+        if re.len() != count {
+            return Err(Fault::new("has fewer values than its extents say; export it again"));
+        }
+        let complex = !flat.im.is_empty();
+        Ok(values(re.into_iter(), im.into_iter(), complex))
+    }
+
+    fn axis(&self, set: usize, channel: usize) -> Read<Vec<f64>> {
+        let axis = self.place(set, channel)?.axis.ok_or_else(|| Fault::new("the abscissa is not stored"))?;
+        Ok(self.array(axis)?.re.clone())
+    }
+}
+
+fn values(re: impl Iterator<Item = f64>, im: impl Iterator<Item = f64>, complex: bool) -> Values {
+    if complex { Values::Complex(re.zip(im).map(|(re, im)| [re, im]).collect()) } else { Values::Real(re.collect()) }
+}

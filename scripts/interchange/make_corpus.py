@@ -1,0 +1,322 @@
+"""Writes the corpus of crates/datafiles/tests: small files of every format, and expected.json with what is in them.
+
+    pip install numpy scipy h5py npTDMS openpyxl hdf5storage pyuff
+    python scripts/interchange/make_corpus.py crates/datafiles/tests/corpus
+
+Values are made of integers and powers of two, so that every writer keeps them to the last bit. expected.json gives, for each
+file, the format and the channels as [set, channel, unit, step, values]; values are hexadecimal floats, complex ones pairs.
+"""
+
+import json
+import pathlib
+import sys
+import wave
+import struct
+
+import h5py
+import numpy as np
+import openpyxl
+import scipy.io
+from nptdms import ChannelObject, GroupObject, RootObject, TdmsWriter, TdmsFile
+
+OUT = pathlib.Path(sys.argv[1])
+OUT.mkdir(parents=True, exist_ok=True)
+EXPECTED = {}
+
+N = 24
+I = np.arange(N)
+FORCE = ((I * 37 + 11) % 64 - 32) / 16.0
+ACC = ((I * 53 + 5) % 128 - 64) / 1024.0
+# Numbers whose decimal form is long: they show rounding.
+ODD = np.sqrt(I + 2.0) * 1e-3
+FRF = ACC + 1j * ODD
+TIME = I * 0.001
+STEP = 0.001
+
+
+def hexes(values):
+    values = np.asarray(values)
+    if np.iscomplexobj(values):
+        return [[float(v.real).hex(), float(v.imag).hex()] for v in values]
+    return [float(v).hex() for v in values]
+
+
+def expect(name, fmt, channels):
+    EXPECTED[name] = {"format": fmt, "channels": [[s, c, u, t, hexes(v)] for s, c, u, t, v in channels]}
+
+
+def text(name, content, fmt, channels, encoding="utf-8"):
+    (OUT / name).write_bytes(content.encode(encoding))
+    expect(name, fmt, channels)
+
+
+def rows(separator, comma=False, time=True, extra=""):
+    lines = []
+    for i in range(N):
+        cells = ([repr(float(TIME[i]))] if time else []) + [repr(float(FORCE[i])), repr(float(ODD[i]))]
+        line = separator.join(cells)
+        lines.append((line.replace(".", ",") if comma else line) + extra)
+    return lines
+
+
+def tables():
+    both = [("", "force", "N", STEP, FORCE), ("", "acc", "m/s^2", STEP, ODD)]
+    head = "time [s],force [N],acc [m/s^2]"
+    text("plain.csv", "\n".join([head] + rows(",")) + "\n", "csv", both)
+    text("bom-crlf.csv", "\ufeff" + "\r\n".join([head] + rows(",")) + "\r\n", "csv", both)
+    text("german.csv", "\n".join(["Zeit [s];force [N];acc [m/s^2]"] + rows(";", True)) + "\n", "csv", both)
+    text("tabs.txt", "\n".join([head.replace(",", "\t")] + rows("\t")) + "\n", "csv", both)
+    text("tabs-comma.txt", "\n".join([head.replace(",", "\t")] + rows("\t", True)) + "\n", "csv", both)
+    units = ["Versuch 7", "Prüfer: Müller", "", "Time;force;acc", "s;N;m/s^2"]
+    text("units-row-latin1.csv", "\n".join(units + rows(";")) + "\n", "csv", both, "latin-1")
+    text("utf16.csv", "\n".join([head] + rows(",")) + "\n", "csv", both, "utf-16")
+    deep = [f"key {i}: value {i}" for i in range(60)] + ["Channel,force,acc", "Unit,N,m/s^2", "Serial,12,13"]
+    deep_rows = rows(",")
+    text("deep-header.csv", "\n".join(deep + deep_rows) + "\n", "csv", [("", "force", "N", STEP, FORCE), ("", "acc", "m/s^2", STEP, ODD)])
+    text("trailing-separator.csv", "\n".join([head + ","] + rows(",", extra=",")) + "\n", "csv", both)
+    spaces = ["# time [s]  force[N]  acc[m/s^2]"] + ["  " + line for line in rows("   ")]
+    text("blanks.txt", "\n".join(["%d columns" % 3] + rows("   ")) + "\n", "txt", [("", "column 2", "", STEP, FORCE), ("", "column 3", "", STEP, ODD)])
+    fortran = [line.replace("e", "D") for line in rows("   ")]
+    text("d-exponents.txt", "\n".join(fortran) + "\n", "txt", [("", "column 2", "", STEP, FORCE), ("", "column 3", "", STEP, ODD)])
+    text("rate-only.csv", "\n".join(["Sampling rate: 1000 Hz", "force [N],acc [m/s^2]"] + rows(",", time=False)) + "\n", "csv", both)
+    text("no-time.csv", "\n".join(["force [N],acc [m/s^2]"] + rows(",", time=False)) + "\n", "csv",
+         [("", "force", "N", None, FORCE), ("", "acc", "m/s^2", None, ODD)])
+    text("quoted.csv", "\n".join(['"time [s]","force, left [N]","acc ""7"" [m/s^2]"'] + rows(",")) + "\n", "csv",
+         [("", "force, left", "N", STEP, FORCE), ("", 'acc "7"', "m/s^2", STEP, ODD)])
+    text("old-mac.csv", "\r".join([head] + rows(",")) + "\r", "csv", both)
+    uneven = np.cumsum(1.0 + (I % 3)) / 64
+    lines = [head] + [f"{t!r},{float(f)!r},{float(a)!r}" for t, f, a in zip(map(float, uneven), FORCE, ODD)]
+    text("uneven.csv", "\n".join(lines) + "\n", "csv", [("", "force", "N", None, FORCE), ("", "acc", "m/s^2", None, ODD)])
+    lines = ["time [s],force [N],acc [m/s^2]"] + [line if i < 20 else line.rsplit(",", 1)[0] + "," for i, line in enumerate(rows(","))]
+    text("unequal.csv", "\n".join(lines) + "\n", "csv", [("", "force", "N", STEP, FORCE), ("", "acc", "m/s^2", STEP, ODD[:20])])
+    frf = ["Frequency [Hz],H [m/s^2/N]"] + [f"{float(i)!r},{complex(h)!r}" for i, h in zip(I, FRF)]
+    text("complex.csv", "\n".join(frf) + "\n", "csv", [("", "H", "m/s^2/N", 1.0, FRF)])
+    clock = ["Timestamp,force [N]"] + [f"2024-02-29 23:59:{30 + i * 0.25:09.6f},{float(f)!r}" for i, f in enumerate(FORCE)]
+    text("clock.csv", "\n".join(clock) + "\n", "csv", [("", "force", "N", 0.25, FORCE)])
+
+
+def lvm_segment(names, units, columns, samples, x=True, separator="\t", comma=False, step="0.001000"):
+    cells = lambda word, values: separator.join([word] + list(values)) + separator
+    out = [cells("Channels", [str(len(names))]), cells("Samples", [str(samples)] * len(names)),
+           cells("Date", ["2024/01/02"] * len(names)), cells("Time", ["10:11:12.5"] * len(names)),
+           cells("Y_Unit_Label", units), cells("X_Dimension", ["Time"] * len(names)),
+           cells("X0", ["0.0000000000000000E+0"] * len(names)), cells("Delta_X", [step.replace(".", ",") if comma else step] * len(names)),
+           "***End_of_Header***" + separator, separator.join(["X_Value"] + names + ["Comment"])]
+    for i in range(samples):
+        line = [f"{i * 0.001:.6f}" if x else ""] + [repr(float(c[i])) for c in columns]
+        if comma:
+            line = [cell.replace(".", ",") for cell in line]
+        out.append(separator.join(line))
+    return out
+
+
+def lvms():
+    def head(separator="Tab", decimal=".", x="One", multi="No"):
+        s = {"Tab": "\t", "Comma": ","}[separator]
+        return [f"LabVIEW Measurement{s}", f"Writer_Version{s}2", f"Reader_Version{s}2", f"Separator{s}{separator}", f"Decimal_Separator{s}{decimal}",
+                f"Multi_Headings{s}{multi}", f"X_Columns{s}{x}", f"Time_Pref{s}Absolute", f"***End_of_Header***{s}", s]
+    names, units = ["force", "acc"], ["N", "m/s^2"]
+    both = [("", "force", "N", STEP, FORCE), ("", "acc", "m/s^2", STEP, ODD)]
+    text("one.lvm", "\r\n".join(head() + lvm_segment(names, units, [FORCE, ODD], N)) + "\r\n", "lvm", both)
+    text("comma.lvm", "\r\n".join(head(decimal=",") + lvm_segment(names, units, [FORCE, ODD], N, comma=True)) + "\r\n", "lvm", both)
+    text("comma-separated.lvm", "\r\n".join(head("Comma") + lvm_segment(names, units, [FORCE, ODD], N, separator=",")) + "\r\n", "lvm", both)
+    text("no-x.lvm", "\r\n".join(head(x="No") + lvm_segment(names, units, [FORCE, ODD], N, x=False)) + "\r\n", "lvm", both)
+    a = lvm_segment(names, units, [FORCE, ODD], N)
+    b = lvm_segment(names, units, [ODD, FORCE], N)
+    text("segments.lvm", "\r\n".join(head(multi="Yes") + a + [""] + b) + "\r\n", "lvm",
+         [("segment 1", "force", "N", STEP, FORCE), ("segment 1", "acc", "m/s^2", STEP, ODD),
+          ("segment 2", "force", "N", STEP, ODD), ("segment 2", "acc", "m/s^2", STEP, FORCE)])
+
+
+def sheets():
+    book = openpyxl.Workbook()
+    sheet = book.active
+    sheet.title = "Run 1"
+    sheet.append(["Measured by", "X"])
+    sheet.append([])
+    sheet.append(["time [s]", "force", "acc"])
+    sheet.append(["s", "N", "m/s^2"])
+    for i in range(N):
+        sheet.append([float(TIME[i]), float(FORCE[i]), float(ODD[i])])
+    other = book.create_sheet("far cell")
+    other["A1"] = "f [Hz]"
+    other["B1"] = "G [g]"
+    for i in range(N):
+        other.cell(2 + i, 1, float(i))
+        other.cell(2 + i, 2, float(FORCE[i]))
+    other["A1048576"] = "end"
+    book.create_sheet("empty")
+    book.save(OUT / "sheets.xlsx")
+    # openpyxl writes sixteen digits.
+    digits = [float(f"{v:.16g}") for v in ODD]
+    expect("sheets.xlsx", "xlsx", [("Run 1", "force", "N", STEP, FORCE), ("Run 1", "acc", "m/s^2", STEP, digits), ("far cell", "G", "g", 1.0, FORCE)])
+
+
+def mats():
+    flat = {"t": TIME, "force": FORCE, "acc": ODD, "fs": 1000.0, "note": "a note"}
+    channels = [("", "force", "", STEP, FORCE), ("", "acc", "", STEP, ODD)]
+    scipy.io.savemat(OUT / "v5.mat", flat)
+    expect("v5.mat", "mat", channels)
+    scipy.io.savemat(OUT / "v7.mat", flat, do_compression=True, oned_as="column")
+    expect("v7.mat", "mat", channels)
+    scipy.io.savemat(OUT / "v4.mat", flat, format="4")
+    expect("v4.mat", "mat", channels)
+    struct_ = {"run": {"t": TIME, "x": np.stack([FORCE, ODD], axis=1), "fs": 1000.0, "labels": np.array(["Acc 7", "Acc 9"], dtype=object),
+                       "inner": {"H": FRF, "note": "deep"}}, "fs": 500.0, "y": np.stack([FORCE, ODD])}
+    scipy.io.savemat(OUT / "struct.mat", struct_, do_compression=True)
+    expect("struct.mat", "mat", [("run", "Acc 7", "", STEP, FORCE), ("run", "Acc 9", "", STEP, ODD), ("run/inner", "H", "", STEP, FRF),
+                                 ("", "y[1]", "", 0.002, FORCE), ("", "y[2]", "", 0.002, ODD)])
+    cells = np.empty(2, dtype=object)
+    cells[0], cells[1] = {"x": FORCE, "dt": STEP, "x_unit": "N"}, {"x": ODD, "dt": STEP}
+    scipy.io.savemat(OUT / "cells.mat", {"runs": cells, "K": np.diag([1.0, 2.0, 3.0]), "s": scipy.sparse.eye(3, format="csc"), "i16": np.arange(5, dtype=np.int16)})
+    expect("cells.mat", "mat", [("runs/{1}", "x", "N", STEP, FORCE), ("runs/{2}", "x", "", STEP, ODD),
+                                ("K", "K", "", None, np.diag([1.0, 2.0, 3.0]).ravel()), ("", "i16", "", None, np.arange(5.0))])
+    record = np.zeros(3, dtype=[("x", object), ("dt", object)])
+    for i, v in enumerate([FORCE, ODD, ACC]):
+        record[i]["x"], record[i]["dt"] = v, STEP
+    scipy.io.savemat(OUT / "struct-array.mat", {"r": record})
+    expect("struct-array.mat", "mat", [("r/(1)", "x", "", STEP, FORCE), ("r/(2)", "x", "", STEP, ODD), ("r/(3)", "x", "", STEP, ACC)])
+    signal = {"Signal_0": {"x_values": {"start_value": 0.0, "increment": STEP, "number_of_values": float(N), "quantity": {"label": "s"}},
+                           "y_values": {"values": ODD.reshape(-1, 1), "quantity": {"label": "m/s^2"}}, "function_record": {"name": "Point 7 +Z", "type": "Signal"}}}
+    scipy.io.savemat(OUT / "testlab.mat", signal)
+    expect("testlab.mat", "mat", [("Signal_0", "Point 7 +Z", "m/s^2", STEP, ODD)])
+    import hdf5storage
+    (OUT / "v73.mat").unlink(missing_ok=True)
+    hdf5storage.savemat(str(OUT / "v73.mat"), {"t": TIME.reshape(-1, 1), "x": np.stack([FORCE, ODD], axis=1), "H": FRF.reshape(-1, 1), "fs": 1000.0, "note": "text",
+                                               "run": {"x": ODD.reshape(-1, 1), "dt": 0.002}}, format="7.3")
+    expect("v73.mat", "mat", [("", "x[1]", "", STEP, FORCE), ("", "x[2]", "", STEP, ODD), ("", "H", "", STEP, FRF), ("run", "x", "", 0.002, ODD)])
+
+
+def hdf5s():
+    with h5py.File(OUT / "groups.h5", "w") as file:
+        file.attrs["operator"] = "X"
+        run = file.create_group("run 1")
+        run.create_dataset("time", data=TIME).attrs["unit"] = "s"
+        run.create_dataset("acc", data=ODD, chunks=(7,), compression="gzip", shuffle=True, fletcher32=True).attrs["units"] = "m/s^2"
+        run.create_dataset("force", data=FORCE.astype(">f4")).attrs["unit"] = "N"
+        other = file.create_group("run 2/deep")
+        other.attrs["sampling_rate"] = 1000.0
+        other.create_dataset("x", data=np.stack([FORCE, ODD], axis=1), chunks=(5, 1), compression="lzf")
+        other.create_dataset("h", data=FRF)
+        other.create_dataset("flags", data=I % 2 == 0)
+        own = file.create_dataset("own", data=(FORCE * 16).astype(np.int16))
+        own.attrs["dt"] = 0.5
+        own.attrs["unit"] = np.bytes_("V")
+        file["link"] = h5py.SoftLink("/own")
+        file["dangling"] = h5py.SoftLink("/nowhere")
+        file.create_dataset("names", data=["a", "b"], dtype=h5py.string_dtype())
+        file.create_dataset("empty", data=np.zeros(0))
+        file.create_dataset("records", data=np.zeros(3, dtype=[("a", "f8"), ("b", "i4"), ("c", "u1")]))
+    expect("groups.h5", "hdf5", [("run 1", "acc", "m/s^2", STEP, ODD), ("run 1", "force", "N", STEP, FORCE.astype("f4")), ("run 2/deep", "x[1]", "", STEP, FORCE),
+                                 ("run 2/deep", "x[2]", "", STEP, ODD), ("run 2/deep", "h", "", STEP, FRF), ("run 2/deep", "flags", "", STEP, (I % 2 == 0).astype(float)),
+                                 ("", "own", "V", 0.5, FORCE * 16), ("", "link", "V", 0.5, FORCE * 16), ("", "empty", "", None, [])])
+    with h5py.File(OUT / "latest.h5", "w", libver="latest") as file:
+        file.create_dataset("a", data=ODD, chunks=(5,), maxshape=(None,)).attrs["unit"] = "g"
+        file.create_dataset("b", data=np.arange(6.0).reshape(2, 3))
+        file.attrs["fs"] = 1000
+    expect("latest.h5", "hdf5", [("", "a", "g", STEP, ODD), ("", "b[1]", "", STEP, [0.0, 1.0, 2.0]), ("", "b[2]", "", STEP, [3.0, 4.0, 5.0])])
+
+
+def tdms():
+    wf = {"wf_increment": STEP, "wf_samples": 1, "wf_start_offset": 0.0}
+    with TdmsWriter(OUT / "plain.tdms") as writer:
+        root, group = RootObject({"author": "X"}), GroupObject("Run 1", {"operator": "Y"})
+        force = ChannelObject("Run 1", "force", FORCE, {**wf, "unit_string": "N"})
+        acc = ChannelObject("Run 1", "it's /acc/", ODD, {**wf, "unit_string": "m/s^2"})
+        writer.write_segment([root, group, force, acc])
+        writer.write_segment([ChannelObject("Run 1", "force", FORCE[:10]), ChannelObject("Run 1", "it's /acc/", ODD[:10])])
+        writer.write_segment([ChannelObject("Run 2", "i16", (FORCE * 16).astype(np.int16)), ChannelObject("Run 2", "c", FRF),
+                              ChannelObject("Run 2", "words", ["a", "b"]), ChannelObject("Run 2", "none", np.zeros(0))])
+    expect("plain.tdms", "tdms", [("Run 1", "force", "N", STEP, np.concatenate([FORCE, FORCE[:10]])),
+                                  ("Run 1", "it's /acc/", "m/s^2", STEP, np.concatenate([ODD, ODD[:10]])),
+                                  ("Run 2", "i16", "", None, FORCE * 16), ("Run 2", "c", "", None, FRF), ("Run 2", "none", "", None, [])])
+    scale = {"NI_Number_Of_Scales": 1, "NI_Scaling_Status": "unscaled", "NI_Scale[0]_Scale_Type": "Linear", "NI_Scale[0]_Linear_Slope": 0.25,
+             "NI_Scale[0]_Linear_Y_Intercept": 1.5, "NI_Scale[0]_Linear_Input_Source": 0xFFFFFFFF, **wf, "NI_UnitDescription": "g"}
+    raw = (FORCE * 16).astype(np.int32)
+    with TdmsWriter(OUT / "scaled.tdms") as writer:
+        writer.write_segment([ChannelObject("g", "acc", raw, scale)])
+    with TdmsFile.open(OUT / "scaled.tdms") as file:
+        expect("scaled.tdms", "tdms", [("g", "acc", "g", STEP, file["g"]["acc"][:])])
+    # Interleaved, and a segment that repeats the objects of the one before: no writer of npTDMS makes them.
+    def s(t):
+        t = t.encode()
+        return struct.pack("<I", len(t)) + t
+    def obj(path, index):
+        return s(path) + index + struct.pack("<I", 0)
+    f64 = struct.pack("<IIIQ", 20, 10, 1, N)
+    meta = struct.pack("<I", 3) + obj("/'g'", struct.pack("<I", 0xFFFFFFFF)) + obj("/'g'/'a'", f64) + obj("/'g'/'b'", f64)
+    data = np.stack([FORCE, ODD], axis=1).astype("<f8").tobytes()
+    lead = lambda toc, meta, data: b"TDSm" + struct.pack("<IIQQ", toc, 4713, len(meta) + len(data), len(meta))
+    whole = lead(2 | 4 | 8 | 32, meta, data) + meta + data + lead(8 | 32, b"", data) + data
+    (OUT / "interleaved.tdms").write_bytes(whole)
+    expect("interleaved.tdms", "tdms", [("g", "a", "", None, np.concatenate([FORCE, FORCE])), ("g", "b", "", None, np.concatenate([ODD, ODD]))])
+    # DAQmx: two channels of 16 bits in one buffer, big scale by a polynomial.
+    def daqmx(path, offset, props):
+        index = struct.pack("<IIIQ", 0x1269, 0xFFFFFFFF, 1, N) + struct.pack("<I", 1) + struct.pack("<IIIII", 3, 0, offset, 0, 0) + struct.pack("<II", 1, 4)
+        out = s(path) + index + struct.pack("<I", len(props))
+        for name, value in props.items():
+            out += s(name) + (struct.pack("<I", 0x20) + s(value) if isinstance(value, str) else struct.pack("<Id", 10, value) if isinstance(value, float) else struct.pack("<II", 7, value))
+        return out
+    props = {"NI_Number_Of_Scales": 2, "NI_Scaling_Status": "unscaled", "NI_Scale[1]_Scale_Type": "Polynomial", "NI_Scale[1]_Polynomial_Coefficients_Size": 2,
+             "NI_Scale[1]_Polynomial_Coefficients[0]": 0.5, "NI_Scale[1]_Polynomial_Coefficients[1]": 0.125, "NI_Scale[1]_Polynomial_Input_Source": 0, "wf_increment": STEP}
+    a, b = (FORCE * 16).astype(np.int16), (ACC * 1024).astype(np.int16)
+    meta = struct.pack("<I", 2) + daqmx("/'d'/'a'", 0, props) + daqmx("/'d'/'b'", 2, props)
+    data = np.stack([a, b], axis=1).astype("<i2").tobytes()
+    (OUT / "daqmx.tdms").write_bytes(lead(2 | 4 | 8 | 128, meta, data) + meta + data)
+    with TdmsFile.open(OUT / "daqmx.tdms") as file:
+        expect("daqmx.tdms", "tdms", [("d", "a", "", STEP, file["d"]["a"][:]), ("d", "b", "", STEP, file["d"]["b"][:])])
+    broken = (OUT / "plain.tdms").read_bytes()
+    first = struct.unpack_from("<Q", broken, 12)[0] + 28
+    (OUT / "broken-off.tdms").write_bytes(broken[: first - 40])
+    expect("broken-off.tdms", "tdms", [("Run 1", "force", "N", STEP, FORCE), ("Run 1", "it's /acc/", "m/s^2", STEP, ODD[: N - 5])])
+
+
+def wavs():
+    with wave.open(str(OUT / "pcm16.wav"), "wb") as file:
+        file.setnchannels(2)
+        file.setsampwidth(2)
+        file.setframerate(1000)
+        file.writeframes(np.stack([(FORCE * 1024).astype("<i2"), (ACC * 1024).astype("<i2")], axis=1).tobytes())
+    expect("pcm16.wav", "wav", [("", "channel 1", "", STEP, FORCE * 1024 / 32768), ("", "channel 2", "", STEP, ACC * 1024 / 32768)])
+    scipy.io.wavfile.write(OUT / "float.wav", 1000, ODD.astype(np.float32))
+    expect("float.wav", "wav", [("", "channel 1", "", STEP, ODD.astype(np.float32))])
+
+
+def numpys():
+    np.save(OUT / "two.npy", np.stack([FORCE, ODD], axis=1))
+    expect("two.npy", "npy", [("", "two[1]", "", None, FORCE), ("", "two[2]", "", None, ODD)])
+    np.save(OUT / "fortran.npy", np.asfortranarray(np.stack([FRF, FRF * 2], axis=1)))
+    expect("fortran.npy", "npy", [("", "fortran[1]", "", None, FRF), ("", "fortran[2]", "", None, FRF * 2)])
+    np.save(OUT / "big-endian.npy", ODD.astype(">f4"))
+    expect("big-endian.npy", "npy", [("", "big-endian", "", None, ODD.astype(np.float32))])
+    np.savez(OUT / "plain.npz", t=TIME, force=FORCE, acc=ODD)
+    expect("plain.npz", "npz", [("", "force", "", STEP, FORCE), ("", "acc", "", STEP, ODD)])
+    np.savez_compressed(OUT / "packed.npz", x=np.stack([FORCE, ODD]), fs=1000.0, names=np.array(["Acc 7", "Acc 9"]))
+    expect("packed.npz", "npz", [("", "Acc 7", "", STEP, FORCE), ("", "Acc 9", "", STEP, ODD)])
+
+
+def uffs():
+    import pyuff
+    frf = {"type": 58, "func_type": 4, "rsp_node": 12, "rsp_dir": 3, "ref_node": 1, "ref_dir": -3, "rsp_ent_name": "", "ref_ent_name": "", "data": FRF, "x": I * 0.5,
+           "id1": "hammer", "abscissa_spec_data_type": 18, "ordinate_spec_data_type": 12, "orddenom_spec_data_type": 13,
+           "ordinate_axis_units_lab": "m/s^2", "orddenom_axis_units_lab": "N", "abscissa_axis_units_lab": "Hz", "orddenom_axis_lab": "Force"}
+    time = {"type": 58, "func_type": 1, "rsp_node": 7, "rsp_dir": 1, "ref_node": 0, "ref_dir": 0, "data": ODD, "x": I * 0.5, "id1": "shaker",
+            "abscissa_spec_data_type": 17, "ordinate_spec_data_type": 12, "ordinate_axis_units_lab": "g", "abscissa_axis_units_lab": "s", "orddenom_spec_data_type": 0}
+    for name, binary in [("ascii.uff", 0), ("binary.uff", 1)]:
+        path = OUT / name
+        path.unlink(missing_ok=True)
+        for data in [frf, time]:
+            pyuff.UFF(str(path)).write_sets({**data, "binary": binary}, "add")
+        b = "b" if binary else ""
+        read = pyuff.UFF(str(path)).read_sets()
+        expect(name, "uff", [(f"1 (58{b}) frequency response", "12:+Z/1:-Z", "(m/s^2)/(N)", 0.5, read[0]["data"]),
+                             (f"2 (58{b}) time response", "7:+X", "g", 0.5, read[1]["data"])])
+
+
+import scipy.io.wavfile  # noqa: E402
+import scipy.sparse  # noqa: E402
+
+for make in [tables, lvms, sheets, mats, hdf5s, tdms, wavs, numpys, uffs]:
+    make()
+(OUT / "expected.json").write_text(json.dumps(EXPECTED, indent=0) + "\n")
+print(f"{len(EXPECTED)} files in {OUT}")

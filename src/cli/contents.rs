@@ -1,0 +1,158 @@
+//! `dashpot contents`: what is in measurement files, before anything is decided.
+
+use super::arguments::Contents as Arguments;
+use anyhow::{Context, ensure};
+use dashpot_datafiles::{Channel, DataFile, Number, Set, open};
+use serde_json::{Map, Value, json};
+use std::path::{Path, PathBuf};
+
+/// Most channels of a set in a listing for people.
+const MOST_LISTED: usize = 40;
+/// Deepest folders.
+const DEEPEST: usize = 8;
+
+pub(super) fn run(arguments: &Arguments) -> anyhow::Result<String> {
+    let mut files = Vec::new();
+    for path in &arguments.files {
+        collect(path, &mut files, 0)?;
+    }
+    ensure!(!files.is_empty(), "{}: the folder has no file", arguments.files[0].display());
+    // One file alone must be readable; of several those that are not are told in their place.
+    let alone = files.len() == 1 && !arguments.files[0].is_dir();
+    let (mut entries, mut text) = (Vec::new(), String::new());
+    for path in &files {
+        match open(path) {
+            Ok(file) => {
+                text.push_str(&tree(&file));
+                entries.push(entry(&file));
+            }
+            Err(error) if alone => return Err(error.into()),
+            Err(error) => {
+                text.push_str(&format!("{error}\n"));
+                entries.push(json!({"file": path.display().to_string(), "error": error.to_string()}));
+            }
+        }
+    }
+    if !arguments.json {
+        return Ok(text);
+    }
+    let document = if alone { entries.remove(0) } else { json!({ "files": entries }) };
+    Ok(serde_json::to_string_pretty(&document)? + "\n")
+}
+
+/// The file, or the files of a folder and of those in it, in the order of their names.
+fn collect(path: &Path, files: &mut Vec<PathBuf>, depth: usize) -> anyhow::Result<()> {
+    if !path.is_dir() {
+        files.push(path.to_owned());
+        return Ok(());
+    }
+    if depth > DEEPEST {
+        return Ok(());
+    }
+    let listing = std::fs::read_dir(path).with_context(|| format!("{}: the folder cannot be read", path.display()))?;
+    let mut inside: Vec<PathBuf> = listing.filter_map(Result::ok).map(|entry| entry.path()).collect();
+    inside.sort();
+    let hidden = |path: &PathBuf| path.file_name().is_some_and(|name| name.to_string_lossy().starts_with('.'));
+    for path in inside.iter().filter(|path| !hidden(path) && !path.is_symlink()) {
+        collect(path, files, depth + 1)?;
+    }
+    Ok(())
+}
+
+fn entry(file: &DataFile) -> Value {
+    let contents = file.contents();
+    json!({
+        "file": file.path().display().to_string(),
+        "format": contents.format.word(),
+        "sets": contents.sets.iter().map(set).collect::<Vec<_>>(),
+        "notes": contents.notes,
+    })
+}
+
+fn set(set: &Set) -> Value {
+    json!({
+        "name": set.name,
+        "kind": set.kind.word(),
+        "axis_unit": set.axis_unit,
+        "channels": set.channels.iter().map(channel).collect::<Vec<_>>(),
+        "notes": set.notes,
+    })
+}
+
+fn channel(channel: &Channel) -> Value {
+    let attributes: Map<String, Value> =
+        channel.attributes.iter().map(|(word, value)| (word.clone(), json!(value))).collect();
+    json!({
+        "name": channel.name,
+        "unit": channel.unit,
+        "count": channel.count,
+        "step": channel.axis.step(),
+        "complex": channel.complex,
+        "first": channel.first.iter().map(number).collect::<Vec<_>>(),
+        "attributes": attributes,
+    })
+}
+
+/// A number; those that are not finite are null.
+fn number(number: &Number) -> Value {
+    match number {
+        Number::Real(value) => json!(value),
+        Number::Complex(parts) => json!(parts),
+    }
+}
+
+/// A file as a tree for people.
+fn tree(file: &DataFile) -> String {
+    let contents = file.contents();
+    let mut text = format!("{} ({})\n", file.path().display(), contents.format.word());
+    for note in &contents.notes {
+        text.push_str(&format!("  note: {note}\n"));
+    }
+    for set in &contents.sets {
+        let name = if set.name.is_empty() { "(set)" } else { set.name.as_str() };
+        text.push_str(&format!("  {name}: {}\n", set.kind.word()));
+        let width =
+            set.channels.iter().take(MOST_LISTED).map(|channel| channel.name.chars().count()).max().unwrap_or(0);
+        for channel in set.channels.iter().take(MOST_LISTED) {
+            text.push_str(&format!("    {}\n", line(channel, &set.axis_unit, width.min(48))));
+        }
+        if set.channels.len() > MOST_LISTED {
+            text.push_str(&format!("    … and {} more channels\n", set.channels.len() - MOST_LISTED));
+        }
+        for note in set.notes.iter().take(8) {
+            text.push_str(&format!("    note: {note}\n"));
+        }
+    }
+    text
+}
+
+fn line(channel: &Channel, axis_unit: &str, width: usize) -> String {
+    let unit = if channel.unit.is_empty() { String::new() } else { format!("[{}]", channel.unit) };
+    let step = match channel.axis.step() {
+        Some(step) if axis_unit == "s" => format!(", step {step} s ({} Hz)", short(1.0 / step)),
+        Some(step) => format!(", step {step} {axis_unit}"),
+        None => String::new(),
+    };
+    let first: Vec<String> = channel
+        .first
+        .iter()
+        .map(|number| match number {
+            Number::Real(value) => short(*value),
+            Number::Complex([re, im]) => {
+                format!("{}{}i", short(*re), if *im < 0.0 { short(*im) } else { format!("+{}", short(*im)) })
+            }
+        })
+        .collect();
+    let dots = if channel.count > channel.first.len() as u64 { ", …" } else { "" };
+    format!("{:width$}  {unit:8} {} values{step}: {}{dots}", channel.name, channel.count, first.join(", "))
+}
+
+/// A number with at most six digits.
+fn short(value: f64) -> String {
+    if value != 0.0 && !(1e-4..1e6).contains(&value.abs()) {
+        return format!("{value:.5e}");
+    }
+    let digits = if value == 0.0 { 0 } else { (5 - value.abs().log10().floor() as i32).max(0) as usize };
+    let text = format!("{value:.digits$}");
+    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
+}

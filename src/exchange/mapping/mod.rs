@@ -1,0 +1,13 @@
+//! Laboratory files as runs: which channel of a file is which quantity at which DOF, in which unit and sense.
+//!
+//! The mapping is a template in the project, `[[channel]]`, and holds for all its files of the same layout. Files are opened
+//! by `dashpot_datafiles` and never rewritten.
+
+pub mod propose;
+mod read;
+pub mod table;
+pub mod units;
+
+pub use propose::{Proposal, propose};
+pub(crate) use read::{Template, read_mapped, reads_as_own};
+pub use table::ChannelTable;

@@ -1,0 +1,51 @@
+//! Table `[[channel]]`: one channel of the laboratory files of a project.
+
+use crate::measurement::Quantity;
+use serde::{Serialize, Serializer};
+
+/// Table `[[channel]]`.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ChannelTable {
+    /// Name of the channel in the file.
+    pub name: String,
+    /// Name of the set in the file, where several have that channel.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub set: Option<String>,
+    /// What it measures.
+    #[serde(serialize_with = "word")]
+    pub quantity: Quantity,
+    /// DOF it is at.
+    #[serde(serialize_with = "label")]
+    pub dof: String,
+    /// Unit of its numbers, where the file says none or a wrong one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub unit: Option<String>,
+    /// -1 where it is positive against the direction of its DOF.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub sign: Option<i64>,
+    /// Calibration: units a number of the file.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub factor: Option<f64>,
+    /// How late it is recorded, s.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub delay: Option<f64>,
+}
+
+fn word<S: Serializer>(quantity: &Quantity, serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.serialize_str(quantity.word())
+}
+
+/// A label that is a number is written without quotes.
+fn label<S: Serializer>(label: &str, serializer: S) -> Result<S::Ok, S::Error> {
+    match label.parse::<i64>() {
+        Ok(number) if number.to_string() == label => serializer.serialize_i64(number),
+        _ => serializer.serialize_str(label),
+    }
+}
+
+impl ChannelTable {
+    /// Name of the channel in the project, such as `acc@7`.
+    pub fn channel(&self) -> String {
+        format!("{}@{}", self.quantity.word(), self.dof)
+    }
+}

@@ -1,0 +1,105 @@
+//! Units as measuring systems write them, beside those of the project's own files.
+
+use crate::measurement::Quantity;
+use crate::measurement::channel::{POUND_FORCE, STANDARD_GRAVITY, Unit};
+
+/// A unit of a laboratory file.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LabUnit {
+    /// Factor to SI.
+    pub to_si: f64,
+    /// Quantity that is measured in it.
+    pub quantity: Quantity,
+    /// Whether it is a unit of rotation.
+    pub rotation: bool,
+}
+
+const INCH: f64 = 0.0254;
+const FOOT: f64 = 0.3048;
+
+/// Spellings in lower case without blanks, brackets and carets, with their factor and quantity.
+const SPELLINGS: [(&[&str], f64, Quantity); 22] = [
+    (&["n", "newton", "newtons"], 1.0, Quantity::Force),
+    (&["mn"], 1e-3, Quantity::Force),
+    (&["kn"], 1e3, Quantity::Force),
+    (&["lbf", "lb", "lbs", "pound"], POUND_FORCE, Quantity::Force),
+    (&["kgf", "kp"], STANDARD_GRAVITY, Quantity::Force),
+    (&["m/s2", "m/s²", "m/s**2", "ms-2", "m/(s2)", "m/s/s", "m*s-2"], 1.0, Quantity::Acceleration),
+    (&["mm/s2", "mm/s²", "mm/s**2"], 1e-3, Quantity::Acceleration),
+    (&["g", "gn", "g_n", "gs", "g's", "gravity"], STANDARD_GRAVITY, Quantity::Acceleration),
+    (&["mg"], 1e-3 * STANDARD_GRAVITY, Quantity::Acceleration),
+    (&["in/s2", "in/s²", "in/s**2"], INCH, Quantity::Acceleration),
+    (&["ft/s2", "ft/s²", "ft/s**2"], FOOT, Quantity::Acceleration),
+    (&["m/s", "ms-1"], 1.0, Quantity::Velocity),
+    (&["mm/s"], 1e-3, Quantity::Velocity),
+    (&["cm/s"], 1e-2, Quantity::Velocity),
+    (&["in/s", "ips"], INCH, Quantity::Velocity),
+    (&["m", "meter", "metre"], 1.0, Quantity::Displacement),
+    (&["cm"], 1e-2, Quantity::Displacement),
+    (&["mm"], 1e-3, Quantity::Displacement),
+    (&["um", "µm", "μm", "micron", "microns"], 1e-6, Quantity::Displacement),
+    (&["in", "inch", "inches"], INCH, Quantity::Displacement),
+    (&["mil", "mils"], 1e-3 * INCH, Quantity::Displacement),
+    (&["ft"], FOOT, Quantity::Displacement),
+];
+
+/// Units of rotation.
+const ROTATIONS: [(&[&str], f64, Quantity); 8] = [
+    (&["nm", "n*m", "n·m", "n-m", "n.m"], 1.0, Quantity::Force),
+    (&["rad/s2", "rad/s²", "rad/s**2"], 1.0, Quantity::Acceleration),
+    (&["deg/s2", "deg/s²", "°/s2", "°/s²"], std::f64::consts::PI / 180.0, Quantity::Acceleration),
+    (&["rad/s"], 1.0, Quantity::Velocity),
+    (&["deg/s", "°/s"], std::f64::consts::PI / 180.0, Quantity::Velocity),
+    (&["rad"], 1.0, Quantity::Displacement),
+    (&["mrad"], 1e-3, Quantity::Displacement),
+    (&["deg", "°", "degree", "degrees"], std::f64::consts::PI / 180.0, Quantity::Displacement),
+];
+
+impl LabUnit {
+    /// The unit of that spelling.
+    pub fn from_name(name: &str) -> Option<Self> {
+        if let Some(unit) = Unit::from_name(name) {
+            return Some(Self { to_si: unit.to_si, quantity: unit.quantity, rotation: unit.rotation });
+        }
+        let plain: String = name.chars().filter(|c| !c.is_whitespace() && !matches!(c, '^' | '[' | ']')).collect();
+        // Capital letters matter in one place: mN is a millinewton, MN is not read.
+        if plain == "MN" || plain == "Mg" {
+            return None;
+        }
+        let plain = plain.to_lowercase();
+        let find = |list: &[(&[&str], f64, Quantity)], rotation| {
+            let found = list.iter().find(|(spellings, ..)| spellings.contains(&plain.as_str()));
+            found.map(|&(_, to_si, quantity)| Self { to_si, quantity, rotation })
+        };
+        find(&SPELLINGS, false).or_else(|| find(&ROTATIONS, true))
+    }
+
+    /// Units of a quantity for a message.
+    pub fn names_of(quantity: Quantity) -> &'static str {
+        match quantity {
+            Quantity::Force => "N, mN, kN, lbf, kgf, N m",
+            Quantity::Acceleration => "m/s^2, mm/s^2, g, mg, in/s^2, ft/s^2, rad/s^2, deg/s^2",
+            Quantity::Velocity => "m/s, mm/s, cm/s, in/s, rad/s, deg/s",
+            Quantity::Displacement => "m, cm, mm, um, in, mil, ft, rad, mrad, deg",
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "tests")]
+    use super::*;
+
+    #[test]
+    fn spellings_of_laboratories() {
+        let si = |name: &str| LabUnit::from_name(name).map(|unit| (unit.to_si, unit.quantity, unit.rotation));
+        assert_eq!(si("g"), Some((9.806_65, Quantity::Acceleration, false)));
+        assert_eq!(si("m/s²"), Some((1.0, Quantity::Acceleration, false)));
+        assert_eq!(si("(m/s^2)"), None);
+        assert_eq!(si("mm/s^2"), Some((1e-3, Quantity::Acceleration, false)));
+        assert_eq!(si("mN"), Some((1e-3, Quantity::Force, false)));
+        assert_eq!(si("MN"), None);
+        assert_eq!(si("deg"), Some((std::f64::consts::PI / 180.0, Quantity::Displacement, true)));
+        assert_eq!(si("Volts"), None);
+    }
+}

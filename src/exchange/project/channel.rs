@@ -1,0 +1,75 @@
+//! Tables `[[channel]]`: which channel of the laboratory files is which quantity, where.
+
+use super::error::{Problem, ProjectError};
+use super::file::Lines;
+use super::reader::{Origin, Table, one_line};
+use crate::exchange::mapping::{ChannelTable, units::LabUnit};
+use crate::measurement::Quantity;
+use toml::de::DeTable;
+
+const QUANTITIES: [&str; 4] = ["force", "acc", "vel", "disp"];
+
+/// Reads the tables of a project.
+pub(super) fn parse(root: &Table<'_>, lines: &mut Lines) -> Result<Vec<ChannelTable>, ProjectError> {
+    let mut channels: Vec<ChannelTable> = Vec::new();
+    for table in root.tables("channel", "[[channel]]")? {
+        let channel = one(&table)?;
+        if let Some(first) = channels.iter().position(|other| other.channel() == channel.channel()) {
+            let what = format!("the channel {}", channel.channel());
+            return Err(table.error("dof", Problem::Twice { what, first: lines.channel[first] }));
+        }
+        channels.push(channel);
+        lines.channel.push(table.line());
+    }
+    Ok(channels)
+}
+
+/// Reads the tables `[[channel]]` of a template or of a whole project, called `file` in messages.
+///
+/// # Errors
+/// [`ProjectError`] with the line of the first thing that is wrong.
+pub fn template(text: &str, file: &str) -> Result<Vec<ChannelTable>, ProjectError> {
+    let origin = Origin { file, text };
+    let document = DeTable::parse(text).map_err(|error| {
+        let message = one_line(error.message());
+        origin.error(error.span().map_or(0, |span| span.start), Problem::Syntax { message })
+    })?;
+    let channels = parse(&Table::root(origin, document.get_ref()), &mut Lines::default())?;
+    if channels.is_empty() {
+        let (what, example) = ("[[channel]]", "[[channel]] with `name`, `quantity` and `dof`");
+        return Err(ProjectError::new(file, None, Problem::Empty { table: "the template".into(), what, example }));
+    }
+    Ok(channels)
+}
+
+fn one(table: &Table<'_>) -> Result<ChannelTable, ProjectError> {
+    table.only(&["name", "set", "quantity", "dof", "unit", "sign", "factor", "delay"])?;
+    let out = |key: &str, value: String, range| table.error(key, Problem::OutOfRange { key: key.into(), value, range });
+    let sign = table.whole("sign")?;
+    if let Some(value) = sign.filter(|sign| sign.abs() != 1) {
+        return Err(out("sign", value.to_string(), "1 or -1"));
+    }
+    let factor = table.number("factor")?;
+    if let Some(value) = factor.filter(|factor| *factor == 0.0) {
+        return Err(out("factor", value.to_string(), "other than 0"));
+    }
+    let unit = table.text("unit")?;
+    let quantity = table.word("quantity", &QUANTITIES, Quantity::from_word)?;
+    let quantity = table.need("quantity", "quantity = \"acc\"", quantity)?;
+    if let Some(value) =
+        unit.as_deref().filter(|unit| LabUnit::from_name(unit).is_none_or(|unit| unit.quantity != quantity))
+    {
+        let allowed = LabUnit::names_of(quantity).to_owned();
+        return Err(table.error("unit", Problem::NotAllowed { key: "unit".into(), value: one_line(value), allowed }));
+    }
+    Ok(ChannelTable {
+        name: table.need("name", "name = \"Acc 7\"", table.text("name")?)?,
+        set: table.text("set")?,
+        quantity,
+        dof: table.need("dof", "dof = 7", table.label("dof")?)?,
+        unit,
+        sign,
+        factor,
+        delay: table.number("delay")?,
+    })
+}

@@ -1,0 +1,123 @@
+//! Laboratory files as runs: the mapping of a project against the project's own CSV, and what is refused.
+
+use dashpot::control::Control;
+use dashpot::exchange::mapping::propose;
+use dashpot::exchange::project::{plan, template};
+use dashpot::measurement::Record;
+use std::path::Path;
+
+const HEAD: &str = "[project]\nformat = 1\n[structure]\nkind = \"chain\"\nmasses = [1.0, 2.0]\nground_stiffness = [1e4, 0.0]\ncoupling_stiffness = [1e4]\n";
+
+/// Samples of three channels.
+fn rows() -> impl Iterator<Item = (f64, f64, f64, f64)> {
+    (0..64).map(|i| (f64::from(i) / 1024.0, f64::from(i % 7) / 8.0, f64::from(i % 5) / 16.0, f64::from(i % 3) / 4.0))
+}
+
+fn record(folder: &Path, tables: &str) -> Result<Record, String> {
+    let path = folder.join("project.toml");
+    let plan = plan(&format!("{HEAD}{tables}"), &path).map_err(|error| error.to_string())?;
+    plan.record(0, &Control::unattended()).map_err(|error| error.to_string())
+}
+
+/// A German export: no unit in the names, a row of units, decimal commas, a reversed channel and one in g.
+fn export(folder: &Path) {
+    let mut text = "Versuch 7\n\nZeit;Kraft 1;Acc 1;Acc 2\ns;kN;g;m/s^2\n".to_owned();
+    for (t, force, a, b) in rows() {
+        text.push_str(&format!("{t};{};{};{}\n", force / 1000.0, a, -b).replace('.', ","));
+    }
+    std::fs::write(folder.join("lab.csv"), text).unwrap();
+}
+
+const MAP: &str = "
+[[channel]]
+name = \"Kraft 1\"
+quantity = \"force\"
+dof = 1
+[[channel]]
+name = \"Acc 1\"
+quantity = \"acc\"
+dof = 1
+factor = 2.0
+[[channel]]
+name = \"Acc 2\"
+quantity = \"acc\"
+dof = 2
+sign = -1
+[[run]]
+file = \"lab.csv\"
+";
+
+#[test]
+fn a_mapped_file_is_the_record_that_a_csv_of_our_own_would_be() {
+    let folder = tempfile::tempdir().unwrap();
+    export(folder.path());
+    let mapped = record(folder.path(), MAP).unwrap();
+    let mut text = "time [s],force@1 [kN],acc@1 [g],acc@2 [m/s^2]\n".to_owned();
+    for (t, force, a, b) in rows() {
+        text.push_str(&format!("{t},{},{},{b}\n", force / 1000.0, 2.0 * a));
+    }
+    std::fs::write(folder.path().join("own.csv"), text).unwrap();
+    // The same project reads both: the names of the second are the project's own.
+    let own = record(folder.path(), &MAP.replace("lab.csv", "own.csv")).unwrap();
+    assert_eq!(mapped.channels(), own.channels());
+    assert_eq!(mapped.time(), own.time());
+    for channel in 0..3 {
+        for (a, b) in mapped.samples(channel).iter().zip(own.samples(channel)) {
+            assert!((a - b).abs() <= 1e-15 * b.abs(), "{a} {b}");
+        }
+    }
+}
+
+#[test]
+fn what_cannot_be_mapped_is_one_line() {
+    let folder = tempfile::tempdir().unwrap();
+    export(folder.path());
+    let fail = |from: &str, to: &str| {
+        let error = record(folder.path(), &MAP.replace(from, to)).unwrap_err();
+        assert!(!error.contains('\n'), "{error}");
+        error
+    };
+    assert!(
+        fail("\"Acc 2\"", "\"Acc 3\"").contains(
+            "channel \"Acc 3\": the file has no channel of that name; it has \"Kraft 1\", \"Acc 1\", \"Acc 2\""
+        )
+    );
+    assert!(fail("dof = 2\n", "dof = 5\n").contains("the structure has no DOF \"5\""));
+    assert!(fail("sign = -1", "unit = \"mm\"").contains("`unit = \"mm\"` is not understood; use one of m/s^2"));
+    assert!(fail("sign = -1", "sign = 2").contains("`sign = 2` is not a usable number; it must be 1 or -1"));
+    assert!(fail("dof = 2\n", "dof = 1\n").contains("the channel acc@1 is given twice"));
+    assert!(fail("quantity = \"force\"", "quantity = \"vel\"").contains("kN is not a unit of vel"));
+    assert!(fail("file = \"lab.csv\"", "file = \"lab.csv\"\nset = \"B\"").contains("the file has no set \"B\""));
+    assert!(
+        fail("file = \"lab.csv\"", "file = \"lab.csv\"\nsampling_hz = 2000")
+            .contains("is sampled at 1024 Hz and `sampling_hz` says 2000")
+    );
+    std::fs::write(folder.path().join("lab.csv"), "Kraft 1 [N],Acc 1 [g],Acc 2 [Volts]\n1,2,3\n2,3,4\n").unwrap();
+    assert!(
+        fail("x", "x").contains("the file does not say the time between samples; add `sampling_hz` to its [[run]]")
+    );
+    let volts = fail("file = \"lab.csv\"", "file = \"lab.csv\"\nsampling_hz = 2000");
+    assert!(volts.contains("\"Volts\" is no known unit; add `unit` to its [[channel]]"), "{volts}");
+    std::fs::write(
+        folder.path().join("lab.csv"),
+        "time [s],Acc 1 [g],Acc 1 [g],Acc 2 [g],Kraft 1 [N]\n1,2,3,4,5\n2,3,4,5,6\n",
+    )
+    .unwrap();
+    assert!(fail("x", "x").contains("two channels of the set have that name"));
+}
+
+#[test]
+fn proposals_read_back_as_a_template() {
+    let folder = tempfile::tempdir().unwrap();
+    export(folder.path());
+    let file = dashpot_datafiles::open(&folder.path().join("lab.csv")).unwrap();
+    let proposal = propose(file.contents());
+    let names: Vec<String> = proposal.channels.iter().map(|table| table.channel()).collect();
+    assert_eq!(names, ["force@1", "acc@1", "acc@2"]);
+    #[derive(serde::Serialize)]
+    struct Tables<'a> {
+        channel: &'a [dashpot::exchange::mapping::ChannelTable],
+    }
+    let text = toml::to_string(&Tables { channel: &proposal.channels }).unwrap();
+    assert_eq!(template(&text, "template.toml").unwrap(), proposal.channels);
+}
