@@ -2,6 +2,7 @@
 
 use super::arguments::Analysis;
 use super::diagnose::{corrected, correction};
+use super::reduction;
 use super::table::{number, table};
 use crate::control::Control;
 use crate::exchange::{Project, project::load};
@@ -24,17 +25,24 @@ const SIGNIFICANT: f64 = 0.001;
 pub(super) fn run(arguments: &Analysis) -> anyhow::Result<String> {
     let control = Control::unattended().with_workers(Arc::new(Threads::default()));
     let project = load(&arguments.file, &control)?;
+    reduction::warn(&project.structure);
     let comparison =
         compare(&problem(&project), &[], &control).with_context(|| arguments.file.display().to_string())?;
     let reading = detuning(&problem(&project), &control).with_context(|| arguments.file.display().to_string())?;
     if arguments.json {
         let mut document = document(&project, &comparison);
+        document["reduction"] = reduction::document(&project.structure);
         if let Some(reading) = &reading {
             document["reading"] = read(&project, reading);
         }
         return Ok(format!("{}\n", serde_json::to_string_pretty(&document)?));
     }
-    Ok(format!("{}{}", text(&project, &comparison), reading.map_or_else(String::new, |r| in_words(&project, &r))))
+    let reduced = reduction::text(&project.structure);
+    Ok(format!(
+        "{}{reduced}{}",
+        text(&project, &comparison),
+        reading.map_or_else(String::new, |r| in_words(&project, &r))
+    ))
 }
 
 /// Whether the model is detuned or lacks an effect.

@@ -32,6 +32,7 @@ pub(super) fn run(arguments: &Identify) -> anyhow::Result<String> {
 pub(super) fn identified(file: &Path, ratios: Option<&Path>) -> anyhow::Result<(Project, Outcome)> {
     let control = Control::unattended().with_workers(Arc::new(Threads::default()));
     let project = load(file, &control)?;
+    super::reduction::warn(&project.structure);
     let ratios = ratios.map_or_else(|| Ok(Vec::new()), |choice| measured(&project, choice))?;
     for r in &ratios {
         let [value, deviation] = [r.ratio, r.deviation].map(|v| 100.0 * v);

@@ -19,6 +19,7 @@ const MOST_DOFS: usize = 8;
 pub(super) fn report(project: &Project, outcome: &Outcome) -> String {
     let parts = [
         format!("{}\n", project.title),
+        super::reduction::text(&project.structure),
         runs(project, outcome),
         selection(project, outcome),
         format!("Accepted: {} sources. {}\n", outcome.accepted_step().count, outcome.reason),

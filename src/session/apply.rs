@@ -152,7 +152,7 @@ fn import_run(file: &mut ProjectFile, name: String) -> Done {
     if file.run.iter().any(|run| run.file == name) {
         return Err(Refusal::RunTwice { file: name });
     }
-    file.run.push(RunTable { file: name, frequency: None, level: None, enabled: true, force_dof: None, force_n: None });
+    file.run.push(RunTable { file: name, frequency: None, level: None, enabled: true, ..RunTable::default() });
     Ok(())
 }
 

@@ -38,6 +38,9 @@ pub struct ProjectFile {
     /// Tables `[[harmonics]]`.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub harmonics: Vec<HarmonicsTable>,
+    /// Table `[base]`.
+    #[serde(skip_serializing_if = "is_default")]
+    pub base: BaseTable,
     /// Table `[analysis]`.
     #[serde(skip_serializing_if = "is_default")]
     pub analysis: Settings,
@@ -88,7 +91,7 @@ pub enum Shape {
 }
 
 /// Files of a structure that is given by its matrices, relative to the project.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct MatricesTable {
     /// Mass matrix.
     pub mass: String,
@@ -103,6 +106,30 @@ pub struct MatricesTable {
     /// Table of lines.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub lines: Option<String>,
+    /// Name of the mass matrix in a file of several.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub mass_name: Option<String>,
+    /// Name of the stiffness matrix in a file of several.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub stiffness_name: Option<String>,
+    /// Table `[structure.reduce]`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub reduce: Option<ReduceTable>,
+}
+
+/// Table `[structure.reduce]`.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ReduceTable {
+    /// `guyan` or `craig-bampton`.
+    pub method: String,
+    /// Fixed-interface modes are kept up to this frequency, Hz.
+    pub up_to_hz: f64,
+    /// The error is told up to this frequency, Hz; half of `up_to_hz` unless given.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub band_hz: Option<f64>,
+    /// DOFs that are kept beside those that the project names.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub dofs: Vec<Label>,
 }
 
 /// Measured points.
@@ -173,7 +200,7 @@ pub struct SensorTable {
 }
 
 /// Table `[[run]]`.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize)]
 pub struct RunTable {
     /// Record, relative to the project.
     pub file: String,
@@ -192,6 +219,33 @@ pub struct RunTable {
     /// Amplitude of the force in a recipe, N.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub force_n: Option<f64>,
+    /// Direction in which the base moves in a recipe: `x`, `y` or `z`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub base: Option<String>,
+    /// Amplitude of the base's acceleration in a recipe, m/s^2.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub base_m_s2: Option<f64>,
+    /// Whether the motions of the record are absolute or relative to the base; as `[base]` says unless given.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub response: Option<BaseResponse>,
+}
+
+/// Table `[base]`: a structure on a moving base.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
+pub struct BaseTable {
+    /// What the motions of the records are.
+    pub response: BaseResponse,
+}
+
+/// What a sensor on a structure with a moving base shows.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum BaseResponse {
+    /// The motion in space: accelerometers.
+    #[default]
+    Absolute,
+    /// The motion against the base: displacement sensors on the table.
+    Relative,
 }
 
 /// Table `[[harmonics]]`.

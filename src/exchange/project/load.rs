@@ -38,6 +38,8 @@ impl Plan {
         let fitted = self.harmonics()?.into_iter();
         runs.extend(fitted.map(|run| Run::from_harmonics(run.name, None, true, run.fit, &corrections)));
         self.check_sensors(&runs)?;
+        let runs = runs.into_iter().enumerate().map(|(index, run)| self.on_its_base(index, run));
+        let runs = runs.collect::<Result<Vec<Run>, ProjectError>>()?;
         Ok(Project {
             title: self.file.project.title,
             notes: self.file.project.notes,

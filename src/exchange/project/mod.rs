@@ -1,9 +1,12 @@
 //! Project files: TOML to [`ProjectFile`] (as written), to [`Plan`] (built), to [`Project`](super::Project) (records
 //! read and fitted).
 
+pub mod base;
 pub mod error;
 pub mod file;
+mod kept;
 pub mod load;
+mod model;
 mod parse;
 pub mod plan;
 mod reader;
@@ -15,4 +18,4 @@ mod structure;
 pub use error::{Problem, ProjectError};
 pub use file::{Lines, ProjectFile};
 pub use load::load;
-pub use plan::{Plan, PlannedForce, PlannedRun, open, plan};
+pub use plan::{Plan, PlannedBase, PlannedForce, PlannedRun, open, plan};

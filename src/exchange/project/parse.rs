@@ -2,8 +2,8 @@
 
 use super::error::{Problem, ProjectError};
 use super::file::{
-    CandidatesTable, FORMAT, HarmonicsTable, Header, Label, Lines, MatricesTable, PointsTable, ProjectFile, RunTable,
-    SensorTable, Shape, SimulateTable, SourceTable, StructureTable,
+    BaseResponse, BaseTable, CandidatesTable, FORMAT, HarmonicsTable, Header, Label, Lines, MatricesTable, PointsTable,
+    ProjectFile, ReduceTable, RunTable, SensorTable, Shape, SimulateTable, SourceTable, StructureTable,
 };
 use super::reader::{Origin, Table, one_line};
 use super::ruled_out;
@@ -11,18 +11,32 @@ use crate::balance::{Expansion, Weights};
 use crate::effects::family::Family;
 use crate::effects::{Effect, State};
 use crate::identify::Settings;
+use crate::measurement::base::AXES;
 use crate::structure::LumpedMass;
 use crate::structure::beam::{BeamParameters, Supports};
 use crate::structure::chain::ChainParameters;
+use crate::structure::reduction::Method;
 use std::collections::BTreeMap;
 use toml::de::DeTable;
 
-const TABLES: [&str; 10] =
-    ["project", "structure", "source", "candidates", "sensor", "ruled_out", "run", "harmonics", "analysis", "simulate"];
+const TABLES: [&str; 11] = [
+    "project",
+    "structure",
+    "source",
+    "candidates",
+    "sensor",
+    "ruled_out",
+    "run",
+    "harmonics",
+    "base",
+    "analysis",
+    "simulate",
+];
 const BEAM: [&str; 9] =
     ["kind", "lumped_mass", "length", "breadth", "depth", "youngs_modulus", "density", "elements", "supports"];
 const CHAIN: [&str; 5] = ["kind", "lumped_mass", "masses", "ground_stiffness", "coupling_stiffness"];
-const MATRICES: [&str; 7] = ["kind", "lumped_mass", "mass", "stiffness", "nodes", "dofs", "lines"];
+const MATRICES: [&str; 10] =
+    ["kind", "lumped_mass", "mass", "stiffness", "nodes", "dofs", "lines", "mass_name", "stiffness_name", "reduce"];
 const POINTS: [&str; 4] = ["kind", "lumped_mass", "dofs", "positions"];
 const ANALYSIS: [&str; 6] = ["harmonics", "expansion", "keep", "weights", "max_sources", "stop_angle_deg"];
 
@@ -58,6 +72,7 @@ impl ProjectFile {
             ruled_out: ruled_out::parse(&root, &mut lines)?,
             run: runs(&root, &mut lines)?,
             harmonics: harmonics(&root, &mut lines)?,
+            base: base(&root)?,
             analysis: analysis(&root)?,
             simulate: simulate(&root, &mut lines)?,
         };
@@ -148,6 +163,28 @@ fn matrices(table: &Table<'_>) -> Read<MatricesTable> {
         nodes: table.text("nodes")?,
         dofs: table.text("dofs")?,
         lines: table.text("lines")?,
+        mass_name: table.text("mass_name")?,
+        stiffness_name: table.text("stiffness_name")?,
+        reduce: table.table("reduce", "[structure.reduce]")?.map(|table| reduce(&table)).transpose()?,
+    })
+}
+
+fn reduce(table: &Table<'_>) -> Read<ReduceTable> {
+    table.only(&["method", "up_to_hz", "band_hz", "dofs"])?;
+    let names = [Method::CraigBampton, Method::Guyan].map(Method::name);
+    let method = table.word("method", &names, Method::from_name)?.unwrap_or(Method::CraigBampton);
+    let frequency = |key: &'static str| match table.number(key)? {
+        Some(value) if value <= 0.0 => {
+            let (key, range) = (key.to_owned(), "above 0 Hz");
+            Err(table.error(&key.clone(), Problem::OutOfRange { key, value: value.to_string(), range }))
+        }
+        value => Ok(value),
+    };
+    Ok(ReduceTable {
+        method: method.name().to_owned(),
+        up_to_hz: table.need("up_to_hz", "up_to_hz = 2000.0", frequency("up_to_hz")?)?,
+        band_hz: frequency("band_hz")?,
+        dofs: table.labels("dofs")?.unwrap_or_default().into_iter().map(Label).collect(),
     })
 }
 
@@ -239,7 +276,8 @@ fn sensors(root: &Table<'_>, lines: &mut Lines) -> Read<Vec<SensorTable>> {
 fn runs(root: &Table<'_>, lines: &mut Lines) -> Read<Vec<RunTable>> {
     let mut runs = Vec::new();
     for table in root.tables("run", "[[run]]")? {
-        table.only(&["file", "frequency", "level", "use", "force_dof", "force_n"])?;
+        let keys = ["file", "frequency", "level", "use", "force_dof", "force_n", "base", "base_m_s2", "response"];
+        table.only(&keys)?;
         let frequency = table.number("frequency")?;
         if let Some(value) = frequency.filter(|f| *f <= 0.0) {
             let (key, range) = ("frequency".to_owned(), "above 0 Hz");
@@ -263,10 +301,41 @@ fn runs(root: &Table<'_>, lines: &mut Lines) -> Read<Vec<RunTable>> {
             enabled: table.flag("use")?.unwrap_or(true),
             force_dof,
             force_n,
+            base: table.word("base", &AXES, |word| AXES.contains(&word).then(|| word.to_owned()))?,
+            base_m_s2: table.number("base_m_s2")?,
+            response: response(&table)?,
         });
+        half_a_base(&table, runs.last())?;
         lines.run.push(key_lines(&table));
     }
     Ok(runs)
+}
+
+/// A direction and an amplitude belong together.
+fn half_a_base(table: &Table<'_>, run: Option<&RunTable>) -> Read<()> {
+    let (key, other) = match run.map(|run| (run.base.is_some(), run.base_m_s2.is_some())) {
+        Some((true, false)) => ("base", "base_m_s2"),
+        Some((false, true)) => ("base_m_s2", "base"),
+        _ => return Ok(()),
+    };
+    Err(table.error(key, Problem::HalfAForce { key, other }))
+}
+
+/// `response = "absolute"` or `"relative"`.
+fn response(table: &Table<'_>) -> Read<Option<BaseResponse>> {
+    table.word("response", &["absolute", "relative"], |word| {
+        Some(match word {
+            "absolute" => BaseResponse::Absolute,
+            "relative" => BaseResponse::Relative,
+            _ => return None,
+        })
+    })
+}
+
+fn base(root: &Table<'_>) -> Read<BaseTable> {
+    let Some(table) = root.table("base", "[base]")? else { return Ok(BaseTable::default()) };
+    table.only(&["response"])?;
+    Ok(BaseTable { response: response(&table)?.unwrap_or_default() })
 }
 
 fn harmonics(root: &Table<'_>, lines: &mut Lines) -> Read<Vec<HarmonicsTable>> {

@@ -1,7 +1,8 @@
 //! A project before its records are read: what `simulate` needs, and the first half of loading.
 
 use super::error::{Problem, ProjectError};
-use super::file::{Lines, ProjectFile, SimulateTable};
+use super::file::{BaseResponse, Lines, ProjectFile, RunTable, SimulateTable};
+use super::kept;
 use super::ruled_out::ruled_out;
 use super::sources::{At, line, sensors, sources};
 use super::structure::structure;
@@ -9,7 +10,8 @@ use crate::control::Control;
 use crate::effects::Source;
 use crate::exchange::records::{HarmonicsRun, read_harmonics, read_record_with};
 use crate::identify::Settings;
-use crate::measurement::{ChannelName, Record};
+use crate::measurement::base::AXES;
+use crate::measurement::{ChannelName, Quantity, Record};
 use crate::structure::Structure;
 use std::path::{Component, Path, PathBuf};
 
@@ -48,6 +50,19 @@ pub struct PlannedRun {
     pub enabled: bool,
     /// Force of the recipe, `amplitude_n cos(omega t)`, where it is given.
     pub force: Option<PlannedForce>,
+    /// Motion of the base in the recipe, where it is given.
+    pub base: Option<PlannedBase>,
+    /// Whether the motions of the record are absolute or relative to the base.
+    pub response: BaseResponse,
+}
+
+/// A harmonic motion of the base of a recipe.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PlannedBase {
+    /// 0, 1, 2: along x, y, z.
+    pub axis: usize,
+    /// Amplitude of the acceleration, m/s^2.
+    pub acceleration: f64,
 }
 
 /// A harmonic force of a recipe.
@@ -75,10 +90,12 @@ pub fn open(path: &Path) -> Result<Plan, ProjectError> {
 /// [`open`] of a text that stands for the file at `path`.
 pub fn plan(text: &str, path: &Path) -> Result<Plan, ProjectError> {
     let name = path.display().to_string();
-    let (file, lines) = ProjectFile::parse(text.strip_prefix('\u{feff}').unwrap_or(text), &name)?;
+    let (mut file, lines) = ProjectFile::parse(text.strip_prefix('\u{feff}').unwrap_or(text), &name)?;
     let at = At { file: &name, lines: &lines };
     let folder = path.parent().unwrap_or(Path::new(""));
-    let structure = structure(&file.structure, folder, at)?;
+    let named = kept::labels(&file, folder);
+    let structure = structure(&file.structure, folder, &named, at)?;
+    kept::write_down(&mut file, &structure);
     let sources = sources(&file, &structure, at)?;
     let sensors = sensors(&file.sensor, &structure, at)?;
     let ruled_out = ruled_out(&file.ruled_out, &structure, at)?;
@@ -112,15 +129,25 @@ fn runs(file: &ProjectFile, structure: &Structure, folder: &Path, at: At<'_>) ->
             level: table.level,
             enabled: table.enabled,
             force,
+            base: planned_base(table),
+            response: table.response.unwrap_or(file.base.response),
         });
     }
     Ok(runs)
+}
+
+fn planned_base(table: &RunTable) -> Option<PlannedBase> {
+    let axis = AXES.iter().position(|axis| table.base.as_deref() == Some(*axis))?;
+    Some(PlannedBase { axis, acceleration: table.base_m_s2? })
 }
 
 /// Checks the channels that `simulate` is to record.
 fn recorded(channels: &[String], structure: &Structure) -> Result<(), Problem> {
     for text in channels {
         let name = ChannelName::parse(text).map_err(|error| Problem::Channel(Box::new(error)))?;
+        if name.quantity == Quantity::Base {
+            continue;
+        }
         structure.require_dof(&name.label).map_err(|error| Problem::Structure(Box::new(error)))?;
     }
     Ok(())
@@ -175,7 +202,7 @@ impl Plan {
         let planned = &self.runs[run];
         if !planned.path.is_file() {
             let file = planned.file.clone();
-            let simulated = planned.force.is_some();
+            let simulated = planned.force.is_some() || planned.base.is_some();
             let problem = if simulated { Problem::NotSimulated { file } } else { Problem::NoRecord { file } };
             return Err(self.run_error(run, "file", problem));
         }
