@@ -5,8 +5,8 @@ use super::file::{MatricesTable, ReduceTable};
 use crate::exchange::matrices::model::{Model, ModelFiles, full, is_model, read_model};
 use crate::structure::imported::{ImportedDof, ImportedParameters};
 use crate::structure::reduction::{Method, Reduction, Wanted, reduce};
-use crate::structure::{Direction, LumpedMass, MOST_DOFS, Structure, StructureError};
-use std::collections::HashMap;
+use crate::structure::{Direction, LumpedMass, MOST_DOFS, Node, Structure, StructureError};
+use std::collections::{HashMap, HashSet};
 use std::path::Path;
 
 /// Whether the table needs more than plain matrices.
@@ -33,7 +33,7 @@ pub(super) fn structure(
         lines: lines.as_deref(),
     })
     .map_err(Problem::Table)?;
-    let notes = std::mem::take(&mut model.notes);
+    let mut notes = std::mem::take(&mut model.notes);
     let wrong = |error: StructureError| Problem::Structure(Box::new(error));
     let (parameters, reduction) = match &files.reduce {
         None => (whole(model).map_err(wrong)?, None),
@@ -42,9 +42,27 @@ pub(super) fn structure(
             (parameters, Some(reduction))
         }
     };
+    let parameters = with_all_nodes(parameters, &mut notes);
     let mut structure = parameters.build(lumped).map_err(wrong)?;
     structure.set_origin(notes, reduction, lumped);
     Ok(structure)
+}
+
+/// Nodes of degrees of freedom that no file gives a position, such as CalculiX's of incompatible modes, at the origin.
+fn with_all_nodes(mut parameters: ImportedParameters, notes: &mut Vec<String>) -> ImportedParameters {
+    let (Some(nodes), Some(dofs)) = (&mut parameters.nodes, &parameters.dofs) else { return parameters };
+    let mut known: HashSet<String> = nodes.iter().map(|node| node.label.clone()).collect();
+    let before = nodes.len();
+    for dof in dofs {
+        if known.insert(dof.node.clone()) {
+            nodes.push(Node { label: dof.node.clone(), position: [0.0; 3] });
+        }
+    }
+    let missing = nodes.len() - before;
+    if missing > 0 {
+        notes.push(format!("{missing} nodes of the matrices have no position in the files and are put at the origin"));
+    }
+    parameters
 }
 
 fn whole(model: Model) -> Result<ImportedParameters, StructureError> {
