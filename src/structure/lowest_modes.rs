@@ -110,6 +110,10 @@ pub(super) trait Pencil {
     fn solve(&self, x: MatRef<'_, f64>) -> Mat<f64>;
     /// Largest ratio of the diagonals of stiffness and mass, rad^2/s^2.
     fn stiffest(&self) -> f64;
+    /// What rounding leaves of a residual over `|M phi|`, rad^2/s^2.
+    fn residual_rounding(&self) -> f64 {
+        0.0
+    }
 }
 
 struct Dense<'a> {
@@ -246,7 +250,8 @@ impl<'a, P: Pencil> Krylov<'a, P> {
         let by_stiffness = product(self.by_stiffness.matrix(), y);
         let is_found = |r: usize| {
             let left = residual(by_stiffness.col(r), by_mass.col(r), ritz.values[r]);
-            left <= FOUND * (ritz.values[r].abs() + self.shift) * by_mass.col(r).norm_l2()
+            let rounding = self.pencil.residual_rounding();
+            left <= (FOUND * (ritz.values[r].abs() + self.shift) + rounding) * by_mass.col(r).norm_l2()
         };
         if !(0..wanted).all(is_found) {
             return Ok(None);

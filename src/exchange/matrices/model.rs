@@ -17,6 +17,8 @@ use std::path::Path;
 
 /// Stiffness from which a degree of freedom counts as fixed by a penalty, N/m.
 const FIXED: f64 = 1e30;
+/// Bytes by which a file is told.
+const BEGINNING: u64 = 64 * 1024;
 /// Most lines that are kept for drawing.
 const MOST_LINES: usize = 20_000;
 /// Directions of components 0 (scalar point) to 6, and their names.
@@ -76,20 +78,29 @@ enum Kind {
 fn kind(path: &Path) -> Kind {
     let extension = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
     match extension.as_str() {
-        "bdf" | "nas" | "pch" | "blk" | "dat" => Kind::Nastran,
+        "bdf" | "nas" | "pch" | "blk" => Kind::Nastran,
+        "dat" if begins(path, |text| text.contains("DMIG") || text.contains("GRID")) => Kind::Nastran,
         "op4" => Kind::Output4,
         "sti" | "mas" => Kind::CalculiX,
         "inp" => Kind::Input,
-        "mtx" if !begins_with_market(path) => Kind::Abaqus,
+        "mtx" if begins(path, is_abaqus) => Kind::Abaqus,
         _ => Kind::Plain,
     }
 }
 
-fn begins_with_market(path: &Path) -> bool {
+/// Whether the beginning of a file, some thousand characters of text, is as it should be.
+fn begins(path: &Path, is_so: impl Fn(&str) -> bool) -> bool {
     use std::io::Read;
-    let mut begin = [0; 2];
-    std::fs::File::open(path).is_ok_and(|mut file| file.read_exact(&mut begin).is_ok() && &begin == b"%%")
-        || !path.is_file()
+    let mut begin = Vec::new();
+    let read = std::fs::File::open(path).and_then(|file| file.take(BEGINNING).read_to_end(&mut begin));
+    read.is_ok() && is_so(&String::from_utf8_lossy(&begin))
+}
+
+/// A keyword or comment of Abaqus, or three or five numbers in the first line.
+fn is_abaqus(text: &str) -> bool {
+    let first = text.lines().map(str::trim).find(|line| !line.is_empty()).unwrap_or_default();
+    let words: Vec<&str> = first.split(|c: char| c == ',' || c.is_whitespace()).filter(|w| !w.is_empty()).collect();
+    first.starts_with('*') || ([3, 5].contains(&words.len()) && words.iter().all(|word| word.parse::<f64>().is_ok()))
 }
 
 /// Whether a matrix file is one of a finite-element program rather than a plain one.

@@ -1,8 +1,9 @@
 //! Runs of a structure on a moving base: their base channels become forces ([`crate::measurement::base`]).
 
 use super::error::{Problem, ProjectError};
-use super::file::BaseResponse;
+use super::file::{BaseResponse, BaseTable, RunTable};
 use super::plan::Plan;
+use super::reader::Table;
 use crate::measurement::base::{AXES, Base, driven};
 use crate::measurement::{Quantity, Run};
 use crate::structure::Structure;
@@ -20,7 +21,7 @@ impl Plan {
     ///
     /// # Errors
     /// [`Problem::BaseWithoutMass`] for a structure without mass.
-    pub fn on_its_base(&self, index: usize, mut run: Run) -> Result<Run, ProjectError> {
+    pub fn on_its_base(&self, index: Option<usize>, mut run: Run) -> Result<Run, ProjectError> {
         let moving = run.fit.channels.iter().filter(|c| c.channel.quantity == Quantity::Base);
         let axes: Vec<usize> = moving.filter_map(|c| AXES.iter().position(|&axis| axis == c.channel.label)).collect();
         if axes.is_empty() {
@@ -29,8 +30,36 @@ impl Plan {
         let bases: Option<Vec<Base>> = axes.into_iter().map(|axis| base(&self.structure, axis)).collect();
         let missing = || self.error(None, Problem::BaseWithoutMass { file: run.file.clone() });
         let bases = bases.ok_or_else(missing)?;
-        let response = self.runs.get(index).map_or(self.file.base.response, |planned| planned.response);
+        let response = index.map_or(self.file.base.response, |index| self.runs[index].response);
         run.fit = driven(run.fit, &bases, response == BaseResponse::Absolute);
         Ok(run)
     }
+}
+
+/// A direction and an amplitude belong together.
+pub(super) fn half_a_base(table: &Table<'_>, run: Option<&RunTable>) -> Result<(), ProjectError> {
+    let (key, other) = match run.map(|run| (run.base.is_some(), run.base_m_s2.is_some())) {
+        Some((true, false)) => ("base", "base_m_s2"),
+        Some((false, true)) => ("base_m_s2", "base"),
+        _ => return Ok(()),
+    };
+    Err(table.error(key, Problem::HalfAForce { key, other }))
+}
+
+/// `response = "absolute"` or `"relative"`.
+pub(super) fn response(table: &Table<'_>) -> Result<Option<BaseResponse>, ProjectError> {
+    table.word("response", &["absolute", "relative"], |word| {
+        Some(match word {
+            "absolute" => BaseResponse::Absolute,
+            "relative" => BaseResponse::Relative,
+            _ => return None,
+        })
+    })
+}
+
+/// Table `[base]`.
+pub(super) fn parse(root: &Table<'_>) -> Result<BaseTable, ProjectError> {
+    let Some(table) = root.table("base", "[base]")? else { return Ok(BaseTable::default()) };
+    table.only(&["response"])?;
+    Ok(BaseTable { response: response(&table)?.unwrap_or_default() })
 }

@@ -231,14 +231,14 @@ pub struct RunTable {
 }
 
 /// Table `[base]`: a structure on a moving base.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize)]
 pub struct BaseTable {
     /// What the motions of the records are.
     pub response: BaseResponse,
 }
 
 /// What a sensor on a structure with a moving base shows.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum BaseResponse {
     /// The motion in space: accelerometers.

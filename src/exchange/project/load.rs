@@ -35,11 +35,11 @@ impl Plan {
             piece.report(1.0);
         }
         let corrections = self.corrections();
-        let fitted = self.harmonics()?.into_iter();
-        runs.extend(fitted.map(|run| Run::from_harmonics(run.name, None, true, run.fit, &corrections)));
+        for run in self.harmonics()? {
+            let fitted = Run::from_harmonics(run.name, None, true, run.fit, &corrections);
+            runs.push(self.on_its_base(None, fitted)?);
+        }
         self.check_sensors(&runs)?;
-        let runs = runs.into_iter().enumerate().map(|(index, run)| self.on_its_base(index, run));
-        let runs = runs.collect::<Result<Vec<Run>, ProjectError>>()?;
         Ok(Project {
             title: self.file.project.title,
             notes: self.file.project.notes,
@@ -61,11 +61,13 @@ impl Plan {
         let (file, settings) = (planned.file.clone(), self.settings());
         let (level, enabled, frequency_hz) = (planned.level, planned.enabled, planned.frequency_hz);
         let corrections = self.corrections();
-        Run::from_record(file, level, enabled, Arc::new(record), frequency_hz, settings.harmonics, &corrections)
-            .map_err(|error| {
-                let key = if frequency_hz.is_some() { "frequency" } else { "file" };
-                self.run_error(index, key, Problem::Fit { file: planned.file.clone(), error })
-            })
+        let run =
+            Run::from_record(file, level, enabled, Arc::new(record), frequency_hz, settings.harmonics, &corrections);
+        let run = run.map_err(|error| {
+            let key = if frequency_hz.is_some() { "frequency" } else { "file" };
+            self.run_error(index, key, Problem::Fit { file: planned.file.clone(), error })
+        })?;
+        self.on_its_base(Some(index), run)
     }
 
     /// Known errors of the measuring chain, one entry a channel.

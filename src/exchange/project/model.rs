@@ -1,7 +1,8 @@
 //! A structure from the files of a finite-element program, whole or reduced.
 
-use super::error::Problem;
-use super::file::{MatricesTable, ReduceTable};
+use super::error::{Problem, ProjectError};
+use super::file::{Label, MatricesTable, ReduceTable};
+use super::reader::Table;
 use crate::exchange::matrices::model::{Model, ModelFiles, full, is_model, read_model};
 use crate::structure::imported::{ImportedDof, ImportedParameters};
 use crate::structure::reduction::{Method, Reduction, Wanted, reduce};
@@ -114,4 +115,24 @@ fn reduced(
         lines: model.lines,
     };
     Ok((parameters, reduction))
+}
+
+/// Table `[structure.reduce]`.
+pub(super) fn parse(table: &Table<'_>) -> Result<ReduceTable, ProjectError> {
+    table.only(&["method", "up_to_hz", "band_hz", "dofs"])?;
+    let names = [Method::CraigBampton, Method::Guyan].map(Method::name);
+    let method = table.word("method", &names, Method::from_name)?.unwrap_or(Method::CraigBampton);
+    let frequency = |key: &'static str| match table.number(key)? {
+        Some(value) if value <= 0.0 => {
+            let (key, range) = (key.to_owned(), "above 0 Hz");
+            Err(table.error(&key.clone(), Problem::OutOfRange { key, value: value.to_string(), range }))
+        }
+        value => Ok(value),
+    };
+    Ok(ReduceTable {
+        method: method.name().to_owned(),
+        up_to_hz: table.need("up_to_hz", "up_to_hz = 2000.0", frequency("up_to_hz")?)?,
+        band_hz: frequency("band_hz")?,
+        dofs: table.labels("dofs")?.unwrap_or_default().into_iter().map(Label).collect(),
+    })
 }

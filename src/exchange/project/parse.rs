@@ -2,11 +2,12 @@
 
 use super::error::{Problem, ProjectError};
 use super::file::{
-    BaseResponse, BaseTable, CandidatesTable, FORMAT, HarmonicsTable, Header, Label, Lines, MatricesTable, PointsTable,
-    ProjectFile, ReduceTable, RunTable, SensorTable, Shape, SimulateTable, SourceTable, StructureTable,
+    CandidatesTable, FORMAT, HarmonicsTable, Header, Label, Lines, MatricesTable, PointsTable, ProjectFile, RunTable,
+    SensorTable, Shape, SimulateTable, SourceTable, StructureTable,
 };
 use super::reader::{Origin, Table, one_line};
 use super::ruled_out;
+use super::{base, model};
 use crate::balance::{Expansion, Weights};
 use crate::effects::family::Family;
 use crate::effects::{Effect, State};
@@ -15,7 +16,6 @@ use crate::measurement::base::AXES;
 use crate::structure::LumpedMass;
 use crate::structure::beam::{BeamParameters, Supports};
 use crate::structure::chain::ChainParameters;
-use crate::structure::reduction::Method;
 use std::collections::BTreeMap;
 use toml::de::DeTable;
 
@@ -72,7 +72,7 @@ impl ProjectFile {
             ruled_out: ruled_out::parse(&root, &mut lines)?,
             run: runs(&root, &mut lines)?,
             harmonics: harmonics(&root, &mut lines)?,
-            base: base(&root)?,
+            base: base::parse(&root)?,
             analysis: analysis(&root)?,
             simulate: simulate(&root, &mut lines)?,
         };
@@ -165,26 +165,7 @@ fn matrices(table: &Table<'_>) -> Read<MatricesTable> {
         lines: table.text("lines")?,
         mass_name: table.text("mass_name")?,
         stiffness_name: table.text("stiffness_name")?,
-        reduce: table.table("reduce", "[structure.reduce]")?.map(|table| reduce(&table)).transpose()?,
-    })
-}
-
-fn reduce(table: &Table<'_>) -> Read<ReduceTable> {
-    table.only(&["method", "up_to_hz", "band_hz", "dofs"])?;
-    let names = [Method::CraigBampton, Method::Guyan].map(Method::name);
-    let method = table.word("method", &names, Method::from_name)?.unwrap_or(Method::CraigBampton);
-    let frequency = |key: &'static str| match table.number(key)? {
-        Some(value) if value <= 0.0 => {
-            let (key, range) = (key.to_owned(), "above 0 Hz");
-            Err(table.error(&key.clone(), Problem::OutOfRange { key, value: value.to_string(), range }))
-        }
-        value => Ok(value),
-    };
-    Ok(ReduceTable {
-        method: method.name().to_owned(),
-        up_to_hz: table.need("up_to_hz", "up_to_hz = 2000.0", frequency("up_to_hz")?)?,
-        band_hz: frequency("band_hz")?,
-        dofs: table.labels("dofs")?.unwrap_or_default().into_iter().map(Label).collect(),
+        reduce: table.table("reduce", "[structure.reduce]")?.map(|table| model::parse(&table)).transpose()?,
     })
 }
 
@@ -303,39 +284,12 @@ fn runs(root: &Table<'_>, lines: &mut Lines) -> Read<Vec<RunTable>> {
             force_n,
             base: table.word("base", &AXES, |word| AXES.contains(&word).then(|| word.to_owned()))?,
             base_m_s2: table.number("base_m_s2")?,
-            response: response(&table)?,
+            response: base::response(&table)?,
         });
-        half_a_base(&table, runs.last())?;
+        base::half_a_base(&table, runs.last())?;
         lines.run.push(key_lines(&table));
     }
     Ok(runs)
-}
-
-/// A direction and an amplitude belong together.
-fn half_a_base(table: &Table<'_>, run: Option<&RunTable>) -> Read<()> {
-    let (key, other) = match run.map(|run| (run.base.is_some(), run.base_m_s2.is_some())) {
-        Some((true, false)) => ("base", "base_m_s2"),
-        Some((false, true)) => ("base_m_s2", "base"),
-        _ => return Ok(()),
-    };
-    Err(table.error(key, Problem::HalfAForce { key, other }))
-}
-
-/// `response = "absolute"` or `"relative"`.
-fn response(table: &Table<'_>) -> Read<Option<BaseResponse>> {
-    table.word("response", &["absolute", "relative"], |word| {
-        Some(match word {
-            "absolute" => BaseResponse::Absolute,
-            "relative" => BaseResponse::Relative,
-            _ => return None,
-        })
-    })
-}
-
-fn base(root: &Table<'_>) -> Read<BaseTable> {
-    let Some(table) = root.table("base", "[base]")? else { return Ok(BaseTable::default()) };
-    table.only(&["response"])?;
-    Ok(BaseTable { response: response(&table)?.unwrap_or_default() })
 }
 
 fn harmonics(root: &Table<'_>, lines: &mut Lines) -> Read<Vec<HarmonicsTable>> {
