@@ -92,7 +92,8 @@ fn harmonics(plan: &Plan, keys: &[Key]) -> Result<Vec<(Key, Vec<Run>)>, String> 
         alone.file.harmonics = vec![plan.file.harmonics[index].clone()];
         let read = alone.harmonics().map_err(|e| e.to_string())?;
         let fitted = read.into_iter().map(|r| Run::from_harmonics(r.name, None, true, r.fit, &corrections));
-        let runs = fitted.map(|run| plan.on_its_base(None, run).map_err(|e| e.to_string())).collect::<Result<_, _>>()?;
+        let runs =
+            fitted.map(|run| plan.on_its_base(None, run).map_err(|e| e.to_string())).collect::<Result<_, _>>()?;
         Ok((key.clone(), runs))
     };
     keys.iter().enumerate().map(one).collect()

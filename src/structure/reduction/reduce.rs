@@ -4,6 +4,7 @@ use super::check::check;
 use super::pencil::Shifted;
 use super::{Method, Reduction, SparseSystem, Wanted};
 use crate::math::eigen::symmetrised;
+use crate::structure::lowest_modes::Pencil;
 use crate::structure::{Direction, StructureError, SystemMatrices};
 use dashpot_numerics::{SparseCholesky, SparseSymmetric, transposed_product};
 use faer::Mat;
@@ -54,7 +55,6 @@ fn basis(system: &SparseSystem, kept: &[usize], wanted: Wanted) -> Result<(Mat<f
             (factor.solve(coupling(&inner.stiffness, kept.len(), &k_ib, &[], 0.0).as_ref()), Mat::zeros(0, 0))
         }
         Method::CraigBampton => {
-            use crate::structure::lowest_modes::Pencil;
             let shifted = Shifted::new(&inner, wanted.up_to_hz).ok_or(StructureError::NotStable)?;
             let load = coupling(&inner.stiffness, kept.len(), &k_ib, &m_ib, shifted.shift);
             (shifted.solve(load.as_ref()), shifted.modes(wanted.up_to_hz)?.shapes)
