@@ -4,10 +4,14 @@ use super::check::check;
 use super::pencil::Shifted;
 use super::{Method, Reduction, SparseSystem, Wanted};
 use crate::math::eigen::symmetrised;
+use crate::math::fill::filled;
 use crate::structure::lowest_modes::Pencil;
 use crate::structure::{Direction, StructureError, SystemMatrices};
-use dashpot_numerics::{SparseCholesky, SparseSymmetric, transposed_product};
+use dashpot_numerics::{SparseCholesky, SparseSymmetric, product, transposed_product};
 use faer::Mat;
+
+/// Steps from the shifted to the true static modes.
+const STEPS: usize = 3;
 
 /// Reduces `system` to its rows `kept` (ascending); `directions` are those of all its rows.
 ///
@@ -47,17 +51,18 @@ pub fn reduce(
 /// `T`, n x (kept + modes), and the number of modes.
 fn basis(system: &SparseSystem, kept: &[usize], wanted: Wanted) -> Result<(Mat<f64>, usize), StructureError> {
     let (_, k_ib, k_ii) = system.stiffness.partition(kept);
-    let (_, m_ib, m_ii) = system.mass.partition(kept);
+    let (_, _, m_ii) = system.mass.partition(kept);
     let inner = SparseSystem { mass: m_ii, stiffness: k_ii };
     let (static_modes, shapes) = match wanted.method {
         Method::Guyan => {
             let factor = SparseCholesky::new(&inner.stiffness).ok_or(StructureError::NotRestrained)?;
-            (factor.solve(coupling(&inner.stiffness, kept.len(), &k_ib, &[], 0.0).as_ref()), Mat::zeros(0, 0))
+            (factor.solve(coupling(&inner.stiffness, kept.len(), &k_ib).as_ref()), Mat::zeros(0, 0))
         }
         Method::CraigBampton => {
             let shifted = Shifted::new(&inner, wanted.up_to_hz).ok_or(StructureError::NotStable)?;
-            let load = coupling(&inner.stiffness, kept.len(), &k_ib, &m_ib, shifted.shift);
-            (shifted.solve(load.as_ref()), shifted.modes(wanted.up_to_hz)?.shapes)
+            let shapes = shifted.modes(wanted.up_to_hz)?.shapes;
+            let load = coupling(&inner.stiffness, kept.len(), &k_ib);
+            (beside_modes(&shifted, &load, &shapes), shapes)
         }
     };
     let (n, b, m) = (system.mass.size(), kept.len(), shapes.ncols());
@@ -77,16 +82,28 @@ fn basis(system: &SparseSystem, kept: &[usize], wanted: Wanted) -> Result<(Mat<f
     Ok((t, m))
 }
 
-/// `-(K_ib + s M_ib)`, inner x kept.
-fn coupling(
-    inner: &SparseSymmetric,
-    kept: usize,
-    stiffness: &[(usize, usize, f64)],
-    mass: &[(usize, usize, f64)],
-    shift: f64,
-) -> Mat<f64> {
+/// `K_ii^-1 B` less what the modes `Phi` hold of it, which is in the space of `T` anyway. On all other modes
+/// `X := A^-1 (B + s M X)` converges by `s / (omega_r^2 + s)`, at most a thousandth a step, though `K_ii` may be singular.
+fn beside_modes(shifted: &Shifted<'_>, load: &Mat<f64>, shapes: &Mat<f64>) -> Mat<f64> {
+    let by_mass = shifted.by_mass(shapes.as_ref());
+    let without = |mut x: Mat<f64>| {
+        if shapes.ncols() > 0 {
+            x -= product(shapes.as_ref(), transposed_product(by_mass.as_ref(), x.as_ref()).as_ref());
+        }
+        x
+    };
+    let mut x = without(shifted.solve(load.as_ref()));
+    for _ in 0..STEPS {
+        let inertia = shifted.by_mass(x.as_ref());
+        let right = filled(load.nrows(), load.ncols(), |i, j| load[(i, j)] + shifted.shift * inertia[(i, j)]);
+        x = without(shifted.solve(right.as_ref()));
+    }
+    x
+}
+
+/// `-K_ib`, inner x kept.
+fn coupling(inner: &SparseSymmetric, kept: usize, stiffness: &[(usize, usize, f64)]) -> Mat<f64> {
     let mut load = Mat::zeros(inner.size(), kept);
     stiffness.iter().for_each(|&(i, j, value)| load[(i, j)] -= value);
-    mass.iter().for_each(|&(i, j, value)| load[(i, j)] -= shift * value);
     load
 }
