@@ -34,7 +34,7 @@ fn write_model(folder: &Path) {
 
 const HEAD: &str =
     "[project]\nformat = 1\n[structure]\nkind = \"matrices\"\nmass = \"beam.mas\"\nstiffness = \"beam.sti\"\n";
-const REDUCE: &str = "[structure.reduce]\nup_to_hz = 2000.0\nband_hz = 700.0\n\
+const REDUCE: &str = "[structure.reduce]\nup_to_hz = 8000.0\nband_hz = 700.0\n\
     dofs = [\"20z\", \"40z\", \"60z\", \"80z\", \"100z\", \"120z\", \"140z\", \"160z\", \"180z\"]\n";
 const KNOWN: &str = "[[source]]\nlaw = \"stiffness_proportional\"\nstate = \"known\"\nbeta = 2e-5\n";
 const HIDDEN: &str = "[[source]]\nlaw = \"viscous\"\ndofs = [\"80z\"]\nstate = \"known\"\nc = 0.2\n\
@@ -63,7 +63,7 @@ fn dashpots_of_the_whole_model_are_found_on_the_reduced_one() {
     // Nine named, and the sensors 50z and 200z (120z is among them).
     assert_eq!(reduction["kept_dofs"], 11);
     let error = reduction["worst_frequency_error"].as_f64().unwrap();
-    assert!(error.abs() < 1e-4, "{error}");
+    assert!(error.abs() < 1e-3, "{error}");
     assert_eq!(reduction["modes"].as_array().unwrap().len(), 6);
     let labels: Vec<&str> = found["sources"]
         .as_array()

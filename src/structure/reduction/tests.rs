@@ -43,11 +43,14 @@ fn craig_bampton_reaches_the_closed_form_of_a_cantilever() {
     let stiffness = p.youngs_modulus * p.breadth * p.depth.powi(3) / 12.0;
     let speed = (stiffness / (p.density * p.breadth * p.depth)).sqrt();
     let exact = [1.875_104_07, 4.694_091_13, 7.854_757_44, 10.995_540_73];
-    assert_eq!((reduction.kept, reduction.modes.len()), (3, 5));
+    assert_eq!((reduction.kept, reduction.fixed_interface_modes, reduction.modes.len()), (3, 5, 5));
+    // The same reduction with dense matrices by LAPACK, a route of its own.
+    assert!((reduction.modes[2].reduced_hz / 182.838_092_76 - 1.0).abs() < 1e-9);
     for (mode, beta) in reduction.modes.iter().zip(exact) {
         let hz = beta * beta * speed / (std::f64::consts::TAU * p.length * p.length);
-        assert!((mode.reduced_hz / hz - 1.0).abs() < 1e-4, "{} {hz}", mode.reduced_hz);
-        assert!(mode.frequency_error().abs() < 1e-4 && mode.mac > 0.9999, "{mode:?}");
+        // What the modes above 1500 Hz would add.
+        assert!((mode.reduced_hz / hz - 1.0).abs() < 3e-3, "{} {hz}", mode.reduced_hz);
+        assert!(mode.frequency_error().abs() < 3e-3 && mode.mac > 0.999, "{mode:?}");
     }
 }
 
@@ -56,7 +59,7 @@ fn frequencies_are_those_of_the_whole_model() {
     let (_, structure) = beam(60, Supports::ClampedFree);
     let (system, directions) = system(&structure);
     let own = structure.modes().unwrap();
-    for (method, tolerance) in [(Method::CraigBampton, 1e-5), (Method::Guyan, 0.02)] {
+    for (method, tolerance) in [(Method::CraigBampton, 2e-3), (Method::Guyan, 0.02)] {
         let wanted = Wanted { method, up_to_hz: 2000.0, band_hz: 300.0 };
         let (_, reduction) = reduce(&system, &directions, &[20, 40, 60, 80, 100, 118], wanted).unwrap();
         assert_eq!(reduction.modes.len(), own.omega.iter().filter(|w| **w < 300.0 * std::f64::consts::TAU).count());
