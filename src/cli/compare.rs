@@ -4,6 +4,7 @@ use super::arguments::Analysis;
 use super::diagnose::{corrected, correction};
 use super::identified;
 use super::records::{compared, only_records};
+use super::reduction;
 use super::run_flags::{self, flags};
 use super::table::{number, table};
 use crate::control::Control;
@@ -29,6 +30,7 @@ pub(super) fn run(arguments: &Analysis) -> anyhow::Result<String> {
     let control = Control::unattended().with_workers(Arc::new(Threads::default()));
     let mut project = load(&arguments.file, &control)?;
     super::tell_remarks(&project);
+    reduction::warn(&project.structure);
     let records = compared(&project, &arguments.file, &control)?;
     if let Some(records) = records.as_ref().filter(|_| only_records(&project)) {
         return of_records(&project, records, arguments.json);
@@ -40,6 +42,7 @@ pub(super) fn run(arguments: &Analysis) -> anyhow::Result<String> {
     let reading = detuning(&problem(&project), &control).with_context(|| arguments.file.display().to_string())?;
     if arguments.json {
         let mut document = document(&project, &comparison);
+        document["reduction"] = reduction::document(&project.structure);
         if let Some(reading) = &reading {
             document["reading"] = read(&project, reading);
             if drowned(&comparison, reading) {
@@ -60,7 +63,8 @@ pub(super) fn run(arguments: &Analysis) -> anyhow::Result<String> {
         None => String::new(),
     };
     let records = records.map_or_else(String::new, |r| super::records::text(&project, &r));
-    Ok(format!("{}{words}{}{records}", text(&project, &comparison), run_flags::text(&project)))
+    let reduced = reduction::text(&project.structure);
+    Ok(format!("{}{reduced}{words}{}{records}", text(&project, &comparison), run_flags::text(&project)))
 }
 
 /// A project that holds nothing but records that are not steady.

@@ -35,6 +35,7 @@ pub(super) fn identified(file: &Path, ratios: Option<&Path>) -> anyhow::Result<(
     let project = load(file, &control)?;
     say_other_kinds(&project);
     super::tell_remarks(&project);
+    super::reduction::warn(&project.structure);
     let ratios = ratios.map_or_else(|| Ok(Vec::new()), |choice| measured(&project, choice))?;
     for r in &ratios {
         let [value, deviation] = [r.ratio, r.deviation].map(|v| 100.0 * v);

@@ -31,6 +31,7 @@ pub(super) fn document(project: &Project, outcome: &Outcome) -> Value {
         "modes": modes.collect::<Vec<_>>(),
         "indistinguishable": indistinguishable(project, outcome),
         "warnings": outcome.warnings,
+        "reduction": super::reduction::document(&project.structure),
     })
 }
 

@@ -20,6 +20,7 @@ const MOST_DOFS: usize = 8;
 pub(super) fn report(project: &Project, outcome: &Outcome) -> String {
     let parts = [
         format!("{}\n", project.title),
+        super::reduction::text(&project.structure),
         runs(project, outcome),
         records(project, outcome),
         selection(project, outcome),

@@ -1,10 +1,12 @@
 //! `dashpot simulate`: steady-state records of the model of a project at its runs' frequencies and forces.
 
 use super::arguments::{Method, Records, Simulate};
+use super::moving_base::{self, MovingBase};
 use crate::control::Control;
 use crate::effects::{Source, State};
-use crate::exchange::project::{Plan, PlannedForce, PlannedTest, ProjectError, open};
+use crate::exchange::project::{Plan, PlannedBase, PlannedForce, PlannedTest, ProjectError, open};
 use crate::exchange::records::{write_harmonics, write_record};
+use crate::measurement::base::AXES;
 use crate::measurement::channel::ChannelName;
 use crate::measurement::{Channel, ChannelFit, HarmonicFit, Quantity, Record, fit::fit, frequency};
 use crate::response::harmonic_balance::{Excitation, HarmonicForce};
@@ -43,7 +45,11 @@ pub(super) fn run(arguments: &Simulate) -> anyhow::Result<String> {
             continue;
         }
         let record = test(&plan, index).and_then(|test| {
-            if arguments.by == Method::Time || arguments.transient > 0.0 || plan.simulate().integrate {
+            let is_stepped = arguments.by == Method::Time || arguments.transient > 0.0 || plan.simulate().integrate;
+            if is_stepped && !test.bases.is_empty() {
+                bail!("a moving base is not stepped through time; leave out --by time, --transient and `integrate`");
+            }
+            if is_stepped {
                 in_time(&plan, &sources, &test, arguments, noise)
             } else {
                 balanced(&plan, &model, &test, noise)
@@ -62,6 +68,8 @@ fn at_run(plan: &Plan, index: usize, error: anyhow::Error) -> anyhow::Error {
 /// What drives a run, what is recorded and when: from the recipe, or from the record that is there.
 struct Test {
     excitation: Excitation,
+    /// How the base moves, where it does.
+    bases: Vec<MovingBase>,
     channels: Vec<Channel>,
     time: Vec<f64>,
 }
@@ -69,7 +77,8 @@ struct Test {
 fn balanced(plan: &Plan, model: &Simulator<'_>, test: &Test, noise: Option<Noise>) -> anyhow::Result<Record> {
     let control = Control::unattended();
     let response = model.respond(&test.excitation, &control)?;
-    let motions = recorded(&response, &test.excitation, &test.channels, &plan.sensors);
+    let mut motions = recorded(&response, &test.excitation, &test.channels, &plan.sensors);
+    test.bases.iter().for_each(|base| base.show(&mut motions, test.excitation.omega, &plan.sensors));
     Ok(synthesise(test.excitation.omega, &test.time, &motions, noise)?)
 }
 
@@ -113,23 +122,37 @@ fn recorded_test(plan: &Plan, sources: &[Source], test: PlannedTest, noise: Opti
 }
 
 fn test(plan: &Plan, index: usize) -> anyhow::Result<Test> {
-    match plan.runs[index].force {
-        Some(force) => from_recipe(plan, index, force),
-        None => from_record(plan, index),
+    let run = &plan.runs[index];
+    match (run.force, run.base) {
+        (None, None) => from_record(plan, index),
+        (force, base) => from_recipe(plan, index, force, base),
     }
 }
 
-fn from_recipe(plan: &Plan, index: usize, force: PlannedForce) -> anyhow::Result<Test> {
+fn from_recipe(
+    plan: &Plan,
+    index: usize,
+    force: Option<PlannedForce>,
+    base: Option<PlannedBase>,
+) -> anyhow::Result<Test> {
     let run = &plan.runs[index];
     let missing =
         || anyhow!("the frequency is not given and there is no record to take it from; add `frequency = ...` in Hz");
     let frequency = run.frequency_hz.ok_or_else(missing)?;
     let omega = TAU * frequency;
-    let excitation = Excitation::sine(omega, force.dof, c64::new(force.amplitude_n, 0.0));
+    let sine = |force: PlannedForce| Excitation::sine(omega, force.dof, c64::new(force.amplitude_n, 0.0));
+    let mut excitation = force.map_or(Excitation { omega, forces: Vec::new() }, sine);
+    let mut usual = usual_channels(&plan.structure, &excitation);
+    let mut bases = Vec::new();
+    if let Some(PlannedBase { axis, acceleration }) = base {
+        let moving = MovingBase::new(plan, index, axis, vec![c64::new(acceleration, 0.0)])?;
+        usual.insert(0, moving.channel());
+        moving.drive(&mut excitation);
+        bases.push(moving);
+    }
     let table = plan.simulate();
-    let channels =
-        if table.channels.is_empty() { usual_channels(&plan.structure, &excitation) } else { channels(plan)? };
-    Ok(Test { excitation, channels, time: sampling_times(omega, table.periods as f64, table.samples) })
+    let channels = if table.channels.is_empty() { usual } else { channels(plan)? };
+    Ok(Test { excitation, bases, channels, time: sampling_times(omega, table.periods as f64, table.samples) })
 }
 
 /// The measured force's harmonics, freed of the channel's known errors, drive the model; what was recorded is recorded
@@ -144,8 +167,15 @@ fn from_record(plan: &Plan, index: usize) -> anyhow::Result<Test> {
         HarmonicForce { dof: fitted.channel.dof, mean: 0.0, harmonics }
     };
     let forces = fit.channels.iter().filter(|fitted| fitted.channel.quantity == Quantity::Force).map(truth).collect();
-    let excitation = Excitation { omega: fit.omega, forces };
-    Ok(Test { excitation, channels: record.channels().to_vec(), time: record.time().to_vec() })
+    let mut excitation = Excitation { omega: fit.omega, forces };
+    let mut bases = Vec::new();
+    for moving in fit.channels.iter().filter(|fitted| fitted.channel.quantity == Quantity::Base) {
+        let Some(axis) = AXES.iter().position(|&axis| axis == moving.channel.label) else { continue };
+        let base = MovingBase::new(plan, index, axis, truth(moving).harmonics)?;
+        base.drive(&mut excitation);
+        bases.push(base);
+    }
+    Ok(Test { excitation, bases, channels: record.channels().to_vec(), time: record.time().to_vec() })
 }
 
 fn fit_record(plan: &Plan, index: usize, record: &Record) -> anyhow::Result<HarmonicFit> {
@@ -161,6 +191,12 @@ fn fit_record(plan: &Plan, index: usize, record: &Record) -> anyhow::Result<Harm
 fn channels(plan: &Plan) -> anyhow::Result<Vec<Channel>> {
     let channel = |text: &String| {
         let name = ChannelName::parse(text)?;
+        let axis = AXES.iter().position(|&axis| axis == name.label);
+        if name.quantity == Quantity::Base
+            && let Some(axis) = axis
+        {
+            return Ok(moving_base::channel(plan, axis));
+        }
         let dof = plan.structure.require_dof(&name.label)?;
         Ok(Channel { quantity: name.quantity, dof, label: name.label })
     };

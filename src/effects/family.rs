@@ -2,7 +2,7 @@
 
 use super::effect::Kind;
 use super::{Effect, Place, Source};
-use crate::structure::Structure;
+use crate::structure::{Direction, Structure};
 use serde::{Deserialize, Serialize};
 
 /// Where a family of candidates of one law is looked for: `where` of `[[candidates]]`.
@@ -42,7 +42,10 @@ impl Family {
     pub fn places(self, structure: &Structure) -> Vec<Place> {
         let rows = tracks(structure);
         let dofs: Vec<Vec<usize>> = match self {
-            Self::EachDof => (0..structure.len()).map(|dof| vec![dof]).collect(),
+            Self::EachDof => {
+                let is_place = |dof: &usize| structure.dofs()[*dof].direction != Direction::Q;
+                (0..structure.len()).filter(is_place).map(|dof| vec![dof]).collect()
+            }
             Self::EachTranslation => {
                 let mut all: Vec<usize> = rows.concat();
                 all.sort_unstable();
@@ -88,7 +91,7 @@ fn tracks(structure: &Structure) -> Vec<Vec<usize>> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::structure::{Direction, Dof, Node, StructureKind};
+    use crate::structure::{Dof, Node, Origin, StructureKind};
 
     fn structure(directions: &[Direction]) -> Structure {
         let dof = |(row, &direction): (usize, &Direction)| Dof { label: (row + 1).to_string(), node: row, direction };
@@ -101,6 +104,7 @@ mod tests {
             matrices: None,
             elements: Vec::new(),
             lumped: Vec::new(),
+            origin: Origin::default(),
         }
     }
 

@@ -17,6 +17,8 @@ pub enum Quantity {
     Acceleration,
     Velocity,
     Displacement,
+    /// Acceleration of the base that the structure stands on.
+    Base,
 }
 
 impl Quantity {
@@ -27,12 +29,14 @@ impl Quantity {
             Self::Acceleration => "acc",
             Self::Velocity => "vel",
             Self::Displacement => "disp",
+            Self::Base => "base",
         }
     }
 
     /// The quantity of that word.
     pub fn from_word(word: &str) -> Option<Self> {
-        [Self::Force, Self::Acceleration, Self::Velocity, Self::Displacement].into_iter().find(|q| q.word() == word)
+        let all = [Self::Force, Self::Acceleration, Self::Velocity, Self::Displacement, Self::Base];
+        all.into_iter().find(|q| q.word() == word)
     }
 
     /// Name of its SI unit in files; a force on a rotation is a moment.
@@ -40,7 +44,7 @@ impl Quantity {
         match (self, rotation) {
             (Self::Force, false) => "N",
             (Self::Force, true) => "N m",
-            (Self::Acceleration, false) => "m/s^2",
+            (Self::Acceleration, false) | (Self::Base, _) => "m/s^2",
             (Self::Acceleration, true) => "rad/s^2",
             (Self::Velocity, false) => "m/s",
             (Self::Velocity, true) => "rad/s",
@@ -55,7 +59,7 @@ impl Quantity {
             Self::Force => None,
             Self::Displacement => Some(0),
             Self::Velocity => Some(1),
-            Self::Acceleration => Some(2),
+            Self::Acceleration | Self::Base => Some(2),
         }
     }
 }
@@ -116,6 +120,9 @@ impl Unit {
 
     /// Names of the units of a quantity, separated by commas.
     pub fn names_of(quantity: Quantity) -> String {
+        if quantity == Quantity::Base {
+            return "m/s^2, g".to_owned();
+        }
         let names: Vec<&str> = UNITS.iter().filter(|unit| unit.quantity == quantity).map(|unit| unit.name).collect();
         names.join(", ")
     }
@@ -138,7 +145,7 @@ pub struct ChannelName {
 pub enum ChannelError {
     #[error("\"{text}\" is not a channel; write QUANTITY@DOF [UNIT], such as acc@7 [m/s^2]")]
     NotAChannel { text: String },
-    #[error("\"{word}\" is not a quantity; use force, acc, vel or disp")]
+    #[error("\"{word}\" is not a quantity; use force, acc, vel, disp or base")]
     UnknownQuantity { word: String },
     #[error("\"{text}\" names no DOF; write its label after the @, such as {quantity}@7")]
     NoLabel { text: String, quantity: &'static str },
@@ -165,7 +172,8 @@ impl ChannelName {
         let Some(unit) = Unit::from_name(unit_name) else {
             return Err(ChannelError::UnknownUnit { unit: unit_name.to_owned(), quantity: quantity.word(), units });
         };
-        if unit.quantity != quantity {
+        let measured = if quantity == Quantity::Base { Quantity::Acceleration } else { quantity };
+        if unit.quantity != measured || (quantity == Quantity::Base && unit.rotation) {
             return Err(ChannelError::WrongUnit { unit: unit.name, quantity: quantity.word(), units });
         }
         Ok(Self { quantity, label, unit })
@@ -229,7 +237,7 @@ mod tests {
     #[test]
     fn bad_names_say_what_is_wrong() {
         let message = |text: &str| ChannelName::parse(text).unwrap_err().to_string();
-        assert_eq!(message("pressure@3 [Pa]"), "\"pressure\" is not a quantity; use force, acc, vel or disp");
+        assert_eq!(message("pressure@3 [Pa]"), "\"pressure\" is not a quantity; use force, acc, vel, disp or base");
         assert_eq!(message("acc@7"), "\"acc@7\" has no unit; add one in brackets: m/s^2, g, rad/s^2");
         assert_eq!(message("acc@7 [mm/s]"), "mm/s is not a unit of acc; those are m/s^2, g, rad/s^2");
         assert_eq!(message("acc@ [g]"), "\"acc@\" names no DOF; write its label after the @, such as acc@7");

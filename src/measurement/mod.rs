@@ -1,6 +1,7 @@
 //! Validated records: what was measured, the harmonics fitted to it with their covariance, and what is wrong with it.
 
 mod any_columns;
+pub mod base;
 pub mod channel;
 mod decay;
 mod design;

@@ -111,7 +111,7 @@ pub fn recorded(
         let mean = match channel.quantity {
             Quantity::Force => force(excitation, channel.dof, 0).re,
             Quantity::Displacement => response.mean[channel.dof],
-            Quantity::Velocity | Quantity::Acceleration => 0.0,
+            Quantity::Velocity | Quantity::Acceleration | Quantity::Base => 0.0,
         };
         let mean = mean * transfer(sensors, channel, 0.0).re;
         let harmonics =

@@ -169,7 +169,7 @@ impl Track {
 /// The motion that a response channel sees; none for forces.
 fn shown<'a>(samples: &'a Samples, channel: &Channel) -> Option<&'a [f64]> {
     let motion = match channel.quantity {
-        Quantity::Force => return None,
+        Quantity::Force | Quantity::Base => return None,
         Quantity::Displacement => &samples.displacement,
         Quantity::Velocity => &samples.velocity,
         Quantity::Acceleration => &samples.acceleration,

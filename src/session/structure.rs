@@ -1,7 +1,7 @@
 //! The structure of a project: built from its parameters, and its numbers set by name.
 
 use super::document::Refusal;
-use crate::exchange::project::file::{FORMAT, Header, ProjectFile, Shape, SimulateTable, StructureTable};
+use crate::exchange::project::file::{BaseTable, FORMAT, Header, ProjectFile, Shape, SimulateTable, StructureTable};
 use crate::exchange::project::plan;
 use crate::identify::Settings;
 use crate::structure::Structure;
@@ -39,6 +39,7 @@ fn from_files(table: &StructureTable, folder: &Path) -> Result<Structure, Refusa
         run: Vec::new(),
         harmonics: Vec::new(),
         frf: Vec::new(),
+        base: BaseTable::default(),
         analysis: Settings::default(),
         simulate: SimulateTable::default(),
     };

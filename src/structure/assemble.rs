@@ -1,7 +1,7 @@
 //! The last steps that every kind of structure shares: lumped masses and the checks that make a [`Structure`] valid.
 
 use super::error::{nearest, positive};
-use super::{Dof, Element, Node, Structure, StructureError, StructureKind, SystemMatrices};
+use super::{Dof, Element, Node, Origin, Structure, StructureError, StructureKind, SystemMatrices};
 use crate::math::eigen;
 use dashpot_numerics::Cholesky;
 use faer::{Mat, MatRef};
@@ -39,7 +39,9 @@ impl Parts {
     pub(super) fn finish(self, lumped: &[LumpedMass]) -> Result<Structure, StructureError> {
         let Self { kind, dofs, nodes, lines, matrices, elements } = self;
         check_labels(&dofs, &nodes)?;
-        let mut structure = Structure { kind, dofs, nodes, lines, matrices: None, elements, lumped: Vec::new() };
+        let origin = Origin::default();
+        let mut structure =
+            Structure { kind, dofs, nodes, lines, matrices: None, elements, lumped: Vec::new(), origin };
         structure.lumped = lumped.iter().filter_map(|mass| structure.dof(&mass.dof)).collect();
         structure.matrices = matrices.map(|matrices| checked(matrices, lumped, &structure)).transpose()?;
         Ok(structure)

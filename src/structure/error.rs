@@ -52,6 +52,22 @@ pub enum StructureError {
     UnknownNode { label: String, near: Vec<String> },
     #[error("this structure has no mass and stiffness matrices, so it has no modes: use kind beam, chain or matrices")]
     NoMatrices,
+    #[error(
+        "no degree of freedom is kept by the reduction; measure or drive one, or name some as `dofs` of [structure.reduce]"
+    )]
+    NothingKept,
+    #[error("{kept} degrees of freedom would be kept of {degrees}; leave [structure.reduce] out")]
+    NothingReduced { kept: usize, degrees: usize },
+    #[error(
+        "the stiffness of the inner degrees of freedom has no Cholesky factors: those that are kept do not restrain the structure, or it is unstable; use method \"craig-bampton\", or keep more"
+    )]
+    NotRestrained,
+    #[error(
+        "the model is not that of a stable structure: its stiffness is not positive semi-definite; leave out Lagrange multipliers and geometric stiffness"
+    )]
+    NotStable,
+    #[error("more than {most} modes would be needed up to {up_to_hz} Hz; lower `up_to_hz` of [structure.reduce]")]
+    TooManyModes { most: usize, up_to_hz: f64 },
     #[error("the modes could not be computed: {reason}")]
     Modes { reason: String },
 }

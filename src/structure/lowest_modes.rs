@@ -14,7 +14,7 @@ use super::{StructureError, SystemMatrices};
 use crate::math::eigen;
 use crate::math::fill::filled;
 use dashpot_numerics::{Cholesky, product, transposed_product};
-use faer::{ColRef, Mat};
+use faer::{ColRef, Mat, MatRef};
 use rand::SeedableRng;
 use rand_distr::{Distribution, StandardNormal};
 
@@ -50,19 +50,8 @@ impl LowestModes {
         let shift = SHIFT * highest * highest;
         let shifted = filled(n, n, |i, j| k[(i, j)] + shift * m[(i, j)]);
         let Some(factor) = Cholesky::new(shifted.as_ref()) else { return Ok(None) };
-        let mut krylov = Krylov::new(matrices, factor, shift);
-        let mut next_look = 2 * least.max(BLOCK);
-        while krylov.basis.len() + BLOCK <= n {
-            krylov.grow()?;
-            if krylov.basis.len() < next_look {
-                continue;
-            }
-            if let Some(modes) = krylov.found(highest, least)? {
-                return Ok(Some(Self { modes, factor: krylov.factor, shift }));
-            }
-            next_look = krylov.basis.len() * 5 / 4;
-        }
-        Ok(None)
+        let found = search(&Dense { matrices, factor: &factor }, shift, highest, least, n)?;
+        Ok(found.map(|modes| Self { modes, factor, shift }))
     }
 
     /// What the higher modes add to the columns `dofs` of the receptance.
@@ -109,10 +98,79 @@ impl Rest {
     }
 }
 
-/// A growing M-orthonormal basis with its products; vectors as columns of blocks.
-struct Krylov<'a> {
+/// Products with the matrices and solutions with `A = K + s M`, n x k each.
+pub(super) trait Pencil {
+    /// Number of rows, n.
+    fn size(&self) -> usize;
+    /// `M X`.
+    fn by_mass(&self, x: MatRef<'_, f64>) -> Mat<f64>;
+    /// `K X`.
+    fn by_stiffness(&self, x: MatRef<'_, f64>) -> Mat<f64>;
+    /// `A^-1 X`.
+    fn solve(&self, x: MatRef<'_, f64>) -> Mat<f64>;
+    /// Largest ratio of the diagonals of stiffness and mass, rad^2/s^2.
+    fn stiffest(&self) -> f64;
+    /// What rounding leaves of a residual over `|M phi|`, rad^2/s^2.
+    fn residual_rounding(&self) -> f64 {
+        0.0
+    }
+}
+
+struct Dense<'a> {
     matrices: &'a SystemMatrices,
-    factor: Cholesky,
+    factor: &'a Cholesky,
+}
+
+impl Pencil for Dense<'_> {
+    fn size(&self) -> usize {
+        self.matrices.mass.nrows()
+    }
+
+    fn by_mass(&self, x: MatRef<'_, f64>) -> Mat<f64> {
+        product(self.matrices.mass.as_ref(), x)
+    }
+
+    fn by_stiffness(&self, x: MatRef<'_, f64>) -> Mat<f64> {
+        product(self.matrices.stiffness.as_ref(), x)
+    }
+
+    fn solve(&self, x: MatRef<'_, f64>) -> Mat<f64> {
+        self.factor.solve(x)
+    }
+
+    fn stiffest(&self) -> f64 {
+        let ratio = |i: usize| self.matrices.stiffness[(i, i)] / self.matrices.mass[(i, i)];
+        (0..self.size()).map(ratio).fold(0.0, f64::max)
+    }
+}
+
+/// All modes of a pencil up to the circular frequency `highest` (rad/s), at least `least` of them; `None` where more than
+/// `most` vectors would be needed, or the stiffness is not that of a stable structure. `shift` is `s` of `A = K + s M`.
+pub(super) fn search<P: Pencil>(
+    pencil: &P,
+    shift: f64,
+    highest: f64,
+    least: usize,
+    most: usize,
+) -> Result<Option<Modes>, StructureError> {
+    let mut krylov = Krylov::new(pencil, shift);
+    let mut next_look = 2 * least.max(BLOCK);
+    while krylov.basis.len() + BLOCK <= most {
+        krylov.grow()?;
+        if krylov.basis.len() < next_look {
+            continue;
+        }
+        if let Some(modes) = krylov.found(highest, least)? {
+            return Ok(Some(modes));
+        }
+        next_look = krylov.basis.len() * 5 / 4;
+    }
+    Ok(None)
+}
+
+/// A growing M-orthonormal basis with its products; vectors as columns of blocks.
+struct Krylov<'a, P> {
+    pencil: &'a P,
     shift: f64,
     basis: Columns,
     by_mass: Columns,
@@ -140,30 +198,30 @@ impl Columns {
         (0..block.ncols()).for_each(|j| self.values.extend(block.col(j).iter()));
     }
 
-    fn matrix(&self) -> faer::MatRef<'_, f64> {
-        faer::MatRef::from_column_major_slice(&self.values, self.rows, self.len())
+    fn matrix(&self) -> MatRef<'_, f64> {
+        MatRef::from_column_major_slice(&self.values, self.rows, self.len())
     }
 }
 
-impl<'a> Krylov<'a> {
-    fn new(matrices: &'a SystemMatrices, factor: Cholesky, shift: f64) -> Self {
-        let n = matrices.mass.nrows();
+impl<'a, P: Pencil> Krylov<'a, P> {
+    fn new(pencil: &'a P, shift: f64) -> Self {
+        let n = pencil.size();
         let mut random = rand_chacha::ChaCha8Rng::seed_from_u64(1);
         let newest = filled(n, BLOCK, |_, _| StandardNormal.sample(&mut random));
         let [basis, by_mass, by_stiffness] = [0; 3].map(|_| Columns::new(n));
-        Self { matrices, factor, shift, basis, by_mass, by_stiffness, newest }
+        Self { pencil, shift, basis, by_mass, by_stiffness, newest }
     }
 
     /// Adds `A^-1 M` times the newest block to the basis.
     fn grow(&mut self) -> Result<(), StructureError> {
-        let loaded = product(self.matrices.mass.as_ref(), self.newest.as_ref());
-        let mut block = self.factor.solve(loaded.as_ref());
-        let mut by_mass = product(self.matrices.mass.as_ref(), block.as_ref());
+        let loaded = self.pencil.by_mass(self.newest.as_ref());
+        let mut block = self.pencil.solve(loaded.as_ref());
+        let mut by_mass = self.pencil.by_mass(block.as_ref());
         for _ in 0..2 {
             if self.basis.len() > 0 {
                 let along = transposed_product(self.by_mass.matrix(), block.as_ref());
                 block -= product(self.basis.matrix(), along.as_ref());
-                by_mass = product(self.matrices.mass.as_ref(), block.as_ref());
+                by_mass = self.pencil.by_mass(block.as_ref());
             }
             let turn = normaliser(&block, &by_mass)?;
             block = product(block.as_ref(), turn.as_ref());
@@ -171,7 +229,7 @@ impl<'a> Krylov<'a> {
         }
         self.basis.push(&block);
         self.by_mass.push(&by_mass);
-        self.by_stiffness.push(&product(self.matrices.stiffness.as_ref(), block.as_ref()));
+        self.by_stiffness.push(&self.pencil.by_stiffness(block.as_ref()));
         self.newest = block;
         Ok(())
     }
@@ -192,7 +250,8 @@ impl<'a> Krylov<'a> {
         let by_stiffness = product(self.by_stiffness.matrix(), y);
         let is_found = |r: usize| {
             let left = residual(by_stiffness.col(r), by_mass.col(r), ritz.values[r]);
-            left <= FOUND * (ritz.values[r].abs() + self.shift) * by_mass.col(r).norm_l2()
+            let rounding = self.pencil.residual_rounding();
+            left <= (FOUND * (ritz.values[r].abs() + self.shift) + rounding) * by_mass.col(r).norm_l2()
         };
         if !(0..wanted).all(is_found) {
             return Ok(None);
@@ -203,9 +262,7 @@ impl<'a> Krylov<'a> {
 
     /// Of `omega^2`.
     fn rounding(&self) -> f64 {
-        let ratio = |i: usize| self.matrices.stiffness[(i, i)] / self.matrices.mass[(i, i)];
-        let stiffest = (0..self.basis.rows).map(ratio).fold(0.0, f64::max);
-        (64.0 * f64::EPSILON * stiffest).max(FOUND * self.shift)
+        (64.0 * f64::EPSILON * self.pencil.stiffest()).max(FOUND * self.shift)
     }
 }
 

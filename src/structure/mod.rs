@@ -1,6 +1,7 @@
 //! Mass, stiffness and geometry of what vibrates, and its modes.
 
 mod assemble;
+mod base;
 pub mod beam;
 pub mod chain;
 mod coupling;
@@ -11,11 +12,13 @@ pub mod imported;
 pub mod lowest_modes;
 pub mod modes;
 pub mod points;
+pub mod reduction;
 pub mod wing;
 
 pub use assemble::{LumpedMass, MOST_DOFS};
 pub use coupling::Coupled;
 pub use error::StructureError;
+pub(crate) use error::nearest;
 pub use factors::Part;
 
 use faer::Mat;
@@ -32,12 +35,21 @@ pub enum Direction {
     Rx,
     Ry,
     Rz,
+    /// A generalised coordinate, such as the amplitude of a fixed-interface mode: no direction in space.
+    Q,
 }
 
 impl Direction {
-    /// Whether it is a rotation (rad) rather than a translation (m).
+    /// Whether it is a rotation (rad) or a generalised coordinate rather than a translation (m).
     pub fn is_rotation(self) -> bool {
-        matches!(self, Self::Rx | Self::Ry | Self::Rz)
+        matches!(self, Self::Rx | Self::Ry | Self::Rz | Self::Q)
+    }
+}
+
+impl Direction {
+    /// 0, 1 or 2 for a translation along x, y or z.
+    pub fn axis(self) -> Option<usize> {
+        [Self::X, Self::Y, Self::Z].into_iter().position(|direction| direction == self)
     }
 }
 
@@ -103,6 +115,16 @@ pub struct Structure {
     pub(crate) elements: Vec<Element>,
     /// Rows with a lumped mass.
     pub(crate) lumped: Vec<usize>,
+    pub(crate) origin: Origin,
+}
+
+/// How an imported structure came about, beyond its matrices.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Origin {
+    /// What the files hold that is not understood but could matter, a sentence each.
+    pub notes: Vec<String>,
+    /// How a larger model was reduced to the degrees of freedom that are here.
+    pub reduction: Option<reduction::Reduction>,
 }
 
 impl Structure {
@@ -149,6 +171,29 @@ impl Structure {
     /// Finite elements; empty unless the structure is a beam.
     pub fn elements(&self) -> &[Element] {
         &self.elements
+    }
+
+    /// Notes of the files and the reduction, where there is one.
+    pub fn origin(&self) -> &Origin {
+        &self.origin
+    }
+
+    /// Notes how the structure came about; lumped masses ride on the base like all others.
+    pub(crate) fn set_origin(
+        &mut self,
+        notes: Vec<String>,
+        mut reduction: Option<reduction::Reduction>,
+        lumped: &[LumpedMass],
+    ) {
+        if let Some(reduction) = &mut reduction {
+            for extra in lumped {
+                let Some(row) = self.dof(&extra.dof) else { continue };
+                if let Some(axis) = self.dofs[row].direction.axis() {
+                    reduction.base_loads[axis][row] += extra.mass;
+                }
+            }
+        }
+        self.origin = Origin { notes, reduction };
     }
 
     /// Row of the DOF of that label.

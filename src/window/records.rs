@@ -103,6 +103,9 @@ fn harmonics(plan: &Plan, keys: &[Key]) -> Result<Vec<(Key, Vec<Run>)>, String> 
         alone.file.harmonics = vec![plan.file.harmonics[index].clone()];
         let read = alone.harmonics().map_err(|e| e.to_string())?;
         let runs = read.into_iter().map(|r| r.run(&corrections)).collect();
+        let fitted = read.into_iter().map(|r| Run::from_harmonics(r.name, None, true, r.fit, &corrections));
+        let runs =
+            fitted.map(|run| plan.on_its_base(None, run).map_err(|e| e.to_string())).collect::<Result<_, _>>()?;
         Ok((key.clone(), runs))
     };
     keys.iter().enumerate().map(one).collect()
@@ -120,6 +123,7 @@ fn common(state: &State) -> u64 {
     let mut hasher = DefaultHasher::new();
     let file = state.file();
     file.analysis.harmonics.hash(&mut hasher);
+    file.base.hash(&mut hasher);
     for sensor in &file.sensor {
         (&sensor.channel, sensor.delay.map(f64::to_bits), sensor.gain.map(f64::to_bits)).hash(&mut hasher);
     }

@@ -55,6 +55,7 @@ pub fn axis(quantity: Quantity, rotation: bool) -> &'static str {
         (Quantity::Force, false) => "Force, N",
         (Quantity::Force, true) => "Moment, N·m",
         (Quantity::Acceleration, false) => "Acceleration, m/s²",
+        (Quantity::Base, _) => "Acceleration of the base, m/s²",
         (Quantity::Acceleration, true) => "Angular acceleration, rad/s²",
         (Quantity::Velocity, false) => "Velocity, m/s",
         (Quantity::Velocity, true) => "Angular velocity, rad/s",

@@ -125,7 +125,7 @@ fn bad_files_are_named_in_one_line() {
         ),
         (
             with_header("time [s],strain@1 [g],acc@3 [g]"),
-            "run.csv, line 1, strain@1 [g]: \"strain\" is not a quantity; use force, acc, vel or disp",
+            "run.csv, line 1, strain@1 [g]: \"strain\" is not a quantity; use force, acc, vel, disp or base",
         ),
         (
             with_header("time [s],channel 1,acc@3 [g]"),

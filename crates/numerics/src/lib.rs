@@ -10,6 +10,7 @@ mod lanes;
 mod product;
 mod singular;
 mod small;
+mod sparse;
 
 pub use eigen::{complex_general, eigenvalues, generalised_symmetric, real_general, symmetric, symmetric_values};
 pub use factor::{Cholesky, ComplexLu, RealLu, least_squares, solve_indefinite, thin_qr, triangle};
@@ -18,3 +19,4 @@ pub use lanes::{LANES, dot, sum};
 pub use product::{product, product_transposed, transposed_product};
 pub use singular::thin_svd;
 pub use small::RowLu;
+pub use sparse::{SparseCholesky, SparseSymmetric};

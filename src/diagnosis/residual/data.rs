@@ -82,7 +82,7 @@ impl ChannelData {
     /// Recorded amplitude over displacement amplitude at circular frequency `w` (rad/s): `(i w)^q`.
     pub fn from_displacement(&self, w: f64) -> c64 {
         match self.quantity {
-            Quantity::Acceleration => c64::new(-w * w, 0.0),
+            Quantity::Acceleration | Quantity::Base => c64::new(-w * w, 0.0),
             Quantity::Velocity => c64::new(0.0, w),
             Quantity::Displacement | Quantity::Force => c64::new(1.0, 0.0),
         }

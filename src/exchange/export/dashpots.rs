@@ -2,7 +2,7 @@
 
 use super::{Identified, place_text};
 use crate::effects::{Effect, Leg};
-use crate::structure::{Direction, Structure};
+use crate::structure::{Direction, Structure, StructureKind};
 
 /// A dashpot to the ground or between two DOFs, `c` in N s/m.
 pub(super) struct Dashpot {
@@ -35,8 +35,12 @@ pub(super) fn coefficient_unit(effect: Effect) -> &'static str {
     }
 }
 
-/// Grid point (node index + 1) and component (1 to 6) of a DOF.
+/// Grid point and component (1 to 6, 0 for a generalised coordinate) of a DOF: the node's own number where all nodes of an
+/// imported structure have one, else its place in the list of nodes, from 1.
 pub(super) fn grid_component(structure: &Structure, dof: usize) -> (usize, u8) {
+    let number = |label: &str| label.parse::<usize>().ok().filter(|&id| id > 0);
+    let is_numbered = structure.kind() == StructureKind::Matrices
+        && structure.nodes().iter().all(|node| number(&node.label).is_some());
     let dof = &structure.dofs()[dof];
     let component = match dof.direction {
         Direction::X => 1,
@@ -45,6 +49,8 @@ pub(super) fn grid_component(structure: &Structure, dof: usize) -> (usize, u8) {
         Direction::Rx => 4,
         Direction::Ry => 5,
         Direction::Rz => 6,
+        Direction::Q => 0,
     };
-    (dof.node + 1, component)
+    let own = number(&structure.nodes()[dof.node].label).filter(|_| is_numbered);
+    (own.unwrap_or(dof.node + 1), component)
 }

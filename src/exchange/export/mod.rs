@@ -1,6 +1,7 @@
 //! Identified matrices and sources in the formats of other programs.
 
 mod abaqus;
+mod calculix;
 mod csv;
 mod dashpots;
 mod json;
@@ -76,11 +77,14 @@ pub enum Format {
     Nastran,
     /// Abaqus dashpot elements.
     Abaqus,
+    /// CalculiX dashpot elements.
+    Calculix,
 }
 
 impl Format {
     /// All formats.
-    pub const ALL: [Self; 6] = [Self::Csv, Self::Mtx, Self::Mat, Self::Json, Self::Nastran, Self::Abaqus];
+    pub const ALL: [Self; 7] =
+        [Self::Csv, Self::Mtx, Self::Mat, Self::Json, Self::Nastran, Self::Abaqus, Self::Calculix];
 
     /// Name on the command line.
     pub fn name(self) -> &'static str {
@@ -91,6 +95,7 @@ impl Format {
             Self::Json => "json",
             Self::Nastran => "nastran",
             Self::Abaqus => "abaqus",
+            Self::Calculix => "calculix",
         }
     }
 
@@ -150,6 +155,7 @@ pub fn write(identified: &Identified, format: Format, path: &Path) -> Result<Wri
         Format::Json => json::export(identified, path),
         Format::Nastran => nastran::export(identified, path),
         Format::Abaqus => abaqus::export(identified, path),
+        Format::Calculix => calculix::export(identified, path),
     };
     for file in &export.files {
         write_atomically(&file.path, &file.bytes)

@@ -58,7 +58,7 @@ impl Form {
     /// The form of a motion over a force.
     pub fn of(quantity: Quantity) -> Option<Self> {
         match quantity {
-            Quantity::Force => None,
+            Quantity::Force | Quantity::Base => None,
             Quantity::Displacement => Some(Self::Receptance),
             Quantity::Velocity => Some(Self::Mobility),
             Quantity::Acceleration => Some(Self::Accelerance),

@@ -78,7 +78,7 @@ impl LabUnit {
     pub fn names_of(quantity: Quantity) -> &'static str {
         match quantity {
             Quantity::Force => "N, mN, kN, lbf, kgf, N m",
-            Quantity::Acceleration => "m/s^2, mm/s^2, g, mg, in/s^2, ft/s^2, rad/s^2, deg/s^2",
+            Quantity::Acceleration | Quantity::Base => "m/s^2, mm/s^2, g, mg, in/s^2, ft/s^2, rad/s^2, deg/s^2",
             Quantity::Velocity => "m/s, mm/s, cm/s, in/s, rad/s, deg/s",
             Quantity::Displacement => "m, cm, mm, um, in, mil, ft, rad, mrad, deg",
         }

@@ -28,6 +28,9 @@ impl TableError {
 
 impl fmt::Display for TableError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if let TableProblem::Model(error) = &self.problem {
+            return write!(f, "{error}");
+        }
         match self.line {
             Some(line) => write!(f, "{}:{line}: {}", self.file, self.problem),
             None => write!(f, "{}: {}", self.file, self.problem),
@@ -36,6 +39,12 @@ impl fmt::Display for TableError {
 }
 
 impl std::error::Error for TableError {}
+
+impl From<dashpot_fe_files::FileError> for TableError {
+    fn from(error: dashpot_fe_files::FileError) -> Self {
+        Self { file: error.file.clone(), line: None, problem: TableProblem::Model(error) }
+    }
+}
 
 /// What is wrong with the file.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
@@ -73,7 +82,7 @@ pub enum TableProblem {
     Empty,
     #[error("the header must be `{expected}`, not \"{found}\"")]
     Header { expected: &'static str, found: String },
-    #[error("\"{text}\" is not a direction; use x, y, z, rx, ry or rz")]
+    #[error("\"{text}\" is not a direction; use x, y, z, rx, ry or rz, or q for a generalised coordinate")]
     Direction { text: String },
     #[error("{what} \"{label}\" is given twice, first in line {first}; leave one out")]
     Twice { what: &'static str, label: String, first: usize },
@@ -81,6 +90,13 @@ pub enum TableProblem {
     JoinedToItself { label: String },
     #[error("a label is empty; name every node and DOF")]
     NoLabel,
+    #[error("it is not clear which matrix is meant of: {names}; name it as `{key}` of [structure]")]
+    WhichMatrix { key: &'static str, names: String },
+    #[error("the stiffness has {stiffness} rows but the mass {mass}; take both from one run")]
+    OtherSize { mass: usize, stiffness: usize },
+    /// Names its own place.
+    #[error("{0}")]
+    Model(dashpot_fe_files::FileError),
 }
 
 /// The text of the file at `path`, without a byte order mark.

@@ -2,6 +2,7 @@
 
 pub mod error;
 pub mod market;
+pub mod model;
 pub mod table;
 mod write;
 

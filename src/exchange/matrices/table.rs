@@ -60,6 +60,7 @@ pub fn parse_dofs(text: &str, file: &str) -> Result<Vec<ImportedDof>, TableError
             "rx" => Direction::Rx,
             "ry" => Direction::Ry,
             "rz" => Direction::Rz,
+            "q" => Direction::Q,
             other => return Err(wrong(TableProblem::Direction { text: quote(other) })),
         };
         dofs.push(ImportedDof { label, node, direction });

@@ -89,6 +89,10 @@ pub enum Problem {
         "the record {file} would be written outside the folder of the records; name a file inside it, without `..`"
     )]
     OutsideFolder { file: String },
+    #[error(
+        "the base moves in {file}, but the structure has no mass that its motion could load; give mass and stiffness"
+    )]
+    BaseWithoutMass { file: String },
     #[error("record {file}: {error}")]
     Fit { file: String, error: FitError },
     #[error("record {file}: {error}; it looks like kind = \"{kind}\": {reason}")]

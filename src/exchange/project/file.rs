@@ -50,6 +50,9 @@ pub struct ProjectFile {
     /// Tables `[[frf]]`.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub frf: Vec<FrfTable>,
+    /// Table `[base]`.
+    #[serde(skip_serializing_if = "is_default")]
+    pub base: BaseTable,
     /// Table `[analysis]`.
     #[serde(skip_serializing_if = "is_default")]
     pub analysis: Settings,
@@ -103,7 +106,7 @@ pub enum Shape {
 }
 
 /// Files of a structure that is given by its matrices, relative to the project.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct MatricesTable {
     /// Mass matrix.
     pub mass: String,
@@ -118,6 +121,30 @@ pub struct MatricesTable {
     /// Table of lines.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub lines: Option<String>,
+    /// Name of the mass matrix in a file of several.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub mass_name: Option<String>,
+    /// Name of the stiffness matrix in a file of several.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub stiffness_name: Option<String>,
+    /// Table `[structure.reduce]`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub reduce: Option<ReduceTable>,
+}
+
+/// Table `[structure.reduce]`.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ReduceTable {
+    /// `guyan` or `craig-bampton`.
+    pub method: String,
+    /// Fixed-interface modes are kept up to this frequency, Hz.
+    pub up_to_hz: f64,
+    /// The error is told up to this frequency, Hz; half of `up_to_hz` unless given.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub band_hz: Option<f64>,
+    /// DOFs that are kept beside those that the project names.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub dofs: Vec<Label>,
 }
 
 /// Measured points.
@@ -254,6 +281,15 @@ pub struct RunTable {
     /// Sampling rate of a laboratory file without time, Hz.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub sampling_hz: Option<f64>,
+    /// Direction in which the base moves in a recipe: `x`, `y` or `z`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub base: Option<String>,
+    /// Amplitude of the base's acceleration in a recipe, m/s^2.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub base_m_s2: Option<f64>,
+    /// Whether the motions of the record are absolute or relative to the base; as `[base]` says unless given.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub response: Option<BaseResponse>,
 }
 
 impl RunTable {
@@ -261,6 +297,24 @@ impl RunTable {
     pub fn of(file: String) -> Self {
         Self { file, ..Self::default() }
     }
+}
+
+/// Table `[base]`: a structure on a moving base.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize)]
+pub struct BaseTable {
+    /// What the motions of the records are.
+    pub response: BaseResponse,
+}
+
+/// What a sensor on a structure with a moving base shows.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum BaseResponse {
+    /// The motion in space: accelerometers.
+    #[default]
+    Absolute,
+    /// The motion against the base: displacement sensors on the table.
+    Relative,
 }
 
 /// Table `[[harmonics]]`.

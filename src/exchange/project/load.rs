@@ -40,7 +40,9 @@ impl Plan {
             piece.report(1.0);
         }
         let corrections = self.corrections();
-        runs.extend(self.harmonics()?.into_iter().map(|run| run.run(&corrections)));
+        for run in self.harmonics()? {
+            runs.push(self.on_its_base(None, run.run(&corrections))?);
+        }
         let mut remarks = Vec::new();
         for index in 0..self.file.frf.len() {
             let chosen = self.frf(index, control)?;
@@ -77,17 +79,19 @@ impl Plan {
         let (level, enabled, frequency_hz) = (planned.level, planned.enabled, planned.frequency_hz);
         let corrections = self.corrections();
         let record = Arc::new(record);
-        Run::from_record(file, level, enabled, record.clone(), frequency_hz, settings.harmonics, &corrections)
-            .map(|run| Run { session: planned.session.clone(), insisted: planned.insisted, ..run })
-            .map_err(|error| {
-                let key = if frequency_hz.is_some() { "frequency" } else { "file" };
-                let (file, looks_like) = (planned.file.clone(), propose(&record));
-                let problem = match looks_like {
-                    Proposal { kind: Kind::Steady, .. } => Problem::Fit { file, error },
-                    Proposal { kind, reason, .. } => Problem::NotSteady { file, error, kind: kind.name(), reason },
-                };
-                self.run_error(index, key, problem)
-            })
+        let run =
+            Run::from_record(file, level, enabled, record.clone(), frequency_hz, settings.harmonics, &corrections)
+                .map(|run| Run { session: planned.session.clone(), insisted: planned.insisted, ..run })
+                .map_err(|error| {
+                    let key = if frequency_hz.is_some() { "frequency" } else { "file" };
+                    let (file, looks_like) = (planned.file.clone(), propose(&record));
+                    let problem = match looks_like {
+                        Proposal { kind: Kind::Steady, .. } => Problem::Fit { file, error },
+                        Proposal { kind, reason, .. } => Problem::NotSteady { file, error, kind: kind.name(), reason },
+                    };
+                    self.run_error(index, key, problem)
+                })?;
+        self.on_its_base(Some(index), run)
     }
 
     /// Reads the record of run number `index`, which is not steady.

@@ -1,13 +1,16 @@
 //! Project files: TOML to [`ProjectFile`] (as written), to [`Plan`] (built), to [`Project`](super::Project) (records
 //! read and fitted).
 
+pub mod base;
 mod channel;
 pub mod correction;
 pub mod error;
 pub mod excitation;
 pub mod file;
 pub mod frf;
+mod kept;
 pub mod load;
+mod model;
 mod parse;
 pub mod plan;
 mod reader;
@@ -20,4 +23,4 @@ pub use channel::template;
 pub use error::{Problem, ProjectError};
 pub use file::{Lines, ProjectFile};
 pub use load::load;
-pub use plan::{Plan, PlannedForce, PlannedRun, PlannedTest, open, plan};
+pub use plan::{Plan, PlannedBase, PlannedForce, PlannedRun, PlannedTest, open, plan};

@@ -11,11 +11,13 @@ use super::file::{
 use super::frf;
 use super::reader::{Origin, Table, one_line};
 use super::ruled_out;
+use super::{base, model};
 use crate::balance::{Expansion, Weights};
 use crate::effects::family::Family;
 use crate::effects::{Effect, State};
 use crate::identify::Settings;
 use crate::measurement::Quantity;
+use crate::measurement::base::AXES;
 use crate::measurement::{Kind, Part};
 use crate::structure::LumpedMass;
 use crate::structure::beam::{BeamParameters, Supports};
@@ -23,7 +25,7 @@ use crate::structure::chain::ChainParameters;
 use std::collections::BTreeMap;
 use toml::de::DeTable;
 
-const TABLES: [&str; 12] = [
+const TABLES: [&str; 13] = [
     "project",
     "structure",
     "source",
@@ -34,6 +36,7 @@ const TABLES: [&str; 12] = [
     "run",
     "harmonics",
     "frf",
+    "base",
     "analysis",
     "simulate",
 ];
@@ -50,11 +53,26 @@ const BEAM: [&str; 10] = [
     "supports",
 ];
 const CHAIN: [&str; 6] = ["kind", "lumped_mass", "correction", "masses", "ground_stiffness", "coupling_stiffness"];
-const MATRICES: [&str; 8] = ["kind", "lumped_mass", "correction", "mass", "stiffness", "nodes", "dofs", "lines"];
+const MATRICES: [&str; 11] = [
+    "kind",
+    "lumped_mass",
+    "correction",
+    "mass",
+    "stiffness",
+    "nodes",
+    "dofs",
+    "lines",
+    "mass_name",
+    "stiffness_name",
+    "reduce",
+];
 const POINTS: [&str; 4] = ["kind", "lumped_mass", "dofs", "positions"];
 const ANALYSIS: [&str; 6] = ["harmonics", "expansion", "keep", "weights", "max_sources", "stop_angle_deg"];
 
-const RUN: [&str; 14] = [
+const RUN: [&str; 17] = [
+    "base",
+    "base_m_s2",
+    "response",
     "set",
     "sampling_hz",
     "file",
@@ -105,6 +123,7 @@ impl ProjectFile {
             run: runs(&root, &mut lines)?,
             harmonics: harmonics(&root, &mut lines)?,
             frf: frf::parse(&root, &mut lines)?,
+            base: base::parse(&root)?,
             analysis: analysis(&root)?,
             simulate: simulate(&root, &mut lines)?,
         };
@@ -196,6 +215,9 @@ fn matrices(table: &Table<'_>) -> Read<MatricesTable> {
         nodes: table.text("nodes")?,
         dofs: table.text("dofs")?,
         lines: table.text("lines")?,
+        mass_name: table.text("mass_name")?,
+        stiffness_name: table.text("stiffness_name")?,
+        reduce: table.table("reduce", "[structure.reduce]")?.map(|table| model::parse(&table)).transpose()?,
     })
 }
 
@@ -326,7 +348,11 @@ fn runs(root: &Table<'_>, lines: &mut Lines) -> Read<Vec<RunTable>> {
             excitation: excitation::parse(&table)?,
             set: table.text("set")?,
             sampling_hz,
+            base: table.word("base", &AXES, |word| AXES.contains(&word).then(|| word.to_owned()))?,
+            base_m_s2: table.number("base_m_s2")?,
+            response: base::response(&table)?,
         });
+        base::half_a_base(&table, runs.last())?;
         lines.run.push(key_lines(&table));
     }
     Ok(runs)

@@ -1,7 +1,8 @@
 //! A project before its records are read: what `simulate` needs, and the first half of loading.
 
 use super::error::{Problem, ProjectError};
-use super::file::{Lines, ProjectFile, RunTable, SimulateTable};
+use super::file::{BaseResponse, Lines, ProjectFile, RunTable, SimulateTable};
+use super::kept;
 use super::ruled_out::ruled_out;
 use super::sources::{At, line, sensors, sources};
 use super::structure::structure;
@@ -10,7 +11,8 @@ use crate::effects::Source;
 use crate::exchange::mapping::{Template, read_mapped, reads_as_own};
 use crate::exchange::records::{SteppedSine, read_harmonics_as, read_record_with};
 use crate::identify::Settings;
-use crate::measurement::{ChannelName, Correction, HarmonicFit, Kind, Part, Record, Run};
+use crate::measurement::base::AXES;
+use crate::measurement::{ChannelName, Correction, HarmonicFit, Kind, Part, Quantity, Record, Run};
 use crate::response::recording::Loading;
 use crate::structure::Structure;
 use std::path::{Component, Path, PathBuf};
@@ -66,6 +68,10 @@ pub struct PlannedRun {
     pub force: Option<PlannedForce>,
     /// Test of a recipe that is not steady, where it is given.
     pub test: Option<PlannedTest>,
+    /// Motion of the base in the recipe, where it is given.
+    pub base: Option<PlannedBase>,
+    /// Whether the motions of the record are absolute or relative to the base.
+    pub response: BaseResponse,
 }
 
 /// A test of a recipe that is not steady.
@@ -103,6 +109,15 @@ impl Fitted {
     }
 }
 
+/// A harmonic motion of the base of a recipe.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PlannedBase {
+    /// 0, 1, 2: along x, y, z.
+    pub axis: usize,
+    /// Amplitude of the acceleration, m/s^2.
+    pub acceleration: f64,
+}
+
 /// A harmonic force of a recipe.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PlannedForce {
@@ -128,10 +143,12 @@ pub fn open(path: &Path) -> Result<Plan, ProjectError> {
 /// [`open`] of a text that stands for the file at `path`.
 pub fn plan(text: &str, path: &Path) -> Result<Plan, ProjectError> {
     let name = path.display().to_string();
-    let (file, lines) = ProjectFile::parse(text.strip_prefix('\u{feff}').unwrap_or(text), &name)?;
+    let (mut file, lines) = ProjectFile::parse(text.strip_prefix('\u{feff}').unwrap_or(text), &name)?;
     let at = At { file: &name, lines: &lines };
     let folder = path.parent().unwrap_or(Path::new(""));
-    let structure = structure(&file.structure, folder, at)?;
+    let named = kept::labels(&file, folder);
+    let structure = structure(&file.structure, folder, &named, at)?;
+    kept::write_down(&mut file, &structure);
     let sources = sources(&file, &structure, at)?;
     let sensors = sensors(&file.sensor, &structure, at)?;
     let ruled_out = ruled_out(&file.ruled_out, &structure, at)?;
@@ -182,6 +199,8 @@ fn runs(file: &ProjectFile, structure: &Structure, folder: &Path, at: At<'_>) ->
             sampling_hz: table.sampling_hz,
             force,
             test,
+            base: planned_base(table),
+            response: table.response.unwrap_or(file.base.response),
         });
     }
     Ok(runs)
@@ -192,10 +211,18 @@ fn is_same(run: &PlannedRun, table: &RunTable) -> bool {
     run.file == table.file && run.set == table.set && run.part == Part { start_s: table.start_s, end_s: table.end_s }
 }
 
+fn planned_base(table: &RunTable) -> Option<PlannedBase> {
+    let axis = AXES.iter().position(|axis| table.base.as_deref() == Some(*axis))?;
+    Some(PlannedBase { axis, acceleration: table.base_m_s2? })
+}
+
 /// Checks the channels that `simulate` is to record.
 fn recorded(channels: &[String], structure: &Structure) -> Result<(), Problem> {
     for text in channels {
         let name = ChannelName::parse(text).map_err(|error| Problem::Channel(Box::new(error)))?;
+        if name.quantity == Quantity::Base {
+            continue;
+        }
         structure.require_dof(&name.label).map_err(|error| Problem::Structure(Box::new(error)))?;
     }
     Ok(())
@@ -250,7 +277,7 @@ impl Plan {
         let planned = &self.runs[run];
         if !planned.path.is_file() {
             let file = planned.file.clone();
-            let simulated = planned.force.is_some() || planned.test.is_some();
+            let simulated = planned.force.is_some() || planned.base.is_some() || planned.test.is_some();
             let problem = if simulated { Problem::NotSimulated { file } } else { Problem::NoRecord { file } };
             return Err(self.run_error(run, "file", problem));
         }

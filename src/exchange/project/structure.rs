@@ -3,6 +3,7 @@
 use super::correction::corrected;
 use super::error::{Problem, ProjectError};
 use super::file::{MatricesTable, Shape, StructureTable};
+use super::model;
 use super::sources::{At, line};
 use crate::exchange::matrices::{read_dofs, read_lines, read_matrix, read_nodes};
 use crate::structure::imported::ImportedParameters;
@@ -11,11 +12,28 @@ use crate::structure::{Structure, StructureError};
 use std::path::Path;
 
 /// The structure; `folder` is that of the project.
-pub(super) fn structure(table: &StructureTable, folder: &Path, at: At<'_>) -> Result<Structure, ProjectError> {
+///
+/// `named` are the DOF labels that the rest of the project uses; a reduced structure keeps them.
+pub(super) fn structure(
+    table: &StructureTable,
+    folder: &Path,
+    named: &[String],
+    at: At<'_>,
+) -> Result<Structure, ProjectError> {
     let lumped = &table.lumped_mass;
     let built = match &table.shape {
         Shape::Beam(parameters) => parameters.build(lumped),
         Shape::Chain(parameters) => parameters.build(lumped),
+        Shape::Matrices(files) if model::is_needed(files, folder) => {
+            let built = model::structure(files, folder, lumped, named);
+            return built.map_err(|problem| {
+                let line = match &problem {
+                    Problem::Structure(error) => blamed(error, table, at),
+                    _ => line(&at.lines.structure, ""),
+                };
+                at.error(line, problem)
+            });
+        }
         Shape::Matrices(files) => {
             imported(files, folder).map_err(|problem| at.error(line(&at.lines.structure, ""), problem))?.build(lumped)
         }

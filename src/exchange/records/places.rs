@@ -2,8 +2,9 @@
 
 use super::error::{At, RecordFileError, RecordProblem};
 use super::table::Table;
+use crate::measurement::Quantity;
 use crate::measurement::channel::ChannelName;
-use crate::structure::{Direction, Dof, Node, Structure, StructureKind};
+use crate::structure::{Direction, Dof, Node, Origin, Structure, StructureKind};
 use std::path::Path;
 
 /// What a file holds.
@@ -48,7 +49,7 @@ impl Points {
     /// Names that are no channels are passed over: who reads the file says what is wrong with them.
     fn add(&mut self, channel: &str) {
         let Ok(name) = ChannelName::parse(channel) else { return };
-        if self.dofs.iter().all(|dof| dof.label != name.label) {
+        if name.quantity != Quantity::Base && self.dofs.iter().all(|dof| dof.label != name.label) {
             let direction = if name.unit.rotation { Direction::Rx } else { Direction::X };
             self.dofs.push(Dof { label: name.label, node: self.dofs.len(), direction });
         }
@@ -66,6 +67,7 @@ impl Points {
             matrices: None,
             elements: Vec::new(),
             lumped: Vec::new(),
+            origin: Origin::default(),
         }
     }
 }

@@ -7,9 +7,10 @@
 use super::error::{At, RecordFileError, RecordProblem};
 use super::table::{Table, quote};
 use crate::control::Control;
+use crate::measurement::base::AXES;
 use crate::measurement::channel::{ChannelName, Unit};
 use crate::measurement::record::RecordError;
-use crate::measurement::{Channel, Record};
+use crate::measurement::{Channel, Quantity, Record};
 use crate::structure::{Structure, StructureKind};
 use std::path::Path;
 
@@ -146,6 +147,9 @@ fn check_time_column(name: &str) -> Result<(), RecordProblem> {
 pub(super) fn channel(name: &str, structure: &Structure) -> Result<(Channel, &'static Unit), RecordProblem> {
     let ChannelName { quantity, label, unit } =
         ChannelName::parse(name).map_err(|problem| RecordProblem::Channel { problem })?;
+    if quantity == Quantity::Base {
+        return base(label, structure).map(|channel| (channel, unit));
+    }
     let Some(dof) = structure.dof(&label) else {
         return Err(RecordProblem::UnknownDof { label: quote(label.as_bytes()), known: known_labels(structure) });
     };
@@ -161,6 +165,16 @@ pub(super) fn channel(name: &str, structure: &Structure) -> Result<(Channel, &'s
         return Err(RecordProblem::UnitOfOtherKind { label, kind, unit: unit.name, units: units.join(", ") });
     }
     Ok((Channel { quantity, dof, label }, unit))
+}
+
+/// The channel of a base that moves along `x`, `y` or `z`; it is listed at the first DOF that follows it.
+fn base(label: String, structure: &Structure) -> Result<Channel, RecordProblem> {
+    let axis = AXES.iter().position(|&axis| axis == label);
+    let along = |axis| structure.dofs().iter().position(|dof| dof.direction.axis() == Some(axis));
+    match axis.and_then(along) {
+        Some(dof) => Ok(Channel { quantity: Quantity::Base, dof, label }),
+        None => Err(RecordProblem::NoBaseAxis { label: quote(label.as_bytes()) }),
+    }
 }
 
 fn known_labels(structure: &Structure) -> String {

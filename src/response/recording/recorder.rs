@@ -114,7 +114,7 @@ fn march(
                     Some(force) => signal.extend_from_slice(&force[done..done + chunk]),
                     None => signal.extend(std::iter::repeat_n(0.0, chunk)),
                 },
-                Quantity::Force => signal.extend(std::iter::repeat_n(0.0, chunk)),
+                Quantity::Force | Quantity::Base => signal.extend(std::iter::repeat_n(0.0, chunk)),
                 Quantity::Displacement => signal.extend_from_slice(motion.displacement.col_as_slice(channel.dof)),
                 Quantity::Velocity => signal.extend_from_slice(motion.velocity.col_as_slice(channel.dof)),
                 Quantity::Acceleration => signal.extend_from_slice(motion.acceleration.col_as_slice(channel.dof)),

@@ -140,6 +140,7 @@ impl Scene {
             Direction::Rx => "rotation x",
             Direction::Ry => "rotation y",
             Direction::Rz => "rotation z",
+            Direction::Q => "generalised coordinate",
         };
         let mut text = format!("DOF {}, {motion}, node {}", d.label, self.nodes[d.node].label);
         for quantity in &d.sensors {

@@ -93,7 +93,7 @@ impl<'a> Frame<'a> {
         let axis = match self.scene.dofs[dof].direction {
             Direction::X | Direction::Rx => Vector3::x(),
             Direction::Y | Direction::Ry => Vector3::y(),
-            Direction::Z | Direction::Rz => Vector3::z(),
+            Direction::Z | Direction::Rz | Direction::Q => Vector3::z(),
         };
         let [right, up, _] = self.projection.camera.axes();
         let v = vec2(right.dot(&axis), -up.dot(&axis));

@@ -1,0 +1,229 @@
+//! NASTRAN bulk data and punch files.
+//!
+//! A card is one line and its continuations. Small field: ten fields of 8 characters; large (`*` after the name): 16; free: commas.
+//! Data fields are numbered from 0 behind the name, over all lines: a small line holds eight, a large one four. What stands
+//! before `BEGIN BULK` (where there is one), comments (`$`) and cards that are not listed in [`crate`] are passed over.
+
+mod cards;
+mod coordinates;
+mod dmig;
+
+use crate::edges::{Edges, Shape};
+use crate::error::{FileError, Problem};
+use crate::number::{real, whole};
+use crate::{Geometry, Matrix, Node};
+use cards::{Card, cards};
+use coordinates::Systems;
+use std::collections::{BTreeMap, HashMap};
+
+/// Nodes, lines and matrices of a file.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Bulk {
+    /// Nodes, lines and notes.
+    pub geometry: Geometry,
+    /// Every `DMIG`, in the order of the file.
+    pub matrices: Vec<Matrix>,
+}
+
+/// Reads the text of a file called `file` in messages.
+pub fn read(text: &str, file: &str) -> Result<Bulk, FileError> {
+    let mut reader = Reader::default();
+    for card in cards(text) {
+        reader.card(&card).map_err(|problem| FileError::line(file, card.line, problem))?;
+    }
+    reader.finish(file)
+}
+
+/// A grid point before its coordinate system is known.
+struct Grid<'a> {
+    line: usize,
+    id: i64,
+    /// Coordinate system of the position; the default of `GRDSET` where the card has none.
+    system: &'a str,
+    /// Coordinate system of the displacements.
+    directions: &'a str,
+    position: [f64; 3],
+}
+
+#[derive(Default)]
+struct Reader<'a> {
+    grids: Vec<Grid<'a>>,
+    defaults: [&'a str; 2],
+    systems: Systems,
+    edges: Edges,
+    matrices: dmig::Matrices,
+    unread: BTreeMap<&'static str, usize>,
+}
+
+impl<'a> Reader<'a> {
+    fn card(&mut self, card: &Card<'a>) -> Result<(), Problem> {
+        match card.name.as_str() {
+            "GRID" => self.grid(card)?,
+            "GRDSET" => self.defaults = [card.field(1), card.field(5)],
+            "CORD2R" | "CORD2C" | "CORD2S" => self.systems.add(card)?,
+            "CORD1R" | "CORD1C" | "CORD1S" => self.note("coordinate systems CORD1R, CORD1C and CORD1S are not read"),
+            "INCLUDE" => self.note("what stands in included files is not read"),
+            "DMIG" => self.matrices.card(card)?,
+            name => return self.element(name, card),
+        }
+        Ok(())
+    }
+
+    fn note(&mut self, text: &'static str) {
+        *self.unread.entry(text).or_default() += 1;
+    }
+
+    fn grid(&mut self, card: &Card<'a>) -> Result<(), Problem> {
+        let mut position = [0.0; 3];
+        for (k, value) in position.iter_mut().enumerate() {
+            let text = card.field(2 + k);
+            *value = if text.is_empty() { 0.0 } else { real(text)? };
+        }
+        let id = whole(card.field(0), "a grid point number")?;
+        let (system, directions) = (card.field(1), card.field(5));
+        self.grids.push(Grid { line: card.line, id, system, directions, position });
+        Ok(())
+    }
+
+    fn element(&mut self, name: &str, card: &Card<'_>) -> Result<(), Problem> {
+        // First field of the grid points and their number.
+        let (shape, first, count) = match name {
+            "CBAR" | "CBEAM" | "CBEND" | "CROD" | "CTUBE" | "CBUSH" => (Shape::Line, 2, 2),
+            "CONROD" => (Shape::Line, 1, 2),
+            "PLOTEL" => {
+                // Two elements may stand on one card.
+                let second = [card.field(5), card.field(6)];
+                if second.iter().all(|text| !text.is_empty()) {
+                    self.edges.add(Shape::Line, &[grid(second[0])?, grid(second[1])?]);
+                }
+                (Shape::Line, 1, 2)
+            }
+            "CTRIA3" | "CTRIA6" | "CTRIAR" => (Shape::Polygon(3), 2, 3),
+            "CQUAD4" | "CQUAD8" | "CQUADR" | "CSHEAR" => (Shape::Polygon(4), 2, 4),
+            "CTETRA" => (Shape::Tetrahedron, 2, 4),
+            "CPENTA" => (Shape::Wedge, 2, 6),
+            "CHEXA" => (Shape::Hexahedron, 2, 8),
+            _ => return Ok(()),
+        };
+        let words = (first..first + count).map(|k| card.field(k)).filter(|text| !text.is_empty());
+        let nodes = words.map(grid).collect::<Result<Vec<i64>, Problem>>()?;
+        self.edges.add(shape, &nodes);
+        Ok(())
+    }
+
+    fn finish(self, file: &str) -> Result<Bulk, FileError> {
+        let mut nodes: Vec<Node> = Vec::with_capacity(self.grids.len());
+        let mut places: HashMap<i64, usize> = HashMap::new();
+        let mut turned: BTreeMap<i64, usize> = BTreeMap::new();
+        for grid in &self.grids {
+            let wrong = |problem| FileError::line(file, grid.line, problem);
+            let [system, directions] = [(grid.system, self.defaults[0]), (grid.directions, self.defaults[1])]
+                .map(|(own, otherwise)| system(if own.is_empty() { otherwise } else { own }));
+            let position = self.systems.basic(system.map_err(wrong)?, grid.position).map_err(wrong)?;
+            let directions = directions.map_err(wrong)?;
+            if directions != 0 {
+                *turned.entry(directions).or_default() += 1;
+            }
+            match places.get(&grid.id) {
+                Some(&known) if nodes[known].position == position => {}
+                Some(_) => return Err(wrong(Problem::NodeTwice { id: grid.id })),
+                None => {
+                    places.insert(grid.id, nodes.len());
+                    nodes.push(Node { id: grid.id, position });
+                }
+            }
+        }
+        let turned = turned.into_iter().map(|(id, count)| {
+            let what = if id < 0 { "the fluid".to_owned() } else { format!("coordinate system {id}") };
+            format!("directions of {count} grid points are those of {what}, not x, y and z of the basic system")
+        });
+        let notes = self.unread.iter().map(|(text, _)| (*text).to_owned()).chain(turned).collect();
+        let matrices = self.matrices.finish(file)?;
+        Ok(Bulk { geometry: Geometry { nodes, lines: self.edges.finish(), notes }, matrices })
+    }
+}
+
+fn grid(text: &str) -> Result<i64, Problem> {
+    whole(text, "a grid point number")
+}
+
+fn system(text: &str) -> Result<i64, Problem> {
+    if text.is_empty() { Ok(0) } else { whole(text, "a coordinate system number") }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "tests")]
+    use super::*;
+    use crate::NodeDof;
+
+    const SMALL: &str = "\
+SOL 103
+BEGIN BULK
+$ a comment
+GRID           1              0.      0.      0.
+GRID*                  2                             1.5              0.
+*                     0.
+GRID,3,,3.,1.-1
+CBAR           1       1       1       2      0.      0.      1.
+CROD,2,1,2,3
+PLOTEL         9       1       3
+DMIG        KAAX       0       6       1       0
+DMIG        KAAX       1       3               1       3  2500.0
+               2       3   -1.+3
+DMIG        KAAX       2       3               2       3  1000.0
+ENDDATA
+";
+
+    #[test]
+    fn small_large_and_free_field() {
+        let bulk = read(SMALL, "m.bdf").unwrap();
+        let at: Vec<[f64; 3]> = bulk.geometry.nodes.iter().map(|node| node.position).collect();
+        assert_eq!(at, [[0.0; 3], [1.5, 0.0, 0.0], [3.0, 0.1, 0.0]]);
+        assert_eq!(bulk.geometry.lines, [[1, 2], [2, 3], [1, 3]]);
+        let k = &bulk.matrices[0];
+        assert_eq!((k.name.as_str(), k.size), ("KAAX", 2));
+        assert_eq!(k.dofs.as_ref().unwrap()[1], NodeDof { node: 2, component: 3 });
+        assert_eq!(k.entries, [(0, 0, 2500.0), (1, 0, -1000.0), (1, 1, 1000.0)]);
+    }
+
+    #[test]
+    fn punch_of_large_field() {
+        let text = [
+            "$TITLE",
+            "DMIG*               MAAX               0               6               2",
+            "*                      0",
+            "DMIG*               MAAX              11               1                ",
+            "*                     11               1 2.500000000D+00",
+            "*                     12               1-1.000000000D+00",
+        ]
+        .join("\n");
+        let bulk = read(&text, "m.pch").unwrap();
+        assert_eq!(bulk.matrices[0].entries, [(0, 0, 2.5), (1, 0, -1.0)]);
+    }
+
+    #[test]
+    fn positions_in_other_systems() {
+        // A cylinder whose axis is x: theta from y.
+        let text = "CORD2C,5,,1.,0.,0.,2.,0.,0.\n,1.,1.,0.\nGRID,1,5,2.,90.,3.,5\n";
+        let bulk = read(text, "m.bdf").unwrap();
+        let position = bulk.geometry.nodes[0].position;
+        let exact = [4.0, 0.0, 2.0];
+        assert!((0..3).all(|k| (position[k] - exact[k]).abs() < 1e-14), "{position:?}");
+        assert!(bulk.geometry.notes[0].starts_with("directions of 1 grid points are those of coordinate system 5"));
+    }
+
+    #[test]
+    fn errors_name_the_line() {
+        let message = |text: &str| read(text, "m.bdf").unwrap_err().to_string();
+        assert_eq!(message("GRID,1,,0.,x,0.\n"), "m.bdf:1: \"x\" is not a finite number; export the file again");
+        assert!(message("GRID,1,7,0.\n").contains("coordinate system 7 is not given"));
+        assert!(message("\nDMIG,K,1,1,,1,1,2.\n").starts_with("m.bdf:2: matrix K has no header card"));
+        assert!(message("DMIG,K,0,6,4,0\n").starts_with("m.bdf:1: matrix K is complex"));
+        assert!(message("DMIG,K,0,2,1,0\n").starts_with("m.bdf:1: matrix K has form 2"));
+        assert!(message("DMIG,K,0,6,1,0\nDMIG,K,1,7,,1,1,2.\n").starts_with("m.bdf:2: component 7 is not"));
+        assert!(message("GRID,1,,0.\nGRID,1,,1.\n").starts_with("m.bdf:2: node 1 is given twice"));
+        let odd = "DMIG,K,0,1,1,0\nDMIG,K,1,1,,1,1,2.,,\n,2,1,1.\nDMIG,K,2,1,,1,1,-1.,,\n,2,1,2.\n";
+        assert!(message(odd).starts_with("m.bdf: matrix K is not symmetric: row 2.1, column 1.1"), "{}", message(odd));
+    }
+}

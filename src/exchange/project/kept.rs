@@ -1,0 +1,41 @@
+//! The DOF labels that a project uses: those of its sensors, exciters, sources and lumped masses, in the order of the file.
+//! A reduced structure keeps them.
+
+use super::file::{Label, ProjectFile, Shape};
+use crate::exchange::records::places::contents;
+use crate::measurement::channel::{ChannelName, parse_name};
+use crate::structure::{Direction, Structure};
+use std::path::Path;
+
+/// All labels, also those that turn out to name nothing; a record that cannot be read is passed over, as its reader says
+/// what is wrong with it.
+pub(super) fn labels(file: &ProjectFile, folder: &Path) -> Vec<String> {
+    if !matches!(&file.structure.shape, Shape::Matrices(files) if files.reduce.is_some()) {
+        return Vec::new();
+    }
+    let mut labels: Vec<String> = Vec::new();
+    let sources = file.source.iter().flat_map(|source| &source.dofs);
+    labels.extend(sources.chain(file.ruled_out.iter().flat_map(|effect| &effect.dofs)).map(|label| label.0.clone()));
+    labels.extend(file.structure.lumped_mass.iter().map(|mass| mass.dof.clone()));
+    labels.extend(file.run.iter().filter_map(|run| run.force_dof.as_ref()).map(|label| label.0.clone()));
+    labels.extend(file.simulate.channels.iter().filter_map(|text| Some(ChannelName::parse(text).ok()?.label)));
+    labels.extend(file.sensor.iter().filter_map(|sensor| Some(parse_name(&sensor.channel).ok()?.1)));
+    let records = file.run.iter().map(|run| &run.file).chain(file.harmonics.iter().map(|table| &table.file));
+    for name in records {
+        if let Ok((_, points)) = contents(&folder.join(name)) {
+            labels.extend(points.dofs().iter().map(|dof| dof.label.clone()));
+        }
+    }
+    labels
+}
+
+/// Notes in the project which DOFs were kept, so that what is built anew from its structure alone is the same.
+pub(super) fn write_down(file: &mut ProjectFile, structure: &Structure) {
+    if let Shape::Matrices(files) = &mut file.structure.shape
+        && let Some(reduce) = &mut files.reduce
+    {
+        let kept =
+            structure.dofs().iter().filter(|dof| dof.direction != Direction::Q || !dof.label.starts_with("mode"));
+        reduce.dofs = kept.map(|dof| Label(dof.label.clone())).collect();
+    }
+}

@@ -1,0 +1,138 @@
+//! A structure from the files of a finite-element program, whole or reduced.
+
+use super::error::{Problem, ProjectError};
+use super::file::{Label, MatricesTable, ReduceTable};
+use super::reader::Table;
+use crate::exchange::matrices::model::{Model, ModelFiles, full, is_model, read_model};
+use crate::structure::imported::{ImportedDof, ImportedParameters};
+use crate::structure::reduction::{Method, Reduction, Wanted, reduce};
+use crate::structure::{Direction, LumpedMass, MOST_DOFS, Node, Structure, StructureError};
+use std::collections::{HashMap, HashSet};
+use std::path::Path;
+
+/// Whether the table needs more than plain matrices.
+pub(super) fn is_needed(files: &MatricesTable, folder: &Path) -> bool {
+    files.reduce.is_some() || [&files.mass, &files.stiffness].into_iter().any(|name| is_model(&folder.join(name)))
+}
+
+/// Reads the files, reduces the model where that is asked, and builds the structure. `named` are the labels that the project
+/// uses: those among the model's are kept.
+pub(super) fn structure(
+    files: &MatricesTable,
+    folder: &Path,
+    lumped: &[LumpedMass],
+    named: &[String],
+) -> Result<Structure, Problem> {
+    let at = |name: &String| folder.join(name);
+    let (mass, stiffness) = (at(&files.mass), at(&files.stiffness));
+    let [nodes, dofs, lines] = [&files.nodes, &files.dofs, &files.lines].map(|name| name.as_ref().map(at));
+    let mut model = read_model(ModelFiles {
+        matrices: [&mass, &stiffness],
+        names: [files.mass_name.as_deref(), files.stiffness_name.as_deref()],
+        nodes: nodes.as_deref(),
+        dofs: dofs.as_deref(),
+        lines: lines.as_deref(),
+    })
+    .map_err(Problem::Table)?;
+    let mut notes = std::mem::take(&mut model.notes);
+    let wrong = |error: StructureError| Problem::Structure(Box::new(error));
+    let (parameters, reduction) = match &files.reduce {
+        None => (whole(model).map_err(wrong)?, None),
+        Some(table) => {
+            let (parameters, reduction) = reduced(model, table, named).map_err(wrong)?;
+            (parameters, Some(reduction))
+        }
+    };
+    let parameters = with_all_nodes(parameters, &mut notes);
+    let mut structure = parameters.build(lumped).map_err(wrong)?;
+    structure.set_origin(notes, reduction, lumped);
+    Ok(structure)
+}
+
+/// Nodes of degrees of freedom that no file gives a position, such as CalculiX's of incompatible modes, at the origin.
+fn with_all_nodes(mut parameters: ImportedParameters, notes: &mut Vec<String>) -> ImportedParameters {
+    let (Some(nodes), Some(dofs)) = (&mut parameters.nodes, &parameters.dofs) else { return parameters };
+    let mut known: HashSet<String> = nodes.iter().map(|node| node.label.clone()).collect();
+    let before = nodes.len();
+    for dof in dofs {
+        if known.insert(dof.node.clone()) {
+            nodes.push(Node { label: dof.node.clone(), position: [0.0; 3] });
+        }
+    }
+    let missing = nodes.len() - before;
+    if missing > 0 {
+        notes.push(format!("{missing} nodes of the matrices have no position in the files and are put at the origin"));
+    }
+    parameters
+}
+
+fn whole(model: Model) -> Result<ImportedParameters, StructureError> {
+    let degrees = model.system.mass.size();
+    if degrees > MOST_DOFS {
+        return Err(StructureError::TooLarge { degrees, limit: MOST_DOFS });
+    }
+    let [mass, stiffness] = [full(&model.system.mass), full(&model.system.stiffness)];
+    Ok(ImportedParameters { mass, stiffness, nodes: model.nodes, dofs: model.dofs, lines: model.lines })
+}
+
+fn reduced(
+    model: Model,
+    table: &ReduceTable,
+    named: &[String],
+) -> Result<(ImportedParameters, Reduction), StructureError> {
+    let n = model.system.mass.size();
+    let numbered =
+        |row: usize| ImportedDof { label: (row + 1).to_string(), node: (row + 1).to_string(), direction: Direction::Z };
+    let dofs = model.dofs.unwrap_or_else(|| (0..n).map(numbered).collect());
+    if dofs.len() != n {
+        let (what, hint) = ("the table of DOFs", " (one a matrix row)");
+        return Err(StructureError::Count { what, found: dofs.len(), expected: n, hint });
+    }
+    let rows: HashMap<&str, usize> = dofs.iter().enumerate().map(|(row, dof)| (dof.label.as_str(), row)).collect();
+    let mut kept = Vec::new();
+    for label in &table.dofs {
+        let near = || crate::structure::nearest(&label.0, dofs.iter().map(|dof| dof.label.as_str()));
+        let unknown = || StructureError::UnknownDof { label: label.0.clone(), near: near() };
+        kept.push(*rows.get(label.0.as_str()).ok_or_else(unknown)?);
+    }
+    kept.extend(named.iter().filter_map(|label| rows.get(label.as_str()).copied()));
+    kept.sort_unstable();
+    kept.dedup();
+    let method = Method::from_name(&table.method).unwrap_or(Method::CraigBampton);
+    let wanted = Wanted { method, up_to_hz: table.up_to_hz, band_hz: table.band_hz.unwrap_or(0.5 * table.up_to_hz) };
+    let directions: Vec<Direction> = dofs.iter().map(|dof| dof.direction).collect();
+    let (matrices, reduction) = reduce(&model.system, &directions, &kept, wanted)?;
+    let mut own: Vec<ImportedDof> = kept.iter().map(|&row| dofs[row].clone()).collect();
+    // An amplitude of a mode belongs to no node; it is listed at the first that is kept.
+    let node = own.first().map_or_else(String::new, |dof| dof.node.clone());
+    let mode = |k: usize| ImportedDof { label: format!("mode{}", k + 1), node: node.clone(), direction: Direction::Q };
+    own.extend((0..reduction.fixed_interface_modes).map(mode));
+    let parameters = ImportedParameters {
+        mass: matrices.mass,
+        stiffness: matrices.stiffness,
+        nodes: model.nodes,
+        dofs: Some(own),
+        lines: model.lines,
+    };
+    Ok((parameters, reduction))
+}
+
+/// Table `[structure.reduce]`.
+pub(super) fn parse(table: &Table<'_>) -> Result<ReduceTable, ProjectError> {
+    table.only(&["method", "up_to_hz", "band_hz", "dofs"])?;
+    let names = [Method::CraigBampton, Method::Guyan].map(Method::name);
+    let method = table.word("method", &names, Method::from_name)?.unwrap_or(Method::CraigBampton);
+    let frequency = |key: &'static str| match table.number(key)? {
+        Some(value) if value <= 0.0 => {
+            let (key, range) = (key.to_owned(), "above 0 Hz");
+            Err(table.error(&key.clone(), Problem::OutOfRange { key, value: value.to_string(), range }))
+        }
+        value => Ok(value),
+    };
+    Ok(ReduceTable {
+        method: method.name().to_owned(),
+        up_to_hz: table.need("up_to_hz", "up_to_hz = 2000.0", frequency("up_to_hz")?)?,
+        band_hz: frequency("band_hz")?,
+        dofs: table.labels("dofs")?.unwrap_or_default().into_iter().map(Label).collect(),
+    })
+}

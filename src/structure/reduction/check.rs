@@ -1,0 +1,48 @@
+//! The modes of the whole model in the band against those of the reduced one.
+
+use super::{Wanted, pencil::Shifted};
+use crate::structure::modes::{Modes, mac_real, modes};
+use crate::structure::{StructureError, SystemMatrices};
+use std::f64::consts::TAU;
+
+/// One mode in the band.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ModeCheck {
+    /// Frequency of the whole model, Hz.
+    pub full_hz: f64,
+    /// Frequency of the reduced model, Hz.
+    pub reduced_hz: f64,
+    /// Modal assurance criterion of the two shapes at the kept degrees of freedom.
+    pub mac: f64,
+}
+
+impl ModeCheck {
+    /// Reduced over whole, less 1; 0 for a rigid mode.
+    pub fn frequency_error(&self) -> f64 {
+        if self.full_hz > 0.0 { self.reduced_hz / self.full_hz - 1.0 } else { 0.0 }
+    }
+}
+
+/// Compares mode by mode in ascending order; `kept` are the rows of the whole model that are the first of the reduced one.
+pub(super) fn check(
+    whole: &Shifted<'_>,
+    reduced: &SystemMatrices,
+    kept: &[usize],
+    wanted: Wanted,
+) -> Result<Vec<ModeCheck>, StructureError> {
+    let full = whole.modes(wanted.band_hz)?;
+    let own = modes(reduced)?;
+    let count = full.omega.iter().filter(|&&omega| omega <= TAU * wanted.band_hz).count().min(own.len());
+    Ok((0..count)
+        .map(|r| {
+            let (full_hz, reduced_hz) = (full.frequency_hz(r), own.frequency_hz(r));
+            ModeCheck { full_hz, reduced_hz, mac: likeness(&full, &own, kept, r) }
+        })
+        .collect())
+}
+
+fn likeness(full: &Modes, own: &Modes, kept: &[usize], r: usize) -> f64 {
+    let whole: Vec<f64> = kept.iter().map(|&i| full.shapes[(i, r)]).collect();
+    let part: Vec<f64> = (0..kept.len()).map(|i| own.shapes[(i, r)]).collect();
+    mac_real(&whole, &part)
+}
