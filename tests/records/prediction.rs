@@ -128,7 +128,7 @@ fn derivatives_are_those_of_the_record() {
     ];
     let step = 5e-4;
     let drive: Vec<f64> =
-        (0..700).map(|n| if n < 20 { 12.0 * (n as f64 / 20.0 * 3.1416).sin() } else { 0.0 }).collect();
+        (0..700).map(|n| if n < 20 { 12.0 * (n as f64 / 20.0 * std::f64::consts::PI).sin() } else { 0.0 }).collect();
     for (effect, values) in laws {
         let case = Case {
             structure: beam(),
