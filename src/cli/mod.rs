@@ -14,6 +14,8 @@ mod identify_table;
 mod incompleteness;
 mod methods;
 mod play;
+mod plot;
+mod report;
 mod simulate;
 mod source_json;
 mod table;
@@ -54,6 +56,8 @@ fn execute(command: &Command) -> anyhow::Result<String> {
         Command::Methods(arguments) => methods::run(arguments),
         Command::Convert(arguments) => convert::run(arguments),
         Command::Build(arguments) => build::run(arguments),
+        Command::Report(arguments) => report::run(arguments),
+        Command::Plot(arguments) => plot::run(arguments),
         Command::Run(arguments) => play::run(arguments),
     }
 }

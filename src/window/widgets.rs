@@ -1,7 +1,7 @@
 //! What all panes are made of, as one extension of `egui::Ui`.
 
-use super::format;
 use super::theme::{self, Palette, size, space};
+use crate::display::format;
 use egui::{
     Align, Color32, ComboBox, CornerRadius, DragValue, Frame, Label, Layout, Margin, Response, RichText, Sense, Ui,
     WidgetText, vec2,

@@ -16,7 +16,7 @@ fn a_report_holds_values_and_plots_in_one_file() {
     let json: Value = serde_json::from_slice(&identified.stdout).unwrap();
     for source in json["sources"].as_array().unwrap() {
         let percent = source["energy_percent"].as_f64().unwrap();
-        assert!(text.contains(&dashpot::window::format::percent(0.01 * percent)), "{source}");
+        assert!(text.contains(&dashpot::display::format::percent(0.01 * percent)), "{source}");
     }
     assert!(text.contains("Test beam") && text.contains("run-01.csv") && text.contains("Damping ratios"));
     assert!(text.matches("data:image/svg+xml,").count() >= 5, "energies, angle, matrix, Bode, Nyquist");

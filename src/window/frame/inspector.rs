@@ -1,6 +1,7 @@
 //! What is selected, with every value and its unit.
 
 use crate::balance::{Expansion, Weights};
+use crate::display::{format, words};
 use crate::effects::{Place, State};
 use crate::exchange::Project;
 use crate::exchange::project::ProjectFile;
@@ -11,7 +12,6 @@ use crate::window::edits::Edit;
 use crate::window::theme::space;
 use crate::window::view::Stage;
 use crate::window::widgets::UiExt;
-use crate::window::{format, words};
 use egui::{ScrollArea, Ui};
 
 /// Shows the inspector.

@@ -2,11 +2,12 @@
 //! menu copies and exports.
 
 use super::export;
-use super::figure::{Axis, Data, Figure, Label, Look, Series, Ticks};
 use super::polyline::Polyline;
-use super::sheet::{Panel, Sheet};
-use super::{axis, curve, frame, ticks};
-use crate::window::format::significant;
+use super::{axis, curve, frame};
+use crate::display::format::significant;
+use crate::plots::figure::{Axis, Data, Figure, Label, Look, Series, Ticks};
+use crate::plots::sheet::{Panel, Sheet};
+use crate::plots::ticks;
 use crate::window::theme;
 use crate::window::widgets::UiExt;
 use egui::{Align2, Id, Rangef, RichText, Role, Sense, Shape, Ui, WidgetInfo, vec2};
@@ -114,7 +115,7 @@ impl Place<'_> {
             } else {
                 Rangef::new(22.0, 34.0)
             })
-            .formatter(move |mark, _| ticks::label(&xt, mark));
+            .formatter(move |mark, _| ticks::label(&xt, own(mark)));
         let y_axis = axis(AxisHints::new_y(), palette, &figure.y.label())
             .placement(HPlacement::Left)
             .min_thickness(62.0)
@@ -123,7 +124,7 @@ impl Place<'_> {
             .formatter(move |mark, range| {
                 let height = range.end() - range.start();
                 let corner = square && self.ruler && mark.value - range.start() < CORNER * height;
-                if corner { String::new() } else { ticks::label(&yt, mark) }
+                if corner { String::new() } else { ticks::label(&yt, own(mark)) }
             });
         let mut plot = frame(ui, self.id)
             .custom_x_axes(vec![x_axis])
@@ -133,8 +134,8 @@ impl Place<'_> {
             .coordinates_formatter(Corner::RightTop, read_out(&figure.x, &figure.y))
             .set_margin_fraction(vec2(figure.margin, 0.08))
             .label_formatter(near(figure));
-        plot = plot.x_grid_spacer(move |input| ticks::marks(&x, &input, ticks::ACROSS));
-        plot = plot.y_grid_spacer(move |input| ticks::marks(&y, &input, ticks::UPWARDS));
+        plot = plot.x_grid_spacer(move |input| marks(&x, input, ticks::ACROSS));
+        plot = plot.y_grid_spacer(move |input| marks(&y, input, ticks::UPWARDS));
         if let Some(group) = self.group {
             plot = plot.link_axis(group, [true, false]).link_cursor(group, [true, false]);
         }
@@ -156,6 +157,17 @@ impl Place<'_> {
             figure.labels.iter().for_each(|l| words(plot, figure, l));
         })
     }
+}
+
+/// Grid lines in the terms of the plot.
+fn marks(axis: &Axis, input: egui_plot::GridInput, room: f64) -> Vec<egui_plot::GridMark> {
+    let input = ticks::GridInput { bounds: input.bounds, base_step_size: input.base_step_size };
+    let plots = |m: ticks::GridMark| egui_plot::GridMark { value: m.value, step_size: m.step_size };
+    ticks::marks(axis, &input, room).into_iter().map(plots).collect()
+}
+
+fn own(mark: egui_plot::GridMark) -> ticks::GridMark {
+    ticks::GridMark { value: mark.value, step_size: mark.step_size }
 }
 
 /// A double click shows all of a plot that starts with a part, and where all is in sight that part again; the plot's own
@@ -190,7 +202,7 @@ fn near<'a>(figure: &Figure) -> impl Fn(&HoverPosition<'_>) -> Option<String> + 
             let own = deviations.iter().find(|(name, _)| name == plot_name);
             let deviation = own.and_then(|(_, d)| d.get(*index)).copied().unwrap_or(0.0);
             let (u, v) = (x.value(position.x), y.value(position.y));
-            let value = crate::window::format::with_deviation(v, deviation, &y.unit);
+            let value = crate::display::format::with_deviation(v, deviation, &y.unit);
             Some(format!("{plot_name}\n{} {}\n{value}", significant(u, 5), x.unit))
         }
         HoverPosition::Elsewhere { .. } => None,

@@ -9,10 +9,10 @@ use super::mesh::Mesh;
 use super::paint::{Solid, available, shade};
 use super::pick::{Ray, nearest};
 use super::turn::turn;
-use crate::window::format;
-use crate::window::plots::drawing::Drawing;
+use crate::display::format;
+use crate::plots::drawing::Drawing;
+use crate::plots::heatmap::HeatMap;
 use crate::window::plots::export;
-use crate::window::plots::heatmap::HeatMap;
 use crate::window::theme::{self, Palette};
 use crate::window::widgets::UiExt;
 use egui::{Id, Rect, Role, Sense, Ui, Vec2, WidgetInfo};
@@ -240,7 +240,7 @@ impl Bars {
 #[cfg(test)]
 mod tests {
     use super::{Bars, HOME};
-    use crate::window::plots::heatmap::HeatMap;
+    use crate::plots::heatmap::HeatMap;
     use egui::{Rect, pos2};
     use faer::Mat;
     use nalgebra::Vector3;

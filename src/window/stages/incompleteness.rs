@@ -2,8 +2,8 @@
 
 use crate::classical::incompleteness::{Case, Incompleteness, METHODS, MatrixErrors};
 use crate::classical::method::Method;
+use crate::plots::figure::{Axis, Figure, Look, Ticks};
 use crate::window::app::App;
-use crate::window::plots::figure::{Axis, Figure, Look, Ticks};
 use crate::window::plots::show::Stack;
 use crate::window::theme::{Palette, size};
 use crate::window::widgets::UiExt;

@@ -2,16 +2,15 @@
 
 use super::gauge::Gauge;
 use super::{Deed, Scene, fingerprint};
+use crate::display::format::{self, chance, polished};
+use crate::display::words;
 use crate::effects::{Place, Source};
 use crate::explain::diagnose::Suggestion;
 use crate::window::app::Ask;
 use crate::window::explained::Standing;
-use crate::window::explained::model::at;
-use crate::window::format;
 use crate::window::schematic::symbols;
 use crate::window::theme::{self, size, space};
 use crate::window::widgets::UiExt;
-use crate::window::words;
 use egui::text::{LayoutJob, TextFormat};
 use egui::{
     Align2, CornerRadius, Frame, Label, Margin, Rect, RichText, Role, Sense, StrokeKind, Ui, Vec2, WidgetInfo, pos2,
@@ -218,30 +217,7 @@ impl Card<'_> {
 
 /// `Dry friction at DOF 15`.
 pub fn name(scene: &Scene<'_>, source: &Source) -> String {
-    let text = format!("{} {}", words::effect(source.effect), at(&scene.document.project.structure, &source.place));
-    let mut letters = text.chars();
-    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
-}
-
-/// A probability to the digits that mean something.
-pub fn chance(probability: f64) -> String {
-    match 100.0 * probability {
-        p if p > 99.9 => "> 99.9 %".to_owned(),
-        p if p < 0.1 => "< 0.1 %".to_owned(),
-        p if p < 10.0 => format!("{p:.1} %"),
-        p => format!("{p:.0} %"),
-    }
-}
-
-/// A sentence of the engine in the typography of the window.
-pub fn polished(sentence: &str) -> String {
-    let mut text = sentence.replace("+-", "±").replace("^2", "²").replace("^3", "³");
-    for digit in '0'..='9' {
-        text = text
-            .replace(&format!(" -{digit}"), &format!(" −{digit}"))
-            .replace(&format!("e-{digit}"), &format!("e−{digit}"));
-    }
-    text
+    words::title(&scene.document.project.structure, source)
 }
 
 /// The symbol of an effect between its ends, with the ground where it is held there.
@@ -256,23 +232,5 @@ fn glyph(ui: &Ui, source: &Source, area: Rect) {
     symbols::draw(painter, source.effect, [left, right], stroke);
     if ground {
         symbols::ground(painter, right, Vec2::RIGHT, 0.55 * area.height(), theme::hair(palette.missing));
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::{chance, polished};
-
-    #[test]
-    fn probabilities_are_not_more_certain_than_they_are() {
-        assert_eq!(chance(1.0), "> 99.9 %");
-        assert_eq!(chance(0.973), "97 %");
-        assert_eq!(chance(0.02), "2.0 %");
-        assert_eq!(chance(1e-9), "< 0.1 %");
-    }
-
-    #[test]
-    fn sentences_have_real_signs() {
-        assert_eq!(polished("to the power -0.99 +- 0.01; 2e-3 N s^2/m^2"), "to the power −0.99 ± 0.01; 2e−3 N s²/m²");
     }
 }

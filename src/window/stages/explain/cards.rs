@@ -1,26 +1,24 @@
 //! What is missing? The verdict, the ranked suggestions as cards, and what the user has ruled out.
 
 use super::card;
-use super::grid::in_words;
 use super::look::Look;
 use super::ranking::{open, ranked};
 use super::{Deed, Scene};
-use crate::effects::{Place, Source};
+use crate::display::findings::{self, is_detuned, sentence};
+use crate::display::format;
+use crate::display::format::in_words;
+use crate::display::words;
+use crate::display::words::at;
+use crate::effects::Source;
 use crate::explain::Diagnosis;
 use crate::explain::diagnose::Verdict;
 use crate::explain::tuning::Knob;
 use crate::window::app::Ask;
 use crate::window::corrections::{self, Adopted};
-use crate::window::explained::model::at;
 use crate::window::explained::{HOPELESS, Standing};
-use crate::window::format;
 use crate::window::theme::{self, size, space};
 use crate::window::widgets::UiExt;
-use crate::window::words;
 use egui::{Align, Button, Layout, RichText, ScrollArea, Sense, Ui, vec2};
-
-/// How many times the noise floor an error must be to be more than noise.
-const BEYOND: f64 = 1.2;
 
 /// Shows the pane.
 pub fn show(ui: &mut Ui, scene: &Scene<'_>, look: &mut Look, asks: &mut Vec<Ask>) {
@@ -93,40 +91,6 @@ fn far_off(scene: &Scene<'_>) -> bool {
     comparison.is_some_and(|c| c.error > HOPELESS)
 }
 
-/// Whether nothing is missing once the model is corrected, but the model as it stands does not explain the data.
-pub fn is_detuned(diagnosis: &Diagnosis) -> bool {
-    let beyond = diagnosis.error_before > BEYOND * diagnosis.noise_floor;
-    diagnosis.verdict == Verdict::Adequate && !diagnosis.corrections.is_empty() && beyond
-}
-
-/// The verdict as a sentence.
-pub fn sentence(diagnosis: &Diagnosis) -> String {
-    let times = diagnosis.error_before / diagnosis.noise_floor.max(f64::MIN_POSITIVE);
-    let (error, floor) = (in_words(diagnosis.error_before), format::percent(diagnosis.noise_floor));
-    match diagnosis.verdict {
-        Verdict::Adequate if is_detuned(diagnosis) => {
-            let after = diagnosis.steps.last().map_or(diagnosis.noise_floor, |s| s.error);
-            let after = in_words(after);
-            format!(
-                "It is only detuned: with the corrections below its error falls from {error} to {after} (noise {floor})."
-            )
-        }
-        Verdict::Adequate => {
-            format!("Its error of {error} is within what noise alone makes ({floor}). Nothing more is suggested.")
-        }
-        _ if diagnosis.error_before > 10.0 => {
-            format!("The model is wrong by {error}: at these frequencies hardly anything in it takes out energy.")
-        }
-        Verdict::Missing => {
-            format!("The model is wrong by {error}, {} times what noise alone makes.", format::significant(times, 2))
-        }
-        Verdict::Undecided => format!(
-            "The model is wrong by {error}, {} times the noise, and these data cannot tell what would mend it.",
-            format::significant(times, 2)
-        ),
-    }
-}
-
 fn answer(ui: &mut Ui, scene: &Scene<'_>, diagnosis: &Diagnosis, look: &mut Look, asks: &mut Vec<Ask>) {
     if diagnosis.verdict == Verdict::Adequate {
         adequate(ui, scene, diagnosis);
@@ -170,9 +134,7 @@ fn detuned(ui: &mut Ui, scene: &Scene<'_>, diagnosis: &Diagnosis, asks: &mut Vec
     ui.add_space(space::XS);
     ui.title("The model is detuned", "corrected in the search, not yet in the project");
     for correction in &diagnosis.corrections {
-        let change = format::with_deviation(100.0 * (correction.factor - 1.0), 100.0 * correction.deviation, "%");
-        let sign = if correction.factor > 1.0 { "+" } else { "" };
-        ui.pair(&knob(scene, &correction.knob), format!("{sign}{change}"));
+        ui.pair(&knob(scene, &correction.knob), findings::change(correction));
     }
     let adopted = adopted(scene, diagnosis);
     ui.horizontal(|ui| {
@@ -199,17 +161,8 @@ pub fn adopted(scene: &Scene<'_>, diagnosis: &Diagnosis) -> Adopted {
 
 /// What a correction corrects.
 fn knob(scene: &Scene<'_>, knob: &Knob) -> String {
-    let structure = &scene.document.project.structure;
-    match knob {
-        Knob::Stiffness => "All stiffness".to_owned(),
-        Knob::Mass => "All mass".to_owned(),
-        Knob::Mode(mode) => format!("Stiffness of mode {}", mode + 1),
-        Knob::Spring(dofs, _) => format!("Spring {}", at(structure, &Place::Dofs(dofs.clone()))),
-        Knob::Known(index) => {
-            let known = scene.explained.known(scene.document, *index);
-            known.map_or_else(|| "A known source".to_owned(), |source| card::name(scene, &source))
-        }
-    }
+    let known = scene.explained.all_known(scene.document);
+    findings::corrected(&scene.document.project.structure, &known, knob)
 }
 
 /// The end of the way: the model explains the data, and what brought it there.
@@ -252,7 +205,7 @@ pub fn next_tests(ui: &mut Ui, scene: &Scene<'_>, diagnosis: &Diagnosis) {
         let label = structure.dofs().get(test.force_dof).map_or("?", |d| d.label.as_str());
         let (frequency, force) = (format::with_unit(test.frequency_hz, "Hz"), format::with_unit(test.force, "N"));
         ui.label(format!("{frequency} with {force} at DOF {label}"));
-        ui.hint(format!("{}.", card::polished(test.why.trim_end_matches('.'))));
+        ui.hint(format!("{}.", format::polished(test.why.trim_end_matches('.'))));
     }
 }
 

@@ -1,6 +1,7 @@
 //! The error before and after as one bar on a logarithmic scale, with the noise floor.
 
-use super::grid::{Scale, in_words};
+use crate::display::format::in_words;
+use crate::plots::error_map::Scale;
 use crate::window::theme::{self, size};
 use crate::window::widgets::UiExt;
 use egui::{Align2, Rect, Role, Sense, Stroke, Ui, WidgetInfo, pos2, vec2};

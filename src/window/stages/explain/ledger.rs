@@ -1,11 +1,11 @@
 //! The ledger: error against steps on a logarithmic axis with the noise floor, and the steps by name, each a way back.
 
-use super::grid::in_words;
 use super::{Deed, Scene, cards};
+use crate::display::format::in_words;
 use crate::explain::diagnose::Verdict;
+use crate::plots::figure::{Axis, Figure, Look, Ticks};
 use crate::window::app::Ask;
 use crate::window::explained::ledger::Ledger;
-use crate::window::plots::figure::{Axis, Figure, Look, Ticks};
 use crate::window::plots::show::Stack;
 use crate::window::theme::{self, size, space};
 use crate::window::widgets::UiExt;

@@ -48,9 +48,35 @@ pub fn percent(share: f64) -> String {
     if p != 0.0 && p.abs() < 0.01 { "<0.01 %".to_owned() } else { format!("{} %", significant(p, 3)) }
 }
 
+/// An error in words; beyond ten times the measurement its size says nothing more.
+pub fn in_words(error: f64) -> String {
+    if error > 10.0 { "> 1000 %".to_owned() } else { percent(error) }
+}
+
+/// A probability to the digits that mean something.
+pub fn chance(probability: f64) -> String {
+    match 100.0 * probability {
+        p if p > 99.9 => "> 99.9 %".to_owned(),
+        p if p < 0.1 => "< 0.1 %".to_owned(),
+        p if p < 10.0 => format!("{p:.1} %"),
+        p => format!("{p:.0} %"),
+    }
+}
+
+/// A sentence of the engine in the typography of readers: real signs and superscripts.
+pub fn polished(sentence: &str) -> String {
+    let mut text = sentence.replace("+-", "±").replace("^2", "²").replace("^3", "³");
+    for digit in '0'..='9' {
+        text = text
+            .replace(&format!(" -{digit}"), &format!(" −{digit}"))
+            .replace(&format!("e-{digit}"), &format!("e−{digit}"));
+    }
+    text
+}
+
 #[cfg(test)]
 mod tests {
-    use super::{editable, percent, prefixed, pretty_unit, significant, with_deviation, with_unit};
+    use super::{chance, editable, percent, polished, prefixed, pretty_unit, significant, with_deviation, with_unit};
 
     #[test]
     fn numbers_have_real_signs() {
@@ -80,5 +106,18 @@ mod tests {
         assert_eq!(prefixed(2.11e11, "Pa"), "211 GPa");
         assert_eq!(percent(0.000_02), "<0.01 %");
         assert_eq!(percent(0.4567), "45.7 %");
+    }
+
+    #[test]
+    fn probabilities_are_not_more_certain_than_they_are() {
+        assert_eq!(chance(1.0), "> 99.9 %");
+        assert_eq!(chance(0.973), "97 %");
+        assert_eq!(chance(0.02), "2.0 %");
+        assert_eq!(chance(1e-9), "< 0.1 %");
+    }
+
+    #[test]
+    fn sentences_have_real_signs() {
+        assert_eq!(polished("to the power -0.99 +- 0.01; 2e-3 N s^2/m^2"), "to the power −0.99 ± 0.01; 2e−3 N s²/m²");
     }
 }

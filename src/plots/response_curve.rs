@@ -1,4 +1,5 @@
-//! The model's response over frequency near a run, through its turning points, at every channel of the run.
+//! The model's responses over frequency near a run, one a level of force, through their turning points, at every channel of
+//! the run.
 
 use crate::control::Control;
 use crate::effects::{Source, effect::Kind};
@@ -49,20 +50,81 @@ pub fn force(p: &Project, run: usize) -> Option<(usize, c64)> {
     Some((force.channel.dof, *force.amplitudes.first()?))
 }
 
-/// Follows the response of the model with `effects` under the force of `run`.
+/// Runs under one force.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Level {
+    /// Mean amplitude of the force, N.
+    pub force: f64,
+    /// The runs.
+    pub runs: Vec<usize>,
+}
+
+/// Ratio by which forces of one level may differ, as a natural logarithm.
+const SAME_LEVEL: f64 = 0.12;
+
+/// The force levels of `runs`, lowest first; runs without force are left out.
+pub fn levels(p: &Project, runs: &[usize]) -> Vec<Level> {
+    let force = |r: &usize| Some((force(p, *r)?.1.norm(), *r)).filter(|(f, _)| *f > 0.0);
+    let mut list: Vec<(f64, usize)> = runs.iter().filter_map(force).collect();
+    list.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let mut levels: Vec<Vec<(f64, usize)>> = Vec::new();
+    for (f, run) in list {
+        match levels.last_mut() {
+            Some(level) if (f / level[0].0).ln() < SAME_LEVEL => level.push((f, run)),
+            _ => levels.push(vec![(f, run)]),
+        }
+    }
+    let mean = |level: &Vec<(f64, usize)>| level.iter().map(|l| l.0).sum::<f64>() / level.len() as f64;
+    let one = |level: Vec<(f64, usize)>| Level { force: mean(&level), runs: level.into_iter().map(|l| l.1).collect() };
+    levels.into_iter().map(one).collect()
+}
+
+/// Most levels that have a curve of their own: lines beyond these cannot be told apart.
+const MOST_LEVELS: usize = 8;
+
+/// The levels among which curves are drawn: those of the runs near `run`, evenly thinned with its own kept.
+fn drawn(p: &Project, run: usize, near: &[usize]) -> Vec<f64> {
+    let all = levels(p, near);
+    let own = all.iter().position(|l| l.runs.contains(&run));
+    let step = all.len().div_ceil(MOST_LEVELS).max(1);
+    let kept = |k: &usize| k % step == own.unwrap_or(0) % step;
+    (0..all.len()).filter(kept).map(|k| all[k].force).collect()
+}
+
+/// Follows the response of the model with `effects` near `run`, once for every level of force that was measured there;
+/// lowest level first.
 ///
 /// # Errors
-/// One line: no force, no matrices, no periodic response.
-pub fn curve(p: &Project, effects: &[Source], run: usize, control: &Control) -> Result<Curve, String> {
-    let (dof, amplitude) = force(p, run).ok_or("the run has no force channel")?;
-    let (_, range) = neighbourhood(p, run).ok_or("there is no such run")?;
-    let level = amplitude.norm();
+/// One line: no force, no matrices, no periodic response at any level.
+pub fn curves(p: &Project, effects: &[Source], run: usize, control: &Control) -> Result<Vec<Curve>, String> {
+    let (dof, _) = force(p, run).ok_or("the run has no force channel")?;
+    let (near, range) = neighbourhood(p, run).ok_or("there is no such run")?;
     let acts = |s: &&Source| !matches!(s.effect.kind(), Kind::Channel(_));
     let known = p.sources.iter().filter(|s| s.state == crate::effects::State::Known);
     let sources: Vec<Source> = known.chain(effects).filter(acts).cloned().collect();
     let model = ForwardModel::new(&p.structure, &sources).map_err(|e| e.to_string())?;
+    let mut found = Vec::new();
+    let mut fault = "no run near it has a force".to_owned();
+    for level in drawn(p, run, &near) {
+        match one_level(p, &model, run, (dof, level), range, control) {
+            Ok(curve) => found.push(curve),
+            Err(error) => fault = error,
+        }
+    }
+    if found.is_empty() { Err(fault) } else { Ok(found) }
+}
+
+/// The response under a force of amplitude `level` (N) at a DOF.
+fn one_level(
+    p: &Project,
+    model: &ForwardModel,
+    run: usize,
+    (dof, level): (usize, f64),
+    range: [f64; 2],
+    control: &Control,
+) -> Result<Curve, String> {
     let excitation = Excitation::sine(TAU * range[0], dof, c64::new(level, 0.0));
-    let found = sweep(&model, &excitation, range.map(|f| TAU * f), &SETTINGS, control).map_err(|e| e.to_string())?;
+    let found = sweep(model, &excitation, range.map(|f| TAU * f), &SETTINGS, control).map_err(|e| e.to_string())?;
     let channels = &p.runs[run].fit.channels;
     let point = |point: &crate::response::harmonic_balance::SweepPoint| {
         let w = point.response.omega;

@@ -1,14 +1,11 @@
 //! Bode and Nyquist diagrams: the model's curve with the measured points on it.
 
 use super::figure::{Axis, Figure, Look, Ticks};
-use super::show::Stack;
+use super::style::Palette;
+use crate::display::format;
 use crate::exchange::Project;
 use crate::measurement::Quantity as Measured;
 use crate::response::frequency_response::Quantity;
-use crate::window::format;
-use crate::window::theme::Palette;
-use crate::window::widgets::UiExt;
-use egui::Ui;
 use faer::c64;
 use std::f64::consts::TAU;
 
@@ -99,13 +96,6 @@ impl Diagram<'_> {
         )
     }
 
-    /// Magnitude and phase over frequency, both axes of frequency logarithmic and linked.
-    pub fn bode(&self, ui: &mut Ui) {
-        let [magnitude, phase] = self.bode_figures(ui.palette());
-        let figures = vec![(magnitude, 0.60), (phase, 0.40)];
-        Stack { id: "bode", title: &self.title("Bode diagram"), figures, keys: true }.show(ui);
-    }
-
     /// Magnitude and phase as plots.
     pub fn bode_figures(&self, palette: &Palette) -> [Figure; 2] {
         let (model, points) = (self.model(), self.points());
@@ -130,12 +120,6 @@ impl Diagram<'_> {
     }
 
     /// Imaginary over real part within a band about `centre` (rad/s).
-    pub fn nyquist(&self, ui: &mut Ui, centre: f64) {
-        let figures = vec![(self.nyquist_figure(ui.palette(), centre), 1.0)];
-        Stack { id: "nyquist", title: &self.title("Nyquist diagram"), figures, keys: true }.show(ui);
-    }
-
-    /// The same as a plot.
     pub fn nyquist_figure(&self, palette: &Palette, centre: f64) -> Figure {
         let near = |w: f64| (w / centre).ln().abs() < 0.08;
         let plane = |h: c64| [h.re, h.im];

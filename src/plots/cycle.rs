@@ -1,13 +1,10 @@
 //! One period of a channel, and the loop of force over displacement, both from their harmonics.
 
+use super::figure::{Axis, Figure, Look};
+use super::style::Palette;
+use crate::display::words;
 use crate::explain::compare::{ChannelComparison, HarmonicComparison};
 use crate::measurement::{HarmonicFit, Quantity};
-use crate::window::plots::figure::{Axis, Figure, Look};
-use crate::window::plots::show::Stack;
-use crate::window::theme::Palette;
-use crate::window::widgets::UiExt;
-use crate::window::words;
-use egui::Ui;
 use faer::c64;
 use std::f64::consts::TAU;
 
@@ -69,8 +66,7 @@ impl Cycle<'_> {
     }
 
     /// One period.
-    pub fn time(&self, ui: &mut Ui) {
-        let palette = ui.palette();
+    pub fn time(&self, palette: &Palette) -> Figure {
         let (period, milli) = (TAU / self.fit.omega, 1e3);
         let of = |c: &ChannelComparison, model: bool| {
             let values: Vec<c64> = c.harmonics.iter().map(|h| if model { h.model } else { h.measured }).collect();
@@ -87,15 +83,12 @@ impl Cycle<'_> {
             Look::Line(1.0),
             points(rest),
         );
-        self.show(ui, "one period", self.curves(figure, palette, &|c, model| points(of(c, model))));
+        self.curves(figure, palette, &|c, model| points(of(c, model)))
     }
 
-    /// Force of the first exciter over the displacement that the channel stands for.
-    pub fn hysteresis(&self, ui: &mut Ui) {
-        let Some(force) = self.fit.channels.iter().find(|c| c.channel.quantity == Quantity::Force) else {
-            ui.empty("No force", "The run has no force channel.");
-            return;
-        };
+    /// Force of the first exciter over the displacement that the channel stands for; none where no force is measured.
+    pub fn hysteresis(&self, palette: &Palette) -> Option<Figure> {
+        let force = self.fit.channels.iter().find(|c| c.channel.quantity == Quantity::Force)?;
         let order = self.quantity.derivatives().unwrap_or(0);
         let displacement = |c: &ChannelComparison, model: bool| {
             let one = |h: &HarmonicComparison| {
@@ -112,15 +105,14 @@ impl Cycle<'_> {
         let at = self.now.channel.rsplit('@').next().unwrap_or_default();
         let x = Axis::new(&format!("Displacement at DOF {at}"), &unit);
         let y = Axis::new(&format!("Force at DOF {}", force.channel.label), "N");
-        let mut figure =
-            self.curves(Figure::new("Loop", x, y), ui.palette(), &|c, model| points(displacement(c, model)));
+        let mut figure = self.curves(Figure::new("Loop", x, y), palette, &|c, model| points(displacement(c, model)));
         figure.margin = 0.05;
-        self.show(ui, "loop", figure);
+        Some(figure)
     }
 
-    fn show(&self, ui: &mut Ui, what: &str, figure: Figure) {
-        let title = format!("{}, {what}, run {}", self.now.channel, self.run + 1);
-        Stack { id: &title, title: &title, figures: vec![(figure, 1.0)], keys: true }.show(ui);
+    /// Title of what is exported.
+    pub fn title(&self, what: &str) -> String {
+        format!("{}, {what}, run {}", self.now.channel, self.run + 1)
     }
 }
 

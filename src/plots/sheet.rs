@@ -1,10 +1,11 @@
 //! Plots side by side or under each other as one drawing: the layout of what is exported.
 
-use super::drawing::{Drawing, Mark};
+use super::drawing::{Drawing, Mark, Stroke};
 use super::figure::{Figure, Look, Series};
+use super::style::{self as theme, Palette, size};
 use super::ticks;
-use crate::window::theme::{self, Palette, size};
-use egui::{Align2, Color32, Pos2, Rect, Stroke, Vec2, pos2, vec2};
+use ecolor::Color32;
+use emath::{Align2, Pos2, Rect, Vec2, pos2, vec2};
 
 const LEFT: f32 = 66.0;
 const RIGHT: f32 = 18.0;
@@ -32,6 +33,19 @@ pub struct Sheet {
 }
 
 impl Sheet {
+    /// Plots under each other with all of them in sight.
+    pub fn of(title: &str, figures: Vec<Figure>) -> Self {
+        let panels = figures.into_iter().map(|figure| Panel { bounds: figure.bounds(), figure }).collect();
+        Self { title: title.to_owned(), columns: 1, panels }
+    }
+
+    /// Width and height of its paper, points: square for plots with equal units, higher for more plots.
+    pub fn paper(&self) -> Vec2 {
+        let square = self.panels.iter().any(|p| p.figure.square);
+        let more = self.panels.len().saturating_sub(1) as f32;
+        if square { vec2(640.0, 600.0) } else { vec2(900.0, 300.0 + 220.0 * more) }
+    }
+
     /// All values in sight as a table with tabs.
     pub fn table(&self) -> String {
         let one = |p: &Panel| {

@@ -1,18 +1,9 @@
 //! Measured and identified energy of every run, on a logarithmic axis.
 
 use super::figure::{Axis, Figure, Look, Ticks};
-use super::show::Stack;
+use super::style::Palette;
 use crate::exchange::Project;
 use crate::identify::Outcome;
-use crate::window::theme::Palette;
-use crate::window::widgets::UiExt;
-use egui::Ui;
-
-/// Shows the chart for one step of the selection.
-pub fn show(ui: &mut Ui, p: &Project, outcome: &Outcome, current: usize) {
-    let figures = vec![(figure(ui.palette(), p, outcome, current), 1.0)];
-    Stack { id: "energy", title: "Energy per period and run", figures, keys: true }.show(ui);
-}
 
 /// The chart as a plot.
 pub fn figure(palette: &Palette, p: &Project, outcome: &Outcome, current: usize) -> Figure {

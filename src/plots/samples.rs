@@ -1,10 +1,10 @@
 //! What is known of one channel over the runs: measured, modelled and tried fundamentals over the force.
 
+use super::response_curve as curve;
 use crate::exchange::Project;
 use crate::explain::Comparison;
 use crate::explain::compare::ChannelComparison;
 use crate::measurement::Quantity;
-use crate::window::explained::curve;
 use faer::c64;
 
 /// One run of one channel.

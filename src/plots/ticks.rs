@@ -1,9 +1,42 @@
 //! Lines of an axis and what stands beside them; the same on the screen and in a file.
 
 use super::figure::{Axis, Scale, Ticks};
-use super::{log, tick};
-use crate::window::solid::frame::round_step;
-use egui_plot::{GridInput, GridMark};
+use super::log;
+
+/// What of an axis is in sight.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct GridInput {
+    /// First and last place.
+    pub bounds: (f64, f64),
+    /// Length that stands for eight points.
+    pub base_step_size: f64,
+}
+
+/// A line of the grid: its place, and the step that it belongs to.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct GridMark {
+    /// Place along the axis.
+    pub value: f64,
+    /// Step of the lines that it is one of; lines of long steps stand out.
+    pub step_size: f64,
+}
+
+/// A step of 1, 2 or 5 times a power of ten that divides `span` into about `parts`.
+pub fn round_step(span: f64, parts: f64) -> f64 {
+    let raw = span / parts;
+    let power = 10f64.powf(raw.log10().floor());
+    let lead = raw / power;
+    power
+        * if lead < 1.5 {
+            1.0
+        } else if lead < 3.5 {
+            2.0
+        } else if lead < 7.5 {
+            5.0
+        } else {
+            10.0
+        }
+}
 
 /// A line of the grid: its place, its label (may be empty), and whether it stands out.
 #[derive(Debug, Clone, PartialEq)]
@@ -84,10 +117,25 @@ pub fn rules(axis: &Axis, [low, high]: [f64; 2], length: f32) -> Vec<Rule> {
         .collect()
 }
 
+/// A number at a grid line, with as many digits as the step asks for.
+pub fn tick(value: f64, step: f64) -> String {
+    if value.abs() < 1e-9 * step {
+        return "0".to_owned();
+    }
+    let text = if (1e-3..1e5).contains(&value.abs()) {
+        let decimals = (-step.log10().floor()).clamp(0.0, 6.0) as usize;
+        format!("{value:.decimals$}")
+    } else {
+        let digits = (value.abs().log10().floor() - step.log10().floor()).clamp(0.0, 4.0) as usize;
+        format!("{value:.digits$e}")
+    };
+    text.replace('-', "−")
+}
+
 #[cfg(test)]
 mod tests {
-    use super::rules;
-    use crate::window::plots::figure::{Axis, Ticks};
+    use super::{round_step, rules, tick};
+    use crate::plots::figure::{Axis, Ticks};
 
     #[test]
     fn lines_are_round_numbers_with_labels() {
@@ -110,5 +158,19 @@ mod tests {
         let axis = Axis::new("DOF", "").ticks(Ticks::Names(["1z", "2z"].map(str::to_owned).to_vec().into()));
         let labels: Vec<String> = rules(&axis, [-0.5, 1.5], 200.0).into_iter().map(|r| r.label).collect();
         assert_eq!(labels, ["1z", "2z"]);
+    }
+
+    #[test]
+    fn ticks_show_what_their_step_asks_for() {
+        assert_eq!(tick(0.25, 0.05), "0.25");
+        assert_eq!(tick(-20.0, 10.0), "−20");
+        assert_eq!(tick(1e-17, 0.1), "0");
+        assert_eq!(tick(2.5e-6, 5e-7), "2.5e−6");
+        assert_eq!(tick(120_000.0, 20_000.0), "1.2e5");
+    }
+
+    #[test]
+    fn steps_are_round() {
+        assert_eq!([round_step(10.0, 5.0), round_step(0.9, 4.0), round_step(7300.0, 5.0)], [2.0, 0.2, 1000.0]);
     }
 }

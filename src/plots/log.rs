@@ -1,8 +1,7 @@
 //! Logarithmic axes: the plot holds log10 of the value, the grid shows decades and the lines between.
 
-use crate::window::format::significant;
-use crate::window::solid::frame::round_step;
-use egui_plot::{GridInput, GridMark};
+use super::ticks::{GridInput, GridMark, round_step};
+use crate::display::format::significant;
 
 /// Step of a line without a label: below it none is written.
 const UNLABELLED: f64 = 0.15;
@@ -93,8 +92,7 @@ pub fn one_two_five_label(mark: GridMark) -> String {
 #[cfg(test)]
 mod tests {
     use super::{decades, label, one_two_five, one_two_five_label};
-    use crate::window::plots::ticks::UPWARDS;
-    use egui_plot::GridInput;
+    use crate::plots::ticks::{GridInput, UPWARDS};
 
     fn labels(low: f64, high: f64, points: f64) -> Vec<String> {
         let input = GridInput { bounds: (low, high), base_step_size: 8.0 * (high - low) / points };

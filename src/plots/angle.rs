@@ -1,20 +1,11 @@
 //! The angle between measured and identified energies against the number of sources, on a logarithmic axis.
 
 use super::figure::{Axis, Figure, Look, Ticks};
-use super::show::Stack;
+use super::style::Palette;
 use crate::identify::Outcome;
-use crate::window::theme::Palette;
-use crate::window::widgets::UiExt;
-use egui::Ui;
 
 /// Angles below this are drawn as this: exact data reach rounding.
 const LEAST: f64 = 1e-8;
-
-/// Shows the chart with the step that is looked at as a filled point.
-pub fn show(ui: &mut Ui, outcome: &Outcome, current: usize, limit_deg: f64) {
-    let figures = vec![(figure(ui.palette(), outcome, current, limit_deg), 1.0)];
-    Stack { id: "angle", title: "Angle against number of sources", figures, keys: true }.show(ui);
-}
 
 /// The chart as a plot.
 pub fn figure(palette: &Palette, outcome: &Outcome, current: usize, limit_deg: f64) -> Figure {

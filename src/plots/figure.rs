@@ -2,7 +2,7 @@
 //! made of it.
 
 use super::pyramid::Pyramid;
-use egui::Color32;
+use ecolor::Color32;
 use std::fmt;
 use std::sync::Arc;
 
@@ -156,6 +156,11 @@ pub struct Series {
 }
 
 impl Series {
+    /// Whether it holds nothing and only stands in the row of keys.
+    pub fn is_key(&self) -> bool {
+        !self.name.is_empty() && matches!(&self.data, Data::Points(p) if p.is_empty())
+    }
+
     /// Points x, y in sight between two values of x, at most about so many as there are `columns`.
     pub fn points(&self, from: f64, to: f64, columns: usize) -> Vec<[f64; 2]> {
         match &self.data {
@@ -231,6 +236,12 @@ impl Figure {
         self.with(name, colour, look, Data::Points(points))
     }
 
+    /// With a key to a mark or a colour that several series share.
+    #[must_use]
+    pub fn key(self, name: &str, colour: Color32, look: Look) -> Self {
+        self.points(name, colour, look, Vec::new())
+    }
+
     /// With standard deviations of the last series.
     #[must_use]
     pub fn deviation(mut self, deviation: Vec<f64>) -> Self {
@@ -256,7 +267,8 @@ impl Figure {
     pub fn table(&self, from: f64, to: f64) -> String {
         let mut text = String::new();
         for series in &self.series {
-            if matches!(series.look, Look::Uprights(_) | Look::Levels(_)) && series.name.is_empty() {
+            let only_lines = matches!(series.look, Look::Uprights(_) | Look::Levels(_)) && series.name.is_empty();
+            if only_lines || series.is_key() {
                 continue;
             }
             let deviations = !series.deviation.is_empty();
@@ -309,10 +321,20 @@ impl Figure {
     }
 }
 
+/// A table with tabs as CSV: fields that hold a comma or a quotation mark stand in quotation marks.
+pub fn csv(table: &str) -> String {
+    let field = |text: &str| {
+        let plain = !text.contains([',', '"']);
+        if plain { text.to_owned() } else { format!("\"{}\"", text.replace('"', "\"\"")) }
+    };
+    let line = |line: &str| line.split('\t').map(field).collect::<Vec<_>>().join(",") + "\n";
+    table.lines().map(line).collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::{Axis, Curve, Data, Figure, Look};
-    use egui::Color32;
+    use ecolor::Color32;
     use std::sync::Arc;
 
     fn figure() -> Figure {
@@ -346,6 +368,11 @@ mod tests {
         let lines: Vec<&str> = table.lines().collect();
         assert_eq!(lines[0], "Frequency (Hz)\tReceptance (m/N) measured\tstandard deviation");
         assert_eq!(lines[2], "2e0\t1e3\t2e-1");
+    }
+
+    #[test]
+    fn a_table_becomes_csv() {
+        assert_eq!(super::csv("a, b\tc\n1e0\t\"x\""), "\"a, b\",c\n1e0,\"\"\"x\"\"\"\n");
     }
 
     #[test]

@@ -1,10 +1,10 @@
 //! The forward model of what was identified, as the result shows it: frequency responses and steady states.
 
-use super::plots::bode::Response;
-use super::plots::hysteresis::{self, Loop};
+use super::bode::Response;
+use super::hysteresis::{self, Loop};
 use crate::balance::expansion::Acting;
 use crate::balance::{Expander, Measured};
-use crate::effects::{Effect, Source};
+use crate::effects::{Effect, Source, State};
 use crate::exchange::Project;
 use crate::identify::{self, Outcome};
 use crate::measurement::Quantity;
@@ -24,15 +24,32 @@ pub fn acting(p: &Project, outcome: &Outcome) -> Vec<Source> {
     outcome.sources.iter().enumerate().filter_map(one).collect()
 }
 
+/// The known sources of a project that are linear in the motion: what a frequency response of the model as it stands has.
+pub fn known(p: &Project) -> Vec<Source> {
+    let acts = |s: &&Source| s.state == State::Known && s.effect.is_linear();
+    p.sources.iter().filter(acts).cloned().collect()
+}
+
+/// Frequencies for a model of which only its undamped modes are known, as [`frequencies`].
+pub fn frequencies_of_modes(p: &Project) -> Vec<f64> {
+    let modes = p.structure.modes().map_or_else(|_| Vec::new(), |m| m.omega.clone());
+    spread(p, modes.into_iter().map(|w| (w, 0.01)))
+}
+
 /// Frequencies from a little below the lowest run to a little above the highest, closer together near the modes.
 pub fn frequencies(p: &Project, outcome: &Outcome) -> Vec<f64> {
+    let modes = outcome.results.modes.iter();
+    spread(p, modes.map(|m| (std::f64::consts::TAU * m.frequency_hz, m.damping_ratio)))
+}
+
+/// Over the range of the runs, closer together near modes of a circular frequency and a damping ratio.
+fn spread(p: &Project, modes: impl Iterator<Item = (f64, f64)>) -> Vec<f64> {
     let runs = || p.runs.iter().map(|r| r.fit.omega);
     let low = 0.5 * runs().fold(f64::INFINITY, f64::min);
     let high = 1.6 * runs().fold(0.0, f64::max);
     let mut omega: Vec<f64> = (0..=400).map(|k| low * (high / low).powf(f64::from(k) / 400.0)).collect();
-    for mode in &outcome.results.modes {
-        let centre = std::f64::consts::TAU * mode.frequency_hz;
-        let width = (mode.damping_ratio * centre).max(1e-5 * centre);
+    for (centre, ratio) in modes {
+        let width = (ratio * centre).max(1e-5 * centre);
         for k in -60..=60 {
             let x = f64::from(k) / 12.0;
             omega.push(centre + width * x.sinh());

@@ -1,8 +1,27 @@
 //! A picture as lines, areas and words with places: painted on the screen, written as SVG, or drawn into a PNG; the same in
 //! all three.
 
-use crate::window::theme;
-use egui::{Align2, Color32, Painter, Pos2, Rect, Shape, Stroke, Vec2, pos2};
+use ecolor::Color32;
+use emath::{Align2, Pos2, Rect, Vec2, pos2};
+
+/// A line's width and colour.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Stroke {
+    /// Width, points.
+    pub width: f32,
+    /// Colour.
+    pub color: Color32,
+}
+
+impl Stroke {
+    /// Draws nothing.
+    pub const NONE: Self = Self { width: 0.0, color: Color32::TRANSPARENT };
+
+    /// A line of a width and colour.
+    pub const fn new(width: f32, color: Color32) -> Self {
+        Self { width, color }
+    }
+}
 
 /// One thing in a drawing.
 #[derive(Debug, Clone, PartialEq)]
@@ -77,57 +96,23 @@ impl Drawing {
     }
 
     /// Adds a line.
-    pub fn line(&mut self, points: impl Into<Vec<Pos2>>, stroke: Stroke) {
-        self.marks.push(Mark::Line { points: points.into(), stroke, dashed: false });
+    pub fn line(&mut self, points: impl Into<Vec<Pos2>>, stroke: impl Into<Stroke>) {
+        self.marks.push(Mark::Line { points: points.into(), stroke: stroke.into(), dashed: false });
     }
 
     /// Adds a closed convex area.
-    pub fn area(&mut self, points: impl Into<Vec<Pos2>>, fill: Color32, stroke: Stroke) {
-        self.marks.push(Mark::Area { points: points.into(), fill, stroke });
+    pub fn area(&mut self, points: impl Into<Vec<Pos2>>, fill: Color32, stroke: impl Into<Stroke>) {
+        self.marks.push(Mark::Area { points: points.into(), fill, stroke: stroke.into() });
     }
 
     /// Adds a rectangle.
-    pub fn rect(&mut self, rect: Rect, fill: Color32, stroke: Stroke) {
+    pub fn rect(&mut self, rect: Rect, fill: Color32, stroke: impl Into<Stroke>) {
         self.area([rect.left_top(), rect.right_top(), rect.right_bottom(), rect.left_bottom()], fill, stroke);
     }
 
     /// Adds words that read from left to right.
     pub fn words(&mut self, at: Pos2, align: Align2, text: impl Into<String>, size: f32, colour: Color32) {
         self.marks.push(Mark::Words { at, align, text: text.into(), size, colour, upright: false });
-    }
-
-    /// Paints it with its top left corner at `origin`, without the ground.
-    pub fn paint(&self, painter: &Painter, origin: Pos2) {
-        let mut painter = painter.clone();
-        let whole = painter.clip_rect();
-        for mark in &self.marks {
-            match mark {
-                Mark::Inside(rect, _) => painter.set_clip_rect(rect.translate(origin.to_vec2()).intersect(whole)),
-                Mark::Whole => painter.set_clip_rect(whole),
-                _ => paint(&painter, mark, origin.to_vec2()),
-            }
-        }
-    }
-}
-
-fn paint(painter: &Painter, mark: &Mark, by: Vec2) {
-    let moved = |points: &[Pos2]| points.iter().map(|p| *p + by).collect::<Vec<_>>();
-    match mark {
-        Mark::Line { points, stroke, dashed: false } => drop(painter.add(Shape::line(moved(points), *stroke))),
-        Mark::Line { points, stroke, .. } => painter.extend(Shape::dashed_line(&moved(points), *stroke, 6.0, 4.0)),
-        Mark::Area { points, fill, stroke } => drop(painter.add(Shape::convex_polygon(moved(points), *fill, *stroke))),
-        Mark::Disc { centre, radius, fill, stroke } => drop(painter.circle(*centre + by, *radius, *fill, *stroke)),
-        Mark::Words { at, align, text, size, colour, upright: false } => {
-            painter.text(*at + by, *align, text, theme::font(*size), *colour);
-        }
-        Mark::Words { at, text, size, colour, .. } => {
-            let galley = painter.layout_no_wrap(text.clone(), theme::font(*size), *colour);
-            let (w, h) = (galley.size().x, galley.size().y);
-            let start = *at + by + Vec2::new(-0.5 * h, 0.5 * w);
-            let shape = egui::epaint::TextShape::new(start, galley, *colour).with_angle(-std::f32::consts::FRAC_PI_2);
-            painter.add(shape);
-        }
-        Mark::Inside(..) | Mark::Whole => {}
     }
 }
 

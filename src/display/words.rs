@@ -1,7 +1,7 @@
 //! Names for people of what has names in files.
 
 use crate::balance::{Expansion, Weights};
-use crate::effects::{Effect, Place, State};
+use crate::effects::{Effect, Place, Source, State};
 use crate::measurement::{Flag, Quantity};
 use crate::structure::beam::Supports;
 use crate::structure::{Structure, StructureKind};
@@ -128,12 +128,38 @@ pub fn place(structure: &Structure, place: &Place) -> String {
     }
 }
 
-/// The same, shorter: `7`, `7–9`.
+/// A place after the name of an effect: `at DOF 15`, `between DOF 3 and 5`, `of acc@7`.
+pub fn at(structure: &Structure, place: &Place) -> String {
+    let label = |d: &usize| structure.label(*d).to_owned();
+    match place {
+        Place::Dofs(dofs) => match &dofs[..] {
+            [one] => format!("at DOF {}", label(one)),
+            [a, b] => format!("between DOF {} and {}", label(a), label(b)),
+            many => format!("along DOF {}", many.iter().map(label).collect::<Vec<_>>().join("–")),
+        },
+        Place::Whole(None) => "of the whole structure".to_owned(),
+        Place::Whole(Some([first, last])) => format!("of elements {}–{}", first + 1, last + 1),
+        Place::Channel(channel) => format!("of {channel}"),
+    }
+}
+
+/// Law and place at the start of a sentence: `Dry friction at DOF 15`.
+pub fn title(structure: &Structure, source: &Source) -> String {
+    capital(&format!("{} {}", effect(source.effect), at(structure, &source.place)))
+}
+
+/// The same as [`place`], shorter: `7`, `7–9`.
 pub fn short_place(structure: &Structure, at: &Place) -> String {
     match at {
         Place::Dofs(dofs) if dofs.len() == 1 => structure.label(dofs[0]).to_owned(),
         _ => place(structure, at),
     }
+}
+
+/// A coefficient with its deviation and unit.
+pub fn coefficient(source: &Source, estimate: &crate::identify::Estimate) -> String {
+    let parameter = source.effect.coefficient().map(|k| source.effect.parameters()[k]);
+    super::format::with_deviation(estimate.coefficient, estimate.deviation, parameter.map_or("", |p| p.unit))
 }
 
 /// A number of things in words: `1 source`, `3 sources`.

@@ -1,7 +1,8 @@
 //! A drawing as SVG 1.1: text stays text, every group is named, what lies outside an area is clipped there.
 
-use super::drawing::{Drawing, Mark};
-use egui::{Align, Align2, Color32, Pos2, Stroke};
+use super::drawing::{Drawing, Mark, Stroke};
+use ecolor::Color32;
+use emath::{Align, Align2, Pos2};
 use std::fmt::Write as _;
 
 /// Writes a drawing.
@@ -111,16 +112,16 @@ fn escaped(text: &str) -> String {
 #[cfg(test)]
 mod tests {
     #![allow(clippy::unwrap_used, reason = "tests")]
+    use crate::plots::style::Palette;
     use super::write;
-    use crate::window::plots::figure::{Axis, Figure, Look};
-    use crate::window::plots::sheet::{Panel, Sheet, inner};
-    use crate::window::theme::Palette;
-    use egui::{Rect, Visuals, pos2, vec2};
+    use crate::plots::figure::{Axis, Figure, Look};
+    use crate::plots::sheet::{Panel, Sheet, inner};
+    use emath::{Rect, pos2, vec2};
     use quick_xml::Reader;
     use quick_xml::events::Event;
 
     fn sheet() -> Sheet {
-        let palette = Palette::of(&Visuals::light());
+        let palette = Palette::light();
         let model: Vec<[f64; 2]> = (1..40).map(|k| [f64::from(k), 1e-3 / f64::from(k).powi(2)]).collect();
         let figure = Figure::new("Receptance <7, 19>", Axis::log("Frequency", "Hz"), Axis::log("Magnitude", "m/N"))
             .points("model", palette.model, Look::Line(1.8), model)
@@ -155,7 +156,7 @@ mod tests {
     fn a_file_is_well_formed_and_holds_every_point_at_its_place() {
         let sheet = sheet();
         let size = vec2(800.0, 500.0);
-        let svg = write(&sheet.drawing(size, Palette::of(&Visuals::light())));
+        let svg = write(&sheet.drawing(size, Palette::light()));
         let elements = elements(&svg);
         let panel = &sheet.panels[0];
         let area = inner(Rect::from_min_max(pos2(0.0, 34.0), size.to_pos2()));
@@ -193,7 +194,7 @@ mod tests {
 
     #[test]
     fn labels_units_and_special_letters_are_written() {
-        let svg = write(&sheet().drawing(vec2(800.0, 500.0), Palette::of(&Visuals::light())));
+        let svg = write(&sheet().drawing(vec2(800.0, 500.0), Palette::light()));
         for text in ["Frequency, Hz", "Magnitude, m/N", "Receptance &lt;7, 19&gt;", "Bode &amp; more", ">measured<"] {
             assert!(svg.contains(text), "{text}");
         }

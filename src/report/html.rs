@@ -1,11 +1,11 @@
 //! The few parts of HTML that a report is made of: one file without anything outside it.
 
-use crate::window::plots::drawing::Drawing;
-use crate::window::plots::svg;
+use crate::plots::drawing::Drawing;
+use crate::plots::svg;
 
 const STYLE: &str = "body{font:15px/1.45 Ubuntu,'DejaVu Sans',Helvetica,Arial,sans-serif;color:#16191d;max-width:960px;\
 margin:32px auto;padding:0 20px}h1{font-weight:500;margin-bottom:4px}h2{font-weight:500;margin:34px 0 8px;border-bottom:1px \
-solid #d5dade}table{border-collapse:collapse;font-variant-numeric:tabular-nums}td,th{padding:3px 14px 3px 0;text-align:left;\
+solid #d5dade}h3{font-weight:500;margin:20px 0 4px}table{border-collapse:collapse;font-variant-numeric:tabular-nums}td,th{padding:3px 14px 3px 0;text-align:left;\
 vertical-align:top}th{font-weight:500;color:#5c6670;border-bottom:1px solid #d5dade}td.n,th.n{text-align:right}p.s{color:#5c6670}\
 p.w{color:#8a5a00}img{max-width:100%;margin:8px 0;border:1px solid #e6e9ec}@media print{h2{break-after:avoid}img{break-inside:\
 avoid}}";
@@ -38,6 +38,11 @@ impl Page {
     /// Adds a chapter's title.
     pub fn chapter(&mut self, title: &str) {
         self.body += &format!("<h2>{}</h2>\n", escaped(title));
+    }
+
+    /// Adds the title of a part of a chapter.
+    pub fn section(&mut self, title: &str) {
+        self.body += &format!("<h3>{}</h3>\n", escaped(title));
     }
 
     /// Adds a sentence.
@@ -90,8 +95,9 @@ impl Page {
 #[cfg(test)]
 mod tests {
     use super::{Page, address};
-    use crate::window::plots::drawing::Drawing;
-    use egui::{Color32, vec2};
+    use crate::plots::drawing::Drawing;
+    use ecolor::Color32;
+    use emath::vec2;
 
     #[test]
     fn markup_in_names_stays_text() {

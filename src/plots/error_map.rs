@@ -1,15 +1,15 @@
 //! The error map as numbers: which run stands in which column, which channel in which row, and where a value stands on the
 //! scale of colours.
 
+use super::drawing::{Drawing, Stroke};
+use super::style::{self, Palette, size};
+use crate::display::format;
 use crate::explain::Comparison;
+use ecolor::Color32;
+use emath::{Align2, Rect, pos2, vec2};
 
 /// Name of the only row where there is no response to predict.
 pub const ENERGY: &str = "energy";
-
-/// An error in words; beyond ten times the measurement its size says nothing more.
-pub fn in_words(error: f64) -> String {
-    if error > 10.0 { "> 1000 %".to_owned() } else { crate::window::format::percent(error) }
-}
 
 /// One cell.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -118,6 +118,73 @@ impl Scale {
         let decade = |v: &f64| (v.log10() - v.log10().round()).abs() < 1e-9 && v.log10().round() as i32 % every == 0;
         let plain = |v: &f64| fine || decade(v);
         decades.flat_map(round).filter(inside).filter(plain).collect()
+    }
+}
+
+/// Colour of a cell.
+pub fn shade(palette: &Palette, scale: &Scale, cell: Cell) -> Color32 {
+    if cell.is_noise() { palette.raised } else { palette.error_shade(scale.share(cell.error)) }
+}
+
+/// The error in a cell, in %.
+pub fn percent(cell: Cell) -> String {
+    if cell.error > 10.0 { "> 1000".to_owned() } else { format::significant(100.0 * cell.error, 2) }
+}
+
+/// Runs that stand side by side on paper; the others follow below.
+const ACROSS: usize = 24;
+
+impl Grid {
+    /// The map on paper, with the noise floor in its title; cells in %.
+    pub fn draw(&self, scale: &Scale, title: &str, palette: &Palette) -> Drawing {
+        let label = 14.0 + 6.4 * self.channels.iter().map(|c| c.chars().count()).max().unwrap_or(0) as f32;
+        let columns = self.runs.len().clamp(1, ACROSS) as f32;
+        let cell = vec2(((868.0 - label) / columns).clamp(20.0, 52.0), 22.0);
+        let band = 30.0 + cell.y * self.channels.len() as f32;
+        let bands = self.runs.len().div_ceil(ACROSS).max(1);
+        let paper = vec2(900.0, 64.0 + band * bands as f32 + 12.0);
+        let mut drawing = Drawing::new(paper, palette.canvas, title);
+        drawing.words(pos2(16.0, 20.0), Align2::LEFT_CENTER, title, size::HEADING, palette.ink);
+        let remark = format!("Error in %, grey: within twice the noise. Noise floor {}.", format::percent(scale.floor));
+        drawing.words(pos2(16.0, 42.0), Align2::LEFT_CENTER, remark, size::SMALL, palette.weak);
+        for (k, columns) in (0..self.runs.len()).collect::<Vec<_>>().chunks(ACROSS).enumerate() {
+            let corner = pos2(16.0 + label, 64.0 + band * k as f32 + 20.0);
+            for (row, name) in self.channels.iter().enumerate() {
+                let at = pos2(corner.x - 8.0, corner.y + (row as f32 + 0.5) * cell.y);
+                drawing.words(at, Align2::RIGHT_CENTER, name.clone(), size::SMALL, palette.ink);
+            }
+            for (x, &column) in columns.iter().enumerate() {
+                let left = corner.x + x as f32 * cell.x;
+                let head = pos2(left + 0.5 * cell.x, corner.y - 10.0);
+                let run = (self.runs[column] + 1).to_string();
+                drawing.words(head, Align2::CENTER_CENTER, run, size::SMALL, palette.weak);
+                for (row, cells) in self.cells.iter().enumerate() {
+                    let at = pos2(left, corner.y + row as f32 * cell.y);
+                    let rect = Rect::from_min_size(at, cell).shrink(0.5);
+                    let Some(found) = cells[column] else {
+                        drawing.rect(rect, Color32::TRANSPARENT, style::hair(palette.line));
+                        continue;
+                    };
+                    let fill = shade(palette, scale, found);
+                    drawing.rect(rect, fill, Stroke::NONE);
+                    let ink = if self.used[column] { palette.text_on(fill) } else { palette.weak };
+                    let words = if self.used[column] { percent(found) } else { "×".to_owned() };
+                    drawing.words(rect.center(), Align2::CENTER_CENTER, words, size::SMALL - 1.0, ink);
+                }
+            }
+        }
+        drawing
+    }
+
+    /// The map as a table with tabs: a row a channel, a column a run, errors as shares.
+    pub fn table(&self) -> String {
+        let mut text = "channel".to_owned();
+        self.runs.iter().for_each(|run| text += &format!("\trun {}", run + 1));
+        for (name, cells) in self.channels.iter().zip(&self.cells) {
+            text += &format!("\n{name}");
+            cells.iter().for_each(|cell| text += &cell.map_or_else(|| "\t".to_owned(), |c| format!("\t{:e}", c.error)));
+        }
+        text + "\n"
     }
 }
 
