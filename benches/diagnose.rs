@@ -17,8 +17,8 @@ mod suite;
 
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
 use dashpot::control::Control;
+use dashpot::diagnosis::diagnose;
 use dashpot::effects::Effect;
-use dashpot::explain::diagnose;
 use dashpot::session::workers::Threads;
 use random::Random;
 use std::sync::Arc;

@@ -3,8 +3,8 @@
 
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
 use dashpot::control::Control;
+use dashpot::diagnosis::{Problem, compare};
 use dashpot::effects::{Effect, Place, Source};
-use dashpot::explain::{Problem, compare};
 use dashpot::measurement::{Run, fit::fit};
 use dashpot::response::harmonic_balance::{Excitation, ForwardModel, Settings, SweepSettings, sweep};
 use dashpot::response::sensitivity::{Unknown, sensitivities};

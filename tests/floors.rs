@@ -16,7 +16,7 @@ const FLOORS: [(&str, u32); 17] = [
     ("balance", 2),
     ("identify", 3),
     ("classical", 3),
-    ("explain", 3),
+    ("diagnosis", 3),
     ("exchange", 4),
     ("session", 4),
     ("display", 4),

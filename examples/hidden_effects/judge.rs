@@ -2,10 +2,10 @@
 
 use super::files::truth;
 use dashpot::control::Control;
+use dashpot::diagnosis::Problem;
+use dashpot::diagnosis::diagnose::{Diagnosis, Suggestion, Verdict, diagnose};
 use dashpot::effects::Source;
 use dashpot::exchange::project::load;
-use dashpot::explain::Problem;
-use dashpot::explain::diagnose::{Diagnosis, Suggestion, Verdict, diagnose};
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::path::Path;

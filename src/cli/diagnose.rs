@@ -4,14 +4,16 @@ use super::arguments::Diagnose;
 use super::compare::{flags, problem};
 use super::table::{number, table};
 use crate::control::Control;
+use crate::diagnosis::candidates::start_grids::scaled;
+use crate::diagnosis::diagnose::{Added, Correction, Diagnosis, Suggestion, diagnose_without};
+use crate::diagnosis::updating::parameters::UpdatingParameter;
 use crate::effects::{Place, Source, State};
 use crate::exchange::Project;
+use crate::exchange::project::correction::CorrectionTable;
 use crate::exchange::project::load;
 use crate::exchange::project::relocate::{canonical, renamed};
-use crate::explain::diagnose::{Added, Correction, Diagnosis, Suggestion, diagnose_without};
-use crate::explain::shapes::scaled;
-use crate::explain::tuning::Knob;
 use crate::session::workers::Threads;
+use crate::structure::Part;
 use crate::structure::Structure;
 use anyhow::{Context, bail};
 use serde_json::{Map, Value, json};
@@ -88,25 +90,31 @@ fn suggestion(structure: &Structure, suggestion: &Suggestion) -> Value {
 /// A correction of what the model states: `what`, its place or mode, and the factor on it.
 pub(super) fn correction(project: &Project, correction: &Correction) -> Value {
     let mut map = Map::new();
-    let what = match &correction.knob {
-        Knob::Stiffness => "stiffness",
-        Knob::Mass => "mass",
-        Knob::Mode(_) => "mode",
-        Knob::Spring(..) => "spring",
-        Knob::Known(_) => "source",
-    };
-    map.insert("what".into(), json!(what));
-    match &correction.knob {
-        Knob::Mode(mode) => drop(map.insert("mode".into(), json!(mode + 1))),
-        Knob::Spring(dofs, _) => {
-            drop(map.insert("dofs".into(), json!(labels(&project.structure, &Place::Dofs(dofs.clone())))));
-        }
-        Knob::Known(index) => {
+    let dofs = |dofs: &[usize]| json!(labels(&project.structure, &Place::Dofs(dofs.to_vec())));
+    let elements = |range: &[usize; 2]| json!(range.map(|element| element + 1));
+    let (what, key, place) = match &correction.parameter {
+        UpdatingParameter::Structure(part) => match part {
+            Part::Stiffness => ("stiffness", "", Value::Null),
+            Part::Mass => ("mass", "", Value::Null),
+            Part::Mode(mode) => ("mode", "mode", json!(mode + 1)),
+            Part::GroundSpring(dof) => ("spring", "dofs", dofs(&[*dof])),
+            Part::Coupling(pair) => ("spring", "dofs", dofs(pair)),
+            Part::PointMass(dof) => ("point_mass", "dofs", dofs(&[*dof])),
+            Part::ElementStiffness(range) => ("element_stiffness", "elements", elements(range)),
+            Part::ElementMass(range) => ("element_mass", "elements", elements(range)),
+        },
+        UpdatingParameter::Known(index) => {
             if let Some(source) = problem(project).known().get(*index) {
                 map.extend(named(&project.structure, source));
             }
+            ("source", "", Value::Null)
         }
-        Knob::Stiffness | Knob::Mass => {}
+        UpdatingParameter::Gain(channel) => ("gain", "channel", json!(channel)),
+        UpdatingParameter::Delay(channel) => ("delay", "channel", json!(channel)),
+    };
+    map.insert("what".into(), json!(what));
+    if !key.is_empty() {
+        map.insert(key.into(), place);
     }
     map.insert("factor".into(), json!(correction.factor));
     map.insert("standard_deviation".into(), json!(correction.deviation));
@@ -115,16 +123,24 @@ pub(super) fn correction(project: &Project, correction: &Correction) -> Value {
 
 /// A correction in words.
 pub(super) fn corrected(project: &Project, correction: &Correction) -> String {
-    let what = match &correction.knob {
-        Knob::Stiffness => "all stiffness".to_owned(),
-        Knob::Mass => "all mass".to_owned(),
-        Knob::Mode(mode) => format!("stiffness of mode {}", mode + 1),
-        Knob::Spring(dofs, _) => {
-            format!("spring at {}", labels(&project.structure, &Place::Dofs(dofs.clone())).join(" - "))
-        }
-        Knob::Known(index) => {
+    let at = |dofs: &[usize]| labels(&project.structure, &Place::Dofs(dofs.to_vec())).join(" - ");
+    let elements = |[first, last]: [usize; 2]| format!("elements {} to {}", first + 1, last + 1);
+    let what = match &correction.parameter {
+        UpdatingParameter::Structure(part) => match *part {
+            Part::Stiffness => "all stiffness".to_owned(),
+            Part::Mass => "all mass".to_owned(),
+            Part::Mode(mode) => format!("stiffness of mode {}", mode + 1),
+            Part::GroundSpring(dof) => format!("spring at {}", at(&[dof])),
+            Part::Coupling(pair) => format!("spring at {}", at(&pair)),
+            Part::PointMass(dof) => format!("mass at {}", at(&[dof])),
+            Part::ElementStiffness(range) => format!("stiffness of {}", elements(range)),
+            Part::ElementMass(range) => format!("mass of {}", elements(range)),
+        },
+        UpdatingParameter::Known(index) => {
             problem(project).known().get(*index).map_or_else(String::new, |s| title(&project.structure, s))
         }
+        UpdatingParameter::Gain(channel) => format!("gain of {channel}"),
+        UpdatingParameter::Delay(channel) => format!("delay of {channel}"),
     };
     format!("  {what}: times {:.4} +- {:.4}", correction.factor, correction.deviation)
 }
@@ -132,11 +148,11 @@ pub(super) fn corrected(project: &Project, correction: &Correction) -> String {
 fn document(project: &Project, diagnosis: &Diagnosis) -> Value {
     let structure = &project.structure;
     let run = |run: &crate::measurement::Run| json!({"file": run.file, "frequency_hz": run.fit.omega / std::f64::consts::TAU, "flags": flags(run)});
-    let step = |step: &crate::explain::diagnose::Step| {
+    let step = |step: &crate::diagnosis::diagnose::Step| {
         let added: Vec<Value> = step.added.iter().map(|a| Value::Object(with_values(structure, a))).collect();
         json!({"added": added, "error": step.error, "misfit": step.misfit})
     };
-    let test = |test: &crate::explain::diagnose::NextTest| {
+    let test = |test: &crate::diagnosis::diagnose::NextTest| {
         json!({"frequency_hz": test.frequency_hz, "force_dof": structure.label(test.force_dof), "force_n": test.force,
                "why": test.why})
     };
@@ -261,25 +277,25 @@ fn apply(file: &Path, out: &Path, project: &Project, diagnosis: &Diagnosis) -> a
 /// Multiplies what the file states by the factor of a correction; whether it could.
 fn correct(document: &mut toml_edit::DocumentMut, project: &Project, correction: &Correction) -> bool {
     let factor = correction.factor;
-    if let Knob::Known(index) = correction.knob {
-        let acts = |s: &&Source| s.state == State::Known && !matches!(s.place, Place::Channel(_));
-        let known = project.sources.iter().enumerate().filter(|(_, s)| acts(s)).nth(index);
-        let list = document.get_mut("source").and_then(toml_edit::Item::as_array_of_tables_mut);
-        let (Some((row, source)), Some(list)) = (known, list) else { return false };
-        let Some(table) = list.get_mut(row) else { return false };
-        let mut keys = scaled(source.effect).iter().map(|&k| source.effect.parameters()[k].name);
-        return keys.all(|key| multiply(table.get_mut(key), factor));
-    }
+    let part = match correction.parameter {
+        UpdatingParameter::Known(index) => return resize(document, project, index, factor),
+        UpdatingParameter::Structure(part) => part,
+        UpdatingParameter::Gain(_) | UpdatingParameter::Delay(_) => return false,
+    };
     let Some(structure) = document.get_mut("structure").and_then(toml_edit::Item::as_table_mut) else { return false };
-    match &correction.knob {
-        Knob::Stiffness if structure.contains_key("youngs_modulus") => {
+    let entry = |structure: &mut toml_edit::Table, key: &str, k: usize| {
+        let list = structure.get_mut(key).and_then(toml_edit::Item::as_array_mut);
+        list.and_then(|l| l.get_mut(k)).is_some_and(|value| scale(value, factor))
+    };
+    let done = match part {
+        Part::Stiffness if structure.contains_key("youngs_modulus") => {
             multiply(structure.get_mut("youngs_modulus"), factor)
         }
-        Knob::Stiffness => {
+        Part::Stiffness if structure.contains_key("coupling_stiffness") => {
             multiply(structure.get_mut("coupling_stiffness"), factor)
                 && multiply(structure.get_mut("ground_stiffness"), factor)
         }
-        Knob::Mass => {
+        Part::Mass if structure.contains_key("density") || structure.contains_key("masses") => {
             if let Some(lumped) = structure.get_mut("lumped_mass").and_then(toml_edit::Item::as_array_of_tables_mut) {
                 lumped.iter_mut().for_each(|table| {
                     multiply(table.get_mut("mass"), factor);
@@ -288,13 +304,34 @@ fn correct(document: &mut toml_edit::DocumentMut, project: &Project, correction:
             let key = if structure.contains_key("density") { "density" } else { "masses" };
             multiply(structure.get_mut(key), factor)
         }
-        Knob::Spring(dofs, _) => {
-            let key = if dofs.len() == 1 { "ground_stiffness" } else { "coupling_stiffness" };
-            let list = structure.get_mut(key).and_then(toml_edit::Item::as_array_mut);
-            list.and_then(|l| l.get_mut(dofs[0])).is_some_and(|value| scale(value, factor))
-        }
-        Knob::Mode(_) | Knob::Known(_) => false,
-    }
+        Part::GroundSpring(dof) => entry(structure, "ground_stiffness", dof),
+        Part::Coupling([first, second]) if second == first + 1 => entry(structure, "coupling_stiffness", first),
+        Part::PointMass(dof) if !structure.contains_key("lumped_mass") => entry(structure, "masses", dof),
+        _ => false,
+    };
+    done || add_correction(document, &project.structure, part, factor)
+}
+
+/// The size of a known source.
+fn resize(document: &mut toml_edit::DocumentMut, project: &Project, index: usize, factor: f64) -> bool {
+    let acts = |s: &&Source| s.state == State::Known && !matches!(s.place, Place::Channel(_));
+    let known = project.sources.iter().enumerate().filter(|(_, s)| acts(s)).nth(index);
+    let list = document.get_mut("source").and_then(toml_edit::Item::as_array_of_tables_mut);
+    let (Some((row, source)), Some(list)) = (known, list) else { return false };
+    let Some(table) = list.get_mut(row) else { return false };
+    let mut keys = scaled(source.effect).iter().map(|&k| source.effect.parameters()[k].name);
+    keys.all(|key| multiply(table.get_mut(key), factor))
+}
+
+/// Adds a `[[structure.correction]]` for a part that the file has no number for.
+fn add_correction(document: &mut toml_edit::DocumentMut, structure: &Structure, part: Part, factor: f64) -> bool {
+    let Ok(text) = toml::to_string(&CorrectionTable::of(structure, part, factor)) else { return false };
+    let Ok(entry) = text.parse::<toml_edit::DocumentMut>() else { return false };
+    let Some(table) = document.get_mut("structure").and_then(toml_edit::Item::as_table_mut) else { return false };
+    let list = table.entry("correction").or_insert_with(|| toml_edit::ArrayOfTables::new().into());
+    let Some(list) = list.as_array_of_tables_mut() else { return false };
+    list.push(entry.as_table().clone());
+    true
 }
 
 /// Multiplies a number, or every number of a list; whether there was one.

@@ -2,11 +2,11 @@
 
 use super::arguments::{Plot, PlotKind};
 use crate::control::Control;
+use crate::diagnosis::{Comparison, Problem, compare};
 use crate::display::words;
 use crate::exchange::Project;
 use crate::exchange::atomic::write_atomically;
 use crate::exchange::project::load;
-use crate::explain::{Comparison, Problem, compare};
 use crate::identify::{Outcome, identify};
 use crate::measurement::Quantity;
 use crate::plots::bars::{self, Bar};

@@ -2,10 +2,10 @@
 
 use super::format::{self, in_words};
 use super::words;
+use crate::diagnosis::Diagnosis;
+use crate::diagnosis::diagnose::{Correction, Verdict};
+use crate::diagnosis::updating::parameters::Knob;
 use crate::effects::{Place, Source};
-use crate::explain::Diagnosis;
-use crate::explain::diagnose::{Correction, Verdict};
-use crate::explain::tuning::Knob;
 use crate::structure::Structure;
 
 /// How many times the noise floor an error must be to be more than noise.

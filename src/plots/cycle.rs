@@ -2,8 +2,8 @@
 
 use super::figure::{Axis, Figure, Look};
 use super::style::Palette;
+use crate::diagnosis::compare::{ChannelComparison, HarmonicComparison};
 use crate::display::words;
-use crate::explain::compare::{ChannelComparison, HarmonicComparison};
 use crate::measurement::{HarmonicFit, Quantity};
 use faer::c64;
 use std::f64::consts::TAU;

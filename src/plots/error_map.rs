@@ -3,8 +3,8 @@
 
 use super::drawing::{Drawing, Stroke};
 use super::style::{self, Palette, size};
+use crate::diagnosis::Comparison;
 use crate::display::format;
-use crate::explain::Comparison;
 use ecolor::Color32;
 use emath::{Align2, Rect, pos2, vec2};
 
@@ -64,7 +64,7 @@ impl Grid {
             });
             let mean = |name: &str| {
                 let used = comparison.runs.iter().filter(|r| r.used);
-                let square = |c: &crate::explain::compare::ChannelComparison| c.error * c.error;
+                let square = |c: &crate::diagnosis::compare::ChannelComparison| c.error * c.error;
                 used.flat_map(|r| r.channels.iter().filter(|c| c.channel == name).map(square)).sum::<f64>()
             };
             channels.sort_by(|a, b| mean(b).total_cmp(&mean(a)));
@@ -190,7 +190,7 @@ impl Grid {
 
 /// A comparison with nothing but an error, its noise floor of 1 % and runs.
 #[cfg(test)]
-pub fn bare(error: f64, runs: Vec<crate::explain::compare::RunComparison>) -> Comparison {
+pub fn bare(error: f64, runs: Vec<crate::diagnosis::compare::RunComparison>) -> Comparison {
     let [levels, channels, harmonics] = [Vec::new(), Vec::new(), Vec::new()];
     let (noise_floor, energy_error, whiteness) = (0.01, 0.0, Vec::new());
     Comparison { error, noise_floor, energy_error, runs, levels, channels, harmonics, whiteness }
@@ -199,8 +199,8 @@ pub fn bare(error: f64, runs: Vec<crate::explain::compare::RunComparison>) -> Co
 #[cfg(test)]
 mod tests {
     use super::{Cell, ENERGY, Grid, Scale};
-    use crate::explain::Comparison;
-    use crate::explain::compare::{ChannelComparison, RunComparison};
+    use crate::diagnosis::Comparison;
+    use crate::diagnosis::compare::{ChannelComparison, RunComparison};
 
     fn comparison() -> Comparison {
         let channel = |name: &str, dof, error| ChannelComparison {

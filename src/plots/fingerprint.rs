@@ -2,8 +2,8 @@
 
 use super::figure::{Axis, Figure, Label, Look, Ticks};
 use super::style::Palette;
+use crate::diagnosis::candidates::fingerprint_plot::{Against, Measure, Print, PrintPoint};
 use crate::display::format;
-use crate::explain::prints::{Against, Measure, Print, PrintPoint};
 
 /// Title of the plot and what the slope says, in one line each.
 pub fn words(print: &Print) -> (String, String) {
@@ -107,7 +107,7 @@ fn trend(print: &Print) -> Option<Vec<[f64; 2]>> {
 #[cfg(test)]
 mod tests {
     use super::words;
-    use crate::explain::prints::{Against, Measure, Print};
+    use crate::diagnosis::candidates::fingerprint_plot::{Against, Measure, Print};
 
     #[test]
     fn slopes_are_said_with_their_deviation() {

@@ -1,9 +1,9 @@
 //! What is known of one channel over the runs: measured, modelled and tried fundamentals over the force.
 
 use super::response_curve as curve;
+use crate::diagnosis::Comparison;
+use crate::diagnosis::compare::ChannelComparison;
 use crate::exchange::Project;
-use crate::explain::Comparison;
-use crate::explain::compare::ChannelComparison;
 use crate::measurement::Quantity;
 use faer::c64;
 

@@ -112,10 +112,10 @@ fn escaped(text: &str) -> String {
 #[cfg(test)]
 mod tests {
     #![allow(clippy::unwrap_used, reason = "tests")]
-    use crate::plots::style::Palette;
     use super::write;
     use crate::plots::figure::{Axis, Figure, Look};
     use crate::plots::sheet::{Panel, Sheet, inner};
+    use crate::plots::style::Palette;
     use emath::{Rect, pos2, vec2};
     use quick_xml::Reader;
     use quick_xml::events::Event;

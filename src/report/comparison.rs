@@ -4,10 +4,10 @@ use super::content::Content;
 use super::html::Page;
 use super::{figure, sheet};
 use crate::control::Control;
+use crate::diagnosis::diagnose::{Suggestion, Verdict};
+use crate::diagnosis::{Comparison, Diagnosis};
 use crate::display::format::{chance, in_words, polished};
 use crate::display::{findings, format, words};
-use crate::explain::diagnose::{Suggestion, Verdict};
-use crate::explain::{Comparison, Diagnosis};
 use crate::plots::channel_response::ChannelResponse;
 use crate::plots::error_map::{ENERGY, Grid, Scale};
 use crate::plots::response_curve::{curves, levels, neighbourhood};
@@ -92,7 +92,7 @@ fn missing(page: &mut Page, content: &Content<'_>, found: &Diagnosis) {
         };
         let known: Vec<_> = content.project.sources.iter().filter(acts).cloned().collect();
         page.sentence("The model states these wrongly; they were corrected in the search:");
-        let row = |c: &crate::explain::diagnose::Correction| {
+        let row = |c: &crate::diagnosis::diagnose::Correction| {
             vec![findings::corrected(structure, &known, &c.knob), findings::change(c)]
         };
         page.table(&["What", "Correction|"], &found.corrections.iter().map(row).collect::<Vec<_>>());

@@ -1,10 +1,10 @@
 //! What a report holds, each part computed or with the reason why not.
 
 use crate::control::Control;
+use crate::diagnosis::candidates::fingerprint_plot::{self as prints, Print};
+use crate::diagnosis::{self, Comparison, Diagnosis, Problem};
 use crate::effects::Source;
 use crate::exchange::Project;
-use crate::explain::prints::{self, Print};
-use crate::explain::{self, Comparison, Diagnosis, Problem};
 use crate::identify::{Outcome, identify};
 use std::sync::Arc;
 
@@ -67,7 +67,7 @@ impl<'a> Content<'a> {
         });
         let comparison = known
             .comparison
-            .unwrap_or_else(|| explain::compare(&problem(p), &[], control).map(Arc::new).map_err(|e| e.to_string()));
+            .unwrap_or_else(|| diagnosis::compare(&problem(p), &[], control).map(Arc::new).map_err(|e| e.to_string()));
         let diagnosis = known.diagnosis.unwrap_or_else(|| diagnose(p, &comparison, control));
         let fingerprints = diagnosis.as_ref().map_or_else(|_| Vec::new(), |d| fingerprints(p, d, control));
         let mut ledger = known.ledger;
@@ -91,7 +91,7 @@ fn diagnose(p: &Project, comparison: &Found<Comparison>, control: &Control) -> F
                    take over what was identified, then its errors say something.";
         return Err(why.to_owned());
     }
-    explain::diagnose::diagnose(&problem(p), control).map(Arc::new).map_err(|e| e.to_string())
+    diagnosis::diagnose::diagnose(&problem(p), control).map(Arc::new).map_err(|e| e.to_string())
 }
 
 fn fingerprints(p: &Project, diagnosis: &Diagnosis, control: &Control) -> Vec<(Source, Print)> {

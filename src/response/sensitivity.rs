@@ -13,6 +13,7 @@ use super::harmonic_balance::{Balance, Excitation, Lu, Prepared, Response, Respo
 use super::harmonic_balance::{richardson, stiffness_of};
 use crate::effects::effect::Kind;
 use crate::effects::{Motion, Source};
+use crate::structure::factors::{Part, Share};
 use faer::{Mat, c64};
 use std::f64::consts::TAU;
 
@@ -36,6 +37,8 @@ pub enum Unknown {
     LumpedMass(usize),
     /// Relative change of the stiffness of one undamped mode by 1: `dK = omega_r^2 (M phi_r)(M phi_r)^T`.
     ModeStiffness(usize),
+    /// Relative change by 1 of a part of the structure that has a share of its own in the matrices.
+    Part(Part),
     /// Relative change by 1 of force number `.0` of the excitation at all its harmonics.
     ForceScale(usize),
     /// Time in s by which force number `.0` of the excitation acts earlier.
@@ -112,7 +115,7 @@ fn check(unknown: Unknown, sources: &[Source], size: usize, forces: usize) -> Re
         Unknown::Source { source, parameter } => {
             sources.get(source).is_some_and(|s| parameter < s.effect.parameters().len())
         }
-        Unknown::Stiffness | Unknown::Mass | Unknown::Density => true,
+        Unknown::Stiffness | Unknown::Mass | Unknown::Density | Unknown::Part(_) => true,
         Unknown::ForceScale(force) | Unknown::ForceAdvance(force) => force < forces,
         Unknown::LumpedMass(row) | Unknown::ModeStiffness(row) => row < size,
     };
@@ -192,10 +195,25 @@ impl Differentiated<'_> {
                     single(x.len(), force.dof, force.amplitude(h) * c64::new(0.0, w))
                 }
                 Unknown::ModeStiffness(mode) => linear.apply_mode(mode, x).unwrap_or_default(),
+                Unknown::Part(part) => self.part_load(part, h),
                 Unknown::Source { source, parameter } => self.source_load(source, parameter, h),
             }
         };
         (0..self.displacements.len()).map(load).collect()
+    }
+
+    /// Pseudo-force of a part of the structure.
+    fn part_load(&self, part: Part, h: usize) -> Vec<c64> {
+        let (x, w) = (&self.displacements[h], self.omega(h));
+        let [fk, fm] = self.run.linear().factors(w);
+        let (entries, factor) = match self.run.linear().structure().share(part) {
+            Some(Share::Stiffness(entries)) => (entries, -fk),
+            Some(Share::Mass(entries)) => (entries, -fm),
+            None => return Vec::new(),
+        };
+        let mut load = vec![c64::new(0.0, 0.0); x.len()];
+        entries.into_iter().for_each(|(i, j, value)| load[i] += x[j] * (factor * value));
+        load
     }
 
     /// Pseudo-force of a linear source; empty for a nonlinear one.

@@ -10,6 +10,9 @@ use std::path::Path;
 
 /// Builds the structure; files are relative to `folder`.
 pub(super) fn build(table: &StructureTable, folder: &Path) -> Result<Structure, Refusal> {
+    if !table.correction.is_empty() {
+        return from_files(table, folder);
+    }
     let lumped = &table.lumped_mass;
     match &table.shape {
         Shape::Beam(beam) => Ok(beam.build(lumped)?),
@@ -23,7 +26,7 @@ pub(super) fn build(table: &StructureTable, folder: &Path) -> Result<Structure, 
     }
 }
 
-/// Matrices are read by the reader of projects, from a project that holds nothing else.
+/// Matrices and corrections are read by the reader of projects, from a project that holds nothing else.
 fn from_files(table: &StructureTable, folder: &Path) -> Result<Structure, Refusal> {
     let file = ProjectFile {
         project: Header { format: FORMAT, title: String::new(), notes: String::new() },

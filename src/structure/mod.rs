@@ -5,6 +5,7 @@ pub mod beam;
 pub mod chain;
 pub mod damped_modes;
 mod error;
+pub mod factors;
 pub mod imported;
 pub mod lowest_modes;
 pub mod modes;
@@ -13,6 +14,7 @@ pub mod wing;
 
 pub use assemble::{LumpedMass, MOST_DOFS};
 pub use error::StructureError;
+pub use factors::Part;
 
 use faer::Mat;
 use serde::{Deserialize, Serialize};

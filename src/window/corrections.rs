@@ -1,12 +1,12 @@
 //! What becomes of the corrections of the model that a search found: other numbers of the structure and of its known sources.
 
 use super::additions::labels;
+use crate::diagnosis::candidates::start_grids::scaled;
+use crate::diagnosis::diagnose::Correction;
+use crate::diagnosis::updating::parameters::Knob;
 use crate::effects::{Effect, Source, State};
 use crate::exchange::Project;
 use crate::exchange::project::file::{ProjectFile, Shape, StructureTable};
-use crate::explain::diagnose::Correction;
-use crate::explain::shapes::scaled;
-use crate::explain::tuning::Knob;
 use crate::session::{Command, SourceAt};
 use std::collections::BTreeMap;
 

@@ -3,10 +3,10 @@
 
 use super::support::{cantilever, source, whole};
 use dashpot::control::Control;
+use dashpot::diagnosis::residual::whiteness::Dependence;
+use dashpot::diagnosis::{Comparison, Problem, compare};
 use dashpot::effects::{Effect, Source, source::State};
 use dashpot::exchange::project::load;
-use dashpot::explain::whiteness::Dependence;
-use dashpot::explain::{Comparison, Problem, compare};
 use dashpot::measurement::Run;
 use dashpot::measurement::fit::fit;
 use dashpot::response::harmonic_balance::{Excitation, ForwardModel, Settings};
@@ -117,12 +117,14 @@ fn what_an_exact_model_leaves_is_white_and_what_a_poor_one_leaves_is_not() {
 fn groups_are_the_same_errors_seen_otherwise() {
     let (structure, truth, mut runs) = nine_runs(0.01);
     let all = compared(&structure, &truth[..2], &runs);
-    let names = |groups: &[dashpot::explain::groups::Group]| groups.iter().map(|g| g.name.clone()).collect::<Vec<_>>();
+    let names = |groups: &[dashpot::diagnosis::residual::breakdown::Group]| {
+        groups.iter().map(|g| g.name.clone()).collect::<Vec<_>>()
+    };
     assert_eq!(all.levels.iter().map(|g| g.runs).collect::<Vec<_>>(), [3, 3, 3]);
     assert!(names(&all.levels)[0].starts_with("0.") && names(&all.levels)[2].ends_with(" N"));
     assert_eq!(names(&all.channels), ["acc@1", "acc@3", "acc@5", "acc@7", "acc@9"]);
     assert_eq!(names(&all.harmonics), ["1", "2", "3", "4", "5"]);
-    let mean = |groups: &[dashpot::explain::groups::Group]| {
+    let mean = |groups: &[dashpot::diagnosis::residual::breakdown::Group]| {
         (groups.iter().map(|g| g.error * g.error).sum::<f64>() / groups.len() as f64).sqrt()
     };
     assert!((mean(&all.levels) / all.error - 1.0).abs() < 1e-12);

@@ -3,9 +3,9 @@
 
 use super::support::{cantilever, source, whole};
 use dashpot::control::Control;
+use dashpot::diagnosis::residual::data::{ChannelData, Data, RunData};
+use dashpot::diagnosis::residual::prediction::{By, Predictor};
 use dashpot::effects::{Effect, Place, Source};
-use dashpot::explain::data::{ChannelData, Data, RunData};
-use dashpot::explain::predict::{By, Predictor};
 use dashpot::measurement::Quantity;
 use dashpot::response::harmonic_balance::Settings;
 use dashpot::response::sensitivity::Unknown;

@@ -2,9 +2,9 @@
 
 use crate::friction::{FORCE, ROW, friction};
 use crate::support::{beam, detuned, open, settle};
+use dashpot::diagnosis::diagnose::{Suggestion, Verdict};
 use dashpot::effects::{Effect, Place, Source, State};
 use dashpot::exchange::project::file::Shape;
-use dashpot::explain::diagnose::{Suggestion, Verdict};
 use dashpot::window::App;
 use dashpot::window::explained::Standing;
 use dashpot::window::stages::explain::look::Tab;

@@ -1,5 +1,6 @@
 //! The project file as plain data, one field a key, as it is written; where each part stood is in [`Lines`].
 
+use super::correction::CorrectionTable;
 use super::ruled_out::RuledOutTable;
 use crate::effects::family::Family;
 use crate::effects::{Effect, State};
@@ -71,6 +72,9 @@ pub struct StructureTable {
     /// Tables `[[structure.lumped_mass]]`.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub lumped_mass: Vec<LumpedMass>,
+    /// Tables `[[structure.correction]]`.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub correction: Vec<CorrectionTable>,
 }
 
 /// Kinds of structure.
@@ -239,6 +243,8 @@ pub struct Lines {
     pub structure: BTreeMap<String, usize>,
     /// Tables `[[structure.lumped_mass]]`.
     pub lumped_mass: Vec<usize>,
+    /// Tables `[[structure.correction]]`.
+    pub correction: Vec<usize>,
     /// Keys of each `[[source]]`; the empty key is its head.
     pub source: Vec<BTreeMap<String, usize>>,
     /// Keys of each `[[candidates]]`.

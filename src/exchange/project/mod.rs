@@ -1,6 +1,7 @@
 //! Project files: TOML to [`ProjectFile`] (as written), to [`Plan`] (built), to [`Project`](super::Project) (records
 //! read and fitted).
 
+pub mod correction;
 pub mod error;
 pub mod file;
 pub mod load;

@@ -1,5 +1,6 @@
 //! From text to [`ProjectFile`]: every key known, every value of its type; nothing else is read.
 
+use super::correction;
 use super::error::{Problem, ProjectError};
 use super::file::{
     CandidatesTable, FORMAT, HarmonicsTable, Header, Label, Lines, MatricesTable, PointsTable, ProjectFile, RunTable,
@@ -19,10 +20,20 @@ use toml::de::DeTable;
 
 const TABLES: [&str; 10] =
     ["project", "structure", "source", "candidates", "sensor", "ruled_out", "run", "harmonics", "analysis", "simulate"];
-const BEAM: [&str; 9] =
-    ["kind", "lumped_mass", "length", "breadth", "depth", "youngs_modulus", "density", "elements", "supports"];
-const CHAIN: [&str; 5] = ["kind", "lumped_mass", "masses", "ground_stiffness", "coupling_stiffness"];
-const MATRICES: [&str; 7] = ["kind", "lumped_mass", "mass", "stiffness", "nodes", "dofs", "lines"];
+const BEAM: [&str; 10] = [
+    "kind",
+    "lumped_mass",
+    "correction",
+    "length",
+    "breadth",
+    "depth",
+    "youngs_modulus",
+    "density",
+    "elements",
+    "supports",
+];
+const CHAIN: [&str; 6] = ["kind", "lumped_mass", "correction", "masses", "ground_stiffness", "coupling_stiffness"];
+const MATRICES: [&str; 8] = ["kind", "lumped_mass", "correction", "mass", "stiffness", "nodes", "dofs", "lines"];
 const POINTS: [&str; 4] = ["kind", "lumped_mass", "dofs", "positions"];
 const ANALYSIS: [&str; 6] = ["harmonics", "expansion", "keep", "weights", "max_sources", "stop_angle_deg"];
 
@@ -103,7 +114,8 @@ fn structure(root: &Table<'_>, lines: &mut Lines) -> Read<StructureTable> {
         let dof = entry.need("dof", "dof = 3", entry.label("dof")?)?;
         lumped_mass.push(LumpedMass { dof, mass: entry.need("mass", "mass = 0.1", entry.number("mass")?)? });
     }
-    Ok(StructureTable { shape, lumped_mass })
+    let correction = correction::parse(&table, lines)?;
+    Ok(StructureTable { shape, lumped_mass, correction })
 }
 
 fn beam(table: &Table<'_>) -> Read<BeamParameters> {

@@ -1,5 +1,6 @@
 //! Builds the structure of a project, its matrices read from their files.
 
+use super::correction::corrected;
 use super::error::{Problem, ProjectError};
 use super::file::{MatricesTable, Shape, StructureTable};
 use super::sources::{At, line};
@@ -26,7 +27,8 @@ pub(super) fn structure(table: &StructureTable, folder: &Path, at: At<'_>) -> Re
             PointParameters { dofs, positions: points.positions.clone() }.build()
         }
     };
-    built.map_err(|error| at.error(blamed(&error, table, at), Problem::Structure(Box::new(error))))
+    let built = built.map_err(|error| at.error(blamed(&error, table, at), Problem::Structure(Box::new(error))))?;
+    corrected(built, &table.correction).map_err(|(k, problem)| at.error(at.lines.correction[k], problem))
 }
 
 fn imported(files: &MatricesTable, folder: &Path) -> Result<ImportedParameters, Problem> {

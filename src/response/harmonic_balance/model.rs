@@ -205,11 +205,6 @@ impl ForwardModel {
         }
     }
 
-    /// As [`Self::at`], for a model that will be asked for few responses: nothing is inverted beforehand.
-    pub(crate) fn briefly_at(&self, omega: f64) -> RunModel {
-        RunModel { summed: true, ..self.at(omega) }
-    }
-
     /// As [`Self::at`], but no mode is set apart at resonance, so that the unknowns are the same at every frequency.
     pub(crate) fn plain_at(&self, omega: f64) -> RunModel {
         RunModel { apart: false, ..self.at(omega) }

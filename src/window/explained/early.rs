@@ -1,7 +1,7 @@
 //! What a search tells before it has ended.
 
 use super::model::Search;
-use crate::explain::diagnose::Suggestion;
+use crate::diagnosis::diagnose::Suggestion;
 use crate::window::wake::Bell;
 use egui::Context;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};

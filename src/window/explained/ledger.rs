@@ -1,7 +1,7 @@
 //! The ledger: every model that was looked at, with its error, and which one it came from. Nothing is ever taken out of it.
 
 use super::model::Key;
-use crate::explain::Comparison;
+use crate::diagnosis::Comparison;
 use crate::session::Document;
 
 /// One model on the way.

@@ -8,11 +8,11 @@ pub mod shelf;
 
 use super::document::Document;
 use crate::control::Control;
+use crate::diagnosis::candidates::fingerprint_plot::{self as prints, Print};
+use crate::diagnosis::diagnose::{Suggestion, diagnose_without};
+use crate::diagnosis::{self, Comparison, Diagnosis, Problem};
 use crate::effects::{Place, Source};
 use crate::exchange::Project;
-use crate::explain::diagnose::{Suggestion, diagnose_without};
-use crate::explain::prints::{self, Print};
-use crate::explain::{self, Comparison, Diagnosis, Problem};
 use crate::plots::response_curve::{self, Curve};
 use early::{Early, Mailbox};
 use egui::Context;
@@ -294,7 +294,7 @@ fn compare_job(
     trial: Option<&Source>,
 ) -> impl FnOnce(&Control) -> Result<Comparison, String> + use<> {
     let (p, effects) = (Arc::clone(p), trial.cloned().into_iter().collect::<Vec<_>>());
-    move |control| explain::compare(&problem(&p), &effects, control).map_err(|e| e.to_string())
+    move |control| diagnosis::compare(&problem(&p), &effects, control).map_err(|e| e.to_string())
 }
 
 /// The fingerprint of a suggestion beside the other effects that were found.

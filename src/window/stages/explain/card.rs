@@ -2,10 +2,10 @@
 
 use super::gauge::Gauge;
 use super::{Deed, Scene, fingerprint};
+use crate::diagnosis::diagnose::Suggestion;
 use crate::display::format::{self, chance, polished};
 use crate::display::words;
 use crate::effects::{Place, Source};
-use crate::explain::diagnose::Suggestion;
 use crate::window::app::Ask;
 use crate::window::explained::Standing;
 use crate::window::schematic::symbols;

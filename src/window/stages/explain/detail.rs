@@ -1,9 +1,9 @@
 //! Measured against model in the cell that was clicked: along frequency, along level, over a period, as a loop.
 
 use super::look::{Look, Tab};
+use crate::diagnosis::Comparison;
 use crate::display::format;
 use crate::exchange::Project;
-use crate::explain::Comparison;
 use crate::plots::channel_response::ChannelResponse;
 use crate::plots::cycle::Cycle;
 use crate::plots::figure::Figure;

@@ -1,7 +1,7 @@
 //! The fingerprint of a suggestion in its card.
 
+use crate::diagnosis::candidates::fingerprint_plot::Print;
 use crate::display::format;
-use crate::explain::prints::Print;
 use crate::plots::fingerprint::{figure, words};
 use crate::window::plots::show::Stack;
 use crate::window::theme::size;

@@ -1,8 +1,8 @@
 //! The ledger: error against steps on a logarithmic axis with the noise floor, and the steps by name, each a way back.
 
 use super::{Deed, Scene, cards};
+use crate::diagnosis::diagnose::Verdict;
 use crate::display::format::in_words;
-use crate::explain::diagnose::Verdict;
 use crate::plots::figure::{Axis, Figure, Look, Ticks};
 use crate::window::app::Ask;
 use crate::window::explained::ledger::Ledger;

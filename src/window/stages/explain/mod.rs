@@ -12,11 +12,11 @@ pub mod panes;
 mod ranking;
 mod schematic;
 
+use crate::diagnosis::diagnose::Verdict;
 use crate::display::format;
 use crate::display::words;
 use crate::display::words::at;
 use crate::effects::{Source, State};
-use crate::explain::diagnose::Verdict;
 use crate::session::Command;
 use crate::window::additions;
 use crate::window::app::App;

@@ -1,8 +1,8 @@
 //! The order of the suggestions, without what the user has ruled out.
 
 use super::look::Look;
-use crate::explain::diagnose::Suggestion;
-use crate::explain::limits::is_allowed;
+use crate::diagnosis::candidates::special_cases::is_allowed;
+use crate::diagnosis::diagnose::Suggestion;
 use crate::window::document::Document;
 use crate::window::explained::{Explained, Standing};
 

@@ -1,11 +1,11 @@
 //! What the schematic shows in the stage: the error at every sensor, and the suggested source in its place.
 
 use super::ranking;
+use crate::diagnosis::Comparison;
 use crate::display::format::in_words;
 use crate::display::words;
 use crate::display::words::at;
 use crate::effects::{Place, Source, State};
-use crate::explain::Comparison;
 use crate::plots::error_map::Scale;
 use crate::window::document::Document;
 use crate::window::explained::Explained;

@@ -1,0 +1,140 @@
+//! Fingerprints, free of any law: how the free force of a place grows with the motion.
+//!
+//! ```text
+//! g / D = k_eq + i w c_eq,      ln |k_eq| or ln |c_eq| = const + p ln |D| + q ln w
+//! ```
+//!
+//! `p` of `c_eq` is 0 for a viscous dashpot, -1 for Coulomb friction, +1 for quadratic damping; `q` is -1 for hysteretic
+//! damping. `p` of `k_eq` is 0 for a spring, +2 for a cubic one; `q` is 2 for a mass.
+
+use crate::diagnosis::candidates::identified_force::{PlaceData, Ratio};
+use crate::math::least_squares::LeastSquares;
+use faer::{Mat, c64};
+
+/// An exponent with its standard deviation.
+pub type Exponent = [f64; 2];
+
+/// The powers that a free force follows over the runs.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Fingerprint {
+    /// Whether most of the force is in phase with velocity rather than displacement.
+    pub damping: bool,
+    /// Power of the amplitude of the relative motion; none if all runs have the same.
+    pub by_amplitude: Option<Exponent>,
+    /// Power of the frequency; none if all runs have the same.
+    pub by_frequency: Option<Exponent>,
+    /// Number of runs that show the force.
+    pub runs: usize,
+}
+
+/// Least spread (standard deviation of a logarithm) of a variable whose power is worth stating.
+const SPREAD: f64 = 0.05;
+
+/// The powers of the fundamental of a free force; none where too few runs show it.
+pub(crate) fn fingerprint(data: &PlaceData) -> Option<Fingerprint> {
+    of_ratios(&data.ratios())
+}
+
+/// The powers that the ratios of force to motion follow.
+pub(crate) fn of_ratios(points: &[Ratio]) -> Option<Fingerprint> {
+    let strength = |part: fn(c64) -> f64| points.iter().map(|p| (part(p.ratio) * p.weight).abs()).sum::<f64>();
+    let damping = strength(|z| z.im) >= strength(|z| z.re);
+    let mut rows: Vec<[f64; 3]> = Vec::new();
+    for p in points {
+        let value = if damping { p.ratio.im / p.omega } else { p.ratio.re };
+        let relative = p.deviation / if damping { p.ratio.im.abs() } else { p.ratio.re.abs() };
+        if relative < 0.3 {
+            rows.push([value.abs().ln(), p.amplitude.ln(), p.omega.ln()]);
+        }
+    }
+    if rows.len() < 4 {
+        return None;
+    }
+    let varied = [spread(&rows, 1) > SPREAD, spread(&rows, 2) > SPREAD];
+    let columns: Vec<usize> = (1..3).filter(|&k| varied[k - 1]).collect();
+    let design = Mat::from_fn(rows.len(), columns.len() + 1, |i, j| if j == 0 { 1.0 } else { rows[i][columns[j - 1]] });
+    let fit = LeastSquares::new(design.as_ref()).ok()?;
+    let solution = fit.solve(&rows.iter().map(|r| r[0]).collect::<Vec<_>>()).ok()?;
+    let deviations = fit.standard_deviations(solution.variance);
+    let exponent = |k: usize| columns.iter().position(|&c| c == k).map(|j| [solution.x[j + 1], deviations[j + 1]]);
+    Some(Fingerprint { damping, by_amplitude: exponent(1), by_frequency: exponent(2), runs: rows.len() })
+}
+
+fn spread(rows: &[[f64; 3]], k: usize) -> f64 {
+    crate::math::statistics::standard_deviation(&rows.iter().map(|r| r[k]).collect::<Vec<_>>())
+}
+
+impl Fingerprint {
+    /// What the powers say, in words.
+    pub fn sentences(&self) -> Vec<String> {
+        let what = if self.damping { "equivalent viscous coefficient" } else { "equivalent stiffness" };
+        let law = |p: f64| match (self.damping, p) {
+            (true, p) if p < -0.7 => "dry friction has -1",
+            (true, p) if p > 0.7 => "quadratic damping has +1",
+            (true, p) if p.abs() < 0.2 => "a viscous or hysteretic damper has 0",
+            (false, p) if p > 1.4 => "a cubic spring has +2",
+            (false, p) if p.abs() < 0.2 => "a linear spring or mass has 0",
+            _ => "between the simple laws",
+        };
+        let mut said = Vec::new();
+        if let Some([p, d]) = self.by_amplitude {
+            let runs = self.runs;
+            said.push(format!(
+                "Over {runs} runs the {what} goes with the amplitude to the power {p:.2} +- {d:.2}: {}.",
+                law(p)
+            ));
+        }
+        if let Some([q, d]) = self.by_frequency {
+            let note = self.frequency_note(q);
+            said.push(format!("With the frequency it goes to the power {q:.2} +- {d:.2}: {note}."));
+        }
+        said
+    }
+    /// What a power `q` of the frequency says beside that of the amplitude: at one amplitude of displacement, a law of
+    /// velocity alone has the same power in both, one of displacement alone loses one power of frequency.
+    fn frequency_note(&self, q: f64) -> &'static str {
+        let p = self.by_amplitude.map(|[p, _]| p);
+        let near = |x: f64, to: f64| (x - to).abs() < 0.3;
+        let along = |to: f64| p.is_none_or(|p| near(p, to));
+        match (self.damping, q) {
+            (true, q) if near(q, -1.0) && p.is_none() => "dry friction and hysteretic damping have -1",
+            (true, q) if near(q, -1.0) && along(-1.0) => "dry friction, whose force knows no speed, has -1 here too",
+            (true, q) if near(q, -1.0) && along(0.0) => "hysteretic damping has -1",
+            (true, q) if near(q, 0.0) && along(0.0) => "a viscous damper has 0",
+            (true, q) if near(q, 1.0) && along(1.0) => "quadratic damping has +1 here too",
+            (true, q) if q > -1.0 && q < 0.0 && along(0.0) => {
+                "between hysteretic (-1) and viscous (0), as fractional damping"
+            }
+            (true, q) if p.is_some_and(|p| near(q, p)) => {
+                "the same power as of the amplitude, as of a force of velocity alone"
+            }
+            (false, q) if q > 1.4 => "a mass has +2",
+            (false, q) if near(q, 0.0) => "a spring has 0",
+            _ => "between the simple laws",
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn said(damping: bool, p: Option<f64>, q: f64) -> String {
+        let exponent = |x| [x, 0.02];
+        let print = Fingerprint { damping, by_amplitude: p.map(exponent), by_frequency: Some(exponent(q)), runs: 12 };
+        print.sentences().pop().unwrap_or_default()
+    }
+
+    #[test]
+    fn the_frequency_is_read_beside_the_amplitude() {
+        assert!(said(true, Some(-1.0), -1.0).contains("dry friction"));
+        assert!(!said(true, Some(-1.0), -1.0).contains("hysteretic"));
+        assert!(said(true, Some(0.0), -1.0).contains("hysteretic damping has -1"));
+        assert!(said(true, None, -1.0).contains("dry friction and hysteretic"));
+        assert!(said(true, Some(1.0), 1.0).contains("quadratic"));
+        assert!(said(true, Some(0.0), -0.5).contains("fractional"));
+        assert!(said(true, Some(0.5), 0.5).contains("velocity alone"));
+        assert!(said(false, Some(0.0), 2.0).contains("mass"));
+        assert!(said(true, Some(-1.0), 0.0).contains("between the simple laws"));
+    }
+}

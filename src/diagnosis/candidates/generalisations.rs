@@ -1,0 +1,39 @@
+//! Where a law explains much but not all: the laws that contain it, or one of its limits, fitted anew at its place. Their
+//! own fits may have ended in a valley of the wrong side while the model was still far off.
+
+use crate::diagnosis::candidates::special_cases::wider;
+use crate::diagnosis::residual::data::DiagnosisError;
+use crate::diagnosis::selection::fitted_model::Refit;
+use crate::diagnosis::selection::search::{Base, Draft, joined};
+use std::sync::Arc;
+
+/// Shapes of each law that are tried.
+const SHAPES: usize = 2;
+
+impl Base<'_> {
+    /// The set `best` with each of its effects in turn replaced by laws that it may have been taken for, from their best
+    /// shapes against the free force that the rest of `best` leaves at the place.
+    pub fn wider(&self, best: &Refit) -> Result<Vec<Refit>, DiagnosisError> {
+        let mut refits = Vec::new();
+        for source in best.effects.iter().filter(|e| !wider(e.effect).is_empty()) {
+            let mut others = best.clone();
+            others.effects.retain(|e| !e.is_same(source));
+            others.starts.clear();
+            let mut view = self.view(Some(&others))?;
+            let Some(at) = view.screen.spots.iter().position(|spot| spot.place().is_same(&source.place)) else {
+                continue;
+            };
+            self.need(&mut view, &[at])?;
+            let (forces, fields) = self.free(&view, &[at]);
+            let data = self.at_place(&view, at, &forces[0], &fields);
+            let fields = Arc::new(fields);
+            let fits = wider(source.effect).into_iter().flat_map(|effect| data.starts(effect, SHAPES));
+            let draft =
+                |effect| Draft { effects: joined(&others.effects, &[effect]), score: 0.0, fields: fields.clone() };
+            let drafts: Vec<Draft> =
+                fits.map(|fit| fit.source).filter(|source| self.data.allows(source)).map(draft).collect();
+            refits.extend(self.refit_all(&drafts)?);
+        }
+        Ok(refits)
+    }
+}

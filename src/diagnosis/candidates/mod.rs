@@ -1,0 +1,10 @@
+//! Laws regressed on the identified force of a place: start grids, special cases, fingerprints.
+
+pub mod fingerprint;
+pub mod fingerprint_plot;
+pub mod friction;
+pub mod generalisations;
+pub mod identified_force;
+pub mod special_cases;
+pub mod start;
+pub mod start_grids;

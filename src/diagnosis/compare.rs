@@ -1,0 +1,292 @@
+//! Predicted against measured amplitude of every channel, run and harmonic.
+//!
+//! Error of a channel in a run: `|Y - Y_model| / max(|Y|, largest |Y| of that quantity in the run / 20)`, vectors over
+//! the harmonics. Error of all: root mean square over the used runs and channels. The noise floor is the same measure of
+//! the residual that noise and truncation alone would leave.
+
+use crate::control::Control;
+use crate::diagnosis::points::energies::{PointsEnergy, energies};
+use crate::diagnosis::residual::branch::{Branch, nearest};
+use crate::diagnosis::residual::breakdown::{Group, by_channel, by_harmonic, by_level};
+use crate::diagnosis::residual::data::{Data, DiagnosisError, Problem, RunData, is_used, size};
+use crate::diagnosis::residual::energy_balance::energy_error;
+use crate::diagnosis::residual::prediction::{FINAL, Predictor, RunPrediction, transfer};
+use crate::diagnosis::residual::whiteness::{Left, Whiteness, numbered, whiteness};
+use crate::diagnosis::residual::whitening::{Transfers, Whitening};
+use crate::effects::Source;
+use crate::math::statistics::root_mean_square;
+use crate::response::harmonic_balance::{Excitation, HarmonicForce};
+use faer::c64;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+/// One harmonic of a channel.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct HarmonicComparison {
+    /// Order, from 1.
+    pub harmonic: usize,
+    /// Measured complex amplitude `a - i b` of `a cos + b sin`, SI units.
+    pub measured: c64,
+    /// That of the model.
+    pub model: c64,
+    /// Standard deviation of a real part of their difference, were the model exact.
+    pub deviation: f64,
+}
+
+/// One channel of a run.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ChannelComparison {
+    /// Name, such as `acc@7`.
+    pub channel: String,
+    /// Row of its DOF.
+    pub dof: usize,
+    /// Relative error.
+    pub error: f64,
+    /// What it would be were the model exact.
+    pub noise_floor: f64,
+    /// What errors are measured by, SI units.
+    pub scale: f64,
+    /// Harmonics.
+    pub harmonics: Vec<HarmonicComparison>,
+}
+
+/// One run.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RunComparison {
+    /// Index in the project's runs.
+    pub index: usize,
+    /// Whether it takes part in the error.
+    pub used: bool,
+    /// Root mean square over the channels; that of the energy where there is no response to predict.
+    pub error: f64,
+    /// What the error would be were the model exact.
+    pub noise_floor: f64,
+    /// Which of several periodic motions the model was taken to be on; none where there is only one.
+    pub branch: Option<Branch>,
+    /// `|input - taken out by known sources| / |input|` at the measured motion.
+    pub energy_error: f64,
+    /// Channels; none for `points`.
+    pub channels: Vec<ChannelComparison>,
+}
+
+/// The model against the measurement.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Comparison {
+    /// Root mean square relative error over used runs and channels.
+    pub error: f64,
+    /// What it would be were the model exact.
+    pub noise_floor: f64,
+    /// Root mean square of the energy errors of the used runs.
+    pub energy_error: f64,
+    /// Every run in the order of the project.
+    pub runs: Vec<RunComparison>,
+    /// By the level of the force: the labels of the runs, or the amplitude of the force where they have none.
+    pub levels: Vec<Group>,
+    /// By channel; none for `points`.
+    pub channels: Vec<Group>,
+    /// By harmonic; none for `points`.
+    pub harmonics: Vec<Group>,
+    /// Whether what is left depends on anything; none for `points`.
+    pub whiteness: Vec<Whiteness>,
+}
+
+/// Compares the model of `problem`, with `effects` added to its known sources, with the measurement.
+pub fn compare(problem: &Problem, effects: &[Source], control: &Control) -> Result<Comparison, DiagnosisError> {
+    if problem.structure.matrices().is_none() {
+        return of_energies(problem, &energies(problem, effects)?);
+    }
+    Data::new(problem)?;
+    let data = Data::every(problem)?;
+    let predictor = Predictor::new(problem.structure, problem.known(), &data)?;
+    let levels = Levels::new(problem, &data);
+    let frequencies = numbered(&data.runs.iter().map(|run| run.omega).collect::<Vec<f64>>(), SAME_FREQUENCY);
+    let names = data.channel_names();
+    let done = AtomicUsize::new(0);
+    let one = |r: usize| -> Result<(RunComparison, Vec<Left>), DiagnosisError> {
+        control.check()?;
+        let run = &data.runs[r];
+        let failed = |reason| DiagnosisError::Response { file: problem.runs[run.index].file.clone(), reason };
+        let (prediction, branch) = nearest(&predictor, r, run, effects, control).map_err(failed)?;
+        let transfers = transfers(&predictor, r, run, effects, control).map_err(failed)?;
+        let noise = Whitening::new(run, &transfers, &prediction.truncation);
+        let used = is_used(&problem.runs[run.index]);
+        let energy = energy_error(problem.structure, &predictor.sources(effects), run, &prediction);
+        let mut left = Vec::new();
+        if used {
+            add_left(&mut left, run, &prediction, &noise, ([frequencies[r], levels.numbers[r]], &names[0]));
+        }
+        control.report((done.fetch_add(1, Ordering::Relaxed) + 1) as f64 / data.runs.len() as f64);
+        Ok((RunComparison { branch, ..of_run(run, &prediction, &noise, used, energy) }, left))
+    };
+    let compared = control.map(data.runs.len(), one).into_iter().collect::<Result<Vec<_>, _>>()?;
+    let (runs, left): (Vec<RunComparison>, Vec<Vec<Left>>) = compared.into_iter().unzip();
+    let left = left.concat();
+    Ok(Comparison { whiteness: whiteness(&left), ..summary(runs, &levels) })
+}
+
+/// Runs whose frequencies differ by less than this share are of one frequency.
+const SAME_FREQUENCY: f64 = 1e-3;
+/// Runs without labels whose forces differ by less than this share are of one level.
+const SAME_LEVEL: f64 = 0.2;
+
+/// Levels of the runs: labels where there are any, else amplitudes of the force.
+struct Levels {
+    numbers: Vec<usize>,
+    names: Vec<String>,
+}
+
+impl Levels {
+    fn new(problem: &Problem, data: &Data) -> Self {
+        let labels = data.runs.iter().map(|run| problem.runs[run.index].level);
+        if let Some(labels) = labels.collect::<Option<Vec<i64>>>() {
+            let mut sorted = labels.clone();
+            sorted.sort_unstable();
+            sorted.dedup();
+            let number = |label: &i64| sorted.iter().position(|s| s == label).unwrap_or(0);
+            return Self {
+                numbers: labels.iter().map(number).collect(),
+                names: labels.iter().map(i64::to_string).collect(),
+            };
+        }
+        let force = |run: &RunData| run.forces.iter().map(|f| f.measured.first().map_or(0.0, |f| f.norm())).sum();
+        let forces: Vec<f64> = data.runs.iter().map(force).collect();
+        let numbers = numbered(&forces, SAME_LEVEL);
+        let name = |number: &usize| {
+            let own = forces.iter().zip(&numbers).filter(|(_, n)| *n == number).map(|(f, _)| *f);
+            let (least, most) = own.fold((f64::INFINITY, 0.0_f64), |(a, b), f| (a.min(f), b.max(f)));
+            if most > 1.01 * least { format!("{least:.3} to {most:.3} N") } else { format!("{most:.3} N") }
+        };
+        let names = numbers.iter().map(name).collect();
+        Self { numbers, names }
+    }
+}
+
+/// Adds the whitened residuals of a run, turned by the phase of the model.
+fn add_left(
+    left: &mut Vec<Left>,
+    run: &RunData,
+    prediction: &RunPrediction,
+    noise: &Whitening,
+    ([frequency, level], names): ([usize; 2], &[String]),
+) {
+    for h in 1..=run.harmonics {
+        let values = noise.apply(h, |c| run.responses[c].measured[h - 1] - prediction.channels[c][h - 1]);
+        for (&c, value) in run.alive.iter().zip(values) {
+            let model = prediction.channels[c][h - 1];
+            let turn = if model.norm() > 0.0 { model.conj() / model.norm() } else { c64::new(1.0, 0.0) };
+            let channel = names.iter().position(|name| *name == run.responses[c].name).unwrap_or(0);
+            left.push(Left { groups: [frequency, level, channel, h], value: value * turn });
+        }
+    }
+}
+
+/// Response of every channel to a unit of every force channel, `[harmonic][force][channel]`, by the linear sources of
+/// the model; measured where a single force drives a fundamental.
+pub(crate) fn transfers(
+    predictor: &Predictor,
+    r: usize,
+    run: &RunData,
+    effects: &[Source],
+    control: &Control,
+) -> Result<Transfers, crate::response::harmonic_balance::ResponseError> {
+    let mut sources = predictor.sources(effects);
+    sources.retain(|s| s.effect.is_linear());
+    let mut a: Transfers = vec![Vec::new(); run.harmonics];
+    for force in &run.forces {
+        let ones = vec![c64::new(1.0, 0.0); run.harmonics];
+        let forces = vec![HarmonicForce { dof: force.dof, mean: 0.0, harmonics: ones }];
+        let excitation = Excitation { omega: run.omega, forces };
+        let unit = predictor.run(r).respond(&sources, &excitation, &FINAL, None, control)?;
+        for (h, a) in a.iter_mut().enumerate() {
+            let w = (h + 1) as f64 * run.omega;
+            let of = |c: &crate::diagnosis::residual::data::ChannelData| {
+                transfer(effects, &c.name, w) * c.from_displacement(w) * unit.amplitude(c.dof, h + 1)
+            };
+            a.push(run.responses.iter().map(of).collect());
+        }
+    }
+    if let [force] = &run.forces[..]
+        && force.measured.first().is_some_and(|f| f.norm() > 0.0)
+    {
+        a[0][0] = run.responses.iter().map(|c| c.measured[0] / force.measured[0]).collect();
+    }
+    Ok(a)
+}
+
+fn of_run(run: &RunData, prediction: &RunPrediction, noise: &Whitening, used: bool, energy: f64) -> RunComparison {
+    let channels: Vec<ChannelComparison> = run
+        .responses
+        .iter()
+        .enumerate()
+        .map(|(c, channel)| {
+            let model = &prediction.channels[c];
+            let difference: Vec<c64> = channel.measured.iter().zip(model).map(|(y, m)| y - m).collect();
+            let residual = |k: usize, h: usize| run.responses[k].measured[h - 1] - prediction.channels[k][h - 1];
+            let floor = noise.expected_given(c, residual).sqrt();
+            let scale = run.scale(c);
+            let relative = |x: f64| if scale > 0.0 { x / scale } else { 0.0 };
+            let harmonic = |(i, (&measured, &model)): (usize, (&c64, &c64))| HarmonicComparison {
+                harmonic: i + 1,
+                measured,
+                model,
+                deviation: noise.deviation(c, i + 1),
+            };
+            ChannelComparison {
+                channel: channel.name.clone(),
+                dof: channel.dof,
+                error: relative(size(&difference)),
+                noise_floor: relative(floor),
+                scale,
+                harmonics: channel.measured.iter().zip(model).enumerate().map(harmonic).collect(),
+            }
+        })
+        .collect();
+    let errors: Vec<f64> = channels.iter().map(|c| c.error).collect();
+    let floors: Vec<f64> = channels.iter().map(|c| c.noise_floor).collect();
+    let (error, noise_floor) = (root_mean_square(&errors), root_mean_square(&floors));
+    RunComparison { index: run.index, used, error, noise_floor, branch: None, energy_error: energy, channels }
+}
+
+fn summary(runs: Vec<RunComparison>, levels: &Levels) -> Comparison {
+    let used = || runs.iter().filter(|run| run.used);
+    let of = |value: fn(&ChannelComparison) -> f64| -> f64 {
+        let values: Vec<f64> = used().flat_map(|run| run.channels.iter().map(value)).collect();
+        root_mean_square(&values)
+    };
+    let (error, noise_floor) = (of(|c| c.error), of(|c| c.noise_floor));
+    let energies: Vec<f64> = used().map(|run| run.energy_error).collect();
+    let energy_error = root_mean_square(&energies);
+    let (channels, harmonics) = (by_channel(&runs), by_harmonic(&runs));
+    let levels = by_level(&runs, |run| levels.names[run.index].clone());
+    Comparison { error, noise_floor, energy_error, runs, levels, channels, harmonics, whiteness: Vec::new() }
+}
+
+/// For `points`: errors are those of the energy.
+fn of_energies(problem: &Problem, energies: &[PointsEnergy]) -> Result<Comparison, DiagnosisError> {
+    let levels = Levels::new(problem, &Data::every(problem)?);
+    let mut runs = Vec::with_capacity(energies.len());
+    let (mut errors, mut floors) = (Vec::new(), Vec::new());
+    for energy in energies {
+        let error = energy.error();
+        let used = is_used(&problem.runs[energy.index]);
+        if used {
+            errors.push(error);
+            floors.push(energy.noise());
+        }
+        let (noise_floor, channels) = (energy.noise(), Vec::new());
+        let energy_error = error;
+        runs.push(RunComparison {
+            index: energy.index,
+            used,
+            error,
+            noise_floor,
+            branch: None,
+            energy_error,
+            channels,
+        });
+    }
+    let error = root_mean_square(&errors);
+    let levels = by_level(&runs, |run| levels.names[run.index].clone());
+    let (noise_floor, channels, harmonics) = (root_mean_square(&floors), Vec::new(), Vec::new());
+    let whiteness = Vec::new();
+    Ok(Comparison { error, noise_floor, energy_error: error, runs, levels, channels, harmonics, whiteness })
+}

@@ -1,0 +1,197 @@
+//! Which effect is missing: ranked suggestions, the steps to a model that agrees with the data, a verdict.
+
+use crate::control::Control;
+use crate::diagnosis::residual::data::{Data, DiagnosisError, Problem};
+use crate::diagnosis::residual::prediction::{Predictor, RunPrediction};
+use crate::diagnosis::selection::search::Base;
+use crate::diagnosis::selection::stepwise;
+use crate::diagnosis::updating::parameters::UpdatingParameter;
+use crate::effects::Source;
+use crate::math::statistics::root_mean_square;
+use std::sync::Arc;
+
+/// What the comparison of model and data says.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Verdict {
+    /// The model agrees with the data to the noise.
+    Adequate,
+    /// An effect is missing, and it is named.
+    Missing,
+    /// The model disagrees, and the data cannot tell the suggestions apart.
+    Undecided,
+    /// What the model states is off, and nothing is missing.
+    Detuned,
+    /// Something is missing that no law known here, at any place, gives.
+    Unexplained,
+}
+
+impl Verdict {
+    /// Word in files.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Adequate => "adequate",
+            Self::Missing => "missing",
+            Self::Undecided => "undecided",
+            Self::Detuned => "detuned",
+            Self::Unexplained => "unexplained",
+        }
+    }
+}
+
+/// An effect with the standard deviations of its parameters.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Added {
+    /// Effect, place and parameters.
+    pub source: Source,
+    /// Standard deviation of every parameter.
+    pub deviations: Vec<f64>,
+}
+
+/// One suggested effect.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Suggestion {
+    /// The effect.
+    pub added: Added,
+    /// Error of the model with this effect alone added.
+    pub error_after: f64,
+    /// The same on runs that were left out of the fit.
+    pub held_out_error_after: f64,
+    /// Probability among all that was looked at, 0 to 1.
+    pub probability: f64,
+    /// Why, in sentences with numbers.
+    pub evidence: Vec<String>,
+    /// Other effects or places that fit as well within the noise.
+    pub indistinguishable_from: Vec<Source>,
+}
+
+/// The model on the way: effects added so far and the error with them.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Step {
+    /// Effects.
+    pub added: Vec<Added>,
+    /// Error, as in `compare`.
+    pub error: f64,
+    /// Squared residual per datum in units of the noise: 1 for a model that agrees.
+    pub misfit: f64,
+}
+
+/// A run that would tell suggestions apart or pin a parameter down.
+#[derive(Debug, Clone, PartialEq)]
+pub struct NextTest {
+    /// Frequency, Hz.
+    pub frequency_hz: f64,
+    /// Row of the DOF to be driven.
+    pub force_dof: usize,
+    /// Amplitude of the force, N.
+    pub force: f64,
+    /// What it would show.
+    pub why: String,
+}
+
+/// The whole answer.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Diagnosis {
+    /// Error of the model as it is.
+    pub error_before: f64,
+    /// What it would be were the model exact.
+    pub noise_floor: f64,
+    /// Verdict.
+    pub verdict: Verdict,
+    /// Suggestions, best first; none if adequate.
+    pub suggestions: Vec<Suggestion>,
+    /// From the model as it is to the best one.
+    pub steps: Vec<Step>,
+    /// Tests worth doing next.
+    pub next_test: Vec<NextTest>,
+    /// What the model states wrongly, where the data demand it: corrections that were fitted beside the effects.
+    pub corrections: Vec<Correction>,
+}
+
+/// A correction of what the model states.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Correction {
+    /// What is corrected.
+    pub parameter: UpdatingParameter,
+    /// Factor on it.
+    pub factor: f64,
+    /// Standard deviation of the factor.
+    pub deviation: f64,
+}
+
+/// Is told of suggestions as soon as there are any, before they are fitted to the end: their errors and probabilities are
+/// provisional. It may be told several times; what it was told last replaces what it was told before.
+pub type Early<'a> = dyn Fn(&[Suggestion]) + Sync + 'a;
+
+/// Finds what the model of `problem` lacks.
+pub fn diagnose(problem: &Problem, control: &Control) -> Result<Diagnosis, DiagnosisError> {
+    diagnose_telling(problem, control, &|_| {})
+}
+
+/// [`diagnose`], with the first suggestions told to `early` while the search goes on.
+pub fn diagnose_telling(problem: &Problem, control: &Control, early: &Early) -> Result<Diagnosis, DiagnosisError> {
+    diagnose_without(problem, &[], control, early)
+}
+
+/// [`diagnose_telling`] where the effects `excluded`, each at its place, are known not to be what is missing: it finds what
+/// else it could be. Their parameters do not matter.
+pub fn diagnose_without(
+    problem: &Problem,
+    excluded: &[Source],
+    control: &Control,
+    early: &Early,
+) -> Result<Diagnosis, DiagnosisError> {
+    let diagnosis = searched(problem, excluded, control, early)?;
+    control.report(1.0);
+    Ok(diagnosis)
+}
+
+fn searched(
+    problem: &Problem,
+    excluded: &[Source],
+    control: &Control,
+    early: &Early,
+) -> Result<Diagnosis, DiagnosisError> {
+    if problem.structure.matrices().is_none() {
+        return crate::diagnosis::points::search::diagnose(problem, excluded, control);
+    }
+    let data = Data { excluded: excluded.to_vec(), ..Data::new(problem)? };
+    let predictor = Arc::new(Predictor::new(problem.structure, problem.known(), &data)?);
+    let base = Base::new(predictor, &data, control, early)?;
+    let bench = base.bench();
+    let before = square(&bench.residual(&base.predictions));
+    let diagnosis = Diagnosis {
+        error_before: bench.error(&base.predictions),
+        noise_floor: noise_floor(&base, &[], &base.predictions),
+        verdict: Verdict::Adequate,
+        suggestions: Vec::new(),
+        steps: vec![Step {
+            added: Vec::new(),
+            error: bench.error(&base.predictions),
+            misfit: before / base.count().max(1) as f64,
+        }],
+        next_test: Vec::new(),
+        corrections: Vec::new(),
+    };
+    if stepwise::agrees(&base, before, 0) {
+        return Ok(diagnosis);
+    }
+    stepwise::explain(base, before)?.conclude(diagnosis)
+}
+
+/// Error that noise and truncation alone would leave.
+pub(crate) fn noise_floor(base: &Base, effects: &[Source], predictions: &[RunPrediction]) -> f64 {
+    let Ok(noise) = base.noise_of(effects, predictions) else { return f64::NAN };
+    let mut floors = Vec::new();
+    for ((run, noise), prediction) in base.data.runs.iter().zip(&noise.runs).zip(predictions) {
+        let residual = |k: usize, h: usize| run.responses[k].measured[h - 1] - prediction.channels[k][h - 1];
+        for c in 0..run.responses.len() {
+            let scale = run.scale(c);
+            floors.push(if scale > 0.0 { noise.expected_given(c, residual).sqrt() / scale } else { 0.0 });
+        }
+    }
+    root_mean_square(&floors)
+}
+
+fn square(residual: &[f64]) -> f64 {
+    residual.iter().map(|r| r * r).sum()
+}

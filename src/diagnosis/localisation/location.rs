@@ -1,0 +1,107 @@
+//! Where an effect may act, and the response of every channel to a unit force or error there.
+
+use crate::control::Control;
+use crate::diagnosis::residual::data::{ChannelData, Data, DiagnosisError, RunData};
+use crate::diagnosis::residual::prediction::{FINAL, Predictor};
+use crate::effects::{Leg, Place, Source};
+use crate::response::harmonic_balance::{Excitation, HarmonicForce};
+use crate::structure::Structure;
+use faer::{Mat, c64};
+use std::collections::BTreeMap;
+
+/// A place at which one complex amplitude a harmonic, free in every run, may be added.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Spot {
+    /// A force on a relative motion.
+    Leg(Leg),
+    /// An error of a response channel.
+    Response(String),
+    /// An error of a force channel.
+    Force(String),
+}
+
+impl Spot {
+    /// The place of an effect there.
+    pub fn place(&self) -> Place {
+        match self {
+            Self::Leg(leg) => Place::Dofs(std::iter::once(leg.first).chain(leg.second).collect()),
+            Self::Response(name) | Self::Force(name) => Place::Channel(name.clone()),
+        }
+    }
+
+    /// Every DOF to the ground, every pair of neighbours, every channel.
+    pub fn all(structure: &Structure, data: &Data) -> Vec<Self> {
+        let ground = (0..structure.len()).map(|first| Self::Leg(Leg { first, second: None }));
+        let pair = |[first, second]: [usize; 2]| Self::Leg(Leg { first, second: Some(second) });
+        let [responses, forces] = data.channel_names();
+        let mut spots: Vec<Self> = ground.chain(structure.neighbours().into_iter().map(pair)).collect();
+        spots.extend(responses.into_iter().map(Self::Response));
+        spots.extend(forces.into_iter().map(Self::Force));
+        spots
+    }
+}
+
+/// Columns of the receptance of the linear model, computed when first needed.
+pub(crate) struct Receptances<'a> {
+    predictor: &'a Predictor,
+    data: &'a Data,
+    linear: Vec<Source>,
+    /// By DOF: one n x H matrix a run.
+    columns: BTreeMap<usize, Vec<Mat<c64>>>,
+}
+
+impl<'a> Receptances<'a> {
+    /// For the known linear sources and the linear ones among `effects`.
+    pub fn new(predictor: &'a Predictor, data: &'a Data, effects: &[Source]) -> Self {
+        let mut linear = predictor.sources(effects);
+        linear.retain(|s| s.effect.is_linear());
+        Self { predictor, data, linear, columns: BTreeMap::new() }
+    }
+
+    /// Computes the column of `dof` in every run, if it is not there yet.
+    pub fn need(&mut self, dof: usize, control: &Control) -> Result<(), DiagnosisError> {
+        if self.columns.contains_key(&dof) {
+            return Ok(());
+        }
+        let mut column = Vec::with_capacity(self.data.runs.len());
+        for (r, run) in self.data.runs.iter().enumerate() {
+            let harmonics = vec![c64::new(1.0, 0.0); run.harmonics];
+            let forces = vec![HarmonicForce { dof, mean: 0.0, harmonics }];
+            let excitation = Excitation { omega: run.omega, forces };
+            let unit = self.predictor.run(r).respond(&self.linear, &excitation, &FINAL, None, control);
+            let file = format!("number {}", run.index + 1);
+            column.push(unit.map_err(|reason| DiagnosisError::Response { file, reason })?.harmonics);
+        }
+        self.columns.insert(dof, column);
+        Ok(())
+    }
+
+    /// Columns of the DOFs of a leg.
+    pub fn need_leg(&mut self, leg: Leg, control: &Control) -> Result<(), DiagnosisError> {
+        self.need(leg.first, control)?;
+        leg.second.map_or(Ok(()), |second| self.need(second, control))
+    }
+
+    /// Displacement (m) of `row` under a unit force (N) on `dof`, whose column was needed before; by reciprocity also
+    /// the other way round.
+    pub fn entry(&self, r: usize, h: usize, row: usize, dof: usize) -> c64 {
+        self.columns.get(&dof).map_or(c64::new(0.0, 0.0), |column| column[r][(row, h - 1)])
+    }
+
+    /// Impedance of the structure between the DOFs of `leg` in run `r`, whose columns were needed before: force over
+    /// velocity, N s/m, the geometric mean over the harmonics.
+    pub fn impedance(&self, r: usize, run: &RunData, leg: Leg) -> f64 {
+        let mobility = |h: usize| {
+            let own = leg.relative(|i| leg.relative(|j| self.entry(r, h, i, j)));
+            (h as f64 * run.omega * own.norm()).ln()
+        };
+        let logs: Vec<f64> = (1..=run.harmonics).map(mobility).filter(|x| x.is_finite()).collect();
+        if logs.is_empty() { 0.0 } else { (-logs.iter().sum::<f64>() / logs.len() as f64).exp() }
+    }
+
+    /// Recorded amplitude of `channel` for a unit force on the structure at `leg` (its law feels `-1`).
+    pub fn channel(&self, r: usize, run: &RunData, h: usize, channel: &ChannelData, leg: Leg) -> c64 {
+        let displacement = leg.relative(|i| self.entry(r, h, i, channel.dof));
+        displacement * channel.from_displacement(h as f64 * run.omega)
+    }
+}

@@ -1,0 +1,5 @@
+//! Place before law: free forces at candidate locations and what they could explain at most.
+
+pub mod bound;
+pub mod free_force;
+pub mod location;

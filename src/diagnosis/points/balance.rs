@@ -1,0 +1,224 @@
+//! Energies of a `points` problem as data, and effects fitted to them.
+
+use crate::diagnosis::candidates::start_grids::{Range, shapes};
+use crate::diagnosis::diagnose::Added;
+use crate::diagnosis::points::energies::{PointsEnergy, displacement, energies};
+use crate::diagnosis::residual::data::{DiagnosisError, Problem, RunData};
+use crate::diagnosis::residual::energy_balance::{input, taken};
+use crate::diagnosis::residual::prediction::transfer;
+use crate::diagnosis::selection::levenberg_marquardt::{Residual, Variables, descend};
+use crate::effects::{Effect, Leg, Motion, Place, Source, State};
+use crate::math::statistics::root_mean_square;
+use crate::structure::Structure;
+use dashpot_numerics::transposed_product;
+use faer::{Mat, c64};
+use std::borrow::Cow;
+use std::convert::Infallible;
+
+/// Allowance for what no model matches, relative to the energy of the run.
+const ALLOWANCE: f64 = 5e-4;
+/// Samples a period.
+const SAMPLES: usize = 256;
+
+/// Energies of the used runs as data.
+pub(crate) struct Balance<'a> {
+    pub structure: &'a Structure,
+    pub known: Vec<Source>,
+    pub runs: Vec<RunData>,
+    /// Input less what is known, J.
+    pub missing: Vec<f64>,
+    pub input: Vec<f64>,
+    pub deviation: Vec<f64>,
+}
+
+/// One column: a source of unit scale and its energies.
+pub(crate) struct Column {
+    pub source: Source,
+    /// Energy over the deviation, one a run.
+    pub weighted: Vec<f64>,
+}
+
+/// A set fitted in all its parameters.
+#[derive(Clone)]
+pub(crate) struct Fitted {
+    pub added: Vec<Added>,
+    pub chi_square: f64,
+    pub parameters: usize,
+    pub error: f64,
+    pub held_out: f64,
+}
+
+impl<'a> Balance<'a> {
+    pub fn new(problem: &'a Problem, effects: &[Source]) -> Result<Self, DiagnosisError> {
+        let data = crate::diagnosis::residual::data::Data::new(problem)?;
+        let used = |e: &PointsEnergy| data.runs.iter().any(|r| r.index == e.index);
+        let plain: Vec<PointsEnergy> = energies(problem, &[])?.into_iter().filter(used).collect();
+        let noisy: Vec<PointsEnergy> = energies(problem, effects)?.into_iter().filter(used).collect();
+        let deviation = noisy.iter().map(|e| e.deviation.hypot(ALLOWANCE * e.input).max(f64::MIN_POSITIVE));
+        Ok(Self {
+            structure: problem.structure,
+            known: problem.known(),
+            missing: plain.iter().map(|e| e.input - e.taken).collect(),
+            input: plain.iter().map(|e| e.input).collect(),
+            deviation: deviation.collect(),
+            runs: data.runs,
+        })
+    }
+
+    pub fn weighted(&self) -> Vec<f64> {
+        self.missing.iter().zip(&self.deviation).map(|(e, d)| e / d).collect()
+    }
+
+    fn energies(&self, source: &Source) -> Vec<f64> {
+        let of = |run: &RunData| taken(self.structure, source, run.omega, &|dof| displacement(run, dof));
+        self.runs.iter().map(of).collect()
+    }
+
+    pub fn columns(&self) -> Vec<Column> {
+        let ground = (0..self.structure.len()).map(|dof| vec![dof]);
+        let pairs = self.structure.neighbours().into_iter().map(|pair| pair.to_vec());
+        let mut columns = Vec::new();
+        for dofs in ground.chain(pairs) {
+            let Some(range) = self.range(&dofs) else { continue };
+            for effect in Effect::ALL.into_iter().filter(|e| e.law().is_some() && e.dissipates()) {
+                for parameters in shapes(effect, &range) {
+                    let source = Source { effect, place: Place::Dofs(dofs.clone()), state: State::Known, parameters };
+                    let weighted: Vec<f64> =
+                        self.energies(&source).iter().zip(&self.deviation).map(|(e, d)| e / d).collect();
+                    if weighted.iter().all(|w| w.is_finite()) && weighted.iter().any(|w| *w > 0.0) {
+                        columns.push(Column { source, weighted });
+                    }
+                }
+            }
+        }
+        columns
+    }
+
+    /// Range of the motion at a place; none where nothing moves.
+    fn range(&self, dofs: &[usize]) -> Option<Range> {
+        let leg = Leg { first: dofs[0], second: dofs.get(1).copied() };
+        let motions = self.runs.iter().map(|run| {
+            let relative = |h: usize| leg.relative(|dof| displacement(run, dof)[h]);
+            let harmonics: Vec<c64> = (0..run.harmonics).map(relative).collect();
+            Motion::new(run.omega, 0.0, &harmonics, SAMPLES)
+        });
+        let range = crate::diagnosis::candidates::identified_force::range(&motions.collect::<Vec<_>>());
+        (range.displacement > 0.0).then_some(range)
+    }
+
+    /// Energy that is left over in each run with `effects`. Errors of channels are taken out of the record first.
+    fn left(&self, effects: &[Source]) -> Vec<f64> {
+        let faulty = effects.iter().any(|e| matches!(e.place, Place::Channel(_)));
+        let runs: Cow<[RunData]> = if faulty {
+            self.runs.iter().map(|run| corrected(run, effects)).collect()
+        } else {
+            Cow::Borrowed(&self.runs)
+        };
+        let of = |(run, missing): (&RunData, &f64)| {
+            let field = |dof: usize| displacement(run, dof);
+            let lost = |source: &Source| taken(self.structure, source, run.omega, &field);
+            let before = if faulty { input(run, &field) - self.known.iter().map(lost).sum::<f64>() } else { *missing };
+            before - effects.iter().filter(|e| e.effect.law().is_some()).map(lost).sum::<f64>()
+        };
+        runs.iter().zip(&self.missing).map(of).collect()
+    }
+
+    /// Errors of every channel, from a small one.
+    pub fn faults(&self) -> Vec<Source> {
+        let omega = self.runs.iter().map(|r| r.omega).sum::<f64>() / self.runs.len().max(1) as f64;
+        let mut names: Vec<&String> = Vec::new();
+        for channel in self.runs.iter().flat_map(|r| r.forces.iter().chain(&r.responses)) {
+            if !names.contains(&&channel.name) {
+                names.push(&channel.name);
+            }
+        }
+        let fault = |name: &&String, effect, value| {
+            let place = Place::Channel((*name).clone());
+            Source { effect, place, state: State::Known, parameters: vec![value] }
+        };
+        let both = |name: &&String| [fault(name, Effect::Delay, 1e-3 / omega), fault(name, Effect::Gain, 1.02)];
+        names.iter().flat_map(both).collect()
+    }
+
+    /// Relative error per run with `effects`.
+    pub fn errors(&self, effects: &[Source]) -> Vec<f64> {
+        let left = self.left(effects);
+        left.iter().zip(&self.input).map(|(l, e)| if *e == 0.0 { 1.0 } else { (l / e).abs() }).collect()
+    }
+
+    pub fn fit(&self, effects: &[Source]) -> Fitted {
+        let (variables, start) = Variables::new(effects);
+        let Ok(descent) = descend(&mut OnEnergy { balance: self, variables: &variables }, &start, 20);
+        let found = variables.effects(&descent.theta);
+        let slopes = variables.slopes(&descent.theta);
+        let mut deviations = descent.deviations().into_iter().zip(slopes).map(|(d, s)| d * s.abs());
+        let added = found.iter().map(|source| {
+            let own = deviations.by_ref().take(source.parameters.len()).collect();
+            Added { source: source.clone(), deviations: own }
+        });
+        let added = added.collect();
+        let error = root_mean_square(&self.errors(&found));
+        let held_out = self.held_out(&found, &descent.residual, &descent.jacobian);
+        Fitted { added, chi_square: descent.chi_square, parameters: variables.len(), error, held_out }
+    }
+
+    /// Error of each run by the linearised fit without it: the residual over one less its leverage.
+    fn held_out(&self, effects: &[Source], residual: &[f64], jacobian: &Mat<f64>) -> f64 {
+        let n = jacobian.ncols();
+        let normal = transposed_product(jacobian.as_ref(), jacobian.as_ref());
+        let identity = Mat::<f64>::identity(n, n);
+        let Ok(inverse) = crate::math::least_squares::solve_symmetric(normal.as_ref(), identity.as_ref()) else {
+            return root_mean_square(&self.errors(effects));
+        };
+        let errors: Vec<f64> = (0..residual.len())
+            .map(|r| {
+                let row = |i: usize, k: usize| jacobian[(r, i)] * inverse[(i, k)] * jacobian[(r, k)];
+                let leverage: f64 = (0..n).map(|i| (0..n).map(|k| row(i, k)).sum::<f64>()).sum();
+                let scale = if self.input[r] == 0.0 { 1.0 } else { self.input[r].abs() };
+                residual[r] * self.deviation[r] / scale / (1.0 - leverage.min(0.9))
+            })
+            .collect();
+        root_mean_square(&errors)
+    }
+}
+
+/// Weighted difference of energies as a function of the variables.
+struct OnEnergy<'a> {
+    balance: &'a Balance<'a>,
+    variables: &'a Variables,
+}
+
+impl Residual for OnEnergy<'_> {
+    type Error = Infallible;
+
+    fn residual(&mut self, theta: &[f64]) -> Result<Vec<f64>, Infallible> {
+        let left = self.balance.left(&self.variables.effects(theta));
+        Ok(left.iter().zip(&self.balance.deviation).map(|(l, d)| l / d).collect())
+    }
+
+    fn jacobian(&mut self, theta: &[f64], at: &[f64]) -> Result<Mat<f64>, Infallible> {
+        let step = 1e-5;
+        let mut jacobian = Mat::zeros(at.len(), theta.len());
+        for k in 0..theta.len() {
+            let mut moved = theta.to_vec();
+            moved[k] += step;
+            let Ok(after) = self.residual(&moved);
+            for (r, (a, b)) in after.iter().zip(at).enumerate() {
+                jacobian[(r, k)] = (a - b) / step;
+            }
+        }
+        Ok(jacobian)
+    }
+}
+
+/// The run freed of the errors of channels among `effects`.
+fn corrected(run: &RunData, effects: &[Source]) -> RunData {
+    let mut run = run.clone();
+    let omega = run.omega;
+    for channel in run.forces.iter_mut().chain(&mut run.responses) {
+        let name = channel.name.clone();
+        let free = |(i, y): (usize, &mut c64)| *y /= transfer(effects, &name, (i + 1) as f64 * omega);
+        channel.measured.iter_mut().enumerate().for_each(free);
+    }
+    run
+}

@@ -1,0 +1,243 @@
+//! The search for `points` structures, on the energies alone.
+//!
+//! ```text
+//! e_r - sum of known = sum_j s_j G_rj(shape_j) + noise,      s_j >= 0
+//! ```
+//!
+//! one column a law, place and shape of its grid. All columns and all pairs of columns are looked at; the best are
+//! fitted in all their parameters. What takes no energy (springs, masses) cannot be seen.
+
+use crate::control::Control;
+use crate::diagnosis::candidates::start_grids::scaled;
+use crate::diagnosis::diagnose::{Added, Diagnosis, Step, Suggestion, Verdict};
+use crate::diagnosis::points::balance::{Balance, Column, Fitted};
+use crate::diagnosis::residual::data::{DiagnosisError, Problem};
+use crate::effects::Source;
+use crate::math::statistics::{bayesian_information, evidence_weights, root_mean_square};
+
+/// Sets that are fitted in all their parameters, at each number of effects.
+const REFITS: usize = 24;
+/// Evidence that an effect must bring.
+const EVIDENCE: f64 = 15.0;
+/// Difference of the squared residual within which two suggestions cannot be told apart.
+const ALIKE: f64 = 9.0;
+/// What every parameter of a law beyond its first costs besides the information criterion: the simpler law wins unless the
+/// data demand the other.
+const EXTRA: f64 = 4.0;
+
+/// Squared residual and scales of one column or two with non-negative scales; none if a scale is not positive.
+fn solve(columns: &[&Column], e: &[f64]) -> Option<(f64, Vec<f64>)> {
+    let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(x, y)| x * y).sum::<f64>();
+    let total = dot(e, e);
+    match columns {
+        [a] => {
+            let s = dot(&a.weighted, e) / dot(&a.weighted, &a.weighted);
+            (s > 0.0).then(|| (total - s * dot(&a.weighted, e), vec![s]))
+        }
+        [a, b] => {
+            let (aa, bb, ab) =
+                (dot(&a.weighted, &a.weighted), dot(&b.weighted, &b.weighted), dot(&a.weighted, &b.weighted));
+            let (ae, be) = (dot(&a.weighted, e), dot(&b.weighted, e));
+            let determinant = aa * bb - ab * ab;
+            if determinant <= 1e-9 * aa * bb {
+                return None;
+            }
+            let (s, t) = ((ae * bb - be * ab) / determinant, (be * aa - ae * ab) / determinant);
+            (s > 0.0 && t > 0.0).then(|| (total - s * ae - t * be, vec![s, t]))
+        }
+        _ => None,
+    }
+}
+
+/// Diagnoses a `points` problem.
+pub(crate) fn diagnose(problem: &Problem, excluded: &[Source], control: &Control) -> Result<Diagnosis, DiagnosisError> {
+    let first = Balance::new(problem, &[])?;
+    let best = climb(&first, excluded, control)?;
+    // The noise of the motion counts once it is known how much energy the new sources take.
+    let effects: Vec<Source> =
+        best.last().map(|r| r[0].added.iter().map(|a| a.source.clone()).collect()).unwrap_or_default();
+    let balance = Balance::new(problem, &effects)?;
+    let rungs = climb(&balance, excluded, control)?;
+    Ok(conclude(&balance, &rungs))
+}
+
+fn climb(balance: &Balance, excluded: &[Source], control: &Control) -> Result<Vec<Vec<Fitted>>, DiagnosisError> {
+    let allowed = |source: &Source| !excluded.iter().any(|other| other.is_same(source));
+    let e = balance.weighted();
+    let n = e.len();
+    let mut last = (e.iter().map(|x| x * x).sum::<f64>(), 0);
+    let mut columns = if agrees(last.0, n, 0) { Vec::new() } else { balance.columns() };
+    columns.retain(|column| allowed(&column.source));
+    let mut rungs: Vec<Vec<Fitted>> = Vec::new();
+    for count in 1..=2 {
+        control.check()?;
+        if agrees(last.0, n, last.1) || columns.is_empty() {
+            break;
+        }
+        let mut sets = drafts(&columns, &e, count);
+        let before: Vec<Vec<Source>> = match rungs.last() {
+            None => vec![Vec::new()],
+            Some(fits) => fits.iter().take(3).map(|f| f.added.iter().map(|a| a.source.clone()).collect()).collect(),
+        };
+        for set in before {
+            let faults = balance.faults().into_iter().filter(allowed);
+            let fresh = faults.filter(|f| !set.iter().any(|s| s.is_same(f)));
+            sets.extend(fresh.map(|f| set.iter().cloned().chain(std::iter::once(f)).collect()));
+        }
+        let fits = ranked(balance, &sets, n);
+        let Some(best) = fits.first() else { break };
+        let scale = (best.chi_square / (n - best.parameters).max(1) as f64).max(1.0);
+        let penalty = (best.parameters as f64 - last.1 as f64) * (n as f64).ln();
+        if (last.0 - best.chi_square) / scale - penalty < EVIDENCE {
+            break;
+        }
+        last = (best.chi_square, best.parameters);
+        rungs.push(fits);
+    }
+    Ok(rungs)
+}
+
+/// Whether a squared residual is that of noise.
+fn agrees(chi_square: f64, n: usize, parameters: usize) -> bool {
+    let freedom = n.saturating_sub(parameters) as f64;
+    chi_square <= 1.15 * (freedom + 3.0 * (2.0 * freedom).sqrt())
+}
+
+/// The best sets of one column or two, with one shape a law and place.
+fn drafts(columns: &[Column], e: &[f64], count: usize) -> Vec<Vec<Source>> {
+    let mut found: Vec<(f64, Vec<usize>, Vec<f64>)> = Vec::new();
+    let mut consider = |set: Vec<usize>| {
+        let chosen: Vec<&Column> = set.iter().map(|&k| &columns[k]).collect();
+        if let Some((chi, scales)) = solve(&chosen, e) {
+            let parameters: usize = chosen.iter().map(|c| c.source.parameters.len()).sum();
+            found.push((bayesian_information(chi, parameters, e.len()), set, scales));
+            if found.len() > 4000 {
+                found.sort_by(|a, b| a.0.total_cmp(&b.0));
+                found.truncate(400);
+            }
+        }
+    };
+    for i in 0..columns.len() {
+        if count == 1 {
+            consider(vec![i]);
+        } else {
+            for j in i + 1..columns.len() {
+                if !columns[i].source.is_same(&columns[j].source) {
+                    consider(vec![i, j]);
+                }
+            }
+        }
+    }
+    found.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let mut sets: Vec<Vec<Source>> = Vec::new();
+    for (_, set, scales) in found {
+        let sources: Vec<Source> = set.iter().zip(&scales).map(|(&k, &s)| grown(&columns[k].source, s)).collect();
+        let seen = |other: &Vec<Source>| other.iter().zip(&sources).all(|(a, b)| a.is_same(b));
+        if !sets.iter().any(seen) {
+            sets.push(sources);
+        }
+        if sets.len() == REFITS {
+            break;
+        }
+    }
+    sets
+}
+
+fn grown(source: &Source, scale: f64) -> Source {
+    let mut source = source.clone();
+    scaled(source.effect).iter().for_each(|&k| source.parameters[k] *= scale);
+    source
+}
+
+fn ranked(balance: &Balance, drafts: &[Vec<Source>], n: usize) -> Vec<Fitted> {
+    let enough = |f: &Fitted| f.parameters < n && f.chi_square.is_finite();
+    let mut fits: Vec<Fitted> = drafts.iter().map(|d| balance.fit(d)).filter(enough).collect();
+    fits.sort_by(|a, b| criterion(a, n).total_cmp(&criterion(b, n)));
+    fits
+}
+
+fn criterion(fit: &Fitted, n: usize) -> f64 {
+    let extra: usize = fit.added.iter().map(|a| a.source.parameters.len() - 1).sum();
+    bayesian_information(fit.chi_square, fit.parameters, n) + EXTRA * extra as f64
+}
+
+fn conclude(balance: &Balance, rungs: &[Vec<Fitted>]) -> Diagnosis {
+    let n = balance.missing.len();
+    let before = root_mean_square(&balance.errors(&[]));
+    let relative = balance.deviation.iter().zip(&balance.input).map(|(d, e)| d / e.abs().max(f64::MIN_POSITIVE));
+    let mut diagnosis = Diagnosis {
+        error_before: before,
+        noise_floor: root_mean_square(&relative.collect::<Vec<_>>()),
+        verdict: Verdict::Adequate,
+        suggestions: Vec::new(),
+        steps: vec![Step { added: Vec::new(), error: before, misfit: square(&balance.weighted()) / n as f64 }],
+        next_test: Vec::new(),
+        corrections: Vec::new(),
+    };
+    let (Some(first), Some(top)) = (rungs.first(), rungs.last()) else {
+        let e = balance.weighted();
+        if !agrees(square(&e), n, 0) {
+            diagnosis.verdict = Verdict::Undecided;
+        }
+        return diagnosis;
+    };
+    let step =
+        |r: &Vec<Fitted>| Step { added: r[0].added.clone(), error: r[0].error, misfit: r[0].chi_square / n as f64 };
+    diagnosis.steps.extend(rungs.iter().map(step));
+    let weights = evidence_weights(&top.iter().map(|f| criterion(f, n)).collect::<Vec<_>>());
+    for fit in top {
+        for added in &fit.added {
+            if diagnosis.suggestions.iter().any(|s| s.added.source.is_same(&added.source))
+                || diagnosis.suggestions.len() >= 8
+            {
+                continue;
+            }
+            let with = top.iter().zip(&weights).filter(|(f, _)| contains(f, &added.source));
+            let probability = with.map(|(_, w)| w).sum::<f64>().min(1.0);
+            let alone = first.iter().find(|f| contains(f, &added.source)).unwrap_or(fit);
+            diagnosis.suggestions.push(Suggestion {
+                added: added.clone(),
+                error_after: alone.error,
+                held_out_error_after: alone.held_out,
+                probability,
+                evidence: sentences(added, before, alone.error),
+                indistinguishable_from: alike(top, &added.source),
+            });
+        }
+    }
+    let sure = diagnosis.suggestions.first().is_some_and(|s| s.probability >= 0.5);
+    diagnosis.verdict = if sure { Verdict::Missing } else { Verdict::Undecided };
+    diagnosis
+}
+
+fn square(values: &[f64]) -> f64 {
+    values.iter().map(|x| x * x).sum()
+}
+
+fn contains(fit: &Fitted, source: &Source) -> bool {
+    fit.added.iter().any(|a| a.source.is_same(source))
+}
+
+fn alike(top: &[Fitted], source: &Source) -> Vec<Source> {
+    let mut found: Vec<Source> = Vec::new();
+    for fit in top.iter().filter(|f| f.chi_square - top[0].chi_square < ALIKE) {
+        let fresh: Vec<&Source> = fit.added.iter().map(|a| &a.source).filter(|s| !contains(&top[0], s)).collect();
+        if let [other] = fresh[..]
+            && contains(&top[0], source)
+            && !contains(fit, source)
+            && !found.iter().any(|f| f.is_same(other))
+        {
+            found.push(other.clone());
+        }
+    }
+    found
+}
+
+fn sentences(added: &Added, before: f64, after: f64) -> Vec<String> {
+    vec![
+        added.source.effect.sentence().to_string(),
+        crate::diagnosis::selection::sentences::values(&added.source, &added.deviations),
+        format!("The error of the energy falls from {:.3} % to {:.3} %.", 100.0 * before, 100.0 * after),
+        "Without mass and stiffness only the energy of each run can be compared.".to_string(),
+    ]
+}

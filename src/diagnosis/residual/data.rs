@@ -1,0 +1,202 @@
+//! What the comparison is made on: the runs that may be used, their forces and responses, harmonic by harmonic.
+
+use crate::control::Cancelled;
+use crate::effects::{Source, effect::Kind, source::State};
+use crate::measurement::{ChannelFit, Flag, Quantity, Run};
+use crate::response::harmonic_balance::{Excitation, HarmonicForce, ModelError, ResponseError};
+use crate::structure::Structure;
+use faer::c64;
+
+/// A channel whose fundamental is below this share of the largest of its quantity in the run shows nothing.
+const DEAD: f64 = 1e-9;
+
+/// Why a model cannot be compared with its measurements or explained.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[expect(missing_docs, reason = "the messages say it")]
+pub enum DiagnosisError {
+    #[error("no run can be used: all are switched off or not settled; add a settled run with `use = true`")]
+    NoRuns,
+    #[error("run {file} has no force channel: the response cannot be predicted without its cause; add force@DOF")]
+    NoForce { file: String },
+    #[error("run {file} has no response channel to compare with: add acc, vel or disp at a DOF")]
+    NoResponse { file: String },
+    #[error("run {file} could not be predicted: {reason}")]
+    Response { file: String, reason: ResponseError },
+    #[error(transparent)]
+    Model(#[from] ModelError),
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
+}
+
+/// A model and its measurements, borrowed from a project.
+#[derive(Debug, Clone, Copy)]
+pub struct Problem<'a> {
+    /// Structure.
+    pub structure: &'a Structure,
+    /// Sources; those in state `known` are in the model.
+    pub sources: &'a [Source],
+    /// Runs in the order of the project.
+    pub runs: &'a [Run],
+}
+
+impl Problem<'_> {
+    /// The sources that are in the model. Errors of channels are not: the runs are corrected for them already.
+    pub fn known(&self) -> Vec<Source> {
+        let acts = |s: &&Source| s.state == State::Known && !matches!(s.effect.kind(), Kind::Channel(_));
+        self.sources.iter().filter(acts).cloned().collect()
+    }
+}
+
+/// Whether a run takes part in fits and errors.
+pub fn is_used(run: &Run) -> bool {
+    run.enabled && !run.findings.iter().any(|finding| finding.flag == Flag::NotSettled)
+}
+
+/// One channel of a run.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ChannelData {
+    /// Name in files, such as `acc@7`.
+    pub name: String,
+    /// What it measures.
+    pub quantity: Quantity,
+    /// Row of its DOF.
+    pub dof: usize,
+    /// Measured complex amplitudes of harmonics 1..=H, SI units.
+    pub measured: Vec<c64>,
+    /// Standard deviation of the real and of the imaginary part of each, the same unit.
+    pub deviation: Vec<f64>,
+}
+
+impl ChannelData {
+    fn new(fit: &ChannelFit) -> Self {
+        let deviation = (1..=fit.amplitudes.len()).map(|h| finite(fit.deviation(h))).collect();
+        let (quantity, dof) = (fit.channel.quantity, fit.channel.dof);
+        Self { name: fit.channel.to_string(), quantity, dof, measured: fit.amplitudes.clone(), deviation }
+    }
+
+    /// Root of the sum of squared amplitudes over the harmonics.
+    pub fn size(&self) -> f64 {
+        size(&self.measured)
+    }
+
+    /// Recorded amplitude over displacement amplitude at circular frequency `w` (rad/s): `(i w)^q`.
+    pub fn from_displacement(&self, w: f64) -> c64 {
+        match self.quantity {
+            Quantity::Acceleration => c64::new(-w * w, 0.0),
+            Quantity::Velocity => c64::new(0.0, w),
+            Quantity::Displacement | Quantity::Force => c64::new(1.0, 0.0),
+        }
+    }
+}
+
+/// Euclidean length of complex amplitudes.
+pub(crate) fn size(amplitudes: &[c64]) -> f64 {
+    amplitudes.iter().map(c64::norm_sqr).sum::<f64>().sqrt()
+}
+
+fn finite(value: f64) -> f64 {
+    if value.is_finite() { value } else { 0.0 }
+}
+
+/// One run.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RunData {
+    /// Index in the project's runs.
+    pub index: usize,
+    /// Fundamental circular frequency, rad/s.
+    pub omega: f64,
+    /// Number of harmonics.
+    pub harmonics: usize,
+    /// Force channels.
+    pub forces: Vec<ChannelData>,
+    /// Response channels.
+    pub responses: Vec<ChannelData>,
+    /// Response channels that take part (not dead).
+    pub alive: Vec<usize>,
+}
+
+impl RunData {
+    fn new(index: usize, run: &Run) -> Result<Self, DiagnosisError> {
+        let all = run.fit.channels.iter().map(ChannelData::new);
+        let (forces, responses): (Vec<_>, Vec<_>) = all.partition(|c| c.quantity == Quantity::Force);
+        if forces.is_empty() {
+            return Err(DiagnosisError::NoForce { file: run.file.clone() });
+        }
+        if responses.is_empty() {
+            return Err(DiagnosisError::NoResponse { file: run.file.clone() });
+        }
+        let (omega, harmonics) = (run.fit.omega, run.fit.harmonics());
+        let mut data = Self { index, omega, harmonics, forces, responses, alive: Vec::new() };
+        data.alive = (0..data.responses.len())
+            .filter(|&c| data.responses[c].size() > DEAD * data.largest(data.responses[c].quantity))
+            .collect();
+        Ok(data)
+    }
+
+    /// Largest size of a response channel of that quantity.
+    pub fn largest(&self, quantity: Quantity) -> f64 {
+        let same = self.responses.iter().filter(|c| c.quantity == quantity);
+        same.map(ChannelData::size).fold(0.0, f64::max)
+    }
+
+    /// What the error of response channel `c` is measured by: its size, at least a twentieth of the largest of its
+    /// quantity in the run, so that a sensor at a node does not rule.
+    pub fn scale(&self, c: usize) -> f64 {
+        self.responses[c].size().max(self.largest(self.responses[c].quantity) / 20.0)
+    }
+
+    /// The measured forces as excitation, each divided by the transfer of its channel at each harmonic.
+    pub fn excitation(&self, transfer: impl Fn(&ChannelData, f64) -> c64) -> Excitation {
+        let force = |channel: &ChannelData| {
+            let at = |(i, f): (usize, &c64)| *f / transfer(channel, (i + 1) as f64 * self.omega);
+            let harmonics = channel.measured.iter().enumerate().map(at).collect();
+            HarmonicForce { dof: channel.dof, mean: 0.0, harmonics }
+        };
+        Excitation { omega: self.omega, forces: self.forces.iter().map(force).collect() }
+    }
+}
+
+/// All runs that take part.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Data {
+    /// Runs in the order of the project.
+    pub runs: Vec<RunData>,
+    /// Effects at places where somebody knows better: they are not suggested.
+    pub excluded: Vec<Source>,
+}
+
+impl Data {
+    /// The used runs of a problem.
+    pub fn new(problem: &Problem) -> Result<Self, DiagnosisError> {
+        let used = problem.runs.iter().enumerate().filter(|(_, run)| is_used(run));
+        let runs = used.map(|(index, run)| RunData::new(index, run)).collect::<Result<Vec<_>, _>>()?;
+        if runs.is_empty() { Err(DiagnosisError::NoRuns) } else { Ok(Self { runs, excluded: Vec::new() }) }
+    }
+
+    /// All runs, whether used or not, for a display of every run.
+    pub fn every(problem: &Problem) -> Result<Self, DiagnosisError> {
+        let runs = problem.runs.iter().enumerate();
+        let runs = runs.map(|(index, run)| RunData::new(index, run)).collect::<Result<Vec<_>, _>>()?;
+        Ok(Self { runs, excluded: Vec::new() })
+    }
+
+    /// Whether an effect at its place may be suggested: not one that is ruled out, and none of more parameters than runs.
+    pub fn allows(&self, source: &Source) -> bool {
+        source.parameters.len() <= self.runs.len() && !self.excluded.iter().any(|other| other.is_same(source))
+    }
+
+    /// Names of all response channels and of all force channels, each once.
+    pub fn channel_names(&self) -> [Vec<String>; 2] {
+        let mut names = [Vec::new(), Vec::new()];
+        for run in &self.runs {
+            for (list, channels) in names.iter_mut().zip([&run.responses, &run.forces]) {
+                for channel in channels {
+                    if !list.contains(&channel.name) {
+                        list.push(channel.name.clone());
+                    }
+                }
+            }
+        }
+        names
+    }
+}

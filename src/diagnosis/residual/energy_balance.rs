@@ -1,0 +1,115 @@
+//! Energy of a run at its measured motion: what the exciters put in and what the known sources take out.
+//!
+//! ```text
+//! input = pi sum_h h Im( X_h^* F_h )  over the force channels        (4.5)
+//! taken = sum over sources of integral d' F dt                       (4.22)
+//! ```
+//!
+//! Where not every DOF is measured the field is that of the model, its harmonics each scaled by the complex factor that
+//! fits the sensors best: near a resonance the shape of the motion is known far better than its size.
+
+use crate::diagnosis::residual::data::RunData;
+use crate::diagnosis::residual::prediction::RunPrediction;
+use crate::effects::law::Basis;
+use crate::effects::{Place, Source, effect::Kind};
+use crate::measurement::Quantity;
+use crate::structure::Structure;
+use faer::{Mat, c64};
+use std::f64::consts::PI;
+
+/// Samples a period for laws without an exact formula.
+const SAMPLES: usize = 512;
+
+/// Displacement amplitudes of harmonics 1.. (m) of a DOF.
+pub type Field<'a> = dyn Fn(usize) -> Vec<c64> + 'a;
+
+/// Energy in J that the force channels of a run put in over one period, with the displacements `field`.
+pub fn input(run: &RunData, field: &Field) -> f64 {
+    let of_channel = |dof: usize, forces: &[c64]| -> f64 {
+        let x = field(dof);
+        x.iter().zip(forces).enumerate().map(|(i, (x, f))| PI * (i + 1) as f64 * (x.conj() * f).im).sum()
+    };
+    run.forces.iter().map(|f| of_channel(f.dof, &f.measured)).sum()
+}
+
+/// Energy in J that a source takes out over one period of `field`.
+pub fn taken(structure: &Structure, source: &Source, omega: f64, field: &Field) -> f64 {
+    let (Kind::Whole(law), Some(basis)) = (source.effect.kind(), whole_matrix(structure, source)) else {
+        return source.energy(omega, field, SAMPLES).unwrap_or(0.0);
+    };
+    let all: Vec<Vec<c64>> = (0..structure.len()).map(field).collect();
+    let order = all.first().map_or(0, Vec::len);
+    let of_harmonic = |h: usize| {
+        let x: Vec<c64> = all.iter().map(|d| d[h - 1]).collect();
+        PI * h as f64 * law.factor(source.parameters[0], h as f64 * omega).im * quadratic(&basis, &x)
+    };
+    (1..=order).map(of_harmonic).sum()
+}
+
+/// The measured displacement amplitudes of a DOF, if a channel measures it.
+pub fn measured_displacement(run: &RunData, dof: usize) -> Option<Vec<c64>> {
+    // The least differentiated channel is the most direct one.
+    let order = [Quantity::Displacement, Quantity::Velocity, Quantity::Acceleration];
+    let channel = order.iter().find_map(|q| run.responses.iter().find(|c| c.dof == dof && c.quantity == *q))?;
+    let at = |(i, y): (usize, &c64)| *y / channel.from_displacement((i + 1) as f64 * run.omega);
+    Some(channel.measured.iter().enumerate().map(at).collect())
+}
+
+/// The field of a prediction scaled to the sensors, one complex factor a harmonic.
+pub fn scaled_factors(run: &RunData, prediction: &RunPrediction) -> Vec<c64> {
+    let factor = |h: usize| {
+        let (mut product, mut square) = (c64::new(0.0, 0.0), 0.0);
+        for &c in &run.alive {
+            let weight = run.scale(c).powi(-2);
+            let (m, y) = (prediction.channels[c][h - 1], run.responses[c].measured[h - 1]);
+            product += m.conj() * y * weight;
+            square += m.norm_sqr() * weight;
+        }
+        // Higher harmonics are often noise only: scaling the model by noise would invent energy.
+        if h == 1 && square > 0.0 { product / square } else { c64::new(1.0, 0.0) }
+    };
+    (1..=run.harmonics).map(factor).collect()
+}
+
+/// `|input - taken| / |input|` of one run for a model with a prediction.
+pub fn energy_error(structure: &Structure, sources: &[Source], run: &RunData, prediction: &RunPrediction) -> f64 {
+    let factors = scaled_factors(run, prediction);
+    let field = |dof: usize| -> Vec<c64> {
+        factors.iter().enumerate().map(|(i, f)| f * prediction.response.amplitude(dof, i + 1)).collect()
+    };
+    let driven = |dof: usize| measured_displacement(run, dof).unwrap_or_else(|| field(dof));
+    let given = input(run, &driven);
+    let lost: f64 = sources.iter().map(|s| taken(structure, s, run.omega, &field)).sum();
+    if given == 0.0 { if lost == 0.0 { 0.0 } else { 1.0 } } else { ((given - lost) / given).abs() }
+}
+
+/// Matrix on which a whole-structure law acts; `None` for other sources and structures without matrices.
+pub(crate) fn whole_matrix(structure: &Structure, source: &Source) -> Option<Mat<f64>> {
+    let (Kind::Whole(law), Place::Whole(range)) = (source.effect.kind(), &source.place) else { return None };
+    let matrices = structure.matrices()?;
+    let mass = law.basis() == Basis::Mass;
+    let Some([first, last]) = *range else {
+        return Some(if mass { matrices.mass.clone() } else { matrices.stiffness.clone() });
+    };
+    let mut sum = Mat::zeros(structure.len(), structure.len());
+    for element in structure.elements().iter().take(last + 1).skip(first) {
+        let local = if mass { &element.mass } else { &element.stiffness };
+        for (a, row) in element.dofs.iter().enumerate() {
+            for (b, column) in element.dofs.iter().enumerate() {
+                if let (Some(row), Some(column)) = (row, column) {
+                    sum[(*row, *column)] += local[(a, b)];
+                }
+            }
+        }
+    }
+    Some(sum)
+}
+
+/// `x^H B x` for symmetric real `B`.
+fn quadratic(b: &Mat<f64>, x: &[c64]) -> f64 {
+    let row = |(j, xj): (usize, &c64)| {
+        let product = b.col_as_slice(j).iter().zip(x).fold(c64::new(0.0, 0.0), |s, (b, xi)| s + xi.conj() * *b);
+        (product * xj).re
+    };
+    x.iter().enumerate().map(row).sum()
+}

@@ -1,0 +1,328 @@
+//! What the model with some effects added predicts for every channel of every run.
+//!
+//! Recorded amplitude of a response channel: `Y_c,h = t_c(h w) (i h w)^q X_c,h`, with `t_c` the transfer of an error of
+//! that channel (1 without). An error of a force channel divides the recorded force: the structure felt `F / t_f`.
+
+use crate::control::Control;
+use crate::diagnosis::residual::data::{Data, DiagnosisError, RunData};
+use crate::diagnosis::updating::parameters::Updating;
+use crate::effects::{Effect, Place, Source, effect::Kind};
+use crate::response::harmonic_balance::{Excitation, ForwardModel, Response, ResponseError, RunModel, Settings};
+use crate::response::sensitivity::{SensitivityError, Unknown, sensitivities};
+use crate::structure::Structure;
+use faer::c64;
+use std::sync::Arc;
+
+/// How exactly responses are computed in the search. What is not answered soon is far from what was measured.
+pub(crate) const SEARCH: Settings = Settings {
+    harmonics: 7,
+    most_harmonics: 15,
+    watched: 7,
+    truncation: 1e-4,
+    tolerance: 1e-8,
+    estimate: false,
+    patience: 80,
+};
+/// How exactly they are computed for results.
+pub(crate) const FINAL: Settings = Settings {
+    harmonics: 15,
+    most_harmonics: 31,
+    watched: 7,
+    truncation: 1e-5,
+    tolerance: 1e-9,
+    estimate: true,
+    patience: 250,
+};
+
+/// The same where truncation would still show above the noise: nearly sticking friction.
+const FINEST: Settings = Settings { most_harmonics: 63, ..FINAL };
+
+/// Predicted response of one run.
+#[derive(Debug, Clone)]
+pub struct RunPrediction {
+    /// Predicted recorded amplitudes, one list of harmonics 1..=H a response channel.
+    pub channels: Vec<Vec<c64>>,
+    /// Error of those by the truncated series, the same unit.
+    pub truncation: Vec<Vec<f64>>,
+    /// The response behind it.
+    pub response: Response,
+    /// Whether it is an answer to the forces; if none was found, the prediction is to rest.
+    pub found: bool,
+}
+
+/// What the recorded amplitudes of a run are differentiated by.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum By {
+    /// Parameter of one of the effects added, errors of response and force channels included.
+    Effect {
+        /// Index in the list of effects.
+        effect: usize,
+        /// Index of the parameter.
+        parameter: usize,
+    },
+    /// Parameter of one of the known sources.
+    Known {
+        /// Index in [`Predictor::known`].
+        source: usize,
+        /// Index of the parameter.
+        parameter: usize,
+    },
+    /// Young's modulus, density, a lumped mass, the stiffness of one mode: see [`Unknown`].
+    Structure(Unknown),
+}
+
+/// A prediction with its derivatives.
+#[derive(Debug, Clone)]
+pub struct RunDerivatives {
+    /// The prediction.
+    pub prediction: RunPrediction,
+    /// `[unknown][channel][harmonic - 1]`: derivative of the recorded amplitude of each response channel, its unit per
+    /// unit of the unknown (relative changes: per 1).
+    pub derivatives: Vec<Vec<Vec<c64>>>,
+}
+
+/// The model over the runs, ready for any effects added to what is known.
+#[derive(Debug, Clone)]
+pub struct Predictor {
+    model: ForwardModel,
+    runs: Vec<RunModel>,
+    known: Vec<Source>,
+    /// Structure and known sources as the project states them.
+    stated: Arc<(Structure, Vec<Source>)>,
+    omegas: Vec<f64>,
+}
+
+/// The model at every frequency; runs of one frequency share what is computed there.
+fn run_models(omegas: &[f64], at: impl Fn(f64) -> RunModel) -> Vec<RunModel> {
+    let mut runs: Vec<RunModel> = Vec::with_capacity(omegas.len());
+    for &omega in omegas {
+        let same = runs.iter().find(|run| run.omega() == omega).cloned();
+        runs.push(same.unwrap_or_else(|| at(omega)));
+    }
+    runs
+}
+
+/// Transfer of the errors among `effects` of the channel of that name at circular frequency `w`.
+pub(crate) fn transfer(effects: &[Source], name: &str, w: f64) -> c64 {
+    let mut product = c64::new(1.0, 0.0);
+    for effect in effects {
+        if let (Kind::Channel(law), Place::Channel(channel)) = (effect.effect.kind(), &effect.place)
+            && channel == name
+        {
+            product *= law.transfer(effect.parameters[0], w);
+        }
+    }
+    product
+}
+
+impl Predictor {
+    /// Prepares the structure with its known sources for the runs of `data`.
+    pub fn new(structure: &Structure, known: Vec<Source>, data: &Data) -> Result<Self, DiagnosisError> {
+        let model = ForwardModel::new(structure, &known)?;
+        let omegas: Vec<f64> = data.runs.iter().map(|run| run.omega).collect();
+        let runs = run_models(&omegas, |omega| model.at(omega));
+        let stated = Arc::new((structure.clone(), known.clone()));
+        Ok(Self { model, runs, known, stated, omegas })
+    }
+
+    /// The same with the stated structure and known sources updated.
+    pub fn updated(&self, updating: &Updating) -> Result<Self, DiagnosisError> {
+        let known = updating.known(&self.stated.1);
+        let model = ForwardModel::new(&updating.structure(&self.stated.0), &known)?;
+        let runs = run_models(&self.omegas, |omega| model.at(omega));
+        Ok(Self { model, runs, known, stated: self.stated.clone(), omegas: self.omegas.clone() })
+    }
+
+    /// Structure and known sources as the project states them.
+    pub fn stated(&self) -> (&Structure, &[Source]) {
+        (&self.stated.0, &self.stated.1)
+    }
+
+    /// Known sources.
+    pub fn known(&self) -> &[Source] {
+        &self.known
+    }
+
+    /// The structure.
+    pub fn structure(&self) -> &Structure {
+        self.model.structure()
+    }
+
+    /// The model of one run.
+    pub(crate) fn run(&self, r: usize) -> &RunModel {
+        &self.runs[r]
+    }
+
+    /// Known sources and the effects on the structure among `effects`.
+    pub fn sources(&self, effects: &[Source]) -> Vec<Source> {
+        let on_structure = effects.iter().filter(|e| !matches!(e.effect.kind(), Kind::Channel(_)));
+        self.known.iter().chain(on_structure).cloned().collect()
+    }
+
+    /// Predicts run number `r` of the data with `effects` added; `start` is a response nearby.
+    pub fn predict(
+        &self,
+        r: usize,
+        data: &RunData,
+        effects: &[Source],
+        settings: &Settings,
+        start: Option<&Response>,
+        control: &Control,
+    ) -> Result<RunPrediction, ResponseError> {
+        let excitation = excitation(data, effects);
+        let response = self.runs[r].respond(&self.sources(effects), &excitation, settings, start, control)?;
+        Ok(recorded(data, effects, response))
+    }
+
+    /// [`Self::predict`] with as many harmonics as the noise of the run lets see: [`FINAL`], and more where that shows, or
+    /// where the response nearby has more.
+    pub(crate) fn predict_well(
+        &self,
+        r: usize,
+        data: &RunData,
+        effects: &[Source],
+        start: Option<&Response>,
+        control: &Control,
+    ) -> Result<RunPrediction, ResponseError> {
+        if let Some(start) = start.filter(|s| s.order() > FINAL.most_harmonics) {
+            return self.predict(r, data, effects, &FINEST, Some(start), control);
+        }
+        let prediction = self.predict(r, data, effects, &FINAL, start, control)?;
+        self.refined(r, data, effects, prediction, control)
+    }
+
+    /// `prediction`, or one of more harmonics beside it where its truncation shows above the noise.
+    pub(crate) fn refined(
+        &self,
+        r: usize,
+        data: &RunData,
+        effects: &[Source],
+        prediction: RunPrediction,
+        control: &Control,
+    ) -> Result<RunPrediction, ResponseError> {
+        let shows = |c: &usize| {
+            let channel = &data.responses[*c];
+            let pairs = prediction.truncation[*c].iter().zip(&channel.deviation);
+            pairs.clone().any(|(t, d)| *d > 0.0 && t > d)
+        };
+        if !data.alive.iter().any(shows) {
+            return Ok(prediction);
+        }
+        self.predict(r, data, effects, &FINEST, Some(&prediction.response), control)
+    }
+
+    /// Predictions of run number `r` on every periodic motion of the model, each with whether it is stable; several only
+    /// where a stiffness law folds the response.
+    pub fn branches(
+        &self,
+        r: usize,
+        data: &RunData,
+        effects: &[Source],
+        settings: &Settings,
+        control: &Control,
+    ) -> Result<Vec<(RunPrediction, bool)>, ResponseError> {
+        let found = self.runs[r].branches(&self.sources(effects), &excitation(data, effects), settings, control)?;
+        Ok(found.into_iter().map(|(response, stable)| (recorded(data, effects, response), stable)).collect())
+    }
+
+    /// [`Self::predict`] with the derivatives of every recorded amplitude by each of `by`.
+    ///
+    /// The response is solved once; then one factorisation serves all unknowns, each of which costs about one linear
+    /// solve. Where friction switches between sticking and slipping derivatives are those of the slip pattern that is.
+    ///
+    /// # Errors
+    /// Those of the prediction; [`SensitivityError::TurningPoint`]; [`SensitivityError::NoSuchUnknown`].
+    pub fn predict_with_derivatives(
+        &self,
+        r: usize,
+        data: &RunData,
+        (effects, by): (&[Source], &[By]),
+        settings: &Settings,
+        start: Option<&Response>,
+        control: &Control,
+    ) -> Result<RunDerivatives, SensitivityError> {
+        let prediction = self.predict(r, data, effects, settings, start, control)?;
+        let asked: Vec<Vec<(Unknown, f64)>> = by.iter().map(|by| self.unknowns(*by, effects, data)).collect();
+        let flat: Vec<Unknown> = asked.iter().flatten().map(|(unknown, _)| *unknown).collect();
+        let sources = self.sources(effects);
+        let excitation = excitation(data, effects);
+        let all = sensitivities(&self.runs[r], &sources, &excitation, &prediction.response, &flat)?;
+        let mut rest = &all[..];
+        let mut derivatives = Vec::with_capacity(by.len());
+        for (by, asked) in by.iter().zip(&asked) {
+            let (own, others) = rest.split_at(asked.len());
+            rest = others;
+            let change = |dof: usize, h: usize| {
+                let terms = own.iter().zip(asked).filter(|(change, _)| h <= change.ncols());
+                terms.fold(c64::new(0.0, 0.0), |sum, (change, (_, factor))| sum + change[(dof, h - 1)] * *factor)
+            };
+            let channel = |c: usize| -> Vec<c64> {
+                let channel = &data.responses[c];
+                let at = |h: usize| {
+                    let w = h as f64 * data.omega;
+                    let direct = own_transfer(*by, effects, &channel.name, w) * prediction.channels[c][h - 1];
+                    direct + transfer(effects, &channel.name, w) * channel.from_displacement(w) * change(channel.dof, h)
+                };
+                (1..=data.harmonics).map(at).collect()
+            };
+            derivatives.push((0..data.responses.len()).map(channel).collect());
+        }
+        Ok(RunDerivatives { prediction, derivatives })
+    }
+
+    /// The unknowns of the displacements behind `by`, each with its factor; none for errors of response channels.
+    fn unknowns(&self, by: By, effects: &[Source], data: &RunData) -> Vec<(Unknown, f64)> {
+        match by {
+            By::Structure(unknown) => vec![(unknown, 1.0)],
+            By::Known { source, parameter } => vec![(Unknown::Source { source, parameter }, 1.0)],
+            By::Effect { effect, parameter } => {
+                let on_structure = |e: &Source| !matches!(e.effect.kind(), Kind::Channel(_));
+                let Some(given) = effects.get(effect).filter(|e| !on_structure(e)) else {
+                    let before = effects.iter().take(effect).filter(|e| on_structure(e)).count();
+                    return vec![(Unknown::Source { source: self.known.len() + before, parameter }, 1.0)];
+                };
+                let forces = data.forces.iter().enumerate();
+                let felt = forces.filter(|(_, force)| given.place == Place::Channel(force.name.clone()));
+                felt.map(|(f, _)| match given.effect {
+                    Effect::Gain => (Unknown::ForceScale(f), -1.0 / given.parameters[0]),
+                    _ => (Unknown::ForceAdvance(f), 1.0),
+                })
+                .collect()
+            }
+        }
+    }
+}
+
+/// The forces that the structure felt: as measured, freed of the errors of their channels among `effects`.
+fn excitation(data: &RunData, effects: &[Source]) -> Excitation {
+    data.excitation(|channel, w| transfer(effects, &channel.name, w))
+}
+
+/// What the response channels record of `response`.
+fn recorded(data: &RunData, effects: &[Source], response: Response) -> RunPrediction {
+    let mut channels = Vec::with_capacity(data.responses.len());
+    let mut truncation = Vec::with_capacity(data.responses.len());
+    for channel in &data.responses {
+        let factor = |h: usize| {
+            let w = h as f64 * data.omega;
+            transfer(effects, &channel.name, w) * channel.from_displacement(w)
+        };
+        channels.push((1..=data.harmonics).map(|h| factor(h) * response.amplitude(channel.dof, h)).collect());
+        let error = |h: usize| response.truncation_at(channel.dof, h);
+        truncation.push((1..=data.harmonics).map(|h| factor(h).norm() * error(h)).collect());
+    }
+    RunPrediction { channels, truncation, response, found: true }
+}
+
+/// Relative derivative of the transfer of the channel of that name by its own error, if that is what `by` names.
+fn own_transfer(by: By, effects: &[Source], name: &str, w: f64) -> c64 {
+    let zero = c64::new(0.0, 0.0);
+    let By::Effect { effect, .. } = by else { return zero };
+    match effects.get(effect).map(|e| (e, e.effect.kind())) {
+        Some((error, Kind::Channel(law))) if error.place == Place::Channel(name.to_owned()) => {
+            let value = error.parameters[0];
+            law.transfer_derivative(value, w) / law.transfer(value, w)
+        }
+        _ => zero,
+    }
+}

@@ -1,0 +1,222 @@
+//! From where a search ended to what is said: suggestions with their probabilities, steps, what cannot be told apart.
+
+use crate::diagnosis::diagnose::{Added, Correction, Diagnosis, Step, Suggestion, Verdict, noise_floor};
+use crate::diagnosis::residual::data::DiagnosisError;
+use crate::diagnosis::residual::prediction::{FINAL, RunPrediction};
+use crate::diagnosis::selection::fitted_model::{Bench, Refit};
+use crate::diagnosis::selection::next_test::{next_test, pinning_test};
+use crate::diagnosis::selection::search::{Base, scale_of};
+use crate::diagnosis::selection::sentences::sentences;
+use crate::diagnosis::selection::stepwise::{Found, Rung, same_set};
+use crate::diagnosis::updating::parameters::UpdatingParameter;
+use crate::effects::Source;
+use crate::math::statistics::evidence_weights;
+
+/// Difference of the scaled squared residual within which two suggestions cannot be told apart.
+const ALIKE: f64 = 9.0;
+/// Probability from which on the next best set is worth a test of its own.
+const RIVAL: f64 = 1e-3;
+/// Squared residual per datum that a model may leave which is only detuned.
+const TOLERATED: f64 = 4.0;
+/// Squared residual per datum from which on no law of the library gives what is missing.
+const UNEXPLAINED: f64 = 100.0;
+/// Most suggestions.
+const MOST: usize = 8;
+
+/// Where a search ended, with what it was made on.
+pub(crate) struct Outcome<'a> {
+    pub base: Base<'a>,
+    pub found: Found,
+}
+
+impl Outcome<'_> {
+    /// Fills in what was found.
+    pub fn conclude(&self, mut diagnosis: Diagnosis) -> Result<Diagnosis, DiagnosisError> {
+        let base = &self.base;
+        let rungs = &self.found.rungs;
+        let Some(top) = rungs.last() else {
+            let bench = base.bench();
+            let misfit = square(&bench.residual(&base.predictions)) / base.count().max(1) as f64;
+            let error = bench.error(&base.predictions);
+            diagnosis.verdict = match (self.found.updated, misfit < TOLERATED) {
+                (true, true) => Verdict::Detuned,
+                (false, true) => Verdict::Adequate,
+                (_, false) => Verdict::Unexplained,
+            };
+            if self.found.updated {
+                diagnosis.corrections = corrections(base, &base.predictions);
+                diagnosis.steps.push(Step { added: Vec::new(), error, misfit });
+            }
+            return Ok(diagnosis);
+        };
+        let best = &top.refits[0];
+        let quiet = Base { predictions: base.predictions.clone(), noise: top.noise.clone(), ..base.shallow() };
+        let predictions = quiet.bench().predict(&best.effects, &FINAL, &best.starts)?;
+        diagnosis.noise_floor = noise_floor(&quiet, &best.effects, &predictions);
+        diagnosis.corrections = corrections(&quiet, &predictions);
+        let criteria: Vec<f64> = top.refits.iter().map(|r| base.evidence(r, top.scale)).collect();
+        let weights = evidence_weights(&criteria);
+        let ordered = order(&quiet.bench(), best, &rungs[0])?;
+        for set in &ordered {
+            let misfit = set.chi_square / base.count().max(1) as f64;
+            diagnosis.steps.push(Step { added: added(set, top.scale), error: set.error, misfit });
+        }
+        let final_set = added(ordered.last().unwrap_or(best), top.scale);
+        for item in &final_set {
+            let alone = alone(&quiet.bench(), &item.source, best, &rungs[0])?;
+            let probability = containing(&top.refits, &weights, &item.source);
+            let evidence = sentences(&quiet, item, best, diagnosis.error_before, alone.error)?;
+            diagnosis.suggestions.push(Suggestion {
+                added: item.clone(),
+                error_after: alone.error,
+                held_out_error_after: quiet.bench().held_out_error(&alone)?,
+                probability,
+                evidence,
+                indistinguishable_from: alike(&top.refits, best, &item.source, top.scale),
+            });
+        }
+        alternatives(&quiet.bench(), top, &weights, &mut diagnosis)?;
+        // Nothing is ambiguous where the next best has next to no probability: then the size is what is least certain.
+        let rival = top.refits.get(1).filter(|_| weights.get(1).is_some_and(|w| *w > RIVAL));
+        diagnosis.next_test = match rival {
+            Some(rival) => next_test(&quiet, &best.effects, &rival.effects)?,
+            None => pinning_test(&quiet, best)?,
+        }
+        .into_iter()
+        .collect();
+        let sure = diagnosis.suggestions.first().is_some_and(|s| s.probability >= 0.5);
+        diagnosis.verdict = if best.chi_square / base.count().max(1) as f64 > UNEXPLAINED {
+            Verdict::Unexplained
+        } else if sure {
+            Verdict::Missing
+        } else {
+            Verdict::Undecided
+        };
+        Ok(diagnosis)
+    }
+}
+
+/// Suggestions of fits that are not finished: for somebody who waits.
+pub(crate) fn early(base: &Base, refits: &[Refit]) -> Vec<Suggestion> {
+    let scale = scale_of(refits, base.count());
+    let weights = evidence_weights(&refits.iter().map(|r| base.evidence(r, scale)).collect::<Vec<_>>());
+    let of = |(refit, &probability): (&Refit, &f64)| {
+        let added = added(refit, scale).pop()?;
+        let evidence = vec![added.source.effect.sentence().to_string()];
+        let (error_after, held_out_error_after) = (refit.error, refit.error);
+        let indistinguishable_from = Vec::new();
+        Some(Suggestion { added, error_after, held_out_error_after, probability, evidence, indistinguishable_from })
+    };
+    refits.iter().zip(&weights).take(MOST).filter_map(of).collect()
+}
+
+/// The effects of the best set in the order in which they help, each prefix fitted.
+fn order(bench: &Bench, best: &Refit, first: &Rung) -> Result<Vec<Refit>, DiagnosisError> {
+    if best.effects.len() == 1 {
+        return Ok(vec![best.clone()]);
+    }
+    let mut rest = best.effects.clone();
+    let mut chain: Vec<Refit> = Vec::new();
+    let mut chosen: Vec<Source> = Vec::new();
+    while rest.len() > 1 {
+        let mut options = Vec::new();
+        for k in 0..rest.len() {
+            let set: Vec<Source> = chosen.iter().chain(std::iter::once(&rest[k])).cloned().collect();
+            let known = first.refits.iter().find(|r| same_set(&r.effects, &set));
+            options.push(known.map_or_else(|| bench.refit(&set, 8, &FINAL, &[]), |r| Ok(r.clone()))?);
+        }
+        let k = (0..rest.len()).min_by(|&a, &b| options[a].chi_square.total_cmp(&options[b].chi_square));
+        let k = k.unwrap_or(0);
+        chosen.push(rest.remove(k));
+        chain.push(options.swap_remove(k));
+    }
+    chain.push(best.clone());
+    Ok(chain)
+}
+
+fn alone(bench: &Bench, source: &Source, best: &Refit, first: &Rung) -> Result<Refit, DiagnosisError> {
+    let set = std::slice::from_ref(source);
+    if same_set(&best.effects, set) {
+        return Ok(best.clone());
+    }
+    match first.refits.iter().find(|r| same_set(&r.effects, set)) {
+        Some(refit) => bench.refit(&refit.effects, 3, &FINAL, &refit.starts),
+        None => bench.refit(set, 8, &FINAL, &[]),
+    }
+}
+
+/// Suggestions beyond the best set: what else was fitted at the same number of effects.
+fn alternatives(bench: &Bench, top: &Rung, weights: &[f64], diagnosis: &mut Diagnosis) -> Result<(), DiagnosisError> {
+    for refit in top.refits.iter().skip(1) {
+        for item in added(refit, top.scale) {
+            let listed = diagnosis.suggestions.iter().any(|s| s.added.source.is_same(&item.source));
+            if listed || diagnosis.suggestions.len() >= MOST {
+                continue;
+            }
+            diagnosis.suggestions.push(Suggestion {
+                error_after: refit.error,
+                held_out_error_after: bench.held_out_error(refit)?,
+                probability: containing(&top.refits, weights, &item.source),
+                evidence: vec![format!(
+                    "With it the error would be {:.3} % instead of {:.3} %.",
+                    100.0 * refit.error,
+                    100.0 * diagnosis.error_before
+                )],
+                indistinguishable_from: Vec::new(),
+                added: item,
+            });
+        }
+    }
+    Ok(())
+}
+
+/// Corrections of what the model states, at the reference of `base`, with their deviations.
+pub(crate) fn corrections(base: &Base, predictions: &[RunPrediction]) -> Vec<Correction> {
+    let updating = &base.linearisation.updating;
+    let variances = base.noise.updating.variances();
+    let _ = predictions;
+    let of = |(k, parameter): (usize, &UpdatingParameter)| {
+        let deviation = updating.prior(k) * variances.get(k)?.sqrt();
+        let factor = updating.values[k].exp();
+        parameter.is_of_model().then(|| Correction {
+            parameter: parameter.clone(),
+            factor,
+            deviation: deviation * factor,
+        })
+    };
+    updating.parameters.iter().enumerate().filter_map(of).collect()
+}
+
+fn square(values: &[f64]) -> f64 {
+    values.iter().map(|x| x * x).sum()
+}
+
+/// The effects of a fit; what the model leaves beyond the noise widens their deviations.
+fn added(refit: &Refit, scale: f64) -> Vec<Added> {
+    let widened = |d: &Vec<f64>| d.iter().map(|d| d * scale.max(1.0).sqrt()).collect();
+    let pairs = refit.effects.iter().zip(&refit.deviations);
+    pairs.map(|(source, deviations)| Added { source: source.clone(), deviations: widened(deviations) }).collect()
+}
+
+/// Probability of all sets that contain an effect at a place.
+fn containing(refits: &[Refit], weights: &[f64], source: &Source) -> f64 {
+    let with = refits.iter().zip(weights).filter(|(r, _)| r.effects.iter().any(|e| e.is_same(source)));
+    with.map(|(_, w)| w).sum::<f64>().min(1.0)
+}
+
+/// Effects that in place of `source` leave a residual that differs by no more than noise.
+fn alike(refits: &[Refit], best: &Refit, source: &Source, scale: f64) -> Vec<Source> {
+    let others: Vec<&Source> = best.effects.iter().filter(|e| !e.is_same(source)).collect();
+    let near = refits.iter().filter(|r| (r.chi_square - best.chi_square) / scale < ALIKE);
+    let mut found: Vec<Source> = Vec::new();
+    for refit in near {
+        let fresh: Vec<&Source> = refit.effects.iter().filter(|e| !others.iter().any(|o| o.is_same(e))).collect();
+        if let [other] = fresh[..]
+            && !other.is_same(source)
+            && !found.iter().any(|f| f.is_same(other))
+        {
+            found.push(other.clone());
+        }
+    }
+    found
+}

@@ -1,0 +1,157 @@
+//! The residual on the response as a function of everything that is fitted, with its derivatives.
+
+use crate::diagnosis::residual::data::{ChannelData, DiagnosisError, RunData};
+use crate::diagnosis::residual::prediction::{Predictor, RunPrediction, transfer};
+use crate::diagnosis::selection::fitted_model::{Bench, Starts};
+use crate::diagnosis::selection::levenberg_marquardt::{Residual, Variables};
+use crate::effects::{Source, effect::Kind};
+use crate::response::harmonic_balance::Settings;
+use crate::response::sensitivity::{Unknown, sensitivities};
+use faer::{Mat, c64};
+
+/// Step of a variable for derivatives by differences.
+const STEP: f64 = 1e-4;
+
+/// The model at one point of a descent.
+pub(crate) struct Trial {
+    pub theta: Vec<f64>,
+    pub predictions: Vec<RunPrediction>,
+}
+
+/// The residual on the response as a function of the variables of the effects.
+pub(crate) struct OnResponse<'a> {
+    pub bench: Bench<'a>,
+    pub variables: &'a Variables,
+    pub settings: Settings,
+    /// Responses at the last point that was accepted, from which trials start.
+    pub starts: Starts,
+    pub last: Option<Trial>,
+}
+
+/// Derivatives of the recorded amplitudes of a run, `[unknown][channel][harmonic - 1]`.
+pub(crate) type RunSlopes = Vec<Vec<Vec<c64>>>;
+
+/// Derivatives of the recorded amplitudes of run `r` by sums of unknowns with factors, one list of `[channel][harmonic]`
+/// a sum; `None` where the response has no derivatives. Zero where the prediction was not found.
+pub(crate) fn run_slopes(
+    predictor: &Predictor,
+    r: usize,
+    run: &RunData,
+    effects: &[Source],
+    prediction: &RunPrediction,
+    sums: &[Vec<(Unknown, f64)>],
+) -> Option<RunSlopes> {
+    if !prediction.found {
+        return Some(vec![vec![vec![ZERO; run.harmonics]; run.responses.len()]; sums.len()]);
+    }
+    let sources = predictor.sources(effects);
+    let unknowns: Vec<Unknown> = sums.iter().flatten().map(|(unknown, _)| *unknown).collect();
+    let excitation = run.excitation(|channel, w| transfer(effects, &channel.name, w));
+    let all = sensitivities(predictor.run(r), &sources, &excitation, &prediction.response, &unknowns).ok()?;
+    let mut rest = &all[..];
+    let mut slopes = Vec::with_capacity(sums.len());
+    for sum in sums {
+        let (own, others) = rest.split_at(sum.len());
+        rest = others;
+        let channel = |channel: &ChannelData| -> Vec<c64> {
+            let at = |h: usize| {
+                let w = h as f64 * run.omega;
+                let entry = |m: &Mat<c64>| if h <= m.ncols() { m[(channel.dof, h - 1)] } else { ZERO };
+                let change = own.iter().zip(sum).fold(ZERO, |s, (m, (_, factor))| s + entry(m) * *factor);
+                transfer(effects, &channel.name, w) * channel.from_displacement(w) * change
+            };
+            (1..=run.harmonics).map(at).collect()
+        };
+        slopes.push(run.responses.iter().map(channel).collect());
+    }
+    Some(slopes)
+}
+
+impl OnResponse<'_> {
+    fn compute(&self, theta: &[f64]) -> Result<Trial, DiagnosisError> {
+        let effects = self.variables.effects(theta);
+        let predictions = self.bench.predict(&effects, &self.settings, &self.starts)?;
+        Ok(Trial { theta: theta.to_vec(), predictions })
+    }
+
+    /// The model at `theta`, the last one if it was there.
+    pub fn trial(&mut self, theta: &[f64]) -> Result<Trial, DiagnosisError> {
+        match self.last.take().filter(|t| t.theta == theta) {
+            Some(trial) => Ok(trial),
+            None => self.compute(theta),
+        }
+    }
+
+    /// What the response is differentiated by for each variable; nothing for errors of channels.
+    fn unknowns(&self, effects: &[Source]) -> Vec<Vec<(Unknown, f64)>> {
+        let mut source = self.bench.predictor.known().len();
+        let mut sums = Vec::new();
+        for effect in effects {
+            let channel = matches!(effect.effect.kind(), Kind::Channel(_));
+            for parameter in 0..effect.parameters.len() {
+                sums.push(if channel { Vec::new() } else { vec![(Unknown::Source { source, parameter }, 1.0)] });
+            }
+            source += usize::from(!channel);
+        }
+        sums
+    }
+
+    /// A column by differences.
+    fn difference(&self, theta: &[f64], k: usize, at: &[f64]) -> Result<Vec<f64>, DiagnosisError> {
+        let mut moved = theta.to_vec();
+        moved[k] += STEP;
+        let trial = self.compute(&moved)?;
+        let after = self.bench.residual(&trial.predictions);
+        Ok(after.iter().zip(at).map(|(a, b)| (a - b) / STEP).collect())
+    }
+
+    /// Which variables are parameters of channels: their columns are differences.
+    fn of_channels(&self) -> Vec<bool> {
+        let effects = self.variables.effects(&vec![0.0; self.variables.len()]);
+        let of = |e: &Source| vec![matches!(e.effect.kind(), Kind::Channel(_)); e.parameters.len()];
+        effects.iter().flat_map(of).collect()
+    }
+}
+
+pub(crate) const ZERO: c64 = c64::new(0.0, 0.0);
+
+impl Residual for OnResponse<'_> {
+    type Error = DiagnosisError;
+
+    fn residual(&mut self, theta: &[f64]) -> Result<Vec<f64>, DiagnosisError> {
+        let trial = self.compute(theta)?;
+        let residual = self.bench.residual(&trial.predictions);
+        self.last = Some(trial);
+        Ok(residual)
+    }
+
+    fn jacobian(&mut self, theta: &[f64], at: &[f64]) -> Result<Mat<f64>, DiagnosisError> {
+        let trial = self.trial(theta)?;
+        self.starts = trial.predictions.iter().map(|p| p.found.then(|| p.response.clone())).collect();
+        let effects = self.variables.effects(theta);
+        let (sums, factors) = (self.unknowns(&effects), self.variables.slopes(theta));
+        let mut columns: Vec<Vec<f64>> = vec![Vec::with_capacity(at.len()); theta.len()];
+        let mut exact = true;
+        for (r, run) in self.bench.data.runs.iter().enumerate() {
+            self.bench.control.check()?;
+            let prediction = &trial.predictions[r];
+            let Some(slopes) = run_slopes(self.bench.predictor, r, run, &effects, prediction, &sums) else {
+                exact = false;
+                break;
+            };
+            for ((column, slope), factor) in columns.iter_mut().zip(&slopes).zip(&factors) {
+                self.bench.whitened(r, column, |c, h| -slope[c][h - 1] * *factor);
+            }
+        }
+        let channels = self.of_channels();
+        for (k, column) in columns.iter_mut().enumerate() {
+            *column = if !exact || channels[k] {
+                self.difference(theta, k, at)?
+            } else {
+                self.bench.noise.updating.column(std::mem::take(column))
+            };
+        }
+        self.last = Some(trial);
+        Ok(Mat::from_fn(at.len(), columns.len(), |i, k| columns[k][i]))
+    }
+}

@@ -1,0 +1,144 @@
+//! Fits of drafts on the response: all of them a little, the promising ones to the end, the best with all harmonics.
+
+use crate::diagnosis::candidates::special_cases::{is_limit, simpler};
+use crate::diagnosis::candidates::start::start;
+use crate::diagnosis::residual::data::DiagnosisError;
+use crate::diagnosis::residual::prediction::{FINAL, SEARCH};
+use crate::diagnosis::selection::fitted_model::{Bench, Refit, Starts};
+use crate::diagnosis::selection::search::{Base, Draft, joined, scale_of};
+use crate::diagnosis::selection::stepwise::same_set;
+use crate::diagnosis::updating::noise_model::NoiseModel;
+use crate::effects::{Effect, Place, Source, State, effect::Kind};
+use std::sync::Arc;
+
+/// Of these, sets that are fitted with all harmonics that matter.
+const POLISHED: usize = 6;
+/// The same where even the best leaves more than this of its squared residual per datum: there, all harmonics are not what
+/// is missing.
+const ROUGHLY: usize = 2;
+const COARSE: f64 = 30.0;
+/// The same from which on no simpler law is heard beside the best.
+const HOPELESSLY_COARSE: f64 = 1e3;
+/// Steps of a fit on the response: of all drafts, and of those that may still become the best.
+pub(crate) const FIRST_STEPS: usize = 4;
+pub(crate) const STEPS: usize = 20;
+/// Gain of the squared residual, in units of what the best leaves per datum, that is worth going on for.
+const LEFT: f64 = 0.1;
+/// Share of its squared residual that a fit has to go from which on it has not arrived.
+const FAR: f64 = 0.1;
+/// Share of its squared residual that a fit under way is trusted to gain.
+const PROMISE: f64 = 0.9;
+/// Evidence by which a fit under way may be promised to lag behind the best and still be followed.
+const HOPELESS_FIT: f64 = 60.0;
+
+impl Base<'_> {
+    /// Fits the drafts on the response: all of them a little, those that may still become the best to the end.
+    pub(crate) fn refit_all(&self, drafts: &[Draft]) -> Result<Vec<Refit>, DiagnosisError> {
+        self.finished(self.begun(drafts)?)
+    }
+
+    /// First steps of a fit of every draft, from the motion that the data show.
+    pub(crate) fn begun(&self, drafts: &[Draft]) -> Result<Vec<Refit>, DiagnosisError> {
+        let first = |k: usize| {
+            let draft = &drafts[k];
+            let sources = self.predictor.sources(&draft.effects);
+            let runs = self.data.runs.iter().zip(draft.fields.iter());
+            let starts: Starts = runs.map(|(run, field)| start(&sources, run.omega, field)).collect();
+            self.bench().refit(&draft.effects, FIRST_STEPS, &SEARCH, &starts)
+        };
+        self.control.map(drafts.len(), first).into_iter().collect()
+    }
+
+    /// The fits that may still become the best, followed to the end; the others as they are. Valleys are long where
+    /// corrections are free beside effects much like them: those that still promise to be the best go on once more.
+    pub(crate) fn finished(&self, begun: Vec<Refit>) -> Result<Vec<Refit>, DiagnosisError> {
+        let once = self.followed(begun)?;
+        self.followed(once)
+    }
+
+    fn followed(&self, begun: Vec<Refit>) -> Result<Vec<Refit>, DiagnosisError> {
+        let scale = scale_of(&begun, self.count());
+        let best = begun.iter().map(|r| self.evidence(r, scale)).fold(f64::INFINITY, f64::min);
+        let promised = |r: &Refit| self.evidence(r, scale) - r.descent.to_go.min(PROMISE * r.chi_square) / scale;
+        let go_on = |k: usize| {
+            let refit = &begun[k];
+            if refit.descent.to_go < LEFT * scale || promised(refit) > best + HOPELESS_FIT {
+                return Ok(refit.clone());
+            }
+            self.bench().refit(&refit.effects, STEPS, &SEARCH, &refit.starts)
+        };
+        self.control.map(begun.len(), go_on).into_iter().collect()
+    }
+
+    /// The laws of the whole structure, from a light start.
+    pub fn whole(&self, from: Option<&Refit>, steps: usize) -> Result<Vec<Refit>, DiagnosisError> {
+        let effects = from.map_or(&[][..], |refit| &refit.effects);
+        let omega = self.data.runs.iter().map(|r| r.omega.ln()).sum::<f64>() / self.data.runs.len() as f64;
+        let light = |effect: Effect| {
+            let unit = match effect {
+                Effect::StiffnessProportional => (-omega).exp(),
+                Effect::MassProportional => omega.exp(),
+                _ => 1.0,
+            };
+            Source { effect, place: Place::Whole(None), state: State::Known, parameters: vec![3e-3 * unit] }
+        };
+        let whole = Effect::ALL.into_iter().filter(|e| matches!(e.kind(), Kind::Whole(_)));
+        let sets: Vec<Vec<Source>> = whole
+            .filter(|&effect| !effects.iter().any(|e| e.effect == effect))
+            .map(light)
+            .filter(|source| self.data.allows(source))
+            .map(|source| joined(effects, &[source]))
+            .collect();
+        let fit = |k: usize| self.bench().refit(&sets[k], steps, &SEARCH, &[]);
+        self.control.map(sets.len(), fit).into_iter().collect()
+    }
+
+    /// The sets of `refits` in which a law is all but a simpler one, with that in its stead.
+    fn by_their_name(&self, refits: &[Refit]) -> Result<Vec<Refit>, DiagnosisError> {
+        let named = |refit: &Refit| -> Option<Vec<Source>> {
+            let plain = || refit.effects.iter().map(|e| simpler(e).unwrap_or_else(|| e.clone())).collect();
+            refit.effects.iter().any(|e| simpler(e).is_some()).then(plain)
+        };
+        let fresh = |effects: &Vec<Source>| {
+            !refits.iter().any(|r| same_set(&r.effects, effects)) && effects.iter().all(|e| self.data.allows(e))
+        };
+        let sets: Vec<Vec<Source>> = refits.iter().filter_map(named).filter(fresh).collect();
+        let fit = |k: usize| self.bench().refit(&sets[k], STEPS, &SEARCH, &[]);
+        self.control.map(sets.len(), fit).into_iter().collect()
+    }
+
+    /// Fits the best of `refits` again with all harmonics that matter and the noise of the best of them, truncation
+    /// included; the others follow as they are.
+    pub fn polished(&self, refits: Vec<Refit>) -> Result<(Vec<Refit>, Arc<NoiseModel>), DiagnosisError> {
+        let mut best = refits;
+        let scale = scale_of(&best, self.count());
+        let bound = best.first().map_or(0.0, |r| self.evidence(r, scale)) + HOPELESS_FIT;
+        let near = best.iter().take_while(|r| self.evidence(r, scale) < bound).count();
+        let most = if scale > COARSE { ROUGHLY } else { POLISHED };
+        let mut rest = best.split_off(near.clamp(1, most).min(best.len()));
+        // Few harmonics speak for laws that can bend to what they lack: the simpler ones are to be heard as well.
+        if let Some(set) = best.first().filter(|_| scale < HOPELESSLY_COARSE).map(|r| r.effects.clone()) {
+            let (simpler, others) = rest.into_iter().partition(|r| is_limit(&r.effects, &set));
+            best.extend::<Vec<Refit>>(simpler);
+            rest = others;
+        }
+        best.extend(self.by_their_name(&best)?);
+        let mut noise = self.noise.clone();
+        for steps in [8, 4] {
+            let bench = Bench { noise: &noise, ..self.bench() };
+            let again = |k: usize| {
+                let refit = &best[k];
+                let arrived = refit.descent.to_go < FAR * refit.chi_square;
+                let steps = if arrived { steps } else { STEPS };
+                bench.refit(&refit.effects, steps, &FINAL, &refit.starts)
+            };
+            let refits = self.control.map(best.len(), again).into_iter().collect::<Result<Vec<_>, _>>()?;
+            best = self.ranked(refits);
+            let Some(first) = best.first() else { break };
+            let predictions = self.bench().predict(&first.effects, &FINAL, &first.starts)?;
+            noise = Arc::new(self.noise_of(&first.effects, &predictions)?);
+        }
+        best.extend(rest);
+        Ok((best, noise))
+    }
+}

@@ -1,0 +1,207 @@
+//! The short list is judged on the response itself: the parameters of all added effects are fitted by Levenberg and
+//! Marquardt's method to the whitened amplitudes of all channels, runs and harmonics; updating parameters are eliminated.
+
+use crate::control::Control;
+use crate::diagnosis::residual::data::{Data, DiagnosisError, RunData, size};
+use crate::diagnosis::residual::prediction::{FINAL, Predictor, RunPrediction, SEARCH};
+use crate::diagnosis::selection::fit_problem::{OnResponse, Trial};
+use crate::diagnosis::selection::levenberg_marquardt::{Descent, Variables, descend};
+use crate::diagnosis::updating::noise_model::NoiseModel;
+use crate::effects::Source;
+use crate::math::statistics::root_mean_square;
+use crate::response::harmonic_balance::{Response, ResponseError, Settings};
+use faer::{Mat, c64};
+
+/// Groups of runs that are left out in turn.
+const FOLDS: usize = 4;
+
+/// Share of what remains of a search that one predicted run is taken for: a search asks for thousands of them.
+const PACE: f64 = 2e-4;
+
+/// A response of each run to start from.
+pub(crate) type Starts = Vec<Option<Response>>;
+
+/// A model to be fitted: the predictor with its data and noise.
+#[derive(Clone, Copy)]
+pub(crate) struct Bench<'a> {
+    pub predictor: &'a Predictor,
+    pub data: &'a Data,
+    pub noise: &'a NoiseModel,
+    pub control: &'a Control,
+}
+
+/// A set of effects fitted on the response.
+#[derive(Debug, Clone)]
+pub struct Refit {
+    /// Effects with their parameters.
+    pub effects: Vec<Source>,
+    /// Standard deviation of every parameter, of every effect.
+    pub deviations: Vec<Vec<f64>>,
+    /// Squared whitened residual, the prior of updating parameters included.
+    pub chi_square: f64,
+    /// Number of fitted parameters of effects.
+    pub parameters: usize,
+    /// Relative root mean square error, as in `compare`.
+    pub error: f64,
+    pub(crate) starts: Starts,
+    pub(crate) descent: Descent,
+}
+
+impl Bench<'_> {
+    /// Number of real data.
+    pub fn count(&self) -> usize {
+        self.noise.count()
+    }
+
+    /// Predicts every run; a run without a periodic answer is predicted to rest, and so fits nothing.
+    pub fn predict(
+        &self,
+        effects: &[Source],
+        settings: &Settings,
+        starts: &[Option<Response>],
+    ) -> Result<Vec<RunPrediction>, DiagnosisError> {
+        let run = |(r, run): (usize, &RunData)| {
+            self.control.check()?;
+            self.control.advance(PACE);
+            let start = starts.get(r).and_then(Option::as_ref);
+            let predicted = if *settings == FINAL {
+                self.predictor.predict_well(r, run, effects, start, self.control)
+            } else {
+                self.predictor.predict(r, run, effects, settings, start, self.control)
+            };
+            match predicted {
+                Ok(prediction) => Ok(prediction),
+                Err(ResponseError::Cancelled(cancelled)) => Err(cancelled.into()),
+                Err(_) => self.at_rest(r),
+            }
+        };
+        self.data.runs.iter().enumerate().map(run).collect()
+    }
+
+    fn at_rest(&self, r: usize) -> Result<RunPrediction, DiagnosisError> {
+        let run = &self.data.runs[r];
+        let mut silent = run.clone();
+        silent.forces.iter_mut().for_each(|f| f.measured.fill(c64::new(0.0, 0.0)));
+        let file = format!("number {}", run.index + 1);
+        let failed = |reason| DiagnosisError::Response { file, reason };
+        let resting = self.predictor.predict(r, &silent, &[], &SEARCH, None, self.control).map_err(failed)?;
+        Ok(RunPrediction { found: false, ..resting })
+    }
+
+    /// Whitened residual of all runs, real and imaginary parts, updating parameters eliminated.
+    pub fn residual(&self, predictions: &[RunPrediction]) -> Vec<f64> {
+        self.noise.updating.residual(self.at_reference(predictions))
+    }
+
+    /// Whitened residual of all runs with the updating parameters at their reference; what differs from run to run is
+    /// eliminated.
+    pub fn at_reference(&self, predictions: &[RunPrediction]) -> Vec<f64> {
+        let mut rows = Vec::with_capacity(self.count());
+        for (r, (run, prediction)) in self.data.runs.iter().zip(predictions).enumerate() {
+            self.whitened(r, &mut rows, |c, h| run.responses[c].measured[h - 1] - prediction.channels[c][h - 1]);
+        }
+        rows
+    }
+
+    pub fn whitened(&self, r: usize, rows: &mut Vec<f64>, value: impl Fn(usize, usize) -> c64) {
+        let mut own = self.noise.runs[r].rows(value);
+        self.noise.runs[r].nuisance().project(&mut own);
+        rows.extend(own);
+    }
+
+    /// Relative root mean square error of predictions over runs and channels.
+    pub fn error(&self, predictions: &[RunPrediction]) -> f64 {
+        let mut errors = Vec::new();
+        for (run, prediction) in self.data.runs.iter().zip(predictions) {
+            for (c, channel) in run.responses.iter().enumerate() {
+                let pairs = channel.measured.iter().zip(&prediction.channels[c]);
+                let difference: Vec<c64> = pairs.map(|(y, m)| y - m).collect();
+                let scale = run.scale(c);
+                errors.push(if scale > 0.0 { size(&difference) / scale } else { 0.0 });
+            }
+        }
+        root_mean_square(&errors)
+    }
+
+    /// Fits all parameters of `effects` from where they are.
+    pub fn refit(
+        &self,
+        effects: &[Source],
+        steps: usize,
+        settings: &Settings,
+        starts: &[Option<Response>],
+    ) -> Result<Refit, DiagnosisError> {
+        let (variables, start) = Variables::new(effects);
+        let (bench, settings, starts) = (*self, *settings, starts.to_vec());
+        let mut response = OnResponse { bench, variables: &variables, settings, starts, last: None };
+        let descent = descend(&mut response, &start, steps)?;
+        let trial = response.trial(&descent.theta)?;
+        Ok(finished(self, &variables, descent, trial))
+    }
+
+    /// Error on runs that were left out: groups of runs in turn, the parameters refitted without them (linearised).
+    pub fn held_out_error(&self, refit: &Refit) -> Result<f64, DiagnosisError> {
+        let (variables, _) = Variables::new(&refit.effects);
+        let folds = FOLDS.min(self.data.runs.len());
+        if folds < 2 {
+            return Ok(refit.error);
+        }
+        let mut rows = 0;
+        let mut fold_of_row = Vec::with_capacity(refit.descent.residual.len());
+        for (r, noise) in self.noise.runs.iter().enumerate() {
+            rows += noise.len();
+            fold_of_row.resize(rows, r % folds);
+        }
+        // The priors of updating parameters are never left out.
+        fold_of_row.resize(refit.descent.residual.len(), usize::MAX);
+        let mut predictions: Vec<Option<RunPrediction>> = vec![None; self.data.runs.len()];
+        for fold in 0..folds {
+            let theta = without(&refit.descent, &fold_of_row, fold);
+            let effects = variables.effects(&theta[..variables.len()]);
+            for (r, run) in self.data.runs.iter().enumerate().filter(|(r, _)| r % folds == fold) {
+                let start = refit.starts.get(r).and_then(Option::as_ref);
+                let predicted = self.predictor.predict(r, run, &effects, &FINAL, start, self.control);
+                predictions[r] = Some(predicted.or_else(|_| self.at_rest(r))?);
+            }
+        }
+        Ok(self.error(&predictions.into_iter().flatten().collect::<Vec<_>>()))
+    }
+}
+
+fn finished(bench: &Bench, variables: &Variables, descent: Descent, trial: Trial) -> Refit {
+    let effects = variables.effects(&descent.theta);
+    let slopes = variables.slopes(&descent.theta);
+    let all = descent.deviations();
+    let mut own = all.iter().zip(&slopes).map(|(d, s)| d * s.abs());
+    let deviations = effects.iter().map(|e| own.by_ref().take(e.parameters.len()).collect()).collect();
+    Refit {
+        chi_square: descent.chi_square,
+        parameters: variables.len(),
+        error: bench.error(&trial.predictions),
+        starts: starts_of(trial.predictions),
+        effects,
+        deviations,
+        descent,
+    }
+}
+
+/// The responses of predictions, for others to start from.
+pub(crate) fn starts_of(predictions: Vec<RunPrediction>) -> Starts {
+    predictions.into_iter().map(|p| p.found.then_some(p.response)).collect()
+}
+
+/// Variables of the linearised fit without the rows of one fold.
+fn without(descent: &Descent, fold_of_row: &[usize], fold: usize) -> Vec<f64> {
+    let n = descent.theta.len();
+    let kept = |column: &[f64], other: &[f64]| -> f64 {
+        let rows = column.iter().zip(other).zip(fold_of_row);
+        rows.filter(|(_, f)| **f != fold).map(|((a, b), _)| a * b).sum()
+    };
+    let j = |k: usize| descent.jacobian.col_as_slice(k);
+    let normal = Mat::from_fn(n, n, |a, b| kept(j(a), j(b)) + if a == b { 1e-12 } else { 0.0 });
+    let gradient = Mat::from_fn(n, 1, |k, _| kept(j(k), &descent.residual));
+    match crate::math::least_squares::solve_symmetric(normal.as_ref(), gradient.as_ref()) {
+        Ok(step) => (0..n).map(|k| descent.theta[k] - step[(k, 0)].clamp(-0.5, 0.5)).collect(),
+        Err(_) => descent.theta.clone(),
+    }
+}

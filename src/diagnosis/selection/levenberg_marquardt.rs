@@ -1,0 +1,336 @@
+//! Levenberg and Marquardt's method for a weighted residual of unit variance, and the variables it works in.
+//!
+//! Parameters that are positive are fitted in their logarithm, those within limits between them, others in units of
+//! their start, so that steps are of order one whatever the unit.
+
+use crate::effects::{Parameter, Source};
+use crate::math::least_squares::solve_symmetric;
+use dashpot_numerics::{Cholesky, transposed_product};
+use faer::Mat;
+
+/// Least and largest damping factor before a descent gives up.
+const DAMPING: [f64; 2] = [1e-9, 1e8];
+
+/// Added to the diagonal of a normal matrix of unit diagonal, so that its inverse exists.
+const RIDGE: f64 = 1e-12;
+
+/// One variable behind a parameter.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Variable {
+    /// `p = exp(theta)`.
+    Log,
+    /// `p = unit theta`.
+    Scaled(f64),
+    /// `p = low + (high - low) / (1 + exp(-theta))`.
+    Between(f64, f64),
+}
+
+impl Variable {
+    fn new(parameter: &Parameter, value: f64) -> Self {
+        if parameter.least.is_finite() && parameter.greatest.is_finite() {
+            Self::Between(parameter.least, parameter.greatest)
+        } else if parameter.least >= 0.0 {
+            Self::Log
+        } else {
+            Self::Scaled(if value == 0.0 { 1e-6 } else { value.abs() })
+        }
+    }
+
+    fn unknown_of(self, value: f64) -> f64 {
+        match self {
+            Self::Log => value.max(1e-300).ln(),
+            Self::Scaled(unit) => value / unit,
+            Self::Between(low, high) => {
+                let share = ((value - low) / (high - low)).clamp(1e-6, 1.0 - 1e-6);
+                (share / (1.0 - share)).ln()
+            }
+        }
+    }
+
+    fn to_value(self, theta: f64) -> f64 {
+        match self {
+            Self::Log => theta.clamp(-600.0, 600.0).exp(),
+            Self::Scaled(unit) => unit * theta,
+            Self::Between(low, high) => low + (high - low) / (1.0 + (-theta.clamp(-30.0, 30.0)).exp()),
+        }
+    }
+
+    /// Derivative of the parameter by the variable.
+    fn slope(self, theta: f64) -> f64 {
+        match self {
+            Self::Log => self.to_value(theta),
+            Self::Scaled(unit) => unit,
+            Self::Between(low, high) => {
+                let share = (self.to_value(theta) - low) / (high - low);
+                (high - low) * share * (1.0 - share)
+            }
+        }
+    }
+}
+
+/// The variables of the parameters of some effects, in order.
+#[derive(Debug, Clone)]
+pub(crate) struct Variables {
+    template: Vec<Source>,
+    variables: Vec<Variable>,
+}
+
+impl Variables {
+    /// All parameters of `effects`, with their variables at the start.
+    pub fn new(effects: &[Source]) -> (Self, Vec<f64>) {
+        let mut variables = Vec::new();
+        let mut start = Vec::new();
+        for effect in effects {
+            for (parameter, &value) in effect.effect.parameters().iter().zip(&effect.parameters) {
+                let variable = Variable::new(parameter, value);
+                variables.push(variable);
+                start.push(variable.unknown_of(value));
+            }
+        }
+        (Self { template: effects.to_vec(), variables }, start)
+    }
+
+    /// Number of variables.
+    pub fn len(&self) -> usize {
+        self.variables.len()
+    }
+
+    /// The effects at `theta`.
+    pub fn effects(&self, theta: &[f64]) -> Vec<Source> {
+        let mut effects = self.template.clone();
+        let values = self.variables.iter().zip(theta).map(|(v, &t)| v.to_value(t));
+        effects.iter_mut().flat_map(|e| e.parameters.iter_mut()).zip(values).for_each(|(p, v)| *p = v);
+        effects
+    }
+
+    /// Derivative of each parameter by its variable.
+    pub fn slopes(&self, theta: &[f64]) -> Vec<f64> {
+        self.variables.iter().zip(theta).map(|(v, &t)| v.slope(t)).collect()
+    }
+}
+
+/// Where a descent ended.
+#[derive(Debug, Clone)]
+pub(crate) struct Descent {
+    pub theta: Vec<f64>,
+    pub chi_square: f64,
+    /// Residual of unit variance at `theta`.
+    pub residual: Vec<f64>,
+    /// Its derivative, one column a variable.
+    pub jacobian: Mat<f64>,
+    /// By how much the squared residual would still fall were the derivative the same everywhere.
+    pub to_go: f64,
+}
+
+impl Descent {
+    /// Standard deviations of the variables for a residual of unit variance; infinite where the data say nothing, very
+    /// large where they cannot tell variables apart. A variable that does nothing leaves those of the others alone.
+    pub fn deviations(&self) -> Vec<f64> {
+        let n = self.theta.len();
+        let normal = transposed_product(self.jacobian.as_ref(), self.jacobian.as_ref());
+        let sizes: Vec<f64> = (0..n).map(|i| normal[(i, i)].max(0.0).sqrt()).collect();
+        let largest = sizes.iter().fold(0.0_f64, |m, &s| m.max(s));
+        let seen: Vec<usize> = (0..n).filter(|&i| sizes[i] > 1e-9 * largest && sizes[i].is_finite()).collect();
+        let scaled = Mat::from_fn(seen.len(), seen.len(), |a, b| {
+            let (i, j) = (seen[a], seen[b]);
+            normal[(i, j)] / (sizes[i] * sizes[j]) + if a == b { RIDGE } else { 0.0 }
+        });
+        let mut deviations = vec![f64::INFINITY; n];
+        if let Ok(inverse) = solve_symmetric(scaled.as_ref(), Mat::<f64>::identity(seen.len(), seen.len()).as_ref()) {
+            for (a, &i) in seen.iter().enumerate() {
+                deviations[i] = inverse[(a, a)].max(0.0).sqrt() / sizes[i];
+            }
+        }
+        deviations
+    }
+}
+
+/// A residual as a function of the variables.
+pub(crate) trait Residual {
+    /// Error that stops the descent.
+    type Error;
+    /// Residual of unit variance.
+    fn residual(&mut self, theta: &[f64]) -> Result<Vec<f64>, Self::Error>;
+    /// Its derivative at `theta`, where the residual is `at`.
+    fn jacobian(&mut self, theta: &[f64], at: &[f64]) -> Result<Mat<f64>, Self::Error>;
+}
+
+/// A descent has arrived when no more than this is to be gained, in units of the squared residual per datum.
+const ARRIVED: f64 = 0.02;
+/// Steps in a row that gain no more than that before a descent gives up.
+const IDLE: usize = 3;
+
+/// Longest step, in natural units (a logarithm, a prior deviation), and the damping up to which it is raised to keep within.
+const LONGEST: f64 = 1.5;
+const FIRM: f64 = 1.0;
+/// Damping up to which steps are straight: beyond, the valley bends.
+const STRAIGHT: f64 = 1e-2;
+/// Share of a step at which its bend is measured, and largest share of the bend in the step.
+const AHEAD: f64 = 0.1;
+const BENT: f64 = 0.4;
+
+/// Descends from `theta` in at most `steps` steps.
+pub(crate) fn descend<R: Residual>(problem: &mut R, theta: &[f64], steps: usize) -> Result<Descent, R::Error> {
+    let mut theta = theta.to_vec();
+    let mut residual = problem.residual(&theta)?;
+    let mut chi_square = square(&residual);
+    let mut jacobian = problem.jacobian(&theta, &residual)?;
+    let mut equations = Normal::new(&jacobian, &residual);
+    let (mut damping, mut idle) = (1e-3, 0);
+    for _ in 0..steps {
+        let enough = ARRIVED * (chi_square / residual.len().max(1) as f64).max(1.0);
+        if equations.to_go() < enough {
+            break;
+        }
+        let Some((next, after, chi)) = step(problem, &theta, (&residual, &jacobian), &equations, &mut damping)? else {
+            break;
+        };
+        idle = if chi_square - chi < enough { idle + 1 } else { 0 };
+        (theta, residual, chi_square) = (next, after, chi);
+        jacobian = problem.jacobian(&theta, &residual)?;
+        equations = Normal::new(&jacobian, &residual);
+        if idle == IDLE {
+            break;
+        }
+    }
+    Ok(Descent { theta, chi_square, residual, jacobian, to_go: equations.to_go() })
+}
+
+/// Normal equations of a linearised residual: `N move = g`.
+struct Normal {
+    matrix: Mat<f64>,
+    gradient: Mat<f64>,
+}
+
+impl Normal {
+    fn new(jacobian: &Mat<f64>, residual: &[f64]) -> Self {
+        let product = |k: usize| jacobian.col_as_slice(k).iter().zip(residual).map(|(j, r)| j * r).sum();
+        Self {
+            matrix: transposed_product(jacobian.as_ref(), jacobian.as_ref()),
+            gradient: Mat::from_fn(jacobian.ncols(), 1, |k, _| product(k)),
+        }
+    }
+
+    /// `(N + damping diag N)^-1 g`.
+    fn move_by(&self, damping: f64) -> Option<Mat<f64>> {
+        self.solve(damping, &self.gradient)
+    }
+
+    /// `(N + damping diag N)^-1` of a column.
+    fn solve(&self, damping: f64, column: &Mat<f64>) -> Option<Mat<f64>> {
+        let n = column.nrows();
+        let damped = Mat::from_fn(n, n, |i, j| {
+            self.matrix[(i, j)] + if i == j { damping * self.matrix[(i, i)].max(1e-12) + 1e-12 } else { 0.0 }
+        });
+        solve_symmetric(damped.as_ref(), column.as_ref()).ok()
+    }
+
+    /// `g^T N^-1 g`.
+    fn to_go(&self) -> f64 {
+        let Some(full) = self.move_by(DAMPING[0]) else { return f64::INFINITY };
+        let gain: f64 = (0..full.nrows()).map(|k| full[(k, 0)] * self.gradient[(k, 0)]).sum();
+        gain.max(0.0)
+    }
+}
+
+/// The next point of a descent with its residual.
+type Point = (Vec<f64>, Vec<f64>, f64);
+
+/// A step that lowers the residual, whose value and derivative at `theta` are given; none if there is no such step.
+fn step<R: Residual>(
+    problem: &mut R,
+    theta: &[f64],
+    (residual, jacobian): (&[f64], &Mat<f64>),
+    equations: &Normal,
+    damping: &mut f64,
+) -> Result<Option<Point>, R::Error> {
+    let chi_square = square(residual);
+    while *damping < DAMPING[1] {
+        if let Some(straight) = equations.move_by(*damping) {
+            let straight: Vec<f64> = (0..theta.len()).map(|k| -straight[(k, 0)]).collect();
+            // What the data hardly know would run away, and cut short with it all the others would hardly move.
+            let largest = straight.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+            if largest > LONGEST && *damping < FIRM {
+                *damping *= 4.0;
+                continue;
+            }
+            let share = if largest > LONGEST { LONGEST / largest } else { 1.0 };
+            let moved = |by: &[f64]| -> Vec<f64> { theta.iter().zip(by).map(|(x, d)| x + share * d).collect() };
+            let bend = if *damping > STRAIGHT && share == 1.0 {
+                bend(problem, theta, (residual, jacobian), equations, *damping, &straight)?
+            } else {
+                None
+            };
+            let next = moved(bend.as_ref().unwrap_or(&straight));
+            let after = problem.residual(&next)?;
+            let chi = square(&after);
+            if chi.is_finite() && chi < chi_square {
+                *damping = (*damping * 0.2).max(DAMPING[0]);
+                return Ok(Some((next, after, chi)));
+            }
+            if share == 1.0 && (chi_square - chi).abs() < 1e-9 * chi_square {
+                return Ok(None);
+            }
+        }
+        *damping *= 8.0;
+    }
+    Ok(None)
+}
+
+/// The step along the valley, which bends: the straight one and half the geodesic acceleration (Transtrum, Machta and
+/// Sethna 2011), from the second derivative of the residual in its direction; none where that says nothing.
+fn bend<R: Residual>(
+    problem: &mut R,
+    theta: &[f64],
+    (residual, jacobian): (&[f64], &Mat<f64>),
+    equations: &Normal,
+    damping: f64,
+    straight: &[f64],
+) -> Result<Option<Vec<f64>>, R::Error> {
+    let there: Vec<f64> = theta.iter().zip(straight).map(|(x, d)| x + AHEAD * d).collect();
+    let after = problem.residual(&there)?;
+    let slope = |i: usize| (0..theta.len()).map(|k| jacobian[(i, k)] * straight[k]).sum::<f64>();
+    let second: Vec<f64> = (after.iter().zip(residual).enumerate())
+        .map(|(i, (b, a))| 2.0 / AHEAD * ((b - a) / AHEAD - slope(i)))
+        .collect();
+    let product = |k: usize| jacobian.col_as_slice(k).iter().zip(&second).map(|(j, r)| j * r).sum();
+    let column = Mat::from_fn(theta.len(), 1, |k, _| product(k));
+    let Some(acceleration) = equations.solve(damping, &column) else { return Ok(None) };
+    let size = |x: &[f64]| x.iter().map(|x| x * x).sum::<f64>().sqrt();
+    let half: Vec<f64> = (0..theta.len()).map(|k| -0.5 * acceleration[(k, 0)]).collect();
+    let small = size(&half) <= BENT * size(straight);
+    Ok(small.then(|| straight.iter().zip(&half).map(|(s, h)| s + h).collect()))
+}
+
+fn square(residual: &[f64]) -> f64 {
+    residual.iter().map(|r| r * r).sum()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Rosenbrock's valley: `10 (y - x^2)` and `1 - x`.
+    struct Valley(usize);
+
+    impl Residual for Valley {
+        type Error = std::convert::Infallible;
+
+        fn residual(&mut self, at: &[f64]) -> Result<Vec<f64>, Self::Error> {
+            self.0 += 1;
+            Ok(vec![10.0 * (at[1] - at[0] * at[0]), 1.0 - at[0]])
+        }
+
+        fn jacobian(&mut self, at: &[f64], _: &[f64]) -> Result<Mat<f64>, Self::Error> {
+            Ok(Mat::from_fn(2, 2, |i, j| [[-20.0 * at[0], 10.0], [-1.0, 0.0]][i][j]))
+        }
+    }
+
+    #[test]
+    fn a_descent_follows_a_valley_that_bends() {
+        let mut valley = Valley(0);
+        let Ok(descent) = descend(&mut valley, &[-1.2, 1.0], 200);
+        assert!((descent.theta[0] - 1.0).abs() < 1e-2, "{:?}", descent.theta);
+        assert!(valley.0 < 60, "{} residuals", valley.0);
+    }
+}

@@ -1,0 +1,12 @@
+//! Fits on the response, stepwise selection of effects, conclusions, the next test.
+
+pub mod conclusion;
+pub mod fit_problem;
+pub mod fits;
+pub mod fitted_model;
+pub mod levenberg_marquardt;
+pub mod next_test;
+pub mod search;
+pub mod sentences;
+pub mod stepwise;
+pub mod updated;

@@ -1,0 +1,388 @@
+//! The search for one more effect, or two at once: places first, then laws, then the fit on the response.
+
+use crate::control::Control;
+use crate::diagnosis::candidates::identified_force::{PlaceData, shrunk};
+use crate::diagnosis::candidates::special_cases::{disguised, is_allowed, is_limit, limits, simpler};
+use crate::diagnosis::candidates::start::Fields;
+use crate::diagnosis::compare::transfers;
+use crate::diagnosis::diagnose::Early;
+use crate::diagnosis::localisation::free_force::{FreeForce, Freedom, Placing, Screen};
+use crate::diagnosis::localisation::location::{Receptances, Spot};
+use crate::diagnosis::residual::data::{Data, DiagnosisError};
+use crate::diagnosis::residual::prediction::{FINAL, Predictor, RunPrediction};
+use crate::diagnosis::residual::whitening::Whitening;
+use crate::diagnosis::selection::fitted_model::{Bench, Refit};
+use crate::diagnosis::updating::noise_model::{Linearisation, NoiseModel};
+use crate::effects::{Effect, Source};
+use crate::math::statistics::bayesian_information;
+use faer::{Mat, c64};
+use std::sync::Arc;
+
+/// Places whose laws are looked at.
+const PLACES: usize = 24;
+/// Places whose laws are looked at before the others.
+const AHEAD: usize = 2;
+/// Pairs of places whose laws are looked at.
+const PAIRS: usize = 48;
+/// Sets that are fitted on the response.
+const REFITS: usize = 10;
+/// Most laws of one place that are fitted on the response.
+const LAWS_AT_ONE_PLACE: usize = 4;
+/// What every parameter of a law beyond its first costs in evidence besides its information criterion: where one law
+/// contains another as a limit, the simpler wins unless the data demand the other.
+const EXTRA: f64 = 8.0;
+/// What a law costs that is fitted next to a simpler one: records are not so exact that they could tell.
+const POSING: f64 = 20.0;
+/// Drafts whose score is this many times that of the best are not fitted.
+const HOPELESS: f64 = 5.0;
+/// Score, in units of that of a draft, below which a simpler one is as good for a start.
+const CLEARLY: f64 = 1.5;
+/// Places at which the law found is tried too, where no law can tell them apart.
+const ELSEWHERE: usize = 6;
+
+/// A set of effects with its score before it is fitted on the response.
+#[derive(Debug, Clone)]
+pub(crate) struct Draft {
+    pub effects: Vec<Source>,
+    pub score: f64,
+    /// Motion that the data show if the effects are right.
+    pub(crate) fields: Arc<Fields>,
+}
+
+/// Everything that a search needs about one base model.
+pub(crate) struct Base<'a> {
+    /// The known model, its updating parameters at their reference.
+    pub predictor: Arc<Predictor>,
+    pub data: &'a Data,
+    pub control: &'a Control,
+    /// What updating parameters do, at their reference.
+    pub linearisation: Arc<Linearisation>,
+    /// Predictions of the base model.
+    pub predictions: Vec<RunPrediction>,
+    /// Noise of the residuals.
+    pub noise: Arc<NoiseModel>,
+    /// Who is told of the first suggestions.
+    pub early: &'a Early<'a>,
+}
+
+/// The residual of a model seen from every place.
+pub(crate) struct View<'a> {
+    pub(crate) screen: Screen,
+    receptances: Receptances<'a>,
+    predictions: Vec<RunPrediction>,
+}
+
+impl<'a> Base<'a> {
+    /// The known model itself.
+    pub fn new(
+        predictor: Arc<Predictor>,
+        data: &'a Data,
+        control: &'a Control,
+        early: &'a Early<'a>,
+    ) -> Result<Self, DiagnosisError> {
+        let (linearisation, noise) = (Arc::default(), Arc::default());
+        let mut base = Self { predictor, data, control, linearisation, predictions: Vec::new(), noise, early };
+        base.predictions = base.bench().predict(&[], &FINAL, &[])?;
+        base.noise = Arc::new(base.noise_of(&[], &base.predictions)?);
+        Ok(base)
+    }
+
+    /// Noise of the residual of a model with `effects` and its predictions.
+    pub fn noise_of(&self, effects: &[Source], of: &[RunPrediction]) -> Result<NoiseModel, DiagnosisError> {
+        let runs = self.data.runs.iter().enumerate();
+        let runs: Result<Vec<Whitening>, DiagnosisError> = runs
+            .map(|(r, run)| {
+                let file = format!("number {}", run.index + 1);
+                let failed = |reason| DiagnosisError::Response { file, reason };
+                let a = transfers(&self.predictor, r, run, effects, self.control).map_err(failed)?;
+                Ok(Whitening::new(run, &a, &of[r].truncation))
+            })
+            .collect();
+        Ok(NoiseModel::new(runs?, self.data, &self.linearisation))
+    }
+
+    /// What fits on the response are made with.
+    pub fn bench(&self) -> Bench<'_> {
+        Bench { predictor: &self.predictor, data: self.data, noise: &self.noise, control: self.control }
+    }
+
+    /// Number of real data.
+    pub fn count(&self) -> usize {
+        self.noise.count()
+    }
+
+    /// The residual of the known model, or of a fit, seen from every place.
+    pub(crate) fn view(&self, of: Option<&Refit>) -> Result<View<'_>, DiagnosisError> {
+        let effects = of.map_or(&[][..], |refit| &refit.effects);
+        let mut receptances = Receptances::new(&self.predictor, self.data, effects);
+        let predictions = match of {
+            None => self.predictions.clone(),
+            Some(refit) => self.bench().predict(effects, &FINAL, &refit.starts)?,
+        };
+        let (data, noise) = (self.data, &*self.noise);
+        let freedom = Freedom {
+            values: self.linearisation.updating.standardised(),
+            slopes: self.linearisation.fundamentals(),
+            own: self.linearisation.own_fundamentals(data),
+        };
+        let screen = Screen::new(&self.predictor, data, &predictions, noise, &mut receptances, &freedom, self.control)?;
+        Ok(View { screen, receptances, predictions })
+    }
+
+    /// Sets of the effects of `from` and one more, fitted on the response, best first by evidence.
+    pub fn singles(&self, from: Option<&Refit>) -> Result<Vec<Refit>, DiagnosisError> {
+        let mut view = self.view(from)?;
+        let effects = from.map_or(&[][..], |refit| &refit.effects);
+        let mut drafts = Vec::new();
+        let placings = self.worth_while(&mut view, effects)?;
+        for (placing, laws) in placings.iter().zip(self.all_laws(&mut view, &placings, effects)?) {
+            let options = laws.into_iter().flatten();
+            drafts.extend(options.map(|d| Draft { score: d.score + placing.chi_square, ..d }));
+        }
+        let mut drafts = short_list(drafts, REFITS);
+        drafts.iter_mut().for_each(|d| d.effects = joined(effects, &d.effects));
+        let mut begun = self.begun(&drafts)?;
+        begun.extend(self.whole(from, crate::diagnosis::selection::fits::FIRST_STEPS)?);
+        Ok(self.ranked(self.finished(begun)?))
+    }
+
+    /// Sets of two new effects at the pairs of places that explain most.
+    pub fn pairs(&self) -> Result<Vec<Refit>, DiagnosisError> {
+        let mut view = self.view(None)?;
+        let mut drafts = Vec::new();
+        let placings = view.screen.pairs(PAIRS);
+        for (placing, options) in placings.iter().zip(self.all_laws(&mut view, &placings, &[])?) {
+            let [first, second] = &options[..] else { continue };
+            for a in first.iter().take(3) {
+                for b in second.iter().take(3) {
+                    let score = placing.chi_square + a.score + b.score;
+                    drafts.push(Draft { effects: joined(&a.effects, &b.effects), score, fields: a.fields.clone() });
+                }
+            }
+        }
+        drafts.sort_by(|a, b| a.score.total_cmp(&b.score));
+        drafts = needed(drafts);
+        drafts.truncate(REFITS);
+        let bound = hopeless(drafts.first().map_or(f64::INFINITY, |best| best.score));
+        drafts.retain(|d| d.score < bound);
+        Ok(self.ranked(self.refit_all(&drafts)?))
+    }
+
+    /// The free force of the place of `source` when the model has the other effects of `refit`; none for whole-structure
+    /// laws.
+    pub fn place_data(&self, refit: &Refit, source: &Source) -> Result<Option<PlaceData>, DiagnosisError> {
+        let mut others = refit.clone();
+        others.effects.retain(|e| !e.is_same(source));
+        others.starts.clear();
+        let mut view = self.view(Some(&others))?;
+        let Some(at) = view.screen.spots.iter().position(|spot| spot.place().is_same(&source.place)) else {
+            return Ok(None);
+        };
+        self.need(&mut view, &[at])?;
+        let (forces, fields) = self.free(&view, &[at]);
+        Ok(Some(self.at_place(&view, at, &forces[0], &fields)))
+    }
+
+    /// The set `best` with its effect `source` at other places that leave no more than `margin` beyond what its own place
+    /// leaves to a free force.
+    pub fn elsewhere(&self, best: &Refit, source: &Source, margin: f64) -> Result<Vec<Refit>, DiagnosisError> {
+        let mut others = best.clone();
+        others.effects.retain(|e| !e.is_same(source));
+        others.starts.clear();
+        let mut view = self.view(Some(&others))?;
+        let placings = view.screen.singles();
+        let place = |view: &View, p: &Placing| view.screen.spots[p.spots[0]].place();
+        let Some(own) = placings.iter().find(|p| place(&view, p).is_same(&source.place)) else { return Ok(Vec::new()) };
+        let near: Vec<Placing> = placings
+            .iter()
+            .filter(|p| p.chi_square < own.chi_square + margin && !place(&view, p).is_same(&source.place))
+            .take(ELSEWHERE)
+            .cloned()
+            .collect();
+        let mut drafts = Vec::new();
+        for options in self.all_laws(&mut view, &near, &others.effects)? {
+            let same = options.into_iter().flatten().find(|d| d.effects[0].effect == source.effect);
+            drafts.extend(same.map(|d| Draft { effects: joined(&others.effects, &d.effects), ..d }));
+        }
+        self.refit_all(&drafts)
+    }
+
+    /// Computes the receptances of the spots.
+    pub(crate) fn need(&self, view: &mut View, spots: &[usize]) -> Result<(), DiagnosisError> {
+        for &s in spots {
+            if let Spot::Leg(leg) = view.screen.spots[s] {
+                view.receptances.need_leg(leg, self.control)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Free forces of the spots of a placing, and the motion they imply; their receptances are there.
+    pub(crate) fn free(&self, view: &View, spots: &[usize]) -> (Vec<Vec<Vec<FreeForce>>>, Fields) {
+        let forces = view.screen.forces(spots);
+        let n = self.predictor.structure().len();
+        let field = |(r, run): (usize, &crate::diagnosis::residual::data::RunData)| {
+            let response = &view.predictions[r].response;
+            let mut field = Mat::from_fn(n, run.harmonics, |i, h| response.amplitude(i, h + 1));
+            for (&s, list) in spots.iter().zip(&forces) {
+                let Spot::Leg(leg) = view.screen.spots[s] else { continue };
+                for h in 1..=run.harmonics {
+                    let force = shrunk(&list[r], h);
+                    for i in 0..n {
+                        field[(i, h - 1)] -= leg.relative(|j| view.receptances.entry(r, h, i, j)) * force;
+                    }
+                }
+            }
+            field
+        };
+        let fields: Vec<Mat<c64>> = self.data.runs.iter().enumerate().map(field).collect();
+        (forces, fields)
+    }
+
+    /// The free `forces` of spot `s` with the motion `fields` that they imply.
+    pub(crate) fn at_place(&self, view: &View, s: usize, forces: &[Vec<FreeForce>], fields: &Fields) -> PlaceData {
+        let spot = &view.screen.spots[s];
+        let impedance = |(r, run): (usize, &crate::diagnosis::residual::data::RunData)| match spot {
+            Spot::Leg(leg) => view.receptances.impedance(r, run, *leg),
+            Spot::Response(_) | Spot::Force(_) => 0.0,
+        };
+        let impedances = self.data.runs.iter().enumerate().map(impedance).collect();
+        PlaceData::new(self.data, spot, forces, fields, impedances)
+    }
+
+    /// Places whose laws may become the best: what the best place leaves to its best law bounds what others may leave.
+    fn worth_while(&self, view: &mut View, effects: &[Source]) -> Result<Vec<Placing>, DiagnosisError> {
+        let mut placings = view.screen.singles();
+        placings.truncate(PLACES);
+        let first = &placings[..placings.len().min(AHEAD)];
+        let scores = self.all_laws(view, first, effects)?.into_iter().zip(first).filter_map(|(laws, placing)| {
+            let best = laws.into_iter().flatten().map(|d| d.score).fold(f64::INFINITY, f64::min);
+            (best < f64::INFINITY).then_some(best + placing.chi_square)
+        });
+        let bound = hopeless(scores.fold(f64::INFINITY, f64::min));
+        placings.retain(|p| p.chi_square < bound);
+        Ok(placings)
+    }
+
+    /// [`Self::laws`] of every placing.
+    fn all_laws(
+        &self,
+        view: &mut View,
+        placings: &[Placing],
+        effects: &[Source],
+    ) -> Result<Vec<Vec<Vec<Draft>>>, DiagnosisError> {
+        for placing in placings {
+            self.need(view, &placing.spots)?;
+        }
+        let view = &*view;
+        let of = |k: usize| {
+            self.control.check()?;
+            Ok(self.laws(view, &placings[k], effects))
+        };
+        self.control.map(placings.len(), of).into_iter().collect()
+    }
+
+    /// Laws fitted to the free forces of each spot of a placing, best first; the score is their misfit with its penalty.
+    fn laws(&self, view: &View, placing: &Placing, effects: &[Source]) -> Vec<Vec<Draft>> {
+        let (forces, fields) = self.free(view, &placing.spots);
+        let fields = Arc::new(fields);
+        let of = |(&s, forces): (&usize, &Vec<Vec<FreeForce>>)| {
+            let data = self.at_place(view, s, forces, &fields);
+            let fresh = |source: &Source| !effects.iter().any(|e| e.is_same(source)) && self.data.allows(source);
+            let mut drafts: Vec<Draft> = data
+                .fits()
+                .into_iter()
+                .filter(|fit| fresh(&fit.source))
+                .map(|fit| {
+                    let score = bayesian_information(fit.misfit, fit.source.parameters.len(), data.count());
+                    Draft { effects: vec![fit.source], score, fields: fields.clone() }
+                })
+                .collect();
+            drafts.sort_by(|a, b| a.score.total_cmp(&b.score));
+            drafts
+        };
+        placing.spots.iter().zip(&forces).map(of).collect()
+    }
+
+    /// The same model and data without what was computed of them.
+    pub fn shallow(&self) -> Base<'a> {
+        Base {
+            predictor: self.predictor.clone(),
+            data: self.data,
+            control: self.control,
+            linearisation: self.linearisation.clone(),
+            predictions: Vec::new(),
+            noise: Arc::default(),
+            early: self.early,
+        }
+    }
+
+    /// Information criterion of a fit, its squared residual scaled by what the best model leaves beyond the noise.
+    pub fn evidence(&self, refit: &Refit, scale: f64) -> f64 {
+        let fit = bayesian_information(refit.chi_square / scale.max(1.0), refit.parameters, self.count());
+        let extra: usize = refit.effects.iter().map(|e| e.parameters.len() - 1).sum();
+        let posing = refit.effects.iter().filter(|e| simpler(e).is_some()).count();
+        fit + EXTRA * extra as f64 + POSING * posing as f64
+    }
+
+    /// Best first; none of more parameters than runs.
+    pub fn ranked(&self, mut refits: Vec<Refit>) -> Vec<Refit> {
+        let allowed = |(e, d): (&Source, &Vec<f64>)| !disguised(e) && is_allowed(&self.data.excluded, e, d);
+        let few = |r: &Refit| r.parameters <= self.data.runs.len();
+        refits.retain(|r| r.chi_square.is_finite() && few(r) && r.effects.iter().zip(&r.deviations).all(allowed));
+        let scale = scale_of(&refits, self.count());
+        refits.sort_by(|a, b| self.evidence(a, scale).total_cmp(&self.evidence(b, scale)));
+        refits
+    }
+}
+
+/// Squared residual per datum of the best fit, at least 1.
+pub(crate) fn scale_of(refits: &[Refit], count: usize) -> f64 {
+    let least = refits.iter().map(|r| r.chi_square / count.saturating_sub(r.parameters).max(1) as f64);
+    least.fold(f64::INFINITY, f64::min).clamp(1.0, 1e12)
+}
+
+pub(crate) fn joined(first: &[Source], second: &[Source]) -> Vec<Source> {
+    first.iter().chain(second).cloned().collect()
+}
+
+/// Score beyond which drafts are not fitted where the best has the score `best`.
+fn hopeless(best: f64) -> f64 {
+    HOPELESS * best.abs() + 300.0
+}
+
+/// Drafts without falling friction where plain friction explains the free forces as well: its responses take longest, and it
+/// is fitted where plain friction leaves something.
+fn needed(drafts: Vec<Draft>) -> Vec<Draft> {
+    let falling = |d: &Draft| d.effects.iter().filter(|e| e.effect == Effect::Stribeck).count();
+    let plainer = |a: &Draft, b: &Draft| falling(a) < falling(b) && is_limit(&a.effects, &b.effects);
+    let needless = |d: &Draft| drafts.iter().any(|s| s.score < CLEARLY * d.score.abs() && plainer(s, d));
+    drafts.iter().filter(|d| !needless(d)).cloned().collect()
+}
+
+/// The best drafts, no more than a few at one place, each with the simpler laws that it contains as limits.
+fn short_list(mut drafts: Vec<Draft>, most: usize) -> Vec<Draft> {
+    drafts.sort_by(|a, b| a.score.total_cmp(&b.score));
+    let hopeless = hopeless(drafts.first().map_or(f64::INFINITY, |best| best.score));
+    let mut kept: Vec<Draft> = Vec::new();
+    for draft in drafts.iter().filter(|d| d.score < hopeless) {
+        let here = kept.iter().filter(|k| k.effects[0].place == draft.effects[0].place).count();
+        if here < LAWS_AT_ONE_PLACE {
+            kept.push(draft.clone());
+        }
+        if kept.len() == most {
+            break;
+        }
+    }
+    for draft in kept.clone().iter().take(LAWS_AT_ONE_PLACE) {
+        let (effect, place) = (draft.effects[0].effect, &draft.effects[0].place);
+        for simpler in limits(effect) {
+            let is = |d: &&Draft| d.effects[0].effect == *simpler && d.effects[0].place == *place;
+            if kept.iter().any(|d| is(&d)) {
+                continue;
+            }
+            kept.extend(drafts.iter().find(is).cloned());
+        }
+    }
+    kept
+}

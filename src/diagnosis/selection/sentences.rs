@@ -1,0 +1,45 @@
+//! The sentences an engineer would say for a suggestion.
+
+use crate::diagnosis::candidates::fingerprint::fingerprint;
+use crate::diagnosis::diagnose::Added;
+use crate::diagnosis::residual::data::DiagnosisError;
+use crate::diagnosis::selection::fitted_model::Refit;
+use crate::diagnosis::selection::search::Base;
+use crate::effects::{Place, Source};
+use crate::math::numerals::with_deviation;
+
+/// The sentences for an effect of the set `best`.
+pub(crate) fn sentences(
+    base: &Base,
+    added: &Added,
+    best: &Refit,
+    before: f64,
+    after: f64,
+) -> Result<Vec<String>, DiagnosisError> {
+    let source = &added.source;
+    let mut said = vec![source.effect.sentence().to_string(), values(source, &added.deviations)];
+    said.push(format!("With it alone the error goes from {:.3} % to {:.3} %.", 100.0 * before, 100.0 * after));
+    match &source.place {
+        Place::Dofs(_) => {
+            if let Some(data) = base.place_data(best, source)?
+                && let Some(found) = fingerprint(&data)
+            {
+                said.extend(found.sentences());
+            }
+        }
+        Place::Channel(channel) => {
+            said.push(format!("All other channels agree with the model once {channel} is corrected."));
+        }
+        Place::Whole(_) => said.push("It acts on every mode; no single place explains it.".to_string()),
+    }
+    Ok(said)
+}
+
+/// Parameters with their deviations and units.
+pub(crate) fn values(source: &Source, deviations: &[f64]) -> String {
+    let list = source.effect.parameters().iter().zip(&source.parameters).zip(deviations);
+    let each: Vec<String> = list
+        .map(|((p, value), d)| format!("{} = {} {}", p.name, with_deviation(*value, *d), p.unit).trim_end().to_string())
+        .collect();
+    format!("Fitted on the response: {}.", each.join(", "))
+}

@@ -1,0 +1,120 @@
+//! Is the model detuned, or does it lack an effect? What the corrections of what it states (all stiffness, all mass, the
+//! sizes of known sources, within what models are usually wrong by) would do to the residual on their own.
+//!
+//! ```text
+//! share = (chi^2 - chi^2 with corrections) / (chi^2 - N)
+//! ```
+
+use crate::control::Control;
+use crate::diagnosis::diagnose::Correction;
+use crate::diagnosis::residual::data::{Data, DiagnosisError, Problem};
+use crate::diagnosis::residual::prediction::Predictor;
+use crate::diagnosis::selection::conclusion::corrections;
+use crate::diagnosis::selection::search::Base;
+use crate::diagnosis::selection::stepwise::agrees;
+use crate::diagnosis::updating::parameters::UpdatingParameter;
+use std::sync::Arc;
+
+/// Share of the squared residual from which on corrections explain most of it.
+const MOST: f64 = 0.9;
+
+/// What a comparison says of the model.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Reading {
+    /// It agrees with the data as it is.
+    Agrees,
+    /// Corrections of what it states bring it down to the noise.
+    Detuned,
+    /// They explain most, but not all.
+    DetunedAndMissing,
+    /// They do not explain it, or only by more than models are wrong by.
+    Missing,
+}
+
+impl Reading {
+    /// Word in files.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Agrees => "agrees",
+            Self::Detuned => "detuned",
+            Self::DetunedAndMissing => "detuned and missing",
+            Self::Missing => "missing",
+        }
+    }
+
+    /// The same in a sentence.
+    pub fn sentence(self) -> &'static str {
+        match self {
+            Self::Agrees => "the model agrees with the data to the noise",
+            Self::Detuned => {
+                "the model is detuned: its own numbers, corrected, bring it down to the noise; no effect is missing"
+            }
+            Self::DetunedAndMissing => "the model is detuned, and beyond that an effect is missing",
+            Self::Missing => {
+                "an effect is missing: no likely correction of the model's own numbers explains the difference"
+            }
+        }
+    }
+}
+
+/// What corrections alone would do.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Detuning {
+    /// What that says.
+    pub reading: Reading,
+    /// Share of the squared residual beyond the noise that they explain, 0 to 1.
+    pub share: f64,
+    /// Relative error with them.
+    pub error_after: f64,
+    /// The corrections.
+    pub corrections: Vec<Correction>,
+}
+
+/// Tells a detuned model from one that lacks an effect; none for `points`, which state nothing to correct.
+///
+/// # Errors
+/// What keeps the model from being compared.
+pub fn detuning(problem: &Problem, control: &Control) -> Result<Option<Detuning>, DiagnosisError> {
+    if problem.structure.matrices().is_none() {
+        return Ok(None);
+    }
+    let data = Data::new(problem)?;
+    let predictor = Arc::new(Predictor::new(problem.structure, problem.known(), &data)?);
+    let base = Base::new(predictor, &data, control, &|_| {})?;
+    let bench = base.bench();
+    let before = square(&bench.residual(&base.predictions));
+    if agrees(&base, before, 0) {
+        let error_after = bench.error(&base.predictions);
+        return Ok(Some(Detuning { reading: Reading::Agrees, share: 0.0, error_after, corrections: Vec::new() }));
+    }
+    let bare = base.bare()?;
+    let after = square(&bare.bench().residual(&bare.predictions));
+    let noise = base.count() as f64;
+    let share = ((before - after) / (before - noise).max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
+    let reading = match (likely(&bare), agrees(&bare, after, 0)) {
+        (true, true) => Reading::Detuned,
+        (true, false) if share > MOST => Reading::DetunedAndMissing,
+        _ => Reading::Missing,
+    };
+    let error_after = bare.bench().error(&bare.predictions);
+    Ok(Some(Detuning { reading, share, error_after, corrections: corrections(&bare, &bare.predictions) }))
+}
+
+/// Largest correction of a number of the model, as a logarithm, that is believed without looking for an effect.
+const LIKELY: f64 = 0.1;
+/// The same for the size of a known source.
+const LIKELY_SIZE: f64 = 0.5;
+
+/// Whether no updating parameter is farther from nothing than models are wrong: else an effect may pass for a correction.
+fn likely(base: &Base) -> bool {
+    let updating = &base.linearisation.updating;
+    updating.parameters.iter().zip(&updating.values).all(|(parameter, v)| match parameter {
+        UpdatingParameter::Structure(_) => v.abs() < LIKELY,
+        UpdatingParameter::Known(_) => v.abs() < LIKELY_SIZE,
+        UpdatingParameter::Gain(_) | UpdatingParameter::Delay(_) => true,
+    })
+}
+
+fn square(values: &[f64]) -> f64 {
+    values.iter().map(|x| x * x).sum()
+}

@@ -1,0 +1,171 @@
+//! Updating parameters eliminated from fits: their effect on the whitened residual is linear near a reference,
+//!
+//! ```text
+//! r(theta, u) = r(theta, u_0) - B (u - u_0),      u ~ N(0, 1)
+//! chi^2(theta) = min_u |r(theta, u)|^2 + |u|^2 = | (1 - Q Q^T) [r + B u_0; 0] |^2,      [B; 1] = Q R
+//! ```
+//!
+//! so that a fit has the parameters of its effects alone, and their deviations contain what is not known of the model
+//! (variable projection, Golub and Pereyra 1973; restricted maximum likelihood, Harville 1977).
+
+use super::parameters::{Scales, Updating};
+use dashpot_numerics::{Cholesky, dot, thin_qr};
+use faer::Mat;
+
+/// Updating parameters at a reference with what they do to the residual there.
+#[derive(Debug, Clone, Default)]
+pub struct Marginalisation {
+    /// Parameters, values of the reference and scales.
+    pub updating: Updating,
+    /// `B`, one column a parameter: derivative of the whitened prediction, one row a datum.
+    slopes: Vec<Vec<f64>>,
+    /// `Q`, one column a parameter, data rows first.
+    basis: Vec<Vec<f64>>,
+    /// `B u_0`.
+    offset: Vec<f64>,
+    /// Factor of `1 + B^T B`.
+    factor: Option<Cholesky>,
+    /// `ln det (1 + B^T B)`.
+    pub log_determinant: f64,
+}
+
+impl Marginalisation {
+    /// Of `updating` at its values, whose standardised parameters have the whitened `slopes`.
+    pub fn new(updating: Updating, slopes: Vec<Vec<f64>>) -> Self {
+        let q = slopes.len();
+        if q == 0 {
+            return Self { updating, ..Self::default() };
+        }
+        let normal = Mat::from_fn(q, q, |i, j| dot(&slopes[i], &slopes[j]) + f64::from(u8::from(i == j)));
+        let Some(factor) = Cholesky::new(normal.as_ref()) else { return Self { updating, ..Self::default() } };
+        let n = slopes[0].len();
+        let stacked = Mat::from_fn(n + q, q, |i, k| match i.checked_sub(n) {
+            Some(row) => f64::from(u8::from(row == k)),
+            None => slopes[k][i],
+        });
+        let (orthonormal, triangle) = thin_qr(stacked.as_ref());
+        let basis = (0..q).map(|k| orthonormal.col_as_slice(k).to_vec()).collect();
+        let log_determinant = (0..q).map(|k| 2.0 * triangle[(k, k)].abs().ln()).sum();
+        let u = updating.standardised();
+        let mut offset = vec![0.0; n];
+        for (slope, u) in slopes.iter().zip(&u) {
+            offset.iter_mut().zip(slope).for_each(|(o, s)| *o += u * s);
+        }
+        Self { updating, slopes, basis, offset, factor: Some(factor), log_determinant }
+    }
+
+    /// Whether no parameter is eliminated.
+    pub fn is_empty(&self) -> bool {
+        self.slopes.is_empty()
+    }
+
+    /// Number of parameters.
+    pub fn len(&self) -> usize {
+        self.slopes.len()
+    }
+
+    /// `B`, one column a parameter.
+    pub fn slopes(&self) -> &[Vec<f64>] {
+        &self.slopes
+    }
+
+    /// Turns a whitened residual into the marginal one, a datum longer for every parameter.
+    pub fn residual(&self, mut rows: Vec<f64>) -> Vec<f64> {
+        rows.iter_mut().zip(&self.offset).for_each(|(r, o)| *r += o);
+        self.column(rows)
+    }
+
+    /// Turns a column of a Jacobian into the marginal one.
+    pub fn column(&self, mut rows: Vec<f64>) -> Vec<f64> {
+        rows.resize(rows.len() + self.basis.len(), 0.0);
+        for direction in &self.basis {
+            let share = dot(direction, &rows);
+            rows.iter_mut().zip(direction).for_each(|(r, d)| *r -= share * d);
+        }
+        rows
+    }
+
+    /// The parameters (standardised) that fit the whitened residual `rows`, which was taken at the reference.
+    pub fn solve(&self, rows: &[f64]) -> Vec<f64> {
+        let Some(factor) = &self.factor else { return Vec::new() };
+        let full: Vec<f64> = rows.iter().zip(&self.offset).map(|(r, o)| r + o).collect();
+        let right = Mat::from_fn(self.slopes.len(), 1, |k, _| dot(&self.slopes[k], &full));
+        let solved = factor.solve(right.as_ref());
+        (0..self.slopes.len()).map(|k| solved[(k, 0)]).collect()
+    }
+
+    /// Variances of the standardised parameters, the effects being known.
+    pub fn variances(&self) -> Vec<f64> {
+        let Some(factor) = &self.factor else { return Vec::new() };
+        let q = self.slopes.len();
+        let inverse = factor.solve(Mat::<f64>::identity(q, q).as_ref());
+        (0..q).map(|k| inverse[(k, k)]).collect()
+    }
+
+    /// What is left of a whitened residual taken at the reference once the parameters are at `u`: `r - B (u - u_0)`.
+    pub fn left(&self, mut rows: Vec<f64>, u: &[f64]) -> Vec<f64> {
+        let reference = self.updating.standardised();
+        for ((slope, u), u0) in self.slopes.iter().zip(u).zip(&reference) {
+            rows.iter_mut().zip(slope).for_each(|(r, s)| *r -= (u - u0) * s);
+        }
+        rows
+    }
+
+    /// Scales of the classes of these parameters re-estimated from their values `u` and the `left` share of their prior
+    /// variances (MacKay 1992, Neural Computation 4, 415): `s^2 <- s^2 sum u^2 / sum (1 - var)`; a class of which the
+    /// data say nothing keeps its scale.
+    pub fn scales(&self, u: &[f64], least_known: f64) -> Scales {
+        let variances = self.variances();
+        let mut list = self.updating.scales.list();
+        for (class, scale) in list.iter_mut().enumerate().take(4) {
+            let own = || (0..u.len()).filter(|&k| self.updating.parameters[k].class() == class);
+            let known: f64 = own().map(|k| 1.0 - variances[k]).sum();
+            let square: f64 = own().map(|k| u[k] * u[k]).sum();
+            if known > least_known {
+                *scale *= (square / known).sqrt();
+            }
+        }
+        Scales::from_list(list)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::diagnosis::updating::parameters::UpdatingParameter;
+    use crate::structure::Part;
+
+    fn two() -> Marginalisation {
+        let parameters = vec![UpdatingParameter::Structure(Part::Stiffness), UpdatingParameter::Structure(Part::Mass)];
+        let updating = Updating { parameters, values: vec![0.004, -0.01], ..Updating::default() };
+        Marginalisation::new(updating, vec![vec![3.0, 1.0, -2.0, 0.5], vec![1.0, 4.0, 0.3, -1.0]])
+    }
+
+    #[test]
+    fn the_marginal_square_is_the_least_over_the_parameters() {
+        let (m, rows) = (two(), vec![1.0, -2.0, 0.7, 0.1]);
+        let u = m.solve(&rows);
+        let cost = |u: &[f64]| -> f64 {
+            let left = m.left(rows.clone(), u);
+            left.iter().chain(u).map(|x| x * x).sum()
+        };
+        let marginal: f64 = m.residual(rows.clone()).iter().map(|x| x * x).sum();
+        assert!((marginal - cost(&u)).abs() < 1e-12);
+        for moved in [[0.01, 0.0], [-0.01, 0.0], [0.0, 0.01], [0.0, -0.01]] {
+            assert!(cost(&[u[0] + moved[0], u[1] + moved[1]]) > cost(&u));
+        }
+    }
+
+    #[test]
+    fn the_determinant_and_variances_are_those_of_the_normal_matrix() {
+        let m = two();
+        let [n11, n22, n12] = [
+            1.0 + dot(&m.slopes[0], &m.slopes[0]),
+            1.0 + dot(&m.slopes[1], &m.slopes[1]),
+            dot(&m.slopes[0], &m.slopes[1]),
+        ];
+        let determinant = n11 * n22 - n12 * n12;
+        assert!((m.log_determinant - determinant.ln()).abs() < 1e-12);
+        assert!((m.variances()[0] - n22 / determinant).abs() < 1e-12);
+    }
+}

@@ -1,0 +1,6 @@
+//! Model updating: what the model states wrongly, with priors and scales (Friswell and Mottershead 1995).
+
+pub mod detuning;
+pub mod marginalisation;
+pub mod noise_model;
+pub mod parameters;

@@ -1,0 +1,167 @@
+//! The model of the data: noise of sensors and force, what differs from run to run, and updating parameters, all but the
+//! parameters of effects eliminated.
+//!
+//! ```text
+//! y = (1 + a_k) e^{-i h w t_k} yhat(theta, m, s_r) (1 + d_r) + e
+//! ```
+//!
+//! `m` multiplies parts of the model, `a_k`, `t_k` are gain and delay of channel `k`, `s_r` shifts the stiffness of run
+//! `r`, `d_r` multiplies its response, `e` is noise. `m`, `a`, `t` are common to all runs ([`Marginalisation`]), `s_r`,
+//! `d_r` are the run's own ([`RunNuisance`]).
+
+use super::marginalisation::Marginalisation;
+use super::parameters::{Scales, Updating, UpdatingParameter};
+use crate::diagnosis::residual::data::{Data, RunData};
+use crate::diagnosis::residual::run_nuisance::RunNuisance;
+use crate::diagnosis::residual::whitening::Whitening;
+use faer::c64;
+
+/// Derivatives of the recorded amplitudes of one run, `[parameter][channel][harmonic - 1]`.
+pub type RunSlopes = Vec<Vec<Vec<c64>>>;
+
+/// What updating parameters and those of the runs do to the recorded amplitudes near a reference.
+#[derive(Debug, Clone, Default)]
+pub struct Linearisation {
+    /// Updating parameters, their values at the reference, and the scales.
+    pub updating: Updating,
+    /// By updating parameters (of unit logarithm or second), one list a run.
+    pub common: Vec<RunSlopes>,
+    /// By the relative stiffness of the run, one list of `[channel][harmonic - 1]` a run.
+    pub stiffness: Vec<Vec<Vec<c64>>>,
+}
+
+impl Linearisation {
+    /// Whether nothing is free.
+    pub fn is_empty(&self) -> bool {
+        self.common.is_empty()
+    }
+
+    /// Derivatives of the fundamentals by the standardised parameters, `[run][parameter][channel]`.
+    pub fn fundamentals(&self) -> Vec<Vec<Vec<c64>>> {
+        let of_run = |slopes: &RunSlopes| {
+            let of = |(k, slope): (usize, &Vec<Vec<c64>>)| {
+                slope.iter().map(|channel| channel[0] * self.updating.prior(k)).collect()
+            };
+            slopes.iter().enumerate().map(of).collect()
+        };
+        self.common.iter().map(of_run).collect()
+    }
+
+    /// The same by what differs from run to run.
+    pub fn own_fundamentals(&self, data: &Data) -> Vec<Vec<Vec<c64>>> {
+        if self.is_empty() {
+            return Vec::new();
+        }
+        let of_run = |(r, run): (usize, &RunData)| {
+            let column = |k: usize| (0..run.responses.len()).map(|c| self.own(r, run, k, c, 1)).collect();
+            (0..OWN).map(column).collect()
+        };
+        data.runs.iter().enumerate().map(of_run).collect()
+    }
+
+    /// Derivative of channel `c` at harmonic `h` by own parameter `k` of run `r`, standardised.
+    fn own(&self, r: usize, run: &RunData, k: usize, c: usize, h: usize) -> c64 {
+        let Scales { shift, response, .. } = self.updating.scales;
+        match k {
+            0 => self.stiffness[r][c][h - 1] * shift,
+            1 => run.responses[c].measured[h - 1] * response,
+            _ => run.responses[c].measured[h - 1] * c64::new(0.0, response),
+        }
+    }
+}
+
+/// Parameters that are a run's own: its stiffness, real and imaginary part of the factor on its response.
+pub const OWN: usize = 3;
+
+/// Noise of the residual of all runs with everything eliminated that is not the parameter of an effect.
+#[derive(Debug, Clone, Default)]
+pub struct NoiseModel {
+    /// Of each run, what is its own eliminated.
+    pub runs: Vec<Whitening>,
+    /// Updating parameters.
+    pub updating: Marginalisation,
+}
+
+impl NoiseModel {
+    /// Of the noise of the `runs`, with the parameters of `linearisation` eliminated.
+    pub fn new(runs: Vec<Whitening>, data: &Data, linearisation: &Linearisation) -> Self {
+        if linearisation.is_empty() {
+            return Self { runs, updating: Marginalisation::default() };
+        }
+        let local = |(r, noise): (usize, Whitening)| {
+            let run = &data.runs[r];
+            let columns = (0..OWN).map(|k| noise.rows(|c, h| linearisation.own(r, run, k, c, h))).collect();
+            noise.with_nuisance(RunNuisance::new(columns))
+        };
+        let runs: Vec<Whitening> = runs.into_iter().enumerate().map(local).collect();
+        let updating = &linearisation.updating;
+        let slope = |k: usize| {
+            let mut rows = Vec::new();
+            for (noise, slopes) in runs.iter().zip(&linearisation.common) {
+                let mut own = noise.rows(|c, h| slopes[k][c][h - 1] * updating.prior(k));
+                noise.nuisance().project(&mut own);
+                rows.extend(own);
+            }
+            rows
+        };
+        let slopes = (0..updating.len()).map(slope).collect();
+        Self { updating: Marginalisation::new(updating.clone(), slopes), runs }
+    }
+
+    /// Number of real data.
+    pub fn count(&self) -> usize {
+        self.runs.iter().map(Whitening::len).sum()
+    }
+
+    /// `ln det` of the covariance by what is eliminated, and the prior of the scales: what freedom costs in evidence.
+    pub fn cost(&self) -> f64 {
+        if self.updating.is_empty() {
+            return 0.0;
+        }
+        let own: f64 = self.runs.iter().map(|run| run.nuisance().log_determinant()).sum();
+        own + self.updating.log_determinant + self.updating.updating.scales.prior_cost()
+    }
+
+    /// Scales re-estimated from the whitened residual `rows`, taken at the reference (one step of restricted maximum
+    /// likelihood, MacKay 1992).
+    pub fn scales(&self, rows: &[f64]) -> Scales {
+        let u = self.updating.solve(rows);
+        let left = self.updating.left(rows.to_vec(), &u);
+        let mut list = self.updating.scales(&u, LEAST_KNOWN).list();
+        let (mut squares, mut known) = ([0.0; 2], [0.0; 2]);
+        let mut at = 0;
+        for run in &self.runs {
+            let estimate = run.nuisance().estimate(&left[at..at + run.len()]);
+            at += run.len();
+            for k in 0..OWN {
+                let class = usize::from(k > 0);
+                squares[class] += estimate.values[k] * estimate.values[k];
+                known[class] += 1.0 - estimate.variances[k];
+            }
+        }
+        for class in 0..2 {
+            if known[class] > LEAST_KNOWN {
+                list[4 + class] *= (squares[class] / known[class]).sqrt();
+            }
+        }
+        Scales::from_list(list)
+    }
+}
+
+/// Effective number of parameters of a class that the data determine from which on its scale is estimated.
+const LEAST_KNOWN: f64 = 0.5;
+
+/// Derivatives of the recorded amplitudes of a run by the gain or the delay of a channel, `[channel][harmonic - 1]`.
+pub fn of_channel(parameter: &UpdatingParameter, run: &RunData) -> Vec<Vec<c64>> {
+    let channel = |channel: &crate::diagnosis::residual::data::ChannelData| {
+        let at = |(i, y): (usize, &c64)| match parameter {
+            UpdatingParameter::Gain(name) if *name == channel.name => *y,
+            UpdatingParameter::Delay(name) if *name == channel.name => {
+                *y * c64::new(0.0, -((i + 1) as f64) * run.omega)
+            }
+            _ => c64::new(0.0, 0.0),
+        };
+        channel.measured.iter().enumerate().map(at).collect()
+    };
+    run.responses.iter().map(channel).collect()
+}

@@ -1,0 +1,274 @@
+//! Updating parameters: what a model states wrongly and a measuring chain reads wrongly, with priors whose scales are
+//! estimated from the data.
+//!
+//! Models are never exact: natural frequencies are off by some per cent, known damping by tens, gains by one. Every
+//! parameter is the logarithm `v` of a factor (a delay: seconds) with the prior `N(0, s^2)`; `s` belongs to its class
+//! ([`Scales`]), so that it moves only so far as the data ask for it (Friswell and Mottershead 1995, chapter 8).
+
+use crate::diagnosis::candidates::start_grids::scaled;
+use crate::diagnosis::residual::data::Data;
+use crate::effects::Source;
+use crate::response::sensitivity::Unknown;
+use crate::structure::{Part, Structure, StructureKind};
+
+/// Groups of elements of a beam whose stiffness and mass are updated each on its own.
+const ELEMENT_GROUPS: usize = 5;
+/// Springs and masses of imported matrices that are updated one by one; above, modes are.
+const MOST_SPRINGS: usize = 40;
+/// Modes in the band that are updated where neither elements nor springs are known.
+const MOST_MODES: usize = 8;
+/// Logarithm of a frequency ratio within which a mode counts as in the band of a run.
+const NEAR_BAND: f64 = 0.35;
+/// Largest logarithm of a factor: models are not wrong by more than a factor of seven.
+const LARGEST: f64 = 2.0;
+
+/// One updating parameter.
+#[derive(Debug, Clone, PartialEq)]
+pub enum UpdatingParameter {
+    /// Factor on a part of the structure.
+    Structure(Part),
+    /// Factor on the size of one known source.
+    Known(usize),
+    /// Factor that a channel reads too large.
+    Gain(String),
+    /// Time that a channel is recorded late, s.
+    Delay(String),
+}
+
+/// Prior deviations by class of parameter.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Scales {
+    /// Stiffness and mass, relative.
+    pub model: f64,
+    /// Sizes of known sources, relative.
+    pub known: f64,
+    /// Gains, relative.
+    pub gain: f64,
+    /// Phase of a channel at the geometric mean frequency of the runs, rad.
+    pub phase: f64,
+    /// Stiffness from run to run (re-seating, temperature), relative.
+    pub shift: f64,
+    /// Response from run to run, in proportion to it (level of the force, discrepancy).
+    pub response: f64,
+}
+
+impl Scales {
+    /// Where their estimation starts, and what is kept where the data cannot tell: what laboratories report.
+    pub const START: Self = Self { model: 0.01, known: 0.2, gain: 3e-3, phase: 1e-3, shift: 2e-4, response: 1e-3 };
+    /// Least: below any measurement.
+    pub const LEAST: Self = Self { model: 1e-6, known: 1e-5, gain: 1e-6, phase: 1e-6, shift: 1e-8, response: 1e-7 };
+    /// Greatest: beyond, it is not this structure, or the record is not of this run.
+    pub const GREATEST: Self = Self { model: 0.06, known: 0.5, gain: 0.03, phase: 0.02, shift: 0.01, response: 0.1 };
+
+    /// The same scales in a list, in the order of the fields.
+    pub fn list(&self) -> [f64; 6] {
+        [self.model, self.known, self.gain, self.phase, self.shift, self.response]
+    }
+
+    /// Minus twice the logarithm of their prior density, half-Cauchy about where they start.
+    pub fn prior_cost(&self) -> f64 {
+        let pairs = self.list().into_iter().zip(Self::START.list());
+        pairs.map(|(s, start)| 2.0 * (1.0 + (s / start).powi(2)).ln()).sum()
+    }
+
+    /// Scales from such a list, each kept between the least and the greatest.
+    pub fn from_list(list: [f64; 6]) -> Self {
+        let (least, greatest) = (Self::LEAST.list(), Self::GREATEST.list());
+        let [model, known, gain, phase, shift, response] =
+            std::array::from_fn(|k| list[k].clamp(least[k], greatest[k]));
+        Self { model, known, gain, phase, shift, response }
+    }
+}
+
+impl UpdatingParameter {
+    /// Place of its class in [`Scales::list`].
+    pub fn class(&self) -> usize {
+        match self {
+            Self::Structure(_) => 0,
+            Self::Known(_) => 1,
+            Self::Gain(_) => 2,
+            Self::Delay(_) => 3,
+        }
+    }
+
+    /// Whether it belongs to the model rather than to the measuring chain.
+    pub fn is_of_model(&self) -> bool {
+        matches!(self, Self::Structure(_) | Self::Known(_))
+    }
+}
+
+/// Updating parameters with their values and the scales of their priors.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Updating {
+    /// What is updated.
+    pub parameters: Vec<UpdatingParameter>,
+    /// Logarithm of the factor of each; of a delay its seconds.
+    pub values: Vec<f64>,
+    /// Prior deviations.
+    pub scales: Scales,
+    /// Geometric mean of the circular frequencies of the runs, rad/s: turns the scale of phases into one of delays.
+    pub omega: f64,
+}
+
+impl Default for Updating {
+    fn default() -> Self {
+        Self { parameters: Vec::new(), values: Vec::new(), scales: Scales::START, omega: 1.0 }
+    }
+}
+
+impl Updating {
+    /// Everything that may be wrong, not wrong yet.
+    pub fn all(structure: &Structure, known: &[Source], data: &Data) -> Self {
+        let omegas: Vec<f64> = data.runs.iter().map(|run| run.omega).collect();
+        let mut parameters: Vec<UpdatingParameter> =
+            parts(structure, &omegas).into_iter().map(UpdatingParameter::Structure).collect();
+        parameters.extend((0..known.len()).map(UpdatingParameter::Known));
+        let [responses, forces] = data.channel_names();
+        // One channel alone cannot be told from the force; of several, each may be off.
+        if responses.len() > 1 {
+            parameters.extend(responses.iter().cloned().map(UpdatingParameter::Gain));
+            parameters.extend(responses.into_iter().map(UpdatingParameter::Delay));
+        }
+        if forces.len() > 1 {
+            parameters.extend(forces.into_iter().map(UpdatingParameter::Gain));
+        }
+        let logs = omegas.iter().map(|w| w.ln()).sum::<f64>() / omegas.len().max(1) as f64;
+        Self { values: vec![0.0; parameters.len()], parameters, scales: Scales::START, omega: logs.exp() }
+    }
+
+    /// Number of parameters.
+    pub fn len(&self) -> usize {
+        self.parameters.len()
+    }
+
+    /// Whether nothing may be updated.
+    pub fn is_empty(&self) -> bool {
+        self.parameters.is_empty()
+    }
+
+    /// Prior deviation of parameter `k`.
+    pub fn prior(&self, k: usize) -> f64 {
+        let class = self.parameters[k].class();
+        let scale = self.scales.list()[class];
+        if class == 3 { scale / self.omega } else { scale }
+    }
+
+    /// Values in units of their prior deviations.
+    pub fn standardised(&self) -> Vec<f64> {
+        (0..self.len()).map(|k| self.values[k] / self.prior(k)).collect()
+    }
+
+    /// The same parameters at the standardised values `u`.
+    #[must_use]
+    pub fn at(&self, u: &[f64]) -> Self {
+        let values = u.iter().enumerate().map(|(k, u)| u * self.prior(k)).collect();
+        Self { values, ..self.clone() }
+    }
+
+    /// The same parameters and values with other scales.
+    #[must_use]
+    pub fn with_scales(&self, scales: Scales) -> Self {
+        Self { scales, ..self.clone() }
+    }
+
+    fn factor(&self, k: usize) -> f64 {
+        self.values[k].clamp(-LARGEST, LARGEST).exp()
+    }
+
+    /// The updated structure.
+    pub fn structure(&self, structure: &Structure) -> Structure {
+        let factor = |(k, parameter): (usize, &UpdatingParameter)| match parameter {
+            UpdatingParameter::Structure(part) => Some((*part, self.factor(k))),
+            _ => None,
+        };
+        structure.with_factors(&self.parameters.iter().enumerate().filter_map(factor).collect::<Vec<_>>())
+    }
+
+    /// The updated known sources.
+    pub fn known(&self, known: &[Source]) -> Vec<Source> {
+        let mut updated = known.to_vec();
+        for (k, parameter) in self.parameters.iter().enumerate() {
+            if let UpdatingParameter::Known(j) = parameter {
+                let source = &mut updated[*j];
+                scaled(source.effect).iter().for_each(|&p| source.parameters[p] *= self.factor(k));
+            }
+        }
+        updated
+    }
+
+    /// What the response is differentiated by for parameter `k`, each with its factor; none for channels. `known` are the
+    /// updated sources.
+    pub fn unknowns(&self, k: usize, known: &[Source]) -> Vec<(Unknown, f64)> {
+        match &self.parameters[k] {
+            UpdatingParameter::Structure(part) => vec![(unknown(*part), 1.0)],
+            UpdatingParameter::Known(j) => {
+                let of =
+                    |&parameter: &usize| (Unknown::Source { source: *j, parameter }, known[*j].parameters[parameter]);
+                scaled(known[*j].effect).iter().map(of).collect()
+            }
+            UpdatingParameter::Gain(_) | UpdatingParameter::Delay(_) => Vec::new(),
+        }
+    }
+}
+
+fn unknown(part: Part) -> Unknown {
+    match part {
+        Part::Stiffness => Unknown::Stiffness,
+        Part::Mass => Unknown::Mass,
+        Part::Mode(r) => Unknown::ModeStiffness(r),
+        part => Unknown::Part(part),
+    }
+}
+
+/// Parts of a structure that are wrong independently of each other, as far as its kind shows them.
+fn parts(structure: &Structure, omegas: &[f64]) -> Vec<Part> {
+    let mut parts = vec![Part::Stiffness, Part::Mass];
+    let count = structure.elements().len();
+    if count > 0 {
+        let groups = ELEMENT_GROUPS.min(count);
+        let range = |g: usize| [g * count / groups, (g + 1) * count / groups - 1];
+        parts.extend((0..groups).map(|g| Part::ElementStiffness(range(g))));
+        parts.extend((0..groups).map(|g| Part::ElementMass(range(g))));
+        return parts;
+    }
+    let springs = structure.springs(MOST_SPRINGS);
+    if springs.is_empty() || (structure.kind() != StructureKind::Chain && structure.len() > MOST_SPRINGS) {
+        parts.extend(modes_in_band(structure, omegas).into_iter().map(Part::Mode));
+    } else {
+        parts.extend(springs);
+        parts.extend((0..structure.len()).map(Part::PointMass));
+    }
+    parts
+}
+
+/// Modes whose frequencies the runs come near to.
+fn modes_in_band(structure: &Structure, omegas: &[f64]) -> Vec<usize> {
+    let Ok(modes) = structure.modes() else { return Vec::new() };
+    let near = |w: f64| omegas.iter().any(|&o| w > 0.0 && (o / w).ln().abs() < NEAR_BAND);
+    (0..modes.len()).filter(|&r| near(modes.omega[r])).take(MOST_MODES).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "tests")]
+    use super::*;
+    use crate::effects::{Effect, Place};
+    use crate::structure::chain::ChainParameters;
+
+    #[test]
+    fn an_updated_model_has_its_parts_and_sources_multiplied() {
+        let chain = ChainParameters {
+            masses: vec![1.0, 2.0],
+            ground_stiffness: vec![5.0, 0.0],
+            coupling_stiffness: vec![11.0],
+        };
+        let structure = chain.build(&[]).unwrap();
+        let known = [Source::known(Effect::Viscous, Place::Dofs(vec![0]), &[3.0])];
+        let parameters = vec![UpdatingParameter::Structure(Part::Coupling([0, 1])), UpdatingParameter::Known(0)];
+        let updating = Updating { parameters, values: vec![0.5, 0.0], ..Updating::default() };
+        let moved = updating.at(&[2.0_f64.ln() / 0.01, 1.5_f64.ln() / 0.2]);
+        assert!((moved.structure(&structure).matrices().unwrap().stiffness[(0, 1)] + 22.0).abs() < 1e-9);
+        assert!((moved.known(&known)[0].parameters[0] - 4.5).abs() < 1e-12);
+        assert!((moved.standardised()[0] - 100.0 * 2.0_f64.ln()).abs() < 1e-9);
+    }
+}

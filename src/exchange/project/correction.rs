@@ -1,0 +1,157 @@
+//! Tables `[[structure.correction]]`: factors on parts of the structure for which the project has no number of its own,
+//! such as the stiffness of a mode or of a range of elements; what model updating found.
+
+use super::error::{Problem, ProjectError};
+use super::file::{Label, Lines};
+use super::reader::Table;
+use crate::structure::{Part, Structure};
+use serde::Serialize;
+
+/// Kinds of parts.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+#[expect(missing_docs, reason = "the names say it")]
+pub enum Corrected {
+    Stiffness,
+    Mass,
+    Mode,
+    Spring,
+    PointMass,
+    ElementStiffness,
+    ElementMass,
+}
+
+impl Corrected {
+    const WORDS: [&'static str; 7] =
+        ["stiffness", "mass", "mode", "spring", "point_mass", "element_stiffness", "element_mass"];
+
+    fn from_word(word: &str) -> Option<Self> {
+        let all = [
+            Self::Stiffness,
+            Self::Mass,
+            Self::Mode,
+            Self::Spring,
+            Self::PointMass,
+            Self::ElementStiffness,
+            Self::ElementMass,
+        ];
+        Self::WORDS.iter().position(|w| *w == word).map(|k| all[k])
+    }
+}
+
+/// Table `[[structure.correction]]`.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct CorrectionTable {
+    /// Kind of part.
+    pub what: Corrected,
+    /// DOFs of a spring (one: to the ground) or of a mass.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub dofs: Vec<Label>,
+    /// First and last element, from 1.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub elements: Option<[i64; 2]>,
+    /// Mode, from 1.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub mode: Option<i64>,
+    /// Factor, positive.
+    pub factor: f64,
+}
+
+impl CorrectionTable {
+    /// The table of a part of `structure`.
+    pub fn of(structure: &Structure, part: Part, factor: f64) -> Self {
+        let label = |dof: usize| Label(structure.label(dof).to_owned());
+        let plain = |what| Self { what, dofs: Vec::new(), elements: None, mode: None, factor };
+        let elements = |range: [usize; 2]| Some(range.map(|e| e as i64 + 1));
+        match part {
+            Part::Stiffness => plain(Corrected::Stiffness),
+            Part::Mass => plain(Corrected::Mass),
+            Part::Mode(mode) => Self { mode: Some(mode as i64 + 1), ..plain(Corrected::Mode) },
+            Part::GroundSpring(dof) => Self { dofs: vec![label(dof)], ..plain(Corrected::Spring) },
+            Part::Coupling(pair) => Self { dofs: pair.map(label).to_vec(), ..plain(Corrected::Spring) },
+            Part::PointMass(dof) => Self { dofs: vec![label(dof)], ..plain(Corrected::PointMass) },
+            Part::ElementStiffness(range) => Self { elements: elements(range), ..plain(Corrected::ElementStiffness) },
+            Part::ElementMass(range) => Self { elements: elements(range), ..plain(Corrected::ElementMass) },
+        }
+    }
+
+    /// The part of `structure` that it names.
+    ///
+    /// # Errors
+    /// [`Problem`] where the structure has no such part.
+    pub fn part(&self, structure: &Structure) -> Result<Part, Problem> {
+        let missing = |key, example: &str| Problem::MissingKey {
+            table: "[[structure.correction]]".to_owned(),
+            key,
+            example: example.to_owned(),
+        };
+        let dof = |label: &Label| structure.require_dof(&label.0).map_err(|error| Problem::Structure(Box::new(error)));
+        let range = || -> Result<[usize; 2], Problem> {
+            let [first, last] = self.elements.ok_or_else(|| missing("elements", "elements = [1, 4]"))?;
+            let count = structure.elements().len() as i64;
+            if first >= 1 && first <= last && last <= count {
+                return Ok([first as usize - 1, last as usize - 1]);
+            }
+            let value = format!("[{first}, {last}]");
+            Err(Problem::OutOfRange { key: "elements".into(), value, range: "first to last element of the beam" })
+        };
+        Ok(match self.what {
+            Corrected::Stiffness => Part::Stiffness,
+            Corrected::Mass => Part::Mass,
+            Corrected::Mode => match self.mode {
+                Some(mode) if mode >= 1 && mode <= structure.len() as i64 => Part::Mode(mode as usize - 1),
+                Some(mode) => {
+                    let value = mode.to_string();
+                    return Err(Problem::OutOfRange { key: "mode".into(), value, range: "1 to the number of DOFs" });
+                }
+                None => return Err(missing("mode", "mode = 2")),
+            },
+            Corrected::Spring => match &self.dofs[..] {
+                [one] => Part::GroundSpring(dof(one)?),
+                [first, second] => Part::Coupling([dof(first)?, dof(second)?]),
+                _ => return Err(missing("dofs", "dofs = [2, 3]")),
+            },
+            Corrected::PointMass => match &self.dofs[..] {
+                [one] => Part::PointMass(dof(one)?),
+                _ => return Err(missing("dofs", "dofs = [2]")),
+            },
+            Corrected::ElementStiffness => Part::ElementStiffness(range()?),
+            Corrected::ElementMass => Part::ElementMass(range()?),
+        })
+    }
+}
+
+/// Reads the tables of `[structure]`.
+pub(super) fn parse(structure: &Table<'_>, lines: &mut Lines) -> Result<Vec<CorrectionTable>, ProjectError> {
+    let mut tables = Vec::new();
+    for table in structure.tables("correction", "[[structure.correction]]")? {
+        table.only(&["what", "dofs", "elements", "mode", "factor"])?;
+        let what = table.word("what", &Corrected::WORDS, Corrected::from_word)?;
+        let what = table.need("what", "what = \"mode\"", what)?;
+        let dofs = table.labels("dofs")?.unwrap_or_default().into_iter().map(Label).collect();
+        let factor = table.need("factor", "factor = 1.02", table.number("factor")?)?;
+        if !(factor.is_finite() && factor > 0.0) {
+            let value = factor.to_string();
+            return Err(table.error("factor", Problem::OutOfRange { key: "factor".into(), value, range: "above 0" }));
+        }
+        let (elements, mode) = (super::parse::elements(&table)?, table.whole("mode")?);
+        tables.push(CorrectionTable { what, dofs, elements, mode, factor });
+        lines.correction.push(table.line());
+    }
+    Ok(tables)
+}
+
+/// The structure with its corrections.
+///
+/// # Errors
+/// The number of the table, from 0, and what is wrong with it.
+pub fn corrected(structure: Structure, tables: &[CorrectionTable]) -> Result<Structure, (usize, Problem)> {
+    if tables.is_empty() {
+        return Ok(structure);
+    }
+    let one = |(k, table): (usize, &CorrectionTable)| {
+        Ok((table.part(&structure).map_err(|problem| (k, problem))?, table.factor))
+    };
+    let factors = tables.iter().enumerate().map(one).collect::<Result<Vec<_>, _>>()?;
+    Ok(structure.with_factors(&factors))
+}
