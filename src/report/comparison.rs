@@ -93,7 +93,7 @@ fn missing(page: &mut Page, content: &Content<'_>, found: &Diagnosis) {
         let known: Vec<_> = content.project.sources.iter().filter(acts).cloned().collect();
         page.sentence("The model states these wrongly; they were corrected in the search:");
         let row = |c: &crate::diagnosis::diagnose::Correction| {
-            vec![findings::corrected(structure, &known, &c.knob), findings::change(c)]
+            vec![findings::corrected(structure, &known, &c.parameter), findings::change(c)]
         };
         page.table(&["What", "Correction|"], &found.corrections.iter().map(row).collect::<Vec<_>>());
     }
@@ -136,7 +136,7 @@ fn evidence(page: &mut Page, content: &Content<'_>, s: &Suggestion) {
 }
 
 fn next_tests(page: &mut Page, content: &Content<'_>, found: &Diagnosis) {
-    if found.verdict == Verdict::Adequate || found.next_test.is_empty() {
+    if matches!(found.verdict, Verdict::Adequate | Verdict::Detuned) || found.next_test.is_empty() {
         return;
     }
     page.chapter("Next test");

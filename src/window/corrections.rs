@@ -3,11 +3,12 @@
 use super::additions::labels;
 use crate::diagnosis::candidates::start_grids::scaled;
 use crate::diagnosis::diagnose::Correction;
-use crate::diagnosis::updating::parameters::Knob;
+use crate::diagnosis::updating::parameters::UpdatingParameter;
 use crate::effects::{Effect, Source, State};
 use crate::exchange::Project;
 use crate::exchange::project::file::{ProjectFile, Shape, StructureTable};
 use crate::session::{Command, SourceAt};
+use crate::structure::Part;
 use std::collections::BTreeMap;
 
 /// How corrections are taken over.
@@ -30,21 +31,21 @@ pub fn adopt(
     let mut numbers = Numbers { table: &file.structure, values: BTreeMap::new() };
     for (k, correction) in corrections.iter().enumerate() {
         let factor = correction.factor;
-        let done = match &correction.knob {
-            Knob::Stiffness => numbers.stiffness(factor),
-            Knob::Mass => {
+        let done = match &correction.parameter {
+            UpdatingParameter::Structure(Part::Mass) => {
                 adopted.commands.extend(lumped(&file.structure, factor));
                 numbers.mass(factor)
             }
-            Knob::Spring(dofs, _) => numbers.spring(dofs, factor),
-            Knob::Known(index) => match known(*index) {
+            UpdatingParameter::Structure(part) => numbers.part(*part, factor),
+            UpdatingParameter::Known(index) => match known(*index) {
                 Some(source) => {
                     adopted.commands.push(resized(&source, factor, project));
                     true
                 }
                 None => false,
             },
-            Knob::Mode(_) => false,
+            // Errors of a channel are taken over as `[[sensor]]` by suggestions.
+            UpdatingParameter::Gain(_) | UpdatingParameter::Delay(_) => false,
         };
         if !done {
             adopted.left.push(k);
@@ -82,6 +83,25 @@ impl Numbers<'_> {
             }
             Shape::Matrices(_) | Shape::Points(_) => return false,
         }
+        true
+    }
+
+    /// A part of the structure but for all mass.
+    fn part(&mut self, part: Part, factor: f64) -> bool {
+        match part {
+            Part::Stiffness => self.stiffness(factor),
+            Part::GroundSpring(dof) => self.spring(&[dof], factor),
+            Part::Coupling(pair) => self.spring(&pair, factor),
+            Part::PointMass(dof) => self.point_mass(dof, factor),
+            Part::Mass | Part::Mode(_) | Part::ElementStiffness(_) | Part::ElementMass(_) => false,
+        }
+    }
+
+    /// A mass of a chain that carries no lumped mass beside it.
+    fn point_mass(&mut self, dof: usize, factor: f64) -> bool {
+        let Shape::Chain(chain) = &self.table.shape else { return false };
+        let Some(&value) = chain.masses.get(dof).filter(|_| self.table.lumped_mass.is_empty()) else { return false };
+        self.scale(format!("masses[{}]", dof + 1), value, factor);
         true
     }
 
@@ -143,8 +163,8 @@ mod tests {
                          [[structure.lumped_mass]]\ndof = 2\nmass = 0.5\n\
                          [[source]]\nlaw = \"viscous\"\ndofs = [1, 2]\nstate = \"known\"\nc = 2.0\n";
 
-    fn correction(knob: Knob, factor: f64) -> Correction {
-        Correction { knob, factor, deviation: 0.01 }
+    fn correction(parameter: UpdatingParameter, factor: f64) -> Correction {
+        Correction { parameter, factor, deviation: 0.01 }
     }
 
     #[test]
@@ -155,11 +175,11 @@ mod tests {
         let mut d = Document::open(&path, &Control::unattended()).unwrap().0;
         let before = d.session().document().file().clone();
         let list = [
-            correction(Knob::Stiffness, 1.1),
-            correction(Knob::Mass, 0.9),
-            correction(Knob::Spring(vec![1, 0], 50.0), 1.2),
-            correction(Knob::Known(0), 1.5),
-            correction(Knob::Mode(3), 1.01),
+            correction(UpdatingParameter::Structure(Part::Stiffness), 1.1),
+            correction(UpdatingParameter::Structure(Part::Mass), 0.9),
+            correction(UpdatingParameter::Structure(Part::Coupling([1, 0])), 1.2),
+            correction(UpdatingParameter::Known(0), 1.5),
+            correction(UpdatingParameter::Structure(Part::Mode(3)), 1.01),
         ];
         let known = |k: usize| d.project.sources.iter().filter(|s| s.state == State::Known).nth(k).cloned();
         let adopted = adopt(&list, &known, &d.project, &before);

@@ -6,7 +6,7 @@ use super::ranking::{open, ranked};
 use super::{Deed, Scene};
 use crate::diagnosis::Diagnosis;
 use crate::diagnosis::diagnose::Verdict;
-use crate::diagnosis::updating::parameters::Knob;
+use crate::diagnosis::updating::parameters::UpdatingParameter;
 use crate::display::findings::{self, is_detuned, sentence};
 use crate::display::format;
 use crate::display::format::in_words;
@@ -92,14 +92,14 @@ fn far_off(scene: &Scene<'_>) -> bool {
 }
 
 fn answer(ui: &mut Ui, scene: &Scene<'_>, diagnosis: &Diagnosis, look: &mut Look, asks: &mut Vec<Ask>) {
-    if diagnosis.verdict == Verdict::Adequate {
+    if matches!(diagnosis.verdict, Verdict::Adequate | Verdict::Detuned) {
         adequate(ui, scene, diagnosis);
     } else {
         let colour = if diagnosis.verdict == Verdict::Missing { ui.palette().missing } else { ui.palette().warning };
         ui.label(RichText::new(sentence(diagnosis)).color(colour));
     }
     detuned(ui, scene, diagnosis, asks);
-    if diagnosis.verdict == Verdict::Undecided {
+    if matches!(diagnosis.verdict, Verdict::Undecided | Verdict::Unexplained) {
         next_tests(ui, scene, diagnosis);
     }
     ui.add_space(space::XS);
@@ -134,7 +134,7 @@ fn detuned(ui: &mut Ui, scene: &Scene<'_>, diagnosis: &Diagnosis, asks: &mut Vec
     ui.add_space(space::XS);
     ui.title("The model is detuned", "corrected in the search, not yet in the project");
     for correction in &diagnosis.corrections {
-        ui.pair(&knob(scene, &correction.knob), findings::change(correction));
+        ui.pair(&corrected(scene, &correction.parameter), findings::change(correction));
     }
     let adopted = adopted(scene, diagnosis);
     ui.horizontal(|ui| {
@@ -144,8 +144,11 @@ fn detuned(ui: &mut Ui, scene: &Scene<'_>, diagnosis: &Diagnosis, asks: &mut Vec
             asks.push(Ask::Explain(Deed::Correct));
         }
         if !adopted.left.is_empty() {
-            let left: Vec<String> =
-                adopted.left.iter().map(|&k| knob(scene, &diagnosis.corrections[k].knob).to_lowercase()).collect();
+            let left: Vec<String> = adopted
+                .left
+                .iter()
+                .map(|&k| corrected(scene, &diagnosis.corrections[k].parameter).to_lowercase())
+                .collect();
             ui.hint(format!("The project has no number for: {}.", left.join(", ")));
         }
     });
@@ -160,9 +163,9 @@ pub fn adopted(scene: &Scene<'_>, diagnosis: &Diagnosis) -> Adopted {
 }
 
 /// What a correction corrects.
-fn knob(scene: &Scene<'_>, knob: &Knob) -> String {
+fn corrected(scene: &Scene<'_>, parameter: &UpdatingParameter) -> String {
     let known = scene.explained.all_known(scene.document);
-    findings::corrected(&scene.document.project.structure, &known, knob)
+    findings::corrected(&scene.document.project.structure, &known, parameter)
 }
 
 /// The end of the way: the model explains the data, and what brought it there.
@@ -196,7 +199,7 @@ fn adequate(ui: &mut Ui, scene: &Scene<'_>, diagnosis: &Diagnosis) {
 
 /// The tests that would decide, in words; nothing where nothing is missing.
 pub fn next_tests(ui: &mut Ui, scene: &Scene<'_>, diagnosis: &Diagnosis) {
-    if diagnosis.verdict == Verdict::Adequate || diagnosis.next_test.is_empty() {
+    if matches!(diagnosis.verdict, Verdict::Adequate | Verdict::Detuned) || diagnosis.next_test.is_empty() {
         return;
     }
     let structure = &scene.document.project.structure;

@@ -31,7 +31,7 @@ pub fn show(ui: &mut Ui, scene: &Scene<'_>, asks: &mut Vec<Ask>) {
         ui.add_space(space::XS);
         ui.hint("Click a step to go back to it, or forward again: none is lost.");
         if let Some(Ok(diagnosis)) = scene.explained.diagnosis(scene.document)
-            && diagnosis.verdict != Verdict::Undecided
+            && !matches!(diagnosis.verdict, Verdict::Undecided | Verdict::Unexplained)
         {
             ui.add_space(space::M);
             cards::next_tests(ui, scene, diagnosis);

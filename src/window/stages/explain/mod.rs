@@ -192,7 +192,7 @@ pub fn mark(document: &Document, explained: &Explained) -> Mark {
         Some(Ok(d)) if cards::is_detuned(d) => {
             Mark::attention(&format!("The model is detuned: error {error}, noise floor {floor}. No effect is missing."))
         }
-        Some(Ok(d)) if d.verdict == Verdict::Adequate => {
+        Some(Ok(d)) if matches!(d.verdict, Verdict::Adequate | Verdict::Detuned) => {
             Mark::done(&format!("The model explains the data: error {error}, noise floor {floor}."))
         }
         None | Some(Err(_)) if comparison.error <= 1.2 * comparison.noise_floor => {
