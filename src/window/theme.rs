@@ -1,6 +1,7 @@
 //! The looks of the window, in one file: type scale, spacing and the visuals of every widget, light and dark. Colours and
 //! sizes of type are those of the plots.
 
+use crate::plots::style;
 pub use crate::plots::style::{Palette, size};
 use egui::{Color32, CornerRadius, FontFamily, FontId, Margin, Shadow, Stroke, Style, TextStyle, Theme, Visuals};
 
@@ -31,17 +32,17 @@ impl Palette {
 
 /// Thin line.
 pub fn hair(colour: Color32) -> Stroke {
-    Stroke::new(1.0, colour)
+    style::hair(colour).into()
 }
 
 /// Line of symbols.
 pub fn pen(colour: Color32) -> Stroke {
-    Stroke::new(1.6, colour)
+    style::pen(colour).into()
 }
 
 /// Line of the structure and of curves that matter.
 pub fn bold(colour: Color32) -> Stroke {
-    Stroke::new(2.4, colour)
+    style::bold(colour).into()
 }
 
 /// Font of `size` points.
@@ -51,11 +52,11 @@ pub fn font(size: f32) -> FontId {
 
 /// Installs both themes. Called once.
 pub fn install(ctx: &egui::Context) {
-    ctx.set_style_of(Theme::Light, style(Palette::light(), Visuals::light()));
-    ctx.set_style_of(Theme::Dark, style(Palette::dark(), Visuals::dark()));
+    ctx.set_style_of(Theme::Light, widgets(Palette::light(), Visuals::light()));
+    ctx.set_style_of(Theme::Dark, widgets(Palette::dark(), Visuals::dark()));
 }
 
-fn style(palette: &Palette, base: Visuals) -> Style {
+fn widgets(palette: &Palette, base: Visuals) -> Style {
     let mut style = Style { visuals: visuals(palette, base), ..Style::default() };
     style.text_styles = [
         (TextStyle::Small, font(size::SMALL)),

@@ -11,7 +11,6 @@ mod journey;
 mod laws;
 mod path;
 mod pictures;
-mod report;
 mod space;
 mod states;
 mod support;

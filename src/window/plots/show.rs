@@ -10,7 +10,7 @@ use crate::plots::sheet::{Panel, Sheet};
 use crate::plots::ticks;
 use crate::window::theme;
 use crate::window::widgets::UiExt;
-use egui::{Align2, Id, Rangef, RichText, Role, Sense, Shape, Ui, WidgetInfo, vec2};
+use egui::{Align2, Id, Rangef, RichText, Role, ScrollArea, Sense, Shape, Ui, WidgetInfo, vec2};
 use egui_plot::{
     AxisHints, Bar, BarChart, CoordinatesFormatter, Corner, HLine, HPlacement, HoverPosition, Line, LineStyle,
     MarkerShape, PlotBounds, PlotPoint, PlotPoints, PlotResponse, PlotUi, Points, Text, VLine,
@@ -19,6 +19,11 @@ use egui_plot::{
 /// Share of the height of a square plot, above its lower left corner, that belongs to the labels of the axis of x: those of
 /// both axes are as long there, and would touch.
 const CORNER: f64 = 0.04;
+
+/// Least height of a plot in a stack without the axis of x, points; below it the stack scrolls.
+const LEAST: f32 = 58.0;
+/// Height of the axis of x with its name, points.
+const RULER: f32 = 36.0;
 
 /// Plots of one sheet: its title, and each plot with its share of the height.
 #[derive(Debug)]
@@ -39,13 +44,25 @@ impl Stack<'_> {
         if self.keys {
             key_row(ui, self.figures.iter().map(|(f, _)| f));
         }
+        let room = ui.available_height() - 4.0;
+        let least = LEAST * self.figures.len() as f32 + RULER;
+        if room >= least {
+            return self.plots(ui, room);
+        }
+        ScrollArea::vertical().id_salt(("stack", self.id)).auto_shrink(false).show(ui, |ui| self.plots(ui, least));
+    }
+
+    /// The plots in `height` points.
+    fn plots(self, ui: &mut Ui, height: f32) {
         let group = (self.figures.len() > 1).then(|| Id::unique(("stack", self.id)));
-        let height = ui.available_height() - 4.0;
         let last = self.figures.len().saturating_sub(1);
         let mut panels = Vec::new();
         let mut responses = Vec::new();
         for (k, (figure, share)) in self.figures.into_iter().enumerate() {
-            let place = Place { id: &format!("{} {k}", self.id), height: share * height, group, ruler: k == last };
+            let ruler = if k == last { RULER } else { 0.0 };
+            // The axis of x takes room from the plots in proportion, not from the last one alone.
+            let own = share * (height - RULER) + ruler;
+            let place = Place { id: &format!("{} {k}", self.id), height: own, group, ruler: k == last };
             let out = place.show(ui, &figure);
             let (low, high) = (out.transform.bounds().min(), out.transform.bounds().max());
             panels.push(Panel { figure, bounds: [[low[0], high[0]], [low[1], high[1]]] });
@@ -65,6 +82,7 @@ pub fn key_row<'a>(ui: &mut Ui, figures: impl Iterator<Item = &'a Figure>) {
         }
     }
     ui.horizontal_wrapped(|ui| entries.into_iter().for_each(|series| key(ui, series)));
+    ui.add_space(theme::space::XS);
 }
 
 /// A mark and a name that stay together where the row wraps.
@@ -107,7 +125,9 @@ impl Place<'_> {
         let palette = ui.palette();
         let (x, y) = (figure.x.clone(), figure.y.clone());
         let (xt, yt, square) = (figure.x.clone(), figure.y.clone(), figure.square);
-        let x_label = if self.ruler { figure.x.label() } else { String::new() };
+        let x_label = if self.ruler { fitting(ui, &figure.x, ui.available_width() - 80.0) } else { String::new() };
+        let clear = self.height - if self.ruler { RULER } else { 0.0 };
+        let y_label = fitting(ui, &figure.y, clear);
         let x_axis = axis(AxisHints::new_x(), palette, &x_label)
             .min_thickness(if self.ruler { 32.0 } else { 14.0 })
             .label_spacing(if figure.x.ticks == Ticks::Whole {
@@ -116,7 +136,7 @@ impl Place<'_> {
                 Rangef::new(22.0, 34.0)
             })
             .formatter(move |mark, _| ticks::label(&xt, own(mark)));
-        let y_axis = axis(AxisHints::new_y(), palette, &figure.y.label())
+        let y_axis = axis(AxisHints::new_y(), palette, &y_label)
             .placement(HPlacement::Left)
             .min_thickness(62.0)
             // Lines of text lie closer than words beside each other.
@@ -157,6 +177,17 @@ impl Place<'_> {
             figure.labels.iter().for_each(|l| words(plot, figure, l));
         })
     }
+}
+
+/// Name and unit of an axis where there is room for both, else the unit, else nothing: a name that runs into another says less
+/// than none.
+fn fitting(ui: &Ui, axis: &Axis, room: f32) -> String {
+    let width = |text: &str| {
+        let font = theme::font(theme::size::SMALL);
+        ui.painter().layout_no_wrap(text.to_owned(), font, egui::Color32::PLACEHOLDER).size().x
+    };
+    let choices = [axis.label(), axis.unit.clone()];
+    choices.into_iter().find(|text| width(text) + 6.0 <= room).unwrap_or_default()
 }
 
 /// Grid lines in the terms of the plot.

@@ -4,7 +4,7 @@
 //! the back on the left, as on paper.
 
 use super::camera::{Camera, Projection};
-use super::frame::{RuledBox, round_step};
+use super::frame::RuledBox;
 use super::mesh::Mesh;
 use super::paint::{Solid, available, shade};
 use super::pick::{Ray, nearest};
@@ -12,6 +12,7 @@ use super::turn::turn;
 use crate::display::format;
 use crate::plots::drawing::Drawing;
 use crate::plots::heatmap::HeatMap;
+use crate::plots::ticks::round_step;
 use crate::window::plots::export;
 use crate::window::theme::{self, Palette};
 use crate::window::widgets::UiExt;

@@ -10,7 +10,7 @@ use crate::window::app::Ask;
 use crate::window::explained::Standing;
 use crate::window::schematic::symbols;
 use crate::window::theme::{self, size, space};
-use crate::window::widgets::UiExt;
+use crate::window::widgets::{UiExt, elided};
 use egui::text::{LayoutJob, TextFormat};
 use egui::{
     Align2, CornerRadius, Frame, Label, Margin, Rect, RichText, Role, Sense, StrokeKind, Ui, Vec2, WidgetInfo, pos2,
@@ -83,12 +83,10 @@ impl Card<'_> {
         let weight = if so_far { palette.weak } else { palette.ink };
         let under = if so_far { "so far" } else { "probability" };
         if self.unfolded {
-            painter.text(pos2(left, middle - 9.0), Align2::LEFT_CENTER, self.title(), theme::font(size::HEADING), ink);
-            let law = source.effect.sentence().split(':').next().unwrap_or_default().trim_end_matches('.').to_owned();
             let room = area.right() - left - 66.0;
-            let galley = painter.layout(law, theme::font(size::SMALL), palette.weak, room);
-            let clip = Rect::from_min_size(pos2(left, middle + 2.0), vec2(room, 15.0));
-            ui.painter_at(clip).galley(clip.min, galley, palette.weak);
+            elided(ui, &self.title(), theme::font(size::HEADING), ink, pos2(left, middle - 9.0), room);
+            let law = source.effect.sentence().split(':').next().unwrap_or_default().trim_end_matches('.').to_owned();
+            elided(ui, &law, theme::font(size::SMALL), palette.weak, pos2(left, middle + 9.0), room);
             painter.text(
                 pos2(area.right(), middle - 8.0),
                 Align2::RIGHT_CENTER,
@@ -104,13 +102,18 @@ impl Card<'_> {
                 palette.weak,
             );
         } else {
-            painter.text(pos2(left, middle), Align2::LEFT_CENTER, self.title(), theme::font(size::BODY), ink);
             painter.text(pos2(area.right(), middle), Align2::RIGHT_CENTER, chance, theme::font(size::BODY), weight);
-            let after = format!("error {}", format::percent(self.suggestion.error_after));
-            let at = pos2(area.right() - 66.0, middle);
-            painter.text(at, Align2::RIGHT_CENTER, after, theme::font(size::SMALL), palette.weak);
+            let mut end = area.right() - 66.0;
+            // The error after it goes before the name is cut.
+            if end - left > 250.0 {
+                let after = format!("error {}", format::percent(self.suggestion.error_after));
+                let at = pos2(end, middle);
+                end =
+                    painter.text(at, Align2::RIGHT_CENTER, after, theme::font(size::SMALL), palette.weak).left() - 8.0;
+            }
+            elided(ui, &self.title(), theme::font(size::BODY), ink, pos2(left, middle), end - left);
         }
-        response.clicked()
+        response.on_hover_text(label).clicked()
     }
 
     /// What explains the data as well: effects as simple are a warning, those with more parameters only not needed.
@@ -196,7 +199,7 @@ impl Card<'_> {
 
     fn buttons(&self, ui: &mut Ui, on_trial: bool, asks: &mut Vec<Ask>) {
         let source = &self.suggestion.added.source;
-        ui.horizontal(|ui| {
+        ui.horizontal_wrapped(|ui| {
             let tip = "Shows the map and the curves as they would be; nothing is saved.";
             if ui.add(egui::Button::new("Try").selected(on_trial)).on_hover_text(tip).clicked() {
                 asks.push(Ask::Explain(if on_trial { Deed::Stop } else { Deed::Try(source.clone()) }));

@@ -137,7 +137,7 @@ fn detuned(ui: &mut Ui, scene: &Scene<'_>, diagnosis: &Diagnosis, asks: &mut Vec
         ui.pair(&corrected(scene, &correction.parameter), findings::change(correction));
     }
     let adopted = adopted(scene, diagnosis);
-    ui.horizontal(|ui| {
+    ui.horizontal_wrapped(|ui| {
         let tip = "Multiplies what the project states by these factors. Undo takes it back.";
         let can = !adopted.commands.is_empty();
         if ui.add_enabled(can, Button::new("Correct the model")).on_hover_text(tip).clicked() {

@@ -36,18 +36,18 @@ impl Detail<'_> {
     pub fn show(&self, ui: &mut Ui, look: &mut Look) {
         let p = self.project;
         let Some(run) = p.runs.get(self.run) else { return };
-        ui.horizontal(|ui| {
-            let level = run.level.map_or_else(String::new, |l| format!(", level {l}"));
-            let frequency = format::with_unit(run.frequency_hz(), "Hz");
-            ui.title(self.channel, &format!("run {}, {frequency}{level}", self.run + 1));
-            ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-                ui.spacing_mut().item_spacing.x = 2.0;
-                for tab in Tab::ALL.into_iter().rev() {
-                    if ui.selectable_label(look.tab == tab, tab.label()).on_hover_text(tab.tooltip()).clicked() {
-                        look.tab = tab;
-                    }
+        let level = run.level.map_or_else(String::new, |l| format!(", level {l}"));
+        let frequency = format::with_unit(run.frequency_hz(), "Hz");
+        let remark = format!("run {}, {frequency}{level}", self.run + 1);
+        ui.with_layout(Layout::right_to_left(Align::Min), |ui| {
+            ui.spacing_mut().item_spacing.x = 2.0;
+            for tab in Tab::ALL.into_iter().rev() {
+                if ui.selectable_label(look.tab == tab, tab.label()).on_hover_text(tab.tooltip()).clicked() {
+                    look.tab = tab;
                 }
-            });
+            }
+            // What is left of the row belongs to the title, which is cut before it runs into the tabs.
+            ui.with_layout(Layout::left_to_right(Align::Min), |ui| ui.title(self.channel, &remark));
         });
         let Some(now) = samples::channel(self.comparison, self.run, self.channel) else {
             ui.empty("Nothing to compare", "This run does not have the channel.");

@@ -12,7 +12,7 @@ use egui::Ui;
 pub fn show(ui: &mut Ui, print: &Print, name: &str, height: f32) {
     let palette = ui.palette();
     let (title, slope) = words(print);
-    ui.horizontal(|ui| {
+    ui.horizontal_wrapped(|ui| {
         let at = print.at_frequency.map_or_else(String::new, |f| format!(" at {}", format::with_unit(f, "Hz")));
         ui.hint(format!("{title}{at}"));
         ui.label(egui::RichText::new(slope).size(size::SMALL).color(palette.missing).strong());

@@ -13,6 +13,7 @@ mod ranking;
 mod schematic;
 
 use crate::diagnosis::diagnose::Verdict;
+use crate::display::findings::is_detuned;
 use crate::display::format;
 use crate::display::words;
 use crate::display::words::at;
@@ -189,7 +190,7 @@ pub fn mark(document: &Document, explained: &Explained) -> Mark {
     };
     let (error, floor) = (format::in_words(comparison.error), format::percent(comparison.noise_floor));
     match explained.diagnosis(document) {
-        Some(Ok(d)) if cards::is_detuned(d) => {
+        Some(Ok(d)) if is_detuned(d) => {
             Mark::attention(&format!("The model is detuned: error {error}, noise floor {floor}. No effect is missing."))
         }
         Some(Ok(d)) if matches!(d.verdict, Verdict::Adequate | Verdict::Detuned) => {

@@ -134,8 +134,8 @@ pub fn cell(ui: &mut Ui, app: &mut App, asks: &mut Vec<Ask>) {
         trial: shown.tried(),
         run,
         channel: &name,
-        curves: own.as_deref().map_or(&[], Vec::as_slice),
-        trial_curves: other.as_deref().map_or(&[], Vec::as_slice),
+        curves: own.as_deref().map_or(&[][..], Vec::as_slice),
+        trial_curves: other.as_deref().map_or(&[][..], Vec::as_slice),
     };
     detail.show(ui, &mut look);
     app.view.explain = look;
@@ -164,7 +164,6 @@ fn head(ui: &mut Ui, scene: &Scene<'_>, worst_first: bool, comparison: &Comparis
             in_words(comparison.error),
             in_words(comparison.energy_error)
         );
-        ui.hint(text);
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             ui.spacing_mut().item_spacing.x = 2.0;
             for (worst, label) in [(false, "In order"), (true, "Worst first")] {
@@ -172,13 +171,17 @@ fn head(ui: &mut Ui, scene: &Scene<'_>, worst_first: bool, comparison: &Comparis
                     order = worst;
                 }
             }
+            ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
+                let weak = ui.palette().weak;
+                ui.add(Label::new(RichText::new(&text).size(size::SMALL).color(weak)).truncate());
+            });
         });
     });
     let p = &scene.document.project;
     let known = p.sources.iter().any(|s| s.state == State::Known);
     let sought = p.sources.iter().any(|s| matches!(s.state, State::Candidate | State::Forced));
     if !known && sought {
-        ui.horizontal(|ui| {
+        ui.horizontal_wrapped(|ui| {
             ui.label(
                 RichText::new("The model has no damping yet: only known sources act in it.")
                     .color(ui.palette().warning),
