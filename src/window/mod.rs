@@ -67,5 +67,19 @@ pub fn open(file: Option<PathBuf>, photograph: Option<PathBuf>) -> Result<(), St
         Ok(Box::new(app) as Box<dyn eframe::App>)
     };
     eframe::run_native("dashpot", options, Box::new(create))
-        .map_err(|error| format!("no window could be opened: {error}; `dashpot picture` draws without a display"))
+        .map_err(|error| refusal(&error))
+}
+
+/// Why no window could be opened and what helps, in one sentence.
+fn refusal(error: &eframe::Error) -> String {
+    let text = error.to_string();
+    match error {
+        eframe::Error::Wgpu(_) => format!(
+            "no window could be opened because there is no graphics adapter: install libvulkan1 and mesa-vulkan-drivers, which \
+             hold one in software ({text})"
+        ),
+        _ => format!(
+            "no window could be opened: {text}; the command line needs none, and `dashpot picture` draws without a display"
+        ),
+    }
 }

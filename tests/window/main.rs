@@ -1,6 +1,7 @@
 //! The window, driven by accessible labels and real pointer events, and pictured by a software adapter.
 #![allow(clippy::unwrap_used, clippy::disallowed_methods, reason = "tests")]
 
+mod controls;
 mod desk;
 mod events;
 mod explain;
@@ -11,6 +12,7 @@ mod journey;
 mod laws;
 mod path;
 mod pictures;
+mod sizes;
 mod space;
 mod states;
 mod support;

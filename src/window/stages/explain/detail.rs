@@ -39,15 +39,17 @@ impl Detail<'_> {
         let level = run.level.map_or_else(String::new, |l| format!(", level {l}"));
         let frequency = format::with_unit(run.frequency_hz(), "Hz");
         let remark = format!("run {}, {frequency}{level}", self.run + 1);
-        ui.with_layout(Layout::right_to_left(Align::Min), |ui| {
-            ui.spacing_mut().item_spacing.x = 2.0;
-            for tab in Tab::ALL.into_iter().rev() {
-                if ui.selectable_label(look.tab == tab, tab.label()).on_hover_text(tab.tooltip()).clicked() {
-                    look.tab = tab;
+        ui.horizontal(|ui| {
+            ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+                ui.spacing_mut().item_spacing.x = 2.0;
+                for tab in Tab::ALL.into_iter().rev() {
+                    if ui.selectable_label(look.tab == tab, tab.label()).on_hover_text(tab.tooltip()).clicked() {
+                        look.tab = tab;
+                    }
                 }
-            }
-            // What is left of the row belongs to the title, which is cut before it runs into the tabs.
-            ui.with_layout(Layout::left_to_right(Align::Min), |ui| ui.title(self.channel, &remark));
+                // What is left of the row belongs to the title, which is cut before it runs into the tabs.
+                ui.with_layout(Layout::left_to_right(Align::Center), |ui| ui.title(self.channel, &remark));
+            });
         });
         let Some(now) = samples::channel(self.comparison, self.run, self.channel) else {
             ui.empty("Nothing to compare", "This run does not have the channel.");
@@ -84,14 +86,12 @@ impl Detail<'_> {
         if tab == Tab::Frequency {
             return shown(ui, &response.title("frequency"), response.over_frequency(ui.palette()));
         }
-        match response.over_level(ui.palette()) {
-            Some(figures) => shown(ui, &response.title("level"), figures),
-            None => {
-                let frequency = self.project.runs.get(self.run).map_or(0.0, |r| r.frequency_hz());
-                let frequency = format::with_unit(frequency, "Hz");
-                ui.empty("One level only", &format!("At {frequency} there is no run at another force."));
-            }
+        if let Some(figures) = response.over_level(ui.palette()) {
+            return shown(ui, &response.title("level"), figures);
         }
+        let frequency = self.project.runs.get(self.run).map_or(0.0, crate::measurement::Run::frequency_hz);
+        let frequency = format::with_unit(frequency, "Hz");
+        ui.empty("One level only", &format!("At {frequency} there is no run at another force."));
     }
 }
 
