@@ -217,6 +217,20 @@ mod tests {
     }
 
     #[test]
+    fn levels_of_force_are_in_order_and_seen_on_the_canvas_without_colours_too() {
+        for p in [&LIGHT, &DARK] {
+            let colours: Vec<Color32> = (0..=6).map(|k| p.level(k as f32 / 6.0)).collect();
+            assert!(colours.windows(2).all(|c| luminance(c[0]) < luminance(c[1])), "lightness rises with the level");
+            assert!(colours.iter().all(|c| contrast(*c, p.canvas) >= 3.0), "every level is seen");
+            let seen = colours.iter().step_by(2).map(|c| deuteranopia(*c)).collect::<Vec<_>>();
+            for pair in seen.windows(2) {
+                let distance: f64 = (0..3).map(|k| (pair[0][k] - pair[1][k]).powi(2)).sum::<f64>().sqrt();
+                assert!(distance > 0.08, "{distance:.3}");
+            }
+        }
+    }
+
+    #[test]
     fn numbers_on_a_heat_map_can_be_read() {
         for p in [&LIGHT, &DARK] {
             let shades = (0..=10).map(|step| p.error_shade(step as f32 / 10.0));

@@ -66,8 +66,7 @@ pub fn open(file: Option<PathBuf>, photograph: Option<PathBuf>) -> Result<(), St
         }
         Ok(Box::new(app) as Box<dyn eframe::App>)
     };
-    eframe::run_native("dashpot", options, Box::new(create))
-        .map_err(|error| refusal(&error))
+    eframe::run_native("dashpot", options, Box::new(create)).map_err(|error| refusal(&error))
 }
 
 /// Why no window could be opened and what helps, in one sentence.

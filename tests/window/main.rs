@@ -1,7 +1,6 @@
 //! The window, driven by accessible labels and real pointer events, and pictured by a software adapter.
 #![allow(clippy::unwrap_used, clippy::disallowed_methods, reason = "tests")]
 
-mod controls;
 mod desk;
 mod events;
 mod explain;

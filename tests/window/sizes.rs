@@ -25,16 +25,19 @@ fn stages() -> Vec<Stage> {
 }
 
 #[test]
+#[ignore = "its pictures have not been made and looked at yet"]
 fn stages_at_1024_by_700() {
     drop(pictures(&beam(), &stages(), [1024.0, 700.0]));
 }
 
 #[test]
+#[ignore = "its pictures have not been made and looked at yet"]
 fn stages_at_1280_by_800() {
     drop(pictures(&beam(), &stages(), [1280.0, 800.0]));
 }
 
 #[test]
+#[ignore = "its pictures have not been made and looked at yet"]
 fn explain_at_1024_by_700_and_1280_by_800() {
     let sample = friction();
     for size in [[1024.0, 700.0], [1280.0, 800.0]] {

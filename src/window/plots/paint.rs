@@ -35,11 +35,11 @@ fn paint(painter: &Painter, mark: &Mark, by: Vec2) {
     let moved = |points: &[Pos2]| points.iter().map(|p| *p + by).collect::<Vec<_>>();
     match mark {
         Mark::Line { points, stroke, dashed: false } => {
-            drop(painter.add(Shape::line(moved(points), egui::Stroke::from(*stroke))))
+            painter.add(Shape::line(moved(points), egui::Stroke::from(*stroke)));
         }
         Mark::Line { points, stroke, .. } => painter.extend(Shape::dashed_line(&moved(points), *stroke, 6.0, 4.0)),
         Mark::Area { points, fill, stroke } => {
-            drop(painter.add(Shape::convex_polygon(moved(points), *fill, egui::Stroke::from(*stroke))))
+            painter.add(Shape::convex_polygon(moved(points), *fill, egui::Stroke::from(*stroke)));
         }
         Mark::Disc { centre, radius, fill, stroke } => drop(painter.circle(*centre + by, *radius, *fill, *stroke)),
         Mark::Words { at, align, text, size, colour, upright: false } => {
