@@ -2,9 +2,9 @@
 
 use super::random::Random;
 use dashpot::effects::{Effect, Place, Source};
-use dashpot::structure::Structure;
 use dashpot::structure::beam::{BeamParameters, Supports};
 use dashpot::structure::chain::ChainParameters;
+use dashpot::structure::{LumpedMass, Structure};
 
 #[derive(Clone)]
 pub enum Specimen {
@@ -60,9 +60,13 @@ impl Specimen {
     }
 
     pub fn build(&self) -> Structure {
+        self.build_with(&[])
+    }
+
+    pub fn build_with(&self, lumped: &[LumpedMass]) -> Structure {
         match self {
-            Self::Beam(beam) => beam.build(&[]).unwrap(),
-            Self::Chain(chain) => chain.build(&[]).unwrap(),
+            Self::Beam(beam) => beam.build(lumped).unwrap(),
+            Self::Chain(chain) => chain.build(lumped).unwrap(),
         }
     }
 

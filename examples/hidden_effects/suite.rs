@@ -62,7 +62,8 @@ pub fn hidden(effects: &[Effect], kindness: Kindness, random: &mut Random) -> Op
         let off = 1.0 + random.within(0.05, 0.2) * random.sign();
         stated.iter_mut().for_each(|s| s.parameters[0] *= off);
     }
-    let excitations = excitations(&exact, kindness, random);
+    let omega = exact.modes().unwrap().omega;
+    let excitations = excitations(&exact, &omega, kindness, random);
     let sensors = sensors(&exact, kindness, random);
     let mut truth: Vec<Source> = Vec::new();
     for &effect in effects {
@@ -101,19 +102,19 @@ fn run(index: usize, record: &Record, omega: f64) -> Run {
     Run::from_record(file(index), None, true, Arc::new(record.clone()), Some(omega / TAU), 7, &[]).unwrap()
 }
 
-fn excitations(structure: &Structure, kindness: Kindness, random: &mut Random) -> Vec<Excitation> {
-    let modes = structure.modes().unwrap();
+/// Sines near the natural frequencies `natural` (rad/s), at several levels of force.
+pub fn excitations(structure: &Structure, natural: &[f64], kindness: Kindness, random: &mut Random) -> Vec<Excitation> {
     let rows = structure.translations();
     let dof = rows[random.below(rows.len().min(4)) + rows.len() - rows.len().min(4)];
     let force = if kindness.beam { 2.0 } else { 30.0 };
     let ratios = [0.985, 1.02, 0.93, 1.005, 1.08, 0.995];
-    let first = (0..modes.len()).find(|&r| modes.omega[r] > 0.0).unwrap_or(0);
+    let first = (0..natural.len()).find(|&r| natural[r] > 0.0).unwrap_or(0);
     let count = 3.min(structure.len());
     let per_mode = kindness.runs.div_ceil(count * kindness.levels);
     let mut list = Vec::new();
     for mode in first..first + count {
         for ratio in ratios.iter().cycle().take(per_mode) {
-            let omega = modes.omega[mode] * (ratio + random.within(-0.004, 0.004));
+            let omega = natural[mode] * (ratio + random.within(-0.004, 0.004));
             for level in 0..kindness.levels {
                 let f = force * [0.3, 1.0, 2.5, 4.0][level] * random.within(0.9, 1.1);
                 let turn = c64::new(0.0, random.within(0.0, TAU)).exp();
@@ -131,7 +132,7 @@ fn excitations(structure: &Structure, kindness: Kindness, random: &mut Random) -
     list
 }
 
-fn sensors(structure: &Structure, kindness: Kindness, random: &mut Random) -> Vec<usize> {
+pub fn sensors(structure: &Structure, kindness: Kindness, random: &mut Random) -> Vec<usize> {
     let mut all = structure.translations();
     while all.len() > kindness.sensors && !kindness.points {
         all.remove(random.below(all.len()));

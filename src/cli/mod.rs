@@ -45,6 +45,12 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
     }
 }
 
+/// What the program would print for these arguments, or the one line of its error: for programs that ask many times.
+pub fn answer(arguments: impl IntoIterator<Item = OsString>) -> Result<String, String> {
+    let arguments = Arguments::try_parse_from(arguments).map_err(|error| error.to_string())?;
+    execute(&arguments.command).map_err(|error| one_line(&error))
+}
+
 fn execute(command: &Command) -> anyhow::Result<String> {
     match command {
         Command::Identify(arguments) => identify::run(arguments),
