@@ -26,18 +26,22 @@
 //! # The floors
 //!
 //! Dependence runs downwards only (`tests/floors.rs` holds it): [`control`], [`math`] - [`structure`], [`effects`],
-//! [`measurement`] - [`response`], [`balance`] - [`identify`], [`classical`], [`diagnosis`] - [`exchange`], [`session`] - [`cli`].
+//! [`measurement`] - [`response`], [`balance`] - [`identify`], [`classical`], [`diagnosis`] - [`exchange`],
+//! [`session`], [`display`] - [`plots`] - [`report`] - [`cli`].
 
 pub mod balance;
 pub mod classical;
 pub mod cli;
 pub mod control;
 pub mod diagnosis;
+pub mod display;
 pub mod effects;
 pub mod exchange;
 pub mod identify;
 pub mod math;
 pub mod measurement;
+pub mod plots;
+pub mod report;
 pub mod response;
 pub mod session;
 pub mod structure;

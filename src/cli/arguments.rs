@@ -2,6 +2,7 @@
 
 use crate::exchange::export::Format;
 use crate::exchange::records::harmonics::HIGHEST_HARMONIC;
+use crate::response::frequency_response::Quantity;
 use clap::builder::PossibleValuesParser;
 use clap::builder::TypedValueParser;
 use clap::{Args, Parser, Subcommand, ValueEnum};
@@ -13,8 +14,7 @@ const WINDOW: &str = "\
 The window:
   dashpot [FILE]                 Open it on a project, or on the start screen
   dashpot picture FILE --stage STAGE --out PNG
-                                 Draw a stage without a display
-  dashpot report FILE --out HTML Write all results with their plots into one file";
+                                 Draw a stage without a display";
 
 /// Tells where a structure loses its energy, how much and by which mechanism.
 #[derive(Debug, Parser)]
@@ -49,6 +49,10 @@ pub(super) enum Command {
     Import(Import),
     /// Write a structure of a known kind as matrices with nodes, DOFs and lines
     Build(Build),
+    /// Write all results with their plots into one HTML file
+    Report(Report),
+    /// Draw one plot as SVG, or write its values as CSV
+    Plot(Plot),
     /// Play a script of commands on a project, as the window would do them
     Run(Run),
 }
@@ -236,6 +240,100 @@ pub(super) struct Export {
 }
 
 #[derive(Debug, Args)]
+pub(super) struct Report {
+    /// Project file
+    pub file: PathBuf,
+    /// HTML file to write
+    #[arg(long)]
+    pub out: PathBuf,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct Plot {
+    /// Project file
+    pub file: PathBuf,
+    /// What is plotted
+    #[arg(long, value_enum)]
+    pub what: PlotKind,
+    /// File to write: .svg for the plot, .csv for its values
+    #[arg(long)]
+    pub out: PathBuf,
+    /// Run by its number in the project, from 1; the first that is used unless given
+    #[arg(long)]
+    pub run: Option<usize>,
+    /// Channel such as acc@7, of plots of one channel; the first motion unless given
+    #[arg(long)]
+    pub channel: Option<String>,
+    /// DOF of the response in Bode and Nyquist diagrams; that of the last sensor unless given
+    #[arg(long)]
+    pub dof: Option<String>,
+    /// What is divided by the force in Bode and Nyquist diagrams
+    #[arg(long, value_enum, default_value_t = ResponseQuantity::Receptance)]
+    pub quantity: ResponseQuantity,
+    /// Width x height of the paper in points, such as 900x520
+    #[arg(long, value_parser = paper)]
+    pub size: Option<[u32; 2]>,
+    /// Colours: light or dark
+    #[arg(long, default_value = "light", value_parser = ["light", "dark"])]
+    pub theme: String,
+}
+
+/// Plots of `dashpot plot`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(super) enum PlotKind {
+    /// Angle against number of sources
+    Angle,
+    /// Measured and identified energy of every run
+    Energy,
+    /// Energy by source
+    Shares,
+    /// Damping matrix
+    Matrix,
+    /// Magnitude and phase of the model with the measured points
+    Bode,
+    /// Imaginary over real part near a run
+    Nyquist,
+    /// Loops of force over displacement of a run
+    Hysteresis,
+    /// Time record of a channel with its fit and residual
+    Record,
+    /// Amplitude spectrum of a channel
+    Spectrum,
+    /// Error of every channel in every run
+    ErrorMap,
+    /// Measured on modelled over frequency, one curve a level of force
+    Channel,
+    /// Measured on modelled over the level of force
+    Level,
+    /// Measured on modelled over one period
+    Period,
+    /// Measured on modelled as a loop of force over displacement
+    Loop,
+}
+
+/// What is divided by the force.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(super) enum ResponseQuantity {
+    /// Displacement over force
+    Receptance,
+    /// Velocity over force
+    Mobility,
+    /// Acceleration over force
+    Accelerance,
+}
+
+impl ResponseQuantity {
+    /// The same in the engine's terms.
+    pub fn quantity(self) -> Quantity {
+        match self {
+            Self::Receptance => Quantity::Receptance,
+            Self::Mobility => Quantity::Mobility,
+            Self::Accelerance => Quantity::Accelerance,
+        }
+    }
+}
+
+#[derive(Debug, Args)]
 pub(super) struct Run {
     /// Script: a JSON list of commands, see docs/formats.md
     pub script: PathBuf,
@@ -244,6 +342,15 @@ pub(super) struct Run {
     /// Project file to write; standard output unless given
     #[arg(long)]
     pub out: Option<PathBuf>,
+}
+
+fn paper(text: &str) -> Result<[u32; 2], String> {
+    let fault = || "write width x height in points, from 200x150 to 8000x8000, such as 900x520".to_owned();
+    let (width, height) = text.split_once('x').ok_or_else(fault)?;
+    match (width.parse(), height.parse()) {
+        (Ok(w), Ok(h)) if (200..=8000).contains(&w) && (150..=8000).contains(&h) => Ok([w, h]),
+        _ => Err(fault()),
+    }
 }
 
 fn noise(text: &str) -> Result<f64, String> {

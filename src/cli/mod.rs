@@ -19,8 +19,10 @@ mod incompleteness;
 mod methods;
 mod moving_base;
 mod play;
+mod plot;
 mod records;
 mod reduction;
+mod report;
 mod run_flags;
 mod simulate;
 mod simulate_frf;
@@ -77,6 +79,8 @@ fn execute(command: &Command) -> anyhow::Result<String> {
         Command::Contents(arguments) => contents::run(arguments),
         Command::Import(arguments) => import::run(arguments),
         Command::Build(arguments) => build::run(arguments),
+        Command::Report(arguments) => report::run(arguments),
+        Command::Plot(arguments) => plot::run(arguments),
         Command::Run(arguments) => play::run(arguments),
     }
 }

@@ -6,12 +6,11 @@ use super::document::Document;
 use super::edits::Edit;
 use super::files::{self, Pick};
 use super::frame::leave::{Changes, Leave};
-use super::report;
 use super::view::Stage;
-use crate::control::Control;
 use crate::exchange::Project;
 use crate::exchange::export::Format;
 use crate::identify::Outcome;
+use crate::report::{self, Known, LedgerRow};
 use egui::{Context, Theme, ViewportCommand};
 use std::path::PathBuf;
 
@@ -130,13 +129,13 @@ impl App {
         &mut self,
         ctx: &Context,
         name: &str,
-        work: impl FnOnce(&Project, &Outcome, &Control) -> Result<String, String> + Send + 'static,
+        work: impl FnOnce(&Project, &Outcome) -> Result<String, String> + Send + 'static,
     ) {
         let Some(document) = &self.document else { return };
         match self.derived.known_outcome(document) {
             Some(Ok(outcome)) => {
                 let (project, outcome) = (document.project.clone(), outcome.clone());
-                self.run(ctx, name, move |control| work(&project, &outcome, control));
+                self.run(ctx, name, move |_| work(&project, &outcome));
             }
             Some(Err(error)) => self.fail(error.clone()),
             None => self.fail("Identification is still running; ask again when it has ended.".to_owned()),
@@ -145,12 +144,25 @@ impl App {
 
     /// Hands what was identified to another program.
     pub(super) fn export(&mut self, ctx: &Context, format: Format, path: PathBuf) {
-        self.write_identified(ctx, "Exporting", move |p, outcome, _| files::export(p, outcome, format, &path));
+        self.write_identified(ctx, "Exporting", move |p, outcome| files::export(p, outcome, format, &path));
     }
 
-    /// Writes the report.
+    /// Writes the report of what there is; what has not been computed yet is computed for it.
     pub(super) fn report(&mut self, ctx: &Context, path: PathBuf) {
-        self.write_identified(ctx, "Report", move |p, outcome, control| report::write(p, outcome, &path, control));
+        let Some(document) = &self.document else { return };
+        let explained = &self.derived.explained;
+        let row = |step: usize| {
+            let step = &explained.ledger.steps()[step];
+            LedgerRow { label: step.label.clone(), error: step.error, noise_floor: step.noise_floor }
+        };
+        let known = Known {
+            outcome: self.derived.known_outcome(document).cloned(),
+            comparison: explained.comparison(document).cloned(),
+            diagnosis: explained.diagnosis(document).cloned(),
+            ledger: explained.ledger.path().into_iter().map(row).collect(),
+        };
+        let project = document.project.clone();
+        self.run(ctx, "Report", move |control| report::write(&project, known, &path, control));
     }
 
     /// The desktop wants to close the window: not before it is asked what becomes of unsaved changes.

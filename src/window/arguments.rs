@@ -44,27 +44,12 @@ struct PictureArguments {
     plots: Option<PathBuf>,
 }
 
-/// Writes a report of a project in one HTML file.
-#[derive(Debug, Parser)]
-#[command(name = "dashpot report")]
-struct ReportArguments {
-    /// Project file.
-    file: PathBuf,
-    /// HTML file to write.
-    #[arg(long)]
-    out: PathBuf,
-}
-
-/// Does what the arguments ask for, where they ask for the window: none, a project file, `picture` or `report`.
+/// Does what the arguments ask for, where they ask for the window: none, a project file or `picture`.
 pub fn run(arguments: &[OsString]) -> Option<ExitCode> {
     match arguments.get(1..).unwrap_or_default() {
         [] => Some(code(super::open(None, None))),
         [first, ..] if first == "picture" => {
             Some(PictureArguments::try_parse_from(&arguments[1..]).map_or_else(|e| usage(&e), |a| code(draw(a))))
-        }
-        [first, ..] if first == "report" => {
-            let written = |a: ReportArguments| code(super::report::report(&a.file, &a.out));
-            Some(ReportArguments::try_parse_from(&arguments[1..]).map_or_else(|e| usage(&e), written))
         }
         [first, ..] if is_project(first) || first == "--photograph" => {
             let opened = |a: WindowArguments| code(super::open(a.file, a.photograph));

@@ -67,7 +67,7 @@ pub fn extension(format: Format) -> &'static str {
         Format::Mat => "mat",
         Format::Json => "json",
         Format::Nastran => "bdf",
-        Format::Abaqus => "inp",
+        Format::Abaqus | Format::Calculix => "inp",
     }
 }
 
@@ -80,5 +80,6 @@ pub fn words(format: Format) -> &'static str {
         Format::Json => "JSON…",
         Format::Nastran => "NASTRAN DMIG and CDAMP2…",
         Format::Abaqus => "Abaqus dashpots…",
+        Format::Calculix => "CalculiX dashpots…",
     }
 }

@@ -4,7 +4,7 @@ use super::app::App;
 use super::frame::top::Mark;
 use super::stages;
 use super::view::Stage;
-use super::words;
+use crate::display::words;
 use crate::effects::State;
 use crate::identify::Status;
 

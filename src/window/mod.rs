@@ -13,8 +13,6 @@ pub mod document;
 pub mod edits;
 pub mod explained;
 pub mod files;
-pub mod format;
-pub mod forward;
 pub mod frame;
 pub mod learn;
 mod marks;
@@ -23,7 +21,6 @@ pub mod photograph;
 pub mod picture;
 pub mod plots;
 pub mod records;
-pub mod report;
 pub mod schematic;
 pub mod solid;
 pub mod stages;
@@ -33,7 +30,6 @@ pub mod traces;
 pub mod view;
 pub mod wake;
 pub mod widgets;
-pub mod words;
 pub mod work;
 
 pub use app::App;
@@ -70,6 +66,19 @@ pub fn open(file: Option<PathBuf>, photograph: Option<PathBuf>) -> Result<(), St
         }
         Ok(Box::new(app) as Box<dyn eframe::App>)
     };
-    eframe::run_native("dashpot", options, Box::new(create))
-        .map_err(|error| format!("no window could be opened: {error}; `dashpot picture` draws without a display"))
+    eframe::run_native("dashpot", options, Box::new(create)).map_err(|error| refusal(&error))
+}
+
+/// Why no window could be opened and what helps, in one sentence.
+fn refusal(error: &eframe::Error) -> String {
+    let text = error.to_string();
+    match error {
+        eframe::Error::Wgpu(_) => format!(
+            "no window could be opened because there is no graphics adapter: install libvulkan1 and mesa-vulkan-drivers, which \
+             hold one in software ({text})"
+        ),
+        _ => format!(
+            "no window could be opened: {text}; the command line needs none, and `dashpot picture` draws without a display"
+        ),
+    }
 }

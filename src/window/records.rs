@@ -102,8 +102,7 @@ fn harmonics(plan: &Plan, keys: &[Key]) -> Result<Vec<(Key, Vec<Run>)>, String> 
         let mut alone = plan.clone();
         alone.file.harmonics = vec![plan.file.harmonics[index].clone()];
         let read = alone.harmonics().map_err(|e| e.to_string())?;
-        let runs = read.into_iter().map(|r| r.run(&corrections)).collect();
-        let fitted = read.into_iter().map(|r| Run::from_harmonics(r.name, None, true, r.fit, &corrections));
+        let fitted = read.into_iter().map(|fitted| fitted.run(&corrections));
         let runs =
             fitted.map(|run| plan.on_its_base(None, run).map_err(|e| e.to_string())).collect::<Result<_, _>>()?;
         Ok((key.clone(), runs))

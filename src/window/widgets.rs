@@ -1,10 +1,11 @@
 //! What all panes are made of, as one extension of `egui::Ui`.
 
-use super::format;
 use super::theme::{self, Palette, size, space};
+use crate::display::format;
+use egui::text::{LayoutJob, TextWrapping};
 use egui::{
-    Align, Color32, ComboBox, CornerRadius, DragValue, Frame, Label, Layout, Margin, Response, RichText, Sense, Ui,
-    WidgetText, vec2,
+    Align, Color32, ComboBox, CornerRadius, DragValue, FontId, Frame, Label, Layout, Margin, Pos2, Response, RichText,
+    Sense, Ui, WidgetText, vec2,
 };
 
 /// Width of a value that can be edited, points.
@@ -22,6 +23,17 @@ fn name_left(ui: &mut Ui, name: &str, rest: f32) -> Response {
         ui.add(label)
     })
     .inner
+}
+
+/// Paints a line of words that starts at `left` (its middle) and ends with dots where it is wider than `room`; gives back
+/// its width.
+pub fn elided(ui: &Ui, text: &str, font: FontId, colour: Color32, left: Pos2, room: f32) -> f32 {
+    let mut job = LayoutJob::simple_singleline(text.to_owned(), font, colour);
+    job.wrap = TextWrapping::truncate_at_width(room.max(8.0));
+    let galley = ui.painter().layout_job(job);
+    let width = galley.size().x;
+    ui.painter().galley(left - vec2(0.0, 0.5 * galley.size().y), galley, colour);
+    width
 }
 
 /// The program's own widgets.

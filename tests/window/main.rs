@@ -11,7 +11,7 @@ mod journey;
 mod laws;
 mod path;
 mod pictures;
-mod report;
+mod sizes;
 mod space;
 mod states;
 mod support;

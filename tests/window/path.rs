@@ -2,8 +2,8 @@
 
 use crate::support::{beam, chain, document, drag, open, settle, start};
 use dashpot::control::Control;
+use dashpot::display::format;
 use dashpot::effects::{Effect, Place, State};
-use dashpot::window::format;
 use dashpot::window::view::Stage;
 use egui::{Key, Modifiers, Theme};
 use egui_kittest::kittest::Queryable;

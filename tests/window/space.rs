@@ -52,7 +52,7 @@ fn a_bar_under_the_pointer_says_its_dofs_and_its_value() {
         app.derived.known_outcome(app.document.as_ref().unwrap()).unwrap().clone().unwrap()
     };
     let value = outcome.results.viscous[(6, 6)];
-    let wanted = format!("Matrix in 3-D, N·s/m: (7, 7)  {}", dashpot::window::format::with_unit(value, "N s/m"));
+    let wanted = format!("Matrix in 3-D, N·s/m: (7, 7)  {}", dashpot::display::format::with_unit(value, "N s/m"));
     let said = (1..30).any(|k| {
         harness.hover_at(room.left_top() + room.size() * egui::vec2(k as f32 / 30.0, 0.55));
         harness.run_steps(2);

@@ -130,20 +130,28 @@ pub fn document(path: &Path) -> Document {
 
 /// A window without anything open.
 pub fn start() -> Harness<'static, App> {
-    window(None, egui::Theme::Light)
+    window(None, egui::Theme::Light, SIZE)
 }
+
+/// Size of the window unless a test asks for another, points.
+const SIZE: [f32; 2] = [1440.0, 900.0];
 
 /// A window on a project, settled.
 pub fn open(sample: &Sample, theme: egui::Theme) -> Harness<'static, App> {
-    let mut harness = window(Some(sample.path.clone()), theme);
+    open_sized(sample, theme, SIZE)
+}
+
+/// The same of another size.
+pub fn open_sized(sample: &Sample, theme: egui::Theme, size: [f32; 2]) -> Harness<'static, App> {
+    let mut harness = window(Some(sample.path.clone()), theme, size);
     settle(&mut harness);
     harness
 }
 
-fn window(file: Option<PathBuf>, theme: egui::Theme) -> Harness<'static, App> {
+fn window(file: Option<PathBuf>, theme: egui::Theme, size: [f32; 2]) -> Harness<'static, App> {
     let setup = dashpot::window::offscreen::setup(wgpu::Backends::PRIMARY);
     let mut harness =
-        Harness::builder().with_size(egui::vec2(1440.0, 900.0)).with_theme(theme).wgpu_setup(setup).build_eframe(
+        Harness::builder().with_size(egui::Vec2::from(size)).with_theme(theme).wgpu_setup(setup).build_eframe(
             move |cc| {
                 dashpot::window::theme::install(&cc.egui_ctx);
                 cc.egui_ctx.set_theme(theme);

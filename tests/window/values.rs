@@ -1,8 +1,8 @@
 //! The values on the screen are those of `dashpot identify --json`: text of the accessibility tree against the document.
 
 use crate::support::{Sample, beam, chain, open, settle};
+use dashpot::display::format;
 use dashpot::window::App;
-use dashpot::window::format;
 use dashpot::window::frame::panes::Pane;
 use dashpot::window::view::Stage;
 use egui::Theme;

@@ -120,7 +120,7 @@ mod tests {
         let mut session = Session::open(&path).unwrap();
         let mut ledger = Ledger::default();
         let visit = |ledger: &mut Ledger, session: &Session, error: f64| {
-            let comparison = crate::window::stages::explain::grid::bare(error, Vec::new());
+            let comparison = crate::plots::error_map::bare(error, Vec::new());
             ledger.visit(&Key::new(session.document()), session.document(), &comparison);
         };
         visit(&mut ledger, &session, 0.3);

@@ -1,7 +1,6 @@
 //! What is computed for the stage Explain, each by the model it was computed from: comparisons, diagnoses, fingerprints,
 //! response curves; and the ledger of all models that were looked at.
 
-pub mod curve;
 pub mod early;
 pub mod ledger;
 pub mod model;
@@ -9,12 +8,12 @@ pub mod shelf;
 
 use super::document::Document;
 use crate::control::Control;
-use crate::diagnosis::candidates::fingerprint_plot::{self, Print};
+use crate::diagnosis::candidates::fingerprint_plot::{self as prints, Print};
 use crate::diagnosis::diagnose::{Suggestion, diagnose_without};
 use crate::diagnosis::{self, Comparison, Diagnosis, Problem};
 use crate::effects::{Place, Source};
 use crate::exchange::Project;
-use curve::Curve;
+use crate::plots::response_curve::{self, Curve};
 use early::{Early, Mailbox};
 use egui::Context;
 use ledger::Ledger;
@@ -54,8 +53,8 @@ pub struct Explained {
     diagnoses: Shelf<Search, Diagnosis>,
     early: Early,
     prints: Shelf<(Search, Source), Option<Print>>,
-    curves: Shelf<(Key, usize), Curve>,
-    trial_curves: Shelf<(Tried, usize), Curve>,
+    curves: Shelf<(Key, usize), Vec<Curve>>,
+    trial_curves: Shelf<(Tried, usize), Vec<Curve>>,
     /// The way so far.
     pub ledger: Ledger,
 }
@@ -224,13 +223,13 @@ impl Explained {
         self.prints.get(&(search, source.clone()))
     }
 
-    /// The response curve of the model near a run.
-    pub fn curve(&self, document: &Document, run: usize) -> Option<&Kept<Curve>> {
+    /// The response curves of the model near a run, one a level.
+    pub fn curve(&self, document: &Document, run: usize) -> Option<&Kept<Vec<Curve>>> {
         self.curves.get(&(self.current(document)?, run))
     }
 
-    /// The response curve with an effect on trial.
-    pub fn trial_curve(&self, document: &Document, source: &Source, run: usize) -> Option<&Kept<Curve>> {
+    /// The response curves with an effect on trial.
+    pub fn trial_curve(&self, document: &Document, source: &Source, run: usize) -> Option<&Kept<Vec<Curve>>> {
         self.trial_curves.get(&((self.current(document)?, Some(source.clone())), run))
     }
 
@@ -245,6 +244,11 @@ impl Explained {
     /// Number `index` of the sources that act in the model.
     pub fn known(&self, document: &Document, index: usize) -> Option<Source> {
         self.current(document)?.0.known.get(index).cloned()
+    }
+
+    /// The sources that act in the model, in the order of the project.
+    pub fn all_known(&self, document: &Document) -> Vec<Source> {
+        self.current(document).map_or_else(Vec::new, |key| key.0.known.clone())
     }
 
     /// Name and progress of what runs; the search first, since it takes longest.
@@ -290,7 +294,7 @@ fn compare_job(
     trial: Option<&Source>,
 ) -> impl FnOnce(&Control) -> Result<Comparison, String> + use<> {
     let (p, effects) = (Arc::clone(p), trial.cloned().into_iter().collect::<Vec<_>>());
-    move |control| explain::compare(&problem(&p), &effects, control).map_err(|e| e.to_string())
+    move |control| diagnosis::compare(&problem(&p), &effects, control).map_err(|e| e.to_string())
 }
 
 /// The fingerprint of a suggestion beside the other effects that were found.
@@ -312,7 +316,7 @@ fn curve_job(
     p: &Arc<Project>,
     trial: Option<&Source>,
     run: usize,
-) -> impl FnOnce(&Control) -> Result<Curve, String> + use<> {
+) -> impl FnOnce(&Control) -> Result<Vec<Curve>, String> + use<> {
     let (p, effects) = (Arc::clone(p), trial.cloned().into_iter().collect::<Vec<_>>());
-    move |control| curve::curve(&p, &effects, run, control)
+    move |control| response_curve::curves(&p, &effects, run, control)
 }

@@ -1,11 +1,11 @@
 //! What a comparison depends on, as a key: two documents with the same model and the same measurements share their results.
 
+use crate::display::words::{self, at};
 use crate::effects::effect::Kind;
-use crate::effects::{Place, Source, State};
+use crate::effects::{Source, State};
 use crate::exchange::project::file::{RunTable, SensorTable, StructureTable};
 use crate::session::Document;
 use crate::structure::Structure;
-use crate::window::words;
 use std::sync::Arc;
 
 /// Model and measurements of a document.
@@ -111,20 +111,5 @@ impl Model {
             1..=2 => said.join(", "),
             many => format!("{} and {} more", said[0], many - 1),
         }
-    }
-}
-
-/// A place after the name of an effect: `at DOF 15`, `between DOF 3 and 5`, `of acc@7`.
-pub fn at(structure: &Structure, place: &Place) -> String {
-    let label = |d: &usize| structure.label(*d).to_owned();
-    match place {
-        Place::Dofs(dofs) => match &dofs[..] {
-            [one] => format!("at DOF {}", label(one)),
-            [a, b] => format!("between DOF {} and {}", label(a), label(b)),
-            many => format!("along DOF {}", many.iter().map(label).collect::<Vec<_>>().join("–")),
-        },
-        Place::Whole(None) => "of the whole structure".to_owned(),
-        Place::Whole(Some([first, last])) => format!("of elements {}–{}", first + 1, last + 1),
-        Place::Channel(channel) => format!("of {channel}"),
     }
 }

@@ -49,37 +49,16 @@ pub fn stage(painter: &Painter, stage: Stage, rect: Rect, colour: Color32) {
     }
 }
 
-/// Edge of the program's icon, pixels.
-const ICON: u32 = 128;
-
-/// The program's icon: a dashpot on the accent colour.
+/// The program's icon, of which `assets/icons/dashpot.svg` is the drawing; nothing where it cannot be read.
 pub fn application() -> egui::IconData {
-    // Strokes in a square from 0 to 1, y downwards.
-    const STROKES: [[f32; 4]; 6] = [
-        [0.12, 0.50, 0.40, 0.50],
-        [0.40, 0.28, 0.40, 0.72],
-        [0.40, 0.28, 0.66, 0.28],
-        [0.40, 0.72, 0.66, 0.72],
-        [0.54, 0.38, 0.54, 0.62],
-        [0.54, 0.50, 0.88, 0.50],
-    ];
-    let ground = crate::window::theme::Palette::of(&egui::Visuals::light()).accent;
-    let distance = |x: f32, y: f32, [ax, ay, bx, by]: [f32; 4]| {
-        let (dx, dy) = (bx - ax, by - ay);
-        let t = (((x - ax) * dx + (y - ay) * dy) / (dx * dx + dy * dy)).clamp(0.0, 1.0);
-        (x - ax - t * dx).hypot(y - ay - t * dy)
-    };
-    let pixel = |k: u32| {
-        let (x, y) = ((k % ICON) as f32 + 0.5, (k / ICON) as f32 + 0.5);
-        let (x, y) = (x / ICON as f32, y / ICON as f32);
-        let corner = ((x - 0.5).abs() - 0.28).max(0.0).hypot(((y - 0.5).abs() - 0.28).max(0.0));
-        let inside = ((0.22 - corner) * ICON as f32).clamp(0.0, 1.0);
-        let near = STROKES.iter().map(|&s| distance(x, y, s)).fold(f32::INFINITY, f32::min);
-        let ink = ((0.032 - near) * ICON as f32).clamp(0.0, 1.0);
-        let colour = ground.lerp_to_gamma(Color32::WHITE, ink);
-        [colour.r(), colour.g(), colour.b(), (255.0 * inside) as u8]
-    };
-    egui::IconData { rgba: (0..ICON * ICON).flat_map(pixel).collect(), width: ICON, height: ICON }
+    let png = include_bytes!("../../../assets/icons/128.png");
+    image::load_from_memory(png).map_or_else(
+        |_| egui::IconData::default(),
+        |icon| {
+            let (width, height) = (icon.width(), icon.height());
+            egui::IconData { rgba: icon.into_rgba8().into_raw(), width, height }
+        },
+    )
 }
 
 #[cfg(test)]
@@ -87,9 +66,10 @@ mod tests {
     #[test]
     fn the_icon_is_a_light_symbol_on_a_dark_ground_with_round_corners() {
         let icon = super::application();
+        assert_eq!((icon.width, icon.height), (128, 128));
         let at = |x: u32, y: u32| icon.rgba[4 * (y * icon.width + x) as usize..][..4].to_vec();
         assert_eq!(at(0, 0)[3], 0, "corners are clear");
-        assert!(at(64, 100)[3] == 255 && at(64, 100)[0] < 100);
-        assert!(at(20, 64)[0] > 240, "the rod is light");
+        assert!(at(64, 85)[3] == 255 && at(64, 85)[0] < 100);
+        assert!(at(30, 52)[0] > 240, "the rod is light");
     }
 }

@@ -1,6 +1,7 @@
 //! What is selected, with every value and its unit.
 
 use crate::balance::{Expansion, Weights};
+use crate::display::{format, words};
 use crate::effects::{Place, State};
 use crate::exchange::Project;
 use crate::exchange::project::ProjectFile;
@@ -11,7 +12,6 @@ use crate::window::edits::Edit;
 use crate::window::theme::space;
 use crate::window::view::Stage;
 use crate::window::widgets::UiExt;
-use crate::window::{format, words};
 use egui::{ScrollArea, Ui};
 
 /// Shows the inspector.
@@ -128,7 +128,7 @@ fn adjust(ui: &mut Ui, r: &crate::measurement::Run, asks: &mut Vec<Ask>) {
     if let Some(new) = ui.quantity("Force level", r.level.unwrap_or(0) as f64, "") {
         set(asks, Command::SetRunLevel { file: file(), level: (new != 0.0).then_some(new.round() as i64) });
     }
-    ui.horizontal(|ui| {
+    ui.horizontal_wrapped(|ui| {
         if ui.small_button("Estimate the frequency").clicked() {
             set(asks, Command::SetRunFrequency { file: file(), frequency: None });
         }

@@ -1,11 +1,11 @@
 //! The schematic pane: what it shows at the stage that is open.
 
+use crate::display::format;
 use crate::effects::State;
 use crate::exchange::Project;
 use crate::identify::Estimate;
 use crate::window::app::{App, Ask};
 use crate::window::commands::Command;
-use crate::window::format;
 use crate::window::schematic::Scene;
 use crate::window::schematic::hit::Target;
 use crate::window::schematic::view::View;
@@ -55,7 +55,7 @@ fn identified(scene: &Scene, p: &Project, estimates: &[Estimate]) -> Scene {
     for estimate in estimates {
         let Some(source) = p.sources.get(estimate.source).filter(|s| s.state != State::Known) else { continue };
         if let Some(drawn) = scene.sources.iter_mut().find(|s| s.index == estimate.source) {
-            drawn.identified = Some(crate::window::stages::coefficient(source, estimate));
+            drawn.identified = Some(crate::display::words::coefficient(source, estimate));
         }
     }
     scene

@@ -14,12 +14,34 @@ const IN_A_ROW: usize = 4;
 /// Room between cards, points.
 const GAP: f32 = 14.0;
 
-/// Where samples are looked for: beside the program, at and above the working directory.
+/// Where samples are looked for: beside the program, at and above the working directory, and where a package puts them.
 pub fn samples_folder() -> Option<PathBuf> {
     let here = std::env::current_dir().ok();
     let program = std::env::current_exe().ok();
     let roots = here.iter().chain(program.iter()).flat_map(|p| p.ancestors().take(5));
-    roots.map(|root| root.join("sample-data")).find(|folder| folder.is_dir())
+    let places = roots.flat_map(|root| [root.join("sample-data"), root.join("share/dashpot/sample-data")]);
+    places.into_iter().find(|folder| folder.is_dir())
+}
+
+/// The project file of a sample, copied to the user's own folder where that of the program may not be written: a sample is
+/// there to be tried and changed.
+fn own_copy(project: PathBuf) -> PathBuf {
+    let copied = || {
+        let folder = project.parent()?;
+        if tempfile::tempfile_in(folder).is_ok() {
+            return None;
+        }
+        let own = eframe::storage_dir("dashpot")?.join("samples").join(folder.file_name()?);
+        std::fs::create_dir_all(&own).ok()?;
+        for entry in std::fs::read_dir(folder).ok()?.flatten().filter(|e| e.path().is_file()) {
+            let to = own.join(entry.file_name());
+            if !to.exists() {
+                std::fs::write(to, std::fs::read(entry.path()).ok()?).ok()?;
+            }
+        }
+        Some(own.join(project.file_name()?))
+    };
+    copied().unwrap_or(project)
 }
 
 /// Shows the start screen.
@@ -90,7 +112,7 @@ fn samples(ui: &mut Ui, width: f32, asks: &mut Vec<Ask>) {
                     if card(ui, card_width, sample, file.as_deref())
                         && let Some(file) = file
                     {
-                        asks.push(Ask::Open(file));
+                        asks.push(Ask::Open(own_copy(file)));
                     }
                 }
             });

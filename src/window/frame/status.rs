@@ -1,11 +1,11 @@
 //! The status bar: what runs and how to stop it, the last message, the error now and the noise under it.
 
+use crate::display::{format, words};
 use crate::identify::Outcome;
 use crate::window::app::{App, Ask};
 use crate::window::commands::Command;
 use crate::window::theme::{Palette, size};
 use crate::window::widgets::UiExt;
-use crate::window::{format, words};
 use egui::{Align, Button, Frame, Layout, Margin, Panel, ProgressBar, RichText, Ui};
 
 /// Shows the bar.

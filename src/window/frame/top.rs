@@ -202,7 +202,8 @@ fn stages(ui: &mut Ui, app: &App, asks: &mut Vec<Ask>) {
         ui.add_space(space::L);
         let mark = app.mark(app.view.stage);
         let colour = if mark.kind == Kind::Attention { ui.palette().warning } else { ui.palette().weak };
-        ui.label(RichText::new(mark.reason).size(size::SMALL).color(colour));
+        let reason = RichText::new(mark.reason).size(size::SMALL).color(colour);
+        ui.add(egui::Label::new(reason).truncate());
     });
 }
 

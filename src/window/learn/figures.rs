@@ -1,8 +1,8 @@
 //! The portrait of a law as plots.
 
+use crate::display::format;
+use crate::plots::figure::{Axis, Figure, Look, Ticks};
 use crate::response::portrait::{AtLevel, Points, Portrait, ResponsePoint};
-use crate::window::format;
-use crate::window::plots::figure::{Axis, Figure, Look, Ticks};
 use crate::window::theme::Palette;
 use egui::Color32;
 

@@ -3,10 +3,10 @@
 //! A plot is asked for by its title; it answers at its next frame with its drawing and its values, so that nothing is
 //! prepared that nobody wants. Dialogs and writing run in the background.
 
-use super::drawing::Drawing;
-use super::sheet::Sheet;
-use super::svg;
 use crate::exchange::atomic::write_atomically;
+use crate::plots::drawing::Drawing;
+use crate::plots::sheet::Sheet;
+use crate::plots::svg;
 use crate::session::jobs::Job;
 use crate::window::offscreen::Offscreen;
 use crate::window::solid::paint::graphics;

@@ -1,107 +1,13 @@
-//! Loops of force over displacement: of the exciter, measured and of the model, and of each source.
+//! Loops side by side in their pane.
 
 use super::export;
-use super::figure::{Axis, Figure, Look};
-use super::sheet::{Panel, Sheet};
 use super::show::{Place, key_row};
-use crate::effects::{Motion, Source};
-use crate::exchange::Project;
-use crate::measurement::Quantity;
+use crate::display::words;
+use crate::plots::figure::Figure;
+use crate::plots::hysteresis::Loop;
+use crate::plots::sheet::{Panel, Sheet};
 use crate::window::widgets::UiExt;
-use crate::window::{format, words};
 use egui::{Ui, vec2};
-use faer::c64;
-use std::f64::consts::TAU;
-
-/// Samples of a loop.
-const SAMPLES: usize = 256;
-
-/// A closed loop: displacement, m, and force, N.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Loop {
-    /// Title.
-    pub name: String,
-    /// Points of the model's loop.
-    pub model: Vec<[f64; 2]>,
-    /// Points of the measured loop, where both force and motion are measured there.
-    pub measured: Vec<[f64; 2]>,
-}
-
-/// Loops of one run: the exciter's and one a source, for the model's amplitudes `x` of displacement (m) at the fundamental.
-pub fn loops(p: &Project, run: usize, x: &[c64], acting: &[Source]) -> Vec<Loop> {
-    let Some(r) = p.runs.get(run) else { return Vec::new() };
-    let omega = r.fit.omega;
-    let mut loops = Vec::new();
-    for force in r.fit.channels.iter().filter(|c| c.channel.quantity == Quantity::Force) {
-        let dof = force.channel.dof;
-        let Some(&f) = force.amplitudes.first() else { continue };
-        let motion = r.fit.channels.iter().find(|c| c.channel.dof == dof && c.channel.quantity != Quantity::Force);
-        let measured = motion.and_then(|m| {
-            let order = m.channel.quantity.derivatives()?;
-            let turn = (0..order).fold(c64::new(1.0, 0.0), |z, _| z * c64::new(0.0, omega));
-            Some(ellipse(*m.amplitudes.first()? / turn, f))
-        });
-        loops.push(Loop {
-            name: format!("Exciter at DOF {}", force.channel.label),
-            model: x.get(dof).map_or_else(Vec::new, |&x| ellipse(x, f)),
-            measured: measured.unwrap_or_default(),
-        });
-    }
-    for source in acting {
-        for leg in source.place.legs() {
-            let Some(law) = source.effect.law() else { continue };
-            let motion = Motion::new(omega, 0.0, &[leg.relative(|d| x[d])], SAMPLES);
-            let mut force = vec![0.0; SAMPLES];
-            law.force(&source.parameters, &motion, &mut force);
-            let points = motion.displacement.iter().zip(&force).map(|(&d, &f)| [d, f]);
-            let mut model: Vec<[f64; 2]> = points.collect();
-            model.extend(model.first().copied());
-            let place = words::place(&p.structure, &source.place);
-            loops.push(Loop { name: format!("{} {place}", words::effect(source.effect)), model, measured: Vec::new() });
-        }
-    }
-    loops
-}
-
-/// The loop of two harmonic quantities over one period.
-fn ellipse(x: c64, f: c64) -> Vec<[f64; 2]> {
-    let at = |k: usize| {
-        let (s, c) = (TAU * k as f64 / SAMPLES as f64).sin_cos();
-        [x.re * c - x.im * s, f.re * c - f.im * s]
-    };
-    (0..=SAMPLES).map(at).collect()
-}
-
-/// Work per period of the force of a closed loop, J: the integral of `f dx` by the trapezoidal rule.
-pub fn area(points: &[[f64; 2]]) -> f64 {
-    points.windows(2).map(|p| 0.5 * (p[0][1] + p[1][1]) * (p[1][0] - p[0][0])).sum()
-}
-
-impl Loop {
-    /// What it encloses, in words: `model 1.23 mJ, measured 1.25 mJ`.
-    fn energies(&self) -> String {
-        if self.measured.is_empty() {
-            return format::prefixed(area(&self.model), "J");
-        }
-        let one = |name: &str, points: &[[f64; 2]]| {
-            (!points.is_empty()).then(|| format!("{name} {}", format::prefixed(area(points), "J")))
-        };
-        [one("model", &self.model), one("measured", &self.measured)]
-            .into_iter()
-            .flatten()
-            .collect::<Vec<_>>()
-            .join(", ")
-    }
-
-    fn figure(&self, palette: &crate::window::theme::Palette) -> Figure {
-        let title = format!("{}: area {}", self.name, self.energies());
-        let mut figure = Figure::new(&title, Axis::new("Displacement", "m"), Axis::new("Force", "N"))
-            .points("measured", palette.measured, Look::Line(2.4), self.measured.clone())
-            .points("model", palette.model, Look::Line(1.6), self.model.clone());
-        figure.margin = 0.08;
-        figure
-    }
-}
 
 /// Shows loops side by side, as many as there is room for.
 pub fn show(ui: &mut Ui, title: &str, loops: &[Loop]) {
@@ -136,20 +42,4 @@ pub fn show(ui: &mut Ui, title: &str, loops: &[Loop]) {
         }
     });
     export::offer_sheet(ui, &responses, Sheet { title: title.to_owned(), columns, panels });
-}
-
-#[cfg(test)]
-mod tests {
-    use super::{area, ellipse};
-    use faer::c64;
-
-    #[test]
-    fn the_area_of_a_loop_is_the_work_of_the_force() {
-        // Work per period of f on x: integral f dx = -pi Im(F conj X) ... with x = Re X e^{iwt}: pi (F_im X_re - F_re X_im).
-        let (x, f) = (c64::new(0.3, -0.8), c64::new(2.0, 0.5));
-        let points = ellipse(x, f);
-        let work = area(&points);
-        let expected = -(std::f64::consts::PI * (f.im * x.re - f.re * x.im));
-        assert!((work.abs() - expected.abs()).abs() < 1e-3, "{work} {expected}");
-    }
 }

@@ -2,14 +2,15 @@
 //! menu copies and exports.
 
 use super::export;
-use super::figure::{Axis, Data, Figure, Label, Look, Series, Ticks};
 use super::polyline::Polyline;
-use super::sheet::{Panel, Sheet};
-use super::{axis, curve, frame, ticks};
-use crate::window::format::significant;
+use super::{axis, curve, frame};
+use crate::display::format::significant;
+use crate::plots::figure::{Axis, Data, Figure, Label, Look, Series, Ticks};
+use crate::plots::sheet::{Panel, Sheet};
+use crate::plots::ticks;
 use crate::window::theme;
 use crate::window::widgets::UiExt;
-use egui::{Align2, Id, Rangef, RichText, Role, Sense, Shape, Ui, WidgetInfo, vec2};
+use egui::{Align2, Id, Rangef, RichText, Role, ScrollArea, Sense, Shape, Ui, WidgetInfo, vec2};
 use egui_plot::{
     AxisHints, Bar, BarChart, CoordinatesFormatter, Corner, HLine, HPlacement, HoverPosition, Line, LineStyle,
     MarkerShape, PlotBounds, PlotPoint, PlotPoints, PlotResponse, PlotUi, Points, Text, VLine,
@@ -18,6 +19,11 @@ use egui_plot::{
 /// Share of the height of a square plot, above its lower left corner, that belongs to the labels of the axis of x: those of
 /// both axes are as long there, and would touch.
 const CORNER: f64 = 0.04;
+
+/// Least height of a plot in a stack without the axis of x, points; below it the stack scrolls.
+const LEAST: f32 = 58.0;
+/// Height of the axis of x with its name, points.
+const RULER: f32 = 36.0;
 
 /// Plots of one sheet: its title, and each plot with its share of the height.
 #[derive(Debug)]
@@ -38,13 +44,25 @@ impl Stack<'_> {
         if self.keys {
             key_row(ui, self.figures.iter().map(|(f, _)| f));
         }
+        let room = ui.available_height() - 4.0;
+        let least = LEAST * self.figures.len() as f32 + RULER;
+        if room >= least {
+            return self.plots(ui, room);
+        }
+        ScrollArea::vertical().id_salt(("stack", self.id)).auto_shrink(false).show(ui, |ui| self.plots(ui, least));
+    }
+
+    /// The plots in `height` points.
+    fn plots(self, ui: &mut Ui, height: f32) {
         let group = (self.figures.len() > 1).then(|| Id::unique(("stack", self.id)));
-        let height = ui.available_height() - 4.0;
         let last = self.figures.len().saturating_sub(1);
         let mut panels = Vec::new();
         let mut responses = Vec::new();
         for (k, (figure, share)) in self.figures.into_iter().enumerate() {
-            let place = Place { id: &format!("{} {k}", self.id), height: share * height, group, ruler: k == last };
+            let ruler = if k == last { RULER } else { 0.0 };
+            // The axis of x takes room from the plots in proportion, not from the last one alone.
+            let own = share * (height - RULER) + ruler;
+            let place = Place { id: &format!("{} {k}", self.id), height: own, group, ruler: k == last };
             let out = place.show(ui, &figure);
             let (low, high) = (out.transform.bounds().min(), out.transform.bounds().max());
             panels.push(Panel { figure, bounds: [[low[0], high[0]], [low[1], high[1]]] });
@@ -64,6 +82,7 @@ pub fn key_row<'a>(ui: &mut Ui, figures: impl Iterator<Item = &'a Figure>) {
         }
     }
     ui.horizontal_wrapped(|ui| entries.into_iter().for_each(|series| key(ui, series)));
+    ui.add_space(theme::space::XS);
 }
 
 /// A mark and a name that stay together where the row wraps.
@@ -106,7 +125,9 @@ impl Place<'_> {
         let palette = ui.palette();
         let (x, y) = (figure.x.clone(), figure.y.clone());
         let (xt, yt, square) = (figure.x.clone(), figure.y.clone(), figure.square);
-        let x_label = if self.ruler { figure.x.label() } else { String::new() };
+        let x_label = if self.ruler { fitting(ui, &figure.x, ui.available_width() - 80.0) } else { String::new() };
+        let clear = self.height - if self.ruler { RULER } else { 0.0 };
+        let y_label = fitting(ui, &figure.y, clear);
         let x_axis = axis(AxisHints::new_x(), palette, &x_label)
             .min_thickness(if self.ruler { 32.0 } else { 14.0 })
             .label_spacing(if figure.x.ticks == Ticks::Whole {
@@ -114,8 +135,8 @@ impl Place<'_> {
             } else {
                 Rangef::new(22.0, 34.0)
             })
-            .formatter(move |mark, _| ticks::label(&xt, mark));
-        let y_axis = axis(AxisHints::new_y(), palette, &figure.y.label())
+            .formatter(move |mark, _| ticks::label(&xt, own(mark)));
+        let y_axis = axis(AxisHints::new_y(), palette, &y_label)
             .placement(HPlacement::Left)
             .min_thickness(62.0)
             // Lines of text lie closer than words beside each other.
@@ -123,7 +144,7 @@ impl Place<'_> {
             .formatter(move |mark, range| {
                 let height = range.end() - range.start();
                 let corner = square && self.ruler && mark.value - range.start() < CORNER * height;
-                if corner { String::new() } else { ticks::label(&yt, mark) }
+                if corner { String::new() } else { ticks::label(&yt, own(mark)) }
             });
         let mut plot = frame(ui, self.id)
             .custom_x_axes(vec![x_axis])
@@ -133,8 +154,8 @@ impl Place<'_> {
             .coordinates_formatter(Corner::RightTop, read_out(&figure.x, &figure.y))
             .set_margin_fraction(vec2(figure.margin, 0.08))
             .label_formatter(near(figure));
-        plot = plot.x_grid_spacer(move |input| ticks::marks(&x, &input, ticks::ACROSS));
-        plot = plot.y_grid_spacer(move |input| ticks::marks(&y, &input, ticks::UPWARDS));
+        plot = plot.x_grid_spacer(move |input| marks(&x, input, ticks::ACROSS));
+        plot = plot.y_grid_spacer(move |input| marks(&y, input, ticks::UPWARDS));
         if let Some(group) = self.group {
             plot = plot.link_axis(group, [true, false]).link_cursor(group, [true, false]);
         }
@@ -156,6 +177,28 @@ impl Place<'_> {
             figure.labels.iter().for_each(|l| words(plot, figure, l));
         })
     }
+}
+
+/// Name and unit of an axis where there is room for both, else the unit, else nothing: a name that runs into another says less
+/// than none.
+fn fitting(ui: &Ui, axis: &Axis, room: f32) -> String {
+    let width = |text: &str| {
+        let font = theme::font(theme::size::SMALL);
+        ui.painter().layout_no_wrap(text.to_owned(), font, egui::Color32::PLACEHOLDER).size().x
+    };
+    let choices = [axis.label(), axis.unit.clone()];
+    choices.into_iter().find(|text| width(text) + 6.0 <= room).unwrap_or_default()
+}
+
+/// Grid lines in the terms of the plot.
+fn marks(axis: &Axis, input: egui_plot::GridInput, room: f64) -> Vec<egui_plot::GridMark> {
+    let input = ticks::GridInput { bounds: input.bounds, base_step_size: input.base_step_size };
+    let plots = |m: ticks::GridMark| egui_plot::GridMark { value: m.value, step_size: m.step_size };
+    ticks::marks(axis, &input, room).into_iter().map(plots).collect()
+}
+
+fn own(mark: egui_plot::GridMark) -> ticks::GridMark {
+    ticks::GridMark { value: mark.value, step_size: mark.step_size }
 }
 
 /// A double click shows all of a plot that starts with a part, and where all is in sight that part again; the plot's own
@@ -190,7 +233,7 @@ fn near<'a>(figure: &Figure) -> impl Fn(&HoverPosition<'_>) -> Option<String> + 
             let own = deviations.iter().find(|(name, _)| name == plot_name);
             let deviation = own.and_then(|(_, d)| d.get(*index)).copied().unwrap_or(0.0);
             let (u, v) = (x.value(position.x), y.value(position.y));
-            let value = crate::window::format::with_deviation(v, deviation, &y.unit);
+            let value = crate::display::format::with_deviation(v, deviation, &y.unit);
             Some(format!("{plot_name}\n{} {}\n{value}", significant(u, 5), x.unit))
         }
         HoverPosition::Elsewhere { .. } => None,

@@ -3,11 +3,11 @@
 use super::Scene;
 use super::gesture::Intent;
 use super::hit::Target;
+use crate::display::words;
 use crate::effects::{Effect, State};
 use crate::session::Command;
 use crate::window::edits::Edit;
 use crate::window::widgets::UiExt;
-use crate::window::words;
 use egui::Ui;
 
 /// Shows the entries for what was pointed at.

@@ -4,8 +4,8 @@ use super::gesture::{self, Drag, Intent};
 use super::hit::{self, Target};
 use super::paint::{self, Marks};
 use super::{Camera, Layout, Scene};
+use crate::display::format;
 use crate::effects::Effect;
-use crate::window::format;
 use crate::window::solid::{self, wire::Wire};
 use crate::window::theme::{self, Palette};
 use egui::{Align2, CursorIcon, Key, Rect, Response, Role, Sense, Ui, Vec2, WidgetInfo};
@@ -186,9 +186,9 @@ impl View<'_> {
             [a, b] => format!("between DOF {a} and {b}"),
             _ => format!("chain {}", labels.join("–")),
         };
-        let state = if source.suggested { "suggested" } else { crate::window::words::state(source.state) };
+        let state = if source.suggested { "suggested" } else { crate::display::words::state(source.state) };
         let value = source.identified.as_ref().map_or_else(String::new, |v| format!(", {v}"));
-        format!("Source {}, {place}, {state}{value}", crate::window::words::effect(source.effect))
+        format!("Source {}, {place}, {state}{value}", crate::display::words::effect(source.effect))
     }
 }
 

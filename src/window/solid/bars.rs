@@ -4,15 +4,16 @@
 //! the back on the left, as on paper.
 
 use super::camera::{Camera, Projection};
-use super::frame::{RuledBox, round_step};
+use super::frame::RuledBox;
 use super::mesh::Mesh;
 use super::paint::{Solid, available, shade};
 use super::pick::{Ray, nearest};
 use super::turn::turn;
-use crate::window::format;
-use crate::window::plots::drawing::Drawing;
+use crate::display::format;
+use crate::plots::drawing::Drawing;
+use crate::plots::heatmap::HeatMap;
+use crate::plots::ticks::round_step;
 use crate::window::plots::export;
-use crate::window::plots::heatmap::HeatMap;
 use crate::window::theme::{self, Palette};
 use crate::window::widgets::UiExt;
 use egui::{Id, Rect, Role, Sense, Ui, Vec2, WidgetInfo};
@@ -240,7 +241,7 @@ impl Bars {
 #[cfg(test)]
 mod tests {
     use super::{Bars, HOME};
-    use crate::window::plots::heatmap::HeatMap;
+    use crate::plots::heatmap::HeatMap;
     use egui::{Rect, pos2};
     use faer::Mat;
     use nalgebra::Vector3;

@@ -1,8 +1,8 @@
 //! The ruled box about bars: floor, the two walls behind, a scale of values, labels along the two edges in front.
 
 use super::camera::Projection;
-use crate::window::plots::drawing::Drawing;
-use crate::window::plots::tick;
+use crate::plots::drawing::Drawing;
+use crate::plots::ticks::tick;
 use crate::window::theme::{self, Palette, size};
 use egui::{Align2, Pos2, Vec2};
 use nalgebra::Vector3;
@@ -22,23 +22,6 @@ pub struct RuledBox<'a> {
     pub labels: &'a [String],
     /// Title of the scale.
     pub unit: &'a str,
-}
-
-/// A step of 1, 2 or 5 times a power of ten that divides `span` in about `parts`.
-pub fn round_step(span: f64, parts: f64) -> f64 {
-    let raw = span / parts;
-    let power = 10f64.powf(raw.log10().floor());
-    let lead = raw / power;
-    power
-        * if lead < 1.5 {
-            1.0
-        } else if lead < 3.5 {
-            2.0
-        } else if lead < 7.5 {
-            5.0
-        } else {
-            10.0
-        }
 }
 
 impl RuledBox<'_> {
@@ -163,11 +146,10 @@ impl RuledBox<'_> {
 
 #[cfg(test)]
 mod tests {
-    use super::{RuledBox, round_step};
+    use super::RuledBox;
 
     #[test]
     fn steps_are_round_and_values_have_their_heights() {
-        assert_eq!([round_step(10.0, 5.0), round_step(0.9, 4.0), round_step(7300.0, 5.0)], [2.0, 0.2, 1000.0]);
         let b = RuledBox { count: 3, height: 2.0, values: [-1.0, 3.0], step: 1.0, labels: &[], unit: "" };
         assert_eq!([b.height_of(-1.0), b.height_of(0.0), b.height_of(3.0)], [0.0, 0.5, 2.0]);
         assert_eq!(b.levels().collect::<Vec<_>>(), [-1.0, 0.0, 1.0, 2.0, 3.0]);

@@ -2,8 +2,8 @@
 
 use crate::classical::incompleteness::{Case, Incompleteness, METHODS, MatrixErrors};
 use crate::classical::method::Method;
+use crate::plots::figure::{Axis, Figure, Look, Ticks};
 use crate::window::app::App;
-use crate::window::plots::figure::{Axis, Figure, Look, Ticks};
 use crate::window::plots::show::Stack;
 use crate::window::theme::{Palette, size};
 use crate::window::widgets::UiExt;
@@ -202,13 +202,13 @@ mod tests {
     #[test]
     fn errors_are_drawn_along_modes_and_along_sensors() {
         let study = study();
-        let along = figure(&study, Choice::default(), Palette::paper());
+        let along = figure(&study, Choice::default(), Palette::light());
         let lancaster = along.series.iter().find(|s| s.name == Method::Lancaster.title()).unwrap();
         let values = lancaster.points(0.0, 10.0, 10);
         let expected = study.eps_c(0, Method::Lancaster);
         assert_eq!(values.len(), expected.len());
         assert!(values.iter().zip(&expected).all(|(a, b)| a[0] == b[0] && (a[1] - b[1].max(LEAST)).abs() < 1e-12));
-        let across = figure(&study, Choice { along: Along::Sensors, ..Choice::default() }, Palette::paper());
+        let across = figure(&study, Choice { along: Along::Sensors, ..Choice::default() }, Palette::light());
         let counts = across.series[0].points(0.0, 10.0, 10);
         assert_eq!(counts.len(), study.sensors.len(), "{counts:?}");
     }

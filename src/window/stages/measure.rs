@@ -1,19 +1,20 @@
 //! Measure: the runs with what is wrong with them, the record with its fit, the spectrum.
 
+use crate::display::{format, words};
 use crate::exchange::Project;
 use crate::measurement::{Quantity, Run};
+use crate::plots::record::RecordPlot;
 use crate::window::app::{App, Ask};
 use crate::window::background::CANCELLED;
 use crate::window::derived::Derived;
 use crate::window::document::Document;
 use crate::window::edits::Edit;
-use crate::window::plots::record::{self, RecordPlot};
-use crate::window::plots::spectrum;
+use crate::window::plots::charts;
+use crate::window::plots::record;
 use crate::window::theme::space;
 use crate::window::traces::Traced;
 use crate::window::view::View;
 use crate::window::widgets::UiExt;
-use crate::window::{format, words};
 use egui::{Sense, Ui};
 use egui_extras::{Column, TableBuilder, TableRow};
 
@@ -92,7 +93,9 @@ pub fn spectrum(ui: &mut Ui, app: &mut App) {
     };
     let unit = words::axis(fit.channel.quantity, false).rsplit(", ").next().unwrap_or("");
     match &trace.spectrum {
-        Some(s) => spectrum::show(ui, &format!("spectrum, run {} {}", run + 1, fit.channel), s, fit, r.fit.omega, unit),
+        Some(s) => {
+            charts::spectrum(ui, &format!("spectrum, run {} {}", run + 1, fit.channel), s, fit, r.fit.omega, unit)
+        }
         None => ui.empty("No spectrum", "The record is too short for one."),
     }
 }

@@ -3,9 +3,9 @@
 use crate::classical::Damping;
 use crate::classical::method::Method;
 use crate::classical::side_by_side::{Applied, SideBySide};
+use crate::display::format;
+use crate::plots::heatmap::{HeatMap, occupied};
 use crate::window::app::App;
-use crate::window::format;
-use crate::window::plots::heatmap::{HeatMap, occupied};
 use crate::window::theme::{size, space};
 use crate::window::widgets::UiExt;
 use egui::{Align, Label, Layout, RichText, ScrollArea, Sense, Ui, vec2};

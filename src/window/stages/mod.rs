@@ -77,12 +77,6 @@ pub fn outcome_quietly(
     derived.outcome(ui.ctx(), document)?.ok()
 }
 
-/// A coefficient with its deviation and unit.
-pub fn coefficient(source: &crate::effects::Source, estimate: &crate::identify::Estimate) -> String {
-    let parameter = source.effect.coefficient().map(|k| source.effect.parameters()[k]);
-    super::format::with_deviation(estimate.coefficient, estimate.deviation, parameter.map_or("", |p| p.unit))
-}
-
 /// The name of a column of numbers.
 pub fn head_right(ui: &mut Ui, name: &str) -> egui::Response {
     ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {

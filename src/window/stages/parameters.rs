@@ -1,5 +1,6 @@
 //! The parameters of the structure, each a value that can be edited with its unit beside it.
 
+use crate::display::words;
 use crate::exchange::project::file::{ProjectFile, Shape};
 use crate::session::Command;
 use crate::structure::beam::{BeamParameters, Supports};
@@ -8,7 +9,6 @@ use crate::window::app::{App, Ask};
 use crate::window::edits::Edit;
 use crate::window::theme::space;
 use crate::window::widgets::UiExt;
-use crate::window::words;
 use egui::{ScrollArea, Ui};
 
 /// Shows the pane.

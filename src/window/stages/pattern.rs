@@ -1,5 +1,6 @@
 //! Pattern: the palette of laws, families at one click, the list of sources.
 
+use crate::display::words;
 use crate::effects::effect::Kind;
 use crate::effects::{Effect, Family, Source, State};
 use crate::exchange::Project;
@@ -11,7 +12,6 @@ use crate::window::schematic::{paint::source_stroke, symbols};
 use crate::window::theme::{self, size, space};
 use crate::window::view::View;
 use crate::window::widgets::UiExt;
-use crate::window::words;
 use egui::{Align2, Response, RichText, Role, ScrollArea, Sense, StrokeKind, Ui, WidgetInfo, pos2, vec2};
 use egui_extras::{Column, TableBuilder};
 
@@ -89,7 +89,7 @@ fn parameters(effect: Effect) -> String {
         if p.unit.is_empty() {
             p.name.to_owned()
         } else {
-            format!("{}, {}", p.name, crate::window::format::pretty_unit(p.unit))
+            format!("{}, {}", p.name, crate::display::format::pretty_unit(p.unit))
         }
     };
     effect.parameters().iter().map(one).collect::<Vec<_>>().join("\n")

@@ -1,13 +1,17 @@
 //! Result: the damping matrix, energy shares, damping ratios, frequency responses, hysteresis.
 
+use crate::display::{format, words};
 use crate::exchange::Project;
 use crate::identify::Outcome;
+use crate::plots::bars::Bar;
+use crate::plots::bode::Diagram;
+use crate::plots::heatmap;
 use crate::response::frequency_response::Quantity;
 use crate::window::app::App;
-use crate::window::plots::{bars, bode::Diagram, heatmap, hysteresis};
+use crate::window::plots::{bars, hysteresis};
+use crate::window::solid;
 use crate::window::theme::space;
 use crate::window::widgets::UiExt;
-use crate::window::{format, solid, words};
 use egui::{Align, Layout, ScrollArea, Ui};
 use egui_extras::{Column, TableBuilder};
 use std::sync::Arc;
@@ -104,7 +108,7 @@ fn shares(ui: &mut Ui, p: &Project, outcome: &Outcome) {
         let bar = |estimate: &crate::identify::Estimate| {
             let source = p.sources.get(estimate.source)?;
             let known = source.state == crate::effects::State::Known;
-            Some(bars::Bar {
+            Some(Bar {
                 name: format!("{} {}", words::effect(source.effect), words::short_place(&p.structure, &source.place)),
                 share: 0.01 * estimate.energy_percent,
                 colour: if known { palette.weak } else { palette.model },
@@ -113,13 +117,13 @@ fn shares(ui: &mut Ui, p: &Project, outcome: &Outcome) {
         bars::show(ui, "Energy by source", &outcome.sources.iter().filter_map(bar).collect::<Vec<_>>(), 190.0);
         ui.add_space(space::M);
         ui.title("By degree of freedom", "where it is lost; adds up to 100 %");
-        let by_dof: Vec<bars::Bar> = outcome
+        let by_dof: Vec<Bar> = outcome
             .results
             .energy_percent
             .iter()
             .enumerate()
             .filter(|(_, percent)| percent.abs() > 1e-9)
-            .map(|(d, percent)| bars::Bar {
+            .map(|(d, percent)| Bar {
                 name: format!("DOF {}", p.structure.label(d)),
                 share: 0.01 * percent,
                 colour: palette.model,
@@ -131,7 +135,7 @@ fn shares(ui: &mut Ui, p: &Project, outcome: &Outcome) {
         for estimate in &outcome.sources {
             let Some(source) = p.sources.get(estimate.source) else { continue };
             let place = words::place(&p.structure, &source.place);
-            ui.pair(&format!("{} {place}", words::effect(source.effect)), super::coefficient(source, estimate));
+            ui.pair(&format!("{} {place}", words::effect(source.effect)), words::coefficient(source, estimate));
         }
         for warning in &outcome.warnings {
             ui.add_space(space::XS);
@@ -258,7 +262,7 @@ pub fn values(ui: &mut Ui, app: &mut App) {
                 let Some(source) = p.sources.get(estimate.source) else { return };
                 row.col(|ui| drop(ui.label(words::effect(source.effect))));
                 row.col(|ui| drop(ui.label(words::place(&p.structure, &source.place))));
-                row.col(|ui| drop(ui.number(super::coefficient(source, estimate))));
+                row.col(|ui| drop(ui.number(words::coefficient(source, estimate))));
                 row.col(|ui| drop(ui.number(format::percent(0.01 * estimate.energy_percent))));
             });
         });

@@ -1,16 +1,16 @@
 //! Select: one row a step, its coefficients and alternatives, the angle against the number of sources, energy per run.
 
+use crate::display::{format, words};
 use crate::effects::State;
 use crate::exchange::Project;
 use crate::identify::{Outcome, Status, Step};
 use crate::window::app::{App, Ask};
 use crate::window::commands::Command;
 use crate::window::edits::Edit;
-use crate::window::plots::{angle, energy};
+use crate::window::plots::charts;
 use crate::window::theme::{size, space};
 use crate::window::view::View;
 use crate::window::widgets::UiExt;
-use crate::window::{format, words};
 use egui::{Align, Layout, ScrollArea, Sense, Ui};
 use egui_extras::{Column, TableBuilder, TableRow};
 use std::sync::Arc;
@@ -52,14 +52,14 @@ pub fn set(ui: &mut Ui, app: &mut App, asks: &mut Vec<Ask>) {
 pub fn angle(ui: &mut Ui, app: &mut App) {
     let Some((outcome, current)) = ready(ui, app, false) else { return };
     let Some(document) = &app.document else { return };
-    angle::show(ui, &outcome, current, document.project.settings.stop_angle_deg);
+    charts::angle(ui, &outcome, current, document.project.settings.stop_angle_deg);
 }
 
 /// Measured and identified energy of every run.
 pub fn energy(ui: &mut Ui, app: &mut App) {
     let Some((outcome, current)) = ready(ui, app, false) else { return };
     let Some(document) = &app.document else { return };
-    energy::show(ui, &document.project, &outcome, current);
+    charts::energy(ui, &document.project, &outcome, current);
 }
 
 fn header(ui: &mut Ui, outcome: &Outcome, current: usize, asks: &mut Vec<Ask>) {
@@ -161,7 +161,7 @@ fn cells(row: &mut TableRow<'_, '_>, p: &Project, outcome: &Outcome, k: usize) {
             ui.add_space(3.0);
             ui.add(egui::Label::new(in_words(p, step.sources.iter().map(|s| s.source))).truncate());
             let values: Vec<String> =
-                step.sources.iter().filter_map(|e| Some(super::coefficient(p.sources.get(e.source)?, e))).collect();
+                step.sources.iter().filter_map(|e| Some(words::coefficient(p.sources.get(e.source)?, e))).collect();
             let text = egui::RichText::new(values.join(",  ")).size(size::SMALL).color(ui.palette().weak);
             ui.add(egui::Label::new(text).truncate());
         });
@@ -191,7 +191,7 @@ fn details(ui: &mut Ui, p: &Project, step: &Step, asks: &mut Vec<Ask>) {
                 ui.spacing_mut().item_spacing.y = 1.0;
                 let place = words::short_place(&p.structure, &source.place);
                 ui.label(format!("{} {place}", words::effect(source.effect)));
-                ui.hint(format!("{},  {share} of the energy", super::coefficient(source, estimate)));
+                ui.hint(format!("{},  {share} of the energy", words::coefficient(source, estimate)));
             });
         });
     }

@@ -1,14 +1,14 @@
 //! Structure: natural frequencies beside the frequencies of the runs, mode shapes, which DOFs are measured.
 
+use crate::display::{format, words};
 use crate::exchange::Project;
 use crate::measurement::Quantity;
+use crate::plots::figure::{Axis, Figure, Look, Ticks};
 use crate::structure::modes::Modes;
 use crate::window::app::App;
-use crate::window::plots::figure::{Axis, Figure, Look, Ticks};
 use crate::window::plots::show::Stack;
 use crate::window::theme::space;
 use crate::window::widgets::UiExt;
-use crate::window::{format, words};
 use egui::{Sense, Ui};
 use egui_extras::{Column, TableBuilder};
 use std::f64::consts::TAU;

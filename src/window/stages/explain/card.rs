@@ -3,15 +3,14 @@
 use super::gauge::Gauge;
 use super::{Deed, Scene, fingerprint};
 use crate::diagnosis::diagnose::Suggestion;
+use crate::display::format::{self, chance, polished};
+use crate::display::words;
 use crate::effects::{Place, Source};
 use crate::window::app::Ask;
 use crate::window::explained::Standing;
-use crate::window::explained::model::at;
-use crate::window::format;
 use crate::window::schematic::symbols;
 use crate::window::theme::{self, size, space};
-use crate::window::widgets::UiExt;
-use crate::window::words;
+use crate::window::widgets::{UiExt, elided};
 use egui::text::{LayoutJob, TextFormat};
 use egui::{
     Align2, CornerRadius, Frame, Label, Margin, Rect, RichText, Role, Sense, StrokeKind, Ui, Vec2, WidgetInfo, pos2,
@@ -84,12 +83,10 @@ impl Card<'_> {
         let weight = if so_far { palette.weak } else { palette.ink };
         let under = if so_far { "so far" } else { "probability" };
         if self.unfolded {
-            painter.text(pos2(left, middle - 9.0), Align2::LEFT_CENTER, self.title(), theme::font(size::HEADING), ink);
-            let law = source.effect.sentence().split(':').next().unwrap_or_default().trim_end_matches('.').to_owned();
             let room = area.right() - left - 66.0;
-            let galley = painter.layout(law, theme::font(size::SMALL), palette.weak, room);
-            let clip = Rect::from_min_size(pos2(left, middle + 2.0), vec2(room, 15.0));
-            ui.painter_at(clip).galley(clip.min, galley, palette.weak);
+            elided(ui, &self.title(), theme::font(size::HEADING), ink, pos2(left, middle - 9.0), room);
+            let law = source.effect.sentence().split(':').next().unwrap_or_default().trim_end_matches('.').to_owned();
+            elided(ui, &law, theme::font(size::SMALL), palette.weak, pos2(left, middle + 9.0), room);
             painter.text(
                 pos2(area.right(), middle - 8.0),
                 Align2::RIGHT_CENTER,
@@ -105,13 +102,18 @@ impl Card<'_> {
                 palette.weak,
             );
         } else {
-            painter.text(pos2(left, middle), Align2::LEFT_CENTER, self.title(), theme::font(size::BODY), ink);
             painter.text(pos2(area.right(), middle), Align2::RIGHT_CENTER, chance, theme::font(size::BODY), weight);
-            let after = format!("error {}", format::percent(self.suggestion.error_after));
-            let at = pos2(area.right() - 66.0, middle);
-            painter.text(at, Align2::RIGHT_CENTER, after, theme::font(size::SMALL), palette.weak);
+            let mut end = area.right() - 66.0;
+            // The error after it goes before the name is cut.
+            if end - left > 250.0 {
+                let after = format!("error {}", format::percent(self.suggestion.error_after));
+                let at = pos2(end, middle);
+                end =
+                    painter.text(at, Align2::RIGHT_CENTER, after, theme::font(size::SMALL), palette.weak).left() - 8.0;
+            }
+            elided(ui, &self.title(), theme::font(size::BODY), ink, pos2(left, middle), end - left);
         }
-        response.clicked()
+        response.on_hover_text(label).clicked()
     }
 
     /// What explains the data as well: effects as simple are a warning, those with more parameters only not needed.
@@ -197,7 +199,7 @@ impl Card<'_> {
 
     fn buttons(&self, ui: &mut Ui, on_trial: bool, asks: &mut Vec<Ask>) {
         let source = &self.suggestion.added.source;
-        ui.horizontal(|ui| {
+        ui.horizontal_wrapped(|ui| {
             let tip = "Shows the map and the curves as they would be; nothing is saved.";
             if ui.add(egui::Button::new("Try").selected(on_trial)).on_hover_text(tip).clicked() {
                 asks.push(Ask::Explain(if on_trial { Deed::Stop } else { Deed::Try(source.clone()) }));
@@ -218,30 +220,7 @@ impl Card<'_> {
 
 /// `Coulomb friction at DOF 15`.
 pub fn name(scene: &Scene<'_>, source: &Source) -> String {
-    let text = format!("{} {}", words::effect(source.effect), at(&scene.document.project.structure, &source.place));
-    let mut letters = text.chars();
-    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
-}
-
-/// A probability to the digits that mean something.
-pub fn chance(probability: f64) -> String {
-    match 100.0 * probability {
-        p if p > 99.9 => "> 99.9 %".to_owned(),
-        p if p < 0.1 => "< 0.1 %".to_owned(),
-        p if p < 10.0 => format!("{p:.1} %"),
-        p => format!("{p:.0} %"),
-    }
-}
-
-/// A sentence of the engine in the typography of the window.
-pub fn polished(sentence: &str) -> String {
-    let mut text = sentence.replace("+-", "±").replace("^2", "²").replace("^3", "³");
-    for digit in '0'..='9' {
-        text = text
-            .replace(&format!(" -{digit}"), &format!(" −{digit}"))
-            .replace(&format!("e-{digit}"), &format!("e−{digit}"));
-    }
-    text
+    words::title(&scene.document.project.structure, source)
 }
 
 /// The symbol of an effect between its ends, with the ground where it is held there.
@@ -256,23 +235,5 @@ fn glyph(ui: &Ui, source: &Source, area: Rect) {
     symbols::draw(painter, source.effect, [left, right], stroke);
     if ground {
         symbols::ground(painter, right, Vec2::RIGHT, 0.55 * area.height(), theme::hair(palette.missing));
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::{chance, polished};
-
-    #[test]
-    fn probabilities_are_not_more_certain_than_they_are() {
-        assert_eq!(chance(1.0), "> 99.9 %");
-        assert_eq!(chance(0.973), "97 %");
-        assert_eq!(chance(0.02), "2.0 %");
-        assert_eq!(chance(1e-9), "< 0.1 %");
-    }
-
-    #[test]
-    fn sentences_have_real_signs() {
-        assert_eq!(polished("to the power -0.99 +- 0.01; 2e-3 N s^2/m^2"), "to the power −0.99 ± 0.01; 2e−3 N s²/m²");
     }
 }

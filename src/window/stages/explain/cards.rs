@@ -1,27 +1,24 @@
 //! What is missing? The verdict, the ranked suggestions as cards, and what the user has ruled out.
 
 use super::card;
-use super::grid::in_words;
 use super::look::Look;
 use super::ranking::{open, ranked};
 use super::{Deed, Scene};
 use crate::diagnosis::Diagnosis;
 use crate::diagnosis::diagnose::Verdict;
 use crate::diagnosis::updating::parameters::UpdatingParameter;
-use crate::effects::{Place, Source};
-use crate::structure::Part;
+use crate::display::findings::{self, is_detuned, sentence};
+use crate::display::format;
+use crate::display::format::in_words;
+use crate::display::words;
+use crate::display::words::at;
+use crate::effects::Source;
 use crate::window::app::Ask;
 use crate::window::corrections::{self, Adopted};
-use crate::window::explained::model::at;
 use crate::window::explained::{HOPELESS, Standing};
-use crate::window::format;
 use crate::window::theme::{self, size, space};
 use crate::window::widgets::UiExt;
-use crate::window::words;
 use egui::{Align, Button, Layout, RichText, ScrollArea, Sense, Ui, vec2};
-
-/// How many times the noise floor an error must be to be more than noise.
-const BEYOND: f64 = 1.2;
 
 /// Shows the pane.
 pub fn show(ui: &mut Ui, scene: &Scene<'_>, look: &mut Look, asks: &mut Vec<Ask>) {
@@ -94,43 +91,6 @@ fn far_off(scene: &Scene<'_>) -> bool {
     comparison.is_some_and(|c| c.error > HOPELESS)
 }
 
-/// Whether nothing is missing once the model is corrected, but the model as it stands does not explain the data.
-pub fn is_detuned(diagnosis: &Diagnosis) -> bool {
-    diagnosis.verdict == Verdict::Detuned
-}
-
-/// The verdict as a sentence.
-pub fn sentence(diagnosis: &Diagnosis) -> String {
-    let times = diagnosis.error_before / diagnosis.noise_floor.max(f64::MIN_POSITIVE);
-    let (error, floor) = (in_words(diagnosis.error_before), format::percent(diagnosis.noise_floor));
-    match diagnosis.verdict {
-        Verdict::Detuned => {
-            let after = diagnosis.steps.last().map_or(diagnosis.noise_floor, |s| s.error);
-            let after = in_words(after);
-            format!(
-                "It is only detuned: with the corrections below its error falls from {error} to {after} (noise {floor})."
-            )
-        }
-        Verdict::Adequate => {
-            format!("Its error of {error} is within what noise alone makes ({floor}). Nothing more is suggested.")
-        }
-        _ if diagnosis.error_before > 10.0 => {
-            format!("The model is wrong by {error}: at these frequencies hardly anything in it takes out energy.")
-        }
-        Verdict::Missing => {
-            format!("The model is wrong by {error}, {} times what noise alone makes.", format::significant(times, 2))
-        }
-        Verdict::Unexplained => format!(
-            "The model is wrong by {error}, {} times the noise, and no law known here gives what it lacks.",
-            format::significant(times, 2)
-        ),
-        Verdict::Undecided => format!(
-            "The model is wrong by {error}, {} times the noise, and these data cannot tell what would mend it.",
-            format::significant(times, 2)
-        ),
-    }
-}
-
 fn answer(ui: &mut Ui, scene: &Scene<'_>, diagnosis: &Diagnosis, look: &mut Look, asks: &mut Vec<Ask>) {
     if matches!(diagnosis.verdict, Verdict::Adequate | Verdict::Detuned) {
         adequate(ui, scene, diagnosis);
@@ -139,7 +99,7 @@ fn answer(ui: &mut Ui, scene: &Scene<'_>, diagnosis: &Diagnosis, look: &mut Look
         ui.label(RichText::new(sentence(diagnosis)).color(colour));
     }
     detuned(ui, scene, diagnosis, asks);
-    if diagnosis.verdict == Verdict::Undecided {
+    if matches!(diagnosis.verdict, Verdict::Undecided | Verdict::Unexplained) {
         next_tests(ui, scene, diagnosis);
     }
     ui.add_space(space::XS);
@@ -174,12 +134,10 @@ fn detuned(ui: &mut Ui, scene: &Scene<'_>, diagnosis: &Diagnosis, asks: &mut Vec
     ui.add_space(space::XS);
     ui.title("The model is detuned", "corrected in the search, not yet in the project");
     for correction in &diagnosis.corrections {
-        let change = format::with_deviation(100.0 * (correction.factor - 1.0), 100.0 * correction.deviation, "%");
-        let sign = if correction.factor > 1.0 { "+" } else { "" };
-        ui.pair(&corrected(scene, &correction.parameter), format!("{sign}{change}"));
+        ui.pair(&corrected(scene, &correction.parameter), findings::change(correction));
     }
     let adopted = adopted(scene, diagnosis);
-    ui.horizontal(|ui| {
+    ui.horizontal_wrapped(|ui| {
         let tip = "Multiplies what the project states by these factors. Undo takes it back.";
         let can = !adopted.commands.is_empty();
         if ui.add_enabled(can, Button::new("Correct the model")).on_hover_text(tip).clicked() {
@@ -206,27 +164,8 @@ pub fn adopted(scene: &Scene<'_>, diagnosis: &Diagnosis) -> Adopted {
 
 /// What a correction corrects.
 fn corrected(scene: &Scene<'_>, parameter: &UpdatingParameter) -> String {
-    let structure = &scene.document.project.structure;
-    let place = |dofs: &[usize]| at(structure, &Place::Dofs(dofs.to_vec()));
-    let elements = |[first, last]: [usize; 2]| format!("elements {} to {}", first + 1, last + 1);
-    match parameter {
-        UpdatingParameter::Structure(part) => match *part {
-            Part::Stiffness => "All stiffness".to_owned(),
-            Part::Mass => "All mass".to_owned(),
-            Part::Mode(mode) => format!("Stiffness of mode {}", mode + 1),
-            Part::GroundSpring(dof) => format!("Spring {}", place(&[dof])),
-            Part::Coupling(pair) => format!("Spring {}", place(&pair)),
-            Part::PointMass(dof) => format!("Mass {}", place(&[dof])),
-            Part::ElementStiffness(range) => format!("Stiffness of {}", elements(range)),
-            Part::ElementMass(range) => format!("Mass of {}", elements(range)),
-        },
-        UpdatingParameter::Known(index) => {
-            let known = scene.explained.known(scene.document, *index);
-            known.map_or_else(|| "A known source".to_owned(), |source| card::name(scene, &source))
-        }
-        UpdatingParameter::Gain(channel) => format!("Gain of {channel}"),
-        UpdatingParameter::Delay(channel) => format!("Delay of {channel}"),
-    }
+    let known = scene.explained.all_known(scene.document);
+    findings::corrected(&scene.document.project.structure, &known, parameter)
 }
 
 /// The end of the way: the model explains the data, and what brought it there.
@@ -269,7 +208,7 @@ pub fn next_tests(ui: &mut Ui, scene: &Scene<'_>, diagnosis: &Diagnosis) {
         let label = structure.dofs().get(test.force_dof).map_or("?", |d| d.label.as_str());
         let (frequency, force) = (format::with_unit(test.frequency_hz, "Hz"), format::with_unit(test.force, "N"));
         ui.label(format!("{frequency} with {force} at DOF {label}"));
-        ui.hint(format!("{}.", card::polished(test.why.trim_end_matches('.'))));
+        ui.hint(format!("{}.", format::polished(test.why.trim_end_matches('.'))));
     }
 }
 

@@ -1,13 +1,15 @@
 //! Measured against model in the cell that was clicked: along frequency, along level, over a period, as a loop.
 
-use super::along::Along;
-use super::cycle::Cycle;
 use super::look::{Look, Tab};
-use super::samples;
 use crate::diagnosis::Comparison;
+use crate::display::format;
 use crate::exchange::Project;
-use crate::window::explained::curve::{Curve, neighbourhood};
-use crate::window::format;
+use crate::plots::channel_response::ChannelResponse;
+use crate::plots::cycle::Cycle;
+use crate::plots::figure::Figure;
+use crate::plots::response_curve::{Curve, levels, neighbourhood};
+use crate::plots::samples;
+use crate::window::plots::show::Stack;
 use crate::window::widgets::UiExt;
 use egui::{Align, Layout, Ui};
 
@@ -23,10 +25,10 @@ pub struct Detail<'a> {
     pub run: usize,
     /// Selected channel.
     pub channel: &'a str,
-    /// The model's curve near the run.
-    pub curve: Option<&'a Curve>,
-    /// The curve with the effect on trial.
-    pub trial_curve: Option<&'a Curve>,
+    /// The model's curves near the run, one a level.
+    pub curves: &'a [Curve],
+    /// The curves with the effect on trial.
+    pub trial_curves: &'a [Curve],
 }
 
 impl Detail<'_> {
@@ -34,10 +36,10 @@ impl Detail<'_> {
     pub fn show(&self, ui: &mut Ui, look: &mut Look) {
         let p = self.project;
         let Some(run) = p.runs.get(self.run) else { return };
+        let level = run.level.map_or_else(String::new, |l| format!(", level {l}"));
+        let frequency = format::with_unit(run.frequency_hz(), "Hz");
+        let remark = format!("run {}, {frequency}{level}", self.run + 1);
         ui.horizontal(|ui| {
-            let level = run.level.map_or_else(String::new, |l| format!(", level {l}"));
-            let frequency = format::with_unit(run.frequency_hz(), "Hz");
-            ui.title(self.channel, &format!("run {}, {frequency}{level}", self.run + 1));
             ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
                 ui.spacing_mut().item_spacing.x = 2.0;
                 for tab in Tab::ALL.into_iter().rev() {
@@ -45,6 +47,8 @@ impl Detail<'_> {
                         look.tab = tab;
                     }
                 }
+                // What is left of the row belongs to the title, which is cut before it runs into the tabs.
+                ui.with_layout(Layout::left_to_right(Align::Center), |ui| ui.title(self.channel, &remark));
             });
         });
         let Some(now) = samples::channel(self.comparison, self.run, self.channel) else {
@@ -57,8 +61,11 @@ impl Detail<'_> {
         let rotation = p.structure.dofs().get(now.dof).is_some_and(|d| d.direction.is_rotation());
         let cycle = Cycle { run: self.run, fit: &run.fit, now, trial, quantity: fitted.channel.quantity, rotation };
         match look.tab {
-            Tab::Time => cycle.time(ui),
-            Tab::Loop => cycle.hysteresis(ui),
+            Tab::Time => shown(ui, &cycle.title("one period"), vec![(cycle.time(ui.palette()), 1.0)]),
+            Tab::Loop => match cycle.hysteresis(ui.palette()) {
+                Some(figure) => shown(ui, &cycle.title("loop"), vec![(figure, 1.0)]),
+                None => ui.empty("No force", "The run has no force channel."),
+            },
             Tab::Frequency | Tab::Level => self.along(ui, look.tab),
         }
     }
@@ -66,16 +73,28 @@ impl Detail<'_> {
     fn along(&self, ui: &mut Ui, tab: Tab) {
         let list = samples::samples(self.project, self.comparison, self.trial, self.channel);
         let near = neighbourhood(self.project, self.run).map(|(near, _)| near).unwrap_or_default();
-        let along = Along {
+        let response = ChannelResponse {
             name: self.channel,
             samples: &list,
             run: self.run,
-            near: &near,
+            levels: &levels(self.project, &near),
             channel: samples::index(self.project, self.run, self.channel).unwrap_or(0),
             unit: samples::unit(self.project, self.run, self.channel),
-            curve: self.curve,
-            trial: self.trial_curve,
+            curves: self.curves,
+            trial: self.trial_curves,
         };
-        if tab == Tab::Frequency { along.frequency(ui) } else { along.level(ui) }
+        if tab == Tab::Frequency {
+            return shown(ui, &response.title("frequency"), response.over_frequency(ui.palette()));
+        }
+        if let Some(figures) = response.over_level(ui.palette()) {
+            return shown(ui, &response.title("level"), figures);
+        }
+        let frequency = self.project.runs.get(self.run).map_or(0.0, crate::measurement::Run::frequency_hz);
+        let frequency = format::with_unit(frequency, "Hz");
+        ui.empty("One level only", &format!("At {frequency} there is no run at another force."));
     }
+}
+
+fn shown(ui: &mut Ui, title: &str, figures: Vec<(Figure, f32)>) {
+    Stack { id: title, title, figures, keys: true }.show(ui);
 }

@@ -1,6 +1,7 @@
 //! The error before and after as one bar on a logarithmic scale, with the noise floor.
 
-use super::grid::{Scale, in_words};
+use crate::display::format::in_words;
+use crate::plots::error_map::Scale;
 use crate::window::theme::{self, size};
 use crate::window::widgets::UiExt;
 use egui::{Align2, Rect, Role, Sense, Stroke, Ui, WidgetInfo, pos2, vec2};
@@ -36,7 +37,13 @@ impl Gauge {
     /// Shows the bar and its figures under it.
     pub fn show(&self, ui: &mut Ui) {
         let palette = ui.palette();
-        let (area, response) = ui.allocate_exact_size(vec2(ui.available_width(), 30.0), Sense::hover());
+        let font = theme::font(size::SMALL);
+        let [left, right] = self.figures();
+        let width = |text: &str| ui.painter().layout_no_wrap(text.to_owned(), font.clone(), palette.ink).size().x;
+        // The figures stand in one line where there is room for both.
+        let beside = width(&left) + width(&right) + 12.0 <= ui.available_width();
+        let height = if beside { 30.0 } else { 46.0 };
+        let (area, response) = ui.allocate_exact_size(vec2(ui.available_width(), height), Sense::hover());
         response.widget_info(|| WidgetInfo::labeled(Role::Label, true, self.words()));
         let painter = ui.painter();
         let most = self.before.max(self.after);
@@ -60,10 +67,12 @@ impl Gauge {
         };
         tick(f64::from(x(self.floor)), palette.ink, 1.6);
         tick(f64::from(b), palette.weak, 1.2);
-        let font = theme::font(size::SMALL);
         let below = bar.bottom() + 4.0;
-        let [left, right] = self.figures();
         painter.text(pos2(bar.left(), below), Align2::LEFT_TOP, left, font.clone(), palette.ink);
-        painter.text(pos2(bar.right(), below), Align2::RIGHT_TOP, right, font, palette.weak);
+        if beside {
+            painter.text(pos2(bar.right(), below), Align2::RIGHT_TOP, right, font, palette.weak);
+        } else {
+            painter.text(pos2(bar.left(), below + 16.0), Align2::LEFT_TOP, right, font, palette.weak);
+        }
     }
 }

@@ -1,11 +1,11 @@
 //! The ledger: error against steps on a logarithmic axis with the noise floor, and the steps by name, each a way back.
 
-use super::grid::in_words;
 use super::{Deed, Scene, cards};
 use crate::diagnosis::diagnose::Verdict;
+use crate::display::format::in_words;
+use crate::plots::figure::{Axis, Figure, Look, Ticks};
 use crate::window::app::Ask;
 use crate::window::explained::ledger::Ledger;
-use crate::window::plots::figure::{Axis, Figure, Look, Ticks};
 use crate::window::plots::show::Stack;
 use crate::window::theme::{self, size, space};
 use crate::window::widgets::UiExt;
@@ -31,7 +31,7 @@ pub fn show(ui: &mut Ui, scene: &Scene<'_>, asks: &mut Vec<Ask>) {
         ui.add_space(space::XS);
         ui.hint("Click a step to go back to it, or forward again: none is lost.");
         if let Some(Ok(diagnosis)) = scene.explained.diagnosis(scene.document)
-            && diagnosis.verdict != Verdict::Undecided
+            && !matches!(diagnosis.verdict, Verdict::Undecided | Verdict::Unexplained)
         {
             ui.add_space(space::M);
             cards::next_tests(ui, scene, diagnosis);

@@ -1,8 +1,9 @@
 //! The error map: one cell a run and channel, coloured from the noise floor to the largest error; its legend.
 
-use super::grid::{Cell, ENERGY, Grid, Scale, in_words};
+use crate::display::format;
+use crate::display::format::in_words;
 use crate::exchange::Project;
-use crate::window::format;
+use crate::plots::error_map::{self, Cell, ENERGY, Grid, Scale};
 use crate::window::theme::{self, Palette, size};
 use crate::window::widgets::UiExt;
 use egui::{
@@ -98,11 +99,7 @@ impl Map<'_> {
                 if !self.grid.used[column] {
                     hatch(ui, rect, palette.weak);
                 } else if sheet.cell.x >= 34.0 {
-                    let text = if cell.error > 10.0 {
-                        "> 1000".to_owned()
-                    } else {
-                        format::significant(100.0 * cell.error, 2)
-                    };
+                    let text = error_map::percent(*cell);
                     ui.painter().text(rect.center(), Align2::CENTER_CENTER, text, font.clone(), palette.text_on(fill));
                 }
             }
@@ -181,7 +178,7 @@ impl Sheet {
 
 /// Colour of a cell: that of the ground where the error is noise.
 fn shade(palette: &Palette, scale: &Scale, cell: Cell, stale: bool) -> Color32 {
-    let colour = if cell.is_noise() { palette.raised } else { palette.error_shade(scale.share(cell.error)) };
+    let colour = error_map::shade(palette, scale, cell);
     if stale { palette.pane.lerp_to_gamma(colour, 0.45) } else { colour }
 }
 

@@ -1,34 +1,32 @@
 //! Explain: where the model fails (error map), what is missing (suggestions), the way so far (ledger).
 
-mod along;
 mod card;
 mod cards;
-mod cycle;
 mod detail;
 mod fingerprint;
 mod gauge;
-pub mod grid;
 mod ledger;
 pub mod look;
 mod map;
 pub mod panes;
 mod ranking;
-mod samples;
 mod schematic;
 
 use crate::diagnosis::diagnose::Verdict;
+use crate::display::findings::is_detuned;
+use crate::display::format;
+use crate::display::words;
+use crate::display::words::at;
 use crate::effects::{Source, State};
 use crate::session::Command;
 use crate::window::additions;
 use crate::window::app::App;
 use crate::window::document::Document;
 use crate::window::edits::Edit;
-use crate::window::explained::model::{Key, at};
+use crate::window::explained::model::Key;
 use crate::window::explained::{Explained, Standing, Wanted};
-use crate::window::format;
 use crate::window::frame::top::Mark;
 use crate::window::view::{Stage, View};
-use crate::window::words;
 use egui::Context;
 pub use schematic::{Errors, errors};
 
@@ -190,9 +188,9 @@ pub fn mark(document: &Document, explained: &Explained) -> Mark {
         Some(Err(error)) => return Mark::attention(error),
         Some(Ok(comparison)) => comparison,
     };
-    let (error, floor) = (grid::in_words(comparison.error), format::percent(comparison.noise_floor));
+    let (error, floor) = (format::in_words(comparison.error), format::percent(comparison.noise_floor));
     match explained.diagnosis(document) {
-        Some(Ok(d)) if cards::is_detuned(d) => {
+        Some(Ok(d)) if is_detuned(d) => {
             Mark::attention(&format!("The model is detuned: error {error}, noise floor {floor}. No effect is missing."))
         }
         Some(Ok(d)) if matches!(d.verdict, Verdict::Adequate | Verdict::Detuned) => {

@@ -1,14 +1,16 @@
 //! The panes of the stage, each on its own: error map, the cell that was clicked, suggestions, ledger.
 
 use super::detail::Detail;
-use super::grid::{ENERGY, Grid, Scale, in_words};
 use super::look::Look;
 use super::map::{self, Map};
-use super::{Deed, Scene, card, cards, ledger, samples};
+use super::{Deed, Scene, card, cards, ledger};
 use crate::diagnosis::Comparison;
+use crate::display::format::in_words;
 use crate::effects::{Source, State};
+use crate::plots::error_map::{ENERGY, Grid, Scale};
+use crate::plots::response_curve::Curve;
+use crate::plots::samples;
 use crate::window::app::{App, Ask};
-use crate::window::explained::curve::Curve;
 use crate::window::explained::shelf::Kept;
 use crate::window::theme::{size, space};
 use crate::window::widgets::UiExt;
@@ -123,7 +125,7 @@ pub fn cell(ui: &mut Ui, app: &mut App, asks: &mut Vec<Ask>) {
         ui.empty("No motion", "The selected run measures forces only.");
         return;
     };
-    let good = |found: Option<&Kept<Curve>>| found.and_then(|c| c.as_ref().ok()).map(Arc::clone);
+    let good = |found: Option<&Kept<Vec<Curve>>>| found.and_then(|c| c.as_ref().ok()).map(Arc::clone);
     let own = good(scene.explained.curve(document, run));
     let other = shown.trial.and_then(|(t, _)| good(scene.explained.trial_curve(document, t, run)));
     let detail = Detail {
@@ -132,8 +134,8 @@ pub fn cell(ui: &mut Ui, app: &mut App, asks: &mut Vec<Ask>) {
         trial: shown.tried(),
         run,
         channel: &name,
-        curve: own.as_deref(),
-        trial_curve: other.as_deref(),
+        curves: own.as_deref().map_or(&[][..], Vec::as_slice),
+        trial_curves: other.as_deref().map_or(&[][..], Vec::as_slice),
     };
     detail.show(ui, &mut look);
     app.view.explain = look;
@@ -162,7 +164,6 @@ fn head(ui: &mut Ui, scene: &Scene<'_>, worst_first: bool, comparison: &Comparis
             in_words(comparison.error),
             in_words(comparison.energy_error)
         );
-        ui.hint(text);
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             ui.spacing_mut().item_spacing.x = 2.0;
             for (worst, label) in [(false, "In order"), (true, "Worst first")] {
@@ -170,13 +171,17 @@ fn head(ui: &mut Ui, scene: &Scene<'_>, worst_first: bool, comparison: &Comparis
                     order = worst;
                 }
             }
+            ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
+                let weak = ui.palette().weak;
+                ui.add(Label::new(RichText::new(&text).size(size::SMALL).color(weak)).truncate());
+            });
         });
     });
     let p = &scene.document.project;
     let known = p.sources.iter().any(|s| s.state == State::Known);
     let sought = p.sources.iter().any(|s| matches!(s.state, State::Candidate | State::Forced));
     if !known && sought {
-        ui.horizontal(|ui| {
+        ui.horizontal_wrapped(|ui| {
             ui.label(
                 RichText::new("The model has no damping yet: only known sources act in it.")
                     .color(ui.palette().warning),

@@ -1,16 +1,17 @@
 //! What the schematic shows in the stage: the error at every sensor, and the suggested source in its place.
 
-use super::grid::{Scale, in_words};
 use super::ranking;
 use crate::diagnosis::Comparison;
+use crate::display::format::in_words;
+use crate::display::words;
+use crate::display::words::at;
 use crate::effects::{Place, Source, State};
+use crate::plots::error_map::Scale;
 use crate::window::document::Document;
 use crate::window::explained::Explained;
-use crate::window::explained::model::at;
 use crate::window::schematic::Scene;
 use crate::window::schematic::model::SceneSource;
 use crate::window::view::View;
-use crate::window::words;
 use std::sync::Arc;
 
 /// What is laid over the schematic.

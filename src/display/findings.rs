@@ -1,0 +1,86 @@
+//! What a diagnosis says, in sentences.
+
+use super::format::{self, in_words};
+use super::words;
+use crate::diagnosis::Diagnosis;
+use crate::diagnosis::diagnose::{Correction, Verdict};
+use crate::diagnosis::updating::parameters::UpdatingParameter;
+use crate::effects::{Place, Source};
+use crate::structure::{Part, Structure};
+
+/// How many times the noise floor an error must be to be more than noise.
+const BEYOND: f64 = 1.2;
+
+/// Whether nothing is missing once the model is corrected, but the model as it stands does not explain the data.
+pub fn is_detuned(diagnosis: &Diagnosis) -> bool {
+    let beyond = diagnosis.error_before > BEYOND * diagnosis.noise_floor;
+    let corrected = diagnosis.verdict == Verdict::Adequate && !diagnosis.corrections.is_empty() && beyond;
+    corrected || diagnosis.verdict == Verdict::Detuned
+}
+
+/// The verdict as a sentence.
+pub fn sentence(diagnosis: &Diagnosis) -> String {
+    let times = diagnosis.error_before / diagnosis.noise_floor.max(f64::MIN_POSITIVE);
+    let (error, floor) = (in_words(diagnosis.error_before), format::percent(diagnosis.noise_floor));
+    match diagnosis.verdict {
+        Verdict::Adequate | Verdict::Detuned if is_detuned(diagnosis) => {
+            let after = diagnosis.steps.last().map_or(diagnosis.noise_floor, |s| s.error);
+            let after = in_words(after);
+            format!(
+                "It is only detuned: with the corrections below its error falls from {error} to {after} (noise {floor})."
+            )
+        }
+        Verdict::Adequate | Verdict::Detuned => {
+            format!("Its error of {error} is within what noise alone makes ({floor}). Nothing more is suggested.")
+        }
+        _ if diagnosis.error_before > 10.0 => {
+            format!("The model is wrong by {error}: at these frequencies hardly anything in it takes out energy.")
+        }
+        Verdict::Missing => {
+            format!("The model is wrong by {error}, {} times what noise alone makes.", format::significant(times, 2))
+        }
+        Verdict::Unexplained => format!(
+            "The model is wrong by {error}, {} times the noise, and no law known here mends it: what the best leaves says \
+             where to look, at other levels or with more sensors.",
+            format::significant(times, 2)
+        ),
+        Verdict::Undecided => format!(
+            "The model is wrong by {error}, {} times the noise, and these data cannot tell what would mend it.",
+            format::significant(times, 2)
+        ),
+    }
+}
+
+/// What a correction corrects; `known` are the sources that act in the model, in the order of the project.
+pub fn corrected(structure: &Structure, known: &[Source], parameter: &UpdatingParameter) -> String {
+    match parameter {
+        UpdatingParameter::Structure(part) => corrected_part(structure, *part),
+        UpdatingParameter::Known(index) => {
+            known.get(*index).map_or_else(|| "A known source".to_owned(), |s| words::title(structure, s))
+        }
+        UpdatingParameter::Gain(channel) => format!("Gain of {channel}"),
+        UpdatingParameter::Delay(channel) => format!("Delay of {channel}"),
+    }
+}
+
+fn corrected_part(structure: &Structure, part: Part) -> String {
+    let at = |dofs: &[usize]| words::at(structure, &Place::Dofs(dofs.to_vec()));
+    let elements = |[first, last]: [usize; 2]| format!("elements {}–{}", first + 1, last + 1);
+    match part {
+        Part::Stiffness => "All stiffness".to_owned(),
+        Part::Mass => "All mass".to_owned(),
+        Part::Mode(mode) => format!("Stiffness of mode {}", mode + 1),
+        Part::GroundSpring(dof) => format!("Spring {}", at(&[dof])),
+        Part::Coupling(pair) => format!("Spring {}", at(&pair)),
+        Part::PointMass(dof) => format!("Mass {}", at(&[dof])),
+        Part::ElementStiffness(range) => format!("Stiffness of {}", elements(range)),
+        Part::ElementMass(range) => format!("Mass of {}", elements(range)),
+    }
+}
+
+/// A correction in words: what, and by how much with its deviation: `+2.00 ± 0.05 %`.
+pub fn change(correction: &Correction) -> String {
+    let change = format::with_deviation(100.0 * (correction.factor - 1.0), 100.0 * correction.deviation, "%");
+    let sign = if correction.factor > 1.0 { "+" } else { "" };
+    format!("{sign}{change}")
+}

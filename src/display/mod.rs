@@ -1,0 +1,5 @@
+//! How values, units and names are shown to people: the same on the screen, in plots and in reports.
+
+pub mod findings;
+pub mod format;
+pub mod words;

@@ -1,0 +1,116 @@
+//! The forward model of what was identified, as the result shows it: frequency responses and steady states.
+
+use super::bode::Response;
+use super::hysteresis::{self, Loop};
+use crate::balance::expansion::Acting;
+use crate::balance::{Expander, Measured};
+use crate::effects::{Source, State};
+use crate::exchange::Project;
+use crate::identify::{self, Outcome};
+use crate::measurement::Quantity;
+use crate::response::dynamic_stiffness::DynamicStiffness;
+use faer::c64;
+
+/// The sources of the answer at their values; a law that is not linear stands as the dashpot that takes out as much energy.
+pub fn acting(p: &Project, outcome: &Outcome) -> Vec<Source> {
+    let one = |(k, estimate): (usize, &identify::Estimate)| {
+        let source = p.sources.get(estimate.source)?.with_coefficient(estimate.coefficient);
+        if source.effect.is_linear() {
+            return Some(source);
+        }
+        let c = outcome.results.equivalent.overall.get(k).copied().unwrap_or(0.0);
+        let dashpot = source.unit_dashpot();
+        Some(dashpot.with_coefficient(c))
+    };
+    outcome.sources.iter().enumerate().filter_map(one).collect()
+}
+
+/// The known sources of a project that are linear in the motion: what a frequency response of the model as it stands has.
+pub fn known(p: &Project) -> Vec<Source> {
+    let acts = |s: &&Source| s.state == State::Known && s.effect.is_linear();
+    p.sources.iter().filter(acts).cloned().collect()
+}
+
+/// Frequencies for a model of which only its undamped modes are known, as [`frequencies`].
+pub fn frequencies_of_modes(p: &Project) -> Vec<f64> {
+    let modes = p.structure.modes().map_or_else(|_| Vec::new(), |m| m.omega.clone());
+    spread(p, modes.into_iter().map(|w| (w, 0.01)))
+}
+
+/// Frequencies from a little below the lowest run to a little above the highest, closer together near the modes.
+pub fn frequencies(p: &Project, outcome: &Outcome) -> Vec<f64> {
+    let modes = outcome.results.modes.iter();
+    spread(p, modes.map(|m| (std::f64::consts::TAU * m.frequency_hz, m.damping_ratio)))
+}
+
+/// Over the range of the runs, closer together near modes of a circular frequency and a damping ratio.
+fn spread(p: &Project, modes: impl Iterator<Item = (f64, f64)>) -> Vec<f64> {
+    let runs = || p.runs.iter().map(|r| r.fit.omega);
+    let low = 0.5 * runs().fold(f64::INFINITY, f64::min);
+    let high = 1.6 * runs().fold(0.0, f64::max);
+    let mut omega: Vec<f64> = (0..=400).map(|k| low * (high / low).powf(f64::from(k) / 400.0)).collect();
+    for (centre, ratio) in modes {
+        let width = (ratio * centre).max(1e-5 * centre);
+        for k in -60..=60 {
+            let x = f64::from(k) / 12.0;
+            omega.push(centre + width * x.sinh());
+        }
+    }
+    omega.retain(|w| (low..=high).contains(w));
+    omega.sort_by(f64::total_cmp);
+    omega.dedup();
+    omega
+}
+
+/// The receptance between two DOFs at `omega` (rad/s).
+///
+/// # Errors
+/// One line: an undamped resonance, or cancelled.
+pub fn receptance(
+    structure: &crate::structure::Structure,
+    sources: &[Source],
+    omega: Vec<f64>,
+    [response, excitation]: [usize; 2],
+    control: &crate::control::Control,
+) -> Result<Response, String> {
+    let stiffness = DynamicStiffness::new(structure, sources).map_err(|e| e.to_string())?;
+    let quantity = crate::response::frequency_response::Quantity::Receptance;
+    let values =
+        crate::response::frequency_response::direct(&stiffness, response, excitation, &omega, quantity, control)
+            .map_err(|e| e.to_string())?;
+    Ok(Response { response, excitation, omega, receptance: values })
+}
+
+/// The motion of every DOF in every run at its fundamental, m or rad, expanded with the damping that was identified.
+///
+/// # Errors
+/// One line: the structure has no modes.
+pub fn motions(p: &Project, outcome: Option<&Outcome>) -> Result<Vec<Vec<c64>>, String> {
+    let measured: Vec<Option<Measured>> = p.runs.iter().map(|run| Measured::new(run).ok()).collect();
+    let usable: Vec<Measured> = measured.iter().flatten().cloned().collect();
+    let expander = Expander::new(&p.structure, p.settings.expansion, &usable).map_err(|e| e.to_string())?;
+    let damping = outcome.map_or_else(Vec::new, |outcome| acting(p, outcome));
+    let one = |measured: &Measured| {
+        let acting = Acting { sources: &damping, motion: None, model_error: outcome.map_or(1.0, |o| o.model_error) };
+        let expanded = expander.expand(measured, acting).ok()?;
+        Some((0..p.structure.len()).map(|d| expanded.x[(d, 0)]).collect())
+    };
+    Ok(measured.iter().map(|run| run.as_ref().and_then(one).unwrap_or_default()).collect())
+}
+
+/// Loops at the model's steady state under the measured force's fundamental.
+///
+/// # Errors
+/// One line: no matrices, or an undamped resonance.
+pub fn run_loops(p: &Project, outcome: &Outcome, run: usize) -> Result<Vec<Loop>, String> {
+    let r = p.runs.get(run).ok_or("there is no such run")?;
+    let stiffness = DynamicStiffness::new(&p.structure, &acting(p, outcome)).map_err(|e| e.to_string())?;
+    let mut force = vec![c64::new(0.0, 0.0); p.structure.len()];
+    for channel in r.fit.channels.iter().filter(|c| c.channel.quantity == Quantity::Force) {
+        force[channel.channel.dof] += channel.amplitudes.first().copied().unwrap_or_default();
+    }
+    let x = stiffness.solve(r.fit.omega, &force).map_err(|e| e.to_string())?;
+    let sources: Vec<Source> =
+        outcome.sources.iter().filter_map(|e| Some(p.sources.get(e.source)?.with_coefficient(e.coefficient))).collect();
+    Ok(hysteresis::loops(p, run, &x, &sources))
+}

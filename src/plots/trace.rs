@@ -1,0 +1,48 @@
+//! One channel of a record with its residual and its spectrum, ready to be drawn at any zoom.
+
+use super::pyramid::Pyramid;
+use super::record::fitted;
+use crate::control::Control;
+use crate::math::spectrum::Spectrum;
+use crate::measurement::{ChannelFit, Record};
+use std::f64::consts::TAU;
+use std::sync::Arc;
+
+/// One channel of a record, ready to be drawn.
+#[derive(Debug, Clone)]
+pub struct Trace {
+    /// The record.
+    pub record: Arc<Pyramid>,
+    /// Record minus fit, at every sample.
+    pub residual: Arc<Pyramid>,
+    /// Its spectrum up to a little above the highest harmonic; `None` where it is too short.
+    pub spectrum: Option<Arc<Pyramid>>,
+}
+
+/// Computes a trace; `None` where the channel is not in the record, or cancelled.
+pub fn trace(record: &Arc<Record>, fit: &ChannelFit, omega: f64, control: &Control) -> Option<Trace> {
+    let row = record.channels().iter().position(|c| *c == fit.channel)?;
+    let (time, samples) = (record.time(), record.samples(row));
+    let (first, last) = (*time.first()?, *time.last()?);
+    let middle = 0.5 * (first + last);
+    let residual: Vec<f64> = time.iter().zip(samples).map(|(&t, y)| y - fitted(fit, omega, middle, t)).collect();
+    control.report(0.4);
+    control.check().ok()?;
+    let whole = Pyramid::of_record(Arc::clone(record), row);
+    let residual = Pyramid::beside(Arc::clone(record), residual);
+    control.report(0.7);
+    control.check().ok()?;
+    let step = (last - first) / (time.len().max(2) - 1) as f64;
+    let spectrum = Spectrum::new(samples, step).map(|s| Arc::new(lines(&s, fit, omega)));
+    Some(Trace { record: Arc::new(whole), residual: Arc::new(residual), spectrum })
+}
+
+/// Lines of a spectrum up to a little above the highest harmonic; what lies far below the highest is drawn at a floor.
+fn lines(spectrum: &Spectrum, fit: &ChannelFit, omega: f64) -> Pyramid {
+    let last = omega / TAU * (fit.amplitudes.len() as f64 + 1.5);
+    let shown = spectrum.amplitude.len().min((last / spectrum.resolution_hz).ceil() as usize + 2).max(2);
+    let floor = 1e-7 * spectrum.amplitude.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
+    let frequency: Vec<f64> = (1..shown).map(|k| spectrum.frequency_hz(k)).collect();
+    let amplitude: Vec<f64> = (1..shown).map(|k| spectrum.amplitude.get(k).map_or(floor, |a| a.max(floor))).collect();
+    Pyramid::new(&frequency, &amplitude)
+}

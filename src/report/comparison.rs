@@ -1,0 +1,176 @@
+//! Chapters of the model against the measurement: errors, error map, suggestions with their evidence, ledger, next test.
+
+use super::content::Content;
+use super::html::Page;
+use super::{figure, sheet};
+use crate::control::Control;
+use crate::diagnosis::diagnose::{Suggestion, Verdict};
+use crate::diagnosis::{Comparison, Diagnosis};
+use crate::display::format::{chance, in_words, polished};
+use crate::display::{findings, format, words};
+use crate::plots::channel_response::ChannelResponse;
+use crate::plots::error_map::{ENERGY, Grid, Scale};
+use crate::plots::response_curve::{curves, levels, neighbourhood};
+use crate::plots::style::Palette;
+use crate::plots::{fingerprint, samples};
+
+/// Suggestions that are told in full.
+const MOST_SUGGESTIONS: usize = 6;
+
+/// Adds them.
+pub(super) fn chapters(page: &mut Page, content: &Content<'_>, control: &Control) {
+    if content.project.runs.is_empty() {
+        return;
+    }
+    page.chapter("Model of the known sources against the measurement");
+    match &content.comparison {
+        Ok(found) => agreement(page, content, found, control),
+        Err(reason) => page.warning(reason),
+    }
+    page.chapter("What is missing?");
+    match &content.diagnosis {
+        Ok(found) => missing(page, content, found),
+        Err(reason) => page.sentence(reason),
+    }
+    ledger(page, content);
+}
+
+fn agreement(page: &mut Page, content: &Content<'_>, found: &Comparison, control: &Control) {
+    page.sentence(&format!(
+        "Error of the responses {}, of the energies {}; noise alone would leave {}.",
+        in_words(found.error),
+        in_words(found.energy_error),
+        format::percent(found.noise_floor)
+    ));
+    let grid = Grid::new(found, false);
+    let errors = grid.cells.iter().flatten().flatten().map(|c| c.error);
+    let scale = Scale::new(found.noise_floor, errors.fold(0.0, f64::max));
+    page.drawing(&grid.draw(&scale, "Error map, channels by runs", Palette::light()));
+    let worst = Grid::new(found, true);
+    let (Some(&run), Some(channel)) = (worst.runs.first(), worst.channels.first()) else { return };
+    if channel != ENERGY {
+        worst_channel(page, content, found, (run, channel), control);
+    }
+}
+
+/// Measured on modelled where the model is worst.
+fn worst_channel(
+    page: &mut Page,
+    content: &Content<'_>,
+    found: &Comparison,
+    (run, channel): (usize, &str),
+    control: &Control,
+) {
+    let p = content.project;
+    let list = samples::samples(p, found, None, channel);
+    let near = neighbourhood(p, run).map(|n| n.0).unwrap_or_default();
+    let lines =
+        if p.structure.matrices().is_some() { curves(p, &[], run, control).unwrap_or_default() } else { Vec::new() };
+    let response = ChannelResponse {
+        name: channel,
+        samples: &list,
+        run,
+        levels: &levels(p, &near),
+        channel: samples::index(p, run, channel).unwrap_or(0),
+        unit: samples::unit(p, run, channel),
+        curves: &lines,
+        trial: &[],
+    };
+    if list.len() > 1 {
+        let figures = response.over_frequency(Palette::light()).into_iter().map(|f| f.0).collect();
+        sheet(page, &format!("{channel} where the model is worst: near run {}", run + 1), figures);
+    }
+}
+
+fn missing(page: &mut Page, content: &Content<'_>, found: &Diagnosis) {
+    page.sentence(&findings::sentence(found));
+    let structure = &content.project.structure;
+    if !found.corrections.is_empty() {
+        let acts = |s: &&crate::effects::Source| {
+            s.state == crate::effects::State::Known
+                && !matches!(s.effect.kind(), crate::effects::effect::Kind::Channel(_))
+        };
+        let known: Vec<_> = content.project.sources.iter().filter(acts).cloned().collect();
+        page.sentence("The model states these wrongly; they were corrected in the search:");
+        let row = |c: &crate::diagnosis::diagnose::Correction| {
+            vec![findings::corrected(structure, &known, &c.parameter), findings::change(c)]
+        };
+        page.table(&["What", "Correction|"], &found.corrections.iter().map(row).collect::<Vec<_>>());
+    }
+    let list = &found.suggestions;
+    let row = |s: &Suggestion| {
+        let sizes = s.added.source.effect.parameters().iter().zip(&s.added.source.parameters).zip(&s.added.deviations);
+        let size = |((p, v), d): ((&crate::effects::Parameter, &f64), &f64)| {
+            format!("{} {}", words::parameter(p.name), format::with_deviation(*v, *d, p.unit))
+        };
+        vec![
+            words::title(structure, &s.added.source),
+            sizes.map(size).collect::<Vec<_>>().join(", "),
+            chance(s.probability),
+            in_words(s.error_after),
+            in_words(s.held_out_error_after),
+        ]
+    };
+    if !list.is_empty() {
+        let rows: Vec<Vec<String>> = list.iter().take(MOST_SUGGESTIONS).map(row).collect();
+        page.table(&["Suggestion", "Size", "Probability|", "Error with it|", "On left-out runs|"], &rows);
+    }
+    for s in list.iter().take(MOST_SUGGESTIONS) {
+        evidence(page, content, s);
+    }
+    next_tests(page, content, found);
+}
+
+fn evidence(page: &mut Page, content: &Content<'_>, s: &Suggestion) {
+    let structure = &content.project.structure;
+    let title = words::title(structure, &s.added.source);
+    page.section(&title);
+    s.evidence.iter().for_each(|sentence| page.sentence(&polished(sentence)));
+    if !s.indistinguishable_from.is_empty() {
+        let others: Vec<String> = s.indistinguishable_from.iter().map(|o| words::title(structure, o)).collect();
+        page.sentence(&format!("These data cannot tell it from: {}.", others.join("; ")));
+    }
+    if let Some((_, print)) = content.fingerprints.iter().find(|(source, _)| source.is_same(&s.added.source)) {
+        figure(page, fingerprint::figure(print, Palette::light()));
+    }
+}
+
+fn next_tests(page: &mut Page, content: &Content<'_>, found: &Diagnosis) {
+    if matches!(found.verdict, Verdict::Adequate | Verdict::Detuned) || found.next_test.is_empty() {
+        return;
+    }
+    page.chapter("Next test");
+    for test in &found.next_test {
+        page.sentence(&format!(
+            "{} with {} (peak) at DOF {}: {}.",
+            format::with_unit(test.frequency_hz, "Hz"),
+            format::with_unit(test.force, "N"),
+            content.project.structure.dofs().get(test.force_dof).map_or("?", |d| d.label.as_str()),
+            polished(test.why.trim_end_matches('.'))
+        ));
+    }
+}
+
+/// The models that were looked at, and where the suggestions would lead.
+fn ledger(page: &mut Page, content: &Content<'_>) {
+    let mut rows: Vec<Vec<String>> = Vec::new();
+    for row in &content.ledger {
+        rows.push(vec![row.label.clone(), in_words(row.error), format::percent(row.noise_floor)]);
+    }
+    if let Ok(found) = &content.diagnosis {
+        let structure = &content.project.structure;
+        for step in found.steps.iter().skip(1) {
+            let names: Vec<String> = step.added.iter().map(|a| words::title(structure, &a.source)).collect();
+            let what = if names.is_empty() { "the corrections".to_owned() } else { names.join(", ") };
+            rows.push(vec![
+                format!("with {what}, as suggested"),
+                in_words(step.error),
+                format::percent(found.noise_floor),
+            ]);
+        }
+    }
+    if !rows.is_empty() {
+        page.chapter("Ledger");
+        page.table(&["Model", "Error|", "Noise floor|"], &rows);
+    }
+}

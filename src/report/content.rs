@@ -1,0 +1,105 @@
+//! What a report holds, each part computed or with the reason why not.
+
+use crate::control::Control;
+use crate::diagnosis::candidates::fingerprint_plot::{self as prints, Print};
+use crate::diagnosis::{self, Comparison, Diagnosis, Problem};
+use crate::effects::Source;
+use crate::exchange::Project;
+use crate::identify::{Outcome, identify};
+use std::sync::Arc;
+
+/// A result, or one line that says why there is none.
+pub type Found<T> = Result<Arc<T>, String>;
+
+/// One model that was looked at on the way to the present one.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LedgerRow {
+    /// What was changed.
+    pub label: String,
+    /// Error of the model, a share.
+    pub error: f64,
+    /// What it would be were the model exact, a share.
+    pub noise_floor: f64,
+}
+
+/// What is known before a report is written; what is `None` is computed for it.
+#[derive(Debug, Clone, Default)]
+pub struct Known {
+    /// Identified sources.
+    pub outcome: Option<Found<Outcome>>,
+    /// Model against measurement.
+    pub comparison: Option<Found<Comparison>>,
+    /// What the model lacks.
+    pub diagnosis: Option<Found<Diagnosis>>,
+    /// The way to the model as it stands.
+    pub ledger: Vec<LedgerRow>,
+}
+
+/// All that a report is made of.
+#[derive(Debug)]
+pub struct Content<'a> {
+    /// The project.
+    pub project: &'a Project,
+    /// Identified sources.
+    pub outcome: Found<Outcome>,
+    /// Model against measurement.
+    pub comparison: Found<Comparison>,
+    /// What the model lacks.
+    pub diagnosis: Found<Diagnosis>,
+    /// Fingerprints of the first suggestions.
+    pub fingerprints: Vec<(Source, Print)>,
+    /// The way to the model as it stands.
+    pub ledger: Vec<LedgerRow>,
+}
+
+/// Error beyond which a model lacks its damping altogether, and no search for a missing effect says anything.
+const HOPELESS: f64 = 10.0;
+/// Suggestions whose fingerprint is drawn.
+const MOST_PRINTS: usize = 2;
+
+impl<'a> Content<'a> {
+    /// Computes what is not known.
+    pub fn complete(project: &'a Project, known: Known, control: &Control) -> Self {
+        let p = project;
+        let outcome = known.outcome.unwrap_or_else(|| {
+            let found = identify(&p.structure, &p.sources, &p.runs, &p.settings, control);
+            found.map(Arc::new).map_err(|e| e.to_string())
+        });
+        let comparison = known
+            .comparison
+            .unwrap_or_else(|| diagnosis::compare(&problem(p), &[], control).map(Arc::new).map_err(|e| e.to_string()));
+        let diagnosis = known.diagnosis.unwrap_or_else(|| diagnose(p, &comparison, control));
+        let fingerprints = diagnosis.as_ref().map_or_else(|_| Vec::new(), |d| fingerprints(p, d, control));
+        let mut ledger = known.ledger;
+        if let (true, Ok(c)) = (ledger.is_empty(), &comparison) {
+            let label = "Model as it stands".to_owned();
+            ledger.push(LedgerRow { label, error: c.error, noise_floor: c.noise_floor });
+        }
+        Self { project, outcome, comparison, diagnosis, fingerprints, ledger }
+    }
+}
+
+/// What is compared of a project.
+pub(super) fn problem(p: &Project) -> Problem<'_> {
+    Problem { structure: &p.structure, sources: &p.sources, runs: &p.runs }
+}
+
+fn diagnose(p: &Project, comparison: &Found<Comparison>, control: &Control) -> Found<Diagnosis> {
+    let found = comparison.as_ref().map_err(Clone::clone)?;
+    if found.error > HOPELESS {
+        let why = "The model takes hardly any energy out at these frequencies; give it the damping that is known or \
+                   take over what was identified, then its errors say something.";
+        return Err(why.to_owned());
+    }
+    diagnosis::diagnose::diagnose(&problem(p), control).map(Arc::new).map_err(|e| e.to_string())
+}
+
+fn fingerprints(p: &Project, diagnosis: &Diagnosis, control: &Control) -> Vec<(Source, Print)> {
+    let last = diagnosis.steps.last();
+    let found: Vec<Source> = last.map_or_else(Vec::new, |s| s.added.iter().map(|a| a.source.clone()).collect());
+    let one = |source: &Source| {
+        let print = prints::print(&problem(p), &found, &diagnosis.corrections, source, control).ok()??;
+        Some((source.clone(), print))
+    };
+    diagnosis.suggestions.iter().take(MOST_PRINTS).filter_map(|s| one(&s.added.source)).collect()
+}

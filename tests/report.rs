@@ -1,0 +1,89 @@
+//! Report and plots on the command line, without window and graphics: one file that holds everything, with the values of the
+//! other commands, for every kind of project.
+#![allow(clippy::unwrap_used, reason = "tests")]
+
+use serde_json::Value;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+fn sample(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("sample-data").join(name).join("project.toml")
+}
+
+fn dashpot(arguments: &[&str], file: &Path, out: &Path) -> Output {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_dashpot"));
+    command.arg(arguments[0]).arg(file).args(&arguments[1..]).arg("--out").arg(out);
+    command.output().unwrap()
+}
+
+fn written(arguments: &[&str], file: &Path, out: &Path) -> String {
+    let done = dashpot(arguments, file, out);
+    assert!(done.status.success(), "{arguments:?}: {}", String::from_utf8_lossy(&done.stderr));
+    std::fs::read_to_string(out).unwrap()
+}
+
+#[test]
+fn a_report_holds_values_and_plots_in_one_file() {
+    let (file, folder) = (sample("cantilever-harmonics"), tempfile::tempdir().unwrap());
+    let text = written(&["report"], &file, &folder.path().join("report.html"));
+    let identified =
+        Command::new(env!("CARGO_BIN_EXE_dashpot")).arg("identify").arg(&file).arg("--json").output().unwrap();
+    let json: Value = serde_json::from_slice(&identified.stdout).unwrap();
+    for source in json["sources"].as_array().unwrap() {
+        let percent = source["energy_percent"].as_f64().unwrap();
+        assert!(text.contains(&dashpot::display::format::percent(0.01 * percent)), "{source}");
+    }
+    for chapter in ["Structure", "Measurements", "Where the energy is lost", "Damping ratios", "Settings"] {
+        assert!(text.contains(&format!("<h2>{chapter}</h2>")), "{chapter}");
+    }
+    assert!(text.matches("data:image/svg+xml,").count() >= 5, "energies, angle, matrix, Bode, Nyquist");
+    assert!(!text.contains("src=\"http"), "nothing outside the file");
+}
+
+#[test]
+fn a_report_of_a_hidden_effect_says_what_is_missing() {
+    let (file, folder) = (sample("cantilever-friction"), tempfile::tempdir().unwrap());
+    let text = written(&["report"], &file, &folder.path().join("report.html"));
+    assert!(text.contains("No sources were identified"), "the reason stands in the report");
+    for wanted in ["Error map", "What is missing?", "Dry friction at DOF", "Ledger"] {
+        assert!(text.contains(wanted), "{wanted}");
+    }
+    assert!(text.matches("data:image/svg+xml,").count() >= 4, "Bode, Nyquist, map, worst channel");
+}
+
+#[test]
+fn every_plot_is_drawn_without_a_window_and_its_values_are_csv() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = sample("cantilever-case-1");
+    let kinds =
+        ["angle", "energy", "shares", "matrix", "bode", "nyquist", "hysteresis", "record", "spectrum", "period"];
+    for kind in kinds {
+        let svg = written(&["plot", "--what", kind], &file, &folder.path().join(format!("{kind}.svg")));
+        assert!(svg.starts_with("<?xml") && svg.contains("<text"), "{kind}");
+        let csv = written(&["plot", "--what", kind], &file, &folder.path().join(format!("{kind}.csv")));
+        assert!(csv.lines().count() > 1 && csv.contains(','), "{kind}: {csv}");
+    }
+    let friction = sample("cantilever-friction");
+    let svg = written(&["plot", "--what", "channel"], &friction, &folder.path().join("channel.svg"));
+    assert!(svg.contains(">model<") && svg.contains(">measured<"), "keys to both");
+    assert!(svg.matches(" N<").count() > 1, "a key to every level of force");
+    let map = written(&["plot", "--what", "error-map"], &friction, &folder.path().join("map.csv"));
+    assert!(map.starts_with("channel,run 1"), "{map}");
+}
+
+#[test]
+fn what_cannot_be_drawn_is_refused_in_one_line() {
+    let folder = tempfile::tempdir().unwrap();
+    let refused = |arguments: &[&str], file: &Path, out: &str, says: &str| {
+        let failed = dashpot(arguments, file, &folder.path().join(out));
+        let message = String::from_utf8(failed.stderr).unwrap();
+        assert_eq!(failed.status.code(), Some(1), "{message}");
+        assert!(message.contains(says) && message.trim().lines().count() == 1, "{message}");
+    };
+    let file = sample("cantilever-case-1");
+    refused(&["report"], Path::new("no.toml"), "r.html", "no.toml");
+    refused(&["plot", "--what", "bode"], &file, "x.png", ".svg");
+    refused(&["plot", "--what", "record", "--run", "99"], &file, "x.svg", "--run 99");
+    refused(&["plot", "--what", "bode", "--dof", "zz"], &file, "x.svg", "zz");
+    refused(&["plot", "--what", "record", "--channel", "acc@99"], &file, "x.svg", "has no such channel");
+}
