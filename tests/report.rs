@@ -45,7 +45,7 @@ fn a_report_of_a_hidden_effect_says_what_is_missing() {
     let (file, folder) = (sample("cantilever-friction"), tempfile::tempdir().unwrap());
     let text = written(&["report"], &file, &folder.path().join("report.html"));
     assert!(text.contains("No sources were identified"), "the reason stands in the report");
-    for wanted in ["Error map", "What is missing?", "Dry friction at DOF", "Ledger"] {
+    for wanted in ["Error map", "What is missing?", "Coulomb friction at DOF", "Ledger"] {
         assert!(text.contains(wanted), "{wanted}");
     }
     assert!(text.matches("data:image/svg+xml,").count() >= 4, "Bode, Nyquist, map, worst channel");

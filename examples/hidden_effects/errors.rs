@@ -137,9 +137,10 @@ fn perturbed_beam(
     let bending = beam.youngs_modulus * beam.breadth * beam.depth.powi(3) / 12.0;
     let clamped = beam.supports != Supports::PinnedPinned;
     if flexible {
-        errors.support = Some(match clamped {
-            true => bending / beam.length * random.within(40.0, 200.0),
-            false => bending / beam.length.powi(3) * random.within(700.0, 4000.0),
+        errors.support = Some(if clamped {
+            bending / beam.length * random.within(40.0, 200.0)
+        } else {
+            bending / beam.length.powi(3) * random.within(700.0, 4000.0)
         });
     }
     let lumped: Vec<LumpedMass> = lumped

@@ -13,7 +13,8 @@ use toml_edit::{Array, ArrayOfTables, DocumentMut, Item, Table, value};
 /// One sentence where the law is known at that place and two of it are not one, or the list is not written as tables.
 pub(super) fn add(document: &mut DocumentMut, project: &Project, source: &Source) -> anyhow::Result<()> {
     if let Place::Channel(channel) = &source.place {
-        return correct_channel(list(document, "sensor")?, channel, source);
+        correct_channel(list(document, "sensor")?, channel, source);
+        return Ok(());
     }
     // Sources come in the order of their tables; members of families follow.
     let there = project.sources.iter().position(|s| s.state == State::Known && s.is_same(source));
@@ -61,7 +62,7 @@ fn written(project: &Project, source: &Source) -> Table {
 }
 
 /// A gain times the one that is known, a delay on top of it.
-fn correct_channel(sensors: &mut ArrayOfTables, channel: &str, error: &Source) -> anyhow::Result<()> {
+fn correct_channel(sensors: &mut ArrayOfTables, channel: &str, error: &Source) {
     let name = error.effect.parameters()[0].name;
     let more = error.parameters[0];
     let same = |table: &Table| table.get("channel").and_then(Item::as_str).is_some_and(|c| c.trim() == channel);
@@ -70,15 +71,14 @@ fn correct_channel(sensors: &mut ArrayOfTables, channel: &str, error: &Source) -
         table["channel"] = value(channel);
         table[name] = value(more);
         sensors.push(table);
-        return Ok(());
+        return;
     };
-    let Some(table) = sensors.get_mut(row) else { return Ok(()) };
+    let Some(table) = sensors.get_mut(row) else { return };
     let known = table.get(name).and_then(number);
     table[name] = value(match error.effect {
         Effect::Delay => known.unwrap_or(0.0) + more,
         _ => known.unwrap_or(1.0) * more,
     });
-    Ok(())
 }
 
 fn number(item: &Item) -> Option<f64> {
@@ -94,7 +94,7 @@ fn list<'a>(document: &'a mut DocumentMut, name: &str) -> anyhow::Result<&'a mut
 
 #[cfg(test)]
 mod tests {
-    #![allow(clippy::unwrap_used, reason = "tests")]
+    #![allow(clippy::unwrap_used, clippy::disallowed_methods, reason = "tests")]
     use super::*;
     use crate::control::Control;
     use crate::exchange::project::load;

@@ -8,6 +8,7 @@ mod build;
 mod compare;
 mod contents;
 mod convert;
+mod corrections;
 mod diagnose;
 mod export;
 mod identified;

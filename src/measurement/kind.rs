@@ -33,7 +33,7 @@ impl Kind {
     }
 
     /// Whether it is the kind that a run has unless it says otherwise.
-    #[expect(clippy::trivially_copy_pass_by_ref, reason = "serde asks for a reference")]
+    #[allow(clippy::trivially_copy_pass_by_ref, reason = "serde asks for a reference")]
     pub fn is_steady(&self) -> bool {
         *self == Self::Steady
     }

@@ -92,12 +92,11 @@ fn responses(page: &mut Page, content: &Content<'_>, control: &Control) {
     let excitation = channels().find(|c| c.quantity == Quantity::Force).map(|c| c.dof);
     let sensor = channels().filter(|c| c.quantity != Quantity::Force).map(|c| c.dof).next_back();
     let (Some(excitation), Some(sensor)) = (excitation, sensor) else { return };
-    let (omega, sources, title) = match &content.outcome {
-        Ok(o) => (forward::frequencies(p, o), forward::acting(p, o), "Frequency response of the identified model"),
-        Err(_) => {
-            let title = "Frequency response of the linear part of the known sources";
-            (forward::frequencies_of_modes(p), forward::known(p), title)
-        }
+    let (omega, sources, title) = if let Ok(o) = &content.outcome {
+        (forward::frequencies(p, o), forward::acting(p, o), "Frequency response of the identified model")
+    } else {
+        let title = "Frequency response of the linear part of the known sources";
+        (forward::frequencies_of_modes(p), forward::known(p), title)
     };
     let Ok(response) = forward::receptance(&p.structure, &sources, omega, [sensor, excitation], control) else {
         return;

@@ -39,9 +39,10 @@ impl Structure {
         let rows = self.translations();
         let all = self.all_coupled(&rows, matrices);
         let strongest_only = all.len() > DENSE * rows.len();
-        let mut pairs: Vec<[usize; 2]> = match strongest_only {
-            true => rows.iter().flat_map(|&i| strongest(i, &all)).collect(),
-            false => all.into_iter().map(|(pair, _)| pair).collect(),
+        let mut pairs: Vec<[usize; 2]> = if strongest_only {
+            rows.iter().flat_map(|&i| strongest(i, &all)).collect()
+        } else {
+            all.into_iter().map(|(pair, _)| pair).collect()
         };
         pairs.sort_unstable();
         pairs.dedup();

@@ -141,7 +141,8 @@ fn start_grids_lie_within_the_limits() {
             assert!(effect.parameters().iter().zip(&p).all(|(q, &v)| q.allows(v)), "{effect} {p:?}");
         }
     }
-    let scaling = |effect: Effect| effect.parameters().iter().map(|p| p.scaling()).collect::<Vec<_>>();
+    let scaling =
+        |effect: Effect| effect.parameters().iter().map(dashpot::effects::Parameter::scaling).collect::<Vec<_>>();
     assert_eq!(scaling(Effect::Power), [Scaling::Logarithmic, Scaling::Between(0.0, 5.0)]);
     assert_eq!(scaling(Effect::Stiffness), [Scaling::Linear]);
 }

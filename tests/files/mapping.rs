@@ -112,12 +112,13 @@ fn proposals_read_back_as_a_template() {
     export(folder.path());
     let file = dashpot_datafiles::open(&folder.path().join("lab.csv")).unwrap();
     let proposal = propose(file.contents());
-    let names: Vec<String> = proposal.channels.iter().map(|table| table.channel()).collect();
+    let names: Vec<String> = proposal.channels.iter().map(dashpot::exchange::mapping::ChannelTable::channel).collect();
     assert_eq!(names, ["force@1", "acc@1", "acc@2"]);
-    #[derive(serde::Serialize)]
-    struct Tables<'a> {
-        channel: &'a [dashpot::exchange::mapping::ChannelTable],
-    }
     let text = toml::to_string(&Tables { channel: &proposal.channels }).unwrap();
     assert_eq!(template(&text, "template.toml").unwrap(), proposal.channels);
+}
+
+#[derive(serde::Serialize)]
+struct Tables<'a> {
+    channel: &'a [dashpot::exchange::mapping::ChannelTable],
 }

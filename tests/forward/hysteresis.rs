@@ -64,7 +64,7 @@ fn mean_forces_shift_the_structure() {
         }
         let mut model = TimeModel::new(&structure, &sources, &excitation(), steps).unwrap();
         model.start_from(&response);
-        let mut mean = vec![0.0; 5];
+        let mut mean = [0.0; 5];
         let settled = 40;
         for step in 0..(settled + 4) * steps {
             model.advance().unwrap();

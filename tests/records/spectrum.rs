@@ -8,9 +8,9 @@ use std::f64::consts::TAU;
 fn a_decay_has_its_integral() {
     let (rate, omega, step, count) = (0.7, 9.0, 0.01, 700);
     let pole = c64::new(-rate, omega);
-    let signal: Vec<f64> = (0..count).map(|n| (pole * (step * n as f64)).exp().re).collect();
+    let signal: Vec<f64> = (0..count).map(|n| (pole * (step * f64::from(n))).exp().re).collect();
     let lines = fourier_integral(&signal, step);
-    let length = step * (count - 1) as f64;
+    let length = step * f64::from(count - 1);
     for (k, line) in lines.iter().enumerate().take(60) {
         let w = c64::new(0.0, TAU * k as f64 / length);
         let part = |p: c64| ((p * length).exp() - 1.0) / (p - w);

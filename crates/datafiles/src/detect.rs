@@ -96,7 +96,7 @@ fn zipped(path: &Path, mut file: File) -> Read<(Contents, Box<dyn Source>)> {
     file.seek(SeekFrom::Start(0))?;
     let wrong = |error| Fault::new(format!("is a damaged ZIP archive ({error}); copy or save it again"));
     let zip = zip::ZipArchive::new(BufReader::new(file)).map_err(wrong)?;
-    let names: Vec<String> = zip.file_names().filter_map(Result::ok).map(|name| name.into_owned()).collect();
+    let names: Vec<String> = zip.file_names().filter_map(Result::ok).map(std::borrow::Cow::into_owned).collect();
     if !names.is_empty() && names.iter().all(|name| name.ends_with(".npy")) {
         return npz::open(path);
     }

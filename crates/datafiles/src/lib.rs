@@ -8,6 +8,19 @@
 //! Memory is bounded: a length in a header never allocates more than the file could hold. Errors are one line with file,
 //! set, line or byte, what is wrong and how to mend it. Nothing panics on any input.
 
+#![allow(
+    clippy::assigning_clones,
+    clippy::case_sensitive_file_extension_comparisons,
+    clippy::cast_lossless,
+    clippy::large_enum_variant,
+    clippy::match_same_arms,
+    clippy::option_option,
+    clippy::struct_excessive_bools,
+    clippy::unreadable_literal,
+    clippy::unused_self,
+    reason = "readers follow the layouts of their formats"
+)]
+
 mod axis;
 mod bytes;
 mod contents;

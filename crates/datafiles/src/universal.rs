@@ -98,10 +98,8 @@ fn function(set: &mut Set, header: &FunctionHeader) {
     };
     let mut channel = Channel::new(name(header), unit, header.count);
     channel.complex = header.complex;
-    channel.axis = match header.even {
-        true => Axis::Even { start: header.start, step: header.step },
-        false => Axis::Stored { step: None },
-    };
+    channel.axis =
+        if header.even { Axis::Even { start: header.start, step: header.step } } else { Axis::Stored { step: None } };
     let mut attribute = |word: &str, value: String| {
         if !value.is_empty() {
             channel.attributes.push((word.to_owned(), value));

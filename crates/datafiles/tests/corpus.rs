@@ -34,6 +34,7 @@ fn pairs(values: Values) -> Vec<[f64; 2]> {
     }
 }
 
+#[allow(clippy::too_many_lines, reason = "one list of what every file of the corpus must hold")]
 fn check(name: &str, file: &DataFile, entry: &Value) -> Vec<String> {
     let contents = file.contents();
     let mut wrong = Vec::new();
@@ -99,7 +100,7 @@ fn check(name: &str, file: &DataFile, entry: &Value) -> Vec<String> {
         }
         match file.axis(s, c) {
             Ok(Some(axis)) if axis.len() != values.len() => {
-                wrong.push(format!("{name}: {}: axis of {}", text(1), axis.len()))
+                wrong.push(format!("{name}: {}: axis of {}", text(1), axis.len()));
             }
             Ok(_) => {}
             Err(error) => wrong.push(format!("{name}: {error}")),

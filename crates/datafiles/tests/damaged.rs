@@ -1,5 +1,5 @@
 //! Files that are damaged, foreign or cut short: one clear line or what can still be read, never a panic, bounded memory.
-#![allow(clippy::unwrap_used, reason = "tests")]
+#![allow(clippy::disallowed_methods, clippy::unwrap_used, reason = "tests")]
 
 use dashpot_datafiles::{Error, open};
 use rand::{RngExt, SeedableRng};

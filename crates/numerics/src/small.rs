@@ -97,7 +97,7 @@ mod tests {
     fn factors_solve_and_say_the_sign() {
         for n in [1, 3, 9, 40] {
             let a: Vec<f64> = (0..n * n)
-                .map(|k| ((k * k + 3 * k) as f64 * 0.7).sin() + if k % (n + 1) == 2 { 2.0 } else { 0.0 })
+                .map(|k| ((k * k + 3 * k) as f64 * 0.7).sin() + if k % (n + 1) == 0 { 2.0 } else { 0.0 })
                 .collect();
             let x: Vec<f64> = (0..n).map(|i| i as f64 - 1.5).collect();
             let mut b: Vec<f64> = a.chunks_exact(n).map(|row| dot(row, &x)).collect();

@@ -101,6 +101,7 @@ impl SparseSymmetric {
     }
 
     /// `A + factor B`, of one size.
+    #[must_use]
     pub fn plus(&self, factor: f64, other: &Self) -> Self {
         let scaled = other.entries().map(|(i, j, value)| (i, j, factor * value));
         let all: Vec<_> = self.entries().chain(scaled).collect();

@@ -9,6 +9,7 @@
 //! is what no law at that place could explain: at the true place it falls to the noise whatever the law. Two places take
 //! a pair of forces. An error of a channel is a place like any other: its column is that channel alone.
 
+use super::cell::{Cell, dot};
 use crate::control::Control;
 use crate::diagnosis::localisation::location::{Receptances, Spot};
 use crate::diagnosis::residual::data::{Data, DiagnosisError};
@@ -17,29 +18,6 @@ use crate::diagnosis::updating::noise_model::NoiseModel;
 use crate::effects::Leg;
 use crate::math::least_squares::solve_symmetric;
 use faer::{Mat, c64};
-use std::borrow::Cow;
-
-/// Part of a second column that must be independent of the first.
-const INDEPENDENCE: f64 = 1e-6;
-
-/// Whitened residual and columns of one harmonic of one run.
-#[derive(Debug, Clone)]
-struct Cell {
-    /// `e`.
-    residual: Vec<c64>,
-    /// `|e|^2`.
-    total: f64,
-    /// `a_s^H e` by spot.
-    products: Vec<c64>,
-    /// `a_s` by spot.
-    columns: Vec<Vec<c64>>,
-    /// `|a_s|^2` by spot.
-    squares: Vec<f64>,
-    /// `B`, one column an updating parameter; none where they do nothing.
-    slopes: Vec<Vec<c64>>,
-    /// `V`, one column a parameter that is the run's own.
-    own: Vec<Vec<c64>>,
-}
 
 /// The residual of a model seen from every place.
 #[derive(Debug, Clone)]
@@ -288,107 +266,6 @@ fn unit(
     }
 }
 
-impl Cell {
-    /// Orthonormal columns that span those of `spots`.
-    fn basis(&self, spots: &[usize]) -> Vec<Vec<c64>> {
-        let mut basis: Vec<Vec<c64>> = Vec::with_capacity(spots.len());
-        for &s in spots {
-            let mut v = self.columns[s].clone();
-            for b in &basis {
-                let share = dot(b, &v);
-                v.iter_mut().zip(b).for_each(|(v, b)| *v -= share * b);
-            }
-            let size = dot(&v, &v).re;
-            if size > INDEPENDENCE * self.squares[s] && size > 0.0 {
-                let scale = size.sqrt().recip();
-                basis.push(v.iter().map(|v| *v * scale).collect());
-            }
-        }
-        basis
-    }
-
-    /// The cell after a change of the parameters, common ones and those of its run.
-    fn corrected(&self, change: &[f64], own: &[f64]) -> Cow<'_, Self> {
-        if self.slopes.is_empty() && self.own.is_empty() {
-            return Cow::Borrowed(self);
-        }
-        let mut cell = self.clone();
-        for (b, x) in self.slopes.iter().zip(change).chain(self.own.iter().zip(own)) {
-            cell.residual.iter_mut().zip(b).for_each(|(e, b)| *e -= *b * *x);
-        }
-        cell.total = dot(&cell.residual, &cell.residual).re;
-        cell.products = cell.columns.iter().map(|a| dot(a, &cell.residual)).collect();
-        Cow::Owned(cell)
-    }
-
-    /// Normal equations of the common parameters where free forces at `spots` and the run's own parameters are eliminated.
-    fn eliminate(&self, spots: &[usize], misfit: f64) -> Eliminated {
-        let basis = self.basis(spots);
-        let all: Vec<&Vec<c64>> = self.slopes.iter().chain(&self.own).collect();
-        let shares: Vec<Vec<c64>> = all.iter().map(|b| basis.iter().map(|v| dot(v, b)).collect()).collect();
-        let seen: Vec<c64> = basis.iter().map(|v| dot(v, &self.residual)).collect();
-        let product = |i: usize, j: usize| (dot(all[i], all[j]) - dot(&shares[i], &shares[j])).re;
-        let load = |i: usize| (dot(all[i], &self.residual) - dot(&shares[i], &seen)).re;
-        let (q, p) = (self.slopes.len(), self.own.len());
-        let inner = Mat::from_fn(p, p, |i, j| product(q + i, q + j) + if i == j { misfit } else { 0.0 });
-        let outer = Mat::from_fn(p, q + 1, |i, j| if j < q { product(q + i, j) } else { load(q + i) });
-        let inverse = solve_symmetric(inner.as_ref(), Mat::<f64>::identity(p, p).as_ref());
-        let inverse = inverse.unwrap_or_else(|_| Mat::zeros(p, p));
-        let solved = &inverse * &outer;
-        let eliminated = |i: usize, j: usize| (0..p).map(|k| outer[(k, i)] * solved[(k, j)]).sum::<f64>();
-        Eliminated {
-            normal: Mat::from_fn(q, q, |i, j| product(i, j) - eliminated(i, j)),
-            right: (0..q).map(|i| load(i) - eliminated(i, q)).collect(),
-            gain: eliminated(q, q),
-            solved,
-            inverse,
-        }
-    }
-
-    fn left_by(&self, s: usize) -> f64 {
-        if self.squares[s] > 0.0 { self.total - self.products[s].norm_sqr() / self.squares[s] } else { self.total }
-    }
-
-    fn left_by_pair(&self, i: usize, j: usize) -> f64 {
-        let (first, second) = if self.squares[i] > 0.0 { (i, j) } else { (j, i) };
-        let square = self.squares[first];
-        if square <= 0.0 {
-            return self.total;
-        }
-        let coupling = dot(&self.columns[first], &self.columns[second]);
-        let rest = self.squares[second] - coupling.norm_sqr() / square;
-        let left = self.left_by(first);
-        if rest <= INDEPENDENCE * self.squares[second] {
-            return left;
-        }
-        left - (self.products[second] - coupling.conj() / square * self.products[first]).norm_sqr() / rest
-    }
-
-    /// Forces of one or two spots with their weights.
-    fn solve(&self, spots: &[usize]) -> Vec<FreeForce> {
-        let none = FreeForce { value: c64::new(0.0, 0.0), weight: 0.0 };
-        let alone = |s: usize| {
-            if self.squares[s] > 0.0 {
-                FreeForce { value: self.products[s] / self.squares[s], weight: self.squares[s] }
-            } else {
-                none
-            }
-        };
-        let [i, j] = *spots else { return spots.iter().map(|&s| alone(s)).collect() };
-        let (gi, gj) = (self.squares[i], self.squares[j]);
-        let coupling = dot(&self.columns[i], &self.columns[j]);
-        let determinant = gi * gj - coupling.norm_sqr();
-        if determinant <= INDEPENDENCE * gi * gj {
-            return vec![alone(i), none];
-        }
-        let (bi, bj) = (self.products[i], self.products[j]);
-        vec![
-            FreeForce { value: (bi * gj - coupling * bj) / determinant, weight: determinant / gj },
-            FreeForce { value: (bj * gi - coupling.conj() * bi) / determinant, weight: determinant / gi },
-        ]
-    }
-}
-
 /// Changes of the parameters that were free beside free forces.
 #[derive(Debug, Clone)]
 struct Freed {
@@ -418,32 +295,6 @@ pub(crate) struct RunForceFreedom {
     pub common: Vec<c64>,
     /// Covariance by the run's own parameters: of the real part, of both, of the imaginary part, N^2.
     pub own: [f64; 3],
-}
-
-/// Normal equations of a run whose own parameters are eliminated.
-#[derive(Debug, Clone)]
-struct Eliminated {
-    normal: Mat<f64>,
-    right: Vec<f64>,
-    gain: f64,
-    /// Own parameters, one column a common one whose change takes its share off, the last as they are without.
-    solved: Mat<f64>,
-    /// Covariance of the own ones, free forces eliminated.
-    inverse: Mat<f64>,
-}
-
-impl Eliminated {
-    /// Own parameters after a `change` of the common ones.
-    fn own(&self, change: &[f64]) -> Vec<f64> {
-        let q = self.right.len();
-        let of = |k: usize| self.solved[(k, q)] - (0..q).map(|j| self.solved[(k, j)] * change[j]).sum::<f64>();
-        (0..self.solved.nrows()).map(of).collect()
-    }
-}
-
-/// `a^H b`.
-fn dot(a: &[c64], b: &[c64]) -> c64 {
-    a.iter().zip(b).map(|(x, y)| x.conj() * y).sum()
 }
 
 fn sorted(mut placings: Vec<Placing>) -> Vec<Placing> {

@@ -12,7 +12,7 @@ use crate::diagnosis::candidates::start_grids::scaled;
 use crate::diagnosis::diagnose::{Added, Diagnosis, Step, Suggestion, Verdict};
 use crate::diagnosis::points::balance::{Balance, Column, Fitted};
 use crate::diagnosis::residual::data::{DiagnosisError, Problem};
-use crate::effects::Source;
+use crate::effects::{Effect, Source};
 use crate::math::statistics::{bayesian_information, evidence_weights, root_mean_square};
 
 /// Sets that are fitted in all their parameters, at each number of effects.
@@ -24,6 +24,8 @@ const ALIKE: f64 = 9.0;
 /// What every parameter of a law beyond its first costs besides the information criterion: the simpler law wins unless the
 /// data demand the other.
 const EXTRA: f64 = 4.0;
+/// Bounds of the gain of a channel.
+const GAINS: [f64; 2] = [0.5, 2.0];
 
 /// Squared residual and scales of one column or two with non-negative scales; none if a scale is not positive.
 fn solve(columns: &[&Column], e: &[f64]) -> Option<(f64, Vec<f64>)> {
@@ -150,10 +152,15 @@ fn grown(source: &Source, scale: f64) -> Source {
 }
 
 fn ranked(balance: &Balance, drafts: &[Vec<Source>], n: usize) -> Vec<Fitted> {
-    let enough = |f: &Fitted| f.parameters < n && f.chi_square.is_finite();
+    let enough = |f: &Fitted| f.parameters < n && f.chi_square.is_finite() && f.added.iter().all(is_bounded);
     let mut fits: Vec<Fitted> = drafts.iter().map(|d| balance.fit(d)).filter(enough).collect();
     fits.sort_by(|a, b| criterion(a, n).total_cmp(&criterion(b, n)));
     fits
+}
+
+/// Whether an error of a channel is one that channels have: a gain that makes all energy vanish explains anything.
+fn is_bounded(added: &Added) -> bool {
+    added.source.effect != Effect::Gain || (GAINS[0]..=GAINS[1]).contains(&added.source.parameters[0])
 }
 
 fn criterion(fit: &Fitted, n: usize) -> f64 {
@@ -184,7 +191,10 @@ fn conclude(balance: &Balance, rungs: &[Vec<Fitted>]) -> Diagnosis {
     let step =
         |r: &Vec<Fitted>| Step { added: r[0].added.clone(), error: r[0].error, misfit: r[0].chi_square / n as f64 };
     diagnosis.steps.extend(rungs.iter().map(step));
-    let weights = evidence_weights(&top.iter().map(|f| criterion(f, n)).collect::<Vec<_>>());
+    // What even the best leaves beyond the noise is no noise that could tell the others apart.
+    let scale = (top[0].chi_square / n.saturating_sub(top[0].parameters).max(1) as f64).max(1.0);
+    let scaled = |f: &Fitted| criterion(f, n) - f.chi_square * (1.0 - scale.recip());
+    let weights = evidence_weights(&top.iter().map(scaled).collect::<Vec<_>>());
     for fit in top {
         for added in &fit.added {
             if diagnosis.suggestions.iter().any(|s| s.added.source.is_same(&added.source))

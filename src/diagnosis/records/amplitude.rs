@@ -140,7 +140,7 @@ fn band_pass(signal: &[f64], step: f64, band: Band) -> Vec<f64> {
         let off = (f / band.frequency_hz - 1.0).abs() / band.width;
         let pass = if off < 0.5 { 1.0 } else { 0.5 + 0.5 * (std::f64::consts::PI * (2.0 * off - 1.0).min(1.0)).cos() };
         *line *= pass / n as f64;
-        if k == 0 || (k == last && n % 2 == 0) {
+        if k == 0 || (k == last && n.is_multiple_of(2)) {
             line.im = 0.0;
         }
     }

@@ -160,7 +160,7 @@ fn bands(record: &RecordData, model: &[Vec<f64>]) -> Vec<RecordPart> {
     let square = |y: &[f64], from: usize, to: usize| -> f64 {
         let mut work = y.to_vec();
         let lines = transform.forward(&mut work);
-        lines[from..to.min(lines.len())].iter().map(|l| l.norm_sqr()).sum()
+        lines[from..to.min(lines.len())].iter().map(nalgebra::Complex::norm_sqr).sum()
     };
     let lines = n / 2 + 1;
     let mut parts = Vec::new();

@@ -274,6 +274,7 @@ impl Search<'_> {
         }
     }
 
+    #[allow(clippy::unused_self, reason = "one of the steps of the search")]
     fn added(&self, fit: &FittedRecords) -> Vec<Added> {
         let wide = scale(fit).sqrt();
         let mut at = 0;

@@ -12,6 +12,10 @@ pub(super) fn parameters(fit: &FittedRecords) -> usize {
     fit.effects.iter().map(|e| e.parameters.len()).sum()
 }
 
+/// What every parameter of a law beyond its first costs besides its information criterion: where one law contains another,
+/// the simpler wins unless the data demand the other (as for steady runs).
+const EXTRA: f64 = 8.0;
+
 /// What one unit of evidence is worth in squared residual: the misfit of a fit times the samples over which what it leaves
 /// stays alike, at least 1.
 pub(super) fn scale(fit: &FittedRecords) -> f64 {
@@ -29,5 +33,7 @@ pub(super) fn scale(fit: &FittedRecords) -> f64 {
 
 /// Evidence (smaller is better) on the scale of the best fit.
 pub(super) fn evidence(fit: &FittedRecords, scale: f64) -> f64 {
-    fit.chi_square / scale + parameters(fit) as f64 * (fit.count as f64 / scale.sqrt()).max(2.0).ln()
+    let extra: usize = fit.effects.iter().map(|e| e.parameters.len().saturating_sub(1)).sum();
+    let information = parameters(fit) as f64 * (fit.count as f64 / scale.sqrt()).max(2.0).ln();
+    fit.chi_square / scale + information + EXTRA * extra as f64
 }

@@ -174,7 +174,7 @@ fn misfit(lines: &[Line], pattern: &[f64], unknowns: usize) -> [f64; 2] {
         let count = line.measured.len();
         let a: Vec<c64> =
             (0..count).map(|c| pattern.iter().enumerate().map(|(r, b)| line.responses[(c, r)] * *b).sum()).collect();
-        let size: f64 = a.iter().map(|a| a.norm_sqr()).sum();
+        let size: f64 = a.iter().map(nalgebra::Complex::norm_sqr).sum();
         let projected = |x: &[c64]| -> Vec<c64> {
             let share: c64 = if size > 0.0 {
                 a.iter().zip(x).map(|(a, x)| a.conj() * x).sum::<c64>() / size

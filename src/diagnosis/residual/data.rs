@@ -1,9 +1,10 @@
 //! What the comparison is made on: the runs that may be used, their forces and responses, harmonic by harmonic.
 
 use crate::control::Cancelled;
-use crate::effects::{Source, effect::Kind, source::State};
+use crate::effects::{Effect, Place, Source, effect::Kind, source::State};
 use crate::measurement::{ChannelFit, Quantity, Run};
 use crate::response::harmonic_balance::{Excitation, HarmonicForce, ModelError, ResponseError};
+use crate::structure::Part;
 use crate::structure::Structure;
 use faer::c64;
 
@@ -183,6 +184,18 @@ impl Data {
     /// Whether an effect at its place may be suggested: not one that is ruled out, and none of more parameters than runs.
     pub fn allows(&self, source: &Source) -> bool {
         source.parameters.len() <= self.runs.len() && !self.excluded.iter().any(|other| other.is_same(source))
+    }
+
+    /// Whether a correction of that part of the structure would be an effect that is ruled out, by another name.
+    pub fn is_ruled_out(&self, part: Part) -> bool {
+        let (effect, dofs) = match part {
+            Part::PointMass(dof) => (Effect::Mass, vec![dof]),
+            Part::GroundSpring(dof) => (Effect::Stiffness, vec![dof]),
+            Part::Coupling(pair) => (Effect::Stiffness, pair.to_vec()),
+            _ => return false,
+        };
+        let place = Place::Dofs(dofs);
+        self.excluded.iter().any(|source| source.effect == effect && source.place.is_same(&place))
     }
 
     /// Names of all response channels and of all force channels, each once.

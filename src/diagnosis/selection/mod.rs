@@ -8,5 +8,6 @@ pub mod levenberg_marquardt;
 pub mod next_test;
 pub mod search;
 pub mod sentences;
+mod short_list;
 pub mod stepwise;
 pub mod updated;

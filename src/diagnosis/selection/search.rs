@@ -1,8 +1,9 @@
 //! The search for one more effect, or two at once: places first, then laws, then the fit on the response.
 
+use super::short_list::{hopeless, is_real, needed, short_list};
 use crate::control::Control;
 use crate::diagnosis::candidates::identified_force::{PlaceData, shrunk};
-use crate::diagnosis::candidates::special_cases::{disguised, is_allowed, is_limit, limits, simpler};
+use crate::diagnosis::candidates::special_cases::{disguised, is_allowed, simpler};
 use crate::diagnosis::candidates::start::Fields;
 use crate::diagnosis::compare::transfers;
 use crate::diagnosis::diagnose::Early;
@@ -13,7 +14,7 @@ use crate::diagnosis::residual::prediction::{FINAL, Predictor, RunPrediction};
 use crate::diagnosis::residual::whitening::Whitening;
 use crate::diagnosis::selection::fitted_model::{Bench, Refit};
 use crate::diagnosis::updating::noise_model::{Linearisation, NoiseModel};
-use crate::effects::{Effect, Source, effect::Kind};
+use crate::effects::Source;
 use crate::math::statistics::bayesian_information;
 use faer::{Mat, c64};
 use std::sync::Arc;
@@ -26,17 +27,11 @@ const AHEAD: usize = 2;
 const PAIRS: usize = 48;
 /// Sets that are fitted on the response.
 const REFITS: usize = 10;
-/// Most laws of one place that are fitted on the response.
-const LAWS_AT_ONE_PLACE: usize = 4;
 /// What every parameter of a law beyond its first costs in evidence besides its information criterion: where one law
 /// contains another as a limit, the simpler wins unless the data demand the other.
 const EXTRA: f64 = 8.0;
 /// What a law costs that is fitted next to a simpler one: records are not so exact that they could tell.
 const POSING: f64 = 20.0;
-/// Drafts whose score is this many times that of the best are not fitted.
-const HOPELESS: f64 = 5.0;
-/// Score, in units of that of a draft, below which a simpler one is as good for a start.
-const CLEARLY: f64 = 1.5;
 /// Places at which the law found is tried too, where no law can tell them apart.
 const ELSEWHERE: usize = 6;
 
@@ -347,26 +342,6 @@ impl<'a> Base<'a> {
     }
 }
 
-/// Bounds of the gain of a channel: beyond, it is not this channel.
-const GAINS: [f64; 2] = [0.2, 5.0];
-/// Relative deviation of the size of an effect from which on there may as well be none.
-const VOID: f64 = 0.5;
-
-/// Whether an effect with the standard deviations of its parameters is one: of a size that the data know, within bounds.
-fn is_real((source, deviations): (&Source, &Vec<f64>)) -> bool {
-    let value = source.parameters[0];
-    match source.effect.kind() {
-        Kind::Channel(law) => {
-            let bounded = law.neutral() == 0.0 || (GAINS[0]..=GAINS[1]).contains(&value);
-            bounded && (value - law.neutral()).abs() * VOID > deviations[0]
-        }
-        Kind::Relative(_) | Kind::Whole(_) => {
-            let known = |(p, d): (&f64, &f64)| p.abs() * VOID > *d;
-            source.parameters.iter().zip(deviations).any(known)
-        }
-    }
-}
-
 /// Squared residual per datum of the best fit, at least 1.
 pub(crate) fn scale_of(refits: &[Refit], count: usize) -> f64 {
     let least = refits.iter().map(|r| r.chi_square / count.saturating_sub(r.parameters).max(1) as f64);
@@ -375,45 +350,4 @@ pub(crate) fn scale_of(refits: &[Refit], count: usize) -> f64 {
 
 pub(crate) fn joined(first: &[Source], second: &[Source]) -> Vec<Source> {
     first.iter().chain(second).cloned().collect()
-}
-
-/// Score beyond which drafts are not fitted where the best has the score `best`.
-fn hopeless(best: f64) -> f64 {
-    HOPELESS * best.abs() + 300.0
-}
-
-/// Drafts without falling friction where plain friction explains the free forces as well: its responses take longest, and it
-/// is fitted where plain friction leaves something.
-fn needed(drafts: Vec<Draft>) -> Vec<Draft> {
-    let falling = |d: &Draft| d.effects.iter().filter(|e| e.effect == Effect::Stribeck).count();
-    let plainer = |a: &Draft, b: &Draft| falling(a) < falling(b) && is_limit(&a.effects, &b.effects);
-    let needless = |d: &Draft| drafts.iter().any(|s| s.score < CLEARLY * d.score.abs() && plainer(s, d));
-    drafts.iter().filter(|d| !needless(d)).cloned().collect()
-}
-
-/// The best drafts, no more than a few at one place, each with the simpler laws that it contains as limits.
-fn short_list(mut drafts: Vec<Draft>, most: usize) -> Vec<Draft> {
-    drafts.sort_by(|a, b| a.score.total_cmp(&b.score));
-    let hopeless = hopeless(drafts.first().map_or(f64::INFINITY, |best| best.score));
-    let mut kept: Vec<Draft> = Vec::new();
-    for draft in drafts.iter().filter(|d| d.score < hopeless) {
-        let here = kept.iter().filter(|k| k.effects[0].place == draft.effects[0].place).count();
-        if here < LAWS_AT_ONE_PLACE {
-            kept.push(draft.clone());
-        }
-        if kept.len() == most {
-            break;
-        }
-    }
-    for draft in kept.clone().iter().take(LAWS_AT_ONE_PLACE) {
-        let (effect, place) = (draft.effects[0].effect, &draft.effects[0].place);
-        for simpler in limits(effect) {
-            let is = |d: &&Draft| d.effects[0].effect == *simpler && d.effects[0].place == *place;
-            if kept.iter().any(|d| is(&d)) {
-                continue;
-            }
-            kept.extend(drafts.iter().find(is).cloned());
-        }
-    }
-    kept
 }

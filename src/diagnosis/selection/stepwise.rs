@@ -8,6 +8,7 @@ use crate::diagnosis::selection::conclusion::{self, Outcome};
 use crate::diagnosis::selection::fits::STEPS;
 use crate::diagnosis::selection::fitted_model::Refit;
 use crate::diagnosis::selection::search::{Base, scale_of};
+use crate::diagnosis::updating::detuning::is_likely;
 use crate::diagnosis::updating::noise_model::NoiseModel;
 use crate::effects::Source;
 use std::sync::Arc;
@@ -103,7 +104,7 @@ fn confirm(base: &Base, found: &mut Found) -> Result<(), DiagnosisError> {
 
 /// The search: with the model as it is, so far as free forces at one place or two could explain the data at all, then
 /// with its updating parameters free.
-pub(crate) fn explain<'a>(base: Base<'a>, before: f64) -> Result<Outcome<'a>, DiagnosisError> {
+pub(crate) fn explain(base: Base<'_>, before: f64) -> Result<Outcome<'_>, DiagnosisError> {
     let none = || Found { updated: false, rungs: Vec::new(), agrees: false, before };
     let mut exact = none();
     let reach = base.reach()?;
@@ -161,7 +162,8 @@ fn beside_updating<'a>(
         let noise = weighed.base.noise.clone();
         found.rungs.push(Rung { scale, noise, refits: weighed.refits, costs: weighed.costs });
         (here, likely) = (there, weighed.base);
-        if found.agrees {
+        // Corrections beyond what models are wrong by may stand in for one effect more.
+        if found.agrees && is_likely(&likely) {
             break;
         }
     }

@@ -91,7 +91,7 @@ pub fn detuning(problem: &Problem, control: &Control) -> Result<Option<Detuning>
     let after = square(&bare.bench().residual(&bare.predictions));
     let noise = base.count() as f64;
     let share = ((before - after) / (before - noise).max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
-    let reading = match (likely(&bare), agrees(&bare, after, 0)) {
+    let reading = match (is_likely(&bare), agrees(&bare, after, 0)) {
         (true, true) => Reading::Detuned,
         (true, false) if share > MOST => Reading::DetunedAndMissing,
         _ => Reading::Missing,
@@ -106,7 +106,7 @@ const LIKELY: f64 = 0.1;
 const LIKELY_SIZE: f64 = 0.5;
 
 /// Whether no updating parameter is farther from nothing than models are wrong: else an effect may pass for a correction.
-fn likely(base: &Base) -> bool {
+pub(crate) fn is_likely(base: &Base) -> bool {
     let updating = &base.linearisation.updating;
     updating.parameters.iter().zip(&updating.values).all(|(parameter, v)| match parameter {
         UpdatingParameter::Structure(_) => v.abs() < LIKELY,

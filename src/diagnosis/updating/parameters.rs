@@ -123,8 +123,11 @@ impl Updating {
     /// Everything that may be wrong, not wrong yet.
     pub fn all(structure: &Structure, known: &[Source], data: &Data) -> Self {
         let omegas: Vec<f64> = data.runs.iter().map(|run| run.omega).collect();
-        let mut parameters: Vec<UpdatingParameter> =
-            parts(structure, &omegas).into_iter().map(UpdatingParameter::Structure).collect();
+        let mut parameters: Vec<UpdatingParameter> = parts(structure, &omegas)
+            .into_iter()
+            .filter(|part| !data.is_ruled_out(*part))
+            .map(UpdatingParameter::Structure)
+            .collect();
         parameters.extend((0..known.len()).map(UpdatingParameter::Known));
         let [responses, forces] = data.channel_names();
         // One channel alone cannot be told from the force; of several, each may be off.

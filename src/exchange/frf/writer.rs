@@ -77,7 +77,7 @@ fn function(
     let (response, reference) = (dof(&of.response, structure)?, dof(&of.reference, structure)?);
     let mut function = Function::even(kind, response, reference, simulated.start_hz, simulated.step_hz, values);
     function.header.binary = Some(Binary::new(ByteOrder::Little));
-    function.header.id[0] = simulated.set.name.clone();
+    function.header.id[0].clone_from(&simulated.set.name);
     function.header.abscissa = axis(18, "Frequency", "Hz");
     Ok(function)
 }

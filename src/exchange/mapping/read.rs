@@ -299,7 +299,7 @@ fn same_time(
     }
     let step = if first.len() > 1 { (first[first.len() - 1] - first[0]) / (first.len() - 1) as f64 } else { 0.0 };
     // Written so that NaN is a difference.
-    let far = |(x, y): (&f64, &f64)| !((x - y).abs() <= SAME_TIME * step.abs());
+    let far = |(x, y): (&f64, &f64)| (x - y).is_nan() || (x - y).abs() > SAME_TIME * step.abs();
     match first.iter().zip(own).position(far) {
         None => Ok(()),
         Some(i) => {

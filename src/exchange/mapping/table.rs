@@ -31,6 +31,7 @@ pub struct ChannelTable {
     pub delay: Option<f64>,
 }
 
+#[allow(clippy::trivially_copy_pass_by_ref, clippy::ref_option, reason = "serde passes references to fields")]
 fn word<S: Serializer>(quantity: &Quantity, serializer: S) -> Result<S::Ok, S::Error> {
     serializer.serialize_str(quantity.word())
 }

@@ -158,7 +158,10 @@ mod tests {
         let message = parse_dofs("dof,node,direction\n1,a,x\n1,a,y\n", "d.csv").unwrap_err().to_string();
         assert_eq!(message, "d.csv:3: DOF \"1\" is given twice, first in line 2; leave one out");
         let message = parse_dofs("dof,node,direction\n1,a,up\n", "d.csv").unwrap_err().to_string();
-        assert_eq!(message, "d.csv:2: \"up\" is not a direction; use x, y, z, rx, ry or rz");
+        assert_eq!(
+            message,
+            "d.csv:2: \"up\" is not a direction; use x, y, z, rx, ry or rz, or q for a generalised coordinate"
+        );
         let message = parse_nodes("name,x,y,z\n", "n.csv").unwrap_err().to_string();
         assert_eq!(message, "n.csv:1: the header must be `node,x,y,z`, not \"name,x,y,z\"");
         assert!(parse_lines("node,node\na,a\n", "l.csv").is_err());

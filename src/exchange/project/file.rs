@@ -3,6 +3,7 @@
 use super::correction::CorrectionTable;
 use super::excitation::ExcitationTable;
 use super::frf::FrfTable;
+pub use super::lines::Lines;
 use super::ruled_out::RuledOutTable;
 use crate::effects::family::Family;
 use crate::effects::{Effect, State};
@@ -342,6 +343,7 @@ pub struct HarmonicsTable {
     pub enabled: Option<bool>,
 }
 
+#[allow(clippy::trivially_copy_pass_by_ref, clippy::ref_option, reason = "serde passes references to fields")]
 fn word<S: Serializer>(quantity: &Option<Quantity>, serializer: S) -> Result<S::Ok, S::Error> {
     quantity.map(Quantity::word).serialize(serializer)
 }
@@ -392,33 +394,4 @@ impl ProjectFile {
     pub fn to_toml(&self) -> Result<String, toml::ser::Error> {
         toml::to_string(self)
     }
-}
-
-/// Line, from 1, of every part of a project file, for messages about what is found wrong later.
-#[derive(Debug, Clone, Default, PartialEq, Eq)]
-pub struct Lines {
-    /// Keys of `[structure]`; the empty key is its head.
-    pub structure: BTreeMap<String, usize>,
-    /// Tables `[[structure.lumped_mass]]`.
-    pub lumped_mass: Vec<usize>,
-    /// Tables `[[structure.correction]]`.
-    pub correction: Vec<usize>,
-    /// Keys of each `[[source]]`; the empty key is its head.
-    pub source: Vec<BTreeMap<String, usize>>,
-    /// Keys of each `[[candidates]]`.
-    pub candidates: Vec<BTreeMap<String, usize>>,
-    /// Tables `[[sensor]]`.
-    pub sensor: Vec<usize>,
-    /// Keys of each `[[ruled_out]]`.
-    pub ruled_out: Vec<BTreeMap<String, usize>>,
-    /// Tables `[[channel]]`.
-    pub channel: Vec<usize>,
-    /// Keys of each `[[run]]`.
-    pub run: Vec<BTreeMap<String, usize>>,
-    /// Tables `[[harmonics]]`.
-    pub harmonics: Vec<usize>,
-    /// Tables `[[frf]]`.
-    pub frf: Vec<usize>,
-    /// Table `[simulate]`.
-    pub simulate: usize,
 }

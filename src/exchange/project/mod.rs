@@ -9,6 +9,7 @@ pub mod excitation;
 pub mod file;
 pub mod frf;
 mod kept;
+mod lines;
 pub mod load;
 mod model;
 mod parse;
@@ -16,6 +17,7 @@ pub mod plan;
 mod reader;
 pub mod relocate;
 pub mod ruled_out;
+mod runs;
 mod sources;
 mod structure;
 

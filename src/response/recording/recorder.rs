@@ -136,27 +136,24 @@ fn release(
 ) -> Result<Release, SimulationError> {
     let matrices = structure.matrices().ok_or(TimeError::NoMatrices)?;
     let n = structure.len();
-    let shape: Vec<f64> = match mode {
-        Some(number) => {
-            let modes = modes(matrices).map_err(|_| TimeError::NoMatrices)?;
-            let index = number.checked_sub(1).filter(|&r| r < modes.len());
-            modes.shape(index.ok_or(SimulationError::NoSuchMode { mode: number, count: modes.len() })?)
-        }
-        None => {
-            let mut stiffness = matrices.stiffness.clone();
-            for source in sources.iter().filter(|source| source.effect == Effect::Stiffness) {
-                for leg in source.place.legs() {
-                    let ends = [Some((leg.first, 1.0)), leg.second.map(|second| (second, -1.0))];
-                    for (i, a) in ends.iter().flatten() {
-                        for (j, b) in ends.iter().flatten() {
-                            stiffness[(*i, *j)] += a * b * source.parameters[0];
-                        }
+    let shape: Vec<f64> = if let Some(number) = mode {
+        let modes = modes(matrices).map_err(|_| TimeError::NoMatrices)?;
+        let index = number.checked_sub(1).filter(|&r| r < modes.len());
+        modes.shape(index.ok_or(SimulationError::NoSuchMode { mode: number, count: modes.len() })?)
+    } else {
+        let mut stiffness = matrices.stiffness.clone();
+        for source in sources.iter().filter(|source| source.effect == Effect::Stiffness) {
+            for leg in source.place.legs() {
+                let ends = [Some((leg.first, 1.0)), leg.second.map(|second| (second, -1.0))];
+                for (i, a) in ends.iter().flatten() {
+                    for (j, b) in ends.iter().flatten() {
+                        stiffness[(*i, *j)] += a * b * source.parameters[0];
                     }
                 }
             }
-            let load = Mat::from_fn(n, 1, |i, _| f64::from(u8::from(i == dof)));
-            solve_indefinite(stiffness.as_ref(), load.as_ref()).col(0).iter().copied().collect()
         }
+        let load = Mat::from_fn(n, 1, |i, _| f64::from(u8::from(i == dof)));
+        solve_indefinite(stiffness.as_ref(), load.as_ref()).col(0).iter().copied().collect()
     };
     let scale = displacement_m / shape[dof];
     if !scale.is_finite() || shape.iter().any(|x| !x.is_finite()) {

@@ -36,7 +36,7 @@ fn own_copy(project: PathBuf) -> PathBuf {
         for entry in std::fs::read_dir(folder).ok()?.flatten().filter(|e| e.path().is_file()) {
             let to = own.join(entry.file_name());
             if !to.exists() {
-                std::fs::write(to, std::fs::read(entry.path()).ok()?).ok()?;
+                crate::exchange::atomic::write_atomically(&to, &std::fs::read(entry.path()).ok()?).ok()?;
             }
         }
         Some(own.join(project.file_name()?))

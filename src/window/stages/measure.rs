@@ -94,7 +94,7 @@ pub fn spectrum(ui: &mut Ui, app: &mut App) {
     let unit = words::axis(fit.channel.quantity, false).rsplit(", ").next().unwrap_or("");
     match &trace.spectrum {
         Some(s) => {
-            charts::spectrum(ui, &format!("spectrum, run {} {}", run + 1, fit.channel), s, fit, r.fit.omega, unit)
+            charts::spectrum(ui, &format!("spectrum, run {} {}", run + 1, fit.channel), s, fit, r.fit.omega, unit);
         }
         None => ui.empty("No spectrum", "The record is too short for one."),
     }

@@ -116,7 +116,7 @@ impl Header {
 pub(crate) fn step(cells: &[String]) -> Option<f64> {
     let line = cells.join(" ").to_lowercase();
     let line = uncommented(&line);
-    let end = line.find(|c: char| c == ':' || c == '=').unwrap_or(line.len());
+    let end = line.find([':', '=']).unwrap_or(line.len());
     let key: String = line[..end].chars().take_while(|c| !c.is_ascii_digit()).collect();
     let plain: String = key.chars().filter(|c| c.is_alphanumeric()).collect();
     let rate = ["samplerate", "samplingrate", "samplefreq", "samplingfreq", "abtastrate", "abtastfreq", "messrate"];

@@ -101,9 +101,9 @@ impl Blocks {
         }
         let words = cells.iter().filter(|cell| matches!(cell, Cell::Word(_))).count();
         if words == 0 {
-            self.numbers(line, cells)?
+            self.numbers(line, cells)?;
         } else {
-            self.words(line, cells, words)?
+            self.words(line, cells, words)?;
         }
         self.gap = false;
         Ok(())

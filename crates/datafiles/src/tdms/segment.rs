@@ -296,7 +296,7 @@ impl Reader {
             Coding::Other(0x20, _) => object.skipped = Some("it is text".to_owned()),
             Coding::Other(kind, _) => {
                 object.skipped =
-                    Some(format!("its values are of type {kind}, numbers of more than 64 bits; export it as double"))
+                    Some(format!("its values are of type {kind}, numbers of more than 64 bits; export it as double"));
             }
             coding => {
                 let complex = matches!(coding, Coding::Complex(_));

@@ -137,7 +137,7 @@ impl<'a> Reader<'a> {
             let what = if id < 0 { "the fluid".to_owned() } else { format!("coordinate system {id}") };
             format!("directions of {count} grid points are those of {what}, not x, y and z of the basic system")
         });
-        let notes = self.unread.iter().map(|(text, _)| (*text).to_owned()).chain(turned).collect();
+        let notes = self.unread.keys().map(|text| (*text).to_owned()).chain(turned).collect();
         let matrices = self.matrices.finish(file)?;
         Ok(Bulk { geometry: Geometry { nodes, lines: self.edges.finish(), notes }, matrices })
     }

@@ -1,0 +1,72 @@
+//! Which candidates are fitted, and which fits are kept.
+
+use super::search::Draft;
+use crate::diagnosis::candidates::special_cases::{is_limit, limits};
+use crate::effects::{Effect, Source, effect::Kind};
+
+/// Most laws of one place that are fitted on the response.
+const LAWS_AT_ONE_PLACE: usize = 4;
+/// Drafts whose score is this many times that of the best are not fitted.
+const HOPELESS: f64 = 5.0;
+/// Score, in units of that of a draft, below which a simpler one is as good for a start.
+const CLEARLY: f64 = 1.5;
+/// Bounds of the gain of a channel: beyond, it is not this channel.
+const GAINS: [f64; 2] = [0.2, 5.0];
+/// Relative deviation of the size of an effect from which on there may as well be none.
+const VOID: f64 = 0.5;
+
+/// Whether an effect with the standard deviations of its parameters is one: of a size that the data know, within bounds.
+pub(super) fn is_real((source, deviations): (&Source, &Vec<f64>)) -> bool {
+    let value = source.parameters[0];
+    match source.effect.kind() {
+        Kind::Channel(law) => {
+            let bounded = law.neutral() == 0.0 || (GAINS[0]..=GAINS[1]).contains(&value);
+            bounded && (value - law.neutral()).abs() * VOID > deviations[0]
+        }
+        Kind::Relative(_) | Kind::Whole(_) => {
+            let known = |(p, d): (&f64, &f64)| p.abs() * VOID > *d;
+            source.parameters.iter().zip(deviations).any(known)
+        }
+    }
+}
+
+/// Score beyond which drafts are not fitted where the best has the score `best`.
+pub(super) fn hopeless(best: f64) -> f64 {
+    HOPELESS * best.abs() + 300.0
+}
+
+/// Drafts without falling friction where plain friction explains the free forces as well: its responses take longest, and it
+/// is fitted where plain friction leaves something.
+pub(super) fn needed(drafts: Vec<Draft>) -> Vec<Draft> {
+    let falling = |d: &Draft| d.effects.iter().filter(|e| e.effect == Effect::Stribeck).count();
+    let plainer = |a: &Draft, b: &Draft| falling(a) < falling(b) && is_limit(&a.effects, &b.effects);
+    let needless = |d: &Draft| drafts.iter().any(|s| s.score < CLEARLY * d.score.abs() && plainer(s, d));
+    drafts.iter().filter(|d| !needless(d)).cloned().collect()
+}
+
+/// The best drafts, no more than a few at one place, each with the simpler laws that it contains as limits.
+pub(super) fn short_list(mut drafts: Vec<Draft>, most: usize) -> Vec<Draft> {
+    drafts.sort_by(|a, b| a.score.total_cmp(&b.score));
+    let hopeless = hopeless(drafts.first().map_or(f64::INFINITY, |best| best.score));
+    let mut kept: Vec<Draft> = Vec::new();
+    for draft in drafts.iter().filter(|d| d.score < hopeless) {
+        let here = kept.iter().filter(|k| k.effects[0].place == draft.effects[0].place).count();
+        if here < LAWS_AT_ONE_PLACE {
+            kept.push(draft.clone());
+        }
+        if kept.len() == most {
+            break;
+        }
+    }
+    for draft in kept.clone().iter().take(LAWS_AT_ONE_PLACE) {
+        let (effect, place) = (draft.effects[0].effect, &draft.effects[0].place);
+        for simpler in limits(effect) {
+            let is = |d: &&Draft| d.effects[0].effect == *simpler && d.effects[0].place == *place;
+            if kept.iter().any(|d| is(&d)) {
+                continue;
+            }
+            kept.extend(drafts.iter().find(is).cloned());
+        }
+    }
+    kept
+}
