@@ -164,7 +164,9 @@ pub(super) fn correction(project: &Project, correction: &Correction) -> Value {
 /// A correction in words.
 pub(super) fn corrected(project: &Project, correction: &Correction) -> String {
     let at = |dofs: &[usize]| labels(&project.structure, &Place::Dofs(dofs.to_vec())).join(" - ");
-    let elements = |[first, last]: [usize; 2]| format!("elements {} to {}", first + 1, last + 1);
+    let elements = |[first, last]: [usize; 2]| {
+        if first == last { format!("element {}", first + 1) } else { format!("elements {} to {}", first + 1, last + 1) }
+    };
     let what = match &correction.parameter {
         UpdatingParameter::Structure(part) => match *part {
             Part::Stiffness => "all stiffness".to_owned(),

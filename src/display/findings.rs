@@ -65,7 +65,9 @@ pub fn corrected(structure: &Structure, known: &[Source], parameter: &UpdatingPa
 
 fn corrected_part(structure: &Structure, part: Part) -> String {
     let at = |dofs: &[usize]| words::at(structure, &Place::Dofs(dofs.to_vec()));
-    let elements = |[first, last]: [usize; 2]| format!("elements {}–{}", first + 1, last + 1);
+    let elements = |[first, last]: [usize; 2]| {
+        if first == last { format!("element {}", first + 1) } else { format!("elements {}–{}", first + 1, last + 1) }
+    };
     match part {
         Part::Stiffness => "All stiffness".to_owned(),
         Part::Mass => "All mass".to_owned(),

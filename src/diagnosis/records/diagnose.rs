@@ -51,6 +51,10 @@ const SIZES: [f64; 2] = [0.01, 0.1];
 const MOST_EFFECTS: usize = 3;
 /// Share of each record that is fitted when the rest is to be predicted.
 const LEARNT: f64 = 0.6;
+/// Share by which the squared residual of a law of fewer parameters may be larger than that of another at its place, which
+/// then is not told: records are not so exact that they could tell.
+const PLAIN: f64 = 1.02;
+
 /// Gain of evidence from which on an effect is kept, and the share of the error that it must take away.
 const GAIN: f64 = 12.0;
 const WORTH: f64 = 0.05;
@@ -184,6 +188,7 @@ impl Search<'_> {
         if let Some(least) = found.iter().map(|f| f.chi_square).min_by(f64::total_cmp) {
             let best = found.iter().find(|f| f.chi_square == least).map_or(1.0, scale);
             found.sort_by(|a, b| evidence(a, best).total_cmp(&evidence(b, best)));
+            plainest(&mut found);
         }
         Ok(found)
     }
@@ -373,4 +378,20 @@ fn corrections(records: &Records, fit: &FittedRecords) -> Vec<Correction> {
         (v.abs() > MOVED * deviation).then(|| Correction { parameter, factor: v.exp(), deviation: deviation * v.exp() })
     };
     values.zip(names).enumerate().filter_map(of).collect()
+}
+
+/// Takes out the fits whose last law has more parameters than another at the same place that leaves all but as little.
+fn plainest(found: &mut Vec<FittedRecords>) {
+    let simple: Vec<(f64, Source)> =
+        found.iter().filter_map(|f| Some((f.chi_square, f.effects.last()?.clone()))).collect();
+    let needless = |fit: &FittedRecords| {
+        let Some(own) = fit.effects.last() else { return false };
+        let plainer = |(chi, other): &(f64, Source)| {
+            other.place.is_same(&own.place)
+                && other.parameters.len() < own.parameters.len()
+                && *chi <= PLAIN * fit.chi_square
+        };
+        simple.iter().any(plainer)
+    };
+    found.retain(|fit| !needless(fit));
 }

@@ -33,8 +33,6 @@ const LAST_ERROR: f64 = 2e-3;
 /// The same for a law that another contains.
 const PLAIN: f64 = 1e-4;
 const PLAIN_ERROR: f64 = 1e-3;
-/// Share of the squared residual below which what corrections leave speaks for a detuned model.
-const DETUNED: f64 = 0.1;
 /// How many times the squared residual of noise free forces may leave where the laws behind them may still explain it.
 const REACH: f64 = 4.0;
 /// Scaled squared residual within which places are worth trying with a law that was found elsewhere.
@@ -121,16 +119,14 @@ pub(crate) fn explain(base: Base<'_>, before: f64) -> Result<Outcome<'_>, Diagno
         confirm(&base, &mut exact)?;
         return Ok(Outcome { base, found: exact });
     }
-    let bare = base.bare()?;
-    let (likely, _) = bare.with_likely_scales(None)?;
-    let corrected = cost(&likely, None);
     // Free forces at two places explain whatever two sensors see.
     let telling = base.data.runs.iter().all(|run| run.alive.len() > 2);
-    let detuned = corrected < DETUNED * before;
-    if telling && !detuned && !within(reach.single) && within(reach.pair) && two_at_once(&base, &mut exact)? {
+    if telling && !within(reach.single) && within(reach.pair) && two_at_once(&base, &mut exact)? {
         confirm(&base, &mut exact)?;
         return Ok(Outcome { base, found: exact });
     }
+    let bare = base.bare()?;
+    let (likely, corrected) = bare.likely()?;
     beside_updating(bare, likely, corrected, before)
 }
 
@@ -244,7 +240,9 @@ fn weighed<'a>(there: &Base<'a>, refits: Vec<Refit>) -> Result<Option<Weighed<'a
         costs.push(worst + there.evidence(refit, 1.0) - behind);
         weighed.push(refit.clone());
     }
-    let base = all.swap_remove(0).1;
+    let first = &weighed[0];
+    let base = all.swap_remove(0).1.moved_to(&first.effects, &first.starts)?;
+    weighed[0] = base.bench().refit(&first.effects, STEPS, &FINAL, &first.starts)?;
     Ok(Some(Weighed { base, refits: weighed, costs, least }))
 }
 

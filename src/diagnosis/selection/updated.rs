@@ -34,6 +34,8 @@ const FAR: f64 = 20.0;
 const SHIFTS: [f64; 8] = [-0.06, -0.04, -0.025, -0.012, 0.012, 0.025, 0.04, 0.06];
 /// Shares of a step that are tried.
 const SHARES: [f64; 3] = [1.0, 0.5, 0.2];
+/// Steps of the model whose runs do not differ.
+const STRICT_STEPS: usize = 4;
 /// Bounds of the factor by which the measured motion may differ from the predicted one where derivatives are corrected
 /// for it.
 const FIELD: [f64; 2] = [0.02, 50.0];
@@ -126,6 +128,20 @@ impl<'a> Base<'a> {
             Some((_, base)) => Ok(base),
             None => self.updated(&updating, &[], &Vec::new()),
         }
+    }
+
+    /// This model with the scales that are most likely without any effect, and its evidence: of the scales that are
+    /// estimated, and of none for what differs from run to run, the better.
+    pub fn likely(&self) -> Result<(Base<'a>, f64), DiagnosisError> {
+        let estimated = self.with_likely_scales(None)?.0;
+        let mut strict =
+            self.with_scales(Scales { shift: Scales::LEAST.shift, response: Scales::LEAST.response, ..Scales::SEARCH });
+        for _ in 0..STRICT_STEPS {
+            strict = strict.moved_to(&[], &Vec::new())?;
+        }
+        let evidence = |base: &Base| square(&base.bench().residual(&base.predictions)) + base.noise.cost();
+        let (loose, tight) = (evidence(&estimated), evidence(&strict));
+        Ok(if tight < loose { (strict, tight) } else { (estimated, loose) })
     }
 
     /// The model with the updating parameters that fit best beside a free force at the best place, whatever its law: so
