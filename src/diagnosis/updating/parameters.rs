@@ -12,7 +12,7 @@ use crate::response::sensitivity::Unknown;
 use crate::structure::{Part, Structure, StructureKind};
 
 /// Groups of elements of a beam whose stiffness and mass are updated each on its own.
-const ELEMENT_GROUPS: usize = 5;
+const ELEMENT_GROUPS: usize = 12;
 /// Springs and masses of imported matrices that are updated one by one; above, modes are.
 const MOST_SPRINGS: usize = 40;
 /// Modes in the band that are updated where neither elements nor springs are known.
@@ -169,6 +169,13 @@ impl Updating {
     pub fn at(&self, u: &[f64]) -> Self {
         let values = u.iter().enumerate().map(|(k, u)| u * self.prior(k)).collect();
         Self { values, ..self.clone() }
+    }
+
+    /// The same with the parameters of channels at nothing: predictions do not contain them, so that they are no reference.
+    #[must_use]
+    pub fn of_model(&self) -> Self {
+        let value = |(parameter, v): (&UpdatingParameter, &f64)| if parameter.is_of_model() { *v } else { 0.0 };
+        Self { values: self.parameters.iter().zip(&self.values).map(value).collect(), ..self.clone() }
     }
 
     /// The same parameters and values with other scales.
