@@ -20,6 +20,8 @@ const FOLLOWED: usize = 8;
 const AT_ONE_PLACE: usize = 4;
 /// Scaled score beyond the best up to which candidates are followed.
 const MARGIN: f64 = 60.0;
+/// Squared residual per datum of the best from which on candidates of twice that are followed too.
+const COARSE: f64 = 3.0;
 /// Times that a model is updated beside its candidate.
 const UPDATES: usize = 6;
 
@@ -75,9 +77,9 @@ impl<'a> Base<'a> {
     }
 
     /// The laws of the whole structure, regressed at the measured motion.
-    pub(crate) fn whole_drafts(&self, others: &[Source]) -> Result<Vec<Draft>, DiagnosisError> {
+    pub(crate) fn whole_drafts(&self, others: &[Source]) -> Vec<Draft> {
         let Some(seen) = MeasuredMotion::new(&self.predictor, self.data, &self.predictions, self.control) else {
-            return Ok(Vec::new());
+            return Vec::new();
         };
         let rows = self.bench().residual(&self.predictions);
         let square = dot(&rows, &rows);
@@ -94,7 +96,7 @@ impl<'a> Base<'a> {
             Some(Draft { effects: vec![Source { parameters: vec![value], ..unit }], score, fields: Arc::default() })
         };
         let whole = Effect::ALL.into_iter().filter(|e| matches!(e.kind(), Kind::Whole(_)));
-        Ok(whole.filter_map(draft).collect())
+        whole.filter_map(draft).collect()
     }
 
     /// Whitened derivative of all runs by the parameter of a law of the whole structure.
@@ -121,7 +123,9 @@ impl<'a> Base<'a> {
 /// The best drafts, no more than a few at one place.
 fn promising(drafts: Vec<Draft>, count: usize) -> Vec<Draft> {
     let Some(best) = drafts.first().map(|d| d.score) else { return drafts };
-    let margin = MARGIN * (best / count.max(1) as f64).max(1.0);
+    let scale = (best / count.max(1) as f64).max(1.0);
+    // Where even the best leaves much, the motion between the sensors is not known well enough to tell them apart.
+    let margin = if scale > COARSE { best } else { MARGIN * scale };
     let mut kept: Vec<Draft> = Vec::new();
     for draft in drafts.into_iter().take_while(|d| d.score < best + margin) {
         let here = kept.iter().filter(|k| k.effects[0].place == draft.effects[0].place).count();

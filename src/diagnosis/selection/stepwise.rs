@@ -11,7 +11,7 @@ use crate::diagnosis::selection::search::{Base, scale_of};
 use crate::diagnosis::selection::weighing::weighed;
 use crate::diagnosis::updating::detuning::is_likely;
 use crate::diagnosis::updating::noise_model::NoiseModel;
-use crate::effects::Source;
+use crate::effects::{Effect, Source};
 use std::sync::Arc;
 
 /// Most effects that are added.
@@ -143,7 +143,7 @@ fn beside_updating<'a>(
     let mut least = corrected;
     let (mut here, drafts) = bare.localised()?;
     let mut drafts = Some(drafts);
-    while found.rungs.len() < MOST_EFFECTS && !(here.control.is_late() && !found.rungs.is_empty()) {
+    while found.rungs.len() < MOST_EFFECTS && (found.rungs.is_empty() || !here.control.is_late()) {
         let from = found.rungs.last().map(|rung| rung.refits[0].clone());
         let fits = match (&from, drafts.take()) {
             (None, Some(drafts)) => here.followed(drafts)?,
@@ -157,7 +157,7 @@ fn beside_updating<'a>(
         let Some(weighed) = weighed(fits)? else { break };
         let best = &weighed.refits[0];
         let scale = scale_of(&weighed.refits, weighed.base.count());
-        if (least - weighed.least) / scale < EVIDENCE || best.parameters >= weighed.base.count() {
+        if (least - weighed.least) / scale < evidence_needed(&likely, best) || best.parameters >= weighed.base.count() {
             break;
         }
         found.agrees = agrees(&weighed.base, best.chi_square, best.parameters);
@@ -177,6 +177,17 @@ fn beside_updating<'a>(
     }
     pruned(&likely, &mut found)?;
     Ok(Outcome { base: likely, found })
+}
+
+/// Evidence that the last effect of a fit must bring beside `likely`, the model with corrections and the effects before it:
+/// more where those agree with the data already, and more for a spring or mass, which is like a correction itself.
+fn evidence_needed(likely: &Base, refit: &Refit) -> f64 {
+    let structural = |source: &Source| matches!(source.effect, Effect::Stiffness | Effect::Mass);
+    let left: f64 = likely.bench().residual(&likely.predictions).iter().map(|r| r * r).sum();
+    let settled = refit.effects.len() == 1 && agrees(likely, left, 0);
+    let times =
+        1.0 + if settled { 2.0 } else { 0.0 } + if refit.effects.last().is_some_and(structural) { 1.0 } else { 0.0 };
+    EVIDENCE * times
 }
 
 pub(crate) fn level(refit: &Refit) -> (f64, usize) {

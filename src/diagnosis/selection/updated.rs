@@ -33,8 +33,6 @@ const SETTLED: f64 = 0.02;
 const SHARES: [f64; 3] = [1.0, 0.4, 0.1];
 /// Share of its squared residual to which a step must bring the best place.
 const FALLING: f64 = 0.9;
-/// Steps of the model whose runs do not differ.
-const STRICT_STEPS: usize = 4;
 /// Factor of the measured over the predicted motion, off one, up to which derivatives are taken at the predicted one.
 const NEAR: f64 = 0.3;
 /// Bounds of the factor by which the measured motion may differ from the predicted one where derivatives are corrected
@@ -185,18 +183,22 @@ impl<'a> Base<'a> {
     }
 
     /// This model with the scales that are most likely without any effect, and its evidence: of the scales that are
-    /// estimated, and of none for what differs from run to run, the better.
+    /// estimated, of none for what differs from run to run, and of none for gains too, the best.
     pub fn likely(&self) -> Result<(Base<'a>, f64), DiagnosisError> {
         let estimated =
             self.with_likely_scales(None, &FINAL)?.0.settled_bare(STEPS)?.with_likely_scales(None, &FINAL)?.0;
-        let mut strict =
-            self.with_scales(Scales { shift: Scales::LEAST.shift, response: Scales::LEAST.response, ..Scales::SEARCH });
-        for _ in 0..STRICT_STEPS {
-            strict = strict.moved_to(&[], &Vec::new())?;
-        }
+        let alike = Scales { shift: Scales::LEAST.shift, response: Scales::LEAST.response, ..Scales::SEARCH };
+        let exact = Scales { gain: Scales::LEAST.gain, phase: Scales::LEAST.phase, ..alike };
         let evidence = |base: &Base| square(&base.bench().residual(&base.predictions)) + base.noise.cost();
-        let (loose, tight) = (evidence(&estimated), evidence(&strict));
-        Ok(if tight < loose { (strict, tight) } else { (estimated, loose) })
+        let mut best = (evidence(&estimated), estimated);
+        for scales in [alike, exact] {
+            let strict = self.with_scales(scales).settled_bare(STEPS)?;
+            let cost = evidence(&strict);
+            if cost < best.0 {
+                best = (cost, strict);
+            }
+        }
+        Ok((best.1, best.0))
     }
 
     /// The model with the updating parameters that fit best beside the law that leaves least at the measured motion, so
@@ -227,7 +229,7 @@ impl<'a> Base<'a> {
         let base = self.updated(updating, &[], &Vec::new())?;
         let mut view = base.view(None)?;
         let mut drafts = base.drafts(&mut view, &[])?;
-        drafts.extend(base.whole_drafts(&[])?);
+        drafts.extend(base.whole_drafts(&[]));
         drafts.sort_by(|a, b| a.score.total_cmp(&b.score));
         let best = drafts.first();
         let target = match best {
@@ -237,13 +239,6 @@ impl<'a> Base<'a> {
         let least = best.map_or(f64::INFINITY, |best| best.score);
         drop(view);
         Ok(Seen { target: target.unwrap_or_else(|| updating.standardised()), base, least, drafts })
-    }
-
-    /// The model moved to the updating parameters that fit best beside `effects`.
-    pub fn moved_to(&self, effects: &[Source], starts: &Starts) -> Result<Base<'a>, DiagnosisError> {
-        let (u, _) = self.solved(effects, starts)?;
-        let updating = &self.linearisation.updating;
-        self.updated(&towards(updating, &updating.at(&u).values), effects, starts)
     }
 
     /// The model and the effects of `refit` moved in turn until neither moves any more: until the updating parameters at the
@@ -319,13 +314,6 @@ impl<'a> Base<'a> {
             fitted = Some(base.bench().refit(&refit.effects, REFITTED, settings, &refit.starts)?);
         }
         Ok((base, fitted))
-    }
-
-    /// How far `moved_to` would move the parameters of the model, in prior deviations.
-    pub fn distance(&self, effects: &[Source], starts: &Starts) -> Result<f64, DiagnosisError> {
-        let (u, _) = self.solved(effects, starts)?;
-        let here = self.linearisation.updating.standardised();
-        Ok(u.iter().zip(&here).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max))
     }
 }
 

@@ -5,7 +5,7 @@ use crate::diagnosis::residual::data::DiagnosisError;
 use crate::diagnosis::residual::prediction::{FINAL, SEARCH};
 use crate::diagnosis::selection::fitted_model::Refit;
 use crate::diagnosis::selection::search::Base;
-use crate::diagnosis::updating::parameters::UpdatingParameter;
+use crate::diagnosis::updating::parameters::{Scales, UpdatingParameter};
 use crate::effects::{Effect, Place, Source};
 use crate::structure::Part;
 use crate::structure::factors::Share;
@@ -51,6 +51,7 @@ pub(super) fn weighed<'a>(mut fits: Vec<(Base<'a>, Refit)>) -> Result<Option<Wei
             continue;
         }
         let least = cost(&base, Some(&refit));
+        let refit = with_told_deviations(&base, refit)?;
         let mut order: Vec<(f64, Refit)> = costs.iter().copied().zip(refits).skip(k + 1).collect();
         order.insert(0, (least, refit));
         let (costs, refits) = order.into_iter().unzip();
@@ -63,7 +64,7 @@ pub(super) fn weighed<'a>(mut fits: Vec<(Base<'a>, Refit)>) -> Result<Option<Wei
 const FINISHED: usize = 2;
 
 /// A candidate with its model, settled in turn with the most likely scales.
-fn finished<'a>(base: Base<'a>, refit: Refit) -> Result<(Base<'a>, Refit), DiagnosisError> {
+fn finished(base: Base<'_>, refit: Refit) -> Result<(Base<'_>, Refit), DiagnosisError> {
     let (mut base, mut refit) = (base, refit);
     for _ in 0..SETTLED_AGAIN {
         if base.control.is_late() {
@@ -79,6 +80,14 @@ fn finished<'a>(base: Base<'a>, refit: Refit) -> Result<(Base<'a>, Refit), Diagn
 /// Whether both are the same coupling read from either end.
 fn is_reverse(a: Part, b: Part) -> bool {
     matches!((a, b), (Part::Coupling([i, j]), Part::Coupling([k, l])) if i == l && j == k)
+}
+
+/// A fit with the deviations that hold where nothing is known better than laboratories know it: what is common to all gains
+/// and all of the model no data tell, so that the likeliest scales are too small for it.
+fn with_told_deviations(base: &Base, refit: Refit) -> Result<Refit, DiagnosisError> {
+    let scales = base.linearisation.updating.scales.at_least(&Scales::SEARCH);
+    let told = base.with_scales(scales).bench().refit(&refit.effects, 1, &FINAL, &refit.starts)?;
+    Ok(Refit { deviations: told.deviations, ..refit })
 }
 
 /// Relative size of an added spring or mass up to which it is an error of the one that is there.
@@ -98,7 +107,7 @@ fn is_effect(base: &Base, refit: &Refit) -> bool {
             UpdatingParameter::Structure(other) => *other == part || is_reverse(*other, part),
             _ => false,
         });
-        let own = match base.predictor.structure().share(part).filter(|_| updated) {
+        let own = match base.predictor.structure().share(part).filter(|_| updated || source.effect == Effect::Mass) {
             Some(Share::Stiffness(entries) | Share::Mass(entries)) => entries.first().map_or(0.0, |e| e.2.abs()),
             None => 0.0,
         };

@@ -105,7 +105,7 @@ mod tests {
         let known = [Source::known(Effect::Viscous, Place::Dofs(vec![0]), &[0.5])];
         let (stated, truth) = (chain(1.0), ForwardModel::new(&chain(1.05), &known).unwrap());
         let one = |name: usize, quantity, dof: usize, amplitude: c64| ChannelFit {
-            channel: Channel { quantity, dof, label: format!("{}", name + 1).into() },
+            channel: Channel { quantity, dof, label: format!("{}", name + 1) },
             offset: 0.0,
             slope: 0.0,
             amplitudes: vec![amplitude],

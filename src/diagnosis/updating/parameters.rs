@@ -61,7 +61,7 @@ impl Scales {
     /// Least: below any measurement.
     pub const LEAST: Self = Self { model: 1e-6, known: 1e-5, gain: 1e-6, phase: 1e-6, shift: 1e-8, response: 1e-7 };
     /// Greatest: beyond, it is not this structure, or the record is not of this run.
-    pub const GREATEST: Self = Self { model: 0.06, known: 0.5, gain: 0.03, phase: 0.02, shift: 0.01, response: 0.1 };
+    pub const GREATEST: Self = Self { model: 0.06, known: 0.5, gain: 0.015, phase: 0.02, shift: 0.01, response: 0.1 };
 
     /// The same scales in a list, in the order of the fields.
     pub fn list(&self) -> [f64; 6] {
@@ -72,6 +72,13 @@ impl Scales {
     pub fn prior_cost(&self) -> f64 {
         let pairs = self.list().into_iter().zip(Self::START.list());
         pairs.map(|(s, start)| 2.0 * (1.0 + (s / start).powi(2)).ln()).sum()
+    }
+
+    /// The same scales, none below that of `least`.
+    #[must_use]
+    pub fn at_least(&self, least: &Self) -> Self {
+        let (own, least) = (self.list(), least.list());
+        Self::from_list(std::array::from_fn(|k| own[k].max(least[k])))
     }
 
     /// Scales from such a list, each kept between the least and the greatest.
