@@ -6,6 +6,7 @@ use crate::diagnosis::residual::prediction::{FINAL, RunPrediction};
 use crate::diagnosis::selection::fit_problem::{RunSlopes, run_slopes};
 use crate::diagnosis::selection::fitted_model::{Refit, Starts};
 use crate::diagnosis::selection::search::{Base, Draft};
+use crate::diagnosis::selection::stepwise::agrees;
 use crate::diagnosis::updating::measured_motion::MeasuredMotion;
 use crate::diagnosis::updating::noise_model::{Linearisation, NoiseModel, amplitudes, of_channel};
 use crate::diagnosis::updating::parameters::{Scales, Updating};
@@ -182,23 +183,31 @@ impl<'a> Base<'a> {
         Ok(base)
     }
 
-    /// This model with the scales that are most likely without any effect, and its evidence: of the scales that are
-    /// estimated, of none for what differs from run to run, and of none for gains too, the best.
+    /// This model with the scales that are most likely without any effect, and its evidence: without gains and differences
+    /// from run to run, or without those alone, where that agrees with the data; else the best of these and of the scales
+    /// that are estimated.
     pub fn likely(&self) -> Result<(Base<'a>, f64), DiagnosisError> {
-        let estimated =
-            self.with_likely_scales(None, &FINAL)?.0.settled_bare(STEPS)?.with_likely_scales(None, &FINAL)?.0;
         let alike = Scales { shift: Scales::LEAST.shift, response: Scales::LEAST.response, ..Scales::SEARCH };
         let exact = Scales { gain: Scales::LEAST.gain, phase: Scales::LEAST.phase, ..alike };
-        let evidence = |base: &Base| square(&base.bench().residual(&base.predictions)) + base.noise.cost();
-        let mut best = (evidence(&estimated), estimated);
-        for scales in [alike, exact] {
+        let mut best: Option<(f64, Base<'a>)> = None;
+        for scales in [exact, alike] {
             let strict = self.with_scales(scales).settled_bare(STEPS)?;
-            let cost = evidence(&strict);
-            if cost < best.0 {
-                best = (cost, strict);
+            let left = square(&strict.bench().residual(&strict.predictions));
+            let cost = left + strict.noise.cost();
+            if agrees(&strict, left, 0) {
+                return Ok((strict, cost));
+            }
+            if best.as_ref().is_none_or(|(least, _)| cost < *least) {
+                best = Some((cost, strict));
             }
         }
-        Ok((best.1, best.0))
+        let estimated =
+            self.with_likely_scales(None, &FINAL)?.0.settled_bare(STEPS)?.with_likely_scales(None, &FINAL)?.0;
+        let cost = square(&estimated.bench().residual(&estimated.predictions)) + estimated.noise.cost();
+        Ok(match best {
+            Some((least, strict)) if least < cost => (strict, least),
+            _ => (estimated, cost),
+        })
     }
 
     /// The model with the updating parameters that fit best beside the law that leaves least at the measured motion, so
