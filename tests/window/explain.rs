@@ -214,7 +214,6 @@ fn the_walk_in_the_dark() {
 }
 
 #[test]
-#[ignore = "gains of channels take a part: 12 noise floors are left after the correction, 3 are asked"]
 fn a_detuned_model_is_corrected_and_lacks_nothing() {
     let sample = detuned();
     let mut harness = open(&sample, Theme::Light);

@@ -90,7 +90,7 @@ impl<'a> Base<'a> {
         };
         let (common, stiffness): (Vec<RunSlopes>, Vec<_>) =
             self.control.map(self.data.runs.len(), of_run).into_iter().unzip();
-        let leverage = if seen.is_some() { leverage(self.data, updating, &common) } else { Vec::new() };
+        let leverage = if seen.is_some() { leverage(self.data, updating, &common, predictions) } else { Vec::new() };
         let expansions = seen.map_or_else(Vec::new, |seen| seen.expansions);
         Linearisation { updating: updating.clone(), common, stiffness, expansions, leverage, amplitudes }
     }
@@ -341,19 +341,20 @@ struct Seen<'a> {
 const MOTION: f64 = 0.01;
 
 /// What an error of the measured motion makes of the derivatives of each run, as a factor on its response: the larger, the
-/// more the parameters of the model would change it within their priors.
-fn leverage(data: &Data, updating: &Updating, common: &[RunSlopes]) -> Vec<f64> {
-    let of_run = |(run, slopes): (&RunData, &RunSlopes)| {
-        let (mut moved, mut size) = (0.0, 0.0);
+/// more the parameters of the model would change it within their priors, and the more of it the model does not predict yet.
+fn leverage(data: &Data, updating: &Updating, common: &[RunSlopes], predictions: &[RunPrediction]) -> Vec<f64> {
+    let of_model: Vec<usize> = (0..updating.len()).filter(|&k| updating.parameters[k].is_of_model()).collect();
+    let of_run = |((run, slopes), prediction): ((&RunData, &RunSlopes), &RunPrediction)| {
+        let (mut moved, mut missing, mut size) = (0.0, 0.0, 0.0);
         for &c in &run.alive {
-            size += run.responses[c].measured[0].norm_sqr() / run.scale(c).powi(2);
-            for (k, slope) in slopes.iter().enumerate().filter(|(k, _)| updating.parameters[*k].is_of_model()) {
-                moved += (slope[c][0] * updating.prior(k)).norm_sqr() / run.scale(c).powi(2);
-            }
+            let (weight, y) = (run.scale(c).powi(-2), run.responses[c].measured[0]);
+            size += weight * y.norm_sqr();
+            missing += weight * (y - prediction.channels[c][0]).norm_sqr();
+            moved += weight * of_model.iter().map(|&k| (slopes[k][c][0] * updating.prior(k)).norm_sqr()).sum::<f64>();
         }
-        if size > 0.0 { MOTION * (moved / size).sqrt() } else { 0.0 }
+        if size > 0.0 { MOTION * (moved / size).sqrt() * (missing / size).sqrt().min(1.0) } else { 0.0 }
     };
-    data.runs.iter().zip(common).map(of_run).collect()
+    data.runs.iter().zip(common).zip(predictions).map(of_run).collect()
 }
 
 /// The values of `updating` moved to `target`, none by more than the longest step.
