@@ -1,6 +1,5 @@
 //! What model updating corrected, written into a project: its own numbers, or `[[structure.correction]]` where it has none.
 
-use crate::diagnosis::candidates::start_grids::scaled;
 use crate::diagnosis::diagnose::Correction;
 use crate::diagnosis::updating::parameters::UpdatingParameter;
 use crate::effects::{Place, Source, State};
@@ -53,7 +52,7 @@ fn resize(document: &mut toml_edit::DocumentMut, project: &Project, index: usize
     let list = document.get_mut("source").and_then(toml_edit::Item::as_array_of_tables_mut);
     let (Some((row, source)), Some(list)) = (known, list) else { return false };
     let Some(table) = list.get_mut(row) else { return false };
-    let mut keys = scaled(source.effect).iter().map(|&k| source.effect.parameters()[k].name);
+    let mut keys = source.effect.scaled().iter().map(|&k| source.effect.parameters()[k].name);
     keys.all(|key| multiply(table.get_mut(key), factor))
 }
 

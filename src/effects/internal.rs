@@ -8,7 +8,7 @@
 //! Where the motion is so small that nothing slips, the map gives back what it was given and any mean force would do;
 //! the force is then that of the spring about the middle of the motion, which is the limit of small slip.
 
-use super::law::{Linearised, Manner};
+use super::law::{ByParameter, Linearised, Manner};
 use super::turning::turning_points;
 use super::{Description, Law, Memory, Motion};
 
@@ -171,11 +171,17 @@ impl<T: InternalLaw + Copy + Send + 'static> Law for Internal<T> {
     }
 
     fn parameter_tangent(&self, p: &[f64], k: usize, motion: &Motion, tangent: &mut [f64]) {
+        self.by_parameters(p, motion)(k, tangent);
+    }
+
+    fn by_parameters<'a>(&'a self, p: &'a [f64], motion: &'a Motion) -> ByParameter<'a> {
         let d = &motion.displacement;
         let (ways, slope) = self.ways(p, d);
-        let by = |n: usize| self.0.step_by(p, k, ways[n].0, d[(n + 1) % d.len()] - d[n]);
-        let added: Vec<f64> = (0..d.len()).map(by).collect();
-        carry(&ways, slope, self.0.step_by(p, k, 0.0, d[0] - middle(d)), |n| added[n], tangent);
+        Box::new(move |k, tangent| {
+            let by = |n: usize| self.0.step_by(p, k, ways[n].0, d[(n + 1) % d.len()] - d[n]);
+            let added: Vec<f64> = (0..d.len()).map(by).collect();
+            carry(&ways, slope, self.0.step_by(p, k, 0.0, d[0] - middle(d)), |n| added[n], tangent);
+        })
     }
 
     fn memory(&self, p: &[f64]) -> Option<Box<dyn Memory>> {

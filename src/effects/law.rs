@@ -37,6 +37,9 @@ pub enum Manner {
 /// From a direction to the tangent along it, both sampled.
 pub type Linearised<'a> = Box<dyn Fn(&Motion, &mut [f64]) + 'a>;
 
+/// From the number of a parameter to the derivative of the force by it, sampled.
+pub type ByParameter<'a> = Box<dyn Fn(usize, &mut [f64]) + 'a>;
+
 /// What a law of the present instant looks at.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Variable {
@@ -94,6 +97,12 @@ pub trait Law: Sync {
 
     /// Derivative of [`Law::force`] by parameter number `k`, N per unit of that parameter at every sample.
     fn parameter_tangent(&self, p: &[f64], k: usize, motion: &Motion, tangent: &mut [f64]);
+
+    /// [`Law::parameter_tangent`] for all parameters along one motion. What a law computes of the motion alone is computed
+    /// once.
+    fn by_parameters<'a>(&'a self, p: &'a [f64], motion: &'a Motion) -> ByParameter<'a> {
+        Box::new(move |k, tangent| self.parameter_tangent(p, k, motion, tangent))
+    }
 
     /// Energy in J taken out per cycle of `d = amplitude cos(omega t)`, where a closed form exists.
     fn energy_per_cycle(&self, p: &[f64], amplitude: f64, omega: f64) -> Option<f64> {

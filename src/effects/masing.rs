@@ -11,7 +11,7 @@
 //! greatest |d| of the period lies on the backbone, so one period of marching that starts there is periodic at once,
 //! whatever came before.
 
-use super::law::Manner;
+use super::law::{Linearised, Manner};
 use super::memory::MasingMemory;
 use super::turning::loop_ranges;
 use super::{Description, Law, Memory, Motion, SetValued};
@@ -26,12 +26,23 @@ pub fn march(
     start: impl Fn(usize) -> f64,
     branch: impl Fn(usize, usize) -> f64,
 ) {
+    branches(displacement, |n, origin| {
+        out[n] = match origin {
+            None => start(n),
+            Some(r) => out[r] + branch(r, n),
+        };
+    });
+}
+
+/// Calls `visit` with every sample of a steady period, in the order of the march, and the reversal from which its branch
+/// starts; the first, of greatest displacement, lies on the backbone and has none.
+fn branches(displacement: &[f64], mut visit: impl FnMut(usize, Option<usize>)) {
     let count = displacement.len();
     let d = displacement;
     let Some(first) = (0..count).max_by(|&a, &b| d[a].abs().total_cmp(&d[b].abs())) else {
         return;
     };
-    out[first] = start(first);
+    visit(first, None);
     let mut reversals = vec![first];
     let mut origin = first;
     let mut last = first;
@@ -47,9 +58,16 @@ pub fn march(
             reversals.truncate(reversals.len() - 2);
             origin = resumed;
         }
-        out[n] = out[origin] + branch(origin, n);
+        visit(n, Some(origin));
         last = n;
     }
+}
+
+/// A sample of the march with the slope of its branch there.
+struct Slope {
+    sample: usize,
+    origin: Option<usize>,
+    slope: f64,
 }
 
 /// A law given by its backbone.
@@ -100,8 +118,23 @@ impl<T: MasingLaw + Copy + Send + 'static> Law for Masing<T> {
     }
 
     fn tangent(&self, p: &[f64], motion: &Motion, direction: &Motion, tangent: &mut [f64]) {
-        let (law, d, e) = (&self.0, &motion.displacement, &direction.displacement);
-        march(d, tangent, |n| law.slope(p, d[n]) * e[n], |r, n| law.slope(p, 0.5 * (d[n] - d[r])) * (e[n] - e[r]));
+        self.linearised(p, motion)(direction, tangent);
+    }
+
+    fn linearised<'a>(&'a self, p: &'a [f64], motion: &'a Motion) -> Linearised<'a> {
+        let d = &motion.displacement;
+        let mut slopes = Vec::with_capacity(d.len());
+        branches(d, |sample, origin| {
+            let way = origin.map_or(d[sample], |r| 0.5 * (d[sample] - d[r]));
+            slopes.push(Slope { sample, origin, slope: self.0.slope(p, way) });
+        });
+        Box::new(move |direction, tangent| {
+            let e = &direction.displacement;
+            for Slope { sample, origin, slope } in &slopes {
+                let (from, moved) = origin.map_or((0.0, e[*sample]), |r| (tangent[r], e[*sample] - e[r]));
+                tangent[*sample] = from + slope * moved;
+            }
+        })
     }
 
     fn parameter_tangent(&self, p: &[f64], k: usize, motion: &Motion, tangent: &mut [f64]) {

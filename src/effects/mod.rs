@@ -24,7 +24,7 @@ pub mod wording;
 
 pub use description::{Constant, Description, Exponents, Part};
 pub use family::Family;
-pub use law::{ChannelLaw, Law, Manner, WholeLaw};
+pub use law::{ByParameter, ChannelLaw, Law, Manner, WholeLaw};
 pub use laws::Effect;
 pub use linear::LinearLaw;
 pub use memory::Memory;

@@ -1,7 +1,6 @@
 //! What becomes of the corrections of the model that a search found: other numbers of the structure and of its known sources.
 
 use super::additions::labels;
-use crate::diagnosis::candidates::start_grids::scaled;
 use crate::diagnosis::diagnose::Correction;
 use crate::diagnosis::updating::parameters::UpdatingParameter;
 use crate::effects::{Effect, Source, State};
@@ -136,7 +135,8 @@ fn lumped(table: &StructureTable, factor: f64) -> Vec<Command> {
 fn resized(source: &Source, factor: f64, project: &Project) -> Command {
     let (dofs, elements) = labels(&source.place, &project.structure);
     let effect: Effect = source.effect;
-    let parameters = scaled(effect)
+    let parameters = effect
+        .scaled()
         .iter()
         .map(|&k| (effect.parameters()[k].name.to_owned(), source.parameters[k] * factor))
         .collect();

@@ -9,28 +9,18 @@
 //! impedance, noise of the motion counts no more than that of the force, and a stuck joint agrees with every bound above
 //! its force.
 
-use crate::effects::{Effect, Motion};
+use crate::effects::{Effect, SetValued};
 
 /// Sizes of friction that are tried, over the forces of the runs.
 const SIZES: usize = 8;
 
-/// Whether `effect` is friction whose force is set-valued at rest.
-pub(crate) fn slides(effect: Effect) -> bool {
-    matches!(effect, Effect::Coulomb | Effect::Stribeck)
-}
-
-/// The right side above at the samples of a period: `force` (N) of the joint and its `motion`, friction `effect` of the
-/// parameters `p`, `r` in N s/m.
-pub(crate) fn held(effect: Effect, p: &[f64], force: &[f64], motion: &Motion, r: f64) -> Vec<f64> {
-    let bound = p[usize::from(effect == Effect::Stribeck)].max(0.0);
-    let falling = |v: f64| {
-        if effect == Effect::Stribeck { (p[1] - p[0]) * (-v.abs() / p[2]).exp_m1() * v.signum() } else { 0.0 }
-    };
-    let at = |(f, v): (&f64, &f64)| {
-        let g = falling(*v);
-        g + (f - g + r * v).clamp(-bound, bound)
-    };
-    force.iter().zip(&motion.velocity).map(at).collect()
+/// The law of `effect` as friction whose force is set-valued at rest between opposite bounds, without a spring before it.
+pub(crate) fn friction(effect: Effect) -> Option<&'static dyn SetValued> {
+    let law = effect.law()?;
+    let unit = vec![1.0; law.parameters().len()];
+    let friction = law.set_valued().filter(|_| law.series_stiffness(&unit).is_none())?;
+    let [low, high] = friction.bounds(&unit);
+    (low == -high).then_some(friction)
 }
 
 /// Sizes (N) of friction worth trying for fundamentals of force of these `amplitudes`: those of runs that slide have
@@ -57,24 +47,35 @@ mod tests {
         let motion = Sampling::new(64).motion(3.0, 0.0, &[c64::new(0.2, 0.0)]);
         for (effect, p) in [(Effect::Coulomb, vec![2.0]), (Effect::Stribeck, vec![2.0, 3.0, 0.1])] {
             let mut force = vec![0.0; motion.len()];
-            if let Some(law) = effect.law() {
-                law.force(&p, &motion, &mut force);
-            }
-            let held = held(effect, &p, &force, &motion, 50.0);
+            let (Some(law), Some(friction)) = (effect.law(), friction(effect)) else {
+                panic!("{effect:?} is friction")
+            };
+            law.force(&p, &motion, &mut force);
             // Where the joint turns, any force up to the bound is its force.
             let moving = |n: &usize| motion.velocity[*n].abs() > 1e-9;
             for n in (0..64).filter(moving) {
-                assert!((held[n] - force[n]).abs() < 1e-9, "{effect:?} {n}: {} {}", held[n], force[n]);
+                let held = friction.held(&p, force[n], motion.velocity[n], 50.0);
+                assert!((held - force[n]).abs() < 1e-9, "{effect:?} {n}: {held} {}", force[n]);
             }
         }
     }
 
     #[test]
     fn a_stuck_joint_agrees_with_every_bound_above_its_force() {
-        let still = Sampling::new(32).motion(3.0, 0.0, &[c64::new(0.0, 0.0)]);
-        let force: Vec<f64> = (0..32).map(|n| f64::from(n % 7) - 3.0).collect();
-        assert_eq!(held(Effect::Coulomb, &[3.5], &force, &still, 10.0), force);
-        assert!(held(Effect::Coulomb, &[2.0], &force, &still, 10.0) != force);
+        let Some(friction) = friction(Effect::Coulomb) else { panic!("Coulomb friction is friction") };
+        for force in [-3.0, 0.0, 1.5, 3.0] {
+            assert_eq!(friction.held(&[3.5], force, 0.0, 10.0), force);
+        }
+        assert_ne!(friction.held(&[2.0], 3.0, 0.0, 10.0), 3.0);
+    }
+
+    #[test]
+    fn springs_dashpots_and_sliders_behind_springs_are_no_friction() {
+        for effect in
+            [Effect::Viscous, Effect::Stiffness, Effect::ElasticSlider, Effect::Iwan, Effect::MassProportional]
+        {
+            assert!(friction(effect).is_none(), "{effect:?}");
+        }
     }
 
     #[test]

@@ -1,7 +1,6 @@
 //! Where a law explains much but not all: the laws that contain it, or one of its limits, fitted anew at its place. Their
 //! own fits may have ended in a valley of the wrong side while the model was still far off.
 
-use crate::diagnosis::candidates::special_cases::wider;
 use crate::diagnosis::residual::data::DiagnosisError;
 use crate::diagnosis::selection::fitted_model::Refit;
 use crate::diagnosis::selection::search::{Base, Draft, joined};
@@ -15,7 +14,7 @@ impl Base<'_> {
     /// shapes against the free force that the rest of `best` leaves at the place.
     pub fn wider(&self, best: &Refit) -> Result<Vec<Refit>, DiagnosisError> {
         let mut refits = Vec::new();
-        for source in best.effects.iter().filter(|e| !wider(e.effect).is_empty()) {
+        for source in best.effects.iter().filter(|e| !e.effect.wider().is_empty()) {
             let mut others = best.clone();
             others.effects.retain(|e| !e.is_same(source));
             others.starts.clear();
@@ -27,7 +26,7 @@ impl Base<'_> {
             let (forces, fields) = self.free(&view, &[at]);
             let data = self.at_place(&view, at, &forces[0], &fields);
             let fields = Arc::new(fields);
-            let fits = wider(source.effect).into_iter().flat_map(|effect| data.starts(effect, SHAPES));
+            let fits = source.effect.wider().into_iter().flat_map(|effect| data.starts(effect, SHAPES));
             let draft =
                 |effect| Draft { effects: joined(&others.effects, &[effect]), score: 0.0, fields: fields.clone() };
             let drafts: Vec<Draft> =

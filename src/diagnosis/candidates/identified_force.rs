@@ -11,14 +11,13 @@
 //! error is `t - 1` of a response, `1 - 1/t` of a force.
 
 use crate::diagnosis::candidates::eliminator::Eliminator;
-use crate::diagnosis::candidates::friction::{held, sizes, slides};
+use crate::diagnosis::candidates::friction::{friction, sizes};
 use crate::diagnosis::candidates::start::{Fields, relative};
-use crate::diagnosis::candidates::start_grids::{Range, scaled, shapes};
 use crate::diagnosis::localisation::free_force::{ForceFreedom, FreeForce};
 use crate::diagnosis::localisation::location::Spot;
 use crate::diagnosis::residual::data::{Data, RunData};
 use crate::diagnosis::selection::levenberg_marquardt::{Descent, Residual, Variables, descend};
-use crate::effects::{ChannelLaw, Effect, Law, Motion, Sampling, Source, State, effect::Kind};
+use crate::effects::{ByParameter, Effect, Law, Motion, Range, Sampling, SetValued, Source, State, effect::Kind};
 use dashpot_numerics::dot;
 use faer::{Mat, c64};
 use std::convert::Infallible;
@@ -30,6 +29,8 @@ const ENOUGH: f64 = 3.0;
 /// Multiple of what the best law of two parameters leaves up to which the best shape of a law of more may still become the
 /// best once its parameters are fitted.
 const PROMISING: f64 = 4.0;
+/// How many times what the best shape of a law leaves another may leave that a fit starts from too.
+const VALLEYS: f64 = 1.3;
 /// Step of a variable for difference quotients: friction has kinks, and the step is to see past those of single samples.
 const STEP: f64 = 1e-3;
 
@@ -41,12 +42,12 @@ pub(crate) struct PlaceData {
     /// One a run; at rest for channels.
     pub(super) motions: Vec<Motion>,
     /// Samples of the free force, one list a run.
-    histories: Vec<Vec<f64>>,
+    pub(super) histories: Vec<Vec<f64>>,
     /// Impedance of the structure between the DOFs of a leg, N s/m, one a run.
-    impedances: Vec<f64>,
-    sampling: Sampling,
-    /// Parameters that were free beside the force.
-    freedom: Option<Eliminator>,
+    pub(super) impedances: Vec<f64>,
+    pub(super) sampling: Sampling,
+    /// How the force changes with parameters that were free beside it, and these eliminated.
+    pub(super) freedom: Option<(ForceFreedom, Eliminator)>,
     /// Range of the motion.
     pub range: Range,
 }
@@ -96,13 +97,16 @@ impl PlaceData {
             sampling.motion(run.omega, 0.0, &harmonics)
         };
         let motions: Vec<Motion> = data.runs.iter().zip(fields).map(motion).collect();
-        let range = range(&motions);
+        let range = Range::of(&motions);
         let history = |list: &Vec<FreeForce>| {
             let harmonics: Vec<c64> = (1..=list.len()).map(|h| shrunk(list, h)).collect();
             sampling.motion(1.0, 0.0, &harmonics).displacement
         };
         let histories = forces.iter().map(history).collect();
-        let freedom = freedom.map(|freedom| Eliminator::new(forces, &freedom));
+        let freedom = freedom.map(|freedom| {
+            let eliminator = Eliminator::new(forces, &freedom);
+            (freedom, eliminator)
+        });
         Self { spot: spot.clone(), forces: forces.to_vec(), motions, histories, impedances, sampling, freedom, range }
     }
 
@@ -134,19 +138,31 @@ impl PlaceData {
         2 * self.forces.iter().flatten().filter(|f| f.weight > 0.0).count()
     }
 
-    /// Fits every effect that can act here; those of many parameters only where simpler ones leave more than noise.
+    /// Fits every effect that can act here; those of many parameters only where simpler ones leave more than noise and one
+    /// that they contain is among the best of those.
     pub fn fits(&self) -> Vec<LawFit> {
-        let simple = |effect: &Effect| effect.parameters().len() <= 2;
-        let (few, many): (Vec<Effect>, Vec<Effect>) = Effect::ALL.into_iter().partition(simple);
-        let mut fits: Vec<LawFit> = few.into_iter().filter_map(|effect| self.fit(effect)).collect();
+        let mut fits = self.simple_fits();
         let count = self.count() as f64;
         let noise = count + ENOUGH * (2.0 * count).sqrt();
         let least = fits.iter().map(|fit| fit.misfit).fold(f64::INFINITY, f64::min);
-        if least >= noise {
-            let bound = PROMISING * least;
-            fits.extend(many.into_iter().filter_map(|effect| self.fit_within(effect, bound)));
+        let bound = PROMISING * least;
+        let contained = |effect: Effect| fits.iter().any(|f| effect.contains(f.source.effect) && f.misfit < bound);
+        let many = Effect::ALL.into_iter().filter(|effect| !is_simple(*effect));
+        let promising: Vec<Effect> = many.filter(|&effect| least >= noise && contained(effect)).collect();
+        if promising.is_empty() {
+            return fits;
         }
+        let thinned = self.thinned();
+        let on = thinned.as_ref().unwrap_or(self);
+        let bound = bound * on.count() as f64 / self.count().max(1) as f64;
+        let fit = |effect| on.fit_within(effect, bound).map(|fit| self.on_all_runs(fit));
+        fits.extend(promising.into_iter().filter_map(fit));
         fits
+    }
+
+    /// Fits every effect of no more than two parameters that can act here.
+    pub fn simple_fits(&self) -> Vec<LawFit> {
+        Effect::ALL.into_iter().filter(|effect| is_simple(*effect)).filter_map(|effect| self.fit(effect)).collect()
     }
 
     /// Fits `effect`; `None` if it cannot act here or its best scale has an unphysical sign.
@@ -166,18 +182,18 @@ impl PlaceData {
     /// Shapes of `effect` with their best scale, best first, each with what it leaves of the free force.
     fn grid(&self, effect: Effect, law: &dyn Law) -> Vec<(f64, Vec<f64>)> {
         let mut grid: Vec<(f64, Vec<f64>)> = Vec::new();
-        if slides(effect) {
-            grid.extend(self.sizes(effect).into_iter().map(|p| (self.left_by_friction(effect, &p), p)));
+        if let Some(law) = friction(effect) {
+            grid.extend(self.sizes(effect, law).into_iter().map(|p| (self.left_by_friction(law, &p), p)));
             grid.sort_by(|a, b| a.0.total_cmp(&b.0));
             return grid;
         }
-        for mut p in shapes(effect, &self.range) {
+        for mut p in effect.shapes(&self.range) {
             let (scale, misfit) = self.scale(law, &p);
             let signed = effect.parameters()[0].least < 0.0;
             if !scale.is_finite() || scale == 0.0 || (scale < 0.0 && !signed) {
                 continue;
             }
-            scaled(effect).iter().for_each(|&k| p[k] *= scale);
+            effect.scaled().iter().for_each(|&k| p[k] *= scale);
             grid.push((misfit, p));
         }
         grid.sort_by(|a, b| a.0.total_cmp(&b.0));
@@ -199,18 +215,22 @@ impl PlaceData {
         let source =
             |p: &[f64]| Source { effect, place: self.spot.place(), state: State::Known, parameters: p.to_vec() };
         let (misfit, parameters) = grid.first()?;
-        if effect.parameters().len() == 1 && !slides(effect) {
+        if effect.parameters().len() == 1 && friction(effect).is_none() {
             return Some(LawFit { source: source(parameters), misfit: *misfit });
         }
         // Laws of many parameters have many valleys.
         let starts = if effect.parameters().len() > 2 { 3 } else { 1 };
+        let close = |(left, _): &&(f64, Vec<f64>)| *left < VALLEYS * misfit;
         let descent = |(_, p): &(f64, Vec<f64>)| {
             let (variables, start) = Variables::new(&[source(p)]);
-            let Ok(Descent { theta, chi_square, .. }) =
-                descend(&mut Equation { data: self, effect, law, variables: &variables }, &start, 15);
+            let Ok(Descent { theta, chi_square, .. }) = descend(
+                &mut Equation { data: self, friction: friction(effect), law, variables: &variables },
+                &start,
+                15,
+            );
             LawFit { source: variables.effects(&theta).remove(0), misfit: chi_square }
         };
-        let fits = grid.iter().take(starts).map(descent);
+        let fits = grid.iter().take(starts).take_while(close).map(descent);
         fits.filter(|f| f.misfit.is_finite()).min_by(|a, b| a.misfit.total_cmp(&b.misfit))
     }
 
@@ -224,27 +244,27 @@ impl PlaceData {
     }
 
     /// Shapes of friction in sizes that the free forces suggest.
-    fn sizes(&self, effect: Effect) -> Vec<Vec<f64>> {
+    fn sizes(&self, effect: Effect, law: &dyn SetValued) -> Vec<Vec<f64>> {
         let amplitudes = self.forces.iter().filter(|f| !f.is_empty()).map(|f| f[0].value.norm()).collect();
         let sizes = sizes(amplitudes);
-        let largest = |p: &[f64]| p[usize::from(effect == Effect::Stribeck)];
-        let shapes = shapes(effect, &self.range);
+        let shapes = effect.shapes(&self.range);
         let of = |shape: &Vec<f64>, size: f64| {
             let mut p = shape.clone();
-            scaled(effect).iter().for_each(|&k| p[k] *= size / largest(shape));
+            effect.scaled().iter().for_each(|&k| p[k] *= size / law.bounds(shape)[1]);
             p
         };
         shapes.iter().flat_map(|shape| sizes.iter().map(move |&size| of(shape, size))).collect()
     }
 
     /// What friction of the parameters `p` leaves of the free force.
-    fn left_by_friction(&self, effect: Effect, p: &[f64]) -> f64 {
-        self.rows(1.0, |r, order| self.friction(effect, p, r, order)).iter().map(|d| d * d).sum()
+    fn left_by_friction(&self, law: &dyn SetValued, p: &[f64]) -> f64 {
+        self.rows(1.0, |r, order| self.held(law, p, r, order)).iter().map(|d| d * d).sum()
     }
 
     /// Harmonics of the force that friction of the parameters `p` would hold in run `r`.
-    pub(super) fn friction(&self, effect: Effect, p: &[f64], r: usize, order: usize) -> Vec<c64> {
-        let samples = held(effect, p, &self.histories[r], &self.motions[r], self.impedances[r]);
+    pub(super) fn held(&self, law: &dyn SetValued, p: &[f64], r: usize, order: usize) -> Vec<c64> {
+        let pairs = self.histories[r].iter().zip(&self.motions[r].velocity);
+        let samples: Vec<f64> = pairs.map(|(f, v)| law.held(p, *f, *v, self.impedances[r])).collect();
         let mut harmonics = vec![c64::new(0.0, 0.0); order];
         self.sampling.analyse(&samples, &mut harmonics);
         harmonics
@@ -252,18 +272,24 @@ impl PlaceData {
 
     /// Weighted differences between the free forces, times `measured`, and those of a law, which is given the run and the
     /// number of harmonics.
-    fn rows(&self, measured: f64, law: impl Fn(usize, usize) -> Vec<c64>) -> Vec<f64> {
+    pub(super) fn rows(&self, measured: f64, law: impl Fn(usize, usize) -> Vec<c64>) -> Vec<f64> {
         let mut rows = Vec::with_capacity(self.count());
-        for (r, forces) in self.forces.iter().enumerate() {
+        for (r, forces) in self.forces.iter().enumerate().filter(|(_, forces)| !forces.is_empty()) {
             for (free, f) in forces.iter().zip(law(r, forces.len())) {
                 let difference = (free.value * measured - f) * free.weight.sqrt();
                 rows.extend([difference.re, difference.im]);
             }
         }
         match &self.freedom {
-            Some(freedom) => freedom.eliminated(rows),
+            Some((_, eliminator)) => eliminator.eliminated(rows),
             None => rows,
         }
+    }
+
+    /// What forces of a law, `[run][harmonic]`, leave of the free forces: `J`.
+    pub(super) fn left_by(&self, of_law: &[Vec<c64>]) -> f64 {
+        let rows = self.rows(1.0, |r, _| of_law[r].clone());
+        dot(&rows, &rows)
     }
 
     pub(super) fn law_force(&self, law: &dyn Law, p: &[f64], motion: &Motion, order: usize) -> Vec<c64> {
@@ -279,33 +305,11 @@ impl PlaceData {
         self.sampling.analyse(&samples, &mut harmonics);
         harmonics
     }
+}
 
-    fn fit_channel(&self, effect: Effect, law: &dyn ChannelLaw) -> Option<LawFit> {
-        let misfit = |p: f64| -> f64 {
-            let rows = self.rows(1.0, |r, order| self.channel_error(law, p, r, order));
-            dot(&rows, &rows)
-        };
-        let step = if effect == Effect::Delay { 1e-7 / self.range.omega.max(1e-3) * 100.0 } else { 1e-5 };
-        let mut p = law.neutral();
-        for _ in 0..12 {
-            // Newton's method by differences: the misfit is nearly quadratic in the only parameter.
-            let (low, mid, high) = (misfit(p - step), misfit(p), misfit(p + step));
-            let curvature = (high - 2.0 * mid + low) / (step * step);
-            if curvature <= 0.0 {
-                break;
-            }
-            let change = -(high - low) / (2.0 * step) / curvature;
-            p += change;
-            if effect == Effect::Gain {
-                p = p.clamp(0.05, 20.0);
-            }
-        }
-        if !p.is_finite() || !effect.parameters()[0].allows(p) {
-            return None;
-        }
-        let source = Source { effect, place: self.spot.place(), state: State::Known, parameters: vec![p] };
-        Some(LawFit { source, misfit: misfit(p) })
-    }
+/// Whether a law has so few parameters that it is regressed at every place.
+fn is_simple(effect: Effect) -> bool {
+    effect.parameters().len() <= 2
 }
 
 /// A free force drawn to zero where the data hardly see it: harmonics are no larger than the fundamental over the order.
@@ -318,22 +322,10 @@ pub(crate) fn shrunk(forces: &[FreeForce], h: usize) -> c64 {
     free.value * (prior * free.weight / (1.0 + prior * free.weight))
 }
 
-pub(crate) fn range(motions: &[Motion]) -> Range {
-    let peak = |x: &[f64]| x.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
-    let sizes: Vec<f64> = motions.iter().map(|m| peak(&m.displacement)).collect();
-    let logs: f64 = motions.iter().map(|m| m.omega.ln()).sum();
-    Range {
-        displacement: sizes.iter().fold(0.0, |m, &s| f64::max(m, s)),
-        least: sizes.iter().fold(f64::INFINITY, |m, &s| f64::min(m, s)),
-        velocity: motions.iter().map(|m| peak(&m.velocity)).fold(0.0, f64::max),
-        omega: (logs / motions.len().max(1) as f64).exp(),
-    }
-}
-
 /// The regression of one law with parameters that shape it.
 struct Equation<'a> {
     data: &'a PlaceData,
-    effect: Effect,
+    friction: Option<&'static dyn SetValued>,
     law: &'static dyn Law,
     variables: &'a Variables,
 }
@@ -343,25 +335,28 @@ impl Equation<'_> {
         self.variables.effects(theta).remove(0).parameters
     }
 
-    /// Derivative of the residual by variable `k`, whose parameter has the derivative `slope`.
-    fn column(&self, theta: &[f64], at: &[f64], k: usize, slope: f64) -> Vec<f64> {
-        if slides(self.effect) {
-            let mut moved = theta.to_vec();
-            moved[k] += STEP;
-            let p = self.parameters(&moved);
-            let there = self.data.rows(1.0, |r, order| self.data.friction(self.effect, &p, r, order));
-            return there.iter().zip(at).map(|(b, a)| (b - a) / STEP).collect();
-        }
-        let p = self.parameters(theta);
+    /// Derivative of the residual by variable `k`, whose parameter has the derivative `slope`; `tangents` are those of the
+    /// runs.
+    fn column(&self, tangents: &[Option<ByParameter>], k: usize, slope: f64) -> Vec<f64> {
         let change = |r: usize, order: usize| -> Vec<c64> {
-            let motion = &self.data.motions[r];
-            let mut samples = vec![0.0; motion.len()];
-            self.law.parameter_tangent(&p, k, motion, &mut samples);
+            let mut samples = vec![0.0; self.data.motions[r].len()];
+            if let Some(tangent) = &tangents[r] {
+                tangent(k, &mut samples);
+            }
             let mut harmonics = vec![c64::new(0.0, 0.0); order];
             self.data.sampling.analyse(&samples, &mut harmonics);
             harmonics.iter().map(|f| *f * slope).collect()
         };
         self.data.rows(0.0, change)
+    }
+
+    /// The same of friction, by a difference.
+    fn difference(&self, friction: &dyn SetValued, theta: &[f64], at: &[f64], k: usize) -> Vec<f64> {
+        let mut moved = theta.to_vec();
+        moved[k] += STEP;
+        let p = self.parameters(&moved);
+        let there = self.data.rows(1.0, |r, order| self.data.held(friction, &p, r, order));
+        there.iter().zip(at).map(|(b, a)| (b - a) / STEP).collect()
     }
 }
 
@@ -371,19 +366,29 @@ impl Residual for Equation<'_> {
     fn residual(&mut self, theta: &[f64]) -> Result<Vec<f64>, Infallible> {
         let p = self.parameters(theta);
         let data = self.data;
-        Ok(data.rows(1.0, |r, order| {
-            if slides(self.effect) {
-                data.friction(self.effect, &p, r, order)
-            } else {
-                data.law_force(self.law, &p, &data.motions[r], order)
-            }
+        Ok(data.rows(1.0, |r, order| match self.friction {
+            Some(friction) => data.held(friction, &p, r, order),
+            None => data.law_force(self.law, &p, &data.motions[r], order),
         }))
     }
 
     fn jacobian(&mut self, theta: &[f64], at: &[f64]) -> Result<Mat<f64>, Infallible> {
-        let slopes = self.variables.slopes(theta);
-        let columns: Vec<Vec<f64>> =
-            slopes.iter().enumerate().map(|(k, slope)| self.column(theta, at, k, *slope)).collect();
+        let slopes = self.variables.slopes(theta).into_iter().enumerate();
+        let columns: Vec<Vec<f64>> = match self.friction {
+            Some(friction) => slopes.map(|(k, _)| self.difference(friction, theta, at, k)).collect(),
+            None => {
+                let p = self.parameters(theta);
+                let data = self.data;
+                let seen = |motion: &Motion, r: usize| !data.forces[r].is_empty() && motion.len() > 0;
+                let tangents: Vec<Option<ByParameter>> = data
+                    .motions
+                    .iter()
+                    .enumerate()
+                    .map(|(r, motion)| seen(motion, r).then(|| self.law.by_parameters(&p, motion)))
+                    .collect();
+                slopes.map(|(k, slope)| self.column(&tangents, k, slope)).collect()
+            }
+        };
         Ok(Mat::from_fn(at.len(), columns.len(), |i, k| columns[k][i]))
     }
 }

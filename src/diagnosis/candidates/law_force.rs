@@ -1,10 +1,14 @@
-//! The force that an effect would have at the motion of every run.
+//! The force that an effect would have at the motion of every run, and the error of a channel that fits best.
 
-use super::friction::slides;
-use super::identified_force::PlaceData;
+use super::friction::friction;
+use super::identified_force::{LawFit, PlaceData};
 use crate::diagnosis::localisation::location::Spot;
-use crate::effects::{ChannelLaw, Source, effect::Kind};
+use crate::effects::{ChannelLaw, Effect, Source, State, effect::Kind};
+use dashpot_numerics::dot;
 use faer::c64;
+
+/// Bounds of the gain of a channel while it is searched.
+const GAINS: [f64; 2] = [0.05, 20.0];
 
 impl PlaceData {
     /// Harmonics of the force of `source`, an effect that acts here, at the motion of every run, `[run][harmonic]`, N (of a
@@ -12,12 +16,10 @@ impl PlaceData {
     pub fn forces_of(&self, source: &Source) -> Option<Vec<Vec<c64>>> {
         let p = &source.parameters;
         let of: Box<dyn Fn(usize, usize) -> Vec<c64>> = match (source.effect.kind(), &self.spot) {
-            (Kind::Relative(_), Spot::Leg(_)) if slides(source.effect) => {
-                Box::new(|r, order| self.friction(source.effect, p, r, order))
-            }
-            (Kind::Relative(law), Spot::Leg(_)) => {
-                Box::new(move |r, order| self.law_force(law, p, &self.motions[r], order))
-            }
+            (Kind::Relative(law), Spot::Leg(_)) => match friction(source.effect) {
+                Some(friction) => Box::new(move |r, order| self.held(friction, p, r, order)),
+                None => Box::new(move |r, order| self.law_force(law, p, &self.motions[r], order)),
+            },
             (Kind::Channel(law), Spot::Response(_) | Spot::Force(_)) => {
                 Box::new(move |r, order| self.channel_error(law, p[0], r, order))
             }
@@ -31,5 +33,33 @@ impl PlaceData {
         let force = matches!(self.spot, Spot::Force(_));
         let value = |t: c64| if force { 1.0 - 1.0 / t } else { t - 1.0 };
         (1..=order).map(|h| value(law.transfer(p, h as f64 * self.motions[r].omega))).collect()
+    }
+
+    /// Fits the error `effect` of this channel; `None` if its value is out of range.
+    pub(super) fn fit_channel(&self, effect: Effect, law: &dyn ChannelLaw) -> Option<LawFit> {
+        let misfit = |p: f64| -> f64 {
+            let rows = self.rows(1.0, |r, order| self.channel_error(law, p, r, order));
+            dot(&rows, &rows)
+        };
+        let step = law.small_step(self.range.omega.max(1e-3));
+        let mut p = law.neutral();
+        for _ in 0..12 {
+            // Newton's method by differences: the misfit is nearly quadratic in the only parameter.
+            let (low, mid, high) = (misfit(p - step), misfit(p), misfit(p + step));
+            let curvature = (high - 2.0 * mid + low) / (step * step);
+            if curvature <= 0.0 {
+                break;
+            }
+            let change = -(high - low) / (2.0 * step) / curvature;
+            p += change;
+            if !law.turns_phase() {
+                p = p.clamp(GAINS[0], GAINS[1]);
+            }
+        }
+        if !p.is_finite() || !effect.parameters()[0].allows(p) {
+            return None;
+        }
+        let source = Source { effect, place: self.spot.place(), state: State::Known, parameters: vec![p] };
+        Some(LawFit { source, misfit: misfit(p) })
     }
 }

@@ -9,4 +9,4 @@ pub mod identified_force;
 mod law_force;
 pub mod special_cases;
 pub mod start;
-pub mod start_grids;
+mod thinning;

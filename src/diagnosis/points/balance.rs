@@ -1,13 +1,12 @@
 //! Energies of a `points` problem as data, and effects fitted to them.
 
-use crate::diagnosis::candidates::start_grids::{Range, shapes};
 use crate::diagnosis::diagnose::Added;
 use crate::diagnosis::points::energies::{PointsEnergy, displacement, energies};
 use crate::diagnosis::residual::data::{DiagnosisError, Problem, RunData};
 use crate::diagnosis::residual::energy_balance::{input, taken};
 use crate::diagnosis::residual::prediction::transfer;
 use crate::diagnosis::selection::levenberg_marquardt::{Residual, Variables, descend};
-use crate::effects::{Effect, Leg, Motion, Place, Source, State};
+use crate::effects::{Effect, Leg, Motion, Place, Range, Source, State};
 use crate::math::statistics::root_mean_square;
 use crate::structure::Structure;
 use dashpot_numerics::transposed_product;
@@ -81,7 +80,7 @@ impl<'a> Balance<'a> {
         for dofs in ground.chain(pairs) {
             let Some(range) = self.range(&dofs) else { continue };
             for effect in Effect::ALL.into_iter().filter(|e| e.law().is_some() && e.dissipates()) {
-                for parameters in shapes(effect, &range) {
+                for parameters in effect.shapes(&range) {
                     let source = Source { effect, place: Place::Dofs(dofs.clone()), state: State::Known, parameters };
                     let weighted: Vec<f64> =
                         self.energies(&source).iter().zip(&self.deviation).map(|(e, d)| e / d).collect();
@@ -102,7 +101,7 @@ impl<'a> Balance<'a> {
             let harmonics: Vec<c64> = (0..run.harmonics).map(relative).collect();
             Motion::new(run.omega, 0.0, &harmonics, SAMPLES)
         });
-        let range = crate::diagnosis::candidates::identified_force::range(&motions.collect::<Vec<_>>());
+        let range = Range::of(&motions.collect::<Vec<_>>());
         (range.displacement > 0.0).then_some(range)
     }
 

@@ -8,7 +8,6 @@
 //! fitted in all their parameters. What takes no energy (springs, masses) cannot be seen.
 
 use crate::control::Control;
-use crate::diagnosis::candidates::start_grids::scaled;
 use crate::diagnosis::diagnose::{Added, Diagnosis, Step, Suggestion, Verdict};
 use crate::diagnosis::points::balance::{Balance, Column, Fitted};
 use crate::diagnosis::residual::data::{DiagnosisError, Problem};
@@ -148,7 +147,7 @@ fn drafts(columns: &[Column], e: &[f64], count: usize) -> Vec<Vec<Source>> {
 
 fn grown(source: &Source, scale: f64) -> Source {
     let mut source = source.clone();
-    scaled(source.effect).iter().for_each(|&k| source.parameters[k] *= scale);
+    source.effect.scaled().iter().for_each(|&k| source.parameters[k] *= scale);
     source
 }
 

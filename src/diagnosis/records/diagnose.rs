@@ -14,10 +14,9 @@ use super::fit::{Fit, FittedRecords, Free};
 use super::localisation::{LocatedForce, locate};
 use crate::control::Control;
 use crate::diagnosis::candidates::special_cases::is_allowed;
-use crate::diagnosis::candidates::start_grids::{Range, scaled, shapes};
 use crate::diagnosis::diagnose::{Added, Correction, Diagnosis, Early, Step, Suggestion, Verdict};
 use crate::diagnosis::updating::parameters::UpdatingParameter;
-use crate::effects::{Effect, Family, Motion, Place, Source, State};
+use crate::effects::{Effect, Family, Motion, Place, Range, Source, State};
 use crate::math::statistics::{evidence_weights, root_mean_square};
 use crate::structure::Part;
 use std::f64::consts::TAU;
@@ -240,7 +239,7 @@ impl Search<'_> {
         let (Some(law), true) = (effect.law(), flexible > 0.0) else { return Vec::new() };
         let spring = range.displacement / flexible;
         let motion = Motion::cosine(range.velocity / range.displacement, range.displacement, 64);
-        let all = shapes(effect, range);
+        let all = effect.shapes(range);
         let every = all.len().div_ceil(SHAPES);
         let mut starts = Vec::new();
         for shape in all.into_iter().step_by(every) {
@@ -251,7 +250,7 @@ impl Search<'_> {
                 let mut parameters = shape.clone();
                 let factor = size * spring / peak.max(f64::MIN_POSITIVE);
                 // A unit slider of this shape may not yield: then its own force sets the scale.
-                scaled(effect).iter().for_each(|&k| parameters[k] *= factor);
+                effect.scaled().iter().for_each(|&k| parameters[k] *= factor);
                 if parameters.iter().zip(law.parameters()).all(|(v, p)| p.allows(*v)) {
                     starts.push(Source { effect, place: place.clone(), state: State::Known, parameters });
                 }

@@ -13,7 +13,6 @@ use super::data::{RecordError, Records};
 use super::errors::channel_errors;
 use super::variables::{at_variable, scales, slopes, variable};
 use crate::control::Control;
-use crate::diagnosis::candidates::start_grids::scaled;
 use crate::effects::Source;
 use crate::math::statistics::root_mean_square;
 use crate::response::transient::{TransientParameter, TransientResponse};
@@ -76,7 +75,7 @@ impl FittedRecords {
     pub(crate) fn sources(&self, records: &Records) -> Vec<Source> {
         let sized = |(source, v): (&Source, &f64)| {
             let mut source = source.clone();
-            scaled(source.effect).iter().for_each(|&k| source.parameters[k] *= v.exp());
+            source.effect.scaled().iter().for_each(|&k| source.parameters[k] *= v.exp());
             source
         };
         records.known.iter().zip(&self.known).map(sized).chain(self.effects.iter().cloned()).collect()
@@ -253,7 +252,7 @@ impl Fit<'_> {
             list.push((TransientParameter::Stiffness, from + 2 * self.records.kept, 1.0));
             let sources = at.sources(self.records);
             for (source, known) in sources.iter().take(offset).enumerate() {
-                for &parameter in scaled(known.effect) {
+                for &parameter in known.effect.scaled() {
                     let unknown = TransientParameter::Source { source, parameter };
                     list.push((unknown, k + 1 + source, known.parameters[parameter]));
                 }

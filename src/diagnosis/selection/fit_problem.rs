@@ -118,6 +118,10 @@ pub(crate) const ZERO: c64 = c64::new(0.0, 0.0);
 impl Residual for OnResponse<'_> {
     type Error = DiagnosisError;
 
+    fn is_late(&self) -> bool {
+        self.bench.control.is_late()
+    }
+
     fn residual(&mut self, theta: &[f64]) -> Result<Vec<f64>, DiagnosisError> {
         let trial = self.compute(theta)?;
         let residual = self.bench.residual(&trial.predictions);

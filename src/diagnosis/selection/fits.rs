@@ -1,6 +1,6 @@
 //! Fits of drafts on the response: all of them a little, the promising ones to the end, the best with all harmonics.
 
-use crate::diagnosis::candidates::special_cases::{is_limit, simpler};
+use crate::diagnosis::candidates::special_cases::is_limit;
 use crate::diagnosis::candidates::start::start;
 use crate::diagnosis::residual::data::DiagnosisError;
 use crate::diagnosis::residual::prediction::{FINAL, SEARCH};
@@ -8,7 +8,7 @@ use crate::diagnosis::selection::fitted_model::{Bench, Refit, Starts};
 use crate::diagnosis::selection::search::{Base, Draft, joined, scale_of};
 use crate::diagnosis::selection::stepwise::same_set;
 use crate::diagnosis::updating::noise_model::NoiseModel;
-use crate::effects::{Effect, Place, Source, State, effect::Kind};
+use crate::effects::{Effect, Place, Range, Source, State, effect::Kind};
 use std::sync::Arc;
 
 /// Of these, sets that are fitted with all harmonics that matter.
@@ -96,8 +96,9 @@ impl Base<'_> {
     /// The sets of `refits` in which a law is all but a simpler one, with that in its stead.
     fn by_their_name(&self, refits: &[Refit]) -> Result<Vec<Refit>, DiagnosisError> {
         let named = |refit: &Refit| -> Option<Vec<Source>> {
-            let plain = || refit.effects.iter().map(|e| simpler(e).unwrap_or_else(|| e.clone())).collect();
-            refit.effects.iter().any(|e| simpler(e).is_some()).then(plain)
+            let plain =
+                || refit.effects.iter().map(|e| e.simpler(&Range::UNKNOWN).unwrap_or_else(|| e.clone())).collect();
+            refit.effects.iter().any(|e| e.simpler(&Range::UNKNOWN).is_some()).then(plain)
         };
         let fresh = |effects: &Vec<Source>| {
             !refits.iter().any(|r| same_set(&r.effects, effects)) && effects.iter().all(|e| self.data.allows(e))

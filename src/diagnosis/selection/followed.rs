@@ -1,7 +1,7 @@
 //! Candidates beside updating parameters: laws regressed at the measured motion, each followed with a model of its own.
 
 use super::search::{Base, Draft, joined};
-use super::short_list::needed;
+use super::short_list::{Breadth, needed};
 use crate::diagnosis::candidates::start::start;
 use crate::diagnosis::residual::data::DiagnosisError;
 use crate::diagnosis::residual::prediction::SEARCH;
@@ -49,7 +49,7 @@ impl<'a> Base<'a> {
     ) -> Result<Vec<(Base<'a>, Refit)>, DiagnosisError> {
         let mut view = self.view(Some(from))?;
         let bound = view.screen.nothing() - evidence;
-        let mut drafts = self.drafts(&mut view, &from.effects)?;
+        let mut drafts = self.drafts(&mut view, &from.effects, Breadth::All)?;
         drop(view);
         drafts.retain(|d| d.score < bound);
         drafts.sort_by(|a, b| a.score.total_cmp(&b.score));

@@ -153,6 +153,10 @@ pub(crate) trait Residual {
     fn residual(&mut self, theta: &[f64]) -> Result<Vec<f64>, Self::Error>;
     /// Its derivative at `theta`, where the residual is `at`.
     fn jacobian(&mut self, theta: &[f64], at: &[f64]) -> Result<Mat<f64>, Self::Error>;
+    /// Whether the descent is to end where it is for want of time.
+    fn is_late(&self) -> bool {
+        false
+    }
 }
 
 /// A descent has arrived when no more than this is to be gained, in units of the squared residual per datum.
@@ -179,7 +183,7 @@ pub(crate) fn descend<R: Residual>(problem: &mut R, theta: &[f64], steps: usize)
     let (mut damping, mut idle) = (1e-3, 0);
     for _ in 0..steps {
         let enough = ARRIVED * (chi_square / residual.len().max(1) as f64).max(1.0);
-        if equations.to_go() < enough {
+        if equations.to_go() < enough || problem.is_late() {
             break;
         }
         let Some((next, after, chi)) = step(problem, &theta, (&residual, &jacobian), &equations, &mut damping)? else {

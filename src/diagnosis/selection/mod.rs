@@ -7,6 +7,7 @@ pub mod fitted_model;
 mod followed;
 pub mod levenberg_marquardt;
 pub mod next_test;
+mod pairs;
 pub mod search;
 pub mod sentences;
 mod short_list;

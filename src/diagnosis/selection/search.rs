@@ -1,9 +1,9 @@
 //! The search for one more effect, or two at once: places first, then laws, then the fit on the response.
 
-use super::short_list::{hopeless, is_real, needed, short_list};
+use super::short_list::{Breadth, hopeless, is_real, short_list, telling};
 use crate::control::Control;
 use crate::diagnosis::candidates::identified_force::{PlaceData, shrunk};
-use crate::diagnosis::candidates::special_cases::{disguised, is_allowed, simpler};
+use crate::diagnosis::candidates::special_cases::is_allowed;
 use crate::diagnosis::candidates::start::Fields;
 use crate::diagnosis::compare::transfers;
 use crate::diagnosis::diagnose::Early;
@@ -14,7 +14,7 @@ use crate::diagnosis::residual::prediction::{FINAL, Predictor, RunPrediction};
 use crate::diagnosis::residual::whitening::Whitening;
 use crate::diagnosis::selection::fitted_model::{Bench, Refit};
 use crate::diagnosis::updating::noise_model::{Linearisation, NoiseModel};
-use crate::effects::{Place, Source};
+use crate::effects::{Place, Range, Source};
 use crate::math::statistics::bayesian_information;
 use faer::{Mat, c64};
 use std::sync::Arc;
@@ -23,10 +23,8 @@ use std::sync::Arc;
 const PLACES: usize = 24;
 /// Places whose laws are looked at before the others.
 const AHEAD: usize = 2;
-/// Pairs of places whose laws are looked at.
-const PAIRS: usize = 48;
 /// Sets that are fitted on the response.
-const REFITS: usize = 10;
+pub(super) const REFITS: usize = 10;
 /// What every parameter of a law beyond its first costs in evidence besides its information criterion: where one law
 /// contains another as a limit, the simpler wins unless the data demand the other.
 const EXTRA: f64 = 8.0;
@@ -130,7 +128,7 @@ impl<'a> Base<'a> {
     pub fn singles(&self, from: Option<&Refit>) -> Result<Vec<Refit>, DiagnosisError> {
         let mut view = self.view(from)?;
         let effects = from.map_or(&[][..], |refit| &refit.effects);
-        let mut drafts = short_list(self.drafts(&mut view, effects)?, REFITS);
+        let mut drafts = short_list(self.drafts(&mut view, effects, Breadth::All)?, REFITS);
         drafts.iter_mut().for_each(|d| d.effects = joined(effects, &d.effects));
         let mut begun = self.begun(&drafts)?;
         begun.extend(self.whole(from, crate::diagnosis::selection::fits::FIRST_STEPS)?);
@@ -138,10 +136,23 @@ impl<'a> Base<'a> {
     }
 
     /// Laws at the places that explain most, regressed on the free forces there beside `effects`.
-    pub(crate) fn drafts(&self, view: &mut View, effects: &[Source]) -> Result<Vec<Draft>, DiagnosisError> {
-        let mut drafts = Vec::new();
+    pub(crate) fn drafts(
+        &self,
+        view: &mut View,
+        effects: &[Source],
+        breadth: Breadth,
+    ) -> Result<Vec<Draft>, DiagnosisError> {
         let placings = self.worth_while(view, effects)?;
-        for (placing, laws) in placings.iter().zip(self.all_laws(view, &placings, effects)?) {
+        let mut laws = self.all_laws(view, &placings, effects, Breadth::Simple)?;
+        let wide = telling(&placings, &laws);
+        let chosen: Vec<Placing> = wide.iter().map(|&k| placings[k].clone()).collect();
+        if breadth == Breadth::All && !self.control.is_late() {
+            for (k, all) in wide.into_iter().zip(self.all_laws(view, &chosen, effects, Breadth::All)?) {
+                laws[k] = all;
+            }
+        }
+        let mut drafts = Vec::new();
+        for (placing, laws) in placings.iter().zip(laws) {
             let options = laws.into_iter().flatten();
             drafts.extend(options.map(|d| Draft { score: d.score + placing.chi_square, ..d }));
         }
@@ -162,28 +173,6 @@ impl<'a> Base<'a> {
         let (forces, fields) = self.free(view, &[spot]);
         let data = self.at_place(view, spot, &forces[0], &fields);
         Ok(data.forces_of(source).map(|forces| view.screen.updated_beside(spot, &forces)))
-    }
-
-    /// Sets of two new effects at the pairs of places that explain most.
-    pub fn pairs(&self) -> Result<Vec<Refit>, DiagnosisError> {
-        let mut view = self.view(None)?;
-        let mut drafts = Vec::new();
-        let placings = view.screen.pairs(PAIRS);
-        for (placing, options) in placings.iter().zip(self.all_laws(&mut view, &placings, &[])?) {
-            let [first, second] = &options[..] else { continue };
-            for a in first.iter().take(3) {
-                for b in second.iter().take(3) {
-                    let score = placing.chi_square + a.score + b.score;
-                    drafts.push(Draft { effects: joined(&a.effects, &b.effects), score, fields: a.fields.clone() });
-                }
-            }
-        }
-        drafts.sort_by(|a, b| a.score.total_cmp(&b.score));
-        drafts = needed(drafts);
-        drafts.truncate(REFITS);
-        let bound = hopeless(drafts.first().map_or(f64::INFINITY, |best| best.score));
-        drafts.retain(|d| d.score < bound);
-        Ok(self.ranked(self.refit_all(&drafts)?))
     }
 
     /// The free force of the place of `source` when the model has the other effects of `refit`; none for whole-structure
@@ -218,7 +207,7 @@ impl<'a> Base<'a> {
             .cloned()
             .collect();
         let mut drafts = Vec::new();
-        for options in self.all_laws(&mut view, &near, &others.effects)? {
+        for options in self.all_laws(&mut view, &near, &others.effects, Breadth::All)? {
             let same = options.into_iter().flatten().find(|d| d.effects[0].effect == source.effect);
             drafts.extend(same.map(|d| Draft { effects: joined(&others.effects, &d.effects), ..d }));
         }
@@ -276,10 +265,12 @@ impl<'a> Base<'a> {
         let mut placings = view.screen.singles();
         placings.truncate(PLACES);
         let first = &placings[..placings.len().min(AHEAD)];
-        let scores = self.all_laws(view, first, effects)?.into_iter().zip(first).filter_map(|(laws, placing)| {
-            let best = laws.into_iter().flatten().map(|d| d.score).fold(f64::INFINITY, f64::min);
-            (best < f64::INFINITY).then_some(best + placing.chi_square)
-        });
+        let scores = self.all_laws(view, first, effects, Breadth::Simple)?.into_iter().zip(first).filter_map(
+            |(laws, placing)| {
+                let best = laws.into_iter().flatten().map(|d| d.score).fold(f64::INFINITY, f64::min);
+                (best < f64::INFINITY).then_some(best + placing.chi_square)
+            },
+        );
         let best = scores.fold(f64::INFINITY, f64::min);
         let bound = if self.linearisation.is_empty() {
             hopeless(best)
@@ -291,11 +282,12 @@ impl<'a> Base<'a> {
     }
 
     /// [`Self::laws`] of every placing.
-    fn all_laws(
+    pub(super) fn all_laws(
         &self,
         view: &mut View,
         placings: &[Placing],
         effects: &[Source],
+        breadth: Breadth,
     ) -> Result<Vec<Vec<Vec<Draft>>>, DiagnosisError> {
         for placing in placings {
             self.need(view, &placing.spots)?;
@@ -303,20 +295,20 @@ impl<'a> Base<'a> {
         let view = &*view;
         let of = |k: usize| {
             self.control.check()?;
-            Ok(self.laws(view, &placings[k], effects))
+            Ok(self.laws(view, &placings[k], effects, breadth))
         };
         self.control.map(placings.len(), of).into_iter().collect()
     }
 
     /// Laws fitted to the free forces of each spot of a placing, best first; the score is their misfit with its penalty.
-    fn laws(&self, view: &View, placing: &Placing, effects: &[Source]) -> Vec<Vec<Draft>> {
+    fn laws(&self, view: &View, placing: &Placing, effects: &[Source], breadth: Breadth) -> Vec<Vec<Draft>> {
         let (forces, fields) = self.free(view, &placing.spots);
         let fields = Arc::new(fields);
         let of = |(&s, forces): (&usize, &Vec<Vec<FreeForce>>)| {
             let data = self.at_place(view, s, forces, &fields);
             let fresh = |source: &Source| !effects.iter().any(|e| e.is_same(source)) && self.data.allows(source);
-            let mut drafts: Vec<Draft> = data
-                .fits()
+            let fits = if breadth == Breadth::All { data.fits() } else { data.simple_fits() };
+            let mut drafts: Vec<Draft> = fits
                 .into_iter()
                 .filter(|fit| fresh(&fit.source))
                 .map(|fit| {
@@ -347,7 +339,7 @@ impl<'a> Base<'a> {
     pub fn evidence(&self, refit: &Refit, scale: f64) -> f64 {
         let fit = bayesian_information(refit.chi_square / scale.max(1.0), refit.parameters, self.count());
         let extra: usize = refit.effects.iter().map(|e| e.parameters.len() - 1).sum();
-        let posing = refit.effects.iter().filter(|e| simpler(e).is_some()).count();
+        let posing = refit.effects.iter().filter(|e| e.simpler(&Range::UNKNOWN).is_some()).count();
         fit + EXTRA * extra as f64 + POSING * posing as f64
     }
 
@@ -359,7 +351,7 @@ impl<'a> Base<'a> {
 
     /// Best first; none of more parameters than runs.
     pub fn ranked(&self, mut refits: Vec<Refit>) -> Vec<Refit> {
-        let allowed = |(e, d): (&Source, &Vec<f64>)| !disguised(e) && is_allowed(&self.data.excluded, e, d);
+        let allowed = |(e, d): (&Source, &Vec<f64>)| !e.is_disguised() && is_allowed(&self.data.excluded, e, d);
         let few = |r: &Refit| r.parameters <= self.data.runs.len();
         refits.retain(|r| {
             r.chi_square.is_finite()

@@ -1,13 +1,17 @@
 //! Which candidates are fitted, and which fits are kept.
 
 use super::search::Draft;
-use crate::diagnosis::candidates::special_cases::{is_limit, limits};
-use crate::effects::{Effect, Source, effect::Kind};
+use crate::diagnosis::candidates::friction::friction;
+use crate::diagnosis::candidates::special_cases::is_limit;
+use crate::diagnosis::localisation::free_force::Placing;
+use crate::effects::{SetValued, Source, effect::Kind};
 
 /// Most laws of one place that are fitted on the response.
 const LAWS_AT_ONE_PLACE: usize = 4;
 /// Drafts whose score is this many times that of the best are not fitted.
 const HOPELESS: f64 = 5.0;
+/// Places by either order at which laws of many parameters are regressed.
+const TELLING: usize = 3;
 /// Score, in units of that of a draft, below which a simpler one is as good for a start.
 const CLEARLY: f64 = 1.5;
 /// Bounds of the gain of a channel: beyond, it is not this channel.
@@ -35,10 +39,43 @@ pub(super) fn hopeless(best: f64) -> f64 {
     HOPELESS * best.abs() + 300.0
 }
 
+/// Which laws are regressed at a place.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Breadth {
+    /// Those of one or two parameters.
+    Simple,
+    /// Those of more, too.
+    All,
+}
+
+/// The places whose laws of many parameters are regressed: those that leave least to a free force, and those that leave least
+/// to a law of few.
+pub(super) fn telling(placings: &[Placing], laws: &[Vec<Vec<Draft>>]) -> Vec<usize> {
+    let score = |k: usize| {
+        let best = laws[k].iter().flatten().map(|d| d.score).fold(f64::INFINITY, f64::min);
+        placings[k].chi_square + best
+    };
+    let sorted = |of: &dyn Fn(usize) -> f64| {
+        let mut order: Vec<usize> = (0..placings.len()).collect();
+        order.sort_by(|&a, &b| of(a).total_cmp(&of(b)));
+        order.truncate(TELLING);
+        order
+    };
+    let mut chosen = sorted(&|k| placings[k].chi_square);
+    let by_law = sorted(&score).into_iter().filter(|k| !chosen.contains(k)).collect::<Vec<_>>();
+    chosen.extend(by_law);
+    chosen
+}
+
+/// Whether an effect is friction with a smooth part that changes with velocity.
+fn falls(source: &Source) -> bool {
+    friction(source.effect).is_some_and(SetValued::has_smooth_part)
+}
+
 /// Drafts without falling friction where plain friction explains the free forces as well: its responses take longest, and it
 /// is fitted where plain friction leaves something.
 pub(super) fn needed(drafts: Vec<Draft>) -> Vec<Draft> {
-    let falling = |d: &Draft| d.effects.iter().filter(|e| e.effect == Effect::Stribeck).count();
+    let falling = |d: &Draft| d.effects.iter().filter(|e| falls(e)).count();
     let plainer = |a: &Draft, b: &Draft| falling(a) < falling(b) && is_limit(&a.effects, &b.effects);
     let needless = |d: &Draft| drafts.iter().any(|s| s.score < CLEARLY * d.score.abs() && plainer(s, d));
     drafts.iter().filter(|d| !needless(d)).cloned().collect()
@@ -60,8 +97,8 @@ pub(super) fn short_list(mut drafts: Vec<Draft>, most: usize) -> Vec<Draft> {
     }
     for draft in kept.clone().iter().take(LAWS_AT_ONE_PLACE) {
         let (effect, place) = (draft.effects[0].effect, &draft.effects[0].place);
-        for simpler in limits(effect) {
-            let is = |d: &&Draft| d.effects[0].effect == *simpler && d.effects[0].place == *place;
+        for simpler in effect.limits() {
+            let is = |d: &&Draft| d.effects[0].effect == simpler && d.effects[0].place == *place;
             if kept.iter().any(|d| is(&d)) {
                 continue;
             }

@@ -11,7 +11,7 @@ use crate::diagnosis::selection::search::{Base, scale_of};
 use crate::diagnosis::selection::weighing::weighed;
 use crate::diagnosis::updating::detuning::is_likely;
 use crate::diagnosis::updating::noise_model::NoiseModel;
-use crate::effects::{Effect, Source};
+use crate::effects::Source;
 use std::sync::Arc;
 
 /// Most effects that are added.
@@ -25,6 +25,10 @@ const AGREES: f64 = 4.0;
 const SETTLED: f64 = 1.5;
 /// Squared residual per datum beyond which it is not noise that hides an effect, but what no model matches.
 const DOUBTFUL: f64 = 1.5;
+/// Evidence that outweighs being chosen among the candidates: twice the logarithm of some two thousand laws at places.
+const CHOSEN: f64 = 15.0;
+/// Times that evidence up to which corrections alone are sought once more from those beside the effect.
+const RIVALLED: f64 = 12.0;
 /// Evidence that an effect must bring where the model agrees without it.
 const CONFIRMED: f64 = 50.0;
 /// Share of the squared residual of the model as it is, and error of the response, that nobody's records and integrators
@@ -126,6 +130,10 @@ pub(crate) fn explain(base: Base<'_>, before: f64) -> Result<Outcome<'_>, Diagno
         confirm(&base, &mut exact)?;
         return Ok(Outcome { base, found: exact });
     }
+    // Where time is up, what was found on the model as it is is the best so far.
+    if !exact.rungs.is_empty() && base.control.is_late() {
+        return Ok(Outcome { base, found: exact });
+    }
     let bare = base.bare()?;
     let (likely, corrected) = bare.likely()?;
     beside_updating(bare, likely, corrected, before)
@@ -157,6 +165,14 @@ fn beside_updating<'a>(
         let Some(weighed) = weighed(fits)? else { break };
         let best = &weighed.refits[0];
         let scale = scale_of(&weighed.refits, weighed.base.count());
+        if from.is_none() && (least - weighed.least) / scale < RIVALLED * EVIDENCE {
+            // The corrections alone may have ended in another valley than those beside the effect.
+            let alone = bare.updated(&weighed.base.linearisation.updating, &[], &Vec::new())?;
+            let (alone, cost) = alone.estimated()?;
+            if cost < least {
+                (likely, least) = (alone, cost);
+            }
+        }
         if (least - weighed.least) / scale < evidence_needed(&likely, best) || best.parameters >= weighed.base.count() {
             break;
         }
@@ -180,14 +196,11 @@ fn beside_updating<'a>(
 }
 
 /// Evidence that the last effect of a fit must bring beside `likely`, the model with corrections and the effects before it:
-/// more where those agree with the data already, and more for a spring or mass, which is like a correction itself.
+/// where those agree with the data already, that of having been chosen among the candidates alone.
 fn evidence_needed(likely: &Base, refit: &Refit) -> f64 {
-    let structural = |source: &Source| matches!(source.effect, Effect::Stiffness | Effect::Mass);
     let left: f64 = likely.bench().residual(&likely.predictions).iter().map(|r| r * r).sum();
     let settled = refit.effects.len() == 1 && agrees(likely, left, 0);
-    let times =
-        1.0 + if settled { 2.0 } else { 0.0 } + if refit.effects.last().is_some_and(structural) { 1.0 } else { 0.0 };
-    EVIDENCE * times
+    if settled { CHOSEN } else { EVIDENCE }
 }
 
 pub(crate) fn level(refit: &Refit) -> (f64, usize) {

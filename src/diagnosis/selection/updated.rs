@@ -6,6 +6,7 @@ use crate::diagnosis::residual::prediction::{FINAL, RunPrediction};
 use crate::diagnosis::selection::fit_problem::{RunSlopes, run_slopes};
 use crate::diagnosis::selection::fitted_model::{Refit, Starts};
 use crate::diagnosis::selection::search::{Base, Draft};
+use crate::diagnosis::selection::short_list::Breadth;
 use crate::diagnosis::selection::stepwise::agrees;
 use crate::diagnosis::updating::measured_motion::MeasuredMotion;
 use crate::diagnosis::updating::noise_model::{Linearisation, NoiseModel, amplitudes, of_channel};
@@ -143,7 +144,7 @@ impl<'a> Base<'a> {
             if here < least {
                 best = Some((here, base));
             }
-            if step > 2 && least - here < ARRIVED * least {
+            if (step > 2 && least - here < ARRIVED * least) || self.control.is_late() {
                 break;
             }
             updating = towards(&updating, &target);
@@ -201,53 +202,69 @@ impl<'a> Base<'a> {
                 best = Some((cost, strict));
             }
         }
-        let estimated =
-            self.with_likely_scales(None, &FINAL)?.0.settled_bare(STEPS)?.with_likely_scales(None, &FINAL)?.0;
-        let cost = square(&estimated.bench().residual(&estimated.predictions)) + estimated.noise.cost();
+        let (estimated, cost) = self.estimated()?;
         Ok(match best {
             Some((least, strict)) if least < cost => (strict, least),
             _ => (estimated, cost),
         })
     }
 
+    /// This model settled with the scales that are estimated without any effect, and its evidence.
+    pub(super) fn estimated(&self) -> Result<(Base<'a>, f64), DiagnosisError> {
+        let settled = self.with_likely_scales(None, &FINAL)?.0.settled_bare(STEPS)?;
+        let estimated = settled.with_likely_scales(None, &FINAL)?.0;
+        let cost = square(&estimated.bench().residual(&estimated.predictions)) + estimated.noise.cost();
+        Ok((estimated, cost))
+    }
+
     /// The model with the updating parameters that fit best beside the law that leaves least at the measured motion, so
     /// that they do not stand in for it, and the laws regressed there, best first.
     pub fn localised(&self) -> Result<(Base<'a>, Vec<Draft>), DiagnosisError> {
         let (stated, known) = self.predictor.stated();
-        let all = Updating::all(stated, known, self.data);
-        let mut here = self.seen(&all)?;
+        // Laws of many parameters take long: they are looked at where the others lead no further.
+        let mut breadth = Breadth::Simple;
+        let mut here = self.updated(&Updating::all(stated, known, self.data), &[], &Vec::new())?.seen(breadth)?;
         for _ in 0..STEPS {
-            if here.least < CLOSE * self.count() as f64 {
+            if here.least < CLOSE * self.count() as f64 || self.control.is_late() {
                 break;
             }
             let updating = here.base.linearisation.updating.clone();
-            let there = self.seen(&towards(&updating, &updating.at(&here.target).values))?;
+            let target = towards(&updating, &updating.at(&here.target).values);
+            let there = self.updated(&target, &[], &Vec::new())?.seen(breadth)?;
             let better = there.least < FALLING * here.least;
             if there.least < here.least {
                 here = there;
             }
-            if !better {
+            if better {
+                continue;
+            }
+            if breadth == Breadth::All {
                 break;
             }
+            breadth = Breadth::All;
+            here = here.base.seen(breadth)?;
+        }
+        if breadth == Breadth::Simple && !self.control.is_late() {
+            here = here.base.seen(Breadth::All)?;
         }
         Ok((here.base, here.drafts))
     }
 
-    /// The model at `updating` with what the best law leaves.
-    fn seen(&self, updating: &Updating) -> Result<Seen<'a>, DiagnosisError> {
-        let base = self.updated(updating, &[], &Vec::new())?;
-        let mut view = base.view(None)?;
-        let mut drafts = base.drafts(&mut view, &[])?;
-        drafts.extend(base.whole_drafts(&[]));
+    /// This model with what the best law leaves.
+    fn seen(self, breadth: Breadth) -> Result<Seen<'a>, DiagnosisError> {
+        let mut view = self.view(None)?;
+        let mut drafts = self.drafts(&mut view, &[], breadth)?;
+        drafts.extend(self.whole_drafts(&[]));
         drafts.sort_by(|a, b| a.score.total_cmp(&b.score));
         let best = drafts.first();
         let target = match best {
-            Some(best) => base.updated_beside(&mut view, best)?,
+            Some(best) => self.updated_beside(&mut view, best)?,
             None => None,
         };
         let least = best.map_or(f64::INFINITY, |best| best.score);
         drop(view);
-        Ok(Seen { target: target.unwrap_or_else(|| updating.standardised()), base, least, drafts })
+        let target = target.unwrap_or_else(|| self.linearisation.updating.standardised());
+        Ok(Seen { target, base: self, least, drafts })
     }
 
     /// The model and the effects of `refit` moved in turn until neither moves any more: until the updating parameters at the

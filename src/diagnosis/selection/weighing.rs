@@ -6,7 +6,7 @@ use crate::diagnosis::residual::prediction::{FINAL, SEARCH};
 use crate::diagnosis::selection::fitted_model::Refit;
 use crate::diagnosis::selection::search::Base;
 use crate::diagnosis::updating::parameters::{Scales, UpdatingParameter};
-use crate::effects::{Effect, Place, Source};
+use crate::effects::{Effect, Place, Range, Source};
 use crate::structure::Part;
 use crate::structure::factors::Share;
 
@@ -96,6 +96,7 @@ const OF_THE_PART: f64 = 0.05;
 /// Whether every effect of a fit is of a size that the data know, and more than an error of a part of the model.
 fn is_effect(base: &Base, refit: &Refit) -> bool {
     let within = |source: &Source| {
+        let source = &source.simpler(&Range::UNKNOWN).unwrap_or_else(|| source.clone());
         let part = match (source.effect, &source.place) {
             (Effect::Mass, Place::Dofs(dofs)) if dofs.len() == 1 => Part::PointMass(dofs[0]),
             (Effect::Stiffness, Place::Dofs(dofs)) if dofs.len() == 1 => Part::GroundSpring(dofs[0]),

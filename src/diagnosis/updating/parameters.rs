@@ -5,7 +5,6 @@
 //! parameter is the logarithm `v` of a factor (a delay: seconds) with the prior `N(0, s^2)`; `s` belongs to its class
 //! ([`Scales`]), so that it moves only so far as the data ask for it (Friswell and Mottershead 1995, chapter 8).
 
-use crate::diagnosis::candidates::start_grids::scaled;
 use crate::diagnosis::residual::data::Data;
 use crate::effects::Source;
 use crate::response::sensitivity::Unknown;
@@ -210,7 +209,7 @@ impl Updating {
         for (k, parameter) in self.parameters.iter().enumerate() {
             if let UpdatingParameter::Known(j) = parameter {
                 let source = &mut updated[*j];
-                scaled(source.effect).iter().for_each(|&p| source.parameters[p] *= self.factor(k));
+                source.effect.scaled().iter().for_each(|&p| source.parameters[p] *= self.factor(k));
             }
         }
         updated
@@ -224,7 +223,7 @@ impl Updating {
             UpdatingParameter::Known(j) => {
                 let of =
                     |&parameter: &usize| (Unknown::Source { source: *j, parameter }, known[*j].parameters[parameter]);
-                scaled(known[*j].effect).iter().map(of).collect()
+                known[*j].effect.scaled().iter().map(of).collect()
             }
             UpdatingParameter::Gain(_) | UpdatingParameter::Delay(_) => Vec::new(),
         }
