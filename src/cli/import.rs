@@ -1,11 +1,13 @@
 //! `dashpot import`: a project out of laboratory files where they lie, by a mapping that is proposed or given.
 
 use super::arguments::Import;
+use super::{import_model, import_responses};
 use crate::control::Control;
 use crate::exchange::atomic::write_atomically;
 use crate::exchange::mapping::{ChannelTable, Proposal, propose};
 use crate::exchange::project::relocate::{canonical, renamed};
 use crate::exchange::project::{plan, template};
+use crate::measurement::Quantity;
 use anyhow::{Context, bail, ensure};
 use dashpot_datafiles::open;
 use serde::Serialize;
@@ -18,6 +20,9 @@ struct Mapping<'a> {
 }
 
 pub(super) fn run(arguments: &Import) -> anyhow::Result<String> {
+    if arguments.map.is_none() && import_responses::has_responses(&arguments.files[0])? {
+        return import_responses::run(arguments);
+    }
     let mapping = match &arguments.map {
         Some(path) => {
             let name = path.display().to_string();
@@ -47,11 +52,42 @@ pub(super) fn run(arguments: &Import) -> anyhow::Result<String> {
     for index in 0..planned.runs.len() {
         planned.record(index, &Control::unattended())?;
     }
-    write_atomically(out, text.as_bytes())
-        .with_context(|| format!("{}: the project cannot be written", out.display()))?;
+    write(out, &text)?;
     let left = mapping.left.iter().map(|(name, why)| format!("not mapped: \"{name}\" ({why})\n")).collect::<String>();
     let (runs, channels) = (arguments.files.len(), mapping.channels.len());
     Ok(format!("{left}{runs} runs of {channels} channels are in {}\n", out.display()))
+}
+
+/// Writes the project.
+pub(super) fn write(out: &Path, text: &str) -> anyhow::Result<()> {
+    write_atomically(out, text.as_bytes()).with_context(|| format!("{}: the project cannot be written", out.display()))
+}
+
+/// Head of a project, its structure and candidates.
+pub(super) fn head(arguments: &Import, out: &Path, labels: &[String], up_to_hz: f64) -> anyhow::Result<String> {
+    let title = arguments.files[0].file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned());
+    let structure = if let Some(structure) = import_model::structure(arguments, out, up_to_hz)? {
+        structure
+    } else {
+        let quoted: Vec<String> = labels.iter().map(|label| toml::Value::from(label.as_str()).to_string()).collect();
+        format!("[structure]\nkind = \"points\"\ndofs = [{}]\n", quoted.join(", "))
+    };
+    Ok(format!(
+        "[project]\nformat = 1\ntitle = {}\n\n{structure}\n[[candidates]]\nlaw = \"viscous\"\nwhere = \"each-translation\"\n\n",
+        toml::Value::from(title)
+    ))
+}
+
+/// Name of a file as the project at `out` refers to it.
+pub(super) fn named(file: &Path, out: &Path) -> anyhow::Result<String> {
+    if file.is_absolute() {
+        return Ok(file.display().to_string());
+    }
+    let folder = out.parent().unwrap_or(Path::new(""));
+    let to = canonical(folder).with_context(|| format!("{}: the folder is not there", folder.display()))?;
+    let here = canonical(file.parent().unwrap_or(Path::new("")))?;
+    let name = file.file_name().with_context(|| format!("{}: names no file", file.display()))?.to_string_lossy();
+    Ok(renamed(&name, &here, &to))
 }
 
 /// The mapping as text for a template; what is not mapped in comments.
@@ -67,27 +103,27 @@ fn proposal(file: &Path, mapping: &Proposal) -> anyhow::Result<String> {
 }
 
 fn project(arguments: &Import, mapping: &Proposal, out: &Path) -> anyhow::Result<String> {
-    let folder = out.parent().unwrap_or(Path::new(""));
-    let to = canonical(folder).with_context(|| format!("{}: the folder is not there", folder.display()))?;
-    let mut labels: Vec<&str> = Vec::new();
+    let mut labels: Vec<String> = Vec::new();
     for table in &mapping.channels {
-        if !labels.contains(&table.dof.as_str()) {
-            labels.push(&table.dof);
+        if !labels.contains(&table.dof) && table.quantity != Quantity::Base {
+            labels.push(table.dof.clone());
         }
     }
-    let quoted: Vec<String> = labels.iter().map(|label| toml::Value::from(*label).to_string()).collect();
-    let title = arguments.files[0].file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned());
-    let mut text = format!("[project]\nformat = 1\ntitle = {}\n\n", toml::Value::from(title));
-    text.push_str(&format!("[structure]\nkind = \"points\"\ndofs = [{}]\n\n", quoted.join(", ")));
+    let mut text = head(arguments, out, &labels, 0.5 * highest_rate(arguments)?)?;
     text.push_str(&toml::to_string(&Mapping { channel: &mapping.channels })?);
     for file in &arguments.files {
-        let here = canonical(file.parent().unwrap_or(Path::new("")))?;
-        let name = file.file_name().with_context(|| format!("{}: names no file", file.display()))?.to_string_lossy();
-        let name = if file.is_absolute() { file.display().to_string() } else { renamed(&name, &here, &to) };
-        text.push_str(&format!("\n[[run]]\nfile = {}\n", toml::Value::from(name)));
+        text.push_str(&format!("\n[[run]]\nfile = {}\n", toml::Value::from(named(file, out)?)));
         if let Some(rate) = arguments.sampling_hz {
             text.push_str(&format!("sampling_hz = {rate:?}\n"));
         }
     }
     Ok(text)
+}
+
+/// Sampling rate of the first file, Hz.
+fn highest_rate(arguments: &Import) -> anyhow::Result<f64> {
+    let file = open(&arguments.files[0])?;
+    let steps = file.contents().sets.iter().flat_map(|set| &set.channels).filter_map(|channel| channel.axis.step());
+    let least = steps.filter(|step| *step > 0.0).fold(f64::INFINITY, f64::min);
+    Ok(arguments.sampling_hz.unwrap_or(if least.is_finite() { 1.0 / least } else { 2000.0 }))
 }

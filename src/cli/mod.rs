@@ -5,6 +5,7 @@
 mod addition;
 mod arguments;
 mod build;
+mod channel_faults;
 mod compare;
 mod contents;
 mod convert;
@@ -16,6 +17,8 @@ mod identify;
 mod identify_json;
 mod identify_table;
 mod import;
+mod import_model;
+mod import_responses;
 mod incompleteness;
 mod methods;
 mod moving_base;

@@ -2,6 +2,7 @@
 
 use super::error::{FrfError, FrfProblem};
 use super::names::place;
+use super::other;
 use super::units::{Form, ratio};
 use crate::control::Control;
 use crate::measurement::frf::{FrequencyResponse, ResponseSet};
@@ -25,6 +26,10 @@ pub struct FrfSource {
     pub reciprocity: bool,
     /// DOFs of the file by name, such as `12:+Z`, and their labels in the structure.
     pub dofs: BTreeMap<String, String>,
+    /// Labels of the responses, in the order of the columns of an array, responses first; `-` in front reverses.
+    pub responses: Vec<String>,
+    /// Labels of the references, in the order of the columns of an array.
+    pub references: Vec<String>,
 }
 
 /// The functions of a file on their common frequencies, and the faults that were read over.
@@ -36,8 +41,46 @@ pub fn read_responses(
     control: &Control,
 ) -> Result<(ResponseSet, Vec<String>), FrfError> {
     let at = |problem| FrfError { file: path.display().to_string(), problem };
+    if !is_universal(path) {
+        return other::read(path, name, source, structure, control).map_err(at);
+    }
     let mut file = File::open(path).map_err(|error| at(FrfProblem::File(error)))?;
     Reader { file: &mut file, source, structure }.read(name, control).map_err(at)
+}
+
+/// Whether a file is a Universal File: -1 stands alone in its first line that is not blank.
+fn is_universal(path: &Path) -> bool {
+    use std::io::Read;
+    let mut start = Vec::new();
+    let read = std::fs::File::open(path).and_then(|file| file.take(4096).read_to_end(&mut start));
+    let text = String::from_utf8_lossy(&start);
+    let universal =
+        path.extension().is_some_and(|end| ["uff", "unv", "ufb"].iter().any(|e| end.eq_ignore_ascii_case(e)));
+    universal || read.is_err() || text.lines().map(str::trim).find(|line| !line.is_empty()) == Some("-1")
+}
+
+/// Labels in a structure of nodes and directions that the functions of a file may stand for, such as `12z`.
+pub fn labels_in(path: &Path) -> Vec<String> {
+    let Ok(file) = dashpot_datafiles::open(path) else { return Vec::new() };
+    let functions = file.contents().sets.iter().filter(|set| set.kind == dashpot_datafiles::Kind::Frf);
+    let mut labels: Vec<String> = Vec::new();
+    for channel in functions.flat_map(|set| &set.channels) {
+        let pair = [channel.attribute("response"), channel.attribute("reference")].map(|text| text.map(str::to_owned));
+        let pair = match pair {
+            [Some(response), Some(reference)] => Some([response, reference]),
+            _ => super::names::pair_in_name(&channel.name),
+        };
+        for text in pair.into_iter().flatten() {
+            let plain = text.rsplit(' ').next().unwrap_or_default().rsplit('@').next().unwrap_or_default();
+            let label: String = plain.chars().filter(|c| c.is_ascii_alphanumeric()).collect::<String>().to_lowercase();
+            for one in [label, plain.to_owned()] {
+                if !labels.contains(&one) {
+                    labels.push(one);
+                }
+            }
+        }
+    }
+    labels
 }
 
 struct Reader<'a> {
@@ -206,7 +249,7 @@ fn attach(found: &mut [Found], set: usize, coherence: &Function) -> Result<(), F
 }
 
 /// Leaves out the line at 0 Hz, which is no motion.
-fn drop_zero(set: &mut ResponseSet) {
+pub(super) fn drop_zero(set: &mut ResponseSet) {
     let from = set.frequencies_hz.iter().take_while(|f| **f <= 0.0).count();
     set.frequencies_hz.drain(..from);
     for function in &mut set.functions {

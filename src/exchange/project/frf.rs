@@ -11,7 +11,9 @@ use serde::Serialize;
 use std::collections::BTreeMap;
 use std::path::Path;
 
-const KEYS: [&str; 9] = ["file", "form", "scale", "averages", "reciprocity", "band", "lines", "use", "dofs"];
+const KEYS: [&str; 11] = [
+    "file", "form", "scale", "averages", "reciprocity", "band", "lines", "use", "dofs", "responses", "references",
+];
 
 /// Lines that are used unless the project says otherwise: enough for many modes, few enough to stay fast.
 const USUAL_LINES: usize = 96;
@@ -23,7 +25,7 @@ const MOST_AVERAGES: usize = 1_000_000;
 /// Table `[[frf]]`.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct FrfTable {
-    /// Universal File, relative to the project.
+    /// Universal File, or another with complex values over a frequency; relative to the project.
     pub file: String,
     /// What the functions relate; from their units where it is left out.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -46,6 +48,12 @@ pub struct FrfTable {
     /// Key `use`.
     #[serde(rename = "use", skip_serializing_if = "Clone::clone")]
     pub enabled: bool,
+    /// Labels of the responses in the order of the columns of an array.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub responses: Vec<Label>,
+    /// Labels of the references in the order of the columns of an array.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub references: Vec<Label>,
     /// DOFs of the file, such as `12:+Z`, and their labels in the structure.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub dofs: BTreeMap<String, Label>,
@@ -71,6 +79,8 @@ pub(super) fn parse(root: &Table<'_>, lines: &mut Lines) -> Result<Vec<FrfTable>
             lines: table.count("lines", 1, MOST_LINES, "between 1 and 100000")?,
             enabled: table.flag("use")?.unwrap_or(true),
             dofs: dofs(&table)?,
+            responses: table.labels("responses")?.unwrap_or_default().into_iter().map(Label).collect(),
+            references: table.labels("references")?.unwrap_or_default().into_iter().map(Label).collect(),
         });
         lines.frf.push(table.line());
     }
@@ -109,6 +119,8 @@ impl FrfTable {
             averages: self.averages,
             reciprocity: self.reciprocity,
             dofs: self.dofs.iter().map(|(name, label)| (name.clone(), label.0.clone())).collect(),
+            responses: self.responses.iter().map(|label| label.0.clone()).collect(),
+            references: self.references.iter().map(|label| label.0.clone()).collect(),
         }
     }
 
