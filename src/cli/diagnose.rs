@@ -17,6 +17,7 @@ use crate::effects::{Place, Source, State};
 use crate::exchange::Project;
 use crate::exchange::project::load;
 use crate::exchange::project::relocate::{canonical, renamed};
+use crate::session::time_limit::hurry_after;
 use crate::session::workers::Threads;
 use crate::structure::Part;
 use crate::structure::{Coupled, Structure};
@@ -24,6 +25,7 @@ use anyhow::Context;
 use serde_json::{Map, Value, json};
 use std::path::Path;
 use std::sync::Arc;
+use std::time::Duration;
 
 /// Diagnoses, prints, and writes the project with the best suggestion where asked.
 pub(super) fn run(arguments: &Diagnose) -> anyhow::Result<String> {
@@ -39,6 +41,9 @@ pub(super) fn run(arguments: &Diagnose) -> anyhow::Result<String> {
         eprintln!("{}", channel_faults::NO_AMPLITUDE);
     }
     let early = |found: &[Suggestion]| eprint!("{}", first_words(&project.structure, found));
+    if let Some(seconds) = arguments.seconds {
+        hurry_after(&control, Duration::from_secs_f64(seconds));
+    }
     let diagnosis = searched(&project, &control, &early).with_context(|| arguments.file.display().to_string())?;
     if let Some(out) = &arguments.apply {
         apply(&arguments.file, out, &Written { project: &project, sources: &written, taken: &taken }, &diagnosis)?;
@@ -212,6 +217,7 @@ fn document(project: &Project, diagnosis: &Diagnosis) -> Value {
         "error_before": diagnosis.error_before,
         "noise_floor": diagnosis.noise_floor,
         "verdict": diagnosis.verdict.word(),
+        "complete": diagnosis.complete,
         "runs": project.runs.iter().map(run).collect::<Vec<_>>(),
         "suggestions": channel_faults::suggestions(&diagnosis.channel_faults)
             .chain(diagnosis.suggestions.iter().map(|s| suggestion(structure, s)))

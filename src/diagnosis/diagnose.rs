@@ -108,6 +108,8 @@ pub struct Diagnosis {
     pub corrections: Vec<Correction>,
     /// Reversed, exchanged and misread channels; all the rest is of the data with these mended.
     pub channel_faults: Vec<ChannelFault>,
+    /// Whether the search came to its end before its time was up ([`Control::hurry`]).
+    pub complete: bool,
 }
 
 /// A correction of what the model states.
@@ -145,7 +147,7 @@ pub fn diagnose_without(
 ) -> Result<Diagnosis, DiagnosisError> {
     let diagnosis = searched(problem, excluded, control, early)?;
     control.report(1.0);
-    Ok(diagnosis)
+    Ok(Diagnosis { complete: control.is_complete(), ..diagnosis })
 }
 
 fn searched(
@@ -196,6 +198,7 @@ fn explained(base: Base) -> Result<Diagnosis, DiagnosisError> {
         next_test: Vec::new(),
         corrections: Vec::new(),
         channel_faults: Vec::new(),
+        complete: true,
     };
     if stepwise::agrees(&base, before, 0) {
         return Ok(diagnosis);

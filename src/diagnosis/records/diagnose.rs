@@ -86,6 +86,7 @@ pub fn diagnose_records(
         next_test: Vec::new(),
         corrections: Vec::new(),
         channel_faults: Vec::new(),
+        complete: true,
     };
     if misfit(&bare) < AGREES {
         return Ok(diagnosis);
