@@ -1,6 +1,6 @@
 //! `dashpot import --mass`: a finite-element model under the measurements, reduced where it is large.
 
-use super::arguments::Import;
+use super::arguments_import::Import;
 use super::import::named;
 use crate::exchange::matrices::model::{Model, ModelFiles, read_model};
 use anyhow::Context;

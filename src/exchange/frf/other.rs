@@ -27,7 +27,7 @@ pub(super) fn read(
     control: &Control,
 ) -> Result<(ResponseSet, Vec<String>), FrfProblem> {
     let file = open(path).map_err(|error| data(&error))?;
-    let places = functions(&file);
+    let places = functions(&file, source.step_hz.is_some());
     if places.is_empty() {
         return Err(FrfProblem::NoResponses);
     }
@@ -48,7 +48,7 @@ pub(super) fn read(
         if control.check().is_err() {
             break;
         }
-        let frequencies = frequencies(&file, at)?;
+        let frequencies = frequencies(&file, at, source.step_hz)?;
         if set.frequencies_hz.is_empty() {
             set.frequencies_hz = frequencies;
         } else if !same(&set.frequencies_hz, &frequencies) {
@@ -77,9 +77,10 @@ fn wrong(file: &DataFile, (set, channel): (usize, usize), what: &str) -> FrfProb
     FrfProblem::Set { set: format!("channel \"{name}\""), what: what.to_owned() }
 }
 
-/// Set and channel of every function.
-fn functions(file: &DataFile) -> Vec<(usize, usize)> {
-    let sets = file.contents().sets.iter().enumerate().filter(|(_, set)| set.kind == Kind::Frf);
+/// Set and channel of every function; of complex columns without frequencies too where their step is `given`.
+fn functions(file: &DataFile, given: bool) -> Vec<(usize, usize)> {
+    let wanted = |kind: Kind| kind == Kind::Frf || given && kind == Kind::Table;
+    let sets = file.contents().sets.iter().enumerate().filter(|(_, set)| wanted(set.kind));
     sets.flat_map(|(s, set)| {
         let complex = set.channels.iter().enumerate().filter(|(_, channel)| channel.complex && channel.count > 0);
         complex.map(move |(c, _)| (s, c))
@@ -87,7 +88,7 @@ fn functions(file: &DataFile) -> Vec<(usize, usize)> {
     .collect()
 }
 
-fn frequencies(file: &DataFile, at: (usize, usize)) -> Result<Vec<f64>, FrfProblem> {
+fn frequencies(file: &DataFile, at: (usize, usize), step_hz: Option<f64>) -> Result<Vec<f64>, FrfProblem> {
     let unit = file.contents().sets[at.0].axis_unit.trim();
     let scale = match unit.to_lowercase().as_str() {
         "" | "hz" | "1/s" => 1.0,
@@ -95,8 +96,15 @@ fn frequencies(file: &DataFile, at: (usize, usize)) -> Result<Vec<f64>, FrfProbl
         "rad/s" => 1.0 / std::f64::consts::TAU,
         _ => return Err(wrong(file, at, &format!("its abscissa is in \"{unit}\"; export over frequency in Hz"))),
     };
-    let axis = file.axis(at.0, at.1).map_err(|error| data(&error))?;
-    let axis = axis.ok_or_else(|| wrong(file, at, "the file does not say its frequencies; save them beside it"))?;
+    let count = file.contents().sets[at.0].channels[at.1].count;
+    let axis = match file.axis(at.0, at.1).map_err(|error| data(&error))? {
+        Some(axis) => axis,
+        None => {
+            let missing = "the file does not say its frequencies; add `step_hz` to its [[frf]], or save them beside it";
+            let step = step_hz.ok_or_else(|| wrong(file, at, missing))?;
+            (0..count).map(|i| step * i as f64).collect()
+        }
+    };
     let axis: Vec<f64> = axis.into_iter().map(|f| f * scale).collect();
     if axis.iter().any(|f| !f.is_finite()) || axis.windows(2).any(|pair| pair[1] <= pair[0]) {
         return Err(wrong(file, at, "its frequencies do not increase; export over ascending frequencies"));
@@ -151,12 +159,8 @@ fn function(
 /// Names of response and reference.
 fn pair(file: &DataFile, at: (usize, usize), k: usize, source: &FrfSource) -> Result<[String; 2], FrfProblem> {
     let entry = &file.contents().sets[at.0].channels[at.1];
-    if !source.responses.is_empty() {
-        let reference = source.references.get(k / source.responses.len());
-        let Some(reference) = reference else {
-            return Err(wrong(file, at, "`responses` needs `references`: the DOFs that were driven"));
-        };
-        return Ok([source.responses[k % source.responses.len()].clone(), reference.clone()]);
+    if let Some(listed) = source.listed(k).map_err(|what| wrong(file, at, &what))? {
+        return Ok(listed);
     }
     if let (Some(response), Some(reference)) = (entry.attribute("response"), entry.attribute("reference")) {
         return Ok([response.to_owned(), reference.to_owned()]);

@@ -1,7 +1,7 @@
 //! Universal Files to measured frequency responses: functions of type 4, coherences of type 6 beside them.
 
 use super::error::{FrfError, FrfProblem};
-use super::names::place;
+use super::names::{place, place_of_name};
 use super::other;
 use super::units::{Form, ratio};
 use crate::control::Control;
@@ -30,6 +30,22 @@ pub struct FrfSource {
     pub responses: Vec<String>,
     /// Labels of the references, in the order of the columns of an array.
     pub references: Vec<String>,
+    /// Step of the frequencies from 0 Hz on, Hz, of a file that does not say them.
+    pub step_hz: Option<f64>,
+}
+
+impl FrfSource {
+    /// Labels of response and reference of function number `k` by the lists, where there are any: all responses to the first
+    /// reference first.
+    pub(super) fn listed(&self, k: usize) -> Result<Option<[String; 2]>, String> {
+        if self.responses.is_empty() {
+            return Ok(None);
+        }
+        let reference = self.references.get(k / self.responses.len());
+        let reference =
+            reference.ok_or("`responses` and `references` name fewer functions than there are; name every one")?;
+        Ok(Some([self.responses[k % self.responses.len()].clone(), reference.clone()]))
+    }
 }
 
 /// The functions of a file on their common frequencies, and the faults that were read over.
@@ -120,7 +136,7 @@ impl Reader<'_> {
             if header.kind == FunctionKind::Coherence {
                 coherences.push((set, function));
             } else {
-                found.push(self.response(set, &function, units.as_ref())?);
+                found.push(self.response([set, found.len()], &function, units.as_ref())?);
             }
         }
         if found.is_empty() {
@@ -141,14 +157,27 @@ impl Reader<'_> {
         Ok((set, faults))
     }
 
-    fn response(&mut self, set: usize, function: &Function, units: Option<&uff::Units>) -> Result<Found, FrfProblem> {
+    /// Set number `set`, the `k`-th that is a frequency response.
+    fn response(
+        &mut self,
+        [set, k]: [usize; 2],
+        function: &Function,
+        units: Option<&uff::Units>,
+    ) -> Result<Found, FrfProblem> {
         let header = &function.header;
         let wrong = |what: String| FrfProblem::set(set, what);
         let (form, scale) = self.form(header, units).map_err(wrong)?;
         let pair = [header.response.clone(), header.reference.clone()];
-        let [response, reference] = if self.source.reciprocity { [&pair[1], &pair[0]] } else { [&pair[0], &pair[1]] };
-        let (response, sign) = place(response, &self.source.dofs, self.structure).map_err(wrong)?;
-        let (reference, other) = place(reference, &self.source.dofs, self.structure).map_err(wrong)?;
+        let sides = match self.source.listed(k).map_err(wrong)? {
+            Some(listed) => listed.map(|name| place_of_name(&name, &self.source.dofs, self.structure)),
+            None => [0, 1].map(|side: usize| place(&pair[side], &self.source.dofs, self.structure)),
+        };
+        let [first, second] = sides;
+        let (mut response, mut reference) = (first.map_err(wrong)?, second.map_err(wrong)?);
+        if self.source.reciprocity {
+            std::mem::swap(&mut response, &mut reference);
+        }
+        let ((response, sign), (reference, other)) = (response, reference);
         if form.is_inverse() && response != reference {
             return Err(wrong(
                 "force over motion between different DOFs is not the inverse of a response; export motion over force"

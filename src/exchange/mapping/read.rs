@@ -163,7 +163,8 @@ fn target(table: &ChannelTable, structure: &Structure, at: &At<'_>) -> Result<Ch
     let label = table.dof.clone();
     if table.quantity == Quantity::Base {
         return base_channel(&label, structure).ok_or_else(|| {
-            let problem = format!("the base of this structure does not move along \"{label}\"; write x, y or z of its DOFs");
+            let problem =
+                format!("the base of this structure does not move along \"{label}\"; write x, y or z of its DOFs");
             at.error(Some(&table.name), problem)
         });
     }
@@ -181,10 +182,7 @@ fn target(table: &ChannelTable, structure: &Structure, at: &At<'_>) -> Result<Ch
 fn unit_suits(table: &ChannelTable, structure: &Structure, dof: usize, at: &At<'_>) -> Result<(), RecordFileError> {
     let Some(unit) = table.unit.as_deref().and_then(LabUnit::from_name) else { return Ok(()) };
     let rotation = structure.dofs()[dof].direction.is_rotation();
-    if structure.kind() == StructureKind::Points
-        || unit.rotation == rotation
-        || unit.quantity == Quantity::Force
-    {
+    if structure.kind() == StructureKind::Points || unit.rotation == rotation || unit.quantity == Quantity::Force {
         return Ok(());
     }
     let kind = if rotation { "rotation" } else { "translation" };

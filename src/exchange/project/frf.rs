@@ -11,8 +11,19 @@ use serde::Serialize;
 use std::collections::BTreeMap;
 use std::path::Path;
 
-const KEYS: [&str; 11] = [
-    "file", "form", "scale", "averages", "reciprocity", "band", "lines", "use", "dofs", "responses", "references",
+const KEYS: [&str; 12] = [
+    "file",
+    "form",
+    "scale",
+    "averages",
+    "reciprocity",
+    "band",
+    "lines",
+    "use",
+    "dofs",
+    "responses",
+    "references",
+    "step_hz",
 ];
 
 /// Lines that are used unless the project says otherwise: enough for many modes, few enough to stay fast.
@@ -54,6 +65,9 @@ pub struct FrfTable {
     /// Labels of the references in the order of the columns of an array.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub references: Vec<Label>,
+    /// Step of the frequencies from 0 Hz on, Hz, where the file does not say them.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub step_hz: Option<f64>,
     /// DOFs of the file, such as `12:+Z`, and their labels in the structure.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub dofs: BTreeMap<String, Label>,
@@ -81,10 +95,22 @@ pub(super) fn parse(root: &Table<'_>, lines: &mut Lines) -> Result<Vec<FrfTable>
             dofs: dofs(&table)?,
             responses: table.labels("responses")?.unwrap_or_default().into_iter().map(Label).collect(),
             references: table.labels("references")?.unwrap_or_default().into_iter().map(Label).collect(),
+            step_hz: step(&table)?,
         });
         lines.frf.push(table.line());
     }
     Ok(tables)
+}
+
+fn step(table: &Table<'_>) -> Result<Option<f64>, ProjectError> {
+    let step = table.number("step_hz")?;
+    match step.filter(|step| *step <= 0.0) {
+        Some(value) => {
+            let problem = Problem::OutOfRange { key: "step_hz".into(), value: value.to_string(), range: "above 0 Hz" };
+            Err(table.error("step_hz", problem))
+        }
+        None => Ok(step),
+    }
 }
 
 fn band(table: &Table<'_>) -> Result<Option<[f64; 2]>, ProjectError> {
@@ -121,6 +147,7 @@ impl FrfTable {
             dofs: self.dofs.iter().map(|(name, label)| (name.clone(), label.0.clone())).collect(),
             responses: self.responses.iter().map(|label| label.0.clone()).collect(),
             references: self.references.iter().map(|label| label.0.clone()).collect(),
+            step_hz: self.step_hz,
         }
     }
 

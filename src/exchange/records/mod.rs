@@ -1,5 +1,6 @@
 //! Measured data in CSV files: time records and fitted harmonics, read leniently and written exactly.
 
+pub mod columns;
 pub mod error;
 pub mod harmonics;
 pub mod places;
