@@ -42,7 +42,7 @@ pub(super) fn run(arguments: &Import) -> anyhow::Result<String> {
         bail!("{}: {}", arguments.files[0].display(), refusal(open(&arguments.files[0])?.contents(), &mapping.left));
     }
     if arguments.propose {
-        return Ok(proposal_text(&arguments.files[0], &mapping)?);
+        return proposal_text(&arguments.files[0], &mapping);
     }
     let first = arguments.files[0].display();
     ensure!(

@@ -11,6 +11,8 @@ use std::f64::consts::TAU;
 const PERIODS: f64 = 8.0;
 /// Fewest points of a curve of frequency and damping over the amplitude.
 const POINTS: usize = 4;
+/// Amplitude over its deviation from which on a piece counts.
+const CLEAR: f64 = 10.0;
 /// Pieces of a decay that are looked at, and their length in periods.
 const PIECES: usize = 16;
 const EACH: f64 = 4.5;
@@ -87,7 +89,8 @@ fn translated(table: &mut ChannelTable, assumed: &mut Vec<(String, String)>) {
     assumed.push((table.channel(), what));
 }
 
-/// Frequency (Hz) of the smallest amplitudes of a channel that decays, and how clear it is: amplitude over its deviation.
+/// Frequency (Hz) of the smallest amplitudes of a channel that decays, and how clear it is: the sum of the logarithms of amplitude over
+/// deviation.
 fn decaying(record: &Record, channel: usize) -> Option<(f64, f64)> {
     let samples = record.samples(channel).to_vec();
     let alone = Record::new(record.time().to_vec(), vec![record.channels()[channel].clone()], vec![samples]).ok()?;
@@ -106,14 +109,14 @@ fn decaying(record: &Record, channel: usize) -> Option<(f64, f64)> {
     let apart = (signal.len().saturating_sub(length) / (PIECES - 1)).max(1);
     let pieces = (0..PIECES).filter_map(|i| signal.get(i * apart..i * apart + length));
     let band = Band { frequency_hz: near, width: 0.0 };
+    let clear = |point: &AmplitudePoint| (point.amplitude / point.amplitude_deviation.max(f64::MIN_POSITIVE)).min(1e6);
     let curve: Vec<AmplitudePoint> = pieces.filter_map(|piece| amplitude_curve(piece, step, 0.0, band).pop()).collect();
+    let curve: Vec<AmplitudePoint> = curve.into_iter().filter(|point| clear(point) > CLEAR).collect();
     if curve.len() < POINTS {
         return None;
     }
-    let mut clear: Vec<f64> =
-        curve.iter().map(|point| point.amplitude / point.amplitude_deviation.max(f64::MIN_POSITIVE)).collect();
     let mut last: Vec<f64> = curve[2 * curve.len() / 3..].iter().map(|point| point.frequency_hz).collect();
-    Some((median(&mut last), median(&mut clear)))
+    Some((median(&mut last), curve.iter().map(|point| clear(point).ln()).sum()))
 }
 
 fn median(values: &mut [f64]) -> f64 {

@@ -23,7 +23,7 @@ fn every_command_of_the_walk_from_responses_to_the_map_of_damping_runs() {
         dashpot(&words).unwrap_or_else(|error| panic!("{line}: {error}"));
         ran += 1;
     }
-    assert_eq!(ran, 9);
+    assert_eq!(ran, 8);
     let project = folder.path().join("walk.toml");
     assert!(std::fs::read_to_string(&project).unwrap().contains("\"6:+Z\" = \"106z\""));
     let identified = json(&["identify", "--json", &project.display().to_string()]);

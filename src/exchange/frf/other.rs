@@ -97,13 +97,12 @@ fn frequencies(file: &DataFile, at: (usize, usize), step_hz: Option<f64>) -> Res
         _ => return Err(wrong(file, at, &format!("its abscissa is in \"{unit}\"; export over frequency in Hz"))),
     };
     let count = file.contents().sets[at.0].channels[at.1].count;
-    let axis = match file.axis(at.0, at.1).map_err(|error| data(&error))? {
-        Some(axis) => axis,
-        None => {
-            let missing = "the file does not say its frequencies; add `step_hz` to its [[frf]], or save them beside it";
-            let step = step_hz.ok_or_else(|| wrong(file, at, missing))?;
-            (0..count).map(|i| step * i as f64).collect()
-        }
+    let axis = if let Some(axis) = file.axis(at.0, at.1).map_err(|error| data(&error))? {
+        axis
+    } else {
+        let missing = "the file does not say its frequencies; add `step_hz` to its [[frf]], or save them beside it";
+        let step = step_hz.ok_or_else(|| wrong(file, at, missing))?;
+        (0..count).map(|i| step * i as f64).collect()
     };
     let axis: Vec<f64> = axis.into_iter().map(|f| f * scale).collect();
     if axis.iter().any(|f| !f.is_finite()) || axis.windows(2).any(|pair| pair[1] <= pair[0]) {

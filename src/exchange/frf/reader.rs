@@ -88,7 +88,7 @@ pub fn labels_in(path: &Path) -> Vec<String> {
         };
         for text in pair.into_iter().flatten() {
             let plain = text.rsplit(' ').next().unwrap_or_default().rsplit('@').next().unwrap_or_default();
-            let label: String = plain.chars().filter(|c| c.is_ascii_alphanumeric()).collect::<String>().to_lowercase();
+            let label: String = plain.chars().filter(char::is_ascii_alphanumeric).collect::<String>().to_lowercase();
             for one in [label, plain.to_owned()] {
                 if !labels.contains(&one) {
                     labels.push(one);

@@ -88,7 +88,7 @@ impl Proposal {
         let mut taken: Vec<String> = drafts.iter().filter(|d| d.placed).map(|d| d.table.dof.clone()).collect();
         let is_motion = |draft: &&mut Draft<'_>| !matches!(draft.table.quantity, Quantity::Force | Quantity::Base);
         for draft in drafts.iter_mut().filter(is_motion).filter(|draft| !draft.placed) {
-            let next = (1..).map(|n: u32| n.to_string()).find(|label| !taken.contains(label));
+            let next = (1..=u32::MAX).map(|n| n.to_string()).find(|label| !taken.contains(label));
             draft.table.dof = next.unwrap_or_default();
             taken.push(draft.table.dof.clone());
             draft.assumed.push(format!("the file says no DOF: {} is its number in order", draft.table.dof));
