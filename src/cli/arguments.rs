@@ -1,10 +1,10 @@
 //! What can be asked on the command line.
 
+use super::arguments_import::Import;
 use crate::exchange::export::Format;
 use crate::exchange::records::harmonics::HIGHEST_HARMONIC;
 use crate::response::frequency_response::Quantity;
-use clap::builder::PossibleValuesParser;
-use clap::builder::TypedValueParser;
+use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;
 
@@ -195,25 +195,6 @@ pub(super) struct Contents {
 }
 
 #[derive(Debug, Args)]
-pub(super) struct Import {
-    /// Measurement files of one layout, one a run
-    #[arg(required = true, value_name = "FILE")]
-    pub files: Vec<PathBuf>,
-    /// Template, or project, whose [[channel]] tables say what the channels are; proposed from the first file unless given
-    #[arg(long)]
-    pub map: Option<PathBuf>,
-    /// Project to write
-    #[arg(long)]
-    pub out: Option<PathBuf>,
-    /// Print the mapping as a template and write nothing
-    #[arg(long)]
-    pub propose: bool,
-    /// Sampling rate in Hz of files that do not say it
-    #[arg(long, value_parser = positive)]
-    pub sampling_hz: Option<f64>,
-}
-
-#[derive(Debug, Args)]
 pub(super) struct Build {
     /// Structure
     #[arg(value_enum)]
@@ -363,7 +344,7 @@ fn noise(text: &str) -> Result<f64, String> {
     }
 }
 
-fn positive(text: &str) -> Result<f64, String> {
+pub(super) fn positive(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(value) if value > 0.0 && value.is_finite() => Ok(value),
         _ => Err("give a frequency above 0 Hz, such as 10.4".to_owned()),

@@ -1,6 +1,7 @@
 //! `dashpot contents`: what is in measurement files, before anything is decided.
 
 use super::arguments::Contents as Arguments;
+use crate::exchange::mapping::stepped;
 use anyhow::{Context, ensure};
 use dashpot_datafiles::{Channel, DataFile, Number, Set, open};
 use serde_json::{Map, Value, json};
@@ -66,7 +67,13 @@ fn entry(file: &DataFile) -> Value {
         "format": contents.format.word(),
         "sets": contents.sets.iter().map(set).collect::<Vec<_>>(),
         "notes": contents.notes,
+        "looks_like": looks_like(file),
     })
+}
+
+/// What a table looks like where its columns say it: a stepped-sine test.
+fn looks_like(file: &DataFile) -> Option<String> {
+    stepped(file).map(|table| table.words())
 }
 
 fn set(set: &Set) -> Value {
@@ -105,6 +112,9 @@ fn number(number: &Number) -> Value {
 fn tree(file: &DataFile) -> String {
     let contents = file.contents();
     let mut text = format!("{} ({})\n", file.path().display(), contents.format.word());
+    if let Some(what) = looks_like(file) {
+        text.push_str(&format!("  looks like: {what}\n"));
+    }
     for note in &contents.notes {
         text.push_str(&format!("  note: {note}\n"));
     }

@@ -2,6 +2,7 @@
 
 use super::addition;
 use super::arguments::Diagnose;
+use super::channel_faults;
 use super::compare::problem;
 use super::corrections::correct;
 use super::identified;
@@ -36,6 +37,9 @@ pub(super) fn run(arguments: &Diagnose) -> anyhow::Result<String> {
     }
     let written = project.sources.clone();
     let taken = identified::take_over(&mut project, arguments.identified, &arguments.file, &control)?;
+    if project.runs.iter().any(|run| run.is_used() && run.per_unit_force) {
+        eprintln!("{}", channel_faults::NO_AMPLITUDE);
+    }
     let early = |found: &[Suggestion]| eprint!("{}", first_words(&project.structure, found));
     if let Some(seconds) = arguments.seconds {
         hurry_after(&control, Duration::from_secs_f64(seconds));
@@ -215,7 +219,12 @@ fn document(project: &Project, diagnosis: &Diagnosis) -> Value {
         "verdict": diagnosis.verdict.word(),
         "complete": diagnosis.complete,
         "runs": project.runs.iter().map(run).collect::<Vec<_>>(),
-        "suggestions": diagnosis.suggestions.iter().map(|s| suggestion(structure, s)).collect::<Vec<_>>(),
+        "suggestions": channel_faults::suggestions(&diagnosis.channel_faults)
+            .chain(diagnosis.suggestions.iter().map(|s| suggestion(structure, s)))
+            .collect::<Vec<_>>(),
+        "channel_faults": diagnosis.channel_faults.iter().map(channel_faults::document).collect::<Vec<_>>(),
+        "not_looked_for": project.runs.iter().any(|run| run.is_used() && run.per_unit_force)
+            .then_some(channel_faults::NO_AMPLITUDE),
         "steps": diagnosis.steps.iter().map(step).collect::<Vec<_>>(),
         "corrections": diagnosis.corrections.iter().map(|c| correction(project, c)).collect::<Vec<_>>(),
         "next_test": diagnosis.next_test.iter().map(test).collect::<Vec<_>>(),
@@ -268,6 +277,7 @@ fn text(project: &Project, diagnosis: &Diagnosis) -> String {
         number(100.0 * diagnosis.noise_floor),
         diagnosis.verdict.word()
     );
+    lines.push_str(&channel_faults::text(&diagnosis.channel_faults));
     if !diagnosis.suggestions.is_empty() {
         let mut rows = vec![["missing", "probability %", "error after %", "parameters"].map(str::to_owned).to_vec()];
         for s in &diagnosis.suggestions {
@@ -326,6 +336,11 @@ fn apply(file: &Path, out: &Path, written: &Written, diagnosis: &Diagnosis) -> a
         addition::add(&mut document, &before, source).with_context(context)?;
     }
     let project = &written.with_tables(tables);
+    for fault in &diagnosis.channel_faults {
+        if let Err(why) = channel_faults::mend(&mut document, written.project, fault) {
+            eprintln!("not written: {}: {why}", fault.words());
+        }
+    }
     for correction in &diagnosis.corrections {
         if !correct(&mut document, project, correction) {
             eprintln!("not written, for want of a key for it:{}", corrected(project, correction));
@@ -359,7 +374,7 @@ fn relocate(document: &mut toml_edit::DocumentMut, from: &Path, to: &Path) {
             table[key] = toml_edit::value(name);
         }
     };
-    for name in ["run", "harmonics"] {
+    for name in ["run", "harmonics", "frf"] {
         if let Some(list) = document.get_mut(name).and_then(toml_edit::Item::as_array_of_tables_mut) {
             list.iter_mut().for_each(|table| rename(table, "file"));
         }

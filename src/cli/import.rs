@@ -1,93 +1,91 @@
-//! `dashpot import`: a project out of laboratory files where they lie, by a mapping that is proposed or given.
+//! `dashpot import`: a project out of laboratory files where they lie. What a file holds says what is made of it: time records
+//! become runs by a mapping of their channels, frequency responses `[[frf]]`, stepped-sine tables `[[harmonics]]`.
 
-use super::arguments::Import;
-use crate::control::Control;
+use super::arguments_import::Import;
+use super::{import_model, import_records, import_responses, import_stepped};
 use crate::exchange::atomic::write_atomically;
-use crate::exchange::mapping::{ChannelTable, Proposal, propose};
+use crate::exchange::mapping::stepped;
 use crate::exchange::project::relocate::{canonical, renamed};
-use crate::exchange::project::{plan, template};
-use anyhow::{Context, bail, ensure};
+use anyhow::{Context, ensure};
 use dashpot_datafiles::open;
-use serde::Serialize;
-use std::path::Path;
-
-/// The tables of a mapping, as they stand in a template or a project.
-#[derive(Serialize)]
-struct Mapping<'a> {
-    channel: &'a [ChannelTable],
-}
+use std::path::{Path, PathBuf};
 
 pub(super) fn run(arguments: &Import) -> anyhow::Result<String> {
-    let mapping = match &arguments.map {
-        Some(path) => {
-            let name = path.display().to_string();
-            let text = std::fs::read_to_string(path).with_context(|| format!("{name}: the template cannot be read"))?;
-            Proposal { channels: template(&text, &name)?, ..Proposal::default() }
+    if arguments.map.is_none() {
+        if import_responses::has_responses(arguments)? {
+            return import_responses::run(arguments);
         }
-        None => propose(open(&arguments.files[0])?.contents()),
-    };
-    if arguments.propose {
-        return proposal(&arguments.files[0], &mapping);
+        if let Some(table) = stepped(&open(&arguments.files[0])?) {
+            return import_stepped::run(arguments, &table);
+        }
     }
-    let Some(out) = &arguments.out else {
-        bail!("name the project to write by --out project.toml, or see the mapping by --propose");
-    };
-    let first = arguments.files[0].display();
-    ensure!(
-        !mapping.channels.is_empty(),
-        "{first}: no channel says by its name and unit what it measures; write a template by hand and give it by --map"
-    );
-    ensure!(
-        !mapping.needs_sampling || arguments.sampling_hz.is_some(),
-        "{first}: the file does not say the time between samples; give it by --sampling-hz"
-    );
-    let text = project(arguments, &mapping, out)?;
-    // Every run must read before the project is there.
-    let planned = plan(&text, out)?;
-    for index in 0..planned.runs.len() {
-        planned.record(index, &Control::unattended())?;
-    }
-    write_atomically(out, text.as_bytes())
-        .with_context(|| format!("{}: the project cannot be written", out.display()))?;
-    let left = mapping.left.iter().map(|(name, why)| format!("not mapped: \"{name}\" ({why})\n")).collect::<String>();
-    let (runs, channels) = (arguments.files.len(), mapping.channels.len());
-    Ok(format!("{left}{runs} runs of {channels} channels are in {}\n", out.display()))
+    import_records::run(arguments)
 }
 
-/// The mapping as text for a template; what is not mapped in comments.
-fn proposal(file: &Path, mapping: &Proposal) -> anyhow::Result<String> {
-    let mut text = format!("# Mapping of the channels of {}\n", file.display());
-    for (name, why) in &mapping.left {
-        text.push_str(&format!("# not mapped: \"{name}\": {why}\n"));
+/// The project to write: `--out`, else the name of the first file in this folder, where nothing may be yet.
+pub(super) fn project_file(arguments: &Import) -> anyhow::Result<PathBuf> {
+    if let Some(out) = &arguments.out {
+        return Ok(out.clone());
     }
-    if mapping.needs_sampling {
-        text.push_str("# the file does not say the time between samples: give it by --sampling-hz\n");
-    }
-    Ok(text + "\n" + &toml::to_string(&Mapping { channel: &mapping.channels })?)
+    let stem = arguments.files[0].file_stem().unwrap_or_default();
+    let out = Path::new(stem).with_extension("toml");
+    ensure!(
+        arguments.propose || !out.exists(),
+        "{}: is there already; name the project to write by --out",
+        out.display()
+    );
+    Ok(out)
 }
 
-fn project(arguments: &Import, mapping: &Proposal, out: &Path) -> anyhow::Result<String> {
+/// Writes the project.
+pub(super) fn write(out: &Path, text: &str) -> anyhow::Result<()> {
+    write_atomically(out, text.as_bytes()).with_context(|| format!("{}: the project cannot be written", out.display()))
+}
+
+/// Head of a project with the structure of the model that is given, else with `own`, and candidates.
+pub(super) fn head(arguments: &Import, out: &Path, own: &str, up_to_hz: f64) -> anyhow::Result<String> {
+    let title = arguments.files[0].file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned());
+    let structure = import_model::structure(arguments, out, up_to_hz)?.unwrap_or_else(|| own.to_owned());
+    Ok(format!(
+        "[project]\nformat = 1\ntitle = {}\n\n{structure}\n[[candidates]]\nlaw = \"viscous\"\nwhere = \"each-translation\"\n\n",
+        toml::Value::from(title)
+    ))
+}
+
+/// `[structure]` of measured points.
+pub(super) fn points(labels: &[String]) -> String {
+    let quoted: Vec<String> = labels.iter().map(|label| toml::Value::from(label.as_str()).to_string()).collect();
+    format!("[structure]\nkind = \"points\"\ndofs = [{}]\n", quoted.join(", "))
+}
+
+/// Lines of a comment.
+pub(super) fn comment(text: &str) -> String {
+    let mut out = String::new();
+    let mut line = String::new();
+    for word in text.split_whitespace() {
+        if !line.is_empty() && line.chars().count() + word.chars().count() > 116 {
+            out.push_str(&format!("# {line}\n"));
+            line.clear();
+        }
+        if !line.is_empty() {
+            line.push(' ');
+        }
+        line.push_str(word);
+    }
+    if !line.is_empty() {
+        out.push_str(&format!("# {line}\n"));
+    }
+    out
+}
+
+/// Name of a file as the project at `out` refers to it.
+pub(super) fn named(file: &Path, out: &Path) -> anyhow::Result<String> {
+    if file.is_absolute() {
+        return Ok(file.display().to_string());
+    }
     let folder = out.parent().unwrap_or(Path::new(""));
     let to = canonical(folder).with_context(|| format!("{}: the folder is not there", folder.display()))?;
-    let mut labels: Vec<&str> = Vec::new();
-    for table in &mapping.channels {
-        if !labels.contains(&table.dof.as_str()) {
-            labels.push(&table.dof);
-        }
-    }
-    let quoted: Vec<String> = labels.iter().map(|label| toml::Value::from(*label).to_string()).collect();
-    let title = arguments.files[0].file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned());
-    let mut text = format!("[project]\nformat = 1\ntitle = {}\n\n", toml::Value::from(title));
-    text.push_str(&format!("[structure]\nkind = \"points\"\ndofs = [{}]\n\n", quoted.join(", ")));
-    text.push_str(&toml::to_string(&Mapping { channel: &mapping.channels })?);
-    for file in &arguments.files {
-        let here = canonical(file.parent().unwrap_or(Path::new("")))?;
-        let name = file.file_name().with_context(|| format!("{}: names no file", file.display()))?.to_string_lossy();
-        let name = if file.is_absolute() { file.display().to_string() } else { renamed(&name, &here, &to) };
-        text.push_str(&format!("\n[[run]]\nfile = {}\n", toml::Value::from(name)));
-        if let Some(rate) = arguments.sampling_hz {
-            text.push_str(&format!("sampling_hz = {rate:?}\n"));
-        }
-    }
-    Ok(text)
+    let here = canonical(file.parent().unwrap_or(Path::new("")))?;
+    let name = file.file_name().with_context(|| format!("{}: names no file", file.display()))?.to_string_lossy();
+    Ok(renamed(&name, &here, &to))
 }

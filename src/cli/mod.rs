@@ -4,7 +4,9 @@
 
 mod addition;
 mod arguments;
+mod arguments_import;
 mod build;
+mod channel_faults;
 mod compare;
 mod contents;
 mod convert;
@@ -16,6 +18,12 @@ mod identify;
 mod identify_json;
 mod identify_table;
 mod import;
+mod import_model;
+mod import_records;
+mod import_refusal;
+mod import_responses;
+mod import_single_mode;
+mod import_stepped;
 mod incompleteness;
 mod methods;
 mod moving_base;

@@ -1,6 +1,7 @@
 //! Which effect is missing: ranked suggestions, the steps to a model that agrees with the data, a verdict.
 
 use crate::control::Control;
+use crate::diagnosis::channels::{self, ChannelFault};
 use crate::diagnosis::residual::data::{Data, DiagnosisError, Problem};
 use crate::diagnosis::residual::prediction::{Predictor, RunPrediction};
 use crate::diagnosis::selection::search::Base;
@@ -105,6 +106,8 @@ pub struct Diagnosis {
     pub next_test: Vec<NextTest>,
     /// What the model states wrongly, where the data demand it: corrections that were fitted beside the effects.
     pub corrections: Vec<Correction>,
+    /// Reversed, exchanged and misread channels; all the rest is of the data with these mended.
+    pub channel_faults: Vec<ChannelFault>,
     /// Whether the search came to its end before its time was up ([`Control::hurry`]).
     pub complete: bool,
 }
@@ -158,7 +161,32 @@ fn searched(
     }
     let data = Data { excluded: excluded.to_vec(), ..Data::new(problem)? };
     let predictor = Arc::new(Predictor::new(problem.structure, problem.known(), &data)?);
-    let base = Base::new(predictor, &data, control, early)?;
+    let base = Base::new(predictor.clone(), &data, control, early)?;
+    let faults = channels::find(&predictor, &data, &base.predictions);
+    if faults.is_empty() {
+        return explained(base);
+    }
+    let asis = agreement(&base);
+    let mended = channels::mended(&data, &faults);
+    let mut diagnosis = explained(Base::new(predictor, &mended, control, early)?)?;
+    diagnosis.error_before = asis.error;
+    diagnosis.steps.insert(0, asis);
+    diagnosis.channel_faults = faults;
+    if diagnosis.verdict == Verdict::Adequate {
+        diagnosis.verdict = Verdict::Missing;
+    }
+    Ok(diagnosis)
+}
+
+/// The model as it is, as a first step.
+fn agreement(base: &Base) -> Step {
+    let bench = base.bench();
+    let before = square(&bench.residual(&base.predictions));
+    Step { added: Vec::new(), error: bench.error(&base.predictions), misfit: before / base.count().max(1) as f64 }
+}
+
+/// Explains what the base model leaves.
+fn explained(base: Base) -> Result<Diagnosis, DiagnosisError> {
     let bench = base.bench();
     let before = square(&bench.residual(&base.predictions));
     let diagnosis = Diagnosis {
@@ -166,13 +194,10 @@ fn searched(
         noise_floor: noise_floor(&base, &[], &base.predictions),
         verdict: Verdict::Adequate,
         suggestions: Vec::new(),
-        steps: vec![Step {
-            added: Vec::new(),
-            error: bench.error(&base.predictions),
-            misfit: before / base.count().max(1) as f64,
-        }],
+        steps: vec![agreement(&base)],
         next_test: Vec::new(),
         corrections: Vec::new(),
+        channel_faults: Vec::new(),
         complete: true,
     };
     if stepwise::agrees(&base, before, 0) {

@@ -14,6 +14,7 @@
 //! on the response itself ([`selection`]) and ranked by evidence ([`diagnose`]).
 
 pub mod candidates;
+pub mod channels;
 pub mod compare;
 pub mod diagnose;
 pub mod localisation;

@@ -27,6 +27,7 @@ pub use channel::{Channel, ChannelName, Quantity, Unit};
 pub use fit::{ChannelFit, FitError, HarmonicFit, fit};
 pub use kind::{Kind, Part};
 pub use quality::{Finding, Flag};
+pub use ramps::steady_part;
 pub use ratio::MeasuredRatio;
 pub use record::{Record, RecordError};
 pub use run::{Amplitudes, Correction, Run};

@@ -56,7 +56,7 @@ fn after_force(record: &Record, motion: &[f64], [first, last]: [usize; 2], at: i
         );
         return Proposal { kind: Kind::Transient, part: Part::default(), reason };
     }
-    let left = motion[last + 1] / motion.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
+    let left = motion.get(last + 1).copied().unwrap_or(0.0) / motion.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
     if left > 0.1 {
         let reason = format!("the force ends at {end:.3} s and the motion dies away from there");
         return Proposal { kind: Kind::Decay, part: Part { start_s: Some(end), end_s: None }, reason };

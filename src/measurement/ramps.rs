@@ -107,12 +107,24 @@ pub(super) fn blocks(record: &Record, fit: &HarmonicFit) -> Option<(Vec<f64>, Ve
     let spare = (periods - each * count) as f64 * fit.period();
     let begin = |k: usize| time[0] + (k * each) as f64 * fit.period() + if 2 * k >= count { spare } else { 0.0 };
     let index = |t: f64| time.partition_point(|at| *at < t - 0.01 * step);
+    let whole = (fit.period() / step - 1e-6).ceil() as usize;
     let of_block = |k: usize| {
         let (from, to) = (begin(k), begin(k) + each as f64 * fit.period());
-        Some(part(record, fit, index(from)..index(to))?.fundamentals)
+        let mut range = index(from)..index(to);
+        if each == 1 {
+            // A single period between two samples takes the next one too.
+            range.end = range.end.max(range.start + whole).min(time.len());
+            range.start = range.start.min(range.end.saturating_sub(whole));
+        }
+        Some(part(record, fit, range)?.fundamentals)
     };
     let found = (0..count).map(of_block).collect::<Option<Vec<_>>>()?;
     let sizes = (0..fit.channels.len()).map(|c| found.iter().map(|block| block[c].norm()).collect()).collect();
     let end = begin(count - 1) + each as f64 * fit.period();
     Some(((0..count).map(begin).chain([end]).collect(), sizes))
+}
+
+/// The steady part of a record whose force is run up or down; none where it is steady from end to end.
+pub fn steady_part(record: &Record, fit: &HarmonicFit) -> Option<super::Part> {
+    find(record, fit).map(|ramps| super::Part { start_s: ramps.up, end_s: ramps.down })
 }

@@ -180,6 +180,7 @@ fn conclude(balance: &Balance, rungs: &[Vec<Fitted>]) -> Diagnosis {
         steps: vec![Step { added: Vec::new(), error: before, misfit: square(&balance.weighted()) / n as f64 }],
         next_test: Vec::new(),
         corrections: Vec::new(),
+        channel_faults: Vec::new(),
         complete: true,
     };
     let (Some(first), Some(top)) = (rungs.first(), rungs.last()) else {

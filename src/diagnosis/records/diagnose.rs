@@ -84,6 +84,7 @@ pub fn diagnose_records(
         steps: vec![Step { added: Vec::new(), error: before, misfit: misfit(&bare) }],
         next_test: Vec::new(),
         corrections: Vec::new(),
+        channel_faults: Vec::new(),
         complete: true,
     };
     if misfit(&bare) < AGREES {

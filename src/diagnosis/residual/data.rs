@@ -164,6 +164,9 @@ pub struct Data {
     pub runs: Vec<RunData>,
     /// Effects at places where somebody knows better: they are not suggested.
     pub excluded: Vec<Source>,
+    /// Whether there are lines of frequency responses among the runs: they have no amplitude, and laws that depend on it
+    /// cannot be told from them.
+    pub per_unit_force: bool,
 }
 
 impl Data {
@@ -171,19 +174,26 @@ impl Data {
     pub fn new(problem: &Problem) -> Result<Self, DiagnosisError> {
         let used = problem.runs.iter().enumerate().filter(|(_, run)| is_used(run));
         let runs = used.map(|(index, run)| RunData::new(index, run)).collect::<Result<Vec<_>, _>>()?;
-        if runs.is_empty() { Err(DiagnosisError::NoRuns) } else { Ok(Self { runs, excluded: Vec::new() }) }
+        if runs.is_empty() { Err(DiagnosisError::NoRuns) } else { Ok(Self::of(problem, runs)) }
     }
 
     /// All runs, whether used or not, for a display of every run.
     pub fn every(problem: &Problem) -> Result<Self, DiagnosisError> {
         let runs = problem.runs.iter().enumerate();
         let runs = runs.map(|(index, run)| RunData::new(index, run)).collect::<Result<Vec<_>, _>>()?;
-        Ok(Self { runs, excluded: Vec::new() })
+        Ok(Self::of(problem, runs))
     }
 
-    /// Whether an effect at its place may be suggested: not one that is ruled out, and none of more parameters than runs.
+    fn of(problem: &Problem, runs: Vec<RunData>) -> Self {
+        let per_unit_force = runs.iter().any(|run| problem.runs[run.index].per_unit_force);
+        Self { runs, excluded: Vec::new(), per_unit_force }
+    }
+
+    /// Whether an effect at its place may be suggested: not one that is ruled out, none of more parameters than runs, and
+    /// none that depends on an amplitude that the runs do not have.
     pub fn allows(&self, source: &Source) -> bool {
-        source.parameters.len() <= self.runs.len() && !self.excluded.iter().any(|other| other.is_same(source))
+        let told = source.effect.is_linear() || !self.per_unit_force;
+        told && source.parameters.len() <= self.runs.len() && !self.excluded.iter().any(|other| other.is_same(source))
     }
 
     /// Whether a correction of that part of the structure would be an effect that is ruled out, by another name.

@@ -16,9 +16,13 @@ pub struct FrfError {
 pub enum FrfProblem {
     #[error("{0}")]
     File(uff::Error),
+    #[error("{0}")]
+    Data(String),
     #[error("{set}: {what}")]
     Set { set: String, what: String },
-    #[error("has no frequency response; name a file with functions of type 4 (data set 58)")]
+    #[error(
+        "has no frequency response: complex values over a frequency, or functions of type 4 (data set 58); name a file with them"
+    )]
     NoResponses,
     #[error("cannot be written: {reason}; check the folder")]
     Unwritable { reason: String },

@@ -2,11 +2,13 @@
 
 mod error;
 mod names;
+mod other;
 mod reader;
 mod units;
 mod writer;
 
 pub use error::{FrfError, FrfProblem};
-pub use reader::{FrfSource, read_responses};
+pub use names::pair_in_name;
+pub use reader::{FrfSource, labels_in, read_responses};
 pub use units::Form;
 pub use writer::{SimulatedSet, write_responses};

@@ -37,6 +37,57 @@ pub(super) fn place(dof: &uff::Dof, named: &BTreeMap<String, String>, structure:
     })
 }
 
+/// Finds the DOF of the structure for a name such as `12:+Z`, `12z`, `-12z` or `acc@12z`.
+pub(super) fn place_of_name(
+    name: &str,
+    named: &BTreeMap<String, String>,
+    structure: &Structure,
+) -> Result<Place, String> {
+    let plain = name.split_once('@').map_or(name, |(_, label)| label).trim();
+    let asked = named.get(name.trim()).or_else(|| named.get(plain)).map_or(plain, String::as_str);
+    if let Some(row) = structure.dof(asked) {
+        return Ok((row, 1.0));
+    }
+    if let Some(row) = asked.strip_prefix('-').and_then(|label| structure.dof(label)) {
+        return Ok((row, -1.0));
+    }
+    if let Some(dof) = file_dof(asked) {
+        return place(&dof, named, structure);
+    }
+    Err(format!("\"{asked}\" is no DOF of the structure; add `\"{plain}\" = LABEL` under [frf.dofs]"))
+}
+
+/// A DOF that is written as Universal Files write it: node, colon or none, sign, direction.
+fn file_dof(text: &str) -> Option<uff::Dof> {
+    let end = text.find(|c: char| !c.is_ascii_digit())?;
+    let node = text[..end].parse().ok()?;
+    let rest = text[end..].trim_start_matches([':', '_', ' ']);
+    let (sign, axis) = match rest.chars().next()? {
+        '-' => (-1, &rest[1..]),
+        '+' => (1, &rest[1..]),
+        _ => (1, rest),
+    };
+    let axes = ["x", "y", "z", "rx", "ry", "rz"];
+    let direction = axes.iter().position(|known| axis.eq_ignore_ascii_case(known))? as i64 + 1;
+    Some(uff::Dof { entity: String::new(), ..uff::Dof::new(node, sign * direction) })
+}
+
+/// Response and reference in the name of a channel: `12:+Z/1:+Z`, `acc@7/force@19`, `H_7z_19z`, `FRF(3,1)`.
+pub fn pair_in_name(name: &str) -> Option<[String; 2]> {
+    if let Some((response, reference)) = name.split_once('/')
+        && [response, reference].iter().all(|side| side.chars().any(|c| c.is_ascii_digit()))
+    {
+        return Some([response.trim().to_owned(), reference.trim().to_owned()]);
+    }
+    let words = name.split(|c: char| !(c.is_alphanumeric() || c == '+' || c == '-' || c == ':'));
+    let places: Vec<String> = words
+        .map(|word| word.trim_start_matches(|c: char| !c.is_ascii_digit()))
+        .filter(|word| !word.is_empty())
+        .map(str::to_owned)
+        .collect();
+    <[String; 2]>::try_from(places).ok()
+}
+
 /// Direction of a number of the file, whatever its sign.
 fn direction(number: i64) -> Option<Direction> {
     let all = [Direction::X, Direction::Y, Direction::Z, Direction::Rx, Direction::Ry, Direction::Rz];
@@ -46,4 +97,26 @@ fn direction(number: i64) -> Option<Direction> {
 /// Number of a direction in the file.
 pub(super) fn number(direction: Direction) -> i64 {
     direction as i64 + 1
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn pairs_out_of_names() {
+        let pair = |name: &str| pair_in_name(name).map(|pair| pair.join(" "));
+        assert_eq!(pair("12:+Z/1:-Z").as_deref(), Some("12:+Z 1:-Z"));
+        assert_eq!(pair("acc@7/force@19").as_deref(), Some("acc@7 force@19"));
+        assert_eq!(pair("H_7z_19z").as_deref(), Some("7z 19z"));
+        assert_eq!(pair("FRF(3,1)").as_deref(), Some("3 1"));
+        assert_eq!((pair("H[1]"), pair("FRF")), (None, None));
+    }
+
+    #[test]
+    fn dofs_as_programs_write_them() {
+        let dof = |text: &str| file_dof(text).map(|dof| (dof.node, dof.direction));
+        assert_eq!((dof("12:+Z"), dof("12-Z"), dof("7rx")), (Some((12, 3)), Some((12, -3)), Some((7, 4))));
+        assert_eq!((dof("12"), dof("z"), dof("12:S")), (None, None, None));
+    }
 }

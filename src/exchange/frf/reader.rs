@@ -1,7 +1,8 @@
 //! Universal Files to measured frequency responses: functions of type 4, coherences of type 6 beside them.
 
 use super::error::{FrfError, FrfProblem};
-use super::names::place;
+use super::names::{place, place_of_name};
+use super::other;
 use super::units::{Form, ratio};
 use crate::control::Control;
 use crate::measurement::frf::{FrequencyResponse, ResponseSet};
@@ -25,6 +26,26 @@ pub struct FrfSource {
     pub reciprocity: bool,
     /// DOFs of the file by name, such as `12:+Z`, and their labels in the structure.
     pub dofs: BTreeMap<String, String>,
+    /// Labels of the responses, in the order of the columns of an array, responses first; `-` in front reverses.
+    pub responses: Vec<String>,
+    /// Labels of the references, in the order of the columns of an array.
+    pub references: Vec<String>,
+    /// Step of the frequencies from 0 Hz on, Hz, of a file that does not say them.
+    pub step_hz: Option<f64>,
+}
+
+impl FrfSource {
+    /// Labels of response and reference of function number `k` by the lists, where there are any: all responses to the first
+    /// reference first.
+    pub(super) fn listed(&self, k: usize) -> Result<Option<[String; 2]>, String> {
+        if self.responses.is_empty() {
+            return Ok(None);
+        }
+        let reference = self.references.get(k / self.responses.len());
+        let reference =
+            reference.ok_or("`responses` and `references` name fewer functions than there are; name every one")?;
+        Ok(Some([self.responses[k % self.responses.len()].clone(), reference.clone()]))
+    }
 }
 
 /// The functions of a file on their common frequencies, and the faults that were read over.
@@ -36,8 +57,46 @@ pub fn read_responses(
     control: &Control,
 ) -> Result<(ResponseSet, Vec<String>), FrfError> {
     let at = |problem| FrfError { file: path.display().to_string(), problem };
+    if !is_universal(path) {
+        return other::read(path, name, source, structure, control).map_err(at);
+    }
     let mut file = File::open(path).map_err(|error| at(FrfProblem::File(error)))?;
     Reader { file: &mut file, source, structure }.read(name, control).map_err(at)
+}
+
+/// Whether a file is a Universal File: -1 stands alone in its first line that is not blank.
+fn is_universal(path: &Path) -> bool {
+    use std::io::Read;
+    let mut start = Vec::new();
+    let read = std::fs::File::open(path).and_then(|file| file.take(4096).read_to_end(&mut start));
+    let text = String::from_utf8_lossy(&start);
+    let universal =
+        path.extension().is_some_and(|end| ["uff", "unv", "ufb"].iter().any(|e| end.eq_ignore_ascii_case(e)));
+    universal || read.is_err() || text.lines().map(str::trim).find(|line| !line.is_empty()) == Some("-1")
+}
+
+/// Labels in a structure of nodes and directions that the functions of a file may stand for, such as `12z`.
+pub fn labels_in(path: &Path) -> Vec<String> {
+    let Ok(file) = dashpot_datafiles::open(path) else { return Vec::new() };
+    let functions = file.contents().sets.iter().filter(|set| set.kind == dashpot_datafiles::Kind::Frf);
+    let mut labels: Vec<String> = Vec::new();
+    for channel in functions.flat_map(|set| &set.channels) {
+        let pair = [channel.attribute("response"), channel.attribute("reference")].map(|text| text.map(str::to_owned));
+        let pair = match pair {
+            [Some(response), Some(reference)] => Some([response, reference]),
+            _ => super::names::pair_in_name(&channel.name),
+        };
+        for text in pair.into_iter().flatten() {
+            let plain = text.rsplit(' ').next().unwrap_or_default().rsplit('@').next().unwrap_or_default();
+            let label: String = plain.chars().filter(char::is_ascii_alphanumeric).collect::<String>().to_lowercase();
+            for one in [label, plain.to_owned()] {
+                if !labels.contains(&one) {
+                    labels.push(one);
+                }
+            }
+        }
+    }
+    labels
 }
 
 struct Reader<'a> {
@@ -77,7 +136,7 @@ impl Reader<'_> {
             if header.kind == FunctionKind::Coherence {
                 coherences.push((set, function));
             } else {
-                found.push(self.response(set, &function, units.as_ref())?);
+                found.push(self.response([set, found.len()], &function, units.as_ref())?);
             }
         }
         if found.is_empty() {
@@ -98,14 +157,27 @@ impl Reader<'_> {
         Ok((set, faults))
     }
 
-    fn response(&mut self, set: usize, function: &Function, units: Option<&uff::Units>) -> Result<Found, FrfProblem> {
+    /// Set number `set`, the `k`-th that is a frequency response.
+    fn response(
+        &mut self,
+        [set, k]: [usize; 2],
+        function: &Function,
+        units: Option<&uff::Units>,
+    ) -> Result<Found, FrfProblem> {
         let header = &function.header;
         let wrong = |what: String| FrfProblem::set(set, what);
         let (form, scale) = self.form(header, units).map_err(wrong)?;
         let pair = [header.response.clone(), header.reference.clone()];
-        let [response, reference] = if self.source.reciprocity { [&pair[1], &pair[0]] } else { [&pair[0], &pair[1]] };
-        let (response, sign) = place(response, &self.source.dofs, self.structure).map_err(wrong)?;
-        let (reference, other) = place(reference, &self.source.dofs, self.structure).map_err(wrong)?;
+        let sides = match self.source.listed(k).map_err(wrong)? {
+            Some(listed) => listed.map(|name| place_of_name(&name, &self.source.dofs, self.structure)),
+            None => [0, 1].map(|side: usize| place(&pair[side], &self.source.dofs, self.structure)),
+        };
+        let [first, second] = sides;
+        let (mut response, mut reference) = (first.map_err(wrong)?, second.map_err(wrong)?);
+        if self.source.reciprocity {
+            std::mem::swap(&mut response, &mut reference);
+        }
+        let ((response, sign), (reference, other)) = (response, reference);
         if form.is_inverse() && response != reference {
             return Err(wrong(
                 "force over motion between different DOFs is not the inverse of a response; export motion over force"
@@ -206,7 +278,7 @@ fn attach(found: &mut [Found], set: usize, coherence: &Function) -> Result<(), F
 }
 
 /// Leaves out the line at 0 Hz, which is no motion.
-fn drop_zero(set: &mut ResponseSet) {
+pub(super) fn drop_zero(set: &mut ResponseSet) {
     let from = set.frequencies_hz.iter().take_while(|f| **f <= 0.0).count();
     set.frequencies_hz.drain(..from);
     for function in &mut set.functions {

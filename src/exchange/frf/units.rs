@@ -1,7 +1,7 @@
 //! Forms and units of frequency responses: what a number in the file is in SI.
 
+use crate::exchange::mapping::units::LabUnit;
 use crate::measurement::Quantity;
-use crate::measurement::channel::Unit;
 use serde::Serialize;
 
 /// What a function relates.
@@ -77,34 +77,65 @@ pub(super) fn ratio(header: &uff::FunctionHeader, units: Option<&uff::Units>) ->
     let (over, under) = unit_texts(header);
     let top = side(&over, header.ordinate.quantity, units)?;
     let bottom = side(&under, header.denominator.quantity, units)?;
-    let (form, to_si) = match (top, bottom) {
-        ((Quantity::Force, force), (motion, factor)) if motion != Quantity::Force => {
-            let inverse = match motion {
-                Quantity::Displacement => Form::DynamicStiffness,
-                Quantity::Velocity => Form::Impedance,
-                _ => Form::ApparentMass,
-            };
-            (inverse, force / factor)
-        }
-        ((motion, factor), (Quantity::Force, force)) if motion != Quantity::Force => {
-            (Form::of(motion).unwrap_or(Form::Receptance), factor / force)
-        }
-        _ => return Err(format!("\"{over}\" over \"{under}\" is no motion over a force; give `form` and `scale`")),
-    };
-    Ok(Ratio { form, to_si })
+    of_sides(top, bottom)
+        .ok_or_else(|| format!("\"{over}\" over \"{under}\" is no motion over a force; give `form` and `scale`"))
 }
 
 /// Units over and under the line; some programs write both into the ordinate, such as `(m/s^2)/N`.
 fn unit_texts(header: &uff::FunctionHeader) -> (String, String) {
     let (over, under) = (header.ordinate.unit.trim(), header.denominator.unit.trim());
     if under.is_empty()
-        && let Some((a, b)) = over.rsplit_once('/')
-        && Unit::from_name(over).is_none()
+        && LabUnit::from_name(over).is_none()
+        && let Some(both) = split(over)
     {
-        let plain = |text: &str| text.trim().trim_start_matches('(').trim_end_matches(')').trim().to_string();
-        return (plain(a), plain(b));
+        return both;
     }
     (over.to_string(), under.to_string())
+}
+
+/// Motion over force, or the inverse, of one unit, such as `(m/s^2)/N`, `g/lbf`, `(1/N)*(m/s^2)`, `1/kg`.
+pub(super) fn ratio_of_unit(unit: &str) -> Result<Ratio, String> {
+    let unknown =
+        || format!("the unit \"{unit}\" is no motion over a force; give `form` and `scale` (file times scale is SI)");
+    let plain: String = unit.chars().filter(|c| !c.is_whitespace()).collect();
+    match plain.to_lowercase().as_str() {
+        "1/kg" | "kg-1" | "kg^-1" => return Ok(Ratio { form: Form::Accelerance, to_si: 1.0 }),
+        "kg" => return Ok(Ratio { form: Form::ApparentMass, to_si: 1.0 }),
+        _ => {}
+    }
+    let (over, under) = split(&plain).ok_or_else(unknown)?;
+    let (top, bottom) =
+        (LabUnit::from_name(&over).ok_or_else(unknown)?, LabUnit::from_name(&under).ok_or_else(unknown)?);
+    of_sides((top.quantity, top.to_si), (bottom.quantity, bottom.to_si)).ok_or_else(unknown)
+}
+
+/// What stands over and under the last line of a unit; `(1/B)*(A)` is `A` over `B`.
+fn split(text: &str) -> Option<(String, String)> {
+    let plain = |text: &str| text.trim().trim_start_matches('(').trim_end_matches(')').trim().to_string();
+    let inverse = text.trim().strip_prefix("(1/").or_else(|| text.trim().strip_prefix("1/"));
+    if let Some((under, over)) = inverse.and_then(|rest| rest.split_once(['*', '·'])) {
+        return Some((plain(over), plain(under)));
+    }
+    let (over, under) = text.rsplit_once('/')?;
+    Some((plain(over), plain(under)))
+}
+
+/// The form of two sides and the factor to SI.
+fn of_sides(top: (Quantity, f64), bottom: (Quantity, f64)) -> Option<Ratio> {
+    match (top, bottom) {
+        ((Quantity::Force, force), (motion, factor)) if motion != Quantity::Force => {
+            let form = match motion {
+                Quantity::Displacement => Form::DynamicStiffness,
+                Quantity::Velocity => Form::Impedance,
+                _ => Form::ApparentMass,
+            };
+            Some(Ratio { form, to_si: force / factor })
+        }
+        ((motion, factor), (Quantity::Force, force)) if motion != Quantity::Force => {
+            Some(Ratio { form: Form::of(motion)?, to_si: factor / force })
+        }
+        _ => None,
+    }
 }
 
 /// Quantity of one side and the factor to SI.
@@ -116,7 +147,7 @@ fn side(text: &str, code: i64, units: Option<&uff::Units>) -> Result<(Quantity, 
         9 | 13 => Some(Quantity::Force),
         _ => None,
     };
-    if let Some(unit) = Unit::from_name(text) {
+    if let Some(unit) = LabUnit::from_name(text) {
         if quantity.is_some_and(|quantity| quantity != unit.quantity) {
             return Err(format!("the unit \"{text}\" does not belong to data type {code}; give `form` and `scale`"));
         }
@@ -128,5 +159,25 @@ fn side(text: &str, code: i64, units: Option<&uff::Units>) -> Result<(Quantity, 
             Ok((quantity, 1.0 / factor))
         }
         _ => Err(format!("the unit \"{text}\" is not understood; give `form` and `scale` (file times scale is SI)")),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "tests")]
+    use super::*;
+
+    #[test]
+    fn units_of_responses_in_the_spellings_of_programs() {
+        let read = |unit: &str| ratio_of_unit(unit).map(|ratio| (ratio.form, ratio.to_si)).ok();
+        assert_eq!(read("(m/s^2)/(N)"), Some((Form::Accelerance, 1.0)));
+        assert_eq!(read("m/s²/N"), Some((Form::Accelerance, 1.0)));
+        assert_eq!(read("(1/N)*(m/s²)"), Some((Form::Accelerance, 1.0)));
+        assert_eq!(read("g/N"), Some((Form::Accelerance, 9.806_65)));
+        assert_eq!(read("mm/N"), Some((Form::Receptance, 1e-3)));
+        assert_eq!(read("(m/s)/N"), Some((Form::Mobility, 1.0)));
+        assert_eq!(read("N/m"), Some((Form::DynamicStiffness, 1.0)));
+        assert_eq!(read("1/kg"), Some((Form::Accelerance, 1.0)));
+        assert_eq!((read("V/N"), read("m/s^2"), read("")), (None, None, None));
     }
 }

@@ -3,11 +3,14 @@
 //! The mapping is a template in the project, `[[channel]]`, and holds for all its files of the same layout. Files are opened
 //! by `dashpot_datafiles` and never rewritten.
 
+mod guess;
 pub mod propose;
 mod read;
+mod stepped;
 pub mod table;
 pub mod units;
 
 pub use propose::{Proposal, propose};
 pub(crate) use read::{Template, read_mapped, reads_as_own};
+pub use stepped::{Stepped, stepped};
 pub use table::ChannelTable;

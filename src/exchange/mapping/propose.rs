@@ -1,59 +1,61 @@
 //! Proposals for a mapping from names and metadata: `acc@7`, `12:+Z`, `Acc 7`, nodes and directions of Universal Files.
+//!
+//! What a file does not say is proposed with a note: DOFs numbered in the order of the channels, SI units. A channel that may
+//! be a motion in a unit of its sensor (volts, strain) is kept apart, as [`Proposal::uncalibrated`].
 
+use super::guess::{angle, is_sensor_unit, place_of, quantity_of_type, spoken};
 use super::table::ChannelTable;
 use super::units::LabUnit;
 use crate::measurement::Quantity;
 use crate::measurement::channel::parse_name;
-use dashpot_datafiles::{Channel, Contents, Kind};
+use dashpot_datafiles::{Axis, Channel, Contents, Kind};
 
 /// What is proposed for a file.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Proposal {
     /// Channels that are mapped.
     pub channels: Vec<ChannelTable>,
-    /// Channels that are not, each with the reason.
+    /// What was assumed of mapped channels: the channel in the words of the project, such as `acc@7`, and the assumption.
+    pub assumed: Vec<(String, String)>,
+    /// Channels in the unit of their sensor, as displacements with factor 1 m a unit: nothing says what they measure.
+    pub uncalibrated: Vec<ChannelTable>,
+    /// Channels that are not mapped, each with the reason.
     pub left: Vec<(String, String)>,
     /// Whether the file does not say the time between samples.
     pub needs_sampling: bool,
 }
 
-/// Words in names that say what a channel measures.
-const WORDS: [(&[&str], Quantity); 4] = [
-    (&["force", "kraft", "load", "hammer", "shaker", "exc", "frc"], Quantity::Force),
-    (&["acc", "accel", "acceleration", "beschleunigung", "icp"], Quantity::Acceleration),
-    (&["vel", "velocity", "speed", "geschwindigkeit", "ldv", "vibrometer"], Quantity::Velocity),
-    (&["disp", "displacement", "weg", "laser", "lvdt", "position", "pos"], Quantity::Displacement),
-];
-
-/// Types of ordinates in Universal Files.
-fn quantity_of_type(number: &str) -> Option<Quantity> {
-    match number {
-        "8" => Some(Quantity::Displacement),
-        "9" | "13" => Some(Quantity::Force),
-        "11" => Some(Quantity::Velocity),
-        "12" => Some(Quantity::Acceleration),
-        _ => None,
-    }
+/// A channel on its way into the mapping.
+struct Draft<'a> {
+    channel: &'a Channel,
+    table: ChannelTable,
+    /// Whether a place was found in its name or metadata.
+    placed: bool,
+    calibrated: bool,
+    assumed: Vec<String>,
 }
 
 /// Proposes a mapping for the time records of a file. `set` is stated where a name stands in several sets.
 pub fn propose(contents: &Contents) -> Proposal {
     let mut proposal = Proposal::default();
+    let mut drafts: Vec<Draft<'_>> = Vec::new();
     for set in contents.sets.iter().filter(|set| matches!(set.kind, Kind::Time | Kind::Table)) {
         for channel in &set.channels {
             let same = |other: &&Channel| other.name == channel.name;
             let everywhere = contents.sets.iter().flat_map(|set| &set.channels).filter(same).count();
             let within = set.channels.iter().filter(same).count();
             let stated = (everywhere > within).then(|| set.name.clone());
-            match one(channel, stated) {
+            match draft(channel, stated) {
                 _ if within > 1 => proposal.leave(channel, "two channels of the set have that name"),
                 _ if channel.count == 0 => proposal.leave(channel, "it has 0 samples"),
                 _ if channel.complex => proposal.leave(channel, "it is complex"),
-                Err(reason) => proposal.leave(channel, reason),
-                Ok(table) => proposal.take(channel, table),
+                Err(reason) => proposal.leave(channel, &reason),
+                Ok(draft) => drafts.push(draft),
             }
         }
     }
+    let drafts = proposal.of_one_length(drafts);
+    proposal.number(drafts);
     proposal
 }
 
@@ -62,14 +64,56 @@ impl Proposal {
         self.left.push((channel.name.clone(), reason.to_owned()));
     }
 
-    fn take(&mut self, channel: &Channel, table: ChannelTable) {
-        if self.channels.iter().any(|other| other.channel() == table.channel()) {
-            let reason = format!("{} is proposed for another channel already", table.channel());
-            self.left.push((channel.name.clone(), reason));
+    /// Keeps the channels of the length and step that most of them have: those of a run share their times.
+    fn of_one_length<'a>(&mut self, drafts: Vec<Draft<'a>>) -> Vec<Draft<'a>> {
+        let times = |draft: &Draft<'_>| (draft.channel.count, draft.channel.axis.step().map(f64::to_bits));
+        let alike = |draft: &Draft<'_>| {
+            let calibrated = drafts.iter().filter(|other| other.calibrated && times(other) == times(draft)).count();
+            (calibrated, drafts.iter().filter(|other| times(other) == times(draft)).count())
+        };
+        let Some(most) = drafts.iter().rev().max_by_key(|draft| alike(draft)).map(times) else { return drafts };
+        let (kept, others): (Vec<_>, Vec<_>) = drafts.into_iter().partition(|draft| times(draft) == most);
+        for draft in others {
+            let reason = match (draft.channel.count, most.0) {
+                (own, most) if own == most => "it is sampled at another rate than the others".to_owned(),
+                (own, most) => format!("it has {own} values where the others have {most}"),
+            };
+            self.leave(draft.channel, &reason);
+        }
+        kept
+    }
+
+    /// Gives channels without a place the next number: motions in their order, forces that of the first motion.
+    fn number(&mut self, mut drafts: Vec<Draft<'_>>) {
+        let mut taken: Vec<String> = drafts.iter().filter(|d| d.placed).map(|d| d.table.dof.clone()).collect();
+        let is_motion = |draft: &&mut Draft<'_>| !matches!(draft.table.quantity, Quantity::Force | Quantity::Base);
+        for draft in drafts.iter_mut().filter(is_motion).filter(|draft| !draft.placed) {
+            let next = (1..=u32::MAX).map(|n| n.to_string()).find(|label| !taken.contains(label));
+            draft.table.dof = next.unwrap_or_default();
+            taken.push(draft.table.dof.clone());
+            draft.assumed.push(format!("the file says no DOF: {} is its number in order", draft.table.dof));
+        }
+        let first = drafts.iter().find(|draft| draft.table.quantity != Quantity::Force && draft.calibrated);
+        let first = first.or_else(|| drafts.iter().find(|draft| draft.table.quantity != Quantity::Force));
+        let first = first.map_or_else(|| "1".to_owned(), |draft| draft.table.dof.clone());
+        for draft in drafts.iter_mut().filter(|draft| !draft.placed && draft.table.quantity == Quantity::Force) {
+            draft.table.dof.clone_from(&first);
+            draft.assumed.push(format!("the file says no DOF: it is taken to act at DOF {first}"));
+        }
+        for draft in drafts {
+            self.take(draft);
+        }
+    }
+
+    fn take(&mut self, draft: Draft<'_>) {
+        let name = draft.table.channel();
+        if self.channels.iter().chain(&self.uncalibrated).any(|other| other.channel() == name) {
+            self.leave(draft.channel, &format!("{name} is proposed for another channel already"));
             return;
         }
-        self.needs_sampling |= channel.axis.step().is_none() && channel.axis == dashpot_datafiles::Axis::None;
-        self.channels.push(table);
+        self.needs_sampling |= draft.channel.axis == Axis::None;
+        self.assumed.extend(draft.assumed.into_iter().map(|what| (name.clone(), what)));
+        if draft.calibrated { &mut self.channels } else { &mut self.uncalibrated }.push(draft.table);
     }
 }
 
@@ -77,8 +121,7 @@ impl Proposal {
 pub(super) fn own_name(set: &str, channel: &Channel) -> Option<ChannelTable> {
     let (quantity, label) = parse_name(&channel.name).ok()?;
     let unit = LabUnit::from_name(&channel.unit)?;
-    (unit.quantity == quantity)
-        .then(|| ChannelTable { set: Some(set.to_owned()), ..table(channel, None, quantity, label) })
+    unit.measures(quantity).then(|| ChannelTable { set: Some(set.to_owned()), ..table(channel, None, quantity, label) })
 }
 
 fn table(channel: &Channel, set: Option<String>, quantity: Quantity, label: String) -> ChannelTable {
@@ -94,70 +137,57 @@ fn table(channel: &Channel, set: Option<String>, quantity: Quantity, label: Stri
     }
 }
 
-fn one(channel: &Channel, set: Option<String>) -> Result<ChannelTable, &'static str> {
+fn draft(channel: &Channel, set: Option<String>) -> Result<Draft<'_>, String> {
+    let of =
+        |table: ChannelTable, placed: bool| Draft { channel, table, placed, calibrated: true, assumed: Vec::new() };
     if let Ok((quantity, label)) = parse_name(&channel.name) {
-        return Ok(table(channel, set, quantity, label));
+        let unit = LabUnit::from_name(&channel.unit);
+        let mut draft = of(table(channel, set, quantity, label), true);
+        draft.convert(unit, quantity, &channel.unit);
+        return Ok(draft);
     }
-    let unit = LabUnit::from_name(&channel.unit).map(|unit| unit.quantity);
+    let unit = LabUnit::from_name(&channel.unit);
     let typed = channel.attribute("quantity").and_then(quantity_of_type);
-    let quantity = unit.or(typed).or_else(|| spoken(&channel.name));
-    let quantity = quantity.ok_or("neither its unit nor its name says what it measures")?;
-    let place = channel.attribute("response").unwrap_or(&channel.name);
-    let (label, sign) = place_of(place).ok_or("its name says no DOF")?;
-    Ok(ChannelTable { sign, ..table(channel, set, quantity, label) })
-}
-
-/// Quantity by a word of the name.
-fn spoken(name: &str) -> Option<Quantity> {
-    let name = name.to_lowercase();
-    let words: Vec<&str> = name.split(|c: char| !c.is_alphabetic()).filter(|word| !word.is_empty()).collect();
-    WORDS.iter().find(|(known, _)| words.iter().any(|word| known.contains(word))).map(|(_, quantity)| *quantity)
-}
-
-/// Label and sign out of `12:+Z`, `12-Z`, `Acc 7`: the last number of the name and the direction behind it. The positive
-/// direction X of a node that is written alone keeps the number as its label.
-fn place_of(text: &str) -> Option<(String, Option<i64>)> {
-    let text = text.trim();
-    let end = text.rfind(|c: char| c.is_ascii_digit())? + 1;
-    let start = text[..end]
-        .rfind(|c: char| !c.is_ascii_digit())
-        .map_or(0, |at| at + text[at..].chars().next().map_or(1, char::len_utf8));
-    let number = text[start..end].trim_start_matches('0');
-    let number = if number.is_empty() { "0" } else { number };
-    let behind: String =
-        text[end..].chars().filter(|c| !c.is_whitespace() && !matches!(c, ':' | '_' | ')' | ']')).collect();
-    let (sign, axis) = match behind.chars().next() {
-        Some('-') => (Some(-1), &behind[1..]),
-        Some('+') => (None, &behind[1..]),
-        _ => (None, behind.as_str()),
+    let spoken = spoken(&channel.name).or(typed);
+    let turned = unit.is_none() && channel.unit.is_empty() && angle(&channel.name);
+    let quantity = unit.map(|unit| unit.quantity).or(spoken).or(turned.then_some(Quantity::Displacement));
+    let place = place_of(channel.attribute("response").unwrap_or(&channel.name));
+    let (label, sign) = place.clone().unwrap_or_default();
+    let Some(quantity) = quantity else {
+        if !is_sensor_unit(&channel.unit) {
+            return Err(match channel.unit.as_str() {
+                "" => "neither its unit nor its name says what it measures".to_owned(),
+                unit => format!("{unit} is no unit of a force or of a motion"),
+            });
+        }
+        let table = table(channel, set, Quantity::Displacement, label);
+        let table = ChannelTable { sign, unit: Some("m".to_owned()), factor: Some(1.0), ..table };
+        let assumed = vec![format!("nothing says what it measures: factor is 1 m a {}, fill in its own", channel.unit)];
+        return Ok(Draft { channel, table, placed: place.is_some(), calibrated: false, assumed });
     };
-    let axis = axis.to_lowercase();
-    match axis.as_str() {
-        "" => Some((number.to_owned(), sign)),
-        "x" | "y" | "z" | "rx" | "ry" | "rz" => Some((format!("{number}{axis}"), sign)),
-        _ => None,
+    let mut draft = of(ChannelTable { sign, ..table(channel, set, quantity, label) }, place.is_some());
+    if turned {
+        draft.table.unit = Some("rad".to_owned());
+        draft.assumed.push("by its name an angle; the file says no unit: rad is assumed".to_owned());
+    } else {
+        draft.convert(unit, quantity, &channel.unit);
     }
+    Ok(draft)
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn places_out_of_names() {
-        let place = |text: &str| place_of(text).map(|(label, sign)| (label, sign.unwrap_or(1)));
-        assert_eq!(place("12:+Z"), Some(("12z".into(), 1)));
-        assert_eq!(place("12:-Z"), Some(("12z".into(), -1)));
-        assert_eq!(place("Acc 7"), Some(("7".into(), 1)));
-        assert_eq!(place("acc_07_x"), Some(("7x".into(), 1)));
-        assert_eq!(place("Force"), None);
-        assert_eq!(place("7 left"), None);
-    }
-
-    #[test]
-    fn words_say_the_quantity() {
-        assert_eq!(spoken("Acc 7"), Some(Quantity::Acceleration));
-        assert_eq!(spoken("Kraft_1"), Some(Quantity::Force));
-        assert_eq!(spoken("Channel 1"), None);
+impl Draft<'_> {
+    /// States a unit where the file says none that fits.
+    fn convert(&mut self, unit: Option<LabUnit>, quantity: Quantity, named: &str) {
+        if unit.is_some_and(|unit| unit.measures(quantity)) {
+            return;
+        }
+        let si = quantity.si_unit(false);
+        self.table.unit = Some(si.to_owned());
+        if named.is_empty() {
+            self.assumed.push(format!("the file says no unit: {si} is assumed"));
+        } else {
+            self.table.factor = Some(1.0);
+            self.assumed.push(format!("the file says {named}: factor is 1 {si} a {named}, fill in the calibration"));
+        }
     }
 }

@@ -3,9 +3,9 @@
 use super::propose::own_name;
 use super::table::ChannelTable;
 use super::units::LabUnit;
-use crate::exchange::records::{RecordFileError, RecordProblem};
+use crate::exchange::records::{RecordFileError, RecordProblem, base_channel};
 use crate::measurement::channel::ChannelName;
-use crate::measurement::{Channel, Record};
+use crate::measurement::{Channel, Quantity, Record};
 use crate::structure::{Structure, StructureKind};
 use dashpot_datafiles::{DataFile, Kind, Values, open};
 use std::path::Path;
@@ -161,6 +161,13 @@ fn locate(
 /// The channel of the project that a table names.
 fn target(table: &ChannelTable, structure: &Structure, at: &At<'_>) -> Result<Channel, RecordFileError> {
     let label = table.dof.clone();
+    if table.quantity == Quantity::Base {
+        return base_channel(&label, structure).ok_or_else(|| {
+            let problem =
+                format!("the base of this structure does not move along \"{label}\"; write x, y or z of its DOFs");
+            at.error(Some(&table.name), problem)
+        });
+    }
     let Some(dof) = structure.dof(&label) else {
         return Err(at.error(
             Some(&table.name),
@@ -175,10 +182,7 @@ fn target(table: &ChannelTable, structure: &Structure, at: &At<'_>) -> Result<Ch
 fn unit_suits(table: &ChannelTable, structure: &Structure, dof: usize, at: &At<'_>) -> Result<(), RecordFileError> {
     let Some(unit) = table.unit.as_deref().and_then(LabUnit::from_name) else { return Ok(()) };
     let rotation = structure.dofs()[dof].direction.is_rotation();
-    if structure.kind() == StructureKind::Points
-        || unit.rotation == rotation
-        || unit.quantity == crate::measurement::Quantity::Force
-    {
+    if structure.kind() == StructureKind::Points || unit.rotation == rotation || unit.quantity == Quantity::Force {
         return Ok(());
     }
     let kind = if rotation { "rotation" } else { "translation" };
@@ -220,7 +224,7 @@ fn values(
         };
         return Err(at.error(Some(&table.name), problem));
     };
-    if unit.quantity != quantity {
+    if !unit.measures(quantity) {
         return Err(at.error(
             Some(&table.name),
             format!("{named} is not a unit of {}; correct `quantity` or `unit` ({known})", quantity.word()),

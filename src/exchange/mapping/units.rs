@@ -74,11 +74,20 @@ impl LabUnit {
         find(&SPELLINGS, false).or_else(|| find(&ROTATIONS, true))
     }
 
+    /// Whether a quantity is measured in it; that of a base is the acceleration along a direction.
+    pub fn measures(&self, quantity: Quantity) -> bool {
+        match quantity {
+            Quantity::Base => self.quantity == Quantity::Acceleration && !self.rotation,
+            other => self.quantity == other,
+        }
+    }
+
     /// Units of a quantity for a message.
     pub fn names_of(quantity: Quantity) -> &'static str {
         match quantity {
             Quantity::Force => "N, mN, kN, lbf, kgf, N m",
-            Quantity::Acceleration | Quantity::Base => "m/s^2, mm/s^2, g, mg, in/s^2, ft/s^2, rad/s^2, deg/s^2",
+            Quantity::Base => "m/s^2, mm/s^2, g, mg, in/s^2, ft/s^2",
+            Quantity::Acceleration => "m/s^2, mm/s^2, g, mg, in/s^2, ft/s^2, rad/s^2, deg/s^2",
             Quantity::Velocity => "m/s, mm/s, cm/s, in/s, rad/s, deg/s",
             Quantity::Displacement => "m, cm, mm, um, in, mil, ft, rad, mrad, deg",
         }
@@ -101,5 +110,7 @@ mod tests {
         assert_eq!(si("MN"), None);
         assert_eq!(si("deg"), Some((std::f64::consts::PI / 180.0, Quantity::Displacement, true)));
         assert_eq!(si("Volts"), None);
+        let along = |name: &str| LabUnit::from_name(name).unwrap().measures(Quantity::Base);
+        assert!(along("g") && !along("rad/s^2") && !along("mm"));
     }
 }

@@ -5,9 +5,11 @@ use super::file::Lines;
 use super::reader::{Origin, Table, one_line};
 use crate::exchange::mapping::{ChannelTable, units::LabUnit};
 use crate::measurement::Quantity;
+use crate::measurement::base::AXES;
 use toml::de::DeTable;
 
-const QUANTITIES: [&str; 4] = ["force", "acc", "vel", "disp"];
+const QUANTITIES: [&str; 5] = ["force", "acc", "vel", "disp", "base"];
+const KEYS: [&str; 9] = ["name", "set", "quantity", "dof", "direction", "unit", "sign", "factor", "delay"];
 
 /// Reads the tables of a project.
 pub(super) fn parse(root: &Table<'_>, lines: &mut Lines) -> Result<Vec<ChannelTable>, ProjectError> {
@@ -43,7 +45,7 @@ pub fn template(text: &str, file: &str) -> Result<Vec<ChannelTable>, ProjectErro
 }
 
 fn one(table: &Table<'_>) -> Result<ChannelTable, ProjectError> {
-    table.only(&["name", "set", "quantity", "dof", "unit", "sign", "factor", "delay"])?;
+    table.only(&KEYS)?;
     let out = |key: &str, value: String, range| table.error(key, Problem::OutOfRange { key: key.into(), value, range });
     let sign = table.whole("sign")?;
     if let Some(value) = sign.filter(|sign| sign.abs() != 1) {
@@ -57,7 +59,7 @@ fn one(table: &Table<'_>) -> Result<ChannelTable, ProjectError> {
     let quantity = table.word("quantity", &QUANTITIES, Quantity::from_word)?;
     let quantity = table.need("quantity", "quantity = \"acc\"", quantity)?;
     if let Some(value) =
-        unit.as_deref().filter(|unit| LabUnit::from_name(unit).is_none_or(|unit| unit.quantity != quantity))
+        unit.as_deref().filter(|unit| LabUnit::from_name(unit).is_none_or(|unit| !unit.measures(quantity)))
     {
         let allowed = LabUnit::names_of(quantity).to_owned();
         return Err(table.error("unit", Problem::NotAllowed { key: "unit".into(), value: one_line(value), allowed }));
@@ -66,10 +68,25 @@ fn one(table: &Table<'_>) -> Result<ChannelTable, ProjectError> {
         name: table.need("name", "name = \"Acc 7\"", table.text("name")?)?,
         set: table.text("set")?,
         quantity,
-        dof: table.need("dof", "dof = 7", table.label("dof")?)?,
+        dof: place(table, quantity)?,
         unit,
         sign,
         factor,
         delay: table.number("delay")?,
     })
+}
+
+/// Label of the DOF; of a base its direction, under `direction` or `dof`.
+fn place(table: &Table<'_>, quantity: Quantity) -> Result<String, ProjectError> {
+    if quantity != Quantity::Base {
+        if let Some(value) = table.text("direction")? {
+            let allowed = "`dof` in its place: a direction is that of quantity \"base\"".to_owned();
+            return Err(table.error("direction", Problem::NotAllowed { key: "direction".into(), value, allowed }));
+        }
+        return table.need("dof", "dof = 7", table.label("dof")?);
+    }
+    let key = if table.text("direction")?.is_some() { "direction" } else { "dof" };
+    let axis = table.word(key, &AXES, |word| AXES.iter().position(|axis| *axis == word))?;
+    let axis = table.need("direction", "direction = \"z\" of a base", axis)?;
+    Ok(AXES[axis].to_owned())
 }

@@ -11,7 +11,20 @@ use serde::Serialize;
 use std::collections::BTreeMap;
 use std::path::Path;
 
-const KEYS: [&str; 9] = ["file", "form", "scale", "averages", "reciprocity", "band", "lines", "use", "dofs"];
+const KEYS: [&str; 12] = [
+    "file",
+    "form",
+    "scale",
+    "averages",
+    "reciprocity",
+    "band",
+    "lines",
+    "use",
+    "dofs",
+    "responses",
+    "references",
+    "step_hz",
+];
 
 /// Lines that are used unless the project says otherwise: enough for many modes, few enough to stay fast.
 const USUAL_LINES: usize = 96;
@@ -23,7 +36,7 @@ const MOST_AVERAGES: usize = 1_000_000;
 /// Table `[[frf]]`.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct FrfTable {
-    /// Universal File, relative to the project.
+    /// Universal File, or another with complex values over a frequency; relative to the project.
     pub file: String,
     /// What the functions relate; from their units where it is left out.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -46,6 +59,15 @@ pub struct FrfTable {
     /// Key `use`.
     #[serde(rename = "use", skip_serializing_if = "Clone::clone")]
     pub enabled: bool,
+    /// Labels of the responses in the order of the columns of an array.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub responses: Vec<Label>,
+    /// Labels of the references in the order of the columns of an array.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub references: Vec<Label>,
+    /// Step of the frequencies from 0 Hz on, Hz, where the file does not say them.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub step_hz: Option<f64>,
     /// DOFs of the file, such as `12:+Z`, and their labels in the structure.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub dofs: BTreeMap<String, Label>,
@@ -71,10 +93,24 @@ pub(super) fn parse(root: &Table<'_>, lines: &mut Lines) -> Result<Vec<FrfTable>
             lines: table.count("lines", 1, MOST_LINES, "between 1 and 100000")?,
             enabled: table.flag("use")?.unwrap_or(true),
             dofs: dofs(&table)?,
+            responses: table.labels("responses")?.unwrap_or_default().into_iter().map(Label).collect(),
+            references: table.labels("references")?.unwrap_or_default().into_iter().map(Label).collect(),
+            step_hz: step(&table)?,
         });
         lines.frf.push(table.line());
     }
     Ok(tables)
+}
+
+fn step(table: &Table<'_>) -> Result<Option<f64>, ProjectError> {
+    let step = table.number("step_hz")?;
+    match step.filter(|step| *step <= 0.0) {
+        Some(value) => {
+            let problem = Problem::OutOfRange { key: "step_hz".into(), value: value.to_string(), range: "above 0 Hz" };
+            Err(table.error("step_hz", problem))
+        }
+        None => Ok(step),
+    }
 }
 
 fn band(table: &Table<'_>) -> Result<Option<[f64; 2]>, ProjectError> {
@@ -109,6 +145,9 @@ impl FrfTable {
             averages: self.averages,
             reciprocity: self.reciprocity,
             dofs: self.dofs.iter().map(|(name, label)| (name.clone(), label.0.clone())).collect(),
+            responses: self.responses.iter().map(|label| label.0.clone()).collect(),
+            references: self.references.iter().map(|label| label.0.clone()).collect(),
+            step_hz: self.step_hz,
         }
     }
 

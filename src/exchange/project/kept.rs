@@ -2,6 +2,7 @@
 //! A reduced structure keeps them.
 
 use super::file::{Label, ProjectFile, Shape};
+use crate::exchange::frf::labels_in;
 use crate::exchange::records::places::contents;
 use crate::measurement::channel::{ChannelName, parse_name};
 use crate::structure::{Direction, Structure};
@@ -20,6 +21,12 @@ pub(super) fn labels(file: &ProjectFile, folder: &Path) -> Vec<String> {
     labels.extend(file.run.iter().filter_map(|run| run.force_dof.as_ref()).map(|label| label.0.clone()));
     labels.extend(file.simulate.channels.iter().filter_map(|text| Some(ChannelName::parse(text).ok()?.label)));
     labels.extend(file.sensor.iter().filter_map(|sensor| Some(parse_name(&sensor.channel).ok()?.1)));
+    labels.extend(file.channel.iter().map(|channel| channel.dof.clone()));
+    for table in &file.frf {
+        let named = table.dofs.values().chain(&table.responses).chain(&table.references);
+        labels.extend(named.flat_map(|label| [label.0.clone(), label.0.trim_start_matches('-').to_owned()]));
+        labels.extend(labels_in(&folder.join(&table.file)));
+    }
     let records = file.run.iter().map(|run| &run.file).chain(file.harmonics.iter().map(|table| &table.file));
     for name in records {
         if let Ok((_, points)) = contents(&folder.join(name)) {

@@ -5,6 +5,7 @@ use super::plan::{Plan, open};
 use crate::control::Control;
 use crate::effects::{Place, Source, effect};
 use crate::exchange::Project;
+use crate::exchange::records::base_channel;
 use crate::measurement::proposal::{Proposal, propose};
 use crate::measurement::run::Correction;
 use crate::measurement::{Channel, Kind, Quantity, Run, TransientLabel, TransientRun, TransientRunError};
@@ -131,8 +132,13 @@ impl Plan {
             }
         }
         for table in &self.file.channel {
-            let (Some(delay), Some(dof)) = (table.delay, self.structure.dof(&table.dof)) else { continue };
-            let channel = Channel { quantity: table.quantity, dof, label: table.dof.clone() };
+            let channel = match table.quantity {
+                Quantity::Base => base_channel(&table.dof, &self.structure),
+                quantity => {
+                    self.structure.dof(&table.dof).map(|dof| Channel { quantity, dof, label: table.dof.clone() })
+                }
+            };
+            let (Some(delay), Some(channel)) = (table.delay, channel) else { continue };
             match corrections.iter_mut().find(|known| known.channel == channel) {
                 Some(known) => known.delay += delay,
                 None => corrections.push(Correction { channel, delay, gain: 1.0 }),

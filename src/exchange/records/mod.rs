@@ -1,5 +1,6 @@
 //! Measured data in CSV files: time records and fitted harmonics, read leniently and written exactly.
 
+pub mod columns;
 pub mod error;
 pub mod harmonics;
 pub mod places;
@@ -10,6 +11,7 @@ pub mod writer;
 
 pub use error::{RecordFileError, RecordProblem};
 pub use harmonics::{HarmonicsRun, parse_harmonics, read_harmonics, read_harmonics_as, write_harmonics};
+pub(crate) use reader::base_channel;
 pub use reader::{parse_record, read_record, read_record_with};
 pub use stepped_sine::SteppedSine;
 pub use writer::write_record;

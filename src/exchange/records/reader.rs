@@ -148,7 +148,10 @@ pub(super) fn channel(name: &str, structure: &Structure) -> Result<(Channel, &'s
     let ChannelName { quantity, label, unit } =
         ChannelName::parse(name).map_err(|problem| RecordProblem::Channel { problem })?;
     if quantity == Quantity::Base {
-        return base(label, structure).map(|channel| (channel, unit));
+        return match base_channel(&label, structure) {
+            Some(channel) => Ok((channel, unit)),
+            None => Err(RecordProblem::NoBaseAxis { label: quote(label.as_bytes()) }),
+        };
     }
     let Some(dof) = structure.dof(&label) else {
         return Err(RecordProblem::UnknownDof { label: quote(label.as_bytes()), known: known_labels(structure) });
@@ -167,14 +170,12 @@ pub(super) fn channel(name: &str, structure: &Structure) -> Result<(Channel, &'s
     Ok((Channel { quantity, dof, label }, unit))
 }
 
-/// The channel of a base that moves along `x`, `y` or `z`; it is listed at the first DOF that follows it.
-fn base(label: String, structure: &Structure) -> Result<Channel, RecordProblem> {
-    let axis = AXES.iter().position(|&axis| axis == label);
-    let along = |axis| structure.dofs().iter().position(|dof| dof.direction.axis() == Some(axis));
-    match axis.and_then(along) {
-        Some(dof) => Ok(Channel { quantity: Quantity::Base, dof, label }),
-        None => Err(RecordProblem::NoBaseAxis { label: quote(label.as_bytes()) }),
-    }
+/// The channel of a base that moves along `x`, `y` or `z`; it is listed at the first DOF that follows it. None for another
+/// direction, and for a structure that does not move in it.
+pub(crate) fn base_channel(label: &str, structure: &Structure) -> Option<Channel> {
+    let axis = AXES.iter().position(|&axis| axis == label)?;
+    let dof = structure.dofs().iter().position(|dof| dof.direction.axis() == Some(axis))?;
+    Some(Channel { quantity: Quantity::Base, dof, label: label.to_owned() })
 }
 
 fn known_labels(structure: &Structure) -> String {

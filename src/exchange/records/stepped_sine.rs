@@ -5,11 +5,12 @@
 //! frequency_hz, force@1 [N], acc@7 [m/s^2], phase_deg acc@7     or     frequency_hz, force, amplitude, phase_deg
 //! ```
 //!
-//! with `level` and `session` where there are any. The force has phase 0: a response is `Y = A exp(i phi)`, where `phi`
-//! is the phase by which it leads the force. Where the phase is that of another derivative of the same motion (such as of
-//! the displacement beside the amplitude of an acceleration), `Y = A exp(i phi) i^(q - p)`, with `q` and `p` the number of
-//! times the two differentiate.
+//! with `level` and `session` where there are any; other names of the columns are told by [`super::columns`]. The force has
+//! phase 0: a response is `Y = A exp(i phi)`, where `phi` is the phase by which it leads the force. Where the phase is that
+//! of another derivative of the same motion (such as of the displacement beside the amplitude of an acceleration),
+//! `Y = A exp(i phi) i^(q - p)`, with `q` and `p` the number of times the two differentiate.
 
+use super::columns::{Role, role};
 use super::error::{At, RecordFileError, RecordProblem};
 use super::harmonics::HarmonicsRun;
 use super::reader::channel;
@@ -23,9 +24,9 @@ use std::f64::consts::TAU;
 /// What the project says of the columns of such a table.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct SteppedSine<'a> {
-    /// Channel and unit of the column `force`.
+    /// Channel and unit of the column of the force.
     pub force: Option<&'a str>,
-    /// Channel and unit of the columns `amplitude` and `phase_deg` or `phase_rad`.
+    /// Channel and unit of the columns of the response: amplitude, and phase in degrees or radians.
     pub response: Option<&'a str>,
     /// Quantity whose phases are given, where it is not that of the channel.
     pub phase_of: Option<Quantity>,
@@ -41,7 +42,8 @@ struct Column {
 
 /// Where everything stands in a row.
 struct Layout {
-    frequency: usize,
+    /// Column and factor to Hz.
+    frequency: (usize, f64),
     level: Option<usize>,
     session: Option<usize>,
     channels: Vec<Column>,
@@ -51,8 +53,9 @@ struct Layout {
 pub(super) fn is_one(bytes: &[u8], name: &str) -> Result<bool, RecordFileError> {
     let table = Table::open(bytes, At { file: name })?;
     let has = |wanted: &str| table.header.iter().any(|cell| cell.eq_ignore_ascii_case(wanted));
-    let phase = |cell: &String| phase_unit(cell).is_some();
-    Ok(has("frequency_hz") && !has("harmonic") && !has("cos") && table.header.iter().any(phase))
+    let any = |wanted: fn(&Role) -> bool| table.header.iter().any(|cell| wanted(&role(cell)));
+    let swept = any(|role| matches!(role, Role::Frequency(_))) && any(|role| matches!(role, Role::Phase(..)));
+    Ok(swept && !has("harmonic") && !has("cos"))
 }
 
 /// Reads every row as a run.
@@ -73,17 +76,6 @@ pub(super) fn parse(
     if runs.is_empty() { Err(at.file(RecordProblem::HeaderOnly)) } else { Ok(runs) }
 }
 
-/// Radians of the unit of a phase column and the channel that it names, if any.
-fn phase_unit(name: &str) -> Option<(f64, &str)> {
-    let name = name.trim();
-    let (unit, rest) = match (name.strip_prefix("phase_deg"), name.strip_prefix("phase_rad")) {
-        (Some(rest), _) => (1.0_f64.to_radians(), rest),
-        (_, Some(rest)) => (1.0, rest),
-        _ => return None,
-    };
-    Some((unit, rest.trim_start_matches([' ', '@', '_']).trim()))
-}
-
 fn layout(
     table: &Table<'_>,
     structure: &Structure,
@@ -91,34 +83,33 @@ fn layout(
     at: At<'_>,
 ) -> Result<Layout, RecordFileError> {
     let line = table.header_line;
-    let mut layout = Layout { frequency: 0, level: None, session: None, channels: Vec::new() };
+    let mut layout = Layout { frequency: (0, 1.0), level: None, session: None, channels: Vec::new() };
     let mut phases: Vec<(usize, f64, String)> = Vec::new();
     for (i, name) in table.header.iter().enumerate() {
-        if let Some((unit, of)) = phase_unit(name) {
-            phases.push((i, unit, of.to_owned()));
-            continue;
-        }
         let named = |text: Option<&str>, key| {
             let missing = RecordProblem::WhichChannel { column: name.clone(), key };
             text.map(str::to_owned).ok_or_else(|| at.line(line, missing))
         };
-        let plain = name.to_lowercase();
-        let channel_name = match plain.as_str() {
-            "frequency_hz" => {
-                layout.frequency = i;
+        let channel_name = match role(name) {
+            Role::Phase(unit, of) => {
+                phases.push((i, unit, of));
                 continue;
             }
-            "level" => {
+            Role::Frequency(to_hz) => {
+                layout.frequency = (i, to_hz);
+                continue;
+            }
+            Role::Level => {
                 layout.level = Some(i);
                 continue;
             }
-            "session" => {
+            Role::Session => {
                 layout.session = Some(i);
                 continue;
             }
-            "force" => named(stepped.force, "force")?,
-            "amplitude" => named(stepped.response, "response")?,
-            _ => name.clone(),
+            Role::Force(_) => named(stepped.force, "force")?,
+            Role::Response(..) => named(stepped.response, "response")?,
+            Role::Other => name.clone(),
         };
         let (channel, unit) =
             channel(&channel_name, structure).map_err(|problem| at.cell(line, &quote(name.as_bytes()), problem))?;
@@ -170,10 +161,11 @@ fn run(
     stepped: &SteppedSine,
     number: usize,
 ) -> Result<HarmonicsRun, RecordFileError> {
-    let frequency_hz = table.number(layout.frequency)?;
+    let (column, to_hz) = layout.frequency;
+    let frequency_hz = table.number(column)? * to_hz;
     if frequency_hz <= 0.0 {
-        let text = quote(table.bytes(layout.frequency));
-        return Err(table.error(layout.frequency, RecordProblem::BadFrequency { text }));
+        let text = quote(table.bytes(column));
+        return Err(table.error(column, RecordProblem::BadFrequency { text }));
     }
     let mut channels = Vec::new();
     for column in &layout.channels {

@@ -1,0 +1,123 @@
+//! `dashpot import --mass`: a finite-element model under the measurements, reduced where it is large.
+
+use super::arguments_import::Import;
+use super::import::named;
+use crate::exchange::matrices::model::{Model, ModelFiles, read_model};
+use anyhow::Context;
+use std::collections::BTreeMap;
+use std::path::Path;
+
+/// Degrees of freedom from which on a model is reduced.
+const LARGE: usize = 300;
+/// Lengths of a file over those of the model that are tried: m, mm, inches, each in either.
+const SCALES: [f64; 5] = [1.0, 1e-3, 1e3, 0.0254, 1.0 / 0.0254];
+/// Largest distance of a measured point and its node, as a share of the size of the model.
+const NEAR: f64 = 0.02;
+
+/// The model of the arguments, if they name one.
+pub(super) fn model(arguments: &Import) -> anyhow::Result<Option<Model>> {
+    let Some(mass) = &arguments.mass else { return Ok(None) };
+    let matrices: [&Path; 2] = [mass, arguments.stiffness.as_deref().unwrap_or(mass)];
+    let nodes = arguments.nodes.as_deref();
+    let model = read_model(ModelFiles { matrices, names: [None, None], nodes, dofs: None, lines: None })?;
+    Ok(Some(model))
+}
+
+/// Table `[structure]` of the model, if there is one; `up_to_hz` is twice the highest frequency that is measured.
+pub(super) fn structure(arguments: &Import, out: &Path, up_to_hz: f64) -> anyhow::Result<Option<String>> {
+    let (Some(mass), Some(model)) = (&arguments.mass, model(arguments)?) else { return Ok(None) };
+    let stiffness = arguments.stiffness.as_ref().unwrap_or(mass);
+    let quoted = |file: &Path| -> anyhow::Result<String> { Ok(toml::Value::from(named(file, out)?).to_string()) };
+    let mut text =
+        format!("[structure]\nkind = \"matrices\"\nmass = {}\nstiffness = {}\n", quoted(mass)?, quoted(stiffness)?);
+    if let Some(nodes) = &arguments.nodes {
+        text.push_str(&format!("nodes = {}\n", quoted(nodes)?));
+    }
+    if model.system.mass.size() > LARGE {
+        text.push_str(&format!("\n[structure.reduce]\nup_to_hz = {up_to_hz:?}\n"));
+    }
+    Ok(Some(text))
+}
+
+/// A measured point: name of its node, direction such as `z`, position where the file has it.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Point {
+    pub node: String,
+    pub direction: String,
+    pub position: Option<[f64; 3]>,
+}
+
+/// Labels in the model of the measured points, in their order: the node of the same number, unless positions say another.
+///
+/// # Errors
+/// One sentence for a point that is not in the model.
+pub(super) fn places(points: &[Point], model: &Model) -> anyhow::Result<Vec<String>> {
+    let dofs = model.dofs.as_ref().context("the model does not name its degrees of freedom; give a file that does")?;
+    let labels: std::collections::HashSet<&str> = dofs.iter().map(|dof| dof.label.as_str()).collect();
+    let nodes: Vec<(&str, [f64; 3])> =
+        model.nodes.iter().flatten().map(|node| (node.label.as_str(), node.position)).collect();
+    let by_place = nearest(points, &nodes, &labels);
+    let one = |point: &Point| {
+        let own = format!("{}{}", point.node, point.direction);
+        if let Some(node) = by_place.get(&own) {
+            return Ok(format!("{node}{}", point.direction));
+        }
+        if labels.contains(own.as_str()) {
+            return Ok(own);
+        }
+        anyhow::bail!(
+            "point {} direction {} is not in the model, neither by its number nor by its place; say it under [frf.dofs]",
+            point.node,
+            point.direction
+        )
+    };
+    points.iter().map(one).collect()
+}
+
+/// Nodes of the model at the places of the points; empty where positions do not fit the model in any unit.
+fn nearest(
+    points: &[Point],
+    nodes: &[(&str, [f64; 3])],
+    labels: &std::collections::HashSet<&str>,
+) -> BTreeMap<String, String> {
+    let mut extent: f64 = 0.0;
+    for axis in 0..3 {
+        let values = || nodes.iter().map(|(_, x)| x[axis]);
+        extent = extent.max(values().fold(f64::NEG_INFINITY, f64::max) - values().fold(f64::INFINITY, f64::min));
+    }
+    if extent.is_nan() || extent <= 0.0 || points.iter().any(|point| point.position.is_none()) {
+        return BTreeMap::new();
+    }
+    let at = |scale: f64| -> Option<BTreeMap<String, String>> {
+        let mut found = BTreeMap::new();
+        for point in points {
+            let position = point.position?.map(|x| x * scale);
+            let distance = |x: &[f64; 3]| (0..3).map(|i| (x[i] - position[i]).powi(2)).sum::<f64>().sqrt();
+            let has = |node: &&(&str, [f64; 3])| labels.contains(format!("{}{}", node.0, point.direction).as_str());
+            let (node, x) = nodes.iter().filter(has).min_by(|a, b| distance(&a.1).total_cmp(&distance(&b.1)))?;
+            if distance(x) > NEAR * extent {
+                return None;
+            }
+            found.insert(format!("{}{}", point.node, point.direction), (*node).to_owned());
+        }
+        Some(found)
+    };
+    SCALES.iter().find_map(|&scale| at(scale)).unwrap_or_default()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn points_are_found_by_their_places_in_another_unit() {
+        let nodes = [("101", [0.0, 0.0, 0.0]), ("102", [0.5, 0.0, 0.0]), ("103", [1.0, 0.0, 0.0])];
+        let labels = ["101z", "102z", "103z"].into_iter().collect();
+        let point =
+            |node: &str, x: f64| Point { node: node.into(), direction: "z".into(), position: Some([x, 1.0, 0.0]) };
+        let found = nearest(&[point("1", 500.0), point("2", 1000.0)], &nodes, &labels);
+        assert_eq!(found.get("1z").map(String::as_str), Some("102"));
+        assert_eq!(found.get("2z").map(String::as_str), Some("103"));
+        assert!(nearest(&[point("1", 0.3)], &nodes, &labels).is_empty());
+    }
+}

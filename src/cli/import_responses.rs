@@ -1,0 +1,222 @@
+//! `dashpot import` of frequency responses: a project with `[[frf]]`, its DOFs those of the file or of a model.
+
+use super::arguments_import::Import;
+use super::import::{comment, head, named, points as points_structure, project_file, write};
+use super::import_model::{Point, model, places};
+use crate::control::Control;
+use crate::exchange::frf::pair_in_name;
+use crate::exchange::project::plan;
+use anyhow::ensure;
+use dashpot_datafiles::{Channel, Contents, DataFile, Format, Kind, Values, open};
+use std::collections::BTreeMap;
+use std::path::Path;
+
+/// Whether a file among them has frequency responses.
+pub(super) fn has_responses(arguments: &Import) -> anyhow::Result<bool> {
+    for file in &arguments.files {
+        if functions(open(file)?.contents(), arguments).next().is_some() {
+            return Ok(true);
+        }
+    }
+    Ok(false)
+}
+
+/// The functions of a file; complex columns without frequencies too where their step is given.
+fn functions<'a>(contents: &'a Contents, arguments: &Import) -> impl Iterator<Item = &'a Channel> {
+    let given = arguments.step_hz.is_some();
+    let wanted = move |kind: Kind| kind == Kind::Frf || given && kind == Kind::Table;
+    let sets = contents.sets.iter().filter(move |set| wanted(set.kind));
+    sets.flat_map(|set| &set.channels).filter(|channel| channel.complex && channel.count > 0)
+}
+
+/// Writes the project of frequency responses.
+pub(super) fn run(arguments: &Import) -> anyhow::Result<String> {
+    let out = project_file(arguments)?;
+    let Found { text, summary, assumed } = project(arguments, &out)?;
+    let project = plan(&text, &out)?.load(&Control::unattended())?;
+    for remark in &project.remarks {
+        eprintln!("{remark}");
+    }
+    if arguments.propose {
+        return Ok(text);
+    }
+    write(&out, &text)?;
+    let assumed = assumed.iter().map(|what| format!("assumed: {what}\n")).collect::<String>();
+    Ok(format!("{assumed}{summary}, {} runs of one line each, are in {}\n", project.runs.len(), out.display()))
+}
+
+/// A project and what is in it.
+struct Found {
+    text: String,
+    summary: String,
+    assumed: Vec<String>,
+}
+
+/// A file with responses and the labels of its functions in order, where names and file do not say them.
+struct Measured<'a> {
+    path: &'a Path,
+    responses: Vec<String>,
+    references: Vec<String>,
+}
+
+fn project(arguments: &Import, out: &Path) -> anyhow::Result<Found> {
+    let files: Vec<DataFile> = arguments.files.iter().map(|file| open(file)).collect::<Result<_, _>>()?;
+    let (measured, assumed) = measured(arguments, &files)?;
+    let (mut names, mut highest, mut count) = (Vec::new(), 0.0_f64, 0);
+    for file in &files {
+        for channel in functions(file.contents(), arguments) {
+            count += 1;
+            let step = channel.axis.step().or(arguments.step_hz).unwrap_or(0.0);
+            highest = highest.max(step * channel.count as f64);
+            names.extend(pair(file, channel).into_iter().flatten());
+        }
+    }
+    if measured.iter().any(|one| !one.responses.is_empty()) {
+        names = measured.iter().flat_map(|one| one.responses.iter().chain(&one.references)).cloned().collect();
+    }
+    let points = points(&names, &files)?;
+    let (labels, dofs) = labelled(arguments, &points)?;
+    let up_to = if highest > 0.0 { 2.0 * highest } else { 2000.0 };
+    let mut text = head(arguments, out, &points_structure(&labels), up_to)?;
+    for what in &assumed {
+        text.push_str(&comment(&format!("Assumed: {what}.")));
+    }
+    for one in &measured {
+        text.push_str(&table(arguments, &named(one.path, out)?, one, &dofs));
+    }
+    Ok(Found { text, summary: format!("{count} functions at {} DOFs", points.len()), assumed })
+}
+
+/// Labels of the DOFs, and those of the file that are called otherwise in the project.
+fn labelled(arguments: &Import, points: &[(String, Point)]) -> anyhow::Result<(Vec<String>, BTreeMap<String, String>)> {
+    let own: Vec<String> = points.iter().map(|(_, point)| format!("{}{}", point.node, point.direction)).collect();
+    let (labels, names): (Vec<String>, Vec<&String>) = match model(arguments)? {
+        Some(model) => {
+            let wanted: Vec<Point> = points.iter().map(|(_, point)| point.clone()).collect();
+            (places(&wanted, &model)?, own.iter().collect())
+        }
+        None => (own.clone(), points.iter().map(|(name, _)| name).collect()),
+    };
+    let other = labels.iter().zip(names).zip(points).filter(|((label, name), _)| label != name);
+    let dofs = other.map(|((label, _), (name, _))| (name.clone(), label.clone())).collect();
+    let mut once: Vec<String> = Vec::new();
+    for label in labels {
+        if !once.contains(&label) {
+            once.push(label);
+        }
+    }
+    Ok((once, dofs))
+}
+
+/// The files with responses; DOFs as they are given, else numbered in order where neither names nor files say them.
+fn measured<'a>(arguments: &'a Import, files: &'a [DataFile]) -> anyhow::Result<(Vec<Measured<'a>>, Vec<String>)> {
+    let counts: Vec<usize> = files.iter().map(|file| functions(file.contents(), arguments).count()).collect();
+    let named =
+        files.iter().all(|file| functions(file.contents(), arguments).all(|channel| pair(file, channel).is_some()));
+    let total: usize = counts.iter().sum();
+    let mut assumed = Vec::new();
+    let (mut responses, mut references) = (arguments.responses.clone(), arguments.references.clone());
+    if !named && responses.is_empty() {
+        responses = (1..=total).map(|number| number.to_string()).collect();
+        if references.is_empty() {
+            references = vec!["1".to_owned()];
+        }
+        ensure!(
+            references.len() == 1,
+            "{}: neither names nor file say the DOFs of the functions; give them by --responses and --references",
+            arguments.files[0].display()
+        );
+        let (last, driven) = (responses.len(), &references[0]);
+        assumed.push(format!(
+            "neither names nor file say the DOFs: the responses are numbered 1 to {last} in their order, all driven at {driven}"
+        ));
+    }
+    // One list for all files one after the other, or the same list for each.
+    let in_turn = references.len() == 1 && responses.len() == total && files.len() > 1;
+    let mut from = 0;
+    let mut measured = Vec::new();
+    for (file, count) in files.iter().zip(counts).filter(|(_, count)| *count > 0) {
+        let own = if in_turn { responses[from..from + count].to_vec() } else { responses.clone() };
+        from += count;
+        measured.push(Measured { path: file.path(), responses: own, references: references.clone() });
+    }
+    Ok((measured, assumed))
+}
+
+/// The `[[frf]]` of a file.
+fn table(arguments: &Import, file: &str, measured: &Measured<'_>, dofs: &BTreeMap<String, String>) -> String {
+    let quoted = |text: &str| toml::Value::from(text).to_string();
+    let list = |labels: &[String]| labels.iter().map(|label| quoted(label)).collect::<Vec<_>>().join(", ");
+    let mut text = format!("[[frf]]\nfile = {}\n", quoted(file));
+    if let Some(form) = &arguments.form {
+        text.push_str(&format!("form = {}\n", quoted(form)));
+    }
+    match arguments.averages {
+        Some(averages) => text.push_str(&format!("averages = {averages}\n")),
+        None => text.push_str("# averages = 8                    # with the coherences it gives the deviations\n"),
+    }
+    if let Some(step) = arguments.step_hz {
+        text.push_str(&format!("step_hz = {step:?}\n"));
+    }
+    for (key, labels) in [("responses", &measured.responses), ("references", &measured.references)] {
+        if !labels.is_empty() {
+            text.push_str(&format!("{key} = [{}]\n", list(labels)));
+        }
+    }
+    if !dofs.is_empty() {
+        text.push_str("\n[frf.dofs]\n");
+        dofs.iter().for_each(|(name, label)| text.push_str(&format!("{} = {}\n", quoted(name), quoted(label))));
+    }
+    text + "\n"
+}
+
+/// Names of response and reference of a function. Universal Files state them; elsewhere the name of the channel may.
+fn pair(file: &DataFile, channel: &Channel) -> Option<[String; 2]> {
+    match (channel.attribute("response"), channel.attribute("reference")) {
+        (Some(response), Some(reference)) => Some([response.to_owned(), reference.to_owned()]),
+        _ if file.contents().format == Format::Uff => None,
+        _ => pair_in_name(&channel.name),
+    }
+}
+
+/// The points that the names stand for, each once, by the name of its positive direction.
+fn points(names: &[String], files: &[DataFile]) -> anyhow::Result<Vec<(String, Point)>> {
+    let mut positions: BTreeMap<String, [f64; 3]> = BTreeMap::new();
+    for file in files {
+        positions_in(file, &mut positions)?;
+    }
+    let mut points: Vec<(String, Point)> = Vec::new();
+    for name in names {
+        // `ENTITY 12:+Z`, `acc@12`: what stands in front is no part of the place.
+        let plain = name.rsplit([' ', '@']).next().unwrap_or_default().trim_start_matches('-').replace(":-", ":+");
+        let digits = plain.find(|c: char| !c.is_ascii_digit()).unwrap_or(plain.len());
+        let direction: String =
+            plain[digits..].chars().filter(char::is_ascii_alphabetic).collect::<String>().to_lowercase();
+        let node = if digits > 0 { plain[..digits].to_owned() } else { plain.clone() };
+        let direction = if digits > 0 { direction } else { String::new() };
+        let position = positions.get(&node).copied();
+        if points.iter().all(|(known, _)| *known != plain) {
+            points.push((plain, Point { node, direction, position }));
+        }
+    }
+    Ok(points)
+}
+
+/// Nodes of a file with their positions.
+fn positions_in(file: &DataFile, positions: &mut BTreeMap<String, [f64; 3]>) -> anyhow::Result<()> {
+    for (s, set) in file.contents().sets.iter().enumerate().filter(|(_, set)| set.kind == Kind::Geometry) {
+        let column = |name: &str| -> anyhow::Result<Option<Vec<f64>>> {
+            let Some(c) = set.channels.iter().position(|channel| channel.name == name) else { return Ok(None) };
+            match file.read(s, c)? {
+                Values::Real(values) => Ok(Some(values)),
+                Values::Complex(_) => Ok(None),
+            }
+        };
+        if let (Some(node), Some(x), Some(y), Some(z)) = (column("node")?, column("x")?, column("y")?, column("z")?) {
+            for (i, node) in node.iter().enumerate() {
+                positions.insert(format!("{node}"), [x[i], y[i], z[i]]);
+            }
+        }
+    }
+    Ok(())
+}

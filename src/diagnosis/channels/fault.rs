@@ -1,0 +1,174 @@
+//! What can be wrong with a channel, in words.
+
+use crate::measurement::Quantity;
+use crate::measurement::channel::STANDARD_GRAVITY;
+
+const INCH: f64 = 0.0254;
+const FOOT: f64 = 0.3048;
+
+/// What is wrong.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Fault {
+    /// A channel reads that many times its true value; -1: it is reversed.
+    Factor(f64),
+    /// Two channels are at each other's place.
+    Exchanged,
+}
+
+/// A fault of one channel, or of two that are exchanged.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ChannelFault {
+    /// What is wrong.
+    pub fault: Fault,
+    /// Names, such as `acc@7`: one, or the two that are exchanged.
+    pub channels: Vec<String>,
+    /// Error of the model over all channels before it is mended, relative, modes nearby free.
+    pub error_before: f64,
+    /// The same once it is mended.
+    pub error_after: f64,
+    /// Error of the channels concerned alone, before and after.
+    pub own_error: [f64; 2],
+    /// Frequencies that show it, of those at which the channels move enough.
+    pub frequencies: [usize; 2],
+}
+
+impl ChannelFault {
+    /// The fault in a sentence, such as `acc@3 looks reversed`.
+    pub fn words(&self) -> String {
+        let name = &self.channels[0];
+        match self.fault {
+            Fault::Exchanged => format!("{name} and {} look exchanged", self.channels[1]),
+            Fault::Factor(factor) => {
+                let reads = if factor < 0.0 { " looks reversed and reads" } else { " reads" };
+                if factor == -1.0 {
+                    return format!("{name} looks reversed");
+                }
+                let size = factor.abs();
+                let (times, which) = if size > 1.0 { (size, "large") } else { (1.0 / size, "small") };
+                let why = reason(name, size).map_or_else(String::new, |why| format!(": {why}?"));
+                format!("{name}{reads} {} times too {which}{why}", three_digits(times))
+            }
+        }
+    }
+
+    /// Why, in a sentence with numbers.
+    pub fn evidence(&self) -> String {
+        let percent = |x: f64| three_digits(100.0 * x);
+        let [before, after] = self.own_error.map(percent);
+        let [shown, of] = self.frequencies;
+        let what = if self.channels.len() == 2 { "their" } else { "its" };
+        format!(
+            "{what} own error falls from {before} % to {after} %, at {shown} of {of} frequencies, whatever the amplitudes \
+             of the modes nearby"
+        )
+    }
+}
+
+/// A factor by which channels are misread, and by what.
+struct Misreading {
+    factor: f64,
+    quantity: Option<Quantity>,
+    why: &'static str,
+}
+
+/// Largest relative distance of what is seen from the factor of a misreading.
+const WITHIN: f64 = 0.1;
+
+const fn misreading(factor: f64, quantity: Option<Quantity>, why: &'static str) -> Misreading {
+    Misreading { factor, quantity, why }
+}
+
+/// Factors on what is true, each also as its inverse. Smaller ones (peak read as rms: 1.41) are no plain faults: a wrong gain
+/// of that size is left to the law `gain`, which estimates it.
+fn misreadings() -> Vec<Misreading> {
+    use Quantity::{Acceleration, Displacement, Velocity};
+    let of = |quantity, factor, larger, smaller| {
+        [misreading(factor, Some(quantity), larger), misreading(1.0 / factor, Some(quantity), smaller)]
+    };
+    let any = |factor, larger, smaller| [misreading(factor, None, larger), misreading(1.0 / factor, None, smaller)];
+    [
+        of(Acceleration, STANDARD_GRAVITY, "m/s^2 read as g", "g read as m/s^2"),
+        of(Acceleration, STANDARD_GRAVITY / INCH, "in/s^2 read as g", "g read as in/s^2"),
+        of(Acceleration, STANDARD_GRAVITY / FOOT, "ft/s^2 read as g", "g read as ft/s^2"),
+        of(Acceleration, 1e3 * STANDARD_GRAVITY, "mm/s^2 read as g", "g read as mm/s^2"),
+        of(Acceleration, 1e3, "mm/s^2 read as m/s^2, or mg as g", "m/s^2 read as mm/s^2, or g as mg"),
+        of(Acceleration, 1.0 / INCH, "in/s^2 read as m/s^2", "m/s^2 read as in/s^2"),
+        of(Acceleration, 1.0 / FOOT, "ft/s^2 read as m/s^2", "m/s^2 read as ft/s^2"),
+        of(Velocity, 1e3, "mm/s read as m/s", "m/s read as mm/s"),
+        of(Velocity, 1.0 / INCH, "in/s read as m/s", "m/s read as in/s"),
+        of(Velocity, 1e3 * INCH, "mm/s read as in/s", "in/s read as mm/s"),
+        of(Displacement, 1e3, "mm read as m, or um as mm", "m read as mm, or mm as um"),
+        of(Displacement, 1e6, "um read as m", "m read as um"),
+        of(Displacement, 1.0 / INCH, "in read as m", "m read as in"),
+        of(Displacement, 1e3 * INCH, "mm read as in, or um as mil", "in read as mm, or mil as um"),
+        any(180.0 / std::f64::consts::PI, "degrees read as radians", "radians read as degrees"),
+        any(100.0, "cm read as m, or an amplifier at 100", "m read as cm, or an amplifier at 0.01"),
+        any(10.0, "an amplifier set to 10", "an amplifier set to 0.1"),
+    ]
+    .into_iter()
+    .flatten()
+    .collect()
+}
+
+fn quantity_of(name: &str) -> Option<Quantity> {
+    Quantity::from_word(name.split('@').next().unwrap_or_default())
+}
+
+/// The factor of a known misreading of a channel next to `seen` (positive), if one is near enough.
+pub(super) fn known_factor(name: &str, seen: f64) -> Option<f64> {
+    let quantity = quantity_of(name);
+    let distance = |m: &Misreading| (seen / m.factor).ln().abs();
+    misreadings()
+        .iter()
+        .filter(|m| m.quantity.is_none() || m.quantity == quantity)
+        .filter(|m| distance(m) < WITHIN)
+        .min_by(|a, b| distance(a).total_cmp(&distance(b)))
+        .map(|m| m.factor)
+}
+
+fn reason(name: &str, size: f64) -> Option<&'static str> {
+    let quantity = quantity_of(name);
+    let all = misreadings();
+    let same = |m: &&Misreading| (m.quantity.is_none() || m.quantity == quantity) && m.factor == size;
+    all.iter().find(same).map(|m| m.why)
+}
+
+/// A positive number with three significant digits.
+fn three_digits(value: f64) -> String {
+    if value == 0.0 || !value.is_finite() {
+        return format!("{value}");
+    }
+    let digits = (2 - value.abs().log10().floor() as i32).max(0) as usize;
+    let text = format!("{value:.digits$}");
+    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn fault(fault: Fault, channels: &[&str]) -> ChannelFault {
+        let channels = channels.iter().map(|name| (*name).to_owned()).collect();
+        let (own_error, frequencies) = ([1.0, 0.01], [6, 6]);
+        ChannelFault { fault, channels, error_before: 0.5, error_after: 0.01, own_error, frequencies }
+    }
+
+    #[test]
+    fn faults_are_said_in_the_words_of_the_laboratory() {
+        assert_eq!(fault(Fault::Factor(-1.0), &["acc@3"]).words(), "acc@3 looks reversed");
+        assert_eq!(fault(Fault::Exchanged, &["acc@7", "acc@11"]).words(), "acc@7 and acc@11 look exchanged");
+        let g = fault(Fault::Factor(STANDARD_GRAVITY), &["acc@5"]).words();
+        assert_eq!(g, "acc@5 reads 9.81 times too large: m/s^2 read as g?");
+        let small = fault(Fault::Factor(-1e-3), &["disp@5"]).words();
+        assert_eq!(small, "disp@5 looks reversed and reads 1000 times too small: m read as mm, or mm as um?");
+    }
+
+    #[test]
+    fn only_factors_that_somebody_misreads_are_known() {
+        assert_eq!(known_factor("acc@5", 9.6), Some(STANDARD_GRAVITY));
+        assert_eq!(known_factor("disp@5", 1010.0), Some(1e3));
+        assert_eq!(known_factor("vel@5", 1.42), None);
+        assert_eq!(known_factor("acc@5", 1.2), None);
+        assert_eq!(known_factor("disp@5", 386.0), None);
+    }
+}

@@ -1,0 +1,57 @@
+//! Faults of measuring channels that are looked for before any law: a reversed sensor, two cables exchanged, a wrong unit.
+//!
+//! They are told from the *shape* of the motion, which neither a missing law nor a model that is a little out of tune can
+//! forge. Near a resonance both change the modal amplitudes first, so that those of the modes nearby are left free:
+//!
+//! ```text
+//! X_r,c = X_model,c + sum over modes j near w_r of phi_c,j b_r,j,       b_r,j complex, free
+//! ```
+//!
+//! `X` displacement amplitudes of the fundamental (m, rad), `r` runs, `c` response channels. `b` is fitted to all channels of a
+//! run by least absolute deviations, so that a channel that is wrong hardly bends it. The error of a channel in a run is
+//! `|X - X_fit| / max(|X|, |X_fit|)`, 2 where the sign is wrong. A fault is named where it brings the error of its channels in
+//! all frequencies down to a fraction.
+
+mod cells;
+mod fault;
+mod search;
+
+pub use fault::{ChannelFault, Fault};
+pub(crate) use search::find;
+
+use crate::diagnosis::residual::data::{ChannelData, Data};
+
+/// The data with the faults mended: what a channel reads divided by its factor, what two exchanged channels read exchanged.
+pub(crate) fn mended(data: &Data, faults: &[ChannelFault]) -> Data {
+    let mut data = data.clone();
+    for run in &mut data.runs {
+        for fault in faults {
+            match &fault.fault {
+                Fault::Factor(factor) => run
+                    .responses
+                    .iter_mut()
+                    .filter(|channel| channel.name == fault.channels[0])
+                    .for_each(|channel| divide(channel, *factor)),
+                Fault::Exchanged => {
+                    let at = |name: &String| run.responses.iter().position(|channel| channel.name == *name);
+                    if let (Some(a), Some(b)) = (at(&fault.channels[0]), at(&fault.channels[1])) {
+                        exchange(&mut run.responses, a, b);
+                    }
+                }
+            }
+        }
+    }
+    data
+}
+
+fn divide(channel: &mut ChannelData, factor: f64) {
+    channel.measured.iter_mut().for_each(|value| *value /= factor);
+    channel.deviation.iter_mut().for_each(|deviation| *deviation /= factor.abs());
+}
+
+/// Exchanges what two channels read; their names and DOFs stay.
+fn exchange(channels: &mut [ChannelData], a: usize, b: usize) {
+    let (first, second) = (channels[a].clone(), channels[b].clone());
+    channels[a] = ChannelData { measured: second.measured, deviation: second.deviation, ..first.clone() };
+    channels[b] = ChannelData { measured: first.measured, deviation: first.deviation, ..second };
+}

@@ -1,0 +1,209 @@
+//! Which fault of which channel explains what the shapes of the motion say, one after the other.
+
+use super::cells::{Cells, cells};
+use super::fault::{ChannelFault, Fault, known_factor};
+use crate::diagnosis::residual::data::Data;
+use crate::diagnosis::residual::prediction::{Predictor, RunPrediction};
+use crate::structure::Structure;
+use crate::structure::lowest_modes::LowestModes;
+use crate::structure::modes::Modes;
+use faer::c64;
+
+/// Most faults; where more channels are wrong it is the model.
+const MOST: usize = 6;
+/// Own error from which on a channel is looked at.
+const WRONG: f64 = 0.22;
+/// Own error up to which a channel is mended, and that over its own error before.
+const MENDED: f64 = 0.35;
+const FALLS: f64 = 0.35;
+/// Share of the frequencies that must show it.
+const EVERYWHERE: f64 = 0.85;
+/// Least frequencies at which the channels move enough, unless what is left of the error is less than `CLEAR`.
+const FREQUENCIES: usize = 2;
+const CLEAR: f64 = 0.1;
+/// DOFs up to which all modes are computed, and how far beyond the highest frequency they are above that.
+const SMALL: usize = 200;
+const BEYOND: f64 = 1.3;
+/// Largest spread of a factor over the frequencies, natural logarithm.
+const SPREAD: f64 = 0.2;
+
+/// The faults of the channels of `data`, the plainest first; none where the structure has no modes.
+pub(crate) fn find(predictor: &Predictor, data: &Data, predictions: &[RunPrediction]) -> Vec<ChannelFault> {
+    let Some(modes) = modes(predictor.structure(), data) else { return Vec::new() };
+    let (names, cells) = cells(predictor.structure(), &modes, data, predictions);
+    let mut search = Search { names, cells, faults: Vec::new() };
+    while search.faults.len() < MOST && search.step() {}
+    search.faults
+}
+
+/// Modes up to the highest frequency that was measured and a little beyond; all of a small structure.
+fn modes(structure: &Structure, data: &Data) -> Option<Modes> {
+    let highest = data.runs.iter().map(|run| run.omega).fold(0.0, f64::max);
+    let large = structure.matrices().filter(|_| structure.len() > SMALL);
+    let lowest = large.and_then(|matrices| LowestModes::new(matrices, BEYOND * highest, 1).ok().flatten());
+    lowest.map(|lowest| lowest.modes).or_else(|| structure.modes().ok())
+}
+
+/// Channels by number, and what is wrong with them.
+#[derive(Debug, Clone, Copy)]
+struct Hypothesis {
+    fault: Fault,
+    channels: [usize; 2],
+}
+
+struct Search {
+    names: Vec<String>,
+    cells: Vec<Cells>,
+    faults: Vec<ChannelFault>,
+}
+
+/// Errors of the channels under a hypothesis.
+struct Errors {
+    /// `[run][channel]`.
+    cells: Vec<Vec<f64>>,
+}
+
+impl Search {
+    /// Finds the best fault and mends it; whether there was one.
+    fn step(&mut self) -> bool {
+        let before = self.errors(None);
+        let suspects: Vec<usize> = (0..self.names.len()).filter(|&c| self.own(&before, &[c]) > WRONG).collect();
+        let mut hypotheses: Vec<Hypothesis> = Vec::new();
+        for &c in &suspects {
+            hypotheses.push(Hypothesis { fault: Fault::Factor(-1.0), channels: [c, c] });
+            hypotheses.extend(self.factor(c).map(|f| Hypothesis { fault: Fault::Factor(f), channels: [c, c] }));
+        }
+        for (i, &a) in suspects.iter().enumerate() {
+            let alike = |b: &&usize| word(&self.names[a]) == word(&self.names[**b]);
+            hypotheses.extend(
+                suspects[i + 1..]
+                    .iter()
+                    .filter(alike)
+                    .map(|&b| Hypothesis { fault: Fault::Exchanged, channels: [a, b] }),
+            );
+        }
+        let judged = hypotheses.iter().filter_map(|hypothesis| {
+            let after = self.errors(Some(hypothesis));
+            let fault = self.judged(hypothesis, &before, &after)?;
+            Some((hypothesis, fault))
+        });
+        let best = judged.min_by(|(_, a), (_, b)| a.error_after.total_cmp(&b.error_after));
+        let Some((hypothesis, fault)) = best.map(|(h, f)| (*h, f)) else { return false };
+        for cells in &mut self.cells {
+            cells.measured = transformed(cells, &hypothesis);
+        }
+        self.faults.push(fault);
+        true
+    }
+
+    fn errors(&self, hypothesis: Option<&Hypothesis>) -> Errors {
+        let one = |cells: &Cells| {
+            let own;
+            let measured = match hypothesis {
+                Some(hypothesis) => {
+                    own = transformed(cells, hypothesis);
+                    &own
+                }
+                None => &cells.measured,
+            };
+            let fit = cells.fitted(measured, None);
+            (0..fit.len()).map(|c| cells.error(c, measured[c], fit[c])).collect()
+        };
+        Errors { cells: self.cells.iter().map(one).collect() }
+    }
+
+    /// Mean over the frequencies of the error of some channels where they move; 0 where they nowhere do.
+    fn own(&self, errors: &Errors, channels: &[usize]) -> f64 {
+        mean(&self.by_frequency(errors, channels).into_iter().flatten().collect::<Vec<f64>>())
+    }
+
+    /// Mean error of some channels at every frequency at which they move.
+    fn by_frequency(&self, errors: &Errors, channels: &[usize]) -> Vec<Option<f64>> {
+        let count = self.cells.iter().map(|cells| cells.frequency + 1).max().unwrap_or(0);
+        let mut at: Vec<Vec<f64>> = vec![Vec::new(); count];
+        for (cells, errors) in self.cells.iter().zip(&errors.cells) {
+            for (i, c) in cells.channels.iter().enumerate() {
+                if channels.contains(c) && cells.moves[i] {
+                    at[cells.frequency].push(errors[i]);
+                }
+            }
+        }
+        at.iter().map(|values| (!values.is_empty()).then(|| mean(values))).collect()
+    }
+
+    /// The factor by which a channel differs from what the others say of it, if it is one of a known misreading.
+    fn factor(&self, channel: usize) -> Option<f64> {
+        let mut ratios = Vec::new();
+        for cells in &self.cells {
+            let Some(i) = cells.channels.iter().position(|&c| c == channel).filter(|&i| cells.moves[i]) else {
+                continue;
+            };
+            let fit = cells.fitted(&cells.measured, Some(i))[i];
+            if fit.norm() > 0.0 && cells.measured[i].norm() > 0.0 {
+                ratios.push(cells.measured[i] / fit);
+            }
+        }
+        if ratios.is_empty() {
+            return None;
+        }
+        let logs: Vec<f64> = ratios.iter().map(|z| z.norm().ln()).collect();
+        let middle = median(&logs);
+        let spread = median(&logs.iter().map(|log| (log - middle).abs()).collect::<Vec<f64>>());
+        let cosines: Vec<f64> = ratios.iter().map(|z| z.re / z.norm()).collect();
+        let sign = if median(&cosines) < 0.0 { -1.0 } else { 1.0 };
+        known_factor(&self.names[channel], middle.exp()).filter(|_| spread < SPREAD).map(|factor| sign * factor)
+    }
+
+    /// The fault, if mending it brings its channels down to a fraction everywhere, and the others with them.
+    fn judged(&self, hypothesis: &Hypothesis, before: &Errors, after: &Errors) -> Option<ChannelFault> {
+        let mut channels = hypothesis.channels.to_vec();
+        channels.dedup();
+        let own_error = [before, after].map(|errors| self.own(errors, &channels));
+        if own_error[1] > MENDED || own_error[1] > FALLS * own_error[0] {
+            return None;
+        }
+        let [was, is] = [before, after].map(|errors| self.by_frequency(errors, &channels));
+        let pairs: Vec<(f64, f64)> = was.into_iter().zip(is).filter_map(|(a, b)| Some((a?, b?))).collect();
+        let shown = pairs.iter().filter(|(was, is)| is < was).count();
+        let enough = pairs.len() >= FREQUENCIES || (pairs.len() == 1 && own_error[1] < CLEAR);
+        if !enough || (shown as f64) < EVERYWHERE * pairs.len() as f64 {
+            return None;
+        }
+        let all = |errors: &Errors| mean(&errors.cells.iter().flatten().copied().collect::<Vec<f64>>());
+        let (error_before, error_after) = (all(before), all(after));
+        (error_after < error_before).then(|| ChannelFault {
+            fault: hypothesis.fault,
+            channels: channels.iter().map(|&c| self.names[c].clone()).collect(),
+            error_before,
+            error_after,
+            own_error,
+            frequencies: [shown, pairs.len()],
+        })
+    }
+}
+
+/// What the channels of a run would read without the fault.
+fn transformed(cells: &Cells, hypothesis: &Hypothesis) -> Vec<c64> {
+    let mut measured = cells.measured.clone();
+    let at = |channel: usize| cells.channels.iter().position(|&c| c == channel);
+    match (hypothesis.fault, hypothesis.channels.map(at)) {
+        (Fault::Factor(factor), [Some(i), _]) => measured[i] /= factor,
+        (Fault::Exchanged, [Some(i), Some(j)]) => measured.swap(i, j),
+        _ => {}
+    }
+    measured
+}
+
+fn word(name: &str) -> &str {
+    name.split('@').next().unwrap_or_default()
+}
+
+fn mean(values: &[f64]) -> f64 {
+    if values.is_empty() { 0.0 } else { values.iter().sum::<f64>() / values.len() as f64 }
+}
+
+fn median(values: &[f64]) -> f64 {
+    let mut values = values.to_vec();
+    let middle = values.len() / 2;
+    if values.is_empty() { 0.0 } else { *values.select_nth_unstable_by(middle, f64::total_cmp).1 }
+}

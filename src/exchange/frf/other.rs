@@ -1,0 +1,199 @@
+//! Frequency responses out of files that are no Universal Files: complex channels over a frequency (MAT, HDF5, TDMS, tables).
+//!
+//! Response and reference of a channel are told, in this order, by `responses` and `references` of the project (columns of
+//! an array, all responses to the first reference first), by what the file says of the channel, by its name.
+
+use super::error::FrfProblem;
+use super::names::{pair_in_name, place_of_name};
+use super::reader::{FrfSource, drop_zero};
+use super::units::{Form, ratio_of_unit};
+use crate::control::Control;
+use crate::measurement::frf::{FrequencyResponse, ResponseSet};
+use crate::measurement::{Channel, Quantity};
+use crate::structure::Structure;
+use dashpot_datafiles::{DataFile, Kind, Values, open};
+use faer::c64;
+use std::path::Path;
+
+/// Largest difference of the frequencies of two functions, relative.
+const SAME: f64 = 1e-6;
+
+/// The functions of a file on their common frequencies, and what the file has to note.
+pub(super) fn read(
+    path: &Path,
+    name: &str,
+    source: &FrfSource,
+    structure: &Structure,
+    control: &Control,
+) -> Result<(ResponseSet, Vec<String>), FrfProblem> {
+    let file = open(path).map_err(|error| data(&error))?;
+    let places = functions(&file, source.step_hz.is_some());
+    if places.is_empty() {
+        return Err(FrfProblem::NoResponses);
+    }
+    let listed = source.responses.len() * source.references.len().max(1);
+    if !source.responses.is_empty() && listed != places.len() {
+        return Err(FrfProblem::Data(format!(
+            "has {} functions, and `responses` times `references` are {listed}; name every column",
+            places.len()
+        )));
+    }
+    let mut set = ResponseSet {
+        name: name.to_string(),
+        frequencies_hz: Vec::new(),
+        functions: Vec::new(),
+        averages: source.averages,
+    };
+    for (k, &at) in places.iter().enumerate() {
+        if control.check().is_err() {
+            break;
+        }
+        let frequencies = frequencies(&file, at, source.step_hz)?;
+        if set.frequencies_hz.is_empty() {
+            set.frequencies_hz = frequencies;
+        } else if !same(&set.frequencies_hz, &frequencies) {
+            return Err(wrong(&file, at, "its frequencies are not those before it; put it into a file of its own"));
+        }
+        let function = function(&file, at, k, source, structure)?;
+        let twice = |f: &FrequencyResponse| f.response == function.response && f.reference == function.reference;
+        if set.functions.iter().any(twice) {
+            let what = format!("{} over {} is there already; keep one of them", function.response, function.reference);
+            return Err(wrong(&file, at, &what));
+        }
+        set.functions.push(function);
+    }
+    drop_zero(&mut set);
+    let notes = file.contents().notes.iter().map(|note| format!("{name}: {note}")).collect();
+    Ok((set, notes))
+}
+
+fn data(error: &dashpot_datafiles::Error) -> FrfProblem {
+    let place = error.place.as_ref().map_or_else(String::new, |place| format!("{place}: "));
+    FrfProblem::Data(format!("{place}{}", error.problem))
+}
+
+fn wrong(file: &DataFile, (set, channel): (usize, usize), what: &str) -> FrfProblem {
+    let name = &file.contents().sets[set].channels[channel].name;
+    FrfProblem::Set { set: format!("channel \"{name}\""), what: what.to_owned() }
+}
+
+/// Set and channel of every function; of complex columns without frequencies too where their step is `given`.
+fn functions(file: &DataFile, given: bool) -> Vec<(usize, usize)> {
+    let wanted = |kind: Kind| kind == Kind::Frf || given && kind == Kind::Table;
+    let sets = file.contents().sets.iter().enumerate().filter(|(_, set)| wanted(set.kind));
+    sets.flat_map(|(s, set)| {
+        let complex = set.channels.iter().enumerate().filter(|(_, channel)| channel.complex && channel.count > 0);
+        complex.map(move |(c, _)| (s, c))
+    })
+    .collect()
+}
+
+fn frequencies(file: &DataFile, at: (usize, usize), step_hz: Option<f64>) -> Result<Vec<f64>, FrfProblem> {
+    let unit = file.contents().sets[at.0].axis_unit.trim();
+    let scale = match unit.to_lowercase().as_str() {
+        "" | "hz" | "1/s" => 1.0,
+        "khz" => 1e3,
+        "rad/s" => 1.0 / std::f64::consts::TAU,
+        _ => return Err(wrong(file, at, &format!("its abscissa is in \"{unit}\"; export over frequency in Hz"))),
+    };
+    let count = file.contents().sets[at.0].channels[at.1].count;
+    let axis = if let Some(axis) = file.axis(at.0, at.1).map_err(|error| data(&error))? {
+        axis
+    } else {
+        let missing = "the file does not say its frequencies; add `step_hz` to its [[frf]], or save them beside it";
+        let step = step_hz.ok_or_else(|| wrong(file, at, missing))?;
+        (0..count).map(|i| step * i as f64).collect()
+    };
+    let axis: Vec<f64> = axis.into_iter().map(|f| f * scale).collect();
+    if axis.iter().any(|f| !f.is_finite()) || axis.windows(2).any(|pair| pair[1] <= pair[0]) {
+        return Err(wrong(file, at, "its frequencies do not increase; export over ascending frequencies"));
+    }
+    Ok(axis)
+}
+
+fn same(a: &[f64], b: &[f64]) -> bool {
+    a.len() == b.len() && a.iter().zip(b).all(|(a, b)| (a - b).abs() <= SAME * b.abs().max(1e-9))
+}
+
+/// Function number `k` of the file.
+fn function(
+    file: &DataFile,
+    at: (usize, usize),
+    k: usize,
+    source: &FrfSource,
+    structure: &Structure,
+) -> Result<FrequencyResponse, FrfProblem> {
+    let entry = &file.contents().sets[at.0].channels[at.1];
+    let pair = pair(file, at, k, source)?;
+    let [response, reference] = if source.reciprocity { [&pair[1], &pair[0]] } else { [&pair[0], &pair[1]] };
+    let find = |name: &str| place_of_name(name, &source.dofs, structure).map_err(|what| wrong(file, at, &what));
+    let ((response, sign), (reference, other)) = (find(response)?, find(reference)?);
+    let (form, scale) = form(source, &entry.unit).map_err(|what| wrong(file, at, &what))?;
+    if form.is_inverse() && response != reference {
+        let what =
+            "force over motion between different DOFs is not the inverse of a response; export motion over force";
+        return Err(wrong(file, at, what));
+    }
+    let values = match file.read(at.0, at.1).map_err(|error| data(&error))? {
+        Values::Complex(values) => values,
+        Values::Real(values) => values.into_iter().map(|re| [re, 0.0]).collect(),
+    };
+    if values.iter().flatten().any(|part| !part.is_finite()) {
+        return Err(wrong(file, at, "has values that are no numbers; export it again or leave it out"));
+    }
+    let factor = scale * sign * other;
+    let value = |[re, im]: [f64; 2]| {
+        let value = c64::new(re, im) * factor;
+        if form.is_inverse() { c64::new(1.0, 0.0) / value } else { value }
+    };
+    let channel = |quantity, dof: usize| Channel { quantity, dof, label: structure.label(dof).to_string() };
+    Ok(FrequencyResponse {
+        response: channel(form.quantity(), response),
+        reference: channel(Quantity::Force, reference),
+        values: values.into_iter().map(value).collect(),
+        coherence: None,
+    })
+}
+
+/// Names of response and reference.
+fn pair(file: &DataFile, at: (usize, usize), k: usize, source: &FrfSource) -> Result<[String; 2], FrfProblem> {
+    let entry = &file.contents().sets[at.0].channels[at.1];
+    if let Some(listed) = source.listed(k).map_err(|what| wrong(file, at, &what))? {
+        return Ok(listed);
+    }
+    if let (Some(response), Some(reference)) = (entry.attribute("response"), entry.attribute("reference")) {
+        return Ok([response.to_owned(), reference.to_owned()]);
+    }
+    if let Some(pair) = pair_in_name(&entry.name) {
+        return Ok(pair);
+    }
+    match (&source.references[..], entry.name.chars().any(|c| c.is_ascii_digit())) {
+        ([reference], true) => {
+            let name = entry.name.trim_start_matches(|c: char| !c.is_ascii_digit());
+            Ok([name.trim_end_matches(|c: char| !c.is_alphanumeric()).to_owned(), reference.clone()])
+        }
+        _ => Err(wrong(
+            file,
+            at,
+            "neither its name nor the file says its DOFs; add `responses = [...]` and `references = [...]` to the [[frf]]",
+        )),
+    }
+}
+
+/// Form and factor to SI: from the project, else from the unit.
+fn form(source: &FrfSource, unit: &str) -> Result<(Form, f64), String> {
+    match (source.form, source.scale) {
+        (Some(form), Some(scale)) => Ok((form, scale)),
+        (Some(form), None) if unit.trim().is_empty() => Ok((form, 1.0)),
+        (form, scale) => {
+            let ratio = ratio_of_unit(unit)?;
+            if form.is_some_and(|form| form != ratio.form) {
+                return Err(format!(
+                    "its unit is that of another form ({:?}); correct `form`, or give `scale` too",
+                    ratio.form
+                ));
+            }
+            Ok((ratio.form, ratio.to_si * scale.unwrap_or(1.0)))
+        }
+    }
+}

@@ -1,0 +1,103 @@
+//! What names, units and types of channels stand for.
+
+use crate::measurement::Quantity;
+
+/// Words in names that say what a channel measures.
+const WORDS: [(&[&str], Quantity); 4] = [
+    (&["force", "kraft", "load", "hammer", "shaker", "exc", "frc"], Quantity::Force),
+    (&["acc", "accel", "acceleration", "beschleunigung", "icp"], Quantity::Acceleration),
+    (&["vel", "velocity", "speed", "geschwindigkeit", "ldv", "vibrometer"], Quantity::Velocity),
+    (&["disp", "displacement", "weg", "laser", "lvdt", "position", "pos"], Quantity::Displacement),
+];
+
+/// Names of angles.
+const ANGLES: [&str; 9] = ["phi", "theta", "psi", "roll", "pitch", "yaw", "angle", "winkel", "heel"];
+
+/// Units of sensors that may measure a motion: strain gauges, amplifiers, converters.
+const SENSORS: [&str; 13] =
+    ["v", "mv", "uv", "volt", "volts", "strain", "ustrain", "microstrain", "ue", "um/m", "counts", "ma", "mv/v"];
+
+/// Types of ordinates in Universal Files.
+pub(super) fn quantity_of_type(number: &str) -> Option<Quantity> {
+    match number {
+        "8" => Some(Quantity::Displacement),
+        "9" | "13" => Some(Quantity::Force),
+        "11" => Some(Quantity::Velocity),
+        "12" => Some(Quantity::Acceleration),
+        _ => None,
+    }
+}
+
+fn words(name: &str) -> Vec<String> {
+    let name = name.to_lowercase();
+    name.split(|c: char| !c.is_alphabetic()).filter(|word| !word.is_empty()).map(str::to_owned).collect()
+}
+
+/// Quantity by a word of the name.
+pub(super) fn spoken(name: &str) -> Option<Quantity> {
+    let words = words(name);
+    WORDS.iter().find(|(known, _)| words.iter().any(|word| known.contains(&word.as_str()))).map(|(_, q)| *q)
+}
+
+/// Whether a name is that of an angle.
+pub(super) fn angle(name: &str) -> bool {
+    words(name).iter().any(|word| ANGLES.contains(&word.as_str()))
+}
+
+/// Whether a unit is that of a sensor whose calibration the file does not say.
+pub(super) fn is_sensor_unit(unit: &str) -> bool {
+    let plain: String = unit.chars().filter(|c| !c.is_whitespace()).collect::<String>().to_lowercase();
+    SENSORS.contains(&plain.replace(['µ', 'μ'], "u").as_str())
+}
+
+/// Label and sign out of `12:+Z`, `12-Z`, `Acc 7`: the last number of the name and the direction behind it. The positive
+/// direction X of a node that is written alone keeps the number as its label; so does the scalar direction `S` of Universal
+/// Files.
+pub(super) fn place_of(text: &str) -> Option<(String, Option<i64>)> {
+    let text = text.trim();
+    let end = text.rfind(|c: char| c.is_ascii_digit())? + 1;
+    let start = text[..end]
+        .rfind(|c: char| !c.is_ascii_digit())
+        .map_or(0, |at| at + text[at..].chars().next().map_or(1, char::len_utf8));
+    let number = text[start..end].trim_start_matches('0');
+    let number = if number.is_empty() { "0" } else { number };
+    let behind: String =
+        text[end..].chars().filter(|c| !c.is_whitespace() && !matches!(c, ':' | '_' | ')' | ']')).collect();
+    let (sign, axis) = match behind.chars().next() {
+        Some('-') => (Some(-1), &behind[1..]),
+        Some('+') => (None, &behind[1..]),
+        _ => (None, behind.as_str()),
+    };
+    let axis = axis.to_lowercase();
+    match axis.as_str() {
+        "" => Some((number.to_owned(), sign)),
+        "s" if number != "0" => Some((number.to_owned(), sign)),
+        "x" | "y" | "z" | "rx" | "ry" | "rz" => Some((format!("{number}{axis}"), sign)),
+        _ => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn places_out_of_names() {
+        let place = |text: &str| place_of(text).map(|(label, sign)| (label, sign.unwrap_or(1)));
+        assert_eq!(place("12:+Z"), Some(("12z".into(), 1)));
+        assert_eq!(place("12:-Z"), Some(("12z".into(), -1)));
+        assert_eq!(place("Acc 7"), Some(("7".into(), 1)));
+        assert_eq!(place("acc_07_x"), Some(("7x".into(), 1)));
+        assert_eq!(place("sine 1:S"), Some(("1".into(), 1)));
+        assert_eq!((place("Force"), place("7 left"), place("0:S")), (None, None, None));
+    }
+
+    #[test]
+    fn words_say_the_quantity() {
+        assert_eq!(spoken("Acc 7"), Some(Quantity::Acceleration));
+        assert_eq!(spoken("Kraft_1"), Some(Quantity::Force));
+        assert_eq!(spoken("Channel 1"), None);
+        assert!(angle("phi") && angle("Roll angle") && !angle("phase"));
+        assert!(is_sensor_unit("Volts") && is_sensor_unit("µm/m") && !is_sensor_unit("Pa"));
+    }
+}

@@ -1,0 +1,115 @@
+//! Reversed, exchanged and misread channels are named before any law is looked for, and mended in the mapping.
+#![allow(clippy::unwrap_used, clippy::disallowed_methods, missing_docs, reason = "tests")]
+
+use dashpot::cli::answer;
+use serde_json::Value;
+use std::path::{Path, PathBuf};
+
+const SENSORS: [usize; 5] = [3, 7, 11, 15, 19];
+
+fn beam(youngs_modulus: f64) -> String {
+    format!(
+        "[project]\nformat = 1\ntitle = \"test\"\n[structure]\nkind = \"beam\"\nlength = 0.56\nbreadth = 0.04\ndepth = 0.004\n\
+         youngs_modulus = {youngs_modulus:?}\ndensity = 2700.0\nelements = 10\nsupports = \"clamped-free\"\n\
+         [[source]]\nlaw = \"viscous\"\ndofs = [19]\nstate = \"known\"\nc = 0.2\n"
+    )
+}
+
+fn runs(exciting: bool) -> String {
+    let one = |(i, f): (usize, &f64)| {
+        let force = if exciting { "force_dof = 19\nforce_n = 1.0\n" } else { "" };
+        format!("[[run]]\nfile = \"run-{i}.csv\"\nfrequency = {f:?}\n{force}")
+    };
+    [9.6, 11.2, 61.0, 66.0, 176.0, 186.0].iter().enumerate().map(one).collect()
+}
+
+/// Records of a beam, hidden friction and all, beside a project whose stiffness is 2 % too high.
+fn recorded() -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    let channels: Vec<String> = SENSORS.iter().map(|dof| format!("\"acc@{dof} [m/s^2]\"")).collect();
+    let simulate = format!("[simulate]\nchannels = [\"force@19 [N]\", {}]\n", channels.join(", "));
+    let hidden = "[[source]]\nlaw = \"coulomb\"\ndofs = [9]\nstate = \"known\"\nforce = 0.05\n";
+    let truth = folder.path().join("truth.toml");
+    std::fs::write(&truth, [&beam(69e9), hidden, &runs(true), &simulate].concat()).unwrap();
+    run(&["simulate", "--noise", "0.01", "--seed", "4", "--out"], &[folder.path(), &truth]);
+    std::fs::write(folder.path().join("project.toml"), beam(70.4e9) + &runs(false)).unwrap();
+    folder
+}
+
+fn run(words: &[&str], paths: &[&Path]) -> String {
+    let words = ["dashpot"].iter().chain(words).map(Into::into);
+    answer(words.chain(paths.iter().map(|path| (*path).into()))).unwrap()
+}
+
+/// Changes every record: its header, and the values of each row.
+fn changed(folder: &Path, header: impl Fn(&str) -> String, values: impl Fn(&mut [f64])) {
+    for i in 0..6 {
+        let path = folder.join(format!("run-{i}.csv"));
+        let text = std::fs::read_to_string(&path).unwrap();
+        let mut lines = text.lines();
+        let mut out = header(lines.next().unwrap()) + "\n";
+        for line in lines {
+            let mut row: Vec<f64> = line.split(',').map(|cell| cell.parse().unwrap()).collect();
+            values(&mut row);
+            out.push_str(&row.iter().map(ToString::to_string).collect::<Vec<_>>().join(","));
+            out.push('\n');
+        }
+        std::fs::write(&path, out).unwrap();
+    }
+}
+
+/// What `diagnose` says of the channels, and the project with that mended.
+fn diagnosed(folder: &Path) -> (Value, PathBuf) {
+    let mended = folder.join("mended.toml");
+    let text = run(&["diagnose", "--json", "--apply"], &[&mended, &folder.join("project.toml")]);
+    (serde_json::from_str(&text).unwrap(), mended)
+}
+
+fn words(document: &Value) -> Vec<&str> {
+    document["channel_faults"].as_array().unwrap().iter().map(|fault| fault["words"].as_str().unwrap()).collect()
+}
+
+#[test]
+fn sound_channels_raise_no_alarm_beside_hidden_friction_and_a_detuned_model() {
+    let folder = recorded();
+    let (document, _) = diagnosed(folder.path());
+    assert!(words(&document).is_empty(), "{:?}", words(&document));
+    assert_eq!(document["not_looked_for"], Value::Null);
+}
+
+#[test]
+fn a_reversed_channel_is_named_and_mended() {
+    let folder = recorded();
+    changed(folder.path(), str::to_owned, |row| row[3] = -row[3]);
+    let (document, mended) = diagnosed(folder.path());
+    assert_eq!(words(&document), ["acc@7 looks reversed"]);
+    let fault = &document["channel_faults"][0];
+    assert!(fault["error_after"].as_f64().unwrap() < 0.5 * fault["error_before"].as_f64().unwrap(), "{fault}");
+    assert!(std::fs::read_to_string(&mended).unwrap().contains("sign = -1"));
+    let again: Value = serde_json::from_str(&run(&["diagnose", "--json"], &[&mended])).unwrap();
+    assert!(words(&again).is_empty(), "{:?}", words(&again));
+}
+
+#[test]
+fn exchanged_channels_are_named_and_mended() {
+    let folder = recorded();
+    let swap = |header: &str| header.replace("acc@7", "acc@x").replace("acc@15", "acc@7").replace("acc@x", "acc@15");
+    changed(folder.path(), swap, |_| {});
+    let (document, mended) = diagnosed(folder.path());
+    assert_eq!(words(&document), ["acc@15 and acc@7 look exchanged"]);
+    let again: Value = serde_json::from_str(&run(&["diagnose", "--json"], &[&mended])).unwrap();
+    assert!(words(&again).is_empty(), "{:?}", words(&again));
+}
+
+#[test]
+fn a_wrong_unit_is_named_and_mended() {
+    let folder = recorded();
+    // The file gives g and its header says m/s^2.
+    changed(folder.path(), str::to_owned, |row| row[4] /= 9.806_65);
+    let (document, mended) = diagnosed(folder.path());
+    assert_eq!(words(&document), ["acc@11 reads 9.81 times too small: g read as m/s^2?"]);
+    assert_eq!(document["suggestions"][0]["effect"], "gain");
+    assert_eq!(document["suggestions"][0]["channel"], "acc@11");
+    let again: Value = serde_json::from_str(&run(&["diagnose", "--json"], &[&mended])).unwrap();
+    assert!(words(&again).is_empty(), "{:?}", words(&again));
+}
