@@ -15,6 +15,7 @@
 
 pub mod candidates;
 pub mod compare;
+pub mod component;
 pub mod diagnose;
 pub mod localisation;
 pub mod points;

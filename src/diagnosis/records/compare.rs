@@ -107,7 +107,7 @@ pub(crate) fn short(records: &Records) -> f64 {
         let periods = 8.0 / (r.dominant_hz * r.step * r.len() as f64);
         if r.kind == Kind::Transient { periods.max(0.5) } else { periods }
     };
-    records.list.iter().map(share).fold(0.08, f64::max).min(1.0)
+    records.list.iter().map(share).fold(0.0, f64::max).min(1.0)
 }
 
 fn compared(record: &RecordData, model: Vec<Vec<f64>>) -> OneRecord {

@@ -47,6 +47,8 @@ pub struct RecordData {
     pub index: usize,
     /// Name of its file.
     pub file: String,
+    /// The run itself.
+    pub run: TransientRun,
     /// Decay or transient.
     pub kind: Kind,
     /// Time of the first sample and between samples, s.
@@ -108,17 +110,28 @@ impl<'a> Records<'a> {
         Ok(Self { structure, known, modes, kept, list })
     }
 
-    /// The model of a record with these sources and factors on stiffness and mass.
+    /// The model of a record with these sources and factors on stiffness and mass, and logarithms of those on the
+    /// stiffness of single modes.
     pub(crate) fn model(
         &self,
         record: &RecordData,
         sources: &[Source],
         factors: [f64; 2],
+        mode_stiffness: &[f64],
     ) -> Result<TransientModel, RecordError> {
         let (structure, modes, kept) = (self.structure, &self.modes, self.kept);
         let (drives, channels) = (&record.drives[..], &record.channels[..]);
-        TransientModel::new(&TransientSetup { structure, modes, kept, sources, drives, channels, factors })
-            .map_err(|reason| RecordError::Model { file: record.file.clone(), reason })
+        TransientModel::new(&TransientSetup {
+            structure,
+            modes,
+            kept,
+            sources,
+            drives,
+            channels,
+            factors,
+            mode_stiffness,
+        })
+        .map_err(|reason| RecordError::Model { file: record.file.clone(), reason })
     }
 }
 
@@ -135,9 +148,22 @@ impl RecordData {
 
     /// The measured forces of the first `samples` samples.
     pub(crate) fn excitation(&self, samples: usize, linear: bool) -> SampledForces {
-        let forces = self.forces.iter().map(|list| list[..samples].to_vec()).collect();
+        let forces = self.forces.iter().map(|list| sharpened(&list[..samples])).collect();
         SampledForces { step: self.step, samples, forces, substeps: if linear { 1 } else { self.substeps } }
     }
+}
+
+/// A sampled force such that straight lines between its samples have the spectrum of the band-limited force that was sampled:
+/// lines weaken a frequency by `(sin(w h / 2) / (w h / 2))^2 = 1 - (w h)^2 / 12 + (w h)^4 / 360 - ...`; its inverse is taken in
+/// differences of the samples up to the fourth.
+fn sharpened(force: &[f64]) -> Vec<f64> {
+    let mut sharp = force.to_vec();
+    for n in 2..force.len().saturating_sub(2) {
+        let second = force[n - 1] - 2.0 * force[n] + force[n + 1];
+        let fourth = force[n - 2] - 4.0 * force[n - 1] + 6.0 * force[n] - 4.0 * force[n + 1] + force[n + 2];
+        sharp[n] += fourth / 90.0 - second / 12.0;
+    }
+    sharp
 }
 
 fn record(index: usize, run: &TransientRun) -> Result<RecordData, RecordError> {
@@ -153,6 +179,7 @@ fn record(index: usize, run: &TransientRun) -> Result<RecordData, RecordError> {
     let mut record = RecordData {
         index,
         file: run.file.clone(),
+        run: run.clone(),
         kind: run.kind,
         first_s: run.time()[0],
         step,

@@ -12,6 +12,7 @@ use super::data::{RecordError, Records};
 use super::evidence::{evidence, misfit, parameters, scale};
 use super::fit::{Fit, FittedRecords, Free};
 use super::localisation::{LocatedForce, locate};
+use super::regression::Regression;
 use crate::control::Control;
 use crate::diagnosis::candidates::special_cases::is_allowed;
 use crate::diagnosis::candidates::start_grids::{Range, scaled, shapes};
@@ -43,8 +44,12 @@ const AGREES: f64 = 1.15;
 /// Places that are looked at, shapes of a law, fits that go on to longer parts and to whole records.
 const PLACES: usize = 2;
 const SHAPES: usize = 5;
-const LONGER: usize = 10;
-const WHOLE: usize = 5;
+const LONGER: usize = 7;
+const WHOLE: usize = 4;
+/// Ratio of the parts of a record on which a law is fitted one after the other.
+const LADDER: f64 = 3.0;
+/// Laws that are fitted at the places that the equation of motion demands, from the best place on.
+const QUOTAS: [usize; 3] = [6, 3, 2];
 /// Force of a law at the start, as a share of the spring force there.
 const SIZES: [f64; 2] = [0.01, 0.1];
 /// Most effects of a set.
@@ -160,30 +165,23 @@ impl Search<'_> {
             Fit { records: self.records, free: Free { corrections: false }, share: first, control: self.control };
         let base = quiet.improve(base, 3)?;
         let mut found: Vec<FittedRecords> = Vec::new();
-        for place in self.places(best) {
-            let range = self.range(&base, &place);
-            for effect in LAWS {
-                let taken = base.effects.iter().any(|e| e.effect == effect && e.place.is_same(&place));
-                let out = self.excluded.iter().any(|e| e.effect == effect && e.place.is_same(&place));
-                if taken || out {
-                    continue;
-                }
-                let mut own: Option<FittedRecords> = None;
-                for source in self.starts(effect, &place, &range) {
-                    self.control.check()?;
-                    let mut start = base.clone();
-                    start.effects.push(source);
-                    // A start that runs away, or a mass that takes away all there is, is no start.
-                    let Ok(fitted) = self.fit(&start, first, 3) else { continue };
-                    if own.as_ref().is_none_or(|o| fitted.chi_square < o.chi_square) {
-                        own = Some(fitted);
-                    }
-                }
-                found.extend(own);
+        for source in self.beginnings(best, &base) {
+            self.control.check()?;
+            let mut start = base.clone();
+            start.effects.push(source);
+            // A start that runs away, or a mass that takes away all there is, is no start.
+            let Ok(fitted) = self.fit(&start, first, 3) else { continue };
+            let same =
+                |o: &FittedRecords| o.effects.last().zip(fitted.effects.last()).is_some_and(|(a, b)| a.is_same(b));
+            match found.iter_mut().find(|o| same(o)) {
+                Some(own) if fitted.chi_square < own.chi_square => *own = fitted,
+                Some(_) => {}
+                None => found.push(fitted),
             }
         }
-        let mut found = self.continued(found, LONGER, 0.4_f64.max(first), 6);
-        found = self.continued(found, WHOLE, 1.0, 12);
+        let longer = 0.4_f64.max(first);
+        let mut found = self.continued(found, LONGER, [first, longer], 6);
+        found = self.continued(found, WHOLE, [longer, 1.0], 12);
         found.retain(|f| f.effects.last().is_some_and(|e| is_allowed(self.excluded, e, &last_deviations(f))));
         if let Some(least) = found.iter().map(|f| f.chi_square).min_by(f64::total_cmp) {
             let best = found.iter().find(|f| f.chi_square == least).map_or(1.0, scale);
@@ -193,17 +191,62 @@ impl Search<'_> {
         Ok(found)
     }
 
-    /// The best `count` fitted on a longer part.
+    /// Laws at places from which fits begin: those that the equation of motion demands, else a grid of all.
+    fn beginnings(&self, best: &FittedRecords, base: &FittedRecords) -> Vec<Source> {
+        let open = |s: &Source| !base.effects.iter().chain(self.excluded).any(|e| e.is_same(s));
+        let structure = self.records.structure;
+        let mut all = Family::EachTranslation.places(structure);
+        all.extend(Family::EachPair.places(structure));
+        let located = self.places(best);
+        let Some(regression) = Regression::new(self.records, base, self.control) else {
+            let of = |place: &Place| {
+                let range = self.range(base, place);
+                LAWS.iter().flat_map(move |&effect| self.starts(effect, place, &range)).collect::<Vec<Source>>()
+            };
+            return located.iter().flat_map(of).filter(open).collect();
+        };
+        let mut ranked = regression.ranked(&all, &LAWS, self.control);
+        ranked.retain(|r| open(&r.source));
+        let mut places: Vec<&Place> = Vec::new();
+        for place in ranked.iter().map(|r| &r.source.place) {
+            if places.len() < QUOTAS.len() && !places.iter().any(|p| p.is_same(place)) {
+                places.push(place);
+            }
+        }
+        let quotas = places.iter().copied().zip(QUOTAS);
+        let more =
+            located.iter().filter(|p| !places.iter().any(|q| q.is_same(p))).map(|p| (p, QUOTAS[QUOTAS.len() - 1]));
+        let of = |(place, quota): (&Place, usize)| {
+            ranked
+                .iter()
+                .filter(|r| r.source.place.is_same(place))
+                .take(quota)
+                .map(|r| r.source.clone())
+                .collect::<Vec<_>>()
+        };
+        quotas.chain(more).flat_map(of).collect()
+    }
+
+    /// The best `count` fitted on longer and longer parts, so that none loses the phase.
     fn continued(
         &self,
         mut found: Vec<FittedRecords>,
         count: usize,
-        share: f64,
+        [from, to]: [f64; 2],
         iterations: usize,
     ) -> Vec<FittedRecords> {
         found.sort_by(|a, b| a.chi_square.total_cmp(&b.chi_square));
         found.truncate(count);
-        found.iter().filter_map(|f| self.fit(f, share, iterations).ok()).collect()
+        let rising = |f: &FittedRecords| {
+            let mut fitted = f.clone();
+            let mut share = LADDER * from;
+            while share < to {
+                fitted = self.fit(&fitted, share, 4).ok()?;
+                share *= LADDER;
+            }
+            self.fit(&fitted, to, iterations).ok()
+        };
+        found.iter().filter_map(rising).collect()
     }
 
     /// Range of the motion at a place in the short part of the records.
@@ -370,9 +413,12 @@ fn last_deviations(fit: &FittedRecords) -> Vec<f64> {
 fn corrections(records: &Records, fit: &FittedRecords) -> Vec<Correction> {
     let wide = scale(fit).sqrt();
     let first = parameters(fit);
-    let values = std::iter::once(fit.stiffness).chain(fit.known.iter().copied());
+    let modes = if records.kept > 1 { records.kept } else { 0 };
+    let values =
+        std::iter::once(fit.stiffness).chain(fit.known.iter().copied()).chain(fit.modes.iter().take(modes).copied());
     let names = std::iter::once(UpdatingParameter::Structure(Part::Stiffness))
-        .chain((0..records.known.len()).map(UpdatingParameter::Known));
+        .chain((0..records.known.len()).map(UpdatingParameter::Known))
+        .chain((0..modes).map(|r| UpdatingParameter::Structure(Part::Mode(r))));
     let of = |(k, (v, parameter)): (usize, (f64, UpdatingParameter))| {
         let deviation = fit.deviations.get(first + k).copied().unwrap_or(f64::NAN) * wide;
         (v.abs() > MOVED * deviation).then(|| Correction { parameter, factor: v.exp(), deviation: deviation * v.exp() })

@@ -21,7 +21,7 @@ use dashpot_numerics::Cholesky;
 use faer::Mat;
 
 /// Prior deviation of the logarithm of all stiffness, of the size of a known source, of the stiffness of one record.
-const PRIORS: [f64; 3] = [0.02, 0.15, 0.002];
+const PRIORS: [f64; 4] = [0.03, 0.15, 0.002, 0.02];
 /// Largest change of a logarithm in one step.
 const REACH: f64 = 1.0;
 
@@ -41,6 +41,8 @@ pub struct FittedRecords {
     pub stiffness: f64,
     /// Logarithms of the factors on the known sources.
     pub known: Vec<f64>,
+    /// Logarithms of the factors on the stiffness of the followed modes.
+    pub modes: Vec<f64>,
     /// Logarithm of the factor on the stiffness of each record.
     pub shifts: Vec<f64>,
     /// Initial state of each record.
@@ -49,8 +51,8 @@ pub struct FittedRecords {
     pub chi_square: f64,
     /// Number of samples in it.
     pub count: usize,
-    /// Standard deviations of the parameters of the effects, then of stiffness, then of the known sources, in units of the
-    /// noise that was stated.
+    /// Standard deviations of the parameters of the effects, then of stiffness, of the known sources and of the modes, in units
+    /// of the noise that was stated.
     pub deviations: Vec<f64>,
     /// What is left, over the noise: `[record][channel][sample]`.
     pub residual: Vec<Vec<Vec<f64>>>,
@@ -63,6 +65,7 @@ impl FittedRecords {
             effects: effects.to_vec(),
             stiffness: 0.0,
             known: vec![0.0; records.known.len()],
+            modes: vec![0.0; records.kept],
             shifts: vec![0.0; records.list.len()],
             initial: vec![vec![0.0; 2 * records.kept]; records.list.len()],
             chi_square: f64::INFINITY,
@@ -92,7 +95,7 @@ impl FittedRecords {
     ) -> Result<TransientResponse, RecordError> {
         let record = &records.list[r];
         let factor = (self.stiffness + self.shifts[r]).exp();
-        let model = records.model(record, &self.sources(records), [factor, 1.0])?;
+        let model = records.model(record, &self.sources(records), [factor, 1.0], &self.modes)?;
         let forces = record.excitation(samples, model.is_linear());
         model
             .predict(&forces, &self.initial[r], parameters)
@@ -195,7 +198,12 @@ impl Fit<'_> {
     /// Number of shared variables.
     fn shared(&self, at: &FittedRecords) -> usize {
         let laws: usize = at.effects.iter().map(|e| e.parameters.len()).sum();
-        laws + if self.free.corrections { 1 + at.known.len() } else { 0 }
+        laws + if self.free.corrections { 1 + at.known.len() + self.modes() } else { 0 }
+    }
+
+    /// Modes whose stiffness is free beside that of all; none where there is only one.
+    fn modes(&self) -> usize {
+        if self.records.kept > 1 { self.records.kept } else { 0 }
     }
 
     /// Variables of each record.
@@ -218,6 +226,9 @@ impl Fit<'_> {
             next.stiffness += change[k].clamp(-0.1, 0.1);
             for (j, v) in next.known.iter_mut().enumerate() {
                 *v += change[k + 1 + j].clamp(-0.5, 0.5);
+            }
+            for r in 0..self.modes() {
+                next.modes[r] += change[k + 1 + at.known.len() + r].clamp(-0.1, 0.1);
             }
         }
         let (shared, local) = (self.shared(at), self.local());
@@ -258,6 +269,7 @@ impl Fit<'_> {
                     list.push((unknown, k + 1 + source, known.parameters[parameter]));
                 }
             }
+            list.extend((0..self.modes()).map(|r| (TransientParameter::Mode(r), k + 1 + offset + r, 1.0)));
         }
         list.extend((0..2 * self.records.kept).map(|j| (TransientParameter::Initial(j), from + j, 1.0)));
         list
@@ -318,6 +330,9 @@ impl Fit<'_> {
         prior(laws, at.stiffness, PRIORS[0]);
         for (j, v) in at.known.iter().enumerate() {
             prior(laws + 1 + j, *v, PRIORS[1]);
+        }
+        for r in 0..self.modes() {
+            prior(laws + 1 + at.known.len() + r, at.modes[r], PRIORS[3]);
         }
         for r in 0..self.records.list.len() {
             let k = self.shared(at) + r * self.local() + 2 * self.records.kept;

@@ -13,8 +13,9 @@ mod errors;
 mod evidence;
 pub mod fit;
 pub mod localisation;
+mod regression;
 pub mod spectrum;
-mod variables;
+pub(crate) mod variables;
 
 pub use compare::{RecordComparison, compare_records};
 pub use data::{RecordError, Records};
