@@ -22,13 +22,24 @@ pub struct Control {
     cancelled: Arc<AtomicBool>,
     parts_per_million: Arc<AtomicU32>,
     workers: Option<Arc<dyn Workers>>,
+    /// Whether what is asked for should be answered with the best so far.
+    hurried: Arc<AtomicBool>,
+    /// Whether something was left undone for that.
+    cut_short: Arc<AtomicBool>,
     /// Where this part of the work starts and ends in the whole.
     span: [f64; 2],
 }
 
 impl Default for Control {
     fn default() -> Self {
-        Self { cancelled: Arc::default(), parts_per_million: Arc::default(), workers: None, span: [0.0, 1.0] }
+        Self {
+            cancelled: Arc::default(),
+            parts_per_million: Arc::default(),
+            workers: None,
+            hurried: Arc::default(),
+            cut_short: Arc::default(),
+            span: [0.0, 1.0],
+        }
     }
 }
 
@@ -42,6 +53,26 @@ impl Control {
     #[must_use]
     pub fn with_workers(self, workers: Arc<dyn Workers>) -> Self {
         Self { workers: Some(workers), ..self }
+    }
+
+    /// Asks the computation to answer with the best that it has so far.
+    pub fn hurry(&self) {
+        self.hurried.store(true, Ordering::Relaxed);
+    }
+
+    /// Whether [`Control::hurry`] was called; work that asks and hears yes leaves the rest undone, which
+    /// [`Control::is_complete`] tells.
+    pub fn is_late(&self) -> bool {
+        let late = self.hurried.load(Ordering::Relaxed);
+        if late {
+            self.cut_short.store(true, Ordering::Relaxed);
+        }
+        late
+    }
+
+    /// Whether nothing was left undone for want of time.
+    pub fn is_complete(&self) -> bool {
+        !self.cut_short.load(Ordering::Relaxed)
     }
 
     /// `piece` of every number below `count`, in order; what it gives must not depend on the order in which it is asked.
@@ -111,6 +142,14 @@ mod tests {
         fn each(&self, count: usize, piece: &(dyn Fn(usize) + Sync)) {
             (0..count - 1).filter(|k| k % 2 == 1).chain((0..count - 1).filter(|k| k % 2 == 0)).for_each(piece);
         }
+    }
+
+    #[test]
+    fn work_that_is_cut_short_says_so() {
+        let control = Control::unattended();
+        assert!(!control.is_late() && control.is_complete());
+        control.hurry();
+        assert!(control.is_complete() && control.is_late() && !control.clone().is_complete());
     }
 
     #[test]

@@ -107,6 +107,9 @@ pub(super) struct Diagnose {
     /// Take what `identify` finds as known first
     #[arg(long)]
     pub identified: bool,
+    /// End the search after so many seconds with the best so far
+    #[arg(long, value_name = "N", value_parser = seconds)]
+    pub seconds: Option<f64>,
 }
 
 #[derive(Debug, Args)]
@@ -371,6 +374,14 @@ fn harmonics(text: &str) -> Result<usize, String> {
     match text.parse::<usize>() {
         Ok(count) if (1..=HIGHEST_HARMONIC).contains(&count) => Ok(count),
         _ => Err(format!("give a number of harmonics from 1 to {HIGHEST_HARMONIC}")),
+    }
+}
+
+/// Parses a time limit, s.
+fn seconds(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(value) if value > 0.0 && value <= 1e6 => Ok(value),
+        _ => Err("give a number of seconds above 0, such as 10".to_owned()),
     }
 }
 

@@ -17,6 +17,7 @@ use crate::effects::{Place, Source, State};
 use crate::exchange::Project;
 use crate::exchange::project::load;
 use crate::exchange::project::relocate::{canonical, renamed};
+use crate::session::time_limit::hurry_after;
 use crate::session::workers::Threads;
 use crate::structure::Part;
 use crate::structure::{Coupled, Structure, StructureKind};
@@ -24,6 +25,7 @@ use anyhow::Context;
 use serde_json::{Map, Value, json};
 use std::path::Path;
 use std::sync::Arc;
+use std::time::Duration;
 
 /// Diagnoses, prints, and writes the project with the best suggestion where asked.
 pub(super) fn run(arguments: &Diagnose) -> anyhow::Result<String> {
@@ -36,6 +38,9 @@ pub(super) fn run(arguments: &Diagnose) -> anyhow::Result<String> {
     let written = project.sources.clone();
     let taken = identified::take_over(&mut project, arguments.identified, &arguments.file, &control)?;
     let early = |found: &[Suggestion]| eprint!("{}", first_words(&project.structure, found));
+    if let Some(seconds) = arguments.seconds {
+        hurry_after(&control, Duration::from_secs_f64(seconds));
+    }
     let diagnosis = searched(&project, &control, &early).with_context(|| arguments.file.display().to_string())?;
     if let Some(out) = &arguments.apply {
         apply(&arguments.file, out, &Written { project: &project, sources: &written, taken: &taken }, &diagnosis)?;
@@ -213,6 +218,7 @@ fn document(project: &Project, diagnosis: &Diagnosis) -> Value {
         "error_before": diagnosis.error_before,
         "noise_floor": diagnosis.noise_floor,
         "verdict": diagnosis.verdict.word(),
+        "complete": diagnosis.complete,
         "runs": project.runs.iter().map(run).collect::<Vec<_>>(),
         "suggestions": diagnosis.suggestions.iter().map(|s| suggestion(structure, s)).collect::<Vec<_>>(),
         "steps": diagnosis.steps.iter().map(step).collect::<Vec<_>>(),

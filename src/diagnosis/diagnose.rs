@@ -105,6 +105,8 @@ pub struct Diagnosis {
     pub next_test: Vec<NextTest>,
     /// What the model states wrongly, where the data demand it: corrections that were fitted beside the effects.
     pub corrections: Vec<Correction>,
+    /// Whether the search came to its end before its time was up ([`Control::hurry`]).
+    pub complete: bool,
 }
 
 /// A correction of what the model states.
@@ -142,7 +144,7 @@ pub fn diagnose_without(
 ) -> Result<Diagnosis, DiagnosisError> {
     let diagnosis = searched(problem, excluded, control, early)?;
     control.report(1.0);
-    Ok(diagnosis)
+    Ok(Diagnosis { complete: control.is_complete(), ..diagnosis })
 }
 
 fn searched(
@@ -171,6 +173,7 @@ fn searched(
         }],
         next_test: Vec::new(),
         corrections: Vec::new(),
+        complete: true,
     };
     if stepwise::agrees(&base, before, 0) {
         return Ok(diagnosis);

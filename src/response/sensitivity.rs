@@ -9,6 +9,7 @@
 //! with `A_h` the receptance of the linear rest and `J = 1 - Phi_F + Phi_D C` the Jacobian of the balance, factorised once.
 //! Where the response is extrapolated from two numbers of harmonics, so are its derivatives.
 
+use super::harmonic_balance::LinearPart;
 use super::harmonic_balance::richardson;
 use super::harmonic_balance::{Balance, Excitation, Lu, Prepared, Response, ResponseError, RunModel};
 use crate::effects::Source;
@@ -177,15 +178,9 @@ impl Differentiated<'_> {
 
     /// Pseudo-forces `-dZ_h X_h` at all DOFs per harmonic; empty where there is none.
     fn loads(&self, unknown: Unknown) -> Vec<Vec<c64>> {
-        let linear = self.run.linear();
         let load = |h: usize| -> Vec<c64> {
             let (x, w) = (&self.displacements[h], self.omega(h));
-            let zero = c64::new(0.0, 0.0);
             match unknown {
-                Unknown::Stiffness => linear.apply_matrices(-linear.factors(w)[0], zero, x),
-                Unknown::Mass => linear.apply_matrices(zero, -linear.factors(w)[1], x),
-                Unknown::Density => linear.apply_density(-linear.factors(w)[1], x),
-                Unknown::LumpedMass(dof) => single(x.len(), dof, x[dof] * (w * w)),
                 Unknown::ForceScale(force) => {
                     let force = &self.excitation.forces[force];
                     single(x.len(), force.dof, force.amplitude(h))
@@ -194,50 +189,10 @@ impl Differentiated<'_> {
                     let force = &self.excitation.forces[force];
                     single(x.len(), force.dof, force.amplitude(h) * c64::new(0.0, w))
                 }
-                Unknown::ModeStiffness(mode) => linear.apply_mode(mode, x).unwrap_or_default(),
-                Unknown::Part(part) => self.part_load(part, h),
-                Unknown::Source { source, parameter } => self.source_load(source, parameter, h),
+                _ => pseudo_force(self.run, self.sources, unknown, x, w).unwrap_or_default(),
             }
         };
         (0..self.displacements.len()).map(load).collect()
-    }
-
-    /// Pseudo-force of a part of the structure.
-    fn part_load(&self, part: Part, h: usize) -> Vec<c64> {
-        let (x, w) = (&self.displacements[h], self.omega(h));
-        let [fk, fm] = self.run.linear().factors(w);
-        let (entries, factor) = match self.run.linear().structure().share(part) {
-            Some(Share::Stiffness(entries)) => (entries, -fk),
-            Some(Share::Mass(entries)) => (entries, -fm),
-            None => return Vec::new(),
-        };
-        let mut load = vec![c64::new(0.0, 0.0); x.len()];
-        entries.into_iter().for_each(|(i, j, value)| load[i] += x[j] * (factor * value));
-        load
-    }
-
-    /// Pseudo-force of a linear source; empty for a nonlinear one.
-    fn source_load(&self, source: usize, parameter: usize, h: usize) -> Vec<c64> {
-        let (x, w) = (&self.displacements[h], self.omega(h));
-        let given = &self.sources[source];
-        match given.effect.kind() {
-            // The force of a whole-structure law is proportional to its only parameter.
-            Kind::Whole(law) => self.run.linear().apply_whole(given, -law.factor(1.0, w), x),
-            Kind::Relative(_) => {
-                let condensed = &self.prepared.condensed;
-                let mut load = Vec::new();
-                for leg in condensed.linear_legs.iter().filter(|l| l.source == source).map(|l| l.leg) {
-                    load.resize(x.len(), c64::new(0.0, 0.0));
-                    let force = stiffness_by_parameter(given, parameter, w) * leg.relative(|i| x[i]);
-                    load[leg.first] -= force;
-                    if let Some(second) = leg.second {
-                        load[second] += force;
-                    }
-                }
-                load
-            }
-            Kind::Channel(_) => Vec::new(),
-        }
     }
 
     /// Displacements of the linear rest under the pseudo-forces, per harmonic; empty where there is no force.
@@ -284,6 +239,61 @@ impl Differentiated<'_> {
             x.resize(change.len(), c64::new(0.0, 0.0));
             x.iter_mut().zip(change).for_each(|(x, c)| *x += c);
         }
+    }
+}
+
+/// Pseudo-force `-dZ x` (N per unit of `unknown`) of the motion `x` (m, by DOF) at circular frequency `w` (rad/s); `None`
+/// where it is not that of a linear part of the model.
+pub(crate) fn pseudo_force(
+    run: &RunModel,
+    sources: &[Source],
+    unknown: Unknown,
+    x: &[c64],
+    w: f64,
+) -> Option<Vec<c64>> {
+    let linear = run.linear();
+    let zero = c64::new(0.0, 0.0);
+    match unknown {
+        Unknown::Stiffness => Some(linear.apply_matrices(-linear.factors(w)[0], zero, x)),
+        Unknown::Mass => Some(linear.apply_matrices(zero, -linear.factors(w)[1], x)),
+        Unknown::Density => Some(linear.apply_density(-linear.factors(w)[1], x)),
+        Unknown::LumpedMass(dof) => Some(single(x.len(), dof, x[dof] * (w * w))),
+        Unknown::ModeStiffness(mode) => linear.apply_mode(mode, x),
+        Unknown::Part(part) => part_force(linear, part, x, w),
+        Unknown::Source { source, parameter } => source_force(linear, &sources[source], parameter, x, w),
+        Unknown::ForceScale(_) | Unknown::ForceAdvance(_) => None,
+    }
+}
+
+/// Pseudo-force of a part of the structure.
+fn part_force(linear: &LinearPart, part: Part, x: &[c64], w: f64) -> Option<Vec<c64>> {
+    let [fk, fm] = linear.factors(w);
+    let (entries, factor) = match linear.structure().share(part)? {
+        Share::Stiffness(entries) => (entries, -fk),
+        Share::Mass(entries) => (entries, -fm),
+    };
+    let mut load = vec![c64::new(0.0, 0.0); x.len()];
+    entries.into_iter().for_each(|(i, j, value)| load[i] += x[j] * (factor * value));
+    Some(load)
+}
+
+/// Pseudo-force of a linear source.
+fn source_force(linear: &LinearPart, source: &Source, parameter: usize, x: &[c64], w: f64) -> Option<Vec<c64>> {
+    match source.effect.kind() {
+        // The force of a whole-structure law is proportional to its only parameter.
+        Kind::Whole(law) => Some(linear.apply_whole(source, -law.factor(1.0, w), x)),
+        Kind::Relative(_) if source.effect.is_linear() => {
+            let mut load = vec![c64::new(0.0, 0.0); x.len()];
+            for leg in source.place.legs() {
+                let force = stiffness_by_parameter(source, parameter, w) * leg.relative(|i| x[i]);
+                load[leg.first] -= force;
+                if let Some(second) = leg.second {
+                    load[second] += force;
+                }
+            }
+            Some(load)
+        }
+        Kind::Relative(_) | Kind::Channel(_) => None,
     }
 }
 

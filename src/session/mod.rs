@@ -13,6 +13,7 @@ pub mod script;
 pub mod session;
 mod sources;
 mod structure;
+pub mod time_limit;
 pub mod workers;
 
 pub use command::{Command, EffectAt, Setting, SourceAt, SourceSpec};

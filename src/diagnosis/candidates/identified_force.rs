@@ -27,16 +27,19 @@ use std::convert::Infallible;
 const SAMPLES: usize = 128;
 /// Deviations of the squared misfit within which a law explains a free force.
 const ENOUGH: f64 = 3.0;
+/// Multiple of what the best law of two parameters leaves up to which the best shape of a law of more may still become the
+/// best once its parameters are fitted.
+const PROMISING: f64 = 4.0;
 /// Step of a variable for difference quotients: friction has kinks, and the step is to see past those of single samples.
 const STEP: f64 = 1e-3;
 
 /// The free forces of one place and the motions they imply.
 pub(crate) struct PlaceData {
-    spot: Spot,
+    pub(super) spot: Spot,
     /// `[run][harmonic]`.
-    forces: Vec<Vec<FreeForce>>,
+    pub(super) forces: Vec<Vec<FreeForce>>,
     /// One a run; at rest for channels.
-    motions: Vec<Motion>,
+    pub(super) motions: Vec<Motion>,
     /// Samples of the free force, one list a run.
     histories: Vec<Vec<f64>>,
     /// Impedance of the structure between the DOFs of a leg, N s/m, one a run.
@@ -138,16 +141,23 @@ impl PlaceData {
         let mut fits: Vec<LawFit> = few.into_iter().filter_map(|effect| self.fit(effect)).collect();
         let count = self.count() as f64;
         let noise = count + ENOUGH * (2.0 * count).sqrt();
-        if !fits.iter().any(|fit| fit.misfit < noise) {
-            fits.extend(many.into_iter().filter_map(|effect| self.fit(effect)));
+        let least = fits.iter().map(|fit| fit.misfit).fold(f64::INFINITY, f64::min);
+        if least >= noise {
+            let bound = PROMISING * least;
+            fits.extend(many.into_iter().filter_map(|effect| self.fit_within(effect, bound)));
         }
         fits
     }
 
     /// Fits `effect`; `None` if it cannot act here or its best scale has an unphysical sign.
     pub fn fit(&self, effect: Effect) -> Option<LawFit> {
+        self.fit_within(effect, f64::INFINITY)
+    }
+
+    /// The same; `None` too if the best shape of its grid leaves more than `bound`.
+    fn fit_within(&self, effect: Effect, bound: f64) -> Option<LawFit> {
         match (effect.kind(), &self.spot) {
-            (Kind::Relative(law), Spot::Leg(_)) => self.fit_law(effect, law),
+            (Kind::Relative(law), Spot::Leg(_)) => self.fit_law(effect, law, bound),
             (Kind::Channel(law), Spot::Response(_) | Spot::Force(_)) => self.fit_channel(effect, law),
             _ => None,
         }
@@ -184,8 +194,8 @@ impl PlaceData {
         self.grid(effect, law).into_iter().take(most).map(fit).collect()
     }
 
-    fn fit_law(&self, effect: Effect, law: &'static dyn Law) -> Option<LawFit> {
-        let grid = self.grid(effect, law);
+    fn fit_law(&self, effect: Effect, law: &'static dyn Law, bound: f64) -> Option<LawFit> {
+        let grid: Vec<(f64, Vec<f64>)> = self.grid(effect, law).into_iter().filter(|(left, _)| *left < bound).collect();
         let source =
             |p: &[f64]| Source { effect, place: self.spot.place(), state: State::Known, parameters: p.to_vec() };
         let (misfit, parameters) = grid.first()?;
@@ -193,7 +203,7 @@ impl PlaceData {
             return Some(LawFit { source: source(parameters), misfit: *misfit });
         }
         // Laws of many parameters have many valleys.
-        let starts = if effect.parameters().len() > 2 { 4 } else { 1 };
+        let starts = if effect.parameters().len() > 2 { 3 } else { 1 };
         let descent = |(_, p): &(f64, Vec<f64>)| {
             let (variables, start) = Variables::new(&[source(p)]);
             let Ok(Descent { theta, chi_square, .. }) =
@@ -233,7 +243,7 @@ impl PlaceData {
     }
 
     /// Harmonics of the force that friction of the parameters `p` would hold in run `r`.
-    fn friction(&self, effect: Effect, p: &[f64], r: usize, order: usize) -> Vec<c64> {
+    pub(super) fn friction(&self, effect: Effect, p: &[f64], r: usize, order: usize) -> Vec<c64> {
         let samples = held(effect, p, &self.histories[r], &self.motions[r], self.impedances[r]);
         let mut harmonics = vec![c64::new(0.0, 0.0); order];
         self.sampling.analyse(&samples, &mut harmonics);
@@ -256,7 +266,7 @@ impl PlaceData {
         }
     }
 
-    fn law_force(&self, law: &dyn Law, p: &[f64], motion: &Motion, order: usize) -> Vec<c64> {
+    pub(super) fn law_force(&self, law: &dyn Law, p: &[f64], motion: &Motion, order: usize) -> Vec<c64> {
         if law.dynamic_stiffness(p, motion.omega).is_some() {
             let at = |(i, d): (usize, &c64)| {
                 law.dynamic_stiffness(p, (i + 1) as f64 * motion.omega).unwrap_or(c64::new(0.0, 0.0)) * d
@@ -271,13 +281,8 @@ impl PlaceData {
     }
 
     fn fit_channel(&self, effect: Effect, law: &dyn ChannelLaw) -> Option<LawFit> {
-        let force = matches!(self.spot, Spot::Force(_));
-        let value = |t: c64| if force { 1.0 - 1.0 / t } else { t - 1.0 };
         let misfit = |p: f64| -> f64 {
-            let of = |r: usize, order: usize| {
-                (1..=order).map(|h| value(law.transfer(p, h as f64 * self.motions[r].omega))).collect()
-            };
-            let rows = self.rows(1.0, of);
+            let rows = self.rows(1.0, |r, order| self.channel_error(law, p, r, order));
             dot(&rows, &rows)
         };
         let step = if effect == Effect::Delay { 1e-7 / self.range.omega.max(1e-3) * 100.0 } else { 1e-5 };

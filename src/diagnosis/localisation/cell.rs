@@ -61,6 +61,15 @@ impl Cell {
         Cow::Owned(cell)
     }
 
+    /// The cell after a known force of `spot`.
+    pub(super) fn with_force(&self, spot: usize, force: c64) -> Self {
+        let mut cell = self.clone();
+        cell.residual.iter_mut().zip(&self.columns[spot]).for_each(|(e, a)| *e -= force * *a);
+        cell.total = dot(&cell.residual, &cell.residual).re;
+        cell.products = cell.columns.iter().map(|a| dot(a, &cell.residual)).collect();
+        cell
+    }
+
     /// Normal equations of the common parameters where free forces at `spots` and the run's own parameters are eliminated.
     pub(super) fn eliminate(&self, spots: &[usize], misfit: f64) -> Eliminated {
         let basis = self.basis(spots);

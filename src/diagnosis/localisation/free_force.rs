@@ -131,6 +131,15 @@ impl Screen {
         }
     }
 
+    /// Standardised updating parameters that fit best beside the known `forces` at `spot`, `[run][harmonic]`.
+    pub(crate) fn updated_beside(&self, spot: usize, forces: &[Vec<c64>]) -> Vec<f64> {
+        let known = |(run, forces): (&Vec<Cell>, &Vec<c64>)| {
+            run.iter().zip(forces).take(1).map(|(cell, f)| cell.with_force(spot, *f)).collect()
+        };
+        let cells = self.cells.iter().zip(forces).map(known).collect();
+        Self { cells, spots: Vec::new(), reference: self.reference.clone(), misfit: self.misfit }.updated(&[])
+    }
+
     /// How the free force at one spot would change with the parameters that are free; `None` where none is.
     pub(crate) fn freedom(&self, spot: usize) -> Option<ForceFreedom> {
         let freed = self.freed(&[spot])?;
@@ -156,6 +165,11 @@ impl Screen {
         };
         let runs = self.cells.iter().map(of_run).collect();
         Some(ForceFreedom { runs, information: freed.normal })
+    }
+
+    /// What the parameters leave without any force.
+    pub fn nothing(&self) -> f64 {
+        self.left(&[], |cell| cell.total)
     }
 
     /// Every single place, best first.

@@ -12,6 +12,7 @@ use crate::diagnosis::candidates::start_grids::scaled;
 use crate::diagnosis::diagnose::{Added, Diagnosis, Step, Suggestion, Verdict};
 use crate::diagnosis::points::balance::{Balance, Column, Fitted};
 use crate::diagnosis::residual::data::{DiagnosisError, Problem};
+use crate::diagnosis::selection::conclusion::{TOLERATED, UNTRUSTED};
 use crate::effects::{Effect, Source};
 use crate::math::statistics::{bayesian_information, evidence_weights, root_mean_square};
 
@@ -180,6 +181,7 @@ fn conclude(balance: &Balance, rungs: &[Vec<Fitted>]) -> Diagnosis {
         steps: vec![Step { added: Vec::new(), error: before, misfit: square(&balance.weighted()) / n as f64 }],
         next_test: Vec::new(),
         corrections: Vec::new(),
+        complete: true,
     };
     let (Some(first), Some(top)) = (rungs.first(), rungs.last()) else {
         let e = balance.weighted();
@@ -214,6 +216,9 @@ fn conclude(balance: &Balance, rungs: &[Vec<Fitted>]) -> Diagnosis {
                 indistinguishable_from: alike(top, &added.source),
             });
         }
+    }
+    if diagnosis.steps.last().is_some_and(|step| step.misfit > TOLERATED) {
+        diagnosis.suggestions.iter_mut().for_each(|s| s.probability *= UNTRUSTED);
     }
     let sure = diagnosis.suggestions.first().is_some_and(|s| s.probability >= 0.5);
     diagnosis.verdict = if sure { Verdict::Missing } else { Verdict::Undecided };

@@ -90,6 +90,7 @@ pub fn diagnose_records(
         steps: vec![Step { added: Vec::new(), error: before, misfit: misfit(&bare) }],
         next_test: Vec::new(),
         corrections: Vec::new(),
+        complete: true,
     };
     if misfit(&bare) < AGREES {
         return Ok(diagnosis);

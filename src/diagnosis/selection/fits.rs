@@ -52,11 +52,11 @@ impl Base<'_> {
     /// The fits that may still become the best, followed to the end; the others as they are. Valleys are long where
     /// corrections are free beside effects much like them: those that still promise to be the best go on once more.
     pub(crate) fn finished(&self, begun: Vec<Refit>) -> Result<Vec<Refit>, DiagnosisError> {
-        let once = self.followed(begun)?;
-        self.followed(once)
+        let once = self.followed_once(begun)?;
+        self.followed_once(once)
     }
 
-    fn followed(&self, begun: Vec<Refit>) -> Result<Vec<Refit>, DiagnosisError> {
+    fn followed_once(&self, begun: Vec<Refit>) -> Result<Vec<Refit>, DiagnosisError> {
         let scale = scale_of(&begun, self.count());
         let best = begun.iter().map(|r| self.evidence(r, scale)).fold(f64::INFINITY, f64::min);
         let promised = |r: &Refit| self.evidence(r, scale) - r.descent.to_go.min(PROMISE * r.chi_square) / scale;

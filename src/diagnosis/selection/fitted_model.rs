@@ -15,6 +15,9 @@ use faer::{Mat, c64};
 /// Groups of runs that are left out in turn.
 const FOLDS: usize = 4;
 
+/// Steps of a fit whose time is up.
+const HURRIED: usize = 1;
+
 /// Share of what remains of a search that one predicted run is taken for: a search asks for thousands of them.
 const PACE: f64 = 2e-4;
 
@@ -131,6 +134,7 @@ impl Bench<'_> {
         settings: &Settings,
         starts: &[Option<Response>],
     ) -> Result<Refit, DiagnosisError> {
+        let steps = if self.control.is_late() { steps.min(HURRIED) } else { steps };
         let (variables, start) = Variables::new(effects);
         let (bench, settings, starts) = (*self, *settings, starts.to_vec());
         let mut response = OnResponse { bench, variables: &variables, settings, starts, last: None };

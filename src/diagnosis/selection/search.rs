@@ -14,7 +14,7 @@ use crate::diagnosis::residual::prediction::{FINAL, Predictor, RunPrediction};
 use crate::diagnosis::residual::whitening::Whitening;
 use crate::diagnosis::selection::fitted_model::{Bench, Refit};
 use crate::diagnosis::updating::noise_model::{Linearisation, NoiseModel};
-use crate::effects::Source;
+use crate::effects::{Place, Source};
 use crate::math::statistics::bayesian_information;
 use faer::{Mat, c64};
 use std::sync::Arc;
@@ -32,6 +32,8 @@ const REFITS: usize = 10;
 const EXTRA: f64 = 8.0;
 /// What a law costs that is fitted next to a simpler one: records are not so exact that they could tell.
 const POSING: f64 = 20.0;
+/// Scaled squared residual beyond the best law that a free force of a place may leave where its laws are looked at.
+const MARGIN: f64 = 150.0;
 /// Places at which the law found is tried too, where no law can tell them apart.
 const ELSEWHERE: usize = 6;
 
@@ -93,7 +95,7 @@ impl<'a> Base<'a> {
                 Ok(Whitening::new(run, &a, &of[r].truncation))
             })
             .collect();
-        Ok(NoiseModel::new(runs?, self.data, &self.linearisation))
+        Ok(NoiseModel::new(runs?, &self.linearisation))
     }
 
     /// What fits on the response are made with.
@@ -128,17 +130,38 @@ impl<'a> Base<'a> {
     pub fn singles(&self, from: Option<&Refit>) -> Result<Vec<Refit>, DiagnosisError> {
         let mut view = self.view(from)?;
         let effects = from.map_or(&[][..], |refit| &refit.effects);
-        let mut drafts = Vec::new();
-        let placings = self.worth_while(&mut view, effects)?;
-        for (placing, laws) in placings.iter().zip(self.all_laws(&mut view, &placings, effects)?) {
-            let options = laws.into_iter().flatten();
-            drafts.extend(options.map(|d| Draft { score: d.score + placing.chi_square, ..d }));
-        }
-        let mut drafts = short_list(drafts, REFITS);
+        let mut drafts = short_list(self.drafts(&mut view, effects)?, REFITS);
         drafts.iter_mut().for_each(|d| d.effects = joined(effects, &d.effects));
         let mut begun = self.begun(&drafts)?;
         begun.extend(self.whole(from, crate::diagnosis::selection::fits::FIRST_STEPS)?);
         Ok(self.ranked(self.finished(begun)?))
+    }
+
+    /// Laws at the places that explain most, regressed on the free forces there beside `effects`.
+    pub(crate) fn drafts(&self, view: &mut View, effects: &[Source]) -> Result<Vec<Draft>, DiagnosisError> {
+        let mut drafts = Vec::new();
+        let placings = self.worth_while(view, effects)?;
+        for (placing, laws) in placings.iter().zip(self.all_laws(view, &placings, effects)?) {
+            let options = laws.into_iter().flatten();
+            drafts.extend(options.map(|d| Draft { score: d.score + placing.chi_square, ..d }));
+        }
+        Ok(drafts)
+    }
+
+    /// Standardised updating parameters that fit best beside the law of `draft` at its place, whose force is that at the
+    /// measured motion; `None` where the place is not seen.
+    pub(crate) fn updated_beside(&self, view: &mut View, draft: &Draft) -> Result<Option<Vec<f64>>, DiagnosisError> {
+        let source = &draft.effects[0];
+        if matches!(source.place, Place::Whole(_)) {
+            return Ok(self.updated_beside_whole(source));
+        }
+        let Some(spot) = view.screen.spots.iter().position(|s| s.place().is_same(&source.place)) else {
+            return Ok(None);
+        };
+        self.need(view, &[spot])?;
+        let (forces, fields) = self.free(view, &[spot]);
+        let data = self.at_place(view, spot, &forces[0], &fields);
+        Ok(data.forces_of(source).map(|forces| view.screen.updated_beside(spot, &forces)))
     }
 
     /// Sets of two new effects at the pairs of places that explain most.
@@ -228,6 +251,9 @@ impl<'a> Base<'a> {
                     }
                 }
             }
+            if let Some(Some(expansion)) = self.linearisation.expansions.get(r) {
+                expansion.correct(run, field.col_as_slice_mut(0));
+            }
             field
         };
         let fields: Vec<Mat<c64>> = self.data.runs.iter().enumerate().map(field).collect();
@@ -254,7 +280,12 @@ impl<'a> Base<'a> {
             let best = laws.into_iter().flatten().map(|d| d.score).fold(f64::INFINITY, f64::min);
             (best < f64::INFINITY).then_some(best + placing.chi_square)
         });
-        let bound = hopeless(scores.fold(f64::INFINITY, f64::min));
+        let best = scores.fold(f64::INFINITY, f64::min);
+        let bound = if self.linearisation.is_empty() {
+            hopeless(best)
+        } else {
+            best + MARGIN * (best / self.count().max(1) as f64).max(1.0)
+        };
         placings.retain(|p| p.chi_square < bound);
         Ok(placings)
     }

@@ -8,9 +8,10 @@ use crate::diagnosis::selection::conclusion::{self, Outcome};
 use crate::diagnosis::selection::fits::STEPS;
 use crate::diagnosis::selection::fitted_model::Refit;
 use crate::diagnosis::selection::search::{Base, scale_of};
+use crate::diagnosis::selection::weighing::weighed;
 use crate::diagnosis::updating::detuning::is_likely;
 use crate::diagnosis::updating::noise_model::NoiseModel;
-use crate::effects::Source;
+use crate::effects::{Effect, Source};
 use std::sync::Arc;
 
 /// Most effects that are added.
@@ -121,7 +122,7 @@ pub(crate) fn explain(base: Base<'_>, before: f64) -> Result<Outcome<'_>, Diagno
     }
     // Free forces at two places explain whatever two sensors see.
     let telling = base.data.runs.iter().all(|run| run.alive.len() > 2);
-    if telling && !within(reach.single) && within(reach.pair) && two_at_once(&base, &mut exact)? {
+    if telling && !within(reach.single) && reach.pair <= noise && two_at_once(&base, &mut exact)? {
         confirm(&base, &mut exact)?;
         return Ok(Outcome { base, found: exact });
     }
@@ -139,25 +140,32 @@ fn beside_updating<'a>(
     before: f64,
 ) -> Result<Outcome<'a>, DiagnosisError> {
     let mut found = Found { updated: true, rungs: Vec::new(), agrees: false, before };
-    let (mut here, mut least) = (bare.localised()?, corrected);
-    while found.rungs.len() < MOST_EFFECTS {
+    let mut least = corrected;
+    let (mut here, drafts) = bare.localised()?;
+    let mut drafts = Some(drafts);
+    while found.rungs.len() < MOST_EFFECTS && (found.rungs.is_empty() || !here.control.is_late()) {
         let from = found.rungs.last().map(|rung| rung.refits[0].clone());
-        let refits = here.singles(from.as_ref())?;
+        let fits = match (&from, drafts.take()) {
+            (None, Some(drafts)) => here.followed(drafts)?,
+            (Some(from), _) => here.followed_beside(from, EVIDENCE)?,
+            (None, None) => Vec::new(),
+        };
         if found.rungs.is_empty() {
-            (here.early)(&conclusion::early(&here, &refits));
+            let refits: Vec<Refit> = fits.iter().map(|(_, refit)| refit.clone()).collect();
+            (here.early)(&conclusion::early(&here, &here.ranked(refits)));
         }
-        let Some((there, refits)) = updated_beside(&here, from.as_ref(), refits)? else { break };
-        let Some(weighed) = weighed(&there, refits)? else { break };
+        let Some(weighed) = weighed(fits)? else { break };
         let best = &weighed.refits[0];
-        let scale = scale_of(&weighed.refits, there.count());
-        if (least - weighed.least) / scale < EVIDENCE || best.parameters >= there.count() {
+        let scale = scale_of(&weighed.refits, weighed.base.count());
+        if (least - weighed.least) / scale < evidence_needed(&likely, best) || best.parameters >= weighed.base.count() {
             break;
         }
         found.agrees = agrees(&weighed.base, best.chi_square, best.parameters);
         least = weighed.least;
         let noise = weighed.base.noise.clone();
         found.rungs.push(Rung { scale, noise, refits: weighed.refits, costs: weighed.costs });
-        (here, likely) = (there, weighed.base);
+        likely = weighed.base;
+        here = Base { predictions: likely.predictions.clone(), noise: likely.noise.clone(), ..likely.shallow() };
         // Corrections beyond what models are wrong by may stand in for one effect more.
         if found.agrees && is_likely(&likely) {
             break;
@@ -171,92 +179,19 @@ fn beside_updating<'a>(
     Ok(Outcome { base: likely, found })
 }
 
-/// Times that the model is updated beside the best candidate and the candidates are fitted again.
-const UPDATES: usize = 3;
-/// Candidates that are followed while the model is updated.
-const FOLLOWED: usize = 6;
-/// Prior deviations by which an updating parameter may still move where the model counts as updated.
-const STILL: f64 = 0.1;
-/// The same from which on places are looked at again.
-const MOVED: f64 = 1.0;
-
-/// The model updated beside the best of `refits`, and the candidates fitted there, best first.
-fn updated_beside<'a>(
-    here: &Base<'a>,
-    from: Option<&Refit>,
-    mut refits: Vec<Refit>,
-) -> Result<Option<(Base<'a>, Vec<Refit>)>, DiagnosisError> {
-    let mut there: Option<Base<'a>> = None;
-    for round in 0..UPDATES {
-        let Some(best) = refits.first() else { return Ok(None) };
-        let at = there.as_ref().unwrap_or(here);
-        let distance = at.distance(&best.effects, &best.starts)?;
-        if round > 0 && distance < STILL {
-            break;
-        }
-        let moved = at.moved_to(&best.effects, &best.starts)?;
-        if distance > MOVED && round < UPDATES - 1 {
-            refits.extend(moved.singles(from)?.into_iter().take(FOLLOWED));
-            refits = distinct(refits);
-        }
-        refits.truncate(2 * FOLLOWED);
-        let fit = |k: usize| moved.bench().refit(&refits[k].effects, STEPS, &FINAL, &refits[k].starts);
-        let fitted = here.control.map(refits.len(), fit).into_iter().collect::<Result<Vec<_>, _>>()?;
-        refits = moved.ranked(fitted);
-        there = Some(moved);
-    }
-    Ok(there.filter(|_| !refits.is_empty()).map(|there| (there, refits)))
-}
-
-/// Candidates weighed by their evidence, each with the scales that are most likely beside it.
-struct Weighed<'a> {
-    /// The model with the scales of the best.
-    base: Base<'a>,
-    /// Best first.
-    refits: Vec<Refit>,
-    costs: Vec<f64>,
-    least: f64,
-}
-
-/// Candidates whose scales are estimated.
-const WEIGHED: usize = 4;
-
-fn weighed<'a>(there: &Base<'a>, refits: Vec<Refit>) -> Result<Option<Weighed<'a>>, DiagnosisError> {
-    let count = refits.len().min(WEIGHED);
-    let one = |k: usize| -> Result<(f64, Base<'a>, Refit), DiagnosisError> {
-        let (base, refit) = there.with_likely_scales(Some(&refits[k]))?;
-        let refit = refit.unwrap_or_else(|| refits[k].clone());
-        Ok((cost(&base, Some(&refit)), base, refit))
-    };
-    let mut all = there.control.map(count, one).into_iter().collect::<Result<Vec<_>, _>>()?;
-    all.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let mut costs: Vec<f64> = all.iter().map(|(cost, _, _)| *cost).collect();
-    let Some(least) = costs.first().copied() else { return Ok(None) };
-    let mut weighed: Vec<Refit> = all.iter().map(|(_, _, refit)| refit.clone()).collect();
-    // Those that were far behind before their scales were estimated stay behind.
-    let behind = refits.get(count - 1).map_or(0.0, |last| there.evidence(last, 1.0));
-    for refit in refits.iter().skip(count) {
-        let worst = costs[count - 1];
-        costs.push(worst + there.evidence(refit, 1.0) - behind);
-        weighed.push(refit.clone());
-    }
-    let first = &weighed[0];
-    let base = all.swap_remove(0).1.moved_to(&first.effects, &first.starts)?;
-    weighed[0] = base.bench().refit(&first.effects, STEPS, &FINAL, &first.starts)?;
-    Ok(Some(Weighed { base, refits: weighed, costs, least }))
+/// Evidence that the last effect of a fit must bring beside `likely`, the model with corrections and the effects before it:
+/// more where those agree with the data already, and more for a spring or mass, which is like a correction itself.
+fn evidence_needed(likely: &Base, refit: &Refit) -> f64 {
+    let structural = |source: &Source| matches!(source.effect, Effect::Stiffness | Effect::Mass);
+    let left: f64 = likely.bench().residual(&likely.predictions).iter().map(|r| r * r).sum();
+    let settled = refit.effects.len() == 1 && agrees(likely, left, 0);
+    let times =
+        1.0 + if settled { 2.0 } else { 0.0 } + if refit.effects.last().is_some_and(structural) { 1.0 } else { 0.0 };
+    EVIDENCE * times
 }
 
 pub(crate) fn level(refit: &Refit) -> (f64, usize) {
     (refit.chi_square, refit.parameters)
-}
-
-/// Evidence of a model whose updating parameters are free, with the effects of `refit`; the smaller, the better.
-fn cost(base: &Base, refit: Option<&Refit>) -> f64 {
-    let fit = match refit {
-        Some(refit) => base.evidence(refit, 1.0),
-        None => base.bench().residual(&base.predictions).iter().map(|r| r * r).sum(),
-    };
-    fit + base.noise.cost()
 }
 
 /// Whether two effects at once agree with the data; then they are what was found.

@@ -1,16 +1,18 @@
 //! The model with its updating parameters moved to where the data ask for them, and linearised there.
 
-use crate::diagnosis::residual::data::DiagnosisError;
+use crate::diagnosis::residual::data::{Data, DiagnosisError, RunData};
 use crate::diagnosis::residual::energy_balance::scaled_factors;
 use crate::diagnosis::residual::prediction::{FINAL, RunPrediction};
-use crate::diagnosis::selection::fit_problem::run_slopes;
+use crate::diagnosis::selection::fit_problem::{RunSlopes, run_slopes};
 use crate::diagnosis::selection::fitted_model::{Refit, Starts};
-use crate::diagnosis::selection::search::Base;
-use crate::diagnosis::updating::noise_model::{Linearisation, NoiseModel, of_channel};
-use crate::diagnosis::updating::parameters::{Scales, Updating, UpdatingParameter};
+use crate::diagnosis::selection::search::{Base, Draft};
+use crate::diagnosis::selection::stepwise::agrees;
+use crate::diagnosis::updating::measured_motion::MeasuredMotion;
+use crate::diagnosis::updating::noise_model::{Linearisation, NoiseModel, amplitudes, of_channel};
+use crate::diagnosis::updating::parameters::{Scales, Updating};
 use crate::effects::Source;
+use crate::response::harmonic_balance::Settings;
 use crate::response::sensitivity::Unknown;
-use crate::structure::Part;
 use faer::c64;
 use std::sync::Arc;
 
@@ -24,18 +26,16 @@ const ARRIVED: f64 = 1e-3;
 const ROUNDS: usize = 3;
 /// Steps of the effects in each.
 const REFITTED: usize = 4;
+/// Squared residual per datum that a law may leave at the measured motion where the model is close enough to be followed.
+const CLOSE: f64 = 2.0;
+/// Share of the squared residual by which the linear fit of the updating parameters may still fall where they have settled.
+const SETTLED: f64 = 0.02;
+/// Shares of a step that are tried.
+const SHARES: [f64; 3] = [1.0, 0.4, 0.1];
 /// Share of its squared residual to which a step must bring the best place.
 const FALLING: f64 = 0.9;
-/// Prior deviations by which parameters may still move where they have arrived.
-const STILL: f64 = 0.3;
-/// Squared residual per datum of the best place from which on the model is far off: shifts of all frequencies are tried.
-const FAR: f64 = 20.0;
-/// Logarithms of the factors on all stiffness that are tried.
-const SHIFTS: [f64; 8] = [-0.06, -0.04, -0.025, -0.012, 0.012, 0.025, 0.04, 0.06];
-/// Shares of a step that are tried.
-const SHARES: [f64; 3] = [1.0, 0.5, 0.2];
-/// Steps of the model whose runs do not differ.
-const STRICT_STEPS: usize = 4;
+/// Factor of the measured over the predicted motion, off one, up to which derivatives are taken at the predicted one.
+const NEAR: f64 = 0.3;
 /// Bounds of the factor by which the measured motion may differ from the predicted one where derivatives are corrected
 /// for it.
 const FIELD: [f64; 2] = [0.02, 50.0];
@@ -52,6 +52,7 @@ impl<'a> Base<'a> {
         effects: &[Source],
         starts: &Starts,
     ) -> Result<Base<'a>, DiagnosisError> {
+        let updating = &updating.of_model();
         let predictor = Arc::new(self.predictor.updated(updating)?);
         let mut base = Base { predictor, predictions: Vec::new(), ..self.shallow() };
         base.predictions = base.bench().predict(&[], &FINAL, &[])?;
@@ -69,27 +70,50 @@ impl<'a> Base<'a> {
         let known = self.predictor.known();
         let mut sums: Vec<Vec<(Unknown, f64)>> = (0..updating.len()).map(|k| updating.unknowns(k, known)).collect();
         sums.push(vec![(Unknown::Stiffness, 1.0)]);
+        let linear = effects.is_empty() && known.iter().all(|source| source.effect.is_linear());
+        let seen = linear.then(|| MeasuredMotion::new(&self.predictor, self.data, predictions, self.control)).flatten();
+        let runs = self.data.runs.iter().zip(predictions);
+        let amplitudes: Vec<Vec<Vec<c64>>> = runs.map(|(run, p)| amplitudes(run, &p.channels)).collect();
         let of_run = |r: usize| {
-            let (run, prediction) = (&self.data.runs[r], &predictions[r]);
-            let zero = || vec![vec![c64::new(0.0, 0.0); run.harmonics]; run.responses.len()];
-            let mut slopes = run_slopes(&self.predictor, r, run, effects, prediction, &sums)
-                .unwrap_or_else(|| vec![zero(); sums.len()]);
-            let factor = scaled_factors(run, prediction).first().copied().unwrap_or(c64::new(1.0, 0.0));
-            let size = factor.norm();
-            if size > 0.0 && size.is_finite() {
-                let factor = factor * (size.clamp(FIELD[0], FIELD[1]) / size);
-                slopes.iter_mut().flatten().for_each(|channel| channel[0] *= factor);
-            }
-            let stiffness = slopes.pop().unwrap_or_else(zero);
+            let run = &self.data.runs[r];
+            let mut slopes = match &seen {
+                Some(seen) => seen.slopes(r, &sums),
+                None => self.model_slopes(r, effects, &predictions[r], &sums),
+            };
+            let stiffness = slopes.pop().unwrap_or_default();
             for (slope, parameter) in slopes.iter_mut().zip(&updating.parameters) {
                 if !parameter.is_of_model() {
-                    *slope = of_channel(parameter, run);
+                    *slope = of_channel(parameter, run, &amplitudes[r]);
                 }
             }
             (slopes, stiffness)
         };
-        let (common, stiffness) = self.control.map(self.data.runs.len(), of_run).into_iter().unzip();
-        Linearisation { updating: updating.clone(), common, stiffness }
+        let (common, stiffness): (Vec<RunSlopes>, Vec<_>) =
+            self.control.map(self.data.runs.len(), of_run).into_iter().unzip();
+        let leverage = if seen.is_some() { leverage(self.data, updating, &common, predictions) } else { Vec::new() };
+        let expansions = seen.map_or_else(Vec::new, |seen| seen.expansions);
+        Linearisation { updating: updating.clone(), common, stiffness, expansions, leverage, amplitudes }
+    }
+
+    /// Derivatives of the model with `effects` at its own motion times the factor that fits the sensors best.
+    fn model_slopes(
+        &self,
+        r: usize,
+        effects: &[Source],
+        prediction: &RunPrediction,
+        sums: &[Vec<(Unknown, f64)>],
+    ) -> RunSlopes {
+        let run = &self.data.runs[r];
+        let zero = || vec![vec![c64::new(0.0, 0.0); run.harmonics]; run.responses.len()];
+        let mut slopes =
+            run_slopes(&self.predictor, r, run, effects, prediction, sums).unwrap_or_else(|| vec![zero(); sums.len()]);
+        let factor = scaled_factors(run, prediction).first().copied().unwrap_or(c64::new(1.0, 0.0));
+        let size = factor.norm();
+        if size > 0.0 && size.is_finite() && (factor - 1.0).norm() > NEAR {
+            let factor = factor * (size.clamp(FIELD[0], FIELD[1]) / size);
+            slopes.iter_mut().flatten().for_each(|channel| channel[0] *= factor);
+        }
+        slopes
     }
 
     /// The updating parameters that fit the measurement beside `effects` with the prediction of this base; standardised.
@@ -125,85 +149,152 @@ impl<'a> Base<'a> {
             updating = towards(&updating, &target);
         }
         match best {
-            Some((_, base)) => Ok(base),
+            Some((_, base)) => base.settled_bare(STEPS),
             None => self.updated(&updating, &[], &Vec::new()),
         }
     }
 
-    /// This model with the scales that are most likely without any effect, and its evidence: of the scales that are
-    /// estimated, and of none for what differs from run to run, the better.
-    pub fn likely(&self) -> Result<(Base<'a>, f64), DiagnosisError> {
-        let estimated = self.with_likely_scales(None)?.0;
-        let mut strict =
-            self.with_scales(Scales { shift: Scales::LEAST.shift, response: Scales::LEAST.response, ..Scales::SEARCH });
-        for _ in 0..STRICT_STEPS {
-            strict = strict.moved_to(&[], &Vec::new())?;
-        }
-        let evidence = |base: &Base| square(&base.bench().residual(&base.predictions)) + base.noise.cost();
-        let (loose, tight) = (evidence(&estimated), evidence(&strict));
-        Ok(if tight < loose { (strict, tight) } else { (estimated, loose) })
-    }
-
-    /// The model with the updating parameters that fit best beside a free force at the best place, whatever its law: so
-    /// they do not stand in for what is missing.
-    pub fn localised(&self) -> Result<Base<'a>, DiagnosisError> {
-        let (stated, known) = self.predictor.stated();
-        let all = Updating::all(stated, known, self.data);
-        let mut here = self.seen(&all)?;
-        let noise = FAR * self.count() as f64;
-        if here.least > noise {
-            for shift in SHIFTS {
-                let there = self.seen(&shifted(&all, shift))?;
-                here = if there.least < here.least { there } else { here };
-            }
-        }
-        for _ in 0..STEPS {
-            let updating = here.base.linearisation.updating.clone();
-            let target = updating.at(&here.target).values;
-            let moved = here.target.iter().zip(updating.standardised()).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
-            if moved < STILL {
+    /// The model moved until its updating parameters leave what their linear fit leaves, without any effect.
+    fn settled_bare(self, rounds: usize) -> Result<Base<'a>, DiagnosisError> {
+        let cost = |base: &Base| base.noise.updating.left_by_channels(&base.bench().at_reference(&base.predictions));
+        let (mut base, mut here) = (self, f64::INFINITY);
+        here = here.min(cost(&base));
+        for _ in 0..rounds {
+            let linear = square(&base.bench().residual(&base.predictions));
+            if here - linear < SETTLED * linear.min(base.count() as f64) || base.control.is_late() {
                 break;
             }
-            let mut better = None;
+            let rows = base.bench().at_reference(&base.predictions);
+            let updating = base.linearisation.updating.clone();
+            let target = updating.at(&base.noise.updating.solve(&rows)).values;
+            let mut moved = None;
             for share in SHARES {
                 let part: Vec<f64> = updating.values.iter().zip(&target).map(|(v, t)| v + share * (t - v)).collect();
-                let there = self.seen(&towards(&updating, &part))?;
-                if there.least < FALLING * here.least {
-                    better = Some(there);
+                let there = base.updated(&towards(&updating, &part), &[], &Vec::new())?;
+                let then = cost(&there);
+                if then < here {
+                    moved = Some((there, then));
                     break;
                 }
             }
-            let Some(next) = better else { break };
-            here = next;
+            let Some((there, then)) = moved else { break };
+            (base, here) = (there, then);
         }
-        Ok(here.base)
+        Ok(base)
     }
 
-    /// The model at `updating` with what its best place leaves.
+    /// This model with the scales that are most likely without any effect, and its evidence: without gains and differences
+    /// from run to run, or without those alone, where that agrees with the data; else the best of these and of the scales
+    /// that are estimated.
+    pub fn likely(&self) -> Result<(Base<'a>, f64), DiagnosisError> {
+        let alike = Scales { shift: Scales::LEAST.shift, response: Scales::LEAST.response, ..Scales::SEARCH };
+        let exact = Scales { gain: Scales::LEAST.gain, phase: Scales::LEAST.phase, ..alike };
+        let mut best: Option<(f64, Base<'a>)> = None;
+        for scales in [exact, alike] {
+            let strict = self.with_scales(scales).settled_bare(STEPS)?;
+            let left = square(&strict.bench().residual(&strict.predictions));
+            let cost = left + strict.noise.cost();
+            if agrees(&strict, left, 0) {
+                return Ok((strict, cost));
+            }
+            if best.as_ref().is_none_or(|(least, _)| cost < *least) {
+                best = Some((cost, strict));
+            }
+        }
+        let estimated =
+            self.with_likely_scales(None, &FINAL)?.0.settled_bare(STEPS)?.with_likely_scales(None, &FINAL)?.0;
+        let cost = square(&estimated.bench().residual(&estimated.predictions)) + estimated.noise.cost();
+        Ok(match best {
+            Some((least, strict)) if least < cost => (strict, least),
+            _ => (estimated, cost),
+        })
+    }
+
+    /// The model with the updating parameters that fit best beside the law that leaves least at the measured motion, so
+    /// that they do not stand in for it, and the laws regressed there, best first.
+    pub fn localised(&self) -> Result<(Base<'a>, Vec<Draft>), DiagnosisError> {
+        let (stated, known) = self.predictor.stated();
+        let all = Updating::all(stated, known, self.data);
+        let mut here = self.seen(&all)?;
+        for _ in 0..STEPS {
+            if here.least < CLOSE * self.count() as f64 {
+                break;
+            }
+            let updating = here.base.linearisation.updating.clone();
+            let there = self.seen(&towards(&updating, &updating.at(&here.target).values))?;
+            let better = there.least < FALLING * here.least;
+            if there.least < here.least {
+                here = there;
+            }
+            if !better {
+                break;
+            }
+        }
+        Ok((here.base, here.drafts))
+    }
+
+    /// The model at `updating` with what the best law leaves.
     fn seen(&self, updating: &Updating) -> Result<Seen<'a>, DiagnosisError> {
         let base = self.updated(updating, &[], &Vec::new())?;
-        let view = base.view(None)?;
-        let best = view.screen.singles().into_iter().next();
-        let (least, target) = match best {
-            Some(best) => (best.chi_square, view.screen.updated(&best.spots)),
-            None => (f64::INFINITY, updating.standardised()),
+        let mut view = base.view(None)?;
+        let mut drafts = base.drafts(&mut view, &[])?;
+        drafts.extend(base.whole_drafts(&[]));
+        drafts.sort_by(|a, b| a.score.total_cmp(&b.score));
+        let best = drafts.first();
+        let target = match best {
+            Some(best) => base.updated_beside(&mut view, best)?,
+            None => None,
         };
+        let least = best.map_or(f64::INFINITY, |best| best.score);
         drop(view);
-        Ok(Seen { base, least, target })
+        Ok(Seen { target: target.unwrap_or_else(|| updating.standardised()), base, least, drafts })
     }
 
-    /// The model moved to the updating parameters that fit best beside `effects`.
-    pub fn moved_to(&self, effects: &[Source], starts: &Starts) -> Result<Base<'a>, DiagnosisError> {
-        let (u, _) = self.solved(effects, starts)?;
-        let updating = &self.linearisation.updating;
-        self.updated(&towards(updating, &updating.at(&u).values), effects, starts)
+    /// The model and the effects of `refit` moved in turn until neither moves any more: until the updating parameters at the
+    /// reference leave what their linear fit leaves.
+    pub(crate) fn settled(
+        self,
+        refit: Refit,
+        settings: &Settings,
+        rounds: usize,
+    ) -> Result<(Base<'a>, Refit), DiagnosisError> {
+        let (mut base, mut refit) = (self, refit);
+        let mut here = base.at_reference_cost(&refit)?;
+        for _ in 0..rounds {
+            if here - refit.chi_square < SETTLED * refit.chi_square.min(base.count() as f64) || base.control.is_late() {
+                break;
+            }
+            let (u, _) = base.solved(&refit.effects, &refit.starts)?;
+            let updating = base.linearisation.updating.clone();
+            let target = updating.at(&u).values;
+            let mut moved = None;
+            for share in SHARES {
+                let part: Vec<f64> = updating.values.iter().zip(&target).map(|(v, t)| v + share * (t - v)).collect();
+                let there = base.updated(&towards(&updating, &part), &refit.effects, &refit.starts)?;
+                let again = there.bench().refit(&refit.effects, REFITTED, settings, &refit.starts)?;
+                let cost = there.at_reference_cost(&again)?;
+                if cost < here {
+                    moved = Some((there, again, cost));
+                    break;
+                }
+            }
+            let Some((there, again, cost)) = moved else { break };
+            (base, refit, here) = (there, again, cost);
+        }
+        Ok((base, refit))
+    }
+
+    /// Squared residual of a fit with the updating parameters of the model at their reference, priors included.
+    fn at_reference_cost(&self, refit: &Refit) -> Result<f64, DiagnosisError> {
+        let predictions = self.predictions_with(&refit.effects, &refit.starts)?;
+        Ok(self.noise.updating.left_by_channels(&self.bench().at_reference(&predictions)))
     }
 
     /// The same model with other scales of the priors.
     pub fn with_scales(&self, scales: Scales) -> Base<'a> {
         let updating = self.linearisation.updating.with_scales(scales);
         let linearisation = Linearisation { updating, ..(*self.linearisation).clone() };
-        let noise = NoiseModel::new(self.noise.runs.clone(), self.data, &linearisation);
+        let noise = NoiseModel::new(self.noise.runs.clone(), &linearisation);
         Base {
             linearisation: Arc::new(linearisation),
             noise: Arc::new(noise),
@@ -214,53 +305,62 @@ impl<'a> Base<'a> {
 
     /// The model with the scales that are most likely beside the effects of `refit` (none: the model alone), and the
     /// effects fitted with them.
-    pub fn with_likely_scales(&self, refit: Option<&Refit>) -> Result<(Base<'a>, Option<Refit>), DiagnosisError> {
+    pub fn with_likely_scales(
+        &self,
+        refit: Option<&Refit>,
+        settings: &Settings,
+    ) -> Result<(Base<'a>, Option<Refit>), DiagnosisError> {
         let (mut base, mut fitted) = (self.with_scales(self.linearisation.updating.scales), refit.cloned());
         for _ in 0..ROUNDS {
             let predictions = match &fitted {
-                Some(refit) => base.bench().predict(&refit.effects, &FINAL, &refit.starts)?,
+                Some(refit) => base.bench().predict(&refit.effects, settings, &refit.starts)?,
                 None => base.predictions.clone(),
             };
             for _ in 0..ROUNDS {
                 base = base.with_scales(base.noise.scales(&base.bench().at_reference(&predictions)));
             }
             let Some(refit) = &fitted else { break };
-            fitted = Some(base.bench().refit(&refit.effects, REFITTED, &FINAL, &refit.starts)?);
+            fitted = Some(base.bench().refit(&refit.effects, REFITTED, settings, &refit.starts)?);
         }
         Ok((base, fitted))
-    }
-
-    /// How far `moved_to` would move the parameters of the model, in prior deviations.
-    pub fn distance(&self, effects: &[Source], starts: &Starts) -> Result<f64, DiagnosisError> {
-        let (u, _) = self.solved(effects, starts)?;
-        let here = self.linearisation.updating.standardised();
-        Ok(u.iter().zip(&here).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max))
     }
 }
 
 /// A model whose places were looked at.
 struct Seen<'a> {
     base: Base<'a>,
-    /// Squared residual that a free force at the best place leaves.
+    /// Squared residual that the best law leaves, with its penalty.
     least: f64,
+    /// Laws at their places, best first.
+    drafts: Vec<Draft>,
     /// Standardised updating parameters that fit beside it.
     target: Vec<f64>,
 }
 
-/// The parameters with all stiffness and with it all natural frequencies shifted.
-fn shifted(all: &Updating, shift: f64) -> Updating {
-    let value = |(parameter, v): (&UpdatingParameter, &f64)| match parameter {
-        UpdatingParameter::Structure(Part::Stiffness) => v + shift,
-        _ => *v,
+/// Error of the measured motion, relative: gains of sensors, and what modes do not show between them.
+const MOTION: f64 = 0.01;
+
+/// What an error of the measured motion makes of the derivatives of each run, as a factor on its response: the larger, the
+/// more the parameters of the model would change it within their priors, and the more of it the model does not predict yet.
+fn leverage(data: &Data, updating: &Updating, common: &[RunSlopes], predictions: &[RunPrediction]) -> Vec<f64> {
+    let of_model: Vec<usize> = (0..updating.len()).filter(|&k| updating.parameters[k].is_of_model()).collect();
+    let of_run = |((run, slopes), prediction): ((&RunData, &RunSlopes), &RunPrediction)| {
+        let (mut moved, mut missing, mut size) = (0.0, 0.0, 0.0);
+        for &c in &run.alive {
+            let (weight, y) = (run.scale(c).powi(-2), run.responses[c].measured[0]);
+            size += weight * y.norm_sqr();
+            missing += weight * (y - prediction.channels[c][0]).norm_sqr();
+            moved += weight * of_model.iter().map(|&k| (slopes[k][c][0] * updating.prior(k)).norm_sqr()).sum::<f64>();
+        }
+        if size > 0.0 { MOTION * (moved / size).sqrt() * (missing / size).sqrt().min(1.0) } else { 0.0 }
     };
-    let values = all.parameters.iter().zip(&all.values).map(value).collect();
-    Updating { values, ..all.clone() }
+    data.runs.iter().zip(common).zip(predictions).map(of_run).collect()
 }
 
 /// The values of `updating` moved to `target`, none by more than the longest step.
 fn towards(updating: &Updating, target: &[f64]) -> Updating {
     let moved = |(k, (from, to)): (usize, (&f64, &f64))| {
-        if updating.parameters[k].is_of_model() { from + (to - from).clamp(-LONGEST, LONGEST) } else { *to }
+        if updating.parameters[k].is_of_model() { from + (to - from).clamp(-LONGEST, LONGEST) } else { 0.0 }
     };
     let values = updating.values.iter().zip(target).enumerate().map(moved).collect();
     Updating { values, ..updating.clone() }

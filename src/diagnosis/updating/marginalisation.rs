@@ -115,6 +115,26 @@ impl Marginalisation {
         (0..q).map(|k| inverse[(k, k)]).collect()
     }
 
+    /// Least square that is left of the whitened residual `rows`, taken at the reference, with the parameters of the model
+    /// there and only those of channels free; priors included.
+    pub fn left_by_channels(&self, rows: &[f64]) -> f64 {
+        let of_model = |k: &usize| self.updating.parameters[*k].is_of_model();
+        let (fixed, free): (Vec<usize>, Vec<usize>) = (0..self.slopes.len()).partition(of_model);
+        let u = self.updating.standardised();
+        let square = dot(rows, rows) + fixed.iter().map(|&k| u[k] * u[k]).sum::<f64>();
+        let q = free.len();
+        let normal =
+            Mat::from_fn(q, q, |i, j| dot(&self.slopes[free[i]], &self.slopes[free[j]]) + f64::from(u8::from(i == j)));
+        let right = Mat::from_fn(q, 1, |i, _| dot(&self.slopes[free[i]], rows));
+        match Cholesky::new(normal.as_ref()).filter(|_| q > 0) {
+            Some(factor) => {
+                let solved = factor.solve(right.as_ref());
+                square - (0..q).map(|i| solved[(i, 0)] * right[(i, 0)]).sum::<f64>()
+            }
+            None => square,
+        }
+    }
+
     /// What is left of a whitened residual taken at the reference once the parameters are at `u`: `r - B (u - u_0)`.
     pub fn left(&self, mut rows: Vec<f64>, u: &[f64]) -> Vec<f64> {
         let reference = self.updating.standardised();

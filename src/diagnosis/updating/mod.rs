@@ -2,5 +2,7 @@
 
 pub mod detuning;
 pub mod marginalisation;
+pub(crate) mod measured_motion;
+pub(crate) mod modal_expansion;
 pub mod noise_model;
 pub mod parameters;

@@ -10,8 +10,9 @@
 //! `d_r` are the run's own ([`RunNuisance`]).
 
 use super::marginalisation::Marginalisation;
+use super::modal_expansion::ModalExpansion;
 use super::parameters::{Scales, Updating, UpdatingParameter};
-use crate::diagnosis::residual::data::{Data, RunData};
+use crate::diagnosis::residual::data::{ChannelData, Data, RunData};
 use crate::diagnosis::residual::run_nuisance::RunNuisance;
 use crate::diagnosis::residual::whitening::Whitening;
 use faer::c64;
@@ -28,6 +29,13 @@ pub struct Linearisation {
     pub common: Vec<RunSlopes>,
     /// By the relative stiffness of the run, one list of `[channel][harmonic - 1]` a run.
     pub stiffness: Vec<Vec<Vec<c64>>>,
+    /// What turns a motion into the one that the sensors show, one a run; none where derivatives are of the model itself.
+    pub(crate) expansions: Vec<Option<ModalExpansion>>,
+    /// Amplitudes that gains, delays and factors of runs multiply, `[run][channel][harmonic - 1]`.
+    pub amplitudes: Vec<Vec<Vec<c64>>>,
+    /// Error of the derivatives at the measured motion, as a factor on the response, one a run; none where they are of the
+    /// model itself.
+    pub leverage: Vec<f64>,
 }
 
 impl Linearisation {
@@ -53,19 +61,20 @@ impl Linearisation {
             return Vec::new();
         }
         let of_run = |(r, run): (usize, &RunData)| {
-            let column = |k: usize| (0..run.responses.len()).map(|c| self.own(r, run, k, c, 1)).collect();
+            let column = |k: usize| (0..run.responses.len()).map(|c| self.own(r, k, c, 1)).collect();
             (0..OWN).map(column).collect()
         };
         data.runs.iter().enumerate().map(of_run).collect()
     }
 
     /// Derivative of channel `c` at harmonic `h` by own parameter `k` of run `r`, standardised.
-    fn own(&self, r: usize, run: &RunData, k: usize, c: usize, h: usize) -> c64 {
+    fn own(&self, r: usize, k: usize, c: usize, h: usize) -> c64 {
         let Scales { shift, response, .. } = self.updating.scales;
+        let response = response.hypot(self.leverage.get(r).copied().unwrap_or(0.0));
         match k {
             0 => self.stiffness[r][c][h - 1] * shift,
-            1 => run.responses[c].measured[h - 1] * response,
-            _ => run.responses[c].measured[h - 1] * c64::new(0.0, response),
+            1 => self.amplitudes[r][c][h - 1] * response,
+            _ => self.amplitudes[r][c][h - 1] * c64::new(0.0, response),
         }
     }
 }
@@ -84,13 +93,12 @@ pub struct NoiseModel {
 
 impl NoiseModel {
     /// Of the noise of the `runs`, with the parameters of `linearisation` eliminated.
-    pub fn new(runs: Vec<Whitening>, data: &Data, linearisation: &Linearisation) -> Self {
+    pub fn new(runs: Vec<Whitening>, linearisation: &Linearisation) -> Self {
         if linearisation.is_empty() {
             return Self { runs, updating: Marginalisation::default() };
         }
         let local = |(r, noise): (usize, Whitening)| {
-            let run = &data.runs[r];
-            let columns = (0..OWN).map(|k| noise.rows(|c, h| linearisation.own(r, run, k, c, h))).collect();
+            let columns = (0..OWN).map(|k| noise.rows(|c, h| linearisation.own(r, k, c, h))).collect();
             noise.with_nuisance(RunNuisance::new(columns))
         };
         let runs: Vec<Whitening> = runs.into_iter().enumerate().map(local).collect();
@@ -151,9 +159,10 @@ impl NoiseModel {
 /// Effective number of parameters of a class that the data determine from which on its scale is estimated.
 const LEAST_KNOWN: f64 = 0.5;
 
-/// Derivatives of the recorded amplitudes of a run by the gain or the delay of a channel, `[channel][harmonic - 1]`.
-pub fn of_channel(parameter: &UpdatingParameter, run: &RunData) -> Vec<Vec<c64>> {
-    let channel = |channel: &crate::diagnosis::residual::data::ChannelData| {
+/// Derivatives of the recorded amplitudes of a run by the gain or the delay of a channel, `[channel][harmonic - 1]`, where
+/// they are `amplitudes`.
+pub fn of_channel(parameter: &UpdatingParameter, run: &RunData, amplitudes: &[Vec<c64>]) -> Vec<Vec<c64>> {
+    let channel = |(channel, amplitudes): (&ChannelData, &Vec<c64>)| {
         let at = |(i, y): (usize, &c64)| match parameter {
             UpdatingParameter::Gain(name) if *name == channel.name => *y,
             UpdatingParameter::Delay(name) if *name == channel.name => {
@@ -161,7 +170,22 @@ pub fn of_channel(parameter: &UpdatingParameter, run: &RunData) -> Vec<Vec<c64>>
             }
             _ => c64::new(0.0, 0.0),
         };
-        channel.measured.iter().enumerate().map(at).collect()
+        amplitudes.iter().enumerate().map(at).collect()
     };
-    run.responses.iter().map(channel).collect()
+    run.responses.iter().zip(amplitudes).map(channel).collect()
+}
+
+/// Difference of measured and predicted amplitude, relative, within which the predicted one is taken as what a gain
+/// multiplies: the measured one contains the noise, which a gain would then seem to make smaller.
+const PREDICTED: f64 = 0.3;
+
+/// Amplitudes that gains multiply: predicted, but for fundamentals whose prediction is far off.
+pub fn amplitudes(run: &RunData, predicted: &[Vec<c64>]) -> Vec<Vec<c64>> {
+    let of = |(i, (y, model)): (usize, (&c64, &c64))| {
+        if i > 0 || (y - model).norm() < PREDICTED * y.norm() { *model } else { *y }
+    };
+    let channel = |(channel, predicted): (&ChannelData, &Vec<c64>)| {
+        channel.measured.iter().zip(predicted).enumerate().map(of).collect()
+    };
+    run.responses.iter().zip(predicted).map(channel).collect()
 }

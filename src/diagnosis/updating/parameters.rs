@@ -12,7 +12,7 @@ use crate::response::sensitivity::Unknown;
 use crate::structure::{Part, Structure, StructureKind};
 
 /// Groups of elements of a beam whose stiffness and mass are updated each on its own.
-const ELEMENT_GROUPS: usize = 5;
+const ELEMENT_GROUPS: usize = 12;
 /// Springs and masses of imported matrices that are updated one by one; above, modes are.
 const MOST_SPRINGS: usize = 40;
 /// Modes in the band that are updated where neither elements nor springs are known.
@@ -61,7 +61,7 @@ impl Scales {
     /// Least: below any measurement.
     pub const LEAST: Self = Self { model: 1e-6, known: 1e-5, gain: 1e-6, phase: 1e-6, shift: 1e-8, response: 1e-7 };
     /// Greatest: beyond, it is not this structure, or the record is not of this run.
-    pub const GREATEST: Self = Self { model: 0.06, known: 0.5, gain: 0.03, phase: 0.02, shift: 0.01, response: 0.1 };
+    pub const GREATEST: Self = Self { model: 0.06, known: 0.5, gain: 0.015, phase: 0.02, shift: 0.01, response: 0.1 };
 
     /// The same scales in a list, in the order of the fields.
     pub fn list(&self) -> [f64; 6] {
@@ -72,6 +72,13 @@ impl Scales {
     pub fn prior_cost(&self) -> f64 {
         let pairs = self.list().into_iter().zip(Self::START.list());
         pairs.map(|(s, start)| 2.0 * (1.0 + (s / start).powi(2)).ln()).sum()
+    }
+
+    /// The same scales, none below that of `least`.
+    #[must_use]
+    pub fn at_least(&self, least: &Self) -> Self {
+        let (own, least) = (self.list(), least.list());
+        Self::from_list(std::array::from_fn(|k| own[k].max(least[k])))
     }
 
     /// Scales from such a list, each kept between the least and the greatest.
@@ -169,6 +176,13 @@ impl Updating {
     pub fn at(&self, u: &[f64]) -> Self {
         let values = u.iter().enumerate().map(|(k, u)| u * self.prior(k)).collect();
         Self { values, ..self.clone() }
+    }
+
+    /// The same with the parameters of channels at nothing: predictions do not contain them, so that they are no reference.
+    #[must_use]
+    pub fn of_model(&self) -> Self {
+        let value = |(parameter, v): (&UpdatingParameter, &f64)| if parameter.is_of_model() { *v } else { 0.0 };
+        Self { values: self.parameters.iter().zip(&self.values).map(value).collect(), ..self.clone() }
     }
 
     /// The same parameters and values with other scales.

@@ -71,6 +71,11 @@ impl LinearPart {
         given.eq(self.whole.iter().map(|(source, _)| source))
     }
 
+    /// Undamped modes of the structure.
+    pub fn basis(&self) -> &ModalBasis {
+        &self.basis
+    }
+
     /// The structure without its laws.
     pub fn structure(&self) -> &Structure {
         &self.structure

@@ -27,6 +27,7 @@ mod resonant;
 mod solve;
 mod stability;
 
+pub(crate) use compliance::LinearPart;
 pub(crate) use dense::Lu;
 pub(crate) use fourier::add_amplitude;
 pub(crate) use newton::Balance;

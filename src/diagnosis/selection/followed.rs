@@ -1,0 +1,137 @@
+//! Candidates beside updating parameters: laws regressed at the measured motion, each followed with a model of its own.
+
+use super::search::{Base, Draft, joined};
+use super::short_list::needed;
+use crate::diagnosis::candidates::start::start;
+use crate::diagnosis::residual::data::DiagnosisError;
+use crate::diagnosis::residual::prediction::SEARCH;
+use crate::diagnosis::selection::fits::STEPS;
+use crate::diagnosis::selection::fitted_model::{Refit, Starts};
+use crate::diagnosis::updating::measured_motion::MeasuredMotion;
+use crate::effects::{Effect, Place, Source, State, effect::Kind};
+use crate::math::statistics::bayesian_information;
+use crate::response::sensitivity::Unknown;
+use dashpot_numerics::dot;
+use std::sync::Arc;
+
+/// Most candidates that are followed.
+const FOLLOWED: usize = 8;
+/// Most of one place.
+const AT_ONE_PLACE: usize = 4;
+/// Scaled score beyond the best up to which candidates are followed.
+const MARGIN: f64 = 60.0;
+/// Squared residual per datum of the best from which on candidates of twice that are followed too.
+const COARSE: f64 = 3.0;
+/// Times that a model is updated beside its candidate.
+const UPDATES: usize = 6;
+
+impl<'a> Base<'a> {
+    /// The candidates among `drafts`, regressed beside the model as it is, that are worth following, each fitted with a model
+    /// updated beside it.
+    pub(crate) fn followed(&self, drafts: Vec<Draft>) -> Result<Vec<(Base<'a>, Refit)>, DiagnosisError> {
+        let drafts = promising(needed(drafts), self.count());
+        let mut view = self.view(None)?;
+        let mut targets = Vec::with_capacity(drafts.len());
+        for draft in &drafts {
+            targets.push(self.updated_beside(&mut view, draft)?);
+        }
+        drop(view);
+        let follow = |k: usize| self.followed_draft(&drafts[k], targets[k].as_deref(), &[]);
+        self.control.map(drafts.len(), follow).into_iter().collect()
+    }
+
+    /// The candidates for one effect beside those of `from`, each fitted with a model updated beside it; none where none
+    /// would bring `evidence`.
+    pub(crate) fn followed_beside(
+        &self,
+        from: &Refit,
+        evidence: f64,
+    ) -> Result<Vec<(Base<'a>, Refit)>, DiagnosisError> {
+        let mut view = self.view(Some(from))?;
+        let bound = view.screen.nothing() - evidence;
+        let mut drafts = self.drafts(&mut view, &from.effects)?;
+        drop(view);
+        drafts.retain(|d| d.score < bound);
+        drafts.sort_by(|a, b| a.score.total_cmp(&b.score));
+        let drafts = promising(needed(drafts), self.count());
+        let follow = |k: usize| self.followed_draft(&drafts[k], None, &from.effects);
+        self.control.map(drafts.len(), follow).into_iter().collect()
+    }
+
+    /// A candidate fitted on the response in turn with the updating parameters beside it, which start at `target`.
+    fn followed_draft(
+        &self,
+        draft: &Draft,
+        target: Option<&[f64]>,
+        others: &[Source],
+    ) -> Result<(Base<'a>, Refit), DiagnosisError> {
+        let effects = joined(others, &draft.effects);
+        let sources = self.predictor.sources(&effects);
+        let runs = self.data.runs.iter().zip(draft.fields.iter());
+        let starts: Starts = runs.map(|(run, field)| start(&sources, run.omega, field)).collect();
+        let updating = &self.linearisation.updating;
+        let updating = target.map_or_else(|| updating.clone(), |u| updating.at(u));
+        let base = self.updated(&updating, &effects, &starts)?;
+        let refit = base.bench().refit(&effects, STEPS, &SEARCH, &starts)?;
+        base.settled(refit, &SEARCH, UPDATES)
+    }
+
+    /// The laws of the whole structure, regressed at the measured motion.
+    pub(crate) fn whole_drafts(&self, others: &[Source]) -> Vec<Draft> {
+        let Some(seen) = MeasuredMotion::new(&self.predictor, self.data, &self.predictions, self.control) else {
+            return Vec::new();
+        };
+        let rows = self.bench().residual(&self.predictions);
+        let square = dot(&rows, &rows);
+        let draft = |effect: Effect| -> Option<Draft> {
+            let unit = Source { effect, place: Place::Whole(None), state: State::Known, parameters: vec![1.0] };
+            let fresh = !others.iter().any(|e| e.is_same(&unit)) && self.data.allows(&unit);
+            let column = self.noise.updating.column(self.whole_rows(&seen, &unit));
+            let size = dot(&column, &column);
+            let value = dot(&column, &rows) / size;
+            if !fresh || size <= 0.0 || !effect.parameters()[0].allows(value) {
+                return None;
+            }
+            let score = bayesian_information(square - value * value * size, 1, self.count());
+            Some(Draft { effects: vec![Source { parameters: vec![value], ..unit }], score, fields: Arc::default() })
+        };
+        let whole = Effect::ALL.into_iter().filter(|e| matches!(e.kind(), Kind::Whole(_)));
+        whole.filter_map(draft).collect()
+    }
+
+    /// Whitened derivative of all runs by the parameter of a law of the whole structure.
+    fn whole_rows(&self, seen: &MeasuredMotion, unit: &Source) -> Vec<f64> {
+        let mut rows = Vec::with_capacity(self.count());
+        let sum = [(Unknown::Source { source: 0, parameter: 0 }, 1.0)];
+        for r in 0..self.data.runs.len() {
+            let slope = seen.slope(r, std::slice::from_ref(unit), &sum);
+            self.bench().whitened(r, &mut rows, |c, h| slope[c][h - 1]);
+        }
+        rows
+    }
+
+    /// Updating parameters that fit best beside a law of the whole structure.
+    pub(crate) fn updated_beside_whole(&self, source: &Source) -> Option<Vec<f64>> {
+        let seen = MeasuredMotion::new(&self.predictor, self.data, &self.predictions, self.control)?;
+        let mut rows = self.bench().at_reference(&self.predictions);
+        let value = source.parameters[0];
+        rows.iter_mut().zip(self.whole_rows(&seen, source)).for_each(|(r, c)| *r -= value * c);
+        Some(self.noise.updating.solve(&rows))
+    }
+}
+
+/// The best drafts, no more than a few at one place.
+fn promising(drafts: Vec<Draft>, count: usize) -> Vec<Draft> {
+    let Some(best) = drafts.first().map(|d| d.score) else { return drafts };
+    let scale = (best / count.max(1) as f64).max(1.0);
+    // Where even the best leaves much, the motion between the sensors is not known well enough to tell them apart.
+    let margin = if scale > COARSE { best } else { MARGIN * scale };
+    let mut kept: Vec<Draft> = Vec::new();
+    for draft in drafts.into_iter().take_while(|d| d.score < best + margin) {
+        let here = kept.iter().filter(|k| k.effects[0].place == draft.effects[0].place).count();
+        if here < AT_ONE_PLACE && kept.len() < FOLLOWED {
+            kept.push(draft);
+        }
+    }
+    kept
+}
