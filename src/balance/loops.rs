@@ -1,7 +1,7 @@
 //! The loops of a component: displacement, velocity and acceleration that are imposed, the force that is measured.
 
 use crate::control::Cancelled;
-use crate::effects::{Range, Source, State, effect::Kind as EffectKind};
+use crate::effects::{Constant, Range, Source, State, effect::Kind as EffectKind};
 use crate::math::spectrum::Spectrum;
 use crate::math::statistics::root_mean_square;
 use crate::measurement::{Quantity, TransientRun};
@@ -9,9 +9,11 @@ use crate::structure::Structure;
 use std::f64::consts::TAU;
 
 /// Samples a period that are compared; laws with memory see the motion as finely.
-const PER_PERIOD: f64 = 240.0;
-/// Half width, in periods, of the parabola by which the displacement is differentiated.
-const SMOOTH: f64 = 0.008;
+const PER_PERIOD: f64 = 120.0;
+/// Least and greatest half width, in periods, of the polynomial by which the displacement is differentiated, and the share of
+/// the amplitude that its noise may have behind it: a stiff spring makes a force of every bit of it.
+const SMOOTH: [f64; 2] = [0.008, 0.03];
+const STILL: f64 = 5e-4;
 
 /// Why the loops of a component cannot be used.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -127,9 +129,12 @@ impl Loop {
         };
         let period = 1.0 / (peak.frequency_hz * step);
         let every = ((period / PER_PERIOD) as usize).max(1);
-        let half = ((SMOOTH * period).round() as usize).max(1).max(every / 2);
+        let [least, most] = SMOOTH.map(|share| ((share * period).round() as usize).max(2).max(every / 2));
+        // The middle of a parabola through 2 h + 1 samples has 9 / 4 of the variance of their mean.
+        let needed = 9.0 / 8.0 * (noise(d) / (STILL * peak.amplitude)).powi(2);
+        let half = (needed.min(1e9) as usize).clamp(least, most.max(least));
         let numbers: Vec<usize> = (half..d.len().saturating_sub(half)).step_by(every).collect();
-        let fits: Vec<[f64; 3]> = numbers.iter().map(|&n| parabola(&d[n - half..=n + half], step)).collect();
+        let fits: Vec<[f64; 3]> = numbers.iter().map(|&n| cubic(&d[n - half..=n + half], step)).collect();
         let averaged = |n: &usize| {
             let part = &force[n - every / 2..=n + every / 2];
             part.iter().sum::<f64>() / part.len() as f64
@@ -153,8 +158,14 @@ impl Loop {
     /// Force of a source along the motion, N; none where its law has no force in time.
     pub fn law_force(&self, source: &Source) -> Option<Vec<f64>> {
         let (law, p) = (source.effect.law()?, &source.parameters);
-        if source.effect == crate::effects::Effect::Mass {
-            return Some(self.a.iter().map(|a| source.coefficient() * a).collect());
+        let linear = source.effect.constant().and_then(|constant| match constant {
+            Constant::Stiffness => Some(&self.d),
+            Constant::Viscous => Some(&self.v),
+            Constant::Mass => Some(&self.a),
+            Constant::Hysteretic => None,
+        });
+        if let Some(along) = linear {
+            return Some(along.iter().map(|x| source.coefficient() * x).collect());
         }
         if law.point(p, 0.0, 1.0).is_some() {
             let at = |(d, v): (&f64, &f64)| law.point(p, *d, *v).unwrap_or_default().force;
@@ -178,23 +189,28 @@ impl Loop {
     }
 }
 
-/// Value, slope and curvature at the middle of a parabola through samples (least squares).
-fn parabola(samples: &[f64], step: f64) -> [f64; 3] {
+/// Value, slope and curvature at the middle of a cubic through samples (least squares; Savitzky and Golay 1964).
+fn cubic(samples: &[f64], step: f64) -> [f64; 3] {
     let half = (samples.len() / 2) as f64;
-    let (mut s2, mut s4, mut y0, mut y1, mut y2) = (0.0, 0.0, 0.0, 0.0, 0.0);
+    let (mut s2, mut s4, mut s6) = (0.0, 0.0, 0.0);
+    let (mut y0, mut y1, mut y2, mut y3) = (0.0, 0.0, 0.0, 0.0);
     for (n, y) in samples.iter().enumerate() {
         let x = n as f64 - half;
-        s2 += x * x;
-        s4 += x.powi(4);
+        let square = x * x;
+        s2 += square;
+        s4 += square * square;
+        s6 += square * square * square;
         y0 += y;
         y1 += x * y;
-        y2 += x * x * y;
+        y2 += square * y;
+        y3 += square * x * y;
     }
     let count = samples.len() as f64;
-    let determinant = count * s4 - s2 * s2;
-    let offset = if determinant > 0.0 { (s4 * y0 - s2 * y2) / determinant } else { y0 / count };
-    let square = if determinant > 0.0 { (count * y2 - s2 * y0) / determinant } else { 0.0 };
-    [offset, y1 / (s2 * step), 2.0 * square / (step * step)]
+    let (even, odd) = (count * s4 - s2 * s2, s2 * s6 - s4 * s4);
+    let offset = if even > 0.0 { (s4 * y0 - s2 * y2) / even } else { y0 / count };
+    let square = if even > 0.0 { (count * y2 - s2 * y0) / even } else { 0.0 };
+    let slope = if odd > 1e-9 * s2 * s6 { (s6 * y1 - s4 * y3) / odd } else { y1 / s2 };
+    [offset, slope / step, 2.0 * square / (step * step)]
 }
 
 /// Standard deviation of white noise on a signal, from its third differences.
@@ -206,14 +222,15 @@ fn noise(samples: &[f64]) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::parabola;
+    use super::cubic;
 
     #[test]
-    fn a_parabola_is_its_own_fit() {
+    fn a_cubic_is_its_own_fit() {
         let step = 0.1;
         let samples: Vec<f64> =
-            (-3..=3).map(|n| 2.0 - 0.5 * step * f64::from(n) + 4.0 * (step * f64::from(n)).powi(2)).collect();
-        let [value, slope, curvature] = parabola(&samples, step);
+            (-3..=3).map(|n| 2.0 - 0.5 * step * f64::from(n) + 4.0 * (step * f64::from(n)).powi(2) + (step * f64::from(n)).powi(3))
+                .collect();
+        let [value, slope, curvature] = cubic(&samples, step);
         assert!((value - 2.0).abs() < 1e-12 && (slope + 0.5).abs() < 1e-12 && (curvature - 8.0).abs() < 1e-9);
     }
 }

@@ -24,7 +24,7 @@ fn at(effect: Effect, parameters: &[f64]) -> Source {
     Source::known(effect, Place::Dofs(vec![0]), parameters)
 }
 
-/// Loops of three amplitudes and two frequencies with 1 % noise.
+/// Loops of three amplitudes and two frequencies with 0.3 % noise.
 fn tests(truth: &[Source]) -> Vec<TransientRun> {
     let channel = |quantity| Channel { quantity, dof: 0, label: "1".into() };
     let of = |(k, (amplitude_m, frequency_hz)): (usize, (f64, f64))| {
@@ -32,7 +32,7 @@ fn tests(truth: &[Source]) -> Vec<TransientRun> {
         let (rate, samples) = (256.0, (256.0 * 4.0 / frequency_hz) as usize);
         let (d, f) = component_force(truth, MASS, &loading, rate, samples).unwrap();
         let time: Vec<f64> = (0..samples).map(|n| n as f64 / rate).collect();
-        let noise = Some(Noise { ratio: 0.01, seed: 3, stream: k as u64 });
+        let noise = Some(Noise { ratio: 0.003, seed: 3, stream: k as u64 });
         let made =
             record(&time, vec![channel(Quantity::Displacement), channel(Quantity::Force)], vec![d, f], noise).unwrap();
         let label =

@@ -12,8 +12,8 @@ use faer::Mat;
 const STEP: f64 = 1e-4;
 /// Largest change of a variable in one iteration.
 const REACH: f64 = 1.0;
-/// Independent data of a period: what a law leaves is alike over the parts of a loop.
-const PER_PERIOD: f64 = 8.0;
+/// Independent data of a record: what a law leaves is alike along each branch of a loop, and from one cycle to the next.
+const PER_RECORD: f64 = 8.0;
 
 /// Laws with what they leave.
 #[derive(Debug, Clone, PartialEq)]
@@ -60,10 +60,9 @@ pub(super) fn residual(loops: &Loops, effects: &[Source], used: &[usize]) -> Res
     Ok(all)
 }
 
-/// Independent data of the records in `used`.
-pub(super) fn freedom(loops: &Loops, used: &[usize]) -> f64 {
-    let periods = |k: &usize| loops.list[*k].frequency_hz * loops.list[*k].step * loops.list[*k].d.len() as f64;
-    used.iter().map(|k| PER_PERIOD * periods(k)).sum()
+/// Independent data of `count` records.
+pub(super) fn freedom(count: usize) -> f64 {
+    PER_RECORD * count as f64
 }
 
 /// Fits `start` to the records in `used`.
@@ -88,7 +87,7 @@ pub(super) fn improved(
         if after.is_finite() && after < before {
             (best, at) = (trial, there);
             damping = (damping * 0.2).max(1e-9);
-            if before - after < 1e-6 * before {
+            if before - after < 1e-5 * before {
                 break;
             }
             jacobian = derivatives(loops, &best, &scales, used, &at)?;
@@ -100,7 +99,7 @@ pub(super) fn improved(
         }
     }
     let square = dot(&at, &at);
-    let variance = square / (freedom(loops, used) - jacobian.len() as f64).max(1.0);
+    let variance = square / (freedom(used.len()) - jacobian.len() as f64).max(1.0);
     let slopes = slopes(&best, &scales);
     let count = jacobian.len();
     let normal = Mat::from_fn(count, count, |i, j| dot(&jacobian[i], &jacobian[j]));

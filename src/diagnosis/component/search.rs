@@ -19,11 +19,14 @@ const ROWS: usize = 4000;
 const SHAPES: usize = 6;
 const SINGLES: usize = 12;
 const PAIRS: usize = 10;
-const ITERATIONS: usize = 30;
+const ITERATIONS: usize = 20;
 /// Fits of each number of laws that are left out and predicted.
 const PREDICTED: usize = 3;
-/// Share of the error of one law that a sum of two may at most leave where it was left out.
-const WORTH: f64 = 0.9;
+/// Share of the error of one law that a sum of two may at most leave where it was left out: 0.8 takes away a third of its
+/// square.
+const WORTH: f64 = 0.8;
+/// Share of the error of a law of fewer parameters, where it was left out, that one of more may at most leave.
+const PLAIN: f64 = 0.9;
 /// Error over that of the noise up to which a model agrees.
 const AGREES: f64 = 1.1;
 /// Error from which on the best laws explain nothing.
@@ -64,6 +67,7 @@ pub fn diagnose_component(
         steps: vec![Step { added: Vec::new(), error: before, misfit: misfit(before) }],
         next_test: Vec::new(),
         corrections: Vec::new(),
+        complete: true,
     };
     if before < AGREES * floor {
         return Ok(diagnosis);
@@ -101,6 +105,7 @@ pub fn diagnose_component(
         _ if sure => Verdict::Missing,
         _ => Verdict::Undecided,
     };
+    diagnosis.complete = control.is_complete();
     control.report(1.0);
     Ok(diagnosis)
 }
@@ -213,9 +218,8 @@ impl Search<'_> {
 
     /// Bayesian information criterion on the independent data of the loops.
     fn criterion(&self, fit: &Fitted) -> f64 {
-        let count = freedom(self.loops, &self.all);
-        let parameters: usize = fit.effects.iter().map(|e| e.parameters.len()).sum();
-        count * fit.square.max(1e-12).ln() + parameters as f64 * count.max(2.0).ln()
+        let count = freedom(self.all.len());
+        count * fit.square.max(1e-12).ln() + parameters(fit) as f64 * count.max(2.0).ln()
     }
 
     /// Error of a set on each record, fitted to the others.
@@ -238,8 +242,11 @@ impl Search<'_> {
             let mut found: Option<(Fitted, f64)> = None;
             for fit in fits.iter().take(PREDICTED) {
                 let held = self.held_out(fit)?;
-                // A rival of less evidence has to predict clearly better.
-                if found.as_ref().is_none_or(|(_, least)| held < WORTH * least) {
+                // A rival of less evidence has to predict clearly better, or nearly as well with fewer parameters.
+                let better = |(best, least): &(Fitted, f64)| {
+                    held < WORTH * least || (parameters(fit) < parameters(best) && PLAIN * held < *least)
+                };
+                if found.as_ref().is_none_or(better) {
                     found = Some((fit.clone(), held));
                 }
             }
@@ -312,6 +319,11 @@ impl Search<'_> {
         let all: Vec<f64> = self.loops.list.iter().map(of).collect::<Result<_, _>>()?;
         Ok(root_mean_square(&all))
     }
+}
+
+/// Number of parameters of all laws.
+fn parameters(fit: &Fitted) -> usize {
+    fit.effects.iter().map(|e| e.parameters.len()).sum()
 }
 
 /// A law of unit scale at a scale; none where its parameters do not allow it.

@@ -2,14 +2,17 @@
 //! share and, of each record, its initial state and a shift of its stiffness.
 //!
 //! ```text
-//! chi^2 = sum_records sum_channels,samples ((y - y_model) / sigma)^2 + sum_k (v_k / s_k)^2
+//! chi^2 = sum_records sum_channels,samples ((y - y_model) / sigma)^2 + u sum_k (v_k / s_k)^2
 //! ```
+//!
+//! `u` is 1 where the model leaves noise, more where it leaves more ([`super::evidence`]).
 //!
 //! Shared: parameters of added laws (logarithms where they are positive), stiffness and known sources as logarithms of
 //! factors with priors. Of a record: `2 m` entries of its initial state, free, and a logarithm of stiffness with the prior of
 //! re-seating. Short parts are fitted first, so that a long record does not lose the phase.
 
 use super::data::{RecordError, Records};
+use super::evidence::scale;
 use super::errors::channel_errors;
 use super::variables::{at_variable, scales, slopes, variable};
 use crate::control::Control;
@@ -124,6 +127,12 @@ pub(crate) struct Fit<'a> {
     pub control: &'a Control,
 }
 
+/// What the priors weigh: as much as what the start of a fit leaves demands, so that many samples of one error do not bend
+/// what is known.
+fn unit_of(start: &FittedRecords) -> f64 {
+    if start.count > 0 { scale(start) } else { 1.0 }
+}
+
 /// Normal equations at a point.
 struct Normal {
     matrix: Mat<f64>,
@@ -138,8 +147,9 @@ impl Fit<'_> {
     /// Improves a start in at most `iterations` steps.
     pub fn improve(&self, start: &FittedRecords, iterations: usize) -> Result<FittedRecords, RecordError> {
         let scales = scales(&start.effects);
+        let unit = unit_of(start);
         let mut best = start.clone();
-        let mut normal = self.normal(&best, &scales)?;
+        let mut normal = self.normal(&best, &scales, unit)?;
         let mut damping = 1e-3;
         for _ in 0..iterations {
             self.control.check()?;
@@ -152,7 +162,7 @@ impl Fit<'_> {
                 };
                 let trial = self.moved(&best, &scales, &change);
                 // A model that runs away is no step.
-                match self.normal(&trial, &scales) {
+                match self.normal(&trial, &scales, unit) {
                     Ok(there) if there.total < normal.total => {
                         gain = (normal.total - there.total) / normal.total;
                         (best, normal) = (trial, there);
@@ -275,7 +285,7 @@ impl Fit<'_> {
         list
     }
 
-    fn normal(&self, at: &FittedRecords, scales: &[Vec<f64>]) -> Result<Normal, RecordError> {
+    fn normal(&self, at: &FittedRecords, scales: &[Vec<f64>], unit: f64) -> Result<Normal, RecordError> {
         let size = self.shared(at) + self.records.list.len() * self.local();
         let mut normal = Normal {
             matrix: Mat::zeros(size, size),
@@ -296,9 +306,9 @@ impl Fit<'_> {
             }
             let response = at.predict(self.records, r, samples, &parameters)?;
             let mut left = Vec::new();
-            for (c, noise) in record.noise.iter().enumerate() {
-                let y = &record.samples[c];
-                let e: Vec<f64> = (0..samples).map(|n| (y[n] - response.channels[c][n]) / noise).collect();
+            for c in 0..record.channels.len() {
+                let (y, sigma) = (&record.samples[c], &record.sigma[c][..samples]);
+                let e: Vec<f64> = (0..samples).map(|n| (y[n] - response.channels[c][n]) / sigma[n]).collect();
                 let square: f64 = e.iter().map(|e| e * e).sum();
                 if !square.is_finite() {
                     let (file, reason) = (record.file.clone(), crate::response::transient::TransientError::StepFailed);
@@ -306,23 +316,26 @@ impl Fit<'_> {
                 }
                 normal.chi_square += square;
                 normal.count += samples;
-                let own: Vec<&Vec<f64>> = (0..parameters.len()).map(|theta| &response.derivatives[theta][c]).collect();
-                normal.add(&unknowns, &parameters, &own, &e, *noise);
+                let weighted = |theta: usize| {
+                    response.derivatives[theta][c].iter().zip(sigma).map(|(d, s)| d / s).collect::<Vec<f64>>()
+                };
+                let own: Vec<Vec<f64>> = (0..parameters.len()).map(weighted).collect();
+                normal.add(&unknowns, &parameters, &own, &e);
                 left.push(e);
             }
             normal.residual.push(left);
         }
         normal.total = normal.chi_square;
         if self.free.corrections {
-            self.priors(at, &mut normal);
+            self.priors(at, unit, &mut normal);
         }
         Ok(normal)
     }
 
-    fn priors(&self, at: &FittedRecords, normal: &mut Normal) {
+    fn priors(&self, at: &FittedRecords, unit: f64, normal: &mut Normal) {
         let laws: usize = at.effects.iter().map(|e| e.parameters.len()).sum();
         let mut prior = |k: usize, value: f64, deviation: f64| {
-            let weight = deviation.powi(-2);
+            let weight = unit * deviation.powi(-2);
             normal.matrix[(k, k)] += weight;
             normal.gradient[k] -= weight * value;
             normal.total += weight * value * value;
@@ -346,19 +359,18 @@ impl Normal {
         &mut self,
         unknowns: &[(TransientParameter, usize, f64)],
         parameters: &[TransientParameter],
-        derivatives: &[&Vec<f64>],
+        derivatives: &[Vec<f64>],
         e: &[f64],
-        noise: f64,
     ) {
         let of = |p: &TransientParameter| parameters.iter().position(|q| q == p).unwrap_or(0);
-        let list: Vec<(usize, usize, f64)> = unknowns.iter().map(|(p, k, s)| (of(p), *k, s / noise)).collect();
+        let list: Vec<(usize, usize, f64)> = unknowns.iter().map(|(p, k, s)| (of(p), *k, *s)).collect();
         let count = parameters.len();
         let mut products = vec![0.0; count * count];
         let mut against = vec![0.0; count];
         for a in 0..count {
-            against[a] = dashpot_numerics::dot(derivatives[a], e);
+            against[a] = dashpot_numerics::dot(&derivatives[a], e);
             for b in 0..=a {
-                let value = dashpot_numerics::dot(derivatives[a], derivatives[b]);
+                let value = dashpot_numerics::dot(&derivatives[a], &derivatives[b]);
                 products[a * count + b] = value;
                 products[b * count + a] = value;
             }

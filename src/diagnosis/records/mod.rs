@@ -14,8 +14,12 @@ mod evidence;
 pub mod fit;
 pub mod localisation;
 mod regression;
+mod search;
 pub mod spectrum;
+mod starts;
+mod telling;
 pub(crate) mod variables;
+mod weights;
 
 pub use compare::{RecordComparison, compare_records};
 pub use data::{RecordError, Records};

@@ -91,23 +91,26 @@ impl<'a> Regression<'a> {
             measured.iter_mut().zip(list).for_each(|(m, f)| *m -= f);
         }
         let count = modes + records.known.len();
-        let column = |k: usize| {
-            let (list, prior) = if k < modes { (&stiffness[k], PRIORS[0]) } else { (&known[k - modes], PRIORS[1]) };
-            let mut column: Vec<f64> = list.iter().map(|x| prior * x).collect();
-            column.extend((0..count).map(|j| f64::from(u8::from(j == k))));
-            column
-        };
         measured.resize(rows + count, 0.0);
-        let mut regression = Self { records, parts: made, nuisances: Vec::new(), left: measured };
-        for k in 0..count {
-            let mut own = regression.beside(column(k));
-            let size = dot(&own, &own).sqrt();
-            own.iter_mut().for_each(|x| *x /= size);
-            regression.nuisances.push(own);
-        }
-        let measured = std::mem::take(&mut regression.left);
-        regression.left = regression.beside(measured);
-        Some(regression)
+        let base = Self { records, parts: made, nuisances: Vec::new(), left: measured };
+        let with = |mut regression: Self, unit: f64| {
+            let measured = std::mem::take(&mut regression.left);
+            for k in 0..count {
+                let (list, prior) = if k < modes { (&stiffness[k], PRIORS[0]) } else { (&known[k - modes], PRIORS[1]) };
+                let mut column: Vec<f64> = list.iter().map(|x| prior / unit * x).collect();
+                column.extend((0..count).map(|j| f64::from(u8::from(j == k))));
+                let mut own = regression.beside(column);
+                let size = dot(&own, &own).sqrt();
+                own.iter_mut().for_each(|x| *x /= size);
+                regression.nuisances.push(own);
+            }
+            regression.left = regression.beside(measured.clone());
+            (regression, measured)
+        };
+        // Where the nuisances leave much, rows are alike: a prior weighs as much as what is left.
+        let (first, measured) = with(base, 1.0);
+        let unit = (first.misfit() / rows.max(1) as f64).sqrt().max(1.0);
+        Some(with(Self { nuisances: Vec::new(), left: measured, ..first }, unit).0)
     }
 
     /// Weighted squared residual without any law.

@@ -7,7 +7,7 @@
 //! Laws with memory are marched in steps of a sixteenth of a sample, from rest where the record starts.
 
 use super::Loading;
-use crate::effects::{Effect, Source};
+use crate::effects::{Constant, Source};
 
 /// Steps of the laws a sample.
 const FINE: usize = 16;
@@ -47,8 +47,14 @@ pub fn component_force(
 /// Force of one source at every sample.
 fn along(source: &Source, motion: &[[f64; 3]], step: f64) -> Option<Vec<f64>> {
     let (law, p) = (source.effect.law()?, &source.parameters);
-    if source.effect == Effect::Mass {
-        return Some(motion.iter().step_by(FINE).map(|[_, _, a]| source.coefficient() * a).collect());
+    let linear = source.effect.constant().and_then(|constant| match constant {
+        Constant::Stiffness => Some(0),
+        Constant::Viscous => Some(1),
+        Constant::Mass => Some(2),
+        Constant::Hysteretic => None,
+    });
+    if let Some(along) = linear {
+        return Some(motion.iter().step_by(FINE).map(|x| source.coefficient() * x[along]).collect());
     }
     if law.point(p, 0.0, 1.0).is_some() {
         return Some(
@@ -64,7 +70,7 @@ fn along(source: &Source, motion: &[[f64; 3]], step: f64) -> Option<Vec<f64>> {
 mod tests {
     #![allow(clippy::unwrap_used, reason = "tests")]
     use super::*;
-    use crate::effects::Place;
+    use crate::effects::{Effect, Place};
 
     const CYCLES: Loading = Loading::Cycles { amplitude_m: 0.01, frequency_hz: 2.0, ramp_s: 0.5 };
 
