@@ -227,9 +227,11 @@ mod tests {
     #[test]
     fn a_cubic_is_its_own_fit() {
         let step = 0.1;
-        let samples: Vec<f64> =
-            (-3..=3).map(|n| 2.0 - 0.5 * step * f64::from(n) + 4.0 * (step * f64::from(n)).powi(2) + (step * f64::from(n)).powi(3))
-                .collect();
+        let samples: Vec<f64> = (-3..=3)
+            .map(|n| {
+                2.0 - 0.5 * step * f64::from(n) + 4.0 * (step * f64::from(n)).powi(2) + (step * f64::from(n)).powi(3)
+            })
+            .collect();
         let [value, slope, curvature] = cubic(&samples, step);
         assert!((value - 2.0).abs() < 1e-12 && (slope + 0.5).abs() < 1e-12 && (curvature - 8.0).abs() < 1e-9);
     }

@@ -119,7 +119,8 @@ impl<'a> Records<'a> {
     /// Frequency (Hz) from which on motion is not that of the modes that are followed.
     fn corner_hz(&self) -> f64 {
         let at = |r: usize| self.modes.omega[r] / TAU;
-        let next = if self.kept < self.modes.len() { (at(self.kept - 1) * at(self.kept)).sqrt() } else { f64::INFINITY };
+        let next =
+            if self.kept < self.modes.len() { (at(self.kept - 1) * at(self.kept)).sqrt() } else { f64::INFINITY };
         next.min(ABOVE * at(self.kept - 1))
     }
 

@@ -12,8 +12,9 @@ use super::data::{RecordError, Records};
 use super::evidence::{evidence, misfit, scale};
 use super::fit::FittedRecords;
 use super::search::Search;
-use super::telling::{added, corrections, suggestions};
+use super::telling::{added, corrections, last_deviations, suggestions};
 use crate::control::Control;
+use crate::diagnosis::candidates::start_grids::scaled;
 use crate::diagnosis::diagnose::{Diagnosis, Early, Step, Verdict};
 use crate::effects::Source;
 use crate::math::statistics::root_mean_square;
@@ -24,9 +25,14 @@ const AGREES: f64 = 1.15;
 const MOST_EFFECTS: usize = 3;
 /// Share of each record that is fitted when the rest is to be predicted.
 const LEARNT: f64 = 0.6;
-/// Gain of evidence from which on an effect is kept, and the share of the error that it must take away.
+/// Gain of evidence from which on an effect is kept, and the share of the error that it must take away; from [`DECISIVE`] on it
+/// need not predict the rest of the records better: there a frequency that follows the amplitude, found with the next effect,
+/// still loses the phase.
 const GAIN: f64 = 12.0;
-const WORTH: f64 = 0.05;
+const WORTH: f64 = 0.15;
+const DECISIVE: f64 = 0.25;
+/// Deviations from zero that the force of an effect must have.
+const SURE: f64 = 3.0;
 
 /// Finds what the model of `records` lacks; effects `excluded` are not suggested.
 ///
@@ -57,11 +63,14 @@ pub fn diagnose_records(
     if misfit(&bare) < AGREES {
         return Ok(diagnosis);
     }
-    let corrected = search.staged(&bare, &[0.4, 1.0], 6)?;
+    let corrected = search.corrected(&bare)?;
     let mut rungs = vec![vec![corrected]];
     loop {
         let best = &rungs[rungs.len() - 1][0];
         if misfit(best) < AGREES || best.effects.len() >= MOST_EFFECTS {
+            break;
+        }
+        if control.is_late() {
             break;
         }
         control.report(0.3 * rungs.len() as f64);
@@ -82,13 +91,16 @@ pub fn diagnose_records(
 impl Search<'_> {
     /// Whether a fit is better than the one before by evidence, by its error and by what it predicts.
     fn is_better(&self, new: &FittedRecords, old: &FittedRecords) -> Result<bool, RecordError> {
+        if !stands_out(new) {
+            return Ok(false);
+        }
         let scale = scale(new);
         let gain = evidence(old, scale) - evidence(new, scale);
         let worth = 1.0 - (new.chi_square / old.chi_square).sqrt();
         if gain < GAIN || worth < WORTH {
             return Ok(false);
         }
-        Ok(misfit(new) < AGREES || self.held_out(new)? < self.held_out(old)?)
+        Ok(misfit(new) < AGREES || worth > DECISIVE || self.held_out(new)? < self.held_out(old)?)
     }
 
     /// Error on the last part of each record of a fit on the rest.
@@ -129,4 +141,12 @@ impl Search<'_> {
         diagnosis.verdict = if sure { Verdict::Missing } else { Verdict::Undecided };
         Ok(())
     }
+}
+
+/// Whether the force of the last effect is more than its deviation allows it to be by chance.
+fn stands_out(fit: &FittedRecords) -> bool {
+    let (Some(effect), wide) = (fit.effects.last(), scale(fit).sqrt()) else { return false };
+    let deviations = last_deviations(fit);
+    let sizes = scaled(effect.effect).iter();
+    sizes.map(|&k| effect.parameters[k].abs() / (wide * deviations[k])).any(|ratio| ratio > SURE)
 }

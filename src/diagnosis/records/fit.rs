@@ -12,8 +12,8 @@
 //! re-seating. Short parts are fitted first, so that a long record does not lose the phase.
 
 use super::data::{RecordError, Records};
-use super::evidence::scale;
 use super::errors::channel_errors;
+use super::evidence::scale;
 use super::variables::{at_variable, scales, slopes, variable};
 use crate::control::Control;
 use crate::diagnosis::candidates::start_grids::scaled;
@@ -127,8 +127,7 @@ pub(crate) struct Fit<'a> {
     pub control: &'a Control,
 }
 
-/// What the priors weigh: as much as what the start of a fit leaves demands, so that many samples of one error do not bend
-/// what is known.
+/// What the priors weigh: what the start leaves demands it, so that many samples of one error do not bend what is known.
 fn unit_of(start: &FittedRecords) -> f64 {
     if start.count > 0 { scale(start) } else { 1.0 }
 }

@@ -118,6 +118,11 @@ impl<'a> Regression<'a> {
         dot(&self.left, &self.left)
     }
 
+    /// Number of weighted rows.
+    pub fn rows(&self) -> usize {
+        self.left.len()
+    }
+
     /// A column with what the nuisances explain taken out.
     fn beside(&self, mut column: Vec<f64>) -> Vec<f64> {
         for _ in 0..2 {

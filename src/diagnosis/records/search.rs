@@ -10,8 +10,8 @@ use crate::diagnosis::candidates::special_cases::is_allowed;
 use crate::effects::Source;
 
 /// Fits that go on to longer parts and to whole records.
-const LONGER: usize = 7;
-const WHOLE: usize = 4;
+const LONGER: usize = 6;
+const WHOLE: usize = 3;
 /// Ratio of the parts of a record on which a law is fitted one after the other.
 const LADDER: f64 = 3.0;
 /// Squared residual over the least one beyond which a fit is not followed further: on a short part, where a law still finds
@@ -36,12 +36,16 @@ impl Search<'_> {
         Fit { records: self.records, free: Free { corrections: false }, share, control: self.control }.improve(start, 3)
     }
 
-    pub fn staged(&self, start: &FittedRecords, shares: &[f64], iterations: usize) -> Result<FittedRecords, RecordError> {
-        let mut fitted = start.clone();
-        for &share in shares {
-            fitted = self.fit(&fitted, share, iterations)?;
+    /// The model corrected, on longer and longer parts, so that a frequency that is off does not lose the phase.
+    pub fn corrected(&self, start: &FittedRecords) -> Result<FittedRecords, RecordError> {
+        let first = short(self.records);
+        let mut fitted = self.fit(&self.quiet(start, first)?, first, 8)?;
+        let mut share = LADDER * first;
+        while share < 1.0 {
+            fitted = self.fit(&fitted, share, 8)?;
+            share *= LADDER;
         }
-        Ok(fitted)
+        self.fit(&fitted, 1.0, 12)
     }
 
     /// Fits of `best` with one effect more, best first.
@@ -70,7 +74,7 @@ impl Search<'_> {
         }
         let longer = 0.4_f64.max(first);
         let mut found = self.continued(found, (LONGER, HOPELESS[0]), [first, longer], 6);
-        found = self.continued(found, (WHOLE, HOPELESS[1]), [longer, 1.0], 12);
+        found = self.continued(found, (WHOLE, HOPELESS[1]), [longer, 1.0], 9);
         found.retain(|f| f.effects.last().is_some_and(|e| is_allowed(self.excluded, e, &last_deviations(f))));
         if let Some(least) = found.iter().map(|f| f.chi_square).min_by(f64::total_cmp) {
             let best = found.iter().find(|f| f.chi_square == least).map_or(1.0, scale);

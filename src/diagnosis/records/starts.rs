@@ -28,7 +28,11 @@ const LAWS: [Effect; 13] = [
 const PLACES: usize = 2;
 const SHAPES: usize = 5;
 /// Laws that are fitted at the places that the equation of motion demands, from the best place on.
-const QUOTAS: [usize; 3] = [8, 4, 2];
+const QUOTAS: [usize; 3] = [8, 3, 2];
+/// Share of what the equation of motion leaves that one effect more must take away, or none is looked for.
+const NEEDED: f64 = 0.9;
+/// Misfit of the equation of motion over the least one beyond which a law is not fitted to the response.
+const BEHIND: f64 = 4.0;
 /// Force of a law at the start, as a share of the spring force there.
 const SIZES: [f64; 2] = [0.01, 0.1];
 
@@ -49,6 +53,11 @@ impl Search<'_> {
         };
         let mut ranked = regression.ranked(&all, &LAWS, self.control);
         ranked.retain(|r| open(&r.source));
+        let least = ranked.first().map_or(0.0, |r| r.misfit);
+        if !best.effects.is_empty() && least > NEEDED * regression.misfit() {
+            return Vec::new();
+        }
+        ranked.retain(|r| r.misfit <= (BEHIND * least).max(regression.rows() as f64));
         let mut places: Vec<&Place> = Vec::new();
         for place in ranked.iter().map(|r| &r.source.place) {
             if places.len() < QUOTAS.len() && !places.iter().any(|p| p.is_same(place)) {

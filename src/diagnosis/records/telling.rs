@@ -1,7 +1,7 @@
 //! Fits as suggestions: probabilities, deviations, corrections beside them.
 
 use super::data::{RecordError, Records};
-use super::evidence::{evidence, parameters, scale};
+use super::evidence::{evidence, misfit, parameters, scale};
 use super::fit::FittedRecords;
 use crate::diagnosis::diagnose::{Added, Correction, Suggestion};
 use crate::diagnosis::updating::parameters::UpdatingParameter;
@@ -10,8 +10,10 @@ use crate::math::statistics::evidence_weights;
 use crate::structure::Part;
 
 /// Share by which the squared residual of a law of fewer parameters may be larger than that of another at its place, which
-/// then is not told: records are not so exact that they could tell.
-const PLAIN: f64 = 1.02;
+/// then is not told: where what is left is noise, and where it is an error of the model, which more parameters bend towards.
+const PLAIN: [f64; 2] = [1.1, 1.3];
+/// Misfit from which on what is left is no noise.
+const MODEL_ERROR: f64 = 1.5;
 /// Deviations from 0 at which a correction is told, and the least change of stiffness and of a known source that is: the
 /// force between the samples and the motion above the band leave as much.
 const MOVED: f64 = 4.0;
@@ -91,7 +93,11 @@ pub(super) fn corrections(records: &Records, fit: &FittedRecords) -> Vec<Correct
     let of = |(k, (v, parameter)): (usize, (f64, UpdatingParameter))| {
         let deviation = fit.deviations.get(first + k).copied().unwrap_or(f64::NAN) * wide;
         let least = LEAST[usize::from(matches!(parameter, UpdatingParameter::Known(_)))];
-        (v.abs() > (MOVED * deviation).max(least)).then(|| Correction { parameter, factor: v.exp(), deviation: deviation * v.exp() })
+        (v.abs() > (MOVED * deviation).max(least)).then(|| Correction {
+            parameter,
+            factor: v.exp(),
+            deviation: deviation * v.exp(),
+        })
     };
     values.zip(names).enumerate().filter_map(of).collect()
 }
@@ -105,7 +111,7 @@ pub(super) fn plainest(found: &mut Vec<FittedRecords>) {
         let plainer = |(chi, other): &(f64, Source)| {
             other.place.is_same(&own.place)
                 && other.parameters.len() < own.parameters.len()
-                && *chi <= PLAIN * fit.chi_square
+                && *chi <= PLAIN[usize::from(misfit(fit) > MODEL_ERROR)] * fit.chi_square
         };
         simple.iter().any(plainer)
     };
