@@ -4,6 +4,7 @@ use super::files::Written;
 use super::lab::{self, Plan};
 use super::random::Random;
 use super::suite::{Kindness, hidden};
+use super::unsteady::{self, Unsteady};
 use dashpot::effects::{Effect, effect::Kind};
 use std::ops::Range;
 
@@ -21,6 +22,7 @@ pub struct Case {
 enum Recipe {
     Exact(Vec<Effect>, Kindness),
     Laboratory(Plan),
+    Unsteady(Unsteady),
 }
 
 impl Case {
@@ -30,6 +32,7 @@ impl Case {
         (0..DRAWS).find_map(|_| match &self.make {
             Recipe::Exact(effects, kindness) => hidden(effects, *kindness, random).map(Written::from),
             Recipe::Laboratory(plan) => lab::project(*plan, random),
+            Recipe::Unsteady(plan) => unsteady::project(*plan, random),
         })
     }
 }
@@ -47,6 +50,24 @@ pub fn cases(seeds: Range<u64>) -> Vec<Case> {
                     let number = seed * 10_000 + c as u64 * 1000 + k as u64 * 10 + u64::from(beam);
                     cases.extend(case(class, effect, beam, seed, Random::new(number)));
                 }
+            }
+        }
+        cases.extend(unsteady(seed));
+    }
+    cases
+}
+
+/// Every kind of test, law and structure, and each without a hidden effect.
+fn unsteady(seed: u64) -> Vec<Case> {
+    let mut cases = Vec::new();
+    for (c, class) in unsteady::CLASSES.into_iter().enumerate() {
+        for (k, effect) in unsteady::LAWS.into_iter().map(Some).chain([None]).enumerate() {
+            for beam in [true, false] {
+                let number = 7_000_000_000 + seed * 10_000 + c as u64 * 1000 + k as u64 * 10 + u64::from(beam);
+                let structure = if beam { "beam" } else { "chain" };
+                let name = format!("{class}-{structure}-{}-{seed}", effect.map_or("none", Effect::name));
+                let make = Recipe::Unsteady(Unsteady { class, effect, beam });
+                cases.push(Case { name, make, random: Random::new(number) });
             }
         }
     }

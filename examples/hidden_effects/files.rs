@@ -27,6 +27,8 @@ pub struct Written {
     pub omegas: Vec<f64>,
     /// Levels of force, where the project names them.
     pub levels: Option<Vec<i64>>,
+    /// Kind of the runs; steady without it.
+    pub kind: Option<&'static str>,
     /// What no analysis reads.
     pub truth: Value,
 }
@@ -44,6 +46,7 @@ impl From<Hidden> for Written {
             records: project.records,
             omegas: project.omegas,
             levels: None,
+            kind: None,
         }
     }
 }
@@ -61,7 +64,10 @@ impl Written {
         }
         for (r, (record, omega)) in self.records.iter().zip(&self.omegas).enumerate() {
             let name = file(r);
-            let _ = writeln!(text, "[[run]]\nfile = \"{name}\"\nfrequency = {:?}", omega / std::f64::consts::TAU);
+            let _ = match self.kind {
+                Some(kind) => writeln!(text, "[[run]]\nfile = \"{name}\"\nkind = \"{kind}\""),
+                None => writeln!(text, "[[run]]\nfile = \"{name}\"\nfrequency = {:?}", omega / std::f64::consts::TAU),
+            };
             if let Some(levels) = &self.levels {
                 let _ = writeln!(text, "level = {}", levels[r]);
             }

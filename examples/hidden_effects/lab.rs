@@ -152,6 +152,7 @@ pub fn project(plan: Plan, random: &mut Random) -> Option<Written> {
             "known": factors,
             "measurement": measured,
         }),
+        kind: None,
         structure_toml: toml(plan.form, &specimen, &lumped, &model),
         matrices: matches!(plan.form, Form::BeamMatrices | Form::ChainMatrices).then(|| imported(&model, 1.0)),
         model,

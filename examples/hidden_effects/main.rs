@@ -20,6 +20,7 @@ mod specimen;
 #[allow(dead_code, reason = "shared with the tests, which use all of it")]
 mod suite;
 mod tally;
+mod unsteady;
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};

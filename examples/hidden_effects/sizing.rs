@@ -46,26 +46,31 @@ impl Scale {
     }
 
     fn shaped(&self, effect: Effect, s: f64) -> Vec<f64> {
-        let Self { d, v, omega } = *self;
-        match effect {
-            Effect::Power => vec![s / v.powf(1.6), 1.6],
-            Effect::Fractional => vec![s / d / omega.powf(0.4), 0.4],
-            Effect::ElasticSlider => vec![s / (0.25 * d), s],
-            Effect::Maxwell => vec![s / d, s / d / omega],
-            Effect::Iwan => vec![s / (0.3 * d), s, -0.5, 1.0],
-            Effect::Stribeck => vec![s, 2.0 * s, 0.1 * v],
-            Effect::Gap => vec![s / d, 0.4 * d],
-            Effect::Coulomb => vec![s],
-            Effect::Viscous => vec![s / v],
-            Effect::Quadratic => vec![s / (v * v)],
-            Effect::CubicStiffness => vec![s / d.powi(3)],
-            Effect::QuadraticStiffness => vec![s / (d * d)],
-            Effect::Mass => vec![s / (d * omega.powi(2))],
-            Effect::LossFactor => vec![1e-2 * s],
-            Effect::StiffnessProportional => vec![1e-2 * s / omega],
-            Effect::MassProportional => vec![1e-2 * s * omega],
-            _ => vec![s / d],
-        }
+        shaped(effect, [self.d, self.v, self.omega], s)
+    }
+}
+
+/// Parameters of an effect whose force is about `s` at the displacement `d`, the velocity `v` and the circular frequency
+/// `omega`.
+pub fn shaped(effect: Effect, [d, v, omega]: [f64; 3], s: f64) -> Vec<f64> {
+    match effect {
+        Effect::Power => vec![s / v.powf(1.6), 1.6],
+        Effect::Fractional => vec![s / d / omega.powf(0.4), 0.4],
+        Effect::ElasticSlider => vec![s / (0.25 * d), s],
+        Effect::Maxwell => vec![s / d, s / d / omega],
+        Effect::Iwan => vec![s / (0.3 * d), s, -0.5, 1.0],
+        Effect::Stribeck => vec![s, 2.0 * s, 0.1 * v],
+        Effect::Gap => vec![s / d, 0.4 * d],
+        Effect::Coulomb => vec![s],
+        Effect::Viscous => vec![s / v],
+        Effect::Quadratic => vec![s / (v * v)],
+        Effect::CubicStiffness => vec![s / d.powi(3)],
+        Effect::QuadraticStiffness => vec![s / (d * d)],
+        Effect::Mass => vec![s / (d * omega.powi(2))],
+        Effect::LossFactor => vec![1e-2 * s],
+        Effect::StiffnessProportional => vec![1e-2 * s / omega],
+        Effect::MassProportional => vec![1e-2 * s * omega],
+        _ => vec![s / d],
     }
 }
 

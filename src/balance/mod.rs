@@ -4,6 +4,7 @@ pub mod action;
 pub mod energy;
 pub mod error;
 pub mod expansion;
+pub mod loops;
 pub mod measured;
 pub mod weights;
 pub mod windows;

@@ -10,6 +10,7 @@ use super::records::only_records;
 use super::run_flags::{self, flags};
 use super::table::{number, table};
 use crate::control::Control;
+use crate::diagnosis::component::{Loops, diagnose_component};
 use crate::diagnosis::diagnose::{Added, Correction, Diagnosis, Early, Suggestion, diagnose_without};
 use crate::diagnosis::records::{Records, diagnose_records};
 use crate::diagnosis::updating::parameters::UpdatingParameter;
@@ -20,7 +21,7 @@ use crate::exchange::project::relocate::{canonical, renamed};
 use crate::session::time_limit::hurry_after;
 use crate::session::workers::Threads;
 use crate::structure::Part;
-use crate::structure::{Coupled, Structure};
+use crate::structure::{Coupled, Structure, StructureKind};
 use anyhow::Context;
 use serde_json::{Map, Value, json};
 use std::path::Path;
@@ -80,6 +81,10 @@ impl Written<'_> {
 fn searched(project: &Project, control: &Control, early: &Early) -> anyhow::Result<Diagnosis> {
     if !only_records(project) {
         return Ok(diagnose_without(&problem(project), &project.ruled_out, control, early)?);
+    }
+    if project.structure.kind() == StructureKind::Component {
+        let loops = Loops::new(&project.structure, &project.sources, &project.transient_runs)?;
+        return Ok(diagnose_component(&loops, &project.ruled_out, control, early)?);
     }
     let records = Records::new(&project.structure, &project.sources, &project.transient_runs)?;
     Ok(diagnose_records(&records, &project.ruled_out, control, early)?)

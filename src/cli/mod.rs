@@ -34,6 +34,7 @@ mod reduction;
 mod report;
 mod run_flags;
 mod simulate;
+mod simulate_component;
 mod simulate_frf;
 mod source_json;
 mod table;

@@ -2,6 +2,7 @@
 
 use super::arguments::{Plot, PlotKind};
 use crate::control::Control;
+use crate::diagnosis::component::{Loops, compare_component};
 use crate::diagnosis::{Comparison, Problem, compare};
 use crate::display::words;
 use crate::exchange::Project;
@@ -21,8 +22,9 @@ use crate::plots::record::RecordPlot;
 use crate::plots::sheet::Sheet;
 use crate::plots::style::Palette;
 use crate::plots::trace::{Trace, trace};
-use crate::plots::{angle, energy, forward, response_curve, samples, spectrum, svg};
+use crate::plots::{angle, component_loops, energy, forward, response_curve, samples, spectrum, svg};
 use crate::session::workers::Threads;
+use crate::structure::StructureKind;
 use anyhow::{Context, bail, ensure};
 use std::path::Path;
 use std::sync::Arc;
@@ -79,6 +81,7 @@ impl Plotter<'_> {
             PlotKind::Shares => self.shares(),
             PlotKind::Matrix => self.matrix(),
             PlotKind::Bode | PlotKind::Nyquist => self.response(),
+            PlotKind::Hysteresis if self.p.structure.kind() == StructureKind::Component => self.component_loop(),
             PlotKind::Hysteresis => self.hysteresis(),
             PlotKind::Record | PlotKind::Spectrum => self.record(),
             PlotKind::ErrorMap => self.error_map(),
@@ -183,6 +186,19 @@ impl Plotter<'_> {
         let loops = forward::run_loops(self.p, &self.outcome()?, run).map_err(anyhow::Error::msg)?;
         let figures = loops.iter().map(|l| l.figure(self.palette)).collect();
         self.sheet(&format!("Hysteresis of run {}", run + 1), figures)
+    }
+
+    /// The loop of one record of a component, else of the first that is used, with that of the known sources.
+    fn component_loop(&self) -> anyhow::Result<Drawn> {
+        let p = self.p;
+        let loops = Loops::new(&p.structure, &p.sources, &p.transient_runs)?;
+        let found = compare_component(&loops, &[])?;
+        let index = self.arguments.run.unwrap_or(found.records[0].index + 1);
+        let one = loops.list.iter().zip(&found.records).find(|(_, r)| r.index + 1 == index);
+        let none = || format!("--run {index}: there is no such record, or it is switched off");
+        let (one, record) = one.with_context(none)?;
+        let model = record.model.first().context("the record has no force")?;
+        self.figure(component_loops::figure(self.palette, one, model))
     }
 
     /// Index in the fit of the channel that was asked for, else of the first that is a motion.

@@ -2,6 +2,7 @@
 
 use super::arguments::{Method, Records, Simulate};
 use super::moving_base::{self, MovingBase};
+use super::simulate_component as component;
 use crate::control::Control;
 use crate::effects::{Source, State};
 use crate::exchange::project::{Plan, PlannedBase, PlannedForce, PlannedTest, ProjectError, open};
@@ -14,6 +15,7 @@ use crate::response::recording::{Loading, TestSetup, quantise, record_test};
 use crate::response::simulation::{Simulator, recorded, transfer, usual_channels};
 use crate::response::simulation_in_time::{InTime, Recorder, record_in_time};
 use crate::response::synthesis::{self, Noise, sampling_times, synthesise};
+use crate::structure::StructureKind;
 use anyhow::{Context, anyhow, bail};
 use faer::c64;
 use std::f64::consts::TAU;
@@ -27,8 +29,11 @@ pub(super) fn run(arguments: &Simulate) -> anyhow::Result<String> {
     }
     let name = arguments.file.display();
     let sources: Vec<Source> = plan.sources.iter().filter(|s| s.state == State::Known).cloned().collect();
-    let model = Simulator::new(&plan.structure, &sources).with_context(|| format!("{name}"))?;
     plan.records_stay_inside()?;
+    if plan.structure.kind() == StructureKind::Component {
+        return component::run(&plan, &sources, arguments);
+    }
+    let model = Simulator::new(&plan.structure, &sources).with_context(|| format!("{name}"))?;
     if plan.runs.is_empty() {
         bail!("{name}: there is no [[run]] to simulate; add runs with file, frequency, force_dof and force_n");
     }
@@ -61,7 +66,7 @@ pub(super) fn run(arguments: &Simulate) -> anyhow::Result<String> {
 }
 
 /// An error with the line of its run, unless it says already where it is.
-fn at_run(plan: &Plan, index: usize, error: anyhow::Error) -> anyhow::Error {
+pub(super) fn at_run(plan: &Plan, index: usize, error: anyhow::Error) -> anyhow::Error {
     if error.downcast_ref::<ProjectError>().is_some() { error } else { error.context(plan.place_of_run(index)) }
 }
 
@@ -103,6 +108,11 @@ fn recorded_test(plan: &Plan, sources: &[Source], test: PlannedTest, noise: Opti
     let samples = (test.duration_s * rate_hz).round() as usize;
     if !(16..=100_000_000).contains(&samples) {
         bail!("{samples} samples come of duration_s and rate_hz; between 16 and 100000000 can be recorded");
+    }
+    if matches!(test.loading, Loading::Cycles { .. }) {
+        bail!(
+            "kind = \"cycles\" imposes a displacement, which only a component can bear: give a force, or [structure] kind = \"component\""
+        );
     }
     let force = Excitation::sine(TAU, test.dof, c64::new(0.0, 0.0));
     let mut channels =
@@ -203,7 +213,7 @@ fn channels(plan: &Plan) -> anyhow::Result<Vec<Channel>> {
     plan.simulate().channels.iter().map(channel).collect()
 }
 
-fn write(plan: &Plan, records: &[Record], arguments: &Simulate) -> anyhow::Result<String> {
+pub(super) fn write(plan: &Plan, records: &[Record], arguments: &Simulate) -> anyhow::Result<String> {
     let folder = &arguments.out;
     fs::create_dir_all(folder).with_context(|| format!("{}: the folder cannot be made", folder.display()))?;
     if arguments.records == Records::Harmonics {

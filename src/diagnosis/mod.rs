@@ -16,6 +16,7 @@
 pub mod candidates;
 pub mod channels;
 pub mod compare;
+pub mod component;
 pub mod diagnose;
 pub mod localisation;
 pub mod points;

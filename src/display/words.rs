@@ -103,6 +103,7 @@ pub fn kind(kind: StructureKind) -> &'static str {
         StructureKind::Chain => "chain of masses",
         StructureKind::Matrices => "imported matrices",
         StructureKind::Points => "points without a model",
+        StructureKind::Component => "component in a testing machine",
     }
 }
 

@@ -13,12 +13,21 @@ const FALLING: f64 = 0.8;
 /// its power.
 pub(super) const NOT_PERIODIC: f64 = 1.0;
 
-/// The finding that a record without a force rings down.
+/// Least blocks behind the largest in which a decay is seen.
+const FEWEST: usize = 4;
+
+/// The finding that a record without a force rings down, from its largest block on: what was before the release does not
+/// matter.
 pub(super) fn free_decay(record: &Record, fit: &HarmonicFit) -> Option<Finding> {
     let references = references(fit);
     let channel = (0..references.len()).max_by(|&a, &b| references[a].total_cmp(&references[b]))?;
     let (_, blocks) = blocks(record, fit)?;
-    let sizes = &blocks[channel];
+    let all = &blocks[channel];
+    let release = (0..all.len()).max_by(|&a, &b| all[a].total_cmp(&all[b]))?;
+    let sizes = &all[release..];
+    if sizes.len() < FEWEST {
+        return None;
+    }
     let falling = sizes.windows(2).filter(|pair| pair[1] < pair[0]).count();
     let (first, last) = (sizes[0], sizes[sizes.len() - 1]);
     let decays = last < FALLEN * first && falling as f64 >= FALLING * (sizes.len() - 1) as f64;

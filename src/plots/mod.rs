@@ -4,6 +4,7 @@ pub mod angle;
 pub mod bars;
 pub mod bode;
 pub mod channel_response;
+pub mod component_loops;
 pub mod cycle;
 pub mod drawing;
 pub mod energy;

@@ -22,6 +22,8 @@ pub(super) fn build(table: &StructureTable, folder: &Path) -> Result<Structure, 
             let dofs = points.dofs.iter().map(|label| label.0.clone()).collect();
             Ok(PointParameters { dofs, positions: points.positions.clone() }.build()?)
         }
+        Shape::Component(_) if !lumped.is_empty() => Err(Refusal::MassOnPoints),
+        Shape::Component(parameters) => Ok(parameters.build()?),
         Shape::Matrices(_) => from_files(table, folder),
     }
 }
@@ -54,6 +56,7 @@ pub(super) fn kind(shape: &Shape) -> &'static str {
         Shape::Chain(_) => "chain",
         Shape::Matrices(_) => "structure of matrices",
         Shape::Points(_) => "structure of points",
+        Shape::Component(_) => "component",
     }
 }
 
@@ -95,7 +98,7 @@ fn number<'a>(shape: &'a mut Shape, name: &str) -> Option<&'a mut f64> {
                 _ => None,
             }
         }
-        Shape::Matrices(_) | Shape::Points(_) => None,
+        Shape::Matrices(_) | Shape::Points(_) | Shape::Component(_) => None,
     }
 }
 
@@ -106,7 +109,7 @@ fn unknown_number(shape: &Shape, name: &str) -> Refusal {
             let (n, m) = (chain.masses.len(), chain.coupling_stiffness.len());
             format!("masses[1..{n}], ground_stiffness[1..{n}], coupling_stiffness[1..{m}]")
         }
-        Shape::Matrices(_) | Shape::Points(_) => "none".into(),
+        Shape::Matrices(_) | Shape::Points(_) | Shape::Component(_) => "none".into(),
     };
     Refusal::NoSuchNumber { kind: kind(shape), name: name.into(), known }
 }

@@ -4,6 +4,7 @@ mod assemble;
 mod base;
 pub mod beam;
 pub mod chain;
+pub mod component;
 mod coupling;
 pub mod damped_modes;
 mod error;
@@ -82,6 +83,8 @@ pub enum StructureKind {
     Chain,
     Matrices,
     Points,
+    /// One component in a testing machine.
+    Component,
 }
 
 /// Mass and stiffness, both symmetric n x n; lumped masses are included.
@@ -125,6 +128,8 @@ pub struct Origin {
     pub notes: Vec<String>,
     /// How a larger model was reduced to the degrees of freedom that are here.
     pub reduction: Option<reduction::Reduction>,
+    /// Mass of a component that moves with its force cell, kg.
+    pub component_mass: f64,
 }
 
 impl Structure {
@@ -193,7 +198,7 @@ impl Structure {
                 }
             }
         }
-        self.origin = Origin { notes, reduction };
+        self.origin = Origin { notes, reduction, ..Origin::default() };
     }
 
     /// Row of the DOF of that label.

@@ -93,7 +93,7 @@ impl Numbers<'_> {
                 self.list("ground_stiffness", &chain.ground_stiffness, factor);
                 self.list("coupling_stiffness", &chain.coupling_stiffness, factor);
             }
-            Shape::Matrices(_) | Shape::Points(_) => return false,
+            Shape::Matrices(_) | Shape::Points(_) | Shape::Component(_) => return false,
         }
         true
     }
@@ -102,7 +102,7 @@ impl Numbers<'_> {
         match &self.table.shape {
             Shape::Beam(beam) => self.scale("density".to_owned(), beam.density, factor),
             Shape::Chain(chain) => self.list("masses", &chain.masses, factor),
-            Shape::Matrices(_) | Shape::Points(_) => return false,
+            Shape::Matrices(_) | Shape::Points(_) | Shape::Component(_) => return false,
         }
         true
     }

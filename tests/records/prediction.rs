@@ -50,6 +50,7 @@ impl Case {
             drives: &self.drives,
             channels: &self.channels,
             factors: self.factors,
+            mode_stiffness: &[],
         };
         TransientModel::new(&setup).unwrap().predict(&self.forces, &self.initial, parameters).unwrap()
     }

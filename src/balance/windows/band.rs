@@ -29,7 +29,7 @@ const GAP: f64 = 1.2;
 
 /// Modes that are kept and the filter that keeps them.
 #[derive(Debug, Clone)]
-pub(super) struct Band {
+pub(crate) struct Band {
     /// Numbers of the modes, from 0.
     pub modes: Vec<usize>,
     /// Circular frequency of each, rad/s.
@@ -114,7 +114,7 @@ fn too_few(run: &TransientRun, modes: usize, sensors: usize) -> WindowError {
 }
 
 /// Circular frequency between lines of a transform of `length` samples, rad/s.
-pub(super) fn line_omega(length: usize, step: f64) -> f64 {
+pub(crate) fn line_omega(length: usize, step: f64) -> f64 {
     TAU / (length as f64 * step)
 }
 

@@ -10,16 +10,18 @@
 //! channels ([`covariance`]). Windows are whole multiples of the period of the mode that holds most energy and follow one
 //! another without gap: with their exact covariance, overlapping ones, which are sums of these, would add nothing.
 
-mod band;
+pub(crate) mod band;
+mod component;
 mod covariance;
-mod motion;
-mod work;
+pub(crate) mod motion;
+pub(crate) mod work;
 
+use crate::balance::loops::ComponentError;
 use crate::control::Control;
 use crate::effects::{Effect, Source};
 use crate::measurement::TransientRun;
 use crate::response::linear_matrices::LinearMatrices;
-use crate::structure::{Structure, SystemMatrices, modes::modes};
+use crate::structure::{Structure, StructureKind, SystemMatrices, modes::modes};
 use dashpot_numerics::Cholesky;
 use faer::Mat;
 use motion::Motion;
@@ -49,6 +51,8 @@ pub enum WindowError {
     TooShort { file: String, needed_s: f64, found_s: f64 },
     #[error("{file}: the motion does not stand out of the noise over two windows; use another part")]
     OnlyNoise { file: String },
+    #[error(transparent)]
+    Component(#[from] ComponentError),
 }
 
 /// Rows of the energy equation over windows of one record.
@@ -90,6 +94,9 @@ pub fn window_rows(
     control: &Control,
 ) -> Result<Vec<WindowRows>, WindowError> {
     let Some(first) = runs.first() else { return Ok(Vec::new()) };
+    if structure.kind() == StructureKind::Component {
+        return runs.iter().map(|run| component::rows(structure, known, columns, run)).collect();
+    }
     let no_matrices = || WindowError::NoMatrices { file: first.file.clone() };
     let linear = LinearMatrices::new(structure, known).map_err(|_| no_matrices())?;
     let matrices = SystemMatrices { mass: linear.mass, stiffness: linear.stiffness };

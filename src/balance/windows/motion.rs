@@ -19,7 +19,7 @@ const QUIET: f64 = 0.003;
 
 /// Motion of the kept modes at every sample that is used.
 #[derive(Debug, Clone)]
-pub(super) struct Motion {
+pub(crate) struct Motion {
     pub band: Band,
     /// Time between samples, s.
     pub step: f64,
@@ -153,7 +153,7 @@ fn in_time(transform: &RealTransform, mut lines: Vec<c64>, n: usize) -> Vec<f64>
 }
 
 /// An even length of small factors, at least `n`.
-fn smooth_length(n: usize) -> usize {
+pub(crate) fn smooth_length(n: usize) -> usize {
     let mut best = n.next_power_of_two();
     for odd in [3, 5, 9, 15] {
         let mut length = 2 * odd;

@@ -13,7 +13,7 @@ use faer::c64;
 use std::collections::HashMap;
 
 /// Relative motions that are at hand already.
-pub(super) struct Works<'a> {
+pub(crate) struct Works<'a> {
     structure: &'a Structure,
     motion: &'a Motion,
     relative: HashMap<[usize; 2], [Vec<f64>; 2]>,
@@ -27,71 +27,98 @@ impl<'a> Works<'a> {
     /// Power of a source at its own values, W, one value a sample.
     pub fn power(&mut self, source: &Source) -> Vec<f64> {
         let mut power = vec![0.0; self.motion.q[0].len()];
+        let motion = self.motion;
         match source.effect.kind() {
             Kind::Relative(_) => {
                 for leg in source.place.legs() {
-                    self.add_leg(source, leg, &mut power);
+                    let Some(force) = self.leg_force(source, leg) else { continue };
+                    let [_, v] = self.relative(leg);
+                    power.iter_mut().zip(v.iter().zip(&force)).for_each(|(p, (v, f))| *p += v * f);
                 }
             }
-            Kind::Whole(_) => self.add_whole(source, &mut power),
+            Kind::Whole(_) => {
+                for (r, force) in self.whole_force(source).iter().enumerate() {
+                    power.iter_mut().zip(motion.v[r].iter().zip(force)).for_each(|(p, (v, f))| *p += v * f);
+                }
+            }
             Kind::Channel(_) => {}
         }
         power
     }
 
+    /// Modal forces of a source at its own values against the motion, N/sqrt(kg): one list a mode.
+    pub fn modal_force(&mut self, source: &Source) -> Vec<Vec<f64>> {
+        if let Kind::Whole(_) = source.effect.kind() {
+            return self.whole_force(source);
+        }
+        let mut sum = vec![vec![0.0; self.motion.q[0].len()]; self.motion.q.len()];
+        for leg in source.place.legs() {
+            let (weights, Some(force)) = (self.weights(leg), self.leg_force(source, leg)) else { continue };
+            for (list, w) in sum.iter_mut().zip(weights) {
+                list.iter_mut().zip(&force).for_each(|(s, f)| *s += w * f);
+            }
+        }
+        sum
+    }
+
     /// Weight of each mode in a relative motion.
-    fn weights(&self, leg: Leg) -> Vec<f64> {
+    pub fn weights(&self, leg: Leg) -> Vec<f64> {
         let shapes = &self.motion.band.shapes;
         (0..self.motion.q.len()).map(|r| leg.relative(|i| shapes[(i, r)])).collect()
     }
 
-    fn add_leg(&mut self, source: &Source, leg: Leg, power: &mut [f64]) {
+    /// Relative displacement (m) and velocity (m/s) of a leg.
+    pub fn relative(&mut self, leg: Leg) -> &[Vec<f64>; 2] {
         let key = [leg.first, leg.second.unwrap_or(usize::MAX)];
         let weights = self.weights(leg);
         let motion = self.motion;
-        let [d, v] =
-            self.relative.entry(key).or_insert_with(|| [combined(&motion.q, &weights), combined(&motion.v, &weights)]);
+        self.relative.entry(key).or_insert_with(|| [combined(&motion.q, &weights), combined(&motion.v, &weights)])
+    }
+
+    /// Force of a source in one of its legs, N, one value a sample; none where its law has none in time.
+    pub fn leg_force(&mut self, source: &Source, leg: Leg) -> Option<Vec<f64>> {
+        let (weights, motion) = (self.weights(leg), self.motion);
+        let [d, v] = self.relative(leg);
         if source.effect == Effect::Viscous {
             let c = source.coefficient();
-            power.iter_mut().zip(v.iter()).for_each(|(p, v)| *p += c * v * v);
-            return;
+            return Some(v.iter().map(|v| c * v).collect());
         }
-        let Some(law) = source.effect.law() else { return };
+        let law = source.effect.law()?;
         let parameters = &source.parameters;
         if law.point(parameters, 0.0, 1.0).is_some() {
-            let force = |d: f64, v: f64| law.point(parameters, d, v).unwrap_or_default().force;
-            power.iter_mut().zip(d.iter().zip(v.iter())).for_each(|(p, (d, v))| *p += v * force(*d, *v));
-        } else if law.dynamic_stiffness(parameters, 1.0).is_some() {
+            let force = |(d, v): (&f64, &f64)| law.point(parameters, *d, *v).unwrap_or_default().force;
+            return Some(d.iter().zip(v.iter()).map(force).collect());
+        }
+        if law.dynamic_stiffness(parameters, 1.0).is_some() {
             let resolution = line_omega(motion.padded, motion.step);
             let line = |k: usize| {
                 let d: c64 = motion.lines.iter().zip(&weights).map(|(lines, w)| lines[k] * *w).sum();
                 let z = if k == 0 { None } else { law.dynamic_stiffness(parameters, k as f64 * resolution) };
                 d * z.unwrap_or(c64::new(0.0, 0.0))
             };
-            let force = motion.signal((0..=motion.padded / 2).map(line).collect());
-            power.iter_mut().zip(v.iter().zip(&force)).for_each(|(p, (v, f))| *p += v * f);
-        } else if let Some(mut memory) = law.memory(parameters) {
-            for (p, (d, v)) in power.iter_mut().zip(d.iter().zip(v.iter())) {
-                *p += v * memory.advance(*d, motion.step);
-            }
+            return Some(motion.signal((0..=motion.padded / 2).map(line).collect()));
         }
+        let mut memory = law.memory(parameters)?;
+        Some(d.iter().map(|d| memory.advance(*d, motion.step)).collect())
     }
 
-    /// `sum_rs v_r (Phi^T B Phi)_rs factor q_s`.
-    fn add_whole(&self, source: &Source, power: &mut [f64]) {
-        let (Kind::Whole(law), Ok(basis)) = (source.effect.kind(), unit_matrix(self.structure, source)) else { return };
+    /// `sum_s (Phi^T B Phi)_rs factor q_s`, one list a mode.
+    fn whole_force(&self, source: &Source) -> Vec<Vec<f64>> {
         let motion = self.motion;
+        let (Kind::Whole(law), Ok(basis)) = (source.effect.kind(), unit_matrix(self.structure, source)) else {
+            return vec![vec![0.0; motion.q[0].len()]; motion.q.len()];
+        };
         let shapes = motion.band.shapes.as_ref();
         let modal = transposed_product(shapes, product(basis.as_ref(), shapes).as_ref());
         let resolution = line_omega(motion.padded, motion.step);
-        for r in 0..motion.q.len() {
+        let of = |r: usize| {
             let line = |k: usize| {
                 let q: c64 = motion.lines.iter().enumerate().map(|(s, lines)| lines[k] * modal[(r, s)]).sum();
                 if k == 0 { c64::new(0.0, 0.0) } else { q * law.factor(source.coefficient(), k as f64 * resolution) }
             };
-            let force = motion.signal((0..=motion.padded / 2).map(line).collect());
-            power.iter_mut().zip(motion.v[r].iter().zip(&force)).for_each(|(p, (v, f))| *p += v * f);
-        }
+            motion.signal((0..=motion.padded / 2).map(line).collect())
+        };
+        (0..motion.q.len()).map(of).collect()
     }
 }
 

@@ -84,7 +84,7 @@ pub fn compare_records(
     let fitted = started(records, effects, control)?;
     let one = |(r, record): (usize, &RecordData)| -> Result<OneRecord, RecordError> {
         let model = fitted.predict(records, r, record.len(), &[])?.channels;
-        Ok(compared(record, model))
+        Ok(compared(records, record, model))
     };
     let list: Vec<OneRecord> = records.list.iter().enumerate().map(one).collect::<Result<_, _>>()?;
     let over = |of: &dyn Fn(&OneRecord) -> f64| root_mean_square(&list.iter().map(of).collect::<Vec<f64>>());
@@ -107,12 +107,15 @@ pub(crate) fn short(records: &Records) -> f64 {
         let periods = 8.0 / (r.dominant_hz * r.step * r.len() as f64);
         if r.kind == Kind::Transient { periods.max(0.5) } else { periods }
     };
-    records.list.iter().map(share).fold(0.08, f64::max).min(1.0)
+    records.list.iter().map(share).fold(0.0, f64::max).min(1.0)
 }
 
-fn compared(record: &RecordData, model: Vec<Vec<f64>>) -> OneRecord {
+fn compared(records: &Records, record: &RecordData, model: Vec<Vec<f64>>) -> OneRecord {
+    let rest = |(y, m): (&Vec<f64>, &Vec<f64>)| y.iter().zip(m).map(|(y, m)| y - m).collect();
+    let left: Vec<Vec<f64>> = record.samples.iter().zip(&model).map(rest).collect();
+    let deviations = records.deviations(record, &left);
     let errors = channel_errors(record, &model, 0..record.len());
-    let floors = floors(record);
+    let floors = floors(record, &deviations);
     let names = record.channels.iter().map(ToString::to_string);
     let channels = names.zip(errors.iter().zip(&floors).map(|(e, f)| [*e, *f])).collect();
     OneRecord {
@@ -127,9 +130,9 @@ fn compared(record: &RecordData, model: Vec<Vec<f64>>) -> OneRecord {
     }
 }
 
-/// Noise over signal of every channel, by the measure of [`channel_errors`].
-pub(crate) fn floors(record: &RecordData) -> Vec<f64> {
-    let clean = |c: usize| record.samples[c].iter().map(|y| y - record.noise[c]).collect::<Vec<f64>>();
+/// Deviation of the samples over the signal of every channel, by the measure of [`channel_errors`].
+pub(crate) fn floors(record: &RecordData, deviations: &[Vec<f64>]) -> Vec<f64> {
+    let clean = |c: usize| record.samples[c].iter().zip(&deviations[c]).map(|(y, s)| y - s).collect::<Vec<f64>>();
     let shifted: Vec<Vec<f64>> = (0..record.channels.len()).map(clean).collect();
     channel_errors(record, &shifted, 0..record.len())
 }

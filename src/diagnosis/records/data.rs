@@ -1,6 +1,8 @@
 //! The records of a project as they are fitted: forces, responses, noise, the modes that they show.
 
 use super::amplitude::peaks;
+use super::fit::FittedRecords;
+use super::weights::{deviations, with_share};
 use crate::control::Cancelled;
 use crate::effects::{Source, State, effect::Kind as EffectKind};
 use crate::math::spectrum::Spectrum;
@@ -15,6 +17,8 @@ use std::f64::consts::TAU;
 const MOST_MODES: usize = 8;
 /// Height over the noise from which a peak of the spectrum counts as a mode that is seen.
 const SEEN: f64 = 20.0;
+/// Frequency over that of the last mode that is followed from which on motion is not that of these modes.
+const ABOVE: f64 = 2.0;
 /// Phase of the highest seen motion that one step of the model may cover, rad.
 const STEP_PHASE: f64 = 0.2;
 
@@ -47,6 +51,8 @@ pub struct RecordData {
     pub index: usize,
     /// Name of its file.
     pub file: String,
+    /// The run itself.
+    pub run: TransientRun,
     /// Decay or transient.
     pub kind: Kind,
     /// Time of the first sample and between samples, s.
@@ -63,6 +69,8 @@ pub struct RecordData {
     pub forces: Vec<Vec<f64>>,
     /// Standard deviation of the noise of each channel.
     pub noise: Vec<f64>,
+    /// Standard deviation of every sample: its noise and what lies above the modes that are followed.
+    pub sigma: Vec<Vec<f64>>,
     /// Steps of the model from one sample to the next where a law is nonlinear.
     pub substeps: usize,
     /// Frequency of the highest peak, Hz.
@@ -108,17 +116,56 @@ impl<'a> Records<'a> {
         Ok(Self { structure, known, modes, kept, list })
     }
 
-    /// The model of a record with these sources and factors on stiffness and mass.
+    /// Frequency (Hz) from which on motion is not that of the modes that are followed.
+    fn corner_hz(&self) -> f64 {
+        let at = |r: usize| self.modes.omega[r] / TAU;
+        let next =
+            if self.kept < self.modes.len() { (at(self.kept - 1) * at(self.kept)).sqrt() } else { f64::INFINITY };
+        next.min(ABOVE * at(self.kept - 1))
+    }
+
+    /// Standard deviation of every sample of a record of which `left` (one list a channel) is not predicted.
+    pub(crate) fn deviations(&self, record: &RecordData, left: &[Vec<f64>]) -> Vec<Vec<f64>> {
+        let of = |(e, noise): (&Vec<f64>, &f64)| deviations(e, *noise, record.step, self.corner_hz());
+        left.iter().zip(&record.noise).map(of).collect()
+    }
+
+    /// The same records, each sample weighted by what `fit` of whole records leaves above the modes that are followed, and by the
+    /// share of the motion by which any model is wrong.
+    pub(crate) fn weighted(&self, fit: &FittedRecords) -> Self {
+        let mut weighted = self.clone();
+        for (record, left) in weighted.list.iter_mut().zip(&fit.residual) {
+            let in_units = |(e, sigma): (&Vec<f64>, &Vec<f64>)| e.iter().zip(sigma).map(|(e, s)| e * s).collect();
+            let left: Vec<Vec<f64>> = left.iter().zip(&record.sigma).map(in_units).collect();
+            let half = (1.0 / (record.dominant_hz * record.step)).ceil() as usize;
+            let above = self.deviations(record, &left);
+            record.sigma = above.iter().zip(&record.samples).map(|(s, y)| with_share(s, y, half)).collect();
+        }
+        weighted
+    }
+
+    /// The model of a record with these sources and factors on stiffness and mass, and logarithms of those on the
+    /// stiffness of single modes.
     pub(crate) fn model(
         &self,
         record: &RecordData,
         sources: &[Source],
         factors: [f64; 2],
+        mode_stiffness: &[f64],
     ) -> Result<TransientModel, RecordError> {
         let (structure, modes, kept) = (self.structure, &self.modes, self.kept);
         let (drives, channels) = (&record.drives[..], &record.channels[..]);
-        TransientModel::new(&TransientSetup { structure, modes, kept, sources, drives, channels, factors })
-            .map_err(|reason| RecordError::Model { file: record.file.clone(), reason })
+        TransientModel::new(&TransientSetup {
+            structure,
+            modes,
+            kept,
+            sources,
+            drives,
+            channels,
+            factors,
+            mode_stiffness,
+        })
+        .map_err(|reason| RecordError::Model { file: record.file.clone(), reason })
     }
 }
 
@@ -135,9 +182,22 @@ impl RecordData {
 
     /// The measured forces of the first `samples` samples.
     pub(crate) fn excitation(&self, samples: usize, linear: bool) -> SampledForces {
-        let forces = self.forces.iter().map(|list| list[..samples].to_vec()).collect();
+        let forces = self.forces.iter().map(|list| sharpened(&list[..samples])).collect();
         SampledForces { step: self.step, samples, forces, substeps: if linear { 1 } else { self.substeps } }
     }
+}
+
+/// A sampled force such that straight lines between its samples have the spectrum of the band-limited force that was sampled:
+/// lines weaken a frequency by `(sin(w h / 2) / (w h / 2))^2 = 1 - (w h)^2 / 12 + (w h)^4 / 360 - ...`; its inverse is taken in
+/// differences of the samples up to the fourth.
+fn sharpened(force: &[f64]) -> Vec<f64> {
+    let mut sharp = force.to_vec();
+    for n in 2..force.len().saturating_sub(2) {
+        let second = force[n - 1] - 2.0 * force[n] + force[n + 1];
+        let fourth = force[n - 2] - 4.0 * force[n - 1] + 6.0 * force[n] - 4.0 * force[n + 1] + force[n + 2];
+        sharp[n] += fourth / 90.0 - second / 12.0;
+    }
+    sharp
 }
 
 fn record(index: usize, run: &TransientRun) -> Result<RecordData, RecordError> {
@@ -149,10 +209,12 @@ fn record(index: usize, run: &TransientRun) -> Result<RecordData, RecordError> {
     let channels: Vec<Channel> = seen.iter().map(|&c| run.channels()[c].clone()).collect();
     let samples: Vec<Vec<f64>> = seen.iter().map(|&c| run.samples(c).to_vec()).collect();
     let step = run.step();
-    let noise = samples.iter().map(|y| noise_of(y, step)).collect();
+    let noise: Vec<f64> = samples.iter().map(|y| noise_of(y, step)).collect();
+    let sigma = samples.iter().zip(&noise).map(|(y, noise)| vec![*noise; y.len()]).collect();
     let mut record = RecordData {
         index,
         file: run.file.clone(),
+        run: run.clone(),
         kind: run.kind,
         first_s: run.time()[0],
         step,
@@ -161,6 +223,7 @@ fn record(index: usize, run: &TransientRun) -> Result<RecordData, RecordError> {
         drives: driven.iter().map(|&c| run.channels()[c].dof).collect(),
         forces: driven.iter().map(|&c| run.samples(c).to_vec()).collect(),
         noise,
+        sigma,
         substeps: 1,
         dominant_hz: 0.0,
     };

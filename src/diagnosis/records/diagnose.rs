@@ -7,60 +7,31 @@
 //!    samples over which it stays alike, so that many samples of one error do not count as many.
 //! 4. An effect is kept if it also predicts the last part of each record from a fit on the rest.
 
-use super::compare::{floors, short, started};
+use super::compare::{floors, started};
 use super::data::{RecordError, Records};
-use super::evidence::{evidence, misfit, parameters, scale};
-use super::fit::{Fit, FittedRecords, Free};
-use super::localisation::{LocatedForce, locate};
+use super::evidence::{evidence, misfit, scale};
+use super::fit::FittedRecords;
+use super::search::Search;
+use super::telling::{added, corrections, last_deviations, suggestions};
 use crate::control::Control;
-use crate::diagnosis::candidates::special_cases::is_allowed;
-use crate::diagnosis::diagnose::{Added, Correction, Diagnosis, Early, Step, Suggestion, Verdict};
-use crate::diagnosis::updating::parameters::UpdatingParameter;
-use crate::effects::{Effect, Family, Motion, Place, Range, Source, State};
-use crate::math::statistics::{evidence_weights, root_mean_square};
-use crate::structure::Part;
-use std::f64::consts::TAU;
+use crate::diagnosis::diagnose::{Diagnosis, Early, Step, Verdict};
+use crate::effects::Source;
+use crate::math::statistics::root_mean_square;
 
-/// Laws that have a force in time.
-const LAWS: [Effect; 13] = [
-    Effect::Viscous,
-    Effect::Coulomb,
-    Effect::Quadratic,
-    Effect::Stiffness,
-    Effect::CubicStiffness,
-    Effect::QuadraticStiffness,
-    Effect::Mass,
-    Effect::Power,
-    Effect::ElasticSlider,
-    Effect::Maxwell,
-    Effect::Gap,
-    Effect::Stribeck,
-    Effect::Iwan,
-];
 /// Misfit (squared residual over noise) up to which a model agrees.
 const AGREES: f64 = 1.15;
-/// Places that are looked at, shapes of a law, fits that go on to longer parts and to whole records.
-const PLACES: usize = 2;
-const SHAPES: usize = 5;
-const LONGER: usize = 10;
-const WHOLE: usize = 5;
-/// Force of a law at the start, as a share of the spring force there.
-const SIZES: [f64; 2] = [0.01, 0.1];
 /// Most effects of a set.
 const MOST_EFFECTS: usize = 3;
 /// Share of each record that is fitted when the rest is to be predicted.
 const LEARNT: f64 = 0.6;
-/// Share by which the squared residual of a law of fewer parameters may be larger than that of another at its place, which
-/// then is not told: records are not so exact that they could tell.
-const PLAIN: f64 = 1.02;
-
-/// Gain of evidence from which on an effect is kept, and the share of the error that it must take away.
+/// Gain of evidence from which on an effect is kept, and the share of the error that it must take away; from [`DECISIVE`] on it
+/// need not predict the rest of the records better: there a frequency that follows the amplitude, found with the next effect,
+/// still loses the phase.
 const GAIN: f64 = 12.0;
-const WORTH: f64 = 0.05;
-/// Deviations from 0 at which a correction is told.
-const MOVED: f64 = 4.0;
-/// Most suggestions.
-const MOST: usize = 8;
+const WORTH: f64 = 0.15;
+const DECISIVE: f64 = 0.25;
+/// Deviations from zero that the force of an effect must have.
+const SURE: f64 = 3.0;
 
 /// Finds what the model of `records` lacks; effects `excluded` are not suggested.
 ///
@@ -72,9 +43,11 @@ pub fn diagnose_records(
     control: &Control,
     early: &Early,
 ) -> Result<Diagnosis, RecordError> {
-    let search = Search { records, excluded, control };
     let bare = started(records, &[], control)?;
-    let floors: Vec<f64> = records.list.iter().flat_map(floors).collect();
+    let floors: Vec<f64> = records.list.iter().flat_map(|r| floors(r, &r.sigma)).collect();
+    let records = &records.weighted(&bare);
+    let search = Search { records, excluded, control };
+    let bare = search.quiet(&bare, 1.0)?;
     let before = bare.error(records, 0.0, 1.0)?;
     let mut diagnosis = Diagnosis {
         error_before: before,
@@ -90,11 +63,14 @@ pub fn diagnose_records(
     if misfit(&bare) < AGREES {
         return Ok(diagnosis);
     }
-    let corrected = search.staged(&bare, &[0.4, 1.0], 6)?;
+    let corrected = search.corrected(&bare)?;
     let mut rungs = vec![vec![corrected]];
     loop {
         let best = &rungs[rungs.len() - 1][0];
         if misfit(best) < AGREES || best.effects.len() >= MOST_EFFECTS {
+            break;
+        }
+        if control.is_late() {
             break;
         }
         control.report(0.3 * rungs.len() as f64);
@@ -103,172 +79,28 @@ pub fn diagnose_records(
         if !search.is_better(top, best)? {
             break;
         }
-        early(&search.suggestions(&found)?);
+        early(&suggestions(records, &found)?);
         rungs.push(found);
     }
     search.conclude(&rungs, &mut diagnosis)?;
+    diagnosis.complete = control.is_complete();
     control.report(1.0);
     Ok(diagnosis)
 }
 
-struct Search<'a> {
-    records: &'a Records<'a>,
-    excluded: &'a [Source],
-    control: &'a Control,
-}
-
 impl Search<'_> {
-    fn fit(&self, start: &FittedRecords, share: f64, iterations: usize) -> Result<FittedRecords, RecordError> {
-        let fit = Fit { records: self.records, free: Free { corrections: true }, share, control: self.control };
-        fit.improve(start, iterations)
-    }
-
-    fn staged(&self, start: &FittedRecords, shares: &[f64], iterations: usize) -> Result<FittedRecords, RecordError> {
-        let mut fitted = start.clone();
-        for &share in shares {
-            fitted = self.fit(&fitted, share, iterations)?;
-        }
-        Ok(fitted)
-    }
-
-    /// Places that matter beside what is in `best`, most likely first.
-    fn places(&self, best: &FittedRecords) -> Vec<Place> {
-        let structure = self.records.structure;
-        let mut all = Family::EachTranslation.places(structure);
-        all.extend(Family::EachPair.places(structure));
-        // Corrections may have been bent to what is missing: the model is asked as it is, too.
-        let located: Vec<LocatedForce> = locate(self.records, &all, best.stiffness);
-        if located.is_empty() {
-            all.truncate(2 * PLACES);
-            return all;
-        }
-        let plain = locate(self.records, &all, 0.0);
-        let mut places: Vec<Place> = Vec::new();
-        for one in located.into_iter().take(PLACES).chain(plain.into_iter().take(PLACES)) {
-            if !places.contains(&one.place) {
-                places.push(one.place);
-            }
-        }
-        places
-    }
-
-    /// Fits of `best` with one effect more, best first.
-    fn extended(&self, best: &FittedRecords, bare: &FittedRecords) -> Result<Vec<FittedRecords>, RecordError> {
-        let first = short(self.records);
-        // Short parts are followed from the linear model, whose stiffness is not bent to what is missing.
-        let base = if best.effects.is_empty() { bare } else { best };
-        let quiet =
-            Fit { records: self.records, free: Free { corrections: false }, share: first, control: self.control };
-        let base = quiet.improve(base, 3)?;
-        let mut found: Vec<FittedRecords> = Vec::new();
-        for place in self.places(best) {
-            let range = self.range(&base, &place);
-            for effect in LAWS {
-                let taken = base.effects.iter().any(|e| e.effect == effect && e.place.is_same(&place));
-                let out = self.excluded.iter().any(|e| e.effect == effect && e.place.is_same(&place));
-                if taken || out {
-                    continue;
-                }
-                let mut own: Option<FittedRecords> = None;
-                for source in self.starts(effect, &place, &range) {
-                    self.control.check()?;
-                    let mut start = base.clone();
-                    start.effects.push(source);
-                    // A start that runs away, or a mass that takes away all there is, is no start.
-                    let Ok(fitted) = self.fit(&start, first, 3) else { continue };
-                    if own.as_ref().is_none_or(|o| fitted.chi_square < o.chi_square) {
-                        own = Some(fitted);
-                    }
-                }
-                found.extend(own);
-            }
-        }
-        let mut found = self.continued(found, LONGER, 0.4_f64.max(first), 6);
-        found = self.continued(found, WHOLE, 1.0, 12);
-        found.retain(|f| f.effects.last().is_some_and(|e| is_allowed(self.excluded, e, &last_deviations(f))));
-        if let Some(least) = found.iter().map(|f| f.chi_square).min_by(f64::total_cmp) {
-            let best = found.iter().find(|f| f.chi_square == least).map_or(1.0, scale);
-            found.sort_by(|a, b| evidence(a, best).total_cmp(&evidence(b, best)));
-            plainest(&mut found);
-        }
-        Ok(found)
-    }
-
-    /// The best `count` fitted on a longer part.
-    fn continued(
-        &self,
-        mut found: Vec<FittedRecords>,
-        count: usize,
-        share: f64,
-        iterations: usize,
-    ) -> Vec<FittedRecords> {
-        found.sort_by(|a, b| a.chi_square.total_cmp(&b.chi_square));
-        found.truncate(count);
-        found.iter().filter_map(|f| self.fit(f, share, iterations).ok()).collect()
-    }
-
-    /// Range of the motion at a place in the short part of the records.
-    fn range(&self, base: &FittedRecords, place: &Place) -> Range {
-        let (modes, kept) = (&self.records.modes, self.records.kept);
-        let legs = place.legs();
-        let shape = |r: usize| legs.first().map_or(0.0, |leg| leg.relative(|i| modes.shapes[(i, r)]));
-        let sizes = |initial: &Vec<f64>| -> [f64; 2] {
-            let of = |r: usize| shape(r).abs() * initial[r].hypot(initial[kept + r]);
-            let d: f64 = (0..kept).map(of).sum();
-            [d, (0..kept).map(|r| of(r) * modes.omega[r].max(1e-3)).sum()]
-        };
-        let mut all: Vec<[f64; 2]> = base.initial.iter().map(sizes).collect();
-        for (record, size) in self.records.list.iter().zip(&mut all) {
-            // Driven records begin at rest: the static motion under the largest force stands for theirs, ten times raised.
-            let force = record.forces.iter().flatten().fold(0.0_f64, |m, f| m.max(f.abs()));
-            let flexible: f64 = (0..kept).map(|r| (shape(r) / modes.omega[r].max(1e-3)).powi(2)).sum();
-            let driven = 3.0 * force * flexible;
-            *size = [size[0].max(driven), size[1].max(driven * TAU * record.dominant_hz)];
-        }
-        let most = |k: usize| all.iter().map(|s| s[k]).fold(1e-12, f64::max);
-        let least = all.iter().map(|s| s[0]).fold(f64::INFINITY, f64::min).max(1e-13);
-        let omega = TAU * self.records.list[0].dominant_hz;
-        Range { displacement: most(0), least, velocity: most(1), omega }
-    }
-
-    /// Starts of a law at a place: shapes, sized to a share of the spring force there.
-    fn starts(&self, effect: Effect, place: &Place, range: &Range) -> Vec<Source> {
-        let (modes, kept) = (&self.records.modes, self.records.kept);
-        let legs = place.legs();
-        let shape = |r: usize| legs.first().map_or(0.0, |leg| leg.relative(|i| modes.shapes[(i, r)]));
-        let flexible: f64 = (0..kept).map(|r| (shape(r) / modes.omega[r].max(1e-3)).powi(2)).sum();
-        let (Some(law), true) = (effect.law(), flexible > 0.0) else { return Vec::new() };
-        let spring = range.displacement / flexible;
-        let motion = Motion::cosine(range.velocity / range.displacement, range.displacement, 64);
-        let all = effect.shapes(range);
-        let every = all.len().div_ceil(SHAPES);
-        let mut starts = Vec::new();
-        for shape in all.into_iter().step_by(every) {
-            let mut force = vec![0.0; motion.len()];
-            law.force(&shape, &motion, &mut force);
-            let peak = force.iter().fold(0.0_f64, |m, f| m.max(f.abs()));
-            for size in SIZES {
-                let mut parameters = shape.clone();
-                let factor = size * spring / peak.max(f64::MIN_POSITIVE);
-                // A unit slider of this shape may not yield: then its own force sets the scale.
-                effect.scaled().iter().for_each(|&k| parameters[k] *= factor);
-                if parameters.iter().zip(law.parameters()).all(|(v, p)| p.allows(*v)) {
-                    starts.push(Source { effect, place: place.clone(), state: State::Known, parameters });
-                }
-            }
-        }
-        starts
-    }
-
     /// Whether a fit is better than the one before by evidence, by its error and by what it predicts.
     fn is_better(&self, new: &FittedRecords, old: &FittedRecords) -> Result<bool, RecordError> {
+        if !stands_out(new) {
+            return Ok(false);
+        }
         let scale = scale(new);
         let gain = evidence(old, scale) - evidence(new, scale);
         let worth = 1.0 - (new.chi_square / old.chi_square).sqrt();
         if gain < GAIN || worth < WORTH {
             return Ok(false);
         }
-        Ok(misfit(new) < AGREES || self.held_out(new)? < self.held_out(old)?)
+        Ok(misfit(new) < AGREES || worth > DECISIVE || self.held_out(new)? < self.held_out(old)?)
     }
 
     /// Error on the last part of each record of a fit on the rest.
@@ -280,61 +112,11 @@ impl Search<'_> {
         }
     }
 
-    #[allow(clippy::unused_self, reason = "one of the steps of the search")]
-    fn added(&self, fit: &FittedRecords) -> Vec<Added> {
-        let wide = scale(fit).sqrt();
-        let mut at = 0;
-        let of = |source: &Source| {
-            let deviations = fit.deviations[at..at + source.parameters.len()].iter().map(|d| d * wide).collect();
-            at += source.parameters.len();
-            Added { source: source.clone(), deviations }
-        };
-        fit.effects.iter().map(of).collect()
-    }
-
-    /// Suggestions of the fits of one size, best first.
-    fn suggestions(&self, found: &[FittedRecords]) -> Result<Vec<Suggestion>, RecordError> {
-        let Some(best) = found.first() else { return Ok(Vec::new()) };
-        let unit = scale(best);
-        let criteria: Vec<f64> = found.iter().map(|f| evidence(f, unit)).collect();
-        let weights = evidence_weights(&criteria);
-        let mut list: Vec<Suggestion> = Vec::new();
-        for (fit, weight) in found.iter().zip(&weights) {
-            let error = fit.error(self.records, 0.0, 1.0)?;
-            for added in self.added(fit) {
-                if let Some(known) = list.iter_mut().find(|s| s.added.source.is_same(&added.source)) {
-                    known.probability = (known.probability + weight).min(1.0);
-                    continue;
-                }
-                if list.len() >= MOST {
-                    continue;
-                }
-                let alike = |other: &&FittedRecords| (other.chi_square - fit.chi_square).abs() / unit < 9.0;
-                let others = found.iter().filter(alike).filter_map(|f| f.effects.last());
-                let indistinguishable_from =
-                    others.filter(|o| !fit.effects.iter().any(|e| e.is_same(o))).cloned().collect();
-                let words = vec![
-                    added.source.effect.sentence().to_string(),
-                    format!("With it the error of the records is {:.2} %.", 100.0 * error),
-                ];
-                list.push(Suggestion {
-                    added,
-                    error_after: error,
-                    held_out_error_after: error,
-                    probability: *weight,
-                    evidence: words,
-                    indistinguishable_from,
-                });
-            }
-        }
-        Ok(list)
-    }
-
     fn conclude(&self, rungs: &[Vec<FittedRecords>], diagnosis: &mut Diagnosis) -> Result<(), RecordError> {
         for rung in rungs {
             let fit = &rung[0];
             let error = fit.error(self.records, 0.0, 1.0)?;
-            diagnosis.steps.push(Step { added: self.added(fit), error, misfit: misfit(fit) });
+            diagnosis.steps.push(Step { added: added(fit), error, misfit: misfit(fit) });
         }
         let top = &rungs[rungs.len() - 1];
         diagnosis.corrections = corrections(self.records, &top[0]);
@@ -348,7 +130,7 @@ impl Search<'_> {
             };
             return Ok(());
         }
-        diagnosis.suggestions = self.suggestions(top)?;
+        diagnosis.suggestions = suggestions(self.records, top)?;
         for suggestion in &mut diagnosis.suggestions {
             let own = |f: &&FittedRecords| f.effects.iter().any(|e| e.is_same(&suggestion.added.source));
             if let Some(fit) = top.iter().find(own) {
@@ -361,38 +143,10 @@ impl Search<'_> {
     }
 }
 
-fn last_deviations(fit: &FittedRecords) -> Vec<f64> {
-    let count = fit.effects.last().map_or(0, |e| e.parameters.len());
-    let end = parameters(fit);
-    fit.deviations[end - count..end].to_vec()
-}
-
-/// Corrections that moved, with their deviations.
-fn corrections(records: &Records, fit: &FittedRecords) -> Vec<Correction> {
-    let wide = scale(fit).sqrt();
-    let first = parameters(fit);
-    let values = std::iter::once(fit.stiffness).chain(fit.known.iter().copied());
-    let names = std::iter::once(UpdatingParameter::Structure(Part::Stiffness))
-        .chain((0..records.known.len()).map(UpdatingParameter::Known));
-    let of = |(k, (v, parameter)): (usize, (f64, UpdatingParameter))| {
-        let deviation = fit.deviations.get(first + k).copied().unwrap_or(f64::NAN) * wide;
-        (v.abs() > MOVED * deviation).then(|| Correction { parameter, factor: v.exp(), deviation: deviation * v.exp() })
-    };
-    values.zip(names).enumerate().filter_map(of).collect()
-}
-
-/// Takes out the fits whose last law has more parameters than another at the same place that leaves all but as little.
-fn plainest(found: &mut Vec<FittedRecords>) {
-    let simple: Vec<(f64, Source)> =
-        found.iter().filter_map(|f| Some((f.chi_square, f.effects.last()?.clone()))).collect();
-    let needless = |fit: &FittedRecords| {
-        let Some(own) = fit.effects.last() else { return false };
-        let plainer = |(chi, other): &(f64, Source)| {
-            other.place.is_same(&own.place)
-                && other.parameters.len() < own.parameters.len()
-                && *chi <= PLAIN * fit.chi_square
-        };
-        simple.iter().any(plainer)
-    };
-    found.retain(|fit| !needless(fit));
+/// Whether the force of the last effect is more than its deviation allows it to be by chance.
+fn stands_out(fit: &FittedRecords) -> bool {
+    let (Some(effect), wide) = (fit.effects.last(), scale(fit).sqrt()) else { return false };
+    let deviations = last_deviations(fit);
+    let sizes = effect.effect.scaled().iter();
+    sizes.map(|&k| effect.parameters[k].abs() / (wide * deviations[k])).any(|ratio| ratio > SURE)
 }

@@ -2,8 +2,10 @@
 //! share and, of each record, its initial state and a shift of its stiffness.
 //!
 //! ```text
-//! chi^2 = sum_records sum_channels,samples ((y - y_model) / sigma)^2 + sum_k (v_k / s_k)^2
+//! chi^2 = sum_records sum_channels,samples ((y - y_model) / sigma)^2 + u sum_k (v_k / s_k)^2
 //! ```
+//!
+//! `u` is 1 where the model leaves noise, more where it leaves more ([`super::evidence`]).
 //!
 //! Shared: parameters of added laws (logarithms where they are positive), stiffness and known sources as logarithms of
 //! factors with priors. Of a record: `2 m` entries of its initial state, free, and a logarithm of stiffness with the prior of
@@ -11,6 +13,7 @@
 
 use super::data::{RecordError, Records};
 use super::errors::channel_errors;
+use super::evidence::scale;
 use super::variables::{at_variable, scales, slopes, variable};
 use crate::control::Control;
 use crate::effects::Source;
@@ -20,7 +23,7 @@ use dashpot_numerics::Cholesky;
 use faer::Mat;
 
 /// Prior deviation of the logarithm of all stiffness, of the size of a known source, of the stiffness of one record.
-const PRIORS: [f64; 3] = [0.02, 0.15, 0.002];
+const PRIORS: [f64; 4] = [0.03, 0.15, 0.002, 0.02];
 /// Largest change of a logarithm in one step.
 const REACH: f64 = 1.0;
 
@@ -40,6 +43,8 @@ pub struct FittedRecords {
     pub stiffness: f64,
     /// Logarithms of the factors on the known sources.
     pub known: Vec<f64>,
+    /// Logarithms of the factors on the stiffness of the followed modes.
+    pub modes: Vec<f64>,
     /// Logarithm of the factor on the stiffness of each record.
     pub shifts: Vec<f64>,
     /// Initial state of each record.
@@ -48,8 +53,8 @@ pub struct FittedRecords {
     pub chi_square: f64,
     /// Number of samples in it.
     pub count: usize,
-    /// Standard deviations of the parameters of the effects, then of stiffness, then of the known sources, in units of the
-    /// noise that was stated.
+    /// Standard deviations of the parameters of the effects, then of stiffness, of the known sources and of the modes, in units
+    /// of the noise that was stated.
     pub deviations: Vec<f64>,
     /// What is left, over the noise: `[record][channel][sample]`.
     pub residual: Vec<Vec<Vec<f64>>>,
@@ -62,6 +67,7 @@ impl FittedRecords {
             effects: effects.to_vec(),
             stiffness: 0.0,
             known: vec![0.0; records.known.len()],
+            modes: vec![0.0; records.kept],
             shifts: vec![0.0; records.list.len()],
             initial: vec![vec![0.0; 2 * records.kept]; records.list.len()],
             chi_square: f64::INFINITY,
@@ -91,7 +97,7 @@ impl FittedRecords {
     ) -> Result<TransientResponse, RecordError> {
         let record = &records.list[r];
         let factor = (self.stiffness + self.shifts[r]).exp();
-        let model = records.model(record, &self.sources(records), [factor, 1.0])?;
+        let model = records.model(record, &self.sources(records), [factor, 1.0], &self.modes)?;
         let forces = record.excitation(samples, model.is_linear());
         model
             .predict(&forces, &self.initial[r], parameters)
@@ -120,6 +126,11 @@ pub(crate) struct Fit<'a> {
     pub control: &'a Control,
 }
 
+/// What the priors weigh: what the start leaves demands it, so that many samples of one error do not bend what is known.
+fn unit_of(start: &FittedRecords) -> f64 {
+    if start.count > 0 { scale(start) } else { 1.0 }
+}
+
 /// Normal equations at a point.
 struct Normal {
     matrix: Mat<f64>,
@@ -134,8 +145,9 @@ impl Fit<'_> {
     /// Improves a start in at most `iterations` steps.
     pub fn improve(&self, start: &FittedRecords, iterations: usize) -> Result<FittedRecords, RecordError> {
         let scales = scales(&start.effects);
+        let unit = unit_of(start);
         let mut best = start.clone();
-        let mut normal = self.normal(&best, &scales)?;
+        let mut normal = self.normal(&best, &scales, unit)?;
         let mut damping = 1e-3;
         for _ in 0..iterations {
             self.control.check()?;
@@ -148,7 +160,7 @@ impl Fit<'_> {
                 };
                 let trial = self.moved(&best, &scales, &change);
                 // A model that runs away is no step.
-                match self.normal(&trial, &scales) {
+                match self.normal(&trial, &scales, unit) {
                     Ok(there) if there.total < normal.total => {
                         gain = (normal.total - there.total) / normal.total;
                         (best, normal) = (trial, there);
@@ -194,7 +206,12 @@ impl Fit<'_> {
     /// Number of shared variables.
     fn shared(&self, at: &FittedRecords) -> usize {
         let laws: usize = at.effects.iter().map(|e| e.parameters.len()).sum();
-        laws + if self.free.corrections { 1 + at.known.len() } else { 0 }
+        laws + if self.free.corrections { 1 + at.known.len() + self.modes() } else { 0 }
+    }
+
+    /// Modes whose stiffness is free beside that of all; none where there is only one.
+    fn modes(&self) -> usize {
+        if self.records.kept > 1 { self.records.kept } else { 0 }
     }
 
     /// Variables of each record.
@@ -217,6 +234,9 @@ impl Fit<'_> {
             next.stiffness += change[k].clamp(-0.1, 0.1);
             for (j, v) in next.known.iter_mut().enumerate() {
                 *v += change[k + 1 + j].clamp(-0.5, 0.5);
+            }
+            for r in 0..self.modes() {
+                next.modes[r] += change[k + 1 + at.known.len() + r].clamp(-0.1, 0.1);
             }
         }
         let (shared, local) = (self.shared(at), self.local());
@@ -257,12 +277,13 @@ impl Fit<'_> {
                     list.push((unknown, k + 1 + source, known.parameters[parameter]));
                 }
             }
+            list.extend((0..self.modes()).map(|r| (TransientParameter::Mode(r), k + 1 + offset + r, 1.0)));
         }
         list.extend((0..2 * self.records.kept).map(|j| (TransientParameter::Initial(j), from + j, 1.0)));
         list
     }
 
-    fn normal(&self, at: &FittedRecords, scales: &[Vec<f64>]) -> Result<Normal, RecordError> {
+    fn normal(&self, at: &FittedRecords, scales: &[Vec<f64>], unit: f64) -> Result<Normal, RecordError> {
         let size = self.shared(at) + self.records.list.len() * self.local();
         let mut normal = Normal {
             matrix: Mat::zeros(size, size),
@@ -283,9 +304,9 @@ impl Fit<'_> {
             }
             let response = at.predict(self.records, r, samples, &parameters)?;
             let mut left = Vec::new();
-            for (c, noise) in record.noise.iter().enumerate() {
-                let y = &record.samples[c];
-                let e: Vec<f64> = (0..samples).map(|n| (y[n] - response.channels[c][n]) / noise).collect();
+            for c in 0..record.channels.len() {
+                let (y, sigma) = (&record.samples[c], &record.sigma[c][..samples]);
+                let e: Vec<f64> = (0..samples).map(|n| (y[n] - response.channels[c][n]) / sigma[n]).collect();
                 let square: f64 = e.iter().map(|e| e * e).sum();
                 if !square.is_finite() {
                     let (file, reason) = (record.file.clone(), crate::response::transient::TransientError::StepFailed);
@@ -293,23 +314,26 @@ impl Fit<'_> {
                 }
                 normal.chi_square += square;
                 normal.count += samples;
-                let own: Vec<&Vec<f64>> = (0..parameters.len()).map(|theta| &response.derivatives[theta][c]).collect();
-                normal.add(&unknowns, &parameters, &own, &e, *noise);
+                let weighted = |theta: usize| {
+                    response.derivatives[theta][c].iter().zip(sigma).map(|(d, s)| d / s).collect::<Vec<f64>>()
+                };
+                let own: Vec<Vec<f64>> = (0..parameters.len()).map(weighted).collect();
+                normal.add(&unknowns, &parameters, &own, &e);
                 left.push(e);
             }
             normal.residual.push(left);
         }
         normal.total = normal.chi_square;
         if self.free.corrections {
-            self.priors(at, &mut normal);
+            self.priors(at, unit, &mut normal);
         }
         Ok(normal)
     }
 
-    fn priors(&self, at: &FittedRecords, normal: &mut Normal) {
+    fn priors(&self, at: &FittedRecords, unit: f64, normal: &mut Normal) {
         let laws: usize = at.effects.iter().map(|e| e.parameters.len()).sum();
         let mut prior = |k: usize, value: f64, deviation: f64| {
-            let weight = deviation.powi(-2);
+            let weight = unit * deviation.powi(-2);
             normal.matrix[(k, k)] += weight;
             normal.gradient[k] -= weight * value;
             normal.total += weight * value * value;
@@ -317,6 +341,9 @@ impl Fit<'_> {
         prior(laws, at.stiffness, PRIORS[0]);
         for (j, v) in at.known.iter().enumerate() {
             prior(laws + 1 + j, *v, PRIORS[1]);
+        }
+        for r in 0..self.modes() {
+            prior(laws + 1 + at.known.len() + r, at.modes[r], PRIORS[3]);
         }
         for r in 0..self.records.list.len() {
             let k = self.shared(at) + r * self.local() + 2 * self.records.kept;
@@ -330,19 +357,18 @@ impl Normal {
         &mut self,
         unknowns: &[(TransientParameter, usize, f64)],
         parameters: &[TransientParameter],
-        derivatives: &[&Vec<f64>],
+        derivatives: &[Vec<f64>],
         e: &[f64],
-        noise: f64,
     ) {
         let of = |p: &TransientParameter| parameters.iter().position(|q| q == p).unwrap_or(0);
-        let list: Vec<(usize, usize, f64)> = unknowns.iter().map(|(p, k, s)| (of(p), *k, s / noise)).collect();
+        let list: Vec<(usize, usize, f64)> = unknowns.iter().map(|(p, k, s)| (of(p), *k, *s)).collect();
         let count = parameters.len();
         let mut products = vec![0.0; count * count];
         let mut against = vec![0.0; count];
         for a in 0..count {
-            against[a] = dashpot_numerics::dot(derivatives[a], e);
+            against[a] = dashpot_numerics::dot(&derivatives[a], e);
             for b in 0..=a {
-                let value = dashpot_numerics::dot(derivatives[a], derivatives[b]);
+                let value = dashpot_numerics::dot(&derivatives[a], &derivatives[b]);
                 products[a * count + b] = value;
                 products[b * count + a] = value;
             }

@@ -10,8 +10,9 @@
 
 use super::data::{RecordData, Records};
 use super::spectrum::fourier_integral;
-use crate::effects::{Effect, Leg, Place, Source};
-use dashpot_numerics::{Cholesky, ComplexLu};
+use crate::effects::{Constant, Leg, Place, Source, effect::Kind};
+use crate::response::linear_matrices::unit_matrix;
+use dashpot_numerics::{Cholesky, ComplexLu, product, transposed_product};
 use faer::{Mat, c64};
 use std::f64::consts::TAU;
 
@@ -36,8 +37,7 @@ pub struct LocatedForce {
 /// Places from best to worst; empty where fewer than two channels see the motion, or known laws are nonlinear: then the
 /// spectrum cannot tell places apart. `stiffness` is the logarithm of the factor on all stiffness.
 pub fn locate(records: &Records, places: &[Place], stiffness: f64) -> Vec<LocatedForce> {
-    let linear = |s: &Source| matches!(s.effect, Effect::Viscous | Effect::Stiffness | Effect::Mass);
-    if records.list.iter().any(|r| r.channels.len() < 2) || !records.known.iter().all(linear) {
+    if records.list.iter().any(|r| r.channels.len() < 2) || !records.known.iter().all(|s| s.effect.is_linear()) {
         return Vec::new();
     }
     let expansion = Expansion::new(records, stiffness);
@@ -62,9 +62,10 @@ pub fn locate(records: &Records, places: &[Place], stiffness: f64) -> Vec<Locate
 struct Expansion {
     shapes: Mat<f64>,
     squares: Vec<f64>,
+    /// Known linear sources: their modal matrices and their dynamic stiffness at unit matrix.
+    known: Vec<(Mat<f64>, Source)>,
+    /// Known masses.
     mass: Mat<f64>,
-    damping: Mat<f64>,
-    stiffness: Mat<f64>,
 }
 
 /// One line of one record, whitened.
@@ -81,20 +82,32 @@ impl Expansion {
         let size = records.modes.len().min(MOST_MODES);
         let shapes = records.modes.shapes.subcols(0, size).to_owned();
         let squares = (0..size).map(|r| stiffness.exp() * records.modes.omega[r].powi(2)).collect();
-        let zero = Mat::zeros(size, size);
-        let mut all = Self { shapes, squares, mass: zero.clone(), damping: zero.clone(), stiffness: zero };
-        for source in &records.known {
-            for leg in source.place.legs() {
-                let b = all.pattern(leg);
-                let matrix = match source.effect {
-                    Effect::Mass => &mut all.mass,
-                    Effect::Viscous => &mut all.damping,
-                    _ => &mut all.stiffness,
-                };
-                *matrix += Mat::from_fn(size, size, |i, j| source.parameters[0] * b[i] * b[j]);
-            }
+        let modal = |source: &Source| {
+            let unit = unit_matrix(records.structure, source).ok()?;
+            Some((
+                transposed_product(shapes.as_ref(), product(unit.as_ref(), shapes.as_ref()).as_ref()),
+                source.clone(),
+            ))
+        };
+        let known: Vec<(Mat<f64>, Source)> = records.known.iter().filter_map(modal).collect();
+        let masses = known.iter().filter(|(_, s)| s.effect.constant() == Some(Constant::Mass));
+        let mass = masses.fold(Mat::zeros(size, size), |sum, (m, s)| sum + m * faer::Scale(s.coefficient()));
+        Self { shapes, squares, known, mass }
+    }
+
+    /// Dynamic stiffness of the known sources at a circular frequency.
+    fn sources(&self, w: f64) -> Mat<c64> {
+        let size = self.squares.len();
+        let mut sum = Mat::<c64>::zeros(size, size);
+        for (matrix, source) in &self.known {
+            let z = match source.effect.kind() {
+                Kind::Whole(law) => law.factor(source.coefficient(), w),
+                Kind::Relative(law) => law.dynamic_stiffness(&source.parameters, w).unwrap_or(c64::new(0.0, 0.0)),
+                Kind::Channel(_) => continue,
+            };
+            sum += Mat::from_fn(size, size, |i, j| z * matrix[(i, j)]);
         }
-        all
+        sum
     }
 
     fn pattern(&self, leg: Leg) -> Vec<f64> {
@@ -128,10 +141,9 @@ impl Expansion {
     fn line(&self, kept: usize, record: &RecordData, w: f64, y: &[c64], u: &[c64], weights: &[f64]) -> Line {
         let size = self.squares.len();
         let iw = c64::new(0.0, w);
-        let dynamic = Mat::from_fn(size, size, |i, j| {
-            let own = if i == j { self.squares[i] - w * w } else { 0.0 };
-            c64::new(own + self.stiffness[(i, j)] - w * w * self.mass[(i, j)], w * self.damping[(i, j)])
-        });
+        let known = self.sources(w);
+        let dynamic =
+            Mat::from_fn(size, size, |i, j| known[(i, j)] + if i == j { self.squares[i] - w * w } else { 0.0 });
         let order = |c: usize| record.channels[c].quantity.derivatives().unwrap_or(0);
         let shape = |c: usize, r: usize| self.shapes[(record.channels[c].dof, r)];
         // The dynamic stiffness is symmetric: rows of S D^-1 are columns of D^-1 S^T.
@@ -155,7 +167,7 @@ impl Expansion {
                 };
                 let inertia = |i: usize| f64::from(u8::from(i == r)) + self.mass[(i, r)];
                 let push = |i: usize| {
-                    if velocity { c64::new(inertia(i), 0.0) } else { iw * inertia(i) + self.damping[(i, r)] }
+                    if velocity { c64::new(inertia(i), 0.0) } else { iw * inertia(i) + known[(i, r)].im / w }
                 };
                 direct * weights[c] - (0..size).map(|i| responses[(c, i)] * push(i)).sum::<c64>()
             };

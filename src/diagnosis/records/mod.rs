@@ -13,8 +13,13 @@ mod errors;
 mod evidence;
 pub mod fit;
 pub mod localisation;
+mod regression;
+mod search;
 pub mod spectrum;
-mod variables;
+mod starts;
+mod telling;
+pub(crate) mod variables;
+mod weights;
 
 pub use compare::{RecordComparison, compare_records};
 pub use data::{RecordError, Records};

@@ -4,7 +4,7 @@ use crate::effects::Parameter;
 use crate::effects::{Effect, Source};
 
 /// How a parameter of a law is varied: its value and slope at `t`.
-pub(super) fn at_variable(parameter: &Parameter, scale: f64, t: f64) -> [f64; 2] {
+pub(crate) fn at_variable(parameter: &Parameter, scale: f64, t: f64) -> [f64; 2] {
     let width = parameter.greatest - parameter.least;
     if width.is_finite() {
         let share = 1.0 / (1.0 + (-t).exp());
@@ -18,7 +18,7 @@ pub(super) fn at_variable(parameter: &Parameter, scale: f64, t: f64) -> [f64; 2]
 }
 
 /// The variable at which [`at_variable`] gives `value`.
-pub(super) fn variable(parameter: &Parameter, scale: f64, value: f64) -> f64 {
+pub(crate) fn variable(parameter: &Parameter, scale: f64, value: f64) -> f64 {
     let width = parameter.greatest - parameter.least;
     if width.is_finite() {
         let share = ((value - parameter.least) / width).clamp(1e-6, 1.0 - 1e-6);
@@ -28,12 +28,12 @@ pub(super) fn variable(parameter: &Parameter, scale: f64, value: f64) -> f64 {
 }
 
 /// Scales of parameters that may have either sign, by effect.
-pub(super) fn scales(effects: &[Source]) -> Vec<Vec<f64>> {
+pub(crate) fn scales(effects: &[Source]) -> Vec<Vec<f64>> {
     effects.iter().map(|e| e.parameters.iter().map(|p| p.abs().max(1e-12)).collect()).collect()
 }
 
 /// Derivative of each law parameter by its variable.
-pub(super) fn slopes(effects: &[Source], scales: &[Vec<f64>]) -> Vec<f64> {
+pub(crate) fn slopes(effects: &[Source], scales: &[Vec<f64>]) -> Vec<f64> {
     let of = |(effect, scales): (&Source, &Vec<f64>)| -> Vec<f64> {
         let list: &[Parameter] = Effect::parameters(effect.effect);
         let slope =

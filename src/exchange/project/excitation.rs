@@ -31,6 +31,7 @@ pub(super) fn parse(run: &Table<'_>) -> Result<Option<ExcitationTable>, ProjectE
         1 => &["force_n", "from_hz", "to_hz", "logarithmic"],
         2 => &["rms_n", "from_hz", "to_hz", "seed"],
         3 => &["rms_n", "from_hz", "to_hz", "odd", "seed"],
+        5 => &["amplitude_m", "frequency_hz", "ramp_s"],
         _ => &["displacement_m", "mode"],
     };
     let known: Vec<&str> = ["kind", "dof", "duration_s"].into_iter().chain(own.iter().copied()).collect();
@@ -40,6 +41,7 @@ pub(super) fn parse(run: &Table<'_>) -> Result<Option<ExcitationTable>, ProjectE
         1 => sweep(&table)?,
         2 => random(&table)?,
         3 => multisine(&table)?,
+        5 => cycles(&table)?,
         _ => release(&table)?,
     };
     let dof = Label(table.need("dof", "dof = 19", table.label("dof")?)?);
@@ -83,6 +85,15 @@ fn multisine(table: &Table<'_>) -> Result<Loading, ProjectError> {
 fn release(table: &Table<'_>) -> Result<Loading, ProjectError> {
     let displacement_m = needed(table, "displacement_m", "displacement_m = 0.003")?;
     Ok(Loading::Release { displacement_m, mode: table.count("mode", 1, 100_000, "at least 1")? })
+}
+
+fn cycles(table: &Table<'_>) -> Result<Loading, ProjectError> {
+    let ramp_s = table.number("ramp_s")?.unwrap_or(0.0);
+    if ramp_s < 0.0 {
+        return Err(out_of_range(table, "ramp_s", ramp_s, "at least 0"));
+    }
+    let amplitude_m = positive(table, "amplitude_m", "amplitude_m = 0.01")?;
+    Ok(Loading::Cycles { amplitude_m, frequency_hz: positive(table, "frequency_hz", "frequency_hz = 1.0")?, ramp_s })
 }
 
 fn band(table: &Table<'_>) -> Result<[f64; 2], ProjectError> {

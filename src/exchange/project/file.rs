@@ -14,6 +14,7 @@ use crate::measurement::Quantity;
 use crate::structure::LumpedMass;
 use crate::structure::beam::BeamParameters;
 use crate::structure::chain::ChainParameters;
+use crate::structure::component::ComponentParameters;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::collections::BTreeMap;
 
@@ -104,6 +105,8 @@ pub enum Shape {
     Matrices(MatricesTable),
     /// Points without matrices.
     Points(PointsTable),
+    /// One component whose displacement is imposed.
+    Component(ComponentParameters),
 }
 
 /// Files of a structure that is given by its matrices, relative to the project.

@@ -9,6 +9,7 @@ use crate::exchange::records::base_channel;
 use crate::measurement::proposal::{Proposal, propose};
 use crate::measurement::run::Correction;
 use crate::measurement::{Channel, Kind, Quantity, Run, TransientLabel, TransientRun, TransientRunError};
+use crate::structure::StructureKind;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -34,7 +35,12 @@ impl Plan {
         for index in 0..self.runs.len() {
             control.check().map_err(|_| self.error(None, Problem::Cancelled))?;
             let piece = control.piece(index, self.runs.len());
-            match self.runs[index].kind {
+            // Loops of a component are compared as they are: no steady state is fitted to them.
+            let kind = match self.structure.kind() {
+                StructureKind::Component => Kind::Transient,
+                _ => self.runs[index].kind,
+            };
+            match kind {
                 Kind::Steady => runs.push(self.run(index, &piece)?),
                 Kind::Decay | Kind::Transient => transient_runs.push(self.transient_run(index, &piece)?),
             }

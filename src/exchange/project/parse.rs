@@ -19,6 +19,7 @@ use crate::identify::Settings;
 use crate::structure::LumpedMass;
 use crate::structure::beam::{BeamParameters, Supports};
 use crate::structure::chain::ChainParameters;
+use crate::structure::component::ComponentParameters;
 use std::collections::BTreeMap;
 use toml::de::DeTable;
 
@@ -63,6 +64,7 @@ const MATRICES: [&str; 11] = [
     "stiffness_name",
     "reduce",
 ];
+const COMPONENT: [&str; 4] = ["kind", "lumped_mass", "dof", "mass"];
 const POINTS: [&str; 4] = ["kind", "lumped_mass", "dofs", "positions"];
 const ANALYSIS: [&str; 6] = ["harmonics", "expansion", "keep", "weights", "max_sources", "stop_angle_deg"];
 
@@ -131,13 +133,14 @@ pub(super) fn key_lines(table: &Table<'_>) -> BTreeMap<String, usize> {
 fn structure(root: &Table<'_>, lines: &mut Lines) -> Read<StructureTable> {
     let table = root.need("structure", "[structure]", root.table("structure", "[structure]")?)?;
     lines.structure = key_lines(&table);
-    let kinds = ["beam", "chain", "matrices", "points"];
+    let kinds = ["beam", "chain", "matrices", "points", "component"];
     let kind = table.word("kind", &kinds, |word| kinds.iter().position(|&kind| kind == word))?;
     let shape = match table.need("kind", "kind = \"beam\"", kind)? {
         0 => Shape::Beam(beam(&table)?),
         1 => Shape::Chain(chain(&table)?),
         2 => Shape::Matrices(matrices(&table)?),
-        _ => Shape::Points(points(&table)?),
+        3 => Shape::Points(points(&table)?),
+        _ => Shape::Component(component(&table)?),
     };
     let mut lumped_mass = Vec::new();
     for entry in table.tables("lumped_mass", "[[structure.lumped_mass]]")? {
@@ -202,6 +205,14 @@ fn points(table: &Table<'_>) -> Read<PointsTable> {
     table.only(&POINTS)?;
     let dofs = table.need("dofs", "dofs = [\"1\", \"2\"]", table.labels("dofs")?)?;
     Ok(PointsTable { dofs: dofs.into_iter().map(Label).collect(), positions: table.positions("positions")? })
+}
+
+fn component(table: &Table<'_>) -> Read<ComponentParameters> {
+    table.only(&COMPONENT)?;
+    Ok(ComponentParameters {
+        dof: table.label("dof")?.unwrap_or_else(|| "1".into()),
+        mass: table.number("mass")?.unwrap_or(0.0),
+    })
 }
 
 /// The law of a table, and its parameters by name; `base` are the table's other keys.

@@ -44,6 +44,10 @@ pub(super) fn structure(
             let dofs = points.dofs.iter().map(|label| label.0.clone()).collect();
             PointParameters { dofs, positions: points.positions.clone() }.build()
         }
+        Shape::Component(_) if !lumped.is_empty() => {
+            return Err(at.error(at.lines.lumped_mass.first().copied().unwrap_or(1), Problem::MassOnPoints));
+        }
+        Shape::Component(parameters) => parameters.build(),
     };
     let built = built.map_err(|error| at.error(blamed(&error, table, at), Problem::Structure(Box::new(error))))?;
     corrected(built, &table.correction).map_err(|(k, problem)| at.error(at.lines.correction[k], problem))

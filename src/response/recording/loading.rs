@@ -4,6 +4,7 @@
 //! impulse     u = peak sin(pi t / width),  0 < t < width:  its spectrum ends at about 1.5 / width
 //! sweep       u = force sin(phase),  phase' = 2 pi f(t),  f linear, or growing by the same ratio in the same time
 //! random      lines of equal amplitude and random phase and size between two frequencies (Gaussian), no two periods alike
+//! cycles      d = amplitude r(t) sin(2 pi f t): a displacement imposed on a component, r rising and falling over a ramp
 //! multisine   lines of equal amplitude and random phase; odd: every second one only, so that even distortion shows between
 //! ```
 //!
@@ -74,11 +75,20 @@ pub enum Loading {
         #[serde(skip_serializing_if = "Option::is_none")]
         mode: Option<usize>,
     },
+    /// The displacement of a component in a testing machine.
+    Cycles {
+        /// Amplitude, m.
+        amplitude_m: f64,
+        /// Frequency, Hz.
+        frequency_hz: f64,
+        /// Time over which the amplitude is run up, and down again at the end, s.
+        ramp_s: f64,
+    },
 }
 
 impl Loading {
     /// Words in files.
-    pub const KINDS: [&str; 5] = ["impulse", "sweep", "random", "multisine", "release"];
+    pub const KINDS: [&str; 6] = ["impulse", "sweep", "random", "multisine", "release", "cycles"];
 
     /// Force (N) at `samples` instants `step` s apart; none for a release.
     pub fn force(&self, samples: usize, step: f64) -> Option<Vec<f64>> {
@@ -101,8 +111,27 @@ impl Loading {
             Self::Multisine { rms_n, from_hz, to_hz, odd, seed } => {
                 lines(&Lines { rms_n, band: [from_hz, to_hz], gaussian: false, odd, seed }, samples, step)
             }
-            Self::Release { .. } => return None,
+            Self::Release { .. } | Self::Cycles { .. } => return None,
         })
+    }
+
+    /// Displacement (m), velocity and acceleration that are imposed at `time` s of a record of `duration` s; none unless the
+    /// loading is [`Loading::Cycles`]. The ramps are half cosines, so that no velocity jumps.
+    pub fn imposed(&self, time: f64, duration: f64) -> Option<[f64; 3]> {
+        let Self::Cycles { amplitude_m, frequency_hz, ramp_s } = *self else { return None };
+        let omega = TAU * frequency_hz;
+        let edge = time.min(duration - time);
+        let side = if time <= duration - time { 1.0 } else { -1.0 };
+        let [r, dr, ddr] = if ramp_s > 0.0 && edge < ramp_s {
+            let (x, rate) = (PI * edge / ramp_s, PI / ramp_s);
+            [0.5 - 0.5 * x.cos(), side * 0.5 * rate * x.sin(), 0.5 * rate * rate * x.cos()]
+        } else {
+            [1.0, 0.0, 0.0]
+        };
+        let (sin, cos) = (omega * time).sin_cos();
+        let velocity = dr * sin + r * omega * cos;
+        let acceleration = ddr * sin + 2.0 * dr * omega * cos - r * omega * omega * sin;
+        Some([r * sin, velocity, acceleration].map(|x| amplitude_m * x))
     }
 }
 

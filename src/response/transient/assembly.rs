@@ -39,6 +39,12 @@ pub(super) fn pattern_matrix(n: usize, legs: &[Leg]) -> Mat<f64> {
     patterns
 }
 
+/// Stiffness of a coordinate, 1/s^2, with the factors on all stiffness and on that of its mode.
+pub(super) fn modal_stiffness(setup: &TransientSetup, reduction: &Reduction, r: usize) -> f64 {
+    let own = if r < reduction.kept { setup.mode_stiffness.get(r).copied().unwrap_or(0.0) } else { 0.0 };
+    setup.factors[0] * own.exp() * reduction.omega[r].powi(2)
+}
+
 /// Reduced matrices with all linear sources, and their derivatives by every parameter of the linear part.
 pub(super) fn assemble(
     setup: &TransientSetup,
@@ -46,11 +52,11 @@ pub(super) fn assemble(
     along: &dyn Fn(Leg) -> Vec<f64>,
 ) -> (Matrices, Vec<(TransientParameter, Matrices)>) {
     let size = reduction.omega.len();
-    let [stiff, heavy] = setup.factors;
+    let heavy = setup.factors[1];
     let mut own = Matrices::zeros(size);
     for r in 0..size {
         own.mass[(r, r)] = heavy;
-        own.stiffness[(r, r)] = stiff * reduction.omega[r].powi(2);
+        own.stiffness[(r, r)] = modal_stiffness(setup, reduction, r);
     }
     let mut changes = Vec::new();
     let mut total = own.clone();

@@ -1,6 +1,6 @@
 //! The model of a record: built once for a structure with its sources, predicted for any force and initial state.
 
-use super::assembly::{Nonlinear, assemble, is_linear, nonlinear, pattern_matrix};
+use super::assembly::{Nonlinear, assemble, is_linear, modal_stiffness, nonlinear, pattern_matrix};
 use super::element::{Element, Form};
 use super::march::{March, Sensitivity, View};
 use super::reduction::Reduction;
@@ -55,6 +55,8 @@ pub struct TransientSetup<'a> {
     pub channels: &'a [Channel],
     /// Factors on all stiffness and on all mass.
     pub factors: [f64; 2],
+    /// Logarithms of factors on the stiffness of the kept modes beside that; none for those beyond its end.
+    pub mode_stiffness: &'a [f64],
 }
 
 /// A parameter by which records are differentiated.
@@ -118,6 +120,8 @@ pub struct TransientModel {
     sensors: Vec<Sensor>,
     legs: Vec<Nonlinear>,
     changes: Vec<(TransientParameter, Matrices)>,
+    /// Stiffness of each coordinate as it is in the model, 1/s^2.
+    mode_stiffness: Vec<f64>,
 }
 
 impl TransientModel {
@@ -161,7 +165,8 @@ impl TransientModel {
             }
         };
         let sensors = setup.channels.iter().map(sensor).collect();
-        Ok(Self { reduction, system, views, sensors, legs, changes })
+        let mode_stiffness = (0..size).map(|r| modal_stiffness(setup, &reduction, r)).collect();
+        Ok(Self { reduction, system, views, sensors, legs, changes, mode_stiffness })
     }
 
     /// Number of kept modes `m`; an initial state has `2 m` entries.
@@ -259,7 +264,7 @@ impl TransientModel {
     fn change(&self, parameter: TransientParameter) -> Option<LinearChange> {
         if let TransientParameter::Mode(r) = parameter {
             let mut by = Matrices::zeros(self.system.coordinates());
-            by.stiffness[(r, r)] = self.reduction.omega[r].powi(2);
+            by.stiffness[(r, r)] = self.mode_stiffness[r];
             return Some(self.system.change(&by));
         }
         self.changes.iter().find(|(p, _)| *p == parameter).map(|(_, by)| self.system.change(by))

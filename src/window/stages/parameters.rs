@@ -37,6 +37,10 @@ pub fn show(ui: &mut Ui, app: &mut App, asks: &mut Vec<Ask>) {
                 ui.hint("Points have no mass and no stiffness: the energy balance needs none.");
                 ui.pair("Points", points.dofs.len().to_string());
             }
+            Shape::Component(component) => {
+                ui.hint("A component in a testing machine: its displacement is imposed, its force measured.");
+                ui.pair("Moving mass", format!("{} kg", component.mass));
+            }
         }
         masses(ui, &file, app.view.dof.map(|d| document.project.structure.label(d)), asks);
     });
@@ -88,7 +92,7 @@ fn chain(ui: &mut Ui, chain: &ChainParameters, asks: &mut Vec<Ask>) {
 
 /// Lumped masses; one can be added at the DOF that is selected.
 fn masses(ui: &mut Ui, file: &ProjectFile, selected: Option<&str>, asks: &mut Vec<Ask>) {
-    if matches!(file.structure.shape, Shape::Points(_)) {
+    if matches!(file.structure.shape, Shape::Points(_) | Shape::Component(_)) {
         return;
     }
     ui.add_space(space::S);

@@ -1,0 +1,153 @@
+//! Where fits of one effect more begin: what the equation of motion demands along the measured motion, else a grid of all laws.
+
+use super::fit::FittedRecords;
+use super::localisation::{LocatedForce, locate};
+use super::regression::Regression;
+use super::search::Search;
+use crate::effects::{Effect, Family, Motion, Place, Range, Source, State};
+use std::f64::consts::TAU;
+
+/// Laws that have a force in time.
+const LAWS: [Effect; 13] = [
+    Effect::Viscous,
+    Effect::Coulomb,
+    Effect::Quadratic,
+    Effect::Stiffness,
+    Effect::CubicStiffness,
+    Effect::QuadraticStiffness,
+    Effect::Mass,
+    Effect::Power,
+    Effect::ElasticSlider,
+    Effect::Maxwell,
+    Effect::Gap,
+    Effect::Stribeck,
+    Effect::Iwan,
+];
+/// Places that a free force names, shapes of a law where no equation of motion sizes it.
+const PLACES: usize = 2;
+const SHAPES: usize = 5;
+/// Laws that are fitted at the places that the equation of motion demands, from the best place on.
+const QUOTAS: [usize; 3] = [8, 3, 2];
+/// Share of what the equation of motion leaves that one effect more must take away, or none is looked for.
+const NEEDED: f64 = 0.9;
+/// Misfit of the equation of motion over the least one beyond which a law is not fitted to the response.
+const BEHIND: f64 = 4.0;
+/// Force of a law at the start, as a share of the spring force there.
+const SIZES: [f64; 2] = [0.01, 0.1];
+
+impl Search<'_> {
+    /// Laws at places from which fits begin: those that the equation of motion demands, else a grid of all.
+    pub fn beginnings(&self, best: &FittedRecords, base: &FittedRecords) -> Vec<Source> {
+        let open = |s: &Source| !base.effects.iter().chain(self.excluded).any(|e| e.is_same(s));
+        let structure = self.records.structure;
+        let mut all = Family::EachTranslation.places(structure);
+        all.extend(Family::EachPair.places(structure));
+        let located = self.places(best);
+        let Some(regression) = Regression::new(self.records, base, self.control) else {
+            let of = |place: &Place| {
+                let range = self.range(base, place);
+                LAWS.iter().flat_map(move |&effect| self.starts(effect, place, &range)).collect::<Vec<Source>>()
+            };
+            return located.iter().flat_map(of).filter(open).collect();
+        };
+        let mut ranked = regression.ranked(&all, &LAWS, self.control);
+        ranked.retain(|r| open(&r.source));
+        let least = ranked.first().map_or(0.0, |r| r.misfit);
+        if !best.effects.is_empty() && least > NEEDED * regression.misfit() {
+            return Vec::new();
+        }
+        ranked.retain(|r| r.misfit <= (BEHIND * least).max(regression.rows() as f64));
+        let mut places: Vec<&Place> = Vec::new();
+        for place in ranked.iter().map(|r| &r.source.place) {
+            if places.len() < QUOTAS.len() && !places.iter().any(|p| p.is_same(place)) {
+                places.push(place);
+            }
+        }
+        let quotas = places.iter().copied().zip(QUOTAS);
+        let more =
+            located.iter().filter(|p| !places.iter().any(|q| q.is_same(p))).map(|p| (p, QUOTAS[QUOTAS.len() - 1]));
+        let of = |(place, quota): (&Place, usize)| {
+            ranked
+                .iter()
+                .filter(|r| r.source.place.is_same(place))
+                .take(quota)
+                .map(|r| r.source.clone())
+                .collect::<Vec<_>>()
+        };
+        quotas.chain(more).flat_map(of).collect()
+    }
+
+    /// Places that matter beside what is in `best`, most likely first.
+    fn places(&self, best: &FittedRecords) -> Vec<Place> {
+        let structure = self.records.structure;
+        let mut all = Family::EachTranslation.places(structure);
+        all.extend(Family::EachPair.places(structure));
+        // Corrections may have been bent to what is missing: the model is asked as it is, too.
+        let located: Vec<LocatedForce> = locate(self.records, &all, best.stiffness);
+        if located.is_empty() {
+            all.truncate(2 * PLACES);
+            return all;
+        }
+        let plain = locate(self.records, &all, 0.0);
+        let mut places: Vec<Place> = Vec::new();
+        for one in located.into_iter().take(PLACES).chain(plain.into_iter().take(PLACES)) {
+            if !places.contains(&one.place) {
+                places.push(one.place);
+            }
+        }
+        places
+    }
+
+    /// Range of the motion at a place in the short part of the records.
+    fn range(&self, base: &FittedRecords, place: &Place) -> Range {
+        let (modes, kept) = (&self.records.modes, self.records.kept);
+        let legs = place.legs();
+        let shape = |r: usize| legs.first().map_or(0.0, |leg| leg.relative(|i| modes.shapes[(i, r)]));
+        let sizes = |initial: &Vec<f64>| -> [f64; 2] {
+            let of = |r: usize| shape(r).abs() * initial[r].hypot(initial[kept + r]);
+            let d: f64 = (0..kept).map(of).sum();
+            [d, (0..kept).map(|r| of(r) * modes.omega[r].max(1e-3)).sum()]
+        };
+        let mut all: Vec<[f64; 2]> = base.initial.iter().map(sizes).collect();
+        for (record, size) in self.records.list.iter().zip(&mut all) {
+            // Driven records begin at rest: the static motion under the largest force stands for theirs, ten times raised.
+            let force = record.forces.iter().flatten().fold(0.0_f64, |m, f| m.max(f.abs()));
+            let flexible: f64 = (0..kept).map(|r| (shape(r) / modes.omega[r].max(1e-3)).powi(2)).sum();
+            let driven = 3.0 * force * flexible;
+            *size = [size[0].max(driven), size[1].max(driven * TAU * record.dominant_hz)];
+        }
+        let most = |k: usize| all.iter().map(|s| s[k]).fold(1e-12, f64::max);
+        let least = all.iter().map(|s| s[0]).fold(f64::INFINITY, f64::min).max(1e-13);
+        let omega = TAU * self.records.list[0].dominant_hz;
+        Range { displacement: most(0), least, velocity: most(1), omega }
+    }
+
+    /// Starts of a law at a place: shapes, sized to a share of the spring force there.
+    fn starts(&self, effect: Effect, place: &Place, range: &Range) -> Vec<Source> {
+        let (modes, kept) = (&self.records.modes, self.records.kept);
+        let legs = place.legs();
+        let shape = |r: usize| legs.first().map_or(0.0, |leg| leg.relative(|i| modes.shapes[(i, r)]));
+        let flexible: f64 = (0..kept).map(|r| (shape(r) / modes.omega[r].max(1e-3)).powi(2)).sum();
+        let (Some(law), true) = (effect.law(), flexible > 0.0) else { return Vec::new() };
+        let spring = range.displacement / flexible;
+        let motion = Motion::cosine(range.velocity / range.displacement, range.displacement, 64);
+        let all = effect.shapes(range);
+        let every = all.len().div_ceil(SHAPES);
+        let mut starts = Vec::new();
+        for shape in all.into_iter().step_by(every) {
+            let mut force = vec![0.0; motion.len()];
+            law.force(&shape, &motion, &mut force);
+            let peak = force.iter().fold(0.0_f64, |m, f| m.max(f.abs()));
+            for size in SIZES {
+                let mut parameters = shape.clone();
+                let factor = size * spring / peak.max(f64::MIN_POSITIVE);
+                // A unit slider of this shape may not yield: then its own force sets the scale.
+                effect.scaled().iter().for_each(|&k| parameters[k] *= factor);
+                if parameters.iter().zip(law.parameters()).all(|(v, p)| p.allows(*v)) {
+                    starts.push(Source { effect, place: place.clone(), state: State::Known, parameters });
+                }
+            }
+        }
+        starts
+    }
+}

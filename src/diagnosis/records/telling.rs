@@ -1,0 +1,119 @@
+//! Fits as suggestions: probabilities, deviations, corrections beside them.
+
+use super::data::{RecordError, Records};
+use super::evidence::{evidence, misfit, parameters, scale};
+use super::fit::FittedRecords;
+use crate::diagnosis::diagnose::{Added, Correction, Suggestion};
+use crate::diagnosis::updating::parameters::UpdatingParameter;
+use crate::effects::Source;
+use crate::math::statistics::evidence_weights;
+use crate::structure::Part;
+
+/// Share by which the squared residual of a law of fewer parameters may be larger than that of another at its place, which
+/// then is not told: where what is left is noise, and where it is an error of the model, which more parameters bend towards.
+const PLAIN: [f64; 2] = [1.1, 1.3];
+/// Misfit from which on what is left is no noise.
+const MODEL_ERROR: f64 = 1.5;
+/// Deviations from 0 at which a correction is told, and the least change of stiffness and of a known source that is: the
+/// force between the samples and the motion above the band leave as much.
+const MOVED: f64 = 4.0;
+const LEAST: [f64; 2] = [5e-4, 0.01];
+/// Difference of evidence within which effects cannot be told apart.
+const ALIKE: f64 = 9.0;
+/// Most suggestions.
+const MOST: usize = 8;
+
+/// The effects of a fit with deviations as wide as what it leaves demands.
+pub(super) fn added(fit: &FittedRecords) -> Vec<Added> {
+    let wide = scale(fit).sqrt();
+    let mut at = 0;
+    let of = |source: &Source| {
+        let deviations = fit.deviations[at..at + source.parameters.len()].iter().map(|d| d * wide).collect();
+        at += source.parameters.len();
+        Added { source: source.clone(), deviations }
+    };
+    fit.effects.iter().map(of).collect()
+}
+
+/// Suggestions of the fits of one size, best first.
+pub(super) fn suggestions(records: &Records, found: &[FittedRecords]) -> Result<Vec<Suggestion>, RecordError> {
+    let Some(best) = found.first() else { return Ok(Vec::new()) };
+    let unit = scale(best);
+    let criteria: Vec<f64> = found.iter().map(|f| evidence(f, unit)).collect();
+    let weights = evidence_weights(&criteria);
+    let mut list: Vec<Suggestion> = Vec::new();
+    for (fit, weight) in found.iter().zip(&weights) {
+        let error = fit.error(records, 0.0, 1.0)?;
+        for added in added(fit) {
+            if let Some(known) = list.iter_mut().find(|s| s.added.source.is_same(&added.source)) {
+                known.probability = (known.probability + weight).min(1.0);
+                continue;
+            }
+            if list.len() >= MOST {
+                continue;
+            }
+            let alike = |other: &&FittedRecords| (other.chi_square - fit.chi_square).abs() / unit < ALIKE;
+            let others = found.iter().filter(alike).filter_map(|f| f.effects.last());
+            let indistinguishable_from =
+                others.filter(|o| !fit.effects.iter().any(|e| e.is_same(o))).cloned().collect();
+            let words = vec![
+                added.source.effect.sentence().to_string(),
+                format!("With it the error of the records is {:.2} %.", 100.0 * error),
+            ];
+            list.push(Suggestion {
+                added,
+                error_after: error,
+                held_out_error_after: error,
+                probability: *weight,
+                evidence: words,
+                indistinguishable_from,
+            });
+        }
+    }
+    Ok(list)
+}
+
+/// Deviations of the parameters of the last effect.
+pub(super) fn last_deviations(fit: &FittedRecords) -> Vec<f64> {
+    let count = fit.effects.last().map_or(0, |e| e.parameters.len());
+    let end = parameters(fit);
+    fit.deviations[end - count..end].to_vec()
+}
+
+/// Corrections that moved, with their deviations.
+pub(super) fn corrections(records: &Records, fit: &FittedRecords) -> Vec<Correction> {
+    let wide = scale(fit).sqrt();
+    let first = parameters(fit);
+    let modes = if records.kept > 1 { records.kept } else { 0 };
+    let values =
+        std::iter::once(fit.stiffness).chain(fit.known.iter().copied()).chain(fit.modes.iter().take(modes).copied());
+    let names = std::iter::once(UpdatingParameter::Structure(Part::Stiffness))
+        .chain((0..records.known.len()).map(UpdatingParameter::Known))
+        .chain((0..modes).map(|r| UpdatingParameter::Structure(Part::Mode(r))));
+    let of = |(k, (v, parameter)): (usize, (f64, UpdatingParameter))| {
+        let deviation = fit.deviations.get(first + k).copied().unwrap_or(f64::NAN) * wide;
+        let least = LEAST[usize::from(matches!(parameter, UpdatingParameter::Known(_)))];
+        (v.abs() > (MOVED * deviation).max(least)).then(|| Correction {
+            parameter,
+            factor: v.exp(),
+            deviation: deviation * v.exp(),
+        })
+    };
+    values.zip(names).enumerate().filter_map(of).collect()
+}
+
+/// Takes out the fits whose last law has more parameters than another at the same place that leaves all but as little.
+pub(super) fn plainest(found: &mut Vec<FittedRecords>) {
+    let simple: Vec<(f64, Source)> =
+        found.iter().filter_map(|f| Some((f.chi_square, f.effects.last()?.clone()))).collect();
+    let needless = |fit: &FittedRecords| {
+        let Some(own) = fit.effects.last() else { return false };
+        let plainer = |(chi, other): &(f64, Source)| {
+            other.place.is_same(&own.place)
+                && other.parameters.len() < own.parameters.len()
+                && *chi <= PLAIN[usize::from(misfit(fit) > MODEL_ERROR)] * fit.chi_square
+        };
+        simple.iter().any(plainer)
+    };
+    found.retain(|fit| !needless(fit));
+}

@@ -1,0 +1,114 @@
+//! How far every sample of a record can be trusted: the noise of its channel, and the motion above the modes that are followed.
+//!
+//! ```text
+//! sigma_n^2 = noise^2 + max(0, <h^2>_n - noise^2 p) + (share a_n)^2
+//! ```
+//!
+//! `h` is the signal above the corner between the last mode that is followed and the next, `<>_n` its mean over the
+//! neighbourhood of sample `n`, `p` the share of the band above the corner. Modes that are not followed, the start of a filter
+//! against aliasing and the contact of a hammer are no error of the model; they pass soon, and count as noise while they last.
+//! `a_n` is the root mean square of the motion near sample `n`: no model has its modes' shapes, no sensor its gain, better than
+//! to about a hundredth.
+
+use dashpot_numerics::RealTransform;
+
+/// Share of the band up to Nyquist's frequency above the corner below which nothing can be said.
+const LEAST_BAND: f64 = 0.05;
+/// Half width of a neighbourhood, in periods of the corner.
+const NEIGHBOURS: f64 = 2.0;
+
+/// Share of the motion by which any model is wrong.
+const SHARE: f64 = 0.01;
+
+/// Root mean square of a signal over `half` samples on either side of each.
+pub(super) fn local(signal: &[f64], half: usize) -> Vec<f64> {
+    let n = signal.len();
+    let mut sums = vec![0.0; n + 1];
+    for k in 0..n {
+        sums[k + 1] = sums[k] + signal[k] * signal[k];
+    }
+    let at = |k: usize| {
+        let (from, to) = (k.saturating_sub(half), (k + half + 1).min(n));
+        ((sums[to] - sums[from]).max(0.0) / (to - from) as f64).sqrt()
+    };
+    (0..n).map(at).collect()
+}
+
+/// Standard deviations with the share of the motion `signal` by which any model is wrong; `half` samples on either side.
+pub(super) fn with_share(deviations: &[f64], signal: &[f64], half: usize) -> Vec<f64> {
+    deviations.iter().zip(local(signal, half)).map(|(s, a)| s.hypot(SHARE * a)).collect()
+}
+
+/// Standard deviation of every sample of a signal: its noise and what lies above the corner.
+pub(super) fn deviations(signal: &[f64], noise: f64, step: f64, corner_hz: f64) -> Vec<f64> {
+    let n = signal.len();
+    let above = 1.0 - 2.0 * corner_hz * step;
+    if above < LEAST_BAND || n < 16 {
+        return vec![noise; n];
+    }
+    let high = above_corner(signal, step, corner_hz);
+    let half = ((NEIGHBOURS / (corner_hz * step)).ceil() as usize).clamp(2, n / 4);
+    let mean = local(&high, half);
+    // The mean of a few squares of noise scatters: only what is well above it is no noise.
+    let scatter = 1.0 + 3.0 * (2.0 / (above * (2 * half + 1) as f64)).sqrt();
+    let of = |k: usize| {
+        let own = mean[k].powi(2);
+        let rest = if own > scatter * above * noise * noise { own - above * noise * noise } else { 0.0 };
+        (noise * noise + rest).sqrt()
+    };
+    (0..n).map(of).collect()
+}
+
+/// The part of a signal above a frequency; it is continued as in a mirror, so that its ends do not jump.
+fn above_corner(signal: &[f64], step: f64, corner_hz: f64) -> Vec<f64> {
+    let n = signal.len();
+    let mut work: Vec<f64> = signal.iter().chain(signal.iter().rev()).copied().collect();
+    let transform = RealTransform::new(2 * n);
+    let mut lines = transform.forward(&mut work);
+    let last = lines.len() - 1;
+    for (k, line) in lines.iter_mut().enumerate() {
+        let kept = k as f64 / (2.0 * n as f64 * step) > corner_hz;
+        *line *= if kept { 0.5 / n as f64 } else { 0.0 };
+        if k == 0 || k == last {
+            line.im = 0.0;
+        }
+    }
+    transform.backward(&mut lines, &mut work);
+    work.truncate(n);
+    work
+}
+
+#[cfg(test)]
+mod tests {
+    use super::deviations;
+    use std::f64::consts::TAU;
+
+    /// A burst at 200 Hz on a sine of 20 Hz: its root mean square counts where it is, nothing elsewhere.
+    #[test]
+    fn what_lies_above_the_corner_counts_as_noise_where_it_is() {
+        let (step, noise) = (1e-3, 1e-4);
+        let at = |n: usize| {
+            let t = n as f64 * step;
+            let burst = if (400..600).contains(&n) { 0.1 * (TAU * 200.0 * t).sin() } else { 0.0 };
+            (TAU * 20.0 * t).sin() + burst
+        };
+        let signal: Vec<f64> = (0..1000).map(at).collect();
+        let sigma = deviations(&signal, noise, step, 60.0);
+        assert!((sigma[500] / (0.1 / 2.0_f64.sqrt()) - 1.0).abs() < 0.1, "{}", sigma[500]);
+        assert!(sigma[200] < 0.01 && sigma[800] < 0.01, "{} {}", sigma[200], sigma[800]);
+    }
+
+    /// White noise stays what it is.
+    #[test]
+    fn noise_is_not_counted_twice() {
+        let mut state = 1_u64;
+        let mut uniform = || {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            (state >> 11) as f64 / (1_u64 << 53) as f64 - 0.5
+        };
+        let signal: Vec<f64> = (0..4000).map(|_| uniform() * 12.0_f64.sqrt()).collect();
+        let sigma = deviations(&signal, 1.0, 1e-3, 100.0);
+        let mean = sigma.iter().sum::<f64>() / sigma.len() as f64;
+        assert!((mean - 1.0).abs() < 0.03, "{mean}");
+    }
+}

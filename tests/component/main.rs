@@ -1,0 +1,103 @@
+//! A component in a testing machine: laws found from whole loops, and the energy of cycles.
+#![allow(clippy::unwrap_used, reason = "tests")]
+
+use dashpot::balance::loops::Loops;
+use dashpot::control::Control;
+use dashpot::diagnosis::component::{compare_component, diagnose_component};
+use dashpot::diagnosis::diagnose::{Diagnosis, Verdict};
+use dashpot::effects::{Effect, Place, Source};
+use dashpot::identify::{Measurements, Settings, identify_measured};
+use dashpot::measurement::{Channel, Kind, Quantity, TransientLabel, TransientRun};
+use dashpot::response::recording::{Loading, component_force};
+use dashpot::response::synthesis::{Noise, record};
+use dashpot::structure::Structure;
+use dashpot::structure::component::ComponentParameters;
+use std::sync::Arc;
+
+const MASS: f64 = 8.0;
+
+fn structure() -> Structure {
+    ComponentParameters { dof: "1".into(), mass: MASS }.build().unwrap()
+}
+
+fn at(effect: Effect, parameters: &[f64]) -> Source {
+    Source::known(effect, Place::Dofs(vec![0]), parameters)
+}
+
+/// Loops of three amplitudes and two frequencies with 0.3 % noise.
+fn tests(truth: &[Source]) -> Vec<TransientRun> {
+    let channel = |quantity| Channel { quantity, dof: 0, label: "1".into() };
+    let of = |(k, (amplitude_m, frequency_hz)): (usize, (f64, f64))| {
+        let loading = Loading::Cycles { amplitude_m, frequency_hz, ramp_s: 0.5 / frequency_hz };
+        let (rate, samples) = (256.0, (256.0 * 4.0 / frequency_hz) as usize);
+        let (d, f) = component_force(truth, MASS, &loading, rate, samples).unwrap();
+        let time: Vec<f64> = (0..samples).map(|n| n as f64 / rate).collect();
+        let noise = Some(Noise { ratio: 0.003, seed: 3, stream: k as u64 });
+        let made =
+            record(&time, vec![channel(Quantity::Displacement), channel(Quantity::Force)], vec![d, f], noise).unwrap();
+        let label =
+            TransientLabel { file: format!("{k}.csv"), kind: Kind::Transient, enabled: true, ..Default::default() };
+        TransientRun::new(label, Arc::new(made), &[]).unwrap()
+    };
+    let all = [0.005, 0.01, 0.02].into_iter().flat_map(|a| [0.5, 2.0].map(|f| (a, f)));
+    all.enumerate().map(of).collect()
+}
+
+fn diagnosed(known: &[Source], runs: &[TransientRun]) -> Diagnosis {
+    let loops = Loops::new(&structure(), known, runs).unwrap();
+    diagnose_component(&loops, &[], &Control::unattended(), &|_| {}).unwrap()
+}
+
+#[test]
+fn a_sum_of_two_laws_is_found_in_its_loops() {
+    let truth = [at(Effect::ElasticSlider, &[4e6, 9000.0]), at(Effect::Viscous, &[12000.0])];
+    let diagnosis = diagnosed(&[], &tests(&truth));
+    let set = &diagnosis.steps.last().unwrap().added;
+    let names: Vec<String> = set.iter().map(|a| format!("{} {:?}", a.source.effect, a.source.parameters)).collect();
+    assert_eq!(diagnosis.verdict, Verdict::Missing, "{names:?}");
+    assert_eq!(set.len(), 2, "{names:?}");
+    for source in &truth {
+        let found = set.iter().find(|a| a.source.is_same(source)).unwrap_or_else(|| panic!("{names:?}"));
+        for (value, expected) in found.source.parameters.iter().zip(&source.parameters) {
+            assert!((value / expected - 1.0).abs() < 0.05, "{names:?}");
+        }
+    }
+    assert!(diagnosis.suggestions[0].held_out_error_after < 0.1 * diagnosis.error_before);
+}
+
+#[test]
+fn one_law_is_not_made_two() {
+    let truth = [at(Effect::Quadratic, &[150_000.0])];
+    let diagnosis = diagnosed(&[], &tests(&truth));
+    let set = &diagnosis.steps.last().unwrap().added;
+    assert_eq!(set.len(), 1, "{set:?}");
+    assert!(set[0].source.is_same(&truth[0]), "{set:?}");
+    assert!((set[0].source.parameters[0] / 150_000.0 - 1.0).abs() < 0.02, "{set:?}");
+}
+
+#[test]
+fn a_model_that_agrees_is_left_alone() {
+    let truth = [at(Effect::Viscous, &[40_000.0])];
+    let runs = tests(&truth);
+    let loops = Loops::new(&structure(), &truth, &runs).unwrap();
+    let comparison = compare_component(&loops, &[]).unwrap();
+    assert!(comparison.error < 0.03, "{}", comparison.error);
+    let without = compare_component(&Loops::new(&structure(), &[], &runs).unwrap(), &[]).unwrap();
+    assert!(without.error > 0.5, "{}", without.error);
+}
+
+#[test]
+fn the_energy_of_every_cycle_gives_the_coefficients() {
+    let truth = [at(Effect::Coulomb, &[4000.0]), at(Effect::Viscous, &[20_000.0])];
+    let candidates: Vec<Source> = truth.iter().map(|s| Source::candidate(s.effect, s.place.clone())).collect();
+    let runs = tests(&truth);
+    let measured = Measurements { runs: &[], transient_runs: &runs, ratios: &[] };
+    let outcome =
+        identify_measured(&structure(), &candidates, measured, &Settings::default(), &Control::unattended()).unwrap();
+    let found = &outcome.accepted_step().sources;
+    assert_eq!(found.len(), 2, "{found:?}");
+    for estimate in found {
+        let expected = truth[estimate.source].coefficient();
+        assert!((estimate.coefficient / expected - 1.0).abs() < 0.03, "{estimate:?}");
+    }
+}
