@@ -39,6 +39,9 @@ pub(super) fn structure(arguments: &Import, out: &Path, up_to_hz: f64) -> anyhow
     Ok(Some(text))
 }
 
+/// Least reach of points given in another unit than the model, over its size.
+const SPANNED: f64 = 0.1;
+
 /// A measured point: name of its node, direction such as `z`, position where the file has it.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Point {
@@ -90,6 +93,11 @@ fn nearest(
     }
     let at = |scale: f64| -> Option<BTreeMap<String, String>> {
         let mut found = BTreeMap::new();
+        // Whatever lies near the origin fits in some unit: points in another must span some of the model.
+        let reach = points.iter().filter_map(|p| p.position).flatten().fold(0.0, |most: f64, x| most.max(x.abs()));
+        if scale != 1.0 && reach * scale < SPANNED * extent {
+            return None;
+        }
         for point in points {
             let position = point.position?.map(|x| x * scale);
             let distance = |x: &[f64; 3]| (0..3).map(|i| (x[i] - position[i]).powi(2)).sum::<f64>().sqrt();

@@ -77,7 +77,7 @@ fn tables() {
 fn structures() {
     refused(
         "[project]\nformat = 1\n[structure]\nkind = \"plate\"\n",
-        "p.toml:4: `kind = \"plate\"` is not understood; use one of \"beam\", \"chain\", \"matrices\", \"points\"",
+        "p.toml:4: `kind = \"plate\"` is not understood; use one of \"beam\", \"chain\", \"matrices\", \"points\", \"component\"",
     );
     refused(
         "[project]\nformat = 1\n[structure]\nlength = 1\n",

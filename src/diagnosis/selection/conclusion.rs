@@ -2,13 +2,13 @@
 
 use crate::diagnosis::diagnose::{Added, Correction, Diagnosis, Step, Suggestion, Verdict, noise_floor};
 use crate::diagnosis::residual::data::DiagnosisError;
-use crate::diagnosis::residual::prediction::{FINAL, RunPrediction};
+use crate::diagnosis::residual::prediction::FINAL;
 use crate::diagnosis::selection::fitted_model::{Bench, Refit};
 use crate::diagnosis::selection::next_test::{next_test, pinning_test};
 use crate::diagnosis::selection::search::{Base, scale_of};
 use crate::diagnosis::selection::sentences::sentences;
 use crate::diagnosis::selection::stepwise::{Found, Rung, same_set};
-use crate::diagnosis::updating::parameters::UpdatingParameter;
+use crate::diagnosis::updating::parameters::{Scales, UpdatingParameter};
 use crate::effects::Source;
 use crate::math::statistics::evidence_weights;
 
@@ -47,7 +47,7 @@ impl Outcome<'_> {
                 (_, false) => Verdict::Unexplained,
             };
             if self.found.updated {
-                diagnosis.corrections = corrections(base, &base.predictions);
+                diagnosis.corrections = corrections(base);
                 diagnosis.steps.push(Step { added: Vec::new(), error, misfit });
             }
             return Ok(diagnosis);
@@ -56,7 +56,7 @@ impl Outcome<'_> {
         let quiet = Base { predictions: base.predictions.clone(), noise: top.noise.clone(), ..base.shallow() };
         let predictions = quiet.bench().predict(&best.effects, &FINAL, &best.starts)?;
         diagnosis.noise_floor = noise_floor(&quiet, &best.effects, &predictions);
-        diagnosis.corrections = corrections(&quiet, &predictions);
+        diagnosis.corrections = corrections(&quiet);
         let misfit = best.chi_square / base.count().max(1) as f64;
         let trust = if misfit > TOLERATED { UNTRUSTED } else { 1.0 };
         let weights: Vec<f64> = evidence_weights(&top.costs).into_iter().map(|w| w * trust).collect();
@@ -174,13 +174,14 @@ fn alternatives(bench: &Bench, top: &Rung, weights: &[f64], diagnosis: &mut Diag
     Ok(())
 }
 
-/// Corrections of what the model states, at the reference of `base`, with their deviations.
-pub(crate) fn corrections(base: &Base, predictions: &[RunPrediction]) -> Vec<Correction> {
+/// Corrections of what the model states, at the reference of `base`, with the deviations that hold where nothing is known
+/// better than laboratories know it: scales that are estimated from few runs may be too small.
+pub(crate) fn corrections(base: &Base) -> Vec<Correction> {
     let updating = &base.linearisation.updating;
-    let variances = base.noise.updating.variances();
-    let _ = predictions;
+    let told = base.with_scales(updating.scales.at_least(&Scales::SEARCH));
+    let variances = told.noise.updating.variances();
     let of = |(k, parameter): (usize, &UpdatingParameter)| {
-        let deviation = updating.prior(k) * variances.get(k)?.sqrt();
+        let deviation = told.linearisation.updating.prior(k) * variances.get(k)?.sqrt();
         let factor = updating.values[k].exp();
         parameter.is_of_model().then(|| Correction {
             parameter: parameter.clone(),

@@ -97,7 +97,7 @@ pub fn detuning(problem: &Problem, control: &Control) -> Result<Option<Detuning>
         _ => Reading::Missing,
     };
     let error_after = bare.bench().error(&bare.predictions);
-    Ok(Some(Detuning { reading, share, error_after, corrections: corrections(&bare, &bare.predictions) }))
+    Ok(Some(Detuning { reading, share, error_after, corrections: corrections(&bare) }))
 }
 
 /// Largest correction of a number of the model, as a logarithm, that is believed without looking for an effect.
