@@ -63,11 +63,11 @@ fn branches(displacement: &[f64], mut visit: impl FnMut(usize, Option<usize>)) {
     }
 }
 
-/// A sample of the march with the slope of its branch there.
-struct Slope {
+/// A sample of the march with the slope of its branch there (N/m).
+struct Marched {
     sample: usize,
     origin: Option<usize>,
-    slope: f64,
+    by_way: f64,
 }
 
 /// A law given by its backbone.
@@ -123,16 +123,16 @@ impl<T: MasingLaw + Copy + Send + 'static> Law for Masing<T> {
 
     fn linearised<'a>(&'a self, p: &'a [f64], motion: &'a Motion) -> Linearised<'a> {
         let d = &motion.displacement;
-        let mut slopes = Vec::with_capacity(d.len());
+        let mut marched = Vec::with_capacity(d.len());
         branches(d, |sample, origin| {
             let way = origin.map_or(d[sample], |r| 0.5 * (d[sample] - d[r]));
-            slopes.push(Slope { sample, origin, slope: self.0.slope(p, way) });
+            marched.push(Marched { sample, origin, by_way: self.0.slope(p, way) });
         });
         Box::new(move |direction, tangent| {
             let e = &direction.displacement;
-            for Slope { sample, origin, slope } in &slopes {
+            for Marched { sample, origin, by_way } in &marched {
                 let (from, moved) = origin.map_or((0.0, e[*sample]), |r| (tangent[r], e[*sample] - e[r]));
-                tangent[*sample] = from + slope * moved;
+                tangent[*sample] = from + by_way * moved;
             }
         })
     }

@@ -17,12 +17,11 @@ pub(super) fn build(table: &StructureTable, folder: &Path) -> Result<Structure, 
     match &table.shape {
         Shape::Beam(beam) => Ok(beam.build(lumped)?),
         Shape::Chain(chain) => Ok(chain.build(lumped)?),
-        Shape::Points(_) if !lumped.is_empty() => Err(Refusal::MassOnPoints),
+        Shape::Points(_) | Shape::Component(_) if !lumped.is_empty() => Err(Refusal::MassOnPoints),
         Shape::Points(points) => {
             let dofs = points.dofs.iter().map(|label| label.0.clone()).collect();
             Ok(PointParameters { dofs, positions: points.positions.clone() }.build()?)
         }
-        Shape::Component(_) if !lumped.is_empty() => Err(Refusal::MassOnPoints),
         Shape::Component(parameters) => Ok(parameters.build()?),
         Shape::Matrices(_) => from_files(table, folder),
     }

@@ -14,9 +14,8 @@ fn every_command_of_the_walk_from_responses_to_the_map_of_damping_runs() {
     let files = ["hammer.uff", "model.bdf", "walk.toml", "shares.svg", "matrix.svg", "report.html", "damping.bdf"];
     let mut ran = 0;
     for line in page.lines().filter_map(|line| line.strip_prefix("dashpot ")) {
-        let place = |word: &str| match files.contains(&word) {
-            true => folder.path().join(word).display().to_string(),
-            false => word.to_owned(),
+        let place = |word: &str| {
+            if files.contains(&word) { folder.path().join(word).display().to_string() } else { word.to_owned() }
         };
         let words: Vec<String> = line.split_whitespace().map(place).collect();
         let words: Vec<&str> = words.iter().map(String::as_str).collect();

@@ -374,20 +374,14 @@ impl Residual for Equation<'_> {
 
     fn jacobian(&mut self, theta: &[f64], at: &[f64]) -> Result<Mat<f64>, Infallible> {
         let slopes = self.variables.slopes(theta).into_iter().enumerate();
-        let columns: Vec<Vec<f64>> = match self.friction {
-            Some(friction) => slopes.map(|(k, _)| self.difference(friction, theta, at, k)).collect(),
-            None => {
-                let p = self.parameters(theta);
-                let data = self.data;
-                let seen = |motion: &Motion, r: usize| !data.forces[r].is_empty() && motion.len() > 0;
-                let tangents: Vec<Option<ByParameter>> = data
-                    .motions
-                    .iter()
-                    .enumerate()
-                    .map(|(r, motion)| seen(motion, r).then(|| self.law.by_parameters(&p, motion)))
-                    .collect();
-                slopes.map(|(k, slope)| self.column(&tangents, k, slope)).collect()
-            }
+        let columns: Vec<Vec<f64>> = if let Some(friction) = self.friction {
+            slopes.map(|(k, _)| self.difference(friction, theta, at, k)).collect()
+        } else {
+            let p = self.parameters(theta);
+            let runs = self.data.motions.iter().zip(&self.data.forces);
+            let tangents: Vec<Option<ByParameter>> =
+                runs.map(|(motion, forces)| (!forces.is_empty()).then(|| self.law.by_parameters(&p, motion))).collect();
+            slopes.map(|(k, slope)| self.column(&tangents, k, slope)).collect()
         };
         Ok(Mat::from_fn(at.len(), columns.len(), |i, k| columns[k][i]))
     }

@@ -74,14 +74,14 @@ pub fn diagnose_component(
         return Ok(diagnosis);
     }
     let columns = search.columns()?;
-    let singles = search.fitted(search.single(&columns), SINGLES)?;
+    let singles = search.fitted(Search::single(&columns), SINGLES)?;
     if singles.is_empty() {
         diagnosis.verdict = Verdict::Unexplained;
         return Ok(diagnosis);
     }
     control.report(0.4);
     early(&search.suggestions(&singles, None)?);
-    let pairs = search.fitted(search.pairs(&columns), PAIRS)?;
+    let pairs = search.fitted(Search::pairs(&columns), PAIRS)?;
     control.report(0.8);
     let (best, held) = search.chosen(&singles, &pairs)?;
     let records = loops.list.len();
@@ -121,7 +121,7 @@ struct Search<'a> {
 impl Search<'_> {
     /// Every law in every shape.
     fn columns(&self) -> Result<Vec<Column>, ComponentError> {
-        let measured = self.thinned(residual(self.loops, &[], &self.all)?);
+        let measured = Self::thinned(residual(self.loops, &[], &self.all)?);
         let range = self.loops.range();
         let mut columns = Vec::new();
         for (effect, _) in Effect::relative() {
@@ -133,7 +133,7 @@ impl Search<'_> {
                     continue;
                 }
                 // What is left with the law less what is left without it: its force, zero taken out, with a minus.
-                let with = self.thinned(residual(self.loops, std::slice::from_ref(&source), &self.all)?);
+                let with = Self::thinned(residual(self.loops, std::slice::from_ref(&source), &self.all)?);
                 let rows: Vec<f64> = measured.iter().zip(&with).map(|(m, w)| m - w).collect();
                 let (square, against) = (dot(&rows, &rows), dot(&rows, &measured));
                 if square > 0.0 && square.is_finite() {
@@ -144,13 +144,13 @@ impl Search<'_> {
         Ok(columns)
     }
 
-    fn thinned(&self, rows: Vec<f64>) -> Vec<f64> {
+    fn thinned(rows: Vec<f64>) -> Vec<f64> {
         let every = (rows.len() / ROWS).max(1);
         rows.into_iter().step_by(every).collect()
     }
 
     /// The best shape of every law, best first.
-    fn single(&self, columns: &[Column]) -> Vec<Vec<Source>> {
+    fn single(columns: &[Column]) -> Vec<Vec<Source>> {
         let mut found: Vec<(f64, Source)> = Vec::new();
         for column in columns {
             let Some(source) = sized(&column.source, column.against / column.square) else { continue };
@@ -166,7 +166,7 @@ impl Search<'_> {
     }
 
     /// The best pair of shapes of every pair of laws, best first.
-    fn pairs(&self, columns: &[Column]) -> Vec<Vec<Source>> {
+    fn pairs(columns: &[Column]) -> Vec<Vec<Source>> {
         let mut chosen: Vec<&Column> = Vec::new();
         for (effect, _) in Effect::relative() {
             let mut own: Vec<&Column> = columns.iter().filter(|c| c.source.effect == effect).collect();

@@ -37,15 +37,12 @@ pub(super) fn structure(
         Shape::Matrices(files) => {
             imported(files, folder).map_err(|problem| at.error(line(&at.lines.structure, ""), problem))?.build(lumped)
         }
-        Shape::Points(_) if !lumped.is_empty() => {
+        Shape::Points(_) | Shape::Component(_) if !lumped.is_empty() => {
             return Err(at.error(at.lines.lumped_mass.first().copied().unwrap_or(1), Problem::MassOnPoints));
         }
         Shape::Points(points) => {
             let dofs = points.dofs.iter().map(|label| label.0.clone()).collect();
             PointParameters { dofs, positions: points.positions.clone() }.build()
-        }
-        Shape::Component(_) if !lumped.is_empty() => {
-            return Err(at.error(at.lines.lumped_mass.first().copied().unwrap_or(1), Problem::MassOnPoints));
         }
         Shape::Component(parameters) => parameters.build(),
     };
