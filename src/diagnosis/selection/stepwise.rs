@@ -11,7 +11,7 @@ use crate::diagnosis::selection::search::{Base, scale_of};
 use crate::diagnosis::selection::weighing::weighed;
 use crate::diagnosis::updating::detuning::is_likely;
 use crate::diagnosis::updating::noise_model::NoiseModel;
-use crate::effects::Source;
+use crate::effects::{Effect, Source};
 use std::sync::Arc;
 
 /// Most effects that are added.
@@ -25,8 +25,6 @@ const AGREES: f64 = 4.0;
 const SETTLED: f64 = 1.5;
 /// Squared residual per datum beyond which it is not noise that hides an effect, but what no model matches.
 const DOUBTFUL: f64 = 1.5;
-/// Evidence that outweighs being chosen among the candidates: twice the logarithm of some two thousand laws at places.
-const CHOSEN: f64 = 15.0;
 /// Times that evidence up to which corrections alone are sought once more from those beside the effect.
 const RIVALLED: f64 = 12.0;
 /// Evidence that an effect must bring where the model agrees without it.
@@ -196,11 +194,14 @@ fn beside_updating<'a>(
 }
 
 /// Evidence that the last effect of a fit must bring beside `likely`, the model with corrections and the effects before it:
-/// where those agree with the data already, that of having been chosen among the candidates alone.
+/// more where those agree with the data already, and more for a spring or mass, which is like a correction itself.
 fn evidence_needed(likely: &Base, refit: &Refit) -> f64 {
+    let structural = |source: &Source| matches!(source.effect, Effect::Stiffness | Effect::Mass);
     let left: f64 = likely.bench().residual(&likely.predictions).iter().map(|r| r * r).sum();
     let settled = refit.effects.len() == 1 && agrees(likely, left, 0);
-    if settled { CHOSEN } else { EVIDENCE }
+    let times =
+        1.0 + if settled { 2.0 } else { 0.0 } + if refit.effects.last().is_some_and(structural) { 1.0 } else { 0.0 };
+    EVIDENCE * times
 }
 
 pub(crate) fn level(refit: &Refit) -> (f64, usize) {
