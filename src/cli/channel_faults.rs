@@ -15,9 +15,12 @@ pub(super) const NO_AMPLITUDE: &str =
 
 /// As suggestions in the JSON document: a gain, or `exchanged` with `channels`.
 pub(super) fn suggestions(faults: &[ChannelFault]) -> impl Iterator<Item = Value> + '_ {
-    faults.iter().map(|fault| {
+    // A channel that is not to be relied on is no effect that could be added: it is told under `channel_faults`.
+    let mendable = faults.iter().filter(|fault| !matches!(fault.fault, Fault::Unreliable(_)));
+    mendable.map(|fault| {
         let mut map = Map::new();
         match fault.fault {
+            Fault::Unreliable(_) => {}
             Fault::Factor(factor) => {
                 map.insert("effect".into(), json!("gain"));
                 map.insert("channel".into(), json!(fault.channels[0]));
@@ -45,6 +48,7 @@ pub(super) fn suggestions(faults: &[ChannelFault]) -> impl Iterator<Item = Value
 pub(super) fn document(fault: &ChannelFault) -> Value {
     let (kind, factor) = match fault.fault {
         Fault::Exchanged => ("exchanged", None),
+        Fault::Unreliable(_) => ("unreliable", None),
         Fault::Factor(-1.0) => ("reversed", Some(-1.0)),
         Fault::Factor(factor) => ("factor", Some(factor)),
     };
@@ -52,6 +56,7 @@ pub(super) fn document(fault: &ChannelFault) -> Value {
         "fault": kind,
         "channels": fault.channels,
         "factor": factor,
+        "scatter": if let Fault::Unreliable(scatter) = fault.fault { Some(scatter) } else { None },
         "words": fault.words(),
         "error_before": fault.error_before,
         "error_after": fault.error_after,
@@ -80,6 +85,9 @@ pub(super) fn text(faults: &[ChannelFault]) -> String {
 /// # Errors
 /// One sentence where the project has no place for it.
 pub(super) fn mend(document: &mut DocumentMut, project: &Project, fault: &ChannelFault) -> Result<(), String> {
+    if let Fault::Unreliable(_) = fault.fault {
+        return Ok(());
+    }
     let frf = document.get("frf").is_some();
     if document.get("harmonics").is_some() {
         return Err("its harmonics were fitted elsewhere; mend the file".to_owned());
@@ -113,6 +121,7 @@ fn mend_tables(tables: &mut ArrayOfTables, fault: &ChannelFault) -> Result<(), S
         .map(|name| tables.iter().position(|table| named(table) == *name).ok_or(format!("no [[channel]] is {name}")))
         .collect::<Result<_, _>>()?;
     match fault.fault {
+        Fault::Unreliable(_) => {}
         Fault::Factor(factor) => {
             let Some(table) = tables.get_mut(rows[0]) else { return Ok(()) };
             if factor < 0.0 {
@@ -188,6 +197,7 @@ fn mend_responses(document: &mut DocumentMut, project: &Project, fault: &Channel
             let (minus, plain) = (now.starts_with('-'), now.trim_start_matches('-').to_owned());
             let Some(at) = labels.iter().position(|name| *name == plain) else { continue };
             match fault.fault {
+                Fault::Unreliable(_) => {}
                 Fault::Factor(-1.0) => {
                     dofs.insert(&key, value(reversed(&now)));
                 }

@@ -165,6 +165,7 @@ pub(super) fn correction(project: &Project, correction: &Correction) -> Value {
         }
         UpdatingParameter::Gain(channel) => ("gain", "channel", json!(channel)),
         UpdatingParameter::Delay(channel) => ("delay", "channel", json!(channel)),
+        UpdatingParameter::Session(session) => ("session", "session", json!(session + 1)),
     };
     map.insert("what".into(), json!(what));
     if !key.is_empty() {
@@ -197,6 +198,7 @@ pub(super) fn corrected(project: &Project, correction: &Correction) -> String {
         }
         UpdatingParameter::Gain(channel) => format!("gain of {channel}"),
         UpdatingParameter::Delay(channel) => format!("delay of {channel}"),
+        UpdatingParameter::Session(session) => format!("stiffness of session {}", session + 1),
     };
     format!("  {what}: times {:.4} +- {:.4}", correction.factor, correction.deviation)
 }

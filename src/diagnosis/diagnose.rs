@@ -3,6 +3,7 @@
 use crate::control::Control;
 use crate::diagnosis::channels::{self, ChannelFault};
 use crate::diagnosis::residual::data::{Data, DiagnosisError, Problem};
+use crate::diagnosis::residual::levels::sessions;
 use crate::diagnosis::residual::prediction::{Predictor, RunPrediction};
 use crate::diagnosis::selection::search::Base;
 use crate::diagnosis::selection::stepwise;
@@ -159,22 +160,33 @@ fn searched(
     if problem.structure.matrices().is_none() {
         return crate::diagnosis::points::search::diagnose(problem, excluded, control);
     }
-    let data = Data { excluded: excluded.to_vec(), ..Data::new(problem)? };
+    let data = Data::new(problem)?;
+    let data = Data { excluded: excluded.to_vec(), sessions: sessions(problem, &data), ..data };
     let predictor = Arc::new(Predictor::new(problem.structure, problem.known(), &data)?);
     let base = Base::new(predictor.clone(), &data, control, early)?;
-    let faults = channels::find(&predictor, &data, &base.predictions);
-    if faults.is_empty() {
-        return explained(base);
-    }
+    let mut faults = channels::find(&predictor, &data, &base.predictions);
     let asis = agreement(&base);
-    let mended = channels::mended(&data, &faults);
-    let mut diagnosis = explained(Base::new(predictor, &mended, control, early)?)?;
-    diagnosis.error_before = asis.error;
-    diagnosis.steps.insert(0, asis);
-    diagnosis.channel_faults = faults;
-    if diagnosis.verdict == Verdict::Adequate {
-        diagnosis.verdict = Verdict::Missing;
+    drop(base);
+    let mendable = faults.len();
+    let mut diagnosis = loop {
+        let mended = channels::mended(&data, &faults);
+        let base = Base::new(predictor.clone(), &mended, control, early)?;
+        match explained(base)? {
+            Ok(diagnosis) => break diagnosis,
+            Err(fault) => faults.push(fault),
+        }
+    };
+    if faults.is_empty() {
+        return Ok(diagnosis);
     }
+    diagnosis.error_before = asis.error;
+    if mendable > 0 {
+        diagnosis.steps.insert(0, asis);
+        if diagnosis.verdict == Verdict::Adequate {
+            diagnosis.verdict = Verdict::Missing;
+        }
+    }
+    diagnosis.channel_faults = faults;
     Ok(diagnosis)
 }
 
@@ -185,8 +197,8 @@ fn agreement(base: &Base) -> Step {
     Step { added: Vec::new(), error: bench.error(&base.predictions), misfit: before / base.count().max(1) as f64 }
 }
 
-/// Explains what the base model leaves.
-fn explained(base: Base) -> Result<Diagnosis, DiagnosisError> {
+/// Explains what the base model leaves; or a channel that is not to be relied on.
+fn explained(base: Base) -> Result<Result<Diagnosis, ChannelFault>, DiagnosisError> {
     let bench = base.bench();
     let before = square(&bench.residual(&base.predictions));
     let diagnosis = Diagnosis {
@@ -201,9 +213,12 @@ fn explained(base: Base) -> Result<Diagnosis, DiagnosisError> {
         complete: true,
     };
     if stepwise::agrees(&base, before, 0) {
-        return Ok(diagnosis);
+        return Ok(Ok(diagnosis));
     }
-    stepwise::explain(base, before)?.conclude(diagnosis)
+    match stepwise::explain(base, before)? {
+        Ok(outcome) => Ok(Ok(outcome.conclude(diagnosis)?)),
+        Err(fault) => Ok(Err(fault)),
+    }
 }
 
 /// Error that noise and truncation alone would leave.

@@ -45,7 +45,9 @@ pub fn adopt(
                 Some(source) => adopted.commands.push(resized(&source, factor, project)),
                 None => adopted.left.push(k),
             },
-            UpdatingParameter::Gain(_) | UpdatingParameter::Delay(_) => adopted.left.push(k),
+            UpdatingParameter::Gain(_) | UpdatingParameter::Delay(_) | UpdatingParameter::Session(_) => {
+                adopted.left.push(k)
+            }
         }
     }
     if !tables.is_empty() {

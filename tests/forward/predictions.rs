@@ -75,7 +75,7 @@ fn effects(x: &Values) -> Vec<Source> {
 fn predictor(x: &Values) -> Predictor {
     let structure = beam(x.youngs_modulus, x.density, x.lumped);
     let known = vec![whole(Effect::StiffnessProportional, x.known)];
-    Predictor::new(&structure, known, &Data { runs: vec![run()], excluded: vec![], per_unit_force: false }).unwrap()
+    Predictor::new(&structure, known, &Data { runs: vec![run()], ..Data::default() }).unwrap()
 }
 
 fn settings() -> Settings {
@@ -154,9 +154,7 @@ fn a_channel_error_is_its_own() {
 #[test]
 fn what_is_not_there_is_named() {
     let by = [By::Known { source: 1, parameter: 0 }];
-    let predictor =
-        Predictor::new(&cantilever(6), vec![], &Data { runs: vec![run()], excluded: vec![], per_unit_force: false })
-            .unwrap();
+    let predictor = Predictor::new(&cantilever(6), vec![], &Data { runs: vec![run()], ..Data::default() }).unwrap();
     let control = Control::unattended();
     let refused = predictor.predict_with_derivatives(0, &run(), (&[], &by), &settings(), None, &control);
     assert!(refused.unwrap_err().to_string().contains("is not in this model: it has 0 sources, 2 forces"));

@@ -8,7 +8,7 @@
 //! ```
 //!
 //! from the best of a grid of shapes, whose scale is linear. Errors of a channel are regressed alike: the free relative
-//! error is `t - 1` of a response, `1 - 1/t` of a force.
+//! error is `1 - 1/t` of a force and of the fundamental of a response, `t - 1` of its multiples.
 
 use crate::diagnosis::candidates::eliminator::Eliminator;
 use crate::diagnosis::candidates::friction::{friction, sizes};

@@ -8,7 +8,7 @@ use dashpot_numerics::dot;
 use faer::c64;
 
 /// Bounds of the gain of a channel while it is searched.
-const GAINS: [f64; 2] = [0.05, 20.0];
+pub(crate) const GAINS: [f64; 2] = [0.5, 2.0];
 
 impl PlaceData {
     /// Harmonics of the force of `source`, an effect that acts here, at the motion of every run, `[run][harmonic]`, N (of a
@@ -31,8 +31,8 @@ impl PlaceData {
     /// Relative error of this channel by a law of parameter `p` at the harmonics of run `r`.
     pub(super) fn channel_error(&self, law: &dyn ChannelLaw, p: f64, r: usize, order: usize) -> Vec<c64> {
         let force = matches!(self.spot, Spot::Force(_));
-        let value = |t: c64| if force { 1.0 - 1.0 / t } else { t - 1.0 };
-        (1..=order).map(|h| value(law.transfer(p, h as f64 * self.motions[r].omega))).collect()
+        let value = |h: usize, t: c64| if force || h == 1 { 1.0 - 1.0 / t } else { t - 1.0 };
+        (1..=order).map(|h| value(h, law.transfer(p, h as f64 * self.motions[r].omega))).collect()
     }
 
     /// Fits the error `effect` of this channel; `None` if its value is out of range.
@@ -56,7 +56,8 @@ impl PlaceData {
                 p = p.clamp(GAINS[0], GAINS[1]);
             }
         }
-        if !p.is_finite() || !effect.parameters()[0].allows(p) {
+        let at_a_bound = !law.turns_phase() && (p <= GAINS[0] || p >= GAINS[1]);
+        if !p.is_finite() || at_a_bound || !effect.parameters()[0].allows(p) {
             return None;
         }
         let source = Source { effect, place: self.spot.place(), state: State::Known, parameters: vec![p] };

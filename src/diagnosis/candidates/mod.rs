@@ -6,7 +6,7 @@ pub mod fingerprint_plot;
 pub mod friction;
 pub mod generalisations;
 pub mod identified_force;
-mod law_force;
+pub(crate) mod law_force;
 pub mod special_cases;
 pub mod start;
 mod thinning;

@@ -13,6 +13,9 @@ pub enum Fault {
     Factor(f64),
     /// Two channels are at each other's place.
     Exchanged,
+    /// What a channel reads scatters by that much from run to run, relative: it is loose, or late, or its gain drifts. It is
+    /// kept, with that as the deviation of what it reads.
+    Unreliable(f64),
 }
 
 /// A fault of one channel, or of two that are exchanged.
@@ -38,6 +41,12 @@ impl ChannelFault {
         let name = &self.channels[0];
         match self.fault {
             Fault::Exchanged => format!("{name} and {} look exchanged", self.channels[1]),
+            Fault::Unreliable(scatter) => {
+                format!(
+                    "{name} does not fit the other channels by {} % from run to run: loose?",
+                    three_digits(100.0 * scatter)
+                )
+            }
             Fault::Factor(factor) => {
                 let reads = if factor < 0.0 { " looks reversed and reads" } else { " reads" };
                 if factor == -1.0 {
@@ -54,6 +63,9 @@ impl ChannelFault {
     /// Why, in a sentence with numbers.
     pub fn evidence(&self) -> String {
         let percent = |x: f64| three_digits(100.0 * x);
+        if let Fault::Unreliable(_) = self.fault {
+            return "it is kept with that as its deviation; look at its mounting, its cable and its timing".to_owned();
+        }
         let [before, after] = self.own_error.map(percent);
         let [shown, of] = self.frequencies;
         let what = if self.channels.len() == 2 { "their" } else { "its" };

@@ -24,6 +24,7 @@ use crate::diagnosis::residual::data::{ChannelData, Data};
 /// The data with the faults mended: what a channel reads divided by its factor, what two exchanged channels read exchanged.
 pub(crate) fn mended(data: &Data, faults: &[ChannelFault]) -> Data {
     let mut data = data.clone();
+    data.doubted |= faults.iter().any(|fault| matches!(fault.fault, Fault::Unreliable(_)));
     for run in &mut data.runs {
         for fault in faults {
             match &fault.fault {
@@ -32,6 +33,11 @@ pub(crate) fn mended(data: &Data, faults: &[ChannelFault]) -> Data {
                     .iter_mut()
                     .filter(|channel| channel.name == fault.channels[0])
                     .for_each(|channel| divide(channel, *factor)),
+                Fault::Unreliable(scatter) => run
+                    .responses
+                    .iter_mut()
+                    .filter(|channel| channel.name == fault.channels[0])
+                    .for_each(|channel| widen(channel, *scatter)),
                 Fault::Exchanged => {
                     let at = |name: &String| run.responses.iter().position(|channel| channel.name == *name);
                     if let (Some(a), Some(b)) = (at(&fault.channels[0]), at(&fault.channels[1])) {
@@ -47,6 +53,12 @@ pub(crate) fn mended(data: &Data, faults: &[ChannelFault]) -> Data {
 fn divide(channel: &mut ChannelData, factor: f64) {
     channel.measured.iter_mut().for_each(|value| *value /= factor);
     channel.deviation.iter_mut().for_each(|deviation| *deviation /= factor.abs());
+}
+
+/// Adds a relative deviation to what a channel reads.
+fn widen(channel: &mut ChannelData, scatter: f64) {
+    let pairs = channel.deviation.iter_mut().zip(&channel.measured);
+    pairs.for_each(|(deviation, value)| *deviation = deviation.hypot(scatter * value.norm()));
 }
 
 /// Exchanges what two channels read; their names and DOFs stay.

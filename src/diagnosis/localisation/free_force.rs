@@ -42,6 +42,8 @@ pub(crate) struct Freedom {
     pub slopes: Vec<Vec<Vec<c64>>>,
     /// The same by what differs from run to run.
     pub own: Vec<Vec<Vec<c64>>>,
+    /// Values of those that are in the model already, `[run][parameter]`.
+    pub own_values: Vec<Vec<f64>>,
 }
 
 /// A free complex force with its variance.
@@ -83,7 +85,13 @@ impl Screen {
         for (r, run) in data.runs.iter().enumerate() {
             let at = |h: usize| {
                 let prediction = &predictions[r].channels;
-                let e = noise.runs[r].apply(h, |c| run.responses[c].measured[h - 1] - prediction[c][h - 1]);
+                let of_run = freedom.own.get(r).filter(|_| h == 1);
+                let in_model = |c: usize| -> c64 {
+                    let pairs = of_run.into_iter().flatten().zip(freedom.own_values.get(r).into_iter().flatten());
+                    pairs.fold(c64::new(0.0, 0.0), |sum, (slope, u)| sum + slope[c] * *u)
+                };
+                let e =
+                    noise.runs[r].apply(h, |c| run.responses[c].measured[h - 1] - prediction[c][h - 1] + in_model(c));
                 let columns: Vec<Vec<c64>> = spots
                     .iter()
                     .map(|spot| noise.runs[r].apply(h, |c| unit(receptances, r, data, h, c, spot, prediction)))
@@ -253,7 +261,7 @@ impl Screen {
 }
 
 /// Column of a spot for response channel `c`: the recorded amplitude for a unit force of the effect, or unit relative
-/// error of the channel.
+/// error of the channel (of what is recorded at the fundamental, of what is predicted at its multiples).
 fn unit(
     receptances: &Receptances,
     r: usize,
@@ -268,6 +276,8 @@ fn unit(
     match spot {
         // The structure feels minus the force of the effect.
         Spot::Leg(leg) => -receptances.channel(r, run, h, channel, *leg),
+        // The fundamental is read whatever the model predicts: `y - y / t = (1 - 1/t) y`.
+        Spot::Response(name) if *name == channel.name && h == 1 => channel.measured[0],
         Spot::Response(name) if *name == channel.name => prediction[c][h - 1],
         Spot::Response(_) => c64::new(0.0, 0.0),
         Spot::Force(name) => {

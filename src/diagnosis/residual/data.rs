@@ -158,7 +158,7 @@ impl RunData {
 }
 
 /// All runs that take part.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct Data {
     /// Runs in the order of the project.
     pub runs: Vec<RunData>,
@@ -167,6 +167,10 @@ pub struct Data {
     /// Whether there are lines of frequency responses among the runs: they have no amplitude, and laws that depend on it
     /// cannot be told from them.
     pub per_unit_force: bool,
+    /// Whether a channel is not relied on: then the model is not taken for exact either.
+    pub doubted: bool,
+    /// Number of the session of each run; none where they cannot be told apart.
+    pub sessions: Vec<usize>,
 }
 
 impl Data {
@@ -186,7 +190,7 @@ impl Data {
 
     fn of(problem: &Problem, runs: Vec<RunData>) -> Self {
         let per_unit_force = runs.iter().any(|run| problem.runs[run.index].per_unit_force);
-        Self { runs, excluded: Vec::new(), per_unit_force }
+        Self { runs, excluded: Vec::new(), per_unit_force, doubted: false, sessions: Vec::new() }
     }
 
     /// Whether an effect at its place may be suggested: not one that is ruled out, none of more parameters than runs, and

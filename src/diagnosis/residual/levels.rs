@@ -22,6 +22,29 @@ pub(crate) struct Levels {
     pub names: Vec<String>,
 }
 
+/// Least runs to a session from which on sessions are told apart.
+const RUNS_OF_A_SESSION: usize = 4;
+
+/// The session of every run: as they are named, else the level it was measured at; none where there is but one, or hardly a run
+/// to each.
+pub(crate) fn sessions(problem: &Problem, data: &Data) -> Vec<usize> {
+    if data.per_unit_force {
+        return Vec::new();
+    }
+    let names: Option<Vec<&String>> = data.runs.iter().map(|run| problem.runs[run.index].session.as_ref()).collect();
+    let numbers = match names {
+        Some(names) => names.iter().map(|name| names.iter().position(|other| other == name).unwrap_or(0)).collect(),
+        None => Levels::new(problem, data).numbers,
+    };
+    let mut distinct: Vec<usize> = numbers.clone();
+    distinct.sort_unstable();
+    distinct.dedup();
+    if distinct.len() < 2 || data.runs.len() < RUNS_OF_A_SESSION * distinct.len() {
+        return Vec::new();
+    }
+    numbers.iter().map(|number| distinct.iter().position(|other| other == number).unwrap_or(0)).collect()
+}
+
 impl Levels {
     /// Levels of the runs of `data`.
     pub fn new(problem: &Problem, data: &Data) -> Self {

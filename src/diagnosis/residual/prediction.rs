@@ -129,7 +129,13 @@ impl Predictor {
     pub fn updated(&self, updating: &Updating) -> Result<Self, DiagnosisError> {
         let known = updating.known(&self.stated.1);
         let model = ForwardModel::new(&updating.structure(&self.stated.0), &known)?;
-        let runs = run_models(&self.omegas, |omega| model.at(omega));
+        let mut runs = run_models(&self.omegas, |omega| model.at(omega));
+        for (r, run) in runs.iter_mut().enumerate() {
+            let shift = updating.shift(r);
+            if shift != 0.0 {
+                *run = run.stiffened(1.0 + shift);
+            }
+        }
         Ok(Self { model, runs, known, stated: self.stated.clone(), omegas: self.omegas.clone() })
     }
 

@@ -20,6 +20,8 @@ pub struct RunNuisance {
     basis: Vec<Vec<f64>>,
     /// `1 - (1 + D)^(-1/2)`.
     shrinkage: Vec<f64>,
+    /// What is in the model already, in the same units; none: nothing.
+    reference: Vec<f64>,
 }
 
 /// What the data say of the local parameters of one run.
@@ -49,7 +51,20 @@ impl RunNuisance {
                 shrinkage.push(1.0 - (1.0 + value).sqrt().recip());
             }
         }
-        Self { columns, basis, shrinkage }
+        Self { columns, basis, shrinkage, reference: Vec::new() }
+    }
+
+    /// The same where the model has the parameters at `reference` already, in units of their prior deviations.
+    #[must_use]
+    pub fn at(self, reference: Vec<f64>) -> Self {
+        Self { reference, ..self }
+    }
+
+    /// Turns a whitened residual of the run, with the parameters at the reference, into one with none of them.
+    pub fn without_reference(&self, rows: &mut [f64]) {
+        for (column, u) in self.columns.iter().zip(&self.reference).filter(|(_, u)| **u != 0.0) {
+            rows.iter_mut().zip(column).for_each(|(r, c)| *r += u * c);
+        }
     }
 
     /// Multiplies the whitened rows of the run by `(1 + V V^T)^(-1/2)`.

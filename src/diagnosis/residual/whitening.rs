@@ -86,6 +86,13 @@ impl Whitening {
         (1..=self.factors.len()).flat_map(of).flat_map(|e| [e.re, e.im]).collect()
     }
 
+    /// `ln det` of the covariance of all real values, what is the run's own not included.
+    pub fn log_determinant(&self) -> f64 {
+        let n = self.alive.len();
+        let of = |factor: &Vec<c64>| (0..n).map(|i| 4.0 * factor[i * n + i].re.ln()).sum::<f64>();
+        self.factors.iter().map(of).sum()
+    }
+
     /// Number of real values of a whitened run.
     pub fn len(&self) -> usize {
         2 * self.alive.len() * self.factors.len()

@@ -40,7 +40,7 @@ impl Outcome<'_> {
         let Some(top) = rungs.last() else {
             let bench = base.bench();
             let misfit = square(&bench.residual(&base.predictions)) / base.count().max(1) as f64;
-            let error = bench.error(&base.predictions);
+            let error = base.error_of_structure(&[], &Vec::new())?;
             diagnosis.verdict = match (self.found.updated, misfit < TOLERATED) {
                 (true, true) => Verdict::Detuned,
                 (false, true) => Verdict::Adequate,
@@ -183,7 +183,7 @@ pub(crate) fn corrections(base: &Base) -> Vec<Correction> {
     let of = |(k, parameter): (usize, &UpdatingParameter)| {
         let deviation = told.linearisation.updating.prior(k) * variances.get(k)?.sqrt();
         let factor = updating.values[k].exp();
-        parameter.is_of_model().then(|| Correction {
+        parameter.is_stated().then(|| Correction {
             parameter: parameter.clone(),
             factor,
             deviation: deviation * factor,

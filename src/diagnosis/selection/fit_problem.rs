@@ -67,6 +67,21 @@ pub(crate) fn run_slopes(
     Some(slopes)
 }
 
+/// What the response is differentiated by for each parameter of `effects`, which come after `known` sources; nothing for errors
+/// of channels.
+pub(super) fn unknowns_of(effects: &[Source], known: usize) -> Vec<Vec<(Unknown, f64)>> {
+    let mut source = known;
+    let mut sums = Vec::new();
+    for effect in effects {
+        let channel = matches!(effect.effect.kind(), Kind::Channel(_));
+        for parameter in 0..effect.parameters.len() {
+            sums.push(if channel { Vec::new() } else { vec![(Unknown::Source { source, parameter }, 1.0)] });
+        }
+        source += usize::from(!channel);
+    }
+    sums
+}
+
 impl OnResponse<'_> {
     fn compute(&self, theta: &[f64]) -> Result<Trial, DiagnosisError> {
         let effects = self.variables.effects(theta);
@@ -80,20 +95,6 @@ impl OnResponse<'_> {
             Some(trial) => Ok(trial),
             None => self.compute(theta),
         }
-    }
-
-    /// What the response is differentiated by for each variable; nothing for errors of channels.
-    fn unknowns(&self, effects: &[Source]) -> Vec<Vec<(Unknown, f64)>> {
-        let mut source = self.bench.predictor.known().len();
-        let mut sums = Vec::new();
-        for effect in effects {
-            let channel = matches!(effect.effect.kind(), Kind::Channel(_));
-            for parameter in 0..effect.parameters.len() {
-                sums.push(if channel { Vec::new() } else { vec![(Unknown::Source { source, parameter }, 1.0)] });
-            }
-            source += usize::from(!channel);
-        }
-        sums
     }
 
     /// A column by differences.
@@ -133,7 +134,7 @@ impl Residual for OnResponse<'_> {
         let trial = self.trial(theta)?;
         self.starts = trial.predictions.iter().map(|p| p.found.then(|| p.response.clone())).collect();
         let effects = self.variables.effects(theta);
-        let (sums, factors) = (self.unknowns(&effects), self.variables.slopes(theta));
+        let (sums, factors) = (unknowns_of(&effects, self.bench.predictor.known().len()), self.variables.slopes(theta));
         let mut columns: Vec<Vec<f64>> = vec![Vec::with_capacity(at.len()); theta.len()];
         let mut exact = true;
         for (r, run) in self.bench.data.runs.iter().enumerate() {

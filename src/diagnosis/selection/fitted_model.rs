@@ -101,7 +101,11 @@ impl Bench<'_> {
     pub fn at_reference(&self, predictions: &[RunPrediction]) -> Vec<f64> {
         let mut rows = Vec::with_capacity(self.count());
         for (r, (run, prediction)) in self.data.runs.iter().zip(predictions).enumerate() {
-            self.whitened(r, &mut rows, |c, h| run.responses[c].measured[h - 1] - prediction.channels[c][h - 1]);
+            let noise = &self.noise.runs[r];
+            let mut own = noise.rows(|c, h| run.responses[c].measured[h - 1] - prediction.channels[c][h - 1]);
+            noise.nuisance().without_reference(&mut own);
+            noise.nuisance().project(&mut own);
+            rows.extend(own);
         }
         rows
     }

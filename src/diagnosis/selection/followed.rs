@@ -22,6 +22,9 @@ const AT_ONE_PLACE: usize = 4;
 const MARGIN: f64 = 60.0;
 /// Squared residual per datum of the best from which on candidates of twice that are followed too.
 const COARSE: f64 = 3.0;
+/// Best drafts whose limits are followed too, and how many times their score those may leave.
+const HEARD: usize = 2;
+const LIMIT: f64 = 2.0;
 /// Times that a model is updated beside its candidate.
 const UPDATES: usize = 6;
 
@@ -127,10 +130,32 @@ fn promising(drafts: Vec<Draft>, count: usize) -> Vec<Draft> {
     // Where even the best leaves much, the motion between the sensors is not known well enough to tell them apart.
     let margin = if scale > COARSE { best } else { MARGIN * scale };
     let mut kept: Vec<Draft> = Vec::new();
-    for draft in drafts.into_iter().take_while(|d| d.score < best + margin) {
+    for draft in drafts.iter().take_while(|d| d.score < best + margin) {
         let here = kept.iter().filter(|k| k.effects[0].place == draft.effects[0].place).count();
         if here < AT_ONE_PLACE && kept.len() < FOLLOWED {
-            kept.push(draft);
+            kept.push(draft.clone());
+        }
+    }
+    // Where hardly another place may be it, more of its laws.
+    for draft in drafts.iter().take_while(|d| d.score < best + margin) {
+        let known = |k: &Draft| k.effects[0].is_same(&draft.effects[0]);
+        if kept.len() < FOLLOWED && !kept.iter().any(known) {
+            kept.push(draft.clone());
+        }
+    }
+    with_limits(kept, &drafts)
+}
+
+/// The best drafts with the simpler laws that they contain as limits, from all `drafts`.
+fn with_limits(mut kept: Vec<Draft>, drafts: &[Draft]) -> Vec<Draft> {
+    for draft in kept.clone().iter().take(HEARD) {
+        let (effect, place) = (draft.effects[0].effect, &draft.effects[0].place);
+        for simpler in effect.limits() {
+            let is = |d: &&Draft| d.effects[0].effect == simpler && d.effects[0].place.is_same(place);
+            let near = |d: &&Draft| d.score < LIMIT * draft.score.abs();
+            if !kept.iter().any(|d| is(&d)) {
+                kept.extend(drafts.iter().find(is).filter(near).cloned());
+            }
         }
     }
     kept

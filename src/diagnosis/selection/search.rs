@@ -21,6 +21,8 @@ use std::sync::Arc;
 
 /// Places whose laws are looked at.
 const PLACES: usize = 24;
+/// Places whose laws are looked at while the model is still moved.
+const NEAR: usize = 5;
 /// Places whose laws are looked at before the others.
 const AHEAD: usize = 2;
 /// Sets that are fitted on the response.
@@ -119,6 +121,7 @@ impl<'a> Base<'a> {
             values: self.linearisation.updating.standardised(),
             slopes: self.linearisation.fundamentals(),
             own: self.linearisation.own_fundamentals(data),
+            own_values: (0..data.runs.len()).map(|r| self.linearisation.own_reference(r)).collect(),
         };
         let screen = Screen::new(&self.predictor, data, &predictions, noise, &mut receptances, &freedom, self.control)?;
         Ok(View { screen, receptances, predictions })
@@ -142,7 +145,10 @@ impl<'a> Base<'a> {
         effects: &[Source],
         breadth: Breadth,
     ) -> Result<Vec<Draft>, DiagnosisError> {
-        let placings = self.worth_while(view, effects)?;
+        let placings = match breadth {
+            Breadth::Near => view.screen.singles().into_iter().take(NEAR).collect(),
+            _ => self.worth_while(view, effects)?,
+        };
         let mut laws = self.all_laws(view, &placings, effects, Breadth::Simple)?;
         let wide = telling(&placings, &laws);
         let chosen: Vec<Placing> = wide.iter().map(|&k| placings[k].clone()).collect();

@@ -2,6 +2,7 @@
 
 use super::search::Draft;
 use crate::diagnosis::candidates::friction::friction;
+use crate::diagnosis::candidates::law_force::GAINS;
 use crate::diagnosis::candidates::special_cases::is_limit;
 use crate::diagnosis::localisation::free_force::Placing;
 use crate::effects::{SetValued, Source, effect::Kind};
@@ -13,9 +14,7 @@ const HOPELESS: f64 = 5.0;
 /// Places by either order at which laws of many parameters are regressed.
 const TELLING: usize = 3;
 /// Score, in units of that of a draft, below which a simpler one is as good for a start.
-const CLEARLY: f64 = 1.5;
-/// Bounds of the gain of a channel: beyond, it is not this channel.
-const GAINS: [f64; 2] = [0.2, 5.0];
+const CLEARLY: f64 = 1.2;
 /// Relative deviation of the size of an effect from which on there may as well be none.
 const VOID: f64 = 0.5;
 
@@ -42,6 +41,8 @@ pub(super) fn hopeless(best: f64) -> f64 {
 /// Which laws are regressed at a place.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Breadth {
+    /// Those of one or two parameters, at the few places that leave least.
+    Near,
     /// Those of one or two parameters.
     Simple,
     /// Those of more, too.

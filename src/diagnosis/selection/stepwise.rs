@@ -2,16 +2,17 @@
 //! and, where effects alone do not get there, with updating parameters, run nuisance and their scales free beside them.
 
 use crate::diagnosis::candidates::special_cases::is_limit;
+use crate::diagnosis::channels::ChannelFault;
 use crate::diagnosis::residual::data::DiagnosisError;
 use crate::diagnosis::residual::prediction::FINAL;
 use crate::diagnosis::selection::conclusion::{self, Outcome};
 use crate::diagnosis::selection::fits::STEPS;
 use crate::diagnosis::selection::fitted_model::Refit;
 use crate::diagnosis::selection::search::{Base, scale_of};
-use crate::diagnosis::selection::weighing::weighed;
+use crate::diagnosis::selection::weighing::{Weighed, weighed};
 use crate::diagnosis::updating::detuning::is_likely;
 use crate::diagnosis::updating::noise_model::NoiseModel;
-use crate::effects::{Effect, Source};
+use crate::effects::Source;
 use std::sync::Arc;
 
 /// Most effects that are added.
@@ -19,14 +20,19 @@ pub(crate) const MOST_EFFECTS: usize = 3;
 /// Evidence (difference of the information criterion) that an effect must bring: its own, and that of having been
 /// chosen among thousands.
 const EVIDENCE: f64 = 25.0;
+/// The same beside corrections, whose freedom has its cost already: having been chosen among some thousand.
+const CHOSEN: f64 = 16.0;
+/// The same of a further effect there: real models lack a little everywhere.
+const FURTHER: f64 = 100.0;
 /// Deviations of the sum of squares within which a model agrees with the data.
 const AGREES: f64 = 4.0;
 /// Deviations within which it agrees so well that no further effect is looked for.
 const SETTLED: f64 = 1.5;
 /// Squared residual per datum beyond which it is not noise that hides an effect, but what no model matches.
 const DOUBTFUL: f64 = 1.5;
-/// Times that evidence up to which corrections alone are sought once more from those beside the effect.
-const RIVALLED: f64 = 12.0;
+/// Squared residual per datum of corrections as they are first found, over that of the best effect, from which on they are no
+/// rival.
+const RIVALLED: f64 = 4.0;
 /// Evidence that an effect must bring where the model agrees without it.
 const CONFIRMED: f64 = 50.0;
 /// Share of the squared residual of the model as it is, and error of the response, that nobody's records and integrators
@@ -105,7 +111,10 @@ fn confirm(base: &Base, found: &mut Found) -> Result<(), DiagnosisError> {
 
 /// The search: with the model as it is, so far as free forces at one place or two could explain the data at all, then
 /// with its updating parameters free.
-pub(crate) fn explain(base: Base<'_>, before: f64) -> Result<Outcome<'_>, DiagnosisError> {
+pub(crate) fn explain(base: Base<'_>, before: f64) -> Result<Result<Outcome<'_>, ChannelFault>, DiagnosisError> {
+    if base.data.doubted {
+        return beside_updating(base, before);
+    }
     let none = || Found { updated: false, rungs: Vec::new(), agrees: false, before };
     let mut exact = none();
     let reach = base.reach()?;
@@ -120,40 +129,45 @@ pub(crate) fn explain(base: Base<'_>, before: f64) -> Result<Outcome<'_>, Diagno
     }
     if exact.agrees {
         confirm(&base, &mut exact)?;
-        return Ok(Outcome { base, found: exact });
+        return Ok(Ok(Outcome { base, found: exact }));
     }
     // Free forces at two places explain whatever two sensors see.
     let telling = base.data.runs.iter().all(|run| run.alive.len() > 2);
     if telling && !within(reach.single) && reach.pair <= noise && two_at_once(&base, &mut exact)? {
         confirm(&base, &mut exact)?;
-        return Ok(Outcome { base, found: exact });
+        return Ok(Ok(Outcome { base, found: exact }));
     }
     // Where time is up, what was found on the model as it is is the best so far.
     if !exact.rungs.is_empty() && base.control.is_late() {
-        return Ok(Outcome { base, found: exact });
+        return Ok(Ok(Outcome { base, found: exact }));
     }
-    let bare = base.bare()?;
-    let (likely, corrected) = bare.likely()?;
-    beside_updating(bare, likely, corrected, before)
+    beside_updating(base, before)
 }
 
 /// The search with the updating parameters free: at each stage the candidates seen from the model as it was updated last,
 /// then the model updated beside the best of them, and the candidates again.
-fn beside_updating<'a>(
-    bare: Base<'a>,
-    mut likely: Base<'a>,
-    corrected: f64,
-    before: f64,
-) -> Result<Outcome<'a>, DiagnosisError> {
+fn beside_updating(base: Base<'_>, before: f64) -> Result<Result<Outcome<'_>, ChannelFault>, DiagnosisError> {
     let mut found = Found { updated: true, rungs: Vec::new(), agrees: false, before };
-    let mut least = corrected;
-    let (mut here, drafts) = bare.localised()?;
+    let stated = base.bench().error(&base.predictions);
+    let bare = base.bare()?;
+    // Where corrections alone agree with the data and no law would bring its evidence beside them, none is followed.
+    if bare.misfit() < DOUBTFUL && !bare.promises(CHOSEN)? {
+        let (likely, _) = bare.likely()?;
+        found.agrees = agrees(&likely, likely.misfit() * likely.count() as f64, 0);
+        return Ok(Ok(Outcome { base: likely, found }));
+    }
+    let (mut here, drafts) = match base.localised()? {
+        Ok(localised) => localised,
+        Err(fault) => return Ok(Err(fault)),
+    };
     let mut drafts = Some(drafts);
+    let (mut likely, mut least) = bare.roughly();
+    let mut told_alone = false;
     while found.rungs.len() < MOST_EFFECTS && (found.rungs.is_empty() || !here.control.is_late()) {
         let from = found.rungs.last().map(|rung| rung.refits[0].clone());
         let fits = match (&from, drafts.take()) {
             (None, Some(drafts)) => here.followed(drafts)?,
-            (Some(from), _) => here.followed_beside(from, EVIDENCE)?,
+            (Some(from), _) => here.followed_beside(from, FURTHER)?,
             (None, None) => Vec::new(),
         };
         if found.rungs.is_empty() {
@@ -163,15 +177,14 @@ fn beside_updating<'a>(
         let Some(weighed) = weighed(fits)? else { break };
         let best = &weighed.refits[0];
         let scale = scale_of(&weighed.refits, weighed.base.count());
-        if from.is_none() && (least - weighed.least) / scale < RIVALLED * EVIDENCE {
-            // The corrections alone may have ended in another valley than those beside the effect.
-            let alone = bare.updated(&weighed.base.linearisation.updating, &[], &Vec::new())?;
-            let (alone, cost) = alone.estimated()?;
-            if cost < least {
-                (likely, least) = (alone, cost);
-            }
+        if from.is_none() && bare.misfit() < RIVALLED * scale {
+            (likely, least) = alone(&bare, &weighed)?;
+            told_alone = true;
         }
-        if (least - weighed.least) / scale < evidence_needed(&likely, best) || best.parameters >= weighed.base.count() {
+        // What only lowers the error because every run has a stiffness of its own is nothing that could be added.
+        let raises = best.error > stated;
+        let known = best.parameters < weighed.base.count();
+        if raises || !known || (least - weighed.least) / scale < evidence_needed(best) {
             break;
         }
         found.agrees = agrees(&weighed.base, best.chi_square, best.parameters);
@@ -186,22 +199,27 @@ fn beside_updating<'a>(
         }
     }
     if found.rungs.is_empty() {
-        let residual = likely.bench().residual(&likely.predictions);
-        found.agrees = agrees(&likely, residual.iter().map(|r| r * r).sum(), 0);
+        if !told_alone {
+            (likely, _) = bare.likely()?;
+        }
+        found.agrees = agrees(&likely, likely.misfit() * likely.count() as f64, 0);
     }
     pruned(&likely, &mut found)?;
-    Ok(Outcome { base: likely, found })
+    Ok(Ok(Outcome { base: likely, found }))
 }
 
-/// Evidence that the last effect of a fit must bring beside `likely`, the model with corrections and the effects before it:
-/// more where those agree with the data already, and more for a spring or mass, which is like a correction itself.
-fn evidence_needed(likely: &Base, refit: &Refit) -> f64 {
-    let structural = |source: &Source| matches!(source.effect, Effect::Stiffness | Effect::Mass);
-    let left: f64 = likely.bench().residual(&likely.predictions).iter().map(|r| r * r).sum();
-    let settled = refit.effects.len() == 1 && agrees(likely, left, 0);
-    let times =
-        1.0 + if settled { 2.0 } else { 0.0 } + if refit.effects.last().is_some_and(structural) { 1.0 } else { 0.0 };
-    EVIDENCE * times
+/// The model with corrections alone, as likely as they make it, and its evidence: they may have ended in another valley than
+/// those beside the effect.
+fn alone<'a>(bare: &Base<'a>, weighed: &Weighed<'a>) -> Result<(Base<'a>, f64), DiagnosisError> {
+    let (likely, least) = bare.likely()?;
+    let beside = bare.updated(&weighed.base.linearisation.updating, &[], &Vec::new())?;
+    let (estimated, cost) = beside.estimated()?;
+    Ok(if cost < least { (estimated, cost) } else { (likely, least) })
+}
+
+/// Evidence that the last effect of a fit must bring beside `likely`, the model with corrections and the effects before it.
+fn evidence_needed(refit: &Refit) -> f64 {
+    if refit.effects.len() > 1 { FURTHER } else { CHOSEN }
 }
 
 pub(crate) fn level(refit: &Refit) -> (f64, usize) {

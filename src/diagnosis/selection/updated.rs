@@ -1,12 +1,12 @@
 //! The model with its updating parameters moved to where the data ask for them, and linearised there.
 
+use crate::diagnosis::candidates::friction::friction;
 use crate::diagnosis::residual::data::{Data, DiagnosisError, RunData};
 use crate::diagnosis::residual::energy_balance::scaled_factors;
 use crate::diagnosis::residual::prediction::{FINAL, RunPrediction};
 use crate::diagnosis::selection::fit_problem::{RunSlopes, run_slopes};
-use crate::diagnosis::selection::fitted_model::{Refit, Starts};
-use crate::diagnosis::selection::search::{Base, Draft};
-use crate::diagnosis::selection::short_list::Breadth;
+use crate::diagnosis::selection::fitted_model::{Bench, Refit, Starts};
+use crate::diagnosis::selection::search::Base;
 use crate::diagnosis::selection::stepwise::agrees;
 use crate::diagnosis::updating::measured_motion::MeasuredMotion;
 use crate::diagnosis::updating::noise_model::{Linearisation, NoiseModel, amplitudes, of_channel};
@@ -27,14 +27,10 @@ const ARRIVED: f64 = 1e-3;
 const ROUNDS: usize = 3;
 /// Steps of the effects in each.
 const REFITTED: usize = 4;
-/// Squared residual per datum that a law may leave at the measured motion where the model is close enough to be followed.
-const CLOSE: f64 = 2.0;
 /// Share of the squared residual by which the linear fit of the updating parameters may still fall where they have settled.
 const SETTLED: f64 = 0.02;
-/// Shares of a step that are tried.
-const SHARES: [f64; 3] = [1.0, 0.4, 0.1];
-/// Share of its squared residual to which a step must bring the best place.
-const FALLING: f64 = 0.9;
+/// Steps of a joint fit of effects and updating parameters.
+const JOINT_STEPS: usize = 12;
 /// Factor of the measured over the predicted motion, off one, up to which derivatives are taken at the predicted one.
 const NEAR: f64 = 0.3;
 /// Bounds of the factor by which the measured motion may differ from the predicted one where derivatives are corrected
@@ -82,7 +78,10 @@ impl<'a> Base<'a> {
                 None => self.model_slopes(r, effects, &predictions[r], &sums),
             };
             let stiffness = slopes.pop().unwrap_or_default();
-            for (slope, parameter) in slopes.iter_mut().zip(&updating.parameters) {
+            for (k, (slope, parameter)) in slopes.iter_mut().zip(&updating.parameters).enumerate() {
+                if !updating.acts_in(k, r) {
+                    slope.iter_mut().flatten().for_each(|value| *value = c64::new(0.0, 0.0));
+                }
                 if !parameter.is_of_model() {
                     *slope = of_channel(parameter, run, &amplitudes[r]);
                 }
@@ -129,6 +128,12 @@ impl<'a> Base<'a> {
         if effects.is_empty() { Ok(self.predictions.clone()) } else { self.bench().predict(effects, &FINAL, starts) }
     }
 
+    /// The updating parameters of this model moved to the standardised `target`, none by more than the longest step.
+    pub(super) fn towards(&self, target: &[f64]) -> Updating {
+        let updating = &self.linearisation.updating;
+        towards(updating, &updating.at(target).values)
+    }
+
     /// The model whose updating parameters fit the measurement best without any effect.
     pub fn bare(&self) -> Result<Base<'a>, DiagnosisError> {
         let (stated, known) = self.predictor.stated();
@@ -157,28 +162,19 @@ impl<'a> Base<'a> {
 
     /// The model moved until its updating parameters leave what their linear fit leaves, without any effect.
     fn settled_bare(self, rounds: usize) -> Result<Base<'a>, DiagnosisError> {
-        let cost = |base: &Base| base.noise.updating.left_by_channels(&base.bench().at_reference(&base.predictions));
-        let (mut base, mut here) = (self, f64::INFINITY);
-        here = here.min(cost(&base));
+        let mut base = self;
+        let mut here = base.cost_at_reference(&base.predictions);
         for _ in 0..rounds {
-            let linear = square(&base.bench().residual(&base.predictions));
-            if here - linear < SETTLED * linear.min(base.count() as f64) || base.control.is_late() {
+            let linear = square(&base.bench().residual(&base.predictions)) + base.noise.cost();
+            if here - linear < SETTLED * base.count() as f64 || base.control.is_late() {
                 break;
             }
-            let rows = base.bench().at_reference(&base.predictions);
-            let updating = base.linearisation.updating.clone();
-            let target = updating.at(&base.noise.updating.solve(&rows)).values;
-            let mut moved = None;
-            for share in SHARES {
-                let part: Vec<f64> = updating.values.iter().zip(&target).map(|(v, t)| v + share * (t - v)).collect();
-                let there = base.updated(&towards(&updating, &part), &[], &Vec::new())?;
-                let then = cost(&there);
-                if then < here {
-                    moved = Some((there, then));
-                    break;
-                }
+            let joint = base.joint_fit(&[], &Vec::new(), &FINAL, JOINT_STEPS)?;
+            let there = base.updated(&joint.updating, &[], &Vec::new())?;
+            let then = there.cost_at_reference(&there.predictions);
+            if then >= here {
+                break;
             }
-            let Some((there, then)) = moved else { break };
             (base, here) = (there, then);
         }
         Ok(base)
@@ -209,62 +205,31 @@ impl<'a> Base<'a> {
         })
     }
 
+    /// Relative error of this model with `effects`, all runs alike, as `compare` tells it of a project in which the corrections
+    /// are taken over.
+    pub(super) fn error_of_structure(&self, effects: &[Source], starts: &Starts) -> Result<f64, DiagnosisError> {
+        let predictor = self.predictor.updated(&self.linearisation.updating.of_structure())?;
+        let bench = Bench { predictor: &predictor, ..self.bench() };
+        Ok(bench.error(&bench.predict(effects, &FINAL, starts)?))
+    }
+
+    /// Squared residual per datum without any effect.
+    pub(super) fn misfit(&self) -> f64 {
+        square(&self.bench().residual(&self.predictions)) / self.count().max(1) as f64
+    }
+
+    /// This model as it is, and its evidence.
+    pub(super) fn roughly(&self) -> (Base<'a>, f64) {
+        let left = square(&self.bench().residual(&self.predictions));
+        (self.with_scales(self.linearisation.updating.scales), left + self.noise.cost())
+    }
+
     /// This model settled with the scales that are estimated without any effect, and its evidence.
     pub(super) fn estimated(&self) -> Result<(Base<'a>, f64), DiagnosisError> {
         let settled = self.with_likely_scales(None, &FINAL)?.0.settled_bare(STEPS)?;
         let estimated = settled.with_likely_scales(None, &FINAL)?.0;
         let cost = square(&estimated.bench().residual(&estimated.predictions)) + estimated.noise.cost();
         Ok((estimated, cost))
-    }
-
-    /// The model with the updating parameters that fit best beside the law that leaves least at the measured motion, so
-    /// that they do not stand in for it, and the laws regressed there, best first.
-    pub fn localised(&self) -> Result<(Base<'a>, Vec<Draft>), DiagnosisError> {
-        let (stated, known) = self.predictor.stated();
-        // Laws of many parameters take long: they are looked at where the others lead no further.
-        let mut breadth = Breadth::Simple;
-        let mut here = self.updated(&Updating::all(stated, known, self.data), &[], &Vec::new())?.seen(breadth)?;
-        for _ in 0..STEPS {
-            if here.least < CLOSE * self.count() as f64 || self.control.is_late() {
-                break;
-            }
-            let updating = here.base.linearisation.updating.clone();
-            let target = towards(&updating, &updating.at(&here.target).values);
-            let there = self.updated(&target, &[], &Vec::new())?.seen(breadth)?;
-            let better = there.least < FALLING * here.least;
-            if there.least < here.least {
-                here = there;
-            }
-            if better {
-                continue;
-            }
-            if breadth == Breadth::All {
-                break;
-            }
-            breadth = Breadth::All;
-            here = here.base.seen(breadth)?;
-        }
-        if breadth == Breadth::Simple && !self.control.is_late() {
-            here = here.base.seen(Breadth::All)?;
-        }
-        Ok((here.base, here.drafts))
-    }
-
-    /// This model with what the best law leaves.
-    fn seen(self, breadth: Breadth) -> Result<Seen<'a>, DiagnosisError> {
-        let mut view = self.view(None)?;
-        let mut drafts = self.drafts(&mut view, &[], breadth)?;
-        drafts.extend(self.whole_drafts(&[]));
-        drafts.sort_by(|a, b| a.score.total_cmp(&b.score));
-        let best = drafts.first();
-        let target = match best {
-            Some(best) => self.updated_beside(&mut view, best)?,
-            None => None,
-        };
-        let least = best.map_or(f64::INFINITY, |best| best.score);
-        drop(view);
-        let target = target.unwrap_or_else(|| self.linearisation.updating.standardised());
-        Ok(Seen { target, base: self, least, drafts })
     }
 
     /// The model and the effects of `refit` moved in turn until neither moves any more: until the updating parameters at the
@@ -275,36 +240,30 @@ impl<'a> Base<'a> {
         settings: &Settings,
         rounds: usize,
     ) -> Result<(Base<'a>, Refit), DiagnosisError> {
+        let settings = settings_for(&refit.effects, settings);
         let (mut base, mut refit) = (self, refit);
-        let mut here = base.at_reference_cost(&refit)?;
+        let mut here = base.cost_at_reference(&base.predictions_with(&refit.effects, &refit.starts)?);
         for _ in 0..rounds {
-            if here - refit.chi_square < SETTLED * refit.chi_square.min(base.count() as f64) || base.control.is_late() {
+            let linear = refit.chi_square + base.noise.cost();
+            if here - linear < SETTLED * base.count() as f64 || base.control.is_late() {
                 break;
             }
-            let (u, _) = base.solved(&refit.effects, &refit.starts)?;
-            let updating = base.linearisation.updating.clone();
-            let target = updating.at(&u).values;
-            let mut moved = None;
-            for share in SHARES {
-                let part: Vec<f64> = updating.values.iter().zip(&target).map(|(v, t)| v + share * (t - v)).collect();
-                let there = base.updated(&towards(&updating, &part), &refit.effects, &refit.starts)?;
-                let again = there.bench().refit(&refit.effects, REFITTED, settings, &refit.starts)?;
-                let cost = there.at_reference_cost(&again)?;
-                if cost < here {
-                    moved = Some((there, again, cost));
-                    break;
-                }
+            let joint = base.joint_fit(&refit.effects, &refit.starts, settings, JOINT_STEPS)?;
+            let there = base.updated(&joint.updating, &joint.effects, &joint.starts)?;
+            let again = there.bench().refit(&joint.effects, REFITTED, settings, &joint.starts)?;
+            let then = there.cost_at_reference(&there.predictions_with(&again.effects, &again.starts)?);
+            // Where the model was far off its own noise, the evidence at the old reference and at the new differ in kind.
+            if then >= here && again.chi_square + there.noise.cost() > linear - 1.0 {
+                break;
             }
-            let Some((there, again, cost)) = moved else { break };
-            (base, refit, here) = (there, again, cost);
+            (base, refit, here) = (there, again, then);
         }
         Ok((base, refit))
     }
 
-    /// Squared residual of a fit with the updating parameters of the model at their reference, priors included.
-    fn at_reference_cost(&self, refit: &Refit) -> Result<f64, DiagnosisError> {
-        let predictions = self.predictions_with(&refit.effects, &refit.starts)?;
-        Ok(self.noise.updating.left_by_channels(&self.bench().at_reference(&predictions)))
+    /// Evidence of predictions with the updating parameters of the model at their reference, priors included.
+    fn cost_at_reference(&self, predictions: &[RunPrediction]) -> f64 {
+        self.noise.updating.left_by_channels(&self.bench().at_reference(predictions)) + self.noise.cost()
     }
 
     /// The same model with other scales of the priors.
@@ -327,6 +286,7 @@ impl<'a> Base<'a> {
         refit: Option<&Refit>,
         settings: &Settings,
     ) -> Result<(Base<'a>, Option<Refit>), DiagnosisError> {
+        let settings = settings_for(refit.map_or(&[], |refit| &refit.effects), settings);
         let (mut base, mut fitted) = (self.with_scales(self.linearisation.updating.scales), refit.cloned());
         for _ in 0..ROUNDS {
             let predictions = match &fitted {
@@ -343,15 +303,9 @@ impl<'a> Base<'a> {
     }
 }
 
-/// A model whose places were looked at.
-struct Seen<'a> {
-    base: Base<'a>,
-    /// Squared residual that the best law leaves, with its penalty.
-    least: f64,
-    /// Laws at their places, best first.
-    drafts: Vec<Draft>,
-    /// Standardised updating parameters that fit beside it.
-    target: Vec<f64>,
+/// How exactly responses with `effects` are computed: friction that sticks in a part of the cycle takes many harmonics.
+fn settings_for<'s>(effects: &[Source], settings: &'s Settings) -> &'s Settings {
+    if effects.iter().any(|e| friction(e.effect).is_some()) { &FINAL } else { settings }
 }
 
 /// Error of the measured motion, relative: gains of sensors, and what modes do not show between them.

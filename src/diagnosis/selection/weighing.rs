@@ -1,6 +1,7 @@
 //! Candidates with models of their own, weighed by their evidence: what they leave, what their parameters and the freedom of
 //! the model beside them cost.
 
+use crate::diagnosis::candidates::special_cases::is_limit;
 use crate::diagnosis::residual::data::DiagnosisError;
 use crate::diagnosis::residual::prediction::{FINAL, SEARCH};
 use crate::diagnosis::selection::fitted_model::Refit;
@@ -26,6 +27,9 @@ const SETTLED_AGAIN: usize = 2;
 const UPDATES: usize = 6;
 /// Evidence behind the best, with the scales of the search, beyond which no other scales would make a candidate the best.
 const LIGHT: f64 = 300.0;
+/// Squared residual per datum of the best from which on candidates within so many times what it leaves are weighed too.
+const COARSE: f64 = 3.0;
+const HEAVY: f64 = 2.0;
 /// Candidates whose scales are estimated.
 const WEIGHED: usize = 6;
 
@@ -36,29 +40,72 @@ pub(super) fn weighed<'a>(mut fits: Vec<(Base<'a>, Refit)>) -> Result<Option<Wei
     let one = |k: usize| -> Result<(f64, Base<'a>, Refit), DiagnosisError> {
         let (base, refit) = fits[k].0.with_likely_scales(Some(&fits[k].1), &SEARCH)?;
         let refit = refit.unwrap_or_else(|| fits[k].1.clone());
-        Ok((cost(&base, Some(&refit)), base, refit))
+        let (likely, before) = (cost(&base, Some(&refit)), cost(&fits[k].0, Some(&fits[k].1)));
+        if likely < before {
+            return Ok((likely, base, refit));
+        }
+        let own = &fits[k].0;
+        Ok((before, own.with_scales(own.linearisation.updating.scales), fits[k].1.clone()))
     };
     let Some(control) = fits.first().map(|(base, _)| base.control) else { return Ok(None) };
-    let near = cost(&fits[0].0, Some(&fits[0].1)) + LIGHT;
+    let (first, left) = (cost(&fits[0].0, Some(&fits[0].1)), fits[0].1.chi_square);
+    // Where even the best leaves much with the scales of the search, these say little of the order.
+    let coarse = left > COARSE * fits[0].0.count() as f64;
+    let near = first + if coarse { LIGHT.max(HEAVY * left) } else { LIGHT };
     let count = fits.iter().take(WEIGHED).take_while(|(base, refit)| cost(base, Some(refit)) < near).count();
-    let mut all = control.map(count, one).into_iter().collect::<Result<Vec<_>, _>>()?;
+    let told = |k: usize| -> Result<(f64, Base<'a>, Refit), DiagnosisError> {
+        let (cost, base, refit) = one(k)?;
+        let error = base.error_of_structure(&refit.effects, &refit.starts)?;
+        Ok((cost, base, Refit { error, ..refit }))
+    };
+    let mut all = control.map(count, told).into_iter().collect::<Result<Vec<_>, _>>()?;
     all.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let plain = plainest_first(&mut all);
     let costs: Vec<f64> = all.iter().map(|(cost, _, _)| *cost).collect();
     let refits: Vec<Refit> = all.iter().map(|(_, _, refit)| refit.clone()).collect();
     for (k, (_, base, refit)) in all.into_iter().enumerate().take(FINISHED) {
-        let (base, refit) = finished(base, refit)?;
+        let (base, mut refit) = finished(base, refit)?;
+        refit.error = base.error_of_structure(&refit.effects, &refit.starts)?;
         if !is_effect(&base, &refit) {
             continue;
         }
         let least = cost(&base, Some(&refit));
         let refit = with_told_deviations(&base, refit)?;
         let mut order: Vec<(f64, Refit)> = costs.iter().copied().zip(refits).skip(k + 1).collect();
-        order.insert(0, (least, refit));
+        // What is told first for being simpler is not to be told as the less likely.
+        let others = order.iter().map(|(cost, _)| *cost).fold(f64::INFINITY, f64::min);
+        order.insert(0, (if plain { least.min(others - SIMPLER) } else { least }, refit));
         let (costs, refits) = order.into_iter().unzip();
         return Ok(Some(Weighed { base, refits, costs, least }));
     }
     Ok(None)
 }
+
+/// Evidence, in units of what the best leaves per datum, by which a law may lead a simpler one that it contains and still not be
+/// told in its stead: real laws are no more exact than that.
+const NESTED: f64 = 40.0;
+
+/// Evidence that being simpler counts for there.
+const SIMPLER: f64 = 8.0;
+
+/// Puts the simplest law that the best contains first where it is nearly as likely; whether there is one.
+fn plainest_first(all: &mut [(f64, Base, Refit)]) -> bool {
+    let Some((least, base, best)) = all.first() else { return false };
+    let scale = (best.chi_square / base.count().max(1) as f64).max(1.0);
+    // A model that leaves no more than noise tells nested laws apart by their evidence alone.
+    let margin = if scale > NOISY { NESTED * scale } else { 0.0 };
+    let simpler = |(cost, _, refit): &(f64, Base, Refit)| {
+        refit.parameters < best.parameters && is_limit(&refit.effects, &best.effects) && *cost < least + margin
+    };
+    let found = all.iter().position(simpler);
+    if let Some(k) = found {
+        all[..=k].rotate_right(1);
+    }
+    found.is_some()
+}
+
+/// Squared residual per datum from which on a fit leaves more than noise.
+const NOISY: f64 = 1.1;
 
 /// Candidates that are settled to the end: where the best turns out to be nothing, the next.
 const FINISHED: usize = 2;
@@ -71,8 +118,10 @@ fn finished(base: Base<'_>, refit: Refit) -> Result<(Base<'_>, Refit), Diagnosis
             break;
         }
         let (there, settled) = base.settled(refit, &SEARCH, UPDATES)?;
-        let (there, likely) = there.with_likely_scales(Some(&settled), &SEARCH)?;
-        (base, refit) = (there, likely.unwrap_or(settled));
+        let (likely, again) = there.with_likely_scales(Some(&settled), &SEARCH)?;
+        let again = again.unwrap_or_else(|| settled.clone());
+        let better = cost(&likely, Some(&again)) < cost(&there, Some(&settled));
+        (base, refit) = if better { (likely, again) } else { (there, settled) };
     }
     base.settled(refit, &FINAL, UPDATES)
 }

@@ -111,7 +111,7 @@ pub(crate) fn is_likely(base: &Base) -> bool {
     updating.parameters.iter().zip(&updating.values).all(|(parameter, v)| match parameter {
         UpdatingParameter::Structure(_) => v.abs() < LIKELY,
         UpdatingParameter::Known(_) => v.abs() < LIKELY_SIZE,
-        UpdatingParameter::Gain(_) | UpdatingParameter::Delay(_) => true,
+        UpdatingParameter::Gain(_) | UpdatingParameter::Delay(_) | UpdatingParameter::Session(_) => true,
     })
 }
 

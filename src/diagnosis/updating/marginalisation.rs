@@ -150,7 +150,7 @@ impl Marginalisation {
     pub fn scales(&self, u: &[f64], least_known: f64) -> Scales {
         let variances = self.variances();
         let mut list = self.updating.scales.list();
-        for (class, scale) in list.iter_mut().enumerate().take(4) {
+        for (class, scale) in list.iter_mut().enumerate().filter(|(class, _)| !matches!(class, 4 | 5)) {
             let own = || (0..u.len()).filter(|&k| self.updating.parameters[k].class() == class);
             let known: f64 = own().map(|k| 1.0 - variances[k]).sum();
             let square: f64 = own().map(|k| u[k] * u[k]).sum();

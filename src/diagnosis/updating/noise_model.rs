@@ -67,6 +67,11 @@ impl Linearisation {
         data.runs.iter().enumerate().map(of_run).collect()
     }
 
+    /// Own parameters of run `r` that are in the model already, standardised.
+    pub(crate) fn own_reference(&self, r: usize) -> Vec<f64> {
+        self.updating.shifts.get(r).map_or_else(Vec::new, |shift| vec![shift / self.updating.scales.shift])
+    }
+
     /// Derivative of channel `c` at harmonic `h` by own parameter `k` of run `r`, standardised.
     fn own(&self, r: usize, k: usize, c: usize, h: usize) -> c64 {
         let Scales { shift, response, .. } = self.updating.scales;
@@ -99,20 +104,11 @@ impl NoiseModel {
         }
         let local = |(r, noise): (usize, Whitening)| {
             let columns = (0..OWN).map(|k| noise.rows(|c, h| linearisation.own(r, k, c, h))).collect();
-            noise.with_nuisance(RunNuisance::new(columns))
+            noise.with_nuisance(RunNuisance::new(columns).at(linearisation.own_reference(r)))
         };
         let runs: Vec<Whitening> = runs.into_iter().enumerate().map(local).collect();
         let updating = &linearisation.updating;
-        let slope = |k: usize| {
-            let mut rows = Vec::new();
-            for (noise, slopes) in runs.iter().zip(&linearisation.common) {
-                let mut own = noise.rows(|c, h| slopes[k][c][h - 1] * updating.prior(k));
-                noise.nuisance().project(&mut own);
-                rows.extend(own);
-            }
-            rows
-        };
-        let slopes = (0..updating.len()).map(slope).collect();
+        let slopes = (0..updating.len()).map(|k| common_rows(&runs, linearisation, k)).collect();
         Self { updating: Marginalisation::new(updating.clone(), slopes), runs }
     }
 
@@ -154,6 +150,39 @@ impl NoiseModel {
         }
         Scales::from_list(list)
     }
+}
+
+impl NoiseModel {
+    /// The same with only what is linear eliminated, for fits that contain the rest: the response of each run, gains and
+    /// delays of the channels.
+    pub(crate) fn of_channels(&self, linearisation: &Linearisation) -> Self {
+        let local = |(r, noise): (usize, &Whitening)| {
+            let columns = (1..OWN).map(|k| noise.rows(|c, h| linearisation.own(r, k, c, h))).collect();
+            noise.clone().with_nuisance(RunNuisance::new(columns))
+        };
+        let runs: Vec<Whitening> = self.runs.iter().enumerate().map(local).collect();
+        let all = &linearisation.updating;
+        let of_channels: Vec<usize> = (0..all.len()).filter(|&k| !all.parameters[k].is_of_model()).collect();
+        let updating = Updating {
+            parameters: of_channels.iter().map(|&k| all.parameters[k].clone()).collect(),
+            values: vec![0.0; of_channels.len()],
+            spreads: Vec::new(),
+            ..all.clone()
+        };
+        let slopes = of_channels.iter().map(|&k| common_rows(&runs, linearisation, k)).collect();
+        Self { updating: Marginalisation::new(updating, slopes), runs }
+    }
+}
+
+/// Whitened derivative of all runs by the standardised updating parameter `k`, what is each run's own eliminated.
+fn common_rows(runs: &[Whitening], linearisation: &Linearisation, k: usize) -> Vec<f64> {
+    let mut rows = Vec::new();
+    for (noise, slopes) in runs.iter().zip(&linearisation.common) {
+        let mut own = noise.rows(|c, h| slopes[k][c][h - 1] * linearisation.updating.prior(k));
+        noise.nuisance().project(&mut own);
+        rows.extend(own);
+    }
+    rows
 }
 
 /// Effective number of parameters of a class that the data determine from which on its scale is estimated.

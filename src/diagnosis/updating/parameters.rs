@@ -18,6 +18,8 @@ const MOST_SPRINGS: usize = 40;
 const MOST_MODES: usize = 8;
 /// Logarithm of a frequency ratio within which a mode counts as in the band of a run.
 const NEAR_BAND: f64 = 0.35;
+/// Prior deviation of the stiffness of an element at a clamp over that of others.
+const CLAMPED: f64 = 4.0;
 /// Largest logarithm of a factor: models are not wrong by more than a factor of seven.
 const LARGEST: f64 = 2.0;
 
@@ -32,6 +34,8 @@ pub enum UpdatingParameter {
     Gain(String),
     /// Time that a channel is recorded late, s.
     Delay(String),
+    /// Factor on all stiffness in one session (a joint that was re-seated, another day), by its number among those of the data.
+    Session(usize),
 }
 
 /// Prior deviations by class of parameter.
@@ -49,22 +53,28 @@ pub struct Scales {
     pub shift: f64,
     /// Response from run to run, in proportion to it (level of the force, discrepancy).
     pub response: f64,
+    /// Stiffness from session to session, relative.
+    pub session: f64,
 }
 
 impl Scales {
     /// Those of the search, before they are estimated beside each candidate: wide enough for what laboratories report,
     /// narrow enough that they leave to an effect what is an effect's.
-    pub const SEARCH: Self = Self { model: 0.02, known: 0.2, gain: 0.01, phase: 3e-3, shift: 5e-4, response: 3e-3 };
+    pub const SEARCH: Self =
+        Self { model: 0.02, known: 0.2, gain: 0.01, phase: 3e-3, shift: 5e-4, response: 3e-3, session: 5e-4 };
     /// Where their estimation starts, and what is kept where the data cannot tell: what laboratories report.
-    pub const START: Self = Self { model: 0.01, known: 0.2, gain: 3e-3, phase: 1e-3, shift: 2e-4, response: 1e-3 };
+    pub const START: Self =
+        Self { model: 0.01, known: 0.2, gain: 3e-3, phase: 1e-3, shift: 2e-4, response: 1e-3, session: 2e-4 };
     /// Least: below any measurement.
-    pub const LEAST: Self = Self { model: 1e-6, known: 1e-5, gain: 1e-6, phase: 1e-6, shift: 1e-8, response: 1e-7 };
+    pub const LEAST: Self =
+        Self { model: 1e-6, known: 1e-5, gain: 1e-6, phase: 1e-6, shift: 1e-8, response: 1e-7, session: 1e-8 };
     /// Greatest: beyond, it is not this structure, or the record is not of this run.
-    pub const GREATEST: Self = Self { model: 0.06, known: 0.5, gain: 0.015, phase: 0.02, shift: 0.01, response: 0.1 };
+    pub const GREATEST: Self =
+        Self { model: 0.06, known: 0.5, gain: 0.015, phase: 0.02, shift: 0.01, response: 0.1, session: 0.02 };
 
     /// The same scales in a list, in the order of the fields.
-    pub fn list(&self) -> [f64; 6] {
-        [self.model, self.known, self.gain, self.phase, self.shift, self.response]
+    pub fn list(&self) -> [f64; 7] {
+        [self.model, self.known, self.gain, self.phase, self.shift, self.response, self.session]
     }
 
     /// Minus twice the logarithm of their prior density, half-Cauchy about where they start.
@@ -81,11 +91,11 @@ impl Scales {
     }
 
     /// Scales from such a list, each kept between the least and the greatest.
-    pub fn from_list(list: [f64; 6]) -> Self {
+    pub fn from_list(list: [f64; 7]) -> Self {
         let (least, greatest) = (Self::LEAST.list(), Self::GREATEST.list());
-        let [model, known, gain, phase, shift, response] =
+        let [model, known, gain, phase, shift, response, session] =
             std::array::from_fn(|k| list[k].clamp(least[k], greatest[k]));
-        Self { model, known, gain, phase, shift, response }
+        Self { model, known, gain, phase, shift, response, session }
     }
 }
 
@@ -97,11 +107,17 @@ impl UpdatingParameter {
             Self::Known(_) => 1,
             Self::Gain(_) => 2,
             Self::Delay(_) => 3,
+            Self::Session(_) => 6,
         }
     }
 
     /// Whether it belongs to the model rather than to the measuring chain.
     pub fn is_of_model(&self) -> bool {
+        matches!(self, Self::Structure(_) | Self::Known(_) | Self::Session(_))
+    }
+
+    /// Whether it corrects what the model states, rather than telling how tests differ.
+    pub fn is_stated(&self) -> bool {
         matches!(self, Self::Structure(_) | Self::Known(_))
     }
 }
@@ -113,6 +129,12 @@ pub struct Updating {
     pub parameters: Vec<UpdatingParameter>,
     /// Logarithm of the factor of each; of a delay its seconds.
     pub values: Vec<f64>,
+    /// Prior deviation of each as a multiple of the scale of its class; none: one.
+    pub spreads: Vec<f64>,
+    /// Relative stiffness of each run beyond that of all, where the model is linearised; none: all alike.
+    pub shifts: Vec<f64>,
+    /// Number of the session of each run.
+    pub sessions: Vec<usize>,
     /// Prior deviations.
     pub scales: Scales,
     /// Geometric mean of the circular frequencies of the runs, rad/s: turns the scale of phases into one of delays.
@@ -121,7 +143,15 @@ pub struct Updating {
 
 impl Default for Updating {
     fn default() -> Self {
-        Self { parameters: Vec::new(), values: Vec::new(), scales: Scales::START, omega: 1.0 }
+        Self {
+            parameters: Vec::new(),
+            values: Vec::new(),
+            spreads: Vec::new(),
+            shifts: Vec::new(),
+            sessions: Vec::new(),
+            scales: Scales::START,
+            omega: 1.0,
+        }
     }
 }
 
@@ -144,8 +174,22 @@ impl Updating {
         if forces.len() > 1 {
             parameters.extend(forces.into_iter().map(UpdatingParameter::Gain));
         }
+        let sessions = data.sessions.iter().max().map_or(0, |last| last + 1);
+        if sessions > 1 {
+            parameters.extend((0..sessions).map(UpdatingParameter::Session));
+        }
         let logs = omegas.iter().map(|w| w.ln()).sum::<f64>() / omegas.len().max(1) as f64;
-        Self { values: vec![0.0; parameters.len()], parameters, scales: Scales::SEARCH, omega: logs.exp() }
+        let spreads = parameters.iter().map(|parameter| spread(structure, parameter)).collect();
+        let sessions = data.sessions.clone();
+        Self {
+            values: vec![0.0; parameters.len()],
+            parameters,
+            spreads,
+            sessions,
+            omega: logs.exp(),
+            ..Self::default()
+        }
+        .with_scales(Scales::SEARCH)
     }
 
     /// Number of parameters.
@@ -161,7 +205,7 @@ impl Updating {
     /// Prior deviation of parameter `k`.
     pub fn prior(&self, k: usize) -> f64 {
         let class = self.parameters[k].class();
-        let scale = self.scales.list()[class];
+        let scale = self.scales.list()[class] * self.spreads.get(k).copied().unwrap_or(1.0);
         if class == 3 { scale / self.omega } else { scale }
     }
 
@@ -182,6 +226,30 @@ impl Updating {
     pub fn of_model(&self) -> Self {
         let value = |(parameter, v): (&UpdatingParameter, &f64)| if parameter.is_of_model() { *v } else { 0.0 };
         Self { values: self.parameters.iter().zip(&self.values).map(value).collect(), ..self.clone() }
+    }
+
+    /// The same with all runs alike: what holds of the structure, not of the records.
+    #[must_use]
+    pub fn of_structure(&self) -> Self {
+        let value = |(parameter, v): (&UpdatingParameter, &f64)| if parameter.is_stated() { *v } else { 0.0 };
+        let values = self.parameters.iter().zip(&self.values).map(value).collect();
+        Self { values, shifts: Vec::new(), ..self.clone() }
+    }
+
+    /// Relative stiffness of run `r` beyond that of the structure: its session's and its own.
+    pub fn shift(&self, r: usize) -> f64 {
+        let own = self.shifts.get(r).copied().unwrap_or(0.0);
+        let Some(&session) = self.sessions.get(r) else { return own };
+        let of = self.parameters.iter().position(|p| *p == UpdatingParameter::Session(session));
+        own + of.map_or(0.0, |k| self.factor(k) - 1.0)
+    }
+
+    /// Whether parameter `k` acts in run `r`.
+    pub fn acts_in(&self, k: usize, r: usize) -> bool {
+        match &self.parameters[k] {
+            UpdatingParameter::Session(session) => self.sessions.get(r) == Some(session),
+            _ => true,
+        }
     }
 
     /// The same parameters and values with other scales.
@@ -225,8 +293,19 @@ impl Updating {
                     |&parameter: &usize| (Unknown::Source { source: *j, parameter }, known[*j].parameters[parameter]);
                 known[*j].effect.scaled().iter().map(of).collect()
             }
+            UpdatingParameter::Session(_) => vec![(Unknown::Stiffness, 1.0)],
             UpdatingParameter::Gain(_) | UpdatingParameter::Delay(_) => Vec::new(),
         }
+    }
+}
+
+/// Prior deviation of a parameter in multiples of the scale of its class: no clamp is rigid, and what it gives way by looks like
+/// a softer first element.
+fn spread(structure: &Structure, parameter: &UpdatingParameter) -> f64 {
+    let clamped = |e: usize| structure.elements()[e].dofs.iter().filter(|dof| dof.is_none()).count() > 1;
+    match parameter {
+        UpdatingParameter::Structure(Part::ElementStiffness([first, last])) if (*first..=*last).any(clamped) => CLAMPED,
+        _ => 1.0,
     }
 }
 

@@ -39,6 +39,8 @@ pub(crate) struct LinearPart {
     basis: Arc<ModalBasis>,
     /// Shift of `K` by a multiple of `M` at rest, for structures that float.
     floating_shift: f64,
+    /// Factor on `K`: a joint that re-seats or a temperature makes it another from run to run.
+    stiffness: f64,
 }
 
 impl LinearPart {
@@ -49,7 +51,7 @@ impl LinearPart {
         Cholesky::new(mass.as_ref()).ok_or(ModelError::MassNotPositive)?;
         let basis = Arc::new(modal_basis(matrices)?);
         let floating_shift = floating_shift(mass, stiffness);
-        let part = Self { structure, whole: Vec::new(), basis, floating_shift };
+        let part = Self { structure, whole: Vec::new(), basis, floating_shift, stiffness: 1.0 };
         Ok(part.with_whole(sources))
     }
 
@@ -83,6 +85,11 @@ impl LinearPart {
 
     fn matrices(&self) -> &SystemMatrices {
         self.structure.matrices().expect("checked when the part was made")
+    }
+
+    /// The same structure with all stiffness multiplied by `factor`.
+    pub fn stiffened(&self, factor: f64) -> Self {
+        Self { stiffness: factor, ..self.clone() }
     }
 
     /// Number of degrees of freedom.
@@ -156,6 +163,7 @@ impl LinearPart {
                 factors[index] += law.factor(source.parameters[0], omega);
             }
         }
+        factors[0] *= self.stiffness;
         factors
     }
 

@@ -250,6 +250,11 @@ impl Default for Receptances {
 }
 
 impl RunModel {
+    /// The same with all stiffness multiplied by `factor`.
+    pub(crate) fn stiffened(&self, factor: f64) -> Self {
+        Self { linear: Arc::new(self.linear.stiffened(factor)), compliances: Arc::default(), ..self.clone() }
+    }
+
     /// Fundamental circular frequency, rad/s.
     pub fn omega(&self) -> f64 {
         self.omega

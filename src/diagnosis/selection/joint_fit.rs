@@ -1,0 +1,367 @@
+//! Effects and updating parameters of the model fitted together on the response itself:
+//!
+//! ```text
+//! min over theta, u of |L^-1 (y - yhat(theta, m(u)))|^2 + |u|^2
+//! ```
+//!
+//! by Levenberg and Marquardt's method, with the response of the updated model at every step. Near a light resonance the
+//! response bends so much with what the model states wrongly that a fit of the effects with the updating parameters
+//! eliminated linearly, and these moved afterwards, creeps along a valley; together they arrive in a few steps. What belongs to
+//! channels and to single runs is linear and stays eliminated.
+
+use crate::diagnosis::residual::data::DiagnosisError;
+use crate::diagnosis::residual::prediction::{Predictor, RunPrediction};
+use crate::diagnosis::selection::fit_problem::{run_slopes, unknowns_of};
+use crate::diagnosis::selection::fitted_model::{Bench, Starts, starts_of};
+use crate::diagnosis::selection::levenberg_marquardt::{Residual, Variables, descend};
+use crate::diagnosis::selection::search::Base;
+use crate::diagnosis::updating::noise_model::NoiseModel;
+use crate::diagnosis::updating::parameters::Updating;
+use crate::effects::{Source, effect::Kind};
+use crate::response::harmonic_balance::Settings;
+use crate::response::sensitivity::Unknown;
+use faer::Mat;
+
+/// Step of a variable of a channel for derivatives by differences.
+const STEP: f64 = 1e-4;
+/// Prior deviations in one natural unit of an updating parameter or a shift: steps are limited in such units.
+const UNIT: f64 = 3.0;
+
+/// Where a joint fit ended.
+pub(super) struct JointFit {
+    /// Effects with their parameters.
+    pub effects: Vec<Source>,
+    /// Updating parameters and shifts of the runs; those of channels at nothing.
+    pub updating: Updating,
+    /// Responses there.
+    pub starts: Starts,
+    /// Squared whitened residual, priors included, what belongs to channels eliminated.
+    pub chi_square: f64,
+}
+
+impl Base<'_> {
+    /// Fits `effects`, the updating parameters of the model and the stiffness of each run together, in at most `steps` steps,
+    /// with responses that start from `starts`.
+    pub(super) fn joint_fit(
+        &self,
+        effects: &[Source],
+        starts: &Starts,
+        settings: &Settings,
+        steps: usize,
+    ) -> Result<JointFit, DiagnosisError> {
+        let (variables, mut start) = Variables::new(effects);
+        let updating = self.linearisation.updating.of_model();
+        let of_model: Vec<usize> = (0..updating.len()).filter(|&k| updating.parameters[k].is_of_model()).collect();
+        let standardised = updating.standardised();
+        start.extend(of_model.iter().map(|&k| standardised[k] / UNIT));
+        let runs = 0..self.data.runs.len();
+        start.extend(runs.map(|r| updating.shifts.get(r).copied().unwrap_or(0.0) / (UNIT * updating.scales.shift)));
+        let noise = self.noise.of_channels(&self.linearisation);
+        let (starts, settings) = (starts.clone(), *settings);
+        let mut problem =
+            Joint { base: self, variables: &variables, updating, of_model, noise, settings, starts, last: None };
+        let descent = descend(&mut problem, &start, steps)?;
+        let trial = problem.trial(&descent.theta)?;
+        Ok(JointFit {
+            effects: problem.effects(&descent.theta),
+            updating: problem.updating_at(&descent.theta),
+            starts: starts_of(trial.predictions),
+            chi_square: descent.chi_square,
+        })
+    }
+}
+
+/// The model at one point.
+struct Trial {
+    at: Vec<f64>,
+    predictor: Predictor,
+    predictions: Vec<RunPrediction>,
+}
+
+/// The residual as a function of the variables of the effects, the updating parameters of the model and the shifts of the
+/// runs, the latter two in their natural units.
+struct Joint<'a, 'b> {
+    base: &'a Base<'b>,
+    variables: &'a Variables,
+    /// Updating parameters at the start.
+    updating: Updating,
+    /// Numbers of those of the model.
+    of_model: Vec<usize>,
+    /// Noise, what is linear eliminated.
+    noise: NoiseModel,
+    settings: Settings,
+    /// Responses at the last point that was accepted.
+    starts: Starts,
+    last: Option<Trial>,
+}
+
+impl Joint<'_, '_> {
+    fn effects(&self, at: &[f64]) -> Vec<Source> {
+        self.variables.effects(&at[..self.variables.len()])
+    }
+
+    /// The updating parameters, then the shifts at a point.
+    fn split<'x>(&self, at: &'x [f64]) -> (&'x [f64], &'x [f64]) {
+        at[self.variables.len()..].split_at(self.of_model.len())
+    }
+
+    fn updating_at(&self, at: &[f64]) -> Updating {
+        let (of_model, shifts) = self.split(at);
+        let mut u = self.updating.standardised();
+        self.of_model.iter().zip(of_model).for_each(|(&k, x)| u[k] = x * UNIT);
+        let shifts = shifts.iter().map(|x| x * UNIT * self.updating.scales.shift).collect();
+        Updating { shifts, ..self.updating.at(&u) }
+    }
+
+    fn bench<'x>(&'x self, predictor: &'x Predictor) -> Bench<'x> {
+        Bench { predictor, noise: &self.noise, ..self.base.bench() }
+    }
+
+    fn compute(&self, at: &[f64]) -> Result<Trial, DiagnosisError> {
+        let predictor = self.base.predictor.updated(&self.updating_at(at))?;
+        let predictions = self.bench(&predictor).predict(&self.effects(at), &self.settings, &self.starts)?;
+        Ok(Trial { at: at.to_vec(), predictor, predictions })
+    }
+
+    fn trial(&mut self, at: &[f64]) -> Result<Trial, DiagnosisError> {
+        match self.last.take().filter(|trial| trial.at == at) {
+            Some(trial) => Ok(trial),
+            None => self.compute(at),
+        }
+    }
+
+    /// Whitened residual of predictions, then the standardised updating parameters and shifts.
+    fn rows(&self, trial: &Trial) -> Vec<f64> {
+        let bench = self.bench(&trial.predictor);
+        let mut rows = bench.residual(&trial.predictions);
+        rows.extend(trial.at[self.variables.len()..].iter().map(|x| x * UNIT));
+        rows
+    }
+
+    /// What the response is differentiated by: for every variable of an effect, every updating parameter, and the stiffness.
+    fn unknowns(&self, effects: &[Source], predictor: &Predictor) -> Vec<Vec<(Unknown, f64)>> {
+        let mut sums = unknowns_of(effects, predictor.known().len());
+        sums.extend(self.of_model.iter().map(|&k| self.updating.unknowns(k, predictor.known())));
+        sums.push(vec![(Unknown::Stiffness, 1.0)]);
+        sums
+    }
+
+    /// Derivatives of what is differentiated by the variables, the stiffness last.
+    fn factors(&self, at: &[f64]) -> Vec<f64> {
+        let mut factors = self.variables.slopes(&at[..self.variables.len()]);
+        factors.extend(self.of_model.iter().map(|&k| UNIT * self.updating.prior(k)));
+        factors.push(UNIT * self.updating.scales.shift);
+        factors
+    }
+
+    /// A column by differences.
+    fn difference(&self, at: &[f64], k: usize, residual: &[f64]) -> Result<Vec<f64>, DiagnosisError> {
+        let mut moved = at.to_vec();
+        moved[k] += STEP;
+        let after = self.rows(&self.compute(&moved)?);
+        Ok(after.iter().zip(residual).map(|(a, b)| (a - b) / STEP).collect())
+    }
+
+    /// Whitened derivatives of the data by all variables at a trial, what belongs to channels not yet eliminated.
+    fn data_columns(&self, trial: &Trial, effects: &[Source]) -> Result<Vec<Vec<f64>>, DiagnosisError> {
+        let (sums, factors) = (self.unknowns(effects, &trial.predictor), self.factors(&trial.at));
+        let (bench, common) = (self.bench(&trial.predictor), sums.len() - 1);
+        let mut columns: Vec<Vec<f64>> = vec![vec![0.0; bench.count()]; trial.at.len()];
+        let mut at = 0;
+        for (r, run) in bench.data.runs.iter().enumerate() {
+            bench.control.check()?;
+            let slopes = run_slopes(&trial.predictor, r, run, effects, &trial.predictions[r], &sums);
+            let Some(slopes) = slopes else {
+                at += self.noise.runs[r].len();
+                continue;
+            };
+            let mut own = Vec::new();
+            let own_variables = self.variables.len();
+            let acts = |k: usize| {
+                k.checked_sub(own_variables)
+                    .and_then(|k| self.of_model.get(k))
+                    .is_none_or(|&k| self.updating.acts_in(k, r))
+            };
+            for (k, (slope, factor)) in slopes.iter().zip(&factors).enumerate().filter(|(k, _)| acts(*k)) {
+                own.clear();
+                bench.whitened(r, &mut own, |c, h| -slope[c][h - 1] * *factor);
+                let column = if k < common { k } else { common + r };
+                columns[column][at..at + own.len()].copy_from_slice(&own);
+            }
+            at += self.noise.runs[r].len();
+        }
+        Ok(columns)
+    }
+}
+
+impl Residual for Joint<'_, '_> {
+    type Error = DiagnosisError;
+
+    fn is_late(&self) -> bool {
+        self.base.control.is_late()
+    }
+
+    fn residual(&mut self, at: &[f64]) -> Result<Vec<f64>, DiagnosisError> {
+        let trial = self.compute(at)?;
+        let rows = self.rows(&trial);
+        self.last = Some(trial);
+        Ok(rows)
+    }
+
+    fn jacobian(&mut self, at: &[f64], residual: &[f64]) -> Result<Mat<f64>, DiagnosisError> {
+        let trial = self.trial(at)?;
+        self.starts = trial.predictions.iter().map(|p| p.found.then(|| p.response.clone())).collect();
+        let effects = self.effects(at);
+        let mut columns = self.data_columns(&trial, &effects)?;
+        let own = self.variables.len();
+        let of_channel = effects
+            .iter()
+            .flat_map(|e| vec![matches!(e.effect.kind(), Kind::Channel(_)); e.parameters.len()])
+            .collect::<Vec<bool>>();
+        for (k, column) in columns.iter_mut().enumerate() {
+            if of_channel.get(k) == Some(&true) {
+                *column = self.difference(at, k, residual)?;
+                continue;
+            }
+            *column = self.noise.updating.column(std::mem::take(column));
+            column.extend((own..at.len()).map(|j| if j == k { UNIT } else { 0.0 }));
+        }
+        self.last = Some(trial);
+        Ok(Mat::from_fn(residual.len(), at.len(), |i, k| columns[k][i]))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "tests")]
+    use super::*;
+    use crate::control::Control;
+    use crate::diagnosis::Problem;
+    use crate::diagnosis::residual::data::Data;
+    use crate::diagnosis::residual::prediction::{FINAL, Predictor};
+    use crate::effects::{Effect, Place};
+    use crate::measurement::{Channel, ChannelFit, HarmonicFit, Quantity, Run};
+    use crate::response::harmonic_balance::{Excitation, ForwardModel};
+    use crate::structure::Structure;
+    use crate::structure::chain::ChainParameters;
+    use faer::c64;
+    use std::sync::Arc;
+
+    const FORCES: [f64; 3] = [0.5, 1.0, 2.0];
+    const OMEGAS: [f64; 4] = [46.0, 48.0, 50.0, 52.0];
+
+    fn chain(factor: f64) -> Structure {
+        let ground_stiffness = vec![2e4 * factor, 0.0, 0.0];
+        ChainParameters { masses: vec![1.0; 3], ground_stiffness, coupling_stiffness: vec![1e4, 1.5e4] }
+            .build(&[])
+            .unwrap()
+    }
+
+    fn known() -> Vec<Source> {
+        vec![Source::known(Effect::Viscous, Place::Dofs(vec![0]), &[0.8])]
+    }
+
+    fn hidden() -> Source {
+        Source::known(Effect::CubicStiffness, Place::Dofs(vec![2]), &[4e6])
+    }
+
+    /// Relative stiffness of run `r`.
+    fn shift(r: usize) -> f64 {
+        [4e-4, -6e-4, 2e-4, 0.0, -3e-4][r % 5]
+    }
+
+    /// Records of a chain whose ground spring is 2 % stiffer than stated, whose runs drift, and which hides a cubic spring.
+    fn runs() -> Vec<Run> {
+        let model = ForwardModel::new(&chain(1.02), &known()).unwrap();
+        let one = |name: usize, quantity, dof: usize, amplitudes: Vec<c64>| ChannelFit {
+            channel: Channel { quantity, dof, label: format!("{}", name + 1) },
+            offset: 0.0,
+            slope: 0.0,
+            covariance: Mat::from_fn(
+                2 * amplitudes.len(),
+                2 * amplitudes.len(),
+                |i, j| if i == j { 1e-14 } else { 0.0 },
+            ),
+            amplitudes,
+            noise: 1e-7,
+        };
+        let run = |r: usize| {
+            let (omega, force) = (OMEGAS[r / FORCES.len()], FORCES[r % FORCES.len()]);
+            let sources = [known(), vec![hidden()]].concat();
+            let excitation = Excitation::sine(omega, 2, c64::new(force, 0.0));
+            let model = model.at(omega).stiffened(1.0 + shift(r));
+            let response = model.respond(&sources, &excitation, &FINAL, None, &Control::unattended()).unwrap();
+            let zeros = vec![c64::new(0.0, 0.0); 2];
+            let forces = [vec![c64::new(force, 0.0)], zeros].concat();
+            let mut channels = vec![one(2, Quantity::Force, 2, forces)];
+            let motion = |d: usize| (1..=3).map(|h| response.amplitude(d, h)).collect();
+            channels.extend((0..3).map(|d| one(d, Quantity::Displacement, d, motion(d))));
+            let fit = HarmonicFit { omega, omega_deviation: 0.0, channels };
+            Run::from_harmonics(format!("{r}"), None, true, fit, &[])
+        };
+        (0..FORCES.len() * OMEGAS.len()).map(run).collect()
+    }
+
+    /// What `check` finds on the base model of those records, its updating parameters free.
+    fn with_base(check: impl Fn(&Base)) {
+        let (stated, known, runs) = (chain(1.0), known(), runs());
+        let problem = Problem { structure: &stated, sources: &known, runs: &runs };
+        let data = Data::new(&problem).unwrap();
+        let predictor = Arc::new(Predictor::new(&stated, known.clone(), &data).unwrap());
+        let (control, early) = (Control::unattended(), |_: &[crate::diagnosis::diagnose::Suggestion]| {});
+        let base = Base::new(predictor, &data, &control, &early).unwrap();
+        let updating = Updating::all(&stated, &known, &data);
+        check(&base.updated(&updating, &[hidden()], &Vec::new()).unwrap());
+    }
+
+    fn joint<'a, 'b>(base: &'a Base<'b>, variables: &'a Variables) -> Joint<'a, 'b> {
+        let updating = base.linearisation.updating.of_model();
+        let of_model = (0..updating.len()).filter(|&k| updating.parameters[k].is_of_model()).collect();
+        let noise = base.noise.of_channels(&base.linearisation);
+        Joint { base, variables, updating, of_model, noise, settings: FINAL, starts: Vec::new(), last: None }
+    }
+
+    #[test]
+    fn the_jacobian_is_that_of_the_residual_in_effects_updating_parameters_and_shifts() {
+        with_base(|base| {
+            let (variables, mut at) = Variables::new(&[hidden()]);
+            let mut problem = joint(base, &variables);
+            at.extend(vec![0.1; problem.of_model.len() + base.data.runs.len()]);
+            let residual = problem.residual(&at).unwrap();
+            let jacobian = problem.jacobian(&at, &residual).unwrap();
+            for k in 0..at.len() {
+                let moved =
+                    |by: f64| at.iter().enumerate().map(|(j, x)| if j == k { x + by } else { *x }).collect::<Vec<_>>();
+                let step = 1e-5;
+                let (up, down) = (problem.residual(&moved(step)).unwrap(), problem.residual(&moved(-step)).unwrap());
+                let (mut off, mut size) = (0.0, 0.0);
+                for i in 0..up.len() {
+                    let slope = (up[i] - down[i]) / (2.0 * step);
+                    off += (slope - jacobian[(i, k)]).powi(2);
+                    size += slope * slope;
+                }
+                assert!(off.sqrt() < 2e-3 * size.sqrt() + 1e-6, "variable {k}: {} of {}", off.sqrt(), size.sqrt());
+            }
+        });
+    }
+
+    #[test]
+    fn effect_model_and_drift_of_the_runs_are_found_together() {
+        with_base(|base| {
+            let start = Source { parameters: vec![3e6], ..hidden() };
+            let fit = base.joint_fit(&[start], &Vec::new(), &FINAL, 30).unwrap();
+            let size = fit.effects[0].parameters[0];
+            assert!((size / 4e6 - 1.0).abs() < 0.02, "{size}");
+            // What is common to all runs is the model's; the prior draws the rest to nothing, each run as far as it is not seen.
+            let centred = |list: &[f64]| -> Vec<f64> {
+                let mean = list.iter().sum::<f64>() / list.len() as f64;
+                list.iter().map(|x| x - mean).collect()
+            };
+            let truth = centred(&(0..base.data.runs.len()).map(shift).collect::<Vec<_>>());
+            let found = centred(&fit.updating.shifts);
+            let product = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+            let cosine = product(&truth, &found) / (product(&truth, &truth) * product(&found, &found)).sqrt();
+            assert!(cosine > 0.9, "{found:?} for {truth:?}");
+        });
+    }
+}

@@ -1,0 +1,179 @@
+//! The model with updating parameters that do not stand in for what is missing: moved beside the place, then the law, that leaves
+//! least at the measured motion.
+//!
+//! Beside free forces at a place the model is linear whatever the law, so that it arrives even where a law regressed on the
+//! way is far off (friction that sticks). Once a law leaves about as little as free forces, the model is moved beside that:
+//! it is the narrower hypothesis.
+
+use crate::diagnosis::channels::{ChannelFault, Fault, mended};
+use crate::diagnosis::localisation::free_force::{FreeForce, Placing};
+use crate::diagnosis::localisation::location::Spot;
+use crate::diagnosis::residual::data::DiagnosisError;
+use crate::diagnosis::selection::search::{Base, Draft};
+use crate::diagnosis::selection::short_list::Breadth;
+use crate::diagnosis::updating::parameters::Updating;
+
+/// Steps of the model.
+const STEPS: usize = 8;
+/// Squared residual per datum that a law may leave at the measured motion where the model is close enough to be followed.
+const CLOSE: f64 = 2.0;
+/// Share of its squared residual to which a step must bring the best place.
+const FALLING: f64 = 0.9;
+/// How many times what free forces leave the best law may leave where the model is moved beside it.
+const BY_LAW: f64 = 2.0;
+/// Channels that may be doubted, among the places that leave least.
+const DOUBTED: usize = 4;
+/// Share of what the best law leaves to which a doubt must bring it.
+const RELIEVED: f64 = 0.5;
+/// Bounds of the scatter of a doubted channel.
+const SCATTER: [f64; 2] = [0.02, 0.3];
+
+/// A model whose places were looked at.
+struct Seen<'a> {
+    base: Base<'a>,
+    /// Squared residual that the best law leaves, with its penalty.
+    least: f64,
+    /// The same of free forces at the best place.
+    free: f64,
+    /// Laws at their places, best first.
+    drafts: Vec<Draft>,
+    /// Standardised updating parameters that fit beside the best law or, where laws are far off, place.
+    target: Vec<f64>,
+    by_law: bool,
+    /// Whether the best place is a response channel.
+    at_channel: bool,
+    /// Response channels among the best places, with the scatter of what they read, relative.
+    suspects: Vec<(String, f64)>,
+}
+
+impl Seen<'_> {
+    /// How far the next step from `self` brought it to `there`, as a share of what was left.
+    fn progress(&self, there: &Self) -> f64 {
+        let by_law = there.least / self.least;
+        if self.by_law { by_law } else { by_law.min(there.free / self.free) }
+    }
+}
+
+impl<'a> Base<'a> {
+    /// The model with the updating parameters that fit best beside what leaves least at the measured motion, and the laws
+    /// regressed there, best first; or the channel that does not fit the others, whatever the law.
+    pub fn localised(&self) -> Result<Result<(Base<'a>, Vec<Draft>), ChannelFault>, DiagnosisError> {
+        let (stated, known) = self.predictor.stated();
+        let here = self.moved_beside(Updating::all(stated, known, self.data))?;
+        if let Some(fault) = self.doubted(&here)? {
+            return Ok(Err(fault));
+        }
+        Ok(Ok((here.base, here.drafts)))
+    }
+
+    fn moved_beside(&self, updating: Updating) -> Result<Seen<'a>, DiagnosisError> {
+        // Laws of many parameters take long: they are looked at where the others lead no further.
+        let mut breadth = Breadth::Near;
+        let mut here = self.updated(&updating, &[], &Vec::new())?.seen(breadth)?;
+        for _ in 0..STEPS {
+            if here.least < CLOSE * self.count() as f64 || self.control.is_late() {
+                break;
+            }
+            let there = self.updated(&here.base.towards(&here.target), &[], &Vec::new())?.seen(breadth)?;
+            let progress = here.progress(&there);
+            if progress < 1.0 {
+                here = there;
+            }
+            if progress < FALLING {
+                continue;
+            }
+            if breadth == Breadth::All {
+                break;
+            }
+            breadth = Breadth::All;
+            here = here.base.seen(breadth)?;
+        }
+        if breadth == Breadth::Near && !self.control.is_late() {
+            here = here.base.seen(Breadth::All)?;
+        }
+        Ok(here)
+    }
+
+    /// This model with what the best law leaves.
+    fn seen(self, breadth: Breadth) -> Result<Seen<'a>, DiagnosisError> {
+        let mut view = self.view(None)?;
+        let mut drafts = self.drafts(&mut view, &[], breadth)?;
+        drafts.extend(self.whole_drafts(&[]));
+        drafts.sort_by(|a, b| a.score.total_cmp(&b.score));
+        let placings = view.screen.singles();
+        let free = placings.first().map_or(f64::INFINITY, |p| p.chi_square);
+        let least = drafts.first().map_or(f64::INFINITY, |best| best.score);
+        let by_law = least < BY_LAW * free;
+        let target = match (drafts.first(), placings.first()) {
+            (Some(best), _) if by_law => self.updated_beside(&mut view, best)?,
+            (_, Some(place)) => Some(view.screen.updated(&place.spots)),
+            _ => None,
+        };
+        let suspect = |p: &Placing| match &view.screen.spots[p.spots[0]] {
+            Spot::Response(name) => Some((name.clone(), scatter(&view.screen.forces(&p.spots)[0]))),
+            _ => None,
+        };
+        let at_channel = placings.first().is_some_and(|p| suspect(p).is_some());
+        let suspects = placings.iter().take(DOUBTED).filter_map(suspect).collect();
+        drop(view);
+        let target = target.unwrap_or_else(|| self.linearisation.updating.standardised());
+        Ok(Seen { target, base: self, least, free, by_law, at_channel, drafts, suspects })
+    }
+
+    /// Whether a law regressed beside the model as it is would bring `evidence`.
+    pub(super) fn promises(&self, evidence: f64) -> Result<bool, DiagnosisError> {
+        let mut view = self.view(None)?;
+        let bound = view.screen.nothing() - evidence;
+        let drafts = self.drafts(&mut view, &[], Breadth::All)?;
+        Ok(drafts.iter().chain(&self.whole_drafts(&[])).any(|draft| draft.score < bound))
+    }
+
+    /// The channel whose readings, taken to scatter from run to run, let a law leave far less than any does while all channels
+    /// are relied on; none where a law comes near, or where only two channels are.
+    fn doubted(&self, here: &Seen) -> Result<Option<ChannelFault>, DiagnosisError> {
+        let [responses, _] = self.data.channel_names();
+        let noise = CLOSE * self.count() as f64;
+        let close = here.least < noise && here.by_law;
+        let placed = here.free < noise && !here.at_channel;
+        if close || placed || responses.len() < 3 || self.control.is_late() {
+            return Ok(None);
+        }
+        let before = here.least + self.noise_determinant();
+        let mut best: Option<(f64, ChannelFault)> = None;
+        for (name, scatter) in &here.suspects {
+            let fault = unreliable(name, *scatter);
+            let data = mended(self.data, std::slice::from_ref(&fault));
+            let base = Base { data: &data, early: &|_| {}, ..self.shallow() };
+            let seen = base.moved_beside(here.base.linearisation.updating.clone())?;
+            let after =
+                seen.least + seen.base.noise_determinant() - here.base.noise_determinant() + self.noise_determinant();
+            let relieved = after - before < -(1.0 - RELIEVED) * here.least;
+            if relieved && best.as_ref().is_none_or(|(least, _)| after < *least) {
+                best = Some((after, fault));
+            }
+        }
+        Ok(best.map(|(_, fault)| fault))
+    }
+
+    /// `ln det` of the noise of all runs.
+    fn noise_determinant(&self) -> f64 {
+        self.noise.runs.iter().map(crate::diagnosis::residual::whitening::Whitening::log_determinant).sum()
+    }
+}
+
+/// Root mean square of the free relative errors of a channel.
+fn scatter(errors: &[Vec<FreeForce>]) -> f64 {
+    let first: Vec<f64> = errors.iter().filter_map(|list| list.first()).map(|free| free.value.norm()).collect();
+    crate::math::statistics::root_mean_square(&first).clamp(SCATTER[0], SCATTER[1])
+}
+
+fn unreliable(name: &str, scatter: f64) -> ChannelFault {
+    ChannelFault {
+        fault: Fault::Unreliable(scatter),
+        channels: vec![name.to_owned()],
+        error_before: scatter,
+        error_after: scatter,
+        own_error: [scatter, scatter],
+        frequencies: [0, 0],
+    }
+}
