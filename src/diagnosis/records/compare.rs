@@ -93,9 +93,18 @@ pub fn compare_records(
 
 /// The model with initial states only fitted, short parts first.
 pub(crate) fn started(records: &Records, effects: &[Source], control: &Control) -> Result<FittedRecords, RecordError> {
-    let mut fitted = FittedRecords::start(records, effects);
+    started_from(records, FittedRecords::start(records, effects), control)
+}
+
+/// A model with initial states only fitted, short parts first.
+pub(crate) fn started_from(
+    records: &Records,
+    start: FittedRecords,
+    control: &Control,
+) -> Result<FittedRecords, RecordError> {
+    let mut fitted = start;
     for (share, iterations) in [(short(records), 3), (0.4, 3), (1.0, 4)] {
-        fitted = Fit { records, free: Free { corrections: false }, share, control }.improve(&fitted, iterations)?;
+        fitted = Fit { records, free: Free::nothing(), share, control }.improve(&fitted, iterations)?;
     }
     Ok(fitted)
 }

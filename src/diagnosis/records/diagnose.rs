@@ -12,7 +12,7 @@ use super::data::{RecordError, Records};
 use super::evidence::{evidence, misfit, scale};
 use super::fit::FittedRecords;
 use super::search::Search;
-use super::telling::{added, corrections, last_deviations, suggestions};
+use super::telling::{added, corrections, last_deviations, suggestions, words};
 use crate::control::Control;
 use crate::diagnosis::diagnose::{Diagnosis, Early, Step, Verdict};
 use crate::effects::Source;
@@ -43,10 +43,11 @@ pub fn diagnose_records(
     control: &Control,
     early: &Early,
 ) -> Result<Diagnosis, RecordError> {
+    let plain = records;
     let bare = started(records, &[], control)?;
     let floors: Vec<f64> = records.list.iter().flat_map(|r| floors(r, &r.sigma)).collect();
     let records = &records.weighted(&bare);
-    let search = Search { records, excluded, control };
+    let search = Search { records, plain, excluded, control };
     let bare = search.quiet(&bare, 1.0)?;
     let before = bare.error(records, 0.0, 1.0)?;
     let mut diagnosis = Diagnosis {
@@ -91,12 +92,13 @@ pub fn diagnose_records(
 impl Search<'_> {
     /// Whether a fit is better than the one before by evidence, by its error and by what it predicts.
     fn is_better(&self, new: &FittedRecords, old: &FittedRecords) -> Result<bool, RecordError> {
-        if !stands_out(new) {
-            return Ok(false);
-        }
         let scale = scale(new);
         let gain = evidence(old, scale) - evidence(new, scale);
         let worth = 1.0 - (new.chi_square / old.chi_square).sqrt();
+        if std::env::var("TRACE").is_ok() { eprintln!("TRACE better? stands {} gain {gain:.1} worth {worth:.3} misfit {:.3} old {:.3} prior {:.1} old {:.1} scale {scale:.2}", stands_out(new), misfit(new), misfit(old), new.prior, old.prior); }
+        if !stands_out(new) {
+            return Ok(false);
+        }
         if gain < GAIN || worth < WORTH {
             return Ok(false);
         }
@@ -113,15 +115,19 @@ impl Search<'_> {
     }
 
     fn conclude(&self, rungs: &[Vec<FittedRecords>], diagnosis: &mut Diagnosis) -> Result<(), RecordError> {
-        for rung in rungs {
-            let fit = &rung[0];
-            let error = fit.error(self.records, 0.0, 1.0)?;
-            diagnosis.steps.push(Step { added: added(fit), error, misfit: misfit(fit) });
-        }
         let top = &rungs[rungs.len() - 1];
-        diagnosis.corrections = corrections(self.records, &top[0]);
+        let told = self.told(&top[0])?;
+        for (k, rung) in rungs.iter().enumerate() {
+            let fit = if k + 1 == rungs.len() { &told } else { &rung[0] };
+            let error = fit.error(self.records, 0.0, 1.0)?;
+            // Corrections that only please the weights of the fit are no step.
+            if k > 0 || rungs.len() == 1 || error < diagnosis.error_before {
+                diagnosis.steps.push(Step { added: added(fit), error, misfit: misfit(fit) });
+            }
+        }
+        diagnosis.corrections = corrections(self.records, &told);
         if top[0].effects.is_empty() {
-            diagnosis.verdict = if misfit(&top[0]) > AGREES {
+            diagnosis.verdict = if misfit(&told) > AGREES {
                 Verdict::Unexplained
             } else if diagnosis.corrections.is_empty() {
                 Verdict::Adequate
@@ -131,11 +137,15 @@ impl Search<'_> {
             return Ok(());
         }
         diagnosis.suggestions = suggestions(self.records, top)?;
+        let own = added(&told);
         for suggestion in &mut diagnosis.suggestions {
-            let own = |f: &&FittedRecords| f.effects.iter().any(|e| e.is_same(&suggestion.added.source));
-            if let Some(fit) = top.iter().find(own) {
+            let has = |f: &&FittedRecords| f.effects.iter().any(|e| e.is_same(&suggestion.added.source));
+            if let Some(fit) = top.iter().find(has) {
                 suggestion.held_out_error_after = self.held_out(fit)?;
             }
+            suggestion.added = self.added_as_told(&own, &suggestion.added);
+            suggestion.error_after = self.promised(&told, std::slice::from_ref(&suggestion.added.source))?;
+            suggestion.evidence = words(&suggestion.added.source, suggestion.error_after);
         }
         let sure = diagnosis.suggestions.first().is_some_and(|s| s.probability >= 0.5);
         diagnosis.verdict = if sure { Verdict::Missing } else { Verdict::Undecided };

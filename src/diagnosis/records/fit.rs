@@ -26,12 +26,34 @@ use faer::Mat;
 const PRIORS: [f64; 4] = [0.03, 0.15, 0.002, 0.02];
 /// Largest change of a logarithm in one step.
 const REACH: f64 = 1.0;
+/// Dampings that are tried for a step, and the share of what is left below which a fit has ended.
+const ATTEMPTS: usize = 6;
+const LEAST_GAIN: f64 = 1e-7;
 
-/// What is free beside the initial states.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+/// What is free beside the initial states and the effects.
+#[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Free {
-    /// All stiffness, sizes of known sources and the shift of every record.
-    pub corrections: bool,
+    /// All stiffness, then the size of every known source, then the stiffness of every mode; none where it is empty.
+    pub corrections: Vec<bool>,
+    /// The shift of every record.
+    pub shifts: bool,
+}
+
+impl Free {
+    /// Initial states and effects only.
+    pub fn nothing() -> Self {
+        Self { corrections: Vec::new(), shifts: false }
+    }
+
+    /// All of it.
+    pub fn all(records: &Records) -> Self {
+        Self { corrections: vec![true; 1 + records.known.len() + modes(records)], shifts: true }
+    }
+}
+
+/// Modes whose stiffness may be free beside that of all; none where there is only one.
+pub(super) fn modes(records: &Records) -> usize {
+    if records.kept > 1 { records.kept } else { 0 }
 }
 
 /// A model with the parameters that were fitted.
@@ -51,6 +73,8 @@ pub struct FittedRecords {
     pub initial: Vec<Vec<f64>>,
     /// Weighted squared residual without the priors.
     pub chi_square: f64,
+    /// Squared corrections over their prior deviations.
+    pub prior: f64,
     /// Number of samples in it.
     pub count: usize,
     /// Standard deviations of the parameters of the effects, then of stiffness, of the known sources and of the modes, in units
@@ -71,6 +95,7 @@ impl FittedRecords {
             shifts: vec![0.0; records.list.len()],
             initial: vec![vec![0.0; 2 * records.kept]; records.list.len()],
             chi_square: f64::INFINITY,
+            prior: 0.0,
             count: 0,
             deviations: Vec::new(),
             residual: Vec::new(),
@@ -135,14 +160,26 @@ fn unit_of(start: &FittedRecords) -> f64 {
 struct Normal {
     matrix: Mat<f64>,
     gradient: Vec<f64>,
+    left: Left,
+}
+
+/// What is left at a point.
+#[derive(Default)]
+struct Left {
     chi_square: f64,
-    total: f64,
+    prior: f64,
     count: usize,
     residual: Vec<Vec<Vec<f64>>>,
 }
 
+impl Left {
+    fn total(&self, unit: f64) -> f64 {
+        self.chi_square + unit * self.prior
+    }
+}
+
 impl Fit<'_> {
-    /// Improves a start in at most `iterations` steps.
+    /// Improves a start in at most `iterations` steps; fewer where time is up.
     pub fn improve(&self, start: &FittedRecords, iterations: usize) -> Result<FittedRecords, RecordError> {
         let scales = scales(&start.effects);
         let unit = unit_of(start);
@@ -151,32 +188,57 @@ impl Fit<'_> {
         let mut damping = 1e-3;
         for _ in 0..iterations {
             self.control.check()?;
-            let mut accepted = false;
-            let mut gain = 0.0;
-            for _ in 0..6 {
-                let Some(change) = solve(&normal, damping) else {
-                    damping *= 10.0;
-                    continue;
-                };
-                let trial = self.moved(&best, &scales, &change);
-                // A model that runs away is no step.
-                match self.normal(&trial, &scales, unit) {
-                    Ok(there) if there.total < normal.total => {
-                        gain = (normal.total - there.total) / normal.total;
-                        (best, normal) = (trial, there);
-                        damping = (damping * 0.2).max(1e-12);
-                        accepted = true;
-                        break;
-                    }
-                    Ok(_) | Err(RecordError::Model { .. }) => damping = (damping * 8.0).max(1e-6),
-                    Err(other) => return Err(other),
-                }
+            if self.control.is_late() {
+                break;
             }
-            if !accepted || gain < 1e-7 {
+            let before = normal.left.total(unit);
+            let Some((next, there)) = self.step(&best, &scales, unit, &normal, &mut damping)? else { break };
+            let gain = (before - there.left.total(unit)) / before;
+            (best, normal) = (next, there);
+            if gain < LEAST_GAIN {
                 break;
             }
         }
         self.finish(best, &scales, normal)
+    }
+
+    /// One step that leaves less, with the equations there; `None` where none does.
+    fn step(
+        &self,
+        best: &FittedRecords,
+        scales: &[Vec<f64>],
+        unit: f64,
+        normal: &Normal,
+        damping: &mut f64,
+    ) -> Result<Option<(FittedRecords, Normal)>, RecordError> {
+        let before = normal.left.total(unit);
+        for attempt in 0..ATTEMPTS {
+            let Some(change) = solve(normal, *damping) else {
+                *damping *= 10.0;
+                continue;
+            };
+            let trial = self.moved(best, scales, &change);
+            // The first step is mostly one that leaves less; later ones are looked at without derivatives.
+            let there = if attempt == 0 {
+                self.normal(&trial, scales, unit).map(|there| (there.left.total(unit), Some(there)))
+            } else {
+                self.left(&trial).map(|there| (there.total(unit), None))
+            };
+            match there {
+                Ok((total, there)) if total < before => {
+                    *damping = (*damping * 0.2).max(1e-12);
+                    let there = there.map_or_else(|| self.normal(&trial, scales, unit), Ok)?;
+                    return Ok(Some((trial, there)));
+                }
+                // A model that runs away is no step.
+                Ok(_) | Err(RecordError::Model { .. }) => *damping = (*damping * 8.0).max(1e-6),
+                Err(other) => return Err(other),
+            }
+            if self.control.is_late() {
+                break;
+            }
+        }
+        Ok(None)
     }
 
     /// Adds deviations and what is left.
@@ -199,24 +261,20 @@ impl Fit<'_> {
         let deviation =
             |k: usize| inverse[(k, k)].max(0.0).sqrt() * scaling[k] * slopes.get(k).copied().unwrap_or(1.0).abs();
         best.deviations = (0..shared).map(deviation).collect();
-        (best.chi_square, best.count, best.residual) = (normal.chi_square, normal.count, normal.residual);
+        let Left { chi_square, prior, count, residual } = normal.left;
+        (best.chi_square, best.prior, best.count, best.residual) = (chi_square, prior, count, residual);
         Ok(best)
     }
 
     /// Number of shared variables.
     fn shared(&self, at: &FittedRecords) -> usize {
         let laws: usize = at.effects.iter().map(|e| e.parameters.len()).sum();
-        laws + if self.free.corrections { 1 + at.known.len() + self.modes() } else { 0 }
-    }
-
-    /// Modes whose stiffness is free beside that of all; none where there is only one.
-    fn modes(&self) -> usize {
-        if self.records.kept > 1 { self.records.kept } else { 0 }
+        laws + self.free.corrections.len()
     }
 
     /// Variables of each record.
     fn local(&self) -> usize {
-        2 * self.records.kept + usize::from(self.free.corrections)
+        2 * self.records.kept + usize::from(self.free.shifts)
     }
 
     fn moved(&self, at: &FittedRecords, scales: &[Vec<f64>], change: &[f64]) -> FittedRecords {
@@ -230,12 +288,12 @@ impl Fit<'_> {
                 k += 1;
             }
         }
-        if self.free.corrections {
+        if !self.free.corrections.is_empty() {
             next.stiffness += change[k].clamp(-0.1, 0.1);
             for (j, v) in next.known.iter_mut().enumerate() {
                 *v += change[k + 1 + j].clamp(-0.5, 0.5);
             }
-            for r in 0..self.modes() {
+            for r in 0..modes(self.records) {
                 next.modes[r] += change[k + 1 + at.known.len() + r].clamp(-0.1, 0.1);
             }
         }
@@ -245,7 +303,7 @@ impl Fit<'_> {
             for (j, p) in next.initial[r].iter_mut().enumerate() {
                 *p += change[from + j];
             }
-            if self.free.corrections {
+            if self.free.shifts {
                 next.shifts[r] += change[from + 2 * self.records.kept].clamp(-0.05, 0.05);
             }
         }
@@ -267,17 +325,23 @@ impl Fit<'_> {
             }
         }
         let from = self.shared(at) + r * self.local();
-        if self.free.corrections {
-            list.push((TransientParameter::Stiffness, k, 1.0));
+        if self.free.shifts {
             list.push((TransientParameter::Stiffness, from + 2 * self.records.kept, 1.0));
+        }
+        if !self.free.corrections.is_empty() {
+            let free = |j: usize| self.free.corrections[j];
+            if free(0) {
+                list.push((TransientParameter::Stiffness, k, 1.0));
+            }
             let sources = at.sources(self.records);
-            for (source, known) in sources.iter().take(offset).enumerate() {
+            for (source, known) in sources.iter().take(offset).enumerate().filter(|(s, _)| free(1 + s)) {
                 for &parameter in known.effect.scaled() {
                     let unknown = TransientParameter::Source { source, parameter };
                     list.push((unknown, k + 1 + source, known.parameters[parameter]));
                 }
             }
-            list.extend((0..self.modes()).map(|r| (TransientParameter::Mode(r), k + 1 + offset + r, 1.0)));
+            let modes = (0..modes(self.records)).filter(|r| free(1 + offset + r));
+            list.extend(modes.map(|r| (TransientParameter::Mode(r), k + 1 + offset + r, 1.0)));
         }
         list.extend((0..2 * self.records.kept).map(|j| (TransientParameter::Initial(j), from + j, 1.0)));
         list
@@ -285,98 +349,139 @@ impl Fit<'_> {
 
     fn normal(&self, at: &FittedRecords, scales: &[Vec<f64>], unit: f64) -> Result<Normal, RecordError> {
         let size = self.shared(at) + self.records.list.len() * self.local();
-        let mut normal = Normal {
-            matrix: Mat::zeros(size, size),
-            gradient: vec![0.0; size],
-            chi_square: 0.0,
-            total: 0.0,
-            count: 0,
-            residual: Vec::new(),
-        };
-        for (r, record) in self.records.list.iter().enumerate() {
-            let samples = ((self.share * record.len() as f64) as usize).clamp(16.min(record.len()), record.len());
-            let unknowns = self.unknowns(at, scales, r);
-            let mut parameters: Vec<TransientParameter> = Vec::new();
-            for (p, ..) in &unknowns {
-                if !parameters.contains(p) {
-                    parameters.push(*p);
-                }
-            }
-            let response = at.predict(self.records, r, samples, &parameters)?;
-            let mut left = Vec::new();
-            for c in 0..record.channels.len() {
-                let (y, sigma) = (&record.samples[c], &record.sigma[c][..samples]);
-                let e: Vec<f64> = (0..samples).map(|n| (y[n] - response.channels[c][n]) / sigma[n]).collect();
-                let square: f64 = e.iter().map(|e| e * e).sum();
-                if !square.is_finite() {
-                    let (file, reason) = (record.file.clone(), crate::response::transient::TransientError::StepFailed);
-                    return Err(RecordError::Model { file, reason });
-                }
-                normal.chi_square += square;
-                normal.count += samples;
-                let weighted = |theta: usize| {
-                    response.derivatives[theta][c].iter().zip(sigma).map(|(d, s)| d / s).collect::<Vec<f64>>()
-                };
-                let own: Vec<Vec<f64>> = (0..parameters.len()).map(weighted).collect();
-                normal.add(&unknowns, &parameters, &own, &e);
-                left.push(e);
-            }
-            normal.residual.push(left);
+        let mut normal = Normal { matrix: Mat::zeros(size, size), gradient: vec![0.0; size], left: Left::default() };
+        let parts = self.control.map(self.records.list.len(), |r| self.part(at, scales, r));
+        for part in parts {
+            let part = part?;
+            normal.add(&part);
+            normal.left.chi_square += part.square;
+            normal.left.count += part.left.iter().map(Vec::len).sum::<usize>();
+            normal.left.residual.push(part.left);
         }
-        normal.total = normal.chi_square;
-        if self.free.corrections {
-            self.priors(at, unit, &mut normal);
+        for (k, value, deviation) in self.priors(at) {
+            let weight = unit * deviation.powi(-2);
+            normal.matrix[(k, k)] += weight;
+            normal.gradient[k] -= weight * value;
+            normal.left.prior += (value / deviation).powi(2);
+        }
+        // What is held moves nowhere.
+        let laws = self.shared(at) - self.free.corrections.len();
+        for (j, _) in self.free.corrections.iter().enumerate().filter(|(_, free)| !**free) {
+            normal.matrix[(laws + j, laws + j)] = 1.0;
         }
         Ok(normal)
     }
 
-    fn priors(&self, at: &FittedRecords, unit: f64, normal: &mut Normal) {
-        let laws: usize = at.effects.iter().map(|e| e.parameters.len()).sum();
-        let mut prior = |k: usize, value: f64, deviation: f64| {
-            let weight = unit * deviation.powi(-2);
-            normal.matrix[(k, k)] += weight;
-            normal.gradient[k] -= weight * value;
-            normal.total += weight * value * value;
+    /// What a model leaves, without derivatives.
+    fn left(&self, at: &FittedRecords) -> Result<Left, RecordError> {
+        let one = |r: usize| -> Result<Vec<Vec<f64>>, RecordError> {
+            let samples = self.samples(r);
+            self.over_noise(r, &at.predict(self.records, r, samples, &[])?.channels)
         };
-        prior(laws, at.stiffness, PRIORS[0]);
-        for (j, v) in at.known.iter().enumerate() {
-            prior(laws + 1 + j, *v, PRIORS[1]);
+        let mut left = Left::default();
+        for list in self.control.map(self.records.list.len(), one) {
+            let list = list?;
+            left.chi_square += list.iter().flatten().map(|e| e * e).sum::<f64>();
+            left.count += list.iter().map(Vec::len).sum::<usize>();
+            left.residual.push(list);
         }
-        for r in 0..self.modes() {
-            prior(laws + 1 + at.known.len() + r, at.modes[r], PRIORS[3]);
+        left.prior = self.priors(at).into_iter().map(|(_, value, deviation)| (value / deviation).powi(2)).sum();
+        Ok(left)
+    }
+
+    /// Samples of a record that are used.
+    fn samples(&self, r: usize) -> usize {
+        let length = self.records.list[r].len();
+        ((self.share * length as f64) as usize).clamp(16.min(length), length)
+    }
+
+    /// What a prediction of a record leaves, over the noise.
+    fn over_noise(&self, r: usize, predicted: &[Vec<f64>]) -> Result<Vec<Vec<f64>>, RecordError> {
+        let record = &self.records.list[r];
+        let of = |(c, model): (usize, &Vec<f64>)| {
+            let measured = record.samples[c].iter().zip(&record.sigma[c]);
+            model.iter().zip(measured).map(|(m, (y, s))| (y - m) / s).collect::<Vec<f64>>()
+        };
+        let left: Vec<Vec<f64>> = predicted.iter().enumerate().map(of).collect();
+        if left.iter().flatten().any(|e| !e.is_finite()) {
+            let (file, reason) = (record.file.clone(), crate::response::transient::TransientError::StepFailed);
+            return Err(RecordError::Model { file, reason });
         }
-        for r in 0..self.records.list.len() {
-            let k = self.shared(at) + r * self.local() + 2 * self.records.kept;
-            prior(k, at.shifts[r], PRIORS[2]);
+        Ok(left)
+    }
+
+    /// Products of the derivatives of one record.
+    fn part(&self, at: &FittedRecords, scales: &[Vec<f64>], r: usize) -> Result<RecordPart, RecordError> {
+        let unknowns = self.unknowns(at, scales, r);
+        let mut parameters: Vec<TransientParameter> = Vec::new();
+        for (p, ..) in &unknowns {
+            if !parameters.contains(p) {
+                parameters.push(*p);
+            }
         }
+        let mut response = at.predict(self.records, r, self.samples(r), &parameters)?;
+        let left = self.over_noise(r, &response.channels)?;
+        let count = parameters.len();
+        let (mut products, mut against) = (vec![0.0; count * count], vec![0.0; count]);
+        for (c, e) in left.iter().enumerate() {
+            let sigma = &self.records.list[r].sigma[c];
+            for list in &mut response.derivatives {
+                list[c].iter_mut().zip(sigma).for_each(|(d, s)| *d /= s);
+            }
+            for a in 0..count {
+                let own = &response.derivatives[a][c];
+                against[a] += dashpot_numerics::dot(own, e);
+                for b in 0..=a {
+                    products[a * count + b] += dashpot_numerics::dot(own, &response.derivatives[b][c]);
+                }
+            }
+        }
+        for a in 0..count {
+            for b in 0..a {
+                products[b * count + a] = products[a * count + b];
+            }
+        }
+        let of = |p: &TransientParameter| parameters.iter().position(|q| q == p).unwrap_or(0);
+        let unknowns = unknowns.iter().map(|(p, k, s)| (of(p), *k, *s)).collect();
+        let square = left.iter().flatten().map(|e| e * e).sum();
+        Ok(RecordPart { unknowns, products, against, square, left })
+    }
+
+    /// Corrections with their prior deviations: number of the variable, value, deviation.
+    fn priors(&self, at: &FittedRecords) -> Vec<(usize, f64, f64)> {
+        let laws = self.shared(at) - self.free.corrections.len();
+        let mut list = Vec::new();
+        if !self.free.corrections.is_empty() {
+            list.push((laws, at.stiffness, PRIORS[0]));
+            list.extend(at.known.iter().enumerate().map(|(j, v)| (laws + 1 + j, *v, PRIORS[1])));
+            list.extend((0..modes(self.records)).map(|r| (laws + 1 + at.known.len() + r, at.modes[r], PRIORS[3])));
+            list.retain(|(k, ..)| self.free.corrections[k - laws]);
+        }
+        if self.free.shifts {
+            let at_record = |r: usize| self.shared(at) + r * self.local() + 2 * self.records.kept;
+            list.extend(at.shifts.iter().enumerate().map(|(r, v)| (at_record(r), *v, PRIORS[2])));
+        }
+        list
     }
 }
 
+/// Products of the derivatives of one record.
+struct RecordPart {
+    /// Number of the derivative, of the variable, and the factor between them.
+    unknowns: Vec<(usize, usize, f64)>,
+    products: Vec<f64>,
+    against: Vec<f64>,
+    square: f64,
+    left: Vec<Vec<f64>>,
+}
+
 impl Normal {
-    fn add(
-        &mut self,
-        unknowns: &[(TransientParameter, usize, f64)],
-        parameters: &[TransientParameter],
-        derivatives: &[Vec<f64>],
-        e: &[f64],
-    ) {
-        let of = |p: &TransientParameter| parameters.iter().position(|q| q == p).unwrap_or(0);
-        let list: Vec<(usize, usize, f64)> = unknowns.iter().map(|(p, k, s)| (of(p), *k, *s)).collect();
-        let count = parameters.len();
-        let mut products = vec![0.0; count * count];
-        let mut against = vec![0.0; count];
-        for a in 0..count {
-            against[a] = dashpot_numerics::dot(&derivatives[a], e);
-            for b in 0..=a {
-                let value = dashpot_numerics::dot(&derivatives[a], &derivatives[b]);
-                products[a * count + b] = value;
-                products[b * count + a] = value;
-            }
-        }
-        for (p, k, s) in &list {
-            self.gradient[*k] += s * against[*p];
-            for (q, l, t) in &list {
-                self.matrix[(*k, *l)] += s * t * products[p * count + q];
+    fn add(&mut self, part: &RecordPart) {
+        let count = part.against.len();
+        for (p, k, s) in &part.unknowns {
+            self.gradient[*k] += s * part.against[*p];
+            for (q, l, t) in &part.unknowns {
+                self.matrix[(*k, *l)] += s * t * part.products[p * count + q];
             }
         }
     }

@@ -18,6 +18,7 @@ mod search;
 pub mod spectrum;
 mod starts;
 mod telling;
+mod told;
 pub(crate) mod variables;
 mod weights;
 

@@ -21,19 +21,30 @@ const HOPELESS: [f64; 2] = [12.0, 4.0];
 /// The search for what is missing in some records.
 pub(super) struct Search<'a> {
     pub records: &'a Records<'a>,
+    /// The same with the noise of their channels only, as they are compared.
+    pub plain: &'a Records<'a>,
     pub excluded: &'a [Source],
     pub control: &'a Control,
 }
 
 impl Search<'_> {
     pub fn fit(&self, start: &FittedRecords, share: f64, iterations: usize) -> Result<FittedRecords, RecordError> {
-        let fit = Fit { records: self.records, free: Free { corrections: true }, share, control: self.control };
-        fit.improve(start, iterations)
+        self.fit_by(start, share, iterations, self.control)
+    }
+
+    fn fit_by(
+        &self,
+        start: &FittedRecords,
+        share: f64,
+        iterations: usize,
+        control: &Control,
+    ) -> Result<FittedRecords, RecordError> {
+        Fit { records: self.records, free: Free::all(self.records), share, control }.improve(start, iterations)
     }
 
     /// Initial states and effects only, nothing corrected.
     pub fn quiet(&self, start: &FittedRecords, share: f64) -> Result<FittedRecords, RecordError> {
-        Fit { records: self.records, free: Free { corrections: false }, share, control: self.control }.improve(start, 3)
+        Fit { records: self.records, free: Free::nothing(), share, control: self.control }.improve(start, 3)
     }
 
     /// The model corrected, on longer and longer parts, so that a frequency that is off does not lose the phase.
@@ -55,11 +66,12 @@ impl Search<'_> {
         let base = if best.effects.is_empty() { bare } else { best };
         let base = self.quiet(base, first)?;
         let starts = self.beginnings(best, &base);
+        let alone = self.control.alone();
         let begun = self.control.map(starts.len(), |k| {
             let mut start = base.clone();
             start.effects.push(starts[k].clone());
             // A start that runs away, or a mass that takes away all there is, is no start.
-            self.fit(&start, first, 3).ok()
+            self.fit_by(&start, first, 3, &alone).ok()
         });
         self.control.check()?;
         let mut found: Vec<FittedRecords> = Vec::new();
@@ -72,9 +84,14 @@ impl Search<'_> {
                 None => found.push(fitted),
             }
         }
+        let t = |name: &str, l: &[FittedRecords]| if std::env::var("TRACE").is_ok() { for f in l { let e = f.effects.last().unwrap(); eprintln!("TRACE {name} {:?} {:?} {:?} chi/n {:.3} prior {:.2} stiff {:.4} known {:?} modes {:?}", e.effect, e.place, e.parameters, f.chi_square / f.count as f64, f.prior, f.stiffness, f.known, f.modes); } };
+        if std::env::var("TRACE").is_ok() { eprintln!("TRACE extended first {first:.3} kept {} substeps {} starts {} n {}", self.records.kept, self.records.list[0].substeps, starts.len(), self.records.list[0].len()); for s in &starts { eprintln!("TRACE start {:?} {:?} {:?}", s.effect, s.place, s.parameters); } }
+        t("begun", &found);
         let longer = 0.4_f64.max(first);
         let mut found = self.continued(found, (LONGER, HOPELESS[0]), [first, longer], 6);
+        t("longer", &found);
         found = self.continued(found, (WHOLE, HOPELESS[1]), [longer, 1.0], 9);
+        t("whole", &found);
         found.retain(|f| f.effects.last().is_some_and(|e| is_allowed(self.excluded, e, &last_deviations(f))));
         if let Some(least) = found.iter().map(|f| f.chi_square).min_by(f64::total_cmp) {
             let best = found.iter().find(|f| f.chi_square == least).map_or(1.0, scale);
@@ -96,14 +113,15 @@ impl Search<'_> {
         found.truncate(count);
         let least = found.first().map_or(0.0, |f| f.chi_square);
         found.retain(|f| f.chi_square <= hopeless * least.max(f.count as f64));
+        let alone = self.control.alone();
         let rising = |f: &FittedRecords| {
             let mut fitted = f.clone();
             let mut share = LADDER * from;
             while share < to {
-                fitted = self.fit(&fitted, share, 4).ok()?;
+                fitted = self.fit_by(&fitted, share, 4, &alone).ok()?;
                 share *= LADDER;
             }
-            self.fit(&fitted, to, iterations).ok()
+            self.fit_by(&fitted, to, iterations, &alone).ok()
         };
         self.control.map(found.len(), |k| rising(&found[k])).into_iter().flatten().collect()
     }

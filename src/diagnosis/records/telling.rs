@@ -14,10 +14,6 @@ use crate::structure::Part;
 const PLAIN: [f64; 2] = [1.1, 1.3];
 /// Misfit from which on what is left is no noise.
 const MODEL_ERROR: f64 = 1.5;
-/// Deviations from 0 at which a correction is told, and the least change of stiffness and of a known source that is: the
-/// force between the samples and the motion above the band leave as much.
-const MOVED: f64 = 4.0;
-const LEAST: [f64; 2] = [5e-4, 0.01];
 /// Difference of evidence within which effects cannot be told apart.
 const ALIKE: f64 = 9.0;
 /// Most suggestions.
@@ -56,10 +52,7 @@ pub(super) fn suggestions(records: &Records, found: &[FittedRecords]) -> Result<
             let others = found.iter().filter(alike).filter_map(|f| f.effects.last());
             let indistinguishable_from =
                 others.filter(|o| !fit.effects.iter().any(|e| e.is_same(o))).cloned().collect();
-            let words = vec![
-                added.source.effect.sentence().to_string(),
-                format!("With it the error of the records is {:.2} %.", 100.0 * error),
-            ];
+            let words = words(&added.source, error);
             list.push(Suggestion {
                 added,
                 error_after: error,
@@ -73,6 +66,12 @@ pub(super) fn suggestions(records: &Records, found: &[FittedRecords]) -> Result<
     Ok(list)
 }
 
+/// What is said of an effect with which this error is left.
+pub(super) fn words(source: &Source, error: f64) -> Vec<String> {
+    let left = format!("With it the error of the records is {:.2} %.", 100.0 * error);
+    vec![source.effect.sentence().to_string(), left]
+}
+
 /// Deviations of the parameters of the last effect.
 pub(super) fn last_deviations(fit: &FittedRecords) -> Vec<f64> {
     let count = fit.effects.last().map_or(0, |e| e.parameters.len());
@@ -80,7 +79,7 @@ pub(super) fn last_deviations(fit: &FittedRecords) -> Vec<f64> {
     fit.deviations[end - count..end].to_vec()
 }
 
-/// Corrections that moved, with their deviations.
+/// Corrections of a fit that can be told ([`Search::told`](super::search::Search)), with their deviations.
 pub(super) fn corrections(records: &Records, fit: &FittedRecords) -> Vec<Correction> {
     let wide = scale(fit).sqrt();
     let first = parameters(fit);
@@ -92,12 +91,7 @@ pub(super) fn corrections(records: &Records, fit: &FittedRecords) -> Vec<Correct
         .chain((0..modes).map(|r| UpdatingParameter::Structure(Part::Mode(r))));
     let of = |(k, (v, parameter)): (usize, (f64, UpdatingParameter))| {
         let deviation = fit.deviations.get(first + k).copied().unwrap_or(f64::NAN) * wide;
-        let least = LEAST[usize::from(matches!(parameter, UpdatingParameter::Known(_)))];
-        (v.abs() > (MOVED * deviation).max(least)).then(|| Correction {
-            parameter,
-            factor: v.exp(),
-            deviation: deviation * v.exp(),
-        })
+        (v != 0.0).then(|| Correction { parameter, factor: v.exp(), deviation: deviation * v.exp() })
     };
     values.zip(names).enumerate().filter_map(of).collect()
 }

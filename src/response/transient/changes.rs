@@ -51,16 +51,27 @@ impl Changes {
         };
         let exact = Exact { system, step, between: &between };
         let (mut full, mut rates) = (Vec::new(), Vec::new());
-        for column in 0..2 * count + elements + 2 * drives {
-            let mut unit = vec![0.0; 2 * count + elements + 2 * drives];
+        for column in 0..2 * count {
+            let (j, z) = (column % count, if column < count { c64::new(1.0, 0.0) } else { c64::new(0.0, 1.0) });
+            for change in list {
+                let at = |k: usize| k * count + j;
+                let parts = |k: usize| [change.direct[at(k)] * z, change.conjugate[at(k)] * z.conj()];
+                let rate = |k: usize| parts(k)[0] + parts(k)[1];
+                let sum = |k: usize| parts(k)[0] * between[at(k)][0] + parts(k)[1] * between[at(k)][1];
+                flatten(&(0..count).map(rate).collect::<Vec<c64>>(), &mut rates);
+                flatten(&(0..count).map(sum).collect::<Vec<c64>>(), &mut full);
+            }
+        }
+        for column in 0..elements + 2 * drives {
+            let mut unit = vec![0.0; elements + 2 * drives];
             unit[column] = 1.0;
-            let state: Vec<c64> = (0..count).map(|k| c64::new(unit[k], unit[count + k])).collect();
-            let (forces, rest) = unit[2 * count..].split_at(elements);
+            let (forces, rest) = unit.split_at(elements);
             let (start, rise) = rest.split_at(drives);
             for change in list {
-                flatten(&exact.added(change, &state, [forces, start, rise]), &mut full);
-                if column < 2 * count + elements + drives {
-                    flatten(&rate(change, &state, forces, start), &mut rates);
+                flatten(&exact.of_forces(change, [forces, start, rise]), &mut full);
+                if column < elements + drives {
+                    let now = |k: usize| modal_force(&change.inputs, k, [forces, start, rise])[0];
+                    flatten(&(0..count).map(now).collect::<Vec<c64>>(), &mut rates);
                 }
             }
         }
@@ -109,7 +120,7 @@ impl Changes {
     }
 }
 
-/// The exact sum over a full step.
+/// The exact sum over a full step of what forces do; that of the state is its first term.
 struct Exact<'a> {
     system: &'a LinearSystem,
     step: &'a Step,
@@ -118,15 +129,15 @@ struct Exact<'a> {
 }
 
 impl Exact<'_> {
-    fn added(&self, change: &LinearChange, z0: &[c64], [elements, start, rise]: [&[f64]; 3]) -> Vec<c64> {
-        let count = z0.len();
+    fn of_forces(&self, change: &LinearChange, [elements, start, rise]: [&[f64]; 3]) -> Vec<c64> {
+        let count = self.system.lambda.len();
         let (mut free, mut held) = (Vec::with_capacity(count), Vec::with_capacity(count));
         for k in 0..count {
             let [g0, rise] = modal_force(&self.system.beta, k, [elements, start, rise]);
             let lambda = self.system.lambda[k];
             let q = -rise / (self.step.length * lambda);
             let p = (q - g0) / lambda;
-            free.push(z0[k] - p);
+            free.push(-p);
             held.push((p, q * self.step.length));
         }
         let (constant, rising) = (&self.step.constant, &self.step.rising);
@@ -144,18 +155,6 @@ impl Exact<'_> {
         };
         (0..count).map(sum).collect()
     }
-}
-
-/// `g` at one instant.
-fn rate(change: &LinearChange, z: &[c64], elements: &[f64], drives: &[f64]) -> Vec<c64> {
-    let count = z.len();
-    let still = vec![0.0; drives.len()];
-    let sum = |k: usize| {
-        let row = k * count;
-        let own = (0..count).map(|j| change.direct[row + j] * z[j] + change.conjugate[row + j] * z[j].conj());
-        own.sum::<c64>() + modal_force(&change.inputs, k, [elements, drives, &still])[0]
-    };
-    (0..count).map(sum).collect()
 }
 
 /// Modal force at the start and its rise over the step, of damped mode `k`.

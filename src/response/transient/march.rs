@@ -75,6 +75,21 @@ pub(super) struct March<'a> {
     pub forces: Vec<f64>,
     step: Step,
     receptance: Receptance,
+    trial: Trial,
+}
+
+/// A step that is tried.
+#[derive(Default)]
+struct Trial {
+    /// State at its end under the drives alone; once it is taken, the state.
+    free: Vec<f64>,
+    /// Displacements of the elements at its ends, m, and their velocities at its end, m/s.
+    before: Vec<f64>,
+    after: Vec<f64>,
+    speeds: Vec<f64>,
+    /// Mean forces, N, and sides of slip.
+    forces: Vec<f64>,
+    side: Vec<f64>,
 }
 
 impl<'a> March<'a> {
@@ -97,20 +112,22 @@ impl<'a> March<'a> {
             derivatives.commit(l, element, dot(&view.displacement, &z), f64::INFINITY);
         }
         let forces = vec![0.0; elements.len()];
-        Self { system, views, elements, z, derivatives, side, forces, step, receptance }
+        Self { system, views, elements, z, derivatives, side, forces, step, receptance, trial: Trial::default() }
     }
 
     /// One step from the drives `u0` to `u1`.
     pub fn advance(&mut self, u0: &[f64], u1: &[f64]) -> Result<(), TransientError> {
         let step = std::mem::replace(&mut self.step, Step::empty());
-        let done = self.advance_by(&step, u0, u1);
-        self.step = step;
+        let mut trial = std::mem::take(&mut self.trial);
+        let done = self.advance_by(&step, &mut trial, u0, u1);
+        (self.step, self.trial) = (step, trial);
         done
     }
 
-    fn advance_by(&mut self, step: &Step, u0: &[f64], u1: &[f64]) -> Result<(), TransientError> {
-        if self.elements.is_empty() {
-            self.accept(step, true, [u0, u1], &[], &[], None);
+    fn advance_by(&mut self, step: &Step, trial: &mut Trial, u0: &[f64], u1: &[f64]) -> Result<(), TransientError> {
+        let ahead = self.balance(step, true, trial, [u0, u1])?;
+        if ahead.is_none() {
+            self.accept(step, true, trial, [u0, u1], None);
             return Ok(());
         }
         let (mut from, mut remaining) = (u0.to_vec(), step.length);
@@ -118,15 +135,20 @@ impl<'a> March<'a> {
             let own = (event > 0).then(|| Step::new(self.system, remaining));
             let piece = own.as_ref().unwrap_or(step);
             let full = event == 0;
-            let (forces, side) = self.balance(piece, full, &from, u1)?;
-            let reversal = if event < MOST_EVENTS { self.reversal(piece, &from, u1, &forces, &side) } else { None };
+            let ahead = if full { ahead } else { self.balance(piece, full, trial, [&from, u1])? };
+            let reversal = match ahead {
+                Some(_) if event < MOST_EVENTS => self.reversal(piece, trial, [&from, u1]),
+                _ => None,
+            };
             let Some((element, tau)) = reversal else {
-                self.accept(piece, full, [&from, u1], &forces, &side, None);
+                self.accept(piece, full, trial, [&from, u1], None);
                 return Ok(());
             };
             let share = tau / remaining;
             let at: Vec<f64> = from.iter().zip(u1).map(|(a, b)| a + share * (b - a)).collect();
-            self.accept(&Step::new(self.system, tau), false, [&from, &at], &forces, &side, Some(element));
+            let part = Step::new(self.system, tau);
+            self.moved(&part, [&from, &at], &mut trial.free);
+            self.accept(&part, false, trial, [&from, &at], Some(element));
             (from, remaining) = (at, remaining - tau);
             if remaining <= 1e-12 * step.length {
                 return Ok(());
@@ -135,8 +157,14 @@ impl<'a> March<'a> {
         Ok(())
     }
 
-    /// Forces of the elements over a step, and the sides on which friction slips.
-    fn balance(&self, step: &Step, full: bool, u0: &[f64], u1: &[f64]) -> Result<(Vec<f64>, Vec<f64>), TransientError> {
+    /// Forces of the elements over a step, and the sides on which friction slips; an element that turns within it, if any.
+    fn balance(
+        &self,
+        step: &Step,
+        full: bool,
+        trial: &mut Trial,
+        drives: [&[f64]; 2],
+    ) -> Result<Option<usize>, TransientError> {
         let count = self.elements.len();
         let own;
         let w = if full {
@@ -145,9 +173,12 @@ impl<'a> March<'a> {
             own = Receptance::new(self.views, step);
             &own
         };
-        let free = self.moved(step, u0, u1, &[]);
-        let before: Vec<f64> = self.views.iter().map(|v| dot(&v.displacement, &self.z)).collect();
-        let (mut forces, mut side) = (self.forces.clone(), self.side.clone());
+        self.moved(step, drives, &mut trial.free);
+        let Trial { free, before, forces, side, speeds, .. } = trial;
+        before.clear();
+        before.extend(self.views.iter().map(|v| dot(&v.displacement, &self.z)));
+        forces.clone_from(&self.forces);
+        side.clone_from(&self.side);
         let mut greatest = 0.0_f64;
         for _ in 0..SWEEPS {
             let mut change = 0.0_f64;
@@ -155,11 +186,11 @@ impl<'a> March<'a> {
                 let row = l * count;
                 let others =
                     |table: &[f64]| (0..count).filter(|&k| k != l).map(|k| table[row + k] * forces[k]).sum::<f64>();
-                let x = dot(&self.views[l].displacement, &free) - before[l] - others(&w.displacement);
+                let x = dot(&self.views[l].displacement, free) - before[l] - others(&w.displacement);
                 let element = &self.elements[l];
                 let mut new = None;
                 if element.form == Form::Friction && self.side[l] == 0.0 {
-                    let held = (dot(&self.views[l].velocity, &free) - others(&w.velocity)) / w.velocity[row + l];
+                    let held = (dot(&self.views[l].velocity, free) - others(&w.velocity)) / w.velocity[row + l];
                     let holds = held.abs() <= element.static_force();
                     side[l] = if holds { 0.0 } else { held.signum() };
                     new = holds.then_some(held);
@@ -174,49 +205,56 @@ impl<'a> March<'a> {
                 break;
             }
         }
-        if forces.iter().all(|f| f.is_finite()) { Ok((forces, side)) } else { Err(TransientError::StepFailed) }
+        if !forces.iter().all(|f| f.is_finite()) {
+            return Err(TransientError::StepFailed);
+        }
+        speeds.clear();
+        let at_end = |l: usize| {
+            let given = (0..count).map(|k| w.velocity[l * count + k] * forces[k]).sum::<f64>();
+            dot(&self.views[l].velocity, free) - given
+        };
+        speeds.extend((0..count).map(at_end));
+        Ok((0..count).find(|&l| self.turns_within(trial, l)))
+    }
+
+    /// Whether the slip of element `l` ends within the step that was tried.
+    fn turns_within(&self, trial: &Trial, l: usize) -> bool {
+        let side = trial.side[l];
+        self.elements[l].form == Form::Friction
+            && side != 0.0
+            && self.side[l] == side
+            && trial.speeds[l] * side < 0.0
+            && dot(&self.views[l].velocity, &self.z) * side > 0.0
     }
 
     /// The first element whose slip ends within the step, and when.
-    fn reversal(&self, step: &Step, u0: &[f64], u1: &[f64], forces: &[f64], side: &[f64]) -> Option<(usize, f64)> {
-        let mut first: Option<(usize, f64)> = None;
-        for l in 0..self.elements.len() {
-            if self.elements[l].form != Form::Friction || side[l] == 0.0 {
-                continue;
-            }
-            let start = dot(&self.views[l].velocity, &self.z) * side[l];
-            let end = self.velocity_at(l, step, step.length, u0, u1, forces) * side[l];
-            if self.side[l] == side[l] && start > 0.0 && end < 0.0 {
-                let tau = self.crossing(l, step, u0, u1, forces, [start * side[l], end * side[l]]);
-                if first.is_none_or(|(_, t)| tau < t) {
-                    first = Some((l, tau));
-                }
-            }
-        }
-        first
+    fn reversal(&self, step: &Step, trial: &Trial, drives: [&[f64]; 2]) -> Option<(usize, f64)> {
+        let turning = (0..self.elements.len()).filter(|&l| self.turns_within(trial, l));
+        let when = |l: usize| {
+            let start = dot(&self.views[l].velocity, &self.z);
+            (l, self.crossing(l, step, drives, &trial.forces, [start, trial.speeds[l]]))
+        };
+        turning.map(when).min_by(|a, b| a.1.total_cmp(&b.1))
     }
 
     /// Relative velocity of element `l` after the time `t` of a step under constant forces.
-    fn velocity_at(&self, l: usize, step: &Step, t: f64, u0: &[f64], u1: &[f64], forces: &[f64]) -> f64 {
-        let own;
-        let part = if t == step.length {
-            step
-        } else {
-            own = Step::new(self.system, t);
-            &own
-        };
+    fn velocity_at(&self, l: usize, step: &Step, t: f64, [u0, u1]: [&[f64]; 2], forces: &[f64]) -> f64 {
+        let part = Step::new(self.system, t);
         let share = t / step.length;
         let end: Vec<f64> = u0.iter().zip(u1).map(|(a, b)| a + share * (b - a)).collect();
-        dot(&self.views[l].velocity, &self.moved(part, u0, &end, forces))
+        let mut z = Vec::new();
+        self.moved(&part, [u0, &end], &mut z);
+        forces.iter().enumerate().for_each(|(l, force)| part.push(l, -force, &mut z));
+        dot(&self.views[l].velocity, &z)
     }
 
     /// Instant at which the velocity of element `l` passes zero, by regula falsi (Illinois).
-    fn crossing(&self, l: usize, step: &Step, u0: &[f64], u1: &[f64], forces: &[f64], ends: [f64; 2]) -> f64 {
+    fn crossing(&self, l: usize, step: &Step, drives: [&[f64]; 2], forces: &[f64], ends: [f64; 2]) -> f64 {
         let ([mut a, mut b], [mut at_a, mut at_b]) = ([0.0, step.length], ends);
         let mut last = 0;
         for _ in 0..60 {
             let t = (a * at_b - b * at_a) / (at_b - at_a);
-            let value = self.velocity_at(l, step, t, u0, u1, forces);
+            let value = self.velocity_at(l, step, t, drives, forces);
             if value == 0.0 || b - a <= 1e-13 * step.length || value.abs() <= 1e-14 * ends[0].abs().max(ends[1].abs()) {
                 return t;
             }
@@ -233,41 +271,27 @@ impl<'a> March<'a> {
         0.5 * (a + b)
     }
 
-    /// State after a step under forces; without any where `forces` is empty.
-    fn moved(&self, step: &Step, u0: &[f64], u1: &[f64], forces: &[f64]) -> Vec<f64> {
-        let mut z = self.z.clone();
-        step.decay(&mut z);
+    /// State after a step under the drives alone.
+    fn moved(&self, step: &Step, [u0, u1]: [&[f64]; 2], z: &mut Vec<f64>) {
+        z.clone_from(&self.z);
+        step.decay(z);
         for (i, (a, b)) in u0.iter().zip(u1).enumerate() {
-            step.drive(self.elements.len() + i, *a, *b, &mut z);
+            step.drive(self.elements.len() + i, *a, *b, z);
         }
-        for (l, force) in forces.iter().enumerate() {
-            step.push(l, -force, &mut z);
-        }
-        z
     }
 
     /// Takes a step that is decided: state, derivatives and memories move on. `turned` is the element that comes to rest.
-    fn accept(
-        &mut self,
-        step: &Step,
-        full: bool,
-        drives: [&[f64]; 2],
-        forces: &[f64],
-        side: &[f64],
-        turned: Option<usize>,
-    ) {
-        let next = self.moved(step, drives[0], drives[1], forces);
-        let displacements = |z: &[f64]| self.views.iter().map(|v| dot(&v.displacement, z)).collect::<Vec<f64>>();
-        let (before, after) = (displacements(&self.z), displacements(&next));
-        let states = [&self.z[..], &next];
-        let piece = Piece { step, full, drives, forces, side, states, before: &before, after: &after };
+    fn accept(&mut self, step: &Step, full: bool, trial: &mut Trial, drives: [&[f64]; 2], turned: Option<usize>) {
+        let Trial { free: next, before, after, forces, side, .. } = trial;
+        forces.iter().enumerate().for_each(|(l, force)| step.push(l, -force, next));
+        after.clear();
+        after.extend(self.views.iter().map(|v| dot(&v.displacement, next)));
+        let piece = Piece { step, full, drives, forces, side, states: [&self.z, next], before, after };
         let seen = (self.views, &self.system.patterns[..]);
         self.derivatives.advance(&piece, &mut self.elements, seen, &self.receptance);
-        self.z = next;
-        self.side.clear();
-        self.side.extend_from_slice(side);
-        self.forces.clear();
-        self.forces.extend_from_slice(forces);
+        std::mem::swap(&mut self.z, next);
+        self.side.clone_from(side);
+        self.forces.clone_from(forces);
         for l in 0..forces.len() {
             let slipped = self.elements[l].form == Form::Friction && side[l] != 0.0;
             if slipped && dot(&self.views[l].velocity, &self.z) * side[l] <= 0.0 {
