@@ -20,6 +20,8 @@ use crate::math::statistics::root_mean_square;
 
 /// Misfit (squared residual over noise) up to which a model agrees.
 const AGREES: f64 = 1.15;
+/// Squared corrections over their prior deviations beyond which an effect that makes them needless is looked for.
+const PLAUSIBLE: f64 = 16.0;
 /// Most effects of a set.
 const MOST_EFFECTS: usize = 3;
 /// Share of each record that is fitted when the rest is to be predicted.
@@ -68,10 +70,7 @@ pub fn diagnose_records(
     let mut rungs = vec![vec![corrected]];
     loop {
         let best = &rungs[rungs.len() - 1][0];
-        if misfit(best) < AGREES || best.effects.len() >= MOST_EFFECTS {
-            break;
-        }
-        if control.is_late() {
+        if agrees(best) || best.effects.len() >= MOST_EFFECTS || control.is_late() {
             break;
         }
         control.report(0.3 * rungs.len() as f64);
@@ -99,7 +98,14 @@ impl Search<'_> {
         if !stands_out(new) {
             return Ok(false);
         }
-        if gain < GAIN || worth < WORTH {
+        if gain < GAIN {
+            return Ok(false);
+        }
+        // Both leave no more than noise: what is known of the corrections decides.
+        if misfit(old) < AGREES {
+            return Ok(true);
+        }
+        if worth < WORTH {
             return Ok(false);
         }
         Ok(misfit(new) < AGREES || worth > DECISIVE || self.held_out(new)? < self.held_out(old)?)
@@ -147,10 +153,30 @@ impl Search<'_> {
             suggestion.error_after = self.promised(&told, std::slice::from_ref(&suggestion.added.source))?;
             suggestion.evidence = words(&suggestion.added.source, suggestion.error_after);
         }
+        if let Some(first) = diagnosis.suggestions.first_mut() {
+            let error = told.error(self.plain, 0.0, 1.0)?;
+            if told.effects.len() > 1 {
+                let all = format!("With all {} effects the error is {:.2} %.", told.effects.len(), 100.0 * error);
+                first.evidence.push(all);
+            }
+            if misfit(&told) > AGREES {
+                let floor = diagnosis.noise_floor.max(f64::MIN_POSITIVE);
+                let rest = format!(
+                    "That is {:.1} times the noise: the records hold more than these laws give, and no law here at any place gives it.",
+                    error / floor
+                );
+                first.evidence.push(rest);
+            }
+        }
         let sure = diagnosis.suggestions.first().is_some_and(|s| s.probability >= 0.5);
         diagnosis.verdict = if sure { Verdict::Missing } else { Verdict::Undecided };
         Ok(())
     }
+}
+
+/// Whether a fit leaves no more than noise, and that with corrections that can be.
+fn agrees(fit: &FittedRecords) -> bool {
+    misfit(fit) < AGREES && fit.prior < PLAUSIBLE
 }
 
 /// Whether the force of the last effect is more than its deviation allows it to be by chance.

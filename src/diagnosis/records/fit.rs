@@ -22,8 +22,9 @@ use crate::response::transient::{TransientParameter, TransientResponse};
 use dashpot_numerics::Cholesky;
 use faer::Mat;
 
-/// Prior deviation of the logarithm of all stiffness, of the size of a known source, of the stiffness of one record.
-const PRIORS: [f64; 4] = [0.03, 0.15, 0.002, 0.02];
+/// Prior deviation of the logarithm of all stiffness, of the size of a known source, of the stiffness of one record, of that of
+/// a mode, of all mass.
+const PRIORS: [f64; 5] = [0.03, 0.15, 0.002, 0.02, 0.02];
 /// Largest change of a logarithm in one step.
 const REACH: f64 = 1.0;
 /// Dampings that are tried for a step, and the share of what is left below which a fit has ended.
@@ -33,7 +34,8 @@ const LEAST_GAIN: f64 = 1e-7;
 /// What is free beside the initial states and the effects.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Free {
-    /// All stiffness, then the size of every known source, then the stiffness of every mode; none where it is empty.
+    /// All stiffness, then the size of every known source, then the stiffness of every mode, at last all mass; none where it is
+    /// empty.
     pub corrections: Vec<bool>,
     /// The shift of every record.
     pub shifts: bool,
@@ -47,7 +49,11 @@ impl Free {
 
     /// All of it.
     pub fn all(records: &Records) -> Self {
-        Self { corrections: vec![true; 1 + records.known.len() + modes(records)], shifts: true }
+        let mut corrections = vec![true; 2 + records.known.len() + modes(records)];
+        // A motion without a force shows no mass.
+        let last = corrections.len() - 1;
+        corrections[last] = records.list.iter().any(|r| !r.forces.is_empty());
+        Self { corrections, shifts: true }
     }
 }
 
@@ -67,6 +73,8 @@ pub struct FittedRecords {
     pub known: Vec<f64>,
     /// Logarithms of the factors on the stiffness of the followed modes.
     pub modes: Vec<f64>,
+    /// Logarithm of the factor on all mass.
+    pub mass: f64,
     /// Logarithm of the factor on the stiffness of each record.
     pub shifts: Vec<f64>,
     /// Initial state of each record.
@@ -77,8 +85,8 @@ pub struct FittedRecords {
     pub prior: f64,
     /// Number of samples in it.
     pub count: usize,
-    /// Standard deviations of the parameters of the effects, then of stiffness, of the known sources and of the modes, in units
-    /// of the noise that was stated.
+    /// Standard deviations of the parameters of the effects, then of stiffness, of the known sources, of the modes and of mass, in
+    /// units of the noise that was stated.
     pub deviations: Vec<f64>,
     /// What is left, over the noise: `[record][channel][sample]`.
     pub residual: Vec<Vec<Vec<f64>>>,
@@ -92,6 +100,7 @@ impl FittedRecords {
             stiffness: 0.0,
             known: vec![0.0; records.known.len()],
             modes: vec![0.0; records.kept],
+            mass: 0.0,
             shifts: vec![0.0; records.list.len()],
             initial: vec![vec![0.0; 2 * records.kept]; records.list.len()],
             chi_square: f64::INFINITY,
@@ -122,7 +131,7 @@ impl FittedRecords {
     ) -> Result<TransientResponse, RecordError> {
         let record = &records.list[r];
         let factor = (self.stiffness + self.shifts[r]).exp();
-        let model = records.model(record, &self.sources(records), [factor, 1.0], &self.modes)?;
+        let model = records.model(record, &self.sources(records), [factor, self.mass.exp()], &self.modes)?;
         let forces = record.excitation(samples, model.is_linear());
         model
             .predict(&forces, &self.initial[r], parameters)
@@ -296,6 +305,7 @@ impl Fit<'_> {
             for r in 0..modes(self.records) {
                 next.modes[r] += change[k + 1 + at.known.len() + r].clamp(-0.1, 0.1);
             }
+            next.mass += change[k + self.free.corrections.len() - 1].clamp(-0.1, 0.1);
         }
         let (shared, local) = (self.shared(at), self.local());
         for r in 0..self.records.list.len() {
@@ -342,6 +352,10 @@ impl Fit<'_> {
             }
             let modes = (0..modes(self.records)).filter(|r| free(1 + offset + r));
             list.extend(modes.map(|r| (TransientParameter::Mode(r), k + 1 + offset + r, 1.0)));
+            let mass = self.free.corrections.len() - 1;
+            if free(mass) {
+                list.push((TransientParameter::Mass, k + mass, 1.0));
+            }
         }
         list.extend((0..2 * self.records.kept).map(|j| (TransientParameter::Initial(j), from + j, 1.0)));
         list
@@ -455,6 +469,7 @@ impl Fit<'_> {
             list.push((laws, at.stiffness, PRIORS[0]));
             list.extend(at.known.iter().enumerate().map(|(j, v)| (laws + 1 + j, *v, PRIORS[1])));
             list.extend((0..modes(self.records)).map(|r| (laws + 1 + at.known.len() + r, at.modes[r], PRIORS[3])));
+            list.push((laws + self.free.corrections.len() - 1, at.mass, PRIORS[4]));
             list.retain(|(k, ..)| self.free.corrections[k - laws]);
         }
         if self.free.shifts {

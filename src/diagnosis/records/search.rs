@@ -4,6 +4,8 @@ use super::compare::short;
 use super::data::{RecordError, Records};
 use super::evidence::{evidence, scale};
 use super::fit::{Fit, FittedRecords, Free};
+use super::regression::Regression;
+use super::starts::tuned;
 use super::telling::{last_deviations, plainest};
 use crate::control::Control;
 use crate::diagnosis::candidates::special_cases::is_allowed;
@@ -12,6 +14,8 @@ use crate::effects::Source;
 /// Fits that go on to longer parts and to whole records.
 const LONGER: usize = 6;
 const WHOLE: usize = 3;
+/// Steps of the first fits.
+const BEGINNING: usize = 5;
 /// Ratio of the parts of a record on which a law is fitted one after the other.
 const LADDER: f64 = 3.0;
 /// Squared residual over the least one beyond which a fit is not followed further: on a short part, where a law still finds
@@ -50,7 +54,15 @@ impl Search<'_> {
     /// The model corrected, on longer and longer parts, so that a frequency that is off does not lose the phase.
     pub fn corrected(&self, start: &FittedRecords) -> Result<FittedRecords, RecordError> {
         let first = short(self.records);
-        let mut fitted = self.fit(&self.quiet(start, first)?, first, 8)?;
+        let quiet = self.quiet(start, first)?;
+        let mut fitted = self.fit(&quiet, first, 8)?;
+        // The motion itself may know better how far the model is off.
+        if let Some(regression) = Regression::new(self.records, &quiet, self.control)
+            && let Ok(other) = self.fit(&tuned(&regression, &quiet, None), first, 8)
+            && other.chi_square < fitted.chi_square
+        {
+            fitted = other;
+        }
         let mut share = LADDER * first;
         while share < 1.0 {
             fitted = self.fit(&fitted, share, 8)?;
@@ -65,14 +77,11 @@ impl Search<'_> {
         // Short parts are followed from the linear model, whose stiffness is not bent to what is missing.
         let base = if best.effects.is_empty() { bare } else { best };
         let base = self.quiet(base, first)?;
-        let starts = self.beginnings(best, &base);
+        let starts = self.begun(best, &base);
         let alone = self.control.alone();
-        let begun = self.control.map(starts.len(), |k| {
-            let mut start = base.clone();
-            start.effects.push(starts[k].clone());
-            // A start that runs away, or a mass that takes away all there is, is no start.
-            self.fit_by(&start, first, 3, &alone).ok()
-        });
+        // A start that runs away, or a mass that takes away all there is, is no start.
+        let begun =
+            self.control.map(starts.len(), |k| self.fit_by(&starts[k], first, BEGINNING, &alone).ok());
         self.control.check()?;
         let mut found: Vec<FittedRecords> = Vec::new();
         for fitted in begun.into_iter().flatten() {
@@ -85,7 +94,7 @@ impl Search<'_> {
             }
         }
         let t = |name: &str, l: &[FittedRecords]| if std::env::var("TRACE").is_ok() { for f in l { let e = f.effects.last().unwrap(); eprintln!("TRACE {name} {:?} {:?} {:?} chi/n {:.3} prior {:.2} stiff {:.4} known {:?} modes {:?}", e.effect, e.place, e.parameters, f.chi_square / f.count as f64, f.prior, f.stiffness, f.known, f.modes); } };
-        if std::env::var("TRACE").is_ok() { eprintln!("TRACE extended first {first:.3} kept {} substeps {} starts {} n {}", self.records.kept, self.records.list[0].substeps, starts.len(), self.records.list[0].len()); for s in &starts { eprintln!("TRACE start {:?} {:?} {:?}", s.effect, s.place, s.parameters); } }
+        if std::env::var("TRACE").is_ok() { eprintln!("TRACE extended first {first:.3} kept {} substeps {} starts {} n {}", self.records.kept, self.records.list[0].substeps, starts.len(), self.records.list[0].len()); for f in &starts { let s = f.effects.last().unwrap(); eprintln!("TRACE start {:?} {:?} {:?} modes {:?} known {:?}", s.effect, s.place, s.parameters, f.modes, f.known); } }
         t("begun", &found);
         let longer = 0.4_f64.max(first);
         let mut found = self.continued(found, (LONGER, HOPELESS[0]), [first, longer], 6);

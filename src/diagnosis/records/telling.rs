@@ -14,17 +14,23 @@ use crate::structure::Part;
 const PLAIN: [f64; 2] = [1.1, 1.3];
 /// Misfit from which on what is left is no noise.
 const MODEL_ERROR: f64 = 1.5;
+/// Share to which the mass of a model is known.
+const MASS: f64 = 0.005;
 /// Difference of evidence within which effects cannot be told apart.
 const ALIKE: f64 = 9.0;
 /// Most suggestions.
 const MOST: usize = 8;
 
-/// The effects of a fit with deviations as wide as what it leaves demands.
+/// The effects of a fit with deviations as wide as what it leaves demands, and as the mass of any model, on which all forces
+/// depend.
 pub(super) fn added(fit: &FittedRecords) -> Vec<Added> {
     let wide = scale(fit).sqrt();
     let mut at = 0;
     let of = |source: &Source| {
-        let deviations = fit.deviations[at..at + source.parameters.len()].iter().map(|d| d * wide).collect();
+        let mut deviations: Vec<f64> =
+            fit.deviations[at..at + source.parameters.len()].iter().map(|d| d * wide).collect();
+        let forces = source.effect.scaled().iter();
+        forces.for_each(|&k| deviations[k] = deviations[k].hypot(MASS * source.parameters[k]));
         at += source.parameters.len();
         Added { source: source.clone(), deviations }
     };
@@ -86,9 +92,11 @@ pub(super) fn corrections(records: &Records, fit: &FittedRecords) -> Vec<Correct
     let modes = if records.kept > 1 { records.kept } else { 0 };
     let values =
         std::iter::once(fit.stiffness).chain(fit.known.iter().copied()).chain(fit.modes.iter().take(modes).copied());
+    let values = values.chain([fit.mass]);
     let names = std::iter::once(UpdatingParameter::Structure(Part::Stiffness))
         .chain((0..records.known.len()).map(UpdatingParameter::Known))
-        .chain((0..modes).map(|r| UpdatingParameter::Structure(Part::Mode(r))));
+        .chain((0..modes).map(|r| UpdatingParameter::Structure(Part::Mode(r))))
+        .chain([UpdatingParameter::Structure(Part::Mass)]);
     let of = |(k, (v, parameter)): (usize, (f64, UpdatingParameter))| {
         let deviation = fit.deviations.get(first + k).copied().unwrap_or(f64::NAN) * wide;
         (v != 0.0).then(|| Correction { parameter, factor: v.exp(), deviation: deviation * v.exp() })

@@ -14,8 +14,8 @@ use crate::effects::Source;
 
 /// Deviations from 0 at which a correction of a known source and of a mode is kept.
 const MOVED: [f64; 2] = [4.0, 2.0];
-/// Least change of a known source and of a mode that is told.
-const LEAST: [f64; 2] = [0.01, 1e-4];
+/// Least change of a known source, of a mode and of all mass that is told.
+const LEAST: [f64; 3] = [0.01, 1e-4, 3e-3];
 /// Steps of the fits.
 const ITERATIONS: usize = 6;
 
@@ -30,8 +30,11 @@ impl Search<'_> {
             fit.known[j].abs() > (MOVED[0] * deviation).max(LEAST[0])
         };
         let known: Vec<bool> = (0..sources).map(moved).collect();
+        let heavier = fit.deviations.get(first + 1 + sources + count).copied().unwrap_or(f64::INFINITY) * wide;
+        let mass = fit.mass.abs() > (MOVED[0] * heavier).max(LEAST[2]);
         let mask = |stiffness: bool, modes: bool| {
-            std::iter::once(stiffness).chain(known.iter().copied()).chain(vec![modes; count]).collect::<Vec<bool>>()
+            let sizes = known.iter().copied().chain(vec![modes; count]);
+            std::iter::once(stiffness).chain(sizes).chain([mass]).collect::<Vec<bool>>()
         };
         let dominant = self.dominant();
         let mut all = vec![(mask(false, false), 0.0, false), (mask(true, false), fit.stiffness + fit.modes[dominant], false)];
@@ -44,6 +47,7 @@ impl Search<'_> {
             start.stiffness = stiffness;
             start.known.iter_mut().zip(&known).filter(|(_, moved)| !**moved).for_each(|(v, _)| *v = 0.0);
             start.modes.iter_mut().for_each(|v| *v = if by_mode { *v + fit.stiffness } else { 0.0 });
+            start.mass = if mass { fit.mass } else { 0.0 };
             start.shifts.fill(0.0);
             let mut next = self.refit(&start, mask.clone())?;
             let mut free = mask;
@@ -102,6 +106,7 @@ impl Search<'_> {
             stiffness: told.stiffness,
             known: told.known.clone(),
             modes: told.modes.clone(),
+            mass: told.mass,
             ..FittedRecords::start(self.plain, effects)
         };
         match started_from(self.plain, start, self.control).and_then(|fit| fit.error(self.plain, 0.0, 1.0)) {
