@@ -32,6 +32,8 @@ const LEARNT: f64 = 0.6;
 const GAIN: f64 = 12.0;
 const WORTH: f64 = 0.15;
 const DECISIVE: f64 = 0.25;
+/// Steps of a fit with one effect less.
+const PRUNING: usize = 6;
 /// Deviations from zero that the force of an effect must have.
 const SURE: f64 = 3.0;
 
@@ -74,11 +76,12 @@ pub fn diagnose_records(
             break;
         }
         control.report(0.3 * rungs.len() as f64);
-        let found = search.extended(best, &bare)?;
-        let Some(top) = found.first() else { break };
+        let mut found = search.extended(best, &bare)?;
+        let Some(top) = found.first_mut() else { break };
         if !search.is_better(top, best)? {
             break;
         }
+        *top = search.pruned(top)?;
         early(&suggestions(records, &found)?);
         rungs.push(found);
     }
@@ -94,7 +97,6 @@ impl Search<'_> {
         let scale = scale(new);
         let gain = evidence(old, scale) - evidence(new, scale);
         let worth = 1.0 - (new.chi_square / old.chi_square).sqrt();
-        if std::env::var("TRACE").is_ok() { eprintln!("TRACE better? stands {} gain {gain:.1} worth {worth:.3} misfit {:.3} old {:.3} prior {:.1} old {:.1} scale {scale:.2}", stands_out(new), misfit(new), misfit(old), new.prior, old.prior); }
         if !stands_out(new) {
             return Ok(false);
         }
@@ -109,6 +111,24 @@ impl Search<'_> {
             return Ok(false);
         }
         Ok(misfit(new) < AGREES || worth > DECISIVE || self.held_out(new)? < self.held_out(old)?)
+    }
+
+    /// A fit without those of its earlier effects that the last one has made needless.
+    fn pruned(&self, fit: &FittedRecords) -> Result<FittedRecords, RecordError> {
+        let mut best = fit.clone();
+        for k in (0..fit.effects.len().saturating_sub(1)).rev() {
+            let mut fewer = best.clone();
+            fewer.effects.remove(k);
+            let refitted = match self.fit(&fewer, 1.0, PRUNING) {
+                Err(RecordError::Model { .. } | RecordError::Singular) => continue,
+                other => other?,
+            };
+            let unit = scale(&best);
+            if evidence(&refitted, unit) < evidence(&best, unit) {
+                best = refitted;
+            }
+        }
+        Ok(best)
     }
 
     /// Error on the last part of each record of a fit on the rest.

@@ -27,9 +27,10 @@ use faer::Mat;
 const PRIORS: [f64; 5] = [0.03, 0.15, 0.002, 0.02, 0.02];
 /// Largest change of a logarithm in one step.
 const REACH: f64 = 1.0;
-/// Dampings that are tried for a step, and the share of what is left below which a fit has ended.
+/// Dampings that are tried for a step, and the share of what is left below which a fit has ended: on parts of the records, from
+/// which fits go on, and on whole ones.
 const ATTEMPTS: usize = 6;
-const LEAST_GAIN: f64 = 1e-7;
+const LEAST_GAIN: [f64; 2] = [1e-3, 1e-6];
 
 /// What is free beside the initial states and the effects.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -204,7 +205,7 @@ impl Fit<'_> {
             let Some((next, there)) = self.step(&best, &scales, unit, &normal, &mut damping)? else { break };
             let gain = (before - there.left.total(unit)) / before;
             (best, normal) = (next, there);
-            if gain < LEAST_GAIN {
+            if gain < LEAST_GAIN[usize::from(self.share >= 1.0)] {
                 break;
             }
         }

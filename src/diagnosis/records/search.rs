@@ -80,8 +80,7 @@ impl Search<'_> {
         let starts = self.begun(best, &base);
         let alone = self.control.alone();
         // A start that runs away, or a mass that takes away all there is, is no start.
-        let begun =
-            self.control.map(starts.len(), |k| self.fit_by(&starts[k], first, BEGINNING, &alone).ok());
+        let begun = self.control.map(starts.len(), |k| self.fit_by(&starts[k], first, BEGINNING, &alone).ok());
         self.control.check()?;
         let mut found: Vec<FittedRecords> = Vec::new();
         for fitted in begun.into_iter().flatten() {
@@ -93,14 +92,9 @@ impl Search<'_> {
                 None => found.push(fitted),
             }
         }
-        let t = |name: &str, l: &[FittedRecords]| if std::env::var("TRACE").is_ok() { for f in l { let e = f.effects.last().unwrap(); eprintln!("TRACE {name} {:?} {:?} {:?} chi/n {:.3} prior {:.2} stiff {:.4} known {:?} modes {:?}", e.effect, e.place, e.parameters, f.chi_square / f.count as f64, f.prior, f.stiffness, f.known, f.modes); } };
-        if std::env::var("TRACE").is_ok() { eprintln!("TRACE extended first {first:.3} kept {} substeps {} starts {} n {}", self.records.kept, self.records.list[0].substeps, starts.len(), self.records.list[0].len()); for f in &starts { let s = f.effects.last().unwrap(); eprintln!("TRACE start {:?} {:?} {:?} modes {:?} known {:?}", s.effect, s.place, s.parameters, f.modes, f.known); } }
-        t("begun", &found);
         let longer = 0.4_f64.max(first);
         let mut found = self.continued(found, (LONGER, HOPELESS[0]), [first, longer], 6);
-        t("longer", &found);
         found = self.continued(found, (WHOLE, HOPELESS[1]), [longer, 1.0], 9);
-        t("whole", &found);
         found.retain(|f| f.effects.last().is_some_and(|e| is_allowed(self.excluded, e, &last_deviations(f))));
         if let Some(least) = found.iter().map(|f| f.chi_square).min_by(f64::total_cmp) {
             let best = found.iter().find(|f| f.chi_square == least).map_or(1.0, scale);

@@ -37,7 +37,8 @@ impl Search<'_> {
             std::iter::once(stiffness).chain(sizes).chain([mass]).collect::<Vec<bool>>()
         };
         let dominant = self.dominant();
-        let mut all = vec![(mask(false, false), 0.0, false), (mask(true, false), fit.stiffness + fit.modes[dominant], false)];
+        let mut all =
+            vec![(mask(false, false), 0.0, false), (mask(true, false), fit.stiffness + fit.modes[dominant], false)];
         if count > 0 {
             all.push((mask(false, true), 0.0, true));
         }
@@ -66,7 +67,8 @@ impl Search<'_> {
     /// Whether the first of two fits, each with its number of corrections, has more evidence.
     fn is_plainer(&self, (new, count): (&FittedRecords, usize), (old, other): (&FittedRecords, usize)) -> bool {
         let unit = scale(if misfit(new) < misfit(old) { new } else { old });
-        let worth = |fit: &FittedRecords, n: usize| fit.chi_square / unit + fit.prior + n as f64 * information(fit, unit);
+        let worth =
+            |fit: &FittedRecords, n: usize| fit.chi_square / unit + fit.prior + n as f64 * information(fit, unit);
         worth(new, count) < worth(old, other)
     }
 
