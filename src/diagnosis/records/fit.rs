@@ -27,10 +27,9 @@ use faer::Mat;
 const PRIORS: [f64; 5] = [0.03, 0.15, 0.002, 0.02, 0.02];
 /// Largest change of a logarithm in one step.
 const REACH: f64 = 1.0;
-/// Dampings that are tried for a step, and the share of what is left below which a fit has ended: on parts of the records, from
-/// which fits go on, and on whole ones.
+/// Dampings that are tried for a step, and the share of what is left below which a fit has ended.
 const ATTEMPTS: usize = 6;
-const LEAST_GAIN: [f64; 2] = [1e-3, 1e-6];
+const LEAST_GAIN: f64 = 1e-7;
 
 /// What is free beside the initial states and the effects.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -205,7 +204,7 @@ impl Fit<'_> {
             let Some((next, there)) = self.step(&best, &scales, unit, &normal, &mut damping)? else { break };
             let gain = (before - there.left.total(unit)) / before;
             (best, normal) = (next, there);
-            if gain < LEAST_GAIN[usize::from(self.share >= 1.0)] {
+            if gain < LEAST_GAIN {
                 break;
             }
         }
