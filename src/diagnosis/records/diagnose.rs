@@ -13,6 +13,7 @@ use super::evidence::{evidence, misfit, scale};
 use super::fit::FittedRecords;
 use super::search::Search;
 use super::telling::{added, corrections, last_deviations, suggestions, words};
+use super::told::added_as_told;
 use crate::control::Control;
 use crate::diagnosis::diagnose::{Diagnosis, Early, Step, Verdict};
 use crate::effects::Source;
@@ -169,7 +170,7 @@ impl Search<'_> {
             if let Some(fit) = top.iter().find(has) {
                 suggestion.held_out_error_after = self.held_out(fit)?;
             }
-            suggestion.added = self.added_as_told(&own, &suggestion.added);
+            suggestion.added = added_as_told(&own, &suggestion.added);
             suggestion.error_after = self.promised(&told, std::slice::from_ref(&suggestion.added.source))?;
             suggestion.evidence = words(&suggestion.added.source, suggestion.error_after);
         }

@@ -13,6 +13,7 @@ mod errors;
 mod evidence;
 pub mod fit;
 pub mod localisation;
+mod normal;
 mod regression;
 mod search;
 pub mod spectrum;

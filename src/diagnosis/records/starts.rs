@@ -56,13 +56,13 @@ impl Search<'_> {
     pub fn begun(&self, best: &FittedRecords, base: &FittedRecords) -> Vec<FittedRecords> {
         let regression = Regression::new(self.records, base, self.control);
         let sources = self.beginnings(best, base, regression.as_ref());
-        let of = |k: usize| match &regression {
-            Some(regression) => tuned(regression, base, Some(&sources[k])),
-            None => {
-                let mut start = base.clone();
-                start.effects.push(sources[k].clone());
-                start
+        let of = |k: usize| {
+            if let Some(regression) = &regression {
+                return tuned(regression, base, Some(&sources[k]));
             }
+            let mut start = base.clone();
+            start.effects.push(sources[k].clone());
+            start
         };
         self.control.map(sources.len(), of)
     }

@@ -57,19 +57,11 @@ impl Search<'_> {
                 next = self.refit(&next, free.clone())?;
             }
             let count = free.iter().filter(|f| **f).count();
-            if found.as_ref().is_none_or(|best| self.is_plainer((&next, count), (&best.0, best.1))) {
+            if found.as_ref().is_none_or(|best| is_plainer((&next, count), (&best.0, best.1))) {
                 found = Some((next, count));
             }
         }
         Ok(found.map_or_else(|| fit.clone(), |(fit, _)| fit))
-    }
-
-    /// Whether the first of two fits, each with its number of corrections, has more evidence.
-    fn is_plainer(&self, (new, count): (&FittedRecords, usize), (old, other): (&FittedRecords, usize)) -> bool {
-        let unit = scale(if misfit(new) < misfit(old) { new } else { old });
-        let worth =
-            |fit: &FittedRecords, n: usize| fit.chi_square / unit + fit.prior + n as f64 * information(fit, unit);
-        worth(new, count) < worth(old, other)
     }
 
     fn refit(&self, start: &FittedRecords, corrections: Vec<bool>) -> Result<FittedRecords, RecordError> {
@@ -116,9 +108,16 @@ impl Search<'_> {
             other => other,
         }
     }
+}
 
-    /// The effects of a fit with their deviations, those of `told` where they are its own.
-    pub fn added_as_told(&self, told: &[Added], added: &Added) -> Added {
-        told.iter().find(|t| t.source.is_same(&added.source)).unwrap_or(added).clone()
-    }
+/// Whether the first of two fits, each with its number of corrections, has more evidence.
+fn is_plainer((new, count): (&FittedRecords, usize), (old, other): (&FittedRecords, usize)) -> bool {
+    let unit = scale(if misfit(new) < misfit(old) { new } else { old });
+    let worth = |fit: &FittedRecords, n: usize| fit.chi_square / unit + fit.prior + n as f64 * information(fit, unit);
+    worth(new, count) < worth(old, other)
+}
+
+/// The effects of a fit with their deviations, those of `told` where they are its own.
+pub(super) fn added_as_told(told: &[Added], added: &Added) -> Added {
+    told.iter().find(|t| t.source.is_same(&added.source)).unwrap_or(added).clone()
 }
