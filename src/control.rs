@@ -55,6 +55,12 @@ impl Control {
         Self { workers: Some(workers), ..self }
     }
 
+    /// The same control without others to share work among: for pieces of work that are shared already.
+    #[must_use]
+    pub fn alone(&self) -> Self {
+        Self { workers: None, ..self.clone() }
+    }
+
     /// Asks the computation to answer with the best that it has so far.
     pub fn hurry(&self) {
         self.hurried.store(true, Ordering::Relaxed);

@@ -11,6 +11,7 @@ mod product;
 mod singular;
 mod small;
 mod sparse;
+mod steps;
 
 pub use eigen::{complex_general, eigenvalues, generalised_symmetric, real_general, symmetric, symmetric_values};
 pub use factor::{Cholesky, ComplexLu, RealLu, least_squares, solve_indefinite, thin_qr, triangle};
@@ -20,3 +21,4 @@ pub use product::{product, product_transposed, transposed_product};
 pub use singular::thin_svd;
 pub use small::RowLu;
 pub use sparse::{SparseCholesky, SparseSymmetric};
+pub use steps::{add_product, scalar_products, turn};

@@ -13,6 +13,8 @@ use dashpot_numerics::RealTransform;
 
 /// Parts of time and bands of frequency.
 const PARTS: usize = 8;
+/// Share of the largest force of a blow above which it acts.
+const STRUCK: f64 = 0.05;
 /// Width of the band about a mode where a record shows several.
 const MODE_BAND: f64 = 0.3;
 
@@ -93,21 +95,60 @@ pub fn compare_records(
 
 /// The model with initial states only fitted, short parts first.
 pub(crate) fn started(records: &Records, effects: &[Source], control: &Control) -> Result<FittedRecords, RecordError> {
-    let mut fitted = FittedRecords::start(records, effects);
-    for (share, iterations) in [(short(records), 3), (0.4, 3), (1.0, 4)] {
-        fitted = Fit { records, free: Free { corrections: false }, share, control }.improve(&fitted, iterations)?;
+    started_from(records, FittedRecords::start(records, effects), control)
+}
+
+/// A model with initial states only fitted, short parts first; those of a nonlinear model begin with what its linear part shows,
+/// for a start at rest may hold it fast.
+pub(crate) fn started_from(
+    records: &Records,
+    start: FittedRecords,
+    control: &Control,
+) -> Result<FittedRecords, RecordError> {
+    let fit = |records: &Records, start: &FittedRecords, share: f64, iterations: usize| {
+        Fit { records, free: Free::nothing(), share, control }.improve(start, iterations)
+    };
+    let mut fitted = start;
+    let linear = |s: &Source| s.effect.is_linear();
+    if !records.known.iter().chain(&fitted.effects).all(linear) {
+        let known = |k: &usize| linear(&records.known[*k]);
+        let kept: Vec<usize> = (0..records.known.len()).filter(known).collect();
+        let plain = Records { known: kept.iter().map(|&k| records.known[k].clone()).collect(), ..records.clone() };
+        let bare = FittedRecords {
+            effects: fitted.effects.iter().filter(|s| linear(s)).cloned().collect(),
+            known: kept.iter().map(|&k| fitted.known[k]).collect(),
+            ..fitted.clone()
+        };
+        if let Ok(bare) = fit(&plain, &bare, short(records), 3) {
+            fitted.initial = bare.initial;
+        }
+    }
+    for (share, iterations) in [(short(records), 4), (0.4_f64.max(short(records)), 3), (1.0, 6)] {
+        fitted = fit(records, &fitted, share, iterations)?;
     }
     Ok(fitted)
 }
 
-/// Share of every record that holds eight periods of its dominant motion; half of one that is driven, whose force holds the
-/// phase.
+/// Share of every record that holds eight periods of its dominant motion after a blow; half of one that is driven all along,
+/// whose force holds the phase.
 pub(crate) fn short(records: &Records) -> f64 {
     let share = |r: &RecordData| {
         let periods = 8.0 / (r.dominant_hz * r.step * r.len() as f64);
-        if r.kind == Kind::Transient { periods.max(0.5) } else { periods }
+        match (r.kind, struck(r)) {
+            (Kind::Transient, None) => periods.max(0.5),
+            (Kind::Transient, Some(end)) => periods + end,
+            _ => periods,
+        }
     };
     records.list.iter().map(share).fold(0.0, f64::max).min(1.0)
+}
+
+/// Share of a record after which no force acts, where that is its first part.
+fn struck(record: &RecordData) -> Option<f64> {
+    let loudest = record.forces.iter().flatten().fold(0.0_f64, |m, f| m.max(f.abs()));
+    let acts = |n: &usize| record.forces.iter().any(|list| list[*n].abs() > STRUCK * loudest);
+    let end = (0..record.len()).rev().find(acts).unwrap_or(0) as f64 / record.len() as f64;
+    (end < 0.25).then_some(end)
 }
 
 fn compared(records: &Records, record: &RecordData, model: Vec<Vec<f64>>) -> OneRecord {

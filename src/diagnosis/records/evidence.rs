@@ -31,9 +31,14 @@ pub(super) fn scale(fit: &FittedRecords) -> f64 {
     misfit(fit).max(1.0) * length
 }
 
-/// Evidence (smaller is better) on the scale of the best fit.
+/// What one parameter more costs.
+pub(super) fn information(fit: &FittedRecords, scale: f64) -> f64 {
+    (fit.count as f64 / scale.sqrt()).max(2.0).ln()
+}
+
+/// Evidence (smaller is better) on the scale of the best fit: what corrections cost by what is known of them is part of it, so
+/// that a known source of three times its size does not stand for what is missing.
 pub(super) fn evidence(fit: &FittedRecords, scale: f64) -> f64 {
     let extra: usize = fit.effects.iter().map(|e| e.parameters.len().saturating_sub(1)).sum();
-    let information = parameters(fit) as f64 * (fit.count as f64 / scale.sqrt()).max(2.0).ln();
-    fit.chi_square / scale + information + EXTRA * extra as f64
+    fit.chi_square / scale + fit.prior + parameters(fit) as f64 * information(fit, scale) + EXTRA * extra as f64
 }

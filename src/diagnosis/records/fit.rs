@@ -14,6 +14,7 @@
 use super::data::{RecordError, Records};
 use super::errors::channel_errors;
 use super::evidence::scale;
+use super::normal::{Left, Normal, solve};
 use super::variables::{at_variable, scales, slopes, variable};
 use crate::control::Control;
 use crate::effects::Source;
@@ -22,16 +23,44 @@ use crate::response::transient::{TransientParameter, TransientResponse};
 use dashpot_numerics::Cholesky;
 use faer::Mat;
 
-/// Prior deviation of the logarithm of all stiffness, of the size of a known source, of the stiffness of one record.
-const PRIORS: [f64; 4] = [0.03, 0.15, 0.002, 0.02];
+/// Prior deviation of the logarithm of all stiffness, of the size of a known source, of the stiffness of one record, of that of
+/// a mode, of all mass.
+pub(super) const PRIORS: [f64; 5] = [0.03, 0.15, 0.002, 0.02, 0.02];
 /// Largest change of a logarithm in one step.
 const REACH: f64 = 1.0;
+/// Dampings that are tried for a step, and the share of what is left below which a fit has ended.
+const ATTEMPTS: usize = 6;
+const LEAST_GAIN: f64 = 1e-7;
 
-/// What is free beside the initial states.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+/// What is free beside the initial states and the effects.
+#[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Free {
-    /// All stiffness, sizes of known sources and the shift of every record.
-    pub corrections: bool,
+    /// All stiffness, then the size of every known source, then the stiffness of every mode, at last all mass; none where it is
+    /// empty.
+    pub corrections: Vec<bool>,
+    /// The shift of every record.
+    pub shifts: bool,
+}
+
+impl Free {
+    /// Initial states and effects only.
+    pub fn nothing() -> Self {
+        Self { corrections: Vec::new(), shifts: false }
+    }
+
+    /// All of it.
+    pub fn all(records: &Records) -> Self {
+        let mut corrections = vec![true; 2 + records.known.len() + modes(records)];
+        // A motion without a force shows no mass.
+        let last = corrections.len() - 1;
+        corrections[last] = records.list.iter().any(|r| !r.forces.is_empty());
+        Self { corrections, shifts: true }
+    }
+}
+
+/// Modes whose stiffness may be free beside that of all; none where there is only one.
+pub(super) fn modes(records: &Records) -> usize {
+    if records.kept > 1 { records.kept } else { 0 }
 }
 
 /// A model with the parameters that were fitted.
@@ -45,16 +74,20 @@ pub struct FittedRecords {
     pub known: Vec<f64>,
     /// Logarithms of the factors on the stiffness of the followed modes.
     pub modes: Vec<f64>,
+    /// Logarithm of the factor on all mass.
+    pub mass: f64,
     /// Logarithm of the factor on the stiffness of each record.
     pub shifts: Vec<f64>,
     /// Initial state of each record.
     pub initial: Vec<Vec<f64>>,
     /// Weighted squared residual without the priors.
     pub chi_square: f64,
+    /// Squared corrections over their prior deviations.
+    pub prior: f64,
     /// Number of samples in it.
     pub count: usize,
-    /// Standard deviations of the parameters of the effects, then of stiffness, of the known sources and of the modes, in units
-    /// of the noise that was stated.
+    /// Standard deviations of the parameters of the effects, then of stiffness, of the known sources, of the modes and of mass, in
+    /// units of the noise that was stated.
     pub deviations: Vec<f64>,
     /// What is left, over the noise: `[record][channel][sample]`.
     pub residual: Vec<Vec<Vec<f64>>>,
@@ -68,9 +101,11 @@ impl FittedRecords {
             stiffness: 0.0,
             known: vec![0.0; records.known.len()],
             modes: vec![0.0; records.kept],
+            mass: 0.0,
             shifts: vec![0.0; records.list.len()],
             initial: vec![vec![0.0; 2 * records.kept]; records.list.len()],
             chi_square: f64::INFINITY,
+            prior: 0.0,
             count: 0,
             deviations: Vec::new(),
             residual: Vec::new(),
@@ -97,7 +132,7 @@ impl FittedRecords {
     ) -> Result<TransientResponse, RecordError> {
         let record = &records.list[r];
         let factor = (self.stiffness + self.shifts[r]).exp();
-        let model = records.model(record, &self.sources(records), [factor, 1.0], &self.modes)?;
+        let model = records.model(record, &self.sources(records), [factor, self.mass.exp()], &self.modes)?;
         let forces = record.excitation(samples, model.is_linear());
         model
             .predict(&forces, &self.initial[r], parameters)
@@ -131,18 +166,8 @@ fn unit_of(start: &FittedRecords) -> f64 {
     if start.count > 0 { scale(start) } else { 1.0 }
 }
 
-/// Normal equations at a point.
-struct Normal {
-    matrix: Mat<f64>,
-    gradient: Vec<f64>,
-    chi_square: f64,
-    total: f64,
-    count: usize,
-    residual: Vec<Vec<Vec<f64>>>,
-}
-
 impl Fit<'_> {
-    /// Improves a start in at most `iterations` steps.
+    /// Improves a start in at most `iterations` steps; fewer where time is up.
     pub fn improve(&self, start: &FittedRecords, iterations: usize) -> Result<FittedRecords, RecordError> {
         let scales = scales(&start.effects);
         let unit = unit_of(start);
@@ -151,32 +176,57 @@ impl Fit<'_> {
         let mut damping = 1e-3;
         for _ in 0..iterations {
             self.control.check()?;
-            let mut accepted = false;
-            let mut gain = 0.0;
-            for _ in 0..6 {
-                let Some(change) = solve(&normal, damping) else {
-                    damping *= 10.0;
-                    continue;
-                };
-                let trial = self.moved(&best, &scales, &change);
-                // A model that runs away is no step.
-                match self.normal(&trial, &scales, unit) {
-                    Ok(there) if there.total < normal.total => {
-                        gain = (normal.total - there.total) / normal.total;
-                        (best, normal) = (trial, there);
-                        damping = (damping * 0.2).max(1e-12);
-                        accepted = true;
-                        break;
-                    }
-                    Ok(_) | Err(RecordError::Model { .. }) => damping = (damping * 8.0).max(1e-6),
-                    Err(other) => return Err(other),
-                }
+            if self.control.is_late() {
+                break;
             }
-            if !accepted || gain < 1e-7 {
+            let before = normal.left.total(unit);
+            let Some((next, there)) = self.step(&best, &scales, unit, &normal, &mut damping)? else { break };
+            let gain = (before - there.left.total(unit)) / before;
+            (best, normal) = (next, there);
+            if gain < LEAST_GAIN {
                 break;
             }
         }
         self.finish(best, &scales, normal)
+    }
+
+    /// One step that leaves less, with the equations there; `None` where none does.
+    fn step(
+        &self,
+        best: &FittedRecords,
+        scales: &[Vec<f64>],
+        unit: f64,
+        normal: &Normal,
+        damping: &mut f64,
+    ) -> Result<Option<(FittedRecords, Normal)>, RecordError> {
+        let before = normal.left.total(unit);
+        for attempt in 0..ATTEMPTS {
+            let Some(change) = solve(normal, *damping) else {
+                *damping *= 10.0;
+                continue;
+            };
+            let trial = self.moved(best, scales, &change);
+            // The first step is mostly one that leaves less; later ones are looked at without derivatives.
+            let there = if attempt == 0 {
+                self.normal(&trial, scales, unit).map(|there| (there.left.total(unit), Some(there)))
+            } else {
+                self.left(&trial).map(|there| (there.total(unit), None))
+            };
+            match there {
+                Ok((total, there)) if total < before => {
+                    *damping = (*damping * 0.2).max(1e-12);
+                    let there = there.map_or_else(|| self.normal(&trial, scales, unit), Ok)?;
+                    return Ok(Some((trial, there)));
+                }
+                // A model that runs away is no step.
+                Ok(_) | Err(RecordError::Model { .. }) => *damping = (*damping * 8.0).max(1e-6),
+                Err(other) => return Err(other),
+            }
+            if self.control.is_late() {
+                break;
+            }
+        }
+        Ok(None)
     }
 
     /// Adds deviations and what is left.
@@ -199,24 +249,20 @@ impl Fit<'_> {
         let deviation =
             |k: usize| inverse[(k, k)].max(0.0).sqrt() * scaling[k] * slopes.get(k).copied().unwrap_or(1.0).abs();
         best.deviations = (0..shared).map(deviation).collect();
-        (best.chi_square, best.count, best.residual) = (normal.chi_square, normal.count, normal.residual);
+        let Left { chi_square, prior, count, residual } = normal.left;
+        (best.chi_square, best.prior, best.count, best.residual) = (chi_square, prior, count, residual);
         Ok(best)
     }
 
     /// Number of shared variables.
-    fn shared(&self, at: &FittedRecords) -> usize {
+    pub(super) fn shared(&self, at: &FittedRecords) -> usize {
         let laws: usize = at.effects.iter().map(|e| e.parameters.len()).sum();
-        laws + if self.free.corrections { 1 + at.known.len() + self.modes() } else { 0 }
-    }
-
-    /// Modes whose stiffness is free beside that of all; none where there is only one.
-    fn modes(&self) -> usize {
-        if self.records.kept > 1 { self.records.kept } else { 0 }
+        laws + self.free.corrections.len()
     }
 
     /// Variables of each record.
-    fn local(&self) -> usize {
-        2 * self.records.kept + usize::from(self.free.corrections)
+    pub(super) fn local(&self) -> usize {
+        2 * self.records.kept + usize::from(self.free.shifts)
     }
 
     fn moved(&self, at: &FittedRecords, scales: &[Vec<f64>], change: &[f64]) -> FittedRecords {
@@ -230,14 +276,15 @@ impl Fit<'_> {
                 k += 1;
             }
         }
-        if self.free.corrections {
+        if !self.free.corrections.is_empty() {
             next.stiffness += change[k].clamp(-0.1, 0.1);
             for (j, v) in next.known.iter_mut().enumerate() {
                 *v += change[k + 1 + j].clamp(-0.5, 0.5);
             }
-            for r in 0..self.modes() {
+            for r in 0..modes(self.records) {
                 next.modes[r] += change[k + 1 + at.known.len() + r].clamp(-0.1, 0.1);
             }
+            next.mass += change[k + self.free.corrections.len() - 1].clamp(-0.1, 0.1);
         }
         let (shared, local) = (self.shared(at), self.local());
         for r in 0..self.records.list.len() {
@@ -245,7 +292,7 @@ impl Fit<'_> {
             for (j, p) in next.initial[r].iter_mut().enumerate() {
                 *p += change[from + j];
             }
-            if self.free.corrections {
+            if self.free.shifts {
                 next.shifts[r] += change[from + 2 * self.records.kept].clamp(-0.05, 0.05);
             }
         }
@@ -253,7 +300,12 @@ impl Fit<'_> {
     }
 
     /// Parameters by which a record is differentiated, with their variable and the factor on the derivative.
-    fn unknowns(&self, at: &FittedRecords, scales: &[Vec<f64>], r: usize) -> Vec<(TransientParameter, usize, f64)> {
+    pub(super) fn unknowns(
+        &self,
+        at: &FittedRecords,
+        scales: &[Vec<f64>],
+        r: usize,
+    ) -> Vec<(TransientParameter, usize, f64)> {
         let mut list = Vec::new();
         let offset = self.records.known.len();
         let mut k = 0;
@@ -267,133 +319,29 @@ impl Fit<'_> {
             }
         }
         let from = self.shared(at) + r * self.local();
-        if self.free.corrections {
-            list.push((TransientParameter::Stiffness, k, 1.0));
+        if self.free.shifts {
             list.push((TransientParameter::Stiffness, from + 2 * self.records.kept, 1.0));
+        }
+        if !self.free.corrections.is_empty() {
+            let free = |j: usize| self.free.corrections[j];
+            if free(0) {
+                list.push((TransientParameter::Stiffness, k, 1.0));
+            }
             let sources = at.sources(self.records);
-            for (source, known) in sources.iter().take(offset).enumerate() {
+            for (source, known) in sources.iter().take(offset).enumerate().filter(|(s, _)| free(1 + s)) {
                 for &parameter in known.effect.scaled() {
                     let unknown = TransientParameter::Source { source, parameter };
                     list.push((unknown, k + 1 + source, known.parameters[parameter]));
                 }
             }
-            list.extend((0..self.modes()).map(|r| (TransientParameter::Mode(r), k + 1 + offset + r, 1.0)));
+            let modes = (0..modes(self.records)).filter(|r| free(1 + offset + r));
+            list.extend(modes.map(|r| (TransientParameter::Mode(r), k + 1 + offset + r, 1.0)));
+            let mass = self.free.corrections.len() - 1;
+            if free(mass) {
+                list.push((TransientParameter::Mass, k + mass, 1.0));
+            }
         }
         list.extend((0..2 * self.records.kept).map(|j| (TransientParameter::Initial(j), from + j, 1.0)));
         list
     }
-
-    fn normal(&self, at: &FittedRecords, scales: &[Vec<f64>], unit: f64) -> Result<Normal, RecordError> {
-        let size = self.shared(at) + self.records.list.len() * self.local();
-        let mut normal = Normal {
-            matrix: Mat::zeros(size, size),
-            gradient: vec![0.0; size],
-            chi_square: 0.0,
-            total: 0.0,
-            count: 0,
-            residual: Vec::new(),
-        };
-        for (r, record) in self.records.list.iter().enumerate() {
-            let samples = ((self.share * record.len() as f64) as usize).clamp(16.min(record.len()), record.len());
-            let unknowns = self.unknowns(at, scales, r);
-            let mut parameters: Vec<TransientParameter> = Vec::new();
-            for (p, ..) in &unknowns {
-                if !parameters.contains(p) {
-                    parameters.push(*p);
-                }
-            }
-            let response = at.predict(self.records, r, samples, &parameters)?;
-            let mut left = Vec::new();
-            for c in 0..record.channels.len() {
-                let (y, sigma) = (&record.samples[c], &record.sigma[c][..samples]);
-                let e: Vec<f64> = (0..samples).map(|n| (y[n] - response.channels[c][n]) / sigma[n]).collect();
-                let square: f64 = e.iter().map(|e| e * e).sum();
-                if !square.is_finite() {
-                    let (file, reason) = (record.file.clone(), crate::response::transient::TransientError::StepFailed);
-                    return Err(RecordError::Model { file, reason });
-                }
-                normal.chi_square += square;
-                normal.count += samples;
-                let weighted = |theta: usize| {
-                    response.derivatives[theta][c].iter().zip(sigma).map(|(d, s)| d / s).collect::<Vec<f64>>()
-                };
-                let own: Vec<Vec<f64>> = (0..parameters.len()).map(weighted).collect();
-                normal.add(&unknowns, &parameters, &own, &e);
-                left.push(e);
-            }
-            normal.residual.push(left);
-        }
-        normal.total = normal.chi_square;
-        if self.free.corrections {
-            self.priors(at, unit, &mut normal);
-        }
-        Ok(normal)
-    }
-
-    fn priors(&self, at: &FittedRecords, unit: f64, normal: &mut Normal) {
-        let laws: usize = at.effects.iter().map(|e| e.parameters.len()).sum();
-        let mut prior = |k: usize, value: f64, deviation: f64| {
-            let weight = unit * deviation.powi(-2);
-            normal.matrix[(k, k)] += weight;
-            normal.gradient[k] -= weight * value;
-            normal.total += weight * value * value;
-        };
-        prior(laws, at.stiffness, PRIORS[0]);
-        for (j, v) in at.known.iter().enumerate() {
-            prior(laws + 1 + j, *v, PRIORS[1]);
-        }
-        for r in 0..self.modes() {
-            prior(laws + 1 + at.known.len() + r, at.modes[r], PRIORS[3]);
-        }
-        for r in 0..self.records.list.len() {
-            let k = self.shared(at) + r * self.local() + 2 * self.records.kept;
-            prior(k, at.shifts[r], PRIORS[2]);
-        }
-    }
-}
-
-impl Normal {
-    fn add(
-        &mut self,
-        unknowns: &[(TransientParameter, usize, f64)],
-        parameters: &[TransientParameter],
-        derivatives: &[Vec<f64>],
-        e: &[f64],
-    ) {
-        let of = |p: &TransientParameter| parameters.iter().position(|q| q == p).unwrap_or(0);
-        let list: Vec<(usize, usize, f64)> = unknowns.iter().map(|(p, k, s)| (of(p), *k, *s)).collect();
-        let count = parameters.len();
-        let mut products = vec![0.0; count * count];
-        let mut against = vec![0.0; count];
-        for a in 0..count {
-            against[a] = dashpot_numerics::dot(&derivatives[a], e);
-            for b in 0..=a {
-                let value = dashpot_numerics::dot(&derivatives[a], &derivatives[b]);
-                products[a * count + b] = value;
-                products[b * count + a] = value;
-            }
-        }
-        for (p, k, s) in &list {
-            self.gradient[*k] += s * against[*p];
-            for (q, l, t) in &list {
-                self.matrix[(*k, *l)] += s * t * products[p * count + q];
-            }
-        }
-    }
-}
-
-/// Step of Levenberg and Marquardt in scaled variables.
-fn solve(normal: &Normal, damping: f64) -> Option<Vec<f64>> {
-    let size = normal.gradient.len();
-    let greatest = (0..size).map(|k| normal.matrix[(k, k)]).fold(0.0, f64::max);
-    let scale: Vec<f64> =
-        (0..size).map(|k| normal.matrix[(k, k)].max(1e-20 * greatest).max(1e-300).sqrt().recip()).collect();
-    let matrix = Mat::from_fn(size, size, |i, j| {
-        let extra = if i == j { damping } else { 0.0 };
-        normal.matrix[(i, j)] * scale[i] * scale[j] + extra
-    });
-    let rhs = Mat::from_fn(size, 1, |i, _| normal.gradient[i] * scale[i]);
-    let x = Cholesky::new(matrix.as_ref())?.solve(rhs.as_ref());
-    let change: Vec<f64> = (0..size).map(|i| x[(i, 0)] * scale[i]).collect();
-    change.iter().all(|x| x.is_finite()).then_some(change)
 }

@@ -13,11 +13,13 @@ mod errors;
 mod evidence;
 pub mod fit;
 pub mod localisation;
+mod normal;
 mod regression;
 mod search;
 pub mod spectrum;
 mod starts;
 mod telling;
+mod told;
 pub(crate) mod variables;
 mod weights;
 

@@ -25,6 +25,8 @@ use std::f64::consts::{PI, TAU};
 const PRIORS: [f64; 2] = [0.03, 0.2];
 /// Share of the elastic force by which a model is taken to be wrong on a line.
 const MODEL_SHARE: f64 = 3e-3;
+/// Largest relative change of a nuisance.
+const MOST_CHANGE: f64 = 0.15;
 /// Lines of a taper's flank, and of the width within which a resonance is not told from its neighbours.
 const FLANK: f64 = 2.0;
 /// Most lines of a record, those of greatest motion.
@@ -45,6 +47,10 @@ pub(crate) struct Regression<'a> {
     parts: Vec<Part>,
     /// Orthonormal columns of the nuisances, prior rows behind.
     nuisances: Vec<Vec<f64>>,
+    /// The columns themselves, with the nuisance that one of each stands for.
+    columns: Vec<(Vec<f64>, f64)>,
+    /// What was measured, beside which nothing is taken out.
+    measured: Vec<f64>,
     /// What is left of the measured rows beside them.
     left: Vec<f64>,
 }
@@ -92,25 +98,34 @@ impl<'a> Regression<'a> {
         }
         let count = modes + records.known.len();
         measured.resize(rows + count, 0.0);
-        let base = Self { records, parts: made, nuisances: Vec::new(), left: measured };
+        let base = Self {
+            records,
+            parts: made,
+            nuisances: Vec::new(),
+            columns: Vec::new(),
+            measured: Vec::new(),
+            left: measured,
+        };
         let with = |mut regression: Self, unit: f64| {
             let measured = std::mem::take(&mut regression.left);
             for k in 0..count {
                 let (list, prior) = if k < modes { (&stiffness[k], PRIORS[0]) } else { (&known[k - modes], PRIORS[1]) };
                 let mut column: Vec<f64> = list.iter().map(|x| prior / unit * x).collect();
                 column.extend((0..count).map(|j| f64::from(u8::from(j == k))));
+                regression.columns.push((column.clone(), prior / unit));
                 let mut own = regression.beside(column);
                 let size = dot(&own, &own).sqrt();
                 own.iter_mut().for_each(|x| *x /= size);
                 regression.nuisances.push(own);
             }
             regression.left = regression.beside(measured.clone());
+            regression.measured.clone_from(&measured);
             (regression, measured)
         };
         // Where the nuisances leave much, rows are alike: a prior weighs as much as what is left.
         let (first, measured) = with(base, 1.0);
         let unit = (first.misfit() / rows.max(1) as f64).sqrt().max(1.0);
-        Some(with(Self { nuisances: Vec::new(), left: measured, ..first }, unit).0)
+        Some(with(Self { nuisances: Vec::new(), columns: Vec::new(), left: measured, ..first }, unit).0)
     }
 
     /// Weighted squared residual without any law.
@@ -121,6 +136,37 @@ impl<'a> Regression<'a> {
     /// Number of weighted rows.
     pub fn rows(&self) -> usize {
         self.left.len()
+    }
+
+    /// Relative changes of the stiffness of the followed modes and of the sizes of the known sources that fit best, beside a law
+    /// or without one.
+    pub fn corrections(&self, law: Option<&Source>) -> Option<(Vec<f64>, Vec<f64>)> {
+        let band = &self.parts[0].motion.band.modes;
+        if self.parts.iter().any(|p| p.motion.band.modes != *band) {
+            return None;
+        }
+        let mut left = self.measured.clone();
+        if let Some(law) = law {
+            let mut at = 0;
+            for part in &self.parts {
+                let mut works = Works::new(self.records.structure, &part.motion);
+                for row in part.rows(&works.modal_force(law)) {
+                    left[at] -= row;
+                    at += 1;
+                }
+            }
+        }
+        let count = self.columns.len();
+        let of = |i: usize| &self.columns[i].0;
+        let matrix = Mat::from_fn(count, count, |i, j| dot(of(i), of(j)));
+        let rhs = Mat::from_fn(count, 1, |i, _| dot(of(i), &left));
+        let solved = Cholesky::new(matrix.as_ref())?.solve(rhs.as_ref());
+        let value = |i: usize| (solved[(i, 0)] * self.columns[i].1).clamp(-MOST_CHANGE, MOST_CHANGE);
+        let mut modes = vec![0.0; self.records.kept];
+        for (r, mode) in band.iter().enumerate().filter(|(_, mode)| **mode < self.records.kept) {
+            modes[*mode] = value(r);
+        }
+        Some((modes, (band.len()..count).map(value).collect()))
     }
 
     /// A column with what the nuisances explain taken out.

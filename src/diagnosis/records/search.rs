@@ -4,6 +4,8 @@ use super::compare::short;
 use super::data::{RecordError, Records};
 use super::evidence::{evidence, scale};
 use super::fit::{Fit, FittedRecords, Free};
+use super::regression::Regression;
+use super::starts::tuned;
 use super::telling::{last_deviations, plainest};
 use crate::control::Control;
 use crate::diagnosis::candidates::special_cases::is_allowed;
@@ -12,6 +14,8 @@ use crate::effects::Source;
 /// Fits that go on to longer parts and to whole records.
 const LONGER: usize = 6;
 const WHOLE: usize = 3;
+/// Steps of the first fits.
+const BEGINNING: usize = 5;
 /// Ratio of the parts of a record on which a law is fitted one after the other.
 const LADDER: f64 = 3.0;
 /// Squared residual over the least one beyond which a fit is not followed further: on a short part, where a law still finds
@@ -21,25 +25,44 @@ const HOPELESS: [f64; 2] = [12.0, 4.0];
 /// The search for what is missing in some records.
 pub(super) struct Search<'a> {
     pub records: &'a Records<'a>,
+    /// The same with the noise of their channels only, as they are compared.
+    pub plain: &'a Records<'a>,
     pub excluded: &'a [Source],
     pub control: &'a Control,
 }
 
 impl Search<'_> {
     pub fn fit(&self, start: &FittedRecords, share: f64, iterations: usize) -> Result<FittedRecords, RecordError> {
-        let fit = Fit { records: self.records, free: Free { corrections: true }, share, control: self.control };
-        fit.improve(start, iterations)
+        self.fit_by(start, share, iterations, self.control)
+    }
+
+    fn fit_by(
+        &self,
+        start: &FittedRecords,
+        share: f64,
+        iterations: usize,
+        control: &Control,
+    ) -> Result<FittedRecords, RecordError> {
+        Fit { records: self.records, free: Free::all(self.records), share, control }.improve(start, iterations)
     }
 
     /// Initial states and effects only, nothing corrected.
     pub fn quiet(&self, start: &FittedRecords, share: f64) -> Result<FittedRecords, RecordError> {
-        Fit { records: self.records, free: Free { corrections: false }, share, control: self.control }.improve(start, 3)
+        Fit { records: self.records, free: Free::nothing(), share, control: self.control }.improve(start, 3)
     }
 
     /// The model corrected, on longer and longer parts, so that a frequency that is off does not lose the phase.
     pub fn corrected(&self, start: &FittedRecords) -> Result<FittedRecords, RecordError> {
         let first = short(self.records);
-        let mut fitted = self.fit(&self.quiet(start, first)?, first, 8)?;
+        let quiet = self.quiet(start, first)?;
+        let mut fitted = self.fit(&quiet, first, 8)?;
+        // The motion itself may know better how far the model is off.
+        if let Some(regression) = Regression::new(self.records, &quiet, self.control)
+            && let Ok(other) = self.fit(&tuned(&regression, &quiet, None), first, 8)
+            && other.chi_square < fitted.chi_square
+        {
+            fitted = other;
+        }
         let mut share = LADDER * first;
         while share < 1.0 {
             fitted = self.fit(&fitted, share, 8)?;
@@ -54,13 +77,10 @@ impl Search<'_> {
         // Short parts are followed from the linear model, whose stiffness is not bent to what is missing.
         let base = if best.effects.is_empty() { bare } else { best };
         let base = self.quiet(base, first)?;
-        let starts = self.beginnings(best, &base);
-        let begun = self.control.map(starts.len(), |k| {
-            let mut start = base.clone();
-            start.effects.push(starts[k].clone());
-            // A start that runs away, or a mass that takes away all there is, is no start.
-            self.fit(&start, first, 3).ok()
-        });
+        let starts = self.begun(best, &base);
+        let alone = self.control.alone();
+        // A start that runs away, or a mass that takes away all there is, is no start.
+        let begun = self.control.map(starts.len(), |k| self.fit_by(&starts[k], first, BEGINNING, &alone).ok());
         self.control.check()?;
         let mut found: Vec<FittedRecords> = Vec::new();
         for fitted in begun.into_iter().flatten() {
@@ -96,14 +116,15 @@ impl Search<'_> {
         found.truncate(count);
         let least = found.first().map_or(0.0, |f| f.chi_square);
         found.retain(|f| f.chi_square <= hopeless * least.max(f.count as f64));
+        let alone = self.control.alone();
         let rising = |f: &FittedRecords| {
             let mut fitted = f.clone();
             let mut share = LADDER * from;
             while share < to {
-                fitted = self.fit(&fitted, share, 4).ok()?;
+                fitted = self.fit_by(&fitted, share, 4, &alone).ok()?;
                 share *= LADDER;
             }
-            self.fit(&fitted, to, iterations).ok()
+            self.fit_by(&fitted, to, iterations, &alone).ok()
         };
         self.control.map(found.len(), |k| rising(&found[k])).into_iter().flatten().collect()
     }

@@ -14,21 +14,23 @@ use crate::structure::Part;
 const PLAIN: [f64; 2] = [1.1, 1.3];
 /// Misfit from which on what is left is no noise.
 const MODEL_ERROR: f64 = 1.5;
-/// Deviations from 0 at which a correction is told, and the least change of stiffness and of a known source that is: the
-/// force between the samples and the motion above the band leave as much.
-const MOVED: f64 = 4.0;
-const LEAST: [f64; 2] = [5e-4, 0.01];
+/// Share to which the mass of a model is known.
+const MASS: f64 = 0.005;
 /// Difference of evidence within which effects cannot be told apart.
 const ALIKE: f64 = 9.0;
 /// Most suggestions.
 const MOST: usize = 8;
 
-/// The effects of a fit with deviations as wide as what it leaves demands.
+/// The effects of a fit with deviations as wide as what it leaves demands, and as the mass of any model, on which all forces
+/// depend.
 pub(super) fn added(fit: &FittedRecords) -> Vec<Added> {
     let wide = scale(fit).sqrt();
     let mut at = 0;
     let of = |source: &Source| {
-        let deviations = fit.deviations[at..at + source.parameters.len()].iter().map(|d| d * wide).collect();
+        let mut deviations: Vec<f64> =
+            fit.deviations[at..at + source.parameters.len()].iter().map(|d| d * wide).collect();
+        let forces = source.effect.scaled().iter();
+        forces.for_each(|&k| deviations[k] = deviations[k].hypot(MASS * source.parameters[k]));
         at += source.parameters.len();
         Added { source: source.clone(), deviations }
     };
@@ -56,10 +58,7 @@ pub(super) fn suggestions(records: &Records, found: &[FittedRecords]) -> Result<
             let others = found.iter().filter(alike).filter_map(|f| f.effects.last());
             let indistinguishable_from =
                 others.filter(|o| !fit.effects.iter().any(|e| e.is_same(o))).cloned().collect();
-            let words = vec![
-                added.source.effect.sentence().to_string(),
-                format!("With it the error of the records is {:.2} %.", 100.0 * error),
-            ];
+            let words = words(&added.source, error);
             list.push(Suggestion {
                 added,
                 error_after: error,
@@ -73,6 +72,12 @@ pub(super) fn suggestions(records: &Records, found: &[FittedRecords]) -> Result<
     Ok(list)
 }
 
+/// What is said of an effect with which this error is left.
+pub(super) fn words(source: &Source, error: f64) -> Vec<String> {
+    let left = format!("With it the error of the records is {:.2} %.", 100.0 * error);
+    vec![source.effect.sentence().to_string(), left]
+}
+
 /// Deviations of the parameters of the last effect.
 pub(super) fn last_deviations(fit: &FittedRecords) -> Vec<f64> {
     let count = fit.effects.last().map_or(0, |e| e.parameters.len());
@@ -80,24 +85,21 @@ pub(super) fn last_deviations(fit: &FittedRecords) -> Vec<f64> {
     fit.deviations[end - count..end].to_vec()
 }
 
-/// Corrections that moved, with their deviations.
+/// Corrections of a fit that can be told ([`Search::told`](super::search::Search)), with their deviations.
 pub(super) fn corrections(records: &Records, fit: &FittedRecords) -> Vec<Correction> {
     let wide = scale(fit).sqrt();
     let first = parameters(fit);
     let modes = if records.kept > 1 { records.kept } else { 0 };
     let values =
         std::iter::once(fit.stiffness).chain(fit.known.iter().copied()).chain(fit.modes.iter().take(modes).copied());
+    let values = values.chain([fit.mass]);
     let names = std::iter::once(UpdatingParameter::Structure(Part::Stiffness))
         .chain((0..records.known.len()).map(UpdatingParameter::Known))
-        .chain((0..modes).map(|r| UpdatingParameter::Structure(Part::Mode(r))));
+        .chain((0..modes).map(|r| UpdatingParameter::Structure(Part::Mode(r))))
+        .chain([UpdatingParameter::Structure(Part::Mass)]);
     let of = |(k, (v, parameter)): (usize, (f64, UpdatingParameter))| {
         let deviation = fit.deviations.get(first + k).copied().unwrap_or(f64::NAN) * wide;
-        let least = LEAST[usize::from(matches!(parameter, UpdatingParameter::Known(_)))];
-        (v.abs() > (MOVED * deviation).max(least)).then(|| Correction {
-            parameter,
-            factor: v.exp(),
-            deviation: deviation * v.exp(),
-        })
+        (v != 0.0).then(|| Correction { parameter, factor: v.exp(), deviation: deviation * v.exp() })
     };
     values.zip(names).enumerate().filter_map(of).collect()
 }

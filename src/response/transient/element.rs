@@ -76,6 +76,7 @@ pub(super) struct Element {
     last: Instant,
     reversals: Vec<Instant>,
     direction: f64,
+    spare: Vec<f64>,
 }
 
 impl Element {
@@ -102,6 +103,7 @@ impl Element {
             last: Instant { by: vec![[0.0; 2]; count], ..Instant::default() },
             reversals: Vec::new(),
             direction: 0.0,
+            spare: vec![0.0; count],
         }
     }
 
@@ -164,19 +166,28 @@ impl Element {
         (b - x) / w
     }
 
-    /// Derivative of the mean force by parameter `theta` at fixed displacements: `own` is its number among the parameters of
-    /// the law, where it is one of them.
-    pub fn by_parameter(&mut self, theta: usize, own: Option<usize>, d: f64, x: f64, step: f64, side: f64) -> f64 {
+    /// Derivatives of the mean force by all parameters at fixed displacements, of a step `[d, x, step, side]` as in
+    /// [`Self::mean`]: `own` tells which parameter of the law each one is, where it is one.
+    pub fn by_parameters(&mut self, [d, x, step, side]: [f64; 4], own: &[Option<usize>], out: &mut [f64]) {
         match self.form {
             Form::Smooth | Form::Friction => {
                 let v = self.on_side(x / step, side);
-                own.map_or(0.0, |k| self.at_instant(k, d + 0.5 * x, v))
+                out.fill(0.0);
+                for (out, own) in out.iter_mut().zip(own) {
+                    if let Some(k) = own {
+                        *out = self.at_instant(*k, d + 0.5 * x, v);
+                    }
+                }
             }
-            Form::Masing => 0.5 * (self.last.by[theta][1] + self.branch_change(d + x, theta, own)),
+            Form::Masing => {
+                self.branch_changes(d + x, own, out);
+                out.iter_mut().zip(&self.last.by).for_each(|(out, by)| *out = 0.5 * (by[1] + *out));
+            }
             Form::Maxwell => {
                 let share = self.relaxed(step);
-                let from_past = share * self.last.by[theta][1];
-                from_past + own.map_or(0.0, |k| self.maxwell_by(k, x, step))
+                for (theta, out) in out.iter_mut().enumerate() {
+                    *out = share * self.last.by[theta][1] + own[theta].map_or(0.0, |k| self.maxwell_by(k, x, step));
+                }
             }
         }
     }
@@ -204,16 +215,15 @@ impl Element {
         }
     }
 
-    /// Ends a step of `step` s at `d`; `change(theta)` gives the derivative of `d`, `own(theta)` as above.
-    pub fn commit(&mut self, d: f64, step: f64, change: impl Fn(usize) -> f64, own: impl Fn(usize) -> Option<usize>) {
-        let count = self.last.by.len();
+    /// Ends a step of `step` s at `d`; `change` holds the derivatives of `d`, `own` as above.
+    pub fn commit(&mut self, d: f64, step: f64, change: &[f64], own: &[Option<usize>]) {
         match self.form {
             Form::Smooth | Form::Friction => {}
             Form::Masing => {
                 let [force, slope] = self.branch(d);
-                let moved =
-                    |theta: usize| [change(theta), slope * change(theta) + self.branch_change(d, theta, own(theta))];
-                let by = (0..count).map(moved).collect();
+                let mut by = std::mem::take(&mut self.spare);
+                self.branch_changes(d, own, &mut by);
+                by.iter_mut().zip(change).for_each(|(by, change)| *by += slope * change);
                 if self.turns(d) {
                     self.reversals.push(self.last.clone());
                 }
@@ -222,7 +232,11 @@ impl Element {
                 if d != self.last.d {
                     self.direction = (d - self.last.d).signum();
                 }
-                self.last = Instant { d, force, by };
+                (self.last.d, self.last.force) = (d, force);
+                for (last, now) in self.last.by.iter_mut().zip(change.iter().zip(&by)) {
+                    *last = [*now.0, *now.1];
+                }
+                self.spare = by;
             }
             Form::Maxwell => {
                 let [k, c] = [self.parameters[0], self.parameters[1]];
@@ -230,19 +244,18 @@ impl Element {
                 let steady = if step.is_finite() { c * x / step } else { 0.0 };
                 let force = steady + (self.last.force - steady) * decay;
                 let rest = self.last.force - steady;
-                let by = |theta: usize| {
+                for (theta, change) in change.iter().enumerate() {
                     let [before, past] = self.last.by[theta];
-                    let explicit = match own(theta) {
+                    let explicit = match own[theta] {
                         Some(0) if c > 0.0 => -rest * decay * step / c,
                         Some(1) if c > 0.0 => x / step * (1.0 - decay) + rest * decay * k * step / (c * c),
                         _ => 0.0,
                     };
                     let by_x = if step.is_finite() { c / step * (1.0 - decay) } else { 0.0 };
                     let explicit = if explicit.is_finite() { explicit } else { 0.0 };
-                    [change(theta), past * decay + by_x * (change(theta) - before) + explicit]
-                };
-                let by = (0..count).map(by).collect();
-                self.last = Instant { d, force, by };
+                    self.last.by[theta] = [*change, past * decay + by_x * (change - before) + explicit];
+                }
+                (self.last.d, self.last.force) = (d, force);
             }
         }
     }
@@ -315,18 +328,20 @@ impl Element {
         }
     }
 
-    /// Derivative of the force of the branch by `theta` at a fixed `d`.
-    fn branch_change(&self, d: f64, theta: usize, own: Option<usize>) -> f64 {
-        let explicit = |d: f64| {
+    /// Derivatives of the force of the branch by all parameters at a fixed `d`.
+    fn branch_changes(&self, d: f64, own: &[Option<usize>], out: &mut [f64]) {
+        let explicit = |d: f64, own: &Option<usize>| {
             own.and_then(|k| self.varied.get(k))
                 .map_or(0.0, |([low, high], width)| (high.trial(d, 1.0)[0] - low.trial(d, 1.0)[0]) / width)
         };
         match self.open(d, self.turns(d)) {
-            0 => explicit(d),
+            0 => out.iter_mut().zip(own).for_each(|(out, own)| *out = explicit(d, own)),
             count => {
                 let from = self.reversals.get(count - 1).unwrap_or(&self.last);
                 let [_, slope] = self.branch(d);
-                from.by[theta][1] - slope * from.by[theta][0] + 2.0 * explicit(0.5 * (d - from.d))
+                for ((out, own), by) in out.iter_mut().zip(own).zip(&from.by) {
+                    *out = by[1] - slope * by[0] + 2.0 * explicit(0.5 * (d - from.d), own);
+                }
             }
         }
     }

@@ -9,26 +9,28 @@ use faer::c64;
 /// Argument below which the series is summed.
 const SMALL: f64 = 0.5;
 
-/// `1/k! + x/(k+1)! + x^2/(k+2)! + ...`
-fn series(x: c64, k: u32) -> c64 {
-    let first: f64 = (1..=k).map(f64::from).product::<f64>().recip();
-    let mut term = c64::new(first, 0.0);
-    let mut sum = term;
-    for j in 1..=18 {
-        term = term * x / f64::from(k + j);
-        sum += term;
+/// `1 / (k + 2)!` for `k` of 0 to 15.
+const SERIES: [f64; 16] = {
+    let mut list = [0.5; 16];
+    let mut k = 1;
+    while k < 16 {
+        list[k] = list[k - 1] / (k as f64 + 2.0);
+        k += 1;
     }
-    sum
-}
+    list
+};
 
-/// `(e^x - 1) / x`.
-pub(super) fn phi1(x: c64) -> c64 {
-    if x.norm() < SMALL { series(x, 1) } else { (x.exp() - 1.0) / x }
-}
-
-/// `(e^x - 1 - x) / x^2`.
-pub(super) fn phi2(x: c64) -> c64 {
-    if x.norm() < SMALL { series(x, 2) } else { (x.exp() - 1.0 - x) / (x * x) }
+/// `e^x`, `phi_1(x)` and `phi_2(x)`.
+pub(super) fn integrals(x: c64) -> [c64; 3] {
+    if x.norm_sqr() < SMALL * SMALL {
+        let last = SERIES.len() - 1;
+        let phi2 = SERIES[..last].iter().rev().fold(c64::new(SERIES[last], 0.0), |sum, c| sum * x + *c);
+        let phi1 = phi2 * x + 1.0;
+        return [phi1 * x + 1.0, phi1, phi2];
+    }
+    let e = x.exp();
+    let phi1 = (e - 1.0) / x;
+    [e, phi1, (phi1 - 1.0) / x]
 }
 
 /// `(e^a - e^b) / (a - b)`.
@@ -55,8 +57,8 @@ mod tests {
     fn series_and_quotients_meet() {
         for angle in [0.3, 1.9, 3.0] {
             let at = |r: f64| c64::new(r * f64::cos(angle), r * f64::sin(angle));
-            for f in [phi1, phi2] {
-                let jump = f(at(0.499_999_999)) - f(at(0.500_000_001));
+            for k in 0..3 {
+                let jump = integrals(at(0.499_999_999))[k] - integrals(at(0.500_000_001))[k];
                 assert!(jump.norm() < 1e-8);
             }
             let b = c64::new(-0.2, 4.0);

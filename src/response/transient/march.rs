@@ -1,4 +1,5 @@
-//! Stepping: forces of all elements at once, reversals of friction located within a step, derivatives carried along.
+//! Stepping: forces of all elements at once, reversals of friction located within a step, derivatives carried along
+//! ([`super::derivatives`]).
 //!
 //! Friction slips with a given sign until its velocity passes zero at `tau`; there the force jumps from `F-` to `F+` (the
 //! other side, or what keeps it at rest). With `d tau = -(v_theta) / a` the derivative of the state at the end gains
@@ -9,55 +10,56 @@
 //!
 //! At rest the force is that which leaves no velocity at the end of the step, as long as friction can hold it (Moreau).
 
+use super::changes::Changes;
+use super::derivatives::Derivatives;
 use super::element::{Element, Form};
 use super::model::TransientError;
-use super::step::{Step, StepForces};
+use super::step::Step;
 use super::system::{Functional, LinearChange, LinearSystem};
-use dashpot_numerics::RowLu;
-use faer::c64;
+use dashpot_numerics::dot;
 
 /// Reversals that are located within one step.
 const MOST_EVENTS: usize = 6;
 /// Sweeps of Gauss and Seidel.
 const SWEEPS: usize = 400;
 
-/// What an element sees.
+/// What an element sees, on flat states.
 pub(super) struct View {
-    pub displacement: Functional,
-    pub velocity: Functional,
+    pub displacement: Vec<f64>,
+    pub velocity: Vec<f64>,
     pub acceleration: Functional,
 }
 
 /// A parameter on its way through the steps.
 pub(super) struct Sensitivity {
-    /// Derivative of the damped modes.
-    pub modes: Vec<c64>,
+    /// Derivative of the state at the start.
+    pub state: Vec<f64>,
     /// Source and number of a parameter of a law.
     pub own: Option<(usize, usize)>,
-    /// Change of the linear part.
-    pub change: Option<LinearChange>,
-    /// Derivatives of the forces of the elements over the last step.
-    pub forces: Vec<f64>,
-}
-
-impl Sensitivity {
-    fn own_of(&self, element: &Element) -> Option<usize> {
-        self.own.filter(|(source, _)| *source == element.source).map(|(_, k)| k)
-    }
-}
-
-/// The jump of a friction force at a reversal, to be felt by the derivatives in the next piece of the step.
-struct Jump {
-    element: usize,
-    before: f64,
-    /// Derivative of its instant by each parameter.
-    when: Vec<f64>,
+    /// Number of its change of the linear part.
+    pub change: Option<usize>,
 }
 
 /// Receptances between elements over a step, row by row.
-struct Receptance {
-    displacement: Vec<f64>,
-    velocity: Vec<f64>,
+pub(super) struct Receptance {
+    pub displacement: Vec<f64>,
+    pub velocity: Vec<f64>,
+}
+
+/// A piece of a step that is decided.
+pub(super) struct Piece<'a> {
+    pub step: &'a Step,
+    /// Whether it is a step of full length.
+    pub full: bool,
+    /// Drives at both ends, N.
+    pub drives: [&'a [f64]; 2],
+    pub forces: &'a [f64],
+    pub side: &'a [f64],
+    /// States at both ends.
+    pub states: [&'a [f64]; 2],
+    /// Displacements of the elements at both ends, m.
+    pub before: &'a [f64],
+    pub after: &'a [f64],
 }
 
 /// The march through a record.
@@ -65,61 +67,88 @@ pub(super) struct March<'a> {
     pub system: &'a LinearSystem,
     pub views: &'a [View],
     pub elements: Vec<Element>,
-    pub z: Vec<c64>,
-    pub sensitivities: Vec<Sensitivity>,
+    pub z: Vec<f64>,
+    pub derivatives: Derivatives,
     /// Sign of the slip of each element, 0 at rest.
     pub side: Vec<f64>,
     /// Mean forces over the last step, N.
     pub forces: Vec<f64>,
     step: Step,
     receptance: Receptance,
-    jump: Option<Jump>,
-    linear: bool,
+    trial: Trial,
+}
+
+/// A step that is tried.
+#[derive(Default)]
+struct Trial {
+    /// State at its end under the drives alone; once it is taken, the state.
+    free: Vec<f64>,
+    /// Displacements of the elements at its ends, m, and their velocities at its end, m/s.
+    before: Vec<f64>,
+    after: Vec<f64>,
+    speeds: Vec<f64>,
+    /// Mean forces, N, and sides of slip.
+    forces: Vec<f64>,
+    side: Vec<f64>,
 }
 
 impl<'a> March<'a> {
+    /// From the state `z` in steps of `length` s under `drives` drives.
     pub fn new(
         system: &'a LinearSystem,
         views: &'a [View],
         mut elements: Vec<Element>,
-        z: Vec<c64>,
-        sensitivities: Vec<Sensitivity>,
+        (z, drives): (Vec<f64>, usize),
+        (sensitivities, changes): (Vec<Sensitivity>, &[LinearChange]),
         length: f64,
     ) -> Self {
-        let linear = sensitivities.iter().any(|s| s.change.is_some());
-        let step = Step::new(system, length, linear);
-        let receptance = Receptance::new(system, views, &step);
-        let side = views.iter().map(|view| sign(view.velocity.at(&z))).collect();
-        for (element, view) in elements.iter_mut().zip(views) {
-            let change = |theta: usize| view.displacement.at(&sensitivities[theta].modes);
+        let step = Step::new(system, length);
+        let receptance = Receptance::new(views, &step);
+        let side = views.iter().map(|view| sign(dot(&view.velocity, &z))).collect();
+        let changes = Changes::new(system, &step, changes, [elements.len(), drives]);
+        let mut derivatives = Derivatives::new(views, &elements, sensitivities, changes, z.len());
+        for (l, (element, view)) in elements.iter_mut().zip(views).enumerate() {
             // A law with memory comes from rest to where the record begins.
-            let own: Vec<Option<usize>> = sensitivities.iter().map(|s| s.own_of(element)).collect();
-            element.commit(view.displacement.at(&z), f64::INFINITY, change, |theta| own[theta]);
+            derivatives.commit(l, element, dot(&view.displacement, &z), f64::INFINITY);
         }
         let forces = vec![0.0; elements.len()];
-        Self { system, views, elements, z, sensitivities, side, forces, step, receptance, jump: None, linear }
+        Self { system, views, elements, z, derivatives, side, forces, step, receptance, trial: Trial::default() }
     }
 
     /// One step from the drives `u0` to `u1`.
     pub fn advance(&mut self, u0: &[f64], u1: &[f64]) -> Result<(), TransientError> {
-        let step = self.step.clone();
-        if self.elements.is_empty() {
-            self.accept(&step, u0, u1, &[], &[], None);
+        let step = std::mem::replace(&mut self.step, Step::empty());
+        let mut trial = std::mem::take(&mut self.trial);
+        let done = self.advance_by(&step, &mut trial, u0, u1);
+        (self.step, self.trial) = (step, trial);
+        done
+    }
+
+    fn advance_by(&mut self, step: &Step, trial: &mut Trial, u0: &[f64], u1: &[f64]) -> Result<(), TransientError> {
+        let ahead = self.balance(step, true, trial, [u0, u1])?;
+        if ahead.is_none() {
+            self.accept(step, true, trial, [u0, u1], None);
             return Ok(());
         }
         let (mut from, mut remaining) = (u0.to_vec(), step.length);
         for event in 0..=MOST_EVENTS {
-            let own = (event > 0).then(|| Step::new(self.system, remaining, self.linear));
-            let piece = own.as_ref().unwrap_or(&step);
-            let (forces, side) = self.balance(piece, &from, u1)?;
-            let reversal = if event < MOST_EVENTS { self.reversal(piece, &from, u1, &forces, &side) } else { None };
+            let own = (event > 0).then(|| Step::new(self.system, remaining));
+            let piece = own.as_ref().unwrap_or(step);
+            let full = event == 0;
+            let ahead = if full { ahead } else { self.balance(piece, full, trial, [&from, u1])? };
+            let reversal = match ahead {
+                Some(_) if event < MOST_EVENTS => self.reversal(piece, trial, [&from, u1]),
+                _ => None,
+            };
             let Some((element, tau)) = reversal else {
-                self.accept(piece, &from, u1, &forces, &side, None);
+                self.accept(piece, full, trial, [&from, u1], None);
                 return Ok(());
             };
             let share = tau / remaining;
             let at: Vec<f64> = from.iter().zip(u1).map(|(a, b)| a + share * (b - a)).collect();
-            self.accept(&Step::new(self.system, tau, self.linear), &from, &at, &forces, &side, Some(element));
+            let part = Step::new(self.system, tau);
+            self.moved(&part, [&from, &at], &mut trial.free);
+            self.accept(&part, false, trial, [&from, &at], Some(element));
             (from, remaining) = (at, remaining - tau);
             if remaining <= 1e-12 * step.length {
                 return Ok(());
@@ -128,23 +157,28 @@ impl<'a> March<'a> {
         Ok(())
     }
 
-    /// Forces of the elements over a step, and the sides on which friction slips.
-    fn balance(&self, step: &Step, u0: &[f64], u1: &[f64]) -> Result<(Vec<f64>, Vec<f64>), TransientError> {
+    /// Forces of the elements over a step, and the sides on which friction slips; an element that turns within it, if any.
+    fn balance(
+        &self,
+        step: &Step,
+        full: bool,
+        trial: &mut Trial,
+        drives: [&[f64]; 2],
+    ) -> Result<Option<usize>, TransientError> {
         let count = self.elements.len();
         let own;
-        let w = if step.length == self.step.length {
+        let w = if full {
             &self.receptance
         } else {
-            own = Receptance::new(self.system, self.views, step);
+            own = Receptance::new(self.views, step);
             &own
         };
-        let mut free = self.z.clone();
-        step.decay(&mut free);
-        for (i, (a, b)) in u0.iter().zip(u1).enumerate() {
-            step.drive(&self.system.beta[count + i], *a, *b, &mut free);
-        }
-        let before: Vec<f64> = self.views.iter().map(|v| v.displacement.at(&self.z)).collect();
-        let (mut forces, mut side) = (self.forces.clone(), self.side.clone());
+        self.moved(step, drives, &mut trial.free);
+        let Trial { free, before, forces, side, speeds, .. } = trial;
+        before.clear();
+        before.extend(self.views.iter().map(|v| dot(&v.displacement, &self.z)));
+        forces.clone_from(&self.forces);
+        side.clone_from(&self.side);
         let mut greatest = 0.0_f64;
         for _ in 0..SWEEPS {
             let mut change = 0.0_f64;
@@ -152,11 +186,11 @@ impl<'a> March<'a> {
                 let row = l * count;
                 let others =
                     |table: &[f64]| (0..count).filter(|&k| k != l).map(|k| table[row + k] * forces[k]).sum::<f64>();
-                let x = self.views[l].displacement.at(&free) - before[l] - others(&w.displacement);
+                let x = dot(&self.views[l].displacement, free) - before[l] - others(&w.displacement);
                 let element = &self.elements[l];
                 let mut new = None;
                 if element.form == Form::Friction && self.side[l] == 0.0 {
-                    let held = (self.views[l].velocity.at(&free) - others(&w.velocity)) / w.velocity[row + l];
+                    let held = (dot(&self.views[l].velocity, free) - others(&w.velocity)) / w.velocity[row + l];
                     let holds = held.abs() <= element.static_force();
                     side[l] = if holds { 0.0 } else { held.signum() };
                     new = holds.then_some(held);
@@ -171,49 +205,56 @@ impl<'a> March<'a> {
                 break;
             }
         }
-        if forces.iter().all(|f| f.is_finite()) { Ok((forces, side)) } else { Err(TransientError::StepFailed) }
+        if !forces.iter().all(|f| f.is_finite()) {
+            return Err(TransientError::StepFailed);
+        }
+        speeds.clear();
+        let at_end = |l: usize| {
+            let given = (0..count).map(|k| w.velocity[l * count + k] * forces[k]).sum::<f64>();
+            dot(&self.views[l].velocity, free) - given
+        };
+        speeds.extend((0..count).map(at_end));
+        Ok((0..count).find(|&l| self.turns_within(trial, l)))
+    }
+
+    /// Whether the slip of element `l` ends within the step that was tried.
+    fn turns_within(&self, trial: &Trial, l: usize) -> bool {
+        let side = trial.side[l];
+        self.elements[l].form == Form::Friction
+            && side != 0.0
+            && self.side[l] == side
+            && trial.speeds[l] * side < 0.0
+            && dot(&self.views[l].velocity, &self.z) * side > 0.0
     }
 
     /// The first element whose slip ends within the step, and when.
-    fn reversal(&self, step: &Step, u0: &[f64], u1: &[f64], forces: &[f64], side: &[f64]) -> Option<(usize, f64)> {
-        let mut first: Option<(usize, f64)> = None;
-        for l in 0..self.elements.len() {
-            if self.elements[l].form != Form::Friction || side[l] == 0.0 {
-                continue;
-            }
-            let start = self.views[l].velocity.at(&self.z) * side[l];
-            let end = self.velocity_at(l, step, step.length, u0, u1, forces) * side[l];
-            if self.side[l] == side[l] && start > 0.0 && end < 0.0 {
-                let tau = self.crossing(l, step, u0, u1, forces, [start * side[l], end * side[l]]);
-                if first.is_none_or(|(_, t)| tau < t) {
-                    first = Some((l, tau));
-                }
-            }
-        }
-        first
+    fn reversal(&self, step: &Step, trial: &Trial, drives: [&[f64]; 2]) -> Option<(usize, f64)> {
+        let turning = (0..self.elements.len()).filter(|&l| self.turns_within(trial, l));
+        let when = |l: usize| {
+            let start = dot(&self.views[l].velocity, &self.z);
+            (l, self.crossing(l, step, drives, &trial.forces, [start, trial.speeds[l]]))
+        };
+        turning.map(when).min_by(|a, b| a.1.total_cmp(&b.1))
     }
 
     /// Relative velocity of element `l` after the time `t` of a step under constant forces.
-    fn velocity_at(&self, l: usize, step: &Step, t: f64, u0: &[f64], u1: &[f64], forces: &[f64]) -> f64 {
-        let own;
-        let part = if t == step.length {
-            step
-        } else {
-            own = Step::new(self.system, t, false);
-            &own
-        };
+    fn velocity_at(&self, l: usize, step: &Step, t: f64, [u0, u1]: [&[f64]; 2], forces: &[f64]) -> f64 {
+        let part = Step::new(self.system, t);
         let share = t / step.length;
         let end: Vec<f64> = u0.iter().zip(u1).map(|(a, b)| a + share * (b - a)).collect();
-        self.views[l].velocity.at(&self.moved(part, u0, &end, forces))
+        let mut z = Vec::new();
+        self.moved(&part, [u0, &end], &mut z);
+        forces.iter().enumerate().for_each(|(l, force)| part.push(l, -force, &mut z));
+        dot(&self.views[l].velocity, &z)
     }
 
     /// Instant at which the velocity of element `l` passes zero, by regula falsi (Illinois).
-    fn crossing(&self, l: usize, step: &Step, u0: &[f64], u1: &[f64], forces: &[f64], ends: [f64; 2]) -> f64 {
+    fn crossing(&self, l: usize, step: &Step, drives: [&[f64]; 2], forces: &[f64], ends: [f64; 2]) -> f64 {
         let ([mut a, mut b], [mut at_a, mut at_b]) = ([0.0, step.length], ends);
         let mut last = 0;
         for _ in 0..60 {
             let t = (a * at_b - b * at_a) / (at_b - at_a);
-            let value = self.velocity_at(l, step, t, u0, u1, forces);
+            let value = self.velocity_at(l, step, t, drives, forces);
             if value == 0.0 || b - a <= 1e-13 * step.length || value.abs() <= 1e-14 * ends[0].abs().max(ends[1].abs()) {
                 return t;
             }
@@ -230,134 +271,55 @@ impl<'a> March<'a> {
         0.5 * (a + b)
     }
 
-    /// State after a step under forces.
-    fn moved(&self, step: &Step, u0: &[f64], u1: &[f64], forces: &[f64]) -> Vec<c64> {
-        let mut z = self.z.clone();
-        step.decay(&mut z);
+    /// State after a step under the drives alone.
+    fn moved(&self, step: &Step, [u0, u1]: [&[f64]; 2], z: &mut Vec<f64>) {
+        z.clone_from(&self.z);
+        step.decay(z);
         for (i, (a, b)) in u0.iter().zip(u1).enumerate() {
-            step.drive(&self.system.beta[forces.len() + i], *a, *b, &mut z);
+            step.drive(self.elements.len() + i, *a, *b, z);
         }
-        for (l, force) in forces.iter().enumerate() {
-            step.push(&self.system.beta[l], -force, &mut z);
-        }
-        z
     }
 
     /// Takes a step that is decided: state, derivatives and memories move on. `turned` is the element that comes to rest.
-    fn accept(&mut self, step: &Step, u0: &[f64], u1: &[f64], forces: &[f64], side: &[f64], turned: Option<usize>) {
-        let next = self.moved(step, u0, u1, forces);
-        let before: Vec<f64> = self.views.iter().map(|v| v.displacement.at(&self.z)).collect();
-        let after: Vec<f64> = self.views.iter().map(|v| v.displacement.at(&next)).collect();
-        if !self.sensitivities.is_empty() {
-            self.differentiate(step, u0, u1, forces, side, &before, &after);
-        }
-        self.z = next;
-        self.side.clear();
-        self.side.extend_from_slice(side);
-        self.forces.clear();
-        self.forces.extend_from_slice(forces);
+    fn accept(&mut self, step: &Step, full: bool, trial: &mut Trial, drives: [&[f64]; 2], turned: Option<usize>) {
+        let Trial { free: next, before, after, forces, side, .. } = trial;
+        forces.iter().enumerate().for_each(|(l, force)| step.push(l, -force, next));
+        after.clear();
+        after.extend(self.views.iter().map(|v| dot(&v.displacement, next)));
+        let piece = Piece { step, full, drives, forces, side, states: [&self.z, next], before, after };
+        let seen = (self.views, &self.system.patterns[..]);
+        self.derivatives.advance(&piece, &mut self.elements, seen, &self.receptance);
+        std::mem::swap(&mut self.z, next);
+        self.side.clone_from(side);
+        self.forces.clone_from(forces);
         for l in 0..forces.len() {
             let slipped = self.elements[l].form == Form::Friction && side[l] != 0.0;
-            if slipped && self.views[l].velocity.at(&self.z) * side[l] <= 0.0 {
+            if slipped && dot(&self.views[l].velocity, &self.z) * side[l] <= 0.0 {
                 self.side[l] = 0.0;
             }
-            let (element, list) = (&mut self.elements[l], &self.sensitivities);
-            let own: Vec<Option<usize>> = list.iter().map(|s| s.own_of(element)).collect();
-            let changes: Vec<f64> = list.iter().map(|s| self.views[l].displacement.at(&s.modes)).collect();
-            element.commit(after[l], step.length, |theta| changes[theta], |theta| own[theta]);
+            self.derivatives.commit(l, &mut self.elements[l], after[l], step.length);
         }
         if let Some(element) = turned {
             self.side[element] = 0.0;
-            self.jump = (!self.sensitivities.is_empty()).then(|| self.jump_at(element, u1, forces));
+            let acceleration = self.acceleration(element, drives[1], forces);
+            self.derivatives.turned(element, &self.views[element], forces, acceleration);
         }
     }
 
-    /// The reversal of an element at the present instant.
-    fn jump_at(&self, element: usize, u: &[f64], forces: &[f64]) -> Jump {
-        let view = &self.views[element];
+    /// Relative acceleration of an element at the present instant.
+    fn acceleration(&self, element: usize, u: &[f64], forces: &[f64]) -> f64 {
+        let view = &self.views[element].acceleration;
         let inputs = forces.iter().map(|f| -f).chain(u.iter().copied());
-        let pushed: f64 = view.acceleration.inputs.iter().zip(inputs).map(|(c, f)| c * f).sum();
-        let acceleration = view.acceleration.at(&self.z) + pushed;
-        let when = |s: &Sensitivity| {
-            if acceleration == 0.0 { 0.0 } else { -view.velocity.at(&s.modes) / acceleration }
-        };
-        Jump { element, before: forces[element], when: self.sensitivities.iter().map(when).collect() }
-    }
-
-    /// Derivatives of the state and of the forces over a step.
-    #[expect(clippy::too_many_arguments, reason = "one decided step")]
-    fn differentiate(
-        &mut self,
-        step: &Step,
-        u0: &[f64],
-        u1: &[f64],
-        forces: &[f64],
-        side: &[f64],
-        before: &[f64],
-        after: &[f64],
-    ) {
-        let count = self.elements.len();
-        let jump = self.jump.take();
-        let own;
-        let w = if step.length == self.step.length {
-            &self.receptance
-        } else {
-            own = Receptance::new(self.system, self.views, step);
-            &own
-        };
-        let held = |l: usize, elements: &[Element]| elements[l].form == Form::Friction && side[l] == 0.0;
-        let mean = |l: usize| self.elements[l].mean(before[l], after[l] - before[l], step.length, side[l]);
-        let means: Vec<_> = (0..count).map(mean).collect();
-        let matrix = (0..count * count).map(|at| {
-            let (l, k) = (at / count, at % count);
-            let unit = f64::from(u8::from(l == k));
-            if held(l, &self.elements) { w.velocity[at] } else { unit + means[l].by_step * w.displacement[at] }
-        });
-        let solver = (count > 0).then(|| RowLu::new(count, matrix.collect())).flatten();
-        let on_structure: Vec<f64> = forces.iter().map(|f| -f).collect();
-        for theta in 0..self.sensitivities.len() {
-            let s = &mut self.sensitivities[theta];
-            if let Some(jump) = &jump {
-                let size = (forces[jump.element] - jump.before) * jump.when[theta];
-                s.modes.iter_mut().zip(&self.system.beta[jump.element]).for_each(|(s, b)| *s += b * size);
-            }
-            let starts: Vec<f64> = self.views.iter().map(|v| v.displacement.at(&s.modes)).collect();
-            step.decay(&mut s.modes);
-            if let Some(change) = &s.change {
-                let all = StepForces { elements: &on_structure, start: u0, end: u1 };
-                step.change(self.system, change, &self.z, &all, &mut s.modes);
-            }
-            let Some(solver) = &solver else { continue };
-            let mut rhs: Vec<f64> = Vec::with_capacity(count);
-            for l in 0..count {
-                let view = &self.views[l];
-                if held(l, &self.elements) {
-                    rhs.push(view.velocity.at(&s.modes));
-                    continue;
-                }
-                let moved = view.displacement.at(&s.modes) - starts[l];
-                let element = &mut self.elements[l];
-                let own = s.own_of(element);
-                let explicit = element.by_parameter(theta, own, before[l], after[l] - before[l], step.length, side[l]);
-                rhs.push(means[l].by_step * moved + means[l].by_start * starts[l] + explicit);
-            }
-            solver.solve(&mut rhs);
-            for (l, force) in rhs.iter().enumerate() {
-                step.push(&self.system.beta[l], -force, &mut s.modes);
-            }
-            s.forces = rhs;
-        }
+        let pushed: f64 = view.inputs.iter().zip(inputs).map(|(c, f)| c * f).sum();
+        dot(&view.row, &self.z) + pushed
     }
 }
 
 impl Receptance {
-    fn new(system: &LinearSystem, views: &[View], step: &Step) -> Self {
-        let table = |of: &dyn Fn(&View) -> &Functional| {
-            let row = |view: &View| {
-                let modes = of(view).modes.clone();
-                (0..views.len()).map(|k| step.receptance(&system.beta[k], &modes)).collect::<Vec<f64>>()
-            };
-            views.iter().flat_map(row).collect()
+    pub fn new(views: &[View], step: &Step) -> Self {
+        let count = views.len();
+        let table = |of: &dyn Fn(&View) -> &Vec<f64>| {
+            views.iter().flat_map(|view| (0..count).map(|k| step.receptance(k, of(view)))).collect()
         };
         Self { displacement: table(&|v| &v.displacement), velocity: table(&|v| &v.velocity) }
     }

@@ -5,12 +5,14 @@
 //! ```
 //!
 //! Modes in the band and residual flexibility ([`reduction`]); the linear part moves exactly between samples in its damped
-//! modes, the measured force being linear there ([`system`], [`step`]); local forces are implicit with their mean over a step
+//! modes, the measured force being linear there ([`system`], [`step`], [`changes`]); local forces are implicit with their mean over a step
 //! ([`element`]); friction is set-valued: it sticks or slips, and a reversal is located within the step ([`march`]).
 //! Derivatives by parameters of laws, stiffness, mass and the initial state are those of the same steps, the instants of
 //! reversals included.
 
 mod assembly;
+mod changes;
+mod derivatives;
 mod element;
 mod exponentials;
 mod march;

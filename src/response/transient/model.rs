@@ -9,7 +9,8 @@ use crate::effects::{Leg, Source};
 use crate::measurement::{Channel, Quantity};
 use crate::structure::Structure;
 use crate::structure::modes::Modes;
-use faer::{Mat, c64};
+use dashpot_numerics::{dot, scalar_products};
+use faer::Mat;
 
 /// Why a record cannot be predicted.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -149,7 +150,7 @@ impl TransientModel {
         let system = LinearSystem::new(&total, &inputs)?;
         let view = |leg: Leg| {
             let of = |order| system.functional(&along(leg), order);
-            View { displacement: of(0), velocity: of(1), acceleration: of(2) }
+            View { displacement: of(0).row, velocity: of(1).row, acceleration: of(2) }
         };
         let views = legs.iter().map(|(_, leg, ..)| view(*leg)).collect();
         let sensor = |channel: &Channel| {
@@ -192,24 +193,26 @@ impl TransientModel {
     ) -> Result<TransientResponse, TransientError> {
         let substeps = forces.substeps.max(1);
         let length = forces.step / substeps as f64;
-        let mut march = self.start(initial, parameters, length);
+        let (mut march, mut writer) = self.start(initial, parameters, length);
         let count = self.sensors.len();
         let mut channels = vec![Vec::with_capacity(forces.samples); count];
         let mut derivatives = vec![vec![Vec::with_capacity(forces.samples); count]; parameters.len()];
-        let at = |n: usize| -> Vec<f64> { forces.forces.iter().map(|list| list[n]).collect() };
-        let mut u = at(0);
-        self.write(&mut march, &u, &mut channels, &mut derivatives);
-        for n in 1..forces.samples {
-            let next = at(n);
-            for k in 0..substeps {
-                let between = |share: f64| u.iter().zip(&next).map(|(a, b)| a + share * (b - a)).collect::<Vec<f64>>();
+        let drives = forces.forces.len();
+        let (mut u, mut from, mut to) = (vec![0.0; drives], vec![0.0; drives], vec![0.0; drives]);
+        for n in 0..forces.samples {
+            for k in 0..if n == 0 { 0 } else { substeps } {
                 let share = |k: usize| k as f64 / substeps as f64;
-                march.advance(&between(share(k)), &between(share(k + 1)))?;
+                for (i, list) in forces.forces.iter().enumerate() {
+                    let (a, b) = (list[n - 1], list[n]);
+                    from[i] = a + share(k) * (b - a);
+                    to[i] = a + share(k + 1) * (b - a);
+                }
+                march.advance(&from, &to)?;
             }
-            u = next;
-            self.write(&mut march, &u, &mut channels, &mut derivatives);
+            u.iter_mut().zip(&forces.forces).for_each(|(u, list)| *u = list[n]);
+            self.write(&mut march, &mut writer, &u, &mut channels, &mut derivatives);
         }
-        if !march.z.iter().all(|z| z.re.is_finite() && z.im.is_finite()) {
+        if !march.z.iter().all(|z| z.is_finite()) {
             return Err(TransientError::StepFailed);
         }
         Ok(TransientResponse { channels, derivatives, end: self.state(&march.z) })
@@ -220,7 +223,7 @@ impl TransientModel {
         if self.reduction.omega[r] > 0.0 { self.reduction.omega[r] } else { 1.0 }
     }
 
-    fn modes_of(&self, state: &[f64]) -> Vec<c64> {
+    fn modes_of(&self, state: &[f64]) -> Vec<f64> {
         let (kept, size) = (self.kept(), self.system.coordinates());
         let mut displacement = vec![0.0; size];
         let mut velocity = vec![0.0; size];
@@ -231,34 +234,44 @@ impl TransientModel {
         self.system.modes_of(&displacement, &velocity)
     }
 
-    fn state(&self, z: &[c64]) -> Vec<f64> {
+    fn state(&self, z: &[f64]) -> Vec<f64> {
         let (p, v) = self.system.coordinates_of(z);
         let kept = self.kept();
         (0..kept).map(|r| p[r]).chain((0..kept).map(|r| v[r] / self.rate(r))).collect()
     }
 
-    fn start(&self, initial: &[f64], parameters: &[TransientParameter], length: f64) -> March<'_> {
+    fn start(&self, initial: &[f64], parameters: &[TransientParameter], length: f64) -> (March<'_>, Writer) {
         let element = |(source, _, form, law, p): &Nonlinear| Element::new(*source, *form, *law, p, parameters.len());
-        let elements = self.legs.iter().map(element).collect();
-        let sensitivities = parameters.iter().map(|p| self.sensitivity(*p, initial)).collect();
-        March::new(&self.system, &self.views, elements, self.modes_of(initial), sensitivities, length)
+        let elements: Vec<Element> = self.legs.iter().map(element).collect();
+        let mut changes: Vec<LinearChange> = Vec::new();
+        let mut sensitivities = Vec::new();
+        for parameter in parameters {
+            let change = self.change(*parameter).map(|change| {
+                changes.push(change);
+                changes.len() - 1
+            });
+            sensitivities.push(self.sensitivity(*parameter, initial.len(), change));
+        }
+        let drives = self.system.beta.len() - elements.len();
+        let writer = Writer::new(self, &changes);
+        let from = (self.modes_of(initial), drives);
+        (March::new(&self.system, &self.views, elements, from, (sensitivities, &changes), length), writer)
     }
 
-    fn sensitivity(&self, parameter: TransientParameter, initial: &[f64]) -> Sensitivity {
-        let change = self.change(parameter);
-        let modes = match parameter {
+    fn sensitivity(&self, parameter: TransientParameter, initial: usize, change: Option<usize>) -> Sensitivity {
+        let state = match parameter {
             TransientParameter::Initial(k) => {
-                let mut unit = vec![0.0; initial.len()];
+                let mut unit = vec![0.0; initial];
                 unit[k] = 1.0;
                 self.modes_of(&unit)
             }
-            _ => vec![c64::new(0.0, 0.0); self.system.lambda.len()],
+            _ => vec![0.0; 2 * self.system.lambda.len()],
         };
         let own = match parameter {
             TransientParameter::Source { source, parameter } => Some((source, parameter)),
             _ => None,
         };
-        Sensitivity { modes, own, change, forces: vec![0.0; self.legs.len()] }
+        Sensitivity { state, own, change }
     }
 
     fn change(&self, parameter: TransientParameter) -> Option<LinearChange> {
@@ -271,10 +284,17 @@ impl TransientModel {
     }
 
     /// What the channels show at the present sample under the drives `u`.
-    fn write(&self, march: &mut March, u: &[f64], channels: &mut [Vec<f64>], derivatives: &mut [Vec<Vec<f64>>]) {
+    fn write(
+        &self,
+        march: &mut March,
+        writer: &mut Writer,
+        u: &[f64],
+        channels: &mut [Vec<f64>],
+        derivatives: &mut [Vec<Vec<f64>>],
+    ) {
         let count = march.elements.len();
         let motion: Vec<[f64; 2]> =
-            self.views.iter().map(|v| [v.displacement.at(&march.z), v.velocity.at(&march.z)]).collect();
+            self.views.iter().map(|v| [dot(&v.displacement, &march.z), dot(&v.velocity, &march.z)]).collect();
         let mut inputs = vec![0.0; count + u.len()];
         let mut slopes = Vec::with_capacity(count);
         for l in 0..count {
@@ -287,43 +307,91 @@ impl TransientModel {
         for (sensor, list) in self.sensors.iter().zip(channels) {
             list.push(match sensor.drive {
                 Some(drive) => u.get(drive).copied().unwrap_or(0.0),
-                None => seen(&sensor.functional, &march.z, &inputs),
+                None => dot(&sensor.functional.row, &march.z) + dot(&sensor.functional.inputs, &inputs),
             });
         }
-        let mut pushes = vec![0.0; count + u.len()];
+        if derivatives.is_empty() {
+            return;
+        }
+        writer.changed(&march.z, &inputs);
+        let width = march.z.len();
+        scalar_products(&writer.sensors, &march.derivatives.states, width, &mut writer.seen);
+        let sensors = self.sensors.len();
+        let mut pushes = vec![0.0; count];
         for (theta, lists) in derivatives.iter_mut().enumerate() {
             for l in 0..count {
                 pushes[l] = -self.force_change(march, theta, l, motion[l], slopes[l]);
             }
-            let s = &march.sensitivities[theta];
-            for (sensor, list) in self.sensors.iter().zip(lists) {
+            for (c, (sensor, list)) in self.sensors.iter().zip(lists).enumerate() {
                 if sensor.drive.is_some() {
                     list.push(0.0);
                     continue;
                 }
-                let mut value = seen(&sensor.functional, &s.modes, &pushes);
-                if let (Some(pattern), Some(change)) = (&sensor.pattern, &s.change) {
-                    value += seen(&self.system.acceleration_change(pattern, change), &march.z, &inputs);
-                }
-                list.push(value);
+                let pushed: f64 = sensor.functional.inputs.iter().zip(&pushes).map(|(c, f)| c * f).sum();
+                let changed = march.derivatives.changed[theta].map_or(0.0, |k| writer.by_change[k * sensors + c]);
+                list.push(writer.seen[theta * sensors + c] + pushed + changed);
             }
         }
     }
 
     /// Derivative of the present force of element `l`.
     fn force_change(&self, march: &mut March, theta: usize, l: usize, motion: [f64; 2], slopes: [f64; 2]) -> f64 {
-        let s = &march.sensitivities[theta];
         let element = &mut march.elements[l];
         if element.form == Form::Friction && march.side[l] == 0.0 {
-            return s.forces[l];
+            return march.derivatives.forces[theta * self.views.len() + l];
         }
-        let own = s.own.filter(|(source, _)| *source == element.source).map(|(_, k)| k);
-        let view = &self.views[l];
-        let moved = slopes[0] * view.displacement.at(&s.modes) + slopes[1] * view.velocity.at(&s.modes);
+        let own = march.derivatives.own[l][theta];
+        let mut moved = 0.0;
+        if slopes != [0.0; 2] {
+            let (view, state) = (&self.views[l], march.derivatives.state(theta));
+            moved = slopes[0] * dot(&view.displacement, state) + slopes[1] * dot(&view.velocity, state);
+        }
         moved + element.instant_by(theta, own, motion[0], motion[1], march.side[l])
     }
 }
 
-fn seen(functional: &Functional, z: &[c64], inputs: &[f64]) -> f64 {
-    functional.at(z) + functional.inputs.iter().zip(inputs).map(|(c, f)| c * f).sum::<f64>()
+/// What turns states into samples of the channels.
+struct Writer {
+    /// Rows of the sensors, one behind the other.
+    sensors: Vec<f64>,
+    /// How accelerations change with each change of the linear part at a fixed state: rows on the state and on the inputs, a
+    /// sensor after the other, `width` numbers each.
+    changes: Vec<f64>,
+    width: usize,
+    state: Vec<f64>,
+    by_change: Vec<f64>,
+    seen: Vec<f64>,
+}
+
+impl Writer {
+    fn new(model: &TransientModel, changes: &[LinearChange]) -> Self {
+        let width = 2 * model.system.lambda.len() + model.system.beta.len();
+        let mut rows = Vec::with_capacity(changes.len() * model.sensors.len() * width);
+        for change in changes {
+            for sensor in &model.sensors {
+                match &sensor.pattern {
+                    Some(pattern) => {
+                        let Functional { row, inputs } = model.system.acceleration_change(pattern, change);
+                        rows.extend(row.iter().chain(&inputs));
+                    }
+                    None => rows.resize(rows.len() + width, 0.0),
+                }
+            }
+        }
+        Self {
+            sensors: model.sensors.iter().flat_map(|s| s.functional.row.iter().copied()).collect(),
+            changes: rows,
+            width,
+            state: Vec::new(),
+            by_change: Vec::new(),
+            seen: Vec::new(),
+        }
+    }
+
+    /// What the changes of the linear part do to the samples at a state under inputs.
+    fn changed(&mut self, z: &[f64], inputs: &[f64]) {
+        self.state.clear();
+        self.state.extend(z.iter().chain(inputs));
+        scalar_products(&self.changes, &self.state, self.width, &mut self.by_change);
+    }
 }

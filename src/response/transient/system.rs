@@ -33,17 +33,10 @@ impl Matrices {
 /// A linear functional of the state: what a sensor or an element sees.
 #[derive(Debug, Clone)]
 pub(super) struct Functional {
-    /// On the kept damped modes: `Re sum_k c_k z_k`.
-    pub modes: Vec<c64>,
+    /// On a flat state: `Re sum_k c_k z_k`.
+    pub row: Vec<f64>,
     /// On the inputs: only accelerations feel forces at once.
     pub inputs: Vec<f64>,
-}
-
-impl Functional {
-    /// Value at the modes `z`, without the inputs.
-    pub fn at(&self, z: &[c64]) -> f64 {
-        self.modes.iter().zip(z).map(|(c, z)| c.re * z.re - c.im * z.im).sum()
-    }
 }
 
 /// How the linear part changes with one parameter.
@@ -71,8 +64,9 @@ pub(super) struct LinearSystem {
     forward: Mat<c64>,
     /// Columns of `V` of the kept modes.
     backward: Mat<c64>,
-    /// `beta`, one list an input.
+    /// `beta`, one list an input; and flat.
     pub beta: Vec<Vec<c64>>,
+    pub patterns: Vec<Vec<f64>>,
     /// Scale of displacements, rad/s.
     scale: Vec<f64>,
     /// `[A_21 A_22]`, coordinates x 2 coordinates.
@@ -108,9 +102,10 @@ impl LinearSystem {
         let lambda: Vec<c64> = kept.iter().map(|&k| values[k]).collect();
         let weight = lambda.iter().map(|l| if l.im > 0.0 { 2.0 } else { 1.0 }).collect();
         let pushes = if patterns.ncols() == 0 { patterns.clone() } else { mass.solve(patterns.as_ref()) };
-        let beta = (0..patterns.ncols()).map(|i| lifted(&forward, &pushes, i)).collect();
+        let beta: Vec<Vec<c64>> = (0..patterns.ncols()).map(|i| lifted(&forward, &pushes, i)).collect();
+        let patterns = beta.iter().map(|b| flat(b)).collect();
         let damping = matrices.damping.clone();
-        Ok(Self { lambda, weight, forward, backward, beta, scale, rates, pushes, stiffness, damping, mass })
+        Ok(Self { lambda, weight, forward, backward, beta, patterns, scale, rates, pushes, stiffness, damping, mass })
     }
 
     /// Number of reduced coordinates.
@@ -118,8 +113,8 @@ impl LinearSystem {
         self.scale.len()
     }
 
-    /// Damped modes of the state with displacement and velocity of the coordinates.
-    pub fn modes_of(&self, displacement: &[f64], velocity: &[f64]) -> Vec<c64> {
+    /// Flat state with displacement and velocity of the coordinates.
+    pub fn modes_of(&self, displacement: &[f64], velocity: &[f64]) -> Vec<f64> {
         let m = self.coordinates();
         let sum = |k: usize| {
             (0..m)
@@ -128,13 +123,14 @@ impl LinearSystem {
                 })
                 .sum()
         };
-        (0..self.lambda.len()).map(sum).collect()
+        flat(&(0..self.lambda.len()).map(sum).collect::<Vec<c64>>())
     }
 
-    /// Displacements and velocities of the coordinates in the state `z`.
-    pub fn coordinates_of(&self, z: &[c64]) -> (Vec<f64>, Vec<f64>) {
-        let m = self.coordinates();
-        let row = |i: usize| (0..z.len()).map(|k| self.weight[k] * (self.backward[(i, k)] * z[k]).re).sum::<f64>();
+    /// Displacements and velocities of the coordinates in the flat state `z`.
+    pub fn coordinates_of(&self, z: &[f64]) -> (Vec<f64>, Vec<f64>) {
+        let (m, count) = (self.coordinates(), self.lambda.len());
+        let at = |i: usize, k: usize| (self.backward[(i, k)] * c64::new(z[k], z[count + k])).re;
+        let row = |i: usize| (0..count).map(|k| self.weight[k] * at(i, k)).sum::<f64>();
         ((0..m).map(|r| row(r) / self.scale[r]).collect(), (0..m).map(|r| row(m + r)).collect())
     }
 
@@ -147,19 +143,21 @@ impl LinearSystem {
             _ => weighted_rows(pattern, &self.rates),
         };
         let inputs = if order == 2 { weighted_rows(pattern, &self.pushes) } else { vec![0.0; self.beta.len()] };
-        Functional { modes: self.on_modes(&row), inputs }
+        Functional { row: self.on_modes(&row), inputs }
     }
 
     /// How an acceleration along `pattern` changes with a parameter at a fixed state.
     pub fn acceleration_change(&self, pattern: &[f64], change: &LinearChange) -> Functional {
-        let modes = self.on_modes(&weighted_rows(pattern, &change.rates));
-        Functional { modes, inputs: weighted_rows(pattern, &change.pushes) }
+        let row = self.on_modes(&weighted_rows(pattern, &change.rates));
+        Functional { row, inputs: weighted_rows(pattern, &change.pushes) }
     }
 
-    fn on_modes(&self, row: &[f64]) -> Vec<c64> {
-        let of =
-            |k: usize| self.weight[k] * row.iter().enumerate().map(|(i, r)| self.backward[(i, k)] * *r).sum::<c64>();
-        (0..self.lambda.len()).map(of).collect()
+    /// The row on flat states of one on the states of the coordinates.
+    fn on_modes(&self, row: &[f64]) -> Vec<f64> {
+        let of = |k: usize| {
+            (row.iter().enumerate().map(|(i, r)| self.backward[(i, k)] * *r).sum::<c64>() * self.weight[k]).conj()
+        };
+        flat(&(0..self.lambda.len()).map(of).collect::<Vec<c64>>())
     }
 
     /// Of the derivatives of the reduced matrices by a parameter.
@@ -195,6 +193,11 @@ impl LinearSystem {
         let inputs = (0..pushes.ncols()).map(|i| lifted(&self.forward, &pushes, i)).collect();
         LinearChange { direct, conjugate, inputs, rates, pushes }
     }
+}
+
+/// The real parts, behind them the imaginary parts.
+fn flat(z: &[c64]) -> Vec<f64> {
+    z.iter().map(|z| z.re).chain(z.iter().map(|z| z.im)).collect()
 }
 
 /// `V^-1 [0; b]` of column `input`.

@@ -1,0 +1,188 @@
+//! The normal equations of a fit of records at a point: products of the derivatives of every record, with the priors of the
+//! corrections, and the step of Levenberg and Marquardt that follows from them.
+
+use super::data::RecordError;
+use super::fit::{Fit, FittedRecords, PRIORS, modes};
+use crate::response::transient::{TransientError, TransientParameter};
+use dashpot_numerics::{Cholesky, dot};
+use faer::Mat;
+
+/// Normal equations at a point.
+pub(super) struct Normal {
+    pub matrix: Mat<f64>,
+    pub gradient: Vec<f64>,
+    pub left: Left,
+}
+
+/// What is left at a point.
+#[derive(Default)]
+pub(super) struct Left {
+    pub chi_square: f64,
+    pub prior: f64,
+    pub count: usize,
+    pub residual: Vec<Vec<Vec<f64>>>,
+}
+
+impl Left {
+    pub fn total(&self, unit: f64) -> f64 {
+        self.chi_square + unit * self.prior
+    }
+}
+
+impl Fit<'_> {
+    pub(super) fn normal(&self, at: &FittedRecords, scales: &[Vec<f64>], unit: f64) -> Result<Normal, RecordError> {
+        let size = self.shared(at) + self.records.list.len() * self.local();
+        let mut normal = Normal { matrix: Mat::zeros(size, size), gradient: vec![0.0; size], left: Left::default() };
+        let parts = self.control.map(self.records.list.len(), |r| self.part(at, scales, r));
+        for part in parts {
+            let part = part?;
+            normal.add(&part);
+            normal.left.chi_square += part.square;
+            normal.left.count += part.left.iter().map(Vec::len).sum::<usize>();
+            normal.left.residual.push(part.left);
+        }
+        for (k, value, deviation) in self.priors(at) {
+            let weight = unit * deviation.powi(-2);
+            normal.matrix[(k, k)] += weight;
+            normal.gradient[k] -= weight * value;
+            normal.left.prior += (value / deviation).powi(2);
+        }
+        // What is held moves nowhere.
+        let laws = self.shared(at) - self.free.corrections.len();
+        for (j, _) in self.free.corrections.iter().enumerate().filter(|(_, free)| !**free) {
+            normal.matrix[(laws + j, laws + j)] = 1.0;
+        }
+        Ok(normal)
+    }
+
+    /// What a model leaves, without derivatives.
+    pub(super) fn left(&self, at: &FittedRecords) -> Result<Left, RecordError> {
+        let one = |r: usize| -> Result<Vec<Vec<f64>>, RecordError> {
+            let samples = self.samples(r);
+            self.over_noise(r, &at.predict(self.records, r, samples, &[])?.channels)
+        };
+        let mut left = Left::default();
+        for list in self.control.map(self.records.list.len(), one) {
+            let list = list?;
+            left.chi_square += list.iter().flatten().map(|e| e * e).sum::<f64>();
+            left.count += list.iter().map(Vec::len).sum::<usize>();
+            left.residual.push(list);
+        }
+        left.prior = self.priors(at).into_iter().map(|(_, value, deviation)| (value / deviation).powi(2)).sum();
+        Ok(left)
+    }
+
+    /// Samples of a record that are used.
+    fn samples(&self, r: usize) -> usize {
+        let length = self.records.list[r].len();
+        ((self.share * length as f64) as usize).clamp(16.min(length), length)
+    }
+
+    /// What a prediction of a record leaves, over the noise.
+    fn over_noise(&self, r: usize, predicted: &[Vec<f64>]) -> Result<Vec<Vec<f64>>, RecordError> {
+        let record = &self.records.list[r];
+        let of = |(c, model): (usize, &Vec<f64>)| {
+            let measured = record.samples[c].iter().zip(&record.sigma[c]);
+            model.iter().zip(measured).map(|(m, (y, s))| (y - m) / s).collect::<Vec<f64>>()
+        };
+        let left: Vec<Vec<f64>> = predicted.iter().enumerate().map(of).collect();
+        if left.iter().flatten().any(|e| !e.is_finite()) {
+            let (file, reason) = (record.file.clone(), TransientError::StepFailed);
+            return Err(RecordError::Model { file, reason });
+        }
+        Ok(left)
+    }
+
+    /// Products of the derivatives of one record.
+    fn part(&self, at: &FittedRecords, scales: &[Vec<f64>], r: usize) -> Result<RecordPart, RecordError> {
+        let unknowns = self.unknowns(at, scales, r);
+        let mut parameters: Vec<TransientParameter> = Vec::new();
+        for (p, ..) in &unknowns {
+            if !parameters.contains(p) {
+                parameters.push(*p);
+            }
+        }
+        let mut response = at.predict(self.records, r, self.samples(r), &parameters)?;
+        let left = self.over_noise(r, &response.channels)?;
+        let count = parameters.len();
+        let (mut products, mut against) = (vec![0.0; count * count], vec![0.0; count]);
+        for (c, e) in left.iter().enumerate() {
+            let sigma = &self.records.list[r].sigma[c];
+            for list in &mut response.derivatives {
+                list[c].iter_mut().zip(sigma).for_each(|(d, s)| *d /= s);
+            }
+            for a in 0..count {
+                let own = &response.derivatives[a][c];
+                against[a] += dot(own, e);
+                for b in 0..=a {
+                    products[a * count + b] += dot(own, &response.derivatives[b][c]);
+                }
+            }
+        }
+        for a in 0..count {
+            for b in 0..a {
+                products[b * count + a] = products[a * count + b];
+            }
+        }
+        let of = |p: &TransientParameter| parameters.iter().position(|q| q == p).unwrap_or(0);
+        let unknowns = unknowns.iter().map(|(p, k, s)| (of(p), *k, *s)).collect();
+        let square = left.iter().flatten().map(|e| e * e).sum();
+        Ok(RecordPart { unknowns, products, against, square, left })
+    }
+
+    /// Corrections with their prior deviations: number of the variable, value, deviation.
+    fn priors(&self, at: &FittedRecords) -> Vec<(usize, f64, f64)> {
+        let laws = self.shared(at) - self.free.corrections.len();
+        let mut list = Vec::new();
+        if !self.free.corrections.is_empty() {
+            list.push((laws, at.stiffness, PRIORS[0]));
+            list.extend(at.known.iter().enumerate().map(|(j, v)| (laws + 1 + j, *v, PRIORS[1])));
+            list.extend((0..modes(self.records)).map(|r| (laws + 1 + at.known.len() + r, at.modes[r], PRIORS[3])));
+            list.push((laws + self.free.corrections.len() - 1, at.mass, PRIORS[4]));
+            list.retain(|(k, ..)| self.free.corrections[k - laws]);
+        }
+        if self.free.shifts {
+            let at_record = |r: usize| self.shared(at) + r * self.local() + 2 * self.records.kept;
+            list.extend(at.shifts.iter().enumerate().map(|(r, v)| (at_record(r), *v, PRIORS[2])));
+        }
+        list
+    }
+}
+
+/// Products of the derivatives of one record.
+struct RecordPart {
+    /// Number of the derivative, of the variable, and the factor between them.
+    unknowns: Vec<(usize, usize, f64)>,
+    products: Vec<f64>,
+    against: Vec<f64>,
+    square: f64,
+    left: Vec<Vec<f64>>,
+}
+
+impl Normal {
+    fn add(&mut self, part: &RecordPart) {
+        let count = part.against.len();
+        for (p, k, s) in &part.unknowns {
+            self.gradient[*k] += s * part.against[*p];
+            for (q, l, t) in &part.unknowns {
+                self.matrix[(*k, *l)] += s * t * part.products[p * count + q];
+            }
+        }
+    }
+}
+
+/// Step of Levenberg and Marquardt in scaled variables.
+pub(super) fn solve(normal: &Normal, damping: f64) -> Option<Vec<f64>> {
+    let size = normal.gradient.len();
+    let greatest = (0..size).map(|k| normal.matrix[(k, k)]).fold(0.0, f64::max);
+    let scale: Vec<f64> =
+        (0..size).map(|k| normal.matrix[(k, k)].max(1e-20 * greatest).max(1e-300).sqrt().recip()).collect();
+    let matrix = Mat::from_fn(size, size, |i, j| {
+        let extra = if i == j { damping } else { 0.0 };
+        normal.matrix[(i, j)] * scale[i] * scale[j] + extra
+    });
+    let rhs = Mat::from_fn(size, 1, |i, _| normal.gradient[i] * scale[i]);
+    let x = Cholesky::new(matrix.as_ref())?.solve(rhs.as_ref());
+    let change: Vec<f64> = (0..size).map(|i| x[(i, 0)] * scale[i]).collect();
+    change.iter().all(|x| x.is_finite()).then_some(change)
+}
