@@ -136,7 +136,43 @@ const UNITS: &[&str] = &[
 pub fn is_unit(word: &str) -> bool {
     let plain = stripped(word.trim());
     let plain: String = plain.chars().filter(|c| !c.is_whitespace()).collect::<String>().to_lowercase();
-    UNITS.contains(&plain.as_str())
+    UNITS.contains(&plain.as_str()) || is_ratio(&plain) || reference_of_decibel(&plain).is_some()
+}
+
+/// Whether a text without blanks is one unit over another: `(m/s^2)/lbf`, `mm/kN`, `(1/N)*(m/s²)`, `1/kg`.
+fn is_ratio(plain: &str) -> bool {
+    let plain = stripped(plain);
+    let inverse = plain.strip_prefix("(1/").or_else(|| plain.strip_prefix("1/"));
+    if let Some(rest) = inverse {
+        let (under, over) = rest.split_once(['*', '·']).unwrap_or((rest, "m"));
+        return is_side(under.trim_end_matches(')')) && is_side(over);
+    }
+    plain.rsplit_once('/').is_some_and(|(over, under)| is_side(over) && is_side(under))
+}
+
+fn is_side(text: &str) -> bool {
+    UNITS.contains(&stripped(text)) && !matches!(stripped(text), "-" | "none")
+}
+
+/// Unit and value of the magnitude at 0 dB of a unit such as `dB`, `dB re 1 m/s²/N`, `dB(g/N)`, `dB rel. 1e-6 m/N`; none
+/// for other units.
+pub fn reference_of_decibel(unit: &str) -> Option<(String, f64)> {
+    let unit = unit.trim();
+    let head = unit.get(..2).filter(|head| head.eq_ignore_ascii_case("db"))?;
+    let rest = unit[head.len()..].trim();
+    let rest = stripped(rest.trim_start_matches(['/', ',', ':']).trim());
+    let lower = rest.to_lowercase();
+    let word =
+        ["reference", "relative", "ref.", "ref", "rel.", "rel", "re."].iter().find(|word| lower.starts_with(**word));
+    let word = word.or_else(|| ["re"].iter().find(|word| lower.starts_with(**word)));
+    let rest = rest[word.map_or(0, |word| word.len())..].trim_start_matches([':', '=']).trim();
+    let number = rest.find(|c: char| !matches!(c, '0'..='9' | '.' | '-' | '+' | 'e' | 'E')).unwrap_or(rest.len());
+    // `1/kg` and `1g`: digits may belong to the unit or stand right in front of it.
+    let (number, unit) = if rest[number..].starts_with('/') { ("", rest) } else { rest.split_at(number) };
+    let value = if number.is_empty() { 1.0 } else { number.parse().ok()? };
+    let unit = stripped(unit.trim());
+    let known = unit.is_empty() || word.is_some() || is_unit(unit);
+    (known && value > 0.0 && f64::is_finite(value)).then(|| (unit.to_owned(), value))
 }
 
 /// The text without one pair of brackets around it.
@@ -165,18 +201,53 @@ pub fn split(text: &str) -> (String, String) {
     if let Some((name, unit)) = text.split_once(" / ").filter(|(_, unit)| is_unit(unit)) {
         return (name.trim().to_owned(), unit.trim().to_owned());
     }
+    if let Some((name, unit)) = text.rsplit_once(" in ").filter(|(name, unit)| is_unit(unit) && !name.trim().is_empty())
+    {
+        return (name.trim().to_owned(), unit.trim().to_owned());
+    }
+    if let Some((name, unit)) = text.rsplit_once(',').filter(|(name, unit)| is_unit(unit) && !name.trim().is_empty()) {
+        return (name.trim().to_owned(), unit.trim().to_owned());
+    }
     (text.to_owned(), String::new())
 }
 
 fn bracketed(text: &str, open: char, close: char) -> Option<(String, String)> {
     let inner = text.strip_suffix(close)?;
-    let at = inner.rfind(open)?;
+    let at = opening(inner, open, close)?;
     Some((inner[..at].trim().to_owned(), inner[at + open.len_utf8()..].trim().to_owned()))
+}
+
+/// Place of the bracket that the one behind the text closes: `dB (m/s²)/N` within brackets has some of its own.
+fn opening(inner: &str, open: char, close: char) -> Option<usize> {
+    let mut depth = 1;
+    for (i, c) in inner.char_indices().rev() {
+        depth += i32::from(c == close) - i32::from(c == open);
+        if depth == 0 {
+            return Some(i);
+        }
+    }
+    None
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn ratios_and_levels_are_units() {
+        assert!(
+            ["(m/s^2)/lbf", "mm/kN", "1/kg", "(1/N)*(m/s²)", "dB re 1 m/s²/N", "dB"].iter().all(|unit| is_unit(unit))
+        );
+        assert!(!["12:+Z/1:+Z", "H/T", "acc@7/force@19", "debug", "1/7"].iter().any(|unit| is_unit(unit)));
+        let db = |unit| reference_of_decibel(unit);
+        assert_eq!(db("dB"), Some((String::new(), 1.0)));
+        assert_eq!(db("dB re 1 m/s²/N"), Some(("m/s²/N".to_owned(), 1.0)));
+        assert_eq!(db("dB(g/N)"), Some(("g/N".to_owned(), 1.0)));
+        assert_eq!(db("dB rel. 1e-6 m/N"), Some(("m/N".to_owned(), 1e-6)));
+        assert_eq!((db("g"), db("dBm?")), (None, None));
+        assert_eq!(split("Betrag in (m/s²)/N"), ("Betrag".to_owned(), "(m/s²)/N".to_owned()));
+        assert_eq!(split("Mag (dB re 1 (m/s²)/N)"), ("Mag".to_owned(), "dB re 1 (m/s²)/N".to_owned()));
+    }
 
     #[test]
     fn names_lose_their_units() {

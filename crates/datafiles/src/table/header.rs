@@ -2,6 +2,7 @@
 
 use super::HeaderLine;
 use super::cell::number;
+use crate::parts::is_bare_part;
 use crate::units::{is_unit, split, stripped};
 
 /// What a header says.
@@ -23,6 +24,52 @@ const UNIT_WORDS: [&str; 6] = ["unit", "units", "einheit", "einheiten", "y_unit"
 
 /// Reads the header of a block of `width` columns.
 pub(crate) fn read(lines: &[HeaderLine], width: usize) -> Header {
+    let Some((parts, lines)) = parts_below_names(lines, width) else { return rows(lines, width) };
+    let mut header = rows(&lines, width);
+    for (name, part) in header.names.iter_mut().zip(&parts.cells) {
+        if !part.trim().is_empty() {
+            *name = format!("{name} {}", part.trim()).trim().to_owned();
+        }
+    }
+    header
+}
+
+/// A row of `Real`, `Imag` (or `Mag [g/N]`, `Phase [deg]`) below names that stand once over both: the row, and the other lines
+/// with the names over every column.
+fn parts_below_names(lines: &[HeaderLine], width: usize) -> Option<(HeaderLine, Vec<HeaderLine>)> {
+    let is_parts = |line: &HeaderLine| {
+        let parts = line.cells.iter().filter(|cell| is_bare_part(cell)).count();
+        parts > 1 && 2 * parts > line.cells.iter().filter(|cell| !cell.is_empty()).count()
+    };
+    let at = lines.iter().rposition(is_parts).filter(|_| width > 2)?;
+    let names = (at.saturating_sub(2)..at).rev().find(|&i| {
+        let filled = lines[i].cells.iter().filter(|cell| !cell.is_empty()).count();
+        lines[i].cells.len() > 1 && filled > 1 && !units_row(&lines[i].cells) && lines[i].cells.len() + 2 > width
+    })?;
+    let mut parts = lines[at].clone();
+    let mut others = lines.to_vec();
+    let cells = &mut others[names].cells;
+    cells.resize(width, String::new());
+    for c in 1..width {
+        if is_bare_part(parts.cells.get(c).map_or("", String::as_str)) {
+            if cells[c].is_empty() {
+                cells[c] = cells[c - 1].clone();
+            }
+        } else if let Some(cell) = parts.cells.get_mut(c).filter(|cell| is_unit(cell)) {
+            cell.clear();
+        }
+    }
+    // What the first column says there is the unit of the abscissa.
+    let first = parts.cells.first_mut()?;
+    if is_unit(first) && split(&others[names].cells[0]).1.is_empty() {
+        others[names].cells[0] = format!("{} [{first}]", others[names].cells[0]).trim().to_owned();
+        first.clear();
+    }
+    others.remove(at);
+    Some((parts, others))
+}
+
+fn rows(lines: &[HeaderLine], width: usize) -> Header {
     let mut header =
         Header { names: vec![String::new(); width], units: vec![String::new(); width], ..Header::default() };
     let labelled = |words: &[&str]| {
@@ -170,6 +217,17 @@ mod tests {
     fn labelled_rows_are_found_in_deep_headers() {
         let header = read(&lines(&["Channel;A1;A2", "Unit;g;N", "Serial;12;13"]), 3);
         assert_eq!((header.names[1].as_str(), header.units[2].as_str()), ("A1", "N"));
+    }
+
+    #[test]
+    fn parts_stand_below_names_over_both() {
+        let header = read(&lines(&["Frequency;Point 1;;Point 2", "Hz;Real;Imag;Real;Imag"]), 5);
+        let names = "Frequency,Point 1 Real,Point 1 Imag,Point 2 Real,Point 2 Imag";
+        assert_eq!((header.names.join(",").as_str(), header.units[0].as_str()), (names, "Hz"));
+        let header = read(&lines(&["f;H11;H11", "[Hz];[m/s²/N];[m/s²/N]", "-;Re;Im"]), 3);
+        assert_eq!((header.names[2].as_str(), header.units[2].as_str()), ("H11 Im", "m/s²/N"));
+        let header = read(&lines(&["Frequency;Real;Imag", "Hz;g/N;g/N"]), 3);
+        assert_eq!((header.names.join(",").as_str(), header.units[2].as_str()), ("Frequency,Real,Imag", "g/N"));
     }
 
     #[test]
