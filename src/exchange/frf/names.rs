@@ -88,6 +88,12 @@ pub fn pair_in_name(name: &str) -> Option<[String; 2]> {
     <[String; 2]>::try_from(places).ok()
 }
 
+/// Response in a name that says no reference, such as `Point 3` or `Acc 12 +Z`: from its first digit on.
+pub fn response_in_name(name: &str) -> Option<String> {
+    let from = name.find(|c: char| c.is_ascii_digit())?;
+    Some(name[from..].trim_end_matches(|c: char| !c.is_alphanumeric()).to_owned())
+}
+
 /// Direction of a number of the file, whatever its sign.
 fn direction(number: i64) -> Option<Direction> {
     let all = [Direction::X, Direction::Y, Direction::Z, Direction::Rx, Direction::Ry, Direction::Rz];
