@@ -405,7 +405,7 @@ def lms(values, label, name):
 
 @case("testlab.mat")
 def _(p):
-    scipy.io.savemat(p, {"Signal_0": lms(FORCE[:, None], "N", "Force:1:+Z"), "Signal_1": lms(ACC[:, None], "g" if False else "m/s^2", "Plate:1:+Z")})
+    scipy.io.savemat(p, {"Signal_0": lms(FORCE[:, None], "N", "Force:1:+Z"), "Signal_1": lms(ACC[:, None], "m/s^2", "Plate:1:+Z")})
 
 
 @case("testlab-one.mat")
@@ -464,7 +464,7 @@ def _(p):
         data.attrs["units"] = ["s", "N", "m/s^2"]
 
 
-@case("compound.h5")
+@case("compound.h5", (), LINE)
 def _(p):
     rows = np.zeros(N, dtype=[("time", "f8"), ("force", "f4"), ("acc", "f8")])
     rows["time"], rows["force"], rows["acc"] = T, FORCE, ACC
@@ -493,7 +493,7 @@ def _(p):
     np.savez_compressed(p, fs=FS, data=np.column_stack([FORCE, ACC]), channels=np.array(["force", "acc"]))
 
 
-@case("structured.npy")
+@case("structured.npy", (), LINE)
 def _(p):
     rows = np.zeros(N, dtype=[("time", "f8"), ("force", "f8"), ("acc", "f8")])
     rows["time"], rows["force"], rows["acc"] = T, FORCE, ACC
@@ -530,7 +530,7 @@ def _(p):
                               ChannelObject("Log", "Acceleration", ACC, {"unit_string": "m/s^2"})])
 
 
-@case("stereo.wav", (), "opens")
+@case("stereo.wav", (), LINE)
 def _(p):
     with wave.open(str(p), "wb") as f:
         f.setnchannels(2), f.setsampwidth(2), f.setframerate(1000)
@@ -584,7 +584,8 @@ def _(p):
 def uff_time(name, values, node, unit, kind):
     return {"type": 58, "func_type": 1, "rsp_node": node, "rsp_dir": 3, "ref_node": 0, "ref_dir": 0, "data": values, "x": T, "id1": name, "rsp_ent_name": "NONE",
             "ref_ent_name": "NONE", "abscissa_spacing": 1, "abscissa_min": 0.0, "abscissa_inc": 1 / FS, "spec_data_type": kind, "ordinate_spec_data_type": kind,
-            "ordinate_axis_units_lab": unit, "abscissa_spec_data_type": 17, "abscissa_axis_units_lab": "s", "binary": 0, "ord_data_type": 4}
+            "ordinate_axis_units_lab": unit, "abscissa_spec_data_type": 17, "abscissa_axis_units_lab": "s", "orddenom_spec_data_type": 0,
+            "orddenom_axis_units_lab": "NONE", "binary": 0, "ord_data_type": 4}
 
 
 @case("time.uff")
@@ -721,7 +722,7 @@ def _(p):
     file.write_sets({"type": 58, "func_type": 4, "rsp_node": 1, "rsp_dir": 3, "ref_node": 1, "ref_dir": 3, "data": ACCELERANCE, "x": FREQ, "id1": "FRF",
                      "rsp_ent_name": "NONE", "ref_ent_name": "NONE", "abscissa_spacing": 1, "abscissa_min": 5.0, "abscissa_inc": 0.25, "ordinate_spec_data_type": 12,
                      "ordinate_axis_units_lab": "m/s^2", "orddenom_spec_data_type": 13, "orddenom_axis_units_lab": "N", "abscissa_spec_data_type": 18,
-                     "abscissa_axis_units_lab": "Hz", "binary": 1, "ord_data_type": 6}, "overwrite")
+                     "abscissa_axis_units_lab": "Hz", "binary": 0, "ord_data_type": 6}, "overwrite")
 
 
 @case("psd.csv", (), LINE)

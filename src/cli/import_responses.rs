@@ -4,7 +4,7 @@ use super::arguments_import::Import;
 use super::import::{comment, head, named, points as points_structure, project_file, write};
 use super::import_model::{Point, model, places};
 use crate::control::Control;
-use crate::exchange::frf::{pair_in_name, response_in_name};
+use crate::exchange::frf::{pair_in_name, plain_place, response_in_name};
 use crate::exchange::project::frf::FrfTable;
 use crate::exchange::project::plan;
 use anyhow::ensure;
@@ -275,7 +275,8 @@ fn points(names: &[String], files: &[DataFile]) -> anyhow::Result<Vec<(String, P
     let mut points: Vec<(String, Point)> = Vec::new();
     for name in names {
         // `ENTITY 12:+Z`, `acc@12`: what stands in front is no part of the place.
-        let plain = name.rsplit([' ', '@']).next().unwrap_or_default().trim_start_matches('-').replace(":-", ":+");
+        let plain = plain_place(name.rsplit('@').next().unwrap_or_default());
+        let plain = plain.rsplit(' ').next().unwrap_or_default().trim_start_matches('-').replace(":-", ":+");
         let digits = plain.find(|c: char| !c.is_ascii_digit()).unwrap_or(plain.len());
         let direction: String =
             plain[digits..].chars().filter(char::is_ascii_alphabetic).collect::<String>().to_lowercase();

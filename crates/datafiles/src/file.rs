@@ -78,7 +78,11 @@ type Tree = (Contents, Box<dyn Source>);
 
 fn opened(path: &Path, join: impl FnOnce(Contents, Box<dyn Source>) -> Read<Tree>) -> Result<DataFile, Error> {
     let name = path.display().to_string();
-    let opened = guarded(|| detect::open(path).and_then(|(contents, source)| join(contents, source)));
+    let opened = guarded(|| {
+        let (contents, source) = detect::open(path)?;
+        let (contents, source) = parts::among_channels(contents, source)?;
+        join(contents, source)
+    });
     let (contents, source) = opened.map_err(|fault| fault.of(&name))?;
     Ok(DataFile { path: path.to_owned(), contents, source })
 }

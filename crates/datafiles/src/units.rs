@@ -211,6 +211,103 @@ pub fn split(text: &str) -> (String, String) {
     (text.to_owned(), String::new())
 }
 
+/// Words that begin names of time, frequency, force and motion, whose last part may be a unit.
+const MEASURED: &[&str] = &[
+    "t",
+    "time",
+    "zeit",
+    "f",
+    "freq",
+    "force",
+    "kraft",
+    "load",
+    "a",
+    "acc",
+    "accel",
+    "acceleration",
+    "beschl",
+    "v",
+    "vel",
+    "velocity",
+    "d",
+    "x",
+    "y",
+    "z",
+    "disp",
+    "displacement",
+    "weg",
+    "pos",
+    "position",
+    "frequency",
+    "hammer",
+    "input",
+    "output",
+];
+
+/// Units behind a name of time, force or motion in its last parts: `acc_mg`, `force_N`, `acceleration_m_s2`: the name without
+/// the unit, and the unit.
+pub fn suffix(name: &str) -> Option<(&str, &'static str)> {
+    const ENDS: [(&str, &str); 25] = [
+        ("_m_s2", "m/s^2"),
+        ("_mm_s2", "mm/s^2"),
+        ("_m_s_2", "m/s^2"),
+        ("_ms2", "m/s^2"),
+        ("_mps2", "m/s^2"),
+        ("_m/s2", "m/s^2"),
+        ("_m/s^2", "m/s^2"),
+        ("_mm_s", "mm/s"),
+        ("_m_s", "m/s"),
+        ("_mg", "mg"),
+        ("_g", "g"),
+        ("_kN", "kN"),
+        ("_mN", "mN"),
+        ("_N", "N"),
+        ("_lbf", "lbf"),
+        ("_mm", "mm"),
+        ("_um", "um"),
+        ("_m", "m"),
+        ("_in", "in"),
+        ("_ms", "ms"),
+        ("_us", "us"),
+        ("_s", "s"),
+        ("_sec", "s"),
+        ("_mV", "mV"),
+        ("_V", "V"),
+    ];
+    let (end, unit) = ENDS.into_iter().find(|(end, _)| name.ends_with(end))?;
+    let front = &name[..name.len() - end.len()];
+    let word = front.split(|c: char| !c.is_alphabetic()).next().unwrap_or_default().to_lowercase();
+    MEASURED.contains(&word.as_str()).then_some((front, unit))
+}
+
+/// A sensitivity such as `22.5 mV/N` or `100mV/(m/s²)` anywhere in a text: the number, the unit over the stroke, the unit
+/// under it.
+pub fn sensitivity(text: &str) -> Option<(f64, String, String)> {
+    for (at, letter) in text.char_indices() {
+        let before = text[..at].chars().next_back();
+        if !letter.is_ascii_digit() || before.is_some_and(|c| c.is_alphanumeric() || matches!(c, '.' | ',')) {
+            continue;
+        }
+        let rest = &text[at..];
+        let end =
+            rest.find(|c: char| !matches!(c, '0'..='9' | '.' | ',' | 'e' | 'E' | '-' | '+')).unwrap_or(rest.len());
+        let Ok(value) = rest[..end].replace(',', ".").parse::<f64>() else { continue };
+        let Some((over, under)) = rest[end..].trim_start().split_once('/') else { continue };
+        let over = over.trim();
+        if !matches!(over.to_lowercase().as_str(), "mv" | "v" | "pc" | "uv" | "µv") {
+            continue;
+        }
+        // The unit goes as far as it is one.
+        let under = under.trim_start();
+        let cuts = under.char_indices().map(|(i, c)| i + c.len_utf8()).collect::<Vec<_>>();
+        let unit = cuts.into_iter().rev().map(|cut| under[..cut].trim()).find(|unit| is_unit(unit));
+        if let Some(unit) = unit.filter(|_| value > 0.0) {
+            return Some((value, over.to_owned(), stripped(unit).to_owned()));
+        }
+    }
+    None
+}
+
 fn bracketed(text: &str, open: char, close: char) -> Option<(String, String)> {
     let inner = text.strip_suffix(close)?;
     let at = opening(inner, open, close)?;
@@ -257,6 +354,22 @@ mod tests {
         assert_eq!(pair("Force (left)"), ("Force (left)".to_owned(), String::new()));
         assert_eq!(pair("Kraft / N"), ("Kraft".to_owned(), "N".to_owned()));
         assert_eq!(pair("time"), ("time".to_owned(), String::new()));
+    }
+
+    #[test]
+    fn units_and_sensitivities_in_names() {
+        assert_eq!(
+            (suffix("acc_mg"), suffix("acceleration_m_s2")),
+            (Some(("acc", "mg")), Some(("acceleration", "m/s^2")))
+        );
+        assert_eq!(
+            (suffix("time_s"), suffix("Acc 1_g"), suffix("run_s"), suffix("H_m")),
+            (Some(("time", "s")), Some(("Acc 1", "g")), None, None)
+        );
+        let said = |text| sensitivity(text).map(|(value, over, under)| format!("{value} {over} {under}"));
+        assert_eq!(said("Force (22.5 mV/N)").as_deref(), Some("22.5 mV N"));
+        assert_eq!(said("10,2mV/(m/s²)").as_deref(), Some("10.2 mV m/s²"));
+        assert_eq!((said("Acc 7"), said("12:+Z/1:+Z"), said("3.5 V")), (None, None, None));
     }
 
     #[test]

@@ -54,7 +54,27 @@ pub(super) fn place_of_name(
     if let Some(dof) = file_dof(asked) {
         return place(&dof, named, structure);
     }
+    let short = plain_place(asked);
+    if short != asked {
+        return place_of_name(short, named, structure);
+    }
     Err(format!("\"{asked}\" is no DOF of the structure; add `\"{plain}\" = LABEL` under [frf.dofs]"))
+}
+
+/// The place at the end of a name: `12:+Z` of `FRF Plate:12:+Z`, `1` of `Point 1`; the whole name where it ends in none.
+pub fn plain_place(name: &str) -> &str {
+    let name = name.trim();
+    let tail = name.trim_end_matches(|c: char| matches!(c, 'x' | 'y' | 'z' | 'X' | 'Y' | 'Z' | 'S'));
+    let tail = if name.len() - tail.len() > 1 { name } else { tail };
+    let axis = tail.trim_end_matches(['r', 'R']);
+    let tail = if tail.len() - axis.len() == 1 && tail.len() < name.len() { axis } else { tail };
+    let digits = tail.trim_end_matches(['+', '-', ':', '_', ' ']);
+    let front = digits.trim_end_matches(|c: char| c.is_ascii_digit());
+    if front.len() == digits.len() {
+        return name;
+    }
+    // A sign in front of the whole name reverses.
+    if front == "-" { name } else { &name[front.len()..] }
 }
 
 /// A DOF that is written as Universal Files write it: node, colon or none, sign, direction.
@@ -117,6 +137,21 @@ mod tests {
         assert_eq!(pair("H_7z_19z").as_deref(), Some("7z 19z"));
         assert_eq!(pair("FRF(3,1)").as_deref(), Some("3 1"));
         assert_eq!((pair("H[1]"), pair("FRF")), (None, None));
+    }
+
+    #[test]
+    fn places_at_the_end_of_names() {
+        for (name, place) in [
+            ("FRF Plate:12:+Z", "12:+Z"),
+            ("Point 1", "1"),
+            ("12z", "12z"),
+            ("-12z", "-12z"),
+            ("acc 7 rx", "7 rx"),
+            ("left wing", "left wing"),
+            ("7", "7"),
+        ] {
+            assert_eq!(plain_place(name), place);
+        }
     }
 
     #[test]

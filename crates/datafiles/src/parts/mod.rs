@@ -5,11 +5,13 @@
 //! Columns belong together by their names ([`words`]); where these say nothing, the user says by [`Pairing`] that they
 //! follow each other two by two. Phases without a unit are in radians where none is above 2 pi, else in degrees.
 
+mod abscissa;
 mod pairs;
 mod source;
 mod words;
 
-pub(crate) use source::Joined;
+pub(crate) use abscissa::among_channels;
+use source::Joined;
 
 use crate::axis::ascending;
 use crate::contents::{Axis, Channel, Contents, FIRST, Kind, Number, Set};

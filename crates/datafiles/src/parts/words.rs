@@ -70,7 +70,8 @@ const MAGNITUDE: &[&str] = &[
     "ampiezza",
     "gain",
 ];
-const PHASE: &[&str] = &["phase", "phas", "ph", "angle", "ang", "arg", "winkel", "fase", "phasenwinkel", "phasengang"];
+const PHASE: &[&str] =
+    &["phase", "phas", "ph", "angle", "ang", "arg", "winkel", "fase", "phasenwinkel", "phasengang", "phi", "φ"];
 const COHERENCE: &[&str] = &["coh", "coherence", "coherenza", "cohérence", "kohärenz", "kohaerenz", "gamma2", "coher"];
 const DECIBEL: &[&str] = &["db", "decibel"];
 const DEGREES: &[&str] = &["deg", "degree", "degrees", "grad", "gradi", "°"];
