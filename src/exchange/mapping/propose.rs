@@ -43,13 +43,19 @@ struct Draft<'a> {
 pub fn propose(contents: &Contents) -> Proposal {
     let mut proposal = Proposal::default();
     let mut drafts: Vec<Draft<'_>> = Vec::new();
+    let moves = |channel: &Channel| {
+        let quantity = LabUnit::from_name(&channel.unit).map(|unit| unit.quantity).or_else(|| spoken(&channel.name));
+        angle(&channel.name) || quantity.is_some_and(|quantity| quantity != Quantity::Force)
+    };
+    // Where another channel moves, `x` may be anything.
+    let moved = contents.sets.iter().flat_map(|set| &set.channels).any(moves);
     for set in contents.sets.iter().filter(|set| matches!(set.kind, Kind::Time | Kind::Table)) {
         for channel in set.channels.iter().filter(|channel| !channel.name.starts_with(TIMES)) {
             let same = |other: &&Channel| other.name == channel.name;
             let everywhere = contents.sets.iter().flat_map(|set| &set.channels).filter(same).count();
             let within = set.channels.iter().filter(same).count();
             let stated = (everywhere > within).then(|| set.name.clone());
-            match draft(channel, stated) {
+            match draft(channel, stated, moved) {
                 _ if within > 1 => proposal.leave(channel, "two channels of the set have that name"),
                 _ if channel.count == 0 => proposal.leave(channel, "it has 0 samples"),
                 _ if channel.complex => proposal.leave(channel, "it is complex"),
@@ -141,7 +147,7 @@ fn table(channel: &Channel, set: Option<String>, quantity: Quantity, label: Stri
     }
 }
 
-fn draft(channel: &Channel, set: Option<String>) -> Result<Draft<'_>, String> {
+fn draft(channel: &Channel, set: Option<String>, moved: bool) -> Result<Draft<'_>, String> {
     let of =
         |table: ChannelTable, placed: bool| Draft { channel, table, placed, calibrated: true, assumed: Vec::new() };
     if let Ok((quantity, label)) = parse_name(&channel.name) {
@@ -152,7 +158,8 @@ fn draft(channel: &Channel, set: Option<String>) -> Result<Draft<'_>, String> {
     }
     let unit = LabUnit::from_name(&channel.unit);
     let typed = channel.attribute("quantity").and_then(quantity_of_type);
-    let symbol = symbol(&channel.name).filter(|_| channel.unit.is_empty());
+    let symbol = symbol(&channel.name)
+        .filter(|quantity| channel.unit.is_empty() && (!moved || *quantity != Quantity::Displacement));
     let spoken = spoken(&channel.name).or(typed).or(symbol);
     let turned = unit.is_none() && channel.unit.is_empty() && angle(&channel.name);
     let quantity = unit.map(|unit| unit.quantity).or(spoken).or(turned.then_some(Quantity::Displacement));
