@@ -99,7 +99,8 @@ fn reduced(
     kept.sort_unstable();
     kept.dedup();
     let method = Method::from_name(&table.method).unwrap_or(Method::CraigBampton);
-    let wanted = Wanted { method, up_to_hz: table.up_to_hz, band_hz: table.band_hz.unwrap_or(0.5 * table.up_to_hz) };
+    let band_hz = table.band_hz.unwrap_or(0.5 * table.up_to_hz);
+    let wanted = Wanted { method, up_to_hz: table.up_to_hz, band_hz, error: table.error.unwrap_or(USUAL_ERROR) };
     let directions: Vec<Direction> = dofs.iter().map(|dof| dof.direction).collect();
     let (matrices, reduction) = reduce(&model.system, &directions, &kept, wanted)?;
     let mut own: Vec<ImportedDof> = kept.iter().map(|&row| dofs[row].clone()).collect();
@@ -117,9 +118,12 @@ fn reduced(
     Ok((parameters, reduction))
 }
 
+/// Largest relative error of the frequencies in the band unless the project says another.
+const USUAL_ERROR: f64 = 1e-3;
+
 /// Table `[structure.reduce]`.
 pub(super) fn parse(table: &Table<'_>) -> Result<ReduceTable, ProjectError> {
-    table.only(&["method", "up_to_hz", "band_hz", "dofs"])?;
+    table.only(&["method", "up_to_hz", "band_hz", "error", "dofs"])?;
     let names = [Method::CraigBampton, Method::Guyan].map(Method::name);
     let method = table.word("method", &names, Method::from_name)?.unwrap_or(Method::CraigBampton);
     let frequency = |key: &'static str| match table.number(key)? {
@@ -133,6 +137,13 @@ pub(super) fn parse(table: &Table<'_>) -> Result<ReduceTable, ProjectError> {
         method: method.name().to_owned(),
         up_to_hz: table.need("up_to_hz", "up_to_hz = 2000.0", frequency("up_to_hz")?)?,
         band_hz: frequency("band_hz")?,
+        error: match table.number("error")? {
+            Some(value) if value <= 0.0 => {
+                let (key, range) = ("error".to_owned(), "above 0, such as 0.001 for 0.1 %");
+                return Err(table.error("error", Problem::OutOfRange { key, value: value.to_string(), range }));
+            }
+            value => value,
+        },
         dofs: table.labels("dofs")?.unwrap_or_default().into_iter().map(Label).collect(),
     })
 }
