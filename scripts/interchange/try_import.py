@@ -765,6 +765,7 @@ def main():
     for name, writer, arguments, expect in CASES:
         if only and not any(word in name for word in only):
             continue
+        (folder / name).unlink(missing_ok=True)
         writer(folder / name)
         verdict, words = run(binary, folder, name, arguments, expect)
         wrong += verdict != "as wanted"

@@ -148,8 +148,12 @@ impl Made<'_> {
             else {
                 continue;
             };
-            let others =
+            let long =
                 |other: &Entry| matches!(&other.node, Node::Array(other) if other.shape.extents.contains(&count));
+            let others = |other: &Entry| match &other.node {
+                Node::Group(inner) => inner.iter().any(long),
+                _ => long(other),
+            };
             if entries.iter().enumerate().all(|(j, other)| j == i || !others(other)) {
                 continue;
             }
