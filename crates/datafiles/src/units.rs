@@ -142,6 +142,10 @@ pub fn is_unit(word: &str) -> bool {
 /// Whether a text without blanks is one unit over another: `(m/s^2)/lbf`, `mm/kN`, `(1/N)*(m/s²)`, `1/kg`.
 fn is_ratio(plain: &str) -> bool {
     let plain = stripped(plain);
+    // Words that only look like one unit over another: serial number, not available, converters.
+    if matches!(plain, "s/n" | "n/a" | "a/c" | "n/c") {
+        return false;
+    }
     let inverse = plain.strip_prefix("(1/").or_else(|| plain.strip_prefix("1/"));
     if let Some(rest) = inverse {
         let (under, over) = rest.split_once(['*', '·']).unwrap_or((rest, "m"));
@@ -335,7 +339,9 @@ mod tests {
         assert!(
             ["(m/s^2)/lbf", "mm/kN", "1/kg", "(1/N)*(m/s²)", "dB re 1 m/s²/N", "dB"].iter().all(|unit| is_unit(unit))
         );
-        assert!(!["12:+Z/1:+Z", "H/T", "acc@7/force@19", "debug", "1/7"].iter().any(|unit| is_unit(unit)));
+        assert!(
+            !["12:+Z/1:+Z", "H/T", "S/N", "N/A", "acc@7/force@19", "debug", "1/7"].iter().any(|unit| is_unit(unit))
+        );
         let db = |unit| reference_of_decibel(unit);
         assert_eq!(db("dB"), Some((String::new(), 1.0)));
         assert_eq!(db("dB re 1 m/s²/N"), Some(("m/s²/N".to_owned(), 1.0)));

@@ -182,7 +182,7 @@ fn conversion(s: usize, set: &Set, pair: Pair, names: &[Said], source: &dyn Sour
     };
     let radians = match said {
         Some(scale) => scale == Scale::Radians,
-        None => real(phase)?.iter().all(|value| !(value.abs() > TAU)),
+        None => real(phase)?.iter().all(|value| value.is_nan() || value.abs() <= TAU),
     };
     Ok(Conversion::Polar { decibel, to_radians: if radians { 1.0 } else { PI / 180.0 } })
 }

@@ -46,10 +46,8 @@ pub(crate) fn number(text: &str, comma: bool) -> Option<f64> {
     if !matches!(first, b'0'..=b'9' | b'+' | b'-' | b'.' | b',') {
         return missing(text);
     }
-    if !comma {
-        if let Ok(value) = text.parse::<f64>() {
-            return plain(text).then_some(value).or_else(|| missing(text));
-        }
+    if !comma && let Ok(value) = text.parse::<f64>() {
+        return plain(text).then_some(value).or_else(|| missing(text));
     }
     if let Some(value) = grouped(text, comma) {
         return Some(value);
