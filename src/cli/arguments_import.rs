@@ -49,7 +49,7 @@ pub(super) struct Import {
     pub scale: Option<f64>,
     /// The [[frf]] of the template
     #[arg(skip)]
-    pub frf: Option<FrfTable>,
+    pub frf: Option<Box<FrfTable>>,
     /// Averages of frequency responses
     #[arg(long, value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
     pub averages: Option<u32>,

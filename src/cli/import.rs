@@ -48,7 +48,7 @@ fn responses_template(arguments: &Import) -> anyhow::Result<Option<Import>> {
     if all.references.is_empty() {
         all.references = labels(&table.references);
     }
-    all.frf = Some(table);
+    all.frf = Some(Box::new(table));
     Ok(Some(all))
 }
 

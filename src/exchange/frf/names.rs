@@ -64,7 +64,7 @@ pub(super) fn place_of_name(
 /// The place at the end of a name: `12:+Z` of `FRF Plate:12:+Z`, `1` of `Point 1`; the whole name where it ends in none.
 pub fn plain_place(name: &str) -> &str {
     let name = name.trim();
-    let tail = name.trim_end_matches(|c: char| matches!(c, 'x' | 'y' | 'z' | 'X' | 'Y' | 'Z' | 'S'));
+    let tail = name.trim_end_matches(['x', 'y', 'z', 'X', 'Y', 'Z', 'S']);
     let tail = if name.len() - tail.len() > 1 { name } else { tail };
     let axis = tail.trim_end_matches(['r', 'R']);
     let tail = if tail.len() - axis.len() == 1 && tail.len() < name.len() { axis } else { tail };

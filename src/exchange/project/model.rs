@@ -1,12 +1,13 @@
 //! A structure from the files of a finite-element program, whole or reduced.
 
 use super::error::{Problem, ProjectError};
-use super::file::{Label, MatricesTable, ReduceTable};
+use super::file::{Label, MatricesTable};
 use super::reader::Table;
 use crate::exchange::matrices::model::{Model, ModelFiles, full, is_model, read_model};
 use crate::structure::imported::{ImportedDof, ImportedParameters};
 use crate::structure::reduction::{Method, Reduction, Wanted, reduce};
 use crate::structure::{Direction, LumpedMass, MOST_DOFS, Node, Structure, StructureError};
+use serde::Serialize;
 use std::collections::{HashMap, HashSet};
 use std::path::Path;
 
@@ -116,6 +117,24 @@ fn reduced(
         lines: model.lines,
     };
     Ok((parameters, reduction))
+}
+
+/// Table `[structure.reduce]`.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ReduceTable {
+    /// `guyan` or `craig-bampton`.
+    pub method: String,
+    /// Fixed-interface modes are kept up to this frequency, Hz.
+    pub up_to_hz: f64,
+    /// The error is told up to this frequency, Hz; half of `up_to_hz` unless given.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub band_hz: Option<f64>,
+    /// Largest relative error of a frequency in the band, 0.001 unless given.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub error: Option<f64>,
+    /// DOFs that are kept beside those that the project names.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub dofs: Vec<Label>,
 }
 
 /// Largest relative error of the frequencies in the band unless the project says another.

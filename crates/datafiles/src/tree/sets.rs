@@ -75,16 +75,7 @@ impl Made<'_> {
             context.take(names::sampling(name, value));
         }
         let axis = self.abscissa(entries)?;
-        let mut below = context;
-        if let (None, Some(axis)) =
-            (context.step, axis.as_ref().filter(|axis| axis.kind == Kind::Time && axis.unit == "s"))
-        {
-            let start = entries.get(axis.entry).and_then(|entry| match &entry.node {
-                Node::Array(array) => array.at(0),
-                _ => None,
-            });
-            below = Context { step: axis.step, start: start.map_or(0.0, |value| value[0]), count: Some(axis.count) };
-        }
+        let below = context.below(entries, axis.as_ref());
         let mut set = Set::new(path, Kind::Table);
         let mut places = Vec::new();
         let labels = Labels::of(entries);
@@ -244,6 +235,18 @@ impl Made<'_> {
 }
 
 impl Context {
+    /// What a group hands down: its own step, else that of its even time vector.
+    fn below(self, entries: &[Entry], axis: Option<&Abscissa>) -> Self {
+        let Some(axis) = axis.filter(|axis| self.step.is_none() && axis.kind == Kind::Time && axis.unit == "s") else {
+            return self;
+        };
+        let start = entries.get(axis.entry).and_then(|entry| match &entry.node {
+            Node::Array(array) => array.at(0),
+            _ => None,
+        });
+        Self { step: axis.step, start: start.map_or(0.0, |value| value[0]), count: Some(axis.count) }
+    }
+
     fn take(&mut self, sampling: Option<Sampling>) {
         match sampling {
             Some(Sampling::Step(step)) => self.step = Some(step),
