@@ -3,6 +3,7 @@
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use dashpot::control::Control;
+use dashpot::exchange::atomic::write_atomically;
 use dashpot::exchange::project::load;
 use dashpot::identify::identify;
 use std::path::{Path, PathBuf};
@@ -23,8 +24,8 @@ fn project(folder: &Path) -> PathBuf {
     let channels: Vec<String> = forces.chain(places.iter().map(|dof| format!("\"acc@{dof} [m/s^2]\""))).collect();
     let simulate = format!("[simulate]\nsamples = 1601\nchannels = [{}]\n", channels.join(", "));
     let (truth, asked) = (folder.join("truth.toml"), folder.join("project.toml"));
-    let written = std::fs::write(&truth, [BEAM, TRUTH, &simulate].concat())
-        .and_then(|()| std::fs::write(&asked, [BEAM, ASKED].concat()));
+    let written = write_atomically(&truth, [BEAM, TRUTH, &simulate].concat().as_bytes())
+        .and_then(|()| write_atomically(&asked, [BEAM, ASKED].concat().as_bytes()));
     written.unwrap_or_else(|error| panic!("{error}"));
     let words = ["dashpot", "simulate", "--noise", "0.02", "--seed", "3", "--as", "frf", "--out"];
     let all = words.iter().map(Into::into).chain([folder.into(), truth.into()]);
