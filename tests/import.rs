@@ -3,6 +3,8 @@
 
 #[path = "import/bad.rs"]
 mod bad;
+#[path = "import/dialects.rs"]
+mod dialects;
 #[path = "import/files.rs"]
 mod files;
 #[path = "import/mapped.rs"]

@@ -313,10 +313,34 @@ def uffs():
                              (f"2 (58{b}) time response", "7:+X", "g", 0.5, read[1]["data"])])
 
 
+def times_and_names():
+    """Times among the channels, names and units beside the arrays, parts of complex numbers."""
+    from nptdms import ChannelObject as Ch
+    with TdmsWriter(OUT / "time-channel.tdms") as writer:
+        writer.write_segment([Ch("Log", "time", TIME, {"unit_string": "s"}), Ch("Log", "force", FORCE, {"unit_string": "N"}), Ch("Log", "acc", ODD, {"unit_string": "m/s^2"})])
+    expect("time-channel.tdms", "tdms", [("Log", "force", "N", STEP, FORCE), ("Log", "acc", "m/s^2", STEP, ODD)])
+    cell = lambda *words: np.array(words, dtype=object)
+    scipy.io.savemat(OUT / "timetable.mat", {"data": {"time": TIME, "Variables": np.column_stack([FORCE, ODD]), "Properties": {
+        "VariableNames": cell("force", "acc"), "VariableUnits": cell("N", "g")}}})
+    expect("timetable.mat", "mat", [("data", "force", "N", STEP, FORCE), ("data", "acc", "g", STEP, ODD)])
+    scipy.io.savemat(OUT / "iddata.mat", {"z": {"y": ODD[:, None], "u": FORCE[:, None], "Ts": STEP, "OutputName": "acc", "InputName": "force", "OutputUnit": "g", "InputUnit": "N"}})
+    expect("iddata.mat", "mat", [("z", "acc", "g", STEP, ODD), ("z", "force", "N", STEP, FORCE)])
+    scipy.io.savemat(OUT / "signals.mat", {"out": {"time": TIME, "signals": {"values": np.column_stack([FORCE, ODD]), "label": cell("force", "acc")}}})
+    expect("signals.mat", "mat", [("out/signals", "force", "", STEP, FORCE), ("out/signals", "acc", "", STEP, ODD)])
+    scipy.io.savemat(OUT / "pairs.mat", {"Acc_1": np.column_stack([TIME, ODD])})
+    expect("pairs.mat", "mat", [("", "time of Acc_1", "", None, TIME), ("", "Acc_1", "", STEP, ODD)])
+    scipy.io.savemat(OUT / "parts.mat", {"f": I * 0.5, "H_re": FRF.real, "H_im": FRF.imag})
+    expect("parts.mat", "mat", [("", "f", "", None, I * 0.5), ("", "H", "", 0.5, FRF)])
+    with h5py.File(OUT / "columns.h5", "w") as f:
+        data = f.create_dataset("data", data=np.column_stack([TIME, FORCE, ODD]))
+        data.attrs["columns"], data.attrs["units"] = ["time", "force", "acc"], ["s", "N", "g"]
+    expect("columns.h5", "hdf5", [("", "force", "N", STEP, FORCE), ("", "acc", "g", STEP, ODD)])
+
+
 import scipy.io.wavfile  # noqa: E402
 import scipy.sparse  # noqa: E402
 
-for make in [tables, lvms, sheets, mats, hdf5s, tdms, wavs, numpys, uffs]:
+for make in [tables, lvms, sheets, mats, hdf5s, tdms, wavs, numpys, uffs, times_and_names]:
     make()
 (OUT / "expected.json").write_text(json.dumps(EXPECTED, indent=0) + "\n")
 print(f"{len(EXPECTED)} files in {OUT}")

@@ -2,16 +2,19 @@
 
 use super::arguments::positive;
 use crate::exchange::frf::Form;
+use crate::exchange::project::frf::FrfTable;
 use clap::Args;
 use clap::builder::PossibleValuesParser;
+use dashpot_datafiles::Pairing;
 use std::path::PathBuf;
 
-#[derive(Debug, Args)]
+#[derive(Debug, Clone, Args)]
 pub(super) struct Import {
     /// Measurement files of one layout, one a run
     #[arg(required = true, value_name = "FILE")]
     pub files: Vec<PathBuf>,
-    /// Template, or project, whose [[channel]] tables say what the channels are; proposed from the first file unless given
+    /// Template, or project, whose [[channel]] tables (of frequency responses: whose first [[frf]]) say what the channels are;
+    /// proposed from the first file unless given
     #[arg(long)]
     pub map: Option<PathBuf>,
     /// Project to write; the name of the first file in this folder unless given
@@ -38,6 +41,15 @@ pub(super) struct Import {
     /// Step in Hz, from 0 Hz on, of frequency responses whose frequencies the file does not say
     #[arg(long, value_parser = positive)]
     pub step_hz: Option<f64>,
+    /// Columns two by two as parts of frequency responses, where their names do not say it
+    #[arg(long, value_parser = PossibleValuesParser::new(Pairing::WORDS))]
+    pub columns: Option<String>,
+    /// Factor from the numbers of frequency responses to SI (with --form), or on top of their units; negative reverses
+    #[arg(long, allow_negative_numbers = true)]
+    pub scale: Option<f64>,
+    /// The [[frf]] of the template
+    #[arg(skip)]
+    pub frf: Option<Box<FrfTable>>,
     /// Averages of frequency responses
     #[arg(long, value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
     pub averages: Option<u32>,

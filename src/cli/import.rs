@@ -4,13 +4,19 @@
 use super::arguments_import::Import;
 use super::{import_model, import_records, import_responses, import_stepped};
 use crate::exchange::atomic::write_atomically;
+use crate::exchange::frf::Form;
 use crate::exchange::mapping::stepped;
+use crate::exchange::project::file::Label;
+use crate::exchange::project::frf_template;
 use crate::exchange::project::relocate::{canonical, renamed};
 use anyhow::{Context, ensure};
 use dashpot_datafiles::open;
 use std::path::{Path, PathBuf};
 
 pub(super) fn run(arguments: &Import) -> anyhow::Result<String> {
+    if let Some(with_template) = responses_template(arguments)? {
+        return import_responses::run(&with_template);
+    }
     if arguments.map.is_none() {
         if import_responses::has_responses(arguments)? {
             return import_responses::run(arguments);
@@ -20,6 +26,30 @@ pub(super) fn run(arguments: &Import) -> anyhow::Result<String> {
         }
     }
     import_records::run(arguments)
+}
+
+/// The arguments with the `[[frf]]` of the template; none where there is none in it.
+fn responses_template(arguments: &Import) -> anyhow::Result<Option<Import>> {
+    let Some(path) = &arguments.map else { return Ok(None) };
+    let name = path.display().to_string();
+    let text = std::fs::read_to_string(path).with_context(|| format!("{name}: the template cannot be read"))?;
+    let Some(table) = frf_template(&text, &name)? else { return Ok(None) };
+    let labels = |list: &[Label]| list.iter().map(|label| label.0.clone()).collect::<Vec<_>>();
+    let mut all = arguments.clone();
+    let word = |form: Form| Form::WORDS[form as usize].to_owned();
+    all.form = all.form.or(table.form.map(word));
+    all.scale = all.scale.or(table.scale);
+    all.columns = all.columns.or(table.columns.map(|columns| columns.word().to_owned()));
+    all.step_hz = all.step_hz.or(table.step_hz);
+    all.averages = all.averages.or(table.averages.and_then(|averages| u32::try_from(averages).ok()));
+    if all.responses.is_empty() {
+        all.responses = labels(&table.responses);
+    }
+    if all.references.is_empty() {
+        all.references = labels(&table.references);
+    }
+    all.frf = Some(Box::new(table));
+    Ok(Some(all))
 }
 
 /// The project to write: `--out`, else the name of the first file in this folder, where nothing may be yet.

@@ -41,6 +41,10 @@ pub(super) fn refusal(contents: &Contents, left: &[(String, String)]) -> String 
                 --nodes beside --mass"
             .to_owned();
     }
+    let skipped = |note: &&String| note.contains(" is not read: ");
+    if let Some(note) = contents.sets.iter().flat_map(|set| &set.notes).chain(&contents.notes).find(skipped) {
+        return format!("holds nothing that is read: {note}");
+    }
     "holds nothing that was measured; export time records or frequency responses (data set 58 of Universal Files)"
         .to_owned()
 }

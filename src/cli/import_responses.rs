@@ -4,29 +4,40 @@ use super::arguments_import::Import;
 use super::import::{comment, head, named, points as points_structure, project_file, write};
 use super::import_model::{Point, model, places};
 use crate::control::Control;
-use crate::exchange::frf::pair_in_name;
+use crate::exchange::frf::{pair_in_name, plain_place, response_in_name};
+use crate::exchange::project::frf::FrfTable;
 use crate::exchange::project::plan;
 use anyhow::ensure;
-use dashpot_datafiles::{Channel, Contents, DataFile, Format, Kind, Values, open};
+use dashpot_datafiles::{Channel, Contents, DataFile, Format, Kind, Pairing, Set, Values, open, open_paired};
 use std::collections::BTreeMap;
 use std::path::Path;
 
 /// Whether a file among them has frequency responses.
 pub(super) fn has_responses(arguments: &Import) -> anyhow::Result<bool> {
     for file in &arguments.files {
-        if functions(open(file)?.contents(), arguments).next().is_some() {
+        if functions(opened(arguments, file)?.contents(), arguments).next().is_some() {
             return Ok(true);
         }
     }
     Ok(false)
 }
 
+/// Opens a file, its columns two by two where that is said.
+fn opened(arguments: &Import, file: &Path) -> Result<DataFile, dashpot_datafiles::Error> {
+    match arguments.columns.as_deref().and_then(Pairing::from_word) {
+        Some(pairing) => open_paired(file, pairing),
+        None => open(file),
+    }
+}
+
 /// The functions of a file; complex columns without frequencies too where their step is given.
 fn functions<'a>(contents: &'a Contents, arguments: &Import) -> impl Iterator<Item = &'a Channel> {
-    let given = arguments.step_hz.is_some();
-    let wanted = move |kind: Kind| kind == Kind::Frf || given && kind == Kind::Table;
-    let sets = contents.sets.iter().filter(move |set| wanted(set.kind));
-    sets.flat_map(|set| &set.channels).filter(|channel| channel.complex && channel.count > 0)
+    contents.sets.iter().flat_map(|set| of_set(set, arguments))
+}
+
+fn of_set<'a>(set: &'a Set, arguments: &Import) -> impl Iterator<Item = &'a Channel> + use<'a> {
+    let wanted = set.kind == Kind::Frf || arguments.step_hz.is_some() && set.kind == Kind::Table;
+    set.channels.iter().filter(move |channel| wanted && channel.complex && channel.count > 0)
 }
 
 /// Writes the project of frequency responses.
@@ -60,7 +71,7 @@ struct Measured<'a> {
 }
 
 fn project(arguments: &Import, out: &Path) -> anyhow::Result<Found> {
-    let files: Vec<DataFile> = arguments.files.iter().map(|file| open(file)).collect::<Result<_, _>>()?;
+    let files: Vec<DataFile> = arguments.files.iter().map(|file| opened(arguments, file)).collect::<Result<_, _>>()?;
     let (measured, assumed) = measured(arguments, &files)?;
     let (mut names, mut highest, mut count) = (Vec::new(), 0.0_f64, 0);
     for file in &files {
@@ -90,13 +101,19 @@ fn project(arguments: &Import, out: &Path) -> anyhow::Result<Found> {
 /// Labels of the DOFs, and those of the file that are called otherwise in the project.
 fn labelled(arguments: &Import, points: &[(String, Point)]) -> anyhow::Result<(Vec<String>, BTreeMap<String, String>)> {
     let own: Vec<String> = points.iter().map(|(_, point)| format!("{}{}", point.node, point.direction)).collect();
-    let (labels, names): (Vec<String>, Vec<&String>) = match model(arguments)? {
+    let (mut labels, names): (Vec<String>, Vec<&String>) = match model(arguments)? {
         Some(model) => {
             let wanted: Vec<Point> = points.iter().map(|(_, point)| point.clone()).collect();
             (places(&wanted, &model)?, own.iter().collect())
         }
         None => (own.clone(), points.iter().map(|(name, _)| name).collect()),
     };
+    // What a template says of a DOF goes first.
+    for (label, (name, _)) in labels.iter_mut().zip(points) {
+        if let Some(said) = arguments.frf.as_ref().and_then(|template| template.dofs.get(name)) {
+            said.0.trim_start_matches('-').clone_into(label);
+        }
+    }
     let other = labels.iter().zip(names).zip(points).filter(|((label, name), _)| label != name);
     let dofs = other.map(|((label, _), (name, _))| (name.clone(), label.clone())).collect();
     let mut once: Vec<String> = Vec::new();
@@ -117,19 +134,17 @@ fn measured<'a>(arguments: &'a Import, files: &'a [DataFile]) -> anyhow::Result<
     let mut assumed = Vec::new();
     let (mut responses, mut references) = (arguments.responses.clone(), arguments.references.clone());
     if !named && responses.is_empty() {
-        responses = (1..=total).map(|number| number.to_string()).collect();
+        let (numbers, how) = numbered(arguments, files, &counts);
+        responses = numbers;
         if references.is_empty() {
-            references = vec!["1".to_owned()];
+            references = vec![responses[0].clone()];
         }
         ensure!(
             references.len() == 1,
             "{}: neither names nor file say the DOFs of the functions; give them by --responses and --references",
             arguments.files[0].display()
         );
-        let (last, driven) = (responses.len(), &references[0]);
-        assumed.push(format!(
-            "neither names nor file say the DOFs: the responses are numbered 1 to {last} in their order, all driven at {driven}"
-        ));
+        assumed.push(format!("{how}, all driven at {}", references[0]));
     }
     // One list for all files one after the other, or the same list for each.
     let in_turn = references.len() == 1 && responses.len() == total && files.len() > 1;
@@ -143,6 +158,50 @@ fn measured<'a>(arguments: &'a Import, files: &'a [DataFile]) -> anyhow::Result<
     Ok((measured, assumed))
 }
 
+/// Labels of responses whose references nothing says: by the numbers in the names of the functions, of their sets, of the
+/// files, else in their order; and how that is said.
+fn numbered(arguments: &Import, files: &[DataFile], counts: &[usize]) -> (Vec<String>, String) {
+    let functions = |file| functions_with_sets(file, arguments);
+    let label = |name: &str| {
+        let label: String = response_in_name(name)?.chars().filter(char::is_ascii_alphanumeric).collect();
+        Some(label.to_lowercase()).filter(|label| place_like(label))
+    };
+    let by_name: Vec<Option<String>> =
+        files.iter().flat_map(functions).map(|(_, channel)| label(&channel.name)).collect();
+    let by_set: Vec<Option<String>> = files.iter().flat_map(functions).map(|(set, _)| label(set)).collect();
+    let one_each = counts.iter().all(|count| *count < 2);
+    let measured = files.iter().zip(counts).filter(|(_, count)| **count > 0);
+    let by_file: Vec<Option<String>> = measured
+        .map(|(file, _)| label(&file.path().file_stem().unwrap_or_default().to_string_lossy()).filter(|_| one_each))
+        .collect();
+    let whose = [(by_name, "names"), (by_set, "sets"), (by_file, "files")];
+    for (labels, whose) in whose {
+        let mut seen: Vec<&String> = labels.iter().flatten().collect();
+        seen.sort_unstable();
+        seen.dedup();
+        if !labels.is_empty() && seen.len() == labels.len() {
+            let labels: Vec<String> = labels.into_iter().flatten().collect();
+            let how = format!("the responses are at {} by the numbers in their {whose}", labels.join(", "));
+            return (labels, how);
+        }
+    }
+    let total = counts.iter().sum::<usize>();
+    let how = format!("neither names nor file say the DOFs: the responses are numbered 1 to {total} in their order");
+    ((1..=total).map(|number| number.to_string()).collect(), how)
+}
+
+/// Whether a text is a number with a direction or without.
+fn place_like(text: &str) -> bool {
+    let end = text.find(|c: char| !c.is_ascii_digit()).unwrap_or(text.len());
+    end > 0 && matches!(&text[end..], "" | "x" | "y" | "z" | "rx" | "ry" | "rz")
+}
+
+/// The functions of a file with the names of their sets.
+fn functions_with_sets<'a>(file: &'a DataFile, arguments: &'a Import) -> impl Iterator<Item = (&'a str, &'a Channel)> {
+    let sets = file.contents().sets.iter();
+    sets.flat_map(move |set| of_set(set, arguments).map(move |channel| (set.name.as_str(), channel)))
+}
+
 /// The `[[frf]]` of a file.
 fn table(arguments: &Import, file: &str, measured: &Measured<'_>, dofs: &BTreeMap<String, String>) -> String {
     let quoted = |text: &str| toml::Value::from(text).to_string();
@@ -150,6 +209,15 @@ fn table(arguments: &Import, file: &str, measured: &Measured<'_>, dofs: &BTreeMa
     let mut text = format!("[[frf]]\nfile = {}\n", quoted(file));
     if let Some(form) = &arguments.form {
         text.push_str(&format!("form = {}\n", quoted(form)));
+    }
+    if let Some(scale) = arguments.scale {
+        text.push_str(&format!("scale = {scale:?}\n"));
+    }
+    if let Some(columns) = &arguments.columns {
+        text.push_str(&format!("columns = {}\n", quoted(columns)));
+    }
+    if let Some(template) = &arguments.frf {
+        text.push_str(&of_template(template));
     }
     match arguments.averages {
         Some(averages) => text.push_str(&format!("averages = {averages}\n")),
@@ -163,11 +231,30 @@ fn table(arguments: &Import, file: &str, measured: &Measured<'_>, dofs: &BTreeMa
             text.push_str(&format!("{key} = [{}]\n", list(labels)));
         }
     }
+    let mut dofs = dofs.clone();
+    for (name, label) in arguments.frf.iter().flat_map(|template| &template.dofs) {
+        dofs.insert(name.clone(), label.0.clone());
+    }
     if !dofs.is_empty() {
         text.push_str("\n[frf.dofs]\n");
         dofs.iter().for_each(|(name, label)| text.push_str(&format!("{} = {}\n", quoted(name), quoted(label))));
     }
     text + "\n"
+}
+
+/// What only a template says.
+fn of_template(template: &FrfTable) -> String {
+    let mut text = String::new();
+    if template.reciprocity {
+        text.push_str("reciprocity = true\n");
+    }
+    if let Some([from, to]) = template.band {
+        text.push_str(&format!("band = [{from:?}, {to:?}]\n"));
+    }
+    if let Some(lines) = template.lines {
+        text.push_str(&format!("lines = {lines}\n"));
+    }
+    text
 }
 
 /// Names of response and reference of a function. Universal Files state them; elsewhere the name of the channel may.
@@ -188,7 +275,8 @@ fn points(names: &[String], files: &[DataFile]) -> anyhow::Result<Vec<(String, P
     let mut points: Vec<(String, Point)> = Vec::new();
     for name in names {
         // `ENTITY 12:+Z`, `acc@12`: what stands in front is no part of the place.
-        let plain = name.rsplit([' ', '@']).next().unwrap_or_default().trim_start_matches('-').replace(":-", ":+");
+        let plain = plain_place(name.rsplit('@').next().unwrap_or_default());
+        let plain = plain.rsplit(' ').next().unwrap_or_default().trim_start_matches('-').replace(":-", ":+");
         let digits = plain.find(|c: char| !c.is_ascii_digit()).unwrap_or(plain.len());
         let direction: String =
             plain[digits..].chars().filter(char::is_ascii_alphabetic).collect::<String>().to_lowercase();

@@ -3,7 +3,6 @@
 use crate::{Sample, mat5};
 use dashpot::exchange::export::{Format, write};
 use faer::Mat;
-use std::collections::HashMap;
 use std::fs;
 use std::path::PathBuf;
 
@@ -120,19 +119,17 @@ fn nastran_dashpots_read_back() {
     assert_eq!(warnings.len(), 2, "Coulomb and hysteretic are no dashpots: {warnings:?}");
     let text = text(&path);
     assert!(warnings.iter().all(|w| text.contains(w)));
-    let mut values = HashMap::new();
-    for line in text.lines().filter(|l| l.starts_with("PDAMP*")) {
-        assert!(line.len() <= 8 + 4 * 16);
-        values.insert(field(line, 8, 16).to_owned(), real(field(line, 24, 16)));
-    }
     let mut read = Mat::<f64>::zeros(6, 6);
-    for line in text.lines().filter(|l| l.starts_with("CDAMP2")) {
-        let fields: Vec<&str> = (1..7).map(|k| field(line, 8 * k, 8)).collect();
-        let c = values[fields[1]];
-        let i = dof_of(fields[2].parse().unwrap(), fields[3].parse().unwrap());
+    let lines: Vec<&str> = text.lines().collect();
+    for (at, line) in lines.iter().enumerate().filter(|(_, l)| l.starts_with("CDAMP2*")) {
+        // Element, coefficient, grid, component; grid and component of the second end in the line below.
+        assert!(line.len() == 8 + 4 * 16 && lines[at + 1].starts_with('*'));
+        let c = real(field(line, 24, 16));
+        let i = dof_of(field(line, 40, 16).parse().unwrap(), field(line, 56, 16).parse().unwrap());
         read[(i, i)] += c;
-        if !fields[4].is_empty() {
-            let j = dof_of(fields[4].parse().unwrap(), fields[5].parse().unwrap());
+        let (grid, component) = (field(lines[at + 1], 8, 16), field(lines[at + 1], 24, 16));
+        if !grid.is_empty() {
+            let j = dof_of(grid.parse().unwrap(), component.parse().unwrap());
             read[(j, j)] += c;
             read[(i, j)] -= c;
             read[(j, i)] -= c;

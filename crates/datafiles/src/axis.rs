@@ -37,7 +37,10 @@ pub(crate) fn kind_of(name: &str, unit: &str) -> Option<Kind> {
     {
         return Some(Kind::Spectrum);
     }
-    if word.starts_with("freq") || matches!(name.as_str(), "f" | "hz" | "frekvens") {
+    if word.starts_with("freq")
+        || matches!(name.as_str(), "f" | "hz" | "frekvens" | "omega" | "ω" | "freqs")
+        || matches!(word, "frequenz" | "fréquence" | "frecuencia" | "frequenza" | "fhz")
+    {
         return Some(Kind::Spectrum);
     }
     let timed = ["time", "zeit", "temps", "tiempo", "tempo", "timestamp", "elapsed", "uhrzeit"];

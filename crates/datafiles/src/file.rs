@@ -4,6 +4,7 @@ use crate::contents::{Axis, Contents};
 use crate::detect;
 use crate::error::{Error, Fault, Read};
 use crate::guard::guarded;
+use crate::parts::{self, Pairing};
 use std::path::{Path, PathBuf};
 
 /// Most values of one channel that are read into memory: 4 GiB of real numbers.
@@ -62,9 +63,27 @@ impl std::fmt::Debug for DataFile {
 /// # Errors
 /// [`Error`] for a file that cannot be read, is of no known format, or is damaged where its tree is written.
 pub fn open(path: &Path) -> Result<DataFile, Error> {
+    opened(path, parts::by_name)
+}
+
+/// Opens the file at `path` as [`open`] does, its real columns taken two by two as complex channels.
+///
+/// # Errors
+/// As [`open`].
+pub fn open_paired(path: &Path, pairing: Pairing) -> Result<DataFile, Error> {
+    opened(path, |contents, source| parts::in_turn(contents, source, pairing))
+}
+
+type Tree = (Contents, Box<dyn Source>);
+
+fn opened(path: &Path, join: impl FnOnce(Contents, Box<dyn Source>) -> Read<Tree>) -> Result<DataFile, Error> {
     let name = path.display().to_string();
-    let opened = guarded(|| detect::open(path)).map_err(|fault| fault.of(&name))?;
-    let (contents, source) = opened;
+    let opened = guarded(|| {
+        let (contents, source) = detect::open(path)?;
+        let (contents, source) = parts::among_channels(contents, source)?;
+        join(contents, source)
+    });
+    let (contents, source) = opened.map_err(|fault| fault.of(&name))?;
     Ok(DataFile { path: path.to_owned(), contents, source })
 }
 

@@ -32,6 +32,7 @@ mod hdf5;
 mod mat;
 mod npy;
 mod npz;
+mod parts;
 mod table;
 mod tdms;
 mod text;
@@ -43,4 +44,5 @@ mod xlsx;
 
 pub use contents::{Axis, Channel, Contents, Format, Kind, Number, Set};
 pub use error::Error;
-pub use file::{DataFile, Values, open};
+pub use file::{DataFile, Values, open, open_paired};
+pub use parts::{Pairing, core_of, is_coherence};

@@ -3,7 +3,7 @@
 use crate::contents::{Contents, Format};
 use crate::error::{Fault, Read};
 use crate::file::Source;
-use crate::table::{Blocks, Cell, TableSource, cell, finish};
+use crate::table::{Blocks, Cell, TableSource, finish};
 use calamine::{DataRef, Reader, Xlsx};
 use std::io::{Read as Bytes, Seek};
 
@@ -115,7 +115,7 @@ fn value(data: &DataRef<'_>) -> Cell {
 /// Text of a cell; numbers that were stored as text count as numbers.
 fn word(text: &str) -> Cell {
     match Cell::parse(text, false) {
-        Cell::Word(_) => cell::number(text.trim(), true).map_or_else(|| Cell::parse(text, false), Cell::Real),
+        Cell::Word(_) => Cell::parse(text, true),
         other => other,
     }
 }

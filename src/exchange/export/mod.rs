@@ -73,7 +73,7 @@ pub enum Format {
     Mat,
     /// One JSON document.
     Json,
-    /// NASTRAN bulk data: DMIG, CDAMP2, PDAMP.
+    /// NASTRAN bulk data: DMIG, CDAMP2.
     Nastran,
     /// Abaqus dashpot elements.
     Abaqus,

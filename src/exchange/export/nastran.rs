@@ -1,4 +1,5 @@
-//! NASTRAN bulk data: `DMIG` for the whole matrix, `CDAMP2` with `PDAMP` for single dashpots.
+//! NASTRAN bulk data: `DMIG` for the whole matrix, `CDAMP2` (element, coefficient, grid, component, grid, component) for single
+//! dashpots.
 //!
 //! Small fields are 8 characters; numbers stand in the large form (16 characters, `*` after the card's name), so that
 //! they keep twelve digits.
@@ -10,7 +11,7 @@ use faer::Mat;
 use std::fmt::Write;
 use std::path::Path;
 
-/// First element and property number of the dashpots, above those of common models.
+/// First element number of the dashpots, above those of common models.
 const FIRST_ID: usize = 900_001;
 
 pub(super) fn export(identified: &Identified, path: &Path) -> Export {
@@ -22,13 +23,11 @@ pub(super) fn export(identified: &Identified, path: &Path) -> Export {
     for (index, dashpot) in dashpots.iter().enumerate() {
         let id = FIRST_ID + index;
         let (grid, component) = grid_component(identified.structure, dashpot.leg.first);
-        let _ = write!(text, "{:<8}{id:>8}{id:>8}{grid:>8}{component:>8}", "CDAMP2");
-        if let Some(second) = dashpot.leg.second {
-            let (grid, component) = grid_component(identified.structure, second);
-            let _ = write!(text, "{grid:>8}{component:>8}");
-        }
-        let _ = writeln!(text, "\n{:<8}{id:>16}{}", "PDAMP*", large(dashpot.c, 'E'));
-        let _ = writeln!(text, "{:<8}", "*");
+        let _ = writeln!(text, "{:<8}{id:>16}{}{grid:>16}{component:>16}", "CDAMP2*", large(dashpot.c, 'E'));
+        let _ = match dashpot.leg.second.map(|second| grid_component(identified.structure, second)) {
+            Some((grid, component)) => writeln!(text, "{:<8}{grid:>16}{component:>16}", "*"),
+            None => writeln!(text, "{:<8}", "*"),
+        };
     }
     let mut export = Export { warnings, ..Export::default() };
     export.add(path.to_owned(), text);

@@ -54,7 +54,27 @@ pub(super) fn place_of_name(
     if let Some(dof) = file_dof(asked) {
         return place(&dof, named, structure);
     }
+    let short = plain_place(asked);
+    if short != asked {
+        return place_of_name(short, named, structure);
+    }
     Err(format!("\"{asked}\" is no DOF of the structure; add `\"{plain}\" = LABEL` under [frf.dofs]"))
+}
+
+/// The place at the end of a name: `12:+Z` of `FRF Plate:12:+Z`, `1` of `Point 1`; the whole name where it ends in none.
+pub fn plain_place(name: &str) -> &str {
+    let name = name.trim();
+    let tail = name.trim_end_matches(['x', 'y', 'z', 'X', 'Y', 'Z', 'S']);
+    let tail = if name.len() - tail.len() > 1 { name } else { tail };
+    let axis = tail.trim_end_matches(['r', 'R']);
+    let tail = if tail.len() - axis.len() == 1 && tail.len() < name.len() { axis } else { tail };
+    let digits = tail.trim_end_matches(['+', '-', ':', '_', ' ']);
+    let front = digits.trim_end_matches(|c: char| c.is_ascii_digit());
+    if front.len() == digits.len() {
+        return name;
+    }
+    // A sign in front of the whole name reverses.
+    if front == "-" { name } else { &name[front.len()..] }
 }
 
 /// A DOF that is written as Universal Files write it: node, colon or none, sign, direction.
@@ -88,6 +108,12 @@ pub fn pair_in_name(name: &str) -> Option<[String; 2]> {
     <[String; 2]>::try_from(places).ok()
 }
 
+/// Response in a name that says no reference, such as `Point 3` or `Acc 12 +Z`: from its first digit on.
+pub fn response_in_name(name: &str) -> Option<String> {
+    let from = name.find(|c: char| c.is_ascii_digit())?;
+    Some(name[from..].trim_end_matches(|c: char| !c.is_alphanumeric()).to_owned())
+}
+
 /// Direction of a number of the file, whatever its sign.
 fn direction(number: i64) -> Option<Direction> {
     let all = [Direction::X, Direction::Y, Direction::Z, Direction::Rx, Direction::Ry, Direction::Rz];
@@ -111,6 +137,21 @@ mod tests {
         assert_eq!(pair("H_7z_19z").as_deref(), Some("7z 19z"));
         assert_eq!(pair("FRF(3,1)").as_deref(), Some("3 1"));
         assert_eq!((pair("H[1]"), pair("FRF")), (None, None));
+    }
+
+    #[test]
+    fn places_at_the_end_of_names() {
+        for (name, place) in [
+            ("FRF Plate:12:+Z", "12:+Z"),
+            ("Point 1", "1"),
+            ("12z", "12z"),
+            ("-12z", "-12z"),
+            ("acc 7 rx", "7 rx"),
+            ("left wing", "left wing"),
+            ("7", "7"),
+        ] {
+            assert_eq!(plain_place(name), place);
+        }
     }
 
     #[test]

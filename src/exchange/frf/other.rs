@@ -3,15 +3,16 @@
 //! Response and reference of a channel are told, in this order, by `responses` and `references` of the project (columns of
 //! an array, all responses to the first reference first), by what the file says of the channel, by its name.
 
+use super::coherences::{attach, coherences};
 use super::error::FrfProblem;
-use super::names::{pair_in_name, place_of_name};
+use super::names::{pair_in_name, place_of_name, response_in_name};
 use super::reader::{FrfSource, drop_zero};
-use super::units::{Form, ratio_of_unit};
+use super::units::{Form, motion_of_unit, ratio_of_unit};
 use crate::control::Control;
 use crate::measurement::frf::{FrequencyResponse, ResponseSet};
 use crate::measurement::{Channel, Quantity};
 use crate::structure::Structure;
-use dashpot_datafiles::{DataFile, Kind, Values, open};
+use dashpot_datafiles::{DataFile, Kind, Values, open, open_paired};
 use faer::c64;
 use std::path::Path;
 
@@ -26,7 +27,11 @@ pub(super) fn read(
     structure: &Structure,
     control: &Control,
 ) -> Result<(ResponseSet, Vec<String>), FrfProblem> {
-    let file = open(path).map_err(|error| data(&error))?;
+    let file = match source.columns {
+        Some(pairing) => open_paired(path, pairing),
+        None => open(path),
+    };
+    let file = file.map_err(|error| data(&error))?;
     let places = functions(&file, source.step_hz.is_some());
     if places.is_empty() {
         return Err(FrfProblem::NoResponses);
@@ -62,6 +67,9 @@ pub(super) fn read(
         }
         set.functions.push(function);
     }
+    for (at, values) in coherences(&file, &places).map_err(|error| data(&error))? {
+        attach(&mut set, &file, &places, at, values)?;
+    }
     drop_zero(&mut set);
     let notes = file.contents().notes.iter().map(|note| format!("{name}: {note}")).collect();
     Ok((set, notes))
@@ -72,7 +80,7 @@ fn data(error: &dashpot_datafiles::Error) -> FrfProblem {
     FrfProblem::Data(format!("{place}{}", error.problem))
 }
 
-fn wrong(file: &DataFile, (set, channel): (usize, usize), what: &str) -> FrfProblem {
+pub(super) fn wrong(file: &DataFile, (set, channel): (usize, usize), what: &str) -> FrfProblem {
     let name = &file.contents().sets[set].channels[channel].name;
     FrfProblem::Set { set: format!("channel \"{name}\""), what: what.to_owned() }
 }
@@ -128,7 +136,8 @@ fn function(
     let [response, reference] = if source.reciprocity { [&pair[1], &pair[0]] } else { [&pair[0], &pair[1]] };
     let find = |name: &str| place_of_name(name, &source.dofs, structure).map_err(|what| wrong(file, at, &what));
     let ((response, sign), (reference, other)) = (find(response)?, find(reference)?);
-    let (form, scale) = form(source, &entry.unit).map_err(|what| wrong(file, at, &what))?;
+    let spoken = Form::spoken(&entry.name).or_else(|| Form::spoken(&file.contents().sets[at.0].name));
+    let (form, scale) = form(source, spoken, &entry.unit).map_err(|what| wrong(file, at, &what))?;
     if form.is_inverse() && response != reference {
         let what =
             "force over motion between different DOFs is not the inverse of a response; export motion over force";
@@ -167,11 +176,8 @@ fn pair(file: &DataFile, at: (usize, usize), k: usize, source: &FrfSource) -> Re
     if let Some(pair) = pair_in_name(&entry.name) {
         return Ok(pair);
     }
-    match (&source.references[..], entry.name.chars().any(|c| c.is_ascii_digit())) {
-        ([reference], true) => {
-            let name = entry.name.trim_start_matches(|c: char| !c.is_ascii_digit());
-            Ok([name.trim_end_matches(|c: char| !c.is_alphanumeric()).to_owned(), reference.clone()])
-        }
+    match (&source.references[..], response_in_name(&entry.name)) {
+        ([reference], Some(response)) => Ok([response, reference.clone()]),
         _ => Err(wrong(
             file,
             at,
@@ -180,11 +186,21 @@ fn pair(file: &DataFile, at: (usize, usize), k: usize, source: &FrfSource) -> Re
     }
 }
 
-/// Form and factor to SI: from the project, else from the unit.
-fn form(source: &FrfSource, unit: &str) -> Result<(Form, f64), String> {
-    match (source.form, source.scale) {
+/// Form and factor to SI: from the project, else from the unit, else from a word of the name.
+fn form(source: &FrfSource, spoken: Option<Form>, unit: &str) -> Result<(Form, f64), String> {
+    let bare = matches!(unit.trim(), "" | "-" | "EU" | "eu" | "none");
+    match (source.form.or(spoken.filter(|_| bare)), source.scale) {
         (Some(form), Some(scale)) => Ok((form, scale)),
-        (Some(form), None) if unit.trim().is_empty() => Ok((form, 1.0)),
+        (Some(form), None) if bare => Ok((form, 1.0)),
+        // The unit of the motion alone: the force is taken in N.
+        (Some(form), scale) if motion_of_unit(unit).is_some_and(|(quantity, _)| Form::of(quantity) == Some(form)) => {
+            Ok((form, motion_of_unit(unit).map_or(1.0, |(_, to_si)| to_si) * scale.unwrap_or(1.0)))
+        }
+        (None, _) if bare => {
+            Err("the file says no unit; add `form`, such as form = \"accelerance\" (of import: --form \
+                                  accelerance), and `scale` where it is not SI"
+                .to_owned())
+        }
         (form, scale) => {
             let ratio = ratio_of_unit(unit)?;
             if form.is_some_and(|form| form != ratio.form) {

@@ -8,6 +8,7 @@ use crate::control::Control;
 use crate::measurement::frf::{FrequencyResponse, ResponseSet};
 use crate::measurement::{Channel, Quantity};
 use crate::structure::Structure;
+use dashpot_datafiles::Pairing;
 use faer::c64;
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -32,6 +33,8 @@ pub struct FrfSource {
     pub references: Vec<String>,
     /// Step of the frequencies from 0 Hz on, Hz, of a file that does not say them.
     pub step_hz: Option<f64>,
+    /// How the columns are parts of complex numbers two by two, where their names do not say it.
+    pub columns: Option<Pairing>,
 }
 
 impl FrfSource {
@@ -57,7 +60,7 @@ pub fn read_responses(
     control: &Control,
 ) -> Result<(ResponseSet, Vec<String>), FrfError> {
     let at = |problem| FrfError { file: path.display().to_string(), problem };
-    if !is_universal(path) {
+    if source.columns.is_some() || !is_universal(path) {
         return other::read(path, name, source, structure, control).map_err(at);
     }
     let mut file = File::open(path).map_err(|error| at(FrfProblem::File(error)))?;
@@ -262,7 +265,6 @@ fn no_pair_twice(found: &[Found]) -> Result<(), FrfProblem> {
 
 /// Gives a coherence to the response of the same DOFs; one without a response is left out.
 fn attach(found: &mut [Found], set: usize, coherence: &Function) -> Result<(), FrfProblem> {
-    const ROUNDING: f64 = 1e-3;
     let header = &coherence.header;
     let same = |one: &&mut Found| {
         let key = |dof: &uff::Dof| (dof.node, dof.direction.abs());
@@ -270,11 +272,17 @@ fn attach(found: &mut [Found], set: usize, coherence: &Function) -> Result<(), F
     };
     let Some(one) = found.iter_mut().find(same) else { return Ok(()) };
     let values: Vec<f64> = (0..coherence.values.len()).filter_map(|i| coherence.values.get(i)).map(|v| v[0]).collect();
-    if values.iter().any(|g2| *g2 < -ROUNDING || *g2 > 1.0 + ROUNDING) {
+    if !is_coherence(&values) {
         return Err(FrfProblem::set(set, "this coherence is not between 0 and 1; export it without a scale"));
     }
     one.function.coherence = Some(values);
     Ok(())
+}
+
+/// Whether all values are between 0 and 1 but for rounding.
+pub(super) fn is_coherence(values: &[f64]) -> bool {
+    const ROUNDING: f64 = 1e-3;
+    values.iter().all(|g2| *g2 >= -ROUNDING && *g2 <= 1.0 + ROUNDING)
 }
 
 /// Leaves out the line at 0 Hz, which is no motion.

@@ -40,6 +40,20 @@ impl Form {
         Self::WORDS.iter().position(|&known| known == word).map(|i| forms[i])
     }
 
+    /// The form that a name speaks of, such as `Accelerance 7/19`.
+    pub fn spoken(name: &str) -> Option<Self> {
+        const SPOKEN: [(&[&str], Form); 6] = [
+            (&["accelerance", "inertance", "accelerability"], Form::Accelerance),
+            (&["mobility", "mobilität", "mobilité", "mobilita"], Form::Mobility),
+            (&["receptance", "compliance", "admittance"], Form::Receptance),
+            (&["dynamic stiffness", "dynamic-stiffness", "dynamische steifigkeit"], Form::DynamicStiffness),
+            (&["impedance", "impedanz"], Form::Impedance),
+            (&["apparent mass", "apparent-mass", "dynamic mass"], Form::ApparentMass),
+        ];
+        let name = name.to_lowercase();
+        SPOKEN.iter().find(|(words, _)| words.iter().any(|word| name.contains(word))).map(|(_, form)| *form)
+    }
+
     /// What moves.
     pub fn quantity(self) -> Quantity {
         match self {
@@ -107,6 +121,12 @@ pub(super) fn ratio_of_unit(unit: &str) -> Result<Ratio, String> {
     let (top, bottom) =
         (LabUnit::from_name(&over).ok_or_else(unknown)?, LabUnit::from_name(&under).ok_or_else(unknown)?);
     of_sides((top.quantity, top.to_si), (bottom.quantity, bottom.to_si)).ok_or_else(unknown)
+}
+
+/// Quantity and factor to SI of the unit of a motion alone, such as `g`.
+pub(super) fn motion_of_unit(unit: &str) -> Option<(Quantity, f64)> {
+    let unit = LabUnit::from_name(unit.trim().trim_start_matches('(').trim_end_matches(')'))?;
+    (unit.quantity != Quantity::Force).then_some((unit.quantity, unit.to_si))
 }
 
 /// What stands over and under the last line of a unit; `(1/B)*(A)` is `A` over `B`.

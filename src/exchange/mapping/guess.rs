@@ -4,10 +4,27 @@ use crate::measurement::Quantity;
 
 /// Words in names that say what a channel measures.
 const WORDS: [(&[&str], Quantity); 4] = [
-    (&["force", "kraft", "load", "hammer", "shaker", "exc", "frc"], Quantity::Force),
-    (&["acc", "accel", "acceleration", "beschleunigung", "icp"], Quantity::Acceleration),
-    (&["vel", "velocity", "speed", "geschwindigkeit", "ldv", "vibrometer"], Quantity::Velocity),
-    (&["disp", "displacement", "weg", "laser", "lvdt", "position", "pos"], Quantity::Displacement),
+    (&["force", "forza", "kraft", "load", "effort", "hammer", "shaker", "exc", "frc", "impact"], Quantity::Force),
+    (
+        &["acc", "accel", "acceleration", "accelerazione", "accélération", "beschleunigung", "beschl", "icp"],
+        Quantity::Acceleration,
+    ),
+    (&["vel", "velocity", "speed", "geschwindigkeit", "vitesse", "velocità", "ldv", "vibrometer"], Quantity::Velocity),
+    (
+        &[
+            "disp",
+            "displacement",
+            "weg",
+            "auslenkung",
+            "spostamento",
+            "déplacement",
+            "laser",
+            "lvdt",
+            "position",
+            "pos",
+        ],
+        Quantity::Displacement,
+    ),
 ];
 
 /// Names of angles.
@@ -37,6 +54,19 @@ fn words(name: &str) -> Vec<String> {
 pub(super) fn spoken(name: &str) -> Option<Quantity> {
     let words = words(name);
     WORDS.iter().find(|(known, _)| words.iter().any(|word| known.contains(&word.as_str()))).map(|(_, q)| *q)
+}
+
+/// Quantity by the symbol that is the whole name but for a number: `F`, `a2`, `v`, `x_1`.
+pub(super) fn symbol(name: &str) -> Option<Quantity> {
+    let mut letters = name.trim().chars();
+    let quantity = match letters.next()?.to_ascii_lowercase() {
+        'f' => Quantity::Force,
+        'a' => Quantity::Acceleration,
+        'v' => Quantity::Velocity,
+        'x' | 'd' => Quantity::Displacement,
+        _ => return None,
+    };
+    letters.all(|c| c.is_ascii_digit() || matches!(c, '_' | ' ' | '[' | ']')).then_some(quantity)
 }
 
 /// Whether a name is that of an angle.
@@ -96,7 +126,11 @@ mod tests {
     fn words_say_the_quantity() {
         assert_eq!(spoken("Acc 7"), Some(Quantity::Acceleration));
         assert_eq!(spoken("Kraft_1"), Some(Quantity::Force));
-        assert_eq!(spoken("Channel 1"), None);
+        assert_eq!((spoken("Channel 1"), symbol("y"), symbol("fan")), (None, None, None));
+        assert_eq!(
+            (symbol("F"), symbol("x_2"), spoken("Beschl.")),
+            (Some(Quantity::Force), Some(Quantity::Displacement), Some(Quantity::Acceleration))
+        );
         assert!(angle("phi") && angle("Roll angle") && !angle("phase"));
         assert!(is_sensor_unit("Volts") && is_sensor_unit("µm/m") && !is_sensor_unit("Pa"));
     }

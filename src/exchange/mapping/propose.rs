@@ -3,12 +3,16 @@
 //! What a file does not say is proposed with a note: DOFs numbered in the order of the channels, SI units. A channel that may
 //! be a motion in a unit of its sensor (volts, strain) is kept apart, as [`Proposal::uncalibrated`].
 
-use super::guess::{angle, is_sensor_unit, place_of, quantity_of_type, spoken};
+use super::guess::{angle, is_sensor_unit, place_of, quantity_of_type, spoken, symbol};
 use super::table::ChannelTable;
 use super::units::LabUnit;
 use crate::measurement::Quantity;
 use crate::measurement::channel::parse_name;
+use dashpot_datafiles::units::{sensitivity, suffix};
 use dashpot_datafiles::{Axis, Channel, Contents, Kind};
+
+/// Names of channels that `dashpot_datafiles` found to be the times of others.
+const TIMES: &str = "time of ";
 
 /// What is proposed for a file.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -39,13 +43,19 @@ struct Draft<'a> {
 pub fn propose(contents: &Contents) -> Proposal {
     let mut proposal = Proposal::default();
     let mut drafts: Vec<Draft<'_>> = Vec::new();
+    let moves = |channel: &Channel| {
+        let quantity = LabUnit::from_name(&channel.unit).map(|unit| unit.quantity).or_else(|| spoken(&channel.name));
+        angle(&channel.name) || quantity.is_some_and(|quantity| quantity != Quantity::Force)
+    };
+    // Where another channel moves, `x` may be anything.
+    let moved = contents.sets.iter().flat_map(|set| &set.channels).any(moves);
     for set in contents.sets.iter().filter(|set| matches!(set.kind, Kind::Time | Kind::Table)) {
-        for channel in &set.channels {
+        for channel in set.channels.iter().filter(|channel| !channel.name.starts_with(TIMES)) {
             let same = |other: &&Channel| other.name == channel.name;
             let everywhere = contents.sets.iter().flat_map(|set| &set.channels).filter(same).count();
             let within = set.channels.iter().filter(same).count();
             let stated = (everywhere > within).then(|| set.name.clone());
-            match draft(channel, stated) {
+            match draft(channel, stated, moved) {
                 _ if within > 1 => proposal.leave(channel, "two channels of the set have that name"),
                 _ if channel.count == 0 => proposal.leave(channel, "it has 0 samples"),
                 _ if channel.complex => proposal.leave(channel, "it is complex"),
@@ -137,7 +147,7 @@ fn table(channel: &Channel, set: Option<String>, quantity: Quantity, label: Stri
     }
 }
 
-fn draft(channel: &Channel, set: Option<String>) -> Result<Draft<'_>, String> {
+fn draft(channel: &Channel, set: Option<String>, moved: bool) -> Result<Draft<'_>, String> {
     let of =
         |table: ChannelTable, placed: bool| Draft { channel, table, placed, calibrated: true, assumed: Vec::new() };
     if let Ok((quantity, label)) = parse_name(&channel.name) {
@@ -148,10 +158,16 @@ fn draft(channel: &Channel, set: Option<String>) -> Result<Draft<'_>, String> {
     }
     let unit = LabUnit::from_name(&channel.unit);
     let typed = channel.attribute("quantity").and_then(quantity_of_type);
-    let spoken = spoken(&channel.name).or(typed);
+    let symbol = symbol(&channel.name)
+        .filter(|quantity| channel.unit.is_empty() && (!moved || *quantity != Quantity::Displacement));
+    let spoken = spoken(&channel.name).or(typed).or(symbol);
     let turned = unit.is_none() && channel.unit.is_empty() && angle(&channel.name);
     let quantity = unit.map(|unit| unit.quantity).or(spoken).or(turned.then_some(Quantity::Displacement));
-    let place = place_of(channel.attribute("response").unwrap_or(&channel.name));
+    let name = suffix(&channel.name).map_or(channel.name.as_str(), |(front, _)| front);
+    let place = place_of(channel.attribute("response").unwrap_or(name));
+    if let Some(draft) = calibrated(channel, set.clone(), place.clone()) {
+        return Ok(draft);
+    }
     let (label, sign) = place.clone().unwrap_or_default();
     let Some(quantity) = quantity else {
         if !is_sensor_unit(&channel.unit) {
@@ -173,6 +189,35 @@ fn draft(channel: &Channel, set: Option<String>) -> Result<Draft<'_>, String> {
         draft.convert(unit, quantity, &channel.unit);
     }
     Ok(draft)
+}
+
+/// A channel in volts whose name or metadata state its sensitivity, such as 100 mV/g: its factor is the inverse.
+fn calibrated(channel: &Channel, set: Option<String>, place: Option<(String, Option<i64>)>) -> Option<Draft<'_>> {
+    let volts = |unit: &str| match unit.trim().to_lowercase().as_str() {
+        "v" | "volt" | "volts" => Some(1.0),
+        "mv" | "millivolt" | "millivolts" => Some(1e-3),
+        "uv" | "µv" => Some(1e-6),
+        _ => None,
+    };
+    let own = volts(&channel.unit)?;
+    let (value, over, under) =
+        channel.attribute("sensitivity").and_then(sensitivity).or_else(|| sensitivity(&channel.name))?;
+    let (unit, factor) = (LabUnit::from_name(&under)?, own / (value * volts(&over)?));
+    let (label, sign) = place.filter(|_| sensitivity(&channel.name).is_none()).unwrap_or_else(|| {
+        // The digits of the sensitivity are no place.
+        place_of(channel.name.split(['(', '[', ',']).next().unwrap_or_default()).unwrap_or_default()
+    });
+    // Twelve digits: 0.1, not 0.10000000000000002.
+    let factor = format!("{factor:.11e}").parse().unwrap_or(factor);
+    let placed = !label.is_empty();
+    let table = ChannelTable {
+        sign,
+        unit: Some(under.clone()),
+        factor: Some(factor),
+        ..table(channel, set, unit.quantity, label)
+    };
+    let assumed = vec![format!("calibrated by the sensitivity that the file states, {value} {over}/{under}")];
+    Some(Draft { channel, table, placed, calibrated: true, assumed })
 }
 
 impl Draft<'_> {

@@ -4,6 +4,7 @@ use super::correction::CorrectionTable;
 use super::excitation::ExcitationTable;
 use super::frf::FrfTable;
 pub use super::lines::Lines;
+pub use super::model::ReduceTable;
 use super::ruled_out::RuledOutTable;
 use crate::effects::family::Family;
 use crate::effects::{Effect, State};
@@ -134,21 +135,6 @@ pub struct MatricesTable {
     /// Table `[structure.reduce]`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub reduce: Option<ReduceTable>,
-}
-
-/// Table `[structure.reduce]`.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct ReduceTable {
-    /// `guyan` or `craig-bampton`.
-    pub method: String,
-    /// Fixed-interface modes are kept up to this frequency, Hz.
-    pub up_to_hz: f64,
-    /// The error is told up to this frequency, Hz; half of `up_to_hz` unless given.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub band_hz: Option<f64>,
-    /// DOFs that are kept beside those that the project names.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub dofs: Vec<Label>,
 }
 
 /// Measured points.

@@ -3,15 +3,17 @@
 use super::error::{Problem, ProjectError};
 use super::file::{Label, Lines};
 use super::plan::Plan;
-use super::reader::Table;
+use super::reader::{Origin, Table, one_line};
 use crate::control::Control;
 use crate::exchange::frf::{Form, FrfSource, read_responses};
 use crate::measurement::frf::{ChosenRuns, Selection};
-use serde::Serialize;
+use dashpot_datafiles::Pairing;
+use serde::{Serialize, Serializer};
 use std::collections::BTreeMap;
 use std::path::Path;
+use toml::de::DeTable;
 
-const KEYS: [&str; 12] = [
+const KEYS: [&str; 13] = [
     "file",
     "form",
     "scale",
@@ -24,6 +26,7 @@ const KEYS: [&str; 12] = [
     "responses",
     "references",
     "step_hz",
+    "columns",
 ];
 
 /// Lines that are used unless the project says otherwise: enough for many modes, few enough to stay fast.
@@ -68,6 +71,9 @@ pub struct FrfTable {
     /// Step of the frequencies from 0 Hz on, Hz, where the file does not say them.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub step_hz: Option<f64>,
+    /// How the columns are parts of complex numbers two by two, where their names do not say it.
+    #[serde(skip_serializing_if = "Option::is_none", serialize_with = "word")]
+    pub columns: Option<Pairing>,
     /// DOFs of the file, such as `12:+Z`, and their labels in the structure.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub dofs: BTreeMap<String, Label>,
@@ -77,29 +83,55 @@ pub struct FrfTable {
 pub(super) fn parse(root: &Table<'_>, lines: &mut Lines) -> Result<Vec<FrfTable>, ProjectError> {
     let mut tables = Vec::new();
     for table in root.tables("frf", "[[frf]]")? {
-        table.only(&KEYS)?;
-        let scale = table.number("scale")?;
-        if scale == Some(0.0) {
-            let problem = Problem::OutOfRange { key: "scale".into(), value: "0".into(), range: "other than zero" };
-            return Err(table.error("scale", problem));
-        }
-        tables.push(FrfTable {
-            file: table.need("file", "file = \"hammer.uff\"", table.text("file")?)?,
-            form: table.word("form", &Form::WORDS, Form::from_word)?,
-            scale,
-            averages: table.count("averages", 1, MOST_AVERAGES, "between 1 and 1000000")?,
-            reciprocity: table.flag("reciprocity")?.unwrap_or(false),
-            band: band(&table)?,
-            lines: table.count("lines", 1, MOST_LINES, "between 1 and 100000")?,
-            enabled: table.flag("use")?.unwrap_or(true),
-            dofs: dofs(&table)?,
-            responses: table.labels("responses")?.unwrap_or_default().into_iter().map(Label).collect(),
-            references: table.labels("references")?.unwrap_or_default().into_iter().map(Label).collect(),
-            step_hz: step(&table)?,
-        });
+        tables.push(one(&table, table.need("file", "file = \"hammer.uff\"", table.text("file")?)?)?);
         lines.frf.push(table.line());
     }
     Ok(tables)
+}
+
+fn one(table: &Table<'_>, file: String) -> Result<FrfTable, ProjectError> {
+    table.only(&KEYS)?;
+    let scale = table.number("scale")?;
+    if scale == Some(0.0) {
+        let problem = Problem::OutOfRange { key: "scale".into(), value: "0".into(), range: "other than zero" };
+        return Err(table.error("scale", problem));
+    }
+    Ok(FrfTable {
+        file,
+        form: table.word("form", &Form::WORDS, Form::from_word)?,
+        scale,
+        averages: table.count("averages", 1, MOST_AVERAGES, "between 1 and 1000000")?,
+        reciprocity: table.flag("reciprocity")?.unwrap_or(false),
+        band: band(table)?,
+        lines: table.count("lines", 1, MOST_LINES, "between 1 and 100000")?,
+        enabled: table.flag("use")?.unwrap_or(true),
+        dofs: dofs(table)?,
+        responses: table.labels("responses")?.unwrap_or_default().into_iter().map(Label).collect(),
+        references: table.labels("references")?.unwrap_or_default().into_iter().map(Label).collect(),
+        step_hz: step(table)?,
+        columns: table.word("columns", &Pairing::WORDS, Pairing::from_word)?,
+    })
+}
+
+#[expect(clippy::ref_option, clippy::trivially_copy_pass_by_ref, reason = "serde passes references to fields")]
+fn word<S: Serializer>(columns: &Option<Pairing>, serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.serialize_str(columns.map_or("", Pairing::word))
+}
+
+/// The first `[[frf]]` of a template, as TOML text and as it reads; its `file` may be left out. None where the template has
+/// `[[channel]]` tables instead.
+///
+/// # Errors
+/// [`ProjectError`] with the line of what is wrong.
+pub fn frf_template(text: &str, name: &str) -> Result<Option<FrfTable>, ProjectError> {
+    let origin = Origin { file: name, text };
+    let document = DeTable::parse(text).map_err(|error| {
+        let message = one_line(error.message());
+        origin.error(error.span().map_or(0, |span| span.start), Problem::Syntax { message })
+    })?;
+    let root = Table::root(origin, document.get_ref());
+    let Some(first) = root.tables("frf", "[[frf]]")?.into_iter().next() else { return Ok(None) };
+    one(&first, first.text("file")?.unwrap_or_default()).map(Some)
 }
 
 fn step(table: &Table<'_>) -> Result<Option<f64>, ProjectError> {
@@ -148,6 +180,7 @@ impl FrfTable {
             responses: self.responses.iter().map(|label| label.0.clone()).collect(),
             references: self.references.iter().map(|label| label.0.clone()).collect(),
             step_hz: self.step_hz,
+            columns: self.columns,
         }
     }
 

@@ -24,5 +24,6 @@ mod structure;
 pub use channel::template;
 pub use error::{Problem, ProjectError};
 pub use file::{Lines, ProjectFile};
+pub use frf::frf_template;
 pub use load::load;
 pub use plan::{Plan, PlannedBase, PlannedForce, PlannedRun, PlannedTest, open, plan};

@@ -1,6 +1,6 @@
 //! The modes of the whole model in the band against those of the reduced one.
 
-use super::{Wanted, pencil::Shifted};
+use super::Wanted;
 use crate::structure::modes::{Modes, mac_real, modes};
 use crate::structure::{StructureError, SystemMatrices};
 use std::f64::consts::TAU;
@@ -23,20 +23,19 @@ impl ModeCheck {
     }
 }
 
-/// Compares mode by mode in ascending order; `kept` are the rows of the whole model that are the first of the reduced one.
+/// Compares with the modes of the whole model in the band, mode by mode in ascending order; `kept` are the rows of the whole model that are the first of the reduced one.
 pub(super) fn check(
-    whole: &Shifted<'_>,
+    full: &Modes,
     reduced: &SystemMatrices,
     kept: &[usize],
     wanted: Wanted,
 ) -> Result<Vec<ModeCheck>, StructureError> {
-    let full = whole.modes(wanted.band_hz)?;
     let own = modes(reduced)?;
     let count = full.omega.iter().filter(|&&omega| omega <= TAU * wanted.band_hz).count().min(own.len());
     Ok((0..count)
         .map(|r| {
             let (full_hz, reduced_hz) = (full.frequency_hz(r), own.frequency_hz(r));
-            ModeCheck { full_hz, reduced_hz, mac: likeness(&full, &own, kept, r) }
+            ModeCheck { full_hz, reduced_hz, mac: likeness(full, &own, kept, r) }
         })
         .collect())
 }

@@ -62,6 +62,8 @@ pub struct Wanted {
     pub up_to_hz: f64,
     /// The error is told on the modes up to this frequency, Hz.
     pub band_hz: f64,
+    /// Largest relative error of a frequency in the band; more fixed-interface modes are kept where it is larger.
+    pub error: f64,
 }
 
 /// How a structure was reduced, and how well.
@@ -89,7 +91,7 @@ impl Reduction {
 
     /// The reduction and its error, in one sentence.
     pub fn sentence(&self) -> String {
-        let Wanted { method, up_to_hz, band_hz } = self.wanted;
+        let Wanted { method, up_to_hz, band_hz, .. } = self.wanted;
         let modes = match method {
             Method::Guyan => String::new(),
             Method::CraigBampton => {

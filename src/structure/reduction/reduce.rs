@@ -2,10 +2,11 @@
 
 use super::check::check;
 use super::pencil::Shifted;
-use super::{Method, Reduction, SparseSystem, Wanted};
+use super::{Method, ModeCheck, Reduction, SparseSystem, Wanted};
 use crate::math::eigen::symmetrised;
 use crate::math::fill::filled;
 use crate::structure::lowest_modes::Pencil;
+use crate::structure::modes::Modes;
 use crate::structure::{Direction, StructureError, SystemMatrices};
 use dashpot_numerics::{SparseCholesky, SparseSymmetric, product, transposed_product};
 use faer::Mat;
@@ -13,7 +14,15 @@ use faer::Mat;
 /// Steps from the shifted to the true static modes.
 const STEPS: usize = 3;
 
+/// How much further fixed-interface modes are kept where the error is above what was asked.
+const FURTHER: f64 = 1.5;
+/// Most times that they are kept further: 1.5^6 is 11 times the frequency.
+const MOST_TIMES: usize = 6;
+
 /// Reduces `system` to its rows `kept` (ascending); `directions` are those of all its rows.
+///
+/// Where frequencies in the band are off by more than `wanted.error`, fixed-interface modes are kept up to a higher frequency,
+/// which the result says.
 ///
 /// # Errors
 /// [`StructureError`]: nothing kept, too many modes, a structure that is not stable or, for Guyan, not restrained by `kept`.
@@ -30,6 +39,52 @@ pub fn reduce(
     if kept.len() >= n {
         return Err(StructureError::NothingReduced { kept: kept.len(), degrees: n });
     }
+    let whole = |found: &Reduced| -> Result<(Modes, Vec<ModeCheck>), StructureError> {
+        let modes = Shifted::new(system, wanted.band_hz).ok_or(StructureError::NotStable)?.modes(wanted.band_hz)?;
+        let checks = check(&modes, &found.matrices, kept, wanted)?;
+        Ok((modes, checks))
+    };
+    let mut best = once(system, directions, kept, wanted)?;
+    let (modes, mut checks) = whole(&best)?;
+    let mut next = wanted;
+    for _ in 0..MOST_TIMES {
+        if wanted.method == Method::Guyan || worst(&checks) <= wanted.error || best.matrices.mass.nrows() >= n {
+            break;
+        }
+        next.up_to_hz *= FURTHER;
+        // What was asked for is there; a model that has too many modes further up keeps it.
+        let Ok(more) = once(system, directions, kept, next) else { break };
+        let better = check(&modes, &more.matrices, kept, wanted)?;
+        if worst(&better) < worst(&checks) {
+            (best, checks) = (more, better);
+        }
+    }
+    let Reduced { matrices, base_loads, fixed_interface_modes, wanted } = best;
+    let kept = kept.len();
+    let reduction = Reduction { wanted, from_dofs: n, kept, fixed_interface_modes, modes: checks, base_loads };
+    Ok((matrices, reduction))
+}
+
+/// Largest relative error of a frequency.
+fn worst(checks: &[ModeCheck]) -> f64 {
+    checks.iter().map(|check| check.frequency_error().abs()).fold(0.0, f64::max)
+}
+
+/// A reduction before it is checked.
+struct Reduced {
+    matrices: SystemMatrices,
+    base_loads: [Vec<f64>; 3],
+    fixed_interface_modes: usize,
+    wanted: Wanted,
+}
+
+fn once(
+    system: &SparseSystem,
+    directions: &[Direction],
+    kept: &[usize],
+    wanted: Wanted,
+) -> Result<Reduced, StructureError> {
+    let n = system.mass.size();
     let (basis, fixed_interface_modes) = basis(system, kept, wanted)?;
     let loaded = system.mass.times(basis.as_ref());
     let mass = symmetrised(transposed_product(basis.as_ref(), loaded.as_ref()).as_ref());
@@ -40,12 +95,7 @@ pub fn reduce(
         let moved = |i: &usize| directions[*i] == direction;
         (0..basis.ncols()).map(|j| (0..n).filter(moved).map(|i| loaded[(i, j)]).sum()).collect()
     });
-    drop((basis, loaded, strained));
-    let whole = Shifted::new(system, wanted.band_hz).ok_or(StructureError::NotStable)?;
-    let modes = check(&whole, &matrices, kept, wanted)?;
-    let kept = kept.len();
-    let reduction = Reduction { wanted, from_dofs: n, kept, fixed_interface_modes, modes, base_loads };
-    Ok((matrices, reduction))
+    Ok(Reduced { matrices, base_loads, fixed_interface_modes, wanted })
 }
 
 /// `T`, n x (kept + modes), and the number of modes.

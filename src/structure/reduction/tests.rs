@@ -38,7 +38,7 @@ fn system(structure: &Structure) -> (SparseSystem, Vec<Direction>) {
 fn craig_bampton_reaches_the_closed_form_of_a_cantilever() {
     let (p, structure) = beam(60, Supports::ClampedFree);
     let (system, directions) = system(&structure);
-    let wanted = Wanted { method: Method::CraigBampton, up_to_hz: 1500.0, band_hz: 700.0 };
+    let wanted = Wanted { method: Method::CraigBampton, up_to_hz: 1500.0, band_hz: 700.0, error: 1.0 };
     let (_, reduction) = reduce(&system, &directions, &[30, 60, 118], wanted).unwrap();
     let stiffness = p.youngs_modulus * p.breadth * p.depth.powi(3) / 12.0;
     let speed = (stiffness / (p.density * p.breadth * p.depth)).sqrt();
@@ -60,7 +60,7 @@ fn frequencies_are_those_of_the_whole_model() {
     let (system, directions) = system(&structure);
     let own = structure.modes().unwrap();
     for (method, tolerance) in [(Method::CraigBampton, 2e-3), (Method::Guyan, 0.02)] {
-        let wanted = Wanted { method, up_to_hz: 2000.0, band_hz: 300.0 };
+        let wanted = Wanted { method, up_to_hz: 2000.0, band_hz: 300.0, error: 1.0 };
         let (_, reduction) = reduce(&system, &directions, &[20, 40, 60, 80, 100, 118], wanted).unwrap();
         assert_eq!(reduction.modes.len(), own.omega.iter().filter(|w| **w < 300.0 * std::f64::consts::TAU).count());
         for (r, mode) in reduction.modes.iter().enumerate() {
@@ -71,12 +71,33 @@ fn frequencies_are_those_of_the_whole_model() {
     }
 }
 
+#[test]
+fn modes_are_kept_until_the_error_that_is_told_is_what_was_asked() {
+    let (_, structure) = beam(60, Supports::ClampedFree);
+    let (system, directions) = system(&structure);
+    let loose = Wanted { method: Method::CraigBampton, up_to_hz: 1500.0, band_hz: 700.0, error: 1.0 };
+    let worst = |wanted: Wanted| {
+        let (matrices, reduction) = reduce(&system, &directions, &[30, 60, 118], wanted).unwrap();
+        assert_eq!(matrices.mass.nrows(), reduction.kept + reduction.fixed_interface_modes);
+        (reduction.worst().unwrap().frequency_error(), reduction.fixed_interface_modes, reduction.wanted.up_to_hz)
+    };
+    let (before, few, asked) = worst(loose);
+    assert!(before > 1e-3 && few == 5 && asked == 1500.0, "{before} {few}");
+    for error in [1e-3, 1e-4] {
+        let (after, more, up_to) = worst(Wanted { error, ..loose });
+        assert!(after <= error && more > few && up_to > asked, "{error}: {after} {more} {up_to}");
+    }
+    // What cannot be reached ends with the best.
+    let (best, ..) = worst(Wanted { error: 0.0, ..loose });
+    assert!(best < 1e-4);
+}
+
 /// Static displacements under forces at kept degrees of freedom are exact by Guyan.
 #[test]
 fn guyan_is_exact_at_rest() {
     let (_, structure) = beam(20, Supports::ClampedFree);
     let (system, directions) = system(&structure);
-    let wanted = Wanted { method: Method::Guyan, up_to_hz: 100.0, band_hz: 100.0 };
+    let wanted = Wanted { method: Method::Guyan, up_to_hz: 100.0, band_hz: 100.0, error: 1.0 };
     let kept = [10, 38];
     let (matrices, _) = reduce(&system, &directions, &kept, wanted).unwrap();
     let whole = dashpot_numerics::Cholesky::new(structure.matrices().unwrap().stiffness.as_ref()).unwrap();
@@ -91,7 +112,7 @@ fn guyan_is_exact_at_rest() {
 fn a_free_beam_keeps_its_rigid_motions_and_its_mass() {
     let (p, structure) = beam(40, Supports::FreeFree);
     let (system, directions) = system(&structure);
-    let wanted = Wanted { method: Method::CraigBampton, up_to_hz: 1000.0, band_hz: 400.0 };
+    let wanted = Wanted { method: Method::CraigBampton, up_to_hz: 1000.0, band_hz: 400.0, error: 1.0 };
     let (matrices, reduction) = reduce(&system, &directions, &[0], wanted).unwrap();
     assert!(reduction.modes[1].full_hz == 0.0 && reduction.modes[1].reduced_hz < 1e-2, "{:?}", reduction.modes);
     assert!(reduction.modes[2].frequency_error().abs() < 1e-4);
@@ -109,7 +130,7 @@ fn a_free_beam_keeps_its_rigid_motions_and_its_mass() {
 fn what_cannot_be_done_is_said() {
     let (_, structure) = beam(10, Supports::FreeFree);
     let (system, directions) = system(&structure);
-    let wanted = Wanted { method: Method::Guyan, up_to_hz: 1000.0, band_hz: 400.0 };
+    let wanted = Wanted { method: Method::Guyan, up_to_hz: 1000.0, band_hz: 400.0, error: 1.0 };
     assert_eq!(reduce(&system, &directions, &[], wanted).unwrap_err(), StructureError::NothingKept);
     let all: Vec<usize> = (0..22).collect();
     let error = reduce(&system, &directions, &all, wanted).unwrap_err();

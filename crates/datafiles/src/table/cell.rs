@@ -46,11 +46,13 @@ pub(crate) fn number(text: &str, comma: bool) -> Option<f64> {
     if !matches!(first, b'0'..=b'9' | b'+' | b'-' | b'.' | b',') {
         return missing(text);
     }
-    if !comma {
-        if let Ok(value) = text.parse::<f64>() {
-            return plain(text).then_some(value).or_else(|| missing(text));
-        }
-    } else if text.contains('.') && text.contains(',') || text.matches(',').count() > 1 {
+    if !comma && let Ok(value) = text.parse::<f64>() {
+        return plain(text).then_some(value).or_else(|| missing(text));
+    }
+    if let Some(value) = grouped(text, comma) {
+        return Some(value);
+    }
+    if comma && (text.contains('.') && text.contains(',') || text.matches(',').count() > 1) {
         return None;
     }
     // A comma at the end of a word separates words, it is no decimal comma.
@@ -71,6 +73,18 @@ pub(crate) fn number(text: &str, comma: bool) -> Option<f64> {
         Ok(value) if plain(&mended) => Some(value),
         _ => missing(text),
     }
+}
+
+/// A number with signs between its thousands and a decimal sign: `1.234,5`, `1,234.5`, `1'234.5`.
+fn grouped(text: &str, comma: bool) -> Option<f64> {
+    let (groups, decimal) = if comma { (['.', '\''], ',') } else { ([',', '\''], '.') };
+    let (whole, fraction) = text.split_once(decimal)?;
+    let letter = groups.into_iter().find(|letter| whole.contains(*letter))?;
+    let mut parts = whole.trim_start_matches(['+', '-']).split(letter);
+    let first = parts.next()?;
+    let digits = |part: &str| part.bytes().all(|byte| byte.is_ascii_digit());
+    let right = (1..4).contains(&first.len()) && digits(first) && parts.all(|part| part.len() == 3 && digits(part));
+    (right && digits(fraction)).then(|| format!("{}.{fraction}", whole.replace(letter, "")).parse().ok())?
 }
 
 /// Whether a text that parses is digits, not `inf` or `nan` in letters.
@@ -108,12 +122,19 @@ fn complex(text: &str, comma: bool) -> Option<[f64; 2]> {
 
 /// Seconds of `12:34:56.789`, `34:56.789` with or without a date in front; the date counts in days from 1970.
 pub(crate) fn clock(text: &str) -> Option<f64> {
+    if text.len() <= 10
+        && let Some(days) = days(text)
+    {
+        return Some(days as f64 * 86400.0);
+    }
+    let (text, half) = half_of_day(text);
     let (date, time) = match text.split_once([' ', 'T']) {
-        Some((date, time)) => (Some(date), time.trim()),
+        Some((date, time)) => (Some(date.trim_end_matches(',')), time.trim()),
         None => (None, text),
     };
     let mut parts = time.trim_end_matches('Z').split(':');
     let hours: u32 = digits(parts.next()?)?;
+    let hours = half.map_or(hours, |half| hours % 12 + half);
     let minutes: u32 = digits(parts.next()?).filter(|&minutes| minutes < 60)?;
     let seconds = match parts.next() {
         Some(seconds) => number(&seconds.replace(',', "."), false).filter(|s| (0.0..61.0).contains(s))?,
@@ -124,17 +145,34 @@ pub(crate) fn clock(text: &str) -> Option<f64> {
         .then(|| days as f64 * 86400.0 + f64::from(hours) * 3600.0 + f64::from(minutes) * 60.0 + seconds)
 }
 
+/// A time without `AM` or `PM` behind it, and the hours that these add.
+fn half_of_day(text: &str) -> (&str, Option<u32>) {
+    for (word, hours) in [("AM", 0), ("PM", 12)] {
+        if let Some(at) = text.len().checked_sub(2)
+            && text.is_char_boundary(at)
+            && text[at..].eq_ignore_ascii_case(word)
+        {
+            return (text[..at].trim_end(), Some(hours));
+        }
+    }
+    (text, None)
+}
+
 fn digits(text: &str) -> Option<u32> {
     (!text.is_empty() && text.len() <= 4 && text.bytes().all(|byte| byte.is_ascii_digit()))
         .then(|| text.parse().ok())?
 }
 
-/// Days from 1970-01-01 of `2024-03-01`, `2024/03/01`, `01.03.2024`.
+/// Days from 1970-01-01 of `2024-03-01`, `2024/03/01`, `01.03.2024`; of `03/01/2024` too, where the month stands in front.
 fn days(text: &str) -> Option<i64> {
     let parts: Vec<u32> = text.split(['-', '/', '.']).map(digits).collect::<Option<_>>()?;
     let [a, month, c] = parts[..] else { return None };
-    let (year, day) = if a > 31 { (a, c) } else { (c, a) };
-    if !(1..=12).contains(&month) || !(1..=31).contains(&day) {
+    let (year, month, day) = match (a > 31, text.contains('/') && a < 13) {
+        (true, _) => (a, month, c),
+        (_, true) => (c, a, month),
+        _ => (c, month, a),
+    };
+    if year < 100 || !(1..=12).contains(&month) || !(1..=31).contains(&day) {
         return None;
     }
     // Days of the civil calendar (Hinnant): years begin in March.
@@ -157,7 +195,10 @@ mod tests {
         assert_eq!(Cell::parse("1,", true), Cell::Word("1,".into()));
         assert_eq!(Cell::parse("-.5e+3", false), Cell::Real(-500.0));
         assert!(matches!(Cell::parse("-1.#IND", false), Cell::Real(value) if value.is_nan()));
-        assert_eq!(Cell::parse("1.234,5", true), Cell::Word("1.234,5".into()));
+        assert_eq!(Cell::parse("1.234,5", true), Cell::Real(1234.5));
+        assert_eq!(Cell::parse("-1,234,567.5", false), Cell::Real(-1_234_567.5));
+        assert_eq!(Cell::parse("1'234.5", false), Cell::Real(1234.5));
+        assert_eq!(Cell::parse("1.23,5", true), Cell::Word("1.23,5".into()));
         assert_eq!(Cell::parse("infinite", false), Cell::Word("infinite".into()));
     }
 
@@ -167,6 +208,10 @@ mod tests {
         assert_eq!(Cell::parse("1.5 - 2i", false), Cell::Complex([1.5, -2.0]));
         assert_eq!(Cell::parse("1:02:03.5", false), Cell::Clock(3723.5));
         assert_eq!(Cell::parse("1970-01-02 00:00:01", false), Cell::Clock(86401.0));
+        assert_eq!(Cell::parse("01/02/1970 12:00:01.5 AM", false), Cell::Clock(86401.5));
+        assert_eq!(Cell::parse("1:00:00 pm", false), Cell::Clock(46800.0));
+        assert_eq!(Cell::parse("02.01.1970", false), Cell::Clock(86400.0));
+        assert_eq!(Cell::parse("1.2.3", false), Cell::Word("1.2.3".into()));
         assert_eq!(Cell::parse("2000-03-01T00:00:00", false), Cell::Clock(11017.0 * 86400.0));
     }
 }

@@ -2,7 +2,9 @@
 
 use super::HeaderLine;
 use super::cell::number;
-use crate::units::{is_unit, split, stripped};
+use crate::axis::kind_of;
+use crate::parts::is_bare_part;
+use crate::units::{is_unit, split, stripped, suffix};
 
 /// What a header says.
 #[derive(Debug, Default)]
@@ -13,16 +15,88 @@ pub(crate) struct Header {
     pub units: Vec<String>,
     /// Time between samples, s, where a line says it.
     pub step: Option<f64>,
+    /// Sensitivities of the columns, where a row says them.
+    pub sensitivities: Vec<String>,
     /// The lines that are neither names nor units.
     pub remarks: Vec<String>,
 }
 
-const NAME_WORDS: [&str; 9] =
-    ["name", "names", "channel", "channels", "kanal", "signal", "channel name", "channel_name", "kanalname"];
-const UNIT_WORDS: [&str; 6] = ["unit", "units", "einheit", "einheiten", "y_unit", "y_unit_label"];
+const NAME_WORDS: [&str; 12] = [
+    "name",
+    "names",
+    "channel",
+    "channels",
+    "kanal",
+    "signal",
+    "channel name",
+    "channel_name",
+    "kanalname",
+    "point",
+    "point id",
+    "dof",
+];
+const UNIT_WORDS: [&str; 9] =
+    ["unit", "units", "einheit", "einheiten", "y_unit", "y_unit_label", "y axis unit", "y-axis unit", "ordinate unit"];
+const SENSITIVITY_WORDS: [&str; 5] = ["sensitivity", "sensitivities", "sens.", "empfindlichkeit", "sensibilità"];
+
+/// Most rows between the units and the numbers, or between names and units.
+const MOST_BELOW: usize = 8;
 
 /// Reads the header of a block of `width` columns.
 pub(crate) fn read(lines: &[HeaderLine], width: usize) -> Header {
+    let Some((parts, lines)) = parts_below_names(lines, width) else { return rows(lines, width) };
+    let mut header = rows(&lines, width);
+    for (name, part) in header.names.iter_mut().zip(&parts.cells) {
+        if !part.trim().is_empty() {
+            *name = format!("{name} {}", part.trim()).trim().to_owned();
+        }
+    }
+    header
+}
+
+/// A row of `Real`, `Imag` (or `Mag [g/N]`, `Phase [deg]`) below names that stand once over both: the row, and the other lines
+/// with the names over every column.
+fn parts_below_names(lines: &[HeaderLine], width: usize) -> Option<(HeaderLine, Vec<HeaderLine>)> {
+    let is_parts = |line: &HeaderLine| {
+        let mut distinct: Vec<String> =
+            line.cells.iter().filter(|cell| is_bare_part(cell)).map(|c| c.to_lowercase()).collect();
+        distinct.sort_unstable();
+        distinct.dedup();
+        if distinct.len() < 2 {
+            return false;
+        }
+        let parts = line.cells.iter().filter(|cell| is_bare_part(cell)).count();
+        parts > 1 && 2 * parts > line.cells.iter().filter(|cell| !cell.is_empty()).count()
+    };
+    let at = lines.iter().rposition(is_parts).filter(|_| width > 2)?;
+    let names = (at.saturating_sub(2)..at).rev().find(|&i| {
+        let filled = lines[i].cells.iter().filter(|cell| !cell.is_empty()).count();
+        lines[i].cells.len() > 1 && filled > 1 && !units_row(&lines[i].cells) && lines[i].cells.len() + 2 > width
+    })?;
+    let mut parts = lines[at].clone();
+    let mut others = lines.to_vec();
+    let cells = &mut others[names].cells;
+    cells.resize(width, String::new());
+    for c in 1..width {
+        if is_bare_part(parts.cells.get(c).map_or("", String::as_str)) {
+            if cells[c].is_empty() {
+                cells[c] = cells[c - 1].clone();
+            }
+        } else if let Some(cell) = parts.cells.get_mut(c).filter(|cell| is_unit(cell)) {
+            cell.clear();
+        }
+    }
+    // What the first column says there is the unit of the abscissa.
+    let first = parts.cells.first_mut()?;
+    if is_unit(first) && split(&others[names].cells[0]).1.is_empty() {
+        others[names].cells[0] = format!("{} [{first}]", others[names].cells[0]).trim().to_owned();
+        first.clear();
+    }
+    others.remove(at);
+    Some((parts, others))
+}
+
+fn rows(lines: &[HeaderLine], width: usize) -> Header {
     let mut header =
         Header { names: vec![String::new(); width], units: vec![String::new(); width], ..Header::default() };
     let labelled = |words: &[&str]| {
@@ -46,6 +120,13 @@ pub(crate) fn read(lines: &[HeaderLine], width: usize) -> Header {
     if let Some(at) = units {
         header.take_units(&lines[at].cells);
     }
+    if let Some(above) = names.and_then(|at| at.checked_sub(1)).filter(|above| Some(*above) != units) {
+        header.tell_apart(&lines[above].cells);
+    }
+    if let Some(at) = labelled(&SENSITIVITY_WORDS) {
+        header.sensitivities = lines[at].cells.iter().map(|cell| uncommented(cell).to_owned()).collect();
+    }
+    header.units_behind_names();
     let used = |i: &usize| Some(*i) != names && Some(*i) != units;
     for line in (0..lines.len()).filter(used).map(|i| &lines[i]) {
         header.step = header.step.or_else(|| step(&line.cells));
@@ -60,13 +141,36 @@ fn unlabelled(lines: &[HeaderLine], width: usize) -> (Option<usize>, Option<usiz
     let Some(last) = (0..lines.len()).rev().find(wide) else { return (None, None) };
     let above = last.checked_sub(1).filter(wide);
     if units_row(&lines[last].cells) {
-        return (above, Some(last));
+        return (names_above(lines, last, width).or(above), Some(last));
+    }
+    // Further rows, such as sensors and comments, between the units and the numbers.
+    let lower = last.saturating_sub(MOST_BELOW)..last;
+    if let Some(units) = lower.rev().find(|i| wide(i) && units_row(&lines[*i].cells))
+        && above != Some(units)
+        && let Some(names) = names_above(lines, units, width)
+    {
+        return (Some(names), Some(units));
     }
     // Units above the names.
     match above.filter(|&at| units_row(&lines[at].cells)) {
         Some(at) => (Some(last), Some(at)),
         None => (Some(last), None),
     }
+}
+
+/// The nearest wide row above a row of units whose names tell the columns apart.
+fn names_above(lines: &[HeaderLine], units: usize, width: usize) -> Option<usize> {
+    let distinct = |cells: &[String]| {
+        let mut names: Vec<&String> = cells.iter().skip(1).filter(|cell| !cell.is_empty()).collect();
+        let count = names.len();
+        names.sort_unstable();
+        names.dedup();
+        names.len() == count
+            && count + 1 >= width.saturating_sub(width / 4)
+            && !names.iter().any(|name| is_bare_part(name))
+    };
+    let near = units.saturating_sub(MOST_BELOW)..units;
+    near.rev().find(|&i| !units_row(&lines[i].cells) && distinct(&lines[i].cells))
 }
 
 /// Whether most of the cells of a row are units.
@@ -97,6 +201,50 @@ impl Header {
                 (self.names[i], self.units[i]) = (name, unit);
             } else {
                 text.clone_into(&mut self.names[i]);
+            }
+        }
+    }
+
+    /// Names that stand several times get those above them in front: `Y`, `Y` under `Force`, `Acc`.
+    fn tell_apart(&mut self, above: &[String]) {
+        let twice = |name: &String| !name.is_empty() && self.names.iter().filter(|other| *other == name).count() > 1;
+        let again: Vec<bool> = (0..self.names.len())
+            .map(|c| twice(&self.names[c]) && kind_of(&self.names[c], &self.units[c]).is_none())
+            .collect();
+        if !again.contains(&true) || above.len() < 2 {
+            return;
+        }
+        let mut last = "";
+        for (c, name) in self.names.iter_mut().enumerate() {
+            last = above.get(c).map(|cell| cell.trim()).filter(|cell| !cell.is_empty()).unwrap_or(last);
+            if again[c] && !last.is_empty() {
+                *name = if name.eq_ignore_ascii_case("y") { last.to_owned() } else { format!("{last} {name}") };
+            }
+        }
+    }
+
+    /// Units behind a stroke, as DIN 461 has them (`F/N`, `t/s`), where most names have one; units in the last part of a name
+    /// (`acc_mg`), which keeps it.
+    fn units_behind_names(&mut self) {
+        let stroke = |name: &str| {
+            let (front, unit) = name.split_once('/')?;
+            let symbol = !front.is_empty() && front.chars().all(|c| c.is_alphanumeric() || matches!(c, '_' | ' '));
+            (symbol && is_unit(unit)).then(|| (front.trim().to_owned(), unit.trim().to_owned()))
+        };
+        let bare = |c: usize| self.units[c].is_empty() && !self.names[c].is_empty();
+        let all = (0..self.names.len()).filter(|&c| bare(c)).count();
+        let with = (0..self.names.len()).filter(|&c| bare(c) && stroke(&self.names[c]).is_some()).count();
+        for c in 0..self.names.len() {
+            if !self.units[c].is_empty() {
+                continue;
+            }
+            if with > 1
+                && 2 * with > all
+                && let Some((name, unit)) = stroke(&self.names[c])
+            {
+                (self.names[c], self.units[c]) = (name, unit);
+            } else if let Some((_, unit)) = suffix(&self.names[c]) {
+                unit.clone_into(&mut self.units[c]);
             }
         }
     }
@@ -170,6 +318,38 @@ mod tests {
     fn labelled_rows_are_found_in_deep_headers() {
         let header = read(&lines(&["Channel;A1;A2", "Unit;g;N", "Serial;12;13"]), 3);
         assert_eq!((header.names[1].as_str(), header.units[2].as_str()), ("A1", "N"));
+    }
+
+    #[test]
+    fn names_and_units_stand_further_up_or_once_over_two_columns() {
+        let of = |text: &[&str], width| {
+            let header = read(&lines(text), width);
+            (header.names.join(","), header.units.join(","))
+        };
+        let catman = [
+            "Zeit;Kraft;Acc_1",
+            "s;N;g",
+            "Kommentar;;",
+            "Sample rate=1;Sample rate=1;Sample rate=1",
+            "SensorType=;U9C;B12",
+        ];
+        assert_eq!(of(&catman, 3), ("Zeit,Kraft,Acc_1".into(), "s,N,g".into()));
+        assert_eq!(of(&["Force;;Acc;", "X [s];Y [N];X [s];Y [g]"], 4), ("X,Force,X,Acc".into(), "s,N,s,g".into()));
+        assert_eq!(of(&["t/s;F/N;s/µm"], 3), ("t,F,s".into(), "s,N,µm".into()));
+        assert_eq!(of(&["time_s;force_N;acc_mg"], 3), ("time_s,force_N,acc_mg".into(), "s,N,mg".into()));
+        let header = read(&lines(&["Channel;Time;Force", "Unit;s;mV", "Sensitivity;;22.5 mV/N"]), 3);
+        assert_eq!(header.sensitivities[2], "22.5 mV/N");
+    }
+
+    #[test]
+    fn parts_stand_below_names_over_both() {
+        let header = read(&lines(&["Frequency;Point 1;;Point 2", "Hz;Real;Imag;Real;Imag"]), 5);
+        let names = "Frequency,Point 1 Real,Point 1 Imag,Point 2 Real,Point 2 Imag";
+        assert_eq!((header.names.join(",").as_str(), header.units[0].as_str()), (names, "Hz"));
+        let header = read(&lines(&["f;H11;H11", "[Hz];[m/s²/N];[m/s²/N]", "-;Re;Im"]), 3);
+        assert_eq!((header.names[2].as_str(), header.units[2].as_str()), ("H11 Im", "m/s²/N"));
+        let header = read(&lines(&["Frequency;Real;Imag", "Hz;g/N;g/N"]), 3);
+        assert_eq!((header.names.join(",").as_str(), header.units[2].as_str()), ("Frequency,Real,Imag", "g/N"));
     }
 
     #[test]

@@ -172,12 +172,27 @@ impl Blocks {
             }
             if block.rows <= 1 { self.demote() } else { self.close() }
         }
+        if self.open.is_none() && self.remark_behind(cells) {
+            return self.numbers(line, &cells[..cells.len() - 1]);
+        }
         if self.header.len() >= MOST_HEADER {
             self.header.remove(MOST_HEADER / 2);
             self.lost_header += 1;
         }
         self.header.push(HeaderLine { cells: cells.iter().map(text).collect() });
         Ok(())
+    }
+
+    /// Whether the only word of a row stands in its last cell, under the name of a column of remarks.
+    fn remark_behind(&self, cells: &[Cell]) -> bool {
+        const REMARKS: [&str; 8] =
+            ["comment", "comments", "kommentar", "remark", "remarks", "bemerkung", "note", "event"];
+        let Some((Cell::Word(_), numbers)) = cells.split_last() else { return false };
+        let named = |line: &HeaderLine| {
+            line.cells.len() == cells.len()
+                && line.cells.last().is_some_and(|cell| REMARKS.contains(&cell.trim().to_lowercase().as_str()))
+        };
+        numbers.len() > 1 && numbers.iter().all(Cell::is_number) && self.header.iter().any(named)
     }
 
     /// What looked like a block of one row was a line of the header.

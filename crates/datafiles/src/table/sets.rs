@@ -51,9 +51,10 @@ pub(crate) fn finish(name: &str, blocks: Vec<Block>) -> (Vec<Set>, Vec<Columns>)
     blocks.into_iter().enumerate().map(|(i, block)| one(named(i), block)).unzip()
 }
 
-fn one(name: String, block: Block) -> (Set, Columns) {
+fn one(name: String, mut block: Block) -> (Set, Columns) {
     let width = block.columns.len();
-    let header = header::read(&block.header, width);
+    let mut header = header::read(&block.header, width);
+    join_date(&mut header, &mut block);
     let axis = find_axis(&header, &block.columns, block.rows);
     let kind = axis.map_or(if header.step.is_some() { Kind::Time } else { Kind::Table }, |(_, kind)| kind);
     let mut set = Set::new(name, kind);
@@ -70,6 +71,12 @@ fn one(name: String, block: Block) -> (Set, Columns) {
         if axis.is_some_and(|(at, _)| at == i) || unused(&numbers, &header.names[i]) {
             continue;
         }
+        // Some programs write the abscissa beside every channel.
+        if axis.is_some_and(|(_, kind)| kind_of(&header.names[i], &header.units[i]) == Some(kind))
+            && axis_values.as_ref() == Some(&numbers.re)
+        {
+            continue;
+        }
         let name = if header.names[i].is_empty() { format!("column {}", i + 1) } else { header.names[i].clone() };
         let mut channel = Channel::new(name, header.units[i].clone(), numbers.re.len() as u64);
         if numbers.gaps > 0 {
@@ -83,6 +90,9 @@ fn one(name: String, block: Block) -> (Set, Columns) {
             (None, Some(step)) => Axis::Even { start: 0.0, step },
             (None, None) => Axis::None,
         };
+        if let Some(said) = header.sensitivities.get(i).filter(|said| !said.is_empty()) {
+            channel.attributes.push(("sensitivity".to_owned(), said.clone()));
+        }
         let column = Column { first: numbers.first, values: values(numbers) };
         channel.complex = matches!(column.values, Values::Complex(_));
         channel.first = first(&column.values);
@@ -97,6 +107,20 @@ fn one(name: String, block: Block) -> (Set, Columns) {
     }
     columns.axis = axis_values;
     (set, columns)
+}
+
+/// A column of dates and one of times of day behind it are one clock.
+fn join_date(header: &mut header::Header, block: &mut Block) {
+    const DAY: f64 = 86400.0;
+    let [dates, times, ..] = &mut block.columns[..] else { return };
+    let whole = |values: &[f64]| values.iter().all(|value| value % DAY == 0.0);
+    let same = dates.re.len() == times.re.len() && dates.clock && times.clock;
+    if same && whole(&dates.re) && !whole(&times.re) && times.re.iter().all(|value| (0.0..DAY).contains(value)) {
+        times.re.iter_mut().zip(&dates.re).for_each(|(time, date)| *time += date);
+        *dates = Numbers::default();
+        header.names[0].clear();
+        header.units[0].clear();
+    }
 }
 
 /// A column that a separator at the end of rows makes.
@@ -132,8 +156,8 @@ fn find_axis(header: &header::Header, columns: &[Numbers], rows: usize) -> Optio
     if named.is_some() {
         return named;
     }
-    if columns[0].clock && usable(0) {
-        return Some((0, Kind::Time));
+    if let Some(clock) = (0..columns.len().min(2)).find(|&i| columns[i].clock && usable(i)) {
+        return Some((clock, Kind::Time));
     }
     let nameless = header.names[0].is_empty() && header.units[0].is_empty();
     (nameless && rows > 3 && usable(0) && even_step(&columns[0].re).is_some()).then_some((0, Kind::Time))

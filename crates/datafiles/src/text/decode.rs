@@ -11,6 +11,9 @@ pub(crate) fn decode(bytes: &[u8]) -> Read<(Cow<'_, str>, Option<&'static str>)>
     if let Some(wide) = bytes.strip_prefix(&[0xFE, 0xFF]) {
         return Ok((Cow::Owned(utf16(wide, u16::from_be_bytes)), None));
     }
+    if let Some(number) = bare_utf16(bytes) {
+        return Ok((Cow::Owned(utf16(bytes, number)), Some("read as UTF-16 text without a byte order mark")));
+    }
     let bytes = bytes.strip_prefix(&[0xEF, 0xBB, 0xBF]).unwrap_or(bytes);
     if let Some(zero) = bytes.iter().take(1 << 16).position(|&byte| byte == 0) {
         let problem = "is no text and of no known format; export it as CSV, UFF, MAT, HDF5 or TDMS";
@@ -22,6 +25,19 @@ pub(crate) fn decode(bytes: &[u8]) -> Read<(Cow<'_, str>, Option<&'static str>)>
             Cow::Owned(bytes.iter().map(|&byte| latin(byte)).collect()),
             Some("read as Latin-1 text: it is not UTF-8"),
         )),
+    }
+}
+
+/// The byte order of UTF-16 without its mark: of ASCII letters every other byte is zero, and no other.
+fn bare_utf16(bytes: &[u8]) -> Option<fn([u8; 2]) -> u16> {
+    let start = &bytes[..bytes.len().min(1 << 12) & !1];
+    let zeros = |from: usize| start.iter().skip(from).step_by(2).filter(|&&byte| byte == 0).count();
+    let [even, odd] = [zeros(0), zeros(1)];
+    let most = start.len() / 2 - start.len() / 20;
+    match (even, odd) {
+        (0, odd) if odd > most && start.len() > 8 => Some(u16::from_le_bytes),
+        (even, 0) if even > most && start.len() > 8 => Some(u16::from_be_bytes),
+        _ => None,
     }
 }
 

@@ -1,6 +1,7 @@
 //! Which separator and which decimal sign a text table uses: the pair under which most lines are rows of numbers.
 
 use crate::table::Cell;
+use crate::table::cell::number;
 
 /// Lines that are looked at, from the start and from the middle.
 const SAMPLE: usize = 400;
@@ -73,13 +74,43 @@ impl Dialect {
     pub(crate) fn cells(self, line: &str, cells: &mut Vec<Cell>) {
         cells.clear();
         match self.separator {
-            Separator::Blanks => cells.extend(line.split_whitespace().map(|word| Cell::parse(word, self.comma))),
+            Separator::Blanks => {
+                let mut words = line.split_whitespace().peekable();
+                // A comment sign that stands alone in front of names is no cell.
+                if words.peek().is_some_and(|word| word.bytes().all(|byte| b"#%!*/;".contains(&byte))) {
+                    words.next();
+                }
+                for word in words {
+                    match Cell::parse(word, self.comma) {
+                        Cell::Word(word) => match glued(&word, self.comma) {
+                            Some(numbers) => cells.extend(numbers.into_iter().map(Cell::Real)),
+                            None => cells.push(Cell::Word(word)),
+                        },
+                        cell => cells.push(cell),
+                    }
+                }
+            }
             Separator::Letter(letter) if line.contains('"') => {
                 cells.extend(quoted(line, letter).iter().map(|word| Cell::parse(word, self.comma)));
             }
             Separator::Letter(letter) => cells.extend(line.split(letter).map(|word| Cell::parse(word, self.comma))),
         }
     }
+}
+
+/// Numbers of fixed width that touch, such as `1.545085E+00-3.040882E-01`: each has a decimal sign.
+fn glued(word: &str, comma: bool) -> Option<Vec<f64>> {
+    let bytes = word.as_bytes();
+    let mut cuts = vec![0];
+    let begins = |i: &usize| {
+        matches!(bytes[*i], b'+' | b'-') && (bytes[i - 1].is_ascii_digit() || matches!(bytes[i - 1], b'.' | b','))
+    };
+    cuts.extend((1..bytes.len()).filter(begins));
+    cuts.push(bytes.len());
+    let parts: Vec<&str> = cuts.windows(2).map(|cut| word.get(cut[0]..cut[1])).collect::<Option<_>>()?;
+    let sign = if comma { ',' } else { '.' };
+    let whole = parts.len() > 1 && parts.iter().all(|part| part.contains(sign));
+    whole.then(|| parts.iter().map(|part| number(part, comma)).collect::<Option<Vec<_>>>())?
 }
 
 /// Cells of a line with quotes: a separator within quotes is none, a doubled quote is one.
@@ -135,6 +166,15 @@ mod tests {
         assert_eq!(of("1,0 2,0\n1,5 2,5\n"), (Blanks, true));
         assert_eq!(of("1, 2, 3\n4, 5, 6\n"), (Letter(','), false));
         assert_eq!(of("time,a\n1.0D+00,2.0D-3\n"), (Letter(','), false));
+    }
+
+    #[test]
+    fn numbers_of_fixed_width_may_touch() {
+        assert_eq!(glued("1.545085E+00-3.040882E-01", false), Some(vec![1.545_085, -0.304_088_2]));
+        assert_eq!((glued("1.5-a", false), glued("12-13", false), glued("1.5E-3", false)), (None, None, None));
+        let mut cells = Vec::new();
+        Dialect { separator: Separator::Blanks, comma: false }.cells("% t(s) F(N)", &mut cells);
+        assert_eq!(cells.len(), 2);
     }
 
     #[test]

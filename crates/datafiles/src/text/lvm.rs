@@ -36,6 +36,8 @@ struct Segment {
     names: Vec<String>,
     columns: Vec<Vec<f64>>,
     comments: Vec<String>,
+    /// Whether there is a column of x before each channel.
+    spread: bool,
 }
 
 enum Place {
@@ -93,6 +95,10 @@ pub(super) fn read(text: &str) -> Read<(Contents, TableSource)> {
             }
         };
     }
+    for segment in &mut segments {
+        segment.spread = head.x == XColumns::Multi;
+    }
+    let segments = joined(segments);
     if segments.is_empty() {
         return Err(Fault::new("has a header and no segment of data; export the record with its samples"));
     }
@@ -106,6 +112,24 @@ pub(super) fn read(text: &str) -> Read<(Contents, TableSource)> {
         sources.push(columns);
     }
     Ok((contents, TableSource { sets: sources }))
+}
+
+/// Segments that go on where the one before them ends, of the same channels and steps, are one record: programs write a
+/// segment each time they read the device.
+fn joined(segments: Vec<Segment>) -> Vec<Segment> {
+    let mut out: Vec<Segment> = Vec::new();
+    for segment in segments {
+        match out.last_mut().filter(|last| segment.follows(last)) {
+            Some(last) => {
+                for (column, more) in last.columns.iter_mut().zip(segment.columns) {
+                    column.extend(more);
+                }
+                last.comments.extend(segment.comments);
+            }
+            None => out.push(segment),
+        }
+    }
+    out
 }
 
 fn name(segments: &mut [Segment], cells: &[&str]) {
@@ -164,12 +188,36 @@ impl Segment {
 
     fn value(&self, word: &str, channel: usize) -> Option<&str> {
         let (_, values) = self.keys.iter().find(|(key, _)| key == word)?;
-        values.get(channel).map(String::as_str).filter(|value| !value.is_empty())
+        // With a column of x before each channel, values stand over the channels or one after the other.
+        let spread = self.spread && values.len() > 2 && values.iter().skip(1).step_by(2).all(String::is_empty);
+        values.get(if spread { 2 * channel } else { channel }).map(String::as_str).filter(|value| !value.is_empty())
     }
 
     fn number(&self, word: &str, channel: usize) -> Option<f64> {
         let text = self.value(word, channel)?;
         number(text, false).or_else(|| number(text, true))
+    }
+
+    /// Whether a segment starts one step behind the last sample of another.
+    fn follows(&self, before: &Self) -> bool {
+        let steps = |segment: &Self| segment.number("Delta_X", 0).filter(|step| *step > 0.0);
+        let (Some(step), Some(other)) = (steps(self), steps(before)) else { return false };
+        let (Some(start), Some(first)) = (self.number("X0", 0), before.number("X0", 0)) else { return false };
+        let first_y = usize::from(before.columns.len() > 1);
+        let count = before.columns.get(first_y).map_or(0, Vec::len);
+        let even = |segment: &Self| {
+            let lengths = segment.columns.iter().map(Vec::len).filter(|len| *len > 0);
+            lengths.clone().min() == lengths.max()
+        };
+        let units =
+            |segment: &Self| segment.keys.iter().find(|(key, _)| key == "Y_Unit_Label").map(|(_, units)| units.clone());
+        step == other
+            && count > 0
+            && self.names == before.names
+            && units(self) == units(before)
+            && even(self)
+            && even(before)
+            && (start - first - count as f64 * step).abs() < 0.01 * step
     }
 
     fn row(&mut self, line: u64, cells: &[&str], comma: bool) -> Read<()> {

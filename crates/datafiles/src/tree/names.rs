@@ -42,7 +42,17 @@ pub(super) fn sampling(name: &str, value: f64) -> Option<Sampling> {
 pub(super) fn is_unit_word(name: &str) -> bool {
     matches!(
         plain(name).as_str(),
-        "unit" | "units" | "unitstring" | "unitlabel" | "yunit" | "yunits" | "yunitlabel" | "engineeringunits" | "eu"
+        "unit"
+            | "units"
+            | "unitstring"
+            | "variableunits"
+            | "unitlist"
+            | "unitlabel"
+            | "yunit"
+            | "yunits"
+            | "yunitlabel"
+            | "engineeringunits"
+            | "eu"
     )
 }
 
@@ -60,6 +70,12 @@ pub(super) fn is_names_word(name: &str) -> bool {
             | "signalnames"
             | "sensors"
             | "chnames"
+            | "label"
+            | "variablenames"
+            | "columns"
+            | "columnnames"
+            | "varnames"
+            | "fields"
     )
 }
 
@@ -73,6 +89,25 @@ pub(super) fn text_at<'a>(entries: &'a [Entry], path: &[&str]) -> Option<&'a str
     match &entry_at(entries, path)?.node {
         Node::Text(texts) => texts.first().map(String::as_str),
         _ => None,
+    }
+}
+
+/// All texts found under a path of names in a group.
+pub(super) fn texts_at<'a>(entries: &'a [Entry], path: &[&str]) -> &'a [String] {
+    match entry_at(entries, path).map(|entry| &entry.node) {
+        Some(Node::Text(texts)) => texts,
+        _ => &[],
+    }
+}
+
+/// Whether frequencies called `name` are in radians a second: by a text beside them, or by their own name.
+pub(super) fn radians_beside(entries: &[Entry], name: &str) -> bool {
+    let own = plain(name);
+    let unit = [format!("{own}unit"), format!("{own}units"), "frequencyunit".to_owned()];
+    let beside = entries.iter().find(|entry| unit.contains(&plain(&entry.name)));
+    match beside.map(|entry| &entry.node) {
+        Some(Node::Text(texts)) => texts.first().is_some_and(|text| text.to_lowercase().starts_with("rad")),
+        _ => own.starts_with("omega") || name.trim() == "ω",
     }
 }
 

@@ -10,6 +10,7 @@ use super::{Array, Arrays, Cut, Entry, MOST_CHECKED, Node, Shape};
 use crate::axis::{ascending, even_step, kind_of};
 use crate::contents::{Axis, Channel, FIRST, Kind, Number, Set};
 use crate::error::{Read, one_line};
+use crate::units::suffix;
 
 /// Most notes that are kept of a group.
 const MOST_NOTES: usize = 40;
@@ -21,6 +22,8 @@ const DEEPEST: usize = 64;
 struct Context {
     step: Option<f64>,
     start: f64,
+    /// Number of values of the even time vector above that `step` is of.
+    count: Option<u64>,
 }
 
 /// The abscissa of a group.
@@ -72,6 +75,7 @@ impl Made<'_> {
             context.take(names::sampling(name, value));
         }
         let axis = self.abscissa(entries)?;
+        let below = context.below(entries, axis.as_ref());
         let mut set = Set::new(path, Kind::Table);
         let mut places = Vec::new();
         let labels = Labels::of(entries);
@@ -119,7 +123,7 @@ impl Made<'_> {
                 && depth < DEEPEST
             {
                 let name = if path.is_empty() { entry.name.clone() } else { format!("{path}/{}", entry.name) };
-                self.group(&name, inner, &entry.attributes, context, depth + 1)?;
+                self.group(&name, inner, &entry.attributes, below, depth + 1)?;
             }
         }
         Ok(())
@@ -135,8 +139,12 @@ impl Made<'_> {
             else {
                 continue;
             };
-            let others =
+            let long =
                 |other: &Entry| matches!(&other.node, Node::Array(other) if other.shape.extents.contains(&count));
+            let others = |other: &Entry| match &other.node {
+                Node::Group(inner) => inner.iter().any(long),
+                _ => long(other),
+            };
             if entries.iter().enumerate().all(|(j, other)| j == i || !others(other)) {
                 continue;
             }
@@ -151,6 +159,7 @@ impl Made<'_> {
             };
             let unit = match (unit, kind) {
                 ("", Kind::Time) => "s",
+                ("", _) if names::radians_beside(entries, &entry.name) => "rad/s",
                 ("", _) => "Hz",
                 (unit, _) => unit,
             };
@@ -194,6 +203,8 @@ impl Made<'_> {
         let x_unit = names::text_at(entries, &["x_values", "quantity", "label"]).unwrap_or("s");
         let unit = names::text_at(entries, &["y_values", "quantity", "label"]).unwrap_or_default();
         let name = names::text_at(entries, &["function_record", "name"]).unwrap_or(path);
+        let names = names::texts_at(entries, &["function_record", "name"]).to_vec();
+        let units = names::texts_at(entries, &["y_values", "quantity", "label"]).to_vec();
         let stated =
             names::scalar_at(entries, &["x_values", "number_of_values"]).filter(|n| *n >= 1.0).map(|n| n as u64);
         let Some(cut) = array.shape.cut(stated) else { return false };
@@ -207,8 +218,10 @@ impl Made<'_> {
         x_unit.clone_into(&mut set.axis_unit);
         let mut places = Vec::new();
         for c in 0..cut.channels {
-            let label = if cut.channels > 1 { format!("{name}[{}]", c + 1) } else { name.to_owned() };
-            let mut channel = Channel::new(label, unit, cut.count);
+            let listed = |list: &[String]| list.get(c as usize).filter(|_| list.len() as u64 == cut.channels).cloned();
+            let numbered = if cut.channels > 1 { format!("{name}[{}]", c + 1) } else { name.to_owned() };
+            let label = listed(&names).unwrap_or(numbered);
+            let mut channel = Channel::new(label, listed(&units).unwrap_or_else(|| unit.to_owned()), cut.count);
             channel.complex = array.complex;
             channel.axis = Axis::Even { start, step };
             channel.first = first(array, &cut, c);
@@ -222,6 +235,18 @@ impl Made<'_> {
 }
 
 impl Context {
+    /// What a group hands down: its own step, else that of its even time vector.
+    fn below(self, entries: &[Entry], axis: Option<&Abscissa>) -> Self {
+        let Some(axis) = axis.filter(|axis| self.step.is_none() && axis.kind == Kind::Time && axis.unit == "s") else {
+            return self;
+        };
+        let start = entries.get(axis.entry).and_then(|entry| match &entry.node {
+            Node::Array(array) => array.at(0),
+            _ => None,
+        });
+        Self { step: axis.step, start: start.map_or(0.0, |value| value[0]), count: Some(axis.count) }
+    }
+
     fn take(&mut self, sampling: Option<Sampling>) {
         match sampling {
             Some(Sampling::Step(step)) => self.step = Some(step),
@@ -236,7 +261,11 @@ struct Labels {
     names: Vec<String>,
     units: Vec<String>,
     unit_of: Vec<(String, String)>,
+    sides: Vec<Side>,
 }
+
+/// An array of system identification with the names and units of its columns.
+type Side = (&'static str, Vec<String>, Vec<String>);
 
 impl Labels {
     fn of(entries: &[Entry]) -> Self {
@@ -244,14 +273,29 @@ impl Labels {
             Node::Text(texts) => Some(texts.clone()),
             _ => None,
         };
-        let find =
-            |word: fn(&str) -> bool| entries.iter().find(|entry| word(&entry.name)).and_then(texts).unwrap_or_default();
+        // Tables keep the names of their columns in a part of their own (`Properties`).
+        let inner = entries.iter().filter_map(|entry| match &entry.node {
+            Node::Group(inner) if entry.name.eq_ignore_ascii_case("properties") => Some(inner),
+            _ => None,
+        });
+        let all: Vec<&Entry> = entries.iter().chain(inner.flatten()).collect();
+        let find = |word: fn(&str) -> bool| {
+            all.iter().filter(|entry| word(&entry.name)).find_map(|entry| texts(entry)).unwrap_or_default()
+        };
+        let named = |name: &str| entries.iter().find(|entry| entry.name.eq_ignore_ascii_case(name)).and_then(texts);
+        // Data of system identification: outputs and inputs with names and units of their own.
+        let sides = [("y", "output"), ("outputdata", "output"), ("u", "input"), ("inputdata", "input")];
+        let sides = sides.into_iter().filter_map(|(array, side)| {
+            let names = named(&format!("{side}Name"))?;
+            Some((array, names, named(&format!("{side}Unit")).unwrap_or_default()))
+        });
+        let sides: Vec<Side> = sides.collect();
         let unit_of = entries.iter().filter_map(|entry| {
             let lower = entry.name.to_lowercase();
             let name = ["_units", "_unit"].iter().find_map(|end| lower.strip_suffix(end))?;
             Some((name.to_owned(), texts(entry)?.into_iter().next()?))
         });
-        Self { names: find(names::is_names_word), units: find(names::is_unit_word), unit_of: unit_of.collect() }
+        Self { names: find(names::is_names_word), units: find(names::is_unit_word), unit_of: unit_of.collect(), sides }
     }
 }
 
@@ -275,21 +319,34 @@ fn channels(
     }
     let beside =
         labels.unit_of.iter().find(|(name, _)| *name == entry.name.to_lowercase()).map(|(_, unit)| unit.as_str());
+    let side = labels.sides.iter().find(|(array, ..)| entry.name.eq_ignore_ascii_case(array));
+    let list_of = |word: fn(&str) -> bool| -> Vec<String> {
+        let said = entry.attributes.iter().find(|(name, value)| word(name) && value.contains(", "));
+        said.map(|(_, value)| value.split(", ").map(str::to_owned).collect()).unwrap_or_default()
+    };
+    let (own_names, own_units) = (list_of(names::is_names_word), list_of(names::is_unit_word));
     for c in 0..cut.channels {
         let listed = |list: &[String]| (list.len() as u64 == cut.channels).then(|| list[c as usize].clone());
         let numbered = if cut.channels > 1 { format!("{}[{}]", entry.name, c + 1) } else { entry.name.clone() };
-        let name = if cut.channels > 1 { listed(&labels.names).unwrap_or(numbered) } else { numbered };
-        let unit = names::unit_of(&entry.attributes)
-            .or(beside)
+        let beside_name = side.and_then(|(_, names, _)| listed(names));
+        let name = beside_name.or_else(|| listed(&own_names).filter(|_| cut.channels > 1));
+        let name = name.or_else(|| listed(&labels.names).filter(|_| cut.channels > 1)).unwrap_or(numbered);
+        let single = names::unit_of(&entry.attributes).filter(|_| own_units.is_empty());
+        let unit = single
             .map(str::to_owned)
-            .or_else(|| listed(&labels.units))
-            .unwrap_or_default();
+            .or_else(|| listed(&own_units))
+            .or_else(|| side.and_then(|(_, _, units)| listed(units)))
+            .or_else(|| beside.map(str::to_owned))
+            .or_else(|| suffix(&entry.name).filter(|_| cut.channels == 1).map(|(_, unit)| unit.to_owned()));
+        let unit = unit.or_else(|| listed(&labels.units)).unwrap_or_default();
         let mut channel = Channel::new(name, unit, cut.count);
         channel.complex = array.complex;
         channel.attributes.clone_from(&entry.attributes);
         channel.axis = match (axis, own.step) {
             (Some(axis), _) => Axis::Stored { step: axis.step },
-            (None, Some(step)) if cut.count > 1 => Axis::Even { start: own.start, step },
+            (None, Some(step)) if cut.count > 1 && own.count.is_none_or(|count| count == cut.count) => {
+                Axis::Even { start: own.start, step }
+            }
             _ => Axis::None,
         };
         channel.first = first(array, &cut, c);
