@@ -35,8 +35,6 @@ pub(super) struct JointFit {
     pub updating: Updating,
     /// Responses there.
     pub starts: Starts,
-    /// Squared whitened residual, priors included, what belongs to channels eliminated.
-    pub chi_square: f64,
 }
 
 impl Base<'_> {
@@ -66,7 +64,6 @@ impl Base<'_> {
             effects: problem.effects(&descent.theta),
             updating: problem.updating_at(&descent.theta),
             starts: starts_of(trial.predictions),
-            chi_square: descent.chi_square,
         })
     }
 }

@@ -116,14 +116,6 @@ impl<'a> Base<'a> {
         slopes
     }
 
-    /// The updating parameters that fit the measurement beside `effects` with the prediction of this base; standardised.
-    fn solved(&self, effects: &[Source], starts: &Starts) -> Result<(Vec<f64>, f64), DiagnosisError> {
-        let predictions = self.predictions_with(effects, starts)?;
-        let rows = self.bench().at_reference(&predictions);
-        let u = self.noise.updating.solve(&rows);
-        Ok((u, square(&self.bench().residual(&predictions))))
-    }
-
     fn predictions_with(&self, effects: &[Source], starts: &Starts) -> Result<Vec<RunPrediction>, DiagnosisError> {
         if effects.is_empty() { Ok(self.predictions.clone()) } else { self.bench().predict(effects, &FINAL, starts) }
     }
