@@ -34,14 +34,14 @@ const STEP: f64 = 1e-3;
 pub(crate) struct PlaceData {
     spot: Spot,
     /// `[run][harmonic]`.
-    forces: Vec<Vec<FreeForce>>,
+    pub(crate) forces: Vec<Vec<FreeForce>>,
     /// One a run; at rest for channels.
-    motions: Vec<Motion>,
+    pub(crate) motions: Vec<Motion>,
     /// Samples of the free force, one list a run.
-    histories: Vec<Vec<f64>>,
+    pub(crate) histories: Vec<Vec<f64>>,
     /// Impedance of the structure between the DOFs of a leg, N s/m, one a run.
     impedances: Vec<f64>,
-    sampling: Sampling,
+    pub(crate) sampling: Sampling,
     /// Parameters that were free beside the force.
     freedom: Option<Eliminator>,
     /// Range of the motion.
@@ -233,7 +233,7 @@ impl PlaceData {
     }
 
     /// Harmonics of the force that friction of the parameters `p` would hold in run `r`.
-    fn friction(&self, effect: Effect, p: &[f64], r: usize, order: usize) -> Vec<c64> {
+    pub(crate) fn friction(&self, effect: Effect, p: &[f64], r: usize, order: usize) -> Vec<c64> {
         let samples = held(effect, p, &self.histories[r], &self.motions[r], self.impedances[r]);
         let mut harmonics = vec![c64::new(0.0, 0.0); order];
         self.sampling.analyse(&samples, &mut harmonics);
@@ -256,7 +256,7 @@ impl PlaceData {
         }
     }
 
-    fn law_force(&self, law: &dyn Law, p: &[f64], motion: &Motion, order: usize) -> Vec<c64> {
+    pub(crate) fn law_force(&self, law: &dyn Law, p: &[f64], motion: &Motion, order: usize) -> Vec<c64> {
         if law.dynamic_stiffness(p, motion.omega).is_some() {
             let at = |(i, d): (usize, &c64)| {
                 law.dynamic_stiffness(p, (i + 1) as f64 * motion.omega).unwrap_or(c64::new(0.0, 0.0)) * d

@@ -6,6 +6,7 @@ pub mod fingerprint_plot;
 pub mod friction;
 pub mod generalisations;
 pub mod identified_force;
+pub mod restoring_force;
 pub mod special_cases;
 pub mod start;
 pub mod start_grids;

@@ -4,3 +4,4 @@ pub mod detuning;
 pub mod marginalisation;
 pub mod noise_model;
 pub mod parameters;
+pub mod scatter;
