@@ -48,7 +48,8 @@ fn a_report_of_a_hidden_effect_says_what_is_missing() {
     for wanted in ["Error map", "What is missing?", "Coulomb friction at DOF", "Ledger"] {
         assert!(text.contains(wanted), "{wanted}");
     }
-    assert!(text.matches("data:image/svg+xml,").count() >= 4, "Bode, Nyquist, map, worst channel");
+    assert!(text.matches("data:image/svg+xml,").count() >= 5, "Bode, Nyquist, map, worst channel, missing force");
+    assert!(text.contains("Missing force at DOF"), "the force over displacement and velocity");
 }
 
 #[test]
@@ -67,6 +68,14 @@ fn every_plot_is_drawn_without_a_window_and_its_values_are_csv() {
     let svg = written(&["plot", "--what", "channel"], &friction, &folder.path().join("channel.svg"));
     assert!(svg.contains(">model<") && svg.contains(">measured<"), "keys to both");
     assert!(svg.matches(" N<").count() > 1, "a key to every level of force");
+    let force = written(&["plot", "--what", "restoring-force"], &friction, &folder.path().join("force.svg"));
+    assert!(force.contains("Displacement") && force.contains("Velocity"), "two plots side by side");
+    let table = written(&["plot", "--what", "restoring-force"], &friction, &folder.path().join("force.csv"));
+    assert!(
+        table
+            .starts_with("run,level,frequency (Hz),displacement (m),velocity (m/s),force (N),standard deviation (N)\n")
+    );
+    assert!(table.lines().count() > 60, "32 points a run");
     let map = written(&["plot", "--what", "error-map"], &friction, &folder.path().join("map.csv"));
     assert!(map.starts_with("channel,run 1"), "{map}");
 }
@@ -83,6 +92,7 @@ fn what_cannot_be_drawn_is_refused_in_one_line() {
     let file = sample("cantilever-case-1");
     refused(&["report"], Path::new("no.toml"), "r.html", "no.toml");
     refused(&["plot", "--what", "bode"], &file, "x.png", ".svg");
+    refused(&["plot", "--what", "restoring-force", "--dof", "1"], &friction, "x.svg", "no suggestion is there");
     refused(&["plot", "--what", "record", "--run", "99"], &file, "x.svg", "--run 99");
     refused(&["plot", "--what", "bode", "--dof", "zz"], &file, "x.svg", "zz");
     refused(&["plot", "--what", "record", "--channel", "acc@99"], &file, "x.svg", "has no such channel");

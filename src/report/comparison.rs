@@ -4,6 +4,7 @@ use super::content::Content;
 use super::html::Page;
 use super::{figure, sheet};
 use crate::control::Control;
+use crate::diagnosis::candidates::restoring_force::RestoringForce;
 use crate::diagnosis::diagnose::{Suggestion, Verdict};
 use crate::diagnosis::{Comparison, Diagnosis};
 use crate::display::format::{chance, in_words, polished};
@@ -12,7 +13,7 @@ use crate::plots::channel_response::ChannelResponse;
 use crate::plots::error_map::{ENERGY, Grid, Scale};
 use crate::plots::response_curve::{curves, levels, neighbourhood};
 use crate::plots::style::Palette;
-use crate::plots::{fingerprint, samples};
+use crate::plots::{fingerprint, restoring_force, samples};
 
 /// Suggestions that are told in full.
 const MOST_SUGGESTIONS: usize = 6;
@@ -118,6 +119,12 @@ fn missing(page: &mut Page, content: &Content<'_>, found: &Diagnosis) {
     for s in list.iter().take(MOST_SUGGESTIONS) {
         evidence(page, content, s);
     }
+    if let Some((_, force)) = content.forces.iter().find(|(source, _)| source.is_none()) {
+        page.sentence(
+            "The force that would explain most, at the place where one force explains most, whatever its law:",
+        );
+        missing_force(page, content, force);
+    }
     next_tests(page, content, found);
 }
 
@@ -133,6 +140,17 @@ fn evidence(page: &mut Page, content: &Content<'_>, s: &Suggestion) {
     if let Some((_, print)) = content.fingerprints.iter().find(|(source, _)| source.is_same(&s.added.source)) {
         figure(page, fingerprint::figure(print, Palette::light()));
     }
+    let of = |source: &Option<crate::effects::Source>| source.as_ref().is_some_and(|o| o.is_same(&s.added.source));
+    if let Some((_, force)) = content.forces.iter().find(|(source, _)| of(source)) {
+        missing_force(page, content, force);
+    }
+}
+
+/// The missing force over displacement and velocity.
+fn missing_force(page: &mut Page, content: &Content<'_>, force: &RestoringForce) {
+    let sheet = restoring_force::sheet(force, &content.project.structure, Palette::light());
+    page.drawing(&sheet.drawing(sheet.paper(), Palette::light()));
+    page.remark(&format!("{}.", words::capital(&restoring_force::caption(force))));
 }
 
 fn next_tests(page: &mut Page, content: &Content<'_>, found: &Diagnosis) {

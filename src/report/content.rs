@@ -2,6 +2,8 @@
 
 use crate::control::Control;
 use crate::diagnosis::candidates::fingerprint_plot::{self as prints, Print};
+use crate::diagnosis::candidates::restoring_force::{self, RestoringForce};
+use crate::diagnosis::diagnose::Verdict;
 use crate::diagnosis::{self, Comparison, Diagnosis, Problem};
 use crate::effects::Source;
 use crate::exchange::Project;
@@ -48,6 +50,8 @@ pub struct Content<'a> {
     pub diagnosis: Found<Diagnosis>,
     /// Fingerprints of the first suggestions.
     pub fingerprints: Vec<(Source, Print)>,
+    /// The missing force at the places of the first suggestions; without one, at the place that explains most.
+    pub forces: Vec<(Option<Source>, RestoringForce)>,
     /// The way to the model as it stands.
     pub ledger: Vec<LedgerRow>,
 }
@@ -70,12 +74,13 @@ impl<'a> Content<'a> {
             .unwrap_or_else(|| diagnosis::compare(&problem(p), &[], control).map(Arc::new).map_err(|e| e.to_string()));
         let diagnosis = known.diagnosis.unwrap_or_else(|| diagnose(p, &comparison, control));
         let fingerprints = diagnosis.as_ref().map_or_else(|_| Vec::new(), |d| fingerprints(p, d, control));
+        let forces = diagnosis.as_ref().map_or_else(|_| Vec::new(), |d| forces(p, d, control));
         let mut ledger = known.ledger;
         if let (true, Ok(c)) = (ledger.is_empty(), &comparison) {
             let label = "Model as it stands".to_owned();
             ledger.push(LedgerRow { label, error: c.error, noise_floor: c.noise_floor });
         }
-        Self { project, outcome, comparison, diagnosis, fingerprints, ledger }
+        Self { project, outcome, comparison, diagnosis, fingerprints, forces, ledger }
     }
 }
 
@@ -102,4 +107,18 @@ fn fingerprints(p: &Project, diagnosis: &Diagnosis, control: &Control) -> Vec<(S
         Some((source.clone(), print))
     };
     diagnosis.suggestions.iter().take(MOST_PRINTS).filter_map(|s| one(&s.added.source)).collect()
+}
+
+/// The missing force of the first suggestions; of the best place where nothing was named though something is missing.
+fn forces(p: &Project, diagnosis: &Diagnosis, control: &Control) -> Vec<(Option<Source>, RestoringForce)> {
+    let suggested = diagnosis.suggestions.iter().take(MOST_PRINTS).map(|s| Some(s.added.source.clone()));
+    let mut wanted: Vec<Option<Source>> = suggested.collect();
+    if wanted.is_empty() && diagnosis.verdict == Verdict::Unexplained {
+        wanted.push(None);
+    }
+    let one = |source: Option<Source>| {
+        let force = restoring_force::of_diagnosis(&problem(p), diagnosis, source.as_ref(), control).ok()??;
+        Some((source, force))
+    };
+    wanted.into_iter().filter_map(one).collect()
 }
