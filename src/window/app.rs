@@ -30,6 +30,9 @@ const LONGEST: std::time::Duration = std::time::Duration::from_mins(10);
 /// Longest time between two looks at the progress of what runs.
 const REFRESH: std::time::Duration = std::time::Duration::from_millis(50);
 
+/// Runs from which on the first look is at all of them.
+const MANY_RUNS: usize = 24;
+
 /// The whole window.
 #[derive(Debug, Default)]
 pub struct App {
@@ -119,6 +122,9 @@ impl App {
             let path = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
             let kept = recent.add(&path).map_err(|e| e.to_string());
             self.note(kept);
+        }
+        if document.project.runs.len() > MANY_RUNS {
+            self.desk.set_open(Stage::Measure, Pane::Overview, true);
         }
         self.document = Some(document);
         self.derived = Derived::default();

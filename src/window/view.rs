@@ -3,6 +3,7 @@
 use super::schematic::view::ViewState;
 use super::stages::explain::look::Look;
 use super::stages::incompleteness::Choice;
+use super::stages::run_table::Order;
 use crate::classical::method::Method;
 use crate::effects::Effect;
 use crate::response::frequency_response::Quantity;
@@ -52,6 +53,8 @@ pub struct View {
     pub stage: Stage,
     /// Selected run.
     pub run: usize,
+    /// Order and filter of the table of runs.
+    pub runs: Order,
     /// Selected channel of the run.
     pub channel: usize,
     /// Whether the records of all channels are shown under each other.
@@ -103,6 +106,7 @@ impl Default for View {
         Self {
             stage: Stage::Measure,
             run: 0,
+            runs: Order::default(),
             channel: 0,
             every_channel: false,
             mode: 0,

@@ -9,7 +9,9 @@ pub mod shelf;
 use super::document::Document;
 use crate::control::Control;
 use crate::diagnosis::candidates::fingerprint_plot::{self as prints, Print};
+use crate::diagnosis::candidates::restoring_force::{self, RestoringForce};
 use crate::diagnosis::diagnose::{Suggestion, diagnose_without};
+use crate::diagnosis::updating::scatter::{self, Scatter};
 use crate::diagnosis::{self, Comparison, Diagnosis, Problem};
 use crate::effects::{Place, Source};
 use crate::exchange::Project;
@@ -38,6 +40,10 @@ pub struct Wanted {
     pub trial: Option<Source>,
     /// The suggestion whose fingerprint is shown.
     pub print: Option<Source>,
+    /// Whether the missing force is shown: that of this suggestion, else at the place that explains most.
+    pub force: bool,
+    /// Whether corrections and scatter are shown.
+    pub scatter: bool,
     /// The run whose neighbourhood is shown.
     pub curve: Option<usize>,
 }
@@ -53,6 +59,8 @@ pub struct Explained {
     diagnoses: Shelf<Search, Diagnosis>,
     early: Early,
     prints: Shelf<(Search, Source), Option<Print>>,
+    forces: Shelf<(Search, Option<Source>), Option<RestoringForce>>,
+    scatters: Shelf<Search, Option<Scatter>>,
     curves: Shelf<(Key, usize), Vec<Curve>>,
     trial_curves: Shelf<(Tried, usize), Vec<Curve>>,
     /// The way so far.
@@ -69,6 +77,8 @@ impl Default for Explained {
             diagnoses: Shelf::new("Searching for what is missing"),
             early: Early::default(),
             prints: Shelf::new("Fingerprint"),
+            forces: Shelf::new("Missing force"),
+            scatters: Shelf::new("Scatter of channels and runs"),
             curves: Shelf::new("Frequency response"),
             trial_curves: Shelf::new("Frequency response"),
             ledger: Ledger::default(),
@@ -144,6 +154,17 @@ impl Explained {
             }
             None => self.prints.rest(),
         }
+        match self.diagnoses.get(&search).and_then(|d| d.as_ref().ok()).filter(|_| wanted.force).map(Arc::clone) {
+            Some(diagnosis) => {
+                let asked = (search.clone(), wanted.print.clone());
+                self.forces.want(ctx, &asked, || force_job(p, diagnosis, wanted.print.clone()));
+            }
+            None => self.forces.rest(),
+        }
+        match self.diagnoses.get(&search).and_then(|d| d.as_ref().ok()).filter(|_| wanted.scatter).map(Arc::clone) {
+            Some(diagnosis) => self.scatters.want(ctx, &search, || scatter_job(p, diagnosis)),
+            None => self.scatters.rest(),
+        }
         match wanted.curve.filter(|_| p.structure.matrices().is_some()) {
             Some(run) => self.curves.want(ctx, &(key, run), || curve_job(p, None, run)),
             None => self.curves.rest(),
@@ -156,6 +177,8 @@ impl Explained {
         self.diagnoses.collect();
         self.early.collect();
         self.prints.collect();
+        self.forces.collect();
+        self.scatters.collect();
         self.curves.collect();
         self.trial_curves.collect();
     }
@@ -223,6 +246,16 @@ impl Explained {
         self.prints.get(&(search, source.clone()))
     }
 
+    /// The missing force at the place of a suggestion, or at the place that explains most.
+    pub fn force(&self, document: &Document, source: Option<&Source>) -> Option<&Kept<Option<RestoringForce>>> {
+        self.forces.get(&(self.search(document)?, source.cloned()))
+    }
+
+    /// What the data say of channels and runs.
+    pub fn scatter(&self, document: &Document) -> Option<&Kept<Option<Scatter>>> {
+        self.scatters.get(&self.search(document)?)
+    }
+
     /// The response curves of the model near a run, one a level.
     pub fn curve(&self, document: &Document, run: usize) -> Option<&Kept<Vec<Curve>>> {
         self.curves.get(&(self.current(document)?, run))
@@ -254,7 +287,13 @@ impl Explained {
     /// Name and progress of what runs; the search first, since it takes longest.
     pub fn running(&self) -> Option<(&str, f64)> {
         let others = self.comparisons.running().or_else(|| self.trials.running()).or_else(|| self.prints.running());
-        self.diagnoses.running().or(others).or_else(|| self.curves.running()).or_else(|| self.trial_curves.running())
+        self.diagnoses
+            .running()
+            .or(others)
+            .or_else(|| self.forces.running())
+            .or_else(|| self.scatters.running())
+            .or_else(|| self.curves.running())
+            .or_else(|| self.trial_curves.running())
     }
 
     /// Stops all that runs.
@@ -262,6 +301,8 @@ impl Explained {
         self.diagnoses.cancel();
         self.trials.cancel();
         self.prints.cancel();
+        self.forces.cancel();
+        self.scatters.cancel();
         self.curves.cancel();
         self.trial_curves.cancel();
     }
@@ -272,6 +313,8 @@ impl Explained {
         self.comparisons.retry();
         self.trials.retry();
         self.prints.retry();
+        self.forces.retry();
+        self.scatters.retry();
         self.curves.retry();
         self.trial_curves.retry();
     }
@@ -310,6 +353,27 @@ fn print_job(
         let corrections = diagnosis.as_ref().map_or(&[][..], |d| &d.corrections);
         prints::print(&problem(&p), &found, corrections, &source, control).map_err(|e| e.to_string())
     }
+}
+
+/// The missing force at the place of a suggestion beside the other effects that were found.
+fn force_job(
+    p: &Arc<Project>,
+    diagnosis: Arc<Diagnosis>,
+    source: Option<Source>,
+) -> impl FnOnce(&Control) -> Result<Option<RestoringForce>, String> + use<> {
+    let p = Arc::clone(p);
+    move |control| {
+        restoring_force::of_diagnosis(&problem(&p), &diagnosis, source.as_ref(), control).map_err(|e| e.to_string())
+    }
+}
+
+/// What the data say of channels and runs beside what a search found.
+fn scatter_job(
+    p: &Arc<Project>,
+    diagnosis: Arc<Diagnosis>,
+) -> impl FnOnce(&Control) -> Result<Option<Scatter>, String> + use<> {
+    let p = Arc::clone(p);
+    move |control| scatter::of_diagnosis(&problem(&p), &diagnosis, control).map_err(|e| e.to_string())
 }
 
 fn curve_job(

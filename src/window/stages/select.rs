@@ -78,10 +78,9 @@ fn header(ui: &mut Ui, outcome: &Outcome, current: usize, asks: &mut Vec<Ask>) {
     });
     let good = matches!(outcome.status, Status::WithinNoise | Status::BelowAngle);
     let colour = if good { ui.palette().good } else { ui.palette().warning };
-    ui.horizontal(|ui| {
+    ui.horizontal_wrapped(|ui| {
         ui.pill(status(outcome.status), colour);
-        let reason = egui::RichText::new(&outcome.reason).size(size::SMALL).color(ui.palette().weak);
-        ui.add(egui::Label::new(reason).truncate()).on_hover_text(&outcome.reason);
+        ui.hint(&outcome.reason);
     });
     ui.add_space(space::XS);
 }
@@ -118,11 +117,11 @@ fn table(ui: &mut Ui, p: &Project, outcome: &Outcome, current: usize, chosen: &m
         .sense(Sense::click())
         .cell_layout(Layout::left_to_right(Align::Center))
         .auto_shrink([false, false])
-        .column(Column::exact(62.0))
+        .column(Column::exact(56.0))
         .column(Column::remainder().at_least(60.0).clip(true))
+        .column(Column::exact(74.0))
         .column(Column::exact(76.0))
-        .column(Column::exact(82.0))
-        .column(Column::exact(70.0))
+        .column(Column::exact(66.0))
         .header(space::ROW, |mut row| {
             row.col(|ui| drop(ui.hint("Sources")));
             row.col(|ui| drop(ui.hint("Which, with coefficients")));

@@ -105,8 +105,8 @@ pub fn frequencies(ui: &mut Ui, app: &mut App) {
     let shown: Vec<usize> = (0..modes.len()).filter(|&r| modes.frequency_hz(r) <= 1.6 * highest).collect();
     let last = shown.last().map_or(highest, |&r| modes.frequency_hz(r));
     let x = Axis::new("Frequency", "Hz").include(&[0.0, 1.05 * last]);
-    let y = Axis::new("Run", "").ticks(Ticks::Whole).include(&[0.0, runs.len() as f64 + 1.0]);
-    let line = |r: usize| vec![[modes.frequency_hz(r), 0.0]];
+    let y = Axis::new("Run", "").ticks(Ticks::Whole).include(&[0.5, runs.len() as f64 + 0.5]);
+    let line = |r: usize| vec![[modes.frequency_hz(r), 1.0]];
     let figure = Figure::new("Natural frequencies and runs", x, y)
         .points(
             "natural frequencies",

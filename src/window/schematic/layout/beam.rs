@@ -11,6 +11,9 @@ const LANE: f32 = 30.0;
 const HANDLE: f32 = 5.0;
 const ROTATION_UP: f32 = 25.0;
 const EXCITER_UP: f32 = 76.0;
+const EXCITER_LEAST: f32 = 30.0;
+/// Height of the letter above an arrow.
+const LABEL: f32 = 24.0;
 const POINTS_PER_ELEMENT: usize = 8;
 const DEFLECTION: f32 = 46.0;
 
@@ -21,6 +24,8 @@ struct Frame<'a> {
     scale: f32,
     least: f64,
     axis: f32,
+    /// Length of the arrows of exciters: shorter where there is little room above.
+    exciter: f32,
     ground: f32,
     first_lane: f32,
 }
@@ -41,7 +46,7 @@ pub(super) fn place(scene: &Scene, area: Rect, shape: Option<&[f64]>) -> Layout 
         sensors: frame.marks(|d| !d.sensors.is_empty()).map(|(d, p)| (d, p - vec2(0.0, 9.0))).collect(),
         exciters: frame
             .marks(|d| d.exciter)
-            .map(|(d, p)| (d, [p - vec2(15.0, EXCITER_UP), p - vec2(15.0, 6.0)]))
+            .map(|(d, p)| (d, [p - vec2(15.0, frame.exciter), p - vec2(15.0, 6.0)]))
             .collect(),
         ..Layout::default()
     }
@@ -67,6 +72,7 @@ impl<'a> Frame<'a> {
             scale: ((area.width() - LEFT - RIGHT).max(40.0)) / span as f32,
             least,
             axis,
+            exciter: (axis - area.top() - highest(scene, shape) - LABEL).clamp(EXCITER_LEAST, EXCITER_UP),
             ground: axis + DROP,
             first_lane: axis - base - if deflected { 8.0 } else { 0.0 },
         }
@@ -203,6 +209,13 @@ impl<'a> Frame<'a> {
         let span = self.scene.nodes.iter().map(|n| n.position[0] - self.least).fold(0.0, f64::max);
         (span / (self.scene.nodes.len().max(2) - 1) as f64) as f32
     }
+}
+
+/// How far the shape lifts the highest exciter, points.
+fn highest(scene: &Scene, shape: Option<&[f64]>) -> f32 {
+    let Some(shape) = shape else { return 0.0 };
+    let lifted = scene.dofs.iter().zip(shape).filter(|(d, _)| d.exciter).map(|(_, u)| DEFLECTION * *u as f32);
+    lifted.fold(0.0, f32::max)
 }
 
 /// Which of the sources on the same DOF to the ground this one is, and how many there are.

@@ -1,6 +1,7 @@
 //! What is missing? The verdict, the ranked suggestions as cards, and what the user has ruled out.
 
 use super::card;
+use super::force;
 use super::look::Look;
 use super::ranking::{open, ranked};
 use super::{Deed, Scene};
@@ -102,6 +103,9 @@ fn answer(ui: &mut Ui, scene: &Scene<'_>, diagnosis: &Diagnosis, look: &mut Look
     if matches!(diagnosis.verdict, Verdict::Undecided | Verdict::Unexplained) {
         next_tests(ui, scene, diagnosis);
     }
+    if diagnosis.verdict == Verdict::Unexplained && diagnosis.suggestions.is_empty() {
+        force::show(ui, scene, None);
+    }
     ui.add_space(space::XS);
     list(ui, scene, look, asks);
 }
@@ -163,7 +167,7 @@ pub fn adopted(scene: &Scene<'_>, diagnosis: &Diagnosis) -> Adopted {
 }
 
 /// What a correction corrects.
-fn corrected(scene: &Scene<'_>, parameter: &UpdatingParameter) -> String {
+pub fn corrected(scene: &Scene<'_>, parameter: &UpdatingParameter) -> String {
     let known = scene.explained.all_known(scene.document);
     findings::corrected(&scene.document.project.structure, &known, parameter)
 }

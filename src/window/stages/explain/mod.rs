@@ -2,8 +2,10 @@
 
 mod card;
 mod cards;
+pub mod corrections;
 mod detail;
 mod fingerprint;
+mod force;
 mod gauge;
 mod ledger;
 pub mod look;
@@ -49,6 +51,17 @@ pub enum Deed {
     TakeOver,
     /// Put the corrections that the search found into the model.
     Correct,
+    /// Put one of them, by its place in the list, into the model.
+    CorrectOne(usize),
+    /// State that a channel reads too large by a share, or is recorded late by a time in s.
+    CorrectSensor {
+        /// Name of the channel, such as `acc@7`.
+        channel: String,
+        /// Share by which it reads too large.
+        gain: f64,
+        /// Time by which it is late, s.
+        delay: f64,
+    },
     /// Start it again.
     Retry,
     /// Search though the model is far from the data.
@@ -72,11 +85,26 @@ pub fn wanted(document: &Document, view: &View, explained: &Explained) -> Wanted
     let open = ranking::open(document, explained, look).filter(|(_, standing)| *standing == Standing::Final);
     let print = open.map(|(s, _)| s.added.source.clone());
     let curve = (look.tab == look::Tab::Frequency).then_some(view.run);
-    Wanted { diagnosis: true, anyway: look.anyway, trial: look.trial.clone(), print, curve }
+    let named = print.is_some();
+    let unexplained = || {
+        let found = explained.diagnosis(document).and_then(|d| d.as_ref().ok());
+        found.is_some_and(|d| d.verdict == Verdict::Unexplained)
+    };
+    let force = named || unexplained();
+    Wanted {
+        diagnosis: true,
+        anyway: look.anyway,
+        trial: look.trial.clone(),
+        print,
+        force,
+        scatter: look.scatter,
+        curve,
+    }
 }
 
 /// An effect on trial takes the sizes of its suggestion, which a search corrects on its way.
 pub fn keep_up(look: &mut look::Look, document: &Document, explained: &Explained) {
+    look.scatter = std::mem::take(&mut look.scatter_shown);
     let Some(trial) = &mut look.trial else { return };
     let (suggestions, _) = explained.suggestions(document);
     if let Some(found) = suggestions.iter().find(|s| s.added.source.is_same(trial)) {
@@ -108,6 +136,8 @@ pub fn answer(app: &mut App, ctx: &Context, deed: Deed) {
         Deed::Return(step) => go_back(app, step),
         Deed::TakeOver => take_over(app, ctx),
         Deed::Correct => correct(app, ctx),
+        Deed::CorrectOne(k) => correct_one(app, ctx, k),
+        Deed::CorrectSensor { channel, gain, delay } => correct_sensor(app, ctx, channel, [gain, delay]),
         Deed::Retry => app.derived.explained.retry(),
         Deed::Search => app.view.explain.anyway = true,
     }
@@ -161,6 +191,40 @@ fn correct(app: &mut App, ctx: &Context) {
     app.edit(ctx, &Edit::All(commands));
     if app.message.as_ref().is_none_or(|m| !m.failed) {
         app.say("The model is corrected. Undo takes it back.".to_owned());
+    }
+}
+
+/// One correction becomes a number of the project.
+fn correct_one(app: &mut App, ctx: &Context, k: usize) {
+    let Some(document) = &app.document else { return };
+    let scene = Scene { document, explained: &app.derived.explained };
+    let Some(Ok(diagnosis)) = scene.explained.diagnosis(document) else { return };
+    let Some(correction) = diagnosis.corrections.get(k) else { return };
+    let name = cards::corrected(&scene, &correction.parameter);
+    let known = |index: usize| scene.explained.known(document, index);
+    let file = document.session().document().file();
+    let adopted = crate::window::corrections::adopt(std::slice::from_ref(correction), &known, &document.project, file);
+    app.edit(ctx, &Edit::All(adopted.commands));
+    if app.message.as_ref().is_none_or(|m| !m.failed) {
+        app.say(format!("Corrected: {name}. Undo takes it back."));
+    }
+}
+
+/// A channel that reads `gain` too large, or `delay` (s) late, beyond what the project states of it.
+fn correct_sensor(app: &mut App, ctx: &Context, channel: String, [gain, delay]: [f64; 2]) {
+    let Some(document) = &app.document else { return };
+    let file = document.session().document().file();
+    let table = file.sensor.iter().find(|t| t.channel == channel);
+    let stated = |value: Option<f64>, none: f64| value.unwrap_or(none);
+    let old = table.map_or((None, None), |t| (t.delay, t.gain));
+    let delay = stated(old.0, 0.0) + delay;
+    let gain = stated(old.1, 1.0) * (1.0 + gain);
+    let said = format!("Corrected: what {channel} reads. Undo takes it back.");
+    let command =
+        Command::SetSensor { channel, delay: (delay != 0.0).then_some(delay), gain: (gain != 1.0).then_some(gain) };
+    app.edit(ctx, &Edit::Do(command));
+    if app.message.as_ref().is_none_or(|m| !m.failed) {
+        app.say(said);
     }
 }
 
