@@ -92,6 +92,7 @@ fn what_cannot_be_drawn_is_refused_in_one_line() {
     let file = sample("cantilever-case-1");
     refused(&["report"], Path::new("no.toml"), "r.html", "no.toml");
     refused(&["plot", "--what", "bode"], &file, "x.png", ".svg");
+    let friction = sample("cantilever-friction");
     refused(&["plot", "--what", "restoring-force", "--dof", "1"], &friction, "x.svg", "no suggestion is there");
     refused(&["plot", "--what", "record", "--run", "99"], &file, "x.svg", "--run 99");
     refused(&["plot", "--what", "bode", "--dof", "zz"], &file, "x.svg", "zz");
