@@ -98,3 +98,49 @@ fn what_cannot_be_drawn_is_refused_in_one_line() {
     refused(&["plot", "--what", "bode", "--dof", "zz"], &file, "x.svg", "zz");
     refused(&["plot", "--what", "record", "--channel", "acc@99"], &file, "x.svg", "has no such channel");
 }
+
+/// Samples of hammers, decays and sweeps: the search of a decay takes minutes where the program is not optimised.
+const RECORDS: [&str; 3] = ["decay-friction", "hammer-maxwell", "sweep-cubic"];
+
+/// A report holds what can be said, and is never refused for what cannot.
+fn says_where_its_model_stands(sample: &Path) {
+    let (file, folder) = (sample.join("project.toml"), tempfile::tempdir().unwrap());
+    let out = folder.path().join("report.html");
+    let control = dashpot::control::Control::unattended();
+    // A search that takes long answers with the best so far, and the report says so.
+    dashpot::session::time_limit::hurry_after(&control, std::time::Duration::from_secs(4));
+    dashpot::report::report(&file, &out, &control).unwrap();
+    let text = std::fs::read_to_string(&out).unwrap();
+    let name = file.display();
+    for chapter in ["Measurements", "What is missing?", "Ledger", "Settings"] {
+        assert!(text.contains(&format!("<h2>{chapter}</h2>")), "{name}: {chapter}");
+    }
+    assert!(text.contains("noise alone would leave"), "{name}: the model is compared with the measurement");
+    assert!(!text.contains("takes hardly any energy out"), "{name}: damping that was identified is taken over");
+    assert!(text.contains("data:image/svg+xml,"), "{name}: a plot");
+}
+
+fn samples(records: bool) -> Vec<PathBuf> {
+    let all = std::fs::read_dir(Path::new(env!("CARGO_MANIFEST_DIR")).join("sample-data")).unwrap();
+    let is_record = |path: &PathBuf| RECORDS.iter().any(|name| path.ends_with(name));
+    all.map(|entry| entry.unwrap().path()).filter(|path| is_record(path) == records).collect()
+}
+
+#[test]
+fn every_sample_has_a_report_that_says_where_its_model_stands() {
+    let samples = samples(false);
+    assert!(samples.len() >= 16, "{} samples", samples.len());
+    for sample in samples {
+        let start = std::time::Instant::now();
+        says_where_its_model_stands(&sample);
+        println!("{}: {:.1} s", sample.display(), start.elapsed().as_secs_f64());
+    }
+}
+
+#[test]
+#[ignore = "the search of a decay takes minutes where the program is not optimised"]
+fn samples_of_other_tests_have_one_too() {
+    let samples = samples(true);
+    assert_eq!(samples.len(), RECORDS.len());
+    samples.iter().for_each(|sample| says_where_its_model_stands(sample));
+}

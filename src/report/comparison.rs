@@ -20,13 +20,12 @@ const MOST_SUGGESTIONS: usize = 6;
 
 /// Adds them.
 pub(super) fn chapters(page: &mut Page, content: &Content<'_>, control: &Control) {
-    if content.project.runs.is_empty() {
+    super::unsteady::chapter(page, content);
+    if content.project.runs.is_empty() && content.records.is_none() {
         return;
     }
-    page.chapter("Model of the known sources against the measurement");
-    match &content.comparison {
-        Ok(found) => agreement(page, content, found, control),
-        Err(reason) => page.warning(reason),
+    if !super::unsteady::only_records(content.project) {
+        steady(page, content, control);
     }
     page.chapter("What is missing?");
     match &content.diagnosis {
@@ -34,6 +33,23 @@ pub(super) fn chapters(page: &mut Page, content: &Content<'_>, control: &Control
         Err(reason) => page.sentence(reason),
     }
     ledger(page, content);
+}
+
+/// The steady runs.
+fn steady(page: &mut Page, content: &Content<'_>, control: &Control) {
+    page.chapter("Model of the known sources against the measurement");
+    if let Some((_, taken)) = &content.with_identified {
+        let structure = &content.project.structure;
+        let names: Vec<String> = taken.iter().map(|s| words::title(structure, s)).collect();
+        page.sentence(&format!(
+            "The project states no damping that limits its resonances; what was identified is taken as known here: {}.",
+            names.join("; ")
+        ));
+    }
+    match &content.comparison {
+        Ok(found) => agreement(page, content, found, control),
+        Err(reason) => page.warning(reason),
+    }
 }
 
 fn agreement(page: &mut Page, content: &Content<'_>, found: &Comparison, control: &Control) {
@@ -62,7 +78,7 @@ fn worst_channel(
     (run, channel): (usize, &str),
     control: &Control,
 ) {
-    let p = content.project;
+    let p = content.compared();
     let list = samples::samples(p, found, None, channel);
     let near = neighbourhood(p, run).map(|n| n.0).unwrap_or_default();
     let lines =
@@ -85,13 +101,16 @@ fn worst_channel(
 
 fn missing(page: &mut Page, content: &Content<'_>, found: &Diagnosis) {
     page.sentence(&findings::sentence(found));
+    if !found.complete {
+        page.warning("The search was ended before its time: this is the best so far.");
+    }
     let structure = &content.project.structure;
     if !found.corrections.is_empty() {
         let acts = |s: &&crate::effects::Source| {
             s.state == crate::effects::State::Known
                 && !matches!(s.effect.kind(), crate::effects::effect::Kind::Channel(_))
         };
-        let known: Vec<_> = content.project.sources.iter().filter(acts).cloned().collect();
+        let known: Vec<_> = content.compared().sources.iter().filter(acts).cloned().collect();
         page.sentence("The model states these wrongly; they were corrected in the search:");
         let row = |c: &crate::diagnosis::diagnose::Correction| {
             vec![findings::corrected(structure, &known, &c.parameter), findings::change(c)]

@@ -128,7 +128,8 @@ impl App {
         }
         self.document = Some(document);
         self.derived = Derived::default();
-        self.view = View { law: self.view.law, tour: self.view.tour, ..View::default() };
+        let View { law, tour, limit_s, .. } = self.view;
+        self.view = View { law, tour, limit_s, ..View::default() };
         self.message = None;
         if recovered {
             self.say("Unsaved changes of the last session were recovered; Undo takes them back.".to_owned());
@@ -377,6 +378,7 @@ impl eframe::App for App {
 
     fn save(&mut self, storage: &mut dyn eframe::Storage) {
         eframe::set_value(storage, "desk", &self.desk);
+        eframe::set_value(storage, "limit_s", &self.view.limit_s);
     }
 }
 

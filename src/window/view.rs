@@ -99,6 +99,8 @@ pub struct View {
     pub tour_shown: Option<usize>,
     /// Of the stage Explain.
     pub explain: Look,
+    /// Time after which a search for what is missing answers with the best so far, s; it is kept from project to project.
+    pub limit_s: Option<f64>,
 }
 
 impl Default for View {
@@ -129,6 +131,7 @@ impl Default for View {
             tour: None,
             tour_shown: None,
             explain: Look::default(),
+            limit_s: None,
         }
     }
 }

@@ -8,6 +8,7 @@ mod export;
 mod friction;
 mod history;
 mod journey;
+mod laboratory;
 mod laws;
 mod legible;
 mod many;

@@ -37,8 +37,7 @@ fn many() -> Sample {
     let force = 2 * CHANNELS - 2;
     let mut text = format!(
         "[project]\nformat = 1\ntitle = \"Two hundred runs\"\n[structure]\nkind = \"beam\"\nlength = 1.0\nbreadth = 0.04\n\
-         depth = 0.006\nyoungs_modulus = 69e9\ndensity = 2700.0\nelements = {CHANNELS}\nsupports = \"clamped-free\"\n\
-         [[candidates]]\nlaw = \"viscous\"\nwhere = \"each-translation\"\n"
+         depth = 0.006\nyoungs_modulus = 69e9\ndensity = 2700.0\nelements = {CHANNELS}\nsupports = \"clamped-free\"\n"
     );
     let folder = tempfile::tempdir().unwrap();
     for level in 1..=LEVELS {

@@ -5,23 +5,25 @@ pub mod early;
 pub mod ledger;
 pub mod model;
 pub mod shelf;
+mod work;
 
 use super::document::Document;
-use crate::control::Control;
-use crate::diagnosis::candidates::fingerprint_plot::{self as prints, Print};
-use crate::diagnosis::candidates::restoring_force::{self, RestoringForce};
-use crate::diagnosis::diagnose::{Suggestion, diagnose_without};
-use crate::diagnosis::updating::scatter::{self, Scatter};
-use crate::diagnosis::{self, Comparison, Diagnosis, Problem};
+use crate::diagnosis::candidates::fingerprint_plot::Print;
+use crate::diagnosis::candidates::restoring_force::RestoringForce;
+use crate::diagnosis::diagnose::Suggestion;
+use crate::diagnosis::updating::scatter::Scatter;
+use crate::diagnosis::{Comparison, Diagnosis};
 use crate::effects::{Place, Source};
 use crate::exchange::Project;
-use crate::plots::response_curve::{self, Curve};
-use early::{Early, Mailbox};
+use crate::plots::response_curve::Curve;
+use early::Early;
 use egui::Context;
 use ledger::Ledger;
 use model::{Key, Search};
 use shelf::{Kept, Shelf};
 use std::sync::Arc;
+use std::time::Duration;
+use work::{compare_job, curve_job, force_job, print_job, scatter_job, search_job};
 
 /// Error beyond which a model lacks its damping altogether, and the search waits until it is asked for.
 pub const HOPELESS: f64 = 10.0;
@@ -44,6 +46,8 @@ pub struct Wanted {
     pub force: bool,
     /// Whether corrections and scatter are shown.
     pub scatter: bool,
+    /// Time after which the search answers with the best so far.
+    pub limit: Option<Duration>,
     /// The run whose neighbourhood is shown.
     pub curve: Option<usize>,
 }
@@ -97,10 +101,6 @@ pub enum Standing {
     Before,
 }
 
-fn problem(p: &Project) -> Problem<'_> {
-    Problem { structure: &p.structure, sources: &p.sources, runs: &p.runs }
-}
-
 impl Explained {
     /// The key of the document as it stands.
     pub fn key(&mut self, document: &Document) -> Key {
@@ -143,7 +143,8 @@ impl Explained {
         let Some(Ok(comparison)) = self.comparisons.get(&tried) else { return };
         self.ledger.visit(&key, document.session().document(), comparison);
         if wanted.diagnosis && (wanted.anyway || comparison.error <= HOPELESS) {
-            self.diagnoses.want(ctx, &search, || search_job(p, &search, self.early.expect(ctx, &search)));
+            let limit = wanted.limit;
+            self.diagnoses.want(ctx, &search, || search_job(p, &search, limit, self.early.expect(ctx, &search)));
         }
         self.on_trial(ctx, p, &key, wanted);
         match &wanted.print {
@@ -307,8 +308,14 @@ impl Explained {
         self.trial_curves.cancel();
     }
 
-    /// Starts again what was cancelled or failed.
+    /// The search answers with the best so far, as soon as it can.
+    pub fn hurry(&self) {
+        self.diagnoses.hurry();
+    }
+
+    /// Starts again what was cancelled, failed or ended before its time.
     pub fn retry(&mut self) {
+        self.diagnoses.forget(|d| !d.complete);
         self.diagnoses.retry();
         self.comparisons.retry();
         self.trials.retry();
@@ -318,69 +325,4 @@ impl Explained {
         self.curves.retry();
         self.trial_curves.retry();
     }
-}
-
-fn search_job(
-    p: &Arc<Project>,
-    search: &Search,
-    told: Mailbox,
-) -> impl FnOnce(&Control) -> Result<Diagnosis, String> + use<> {
-    let (p, search) = (Arc::clone(p), search.clone());
-    move |control| {
-        let early = |found: &[Suggestion]| told.put(found);
-        diagnose_without(&problem(&p), search.ruled_out(), control, &early).map_err(|e| e.to_string())
-    }
-}
-
-fn compare_job(
-    p: &Arc<Project>,
-    trial: Option<&Source>,
-) -> impl FnOnce(&Control) -> Result<Comparison, String> + use<> {
-    let (p, effects) = (Arc::clone(p), trial.cloned().into_iter().collect::<Vec<_>>());
-    move |control| diagnosis::compare(&problem(&p), &effects, control).map_err(|e| e.to_string())
-}
-
-/// The fingerprint of a suggestion beside the other effects that were found.
-fn print_job(
-    p: &Arc<Project>,
-    diagnosis: Option<Arc<Diagnosis>>,
-    source: &Source,
-) -> impl FnOnce(&Control) -> Result<Option<Print>, String> + use<> {
-    let (p, source) = (Arc::clone(p), source.clone());
-    move |control| {
-        let steps = diagnosis.as_ref().and_then(|d| d.steps.last());
-        let found: Vec<Source> = steps.map_or_else(Vec::new, |s| s.added.iter().map(|a| a.source.clone()).collect());
-        let corrections = diagnosis.as_ref().map_or(&[][..], |d| &d.corrections);
-        prints::print(&problem(&p), &found, corrections, &source, control).map_err(|e| e.to_string())
-    }
-}
-
-/// The missing force at the place of a suggestion beside the other effects that were found.
-fn force_job(
-    p: &Arc<Project>,
-    diagnosis: Arc<Diagnosis>,
-    source: Option<Source>,
-) -> impl FnOnce(&Control) -> Result<Option<RestoringForce>, String> + use<> {
-    let p = Arc::clone(p);
-    move |control| {
-        restoring_force::of_diagnosis(&problem(&p), &diagnosis, source.as_ref(), control).map_err(|e| e.to_string())
-    }
-}
-
-/// What the data say of channels and runs beside what a search found.
-fn scatter_job(
-    p: &Arc<Project>,
-    diagnosis: Arc<Diagnosis>,
-) -> impl FnOnce(&Control) -> Result<Option<Scatter>, String> + use<> {
-    let p = Arc::clone(p);
-    move |control| scatter::of_diagnosis(&problem(&p), &diagnosis, control).map_err(|e| e.to_string())
-}
-
-fn curve_job(
-    p: &Arc<Project>,
-    trial: Option<&Source>,
-    run: usize,
-) -> impl FnOnce(&Control) -> Result<Vec<Curve>, String> + use<> {
-    let (p, effects) = (Arc::clone(p), trial.cloned().into_iter().collect::<Vec<_>>());
-    move |control| response_curve::curves(&p, &effects, run, control)
 }

@@ -23,6 +23,11 @@ use egui_extras::{Column, TableBuilder, TableRow};
 /// Channels that have a button each; more stand in a list that opens.
 const MOST_BUTTONS: usize = 8;
 
+/// Width of the table of runs from which on it shows the share of harmonics, points.
+const WIDE: f32 = 440.0;
+/// Least width of the flags beside it.
+const FLAGS: f32 = 76.0;
+
 const EMPTY: [&str; 2] =
     ["No runs yet", "Import steady-state records with File > Import measurements, or drop them on this window."];
 
@@ -192,6 +197,8 @@ fn channels(ui: &mut Ui, run: &Run, channel: &mut usize, every: &mut bool) {
 fn table(ui: &mut Ui, p: &Project, (rows, order): (&[usize], &mut Order), chosen: &mut usize, asks: &mut Vec<Ask>) {
     ui.style_mut().interaction.selectable_labels = false;
     let levels = p.runs.iter().any(|r| r.level.is_some());
+    let harmonics = ui.available_width() > WIDE;
+    let flags = (ui.available_width() - WIDE + FLAGS).clamp(if harmonics { FLAGS } else { 60.0 }, 104.0);
     TableBuilder::new(ui)
         .striped(true)
         .sense(Sense::click())
@@ -201,8 +208,8 @@ fn table(ui: &mut Ui, p: &Project, (rows, order): (&[usize], &mut Order), chosen
         .column(Column::exact(78.0))
         .column(Column::exact(if levels { 40.0 } else { 0.0 }))
         .column(Column::exact(62.0))
-        .column(Column::exact(64.0))
-        .column(Column::exact(104.0).clip(true))
+        .column(Column::exact(if harmonics { 68.0 } else { 0.0 }))
+        .column(Column::exact(flags).clip(true))
         .header(space::ROW, |mut header| {
             header.col(|ui| drop(ui.hint("Use")));
             header.col(|ui| drop(order.head(ui, "File", Key::File, false)));
@@ -213,7 +220,7 @@ fn table(ui: &mut Ui, p: &Project, (rows, order): (&[usize], &mut Order), chosen
                 ("Harmonics", Key::Harmonics, "Largest higher harmonic over the fundamental, over all motions."),
             ] {
                 header.col(|ui| {
-                    if levels || key != Key::Level {
+                    if (levels || key != Key::Level) && (harmonics || key != Key::Harmonics) {
                         order.head(ui, name, key, true).on_hover_text(what);
                     }
                 });
@@ -225,7 +232,7 @@ fn table(ui: &mut Ui, p: &Project, (rows, order): (&[usize], &mut Order), chosen
             body.rows(space::ROW, rows.len(), |mut row| {
                 let index = rows[row.index()];
                 row.set_selected(index == selected);
-                cells(&mut row, &p.runs[index], index, asks);
+                cells(&mut row, &p.runs[index], (index, harmonics), asks);
                 if row.response().clicked() {
                     *chosen = index;
                 }
@@ -233,7 +240,7 @@ fn table(ui: &mut Ui, p: &Project, (rows, order): (&[usize], &mut Order), chosen
         });
 }
 
-fn cells(row: &mut TableRow<'_, '_>, run: &Run, index: usize, asks: &mut Vec<Ask>) {
+fn cells(row: &mut TableRow<'_, '_>, run: &Run, (index, harmonics): (usize, bool), asks: &mut Vec<Ask>) {
     row.col(|ui| {
         let mut used = run.enabled;
         let response = ui.checkbox(&mut used, "");
@@ -248,7 +255,11 @@ fn cells(row: &mut TableRow<'_, '_>, run: &Run, index: usize, asks: &mut Vec<Ask
     row.col(|ui| drop(ui.number(format!("{} Hz", format::significant(run.fit.omega / std::f64::consts::TAU, 4)))));
     row.col(|ui| drop(ui.number(run.level.map_or_else(String::new, |level| level.to_string()))));
     row.col(|ui| drop(ui.number(format::percent(run.noise_ratio))));
-    row.col(|ui| drop(ui.number(distortion(run).map_or_else(|| "–".to_owned(), format::percent))));
+    row.col(|ui| {
+        if harmonics {
+            ui.number(distortion(run).map_or_else(|| "–".to_owned(), format::percent));
+        }
+    });
     row.col(|ui| {
         ui.add_space(space::S);
         if let Some(first) = run.findings.first() {

@@ -20,6 +20,8 @@ use egui_extras::{Column, TableBuilder};
 const TILE: f32 = 62.0;
 const LEAST_TILE: f32 = 94.0;
 const BETWEEN: f32 = 5.0;
+/// Width from which on the families stand in one row, points.
+const ONE_ROW: f32 = 460.0;
 
 /// The palette of laws and the families of places.
 pub fn laws(ui: &mut Ui, app: &mut App, asks: &mut Vec<Ask>) {
@@ -37,7 +39,7 @@ pub fn sources(ui: &mut Ui, app: &mut App, asks: &mut Vec<Ask>) {
 }
 
 fn palette(ui: &mut Ui, law: &mut Effect, asks: &mut Vec<Ask>) {
-    let families = 44.0;
+    let families = if ui.available_width() < ONE_ROW { 78.0 } else { 44.0 };
     let height = (ui.available_height() - families).max(80.0);
     ScrollArea::vertical().max_height(height).auto_shrink(false).show(ui, |ui| {
         // A bar for scrolling stands at the right.
@@ -131,14 +133,15 @@ fn list(ui: &mut Ui, p: &Project, view: &View, asks: &mut Vec<Ask>) -> Option<us
     }
     ui.add_space(space::XS);
     ui.style_mut().interaction.selectable_labels = false;
+    let width = ui.available_width();
     TableBuilder::new(ui)
         .striped(true)
         .sense(Sense::click())
         .cell_layout(egui::Layout::left_to_right(Align::Center))
         .column(Column::exact(56.0))
-        .column(Column::exact(150.0))
+        .column(Column::exact((0.3 * width).clamp(110.0, 150.0)).clip(true))
         .column(Column::remainder().clip(true))
-        .column(Column::exact(96.0))
+        .column(Column::exact(84.0))
         .header(space::ROW, |mut header| {
             for name in ["", "Law", "Place", "State"] {
                 header.col(|ui| drop(ui.hint(name)));

@@ -5,7 +5,7 @@ use crate::exchange::Project;
 use crate::measurement::Run;
 use crate::window::theme::space;
 use crate::window::widgets::UiExt;
-use egui::{Align, Label, Layout, Response, RichText, Role, Sense, Ui, WidgetInfo};
+use egui::{Align, Label, Layout, Response, RichText, Role, Sense, Shape, Stroke, Ui, WidgetInfo, vec2};
 
 /// Runs from which on the table has a filter.
 const MANY: usize = 12;
@@ -80,18 +80,17 @@ impl Order {
 
     /// The head of a column: a click brings the runs into its order, another turns it round, a third gives the project's.
     pub fn head(&mut self, ui: &mut Ui, name: &str, key: Key, right: bool) -> Response {
-        let mark = match (self.key == key, self.falling) {
-            (false, _) => "",
-            (true, false) => " ↑",
-            (true, true) => " ↓",
-        };
         let layout = if right { Layout::right_to_left(Align::Center) } else { Layout::left_to_right(Align::Center) };
         let response = ui
             .with_layout(layout, |ui| {
                 ui.add_space(if right { space::XS } else { 0.0 });
                 let colour = if self.key == key { ui.palette().accent } else { ui.palette().weak };
-                let text = RichText::new(format!("{name}{mark}")).size(crate::window::theme::size::SMALL).color(colour);
-                ui.add(Label::new(text).selectable(false).sense(Sense::click()))
+                let text = RichText::new(name).size(crate::window::theme::size::SMALL).color(colour);
+                let response = ui.add(Label::new(text).selectable(false).sense(Sense::click()));
+                if self.key == key {
+                    mark(ui, &response, self.falling);
+                }
+                response
             })
             .inner;
         response
@@ -105,6 +104,13 @@ impl Order {
         }
         response
     }
+}
+
+/// A triangle under the head by which the runs stand in order: up where the least stands first.
+fn mark(ui: &Ui, head: &Response, falling: bool) {
+    let (centre, up) = (head.rect.center_bottom() + vec2(0.0, 3.0), if falling { 2.5 } else { -2.5 });
+    let corners = vec![centre + vec2(0.0, up), centre + vec2(-4.0, -up), centre + vec2(4.0, -up)];
+    ui.painter().add(Shape::convex_polygon(corners, ui.palette().accent, Stroke::NONE));
 }
 
 /// Whether file, level or a flag of a run hold the words.

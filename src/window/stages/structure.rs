@@ -58,10 +58,10 @@ fn table(ui: &mut Ui, p: &Project, modes: &Modes, chosen: &mut usize) {
         .striped(true)
         .sense(Sense::click())
         .cell_layout(egui::Layout::left_to_right(egui::Align::Center))
-        .column(Column::exact(54.0))
-        .column(Column::exact(120.0))
+        .column(Column::exact(44.0))
+        .column(Column::exact(86.0))
         .column(Column::remainder().clip(true))
-        .column(Column::exact(80.0))
+        .column(Column::exact(66.0))
         .header(space::ROW, |mut header| {
             header.col(|ui| drop(ui.hint("Mode")));
             header.col(|ui| drop(super::head_right(ui, "Frequency")));
@@ -162,12 +162,13 @@ pub fn expansion(ui: &mut Ui, app: &mut App) {
     ui.pair("Expansion to the others", words::expansion(outcome.expansion));
     ui.pair("Model error it allows for", format::percent(outcome.model_error));
     ui.add_space(space::S);
+    let width = ui.available_width().min(386.0);
     TableBuilder::new(ui)
         .id_salt("expansion")
         .striped(true)
         .cell_layout(egui::Layout::left_to_right(egui::Align::Center))
         .column(Column::remainder().at_least(80.0).clip(true))
-        .columns(Column::exact(104.0), 3)
+        .columns(Column::exact(0.27 * width), 3)
         .header(space::ROW, |mut row| {
             row.col(|ui| drop(ui.hint("Run")));
             for (name, what) in [

@@ -8,6 +8,7 @@ mod fingerprint;
 mod force;
 mod gauge;
 mod ledger;
+mod limit;
 pub mod look;
 mod map;
 pub mod panes;
@@ -31,6 +32,7 @@ use crate::window::frame::top::Mark;
 use crate::window::view::{Stage, View};
 use egui::Context;
 pub use schematic::{Errors, errors};
+use std::time::Duration;
 
 /// What may be asked for in the stage.
 #[derive(Debug, Clone, PartialEq)]
@@ -64,6 +66,12 @@ pub enum Deed {
     },
     /// Start it again.
     Retry,
+    /// End the search with the best so far.
+    Hurry,
+    /// End searches with the best so far after a time in s, or let them come to their end.
+    Limit(Option<f64>),
+    /// Search to the end, without a limit.
+    SearchOn,
     /// Search though the model is far from the data.
     Search,
 }
@@ -98,6 +106,7 @@ pub fn wanted(document: &Document, view: &View, explained: &Explained) -> Wanted
         print,
         force,
         scatter: look.scatter,
+        limit: view.limit_s.map(Duration::from_secs_f64),
         curve,
     }
 }
@@ -139,6 +148,12 @@ pub fn answer(app: &mut App, ctx: &Context, deed: Deed) {
         Deed::CorrectOne(k) => correct_one(app, ctx, k),
         Deed::CorrectSensor { channel, gain, delay } => correct_sensor(app, ctx, channel, [gain, delay]),
         Deed::Retry => app.derived.explained.retry(),
+        Deed::Hurry => app.derived.explained.hurry(),
+        Deed::Limit(limit) => app.view.limit_s = limit,
+        Deed::SearchOn => {
+            app.view.limit_s = None;
+            app.derived.explained.retry();
+        }
         Deed::Search => app.view.explain.anyway = true,
     }
 }
@@ -234,8 +249,12 @@ fn take_over(app: &mut App, ctx: &Context) {
     let Some(Ok(outcome)) = app.derived.known_outcome(document) else { return };
     let sources = &document.project.sources;
     let sought = |s: usize| sources.get(s).is_some_and(|s| matches!(s.state, State::Candidate | State::Forced));
-    let found: Vec<(usize, f64)> =
-        outcome.sources.iter().filter(|e| sought(e.source)).map(|e| (e.source, e.coefficient)).collect();
+    let found: Vec<(usize, f64)> = outcome
+        .sources
+        .iter()
+        .filter(|e| sought(e.source) && e.coefficient > 0.0)
+        .map(|e| (e.source, e.coefficient))
+        .collect();
     match additions::take_over(&found, &document.project) {
         Ok(commands) => app.edit(ctx, &Edit::All(commands)),
         Err(error) => app.fail(error),
