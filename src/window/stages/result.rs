@@ -244,15 +244,15 @@ pub fn values(ui: &mut Ui, app: &mut App) {
     ui.style_mut().interaction.selectable_labels = false;
     let width = ui.available_width();
     // The share of energy stands in its own pane, the law on the schematic: both go before a value is cut.
-    let (with_law, with_share) = (width > 400.0, width > 480.0);
+    let (with_law, with_share) = (width > 400.0, width > 430.0);
     TableBuilder::new(ui)
         .id_salt("values")
         .striped(true)
         .cell_layout(Layout::left_to_right(Align::Center))
-        .column(Column::exact(if with_law { (0.3 * width).min(150.0) } else { 0.0 }).clip(true))
+        .column(Column::exact(if with_law { (0.24 * width).min(150.0) } else { 0.0 }).clip(true))
         .column(Column::remainder().at_least(60.0).clip(true))
-        .column(Column::exact(190.0))
-        .column(Column::exact(if with_share { 70.0 } else { 0.0 }))
+        .column(Column::exact(176.0))
+        .column(Column::exact(if with_share { 64.0 } else { 0.0 }))
         .header(space::ROW, |mut row| {
             row.col(|ui| if_there(with_law, || ui.hint("Law")));
             row.col(|ui| drop(ui.hint("Place")));
