@@ -143,6 +143,27 @@ fn records_are_made_by_time_integration_on_request() {
 }
 
 #[test]
+fn a_shift_of_all_frequencies_is_a_change_of_all_stiffness() {
+    let folder = tempfile::tempdir().unwrap();
+    let made = |project: &str| {
+        fs::write(folder.path().join("p.toml"), project).unwrap();
+        let output = dashpot(&["simulate", "p.toml", "--out", "made"], folder.path());
+        assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+        fs::read_to_string(folder.path().join("made/run-01.csv")).unwrap()
+    };
+    let shifted = made(&GOOD.replace("force_n = 5", "force_n = 5\nfrequency_shift = 0.02"));
+    let stiffer = made(&GOOD.replace("[1e4, 0]", "[1.0404e4, 0]").replace("[2e4]", "[2.0808e4]"));
+    assert_ne!(shifted, made(GOOD));
+    let numbers = |text: &str| -> Vec<f64> {
+        text.lines().skip(1).flat_map(|l| l.split(',').map(|v| v.parse().unwrap()).collect::<Vec<f64>>()).collect()
+    };
+    assert!(numbers(&shifted).iter().zip(numbers(&stiffer)).all(|(a, b)| (a - b).abs() < 1e-9 * (1.0 + b.abs())));
+    fs::write(folder.path().join("p.toml"), GOOD.replace("force_n = 5", "force_n = 5\nfrequency_shift = 5")).unwrap();
+    let output = dashpot(&["simulate", "p.toml", "--out", "made"], folder.path());
+    assert!(text(&output.stderr).contains("frequency_shift"), "{}", text(&output.stderr));
+}
+
+#[test]
 fn wrong_usage_ends_with_status_2() {
     let folder = tempfile::tempdir().unwrap();
     for arguments in [&["simulate"] as &[&str], &["fly", "p.toml"], &["simulate", "p.toml", "--out"], &["--wings"]] {

@@ -293,6 +293,8 @@ pub(super) enum PlotKind {
     Period,
     /// Measured on modelled as a loop of force over displacement
     Loop,
+    /// The missing force at its place over displacement and velocity, after a search; --dof chooses among the suggestions
+    RestoringForce,
 }
 
 /// What is divided by the force.

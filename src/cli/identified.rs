@@ -5,9 +5,10 @@ use super::compare::problem;
 use super::diagnose::labels;
 use crate::control::Control;
 use crate::diagnosis::compare;
-use crate::effects::{Source, State};
+use crate::effects::Source;
 use crate::exchange::Project;
 use crate::identify::identify;
+use crate::session::identified;
 use anyhow::Context;
 use serde_json::{Value, json};
 use std::path::Path;
@@ -31,39 +32,16 @@ pub(super) fn take_over(
     }
     let outcome = identify(&project.structure, &project.sources, &project.runs, &project.settings, control)
         .with_context(|| format!("{}: what damps it could not be identified", file.display()))?;
-    let found: Vec<(usize, f64)> = outcome
-        .sources
-        .iter()
-        .filter(|e| is_sought(&project.sources[e.source]) && e.coefficient > 0.0)
-        .map(|e| (e.source, e.coefficient))
-        .collect();
-    let taken: Vec<Source> = found.iter().map(|&(index, c)| known(&project.sources[index], c)).collect();
-    project.sources.iter_mut().filter(|s| is_sought(s)).for_each(|s| s.state = State::Off);
-    for source in &taken {
-        let coefficient = source.effect.coefficient();
-        let there = project.sources.iter_mut().find(|s| s.state == State::Known && s.is_same(source));
-        match (there, coefficient) {
-            (Some(there), Some(k)) => there.parameters[k] += source.parameters[k],
-            _ => project.sources.push(source.clone()),
-        }
-    }
+    let taken = identified::take_over(project, &outcome);
     eprintln!("{}", sentence(project, &taken, asked));
     Ok(taken)
-}
-
-fn known(source: &Source, coefficient: f64) -> Source {
-    Source { state: State::Known, ..source.with_coefficient(coefficient) }
-}
-
-fn is_sought(source: &Source) -> bool {
-    matches!(source.state, State::Candidate | State::Forced)
 }
 
 /// Whether nothing damps the model, something might, and it is at a resonance without it.
 fn is_meaningless(project: &Project, control: &Control) -> bool {
     let damps = |s: &Source| s.effect.dissipates();
     let known = problem(project).known().iter().any(damps);
-    let sought = project.sources.iter().any(|s| is_sought(s) && damps(s));
+    let sought = project.sources.iter().any(|s| identified::is_sought(s) && damps(s));
     let error = || compare(&problem(project), &[], control).map_or(0.0, |c| c.error);
     !known && sought && error() > MEANINGLESS
 }

@@ -2,8 +2,10 @@
 
 use super::arguments::{Plot, PlotKind};
 use crate::control::Control;
+use crate::diagnosis::candidates::restoring_force;
 use crate::diagnosis::component::{Loops, compare_component};
-use crate::diagnosis::{Comparison, Problem, compare};
+use crate::diagnosis::diagnose::Verdict;
+use crate::diagnosis::{Comparison, Problem, compare, diagnose};
 use crate::display::words;
 use crate::exchange::Project;
 use crate::exchange::atomic::write_atomically;
@@ -22,7 +24,7 @@ use crate::plots::record::RecordPlot;
 use crate::plots::sheet::Sheet;
 use crate::plots::style::Palette;
 use crate::plots::trace::{Trace, trace};
-use crate::plots::{angle, component_loops, energy, forward, response_curve, samples, spectrum, svg};
+use crate::plots::{self, angle, component_loops, energy, forward, response_curve, samples, spectrum, svg};
 use crate::session::workers::Threads;
 use crate::structure::StructureKind;
 use anyhow::{Context, bail, ensure};
@@ -85,6 +87,7 @@ impl Plotter<'_> {
             PlotKind::Hysteresis => self.hysteresis(),
             PlotKind::Record | PlotKind::Spectrum => self.record(),
             PlotKind::ErrorMap => self.error_map(),
+            PlotKind::RestoringForce => self.restoring_force(),
             PlotKind::Channel | PlotKind::Level | PlotKind::Period | PlotKind::Loop => self.channel(),
         }
     }
@@ -99,6 +102,35 @@ impl Plotter<'_> {
         let sheet = Sheet::of(title, figures);
         let size = self.arguments.size.map_or_else(|| sheet.paper(), |[w, h]| emath::vec2(w as f32, h as f32));
         Ok(Drawn { drawing: sheet.drawing(size, self.palette), table: sheet.table() })
+    }
+
+    /// Of the suggestion at the DOF that was asked for, else of the first; without one of the place that explains most.
+    fn restoring_force(&self) -> anyhow::Result<Drawn> {
+        let p = self.p;
+        let problem = Problem { structure: &p.structure, sources: &p.sources, runs: &p.runs };
+        let diagnosis = diagnose(&problem, self.control)?;
+        let dof = self.dof()?;
+        let at = |s: &&diagnose::Suggestion| match &s.added.source.place {
+            crate::effects::Place::Dofs(dofs) => dof.is_none_or(|d| dofs.contains(&d)),
+            _ => false,
+        };
+        let suggestion = diagnosis.suggestions.iter().find(at);
+        ensure!(
+            suggestion.is_some() || dof.is_none(),
+            "--dof {}: no suggestion is there; `dashpot diagnose` lists them",
+            self.arguments.dof.as_deref().unwrap_or_default()
+        );
+        ensure!(
+            suggestion.is_some() || diagnosis.verdict == Verdict::Unexplained,
+            "no force is missing at a place of the structure: {}",
+            crate::display::findings::sentence(&diagnosis)
+        );
+        let source = suggestion.map(|s| &s.added.source);
+        let force = restoring_force::of_diagnosis(&problem, &diagnosis, source, self.control)?;
+        let force = force.context("no run shows the force well enough to draw it")?;
+        let sheet = plots::restoring_force::sheet(&force, &p.structure, self.palette);
+        let size = self.arguments.size.map_or_else(|| sheet.paper(), |[w, h]| emath::vec2(w as f32, h as f32));
+        Ok(Drawn { drawing: sheet.drawing(size, self.palette), table: plots::restoring_force::table(&force) })
     }
 
     fn outcome(&self) -> anyhow::Result<Outcome> {

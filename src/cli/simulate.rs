@@ -15,9 +15,10 @@ use crate::response::recording::{Loading, TestSetup, quantise, record_test};
 use crate::response::simulation::{Simulator, recorded, transfer, usual_channels};
 use crate::response::simulation_in_time::{InTime, Recorder, record_in_time};
 use crate::response::synthesis::{self, Noise, sampling_times, synthesise};
-use crate::structure::StructureKind;
+use crate::structure::{Part, Structure, StructureKind};
 use anyhow::{Context, anyhow, bail};
 use faer::c64;
+use std::borrow::Cow;
 use std::f64::consts::TAU;
 use std::fs;
 
@@ -45,17 +46,20 @@ pub(super) fn run(arguments: &Simulate) -> anyhow::Result<String> {
             stream: index as u64,
         });
         if let Some(test) = plan.runs[index].test {
-            let record = recorded_test(&plan, &sources, test, noise);
+            let record = recorded_test(&plan, &shifted(&plan, index), &sources, test, noise);
             simulated.push(record.map_err(|error| at_run(&plan, index, error))?);
             continue;
         }
         let record = test(&plan, index).and_then(|test| {
+            let structure = shifted(&plan, index);
             let is_stepped = arguments.by == Method::Time || arguments.transient > 0.0 || plan.simulate().integrate;
             if is_stepped && !test.bases.is_empty() {
                 bail!("a moving base is not stepped through time; leave out --by time, --transient and `integrate`");
             }
             if is_stepped {
-                in_time(&plan, &sources, &test, arguments, noise)
+                in_time(&structure, &plan.sensors, &sources, &test, arguments, noise)
+            } else if plan.runs[index].frequency_shift.is_some() {
+                balanced(&plan, &Simulator::new(&structure, &sources)?, &test, noise)
             } else {
                 balanced(&plan, &model, &test, noise)
             }
@@ -68,6 +72,15 @@ pub(super) fn run(arguments: &Simulate) -> anyhow::Result<String> {
 /// An error with the line of its run, unless it says already where it is.
 pub(super) fn at_run(plan: &Plan, index: usize, error: anyhow::Error) -> anyhow::Error {
     if error.downcast_ref::<ProjectError>().is_some() { error } else { error.context(plan.place_of_run(index)) }
+}
+
+/// The structure as it is in one run: temperature and re-seating shift all its natural frequencies by `s`, so that its
+/// stiffness is `(1 + s)^2` of what it was.
+fn shifted(plan: &Plan, index: usize) -> Cow<'_, Structure> {
+    match plan.runs[index].frequency_shift {
+        Some(shift) => Cow::Owned(plan.structure.with_factors(&[(Part::Stiffness, (1.0 + shift).powi(2))])),
+        None => Cow::Borrowed(&plan.structure),
+    }
 }
 
 /// What drives a run, what is recorded and when: from the recipe, or from the record that is there.
@@ -88,21 +101,28 @@ fn balanced(plan: &Plan, model: &Simulator<'_>, test: &Test, noise: Option<Noise
 }
 
 fn in_time(
-    plan: &Plan,
+    structure: &Structure,
+    sensors: &[Source],
     sources: &[Source],
     test: &Test,
     arguments: &Simulate,
     noise: Option<Noise>,
 ) -> anyhow::Result<Record> {
-    let recorder = Recorder { channels: &test.channels, sensors: &plan.sensors, time: &test.time };
+    let recorder = Recorder { channels: &test.channels, sensors, time: &test.time };
     let settings = InTime { steps: arguments.steps as usize, transient: arguments.transient };
     let control = Control::unattended();
-    let samples = record_in_time(&plan.structure, sources, &test.excitation, &recorder, &settings, &control)?;
+    let samples = record_in_time(structure, sources, &test.excitation, &recorder, &settings, &control)?;
     Ok(synthesis::record(&test.time, test.channels.clone(), samples, noise)?)
 }
 
 /// A test that is not steady, recorded with filter, noise and converter.
-fn recorded_test(plan: &Plan, sources: &[Source], test: PlannedTest, noise: Option<Noise>) -> anyhow::Result<Record> {
+fn recorded_test(
+    plan: &Plan,
+    structure: &Structure,
+    sources: &[Source],
+    test: PlannedTest,
+    noise: Option<Noise>,
+) -> anyhow::Result<Record> {
     let table = plan.simulate();
     let rate_hz = table.rate_hz.ok_or_else(|| anyhow!("the sampling rate is missing; add `rate_hz` to [simulate]"))?;
     let samples = (test.duration_s * rate_hz).round() as usize;
@@ -123,7 +143,7 @@ fn recorded_test(plan: &Plan, sources: &[Source], test: PlannedTest, noise: Opti
     let (sensors, filter) = (&plan.sensors, table.filter);
     let setup =
         TestSetup { loading: &test.loading, dof: test.dof, channels: &channels, sensors, rate_hz, samples, filter };
-    let made = record_test(&plan.structure, sources, &setup, &Control::unattended())?;
+    let made = record_test(structure, sources, &setup, &Control::unattended())?;
     let record = synthesis::record(&made.time, channels, made.samples, noise)?;
     Ok(match table.bits {
         Some(bits) => record.quantised(|samples| quantise(samples, bits)),

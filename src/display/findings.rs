@@ -81,6 +81,16 @@ fn corrected_part(structure: &Structure, part: Part) -> String {
     }
 }
 
+/// At most so many corrections, those first that are most deviations from 1, in their own order.
+pub fn telling(corrections: &[Correction], most: usize) -> Vec<&Correction> {
+    let deviations = |c: &Correction| (c.factor - 1.0).abs() / c.deviation.max(f64::MIN_POSITIVE);
+    let mut order: Vec<usize> = (0..corrections.len()).collect();
+    order.sort_by(|&a, &b| deviations(&corrections[b]).total_cmp(&deviations(&corrections[a])));
+    order.truncate(most);
+    order.sort_unstable();
+    order.into_iter().map(|k| &corrections[k]).collect()
+}
+
 /// A correction in words: what, and by how much with its deviation: `+2.00 ± 0.05 %`.
 pub fn change(correction: &Correction) -> String {
     let change = format::with_deviation(100.0 * (correction.factor - 1.0), 100.0 * correction.deviation, "%");

@@ -197,7 +197,7 @@ fn title(part: Part) -> &'static str {
 }
 
 /// `(m/s²)/N`.
-fn per_force(unit: &str) -> String {
+pub(super) fn per_force(unit: &str) -> String {
     let unit = format::pretty_unit(unit);
     if unit.contains('/') { format!("({unit})/N") } else { format!("{unit}/N") }
 }

@@ -41,7 +41,7 @@ fn wave(amplitudes: &[c64]) -> Vec<f64> {
 }
 
 /// A factor and prefix by which a largest value reads well, in steps of a thousand.
-fn scaled(largest: f64) -> (f64, &'static str) {
+pub(super) fn scaled(largest: f64) -> (f64, &'static str) {
     const PREFIXES: [(f64, &str); 5] = [(1.0, ""), (1e3, "m"), (1e6, "µ"), (1e9, "n"), (1e12, "p")];
     PREFIXES.into_iter().find(|(factor, _)| largest * factor >= 1.0).unwrap_or((1.0, ""))
 }

@@ -42,7 +42,8 @@ impl Sheet {
     /// Width and height of its paper, points: square for plots with equal units, higher for more plots.
     pub fn paper(&self) -> Vec2 {
         let square = self.panels.iter().any(|p| p.figure.square);
-        let more = self.panels.len().saturating_sub(1) as f32;
+        let rows = self.panels.len().div_ceil(self.columns.max(1));
+        let more = rows.saturating_sub(1) as f32;
         if square { vec2(640.0, 600.0) } else { vec2(900.0, 300.0 + 220.0 * more) }
     }
 

@@ -4,6 +4,7 @@ use super::content::Content;
 use super::html::Page;
 use super::{figure, sheet};
 use crate::control::Control;
+use crate::diagnosis::candidates::restoring_force::RestoringForce;
 use crate::diagnosis::diagnose::{Suggestion, Verdict};
 use crate::diagnosis::{Comparison, Diagnosis};
 use crate::display::format::{chance, in_words, polished};
@@ -12,20 +13,19 @@ use crate::plots::channel_response::ChannelResponse;
 use crate::plots::error_map::{ENERGY, Grid, Scale};
 use crate::plots::response_curve::{curves, levels, neighbourhood};
 use crate::plots::style::Palette;
-use crate::plots::{fingerprint, samples};
+use crate::plots::{fingerprint, restoring_force, samples};
 
 /// Suggestions that are told in full.
 const MOST_SUGGESTIONS: usize = 6;
 
 /// Adds them.
 pub(super) fn chapters(page: &mut Page, content: &Content<'_>, control: &Control) {
-    if content.project.runs.is_empty() {
+    super::unsteady::chapter(page, content);
+    if content.project.runs.is_empty() && content.records.is_none() {
         return;
     }
-    page.chapter("Model of the known sources against the measurement");
-    match &content.comparison {
-        Ok(found) => agreement(page, content, found, control),
-        Err(reason) => page.warning(reason),
+    if !super::unsteady::only_records(content.project) {
+        steady(page, content, control);
     }
     page.chapter("What is missing?");
     match &content.diagnosis {
@@ -33,6 +33,23 @@ pub(super) fn chapters(page: &mut Page, content: &Content<'_>, control: &Control
         Err(reason) => page.sentence(reason),
     }
     ledger(page, content);
+}
+
+/// The steady runs.
+fn steady(page: &mut Page, content: &Content<'_>, control: &Control) {
+    page.chapter("Model of the known sources against the measurement");
+    if let Some((_, taken)) = &content.with_identified {
+        let structure = &content.project.structure;
+        let names: Vec<String> = taken.iter().map(|s| words::title(structure, s)).collect();
+        page.sentence(&format!(
+            "The project states no damping that limits its resonances; what was identified is taken as known here: {}.",
+            names.join("; ")
+        ));
+    }
+    match &content.comparison {
+        Ok(found) => agreement(page, content, found, control),
+        Err(reason) => page.warning(reason),
+    }
 }
 
 fn agreement(page: &mut Page, content: &Content<'_>, found: &Comparison, control: &Control) {
@@ -61,7 +78,7 @@ fn worst_channel(
     (run, channel): (usize, &str),
     control: &Control,
 ) {
-    let p = content.project;
+    let p = content.compared();
     let list = samples::samples(p, found, None, channel);
     let near = neighbourhood(p, run).map(|n| n.0).unwrap_or_default();
     let lines =
@@ -84,13 +101,16 @@ fn worst_channel(
 
 fn missing(page: &mut Page, content: &Content<'_>, found: &Diagnosis) {
     page.sentence(&findings::sentence(found));
+    if !found.complete {
+        page.warning("The search was ended before its time: this is the best so far.");
+    }
     let structure = &content.project.structure;
     if !found.corrections.is_empty() {
         let acts = |s: &&crate::effects::Source| {
             s.state == crate::effects::State::Known
                 && !matches!(s.effect.kind(), crate::effects::effect::Kind::Channel(_))
         };
-        let known: Vec<_> = content.project.sources.iter().filter(acts).cloned().collect();
+        let known: Vec<_> = content.compared().sources.iter().filter(acts).cloned().collect();
         page.sentence("The model states these wrongly; they were corrected in the search:");
         let row = |c: &crate::diagnosis::diagnose::Correction| {
             vec![findings::corrected(structure, &known, &c.parameter), findings::change(c)]
@@ -118,6 +138,12 @@ fn missing(page: &mut Page, content: &Content<'_>, found: &Diagnosis) {
     for s in list.iter().take(MOST_SUGGESTIONS) {
         evidence(page, content, s);
     }
+    if let Some((_, force)) = content.forces.iter().find(|(source, _)| source.is_none()) {
+        page.sentence(
+            "The force that would explain most, at the place where one force explains most, whatever its law:",
+        );
+        missing_force(page, content, force);
+    }
     next_tests(page, content, found);
 }
 
@@ -133,6 +159,17 @@ fn evidence(page: &mut Page, content: &Content<'_>, s: &Suggestion) {
     if let Some((_, print)) = content.fingerprints.iter().find(|(source, _)| source.is_same(&s.added.source)) {
         figure(page, fingerprint::figure(print, Palette::light()));
     }
+    let of = |source: &Option<crate::effects::Source>| source.as_ref().is_some_and(|o| o.is_same(&s.added.source));
+    if let Some((_, force)) = content.forces.iter().find(|(source, _)| of(source)) {
+        missing_force(page, content, force);
+    }
+}
+
+/// The missing force over displacement and velocity.
+fn missing_force(page: &mut Page, content: &Content<'_>, force: &RestoringForce) {
+    let sheet = restoring_force::sheet(force, &content.project.structure, Palette::light());
+    page.drawing(&sheet.drawing(sheet.paper(), Palette::light()));
+    page.remark(&format!("{}.", words::capital(&restoring_force::caption(force))));
 }
 
 fn next_tests(page: &mut Page, content: &Content<'_>, found: &Diagnosis) {

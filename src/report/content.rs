@@ -1,11 +1,16 @@
 //! What a report holds, each part computed or with the reason why not.
 
+use super::unsteady::{self, diagnosed, only_records};
 use crate::control::Control;
 use crate::diagnosis::candidates::fingerprint_plot::{self as prints, Print};
+use crate::diagnosis::candidates::restoring_force::{self, RestoringForce};
+use crate::diagnosis::diagnose::Verdict;
+use crate::diagnosis::records::RecordComparison;
 use crate::diagnosis::{self, Comparison, Diagnosis, Problem};
 use crate::effects::Source;
 use crate::exchange::Project;
-use crate::identify::{Outcome, identify};
+use crate::identify::{Measurements, Outcome, identify_measured};
+use crate::session::identified::take_over;
 use std::sync::Arc;
 
 /// A result, or one line that says why there is none.
@@ -42,12 +47,19 @@ pub struct Content<'a> {
     pub project: &'a Project,
     /// Identified sources.
     pub outcome: Found<Outcome>,
+    /// The project with what was identified known, and that, where the model lacks its damping altogether: it is this that
+    /// is compared.
+    pub with_identified: Option<(Project, Vec<Source>)>,
     /// Model against measurement.
     pub comparison: Found<Comparison>,
+    /// Model against records that are not steady, where there are any.
+    pub records: Option<Found<RecordComparison>>,
     /// What the model lacks.
     pub diagnosis: Found<Diagnosis>,
     /// Fingerprints of the first suggestions.
     pub fingerprints: Vec<(Source, Print)>,
+    /// The missing force at the places of the first suggestions; without one, at the place that explains most.
+    pub forces: Vec<(Option<Source>, RestoringForce)>,
     /// The way to the model as it stands.
     pub ledger: Vec<LedgerRow>,
 }
@@ -62,21 +74,51 @@ impl<'a> Content<'a> {
     pub fn complete(project: &'a Project, known: Known, control: &Control) -> Self {
         let p = project;
         let outcome = known.outcome.unwrap_or_else(|| {
-            let found = identify(&p.structure, &p.sources, &p.runs, &p.settings, control);
+            let given = Measurements { runs: &p.runs, transient_runs: &p.transient_runs, ratios: &[] };
+            let found = identify_measured(&p.structure, &p.sources, given, &p.settings, control);
             found.map(Arc::new).map_err(|e| e.to_string())
         });
-        let comparison = known
-            .comparison
-            .unwrap_or_else(|| diagnosis::compare(&problem(p), &[], control).map(Arc::new).map_err(|e| e.to_string()));
-        let diagnosis = known.diagnosis.unwrap_or_else(|| diagnose(p, &comparison, control));
+        let compared = |p: &Project| diagnosis::compare(&problem(p), &[], control).map(Arc::new);
+        let as_it_is = known.comparison.unwrap_or_else(|| compared(p).map_err(|e| e.to_string()));
+        let lacks_damping = as_it_is.as_ref().is_ok_and(|c| c.error > HOPELESS);
+        let with_identified = outcome.as_ref().ok().filter(|_| lacks_damping).and_then(|o| with_identified(p, o));
+        let (p, comparison, diagnosis) = match &with_identified {
+            Some((p, _)) => {
+                let comparison = compared(p).map_err(|e| e.to_string());
+                let diagnosis = diagnose(p, &comparison, control);
+                (p, comparison, diagnosis)
+            }
+            None => {
+                let search = || if only_records(p) { diagnosed(p, control) } else { diagnose(p, &as_it_is, control) };
+                let diagnosis = known.diagnosis.filter(|_| !only_records(p)).unwrap_or_else(search);
+                (p, as_it_is, diagnosis)
+            }
+        };
+        let records = unsteady::compared(p, control);
         let fingerprints = diagnosis.as_ref().map_or_else(|_| Vec::new(), |d| fingerprints(p, d, control));
+        let forces = diagnosis.as_ref().map_or_else(|_| Vec::new(), |d| forces(p, d, control));
         let mut ledger = known.ledger;
-        if let (true, Ok(c)) = (ledger.is_empty(), &comparison) {
-            let label = "Model as it stands".to_owned();
-            ledger.push(LedgerRow { label, error: c.error, noise_floor: c.noise_floor });
+        let error = comparison.as_ref().map(|c| [c.error, c.noise_floor]);
+        let of_records = || records.as_ref().and_then(|r| r.as_ref().ok()).map(|r| [r.error, r.noise_floor]);
+        if let (true, Some([error, noise_floor])) = (ledger.is_empty(), error.ok().or_else(of_records)) {
+            let label = if with_identified.is_some() { "Model with what was identified" } else { "Model as it stands" };
+            let label = label.to_owned();
+            ledger.push(LedgerRow { label, error, noise_floor });
         }
-        Self { project, outcome, comparison, diagnosis, fingerprints, ledger }
+        Self { project, outcome, with_identified, comparison, records, diagnosis, fingerprints, forces, ledger }
     }
+
+    /// The project whose known sources are compared with the measurement.
+    pub fn compared(&self) -> &Project {
+        self.with_identified.as_ref().map_or(self.project, |(p, _)| p)
+    }
+}
+
+/// The project with what was identified known; `None` where nothing was.
+fn with_identified(p: &Project, outcome: &Outcome) -> Option<(Project, Vec<Source>)> {
+    let mut project = p.clone();
+    let taken = take_over(&mut project, outcome);
+    (!taken.is_empty()).then_some((project, taken))
 }
 
 /// What is compared of a project.
@@ -102,4 +144,18 @@ fn fingerprints(p: &Project, diagnosis: &Diagnosis, control: &Control) -> Vec<(S
         Some((source.clone(), print))
     };
     diagnosis.suggestions.iter().take(MOST_PRINTS).filter_map(|s| one(&s.added.source)).collect()
+}
+
+/// The missing force of the first suggestions; of the best place where nothing was named though something is missing.
+fn forces(p: &Project, diagnosis: &Diagnosis, control: &Control) -> Vec<(Option<Source>, RestoringForce)> {
+    let suggested = diagnosis.suggestions.iter().take(MOST_PRINTS).map(|s| Some(s.added.source.clone()));
+    let mut wanted: Vec<Option<Source>> = suggested.collect();
+    if wanted.is_empty() && diagnosis.verdict == Verdict::Unexplained {
+        wanted.push(None);
+    }
+    let one = |source: Option<Source>| {
+        let force = restoring_force::of_diagnosis(&problem(p), diagnosis, source.as_ref(), control).ok()??;
+        Some((source, force))
+    };
+    wanted.into_iter().filter_map(one).collect()
 }

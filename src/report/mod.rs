@@ -6,6 +6,7 @@ mod comparison;
 mod content;
 mod html;
 mod identification;
+mod unsteady;
 
 pub use content::{Content, Known, LedgerRow};
 
@@ -90,7 +91,7 @@ fn structure(page: &mut Page, p: &Project) {
 
 fn runs(page: &mut Page, p: &Project) {
     page.chapter("Measurements");
-    if p.runs.is_empty() {
+    if p.runs.is_empty() && p.transient_runs.is_empty() {
         return page.sentence("The project holds no measurements.");
     }
     let row = |(k, run): (usize, &crate::measurement::Run)| {
@@ -109,7 +110,8 @@ fn runs(page: &mut Page, p: &Project) {
             used,
         ]
     };
-    let rows: Vec<Vec<String>> = p.runs.iter().enumerate().map(row).collect();
+    let records = p.transient_runs.iter().enumerate().map(|(k, run)| unsteady::row(p.runs.len() + k + 1, run));
+    let rows: Vec<Vec<String>> = p.runs.iter().enumerate().map(row).chain(records).collect();
     page.table(&["Run|", "File", "Frequency|", "Force|", "Level|", "Noise|", "Remarks"], &rows);
 }
 

@@ -99,6 +99,11 @@ impl<K, T> Job<K, T> {
         (!self.thread.is_finished()).then(|| (self.name(), self.progress()))
     }
 
+    /// Asks it to answer with the best that it has so far.
+    pub fn hurry(&self) {
+        self.control.hurry();
+    }
+
     /// Asks it to stop.
     pub fn cancel(&self) {
         self.control.cancel();

@@ -5,6 +5,7 @@ pub mod apply;
 pub mod command;
 pub mod document;
 pub mod history;
+pub mod identified;
 pub mod jobs;
 pub mod recent;
 pub mod save;

@@ -68,7 +68,12 @@ pub fn take_over(found: &[(usize, f64)], p: &Project) -> Result<Vec<Command>, St
         let (dofs, elements) = labels(&source.place, &p.structure);
         let at = SourceAt { law: source.effect, dofs, elements, state: Some(source.state) };
         let known = SourceAt { state: Some(State::Known), ..at.clone() };
-        commands.push(Command::SetSourceState { source: at, state: State::Known });
+        // What is known there already gets the coefficient on top of its own.
+        let there = p.sources.iter().find(|s| s.state == State::Known && s.is_same(source));
+        let own = there.zip(source.effect.coefficient()).map(|(s, k)| s.parameters[k]);
+        let state = if own.is_some() { State::Off } else { State::Known };
+        let value = value + own.unwrap_or(0.0);
+        commands.push(Command::SetSourceState { source: at, state });
         let parameters = BTreeMap::from([(name.to_owned(), value)]);
         commands.push(Command::SetSourceParameters { source: known, parameters });
     }

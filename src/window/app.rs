@@ -30,6 +30,9 @@ const LONGEST: std::time::Duration = std::time::Duration::from_mins(10);
 /// Longest time between two looks at the progress of what runs.
 const REFRESH: std::time::Duration = std::time::Duration::from_millis(50);
 
+/// Runs from which on the first look is at all of them.
+const MANY_RUNS: usize = 24;
+
 /// The whole window.
 #[derive(Debug, Default)]
 pub struct App {
@@ -120,9 +123,13 @@ impl App {
             let kept = recent.add(&path).map_err(|e| e.to_string());
             self.note(kept);
         }
+        if document.project.runs.len() > MANY_RUNS {
+            self.desk.set_open(Stage::Measure, Pane::Overview, true);
+        }
         self.document = Some(document);
         self.derived = Derived::default();
-        self.view = View { law: self.view.law, tour: self.view.tour, ..View::default() };
+        let View { law, tour, limit_s, .. } = self.view;
+        self.view = View { law, tour, limit_s, ..View::default() };
         self.message = None;
         if recovered {
             self.say("Unsaved changes of the last session were recovered; Undo takes them back.".to_owned());
@@ -371,6 +378,7 @@ impl eframe::App for App {
 
     fn save(&mut self, storage: &mut dyn eframe::Storage) {
         eframe::set_value(storage, "desk", &self.desk);
+        eframe::set_value(storage, "limit_s", &self.view.limit_s);
     }
 }
 

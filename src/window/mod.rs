@@ -59,6 +59,7 @@ pub fn open(file: Option<PathBuf>, photograph: Option<PathBuf>) -> Result<(), St
         if let Some(desk) = cc.storage.and_then(|storage| eframe::get_value(storage, "desk")) {
             app.desk = desk;
         }
+        app.view.limit_s = cc.storage.and_then(|storage| eframe::get_value(storage, "limit_s")).flatten();
         app.recent = eframe::storage_dir("dashpot").map(|folder| Recent::load(&folder.join("recent.json")));
         app.photograph = photograph.map(Photograph::new);
         if let Some(file) = file {

@@ -3,6 +3,7 @@
 use super::schematic::view::ViewState;
 use super::stages::explain::look::Look;
 use super::stages::incompleteness::Choice;
+use super::stages::run_table::Order;
 use crate::classical::method::Method;
 use crate::effects::Effect;
 use crate::response::frequency_response::Quantity;
@@ -52,6 +53,8 @@ pub struct View {
     pub stage: Stage,
     /// Selected run.
     pub run: usize,
+    /// Order and filter of the table of runs.
+    pub runs: Order,
     /// Selected channel of the run.
     pub channel: usize,
     /// Whether the records of all channels are shown under each other.
@@ -96,6 +99,8 @@ pub struct View {
     pub tour_shown: Option<usize>,
     /// Of the stage Explain.
     pub explain: Look,
+    /// Time after which a search for what is missing answers with the best so far, s; it is kept from project to project.
+    pub limit_s: Option<f64>,
 }
 
 impl Default for View {
@@ -103,6 +108,7 @@ impl Default for View {
         Self {
             stage: Stage::Measure,
             run: 0,
+            runs: Order::default(),
             channel: 0,
             every_channel: false,
             mode: 0,
@@ -125,6 +131,7 @@ impl Default for View {
             tour: None,
             tour_shown: None,
             explain: Look::default(),
+            limit_s: None,
         }
     }
 }

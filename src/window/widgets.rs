@@ -12,9 +12,14 @@ use egui::{
 const VALUE: f32 = 92.0;
 /// Width of its unit, points.
 const UNIT: f32 = 36.0;
+/// Width below which a name stands above its value, points.
+const NARROW: f32 = 236.0;
 
 /// A name at the left that leaves `rest` points of the row.
 fn name_left(ui: &mut Ui, name: &str, rest: f32) -> Response {
+    if ui.layout().is_vertical() {
+        return ui.hint(name);
+    }
     let weak = ui.palette().weak;
     let room = vec2((ui.available_width() - rest - space::S).max(20.0), space::ROW);
     let label = Label::new(RichText::new(name).color(weak)).selectable(false).truncate();
@@ -61,6 +66,8 @@ pub trait UiExt {
     fn quantity(&mut self, name: &str, value: f64, unit: &str) -> Option<f64>;
     /// A choice among few words; the new one when another is chosen.
     fn choice<T: Copy + PartialEq>(&mut self, name: &str, now: T, all: &[T], word: fn(T) -> &'static str) -> Option<T>;
+    /// A name and its value beside each other, or where there is little room above each other.
+    fn beside<R>(&mut self, content: impl FnOnce(&mut Ui) -> R) -> R;
     /// A short line and a name: the key to a curve.
     fn key(&mut self, colour: Color32, name: &str);
 }
@@ -140,18 +147,19 @@ impl UiExt for Ui {
         let unit = format::pretty_unit(unit);
         let key = self.make_persistent_id(("quantity", name));
         let mut shown = self.data(|d| d.get_temp::<f64>(key)).unwrap_or(value);
-        let response = self
-            .horizontal(|ui| {
-                let label = name_left(ui, name, VALUE + UNIT + 2.0 * space::S);
-                let drag = DragValue::new(&mut shown)
-                    .speed((0.005 * value.abs()).max(1e-6))
-                    .custom_formatter(|v, _| format::editable(v))
-                    .custom_parser(|text| text.trim().replace('−', "-").parse().ok());
+        let response = self.beside(|ui| {
+            let label = name_left(ui, name, VALUE + UNIT + 2.0 * space::S);
+            let drag = DragValue::new(&mut shown)
+                .speed((0.005 * value.abs()).max(1e-6))
+                .custom_formatter(|v, _| format::editable(v))
+                .custom_parser(|text| text.trim().replace('−', "-").parse().ok());
+            ui.horizontal(|ui| {
                 let response = ui.add_sized(vec2(VALUE, 22.0), drag).labelled_by(label.id);
                 ui.hint(&unit);
                 response
             })
-            .inner;
+            .inner
+        });
         if response.dragged() || response.has_focus() {
             self.data_mut(|d| d.insert_temp(key, shown));
             return None;
@@ -162,7 +170,7 @@ impl UiExt for Ui {
 
     fn choice<T: Copy + PartialEq>(&mut self, name: &str, now: T, all: &[T], word: fn(T) -> &'static str) -> Option<T> {
         let mut chosen = now;
-        self.horizontal(|ui| {
+        self.beside(|ui| {
             let width = VALUE + UNIT + space::S;
             let label = name_left(ui, name, width + space::S);
             ComboBox::from_id_salt(("choice", name))
@@ -177,6 +185,10 @@ impl UiExt for Ui {
                 .labelled_by(label.id);
         });
         (chosen != now).then_some(chosen)
+    }
+
+    fn beside<R>(&mut self, content: impl FnOnce(&mut Ui) -> R) -> R {
+        if self.available_width() < NARROW { self.vertical(content).inner } else { self.horizontal(content).inner }
     }
 
     fn key(&mut self, colour: Color32, name: &str) {

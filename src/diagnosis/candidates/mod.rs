@@ -7,6 +7,7 @@ pub mod friction;
 pub mod generalisations;
 pub mod identified_force;
 pub(crate) mod law_force;
+pub mod restoring_force;
 pub mod special_cases;
 pub mod start;
 mod thinning;

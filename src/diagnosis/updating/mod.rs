@@ -6,3 +6,4 @@ pub(crate) mod measured_motion;
 pub(crate) mod modal_expansion;
 pub mod noise_model;
 pub mod parameters;
+pub mod scatter;

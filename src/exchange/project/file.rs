@@ -262,6 +262,9 @@ pub struct RunTable {
     /// Amplitude of the force in a recipe, N.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub force_n: Option<f64>,
+    /// Share by which all natural frequencies are higher in this run of a recipe.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub frequency_shift: Option<f64>,
     /// What is done to the structure in a recipe of a test that is not steady.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub excitation: Option<ExcitationTable>,
@@ -280,13 +283,6 @@ pub struct RunTable {
     /// Whether the motions of the record are absolute or relative to the base; as `[base]` says unless given.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub response: Option<BaseResponse>,
-}
-
-impl RunTable {
-    /// A steady run of a record of which nothing else is said.
-    pub fn of(file: String) -> Self {
-        Self { file, ..Self::default() }
-    }
 }
 
 /// Table `[base]`: a structure on a moving base.

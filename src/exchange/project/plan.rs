@@ -66,6 +66,8 @@ pub struct PlannedRun {
     pub sampling_hz: Option<f64>,
     /// Force of the recipe, `amplitude_n cos(omega t)`, where it is given.
     pub force: Option<PlannedForce>,
+    /// Share by which all natural frequencies are higher in this run of the recipe.
+    pub frequency_shift: Option<f64>,
     /// Test of a recipe that is not steady, where it is given.
     pub test: Option<PlannedTest>,
     /// Motion of the base in the recipe, where it is given.
@@ -198,6 +200,7 @@ fn runs(file: &ProjectFile, structure: &Structure, folder: &Path, at: At<'_>) ->
             set: table.set.clone(),
             sampling_hz: table.sampling_hz,
             force,
+            frequency_shift: table.frequency_shift,
             test,
             base: planned_base(table),
             response: table.response.unwrap_or(file.base.response),

@@ -10,7 +10,7 @@ use crate::measurement::{Kind, Part, Quantity};
 
 type Read<T> = Result<T, ProjectError>;
 
-const RUN: [&str; 17] = [
+const RUN: [&str; 18] = [
     "base",
     "base_m_s2",
     "response",
@@ -26,9 +26,17 @@ const RUN: [&str; 17] = [
     "use",
     "force_dof",
     "force_n",
+    "frequency_shift",
     "excitation",
     "exponential_window_s",
 ];
+
+impl RunTable {
+    /// A steady run of a record of which nothing else is said.
+    pub fn of(file: String) -> Self {
+        Self { file, ..Self::default() }
+    }
+}
 
 pub(super) fn runs(root: &Table<'_>, lines: &mut Lines) -> Read<Vec<RunTable>> {
     let mut runs = Vec::new();
@@ -69,6 +77,7 @@ pub(super) fn runs(root: &Table<'_>, lines: &mut Lines) -> Read<Vec<RunTable>> {
             enabled: table.flag("use")?,
             force_dof,
             force_n,
+            frequency_shift: frequency_shift(&table)?,
             excitation: excitation::parse(&table)?,
             set: table.text("set")?,
             sampling_hz,
@@ -80,6 +89,17 @@ pub(super) fn runs(root: &Table<'_>, lines: &mut Lines) -> Read<Vec<RunTable>> {
         lines.run.push(key_lines(&table));
     }
     Ok(runs)
+}
+
+fn frequency_shift(table: &Table<'_>) -> Read<Option<f64>> {
+    let shift = table.number("frequency_shift")?;
+    match shift.filter(|shift| shift.abs() >= 0.5) {
+        Some(value) => {
+            let (key, range) = ("frequency_shift".to_owned(), "between -0.5 and 0.5; 5e-4 is 0.05 %");
+            Err(table.error("frequency_shift", Problem::OutOfRange { key, value: value.to_string(), range }))
+        }
+        None => Ok(shift),
+    }
 }
 
 fn exponential_window(table: &Table<'_>) -> Read<Option<f64>> {

@@ -5,21 +5,25 @@ pub mod early;
 pub mod ledger;
 pub mod model;
 pub mod shelf;
+mod work;
 
 use super::document::Document;
-use crate::control::Control;
-use crate::diagnosis::candidates::fingerprint_plot::{self as prints, Print};
-use crate::diagnosis::diagnose::{Suggestion, diagnose_without};
-use crate::diagnosis::{self, Comparison, Diagnosis, Problem};
+use crate::diagnosis::candidates::fingerprint_plot::Print;
+use crate::diagnosis::candidates::restoring_force::RestoringForce;
+use crate::diagnosis::diagnose::Suggestion;
+use crate::diagnosis::updating::scatter::Scatter;
+use crate::diagnosis::{Comparison, Diagnosis};
 use crate::effects::{Place, Source};
 use crate::exchange::Project;
-use crate::plots::response_curve::{self, Curve};
-use early::{Early, Mailbox};
+use crate::plots::response_curve::Curve;
+use early::Early;
 use egui::Context;
 use ledger::Ledger;
 use model::{Key, Search};
 use shelf::{Kept, Shelf};
 use std::sync::Arc;
+use std::time::Duration;
+use work::{compare_job, curve_job, force_job, print_job, scatter_job, search_job};
 
 /// Error beyond which a model lacks its damping altogether, and the search waits until it is asked for.
 pub const HOPELESS: f64 = 10.0;
@@ -38,6 +42,12 @@ pub struct Wanted {
     pub trial: Option<Source>,
     /// The suggestion whose fingerprint is shown.
     pub print: Option<Source>,
+    /// Whether the missing force is shown: that of this suggestion, else at the place that explains most.
+    pub force: bool,
+    /// Whether corrections and scatter are shown.
+    pub scatter: bool,
+    /// Time after which the search answers with the best so far.
+    pub limit: Option<Duration>,
     /// The run whose neighbourhood is shown.
     pub curve: Option<usize>,
 }
@@ -53,6 +63,8 @@ pub struct Explained {
     diagnoses: Shelf<Search, Diagnosis>,
     early: Early,
     prints: Shelf<(Search, Source), Option<Print>>,
+    forces: Shelf<(Search, Option<Source>), Option<RestoringForce>>,
+    scatters: Shelf<Search, Option<Scatter>>,
     curves: Shelf<(Key, usize), Vec<Curve>>,
     trial_curves: Shelf<(Tried, usize), Vec<Curve>>,
     /// The way so far.
@@ -69,6 +81,8 @@ impl Default for Explained {
             diagnoses: Shelf::new("Searching for what is missing"),
             early: Early::default(),
             prints: Shelf::new("Fingerprint"),
+            forces: Shelf::new("Missing force"),
+            scatters: Shelf::new("Scatter of channels and runs"),
             curves: Shelf::new("Frequency response"),
             trial_curves: Shelf::new("Frequency response"),
             ledger: Ledger::default(),
@@ -85,10 +99,6 @@ pub enum Standing {
     Provisional,
     /// They are of an earlier search on the same model, before something else was ruled out or allowed again.
     Before,
-}
-
-fn problem(p: &Project) -> Problem<'_> {
-    Problem { structure: &p.structure, sources: &p.sources, runs: &p.runs }
 }
 
 impl Explained {
@@ -133,7 +143,8 @@ impl Explained {
         let Some(Ok(comparison)) = self.comparisons.get(&tried) else { return };
         self.ledger.visit(&key, document.session().document(), comparison);
         if wanted.diagnosis && (wanted.anyway || comparison.error <= HOPELESS) {
-            self.diagnoses.want(ctx, &search, || search_job(p, &search, self.early.expect(ctx, &search)));
+            let limit = wanted.limit;
+            self.diagnoses.want(ctx, &search, || search_job(p, &search, limit, self.early.expect(ctx, &search)));
         }
         self.on_trial(ctx, p, &key, wanted);
         match &wanted.print {
@@ -143,6 +154,17 @@ impl Explained {
                 self.prints.want(ctx, &asked, || print_job(p, diagnosis, source));
             }
             None => self.prints.rest(),
+        }
+        match self.diagnoses.get(&search).and_then(|d| d.as_ref().ok()).filter(|_| wanted.force).map(Arc::clone) {
+            Some(diagnosis) => {
+                let asked = (search.clone(), wanted.print.clone());
+                self.forces.want(ctx, &asked, || force_job(p, diagnosis, wanted.print.clone()));
+            }
+            None => self.forces.rest(),
+        }
+        match self.diagnoses.get(&search).and_then(|d| d.as_ref().ok()).filter(|_| wanted.scatter).map(Arc::clone) {
+            Some(diagnosis) => self.scatters.want(ctx, &search, || scatter_job(p, diagnosis)),
+            None => self.scatters.rest(),
         }
         match wanted.curve.filter(|_| p.structure.matrices().is_some()) {
             Some(run) => self.curves.want(ctx, &(key, run), || curve_job(p, None, run)),
@@ -156,6 +178,8 @@ impl Explained {
         self.diagnoses.collect();
         self.early.collect();
         self.prints.collect();
+        self.forces.collect();
+        self.scatters.collect();
         self.curves.collect();
         self.trial_curves.collect();
     }
@@ -223,6 +247,16 @@ impl Explained {
         self.prints.get(&(search, source.clone()))
     }
 
+    /// The missing force at the place of a suggestion, or at the place that explains most.
+    pub fn force(&self, document: &Document, source: Option<&Source>) -> Option<&Kept<Option<RestoringForce>>> {
+        self.forces.get(&(self.search(document)?, source.cloned()))
+    }
+
+    /// What the data say of channels and runs.
+    pub fn scatter(&self, document: &Document) -> Option<&Kept<Option<Scatter>>> {
+        self.scatters.get(&self.search(document)?)
+    }
+
     /// The response curves of the model near a run, one a level.
     pub fn curve(&self, document: &Document, run: usize) -> Option<&Kept<Vec<Curve>>> {
         self.curves.get(&(self.current(document)?, run))
@@ -254,7 +288,13 @@ impl Explained {
     /// Name and progress of what runs; the search first, since it takes longest.
     pub fn running(&self) -> Option<(&str, f64)> {
         let others = self.comparisons.running().or_else(|| self.trials.running()).or_else(|| self.prints.running());
-        self.diagnoses.running().or(others).or_else(|| self.curves.running()).or_else(|| self.trial_curves.running())
+        self.diagnoses
+            .running()
+            .or(others)
+            .or_else(|| self.forces.running())
+            .or_else(|| self.scatters.running())
+            .or_else(|| self.curves.running())
+            .or_else(|| self.trial_curves.running())
     }
 
     /// Stops all that runs.
@@ -262,61 +302,27 @@ impl Explained {
         self.diagnoses.cancel();
         self.trials.cancel();
         self.prints.cancel();
+        self.forces.cancel();
+        self.scatters.cancel();
         self.curves.cancel();
         self.trial_curves.cancel();
     }
 
-    /// Starts again what was cancelled or failed.
+    /// The search answers with the best so far, as soon as it can.
+    pub fn hurry(&self) {
+        self.diagnoses.hurry();
+    }
+
+    /// Starts again what was cancelled, failed or ended before its time.
     pub fn retry(&mut self) {
+        self.diagnoses.forget(|d| !d.complete);
         self.diagnoses.retry();
         self.comparisons.retry();
         self.trials.retry();
         self.prints.retry();
+        self.forces.retry();
+        self.scatters.retry();
         self.curves.retry();
         self.trial_curves.retry();
     }
-}
-
-fn search_job(
-    p: &Arc<Project>,
-    search: &Search,
-    told: Mailbox,
-) -> impl FnOnce(&Control) -> Result<Diagnosis, String> + use<> {
-    let (p, search) = (Arc::clone(p), search.clone());
-    move |control| {
-        let early = |found: &[Suggestion]| told.put(found);
-        diagnose_without(&problem(&p), search.ruled_out(), control, &early).map_err(|e| e.to_string())
-    }
-}
-
-fn compare_job(
-    p: &Arc<Project>,
-    trial: Option<&Source>,
-) -> impl FnOnce(&Control) -> Result<Comparison, String> + use<> {
-    let (p, effects) = (Arc::clone(p), trial.cloned().into_iter().collect::<Vec<_>>());
-    move |control| diagnosis::compare(&problem(&p), &effects, control).map_err(|e| e.to_string())
-}
-
-/// The fingerprint of a suggestion beside the other effects that were found.
-fn print_job(
-    p: &Arc<Project>,
-    diagnosis: Option<Arc<Diagnosis>>,
-    source: &Source,
-) -> impl FnOnce(&Control) -> Result<Option<Print>, String> + use<> {
-    let (p, source) = (Arc::clone(p), source.clone());
-    move |control| {
-        let steps = diagnosis.as_ref().and_then(|d| d.steps.last());
-        let found: Vec<Source> = steps.map_or_else(Vec::new, |s| s.added.iter().map(|a| a.source.clone()).collect());
-        let corrections = diagnosis.as_ref().map_or(&[][..], |d| &d.corrections);
-        prints::print(&problem(&p), &found, corrections, &source, control).map_err(|e| e.to_string())
-    }
-}
-
-fn curve_job(
-    p: &Arc<Project>,
-    trial: Option<&Source>,
-    run: usize,
-) -> impl FnOnce(&Control) -> Result<Vec<Curve>, String> + use<> {
-    let (p, effects) = (Arc::clone(p), trial.cloned().into_iter().collect::<Vec<_>>());
-    move |control| response_curve::curves(&p, &effects, run, control)
 }

@@ -91,6 +91,18 @@ impl<K: Clone + PartialEq, T: Send + 'static> Shelf<K, T> {
         }
     }
 
+    /// The running job is to answer with the best that it has so far.
+    pub fn hurry(&self) {
+        if let Some(job) = &self.job {
+            job.hurry();
+        }
+    }
+
+    /// Forgets good results that `is_old` says are of no use any more.
+    pub fn forget(&mut self, is_old: impl Fn(&T) -> bool) {
+        self.done.retain(|(_, result)| result.as_ref().is_ok_and(|value| !is_old(value)) || result.is_err());
+    }
+
     /// Whether the work for `key` was cancelled.
     pub fn is_cancelled(&self, key: &K) -> bool {
         self.cancelled.as_ref() == Some(key)

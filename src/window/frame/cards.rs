@@ -17,7 +17,7 @@ pub struct Sample {
 }
 
 /// Samples to find dampers in.
-pub const DAMPERS: [Sample; 7] = [
+pub const DAMPERS: [Sample; 9] = [
     Sample {
         folder: "cantilever-case-2",
         title: "Cantilever, unequal dashpots",
@@ -60,10 +60,28 @@ pub const DAMPERS: [Sample; 7] = [
         sentence: "A wing box with fourteen dashpots, imported as matrices and drawn in space.",
         picture: wing,
     },
+    Sample {
+        folder: "hammer-frf",
+        title: "Cantilever under a hammer",
+        sentence: "Frequency responses out of a Universal File: the lines that say most become runs.",
+        picture: |p, c, r| {
+            beam(p, c, r, &[3, 7], &[], None);
+            hammer(p, c, r);
+        },
+    },
+    Sample {
+        folder: "shaker-table",
+        title: "Cantilever on a shaker table",
+        sentence: "Driven at its foot: no force is measured, the motion of the table is.",
+        picture: |p, c, r| {
+            beam(p, c, r, &[5, 8], &[], None);
+            table(p, c, r);
+        },
+    },
 ];
 
 /// Samples of which the model lacks something.
-pub const HIDDEN: [Sample; 4] = [
+pub const HIDDEN: [Sample; 5] = [
     Sample {
         folder: "cantilever-friction",
         title: "Something rubs",
@@ -87,6 +105,15 @@ pub const HIDDEN: [Sample; 4] = [
         title: "A phase that is off",
         sentence: "Is it damping, or does a sensor deceive?",
         picture: |p, c, r| beam(p, c, r, &[3, 9], &[], Some(5)),
+    },
+    Sample {
+        folder: "joint-laboratory",
+        title: "A bolted joint, measured",
+        sentence: "Model 2 % off, gains and drift as laboratories have them: what does the bolt do?",
+        picture: |p, c, r| {
+            beam(p, c, r, &[], &[], Some(7));
+            bracket(p, c, r);
+        },
     },
 ];
 
@@ -165,6 +192,30 @@ fn chain(painter: &Painter, palette: &Palette, r: Rect, lacks: Option<usize>) {
     if let Some(k) = lacks {
         question(painter, palette, pos2(x(k as f32 + 0.5), y + 14.0));
     }
+}
+
+/// A hammer above the tip.
+fn hammer(painter: &Painter, palette: &Palette, r: Rect) {
+    let head = pos2(r.right() - 44.0, r.top() + 11.0);
+    painter.line_segment([head, head + vec2(-46.0, 8.0)], theme::bold(palette.weak));
+    painter.rect_filled(Rect::from_center_size(head, vec2(10.0, 18.0)), 2.0, palette.accent);
+}
+
+/// A bracket under the beam with the head of its bolt.
+fn bracket(painter: &Painter, palette: &Palette, r: Rect) {
+    let x = r.left() + 34.0 + (r.width() - 58.0) * 0.62;
+    let (top, foot) = (r.top() + 42.0, r.bottom() - 12.0);
+    let body = Rect::from_min_max(pos2(x - 12.0, top), pos2(x - 4.0, foot));
+    painter.rect(body, 1.0, palette.raised, theme::pen(palette.ink), StrokeKind::Middle);
+    symbols::ground(painter, pos2(x - 8.0, foot), Vec2::DOWN, 26.0, theme::hair(palette.ink));
+    painter.rect_filled(Rect::from_center_size(pos2(x - 8.0, top - 13.0), vec2(12.0, 5.0)), 1.5, palette.accent);
+}
+
+/// The arrows of a table that moves up and down under the clamped end.
+fn table(painter: &Painter, palette: &Palette, r: Rect) {
+    let (x, foot) = (r.left() + 18.0, r.top() + 40.0);
+    painter.arrow(pos2(x, foot), vec2(0.0, -22.0), theme::bold(palette.accent));
+    painter.arrow(pos2(x, foot), vec2(0.0, 22.0), theme::bold(palette.accent));
 }
 
 /// What is not known.

@@ -37,11 +37,13 @@ pub enum Pane {
     Cell,
     Missing,
     Ledger,
+    Corrections,
+    Overview,
 }
 
 impl Pane {
     /// All panes.
-    pub const ALL: [Self; 29] = [
+    pub const ALL: [Self; 31] = [
         Self::Schematic,
         Self::Inspector,
         Self::Runs,
@@ -71,6 +73,8 @@ impl Pane {
         Self::Cell,
         Self::Missing,
         Self::Ledger,
+        Self::Corrections,
+        Self::Overview,
     ];
 
     /// Title on its tab.
@@ -105,6 +109,8 @@ impl Pane {
             Self::Cell => "Measured on modelled",
             Self::Missing => "What is missing?",
             Self::Ledger => "Ledger",
+            Self::Corrections => "Corrections",
+            Self::Overview => "Overview",
         }
     }
 
@@ -127,12 +133,12 @@ type Groups = &'static [(&'static [Pane], f32)];
 
 fn work(stage: Stage) -> Groups {
     match stage {
-        Stage::Measure => &[(&[Pane::Runs], 0.40), (&[Pane::Record], 0.35), (&[Pane::Spectrum], 0.25)],
+        Stage::Measure => &[(&[Pane::Runs], 0.40), (&[Pane::Record, Pane::Overview], 0.35), (&[Pane::Spectrum], 0.25)],
         Stage::Structure => {
             &[(&[Pane::Modes, Pane::Parameters, Pane::Expansion], 0.44), (&[Pane::Frequencies, Pane::ModeShape], 0.56)]
         }
         Stage::Pattern => &[(&[Pane::Laws], 0.48), (&[Pane::Sources], 0.52)],
-        Stage::Select => &[(&[Pane::Steps], 0.44), (&[Pane::Set], 0.30), (&[Pane::Angle, Pane::RunEnergy], 0.26)],
+        Stage::Select => &[(&[Pane::Steps], 0.46), (&[Pane::Set], 0.30), (&[Pane::Angle, Pane::RunEnergy], 0.24)],
         Stage::Result => &[
             (&[Pane::Matrix, Pane::Values], 0.42),
             (
@@ -174,12 +180,12 @@ pub fn arrangement(stage: Stage) -> Tree<Pane> {
 /// Schematic, error map and its cell above each other; the suggestions in full height; ledger and inspector at the right.
 fn explain() -> Tree<Pane> {
     let mut tiles = Tiles::default();
-    let rows = [(Pane::Schematic, 0.30), (Pane::ErrorMap, 0.30), (Pane::Cell, 0.40)];
+    let rows = [(Pane::Schematic, 0.28), (Pane::ErrorMap, 0.28), (Pane::Cell, 0.44)];
     let rows = rows.map(|(pane, share)| (tabs(&mut tiles, &[pane]), share));
     let left = shared(&mut tiles, LinearDir::Vertical, &rows);
     let columns = [
         (left, 0.43),
-        (tabs(&mut tiles, &[Pane::Missing]), 0.35),
+        (tabs(&mut tiles, &[Pane::Missing, Pane::Corrections]), 0.35),
         (tabs(&mut tiles, &[Pane::Ledger, Pane::Inspector]), 0.22),
     ];
     let root = shared(&mut tiles, LinearDir::Horizontal, &columns);

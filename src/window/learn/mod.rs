@@ -65,6 +65,9 @@ impl Learn {
     }
 }
 
+/// Room between the plots of a row, points: a curve that ends at its frame does not run into the words of the next.
+const BETWEEN: f32 = 20.0;
+
 /// Shows the page in place of the panes.
 pub fn show(ui: &mut Ui, app: &mut App, asks: &mut Vec<Ask>) {
     let palette = Palette::of(ui.visuals());
@@ -181,10 +184,11 @@ fn plots(ui: &mut Ui, portrait: &Portrait, lesson: &Lesson) {
     let palette = ui.palette();
     let room = ui.available_size();
     let rows = 6_usize.div_ceil(COLUMNS);
-    let size = vec2(room.x / COLUMNS as f32 - 10.0, room.y / rows as f32 - 8.0);
+    let size = vec2((room.x + BETWEEN) / COLUMNS as f32 - BETWEEN, room.y / rows as f32 - 8.0);
     let mut cells = cells(portrait, lesson, palette).into_iter();
     for _ in 0..rows {
         ui.horizontal_top(|ui| {
+            ui.spacing_mut().item_spacing.x = BETWEEN;
             for cell in cells.by_ref().take(COLUMNS) {
                 ui.allocate_ui(size, |ui| {
                     ui.vertical(|ui| {

@@ -8,10 +8,14 @@ use crate::display::format;
 use crate::effects::Effect;
 use crate::window::solid::{self, wire::Wire};
 use crate::window::theme::{self, Palette};
-use egui::{Align2, CursorIcon, Key, Rect, Response, Role, Sense, Ui, Vec2, WidgetInfo};
+use crate::window::widgets::elided;
+use egui::{CursorIcon, Key, Pos2, Rect, Response, Role, Sense, Ui, Vec2, WidgetInfo, vec2};
 
 /// Points about a node of a wire model within which it is pointed at.
 const NODE_REACH: f32 = 4.0;
+/// Height of the caption and of the letter above an arrow, and half the width of that letter, points.
+const CAPTION: f32 = 36.0;
+const ARROW: f32 = 14.0;
 
 /// What the widget remembers between frames; neither saved nor undone.
 #[derive(Debug, Clone, Default)]
@@ -86,10 +90,20 @@ impl View<'_> {
         }
         paint::paint(&painter, palette, self.scene, &layout, &marks);
         let corner = area.left_top() + Vec2::splat(12.0);
-        painter.text(corner, Align2::LEFT_TOP, self.caption, theme::font(theme::size::SMALL), palette.weak);
+        self.caption(ui, corner, &layout, area);
         let node = canvas.hover_pos().filter(|_| hovered.is_none()).and_then(|at| self.node_at(&layout, at));
         self.tooltip(&canvas, hovered, node, drag.is_some());
         intents
+    }
+
+    /// What is shown, cut short with dots before the first arrow that stands as high.
+    fn caption(&self, ui: &Ui, corner: Pos2, layout: &Layout, area: Rect) {
+        let arrows = layout.exciters.iter().map(|(_, [tip, _])| *tip);
+        let in_the_way = arrows.filter(|tip| tip.y < corner.y + CAPTION && tip.x > corner.x).map(|tip| tip.x - ARROW);
+        let end = in_the_way.fold(area.right() - theme::space::S, f32::min);
+        let (font, weak) = (theme::font(theme::size::SMALL), Palette::of(ui.visuals()).weak);
+        let middle = corner + vec2(0.0, 0.5 * theme::size::SMALL + 2.0);
+        elided(ui, self.caption, font, weak, middle, end - corner.x);
     }
 
     /// A node in the accessibility tree for every DOF and source, reached by Tab and pressed with Enter.
@@ -150,14 +164,14 @@ impl View<'_> {
         }
     }
 
-    fn rubber(&self, layout: &Layout, drag: &Drag) -> Option<(Effect, [egui::Pos2; 2])> {
+    fn rubber(&self, layout: &Layout, drag: &Drag) -> Option<(Effect, [Pos2; 2])> {
         let from = layout.handle(drag.from?)?.pos;
         let to = hit::dof(layout, drag.now).and_then(|d| layout.handle(d)).map_or(drag.now, |h| h.pos);
         Some((self.law?, [from, to]))
     }
 
     /// The node of a wire model that is nearest to the eye under the pointer.
-    fn node_at(&self, layout: &Layout, at: egui::Pos2) -> Option<usize> {
+    fn node_at(&self, layout: &Layout, at: Pos2) -> Option<usize> {
         let space = layout.space.as_ref()?;
         let wire = Wire { scene: self.scene, space, shares: self.shares };
         wire.pick(&space.projection.ray(at, wire.reach()), NODE_REACH)

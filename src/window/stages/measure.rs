@@ -1,9 +1,11 @@
 //! Measure: the runs with what is wrong with them, the record with its fit, the spectrum.
 
+use super::run_table::{Key, Order};
 use crate::display::{format, words};
 use crate::exchange::Project;
 use crate::measurement::{Quantity, Run};
 use crate::plots::record::RecordPlot;
+use crate::plots::{overview, samples};
 use crate::window::app::{App, Ask};
 use crate::window::background::CANCELLED;
 use crate::window::derived::Derived;
@@ -11,12 +13,20 @@ use crate::window::document::Document;
 use crate::window::edits::Edit;
 use crate::window::plots::charts;
 use crate::window::plots::record;
+use crate::window::plots::show::Stack;
 use crate::window::theme::space;
 use crate::window::traces::Traced;
-use crate::window::view::View;
 use crate::window::widgets::UiExt;
 use egui::{Sense, Ui};
 use egui_extras::{Column, TableBuilder, TableRow};
+
+/// Channels that have a button each; more stand in a list that opens.
+const MOST_BUTTONS: usize = 8;
+
+/// Width of the table of runs from which on it shows the share of harmonics, points.
+const WIDE: f32 = 440.0;
+/// Least width of the flags beside it.
+const FLAGS: f32 = 76.0;
 
 const EMPTY: [&str; 2] =
     ["No runs yet", "Import steady-state records with File > Import measurements, or drop them on this window."];
@@ -29,9 +39,34 @@ pub fn runs(ui: &mut Ui, app: &mut App, asks: &mut Vec<Ask>) {
         ui.empty(EMPTY[0], EMPTY[1]);
         return;
     }
+    let mut order = std::mem::take(&mut app.view.runs);
+    let rows = order.rows(p, distortion);
+    order.field(ui, rows.len(), p.runs.len());
     let mut chosen = app.view.run;
-    table(ui, p, &app.view, &mut chosen, asks);
-    app.view.run = chosen;
+    table(ui, p, (&rows, &mut order), &mut chosen, asks);
+    (app.view.run, app.view.runs) = (chosen, order);
+}
+
+/// Amplitude and phase of a channel of all runs over frequency, one curve a level.
+pub fn overview(ui: &mut Ui, app: &mut App) {
+    let Some((run, channel)) = looked_at(app) else { return };
+    let Some(document) = &app.document else { return };
+    let p = &document.project;
+    let (mut chosen, mut every) = (channel, false);
+    motions(ui, &p.runs[run], &mut chosen, &mut every);
+    app.view.channel = chosen;
+    let Some(name) = samples::selected(p, run, chosen) else {
+        ui.empty("No motion", "The selected run measures forces only.");
+        return;
+    };
+    let Some(fit) = p.runs[run].fit.channels.iter().find(|c| c.channel.to_string() == name) else { return };
+    let figures = overview::figures(p, &fit.channel, run, ui.palette());
+    if figures.is_empty() {
+        ui.empty("No force", "No run with this channel has a force to divide by.");
+        return;
+    }
+    let title = format!("{name} over the force, all runs");
+    Stack { id: &title, title: &title, figures, keys: true }.show(ui);
 }
 
 /// The record of a channel with the fitted curve on top and the residual under it.
@@ -108,10 +143,48 @@ fn looked_at(app: &mut App) -> Option<(usize, usize)> {
     Some((app.view.run, app.view.channel))
 }
 
+/// The motions of a run; of many, a list.
+fn motions(ui: &mut Ui, run: &Run, channel: &mut usize, every: &mut bool) {
+    let all = run.fit.channels.iter().enumerate().filter(|(_, c)| c.channel.quantity != Quantity::Force);
+    let list: Vec<(usize, String)> = all.map(|(k, c)| (k, c.channel.to_string())).collect();
+    if list.iter().all(|(k, _)| k != channel) {
+        *channel = list.first().map_or(*channel, |(k, _)| *k);
+    }
+    if list.len() <= MOST_BUTTONS {
+        ui.horizontal_wrapped(|ui| {
+            for (k, name) in &list {
+                if ui.selectable_label(k == channel, name).clicked() {
+                    (*channel, *every) = (*k, false);
+                }
+            }
+        });
+        return;
+    }
+    pick(ui, &list, channel, every);
+}
+
+/// A list of channels that opens.
+fn pick(ui: &mut Ui, list: &[(usize, String)], channel: &mut usize, every: &mut bool) {
+    let now = list.iter().find(|(k, _)| k == channel).map_or("", |(_, name)| name.as_str());
+    let combo = egui::ComboBox::from_id_salt("channel").selected_text(now).show_ui(ui, |ui| {
+        for (k, name) in list {
+            if ui.selectable_label(k == channel, name).clicked() {
+                (*channel, *every) = (*k, false);
+            }
+        }
+    });
+    combo.response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::ComboBox, true, "Channel"));
+}
+
 fn channels(ui: &mut Ui, run: &Run, channel: &mut usize, every: &mut bool) {
     ui.horizontal_wrapped(|ui| {
         if ui.selectable_label(*every, "All").on_hover_text("All channels on one axis of time.").clicked() {
             *every = true;
+        }
+        if run.fit.channels.len() > MOST_BUTTONS {
+            let list: Vec<(usize, String)> =
+                run.fit.channels.iter().enumerate().map(|(k, c)| (k, c.channel.to_string())).collect();
+            return pick(ui, &list, channel, every);
         }
         for (k, fit) in run.fit.channels.iter().enumerate() {
             if ui.selectable_label(!*every && k == *channel, fit.channel.to_string()).clicked() {
@@ -121,9 +194,11 @@ fn channels(ui: &mut Ui, run: &Run, channel: &mut usize, every: &mut bool) {
     });
 }
 
-fn table(ui: &mut Ui, p: &Project, view: &View, chosen: &mut usize, asks: &mut Vec<Ask>) {
+fn table(ui: &mut Ui, p: &Project, (rows, order): (&[usize], &mut Order), chosen: &mut usize, asks: &mut Vec<Ask>) {
     ui.style_mut().interaction.selectable_labels = false;
     let levels = p.runs.iter().any(|r| r.level.is_some());
+    let harmonics = ui.available_width() > WIDE;
+    let flags = (ui.available_width() - WIDE + FLAGS).clamp(if harmonics { FLAGS } else { 60.0 }, 104.0);
     TableBuilder::new(ui)
         .striped(true)
         .sense(Sense::click())
@@ -133,26 +208,31 @@ fn table(ui: &mut Ui, p: &Project, view: &View, chosen: &mut usize, asks: &mut V
         .column(Column::exact(78.0))
         .column(Column::exact(if levels { 40.0 } else { 0.0 }))
         .column(Column::exact(62.0))
-        .column(Column::exact(64.0))
-        .column(Column::exact(104.0).clip(true))
+        .column(Column::exact(if harmonics { 68.0 } else { 0.0 }))
+        .column(Column::exact(flags).clip(true))
         .header(space::ROW, |mut header| {
             header.col(|ui| drop(ui.hint("Use")));
-            header.col(|ui| drop(ui.hint("File")));
-            for (name, what) in [
-                ("Frequency", "Frequency at which the harmonics are fitted."),
-                (if levels { "Level" } else { "" }, "Label of the force level."),
-                ("Noise", "Noise over signal, root mean square over the channels."),
-                ("Harmonics", "Largest higher harmonic over the fundamental, over all motions."),
+            header.col(|ui| drop(order.head(ui, "File", Key::File, false)));
+            for (name, key, what) in [
+                ("Frequency", Key::Frequency, "Frequency at which the harmonics are fitted."),
+                ("Level", Key::Level, "Label of the force level."),
+                ("Noise", Key::Noise, "Noise over signal, root mean square over the channels."),
+                ("Harmonics", Key::Harmonics, "Largest higher harmonic over the fundamental, over all motions."),
             ] {
-                header.col(|ui| drop(super::head_right(ui, name).on_hover_text(what)));
+                header.col(|ui| {
+                    if (levels || key != Key::Level) && (harmonics || key != Key::Harmonics) {
+                        order.head(ui, name, key, true).on_hover_text(what);
+                    }
+                });
             }
-            header.col(|ui| drop(ui.hint("   Flags")));
+            header.col(|ui| drop(order.head(ui, "   Flags", Key::Flags, false)));
         })
         .body(|body| {
-            body.rows(space::ROW, p.runs.len(), |mut row| {
-                let index = row.index();
-                row.set_selected(index == view.run);
-                cells(&mut row, &p.runs[index], index, asks);
+            let selected = *chosen;
+            body.rows(space::ROW, rows.len(), |mut row| {
+                let index = rows[row.index()];
+                row.set_selected(index == selected);
+                cells(&mut row, &p.runs[index], (index, harmonics), asks);
                 if row.response().clicked() {
                     *chosen = index;
                 }
@@ -160,7 +240,7 @@ fn table(ui: &mut Ui, p: &Project, view: &View, chosen: &mut usize, asks: &mut V
         });
 }
 
-fn cells(row: &mut TableRow<'_, '_>, run: &Run, index: usize, asks: &mut Vec<Ask>) {
+fn cells(row: &mut TableRow<'_, '_>, run: &Run, (index, harmonics): (usize, bool), asks: &mut Vec<Ask>) {
     row.col(|ui| {
         let mut used = run.enabled;
         let response = ui.checkbox(&mut used, "");
@@ -175,7 +255,11 @@ fn cells(row: &mut TableRow<'_, '_>, run: &Run, index: usize, asks: &mut Vec<Ask
     row.col(|ui| drop(ui.number(format!("{} Hz", format::significant(run.fit.omega / std::f64::consts::TAU, 4)))));
     row.col(|ui| drop(ui.number(run.level.map_or_else(String::new, |level| level.to_string()))));
     row.col(|ui| drop(ui.number(format::percent(run.noise_ratio))));
-    row.col(|ui| drop(ui.number(distortion(run).map_or_else(|| "–".to_owned(), format::percent))));
+    row.col(|ui| {
+        if harmonics {
+            ui.number(distortion(run).map_or_else(|| "–".to_owned(), format::percent));
+        }
+    });
     row.col(|ui| {
         ui.add_space(space::S);
         if let Some(first) = run.findings.first() {

@@ -6,16 +6,18 @@ use crate::classical::side_by_side::{Applied, SideBySide};
 use crate::display::format;
 use crate::plots::heatmap::{HeatMap, occupied};
 use crate::window::app::App;
-use crate::window::theme::{size, space};
+use crate::window::theme::space;
 use crate::window::widgets::UiExt;
-use egui::{Align, Label, Layout, RichText, ScrollArea, Sense, Ui, vec2};
+use egui::{Align, Layout, RichText, ScrollArea, Sense, Ui, vec2};
 use egui_extras::{Column, TableBody, TableBuilder};
 use faer::Mat;
 
 /// Most modes whose ratios have a column.
 const MOST_MODES: usize = 6;
 /// Width of a column of numbers.
-const NUMBER: f32 = 58.0;
+const NUMBER: f32 = 52.0;
+/// Share of the width that belongs to the table.
+const SHARE: f32 = 0.66;
 /// Width of the names.
 const NAME: f32 = 146.0;
 
@@ -35,12 +37,12 @@ pub fn show(ui: &mut Ui, app: &mut App) {
     let mut chosen = app.view.method.filter(|m| ran(&found, *m).is_some()).or_else(|| first(&found));
     let room = ui.available_size();
     ui.horizontal_top(|ui| {
-        ui.allocate_ui(vec2(0.60 * room.x, room.y), |ui| {
+        ui.allocate_ui(vec2(SHARE * room.x, room.y), |ui| {
             ui.vertical(|ui| {
-                ui.set_width(0.60 * room.x);
+                ui.set_width(SHARE * room.x);
                 let words = format!("Complex modes: {}", found.modes_from);
                 let words = if found.modes_from.is_empty() { String::new() } else { words };
-                ui.add(Label::new(RichText::new(words).size(size::SMALL).color(ui.palette().weak)).truncate());
+                ui.hint(words);
                 ScrollArea::vertical().id_salt("methods").auto_shrink(false).show(ui, |ui| {
                     table(ui, &found, &mut chosen);
                     refused(ui, &found);

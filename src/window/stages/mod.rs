@@ -7,6 +7,7 @@ pub mod methods;
 pub mod parameters;
 pub mod pattern;
 pub mod result;
+pub mod run_table;
 pub mod select;
 pub mod structure;
 
@@ -21,6 +22,7 @@ pub fn show(ui: &mut Ui, pane: Pane, app: &mut App, asks: &mut Vec<Ask>) {
         Pane::Schematic => frame::schematic::show(ui, app, asks),
         Pane::Inspector => frame::inspector::show(ui, app, asks),
         Pane::Runs => measure::runs(ui, app, asks),
+        Pane::Overview => measure::overview(ui, app),
         Pane::Record => measure::record(ui, app),
         Pane::Spectrum => measure::spectrum(ui, app),
         Pane::Parameters => parameters::show(ui, app, asks),
@@ -46,6 +48,7 @@ pub fn show(ui: &mut Ui, pane: Pane, app: &mut App, asks: &mut Vec<Ask>) {
         Pane::ErrorMap => explain::panes::error_map(ui, app, asks),
         Pane::Cell => explain::panes::cell(ui, app, asks),
         Pane::Missing => explain::panes::missing(ui, app, asks),
+        Pane::Corrections => explain::corrections::show(ui, app, asks),
         Pane::Ledger => explain::panes::way(ui, app, asks),
     }
 }

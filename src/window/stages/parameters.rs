@@ -16,7 +16,7 @@ pub fn show(ui: &mut Ui, app: &mut App, asks: &mut Vec<Ask>) {
     let Some(document) = &app.document else { return };
     let file = document.session().document().file().clone();
     ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
-        ui.set_max_width(460.0);
+        ui.set_max_width(ui.available_width().min(460.0));
         match &file.structure.shape {
             Shape::Beam(beam) => self::beam(ui, beam, asks),
             Shape::Chain(chain) => self::chain(ui, chain, asks),

@@ -12,8 +12,16 @@ use crate::window::schematic::{paint::source_stroke, symbols};
 use crate::window::theme::{self, size, space};
 use crate::window::view::View;
 use crate::window::widgets::UiExt;
-use egui::{Align2, Response, RichText, Role, ScrollArea, Sense, StrokeKind, Ui, WidgetInfo, pos2, vec2};
+use egui::text::LayoutJob;
+use egui::{Align, Response, RichText, Role, ScrollArea, Sense, StrokeKind, Ui, WidgetInfo, pos2, vec2};
 use egui_extras::{Column, TableBuilder};
+
+/// Height of a tile of the palette, least width, room between tiles, points.
+const TILE: f32 = 62.0;
+const LEAST_TILE: f32 = 94.0;
+const BETWEEN: f32 = 5.0;
+/// Width from which on the families stand in one row, points.
+const ONE_ROW: f32 = 460.0;
 
 /// The palette of laws and the families of places.
 pub fn laws(ui: &mut Ui, app: &mut App, asks: &mut Vec<Ask>) {
@@ -31,13 +39,17 @@ pub fn sources(ui: &mut Ui, app: &mut App, asks: &mut Vec<Ask>) {
 }
 
 fn palette(ui: &mut Ui, law: &mut Effect, asks: &mut Vec<Ask>) {
-    let families = 44.0;
+    let families = if ui.available_width() < ONE_ROW { 78.0 } else { 44.0 };
     let height = (ui.available_height() - families).max(80.0);
     ScrollArea::vertical().max_height(height).auto_shrink(false).show(ui, |ui| {
+        // A bar for scrolling stands at the right.
+        let room = ui.available_width() - space::S;
+        let columns = ((room + BETWEEN) / (LEAST_TILE + BETWEEN)).floor().max(1.0);
+        let width = (room - BETWEEN * (columns - 1.0)) / columns - 0.5;
         ui.horizontal_wrapped(|ui| {
-            ui.spacing_mut().item_spacing = vec2(6.0, 6.0);
+            ui.spacing_mut().item_spacing = vec2(BETWEEN, BETWEEN);
             for effect in Effect::ALL {
-                if !matches!(effect.kind(), Kind::Channel(_)) && tile(ui, effect, effect == *law) {
+                if !matches!(effect.kind(), Kind::Channel(_)) && tile(ui, effect, effect == *law, width) {
                     *law = effect;
                 }
             }
@@ -67,9 +79,9 @@ fn palette(ui: &mut Ui, law: &mut Effect, asks: &mut Vec<Ask>) {
 }
 
 /// A law with its symbol; true when it was clicked.
-fn tile(ui: &mut Ui, effect: Effect, chosen: bool) -> bool {
+fn tile(ui: &mut Ui, effect: Effect, chosen: bool, width: f32) -> bool {
     let palette = ui.palette();
-    let (rect, response) = ui.allocate_exact_size(vec2(118.0, 56.0), Sense::click());
+    let (rect, response) = ui.allocate_exact_size(vec2(width, TILE), Sense::click());
     let name = words::effect(effect);
     response.widget_info(|| WidgetInfo::selected(Role::Button, true, chosen, name));
     let lit = chosen || response.hovered() || response.has_focus();
@@ -77,10 +89,14 @@ fn tile(ui: &mut Ui, effect: Effect, chosen: bool) -> bool {
     let line = theme::hair(if lit { palette.accent } else { palette.line });
     ui.painter().rect(rect, 5.0, fill, line, StrokeKind::Inside);
     let ink = if chosen { palette.accent } else { palette.ink };
-    let y = rect.top() + 21.0;
-    symbols::draw(ui.painter(), effect, [pos2(rect.left() + 28.0, y), pos2(rect.right() - 28.0, y)], theme::pen(ink));
-    let at = pos2(rect.center().x, rect.bottom() - 10.0);
-    ui.painter().text(at, Align2::CENTER_CENTER, name, theme::font(size::SMALL), ink);
+    let (x, y) = (rect.center().x, rect.top() + 19.0);
+    symbols::draw(ui.painter(), effect, [pos2(x - 30.0, y), pos2(x + 30.0, y)], theme::pen(ink));
+    // A long name stands on two lines.
+    let mut job = LayoutJob::simple(name.to_owned(), theme::font(size::SMALL), ink, width - 8.0);
+    job.halign = Align::Center;
+    let words = ui.painter().layout_job(job);
+    let middle = rect.bottom() - 16.0 - 0.5 * words.size().y;
+    ui.painter().galley(pos2(x, middle), words, ink);
     response.on_hover_text(parameters(effect)).clicked()
 }
 
@@ -117,14 +133,15 @@ fn list(ui: &mut Ui, p: &Project, view: &View, asks: &mut Vec<Ask>) -> Option<us
     }
     ui.add_space(space::XS);
     ui.style_mut().interaction.selectable_labels = false;
+    let width = ui.available_width();
     TableBuilder::new(ui)
         .striped(true)
         .sense(Sense::click())
-        .cell_layout(egui::Layout::left_to_right(egui::Align::Center))
+        .cell_layout(egui::Layout::left_to_right(Align::Center))
         .column(Column::exact(56.0))
-        .column(Column::exact(150.0))
+        .column(Column::exact((0.3 * width).clamp(110.0, 150.0)).clip(true))
         .column(Column::remainder().clip(true))
-        .column(Column::exact(96.0))
+        .column(Column::exact(84.0))
         .header(space::ROW, |mut header| {
             for name in ["", "Law", "Place", "State"] {
                 header.col(|ui| drop(ui.hint(name)));

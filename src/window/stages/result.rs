@@ -154,10 +154,10 @@ fn ratios(ui: &mut Ui, outcome: &Outcome) {
         .id_salt("damping")
         .striped(true)
         .cell_layout(Layout::left_to_right(Align::Center))
-        .column(Column::exact(60.0))
-        .column(Column::exact(120.0))
-        .column(Column::exact(200.0))
-        .column(Column::remainder())
+        .column(Column::exact(44.0))
+        .column(Column::exact(86.0))
+        .column(Column::exact(150.0))
+        .column(Column::remainder().at_least(120.0))
         .header(space::ROW, |mut row| {
             row.col(|ui| drop(ui.hint("Mode")));
             for name in ["Frequency", "Damping ratio", "From half-power points"] {
@@ -242,30 +242,40 @@ pub fn values(ui: &mut Ui, app: &mut App) {
     });
     ui.add_space(space::XS);
     ui.style_mut().interaction.selectable_labels = false;
+    let width = ui.available_width();
+    // The share of energy stands in its own pane, the law on the schematic: both go before a value is cut.
+    let (with_law, with_share) = (width > 400.0, width > 430.0);
     TableBuilder::new(ui)
         .id_salt("values")
         .striped(true)
         .cell_layout(Layout::left_to_right(Align::Center))
-        .column(Column::exact(150.0))
-        .column(Column::remainder().at_least(80.0).clip(true))
-        .column(Column::exact(190.0))
-        .column(Column::exact(80.0))
+        .column(Column::exact(if with_law { (0.24 * width).min(150.0) } else { 0.0 }).clip(true))
+        .column(Column::remainder().at_least(60.0).clip(true))
+        .column(Column::exact(176.0))
+        .column(Column::exact(if with_share { 64.0 } else { 0.0 }))
         .header(space::ROW, |mut row| {
-            row.col(|ui| drop(ui.hint("Law")));
+            row.col(|ui| if_there(with_law, || ui.hint("Law")));
             row.col(|ui| drop(ui.hint("Place")));
             row.col(|ui| drop(super::head_right(ui, "Coefficient")));
-            row.col(|ui| drop(super::head_right(ui, "Energy")));
+            row.col(|ui| if_there(with_share, || super::head_right(ui, "Energy")));
         })
         .body(|body| {
             body.rows(space::ROW, outcome.sources.len(), |mut row| {
                 let estimate = &outcome.sources[row.index()];
                 let Some(source) = p.sources.get(estimate.source) else { return };
-                row.col(|ui| drop(ui.label(words::effect(source.effect))));
+                row.col(|ui| if_there(with_law, || ui.label(words::effect(source.effect))));
                 row.col(|ui| drop(ui.label(words::place(&p.structure, &source.place))));
                 row.col(|ui| drop(ui.number(words::coefficient(source, estimate))));
-                row.col(|ui| drop(ui.number(format::percent(0.01 * estimate.energy_percent))));
+                row.col(|ui| if_there(with_share, || ui.number(format::percent(0.01 * estimate.energy_percent))));
             });
         });
+}
+
+/// Shows a cell of a column that goes where there is no room for it.
+fn if_there(there: bool, cell: impl FnOnce() -> egui::Response) {
+    if there {
+        cell();
+    }
 }
 
 /// The table with all digits, columns separated by tabs.

@@ -15,6 +15,11 @@ use egui::{Align, Layout, ScrollArea, Sense, Ui};
 use egui_extras::{Column, TableBuilder, TableRow};
 use std::sync::Arc;
 
+/// Width of the table of steps from which on it shows chi-square, points.
+const WIDE: f32 = 400.0;
+/// Name of its last column.
+const PER_ROW: &str = "χ² per row";
+
 /// What the panes of the stage share: the answer and the step that is looked at.
 fn ready(ui: &mut Ui, app: &mut App, says_why: bool) -> Option<(Arc<Outcome>, usize)> {
     let document = app.document.as_ref()?;
@@ -78,10 +83,9 @@ fn header(ui: &mut Ui, outcome: &Outcome, current: usize, asks: &mut Vec<Ask>) {
     });
     let good = matches!(outcome.status, Status::WithinNoise | Status::BelowAngle);
     let colour = if good { ui.palette().good } else { ui.palette().warning };
-    ui.horizontal(|ui| {
+    ui.horizontal_wrapped(|ui| {
         ui.pill(status(outcome.status), colour);
-        let reason = egui::RichText::new(&outcome.reason).size(size::SMALL).color(ui.palette().weak);
-        ui.add(egui::Label::new(reason).truncate()).on_hover_text(&outcome.reason);
+        ui.hint(&outcome.reason);
     });
     ui.add_space(space::XS);
 }
@@ -112,33 +116,38 @@ pub fn in_words(p: &Project, sources: impl Iterator<Item = usize>) -> String {
 
 fn table(ui: &mut Ui, p: &Project, outcome: &Outcome, current: usize, chosen: &mut Option<usize>) {
     ui.style_mut().interaction.selectable_labels = false;
+    let wide = ui.available_width() > WIDE;
     TableBuilder::new(ui)
         .id_salt("steps")
         .striped(true)
         .sense(Sense::click())
         .cell_layout(Layout::left_to_right(Align::Center))
         .auto_shrink([false, false])
-        .column(Column::exact(62.0))
+        .column(Column::exact(56.0))
         .column(Column::remainder().at_least(60.0).clip(true))
+        .column(Column::exact(74.0))
         .column(Column::exact(76.0))
-        .column(Column::exact(82.0))
-        .column(Column::exact(70.0))
+        .column(Column::exact(if wide { 66.0 } else { 0.0 }))
         .header(space::ROW, |mut row| {
             row.col(|ui| drop(ui.hint("Sources")));
             row.col(|ui| drop(ui.hint("Which, with coefficients")));
             for (name, what) in [
                 ("Angle", "Angle between measured and identified energies of the runs."),
                 ("Energy error", "Distance of the identified energies from the measured, relative."),
-                ("χ² per row", "About 1 where the set explains the data to their noise."),
+                (PER_ROW, "About 1 where the set explains the data to their noise."),
             ] {
-                row.col(|ui| drop(super::head_right(ui, name).on_hover_text(what)));
+                row.col(|ui| {
+                    if wide || name != PER_ROW {
+                        super::head_right(ui, name).on_hover_text(what);
+                    }
+                });
             }
         })
         .body(|body| {
             body.rows(2.0 * space::ROW - 6.0, outcome.steps.len(), |mut row| {
                 let k = row.index();
                 row.set_selected(k == current);
-                cells(&mut row, p, outcome, k);
+                cells(&mut row, p, outcome, k, wide);
                 if row.response().clicked() {
                     *chosen = Some(k);
                 }
@@ -146,7 +155,7 @@ fn table(ui: &mut Ui, p: &Project, outcome: &Outcome, current: usize, chosen: &m
         });
 }
 
-fn cells(row: &mut TableRow<'_, '_>, p: &Project, outcome: &Outcome, k: usize) {
+fn cells(row: &mut TableRow<'_, '_>, p: &Project, outcome: &Outcome, k: usize, wide: bool) {
     let step = &outcome.steps[k];
     row.col(|ui| {
         ui.label(step.count.to_string());
@@ -169,7 +178,11 @@ fn cells(row: &mut TableRow<'_, '_>, p: &Project, outcome: &Outcome, k: usize) {
     row.col(|ui| drop(ui.number(format!("{}°", format::significant(step.angle_deg, 4)))));
     row.col(|ui| drop(ui.number(format::percent(step.relative_error))));
     let per_row = step.chi_square / step.freedom.max(1) as f64;
-    row.col(|ui| drop(ui.number(format::significant(per_row, 3))));
+    row.col(|ui| {
+        if wide {
+            ui.number(format::significant(per_row, 3));
+        }
+    });
 }
 
 fn details(ui: &mut Ui, p: &Project, step: &Step, asks: &mut Vec<Ask>) {

@@ -58,10 +58,10 @@ fn table(ui: &mut Ui, p: &Project, modes: &Modes, chosen: &mut usize) {
         .striped(true)
         .sense(Sense::click())
         .cell_layout(egui::Layout::left_to_right(egui::Align::Center))
-        .column(Column::exact(54.0))
-        .column(Column::exact(120.0))
+        .column(Column::exact(44.0))
+        .column(Column::exact(86.0))
         .column(Column::remainder().clip(true))
-        .column(Column::exact(80.0))
+        .column(Column::exact(66.0))
         .header(space::ROW, |mut header| {
             header.col(|ui| drop(ui.hint("Mode")));
             header.col(|ui| drop(super::head_right(ui, "Frequency")));
@@ -105,8 +105,8 @@ pub fn frequencies(ui: &mut Ui, app: &mut App) {
     let shown: Vec<usize> = (0..modes.len()).filter(|&r| modes.frequency_hz(r) <= 1.6 * highest).collect();
     let last = shown.last().map_or(highest, |&r| modes.frequency_hz(r));
     let x = Axis::new("Frequency", "Hz").include(&[0.0, 1.05 * last]);
-    let y = Axis::new("Run", "").ticks(Ticks::Whole).include(&[0.0, runs.len() as f64 + 1.0]);
-    let line = |r: usize| vec![[modes.frequency_hz(r), 0.0]];
+    let y = Axis::new("Run", "").ticks(Ticks::Whole).include(&[0.5, runs.len() as f64 + 0.5]);
+    let line = |r: usize| vec![[modes.frequency_hz(r), 1.0]];
     let figure = Figure::new("Natural frequencies and runs", x, y)
         .points(
             "natural frequencies",
@@ -162,12 +162,13 @@ pub fn expansion(ui: &mut Ui, app: &mut App) {
     ui.pair("Expansion to the others", words::expansion(outcome.expansion));
     ui.pair("Model error it allows for", format::percent(outcome.model_error));
     ui.add_space(space::S);
+    let width = ui.available_width().min(386.0);
     TableBuilder::new(ui)
         .id_salt("expansion")
         .striped(true)
         .cell_layout(egui::Layout::left_to_right(egui::Align::Center))
         .column(Column::remainder().at_least(80.0).clip(true))
-        .columns(Column::exact(104.0), 3)
+        .columns(Column::exact(0.27 * width), 3)
         .header(space::ROW, |mut row| {
             row.col(|ui| drop(ui.hint("Run")));
             for (name, what) in [

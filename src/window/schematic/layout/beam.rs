@@ -11,8 +11,15 @@ const LANE: f32 = 30.0;
 const HANDLE: f32 = 5.0;
 const ROTATION_UP: f32 = 25.0;
 const EXCITER_UP: f32 = 76.0;
+const EXCITER_LEAST: f32 = 30.0;
+/// Height of the letter above an arrow.
+const LABEL: f32 = 24.0;
 const POINTS_PER_ELEMENT: usize = 8;
 const DEFLECTION: f32 = 46.0;
+/// Least distance of the axis from the top, points.
+const LEAST_ABOVE: f32 = 74.0;
+/// Least depth of the ground under the axis, points.
+const LEAST_DROP: f32 = 46.0;
 
 struct Frame<'a> {
     scene: &'a Scene,
@@ -21,7 +28,11 @@ struct Frame<'a> {
     scale: f32,
     least: f64,
     axis: f32,
+    /// Length of the arrows of exciters: shorter where there is little room above.
+    exciter: f32,
     ground: f32,
+    /// Height of a deflection of one, points.
+    deflection: f32,
     first_lane: f32,
 }
 
@@ -41,7 +52,7 @@ pub(super) fn place(scene: &Scene, area: Rect, shape: Option<&[f64]>) -> Layout 
         sensors: frame.marks(|d| !d.sensors.is_empty()).map(|(d, p)| (d, p - vec2(0.0, 9.0))).collect(),
         exciters: frame
             .marks(|d| d.exciter)
-            .map(|(d, p)| (d, [p - vec2(15.0, EXCITER_UP), p - vec2(15.0, 6.0)]))
+            .map(|(d, p)| (d, [p - vec2(15.0, frame.exciter), p - vec2(15.0, 6.0)]))
             .collect(),
         ..Layout::default()
     }
@@ -58,7 +69,12 @@ impl<'a> Frame<'a> {
         let lanes = relative_lanes(scene).iter().map(|&(_, lane)| lane + 1).max().unwrap_or(0) as f32;
         let above = base + lanes * LANE + 14.0;
         let below = DROP + 26.0;
-        let axis = area.top() + above + ((area.height() - above - below) / 2.0).max(0.0);
+        let spare = area.height() - above - below;
+        // Where there is little room the ground comes nearer first, then the axis goes up.
+        let nearer = (-spare).clamp(0.0, DROP - LEAST_DROP);
+        let higher = (-spare - nearer).clamp(0.0, (above - LEAST_ABOVE).max(0.0));
+        let axis = area.top() + above - higher + (spare / 2.0).max(0.0);
+        let deflection = DEFLECTION * (1.0 - 0.8 * higher / above);
         let deflected = shape.is_some();
         Self {
             scene,
@@ -67,7 +83,9 @@ impl<'a> Frame<'a> {
             scale: ((area.width() - LEFT - RIGHT).max(40.0)) / span as f32,
             least,
             axis,
-            ground: axis + DROP,
+            deflection,
+            exciter: (axis - area.top() - deflection * highest(scene, shape) - LABEL).clamp(EXCITER_LEAST, EXCITER_UP),
+            ground: axis + DROP - nearer,
             first_lane: axis - base - if deflected { 8.0 } else { 0.0 },
         }
     }
@@ -84,7 +102,7 @@ impl<'a> Frame<'a> {
     }
 
     fn node(&self, node: usize) -> Pos2 {
-        self.rest(node) - vec2(0.0, DEFLECTION * self.motion(node, false))
+        self.rest(node) - vec2(0.0, self.deflection * self.motion(node, false))
     }
 
     /// The Hermite cubic between two nodes, from their displacements and slopes.
@@ -103,7 +121,7 @@ impl<'a> Frame<'a> {
                 + sa * (t - 2.0 * t2 + t3)
                 + wb * (3.0 * t2 - 2.0 * t3)
                 + sb * (t3 - t2);
-            pos2(p.x + t * (q.x - p.x), self.axis - DEFLECTION * w)
+            pos2(p.x + t * (q.x - p.x), self.axis - self.deflection * w)
         };
         (0..=POINTS_PER_ELEMENT).map(at).collect()
     }
@@ -203,6 +221,13 @@ impl<'a> Frame<'a> {
         let span = self.scene.nodes.iter().map(|n| n.position[0] - self.least).fold(0.0, f64::max);
         (span / (self.scene.nodes.len().max(2) - 1) as f64) as f32
     }
+}
+
+/// How far the shape lifts the highest exciter, in deflections of one.
+fn highest(scene: &Scene, shape: Option<&[f64]>) -> f32 {
+    let Some(shape) = shape else { return 0.0 };
+    let lifted = scene.dofs.iter().zip(shape).filter(|(d, _)| d.exciter).map(|(_, u)| *u as f32);
+    lifted.fold(0.0, f32::max)
 }
 
 /// Which of the sources on the same DOF to the ground this one is, and how many there are.

@@ -1,7 +1,7 @@
 //! One suggestion: symbol, law and place, size, probability, error before and after, evidence, fingerprint, buttons.
 
 use super::gauge::Gauge;
-use super::{Deed, Scene, fingerprint};
+use super::{Deed, Scene, fingerprint, force};
 use crate::diagnosis::diagnose::Suggestion;
 use crate::display::format::{self, chance, polished};
 use crate::display::words;
@@ -145,6 +145,7 @@ impl Card<'_> {
             return;
         }
         self.rivals(ui);
+        force::show(ui, self.scene, Some(&s.added.source));
         self.fingerprint(ui);
         for sentence in &s.evidence {
             ui.label(RichText::new(polished(sentence)).size(size::BODY - 1.0));

@@ -1,6 +1,8 @@
 //! What is missing? The verdict, the ranked suggestions as cards, and what the user has ruled out.
 
 use super::card;
+use super::force;
+use super::limit;
 use super::look::Look;
 use super::ranking::{open, ranked};
 use super::{Deed, Scene};
@@ -20,8 +22,11 @@ use crate::window::theme::{self, size, space};
 use crate::window::widgets::UiExt;
 use egui::{Align, Button, Layout, RichText, ScrollArea, Sense, Ui, vec2};
 
+/// Corrections that are told here; all of them have a pane of their own.
+const MOST_CORRECTIONS: usize = 4;
+
 /// Shows the pane.
-pub fn show(ui: &mut Ui, scene: &Scene<'_>, look: &mut Look, asks: &mut Vec<Ask>) {
+pub fn show(ui: &mut Ui, scene: &Scene<'_>, look: &mut Look, limit_s: Option<f64>, asks: &mut Vec<Ask>) {
     match scene.explained.diagnosis(scene.document) {
         None if scene.explained.is_cancelled(scene.document) => {
             ui.horizontal(|ui| {
@@ -41,7 +46,7 @@ pub fn show(ui: &mut Ui, scene: &Scene<'_>, look: &mut Look, asks: &mut Vec<Ask>
                 asks.push(Ask::Explain(Deed::Search));
             }
         }
-        None => searching(ui, scene, look, asks),
+        None => searching(ui, scene, look, limit_s, asks),
         Some(Err(error)) => {
             ui.colored_label(ui.palette().error, error);
             if ui.button("Search again").clicked() {
@@ -51,13 +56,14 @@ pub fn show(ui: &mut Ui, scene: &Scene<'_>, look: &mut Look, asks: &mut Vec<Ask>
         Some(Ok(diagnosis)) => {
             ScrollArea::vertical().id_salt("cards").auto_shrink(false).show(ui, |ui| {
                 answer(ui, scene, diagnosis, look, asks);
+                limit::setting(ui, limit_s, asks);
             });
         }
     }
 }
 
 /// The search goes on: what it does, then the cards that there are so far.
-fn searching(ui: &mut Ui, scene: &Scene<'_>, look: &mut Look, asks: &mut Vec<Ask>) {
+fn searching(ui: &mut Ui, scene: &Scene<'_>, look: &mut Look, limit_s: Option<f64>, asks: &mut Vec<Ask>) {
     let (found, standing) = scene.explained.suggestions(scene.document);
     let doing = match standing {
         Standing::Before => "It is searched for what else it could be.",
@@ -71,6 +77,7 @@ fn searching(ui: &mut Ui, scene: &Scene<'_>, look: &mut Look, asks: &mut Vec<Ask
     if found.is_empty() {
         ui.hint("Place before law: where does a free force explain the difference? Then: which law does it follow?");
     }
+    limit::while_searching(ui, limit_s, asks);
     so_far(ui, scene, look, asks);
 }
 
@@ -92,6 +99,9 @@ fn far_off(scene: &Scene<'_>) -> bool {
 }
 
 fn answer(ui: &mut Ui, scene: &Scene<'_>, diagnosis: &Diagnosis, look: &mut Look, asks: &mut Vec<Ask>) {
+    if !diagnosis.complete {
+        limit::best_so_far(ui, asks);
+    }
     if matches!(diagnosis.verdict, Verdict::Adequate | Verdict::Detuned) {
         adequate(ui, scene, diagnosis);
     } else {
@@ -101,6 +111,9 @@ fn answer(ui: &mut Ui, scene: &Scene<'_>, diagnosis: &Diagnosis, look: &mut Look
     detuned(ui, scene, diagnosis, asks);
     if matches!(diagnosis.verdict, Verdict::Undecided | Verdict::Unexplained) {
         next_tests(ui, scene, diagnosis);
+    }
+    if diagnosis.verdict == Verdict::Unexplained && diagnosis.suggestions.is_empty() {
+        force::show(ui, scene, None);
     }
     ui.add_space(space::XS);
     list(ui, scene, look, asks);
@@ -133,8 +146,13 @@ fn detuned(ui: &mut Ui, scene: &Scene<'_>, diagnosis: &Diagnosis, asks: &mut Vec
     }
     ui.add_space(space::XS);
     ui.title("The model is detuned", "corrected in the search, not yet in the project");
-    for correction in &diagnosis.corrections {
+    let told = findings::telling(&diagnosis.corrections, MOST_CORRECTIONS);
+    for correction in &told {
         ui.pair(&corrected(scene, &correction.parameter), findings::change(correction));
+    }
+    let rest = diagnosis.corrections.len() - told.len();
+    if rest > 0 {
+        ui.hint(format!("{rest} more, none further from 1 in deviations: pane Corrections."));
     }
     let adopted = adopted(scene, diagnosis);
     ui.horizontal_wrapped(|ui| {
@@ -163,7 +181,7 @@ pub fn adopted(scene: &Scene<'_>, diagnosis: &Diagnosis) -> Adopted {
 }
 
 /// What a correction corrects.
-fn corrected(scene: &Scene<'_>, parameter: &UpdatingParameter) -> String {
+pub fn corrected(scene: &Scene<'_>, parameter: &UpdatingParameter) -> String {
     let known = scene.explained.all_known(scene.document);
     findings::corrected(&scene.document.project.structure, &known, parameter)
 }

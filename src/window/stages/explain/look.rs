@@ -53,10 +53,23 @@ pub struct Look {
     pub chosen: bool,
     /// Whether to search though the model is far from the data.
     pub anyway: bool,
+    /// Whether corrections and scatter were shown in the last frame.
+    pub scatter_shown: bool,
+    /// Whether they are computed.
+    pub scatter: bool,
 }
 
 impl Default for Look {
     fn default() -> Self {
-        Self { worst_first: true, tab: Tab::default(), open: None, trial: None, chosen: false, anyway: false }
+        Self {
+            worst_first: true,
+            tab: Tab::default(),
+            open: None,
+            trial: None,
+            chosen: false,
+            anyway: false,
+            scatter_shown: false,
+            scatter: false,
+        }
     }
 }

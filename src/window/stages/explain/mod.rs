@@ -2,10 +2,13 @@
 
 mod card;
 mod cards;
+pub mod corrections;
 mod detail;
 mod fingerprint;
+mod force;
 mod gauge;
 mod ledger;
+mod limit;
 pub mod look;
 mod map;
 pub mod panes;
@@ -29,6 +32,7 @@ use crate::window::frame::top::Mark;
 use crate::window::view::{Stage, View};
 use egui::Context;
 pub use schematic::{Errors, errors};
+use std::time::Duration;
 
 /// What may be asked for in the stage.
 #[derive(Debug, Clone, PartialEq)]
@@ -49,8 +53,25 @@ pub enum Deed {
     TakeOver,
     /// Put the corrections that the search found into the model.
     Correct,
+    /// Put one of them, by its place in the list, into the model.
+    CorrectOne(usize),
+    /// State that a channel reads too large by a share, or is recorded late by a time in s.
+    CorrectSensor {
+        /// Name of the channel, such as `acc@7`.
+        channel: String,
+        /// Share by which it reads too large.
+        gain: f64,
+        /// Time by which it is late, s.
+        delay: f64,
+    },
     /// Start it again.
     Retry,
+    /// End the search with the best so far.
+    Hurry,
+    /// End searches with the best so far after a time in s, or let them come to their end.
+    Limit(Option<f64>),
+    /// Search to the end, without a limit.
+    SearchOn,
     /// Search though the model is far from the data.
     Search,
 }
@@ -72,11 +93,27 @@ pub fn wanted(document: &Document, view: &View, explained: &Explained) -> Wanted
     let open = ranking::open(document, explained, look).filter(|(_, standing)| *standing == Standing::Final);
     let print = open.map(|(s, _)| s.added.source.clone());
     let curve = (look.tab == look::Tab::Frequency).then_some(view.run);
-    Wanted { diagnosis: true, anyway: look.anyway, trial: look.trial.clone(), print, curve }
+    let named = print.is_some();
+    let unexplained = || {
+        let found = explained.diagnosis(document).and_then(|d| d.as_ref().ok());
+        found.is_some_and(|d| d.verdict == Verdict::Unexplained)
+    };
+    let force = named || unexplained();
+    Wanted {
+        diagnosis: true,
+        anyway: look.anyway,
+        trial: look.trial.clone(),
+        print,
+        force,
+        scatter: look.scatter,
+        limit: view.limit_s.map(Duration::from_secs_f64),
+        curve,
+    }
 }
 
 /// An effect on trial takes the sizes of its suggestion, which a search corrects on its way.
 pub fn keep_up(look: &mut look::Look, document: &Document, explained: &Explained) {
+    look.scatter = std::mem::take(&mut look.scatter_shown);
     let Some(trial) = &mut look.trial else { return };
     let (suggestions, _) = explained.suggestions(document);
     if let Some(found) = suggestions.iter().find(|s| s.added.source.is_same(trial)) {
@@ -108,7 +145,15 @@ pub fn answer(app: &mut App, ctx: &Context, deed: Deed) {
         Deed::Return(step) => go_back(app, step),
         Deed::TakeOver => take_over(app, ctx),
         Deed::Correct => correct(app, ctx),
+        Deed::CorrectOne(k) => correct_one(app, ctx, k),
+        Deed::CorrectSensor { channel, gain, delay } => correct_sensor(app, ctx, channel, [gain, delay]),
         Deed::Retry => app.derived.explained.retry(),
+        Deed::Hurry => app.derived.explained.hurry(),
+        Deed::Limit(limit) => app.view.limit_s = limit,
+        Deed::SearchOn => {
+            app.view.limit_s = None;
+            app.derived.explained.retry();
+        }
         Deed::Search => app.view.explain.anyway = true,
     }
 }
@@ -164,14 +209,52 @@ fn correct(app: &mut App, ctx: &Context) {
     }
 }
 
+/// One correction becomes a number of the project.
+fn correct_one(app: &mut App, ctx: &Context, k: usize) {
+    let Some(document) = &app.document else { return };
+    let scene = Scene { document, explained: &app.derived.explained };
+    let Some(Ok(diagnosis)) = scene.explained.diagnosis(document) else { return };
+    let Some(correction) = diagnosis.corrections.get(k) else { return };
+    let name = cards::corrected(&scene, &correction.parameter);
+    let known = |index: usize| scene.explained.known(document, index);
+    let file = document.session().document().file();
+    let adopted = crate::window::corrections::adopt(std::slice::from_ref(correction), &known, &document.project, file);
+    app.edit(ctx, &Edit::All(adopted.commands));
+    if app.message.as_ref().is_none_or(|m| !m.failed) {
+        app.say(format!("Corrected: {name}. Undo takes it back."));
+    }
+}
+
+/// A channel that reads `gain` too large, or `delay` (s) late, beyond what the project states of it.
+fn correct_sensor(app: &mut App, ctx: &Context, channel: String, [gain, delay]: [f64; 2]) {
+    let Some(document) = &app.document else { return };
+    let file = document.session().document().file();
+    let table = file.sensor.iter().find(|t| t.channel == channel);
+    let stated = |value: Option<f64>, none: f64| value.unwrap_or(none);
+    let old = table.map_or((None, None), |t| (t.delay, t.gain));
+    let delay = stated(old.0, 0.0) + delay;
+    let gain = stated(old.1, 1.0) * (1.0 + gain);
+    let said = format!("Corrected: what {channel} reads. Undo takes it back.");
+    let command =
+        Command::SetSensor { channel, delay: (delay != 0.0).then_some(delay), gain: (gain != 1.0).then_some(gain) };
+    app.edit(ctx, &Edit::Do(command));
+    if app.message.as_ref().is_none_or(|m| !m.failed) {
+        app.say(said);
+    }
+}
+
 /// What the identification found becomes known.
 fn take_over(app: &mut App, ctx: &Context) {
     let Some(document) = &app.document else { return };
     let Some(Ok(outcome)) = app.derived.known_outcome(document) else { return };
     let sources = &document.project.sources;
     let sought = |s: usize| sources.get(s).is_some_and(|s| matches!(s.state, State::Candidate | State::Forced));
-    let found: Vec<(usize, f64)> =
-        outcome.sources.iter().filter(|e| sought(e.source)).map(|e| (e.source, e.coefficient)).collect();
+    let found: Vec<(usize, f64)> = outcome
+        .sources
+        .iter()
+        .filter(|e| sought(e.source) && e.coefficient > 0.0)
+        .map(|e| (e.source, e.coefficient))
+        .collect();
     match additions::take_over(&found, &document.project) {
         Ok(commands) => app.edit(ctx, &Edit::All(commands)),
         Err(error) => app.fail(error),

@@ -145,7 +145,7 @@ pub fn cell(ui: &mut Ui, app: &mut App, asks: &mut Vec<Ask>) {
 pub fn missing(ui: &mut Ui, app: &mut App, asks: &mut Vec<Ask>) {
     let Some(document) = &app.document else { return };
     let mut look = app.view.explain.clone();
-    cards::show(ui, &Scene { document, explained: &app.derived.explained }, &mut look, asks);
+    cards::show(ui, &Scene { document, explained: &app.derived.explained }, &mut look, app.view.limit_s, asks);
     app.view.explain = look;
 }
 

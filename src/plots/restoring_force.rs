@@ -1,0 +1,143 @@
+//! The missing force at its place over displacement and over velocity: identified points in the colours of their levels, the
+//! law drawn through.
+
+use super::cycle::scaled;
+use super::figure::{Axis, Figure, Look};
+use super::sheet::Sheet;
+use super::style::Palette;
+use crate::diagnosis::candidates::restoring_force::{ForcePoint, RestoringForce, RunForce};
+use crate::display::{format, words};
+use crate::effects::Place;
+use crate::measurement::Quantity;
+use crate::structure::Structure;
+use ecolor::Color32;
+
+/// Largest value of a coordinate over all runs.
+fn largest(force: &RestoringForce, of: fn(&ForcePoint) -> f64) -> f64 {
+    force.runs.iter().flat_map(|r| &r.points).map(|p| of(p).abs()).fold(0.0, f64::max)
+}
+
+/// What the plots show, as a title: `Missing force at DOF 7`.
+pub fn title(force: &RestoringForce, structure: &Structure) -> String {
+    format!("Missing force {}", words::at(structure, &force.place))
+}
+
+/// What stands in them, in one line: the law, the harmonics and the deviation of the points.
+pub fn caption(force: &RestoringForce) -> String {
+    let harmonics = force.runs.iter().map(|r| r.harmonics).max().unwrap_or(1);
+    let deviation = force.runs.iter().map(|r| r.deviation).fold(0.0, f64::max);
+    let law = force.law.as_ref().map_or_else(
+        || "no law is drawn through them".to_owned(),
+        |s| format!("lines: {} with the same harmonics", words::effect(s.effect)),
+    );
+    let count = words::counted(harmonics, "harmonic");
+    format!("points: one period, {count}, ± {}; {law}", format::prefixed(deviation, "N"))
+}
+
+/// Name of a level in the key.
+fn name(run: &RunForce) -> String {
+    if run.level_name.parse::<i64>().is_ok() { format!("level {}", run.level_name) } else { run.level_name.clone() }
+}
+
+/// Colours of the runs: those of their levels, or of data and missing effect where there is one level only.
+fn colours(force: &RestoringForce, palette: &Palette) -> Vec<[Color32; 2]> {
+    let mut levels: Vec<usize> = force.runs.iter().map(|r| r.level).collect();
+    levels.dedup();
+    let of = |run: &RunForce| {
+        let at = levels.iter().position(|l| *l == run.level).unwrap_or(0);
+        let colour = palette.level(at as f32 / (levels.len().max(2) - 1) as f32);
+        if levels.len() < 2 { [palette.measured, palette.missing] } else { [colour; 2] }
+    };
+    force.runs.iter().map(of).collect()
+}
+
+/// Force over displacement, and over velocity.
+pub fn figures(force: &RestoringForce, structure: &Structure, palette: &Palette) -> [Figure; 2] {
+    let rotation = match &force.place {
+        Place::Dofs(dofs) => dofs.iter().any(|&d| structure.dofs().get(d).is_some_and(|d| d.direction.is_rotation())),
+        _ => false,
+    };
+    let axis = |quantity, largest| {
+        let (factor, prefix) = scaled(largest);
+        let plain = Axis::of(words::axis(quantity, rotation));
+        (factor, Axis::new(&plain.name, &format!("{prefix}{}", plain.unit)).include(&[0.0]))
+    };
+    let (scale, y) = axis(Quantity::Force, largest(force, |p| p.force));
+    let over = |what: &str, quantity, of: fn(&ForcePoint) -> f64| {
+        let (factor, x) = axis(quantity, largest(force, of));
+        let place = |p: &ForcePoint| [factor * of(p), scale * p.force];
+        let mut figure = Figure::new(&format!("{} over {what}", title(force, structure)), x, y.clone());
+        figure.margin = 0.06;
+        curves(keyed(figure, force, palette), force, palette, scale, place)
+    };
+    [
+        over("displacement", Quantity::Displacement, |p| p.displacement),
+        over("velocity", Quantity::Velocity, |p| p.velocity),
+    ]
+}
+
+/// With keys to marks and colours.
+fn keyed(mut figure: Figure, force: &RestoringForce, palette: &Palette) -> Figure {
+    let colours = colours(force, palette);
+    let many = colours.windows(2).any(|c| c[0] != c[1]);
+    let [dots, line] = if many { [palette.ink; 2] } else { colours[0] };
+    figure = figure.key("identified", dots, Look::Dots(3.0));
+    if let Some(law) = &force.law {
+        figure = figure.key(words::effect(law.effect), line, Look::Line(3.0));
+    }
+    if many {
+        for (k, run) in force.runs.iter().enumerate() {
+            if k == 0 || force.runs[k - 1].level != run.level {
+                figure = figure.key(&name(run), colours[k][0], Look::Line(3.0));
+            }
+        }
+    }
+    figure
+}
+
+fn curves(
+    mut figure: Figure,
+    force: &RestoringForce,
+    palette: &Palette,
+    scale: f64,
+    place: impl Fn(&ForcePoint) -> [f64; 2],
+) -> Figure {
+    for (run, [dots, line]) in force.runs.iter().zip(colours(force, palette)) {
+        if !run.law.is_empty() {
+            figure = figure.points("", line, Look::Line(1.5), run.law.iter().map(&place).collect());
+        }
+        let points: Vec<[f64; 2]> = run.points.iter().map(&place).collect();
+        let deviation = vec![scale * run.deviation; points.len()];
+        figure = figure.points("", dots, Look::Dots(2.4), points).deviation(deviation);
+    }
+    figure
+}
+
+/// Both plots on one sheet.
+pub fn sheet(force: &RestoringForce, structure: &Structure, palette: &Palette) -> Sheet {
+    let title = title(force, structure);
+    let mut sheet = Sheet::of(&title, figures(force, structure, palette).into());
+    sheet.columns = 2;
+    sheet
+}
+
+/// Values of all points as a table with tabs, SI units.
+pub fn table(force: &RestoringForce) -> String {
+    let mut text =
+        "run\tlevel\tfrequency (Hz)\tdisplacement (m)\tvelocity (m/s)\tforce (N)\tstandard deviation (N)\n".to_owned();
+    for run in &force.runs {
+        for p in &run.points {
+            text += &format!(
+                "{}\t{}\t{:e}\t{:e}\t{:e}\t{:e}\t{:e}\n",
+                run.run + 1,
+                run.level_name,
+                run.frequency_hz,
+                p.displacement,
+                p.velocity,
+                p.force,
+                run.deviation
+            );
+        }
+    }
+    text
+}

@@ -1,0 +1,142 @@
+//! Records that are not steady, and components in a testing machine, in a report: their error, their loops or the damping
+//! ratio over amplitude, and the search for what their model lacks.
+
+use super::content::{Content, Found};
+use super::html::Page;
+use super::sheet;
+use crate::control::Control;
+use crate::diagnosis::Diagnosis;
+use crate::diagnosis::component::{Loops, compare_component, diagnose_component};
+use crate::diagnosis::records::amplitude::AmplitudePoint;
+use crate::diagnosis::records::compare::{ModeCurve, OneRecord};
+use crate::diagnosis::records::{RecordComparison, Records, compare_records, diagnose_records};
+use crate::display::format::in_words;
+use crate::display::{format, words};
+use crate::exchange::Project;
+use crate::measurement::{Quantity, TransientRun};
+use crate::plots::component_loops;
+use crate::plots::figure::{Axis, Figure, Look};
+use crate::plots::style::Palette;
+use crate::structure::StructureKind;
+use std::sync::Arc;
+
+/// Records whose loops or amplitude curves are drawn.
+const MOST_DRAWN: usize = 4;
+/// Points from which on a curve says something.
+const LEAST_POINTS: usize = 3;
+
+/// Whether a project holds nothing but records that are not steady.
+pub(super) fn only_records(p: &Project) -> bool {
+    !p.runs.iter().any(|run| run.enabled) && has_records(p)
+}
+
+fn has_records(p: &Project) -> bool {
+    p.transient_runs.iter().any(|run| run.enabled)
+}
+
+fn is_component(p: &Project) -> bool {
+    p.structure.kind() == StructureKind::Component
+}
+
+/// The model against the records; `None` where there are none, or no model that predicts them.
+pub(super) fn compared(p: &Project, control: &Control) -> Option<Found<RecordComparison>> {
+    if !has_records(p) {
+        return None;
+    }
+    if is_component(p) {
+        let loops = Loops::new(&p.structure, &p.sources, &p.transient_runs);
+        return Some(loops.and_then(|l| compare_component(&l, &[])).map(Arc::new).map_err(|e| e.to_string()));
+    }
+    p.structure.matrices()?;
+    let records = Records::new(&p.structure, &p.sources, &p.transient_runs);
+    Some(records.and_then(|r| compare_records(&r, &[], control)).map(Arc::new).map_err(|e| e.to_string()))
+}
+
+/// What the model of the records lacks.
+pub(super) fn diagnosed(p: &Project, control: &Control) -> Found<Diagnosis> {
+    let found = if is_component(p) {
+        let loops = Loops::new(&p.structure, &p.sources, &p.transient_runs).map_err(|e| e.to_string())?;
+        diagnose_component(&loops, &p.ruled_out, control, &|_| {}).map_err(|e| e.to_string())
+    } else {
+        let records = Records::new(&p.structure, &p.sources, &p.transient_runs).map_err(|e| e.to_string())?;
+        diagnose_records(&records, &p.ruled_out, control, &|_| {}).map_err(|e| e.to_string())
+    };
+    found.map(Arc::new)
+}
+
+/// The records in the table of measurements: as many columns as steady runs have.
+pub(super) fn row(number: usize, run: &TransientRun) -> Vec<String> {
+    let flags: Vec<&str> = run.findings.iter().map(|f| f.reason.as_str()).collect();
+    let time = run.time();
+    let lasts = time.last().zip(time.first()).map_or(0.0, |(b, a)| b - a);
+    vec![
+        number.to_string(),
+        run.file.clone(),
+        format!("{}, {}", run.kind.name(), format::with_unit(lasts, "s")),
+        String::new(),
+        run.level.map_or_else(String::new, |l| l.to_string()),
+        String::new(),
+        if run.enabled { flags.join("; ") } else { "not used".to_owned() },
+    ]
+}
+
+/// The chapter of the records against the model.
+pub(super) fn chapter(page: &mut Page, content: &Content<'_>) {
+    let Some(found) = &content.records else { return };
+    page.chapter("Model of the known sources against the records");
+    let found = match found {
+        Ok(found) => found,
+        Err(reason) => return page.warning(reason),
+    };
+    page.sentence(&format!(
+        "Error of the records {}; noise alone would leave {}.",
+        in_words(found.error),
+        format::percent(found.noise_floor)
+    ));
+    let p = content.project;
+    let row = |r: &OneRecord| {
+        let worst = r.channels.iter().max_by(|a, b| a.1[0].total_cmp(&b.1[0]));
+        let worst = worst.map_or_else(String::new, |(name, [e, _])| format!("{name}, {}", in_words(*e)));
+        let run = &p.transient_runs[r.index];
+        vec![run.file.clone(), run.kind.name().to_owned(), in_words(r.error), format::percent(r.noise_floor), worst]
+    };
+    let rows: Vec<Vec<String>> = found.records.iter().map(row).collect();
+    page.table(&["Record", "Kind", "Error|", "Noise floor|", "Worst channel|"], &rows);
+    if is_component(p) {
+        loops(page, p, found);
+    } else {
+        found.records.iter().take(MOST_DRAWN).for_each(|r| curves(page, &p.transient_runs[r.index].file, r));
+    }
+}
+
+/// Force over displacement of the first records of a component.
+fn loops(page: &mut Page, p: &Project, found: &RecordComparison) {
+    let Ok(loops) = Loops::new(&p.structure, &p.sources, &p.transient_runs) else { return };
+    for (one, record) in loops.list.iter().zip(&found.records).take(MOST_DRAWN) {
+        if let Some(model) = record.model.first() {
+            let title = format!("Loop of {}", one.file);
+            sheet(page, &title, vec![component_loops::figure(Palette::light(), one, model)]);
+        }
+    }
+}
+
+/// Damping ratio and frequency over amplitude of the mode that stands out most in a record.
+fn curves(page: &mut Page, file: &str, record: &OneRecord) {
+    let Some(curve) = record.curves.iter().find(|c| c.measured.len() >= LEAST_POINTS) else { return };
+    let near = format::with_unit(curve.frequency_hz, "Hz");
+    let title = format!("{file}: damping ratio and frequency over amplitude, {} near {near}", curve.channel);
+    sheet(page, &title, vec![over_amplitude(curve, true), over_amplitude(curve, false)]);
+}
+
+fn over_amplitude(curve: &ModeCurve, ratio: bool) -> Figure {
+    let palette = Palette::light();
+    let quantity = curve.channel.split('@').next().and_then(Quantity::from_word);
+    let name = quantity.map_or("Amplitude", |q| words::axis(q, false));
+    let y = if ratio { Axis::new("Damping ratio", "%") } else { Axis::new("Frequency", "Hz") };
+    let points = |list: &[AmplitudePoint]| -> Vec<[f64; 2]> {
+        list.iter().map(|p| [p.amplitude, if ratio { 100.0 * p.damping_ratio } else { p.frequency_hz }]).collect()
+    };
+    Figure::new(if ratio { "Damping ratio" } else { "Frequency" }, Axis::of(name), y)
+        .points("measured", palette.measured, Look::Dots(3.0), points(&curve.measured))
+        .points("model", palette.model, Look::Line(1.6), points(&curve.model))
+}

@@ -1,0 +1,30 @@
+//! Takes over what `identify` finds: sources that were sought become known at their coefficients, so that a model whose
+//! damping was still to be found can be compared with the measurement.
+
+use crate::effects::{Source, State};
+use crate::exchange::Project;
+use crate::identify::Outcome;
+
+/// Makes the sources that `outcome` found known in `project` and the others that were sought inactive; a source that is
+/// known there already gets the coefficient on top of its own. Gives what was taken over.
+pub fn take_over(project: &mut Project, outcome: &Outcome) -> Vec<Source> {
+    let found = outcome.sources.iter().filter(|e| e.coefficient > 0.0);
+    let taken: Vec<Source> = found
+        .filter_map(|e| project.sources.get(e.source).filter(|s| is_sought(s)).map(|s| (s, e.coefficient)))
+        .map(|(s, coefficient)| Source { state: State::Known, ..s.with_coefficient(coefficient) })
+        .collect();
+    project.sources.iter_mut().filter(|s| is_sought(s)).for_each(|s| s.state = State::Off);
+    for source in &taken {
+        let there = project.sources.iter_mut().find(|s| s.state == State::Known && s.is_same(source));
+        match (there, source.effect.coefficient()) {
+            (Some(there), Some(k)) => there.parameters[k] += source.parameters[k],
+            _ => project.sources.push(source.clone()),
+        }
+    }
+    taken
+}
+
+/// Whether a source is to be found.
+pub fn is_sought(source: &Source) -> bool {
+    matches!(source.state, State::Candidate | State::Forced)
+}

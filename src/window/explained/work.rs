@@ -1,0 +1,92 @@
+//! The work behind the stage, one job each: pure functions of a project.
+
+use super::early::Mailbox;
+use super::model::Search;
+use crate::control::Control;
+use crate::diagnosis::candidates::fingerprint_plot::{self as prints, Print};
+use crate::diagnosis::candidates::restoring_force::{self, RestoringForce};
+use crate::diagnosis::diagnose::{Suggestion, diagnose_without};
+use crate::diagnosis::updating::scatter::{self, Scatter};
+use crate::diagnosis::{self, Comparison, Diagnosis, Problem};
+use crate::effects::Source;
+use crate::exchange::Project;
+use crate::plots::response_curve::{self, Curve};
+use crate::session::time_limit::hurry_after;
+use std::sync::Arc;
+use std::time::Duration;
+
+fn problem(p: &Project) -> Problem<'_> {
+    Problem { structure: &p.structure, sources: &p.sources, runs: &p.runs }
+}
+
+/// The search for what is missing; it ends after `limit` with the best so far.
+pub(super) fn search_job(
+    p: &Arc<Project>,
+    search: &Search,
+    limit: Option<Duration>,
+    told: Mailbox,
+) -> impl FnOnce(&Control) -> Result<Diagnosis, String> + use<> {
+    let (p, search) = (Arc::clone(p), search.clone());
+    move |control| {
+        if let Some(limit) = limit {
+            hurry_after(control, limit);
+        }
+        let early = |found: &[Suggestion]| told.put(found);
+        diagnose_without(&problem(&p), search.ruled_out(), control, &early).map_err(|e| e.to_string())
+    }
+}
+
+/// The comparison, with an effect on trial.
+pub(super) fn compare_job(
+    p: &Arc<Project>,
+    trial: Option<&Source>,
+) -> impl FnOnce(&Control) -> Result<Comparison, String> + use<> {
+    let (p, effects) = (Arc::clone(p), trial.cloned().into_iter().collect::<Vec<_>>());
+    move |control| diagnosis::compare(&problem(&p), &effects, control).map_err(|e| e.to_string())
+}
+
+/// The fingerprint of a suggestion beside the other effects that were found.
+pub(super) fn print_job(
+    p: &Arc<Project>,
+    diagnosis: Option<Arc<Diagnosis>>,
+    source: &Source,
+) -> impl FnOnce(&Control) -> Result<Option<Print>, String> + use<> {
+    let (p, source) = (Arc::clone(p), source.clone());
+    move |control| {
+        let steps = diagnosis.as_ref().and_then(|d| d.steps.last());
+        let found: Vec<Source> = steps.map_or_else(Vec::new, |s| s.added.iter().map(|a| a.source.clone()).collect());
+        let corrections = diagnosis.as_ref().map_or(&[][..], |d| &d.corrections);
+        prints::print(&problem(&p), &found, corrections, &source, control).map_err(|e| e.to_string())
+    }
+}
+
+/// The missing force at the place of a suggestion beside the other effects that were found.
+pub(super) fn force_job(
+    p: &Arc<Project>,
+    diagnosis: Arc<Diagnosis>,
+    source: Option<Source>,
+) -> impl FnOnce(&Control) -> Result<Option<RestoringForce>, String> + use<> {
+    let p = Arc::clone(p);
+    move |control| {
+        restoring_force::of_diagnosis(&problem(&p), &diagnosis, source.as_ref(), control).map_err(|e| e.to_string())
+    }
+}
+
+/// What the data say of channels and runs beside what a search found.
+pub(super) fn scatter_job(
+    p: &Arc<Project>,
+    diagnosis: Arc<Diagnosis>,
+) -> impl FnOnce(&Control) -> Result<Option<Scatter>, String> + use<> {
+    let p = Arc::clone(p);
+    move |control| scatter::of_diagnosis(&problem(&p), &diagnosis, control).map_err(|e| e.to_string())
+}
+
+/// Response curves near a run, with an effect on trial.
+pub(super) fn curve_job(
+    p: &Arc<Project>,
+    trial: Option<&Source>,
+    run: usize,
+) -> impl FnOnce(&Control) -> Result<Vec<Curve>, String> + use<> {
+    let (p, effects) = (Arc::clone(p), trial.cloned().into_iter().collect::<Vec<_>>());
+    move |control| response_curve::curves(&p, &effects, run, control)
+}

@@ -1,0 +1,199 @@
+//! Corrections and scatter: what the data say of the model, of each channel and of each run, each with its deviation; what
+//! the project has a number for is taken over one by one.
+
+use super::{Deed, Scene, cards};
+use crate::diagnosis::Diagnosis;
+use crate::diagnosis::updating::scatter::{ChannelScatter, Estimated, RunScatter, Scatter};
+use crate::display::{findings, format};
+use crate::window::app::{App, Ask};
+use crate::window::corrections::adopt;
+use crate::window::theme::{self, size, space};
+use crate::window::widgets::{UiExt, elided};
+use egui::{Align, Align2, Layout, Rect, Role, ScrollArea, Sense, Ui, WidgetInfo, pos2, vec2};
+
+/// Deviations at the ends of a bar.
+const ENDS: f64 = 8.0;
+/// Deviations from which on a value is no scatter.
+const SEEN: f64 = 2.0;
+/// Width of a bar with its zero in the middle, points.
+const BAR: f32 = 84.0;
+/// Width of a value with its deviation, points.
+const VALUE: f32 = 128.0;
+/// Width of the button that takes a value over, points.
+const BUTTON: f32 = 72.0;
+
+/// Shows the pane.
+pub fn show(ui: &mut Ui, app: &mut App, asks: &mut Vec<Ask>) {
+    app.view.explain.scatter_shown = true;
+    let Some(document) = &app.document else { return };
+    let scene = Scene { document, explained: &app.derived.explained };
+    let Some(Ok(diagnosis)) = scene.explained.diagnosis(document) else {
+        ui.empty("The search comes first", "What the data say of model, channels and runs follows when it has ended.");
+        return;
+    };
+    ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+        model(ui, &scene, diagnosis, asks);
+        match scene.explained.scatter(document) {
+            Some(Ok(scatter)) => {
+                if let Some(scatter) = scatter.as_ref() {
+                    channels(ui, scatter, asks);
+                    if let Some(run) = runs(ui, scatter, app.view.run) {
+                        app.view.run = run;
+                    }
+                }
+            }
+            Some(Err(error)) => drop(ui.hint(format!("Channels and runs: {error}"))),
+            None => drop(ui.hint("Channels and runs are being looked at.")),
+        }
+    });
+}
+
+/// One line: what, how much, in deviations.
+struct Row<'a> {
+    name: &'a str,
+    value: String,
+    deviations: f64,
+}
+
+impl Row<'_> {
+    /// Shows it; `button` is the name of what takes it over, enabled or not. True when that was clicked.
+    fn show(&self, ui: &mut Ui, button: Option<(&str, bool)>) -> bool {
+        let palette = ui.palette();
+        let mut clicked = false;
+        ui.horizontal(|ui| {
+            let aside = VALUE + BAR + if button.is_some() { BUTTON } else { 0.0 } + 3.0 * ui.spacing().item_spacing.x;
+            let room = (ui.available_width() - aside).max(60.0);
+            let (area, response) = ui.allocate_exact_size(vec2(room, space::ROW), Sense::hover());
+            let said = format!("{}: {}, {:.1} deviations", self.name, self.value, self.deviations);
+            response.widget_info(|| WidgetInfo::labeled(Role::Label, true, &said));
+            elided(ui, self.name, theme::font(size::BODY), palette.weak, area.left_center(), room);
+            response.on_hover_text(said);
+            let (area, _) = ui.allocate_exact_size(vec2(VALUE, space::ROW), Sense::hover());
+            ui.painter().text(
+                area.right_center(),
+                Align2::RIGHT_CENTER,
+                &self.value,
+                theme::font(size::BODY),
+                palette.ink,
+            );
+            bar(ui, self.deviations);
+            if let Some((name, enabled)) = button {
+                ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+                    let button = egui::Button::new("Take over").small();
+                    let response = ui.add_enabled(enabled, button);
+                    response.widget_info(|| WidgetInfo::labeled(Role::Button, enabled, format!("Take over: {name}")));
+                    let none = "The project has no number for it.";
+                    let tip = "Puts it into the project; undo takes it back.";
+                    clicked = response.on_hover_text(tip).on_disabled_hover_text(none).clicked();
+                });
+            }
+        });
+        clicked
+    }
+}
+
+/// A bar from the middle, in deviations, with marks where scatter ends.
+fn bar(ui: &mut Ui, deviations: f64) {
+    let palette = ui.palette();
+    let (area, response) = ui.allocate_exact_size(vec2(BAR, space::ROW), Sense::hover());
+    let track = Rect::from_center_size(area.center(), vec2(BAR, 8.0));
+    let x = |d: f64| area.center().x + (0.5 * BAR) * ((d / ENDS).clamp(-1.0, 1.0) as f32);
+    let painter = ui.painter();
+    painter.rect_filled(track, 2.0, palette.raised);
+    let scatter = Rect::from_x_y_ranges(x(-SEEN)..=x(SEEN), track.y_range());
+    painter.rect_filled(scatter, 0.0, palette.line);
+    let colour = if deviations.abs() > SEEN { palette.missing } else { palette.weak };
+    let (low, high) = (x(deviations.min(0.0)), x(deviations.max(0.0)));
+    painter.rect_filled(Rect::from_x_y_ranges(low..=high, track.shrink2(vec2(0.0, 1.0)).y_range()), 1.0, colour);
+    let middle = area.center().x;
+    painter
+        .line_segment([pos2(middle, track.top() - 2.0), pos2(middle, track.bottom() + 2.0)], theme::hair(palette.weak));
+    if deviations.abs() > ENDS {
+        let end = if deviations > 0.0 {
+            (area.right() + 1.0, Align2::LEFT_CENTER, "›")
+        } else {
+            (area.left() - 1.0, Align2::RIGHT_CENTER, "‹")
+        };
+        painter.text(pos2(end.0, area.center().y), end.1, end.2, theme::font(size::BODY), colour);
+    }
+    response.on_hover_text(format!("{deviations:+.1} deviations; grey: ±{SEEN:.0}, ends: ±{ENDS:.0}"));
+}
+
+fn percent(value: Estimated) -> String {
+    format!("{} %", format::with_deviation(100.0 * value.value, 100.0 * value.deviation, ""))
+}
+
+/// Parts of the structure and known sources.
+fn model(ui: &mut Ui, scene: &Scene<'_>, diagnosis: &Diagnosis, asks: &mut Vec<Ask>) {
+    ui.title("The model", "factors less one that fit best, one deviation; the bar in deviations");
+    if diagnosis.corrections.is_empty() {
+        ui.hint("The search did not have to correct anything of it.");
+        ui.add_space(space::S);
+        return;
+    }
+    let (document, known) = (scene.document, |k: usize| scene.explained.known(scene.document, k));
+    let file = document.session().document().file();
+    for (k, correction) in diagnosis.corrections.iter().enumerate() {
+        let name = cards::corrected(scene, &correction.parameter);
+        let deviations = (correction.factor - 1.0) / correction.deviation.max(f64::MIN_POSITIVE);
+        let row = Row { name: &name, value: findings::change(correction), deviations };
+        let adopted = adopt(std::slice::from_ref(correction), &known, &document.project, file);
+        if row.show(ui, Some((&name, !adopted.commands.is_empty()))) {
+            asks.push(Ask::Explain(Deed::CorrectOne(k)));
+        }
+    }
+    ui.add_space(space::S);
+}
+
+fn channels(ui: &mut Ui, scatter: &Scatter, asks: &mut Vec<Ask>) {
+    ui.title("Each channel", "gain: reads too large; delay: recorded late");
+    if scatter.channels.is_empty() {
+        ui.hint("One response channel alone cannot be told from the force.");
+    }
+    for ChannelScatter { channel, gain, delay } in &scatter.channels {
+        let name = format!("Gain of {channel}");
+        let row = Row { name: &name, value: percent(*gain), deviations: gain.deviations() };
+        if row.show(ui, Some((&name, true))) {
+            asks.push(Ask::Explain(Deed::CorrectSensor { channel: channel.clone(), gain: gain.value, delay: 0.0 }));
+        }
+        let Some(delay) = delay else { continue };
+        let name = format!("Delay of {channel}");
+        let value = format::with_deviation(1e6 * delay.value, 1e6 * delay.deviation, "µs");
+        let row = Row { name: &name, value, deviations: delay.deviations() };
+        if row.show(ui, Some((&name, true))) {
+            asks.push(Ask::Explain(Deed::CorrectSensor { channel: channel.clone(), gain: 0.0, delay: delay.value }));
+        }
+    }
+    ui.add_space(space::S);
+}
+
+/// Shifts of the runs; the run that was clicked.
+fn runs(ui: &mut Ui, scatter: &Scatter, selected: usize) -> Option<usize> {
+    ui.title("Each run", "shift of all natural frequencies; a click selects the run");
+    let mut chosen = None;
+    for RunScatter { run, frequency, amplitude, phase } in &scatter.runs {
+        let name = format!("Run {}", run + 1);
+        let palette = ui.palette();
+        let row = Row { name: &name, value: percent(*frequency), deviations: frequency.deviations() };
+        let top = ui.cursor().min;
+        row.show(ui, None);
+        let area = Rect::from_min_max(top, pos2(ui.max_rect().right(), ui.cursor().min.y));
+        let response = ui.interact(area, ui.scope_id().with(("run", *run)), Sense::click());
+        response.widget_info(|| {
+            WidgetInfo::selected(Role::Button, true, *run == selected, format!("Scatter of run {}", run + 1))
+        });
+        if *run == selected {
+            ui.painter().rect_stroke(area, 3.0, theme::hair(palette.accent), egui::StrokeKind::Inside);
+        }
+        let degrees = Estimated { value: phase.value.to_degrees(), deviation: phase.deviation.to_degrees() };
+        let more = format!(
+            "amplitude {}, phase {}",
+            percent(*amplitude),
+            format::with_deviation(degrees.value, degrees.deviation, "°")
+        );
+        if response.on_hover_text(more).clicked() {
+            chosen = Some(*run);
+        }
+    }
+    chosen
+}

@@ -1,0 +1,62 @@
+//! The missing force over displacement and over velocity, in the card of its suggestion or where nothing is suggested.
+
+use super::Scene;
+use crate::diagnosis::candidates::restoring_force::RestoringForce;
+use crate::effects::{Place, Source};
+use crate::plots::restoring_force::{caption, figures, title};
+use crate::plots::sheet::{Panel, Sheet};
+use crate::structure::Structure;
+use crate::window::plots::export;
+use crate::window::plots::show::{self, key_row};
+use crate::window::widgets::UiExt;
+use egui::{Ui, vec2};
+
+/// Height of the plots.
+const PLOTS: f32 = 176.0;
+/// Least width of a plot; below twice of it they stand above each other.
+const LEAST: f32 = 170.0;
+
+/// Shows the force of `source`, or at the place that explains most; says so while it is computed.
+pub fn show(ui: &mut Ui, scene: &Scene<'_>, source: Option<&Source>) {
+    if source.is_some_and(|s| !matches!(s.place, Place::Dofs(_))) {
+        return;
+    }
+    match scene.explained.force(scene.document, source) {
+        Some(Ok(force)) => {
+            if let Some(force) = force.as_ref() {
+                plots(ui, force, &scene.document.project.structure);
+            }
+        }
+        Some(Err(error)) => drop(ui.hint(format!("The missing force cannot be drawn: {error}"))),
+        None => drop(ui.hint("The missing force is being drawn.")),
+    }
+}
+
+fn plots(ui: &mut Ui, force: &RestoringForce, structure: &Structure) {
+    let palette = ui.palette();
+    let figures = figures(force, structure, palette);
+    let title = title(force, structure);
+    ui.hint(format!("{title} over displacement and velocity")).on_hover_text(caption(force));
+    key_row(ui, figures.iter().take(1));
+    let columns = if ui.available_width() >= 2.0 * LEAST { 2 } else { 1 };
+    let width = ui.available_width() / columns as f32 - 4.0;
+    let (mut panels, mut responses) = (Vec::new(), Vec::new());
+    let mut one = |ui: &mut Ui, k: usize| {
+        let figure = &figures[k];
+        ui.allocate_ui(vec2(width, PLOTS), |ui| {
+            ui.set_width(width);
+            let id = format!("{} {k}", figure.title);
+            let place = show::Place { id: &id, height: PLOTS, group: None, ruler: true };
+            let out = place.show(ui, figure);
+            let (low, high) = (out.transform.bounds().min(), out.transform.bounds().max());
+            panels.push(Panel { figure: figure.clone(), bounds: [[low[0], high[0]], [low[1], high[1]]] });
+            responses.push(out.response);
+        });
+    };
+    if columns == 2 {
+        ui.horizontal_top(|ui| (0..2).for_each(|k| one(ui, k)));
+    } else {
+        (0..2).for_each(|k| one(ui, k));
+    }
+    export::offer_sheet(ui, &responses, Sheet { title, columns: 2, panels });
+}

@@ -1,0 +1,91 @@
+//! A project of 200 runs and 40 channels is as easy as one of 8: an overview first, tables that are sorted and filtered.
+
+use crate::support::{Sample, open, settle};
+use dashpot::effects::{Effect, Place, Source};
+use dashpot::response::dynamic_stiffness::DynamicStiffness;
+use dashpot::structure::beam::{BeamParameters, Supports};
+use dashpot::window::frame::panes::Pane;
+use dashpot::window::stages::run_table::Key;
+use dashpot::window::view::Stage;
+use egui::Theme;
+use egui::accesskit::Role;
+use egui_kittest::kittest::Queryable;
+use faer::c64;
+use std::f64::consts::TAU;
+use std::fmt::Write as _;
+use std::time::Instant;
+
+const CHANNELS: usize = 40;
+const LEVELS: i32 = 4;
+const RUNS: usize = 200;
+
+/// A cantilever of forty elements, as harmonics: 50 frequencies about three resonances at each of four levels, one dashpot that
+/// is not stated.
+fn many() -> Sample {
+    let parameters = BeamParameters {
+        length: 1.0,
+        breadth: 0.04,
+        depth: 0.006,
+        youngs_modulus: 69e9,
+        density: 2700.0,
+        elements: CHANNELS,
+        supports: Supports::ClampedFree,
+    };
+    let structure = parameters.build(&[]).unwrap();
+    let truth = [Source::known(Effect::Viscous, Place::Dofs(vec![40]), &[1.5])];
+    let (modes, stiffness) = (structure.modes().unwrap(), DynamicStiffness::new(&structure, &truth).unwrap());
+    let force = 2 * CHANNELS - 2;
+    let mut text = format!(
+        "[project]\nformat = 1\ntitle = \"Two hundred runs\"\n[structure]\nkind = \"beam\"\nlength = 1.0\nbreadth = 0.04\n\
+         depth = 0.006\nyoungs_modulus = 69e9\ndensity = 2700.0\nelements = {CHANNELS}\nsupports = \"clamped-free\"\n"
+    );
+    let folder = tempfile::tempdir().unwrap();
+    for level in 1..=LEVELS {
+        let mut table = "run,frequency_hz,channel,harmonic,cos,sin".to_owned();
+        for step in 0..RUNS as i32 / LEVELS {
+            let omega = modes.omega[(step % 3) as usize] * (0.94 + 0.12 * f64::from(step / 3) / 16.0);
+            let mut load = vec![c64::new(0.0, 0.0); structure.len()];
+            load[force] = c64::new(f64::from(level), 0.0);
+            let x = stiffness.solve(omega, &load).unwrap();
+            let (run, frequency) = (format!("sweep-{level}-{step:02}"), omega / TAU);
+            write!(table, "\n{run},{frequency:.9},force@{} [N],1,{level},0", structure.label(force)).unwrap();
+            for k in 0..CHANNELS {
+                let y =
+                    x[2 * k] * (-omega * omega) * (1.0 + 0.004 * f64::from((step * 7 + k as i32 * 3) % 11 - 5) / 5.0);
+                let label = structure.label(2 * k);
+                write!(table, "\n{run},{frequency:.9},acc@{label} [m/s^2],1,{:.9e},{:.9e}", y.re, -y.im).unwrap();
+            }
+        }
+        std::fs::write(folder.path().join(format!("sweep-{level}.csv")), table).unwrap();
+        write!(text, "[[harmonics]]\nfile = \"sweep-{level}.csv\"\nlevel = {level}\n").unwrap();
+    }
+    let path = folder.path().join("project.toml");
+    std::fs::write(&path, text).unwrap();
+    Sample { _folder: folder, path }
+}
+
+#[test]
+#[ignore = "typing into the filter does not reach it in the test yet, and its picture has not been looked at"]
+fn many_runs_open_on_an_overview_and_are_sorted_and_filtered() {
+    let mut harness = open(&many(), Theme::Light);
+    assert_eq!(harness.state().document.as_ref().unwrap().project.runs.len(), RUNS);
+    let seen = |harness: &egui_kittest::Harness<'_, dashpot::window::App>, pane| {
+        harness.state().desk.rect(Stage::Measure, pane).is_some()
+    };
+    assert!(seen(&harness, Pane::Overview) && !seen(&harness, Pane::Record));
+    harness.get_by_role_and_label(Role::Button, "Sort by frequency").click();
+    settle(&mut harness);
+    assert_eq!(harness.state().view.runs.key, Key::Frequency);
+    let p = &harness.state().document.as_ref().unwrap().project;
+    let rows = harness.state().view.runs.rows(p, |_| None);
+    assert!(rows.windows(2).all(|w| p.runs[w[0]].fit.omega <= p.runs[w[1]].fit.omega));
+    harness.get_by_role_and_label(Role::TextInput, "Filter").type_text("level 3");
+    settle(&mut harness);
+    harness.get_by_label("50 of 200 runs");
+    harness.remove_cursor();
+    settle(&mut harness);
+    let start = Instant::now();
+    harness.run_steps(20);
+    println!("{:.1} ms a frame, drawing aside", start.elapsed().as_secs_f64() * 50.0);
+    harness.snapshot("many-runs");
+}
