@@ -331,7 +331,7 @@ fn text(project: &Project, diagnosis: &Diagnosis) -> String {
     lines
 }
 
-/// Writes the project with the best suggestion added as `known`; comments and everything else stay as they are.
+/// Writes the project with the best suggestion, or the set that it is of, added as `known`, and the corrections; comments and everything else stay as they are.
 fn apply(file: &Path, out: &Path, written: &Written, diagnosis: &Diagnosis) -> anyhow::Result<()> {
     let context = || file.display().to_string();
     let text = std::fs::read_to_string(file).with_context(context)?;
@@ -354,7 +354,9 @@ fn apply(file: &Path, out: &Path, written: &Written, diagnosis: &Diagnosis) -> a
         }
     }
     if let Some(best) = diagnosis.suggestions.first() {
-        addition::add(&mut document, project, &best.added.source).with_context(context)?;
+        for source in diagnosis.added_with(&best.added.source) {
+            addition::add(&mut document, project, &source).with_context(context)?;
+        }
     }
     let folder = |path: &Path| canonical(path.parent().unwrap_or(Path::new("")));
     let (from, to) = (folder(file).with_context(context)?, folder(out).with_context(|| out.display().to_string())?);

@@ -113,6 +113,24 @@ pub struct Diagnosis {
     pub complete: bool,
 }
 
+impl Diagnosis {
+    /// What is added with `source`: beside corrections the whole set that these were fitted with; else it alone.
+    pub fn added_with(&self, source: &Source) -> Vec<Source> {
+        let set = self.steps.last().map_or(&[][..], |step| &step.added);
+        let of_set = set.iter().any(|added| added.source.is_same(source));
+        if of_set && !self.corrections.is_empty() {
+            return set.iter().map(|added| added.source.clone()).collect();
+        }
+        vec![source.clone()]
+    }
+
+    /// Whether `source` is of the set that the corrections were fitted with.
+    pub fn is_corrected_beside(&self, source: &Source) -> bool {
+        let set = self.steps.last().map_or(&[][..], |step| &step.added);
+        !self.corrections.is_empty() && set.iter().any(|added| added.source.is_same(source))
+    }
+}
+
 /// A correction of what the model states.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Correction {

@@ -57,7 +57,6 @@ fn copied(name: &str) -> Sample {
 /// The joint between the beam and its bracket: 300 N/m, 1 N, chi -0.5, beta 1, at DOF 13; the model is 2 % too soft, sensors read up
 /// to 2 % wrong, frequencies drift.
 #[test]
-#[ignore = "Add takes the joint over without the corrections of the model: the error falls to 66 %, 3.5 % were promised with them"]
 fn a_bolted_joint_is_found_as_a_laboratory_would_meet_it() {
     let sample = copied("joint-laboratory");
     let mut harness = open(&sample, Theme::Light);

@@ -72,7 +72,8 @@ impl Outcome<'_> {
             let evidence = sentences(&quiet, item, best, diagnosis.error_before, alone.error)?;
             diagnosis.suggestions.push(Suggestion {
                 added: item.clone(),
-                error_after: alone.error,
+                // Beside corrections, which were fitted with all of them, a set is added whole.
+                error_after: if self.found.updated { best.error } else { alone.error },
                 held_out_error_after: quiet.bench().held_out_error(&alone)?,
                 probability,
                 evidence,

@@ -21,6 +21,7 @@ use crate::display::format;
 use crate::display::words;
 use crate::display::words::at;
 use crate::effects::{Source, State};
+use crate::exchange::project::file::ProjectFile;
 use crate::session::Command;
 use crate::window::additions;
 use crate::window::app::App;
@@ -173,15 +174,33 @@ fn add(app: &mut App, ctx: &Context, source: &Source) {
     let Some(document) = &app.document else { return };
     let file = document.session().document().file();
     let place = at(&document.project.structure, &source.place);
-    match additions::add(source, &document.project, file) {
-        Ok(command) => {
-            app.edit(ctx, &Edit::Do(command));
+    let scene = Scene { document, explained: &app.derived.explained };
+    match with_corrections(&scene, source, file) {
+        Ok(commands) => {
+            let beside = if commands.len() > 1 { ", with what else the search found and corrected" } else { "" };
+            app.edit(ctx, &Edit::All(commands));
             if app.message.as_ref().is_none_or(|m| !m.failed) {
-                app.say(format!("Added: {} {place}. Undo takes it back.", words::effect(source.effect)));
+                app.say(format!("Added: {} {place}{beside}. Undo takes it back.", words::effect(source.effect)));
             }
         }
         Err(error) => app.fail(error),
     }
+}
+
+/// What adds a suggested effect as it was promised: the corrections that were fitted beside it, and the rest of its set.
+fn with_corrections(scene: &Scene<'_>, source: &Source, file: &ProjectFile) -> Result<Vec<Command>, String> {
+    let project = &scene.document.project;
+    let Some(Ok(diagnosis)) = scene.explained.diagnosis(scene.document) else {
+        return Ok(vec![additions::add(source, project, file)?]);
+    };
+    let mut commands = Vec::new();
+    if diagnosis.is_corrected_beside(source) {
+        commands.extend(cards::adopted(scene, diagnosis).commands);
+    }
+    for one in diagnosis.added_with(source) {
+        commands.push(additions::add(&one, project, file)?);
+    }
+    Ok(commands)
 }
 
 /// Rules an effect out at its place and says so; the search for others follows by itself.
