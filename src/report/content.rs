@@ -82,17 +82,14 @@ impl<'a> Content<'a> {
         let as_it_is = known.comparison.unwrap_or_else(|| compared(p).map_err(|e| e.to_string()));
         let lacks_damping = as_it_is.as_ref().is_ok_and(|c| c.error > HOPELESS);
         let with_identified = outcome.as_ref().ok().filter(|_| lacks_damping).and_then(|o| with_identified(p, o));
-        let (p, comparison, diagnosis) = match &with_identified {
-            Some((p, _)) => {
-                let comparison = compared(p).map_err(|e| e.to_string());
-                let diagnosis = diagnose(p, &comparison, control);
-                (p, comparison, diagnosis)
-            }
-            None => {
-                let search = || if only_records(p) { diagnosed(p, control) } else { diagnose(p, &as_it_is, control) };
-                let diagnosis = known.diagnosis.filter(|_| !only_records(p)).unwrap_or_else(search);
-                (p, as_it_is, diagnosis)
-            }
+        let (p, comparison, diagnosis) = if let Some((p, _)) = &with_identified {
+            let comparison = compared(p).map_err(|e| e.to_string());
+            let diagnosis = diagnose(p, &comparison, control);
+            (p, comparison, diagnosis)
+        } else {
+            let search = || if only_records(p) { diagnosed(p, control) } else { diagnose(p, &as_it_is, control) };
+            let diagnosis = known.diagnosis.filter(|_| !only_records(p)).unwrap_or_else(search);
+            (p, as_it_is, diagnosis)
         };
         let records = unsteady::compared(p, control);
         let fingerprints = diagnosis.as_ref().map_or_else(|_| Vec::new(), |d| fingerprints(p, d, control));

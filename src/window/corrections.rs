@@ -46,7 +46,7 @@ pub fn adopt(
                 None => adopted.left.push(k),
             },
             UpdatingParameter::Gain(_) | UpdatingParameter::Delay(_) | UpdatingParameter::Session(_) => {
-                adopted.left.push(k)
+                adopted.left.push(k);
             }
         }
     }

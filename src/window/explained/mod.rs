@@ -33,6 +33,7 @@ pub type Tried = (Key, Option<Source>);
 
 /// What the stage wants to see beside the comparison.
 #[derive(Debug, Clone, Default)]
+#[expect(clippy::struct_excessive_bools, reason = "each is a part of the stage that is wanted or not")]
 pub struct Wanted {
     /// Whether suggestions are wanted.
     pub diagnosis: bool,

@@ -40,6 +40,7 @@ impl Tab {
 
 /// State of the stage; neither saved nor undone.
 #[derive(Debug, Clone)]
+#[expect(clippy::struct_excessive_bools, reason = "each is a choice of the user that stands on its own")]
 pub struct Look {
     /// Whether runs and channels stand in order of their error.
     pub worst_first: bool,
