@@ -12,7 +12,7 @@ use crate::diagnosis::selection::search::{Base, scale_of};
 use crate::diagnosis::selection::weighing::{Weighed, weighed};
 use crate::diagnosis::updating::detuning::is_likely;
 use crate::diagnosis::updating::noise_model::NoiseModel;
-use crate::effects::Source;
+use crate::effects::{Effect, Source};
 use std::sync::Arc;
 
 /// Most effects that are added.
@@ -22,8 +22,9 @@ pub(crate) const MOST_EFFECTS: usize = 3;
 const EVIDENCE: f64 = 25.0;
 /// The same beside corrections, whose freedom has its cost already: having been chosen among some thousand.
 const CHOSEN: f64 = 16.0;
-/// The same of a further effect there: real models lack a little everywhere.
-const FURTHER: f64 = 100.0;
+/// The same of a further effect there, real models lack a little everywhere, and of a spring or a mass, which is like a
+/// correction itself.
+const DOUBTED: f64 = 100.0;
 /// Deviations of the sum of squares within which a model agrees with the data.
 const AGREES: f64 = 4.0;
 /// Deviations within which it agrees so well that no further effect is looked for.
@@ -167,7 +168,7 @@ fn beside_updating(base: Base<'_>, before: f64) -> Result<Result<Outcome<'_>, Ch
         let from = found.rungs.last().map(|rung| rung.refits[0].clone());
         let fits = match (&from, drafts.take()) {
             (None, Some(drafts)) => here.followed(drafts)?,
-            (Some(from), _) => here.followed_beside(from, FURTHER)?,
+            (Some(from), _) => here.followed_beside(from, DOUBTED)?,
             (None, None) => Vec::new(),
         };
         if found.rungs.is_empty() {
@@ -219,7 +220,9 @@ fn alone<'a>(bare: &Base<'a>, weighed: &Weighed<'a>) -> Result<(Base<'a>, f64), 
 
 /// Evidence that the last effect of a fit must bring beside `likely`, the model with corrections and the effects before it.
 fn evidence_needed(refit: &Refit) -> f64 {
-    if refit.effects.len() > 1 { FURTHER } else { CHOSEN }
+    let like_a_correction = |source: &Source| matches!(source.effect, Effect::Stiffness | Effect::Mass);
+    let doubtful = refit.effects.len() > 1 || refit.effects.iter().any(like_a_correction);
+    if doubtful { DOUBTED } else { CHOSEN }
 }
 
 pub(crate) fn level(refit: &Refit) -> (f64, usize) {

@@ -146,6 +146,10 @@ const OF_THE_PART: f64 = 0.05;
 fn is_effect(base: &Base, refit: &Refit) -> bool {
     let within = |source: &Source| {
         let source = &source.simpler(&Range::UNKNOWN).unwrap_or_else(|| source.clone());
+        // What the model has too much of is no missing effect, but a correction.
+        if matches!(source.effect, Effect::Mass | Effect::Stiffness) && source.parameters[0] < 0.0 {
+            return true;
+        }
         let part = match (source.effect, &source.place) {
             (Effect::Mass, Place::Dofs(dofs)) if dofs.len() == 1 => Part::PointMass(dofs[0]),
             (Effect::Stiffness, Place::Dofs(dofs)) if dofs.len() == 1 => Part::GroundSpring(dofs[0]),
