@@ -1,6 +1,8 @@
 //! Frequency responses as two real columns, real and imaginary part or magnitude and phase, become complex channels.
 //!
-//!     H = re + i im,    H = A exp(i phi),    H = 10^(L / 20) exp(i phi) for L in dB
+//! ```text
+//! H = re + i im,    H = A exp(i phi),    H = 10^(L / 20) exp(i phi) for L in dB
+//! ```
 //!
 //! Columns belong together by their names ([`words`]); where these say nothing, the user says by [`Pairing`] that they
 //! follow each other two by two. Phases without a unit are in radians where none is above 2 pi, else in degrees.
