@@ -116,12 +116,10 @@ pub struct Diagnosis {
 impl Diagnosis {
     /// What is added with `source`: beside corrections the whole set that these were fitted with; else it alone.
     pub fn added_with(&self, source: &Source) -> Vec<Source> {
-        let set = self.steps.last().map_or(&[][..], |step| &step.added);
-        let of_set = set.iter().any(|added| added.source.is_same(source));
-        if of_set && !self.corrections.is_empty() {
-            return set.iter().map(|added| added.source.clone()).collect();
+        match self.steps.last().filter(|_| self.is_corrected_beside(source)) {
+            Some(step) => step.added.iter().map(|added| added.source.clone()).collect(),
+            None => vec![source.clone()],
         }
-        vec![source.clone()]
     }
 
     /// Whether `source` is of the set that the corrections were fitted with.

@@ -1,13 +1,13 @@
-//! Effects and updating parameters of the model fitted together on the response itself:
+//! Effects, updating parameters of the model and the relative stiffness of each run fitted together on the response itself:
 //!
 //! ```text
-//! min over theta, u of |L^-1 (y - yhat(theta, m(u)))|^2 + |u|^2
+//! min over theta, u, s of |L^-1 (y - yhat(theta, m(u), s))|^2 + |u|^2 + |s / s_s|^2
 //! ```
 //!
 //! by Levenberg and Marquardt's method, with the response of the updated model at every step. Near a light resonance the
 //! response bends so much with what the model states wrongly that a fit of the effects with the updating parameters
-//! eliminated linearly, and these moved afterwards, creeps along a valley; together they arrive in a few steps. What belongs to
-//! channels and to single runs is linear and stays eliminated.
+//! eliminated linearly, and these moved afterwards, creeps along a valley; together they arrive in a few steps. Gains and delays of
+//! channels and the factor on the response of a run are linear and stay eliminated.
 
 use crate::diagnosis::residual::data::DiagnosisError;
 use crate::diagnosis::residual::prediction::{Predictor, RunPrediction};

@@ -24,7 +24,7 @@ const EVIDENCE: f64 = 25.0;
 const CHOSEN: f64 = 16.0;
 /// The same of a further effect there, real models lack a little everywhere, and of a spring or a mass, which is like a
 /// correction itself.
-const DOUBTED: f64 = 100.0;
+const FURTHER: f64 = 100.0;
 /// Deviations of the sum of squares within which a model agrees with the data.
 const AGREES: f64 = 4.0;
 /// Deviations within which it agrees so well that no further effect is looked for.
@@ -168,7 +168,7 @@ fn beside_updating(base: Base<'_>, before: f64) -> Result<Result<Outcome<'_>, Ch
         let from = found.rungs.last().map(|rung| rung.refits[0].clone());
         let fits = match (&from, drafts.take()) {
             (None, Some(drafts)) => here.followed(drafts)?,
-            (Some(from), _) => here.followed_beside(from, DOUBTED)?,
+            (Some(from), _) => here.followed_beside(from, FURTHER)?,
             (None, None) => Vec::new(),
         };
         if found.rungs.is_empty() {
@@ -222,7 +222,7 @@ fn alone<'a>(bare: &Base<'a>, weighed: &Weighed<'a>) -> Result<(Base<'a>, f64), 
 fn evidence_needed(refit: &Refit) -> f64 {
     let like_a_correction = |source: &Source| matches!(source.effect, Effect::Stiffness | Effect::Mass);
     let doubtful = refit.effects.len() > 1 || refit.effects.iter().any(like_a_correction);
-    if doubtful { DOUBTED } else { CHOSEN }
+    if doubtful { FURTHER } else { CHOSEN }
 }
 
 pub(crate) fn level(refit: &Refit) -> (f64, usize) {
