@@ -10,7 +10,8 @@ use crate::diagnosis::selection::search::Base;
 use crate::diagnosis::selection::stepwise::agrees;
 use crate::diagnosis::updating::measured_motion::MeasuredMotion;
 use crate::diagnosis::updating::noise_model::{Linearisation, NoiseModel, amplitudes, of_channel};
-use crate::diagnosis::updating::parameters::{Scales, Updating};
+use crate::diagnosis::updating::parameters::{Scales, Updating, UpdatingParameter};
+use crate::diagnosis::updating::shape_errors::ShapeErrors;
 use crate::effects::Source;
 use crate::response::harmonic_balance::Settings;
 use crate::response::sensitivity::Unknown;
@@ -71,6 +72,7 @@ impl<'a> Base<'a> {
         let seen = linear.then(|| MeasuredMotion::new(&self.predictor, self.data, predictions, self.control)).flatten();
         let runs = self.data.runs.iter().zip(predictions);
         let amplitudes: Vec<Vec<Vec<c64>>> = runs.map(|(run, p)| amplitudes(run, &p.channels)).collect();
+        let shapes = ShapeErrors::new(&self.predictor, updating, self.data);
         let of_run = |r: usize| {
             let run = &self.data.runs[r];
             let mut slopes = match &seen {
@@ -82,7 +84,9 @@ impl<'a> Base<'a> {
                 if !updating.acts_in(k, r) {
                     slope.iter_mut().flatten().for_each(|value| *value = c64::new(0.0, 0.0));
                 }
-                if !parameter.is_of_model() {
+                if let UpdatingParameter::Shape { mode, channel } = parameter {
+                    *slope = shapes.slope(*mode, channel, run, &predictions[r]);
+                } else if !parameter.is_of_model() {
                     *slope = of_channel(parameter, run, &amplitudes[r]);
                 }
             }
