@@ -1,6 +1,7 @@
 //! The model with its updating parameters moved to where the data ask for them, and linearised there.
 
 use crate::diagnosis::candidates::friction::friction;
+use crate::diagnosis::residual::branch::{distance, nearest};
 use crate::diagnosis::residual::data::{Data, DiagnosisError, RunData};
 use crate::diagnosis::residual::energy_balance::scaled_factors;
 use crate::diagnosis::residual::prediction::{FINAL, Predictor, RunPrediction};
@@ -13,7 +14,7 @@ use crate::diagnosis::updating::noise_model::{Linearisation, NoiseModel, amplitu
 use crate::diagnosis::updating::parameters::{Scales, Updating, UpdatingParameter};
 use crate::diagnosis::updating::shape_errors::ShapeErrors;
 use crate::effects::Source;
-use crate::response::harmonic_balance::Settings;
+use crate::response::harmonic_balance::{ResponseError, Settings};
 use crate::response::sensitivity::Unknown;
 use faer::c64;
 use std::sync::Arc;
@@ -206,7 +207,21 @@ impl<'a> Base<'a> {
     pub(super) fn error_of_structure(&self, effects: &[Source], starts: &Starts) -> Result<f64, DiagnosisError> {
         let predictor = self.of_structure()?;
         let bench = Bench { predictor: &predictor, ..self.bench() };
-        Ok(bench.error(&bench.predict(effects, &FINAL, starts)?))
+        let mut predictions = bench.predict(effects, &FINAL, starts)?;
+        // A run whose motion is not that of its start any more may have ended on another branch than `compare` looks for.
+        let far: Vec<usize> = (0..predictions.len())
+            .filter(|&r| distance(&self.data.runs[r], &predictions[r]) > FAR * FAR)
+            .filter(|_| effects.iter().chain(predictor.known()).any(|source| !source.effect.is_linear()))
+            .collect();
+        let near = |k: usize| nearest(&predictor, far[k], &self.data.runs[far[k]], effects, self.control);
+        for (near, &r) in self.control.map(far.len(), near).into_iter().zip(&far) {
+            match near {
+                Ok((prediction, _)) => predictions[r] = prediction,
+                Err(ResponseError::Cancelled(cancelled)) => return Err(cancelled.into()),
+                Err(_) => {}
+            }
+        }
+        Ok(bench.error(&predictions))
     }
 
     /// The updated model with all runs alike.
@@ -308,6 +323,9 @@ impl<'a> Base<'a> {
 fn settings_for<'s>(effects: &[Source], settings: &'s Settings) -> &'s Settings {
     if effects.iter().any(|e| friction(e.effect).is_some()) { &FINAL } else { settings }
 }
+
+/// Relative error of a run from which on it may be on another branch than the measured one.
+const FAR: f64 = 0.1;
 
 /// Error of the measured motion, relative: gains of sensors, and what modes do not show between them.
 const MOTION: f64 = 0.01;
