@@ -155,8 +155,10 @@ fn beside_updating(base: Base<'_>, before: f64) -> Result<Result<Outcome<'_>, Ch
     // Where corrections alone agree with the data and no law would bring its evidence beside them, none is followed.
     if bare.misfit() < DOUBTFUL && !bare.promises(CHOSEN)? {
         let (likely, _) = bare.likely()?;
-        found.agrees = agrees(&likely, likely.misfit() * likely.count() as f64, 0);
-        return Ok(Ok(Outcome { base: likely, found }));
+        if !likely.promises(CHOSEN)? {
+            found.agrees = agrees(&likely, likely.misfit() * likely.count() as f64, 0);
+            return Ok(Ok(Outcome { base: likely, found }));
+        }
     }
     let (mut here, drafts) = match base.localised()? {
         Ok(localised) => localised,
@@ -259,8 +261,7 @@ fn like_a_correction(source: &Source) -> bool {
 
 /// Evidence that the last effect of a fit must bring beside `likely`, the model with corrections and the effects before it.
 fn evidence_needed(refit: &Refit) -> f64 {
-    let doubtful = refit.effects.len() > 1 || refit.effects.iter().any(like_a_correction);
-    if doubtful { FURTHER } else { CHOSEN }
+    if refit.effects.len() > 1 { FURTHER } else { CHOSEN }
 }
 
 pub(crate) fn level(refit: &Refit) -> (f64, usize) {
