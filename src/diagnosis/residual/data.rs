@@ -169,6 +169,8 @@ pub struct Data {
     pub per_unit_force: bool,
     /// Whether a channel is not relied on: then the model is not taken for exact either.
     pub doubted: bool,
+    /// Rows of the DOFs that are rotations.
+    pub rotations: Vec<usize>,
     /// Number of the session of each run; none where they cannot be told apart.
     pub sessions: Vec<usize>,
 }
@@ -190,14 +192,20 @@ impl Data {
 
     fn of(problem: &Problem, runs: Vec<RunData>) -> Self {
         let per_unit_force = runs.iter().any(|run| problem.runs[run.index].per_unit_force);
-        Self { runs, excluded: Vec::new(), per_unit_force, doubted: false, sessions: Vec::new() }
+        let dofs = problem.structure.dofs().iter().enumerate();
+        let rotations = dofs.filter(|(_, dof)| dof.direction.is_rotation()).map(|(row, _)| row).collect();
+        Self { runs, excluded: Vec::new(), per_unit_force, doubted: false, rotations, sessions: Vec::new() }
     }
 
-    /// Whether an effect at its place may be suggested: not one that is ruled out, none of more parameters than runs, and
-    /// none that depends on an amplitude that the runs do not have.
+    /// Whether an effect at its place may be suggested: not one that is ruled out, none of more parameters than runs,
+    /// none that depends on an amplitude that the runs do not have, and no mass that only turns: none is without one that moves.
     pub fn allows(&self, source: &Source) -> bool {
         let told = source.effect.is_linear() || !self.per_unit_force;
-        told && source.parameters.len() <= self.runs.len() && !self.excluded.iter().any(|other| other.is_same(source))
+        let turns = |dofs: &[usize]| dofs.iter().any(|dof| self.rotations.contains(dof));
+        let only_turns = source.effect == Effect::Mass && matches!(&source.place, Place::Dofs(dofs) if turns(dofs));
+        told && !only_turns
+            && source.parameters.len() <= self.runs.len()
+            && !self.excluded.iter().any(|other| other.is_same(source))
     }
 
     /// Whether a correction of that part of the structure would be an effect that is ruled out, by another name.

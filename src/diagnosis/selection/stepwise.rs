@@ -186,25 +186,6 @@ fn beside_updating(base: Base<'_>, before: f64) -> Result<Result<Outcome<'_>, Ch
             (likely, least) = alone(&bare, &weighed)?;
             told_alone = true;
         }
-        if std::env::var_os("DASH_DEBUG").is_some() {
-            let groups = groups(here.data);
-            let with = weighed.base.left_out(Some(best), &groups)?;
-            let without = likely.left_out(from.as_ref(), &groups)?;
-            let d: Vec<f64> = with.iter().zip(&without).map(|(a, b)| a - b).collect();
-            let (n, sum) = (d.len() as f64, d.iter().sum::<f64>());
-            let se = (n / (n - 1.0) * d.iter().map(|x| (x - sum / n).powi(2)).sum::<f64>()).sqrt();
-            eprintln!(
-                "ALONE {told_alone} rung {} {:?} evidence {:.1} scale {scale:.2} 2elpd {:.1} se {:.1} z {:.2} err {:.4} of {stated:.4} {:?}",
-                found.rungs.len(),
-                best.effects.last().map(|e| (e.effect, e.place.clone(), e.parameters.clone())),
-                least - weighed.least,
-                2.0 * sum,
-                2.0 * se,
-                sum / se,
-                best.error,
-                d.iter().map(|x| x.round() as i64).collect::<Vec<_>>()
-            );
-        }
         // What only lowers the error because every run has a stiffness of its own is nothing that could be added.
         let raises = best.error > stated;
         let known = best.parameters < weighed.base.count();

@@ -60,22 +60,6 @@ pub(super) fn weighed<'a>(fits: Vec<(Base<'a>, Refit)>) -> Result<Option<Weighed
     all.extend(fresh);
     all.sort_by(|a, b| a.cost.total_cmp(&b.cost));
     simplest_first(&mut all);
-    if std::env::var_os("DASH_DEBUG").is_some() {
-        let p = probabilities_of(&all);
-        for (k, c) in all.iter().enumerate() {
-            let names: Vec<String> =
-                c.refit.effects.iter().map(|e| format!("{:?}@{:?}{:?}", e.effect, e.place, e.parameters)).collect();
-            let diff: Vec<i64> =
-                c.densities.iter().zip(&all[0].densities).map(|(a, b)| (a - b).round() as i64).collect();
-            eprintln!(
-                "LEFT cost {:.1} p {:.3} chi/n {:.2} err {:.4} {names:?} {diff:?}",
-                c.cost,
-                p[k],
-                c.refit.chi_square / c.base.count() as f64,
-                c.refit.error
-            );
-        }
-    }
     for _ in 0..FINISHED.min(all.len()) {
         let probabilities = probabilities_of(&all);
         let Candidate { base, refit, .. } = all.remove(0);
