@@ -107,8 +107,7 @@ fn missing(page: &mut Page, content: &Content<'_>, found: &Diagnosis) {
     let structure = &content.project.structure;
     if !found.corrections.is_empty() {
         let acts = |s: &&crate::effects::Source| {
-            s.state == crate::effects::State::Known
-                && !matches!(s.effect.kind(), crate::effects::effect::Kind::Channel(_))
+            s.state == crate::effects::State::Known && !matches!(s.effect.kind(), crate::effects::Kind::Channel(_))
         };
         let known: Vec<_> = content.compared().sources.iter().filter(acts).cloned().collect();
         page.sentence("The model states these wrongly; they were corrected in the search:");

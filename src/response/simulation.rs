@@ -9,7 +9,7 @@ use super::steady_state::steady_state;
 use super::synthesis::ChannelMotion;
 use super::time_integration::TimeError;
 use crate::control::{Cancelled, Control};
-use crate::effects::effect::Kind;
+use crate::effects::Kind;
 use crate::effects::{Place, Source};
 use crate::measurement::{Channel, Quantity};
 use crate::structure::Structure;

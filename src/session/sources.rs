@@ -2,7 +2,7 @@
 
 use super::command::SourceAt;
 use super::document::Refusal;
-use crate::effects::effect::Kind;
+use crate::effects::Kind;
 use crate::effects::source::SourceError;
 use crate::effects::{Effect, Place, Source, State};
 use crate::exchange::project::file::{CandidatesTable, Label, ProjectFile, SourceTable};

@@ -11,7 +11,7 @@
 use crate::diagnosis::residual::data::RunData;
 use crate::diagnosis::residual::prediction::RunPrediction;
 use crate::effects::law::Basis;
-use crate::effects::{Place, Source, effect::Kind};
+use crate::effects::{Kind, Place, Source};
 use crate::measurement::Quantity;
 use crate::structure::Structure;
 use faer::{Mat, c64};

@@ -3,7 +3,7 @@
 use super::error::{Problem, ProjectError};
 use super::plan::{Plan, open};
 use crate::control::Control;
-use crate::effects::{Place, Source, effect};
+use crate::effects::{self, Place, Source};
 use crate::exchange::Project;
 use crate::exchange::records::base_channel;
 use crate::measurement::proposal::{Proposal, propose};
@@ -133,7 +133,7 @@ impl Plan {
                 corrections.push(Correction { channel, delay: 0.0, gain: 1.0 });
             }
             match sensor.effect.kind() {
-                effect::Kind::Channel(law) if law.turns_phase() => corrections[at].delay = sensor.parameters[0],
+                effects::Kind::Channel(law) if law.turns_phase() => corrections[at].delay = sensor.parameters[0],
                 _ => corrections[at].gain = sensor.parameters[0],
             }
         }

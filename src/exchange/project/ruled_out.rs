@@ -5,7 +5,7 @@ use super::file::{Label, Lines};
 use super::parse::elements;
 use super::reader::Table;
 use super::sources::{At, at_place, blamed, channel};
-use crate::effects::effect::Kind;
+use crate::effects::Kind;
 use crate::effects::{Effect, Place, Source};
 use crate::structure::Structure;
 use serde::Serialize;

@@ -2,7 +2,7 @@
 
 use super::error::{Problem, ProjectError};
 use super::file::{CandidatesTable, Label, Lines, ProjectFile, SensorTable, SourceTable};
-use crate::effects::effect::Kind;
+use crate::effects::Kind;
 use crate::effects::source::SourceError;
 use crate::effects::{Effect, Place, Source, State};
 use crate::measurement::Quantity;

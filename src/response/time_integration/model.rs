@@ -3,7 +3,7 @@
 use super::element::Element;
 use super::propagator::Propagator;
 use crate::effects::law::Basis;
-use crate::effects::{Constant, Leg, Place, Source, effect::Kind};
+use crate::effects::{Constant, Kind, Leg, Place, Source};
 use crate::response::harmonic_balance::{Excitation, HarmonicForce, Response};
 use crate::structure::{Structure, SystemMatrices};
 use faer::Mat;

@@ -1,11 +1,12 @@
 //! Sorts sources into the linear part and elements, and assembles the reduced matrices with their derivatives.
 
 use super::element::Form;
-use super::model::{TransientError, TransientParameter, TransientSetup};
+use super::error::TransientError;
 use super::reduction::{RESIDUAL_DAMPING, Reduction};
+use super::setup::{TransientParameter, TransientSetup};
 use super::system::Matrices;
 use crate::effects::law::Basis;
-use crate::effects::{Effect, Law, Leg, Place, Source, effect::Kind};
+use crate::effects::{Effect, Kind, Law, Leg, Place, Source};
 use faer::Mat;
 
 /// A nonlinear relative motion: its source, leg, form, law and parameters.
