@@ -1,11 +1,11 @@
 //! `dashpot compare`: model against measurement, error per run, channel and harmonic.
 
 use super::arguments::Analysis;
-use super::diagnose::{corrected, correction};
 use super::identified;
-use super::records::{compared, only_records};
+use super::records::compared;
 use super::reduction;
 use super::run_flags::{self, flags};
+use super::source_words::{corrected, correction};
 use super::table::{number, table};
 use crate::control::Control;
 use crate::diagnosis::compare::{ChannelComparison, HarmonicComparison};
@@ -13,8 +13,9 @@ use crate::diagnosis::records::RecordComparison;
 use crate::diagnosis::residual::breakdown::Group;
 use crate::diagnosis::residual::whiteness::Whiteness;
 use crate::diagnosis::updating::detuning::{Detuning, detuning};
-use crate::diagnosis::{Comparison, Problem, compare};
+use crate::diagnosis::{Comparison, compare};
 use crate::exchange::{Project, project::load};
+use crate::session::validation::{only_records, problem};
 use crate::session::workers::Threads;
 use crate::structure::Structure;
 use anyhow::Context;
@@ -29,7 +30,7 @@ const SIGNIFICANT: f64 = 0.001;
 pub(super) fn run(arguments: &Analysis) -> anyhow::Result<String> {
     let control = Control::unattended().with_workers(Arc::new(Threads::default()));
     let mut project = load(&arguments.file, &control)?;
-    super::tell_remarks(&project);
+    super::remarks::tell_remarks(&project);
     reduction::warn(&project.structure);
     let records = compared(&project, &arguments.file, &control)?;
     if let Some(records) = records.as_ref().filter(|_| only_records(&project)) {
@@ -109,10 +110,6 @@ fn in_words(project: &Project, reading: &Detuning) -> String {
 }
 
 /// What is compared and explained of a project.
-pub(super) fn problem(project: &Project) -> Problem<'_> {
-    Problem { structure: &project.structure, sources: &project.sources, runs: &project.runs }
-}
-
 /// The `[cos, sin]` parts of a complex amplitude.
 fn parts(amplitude: c64) -> Value {
     json!([amplitude.re, -amplitude.im])

@@ -1,13 +1,13 @@
 //! What is asked: columns, known sources, runs in use.
 
-use super::ratio_rows::RatioRows;
-use super::state::State;
+use super::describe::describe;
+use super::measurements::Measurements;
+use super::ratios::Ratios;
 use super::window_columns::WindowColumns;
-use super::{IdentifyError, Measurements, Settings};
-use crate::balance::energy::is_observable;
+use super::{IdentifyError, Settings};
 use crate::balance::{Expander, Expansion, Measured, Weights};
 use crate::control::Control;
-use crate::effects::{Place, Source, State as SourceState};
+use crate::effects::{Source, State as SourceState};
 use crate::measurement::{Flag, Run};
 use crate::structure::Structure;
 
@@ -31,7 +31,7 @@ pub(crate) struct Problem<'a> {
     pub run_index: Vec<usize>,
     pub expander: Expander<'a>,
     /// Damping ratios beside the runs.
-    pub ratios: Option<RatioRows>,
+    pub ratios: Option<Ratios>,
     /// Windows of records that are not steady.
     pub windows: WindowColumns,
     pub warnings: Vec<String>,
@@ -76,7 +76,7 @@ impl<'a> Problem<'a> {
             control: control.clone(),
         };
         problem.sort_sources(per_unit_force)?;
-        problem.ratios = RatioRows::new(structure, [&problem.known, &problem.columns], given.ratios)?;
+        problem.ratios = Ratios::new(structure, [&problem.known, &problem.columns], given.ratios)?;
         let (known, columns) = (&problem.known, &problem.columns);
         problem.windows = WindowColumns::new(structure, known, columns, given.transient_runs, control)?;
         problem.check_counts()?;
@@ -143,42 +143,9 @@ impl<'a> Problem<'a> {
         Ok(())
     }
 
-    /// Leaves out columns whose motion is not known in every run.
-    pub fn drop_unobservable(&mut self, state: &State) -> Result<(), IdentifyError> {
-        let method = self.expander.method();
-        for source in self.known.iter().filter(|s| s.effect.dissipates() && !is_observable(s, &state.runs, method)) {
-            let name = describe(source, self.structure);
-            self.warnings.push(format!(
-                "{name} is known, but its motion is not measured, so its energy is not subtracted in full"
-            ));
-        }
-        let keep: Vec<bool> = self.columns.iter().map(|c| is_observable(c, &state.runs, method)).collect();
-        if keep.iter().all(|k| *k) {
-            return check_input(state);
-        }
-        if let Some(&j) = self.forced.iter().find(|&&j| !keep[j]) {
-            let source_name = describe(&self.columns[j], self.structure);
-            let reason = "its motion is not measured in every run".to_string();
-            return Err(IdentifyError::ForcedImpossible { source_name, reason });
-        }
-        let left_out = keep.iter().filter(|k| !**k).count();
-        self.warnings.push(format!("{left_out} candidates are left out: their motion is not measured in every run"));
-        let forced: Vec<usize> = self.forced.iter().map(|&j| self.column_source[j]).collect();
-        let mut flags = keep.iter();
-        self.columns.retain(|_| *flags.next().unwrap_or(&false));
-        let mut flags = keep.iter();
-        self.column_source.retain(|_| *flags.next().unwrap_or(&false));
-        self.forced = (0..self.columns.len()).filter(|&j| forced.contains(&self.column_source[j])).collect();
-        self.windows.retain(&keep);
-        if self.columns.is_empty() {
-            return Err(IdentifyError::NoCandidates);
-        }
-        check_input(state)
-    }
-
     /// Energies and damping ratios.
     pub fn equations(&self) -> usize {
-        self.measured.len() + self.windows.len() + self.ratios.as_ref().map_or(0, RatioRows::len)
+        self.measured.len() + self.windows.len() + self.ratios.as_ref().map_or(0, Ratios::len)
     }
 
     /// Whether deviations are known from the data in every run.
@@ -202,11 +169,6 @@ impl<'a> Problem<'a> {
     }
 }
 
-fn check_input(state: &State) -> Result<(), IdentifyError> {
-    let steady = &state.equation.input[..state.runs.len()];
-    if !steady.is_empty() && steady.iter().all(|&e| e <= 0.0) { Err(IdentifyError::NoInput) } else { Ok(()) }
-}
-
 /// Enabled runs of a steady motion, or insisted on; if there is none, all enabled ones.
 fn runs_in_use(runs: &[Run], warnings: &mut Vec<String>) -> Vec<usize> {
     let enabled: Vec<usize> = (0..runs.len()).filter(|&r| runs[r].enabled).collect();
@@ -221,22 +183,4 @@ fn runs_in_use(runs: &[Run], warnings: &mut Vec<String>) -> Vec<usize> {
         warnings.push(format!("{}: {why}, so it is left out", runs[r].file));
     }
     used
-}
-
-/// A source in words, such as `viscous at 3` or `coulomb between 1 and 2`.
-pub(crate) fn describe(source: &Source, structure: &Structure) -> String {
-    let label = |&dof: &usize| structure.dofs().get(dof).map_or("?", |d| d.label.as_str());
-    match &source.place {
-        Place::Dofs(dofs) => {
-            let labels: Vec<&str> = dofs.iter().map(label).collect();
-            match labels.as_slice() {
-                [one] => format!("{} at {one}", source.effect),
-                [first, second] => format!("{} between {first} and {second}", source.effect),
-                _ => format!("{} along {}", source.effect, labels.join(", ")),
-            }
-        }
-        Place::Whole(None) => source.effect.to_string(),
-        Place::Whole(Some([first, last])) => format!("{} of elements {} to {}", source.effect, first + 1, last + 1),
-        Place::Channel(name) => format!("{} of {name}", source.effect),
-    }
 }

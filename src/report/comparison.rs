@@ -1,8 +1,8 @@
 //! Chapters of the model against the measurement: errors, error map, suggestions with their evidence, ledger, next test.
 
 use super::content::Content;
+use super::figures::{figure, sheet};
 use super::html::Page;
-use super::{figure, sheet};
 use crate::control::Control;
 use crate::diagnosis::candidates::restoring_force::RestoringForce;
 use crate::diagnosis::diagnose::{Suggestion, Verdict};
@@ -14,6 +14,7 @@ use crate::plots::error_map::{ENERGY, Grid, Scale};
 use crate::plots::response_curve::{curves, levels, neighbourhood};
 use crate::plots::style::Palette;
 use crate::plots::{fingerprint, restoring_force, samples};
+use crate::session::validation::only_records;
 
 /// Suggestions that are told in full.
 const MOST_SUGGESTIONS: usize = 6;
@@ -24,7 +25,7 @@ pub(super) fn chapters(page: &mut Page, content: &Content<'_>, control: &Control
     if content.project.runs.is_empty() && content.records.is_none() {
         return;
     }
-    if !super::unsteady::only_records(content.project) {
+    if !only_records(content.project) {
         steady(page, content, control);
     }
     page.chapter("What is missing?");

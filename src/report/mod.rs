@@ -4,6 +4,7 @@
 
 mod comparison;
 mod content;
+mod figures;
 mod html;
 mod identification;
 mod unsteady;
@@ -14,14 +15,9 @@ use crate::control::Control;
 use crate::display::{format, words};
 use crate::exchange::Project;
 use crate::exchange::atomic::write_atomically;
-use crate::plots::figure::Figure;
-use crate::plots::sheet::Sheet;
-use crate::plots::style::Palette;
+use figures::MOST_MODES;
 use html::Page;
 use std::path::Path;
-
-/// Natural frequencies that are listed.
-const MOST_MODES: usize = 12;
 
 /// Reads a project, computes all that a report holds and writes it; blocks.
 ///
@@ -127,14 +123,4 @@ fn settings(page: &mut Page, p: &Project) {
         ("Program", format!("Dashpot {}", env!("CARGO_PKG_VERSION"))),
     ];
     page.table(&["Setting", "Value"], &rows.map(|(name, value)| vec![name.to_owned(), value]));
-}
-
-fn figure(page: &mut Page, figure: Figure) {
-    let title = figure.title.clone();
-    sheet(page, &title, vec![figure]);
-}
-
-fn sheet(page: &mut Page, title: &str, figures: Vec<Figure>) {
-    let sheet = Sheet::of(title, figures);
-    page.drawing(&sheet.drawing(sheet.paper(), Palette::light()));
 }

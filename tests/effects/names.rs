@@ -1,7 +1,7 @@
 //! Names in files and the tables of parameters.
 
 use dashpot::effects::Effect;
-use dashpot::effects::effect::Kind;
+use dashpot::effects::Kind;
 use faer::c64;
 
 #[test]

@@ -3,7 +3,7 @@
 use super::error::{Problem, ProjectError};
 use super::file::{BaseResponse, Lines, ProjectFile, RunTable, SimulateTable};
 use super::kept;
-use super::ruled_out::ruled_out;
+use super::ruled_out_sources::ruled_out;
 use super::sources::{At, line, sensors, sources};
 use super::structure::structure;
 use crate::control::Control;

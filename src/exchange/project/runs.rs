@@ -1,8 +1,9 @@
 //! Tables `[[run]]` and `[[harmonics]]` of a project.
 
 use super::error::{Problem, ProjectError};
-use super::file::{HarmonicsTable, Label, Lines, RunTable};
-use super::parse::key_lines;
+use super::file::{HarmonicsTable, Lines, RunTable};
+use super::keys::key_lines;
+use super::label::Label;
 use super::reader::Table;
 use super::{base, excitation};
 use crate::measurement::base::AXES;

@@ -12,12 +12,9 @@ use crate::effects::Source;
 use crate::exchange::Project;
 use crate::plots::response_curve::{self, Curve};
 use crate::session::time_limit::hurry_after;
+use crate::session::validation::problem;
 use std::sync::Arc;
 use std::time::Duration;
-
-fn problem(p: &Project) -> Problem<'_> {
-    Problem { structure: &p.structure, sources: &p.sources, runs: &p.runs }
-}
 
 /// The search for what is missing; it ends after `limit` with the best so far.
 pub(super) fn search_job(

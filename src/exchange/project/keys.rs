@@ -1,0 +1,22 @@
+//! Keys that several tables share: where each stands, and ranges of elements.
+
+use super::error::{Problem, ProjectError};
+use super::reader::Table;
+use std::collections::BTreeMap;
+
+pub(super) fn key_lines(table: &Table<'_>) -> BTreeMap<String, usize> {
+    let keys = table.keys().into_iter().map(|key| (key.to_owned(), table.line_of(key)));
+    keys.chain([(String::new(), table.line())]).collect()
+}
+
+/// `elements = [first, last]`, from 1.
+pub(super) fn elements(table: &Table<'_>) -> Result<Option<[i64; 2]>, ProjectError> {
+    let Some(numbers) = table.numbers("elements")? else { return Ok(None) };
+    match numbers[..] {
+        [a, b] if a.fract() == 0.0 && b.fract() == 0.0 => Ok(Some([a as i64, b as i64])),
+        _ => {
+            let (expected, found) = ("[first, last], two whole numbers from 1", "another list");
+            Err(table.error("elements", Problem::WrongType { key: "elements".into(), expected, found }))
+        }
+    }
+}
