@@ -5,6 +5,8 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
+#[path = "floors/functions.rs"]
+mod functions;
 #[path = "floors/rings.rs"]
 mod rings;
 

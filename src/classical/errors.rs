@@ -57,9 +57,3 @@ pub fn generalised_mac(
 pub fn mac_error(mac: MatRef<'_, f64>) -> Mat<f64> {
     filled(mac.nrows(), mac.ncols(), |i, j| (f64::from(u8::from(i == j)) - mac[(i, j)]).abs())
 }
-
-/// `x^T C x` for a real `x`: twice the power that `C` takes out of the velocity `x`.
-pub fn dissipation(c: MatRef<'_, f64>, x: &[f64]) -> f64 {
-    let complex: Vec<c64> = x.iter().map(|&v| c64::new(v, 0.0)).collect();
-    form(&complex, c, &complex).re
-}

@@ -8,7 +8,7 @@ use super::run_flags::{self, flags};
 use super::source_words::{corrected, correction};
 use super::table::{number, table};
 use crate::control::Control;
-use crate::diagnosis::compare::{ChannelComparison, HarmonicComparison};
+use crate::diagnosis::compare::{ChannelComparison, HarmonicComparison, RunComparison};
 use crate::diagnosis::records::RecordComparison;
 use crate::diagnosis::residual::breakdown::Group;
 use crate::diagnosis::residual::whiteness::Whiteness;
@@ -115,39 +115,39 @@ fn parts(amplitude: c64) -> Value {
     json!([amplitude.re, -amplitude.im])
 }
 
+fn channel_document(channel: &ChannelComparison) -> Value {
+    let harmonic = |h: &HarmonicComparison| {
+        json!({"harmonic": h.harmonic, "measured": parts(h.measured), "model": parts(h.model),
+               "standard_deviation": h.deviation})
+    };
+    let harmonics: Vec<Value> = channel.harmonics.iter().map(harmonic).collect();
+    json!({"channel": channel.channel, "error": channel.error, "noise_floor": channel.noise_floor,
+           "harmonics": harmonics})
+}
+
+fn run_document(project: &Project, run: &RunComparison) -> Value {
+    let source = &project.runs[run.index];
+    let mut entry = json!({
+        "file": source.file,
+        "frequency_hz": source.fit.omega / std::f64::consts::TAU,
+        "level": source.level,
+        "flags": flags(source),
+        "findings": run_flags::findings(source),
+        "session": source.session,
+        "used": run.used,
+        "error": run.error,
+        "noise_floor": run.noise_floor,
+        "energy_error": run.energy_error,
+        "channels": run.channels.iter().map(channel_document).collect::<Vec<_>>(),
+    });
+    if let Some(branch) = run.branch {
+        entry["branch"] = json!({"name": branch.name(), "stable": branch.stable, "all": branch.all});
+    }
+    entry
+}
+
 fn document(project: &Project, comparison: &Comparison) -> Value {
-    let runs: Vec<Value> = comparison
-        .runs
-        .iter()
-        .map(|run| {
-            let source = &project.runs[run.index];
-            let channel = |c: &ChannelComparison| {
-                let harmonic = |h: &HarmonicComparison| {
-                    json!({"harmonic": h.harmonic, "measured": parts(h.measured), "model": parts(h.model),
-                           "standard_deviation": h.deviation})
-                };
-                let harmonics: Vec<Value> = c.harmonics.iter().map(harmonic).collect();
-                json!({"channel": c.channel, "error": c.error, "noise_floor": c.noise_floor, "harmonics": harmonics})
-            };
-            let mut entry = json!({
-                "file": source.file,
-                "frequency_hz": source.fit.omega / std::f64::consts::TAU,
-                "level": source.level,
-                "flags": flags(source),
-                "findings": run_flags::findings(source),
-                "session": source.session,
-                "used": run.used,
-                "error": run.error,
-                "noise_floor": run.noise_floor,
-                "energy_error": run.energy_error,
-                "channels": run.channels.iter().map(channel).collect::<Vec<_>>(),
-            });
-            if let Some(branch) = run.branch {
-                entry["branch"] = json!({"name": branch.name(), "stable": branch.stable, "all": branch.all});
-            }
-            entry
-        })
-        .collect();
+    let runs: Vec<Value> = comparison.runs.iter().map(|run| run_document(project, run)).collect();
     json!({
         "title": project.title,
         "of": measure(&project.structure),

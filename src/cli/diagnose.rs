@@ -185,24 +185,7 @@ fn text(project: &Project, diagnosis: &Diagnosis) -> String {
         diagnosis.verdict.word()
     );
     lines.push_str(&channel_faults::text(&diagnosis.channel_faults));
-    if !diagnosis.suggestions.is_empty() {
-        let mut rows = vec![["missing", "probability %", "error after %", "parameters"].map(str::to_owned).to_vec()];
-        for s in &diagnosis.suggestions {
-            let list = s.added.source.effect.parameters().iter().zip(&s.added.source.parameters);
-            let values: Vec<String> = list.map(|(p, v)| format!("{} {}", p.name, number(*v))).collect();
-            let numbers = [s.probability, s.error_after].map(|x| number(100.0 * x));
-            rows.push(vec![
-                title(structure, &s.added.source),
-                numbers[0].clone(),
-                numbers[1].clone(),
-                values.join(", "),
-            ]);
-        }
-        lines.push_str(&format!("\n{}", table(&rows)));
-        for sentence in &diagnosis.suggestions[0].evidence {
-            lines.push_str(&format!("  {sentence}\n"));
-        }
-    }
+    lines.push_str(&suggestions_in_words(structure, diagnosis));
     if !diagnosis.corrections.is_empty() {
         lines.push_str("\nthe model is detuned; corrected beside that\n");
         for correction in &diagnosis.corrections {
@@ -212,7 +195,26 @@ fn text(project: &Project, diagnosis: &Diagnosis) -> String {
     if let Some(coupled) = structure.coupled() {
         lines.push_str(&neighbours_in_words(structure, &coupled));
     }
-    lines.push_str("\nsteps\n");
+    lines + &steps_in_words(structure, diagnosis)
+}
+
+/// A table of the suggestions, with the evidence of the first.
+fn suggestions_in_words(structure: &Structure, diagnosis: &Diagnosis) -> String {
+    let Some(first) = diagnosis.suggestions.first() else { return String::new() };
+    let mut rows = vec![["missing", "probability %", "error after %", "parameters"].map(str::to_owned).to_vec()];
+    for s in &diagnosis.suggestions {
+        let list = s.added.source.effect.parameters().iter().zip(&s.added.source.parameters);
+        let values: Vec<String> = list.map(|(p, v)| format!("{} {}", p.name, number(*v))).collect();
+        let [probability, error] = [s.probability, s.error_after].map(|x| number(100.0 * x));
+        rows.push(vec![title(structure, &s.added.source), probability, error, values.join(", ")]);
+    }
+    let evidence: String = first.evidence.iter().map(|sentence| format!("  {sentence}\n")).collect();
+    format!("\n{}{evidence}", table(&rows))
+}
+
+/// The error after each step, and what to test next.
+fn steps_in_words(structure: &Structure, diagnosis: &Diagnosis) -> String {
+    let mut lines = "\nsteps\n".to_owned();
     for (k, step) in diagnosis.steps.iter().enumerate() {
         let names: Vec<String> = step.added.iter().map(|a| title(structure, &a.source)).collect();
         let without = if k == 0 { "the model as it is" } else { "the model corrected" };
@@ -220,13 +222,9 @@ fn text(project: &Project, diagnosis: &Diagnosis) -> String {
         lines.push_str(&format!("  {} %  {what}\n", number(100.0 * step.error)));
     }
     for test in &diagnosis.next_test {
-        lines.push_str(&format!(
-            "\nnext test: {} Hz, {} N at DOF {}: {}\n",
-            number(test.frequency_hz),
-            number(test.force),
-            structure.label(test.force_dof),
-            test.why
-        ));
+        let [frequency, force] = [test.frequency_hz, test.force].map(number);
+        let dof = structure.label(test.force_dof);
+        lines.push_str(&format!("\nnext test: {frequency} Hz, {force} N at DOF {dof}: {}\n", test.why));
     }
     lines
 }

@@ -49,23 +49,33 @@ pub(super) fn run(arguments: &Simulate) -> anyhow::Result<String> {
             simulated.push(record.map_err(|error| at_run(&plan, index, error))?);
             continue;
         }
-        let record = test(&plan, index).and_then(|test| {
-            let structure = shifted(&plan, index);
-            let is_stepped = arguments.by == Method::Time || arguments.transient > 0.0 || plan.simulate().integrate;
-            if is_stepped && !test.bases.is_empty() {
-                bail!("a moving base is not stepped through time; leave out --by time, --transient and `integrate`");
-            }
-            if is_stepped {
-                in_time(&structure, &plan.sensors, &sources, &test, arguments, noise)
-            } else if plan.runs[index].frequency_shift.is_some() {
-                balanced(&plan, &Simulator::new(&structure, &sources)?, &test, noise)
-            } else {
-                balanced(&plan, &model, &test, noise)
-            }
-        });
+        let record = steady_record(&plan, index, &model, &sources, arguments, noise);
         simulated.push(record.map_err(|error| at_run(&plan, index, error))?);
     }
     write(&plan, &simulated, arguments)
+}
+
+/// The record of one steady run: by harmonic balance, or stepped through time.
+fn steady_record(
+    plan: &Plan,
+    index: usize,
+    model: &Simulator<'_>,
+    sources: &[Source],
+    arguments: &Simulate,
+    noise: Option<Noise>,
+) -> anyhow::Result<Record> {
+    let (test, structure) = (test(plan, index)?, shifted(plan, index));
+    let is_stepped = arguments.by == Method::Time || arguments.transient > 0.0 || plan.simulate().integrate;
+    if is_stepped && !test.bases.is_empty() {
+        bail!("a moving base is not stepped through time; leave out --by time, --transient and `integrate`");
+    }
+    if is_stepped {
+        in_time(&structure, &plan.sensors, sources, &test, arguments, noise)
+    } else if plan.runs[index].frequency_shift.is_some() {
+        balanced(plan, &Simulator::new(&structure, sources)?, &test, noise)
+    } else {
+        balanced(plan, model, &test, noise)
+    }
 }
 
 /// The structure as it is in one run: temperature and re-seating shift all its natural frequencies by `s`, so that its

@@ -64,29 +64,34 @@ pub(super) fn correction(project: &Project, correction: &Correction) -> Value {
 
 /// A correction in words.
 pub(super) fn corrected(project: &Project, correction: &Correction) -> String {
-    let at = |dofs: &[usize]| labels(&project.structure, &Place::Dofs(dofs.to_vec())).join(" - ");
-    let elements = |[first, last]: [usize; 2]| {
-        if first == last { format!("element {}", first + 1) } else { format!("elements {} to {}", first + 1, last + 1) }
-    };
+    let structure = &project.structure;
     let what = match &correction.parameter {
-        UpdatingParameter::Structure(part) => match *part {
-            Part::Stiffness => "all stiffness".to_owned(),
-            Part::Mass => "all mass".to_owned(),
-            Part::Mode(mode) => format!("stiffness of mode {}", mode + 1),
-            Part::GroundSpring(dof) => format!("spring at {}", at(&[dof])),
-            Part::Coupling(pair) => format!("spring at {}", at(&pair)),
-            Part::PointMass(dof) => format!("mass at {}", at(&[dof])),
-            Part::ElementStiffness(range) => format!("stiffness of {}", elements(range)),
-            Part::ElementMass(range) => format!("mass of {}", elements(range)),
-        },
+        UpdatingParameter::Structure(part) => part_in_words(structure, *part),
         UpdatingParameter::Known(index) => {
-            problem(project).known().get(*index).map_or_else(String::new, |s| title(&project.structure, s))
+            problem(project).known().get(*index).map_or_else(String::new, |s| title(structure, s))
         }
         UpdatingParameter::Gain(channel) => format!("gain of {channel}"),
         UpdatingParameter::Delay(channel) => format!("delay of {channel}"),
         UpdatingParameter::Session(session) => format!("stiffness of session {}", session + 1),
     };
     format!("  {what}: times {:.4} +- {:.4}", correction.factor, correction.deviation)
+}
+
+fn part_in_words(structure: &Structure, part: Part) -> String {
+    let at = |dofs: &[usize]| labels(structure, &Place::Dofs(dofs.to_vec())).join(" - ");
+    let elements = |[first, last]: [usize; 2]| {
+        if first == last { format!("element {}", first + 1) } else { format!("elements {} to {}", first + 1, last + 1) }
+    };
+    match part {
+        Part::Stiffness => "all stiffness".to_owned(),
+        Part::Mass => "all mass".to_owned(),
+        Part::Mode(mode) => format!("stiffness of mode {}", mode + 1),
+        Part::GroundSpring(dof) => format!("spring at {}", at(&[dof])),
+        Part::Coupling(pair) => format!("spring at {}", at(&pair)),
+        Part::PointMass(dof) => format!("mass at {}", at(&[dof])),
+        Part::ElementStiffness(range) => format!("stiffness of {}", elements(range)),
+        Part::ElementMass(range) => format!("mass of {}", elements(range)),
+    }
 }
 
 /// Effect and place in words.

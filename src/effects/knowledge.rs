@@ -95,11 +95,6 @@ impl Effect {
         matches!(self.kind(), Kind::Channel(_))
     }
 
-    /// Whether it acts on the whole structure.
-    pub fn is_of_whole(self) -> bool {
-        matches!(self.kind(), Kind::Whole(_))
-    }
-
     /// Simpler laws that this one contains as limits of its parameters.
     pub fn limits(self) -> impl Iterator<Item = Self> {
         self.description().limits.iter().map(|limit| limit.law)

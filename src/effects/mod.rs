@@ -1,5 +1,6 @@
 //! What may act on a structure or on a measuring chain: one file a law, and where it acts.
 
+pub mod basis;
 pub mod description;
 pub mod effect;
 pub mod family;
@@ -25,6 +26,7 @@ mod table;
 pub mod turning;
 pub mod wording;
 
+pub use basis::Basis;
 pub use description::{Constant, Description, Exponents, Part};
 pub use effect::Effect;
 pub use family::Family;

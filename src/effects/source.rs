@@ -1,8 +1,7 @@
 //! A source: a law at a place, what is known of it, and whether it may be selected.
 
-use super::law::Basis;
 use super::motion::linear_energy;
-use super::{Effect, Kind, Motion, Place, Range};
+use super::{Basis, Effect, Kind, Motion, Place, Range};
 use crate::structure::Structure;
 use faer::c64;
 use serde::{Deserialize, Serialize};
@@ -253,10 +252,4 @@ impl Source {
         }
         source
     }
-}
-
-/// Pairs of sources that are the same law at the same place in the same state: one of each is too much.
-pub fn duplicates(sources: &[Source]) -> Vec<[usize; 2]> {
-    let same = |i: usize, j: usize| sources[i].state == sources[j].state && sources[i].is_same(&sources[j]);
-    (0..sources.len()).flat_map(|j| (0..j).filter(move |&i| same(i, j)).map(move |i| [i, j])).collect()
 }

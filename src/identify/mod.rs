@@ -60,6 +60,20 @@ const SETTLED: f64 = 1e-4;
 ///
 /// `sources` in state known act at their values; candidates and forced ones are the columns; the others are ignored.
 ///
+/// ```
+/// use dashpot::{control::Control, exchange::project::load, identify::identify};
+///
+/// let control = Control::unattended();
+/// let project = load("sample-data/five-masses/project.toml".as_ref(), &control)?;
+/// let found = identify(&project.structure, &project.sources, &project.runs, &project.settings, &control)?;
+/// for estimate in found.sources.iter().filter(|estimate| estimate.coefficient > 0.0) {
+///     let source = &project.sources[estimate.source];
+///     println!("{} {:?}: {:.3} +- {:.3}", source.effect, source.place, estimate.coefficient, estimate.deviation);
+/// }
+/// assert!(found.sources.iter().any(|estimate| estimate.coefficient > 0.0));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
 /// # Errors
 /// [`IdentifyError`]: what is missing and how to mend it; or cancelled.
 pub fn identify(

@@ -87,39 +87,22 @@ impl<'a> Problem<'a> {
     fn sort_sources(&mut self, per_unit_force: bool) -> Result<(), IdentifyError> {
         let mut left_out: Vec<&str> = Vec::new();
         for (index, source) in self.sources.iter().enumerate() {
-            if per_unit_force
-                && !source.effect.is_linear()
-                && matches!(source.state, SourceState::Known | SourceState::Candidate | SourceState::Forced)
-            {
-                if source.state == SourceState::Forced {
-                    let source_name = describe(source, self.structure);
-                    let reason = "it depends on the amplitude, which frequency responses do not have".to_string();
-                    return Err(IdentifyError::ForcedImpossible { source_name, reason });
-                }
-                left_out.push(source.effect.name());
+            let acts = matches!(source.state, SourceState::Known | SourceState::Candidate | SourceState::Forced);
+            if !(per_unit_force && !source.effect.is_linear() && acts) {
+                self.sort_source(index, source)?;
                 continue;
             }
-            let identifiable = source.effect.dissipates() && source.effect.coefficient().is_some();
-            match source.state {
-                SourceState::Known => {
-                    self.known.push(source.clone());
-                    self.known_source.push(index);
-                }
-                SourceState::Forced if !identifiable => {
-                    let source_name = describe(source, self.structure);
-                    let reason = "it takes out no energy in proportion to a coefficient".to_string();
-                    return Err(IdentifyError::ForcedImpossible { source_name, reason });
-                }
-                SourceState::Candidate | SourceState::Forced if identifiable => {
-                    if source.state == SourceState::Forced {
-                        self.forced.push(self.columns.len());
-                    }
-                    self.columns.push(source.with_coefficient(1.0));
-                    self.column_source.push(index);
-                }
-                _ => {}
+            if source.state == SourceState::Forced {
+                let why = "it depends on the amplitude, which frequency responses do not have";
+                return Err(self.impossible(source, why));
             }
+            left_out.push(source.effect.name());
         }
+        self.warn_of_amplitude(left_out);
+        if self.columns.is_empty() { Err(IdentifyError::NoCandidates) } else { Ok(()) }
+    }
+
+    fn warn_of_amplitude(&mut self, mut left_out: Vec<&str>) {
         left_out.sort_unstable();
         left_out.dedup();
         if !left_out.is_empty() {
@@ -129,7 +112,33 @@ impl<'a> Problem<'a> {
                 left_out.join(", ")
             ));
         }
-        if self.columns.is_empty() { Err(IdentifyError::NoCandidates) } else { Ok(()) }
+    }
+
+    /// Takes one source among the known ones or the columns, by its state.
+    fn sort_source(&mut self, index: usize, source: &Source) -> Result<(), IdentifyError> {
+        let identifiable = source.effect.dissipates() && source.effect.coefficient().is_some();
+        match source.state {
+            SourceState::Known => {
+                self.known.push(source.clone());
+                self.known_source.push(index);
+            }
+            SourceState::Forced if !identifiable => {
+                return Err(self.impossible(source, "it takes out no energy in proportion to a coefficient"));
+            }
+            SourceState::Candidate | SourceState::Forced if identifiable => {
+                if source.state == SourceState::Forced {
+                    self.forced.push(self.columns.len());
+                }
+                self.columns.push(source.with_coefficient(1.0));
+                self.column_source.push(index);
+            }
+            _ => {}
+        }
+        Ok(())
+    }
+
+    fn impossible(&self, source: &Source, reason: &str) -> IdentifyError {
+        IdentifyError::ForcedImpossible { source_name: describe(source, self.structure), reason: reason.to_owned() }
     }
 
     fn check_counts(&self) -> Result<(), IdentifyError> {

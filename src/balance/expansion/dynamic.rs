@@ -9,7 +9,7 @@ use super::expanded::{Acting, Expanded, state_misfit};
 use super::modal_model::ModalModel;
 use crate::balance::Measured;
 use crate::balance::action::{self, Field, Secant};
-use crate::effects::law::Basis;
+use crate::effects::Basis;
 use crate::structure::Structure;
 use dashpot_numerics::ComplexLu;
 use faer::{Mat, c64};

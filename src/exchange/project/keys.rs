@@ -20,3 +20,19 @@ pub(super) fn elements(table: &Table<'_>) -> Result<Option<[i64; 2]>, ProjectErr
         }
     }
 }
+
+/// A number that must be positive.
+pub(super) fn above_zero(
+    table: &Table<'_>,
+    key: &'static str,
+    range: &'static str,
+) -> Result<Option<f64>, ProjectError> {
+    let given = table.number(key)?;
+    match given.filter(|value| *value <= 0.0) {
+        Some(value) => {
+            let (name, value) = (key.to_owned(), value.to_string());
+            Err(table.error(key, Problem::OutOfRange { key: name, value, range }))
+        }
+        None => Ok(given),
+    }
+}

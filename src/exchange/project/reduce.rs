@@ -1,6 +1,7 @@
 //! Table `[structure.reduce]`.
 
-use super::error::{Problem, ProjectError};
+use super::error::ProjectError;
+use super::keys::above_zero;
 use super::label::Label;
 use super::reader::Table;
 use crate::structure::reduction::Method;
@@ -29,24 +30,12 @@ pub(super) fn parse(table: &Table<'_>) -> Result<ReduceTable, ProjectError> {
     table.only(&["method", "up_to_hz", "band_hz", "error", "dofs"])?;
     let names = [Method::CraigBampton, Method::Guyan].map(Method::name);
     let method = table.word("method", &names, Method::from_name)?.unwrap_or(Method::CraigBampton);
-    let frequency = |key: &'static str| match table.number(key)? {
-        Some(value) if value <= 0.0 => {
-            let (key, range) = (key.to_owned(), "above 0 Hz");
-            Err(table.error(&key.clone(), Problem::OutOfRange { key, value: value.to_string(), range }))
-        }
-        value => Ok(value),
-    };
+    let frequency = |key: &'static str| above_zero(table, key, "above 0 Hz");
     Ok(ReduceTable {
         method: method.name().to_owned(),
         up_to_hz: table.need("up_to_hz", "up_to_hz = 2000.0", frequency("up_to_hz")?)?,
         band_hz: frequency("band_hz")?,
-        error: match table.number("error")? {
-            Some(value) if value <= 0.0 => {
-                let (key, range) = ("error".to_owned(), "above 0, such as 0.001 for 0.1 %");
-                return Err(table.error("error", Problem::OutOfRange { key, value: value.to_string(), range }));
-            }
-            value => value,
-        },
+        error: above_zero(table, "error", "above 0, such as 0.001 for 0.1 %")?,
         dofs: table.labels("dofs")?.unwrap_or_default().into_iter().map(Label).collect(),
     })
 }

@@ -9,7 +9,7 @@
 use super::error::ModelError;
 use super::modal_basis::{ModalBasis, modal_basis};
 use super::resonant::{Pattern, Resonant, damping, near};
-use crate::effects::law::Basis;
+use crate::effects::Basis;
 use crate::effects::{Kind, Leg, Source, place::Place};
 use crate::structure::{Structure, SystemMatrices};
 use dashpot_numerics::{Cholesky, ComplexLu};
@@ -51,7 +51,7 @@ impl LinearPart {
         let mut part = Self { whole: Vec::new(), ..self.clone() };
         for source in sources {
             if let (Kind::Whole(law), Place::Whole(range)) = (source.effect.kind(), &source.place) {
-                let own = range.map(|range| Arc::new(restricted(&self.structure, law.basis(), range)));
+                let own = range.map(|range| Arc::new(law.basis().of_elements(&self.structure, range)));
                 part.whole.push((source.clone(), own));
             }
         }
@@ -120,7 +120,7 @@ impl LinearPart {
         if count == 0 {
             return multiply(&self.matrices().mass, factor, x);
         }
-        multiply(&restricted(&self.structure, Basis::Mass, [0, count - 1]), factor, x)
+        multiply(&Basis::Mass.of_elements(&self.structure, [0, count - 1]), factor, x)
     }
 
     /// `-omega_r^2 (M phi_r) (M phi_r)^T x`: the pseudo-force of a mode whose stiffness grows; `None` without such a mode.
@@ -323,21 +323,4 @@ fn floating_shift(mass: &Mat<f64>, stiffness: &Mat<f64>) -> f64 {
         (false, 0.0) => 1.0,
         (false, stiffness) => 1e-12 * stiffness / trace(mass),
     }
-}
-
-/// Mass or stiffness matrix of a range of elements alone.
-fn restricted(structure: &Structure, basis: Basis, range: [usize; 2]) -> Mat<f64> {
-    let mut matrix = Mat::zeros(structure.len(), structure.len());
-    let elements = structure.elements();
-    for element in elements.iter().take(range[1] + 1).skip(range[0]) {
-        let local = if basis == Basis::Mass { &element.mass } else { &element.stiffness };
-        for (a, row) in element.dofs.iter().enumerate() {
-            for (b, column) in element.dofs.iter().enumerate() {
-                if let (Some(row), Some(column)) = (row, column) {
-                    matrix[(*row, *column)] += local[(a, b)];
-                }
-            }
-        }
-    }
-    matrix
 }
