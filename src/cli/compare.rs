@@ -1,11 +1,11 @@
 //! `dashpot compare`: model against measurement, error per run, channel and harmonic.
 
 use super::arguments::Analysis;
+use super::corrected::{corrected, correction};
 use super::identified;
 use super::records::compared;
 use super::reduction;
 use super::run_flags::{self, flags};
-use super::source_words::{corrected, correction};
 use super::table::{number, table};
 use crate::control::Control;
 use crate::diagnosis::compare::{ChannelComparison, HarmonicComparison, RunComparison};

@@ -3,13 +3,14 @@
 use super::addition;
 use super::arguments::Diagnose;
 use super::channel_faults;
+use super::corrected::{corrected, correction};
 use super::corrections::correct;
 use super::identified;
 use super::run_flags::{self, flags};
-use super::source_words::{corrected, correction, named, title};
+use super::source_words::{named, title, with_values};
 use super::table::{number, table};
 use crate::control::Control;
-use crate::diagnosis::diagnose::{Added, Diagnosis, Early, Suggestion, diagnose_without};
+use crate::diagnosis::diagnose::{Diagnosis, Early, Suggestion, diagnose_without};
 use crate::effects::{Source, State};
 use crate::exchange::Project;
 use crate::exchange::project::load;
@@ -19,10 +20,13 @@ use crate::session::validation::{diagnosed_from_records, only_records, problem};
 use crate::session::workers::Threads;
 use crate::structure::{Coupled, Structure};
 use anyhow::Context;
-use serde_json::{Map, Value, json};
+use serde_json::{Value, json};
 use std::path::Path;
 use std::sync::Arc;
 use std::time::Duration;
+
+/// Most pairs that a sentence lists.
+const MOST_PAIRS: usize = 16;
 
 /// Diagnoses, prints, and writes the project with the best suggestion where asked.
 pub(super) fn run(arguments: &Diagnose) -> anyhow::Result<String> {
@@ -87,18 +91,6 @@ fn first_words(structure: &Structure, found: &[Suggestion]) -> String {
         format!("looking into {}: error {} %\n", title(structure, &s.added.source), number(100.0 * s.error_after))
     };
     found.iter().take(3).map(line).collect()
-}
-
-fn with_values(structure: &Structure, added: &Added) -> Map<String, Value> {
-    let mut map = named(structure, &added.source);
-    let by_name = |values: &[f64]| -> Value {
-        let list = added.source.effect.parameters().iter().zip(values);
-        // JSON knows no infinity: a parameter that the data do not fix has no deviation.
-        Value::Object(list.map(|(p, v)| (p.name.to_owned(), json!(v.is_finite().then_some(*v)))).collect())
-    };
-    map.insert("parameters".into(), by_name(&added.source.parameters));
-    map.insert("standard_deviation".into(), by_name(&added.deviations));
-    map
 }
 
 fn suggestion(structure: &Structure, suggestion: &Suggestion) -> Value {
@@ -171,9 +163,6 @@ fn neighbours_in_words(structure: &Structure, coupled: &Coupled) -> String {
     };
     format!("\nno lines are given: {what} neighbours: {}{more}\n", pairs.join(", "))
 }
-
-/// Most pairs that a sentence lists.
-const MOST_PAIRS: usize = 16;
 
 fn text(project: &Project, diagnosis: &Diagnosis) -> String {
     let structure = &project.structure;

@@ -11,6 +11,7 @@ mod channel_faults;
 mod compare;
 mod contents;
 mod convert;
+mod corrected;
 mod corrections;
 mod diagnose;
 mod export;

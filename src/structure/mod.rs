@@ -21,7 +21,7 @@ pub use assemble::MOST_DOFS;
 pub use coupling::Coupled;
 pub use error::StructureError;
 pub(crate) use error::nearest;
-pub use factors::Part;
+pub use factors::{HeldDof, Part};
 pub use lumped_mass::LumpedMass;
 
 use faer::Mat;
