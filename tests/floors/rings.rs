@@ -14,7 +14,7 @@ const OPEN: [(&str, usize); 6] = [
     ("crates/datafiles", 21),
     ("crates/fe-files", 3),
     ("crates/uff", 6),
-    ("src/diagnosis", 25),
+    ("src/diagnosis", 26),
     ("src/exchange/frf", 3),
     ("src/window", 40),
 ];
