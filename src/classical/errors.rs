@@ -1,6 +1,6 @@
 //! How far an identified matrix is from a known one: `eps_C` (3.135), the generalised MAC (3.132-3.134).
 
-use super::linear::{form, times};
+use super::linear::times;
 use crate::math::fill::filled;
 use crate::structure::damped_modes::DampedMode;
 use faer::{Mat, MatRef, c64};

@@ -299,7 +299,7 @@ fn sort(
                 if law.is_linear() && law.memory(&source.parameters).is_none() {
                     return Err(refuse());
                 }
-                let new = |leg| Element::new(index, leg, law, &source.parameters);
+                let new = |leg| Element::new(leg, law, &source.parameters);
                 elements.extend(source.place.legs().into_iter().map(new));
                 continue;
             }

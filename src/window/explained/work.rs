@@ -7,7 +7,7 @@ use crate::diagnosis::candidates::fingerprint_plot::{self as prints, Print};
 use crate::diagnosis::candidates::restoring_force::{self, RestoringForce};
 use crate::diagnosis::diagnose::{Suggestion, diagnose_without};
 use crate::diagnosis::updating::scatter::{self, Scatter};
-use crate::diagnosis::{self, Comparison, Diagnosis, Problem};
+use crate::diagnosis::{self, Comparison, Diagnosis};
 use crate::effects::Source;
 use crate::exchange::Project;
 use crate::plots::response_curve::{self, Curve};
