@@ -39,6 +39,10 @@ pub(super) fn correction(project: &Project, correction: &Correction) -> Value {
         }
         UpdatingParameter::Gain(channel) => ("gain", "channel", json!(channel)),
         UpdatingParameter::Delay(channel) => ("delay", "channel", json!(channel)),
+        UpdatingParameter::Shape { mode, channel } => {
+            map.insert("channel".into(), json!(channel));
+            ("shape", "mode", json!(mode + 1))
+        }
         UpdatingParameter::Session(session) => ("session", "session", json!(session + 1)),
     };
     map.insert("what".into(), json!(what));
@@ -60,6 +64,7 @@ pub(super) fn corrected(project: &Project, correction: &Correction) -> String {
         }
         UpdatingParameter::Gain(channel) => format!("gain of {channel}"),
         UpdatingParameter::Delay(channel) => format!("delay of {channel}"),
+        UpdatingParameter::Shape { mode, channel } => format!("shape of mode {} at {channel}", mode + 1),
         UpdatingParameter::Session(session) => format!("stiffness of session {}", session + 1),
     };
     format!("  {what}: times {:.4} +- {:.4}", correction.factor, correction.deviation)

@@ -60,6 +60,7 @@ pub fn corrected(structure: &Structure, known: &[Source], parameter: &UpdatingPa
         }
         UpdatingParameter::Gain(channel) => format!("Gain of {channel}"),
         UpdatingParameter::Delay(channel) => format!("Delay of {channel}"),
+        UpdatingParameter::Shape { mode, channel } => format!("Shape of mode {} at {channel}", mode + 1),
         UpdatingParameter::Session(session) => format!("Stiffness of session {}", session + 1),
     }
 }

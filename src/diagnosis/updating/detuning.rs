@@ -116,7 +116,10 @@ pub(crate) fn is_likely(base: &Base) -> bool {
         UpdatingParameter::Structure(Part::Support(_)) => v.abs() < LIKELY_SUPPORT,
         UpdatingParameter::Structure(_) => v.abs() < LIKELY,
         UpdatingParameter::Known(_) => v.abs() < LIKELY_SIZE,
-        UpdatingParameter::Gain(_) | UpdatingParameter::Delay(_) | UpdatingParameter::Session(_) => true,
+        UpdatingParameter::Gain(_)
+        | UpdatingParameter::Delay(_)
+        | UpdatingParameter::Shape { .. }
+        | UpdatingParameter::Session(_) => true,
     })
 }
 

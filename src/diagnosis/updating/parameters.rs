@@ -16,6 +16,8 @@ const ELEMENT_GROUPS: usize = 12;
 const MOST_SPRINGS: usize = 40;
 /// Modes in the band that are updated where neither elements nor springs are known.
 const MOST_MODES: usize = 8;
+/// Most errors of mode shapes, a mode and channel each.
+const MOST_SHAPES: usize = 48;
 /// Logarithm of a frequency ratio within which a mode counts as in the band of a run.
 const NEAR_BAND: f64 = 0.35;
 /// Prior deviation of a support in multiples of that of the size of a known source: of a clamp that is taken for rigid, half
@@ -35,6 +37,13 @@ pub enum UpdatingParameter {
     Gain(String),
     /// Time that a channel is recorded late, s.
     Delay(String),
+    /// Error of the shape of a mode at a response channel, relative to its root mean square over the channels.
+    Shape {
+        /// Number of the mode.
+        mode: usize,
+        /// Name of the channel.
+        channel: String,
+    },
     /// Factor on all stiffness in one session (a joint that was re-seated, another day), by its number among those of the data.
     Session(usize),
 }
@@ -106,7 +115,7 @@ impl UpdatingParameter {
         match self {
             // A support is known about as well as the size of a source.
             Self::Structure(Part::Support(_)) | Self::Known(_) => 1,
-            Self::Structure(_) => 0,
+            Self::Structure(_) | Self::Shape { .. } => 0,
             Self::Gain(_) => 2,
             Self::Delay(_) => 3,
             Self::Session(_) => 6,
@@ -168,6 +177,15 @@ impl Updating {
             .collect();
         parameters.extend((0..known.len()).map(UpdatingParameter::Known));
         let [responses, forces] = data.channel_names();
+        // Where no part of the structure is known by itself, its modes are wrong in shape as they are in frequency.
+        let modes = |parameter: &UpdatingParameter| match parameter {
+            UpdatingParameter::Structure(Part::Mode(mode)) => Some(*mode),
+            _ => None,
+        };
+        let shape = |(mode, channel): (usize, &String)| UpdatingParameter::Shape { mode, channel: channel.clone() };
+        let modes: Vec<usize> = parameters.iter().filter_map(modes).collect();
+        let shapes = modes.iter().flat_map(|&mode| responses.iter().map(move |channel| (mode, channel)));
+        parameters.extend(shapes.take(MOST_SHAPES).map(shape));
         // One channel alone cannot be told from the force; of several, each may be off.
         if responses.len() > 1 {
             parameters.extend(responses.iter().cloned().map(UpdatingParameter::Gain));
@@ -296,7 +314,7 @@ impl Updating {
                 known[*j].effect.scaled().iter().map(of).collect()
             }
             UpdatingParameter::Session(_) => vec![(Unknown::Stiffness, 1.0)],
-            UpdatingParameter::Gain(_) | UpdatingParameter::Delay(_) => Vec::new(),
+            UpdatingParameter::Gain(_) | UpdatingParameter::Delay(_) | UpdatingParameter::Shape { .. } => Vec::new(),
         }
     }
 }
