@@ -2,13 +2,16 @@
 //! become runs by a mapping of their channels, frequency responses `[[frf]]`, stepped-sine tables `[[harmonics]]`.
 
 use super::arguments_import::Import;
-use super::{import_records, import_responses, import_stepped};
+use super::{import_model, import_records, import_responses, import_stepped};
+use crate::exchange::atomic::write_atomically;
 use crate::exchange::frf::Form;
 use crate::exchange::mapping::stepped;
+use crate::exchange::project::file::Label;
 use crate::exchange::project::frf_template;
-use crate::exchange::project::label::Label;
-use anyhow::Context;
+use crate::exchange::project::relocate::{canonical, renamed};
+use anyhow::{Context, ensure};
 use dashpot_datafiles::open;
+use std::path::{Path, PathBuf};
 
 pub(super) fn run(arguments: &Import) -> anyhow::Result<String> {
     if let Some(with_template) = responses_template(arguments)? {
@@ -47,4 +50,72 @@ fn responses_template(arguments: &Import) -> anyhow::Result<Option<Import>> {
     }
     all.frf = Some(Box::new(table));
     Ok(Some(all))
+}
+
+/// The project to write: `--out`, else the name of the first file in this folder, where nothing may be yet.
+pub(super) fn project_file(arguments: &Import) -> anyhow::Result<PathBuf> {
+    if let Some(out) = &arguments.out {
+        return Ok(out.clone());
+    }
+    let stem = arguments.files[0].file_stem().unwrap_or_default();
+    let out = Path::new(stem).with_extension("toml");
+    ensure!(
+        arguments.propose || !out.exists(),
+        "{}: is there already; name the project to write by --out",
+        out.display()
+    );
+    Ok(out)
+}
+
+/// Writes the project.
+pub(super) fn write(out: &Path, text: &str) -> anyhow::Result<()> {
+    write_atomically(out, text.as_bytes()).with_context(|| format!("{}: the project cannot be written", out.display()))
+}
+
+/// Head of a project with the structure of the model that is given, else with `own`, and candidates.
+pub(super) fn head(arguments: &Import, out: &Path, own: &str, up_to_hz: f64) -> anyhow::Result<String> {
+    let title = arguments.files[0].file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned());
+    let structure = import_model::structure(arguments, out, up_to_hz)?.unwrap_or_else(|| own.to_owned());
+    Ok(format!(
+        "[project]\nformat = 1\ntitle = {}\n\n{structure}\n[[candidates]]\nlaw = \"viscous\"\nwhere = \"each-translation\"\n\n",
+        toml::Value::from(title)
+    ))
+}
+
+/// `[structure]` of measured points.
+pub(super) fn points(labels: &[String]) -> String {
+    let quoted: Vec<String> = labels.iter().map(|label| toml::Value::from(label.as_str()).to_string()).collect();
+    format!("[structure]\nkind = \"points\"\ndofs = [{}]\n", quoted.join(", "))
+}
+
+/// Lines of a comment.
+pub(super) fn comment(text: &str) -> String {
+    let mut out = String::new();
+    let mut line = String::new();
+    for word in text.split_whitespace() {
+        if !line.is_empty() && line.chars().count() + word.chars().count() > 116 {
+            out.push_str(&format!("# {line}\n"));
+            line.clear();
+        }
+        if !line.is_empty() {
+            line.push(' ');
+        }
+        line.push_str(word);
+    }
+    if !line.is_empty() {
+        out.push_str(&format!("# {line}\n"));
+    }
+    out
+}
+
+/// Name of a file as the project at `out` refers to it.
+pub(super) fn named(file: &Path, out: &Path) -> anyhow::Result<String> {
+    if file.is_absolute() {
+        return Ok(file.display().to_string());
+    }
+    let folder = out.parent().unwrap_or(Path::new(""));
+    let to = canonical(folder).with_context(|| format!("{}: the folder is not there", folder.display()))?;
+    let here = canonical(file.parent().unwrap_or(Path::new("")))?;
+    let name = file.file_name().with_context(|| format!("{}: names no file", file.display()))?.to_string_lossy();
+    Ok(renamed(&name, &here, &to))
 }

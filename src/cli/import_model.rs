@@ -1,7 +1,7 @@
 //! `dashpot import --mass`: a finite-element model under the measurements, reduced where it is large.
 
 use super::arguments_import::Import;
-use super::import_text::named;
+use super::import::named;
 use crate::exchange::matrices::model::{Model, ModelFiles, read_model};
 use anyhow::Context;
 use std::collections::BTreeMap;
@@ -111,16 +111,6 @@ fn nearest(
         Some(found)
     };
     SCALES.iter().find_map(|&scale| at(scale)).unwrap_or_default()
-}
-
-/// Head of a project with the structure of the model that is given, else with `own`, and candidates.
-pub(super) fn head(arguments: &Import, out: &Path, own: &str, up_to_hz: f64) -> anyhow::Result<String> {
-    let title = arguments.files[0].file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned());
-    let structure = structure(arguments, out, up_to_hz)?.unwrap_or_else(|| own.to_owned());
-    Ok(format!(
-        "[project]\nformat = 1\ntitle = {}\n\n{structure}\n[[candidates]]\nlaw = \"viscous\"\nwhere = \"each-translation\"\n\n",
-        toml::Value::from(title)
-    ))
 }
 
 #[cfg(test)]

@@ -1,10 +1,9 @@
 //! `dashpot import` of time records: a mapping of their channels, one run a file, of the kind that its record looks like.
 
 use super::arguments_import::Import;
-use super::import_model::head;
+use super::import::{comment, head, named, points, project_file, write};
 use super::import_refusal::refusal;
 use super::import_single_mode::{SingleMode, single_mode};
-use super::import_text::{comment, named, points, project_file, write};
 use crate::control::Control;
 use crate::exchange::mapping::{ChannelTable, Proposal, propose};
 use crate::exchange::project::{plan, template};

@@ -1,8 +1,8 @@
 //! `dashpot import` of frequency responses: a project with `[[frf]]`, its DOFs those of the file or of a model.
 
 use super::arguments_import::Import;
-use super::import_model::{Point, head, model, places};
-use super::import_text::{comment, named, points as points_structure, project_file, write};
+use super::import::{comment, head, named, points as points_structure, project_file, write};
+use super::import_model::{Point, model, places};
 use crate::control::Control;
 use crate::exchange::frf::{pair_in_name, plain_place, response_in_name};
 use crate::exchange::project::frf::FrfTable;

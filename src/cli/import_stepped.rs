@@ -1,8 +1,7 @@
 //! `dashpot import` of a stepped-sine table: a project with `[[harmonics]]`, one run a row.
 
 use super::arguments_import::Import;
-use super::import_model::head;
-use super::import_text::{comment, named, points, project_file, write};
+use super::import::{comment, head, named, points, project_file, write};
 use crate::control::Control;
 use crate::exchange::mapping::Stepped;
 use crate::exchange::project::plan;

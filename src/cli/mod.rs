@@ -26,7 +26,6 @@ mod import_refusal;
 mod import_responses;
 mod import_single_mode;
 mod import_stepped;
-mod import_text;
 mod incompleteness;
 mod label;
 mod methods;
