@@ -170,3 +170,57 @@ fn shares(groups: usize) -> impl Iterator<Item = Vec<f64>> {
         shares.into_iter().map(|share| share / total).collect()
     })
 }
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "tests")]
+    use super::*;
+
+    const ROWS: [f64; 7] = [0.4, -1.3, 2.0, 0.7, -0.2, 1.1, 0.3];
+    const OF_ROW: [usize; 7] = [0, 0, 1, 1, 1, 2, 2];
+
+    fn columns() -> Vec<Vec<f64>> {
+        vec![vec![1.0, -2.0, 0.5, 0.0, 3.0, 1.0, 0.2], vec![0.0, 1.0, 1.5, -1.0, 0.4, 2.0, -0.7]]
+    }
+
+    /// Logarithm of the density (without `ln 2 pi`) of the rows whose group passes, of covariance `1 + X P^-1 X^T`.
+    fn marginal(columns: &[Vec<f64>], precisions: &[f64], keep: impl Fn(usize) -> bool) -> f64 {
+        let kept: Vec<usize> = (0..ROWS.len()).filter(|&i| keep(OF_ROW[i])).collect();
+        let covariance = Mat::from_fn(kept.len(), kept.len(), |a, b| {
+            let (i, j) = (kept[a], kept[b]);
+            let shared: f64 = columns.iter().zip(precisions).map(|(c, p)| c[i] * c[j] / p).sum();
+            shared + f64::from(u8::from(a == b))
+        });
+        let factor = Cholesky::new(covariance.as_ref()).unwrap();
+        let rows = Mat::from_fn(kept.len(), 1, |a, _| ROWS[kept[a]]);
+        let solved = factor.solve(rows.as_ref());
+        let square: f64 = (0..kept.len()).map(|a| rows[(a, 0)] * solved[(a, 0)]).sum();
+        -0.5 * (square + factor.log_determinant())
+    }
+
+    #[test]
+    fn the_density_of_a_group_is_that_of_all_over_that_of_the_others() {
+        let (columns, precisions) = (columns(), [1.0, 0.25]);
+        let model = LinearModel { rows: &ROWS, columns: &columns, precisions: &precisions, of_row: &OF_ROW };
+        let all = marginal(&columns, &precisions, |_| true);
+        for (g, density) in model.left_out_densities(3).into_iter().enumerate() {
+            let others = marginal(&columns, &precisions, |group| group != g);
+            assert!((density - (all - others)).abs() < 1e-10, "{g}: {density} {}", all - others);
+        }
+    }
+
+    #[test]
+    fn what_is_better_in_every_group_is_sure_and_what_is_better_in_one_is_not() {
+        let zero = vec![0.0; 8];
+        let everywhere = vec![3.0, 40.0, 2.0, 5.0, 1.0, 900.0, 2.0, 4.0];
+        let mixed = vec![-9.0, 40.0, -8.0, -5.0, -11.0, 2.0, -6.0, -4.0];
+        assert!(exceeds(&everywhere, &zero) && !exceeds(&zero, &everywhere));
+        assert!(!exceeds(&mixed, &zero) && !exceeds(&zero, &mixed));
+        let sure = probabilities(&[zero.clone(), everywhere], &[0.0, 0.0]);
+        assert!(sure[1] > 0.999, "{sure:?}");
+        let open = probabilities(&[zero.clone(), mixed], &[0.0, 0.0]);
+        assert!(open[0] > 0.2 && open[1] > 0.2 && (open[0] + open[1] - 1.0).abs() < 1e-12, "{open:?}");
+        let alike = probabilities(&[zero.clone(), zero], &[0.0, -4.0]);
+        assert!((alike[1] - (-4.0_f64).exp() / (1.0 + (-4.0_f64).exp())).abs() < 1e-12);
+    }
+}
