@@ -28,6 +28,12 @@
 //! Dependence runs downwards only (`tests/floors.rs` holds it): [`control`], [`math`] - [`structure`], [`effects`],
 //! [`measurement`] - [`response`], [`balance`] - [`identify`], [`classical`], [`diagnosis`] - [`exchange`],
 //! [`session`], [`display`] - [`plots`] - [`report`] - [`cli`].
+//!
+//! # As a library
+//!
+//! Four questions, ten lines each: [`identify::identify`] (which sources damp a structure), [`diagnosis::compare()`] (how far a
+//! model is from its measurement), [`diagnosis::diagnose()`] (what it lacks) and [`response::simulation::Simulator`] (how it
+//! moves). A project is read by [`exchange::project::load()`]; structures and sources can be made without files as well.
 
 pub mod balance;
 pub mod classical;

@@ -5,6 +5,11 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
+#[path = "floors/functions.rs"]
+mod functions;
+#[path = "floors/rings.rs"]
+mod rings;
+
 /// Floor of each folder or file of `src`. Neighbours on one floor see each other only where it is said below.
 const FLOORS: [(&str, u32); 17] = [
     ("control", 0),

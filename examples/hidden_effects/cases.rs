@@ -5,7 +5,7 @@ use super::lab::{self, Plan};
 use super::random::Random;
 use super::suite::{Kindness, hidden};
 use super::unsteady::{self, Unsteady};
-use dashpot::effects::{Effect, effect::Kind};
+use dashpot::effects::{Effect, Kind};
 use std::ops::Range;
 
 /// Draws before a project is given up: some effects at some places cannot be made as large as wanted, or have no

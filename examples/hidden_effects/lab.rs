@@ -8,7 +8,7 @@ use super::records::{Chain, steady};
 use super::sizing::{place, size};
 use super::specimen::Specimen;
 use super::suite::{Kindness, excitations, sensors};
-use dashpot::effects::{Effect, Place, Source, effect::Kind};
+use dashpot::effects::{Effect, Kind, Place, Source};
 use dashpot::measurement::Record;
 use dashpot::response::harmonic_balance::Excitation;
 use dashpot::structure::points::PointParameters;

@@ -3,7 +3,7 @@
 
 use super::random::Random;
 use dashpot::control::Control;
-use dashpot::effects::{Effect, Place, Source, effect::Kind};
+use dashpot::effects::{Effect, Kind, Place, Source};
 use dashpot::measurement::{Channel, Quantity, Record};
 use dashpot::response::harmonic_balance::{Excitation, ForwardModel, Settings};
 use dashpot::response::time_integration::{Settling, TimeModel};

@@ -2,7 +2,7 @@
 
 use super::random::Random;
 use dashpot::control::Control;
-use dashpot::effects::{Effect, Place, Source, effect::Kind};
+use dashpot::effects::{Effect, Kind, Place, Source};
 use dashpot::response::harmonic_balance::{Excitation, ForwardModel, Response, Settings};
 use dashpot::structure::Structure;
 

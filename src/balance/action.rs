@@ -5,8 +5,8 @@
 //! for a unit loss stiffness; Coulomb with one harmonic `4 |D|` (5.38 with `D` the relative amplitude). Every other law by
 //! sampling one period. Over the whole structure `pi sum_h h X_h^H Im(factor) B X_h`.
 
-use crate::effects::effect::Kind;
-use crate::effects::law::Basis;
+use crate::effects::Basis;
+use crate::effects::Kind;
 use crate::effects::{Law, Leg, Motion, Place, Source, WholeLaw};
 use crate::structure::Structure;
 use faer::{Mat, c64};
@@ -108,19 +108,10 @@ fn range(place: &Place) -> Option<[usize; 2]> {
 /// `B x_k` with `B` the mass or stiffness matrix, whole or restricted to a range of elements; zero without matrices.
 pub fn basis_times(structure: &Structure, basis: Basis, range: Option<[usize; 2]>, x: &Mat<c64>, k: usize) -> Vec<c64> {
     let mut product = vec![c64::new(0.0, 0.0); structure.len()];
-    if let Some([first, last]) = range {
-        for element in structure.elements().iter().take(last + 1).skip(first) {
-            let local = if basis == Basis::Mass { &element.mass } else { &element.stiffness };
-            for (i, row) in element.dofs.iter().enumerate() {
-                for (j, column) in element.dofs.iter().enumerate() {
-                    if let (Some(row), Some(column)) = (row, column) {
-                        product[*row] += x[(*column, k)] * local[(i, j)];
-                    }
-                }
-            }
-        }
+    if let Some(range) = range {
+        basis.entries(structure, range).for_each(|(i, j, value)| product[i] += x[(j, k)] * value);
     } else if let Some(matrices) = structure.matrices() {
-        let matrix = if basis == Basis::Mass { &matrices.mass } else { &matrices.stiffness };
+        let matrix = basis.of_system(matrices);
         for j in 0..structure.len() {
             let value = x[(j, k)];
             for i in 0..structure.len() {

@@ -1,7 +1,7 @@
 //! The loops of a component: displacement, velocity and acceleration that are imposed, the force that is measured.
 
 use crate::control::Cancelled;
-use crate::effects::{Constant, Range, Source, State, effect::Kind as EffectKind};
+use crate::effects::{Constant, Kind as EffectKind, Range, Source, State};
 use crate::math::spectrum::Spectrum;
 use crate::math::statistics::root_mean_square;
 use crate::measurement::{Quantity, TransientRun};

@@ -1,6 +1,6 @@
 //! How far an identified matrix is from a known one: `eps_C` (3.135), the generalised MAC (3.132-3.134).
 
-use super::linear::{form, times};
+use super::linear::times;
 use crate::math::fill::filled;
 use crate::structure::damped_modes::DampedMode;
 use faer::{Mat, MatRef, c64};
@@ -56,10 +56,4 @@ pub fn generalised_mac(
 /// `|I - MAC|` (3.134).
 pub fn mac_error(mac: MatRef<'_, f64>) -> Mat<f64> {
     filled(mac.nrows(), mac.ncols(), |i, j| (f64::from(u8::from(i == j)) - mac[(i, j)]).abs())
-}
-
-/// `x^T C x` for a real `x`: twice the power that `C` takes out of the velocity `x`.
-pub fn dissipation(c: MatRef<'_, f64>, x: &[f64]) -> f64 {
-    let complex: Vec<c64> = x.iter().map(|&v| c64::new(v, 0.0)).collect();
-    form(&complex, c, &complex).re
 }

@@ -19,6 +19,7 @@ pub mod data;
 pub mod energy_single;
 pub mod error;
 pub mod errors;
+pub mod extracted_mode;
 pub mod frf_inverse;
 pub mod fritzen;
 pub mod half_power;

@@ -9,7 +9,7 @@
 //! of all lines are left to it. Without noise the true modes are where this ends.
 
 use super::ClassicalError;
-use super::poly_reference::ExtractedMode;
+use super::extracted_mode::ExtractedMode;
 use super::refine::{Band, refine};
 use crate::control::Control;
 

@@ -11,6 +11,7 @@
 //! the stabilisation diagram. Then every band is fitted again with the modes of the others taken off ([`super::neighbours`]). **Needs** receptances with several lines within every half-power band. **Limits**: modes
 //! that show as one peak are told apart only by several drives or sensors; the linear estimate alone is biased by noise.
 
+use super::extracted_mode::ExtractedMode;
 use super::neighbours::{self, Stretch};
 use super::refine::{Band, refine};
 use super::responses::FrequencyResponses;
@@ -20,7 +21,7 @@ use crate::math::eigen::real_general;
 use crate::math::fill::filled_complex;
 use crate::math::least_squares::solve_symmetric;
 use faer::{Mat, c64};
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::PI;
 
 /// Orders of the denominator that are tried.
 const ORDERS: std::ops::RangeInclusive<usize> = 2..=12;
@@ -51,29 +52,6 @@ pub struct DiagramPole {
     pub pole: c64,
     /// Whether it returned from the order before.
     pub stable: bool,
-}
-
-/// One mode as extracted.
-#[derive(Debug, Clone, PartialEq)]
-pub struct ExtractedMode {
-    /// Pole, rad/s.
-    pub pole: c64,
-    /// Standard deviation of the real (and of the imaginary) part of the pole, rad/s, from what the fit leaves.
-    pub deviation: f64,
-    /// Residues `psi psi^T`, sensors x drives.
-    pub residues: Mat<c64>,
-}
-
-impl ExtractedMode {
-    /// `|lambda| / 2 pi`, Hz.
-    pub fn frequency_hz(&self) -> f64 {
-        self.pole.norm() / TAU
-    }
-
-    /// `-Re lambda / |lambda|`.
-    pub fn damping_ratio(&self) -> f64 {
-        -self.pole.re / self.pole.norm()
-    }
 }
 
 /// All modes, ascending, and the diagram that shows why.

@@ -8,7 +8,7 @@
 //! model is analytic in the poles, so Gauss-Newton runs on complex unknowns.
 
 use super::ClassicalError;
-use super::poly_reference::ExtractedMode;
+use super::extracted_mode::ExtractedMode;
 use super::responses::FrequencyResponses;
 use crate::math::fill::filled_complex;
 use faer::{Mat, c64};

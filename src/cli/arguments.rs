@@ -1,10 +1,9 @@
 //! What can be asked on the command line.
 
+use super::argument_values::{format, fraction, harmonics, noise, paper, positive, seconds};
 use super::arguments_import::Import;
 use crate::exchange::export::Format;
-use crate::exchange::records::harmonics::HIGHEST_HARMONIC;
 use crate::response::frequency_response::Quantity;
-use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;
 
@@ -328,54 +327,4 @@ pub(super) struct Run {
     /// Project file to write; standard output unless given
     #[arg(long)]
     pub out: Option<PathBuf>,
-}
-
-fn paper(text: &str) -> Result<[u32; 2], String> {
-    let fault = || "write width x height in points, from 200x150 to 8000x8000, such as 900x520".to_owned();
-    let (width, height) = text.split_once('x').ok_or_else(fault)?;
-    match (width.parse(), height.parse()) {
-        (Ok(w), Ok(h)) if (200..=8000).contains(&w) && (150..=8000).contains(&h) => Ok([w, h]),
-        _ => Err(fault()),
-    }
-}
-
-fn noise(text: &str) -> Result<f64, String> {
-    match text.parse::<f64>() {
-        Ok(ratio) if (0.0..=10.0).contains(&ratio) => Ok(ratio),
-        _ => Err("give a ratio from 0 to 10, such as 0.05 for 5 %".to_owned()),
-    }
-}
-
-pub(super) fn positive(text: &str) -> Result<f64, String> {
-    match text.parse::<f64>() {
-        Ok(value) if value > 0.0 && value.is_finite() => Ok(value),
-        _ => Err("give a frequency above 0 Hz, such as 10.4".to_owned()),
-    }
-}
-
-fn harmonics(text: &str) -> Result<usize, String> {
-    match text.parse::<usize>() {
-        Ok(count) if (1..=HIGHEST_HARMONIC).contains(&count) => Ok(count),
-        _ => Err(format!("give a number of harmonics from 1 to {HIGHEST_HARMONIC}")),
-    }
-}
-
-/// Parses a time limit, s.
-fn seconds(text: &str) -> Result<f64, String> {
-    match text.parse::<f64>() {
-        Ok(value) if value > 0.0 && value <= 1e6 => Ok(value),
-        _ => Err("give a number of seconds above 0, such as 10".to_owned()),
-    }
-}
-
-fn fraction(text: &str) -> Result<f64, String> {
-    match text.parse::<f64>() {
-        Ok(fraction) if (0.0..=1.0).contains(&fraction) => Ok(fraction),
-        _ => Err("give a fraction from 0 (periodic) to 1 (from rest)".to_owned()),
-    }
-}
-
-fn format() -> impl TypedValueParser<Value = Format> {
-    PossibleValuesParser::new(Format::ALL.map(Format::name))
-        .try_map(|name| Format::from_name(&name).ok_or_else(|| format!("no format {name}")))
 }

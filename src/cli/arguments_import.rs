@@ -1,6 +1,6 @@
 //! Arguments of `dashpot import`.
 
-use super::arguments::positive;
+use super::argument_values::positive;
 use crate::exchange::frf::Form;
 use crate::exchange::project::frf::FrfTable;
 use clap::Args;

@@ -1,6 +1,6 @@
 //! Faults of channels in `dashpot diagnose`: said, and mended in the mapping of the project.
 
-use super::diagnose::label;
+use super::label::label;
 use super::table::number;
 use crate::diagnosis::channels::{ChannelFault, Fault};
 use crate::exchange::Project;

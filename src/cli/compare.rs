@@ -3,18 +3,19 @@
 use super::arguments::Analysis;
 use super::corrected::{corrected, correction};
 use super::identified;
-use super::records::{compared, only_records};
+use super::records::compared;
 use super::reduction;
 use super::run_flags::{self, flags};
 use super::table::{number, table};
 use crate::control::Control;
-use crate::diagnosis::compare::{ChannelComparison, HarmonicComparison};
+use crate::diagnosis::compare::{ChannelComparison, HarmonicComparison, RunComparison};
 use crate::diagnosis::records::RecordComparison;
 use crate::diagnosis::residual::breakdown::Group;
 use crate::diagnosis::residual::whiteness::Whiteness;
 use crate::diagnosis::updating::detuning::{Detuning, detuning};
-use crate::diagnosis::{Comparison, Problem, compare};
+use crate::diagnosis::{Comparison, compare};
 use crate::exchange::{Project, project::load};
+use crate::session::validation::{only_records, problem};
 use crate::session::workers::Threads;
 use crate::structure::Structure;
 use anyhow::Context;
@@ -29,7 +30,7 @@ const SIGNIFICANT: f64 = 0.001;
 pub(super) fn run(arguments: &Analysis) -> anyhow::Result<String> {
     let control = Control::unattended().with_workers(Arc::new(Threads::default()));
     let mut project = load(&arguments.file, &control)?;
-    super::tell_remarks(&project);
+    super::remarks::tell_remarks(&project);
     reduction::warn(&project.structure);
     let records = compared(&project, &arguments.file, &control)?;
     if let Some(records) = records.as_ref().filter(|_| only_records(&project)) {
@@ -109,48 +110,44 @@ fn in_words(project: &Project, reading: &Detuning) -> String {
 }
 
 /// What is compared and explained of a project.
-pub(super) fn problem(project: &Project) -> Problem<'_> {
-    Problem { structure: &project.structure, sources: &project.sources, runs: &project.runs }
-}
-
 /// The `[cos, sin]` parts of a complex amplitude.
 fn parts(amplitude: c64) -> Value {
     json!([amplitude.re, -amplitude.im])
 }
 
+fn channel_document(channel: &ChannelComparison) -> Value {
+    let harmonic = |h: &HarmonicComparison| {
+        json!({"harmonic": h.harmonic, "measured": parts(h.measured), "model": parts(h.model),
+               "standard_deviation": h.deviation})
+    };
+    let harmonics: Vec<Value> = channel.harmonics.iter().map(harmonic).collect();
+    json!({"channel": channel.channel, "error": channel.error, "noise_floor": channel.noise_floor,
+           "harmonics": harmonics})
+}
+
+fn run_document(project: &Project, run: &RunComparison) -> Value {
+    let source = &project.runs[run.index];
+    let mut entry = json!({
+        "file": source.file,
+        "frequency_hz": source.fit.omega / std::f64::consts::TAU,
+        "level": source.level,
+        "flags": flags(source),
+        "findings": run_flags::findings(source),
+        "session": source.session,
+        "used": run.used,
+        "error": run.error,
+        "noise_floor": run.noise_floor,
+        "energy_error": run.energy_error,
+        "channels": run.channels.iter().map(channel_document).collect::<Vec<_>>(),
+    });
+    if let Some(branch) = run.branch {
+        entry["branch"] = json!({"name": branch.name(), "stable": branch.stable, "all": branch.all});
+    }
+    entry
+}
+
 fn document(project: &Project, comparison: &Comparison) -> Value {
-    let runs: Vec<Value> = comparison
-        .runs
-        .iter()
-        .map(|run| {
-            let source = &project.runs[run.index];
-            let channel = |c: &ChannelComparison| {
-                let harmonic = |h: &HarmonicComparison| {
-                    json!({"harmonic": h.harmonic, "measured": parts(h.measured), "model": parts(h.model),
-                           "standard_deviation": h.deviation})
-                };
-                let harmonics: Vec<Value> = c.harmonics.iter().map(harmonic).collect();
-                json!({"channel": c.channel, "error": c.error, "noise_floor": c.noise_floor, "harmonics": harmonics})
-            };
-            let mut entry = json!({
-                "file": source.file,
-                "frequency_hz": source.fit.omega / std::f64::consts::TAU,
-                "level": source.level,
-                "flags": flags(source),
-                "findings": run_flags::findings(source),
-                "session": source.session,
-                "used": run.used,
-                "error": run.error,
-                "noise_floor": run.noise_floor,
-                "energy_error": run.energy_error,
-                "channels": run.channels.iter().map(channel).collect::<Vec<_>>(),
-            });
-            if let Some(branch) = run.branch {
-                entry["branch"] = json!({"name": branch.name(), "stable": branch.stable, "all": branch.all});
-            }
-            entry
-        })
-        .collect();
+    let runs: Vec<Value> = comparison.runs.iter().map(|run| run_document(project, run)).collect();
     json!({
         "title": project.title,
         "of": measure(&project.structure),

@@ -1,11 +1,11 @@
 //! Corrections of what the model states, as JSON and in words.
 
-use super::compare::problem;
 use super::source_words::{labels, named, title};
 use crate::diagnosis::diagnose::Correction;
 use crate::diagnosis::updating::parameters::UpdatingParameter;
 use crate::effects::Place;
 use crate::exchange::Project;
+use crate::session::validation::problem;
 use crate::structure::{HeldDof, Part, Structure};
 use serde_json::{Map, Value, json};
 
@@ -56,24 +56,11 @@ pub(super) fn correction(project: &Project, correction: &Correction) -> Value {
 
 /// A correction in words.
 pub(super) fn corrected(project: &Project, correction: &Correction) -> String {
-    let at = |dofs: &[usize]| labels(&project.structure, &Place::Dofs(dofs.to_vec())).join(" - ");
-    let elements = |[first, last]: [usize; 2]| {
-        if first == last { format!("element {}", first + 1) } else { format!("elements {} to {}", first + 1, last + 1) }
-    };
+    let structure = &project.structure;
     let what = match &correction.parameter {
-        UpdatingParameter::Structure(part) => match *part {
-            Part::Stiffness => "all stiffness".to_owned(),
-            Part::Mass => "all mass".to_owned(),
-            Part::Mode(mode) => format!("stiffness of mode {}", mode + 1),
-            Part::GroundSpring(dof) => format!("spring at {}", at(&[dof])),
-            Part::Coupling(pair) => format!("spring at {}", at(&pair)),
-            Part::PointMass(dof) => format!("mass at {}", at(&[dof])),
-            Part::ElementStiffness(range) => format!("stiffness of {}", elements(range)),
-            Part::ElementMass(range) => format!("mass of {}", elements(range)),
-            Part::Support(held) => support(&project.structure, held, correction.factor),
-        },
+        UpdatingParameter::Structure(part) => part_in_words(structure, *part, correction.factor),
         UpdatingParameter::Known(index) => {
-            problem(project).known().get(*index).map_or_else(String::new, |s| title(&project.structure, s))
+            problem(project).known().get(*index).map_or_else(String::new, |s| title(structure, s))
         }
         UpdatingParameter::Gain(channel) => format!("gain of {channel}"),
         UpdatingParameter::Delay(channel) => format!("delay of {channel}"),
@@ -81,6 +68,25 @@ pub(super) fn corrected(project: &Project, correction: &Correction) -> String {
         UpdatingParameter::Session(session) => format!("stiffness of session {}", session + 1),
     };
     format!("  {what}: times {:.4} +- {:.4}", correction.factor, correction.deviation)
+}
+
+/// A part of the model in words; `factor` is that on it.
+fn part_in_words(structure: &Structure, part: Part, factor: f64) -> String {
+    let place = |dofs: &[usize]| labels(structure, &Place::Dofs(dofs.to_vec())).join(" - ");
+    let elements = |[first, last]: [usize; 2]| {
+        if first == last { format!("element {}", first + 1) } else { format!("elements {} to {}", first + 1, last + 1) }
+    };
+    match part {
+        Part::Stiffness => "all stiffness".to_owned(),
+        Part::Mass => "all mass".to_owned(),
+        Part::Mode(mode) => format!("stiffness of mode {}", mode + 1),
+        Part::GroundSpring(dof) => format!("spring at {}", place(&[dof])),
+        Part::Coupling(pair) => format!("spring at {}", place(&pair)),
+        Part::PointMass(dof) => format!("mass at {}", place(&[dof])),
+        Part::ElementStiffness(range) => format!("stiffness of {}", elements(range)),
+        Part::ElementMass(range) => format!("mass of {}", elements(range)),
+        Part::Support(held) => support(structure, held, factor),
+    }
 }
 
 /// A support in words, with the spring that it is.

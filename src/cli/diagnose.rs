@@ -3,25 +3,22 @@
 use super::addition;
 use super::arguments::Diagnose;
 use super::channel_faults;
-use super::compare::problem;
 use super::corrected::{corrected, correction};
 use super::corrections::correct;
 use super::identified;
-use super::records::only_records;
 use super::run_flags::{self, flags};
 use super::source_words::{named, title, with_values};
 use super::table::{number, table};
 use crate::control::Control;
-use crate::diagnosis::component::{Loops, diagnose_component};
 use crate::diagnosis::diagnose::{Diagnosis, Early, Suggestion, diagnose_without};
-use crate::diagnosis::records::{Records, diagnose_records};
 use crate::effects::{Source, State};
 use crate::exchange::Project;
 use crate::exchange::project::load;
 use crate::exchange::project::relocate::{canonical, renamed};
 use crate::session::time_limit::hurry_after;
+use crate::session::validation::{diagnosed_from_records, only_records, problem};
 use crate::session::workers::Threads;
-use crate::structure::{Coupled, Structure, StructureKind};
+use crate::structure::{Coupled, Structure};
 use anyhow::Context;
 use serde_json::{Value, json};
 use std::path::Path;
@@ -35,7 +32,7 @@ const MOST_PAIRS: usize = 16;
 pub(super) fn run(arguments: &Diagnose) -> anyhow::Result<String> {
     let control = Control::unattended().with_workers(Arc::new(Threads::default()));
     let mut project = load(&arguments.file, &control)?;
-    super::tell_remarks(&project);
+    super::remarks::tell_remarks(&project);
     if !only_records(&project) {
         run_flags::check(&project, &arguments.file)?;
     }
@@ -85,12 +82,7 @@ fn searched(project: &Project, control: &Control, early: &Early) -> anyhow::Resu
     if !only_records(project) {
         return Ok(diagnose_without(&problem(project), &project.ruled_out, control, early)?);
     }
-    if project.structure.kind() == StructureKind::Component {
-        let loops = Loops::new(&project.structure, &project.sources, &project.transient_runs)?;
-        return Ok(diagnose_component(&loops, &project.ruled_out, control, early)?);
-    }
-    let records = Records::new(&project.structure, &project.sources, &project.transient_runs)?;
-    Ok(diagnose_records(&records, &project.ruled_out, control, early)?)
+    Ok(diagnosed_from_records(project, control, early)?)
 }
 
 /// The first suggestions while the search goes on.
@@ -182,24 +174,7 @@ fn text(project: &Project, diagnosis: &Diagnosis) -> String {
         diagnosis.verdict.word()
     );
     lines.push_str(&channel_faults::text(&diagnosis.channel_faults));
-    if !diagnosis.suggestions.is_empty() {
-        let mut rows = vec![["missing", "probability %", "error after %", "parameters"].map(str::to_owned).to_vec()];
-        for s in &diagnosis.suggestions {
-            let list = s.added.source.effect.parameters().iter().zip(&s.added.source.parameters);
-            let values: Vec<String> = list.map(|(p, v)| format!("{} {}", p.name, number(*v))).collect();
-            let numbers = [s.probability, s.error_after].map(|x| number(100.0 * x));
-            rows.push(vec![
-                title(structure, &s.added.source),
-                numbers[0].clone(),
-                numbers[1].clone(),
-                values.join(", "),
-            ]);
-        }
-        lines.push_str(&format!("\n{}", table(&rows)));
-        for sentence in &diagnosis.suggestions[0].evidence {
-            lines.push_str(&format!("  {sentence}\n"));
-        }
-    }
+    lines.push_str(&suggestions_in_words(structure, diagnosis));
     if !diagnosis.corrections.is_empty() {
         lines.push_str("\nthe model is detuned; corrected beside that\n");
         for correction in &diagnosis.corrections {
@@ -209,7 +184,26 @@ fn text(project: &Project, diagnosis: &Diagnosis) -> String {
     if let Some(coupled) = structure.coupled() {
         lines.push_str(&neighbours_in_words(structure, &coupled));
     }
-    lines.push_str("\nsteps\n");
+    lines + &steps_in_words(structure, diagnosis)
+}
+
+/// A table of the suggestions, with the evidence of the first.
+fn suggestions_in_words(structure: &Structure, diagnosis: &Diagnosis) -> String {
+    let Some(first) = diagnosis.suggestions.first() else { return String::new() };
+    let mut rows = vec![["missing", "probability %", "error after %", "parameters"].map(str::to_owned).to_vec()];
+    for s in &diagnosis.suggestions {
+        let list = s.added.source.effect.parameters().iter().zip(&s.added.source.parameters);
+        let values: Vec<String> = list.map(|(p, v)| format!("{} {}", p.name, number(*v))).collect();
+        let [probability, error] = [s.probability, s.error_after].map(|x| number(100.0 * x));
+        rows.push(vec![title(structure, &s.added.source), probability, error, values.join(", ")]);
+    }
+    let evidence: String = first.evidence.iter().map(|sentence| format!("  {sentence}\n")).collect();
+    format!("\n{}{evidence}", table(&rows))
+}
+
+/// The error after each step, and what to test next.
+fn steps_in_words(structure: &Structure, diagnosis: &Diagnosis) -> String {
+    let mut lines = "\nsteps\n".to_owned();
     for (k, step) in diagnosis.steps.iter().enumerate() {
         let names: Vec<String> = step.added.iter().map(|a| title(structure, &a.source)).collect();
         let without = if k == 0 { "the model as it is" } else { "the model corrected" };
@@ -217,13 +211,9 @@ fn text(project: &Project, diagnosis: &Diagnosis) -> String {
         lines.push_str(&format!("  {} %  {what}\n", number(100.0 * step.error)));
     }
     for test in &diagnosis.next_test {
-        lines.push_str(&format!(
-            "\nnext test: {} Hz, {} N at DOF {}: {}\n",
-            number(test.frequency_hz),
-            number(test.force),
-            structure.label(test.force_dof),
-            test.why
-        ));
+        let [frequency, force] = [test.frequency_hz, test.force].map(number);
+        let dof = structure.label(test.force_dof);
+        lines.push_str(&format!("\nnext test: {frequency} Hz, {force} N at DOF {dof}: {}\n", test.why));
     }
     lines
 }
@@ -262,14 +252,6 @@ fn apply(file: &Path, out: &Path, written: &Written, diagnosis: &Diagnosis) -> a
     }
     crate::exchange::atomic::write_atomically(out, document.to_string().as_bytes())
         .with_context(|| out.display().to_string())
-}
-
-/// A label as files write it: a whole number where it is one.
-pub(super) fn label(label: String) -> toml_edit::Value {
-    match label.parse::<i64>() {
-        Ok(number) if number.to_string() == label => number.into(),
-        _ => label.into(),
-    }
 }
 
 /// Names the files of a project from the folder of the copy.

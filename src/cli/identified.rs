@@ -1,7 +1,6 @@
 //! Takes over what `identify` finds before a model is compared: a project whose damping is still to be found has a model
 //! without any, and nothing limits its response at resonance.
 
-use super::compare::problem;
 use super::source_words::labels;
 use crate::control::Control;
 use crate::diagnosis::compare;
@@ -9,6 +8,7 @@ use crate::effects::Source;
 use crate::exchange::Project;
 use crate::identify::identify;
 use crate::session::identified;
+use crate::session::validation::problem;
 use anyhow::Context;
 use serde_json::{Value, json};
 use std::path::Path;

@@ -34,7 +34,7 @@ pub(super) fn identified(file: &Path, ratios: Option<&Path>) -> anyhow::Result<(
     let control = Control::unattended().with_workers(Arc::new(Threads::default()));
     let project = load(file, &control)?;
     say_other_kinds(&project);
-    super::tell_remarks(&project);
+    super::remarks::tell_remarks(&project);
     super::reduction::warn(&project.structure);
     let ratios = ratios.map_or_else(|| Ok(Vec::new()), |choice| measured(&project, choice))?;
     for r in &ratios {

@@ -21,7 +21,7 @@ const MOST_DOFS: usize = 8;
 pub(super) fn run(arguments: &Methods) -> anyhow::Result<String> {
     let control = Control::unattended().with_workers(Arc::new(Threads::default()));
     let project = load(&arguments.file, &control)?;
-    super::tell_remarks(&project);
+    super::remarks::tell_remarks(&project);
     let found = side_by_side(&project.structure, &project.sources, &project.runs, &control)
         .with_context(|| arguments.file.display().to_string())?;
     Ok(if arguments.json { format!("{:#}\n", document(&project, &found)) } else { report(&project, &found) })

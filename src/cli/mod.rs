@@ -3,6 +3,7 @@
 //! Exit status: 0 done, 1 the input is at fault (one line on standard error), 2 wrong usage.
 
 mod addition;
+mod argument_values;
 mod arguments;
 mod arguments_import;
 mod build;
@@ -26,17 +27,20 @@ mod import_responses;
 mod import_single_mode;
 mod import_stepped;
 mod incompleteness;
+mod label;
 mod methods;
 mod moving_base;
 mod play;
 mod plot;
 mod records;
 mod reduction;
+mod remarks;
 mod report;
 mod run_flags;
 mod simulate;
 mod simulate_component;
 mod simulate_frf;
+mod simulate_write;
 mod source_json;
 mod source_words;
 mod table;
@@ -64,11 +68,6 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
             ExitCode::from(1)
         }
     }
-}
-
-/// What should be known of a project's measurements, beside the answer.
-fn tell_remarks(project: &crate::exchange::Project) {
-    project.remarks.iter().for_each(|remark| eprintln!("note: {remark}"));
 }
 
 /// What the program would print for these arguments, or the one line of its error: for programs that ask many times.

@@ -2,8 +2,8 @@
 
 use crate::effects::Source;
 use crate::exchange::project::Plan;
-use crate::exchange::project::base::base;
 use crate::exchange::project::file::BaseResponse;
+use crate::exchange::project::load_base::base;
 use crate::measurement::base::{AXES, Base};
 use crate::measurement::{Channel, Quantity};
 use crate::response::harmonic_balance::{Excitation, HarmonicForce};

@@ -3,37 +3,21 @@
 use super::arguments::Analysis;
 use super::table::{number, table};
 use crate::control::Control;
-use crate::diagnosis::component::{Loops, compare_component};
+use crate::diagnosis::records::RecordComparison;
 use crate::diagnosis::records::amplitude::{AmplitudePoint, Line, line};
 use crate::diagnosis::records::compare::{ModeCurve, OneRecord, RecordPart};
-use crate::diagnosis::records::{RecordComparison, Records, compare_records};
 use crate::exchange::{Project, project::load};
 use crate::measurement::TransientRun;
+use crate::session::validation::compared_with_records;
 use crate::session::workers::Threads;
-use crate::structure::StructureKind;
 use anyhow::{Context, bail};
 use serde_json::{Value, json};
 use std::path::Path;
 use std::sync::Arc;
 
-/// Whether a project holds nothing but records that are not steady.
-pub(super) fn only_records(project: &Project) -> bool {
-    !project.runs.iter().any(|run| run.enabled) && project.transient_runs.iter().any(|run| run.enabled)
-}
-
 /// Compares the records of a project, if it has any that are not steady.
 pub(super) fn compared(project: &Project, file: &Path, control: &Control) -> anyhow::Result<Option<RecordComparison>> {
-    if project.structure.kind() == StructureKind::Component && project.transient_runs.iter().any(|run| run.enabled) {
-        let context = || file.display().to_string();
-        let loops = Loops::new(&project.structure, &project.sources, &project.transient_runs).with_context(context)?;
-        return compare_component(&loops, &[]).map(Some).with_context(context);
-    }
-    if !project.transient_runs.iter().any(|run| run.enabled) || project.structure.matrices().is_none() {
-        return Ok(None);
-    }
-    let context = || file.display().to_string();
-    let records = Records::new(&project.structure, &project.sources, &project.transient_runs).with_context(context)?;
-    compare_records(&records, &[], control).map(Some).with_context(context)
+    compared_with_records(project, control).with_context(|| file.display().to_string())
 }
 
 /// Keys `records` of `compare --json`.

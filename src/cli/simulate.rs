@@ -3,13 +3,13 @@
 use super::arguments::{Method, Records, Simulate};
 use super::moving_base::{self, MovingBase};
 use super::simulate_component as component;
+use super::simulate_write::{at_run, fit_record, write};
 use crate::control::Control;
 use crate::effects::{Source, State};
-use crate::exchange::project::{Plan, PlannedBase, PlannedForce, PlannedTest, ProjectError, open};
-use crate::exchange::records::{write_harmonics, write_record};
+use crate::exchange::project::{Plan, PlannedBase, PlannedForce, PlannedTest, open};
 use crate::measurement::base::AXES;
 use crate::measurement::channel::ChannelName;
-use crate::measurement::{Channel, ChannelFit, HarmonicFit, Quantity, Record, fit::fit, frequency};
+use crate::measurement::{Channel, ChannelFit, Quantity, Record};
 use crate::response::harmonic_balance::{Excitation, HarmonicForce};
 use crate::response::recording::{Loading, TestSetup, quantise, record_test};
 use crate::response::simulation::{Simulator, recorded, transfer, usual_channels};
@@ -20,7 +20,6 @@ use anyhow::{Context, anyhow, bail};
 use faer::c64;
 use std::borrow::Cow;
 use std::f64::consts::TAU;
-use std::fs;
 
 /// Makes the records and says what was written.
 pub(super) fn run(arguments: &Simulate) -> anyhow::Result<String> {
@@ -50,28 +49,33 @@ pub(super) fn run(arguments: &Simulate) -> anyhow::Result<String> {
             simulated.push(record.map_err(|error| at_run(&plan, index, error))?);
             continue;
         }
-        let record = test(&plan, index).and_then(|test| {
-            let structure = shifted(&plan, index);
-            let is_stepped = arguments.by == Method::Time || arguments.transient > 0.0 || plan.simulate().integrate;
-            if is_stepped && !test.bases.is_empty() {
-                bail!("a moving base is not stepped through time; leave out --by time, --transient and `integrate`");
-            }
-            if is_stepped {
-                in_time(&structure, &plan.sensors, &sources, &test, arguments, noise)
-            } else if plan.runs[index].frequency_shift.is_some() {
-                balanced(&plan, &Simulator::new(&structure, &sources)?, &test, noise)
-            } else {
-                balanced(&plan, &model, &test, noise)
-            }
-        });
+        let record = steady_record(&plan, index, &model, &sources, arguments, noise);
         simulated.push(record.map_err(|error| at_run(&plan, index, error))?);
     }
     write(&plan, &simulated, arguments)
 }
 
-/// An error with the line of its run, unless it says already where it is.
-pub(super) fn at_run(plan: &Plan, index: usize, error: anyhow::Error) -> anyhow::Error {
-    if error.downcast_ref::<ProjectError>().is_some() { error } else { error.context(plan.place_of_run(index)) }
+/// The record of one steady run: by harmonic balance, or stepped through time.
+fn steady_record(
+    plan: &Plan,
+    index: usize,
+    model: &Simulator<'_>,
+    sources: &[Source],
+    arguments: &Simulate,
+    noise: Option<Noise>,
+) -> anyhow::Result<Record> {
+    let (test, structure) = (test(plan, index)?, shifted(plan, index));
+    let is_stepped = arguments.by == Method::Time || arguments.transient > 0.0 || plan.simulate().integrate;
+    if is_stepped && !test.bases.is_empty() {
+        bail!("a moving base is not stepped through time; leave out --by time, --transient and `integrate`");
+    }
+    if is_stepped {
+        in_time(&structure, &plan.sensors, sources, &test, arguments, noise)
+    } else if plan.runs[index].frequency_shift.is_some() {
+        balanced(plan, &Simulator::new(&structure, sources)?, &test, noise)
+    } else {
+        balanced(plan, model, &test, noise)
+    }
 }
 
 /// The structure as it is in one run: temperature and re-seating shift all its natural frequencies by `s`, so that its
@@ -208,15 +212,6 @@ fn from_record(plan: &Plan, index: usize) -> anyhow::Result<Test> {
     Ok(Test { excitation, bases, channels: record.channels().to_vec(), time: record.time().to_vec() })
 }
 
-fn fit_record(plan: &Plan, index: usize, record: &Record) -> anyhow::Result<HarmonicFit> {
-    let harmonics = plan.settings().harmonics;
-    let omega = match plan.runs[index].frequency_hz {
-        Some(frequency) => TAU * frequency,
-        None => frequency::estimate(record, harmonics)?.omega,
-    };
-    Ok(fit(record, omega, harmonics)?)
-}
-
 /// The channels named in `[simulate]`.
 fn channels(plan: &Plan) -> anyhow::Result<Vec<Channel>> {
     let channel = |text: &String| {
@@ -231,28 +226,4 @@ fn channels(plan: &Plan) -> anyhow::Result<Vec<Channel>> {
         Ok(Channel { quantity: name.quantity, dof, label: name.label })
     };
     plan.simulate().channels.iter().map(channel).collect()
-}
-
-pub(super) fn write(plan: &Plan, records: &[Record], arguments: &Simulate) -> anyhow::Result<String> {
-    let folder = &arguments.out;
-    fs::create_dir_all(folder).with_context(|| format!("{}: the folder cannot be made", folder.display()))?;
-    if arguments.records == Records::Harmonics {
-        let path = folder.join("harmonics.csv");
-        let fits = fits(plan, records)?;
-        let named: Vec<(&str, &HarmonicFit)> = plan.runs.iter().map(|run| run.file.as_str()).zip(&fits).collect();
-        write_harmonics(&path, &named, &plan.structure)?;
-        return Ok(format!("{} runs are in {}\n", records.len(), path.display()));
-    }
-    for (run, record) in plan.runs.iter().zip(records) {
-        let path = folder.join(&run.file);
-        if let Some(parent) = path.parent() {
-            fs::create_dir_all(parent).with_context(|| format!("{}: the folder cannot be made", parent.display()))?;
-        }
-        write_record(&path, record, &plan.structure, arguments.digits.map(usize::from))?;
-    }
-    Ok(format!("{} records are in {}\n", records.len(), folder.display()))
-}
-
-fn fits(plan: &Plan, records: &[Record]) -> anyhow::Result<Vec<HarmonicFit>> {
-    records.iter().enumerate().map(|(index, record)| fit_record(plan, index, record)).collect()
 }

@@ -1,7 +1,7 @@
 //! `dashpot simulate` of a component: its displacement is imposed, the force of its laws recorded.
 
 use super::arguments::Simulate;
-use super::simulate::{at_run, write};
+use super::simulate_write::{at_run, write};
 use crate::effects::Source;
 use crate::exchange::project::{Plan, PlannedTest};
 use crate::measurement::{Channel, Quantity, Record};

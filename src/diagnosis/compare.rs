@@ -91,6 +91,20 @@ pub struct Comparison {
 }
 
 /// Compares the model of `problem`, with `effects` added to its known sources, with the measurement.
+///
+/// ```
+/// use dashpot::{control::Control, diagnosis::{Problem, compare}, exchange::project::load};
+///
+/// let control = Control::unattended();
+/// let project = load("sample-data/five-masses-cubic/project.toml".as_ref(), &control)?;
+/// let problem = Problem { structure: &project.structure, sources: &project.sources, runs: &project.runs };
+/// let comparison = compare(&problem, &[], &control)?;
+/// for run in &comparison.runs {
+///     println!("{}: {:.1} %, energy {:.1} %", project.runs[run.index].file, 100.0 * run.error, 100.0 * run.energy_error);
+/// }
+/// assert!(comparison.error > 2.0 * comparison.noise_floor); // a spring that hardens is missing
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn compare(problem: &Problem, effects: &[Source], control: &Control) -> Result<Comparison, DiagnosisError> {
     if problem.structure.matrices().is_none() {
         return of_energies(problem, &energies(problem, effects)?);

@@ -145,6 +145,20 @@ pub struct Correction {
 pub type Early<'a> = dyn Fn(&[Suggestion]) + Sync + 'a;
 
 /// Finds what the model of `problem` lacks.
+///
+/// ```
+/// use dashpot::{control::Control, diagnosis::{Problem, diagnose}, effects::Effect, exchange::project::load};
+///
+/// let control = Control::unattended();
+/// let project = load("sample-data/five-masses-cubic/project.toml".as_ref(), &control)?;
+/// let problem = Problem { structure: &project.structure, sources: &project.sources, runs: &project.runs };
+/// let diagnosis = diagnose(&problem, &control)?;
+/// for suggestion in &diagnosis.suggestions {
+///     println!("{}: {:.0} %", suggestion.added.source.effect, 100.0 * suggestion.probability);
+/// }
+/// assert_eq!(diagnosis.suggestions[0].added.source.effect, Effect::CubicStiffness);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn diagnose(problem: &Problem, control: &Control) -> Result<Diagnosis, DiagnosisError> {
     diagnose_telling(problem, control, &|_| {})
 }

@@ -1,150 +1,44 @@
-//! What may be asked of an effect by its name alone: its law and what is known of it.
+//! Every effect the program knows, by its name in files.
 
-use super::description::{Constant, Description, Exponents};
-use super::law::Basis;
-use super::{ChannelLaw, Effect, Law, Parameter, Place, Range, Source, WholeLaw};
+use super::table::table_of_laws;
+use serde::{Deserialize, Serialize};
 use std::fmt;
 
-/// What a law acts on.
-#[derive(Clone, Copy)]
-pub enum Kind {
-    /// On one relative motion.
-    Relative(&'static dyn Law),
-    /// On the whole structure.
-    Whole(&'static dyn WholeLaw),
-    /// On a channel of the measuring chain.
-    Channel(&'static dyn ChannelLaw),
+macro_rules! effects {
+    ($($effect:ident: $family:ident = $file:ident,)*) => {
+        /// Every effect the program knows, by its name in files.
+        #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
+        #[serde(rename_all = "snake_case")]
+        #[expect(missing_docs, reason = "each law documents itself in its file")]
+        pub enum Effect {
+            $($effect,)*
+        }
+
+        impl Effect {
+            /// All effects, in the order of the documentation.
+            pub const ALL: [Self; [$(stringify!($file)),*].len()] = [$(Self::$effect),*];
+
+            /// Name in project files, such as `elastic_slider`.
+            pub fn name(self) -> &'static str {
+                match self {
+                    $(Self::$effect => stringify!($file),)*
+                }
+            }
+        }
+    };
 }
 
+table_of_laws!(effects);
+
 impl Effect {
-    /// The effect of that name in project files.
-    pub fn from_name(name: &str) -> Option<Self> {
-        Self::ALL.into_iter().find(|effect| effect.name() == name)
-    }
-
-    /// The scalar law, for effects on a relative motion.
-    pub fn law(self) -> Option<&'static dyn Law> {
-        match self.kind() {
-            Kind::Relative(law) => Some(law),
-            Kind::Whole(_) | Kind::Channel(_) => None,
-        }
-    }
-
-    /// What is known of the law beside its force.
-    pub fn description(self) -> &'static Description {
-        match self.kind() {
-            Kind::Relative(law) => law.description(),
-            Kind::Whole(law) => law.description(),
-            Kind::Channel(law) => law.description(),
-        }
-    }
-
-    /// Parameters in the order in which all laws take them.
-    pub fn parameters(self) -> &'static [Parameter] {
-        self.description().parameters
-    }
-
-    /// Index of the parameter to which the force is proportional, if there is one.
-    pub fn coefficient(self) -> Option<usize> {
-        self.parameters().iter().position(|p| p.linear)
-    }
-
-    /// Parameters that share the factor to which the force is proportional.
-    pub fn scaled(self) -> &'static [usize] {
-        self.description().scaled
-    }
-
-    /// Parameters of unit scale from which a fit to motions of this range starts; one set at least.
-    pub fn shapes(self, range: &Range) -> Vec<Vec<f64>> {
-        let shapes = (self.description().shapes)(range);
-        if shapes.is_empty() { vec![vec![1.0; self.parameters().len()]] } else { shapes }
-    }
-
-    /// Whether the effect can take energy out of the structure, so that the energy balance sees it.
-    pub fn dissipates(self) -> bool {
-        self.description().dissipates
-    }
-
-    /// Whether the force is a linear function of the motion, harmonic by harmonic.
-    pub fn is_linear(self) -> bool {
-        self.law().is_none_or(Law::is_linear)
-    }
-
-    /// The constant matrix of the equation of motion to which it adds, if there is one.
-    pub fn constant(self) -> Option<Constant> {
-        self.description().constant
-    }
-
-    /// Whether it adds to a constant matrix of this kind.
-    pub fn adds_to(self, constant: Constant) -> bool {
-        self.constant() == Some(constant)
-    }
-
-    /// Powers of amplitude and frequency of its equivalent coefficient at the parameters `p`, if they are constant.
-    pub fn exponents(self, p: &[f64]) -> Option<Exponents> {
-        (self.description().exponents)(p)
-    }
-
-    /// The effects on a relative motion with their laws.
-    pub fn relative() -> impl Iterator<Item = (Self, &'static dyn Law)> {
-        Self::ALL.into_iter().filter_map(|effect| Some((effect, effect.law()?)))
-    }
-
-    /// The errors of channels with their laws.
-    pub fn of_channels() -> impl Iterator<Item = (Self, &'static dyn ChannelLaw)> {
-        Self::ALL.into_iter().filter_map(|effect| match effect.kind() {
-            Kind::Channel(law) => Some((effect, law)),
-            _ => None,
-        })
-    }
-
-    /// What finite-element programs hold it as between two DOFs: a dashpot, a spring or a point mass of its coefficient;
-    /// none for a law that such an element cannot express.
-    pub fn element(self) -> Option<Constant> {
-        self.constant().filter(|constant| self.law().is_some() && *constant != Constant::Hysteretic)
-    }
-
-    /// Whether it is a dashpot between two DOFs.
-    pub fn is_dashpot(self) -> bool {
-        self.element() == Some(Constant::Viscous)
-    }
-
-    /// Whether it is an error of a measuring channel.
-    pub fn is_of_channel(self) -> bool {
-        matches!(self.kind(), Kind::Channel(_))
-    }
-
-    /// Whether it acts on the whole structure.
-    pub fn is_of_whole(self) -> bool {
-        matches!(self.kind(), Kind::Whole(_))
-    }
-
     /// The dashpot among the laws: that of constant viscous coefficient on a relative motion.
     pub const DASHPOT: Self = Self::Viscous;
     /// The spring among the laws.
     pub const SPRING: Self = Self::Stiffness;
-}
 
-impl Source {
-    /// The viscous law at the same place, of unit coefficient: a dashpot, or velocity times the same matrix.
-    #[must_use]
-    pub fn unit_dashpot(&self) -> Self {
-        let effect = match self.effect.kind() {
-            Kind::Whole(law) if law.basis() == Basis::Mass => Effect::MassProportional,
-            Kind::Whole(_) => Effect::StiffnessProportional,
-            Kind::Relative(_) | Kind::Channel(_) => Effect::DASHPOT,
-        };
-        Self::known(effect, self.place.clone(), &[1.0])
-    }
-
-    /// A dashpot of `c` N s/m between or at the DOFs.
-    pub fn dashpot(dofs: Vec<usize>, c: f64) -> Self {
-        Self::known(Effect::DASHPOT, Place::Dofs(dofs), &[c])
-    }
-
-    /// A spring of `k` N/m between or at the DOFs.
-    pub fn spring(dofs: Vec<usize>, k: f64) -> Self {
-        Self::known(Effect::SPRING, Place::Dofs(dofs), &[k])
+    /// The effect of that name in project files.
+    pub fn from_name(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|effect| effect.name() == name)
     }
 }
 

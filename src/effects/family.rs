@@ -1,6 +1,6 @@
 //! Families of candidates: each translation, each DOF, each pair, one chain.
 
-use super::effect::Kind;
+use super::Kind;
 use super::{Effect, Place, Source};
 use crate::structure::{Direction, Structure};
 use serde::{Deserialize, Serialize};

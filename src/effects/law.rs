@@ -5,7 +5,7 @@
 //! stiffness), [`super::memoryless`] (force at one instant), [`super::masing`] (backbone of sliders),
 //! [`super::internal`] (one force that follows a rate equation along the displacement).
 
-use super::{Description, Memory, Motion, Parameter, SetValued, Steep};
+use super::{Basis, Description, Memory, Motion, Parameter, SetValued, Steep};
 use faer::c64;
 
 /// Value and slopes of a force that depends on the present displacement and velocity only.
@@ -151,15 +151,6 @@ pub trait Law: Sync {
         self.force(p, motion, &mut force);
         motion.work(&force)
     }
-}
-
-/// Which matrix of the structure a whole-structure law multiplies.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Basis {
-    /// Mass matrix, lumped masses included.
-    Mass,
-    /// Stiffness matrix, the chain's ground springs included.
-    Stiffness,
 }
 
 /// A force over the whole structure, `F_h = factor(p, h omega) B X_h` with `B` the mass or stiffness matrix.

@@ -1,7 +1,6 @@
-//! Special cases: parameters at which a law is a simpler one, and which laws contain which.
+//! Special cases: parameters at which a law is a simpler one.
 
-use super::range::Range;
-use super::{Effect, Source};
+use super::{Effect, Range};
 
 /// Relative distance from a limit within which a law is taken for the simpler one there.
 pub const CLOSE: f64 = 0.03;
@@ -25,45 +24,4 @@ pub fn alike(a: f64, b: f64) -> bool {
 /// Whether a pure number is within [`CLOSE`] of `value`.
 pub fn near(p: f64, value: f64) -> bool {
     (p - value).abs() < CLOSE
-}
-
-impl Effect {
-    /// Simpler laws that this one contains as limits of its parameters.
-    pub fn limits(self) -> impl Iterator<Item = Self> {
-        self.description().limits.iter().map(|limit| limit.law)
-    }
-
-    /// Whether `simple` is a limit of this law.
-    pub fn contains(self, simple: Self) -> bool {
-        self.limits().any(|limit| limit == simple)
-    }
-
-    /// Laws of several parameters that this one may have been taken for: those that contain it or one of its limits, and
-    /// itself if it has several parameters.
-    pub fn wider(self) -> Vec<Self> {
-        let common = |other: Self| other.limits().any(|limit| limit == self || self.contains(limit));
-        let kept = |&other: &Self| other.parameters().len() > 1 && (other == self || common(other));
-        Self::ALL.into_iter().filter(kept).collect()
-    }
-}
-
-impl Source {
-    /// The simpler law at this place that the source is all but on motions of this range ([`Range::UNKNOWN`]: on any
-    /// motion); none if it is no such.
-    pub fn simpler(&self, range: &Range) -> Option<Self> {
-        let limit = self.effect.description().limits.iter().find(|limit| (limit.holds)(&self.parameters, range))?;
-        Some(Self { effect: limit.law, parameters: (limit.parameters)(&self.parameters), ..self.clone() })
-    }
-
-    /// The simpler laws at this place that the law contains, with the parameters that this source has of them.
-    pub fn limits(&self) -> impl Iterator<Item = Self> {
-        let limits = self.effect.description().limits.iter();
-        limits.map(|limit| Self { effect: limit.law, parameters: (limit.parameters)(&self.parameters), ..self.clone() })
-    }
-
-    /// Whether the source is a simpler law by another name that is looked at beside it anyway: a force that knows no
-    /// speed, or friction that does not fall from rest to sliding.
-    pub fn is_disguised(&self) -> bool {
-        (self.effect.description().disguised)(&self.parameters)
-    }
 }

@@ -10,6 +10,23 @@ pub trait Memory {
     fn advance(&mut self, d: f64, step: f64) -> f64;
 }
 
+/// How many of `count` reversals of Masing's law, at the displacements `place`, stay open on the way to the displacement `d`:
+/// a loop that is closed is forgotten with both of its ends.
+pub(crate) fn open_reversals(place: impl Fn(usize) -> f64, mut count: usize, d: f64) -> usize {
+    loop {
+        let closes = match count {
+            0 => return 0,
+            // The branch from the first reversal meets the backbone at its mirror image.
+            1 => (d - place(0)).abs() >= 2.0 * place(0).abs(),
+            _ => (d - place(count - 2)) * (place(count - 2) - place(count - 1)) >= 0.0,
+        };
+        if !closes {
+            return count;
+        }
+        count = count.saturating_sub(2);
+    }
+}
+
 /// Rate-independent hysteresis with the Masing branches of [`super::masing`], from the virgin state.
 pub struct MasingMemory<B> {
     /// Force and slope of the backbone at a displacement.
@@ -33,22 +50,10 @@ impl<B: Fn(f64) -> [f64; 2]> MasingMemory<B> {
         (d - self.last[0]) * self.direction < 0.0
     }
 
-    /// Number of open reversals that remain on the way to `d`, among `count` and the last instant if `turned`.
+    /// Number of open reversals that remain on the way to `d`, the last instant among them if `turned`.
     fn open(&self, d: f64, turned: bool) -> usize {
-        let at = |i: usize| self.reversals.get(i).unwrap_or(&self.last)[0];
-        let mut count = self.reversals.len() + usize::from(turned);
-        loop {
-            let closes = match count {
-                0 => return 0,
-                // The branch from the first reversal meets the backbone at its mirror image.
-                1 => (d - at(0)).abs() >= 2.0 * at(0).abs(),
-                _ => (d - at(count - 2)) * (at(count - 2) - at(count - 1)) >= 0.0,
-            };
-            if !closes {
-                return count;
-            }
-            count = count.saturating_sub(2);
-        }
+        let place = |i: usize| self.reversals.get(i).unwrap_or(&self.last)[0];
+        open_reversals(place, self.reversals.len() + usize::from(turned), d)
     }
 
     /// Force and slope at `d` when `count` reversals are open.

@@ -1,9 +1,12 @@
 //! What may act on a structure or on a measuring chain: one file a law, and where it acts.
 
+pub mod basis;
 pub mod description;
 pub mod effect;
 pub mod family;
 pub mod internal;
+pub mod kind;
+pub mod knowledge;
 pub mod law;
 pub mod laws;
 pub mod limits;
@@ -19,13 +22,16 @@ pub mod sampling;
 pub mod set_valued;
 pub mod source;
 pub mod symbol;
+mod table;
 pub mod turning;
 pub mod wording;
 
+pub use basis::Basis;
 pub use description::{Constant, Description, Exponents, Part};
+pub use effect::Effect;
 pub use family::Family;
+pub use kind::Kind;
 pub use law::{ByParameter, ChannelLaw, Law, Manner, WholeLaw};
-pub use laws::Effect;
 pub use linear::LinearLaw;
 pub use memory::Memory;
 pub use memoryless::MemorylessLaw;

@@ -1,6 +1,5 @@
 //! One period of a relative motion, as harmonics and as equally spaced samples of displacement, velocity, acceleration.
 
-use super::sampling::Sampling;
 use faer::c64;
 use std::f64::consts::{PI, TAU};
 
@@ -22,16 +21,6 @@ pub struct Motion {
 }
 
 impl Motion {
-    /// Samples the harmonics at `samples` equal steps of one period.
-    pub fn new(omega: f64, mean: f64, harmonics: &[c64], samples: usize) -> Self {
-        Sampling::new(samples).motion(omega, mean, harmonics)
-    }
-
-    /// `d = amplitude cos(omega t)`.
-    pub fn cosine(omega: f64, amplitude: f64, samples: usize) -> Self {
-        Self::new(omega, 0.0, &[c64::new(amplitude, 0.0)], samples)
-    }
-
     /// Number of samples in the period.
     pub fn len(&self) -> usize {
         self.displacement.len()

@@ -97,6 +97,18 @@ impl Sampling {
     }
 }
 
+impl Motion {
+    /// Samples the harmonics at `samples` equal steps of one period.
+    pub fn new(omega: f64, mean: f64, harmonics: &[c64], samples: usize) -> Self {
+        Sampling::new(samples).motion(omega, mean, harmonics)
+    }
+
+    /// `d = amplitude cos(omega t)`.
+    pub fn cosine(omega: f64, amplitude: f64, samples: usize) -> Self {
+        Self::new(omega, 0.0, &[c64::new(amplitude, 0.0)], samples)
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

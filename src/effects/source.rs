@@ -1,8 +1,7 @@
 //! A source: a law at a place, what is known of it, and whether it may be selected.
 
-use super::effect::Kind;
 use super::motion::linear_energy;
-use super::{Effect, Motion, Place};
+use super::{Basis, Effect, Kind, Motion, Place, Range};
 use crate::structure::Structure;
 use faer::c64;
 use serde::{Deserialize, Serialize};
@@ -210,6 +209,46 @@ impl Source {
         self.effect.coefficient().map_or(0.0, |k| self.parameters[k])
     }
 
+    /// The viscous law at the same place, of unit coefficient: a dashpot, or velocity times the same matrix.
+    #[must_use]
+    pub fn unit_dashpot(&self) -> Self {
+        let effect = match self.effect.kind() {
+            Kind::Whole(law) if law.basis() == Basis::Mass => Effect::MassProportional,
+            Kind::Whole(_) => Effect::StiffnessProportional,
+            Kind::Relative(_) | Kind::Channel(_) => Effect::DASHPOT,
+        };
+        Self::known(effect, self.place.clone(), &[1.0])
+    }
+
+    /// A dashpot of `c` N s/m between or at the DOFs.
+    pub fn dashpot(dofs: Vec<usize>, c: f64) -> Self {
+        Self::known(Effect::DASHPOT, Place::Dofs(dofs), &[c])
+    }
+
+    /// A spring of `k` N/m between or at the DOFs.
+    pub fn spring(dofs: Vec<usize>, k: f64) -> Self {
+        Self::known(Effect::SPRING, Place::Dofs(dofs), &[k])
+    }
+
+    /// The simpler law at this place that the source is all but on motions of this range ([`Range::UNKNOWN`]: on any
+    /// motion); none if it is no such.
+    pub fn simpler(&self, range: &Range) -> Option<Self> {
+        let limit = self.effect.description().limits.iter().find(|limit| (limit.holds)(&self.parameters, range))?;
+        Some(Self { effect: limit.law, parameters: (limit.parameters)(&self.parameters), ..self.clone() })
+    }
+
+    /// The simpler laws at this place that the law contains, with the parameters that this source has of them.
+    pub fn limits(&self) -> impl Iterator<Item = Self> {
+        let limits = self.effect.description().limits.iter();
+        limits.map(|limit| Self { effect: limit.law, parameters: (limit.parameters)(&self.parameters), ..self.clone() })
+    }
+
+    /// Whether the source is a simpler law by another name that is looked at beside it anyway: a force that knows no
+    /// speed, or friction that does not fall from rest to sliding.
+    pub fn is_disguised(&self) -> bool {
+        (self.effect.description().disguised)(&self.parameters)
+    }
+
     /// The same source with another value of its linear coefficient.
     #[must_use]
     pub fn with_coefficient(&self, value: f64) -> Self {
@@ -219,10 +258,4 @@ impl Source {
         }
         source
     }
-}
-
-/// Pairs of sources that are the same law at the same place in the same state: one of each is too much.
-pub fn duplicates(sources: &[Source]) -> Vec<[usize; 2]> {
-    let same = |i: usize, j: usize| sources[i].state == sources[j].state && sources[i].is_same(&sources[j]);
-    (0..sources.len()).flat_map(|j| (0..j).filter(move |&i| same(i, j)).map(move |i| [i, j])).collect()
 }

@@ -3,7 +3,7 @@
 
 use super::outcome::Collinear;
 use super::system::System;
-use super::{Found, problem::Problem, solve, stopping};
+use super::{found::Found, problem::Problem, solve, stopping};
 
 /// Growth of chi-square up to which two sets are not told apart (two deviations).
 const ALIKE: f64 = 4.0;

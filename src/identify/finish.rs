@@ -1,12 +1,13 @@
 //! Puts the outcome together from what the passes found.
 
+use super::found::Found;
 use super::outcome::{Estimate, Outcome, RankedAlternative, RecordOutcome, RunOutcome, Step, WindowOutcome};
 use super::problem::Problem;
 use super::results::{self, ResultsInput};
 use super::search::SizeRanking;
 use super::stopping::{angle_deg, penalty};
 use super::system::System;
-use super::{Found, IdentifyError, collinear, solve, warnings};
+use super::{IdentifyError, collinear, solve, warnings};
 use crate::balance::windows::WindowRows;
 use crate::balance::{action, weights};
 use crate::math::subsets::RankedSet;

@@ -4,7 +4,7 @@
 //! shown is one of many, or that only the response at the sensors told it apart.
 
 use super::outcome::Form;
-use super::{Found, problem::Problem, system::System};
+use super::{found::Found, problem::Problem, system::System};
 use crate::balance::Weights;
 use crate::control::Control;
 use crate::math::subsets::{SubsetProblem, branch_and_bound};

@@ -6,14 +6,20 @@
 //! least squares solution is the maximum likelihood estimate. [`identify`] searches the best sets of each size, decides
 //! where to stop, and says why.
 
+mod assembly;
 mod collinear;
+mod describe;
 pub mod error;
 mod finish;
+mod found;
 mod layouts;
+mod measurements;
+mod observable;
 pub mod outcome;
 mod problem;
 mod promising;
 mod ratio_rows;
+mod ratios;
 mod response_form;
 pub mod results;
 mod search;
@@ -26,6 +32,7 @@ mod warnings;
 mod window_columns;
 
 pub use error::IdentifyError;
+pub use measurements::Measurements;
 pub use outcome::{Estimate, Form, Outcome, RankedAlternative, RunOutcome, Status, Step};
 pub use results::Results;
 pub use settings::Settings;
@@ -33,12 +40,13 @@ pub use settings::Settings;
 use crate::balance::{Expansion, Weights};
 use crate::control::Control;
 use crate::effects::Source;
-use crate::measurement::{MeasuredRatio, Run, TransientRun};
+use crate::measurement::{MeasuredRatio, Run};
 use crate::structure::Structure;
+use found::Found;
 use problem::Problem;
-use search::{SizeRanking, search};
+use search::search;
 use state::State;
-use stopping::Decision;
+
 use system::System;
 
 /// Most passes of search and refit; each starts from the motion that the last accepted set gives.
@@ -51,6 +59,20 @@ const SETTLED: f64 = 1e-4;
 /// Identifies the sources of `runs`: all that are enabled.
 ///
 /// `sources` in state known act at their values; candidates and forced ones are the columns; the others are ignored.
+///
+/// ```
+/// use dashpot::{control::Control, exchange::project::load, identify::identify};
+///
+/// let control = Control::unattended();
+/// let project = load("sample-data/five-masses/project.toml".as_ref(), &control)?;
+/// let found = identify(&project.structure, &project.sources, &project.runs, &project.settings, &control)?;
+/// for estimate in found.sources.iter().filter(|estimate| estimate.coefficient > 0.0) {
+///     let source = &project.sources[estimate.source];
+///     println!("{} {:?}: {:.3} +- {:.3}", source.effect, source.place, estimate.coefficient, estimate.deviation);
+/// }
+/// assert!(found.sources.iter().any(|estimate| estimate.coefficient > 0.0));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 ///
 /// # Errors
 /// [`IdentifyError`]: what is missing and how to mend it; or cancelled.
@@ -79,17 +101,6 @@ pub fn identify_with_ratios(
     identify_measured(structure, sources, Measurements { runs, transient_runs: &[], ratios }, settings, control)
 }
 
-/// Everything that was measured on one structure.
-#[derive(Debug, Clone, Copy)]
-pub struct Measurements<'a> {
-    /// Steady runs.
-    pub runs: &'a [Run],
-    /// Decays and transients.
-    pub transient_runs: &'a [TransientRun],
-    /// Damping ratios.
-    pub ratios: &'a [MeasuredRatio],
-}
-
 /// [`identify`] from steady runs, decays, transients and damping ratios together: all that are enabled, each row weighted by
 /// the covariance of its noise.
 ///
@@ -116,15 +127,6 @@ pub fn identify_measured(
     };
     control.report(0.9);
     finish::outcome(&problem, &found)
-}
-
-/// What the passes end with.
-pub(crate) struct Found {
-    pub state: State,
-    pub system: System,
-    pub rankings: Vec<SizeRanking>,
-    pub decision: Decision,
-    pub form: Form,
 }
 
 /// A motion and coefficients (of all columns) that balance the energy, however they may be distributed.

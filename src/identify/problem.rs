@@ -1,13 +1,13 @@
 //! What is asked: columns, known sources, runs in use.
 
-use super::ratio_rows::RatioRows;
-use super::state::State;
+use super::describe::describe;
+use super::measurements::Measurements;
+use super::ratios::Ratios;
 use super::window_columns::WindowColumns;
-use super::{IdentifyError, Measurements, Settings};
-use crate::balance::energy::is_observable;
+use super::{IdentifyError, Settings};
 use crate::balance::{Expander, Expansion, Measured, Weights};
 use crate::control::Control;
-use crate::effects::{Place, Source, State as SourceState};
+use crate::effects::{Source, State as SourceState};
 use crate::measurement::{Flag, Run};
 use crate::structure::Structure;
 
@@ -31,7 +31,7 @@ pub(crate) struct Problem<'a> {
     pub run_index: Vec<usize>,
     pub expander: Expander<'a>,
     /// Damping ratios beside the runs.
-    pub ratios: Option<RatioRows>,
+    pub ratios: Option<Ratios>,
     /// Windows of records that are not steady.
     pub windows: WindowColumns,
     pub warnings: Vec<String>,
@@ -76,7 +76,7 @@ impl<'a> Problem<'a> {
             control: control.clone(),
         };
         problem.sort_sources(per_unit_force)?;
-        problem.ratios = RatioRows::new(structure, [&problem.known, &problem.columns], given.ratios)?;
+        problem.ratios = Ratios::new(structure, [&problem.known, &problem.columns], given.ratios)?;
         let (known, columns) = (&problem.known, &problem.columns);
         problem.windows = WindowColumns::new(structure, known, columns, given.transient_runs, control)?;
         problem.check_counts()?;
@@ -87,39 +87,22 @@ impl<'a> Problem<'a> {
     fn sort_sources(&mut self, per_unit_force: bool) -> Result<(), IdentifyError> {
         let mut left_out: Vec<&str> = Vec::new();
         for (index, source) in self.sources.iter().enumerate() {
-            if per_unit_force
-                && !source.effect.is_linear()
-                && matches!(source.state, SourceState::Known | SourceState::Candidate | SourceState::Forced)
-            {
-                if source.state == SourceState::Forced {
-                    let source_name = describe(source, self.structure);
-                    let reason = "it depends on the amplitude, which frequency responses do not have".to_string();
-                    return Err(IdentifyError::ForcedImpossible { source_name, reason });
-                }
-                left_out.push(source.effect.name());
+            let acts = matches!(source.state, SourceState::Known | SourceState::Candidate | SourceState::Forced);
+            if !(per_unit_force && !source.effect.is_linear() && acts) {
+                self.sort_source(index, source)?;
                 continue;
             }
-            let identifiable = source.effect.dissipates() && source.effect.coefficient().is_some();
-            match source.state {
-                SourceState::Known => {
-                    self.known.push(source.clone());
-                    self.known_source.push(index);
-                }
-                SourceState::Forced if !identifiable => {
-                    let source_name = describe(source, self.structure);
-                    let reason = "it takes out no energy in proportion to a coefficient".to_string();
-                    return Err(IdentifyError::ForcedImpossible { source_name, reason });
-                }
-                SourceState::Candidate | SourceState::Forced if identifiable => {
-                    if source.state == SourceState::Forced {
-                        self.forced.push(self.columns.len());
-                    }
-                    self.columns.push(source.with_coefficient(1.0));
-                    self.column_source.push(index);
-                }
-                _ => {}
+            if source.state == SourceState::Forced {
+                let why = "it depends on the amplitude, which frequency responses do not have";
+                return Err(self.impossible(source, why));
             }
+            left_out.push(source.effect.name());
         }
+        self.warn_of_amplitude(left_out);
+        if self.columns.is_empty() { Err(IdentifyError::NoCandidates) } else { Ok(()) }
+    }
+
+    fn warn_of_amplitude(&mut self, mut left_out: Vec<&str>) {
         left_out.sort_unstable();
         left_out.dedup();
         if !left_out.is_empty() {
@@ -129,7 +112,33 @@ impl<'a> Problem<'a> {
                 left_out.join(", ")
             ));
         }
-        if self.columns.is_empty() { Err(IdentifyError::NoCandidates) } else { Ok(()) }
+    }
+
+    /// Takes one source among the known ones or the columns, by its state.
+    fn sort_source(&mut self, index: usize, source: &Source) -> Result<(), IdentifyError> {
+        let identifiable = source.effect.dissipates() && source.effect.coefficient().is_some();
+        match source.state {
+            SourceState::Known => {
+                self.known.push(source.clone());
+                self.known_source.push(index);
+            }
+            SourceState::Forced if !identifiable => {
+                return Err(self.impossible(source, "it takes out no energy in proportion to a coefficient"));
+            }
+            SourceState::Candidate | SourceState::Forced if identifiable => {
+                if source.state == SourceState::Forced {
+                    self.forced.push(self.columns.len());
+                }
+                self.columns.push(source.with_coefficient(1.0));
+                self.column_source.push(index);
+            }
+            _ => {}
+        }
+        Ok(())
+    }
+
+    fn impossible(&self, source: &Source, reason: &str) -> IdentifyError {
+        IdentifyError::ForcedImpossible { source_name: describe(source, self.structure), reason: reason.to_owned() }
     }
 
     fn check_counts(&self) -> Result<(), IdentifyError> {
@@ -143,42 +152,9 @@ impl<'a> Problem<'a> {
         Ok(())
     }
 
-    /// Leaves out columns whose motion is not known in every run.
-    pub fn drop_unobservable(&mut self, state: &State) -> Result<(), IdentifyError> {
-        let method = self.expander.method();
-        for source in self.known.iter().filter(|s| s.effect.dissipates() && !is_observable(s, &state.runs, method)) {
-            let name = describe(source, self.structure);
-            self.warnings.push(format!(
-                "{name} is known, but its motion is not measured, so its energy is not subtracted in full"
-            ));
-        }
-        let keep: Vec<bool> = self.columns.iter().map(|c| is_observable(c, &state.runs, method)).collect();
-        if keep.iter().all(|k| *k) {
-            return check_input(state);
-        }
-        if let Some(&j) = self.forced.iter().find(|&&j| !keep[j]) {
-            let source_name = describe(&self.columns[j], self.structure);
-            let reason = "its motion is not measured in every run".to_string();
-            return Err(IdentifyError::ForcedImpossible { source_name, reason });
-        }
-        let left_out = keep.iter().filter(|k| !**k).count();
-        self.warnings.push(format!("{left_out} candidates are left out: their motion is not measured in every run"));
-        let forced: Vec<usize> = self.forced.iter().map(|&j| self.column_source[j]).collect();
-        let mut flags = keep.iter();
-        self.columns.retain(|_| *flags.next().unwrap_or(&false));
-        let mut flags = keep.iter();
-        self.column_source.retain(|_| *flags.next().unwrap_or(&false));
-        self.forced = (0..self.columns.len()).filter(|&j| forced.contains(&self.column_source[j])).collect();
-        self.windows.retain(&keep);
-        if self.columns.is_empty() {
-            return Err(IdentifyError::NoCandidates);
-        }
-        check_input(state)
-    }
-
     /// Energies and damping ratios.
     pub fn equations(&self) -> usize {
-        self.measured.len() + self.windows.len() + self.ratios.as_ref().map_or(0, RatioRows::len)
+        self.measured.len() + self.windows.len() + self.ratios.as_ref().map_or(0, Ratios::len)
     }
 
     /// Whether deviations are known from the data in every run.
@@ -202,11 +178,6 @@ impl<'a> Problem<'a> {
     }
 }
 
-fn check_input(state: &State) -> Result<(), IdentifyError> {
-    let steady = &state.equation.input[..state.runs.len()];
-    if !steady.is_empty() && steady.iter().all(|&e| e <= 0.0) { Err(IdentifyError::NoInput) } else { Ok(()) }
-}
-
 /// Enabled runs of a steady motion, or insisted on; if there is none, all enabled ones.
 fn runs_in_use(runs: &[Run], warnings: &mut Vec<String>) -> Vec<usize> {
     let enabled: Vec<usize> = (0..runs.len()).filter(|&r| runs[r].enabled).collect();
@@ -221,22 +192,4 @@ fn runs_in_use(runs: &[Run], warnings: &mut Vec<String>) -> Vec<usize> {
         warnings.push(format!("{}: {why}, so it is left out", runs[r].file));
     }
     used
-}
-
-/// A source in words, such as `viscous at 3` or `coulomb between 1 and 2`.
-pub(crate) fn describe(source: &Source, structure: &Structure) -> String {
-    let label = |&dof: &usize| structure.dofs().get(dof).map_or("?", |d| d.label.as_str());
-    match &source.place {
-        Place::Dofs(dofs) => {
-            let labels: Vec<&str> = dofs.iter().map(label).collect();
-            match labels.as_slice() {
-                [one] => format!("{} at {one}", source.effect),
-                [first, second] => format!("{} between {first} and {second}", source.effect),
-                _ => format!("{} along {}", source.effect, labels.join(", ")),
-            }
-        }
-        Place::Whole(None) => source.effect.to_string(),
-        Place::Whole(Some([first, last])) => format!("{} of elements {} to {}", source.effect, first + 1, last + 1),
-        Place::Channel(name) => format!("{} of {name}", source.effect),
-    }
 }

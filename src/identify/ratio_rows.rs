@@ -9,59 +9,22 @@
 //! it cannot join where such a law is known or a candidate.
 
 use super::outcome::Form;
-use super::{IdentifyError, problem::Problem, problem::describe, state::State, system::System};
-use crate::effects::{Constant, Effect, Source};
+use super::ratios::{Ratios, is_hysteretic};
+use super::{problem::Problem, state::State, system::System};
+use crate::effects::Source;
 use crate::math::fill::filled;
 use crate::math::statistics::root_mean_square;
 use crate::measurement::MeasuredRatio;
-use crate::response::linear_matrices::{LinearMatrices, unit_matrix};
-use crate::structure::damped_modes::{DampedMode, damped_modes_from};
-use crate::structure::modes::{Modes, modes};
-use crate::structure::{Structure, SystemMatrices};
-use std::f64::consts::TAU;
+use crate::response::linear_matrices::unit_matrix;
+use crate::structure::Structure;
+use crate::structure::damped_modes::DampedMode;
 
-/// Relative distance of frequencies within which a ratio belongs to a mode.
-const SAME_MODE: f64 = 0.05;
 /// Least deviation of a ratio, relative to it: rounding.
 const LEAST: f64 = 1e-9;
 /// Relative error that the energies are taken to have where their noise is not known.
 const UNKNOWN: f64 = 0.01;
 
-/// The ratios and the undamped modes that they belong to.
-pub(crate) struct RatioRows {
-    ratios: Vec<MeasuredRatio>,
-    modes: Modes,
-    /// Undamped mode of each ratio.
-    place: Vec<usize>,
-}
-
-impl RatioRows {
-    /// Pairs ratios with modes of the model, known stiffnesses and masses in it.
-    pub fn new(
-        structure: &Structure,
-        sources: [&[Source]; 2],
-        ratios: &[MeasuredRatio],
-    ) -> Result<Option<Self>, IdentifyError> {
-        if ratios.is_empty() {
-            return Ok(None);
-        }
-        let [known, columns] = sources;
-        let other = |s: &&Source| s.effect.dissipates() && !is_constant(s.effect);
-        if let Some(source) = known.iter().chain(columns).find(other) {
-            return Err(IdentifyError::RatioOfAmplitude { source_name: describe(source, structure) });
-        }
-        let linear = LinearMatrices::new(structure, known).map_err(|_| IdentifyError::RatioWithoutModel)?;
-        let matrices = SystemMatrices { mass: linear.mass, stiffness: linear.stiffness };
-        let modes = modes(&matrices).map_err(|_| IdentifyError::RatioWithoutModel)?;
-        let place: Result<Vec<usize>, IdentifyError> = ratios.iter().map(|ratio| place(&modes, ratio)).collect();
-        Ok(Some(Self { ratios: ratios.to_vec(), place: place?, modes }))
-    }
-
-    /// Number of ratios.
-    pub fn len(&self) -> usize {
-        self.ratios.len()
-    }
-
+impl Ratios {
     /// Adds the rows to the system of a form at a state, whose columns are those of `set`.
     pub fn append(&self, problem: &Problem<'_>, state: &State, form: Form, system: System, set: &[usize]) -> System {
         let acting = problem.acting(&state.coefficients);
@@ -81,41 +44,9 @@ impl RatioRows {
                 deviation,
             }
         };
-        let rows: Vec<Row> = self.ratios.iter().zip(&damped).map(row).collect();
+        let rows: Vec<Row> = self.list.iter().zip(&damped).map(row).collect();
         extended(system, &rows)
     }
-
-    /// The damped mode of each ratio at the sources that act.
-    fn damped(&self, structure: &Structure, acting: &[Source]) -> Option<Vec<DampedMode>> {
-        let constant: Vec<Source> = acting.iter().filter(|s| !is_hysteretic(s.effect)).cloned().collect();
-        let linear = LinearMatrices::new(structure, &constant).ok()?;
-        let all = damped_modes_from(&self.modes, linear.viscous.as_ref()).ok()?;
-        let nearest = |omega: f64| {
-            let distance = |m: &&DampedMode| (m.lambda.norm() - omega).abs();
-            let oscillating = all.iter().filter(|m| m.lambda.im > 0.0);
-            oscillating.min_by(|a, b| distance(a).total_cmp(&distance(b))).cloned()
-        };
-        self.place.iter().map(|&r| nearest(self.modes.omega[r])).collect()
-    }
-}
-
-/// The mode that a ratio belongs to.
-fn place(modes: &Modes, ratio: &MeasuredRatio) -> Result<usize, IdentifyError> {
-    let hz = ratio.omega / TAU;
-    if !(ratio.ratio > 0.0 && ratio.ratio < 1.0 && ratio.deviation >= 0.0 && ratio.deviation.is_finite()) {
-        return Err(IdentifyError::RatioValue { frequency_hz: hz, ratio: ratio.ratio });
-    }
-    let found = modes.nearest(ratio.omega).filter(|&r| (modes.omega[r] - ratio.omega).abs() < SAME_MODE * ratio.omega);
-    found.ok_or(IdentifyError::RatioOfNoMode { frequency_hz: hz })
-}
-
-/// Whether a law's damping is the same at every amplitude.
-fn is_constant(effect: Effect) -> bool {
-    effect.adds_to(Constant::Viscous) || is_hysteretic(effect)
-}
-
-fn is_hysteretic(effect: Effect) -> bool {
-    effect.adds_to(Constant::Hysteretic)
 }
 
 /// `d zeta / d coefficient` of a source at a damped mode.

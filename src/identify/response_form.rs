@@ -10,6 +10,7 @@ use super::{problem::Problem, solve, state::State, system::System};
 use crate::balance::action::{self, DofForce, Field};
 use crate::balance::{Expanded, Measured};
 use crate::effects::Source;
+use crate::math::hermitian::HermitianFactor;
 use crate::math::statistics::chi_square_quantile;
 use faer::{Mat, c64};
 
@@ -92,14 +93,15 @@ fn at_sensors(receptance: &Mat<c64>, force: &[DofForce], k: usize) -> Vec<c64> {
 fn harmonic_rows(measured: &Measured, expanded: &Expanded, forces: &Forces, k: usize) -> Rows {
     let receptance = &expanded.receptance[k];
     let s = measured.sensors.len();
-    let factor = cholesky(&covariance(measured, receptance, k));
+    // Positive up to rounding: the sensors' own variance is in the diagonal.
+    let factor = HermitianFactor::new(&covariance(measured, receptance, k), f64::EPSILON);
     let predicted = at_sensors(receptance, &forces.driving, k);
     let mut residual: Vec<c64> = (0..s).map(|i| measured.sensors.values[(i, k)] - predicted[i]).collect();
-    whiten(&factor, &mut residual);
+    factor.whiten(&mut residual);
     let mut a = Mat::zeros(2 * s, forces.columns.len());
     for (j, force) in forces.columns.iter().enumerate() {
         let mut column = at_sensors(receptance, force, k);
-        whiten(&factor, &mut column);
+        factor.whiten(&mut column);
         for (i, value) in column.iter().enumerate() {
             a[(2 * i, j)] = -value.re;
             a[(2 * i + 1, j)] = -value.im;
@@ -108,10 +110,10 @@ fn harmonic_rows(measured: &Measured, expanded: &Expanded, forces: &Forces, k: u
     Rows { a, b: residual.iter().flat_map(|v| [v.re, v.im]).collect() }
 }
 
-/// Covariance (per real part) of the sensors' residual.
-fn covariance(measured: &Measured, receptance: &Mat<c64>, k: usize) -> Mat<c64> {
+/// Covariance (per real part) of the sensors' residual, row by row.
+fn covariance(measured: &Measured, receptance: &Mat<c64>, k: usize) -> Vec<c64> {
     let s = measured.sensors.len();
-    Mat::from_fn(s, s, |a, b| {
+    let entry = |a: usize, b: usize| {
         let own = if a == b { measured.sensors.deviations[(a, k)].powi(2) } else { 0.0 };
         let force: c64 = (0..measured.forces.len())
             .map(|j| {
@@ -120,31 +122,8 @@ fn covariance(measured: &Measured, receptance: &Mat<c64>, k: usize) -> Mat<c64> 
             })
             .sum();
         force + own
-    })
-}
-
-/// Lower factor `L` of a Hermitian positive definite matrix, `L L^H`.
-fn cholesky(a: &Mat<c64>) -> Mat<c64> {
-    let n = a.nrows();
-    let mut l: Mat<c64> = Mat::zeros(n, n);
-    for j in 0..n {
-        for i in j..n {
-            let known: c64 = (0..j).map(|k| l[(i, k)] * l[(j, k)].conj()).sum();
-            let rest = a[(i, j)] - known;
-            // Positive up to rounding: the sensors' own variance is in the diagonal.
-            l[(i, j)] =
-                if i == j { c64::new(rest.re.max(f64::EPSILON * a[(i, i)].re).sqrt(), 0.0) } else { rest / l[(j, j)] };
-        }
-    }
-    l
-}
-
-/// `v := L^-1 v`.
-fn whiten(l: &Mat<c64>, v: &mut [c64]) {
-    for i in 0..v.len() {
-        let known: c64 = (0..i).map(|k| l[(i, k)] * v[k]).sum();
-        v[i] = (v[i] - known) / l[(i, i)];
-    }
+    };
+    (0..s * s).map(|at| entry(at / s, at % s)).collect()
 }
 
 /// What all columns together leave.
@@ -162,26 +141,4 @@ pub(super) fn is_adequate(problem: &Problem<'_>, system: &System, coefficients: 
     // Without known noise the deviations are nominal: the same part of every channel.
     let nominal = crate::balance::measured::NOMINAL;
     (chi_square / system.rows() as f64).sqrt() * nominal < SMALL_MISFIT
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn cholesky_rebuilds_the_matrix_and_whitens() {
-        let l0 = Mat::from_fn(3, 3, |i, j| match i.cmp(&j) {
-            std::cmp::Ordering::Equal => c64::new(1.0 + i as f64, 0.0),
-            std::cmp::Ordering::Greater => c64::new(0.3, 0.2 * i as f64),
-            std::cmp::Ordering::Less => c64::new(0.0, 0.0),
-        });
-        let a = &l0 * l0.adjoint();
-        let l = cholesky(&a);
-        let mut v: Vec<c64> = (0..3).map(|i| (0..=i).map(|j| l0[(i, j)] * (j as f64 + 1.0)).sum()).collect();
-        whiten(&l, &mut v);
-        for i in 0..3 {
-            assert!((v[i] - (i as f64 + 1.0)).norm() < 1e-14);
-            assert!((0..3).all(|j| (l[(i, j)] - l0[(i, j)]).norm() < 1e-14));
-        }
-    }
 }

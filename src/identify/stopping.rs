@@ -2,8 +2,9 @@
 //! Bayesian criterion, extended by the number of sets that were to choose from), confirmed by leaving out runs. Without
 //! known noise the angle rules, as in the thesis.
 
+use super::describe::describe;
 use super::outcome::{Form, Status};
-use super::problem::{Problem, describe};
+use super::problem::Problem;
 use super::search::SizeRanking;
 use super::solve;
 use super::state::State;

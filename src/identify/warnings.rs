@@ -1,7 +1,8 @@
 //! What the user should know beside the answer.
 
-use super::problem::{Problem, describe};
-use super::{Found, solve};
+use super::describe::describe;
+use super::problem::Problem;
+use super::{found::Found, solve};
 use crate::balance::Expansion;
 use crate::effects::Place;
 

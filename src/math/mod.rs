@@ -2,6 +2,7 @@
 
 pub mod eigen;
 pub mod fill;
+pub mod hermitian;
 pub mod least_squares;
 pub mod nnls;
 pub mod numerals;

@@ -37,11 +37,6 @@ pub fn chi_square_quantile(probability: f64, freedom: usize) -> f64 {
     ChiSquared::new(freedom as f64).map_or(0.0, |distribution| distribution.inverse_cdf(p))
 }
 
-/// `P(X <= x)` for the standard normal distribution.
-pub fn normal_cdf(x: f64) -> f64 {
-    Normal::standard().cdf(x)
-}
-
 /// Value that a standard normal variable stays below with `probability` (clamped to 0..1).
 pub fn normal_quantile(probability: f64) -> f64 {
     Normal::standard().inverse_cdf(probability.clamp(0.0, 1.0))
@@ -98,13 +93,6 @@ pub fn robust_deviation(values: &[f64]) -> f64 {
 /// residual over `data` values is `chi_square`; the smaller, the better the evidence.
 pub fn bayesian_information(chi_square: f64, parameters: usize, data: usize) -> f64 {
     chi_square + parameters as f64 * (data.max(1) as f64).ln()
-}
-
-/// Bayesian information criterion `n ln(S / n) + p ln n` where the variance of one value is unknown and estimated from
-/// the squared residual `S`.
-pub fn bayesian_information_unknown_variance(squared_residual: f64, parameters: usize, data: usize) -> f64 {
-    let n = data.max(1) as f64;
-    n * (squared_residual / n).ln() + parameters as f64 * n.ln()
 }
 
 /// Probabilities of models from their information criteria, `exp(-b/2)` normalised.

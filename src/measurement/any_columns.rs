@@ -3,7 +3,7 @@
 //! They are made block by block, small enough for the cache, by complex powers of one sine and cosine a sample; every
 //! channel is multiplied with the block while it is there.
 
-use super::design::Sums;
+use super::sums::Sums;
 use dashpot_numerics::{dot, sum};
 use std::ops::Range;
 

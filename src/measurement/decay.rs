@@ -1,7 +1,7 @@
 //! What is no steady motion at all: a free decay, noise, a sum of sines that one fundamental does not hold.
 
 use super::ramps::blocks;
-use super::run::references;
+use super::signal::references;
 use super::{Finding, Flag, HarmonicFit, Record};
 use crate::math::statistics::median;
 

@@ -9,7 +9,7 @@
 //! sum cos(k theta) = sin(n x/2) / sin(x/2) = D(x),    sum m sin(m x) = -D'(x),    sum m^2 = n (n^2 - 1) / 12
 //! ```
 
-use super::design::Sums;
+use super::sums::Sums;
 use dashpot_numerics::{LANES, dot, sum};
 use faer::c64;
 

@@ -3,57 +3,9 @@
 //! Nothing is corrected here; every finding says why in numbers. Thresholds are named, with their reasons.
 
 use super::record::Record;
-use super::run::references;
-use super::{ChannelFit, HarmonicFit, decay, settling, slips, stuck};
+use super::signal::references;
+use super::{ChannelFit, Finding, Flag, HarmonicFit, decay, settling, slips, stuck};
 use faer::c64;
-use serde::{Deserialize, Serialize};
-
-/// What can be wrong with a record.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Flag {
-    /// A transient has not died out: the energy balance does not hold.
-    NotSettled,
-    /// The noise is large beside the signal.
-    Noisy,
-    /// A channel has hit its range.
-    Clipped,
-    /// Samples are missing or repeated.
-    MissingSamples,
-    /// A channel shows nothing.
-    DeadChannel,
-    /// The frequency does not fit the record.
-    WrongFrequency,
-    /// A phase error of a degree would change the energy by several per cent.
-    PhaseSensitive,
-    /// What is recorded is no periodic motion of this frequency: a free decay, noise, other sines.
-    NotPeriodic,
-    /// The record looks like a run of another kind.
-    OtherKind,
-    /// There is no quiet part before the force sets in.
-    NoPreTrigger,
-    /// The hammer has struck more than once.
-    DoubleHit,
-    /// The part ends long before the decay does.
-    CutDecay,
-    /// There is motion beyond what the sampling can show.
-    OutOfBand,
-    /// The part is too short to tell two close modes apart.
-    TooShort,
-    /// The mean of a channel wanders, so that its integral drifts.
-    Drift,
-    /// An exponential window was laid over the record.
-    ExponentialWindow,
-}
-
-/// A flag with its reason in words and numbers.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Finding {
-    /// What is wrong.
-    pub flag: Flag,
-    /// Why, in one sentence with numbers and units.
-    pub reason: String,
-}
 
 /// Noise over signal from which a run is called noisy. The thesis works with 5 %; at 20 % a record of 1000 samples
 /// still gives amplitudes to 1 %, but more is a fault of cabling or range rather than of the sensor.

@@ -5,8 +5,8 @@
 //! response grows or falls while the force stays as it is; here the force itself does. What falls off behind a steady part
 //! is run down, whatever the force: a friction damper that is moved ever less still gives the same force.
 
-use super::run::references;
-use super::settling::part;
+use super::fundamentals::fundamentals;
+use super::signal::references;
 use super::{HarmonicFit, Record};
 use crate::math::statistics::median;
 
@@ -116,7 +116,7 @@ pub(super) fn blocks(record: &Record, fit: &HarmonicFit) -> Option<(Vec<f64>, Ve
             range.end = range.end.max(range.start + whole).min(time.len());
             range.start = range.start.min(range.end.saturating_sub(whole));
         }
-        Some(part(record, fit, range)?.fundamentals)
+        Some(fundamentals(record, fit, range)?.fundamentals)
     };
     let found = (0..count).map(of_block).collect::<Option<Vec<_>>>()?;
     let sizes = (0..fit.channels.len()).map(|c| found.iter().map(|block| block[c].norm()).collect()).collect();

@@ -5,14 +5,11 @@
 //! accelerations (6.5, 6.6).
 
 use super::fit::{fit, turn_covariance};
+use super::signal::references;
 use super::{Channel, ChannelFit, Finding, FitError, Flag, HarmonicFit, Quantity, Record, frequency, quality};
 use faer::{Mat, c64};
 use std::f64::consts::TAU;
 use std::sync::Arc;
-
-/// Smallest amplitude that a channel is judged by, as a share of the largest of its quantity in the run: a sensor at a
-/// node must not rule.
-pub const NODE_SHARE: f64 = 1.0 / 20.0;
 
 /// One run with its fitted harmonics, corrected for the known errors of its channels.
 #[derive(Debug, Clone, PartialEq)]
@@ -259,20 +256,6 @@ fn correct(channel: &mut ChannelFit, error: &Correction, omega: f64) {
     channel.offset /= error.gain;
     channel.slope /= error.gain;
     channel.noise /= error.gain.abs();
-}
-
-/// Root mean square of the periodic part of a channel.
-pub(super) fn signal(channel: &ChannelFit) -> f64 {
-    (0.5 * channel.amplitudes.iter().map(|y| y.re * y.re + y.im * y.im).sum::<f64>()).sqrt()
-}
-
-/// What each channel is judged by: its own signal, at least [`NODE_SHARE`] of the largest of its quantity.
-pub(super) fn references(fit: &HarmonicFit) -> Vec<f64> {
-    let largest = |quantity: Quantity| {
-        let same = fit.channels.iter().filter(|c| c.channel.quantity == quantity);
-        same.map(signal).fold(0.0, f64::max)
-    };
-    fit.channels.iter().map(|c| signal(c).max(NODE_SHARE * largest(c.channel.quantity))).collect()
 }
 
 /// Noise over signal, root mean square over the channels that show anything.

@@ -11,9 +11,9 @@
 //! The parts compared are whole periods and begin at the same phase, so that harmonics above those fitted change both
 //! alike.
 
-use super::fit::{resolvable, solve};
+use super::fundamentals::fundamentals;
 use super::noise::Lag;
-use super::run::references;
+use super::signal::references;
 use super::{Finding, Flag, HarmonicFit, Record};
 use crate::math::statistics::median;
 use faer::c64;
@@ -96,43 +96,10 @@ fn ends(time: &[f64], period: f64, parts: usize) -> Option<[Range<usize>; 2]> {
     Some([index(0.0)..index(length), index(late)..index(late + length)])
 }
 
-/// The fundamentals in a part of the record.
-pub(super) struct Part {
-    /// Fundamental of every channel.
-    pub fundamentals: Vec<c64>,
-    /// Variance of a fundamental for noise of variance 1.
-    unit_variance: f64,
-    /// Variance of a fundamental from harmonics above those fitted: a part ends up to a sample beside its period, and
-    /// that sample adds `2 r / n`, with `r` what repeats and was not fitted.
-    cut: Vec<f64>,
-}
-
-/// The fundamental of every channel in a range of samples.
-pub(super) fn part(record: &Record, fit: &HarmonicFit, range: Range<usize>) -> Option<Part> {
-    let time = &record.time()[range.clone()];
-    if time.len() < 8 {
-        return None;
-    }
-    let harmonics = resolvable(time, fit.omega, fit.harmonics()).ok()?;
-    let values: Vec<&[f64]> = record.samples.iter().map(|samples| &samples[range.clone()]).collect();
-    let solved = solve(time, &values, fit.omega, harmonics).ok()?;
-    let covariance = solved.amplitudes(0, fit.omega).1;
-    let cut = |c: usize| {
-        let unfitted = (solved.residual_variance(c) - fit.channels[c].noise.powi(2)).max(0.0);
-        (2.0 / time.len() as f64).powi(2) * unfitted
-    };
-    Some(Part {
-        fundamentals: (0..values.len()).map(|c| solved.amplitudes(c, fit.omega).0[0]).collect(),
-        // The larger of both variances: the deviation of no part is then understated.
-        unit_variance: covariance[(0, 0)].max(covariance[(1, 1)]),
-        cut: (0..values.len()).map(cut).collect(),
-    })
-}
-
 /// The largest change of a fundamental between the ends of the record that is significant and matters.
 fn drift(record: &Record, fit: &HarmonicFit, parts: usize) -> Option<Drift> {
     let [first, last] = ends(record.time(), fit.period(), parts)?;
-    let (first, last) = (part(record, fit, first)?, part(record, fit, last)?);
+    let (first, last) = (fundamentals(record, fit, first)?, fundamentals(record, fit, last)?);
     let variance = |c: usize| {
         fit.channels[c].noise.powi(2) * (first.unit_variance + last.unit_variance) + first.cut[c] + last.cut[c]
     };

@@ -1,6 +1,6 @@
 //! Logarithmic axes: the plot holds log10 of the value, the grid shows decades and the lines between.
 
-use super::ticks::{GridInput, GridMark, round_step};
+use super::grid::{GridInput, GridMark, round_step};
 use crate::display::format::significant;
 
 /// Step of a line without a label: below it none is written.
@@ -92,7 +92,8 @@ pub fn one_two_five_label(mark: GridMark) -> String {
 #[cfg(test)]
 mod tests {
     use super::{decades, label, one_two_five, one_two_five_label};
-    use crate::plots::ticks::{GridInput, UPWARDS};
+    use crate::plots::grid::GridInput;
+    use crate::plots::ticks::UPWARDS;
 
     fn labels(low: f64, high: f64, points: f64) -> Vec<String> {
         let input = GridInput { bounds: (low, high), base_step_size: 8.0 * (high - low) / points };

@@ -12,6 +12,7 @@ pub mod error_map;
 pub mod figure;
 pub mod fingerprint;
 pub mod forward;
+pub mod grid;
 pub mod heatmap;
 pub mod hysteresis;
 pub mod log;

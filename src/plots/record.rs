@@ -2,26 +2,13 @@
 
 use super::figure::{Axis, Curve, Data, Figure, Look};
 use super::style::Palette;
-use super::trace::Trace;
+use super::trace::{Trace, fitted};
 use crate::display::words;
 use crate::measurement::ChannelFit;
-use faer::c64;
 use std::sync::Arc;
 
 /// Periods shown at first.
 const PERIODS: f64 = 6.0;
-
-/// `offset + slope (t - t_mid) + Re sum_h Y_h exp(i h omega t)`.
-pub fn fitted(fit: &ChannelFit, omega: f64, middle: f64, t: f64) -> f64 {
-    let turn = c64::new((omega * t).cos(), (omega * t).sin());
-    let mut power = c64::new(1.0, 0.0);
-    let mut sum = fit.offset + fit.slope * (t - middle);
-    for y in &fit.amplitudes {
-        power *= turn;
-        sum += y.re * power.re - y.im * power.im;
-    }
-    sum
-}
 
 /// What the plot needs.
 #[derive(Debug, Clone, Copy)]

@@ -2,7 +2,7 @@
 //! the run.
 
 use crate::control::Control;
-use crate::effects::{Source, effect::Kind};
+use crate::effects::{Kind, Source};
 use crate::exchange::Project;
 use crate::measurement::Quantity;
 use crate::response::harmonic_balance::{Excitation, ForwardModel, SweepSettings, sweep};

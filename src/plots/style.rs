@@ -127,11 +127,6 @@ impl Palette {
         self.canvas.lerp_to_gamma(end, 0.85 * share.abs().min(1.0).powf(0.8))
     }
 
-    /// Colour of a share from 0 to 1, from canvas to the model's colour.
-    pub fn sequential(&self, share: f32) -> Color32 {
-        self.line.lerp_to_gamma(self.model, share.clamp(0.0, 1.0).powf(0.7))
-    }
-
     /// Colour of a level of force from 0 (lowest) to 1 (highest): from blue through green to the model's vermilion or
     /// amber, ever lighter or darker on the way, so that the order is seen without colours too.
     pub fn level(&self, share: f32) -> Color32 {

@@ -1,10 +1,10 @@
 //! One channel of a record with its residual and its spectrum, ready to be drawn at any zoom.
 
 use super::pyramid::Pyramid;
-use super::record::fitted;
 use crate::control::Control;
 use crate::math::spectrum::Spectrum;
 use crate::measurement::{ChannelFit, Record};
+use faer::c64;
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
@@ -45,4 +45,16 @@ fn lines(spectrum: &Spectrum, fit: &ChannelFit, omega: f64) -> Pyramid {
     let frequency: Vec<f64> = (1..shown).map(|k| spectrum.frequency_hz(k)).collect();
     let amplitude: Vec<f64> = (1..shown).map(|k| spectrum.amplitude.get(k).map_or(floor, |a| a.max(floor))).collect();
     Pyramid::new(&frequency, &amplitude)
+}
+
+/// `offset + slope (t - t_mid) + Re sum_h Y_h exp(i h omega t)`.
+pub fn fitted(fit: &ChannelFit, omega: f64, middle: f64, t: f64) -> f64 {
+    let turn = c64::new((omega * t).cos(), (omega * t).sin());
+    let mut power = c64::new(1.0, 0.0);
+    let mut sum = fit.offset + fit.slope * (t - middle);
+    for y in &fit.amplitudes {
+        power *= turn;
+        sum += y.re * power.re - y.im * power.im;
+    }
+    sum
 }

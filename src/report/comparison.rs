@@ -1,19 +1,22 @@
 //! Chapters of the model against the measurement: errors, error map, suggestions with their evidence, ledger, next test.
 
 use super::content::Content;
+use super::figures::{figure, sheet};
 use super::html::Page;
-use super::{figure, sheet};
 use crate::control::Control;
 use crate::diagnosis::candidates::restoring_force::RestoringForce;
-use crate::diagnosis::diagnose::{Suggestion, Verdict};
+use crate::diagnosis::diagnose::{Correction, Suggestion, Verdict};
 use crate::diagnosis::{Comparison, Diagnosis};
 use crate::display::format::{chance, in_words, polished};
 use crate::display::{findings, format, words};
+use crate::effects::Parameter;
 use crate::plots::channel_response::ChannelResponse;
 use crate::plots::error_map::{ENERGY, Grid, Scale};
 use crate::plots::response_curve::{curves, levels, neighbourhood};
 use crate::plots::style::Palette;
 use crate::plots::{fingerprint, restoring_force, samples};
+use crate::session::validation::{only_records, problem};
+use crate::structure::Structure;
 
 /// Suggestions that are told in full.
 const MOST_SUGGESTIONS: usize = 6;
@@ -24,7 +27,7 @@ pub(super) fn chapters(page: &mut Page, content: &Content<'_>, control: &Control
     if content.project.runs.is_empty() && content.records.is_none() {
         return;
     }
-    if !super::unsteady::only_records(content.project) {
+    if !only_records(content.project) {
         steady(page, content, control);
     }
     page.chapter("What is missing?");
@@ -104,23 +107,36 @@ fn missing(page: &mut Page, content: &Content<'_>, found: &Diagnosis) {
     if !found.complete {
         page.warning("The search was ended before its time: this is the best so far.");
     }
-    let structure = &content.project.structure;
-    if !found.corrections.is_empty() {
-        let acts = |s: &&crate::effects::Source| {
-            s.state == crate::effects::State::Known
-                && !matches!(s.effect.kind(), crate::effects::effect::Kind::Channel(_))
-        };
-        let known: Vec<_> = content.compared().sources.iter().filter(acts).cloned().collect();
-        page.sentence("The model states these wrongly; they were corrected in the search:");
-        let row = |c: &crate::diagnosis::diagnose::Correction| {
-            vec![findings::corrected(structure, &known, &c.parameter), findings::change(c)]
-        };
-        page.table(&["What", "Correction|"], &found.corrections.iter().map(row).collect::<Vec<_>>());
+    corrections(page, content, found);
+    suggestions(page, &content.project.structure, &found.suggestions);
+    for s in found.suggestions.iter().take(MOST_SUGGESTIONS) {
+        evidence(page, content, s);
     }
-    let list = &found.suggestions;
+    if let Some((_, force)) = content.forces.iter().find(|(source, _)| source.is_none()) {
+        page.sentence(
+            "The force that would explain most, at the place where one force explains most, whatever its law:",
+        );
+        missing_force(page, content, force);
+    }
+    next_tests(page, content, found);
+}
+
+fn corrections(page: &mut Page, content: &Content<'_>, found: &Diagnosis) {
+    if found.corrections.is_empty() {
+        return;
+    }
+    let known = problem(content.compared()).known();
+    page.sentence("The model states these wrongly; they were corrected in the search:");
+    let row = |c: &Correction| {
+        vec![findings::corrected(&content.project.structure, &known, &c.parameter), findings::change(c)]
+    };
+    page.table(&["What", "Correction|"], &found.corrections.iter().map(row).collect::<Vec<_>>());
+}
+
+fn suggestions(page: &mut Page, structure: &Structure, list: &[Suggestion]) {
     let row = |s: &Suggestion| {
         let sizes = s.added.source.effect.parameters().iter().zip(&s.added.source.parameters).zip(&s.added.deviations);
-        let size = |((p, v), d): ((&crate::effects::Parameter, &f64), &f64)| {
+        let size = |((p, v), d): ((&Parameter, &f64), &f64)| {
             format!("{} {}", words::parameter(p.name), format::with_deviation(*v, *d, p.unit))
         };
         vec![
@@ -131,20 +147,10 @@ fn missing(page: &mut Page, content: &Content<'_>, found: &Diagnosis) {
             in_words(s.held_out_error_after),
         ]
     };
-    if !list.is_empty() {
-        let rows: Vec<Vec<String>> = list.iter().take(MOST_SUGGESTIONS).map(row).collect();
+    let rows: Vec<Vec<String>> = list.iter().take(MOST_SUGGESTIONS).map(row).collect();
+    if !rows.is_empty() {
         page.table(&["Suggestion", "Size", "Probability|", "Error with it|", "On left-out runs|"], &rows);
     }
-    for s in list.iter().take(MOST_SUGGESTIONS) {
-        evidence(page, content, s);
-    }
-    if let Some((_, force)) = content.forces.iter().find(|(source, _)| source.is_none()) {
-        page.sentence(
-            "The force that would explain most, at the place where one force explains most, whatever its law:",
-        );
-        missing_force(page, content, force);
-    }
-    next_tests(page, content, found);
 }
 
 fn evidence(page: &mut Page, content: &Content<'_>, s: &Suggestion) {

@@ -1,16 +1,16 @@
 //! What a report holds, each part computed or with the reason why not.
 
-use super::unsteady::{self, diagnosed, only_records};
 use crate::control::Control;
 use crate::diagnosis::candidates::fingerprint_plot::{self as prints, Print};
 use crate::diagnosis::candidates::restoring_force::{self, RestoringForce};
 use crate::diagnosis::diagnose::Verdict;
 use crate::diagnosis::records::RecordComparison;
-use crate::diagnosis::{self, Comparison, Diagnosis, Problem};
+use crate::diagnosis::{self, Comparison, Diagnosis};
 use crate::effects::Source;
 use crate::exchange::Project;
 use crate::identify::{Measurements, Outcome, identify_measured};
 use crate::session::identified::take_over;
+use crate::session::validation::{compared_with_records, diagnosed_from_records, only_records, problem};
 use std::sync::Arc;
 
 /// A result, or one line that says why there is none.
@@ -87,11 +87,12 @@ impl<'a> Content<'a> {
             let diagnosis = diagnose(p, &comparison, control);
             (p, comparison, diagnosis)
         } else {
-            let search = || if only_records(p) { diagnosed(p, control) } else { diagnose(p, &as_it_is, control) };
+            let of_records = || diagnosed_from_records(p, control, &|_| {}).map(Arc::new).map_err(|e| e.to_string());
+            let search = || if only_records(p) { of_records() } else { diagnose(p, &as_it_is, control) };
             let diagnosis = known.diagnosis.filter(|_| !only_records(p)).unwrap_or_else(search);
             (p, as_it_is, diagnosis)
         };
-        let records = unsteady::compared(p, control);
+        let records = compared_with_records(p, control).map_err(|e| e.to_string()).map(|r| r.map(Arc::new)).transpose();
         let fingerprints = diagnosis.as_ref().map_or_else(|_| Vec::new(), |d| fingerprints(p, d, control));
         let forces = diagnosis.as_ref().map_or_else(|_| Vec::new(), |d| forces(p, d, control));
         let mut ledger = known.ledger;
@@ -119,10 +120,6 @@ fn with_identified(p: &Project, outcome: &Outcome) -> Option<(Project, Vec<Sourc
 }
 
 /// What is compared of a project.
-pub(super) fn problem(p: &Project) -> Problem<'_> {
-    Problem { structure: &p.structure, sources: &p.sources, runs: &p.runs }
-}
-
 fn diagnose(p: &Project, comparison: &Found<Comparison>, control: &Control) -> Found<Diagnosis> {
     let found = comparison.as_ref().map_err(Clone::clone)?;
     if found.error > HOPELESS {

@@ -1,8 +1,8 @@
 //! Chapters of what was identified: sources, damping matrix, damping ratios, frequency responses.
 
 use super::content::Content;
+use super::figures::{MOST_MODES, figure, sheet};
 use super::html::Page;
-use super::{MOST_MODES, figure, sheet};
 use crate::control::Control;
 use crate::display::{format, words};
 use crate::exchange::Project;

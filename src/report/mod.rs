@@ -4,6 +4,7 @@
 
 mod comparison;
 mod content;
+mod figures;
 mod html;
 mod identification;
 mod unsteady;
@@ -12,16 +13,13 @@ pub use content::{Content, Known, LedgerRow};
 
 use crate::control::Control;
 use crate::display::{format, words};
+use crate::effects::{Parameter, Source, State};
 use crate::exchange::Project;
 use crate::exchange::atomic::write_atomically;
-use crate::plots::figure::Figure;
-use crate::plots::sheet::Sheet;
-use crate::plots::style::Palette;
+use crate::plots::response_curve;
+use figures::MOST_MODES;
 use html::Page;
 use std::path::Path;
-
-/// Natural frequencies that are listed.
-const MOST_MODES: usize = 12;
 
 /// Reads a project, computes all that a report holds and writes it; blocks.
 ///
@@ -74,19 +72,18 @@ fn structure(page: &mut Page, p: &Project) {
         let rows: Vec<Vec<String>> = (0..modes.len().min(MOST_MODES)).map(row).collect();
         page.table(&["Mode", "Natural frequency|"], &rows);
     }
-    let row = |s: &crate::effects::Source| {
-        let value = |(p, v): (&crate::effects::Parameter, &f64)| {
-            format!("{} {}", words::parameter(p.name), format::with_unit(*v, p.unit))
-        };
-        let sizes: Vec<String> = s.effect.parameters().iter().zip(&s.parameters).map(value).collect();
-        vec![words::capital(words::effect(s.effect)), words::place(&p.structure, &s.place), sizes.join(", ")]
-    };
     let known: Vec<Vec<String>> =
-        p.sources.iter().filter(|s| s.state == crate::effects::State::Known).map(row).collect();
+        p.sources.iter().filter(|s| s.state == State::Known).map(|s| source_row(p, s)).collect();
     if !known.is_empty() {
         page.sentence("Known sources of the model:");
         page.table(&["Law", "Place", "Size"], &known);
     }
+}
+
+fn source_row(p: &Project, s: &Source) -> Vec<String> {
+    let value = |(p, v): (&Parameter, &f64)| format!("{} {}", words::parameter(p.name), format::with_unit(*v, p.unit));
+    let sizes: Vec<String> = s.effect.parameters().iter().zip(&s.parameters).map(value).collect();
+    vec![words::capital(words::effect(s.effect)), words::place(&p.structure, &s.place), sizes.join(", ")]
 }
 
 fn runs(page: &mut Page, p: &Project) {
@@ -94,25 +91,19 @@ fn runs(page: &mut Page, p: &Project) {
     if p.runs.is_empty() && p.transient_runs.is_empty() {
         return page.sentence("The project holds no measurements.");
     }
-    let row = |(k, run): (usize, &crate::measurement::Run)| {
-        let level = run.level.map_or_else(String::new, |l| l.to_string());
-        let flags: Vec<&str> = run.findings.iter().map(|f| f.reason.as_str()).collect();
-        let used = if run.enabled { flags.join("; ") } else { "not used".to_owned() };
-        let force =
-            crate::plots::response_curve::force(p, k).map_or_else(String::new, |f| format::with_unit(f.1.norm(), "N"));
-        vec![
-            (k + 1).to_string(),
-            run.file.clone(),
-            format::with_unit(run.frequency_hz(), "Hz"),
-            force,
-            level,
-            format::percent(run.noise_ratio),
-            used,
-        ]
-    };
     let records = p.transient_runs.iter().enumerate().map(|(k, run)| unsteady::row(p.runs.len() + k + 1, run));
-    let rows: Vec<Vec<String>> = p.runs.iter().enumerate().map(row).chain(records).collect();
+    let rows: Vec<Vec<String>> = (0..p.runs.len()).map(|k| run_row(p, k)).chain(records).collect();
     page.table(&["Run|", "File", "Frequency|", "Force|", "Level|", "Noise|", "Remarks"], &rows);
+}
+
+fn run_row(p: &Project, k: usize) -> Vec<String> {
+    let run = &p.runs[k];
+    let level = run.level.map_or_else(String::new, |l| l.to_string());
+    let flags: Vec<&str> = run.findings.iter().map(|f| f.reason.as_str()).collect();
+    let used = if run.enabled { flags.join("; ") } else { "not used".to_owned() };
+    let force = response_curve::force(p, k).map_or_else(String::new, |f| format::with_unit(f.1.norm(), "N"));
+    let frequency = format::with_unit(run.frequency_hz(), "Hz");
+    vec![(k + 1).to_string(), run.file.clone(), frequency, force, level, format::percent(run.noise_ratio), used]
 }
 
 /// What is needed to compute the same again.
@@ -127,14 +118,4 @@ fn settings(page: &mut Page, p: &Project) {
         ("Program", format!("Dashpot {}", env!("CARGO_PKG_VERSION"))),
     ];
     page.table(&["Setting", "Value"], &rows.map(|(name, value)| vec![name.to_owned(), value]));
-}
-
-fn figure(page: &mut Page, figure: Figure) {
-    let title = figure.title.clone();
-    sheet(page, &title, vec![figure]);
-}
-
-fn sheet(page: &mut Page, title: &str, figures: Vec<Figure>) {
-    let sheet = Sheet::of(title, figures);
-    page.drawing(&sheet.drawing(sheet.paper(), Palette::light()));
 }

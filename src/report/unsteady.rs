@@ -1,15 +1,13 @@
 //! Records that are not steady, and components in a testing machine, in a report: their error, their loops or the damping
 //! ratio over amplitude, and the search for what their model lacks.
 
-use super::content::{Content, Found};
+use super::content::Content;
+use super::figures::sheet;
 use super::html::Page;
-use super::sheet;
-use crate::control::Control;
-use crate::diagnosis::Diagnosis;
-use crate::diagnosis::component::{Loops, compare_component, diagnose_component};
+use crate::diagnosis::component::Loops;
+use crate::diagnosis::records::RecordComparison;
 use crate::diagnosis::records::amplitude::AmplitudePoint;
 use crate::diagnosis::records::compare::{ModeCurve, OneRecord};
-use crate::diagnosis::records::{RecordComparison, Records, compare_records, diagnose_records};
 use crate::display::format::in_words;
 use crate::display::{format, words};
 use crate::exchange::Project;
@@ -17,52 +15,12 @@ use crate::measurement::{Quantity, TransientRun};
 use crate::plots::component_loops;
 use crate::plots::figure::{Axis, Figure, Look};
 use crate::plots::style::Palette;
-use crate::structure::StructureKind;
-use std::sync::Arc;
+use crate::session::validation::is_component;
 
 /// Records whose loops or amplitude curves are drawn.
 const MOST_DRAWN: usize = 4;
 /// Points from which on a curve says something.
 const LEAST_POINTS: usize = 3;
-
-/// Whether a project holds nothing but records that are not steady.
-pub(super) fn only_records(p: &Project) -> bool {
-    !p.runs.iter().any(|run| run.enabled) && has_records(p)
-}
-
-fn has_records(p: &Project) -> bool {
-    p.transient_runs.iter().any(|run| run.enabled)
-}
-
-fn is_component(p: &Project) -> bool {
-    p.structure.kind() == StructureKind::Component
-}
-
-/// The model against the records; `None` where there are none, or no model that predicts them.
-pub(super) fn compared(p: &Project, control: &Control) -> Option<Found<RecordComparison>> {
-    if !has_records(p) {
-        return None;
-    }
-    if is_component(p) {
-        let loops = Loops::new(&p.structure, &p.sources, &p.transient_runs);
-        return Some(loops.and_then(|l| compare_component(&l, &[])).map(Arc::new).map_err(|e| e.to_string()));
-    }
-    p.structure.matrices()?;
-    let records = Records::new(&p.structure, &p.sources, &p.transient_runs);
-    Some(records.and_then(|r| compare_records(&r, &[], control)).map(Arc::new).map_err(|e| e.to_string()))
-}
-
-/// What the model of the records lacks.
-pub(super) fn diagnosed(p: &Project, control: &Control) -> Found<Diagnosis> {
-    let found = if is_component(p) {
-        let loops = Loops::new(&p.structure, &p.sources, &p.transient_runs).map_err(|e| e.to_string())?;
-        diagnose_component(&loops, &p.ruled_out, control, &|_| {}).map_err(|e| e.to_string())
-    } else {
-        let records = Records::new(&p.structure, &p.sources, &p.transient_runs).map_err(|e| e.to_string())?;
-        diagnose_records(&records, &p.ruled_out, control, &|_| {}).map_err(|e| e.to_string())
-    };
-    found.map(Arc::new)
-}
 
 /// The records in the table of measurements: as many columns as steady runs have.
 pub(super) fn row(number: usize, run: &TransientRun) -> Vec<String> {

@@ -7,8 +7,8 @@
 //! with `z_j = F / D` of every law on a relative motion (viscous `i omega c`, hysteretic `i h`, Maxwell, ...) and the mass
 //! or stiffness matrix `B_w` for laws over the whole structure or a range of its elements.
 
-use crate::effects::effect::Kind;
-use crate::effects::law::Basis;
+use crate::effects::Basis;
+use crate::effects::Kind;
 use crate::effects::{Law, Leg, Place, Source, WholeLaw};
 use crate::structure::{Structure, SystemMatrices};
 use dashpot_numerics::ComplexLu;
@@ -212,18 +212,11 @@ pub fn basis_matrix(
     basis: Basis,
 ) -> Result<Mat<f64>, DynamicStiffnessError> {
     let Place::Whole(Some([first, last])) = *place else {
-        return Ok(match basis {
-            Basis::Mass => matrices.mass.clone(),
-            Basis::Stiffness => matrices.stiffness.clone(),
-        });
+        return Ok(basis.of_system(matrices).clone());
     };
     let count = structure.elements().len();
     if first > last || last >= count {
         return Err(DynamicStiffnessError::Elements { first, last, count });
     }
-    let mut sum = Mat::zeros(structure.len(), structure.len());
-    for element in &structure.elements()[first..=last] {
-        element.add_to(if basis == Basis::Mass { &element.mass } else { &element.stiffness }, &mut sum);
-    }
-    Ok(sum)
+    Ok(basis.of_elements(structure, [first, last]))
 }

@@ -1,7 +1,7 @@
 //! Constant matrices of the linear sources: `M x'' + C x' + (K + i H) x = f`, from which damped modes follow.
 
 use super::dynamic_stiffness::{DynamicStiffnessError, add_leg, basis_matrix, checked_legs};
-use crate::effects::{Constant, Source, effect::Kind};
+use crate::effects::{Constant, Kind, Source};
 use crate::structure::Structure;
 use faer::Mat;
 

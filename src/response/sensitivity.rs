@@ -12,8 +12,8 @@
 use super::harmonic_balance::LinearPart;
 use super::harmonic_balance::richardson;
 use super::harmonic_balance::{Balance, Excitation, Lu, Prepared, Response, ResponseError, RunModel};
+use crate::effects::Kind;
 use crate::effects::Source;
-use crate::effects::effect::Kind;
 use crate::structure::factors::{Part, Share};
 use faer::{Mat, c64};
 use std::f64::consts::TAU;

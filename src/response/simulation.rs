@@ -9,7 +9,7 @@ use super::steady_state::steady_state;
 use super::synthesis::ChannelMotion;
 use super::time_integration::TimeError;
 use crate::control::{Cancelled, Control};
-use crate::effects::effect::Kind;
+use crate::effects::Kind;
 use crate::effects::{Place, Source};
 use crate::measurement::{Channel, Quantity};
 use crate::structure::Structure;
@@ -52,6 +52,20 @@ impl SteadyState {
 }
 
 /// The structure with sources, ready for any number of runs.
+///
+/// ```
+/// use dashpot::response::{harmonic_balance::Excitation, simulation::Simulator};
+/// use dashpot::{control::Control, effects::{Effect, Place, Source}, structure::chain::ChainParameters};
+/// use faer::c64;
+///
+/// let chain = ChainParameters { masses: vec![2.0], ground_stiffness: vec![800.0], coupling_stiffness: vec![] };
+/// let structure = chain.build(&[])?;
+/// let dashpot = Source::known(Effect::Viscous, Place::Dofs(vec![0]), &[4.0]);
+/// let force = Excitation::sine(20.0, 0, c64::new(1.0, 0.0)); // at resonance: x = f / (i omega c)
+/// let state = Simulator::new(&structure, &[dashpot])?.respond(&force, &Control::unattended())?;
+/// assert!((state.harmonics[(0, 0)] - c64::new(0.0, -1.0 / 80.0)).norm() < 1e-9);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub enum Simulator<'a> {
     /// All laws are linear: each harmonic is solved directly, which loses nothing at a resonance.
     Linear(DynamicStiffness<'a>),

@@ -1,7 +1,8 @@
 //! What each command does to a project file. The caller checks the whole file afterwards and keeps the old one if it fails.
 
 use super::command::{Command, EffectAt, Setting, SourceAt, SourceSpec};
-use super::document::{Document, Refusal};
+use super::document::Document;
+use super::refusal::Refusal;
 use super::{sources, structure};
 use crate::effects::{Effect, Family, State};
 use crate::exchange::project::correction::CorrectionTable;

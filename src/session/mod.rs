@@ -8,6 +8,7 @@ pub mod history;
 pub mod identified;
 pub mod jobs;
 pub mod recent;
+mod refusal;
 pub mod save;
 pub mod script;
 #[expect(clippy::module_inception, reason = "the session is what the floor is for")]
@@ -15,8 +16,10 @@ pub mod session;
 mod sources;
 mod structure;
 pub mod time_limit;
+pub mod validation;
 pub mod workers;
 
 pub use command::{Command, EffectAt, Setting, SourceAt, SourceSpec};
-pub use document::{Document, Refusal, Revisions};
+pub use document::{Document, Revisions};
+pub use refusal::Refusal;
 pub use session::Session;

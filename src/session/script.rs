@@ -1,7 +1,7 @@
 //! Command scripts: a JSON list of commands, with `"undo"` and `"redo"` as words of their own.
 
 use super::command::Command;
-use super::document::Refusal;
+use super::refusal::Refusal;
 use super::session::Session;
 use serde::{Deserialize, Serialize};
 

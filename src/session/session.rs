@@ -1,8 +1,9 @@
 //! A document that is being worked on: commands in, undo and redo, what is unsaved, where it is saved.
 
 use super::command::Command;
-use super::document::{Document, Refusal, Revisions};
+use super::document::{Document, Revisions};
 use super::history::{Gesture, History};
+use super::refusal::Refusal;
 use super::save::{self, SaveError};
 use crate::exchange::project::file::ProjectFile;
 use crate::exchange::project::open;

@@ -1,11 +1,12 @@
 //! Sources of a project file on its structure: found by law and place, families expanded, repetitions refused.
 
 use super::command::SourceAt;
-use super::document::Refusal;
-use crate::effects::effect::Kind;
+use super::refusal::Refusal;
+use crate::effects::Kind;
 use crate::effects::source::SourceError;
 use crate::effects::{Effect, Place, Source, State};
-use crate::exchange::project::file::{CandidatesTable, Label, ProjectFile, SourceTable};
+use crate::exchange::project::file::{CandidatesTable, ProjectFile, SourceTable};
+use crate::exchange::project::label::Label;
 use crate::exchange::project::ruled_out::RuledOutTable;
 use crate::structure::Structure;
 use std::collections::BTreeMap;

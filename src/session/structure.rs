@@ -1,6 +1,6 @@
 //! The structure of a project: built from its parameters, and its numbers set by name.
 
-use super::document::Refusal;
+use super::refusal::Refusal;
 use crate::exchange::project::file::{BaseTable, FORMAT, Header, ProjectFile, Shape, SimulateTable, StructureTable};
 use crate::exchange::project::plan;
 use crate::identify::Settings;

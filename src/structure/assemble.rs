@@ -1,11 +1,11 @@
 //! The last steps that every kind of structure shares: lumped masses and the checks that make a [`Structure`] valid.
 
 use super::error::{nearest, positive};
+use super::lumped_mass::LumpedMass;
 use super::{Dof, Element, Node, Origin, Structure, StructureError, StructureKind, SystemMatrices};
 use crate::math::eigen;
 use dashpot_numerics::Cholesky;
 use faer::{Mat, MatRef};
-use serde::{Deserialize, Serialize};
 use std::collections::HashSet;
 
 /// Relative difference of two mirrored entries that counts as rounding of the file they were read from.
@@ -13,16 +13,6 @@ const SYMMETRY_TOLERANCE: f64 = 1e-6;
 
 /// Largest number of degrees of freedom: dense matrices of this size still fit in memory.
 pub const MOST_DOFS: usize = 10_000;
-
-/// A mass added at one DOF.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct LumpedMass {
-    /// Label of the DOF.
-    pub dof: String,
-    /// Mass, kg (kg m^2 at a rotation).
-    pub mass: f64,
-}
 
 /// Everything a structure is made from, before it is checked.
 pub(super) struct Parts {

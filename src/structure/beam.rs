@@ -8,8 +8,9 @@
 //! with the local DOFs (w1, w1', w2, w2'), `A = b h`, `I = b h^3 / 12`. The axis lies along x, bending is in z (the
 //! direction of `depth`); a rotation is the slope w'.
 
-use super::assemble::{LumpedMass, MOST_DOFS, Parts};
+use super::assemble::{MOST_DOFS, Parts};
 use super::error::positive;
+use super::lumped_mass::LumpedMass;
 use super::{Direction, Dof, Element, Node, Structure, StructureError, StructureKind, SystemMatrices};
 use faer::Mat;
 use nalgebra::Matrix4;

@@ -1,8 +1,9 @@
 //! Chain of masses: `m_i x_i'' + g_i x_i + k_i (x_i - x_i+1) + k_i-1 (x_i - x_i-1) = f_i` with springs `g` to the ground
 //! and `k` between consecutive masses.
 
-use super::assemble::{LumpedMass, MOST_DOFS, Parts};
+use super::assemble::{MOST_DOFS, Parts};
 use super::error::{not_negative, positive};
+use super::lumped_mass::LumpedMass;
 use super::{Direction, Dof, Node, Structure, StructureError, StructureKind, SystemMatrices};
 use faer::Mat;
 use serde::{Deserialize, Serialize};

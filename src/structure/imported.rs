@@ -1,7 +1,8 @@
 //! A structure given by its mass and stiffness matrices, with an optional map of their rows to nodes and directions.
 
-use super::assemble::{LumpedMass, MOST_DOFS, Parts};
+use super::assemble::{MOST_DOFS, Parts};
 use super::error::nearest;
+use super::lumped_mass::LumpedMass;
 use super::{Direction, Dof, Node, Structure, StructureError, StructureKind, SystemMatrices};
 use faer::Mat;
 

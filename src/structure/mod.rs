@@ -11,16 +11,18 @@ mod error;
 pub mod factors;
 pub mod imported;
 pub mod lowest_modes;
+mod lumped_mass;
 pub mod modes;
 pub mod points;
 pub mod reduction;
 pub mod wing;
 
-pub use assemble::{LumpedMass, MOST_DOFS};
+pub use assemble::MOST_DOFS;
 pub use coupling::Coupled;
 pub use error::StructureError;
 pub(crate) use error::nearest;
 pub use factors::{HeldDof, Part};
+pub use lumped_mass::LumpedMass;
 
 use faer::Mat;
 use serde::{Deserialize, Serialize};

@@ -1,7 +1,7 @@
 //! What becomes of a suggestion that is added: a known source, a larger coefficient of one that is there, or a correction
 //! of a channel.
 
-use crate::effects::{Place, Source, State, effect::Kind};
+use crate::effects::{Kind, Place, Source, State};
 use crate::exchange::Project;
 use crate::exchange::project::file::ProjectFile;
 use crate::session::{Command, EffectAt, SourceAt, SourceSpec};

@@ -80,7 +80,7 @@ fn modes_1_to_8_of_the_beam_with_one_per_cent_noise() {
             found.modes.len(),
             8,
             "{:?}",
-            found.modes.iter().map(dashpot::classical::poly_reference::ExtractedMode::frequency_hz).collect::<Vec<_>>()
+            found.modes.iter().map(dashpot::classical::extracted_mode::ExtractedMode::frequency_hz).collect::<Vec<_>>()
         );
         for (r, (mode, known)) in found.modes.iter().zip(&modes).enumerate() {
             let frequency = mode.frequency_hz() / known.frequency_hz - 1.0;

@@ -1,7 +1,7 @@
 //! Names in files and the tables of parameters.
 
 use dashpot::effects::Effect;
-use dashpot::effects::effect::Kind;
+use dashpot::effects::Kind;
 use faer::c64;
 
 #[test]
@@ -92,7 +92,7 @@ fn channel_errors_have_their_derivative() {
 /// Whole-structure laws: which matrix, and the factor at 30 rad/s.
 #[test]
 fn whole_structure_laws_multiply_their_matrix() {
-    use dashpot::effects::law::Basis;
+    use dashpot::effects::Basis;
     let wanted = [
         (Effect::LossFactor, Basis::Stiffness, 0.02),
         (Effect::StiffnessProportional, Basis::Stiffness, 0.6),

@@ -1,7 +1,6 @@
-//! Sources: checks and their messages, duplicates, energy on a structure.
+//! Sources: checks and their messages, energy on a structure.
 
 use super::assert_close;
-use dashpot::effects::source::duplicates;
 use dashpot::effects::{Effect, Motion, Place, Source, State};
 use faer::c64;
 
@@ -78,17 +77,6 @@ fn messages_say_what_is_wrong_and_how_to_mend_it() {
     assert!(Source::named(Effect::Viscous, dofs(&[]), State::Candidate, &[]).is_err());
     assert!(Source::named(Effect::Delay, Place::Channel("acc@7".into()), State::Known, &[("delay", 1e-4)]).is_ok());
     assert!(Source::known(Effect::Gap, dofs(&[1]), &[1.0]).check().is_err());
-}
-
-#[test]
-fn duplicates_are_found_from_either_end() {
-    let sources = [
-        Source::candidate(Effect::Viscous, dofs(&[1, 2])),
-        Source::candidate(Effect::Coulomb, dofs(&[1, 2])),
-        Source::known(Effect::Viscous, dofs(&[1, 2]), &[3.0]),
-        Source::candidate(Effect::Viscous, dofs(&[2, 1])),
-    ];
-    assert_eq!(duplicates(&sources), [[0, 3]]);
 }
 
 /// A chain takes out what its pairs take out, on relative motion only.

@@ -3,7 +3,8 @@
 use dashpot::balance::{Expansion, Weights};
 use dashpot::control::Control;
 use dashpot::effects::{Effect, Place, State};
-use dashpot::exchange::project::file::{Label, Shape};
+use dashpot::exchange::project::file::Shape;
+use dashpot::exchange::project::label::Label;
 use dashpot::exchange::project::{Plan, ProjectFile, load, open, plan};
 use dashpot::structure::Direction;
 use faer::c64;

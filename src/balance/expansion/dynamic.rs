@@ -5,11 +5,11 @@
 //! `X = X0 + G (Y - S X0)`, `X0 = Z^-1 F_meas`, `G = P S^T (S P S^T + sigma_Y^2)^-1`. The model's error `eps` is relative to
 //! the motion's strain energy `e`; with `eps = 0` the model is exact and only the force is in doubt.
 
+use super::expanded::{Acting, Expanded, state_misfit};
 use super::modal_model::ModalModel;
-use super::{Acting, Expanded, state_misfit};
 use crate::balance::Measured;
 use crate::balance::action::{self, Field, Secant};
-use crate::effects::law::Basis;
+use crate::effects::Basis;
 use crate::structure::Structure;
 use dashpot_numerics::ComplexLu;
 use faer::{Mat, c64};

@@ -3,8 +3,8 @@
 //! With one mode, that nearest to the frequency (4.23 to 4.31), `q = phi_S^T Y / phi_S^T phi_S`. With several (SEREP): the
 //! modes nearest to the frequency, no more than there are sensors and as many as the sensors can tell apart.
 
+use super::expanded::{Expanded, from_maps, no_maps};
 use super::modal_model::ModalModel;
-use super::{Expanded, from_maps, no_maps};
 use crate::balance::{BalanceError, Measured};
 use crate::math::least_squares::LeastSquares;
 use faer::{Mat, c64};

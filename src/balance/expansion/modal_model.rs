@@ -7,7 +7,7 @@
 
 use crate::balance::BalanceError;
 use crate::balance::action::Secant;
-use crate::effects::law::Basis;
+use crate::effects::Basis;
 use crate::math::fill::{filled, filled_complex};
 use crate::structure::lowest_modes::{LowestModes, Rest};
 use crate::structure::modes::Modes;
@@ -144,18 +144,10 @@ impl ModalModel {
                     z[(k, k)] += factor * if *basis == Basis::Mass { 1.0 } else { self.modes.omega[k].powi(2) };
                 }
             }
-            Secant::Whole(basis, Some([first, last]), factor) => {
-                for element in structure.elements().iter().take(last + 1).skip(*first) {
-                    let local = if *basis == Basis::Mass { &element.mass } else { &element.stiffness };
-                    for (i, &a) in element.dofs.iter().enumerate() {
-                        for (j, &b) in element.dofs.iter().enumerate() {
-                            if let (Some(a), Some(b)) = (a, b) {
-                                let left: Vec<f64> = (0..m).map(|k| self.modes.shapes[(a, k)]).collect();
-                                let right: Vec<f64> = (0..m).map(|k| self.modes.shapes[(b, k)]).collect();
-                                add_outer(z, &left, &right, factor * local[(i, j)]);
-                            }
-                        }
-                    }
+            Secant::Whole(basis, Some(range), factor) => {
+                let row = |i: usize| (0..m).map(|k| self.modes.shapes[(i, k)]).collect::<Vec<f64>>();
+                for (i, j, value) in basis.entries(structure, *range) {
+                    add_outer(z, &row(i), &row(j), factor * value);
                 }
             }
         }

@@ -1,7 +1,7 @@
 //! No expansion: the motion is known where a sensor is, and nowhere else. Sensors at one DOF are averaged with weights
 //! inverse to their variances.
 
-use super::{Expanded, from_maps, no_maps};
+use super::expanded::{Expanded, from_maps, no_maps};
 use crate::balance::Measured;
 use faer::{Mat, c64};
 

@@ -5,7 +5,7 @@
 
 use super::band::line_omega;
 use super::motion::Motion;
-use crate::effects::{Effect, Leg, Source, effect::Kind};
+use crate::effects::{Effect, Kind, Leg, Source};
 use crate::response::linear_matrices::unit_matrix;
 use crate::structure::Structure;
 use dashpot_numerics::{product, transposed_product};

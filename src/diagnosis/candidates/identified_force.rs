@@ -17,7 +17,7 @@ use crate::diagnosis::localisation::free_force::{ForceFreedom, FreeForce};
 use crate::diagnosis::localisation::location::Spot;
 use crate::diagnosis::residual::data::{Data, RunData};
 use crate::diagnosis::selection::levenberg_marquardt::{Descent, Residual, Variables, descend};
-use crate::effects::{ByParameter, Effect, Law, Motion, Range, Sampling, SetValued, Source, State, effect::Kind};
+use crate::effects::{ByParameter, Effect, Kind, Law, Motion, Range, Sampling, SetValued, Source, State};
 use dashpot_numerics::dot;
 use faer::{Mat, c64};
 use std::convert::Infallible;

@@ -3,7 +3,7 @@
 use super::friction::friction;
 use super::identified_force::{LawFit, PlaceData};
 use crate::diagnosis::localisation::location::Spot;
-use crate::effects::{ChannelLaw, Effect, Source, State, effect::Kind};
+use crate::effects::{ChannelLaw, Effect, Kind, Source, State};
 use dashpot_numerics::dot;
 use faer::c64;
 

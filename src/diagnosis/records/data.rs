@@ -4,7 +4,7 @@ use super::amplitude::peaks;
 use super::fit::FittedRecords;
 use super::weights::{deviations, with_share};
 use crate::control::Cancelled;
-use crate::effects::{Source, State, effect::Kind as EffectKind};
+use crate::effects::{Kind as EffectKind, Source, State};
 use crate::math::spectrum::Spectrum;
 use crate::math::statistics::median;
 use crate::measurement::{Channel, Kind, TransientRun};

@@ -10,7 +10,7 @@
 
 use super::data::{RecordData, Records};
 use super::spectrum::fourier_integral;
-use crate::effects::{Constant, Leg, Place, Source, effect::Kind};
+use crate::effects::{Constant, Kind, Leg, Place, Source};
 use crate::response::linear_matrices::unit_matrix;
 use dashpot_numerics::{Cholesky, ComplexLu, product, transposed_product};
 use faer::{Mat, c64};

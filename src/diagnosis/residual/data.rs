@@ -1,7 +1,7 @@
 //! What the comparison is made on: the runs that may be used, their forces and responses, harmonic by harmonic.
 
 use crate::control::Cancelled;
-use crate::effects::{Effect, Place, Source, effect::Kind, source::State};
+use crate::effects::{Effect, Kind, Place, Source, source::State};
 use crate::measurement::{ChannelFit, Quantity, Run};
 use crate::response::harmonic_balance::{Excitation, HarmonicForce, ModelError, ResponseError};
 use crate::structure::Part;

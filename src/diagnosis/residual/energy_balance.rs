@@ -10,8 +10,7 @@
 
 use crate::diagnosis::residual::data::RunData;
 use crate::diagnosis::residual::prediction::RunPrediction;
-use crate::effects::law::Basis;
-use crate::effects::{Place, Source, effect::Kind};
+use crate::effects::{Kind, Place, Source};
 use crate::measurement::Quantity;
 use crate::structure::Structure;
 use faer::{Mat, c64};
@@ -87,22 +86,10 @@ pub fn energy_error(structure: &Structure, sources: &[Source], run: &RunData, pr
 pub(crate) fn whole_matrix(structure: &Structure, source: &Source) -> Option<Mat<f64>> {
     let (Kind::Whole(law), Place::Whole(range)) = (source.effect.kind(), &source.place) else { return None };
     let matrices = structure.matrices()?;
-    let mass = law.basis() == Basis::Mass;
-    let Some([first, last]) = *range else {
-        return Some(if mass { matrices.mass.clone() } else { matrices.stiffness.clone() });
-    };
-    let mut sum = Mat::zeros(structure.len(), structure.len());
-    for element in structure.elements().iter().take(last + 1).skip(first) {
-        let local = if mass { &element.mass } else { &element.stiffness };
-        for (a, row) in element.dofs.iter().enumerate() {
-            for (b, column) in element.dofs.iter().enumerate() {
-                if let (Some(row), Some(column)) = (row, column) {
-                    sum[(*row, *column)] += local[(a, b)];
-                }
-            }
-        }
-    }
-    Some(sum)
+    Some(match *range {
+        None => law.basis().of_system(matrices).clone(),
+        Some(range) => law.basis().of_elements(structure, range),
+    })
 }
 
 /// `x^H B x` for symmetric real `B`.

@@ -6,7 +6,7 @@
 use crate::control::Control;
 use crate::diagnosis::residual::data::{Data, DiagnosisError, RunData};
 use crate::diagnosis::updating::parameters::Updating;
-use crate::effects::{Effect, Place, Source, effect::Kind};
+use crate::effects::{Effect, Kind, Place, Source};
 use crate::response::harmonic_balance::{
     Excitation, ForwardModel, Response, ResponseError, RunModel, Settings, is_stable,
 };

@@ -10,8 +10,11 @@
 
 use crate::diagnosis::residual::data::RunData;
 use crate::diagnosis::residual::run_nuisance::RunNuisance;
+use crate::math::hermitian::HermitianFactor;
 use faer::c64;
 
+/// Least share of a variance that is left by the channels before it: less is rounding.
+const ROUNDING: f64 = 1e-12;
 /// Allowance for what no model matches, relative to the amplitude of the same harmonic.
 const OWN: f64 = 2e-4;
 /// The same, relative to the fundamental of the channel, for its higher harmonics.
@@ -27,8 +30,8 @@ pub type Transfers = Vec<Vec<Vec<c64>>>;
 /// Lower triangular factors that whiten the residual of one run; only channels that are alive take part.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Whitening {
-    /// Per harmonic, row by row, `alive x alive`.
-    factors: Vec<Vec<c64>>,
+    /// Of the living channels, per harmonic.
+    factors: Vec<HermitianFactor>,
     alive: Vec<usize>,
     /// Expected `|e_c,h|^2`, `[channel][harmonic]`, of all channels, without the allowance.
     expected: Vec<Vec<f64>>,
@@ -63,7 +66,8 @@ impl Whitening {
                 o[h] = expected[c][h] - known.as_ref().map_or(0.0, |(s, a)| 2.0 * s * a[c].norm_sqr());
             }
             force.push(known);
-            factors.push(cholesky(&select(&covariance(run, a, truncation, h, true), &run.alive, run.responses.len())));
+            let alive = select(&covariance(run, a, truncation, h, true), &run.alive, run.responses.len());
+            factors.push(HermitianFactor::new(&alive, ROUNDING));
         }
         Self { factors, alive: run.alive.clone(), expected, own, force, nuisance: RunNuisance::default() }
     }
@@ -88,9 +92,7 @@ impl Whitening {
 
     /// `ln det` of the covariance of all real values, what is the run's own not included.
     pub fn log_determinant(&self) -> f64 {
-        let n = self.alive.len();
-        let of = |factor: &Vec<c64>| (0..n).map(|i| 4.0 * factor[i * n + i].re.ln()).sum::<f64>();
-        self.factors.iter().map(of).sum()
+        self.factors.iter().map(|factor| 2.0 * factor.log_determinant()).sum()
     }
 
     /// Number of real values of a whitened run.
@@ -105,12 +107,8 @@ impl Whitening {
 
     /// `L^-1 v` at harmonic `h` (from 1); `value(c)` is the entry of response channel `c`.
     pub fn apply(&self, h: usize, value: impl Fn(usize) -> c64) -> Vec<c64> {
-        let (n, factor) = (self.alive.len(), &self.factors[h - 1]);
         let mut result: Vec<c64> = self.alive.iter().map(|&c| value(c)).collect();
-        for i in 0..n {
-            let done = (0..i).fold(result[i], |s, j| s - factor[i * n + j] * result[j]);
-            result[i] = done / factor[i * n + i].re;
-        }
+        self.factors[h - 1].whiten(&mut result);
         result
     }
 
@@ -166,41 +164,4 @@ fn covariance(run: &RunData, a: &Transfers, truncation: &[Vec<f64>], h: usize, a
 /// Rows and columns `keep` of an n x n matrix.
 fn select(matrix: &[c64], keep: &[usize], n: usize) -> Vec<c64> {
     keep.iter().flat_map(|&i| keep.iter().map(move |&j| matrix[i * n + j])).collect()
-}
-
-/// Lower Cholesky factor of a Hermitian positive matrix, row by row.
-fn cholesky(s: &[c64]) -> Vec<c64> {
-    let n = s.len().isqrt();
-    let mut l = vec![c64::new(0.0, 0.0); n * n];
-    for i in 0..n {
-        for j in 0..=i {
-            let sum = (0..j).fold(s[i * n + j], |x, k| x - l[i * n + k] * l[j * n + k].conj());
-            l[i * n + j] = if i == j {
-                // Rounding must not make a certain channel of one that is not.
-                c64::new(sum.re.max(1e-12 * s[i * n + i].re).max(f64::MIN_POSITIVE).sqrt(), 0.0)
-            } else {
-                sum / l[j * n + j].re
-            };
-        }
-    }
-    l
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_factor_gives_back_the_matrix() {
-        let v = [c64::new(1.0, 2.0), c64::new(0.5, -1.0), c64::new(-3.0, 0.1)];
-        let entry = |i: usize, j: usize| v[i] * v[j].conj() + if i == j { 0.3 } else { 0.0 };
-        let s: Vec<c64> = (0..9).map(|k| entry(k / 3, k % 3)).collect();
-        let l = cholesky(&s);
-        for i in 0..3 {
-            for j in 0..3 {
-                let product = (0..3).fold(c64::new(0.0, 0.0), |x, k| x + l[i * 3 + k] * l[j * 3 + k].conj());
-                assert!((product - s[i * 3 + j]).norm() < 1e-13);
-            }
-        }
-    }
 }

@@ -4,7 +4,7 @@ use crate::diagnosis::residual::data::{ChannelData, DiagnosisError, RunData};
 use crate::diagnosis::residual::prediction::{Predictor, RunPrediction, transfer};
 use crate::diagnosis::selection::fitted_model::{Bench, Starts};
 use crate::diagnosis::selection::levenberg_marquardt::{Residual, Variables};
-use crate::effects::{Source, effect::Kind};
+use crate::effects::{Kind, Source};
 use crate::response::harmonic_balance::Settings;
 use crate::response::sensitivity::{Unknown, sensitivities};
 use faer::{Mat, c64};

@@ -8,7 +8,7 @@ use crate::diagnosis::selection::fitted_model::{Bench, Refit, Starts};
 use crate::diagnosis::selection::search::{Base, Draft, joined, scale_of};
 use crate::diagnosis::selection::stepwise::same_set;
 use crate::diagnosis::updating::noise_model::NoiseModel;
-use crate::effects::{Effect, Place, Range, Source, State, effect::Kind};
+use crate::effects::{Effect, Kind, Place, Range, Source, State};
 use std::sync::Arc;
 
 /// Of these, sets that are fitted with all harmonics that matter.

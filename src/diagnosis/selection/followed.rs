@@ -8,7 +8,7 @@ use crate::diagnosis::residual::prediction::SEARCH;
 use crate::diagnosis::selection::fits::STEPS;
 use crate::diagnosis::selection::fitted_model::{Refit, Starts};
 use crate::diagnosis::updating::measured_motion::MeasuredMotion;
-use crate::effects::{Effect, Place, Source, State, effect::Kind};
+use crate::effects::{Effect, Kind, Place, Source, State};
 use crate::math::statistics::bayesian_information;
 use crate::response::sensitivity::Unknown;
 use dashpot_numerics::dot;

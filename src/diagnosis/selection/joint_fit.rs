@@ -17,7 +17,7 @@ use crate::diagnosis::selection::levenberg_marquardt::{Residual, Variables, desc
 use crate::diagnosis::selection::search::Base;
 use crate::diagnosis::updating::noise_model::NoiseModel;
 use crate::diagnosis::updating::parameters::Updating;
-use crate::effects::{Source, effect::Kind};
+use crate::effects::{Kind, Source};
 use crate::response::harmonic_balance::Settings;
 use crate::response::sensitivity::Unknown;
 use faer::Mat;

@@ -12,7 +12,7 @@ use crate::diagnosis::residual::prediction::SEARCH;
 use crate::diagnosis::selection::fitted_model::Refit;
 use crate::diagnosis::selection::levenberg_marquardt::Variables;
 use crate::diagnosis::selection::search::Base;
-use crate::effects::{Effect, Source, effect::Kind};
+use crate::effects::{Effect, Kind, Source};
 use crate::math::least_squares::solve_symmetric;
 use crate::response::harmonic_balance::{Excitation, Response};
 use dashpot_numerics::transposed_product;

@@ -5,7 +5,7 @@ use crate::diagnosis::candidates::friction::friction;
 use crate::diagnosis::candidates::law_force::GAINS;
 use crate::diagnosis::candidates::special_cases::is_limit;
 use crate::diagnosis::localisation::free_force::Placing;
-use crate::effects::{SetValued, Source, effect::Kind};
+use crate::effects::{Kind, SetValued, Source};
 
 /// Most laws of one place that are fitted on the response.
 const LAWS_AT_ONE_PLACE: usize = 4;

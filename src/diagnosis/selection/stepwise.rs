@@ -13,7 +13,7 @@ use crate::diagnosis::selection::search::{Base, scale_of};
 use crate::diagnosis::selection::weighing::{Weighed, weighed};
 use crate::diagnosis::updating::detuning::is_likely;
 use crate::diagnosis::updating::noise_model::NoiseModel;
-use crate::effects::{Effect, Source, effect::Kind};
+use crate::effects::{Effect, Kind, Source};
 use std::sync::Arc;
 
 /// Most effects that are added.

@@ -2,12 +2,12 @@
 //! `offset - force` while it falls, any force between them at rest. The offset does no work over a period; energy per
 //! cycle of `d = X cos(omega t)`: `4 force X`; of any periodic motion: `force` times the way travelled.
 
+use super::coulomb::Coulomb;
 use crate::effects::description::Exponents;
 use crate::effects::law::{Point, Variable};
 use crate::effects::limits::{CLOSE, Limit};
 use crate::effects::memoryless::sign;
 use crate::effects::symbol::{Mark, Tone};
-use crate::effects::turning::total_variation;
 use crate::effects::{Description, Effect, MemorylessLaw, Motion, Parameter, SetValued};
 
 /// Friction of different size to either side.
@@ -51,12 +51,13 @@ impl MemorylessLaw for AsymmetricCoulomb {
         if k == 0 { sign(v) } else { 1.0 }
     }
 
-    fn cycle_energy(&self, p: &[f64], amplitude: f64, _omega: f64) -> Option<f64> {
-        Some(4.0 * p[0] * amplitude)
+    // The offset does no work over a cycle.
+    fn cycle_energy(&self, p: &[f64], amplitude: f64, omega: f64) -> Option<f64> {
+        Coulomb.cycle_energy(&p[..1], amplitude, omega)
     }
 
     fn exact_energy(&self, p: &[f64], motion: &Motion) -> Option<f64> {
-        Some(p[0] * total_variation(motion))
+        Coulomb.exact_energy(&p[..1], motion)
     }
 
     fn set_valued(&self) -> Option<&dyn SetValued> {

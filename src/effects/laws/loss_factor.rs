@@ -1,7 +1,7 @@
 //! Loss factor of the material: `F_h = i loss_factor K X_h` at each harmonic; no force at rest.
 
+use crate::effects::Basis;
 use crate::effects::description::Constant;
-use crate::effects::law::Basis;
 use crate::effects::symbol::Mark;
 use crate::effects::{Description, Parameter, WholeLaw};
 use faer::c64;

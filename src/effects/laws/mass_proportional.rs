@@ -1,7 +1,7 @@
 //! Mass-proportional viscous damping: `F = alpha M x'`.
 
+use crate::effects::Basis;
 use crate::effects::description::Constant;
-use crate::effects::law::Basis;
 use crate::effects::symbol::Mark;
 use crate::effects::{Description, Parameter, WholeLaw};
 use faer::c64;

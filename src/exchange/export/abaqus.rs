@@ -1,7 +1,8 @@
 //! Abaqus input: `DASHPOT1` to the ground and `DASHPOT2` between nodes, one element set a dashpot.
 
 use super::dashpots::{dashpots, grid_component};
-use super::{Export, Identified};
+use super::files::Export;
+use super::identified::Identified;
 use std::fmt::Write;
 use std::path::Path;
 

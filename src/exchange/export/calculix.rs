@@ -5,7 +5,8 @@
 //! exact only where both are of the direction of the line through their nodes; others are left out, which is said.
 
 use super::dashpots::{Dashpot, dashpots, grid_component};
-use super::{Export, Identified};
+use super::files::Export;
+use super::identified::Identified;
 use crate::structure::{Direction, Structure};
 use std::fmt::Write;
 use std::path::Path;

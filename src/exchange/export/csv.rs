@@ -1,6 +1,7 @@
 //! Comma-separated values: the viscous matrix with DOF labels, and tables of sources, energy and other laws beside it.
 
-use super::{Export, Identified, beside, place_text};
+use super::files::{Export, beside};
+use super::identified::{Identified, place_text};
 use crate::structure::Structure;
 use faer::Mat;
 use std::path::Path;

@@ -1,6 +1,6 @@
 //! Viscous sources as single dashpots: what finite-element programs call CDAMP2 or DASHPOT elements.
 
-use super::{Identified, place_text};
+use super::identified::{Identified, place_text};
 use crate::effects::{Effect, Leg};
 use crate::structure::{Direction, Structure, StructureKind};
 

@@ -1,6 +1,7 @@
 //! One JSON document: the words of `identify --json`, with every matrix.
 
-use super::{Export, Identified, place_text};
+use super::files::Export;
+use super::identified::{Identified, place_text};
 use crate::effects::{Place, State};
 use faer::Mat;
 use serde_json::{Map, Value, json};

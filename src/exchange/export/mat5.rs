@@ -4,7 +4,8 @@
 //! Variables: `C` (N s/m), `C_equivalent`, one matrix for each other law (`C_coulomb`), `dof_labels`, `energy_percent`,
 //! `frequency_hz`, `damping_ratio`, and the struct array `sources`.
 
-use super::{Export, Identified, place_text};
+use super::files::Export;
+use super::identified::{Identified, place_text};
 use faer::Mat;
 use std::path::Path;
 

@@ -4,63 +4,20 @@ mod abaqus;
 mod calculix;
 mod csv;
 mod dashpots;
+mod files;
+mod identified;
 mod json;
 pub mod mat5;
 mod mtx;
 mod nastran;
 mod outcome;
 
+pub use identified::{Identified, IdentifiedMode, IdentifiedSource};
 pub use outcome::write_outcome;
 
 use super::atomic::write_atomically;
-use crate::effects::{Effect, Source};
-use crate::structure::Structure;
-use faer::Mat;
 use std::io;
 use std::path::{Path, PathBuf};
-
-/// A source with its identified (or known) values.
-#[derive(Debug, Clone, PartialEq)]
-pub struct IdentifiedSource {
-    /// The source at its values.
-    pub source: Source,
-    /// Standard deviation of each parameter; 0 where it is known.
-    pub deviation: Vec<f64>,
-    /// Share of all dissipated energy, per cent.
-    pub energy_percent: f64,
-}
-
-/// A damped mode.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct IdentifiedMode {
-    /// Frequency `|lambda| / 2 pi`, Hz.
-    pub frequency_hz: f64,
-    /// Damping ratio.
-    pub damping_ratio: f64,
-    /// Its standard deviation.
-    pub deviation: f64,
-}
-
-/// Everything that is exported; matrices are n x n in the order of [`Structure::dofs`].
-#[derive(Debug, Clone, Copy)]
-pub struct Identified<'a> {
-    /// Title of the project.
-    pub title: &'a str,
-    /// Structure.
-    pub structure: &'a Structure,
-    /// Identified and known sources.
-    pub sources: &'a [IdentifiedSource],
-    /// Viscous damping matrix, N s/m.
-    pub viscous: &'a Mat<f64>,
-    /// One matrix of coefficients for each other law, in that law's unit.
-    pub others: &'a [(Effect, Mat<f64>)],
-    /// Viscous matrix of equal energy over all runs, N s/m.
-    pub equivalent: &'a Mat<f64>,
-    /// Share of each DOF in all dissipated energy, per cent.
-    pub energy_percent: &'a [f64],
-    /// Damped modes; empty without mass and stiffness.
-    pub modes: &'a [IdentifiedMode],
-}
 
 /// A format of another program.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -118,25 +75,6 @@ pub enum ExportError {
     },
 }
 
-/// One file of an export, not yet written.
-struct File {
-    path: PathBuf,
-    bytes: Vec<u8>,
-}
-
-/// Files and what could not be said in the format.
-#[derive(Default)]
-struct Export {
-    files: Vec<File>,
-    warnings: Vec<String>,
-}
-
-impl Export {
-    fn add(&mut self, path: PathBuf, bytes: impl Into<Vec<u8>>) {
-        self.files.push(File { path, bytes: bytes.into() });
-    }
-}
-
 /// What was written, and what the format could not hold.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Written {
@@ -162,25 +100,4 @@ pub fn write(identified: &Identified, format: Format, path: &Path) -> Result<Wri
             .map_err(|error| ExportError::Write { path: file.path.clone(), error })?;
     }
     Ok(Written { paths: export.files.into_iter().map(|file| file.path).collect(), warnings: export.warnings })
-}
-
-/// `damping.csv` and `sources` give `damping-sources.csv`.
-fn beside(path: &Path, suffix: &str) -> PathBuf {
-    let stem = path.file_stem().unwrap_or_default().to_string_lossy();
-    let mut name = format!("{stem}-{suffix}");
-    if let Some(extension) = path.extension() {
-        name = format!("{name}.{}", extension.to_string_lossy());
-    }
-    path.with_file_name(name)
-}
-
-/// DOF labels joined for a table, such as `13-17`; `structure` for the whole, the name for a channel.
-fn place_text(source: &Source, structure: &Structure) -> String {
-    use crate::effects::Place;
-    match &source.place {
-        Place::Dofs(dofs) => dofs.iter().map(|&d| structure.label(d)).collect::<Vec<_>>().join("-"),
-        Place::Whole(None) => "structure".to_owned(),
-        Place::Whole(Some([first, last])) => format!("elements {}-{}", first + 1, last + 1),
-        Place::Channel(name) => name.clone(),
-    }
 }

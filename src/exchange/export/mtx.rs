@@ -1,6 +1,7 @@
 //! Matrix Market, symmetric coordinate: lower triangle, one-based, the shortest numbers that read back the same.
 
-use super::{Export, Identified, beside};
+use super::files::{Export, beside};
+use super::identified::Identified;
 use faer::Mat;
 use std::path::Path;
 

@@ -5,7 +5,8 @@
 //! they keep twelve digits.
 
 use super::dashpots::{dashpots, grid_component};
-use super::{Export, Identified, beside};
+use super::files::{Export, beside};
+use super::identified::Identified;
 use crate::structure::Structure;
 use faer::Mat;
 use std::fmt::Write;

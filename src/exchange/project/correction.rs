@@ -2,7 +2,8 @@
 //! such as the stiffness of a mode or of a range of elements; what model updating found.
 
 use super::error::{Problem, ProjectError};
-use super::file::{Label, Lines};
+use super::file::Lines;
+use super::label::Label;
 use super::reader::Table;
 use crate::structure::{Part, Structure};
 use serde::{Deserialize, Serialize};
@@ -153,7 +154,7 @@ pub(super) fn parse(structure: &Table<'_>, lines: &mut Lines) -> Result<Vec<Corr
             let value = factor.to_string();
             return Err(table.error("factor", Problem::OutOfRange { key: "factor".into(), value, range: "above 0" }));
         }
-        let (elements, mode) = (super::parse::elements(&table)?, table.whole("mode")?);
+        let (elements, mode) = (super::keys::elements(&table)?, table.whole("mode")?);
         let node = table.label("node")?.map(Label);
         tables.push(CorrectionTable { what, dofs, elements, mode, node, factor });
         lines.correction.push(table.line());

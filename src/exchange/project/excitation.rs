@@ -1,7 +1,7 @@
 //! `excitation = { ... }` of a run: what `simulate` does to the structure in a test that is not steady.
 
 use super::error::{Problem, ProjectError};
-use super::file::Label;
+use super::label::Label;
 use super::reader::Table;
 use crate::response::recording::Loading;
 use serde::Serialize;

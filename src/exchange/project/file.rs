@@ -3,8 +3,9 @@
 use super::correction::CorrectionTable;
 use super::excitation::ExcitationTable;
 use super::frf::FrfTable;
+pub use super::label::Label;
 pub use super::lines::Lines;
-pub use super::model::ReduceTable;
+pub use super::reduce::ReduceTable;
 use super::ruled_out::RuledOutTable;
 use crate::effects::family::Family;
 use crate::effects::{Effect, State};
@@ -16,7 +17,7 @@ use crate::structure::LumpedMass;
 use crate::structure::beam::BeamParameters;
 use crate::structure::chain::ChainParameters;
 use crate::structure::component::ComponentParameters;
-use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use serde::{Serialize, Serializer};
 use std::collections::BTreeMap;
 
 /// The newest format that is understood.
@@ -145,34 +146,6 @@ pub struct PointsTable {
     /// Positions, m.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub positions: Option<Vec<[f64; 3]>>,
-}
-
-/// A DOF label; one that is a number is written without quotes.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Label(pub String);
-
-impl Serialize for Label {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        match self.0.parse::<i64>() {
-            Ok(number) if number.to_string() == self.0 => serializer.serialize_i64(number),
-            _ => serializer.serialize_str(&self.0),
-        }
-    }
-}
-
-impl<'de> Deserialize<'de> for Label {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        #[derive(Deserialize)]
-        #[serde(untagged)]
-        enum Written {
-            Number(i64),
-            Text(String),
-        }
-        Ok(Self(match Written::deserialize(deserializer)? {
-            Written::Number(number) => number.to_string(),
-            Written::Text(text) => text,
-        }))
-    }
 }
 
 /// Table `[[source]]`.

@@ -1,16 +1,14 @@
 //! Tables `[[frf]]`: measured frequency responses as runs.
 
 use super::error::{Problem, ProjectError};
-use super::file::{Label, Lines};
-use super::plan::Plan;
+use super::file::Lines;
+use super::label::Label;
 use super::reader::{Origin, Table, one_line};
-use crate::control::Control;
-use crate::exchange::frf::{Form, FrfSource, read_responses};
-use crate::measurement::frf::{ChosenRuns, Selection};
+use crate::exchange::frf::{Form, FrfSource};
+use crate::measurement::frf::Selection;
 use dashpot_datafiles::Pairing;
 use serde::{Serialize, Serializer};
 use std::collections::BTreeMap;
-use std::path::Path;
 use toml::de::DeTable;
 
 const KEYS: [&str; 13] = [
@@ -187,28 +185,5 @@ impl FrfTable {
     /// Which lines become runs.
     pub fn selection(&self) -> Selection {
         Selection { band: self.band.unwrap_or([0.0, f64::INFINITY]), most: self.lines.unwrap_or(USUAL_LINES) }
-    }
-}
-
-impl Plan {
-    /// Reads the frequency responses of table number `index` and makes runs of their most informative lines.
-    ///
-    /// # Errors
-    /// [`ProjectError`] with the line of the table, the file and the set.
-    pub fn frf(&self, index: usize, control: &Control) -> Result<ChosenRuns, ProjectError> {
-        let table = &self.file.frf[index];
-        let wrong = |problem| self.error(Some(self.lines.frf[index]), problem);
-        let path = self.path.parent().unwrap_or(Path::new("")).join(&table.file);
-        if !path.is_file() {
-            return Err(wrong(Problem::NoRecord { file: table.file.clone() }));
-        }
-        let (set, faults) = read_responses(&path, &table.file, &table.source(), &self.structure, control)
-            .map_err(|error| wrong(Problem::Frf(Box::new(error))))?;
-        let mut chosen = set.runs(table.selection(), table.enabled, &self.corrections());
-        if chosen.runs.is_empty() {
-            return Err(wrong(Problem::NoLines { file: table.file.clone() }));
-        }
-        chosen.remarks.extend(faults);
-        Ok(chosen)
     }
 }

@@ -1,7 +1,8 @@
 //! The DOF labels that a project uses: those of its sensors, exciters, sources and lumped masses, in the order of the file.
 //! A reduced structure keeps them.
 
-use super::file::{Label, ProjectFile, Shape};
+use super::file::{ProjectFile, Shape};
+use super::label::Label;
 use crate::exchange::frf::labels_in;
 use crate::exchange::records::places::contents;
 use crate::measurement::channel::{ChannelName, parse_name};

@@ -3,7 +3,7 @@
 use super::error::{Problem, ProjectError};
 use super::plan::{Plan, open};
 use crate::control::Control;
-use crate::effects::{Place, Source, effect};
+use crate::effects::{self, Place, Source};
 use crate::exchange::Project;
 use crate::exchange::records::base_channel;
 use crate::measurement::proposal::{Proposal, propose};
@@ -30,22 +30,7 @@ impl Plan {
         if self.runs.is_empty() && self.file.harmonics.is_empty() && self.file.frf.is_empty() {
             return Err(self.error(None, Problem::NothingMeasured));
         }
-        let mut runs = Vec::with_capacity(self.runs.len());
-        let mut transient_runs = Vec::new();
-        for index in 0..self.runs.len() {
-            control.check().map_err(|_| self.error(None, Problem::Cancelled))?;
-            let piece = control.piece(index, self.runs.len());
-            // Loops of a component are compared as they are: no steady state is fitted to them.
-            let kind = match self.structure.kind() {
-                StructureKind::Component => Kind::Transient,
-                _ => self.runs[index].kind,
-            };
-            match kind {
-                Kind::Steady => runs.push(self.run(index, &piece)?),
-                Kind::Decay | Kind::Transient => transient_runs.push(self.transient_run(index, &piece)?),
-            }
-            piece.report(1.0);
-        }
+        let (mut runs, transient_runs) = self.records(control)?;
         let corrections = self.corrections();
         for run in self.harmonics()? {
             runs.push(self.on_its_base(None, run.run(&corrections))?);
@@ -68,6 +53,27 @@ impl Plan {
             settings: self.file.analysis,
             remarks,
         })
+    }
+
+    /// The runs that are records: steady ones, and the others.
+    fn records(&self, control: &Control) -> Result<(Vec<Run>, Vec<TransientRun>), ProjectError> {
+        let mut runs = Vec::with_capacity(self.runs.len());
+        let mut transient_runs = Vec::new();
+        for index in 0..self.runs.len() {
+            control.check().map_err(|_| self.error(None, Problem::Cancelled))?;
+            let piece = control.piece(index, self.runs.len());
+            // Loops of a component are compared as they are: no steady state is fitted to them.
+            let kind = match self.structure.kind() {
+                StructureKind::Component => Kind::Transient,
+                _ => self.runs[index].kind,
+            };
+            match kind {
+                Kind::Steady => runs.push(self.run(index, &piece)?),
+                Kind::Decay | Kind::Transient => transient_runs.push(self.transient_run(index, &piece)?),
+            }
+            piece.report(1.0);
+        }
+        Ok((runs, transient_runs))
     }
 
     /// Reads and fits the record of run number `index`, and corrects it for the known errors of its channels.
@@ -133,7 +139,7 @@ impl Plan {
                 corrections.push(Correction { channel, delay: 0.0, gain: 1.0 });
             }
             match sensor.effect.kind() {
-                effect::Kind::Channel(law) if law.turns_phase() => corrections[at].delay = sensor.parameters[0],
+                effects::Kind::Channel(law) if law.turns_phase() => corrections[at].delay = sensor.parameters[0],
                 _ => corrections[at].gain = sensor.parameters[0],
             }
         }

@@ -1,13 +1,12 @@
 //! A structure from the files of a finite-element program, whole or reduced.
 
-use super::error::{Problem, ProjectError};
-use super::file::{Label, MatricesTable};
-use super::reader::Table;
+use super::error::Problem;
+use super::file::MatricesTable;
+use super::reduce::ReduceTable;
 use crate::exchange::matrices::model::{Model, ModelFiles, full, is_model, read_model};
 use crate::structure::imported::{ImportedDof, ImportedParameters};
 use crate::structure::reduction::{Method, Reduction, Wanted, reduce};
 use crate::structure::{Direction, LumpedMass, MOST_DOFS, Node, Structure, StructureError};
-use serde::Serialize;
 use std::collections::{HashMap, HashSet};
 use std::path::Path;
 
@@ -119,50 +118,5 @@ fn reduced(
     Ok((parameters, reduction))
 }
 
-/// Table `[structure.reduce]`.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct ReduceTable {
-    /// `guyan` or `craig-bampton`.
-    pub method: String,
-    /// Fixed-interface modes are kept up to this frequency, Hz.
-    pub up_to_hz: f64,
-    /// The error is told up to this frequency, Hz; half of `up_to_hz` unless given.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub band_hz: Option<f64>,
-    /// Largest relative error of a frequency in the band, 0.001 unless given.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub error: Option<f64>,
-    /// DOFs that are kept beside those that the project names.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub dofs: Vec<Label>,
-}
-
 /// Largest relative error of the frequencies in the band unless the project says another.
 const USUAL_ERROR: f64 = 1e-3;
-
-/// Table `[structure.reduce]`.
-pub(super) fn parse(table: &Table<'_>) -> Result<ReduceTable, ProjectError> {
-    table.only(&["method", "up_to_hz", "band_hz", "error", "dofs"])?;
-    let names = [Method::CraigBampton, Method::Guyan].map(Method::name);
-    let method = table.word("method", &names, Method::from_name)?.unwrap_or(Method::CraigBampton);
-    let frequency = |key: &'static str| match table.number(key)? {
-        Some(value) if value <= 0.0 => {
-            let (key, range) = (key.to_owned(), "above 0 Hz");
-            Err(table.error(&key.clone(), Problem::OutOfRange { key, value: value.to_string(), range }))
-        }
-        value => Ok(value),
-    };
-    Ok(ReduceTable {
-        method: method.name().to_owned(),
-        up_to_hz: table.need("up_to_hz", "up_to_hz = 2000.0", frequency("up_to_hz")?)?,
-        band_hz: frequency("band_hz")?,
-        error: match table.number("error")? {
-            Some(value) if value <= 0.0 => {
-                let (key, range) = ("error".to_owned(), "above 0, such as 0.001 for 0.1 %");
-                return Err(table.error("error", Problem::OutOfRange { key, value: value.to_string(), range }));
-            }
-            value => value,
-        },
-        dofs: table.labels("dofs")?.unwrap_or_default().into_iter().map(Label).collect(),
-    })
-}

@@ -4,14 +4,16 @@ use super::channel;
 use super::correction;
 use super::error::{Problem, ProjectError};
 use super::file::{
-    CandidatesTable, FORMAT, Header, Label, Lines, MatricesTable, PointsTable, ProjectFile, SensorTable, Shape,
-    SimulateTable, SourceTable, StructureTable,
+    CandidatesTable, FORMAT, Header, Lines, MatricesTable, PointsTable, ProjectFile, SensorTable, Shape, SimulateTable,
+    SourceTable, StructureTable,
 };
 use super::frf;
+use super::keys::{elements, key_lines};
+use super::label::Label;
 use super::reader::{Origin, Table, one_line};
 use super::ruled_out;
 use super::runs::{harmonics, runs};
-use super::{base, model};
+use super::{base, reduce};
 use crate::balance::{Expansion, Weights};
 use crate::effects::family::Family;
 use crate::effects::{Effect, State};
@@ -125,11 +127,6 @@ fn header(root: &Table<'_>) -> Read<Header> {
     Ok(Header { format: FORMAT, title, notes: table.text("notes")?.unwrap_or_default() })
 }
 
-pub(super) fn key_lines(table: &Table<'_>) -> BTreeMap<String, usize> {
-    let keys = table.keys().into_iter().map(|key| (key.to_owned(), table.line_of(key)));
-    keys.chain([(String::new(), table.line())]).collect()
-}
-
 fn structure(root: &Table<'_>, lines: &mut Lines) -> Read<StructureTable> {
     let table = root.need("structure", "[structure]", root.table("structure", "[structure]")?)?;
     lines.structure = key_lines(&table);
@@ -197,7 +194,7 @@ fn matrices(table: &Table<'_>) -> Read<MatricesTable> {
         lines: table.text("lines")?,
         mass_name: table.text("mass_name")?,
         stiffness_name: table.text("stiffness_name")?,
-        reduce: table.table("reduce", "[structure.reduce]")?.map(|table| model::parse(&table)).transpose()?,
+        reduce: table.table("reduce", "[structure.reduce]")?.map(|table| reduce::parse(&table)).transpose()?,
     })
 }
 
@@ -253,18 +250,6 @@ fn sources(root: &Table<'_>, lines: &mut Lines) -> Read<Vec<SourceTable>> {
         lines.source.push(key_lines(&table));
     }
     Ok(sources)
-}
-
-/// `elements = [first, last]`, from 1.
-pub(super) fn elements(table: &Table<'_>) -> Read<Option<[i64; 2]>> {
-    let Some(numbers) = table.numbers("elements")? else { return Ok(None) };
-    match numbers[..] {
-        [a, b] if a.fract() == 0.0 && b.fract() == 0.0 => Ok(Some([a as i64, b as i64])),
-        _ => {
-            let (expected, found) = ("[first, last], two whole numbers from 1", "another list");
-            Err(table.error("elements", Problem::WrongType { key: "elements".into(), expected, found }))
-        }
-    }
 }
 
 fn candidates(root: &Table<'_>, lines: &mut Lines) -> Read<Vec<CandidatesTable>> {

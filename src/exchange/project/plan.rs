@@ -1,9 +1,11 @@
 //! A project before its records are read: what `simulate` needs, and the first half of loading.
 
 use super::error::{Problem, ProjectError};
+use super::excitation::ExcitationTable;
 use super::file::{BaseResponse, Lines, ProjectFile, RunTable, SimulateTable};
 use super::kept;
-use super::ruled_out::ruled_out;
+use super::label::Label;
+use super::ruled_out_sources::ruled_out;
 use super::sources::{At, line, sensors, sources};
 use super::structure::structure;
 use crate::control::Control;
@@ -168,24 +170,19 @@ fn runs(file: &ProjectFile, structure: &Structure, folder: &Path, at: At<'_>) ->
             let first = line(&at.lines.run[first], "file");
             return Err(at.error(line(lines, "file"), Problem::Twice { what, first }));
         }
+        let row = |label: &Label, key: &str| {
+            let wrong = |error| at.error(line(lines, key), Problem::Structure(Box::new(error)));
+            structure.require_dof(&label.0).map_err(wrong)
+        };
         let force = match (&table.force_dof, table.force_n) {
-            (Some(label), Some(amplitude_n)) => {
-                let dof = structure.require_dof(&label.0);
-                let dof =
-                    dof.map_err(|error| at.error(line(lines, "force_dof"), Problem::Structure(Box::new(error))))?;
-                Some(PlannedForce { dof, amplitude_n })
-            }
+            (Some(label), Some(amplitude_n)) => Some(PlannedForce { dof: row(label, "force_dof")?, amplitude_n }),
             _ => None,
         };
-        let test = match &table.excitation {
-            Some(excitation) => {
-                let dof = structure
-                    .require_dof(&excitation.dof.0)
-                    .map_err(|error| at.error(line(lines, "excitation"), Problem::Structure(Box::new(error))))?;
-                Some(PlannedTest { dof, duration_s: excitation.duration_s, loading: excitation.loading })
-            }
-            None => None,
+        let planned = |excitation: &ExcitationTable| {
+            let dof = row(&excitation.dof, "excitation")?;
+            Ok::<_, ProjectError>(PlannedTest { dof, duration_s: excitation.duration_s, loading: excitation.loading })
         };
+        let test = table.excitation.as_ref().map(planned).transpose()?;
         runs.push(PlannedRun {
             file: table.file.clone(),
             path: folder.join(&table.file),

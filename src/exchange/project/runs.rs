@@ -1,8 +1,9 @@
 //! Tables `[[run]]` and `[[harmonics]]` of a project.
 
 use super::error::{Problem, ProjectError};
-use super::file::{HarmonicsTable, Label, Lines, RunTable};
-use super::parse::key_lines;
+use super::file::{HarmonicsTable, Lines, RunTable};
+use super::keys::{above_zero, key_lines};
+use super::label::Label;
 use super::reader::Table;
 use super::{base, excitation};
 use crate::measurement::base::AXES;
@@ -42,53 +43,49 @@ pub(super) fn runs(root: &Table<'_>, lines: &mut Lines) -> Read<Vec<RunTable>> {
     let mut runs = Vec::new();
     for table in root.tables("run", "[[run]]")? {
         table.only(&RUN)?;
-        let frequency = table.number("frequency")?;
-        if let Some(value) = frequency.filter(|f| *f <= 0.0) {
-            let (key, range) = ("frequency".to_owned(), "above 0 Hz");
-            return Err(table.error("frequency", Problem::OutOfRange { key, value: value.to_string(), range }));
-        }
-        let kind = table.word("kind", &Kind::NAMES, Kind::from_name)?.unwrap_or_default();
-        let part = part(&table)?;
-        let sampling_hz = table.number("sampling_hz")?;
-        if let Some(value) = sampling_hz.filter(|f| *f <= 0.0) {
-            let (key, range) = ("sampling_hz".to_owned(), "above 0 Hz");
-            return Err(table.error("sampling_hz", Problem::OutOfRange { key, value: value.to_string(), range }));
-        }
-        let (force_dof, force_n) = (table.label("force_dof")?.map(Label), table.number("force_n")?);
-        match (&force_dof, force_n) {
-            (Some(_), None) => {
-                let problem = Problem::HalfAForce { key: "force_dof", other: "force_n" };
-                return Err(table.error("force_dof", problem));
-            }
-            (None, Some(_)) => {
-                return Err(table.error("force_n", Problem::HalfAForce { key: "force_n", other: "force_dof" }));
-            }
-            _ => {}
-        }
-        runs.push(RunTable {
-            file: table.need("file", "file = \"run-01.csv\"", table.text("file")?)?,
-            frequency,
-            kind,
-            start_s: part.start_s,
-            end_s: part.end_s,
-            exponential_window_s: exponential_window(&table)?,
-            session: table.label("session")?,
-            level: table.whole("level")?,
-            enabled: table.flag("use")?,
-            force_dof,
-            force_n,
-            frequency_shift: frequency_shift(&table)?,
-            excitation: excitation::parse(&table)?,
-            set: table.text("set")?,
-            sampling_hz,
-            base: table.word("base", &AXES, |word| AXES.contains(&word).then(|| word.to_owned()))?,
-            base_m_s2: table.number("base_m_s2")?,
-            response: base::response(&table)?,
-        });
+        runs.push(run(&table)?);
         base::half_a_base(&table, runs.last())?;
         lines.run.push(key_lines(&table));
     }
     Ok(runs)
+}
+
+fn run(table: &Table<'_>) -> Read<RunTable> {
+    let frequency = above_zero(table, "frequency", "above 0 Hz")?;
+    let kind = table.word("kind", &Kind::NAMES, Kind::from_name)?.unwrap_or_default();
+    let part = part(table)?;
+    let sampling_hz = above_zero(table, "sampling_hz", "above 0 Hz")?;
+    let (force_dof, force_n) = force(table)?;
+    Ok(RunTable {
+        file: table.need("file", "file = \"run-01.csv\"", table.text("file")?)?,
+        frequency,
+        kind,
+        start_s: part.start_s,
+        end_s: part.end_s,
+        exponential_window_s: above_zero(table, "exponential_window_s", "above 0 s")?,
+        session: table.label("session")?,
+        level: table.whole("level")?,
+        enabled: table.flag("use")?,
+        force_dof,
+        force_n,
+        frequency_shift: frequency_shift(table)?,
+        excitation: excitation::parse(table)?,
+        set: table.text("set")?,
+        sampling_hz,
+        base: table.word("base", &AXES, |word| AXES.contains(&word).then(|| word.to_owned()))?,
+        base_m_s2: table.number("base_m_s2")?,
+        response: base::response(table)?,
+    })
+}
+
+/// The DOF and the size of a force, which belong together.
+fn force(table: &Table<'_>) -> Read<(Option<Label>, Option<f64>)> {
+    let half = |key: &'static str, other: &'static str| table.error(key, Problem::HalfAForce { key, other });
+    match (table.label("force_dof")?.map(Label), table.number("force_n")?) {
+        (Some(_), None) => Err(half("force_dof", "force_n")),
+        (None, Some(_)) => Err(half("force_n", "force_dof")),
+        force => Ok(force),
+    }
 }
 
 fn frequency_shift(table: &Table<'_>) -> Read<Option<f64>> {
@@ -99,17 +96,6 @@ fn frequency_shift(table: &Table<'_>) -> Read<Option<f64>> {
             Err(table.error("frequency_shift", Problem::OutOfRange { key, value: value.to_string(), range }))
         }
         None => Ok(shift),
-    }
-}
-
-fn exponential_window(table: &Table<'_>) -> Read<Option<f64>> {
-    let constant = table.number("exponential_window_s")?;
-    match constant.filter(|constant| *constant <= 0.0) {
-        Some(value) => {
-            let (key, range) = ("exponential_window_s".to_owned(), "above 0 s");
-            Err(table.error("exponential_window_s", Problem::OutOfRange { key, value: value.to_string(), range }))
-        }
-        None => Ok(constant),
     }
 }
 

@@ -1,8 +1,9 @@
 //! Sources and sensors of a project on its structure: labels found, families expanded, repetitions refused.
 
 use super::error::{Problem, ProjectError};
-use super::file::{CandidatesTable, Label, Lines, ProjectFile, SensorTable, SourceTable};
-use crate::effects::effect::Kind;
+use super::file::{CandidatesTable, Lines, ProjectFile, SensorTable, SourceTable};
+use super::label::Label;
+use crate::effects::Kind;
 use crate::effects::source::SourceError;
 use crate::effects::{Effect, Place, Source, State};
 use crate::measurement::Quantity;

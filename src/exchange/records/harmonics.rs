@@ -3,6 +3,7 @@
 //! `y(t) = sum_h cos_h cos(h w t) + sin_h sin(h w t)`, so `Y_h = cos_h - i sin_h`.
 
 use super::error::{At, RecordFileError, RecordProblem};
+use super::harmonics_run::HarmonicsRun;
 use super::reader::channel;
 use super::stepped_sine::{self, SteppedSine};
 use super::table::{Table, quote};
@@ -18,19 +19,6 @@ pub const HIGHEST_HARMONIC: usize = 1000;
 
 const NAMES: [&str; 8] = ["run", "frequency_hz", "channel", "harmonic", "cos", "sin", "cos_std", "sin_std"];
 const REQUIRED: usize = 6;
-
-/// One run of a harmonics file.
-#[derive(Debug, Clone, PartialEq)]
-pub struct HarmonicsRun {
-    /// Name in column `run`.
-    pub name: String,
-    /// Its harmonics; covariance and noise are zero where the file gives no deviations.
-    pub fit: HarmonicFit,
-    /// Label of the force level, where the file has it.
-    pub level: Option<i64>,
-    /// Name of the session, where the file has it.
-    pub session: Option<String>,
-}
 
 /// Reads every run in the harmonics file at `path`, in the order in which they appear.
 pub fn read_harmonics(path: &Path, structure: &Structure) -> Result<Vec<HarmonicsRun>, RecordFileError> {

@@ -3,6 +3,7 @@
 pub mod columns;
 pub mod error;
 pub mod harmonics;
+mod harmonics_run;
 pub mod places;
 pub mod reader;
 pub mod stepped_sine;
@@ -10,7 +11,8 @@ mod table;
 pub mod writer;
 
 pub use error::{RecordFileError, RecordProblem};
-pub use harmonics::{HarmonicsRun, parse_harmonics, read_harmonics, read_harmonics_as, write_harmonics};
+pub use harmonics::{parse_harmonics, read_harmonics, read_harmonics_as, write_harmonics};
+pub use harmonics_run::HarmonicsRun;
 pub(crate) use reader::base_channel;
 pub use reader::{parse_record, read_record, read_record_with};
 pub use stepped_sine::SteppedSine;

@@ -12,7 +12,7 @@
 
 use super::columns::{Role, role};
 use super::error::{At, RecordFileError, RecordProblem};
-use super::harmonics::HarmonicsRun;
+use super::harmonics_run::HarmonicsRun;
 use super::reader::channel;
 use super::table::{Table, quote};
 use crate::measurement::channel::Unit;

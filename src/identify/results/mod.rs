@@ -1,28 +1,15 @@
 //! What is shown of the accepted set: matrices, energy shares, damped modes.
 
+mod input;
 pub mod matrices;
 pub mod modes;
 pub mod shares;
 
-use crate::balance::{Expanded, Measured};
-use crate::effects::Source;
-use crate::structure::Structure;
 use faer::Mat;
 
+pub(crate) use input::ResultsInput;
 pub use matrices::{EquivalentViscous, LawMatrix};
 pub use modes::ModeResult;
-
-/// What the results are computed from.
-pub(crate) struct ResultsInput<'a> {
-    pub structure: &'a Structure,
-    pub runs: &'a [(Measured, Expanded)],
-    /// Known and accepted sources at their values.
-    pub acting: &'a [Source],
-    /// Accepted columns at unit coefficient.
-    pub columns: Vec<Source>,
-    /// Covariance of the coefficients of `columns`.
-    pub covariance: &'a Mat<f64>,
-}
 
 /// Results of the accepted set with the known sources.
 #[derive(Debug, Clone, PartialEq)]

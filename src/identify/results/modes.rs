@@ -5,7 +5,7 @@
 
 use super::ResultsInput;
 use super::matrices::{EquivalentViscous, weighted_sum};
-use crate::effects::effect::Kind;
+use crate::effects::Kind;
 use crate::effects::{Constant, Effect, Source};
 use crate::response::frequency_response::{self, HalfPower};
 use crate::response::linear_matrices::{LinearMatrices, unit_matrix};

@@ -6,7 +6,7 @@
 
 use crate::balance::action::{self, Field};
 use crate::balance::{Expanded, Measured};
-use crate::effects::effect::Kind;
+use crate::effects::Kind;
 use crate::effects::{Leg, Place, Source};
 use crate::structure::Structure;
 

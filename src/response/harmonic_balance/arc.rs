@@ -9,9 +9,9 @@
 
 use super::Settings;
 use super::dense::Lu;
+use super::error::ResponseError;
 use super::iterate::Ending;
 use super::newton::{Balance, relative};
-use super::outcome::ResponseError;
 use crate::control::Control;
 
 /// Most points of the path.

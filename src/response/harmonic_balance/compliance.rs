@@ -6,11 +6,11 @@
 //! regular at an undamped natural frequency and is far below any damping that can be measured; modes near resonance are
 //! set apart (`resonant`).
 
-use super::model::ModelError;
+use super::error::ModelError;
+use super::modal_basis::{ModalBasis, modal_basis};
 use super::resonant::{Pattern, Resonant, damping, near};
-use crate::effects::law::Basis;
-use crate::effects::{Leg, Source, effect::Kind, place::Place};
-use crate::structure::modes::modes;
+use crate::effects::Basis;
+use crate::effects::{Kind, Leg, Source, place::Place};
 use crate::structure::{Structure, SystemMatrices};
 use dashpot_numerics::{Cholesky, ComplexLu};
 use faer::{Mat, c64};
@@ -20,15 +20,6 @@ use std::sync::Arc;
 const REGULARISING_LOSS: f64 = 1e-14;
 /// Up to this many degrees of freedom the inverse is formed at every harmonic.
 const DENSE: usize = 60;
-
-/// Undamped modes of the structure, `phi^T M phi = 1`.
-#[derive(Debug)]
-pub(crate) struct ModalBasis {
-    /// Squares of the natural circular frequencies, rad^2/s^2.
-    squares: Vec<f64>,
-    /// Mode shapes, n x n, one a column.
-    shapes: Mat<f64>,
-}
 
 /// The structure and its whole-structure laws.
 #[derive(Debug, Clone)]
@@ -60,7 +51,7 @@ impl LinearPart {
         let mut part = Self { whole: Vec::new(), ..self.clone() };
         for source in sources {
             if let (Kind::Whole(law), Place::Whole(range)) = (source.effect.kind(), &source.place) {
-                let own = range.map(|range| Arc::new(restricted(&self.structure, law.basis(), range)));
+                let own = range.map(|range| Arc::new(law.basis().of_elements(&self.structure, range)));
                 part.whole.push((source.clone(), own));
             }
         }
@@ -129,7 +120,7 @@ impl LinearPart {
         if count == 0 {
             return multiply(&self.matrices().mass, factor, x);
         }
-        multiply(&restricted(&self.structure, Basis::Mass, [0, count - 1]), factor, x)
+        multiply(&Basis::Mass.of_elements(&self.structure, [0, count - 1]), factor, x)
     }
 
     /// `-omega_r^2 (M phi_r) (M phi_r)^T x`: the pseudo-force of a mode whose stiffness grows; `None` without such a mode.
@@ -186,7 +177,8 @@ impl LinearPart {
     pub fn compliance(&self, omega: f64, apart: bool, summed: bool) -> Compliance {
         let factors = self.factors(omega);
         let modes = if apart && omega > 0.0 { near(&self.basis, factors) } else { Vec::new() };
-        let mut resonant: Vec<Resonant> = modes.iter().map(|&r| Resonant::new(self, &self.basis, r)).collect();
+        let mut resonant: Vec<Resonant> =
+            modes.iter().map(|&r| Resonant::new(self.times_mass(self.basis.shape(r)), self.basis.square(r))).collect();
         // A sweep asks each frequency for a few entries only.
         let modal = self.len() > DENSE || !apart || summed;
         let inverse = if modal && self.whole.iter().all(|(_, own)| own.is_none()) {
@@ -303,31 +295,6 @@ impl Inverse {
     }
 }
 
-impl ModalBasis {
-    /// Number of modes.
-    pub fn len(&self) -> usize {
-        self.squares.len()
-    }
-
-    /// Square of the natural circular frequency of mode `r`.
-    pub fn square(&self, r: usize) -> f64 {
-        self.squares[r]
-    }
-
-    /// Shape of mode `r`, n.
-    pub fn shape(&self, r: usize) -> &[f64] {
-        self.shapes.col_as_slice(r)
-    }
-
-    fn combine(&self, modal: impl Iterator<Item = c64>, result: &mut [c64]) {
-        for (r, q) in modal.enumerate() {
-            for (x, shape) in result.iter_mut().zip(self.shapes.col_as_slice(r)) {
-                *x += q * *shape;
-            }
-        }
-    }
-}
-
 /// `factor B x`.
 fn multiply(matrix: &Mat<f64>, factor: c64, x: &[c64]) -> Vec<c64> {
     let mut result = vec![c64::new(0.0, 0.0); matrix.nrows()];
@@ -340,12 +307,6 @@ fn multiply(matrix: &Mat<f64>, factor: c64, x: &[c64]) -> Vec<c64> {
         }
     }
     result
-}
-
-/// Undamped modes, `phi^T M phi = 1`.
-fn modal_basis(matrices: &SystemMatrices) -> Result<ModalBasis, ModelError> {
-    let modes = modes(matrices).map_err(|error| ModelError::NoModes { reason: error.to_string() })?;
-    Ok(ModalBasis { squares: modes.omega.iter().map(|w| w * w).collect(), shapes: modes.shapes })
 }
 
 /// Zero for a structure that is held; for one that floats, a shift of `K` by `M` far below its stiffness.
@@ -362,21 +323,4 @@ fn floating_shift(mass: &Mat<f64>, stiffness: &Mat<f64>) -> f64 {
         (false, 0.0) => 1.0,
         (false, stiffness) => 1e-12 * stiffness / trace(mass),
     }
-}
-
-/// Mass or stiffness matrix of a range of elements alone.
-fn restricted(structure: &Structure, basis: Basis, range: [usize; 2]) -> Mat<f64> {
-    let mut matrix = Mat::zeros(structure.len(), structure.len());
-    let elements = structure.elements();
-    for element in elements.iter().take(range[1] + 1).skip(range[0]) {
-        let local = if basis == Basis::Mass { &element.mass } else { &element.stiffness };
-        for (a, row) in element.dofs.iter().enumerate() {
-            for (b, column) in element.dofs.iter().enumerate() {
-                if let (Some(row), Some(column)) = (row, column) {
-                    matrix[(*row, *column)] += local[(a, b)];
-                }
-            }
-        }
-    }
-    matrix
 }

@@ -12,21 +12,15 @@
 //! Unknowns: `2 H + 1` coefficients of each nonlinear leg, then cosine and sine of each of the others that are kept.
 
 use super::compliance::Compliance;
+use super::error::ModelError;
+use super::excitation::Excitation;
 use super::fourier::{add_amplitude, amplitude};
-use super::legs::NonlinearLeg;
 use super::level::{Level, level, multiply};
-use super::model::{Excitation, ModelError};
+use super::linear_leg::{LinearLeg, push_leg};
+use super::nonlinear_leg::NonlinearLeg;
 use super::resonant::Pattern;
 use crate::effects::{Leg, Source};
 use faer::c64;
-
-/// A linear source at one leg.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct LinearLeg {
-    /// Index of the source in the list given.
-    pub source: usize,
-    pub leg: Leg,
-}
 
 /// The system seen from its kept legs.
 pub(crate) struct Condensed {
@@ -272,14 +266,6 @@ impl Condensed {
     }
 }
 
-/// Adds the load `-force L` of a leg.
-pub(crate) fn push_leg(loads: &mut Vec<(usize, c64)>, leg: Leg, force: c64) {
-    loads.push((leg.first, -force));
-    if let Some(second) = leg.second {
-        loads.push((second, force));
-    }
-}
-
 /// Velocity weight of friction: the leg's own impedance, between the extremes over the harmonics.
 fn velocity_weight(levels: &[Level], omega: f64, leg: usize) -> f64 {
     let logs: Vec<f64> = levels
@@ -290,10 +276,4 @@ fn velocity_weight(levels: &[Level], omega: f64, leg: usize) -> f64 {
         .filter(|x| x.is_finite())
         .collect();
     if logs.is_empty() { 1.0 } else { 2.0 * (-logs.iter().sum::<f64>() / logs.len() as f64).exp() }
-}
-
-/// Dynamic stiffness of a linear source between DOFs, N/m.
-pub(crate) fn stiffness_of(source: &Source, omega: f64) -> c64 {
-    let law = source.effect.law();
-    law.and_then(|law| law.dynamic_stiffness(&source.parameters, omega)).unwrap_or(c64::new(0.0, 0.0))
 }

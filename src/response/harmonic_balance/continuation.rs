@@ -13,10 +13,13 @@
 use super::Settings;
 use super::arc::bordered;
 use super::dense::Lu;
-use super::model::{Excitation, ForwardModel, RunModel};
+use super::error::ResponseError;
+use super::excitation::Excitation;
+use super::model::{ForwardModel, RunModel};
 use super::newton::relative;
-use super::outcome::{Response, ResponseError};
-use super::solve::{Prepared, assemble};
+use super::outcome::Response;
+use super::prepared::Prepared;
+use super::solve::assemble;
 use super::stability::is_stable;
 use crate::control::Control;
 use faer::c64;

@@ -11,7 +11,7 @@
 //! is clamped, is exact; the rest is of second order in the sample.
 
 use super::fourier::{Fourier, differentiate};
-use super::legs::{Answer, NonlinearLeg, add_velocity_columns};
+use super::nonlinear_leg::{Answer, NonlinearLeg, add_velocity_columns};
 use crate::effects::SetValued;
 
 /// Least and greatest force at rest, N.

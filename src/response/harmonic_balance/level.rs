@@ -1,10 +1,11 @@
 //! One harmonic of the condensed system: what its kept legs do to each other, and the elimination of the others.
 
 use super::compliance::Compliance;
-use super::condense::{LinearLeg, stiffness_of};
 use super::dense::invert;
-use super::legs::NonlinearLeg;
-use super::model::{Excitation, ModelError};
+use super::error::ModelError;
+use super::excitation::Excitation;
+use super::linear_leg::{LinearLeg, stiffness_of};
+use super::nonlinear_leg::NonlinearLeg;
 use super::resonant::Pattern;
 use crate::effects::Source;
 use faer::c64;

@@ -9,20 +9,26 @@
 //! Harmonics are added until the response no longer changes (`solve`); turning points are passed by arc length
 //! (`continuation`); stability is that of Floquet's multipliers (`stability`).
 
+mod answers;
 mod arc;
 mod compliance;
 mod condense;
 mod continuation;
 mod dense;
+mod error;
+mod excitation;
 mod fourier;
 mod friction;
 mod iterate;
 mod kept;
-mod legs;
 mod level;
+mod linear_leg;
+mod modal_basis;
 mod model;
 mod newton;
+mod nonlinear_leg;
 mod outcome;
+mod prepared;
 mod resonant;
 mod solve;
 mod stability;
@@ -31,11 +37,14 @@ pub(crate) use compliance::LinearPart;
 pub(crate) use dense::Lu;
 pub(crate) use fourier::add_amplitude;
 pub(crate) use newton::Balance;
-pub(crate) use solve::{Prepared, richardson};
+pub(crate) use prepared::Prepared;
+pub(crate) use solve::richardson;
 
 pub use continuation::{Sweep, SweepEnd, SweepPoint, SweepSettings, branches, nearest, sweep};
-pub use model::{Excitation, ForwardModel, HarmonicForce, ModelError, RunModel};
-pub use outcome::{Attempt, Response, ResponseError, SourceForce, Status, Step};
+pub use error::{ModelError, ResponseError};
+pub use excitation::{Excitation, HarmonicForce};
+pub use model::{ForwardModel, RunModel};
+pub use outcome::{Attempt, Response, SourceForce, Status, Step};
 pub use stability::{is_stable, multipliers};
 
 /// How many harmonics, and how exactly.

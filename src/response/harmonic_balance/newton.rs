@@ -4,7 +4,7 @@
 use super::condense::Condensed;
 use super::fourier::Fourier;
 use super::kept::{DROPPED, Kept};
-use super::legs::{Answer, SLACK};
+use super::nonlinear_leg::{Answer, SLACK};
 use dashpot_numerics::dot;
 use faer::c64;
 

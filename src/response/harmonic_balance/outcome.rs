@@ -1,42 +1,7 @@
 //! What a forward computation gives back: the response, how it was found, and why it was not.
 
-use super::model::ModelError;
-use crate::control::Cancelled;
 use crate::effects::Leg;
 use faer::{Mat, c64};
-
-/// Why there is no response.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub enum ResponseError {
-    /// The model itself is at fault.
-    #[error(transparent)]
-    Model(#[from] ModelError),
-    /// Nothing converged.
-    #[error(
-        "no periodic response was found at {frequency_hz:.6} Hz beyond {level:.3} of the force (residual {residual:.1e} with {harmonics} harmonics after {steps} steps): the motion there may not be periodic; lower the force or give a start nearby"
-    )]
-    NotConverged {
-        /// Fundamental frequency, Hz.
-        frequency_hz: f64,
-        /// Share of the excitation that was reached.
-        level: f64,
-        /// Harmonics tried last.
-        harmonics: usize,
-        /// Newton steps in all.
-        steps: usize,
-        /// Relative residual left.
-        residual: f64,
-    },
-    /// The fundamental frequency is not positive.
-    #[error("the fundamental frequency is {frequency_hz} Hz: give a positive one")]
-    BadFrequency {
-        /// Value given, Hz.
-        frequency_hz: f64,
-    },
-    /// The computation was asked to stop.
-    #[error(transparent)]
-    Cancelled(#[from] Cancelled),
-}
 
 /// How a response was reached.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -6,7 +6,7 @@
 //! one more leg for each such mode: pattern `v = M phi_r / s`, force `p = -i d w_r^2 s^2 v^T x`. These forces are unknowns
 //! beside those of the nonlinear legs.
 
-use super::compliance::{LinearPart, ModalBasis};
+use super::modal_basis::ModalBasis;
 use crate::effects::Leg;
 use faer::c64;
 
@@ -27,12 +27,12 @@ pub(crate) struct Resonant {
 }
 
 impl Resonant {
-    /// The mode without its column.
-    pub fn new(part: &LinearPart, basis: &ModalBasis, mode: usize) -> Self {
-        let mut pattern = part.times_mass(basis.shape(mode));
+    /// The mode without its column, from `M phi_r` and the square of its natural circular frequency (rad^2/s^2).
+    pub fn new(weighted: Vec<f64>, square: f64) -> Self {
+        let mut pattern = weighted;
         let size = pattern.iter().fold(f64::MIN_POSITIVE, |m, v| m.max(v.abs()));
         pattern.iter_mut().for_each(|v| *v /= size);
-        let stiffness = c64::new(0.0, -LOSS * basis.square(mode) * size * size);
+        let stiffness = c64::new(0.0, -LOSS * square * size * size);
         Self { pattern, column: Vec::new(), stiffness }
     }
 

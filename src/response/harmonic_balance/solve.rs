@@ -5,18 +5,20 @@ use super::Settings;
 use super::arc::{all_crossings, level_arc};
 use super::condense::{Condensed, split};
 use super::dense::Lu;
-use super::fourier::{Fourier, amplitude};
+use super::error::{ModelError, ResponseError};
+use super::excitation::Excitation;
+use super::fourier::amplitude;
 use super::iterate::Ending;
-use super::legs::{NonlinearLeg, resized};
-use super::model::{Excitation, MOST_HARMONICS, ModelError, RunModel};
+use super::model::{ForwardModel, MOST_HARMONICS, RunModel};
 use super::newton::Balance;
-use super::outcome::{Attempt, Response, ResponseError, SourceForce, Status, Step};
+use super::nonlinear_leg::NonlinearLeg;
+use super::outcome::{Attempt, Response, SourceForce, Status, Step};
+use super::prepared::Prepared;
 use super::stability::is_stable;
 use crate::control::Control;
 use crate::effects::{Manner, Source};
-use faer::{Mat, c64};
+use faer::Mat;
 use std::f64::consts::TAU;
-use std::sync::Arc;
 
 /// Smallest step of the force, as a share of the excitation.
 const LEAST_LEVEL_STEP: f64 = 1e-4;
@@ -25,65 +27,50 @@ const MOST_LEVELS: usize = 200;
 /// Steps of the force for laws that may fold, so that the branch reached is that of a force raised slowly.
 const FOLDING_LEVELS: f64 = 6.0;
 
-/// Samples of a period for a number of harmonics: kinks of friction and gaps alias as `1 / N^2`.
-pub(crate) fn samples_for(condensed: &Condensed) -> usize {
-    let sharp = condensed.legs.iter().any(NonlinearLeg::takes_force);
-    let factor = if sharp { 32 } else { 16 };
-    (factor * (condensed.harmonics + 1)).next_power_of_two().max(128)
+impl ForwardModel {
+    /// Periodic response to `excitation`; `start` is a response nearby (other force, frequency or sources).
+    pub fn respond(
+        &self,
+        excitation: &Excitation,
+        settings: &Settings,
+        start: Option<&Response>,
+        control: &Control,
+    ) -> Result<Response, ResponseError> {
+        self.at(excitation.omega).respond(self.sources(), excitation, settings, start, control)
+    }
 }
 
-/// Condensed system and tables of one run at a number of harmonics.
-pub(crate) struct Prepared {
-    pub condensed: Condensed,
-    pub fourier: Arc<Fourier>,
-}
-
-impl Prepared {
-    pub fn new(
-        run: &RunModel,
+impl RunModel {
+    /// Periodic response with `sources` (in place of those of the model) to `excitation`, whose frequency is that of
+    /// this run; `start` is a response nearby.
+    pub fn respond(
+        &self,
         sources: &[Source],
         excitation: &Excitation,
-        harmonics: usize,
-    ) -> Result<Self, ResponseError> {
-        let condensed = Condensed::new(|h| run.compliance(h), sources, excitation, harmonics)?;
-        let fourier = run.table(harmonics, samples_for(&condensed));
-        Ok(Self { condensed, fourier })
+        settings: &Settings,
+        start: Option<&Response>,
+        control: &Control,
+    ) -> Result<Response, ResponseError> {
+        let at = self.ready(sources, excitation)?;
+        respond(&at, sources, excitation, settings, start, control)
     }
 
-    pub fn balance(&self) -> Balance<'_> {
-        Balance { condensed: &self.condensed, fourier: &self.fourier }
-    }
-
-    /// Displacements of all DOFs per harmonic, 0 first, under the kept forces `u`.
-    pub fn displacements(&self, run: &RunModel, excitation: &Excitation, u: &[f64]) -> Vec<Vec<c64>> {
-        let at = |h: usize| self.condensed.displacements(run.compliance(h), h, run.len(), excitation, u);
-        (0..=self.condensed.harmonics).map(at).collect()
-    }
-
-    /// The unknowns of a response nearby: leg forces cut or filled with zeros, those of what is at resonance from its motion.
-    pub fn adapt(&self, run: &RunModel, start: &Response) -> Vec<f64> {
-        let condensed = &self.condensed;
-        let mut u = vec![0.0; condensed.size()];
-        let (given, width) = (2 * start.order() + 1, condensed.width());
-        let common = start.legs.min(condensed.legs.len());
-        for (target, part) in u.chunks_exact_mut(width).zip(start.unknowns.chunks_exact(given)).take(common) {
-            target.copy_from_slice(&resized(part, condensed.harmonics));
-        }
-        let amplitudes = start.raw.as_ref().unwrap_or(&start.harmonics);
-        for h in 1..=condensed.harmonics.min(start.order()) {
-            let (x, stiffness) = (amplitudes.col_as_slice(h - 1), &condensed.levels[h].resonant);
-            let modes = run.compliance(h).resonant.iter().map(|mode| mode.motion(x));
-            let legs = condensed.kept_linear(h).map(|(_, leg)| leg.relative(|i| x[i]));
-            for (r, (motion, z)) in modes.chain(legs).zip(stiffness).enumerate() {
-                condensed.add(&mut u, h, condensed.legs.len() + r, *z * motion);
-            }
-        }
-        u
+    /// All periodic responses to `excitation` that lie on the curve of the response against the level of the force, up to
+    /// three times the force, each with whether small disturbances die out; several where stiffness laws fold that curve.
+    pub fn branches(
+        &self,
+        sources: &[Source],
+        excitation: &Excitation,
+        settings: &Settings,
+        control: &Control,
+    ) -> Result<Vec<(Response, bool)>, ResponseError> {
+        let at = self.ready(sources, excitation)?;
+        branches(&at, sources, excitation, settings, control)
     }
 }
 
 /// See [`RunModel::respond`].
-pub(crate) fn respond(
+fn respond(
     run: &RunModel,
     sources: &[Source],
     excitation: &Excitation,
@@ -131,7 +118,7 @@ pub(crate) fn respond(
 }
 
 /// See [`RunModel::branches`].
-pub(crate) fn branches(
+fn branches(
     run: &RunModel,
     sources: &[Source],
     excitation: &Excitation,

@@ -6,12 +6,14 @@
 //! defined harmonic by harmonic enter with their stiffness and damping at the fundamental. Where friction sticks, it
 //! holds the disturbance by a stiff damping. The cost grows with the cube of the degrees of freedom.
 
-use super::condense::stiffness_of;
+use super::answers::sampled;
+use super::excitation::Excitation;
 use super::fourier::{Fourier, differentiate};
-use super::legs::{NonlinearLeg, sampled};
-use super::model::{Excitation, RunModel};
+use super::linear_leg::stiffness_of;
+use super::model::RunModel;
+use super::nonlinear_leg::NonlinearLeg;
 use super::outcome::Response;
-use super::solve::Prepared;
+use super::prepared::Prepared;
 use crate::effects::{Constant, Leg, Manner, Source};
 use crate::response::time_integration::Propagator;
 use faer::{Mat, c64};

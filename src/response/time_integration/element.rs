@@ -13,7 +13,6 @@ use crate::effects::{Law, Leg, Manner, Memory, SetValued, Steep};
 
 /// One nonlinear relative motion in time.
 pub(crate) struct Element {
-    pub source: usize,
     pub leg: Leg,
     pub parameters: Vec<f64>,
     law: &'static dyn Law,
@@ -24,9 +23,9 @@ pub(crate) struct Element {
 
 impl Element {
     /// At rest at the origin.
-    pub fn new(source: usize, leg: Leg, law: &'static dyn Law, parameters: &[f64]) -> Self {
+    pub fn new(leg: Leg, law: &'static dyn Law, parameters: &[f64]) -> Self {
         let memory = law.memory(parameters);
-        Self { source, leg, parameters: parameters.to_vec(), law, memory, remembered: 0.0 }
+        Self { leg, parameters: parameters.to_vec(), law, memory, remembered: 0.0 }
     }
 
     /// Forgets the past and goes to `d` (m).

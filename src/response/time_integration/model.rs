@@ -2,8 +2,7 @@
 
 use super::element::Element;
 use super::propagator::Propagator;
-use crate::effects::law::Basis;
-use crate::effects::{Constant, Leg, Place, Source, effect::Kind};
+use crate::effects::{Constant, Kind, Leg, Place, Source};
 use crate::response::harmonic_balance::{Excitation, HarmonicForce, Response};
 use crate::structure::{Structure, SystemMatrices};
 use faer::Mat;
@@ -223,11 +222,6 @@ impl TimeModel {
         self.propagator.acceleration(&self.state, elements.map(|f| -f).chain(drive))
     }
 
-    /// Source, leg and mean force (N) over the last step of every nonlinear element.
-    pub fn element_forces(&self) -> impl Iterator<Item = (usize, Leg, f64)> + '_ {
-        self.elements.iter().zip(&self.forces).map(|(e, &f)| (e.source, e.leg, f))
-    }
-
     pub(crate) fn scale(&self) -> f64 {
         self.propagator.scale
     }
@@ -305,7 +299,7 @@ fn sort(
                 if law.is_linear() && law.memory(&source.parameters).is_none() {
                     return Err(refuse());
                 }
-                let new = |leg| Element::new(index, leg, law, &source.parameters);
+                let new = |leg| Element::new(leg, law, &source.parameters);
                 elements.extend(source.place.legs().into_iter().map(new));
                 continue;
             }
@@ -336,22 +330,12 @@ fn add_whole(damping: &mut Mat<f64>, structure: &Structure, source: &Source) {
         return;
     };
     let factor = source.parameters[0];
-    let mass = law.basis() == Basis::Mass;
-    let Some([first, last]) = range else {
-        let matrix = if mass { &matrices.mass } else { &matrices.stiffness };
+    let Some(range) = *range else {
+        let matrix = law.basis().of_system(matrices);
         *damping += Mat::from_fn(matrix.nrows(), matrix.ncols(), |i, j| factor * matrix[(i, j)]);
         return;
     };
-    for element in structure.elements().iter().take(last + 1).skip(*first) {
-        let local = if mass { &element.mass } else { &element.stiffness };
-        for (a, row) in element.dofs.iter().enumerate() {
-            for (b, column) in element.dofs.iter().enumerate() {
-                if let (Some(row), Some(column)) = (row, column) {
-                    damping[(*row, *column)] += factor * local[(a, b)];
-                }
-            }
-        }
-    }
+    law.basis().entries(structure, range).for_each(|(i, j, value)| damping[(i, j)] += factor * value);
 }
 
 /// Force patterns: of the elements first, then of the driven DOFs.

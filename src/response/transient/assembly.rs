@@ -1,11 +1,11 @@
 //! Sorts sources into the linear part and elements, and assembles the reduced matrices with their derivatives.
 
 use super::element::Form;
-use super::model::{TransientError, TransientParameter, TransientSetup};
+use super::error::TransientError;
 use super::reduction::{RESIDUAL_DAMPING, Reduction};
+use super::setup::{TransientParameter, TransientSetup};
 use super::system::Matrices;
-use crate::effects::law::Basis;
-use crate::effects::{Effect, Law, Leg, Place, Source, effect::Kind};
+use crate::effects::{Basis, Effect, Kind, Law, Leg, Place, Source};
 use faer::Mat;
 
 /// A nonlinear relative motion: its source, leg, form, law and parameters.
@@ -98,17 +98,13 @@ fn unit_matrix(
     let size = reduction.omega.len();
     if let (Kind::Whole(law), Place::Whole(range)) = (source.effect.kind(), &source.place) {
         let mass = law.basis() == Basis::Mass;
-        let Some([first, last]) = range else { return if mass { own.mass.clone() } else { own.stiffness.clone() } };
+        let Some(range) = range else { return if mass { own.mass.clone() } else { own.stiffness.clone() } };
         let mut sum = Mat::zeros(size, size);
-        for element in setup.structure.elements().iter().take(last + 1).skip(*first) {
-            let local = if mass { &element.mass } else { &element.stiffness };
-            let row = |a: usize, r: usize| element.dofs[a].map_or(0.0, |i| reduction.basis[(i, r)]);
-            let nodes = element.dofs.len();
-            let factor = setup.factors[usize::from(mass)];
-            sum += Mat::from_fn(size, size, |r, s| {
-                let of = |(a, b): (usize, usize)| row(a, r) * local[(a, b)] * row(b, s);
-                factor * (0..nodes).flat_map(|a| (0..nodes).map(move |b| (a, b))).map(of).sum::<f64>()
-            });
+        let factor = setup.factors[usize::from(mass)];
+        for (i, j, value) in law.basis().entries(setup.structure, *range) {
+            for (r, s) in (0..size).flat_map(|r| (0..size).map(move |s| (r, s))) {
+                sum[(r, s)] += factor * reduction.basis[(i, r)] * value * reduction.basis[(j, s)];
+            }
         }
         return sum;
     }

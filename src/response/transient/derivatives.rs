@@ -3,7 +3,7 @@
 
 use super::changes::{Changes, StepForces};
 use super::element::{Element, Form, Mean};
-use super::march::{Piece, Receptance, Sensitivity, View};
+use super::view::{Piece, Receptance, Sensitivity, View};
 use dashpot_numerics::{RowLu, dot, scalar_products};
 
 /// The jump of a friction force at a reversal, to be felt by the derivatives in the next piece of the step.

@@ -9,6 +9,7 @@
 //!
 //! Each element solves `x + w F(x) = b` for itself, with the receptance `w` over the step.
 
+use crate::effects::memory::open_reversals;
 use crate::effects::{Effect, Law, Memory, Motion};
 use faer::c64;
 
@@ -300,19 +301,8 @@ impl Element {
 
     /// Reversals that stay open on the way to `d`, the last instant among them if `turned`.
     fn open(&self, d: f64, turned: bool) -> usize {
-        let at = |i: usize| self.reversals.get(i).unwrap_or(&self.last).d;
-        let mut count = self.reversals.len() + usize::from(turned);
-        loop {
-            let closes = match count {
-                0 => return 0,
-                1 => (d - at(0)).abs() >= 2.0 * at(0).abs(),
-                _ => (d - at(count - 2)) * (at(count - 2) - at(count - 1)) >= 0.0,
-            };
-            if !closes {
-                return count;
-            }
-            count = count.saturating_sub(2);
-        }
+        let place = |i: usize| self.reversals.get(i).unwrap_or(&self.last).d;
+        open_reversals(place, self.reversals.len() + usize::from(turned), d)
     }
 
     /// Force and slope of Masing's branch at `d`.

@@ -13,54 +13,16 @@
 use super::changes::Changes;
 use super::derivatives::Derivatives;
 use super::element::{Element, Form};
-use super::model::TransientError;
+use super::error::TransientError;
 use super::step::Step;
-use super::system::{Functional, LinearChange, LinearSystem};
+use super::system::{LinearChange, LinearSystem};
+use super::view::{Piece, Receptance, Sensitivity, View};
 use dashpot_numerics::dot;
 
 /// Reversals that are located within one step.
 const MOST_EVENTS: usize = 6;
 /// Sweeps of Gauss and Seidel.
 const SWEEPS: usize = 400;
-
-/// What an element sees, on flat states.
-pub(super) struct View {
-    pub displacement: Vec<f64>,
-    pub velocity: Vec<f64>,
-    pub acceleration: Functional,
-}
-
-/// A parameter on its way through the steps.
-pub(super) struct Sensitivity {
-    /// Derivative of the state at the start.
-    pub state: Vec<f64>,
-    /// Source and number of a parameter of a law.
-    pub own: Option<(usize, usize)>,
-    /// Number of its change of the linear part.
-    pub change: Option<usize>,
-}
-
-/// Receptances between elements over a step, row by row.
-pub(super) struct Receptance {
-    pub displacement: Vec<f64>,
-    pub velocity: Vec<f64>,
-}
-
-/// A piece of a step that is decided.
-pub(super) struct Piece<'a> {
-    pub step: &'a Step,
-    /// Whether it is a step of full length.
-    pub full: bool,
-    /// Drives at both ends, N.
-    pub drives: [&'a [f64]; 2],
-    pub forces: &'a [f64],
-    pub side: &'a [f64],
-    /// States at both ends.
-    pub states: [&'a [f64]; 2],
-    /// Displacements of the elements at both ends, m.
-    pub before: &'a [f64],
-    pub after: &'a [f64],
-}
 
 /// The march through a record.
 pub(super) struct March<'a> {
@@ -312,16 +274,6 @@ impl<'a> March<'a> {
         let inputs = forces.iter().map(|f| -f).chain(u.iter().copied());
         let pushed: f64 = view.inputs.iter().zip(inputs).map(|(c, f)| c * f).sum();
         dot(&view.row, &self.z) + pushed
-    }
-}
-
-impl Receptance {
-    pub fn new(views: &[View], step: &Step) -> Self {
-        let count = views.len();
-        let table = |of: &dyn Fn(&View) -> &Vec<f64>| {
-            views.iter().flat_map(|view| (0..count).map(|k| step.receptance(k, of(view)))).collect()
-        };
-        Self { displacement: table(&|v| &v.displacement), velocity: table(&|v| &v.velocity) }
     }
 }
 

@@ -14,11 +14,16 @@ mod assembly;
 mod changes;
 mod derivatives;
 mod element;
+mod error;
 mod exponentials;
 mod march;
 mod model;
 mod reduction;
+mod setup;
 mod step;
 mod system;
+mod view;
 
-pub use model::{SampledForces, TransientError, TransientModel, TransientParameter, TransientResponse, TransientSetup};
+pub use error::TransientError;
+pub use model::TransientModel;
+pub use setup::{SampledForces, TransientParameter, TransientResponse, TransientSetup};

@@ -2,107 +2,16 @@
 
 use super::assembly::{Nonlinear, assemble, is_linear, modal_stiffness, nonlinear, pattern_matrix};
 use super::element::{Element, Form};
-use super::march::{March, Sensitivity, View};
+use super::error::TransientError;
+use super::march::March;
 use super::reduction::Reduction;
+use super::setup::{SampledForces, TransientParameter, TransientResponse, TransientSetup};
 use super::system::{Functional, LinearChange, LinearSystem, Matrices};
-use crate::effects::{Leg, Source};
+use super::view::{Sensitivity, View};
+use crate::effects::Leg;
 use crate::measurement::{Channel, Quantity};
-use crate::structure::Structure;
-use crate::structure::modes::Modes;
 use dashpot_numerics::{dot, scalar_products};
 use faer::Mat;
-
-/// Why a record cannot be predicted.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub enum TransientError {
-    /// `points` structures have no equation of motion.
-    #[error("the structure has no mass and stiffness matrices, so its records cannot be predicted")]
-    NoMatrices,
-    /// A law that exists only in steady state.
-    #[error(
-        "law `{effect}` is defined harmonic by harmonic and has no force in time: leave it out for decays and transients"
-    )]
-    NoTimeDomain {
-        /// Its law.
-        effect: &'static str,
-    },
-    /// Mass or stiffness that cannot be.
-    #[error("mass and stiffness with the linear sources are not positive definite: correct negative masses or springs")]
-    NotPositive,
-    /// The eigenvalue iteration failed.
-    #[error("the damped modes of the model were not found: check the sizes of its masses, springs and dashpots")]
-    NoModes,
-    /// Forces that are not finite.
-    #[error(
-        "the forces of a time step were not found: the motion grows without bounds, or a parameter is far too large"
-    )]
-    StepFailed,
-}
-
-/// What a model is made of.
-#[derive(Debug, Clone, Copy)]
-pub struct TransientSetup<'a> {
-    /// Structure with matrices.
-    pub structure: &'a Structure,
-    /// Its undamped modes.
-    pub modes: &'a Modes,
-    /// How many of them are followed; the rest by residual flexibility.
-    pub kept: usize,
-    /// Sources that act.
-    pub sources: &'a [Source],
-    /// Rows of the driven DOFs.
-    pub drives: &'a [usize],
-    /// Channels that are predicted; those of forces repeat the drive.
-    pub channels: &'a [Channel],
-    /// Factors on all stiffness and on all mass.
-    pub factors: [f64; 2],
-    /// Logarithms of factors on the stiffness of the kept modes beside that; none for those beyond its end.
-    pub mode_stiffness: &'a [f64],
-}
-
-/// A parameter by which records are differentiated.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum TransientParameter {
-    /// Parameter of a law, by its own unit.
-    Source {
-        /// Number of the source.
-        source: usize,
-        /// Number of the parameter.
-        parameter: usize,
-    },
-    /// Logarithm of the factor on all stiffness.
-    Stiffness,
-    /// Logarithm of the factor on all mass.
-    Mass,
-    /// Logarithm of the stiffness of a kept mode.
-    Mode(usize),
-    /// Entry of the initial state (see [`TransientModel::predict`]).
-    Initial(usize),
-}
-
-/// Measured forces at equal steps.
-#[derive(Debug, Clone, PartialEq)]
-pub struct SampledForces {
-    /// Time from one sample to the next, s.
-    pub step: f64,
-    /// Number of samples.
-    pub samples: usize,
-    /// Forces, N, one list a driven DOF.
-    pub forces: Vec<Vec<f64>>,
-    /// Steps of the model from one sample to the next.
-    pub substeps: usize,
-}
-
-/// A predicted record.
-#[derive(Debug, Clone, PartialEq)]
-pub struct TransientResponse {
-    /// `[channel][sample]`, SI units.
-    pub channels: Vec<Vec<f64>>,
-    /// `[parameter][channel][sample]`.
-    pub derivatives: Vec<Vec<Vec<f64>>>,
-    /// State at the last sample, in the terms of the initial one.
-    pub end: Vec<f64>,
-}
 
 /// What a channel shows.
 struct Sensor {

@@ -8,7 +8,7 @@
 //! 1975); they are orthogonal to the kept modes and are made so among themselves, so that mass is the identity and
 //! stiffness diagonal. Their own motion lies above the band and is given a little damping, so that it does not ring on.
 
-use super::model::TransientError;
+use super::error::TransientError;
 use crate::math::eigen::generalised_symmetric;
 use crate::structure::SystemMatrices;
 use crate::structure::modes::Modes;

@@ -8,7 +8,7 @@
 //! `w_k = 2`, or 1 for a real eigenvalue. A parameter of `M, C, K` adds `A_theta y + B_theta f` to the motion of its
 //! derivative; in damped modes that is `sum_j (P_kj z_j + Q_kj conj z_j)`.
 
-use super::model::TransientError;
+use super::error::TransientError;
 use dashpot_numerics::{Cholesky, ComplexLu, product, real_general};
 use faer::{Mat, c64};
 

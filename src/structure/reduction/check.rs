@@ -1,27 +1,9 @@
 //! The modes of the whole model in the band against those of the reduced one.
 
-use super::Wanted;
+use super::{ModeCheck, Wanted};
 use crate::structure::modes::{Modes, mac_real, modes};
 use crate::structure::{StructureError, SystemMatrices};
 use std::f64::consts::TAU;
-
-/// One mode in the band.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ModeCheck {
-    /// Frequency of the whole model, Hz.
-    pub full_hz: f64,
-    /// Frequency of the reduced model, Hz.
-    pub reduced_hz: f64,
-    /// Modal assurance criterion of the two shapes at the kept degrees of freedom.
-    pub mac: f64,
-}
-
-impl ModeCheck {
-    /// Reduced over whole, less 1; 0 for a rigid mode.
-    pub fn frequency_error(&self) -> f64 {
-        if self.full_hz > 0.0 { self.reduced_hz / self.full_hz - 1.0 } else { 0.0 }
-    }
-}
 
 /// Compares with the modes of the whole model in the band, mode by mode in ascending order; `kept` are the rows of the whole model that are the first of the reduced one.
 pub(super) fn check(

@@ -12,10 +12,11 @@
 //! The error is told on the modes in the band: the whole model's, by block Lanczos, against those of the reduced one.
 
 mod check;
+mod mode_check;
 mod pencil;
 mod reduce;
 
-pub use check::ModeCheck;
+pub use mode_check::ModeCheck;
 pub use reduce::reduce;
 
 use dashpot_numerics::SparseSymmetric;

@@ -7,9 +7,9 @@
 
 mod elements;
 
-use super::assemble::LumpedMass;
 use super::error::positive;
 use super::imported::{ImportedDof, ImportedParameters};
+use super::lumped_mass::LumpedMass;
 use super::{Direction, Node, Structure, StructureError};
 use elements::Sheet;
 use faer::Mat;

@@ -1,7 +1,7 @@
 //! What a comparison depends on, as a key: two documents with the same model and the same measurements share their results.
 
 use crate::display::words::{self, at};
-use crate::effects::effect::Kind;
+use crate::effects::Kind;
 use crate::effects::{Source, State};
 use crate::exchange::project::file::{RunTable, SensorTable, StructureTable};
 use crate::session::Document;

@@ -7,17 +7,14 @@ use crate::diagnosis::candidates::fingerprint_plot::{self as prints, Print};
 use crate::diagnosis::candidates::restoring_force::{self, RestoringForce};
 use crate::diagnosis::diagnose::{Suggestion, diagnose_without};
 use crate::diagnosis::updating::scatter::{self, Scatter};
-use crate::diagnosis::{self, Comparison, Diagnosis, Problem};
+use crate::diagnosis::{self, Comparison, Diagnosis};
 use crate::effects::Source;
 use crate::exchange::Project;
 use crate::plots::response_curve::{self, Curve};
 use crate::session::time_limit::hurry_after;
+use crate::session::validation::problem;
 use std::sync::Arc;
 use std::time::Duration;
-
-fn problem(p: &Project) -> Problem<'_> {
-    Problem { structure: &p.structure, sources: &p.sources, runs: &p.runs }
-}
 
 /// The search for what is missing; it ends after `limit` with the best so far.
 pub(super) fn search_job(

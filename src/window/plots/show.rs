@@ -7,7 +7,7 @@ use super::{axis, curve, frame};
 use crate::display::format::significant;
 use crate::plots::figure::{Axis, Data, Figure, Label, Look, Series, Ticks};
 use crate::plots::sheet::{Panel, Sheet};
-use crate::plots::ticks;
+use crate::plots::{grid, ticks};
 use crate::window::theme;
 use crate::window::widgets::UiExt;
 use egui::{Align2, Id, Rangef, RichText, Role, ScrollArea, Sense, Shape, Ui, WidgetInfo, vec2};
@@ -192,13 +192,13 @@ fn fitting(ui: &Ui, axis: &Axis, room: f32) -> String {
 
 /// Grid lines in the terms of the plot.
 fn marks(axis: &Axis, input: egui_plot::GridInput, room: f64) -> Vec<egui_plot::GridMark> {
-    let input = ticks::GridInput { bounds: input.bounds, base_step_size: input.base_step_size };
-    let plots = |m: ticks::GridMark| egui_plot::GridMark { value: m.value, step_size: m.step_size };
+    let input = grid::GridInput { bounds: input.bounds, base_step_size: input.base_step_size };
+    let plots = |m: grid::GridMark| egui_plot::GridMark { value: m.value, step_size: m.step_size };
     ticks::marks(axis, &input, room).into_iter().map(plots).collect()
 }
 
-fn own(mark: egui_plot::GridMark) -> ticks::GridMark {
-    ticks::GridMark { value: mark.value, step_size: mark.step_size }
+fn own(mark: egui_plot::GridMark) -> grid::GridMark {
+    grid::GridMark { value: mark.value, step_size: mark.step_size }
 }
 
 /// A double click shows all of a plot that starts with a part, and where all is in sight that part again; the plot's own

@@ -1,7 +1,7 @@
 //! Pattern: the palette of laws, families at one click, the list of sources.
 
 use crate::display::words;
-use crate::effects::effect::Kind;
+use crate::effects::Kind;
 use crate::effects::{Effect, Family, Source, State};
 use crate::exchange::Project;
 use crate::window::app::{App, Ask};

@@ -1,0 +1,38 @@
+//! Keys that several tables share: where each stands, and ranges of elements.
+
+use super::error::{Problem, ProjectError};
+use super::reader::Table;
+use std::collections::BTreeMap;
+
+pub(super) fn key_lines(table: &Table<'_>) -> BTreeMap<String, usize> {
+    let keys = table.keys().into_iter().map(|key| (key.to_owned(), table.line_of(key)));
+    keys.chain([(String::new(), table.line())]).collect()
+}
+
+/// `elements = [first, last]`, from 1.
+pub(super) fn elements(table: &Table<'_>) -> Result<Option<[i64; 2]>, ProjectError> {
+    let Some(numbers) = table.numbers("elements")? else { return Ok(None) };
+    match numbers[..] {
+        [a, b] if a.fract() == 0.0 && b.fract() == 0.0 => Ok(Some([a as i64, b as i64])),
+        _ => {
+            let (expected, found) = ("[first, last], two whole numbers from 1", "another list");
+            Err(table.error("elements", Problem::WrongType { key: "elements".into(), expected, found }))
+        }
+    }
+}
+
+/// A number that must be positive.
+pub(super) fn above_zero(
+    table: &Table<'_>,
+    key: &'static str,
+    range: &'static str,
+) -> Result<Option<f64>, ProjectError> {
+    let given = table.number(key)?;
+    match given.filter(|value| *value <= 0.0) {
+        Some(value) => {
+            let (name, value) = (key.to_owned(), value.to_string());
+            Err(table.error(key, Problem::OutOfRange { key: name, value, range }))
+        }
+        None => Ok(given),
+    }
+}

@@ -1,0 +1,36 @@
+//! Runs of a structure on a moving base: their base channels become forces ([`crate::measurement::base`]).
+
+use super::error::{Problem, ProjectError};
+use super::file::BaseResponse;
+use super::plan::Plan;
+use crate::measurement::base::{AXES, Base, driven};
+use crate::measurement::{Quantity, Run};
+use crate::structure::Structure;
+
+/// How a structure takes a motion of its base along an axis (0 to 2); `None` without a mass matrix.
+pub fn base(structure: &Structure, axis: usize) -> Option<Base> {
+    let loads = structure.base_load(axis)?.into_iter().enumerate().filter(|(_, load)| *load != 0.0);
+    let loads = loads.map(|(dof, load)| (dof, structure.label(dof).to_owned(), load)).collect();
+    let is_along = |dof: &usize| structure.dofs()[*dof].direction.axis() == Some(axis);
+    Some(Base { label: AXES[axis].to_owned(), loads, along: (0..structure.len()).filter(is_along).collect() })
+}
+
+impl Plan {
+    /// The run with its base channels turned into forces and its motions relative to the base; as it is without any.
+    ///
+    /// # Errors
+    /// [`Problem::BaseWithoutMass`] for a structure without mass.
+    pub fn on_its_base(&self, index: Option<usize>, mut run: Run) -> Result<Run, ProjectError> {
+        let moving = run.fit.channels.iter().filter(|c| c.channel.quantity == Quantity::Base);
+        let axes: Vec<usize> = moving.filter_map(|c| AXES.iter().position(|&axis| axis == c.channel.label)).collect();
+        if axes.is_empty() {
+            return Ok(run);
+        }
+        let bases: Option<Vec<Base>> = axes.into_iter().map(|axis| base(&self.structure, axis)).collect();
+        let missing = || self.error(None, Problem::BaseWithoutMass { file: run.file.clone() });
+        let bases = bases.ok_or_else(missing)?;
+        let response = index.map_or(self.file.base.response, |index| self.runs[index].response);
+        run.fit = driven(run.fit, &bases, response == BaseResponse::Absolute);
+        Ok(run)
+    }
+}

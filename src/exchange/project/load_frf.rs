@@ -1,0 +1,31 @@
+//! Frequency responses of a project, read and made runs of.
+
+use super::error::{Problem, ProjectError};
+use super::plan::Plan;
+use crate::control::Control;
+use crate::exchange::frf::read_responses;
+use crate::measurement::frf::ChosenRuns;
+use std::path::Path;
+
+impl Plan {
+    /// Reads the frequency responses of table number `index` and makes runs of their most informative lines.
+    ///
+    /// # Errors
+    /// [`ProjectError`] with the line of the table, the file and the set.
+    pub fn frf(&self, index: usize, control: &Control) -> Result<ChosenRuns, ProjectError> {
+        let table = &self.file.frf[index];
+        let wrong = |problem| self.error(Some(self.lines.frf[index]), problem);
+        let path = self.path.parent().unwrap_or(Path::new("")).join(&table.file);
+        if !path.is_file() {
+            return Err(wrong(Problem::NoRecord { file: table.file.clone() }));
+        }
+        let (set, faults) = read_responses(&path, &table.file, &table.source(), &self.structure, control)
+            .map_err(|error| wrong(Problem::Frf(Box::new(error))))?;
+        let mut chosen = set.runs(table.selection(), table.enabled, &self.corrections());
+        if chosen.runs.is_empty() {
+            return Err(wrong(Problem::NoLines { file: table.file.clone() }));
+        }
+        chosen.remarks.extend(faults);
+        Ok(chosen)
+    }
+}

@@ -1,0 +1,42 @@
+//! Effects that are ruled out, at their places on the structure.
+
+use super::error::{Problem, ProjectError};
+use super::ruled_out::RuledOutTable;
+use super::sources::{At, at_place, blamed, channel};
+use crate::effects::{Kind, Place, Source};
+use crate::structure::Structure;
+
+impl RuledOutTable {
+    /// The effect at its place on a structure; its parameters are typical ones and mean nothing.
+    ///
+    /// # Errors
+    /// [`Problem`] where there is no such place, or the law cannot act there.
+    pub fn source(&self, structure: &Structure) -> Result<Source, Problem> {
+        let needs = |key, example: &str| Problem::MissingKey {
+            table: format!("[[ruled_out]] of `{}`", self.law),
+            key,
+            example: example.to_owned(),
+        };
+        let place = match (self.law.kind(), &self.channel) {
+            (Kind::Channel(_), None) => return Err(needs("channel", "channel = \"acc@7\"")),
+            (Kind::Channel(_), Some(name)) => Place::Channel(channel(name, structure)?),
+            (_, Some(_)) => return Err(needs("dofs", "dofs = [7]")),
+            (_, None) => at_place(self.law, &self.dofs, self.elements, structure)?,
+        };
+        let source = Source::candidate(self.law, place);
+        source.check_on(structure).map_err(|error| Problem::Source(Box::new(error)))?;
+        Ok(source)
+    }
+}
+
+/// The effects on the structure, each checked.
+pub(super) fn ruled_out(
+    tables: &[RuledOutTable],
+    structure: &Structure,
+    at: At<'_>,
+) -> Result<Vec<Source>, ProjectError> {
+    let one = |(table, lines): (&RuledOutTable, _)| {
+        table.source(structure).map_err(|problem| at.error(blamed(lines, &problem), problem))
+    };
+    tables.iter().zip(&at.lines.ruled_out).map(one).collect()
+}

@@ -1,0 +1,71 @@
+//! What a model of a record is made of, what it is asked, and what it answers.
+
+use crate::effects::Source;
+use crate::measurement::Channel;
+use crate::structure::Structure;
+use crate::structure::modes::Modes;
+
+/// What a model is made of.
+#[derive(Debug, Clone, Copy)]
+pub struct TransientSetup<'a> {
+    /// Structure with matrices.
+    pub structure: &'a Structure,
+    /// Its undamped modes.
+    pub modes: &'a Modes,
+    /// How many of them are followed; the rest by residual flexibility.
+    pub kept: usize,
+    /// Sources that act.
+    pub sources: &'a [Source],
+    /// Rows of the driven DOFs.
+    pub drives: &'a [usize],
+    /// Channels that are predicted; those of forces repeat the drive.
+    pub channels: &'a [Channel],
+    /// Factors on all stiffness and on all mass.
+    pub factors: [f64; 2],
+    /// Logarithms of factors on the stiffness of the kept modes beside that; none for those beyond its end.
+    pub mode_stiffness: &'a [f64],
+}
+
+/// A parameter by which records are differentiated.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum TransientParameter {
+    /// Parameter of a law, by its own unit.
+    Source {
+        /// Number of the source.
+        source: usize,
+        /// Number of the parameter.
+        parameter: usize,
+    },
+    /// Logarithm of the factor on all stiffness.
+    Stiffness,
+    /// Logarithm of the factor on all mass.
+    Mass,
+    /// Logarithm of the stiffness of a kept mode.
+    Mode(usize),
+    /// Entry of the initial state (see [`TransientModel::predict`]).
+    Initial(usize),
+}
+
+/// Measured forces at equal steps.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SampledForces {
+    /// Time from one sample to the next, s.
+    pub step: f64,
+    /// Number of samples.
+    pub samples: usize,
+    /// Forces, N, one list a driven DOF.
+    pub forces: Vec<Vec<f64>>,
+    /// Steps of the model from one sample to the next.
+    pub substeps: usize,
+}
+
+/// A predicted record.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TransientResponse {
+    /// `[channel][sample]`, SI units.
+    pub channels: Vec<Vec<f64>>,
+    /// `[parameter][channel][sample]`.
+    pub derivatives: Vec<Vec<Vec<f64>>>,
+    /// State at the last sample, in the terms of the initial one.
+    pub end: Vec<f64>,
+}

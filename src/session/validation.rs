@@ -1,0 +1,84 @@
+//! The model of a project against its measurements: steady runs, records that are not steady, components in a testing machine.
+
+use crate::balance::loops::ComponentError;
+use crate::control::Control;
+use crate::diagnosis::component::{Loops, compare_component, diagnose_component};
+use crate::diagnosis::diagnose::Early;
+use crate::diagnosis::records::{RecordComparison, RecordError, Records, compare_records, diagnose_records};
+use crate::diagnosis::{Diagnosis, Problem};
+use crate::exchange::Project;
+use crate::structure::StructureKind;
+
+/// Why a model cannot be compared with records.
+#[derive(Debug, thiserror::Error)]
+pub enum ValidationError {
+    /// Records of a structure.
+    #[error(transparent)]
+    Records(#[from] RecordError),
+    /// Loops of one component.
+    #[error(transparent)]
+    Component(#[from] ComponentError),
+}
+
+/// The model and the steady runs of a project.
+pub fn problem(project: &Project) -> Problem<'_> {
+    Problem { structure: &project.structure, sources: &project.sources, runs: &project.runs }
+}
+
+/// Whether a project uses records that are not steady.
+pub fn has_records(project: &Project) -> bool {
+    project.transient_runs.iter().any(|run| run.enabled)
+}
+
+/// Whether a project uses nothing but records that are not steady.
+pub fn only_records(project: &Project) -> bool {
+    !project.runs.iter().any(|run| run.enabled) && has_records(project)
+}
+
+/// Whether it is one component in a testing machine.
+pub fn is_component(project: &Project) -> bool {
+    project.structure.kind() == StructureKind::Component
+}
+
+fn loops(project: &Project) -> Result<Loops, ComponentError> {
+    Loops::new(&project.structure, &project.sources, &project.transient_runs)
+}
+
+fn records(project: &Project) -> Result<Records<'_>, RecordError> {
+    Records::new(&project.structure, &project.sources, &project.transient_runs)
+}
+
+/// The model against the records; `None` where there are none, or no model that predicts them.
+///
+/// # Errors
+/// [`ValidationError`]: records or a model that cannot be compared.
+pub fn compared_with_records(
+    project: &Project,
+    control: &Control,
+) -> Result<Option<RecordComparison>, ValidationError> {
+    if !has_records(project) {
+        return Ok(None);
+    }
+    if is_component(project) {
+        return Ok(Some(compare_component(&loops(project)?, &[])?));
+    }
+    if project.structure.matrices().is_none() {
+        return Ok(None);
+    }
+    Ok(Some(compare_records(&records(project)?, &[], control)?))
+}
+
+/// What the model of the records lacks.
+///
+/// # Errors
+/// [`ValidationError`]: records or a model that cannot be compared.
+pub fn diagnosed_from_records(
+    project: &Project,
+    control: &Control,
+    early: &Early<'_>,
+) -> Result<Diagnosis, ValidationError> {
+    if is_component(project) {
+        return Ok(diagnose_component(&loops(project)?, &project.ruled_out, control, early)?);
+    }
+    Ok(diagnose_records(&records(project)?, &project.ruled_out, control, early)?)
+}
