@@ -4,7 +4,8 @@
 use super::amplitude::{AmplitudePoint, Band, amplitude_curve, peaks};
 use super::data::{RecordData, RecordError, Records};
 use super::errors::channel_errors;
-use super::fit::{Fit, FittedRecords, Free};
+use super::fitted::FittedRecords;
+use super::problem::{FitProblem, Free};
 use crate::control::Control;
 use crate::effects::Source;
 use crate::math::statistics::root_mean_square;
@@ -106,7 +107,7 @@ pub(crate) fn started_from(
     control: &Control,
 ) -> Result<FittedRecords, RecordError> {
     let fit = |records: &Records, start: &FittedRecords, share: f64, iterations: usize| {
-        Fit { records, free: Free::nothing(), share, control }.improve(start, iterations)
+        FitProblem { records, free: Free::nothing(), share, control }.improve(start, iterations)
     };
     let mut fitted = start;
     let linear = |s: &Source| s.effect.is_linear();
@@ -123,10 +124,12 @@ pub(crate) fn started_from(
             fitted.initial = bare.initial;
         }
     }
-    for (share, iterations) in [(short(records), 4), (0.4_f64.max(short(records)), 3), (1.0, 6)] {
+    let first = short(records);
+    let longer = [(first, 4), (0.4_f64.max(first), 3)];
+    for (share, iterations) in longer.into_iter().filter(|(share, _)| *share < 1.0) {
         fitted = fit(records, &fitted, share, iterations)?;
     }
-    Ok(fitted)
+    fit(records, &fitted, 1.0, 6)
 }
 
 /// Share of every record that holds eight periods of its dominant motion after a blow; half of one that is driven all along,
@@ -144,7 +147,7 @@ pub(crate) fn short(records: &Records) -> f64 {
 }
 
 /// Share of a record after which no force acts, where that is its first part.
-fn struck(record: &RecordData) -> Option<f64> {
+pub(super) fn struck(record: &RecordData) -> Option<f64> {
     let loudest = record.forces.iter().flatten().fold(0.0_f64, |m, f| m.max(f.abs()));
     let acts = |n: &usize| record.forces.iter().any(|list| list[*n].abs() > STRUCK * loudest);
     let end = (0..record.len()).rev().find(acts).unwrap_or(0) as f64 / record.len() as f64;

@@ -1,6 +1,6 @@
 //! What a fit is worth: its misfit, and its evidence on the scale of what the best fit leaves.
 
-use super::fit::FittedRecords;
+use super::fitted::FittedRecords;
 
 /// Squared residual a sample, over the noise.
 pub(super) fn misfit(fit: &FittedRecords) -> f64 {
