@@ -17,7 +17,7 @@ use super::telling::{added, corrections, last_deviations, suggestions, words};
 use super::told::added_as_told;
 use crate::control::Control;
 use crate::diagnosis::diagnose::{Diagnosis, Early, Step, Verdict};
-use crate::effects::Source;
+use crate::effects::{Effect, Source};
 use crate::math::statistics::root_mean_square;
 
 /// Misfit (squared residual over noise) up to which a model agrees.
@@ -33,9 +33,13 @@ const LEARNT: f64 = 0.6;
 /// still loses the phase.
 const GAIN: f64 = 12.0;
 const WORTH: f64 = 0.15;
+/// The same of a mass or spring, which any error of the model's own masses and springs resembles.
+const WORTH_OF_CONSTANT: f64 = 0.5;
 const DECISIVE: f64 = 0.25;
-/// Levels of parts on which effects are added.
+/// Levels of parts on which effects are added; on whole records where there are no more levels than that, or nothing was found.
 const GROWING: usize = 2;
+/// Error of what is told from which on the phase is lost over the whole record.
+const PHASE_LOST: f64 = 0.08;
 /// Steps of a fit with one effect less.
 const PRUNING: usize = 6;
 /// Deviations from zero that the force of an effect must have.
@@ -92,24 +96,25 @@ impl Search<'_> {
     fn climbed(&self, bare: &FittedRecords, early: &Early) -> Result<Rungs, RecordError> {
         let whole = self.levels.len() - 1;
         let mut bare = self.carried(bare, whole, 0)?;
-        let corrected = self.corrected(&bare)?;
-        let single = self.single_changes(&bare, &corrected)?;
-        let mut rungs = if single.is_empty() {
-            Rungs { earlier: Vec::new(), last: vec![corrected] }
-        } else {
-            Rungs { earlier: vec![(0, corrected)], last: single }
-        };
+        let mut rungs = Rungs { earlier: Vec::new(), last: vec![self.corrected(&bare)?] };
         for level in 0..=whole {
             if level > 0 {
                 rungs.last = self.lengthened(&rungs.last, level - 1)?;
             }
-            if level < GROWING {
-                if level > 0 {
-                    bare = self.carried(&bare, level - 1, level)?;
-                }
+            if level > 0 {
+                bare = self.carried(&bare, level - 1, level)?;
+            }
+            let found_none = rungs.last.first().is_some_and(|f| f.effects.is_empty());
+            if level < GROWING || (level == whole && (found_none || whole == GROWING)) {
                 self.grow(level, &bare, &mut rungs, early)?;
             }
             self.control.report(0.9 * (level + 1) as f64 / (whole + 1) as f64);
+        }
+        if let Some(corrected) = rungs.last.first().filter(|f| f.effects.is_empty()).cloned() {
+            let single = self.single_changes(&corrected)?;
+            if !single.is_empty() {
+                rungs = Rungs { earlier: vec![(whole, corrected)], last: single };
+            }
         }
         Ok(rungs)
     }
@@ -148,7 +153,8 @@ impl Search<'_> {
         if misfit(old) < AGREES {
             return Ok(true);
         }
-        if worth < WORTH {
+        let constant = new.effects.last().is_some_and(|e| matches!(e.effect, Effect::Mass | Effect::Stiffness));
+        if worth < if constant { WORTH_OF_CONSTANT } else { WORTH } {
             return Ok(false);
         }
         Ok(misfit(new) < AGREES || worth > DECISIVE || self.held_out(level, new)? < self.held_out(level, old)?)
@@ -226,6 +232,14 @@ impl Search<'_> {
             if told.effects.len() > 1 {
                 let all = format!("With all {} effects the error is {:.2} %.", told.effects.len(), 100.0 * error);
                 first.evidence.push(all);
+            }
+            if error > PHASE_LOST && whole > 0 {
+                let parts = self.carried(&told, whole, 0).and_then(|fit| self.quiet(0, &fit))?;
+                let error = parts.error(&self.levels[0], 0.0, 1.0)?;
+                first.evidence.push(format!(
+                    "Over parts of some periods, each with a start of its own, all of it leaves {:.2} %: what is left of the whole record is mostly a phase that is lost on the way.",
+                    100.0 * error
+                ));
             }
             if misfit(&told) > AGREES {
                 let floor = diagnosis.noise_floor.max(f64::MIN_POSITIVE);

@@ -56,14 +56,27 @@ fn cut(record: &RecordData, periods: f64, most: usize) -> Vec<RecordData> {
     let first = (blow + length).min(record.len());
     let free = active(record, length).saturating_sub(first);
     let count = ((COVERED * (first + free) as f64 / length as f64).ceil() as usize).clamp(1, most);
-    let mut parts = vec![record.part(0, first)];
-    for k in 1..count {
-        let end = first + k * free / (count - 1);
-        if end >= first + length / 2 {
-            parts.push(record.part(end - length.min(end), end));
-        }
+    let mut ends: Vec<usize> = (1..count).map(|k| first + k * free / (count - 1)).collect();
+    ends.retain(|end| *end >= first + length / 2);
+    // What acts only where the motion is large must be seen, as in a sweep through a resonance.
+    let loud = (loudest(record, length) + length / 2).min(record.len());
+    if loud > first + length / 2
+        && let Some(nearest) = ends.iter_mut().min_by_key(|end| end.abs_diff(loud))
+    {
+        *nearest = loud;
     }
-    parts
+    let later = ends.into_iter().map(|end| record.part(end - length.min(end), end));
+    std::iter::once(record.part(0, first)).chain(later).collect()
+}
+
+/// Number of the sample about which the motion is largest, in the channel that shows most of it.
+fn loudest(record: &RecordData, length: usize) -> usize {
+    let of = |c: usize| {
+        let sizes = local(&record.samples[c], (length / 4).max(1));
+        let at = (0..sizes.len()).max_by(|&a, &b| sizes[a].total_cmp(&sizes[b])).unwrap_or(0);
+        (sizes[at] / record.noise[c], at)
+    };
+    (0..record.channels.len()).map(of).max_by(|a, b| a.0.total_cmp(&b.0)).map_or(0, |(_, at)| at)
 }
 
 /// Samples up to the end of the motion that stands out.

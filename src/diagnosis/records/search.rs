@@ -1,6 +1,6 @@
 //! Fits of one effect more: laws at places from which fits begin, fitted on parts of the records, and carried on to longer ones.
 
-use super::compare::started_from;
+use super::compare::first_states;
 use super::data::{RecordError, Records};
 use super::evidence::{evidence, scale};
 use super::fitted::FittedRecords;
@@ -15,8 +15,10 @@ use crate::effects::Source;
 const BEGINNING: usize = 3;
 const FOLLOWING: usize = 7;
 const FOLLOWED: usize = 6;
+/// Starts of a further effect on longer parts.
+const FURTHER: usize = 13;
 /// Fits that are carried on to longer parts, and the steps there.
-const RIVALS: usize = 3;
+const RIVALS: usize = 4;
 const CARRYING: usize = 12;
 /// Squared residual over the least one beyond which a fit is not followed further: after the first steps, and on longer parts.
 const HOPELESS: [f64; 2] = [12.0, 4.0];
@@ -59,7 +61,7 @@ impl Search<'_> {
         FitProblem { records, free, share, control }.improve(start, iterations)
     }
 
-    /// A fit of one level as the start of one of another: initial states that are not known yet are fitted.
+    /// A fit of one level as the start of one of another: initial states that are not known yet are read from the first periods.
     pub fn carried(&self, fit: &FittedRecords, from: usize, to: usize) -> Result<FittedRecords, RecordError> {
         let (known, records) = (&self.levels[from], &self.levels[to]);
         let same = |k: usize| {
@@ -70,7 +72,12 @@ impl Search<'_> {
         let rest = vec![0.0; 2 * records.kept];
         let initial = found.iter().map(|k| k.map_or_else(|| rest.clone(), |k| fit.initial[k].clone())).collect();
         let start = FittedRecords { initial, shifts: vec![0.0; records.list.len()], ..fit.clone() };
-        if found.iter().all(Option::is_some) { Ok(start) } else { started_from(records, start, self.control) }
+        if found.iter().all(Option::is_some) {
+            return Ok(start);
+        }
+        let states = first_states(records, start.clone(), self.control)?.initial;
+        let initial = found.iter().zip(states).map(|(k, own)| k.map_or(own, |k| fit.initial[k].clone())).collect();
+        Ok(FittedRecords { initial, ..start })
     }
 
     /// Initial states and effects only, nothing corrected.
@@ -101,7 +108,10 @@ impl Search<'_> {
     ) -> Result<Vec<FittedRecords>, RecordError> {
         // The first effect is looked for beside the model as it is, whose stiffness is not bent to what is missing.
         let base = if best.effects.is_empty() { bare } else { best };
-        let starts = self.begun(level, best, base);
+        let mut starts = self.begun(level, best, base);
+        if level > 0 && !best.effects.is_empty() {
+            starts.truncate(FURTHER);
+        }
         let alone = self.control.alone();
         // A start that runs away, or a mass that takes away all there is, is no start.
         let begin = |k: usize| self.fit_by(level, &starts[k], (1.0, BEGINNING), &alone).ok();
@@ -120,7 +130,7 @@ impl Search<'_> {
         keep(&mut found, FOLLOWED, HOPELESS[0]);
         let follow = |k: usize| self.fit_by(level, &found[k], (1.0, FOLLOWING), &alone).ok();
         let followed = self.control.map(found.len(), follow).into_iter().flatten().collect();
-        Ok(self.sorted(followed))
+        Ok(self.sorted(level, followed))
     }
 
     /// The best of `rivals` fitted on the parts of the next level, best first.
@@ -135,18 +145,20 @@ impl Search<'_> {
         let mut found = self.control.map(few.len(), longer).into_iter().flatten().collect();
         self.control.check()?;
         keep(&mut found, RIVALS, HOPELESS[1]);
-        Ok(self.sorted(found))
+        Ok(self.sorted(level + 1, found))
     }
 
-    /// Those that may be told, by evidence.
-    fn sorted(&self, mut found: Vec<FittedRecords>) -> Vec<FittedRecords> {
+    /// Those that may be told, by evidence; on whole records without those that a simpler law makes needless.
+    fn sorted(&self, level: usize, mut found: Vec<FittedRecords>) -> Vec<FittedRecords> {
         found.retain(|f| {
             f.effects.last().is_none_or(|e| !e.is_disguised() && is_allowed(self.excluded, e, &last_deviations(f)))
         });
         if let Some(least) = found.iter().map(|f| f.chi_square).min_by(f64::total_cmp) {
             let best = found.iter().find(|f| f.chi_square == least).map_or(1.0, scale);
             found.sort_by(|a, b| evidence(a, best).total_cmp(&evidence(b, best)));
-            plainest(&mut found);
+            if level + 1 == self.levels.len() {
+                plainest(&mut found);
+            }
         }
         found
     }

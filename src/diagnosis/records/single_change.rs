@@ -27,31 +27,31 @@ const FEWEST_MODES: usize = 3;
 const GAIN: f64 = 12.0;
 
 impl Search<'_> {
-    /// Fits of one mass or spring on the shortest parts, best first, where `corrected` needs the stiffness of single modes and they
-    /// do not; `bare` is the model as it is there.
-    pub fn single_changes(
-        &self,
-        bare: &FittedRecords,
-        corrected: &FittedRecords,
-    ) -> Result<Vec<FittedRecords>, RecordError> {
-        let records = &self.levels[0];
+    /// Fits of one mass or spring to whole records, best first, where `corrected` needs the stiffness of single modes and they do
+    /// not.
+    pub fn single_changes(&self, corrected: &FittedRecords) -> Result<Vec<FittedRecords>, RecordError> {
+        let records = self.records;
         let fit = |start: &FittedRecords, control| {
             FitProblem { records, free: Free::but_modes(records), share: 1.0, control }.improve(start, STEPS)
         };
-        if modes(records) < FEWEST_MODES || misfit(corrected) > AGREES || misfit(&fit(bare, self.control)?) < AGREES {
+        if modes(records) < FEWEST_MODES || misfit(corrected) > AGREES {
+            return Ok(Vec::new());
+        }
+        let mean = corrected.modes.iter().sum::<f64>() / corrected.modes.len() as f64;
+        let plain = FittedRecords {
+            stiffness: corrected.stiffness + mean,
+            modes: vec![0.0; records.kept],
+            mass: 0.0,
+            ..corrected.clone()
+        };
+        if misfit(&fit(&plain, self.control)?) < AGREES {
             return Ok(Vec::new());
         }
         let alone = self.control.alone();
         let starts = changes(records, corrected);
         let begin = |k: usize| {
             let (stiffness, source) = &starts[k];
-            let start = FittedRecords {
-                stiffness: *stiffness,
-                effects: vec![source.clone()],
-                known: corrected.known.clone(),
-                initial: corrected.initial.clone(),
-                ..bare.clone()
-            };
+            let start = FittedRecords { stiffness: *stiffness, effects: vec![source.clone()], ..plain.clone() };
             fit(&start, &alone).ok()
         };
         let count = starts.len().min(FITTED);

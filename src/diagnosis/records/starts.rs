@@ -59,7 +59,9 @@ impl Search<'_> {
         base: &FittedRecords,
         regression: Option<&Regression<'_>>,
     ) -> Vec<Source> {
-        let open = |s: &Source| !base.effects.iter().chain(self.excluded).any(|e| e.is_same(s));
+        // One mode alone shows no mass or spring beside its own stiffness.
+        let seen = |s: &Source| self.records.kept > 1 || !matches!(s.effect, Effect::Mass | Effect::Stiffness);
+        let open = |s: &Source| seen(s) && !base.effects.iter().chain(self.excluded).any(|e| e.is_same(s));
         let structure = self.records.structure;
         let mut all = Family::EachTranslation.places(structure);
         all.extend(Family::EachPair.places(structure));

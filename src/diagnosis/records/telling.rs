@@ -12,11 +12,8 @@ use crate::structure::Part;
 /// Share by which the squared residual of a law of fewer parameters may be larger than that of another at its place, which
 /// then is not told: where what is left is noise, and where it is an error of the model, which more parameters bend towards.
 const PLAIN: [f64; 2] = [1.1, 1.3];
-/// Misfit from which on what is left is no noise, and up to which a law of fewer parameters is enough unless it leaves [`ENOUGH`]
-/// times as much.
+/// Misfit from which on what is left is no noise.
 const MODEL_ERROR: f64 = 1.5;
-const NOISE: f64 = 1.0;
-const ENOUGH: f64 = 1.6;
 /// Share to which the mass of a model is known.
 const MASS: f64 = 0.005;
 /// Difference of evidence within which effects cannot be told apart.
@@ -111,16 +108,12 @@ pub(super) fn corrections(records: &Records, fit: &FittedRecords) -> Vec<Correct
 pub(super) fn plainest(found: &mut Vec<FittedRecords>) {
     let simple: Vec<(f64, Source)> =
         found.iter().filter_map(|f| Some((f.chi_square, f.effects.last()?.clone()))).collect();
-    let share = |chi: f64, fit: &FittedRecords| {
-        let enough = chi < NOISE * fit.count as f64;
-        if enough { ENOUGH } else { PLAIN[usize::from(misfit(fit) > MODEL_ERROR)] }
-    };
     let needless = |fit: &FittedRecords| {
         let Some(own) = fit.effects.last() else { return false };
         let plainer = |(chi, other): &(f64, Source)| {
             other.place.is_same(&own.place)
                 && other.parameters.len() < own.parameters.len()
-                && *chi <= share(*chi, fit) * fit.chi_square
+                && *chi <= PLAIN[usize::from(misfit(fit) > MODEL_ERROR)] * fit.chi_square
         };
         simple.iter().any(plainer)
     };
