@@ -10,18 +10,15 @@
 
 use super::compare::{floors, started};
 use super::data::{RecordError, Records};
-use super::evidence::{evidence, misfit, scale};
+use super::evidence::{AGREES, evidence, misfit, scale};
 use super::fitted::FittedRecords;
-use super::search::Search;
-use super::telling::{added, corrections, last_deviations, suggestions, words};
-use super::told::added_as_told;
+use super::search::{Rungs, Search};
+use super::telling::{last_deviations, suggestions};
 use crate::control::Control;
 use crate::diagnosis::diagnose::{Diagnosis, Early, Step, Verdict};
 use crate::effects::{Effect, Source};
 use crate::math::statistics::root_mean_square;
 
-/// Misfit (squared residual over noise) up to which a model agrees.
-const AGREES: f64 = 1.15;
 /// Squared corrections over their prior deviations beyond which an effect that makes them needless is looked for.
 const PLAUSIBLE: f64 = 16.0;
 /// Most effects of a set.
@@ -38,8 +35,6 @@ const WORTH_OF_CONSTANT: f64 = 0.5;
 const DECISIVE: f64 = 0.25;
 /// Levels of parts on which effects are added; on whole records where there are no more levels than that, or nothing was found.
 const GROWING: usize = 2;
-/// Error of what is told from which on the phase is lost over the whole record.
-const PHASE_LOST: f64 = 0.08;
 /// Steps of a fit with one effect less.
 const PRUNING: usize = 6;
 /// Deviations from zero that the force of an effect must have.
@@ -82,13 +77,6 @@ pub fn diagnose_records(
     diagnosis.complete = control.is_complete();
     control.report(1.0);
     Ok(diagnosis)
-}
-
-/// Sets of growing size: the best of each as it stood when the next effect was found, of the last all that were followed, fitted
-/// to the whole records.
-pub(super) struct Rungs {
-    pub earlier: Vec<(usize, FittedRecords)>,
-    pub last: Vec<FittedRecords>,
 }
 
 impl Search<'_> {
@@ -179,80 +167,13 @@ impl Search<'_> {
     }
 
     /// Error on the last part of each record of a fit on the rest.
-    fn held_out(&self, level: usize, fit: &FittedRecords) -> Result<f64, RecordError> {
+    pub fn held_out(&self, level: usize, fit: &FittedRecords) -> Result<f64, RecordError> {
         let learnt = self.fit(level, fit, LEARNT, 5);
         match learnt.and_then(|learnt| learnt.error(&self.levels[level], LEARNT, 1.0)) {
             Ok(error) => Ok(error),
             Err(RecordError::Model { .. } | RecordError::Singular) => Ok(f64::INFINITY),
             Err(other) => Err(other),
         }
-    }
-
-    fn conclude(&self, rungs: &Rungs, diagnosis: &mut Diagnosis) -> Result<(), RecordError> {
-        let (whole, top) = (self.levels.len() - 1, &rungs.last);
-        let Some(best) = top.first() else {
-            diagnosis.verdict = Verdict::Unexplained;
-            return Ok(());
-        };
-        let told = self.told(best)?;
-        for (level, fit) in &rungs.earlier {
-            let fit = self.carried(fit, *level, whole).and_then(|fit| self.quiet(whole, &fit))?;
-            let error = fit.error(self.records, 0.0, 1.0)?;
-            // Corrections that only please the weights of the fit are no step.
-            if !fit.effects.is_empty() || error < diagnosis.error_before {
-                diagnosis.steps.push(Step { added: added(&fit), error, misfit: misfit(&fit) });
-            }
-        }
-        let error = told.error(self.records, 0.0, 1.0)?;
-        diagnosis.steps.push(Step { added: added(&told), error, misfit: misfit(&told) });
-        diagnosis.corrections = corrections(self.records, &told);
-        if top[0].effects.is_empty() {
-            diagnosis.verdict = if misfit(&told) > AGREES {
-                Verdict::Unexplained
-            } else if diagnosis.corrections.is_empty() {
-                Verdict::Adequate
-            } else {
-                Verdict::Detuned
-            };
-            return Ok(());
-        }
-        diagnosis.suggestions = suggestions(self.records, top)?;
-        let own = added(&told);
-        for suggestion in &mut diagnosis.suggestions {
-            let has = |f: &&FittedRecords| f.effects.iter().any(|e| e.is_same(&suggestion.added.source));
-            if let Some(fit) = top.iter().find(has) {
-                suggestion.held_out_error_after = self.held_out(whole, fit)?;
-            }
-            suggestion.added = added_as_told(&own, &suggestion.added);
-            suggestion.error_after = self.promised(&told, std::slice::from_ref(&suggestion.added.source))?;
-            suggestion.evidence = words(&suggestion.added.source, suggestion.error_after);
-        }
-        if let Some(first) = diagnosis.suggestions.first_mut() {
-            let error = told.error(self.plain, 0.0, 1.0)?;
-            if told.effects.len() > 1 {
-                let all = format!("With all {} effects the error is {:.2} %.", told.effects.len(), 100.0 * error);
-                first.evidence.push(all);
-            }
-            if error > PHASE_LOST && whole > 0 {
-                let parts = self.carried(&told, whole, 0).and_then(|fit| self.quiet(0, &fit))?;
-                let error = parts.error(&self.levels[0], 0.0, 1.0)?;
-                first.evidence.push(format!(
-                    "Over parts of some periods, each with a start of its own, all of it leaves {:.2} %: what is left of the whole record is mostly a phase that is lost on the way.",
-                    100.0 * error
-                ));
-            }
-            if misfit(&told) > AGREES {
-                let floor = diagnosis.noise_floor.max(f64::MIN_POSITIVE);
-                let rest = format!(
-                    "That is {:.1} times the noise: the records hold more than these laws give, and no law here at any place gives it.",
-                    error / floor
-                );
-                first.evidence.push(rest);
-            }
-        }
-        let sure = diagnosis.suggestions.first().is_some_and(|s| s.probability >= 0.5);
-        diagnosis.verdict = if sure { Verdict::Missing } else { Verdict::Undecided };
-        Ok(())
     }
 }
 

@@ -2,6 +2,9 @@
 
 use super::fitted::FittedRecords;
 
+/// Misfit up to which a model agrees.
+pub(super) const AGREES: f64 = 1.15;
+
 /// Squared residual a sample, over the noise.
 pub(super) fn misfit(fit: &FittedRecords) -> f64 {
     fit.chi_square / fit.count.max(1) as f64

@@ -7,6 +7,7 @@
 
 pub mod amplitude;
 pub mod compare;
+mod conclusion;
 pub mod data;
 pub mod diagnose;
 mod errors;

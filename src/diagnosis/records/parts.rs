@@ -1,7 +1,8 @@
 //! Records cut into parts, each with an initial state of its own (multiple shooting, Bock 1983): over a part a model that is
 //! off loses no phase, while the parts together hold the amplitudes of the whole record.
 //!
-//! Parts grow by [`GROWTH`] from level to level until one would be half of the record; the last level is the whole.
+//! Parts grow by [`GROWTH`] from level to level until one would be half of the record; the last level is the whole. Decays are
+//! thinned to the samples that their motion needs.
 
 use super::compare::struck;
 use super::data::{RecordData, Records};
@@ -21,13 +22,13 @@ const QUIET: f64 = 0.03;
 const ABOVE_NOISE: f64 = 6.0;
 /// Samples of a decay that a period of its highest motion needs in a part.
 const SAMPLES: f64 = 24.0;
-/// Phase of the highest motion, rad, that a step of the model may cover in a part: the whole records are stepped more finely.
-const STEP_PHASE: f64 = 0.4;
+/// Phase of the highest motion, rad, that a step of the model may cover in a part and in a whole record.
+const STEP_PHASE: [f64; 2] = [0.4, 0.2];
 /// Fewest samples of a part.
 const FEWEST: usize = 48;
 
 impl Records<'_> {
-    /// The records in parts of growing length; at last the records themselves.
+    /// The records in parts of growing length, at last whole.
     pub(super) fn levels(&self) -> Vec<Self> {
         let mut levels = Vec::new();
         let mut periods = PERIODS;
@@ -35,7 +36,8 @@ impl Records<'_> {
             levels.push(parts);
             periods *= GROWTH;
         }
-        levels.push(self.clone());
+        let whole = self.list.iter().map(|r| r.part(0, r.len(), STEP_PHASE[1])).collect();
+        levels.push(Self { list: whole, ..self.clone() });
         levels
     }
 
@@ -65,8 +67,8 @@ fn cut(record: &RecordData, periods: f64, most: usize) -> Vec<RecordData> {
     {
         *nearest = loud;
     }
-    let later = ends.into_iter().map(|end| record.part(end - length.min(end), end));
-    std::iter::once(record.part(0, first)).chain(later).collect()
+    let later = ends.into_iter().map(|end| record.part(end - length.min(end), end, STEP_PHASE[0]));
+    std::iter::once(record.part(0, first, STEP_PHASE[0])).chain(later).collect()
 }
 
 /// Number of the sample about which the motion is largest, in the channel that shows most of it.
@@ -93,8 +95,8 @@ fn active(record: &RecordData, length: usize) -> usize {
 }
 
 impl RecordData {
-    /// Samples `from..to`, of a decay no more than its motion needs.
-    fn part(&self, from: usize, to: usize) -> Self {
+    /// Samples `from..to`, of a decay no more than its motion needs; steps of the model cover no more than `phase` rad of it.
+    fn part(&self, from: usize, to: usize, phase: f64) -> Self {
         let every = if self.forces.is_empty() { self.spare() } else { 1 };
         let of = |lists: &[Vec<f64>]| -> Vec<Vec<f64>> {
             lists.iter().map(|list| list[from..to].iter().copied().step_by(every).collect()).collect()
@@ -112,7 +114,7 @@ impl RecordData {
             forces: of(&self.forces),
             noise: self.noise.clone(),
             sigma: of(&self.sigma),
-            substeps: self.steps_between(self.step * every as f64, STEP_PHASE),
+            substeps: self.steps_between(self.step * every as f64, phase),
             dominant_hz: self.dominant_hz,
             highest_hz: self.highest_hz,
         }

@@ -35,6 +35,13 @@ pub(super) struct Search<'a> {
     pub control: &'a Control,
 }
 
+/// Sets of growing size: the best of each as it stood when the next effect was found, of the last all that were followed, fitted
+/// to the whole records.
+pub(super) struct Rungs {
+    pub earlier: Vec<(usize, FittedRecords)>,
+    pub last: Vec<FittedRecords>,
+}
+
 impl Search<'_> {
     /// `start` improved on the first `share` of every part of `level`, everything free.
     pub fn fit(

@@ -8,7 +8,7 @@
 //! not suffice, but one mass or spring at one place beside them does, that is said: one number in place of one a mode.
 
 use super::data::{RecordError, Records};
-use super::evidence::{evidence, information, misfit, scale};
+use super::evidence::{AGREES, evidence, information, misfit, scale};
 use super::fitted::FittedRecords;
 use super::problem::{FitProblem, Free, modes};
 use super::search::Search;
@@ -16,8 +16,6 @@ use crate::effects::{Effect, Family, Place, Source, State};
 use crate::math::least_squares::LeastSquares;
 use faer::Mat;
 
-/// Misfit up to which a model agrees.
-const AGREES: f64 = 1.15;
 /// Places and laws that are fitted, and the steps of their fits.
 const FITTED: usize = 4;
 const STEPS: usize = 10;

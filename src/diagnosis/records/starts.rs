@@ -28,7 +28,7 @@ const PLACES: usize = 2;
 const SHAPES: usize = 5;
 /// Laws that are fitted at the places that the equation of motion demands, from the best place on.
 const QUOTAS: [usize; 3] = [LAWS.len(), 3, 2];
-/// Share of what the equation of motion leaves that one effect more must take away, or none is looked for.
+/// Share of what the equation of motion of several modes leaves that one effect more must take away, or none is looked for.
 const NEEDED: f64 = 0.9;
 /// Misfit of the equation of motion over the least one beyond which a law is not fitted to the response.
 const BEHIND: f64 = 4.0;
@@ -76,7 +76,7 @@ impl Search<'_> {
         let mut ranked = regression.ranked(&all, &LAWS, self.control);
         ranked.retain(|r| open(&r.source));
         let least = ranked.first().map_or(0.0, |r| r.misfit);
-        if !best.effects.is_empty() && least > NEEDED * regression.misfit() {
+        if !best.effects.is_empty() && self.records.kept > 1 && least > NEEDED * regression.misfit() {
             return Vec::new();
         }
         // At the best place every law is fitted: what rises and falls with the amplitude is not told apart here.
