@@ -73,6 +73,8 @@ fn free(record: &Record, motion: &[f64], at: impl Fn(usize) -> f64) -> Proposal 
     let most = motion.iter().copied().fold(0.0, f64::max);
     let start = (0..motion.len()).rev().find(|&b| motion[b] > 0.9 * most).unwrap_or(0);
     if most > 0.0 && end < DIES * most {
+        // Within that block what drove it may still act: the next one is free.
+        let start = if start <= 1 { start } else { start + 1 };
         let from = if start <= 1 { None } else { Some(at(start)) };
         let reason = format!(
             "no force is measured, and the motion falls to {:.1} % of its largest from {:.3} s on",

@@ -210,7 +210,7 @@ impl Search<'_> {
             f.effects.iter().all(|e| {
                 let own = &f.deviations[at..at + e.parameters.len()];
                 at += e.parameters.len();
-                is_allowed(self.excluded, e, own)
+                is_allowed(self.excluded, e, own) && is_determined(e, own) && !e.is_disguised()
             })
         });
         fits.sort_by(|a, b| self.criterion(a).total_cmp(&self.criterion(b)));
@@ -320,6 +320,12 @@ impl Search<'_> {
         let all: Vec<f64> = self.loops.list.iter().map(of).collect::<Result<_, _>>()?;
         Ok(root_mean_square(&all))
     }
+}
+
+/// Whether the loops fix every parameter to within its own size: a law with one that they do not is a simpler one by another name.
+fn is_determined(source: &Source, deviations: &[f64]) -> bool {
+    source.effect.limits().next().is_none()
+        || source.parameters.iter().zip(deviations).all(|(p, d)| d.is_finite() && *d < p.abs())
 }
 
 /// Number of parameters of all laws.

@@ -4,7 +4,8 @@
 use super::amplitude::{AmplitudePoint, Band, amplitude_curve, peaks};
 use super::data::{RecordData, RecordError, Records};
 use super::errors::channel_errors;
-use super::fit::{Fit, FittedRecords, Free};
+use super::fitted::FittedRecords;
+use super::problem::{FitProblem, Free};
 use crate::control::Control;
 use crate::effects::Source;
 use crate::math::statistics::root_mean_square;
@@ -13,6 +14,8 @@ use dashpot_numerics::RealTransform;
 
 /// Parts of time and bands of frequency.
 const PARTS: usize = 8;
+/// Steps of the fit of initial states to the first periods.
+const FIRST_STEPS: usize = 3;
 /// Share of the largest force of a blow above which it acts.
 const STRUCK: f64 = 0.05;
 /// Width of the band about a mode where a record shows several.
@@ -98,35 +101,63 @@ pub(crate) fn started(records: &Records, effects: &[Source], control: &Control) 
     started_from(records, FittedRecords::start(records, effects), control)
 }
 
-/// A model with initial states only fitted, short parts first; those of a nonlinear model begin with what its linear part shows,
-/// for a start at rest may hold it fast.
+/// A model with initial states only fitted, short parts first.
 pub(crate) fn started_from(
     records: &Records,
     start: FittedRecords,
     control: &Control,
 ) -> Result<FittedRecords, RecordError> {
     let fit = |records: &Records, start: &FittedRecords, share: f64, iterations: usize| {
-        Fit { records, free: Free::nothing(), share, control }.improve(start, iterations)
+        FitProblem { records, free: Free::nothing(), share, control }.improve(start, iterations)
+    };
+    let mut fitted = first_states(records, start, control)?;
+    let first = short(records);
+    let longer = [(first, 4), (0.4_f64.max(first), 3)];
+    for (share, iterations) in longer.into_iter().filter(|(share, _)| *share < 1.0) {
+        fitted = fit(records, &fitted, share, iterations)?;
+    }
+    fit(records, &fitted, 1.0, 6)
+}
+
+/// `start` with the initial states that the first periods of the records show, before a model that is off has lost the phase; those
+/// of a nonlinear model begin with what its linear part shows, for a start at rest may hold it fast.
+pub(super) fn first_states(
+    records: &Records,
+    start: FittedRecords,
+    control: &Control,
+) -> Result<FittedRecords, RecordError> {
+    let fit = |records: &Records, start: &FittedRecords| {
+        let share = earliest(records);
+        FitProblem { records, free: Free::nothing(), share, control }.improve(start, FIRST_STEPS)
     };
     let mut fitted = start;
     let linear = |s: &Source| s.effect.is_linear();
-    if !records.known.iter().chain(&fitted.effects).all(linear) {
-        let known = |k: &usize| linear(&records.known[*k]);
-        let kept: Vec<usize> = (0..records.known.len()).filter(known).collect();
-        let plain = Records { known: kept.iter().map(|&k| records.known[k].clone()).collect(), ..records.clone() };
-        let bare = FittedRecords {
-            effects: fitted.effects.iter().filter(|s| linear(s)).cloned().collect(),
-            known: kept.iter().map(|&k| fitted.known[k]).collect(),
-            ..fitted.clone()
-        };
-        if let Ok(bare) = fit(&plain, &bare, short(records), 3) {
-            fitted.initial = bare.initial;
-        }
+    if records.known.iter().chain(&fitted.effects).all(linear) {
+        return fit(records, &fitted);
     }
-    for (share, iterations) in [(short(records), 4), (0.4_f64.max(short(records)), 3), (1.0, 6)] {
-        fitted = fit(records, &fitted, share, iterations)?;
+    let kept: Vec<usize> = (0..records.known.len()).filter(|&k| linear(&records.known[k])).collect();
+    let plain = Records { known: kept.iter().map(|&k| records.known[k].clone()).collect(), ..records.clone() };
+    let bare = FittedRecords {
+        effects: fitted.effects.iter().filter(|s| linear(s)).cloned().collect(),
+        known: kept.iter().map(|&k| fitted.known[k]).collect(),
+        ..fitted.clone()
+    };
+    if let Ok(bare) = fit(&plain, &bare) {
+        fitted.initial = bare.initial;
     }
-    Ok(fitted)
+    fit(records, &fitted)
+}
+
+/// Share of every record that holds the first periods: two of its dominant motion, one and a half of the lowest mode.
+fn earliest(records: &Records) -> f64 {
+    let lowest =
+        records.modes.omega.iter().copied().find(|w| *w > 0.0).map_or(0.0, |w| 1.5 * std::f64::consts::TAU / w);
+    let share = |r: &RecordData| {
+        let seconds = (2.0 / r.dominant_hz).max(lowest).max(8.0 * records.kept as f64 * r.step);
+        let blow = struck(r).unwrap_or(0.0);
+        blow + seconds / (r.step * r.len() as f64)
+    };
+    records.list.iter().map(share).fold(0.0, f64::max).min(1.0)
 }
 
 /// Share of every record that holds eight periods of its dominant motion after a blow; half of one that is driven all along,
@@ -144,7 +175,7 @@ pub(crate) fn short(records: &Records) -> f64 {
 }
 
 /// Share of a record after which no force acts, where that is its first part.
-fn struck(record: &RecordData) -> Option<f64> {
+pub(super) fn struck(record: &RecordData) -> Option<f64> {
     let loudest = record.forces.iter().flatten().fold(0.0_f64, |m, f| m.max(f.abs()));
     let acts = |n: &usize| record.forces.iter().any(|list| list[*n].abs() > STRUCK * loudest);
     let end = (0..record.len()).rev().find(acts).unwrap_or(0) as f64 / record.len() as f64;

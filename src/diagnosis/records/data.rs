@@ -1,7 +1,6 @@
 //! The records of a project as they are fitted: forces, responses, noise, the modes that they show.
 
 use super::amplitude::peaks;
-use super::fit::FittedRecords;
 use super::weights::{deviations, with_share};
 use crate::control::Cancelled;
 use crate::effects::{Kind as EffectKind, Source, State};
@@ -75,6 +74,8 @@ pub struct RecordData {
     pub substeps: usize,
     /// Frequency of the highest peak, Hz.
     pub dominant_hz: f64,
+    /// Highest frequency at which the motion stands out, Hz.
+    pub highest_hz: f64,
 }
 
 /// All that is fitted.
@@ -108,7 +109,7 @@ impl<'a> Records<'a> {
         if list.is_empty() {
             return Err(RecordError::NoRuns);
         }
-        let top = list.iter().map(highest_hz).fold(0.0, f64::max);
+        let top = list.iter().map(|r| r.highest_hz).fold(0.0, f64::max);
         let nyquist = list.iter().map(|r| 0.4 / r.step).fold(f64::INFINITY, f64::min);
         let limit = (1.5 * top).min(nyquist);
         let below = modes.omega.iter().filter(|w| **w <= TAU * limit).count();
@@ -130,11 +131,11 @@ impl<'a> Records<'a> {
         left.iter().zip(&record.noise).map(of).collect()
     }
 
-    /// The same records, each sample weighted by what `fit` of whole records leaves above the modes that are followed, and by the
-    /// share of the motion by which any model is wrong.
-    pub(crate) fn weighted(&self, fit: &FittedRecords) -> Self {
+    /// The same records, each sample weighted by what a model leaves above the modes that are followed (`residual` of whole
+    /// records, over the noise, `[record][channel][sample]`), and by the share of the motion by which any model is wrong.
+    pub(crate) fn weighted(&self, residual: &[Vec<Vec<f64>>]) -> Self {
         let mut weighted = self.clone();
-        for (record, left) in weighted.list.iter_mut().zip(&fit.residual) {
+        for (record, left) in weighted.list.iter_mut().zip(residual) {
             let in_units = |(e, sigma): (&Vec<f64>, &Vec<f64>)| e.iter().zip(sigma).map(|(e, s)| e * s).collect();
             let left: Vec<Vec<f64>> = left.iter().zip(&record.sigma).map(in_units).collect();
             let half = (1.0 / (record.dominant_hz * record.step)).ceil() as usize;
@@ -178,6 +179,13 @@ impl RecordData {
     /// Whether there is no sample; never true.
     pub fn is_empty(&self) -> bool {
         self.samples[0].is_empty()
+    }
+
+    /// Steps of the model from one sample to the next, `step` s later, where a law is nonlinear; each covers no more than `most` rad
+    /// of the highest motion.
+    pub(super) fn steps_between(&self, step: f64, most: f64) -> usize {
+        let phase = TAU * self.highest_hz.min(3.0 * self.dominant_hz) * step;
+        ((phase / most).ceil() as usize).clamp(1, 8)
     }
 
     /// The measured forces of the first `samples` samples.
@@ -226,10 +234,11 @@ fn record(index: usize, run: &TransientRun) -> Result<RecordData, RecordError> {
         sigma,
         substeps: 1,
         dominant_hz: 0.0,
+        highest_hz: 0.0,
     };
     record.dominant_hz = dominant_hz(&record);
-    let phase = TAU * highest_hz(&record).min(3.0 * record.dominant_hz) * step;
-    record.substeps = ((phase / STEP_PHASE).ceil() as usize).clamp(1, 8);
+    record.highest_hz = highest_hz(&record);
+    record.substeps = record.steps_between(step, STEP_PHASE);
     Ok(record)
 }
 

@@ -1,26 +1,24 @@
 //! What the model lacks in its records: place before law, laws fitted on the record itself, sets grown effect by effect.
 //!
 //! 1. The model as it is, then corrected (stiffness, sizes of known sources, a shift a record).
-//! 2. Places by a free force ([`super::localisation`]); every law at those that matter, from a small grid of shapes, on short
-//!    parts; the best on longer parts and at last on whole records.
+//! 2. Places by a free force ([`super::localisation`]); every law at those that matter, from where the measured motion wants it,
+//!    on short parts of the records with initial states of their own ([`super::parts`]); the best on longer parts and at last on
+//!    whole records.
 //! 3. What is left of a fit is coloured: differences of its squared residual are divided by its misfit and by the number of
 //!    samples over which it stays alike, so that many samples of one error do not count as many.
 //! 4. An effect is kept if it also predicts the last part of each record from a fit on the rest.
 
 use super::compare::{floors, started};
 use super::data::{RecordError, Records};
-use super::evidence::{evidence, misfit, scale};
-use super::fit::FittedRecords;
-use super::search::Search;
-use super::telling::{added, corrections, last_deviations, suggestions, words};
-use super::told::added_as_told;
+use super::evidence::{AGREES, evidence, misfit, scale};
+use super::fitted::FittedRecords;
+use super::search::{Rungs, Search};
+use super::telling::{last_deviations, suggestions};
 use crate::control::Control;
 use crate::diagnosis::diagnose::{Diagnosis, Early, Step, Verdict};
-use crate::effects::Source;
+use crate::effects::{Effect, Source};
 use crate::math::statistics::root_mean_square;
 
-/// Misfit (squared residual over noise) up to which a model agrees.
-const AGREES: f64 = 1.15;
 /// Squared corrections over their prior deviations beyond which an effect that makes them needless is looked for.
 const PLAUSIBLE: f64 = 16.0;
 /// Most effects of a set.
@@ -32,7 +30,11 @@ const LEARNT: f64 = 0.6;
 /// still loses the phase.
 const GAIN: f64 = 12.0;
 const WORTH: f64 = 0.15;
+/// The same of a mass or spring, which any error of the model's own masses and springs resembles.
+const WORTH_OF_CONSTANT: f64 = 0.5;
 const DECISIVE: f64 = 0.25;
+/// Levels of parts on which effects are added; on whole records where there are no more levels than that, or nothing was found.
+const GROWING: usize = 2;
 /// Steps of a fit with one effect less.
 const PRUNING: usize = 6;
 /// Deviations from zero that the force of an effect must have.
@@ -51,9 +53,10 @@ pub fn diagnose_records(
     let plain = records;
     let bare = started(records, &[], control)?;
     let floors: Vec<f64> = records.list.iter().flat_map(|r| floors(r, &r.sigma)).collect();
-    let records = &records.weighted(&bare);
-    let search = Search { records, plain, excluded, control };
-    let bare = search.quiet(&bare, 1.0)?;
+    let records = &records.weighted(&bare.residual);
+    let search = Search { records, plain, levels: records.levels(), excluded, control };
+    let whole = search.levels.len() - 1;
+    let bare = search.quiet(whole, &bare)?;
     let before = bare.error(records, 0.0, 1.0)?;
     let mut diagnosis = Diagnosis {
         error_before: before,
@@ -69,23 +72,7 @@ pub fn diagnose_records(
     if misfit(&bare) < AGREES {
         return Ok(diagnosis);
     }
-    let corrected = search.corrected(&bare)?;
-    let mut rungs = vec![vec![corrected]];
-    loop {
-        let best = &rungs[rungs.len() - 1][0];
-        if agrees(best) || best.effects.len() >= MOST_EFFECTS || control.is_late() {
-            break;
-        }
-        control.report(0.3 * rungs.len() as f64);
-        let mut found = search.extended(best, &bare)?;
-        let Some(top) = found.first_mut() else { break };
-        if !search.is_better(top, best)? {
-            break;
-        }
-        *top = search.pruned(top)?;
-        early(&suggestions(records, &found)?);
-        rungs.push(found);
-    }
+    let rungs = search.climbed(&bare, early)?;
     search.conclude(&rungs, &mut diagnosis)?;
     diagnosis.complete = control.is_complete();
     control.report(1.0);
@@ -93,8 +80,54 @@ pub fn diagnose_records(
 }
 
 impl Search<'_> {
+    /// Effects added on the shorter parts until no more is found, what was found carried on to the whole records.
+    fn climbed(&self, bare: &FittedRecords, early: &Early) -> Result<Rungs, RecordError> {
+        let whole = self.levels.len() - 1;
+        let mut bare = self.carried(bare, whole, 0)?;
+        let mut rungs = Rungs { earlier: Vec::new(), last: vec![self.corrected(&bare)?] };
+        for level in 0..=whole {
+            if level > 0 {
+                rungs.last = self.lengthened(&rungs.last, level - 1)?;
+            }
+            if level > 0 {
+                bare = self.carried(&bare, level - 1, level)?;
+            }
+            let found_none = rungs.last.first().is_some_and(|f| f.effects.is_empty());
+            if level < GROWING || (level == whole && (found_none || whole == GROWING)) {
+                self.grow(level, &bare, &mut rungs, early)?;
+            }
+            self.control.report(0.9 * (level + 1) as f64 / (whole + 1) as f64);
+        }
+        if let Some(corrected) = rungs.last.first().filter(|f| f.effects.is_empty()).cloned() {
+            let single = self.single_changes(&corrected)?;
+            if !single.is_empty() {
+                rungs = Rungs { earlier: vec![(whole, corrected)], last: single };
+            }
+        }
+        Ok(rungs)
+    }
+
+    /// Adds effects on the parts of a level while they are better.
+    fn grow(&self, level: usize, bare: &FittedRecords, rungs: &mut Rungs, early: &Early) -> Result<(), RecordError> {
+        while let Some(best) = rungs.last.first() {
+            if agrees(best) || best.effects.len() >= MOST_EFFECTS || self.control.is_late() {
+                break;
+            }
+            let mut found = self.extended(level, best, bare)?;
+            let Some(top) = found.first_mut() else { break };
+            if !self.is_better(level, top, best)? {
+                break;
+            }
+            *top = self.pruned(level, top)?;
+            early(&suggestions(&self.levels[level], &found)?);
+            rungs.earlier.push((level, best.clone()));
+            rungs.last = found;
+        }
+        Ok(())
+    }
+
     /// Whether a fit is better than the one before by evidence, by its error and by what it predicts.
-    fn is_better(&self, new: &FittedRecords, old: &FittedRecords) -> Result<bool, RecordError> {
+    fn is_better(&self, level: usize, new: &FittedRecords, old: &FittedRecords) -> Result<bool, RecordError> {
         let scale = scale(new);
         let gain = evidence(old, scale) - evidence(new, scale);
         let worth = 1.0 - (new.chi_square / old.chi_square).sqrt();
@@ -108,19 +141,20 @@ impl Search<'_> {
         if misfit(old) < AGREES {
             return Ok(true);
         }
-        if worth < WORTH {
+        let constant = new.effects.last().is_some_and(|e| matches!(e.effect, Effect::Mass | Effect::Stiffness));
+        if worth < if constant { WORTH_OF_CONSTANT } else { WORTH } {
             return Ok(false);
         }
-        Ok(misfit(new) < AGREES || worth > DECISIVE || self.held_out(new)? < self.held_out(old)?)
+        Ok(misfit(new) < AGREES || worth > DECISIVE || self.held_out(level, new)? < self.held_out(level, old)?)
     }
 
     /// A fit without those of its earlier effects that the last one has made needless.
-    fn pruned(&self, fit: &FittedRecords) -> Result<FittedRecords, RecordError> {
+    fn pruned(&self, level: usize, fit: &FittedRecords) -> Result<FittedRecords, RecordError> {
         let mut best = fit.clone();
         for k in (0..fit.effects.len().saturating_sub(1)).rev() {
             let mut fewer = best.clone();
             fewer.effects.remove(k);
-            let refitted = match self.fit(&fewer, 1.0, PRUNING) {
+            let refitted = match self.fit(level, &fewer, 1.0, PRUNING) {
                 Err(RecordError::Model { .. } | RecordError::Singular) => continue,
                 other => other?,
             };
@@ -133,65 +167,13 @@ impl Search<'_> {
     }
 
     /// Error on the last part of each record of a fit on the rest.
-    fn held_out(&self, fit: &FittedRecords) -> Result<f64, RecordError> {
-        match self.fit(fit, LEARNT, 5).and_then(|learnt| learnt.error(self.records, LEARNT, 1.0)) {
+    pub fn held_out(&self, level: usize, fit: &FittedRecords) -> Result<f64, RecordError> {
+        let learnt = self.fit(level, fit, LEARNT, 5);
+        match learnt.and_then(|learnt| learnt.error(&self.levels[level], LEARNT, 1.0)) {
             Ok(error) => Ok(error),
             Err(RecordError::Model { .. } | RecordError::Singular) => Ok(f64::INFINITY),
             Err(other) => Err(other),
         }
-    }
-
-    fn conclude(&self, rungs: &[Vec<FittedRecords>], diagnosis: &mut Diagnosis) -> Result<(), RecordError> {
-        let top = &rungs[rungs.len() - 1];
-        let told = self.told(&top[0])?;
-        for (k, rung) in rungs.iter().enumerate() {
-            let fit = if k + 1 == rungs.len() { &told } else { &rung[0] };
-            let error = fit.error(self.records, 0.0, 1.0)?;
-            // Corrections that only please the weights of the fit are no step.
-            if k > 0 || rungs.len() == 1 || error < diagnosis.error_before {
-                diagnosis.steps.push(Step { added: added(fit), error, misfit: misfit(fit) });
-            }
-        }
-        diagnosis.corrections = corrections(self.records, &told);
-        if top[0].effects.is_empty() {
-            diagnosis.verdict = if misfit(&told) > AGREES {
-                Verdict::Unexplained
-            } else if diagnosis.corrections.is_empty() {
-                Verdict::Adequate
-            } else {
-                Verdict::Detuned
-            };
-            return Ok(());
-        }
-        diagnosis.suggestions = suggestions(self.records, top)?;
-        let own = added(&told);
-        for suggestion in &mut diagnosis.suggestions {
-            let has = |f: &&FittedRecords| f.effects.iter().any(|e| e.is_same(&suggestion.added.source));
-            if let Some(fit) = top.iter().find(has) {
-                suggestion.held_out_error_after = self.held_out(fit)?;
-            }
-            suggestion.added = added_as_told(&own, &suggestion.added);
-            suggestion.error_after = self.promised(&told, std::slice::from_ref(&suggestion.added.source))?;
-            suggestion.evidence = words(&suggestion.added.source, suggestion.error_after);
-        }
-        if let Some(first) = diagnosis.suggestions.first_mut() {
-            let error = told.error(self.plain, 0.0, 1.0)?;
-            if told.effects.len() > 1 {
-                let all = format!("With all {} effects the error is {:.2} %.", told.effects.len(), 100.0 * error);
-                first.evidence.push(all);
-            }
-            if misfit(&told) > AGREES {
-                let floor = diagnosis.noise_floor.max(f64::MIN_POSITIVE);
-                let rest = format!(
-                    "That is {:.1} times the noise: the records hold more than these laws give, and no law here at any place gives it.",
-                    error / floor
-                );
-                first.evidence.push(rest);
-            }
-        }
-        let sure = diagnosis.suggestions.first().is_some_and(|s| s.probability >= 0.5);
-        diagnosis.verdict = if sure { Verdict::Missing } else { Verdict::Undecided };
-        Ok(())
     }
 }
 

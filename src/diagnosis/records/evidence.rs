@@ -1,6 +1,9 @@
 //! What a fit is worth: its misfit, and its evidence on the scale of what the best fit leaves.
 
-use super::fit::FittedRecords;
+use super::fitted::FittedRecords;
+
+/// Misfit up to which a model agrees.
+pub(super) const AGREES: f64 = 1.15;
 
 /// Squared residual a sample, over the noise.
 pub(super) fn misfit(fit: &FittedRecords) -> f64 {

@@ -1,21 +1,26 @@
 //! Records that are not steady - decays, hammers, sweeps, noise - compared with the model, and what the model lacks in them.
 //!
-//! The model's record follows from the measured force and an initial state that is fitted with it ([`fit`]); a free force at
+//! The model's record follows from the measured force and an initial state that is fitted with it (`fit`); a free force at
 //! a place, on the spectrum of the whole record with its end states as unknowns, says where ([`localisation`]); laws at the
-//! places that matter are fitted on the record itself, short parts first ([`diagnose`]); frequency and damping ratio against
+//! places that matter are fitted on the record itself, short parts of it first ([`diagnose`]); frequency and damping ratio against
 //! amplitude are read by one estimator from record and model ([`amplitude`]).
 
 pub mod amplitude;
 pub mod compare;
+mod conclusion;
 pub mod data;
 pub mod diagnose;
 mod errors;
 mod evidence;
-pub mod fit;
+mod fit;
+mod fitted;
 pub mod localisation;
 mod normal;
+mod parts;
+mod problem;
 mod regression;
 mod search;
+mod single_change;
 pub mod spectrum;
 mod starts;
 mod telling;

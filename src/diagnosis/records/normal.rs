@@ -2,7 +2,8 @@
 //! corrections, and the step of Levenberg and Marquardt that follows from them.
 
 use super::data::RecordError;
-use super::fit::{Fit, FittedRecords, PRIORS, modes};
+use super::fitted::FittedRecords;
+use super::problem::FitProblem;
 use crate::response::transient::{TransientError, TransientParameter};
 use dashpot_numerics::{Cholesky, dot};
 use faer::Mat;
@@ -29,7 +30,7 @@ impl Left {
     }
 }
 
-impl Fit<'_> {
+impl FitProblem<'_> {
     pub(super) fn normal(&self, at: &FittedRecords, scales: &[Vec<f64>], unit: f64) -> Result<Normal, RecordError> {
         let size = self.shared(at) + self.records.list.len() * self.local();
         let mut normal = Normal { matrix: Mat::zeros(size, size), gradient: vec![0.0; size], left: Left::default() };
@@ -128,24 +129,6 @@ impl Fit<'_> {
         let unknowns = unknowns.iter().map(|(p, k, s)| (of(p), *k, *s)).collect();
         let square = left.iter().flatten().map(|e| e * e).sum();
         Ok(RecordPart { unknowns, products, against, square, left })
-    }
-
-    /// Corrections with their prior deviations: number of the variable, value, deviation.
-    fn priors(&self, at: &FittedRecords) -> Vec<(usize, f64, f64)> {
-        let laws = self.shared(at) - self.free.corrections.len();
-        let mut list = Vec::new();
-        if !self.free.corrections.is_empty() {
-            list.push((laws, at.stiffness, PRIORS[0]));
-            list.extend(at.known.iter().enumerate().map(|(j, v)| (laws + 1 + j, *v, PRIORS[1])));
-            list.extend((0..modes(self.records)).map(|r| (laws + 1 + at.known.len() + r, at.modes[r], PRIORS[3])));
-            list.push((laws + self.free.corrections.len() - 1, at.mass, PRIORS[4]));
-            list.retain(|(k, ..)| self.free.corrections[k - laws]);
-        }
-        if self.free.shifts {
-            let at_record = |r: usize| self.shared(at) + r * self.local() + 2 * self.records.kept;
-            list.extend(at.shifts.iter().enumerate().map(|(r, v)| (at_record(r), *v, PRIORS[2])));
-        }
-        list
     }
 }
 

@@ -12,7 +12,7 @@
 //! no phase is lost, however long the record, and every law costs one transform.
 
 use super::data::Records;
-use super::fit::FittedRecords;
+use super::fitted::FittedRecords;
 use crate::balance::windows::motion::Motion;
 use crate::balance::windows::work::Works;
 use crate::control::Control;
@@ -167,6 +167,22 @@ impl<'a> Regression<'a> {
             modes[*mode] = value(r);
         }
         Some((modes, (band.len()..count).map(value).collect()))
+    }
+
+    /// `fit` with the stiffness of its modes and the sizes of known sources that the equation of motion along the measured motion
+    /// demands, beside a law or without one: a motion that is measured loses no phase, however far the model is off.
+    pub fn tuned(&self, fit: &FittedRecords, law: Option<&Source>) -> FittedRecords {
+        let mut tuned = fit.clone();
+        if let Some((modes, known)) = self.corrections(law) {
+            tuned.modes = modes.iter().map(|x| x.ln_1p()).collect();
+            tuned.known.iter_mut().zip(&known).for_each(|(v, x)| *v += x.ln_1p());
+            if tuned.modes.len() == 1 {
+                tuned.stiffness += tuned.modes[0];
+                tuned.modes[0] = 0.0;
+            }
+        }
+        tuned.effects.extend(law.cloned());
+        tuned
     }
 
     /// A column with what the nuisances explain taken out.

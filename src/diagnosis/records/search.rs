@@ -1,86 +1,128 @@
-//! Fits of one effect more: laws at places from which fits begin, followed from short parts to whole records.
+//! Fits of one effect more: laws at places from which fits begin, fitted on parts of the records, and carried on to longer ones.
 
-use super::compare::short;
+use super::compare::first_states;
 use super::data::{RecordError, Records};
 use super::evidence::{evidence, scale};
-use super::fit::{Fit, FittedRecords, Free};
+use super::fitted::FittedRecords;
+use super::problem::{FitProblem, Free};
 use super::regression::Regression;
-use super::starts::tuned;
 use super::telling::{last_deviations, plainest};
 use crate::control::Control;
 use crate::diagnosis::candidates::special_cases::is_allowed;
 use crate::effects::Source;
 
-/// Fits that go on to longer parts and to whole records.
-const LONGER: usize = 6;
-const WHOLE: usize = 3;
-/// Steps of the first fits.
-const BEGINNING: usize = 5;
-/// Ratio of the parts of a record on which a law is fitted one after the other.
-const LADDER: f64 = 3.0;
-/// Squared residual over the least one beyond which a fit is not followed further: on a short part, where a law still finds
-/// its size, and on a longer one.
+/// Steps of the first fits, of the fits of those that are followed, and how many are.
+const BEGINNING: usize = 3;
+const FOLLOWING: usize = 7;
+const FOLLOWED: usize = 6;
+/// Starts of a further effect on longer parts.
+const FURTHER: usize = 13;
+/// Fits that are carried on to longer parts, and the steps there.
+const RIVALS: usize = 4;
+const CARRYING: usize = 12;
+/// Squared residual over the least one beyond which a fit is not followed further: after the first steps, and on longer parts.
 const HOPELESS: [f64; 2] = [12.0, 4.0];
 
 /// The search for what is missing in some records.
 pub(super) struct Search<'a> {
+    /// Whole records, their samples weighted by how far they can be trusted.
     pub records: &'a Records<'a>,
     /// The same with the noise of their channels only, as they are compared.
     pub plain: &'a Records<'a>,
+    /// The weighted records in parts of growing length, the whole last.
+    pub levels: Vec<Records<'a>>,
     pub excluded: &'a [Source],
     pub control: &'a Control,
 }
 
+/// Sets of growing size: the best of each as it stood when the next effect was found, of the last all that were followed, fitted
+/// to the whole records.
+pub(super) struct Rungs {
+    pub earlier: Vec<(usize, FittedRecords)>,
+    pub last: Vec<FittedRecords>,
+}
+
 impl Search<'_> {
-    pub fn fit(&self, start: &FittedRecords, share: f64, iterations: usize) -> Result<FittedRecords, RecordError> {
-        self.fit_by(start, share, iterations, self.control)
+    /// `start` improved on the first `share` of every part of `level`, everything free.
+    pub fn fit(
+        &self,
+        level: usize,
+        start: &FittedRecords,
+        share: f64,
+        iterations: usize,
+    ) -> Result<FittedRecords, RecordError> {
+        self.fit_by(level, start, (share, iterations), self.control)
     }
 
     fn fit_by(
         &self,
+        level: usize,
         start: &FittedRecords,
-        share: f64,
-        iterations: usize,
+        (share, iterations): (f64, usize),
         control: &Control,
     ) -> Result<FittedRecords, RecordError> {
-        Fit { records: self.records, free: Free::all(self.records), share, control }.improve(start, iterations)
+        let records = &self.levels[level];
+        let mut free = Free::all(records);
+        // A shift of each part of a record would stand for a frequency that follows the amplitude.
+        free.shifts = level + 1 == self.levels.len();
+        FitProblem { records, free, share, control }.improve(start, iterations)
+    }
+
+    /// A fit of one level as the start of one of another: initial states that are not known yet are read from the first periods.
+    pub fn carried(&self, fit: &FittedRecords, from: usize, to: usize) -> Result<FittedRecords, RecordError> {
+        let (known, records) = (&self.levels[from], &self.levels[to]);
+        let same = |k: usize| {
+            let wanted = &records.list[k];
+            known.list.iter().position(|r| r.index == wanted.index && r.first_s == wanted.first_s)
+        };
+        let found: Vec<Option<usize>> = (0..records.list.len()).map(same).collect();
+        let rest = vec![0.0; 2 * records.kept];
+        let initial = found.iter().map(|k| k.map_or_else(|| rest.clone(), |k| fit.initial[k].clone())).collect();
+        let start = FittedRecords { initial, shifts: vec![0.0; records.list.len()], ..fit.clone() };
+        if found.iter().all(Option::is_some) {
+            return Ok(start);
+        }
+        let states = first_states(records, start.clone(), self.control)?.initial;
+        let initial = found.iter().zip(states).map(|(k, own)| k.map_or(own, |k| fit.initial[k].clone())).collect();
+        Ok(FittedRecords { initial, ..start })
     }
 
     /// Initial states and effects only, nothing corrected.
-    pub fn quiet(&self, start: &FittedRecords, share: f64) -> Result<FittedRecords, RecordError> {
-        Fit { records: self.records, free: Free::nothing(), share, control: self.control }.improve(start, 3)
+    pub fn quiet(&self, level: usize, start: &FittedRecords) -> Result<FittedRecords, RecordError> {
+        FitProblem { records: &self.levels[level], free: Free::nothing(), share: 1.0, control: self.control }
+            .improve(start, 3)
     }
 
-    /// The model corrected, on longer and longer parts, so that a frequency that is off does not lose the phase.
-    pub fn corrected(&self, start: &FittedRecords) -> Result<FittedRecords, RecordError> {
-        let first = short(self.records);
-        let quiet = self.quiet(start, first)?;
-        let mut fitted = self.fit(&quiet, first, 8)?;
+    /// The model corrected on the shortest parts, where a frequency that is off does not lose the phase.
+    pub fn corrected(&self, bare: &FittedRecords) -> Result<FittedRecords, RecordError> {
+        let mut fitted = self.fit(0, bare, 1.0, FOLLOWING)?;
         // The motion itself may know better how far the model is off.
-        if let Some(regression) = Regression::new(self.records, &quiet, self.control)
-            && let Ok(other) = self.fit(&tuned(&regression, &quiet, None), first, 8)
+        if let Some(regression) = Regression::new(self.records, bare, self.control)
+            && let Ok(other) = self.fit(0, &regression.tuned(bare, None), 1.0, FOLLOWING)
             && other.chi_square < fitted.chi_square
         {
             fitted = other;
         }
-        let mut share = LADDER * first;
-        while share < 1.0 {
-            fitted = self.fit(&fitted, share, 8)?;
-            share *= LADDER;
-        }
-        self.fit(&fitted, 1.0, 12)
+        Ok(fitted)
     }
 
-    /// Fits of `best` with one effect more, best first.
-    pub fn extended(&self, best: &FittedRecords, bare: &FittedRecords) -> Result<Vec<FittedRecords>, RecordError> {
-        let first = short(self.records);
-        // Short parts are followed from the linear model, whose stiffness is not bent to what is missing.
+    /// Fits of `best` with one effect more, best first; `bare` is the model as it is, on the same level.
+    pub fn extended(
+        &self,
+        level: usize,
+        best: &FittedRecords,
+        bare: &FittedRecords,
+    ) -> Result<Vec<FittedRecords>, RecordError> {
+        // The first effect is looked for beside the model as it is, whose stiffness is not bent to what is missing.
         let base = if best.effects.is_empty() { bare } else { best };
-        let base = self.quiet(base, first)?;
-        let starts = self.begun(best, &base);
+        let mut starts = self.begun(level, best, base);
+        if level > 0 && !best.effects.is_empty() {
+            starts.truncate(FURTHER);
+        }
         let alone = self.control.alone();
         // A start that runs away, or a mass that takes away all there is, is no start.
-        let begun = self.control.map(starts.len(), |k| self.fit_by(&starts[k], first, BEGINNING, &alone).ok());
+        let begin = |k: usize| self.fit_by(level, &starts[k], (1.0, BEGINNING), &alone).ok();
+        let begun = self.control.map(starts.len(), begin);
         self.control.check()?;
         let mut found: Vec<FittedRecords> = Vec::new();
         for fitted in begun.into_iter().flatten() {
@@ -92,40 +134,47 @@ impl Search<'_> {
                 None => found.push(fitted),
             }
         }
-        let longer = 0.4_f64.max(first);
-        let mut found = self.continued(found, (LONGER, HOPELESS[0]), [first, longer], 6);
-        found = self.continued(found, (WHOLE, HOPELESS[1]), [longer, 1.0], 9);
-        found.retain(|f| f.effects.last().is_some_and(|e| is_allowed(self.excluded, e, &last_deviations(f))));
+        keep(&mut found, FOLLOWED, HOPELESS[0]);
+        let follow = |k: usize| self.fit_by(level, &found[k], (1.0, FOLLOWING), &alone).ok();
+        let followed = self.control.map(found.len(), follow).into_iter().flatten().collect();
+        Ok(self.sorted(level, followed))
+    }
+
+    /// The best of `rivals` fitted on the parts of the next level, best first.
+    pub fn lengthened(&self, rivals: &[FittedRecords], level: usize) -> Result<Vec<FittedRecords>, RecordError> {
+        let mut few = rivals.to_vec();
+        few.truncate(RIVALS);
+        let alone = self.control.alone();
+        let longer = |k: usize| {
+            let start = self.carried(&few[k], level, level + 1).ok()?;
+            self.fit_by(level + 1, &start, (1.0, CARRYING), &alone).ok()
+        };
+        let mut found = self.control.map(few.len(), longer).into_iter().flatten().collect();
+        self.control.check()?;
+        keep(&mut found, RIVALS, HOPELESS[1]);
+        Ok(self.sorted(level + 1, found))
+    }
+
+    /// Those that may be told, by evidence; on whole records without those that a simpler law makes needless.
+    fn sorted(&self, level: usize, mut found: Vec<FittedRecords>) -> Vec<FittedRecords> {
+        found.retain(|f| {
+            f.effects.last().is_none_or(|e| !e.is_disguised() && is_allowed(self.excluded, e, &last_deviations(f)))
+        });
         if let Some(least) = found.iter().map(|f| f.chi_square).min_by(f64::total_cmp) {
             let best = found.iter().find(|f| f.chi_square == least).map_or(1.0, scale);
             found.sort_by(|a, b| evidence(a, best).total_cmp(&evidence(b, best)));
-            plainest(&mut found);
-        }
-        Ok(found)
-    }
-
-    /// The best `count` fitted on longer and longer parts, so that none loses the phase.
-    fn continued(
-        &self,
-        mut found: Vec<FittedRecords>,
-        (count, hopeless): (usize, f64),
-        [from, to]: [f64; 2],
-        iterations: usize,
-    ) -> Vec<FittedRecords> {
-        found.sort_by(|a, b| a.chi_square.total_cmp(&b.chi_square));
-        found.truncate(count);
-        let least = found.first().map_or(0.0, |f| f.chi_square);
-        found.retain(|f| f.chi_square <= hopeless * least.max(f.count as f64));
-        let alone = self.control.alone();
-        let rising = |f: &FittedRecords| {
-            let mut fitted = f.clone();
-            let mut share = LADDER * from;
-            while share < to {
-                fitted = self.fit_by(&fitted, share, 4, &alone).ok()?;
-                share *= LADDER;
+            if level + 1 == self.levels.len() {
+                plainest(&mut found);
             }
-            self.fit_by(&fitted, to, iterations, &alone).ok()
-        };
-        self.control.map(found.len(), |k| rising(&found[k])).into_iter().flatten().collect()
+        }
+        found
     }
+}
+
+/// The best `count` by their squared residual, none of them `hopeless` times the least.
+fn keep(found: &mut Vec<FittedRecords>, count: usize, hopeless: f64) {
+    found.sort_by(|a, b| a.chi_square.total_cmp(&b.chi_square));
+    found.truncate(count);
+    let least = found.first().map_or(0.0, |f| f.chi_square);
+    found.retain(|f| f.chi_square <= hopeless * least.max(f.count as f64));
 }

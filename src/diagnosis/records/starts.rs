@@ -1,6 +1,6 @@
 //! Where fits of one effect more begin: what the equation of motion demands along the measured motion, else a grid of all laws.
 
-use super::fit::FittedRecords;
+use super::fitted::FittedRecords;
 use super::localisation::{LocatedForce, locate};
 use super::regression::{Regressed, Regression};
 use super::search::Search;
@@ -28,37 +28,21 @@ const PLACES: usize = 2;
 const SHAPES: usize = 5;
 /// Laws that are fitted at the places that the equation of motion demands, from the best place on.
 const QUOTAS: [usize; 3] = [LAWS.len(), 3, 2];
-/// Share of what the equation of motion leaves that one effect more must take away, or none is looked for.
+/// Share of what the equation of motion of several modes leaves that one effect more must take away, or none is looked for.
 const NEEDED: f64 = 0.9;
 /// Misfit of the equation of motion over the least one beyond which a law is not fitted to the response.
 const BEHIND: f64 = 4.0;
 /// Force of a law at the start, as a share of the spring force there.
 const SIZES: [f64; 2] = [0.01, 0.1];
 
-/// `fit` with the stiffness of its modes and the sizes of known sources that the equation of motion along the measured motion
-/// demands, beside a law or without one: a motion that is measured loses no phase, however far the model is off.
-pub(super) fn tuned(regression: &Regression, fit: &FittedRecords, law: Option<&Source>) -> FittedRecords {
-    let mut tuned = fit.clone();
-    if let Some((modes, known)) = regression.corrections(law) {
-        tuned.modes = modes.iter().map(|x| x.ln_1p()).collect();
-        tuned.known.iter_mut().zip(&known).for_each(|(v, x)| *v += x.ln_1p());
-        if tuned.modes.len() == 1 {
-            tuned.stiffness += tuned.modes[0];
-            tuned.modes[0] = 0.0;
-        }
-    }
-    tuned.effects.extend(law.cloned());
-    tuned
-}
-
 impl Search<'_> {
     /// Fits that are to be begun, one law more each.
-    pub fn begun(&self, best: &FittedRecords, base: &FittedRecords) -> Vec<FittedRecords> {
+    pub fn begun(&self, level: usize, best: &FittedRecords, base: &FittedRecords) -> Vec<FittedRecords> {
         let regression = Regression::new(self.records, base, self.control);
-        let sources = self.beginnings(best, base, regression.as_ref());
+        let sources = self.beginnings(level, best, base, regression.as_ref());
         let of = |k: usize| {
             if let Some(regression) = &regression {
-                return tuned(regression, base, Some(&sources[k]));
+                return regression.tuned(base, Some(&sources[k]));
             }
             let mut start = base.clone();
             start.effects.push(sources[k].clone());
@@ -70,18 +54,21 @@ impl Search<'_> {
     /// Laws at places from which fits begin: those that the equation of motion demands, else a grid of all.
     fn beginnings(
         &self,
+        level: usize,
         best: &FittedRecords,
         base: &FittedRecords,
         regression: Option<&Regression<'_>>,
     ) -> Vec<Source> {
-        let open = |s: &Source| !base.effects.iter().chain(self.excluded).any(|e| e.is_same(s));
+        // One mode alone shows no mass or spring beside its own stiffness.
+        let seen = |s: &Source| self.records.kept > 1 || !matches!(s.effect, Effect::Mass | Effect::Stiffness);
+        let open = |s: &Source| seen(s) && !base.effects.iter().chain(self.excluded).any(|e| e.is_same(s));
         let structure = self.records.structure;
         let mut all = Family::EachTranslation.places(structure);
         all.extend(Family::EachPair.places(structure));
         let located = self.places(best);
         let Some(regression) = regression else {
             let of = |place: &Place| {
-                let range = self.range(base, place);
+                let range = self.range(level, base, place);
                 LAWS.iter().flat_map(move |&effect| self.starts(effect, place, &range)).collect::<Vec<Source>>()
             };
             return located.iter().flat_map(of).filter(open).collect();
@@ -89,7 +76,7 @@ impl Search<'_> {
         let mut ranked = regression.ranked(&all, &LAWS, self.control);
         ranked.retain(|r| open(&r.source));
         let least = ranked.first().map_or(0.0, |r| r.misfit);
-        if !best.effects.is_empty() && least > NEEDED * regression.misfit() {
+        if !best.effects.is_empty() && self.records.kept > 1 && least > NEEDED * regression.misfit() {
             return Vec::new();
         }
         // At the best place every law is fitted: what rises and falls with the amplitude is not told apart here.
@@ -137,8 +124,8 @@ impl Search<'_> {
         places
     }
 
-    /// Range of the motion at a place in the short part of the records.
-    fn range(&self, base: &FittedRecords, place: &Place) -> Range {
+    /// Range of the motion at a place in the parts of the records.
+    fn range(&self, level: usize, base: &FittedRecords, place: &Place) -> Range {
         let (modes, kept) = (&self.records.modes, self.records.kept);
         let legs = place.legs();
         let shape = |r: usize| legs.first().map_or(0.0, |leg| leg.relative(|i| modes.shapes[(i, r)]));
@@ -148,7 +135,7 @@ impl Search<'_> {
             [d, (0..kept).map(|r| of(r) * modes.omega[r].max(1e-3)).sum()]
         };
         let mut all: Vec<[f64; 2]> = base.initial.iter().map(sizes).collect();
-        for (record, size) in self.records.list.iter().zip(&mut all) {
+        for (record, size) in self.levels[level].list.iter().zip(&mut all) {
             // Driven records begin at rest: the static motion under the largest force stands for theirs, ten times raised.
             let force = record.forces.iter().flatten().fold(0.0_f64, |m, f| m.max(f.abs()));
             let flexible: f64 = (0..kept).map(|r| (shape(r) / modes.omega[r].max(1e-3)).powi(2)).sum();

@@ -2,7 +2,7 @@
 
 use super::data::{RecordError, Records};
 use super::evidence::{evidence, misfit, parameters, scale};
-use super::fit::FittedRecords;
+use super::fitted::FittedRecords;
 use crate::diagnosis::diagnose::{Added, Correction, Suggestion};
 use crate::diagnosis::updating::parameters::UpdatingParameter;
 use crate::effects::Source;

@@ -7,7 +7,8 @@
 use super::compare::started_from;
 use super::data::RecordError;
 use super::evidence::{information, misfit, parameters, scale};
-use super::fit::{Fit, FittedRecords, Free, modes};
+use super::fitted::FittedRecords;
+use super::problem::{FitProblem, Free, modes};
 use super::search::Search;
 use crate::diagnosis::diagnose::Added;
 use crate::effects::Source;
@@ -66,7 +67,8 @@ impl Search<'_> {
 
     fn refit(&self, start: &FittedRecords, corrections: Vec<bool>) -> Result<FittedRecords, RecordError> {
         let free = Free { corrections, shifts: false };
-        match (Fit { records: self.records, free, share: 1.0, control: self.control }).improve(start, ITERATIONS) {
+        match (FitProblem { records: self.records, free, share: 1.0, control: self.control }).improve(start, ITERATIONS)
+        {
             // A start without its corrections may run away: then it is no rival.
             Err(RecordError::Model { .. }) => Ok(FittedRecords { chi_square: f64::INFINITY, ..start.clone() }),
             other => other,
@@ -101,6 +103,7 @@ impl Search<'_> {
             known: told.known.clone(),
             modes: told.modes.clone(),
             mass: told.mass,
+            initial: told.initial.clone(),
             ..FittedRecords::start(self.plain, effects)
         };
         match started_from(self.plain, start, self.control).and_then(|fit| fit.error(self.plain, 0.0, 1.0)) {

@@ -1,0 +1,107 @@
+//! What is said at the end of a search: steps, corrections, suggestions with their errors, the verdict.
+
+use super::data::RecordError;
+use super::evidence::{AGREES, misfit};
+use super::fitted::FittedRecords;
+use super::search::{Rungs, Search};
+use super::telling::{added, corrections, suggestions, words};
+use super::told::added_as_told;
+use crate::diagnosis::diagnose::{Diagnosis, Step, Suggestion, Verdict};
+
+/// Error of what is told from which on the phase may be lost over the whole record, and the share of it that parts of the record
+/// leave at most where it is.
+const PHASE_LOST: [f64; 2] = [0.08, 0.7];
+
+impl Search<'_> {
+    /// Fills `diagnosis` with what was found.
+    pub fn conclude(&self, rungs: &Rungs, diagnosis: &mut Diagnosis) -> Result<(), RecordError> {
+        let Some(best) = rungs.last.first() else {
+            diagnosis.verdict = Verdict::Unexplained;
+            return Ok(());
+        };
+        let told = self.told(best)?;
+        for (level, fit) in &rungs.earlier {
+            let step = self.step(fit, *level)?;
+            // Corrections that only please the weights of the fit are no step.
+            let worth = |s: &Step| !s.added.is_empty() || s.error < diagnosis.error_before;
+            diagnosis.steps.extend(step.filter(worth));
+        }
+        let error = told.error(self.records, 0.0, 1.0)?;
+        diagnosis.steps.push(Step { added: added(&told), error, misfit: misfit(&told) });
+        diagnosis.corrections = corrections(self.records, &told);
+        if best.effects.is_empty() {
+            diagnosis.verdict = match misfit(&told) {
+                left if left > AGREES => Verdict::Unexplained,
+                _ if diagnosis.corrections.is_empty() => Verdict::Adequate,
+                _ => Verdict::Detuned,
+            };
+            return Ok(());
+        }
+        diagnosis.suggestions = suggestions(self.records, &rungs.last)?;
+        for suggestion in &mut diagnosis.suggestions {
+            self.complete(suggestion, &told, &rungs.last)?;
+        }
+        let floor = diagnosis.noise_floor.max(f64::MIN_POSITIVE);
+        if let Some(first) = diagnosis.suggestions.first_mut() {
+            first.evidence.extend(self.words_on_all(&told, floor)?);
+        }
+        let sure = diagnosis.suggestions.first().is_some_and(|s| s.probability >= 0.5);
+        diagnosis.verdict = if sure { Verdict::Missing } else { Verdict::Undecided };
+        Ok(())
+    }
+
+    /// A set of a shorter level on the whole records; none where it runs away there.
+    fn step(&self, fit: &FittedRecords, level: usize) -> Result<Option<Step>, RecordError> {
+        let whole = self.levels.len() - 1;
+        let on_whole = self.carried(fit, level, whole).and_then(|fit| self.quiet(whole, &fit));
+        match on_whole.and_then(|fit| Ok((fit.error(self.records, 0.0, 1.0)?, fit))) {
+            Ok((error, fit)) => Ok(Some(Step { added: added(&fit), error, misfit: misfit(&fit) })),
+            Err(RecordError::Model { .. } | RecordError::Singular) => Ok(None),
+            Err(other) => Err(other),
+        }
+    }
+
+    /// Parameters, errors and words of a suggestion as they stand beside what is told.
+    fn complete(
+        &self,
+        suggestion: &mut Suggestion,
+        told: &FittedRecords,
+        fits: &[FittedRecords],
+    ) -> Result<(), RecordError> {
+        let has = |f: &&FittedRecords| f.effects.iter().any(|e| e.is_same(&suggestion.added.source));
+        if let Some(fit) = fits.iter().find(has) {
+            suggestion.held_out_error_after = self.held_out(self.levels.len() - 1, fit)?;
+        }
+        suggestion.added = added_as_told(&added(told), &suggestion.added);
+        suggestion.error_after = self.promised(told, std::slice::from_ref(&suggestion.added.source))?;
+        suggestion.evidence = words(&suggestion.added.source, suggestion.error_after);
+        Ok(())
+    }
+
+    /// What is said of all that is told together.
+    fn words_on_all(&self, told: &FittedRecords, floor: f64) -> Result<Vec<String>, RecordError> {
+        let error = told.error(self.plain, 0.0, 1.0)?;
+        let mut words = Vec::new();
+        if told.effects.len() > 1 {
+            words.push(format!("With all {} effects the error is {:.2} %.", told.effects.len(), 100.0 * error));
+        }
+        let whole = self.levels.len() - 1;
+        if error > PHASE_LOST[0] && whole > 0 {
+            let parts = self.carried(told, whole, 0).and_then(|fit| self.quiet(0, &fit))?;
+            let left = parts.error(&self.levels[0], 0.0, 1.0)?;
+            if left < PHASE_LOST[1] * error {
+                words.push(format!(
+                    "Over parts of some periods, each with a start of its own, all of it leaves {:.2} %: much of what is left of the whole record is phase that is lost on the way.",
+                    100.0 * left
+                ));
+            }
+        }
+        if misfit(told) > AGREES {
+            words.push(format!(
+                "That is {:.1} times the noise: the records hold more than these laws give, and no law here at any place gives it.",
+                error / floor
+            ));
+        }
+        Ok(words)
+    }
+}

@@ -1,0 +1,96 @@
+//! A model with the parameters that were fitted to some records, and what it predicts.
+
+use super::data::{RecordError, Records};
+use super::errors::channel_errors;
+use crate::effects::Source;
+use crate::math::statistics::root_mean_square;
+use crate::response::transient::{TransientParameter, TransientResponse};
+
+/// A model with the parameters that were fitted.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FittedRecords {
+    /// Added effects.
+    pub effects: Vec<Source>,
+    /// Logarithm of the factor on all stiffness.
+    pub stiffness: f64,
+    /// Logarithms of the factors on the known sources.
+    pub known: Vec<f64>,
+    /// Logarithms of the factors on the stiffness of the followed modes.
+    pub modes: Vec<f64>,
+    /// Logarithm of the factor on all mass.
+    pub mass: f64,
+    /// Logarithm of the factor on the stiffness of each record.
+    pub shifts: Vec<f64>,
+    /// Initial state of each record.
+    pub initial: Vec<Vec<f64>>,
+    /// Weighted squared residual without the priors.
+    pub chi_square: f64,
+    /// Squared corrections over their prior deviations.
+    pub prior: f64,
+    /// Number of samples in it.
+    pub count: usize,
+    /// Standard deviations of the parameters of the effects, then of stiffness, of the known sources, of the modes and of mass, in
+    /// units of the noise that was stated.
+    pub deviations: Vec<f64>,
+    /// What is left, over the noise: `[record][channel][sample]`.
+    pub residual: Vec<Vec<Vec<f64>>>,
+}
+
+impl FittedRecords {
+    /// The model as it is, at rest.
+    pub fn start(records: &Records, effects: &[Source]) -> Self {
+        Self {
+            effects: effects.to_vec(),
+            stiffness: 0.0,
+            known: vec![0.0; records.known.len()],
+            modes: vec![0.0; records.kept],
+            mass: 0.0,
+            shifts: vec![0.0; records.list.len()],
+            initial: vec![vec![0.0; 2 * records.kept]; records.list.len()],
+            chi_square: f64::INFINITY,
+            prior: 0.0,
+            count: 0,
+            deviations: Vec::new(),
+            residual: Vec::new(),
+        }
+    }
+
+    /// Known sources at their factors, then the effects.
+    pub(crate) fn sources(&self, records: &Records) -> Vec<Source> {
+        let sized = |(source, v): (&Source, &f64)| {
+            let mut source = source.clone();
+            source.effect.scaled().iter().for_each(|&k| source.parameters[k] *= v.exp());
+            source
+        };
+        records.known.iter().zip(&self.known).map(sized).chain(self.effects.iter().cloned()).collect()
+    }
+
+    /// The record of number `r` that the model gives over `samples` samples.
+    pub(crate) fn predict(
+        &self,
+        records: &Records,
+        r: usize,
+        samples: usize,
+        parameters: &[TransientParameter],
+    ) -> Result<TransientResponse, RecordError> {
+        let record = &records.list[r];
+        let factor = (self.stiffness + self.shifts[r]).exp();
+        let model = records.model(record, &self.sources(records), [factor, self.mass.exp()], &self.modes)?;
+        let forces = record.excitation(samples, model.is_linear());
+        model
+            .predict(&forces, &self.initial[r], parameters)
+            .map_err(|reason| RecordError::Model { file: record.file.clone(), reason })
+    }
+
+    /// Relative error of the model over samples `from..to` (shares of the length of every record).
+    pub(crate) fn error(&self, records: &Records, from: f64, to: f64) -> Result<f64, RecordError> {
+        let mut errors = Vec::new();
+        for (r, record) in records.list.iter().enumerate() {
+            let last = (to * record.len() as f64) as usize;
+            let first = (from * record.len() as f64) as usize;
+            let response = self.predict(records, r, last.max(2), &[])?;
+            errors.extend(channel_errors(record, &response.channels, first..last.max(2)));
+        }
+        Ok(root_mean_square(&errors))
+    }
+}

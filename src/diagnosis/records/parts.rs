@@ -1,0 +1,127 @@
+//! Records cut into parts, each with an initial state of its own (multiple shooting, Bock 1983): over a part a model that is
+//! off loses no phase, while the parts together hold the amplitudes of the whole record.
+//!
+//! Parts grow by [`GROWTH`] from level to level until one would be half of the record; the last level is the whole. Decays are
+//! thinned to the samples that their motion needs.
+
+use super::compare::struck;
+use super::data::{RecordData, Records};
+use super::weights::local;
+
+/// Periods of the dominant motion in the shortest parts.
+const PERIODS: f64 = 8.0;
+/// Ratio of the lengths of parts from one level to the next.
+const GROWTH: f64 = 3.0;
+/// Most parts of a record and of all records; more records than that have one part each.
+const MOST: usize = 5;
+const MOST_OF_ALL: usize = 8;
+/// Share of the motion that the parts hold, where it is short enough for it.
+const COVERED: f64 = 0.5;
+/// Least share of the largest motion, and least ratio to the noise, at which a part may begin.
+const QUIET: f64 = 0.03;
+const ABOVE_NOISE: f64 = 6.0;
+/// Samples of a decay that a period of its highest motion needs in a part.
+const SAMPLES: f64 = 24.0;
+/// Phase of the highest motion, rad, that a step of the model may cover in a part and in a whole record.
+const STEP_PHASE: [f64; 2] = [0.4, 0.2];
+/// Fewest samples of a part.
+const FEWEST: usize = 48;
+
+impl Records<'_> {
+    /// The records in parts of growing length, at last whole.
+    pub(super) fn levels(&self) -> Vec<Self> {
+        let mut levels = Vec::new();
+        let mut periods = PERIODS;
+        while let Some(parts) = self.in_parts(periods) {
+            levels.push(parts);
+            periods *= GROWTH;
+        }
+        let whole = self.list.iter().map(|r| r.part(0, r.len(), STEP_PHASE[1])).collect();
+        levels.push(Self { list: whole, ..self.clone() });
+        levels
+    }
+
+    /// Parts of `periods` periods of the dominant motion; `None` where they are half of every record.
+    fn in_parts(&self, periods: f64) -> Option<Self> {
+        let most = (MOST_OF_ALL / self.list.len()).clamp(1, MOST);
+        let cut: Vec<Vec<RecordData>> = self.list.iter().map(|r| cut(r, periods, most)).collect();
+        let seconds = |r: &RecordData| r.step * r.len() as f64;
+        let shorter = cut.iter().zip(&self.list).any(|(parts, whole)| 2.0 * seconds(&parts[0]) <= seconds(whole));
+        shorter.then(|| Self { list: cut.into_iter().flatten().collect(), ..self.clone() })
+    }
+}
+
+/// At most `most` parts of a record, evenly spread over its motion; the first follows a blow to its end.
+fn cut(record: &RecordData, periods: f64, most: usize) -> Vec<RecordData> {
+    let length = ((periods / (record.dominant_hz * record.step)) as usize).max(FEWEST);
+    let blow = struck(record).map_or(0, |end| (end * record.len() as f64) as usize);
+    let first = (blow + length).min(record.len());
+    let free = active(record, length).saturating_sub(first);
+    let count = ((COVERED * (first + free) as f64 / length as f64).ceil() as usize).clamp(1, most);
+    let mut ends: Vec<usize> = (1..count).map(|k| first + k * free / (count - 1)).collect();
+    ends.retain(|end| *end >= first + length / 2);
+    // What acts only where the motion is large must be seen, as in a sweep through a resonance.
+    let loud = (loudest(record, length) + length / 2).min(record.len());
+    if loud > first + length / 2
+        && let Some(nearest) = ends.iter_mut().min_by_key(|end| end.abs_diff(loud))
+    {
+        *nearest = loud;
+    }
+    let later = ends.into_iter().map(|end| record.part(end - length.min(end), end, STEP_PHASE[0]));
+    std::iter::once(record.part(0, first, STEP_PHASE[0])).chain(later).collect()
+}
+
+/// Number of the sample about which the motion is largest, in the channel that shows most of it.
+fn loudest(record: &RecordData, length: usize) -> usize {
+    let of = |c: usize| {
+        let sizes = local(&record.samples[c], (length / 4).max(1));
+        let at = (0..sizes.len()).max_by(|&a, &b| sizes[a].total_cmp(&sizes[b])).unwrap_or(0);
+        (sizes[at] / record.noise[c], at)
+    };
+    (0..record.channels.len()).map(of).max_by(|a, b| a.0.total_cmp(&b.0)).map_or(0, |(_, at)| at)
+}
+
+/// Samples up to the end of the motion that stands out.
+fn active(record: &RecordData, length: usize) -> usize {
+    let half = (length / 4).max(1);
+    let size = |c: usize| local(&record.samples[c], half);
+    let stands_out = |c: usize| {
+        let sizes = size(c);
+        let greatest = sizes.iter().fold(0.0_f64, |m, x| m.max(*x));
+        let least = (QUIET * greatest).max(ABOVE_NOISE * record.noise[c]);
+        sizes.iter().rposition(|x| *x >= least).unwrap_or(0)
+    };
+    (0..record.channels.len()).map(stands_out).max().unwrap_or(0) + 1
+}
+
+impl RecordData {
+    /// Samples `from..to`, of a decay no more than its motion needs; steps of the model cover no more than `phase` rad of it.
+    fn part(&self, from: usize, to: usize, phase: f64) -> Self {
+        let every = if self.forces.is_empty() { self.spare() } else { 1 };
+        let of = |lists: &[Vec<f64>]| -> Vec<Vec<f64>> {
+            lists.iter().map(|list| list[from..to].iter().copied().step_by(every).collect()).collect()
+        };
+        Self {
+            index: self.index,
+            file: self.file.clone(),
+            run: self.run.clone(),
+            kind: self.kind,
+            first_s: self.first_s + from as f64 * self.step,
+            step: self.step * every as f64,
+            channels: self.channels.clone(),
+            samples: of(&self.samples),
+            drives: self.drives.clone(),
+            forces: of(&self.forces),
+            noise: self.noise.clone(),
+            sigma: of(&self.sigma),
+            substeps: self.steps_between(self.step * every as f64, phase),
+            dominant_hz: self.dominant_hz,
+            highest_hz: self.highest_hz,
+        }
+    }
+
+    /// One of how many samples is enough.
+    fn spare(&self) -> usize {
+        ((1.0 / (SAMPLES * self.highest_hz * self.step)) as usize).clamp(1, 64)
+    }
+}
