@@ -2,4 +2,5 @@
 
 pub mod findings;
 pub mod format;
+pub mod units;
 pub mod words;
