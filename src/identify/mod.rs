@@ -6,6 +6,7 @@
 //! least squares solution is the maximum likelihood estimate. [`identify`] searches the best sets of each size, decides
 //! where to stop, and says why.
 
+pub mod change;
 mod collinear;
 pub mod error;
 mod finish;
