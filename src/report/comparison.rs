@@ -1,7 +1,7 @@
 //! Chapters of the model against the measurement: errors, error map, suggestions with their evidence, ledger, next test.
 
 use super::content::Content;
-use super::html::Page;
+use super::page::Page;
 use super::{figure, sheet};
 use crate::control::Control;
 use crate::diagnosis::candidates::restoring_force::RestoringForce;

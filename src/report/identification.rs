@@ -1,7 +1,7 @@
 //! Chapters of what was identified: sources, damping matrix, damping ratios, frequency responses.
 
 use super::content::Content;
-use super::html::Page;
+use super::page::Page;
 use super::{MOST_MODES, figure, sheet};
 use crate::control::Control;
 use crate::display::{format, words};

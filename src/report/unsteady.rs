@@ -2,7 +2,7 @@
 //! ratio over amplitude, and the search for what their model lacks.
 
 use super::content::{Content, Found};
-use super::html::Page;
+use super::page::Page;
 use super::sheet;
 use crate::control::Control;
 use crate::diagnosis::Diagnosis;
