@@ -39,11 +39,12 @@ pub enum Pane {
     Ledger,
     Corrections,
     Overview,
+    Change,
 }
 
 impl Pane {
     /// All panes.
-    pub const ALL: [Self; 31] = [
+    pub const ALL: [Self; 32] = [
         Self::Schematic,
         Self::Inspector,
         Self::Runs,
@@ -75,6 +76,7 @@ impl Pane {
         Self::Ledger,
         Self::Corrections,
         Self::Overview,
+        Self::Change,
     ];
 
     /// Title on its tab.
@@ -111,6 +113,7 @@ impl Pane {
             Self::Ledger => "Ledger",
             Self::Corrections => "Corrections",
             Self::Overview => "Overview",
+            Self::Change => "Change",
         }
     }
 
@@ -140,7 +143,7 @@ fn work(stage: Stage) -> Groups {
         Stage::Pattern => &[(&[Pane::Laws], 0.48), (&[Pane::Sources], 0.52)],
         Stage::Select => &[(&[Pane::Steps], 0.46), (&[Pane::Set], 0.30), (&[Pane::Angle, Pane::RunEnergy], 0.24)],
         Stage::Result => &[
-            (&[Pane::Matrix, Pane::Values], 0.42),
+            (&[Pane::Matrix, Pane::Values, Pane::Change], 0.42),
             (
                 &[
                     Pane::Energy,
