@@ -14,7 +14,7 @@ const VALUE: f32 = 92.0;
 /// Width of its unit, points.
 const UNIT: f32 = 36.0;
 /// Width below which a name stands above its value, points.
-const NARROW: f32 = 276.0;
+const NARROW: f32 = 264.0;
 
 /// A name at the left that leaves `rest` points of the row.
 fn name_left(ui: &mut Ui, name: &str, rest: f32) -> Response {

@@ -143,7 +143,7 @@ fn work(stage: Stage) -> Groups {
         Stage::Pattern => &[(&[Pane::Laws], 0.48), (&[Pane::Sources], 0.52)],
         Stage::Select => &[(&[Pane::Steps], 0.46), (&[Pane::Set], 0.30), (&[Pane::Angle, Pane::RunEnergy], 0.24)],
         Stage::Result => &[
-            (&[Pane::Matrix, Pane::Values, Pane::Change], 0.42),
+            (&[Pane::Matrix, Pane::Values], 0.42),
             (
                 &[
                     Pane::Energy,
@@ -153,6 +153,7 @@ fn work(stage: Stage) -> Groups {
                     Pane::Hysteresis,
                     Pane::Methods,
                     Pane::Incompleteness,
+                    Pane::Change,
                 ],
                 0.58,
             ),

@@ -180,8 +180,15 @@ fn name(painter: &Painter, palette: &Palette, (scene, layout): (&Scene, &Layout)
     let rect = Align2::LEFT_CENTER.anchor_size(handle.label, words.size());
     let hidden = |ends: &[Pos2; 2]| Rect::from_two_pos(ends[0], ends[1]).expand2(vec2(4.0, 2.0)).intersects(rect);
     let mirrored = 2.0 * handle.pos.x - rect.right();
-    let left = if layout.exciters.iter().any(|(_, ends)| hidden(ends)) { mirrored } else { rect.left() };
-    painter.galley(pos2(left, rect.top()), words, colour);
+    if !layout.exciters.iter().any(|(_, ends)| hidden(ends)) {
+        painter.galley(rect.min, words, colour);
+        return;
+    }
+    // At the left no name may stand on its neighbour's.
+    let beside = Rect::from_min_size(pos2(mirrored, rect.top()), rect.size()).expand(8.0);
+    if !layout.handles.iter().any(|h| h.dof != handle.dof && !h.rotation && beside.contains(h.pos)) {
+        painter.galley(pos2(mirrored, rect.top()), words, colour);
+    }
 }
 
 /// Whether the handle is a mass of a row, and if so whether it is round.

@@ -61,7 +61,7 @@ fn answer(ui: &mut Ui, compared: &Compared) {
     ui.label(RichText::new(said::sentence(structure, change)).color(colour));
     ui.add_space(space::XS);
     let source = |s: &SourceChange| Row {
-        name: format!("{} {}", words::effect(s.source.effect), words::place(structure, &s.source.place)),
+        name: format!("{} {}", words::effect(s.source.effect), words::short_place(structure, &s.source.place)),
         unit: format::pretty_unit(said::unit(s)),
         pair: s.coefficient,
     };
@@ -98,8 +98,17 @@ struct Row {
 }
 
 impl Row {
-    fn states(&self) -> [String; 2] {
-        [0, 1].map(|k| format::with_deviation(self.pair.values[k], self.pair.deviations[k], ""))
+    /// Values in both states; without their deviations where there is little room.
+    fn states(&self, in_full: bool) -> [String; 2] {
+        let Pair { values, deviations, .. } = self.pair;
+        let said = |k: usize| {
+            if in_full {
+                format::with_deviation(values[k], deviations[k], "")
+            } else {
+                format::significant(values[k], 4)
+            }
+        };
+        [0, 1].map(said)
     }
 
     fn difference(&self) -> String {
@@ -110,9 +119,14 @@ impl Row {
 
 fn table(ui: &mut Ui, what: &str, rows: &[Row]) {
     ui.style_mut().interaction.selectable_labels = false;
-    let states = widest(ui, rows.iter().flat_map(Row::states));
+    let names = widest(ui, rows.iter().map(|r| r.name.clone()));
+    let full = widest(ui, rows.iter().flat_map(|r| r.states(true)));
+    let short = widest(ui, rows.iter().flat_map(|r| r.states(false)));
     let difference = widest(ui, rows.iter().map(Row::difference)).max(70.0);
     let unit = widest(ui, rows.iter().map(|r| r.unit.clone()));
+    let in_full =
+        names + 2.0 * full + difference + unit + CHANCE + 5.0 * ui.spacing().item_spacing.x <= ui.available_width();
+    let states = if in_full { full } else { short };
     TableBuilder::new(ui)
         .id_salt(what)
         .vscroll(false)
@@ -133,15 +147,15 @@ fn table(ui: &mut Ui, what: &str, rows: &[Row]) {
                 super::head_right(ui, "Chance").on_hover_text("Probability of a difference as large by noise alone.");
             });
         })
-        .body(|body| body.rows(space::ROW, rows.len(), |mut row| cells(&mut row, rows)));
+        .body(|body| body.rows(space::ROW, rows.len(), |mut row| cells(&mut row, rows, in_full)));
 }
 
-fn cells(row: &mut TableRow<'_, '_>, rows: &[Row]) {
+fn cells(row: &mut TableRow<'_, '_>, rows: &[Row], in_full: bool) {
     let entry = &rows[row.index()];
     let changed = entry.pair.is_significant();
     row.set_selected(changed);
     row.col(|ui| drop(ui.label(&entry.name)));
-    for state in entry.states() {
+    for state in entry.states(in_full) {
         row.col(|ui| drop(ui.number(state)));
     }
     row.col(|ui| drop(ui.number(entry.difference())));

@@ -18,9 +18,9 @@ use egui_extras::{Column, TableBuilder};
 use std::sync::Arc;
 
 /// Height of a tile of the palette, least width, room between tiles, points.
-const TILE: f32 = 62.0;
+const TILE: f32 = 60.0;
 /// Height of the symbol on it with the rims above and below the words, points.
-const SYMBOL: f32 = 40.0;
+const SYMBOL: f32 = 34.0;
 const LEAST_TILE: f32 = 94.0;
 const BETWEEN: f32 = 5.0;
 /// Width from which on the families stand in one row, points.
