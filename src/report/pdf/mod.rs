@@ -24,7 +24,9 @@ const FIRST_PAGE: i32 = 10;
 pub fn document(title: &str, parts: &[Part]) -> Result<Vec<u8>, FontError> {
     let face = Face::built_in()?;
     let mut paper = Paper::new(&face, title);
-    parts.iter().for_each(|part| paper.part(part));
+    for (k, part) in parts.iter().enumerate() {
+        paper.part(part, parts.get(k + 1));
+    }
     let pages = paper.finish();
     Ok(assembled(title, &face, pages))
 }

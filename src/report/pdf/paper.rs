@@ -53,18 +53,22 @@ impl<'a> Paper<'a> {
         paper
     }
 
-    /// Adds a part.
-    pub fn part(&mut self, part: &Part) {
+    /// Adds a part; a title stays with what comes `next`.
+    pub fn part(&mut self, part: &Part, next: Option<&Part>) {
+        let figure = match next {
+            Some(Part::Figure(_, drawing)) => scale(drawing) * drawing.size.y + 30.0,
+            _ => 0.0,
+        };
         match part {
             Part::Chapter(title) => {
-                self.need(90.0);
+                self.need(90.0 + figure);
                 self.at += 16.0;
                 self.paragraph(title, CHAPTER, INK);
                 self.rule(self.at - 3.0);
                 self.at += 4.0;
             }
             Part::Section(title) => {
-                self.need(60.0);
+                self.need(60.0 + figure);
                 self.at += 8.0;
                 self.paragraph(title, SECTION, INK);
             }
@@ -153,7 +157,7 @@ impl<'a> Paper<'a> {
     }
 
     fn figure(&mut self, number: usize, drawing: &Drawing) {
-        let scale = (ROOM / drawing.size.x).min(FIGURE / drawing.size.y).min(1.0);
+        let scale = scale(drawing);
         let height = scale * drawing.size.y;
         self.need(height + 30.0);
         let (face, corner) = (self.face, [LEFT, HEIGHT - self.at]);
@@ -170,6 +174,7 @@ impl<'a> Paper<'a> {
         self.need(50.0);
         self.row(&names, &widths, &right, WEAK);
         self.rule(self.at);
+        self.at += 3.0;
         for row in rows {
             let lines =
                 row.iter().zip(&widths).map(|(cell, w)| self.face.lines(cell, SMALL, *w).len()).max().unwrap_or(1);
@@ -215,4 +220,9 @@ impl<'a> Paper<'a> {
         }
         self.at += deepest + 3.0;
     }
+}
+
+/// How much a drawing is made smaller to fit the page.
+fn scale(drawing: &Drawing) -> f32 {
+    (ROOM / drawing.size.x).min(FIGURE / drawing.size.y).min(1.0)
 }
