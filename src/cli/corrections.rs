@@ -13,7 +13,10 @@ pub(super) fn correct(document: &mut toml_edit::DocumentMut, project: &Project, 
     let part = match correction.parameter {
         UpdatingParameter::Known(index) => return resize(document, project, index, factor),
         UpdatingParameter::Structure(part) => part,
-        UpdatingParameter::Gain(_) | UpdatingParameter::Delay(_) | UpdatingParameter::Session(_) => return false,
+        UpdatingParameter::Gain(_)
+        | UpdatingParameter::Delay(_)
+        | UpdatingParameter::Shape { .. }
+        | UpdatingParameter::Session(_) => return false,
     };
     let Some(structure) = document.get_mut("structure").and_then(toml_edit::Item::as_table_mut) else { return false };
     let entry = |structure: &mut toml_edit::Table, key: &str, k: usize| {

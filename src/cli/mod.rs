@@ -11,6 +11,7 @@ mod channel_faults;
 mod compare;
 mod contents;
 mod convert;
+mod corrected;
 mod corrections;
 mod diagnose;
 mod export;
@@ -38,6 +39,7 @@ mod simulate;
 mod simulate_component;
 mod simulate_frf;
 mod source_json;
+mod source_words;
 mod table;
 
 use arguments::{Arguments, Command};

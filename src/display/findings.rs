@@ -69,6 +69,7 @@ pub fn corrected(structure: &Structure, known: &[Source], parameter: &UpdatingPa
         }
         UpdatingParameter::Gain(channel) => format!("Gain of {channel}"),
         UpdatingParameter::Delay(channel) => format!("Delay of {channel}"),
+        UpdatingParameter::Shape { mode, channel } => format!("Shape of mode {} at {channel}", mode + 1),
         UpdatingParameter::Session(session) => format!("Stiffness of session {}", session + 1),
     }
 }
@@ -87,6 +88,7 @@ fn corrected_part(structure: &Structure, part: Part) -> String {
         Part::PointMass(dof) => format!("Mass {}", at(&[dof])),
         Part::ElementStiffness(range) => format!("Stiffness of {}", elements(range)),
         Part::ElementMass(range) => format!("Mass of {}", elements(range)),
+        Part::Support(held) => format!("Support at node {}", structure.held_node(held).unwrap_or_default()),
     }
 }
 

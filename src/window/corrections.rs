@@ -45,7 +45,10 @@ pub fn adopt(
                 Some(source) => adopted.commands.push(resized(&source, factor, project)),
                 None => adopted.left.push(k),
             },
-            UpdatingParameter::Gain(_) | UpdatingParameter::Delay(_) | UpdatingParameter::Session(_) => {
+            UpdatingParameter::Gain(_)
+            | UpdatingParameter::Delay(_)
+            | UpdatingParameter::Shape { .. }
+            | UpdatingParameter::Session(_) => {
                 adopted.left.push(k);
             }
         }

@@ -1,17 +1,22 @@
 //! Which periodic motion was measured, where the model has several: the stable one nearest to the measurement.
 
 use crate::control::Control;
+use crate::diagnosis::candidates::start::start;
 use crate::diagnosis::residual::data::RunData;
 use crate::diagnosis::residual::prediction::{FINAL, Predictor, RunPrediction};
+use crate::diagnosis::updating::modal_expansion::ModalExpansion;
 use crate::effects::Source;
 use crate::response::harmonic_balance::ResponseError;
 use crate::response::harmonic_balance::Settings;
-use faer::c64;
+use faer::{Mat, c64};
 
 /// Truncation error as a share of the smallest noise of a channel's fundamental.
 const SHARE: f64 = 0.1;
 /// Largest truncation error, relative to the largest amplitude.
 const COARSEST: f64 = 1e-3;
+
+/// Difference of the fundamental, relative, within which two motions are one.
+const SAME: f64 = 1e-3;
 
 /// The branch on which the model was compared.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -44,7 +49,10 @@ pub(crate) fn nearest(
     control: &Control,
 ) -> Result<(RunPrediction, Option<Branch>), ResponseError> {
     let settings = settings(run);
-    let found = predictor.branches(r, run, effects, &settings, control)?;
+    let mut found = predictor.branches(r, run, effects, &settings, control)?;
+    if let Some(near) = at_measured_motion(predictor, r, run, effects, &found, &settings, control)? {
+        found.push(near);
+    }
     if found.len() < 2 {
         let first = found.into_iter().next().map(|(prediction, _)| prediction);
         let prediction = first.map_or_else(|| predictor.predict(r, run, effects, &settings, None, control), Ok)?;
@@ -59,6 +67,40 @@ pub(crate) fn nearest(
     let number = (0..stable.len()).min_by(|&a, &b| distances[a].total_cmp(&distances[b])).unwrap_or(0);
     let branch = Branch { number, stable: stable.len(), all };
     Ok((stable.swap_remove(number), (all > 1).then_some(branch)))
+}
+
+/// The motion that the model settles to from the measured one, with whether it is stable; none where that is one of those found.
+/// Branches are followed in the force, so that one that is not joined to rest below the force of the run is not among them.
+fn at_measured_motion(
+    predictor: &Predictor,
+    r: usize,
+    run: &RunData,
+    effects: &[Source],
+    found: &[(RunPrediction, bool)],
+    settings: &Settings,
+    control: &Control,
+) -> Result<Option<(RunPrediction, bool)>, ResponseError> {
+    let Some((first, _)) = found.first() else { return Ok(None) };
+    let n = predictor.structure().len();
+    let mut field = Mat::from_fn(n, run.harmonics, |dof, h| first.response.amplitude(dof, h + 1));
+    if let Some(expansion) = ModalExpansion::new(predictor, r, run, first) {
+        expansion.correct(run, field.col_as_slice_mut(0));
+    }
+    let Some(start) = start(&predictor.sources(effects), run.omega, &field) else { return Ok(None) };
+    let near = match predictor.settled(r, run, effects, settings, &start, control) {
+        Err(ResponseError::Cancelled(cancelled)) => return Err(cancelled.into()),
+        near => near.ok(),
+    };
+    let size = near.as_ref().map_or(0.0, |(near, _)| largest(near));
+    let fresh = |near: &(RunPrediction, bool)| {
+        let differs = |(other, _): &(RunPrediction, bool)| {
+            let dofs = 0..n;
+            let most = dofs.map(|d| (other.response.amplitude(d, 1) - near.0.response.amplitude(d, 1)).norm());
+            most.fold(0.0, f64::max) > SAME * size
+        };
+        found.iter().all(differs)
+    };
+    Ok(near.filter(fresh))
 }
 
 /// No more harmonics than the noise of the run lets see; what is cut off counts as noise.
@@ -78,7 +120,7 @@ fn largest(prediction: &RunPrediction) -> f64 {
 }
 
 /// Sum over the channels of the squared relative errors.
-fn distance(run: &RunData, prediction: &RunPrediction) -> f64 {
+pub(crate) fn distance(run: &RunData, prediction: &RunPrediction) -> f64 {
     let of = |c: usize| {
         let pairs = run.responses[c].measured.iter().zip(&prediction.channels[c]);
         let difference: f64 = pairs.map(|(y, m): (&c64, &c64)| (y - m).norm_sqr()).sum();

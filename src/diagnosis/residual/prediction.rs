@@ -7,7 +7,9 @@ use crate::control::Control;
 use crate::diagnosis::residual::data::{Data, DiagnosisError, RunData};
 use crate::diagnosis::updating::parameters::Updating;
 use crate::effects::{Effect, Place, Source, effect::Kind};
-use crate::response::harmonic_balance::{Excitation, ForwardModel, Response, ResponseError, RunModel, Settings};
+use crate::response::harmonic_balance::{
+    Excitation, ForwardModel, Response, ResponseError, RunModel, Settings, is_stable,
+};
 use crate::response::sensitivity::{SensitivityError, Unknown, sensitivities};
 use crate::structure::Structure;
 use faer::c64;
@@ -229,6 +231,22 @@ impl Predictor {
     ) -> Result<Vec<(RunPrediction, bool)>, ResponseError> {
         let found = self.runs[r].branches(&self.sources(effects), &excitation(data, effects), settings, control)?;
         Ok(found.into_iter().map(|(response, stable)| (recorded(data, effects, response), stable)).collect())
+    }
+
+    /// The motion that the model settles to from `start`, with whether it is stable.
+    pub(crate) fn settled(
+        &self,
+        r: usize,
+        data: &RunData,
+        effects: &[Source],
+        settings: &Settings,
+        start: &Response,
+        control: &Control,
+    ) -> Result<(RunPrediction, bool), ResponseError> {
+        let (sources, excitation) = (self.sources(effects), excitation(data, effects));
+        let response = self.runs[r].respond(&sources, &excitation, settings, Some(start), control)?;
+        let stable = is_stable(&self.runs[r], &sources, &excitation, &response);
+        Ok((recorded(data, effects, response), stable))
     }
 
     /// [`Self::predict`] with the derivatives of every recorded amplitude by each of `by`.

@@ -1,18 +1,20 @@
 //! The model with its updating parameters moved to where the data ask for them, and linearised there.
 
 use crate::diagnosis::candidates::friction::friction;
+use crate::diagnosis::residual::branch::{distance, nearest};
 use crate::diagnosis::residual::data::{Data, DiagnosisError, RunData};
 use crate::diagnosis::residual::energy_balance::scaled_factors;
-use crate::diagnosis::residual::prediction::{FINAL, RunPrediction};
+use crate::diagnosis::residual::prediction::{FINAL, Predictor, RunPrediction};
 use crate::diagnosis::selection::fit_problem::{RunSlopes, run_slopes};
 use crate::diagnosis::selection::fitted_model::{Bench, Refit, Starts};
 use crate::diagnosis::selection::search::Base;
 use crate::diagnosis::selection::stepwise::agrees;
 use crate::diagnosis::updating::measured_motion::MeasuredMotion;
 use crate::diagnosis::updating::noise_model::{Linearisation, NoiseModel, amplitudes, of_channel};
-use crate::diagnosis::updating::parameters::{Scales, Updating};
+use crate::diagnosis::updating::parameters::{Scales, Updating, UpdatingParameter};
+use crate::diagnosis::updating::shape_errors::ShapeErrors;
 use crate::effects::Source;
-use crate::response::harmonic_balance::Settings;
+use crate::response::harmonic_balance::{ResponseError, Settings};
 use crate::response::sensitivity::Unknown;
 use faer::c64;
 use std::sync::Arc;
@@ -71,6 +73,7 @@ impl<'a> Base<'a> {
         let seen = linear.then(|| MeasuredMotion::new(&self.predictor, self.data, predictions, self.control)).flatten();
         let runs = self.data.runs.iter().zip(predictions);
         let amplitudes: Vec<Vec<Vec<c64>>> = runs.map(|(run, p)| amplitudes(run, &p.channels)).collect();
+        let shapes = ShapeErrors::new(&self.predictor, updating, self.data);
         let of_run = |r: usize| {
             let run = &self.data.runs[r];
             let mut slopes = match &seen {
@@ -82,7 +85,9 @@ impl<'a> Base<'a> {
                 if !updating.acts_in(k, r) {
                     slope.iter_mut().flatten().for_each(|value| *value = c64::new(0.0, 0.0));
                 }
-                if !parameter.is_of_model() {
+                if let UpdatingParameter::Shape { mode, channel } = parameter {
+                    *slope = shapes.slope(*mode, channel, run, &predictions[r]);
+                } else if !parameter.is_of_model() {
                     *slope = of_channel(parameter, run, &amplitudes[r]);
                 }
             }
@@ -200,9 +205,28 @@ impl<'a> Base<'a> {
     /// Relative error of this model with `effects`, all runs alike, as `compare` tells it of a project in which the corrections
     /// are taken over.
     pub(super) fn error_of_structure(&self, effects: &[Source], starts: &Starts) -> Result<f64, DiagnosisError> {
-        let predictor = self.predictor.updated(&self.linearisation.updating.of_structure())?;
+        let predictor = self.of_structure()?;
         let bench = Bench { predictor: &predictor, ..self.bench() };
-        Ok(bench.error(&bench.predict(effects, &FINAL, starts)?))
+        let mut predictions = bench.predict(effects, &FINAL, starts)?;
+        // A run whose motion is not that of its start any more may have ended on another branch than `compare` looks for.
+        let far: Vec<usize> = (0..predictions.len())
+            .filter(|&r| distance(&self.data.runs[r], &predictions[r]) > FAR * FAR)
+            .filter(|_| effects.iter().chain(predictor.known()).any(|source| !source.effect.is_linear()))
+            .collect();
+        let near = |k: usize| nearest(&predictor, far[k], &self.data.runs[far[k]], effects, self.control);
+        for (near, &r) in self.control.map(far.len(), near).into_iter().zip(&far) {
+            match near {
+                Ok((prediction, _)) => predictions[r] = prediction,
+                Err(ResponseError::Cancelled(cancelled)) => return Err(cancelled.into()),
+                Err(_) => {}
+            }
+        }
+        Ok(bench.error(&predictions))
+    }
+
+    /// The updated model with all runs alike.
+    pub(super) fn of_structure(&self) -> Result<Predictor, DiagnosisError> {
+        self.predictor.updated(&self.linearisation.updating.of_structure())
     }
 
     /// Squared residual per datum without any effect.
@@ -299,6 +323,9 @@ impl<'a> Base<'a> {
 fn settings_for<'s>(effects: &[Source], settings: &'s Settings) -> &'s Settings {
     if effects.iter().any(|e| friction(e.effect).is_some()) { &FINAL } else { settings }
 }
+
+/// Relative error of a run from which on it may be on another branch than the measured one.
+const FAR: f64 = 0.1;
 
 /// Error of the measured motion, relative: gains of sensors, and what modes do not show between them.
 const MOTION: f64 = 0.01;

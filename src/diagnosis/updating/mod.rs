@@ -7,3 +7,4 @@ pub(crate) mod modal_expansion;
 pub mod noise_model;
 pub mod parameters;
 pub mod scatter;
+pub(crate) mod shape_errors;

@@ -35,7 +35,8 @@ impl ModalExpansion {
         runs.map(|(r, (run, prediction))| Self::new(predictor, r, run, prediction)).collect()
     }
 
-    fn new(predictor: &Predictor, r: usize, run: &RunData, prediction: &RunPrediction) -> Option<Self> {
+    /// Of run number `r`; none where its model is singular or agrees with the sensors.
+    pub fn new(predictor: &Predictor, r: usize, run: &RunData, prediction: &RunPrediction) -> Option<Self> {
         let basis = predictor.run(r).linear().basis();
         let dofs: Vec<usize> = run.alive.iter().map(|&c| run.responses[c].dof).collect();
         let n = predictor.structure().len();

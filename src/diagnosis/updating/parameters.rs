@@ -16,10 +16,13 @@ const ELEMENT_GROUPS: usize = 12;
 const MOST_SPRINGS: usize = 40;
 /// Modes in the band that are updated where neither elements nor springs are known.
 const MOST_MODES: usize = 8;
+/// Most errors of mode shapes, a mode and channel each.
+const MOST_SHAPES: usize = 48;
 /// Logarithm of a frequency ratio within which a mode counts as in the band of a run.
 const NEAR_BAND: f64 = 0.35;
-/// Prior deviation of the stiffness of an element at a clamp over that of others.
-const CLAMPED: f64 = 4.0;
+/// Prior deviation of a support in multiples of that of the size of a known source: of a clamp that is taken for rigid, half
+/// may be left.
+const SUPPORT: f64 = 2.0;
 /// Largest logarithm of a factor: models are not wrong by more than a factor of seven.
 const LARGEST: f64 = 2.0;
 
@@ -34,6 +37,13 @@ pub enum UpdatingParameter {
     Gain(String),
     /// Time that a channel is recorded late, s.
     Delay(String),
+    /// Error of the shape of a mode at a response channel, relative to its root mean square over the channels.
+    Shape {
+        /// Number of the mode.
+        mode: usize,
+        /// Name of the channel.
+        channel: String,
+    },
     /// Factor on all stiffness in one session (a joint that was re-seated, another day), by its number among those of the data.
     Session(usize),
 }
@@ -43,7 +53,7 @@ pub enum UpdatingParameter {
 pub struct Scales {
     /// Stiffness and mass, relative.
     pub model: f64,
-    /// Sizes of known sources, relative.
+    /// Sizes of known sources and supports, relative.
     pub known: f64,
     /// Gains, relative.
     pub gain: f64,
@@ -103,8 +113,9 @@ impl UpdatingParameter {
     /// Place of its class in [`Scales::list`].
     pub fn class(&self) -> usize {
         match self {
-            Self::Structure(_) => 0,
-            Self::Known(_) => 1,
+            // A support is known about as well as the size of a source.
+            Self::Structure(Part::Support(_)) | Self::Known(_) => 1,
+            Self::Structure(_) | Self::Shape { .. } => 0,
             Self::Gain(_) => 2,
             Self::Delay(_) => 3,
             Self::Session(_) => 6,
@@ -166,6 +177,15 @@ impl Updating {
             .collect();
         parameters.extend((0..known.len()).map(UpdatingParameter::Known));
         let [responses, forces] = data.channel_names();
+        // Where no part of the structure is known by itself, its modes are wrong in shape as they are in frequency.
+        let modes = |parameter: &UpdatingParameter| match parameter {
+            UpdatingParameter::Structure(Part::Mode(mode)) => Some(*mode),
+            _ => None,
+        };
+        let shape = |(mode, channel): (usize, &String)| UpdatingParameter::Shape { mode, channel: channel.clone() };
+        let modes: Vec<usize> = parameters.iter().filter_map(modes).collect();
+        let shapes = modes.iter().flat_map(|&mode| responses.iter().map(move |channel| (mode, channel)));
+        parameters.extend(shapes.take(MOST_SHAPES).map(shape));
         // One channel alone cannot be told from the force; of several, each may be off.
         if responses.len() > 1 {
             parameters.extend(responses.iter().cloned().map(UpdatingParameter::Gain));
@@ -179,7 +199,7 @@ impl Updating {
             parameters.extend((0..sessions).map(UpdatingParameter::Session));
         }
         let logs = omegas.iter().map(|w| w.ln()).sum::<f64>() / omegas.len().max(1) as f64;
-        let spreads = parameters.iter().map(|parameter| spread(structure, parameter)).collect();
+        let spreads = parameters.iter().map(spread).collect();
         let sessions = data.sessions.clone();
         Self {
             values: vec![0.0; parameters.len()],
@@ -294,17 +314,15 @@ impl Updating {
                 known[*j].effect.scaled().iter().map(of).collect()
             }
             UpdatingParameter::Session(_) => vec![(Unknown::Stiffness, 1.0)],
-            UpdatingParameter::Gain(_) | UpdatingParameter::Delay(_) => Vec::new(),
+            UpdatingParameter::Gain(_) | UpdatingParameter::Delay(_) | UpdatingParameter::Shape { .. } => Vec::new(),
         }
     }
 }
 
-/// Prior deviation of a parameter in multiples of the scale of its class: no clamp is rigid, and what it gives way by looks like
-/// a softer first element.
-fn spread(structure: &Structure, parameter: &UpdatingParameter) -> f64 {
-    let clamped = |e: usize| structure.elements()[e].dofs.iter().filter(|dof| dof.is_none()).count() > 1;
+/// Prior deviation of a parameter in multiples of the scale of its class.
+fn spread(parameter: &UpdatingParameter) -> f64 {
     match parameter {
-        UpdatingParameter::Structure(Part::ElementStiffness([first, last])) if (*first..=*last).any(clamped) => CLAMPED,
+        UpdatingParameter::Structure(Part::Support(_)) => SUPPORT,
         _ => 1.0,
     }
 }
@@ -329,6 +347,7 @@ fn parts(structure: &Structure, omegas: &[f64]) -> Vec<Part> {
         let range = |g: usize| [g * count / groups, (g + 1) * count / groups - 1];
         parts.extend((0..groups).map(|g| Part::ElementStiffness(range(g))));
         parts.extend((0..groups).map(|g| Part::ElementMass(range(g))));
+        parts.extend(structure.supports().into_iter().map(Part::Support));
         return parts;
     }
     let springs = structure.springs(MOST_SPRINGS);
