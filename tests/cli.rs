@@ -362,3 +362,34 @@ fn damping_that_identify_finds_is_taken_over_before_the_model_is_compared() {
     let again = json(&["compare", "q.toml", "--json"], folder.path());
     assert!(again["error"].as_f64().unwrap() < 0.01 && again.get("identified").is_none(), "{}", again["error"]);
 }
+
+/// Two of the samples are the same cantilever with other dashpots.
+#[test]
+fn what_changed_between_two_states_is_told_as_table_and_as_json() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let state = |name: &str| format!("sample-data/{name}/project.toml");
+    let (before, after) = (state("cantilever-case-1"), state("cantilever-case-2"));
+    let done = dashpot(&["change", &before, &after], root);
+    assert!(done.status.success(), "{}", text(&done.stderr));
+    let said = text(&done.stdout);
+    assert!(
+        said.contains("damping ratios, per cent") && said.contains("changed") && said.contains("Changed: "),
+        "{said}"
+    );
+    let json: serde_json::Value =
+        serde_json::from_slice(&dashpot(&["change", &before, &after, "--json"], root).stdout).unwrap();
+    let sources = json["sources"].as_array().unwrap();
+    assert!(sources.len() >= 4 && json["chance"].as_f64().unwrap() < 1e-6, "{json:#}");
+    assert!(sources.iter().any(|s| s["coefficient"]["changed"] == true && s["unit"] == "N s/m"));
+    // A state against itself: nothing changed.
+    let same: serde_json::Value =
+        serde_json::from_slice(&dashpot(&["change", &before, &before, "--json"], root).stdout).unwrap();
+    assert!(same["sources"].as_array().unwrap().iter().all(|s| s["coefficient"]["changed"] == false), "{same:#}");
+    let none = dashpot(&["change", &before, "--sessions", "monday,tuesday"], root);
+    assert_eq!(none.status.code(), Some(1));
+    assert!(
+        text(&none.stderr).contains("no run is of session \"monday\"; the project has none"),
+        "{}",
+        text(&none.stderr)
+    );
+}

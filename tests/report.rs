@@ -145,3 +145,15 @@ fn samples_of_other_tests_have_one_too() {
     assert_eq!(samples.len(), RECORDS.len());
     samples.iter().for_each(|sample| says_where_its_model_stands(sample));
 }
+
+#[test]
+fn a_report_is_a_pdf_where_its_name_says_so() {
+    let (file, folder) = (sample("cantilever-harmonics"), tempfile::tempdir().unwrap());
+    let out = folder.path().join("report.pdf");
+    let done = dashpot(&["report"], &file, &out);
+    assert!(done.status.success(), "{}", String::from_utf8_lossy(&done.stderr));
+    let pdf = std::fs::read(&out).unwrap();
+    assert!(pdf.starts_with(b"%PDF-1.") && pdf.len() > 100_000, "{} bytes, the face among them", pdf.len());
+    let text = String::from_utf8_lossy(&pdf);
+    assert!(text.contains("/FontFile2") && text.contains("/ToUnicode") && text.matches("/Type /Page\n").count() >= 2);
+}

@@ -32,6 +32,8 @@ pub(super) enum Command {
     Export(Export),
     /// Compare the model with the measurement: error per run, channel and harmonic
     Compare(Analysis),
+    /// Say what changed between two states: each source and mode with its deviations
+    Change(ChangeStates),
     /// Name the effect that the model lacks, ranked, with evidence
     Diagnose(Diagnose),
     /// Frequency and damping ratio against amplitude, of decays and of what follows a hammer
@@ -48,7 +50,7 @@ pub(super) enum Command {
     Import(Import),
     /// Write a structure of a known kind as matrices with nodes, DOFs and lines
     Build(Build),
-    /// Write all results with their plots into one HTML file
+    /// Write all results with their plots into one HTML or PDF file
     Report(Report),
     /// Draw one plot as SVG, or write its values as CSV
     Plot(Plot),
@@ -79,6 +81,20 @@ pub(super) struct Analysis {
     /// Take what `identify` finds as known first
     #[arg(long)]
     pub identified: bool,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct ChangeStates {
+    /// Project of the first state
+    pub before: PathBuf,
+    /// Project of the second state
+    pub after: Option<PathBuf>,
+    /// Two sessions of the first project in place of a second project
+    #[arg(long, value_name = "FIRST,SECOND", value_delimiter = ',', conflicts_with = "after")]
+    pub sessions: Vec<String>,
+    /// Print one JSON document in place of tables
+    #[arg(long)]
+    pub json: bool,
 }
 
 #[derive(Debug, Args)]
@@ -226,7 +242,7 @@ pub(super) struct Export {
 pub(super) struct Report {
     /// Project file
     pub file: PathBuf,
-    /// HTML file to write
+    /// File to write: .html, or .pdf
     #[arg(long)]
     pub out: PathBuf,
 }

@@ -7,6 +7,7 @@ mod argument_values;
 mod arguments;
 mod arguments_import;
 mod build;
+mod change;
 mod channel_faults;
 mod compare;
 mod contents;
@@ -81,6 +82,7 @@ fn execute(command: &Command) -> anyhow::Result<String> {
         Command::Identify(arguments) => identify::run(arguments),
         Command::Export(arguments) => export::run(arguments),
         Command::Compare(arguments) => compare::run(arguments),
+        Command::Change(arguments) => change::run(arguments),
         Command::Diagnose(arguments) => diagnose::run(arguments),
         Command::Amplitude(arguments) => records::amplitude(arguments),
         Command::Simulate(arguments) => simulate::run(arguments),

@@ -1,4 +1,4 @@
-//! `dashpot report`: all results of a project with their plots in one HTML file.
+//! `dashpot report`: all results of a project with their plots in one HTML or PDF file.
 
 use super::arguments::Report;
 use crate::control::Control;

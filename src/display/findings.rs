@@ -11,6 +11,9 @@ use crate::structure::{Part, Structure};
 /// How many times the noise floor an error must be to be more than noise.
 const BEYOND: f64 = 1.2;
 
+/// Share of the error that must be left at most for corrections to be worth telling.
+const WORTH: f64 = 0.98;
+
 /// Whether nothing is missing once the model is corrected, but the model as it stands does not explain the data.
 pub fn is_detuned(diagnosis: &Diagnosis) -> bool {
     let beyond = diagnosis.error_before > BEYOND * diagnosis.noise_floor;
@@ -25,6 +28,12 @@ pub fn sentence(diagnosis: &Diagnosis) -> String {
     match diagnosis.verdict {
         Verdict::Adequate | Verdict::Detuned if is_detuned(diagnosis) => {
             let after = diagnosis.steps.last().map_or(diagnosis.noise_floor, |s| s.error);
+            if after > WORTH * diagnosis.error_before {
+                return format!(
+                    "Its error of {error} is more than noise makes ({floor}), but neither a law known here nor a correction of \
+                     the model takes anything of it away."
+                );
+            }
             let after = in_words(after);
             format!(
                 "It is only detuned: with the corrections below its error falls from {error} to {after} (noise {floor})."
@@ -96,6 +105,12 @@ pub fn telling(corrections: &[Correction], most: usize) -> Vec<&Correction> {
 /// A correction in words: what, and by how much with its deviation: `+2.00 ± 0.05 %`.
 pub fn change(correction: &Correction) -> String {
     let change = format::with_deviation(100.0 * (correction.factor - 1.0), 100.0 * correction.deviation, "%");
-    let sign = if correction.factor > 1.0 { "+" } else { "" };
-    format!("{sign}{change}")
+    // What is rounded to nothing has no sign.
+    let unsigned = change.trim_start_matches('−');
+    let zero = unsigned.split(' ').next().and_then(|v| v.parse::<f64>().ok()) == Some(0.0);
+    match correction.factor {
+        _ if zero => unsigned.to_owned(),
+        f if f > 1.0 => format!("+{change}"),
+        _ => change,
+    }
 }

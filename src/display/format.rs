@@ -1,5 +1,6 @@
 //! Numbers in words: three to four significant digits, always with a unit.
 
+use super::units;
 use crate::math::numerals;
 
 /// `value` with `digits` significant digits, in plain notation between 1e-3 and 1e5, else as `1.23e−7` with a real minus; a dash
@@ -15,15 +16,23 @@ pub fn editable(value: f64) -> String {
     text.replace('-', "−")
 }
 
+/// A value to twelve significant digits.
+pub fn rounded(value: f64) -> f64 {
+    format!("{value:.11e}").parse().unwrap_or(value)
+}
+
 /// `value` with four significant digits and `unit`.
 pub fn with_unit(value: f64, unit: &str) -> String {
-    if unit.is_empty() { significant(value, 4) } else { format!("{} {}", significant(value, 4), pretty_unit(unit)) }
+    let (factor, unit) = units::shown(unit);
+    let number = significant(factor * value, 4);
+    if unit.is_empty() { number } else { format!("{number} {}", pretty_unit(&unit)) }
 }
 
 /// `value ± deviation unit`, both to the digit that the deviation supports and under one power of ten.
 pub fn with_deviation(value: f64, deviation: f64, unit: &str) -> String {
-    let numbers = numerals::with_deviation(value, deviation).replace("+-", "±").replace('-', "−");
-    format!("{numbers} {}", pretty_unit(unit)).trim_end().to_owned()
+    let (factor, unit) = units::shown(unit);
+    let numbers = numerals::with_deviation(factor * value, factor * deviation).replace("+-", "±").replace('-', "−");
+    format!("{numbers} {}", pretty_unit(&unit)).trim_end().to_owned()
 }
 
 /// An SI unit with dots and superscripts, from its spelling in ASCII: `N s^2/m^2` to `N·s²/m²`.
@@ -35,6 +44,10 @@ pub fn pretty_unit(unit: &str) -> String {
 pub fn prefixed(value: f64, unit: &str) -> String {
     const PREFIXES: [(f64, &str); 7] =
         [(1e9, "G"), (1e6, "M"), (1e3, "k"), (1.0, ""), (1e-3, "m"), (1e-6, "µ"), (1e-9, "n")];
+    let (factor, shown) = units::shown(unit);
+    if shown != unit {
+        return format!("{} {}", significant(factor * value, 3), pretty_unit(&shown));
+    }
     if value == 0.0 || !value.is_finite() {
         return format!("{} {unit}", significant(value, 3));
     }
@@ -93,6 +106,12 @@ mod tests {
         assert_eq!(editable(-2.1e-12), "−2.1e−12");
         assert_eq!(editable(7850.0), "7850");
         assert_eq!(editable(13.066_184_254), "13.066184254");
+    }
+
+    #[test]
+    fn conversions_leave_no_digits_behind() {
+        assert_eq!(super::rounded(1000.0 * 0.56), 560.0);
+        assert!(super::rounded(f64::NAN).is_nan());
     }
 
     #[test]

@@ -1,5 +1,7 @@
 //! How values, units and names are shown to people: the same on the screen, in plots and in reports.
 
+pub mod change;
 pub mod findings;
 pub mod format;
+pub mod units;
 pub mod words;

@@ -152,6 +152,23 @@ pub fn coefficient(source: &Source, estimate: &crate::identify::Estimate) -> Str
     super::format::with_deviation(estimate.coefficient, estimate.deviation, parameter.map_or("", |p| p.unit))
 }
 
+/// Coefficients of several sources to three digits, the unit once where all have the same: `0.300, 0.800 N·s/m`.
+pub fn coefficients<'a>(all: impl Iterator<Item = (&'a Source, &'a crate::identify::Estimate)>) -> String {
+    let parts: Vec<(String, String)> = all
+        .map(|(source, estimate)| {
+            let unit = source.effect.coefficient().map_or("", |k| source.effect.parameters()[k].unit);
+            let (factor, unit) = super::units::shown(unit);
+            (super::format::significant(factor * estimate.coefficient, 3), super::format::pretty_unit(&unit))
+        })
+        .collect();
+    let same = parts.windows(2).all(|w| w[0].1 == w[1].1);
+    let last = parts.len().saturating_sub(1);
+    let said = |(k, (value, unit)): (usize, &(String, String))| {
+        if same && k < last { value.clone() } else { format!("{value} {unit}").trim_end().to_owned() }
+    };
+    parts.iter().enumerate().map(said).collect::<Vec<_>>().join(", ")
+}
+
 /// A number of things in words: `1 source`, `3 sources`.
 pub fn counted(count: usize, noun: &str) -> String {
     format!("{count} {noun}{}", if count == 1 { "" } else { "s" })

@@ -7,6 +7,7 @@
 //! where to stop, and says why.
 
 mod assembly;
+pub mod change;
 mod collinear;
 mod describe;
 pub mod error;

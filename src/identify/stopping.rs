@@ -10,6 +10,7 @@ use super::solve;
 use super::state::State;
 use super::system::System;
 use crate::balance::Weights;
+use crate::math::numerals::significant;
 use crate::math::statistics::chi_square_quantile;
 
 /// Probability of a larger residual below which a set does not explain the data.
@@ -113,18 +114,19 @@ fn within_noise(system: &System, rankings: &[SizeRanking], scores: &[Score], fir
 fn confirmation(system: &System, rankings: &[SizeRanking], accepted: usize) -> String {
     let error = |k: usize| solve::held_out(system, &rankings[k].best().columns);
     let Some(own) = error(accepted) else { return "; too few runs to leave one out".to_string() };
+    let said = |square: f64| significant(square.sqrt(), 3);
     match accepted.checked_sub(1).and_then(error) {
-        Some(before) if own < before => {
-            format!("; confirmed by leaving out runs (error {:.3} after {:.3} deviations)", own.sqrt(), before.sqrt())
-        }
-        Some(before) => {
-            format!(
-                "; leaving out runs does not confirm it (error {:.3} after {:.3} deviations)",
-                own.sqrt(),
-                before.sqrt()
-            )
-        }
-        None => format!("; left-out runs are met to {:.3} deviations", own.sqrt()),
+        Some(before) if own < before => format!(
+            "; confirmed by leaving out runs (their error falls from {} to {} deviations)",
+            said(before),
+            said(own)
+        ),
+        Some(before) => format!(
+            "; leaving out runs does not confirm it (their error goes from {} to {} deviations)",
+            said(before),
+            said(own)
+        ),
+        None => format!("; left-out runs are met to {} deviations", said(own)),
     }
 }
 

@@ -37,6 +37,11 @@ pub fn chi_square_quantile(probability: f64, freedom: usize) -> f64 {
     ChiSquared::new(freedom as f64).map_or(0.0, |distribution| distribution.inverse_cdf(p))
 }
 
+/// `P(X <= x)` for the standard normal distribution.
+pub fn normal_cdf(x: f64) -> f64 {
+    Normal::standard().cdf(x)
+}
+
 /// Value that a standard normal variable stays below with `probability` (clamped to 0..1).
 pub fn normal_quantile(probability: f64) -> f64 {
     Normal::standard().inverse_cdf(probability.clamp(0.0, 1.0))

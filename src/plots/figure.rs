@@ -1,102 +1,11 @@
 //! A plot as plain data: axes with units, series with names. The screen, the SVG, the PNG and the table of values are all
 //! made of it.
 
+pub use super::axis::{Axis, Scale, Ticks};
 use super::pyramid::Pyramid;
 use ecolor::Color32;
 use std::fmt;
 use std::sync::Arc;
-
-/// How values lie along an axis.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Scale {
-    /// Evenly.
-    Linear,
-    /// By their logarithm; values that are not positive are left out.
-    Log,
-}
-
-/// Where an axis has lines.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Ticks {
-    /// Round numbers, or decades.
-    Auto,
-    /// Decades with 2 and 5 between, as frequencies are read; round numbers where the range is short.
-    OneTwoFive,
-    /// Whole numbers.
-    Whole,
-    /// Multiples of 90.
-    RightAngles,
-    /// Names at 0, 1, 2, ...
-    Names(Arc<[String]>),
-}
-
-/// An axis.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Axis {
-    /// What it shows.
-    pub name: String,
-    /// Unit as it is shown; empty for a pure number.
-    pub unit: String,
-    /// How values lie.
-    pub scale: Scale,
-    /// Where lines stand.
-    pub ticks: Ticks,
-    /// Values that are always in sight.
-    pub include: Vec<f64>,
-}
-
-impl Axis {
-    /// A linear axis.
-    pub fn new(name: &str, unit: &str) -> Self {
-        Self { name: name.into(), unit: unit.into(), scale: Scale::Linear, ticks: Ticks::Auto, include: Vec::new() }
-    }
-
-    /// A logarithmic axis.
-    pub fn log(name: &str, unit: &str) -> Self {
-        Self { scale: Scale::Log, ..Self::new(name, unit) }
-    }
-
-    /// From a quantity and its unit in one text: `Force, N`.
-    pub fn of(text: &str) -> Self {
-        let (name, unit) = text.split_once(", ").unwrap_or((text, ""));
-        Self::new(name, unit)
-    }
-
-    /// With lines elsewhere.
-    #[must_use]
-    pub fn ticks(mut self, ticks: Ticks) -> Self {
-        self.ticks = ticks;
-        self
-    }
-
-    /// With values that are always in sight.
-    #[must_use]
-    pub fn include(mut self, values: &[f64]) -> Self {
-        self.include.extend(values);
-        self
-    }
-
-    /// Name and unit: `Force, N`.
-    pub fn label(&self) -> String {
-        if self.unit.is_empty() { self.name.clone() } else { format!("{}, {}", self.name, self.unit) }
-    }
-
-    /// Where a value lies along the axis; `None` for what has no place on it.
-    pub fn place(&self, value: f64) -> Option<f64> {
-        match self.scale {
-            Scale::Linear => value.is_finite().then_some(value),
-            Scale::Log => (value > 0.0 && value.is_finite()).then(|| value.log10()),
-        }
-    }
-
-    /// The value at a place.
-    pub fn value(&self, place: f64) -> f64 {
-        match self.scale {
-            Scale::Linear => place,
-            Scale::Log => 10f64.powf(place),
-        }
-    }
-}
 
 /// A function that is drawn as a curve.
 #[derive(Clone)]
@@ -230,6 +139,13 @@ impl Figure {
         self
     }
 
+    /// In the units that are shown on the screen.
+    #[must_use]
+    pub fn displayed(mut self) -> Self {
+        (self.x, self.y) = (self.x.displayed(), self.y.displayed());
+        self
+    }
+
     /// With one more series of points.
     #[must_use]
     pub fn points(self, name: &str, colour: Color32, look: Look, points: Vec<[f64; 2]>) -> Self {
@@ -276,9 +192,10 @@ impl Figure {
             text += &format!(" {}", series.name);
             text += if deviations { "\tstandard deviation\n" } else { "\n" };
             for (k, [x, y]) in series.points(from, to, 2000).into_iter().enumerate() {
-                text += &format!("{x:e}\t{y:e}");
+                text += &format!("{:e}\t{:e}", self.x.factor * x, self.y.factor * y);
                 if deviations {
-                    text += &format!("\t{:e}", series.deviation.get(k).copied().unwrap_or(f64::NAN));
+                    let deviation = series.deviation.get(k).copied().unwrap_or(f64::NAN);
+                    text += &format!("\t{:e}", self.y.factor * deviation);
                 }
                 text.push('\n');
             }

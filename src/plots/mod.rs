@@ -1,6 +1,7 @@
 //! Plots as data: figures with axes and units, drawings of lines, areas and words, and their SVG. Knows no window.
 
 pub mod angle;
+pub mod axis;
 pub mod bars;
 pub mod bode;
 pub mod channel_response;

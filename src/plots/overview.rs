@@ -12,6 +12,8 @@ use faer::c64;
 
 /// Logarithm of a frequency ratio beyond which neighbours are not joined by a line: another resonance.
 const APART: f64 = 0.25;
+/// Free room at the sides of the first and the last run, as a share of the width.
+const MARGIN: f32 = 0.04;
 /// Most levels that stand in the row of keys; beyond, the lowest and the highest.
 const MOST_KEYS: usize = 8;
 
@@ -83,5 +85,7 @@ fn curves(mut figure: Figure, groups: &[Group], run: usize, palette: &Palette, o
         figure = figure.points("", colour, Look::Dots(2.4), dots);
     }
     let chosen = groups.iter().flat_map(|g| &g.points).filter(|(r, _, _)| *r == run);
-    figure.points("", palette.accent, Look::Rings(8.0), chosen.map(|(_, f, z)| [*f, of(*z)]).collect())
+    let ring = chosen.map(|(_, f, z)| [*f, of(*z)]).collect();
+    figure.margin = MARGIN;
+    figure.points("", palette.accent, Look::Rings(8.0), ring)
 }

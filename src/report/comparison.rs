@@ -2,7 +2,7 @@
 
 use super::content::Content;
 use super::figures::{figure, sheet};
-use super::html::Page;
+use super::page::Page;
 use crate::control::Control;
 use crate::diagnosis::candidates::restoring_force::RestoringForce;
 use crate::diagnosis::diagnose::{Correction, Suggestion, Verdict};

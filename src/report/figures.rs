@@ -1,6 +1,6 @@
 //! Figures on the pages of the report.
 
-use super::html::Page;
+use super::page::Page;
 use crate::plots::figure::Figure;
 use crate::plots::sheet::Sheet;
 use crate::plots::style::Palette;

@@ -2,7 +2,7 @@
 
 use super::content::Content;
 use super::figures::{MOST_MODES, figure, sheet};
-use super::html::Page;
+use super::page::Page;
 use crate::control::Control;
 use crate::display::{format, words};
 use crate::exchange::Project;

@@ -1,4 +1,4 @@
-//! A report of a project in one HTML file: what was measured, what was identified and how well, where the model disagrees
+//! A report of a project in one file, HTML or PDF: what was measured, what was identified and how well, where the model disagrees
 //! with the measurement and what it may lack, with its plots. It holds what there is: what could not be computed is said with
 //! its reason.
 
@@ -7,6 +7,8 @@ mod content;
 mod figures;
 mod html;
 mod identification;
+mod page;
+mod pdf;
 mod unsteady;
 
 pub use content::{Content, Known, LedgerRow};
@@ -18,7 +20,7 @@ use crate::exchange::Project;
 use crate::exchange::atomic::write_atomically;
 use crate::plots::response_curve;
 use figures::MOST_MODES;
-use html::Page;
+use page::{Page, Part};
 use std::path::Path;
 
 /// Reads a project, computes all that a report holds and writes it; blocks.
@@ -36,13 +38,19 @@ pub fn report(file: &Path, out: &Path, control: &Control) -> Result<String, Stri
 /// One line: the file.
 pub fn write(project: &Project, known: Known, out: &Path, control: &Control) -> Result<String, String> {
     let content = Content::complete(project, known, control);
-    let text = document(&content, control);
-    write_atomically(out, text.as_bytes()).map_err(|e| format!("{}: cannot be written ({e})", out.display()))?;
+    let (title, parts) = (&project.title, parts(&content, control));
+    let as_pdf = out.extension().is_some_and(|e| e.eq_ignore_ascii_case("pdf"));
+    let bytes = if as_pdf {
+        pdf::document(title, &parts).map_err(|e| e.to_string())?
+    } else {
+        html::document(title, &parts).into_bytes()
+    };
+    write_atomically(out, &bytes).map_err(|e| format!("{}: cannot be written ({e})", out.display()))?;
     Ok(format!("Written: {}.", out.display()))
 }
 
-/// The whole file.
-pub fn document(content: &Content<'_>, control: &Control) -> String {
+/// All parts of the report.
+fn parts(content: &Content<'_>, control: &Control) -> Vec<Part> {
     let project = content.project;
     let mut page = Page::default();
     if !project.notes.is_empty() {
@@ -57,7 +65,7 @@ pub fn document(content: &Content<'_>, control: &Control) -> String {
     identification::chapters(&mut page, content, control);
     comparison::chapters(&mut page, content, control);
     settings(&mut page, project);
-    page.finish(&project.title)
+    page.finish()
 }
 
 fn structure(page: &mut Page, p: &Project) {

@@ -3,7 +3,7 @@
 
 use super::content::Content;
 use super::figures::sheet;
-use super::html::Page;
+use super::page::Page;
 use crate::diagnosis::component::Loops;
 use crate::diagnosis::records::RecordComparison;
 use crate::diagnosis::records::amplitude::AmplitudePoint;

@@ -14,6 +14,7 @@ pub mod script;
 #[expect(clippy::module_inception, reason = "the session is what the floor is for")]
 pub mod session;
 mod sources;
+pub mod states;
 mod structure;
 pub mod time_limit;
 pub mod validation;

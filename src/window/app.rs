@@ -7,6 +7,7 @@ use super::document::{Applied, Document};
 use super::edits::Edit;
 use super::files::Pick;
 use super::frame;
+use super::frame::choose::Choosing;
 use super::frame::dock::Desk;
 use super::frame::leave::Leave;
 use super::frame::panes::Pane;
@@ -20,6 +21,7 @@ use super::view::{Stage, View};
 use super::wake::Guard;
 use super::work::{Done, Work};
 use crate::control::Control;
+use crate::display::units;
 use crate::session::recent::Recent;
 use egui::{CentralPanel, Context, Frame, Margin, Ui};
 use std::path::{Path, PathBuf};
@@ -56,11 +58,15 @@ pub struct App {
     pub recent: Option<Recent>,
     /// Where the user wants to go, while it is asked what becomes of unsaved changes.
     pub leaving: Option<Leave>,
+    /// Whether files are chosen inside the window: the desktop has no dialogs.
+    pub own_dialogs: bool,
+    /// The dialog for a file that is open in the window.
+    pub choosing: Option<Choosing>,
     /// Whether the program may close.
     pub(super) closing: bool,
     /// The page of laws.
     pub learn: Learn,
-    work: Work,
+    pub(super) work: Work,
     /// Lets no job hold the window when it closes.
     guard: Guard,
     /// Title of the window.
@@ -136,17 +142,6 @@ impl App {
         }
     }
 
-    fn picked(&mut self, ctx: &Context, pick: Pick, paths: Vec<PathBuf>) {
-        let Some(first) = paths.first().cloned() else { return };
-        match pick {
-            Pick::Open => self.leave(ctx, Leave::Open(first)),
-            Pick::Import => self.import(ctx, &paths),
-            Pick::SaveAs => self.save_as(&first),
-            Pick::Export(format) => self.export(ctx, format, first),
-            Pick::Report => self.report(ctx, first),
-        }
-    }
-
     /// Says that something went well.
     pub fn say(&mut self, text: String) {
         self.message = Some(Message { text, failed: false });
@@ -159,7 +154,7 @@ impl App {
         self.messages.extend(self.message.clone());
     }
 
-    fn note(&mut self, result: Result<(), String>) {
+    pub(super) fn note(&mut self, result: Result<(), String>) {
         if let Err(error) = result {
             self.fail(error);
         }
@@ -217,6 +212,7 @@ impl App {
         frame::help::show(&ctx, self, &mut asks);
         frame::notice::show(&ctx, self, &mut asks);
         frame::leave::show(&ctx, self, &mut asks);
+        frame::choose::show(&ctx, self, &mut asks);
         if let Some((text, failed)) = self.exports.poll(&ctx) {
             if failed { self.fail(text) } else { self.say(text) }
         }
@@ -251,6 +247,7 @@ impl App {
 
     /// Does what was asked for.
     pub fn answer(&mut self, ctx: &Context, ask: Ask) {
+        super::crash::remember(&ask.kind());
         match ask {
             Ask::Command(command) => self.command(ctx, command),
             Ask::Edit(edit) => self.edit(ctx, &edit),
@@ -259,15 +256,14 @@ impl App {
             Ask::Leave(changes) => self.left(ctx, changes),
             Ask::Import(files) => self.import(ctx, &files),
             Ask::SaveAs(path) => self.save_as(&path),
-            Ask::ExportAs(format) => {
-                let asked = self.work.pick(ctx, Pick::Export(format));
-                self.note(asked);
-            }
+            Ask::ExportAs(format) => self.pick(ctx, Pick::Export(format)),
             Ask::Export(format, path) => self.export(ctx, format, path),
             Ask::Stage(stage) => self.view.stage = stage,
             Ask::Schematic(intent) => self.intent(ctx, intent),
             Ask::Pane(pane, open) => self.desk.set_open(self.view.stage, pane, open),
             Ask::Explain(deed) => stages::explain::answer(self, ctx, deed),
+            Ask::Pick(pick) => self.pick(ctx, pick),
+            Ask::Picked(pick, paths) => self.picked(ctx, pick, paths),
             Ask::Dismiss => self.message = None,
         }
     }
@@ -305,14 +301,6 @@ impl App {
         }
     }
 
-    fn import(&mut self, ctx: &Context, files: &[PathBuf]) {
-        if self.document.is_none() {
-            return self.fail("There is no project to import measurements into; open or make one first.".to_owned());
-        }
-        let files = files.iter().map(|f| f.display().to_string()).collect();
-        self.edit(ctx, &Edit::Do(crate::session::Command::ImportRuns(files)));
-    }
-
     /// Makes a new project from a template.
     pub(super) fn new_from(&mut self, template: usize) {
         let Some(template) = super::templates::ALL.get(template) else { return };
@@ -327,19 +315,6 @@ impl App {
         }
     }
 
-    fn save_as(&mut self, path: &Path) {
-        let Some(document) = &mut self.document else { return };
-        let saved = document.save_as(path);
-        if let (Some(recent), Ok(())) = (&mut self.recent, &saved) {
-            let kept = recent.add(path).map_err(|e| e.to_string());
-            self.note(kept);
-        }
-        match saved {
-            Ok(()) => self.say(format!("Saved as {}.", path.display())),
-            Err(error) => self.fail(error),
-        }
-    }
-
     /// Runs something in the background that ends with a sentence to say.
     pub fn run(
         &mut self,
@@ -349,12 +324,6 @@ impl App {
     ) {
         let started = self.work.say(ctx, name, work);
         self.note(started);
-    }
-
-    /// Shows a dialog of the desktop.
-    pub(super) fn pick(&mut self, ctx: &Context, pick: Pick) {
-        let asked = self.work.pick(ctx, pick);
-        self.note(asked);
     }
 
     /// Keeps unsaved changes beside the file now and then.
@@ -379,6 +348,7 @@ impl eframe::App for App {
     fn save(&mut self, storage: &mut dyn eframe::Storage) {
         eframe::set_value(storage, "desk", &self.desk);
         eframe::set_value(storage, "limit_s", &self.view.limit_s);
+        eframe::set_value(storage, "units", &units::now());
     }
 }
 

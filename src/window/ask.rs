@@ -2,6 +2,7 @@
 
 use super::commands::Command;
 use super::edits::Edit;
+use super::files::Pick;
 use super::frame::leave::Changes;
 use super::frame::panes::Pane;
 use super::schematic::gesture::Intent;
@@ -48,6 +49,32 @@ pub enum Ask {
     Pane(Pane, bool),
     /// Something in the stage Explain.
     Explain(stages::explain::Deed),
+    /// A dialog for a file.
+    Pick(Pick),
+    /// Files that were chosen in a dialog of the window.
+    Picked(Pick, Vec<PathBuf>),
     /// Close the message.
     Dismiss,
+}
+
+impl Ask {
+    /// What is asked for, without the user's data.
+    pub fn kind(&self) -> String {
+        match self {
+            Self::Command(command) => format!("{command:?}"),
+            Self::Stage(stage) => format!("Stage {stage:?}"),
+            Self::Pane(pane, open) => format!("Pane {pane:?} {open}"),
+            Self::ExportAs(format) | Self::Export(format, _) => format!("Export {format:?}"),
+            Self::Pick(pick) | Self::Picked(pick, _) => format!("Pick {pick:?}"),
+            Self::Leave(changes) => format!("Leave {changes:?}"),
+            Self::Edit(_) => "Edit".to_owned(),
+            Self::Open(_) => "Open".to_owned(),
+            Self::New(template) => format!("New {template}"),
+            Self::Import(_) => "Import".to_owned(),
+            Self::SaveAs(_) => "SaveAs".to_owned(),
+            Self::Schematic(_) => "Schematic".to_owned(),
+            Self::Explain(_) => "Explain".to_owned(),
+            Self::Dismiss => "Dismiss".to_owned(),
+        }
+    }
 }

@@ -88,7 +88,7 @@ pub const TABLE: [Entry; 32] = [
         "Writes the project under another name and goes on with that.",
         ctrl_shift(Key::S),
     ),
-    entry(Command::Report, "Report…", "Writes all results with their plots into one HTML file.", ctrl(Key::R)),
+    entry(Command::Report, "Report…", "Writes all results with their plots into one PDF or HTML file.", ctrl(Key::R)),
     entry(Command::Close, "Close project", "Goes back to the start screen.", ctrl(Key::W)),
     entry(Command::Quit, "Quit", "Closes the window.", ctrl(Key::Q)),
     entry(Command::Undo, "Undo", "Takes back the last edit.", ctrl(Key::Z)),

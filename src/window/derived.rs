@@ -17,6 +17,7 @@ use crate::plots::bode::Response;
 use crate::plots::forward;
 use crate::plots::hysteresis::Loop;
 use crate::session::Revisions;
+use crate::session::states::{self, Against, Compared};
 use crate::structure::modes::Modes;
 use egui::Context;
 use std::sync::Arc;
@@ -38,6 +39,7 @@ pub struct Derived {
     loops: Slot<(u64, usize), Vec<Loop>>,
     methods: Slot<u64, SideBySide>,
     incompleteness: Slot<u64, Incompleteness>,
+    change: Slot<(u64, Against), Compared>,
     traces: Traces,
     seen: Revisions,
     /// Of the stage Explain.
@@ -55,6 +57,7 @@ impl Default for Derived {
             loops: Slot::new("Hysteresis"),
             methods: Slot::new("Classical methods"),
             incompleteness: Slot::new("Study of incompleteness"),
+            change: Slot::new("Comparing two states"),
             traces: Traces::default(),
             seen: Revisions::default(),
             explained: Explained::default(),
@@ -82,6 +85,7 @@ impl Derived {
         self.loops.cancel();
         self.methods.cancel();
         self.incompleteness.cancel();
+        self.change.cancel();
         self.traces.cancel();
     }
 
@@ -123,6 +127,7 @@ impl Derived {
             .or(self.loops.running())
             .or(self.methods.running())
             .or(self.incompleteness.running())
+            .or(self.change.running())
             .or(self.traces.running())
             .or_else(|| self.explained.running())
     }
@@ -171,6 +176,22 @@ impl Derived {
             move |control: &Control| {
                 let grid = Grid::new(&structure, &own);
                 incompleteness::incompleteness(&structure, truth.as_ref(), &grid, control).map_err(|e| e.to_string())
+            }
+        })
+    }
+
+    /// What changed between an earlier state and the project as it stands; `None` while both are identified.
+    pub fn change(
+        &mut self,
+        ctx: &Context,
+        document: &Document,
+        against: &Against,
+    ) -> Option<Result<Arc<Compared>, String>> {
+        self.change.get(ctx, &(document.revision(), against.clone()), || {
+            let (p, against) = (document.project.clone(), against.clone());
+            move |control: &Control| {
+                let states = states::states(&p, &against, control)?;
+                states::compare(states, control).map_err(|e| e.to_string())
             }
         })
     }

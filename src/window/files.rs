@@ -22,22 +22,74 @@ pub enum Pick {
     Export(Format),
     /// Where to write the report.
     Report,
+    /// The project of an earlier state, to compare with.
+    EarlierState,
+}
+
+impl Pick {
+    /// Whether the file is to be written.
+    pub fn writes(self) -> bool {
+        matches!(self, Self::SaveAs | Self::Export(_) | Self::Report)
+    }
+}
+
+/// What a dialog asks for, in words.
+pub fn title(pick: Pick) -> &'static str {
+    match pick {
+        Pick::Open => "Open a project",
+        Pick::EarlierState => "Project of the earlier state",
+        Pick::Import => "Import measurements",
+        Pick::SaveAs => "Save the project as",
+        Pick::Report => "Report",
+        Pick::Export(_) => "Export",
+    }
+}
+
+/// Endings of the files that may be meant; empty for any.
+pub fn endings(pick: Pick) -> &'static [&'static str] {
+    match pick {
+        Pick::Open | Pick::EarlierState | Pick::SaveAs => &["toml"],
+        Pick::Import => &["csv", "txt", "tsv"],
+        Pick::Report => &["pdf", "html"],
+        Pick::Export(_) => &[],
+    }
+}
+
+/// Name of a file that is to be written, proposed.
+pub fn proposal(pick: Pick) -> String {
+    match pick {
+        Pick::SaveAs => "project.toml".to_owned(),
+        Pick::Report => "report.pdf".to_owned(),
+        Pick::Export(format) => format!("damping.{}", extension(format)),
+        Pick::Open | Pick::EarlierState | Pick::Import => String::new(),
+    }
+}
+
+/// Whether the desktop shows dialogs for files: through its portal, which needs a session bus, or through zenity. Other
+/// systems always do.
+pub fn desktop_has_dialogs() -> bool {
+    if !cfg!(target_os = "linux") {
+        return true;
+    }
+    let bus = std::env::var_os("DBUS_SESSION_BUS_ADDRESS").is_some()
+        || std::env::var_os("XDG_RUNTIME_DIR").is_some_and(|folder| Path::new(&folder).join("bus").exists());
+    let zenity = || {
+        let paths = std::env::var_os("PATH").unwrap_or_default();
+        std::env::split_paths(&paths).any(|folder| folder.join("zenity").is_file())
+    };
+    bus || zenity()
 }
 
 /// Shows the dialog; what was chosen, empty where it was closed.
 pub fn ask(pick: Pick) -> impl Future<Output = Vec<PathBuf>> + Send {
-    let dialog = AsyncFileDialog::new();
-    let dialog = match pick {
-        Pick::Open => dialog.set_title("Open a project").add_filter("Dashpot project", &["toml"]),
-        Pick::Import => dialog.set_title("Import measurements").add_filter("Records", &["csv", "txt", "tsv"]),
-        Pick::SaveAs => dialog.set_title("Save the project as").set_file_name("project.toml"),
-        Pick::Report => dialog.set_title("Report").set_file_name("report.html").add_filter("HTML", &["html"]),
-        Pick::Export(format) => dialog.set_title("Export").set_file_name(format!("damping.{}", extension(format))),
-    };
+    let dialog = AsyncFileDialog::new().set_title(title(pick));
+    let dialog = if pick.writes() { dialog.set_file_name(proposal(pick)) } else { dialog };
+    let endings = endings(pick);
+    let dialog = if endings.is_empty() { dialog } else { dialog.add_filter(endings.join(", "), endings) };
     async move {
         let paths = |files: Vec<rfd::FileHandle>| files.iter().map(|f| f.path().to_path_buf()).collect();
         match pick {
-            Pick::Open => paths(dialog.pick_file().await.into_iter().collect()),
+            Pick::Open | Pick::EarlierState => paths(dialog.pick_file().await.into_iter().collect()),
             Pick::Import => paths(dialog.pick_files().await.unwrap_or_default()),
             Pick::SaveAs | Pick::Export(_) | Pick::Report => paths(dialog.save_file().await.into_iter().collect()),
         }

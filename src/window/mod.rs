@@ -6,8 +6,10 @@ pub mod app;
 pub mod arguments;
 pub mod ask;
 pub mod background;
+mod chosen;
 pub mod commands;
 pub mod corrections;
+pub mod crash;
 pub mod derived;
 pub mod document;
 pub mod edits;
@@ -60,7 +62,19 @@ pub fn open(file: Option<PathBuf>, photograph: Option<PathBuf>) -> Result<(), St
             app.desk = desk;
         }
         app.view.limit_s = cc.storage.and_then(|storage| eframe::get_value(storage, "limit_s")).flatten();
+        let units = cc.storage.and_then(|storage| eframe::get_value(storage, "units"));
+        crate::display::units::choose(units.unwrap_or_default());
         app.recent = eframe::storage_dir("dashpot").map(|folder| Recent::load(&folder.join("recent.json")));
+        if let Some(folder) = eframe::storage_dir("dashpot") {
+            if let Some(report) = crash::left_behind(&folder) {
+                app.fail(format!(
+                    "Dashpot broke down last time; what led to it is in {}. Open the project again: unsaved changes come back.",
+                    report.display()
+                ));
+            }
+            crash::watch(folder);
+        }
+        app.own_dialogs = !files::desktop_has_dialogs();
         app.photograph = photograph.map(Photograph::new);
         if let Some(file) = file {
             app.open(&cc.egui_ctx, file);

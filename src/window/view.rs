@@ -7,6 +7,7 @@ use super::stages::run_table::Order;
 use crate::classical::method::Method;
 use crate::effects::Effect;
 use crate::response::frequency_response::Quantity;
+use crate::session::states::Against;
 use serde::{Deserialize, Serialize};
 
 /// A stage of the work.
@@ -73,6 +74,8 @@ pub struct View {
     pub method: Option<Method>,
     /// Of the study of incompleteness.
     pub incompleteness: Choice,
+    /// Earlier state that the project is held against.
+    pub against: Option<Against>,
     /// Selected DOF.
     pub dof: Option<usize>,
     /// Selected source, index in the project.
@@ -118,6 +121,7 @@ impl Default for View {
             quantity: Quantity::Receptance,
             method: None,
             incompleteness: Choice::default(),
+            against: None,
             dof: None,
             source: None,
             law: Effect::DASHPOT,

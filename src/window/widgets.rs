@@ -1,19 +1,20 @@
 //! What all panes are made of, as one extension of `egui::Ui`.
 
 use super::theme::{self, Palette, size, space};
-use crate::display::format;
-use egui::text::{LayoutJob, TextWrapping};
+use crate::display::{format, units};
+use egui::text::{Galley, LayoutJob, TextWrapping};
 use egui::{
     Align, Color32, ComboBox, CornerRadius, DragValue, FontId, Frame, Label, Layout, Margin, Pos2, Response, RichText,
     Sense, Ui, WidgetText, vec2,
 };
+use std::sync::Arc;
 
 /// Width of a value that can be edited, points.
 const VALUE: f32 = 92.0;
 /// Width of its unit, points.
 const UNIT: f32 = 36.0;
 /// Width below which a name stands above its value, points.
-const NARROW: f32 = 236.0;
+const NARROW: f32 = 264.0;
 
 /// A name at the left that leaves `rest` points of the row.
 fn name_left(ui: &mut Ui, name: &str, rest: f32) -> Response {
@@ -22,7 +23,7 @@ fn name_left(ui: &mut Ui, name: &str, rest: f32) -> Response {
     }
     let weak = ui.palette().weak;
     let room = vec2((ui.available_width() - rest - space::S).max(20.0), space::ROW);
-    let label = Label::new(RichText::new(name).color(weak)).selectable(false).truncate();
+    let label = Label::new(RichText::new(name).color(weak)).selectable(false).wrap();
     ui.allocate_ui_with_layout(room, Layout::left_to_right(Align::Center), |ui| {
         ui.set_min_width(room.x);
         ui.add(label)
@@ -39,6 +40,18 @@ pub fn elided(ui: &Ui, text: &str, font: FontId, colour: Color32, left: Pos2, ro
     let width = galley.size().x;
     ui.painter().galley(left - vec2(0.0, 0.5 * galley.size().y), galley, colour);
     width
+}
+
+/// Words of one colour in at most `rows` lines of `room` points; dots where they are longer still.
+pub fn folded(ui: &Ui, text: &str, font: FontId, colour: Color32, room: f32, rows: usize) -> Arc<Galley> {
+    let mut job = LayoutJob::simple(text.to_owned(), font, colour, room.max(8.0));
+    job.wrap.max_rows = rows;
+    ui.painter().layout_job(job)
+}
+
+/// Width of words on one line, points.
+pub fn width(ui: &Ui, text: &str, font: FontId) -> f32 {
+    ui.painter().layout_no_wrap(text.to_owned(), font, Color32::PLACEHOLDER).size().x
 }
 
 /// The program's own widgets.
@@ -92,13 +105,21 @@ impl UiExt for Ui {
     }
 
     fn pair(&mut self, name: &str, value: impl Into<String>) {
-        self.horizontal(|ui| {
-            let weak = ui.palette().weak;
-            ui.label(RichText::new(name).color(weak));
-            ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-                ui.add(Label::new(value.into()).truncate());
+        let (value, weak) = (value.into(), self.palette().weak);
+        let (room, gap) = (self.available_width(), space::S);
+        let [name_width, value_width] = [name, value.as_str()].map(|text| width(self, text, theme::font(size::BODY)));
+        let name = Label::new(RichText::new(name).color(weak)).wrap();
+        if name_width + gap + value_width <= room || value_width < 0.4 * room {
+            self.horizontal(|ui| {
+                let left = vec2(room - value_width - gap, space::ROW);
+                ui.allocate_ui_with_layout(left, Layout::left_to_right(Align::Center), |ui| ui.add(name));
+                ui.with_layout(Layout::right_to_left(Align::Center), |ui| ui.add(Label::new(value).extend()));
             });
-        });
+            return;
+        }
+        // A long value stands under its name.
+        self.add(name);
+        self.with_layout(Layout::top_down(Align::Max), |ui| ui.add(Label::new(value).wrap()));
     }
 
     fn number(&mut self, text: impl Into<String>) -> Response {
@@ -144,7 +165,10 @@ impl UiExt for Ui {
     }
 
     fn quantity(&mut self, name: &str, value: f64, unit: &str) -> Option<f64> {
-        let unit = format::pretty_unit(unit);
+        let (factor, unit) = units::shown(unit);
+        // Without the last digits of the conversion, which nobody has typed.
+        let value = if factor == 1.0 { value } else { format::rounded(factor * value) };
+        let unit = format::pretty_unit(&unit);
         let key = self.make_persistent_id(("quantity", name));
         let mut shown = self.data(|d| d.get_temp::<f64>(key)).unwrap_or(value);
         let response = self.beside(|ui| {
@@ -165,7 +189,7 @@ impl UiExt for Ui {
             return None;
         }
         self.data_mut(|d| d.remove_temp::<f64>(key));
-        (shown != value && shown.is_finite()).then_some(shown)
+        (shown != value && shown.is_finite()).then_some(shown / factor)
     }
 
     fn choice<T: Copy + PartialEq>(&mut self, name: &str, now: T, all: &[T], word: fn(T) -> &'static str) -> Option<T> {

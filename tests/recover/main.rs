@@ -4,6 +4,7 @@
 mod bad_input;
 mod beam;
 mod chain;
+mod change;
 mod noise;
 mod points;
 mod ratios;

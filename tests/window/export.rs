@@ -18,6 +18,7 @@ fn export_all(harness: &mut Harness<'_, App>, folder: &Path) -> usize {
     for title in &titles {
         want(&harness.ctx, title, Kind::Svg);
         want(&harness.ctx, title, Kind::Png);
+        want(&harness.ctx, title, Kind::Csv);
     }
     harness.run_steps(2);
     let start = Instant::now();

@@ -1,10 +1,13 @@
 //! The window, driven by accessible labels and real pointer events, and pictured by a software adapter.
 #![allow(clippy::unwrap_used, clippy::disallowed_methods, reason = "tests")]
 
+mod change;
+mod choose;
 mod desk;
 mod events;
 mod explain;
 mod export;
+mod first_hour;
 mod friction;
 mod history;
 mod journey;
@@ -19,5 +22,6 @@ mod sizes;
 mod space;
 mod states;
 mod support;
+mod units;
 mod values;
 mod wing;

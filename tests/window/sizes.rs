@@ -85,7 +85,6 @@ fn legible_at_the_size_of_the_other_pictures() {
 }
 
 #[test]
-#[ignore = "heads of the table of runs and arrows of the schematic are still cut off at the smallest size"]
 fn legible_when_small() {
     for size in [SMALLEST, LAPTOP, LARGE_WORDS] {
         legible(&beam(), &stages(), size);

@@ -24,6 +24,11 @@ pub struct Sample {
 
 /// A cantilever of five elements with dashpots of 0.3 and 0.8 N s/m at DOFs 3 and 7, measured at 5 and 9.
 pub fn beam() -> Sample {
+    beam_with(0.8)
+}
+
+/// The same with another dashpot at DOF 7.
+pub fn beam_with(second: f64) -> Sample {
     let parameters = BeamParameters {
         length: 0.5,
         breadth: 0.04,
@@ -37,7 +42,7 @@ pub fn beam() -> Sample {
     let head = "[project]\nformat = 1\ntitle = \"Test beam\"\n[structure]\nkind = \"beam\"\nlength = 0.5\nbreadth = 0.04\n\
                 depth = 0.004\nyoungs_modulus = 69e9\ndensity = 2700.0\nelements = 5\nsupports = \"clamped-free\"\n\
                 [[candidates]]\nlaw = \"viscous\"\nwhere = \"each-translation\"\n";
-    let truth = [(2, 0.3), (6, 0.8)].map(|(d, c)| Source::known(Effect::Viscous, Place::Dofs(vec![d]), &[c]));
+    let truth = [(2, 0.3), (6, second)].map(|(d, c)| Source::known(Effect::Viscous, Place::Dofs(vec![d]), &[c]));
     write(head, &structure, &truth, 8, &[4, 8])
 }
 

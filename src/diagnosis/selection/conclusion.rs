@@ -10,6 +10,7 @@ use crate::diagnosis::selection::sentences::sentences;
 use crate::diagnosis::selection::stepwise::{Found, Rung, same_set};
 use crate::diagnosis::updating::parameters::{Scales, UpdatingParameter};
 use crate::effects::Source;
+use crate::math::numerals::significant;
 
 /// Difference of the scaled squared residual within which two suggestions cannot be told apart.
 const ALIKE: f64 = 9.0;
@@ -164,9 +165,9 @@ fn alternatives(bench: &Bench, top: &Rung, weights: &[f64], diagnosis: &mut Diag
                 held_out_error_after: bench.held_out_error(refit)?,
                 probability: containing(&top.refits, weights, &item.source),
                 evidence: vec![format!(
-                    "With it the error would be {:.3} % instead of {:.3} %.",
-                    100.0 * refit.error,
-                    100.0 * diagnosis.error_before
+                    "With it the error would be {} % instead of {} %.",
+                    significant(100.0 * refit.error, 3),
+                    significant(100.0 * diagnosis.error_before, 3)
                 )],
                 indistinguishable_from: Vec::new(),
                 added: item,

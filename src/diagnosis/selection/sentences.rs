@@ -6,7 +6,7 @@ use crate::diagnosis::residual::data::DiagnosisError;
 use crate::diagnosis::selection::fitted_model::Refit;
 use crate::diagnosis::selection::search::Base;
 use crate::effects::{Place, Source};
-use crate::math::numerals::with_deviation;
+use crate::math::numerals::{significant, with_deviation};
 
 /// The sentences for an effect of the set `best`.
 pub(crate) fn sentences(
@@ -18,7 +18,8 @@ pub(crate) fn sentences(
 ) -> Result<Vec<String>, DiagnosisError> {
     let source = &added.source;
     let mut said = vec![source.effect.sentence().to_string(), values(source, &added.deviations)];
-    said.push(format!("With it alone the error goes from {:.3} % to {:.3} %.", 100.0 * before, 100.0 * after));
+    let [before, after] = [before, after].map(|share| significant(100.0 * share, 3));
+    said.push(format!("With it alone the error goes from {before} % to {after} %."));
     match &source.place {
         Place::Dofs(_) => {
             if let Some(data) = base.place_data(best, source)?

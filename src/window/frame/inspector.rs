@@ -129,10 +129,10 @@ fn adjust(ui: &mut Ui, r: &crate::measurement::Run, asks: &mut Vec<Ask>) {
         set(asks, Command::SetRunLevel { file: file(), level: (new != 0.0).then_some(new.round() as i64) });
     }
     ui.horizontal_wrapped(|ui| {
-        if ui.small_button("Estimate the frequency").clicked() {
+        if ui.button("Estimate the frequency").clicked() {
             set(asks, Command::SetRunFrequency { file: file(), frequency: None });
         }
-        if ui.small_button("Remove run").clicked() {
+        if ui.button("Remove run").clicked() {
             set(asks, Command::RemoveRun(file()));
         }
     });

@@ -1,6 +1,7 @@
 //! What stands around the stages: bars, docked panes, inspector, schematic, start screen.
 
 pub mod cards;
+pub mod choose;
 pub mod dock;
 pub mod help;
 pub mod icons;
@@ -12,3 +13,4 @@ pub mod schematic;
 pub mod start;
 pub mod status;
 pub mod top;
+pub mod units;

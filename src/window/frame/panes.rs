@@ -39,11 +39,12 @@ pub enum Pane {
     Ledger,
     Corrections,
     Overview,
+    Change,
 }
 
 impl Pane {
     /// All panes.
-    pub const ALL: [Self; 31] = [
+    pub const ALL: [Self; 32] = [
         Self::Schematic,
         Self::Inspector,
         Self::Runs,
@@ -75,6 +76,7 @@ impl Pane {
         Self::Ledger,
         Self::Corrections,
         Self::Overview,
+        Self::Change,
     ];
 
     /// Title on its tab.
@@ -111,6 +113,7 @@ impl Pane {
             Self::Ledger => "Ledger",
             Self::Corrections => "Corrections",
             Self::Overview => "Overview",
+            Self::Change => "Change",
         }
     }
 
@@ -150,6 +153,7 @@ fn work(stage: Stage) -> Groups {
                     Pane::Hysteresis,
                     Pane::Methods,
                     Pane::Incompleteness,
+                    Pane::Change,
                 ],
                 0.58,
             ),

@@ -29,7 +29,7 @@ fn running(ui: &mut Ui, app: &App, asks: &mut Vec<Ask>) {
     let palette = ui.palette();
     ui.add(ProgressBar::new(progress as f32).desired_width(110.0).desired_height(6.0).fill(palette.accent));
     ui.label(name);
-    if ui.small_button("Cancel").on_hover_text(Command::Cancel.entry().tooltip).clicked() {
+    if ui.button("Cancel").on_hover_text(Command::Cancel.entry().tooltip).clicked() {
         asks.push(Ask::Command(Command::Cancel));
     }
     ui.separator();
@@ -45,7 +45,7 @@ fn message(ui: &mut Ui, app: &App, asks: &mut Vec<Ask>) {
         return;
     };
     let colour = if message.failed { palette.error } else { palette.weak };
-    if ui.small_button("Copy").on_hover_text("Copies the last message.").clicked() {
+    if ui.button("Copy").on_hover_text("Copies the last message.").clicked() {
         ui.ctx().copy_text(message.text.clone());
     }
     let text = RichText::new(&message.text).size(size::SMALL).color(colour);

@@ -7,11 +7,9 @@ use crate::window::commands::Command;
 use crate::window::plots::export;
 use crate::window::theme::{self, Palette, size, space};
 use crate::window::view::Stage;
-use crate::window::widgets::UiExt;
+use crate::window::widgets::{UiExt, folded};
 use crate::window::{files, templates};
-use egui::{
-    Align, Align2, Button, Color32, Frame, Layout, Margin, Panel, Rect, RichText, Role, Sense, Ui, WidgetInfo, vec2,
-};
+use egui::{Align, Align2, Button, Color32, Frame, Layout, Margin, Panel, Rect, Role, Sense, Ui, WidgetInfo, vec2};
 
 /// Where a stage stands, and why in one line.
 #[derive(Debug, Clone, PartialEq)]
@@ -100,6 +98,8 @@ fn menus(ui: &mut Ui, app: &App, asks: &mut Vec<Ask>) {
         });
         entry(ui, Command::ResetLayout, open, None, asks);
         ui.separator();
+        ui.menu_button("Units", super::units::menu);
+        ui.menu_button("Text size", text_sizes);
         entry(ui, Command::Messages, true, None, asks);
         entry(ui, Command::Theme, true, None, asks);
     });
@@ -108,6 +108,19 @@ fn menus(ui: &mut Ui, app: &App, asks: &mut Vec<Ask>) {
             entry(ui, command, true, None, asks);
         }
     });
+}
+
+/// Sizes of all words and symbols; the keys of browsers do the same in finer steps.
+fn text_sizes(ui: &mut Ui) {
+    let now = ui.ctx().zoom_factor();
+    for percent in [80, 90, 100, 125, 150, 175, 200] {
+        let factor = percent as f32 / 100.0;
+        if ui.radio((now - factor).abs() < 0.01, format!("{percent} %")).clicked() {
+            ui.ctx().set_zoom_factor(factor);
+            ui.close();
+        }
+    }
+    ui.hint("Ctrl and +, − or 0 do the same.");
 }
 
 fn file(ui: &mut Ui, app: &App, asks: &mut Vec<Ask>) {
@@ -163,7 +176,9 @@ fn plots(ui: &mut Ui) {
         ui.menu_button("Export plot", |ui| {
             for title in shown {
                 ui.menu_button(&title, |ui| {
-                    for (kind, label) in [(export::Kind::Svg, "SVG…"), (export::Kind::Png, "PNG…")] {
+                    for (kind, label) in
+                        [(export::Kind::Svg, "SVG…"), (export::Kind::Png, "PNG…"), (export::Kind::Csv, "CSV values…")]
+                    {
                         if ui.button(label).clicked() {
                             export::want(ui.ctx(), &title, kind);
                             ui.close();
@@ -202,9 +217,17 @@ fn stages(ui: &mut Ui, app: &App, asks: &mut Vec<Ask>) {
         ui.add_space(space::L);
         let mark = app.mark(app.view.stage);
         let colour = if mark.kind == Kind::Attention { ui.palette().warning } else { ui.palette().weak };
-        let reason = RichText::new(mark.reason).size(size::SMALL).color(colour);
-        ui.add(egui::Label::new(reason).truncate());
+        reason(ui, &mark.reason, colour);
     });
+}
+
+/// Why the stage stands where it stands: on one line, or where there is little room on two.
+fn reason(ui: &mut Ui, text: &str, colour: Color32) {
+    let words = folded(ui, text, theme::font(size::SMALL), colour, ui.available_width(), 2);
+    let (rect, response) = ui.allocate_exact_size(words.size(), Sense::hover());
+    response.widget_info(|| WidgetInfo::labeled(Role::Label, true, text));
+    ui.painter().galley(rect.min, words, colour);
+    response.on_hover_text(text);
 }
 
 fn chevron(ui: &mut Ui) {

@@ -76,7 +76,7 @@ pub fn show(ui: &mut Ui, app: &mut App, asks: &mut Vec<Ask>) {
     Panel::left("choices of laws").frame(left).resizable(false).exact_size(CHOICES).show(ui, |ui| {
         ScrollArea::vertical().auto_shrink(false).show(ui, |ui| choices(ui, &mut app.learn.lesson, asks));
     });
-    let right = Frame::new().fill(palette.pane).inner_margin(Margin::symmetric(14, 10));
+    let right = Frame::new().fill(palette.pane).inner_margin(Margin { left: 14, right: 28, top: 10, bottom: 10 });
     CentralPanel::default().frame(right).show(ui, |ui| match &app.learn.last {
         Some(Ok(portrait)) => plots(ui, &Arc::clone(portrait), &app.learn.lesson),
         Some(Err(error)) => ui.empty("This law cannot be shown", error),

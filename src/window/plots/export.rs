@@ -5,6 +5,7 @@
 
 use crate::exchange::atomic::write_atomically;
 use crate::plots::drawing::Drawing;
+use crate::plots::figure::csv;
 use crate::plots::sheet::Sheet;
 use crate::plots::svg;
 use crate::session::jobs::Job;
@@ -33,6 +34,8 @@ pub enum Kind {
     Svg,
     /// Pixels.
     Png,
+    /// Values.
+    Csv,
 }
 
 impl Kind {
@@ -40,14 +43,22 @@ impl Kind {
         match self {
             Self::Svg => "svg",
             Self::Png => "png",
+            Self::Csv => "csv",
         }
     }
 }
 
 /// Titles that were asked for and as what.
 type Wanted = Vec<(String, Kind)>;
-/// Drawings that wait to be written.
-type Ready = Vec<(Kind, Drawing)>;
+/// A plot that waits to be written, with its values.
+#[derive(Debug, Clone)]
+struct Asked {
+    kind: Kind,
+    drawing: Drawing,
+    /// Columns separated by tabs.
+    table: String,
+}
+type Ready = Vec<Asked>;
 
 fn wanted_id() -> Id {
     Id::NULL.with("wanted plot")
@@ -111,7 +122,7 @@ pub fn offer(
     ctx.data_mut(|d| {
         d.insert_temp(wanted_id(), others);
         let ready: &mut Ready = d.get_temp_mut_or_default(ready_id());
-        ready.extend(own.into_iter().map(|(_, kind)| (kind, draw(ui.palette()))));
+        ready.extend(own.into_iter().map(|(_, kind)| Asked { kind, drawing: draw(ui.palette()), table: table() }));
     });
     ctx.request_repaint();
 }
@@ -121,7 +132,8 @@ fn menu(ui: &mut Ui, title: &str, table: &dyn Fn() -> String) {
         ui.copy_text(table());
         ui.close();
     }
-    for (kind, label) in [(Kind::Svg, "Export as SVG…"), (Kind::Png, "Export as PNG…")] {
+    let kinds = [(Kind::Svg, "Export as SVG…"), (Kind::Png, "Export as PNG…"), (Kind::Csv, "Export values as CSV…")];
+    for (kind, label) in kinds {
         if ui.button(label).clicked() {
             want(ui.ctx(), title, kind);
             ui.close();
@@ -129,6 +141,7 @@ fn menu(ui: &mut Ui, title: &str, table: &dyn Fn() -> String) {
     }
     ui.separator();
     ui.hint("Drag pans, right drag zooms a box, double click shows all.");
+    ui.hint("Shift and click sets two cursors, a third takes them away.");
 }
 
 /// What became of an export, in one line; failed where the second is true.
@@ -146,11 +159,15 @@ impl Exports {
     /// Starts what was asked for; gives back how an export ended, once.
     pub fn poll(&mut self, ctx: &Context) -> Option<Ending> {
         let ready: Ready = ctx.data_mut(|d| d.remove_temp(ready_id())).unwrap_or_default();
-        for (kind, drawing) in ready {
+        for Asked { kind, drawing, table } in ready {
             let (state, folder) = (graphics(ctx), self.folder.clone());
             let work = move |_: &crate::control::Control| {
                 let path = target(kind, &drawing, folder.as_deref())?;
-                Some(write(&drawing, kind, &path, state).map(|()| path))
+                let written = match kind {
+                    Kind::Csv => write_bytes(&path, csv(&table).as_bytes()),
+                    _ => write(&drawing, kind, &path, state),
+                };
+                Some(written.map(|()| path))
             };
             match Job::start("Exporting", (), wake(ctx), work) {
                 Ok(job) => self.jobs.push(job),
@@ -197,8 +214,13 @@ pub fn write(drawing: &Drawing, kind: Kind, path: &Path, state: Option<RenderSta
     let bytes = match kind {
         Kind::Svg => svg::write(drawing).into_bytes(),
         Kind::Png => png(drawing, state)?,
+        Kind::Csv => return Err("a drawing has no values of its own; ask the plot for them".to_owned()),
     };
-    write_atomically(path, &bytes).map_err(|e| format!("{}: cannot be written ({e})", path.display()))
+    write_bytes(path, &bytes)
+}
+
+fn write_bytes(path: &Path, bytes: &[u8]) -> Result<(), String> {
+    write_atomically(path, bytes).map_err(|e| format!("{}: cannot be written ({e})", path.display()))
 }
 
 /// The drawing as a PNG file.

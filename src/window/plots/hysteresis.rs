@@ -30,10 +30,11 @@ pub fn show(ui: &mut Ui, title: &str, loops: &[Loop]) {
                             ui.hint(format!("area {}", one.energies()));
                             let id = format!("loop {k} {j}");
                             let place = Place { id: &id, height: size.y - 48.0, group: None, ruler: true };
-                            let out = place.show(ui, figure);
+                            let figure = figure.clone().displayed();
+                            let out = place.show(ui, &figure);
                             let (low, high) = (out.transform.bounds().min(), out.transform.bounds().max());
                             let bounds = [[low[0], high[0]], [low[1], high[1]]];
-                            panels.push(Panel { figure: figure.clone(), bounds });
+                            panels.push(Panel { figure, bounds });
                             responses.push(out.response);
                         });
                     });

@@ -2,6 +2,7 @@
 
 pub mod bars;
 pub mod charts;
+pub mod cursors;
 pub mod export;
 pub mod heatmap;
 pub mod hysteresis;

@@ -1,6 +1,7 @@
 //! Plots on the screen: drag pans, right drag zooms a box, double click shows all, the pointer reads out values, the context
 //! menu copies and exports.
 
+use super::cursors;
 use super::export;
 use super::polyline::Polyline;
 use super::{axis, curve, frame};
@@ -21,7 +22,9 @@ use egui_plot::{
 const CORNER: f64 = 0.04;
 
 /// Least height of a plot in a stack without the axis of x, points; below it the stack scrolls.
-const LEAST: f32 = 58.0;
+const LEAST: f32 = 50.0;
+/// Room that the largest marks take at the edge of a plot, points.
+const MARK: f32 = 12.0;
 /// Height of the axis of x with its name, points.
 const RULER: f32 = 36.0;
 
@@ -59,6 +62,7 @@ impl Stack<'_> {
         let mut panels = Vec::new();
         let mut responses = Vec::new();
         for (k, (figure, share)) in self.figures.into_iter().enumerate() {
+            let figure = figure.displayed();
             let ruler = if k == last { RULER } else { 0.0 };
             // The axis of x takes room from the plots in proportion, not from the last one alone.
             let own = share * (height - RULER) + ruler;
@@ -81,7 +85,10 @@ pub fn key_row<'a>(ui: &mut Ui, figures: impl Iterator<Item = &'a Figure>) {
             entries.push(series);
         }
     }
-    ui.horizontal_wrapped(|ui| entries.into_iter().for_each(|series| key(ui, series)));
+    ui.horizontal_wrapped(|ui| {
+        ui.spacing_mut().item_spacing = vec2(theme::space::XS, 1.0);
+        entries.into_iter().for_each(|series| key(ui, series));
+    });
     ui.add_space(theme::space::XS);
 }
 
@@ -152,7 +159,7 @@ impl Place<'_> {
             .height(self.height)
             .show_axes([self.ruler, true])
             .coordinates_formatter(Corner::RightTop, read_out(&figure.x, &figure.y))
-            .set_margin_fraction(vec2(figure.margin, 0.08))
+            .set_margin_fraction(vec2(figure.margin, (MARK / clear.max(1.0)).max(0.08)))
             .label_formatter(near(figure));
         plot = plot.x_grid_spacer(move |input| marks(&x, input, ticks::ACROSS));
         plot = plot.y_grid_spacer(move |input| marks(&y, input, ticks::UPWARDS));
@@ -162,7 +169,7 @@ impl Place<'_> {
         if figure.square {
             plot = plot.data_aspect(1.0);
         }
-        if let Some([from, to]) = figure.start {
+        if let Some([from, to]) = figure.start.map(|range| range.map(|v| figure.x.factor * v)) {
             plot = plot.default_x_bounds(from, to);
         }
         for v in figure.x.include.iter().filter_map(|v| figure.x.place(*v)) {
@@ -171,11 +178,15 @@ impl Place<'_> {
         for v in figure.y.include.iter().filter_map(|v| figure.y.place(*v)) {
             plot = plot.include_y(v);
         }
-        plot.show(ui, |plot| {
+        let mut read = Vec::new();
+        let out = plot.show(ui, |plot| {
             reset(plot, figure);
             figure.series.iter().for_each(|s| series(plot, figure, s));
             figure.labels.iter().for_each(|l| words(plot, figure, l));
-        })
+            read = cursors::show(plot, self.id, figure, palette).words(figure);
+        });
+        cursors::paint(&ui.painter_at(*out.transform.frame()), *out.transform.frame(), &read, palette);
+        out
     }
 }
 
@@ -204,7 +215,8 @@ fn own(mark: egui_plot::GridMark) -> grid::GridMark {
 /// A double click shows all of a plot that starts with a part, and where all is in sight that part again; the plot's own
 /// reset knows the part only.
 fn reset(plot: &mut PlotUi<'_>, figure: &Figure) {
-    let (Some(part), true) = (figure.start, plot.response().double_clicked()) else { return };
+    let start = figure.start.map(|range| range.map(|v| figure.x.factor * v));
+    let (Some(part), true) = (start, plot.response().double_clicked()) else { return };
     let all = figure.bounds()[0];
     let now = plot.plot_bounds();
     let whole = now.width() >= 0.98 * (all[1] - all[0]);
@@ -218,7 +230,7 @@ fn read_out<'a>(x: &Axis, y: &Axis) -> CoordinatesFormatter<'a> {
     let one = |axis: &Axis, place: f64| match &axis.ticks {
         Ticks::Names(names) => names.get(place.round().max(0.0) as usize).cloned().unwrap_or_default(),
         Ticks::Whole => format!("{} {:.0}", axis.name, place),
-        _ => format!("{} {}", significant(axis.value(place), 4), axis.unit),
+        _ => format!("{} {}", significant(axis.read(place), 4), axis.unit),
     };
     CoordinatesFormatter::new(move |p: &PlotPoint, _: &PlotBounds| format!("{}   {}", one(&x, p.x), one(&y, p.y)))
 }
@@ -232,9 +244,9 @@ fn near<'a>(figure: &Figure) -> impl Fn(&HoverPosition<'_>) -> Option<String> + 
         HoverPosition::NearDataPoint { plot_name, position, index } => {
             let own = deviations.iter().find(|(name, _)| name == plot_name);
             let deviation = own.and_then(|(_, d)| d.get(*index)).copied().unwrap_or(0.0);
-            let (u, v) = (x.value(position.x), y.value(position.y));
-            let value = crate::display::format::with_deviation(v, deviation, &y.unit);
-            Some(format!("{plot_name}\n{} {}\n{value}", significant(u, 5), x.unit))
+            let (u, v) = (x.read(position.x), y.read(position.y));
+            let value = crate::display::format::with_deviation(v, y.factor * deviation, "");
+            Some(format!("{plot_name}\n{} {}\n{value} {}", significant(u, 5), x.unit, y.unit))
         }
         HoverPosition::Elsewhere { .. } => None,
     }
@@ -244,7 +256,11 @@ fn near<'a>(figure: &Figure) -> impl Fn(&HoverPosition<'_>) -> Option<String> + 
 fn words(plot: &mut PlotUi<'_>, figure: &Figure, label: &Label) {
     let (Some(x), Some(y)) = (figure.x.place(label.at[0]), figure.y.place(label.at[1])) else { return };
     let text = RichText::new(&label.text).size(theme::size::SMALL).color(label.colour);
-    plot.text(Text::new("", PlotPoint::new(x, y), text).anchor(Align2::RIGHT_BOTTOM).allow_hover(false));
+    // Where a line leaves the plot at the top its name stands below the edge.
+    let (top, height) = (plot.plot_bounds().max()[1], plot.plot_bounds().height());
+    let room = f64::from(theme::size::SMALL + 6.0) / f64::from(plot.transform().frame().height()).max(1.0);
+    let (y, anchor) = if y > top - room * height { (y.min(top), Align2::RIGHT_TOP) } else { (y, Align2::RIGHT_BOTTOM) };
+    plot.text(Text::new("", PlotPoint::new(x, y), text).anchor(anchor).allow_hover(false));
 }
 
 fn series(plot: &mut PlotUi<'_>, figure: &Figure, series: &Series) {
@@ -269,6 +285,7 @@ fn series(plot: &mut PlotUi<'_>, figure: &Figure, series: &Series) {
         Look::Dots(radius) => plot.points(markers(radius, true, places)),
         Look::Rings(radius) => plot.points(markers(radius, false, places)),
         Look::Bars(width) => {
+            let width = figure.x.factor * width;
             let bar = |p: &[f64; 2]| Bar::new(p[0], p[1]).width(width).fill(series.colour);
             plot.bar_chart(BarChart::new(name, places.iter().map(bar).collect()).allow_hover(false));
         }

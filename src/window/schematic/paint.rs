@@ -6,7 +6,7 @@ use super::model::{Scene, Support};
 use super::symbols;
 use crate::effects::{Effect, State};
 use crate::window::theme::{self, Palette};
-use egui::{Align2, Color32, Painter, Pos2, Rect, Shape, Stroke, StrokeKind, vec2};
+use egui::{Align2, Color32, Painter, Pos2, Rect, Shape, Stroke, StrokeKind, pos2, vec2};
 
 /// What is to stand out.
 #[derive(Debug, Clone, Copy, Default)]
@@ -54,6 +54,7 @@ pub fn paint(painter: &Painter, palette: &Palette, scene: &Scene, layout: &Layou
     }
     for handle in &layout.handles {
         paint_handle(painter, palette, scene, handle, marks);
+        name(painter, palette, (scene, layout), handle, marks);
     }
     instruments(painter, palette, layout);
     drag(painter, palette, marks);
@@ -160,11 +161,33 @@ fn paint_handle(painter: &Painter, palette: &Palette, scene: &Scene, handle: &Ha
     } else if hovered {
         painter.circle_stroke(handle.pos, handle.radius + 5.0, Stroke::new(1.5, palette.accent.gamma_multiply(0.7)));
     }
-    if handle.labelled || hovered || selected {
-        let colour = if selected || hovered { palette.accent } else { palette.weak };
-        let (align, colour) =
-            if mass.is_some() { (Align2::CENTER_CENTER, palette.ink) } else { (Align2::LEFT_CENTER, colour) };
-        painter.text(handle.label, align, &scene.dofs[handle.dof].label, theme::font(theme::size::SMALL), colour);
+}
+
+/// The label of a DOF: in a mass, else at the right of its node, or at the left where an arrow stands at the right.
+fn name(painter: &Painter, palette: &Palette, (scene, layout): (&Scene, &Layout), handle: &Handle, marks: &Marks<'_>) {
+    let target = Some(Target::Dof(handle.dof));
+    let lit = target == marks.hovered || target == marks.selected;
+    if !handle.labelled && !lit {
+        return;
+    }
+    let (text, font) = (scene.dofs[handle.dof].label.clone(), theme::font(theme::size::SMALL));
+    if scene_mass(scene, handle).is_some() {
+        painter.text(handle.label, Align2::CENTER_CENTER, text, font, palette.ink);
+        return;
+    }
+    let colour = if lit { palette.accent } else { palette.weak };
+    let words = painter.layout_no_wrap(text, font, colour);
+    let rect = Align2::LEFT_CENTER.anchor_size(handle.label, words.size());
+    let hidden = |ends: &[Pos2; 2]| Rect::from_two_pos(ends[0], ends[1]).expand2(vec2(4.0, 2.0)).intersects(rect);
+    let mirrored = 2.0 * handle.pos.x - rect.right();
+    if !layout.exciters.iter().any(|(_, ends)| hidden(ends)) {
+        painter.galley(rect.min, words, colour);
+        return;
+    }
+    // At the left no name may stand on its neighbour's.
+    let beside = Rect::from_min_size(pos2(mirrored, rect.top()), rect.size()).expand(8.0);
+    if !layout.handles.iter().any(|h| h.dof != handle.dof && !h.rotation && beside.contains(h.pos)) {
+        painter.galley(pos2(mirrored, rect.top()), words, colour);
     }
 }
 
@@ -209,7 +232,8 @@ fn instruments(painter: &Painter, palette: &Palette, layout: &Layout) {
     for &(_, ends) in &layout.exciters {
         symbols::arrow(painter, ends, Stroke::new(2.2, palette.accent));
         let away = (ends[0] - ends[1]).normalized();
-        let at = ends[0] + away * 8.0;
+        // Beside an arrow that points up or down, behind one that points to a side.
+        let at = ends[0] + if away.y.abs() > away.x.abs() { vec2(-9.0, -7.0 * away.y) } else { away * 8.0 };
         painter.text(at, Align2::CENTER_CENTER, "F", theme::font(theme::size::BODY), palette.accent);
     }
 }

@@ -81,15 +81,16 @@ pub fn show(ui: &mut Ui, app: &mut App) {
             ui.selectable_value(&mut choice.error, Error::Mac, "modes (MAC)")
                 .on_disabled_hover_text("The structure has too many DOFs for the modes of every matrix.");
         });
-        if choice.along == Along::Modes {
-            ui.separator();
+    });
+    if choice.along == Along::Modes {
+        ui.horizontal_wrapped(|ui| {
             ui.hint("Measured DOFs");
             for (k, set) in study.sensors.iter().enumerate() {
                 let names = names(&document.project.structure, set);
                 ui.selectable_value(&mut choice.set, k, set.len().to_string()).on_hover_text(names);
             }
-        }
-    });
+        });
+    }
     let remark = remark(&study, *choice);
     ui.add(Label::new(RichText::new(remark).size(size::SMALL).color(ui.palette().weak)).truncate());
     let figure = figure(&study, *choice, ui.palette());

@@ -14,20 +14,51 @@ use crate::window::edits::Edit;
 use crate::window::plots::charts;
 use crate::window::plots::record;
 use crate::window::plots::show::Stack;
-use crate::window::theme::space;
+use crate::window::theme::{self, space};
 use crate::window::traces::Traced;
-use crate::window::widgets::UiExt;
+use crate::window::widgets::{UiExt, width};
 use egui::{Sense, Ui};
 use egui_extras::{Column, TableBuilder, TableRow};
 
 /// Channels that have a button each; more stand in a list that opens.
 const MOST_BUTTONS: usize = 8;
 
-/// Width of the table of runs from which on it shows the share of harmonics, points.
-const WIDE: f32 = 440.0;
-/// Least width of the flags beside it.
-const FLAGS: f32 = 76.0;
+/// Widths of the columns of the table of runs, points; flags as words or as their number.
+const LEAST_FILE: f32 = 72.0;
+const FREQUENCY: f32 = 72.0;
+const LEVEL: f32 = 42.0;
+const NOISE: f32 = 62.0;
+const HARMONICS: f32 = 68.0;
+const FLAGS: f32 = 92.0;
+const FLAG_COUNT: f32 = 44.0;
 
+/// Which columns there is room for: harmonics go first, then the words of the flags, then the noise.
+#[derive(Debug, Clone, Copy)]
+struct Shown {
+    noise: bool,
+    harmonics: bool,
+    words: bool,
+}
+
+impl Shown {
+    fn new(width: f32, levels: bool) -> Self {
+        let always = 30.0 + LEAST_FILE + FREQUENCY + FLAG_COUNT + if levels { LEVEL } else { 0.0 } + 7.0 * space::XS;
+        let room = width - always;
+        let words = FLAGS - FLAG_COUNT;
+        Self { noise: room > NOISE, words: room > NOISE + words, harmonics: room > NOISE + words + HARMONICS }
+    }
+
+    /// Whether a column is shown.
+    fn has(self, key: Key) -> bool {
+        match key {
+            Key::Noise => self.noise,
+            Key::Harmonics => self.harmonics,
+            _ => true,
+        }
+    }
+}
+
+const FOLLOWS: &str = "It follows the run that is selected in the table.";
 const EMPTY: [&str; 2] =
     ["No runs yet", "Import steady-state records with File > Import measurements, or drop them on this window."];
 
@@ -49,7 +80,7 @@ pub fn runs(ui: &mut Ui, app: &mut App, asks: &mut Vec<Ask>) {
 
 /// Amplitude and phase of a channel of all runs over frequency, one curve a level.
 pub fn overview(ui: &mut Ui, app: &mut App) {
-    let Some((run, channel)) = looked_at(app) else { return };
+    let Some((run, channel)) = looked_at(app) else { return ui.empty("No runs yet", FOLLOWS) };
     let Some(document) = &app.document else { return };
     let p = &document.project;
     let (mut chosen, mut every) = (channel, false);
@@ -71,7 +102,7 @@ pub fn overview(ui: &mut Ui, app: &mut App) {
 
 /// The record of a channel with the fitted curve on top and the residual under it.
 pub fn record(ui: &mut Ui, app: &mut App) {
-    let Some((run, channel)) = looked_at(app) else { return };
+    let Some((run, channel)) = looked_at(app) else { return ui.empty("No record yet", FOLLOWS) };
     let Some(document) = &app.document else { return };
     let r = &document.project.runs[run];
     let mut chosen = channel;
@@ -116,7 +147,7 @@ fn lanes(ui: &mut Ui, derived: &mut Derived, document: &Document, run: usize) {
 
 /// The amplitude spectrum of the same channel.
 pub fn spectrum(ui: &mut Ui, app: &mut App) {
-    let Some((run, channel)) = looked_at(app) else { return };
+    let Some((run, channel)) = looked_at(app) else { return ui.empty("No spectrum yet", FOLLOWS) };
     let Some(document) = &app.document else { return };
     let r = &document.project.runs[run];
     let Some(fit) = r.fit.channels.get(channel) else { return };
@@ -150,8 +181,8 @@ fn motions(ui: &mut Ui, run: &Run, channel: &mut usize, every: &mut bool) {
     if list.iter().all(|(k, _)| k != channel) {
         *channel = list.first().map_or(*channel, |(k, _)| *k);
     }
-    if list.len() <= MOST_BUTTONS {
-        ui.horizontal_wrapped(|ui| {
+    if list.len() <= MOST_BUTTONS && in_one_row(ui, list.iter().map(|(_, name)| name.as_str())) {
+        ui.horizontal(|ui| {
             for (k, name) in &list {
                 if ui.selectable_label(k == channel, name).clicked() {
                     (*channel, *every) = (*k, false);
@@ -161,6 +192,14 @@ fn motions(ui: &mut Ui, run: &Run, channel: &mut usize, every: &mut bool) {
         return;
     }
     pick(ui, &list, channel, every);
+}
+
+/// Whether buttons of these names fit beside each other.
+fn in_one_row<'a>(ui: &Ui, names: impl Iterator<Item = &'a str>) -> bool {
+    let spacing = ui.spacing();
+    let rim = 2.0 * spacing.button_padding.x + spacing.item_spacing.x;
+    let total: f32 = names.map(|name| width(ui, name, theme::font(theme::size::BODY)) + rim).sum();
+    total <= ui.available_width()
 }
 
 /// A list of channels that opens.
@@ -177,17 +216,18 @@ fn pick(ui: &mut Ui, list: &[(usize, String)], channel: &mut usize, every: &mut 
 }
 
 fn channels(ui: &mut Ui, run: &Run, channel: &mut usize, every: &mut bool) {
-    ui.horizontal_wrapped(|ui| {
+    let names: Vec<String> = run.fit.channels.iter().map(|c| c.channel.to_string()).collect();
+    let as_list = names.len() > MOST_BUTTONS || !in_one_row(ui, names.iter().map(String::as_str).chain(["All"]));
+    ui.horizontal(|ui| {
         if ui.selectable_label(*every, "All").on_hover_text("All channels on one axis of time.").clicked() {
             *every = true;
         }
-        if run.fit.channels.len() > MOST_BUTTONS {
-            let list: Vec<(usize, String)> =
-                run.fit.channels.iter().enumerate().map(|(k, c)| (k, c.channel.to_string())).collect();
+        if as_list {
+            let list: Vec<(usize, String)> = names.into_iter().enumerate().collect();
             return pick(ui, &list, channel, every);
         }
-        for (k, fit) in run.fit.channels.iter().enumerate() {
-            if ui.selectable_label(!*every && k == *channel, fit.channel.to_string()).clicked() {
+        for (k, name) in names.into_iter().enumerate() {
+            if ui.selectable_label(!*every && k == *channel, name).clicked() {
                 (*channel, *every) = (k, false);
             }
         }
@@ -197,19 +237,19 @@ fn channels(ui: &mut Ui, run: &Run, channel: &mut usize, every: &mut bool) {
 fn table(ui: &mut Ui, p: &Project, (rows, order): (&[usize], &mut Order), chosen: &mut usize, asks: &mut Vec<Ask>) {
     ui.style_mut().interaction.selectable_labels = false;
     let levels = p.runs.iter().any(|r| r.level.is_some());
-    let harmonics = ui.available_width() > WIDE;
-    let flags = (ui.available_width() - WIDE + FLAGS).clamp(if harmonics { FLAGS } else { 60.0 }, 104.0);
+    ui.spacing_mut().item_spacing.x = space::XS;
+    let shown = Shown::new(ui.available_width(), levels);
     TableBuilder::new(ui)
         .striped(true)
         .sense(Sense::click())
         .cell_layout(egui::Layout::left_to_right(egui::Align::Center))
         .column(Column::exact(30.0))
-        .column(Column::remainder().at_least(64.0).clip(true))
-        .column(Column::exact(78.0))
-        .column(Column::exact(if levels { 40.0 } else { 0.0 }))
-        .column(Column::exact(62.0))
-        .column(Column::exact(if harmonics { 68.0 } else { 0.0 }))
-        .column(Column::exact(flags).clip(true))
+        .column(Column::remainder().at_least(LEAST_FILE).clip(true))
+        .column(Column::exact(FREQUENCY))
+        .column(Column::exact(if levels { LEVEL } else { 0.0 }))
+        .column(Column::exact(if shown.noise { NOISE } else { 0.0 }))
+        .column(Column::exact(if shown.harmonics { HARMONICS } else { 0.0 }))
+        .column(Column::exact(if shown.words { FLAGS } else { FLAG_COUNT }).clip(true))
         .header(space::ROW, |mut header| {
             header.col(|ui| drop(ui.hint("Use")));
             header.col(|ui| drop(order.head(ui, "File", Key::File, false)));
@@ -220,19 +260,22 @@ fn table(ui: &mut Ui, p: &Project, (rows, order): (&[usize], &mut Order), chosen
                 ("Harmonics", Key::Harmonics, "Largest higher harmonic over the fundamental, over all motions."),
             ] {
                 header.col(|ui| {
-                    if (levels || key != Key::Level) && (harmonics || key != Key::Harmonics) {
+                    if shown.has(key) && (levels || key != Key::Level) {
                         order.head(ui, name, key, true).on_hover_text(what);
                     }
                 });
             }
-            header.col(|ui| drop(order.head(ui, "   Flags", Key::Flags, false)));
+            header.col(|ui| {
+                ui.add_space(space::S);
+                order.head(ui, "Flags", Key::Flags, false);
+            });
         })
         .body(|body| {
             let selected = *chosen;
             body.rows(space::ROW, rows.len(), |mut row| {
                 let index = rows[row.index()];
                 row.set_selected(index == selected);
-                cells(&mut row, &p.runs[index], (index, harmonics), asks);
+                cells(&mut row, &p.runs[index], (index, shown), asks);
                 if row.response().clicked() {
                     *chosen = index;
                 }
@@ -240,7 +283,7 @@ fn table(ui: &mut Ui, p: &Project, (rows, order): (&[usize], &mut Order), chosen
         });
 }
 
-fn cells(row: &mut TableRow<'_, '_>, run: &Run, (index, harmonics): (usize, bool), asks: &mut Vec<Ask>) {
+fn cells(row: &mut TableRow<'_, '_>, run: &Run, (index, shown): (usize, Shown), asks: &mut Vec<Ask>) {
     row.col(|ui| {
         let mut used = run.enabled;
         let response = ui.checkbox(&mut used, "");
@@ -254,9 +297,13 @@ fn cells(row: &mut TableRow<'_, '_>, run: &Run, (index, harmonics): (usize, bool
     row.col(|ui| drop(ui.label(&run.file)));
     row.col(|ui| drop(ui.number(format!("{} Hz", format::significant(run.fit.omega / std::f64::consts::TAU, 4)))));
     row.col(|ui| drop(ui.number(run.level.map_or_else(String::new, |level| level.to_string()))));
-    row.col(|ui| drop(ui.number(format::percent(run.noise_ratio))));
     row.col(|ui| {
-        if harmonics {
+        if shown.noise {
+            ui.number(format::percent(run.noise_ratio));
+        }
+    });
+    row.col(|ui| {
+        if shown.harmonics {
             ui.number(distortion(run).map_or_else(|| "–".to_owned(), format::percent));
         }
     });
@@ -265,7 +312,12 @@ fn cells(row: &mut TableRow<'_, '_>, run: &Run, (index, harmonics): (usize, bool
         if let Some(first) = run.findings.first() {
             let more = run.findings.len() - 1;
             let text = words::flag(first.flag);
-            let text = if more > 0 { format!("{text} +{more}") } else { text.to_owned() };
+            let text = match (shown.words, more) {
+                (true, 0) => text.to_owned(),
+                (true, _) => format!("{text} +{more}"),
+                // The words stand in the inspector and under the pointer.
+                (false, _) => (more + 1).to_string(),
+            };
             let reasons: Vec<&str> = run.findings.iter().map(|f| f.reason.as_str()).collect();
             ui.pill(&text, ui.palette().warning).on_hover_text(reasons.join("\n"));
         }

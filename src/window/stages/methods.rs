@@ -6,8 +6,8 @@ use crate::classical::side_by_side::{Applied, SideBySide};
 use crate::display::format;
 use crate::plots::heatmap::{HeatMap, occupied};
 use crate::window::app::App;
-use crate::window::theme::space;
-use crate::window::widgets::UiExt;
+use crate::window::theme::{self, size, space};
+use crate::window::widgets::{UiExt, width};
 use egui::{Align, Layout, RichText, ScrollArea, Sense, Ui, vec2};
 use egui_extras::{Column, TableBody, TableBuilder};
 use faer::Mat;
@@ -17,7 +17,7 @@ const MOST_MODES: usize = 6;
 /// Width of a column of numbers.
 const NUMBER: f32 = 52.0;
 /// Share of the width that belongs to the table.
-const SHARE: f32 = 0.66;
+const SHARE: f32 = 0.7;
 /// Width of the names.
 const NAME: f32 = 146.0;
 
@@ -80,6 +80,7 @@ fn table(ui: &mut Ui, found: &SideBySide, chosen: &mut Option<Method>) {
     let modes = found.measured.min(MOST_MODES).min((free / NUMBER).max(1.0) as usize);
     let errors = if known { 2 } else { 0 };
     ui.style_mut().interaction.selectable_labels = false;
+    ui.spacing_mut().item_spacing.x = 2.0;
     TableBuilder::new(ui)
         .id_salt("methods")
         .vscroll(false)
@@ -133,7 +134,7 @@ fn applied_row(
 ) {
     body.row(space::ROW, |mut row| {
         row.set_selected(*chosen == Some(method));
-        row.col(|ui| drop(ui.label(method.title()).on_hover_text(method.words().join("\n"))));
+        row.col(|ui| drop(name(ui, method.title()).on_hover_text(method.words().join("\n"))));
         if known {
             let errors = applied.errors;
             row.col(|ui| drop(ui.number(errors.map_or_else(dash, |e| format::percent(0.01 * e.eps_c)))));
@@ -164,13 +165,19 @@ fn summary(body: &mut TableBody<'_>, found: &SideBySide, errors: usize, modes: u
             continue;
         }
         body.row(space::ROW, |mut row| {
-            row.col(|ui| drop(ui.label(RichText::new(name).color(ui.palette().ink))));
+            row.col(|ui| drop(self::name(ui, name)));
             (0..errors).for_each(|_| drop(row.col(|_| ())));
             for mode in 0..modes {
                 row.col(|ui| drop(ui.number(value(mode).unwrap_or_else(dash))));
             }
         });
     }
+}
+
+/// A name in full: in small letters where the column is narrow.
+fn name(ui: &mut Ui, text: &str) -> egui::Response {
+    let fits = width(ui, text, theme::font(size::BODY)) <= ui.available_width();
+    ui.label(RichText::new(text).size(if fits { size::BODY } else { size::SMALL }).color(ui.palette().ink))
 }
 
 fn dash() -> String {

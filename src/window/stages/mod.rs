@@ -1,5 +1,6 @@
 //! The stages of the work, one file each; what several share.
 
+pub mod change;
 pub mod explain;
 pub mod incompleteness;
 pub mod measure;
@@ -43,6 +44,7 @@ pub fn show(ui: &mut Ui, pane: Pane, app: &mut App, asks: &mut Vec<Ask>) {
         Pane::Nyquist => result::nyquist(ui, app),
         Pane::Hysteresis => result::hysteresis(ui, app),
         Pane::Values => result::values(ui, app),
+        Pane::Change => change::show(ui, app, asks),
         Pane::Methods => methods::show(ui, app),
         Pane::Incompleteness => incompleteness::show(ui, app),
         Pane::ErrorMap => explain::panes::error_map(ui, app, asks),
@@ -71,13 +73,18 @@ pub fn outcome(
     None
 }
 
-/// The same for panes beside the one that says why: empty until there is an answer.
+/// The same for panes beside the one that says why.
 pub fn outcome_quietly(
     ui: &mut Ui,
     derived: &mut super::derived::Derived,
     document: &super::document::Document,
 ) -> Option<std::sync::Arc<crate::identify::Outcome>> {
-    derived.outcome(ui.ctx(), document)?.ok()
+    use super::widgets::UiExt;
+    let found = derived.outcome(ui.ctx(), document).and_then(Result::ok);
+    if found.is_none() {
+        ui.empty("Nothing yet", "It follows what is identified.");
+    }
+    found
 }
 
 /// The name of a column of numbers.

@@ -12,12 +12,15 @@ use crate::window::schematic::{paint::source_stroke, symbols};
 use crate::window::theme::{self, size, space};
 use crate::window::view::View;
 use crate::window::widgets::UiExt;
-use egui::text::LayoutJob;
-use egui::{Align, Response, RichText, Role, ScrollArea, Sense, StrokeKind, Ui, WidgetInfo, pos2, vec2};
+use egui::text::{Galley, LayoutJob};
+use egui::{Align, Response, RichText, Role, ScrollArea, Sense, StrokeKind, Ui, Vec2, WidgetInfo, pos2, vec2};
 use egui_extras::{Column, TableBuilder};
+use std::sync::Arc;
 
 /// Height of a tile of the palette, least width, room between tiles, points.
-const TILE: f32 = 62.0;
+const TILE: f32 = 60.0;
+/// Height of the symbol on it with the rims above and below the words, points.
+const SYMBOL: f32 = 34.0;
 const LEAST_TILE: f32 = 94.0;
 const BETWEEN: f32 = 5.0;
 /// Width from which on the families stand in one row, points.
@@ -46,14 +49,21 @@ fn palette(ui: &mut Ui, law: &mut Effect, asks: &mut Vec<Ask>) {
         let room = ui.available_width() - space::S;
         let columns = ((room + BETWEEN) / (LEAST_TILE + BETWEEN)).floor().max(1.0);
         let width = (room - BETWEEN * (columns - 1.0)) / columns - 0.5;
-        ui.horizontal_wrapped(|ui| {
-            ui.spacing_mut().item_spacing = vec2(BETWEEN, BETWEEN);
-            for effect in Effect::ALL {
-                if !matches!(effect.kind(), Kind::Channel(_)) && tile(ui, effect, effect == *law, width) {
-                    *law = effect;
+        ui.spacing_mut().item_spacing = vec2(BETWEEN, BETWEEN);
+        let effects: Vec<Effect> = Effect::ALL.into_iter().filter(|e| !matches!(e.kind(), Kind::Channel(_))).collect();
+        for row in effects.chunks(columns as usize) {
+            let names: Vec<Arc<Galley>> = row.iter().map(|&effect| law_name(ui, effect, width)).collect();
+            // A row is as high as its longest name wants.
+            let words = names.iter().map(|n| n.size().y).fold(0.0, f32::max);
+            let height = TILE.max(SYMBOL + words);
+            ui.horizontal(|ui| {
+                for (&effect, name) in row.iter().zip(names) {
+                    if tile(ui, effect, effect == *law, name, vec2(width, height)) {
+                        *law = effect;
+                    }
                 }
-            }
-        });
+            });
+        }
     });
     ui.add_space(space::XS);
     ui.horizontal_wrapped(|ui| {
@@ -79,9 +89,9 @@ fn palette(ui: &mut Ui, law: &mut Effect, asks: &mut Vec<Ask>) {
 }
 
 /// A law with its symbol; true when it was clicked.
-fn tile(ui: &mut Ui, effect: Effect, chosen: bool, width: f32) -> bool {
+fn tile(ui: &mut Ui, effect: Effect, chosen: bool, words: Arc<Galley>, size: Vec2) -> bool {
     let palette = ui.palette();
-    let (rect, response) = ui.allocate_exact_size(vec2(width, TILE), Sense::click());
+    let (rect, response) = ui.allocate_exact_size(size, Sense::click());
     let name = words::effect(effect);
     response.widget_info(|| WidgetInfo::selected(Role::Button, true, chosen, name));
     let lit = chosen || response.hovered() || response.has_focus();
@@ -91,13 +101,17 @@ fn tile(ui: &mut Ui, effect: Effect, chosen: bool, width: f32) -> bool {
     let ink = if chosen { palette.accent } else { palette.ink };
     let (x, y) = (rect.center().x, rect.top() + 19.0);
     symbols::draw(ui.painter(), effect, [pos2(x - 30.0, y), pos2(x + 30.0, y)], theme::pen(ink));
-    // A long name stands on two lines.
-    let mut job = LayoutJob::simple(name.to_owned(), theme::font(size::SMALL), ink, width - 8.0);
-    job.halign = Align::Center;
-    let words = ui.painter().layout_job(job);
-    let middle = rect.bottom() - 16.0 - 0.5 * words.size().y;
-    ui.painter().galley(pos2(x, middle), words, ink);
+    let middle = 0.5 * (rect.top() + SYMBOL - 4.0 + rect.bottom());
+    ui.painter().galley_with_override_text_color(pos2(x, middle - 0.5 * words.size().y), words, ink);
     response.on_hover_text(parameters(effect)).clicked()
+}
+
+/// The name of a law under its symbol, on several lines where it is long.
+fn law_name(ui: &Ui, effect: Effect, width: f32) -> Arc<Galley> {
+    let (text, font) = (words::effect(effect).to_owned(), theme::font(size::SMALL));
+    let mut job = LayoutJob::simple(text, font, ui.palette().ink, width - 8.0);
+    job.halign = Align::Center;
+    ui.painter().layout_job(job)
 }
 
 fn parameters(effect: Effect) -> String {
@@ -123,7 +137,7 @@ fn list(ui: &mut Ui, p: &Project, view: &View, asks: &mut Vec<Ask>) -> Option<us
                 ui.pill(&format!("{} {}", count(state), words::state(state)), colour);
             }
         }
-        if count(State::Candidate) > 0 && ui.small_button(Command::ClearCandidates.entry().label).clicked() {
+        if count(State::Candidate) > 0 && ui.button(Command::ClearCandidates.entry().label).clicked() {
             asks.push(Ask::Command(Command::ClearCandidates));
         }
     });

@@ -1,6 +1,6 @@
 //! Result: the damping matrix, energy shares, damping ratios, frequency responses, hysteresis.
 
-use crate::display::{format, words};
+use crate::display::{format, units, words};
 use crate::exchange::Project;
 use crate::identify::Outcome;
 use crate::plots::bars::Bar;
@@ -10,11 +10,14 @@ use crate::response::frequency_response::Quantity;
 use crate::window::app::App;
 use crate::window::plots::{bars, hysteresis};
 use crate::window::solid;
-use crate::window::theme::space;
-use crate::window::widgets::UiExt;
+use crate::window::theme::{self, size, space};
+use crate::window::widgets::{UiExt, width};
 use egui::{Align, Layout, ScrollArea, Ui};
 use egui_extras::{Column, TableBuilder};
 use std::sync::Arc;
+
+/// Width of the column of shares in the table of values, points.
+const SHARE: f32 = 64.0;
 
 /// The answer, or what is shown in its place.
 fn ready(ui: &mut Ui, app: &mut App) -> Option<Arc<Outcome>> {
@@ -150,18 +153,35 @@ fn ratios(ui: &mut Ui, outcome: &Outcome) {
         return;
     }
     ui.style_mut().interaction.selectable_labels = false;
+    let measure = units::now().damping;
+    let [name_of_measure, unit] = measure.words();
+    let ratio = |mode: &crate::identify::results::ModeResult| {
+        let [value, deviation] = measure.of(mode.damping_ratio, mode.damping_ratio_deviation);
+        format::with_deviation(value, deviation, unit)
+    };
+    let widest = widest(ui, outcome.results.modes.iter().map(ratio));
     TableBuilder::new(ui)
         .id_salt("damping")
         .striped(true)
         .cell_layout(Layout::left_to_right(Align::Center))
         .column(Column::exact(44.0))
         .column(Column::exact(86.0))
-        .column(Column::exact(150.0))
-        .column(Column::remainder().at_least(120.0))
+        .column(Column::exact(widest.max(116.0)))
+        .column(Column::remainder().at_least(80.0))
         .header(space::ROW, |mut row| {
             row.col(|ui| drop(ui.hint("Mode")));
-            for name in ["Frequency", "Damping ratio", "From half-power points"] {
-                row.col(|ui| drop(super::head_right(ui, name)));
+            let half_power = "From the half-power points of the measured responses.";
+            for (name, what) in [
+                ("Frequency", ""),
+                (name_of_measure, "Of the model with what was identified; View > Units chooses ζ, Q, η or δ."),
+                ("Half-power", half_power),
+            ] {
+                row.col(|ui| {
+                    let head = super::head_right(ui, name);
+                    if !what.is_empty() {
+                        head.on_hover_text(what);
+                    }
+                });
             }
         })
         .body(|body| {
@@ -170,13 +190,10 @@ fn ratios(ui: &mut Ui, outcome: &Outcome) {
                 let mode = &outcome.results.modes[r];
                 row.col(|ui| drop(ui.label(format!("{}", r + 1))));
                 row.col(|ui| drop(ui.number(format::with_unit(mode.frequency_hz, "Hz"))));
+                row.col(|ui| drop(ui.number(ratio(mode))));
                 row.col(|ui| {
-                    let (ratio, deviation) = (100.0 * mode.damping_ratio, 100.0 * mode.damping_ratio_deviation);
-                    ui.number(format::with_deviation(ratio, deviation, "%"));
-                });
-                row.col(|ui| {
-                    let text = mode.half_power_ratio.map_or_else(|| "–".to_owned(), format::percent);
-                    ui.number(text);
+                    let said = |ratio: f64| format!("{} {unit}", format::significant(measure.of(ratio, 0.0)[0], 3));
+                    ui.number(mode.half_power_ratio.map_or_else(|| "–".to_owned(), said));
                 });
             });
         });
@@ -243,16 +260,22 @@ pub fn values(ui: &mut Ui, app: &mut App) {
     ui.add_space(space::XS);
     ui.style_mut().interaction.selectable_labels = false;
     let width = ui.available_width();
+    let known = || outcome.sources.iter().filter_map(|e| Some((p.sources.get(e.source)?, e)));
+    let laws = widest(ui, known().map(|(s, _)| words::effect(s.effect).to_owned()));
+    let places = widest(ui, known().map(|(s, _)| words::place(&p.structure, &s.place)));
+    let values = widest(ui, known().map(|(s, e)| words::coefficient(s, e))).max(80.0);
     // The share of energy stands in its own pane, the law on the schematic: both go before a value is cut.
-    let (with_law, with_share) = (width > 400.0, width > 430.0);
+    let gap = ui.spacing().item_spacing.x;
+    let with_share = width > places + values + SHARE + 3.0 * gap;
+    let with_law = width > laws + places + values + SHARE + 4.0 * gap;
     TableBuilder::new(ui)
         .id_salt("values")
         .striped(true)
         .cell_layout(Layout::left_to_right(Align::Center))
-        .column(Column::exact(if with_law { (0.24 * width).min(150.0) } else { 0.0 }).clip(true))
+        .column(Column::exact(if with_law { laws } else { 0.0 }).clip(true))
         .column(Column::remainder().at_least(60.0).clip(true))
-        .column(Column::exact(176.0))
-        .column(Column::exact(if with_share { 64.0 } else { 0.0 }))
+        .column(Column::exact(values))
+        .column(Column::exact(if with_share { SHARE } else { 0.0 }))
         .header(space::ROW, |mut row| {
             row.col(|ui| if_there(with_law, || ui.hint("Law")));
             row.col(|ui| drop(ui.hint("Place")));
@@ -269,6 +292,11 @@ pub fn values(ui: &mut Ui, app: &mut App) {
                 row.col(|ui| if_there(with_share, || ui.number(format::percent(0.01 * estimate.energy_percent))));
             });
         });
+}
+
+/// Width that the widest of the words takes in a cell, points.
+pub(super) fn widest(ui: &Ui, texts: impl Iterator<Item = String>) -> f32 {
+    texts.map(|text| width(ui, &text, theme::font(size::BODY)) + 2.0 * space::XS).fold(40.0, f32::max)
 }
 
 /// Shows a cell of a column that goes where there is no room for it.

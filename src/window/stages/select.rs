@@ -8,15 +8,20 @@ use crate::window::app::{App, Ask};
 use crate::window::commands::Command;
 use crate::window::edits::Edit;
 use crate::window::plots::charts;
-use crate::window::theme::{size, space};
+use crate::window::theme::{self, size, space};
 use crate::window::view::View;
-use crate::window::widgets::UiExt;
-use egui::{Align, Layout, ScrollArea, Sense, Ui};
+use crate::window::widgets::{UiExt, folded};
+use egui::{Align, Galley, Layout, ScrollArea, Sense, Ui};
 use egui_extras::{Column, TableBuilder, TableRow};
 use std::sync::Arc;
 
 /// Width of the table of steps from which on it shows chi-square, points.
 const WIDE: f32 = 400.0;
+/// Widths of its columns, points.
+const COUNT: f32 = 56.0;
+const ANGLE: f32 = 74.0;
+const ERROR: f32 = 76.0;
+const CHI_SQUARE: f32 = 66.0;
 /// Name of its last column.
 const PER_ROW: &str = "χ² per row";
 
@@ -117,20 +122,24 @@ pub fn in_words(p: &Project, sources: impl Iterator<Item = usize>) -> String {
 fn table(ui: &mut Ui, p: &Project, outcome: &Outcome, current: usize, chosen: &mut Option<usize>) {
     ui.style_mut().interaction.selectable_labels = false;
     let wide = ui.available_width() > WIDE;
+    let fixed = COUNT + ANGLE + ERROR + if wide { CHI_SQUARE } else { 0.0 };
+    let room = ui.available_width() - fixed - 5.0 * ui.spacing().item_spacing.x;
+    let lines: Vec<[Arc<Galley>; 2]> = outcome.steps.iter().map(|step| step_words(ui, p, step, room)).collect();
+    let heights = lines.iter().map(|[a, b]| space::ROW.max(a.size().y + b.size().y + 8.0)).collect::<Vec<_>>();
     TableBuilder::new(ui)
         .id_salt("steps")
         .striped(true)
         .sense(Sense::click())
         .cell_layout(Layout::left_to_right(Align::Center))
         .auto_shrink([false, false])
-        .column(Column::exact(56.0))
+        .column(Column::exact(COUNT))
         .column(Column::remainder().at_least(60.0).clip(true))
-        .column(Column::exact(74.0))
-        .column(Column::exact(76.0))
-        .column(Column::exact(if wide { 66.0 } else { 0.0 }))
+        .column(Column::exact(ANGLE))
+        .column(Column::exact(ERROR))
+        .column(Column::exact(if wide { CHI_SQUARE } else { 0.0 }))
         .header(space::ROW, |mut row| {
             row.col(|ui| drop(ui.hint("Sources")));
-            row.col(|ui| drop(ui.hint("Which, with coefficients")));
+            row.col(|ui| drop(ui.hint("Which").on_hover_text("The sources, under them their coefficients.")));
             for (name, what) in [
                 ("Angle", "Angle between measured and identified energies of the runs."),
                 ("Energy error", "Distance of the identified energies from the measured, relative."),
@@ -144,10 +153,10 @@ fn table(ui: &mut Ui, p: &Project, outcome: &Outcome, current: usize, chosen: &m
             }
         })
         .body(|body| {
-            body.rows(2.0 * space::ROW - 6.0, outcome.steps.len(), |mut row| {
+            body.heterogeneous_rows(heights.into_iter(), |mut row| {
                 let k = row.index();
                 row.set_selected(k == current);
-                cells(&mut row, p, outcome, k, wide);
+                cells(&mut row, outcome, (k, &lines[k]), wide);
                 if row.response().clicked() {
                     *chosen = Some(k);
                 }
@@ -155,7 +164,18 @@ fn table(ui: &mut Ui, p: &Project, outcome: &Outcome, current: usize, chosen: &m
         });
 }
 
-fn cells(row: &mut TableRow<'_, '_>, p: &Project, outcome: &Outcome, k: usize, wide: bool) {
+/// The sources of a step and their coefficients, folded into `room` points.
+fn step_words(ui: &Ui, p: &Project, step: &Step, room: f32) -> [Arc<Galley>; 2] {
+    let palette = ui.palette();
+    let which = in_words(p, step.sources.iter().map(|s| s.source));
+    let values = words::coefficients(step.sources.iter().filter_map(|e| Some((p.sources.get(e.source)?, e))));
+    [
+        folded(ui, &which, theme::font(size::BODY), palette.ink, room, 4),
+        folded(ui, &values, theme::font(size::SMALL), palette.weak, room, 4),
+    ]
+}
+
+fn cells(row: &mut TableRow<'_, '_>, outcome: &Outcome, (k, lines): (usize, &[Arc<Galley>; 2]), wide: bool) {
     let step = &outcome.steps[k];
     row.col(|ui| {
         ui.label(step.count.to_string());
@@ -168,11 +188,9 @@ fn cells(row: &mut TableRow<'_, '_>, p: &Project, outcome: &Outcome, k: usize, w
         ui.vertical(|ui| {
             ui.spacing_mut().item_spacing.y = 1.0;
             ui.add_space(3.0);
-            ui.add(egui::Label::new(in_words(p, step.sources.iter().map(|s| s.source))).truncate());
-            let values: Vec<String> =
-                step.sources.iter().filter_map(|e| Some(words::coefficient(p.sources.get(e.source)?, e))).collect();
-            let text = egui::RichText::new(values.join(",  ")).size(size::SMALL).color(ui.palette().weak);
-            ui.add(egui::Label::new(text).truncate());
+            for line in lines {
+                ui.add(egui::Label::new(line.clone()));
+            }
         });
     });
     row.col(|ui| drop(ui.number(format!("{}°", format::significant(step.angle_deg, 4)))));
@@ -237,7 +255,7 @@ fn alternatives(ui: &mut Ui, p: &Project, step: &Step, asks: &mut Vec<Ask>) {
     if step.alternatives.is_empty() {
         return;
     }
-    ui.title("Alternatives", "click one to branch from it");
+    ui.title("Alternatives", "click one");
     for other in &step.alternatives {
         let words = in_words(p, other.sources.iter().copied());
         let text = format!("{}°   {words}", format::significant(other.angle_deg, 4));

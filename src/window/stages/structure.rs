@@ -14,6 +14,9 @@ use egui_extras::{Column, TableBuilder};
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
+/// Least width of the names of files in the table of the expansion, points.
+const LEAST_FILE: f32 = 72.0;
+
 /// The modes, once they are there; else what is shown in their place.
 fn ready(ui: &mut Ui, app: &mut App) -> Option<Arc<Modes>> {
     let document = app.document.as_ref()?;
@@ -162,13 +165,14 @@ pub fn expansion(ui: &mut Ui, app: &mut App) {
     ui.pair("Expansion to the others", words::expansion(outcome.expansion));
     ui.pair("Model error it allows for", format::percent(outcome.model_error));
     ui.add_space(space::S);
-    let width = ui.available_width().min(386.0);
+    ui.spacing_mut().item_spacing.x = space::XS;
+    let figures = ((ui.available_width() - LEAST_FILE - 3.0 * space::XS) / 3.0).min(104.0);
     TableBuilder::new(ui)
         .id_salt("expansion")
         .striped(true)
         .cell_layout(egui::Layout::left_to_right(egui::Align::Center))
-        .column(Column::remainder().at_least(80.0).clip(true))
-        .columns(Column::exact(0.27 * width), 3)
+        .column(Column::remainder().at_least(LEAST_FILE).clip(true))
+        .columns(Column::exact(figures), 3)
         .header(space::ROW, |mut row| {
             row.col(|ui| drop(ui.hint("Run")));
             for (name, what) in [

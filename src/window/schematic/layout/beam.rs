@@ -12,12 +12,20 @@ const HANDLE: f32 = 5.0;
 const ROTATION_UP: f32 = 25.0;
 const EXCITER_UP: f32 = 76.0;
 const EXCITER_LEAST: f32 = 30.0;
-/// Height of the letter above an arrow.
-const LABEL: f32 = 24.0;
+/// Height of the line that says what is shown: nothing else stands there.
+const CAPTION: f32 = 28.0;
 const POINTS_PER_ELEMENT: usize = 8;
 const DEFLECTION: f32 = 46.0;
-/// Least distance of the axis from the top, points.
-const LEAST_ABOVE: f32 = 74.0;
+/// Least distance of the axis from the caption, points.
+const LEAST_ABOVE: f32 = 48.0;
+/// Room that the mark of a rotation takes above its node, points.
+const ABOVE_NODE: f32 = 34.0;
+/// Room that a source to the ground takes below its node at least, points.
+const BELOW_NODE: f32 = 30.0;
+/// Length of the lead between node and symbol, and of the symbol at least, points.
+const LEAD: f32 = 24.0;
+const LEAST_LEAD: f32 = 8.0;
+const LEAST_SYMBOL: f32 = 20.0;
 /// Least depth of the ground under the axis, points.
 const LEAST_DROP: f32 = 46.0;
 
@@ -65,16 +73,19 @@ impl<'a> Frame<'a> {
         let span = (greatest - least).max(1e-12);
         let has_exciter = scene.dofs.iter().any(|d| d.exciter);
         let torsion = scene.sources.iter().any(|s| s.dofs.len() == 1 && scene.dofs[s.dofs[0]].direction.is_rotation());
-        let base = if has_exciter { EXCITER_UP + 14.0 } else { 46.0 } + if torsion { 30.0 } else { 0.0 };
+        let base = if has_exciter { EXCITER_UP + 8.0 } else { 46.0 } + if torsion { 30.0 } else { 0.0 };
         let lanes = relative_lanes(scene).iter().map(|&(_, lane)| lane + 1).max().unwrap_or(0) as f32;
         let above = base + lanes * LANE + 14.0;
         let below = DROP + 26.0;
-        let spare = area.height() - above - below;
+        let top = area.top() + CAPTION;
+        let spare = area.bottom() - top - above - below;
         // Where there is little room the ground comes nearer first, then the axis goes up.
         let nearer = (-spare).clamp(0.0, DROP - LEAST_DROP);
         let higher = (-spare - nearer).clamp(0.0, (above - LEAST_ABOVE).max(0.0));
-        let axis = area.top() + above - higher + (spare / 2.0).max(0.0);
-        let deflection = DEFLECTION * (1.0 - 0.8 * higher / above);
+        let axis = top + above - higher + (spare / 2.0).max(0.0);
+        // Neither caption nor ground are reached, whatever the phase of the motion.
+        let room = (axis - top - ABOVE_NODE).min(DROP - nearer - BELOW_NODE);
+        let deflection = DEFLECTION.min(room.max(6.0));
         let deflected = shape.is_some();
         Self {
             scene,
@@ -84,7 +95,7 @@ impl<'a> Frame<'a> {
             least,
             axis,
             deflection,
-            exciter: (axis - area.top() - deflection * highest(scene, shape) - LABEL).clamp(EXCITER_LEAST, EXCITER_UP),
+            exciter: (axis - top - deflection * highest(scene, shape)).clamp(EXCITER_LEAST, EXCITER_UP),
             ground: axis + DROP - nearer,
             first_lane: axis - base - if deflected { 8.0 } else { 0.0 },
         }
@@ -198,9 +209,10 @@ impl<'a> Frame<'a> {
                 ground: Some(Ground { pos: foot, into: Vec2::UP, width: 16.0 }),
             };
         }
-        let start = pos2(node.x + shift, node.y + 24.0);
+        let lead = (self.ground - node.y - LEAST_SYMBOL).clamp(LEAST_LEAD, LEAD);
+        let start = pos2(node.x + shift, node.y + lead);
         let foot = pos2(node.x + shift, self.ground);
-        let elbow = pos2(node.x + shift, node.y + 12.0);
+        let elbow = pos2(node.x + shift, node.y + 0.5 * lead);
         let leads = if shift == 0.0 { vec![[node, start]] } else { vec![[node, elbow], [elbow, start]] };
         Part {
             leads,

@@ -10,15 +10,45 @@ use crate::window::app::Ask;
 use crate::window::explained::Standing;
 use crate::window::schematic::symbols;
 use crate::window::theme::{self, size, space};
-use crate::window::widgets::{UiExt, elided};
-use egui::text::{LayoutJob, TextFormat};
+use crate::window::widgets::{UiExt, folded, width};
+use egui::text::{Galley, LayoutJob, TextFormat};
 use egui::{
-    Align2, CornerRadius, Frame, Label, Margin, Rect, RichText, Role, Sense, StrokeKind, Ui, Vec2, WidgetInfo, pos2,
-    vec2,
+    Align2, Color32, CornerRadius, Frame, Label, Margin, Pos2, Rect, RichText, Role, Sense, StrokeKind, Ui, Vec2,
+    WidgetInfo, pos2, vec2,
 };
+use std::sync::Arc;
 
 /// Height of the fingerprint plot.
 const PLOT: f32 = 150.0;
+
+/// Room between symbol and name, and that of the probability at the right, points.
+const BESIDE: f32 = 10.0;
+const CHANCE: f32 = 66.0;
+
+/// The words in the head of a card.
+struct HeadWords {
+    title: Arc<Galley>,
+    /// What the law is, under its name.
+    under: Option<Arc<Galley>>,
+    /// The error after it, at the right.
+    error: Option<String>,
+}
+
+impl HeadWords {
+    /// Height of all lines, points.
+    fn total(&self) -> f32 {
+        self.title.size().y + self.under.as_ref().map_or(0.0, |u| u.size().y)
+    }
+
+    /// Paints the lines about a middle at their left.
+    fn paint(&self, ui: &Ui, middle: Pos2, ink: Color32) {
+        let top = middle - vec2(0.0, 0.5 * self.total());
+        ui.painter().galley_with_override_text_color(top, self.title.clone(), ink);
+        if let Some(under) = &self.under {
+            ui.painter().galley(top + vec2(0.0, self.title.size().y), under.clone(), ink);
+        }
+    }
+}
 
 /// A suggestion to show.
 pub struct Card<'a> {
@@ -68,25 +98,23 @@ impl Card<'_> {
     fn head(&self, ui: &mut Ui) -> bool {
         let palette = ui.palette();
         let source = &self.suggestion.added.source;
-        let height = if self.unfolded { 40.0 } else { 26.0 };
+        let words = self.head_words(ui);
+        let height = (words.total() + 6.0).max(if self.unfolded { 40.0 } else { 26.0 });
         let (area, response) = ui.allocate_exact_size(vec2(ui.available_width(), height), Sense::click());
         let (so_far, chance) = (self.is_provisional(), chance(self.probability));
         let (kind, about) = if so_far { ("Provisional suggestion", "about ") } else { ("Suggestion", "") };
         let label = format!("{kind} {}: {}, probability {about}{chance}", self.rank, self.title());
         response.widget_info(|| WidgetInfo::selected(Role::Button, true, self.unfolded, &label));
         let painter = ui.painter();
-        let symbol = Rect::from_min_size(area.min, vec2(if self.unfolded { 62.0 } else { 46.0 }, height));
+        let symbol = Rect::from_min_size(area.min, vec2(self.symbol_width(), height));
         glyph(ui, source, symbol);
         let ink = if response.hovered() || response.has_focus() { palette.accent } else { palette.ink };
-        let left = symbol.right() + 10.0;
+        let left = symbol.right() + BESIDE;
         let middle = area.center().y;
+        words.paint(ui, pos2(left, middle), ink);
         let weight = if so_far { palette.weak } else { palette.ink };
         let under = if so_far { "so far" } else { "probability" };
         if self.unfolded {
-            let room = area.right() - left - 66.0;
-            elided(ui, &self.title(), theme::font(size::HEADING), ink, pos2(left, middle - 9.0), room);
-            let law = source.effect.sentence().split(':').next().unwrap_or_default().trim_end_matches('.').to_owned();
-            elided(ui, &law, theme::font(size::SMALL), palette.weak, pos2(left, middle + 9.0), room);
             painter.text(
                 pos2(area.right(), middle - 8.0),
                 Align2::RIGHT_CENTER,
@@ -103,17 +131,34 @@ impl Card<'_> {
             );
         } else {
             painter.text(pos2(area.right(), middle), Align2::RIGHT_CENTER, chance, theme::font(size::BODY), weight);
-            let mut end = area.right() - 66.0;
-            // The error after it goes before the name is cut.
-            if end - left > 250.0 {
-                let after = format!("error {}", format::percent(self.suggestion.error_after));
-                let at = pos2(end, middle);
-                end =
-                    painter.text(at, Align2::RIGHT_CENTER, after, theme::font(size::SMALL), palette.weak).left() - 8.0;
+            if let Some(after) = words.error {
+                let at = pos2(area.right() - CHANCE, middle);
+                painter.text(at, Align2::RIGHT_CENTER, after, theme::font(size::SMALL), palette.weak);
             }
-            elided(ui, &self.title(), theme::font(size::BODY), ink, pos2(left, middle), end - left);
         }
         response.on_hover_text(label).clicked()
+    }
+
+    /// The words of the head in the room beside symbol and probability; long names stand on several lines.
+    fn head_words(&self, ui: &Ui) -> HeadWords {
+        let palette = ui.palette();
+        let room = ui.available_width() - self.symbol_width() - BESIDE - CHANCE;
+        if self.unfolded {
+            let law = self.suggestion.added.source.effect.sentence();
+            let law = law.split(':').next().unwrap_or_default().trim_end_matches('.');
+            let title = folded(ui, &self.title(), theme::font(size::HEADING), palette.ink, room, 3);
+            let under = folded(ui, law, theme::font(size::SMALL), palette.weak, room, 3);
+            return HeadWords { title, under: Some(under), error: None };
+        }
+        // The error after it goes before the name is broken too often.
+        let error = (room > 250.0).then(|| format!("error {}", format::percent(self.suggestion.error_after)));
+        let taken = error.as_ref().map_or(0.0, |e| width(ui, e, theme::font(size::SMALL)) + 8.0);
+        let title = folded(ui, &self.title(), theme::font(size::BODY), palette.ink, room - taken, 3);
+        HeadWords { title, under: None, error }
+    }
+
+    fn symbol_width(&self) -> f32 {
+        if self.unfolded { 62.0 } else { 46.0 }
     }
 
     /// What explains the data as well: effects as simple are a warning, those with more parameters only not needed.

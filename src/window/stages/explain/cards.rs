@@ -241,7 +241,7 @@ fn excluded(ui: &mut Ui, scene: &Scene<'_>, excluded: &[Source], asks: &mut Vec<
             let name = format!("{} {}", words::effect(source.effect), at(structure, &source.place));
             ui.label(RichText::new(name).strikethrough().color(ui.palette().weak));
             ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-                if ui.small_button("Take back").clicked() {
+                if ui.button("Take back").clicked() {
                     asks.push(Ask::Explain(Deed::Restore(source.clone())));
                 }
             });

@@ -8,7 +8,7 @@ use crate::display::{findings, format};
 use crate::window::app::{App, Ask};
 use crate::window::corrections::adopt;
 use crate::window::theme::{self, size, space};
-use crate::window::widgets::{UiExt, elided};
+use crate::window::widgets::{UiExt, folded};
 use egui::{Align, Align2, Layout, Rect, Role, ScrollArea, Sense, Ui, WidgetInfo, pos2, vec2};
 
 /// Deviations at the ends of a bar.
@@ -63,10 +63,12 @@ impl Row<'_> {
         ui.horizontal(|ui| {
             let aside = VALUE + BAR + if button.is_some() { BUTTON } else { 0.0 } + 3.0 * ui.spacing().item_spacing.x;
             let room = (ui.available_width() - aside).max(60.0);
-            let (area, response) = ui.allocate_exact_size(vec2(room, space::ROW), Sense::hover());
+            let name = folded(ui, self.name, theme::font(size::BODY), palette.weak, room, 3);
+            let size = vec2(room, space::ROW.max(name.size().y));
+            let (area, response) = ui.allocate_exact_size(size, Sense::hover());
             let said = format!("{}: {}, {:.1} deviations", self.name, self.value, self.deviations);
             response.widget_info(|| WidgetInfo::labeled(Role::Label, true, &said));
-            elided(ui, self.name, theme::font(size::BODY), palette.weak, area.left_center(), room);
+            ui.painter().galley(area.left_center() - vec2(0.0, 0.5 * name.size().y), name, palette.weak);
             response.on_hover_text(said);
             let (area, _) = ui.allocate_exact_size(vec2(VALUE, space::ROW), Sense::hover());
             ui.painter().text(

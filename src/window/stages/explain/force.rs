@@ -42,14 +42,14 @@ fn plots(ui: &mut Ui, force: &RestoringForce, structure: &Structure) {
     let width = ui.available_width() / columns as f32 - 4.0;
     let (mut panels, mut responses) = (Vec::new(), Vec::new());
     let mut one = |ui: &mut Ui, k: usize| {
-        let figure = &figures[k];
+        let figure = figures[k].clone().displayed();
         ui.allocate_ui(vec2(width, PLOTS), |ui| {
             ui.set_width(width);
             let id = format!("{} {k}", figure.title);
             let place = show::Place { id: &id, height: PLOTS, group: None, ruler: true };
-            let out = place.show(ui, figure);
+            let out = place.show(ui, &figure);
             let (low, high) = (out.transform.bounds().min(), out.transform.bounds().max());
-            panels.push(Panel { figure: figure.clone(), bounds: [[low[0], high[0]], [low[1], high[1]]] });
+            panels.push(Panel { figure, bounds: [[low[0], high[0]], [low[1], high[1]]] });
             responses.push(out.response);
         });
     };

@@ -8,7 +8,7 @@ use crate::window::app::Ask;
 use crate::window::explained::ledger::Ledger;
 use crate::window::plots::show::Stack;
 use crate::window::theme::{self, size, space};
-use crate::window::widgets::UiExt;
+use crate::window::widgets::{UiExt, folded, width};
 use egui::{Align2, Role, ScrollArea, Sense, Ui, WidgetInfo, pos2, vec2};
 
 /// Shows chart and steps.
@@ -96,8 +96,13 @@ fn row(ui: &mut Ui, ledger: &Ledger, k: usize) -> bool {
     let palette = ui.palette();
     let step = &ledger.steps()[k];
     let current = k == ledger.current();
-    let (area, response) = ui.allocate_exact_size(vec2(ui.available_width(), space::ROW), Sense::click());
     let error = in_words(step.error);
+    let ink = if ledger.path().contains(&k) { palette.ink } else { palette.weak };
+    let font = theme::font(size::BODY - 0.5);
+    let room = ui.available_width() - width(ui, &error, font.clone()) - 38.0;
+    let name = folded(ui, &step.label, font.clone(), ink, room, 3);
+    let height = space::ROW.max(name.size().y + 6.0);
+    let (area, response) = ui.allocate_exact_size(vec2(ui.available_width(), height), Sense::click());
     let label = format!("Step {k}: {}, error {error}", step.label);
     response.widget_info(|| WidgetInfo::selected(Role::Button, true, current, &label));
     let fill = if current {
@@ -110,11 +115,8 @@ fn row(ui: &mut Ui, ledger: &Ledger, k: usize) -> bool {
     let painter = ui.painter();
     painter.rect_filled(area, 4.0, fill);
     let middle = area.center().y;
-    let ink = if ledger.path().contains(&k) { palette.ink } else { palette.weak };
-    let font = theme::font(size::BODY - 0.5);
     painter.text(pos2(area.left() + 6.0, middle), Align2::LEFT_CENTER, k, theme::font(size::SMALL), palette.weak);
-    let figure = painter.text(pos2(area.right() - 6.0, middle), Align2::RIGHT_CENTER, error, font.clone(), ink);
-    let clip = egui::Rect::from_min_max(area.min + vec2(24.0, 0.0), pos2(figure.left() - 8.0, area.bottom()));
-    ui.painter_at(clip).text(pos2(clip.left(), middle), Align2::LEFT_CENTER, &step.label, font, ink);
+    painter.text(pos2(area.right() - 6.0, middle), Align2::RIGHT_CENTER, error, font, ink);
+    painter.galley(pos2(area.left() + 24.0, middle - 0.5 * name.size().y), name, ink);
     response.on_hover_text(label).clicked()
 }

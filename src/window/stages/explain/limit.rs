@@ -41,7 +41,7 @@ pub fn setting(ui: &mut Ui, limit_s: Option<f64>, asks: &mut Vec<Ask>) {
 pub fn while_searching(ui: &mut Ui, limit_s: Option<f64>, asks: &mut Vec<Ask>) {
     setting(ui, limit_s, asks);
     let tip = "Ends the search with the best that it has found so far.";
-    if ui.small_button("Answer with the best so far").on_hover_text(tip).clicked() {
+    if ui.button("Answer with the best so far").on_hover_text(tip).clicked() {
         asks.push(Ask::Explain(Deed::Hurry));
     }
     ui.add_space(space::XS);
@@ -53,7 +53,7 @@ pub fn best_so_far(ui: &mut Ui, asks: &mut Vec<Ask>) {
         let said = "The search was ended before its time: this is the best so far.";
         ui.label(RichText::new(said).color(ui.palette().warning));
         let tip = "Searches again without a time limit.";
-        if ui.small_button("Search to the end").on_hover_text(tip).clicked() {
+        if ui.button("Search to the end").on_hover_text(tip).clicked() {
             asks.push(Ask::Explain(Deed::SearchOn));
         }
     });

@@ -187,7 +187,7 @@ fn head(ui: &mut Ui, scene: &Scene<'_>, worst_first: bool, comparison: &Comparis
                     .color(ui.palette().warning),
             );
             let tip = "Makes the identified sources known at their values.";
-            if ui.small_button("Take over what was identified").on_hover_text(tip).clicked() {
+            if ui.button("Take over what was identified").on_hover_text(tip).clicked() {
                 asks.push(Ask::Explain(Deed::TakeOver));
             }
         });
@@ -208,7 +208,7 @@ fn preview(
         let name = card::name(scene, source);
         ui.pill("Preview", ui.palette().missing);
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-            if ui.small_button("End preview").clicked() {
+            if ui.button("End preview").clicked() {
                 asks.push(Ask::Explain(Deed::Stop));
             }
             let text = match (tried, scene.explained.trial(scene.document, source)) {

@@ -34,7 +34,7 @@ pub fn errors(scene: &Arc<Scene>, document: &Document, view: &View, explained: &
     let shares = comparison
         .map(|c| shares(c, &Scale::new(explained.ledger.least_floor(), explained.ledger.worst()), scene.dofs.len()));
     let mut caption =
-        comparison.map_or_else(String::new, |c| format!("Model error at the sensors, {} over all", in_words(c.error)));
+        comparison.map_or_else(String::new, |c| format!("Error at the sensors, {} over all", in_words(c.error)));
     if let Some(source) = suggested {
         let verb = if look.trial.is_some() { "on trial" } else { "suggested" };
         let place = at(&document.project.structure, &source.place);

@@ -1,0 +1,129 @@
+//! A report as PDF: A4 pages with text that can be searched and copied, drawings as lines, the type embedded.
+
+mod drawn;
+mod face;
+mod paper;
+
+use super::page::Part;
+use face::{Face, FontError};
+use flate2::Compression;
+use flate2::write::ZlibEncoder;
+use paper::{HEIGHT, Paper, WIDTH};
+use pdf_writer::{Content, Filter, Name, Pdf, Rect, Ref, TextStr};
+use std::io::Write as _;
+
+/// Name of the face in the resources of a page.
+const FACE: Name<'static> = Name(b"F1");
+/// Objects before the pages: catalogue, tree of pages, information, and those of the face.
+const FIRST_PAGE: i32 = 10;
+
+/// The whole file.
+///
+/// # Errors
+/// [`FontError`]: the face that is built in cannot be read.
+pub fn document(title: &str, parts: &[Part]) -> Result<Vec<u8>, FontError> {
+    let face = Face::built_in()?;
+    let mut paper = Paper::new(&face, title);
+    for (k, part) in parts.iter().enumerate() {
+        paper.part(part, parts.get(k + 1));
+    }
+    let pages = paper.finish();
+    Ok(assembled(title, &face, pages))
+}
+
+fn assembled(title: &str, face: &Face, pages: Vec<Content>) -> Vec<u8> {
+    let mut pdf = Pdf::new();
+    let [catalogue, tree, information] = [1, 2, 3].map(Ref::new);
+    let page = |k: usize| Ref::new(FIRST_PAGE + 2 * k as i32);
+    pdf.catalog(catalogue).pages(tree);
+    pdf.pages(tree).kids((0..pages.len()).map(page)).count(pages.len() as i32);
+    let mut about = pdf.document_info(information);
+    about.title(TextStr(title));
+    about.producer(TextStr(concat!("Dashpot ", env!("CARGO_PKG_VERSION"))));
+    drop(about);
+    let font = face.embed(&mut pdf, 4);
+    for (k, content) in pages.into_iter().enumerate() {
+        let marks = Ref::new(page(k).get() + 1);
+        let mut own = pdf.page(page(k));
+        own.parent(tree).media_box(Rect::new(0.0, 0.0, WIDTH, HEIGHT)).contents(marks);
+        own.resources().fonts().pair(FACE, font);
+        drop(own);
+        let bytes = compressed(content.finish().as_slice());
+        pdf.stream(marks, &bytes).filter(Filter::FlateDecode);
+    }
+    pdf.finish()
+}
+
+/// Bytes as a deflated stream; writing into memory does not fail.
+fn compressed(bytes: &[u8]) -> Vec<u8> {
+    let mut encoder = ZlibEncoder::new(Vec::new(), Compression::default());
+    encoder.write_all(bytes).and_then(|()| encoder.finish()).unwrap_or_default()
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "tests")]
+    use super::super::page::Page;
+    use super::document;
+    use super::face::Face;
+    use crate::plots::drawing::Drawing;
+    use ecolor::Color32;
+    use emath::{Align2, pos2, vec2};
+    use flate2::read::ZlibDecoder;
+    use std::io::Read as _;
+
+    /// The operators of all pages, as text where they are text.
+    fn pages(pdf: &[u8]) -> Vec<Vec<u8>> {
+        let find = |from: usize, what: &[u8]| pdf[from..].windows(what.len()).position(|w| w == what).map(|k| from + k);
+        let mut streams = Vec::new();
+        let mut at = 0;
+        while let Some(start) = find(at, b"stream\n") {
+            let end = find(start, b"endstream").unwrap();
+            let mut text = Vec::new();
+            if ZlibDecoder::new(&pdf[start + 7..end]).read_to_end(&mut text).is_ok() && text.ends_with(b"\nQ") {
+                streams.push(text);
+            }
+            at = end + 9;
+        }
+        streams
+    }
+
+    fn sample(rows: usize) -> Page {
+        let mut page = Page::default();
+        page.chapter("Damping ratios");
+        let row = |k: usize| vec![format!("mode {k}"), "0.1072 ± 0.0021 N·s/m".to_owned()];
+        page.table(&["Mode", "Value|"], &(0..rows).map(row).collect::<Vec<_>>());
+        let mut drawing = Drawing::new(vec2(900.0, 500.0), Color32::WHITE, "Bode diagram");
+        drawing.words(pos2(10.0, 10.0), Align2::LEFT_TOP, "ζ = 2 %, −90°", 12.0, Color32::BLACK);
+        page.drawing(&drawing);
+        page
+    }
+
+    #[test]
+    fn pages_hold_the_text_that_was_given() {
+        let pdf = document("Cantilever", &sample(3).finish()).unwrap();
+        assert!(pdf.starts_with(b"%PDF-1.") && pdf.ends_with(b"%%EOF"));
+        let face = Face::built_in().unwrap();
+        let all: Vec<u8> = pages(&pdf).concat();
+        for text in [
+            "Cantilever",
+            "Damping ratios",
+            "mode 2",
+            "0.1072 ± 0.0021 N·s/m",
+            "Figure 1. Bode diagram",
+            "ζ = 2 %, −90°",
+        ] {
+            let glyphs = face.encode(text);
+            let hex: String = glyphs.iter().map(|b| format!("{b:02X}")).collect();
+            let written = all.windows(glyphs.len()).any(|w| w == glyphs)
+                || String::from_utf8_lossy(&all).to_uppercase().contains(&hex);
+            assert!(written, "{text}");
+        }
+    }
+
+    #[test]
+    fn a_long_table_goes_on_over_the_page_under_its_head() {
+        let pdf = document("Long", &sample(200).finish()).unwrap();
+        assert!(pages(&pdf).len() >= 4, "{} pages", pages(&pdf).len());
+    }
+}

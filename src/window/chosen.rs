@@ -1,0 +1,60 @@
+//! Files that the user chooses: by a dialog of the desktop or of the window, and what is done with them.
+
+use super::app::App;
+use super::edits::Edit;
+use super::files::Pick;
+use super::frame::choose::Choosing;
+use super::frame::leave::Leave;
+use crate::session::states::Against;
+use egui::Context;
+use std::path::{Path, PathBuf};
+
+impl App {
+    /// Does what files were chosen for.
+    pub(super) fn picked(&mut self, ctx: &Context, pick: Pick, paths: Vec<PathBuf>) {
+        let Some(first) = paths.first().cloned() else { return };
+        match pick {
+            Pick::Open => self.leave(ctx, Leave::Open(first)),
+            Pick::Import => self.import(ctx, &paths),
+            Pick::SaveAs => self.save_as(&first),
+            Pick::Export(format) => self.export(ctx, format, first),
+            Pick::Report => self.report(ctx, first),
+            Pick::EarlierState => self.view.against = Some(Against::Project(first)),
+        }
+    }
+
+    /// Appends records to the runs.
+    pub(super) fn import(&mut self, ctx: &Context, files: &[PathBuf]) {
+        if self.document.is_none() {
+            return self.fail("There is no project to import measurements into; open or make one first.".to_owned());
+        }
+        let files = files.iter().map(|f| f.display().to_string()).collect();
+        self.edit(ctx, &Edit::Do(crate::session::Command::ImportRuns(files)));
+    }
+
+    /// Saves under another name.
+    pub(super) fn save_as(&mut self, path: &Path) {
+        let Some(document) = &mut self.document else { return };
+        let saved = document.save_as(path);
+        if let (Some(recent), Ok(())) = (&mut self.recent, &saved) {
+            let kept = recent.add(path).map_err(|e| e.to_string());
+            self.note(kept);
+        }
+        match saved {
+            Ok(()) => self.say(format!("Saved as {}.", path.display())),
+            Err(error) => self.fail(error),
+        }
+    }
+
+    /// Shows a dialog of the desktop, or where it has none one of the window.
+    pub(super) fn pick(&mut self, ctx: &Context, pick: Pick) {
+        if self.own_dialogs {
+            let beside = self.document.as_ref().and_then(|d| d.session().path()?.parent().map(Path::to_path_buf));
+            let folder = beside.filter(|f| f.is_dir()).or_else(|| std::env::current_dir().ok()).unwrap_or_default();
+            self.choosing = Some(Choosing::new(pick, std::path::absolute(&folder).unwrap_or(folder)));
+            return;
+        }
+        let asked = self.work.pick(ctx, pick);
+        self.note(asked);
+    }
+}

@@ -1,0 +1,164 @@
+//! Change: two states of the structure held against each other, each source and mode with its deviations.
+
+use super::result::widest;
+use crate::display::{change as said, format, words};
+use crate::identify::change::{ModeChange, Pair, SourceChange};
+use crate::session::states::{Against, Compared, sessions};
+use crate::window::app::{App, Ask};
+use crate::window::files::Pick;
+use crate::window::theme::space;
+use crate::window::widgets::UiExt;
+use egui::{Align, Layout, RichText, ScrollArea, Ui};
+use egui_extras::{Column, TableBuilder, TableRow};
+
+/// Width of the column of chances, points.
+const CHANCE: f32 = 64.0;
+
+/// Shows the pane.
+pub fn show(ui: &mut Ui, app: &mut App, asks: &mut Vec<Ask>) {
+    let Some(document) = &app.document else { return };
+    let names = sessions(&document.project);
+    let Some(against) = app.view.against.clone() else {
+        ui.empty(
+            "What changed?",
+            "Choose the project of an earlier state: before the bolt was tightened, before the repair.",
+        );
+        ui.vertical_centered(|ui| choices(ui, &names, &mut app.view.against, asks));
+        return;
+    };
+    let found = app.derived.change(ui.ctx(), document, &against);
+    ui.horizontal_wrapped(|ui| choices(ui, &names, &mut app.view.against, asks));
+    match found {
+        None => ui.empty("Both states are being identified", "The progress is in the bar below."),
+        Some(Err(error)) => ui.empty("The states cannot be compared", &error),
+        Some(Ok(compared)) => {
+            ScrollArea::vertical().auto_shrink(false).show(ui, |ui| answer(ui, &compared));
+        }
+    }
+}
+
+/// Buttons for what the project is held against.
+fn choices(ui: &mut Ui, names: &[String], against: &mut Option<Against>, asks: &mut Vec<Ask>) {
+    let tip = "Its sources and those of this project are identified in both states and compared.";
+    if ui.button("Choose the earlier state…").on_hover_text(tip).clicked() {
+        asks.push(Ask::Pick(Pick::EarlierState));
+    }
+    for pair in names.windows(2) {
+        if ui.button(format!("Session {} against {}", pair[0], pair[1])).clicked() {
+            *against = Some(Against::Sessions([pair[0].clone(), pair[1].clone()]));
+        }
+    }
+    if against.is_some() && ui.button("End").on_hover_text("Compares with nothing any more.").clicked() {
+        *against = None;
+    }
+}
+
+fn answer(ui: &mut Ui, compared: &Compared) {
+    let Compared { titles, structure, change } = compared;
+    ui.hint(format!("First: {}.  Second: {}.", titles[0], titles[1]));
+    let any = change.changed().next().is_some();
+    let colour = if any { ui.palette().missing } else { ui.palette().ink };
+    ui.label(RichText::new(said::sentence(structure, change)).color(colour));
+    ui.add_space(space::XS);
+    let source = |s: &SourceChange| Row {
+        name: format!("{} {}", words::effect(s.source.effect), words::short_place(structure, &s.source.place)),
+        unit: format::pretty_unit(said::unit(s)),
+        pair: s.coefficient,
+    };
+    table(ui, "Source", &change.sources.iter().map(source).collect::<Vec<_>>());
+    if change.modes.is_empty() {
+        return;
+    }
+    ui.add_space(space::S);
+    ui.title("Damping ratios", "of the modes of both models");
+    let mode = |m: &ModeChange| Row {
+        name: format::with_unit(m.frequency_hz[0], "Hz"),
+        unit: "%".to_owned(),
+        pair: percent(&m.ratio),
+    };
+    table(ui, "Mode", &change.modes.iter().map(mode).collect::<Vec<_>>());
+}
+
+fn percent(ratio: &Pair) -> Pair {
+    let hundred = |v: f64| 100.0 * v;
+    Pair {
+        values: ratio.values.map(hundred),
+        deviations: ratio.deviations.map(hundred),
+        difference: hundred(ratio.difference),
+        deviation: hundred(ratio.deviation),
+        chance: ratio.chance,
+    }
+}
+
+/// A value in both states.
+struct Row {
+    name: String,
+    unit: String,
+    pair: Pair,
+}
+
+impl Row {
+    /// Values in both states; without their deviations where there is little room.
+    fn states(&self, in_full: bool) -> [String; 2] {
+        let Pair { values, deviations, .. } = self.pair;
+        let said = |k: usize| {
+            if in_full {
+                format::with_deviation(values[k], deviations[k], "")
+            } else {
+                format::significant(values[k], 4)
+            }
+        };
+        [0, 1].map(said)
+    }
+
+    fn difference(&self) -> String {
+        let text = format::with_deviation(self.pair.difference, self.pair.deviation, "");
+        if self.pair.difference > 0.0 && !text.starts_with('0') { format!("+{text}") } else { text }
+    }
+}
+
+fn table(ui: &mut Ui, what: &str, rows: &[Row]) {
+    ui.style_mut().interaction.selectable_labels = false;
+    let names = widest(ui, rows.iter().map(|r| r.name.clone()));
+    let full = widest(ui, rows.iter().flat_map(|r| r.states(true)));
+    let short = widest(ui, rows.iter().flat_map(|r| r.states(false)));
+    let difference = widest(ui, rows.iter().map(Row::difference)).max(70.0);
+    let unit = widest(ui, rows.iter().map(|r| r.unit.clone()));
+    let in_full =
+        names + 2.0 * full + difference + unit + CHANCE + 5.0 * ui.spacing().item_spacing.x <= ui.available_width();
+    let states = if in_full { full } else { short };
+    TableBuilder::new(ui)
+        .id_salt(what)
+        .vscroll(false)
+        .striped(true)
+        .cell_layout(Layout::left_to_right(Align::Center))
+        .column(Column::remainder().at_least(90.0).clip(true))
+        .columns(Column::exact(states), 2)
+        .column(Column::exact(difference))
+        .column(Column::exact(unit))
+        .column(Column::exact(CHANCE))
+        .header(space::ROW, |mut head| {
+            head.col(|ui| drop(ui.hint(what)));
+            for name in ["First", "Second", "Difference"] {
+                head.col(|ui| drop(super::head_right(ui, name)));
+            }
+            head.col(|ui| drop(ui.hint("Unit")));
+            head.col(|ui| {
+                super::head_right(ui, "Chance").on_hover_text("Probability of a difference as large by noise alone.");
+            });
+        })
+        .body(|body| body.rows(space::ROW, rows.len(), |mut row| cells(&mut row, rows, in_full)));
+}
+
+fn cells(row: &mut TableRow<'_, '_>, rows: &[Row], in_full: bool) {
+    let entry = &rows[row.index()];
+    let changed = entry.pair.is_significant();
+    row.set_selected(changed);
+    row.col(|ui| drop(ui.label(&entry.name)));
+    for state in entry.states(in_full) {
+        row.col(|ui| drop(ui.number(state)));
+    }
+    row.col(|ui| drop(ui.number(entry.difference())));
+    row.col(|ui| drop(ui.hint(&entry.unit)));
+    row.col(|ui| drop(ui.number(said::chance(entry.pair.chance))));
+}
