@@ -6,11 +6,13 @@
 mod guess;
 pub mod propose;
 mod read;
+mod runs;
 mod stepped;
 pub mod table;
 pub mod units;
 
 pub use propose::{Proposal, propose};
 pub(crate) use read::{Template, read_mapped, reads_as_own};
+pub use runs::runs_of;
 pub use stepped::{Stepped, stepped};
 pub use table::ChannelTable;
