@@ -10,6 +10,7 @@ use super::frame;
 use super::frame::dock::Desk;
 use super::frame::leave::Leave;
 use super::frame::panes::Pane;
+use super::importing::{self, Importing};
 use super::learn::{self, Learn};
 use super::photograph::Photograph;
 use super::plots::export::Exports;
@@ -58,6 +59,8 @@ pub struct App {
     pub leaving: Option<Leave>,
     /// Whether the program may close.
     pub(super) closing: bool,
+    /// Files on their way into a project.
+    pub importing: Option<Importing>,
     /// The page of laws.
     pub learn: Learn,
     work: Work,
@@ -70,8 +73,11 @@ pub struct App {
 }
 
 impl App {
-    /// Starts to read a project file in the background.
+    /// Starts to read a project file in the background, or to look into a file of measurements.
     pub fn open(&mut self, ctx: &Context, file: PathBuf) {
+        if !is_project(&file) {
+            return self.import(ctx, &[file]);
+        }
         let started = self.work.load(ctx, file);
         self.note(started);
     }
@@ -87,6 +93,7 @@ impl App {
                 Err(error) => self.fail(error.to_string()),
             }
         }
+        self.settle_import(ctx, LONGEST);
         match &self.message {
             Some(message) if message.failed => Err(message.text.clone()),
             _ => Ok(()),
@@ -139,8 +146,9 @@ impl App {
     fn picked(&mut self, ctx: &Context, pick: Pick, paths: Vec<PathBuf>) {
         let Some(first) = paths.first().cloned() else { return };
         match pick {
-            Pick::Open => self.leave(ctx, Leave::Open(first)),
-            Pick::Import => self.import(ctx, &paths),
+            Pick::Open if is_project(&first) => self.leave(ctx, Leave::Open(first)),
+            Pick::Open | Pick::Import => self.import(ctx, &paths),
+            Pick::Model => self.lay_under(ctx, paths),
             Pick::SaveAs => self.save_as(&first),
             Pick::Export(format) => self.export(ctx, format, first),
             Pick::Report => self.report(ctx, first),
@@ -159,7 +167,7 @@ impl App {
         self.messages.extend(self.message.clone());
     }
 
-    fn note(&mut self, result: Result<(), String>) {
+    pub(super) fn note(&mut self, result: Result<(), String>) {
         if let Err(error) = result {
             self.fail(error);
         }
@@ -167,7 +175,8 @@ impl App {
 
     /// Name and progress of what runs.
     pub fn running(&self) -> Option<(&str, f64)> {
-        self.work.running().or_else(|| self.derived.running()).or_else(|| self.learn.running())
+        let imported = || self.importing.as_ref().and_then(Importing::running);
+        self.work.running().or_else(imported).or_else(|| self.derived.running()).or_else(|| self.learn.running())
     }
 
     /// Gives up what runs, on the user's wish.
@@ -177,6 +186,7 @@ impl App {
         }
         self.work.cancel();
         self.derived.cancel();
+        self.importing = self.importing.take().and_then(Importing::cancelled);
         self.learn.cancel();
         self.say("Cancelled.".to_owned());
     }
@@ -186,6 +196,7 @@ impl App {
         let ctx = ui.ctx().clone();
         self.guard.watch(&ctx);
         self.poll(&ctx);
+        self.step_import(&ctx);
         let busy = self.running().is_some();
         if let Some(photograph) = &mut self.photograph {
             photograph.frame(&ctx, busy);
@@ -208,6 +219,8 @@ impl App {
         frame::status::show(ui, self, &mut asks);
         if self.learn.open {
             learn::show(ui, self, &mut asks);
+        } else if self.importing.is_some() {
+            importing::show(ui, self, &mut asks);
         } else if self.document.is_some() {
             let desk = Frame::new().fill(Palette::of(ui.visuals()).desk).inner_margin(Margin::same(space::GAP as i8));
             CentralPanel::default().frame(desk).show(ui, |ui| frame::dock::show(ui, self, &mut asks));
@@ -258,6 +271,7 @@ impl App {
             Ask::New(template) => self.leave(ctx, Leave::New(template)),
             Ask::Leave(changes) => self.left(ctx, changes),
             Ask::Import(files) => self.import(ctx, &files),
+            Ask::Importing(wish) => self.import_wish(ctx, wish),
             Ask::SaveAs(path) => self.save_as(&path),
             Ask::ExportAs(format) => {
                 let asked = self.work.pick(ctx, Pick::Export(format));
@@ -303,14 +317,6 @@ impl App {
             Intent::RemoveSource(source) => self.edit(ctx, &Edit::Remove(source)),
             Intent::Edit(edit) => self.edit(ctx, &edit),
         }
-    }
-
-    fn import(&mut self, ctx: &Context, files: &[PathBuf]) {
-        if self.document.is_none() {
-            return self.fail("There is no project to import measurements into; open or make one first.".to_owned());
-        }
-        let files = files.iter().map(|f| f.display().to_string()).collect();
-        self.edit(ctx, &Edit::Do(crate::session::Command::ImportRuns(files)));
     }
 
     /// Makes a new project from a template.
@@ -382,10 +388,14 @@ impl eframe::App for App {
     }
 }
 
+/// Whether a file is a project by its name.
+pub(super) fn is_project(file: &Path) -> bool {
+    file.extension().is_some_and(|end| end.eq_ignore_ascii_case("toml"))
+}
+
 /// A dropped project is opened, dropped records are appended.
 fn dropped(ctx: &Context) -> Vec<Ask> {
     let files: Vec<PathBuf> = ctx.input(|i| i.raw.dropped_files.iter().map(|f| f.path().to_path_buf()).collect());
-    let is_project = |f: &Path| f.extension().is_some_and(|e| e.eq_ignore_ascii_case("toml"));
     let (projects, records): (Vec<PathBuf>, Vec<PathBuf>) = files.into_iter().partition(|f| is_project(f));
     let records = (!records.is_empty()).then_some(Ask::Import(records));
     projects.into_iter().map(Ask::Open).chain(records).collect()

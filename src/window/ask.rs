@@ -4,6 +4,7 @@ use super::commands::Command;
 use super::edits::Edit;
 use super::frame::leave::Changes;
 use super::frame::panes::Pane;
+use super::importing::Wish;
 use super::schematic::gesture::Intent;
 use super::stages;
 use super::view::Stage;
@@ -30,8 +31,10 @@ pub enum Ask {
     Open(PathBuf),
     /// A new project from a template, by its number.
     New(usize),
-    /// Records to append.
+    /// Measurements, and files of a model, to import.
     Import(Vec<PathBuf>),
+    /// Something on the page of an import.
+    Importing(Wish),
     /// Another name for the project.
     SaveAs(PathBuf),
     /// What was identified in a format; where to, is asked.

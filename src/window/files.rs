@@ -9,13 +9,19 @@ use std::path::{Path, PathBuf};
 /// Name of the work that waits for a dialog.
 pub const ASKING: &str = "Choosing a file";
 
+/// Endings of measurement files.
+const MEASUREMENTS: [&str; 16] =
+    ["uff", "unv", "uf", "mat", "h5", "hdf5", "tdms", "lvm", "csv", "txt", "tsv", "dat", "xlsx", "wav", "npy", "npz"];
+
 /// What a file is asked for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Pick {
     /// A project to open.
     Open,
-    /// Records to append.
+    /// Measurements to import.
     Import,
+    /// Files of the model that is laid under an import.
+    Model,
     /// Where to save the project.
     SaveAs,
     /// Where to write what was identified.
@@ -28,8 +34,19 @@ pub enum Pick {
 pub fn ask(pick: Pick) -> impl Future<Output = Vec<PathBuf>> + Send {
     let dialog = AsyncFileDialog::new();
     let dialog = match pick {
-        Pick::Open => dialog.set_title("Open a project").add_filter("Dashpot project", &["toml"]),
-        Pick::Import => dialog.set_title("Import measurements").add_filter("Records", &["csv", "txt", "tsv"]),
+        Pick::Open => dialog
+            .set_title("Open a project or measurements")
+            .add_filter("Dashpot project", &["toml"])
+            .add_filter("Measurements", &MEASUREMENTS)
+            .add_filter("All files", &["*"]),
+        Pick::Import => dialog
+            .set_title("Import measurements")
+            .add_filter("Measurements", &MEASUREMENTS)
+            .add_filter("All files", &["*"]),
+        Pick::Model => dialog
+            .set_title("Mass, stiffness and nodes of the model")
+            .add_filter("Finite-element model", &["bdf", "dat", "nas", "pch", "op4", "mtx", "sti", "mas", "inp"])
+            .add_filter("All files", &["*"]),
         Pick::SaveAs => dialog.set_title("Save the project as").set_file_name("project.toml"),
         Pick::Report => dialog.set_title("Report").set_file_name("report.html").add_filter("HTML", &["html"]),
         Pick::Export(format) => dialog.set_title("Export").set_file_name(format!("damping.{}", extension(format))),
@@ -38,7 +55,7 @@ pub fn ask(pick: Pick) -> impl Future<Output = Vec<PathBuf>> + Send {
         let paths = |files: Vec<rfd::FileHandle>| files.iter().map(|f| f.path().to_path_buf()).collect();
         match pick {
             Pick::Open => paths(dialog.pick_file().await.into_iter().collect()),
-            Pick::Import => paths(dialog.pick_files().await.unwrap_or_default()),
+            Pick::Import | Pick::Model => paths(dialog.pick_files().await.unwrap_or_default()),
             Pick::SaveAs | Pick::Export(_) | Pick::Report => paths(dialog.save_file().await.into_iter().collect()),
         }
     }

@@ -7,6 +7,7 @@ mod explain;
 mod export;
 mod friction;
 mod history;
+mod importing;
 mod journey;
 mod laboratory;
 mod laws;

@@ -29,7 +29,10 @@ fn collect(path: &Path, files: &mut Vec<PathBuf>, depth: usize) -> Result<()> {
     let mut inside: Vec<PathBuf> = listing.filter_map(std::result::Result::ok).map(|entry| entry.path()).collect();
     inside.sort();
     let hidden = |path: &PathBuf| path.file_name().is_some_and(|name| name.to_string_lossy().starts_with('.'));
-    inside.iter().filter(|path| !hidden(path) && !path.is_symlink()).try_for_each(|path| collect(path, files, depth + 1))
+    inside
+        .iter()
+        .filter(|path| !hidden(path) && !path.is_symlink())
+        .try_for_each(|path| collect(path, files, depth + 1))
 }
 
 /// The part of a finite-element model that a file is, by its ending.
@@ -102,7 +105,8 @@ mod tests {
 
     #[test]
     fn a_model_among_the_files_is_told_from_measurements() {
-        let request = Request::of(["a.uff", "wing.sti", "wing.mas", "wing.dof", "wing.inp", "b.uff"].map(PathBuf::from).into());
+        let request =
+            Request::of(["a.uff", "wing.sti", "wing.mas", "wing.dof", "wing.inp", "b.uff"].map(PathBuf::from).into());
         assert_eq!(request.files, ["a.uff", "b.uff"].map(PathBuf::from));
         assert_eq!(request.mass, Some("wing.mas".into()));
         assert_eq!((request.stiffness, request.nodes), (Some("wing.sti".into()), Some("wing.inp".into())));

@@ -1,7 +1,7 @@
 //! A finite-element model under the measurements, reduced where it is large.
 
-use super::{ImportError, Request, Result};
 use super::text::named;
+use super::{ImportError, Request, Result};
 use crate::exchange::matrices::model::{Model, ModelFiles, read_model};
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -54,7 +54,9 @@ pub(super) struct Point {
 /// # Errors
 /// One sentence for a point that is not in the model.
 pub(super) fn places(points: &[Point], model: &Model) -> Result<Vec<String>> {
-    let dofs = model.dofs.as_ref().ok_or_else(|| ImportError::Said("the model does not name its degrees of freedom; give a file that does".to_owned()))?;
+    let dofs = model.dofs.as_ref().ok_or_else(|| {
+        ImportError::Said("the model does not name its degrees of freedom; give a file that does".to_owned())
+    })?;
     let labels: std::collections::HashSet<&str> = dofs.iter().map(|dof| dof.label.as_str()).collect();
     let nodes: Vec<(&str, [f64; 3])> =
         model.nodes.iter().flatten().map(|node| (node.label.as_str(), node.position)).collect();
@@ -69,8 +71,7 @@ pub(super) fn places(points: &[Point], model: &Model) -> Result<Vec<String>> {
         }
         Err(ImportError::Said(format!(
             "point {} direction {} is not in the model, neither by its number nor by its place; say it under [frf.dofs]",
-            point.node,
-            point.direction
+            point.node, point.direction
         )))
     };
     points.iter().map(one).collect()

@@ -1,8 +1,8 @@
 //! Import of frequency responses: a project with `[[frf]]`, its DOFs those of the file or of a model.
 
-use super::{ImportError, Imported, Request, Result};
-use super::text::{comment, head, named, points as points_structure};
 use super::model::{Point, model, places};
+use super::text::{comment, head, named, points as points_structure};
+use super::{ImportError, Imported, Request, Result};
 use crate::control::Control;
 use crate::exchange::frf::{Form, pair_in_name, plain_place, response_in_name};
 use crate::exchange::project::frf::FrfTable;
@@ -184,7 +184,8 @@ fn measured(request: &Request, files: &[DataFile]) -> Result<(Vec<Measured>, Vec
             references = vec![responses[0].clone()];
         }
         if references.len() != 1 {
-            let problem = "neither names nor file say the DOFs of the functions; give them by --responses and --references";
+            let problem =
+                "neither names nor file say the DOFs of the functions; give them by --responses and --references";
             return Err(ImportError::of(&request.files[0], problem));
         }
         assumed.push(format!("{how}, all driven at {}", references[0]));

@@ -1,7 +1,7 @@
 //! Import of a stepped-sine table: a project with `[[harmonics]]`, one run a row.
 
-use super::{Imported, Request, Result};
 use super::text::{comment, head, named, points};
+use super::{Imported, Request, Result};
 use crate::control::Control;
 use crate::exchange::mapping::Stepped;
 use crate::exchange::project::plan;

@@ -75,9 +75,12 @@ pub fn propose(contents: &Contents) -> Proposal {
 /// The first of the sets that are several of one layout, each with a name of its own.
 fn of_one_layout<'a>(sets: &[&'a Set]) -> Option<&'a Set> {
     let layout = |set: &Set| set.channels.iter().map(|channel| channel.name.clone()).collect::<Vec<_>>();
-    let alike = |set: &Set| sets.iter().filter(|other| layout(other) == layout(set)).map(|other| &other.name);
-    let found = sets.iter().copied().filter(|set| set.channels.len() > 1).find(|set| alike(set).count() > 1)?;
-    let mut names: Vec<&String> = alike(found).collect();
+    let alike = |set: &Set| -> Vec<&String> {
+        let own = layout(set);
+        sets.iter().filter(|other| layout(other) == own).map(|other| &other.name).collect()
+    };
+    let found = sets.iter().copied().filter(|set| set.channels.len() > 1).find(|set| alike(set).len() > 1)?;
+    let mut names = alike(found);
     names.sort_unstable();
     names.windows(2).all(|pair| pair[0] != pair[1]).then_some(found)
 }

@@ -133,7 +133,7 @@ fn file(ui: &mut Ui, app: &App, asks: &mut Vec<Ask>) {
         });
     });
     ui.separator();
-    entry(ui, Command::Import, open, None, asks);
+    entry(ui, Command::Import, true, None, asks);
     ui.separator();
     let dirty = app.document.as_ref().is_some_and(|d| d.session().is_dirty());
     entry(ui, Command::Save, dirty, None, asks);

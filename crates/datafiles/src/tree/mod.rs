@@ -4,6 +4,7 @@ mod names;
 mod sets;
 mod source;
 
+pub(crate) use names::{Sampling, sampling};
 pub(crate) use sets::sets;
 pub(crate) use source::{Arrays, Flat, TreeSource};
 

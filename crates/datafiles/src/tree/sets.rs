@@ -123,7 +123,8 @@ impl Made<'_> {
                 && depth < DEEPEST
             {
                 let name = if path.is_empty() { entry.name.clone() } else { format!("{path}/{}", entry.name) };
-                self.group(&name, inner, &entry.attributes, below, depth + 1)?;
+                let named = labels.named_cells(inner);
+                self.group(&name, named.as_deref().unwrap_or(inner), &entry.attributes, below, depth + 1)?;
             }
         }
         Ok(())
@@ -141,11 +142,7 @@ impl Made<'_> {
             };
             let long =
                 |other: &Entry| matches!(&other.node, Node::Array(other) if other.shape.extents.contains(&count));
-            let others = |other: &Entry| match &other.node {
-                Node::Group(inner) => inner.iter().any(long),
-                _ => long(other),
-            };
-            if entries.iter().enumerate().all(|(j, other)| j == i || !others(other)) {
+            if entries.iter().enumerate().all(|(j, other)| j == i || !within(other, &long, 0)) {
                 continue;
             }
             let step = if count <= MOST_CHECKED {
@@ -200,7 +197,9 @@ impl Made<'_> {
         let Some(array) = names::array_at(entries, &["y_values", "values"]) else { return false };
         let Some(step) = names::scalar_at(entries, &["x_values", "increment"]) else { return false };
         let start = names::scalar_at(entries, &["x_values", "start_value"]).unwrap_or(0.0);
-        let x_unit = names::text_at(entries, &["x_values", "quantity", "label"]).unwrap_or("s");
+        let x_unit = names::text_at(entries, &["x_values", "quantity", "label"]);
+        // Complex values are over frequencies.
+        let x_unit = x_unit.unwrap_or(if array.complex { "Hz" } else { "s" });
         let unit = names::text_at(entries, &["y_values", "quantity", "label"]).unwrap_or_default();
         let name = names::text_at(entries, &["function_record", "name"]).unwrap_or(path);
         let names = names::texts_at(entries, &["function_record", "name"]).to_vec();
@@ -231,6 +230,14 @@ impl Made<'_> {
         self.sets.push(set);
         self.places.push(places);
         true
+    }
+}
+
+/// Whether an entry or any below it is one that is looked for.
+fn within(entry: &Entry, wanted: &impl Fn(&Entry) -> bool, depth: usize) -> bool {
+    match &entry.node {
+        Node::Group(inner) => depth < DEEPEST && inner.iter().any(|entry| within(entry, wanted, depth + 1)),
+        _ => wanted(entry),
     }
 }
 
@@ -296,6 +303,23 @@ impl Labels {
             Some((name.to_owned(), texts(entry)?.into_iter().next()?))
         });
         Self { names: find(names::is_names_word), units: find(names::is_unit_word), unit_of: unit_of.collect(), sides }
+    }
+}
+
+impl Labels {
+    /// The arrays of a cell under the names that lie beside it, one each.
+    fn named_cells(&self, cells: &[Entry]) -> Option<Vec<Entry>> {
+        let numbered = |entry: &Entry| entry.name.starts_with('{') && matches!(entry.node, Node::Array(_));
+        if cells.is_empty() || cells.len() != self.names.len() || !cells.iter().all(numbered) {
+            return None;
+        }
+        let one = |(i, entry): (usize, &Entry)| {
+            let unit = self.units.get(i).filter(|_| self.units.len() == cells.len());
+            let unit = unit.map(|unit| ("unit".to_owned(), unit.clone()));
+            let attributes = entry.attributes.iter().cloned().chain(unit).collect();
+            Entry { name: self.names[i].clone(), node: entry.node.clone(), attributes }
+        };
+        Some(cells.iter().enumerate().map(one).collect())
     }
 }
 
