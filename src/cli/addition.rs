@@ -1,7 +1,8 @@
 //! Writes an effect into a project's text as known: a new table, a larger coefficient of what is known there already, or
 //! an error of a channel on top of the one that is corrected already.
 
-use super::diagnose::{label, labels};
+use super::diagnose::label;
+use super::source_words::labels;
 use crate::effects::{Effect, Place, Source, State};
 use crate::exchange::Project;
 use anyhow::bail;

@@ -1,7 +1,7 @@
 //! `dashpot compare`: model against measurement, error per run, channel and harmonic.
 
 use super::arguments::Analysis;
-use super::diagnose::{corrected, correction};
+use super::corrected::{corrected, correction};
 use super::identified;
 use super::records::{compared, only_records};
 use super::reduction;

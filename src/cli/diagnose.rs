@@ -4,29 +4,32 @@ use super::addition;
 use super::arguments::Diagnose;
 use super::channel_faults;
 use super::compare::problem;
+use super::corrected::{corrected, correction};
 use super::corrections::correct;
 use super::identified;
 use super::records::only_records;
 use super::run_flags::{self, flags};
+use super::source_words::{named, title, with_values};
 use super::table::{number, table};
 use crate::control::Control;
 use crate::diagnosis::component::{Loops, diagnose_component};
-use crate::diagnosis::diagnose::{Added, Correction, Diagnosis, Early, Suggestion, diagnose_without};
+use crate::diagnosis::diagnose::{Diagnosis, Early, Suggestion, diagnose_without};
 use crate::diagnosis::records::{Records, diagnose_records};
-use crate::diagnosis::updating::parameters::UpdatingParameter;
-use crate::effects::{Place, Source, State};
+use crate::effects::{Source, State};
 use crate::exchange::Project;
 use crate::exchange::project::load;
 use crate::exchange::project::relocate::{canonical, renamed};
 use crate::session::time_limit::hurry_after;
 use crate::session::workers::Threads;
-use crate::structure::Part;
 use crate::structure::{Coupled, Structure, StructureKind};
 use anyhow::Context;
-use serde_json::{Map, Value, json};
+use serde_json::{Value, json};
 use std::path::Path;
 use std::sync::Arc;
 use std::time::Duration;
+
+/// Most pairs that a sentence lists.
+const MOST_PAIRS: usize = 16;
 
 /// Diagnoses, prints, and writes the project with the best suggestion where asked.
 pub(super) fn run(arguments: &Diagnose) -> anyhow::Result<String> {
@@ -98,37 +101,6 @@ fn first_words(structure: &Structure, found: &[Suggestion]) -> String {
     found.iter().take(3).map(line).collect()
 }
 
-/// Labels of the DOFs of a place; none for the whole structure and channels.
-pub(super) fn labels(structure: &Structure, place: &Place) -> Vec<String> {
-    match place {
-        Place::Dofs(dofs) => dofs.iter().map(|&dof| structure.label(dof).to_owned()).collect(),
-        Place::Whole(_) | Place::Channel(_) => Vec::new(),
-    }
-}
-
-/// Effect and place: `dofs`, or `channel` for an error of one.
-fn named(structure: &Structure, source: &Source) -> Map<String, Value> {
-    let mut map = Map::new();
-    map.insert("effect".into(), json!(source.effect.name()));
-    match &source.place {
-        Place::Channel(channel) => map.insert("channel".into(), json!(channel)),
-        place => map.insert("dofs".into(), json!(labels(structure, place))),
-    };
-    map
-}
-
-fn with_values(structure: &Structure, added: &Added) -> Map<String, Value> {
-    let mut map = named(structure, &added.source);
-    let by_name = |values: &[f64]| -> Value {
-        let list = added.source.effect.parameters().iter().zip(values);
-        // JSON knows no infinity: a parameter that the data do not fix has no deviation.
-        Value::Object(list.map(|(p, v)| (p.name.to_owned(), json!(v.is_finite().then_some(*v)))).collect())
-    };
-    map.insert("parameters".into(), by_name(&added.source.parameters));
-    map.insert("standard_deviation".into(), by_name(&added.deviations));
-    map
-}
-
 fn suggestion(structure: &Structure, suggestion: &Suggestion) -> Value {
     let mut map = with_values(structure, &suggestion.added);
     let alike: Vec<Value> =
@@ -139,68 +111,6 @@ fn suggestion(structure: &Structure, suggestion: &Suggestion) -> Value {
     map.insert("evidence".into(), json!(suggestion.evidence));
     map.insert("indistinguishable_from".into(), json!(alike));
     Value::Object(map)
-}
-
-/// A correction of what the model states: `what`, its place or mode, and the factor on it.
-pub(super) fn correction(project: &Project, correction: &Correction) -> Value {
-    let mut map = Map::new();
-    let dofs = |dofs: &[usize]| json!(labels(&project.structure, &Place::Dofs(dofs.to_vec())));
-    let elements = |range: &[usize; 2]| json!(range.map(|element| element + 1));
-    let (what, key, place) = match &correction.parameter {
-        UpdatingParameter::Structure(part) => match part {
-            Part::Stiffness => ("stiffness", "", Value::Null),
-            Part::Mass => ("mass", "", Value::Null),
-            Part::Mode(mode) => ("mode", "mode", json!(mode + 1)),
-            Part::GroundSpring(dof) => ("spring", "dofs", dofs(&[*dof])),
-            Part::Coupling(pair) => ("spring", "dofs", dofs(pair)),
-            Part::PointMass(dof) => ("point_mass", "dofs", dofs(&[*dof])),
-            Part::ElementStiffness(range) => ("element_stiffness", "elements", elements(range)),
-            Part::ElementMass(range) => ("element_mass", "elements", elements(range)),
-        },
-        UpdatingParameter::Known(index) => {
-            if let Some(source) = problem(project).known().get(*index) {
-                map.extend(named(&project.structure, source));
-            }
-            ("source", "", Value::Null)
-        }
-        UpdatingParameter::Gain(channel) => ("gain", "channel", json!(channel)),
-        UpdatingParameter::Delay(channel) => ("delay", "channel", json!(channel)),
-        UpdatingParameter::Session(session) => ("session", "session", json!(session + 1)),
-    };
-    map.insert("what".into(), json!(what));
-    if !key.is_empty() {
-        map.insert(key.into(), place);
-    }
-    map.insert("factor".into(), json!(correction.factor));
-    map.insert("standard_deviation".into(), json!(correction.deviation));
-    Value::Object(map)
-}
-
-/// A correction in words.
-pub(super) fn corrected(project: &Project, correction: &Correction) -> String {
-    let at = |dofs: &[usize]| labels(&project.structure, &Place::Dofs(dofs.to_vec())).join(" - ");
-    let elements = |[first, last]: [usize; 2]| {
-        if first == last { format!("element {}", first + 1) } else { format!("elements {} to {}", first + 1, last + 1) }
-    };
-    let what = match &correction.parameter {
-        UpdatingParameter::Structure(part) => match *part {
-            Part::Stiffness => "all stiffness".to_owned(),
-            Part::Mass => "all mass".to_owned(),
-            Part::Mode(mode) => format!("stiffness of mode {}", mode + 1),
-            Part::GroundSpring(dof) => format!("spring at {}", at(&[dof])),
-            Part::Coupling(pair) => format!("spring at {}", at(&pair)),
-            Part::PointMass(dof) => format!("mass at {}", at(&[dof])),
-            Part::ElementStiffness(range) => format!("stiffness of {}", elements(range)),
-            Part::ElementMass(range) => format!("mass of {}", elements(range)),
-        },
-        UpdatingParameter::Known(index) => {
-            problem(project).known().get(*index).map_or_else(String::new, |s| title(&project.structure, s))
-        }
-        UpdatingParameter::Gain(channel) => format!("gain of {channel}"),
-        UpdatingParameter::Delay(channel) => format!("delay of {channel}"),
-        UpdatingParameter::Session(session) => format!("stiffness of session {}", session + 1),
-    };
-    format!("  {what}: times {:.4} +- {:.4}", correction.factor, correction.deviation)
 }
 
 fn document(project: &Project, diagnosis: &Diagnosis) -> Value {
@@ -260,19 +170,6 @@ fn neighbours_in_words(structure: &Structure, coupled: &Coupled) -> String {
         "the pairs that the stiffness couples are taken for"
     };
     format!("\nno lines are given: {what} neighbours: {}{more}\n", pairs.join(", "))
-}
-
-/// Most pairs that a sentence lists.
-const MOST_PAIRS: usize = 16;
-
-/// Effect and place in words.
-fn title(structure: &Structure, source: &Source) -> String {
-    let place = match &source.place {
-        Place::Channel(channel) => format!("of {channel}"),
-        Place::Whole(_) => "of the whole structure".to_owned(),
-        place @ Place::Dofs(_) => format!("at {}", labels(structure, place).join(" - ")),
-    };
-    format!("{} {place}", source.effect.title())
 }
 
 fn text(project: &Project, diagnosis: &Diagnosis) -> String {

@@ -2,7 +2,7 @@
 //! without any, and nothing limits its response at resonance.
 
 use super::compare::problem;
-use super::diagnose::labels;
+use super::source_words::labels;
 use crate::control::Control;
 use crate::diagnosis::compare;
 use crate::effects::Source;

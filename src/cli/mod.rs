@@ -10,6 +10,7 @@ mod channel_faults;
 mod compare;
 mod contents;
 mod convert;
+mod corrected;
 mod corrections;
 mod diagnose;
 mod export;
@@ -31,6 +32,7 @@ mod simulate;
 mod simulate_component;
 mod simulate_frf;
 mod source_json;
+mod source_words;
 mod table;
 
 use arguments::{Arguments, Command};

@@ -78,6 +78,7 @@ fn corrected_part(structure: &Structure, part: Part) -> String {
         Part::PointMass(dof) => format!("Mass {}", at(&[dof])),
         Part::ElementStiffness(range) => format!("Stiffness of {}", elements(range)),
         Part::ElementMass(range) => format!("Mass of {}", elements(range)),
+        Part::Support(held) => format!("Support at node {}", structure.held_node(held).unwrap_or_default()),
     }
 }
 

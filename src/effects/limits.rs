@@ -55,6 +55,12 @@ impl Source {
         Some(Self { effect: limit.law, parameters: (limit.parameters)(&self.parameters), ..self.clone() })
     }
 
+    /// The simpler laws at this place that the law contains, with the parameters that this source has of them.
+    pub fn limits(&self) -> impl Iterator<Item = Self> {
+        let limits = self.effect.description().limits.iter();
+        limits.map(|limit| Self { effect: limit.law, parameters: (limit.parameters)(&self.parameters), ..self.clone() })
+    }
+
     /// Whether the source is a simpler law by another name that is looked at beside it anyway: a force that knows no
     /// speed, or friction that does not fall from rest to sliding.
     pub fn is_disguised(&self) -> bool {

@@ -268,12 +268,10 @@ pub(crate) fn pseudo_force(
 /// Pseudo-force of a part of the structure.
 fn part_force(linear: &LinearPart, part: Part, x: &[c64], w: f64) -> Option<Vec<c64>> {
     let [fk, fm] = linear.factors(w);
-    let (entries, factor) = match linear.structure().share(part)? {
-        Share::Stiffness(entries) => (entries, -fk),
-        Share::Mass(entries) => (entries, -fm),
-    };
+    let Share { stiffness, mass } = linear.structure().share(part)?;
     let mut load = vec![c64::new(0.0, 0.0); x.len()];
-    entries.into_iter().for_each(|(i, j, value)| load[i] += x[j] * (factor * value));
+    stiffness.into_iter().for_each(|(i, j, value)| load[i] -= x[j] * (fk * value));
+    mass.into_iter().for_each(|(i, j, value)| load[i] -= x[j] * (fm * value));
     Some(load)
 }
 

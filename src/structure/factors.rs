@@ -4,10 +4,10 @@
 //! K' = f_K (K + sum_p (f_p - 1) K_p),      M' = f_M (M + sum_p (f_p - 1) M_p)
 //! ```
 //!
-//! with `K_p`, `M_p` the share of part `p`: a range of elements, a spring, the stiffness of one mode, a point mass
+//! with `K_p`, `M_p` the share of part `p`: a range of elements, a spring, the stiffness of one mode, a point mass, a support
 //! (Friswell and Mottershead, Finite Element Model Updating in Structural Dynamics, 1995, chapter 8).
 
-use super::{Structure, StructureKind, SystemMatrices};
+use super::{Element, Structure, StructureKind, SystemMatrices};
 use faer::Mat;
 
 /// A part of a structure; rows are counted from 0.
@@ -29,18 +29,40 @@ pub enum Part {
     Coupling([usize; 2]),
     /// Mass on the diagonal at a DOF.
     PointMass(usize),
+    /// Support of a held DOF of a beam, taken for rigid: `k_s / (k_s + k_hh)` of a spring `k_s` in its stead, `k_hh` being the
+    /// stiffness of the element there.
+    Support(HeldDof),
+}
+
+/// A DOF of an element that a support holds.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct HeldDof {
+    /// The element, from 0.
+    pub element: usize,
+    /// Which of its local DOFs.
+    pub dof: usize,
 }
 
 /// Entries of a symmetric matrix, `(row, column, value)`, both triangles.
 pub type Triplets = Vec<(usize, usize, f64)>;
 
 /// The share of one part in the matrices.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Share {
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Share {
     /// Of the stiffness matrix, N/m.
-    Stiffness(Triplets),
+    pub stiffness: Triplets,
     /// Of the mass matrix, kg.
-    Mass(Triplets),
+    pub mass: Triplets,
+}
+
+impl Share {
+    fn of_stiffness(stiffness: Triplets) -> Self {
+        Self { stiffness, mass: Triplets::new() }
+    }
+
+    fn of_mass(mass: Triplets) -> Self {
+        Self { stiffness: Triplets::new(), mass }
+    }
 }
 
 impl Structure {
@@ -54,12 +76,62 @@ impl Structure {
         };
         Some(match part {
             Part::Stiffness | Part::Mass | Part::Mode(_) => return None,
-            Part::ElementStiffness(range) => Share::Stiffness(self.of_elements(range, false)),
-            Part::ElementMass(range) => Share::Mass(self.of_elements(range, true)),
-            Part::GroundSpring(i) => Share::Stiffness(vec![(i, i, (0..k.ncols()).map(|j| k[(i, j)]).sum())]),
-            Part::Coupling([i, j]) => Share::Stiffness(spring(i, j)),
-            Part::PointMass(i) => Share::Mass(vec![(i, i, matrices.mass[(i, i)])]),
+            Part::ElementStiffness(range) => Share::of_stiffness(self.of_elements(range, false)),
+            Part::ElementMass(range) => Share::of_mass(self.of_elements(range, true)),
+            Part::GroundSpring(i) => Share::of_stiffness(vec![(i, i, (0..k.ncols()).map(|j| k[(i, j)]).sum())]),
+            Part::Coupling([i, j]) => Share::of_stiffness(spring(i, j)),
+            Part::PointMass(i) => Share::of_mass(vec![(i, i, matrices.mass[(i, i)])]),
+            Part::Support(held) => self.of_support(held)?,
         })
+    }
+
+    /// What a rigid support of the held DOF `h` adds to one that gives way: with `u_h = -g b^T u`, `b = k_h / k_hh` (static
+    /// condensation, Guyan 1965) and `g = 1 - f`,
+    ///
+    /// ```text
+    /// K' = K - g k_h k_h^T / k_hh,      M' = M - g (m_h b^T + b m_h^T) + g^2 m_hh b b^T
+    /// ```
+    ///
+    /// The share is what is linear in `g`.
+    fn of_support(&self, held: HeldDof) -> Option<Share> {
+        let element = self.elements.get(held.element)?;
+        let (k, m, h) = (&element.stiffness, &element.mass, held.dof);
+        let mut share = Share::default();
+        for (i, row, j, column) in element.free_pairs() {
+            share.stiffness.push((row, column, k[(i, h)] * k[(h, j)] / k[(h, h)]));
+            let coupled = (m[(i, h)] * k[(h, j)] + k[(i, h)] * m[(h, j)]) / k[(h, h)];
+            share.mass.push((row, column, coupled));
+        }
+        Some(share)
+    }
+
+    /// The support of each end of a beam that most likely gives way: the rotation of a clamp, the translation of a pin.
+    pub fn supports(&self) -> Vec<HeldDof> {
+        let of_element = |(element, e): (usize, &Element)| {
+            let held: Vec<usize> = (0..e.dofs.len()).filter(|&dof| e.dofs[dof].is_none()).collect();
+            let ends = [held.iter().copied().rfind(|dof| *dof < 2), held.iter().copied().rfind(|dof| *dof >= 2)];
+            ends.into_iter().flatten().map(move |dof| HeldDof { element, dof }).collect::<Vec<_>>()
+        };
+        self.elements.iter().enumerate().flat_map(of_element).collect()
+    }
+
+    /// `m_hh b b^T`, kg.
+    fn of_held_mass(&self, held: HeldDof) -> Triplets {
+        let Some(element) = self.elements.get(held.element) else { return Triplets::new() };
+        let (k, h) = (&element.stiffness, held.dof);
+        let size = element.mass[(h, h)] / (k[(h, h)] * k[(h, h)]);
+        element.free_pairs().map(|(i, row, j, column)| (row, column, size * k[(i, h)] * k[(h, j)])).collect()
+    }
+
+    /// Label of the node of a held DOF.
+    pub fn held_node(&self, held: HeldDof) -> Option<&str> {
+        let node = self.lines.get(held.element)?[usize::from(held.dof >= 2)];
+        self.nodes.get(node).map(|node| node.label.as_str())
+    }
+
+    /// Stiffness of a held DOF in its element, `k_hh` (N/m, N m/rad).
+    pub fn stiffness_at(&self, held: HeldDof) -> Option<f64> {
+        self.elements.get(held.element).map(|element| element.stiffness[(held.dof, held.dof)])
     }
 
     fn of_elements(&self, [first, last]: [usize; 2], mass: bool) -> Triplets {
@@ -84,10 +156,13 @@ impl Structure {
         let Some(mut matrices) = changed.matrices.take() else { return changed };
         self.add_modes(&mut matrices, factors);
         for &(part, factor) in factors {
-            match self.share(part) {
-                Some(Share::Stiffness(entries)) => add(&mut matrices.stiffness, &entries, factor - 1.0),
-                Some(Share::Mass(entries)) => add(&mut matrices.mass, &entries, factor - 1.0),
-                None => {}
+            if let Some(share) = self.share(part) {
+                add(&mut matrices.stiffness, &share.stiffness, factor - 1.0);
+                add(&mut matrices.mass, &share.mass, factor - 1.0);
+            }
+            if let Part::Support(held) = part {
+                add(&mut matrices.mass, &self.of_held_mass(held), (factor - 1.0).powi(2));
+                changed.elements.get_mut(held.element).into_iter().for_each(|e| e.release(held.dof, factor));
             }
             changed.scale_elements(part, factor);
         }
@@ -158,6 +233,29 @@ impl Structure {
     }
 }
 
+impl Element {
+    /// Pairs of free DOFs: local DOF and row of each.
+    fn free_pairs(&self) -> impl Iterator<Item = (usize, usize, usize, usize)> {
+        let free = |(local, row): (usize, &Option<usize>)| row.map(|row| (local, row));
+        let free: Vec<(usize, usize)> = self.dofs.iter().enumerate().filter_map(free).collect();
+        free.clone()
+            .into_iter()
+            .flat_map(move |(i, row)| free.clone().into_iter().map(move |(j, column)| (i, row, j, column)))
+    }
+
+    /// Takes the share `1 - factor` of the support of local DOF `h` away from what is held there: with the motion
+    /// `u_h = -g b^T u` taken out, `k_hh` is `k_hh / f` and `m_h` is `m_h - g m_hh b`, so that shares are those of what is left.
+    fn release(&mut self, h: usize, factor: f64) {
+        let size = (1.0 - factor) * self.mass[(h, h)] / self.stiffness[(h, h)];
+        for i in (0..self.dofs.len()).filter(|&i| i != h) {
+            let moved = size * self.stiffness[(i, h)];
+            self.mass[(i, h)] -= moved;
+            self.mass[(h, i)] -= moved;
+        }
+        self.stiffness[(h, h)] /= factor;
+    }
+}
+
 fn add(matrix: &mut Mat<f64>, entries: &Triplets, factor: f64) {
     for &(i, j, value) in entries {
         matrix[(i, j)] += factor * value;
@@ -214,5 +312,54 @@ mod tests {
         let SystemMatrices { mass, stiffness } = stiffer.matrices().unwrap();
         assert!((stiffness[(0, 1)] + 22.0).abs() < 1e-12 && (stiffness[(0, 0)] - 27.0).abs() < 1e-12);
         assert!((mass[(1, 1)] - 3.0).abs() < 1e-12);
+    }
+
+    /// A clamp whose rotation is held by a spring: natural frequencies of the beam with that DOF and spring in its matrices.
+    fn on_a_spring(beam: &BeamParameters, spring: f64) -> Vec<f64> {
+        let free = BeamParameters { supports: Supports::FreeFree, ..beam.clone() }.build(&[]).unwrap();
+        let SystemMatrices { mass, stiffness } = free.matrices().unwrap();
+        let n = free.len() - 1;
+        let mass = Mat::from_fn(n, n, |i, j| mass[(i + 1, j + 1)]);
+        let mut stiffness = Mat::from_fn(n, n, |i, j| stiffness[(i + 1, j + 1)]);
+        stiffness[(0, 0)] += spring;
+        let matrices = Some(SystemMatrices { mass, stiffness });
+        let held = Structure { matrices, dofs: free.dofs[1..].to_vec(), elements: Vec::new(), ..free };
+        held.modes().unwrap().omega
+    }
+
+    #[test]
+    fn a_clamp_that_gives_way_is_a_rotation_on_a_spring() {
+        let supports = Supports::ClampedFree;
+        let (length, breadth, depth) = (0.5, 0.04, 0.004);
+        let beam =
+            BeamParameters { length, breadth, depth, youngs_modulus: 69e9, density: 2700.0, elements: 8, supports };
+        let model = beam.build(&[]).unwrap();
+        let [held] = model.supports()[..] else { panic!("one support") };
+        assert_eq!((held, model.held_node(held)), (HeldDof { element: 0, dof: 1 }, Some("0")));
+        let k = model.stiffness_at(held).unwrap();
+        for factor in [0.9, 0.6, 0.4] {
+            let updated = model.with_factors(&[(Part::Support(held), factor)]).modes().unwrap().omega;
+            let exact = on_a_spring(&beam, k * factor / (1.0 - factor));
+            let rigid = model.modes().unwrap().omega;
+            for mode in 0..3 {
+                let (shift, error) = (rigid[mode] / exact[mode] - 1.0, updated[mode] / exact[mode] - 1.0);
+                assert!(shift > 0.005 && error.abs() < 0.005 * shift + 1e-6, "{factor} {mode}: {shift} {error}");
+            }
+        }
+        let both = model.with_factors(&[(Part::Support(held), 0.5)]);
+        let (left, whole) = (both.share(Part::Support(held)).unwrap(), model.share(Part::Support(held)).unwrap());
+        for (a, b) in left.stiffness.iter().zip(&whole.stiffness) {
+            assert!((a.2 - 0.5 * b.2).abs() < 1e-12 * b.2.abs());
+        }
+        // Half of it twice is a quarter, and what is left is the derivative by the factor.
+        let (twice, quarter) =
+            (both.with_factors(&[(Part::Support(held), 0.5)]), model.with_factors(&[(Part::Support(held), 0.25)]));
+        let more = model.with_factors(&[(Part::Support(held), 0.5 + 1e-6)]);
+        let masses = [&twice, &quarter, &both, &more].map(|s| s.matrices().unwrap().mass.clone());
+        assert!((&masses[0] - &masses[1]).norm_max() < 1e-12 * masses[0].norm_max());
+        for (i, j, value) in left.mass {
+            let slope = 0.5 * (masses[3][(i, j)] - masses[2][(i, j)]) / 1e-6;
+            assert!((value - slope).abs() < 1e-5 * masses[0].norm_max(), "{i} {j}: {value} {slope}");
+        }
     }
 }

@@ -20,7 +20,7 @@ pub use assemble::{LumpedMass, MOST_DOFS};
 pub use coupling::Coupled;
 pub use error::StructureError;
 pub(crate) use error::nearest;
-pub use factors::Part;
+pub use factors::{HeldDof, Part};
 
 use faer::Mat;
 use serde::{Deserialize, Serialize};

@@ -22,6 +22,12 @@ impl Cholesky {
     pub fn solve(&self, b: MatRef<'_, f64>) -> Mat<f64> {
         self.0.solve(b)
     }
+
+    /// `ln det A`.
+    pub fn log_determinant(&self) -> f64 {
+        let factor = self.0.L();
+        (0..factor.nrows()).map(|i| 2.0 * factor[(i, i)].ln()).sum()
+    }
 }
 
 /// `P A = L U` of a real square matrix.

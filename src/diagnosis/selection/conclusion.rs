@@ -10,7 +10,6 @@ use crate::diagnosis::selection::sentences::sentences;
 use crate::diagnosis::selection::stepwise::{Found, Rung, same_set};
 use crate::diagnosis::updating::parameters::{Scales, UpdatingParameter};
 use crate::effects::Source;
-use crate::math::statistics::evidence_weights;
 
 /// Difference of the scaled squared residual within which two suggestions cannot be told apart.
 const ALIKE: f64 = 9.0;
@@ -59,12 +58,14 @@ impl Outcome<'_> {
         diagnosis.corrections = corrections(&quiet);
         let misfit = best.chi_square / base.count().max(1) as f64;
         let trust = if misfit > TOLERATED { UNTRUSTED } else { 1.0 };
-        let weights: Vec<f64> = evidence_weights(&top.costs).into_iter().map(|w| w * trust).collect();
+        let weights: Vec<f64> = top.probabilities.iter().map(|p| p * trust).collect();
         let ordered = order(&quiet.bench(), best, &rungs[0])?;
         for set in &ordered {
             let misfit = set.chi_square / base.count().max(1) as f64;
             diagnosis.steps.push(Step { added: added(set, top.scale), error: set.error, misfit });
         }
+        let structure = quiet.of_structure()?;
+        let alike_runs = Bench { predictor: &structure, ..quiet.bench() };
         let final_set = added(ordered.last().unwrap_or(best), top.scale);
         for item in &final_set {
             let alone = alone(&quiet.bench(), &item.source, best, &rungs[0])?;
@@ -74,13 +75,13 @@ impl Outcome<'_> {
                 added: item.clone(),
                 // Beside corrections, which were fitted with all of them, a set is added whole.
                 error_after: if self.found.updated { best.error } else { alone.error },
-                held_out_error_after: quiet.bench().held_out_error(&alone)?,
+                held_out_error_after: alike_runs.held_out_error(&alone)?,
                 probability,
                 evidence,
                 indistinguishable_from: alike(&top.refits, best, &item.source, top.scale),
             });
         }
-        alternatives(&quiet.bench(), top, &weights, &mut diagnosis)?;
+        alternatives(&alike_runs, top, &weights, &mut diagnosis)?;
         // Nothing is ambiguous where the next best has next to no probability: then the size is what is least certain.
         let rival = top.refits.get(1).filter(|_| weights.get(1).is_some_and(|w| *w > RIVAL));
         diagnosis.next_test = match rival {
@@ -104,7 +105,7 @@ impl Outcome<'_> {
 /// Suggestions of fits that are not finished: for somebody who waits.
 pub(crate) fn early(base: &Base, refits: &[Refit]) -> Vec<Suggestion> {
     let scale = scale_of(refits, base.count());
-    let weights = evidence_weights(&refits.iter().map(|r| base.evidence(r, scale)).collect::<Vec<_>>());
+    let weights = base.probabilities(refits);
     let of = |(refit, &probability): (&Refit, &f64)| {
         let added = added(refit, scale).pop()?;
         let evidence = vec![added.source.effect.sentence().to_string()];

@@ -97,13 +97,54 @@ impl OnResponse<'_> {
         }
     }
 
-    /// A column by differences.
-    fn difference(&self, theta: &[f64], k: usize, at: &[f64]) -> Result<Vec<f64>, DiagnosisError> {
+    /// A column by differences of the residual that `rows` gives of predictions.
+    fn difference(
+        &self,
+        theta: &[f64],
+        k: usize,
+        rows: impl Fn(&[RunPrediction]) -> Vec<f64>,
+        at: &[f64],
+    ) -> Result<Vec<f64>, DiagnosisError> {
         let mut moved = theta.to_vec();
         moved[k] += STEP;
-        let trial = self.compute(&moved)?;
-        let after = self.bench.residual(&trial.predictions);
+        let after = rows(&self.compute(&moved)?.predictions);
         Ok(after.iter().zip(at).map(|(a, b)| (a - b) / STEP).collect())
+    }
+
+    /// Whitened derivatives of the residual by the variables at a trial, what is each run's own eliminated and the updating
+    /// parameters at their reference; `None` where a response has no derivatives. Empty for parameters of channels.
+    fn analytic_columns(&self, trial: &Trial) -> Result<Option<Vec<Vec<f64>>>, DiagnosisError> {
+        let effects = self.variables.effects(&trial.theta);
+        let known = self.bench.predictor.known().len();
+        let (sums, factors) = (unknowns_of(&effects, known), self.variables.slopes(&trial.theta));
+        let mut columns: Vec<Vec<f64>> = vec![Vec::with_capacity(self.bench.count()); trial.theta.len()];
+        for (r, run) in self.bench.data.runs.iter().enumerate() {
+            self.bench.control.check()?;
+            let prediction = &trial.predictions[r];
+            let Some(slopes) = run_slopes(self.bench.predictor, r, run, &effects, prediction, &sums) else {
+                return Ok(None);
+            };
+            for ((column, slope), factor) in columns.iter_mut().zip(&slopes).zip(&factors) {
+                self.bench.whitened(r, column, |c, h| -slope[c][h - 1] * *factor);
+            }
+        }
+        Ok(Some(columns))
+    }
+
+    /// [`Self::analytic_columns`] at `theta`, by differences where there are none, and the residual there.
+    pub fn at_reference(&mut self, theta: &[f64]) -> Result<(Vec<f64>, Vec<Vec<f64>>), DiagnosisError> {
+        let trial = self.trial(theta)?;
+        self.starts = trial.predictions.iter().map(|p| p.found.then(|| p.response.clone())).collect();
+        let rows = |predictions: &[RunPrediction]| self.bench.at_reference(predictions);
+        let residual = rows(&trial.predictions);
+        let analytic = self.analytic_columns(&trial)?;
+        let channels = self.of_channels();
+        let column = |k: usize| match &analytic {
+            Some(columns) if !channels[k] => Ok(columns[k].clone()),
+            _ => self.difference(theta, k, rows, &residual),
+        };
+        let columns = (0..theta.len()).map(column).collect::<Result<_, _>>()?;
+        Ok((residual, columns))
     }
 
     /// Which variables are parameters of channels: their columns are differences.
@@ -133,28 +174,15 @@ impl Residual for OnResponse<'_> {
     fn jacobian(&mut self, theta: &[f64], at: &[f64]) -> Result<Mat<f64>, DiagnosisError> {
         let trial = self.trial(theta)?;
         self.starts = trial.predictions.iter().map(|p| p.found.then(|| p.response.clone())).collect();
-        let effects = self.variables.effects(theta);
-        let (sums, factors) = (unknowns_of(&effects, self.bench.predictor.known().len()), self.variables.slopes(theta));
-        let mut columns: Vec<Vec<f64>> = vec![Vec::with_capacity(at.len()); theta.len()];
-        let mut exact = true;
-        for (r, run) in self.bench.data.runs.iter().enumerate() {
-            self.bench.control.check()?;
-            let prediction = &trial.predictions[r];
-            let Some(slopes) = run_slopes(self.bench.predictor, r, run, &effects, prediction, &sums) else {
-                exact = false;
-                break;
-            };
-            for ((column, slope), factor) in columns.iter_mut().zip(&slopes).zip(&factors) {
-                self.bench.whitened(r, column, |c, h| -slope[c][h - 1] * *factor);
-            }
-        }
+        let mut analytic = self.analytic_columns(&trial)?;
         let channels = self.of_channels();
-        for (k, column) in columns.iter_mut().enumerate() {
-            *column = if !exact || channels[k] {
-                self.difference(theta, k, at)?
-            } else {
-                self.bench.noise.updating.column(std::mem::take(column))
-            };
+        let rows = |predictions: &[RunPrediction]| self.bench.residual(predictions);
+        let mut columns = Vec::with_capacity(theta.len());
+        for (k, of_channel) in channels.into_iter().enumerate() {
+            columns.push(match &mut analytic {
+                Some(analytic) if !of_channel => self.bench.noise.updating.column(std::mem::take(&mut analytic[k])),
+                _ => self.difference(theta, k, rows, at)?,
+            });
         }
         self.last = Some(trial);
         Ok(Mat::from_fn(at.len(), columns.len(), |i, k| columns[k][i]))

@@ -6,6 +6,7 @@ pub mod fits;
 pub mod fitted_model;
 mod followed;
 mod joint_fit;
+mod left_out;
 pub mod levenberg_marquardt;
 mod localised;
 pub mod next_test;

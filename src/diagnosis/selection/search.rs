@@ -15,7 +15,7 @@ use crate::diagnosis::residual::whitening::Whitening;
 use crate::diagnosis::selection::fitted_model::{Bench, Refit};
 use crate::diagnosis::updating::noise_model::{Linearisation, NoiseModel};
 use crate::effects::{Place, Range, Source};
-use crate::math::statistics::bayesian_information;
+use crate::math::statistics::{bayesian_information, evidence_weights};
 use faer::{Mat, c64};
 use std::sync::Arc;
 
@@ -343,16 +343,21 @@ impl<'a> Base<'a> {
 
     /// Information criterion of a fit, its squared residual scaled by what the best model leaves beyond the noise.
     pub fn evidence(&self, refit: &Refit, scale: f64) -> f64 {
-        let fit = bayesian_information(refit.chi_square / scale.max(1.0), refit.parameters, self.count());
-        let extra: usize = refit.effects.iter().map(|e| e.parameters.len() - 1).sum();
-        let posing = refit.effects.iter().filter(|e| e.simpler(&Range::UNKNOWN).is_some()).count();
-        fit + EXTRA * extra as f64 + POSING * posing as f64
+        bayesian_information(refit.chi_square / scale.max(1.0), refit.parameters, self.count())
+            + Self::complexity(refit)
     }
 
-    /// Evidence of each fit, their squared residuals scaled by what the best leaves.
-    pub fn costs(&self, refits: &[Refit]) -> Vec<f64> {
+    /// What the laws of a fit cost in evidence for their kind, whatever the data.
+    pub fn complexity(refit: &Refit) -> f64 {
+        let extra: usize = refit.effects.iter().map(|e| e.parameters.len() - 1).sum();
+        let posing = refit.effects.iter().filter(|e| e.simpler(&Range::UNKNOWN).is_some()).count();
+        EXTRA * extra as f64 + POSING * posing as f64
+    }
+
+    /// Probability of each fit by its evidence, their squared residuals scaled by what the best leaves.
+    pub fn probabilities(&self, refits: &[Refit]) -> Vec<f64> {
         let scale = scale_of(refits, self.count());
-        refits.iter().map(|refit| self.evidence(refit, scale)).collect()
+        evidence_weights(&refits.iter().map(|refit| self.evidence(refit, scale)).collect::<Vec<f64>>())
     }
 
     /// Best first; none of more parameters than runs.

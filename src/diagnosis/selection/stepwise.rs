@@ -8,11 +8,12 @@ use crate::diagnosis::residual::prediction::FINAL;
 use crate::diagnosis::selection::conclusion::{self, Outcome};
 use crate::diagnosis::selection::fits::STEPS;
 use crate::diagnosis::selection::fitted_model::Refit;
+use crate::diagnosis::selection::left_out::{exceeds, groups};
 use crate::diagnosis::selection::search::{Base, scale_of};
 use crate::diagnosis::selection::weighing::{Weighed, weighed};
 use crate::diagnosis::updating::detuning::is_likely;
 use crate::diagnosis::updating::noise_model::NoiseModel;
-use crate::effects::{Effect, Source};
+use crate::effects::{Effect, Source, effect::Kind};
 use std::sync::Arc;
 
 /// Most effects that are added.
@@ -54,8 +55,8 @@ pub(crate) struct Rung {
     pub scale: f64,
     /// Noise with the truncation of the best.
     pub noise: Arc<NoiseModel>,
-    /// Evidence of each, the smaller the better.
-    pub costs: Vec<f64>,
+    /// Probability of each.
+    pub probabilities: Vec<f64>,
 }
 
 /// Where a search ended.
@@ -105,7 +106,7 @@ fn confirm(base: &Base, found: &mut Found) -> Result<(), DiagnosisError> {
     let Some(more) = refits.first() else { return Ok(()) };
     if base.evidence(more, 1.0) + CONFIRMED < base.evidence(best, 1.0) && settled(more) {
         let scale = scale_of(&refits, base.count());
-        found.rungs.push(Rung { costs: base.costs(&refits), refits, scale, noise });
+        found.rungs.push(Rung { probabilities: base.probabilities(&refits), refits, scale, noise });
     }
     Ok(())
 }
@@ -178,9 +179,29 @@ fn beside_updating(base: Base<'_>, before: f64) -> Result<Result<Outcome<'_>, Ch
         let Some(weighed) = weighed(fits)? else { break };
         let best = &weighed.refits[0];
         let scale = scale_of(&weighed.refits, weighed.base.count());
-        if from.is_none() && bare.misfit() < RIVALLED * scale {
+        let doubtful = best.effects.iter().any(like_a_correction) || scale > DOUBTFUL;
+        if from.is_none() && (bare.misfit() < RIVALLED * scale || doubtful) {
             (likely, least) = alone(&bare, &weighed)?;
             told_alone = true;
+        }
+        if std::env::var_os("DASH_DEBUG").is_some() {
+            let groups = groups(here.data);
+            let with = weighed.base.left_out(Some(best), &groups)?;
+            let without = likely.left_out(from.as_ref(), &groups)?;
+            let d: Vec<f64> = with.iter().zip(&without).map(|(a, b)| a - b).collect();
+            let (n, sum) = (d.len() as f64, d.iter().sum::<f64>());
+            let se = (n / (n - 1.0) * d.iter().map(|x| (x - sum / n).powi(2)).sum::<f64>()).sqrt();
+            eprintln!(
+                "ALONE {told_alone} rung {} {:?} evidence {:.1} scale {scale:.2} 2elpd {:.1} se {:.1} z {:.2} err {:.4} of {stated:.4} {:?}",
+                found.rungs.len(),
+                best.effects.last().map(|e| (e.effect, e.place.clone(), e.parameters.clone())),
+                least - weighed.least,
+                2.0 * sum,
+                2.0 * se,
+                sum / se,
+                best.error,
+                d.iter().map(|x| x.round() as i64).collect::<Vec<_>>()
+            );
         }
         // What only lowers the error because every run has a stiffness of its own is nothing that could be added.
         let raises = best.error > stated;
@@ -188,10 +209,13 @@ fn beside_updating(base: Base<'_>, before: f64) -> Result<Result<Outcome<'_>, Ch
         if raises || !known || (least - weighed.least) / scale < evidence_needed(best) {
             break;
         }
+        if (told_alone || from.is_some()) && !predicts_better(&weighed, (&likely, from.as_ref()))? {
+            break;
+        }
         found.agrees = agrees(&weighed.base, best.chi_square, best.parameters);
         least = weighed.least;
         let noise = weighed.base.noise.clone();
-        found.rungs.push(Rung { scale, noise, refits: weighed.refits, costs: weighed.costs });
+        found.rungs.push(Rung { scale, noise, refits: weighed.refits, probabilities: weighed.probabilities });
         likely = weighed.base;
         here = Base { predictions: likely.predictions.clone(), noise: likely.noise.clone(), ..likely.shallow() };
         // Corrections beyond what models are wrong by may stand in for one effect more.
@@ -218,9 +242,23 @@ fn alone<'a>(bare: &Base<'a>, weighed: &Weighed<'a>) -> Result<(Base<'a>, f64), 
     Ok(if cost < least { (estimated, cost) } else { (likely, least) })
 }
 
+/// Whether the best of the candidates predicts runs that are left out better than the model with corrections and the effects
+/// before it, by more than may be by chance. A channel that is read wrongly is told by its evidence alone.
+fn predicts_better(weighed: &Weighed, (likely, before): (&Base, Option<&Refit>)) -> Result<bool, DiagnosisError> {
+    let best = &weighed.refits[0];
+    if best.effects.last().is_some_and(|e| matches!(e.effect.kind(), Kind::Channel(_))) {
+        return Ok(true);
+    }
+    let groups = groups(likely.data);
+    Ok(exceeds(&weighed.base.left_out(Some(best), &groups)?, &likely.left_out(before, &groups)?))
+}
+
+fn like_a_correction(source: &Source) -> bool {
+    matches!(source.effect, Effect::Stiffness | Effect::Mass)
+}
+
 /// Evidence that the last effect of a fit must bring beside `likely`, the model with corrections and the effects before it.
 fn evidence_needed(refit: &Refit) -> f64 {
-    let like_a_correction = |source: &Source| matches!(source.effect, Effect::Stiffness | Effect::Mass);
     let doubtful = refit.effects.len() > 1 || refit.effects.iter().any(like_a_correction);
     if doubtful { FURTHER } else { CHOSEN }
 }
@@ -235,7 +273,12 @@ fn two_at_once(base: &Base, found: &mut Found) -> Result<bool, DiagnosisError> {
     let refits = plainest(base, found, refits);
     found.agrees = refits.first().is_some_and(|best| fits_well(base, found, best));
     if found.agrees {
-        found.rungs.push(Rung { scale: scale_of(&refits, base.count()), costs: base.costs(&refits), refits, noise });
+        found.rungs.push(Rung {
+            scale: scale_of(&refits, base.count()),
+            probabilities: base.probabilities(&refits),
+            refits,
+            noise,
+        });
     }
     Ok(found.agrees)
 }
@@ -257,7 +300,7 @@ fn pruned(base: &Base, found: &mut Found) -> Result<(), DiagnosisError> {
         let scale = scale_of(&refits, base.count());
         let before = found.rungs.pop().map_or_else(Vec::new, |rung| rung.refits);
         let refits = distinct(base.ranked(refits.into_iter().chain(before).collect()));
-        found.rungs.push(Rung { costs: base.costs(&refits), refits, scale, noise });
+        found.rungs.push(Rung { probabilities: base.probabilities(&refits), refits, scale, noise });
     }
     Ok(())
 }
@@ -314,7 +357,7 @@ pub(crate) fn add_rung(
         return Ok(false);
     }
     found.agrees = fits_well(base, found, best);
-    found.rungs.push(Rung { costs: base.costs(&refits), refits, scale, noise });
+    found.rungs.push(Rung { probabilities: base.probabilities(&refits), refits, scale, noise });
     Ok(true)
 }
 

@@ -3,7 +3,7 @@
 use crate::diagnosis::candidates::friction::friction;
 use crate::diagnosis::residual::data::{Data, DiagnosisError, RunData};
 use crate::diagnosis::residual::energy_balance::scaled_factors;
-use crate::diagnosis::residual::prediction::{FINAL, RunPrediction};
+use crate::diagnosis::residual::prediction::{FINAL, Predictor, RunPrediction};
 use crate::diagnosis::selection::fit_problem::{RunSlopes, run_slopes};
 use crate::diagnosis::selection::fitted_model::{Bench, Refit, Starts};
 use crate::diagnosis::selection::search::Base;
@@ -200,9 +200,14 @@ impl<'a> Base<'a> {
     /// Relative error of this model with `effects`, all runs alike, as `compare` tells it of a project in which the corrections
     /// are taken over.
     pub(super) fn error_of_structure(&self, effects: &[Source], starts: &Starts) -> Result<f64, DiagnosisError> {
-        let predictor = self.predictor.updated(&self.linearisation.updating.of_structure())?;
+        let predictor = self.of_structure()?;
         let bench = Bench { predictor: &predictor, ..self.bench() };
         Ok(bench.error(&bench.predict(effects, &FINAL, starts)?))
+    }
+
+    /// The updated model with all runs alike.
+    pub(super) fn of_structure(&self) -> Result<Predictor, DiagnosisError> {
+        self.predictor.updated(&self.linearisation.updating.of_structure())
     }
 
     /// Squared residual per datum without any effect.

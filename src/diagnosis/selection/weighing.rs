@@ -1,24 +1,39 @@
-//! Candidates with models of their own, weighed by their evidence: what they leave, what their parameters and the freedom of
-//! the model beside them cost.
+//! Candidates with models of their own: ordered by their evidence (what they leave, what their parameters and the freedom of the
+//! model beside them cost), with probabilities by how well they predict runs that are left out.
 
+use super::left_out::{exceeds, groups, probabilities};
 use crate::diagnosis::candidates::special_cases::is_limit;
 use crate::diagnosis::residual::data::DiagnosisError;
 use crate::diagnosis::residual::prediction::{FINAL, SEARCH};
+use crate::diagnosis::selection::fits::{FIRST_STEPS, STEPS};
 use crate::diagnosis::selection::fitted_model::Refit;
 use crate::diagnosis::selection::search::Base;
+use crate::diagnosis::selection::stepwise::same_set;
 use crate::diagnosis::updating::parameters::{Scales, UpdatingParameter};
 use crate::effects::{Effect, Place, Range, Source};
 use crate::structure::Part;
 use crate::structure::factors::Share;
 
-/// Candidates weighed by their evidence, each with the scales that are most likely beside it.
+/// Weighed candidates.
 pub(super) struct Weighed<'a> {
     /// The model with the scales of the best.
     pub base: Base<'a>,
     /// Best first.
     pub refits: Vec<Refit>,
-    pub costs: Vec<f64>,
+    /// Of each of them.
+    pub probabilities: Vec<f64>,
+    /// Evidence of the best.
     pub least: f64,
+}
+
+/// A candidate with the model that was updated beside it.
+struct Candidate<'a> {
+    /// Its evidence, the smaller the better.
+    cost: f64,
+    base: Base<'a>,
+    refit: Refit,
+    /// Logarithms of its predictive densities of groups of runs that are left out.
+    densities: Vec<f64>,
 }
 
 /// Times that model, effects and scales of the best are settled in turn.
@@ -32,83 +47,133 @@ const COARSE: f64 = 3.0;
 const HEAVY: f64 = 2.0;
 /// Candidates whose scales are estimated.
 const WEIGHED: usize = 6;
+/// Candidates that are settled to the end: where the best turns out to be nothing, the next.
+const FINISHED: usize = 2;
 
 /// Weighs fitted candidates, each with the model that was updated beside it.
-pub(super) fn weighed<'a>(mut fits: Vec<(Base<'a>, Refit)>) -> Result<Option<Weighed<'a>>, DiagnosisError> {
-    fits.retain(|(base, refit)| is_effect(base, refit));
-    fits.sort_by(|a, b| cost(&a.0, Some(&a.1)).total_cmp(&cost(&b.0, Some(&b.1))));
-    let one = |k: usize| -> Result<(f64, Base<'a>, Refit), DiagnosisError> {
-        let (base, refit) = fits[k].0.with_likely_scales(Some(&fits[k].1), &SEARCH)?;
-        let refit = refit.unwrap_or_else(|| fits[k].1.clone());
-        let (likely, before) = (cost(&base, Some(&refit)), cost(&fits[k].0, Some(&fits[k].1)));
-        if likely < before {
-            return Ok((likely, base, refit));
+pub(super) fn weighed<'a>(fits: Vec<(Base<'a>, Refit)>) -> Result<Option<Weighed<'a>>, DiagnosisError> {
+    let mut all = with_likely_scales(fits)?;
+    let limits = all.first().map_or(Ok(Vec::new()), limits_of)?;
+    all.retain(|c| !limits.iter().any(|l| l.cost < c.cost && same_set(&l.refit.effects, &c.refit.effects)));
+    let fresh = |l: &Candidate| !all.iter().any(|c| same_set(&l.refit.effects, &c.refit.effects));
+    let fresh: Vec<Candidate> = limits.into_iter().filter(fresh).collect();
+    all.extend(fresh);
+    all.sort_by(|a, b| a.cost.total_cmp(&b.cost));
+    simplest_first(&mut all);
+    if std::env::var_os("DASH_DEBUG").is_some() {
+        let p = probabilities_of(&all);
+        for (k, c) in all.iter().enumerate() {
+            let names: Vec<String> =
+                c.refit.effects.iter().map(|e| format!("{:?}@{:?}{:?}", e.effect, e.place, e.parameters)).collect();
+            let diff: Vec<i64> =
+                c.densities.iter().zip(&all[0].densities).map(|(a, b)| (a - b).round() as i64).collect();
+            eprintln!(
+                "LEFT cost {:.1} p {:.3} chi/n {:.2} err {:.4} {names:?} {diff:?}",
+                c.cost,
+                p[k],
+                c.refit.chi_square / c.base.count() as f64,
+                c.refit.error
+            );
         }
-        let own = &fits[k].0;
-        Ok((before, own.with_scales(own.linearisation.updating.scales), fits[k].1.clone()))
-    };
-    let Some(control) = fits.first().map(|(base, _)| base.control) else { return Ok(None) };
-    let (first, left) = (cost(&fits[0].0, Some(&fits[0].1)), fits[0].1.chi_square);
-    // Where even the best leaves much with the scales of the search, these say little of the order.
-    let coarse = left > COARSE * fits[0].0.count() as f64;
-    let near = first + if coarse { LIGHT.max(HEAVY * left) } else { LIGHT };
-    let count = fits.iter().take(WEIGHED).take_while(|(base, refit)| cost(base, Some(refit)) < near).count();
-    let told = |k: usize| -> Result<(f64, Base<'a>, Refit), DiagnosisError> {
-        let (cost, base, refit) = one(k)?;
-        let error = base.error_of_structure(&refit.effects, &refit.starts)?;
-        Ok((cost, base, Refit { error, ..refit }))
-    };
-    let mut all = control.map(count, told).into_iter().collect::<Result<Vec<_>, _>>()?;
-    all.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let plain = plainest_first(&mut all);
-    let costs: Vec<f64> = all.iter().map(|(cost, _, _)| *cost).collect();
-    let refits: Vec<Refit> = all.iter().map(|(_, _, refit)| refit.clone()).collect();
-    for (k, (_, base, refit)) in all.into_iter().enumerate().take(FINISHED) {
+    }
+    for _ in 0..FINISHED.min(all.len()) {
+        let probabilities = probabilities_of(&all);
+        let Candidate { base, refit, .. } = all.remove(0);
         let (base, mut refit) = finished(base, refit)?;
         refit.error = base.error_of_structure(&refit.effects, &refit.starts)?;
         if !is_effect(&base, &refit) {
             continue;
         }
         let least = cost(&base, Some(&refit));
-        let refit = with_told_deviations(&base, refit)?;
-        let mut order: Vec<(f64, Refit)> = costs.iter().copied().zip(refits).skip(k + 1).collect();
-        // What is told first for being simpler is not to be told as the less likely.
-        let others = order.iter().map(|(cost, _)| *cost).fold(f64::INFINITY, f64::min);
-        order.insert(0, (if plain { least.min(others - SIMPLER) } else { least }, refit));
-        let (costs, refits) = order.into_iter().unzip();
-        return Ok(Some(Weighed { base, refits, costs, least }));
+        let mut refits = vec![with_told_deviations(&base, refit)?];
+        refits.extend(all.into_iter().map(|candidate| candidate.refit));
+        return Ok(Some(Weighed { base, refits, probabilities, least }));
     }
     Ok(None)
 }
 
-/// Evidence, in units of what the best leaves per datum, by which a law may lead a simpler one that it contains and still not be
-/// told in its stead: real laws are no more exact than that.
-const NESTED: f64 = 40.0;
-
-/// Evidence that being simpler counts for there.
-const SIMPLER: f64 = 8.0;
-
-/// Puts the simplest law that the best contains first where it is nearly as likely; whether there is one.
-fn plainest_first(all: &mut [(f64, Base, Refit)]) -> bool {
-    let Some((least, base, best)) = all.first() else { return false };
-    let scale = (best.chi_square / base.count().max(1) as f64).max(1.0);
-    // A model that leaves no more than noise tells nested laws apart by their evidence alone.
-    let margin = if scale > NOISY { NESTED * scale } else { 0.0 };
-    let simpler = |(cost, _, refit): &(f64, Base, Refit)| {
-        refit.parameters < best.parameters && is_limit(&refit.effects, &best.effects) && *cost < least + margin
+/// The candidates that may be the best, each with the scales that are most likely beside it, best first.
+fn with_likely_scales<'a>(mut fits: Vec<(Base<'a>, Refit)>) -> Result<Vec<Candidate<'a>>, DiagnosisError> {
+    fits.retain(|(base, refit)| is_effect(base, refit));
+    fits.sort_by(|a, b| cost(&a.0, Some(&a.1)).total_cmp(&cost(&b.0, Some(&b.1))));
+    let Some((first, best)) = fits.first() else { return Ok(Vec::new()) };
+    let (control, least, left) = (first.control, cost(first, Some(best)), best.chi_square);
+    // Where even the best leaves much with the scales of the search, these say little of the order.
+    let coarse = left > COARSE * first.count() as f64;
+    let near = least + if coarse { LIGHT.max(HEAVY * left) } else { LIGHT };
+    let count = fits.iter().take(WEIGHED).take_while(|(base, refit)| cost(base, Some(refit)) < near).count();
+    let likely = |k: usize| {
+        let (own, fit) = &fits[k];
+        let (base, refit) = own.with_likely_scales(Some(fit), &SEARCH)?;
+        let refit = refit.unwrap_or_else(|| fit.clone());
+        if cost(&base, Some(&refit)) < cost(own, Some(fit)) {
+            return candidate(base, refit);
+        }
+        candidate(own.with_scales(own.linearisation.updating.scales), fit.clone())
     };
-    let found = all.iter().position(simpler);
-    if let Some(k) = found {
-        all[..=k].rotate_right(1);
-    }
-    found.is_some()
+    let mut all = control.map(count, likely).into_iter().collect::<Result<Vec<_>, _>>()?;
+    all.sort_by(|a, b| a.cost.total_cmp(&b.cost));
+    Ok(all)
 }
 
-/// Squared residual per datum from which on a fit leaves more than noise.
-const NOISY: f64 = 1.1;
+fn candidate(base: Base<'_>, refit: Refit) -> Result<Candidate<'_>, DiagnosisError> {
+    let error = base.error_of_structure(&refit.effects, &refit.starts)?;
+    let densities = base.left_out(Some(&refit), &groups(base.data))?;
+    Ok(Candidate { cost: cost(&base, Some(&refit)), refit: Refit { error, ..refit }, densities, base })
+}
 
-/// Candidates that are settled to the end: where the best turns out to be nothing, the next.
-const FINISHED: usize = 2;
+/// The sets in which one effect of the best is the simpler law that it contains as a limit, fitted beside the same model: a
+/// simpler law that was followed by itself may have ended in a valley of its own.
+fn limits_of<'a>(best: &Candidate<'a>) -> Result<Vec<Candidate<'a>>, DiagnosisError> {
+    let mut limits = Vec::new();
+    for (k, source) in best.refit.effects.iter().enumerate() {
+        for simpler in source.limits().filter(|s| s.parameters.iter().all(|p| p.is_normal())) {
+            let mut effects = best.refit.effects.clone();
+            effects[k] = simpler;
+            if best.base.control.is_late() || !best.base.data.allows(&effects[k]) {
+                continue;
+            }
+            let base = best.base.with_scales(best.base.linearisation.updating.scales);
+            let begun = base.bench().refit(&effects, FIRST_STEPS, &SEARCH, &best.refit.starts)?;
+            if cost(&base, Some(&begun)) > best.cost + LIGHT {
+                continue;
+            }
+            let refit = base.bench().refit(&begun.effects, STEPS, &SEARCH, &begun.starts)?;
+            if is_effect(&base, &refit) {
+                limits.push(candidate(base, refit)?);
+            }
+        }
+    }
+    Ok(limits)
+}
+
+/// Puts the simplest law first that the best contains as a limit, unless the best predicts runs that are left out better than it
+/// by more than may be by chance.
+fn simplest_first(all: &mut [Candidate]) {
+    while let Some(best) = all.first() {
+        let simpler = |c: &Candidate| {
+            c.refit.parameters < best.refit.parameters
+                && is_limit(&c.refit.effects, &best.refit.effects)
+                && !exceeds(&best.densities, &c.densities)
+        };
+        let Some(k) = all.iter().position(simpler) else { break };
+        all[..=k].rotate_right(1);
+    }
+}
+
+/// Probability of each candidate. What contains the first and predicts no better is the first by another name.
+fn probabilities_of(all: &[Candidate]) -> Vec<f64> {
+    let densities: Vec<Vec<f64>> = all.iter().map(|c| c.densities.clone()).collect();
+    let priors: Vec<f64> = all.iter().map(|c| -0.5 * Base::complexity(&c.refit)).collect();
+    let mut list = probabilities(&densities, &priors);
+    let Some(first) = all.first() else { return list };
+    for (k, other) in all.iter().enumerate().skip(1) {
+        if is_limit(&first.refit.effects, &other.refit.effects) && !exceeds(&other.densities, &first.densities) {
+            list[0] += std::mem::take(&mut list[k]);
+        }
+    }
+    list
+}
 
 /// A candidate with its model, settled in turn with the most likely scales.
 fn finished(base: Base<'_>, refit: Refit) -> Result<(Base<'_>, Refit), DiagnosisError> {
@@ -162,7 +227,7 @@ fn is_effect(base: &Base, refit: &Refit) -> bool {
             _ => false,
         });
         let own = match base.predictor.structure().share(part).filter(|_| updated || source.effect == Effect::Mass) {
-            Some(Share::Stiffness(entries) | Share::Mass(entries)) => entries.first().map_or(0.0, |e| e.2.abs()),
+            Some(Share { stiffness, mass }) => stiffness.iter().chain(&mass).next().map_or(0.0, |e| e.2.abs()),
             None => 0.0,
         };
         source.parameters[0].abs() < OF_THE_PART * own

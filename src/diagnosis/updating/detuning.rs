@@ -13,6 +13,7 @@ use crate::diagnosis::selection::conclusion::corrections;
 use crate::diagnosis::selection::search::Base;
 use crate::diagnosis::selection::stepwise::agrees;
 use crate::diagnosis::updating::parameters::UpdatingParameter;
+use crate::structure::Part;
 use std::sync::Arc;
 
 /// Share of the squared residual from which on corrections explain most of it.
@@ -105,10 +106,14 @@ const LIKELY: f64 = 0.1;
 /// The same for the size of a known source.
 const LIKELY_SIZE: f64 = 0.5;
 
+/// The same for a support.
+const LIKELY_SUPPORT: f64 = 1.5;
+
 /// Whether no updating parameter is farther from nothing than models are wrong: else an effect may pass for a correction.
 pub(crate) fn is_likely(base: &Base) -> bool {
     let updating = &base.linearisation.updating;
     updating.parameters.iter().zip(&updating.values).all(|(parameter, v)| match parameter {
+        UpdatingParameter::Structure(Part::Support(_)) => v.abs() < LIKELY_SUPPORT,
         UpdatingParameter::Structure(_) => v.abs() < LIKELY,
         UpdatingParameter::Known(_) => v.abs() < LIKELY_SIZE,
         UpdatingParameter::Gain(_) | UpdatingParameter::Delay(_) | UpdatingParameter::Session(_) => true,

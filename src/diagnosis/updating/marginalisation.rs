@@ -70,9 +70,14 @@ impl Marginalisation {
     }
 
     /// Turns a whitened residual into the marginal one, a datum longer for every parameter.
-    pub fn residual(&self, mut rows: Vec<f64>) -> Vec<f64> {
+    pub fn residual(&self, rows: Vec<f64>) -> Vec<f64> {
+        self.column(self.without_reference(rows))
+    }
+
+    /// Turns a whitened residual at the reference into one of the model with no parameter corrected, `r + B u_0`.
+    pub fn without_reference(&self, mut rows: Vec<f64>) -> Vec<f64> {
         rows.iter_mut().zip(&self.offset).for_each(|(r, o)| *r += o);
-        self.column(rows)
+        rows
     }
 
     /// Turns a column of a Jacobian into the marginal one.

@@ -18,8 +18,9 @@ const MOST_SPRINGS: usize = 40;
 const MOST_MODES: usize = 8;
 /// Logarithm of a frequency ratio within which a mode counts as in the band of a run.
 const NEAR_BAND: f64 = 0.35;
-/// Prior deviation of the stiffness of an element at a clamp over that of others.
-const CLAMPED: f64 = 4.0;
+/// Prior deviation of a support in multiples of that of the size of a known source: of a clamp that is taken for rigid, half
+/// may be left.
+const SUPPORT: f64 = 2.0;
 /// Largest logarithm of a factor: models are not wrong by more than a factor of seven.
 const LARGEST: f64 = 2.0;
 
@@ -43,7 +44,7 @@ pub enum UpdatingParameter {
 pub struct Scales {
     /// Stiffness and mass, relative.
     pub model: f64,
-    /// Sizes of known sources, relative.
+    /// Sizes of known sources and supports, relative.
     pub known: f64,
     /// Gains, relative.
     pub gain: f64,
@@ -103,8 +104,9 @@ impl UpdatingParameter {
     /// Place of its class in [`Scales::list`].
     pub fn class(&self) -> usize {
         match self {
+            // A support is known about as well as the size of a source.
+            Self::Structure(Part::Support(_)) | Self::Known(_) => 1,
             Self::Structure(_) => 0,
-            Self::Known(_) => 1,
             Self::Gain(_) => 2,
             Self::Delay(_) => 3,
             Self::Session(_) => 6,
@@ -179,7 +181,7 @@ impl Updating {
             parameters.extend((0..sessions).map(UpdatingParameter::Session));
         }
         let logs = omegas.iter().map(|w| w.ln()).sum::<f64>() / omegas.len().max(1) as f64;
-        let spreads = parameters.iter().map(|parameter| spread(structure, parameter)).collect();
+        let spreads = parameters.iter().map(spread).collect();
         let sessions = data.sessions.clone();
         Self {
             values: vec![0.0; parameters.len()],
@@ -299,12 +301,10 @@ impl Updating {
     }
 }
 
-/// Prior deviation of a parameter in multiples of the scale of its class: no clamp is rigid, and what it gives way by looks like
-/// a softer first element.
-fn spread(structure: &Structure, parameter: &UpdatingParameter) -> f64 {
-    let clamped = |e: usize| structure.elements()[e].dofs.iter().filter(|dof| dof.is_none()).count() > 1;
+/// Prior deviation of a parameter in multiples of the scale of its class.
+fn spread(parameter: &UpdatingParameter) -> f64 {
     match parameter {
-        UpdatingParameter::Structure(Part::ElementStiffness([first, last])) if (*first..=*last).any(clamped) => CLAMPED,
+        UpdatingParameter::Structure(Part::Support(_)) => SUPPORT,
         _ => 1.0,
     }
 }
@@ -329,6 +329,7 @@ fn parts(structure: &Structure, omegas: &[f64]) -> Vec<Part> {
         let range = |g: usize| [g * count / groups, (g + 1) * count / groups - 1];
         parts.extend((0..groups).map(|g| Part::ElementStiffness(range(g))));
         parts.extend((0..groups).map(|g| Part::ElementMass(range(g))));
+        parts.extend(structure.supports().into_iter().map(Part::Support));
         return parts;
     }
     let springs = structure.springs(MOST_SPRINGS);

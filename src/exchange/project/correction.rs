@@ -19,11 +19,12 @@ pub enum Corrected {
     PointMass,
     ElementStiffness,
     ElementMass,
+    Support,
 }
 
 impl Corrected {
-    const WORDS: [&'static str; 7] =
-        ["stiffness", "mass", "mode", "spring", "point_mass", "element_stiffness", "element_mass"];
+    const WORDS: [&'static str; 8] =
+        ["stiffness", "mass", "mode", "spring", "point_mass", "element_stiffness", "element_mass", "support"];
 
     fn from_word(word: &str) -> Option<Self> {
         let all = [
@@ -34,6 +35,7 @@ impl Corrected {
             Self::PointMass,
             Self::ElementStiffness,
             Self::ElementMass,
+            Self::Support,
         ];
         Self::WORDS.iter().position(|w| *w == word).map(|k| all[k])
     }
@@ -54,6 +56,9 @@ pub struct CorrectionTable {
     /// Mode, from 1.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub mode: Option<i64>,
+    /// Node of a support.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub node: Option<Label>,
     /// Factor, positive.
     pub factor: f64,
 }
@@ -62,7 +67,7 @@ impl CorrectionTable {
     /// The table of a part of `structure`.
     pub fn of(structure: &Structure, part: Part, factor: f64) -> Self {
         let label = |dof: usize| Label(structure.label(dof).to_owned());
-        let plain = |what| Self { what, dofs: Vec::new(), elements: None, mode: None, factor };
+        let plain = |what| Self { what, dofs: Vec::new(), elements: None, mode: None, node: None, factor };
         let elements = |range: [usize; 2]| Some(range.map(|e| e as i64 + 1));
         match part {
             Part::Stiffness => plain(Corrected::Stiffness),
@@ -73,6 +78,9 @@ impl CorrectionTable {
             Part::PointMass(dof) => Self { dofs: vec![label(dof)], ..plain(Corrected::PointMass) },
             Part::ElementStiffness(range) => Self { elements: elements(range), ..plain(Corrected::ElementStiffness) },
             Part::ElementMass(range) => Self { elements: elements(range), ..plain(Corrected::ElementMass) },
+            Part::Support(held) => {
+                Self { node: structure.held_node(held).map(|n| Label(n.to_owned())), ..plain(Corrected::Support) }
+            }
         }
     }
 
@@ -118,6 +126,16 @@ impl CorrectionTable {
             },
             Corrected::ElementStiffness => Part::ElementStiffness(range()?),
             Corrected::ElementMass => Part::ElementMass(range()?),
+            Corrected::Support => {
+                let node = self.node.as_ref().ok_or_else(|| missing("node", "node = \"0\""))?;
+                let held = structure.supports().into_iter().find(|&h| structure.held_node(h) == Some(&node.0));
+                let value = node.0.clone();
+                Part::Support(held.ok_or(Problem::OutOfRange {
+                    key: "node".into(),
+                    value,
+                    range: "the node of a clamped or pinned end of the beam",
+                })?)
+            }
         })
     }
 }
@@ -126,7 +144,7 @@ impl CorrectionTable {
 pub(super) fn parse(structure: &Table<'_>, lines: &mut Lines) -> Result<Vec<CorrectionTable>, ProjectError> {
     let mut tables = Vec::new();
     for table in structure.tables("correction", "[[structure.correction]]")? {
-        table.only(&["what", "dofs", "elements", "mode", "factor"])?;
+        table.only(&["what", "dofs", "elements", "mode", "node", "factor"])?;
         let what = table.word("what", &Corrected::WORDS, Corrected::from_word)?;
         let what = table.need("what", "what = \"mode\"", what)?;
         let dofs = table.labels("dofs")?.unwrap_or_default().into_iter().map(Label).collect();
@@ -136,7 +154,8 @@ pub(super) fn parse(structure: &Table<'_>, lines: &mut Lines) -> Result<Vec<Corr
             return Err(table.error("factor", Problem::OutOfRange { key: "factor".into(), value, range: "above 0" }));
         }
         let (elements, mode) = (super::parse::elements(&table)?, table.whole("mode")?);
-        tables.push(CorrectionTable { what, dofs, elements, mode, factor });
+        let node = table.label("node")?.map(Label);
+        tables.push(CorrectionTable { what, dofs, elements, mode, node, factor });
         lines.correction.push(table.line());
     }
     Ok(tables)

@@ -1,0 +1,172 @@
+//! Candidate models scored by the prediction of runs that were left out of their fit, and their probabilities.
+//!
+//! Near the optimum the whitened residual is linear in the variables of the effects and in the updating parameters,
+//! `r = X z + e`, `e ~ N(0, 1)`, `z ~ N(0, P^-1)`. With group `g` of the runs left out
+//!
+//! ```text
+//! N_-g = P + sum_{h != g} X_h^T X_h,   m = N_-g^-1 sum_{h != g} X_h^T r_h
+//! ln p(r_g | others) = -1/2 [ |e_g|^2 - e_g^T X_g N^-1 X_g^T e_g + ln det N - ln det N_-g + ln det C_g ],
+//! e_g = r_g - X_g m,   N = N_-g + X_g^T X_g
+//! ```
+//!
+//! (Woodbury; `C_g` is the covariance of what is each run's own). Differences of the sums over groups are known no better than
+//! they scatter from group to group, so that probabilities are means over the Bayesian bootstrap of the groups (pseudo-BMA+,
+//! Yao, Vehtari, Simpson and Gelman 2018, Bayesian Analysis 13, 917).
+
+use crate::diagnosis::residual::data::{Data, DiagnosisError};
+use crate::diagnosis::residual::prediction::FINAL;
+use crate::diagnosis::selection::fit_problem::OnResponse;
+use crate::diagnosis::selection::fitted_model::Refit;
+use crate::diagnosis::selection::levenberg_marquardt::Variables;
+use crate::diagnosis::selection::search::Base;
+use crate::math::statistics::evidence_weights;
+use dashpot_numerics::{Cholesky, dot};
+use faer::Mat;
+use rand::SeedableRng;
+use rand_chacha::ChaCha8Rng;
+use rand_distr::{Distribution, Exp1};
+
+/// About as many groups as runs are left out in.
+const GROUPS: usize = 12;
+/// Precision of the prior of the variables of effects, which are of order one about the fit: what a left-out group alone knows
+/// of a parameter is unknown by a factor of `e`.
+const PRECISION: f64 = 1.0;
+/// Share of the draws in which a model must predict better: that within two standard deviations.
+const SURE: f64 = 0.975;
+/// Draws of the Bayesian bootstrap.
+const DRAWS: usize = 1000;
+
+/// The group of every run: neighbours in frequency of one session (or level).
+pub(super) fn groups(data: &Data) -> Vec<usize> {
+    let session = |r: usize| data.sessions.get(r).copied().unwrap_or(0);
+    let sessions = data.sessions.iter().max().map_or(1, |last| last + 1);
+    let blocks = (GROUPS / sessions).max(1);
+    let mut groups = vec![0; data.runs.len()];
+    for s in 0..sessions {
+        let mut own: Vec<usize> = (0..data.runs.len()).filter(|&r| session(r) == s).collect();
+        own.sort_by(|&a, &b| data.runs[a].omega.total_cmp(&data.runs[b].omega));
+        let count = own.len().max(1);
+        for (k, r) in own.into_iter().enumerate() {
+            groups[r] = s * blocks + k * blocks / count;
+        }
+    }
+    groups
+}
+
+impl Base<'_> {
+    /// Logarithm of the predictive density of each group of runs, left out of the fit of `refit` (none: corrections
+    /// alone).
+    pub(super) fn left_out(&self, refit: Option<&Refit>, groups: &[usize]) -> Result<Vec<f64>, DiagnosisError> {
+        let (variables, theta) = Variables::new(refit.map_or(&[], |refit| &refit.effects));
+        let (bench, starts) = (self.bench(), refit.map_or_else(Vec::new, |refit| refit.starts.clone()));
+        let mut problem = OnResponse { bench, variables: &variables, settings: FINAL, starts, last: None };
+        let (rows, own) = problem.at_reference(&theta)?;
+        let rows = self.noise.updating.without_reference(rows);
+        let mut columns: Vec<Vec<f64>> = own.into_iter().map(|c| c.into_iter().map(|x| -x).collect()).collect();
+        columns.extend(self.noise.updating.slopes().iter().cloned());
+        let precisions: Vec<f64> = (0..columns.len()).map(|k| if k < theta.len() { PRECISION } else { 1.0 }).collect();
+        let count = groups.iter().max().map_or(0, |last| last + 1);
+        let (mut of_row, mut own_costs) = (Vec::with_capacity(rows.len()), vec![0.0; count]);
+        for (noise, &group) in self.noise.runs.iter().zip(groups) {
+            of_row.extend(std::iter::repeat_n(group, noise.len()));
+            own_costs[group] += noise.nuisance().log_determinant();
+        }
+        let problem = LinearModel { rows: &rows, columns: &columns, precisions: &precisions, of_row: &of_row };
+        let densities = problem.left_out_densities(count);
+        Ok(densities.iter().zip(own_costs).map(|(density, cost)| density - 0.5 * cost).collect())
+    }
+}
+
+/// A linear model of unit noise with normal priors about zero.
+struct LinearModel<'a> {
+    rows: &'a [f64],
+    /// `X`, one column a parameter.
+    columns: &'a [Vec<f64>],
+    /// Diagonal of `P`.
+    precisions: &'a [f64],
+    /// Group of every row.
+    of_row: &'a [usize],
+}
+
+impl LinearModel<'_> {
+    /// Logarithm of the predictive density of every group (without `ln 2 pi`), given all others.
+    fn left_out_densities(&self, groups: usize) -> Vec<f64> {
+        let parts: Vec<(Mat<f64>, Mat<f64>)> = (0..groups).map(|g| self.normal(g)).collect();
+        (0..groups).map(|g| self.density(g, &parts)).collect()
+    }
+
+    /// `P + sum X_h^T X_h` and `sum X_h^T r_h` over the groups but one.
+    fn without(&self, group: usize, parts: &[(Mat<f64>, Mat<f64>)]) -> (Mat<f64>, Mat<f64>) {
+        let p = self.columns.len();
+        let mut normal = Mat::from_fn(p, p, |i, j| if i == j { self.precisions[i] } else { 0.0 });
+        let mut right = Mat::zeros(p, 1);
+        for (product, part) in parts.iter().enumerate().filter(|(h, _)| *h != group).map(|(_, part)| part) {
+            normal += product;
+            right += part;
+        }
+        (normal, right)
+    }
+
+    /// `X_g^T X_g` and `X_g^T r_g`.
+    fn normal(&self, group: usize) -> (Mat<f64>, Mat<f64>) {
+        let own = |values: &[f64]| -> Vec<f64> {
+            values.iter().zip(self.of_row).filter(|(_, g)| **g == group).map(|(x, _)| *x).collect()
+        };
+        let (rows, columns) = (own(self.rows), self.columns.iter().map(|c| own(c)).collect::<Vec<_>>());
+        let p = columns.len();
+        let product = Mat::from_fn(p, p, |i, j| dot(&columns[i], &columns[j]));
+        (product, Mat::from_fn(p, 1, |i, _| dot(&columns[i], &rows)))
+    }
+
+    fn density(&self, group: usize, parts: &[(Mat<f64>, Mat<f64>)]) -> f64 {
+        let p = self.columns.len();
+        let (normal, sum) = self.without(group, parts);
+        let (product, right) = &parts[group];
+        let full = Cholesky::new((&normal + product).as_ref());
+        let (Some(full), Some(rest)) = (full, Cholesky::new(normal.as_ref())) else { return f64::NEG_INFINITY };
+        let mean = rest.solve(sum.as_ref());
+        let own = |(row, g): (usize, &usize)| (*g == group).then_some(row);
+        let left = self
+            .of_row
+            .iter()
+            .enumerate()
+            .filter_map(own)
+            .map(|row| self.rows[row] - (0..p).map(|k| self.columns[k][row] * mean[(k, 0)]).sum::<f64>());
+        let square: f64 = left.map(|e| e * e).sum();
+        // X_g^T e_g = X_g^T r_g - X_g^T X_g m.
+        let seen = right - product * &mean;
+        let solved = full.solve(seen.as_ref());
+        let explained: f64 = (0..p).map(|i| seen[(i, 0)] * solved[(i, 0)]).sum();
+        -0.5 * (square - explained + full.log_determinant() - rest.log_determinant())
+    }
+}
+
+/// Whether a model predicts the groups better than another, whichever groups there had been: in all but few draws of the
+/// Bayesian bootstrap.
+pub(super) fn exceeds(densities: &[f64], others: &[f64]) -> bool {
+    let differences: Vec<f64> = densities.iter().zip(others).map(|(a, b)| a - b).collect();
+    let better = shares(differences.len()).filter(|shares| dot(&differences, shares) > 0.0).count();
+    better as f64 >= SURE * DRAWS as f64
+}
+
+/// Probabilities of models from the logarithms of their predictive densities of the same groups of runs, and of their priors.
+pub(super) fn probabilities(densities: &[Vec<f64>], priors: &[f64]) -> Vec<f64> {
+    let groups = densities.first().map_or(0, Vec::len);
+    let mut sums = vec![0.0; densities.len()];
+    for shares in shares(groups) {
+        let score = |(of, prior): (&Vec<f64>, &f64)| -2.0 * (groups as f64 * dot(of, &shares) + prior);
+        let weights = evidence_weights(&densities.iter().zip(priors).map(score).collect::<Vec<f64>>());
+        sums.iter_mut().zip(weights).for_each(|(sum, weight)| *sum += weight / DRAWS as f64);
+    }
+    sums
+}
+
+/// Draws of the weights of `groups` (Dirichlet of ones), the same at every call.
+fn shares(groups: usize) -> impl Iterator<Item = Vec<f64>> {
+    let mut random = ChaCha8Rng::seed_from_u64(1);
+    (0..DRAWS).map(move |_| {
+        let shares: Vec<f64> = (0..groups).map(|_| Exp1.sample(&mut random)).collect();
+        let total: f64 = shares.iter().sum();
+        shares.into_iter().map(|share| share / total).collect()
+    })
+}
