@@ -10,6 +10,7 @@ use super::frame;
 use super::frame::dock::Desk;
 use super::frame::leave::Leave;
 use super::frame::panes::Pane;
+use super::import::{dropped, is_project};
 use super::importing::{self, Importing};
 use super::learn::{self, Learn};
 use super::photograph::Photograph;
@@ -134,6 +135,7 @@ impl App {
             self.desk.set_open(Stage::Measure, Pane::Overview, true);
         }
         self.document = Some(document);
+        self.importing = None;
         self.derived = Derived::default();
         let View { law, tour, limit_s, .. } = self.view;
         self.view = View { law, tour, limit_s, ..View::default() };
@@ -386,17 +388,4 @@ impl eframe::App for App {
         eframe::set_value(storage, "desk", &self.desk);
         eframe::set_value(storage, "limit_s", &self.view.limit_s);
     }
-}
-
-/// Whether a file is a project by its name.
-pub(super) fn is_project(file: &Path) -> bool {
-    file.extension().is_some_and(|end| end.eq_ignore_ascii_case("toml"))
-}
-
-/// A dropped project is opened, dropped records are appended.
-fn dropped(ctx: &Context) -> Vec<Ask> {
-    let files: Vec<PathBuf> = ctx.input(|i| i.raw.dropped_files.iter().map(|f| f.path().to_path_buf()).collect());
-    let (projects, records): (Vec<PathBuf>, Vec<PathBuf>) = files.into_iter().partition(|f| is_project(f));
-    let records = (!records.is_empty()).then_some(Ask::Import(records));
-    projects.into_iter().map(Ask::Open).chain(records).collect()
 }

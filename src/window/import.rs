@@ -1,6 +1,7 @@
 //! What the window does with measurement files: looks into them, makes a project of them, or adds them to the one that is open.
 
 use super::app::App;
+use super::ask::Ask;
 use super::edits::Edit;
 use super::files::Pick;
 use super::importing::{Importing, Made, OpenProject, Step, Wish};
@@ -74,6 +75,10 @@ impl App {
                 let request = Request { mass: None, stiffness: None, nodes: None, ..draft.request.clone() };
                 self.look_again(ctx, request);
             }
+            // A new project takes the place of the open one.
+            Wish::Accept if self.would_lose_changes() => {
+                self.fail("The open project has unsaved changes: save it first, then make the new project.".to_owned());
+            }
             Wish::Accept => {
                 let Some(Importing::Ready(draft)) = self.importing.take() else { return };
                 match draft.accepted(ctx) {
@@ -82,6 +87,12 @@ impl App {
                 }
             }
         }
+    }
+
+    /// Whether accepting would close a project with unsaved changes.
+    fn would_lose_changes(&self) -> bool {
+        let dirty = self.document.as_ref().is_some_and(|document| document.session().is_dirty());
+        dirty && matches!(&self.importing, Some(Importing::Ready(draft)) if !draft.into_open())
     }
 
     /// Waits, at most so long, until files are read or their project is made.
@@ -115,4 +126,17 @@ impl App {
             }
         }
     }
+}
+
+/// Whether a file is a project by its name.
+pub(super) fn is_project(file: &Path) -> bool {
+    file.extension().is_some_and(|end| end.eq_ignore_ascii_case("toml"))
+}
+
+/// A dropped project is opened, dropped records are appended.
+pub(super) fn dropped(ctx: &Context) -> Vec<Ask> {
+    let files: Vec<PathBuf> = ctx.input(|i| i.raw.dropped_files.iter().map(|f| f.path().to_path_buf()).collect());
+    let (projects, records): (Vec<PathBuf>, Vec<PathBuf>) = files.into_iter().partition(|f| is_project(f));
+    let records = (!records.is_empty()).then_some(Ask::Import(records));
+    projects.into_iter().map(Ask::Open).chain(records).collect()
 }

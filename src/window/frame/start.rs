@@ -73,7 +73,7 @@ fn heading(ui: &mut Ui, asks: &mut Vec<Ask>) {
             .color(ui.palette().weak),
     );
     ui.add_space(space::L);
-    ui.horizontal(|ui| {
+    ui.horizontal_wrapped(|ui| {
         if ui.primary("Open a project…").on_hover_text(Command::Open.entry().tooltip).clicked() {
             asks.push(Ask::Command(Command::Open));
         }

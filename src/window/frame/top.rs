@@ -61,7 +61,7 @@ pub fn show(ui: &mut Ui, app: &App, asks: &mut Vec<Ask>) {
             });
         });
     });
-    if app.document.is_some() && !app.learn.open {
+    if app.document.is_some() && !app.learn.open && app.importing.is_none() {
         let bar = Frame::new().fill(palette.pane).inner_margin(Margin { left: 10, right: 10, top: 2, bottom: 0 });
         Panel::top("stages").frame(bar).show(ui, |ui| stages(ui, app, asks));
     }
