@@ -9,6 +9,8 @@ mod dialects;
 mod files;
 #[path = "import/mapped.rs"]
 mod mapped;
+#[path = "import/sets.rs"]
+mod sets;
 
 use serde_json::Value;
 use std::path::Path;

@@ -209,7 +209,8 @@ def hdf5s():
         file.create_dataset("records", data=np.zeros(3, dtype=[("a", "f8"), ("b", "i4"), ("c", "u1")]))
     expect("groups.h5", "hdf5", [("run 1", "acc", "m/s^2", STEP, ODD), ("run 1", "force", "N", STEP, FORCE.astype("f4")), ("run 2/deep", "x[1]", "", STEP, FORCE),
                                  ("run 2/deep", "x[2]", "", STEP, ODD), ("run 2/deep", "h", "", STEP, FRF), ("run 2/deep", "flags", "", STEP, (I % 2 == 0).astype(float)),
-                                 ("", "own", "V", 0.5, FORCE * 16), ("", "link", "V", 0.5, FORCE * 16), ("", "empty", "", None, [])])
+                                 ("", "own", "V", 0.5, FORCE * 16), ("", "link", "V", 0.5, FORCE * 16), ("", "empty", "", None, []),
+                                 ("records", "a", "", None, [0.0] * 3), ("records", "b", "", None, [0.0] * 3), ("records", "c", "", None, [0.0] * 3)])
     with h5py.File(OUT / "latest.h5", "w", libver="latest") as file:
         file.create_dataset("a", data=ODD, chunks=(5,), maxshape=(None,)).attrs["unit"] = "g"
         file.create_dataset("b", data=np.arange(6.0).reshape(2, 3))

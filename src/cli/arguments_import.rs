@@ -2,7 +2,6 @@
 
 use super::argument_values::positive;
 use crate::exchange::frf::Form;
-use crate::exchange::project::frf::FrfTable;
 use clap::Args;
 use clap::builder::PossibleValuesParser;
 use dashpot_datafiles::Pairing;
@@ -47,9 +46,6 @@ pub(super) struct Import {
     /// Factor from the numbers of frequency responses to SI (with --form), or on top of their units; negative reverses
     #[arg(long, allow_negative_numbers = true)]
     pub scale: Option<f64>,
-    /// The [[frf]] of the template
-    #[arg(skip)]
-    pub frf: Option<Box<FrfTable>>,
     /// Averages of frequency responses
     #[arg(long, value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
     pub averages: Option<u32>,

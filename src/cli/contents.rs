@@ -1,22 +1,17 @@
 //! `dashpot contents`: what is in measurement files, before anything is decided.
 
 use super::arguments::Contents as Arguments;
+use crate::exchange::importing::files::listed;
 use crate::exchange::mapping::stepped;
-use anyhow::{Context, ensure};
+use anyhow::ensure;
 use dashpot_datafiles::{Channel, DataFile, Number, Set, open};
 use serde_json::{Map, Value, json};
-use std::path::{Path, PathBuf};
 
 /// Most channels of a set in a listing for people.
 const MOST_LISTED: usize = 40;
-/// Deepest folders.
-const DEEPEST: usize = 8;
 
 pub(super) fn run(arguments: &Arguments) -> anyhow::Result<String> {
-    let mut files = Vec::new();
-    for path in &arguments.files {
-        collect(path, &mut files, 0)?;
-    }
+    let files = listed(&arguments.files)?;
     ensure!(!files.is_empty(), "{}: the folder has no file", arguments.files[0].display());
     // One file alone must be readable; of several those that are not are told in their place.
     let alone = files.len() == 1 && !arguments.files[0].is_dir();
@@ -39,25 +34,6 @@ pub(super) fn run(arguments: &Arguments) -> anyhow::Result<String> {
     }
     let document = if alone { entries.remove(0) } else { json!({ "files": entries }) };
     Ok(serde_json::to_string_pretty(&document)? + "\n")
-}
-
-/// The file, or the files of a folder and of those in it, in the order of their names.
-fn collect(path: &Path, files: &mut Vec<PathBuf>, depth: usize) -> anyhow::Result<()> {
-    if !path.is_dir() {
-        files.push(path.to_owned());
-        return Ok(());
-    }
-    if depth > DEEPEST {
-        return Ok(());
-    }
-    let listing = std::fs::read_dir(path).with_context(|| format!("{}: the folder cannot be read", path.display()))?;
-    let mut inside: Vec<PathBuf> = listing.filter_map(Result::ok).map(|entry| entry.path()).collect();
-    inside.sort();
-    let hidden = |path: &PathBuf| path.file_name().is_some_and(|name| name.to_string_lossy().starts_with('.'));
-    for path in inside.iter().filter(|path| !hidden(path) && !path.is_symlink()) {
-        collect(path, files, depth + 1)?;
-    }
-    Ok(())
 }
 
 fn entry(file: &DataFile) -> Value {

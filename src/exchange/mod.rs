@@ -3,6 +3,7 @@
 pub mod atomic;
 pub mod export;
 pub mod frf;
+pub mod importing;
 pub mod mapping;
 pub mod matrices;
 pub mod project;

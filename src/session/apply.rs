@@ -5,6 +5,7 @@ use super::document::Document;
 use super::refusal::Refusal;
 use super::{sources, structure};
 use crate::effects::{Effect, Family, State};
+use crate::exchange::project::MeasurementTables;
 use crate::exchange::project::correction::CorrectionTable;
 use crate::exchange::project::file::{CandidatesTable, ProjectFile, RunTable, SensorTable, Shape, SourceTable};
 use crate::exchange::project::ruled_out::RuledOutTable;
@@ -47,6 +48,7 @@ fn change(file: &mut ProjectFile, command: &Command, on: &Structure, folder: &Pa
         Command::SetLumpedMass { dof, mass } => set_lumped(file, dof, *mass, on),
         Command::CorrectStructure(tables) => correct_structure(file, tables),
         Command::ImportRuns(files) => import_runs(file, files, folder),
+        Command::ImportTables(tables) => import_tables(file, tables),
         Command::RemoveRun(run) => remove_run(file, run),
         Command::SetRunUse { file: run, enabled } => set(&mut run_of(file, run)?.enabled, Some(*enabled)),
         Command::SetRunFrequency { file: run, frequency } => set_frequency(file, run, *frequency),
@@ -153,6 +155,11 @@ fn set_lumped(file: &mut ProjectFile, dof: &str, mass: Option<f64>, on: &Structu
         None => masses.push(LumpedMass { dof: dof.into(), mass }),
     }
     Ok(())
+}
+
+fn import_tables(file: &mut ProjectFile, tables: &str) -> Done {
+    let tables = MeasurementTables::parse(tables, "import")?;
+    file.add_measurements(tables).map_err(|file| Refusal::RunTwice { file })
 }
 
 fn import_runs(file: &mut ProjectFile, files: &[String], folder: &Path) -> Done {

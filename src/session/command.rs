@@ -129,6 +129,9 @@ pub enum Command {
     CorrectStructure(Vec<CorrectionTable>),
     /// Adds records; paths are relative to the project.
     ImportRuns(Vec<String>),
+    /// Adds measurements as the tables `[[channel]]`, `[[run]]`, `[[harmonics]]` and `[[frf]]` of a TOML text; paths are relative
+    /// to the project.
+    ImportTables(String),
     /// Takes a run out; its record stays where it is.
     RemoveRun(String),
     /// Uses a run or not.
@@ -170,6 +173,7 @@ impl Command {
             Self::SetLumpedMass { mass: None, .. } => "remove lumped mass".into(),
             Self::CorrectStructure(_) => "correct structure".into(),
             Self::ImportRuns(files) => counted("import", files.len(), "run"),
+            Self::ImportTables(_) => "import measurements".into(),
             Self::RemoveRun(_) => "remove run".into(),
             Self::SetRunUse { enabled: true, .. } => "use run".into(),
             Self::SetRunUse { enabled: false, .. } => "leave out run".into(),

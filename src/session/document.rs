@@ -33,8 +33,12 @@ impl Revisions {
         step(old != new, &mut self.any);
         step(old.structure != new.structure, &mut self.structure);
         let fitted = |f: &ProjectFile| f.analysis.harmonics;
-        let measured =
-            old.run != new.run || old.harmonics != new.harmonics || old.frf != new.frf || old.sensor != new.sensor;
+        let mapped = old.channel != new.channel || old.base != new.base;
+        let measured = mapped
+            || old.run != new.run
+            || old.harmonics != new.harmonics
+            || old.frf != new.frf
+            || old.sensor != new.sensor;
         step(measured || fitted(old) != fitted(new), &mut self.measurements);
         step(old.source != new.source || old.candidates != new.candidates, &mut self.sources);
         step(old.ruled_out != new.ruled_out, &mut self.ruled_out);

@@ -114,7 +114,7 @@ impl App {
 
     fn go(&mut self, ctx: &Context, to: Leave) {
         match to {
-            Leave::Close => self.document = None,
+            Leave::Close => (self.document, self.importing) = (None, None),
             Leave::Open(file) => self.open(ctx, file),
             Leave::New(template) => self.new_from(template),
             Leave::Quit => {

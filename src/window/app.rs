@@ -11,6 +11,8 @@ use super::frame::choose::Choosing;
 use super::frame::dock::Desk;
 use super::frame::leave::Leave;
 use super::frame::panes::Pane;
+use super::import::{dropped, is_project};
+use super::importing::{self, Importing};
 use super::learn::{self, Learn};
 use super::photograph::Photograph;
 use super::plots::export::Exports;
@@ -24,7 +26,7 @@ use crate::control::Control;
 use crate::display::units;
 use crate::session::recent::Recent;
 use egui::{CentralPanel, Context, Frame, Margin, Ui};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 /// Longest wait for a piece of work where nobody can cancel.
 const LONGEST: std::time::Duration = std::time::Duration::from_mins(10);
@@ -64,6 +66,8 @@ pub struct App {
     pub choosing: Option<Choosing>,
     /// Whether the program may close.
     pub(super) closing: bool,
+    /// Files on their way into a project.
+    pub importing: Option<Importing>,
     /// The page of laws.
     pub learn: Learn,
     pub(super) work: Work,
@@ -76,8 +80,11 @@ pub struct App {
 }
 
 impl App {
-    /// Starts to read a project file in the background.
+    /// Starts to read a project file in the background, or to look into a file of measurements.
     pub fn open(&mut self, ctx: &Context, file: PathBuf) {
+        if !is_project(&file) {
+            return self.import(ctx, &[file]);
+        }
         let started = self.work.load(ctx, file);
         self.note(started);
     }
@@ -93,6 +100,7 @@ impl App {
                 Err(error) => self.fail(error.to_string()),
             }
         }
+        self.settle_import(ctx, LONGEST);
         match &self.message {
             Some(message) if message.failed => Err(message.text.clone()),
             _ => Ok(()),
@@ -133,6 +141,7 @@ impl App {
             self.desk.set_open(Stage::Measure, Pane::Overview, true);
         }
         self.document = Some(document);
+        self.importing = None;
         self.derived = Derived::default();
         let View { law, tour, limit_s, .. } = self.view;
         self.view = View { law, tour, limit_s, ..View::default() };
@@ -162,7 +171,8 @@ impl App {
 
     /// Name and progress of what runs.
     pub fn running(&self) -> Option<(&str, f64)> {
-        self.work.running().or_else(|| self.derived.running()).or_else(|| self.learn.running())
+        let imported = || self.importing.as_ref().and_then(Importing::running);
+        self.work.running().or_else(imported).or_else(|| self.derived.running()).or_else(|| self.learn.running())
     }
 
     /// Gives up what runs, on the user's wish.
@@ -172,6 +182,7 @@ impl App {
         }
         self.work.cancel();
         self.derived.cancel();
+        self.importing = self.importing.take().and_then(Importing::cancelled);
         self.learn.cancel();
         self.say("Cancelled.".to_owned());
     }
@@ -181,6 +192,7 @@ impl App {
         let ctx = ui.ctx().clone();
         self.guard.watch(&ctx);
         self.poll(&ctx);
+        self.step_import(&ctx);
         let busy = self.running().is_some();
         if let Some(photograph) = &mut self.photograph {
             photograph.frame(&ctx, busy);
@@ -203,6 +215,8 @@ impl App {
         frame::status::show(ui, self, &mut asks);
         if self.learn.open {
             learn::show(ui, self, &mut asks);
+        } else if self.importing.is_some() {
+            importing::show(ui, self, &mut asks);
         } else if self.document.is_some() {
             let desk = Frame::new().fill(Palette::of(ui.visuals()).desk).inner_margin(Margin::same(space::GAP as i8));
             CentralPanel::default().frame(desk).show(ui, |ui| frame::dock::show(ui, self, &mut asks));
@@ -255,6 +269,7 @@ impl App {
             Ask::New(template) => self.leave(ctx, Leave::New(template)),
             Ask::Leave(changes) => self.left(ctx, changes),
             Ask::Import(files) => self.import(ctx, &files),
+            Ask::Importing(wish) => self.import_wish(ctx, wish),
             Ask::SaveAs(path) => self.save_as(&path),
             Ask::ExportAs(format) => self.pick(ctx, Pick::Export(format)),
             Ask::Export(format, path) => self.export(ctx, format, path),
@@ -350,13 +365,4 @@ impl eframe::App for App {
         eframe::set_value(storage, "limit_s", &self.view.limit_s);
         eframe::set_value(storage, "units", &units::now());
     }
-}
-
-/// A dropped project is opened, dropped records are appended.
-fn dropped(ctx: &Context) -> Vec<Ask> {
-    let files: Vec<PathBuf> = ctx.input(|i| i.raw.dropped_files.iter().map(|f| f.path().to_path_buf()).collect());
-    let is_project = |f: &Path| f.extension().is_some_and(|e| e.eq_ignore_ascii_case("toml"));
-    let (projects, records): (Vec<PathBuf>, Vec<PathBuf>) = files.into_iter().partition(|f| is_project(f));
-    let records = (!records.is_empty()).then_some(Ask::Import(records));
-    projects.into_iter().map(Ask::Open).chain(records).collect()
 }

@@ -11,7 +11,7 @@ use std::process::ExitCode;
 #[derive(Debug, Parser)]
 #[command(name = "dashpot")]
 struct WindowArguments {
-    /// Project file; without it, the start screen.
+    /// Project file, or a file of measurements; without it, the start screen.
     file: Option<PathBuf>,
     /// Writes what the window shows once everything has settled, says how long the first frame took, and closes.
     #[arg(long, value_name = "PNG", hide = true)]
@@ -22,7 +22,7 @@ struct WindowArguments {
 #[derive(Debug, Parser)]
 #[command(name = "dashpot picture")]
 struct PictureArguments {
-    /// Project file; without it, the start screen.
+    /// Project file, or a file of measurements; without it, the start screen.
     file: Option<PathBuf>,
     /// Stage: start, measure, structure, pattern, select, result or explain.
     #[arg(long, default_value = "measure")]
@@ -51,7 +51,7 @@ pub fn run(arguments: &[OsString]) -> Option<ExitCode> {
         [first, ..] if first == "picture" => {
             Some(PictureArguments::try_parse_from(&arguments[1..]).map_or_else(|e| usage(&e), |a| code(draw(a))))
         }
-        [first, ..] if is_project(first) || first == "--photograph" => {
+        [first, ..] if is_project(first) || is_file(first) || first == "--photograph" => {
             let opened = |a: WindowArguments| code(super::open(a.file, a.photograph));
             Some(WindowArguments::try_parse_from(arguments).map_or_else(|e| usage(&e), opened))
         }
@@ -62,6 +62,12 @@ pub fn run(arguments: &[OsString]) -> Option<ExitCode> {
 fn usage(error: &clap::Error) -> ExitCode {
     let _ = error.print();
     ExitCode::from(u8::try_from(error.exit_code()).unwrap_or(2))
+}
+
+/// Whether an argument is the name of a file that is there, and no command.
+fn is_file(argument: &OsString) -> bool {
+    let path = std::path::Path::new(argument);
+    path.extension().is_some() && path.is_file()
 }
 
 fn is_project(argument: &OsString) -> bool {

@@ -5,6 +5,7 @@ use super::edits::Edit;
 use super::files::Pick;
 use super::frame::leave::Changes;
 use super::frame::panes::Pane;
+use super::importing::Wish;
 use super::schematic::gesture::Intent;
 use super::stages;
 use super::view::Stage;
@@ -31,8 +32,10 @@ pub enum Ask {
     Open(PathBuf),
     /// A new project from a template, by its number.
     New(usize),
-    /// Records to append.
+    /// Measurements, and files of a model, to import.
     Import(Vec<PathBuf>),
+    /// Something on the page of an import.
+    Importing(Wish),
     /// Another name for the project.
     SaveAs(PathBuf),
     /// What was identified in a format; where to, is asked.
@@ -70,7 +73,7 @@ impl Ask {
             Self::Edit(_) => "Edit".to_owned(),
             Self::Open(_) => "Open".to_owned(),
             Self::New(template) => format!("New {template}"),
-            Self::Import(_) => "Import".to_owned(),
+            Self::Import(_) | Self::Importing(_) => "Import".to_owned(),
             Self::SaveAs(_) => "SaveAs".to_owned(),
             Self::Schematic(_) => "Schematic".to_owned(),
             Self::Explain(_) => "Explain".to_owned(),

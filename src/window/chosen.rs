@@ -1,10 +1,10 @@
 //! Files that the user chooses: by a dialog of the desktop or of the window, and what is done with them.
 
 use super::app::App;
-use super::edits::Edit;
 use super::files::Pick;
 use super::frame::choose::Choosing;
 use super::frame::leave::Leave;
+use super::import::is_project;
 use crate::session::states::Against;
 use egui::Context;
 use std::path::{Path, PathBuf};
@@ -14,22 +14,14 @@ impl App {
     pub(super) fn picked(&mut self, ctx: &Context, pick: Pick, paths: Vec<PathBuf>) {
         let Some(first) = paths.first().cloned() else { return };
         match pick {
-            Pick::Open => self.leave(ctx, Leave::Open(first)),
-            Pick::Import => self.import(ctx, &paths),
+            Pick::Open if is_project(&first) => self.leave(ctx, Leave::Open(first)),
+            Pick::Open | Pick::Import => self.import(ctx, &paths),
+            Pick::Model => self.lay_under(ctx, paths),
             Pick::SaveAs => self.save_as(&first),
             Pick::Export(format) => self.export(ctx, format, first),
             Pick::Report => self.report(ctx, first),
             Pick::EarlierState => self.view.against = Some(Against::Project(first)),
         }
-    }
-
-    /// Appends records to the runs.
-    pub(super) fn import(&mut self, ctx: &Context, files: &[PathBuf]) {
-        if self.document.is_none() {
-            return self.fail("There is no project to import measurements into; open or make one first.".to_owned());
-        }
-        let files = files.iter().map(|f| f.display().to_string()).collect();
-        self.edit(ctx, &Edit::Do(crate::session::Command::ImportRuns(files)));
     }
 
     /// Saves under another name.

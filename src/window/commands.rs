@@ -78,7 +78,7 @@ pub const TABLE: [Entry; 32] = [
     entry(
         Command::Import,
         "Import measurements…",
-        "Appends records to the runs; those that are there stay.",
+        "Shows what is in measurement files and makes a project of them, or adds them to this one.",
         ctrl(Key::I),
     ),
     entry(Command::Save, "Save", "Writes the project to its file.", ctrl(Key::S)),

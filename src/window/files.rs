@@ -9,13 +9,25 @@ use std::path::{Path, PathBuf};
 /// Name of the work that waits for a dialog.
 pub const ASKING: &str = "Choosing a file";
 
+/// Endings of measurement files.
+const MEASUREMENTS: &[&str] =
+    &["uff", "unv", "uf", "mat", "h5", "hdf5", "tdms", "lvm", "csv", "txt", "tsv", "dat", "xlsx", "wav", "npy", "npz"];
+
+/// Endings of projects and of measurement files.
+const OPENED: &[&str] = &[
+    "toml", "uff", "unv", "uf", "mat", "h5", "hdf5", "tdms", "lvm", "csv", "txt", "tsv", "dat", "xlsx", "wav", "npy",
+    "npz",
+];
+
 /// What a file is asked for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Pick {
     /// A project to open.
     Open,
-    /// Records to append.
+    /// Measurements to import.
     Import,
+    /// Files of the model that is laid under an import.
+    Model,
     /// Where to save the project.
     SaveAs,
     /// Where to write what was identified.
@@ -36,9 +48,10 @@ impl Pick {
 /// What a dialog asks for, in words.
 pub fn title(pick: Pick) -> &'static str {
     match pick {
-        Pick::Open => "Open a project",
+        Pick::Open => "Open a project or measurements",
         Pick::EarlierState => "Project of the earlier state",
         Pick::Import => "Import measurements",
+        Pick::Model => "Mass, stiffness and nodes of the model",
         Pick::SaveAs => "Save the project as",
         Pick::Report => "Report",
         Pick::Export(_) => "Export",
@@ -48,8 +61,10 @@ pub fn title(pick: Pick) -> &'static str {
 /// Endings of the files that may be meant; empty for any.
 pub fn endings(pick: Pick) -> &'static [&'static str] {
     match pick {
-        Pick::Open | Pick::EarlierState | Pick::SaveAs => &["toml"],
-        Pick::Import => &["csv", "txt", "tsv"],
+        Pick::EarlierState | Pick::SaveAs => &["toml"],
+        Pick::Open => OPENED,
+        Pick::Import => MEASUREMENTS,
+        Pick::Model => &["bdf", "dat", "nas", "pch", "op4", "mtx", "sti", "mas", "inp"],
         Pick::Report => &["pdf", "html"],
         Pick::Export(_) => &[],
     }
@@ -61,7 +76,7 @@ pub fn proposal(pick: Pick) -> String {
         Pick::SaveAs => "project.toml".to_owned(),
         Pick::Report => "report.pdf".to_owned(),
         Pick::Export(format) => format!("damping.{}", extension(format)),
-        Pick::Open | Pick::EarlierState | Pick::Import => String::new(),
+        Pick::Open | Pick::EarlierState | Pick::Import | Pick::Model => String::new(),
     }
 }
 
@@ -90,7 +105,7 @@ pub fn ask(pick: Pick) -> impl Future<Output = Vec<PathBuf>> + Send {
         let paths = |files: Vec<rfd::FileHandle>| files.iter().map(|f| f.path().to_path_buf()).collect();
         match pick {
             Pick::Open | Pick::EarlierState => paths(dialog.pick_file().await.into_iter().collect()),
-            Pick::Import => paths(dialog.pick_files().await.unwrap_or_default()),
+            Pick::Import | Pick::Model => paths(dialog.pick_files().await.unwrap_or_default()),
             Pick::SaveAs | Pick::Export(_) | Pick::Report => paths(dialog.save_file().await.into_iter().collect()),
         }
     }

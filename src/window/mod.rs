@@ -16,6 +16,8 @@ pub mod edits;
 pub mod explained;
 pub mod files;
 pub mod frame;
+mod import;
+pub mod importing;
 pub mod learn;
 mod marks;
 pub mod offscreen;

@@ -126,6 +126,8 @@ fn common(state: &State) -> u64 {
     for sensor in &file.sensor {
         (&sensor.channel, sensor.delay.map(f64::to_bits), sensor.gain.map(f64::to_bits)).hash(&mut hasher);
     }
+    // How laboratory files are read.
+    format!("{:?}", file.channel).hash(&mut hasher);
     for dof in state.structure().dofs() {
         dof.label.hash(&mut hasher);
     }
@@ -134,7 +136,7 @@ fn common(state: &State) -> u64 {
 
 fn run_key(table: &RunTable, common: u64) -> Key {
     let mut hasher = DefaultHasher::new();
-    let part = [table.frequency, table.start_s, table.end_s];
-    (common, part.map(|value| value.map(f64::to_bits))).hash(&mut hasher);
+    let part = [table.frequency, table.start_s, table.end_s, table.sampling_hz];
+    (common, &table.set, part.map(|value| value.map(f64::to_bits))).hash(&mut hasher);
     (table.file.clone(), hasher.finish())
 }

@@ -10,6 +10,7 @@ mod export;
 mod first_hour;
 mod friction;
 mod history;
+mod importing;
 mod journey;
 mod laboratory;
 mod laws;

@@ -138,6 +138,11 @@ pub fn start() -> Harness<'static, App> {
     window(None, egui::Theme::Light, SIZE)
 }
 
+/// The same of another size.
+pub fn start_sized(size: [f32; 2]) -> Harness<'static, App> {
+    window(None, egui::Theme::Light, size)
+}
+
 /// Size of the window unless a test asks for another, points.
 const SIZE: [f32; 2] = [1440.0, 900.0];
 

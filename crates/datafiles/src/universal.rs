@@ -50,13 +50,17 @@ pub(crate) fn open(path: &Path) -> Read<(Contents, Box<dyn Source>)> {
     let entries = file.sets().to_vec();
     contents.notes.extend(file.warnings().iter().take(MOST_WARNINGS).map(ToString::to_string));
     let mut previewed = 0;
+    let units = entries.iter().find_map(|entry| match &entry.summary {
+        Summary::Units(units) => Some(units.clone()),
+        _ => None,
+    });
     for (i, entry) in entries.iter().enumerate() {
         let suffix = if entry.binary { "b" } else { "" };
         let mut set = Set::new(format!("{} ({}{suffix})", i + 1, entry.number), Kind::Table);
         previewed += entry.bytes.end - entry.bytes.start;
         let reading = (previewed <= MOST_PREVIEWED).then(|| file.read(i));
         if let Summary::Function(header) = &entry.summary {
-            function(&mut set, header);
+            function(&mut set, header, units.as_ref());
         }
         match reading {
             Some(Ok(reading)) => fill(&mut set, &reading),
@@ -73,7 +77,7 @@ pub(crate) fn open(path: &Path) -> Read<(Contents, Box<dyn Source>)> {
 }
 
 /// The channel of a function by its header.
-fn function(set: &mut Set, header: &FunctionHeader) {
+fn function(set: &mut Set, header: &FunctionHeader, units: Option<&uff::Units>) {
     set.kind = match header.kind {
         FunctionKind::FrequencyResponse | FunctionKind::Transmissibility => Kind::Frf,
         FunctionKind::TimeResponse | FunctionKind::AutoCorrelation | FunctionKind::CrossCorrelation => Kind::Time,
@@ -91,11 +95,15 @@ fn function(set: &mut Set, header: &FunctionHeader) {
         (unit, _) => unit.to_owned(),
     };
     set.name = format!("{} {}", set.name, header.kind.name());
+    let stated = !header.ordinate.unit.is_empty() || !header.denominator.unit.is_empty();
+    let by_set =
+        units.filter(|_| !stated && set.kind == Kind::Time).and_then(|units| unit_of(header.ordinate.quantity, units));
     let unit = match (header.ordinate.unit.as_str(), header.denominator.unit.as_str()) {
         (unit, "") => unit.to_owned(),
         ("", below) => format!("1/{below}"),
         (unit, below) => format!("({unit})/({below})"),
     };
+    let unit = by_set.map_or(unit, str::to_owned);
     let mut channel = Channel::new(name(header), unit, header.count);
     channel.complex = header.complex;
     channel.axis =
@@ -115,6 +123,28 @@ fn function(set: &mut Set, header: &FunctionHeader) {
         attribute(&format!("id line {}", i + 1), line.trim().to_owned());
     }
     set.channels.push(channel);
+}
+
+/// The unit of a record that states none, by its type of ordinate and the units of the file (set 164).
+fn unit_of(quantity: i64, units: &uff::Units) -> Option<&'static str> {
+    const LENGTHS: [(f64, [&str; 3]); 5] = [
+        (1.0, ["m", "m/s", "m/s^2"]),
+        (1e3, ["mm", "mm/s", "mm/s^2"]),
+        (100.0, ["cm", "cm/s", "cm/s^2"]),
+        (1.0 / 0.0254, ["in", "in/s", "in/s^2"]),
+        (1.0 / 0.3048, ["ft", "ft/s", "ft/s^2"]),
+    ];
+    const FORCES: [(f64, &str); 5] =
+        [(1.0, "N"), (1e3, "mN"), (1e-3, "kN"), (1.0 / 4.448_221_615_260_5, "lbf"), (1.0 / 9.806_65, "kgf")];
+    let near = |a: f64, b: f64| (a / b - 1.0).abs() < 1e-3;
+    let order = match quantity {
+        8 => 0,
+        11 => 1,
+        12 => 2,
+        9 | 13 => return FORCES.iter().find(|(factor, _)| near(units.force, *factor)).map(|(_, name)| *name),
+        _ => return None,
+    };
+    LENGTHS.iter().find(|(factor, _)| near(units.length, *factor)).map(|(_, names)| names[order])
 }
 
 /// `12:+Z`, with the entity in front where the file names one.

@@ -102,6 +102,9 @@ pub fn labels_in(path: &Path) -> Vec<String> {
     labels
 }
 
+/// Type of an abscissa of frequencies.
+const FREQUENCY: i64 = 18;
+
 struct Reader<'a> {
     file: &'a mut File<std::fs::File>,
     source: &'a FrfSource,
@@ -122,11 +125,20 @@ impl Reader<'_> {
             Summary::Units(units) => Some(units.clone()),
             _ => None,
         });
+        let named =
+            |summary: &Summary| matches!(summary, Summary::Function(f) if f.kind == FunctionKind::FrequencyResponse);
+        let unnamed = !entries.iter().any(|entry| named(&entry.summary));
         let mut faults: Vec<String> = self.file.warnings().iter().map(|fault| format!("{name}: {fault}")).collect();
         let (mut found, mut frequencies, mut coherences) = (Vec::new(), Vec::new(), Vec::new());
         for (set, entry) in entries.iter().enumerate() {
             let Summary::Function(header) = &entry.summary else { continue };
-            if !matches!(header.kind, FunctionKind::FrequencyResponse | FunctionKind::Coherence) {
+            let wanted = match header.kind {
+                FunctionKind::FrequencyResponse | FunctionKind::Coherence => true,
+                // Some programs leave the type out.
+                FunctionKind::General => unnamed && header.complex && header.abscissa.quantity == FREQUENCY,
+                _ => false,
+            };
+            if !wanted {
                 continue;
             }
             if control.check().is_err() {

@@ -4,13 +4,17 @@
 //! by `dashpot_datafiles` and never rewritten.
 
 mod guess;
+mod memory;
 pub mod propose;
 mod read;
+mod runs;
 mod stepped;
 pub mod table;
 pub mod units;
 
 pub use propose::{Proposal, propose};
+pub use read::is_own_record;
 pub(crate) use read::{Template, read_mapped, reads_as_own};
+pub use runs::runs_of;
 pub use stepped::{Stepped, stepped};
 pub use table::ChannelTable;

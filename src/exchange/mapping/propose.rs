@@ -9,7 +9,7 @@ use super::units::LabUnit;
 use crate::measurement::Quantity;
 use crate::measurement::channel::parse_name;
 use dashpot_datafiles::units::{sensitivity, suffix};
-use dashpot_datafiles::{Axis, Channel, Contents, Kind};
+use dashpot_datafiles::{Axis, Channel, Contents, Kind, Set};
 
 /// Names of channels that `dashpot_datafiles` found to be the times of others.
 const TIMES: &str = "time of ";
@@ -49,12 +49,15 @@ pub fn propose(contents: &Contents) -> Proposal {
     };
     // Where another channel moves, `x` may be anything.
     let moved = contents.sets.iter().flat_map(|set| &set.channels).any(moves);
-    for set in contents.sets.iter().filter(|set| matches!(set.kind, Kind::Time | Kind::Table)) {
+    let recorded: Vec<&Set> = contents.sets.iter().filter(|set| matches!(set.kind, Kind::Time | Kind::Table)).collect();
+    // Sets of one layout are runs of one mapping, told by the first of them.
+    let alike = of_one_layout(&recorded);
+    for set in alike.map_or(recorded.clone(), |first| vec![first]) {
         for channel in set.channels.iter().filter(|channel| !channel.name.starts_with(TIMES)) {
             let same = |other: &&Channel| other.name == channel.name;
             let everywhere = contents.sets.iter().flat_map(|set| &set.channels).filter(same).count();
             let within = set.channels.iter().filter(same).count();
-            let stated = (everywhere > within).then(|| set.name.clone());
+            let stated = (everywhere > within && alike.is_none()).then(|| set.name.clone());
             match draft(channel, stated, moved) {
                 _ if within > 1 => proposal.leave(channel, "two channels of the set have that name"),
                 _ if channel.count == 0 => proposal.leave(channel, "it has 0 samples"),
@@ -67,6 +70,19 @@ pub fn propose(contents: &Contents) -> Proposal {
     let drafts = proposal.of_one_length(drafts);
     proposal.number(drafts);
     proposal
+}
+
+/// The first of the sets that are several of one layout, each with a name of its own.
+fn of_one_layout<'a>(sets: &[&'a Set]) -> Option<&'a Set> {
+    let layout = |set: &Set| set.channels.iter().map(|channel| channel.name.clone()).collect::<Vec<_>>();
+    let alike = |set: &Set| -> Vec<&String> {
+        let own = layout(set);
+        sets.iter().filter(|other| layout(other) == own).map(|other| &other.name).collect()
+    };
+    let found = sets.iter().copied().filter(|set| set.channels.len() > 1).find(|set| alike(set).len() > 1)?;
+    let mut names = alike(found);
+    names.sort_unstable();
+    names.windows(2).all(|pair| pair[0] != pair[1]).then_some(found)
 }
 
 impl Proposal {

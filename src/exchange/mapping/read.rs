@@ -1,5 +1,6 @@
 //! A run out of a laboratory file by the mapping of the project.
 
+use super::memory::too_large;
 use super::propose::own_name;
 use super::table::ChannelTable;
 use super::units::LabUnit;
@@ -52,6 +53,18 @@ pub(crate) fn reads_as_own(path: &Path, template: Template<'_>) -> bool {
         let csv = path.extension().is_none_or(|end| end.eq_ignore_ascii_case("csv") || end.eq_ignore_ascii_case("txt"));
         return csv || open(path).is_err();
     }
+    let bare = |name: &str| name.split('[').next().unwrap_or_default().trim().to_owned();
+    own_names(path)
+        .is_some_and(|names| names.iter().all(|name| template.channels.iter().all(|table| table.name != bare(name))))
+}
+
+/// Whether a file is a record in the project's own form.
+pub fn is_own_record(path: &Path) -> bool {
+    own_names(path).is_some()
+}
+
+/// Names of the columns of a record in the project's own form; none of any other file.
+fn own_names(path: &Path) -> Option<Vec<String>> {
     let mut start = vec![0; 1 << 16];
     let read = std::fs::File::open(path).and_then(|mut file| std::io::Read::read(&mut file, &mut start));
     start.truncate(read.unwrap_or(0));
@@ -59,10 +72,9 @@ pub(crate) fn reads_as_own(path: &Path, template: Template<'_>) -> bool {
     let header = text.trim_start_matches('\u{feff}').lines().find(|line| !line.trim().is_empty()).unwrap_or_default();
     let mut cells = header.split([',', ';', '\t']).map(|cell| cell.trim().trim_matches('"'));
     let timed = cells.next().is_some_and(|cell| cell.to_lowercase().starts_with("time"));
-    let names: Vec<&str> = cells.filter(|cell| !cell.is_empty()).collect();
+    let names: Vec<String> = cells.filter(|cell| !cell.is_empty()).map(str::to_owned).collect();
     let own = !names.is_empty() && names.iter().all(|name| ChannelName::parse(name).is_ok());
-    let bare = |name: &str| name.split('[').next().unwrap_or_default().trim().to_owned();
-    timed && own && names.iter().all(|name| template.channels.iter().all(|table| table.name != bare(name)))
+    (timed && own).then_some(names)
 }
 
 /// Reads the record of a run from a laboratory file of any format.
@@ -87,10 +99,14 @@ pub(crate) fn read_mapped(
             "no [[channel]] says what its channels measure; `dashpot import FILE --propose` writes them",
         ));
     }
+    let places = channels.iter().map(|table| locate(&file, table, template.set, &at)).collect::<Result<Vec<_>, _>>()?;
+    let count = |&(set, channel): &(usize, usize)| file.contents().sets[set].channels[channel].count;
+    if let Some(problem) = too_large(places.iter().map(count).sum(), channels.len()) {
+        return Err(at.error(None, problem));
+    }
     let mut time: Option<Vec<f64>> = None;
     let (mut found, mut samples) = (Vec::new(), Vec::new());
-    for table in channels {
-        let (set, channel) = locate(&file, table, template.set, &at)?;
+    for (table, (set, channel)) in channels.iter().zip(places) {
         found.push(target(table, structure, &at)?);
         samples.push(values(&file, set, channel, table, &at)?);
         let own = times(&file, set, channel, table, template.sampling_hz, &at)?;

@@ -18,7 +18,7 @@ const INCH: f64 = 0.0254;
 const FOOT: f64 = 0.3048;
 
 /// Spellings in lower case without blanks, brackets and carets, with their factor and quantity.
-const SPELLINGS: [(&[&str], f64, Quantity); 22] = [
+const SPELLINGS: [(&[&str], f64, Quantity); 25] = [
     (&["n", "newton", "newtons"], 1.0, Quantity::Force),
     (&["mn"], 1e-3, Quantity::Force),
     (&["kn"], 1e3, Quantity::Force),
@@ -30,6 +30,9 @@ const SPELLINGS: [(&[&str], f64, Quantity); 22] = [
     (&["mg"], 1e-3 * STANDARD_GRAVITY, Quantity::Acceleration),
     (&["in/s2", "in/s²", "in/s**2"], INCH, Quantity::Acceleration),
     (&["ft/s2", "ft/s²", "ft/s**2"], FOOT, Quantity::Acceleration),
+    (&["cm/s2", "cm/s²", "gal"], 1e-2, Quantity::Acceleration),
+    (&["km/s2", "km/s²"], 1e3, Quantity::Acceleration),
+    (&["ft/s"], FOOT, Quantity::Velocity),
     (&["m/s", "ms-1"], 1.0, Quantity::Velocity),
     (&["mm/s"], 1e-3, Quantity::Velocity),
     (&["cm/s"], 1e-2, Quantity::Velocity),

@@ -108,6 +108,16 @@ pub(super) fn read(path: &Path) -> Result<(String, String), TableError> {
     Ok((text.strip_prefix('\u{feff}').map(str::to_owned).unwrap_or(text), file))
 }
 
+/// The text of a deck; comments in Latin-1 are no fault.
+pub(super) fn read_deck_text(path: &Path) -> Result<(String, String), TableError> {
+    let file = path.display().to_string();
+    let bytes = std::fs::read(path)
+        .map_err(|error| TableError::file(&file, TableProblem::Unreadable { reason: error.to_string() }))?;
+    let text = String::from_utf8(bytes)
+        .unwrap_or_else(|error| error.as_bytes().iter().map(|&byte| char::from(byte)).collect());
+    Ok((text.strip_prefix('\u{feff}').map(str::to_owned).unwrap_or(text), file))
+}
+
 /// A piece of a file for a message: one line, not too long.
 pub(super) fn quote(text: &str) -> String {
     text.chars().map(|c| if c.is_control() { ' ' } else { c }).take(60).collect::<String>().trim().to_owned()

@@ -1,5 +1,6 @@
 //! Matrices and their tables of nodes, DOFs and lines: Matrix Market and CSV.
 
+mod deck;
 pub mod error;
 pub mod market;
 pub mod model;

@@ -4,12 +4,13 @@
 //! in the order of nodes and directions, whatever order the files have. Rows that a program marks as fixed by a stiffness
 //! of 1e30 and more are left out, which is said.
 
-use super::error::{TableError, TableProblem, read};
+use super::deck::read_deck;
+use super::error::{TableError, TableProblem, read_deck_text as read};
 use super::{read_dofs, read_lines, read_matrix, read_nodes};
 use crate::structure::imported::ImportedDof;
 use crate::structure::reduction::SparseSystem;
 use crate::structure::{Direction, Node};
-use dashpot_fe_files::{Geometry, Matrix, NodeDof, abaqus, calculix, inp, nastran, op4};
+use dashpot_fe_files::{Geometry, Matrix, NodeDof, abaqus, calculix, inp, op4};
 use dashpot_numerics::SparseSymmetric;
 use faer::Mat;
 use std::collections::HashMap;
@@ -162,11 +163,11 @@ fn drop_unknown(lines: &mut Vec<[String; 2]>, nodes: Option<&[Node]>) {
 }
 
 fn geometry_of(path: &Path) -> Result<Geometry, TableError> {
-    let (text, file) = read(path)?;
-    match kind(path) {
-        Kind::Nastran => Ok(nastran::read(&text, &file).map_err(TableError::from)?.geometry),
-        _ => Ok(inp::read(&text, &file)?),
+    if kind(path) == Kind::Nastran {
+        return Ok(read_deck(path)?.geometry);
     }
+    let (text, file) = read(path)?;
+    Ok(inp::read(&text, &file)?)
 }
 
 /// One matrix and the nodes and lines that its file, or the input beside it, has.
@@ -179,8 +180,7 @@ fn one(path: &Path, name: Option<&str>, what: &str) -> Result<(Matrix, Geometry)
             Ok((plain(&dense, n), Geometry::default()))
         }
         Kind::Nastran => {
-            let (text, file) = read(path)?;
-            let bulk = nastran::read(&text, &file)?;
+            let bulk = read_deck(path)?;
             Ok((chosen(bulk.matrices, name, what, &file)?, bulk.geometry))
         }
         Kind::Output4 => {

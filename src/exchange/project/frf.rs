@@ -77,6 +77,27 @@ pub struct FrfTable {
     pub dofs: BTreeMap<String, Label>,
 }
 
+impl FrfTable {
+    /// All functions of a file as it says itself.
+    pub fn of(file: String) -> Self {
+        Self {
+            file,
+            form: None,
+            scale: None,
+            averages: None,
+            reciprocity: false,
+            band: None,
+            lines: None,
+            enabled: true,
+            responses: Vec::new(),
+            references: Vec::new(),
+            step_hz: None,
+            columns: None,
+            dofs: BTreeMap::new(),
+        }
+    }
+}
+
 /// Reads every `[[frf]]`.
 pub(super) fn parse(root: &Table<'_>, lines: &mut Lines) -> Result<Vec<FrfTable>, ProjectError> {
     let mut tables = Vec::new();

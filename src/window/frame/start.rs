@@ -73,9 +73,12 @@ fn heading(ui: &mut Ui, asks: &mut Vec<Ask>) {
             .color(ui.palette().weak),
     );
     ui.add_space(space::L);
-    ui.horizontal(|ui| {
+    ui.horizontal_wrapped(|ui| {
         if ui.primary("Open a project…").on_hover_text(Command::Open.entry().tooltip).clicked() {
             asks.push(Ask::Command(Command::Open));
+        }
+        if ui.button("Import measurements…").on_hover_text(Command::Import.entry().tooltip).clicked() {
+            asks.push(Ask::Command(Command::Import));
         }
         ui.menu_button("New…", |ui| {
             for (k, template) in templates::ALL.iter().enumerate() {
@@ -91,7 +94,7 @@ fn heading(ui: &mut Ui, asks: &mut Vec<Ask>) {
         if ui.button("Laws of damping").on_hover_text(Command::Laws.entry().tooltip).clicked() {
             asks.push(Ask::Command(Command::Laws));
         }
-        ui.hint("or drop its file on this window, or begin with a sample");
+        ui.hint("or drop files on this window, or begin with a sample");
     });
     ui.add_space(space::L);
 }

@@ -59,7 +59,7 @@ pub fn show(ui: &mut Ui, app: &App, asks: &mut Vec<Ask>) {
             });
         });
     });
-    if app.document.is_some() && !app.learn.open {
+    if app.document.is_some() && !app.learn.open && app.importing.is_none() {
         let bar = Frame::new().fill(palette.pane).inner_margin(Margin { left: 10, right: 10, top: 2, bottom: 0 });
         Panel::top("stages").frame(bar).show(ui, |ui| stages(ui, app, asks));
     }
@@ -146,7 +146,7 @@ fn file(ui: &mut Ui, app: &App, asks: &mut Vec<Ask>) {
         });
     });
     ui.separator();
-    entry(ui, Command::Import, open, None, asks);
+    entry(ui, Command::Import, true, None, asks);
     ui.separator();
     let dirty = app.document.as_ref().is_some_and(|d| d.session().is_dirty());
     entry(ui, Command::Save, dirty, None, asks);

@@ -13,7 +13,7 @@ use hdf5_reader::group::Group;
 use hdf5_reader::{Attribute, Dataset, Datatype, Hdf5File, OpenOptions, SliceInfo, SliceInfoElem};
 use std::collections::{BTreeMap, HashSet};
 use std::path::Path;
-use value::Value;
+use value::{Field, Value};
 
 /// Deepest groups.
 const DEEPEST: usize = 32;
@@ -25,9 +25,17 @@ const SMALL: u64 = 4096;
 const MOST_TEXTS: u64 = 4096;
 
 struct Hdf5 {
-    datasets: Vec<Dataset>,
+    datasets: Vec<Stored>,
     // Data sets hold on to the file by themselves.
     _file: Hdf5File,
+}
+
+/// A data set, or a field of its records, and what turns its numbers into those that are meant.
+struct Stored {
+    dataset: Dataset,
+    field: Option<Field>,
+    factor: f64,
+    offset: f64,
 }
 
 /// Opens an HDF5 file; `matlab` where its user block is that of MATLAB 7.3.
@@ -80,7 +88,7 @@ enum Object {
 
 struct Walk {
     matlab: bool,
-    datasets: Vec<Dataset>,
+    datasets: Vec<Stored>,
     /// Addresses of the groups that are being walked, against links that lead back.
     seen: HashSet<u64>,
     references: BTreeMap<u64, Object>,
@@ -161,10 +169,10 @@ impl Walk {
                 Node::Skipped(format!("it is an object of MATLAB ({class}); save its numbers as arrays"))
             }
             (_, Datatype::String { .. } | Datatype::VarLen { .. }) => texts(&dataset).unwrap_or_else(skipped),
-            (_, dtype) if value::readable(dtype).is_some() => self.numbers(dataset).unwrap_or_else(skipped),
-            (_, Datatype::Compound { .. }) => {
-                Node::Skipped("its values are records; save each field as a data set".to_owned())
+            (_, dtype) if value::readable(dtype).is_some() => {
+                self.numbers(dataset, &attributes).unwrap_or_else(skipped)
             }
+            (_, Datatype::Compound { .. }) => self.records(&dataset).unwrap_or_else(skipped),
             _ => Node::Skipped("its values are no numbers".to_owned()),
         };
         Entry { name, node, attributes }
@@ -205,18 +213,60 @@ impl Walk {
         }
     }
 
-    fn numbers(&mut self, dataset: Dataset) -> Read<Node> {
+    fn numbers(&mut self, dataset: Dataset, attributes: &[(String, String)]) -> Read<Node> {
         let mut extents = dataset.shape().to_vec();
         if self.matlab {
             extents.reverse();
         }
         let shape = Shape::new(extents, self.matlab);
         let complex = value::readable(dataset.dtype()).unwrap_or(false);
-        let peek = peek(&dataset, &shape)?;
+        let mut peek = peek(&dataset, &shape)?;
+        let whole = matches!(dataset.dtype(), Datatype::FixedPoint { .. });
+        let (factor, offset) = scaling(attributes, whole);
+        if !complex {
+            peek.iter_mut().for_each(|value| value[0] = value[0] * factor + offset);
+        }
         let id = self.datasets.len();
-        self.datasets.push(dataset);
+        self.datasets.push(Stored { dataset, field: None, factor, offset });
         Ok(Node::Array(Array { id, shape, complex, peek }))
     }
+
+    /// Records, such as tables of pandas and PyTables: a group with an array a numeric field.
+    fn records(&mut self, dataset: &Dataset) -> Read<Node> {
+        let fields = value::fields(dataset.dtype());
+        if fields.is_empty() {
+            return Ok(Node::Skipped(
+                "its values are records without a number; save each field as a data set".to_owned(),
+            ));
+        }
+        let shape = Shape::new(dataset.shape().to_vec(), false);
+        let wanted = shape.wanted();
+        let rows = value::peek_records(dataset, &wanted).map_err(wrong)?;
+        let mut entries = Vec::new();
+        for field in fields {
+            let peek = rows.iter().map(|row| [field.number(row).unwrap_or(f64::NAN), 0.0]).collect();
+            let id = self.datasets.len();
+            let name = field.name.clone();
+            self.datasets.push(Stored { dataset: dataset.clone(), field: Some(field), factor: 1.0, offset: 0.0 });
+            let array = Array { id, shape: shape.clone(), complex: false, peek };
+            entries.push(Entry::new(name, Node::Array(array)));
+        }
+        Ok(Node::Group(entries))
+    }
+}
+
+/// Factor and offset by the convention of NetCDF (`scale_factor`, `add_offset`); of whole numbers also by plainer words.
+fn scaling(attributes: &[(String, String)], whole: bool) -> (f64, f64) {
+    let number = |words: &[&str]| {
+        let said = attributes.iter().find(|(name, _)| words.contains(&name.to_lowercase().as_str()));
+        said.and_then(|(_, value)| value.trim().parse::<f64>().ok()).filter(|value| value.is_finite())
+    };
+    let plain: &[&str] = if whole { &["scale", "scaling", "slope", "conversion_factor", "lsb"] } else { &[] };
+    let shift: &[&str] = if whole { &["offset", "intercept"] } else { &[] };
+    let factor = number(&["scale_factor"]).or_else(|| number(plain)).filter(|factor| *factor != 0.0);
+    // An offset alone may be anything, such as that of the first sample.
+    let offset = number(&["add_offset"]).or_else(|| factor.and_then(|_| number(shift)));
+    (factor.unwrap_or(1.0), offset.unwrap_or(0.0))
 }
 
 fn skipped(fault: Fault) -> Node {
@@ -313,12 +363,16 @@ fn attributes(attributes: Vec<Attribute>) -> Vec<(String, String)> {
 
 impl Arrays for Hdf5 {
     fn read(&self, id: usize) -> Read<Flat> {
-        let dataset = self.datasets.get(id).ok_or_else(|| Fault::new("there is no such data set"))?;
+        let stored = self.datasets.get(id).ok_or_else(|| Fault::new("there is no such data set"))?;
+        let dataset = &stored.dataset;
         if dataset.num_elements().map_err(wrong)? > MOST_VALUES {
             return Err(Fault::new("is too large for memory; save it in pieces"));
         }
+        if let Some(field) = &stored.field {
+            return Ok(Flat { re: field.column(dataset).map_err(wrong)?, im: Vec::new() });
+        }
         let values = dataset.read_array_uncached::<Value>().map_err(wrong)?;
-        let re = values.iter().map(|value| value.0[0]).collect();
+        let re = values.iter().map(|value| value.0[0] * stored.factor + stored.offset).collect();
         let complex = value::readable(dataset.dtype()).unwrap_or(false);
         let im = if complex { values.iter().map(|value| value.0[1]).collect() } else { Vec::new() };
         Ok(Flat { re, im })

@@ -2,7 +2,7 @@
 
 use crate::bytes::Scalar;
 use hdf5_reader::error::{ByteOrder, Error, Result};
-use hdf5_reader::{Datatype, H5Type, dtype_element_size};
+use hdf5_reader::{Dataset, Datatype, H5Type, SliceInfo, SliceInfoElem, dtype_element_size};
 
 /// A real or complex number.
 #[derive(Debug, Clone, Copy)]
@@ -42,6 +42,80 @@ fn parts(dtype: &Datatype) -> Option<[(usize, &Datatype); 2]> {
 fn number(bytes: &[u8], dtype: &Datatype) -> Option<f64> {
     let (scalar, big) = scalar(dtype)?;
     scalar.get(bytes, big)
+}
+
+/// A numeric field of records.
+#[derive(Debug, Clone)]
+pub(super) struct Field {
+    pub name: String,
+    at: usize,
+    dtype: Datatype,
+}
+
+/// The numeric fields of a type of records.
+pub(super) fn fields(dtype: &Datatype) -> Vec<Field> {
+    let Datatype::Compound { fields, .. } = dtype else { return Vec::new() };
+    let numeric = fields.iter().filter(|field| scalar(&field.datatype).is_some());
+    let field = |field: &hdf5_reader::CompoundField| Field {
+        name: field.name.clone(),
+        at: field.byte_offset as usize,
+        dtype: field.datatype.clone(),
+    };
+    numeric.map(field).collect()
+}
+
+impl Field {
+    /// The number of a record.
+    pub fn number(&self, record: &[u8]) -> Option<f64> {
+        number(record.get(self.at..)?, &self.dtype)
+    }
+
+    /// All its numbers.
+    pub fn column(&self, dataset: &Dataset) -> Result<Vec<f64>> {
+        let size = dtype_element_size(dataset.dtype()).unwrap_or(1).max(1);
+        let bytes = dataset.read_raw_bytes()?;
+        Ok(bytes.chunks_exact(size).map(|record| self.number(record).unwrap_or(f64::NAN)).collect())
+    }
+}
+
+/// A record as its bytes.
+#[derive(Debug, Clone)]
+struct Record(Vec<u8>);
+
+/// The records at ascending places of a data set.
+pub(super) fn peek_records(dataset: &Dataset, places: &[u64]) -> Result<Vec<Vec<u8>>> {
+    let extents = dataset.shape();
+    let one = |&place: &u64| {
+        let mut rest = place;
+        let mut selections = Vec::new();
+        for &extent in extents.iter().rev() {
+            let at = rest % extent.max(1);
+            rest /= extent.max(1);
+            selections.push(SliceInfoElem::Slice { start: at, end: at + 1, step: 1 });
+        }
+        selections.reverse();
+        let found = dataset.read_slice::<Record>(&SliceInfo { selections })?;
+        Ok(found.iter().next().map(|record| record.0.clone()).unwrap_or_default())
+    };
+    places.iter().map(one).collect()
+}
+
+impl H5Type for Record {
+    fn hdf5_type() -> Datatype {
+        Datatype::FixedPoint { size: 1, signed: false, byte_order: ByteOrder::LittleEndian }
+    }
+
+    fn from_bytes(bytes: &[u8], dtype: &Datatype) -> Result<Self> {
+        let size = dtype_element_size(dtype).unwrap_or(1);
+        bytes
+            .get(..size)
+            .map(|record| Self(record.to_vec()))
+            .ok_or_else(|| Error::InvalidData("a record is cut short".to_owned()))
+    }
+
+    fn element_size(dtype: &Datatype) -> usize {
+        dtype_element_size(dtype).unwrap_or(1)
+    }
 }
 
 impl H5Type for Value {

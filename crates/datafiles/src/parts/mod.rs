@@ -222,7 +222,8 @@ fn joined(set: &mut Set, pairs: &[Pair], names: &[Said], conversions: &[Conversi
             Some(_) => {}
         }
     }
-    if set.kind == Kind::Spectrum && set.channels.iter().any(|channel| channel.complex) {
+    // Complex numbers of the file itself are what it says that they are, such as a power spectrum.
+    if !pairs.is_empty() && set.kind == Kind::Spectrum && set.channels.iter().any(|channel| channel.complex) {
         set.kind = Kind::Frf;
     }
     columns

@@ -30,6 +30,9 @@ impl Cell {
         if text.is_empty() {
             return Self::Empty;
         }
+        // The minus sign of typesetters.
+        let typeset = text.contains('−').then(|| text.replace('−', "-"));
+        let text = typeset.as_deref().unwrap_or(text);
         if let Some(value) = number(text, comma) {
             return Self::Real(value);
         }
@@ -132,6 +135,7 @@ pub(crate) fn clock(text: &str) -> Option<f64> {
         Some((date, time)) => (Some(date.trim_end_matches(',')), time.trim()),
         None => (None, text),
     };
+    let (time, ahead) = zone(time);
     let mut parts = time.trim_end_matches('Z').split(':');
     let hours: u32 = digits(parts.next()?)?;
     let hours = half.map_or(hours, |half| hours % 12 + half);
@@ -142,7 +146,17 @@ pub(crate) fn clock(text: &str) -> Option<f64> {
     };
     let days = date.map_or(Some(0), days)?;
     (parts.next().is_none() && hours < 100)
-        .then(|| days as f64 * 86400.0 + f64::from(hours) * 3600.0 + f64::from(minutes) * 60.0 + seconds)
+        .then(|| days as f64 * 86400.0 + f64::from(hours) * 3600.0 + f64::from(minutes) * 60.0 + seconds - ahead)
+}
+
+/// A time without its zone (`+01:00`, `-0530`, `+02`), and how many seconds that is ahead of UTC.
+fn zone(time: &str) -> (&str, f64) {
+    let Some(at) = time.rfind(['+', '-']).filter(|&at| at >= 5) else { return (time, 0.0) };
+    let plain: String = time[at + 1..].chars().filter(|c| *c != ':').collect();
+    let read = |range: std::ops::Range<usize>| plain.get(range).and_then(digits);
+    let (Some(hours), true) = (read(0..2), matches!(plain.len(), 2 | 4)) else { return (time, 0.0) };
+    let seconds = f64::from(hours) * 3600.0 + f64::from(read(2..4).unwrap_or(0)) * 60.0;
+    (time[..at].trim_end(), if time.as_bytes()[at] == b'-' { -seconds } else { seconds })
 }
 
 /// A time without `AM` or `PM` behind it, and the hours that these add.
@@ -192,6 +206,7 @@ mod tests {
         assert_eq!(Cell::parse("1.5D-3", false), Cell::Real(1.5e-3));
         assert_eq!(Cell::parse("1,5", true), Cell::Real(1.5));
         assert_eq!(Cell::parse("1,5", false), Cell::Word("1,5".into()));
+        assert_eq!(Cell::parse("−1,5e−3", true), Cell::Real(-1.5e-3));
         assert_eq!(Cell::parse("1,", true), Cell::Word("1,".into()));
         assert_eq!(Cell::parse("-.5e+3", false), Cell::Real(-500.0));
         assert!(matches!(Cell::parse("-1.#IND", false), Cell::Real(value) if value.is_nan()));
@@ -210,6 +225,8 @@ mod tests {
         assert_eq!(Cell::parse("1970-01-02 00:00:01", false), Cell::Clock(86401.0));
         assert_eq!(Cell::parse("01/02/1970 12:00:01.5 AM", false), Cell::Clock(86401.5));
         assert_eq!(Cell::parse("1:00:00 pm", false), Cell::Clock(46800.0));
+        assert_eq!(Cell::parse("1970-01-02T01:00:00.5+01:00", false), Cell::Clock(86400.5));
+        assert_eq!(Cell::parse("1970-01-01 23:30:00-0030", false), Cell::Clock(86400.0));
         assert_eq!(Cell::parse("02.01.1970", false), Cell::Clock(86400.0));
         assert_eq!(Cell::parse("1.2.3", false), Cell::Word("1.2.3".into()));
         assert_eq!(Cell::parse("2000-03-01T00:00:00", false), Cell::Clock(11017.0 * 86400.0));

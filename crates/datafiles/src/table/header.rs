@@ -44,6 +44,8 @@ const MOST_BELOW: usize = 8;
 
 /// Reads the header of a block of `width` columns.
 pub(crate) fn read(lines: &[HeaderLine], width: usize) -> Header {
+    let lines: Vec<HeaderLine> = lines.iter().map(|line| words_of_comment(line, width)).collect();
+    let lines = lines.as_slice();
     let Some((parts, lines)) = parts_below_names(lines, width) else { return rows(lines, width) };
     let mut header = rows(&lines, width);
     for (name, part) in header.names.iter_mut().zip(&parts.cells) {
@@ -52,6 +54,14 @@ pub(crate) fn read(lines: &[HeaderLine], width: usize) -> Header {
         }
     }
     header
+}
+
+/// A comment of as many words as there are columns is a row of them, though numbers are separated otherwise.
+fn words_of_comment(line: &HeaderLine, width: usize) -> HeaderLine {
+    let [cell] = &line.cells[..] else { return line.clone() };
+    let words: Vec<String> = uncommented(cell).split_whitespace().map(str::to_owned).collect();
+    let commented = uncommented(cell) != cell.trim();
+    if commented && width > 1 && words.len() == width { HeaderLine { cells: words } } else { line.clone() }
 }
 
 /// A row of `Real`, `Imag` (or `Mag [g/N]`, `Phase [deg]`) below names that stand once over both: the row, and the other lines

@@ -11,6 +11,7 @@ mod segment;
 use crate::contents::{Axis, Channel, Contents, FIRST, Format, Kind, Number, Set};
 use crate::error::{Fault, Read};
 use crate::file::{Source, Values};
+use crate::tree::{Sampling, sampling};
 use objects::{Object, Property, Run};
 use scale::Scaling;
 use std::fs::File;
@@ -63,7 +64,11 @@ pub(crate) fn open(path: &Path) -> Read<(Contents, Box<dyn Source>)> {
                 }
             };
             let place = Place { runs: object.runs.clone(), scaling, complex: object.complex };
-            set.channels.push(channel(object, &place, path)?);
+            let mut channel = channel(object, &place, path)?;
+            if channel.axis == Axis::None && channel.count > 1 {
+                channel.axis = rate(&[&object.properties, &group.properties, root]);
+            }
+            set.channels.push(channel);
             places.push(place);
         }
         if set.channels.iter().any(|channel| channel.axis != Axis::None) {
@@ -77,6 +82,21 @@ pub(crate) fn open(path: &Path) -> Read<(Contents, Box<dyn Source>)> {
         tdms.sets.push(places);
     }
     Ok((contents, Box::new(tdms)))
+}
+
+/// The abscissa that a property such as `Sample Rate` says, that of the channel before that of the group and of the file.
+fn rate(properties: &[&[(String, Property)]]) -> Axis {
+    let said = |(name, value): &(String, Property)| {
+        let value = match value {
+            Property::Text(text) => text.trim().parse().ok(),
+            other => other.number(),
+        };
+        match sampling(name, value?) {
+            Some(Sampling::Step(step)) => Some(Axis::Even { start: 0.0, step }),
+            _ => None,
+        }
+    };
+    properties.iter().find_map(|list| list.iter().find_map(said)).unwrap_or(Axis::None)
 }
 
 impl Set {

@@ -15,6 +15,9 @@ pub(crate) fn decode(bytes: &[u8]) -> Read<(Cow<'_, str>, Option<&'static str>)>
         return Ok((Cow::Owned(utf16(bytes, number)), Some("read as UTF-16 text without a byte order mark")));
     }
     let bytes = bytes.strip_prefix(&[0xEF, 0xBB, 0xBF]).unwrap_or(bytes);
+    // Files that were made longer than their text end in zeros, those of old systems in the mark of their end.
+    let end = bytes.iter().rposition(|byte| !matches!(byte, 0 | 0x1A)).map_or(0, |last| last + 1);
+    let bytes = &bytes[..end];
     if let Some(zero) = bytes.iter().take(1 << 16).position(|&byte| byte == 0) {
         let problem = "is no text and of no known format; export it as CSV, UFF, MAT, HDF5 or TDMS";
         return Err(Fault::byte(zero as u64, problem));

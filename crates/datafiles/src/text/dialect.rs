@@ -23,7 +23,7 @@ pub(crate) struct Dialect {
 }
 
 /// Dialects in the order in which they are preferred.
-const CANDIDATES: [Dialect; 9] = [
+const CANDIDATES: [Dialect; 10] = [
     Dialect { separator: Separator::Letter('\t'), comma: false },
     Dialect { separator: Separator::Letter('\t'), comma: true },
     Dialect { separator: Separator::Letter(';'), comma: false },
@@ -33,6 +33,8 @@ const CANDIDATES: [Dialect; 9] = [
     Dialect { separator: Separator::Letter('|'), comma: true },
     Dialect { separator: Separator::Blanks, comma: false },
     Dialect { separator: Separator::Blanks, comma: true },
+    // Numbers with a decimal comma in quotes.
+    Dialect { separator: Separator::Letter(','), comma: true },
 ];
 
 impl Dialect {
@@ -160,6 +162,7 @@ mod tests {
     fn dialects_are_told_apart() {
         use Separator::{Blanks, Letter};
         assert_eq!(of("a,b\n1.0,2.0\n1.5,2.5\n"), (Letter(','), false));
+        assert_eq!(of("\"a\",\"b\"\n\"1,0\",\"2,0\"\n\"1,5\",\"2,5\"\n"), (Letter(','), true));
         assert_eq!(of("a;b\n1,0;2,0\n1,5;2,5\n"), (Letter(';'), true));
         assert_eq!(of("a\tb\n1,0\t2,0\n"), (Letter('\t'), true));
         assert_eq!(of("  1.0   2.0\n  1.5   2.5\n"), (Blanks, false));

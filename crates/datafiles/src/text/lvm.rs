@@ -10,6 +10,8 @@ use crate::file::Values;
 use crate::table::cell::number;
 use crate::table::{Column, Columns, TableSource};
 
+const SPECIAL: &str = "***Start_Special***";
+const SPECIAL_END: &str = "***End_Special***";
 const END: &str = "***End_of_Header***";
 
 /// The header of the file.
@@ -52,7 +54,13 @@ pub(super) fn read(text: &str) -> Read<(Contents, TableSource)> {
     let head = head(&mut lines)?;
     let mut segments: Vec<Segment> = Vec::new();
     let mut place = Place::Between;
+    let mut special = false;
     for (line, row) in lines {
+        // Special segments hold what their writer alone understands.
+        special = (special || row.starts_with(SPECIAL)) && !row.starts_with(SPECIAL_END);
+        if special || row.starts_with(SPECIAL_END) {
+            continue;
+        }
         let cells: Vec<&str> = row.split(head.separator).map(str::trim).collect();
         let blank = cells.iter().all(|cell| cell.is_empty());
         place = match place {

@@ -1,9 +1,11 @@
 //! Files that are trees of named arrays (MAT, HDF5, NumPy): which arrays are channels of one set, which is their abscissa.
 
+mod labels;
 mod names;
 mod sets;
 mod source;
 
+pub(crate) use names::{Sampling, sampling};
 pub(crate) use sets::sets;
 pub(crate) use source::{Arrays, Flat, TreeSource};
 

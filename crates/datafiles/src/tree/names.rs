@@ -8,13 +8,13 @@ fn plain(name: &str) -> String {
 
 /// What a scalar says of the abscissa.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Sampling {
+pub(crate) enum Sampling {
     Step(f64),
     Start(f64),
 }
 
 /// A sampling rate or step by the name of a scalar or an attribute.
-pub(super) fn sampling(name: &str, value: f64) -> Option<Sampling> {
+pub(crate) fn sampling(name: &str, value: f64) -> Option<Sampling> {
     let usable = value.is_finite() && value > 0.0;
     match plain(name).as_str() {
         "fs" | "fsamp" | "fsample" | "fsampling" | "sr" | "samplerate" | "samplingrate" | "samplefrequency"

@@ -4,6 +4,7 @@
 //! such as `fs` or `dt` gives an even one, in its group and in those below. Square matrices are sets of their own. A group
 //! of `x_values` and `y_values` is one signal (exports of Simcenter Testlab).
 
+use super::labels::Labels;
 use super::names::{self, Sampling};
 use super::source::Place;
 use super::{Array, Arrays, Cut, Entry, MOST_CHECKED, Node, Shape};
@@ -123,7 +124,8 @@ impl Made<'_> {
                 && depth < DEEPEST
             {
                 let name = if path.is_empty() { entry.name.clone() } else { format!("{path}/{}", entry.name) };
-                self.group(&name, inner, &entry.attributes, below, depth + 1)?;
+                let named = labels.named_cells(inner);
+                self.group(&name, named.as_deref().unwrap_or(inner), &entry.attributes, below, depth + 1)?;
             }
         }
         Ok(())
@@ -141,11 +143,7 @@ impl Made<'_> {
             };
             let long =
                 |other: &Entry| matches!(&other.node, Node::Array(other) if other.shape.extents.contains(&count));
-            let others = |other: &Entry| match &other.node {
-                Node::Group(inner) => inner.iter().any(long),
-                _ => long(other),
-            };
-            if entries.iter().enumerate().all(|(j, other)| j == i || !others(other)) {
+            if entries.iter().enumerate().all(|(j, other)| j == i || !within(other, &long, 0)) {
                 continue;
             }
             let step = if count <= MOST_CHECKED {
@@ -200,7 +198,9 @@ impl Made<'_> {
         let Some(array) = names::array_at(entries, &["y_values", "values"]) else { return false };
         let Some(step) = names::scalar_at(entries, &["x_values", "increment"]) else { return false };
         let start = names::scalar_at(entries, &["x_values", "start_value"]).unwrap_or(0.0);
-        let x_unit = names::text_at(entries, &["x_values", "quantity", "label"]).unwrap_or("s");
+        let x_unit = names::text_at(entries, &["x_values", "quantity", "label"]);
+        // Complex values are over frequencies.
+        let x_unit = x_unit.unwrap_or(if array.complex { "Hz" } else { "s" });
         let unit = names::text_at(entries, &["y_values", "quantity", "label"]).unwrap_or_default();
         let name = names::text_at(entries, &["function_record", "name"]).unwrap_or(path);
         let names = names::texts_at(entries, &["function_record", "name"]).to_vec();
@@ -234,6 +234,14 @@ impl Made<'_> {
     }
 }
 
+/// Whether an entry or any below it is one that is looked for.
+fn within(entry: &Entry, wanted: &impl Fn(&Entry) -> bool, depth: usize) -> bool {
+    match &entry.node {
+        Node::Group(inner) => depth < DEEPEST && inner.iter().any(|entry| within(entry, wanted, depth + 1)),
+        _ => wanted(entry),
+    }
+}
+
 impl Context {
     /// What a group hands down: its own step, else that of its even time vector.
     fn below(self, entries: &[Entry], axis: Option<&Abscissa>) -> Self {
@@ -253,49 +261,6 @@ impl Context {
             Some(Sampling::Start(start)) => self.start = start,
             None => {}
         }
-    }
-}
-
-/// Names and units of columns that lie beside the array.
-struct Labels {
-    names: Vec<String>,
-    units: Vec<String>,
-    unit_of: Vec<(String, String)>,
-    sides: Vec<Side>,
-}
-
-/// An array of system identification with the names and units of its columns.
-type Side = (&'static str, Vec<String>, Vec<String>);
-
-impl Labels {
-    fn of(entries: &[Entry]) -> Self {
-        let texts = |entry: &Entry| match &entry.node {
-            Node::Text(texts) => Some(texts.clone()),
-            _ => None,
-        };
-        // Tables keep the names of their columns in a part of their own (`Properties`).
-        let inner = entries.iter().filter_map(|entry| match &entry.node {
-            Node::Group(inner) if entry.name.eq_ignore_ascii_case("properties") => Some(inner),
-            _ => None,
-        });
-        let all: Vec<&Entry> = entries.iter().chain(inner.flatten()).collect();
-        let find = |word: fn(&str) -> bool| {
-            all.iter().filter(|entry| word(&entry.name)).find_map(|entry| texts(entry)).unwrap_or_default()
-        };
-        let named = |name: &str| entries.iter().find(|entry| entry.name.eq_ignore_ascii_case(name)).and_then(texts);
-        // Data of system identification: outputs and inputs with names and units of their own.
-        let sides = [("y", "output"), ("outputdata", "output"), ("u", "input"), ("inputdata", "input")];
-        let sides = sides.into_iter().filter_map(|(array, side)| {
-            let names = named(&format!("{side}Name"))?;
-            Some((array, names, named(&format!("{side}Unit")).unwrap_or_default()))
-        });
-        let sides: Vec<Side> = sides.collect();
-        let unit_of = entries.iter().filter_map(|entry| {
-            let lower = entry.name.to_lowercase();
-            let name = ["_units", "_unit"].iter().find_map(|end| lower.strip_suffix(end))?;
-            Some((name.to_owned(), texts(entry)?.into_iter().next()?))
-        });
-        Self { names: find(names::is_names_word), units: find(names::is_unit_word), unit_of: unit_of.collect(), sides }
     }
 }
 

@@ -20,28 +20,47 @@ struct Growing {
 
 /// Matrices as their cards come.
 #[derive(Debug, Default)]
-pub(super) struct Matrices(Vec<Growing>);
+pub(super) struct Matrices {
+    found: Vec<Growing>,
+    /// Those that are no real square matrices, such as loads, with the line of their header.
+    refused: Vec<(String, usize, Problem)>,
+}
 
 impl Matrices {
     pub fn card(&mut self, card: &Card<'_>) -> Result<(), Problem> {
         let name = card.field(0).to_uppercase();
-        let known = self.0.iter().position(|matrix| matrix.name == name);
+        let known = self.found.iter().position(|matrix| matrix.name == name);
         if card.field(1) == "0" {
-            header(card, &name)?;
-            if known.is_none() {
-                self.0.push(Growing { name, ..Growing::default() });
+            match header(card, &name) {
+                Err(problem @ (Problem::Form { .. } | Problem::Complex { .. })) => {
+                    self.refused.push((name, card.line, problem));
+                }
+                Err(problem) => return Err(problem),
+                Ok(()) if known.is_none() => self.found.push(Growing { name, ..Growing::default() }),
+                Ok(()) => {}
             }
             return Ok(());
         }
         match known {
-            Some(known) => self.0[known].column(card),
+            Some(known) => self.found[known].column(card),
+            None if self.refused.iter().any(|(refused, ..)| *refused == name) => Ok(()),
             None => Err(Problem::NoHeader { name }),
         }
     }
 
-    pub fn finish(self, file: &str) -> Result<Vec<Matrix>, FileError> {
+    /// The matrices, and a note for each that is none of mass and stiffness.
+    ///
+    /// # Errors
+    /// The reason against the first, where no other matrix is there.
+    pub fn finish(self, file: &str) -> Result<(Vec<Matrix>, Vec<String>), FileError> {
+        if self.found.is_empty()
+            && let Some((_, line, problem)) = self.refused.first()
+        {
+            return Err(FileError::line(file, *line, problem.clone()));
+        }
+        let notes = self.refused.iter().map(|(_, _, problem)| format!("{problem}: it is not read")).collect();
         let built = |m: Growing| Matrix::new(file, &m.name, m.rows.dofs.len(), Some(m.rows.dofs), m.entries);
-        self.0.into_iter().map(built).collect()
+        Ok((self.found.into_iter().map(built).collect::<Result<_, _>>()?, notes))
     }
 }
 

@@ -14,6 +14,7 @@ use crate::number::{real, whole};
 use crate::{Geometry, Matrix, Node};
 use cards::{Card, cards};
 use coordinates::Systems;
+use std::borrow::Cow;
 use std::collections::{BTreeMap, HashMap};
 
 /// Nodes, lines and matrices of a file.
@@ -25,17 +26,64 @@ pub struct Bulk {
     pub matrices: Vec<Matrix>,
 }
 
-/// Reads the text of a file called `file` in messages.
+/// Reads the text of a file called `file` in messages. Included files are said in the notes; [`read_parts`] reads them too.
 pub fn read(text: &str, file: &str) -> Result<Bulk, FileError> {
-    let mut reader = Reader::default();
-    for card in cards(text) {
-        reader.card(&card).map_err(|problem| FileError::line(file, card.line, problem))?;
+    let mut bulk = read_parts(&[(text, file)])?;
+    if !includes(text).is_empty() {
+        bulk.geometry.notes.push("what stands in included files is not read".to_owned());
     }
-    reader.finish(file)
+    Ok(bulk)
+}
+
+/// Reads a deck with the files that it includes: the text of each and its name in messages.
+pub fn read_parts(parts: &[(&str, &str)]) -> Result<Bulk, FileError> {
+    let texts: Vec<Cow<'_, str>> = parts.iter().map(|(text, _)| without_tabs(text)).collect();
+    let mut reader = Reader::default();
+    for (text, (_, file)) in texts.iter().zip(parts) {
+        for card in cards(text) {
+            reader.card(&card, file).map_err(|problem| FileError::line(file, card.line, problem))?;
+        }
+    }
+    reader.finish(parts.first().map_or("", |(_, file)| *file))
+}
+
+/// Files that a deck includes, with the lines (from 1) that say so.
+pub fn includes(text: &str) -> Vec<(usize, String)> {
+    let of = |(index, line): (usize, &str)| {
+        let line = line.split('$').next()?.trim();
+        let (word, name) = line.split_once([' ', '\t', '=', '\'', '"'])?;
+        let name = name.trim().trim_matches(['\'', '"']).trim();
+        (word.eq_ignore_ascii_case("include") && !name.is_empty()).then(|| (index + 1, name.to_owned()))
+    };
+    text.lines().enumerate().filter_map(of).collect()
+}
+
+/// The text with its tabs as blanks: fields begin at every eighth column.
+fn without_tabs(text: &str) -> Cow<'_, str> {
+    if !text.contains('\t') {
+        return Cow::Borrowed(text);
+    }
+    let mut out = String::with_capacity(text.len() + text.len() / 4);
+    for line in text.lines() {
+        let mut column = 0;
+        for letter in line.chars() {
+            if letter == '\t' {
+                let blanks = 8 - column % 8;
+                out.extend(std::iter::repeat_n(' ', blanks));
+                column += blanks;
+            } else {
+                out.push(letter);
+                column += 1;
+            }
+        }
+        out.push('\n');
+    }
+    Cow::Owned(out)
 }
 
 /// A grid point before its coordinate system is known.
 struct Grid<'a> {
+    file: &'a str,
     line: usize,
     id: i64,
     /// Coordinate system of the position; the default of `GRDSET` where the card has none.
@@ -56,13 +104,12 @@ struct Reader<'a> {
 }
 
 impl<'a> Reader<'a> {
-    fn card(&mut self, card: &Card<'a>) -> Result<(), Problem> {
+    fn card(&mut self, card: &Card<'a>, file: &'a str) -> Result<(), Problem> {
         match card.name.as_str() {
-            "GRID" => self.grid(card)?,
+            "GRID" => self.grid(card, file)?,
             "GRDSET" => self.defaults = [card.field(1), card.field(5)],
             "CORD2R" | "CORD2C" | "CORD2S" => self.systems.add(card)?,
             "CORD1R" | "CORD1C" | "CORD1S" => self.note("coordinate systems CORD1R, CORD1C and CORD1S are not read"),
-            "INCLUDE" => self.note("what stands in included files is not read"),
             "DMIG" => self.matrices.card(card)?,
             name => return self.element(name, card),
         }
@@ -73,7 +120,7 @@ impl<'a> Reader<'a> {
         *self.unread.entry(text).or_default() += 1;
     }
 
-    fn grid(&mut self, card: &Card<'a>) -> Result<(), Problem> {
+    fn grid(&mut self, card: &Card<'a>, file: &'a str) -> Result<(), Problem> {
         let mut position = [0.0; 3];
         for (k, value) in position.iter_mut().enumerate() {
             let text = card.field(2 + k);
@@ -81,7 +128,7 @@ impl<'a> Reader<'a> {
         }
         let id = whole(card.field(0), "a grid point number")?;
         let (system, directions) = (card.field(1), card.field(5));
-        self.grids.push(Grid { line: card.line, id, system, directions, position });
+        self.grids.push(Grid { file, line: card.line, id, system, directions, position });
         Ok(())
     }
 
@@ -116,7 +163,7 @@ impl<'a> Reader<'a> {
         let mut places: HashMap<i64, usize> = HashMap::new();
         let mut turned: BTreeMap<i64, usize> = BTreeMap::new();
         for grid in &self.grids {
-            let wrong = |problem| FileError::line(file, grid.line, problem);
+            let wrong = |problem| FileError::line(grid.file, grid.line, problem);
             let [system, directions] = [(grid.system, self.defaults[0]), (grid.directions, self.defaults[1])]
                 .map(|(own, otherwise)| system(if own.is_empty() { otherwise } else { own }));
             let position = self.systems.basic(system.map_err(wrong)?, grid.position).map_err(wrong)?;
@@ -138,7 +185,9 @@ impl<'a> Reader<'a> {
             format!("directions of {count} grid points are those of {what}, not x, y and z of the basic system")
         });
         let notes = self.unread.keys().map(|text| (*text).to_owned()).chain(turned).collect();
-        let matrices = self.matrices.finish(file)?;
+        let (matrices, skipped) = self.matrices.finish(file)?;
+        let mut notes: Vec<String> = notes;
+        notes.extend(skipped);
         Ok(Bulk { geometry: Geometry { nodes, lines: self.edges.finish(), notes }, matrices })
     }
 }
@@ -203,6 +252,18 @@ ENDDATA
     }
 
     #[test]
+    fn tabs_and_included_files() {
+        let deck = "BEGIN BULK\nINCLUDE 'mesh.bdf'\nCBAR\t1\t1\t1\t2\nENDDATA\n";
+        assert_eq!(includes(deck), [(2, "mesh.bdf".to_owned())]);
+        let mesh = "GRID\t1\t\t0.\t0.\t0.\nGRID\t2\t\t1.5\t0.\t0.\n";
+        let bulk = read_parts(&[(deck, "m.bdf"), (mesh, "mesh.bdf")]).unwrap();
+        assert_eq!(bulk.geometry.nodes[1].position, [1.5, 0.0, 0.0]);
+        assert_eq!(bulk.geometry.lines, [[1, 2]]);
+        let wrong = read_parts(&[(deck, "m.bdf"), ("GRID,1,,x\n", "mesh.bdf")]).unwrap_err().to_string();
+        assert!(wrong.starts_with("mesh.bdf:1: "), "{wrong}");
+    }
+
+    #[test]
     fn positions_in_other_systems() {
         // A cylinder whose axis is x: theta from y.
         let text = "CORD2C,5,,1.,0.,0.,2.,0.,0.\n,1.,1.,0.\nGRID,1,5,2.,90.,3.,5\n";
@@ -219,6 +280,12 @@ ENDDATA
         assert_eq!(message("GRID,1,,0.,x,0.\n"), "m.bdf:1: \"x\" is not a finite number; export the file again");
         assert!(message("GRID,1,7,0.\n").contains("coordinate system 7 is not given"));
         assert!(message("\nDMIG,K,1,1,,1,1,2.\n").starts_with("m.bdf:2: matrix K has no header card"));
+        assert!(read("DMIG,K,0,6,1,0\nDMIG,K,1,1,,1,1,2.\nDMIG,P,0,9,1,0,,,1\nDMIG,P,1,0,,1,1,9.\n", "m").is_ok_and(
+            |bulk| {
+                bulk.matrices.len() == 1
+                    && bulk.geometry.notes == ["matrix P has form 9; use 1 (square) or 6 (symmetric): it is not read"]
+            }
+        ));
         assert!(message("DMIG,K,0,6,4,0\n").starts_with("m.bdf:1: matrix K is complex"));
         assert!(message("DMIG,K,0,2,1,0\n").starts_with("m.bdf:1: matrix K has form 2"));
         assert!(message("DMIG,K,0,6,1,0\nDMIG,K,1,7,,1,1,2.\n").starts_with("m.bdf:2: component 7 is not"));

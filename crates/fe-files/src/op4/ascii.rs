@@ -30,7 +30,7 @@ pub(super) fn read(bytes: &[u8], file: &str) -> Result<Vec<Found>, FileError> {
             return Err(FileError::new(file, Place::File, Problem::EndsEarly { what: "a matrix" }));
         }
         let entries = columns.entries;
-        matrices.push(Found { header, entries });
+        matrices.push(Found { place: Place::Line(at), header, entries });
     }
     Ok(matrices)
 }
@@ -68,14 +68,16 @@ impl Columns<'_> {
     /// Whether the head of the last column was read.
     fn line(&mut self, line: &str) -> Result<bool, Problem> {
         if line.contains('.') {
-            self.values(line)?;
+            if self.header.refused.is_none() {
+                self.values(line)?;
+            }
             return Ok(false);
         }
         let numbers = line.split_whitespace().map(|word| whole(word, "a head of a column or string"));
         match numbers.collect::<Result<Vec<i64>, Problem>>()?[..] {
             [column, row, _] => {
                 (self.column, self.row) = (column, row);
-                return Ok(column > self.header.size as i64);
+                return Ok(column > self.header.columns);
             }
             [_, row] if self.header.is_big => self.row = row,
             [head] if !self.header.is_big => self.row = short_head(head).0,

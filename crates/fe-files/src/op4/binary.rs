@@ -31,7 +31,7 @@ fn matrices(bytes: &[u8]) -> Read<Vec<Found>> {
         let header = Header::new(columns, rows, kind, &name, bytes.len()).map_err(wrong)?;
         let is_wide = words.is_wide;
         let entries = columns_of(&mut records, &header, is_wide)?;
-        found.push(Found { header, entries });
+        found.push(Found { place: Place::Byte(at), header, entries });
     }
     Ok(found)
 }
@@ -46,8 +46,11 @@ fn columns_of(records: &mut Records<'_>, header: &Header, is_wide: bool) -> Read
         let wrong = |problem| (at, problem);
         let head = [0, 1, 2].map(|k| words.whole(k));
         let [Some(column), Some(row), Some(count)] = head else { return Err(wrong(END)) };
-        if column > header.size as i64 {
+        if column > header.columns {
             return Ok(entries);
+        }
+        if header.refused.is_some() {
+            continue;
         }
         let mut run = Run { header, words, next: 3, column, entries: &mut entries };
         if row > 0 {

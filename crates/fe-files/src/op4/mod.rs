@@ -18,7 +18,17 @@ pub fn read(bytes: &[u8], file: &str) -> Result<Vec<Matrix>, FileError> {
     if matrices.is_empty() {
         return Err(FileError::new(file, Place::File, Problem::NoMatrix { expected: "a matrix of OUTPUT4" }));
     }
-    matrices.into_iter().map(|m| Matrix::new(file, &m.header.name, m.header.size, None, m.entries)).collect()
+    // Tables and complex matrices may stand beside mass and stiffness, not in their place.
+    if let Some(first) = matrices
+        .iter()
+        .find(|m| m.header.refused.is_some())
+        .filter(|_| matrices.iter().all(|m| m.header.refused.is_some()))
+        && let Some(problem) = &first.header.refused
+    {
+        return Err(FileError::new(file, first.place, problem.clone()));
+    }
+    let usable = matrices.into_iter().filter(|m| m.header.refused.is_none());
+    usable.map(|m| Matrix::new(file, &m.header.name, m.header.size, None, m.entries)).collect()
 }
 
 /// Head of a matrix.
@@ -26,12 +36,17 @@ pub fn read(bytes: &[u8], file: &str) -> Result<Vec<Matrix>, FileError> {
 struct Header {
     name: String,
     size: usize,
+    columns: i64,
     is_double: bool,
     /// Strings have heads of two numbers.
     is_big: bool,
+    /// Why it is neither mass nor stiffness.
+    refused: Option<Problem>,
 }
 
 struct Found {
+    /// Where its header stands.
+    place: Place,
     header: Header,
     entries: Vec<(usize, usize, f64)>,
 }
@@ -40,16 +55,18 @@ impl Header {
     /// Checks the numbers of a header; `most` is what a file of its length could hold.
     fn new(columns: i64, rows: i64, kind: i64, name: &str, most: usize) -> Result<Self, Problem> {
         let name = name.trim().to_owned();
-        if kind == 3 || kind == 4 {
-            return Err(Problem::Complex { name });
-        }
         let (columns, height) = (columns.unsigned_abs(), rows.unsigned_abs());
-        if columns != height {
-            return Err(Problem::NotSquare { name, rows: height, columns });
-        }
+        let refused = if kind == 3 || kind == 4 {
+            Some(Problem::Complex { name: name.clone() })
+        } else if columns != height {
+            Some(Problem::NotSquare { name: name.clone(), rows: height, columns })
+        } else {
+            None
+        };
         let size = usize::try_from(height).ok().filter(|&n| n > 0 && n <= most);
         let size = size.ok_or_else(|| Problem::TooLarge { name: name.clone(), rows: height })?;
-        Ok(Self { name, size, is_double: kind == 2, is_big: rows < 0 || height > 65_535 })
+        let (is_double, is_big) = (kind == 2, rows < 0 || height > 65_535);
+        Ok(Self { name, size, columns: columns.try_into().unwrap_or(i64::MAX), is_double, is_big, refused })
     }
 
     /// Row and column from 0.

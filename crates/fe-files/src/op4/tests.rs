@@ -72,7 +72,13 @@ fn ascii_of_all_layouts() {
             text += &(values.iter().map(|&x| number(x)).collect::<String>() + "\n");
         }
         text += &format!("{:>8}{:>8}{:>8}\n 1.0E+00\n", 4, 1, 1);
-        let twice = text.clone() + &text;
+        // A load of one column between the two is passed over; alone it is refused.
+        let load = format!("{:>8}{:>8}{:>8}{:>8}{:<8}1P,3E23.16\n", 1, 3, 2, 2, "PG")
+            + &format!("{:>8}{:>8}{:>8}\n", 1, 1, 6)
+            + &([1.0, 2.0, 3.0].map(number).concat() + "\n")
+            + &format!("{:>8}{:>8}{:>8}\n 1.0E+00\n", 2, 1, 1);
+        assert!(read(load.as_bytes(), "p.op4").unwrap_err().to_string().starts_with("p.op4:1: matrix PG is 3 x 1"));
+        let twice = text.clone() + &load + &text;
         let matrices = read(twice.as_bytes(), "k.op4").unwrap();
         assert_eq!(matrices.len(), 2);
         assert_eq!(matrices[1].entries, EXPECTED, "{text}");

@@ -1,9 +1,8 @@
-//! `dashpot import --mass`: a finite-element model under the measurements, reduced where it is large.
+//! A finite-element model under the measurements, reduced where it is large.
 
-use super::arguments_import::Import;
-use super::import::named;
+use super::text::named;
+use super::{ImportError, Request, Result};
 use crate::exchange::matrices::model::{Model, ModelFiles, read_model};
-use anyhow::Context;
 use std::collections::BTreeMap;
 use std::path::Path;
 
@@ -14,23 +13,23 @@ const SCALES: [f64; 5] = [1.0, 1e-3, 1e3, 0.0254, 1.0 / 0.0254];
 /// Largest distance of a measured point and its node, as a share of the size of the model.
 const NEAR: f64 = 0.02;
 
-/// The model of the arguments, if they name one.
-pub(super) fn model(arguments: &Import) -> anyhow::Result<Option<Model>> {
-    let Some(mass) = &arguments.mass else { return Ok(None) };
-    let matrices: [&Path; 2] = [mass, arguments.stiffness.as_deref().unwrap_or(mass)];
-    let nodes = arguments.nodes.as_deref();
+/// The model of the request, if they name one.
+pub(super) fn model(request: &Request) -> Result<Option<Model>> {
+    let Some(mass) = &request.mass else { return Ok(None) };
+    let matrices: [&Path; 2] = [mass, request.stiffness.as_deref().unwrap_or(mass)];
+    let nodes = request.nodes.as_deref();
     let model = read_model(ModelFiles { matrices, names: [None, None], nodes, dofs: None, lines: None })?;
     Ok(Some(model))
 }
 
 /// Table `[structure]` of the model, if there is one; `up_to_hz` is twice the highest frequency that is measured.
-pub(super) fn structure(arguments: &Import, out: &Path, up_to_hz: f64) -> anyhow::Result<Option<String>> {
-    let (Some(mass), Some(model)) = (&arguments.mass, model(arguments)?) else { return Ok(None) };
-    let stiffness = arguments.stiffness.as_ref().unwrap_or(mass);
-    let quoted = |file: &Path| -> anyhow::Result<String> { Ok(toml::Value::from(named(file, out)?).to_string()) };
+pub(super) fn structure(request: &Request, out: &Path, up_to_hz: f64) -> Result<Option<String>> {
+    let (Some(mass), Some(model)) = (&request.mass, model(request)?) else { return Ok(None) };
+    let stiffness = request.stiffness.as_ref().unwrap_or(mass);
+    let quoted = |file: &Path| -> Result<String> { Ok(toml::Value::from(named(file, out)?).to_string()) };
     let mut text =
         format!("[structure]\nkind = \"matrices\"\nmass = {}\nstiffness = {}\n", quoted(mass)?, quoted(stiffness)?);
-    if let Some(nodes) = &arguments.nodes {
+    if let Some(nodes) = &request.nodes {
         text.push_str(&format!("nodes = {}\n", quoted(nodes)?));
     }
     if model.system.mass.size() > LARGE {
@@ -54,8 +53,10 @@ pub(super) struct Point {
 ///
 /// # Errors
 /// One sentence for a point that is not in the model.
-pub(super) fn places(points: &[Point], model: &Model) -> anyhow::Result<Vec<String>> {
-    let dofs = model.dofs.as_ref().context("the model does not name its degrees of freedom; give a file that does")?;
+pub(super) fn places(points: &[Point], model: &Model) -> Result<Vec<String>> {
+    let dofs = model.dofs.as_ref().ok_or_else(|| {
+        ImportError::Said("the model does not name its degrees of freedom; give a file that does".to_owned())
+    })?;
     let labels: std::collections::HashSet<&str> = dofs.iter().map(|dof| dof.label.as_str()).collect();
     let nodes: Vec<(&str, [f64; 3])> =
         model.nodes.iter().flatten().map(|node| (node.label.as_str(), node.position)).collect();
@@ -68,11 +69,10 @@ pub(super) fn places(points: &[Point], model: &Model) -> anyhow::Result<Vec<Stri
         if labels.contains(own.as_str()) {
             return Ok(own);
         }
-        anyhow::bail!(
+        Err(ImportError::Said(format!(
             "point {} direction {} is not in the model, neither by its number nor by its place; say it under [frf.dofs]",
-            point.node,
-            point.direction
-        )
+            point.node, point.direction
+        )))
     };
     points.iter().map(one).collect()
 }

@@ -1,21 +1,20 @@
-//! `dashpot import` of frequency responses: a project with `[[frf]]`, its DOFs those of the file or of a model.
+//! Import of frequency responses: a project with `[[frf]]`, its DOFs those of the file or of a model.
 
-use super::arguments_import::Import;
-use super::import::{comment, head, named, points as points_structure, project_file, write};
-use super::import_model::{Point, model, places};
+use super::model::{Point, model, places};
+use super::text::{comment, head, named, points as points_structure};
+use super::{ImportError, Imported, Request, Result};
 use crate::control::Control;
-use crate::exchange::frf::{pair_in_name, plain_place, response_in_name};
+use crate::exchange::frf::{Form, pair_in_name, plain_place, response_in_name};
 use crate::exchange::project::frf::FrfTable;
 use crate::exchange::project::plan;
-use anyhow::ensure;
-use dashpot_datafiles::{Channel, Contents, DataFile, Format, Kind, Pairing, Set, Values, open, open_paired};
+use dashpot_datafiles::{Channel, Contents, DataFile, Format, Kind, Set, Values, open, open_paired};
 use std::collections::BTreeMap;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// Whether a file among them has frequency responses.
-pub(super) fn has_responses(arguments: &Import) -> anyhow::Result<bool> {
-    for file in &arguments.files {
-        if functions(opened(arguments, file)?.contents(), arguments).next().is_some() {
+pub(super) fn has_responses(request: &Request) -> Result<bool> {
+    for file in &request.files {
+        if functions(opened(request, file)?.contents(), request).next().is_some() {
             return Ok(true);
         }
     }
@@ -23,95 +22,135 @@ pub(super) fn has_responses(arguments: &Import) -> anyhow::Result<bool> {
 }
 
 /// Opens a file, its columns two by two where that is said.
-fn opened(arguments: &Import, file: &Path) -> Result<DataFile, dashpot_datafiles::Error> {
-    match arguments.columns.as_deref().and_then(Pairing::from_word) {
+fn opened(request: &Request, file: &Path) -> Result<DataFile, dashpot_datafiles::Error> {
+    match request.columns {
         Some(pairing) => open_paired(file, pairing),
         None => open(file),
     }
 }
 
 /// The functions of a file; complex columns without frequencies too where their step is given.
-fn functions<'a>(contents: &'a Contents, arguments: &Import) -> impl Iterator<Item = &'a Channel> {
-    contents.sets.iter().flat_map(|set| of_set(set, arguments))
+fn functions<'a>(contents: &'a Contents, request: &Request) -> impl Iterator<Item = &'a Channel> {
+    contents.sets.iter().flat_map(|set| of_set(set, request))
 }
 
-fn of_set<'a>(set: &'a Set, arguments: &Import) -> impl Iterator<Item = &'a Channel> + use<'a> {
-    let wanted = set.kind == Kind::Frf || arguments.step_hz.is_some() && set.kind == Kind::Table;
+fn of_set<'a>(set: &'a Set, request: &Request) -> impl Iterator<Item = &'a Channel> + use<'a> {
+    let wanted = set.kind == Kind::Frf || request.step_hz.is_some() && set.kind == Kind::Table;
     set.channels.iter().filter(move |channel| wanted && channel.complex && channel.count > 0)
 }
 
-/// Writes the project of frequency responses.
-pub(super) fn run(arguments: &Import) -> anyhow::Result<String> {
-    let out = project_file(arguments)?;
-    let Found { text, summary, assumed } = project(arguments, &out)?;
-    let project = plan(&text, &out)?.load(&Control::unattended())?;
-    for remark in &project.remarks {
-        eprintln!("{remark}");
-    }
-    if arguments.propose {
-        return Ok(text);
-    }
-    write(&out, &text)?;
+/// The project of frequency responses.
+pub(super) fn import(request: &Request, out: &Path, control: &Control) -> Result<Imported> {
+    let Found { head, tables, summary, assumed } = project(request, out)?;
+    let project = plan(&format!("{head}{tables}"), out)?.load(control)?;
     let assumed = assumed.iter().map(|what| format!("assumed: {what}\n")).collect::<String>();
-    Ok(format!("{assumed}{summary}, {} runs of one line each, are in {}\n", project.runs.len(), out.display()))
+    let runs = project.runs.len();
+    let summary = format!("{assumed}{summary}, {runs} runs of one line each, are in {}\n", out.display());
+    Ok(Imported { head, tables, summary, remarks: project.remarks })
+}
+
+/// The functions of files as they would be imported.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Functions {
+    /// Number of functions.
+    pub count: usize,
+    /// DOFs as the files call them, and their labels in the project.
+    pub dofs: Vec<(String, String)>,
+    /// Labels of the responses in the order of the functions, where neither names nor files say them.
+    pub responses: Vec<String>,
+    /// Labels of the references then.
+    pub references: Vec<String>,
+    /// What was assumed.
+    pub assumed: Vec<String>,
+}
+
+/// What the functions of the files are, and where.
+pub(super) fn look(request: &Request) -> Result<Functions> {
+    let read = said(request)?;
+    let (labels, _) = labelled(request, &read.points)?;
+    let dofs = read.points.iter().map(|(name, _)| name.clone()).zip(labels).collect();
+    let own = |one: &Measured| (one.responses.clone(), one.references.clone());
+    let (responses, references) = read.measured.first().map(own).unwrap_or_default();
+    Ok(Functions { count: read.count, dofs, responses, references, assumed: read.assumed })
 }
 
 /// A project and what is in it.
 struct Found {
-    text: String,
+    head: String,
+    tables: String,
     summary: String,
     assumed: Vec<String>,
 }
 
 /// A file with responses and the labels of its functions in order, where names and file do not say them.
-struct Measured<'a> {
-    path: &'a Path,
+struct Measured {
+    path: PathBuf,
     responses: Vec<String>,
     references: Vec<String>,
 }
 
-fn project(arguments: &Import, out: &Path) -> anyhow::Result<Found> {
-    let files: Vec<DataFile> = arguments.files.iter().map(|file| opened(arguments, file)).collect::<Result<_, _>>()?;
-    let (measured, assumed) = measured(arguments, &files)?;
-    let (mut names, mut highest, mut count) = (Vec::new(), 0.0_f64, 0);
+/// What the files say of their functions.
+struct Said {
+    count: usize,
+    highest_hz: f64,
+    points: Vec<(String, Point)>,
+    measured: Vec<Measured>,
+    assumed: Vec<String>,
+}
+
+fn said(request: &Request) -> Result<Said> {
+    let files: Vec<DataFile> = request.files.iter().map(|file| opened(request, file)).collect::<Result<_, _>>()?;
+    let (measured, assumed) = measured(request, &files)?;
+    let (mut names, mut highest_hz, mut count) = (Vec::new(), 0.0_f64, 0);
     for file in &files {
-        for channel in functions(file.contents(), arguments) {
+        for channel in functions(file.contents(), request) {
             count += 1;
-            let step = channel.axis.step().or(arguments.step_hz).unwrap_or(0.0);
-            highest = highest.max(step * channel.count as f64);
+            let step = channel.axis.step().or(request.step_hz).unwrap_or(0.0);
+            highest_hz = highest_hz.max(step * channel.count as f64);
             names.extend(pair(file, channel).into_iter().flatten());
         }
     }
     if measured.iter().any(|one| !one.responses.is_empty()) {
         names = measured.iter().flat_map(|one| one.responses.iter().chain(&one.references)).cloned().collect();
     }
-    let points = points(&names, &files)?;
-    let (labels, dofs) = labelled(arguments, &points)?;
-    let up_to = if highest > 0.0 { 2.0 * highest } else { 2000.0 };
-    let mut text = head(arguments, out, &points_structure(&labels), up_to)?;
+    Ok(Said { count, highest_hz, points: points(&names, &files)?, measured, assumed })
+}
+
+fn project(request: &Request, out: &Path) -> Result<Found> {
+    let Said { count, highest_hz, points, measured, assumed } = said(request)?;
+    let (labels, dofs) = labelled(request, &points)?;
+    let up_to = if highest_hz > 0.0 { 2.0 * highest_hz } else { 2000.0 };
+    let head = head(request, out, &points_structure(&labels), up_to)?;
+    let mut tables = String::new();
     for what in &assumed {
-        text.push_str(&comment(&format!("Assumed: {what}.")));
+        tables.push_str(&comment(&format!("Assumed: {what}.")));
     }
     for one in &measured {
-        text.push_str(&table(arguments, &named(one.path, out)?, one, &dofs));
+        tables.push_str(&table(request, &named(&one.path, out)?, one, &dofs));
     }
-    Ok(Found { text, summary: format!("{count} functions at {} DOFs", points.len()), assumed })
+    Ok(Found { head, tables, summary: format!("{count} functions at {} DOFs", points.len()), assumed })
 }
 
 /// Labels of the DOFs, and those of the file that are called otherwise in the project.
-fn labelled(arguments: &Import, points: &[(String, Point)]) -> anyhow::Result<(Vec<String>, BTreeMap<String, String>)> {
+fn labelled(request: &Request, points: &[(String, Point)]) -> Result<(Vec<String>, BTreeMap<String, String>)> {
     let own: Vec<String> = points.iter().map(|(_, point)| format!("{}{}", point.node, point.direction)).collect();
-    let (mut labels, names): (Vec<String>, Vec<&String>) = match model(arguments)? {
+    let (mut labels, names): (Vec<String>, Vec<&String>) = match model(request)? {
         Some(model) => {
-            let wanted: Vec<Point> = points.iter().map(|(_, point)| point.clone()).collect();
-            (places(&wanted, &model)?, own.iter().collect())
+            let unsaid = points.iter().filter(|(name, _)| template_label(request, name).is_none());
+            let wanted: Vec<Point> = unsaid.map(|(_, point)| point.clone()).collect();
+            let mut found = places(&wanted, &model)?.into_iter();
+            let label = |(name, _): &(String, Point)| match template_label(request, name) {
+                Some(_) => String::new(),
+                None => found.next().unwrap_or_default(),
+            };
+            (points.iter().map(label).collect(), own.iter().collect())
         }
         None => (own.clone(), points.iter().map(|(name, _)| name).collect()),
     };
     // What a template says of a DOF goes first.
     for (label, (name, _)) in labels.iter_mut().zip(points) {
-        if let Some(said) = arguments.frf.as_ref().and_then(|template| template.dofs.get(name)) {
-            said.0.trim_start_matches('-').clone_into(label);
+        if let Some(said) = template_label(request, name) {
+            said.trim_start_matches('-').clone_into(label);
         }
     }
     let other = labels.iter().zip(names).zip(points).filter(|((label, name), _)| label != name);
@@ -125,25 +164,30 @@ fn labelled(arguments: &Import, points: &[(String, Point)]) -> anyhow::Result<(V
     Ok((once, dofs))
 }
 
+/// The label that a template gives a DOF, `-` in front of it where it is reversed.
+fn template_label<'a>(request: &'a Request, name: &str) -> Option<&'a str> {
+    request.frf.as_ref()?.dofs.get(name).map(|label| label.0.as_str())
+}
+
 /// The files with responses; DOFs as they are given, else numbered in order where neither names nor files say them.
-fn measured<'a>(arguments: &'a Import, files: &'a [DataFile]) -> anyhow::Result<(Vec<Measured<'a>>, Vec<String>)> {
-    let counts: Vec<usize> = files.iter().map(|file| functions(file.contents(), arguments).count()).collect();
+fn measured(request: &Request, files: &[DataFile]) -> Result<(Vec<Measured>, Vec<String>)> {
+    let counts: Vec<usize> = files.iter().map(|file| functions(file.contents(), request).count()).collect();
     let named =
-        files.iter().all(|file| functions(file.contents(), arguments).all(|channel| pair(file, channel).is_some()));
+        files.iter().all(|file| functions(file.contents(), request).all(|channel| pair(file, channel).is_some()));
     let total: usize = counts.iter().sum();
     let mut assumed = Vec::new();
-    let (mut responses, mut references) = (arguments.responses.clone(), arguments.references.clone());
+    let (mut responses, mut references) = (request.responses.clone(), request.references.clone());
     if !named && responses.is_empty() {
-        let (numbers, how) = numbered(arguments, files, &counts);
+        let (numbers, how) = numbered(request, files, &counts);
         responses = numbers;
         if references.is_empty() {
             references = vec![responses[0].clone()];
         }
-        ensure!(
-            references.len() == 1,
-            "{}: neither names nor file say the DOFs of the functions; give them by --responses and --references",
-            arguments.files[0].display()
-        );
+        if references.len() != 1 {
+            let problem =
+                "neither names nor file say the DOFs of the functions; give them by --responses and --references";
+            return Err(ImportError::of(&request.files[0], problem));
+        }
         assumed.push(format!("{how}, all driven at {}", references[0]));
     }
     // One list for all files one after the other, or the same list for each.
@@ -153,15 +197,15 @@ fn measured<'a>(arguments: &'a Import, files: &'a [DataFile]) -> anyhow::Result<
     for (file, count) in files.iter().zip(counts).filter(|(_, count)| *count > 0) {
         let own = if in_turn { responses[from..from + count].to_vec() } else { responses.clone() };
         from += count;
-        measured.push(Measured { path: file.path(), responses: own, references: references.clone() });
+        measured.push(Measured { path: file.path().to_owned(), responses: own, references: references.clone() });
     }
     Ok((measured, assumed))
 }
 
 /// Labels of responses whose references nothing says: by the numbers in the names of the functions, of their sets, of the
 /// files, else in their order; and how that is said.
-fn numbered(arguments: &Import, files: &[DataFile], counts: &[usize]) -> (Vec<String>, String) {
-    let functions = |file| functions_with_sets(file, arguments);
+fn numbered(request: &Request, files: &[DataFile], counts: &[usize]) -> (Vec<String>, String) {
+    let functions = |file| functions_with_sets(file, request);
     let label = |name: &str| {
         let label: String = response_in_name(name)?.chars().filter(char::is_ascii_alphanumeric).collect();
         Some(label.to_lowercase()).filter(|label| place_like(label))
@@ -197,33 +241,33 @@ fn place_like(text: &str) -> bool {
 }
 
 /// The functions of a file with the names of their sets.
-fn functions_with_sets<'a>(file: &'a DataFile, arguments: &'a Import) -> impl Iterator<Item = (&'a str, &'a Channel)> {
+fn functions_with_sets<'a>(file: &'a DataFile, request: &'a Request) -> impl Iterator<Item = (&'a str, &'a Channel)> {
     let sets = file.contents().sets.iter();
-    sets.flat_map(move |set| of_set(set, arguments).map(move |channel| (set.name.as_str(), channel)))
+    sets.flat_map(move |set| of_set(set, request).map(move |channel| (set.name.as_str(), channel)))
 }
 
 /// The `[[frf]]` of a file.
-fn table(arguments: &Import, file: &str, measured: &Measured<'_>, dofs: &BTreeMap<String, String>) -> String {
+fn table(request: &Request, file: &str, measured: &Measured, dofs: &BTreeMap<String, String>) -> String {
     let quoted = |text: &str| toml::Value::from(text).to_string();
     let list = |labels: &[String]| labels.iter().map(|label| quoted(label)).collect::<Vec<_>>().join(", ");
     let mut text = format!("[[frf]]\nfile = {}\n", quoted(file));
-    if let Some(form) = &arguments.form {
-        text.push_str(&format!("form = {}\n", quoted(form)));
+    if let Some(form) = request.form {
+        text.push_str(&format!("form = {}\n", quoted(Form::WORDS[form as usize])));
     }
-    if let Some(scale) = arguments.scale {
+    if let Some(scale) = request.scale {
         text.push_str(&format!("scale = {scale:?}\n"));
     }
-    if let Some(columns) = &arguments.columns {
-        text.push_str(&format!("columns = {}\n", quoted(columns)));
+    if let Some(columns) = request.columns {
+        text.push_str(&format!("columns = {}\n", quoted(columns.word())));
     }
-    if let Some(template) = &arguments.frf {
+    if let Some(template) = &request.frf {
         text.push_str(&of_template(template));
     }
-    match arguments.averages {
+    match request.averages {
         Some(averages) => text.push_str(&format!("averages = {averages}\n")),
         None => text.push_str("# averages = 8                    # with the coherences it gives the deviations\n"),
     }
-    if let Some(step) = arguments.step_hz {
+    if let Some(step) = request.step_hz {
         text.push_str(&format!("step_hz = {step:?}\n"));
     }
     for (key, labels) in [("responses", &measured.responses), ("references", &measured.references)] {
@@ -232,7 +276,7 @@ fn table(arguments: &Import, file: &str, measured: &Measured<'_>, dofs: &BTreeMa
         }
     }
     let mut dofs = dofs.clone();
-    for (name, label) in arguments.frf.iter().flat_map(|template| &template.dofs) {
+    for (name, label) in request.frf.iter().flat_map(|template| &template.dofs) {
         dofs.insert(name.clone(), label.0.clone());
     }
     if !dofs.is_empty() {
@@ -267,7 +311,7 @@ fn pair(file: &DataFile, channel: &Channel) -> Option<[String; 2]> {
 }
 
 /// The points that the names stand for, each once, by the name of its positive direction.
-fn points(names: &[String], files: &[DataFile]) -> anyhow::Result<Vec<(String, Point)>> {
+fn points(names: &[String], files: &[DataFile]) -> Result<Vec<(String, Point)>> {
     let mut positions: BTreeMap<String, [f64; 3]> = BTreeMap::new();
     for file in files {
         positions_in(file, &mut positions)?;
@@ -291,9 +335,9 @@ fn points(names: &[String], files: &[DataFile]) -> anyhow::Result<Vec<(String, P
 }
 
 /// Nodes of a file with their positions.
-fn positions_in(file: &DataFile, positions: &mut BTreeMap<String, [f64; 3]>) -> anyhow::Result<()> {
+fn positions_in(file: &DataFile, positions: &mut BTreeMap<String, [f64; 3]>) -> Result<()> {
     for (s, set) in file.contents().sets.iter().enumerate().filter(|(_, set)| set.kind == Kind::Geometry) {
-        let column = |name: &str| -> anyhow::Result<Option<Vec<f64>>> {
+        let column = |name: &str| -> Result<Option<Vec<f64>>> {
             let Some(c) = set.channels.iter().position(|channel| channel.name == name) else { return Ok(None) };
             match file.read(s, c)? {
                 Values::Real(values) => Ok(Some(values)),

@@ -1,6 +1,6 @@
 //! A model where decays come without one: a mass on a spring, with the frequency that the clearest channel shows.
 
-use super::import::comment;
+use super::text::comment;
 use crate::diagnosis::records::amplitude::{AmplitudePoint, Band, amplitude_curve, peaks};
 use crate::exchange::mapping::units::LabUnit;
 use crate::exchange::mapping::{ChannelTable, Proposal};

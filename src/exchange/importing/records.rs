@@ -1,17 +1,16 @@
-//! `dashpot import` of time records: a mapping of their channels, one run a file, of the kind that its record looks like.
+//! Import of time records: a mapping of their channels, one run a file or set, of the kind that its record looks like.
 
-use super::arguments_import::Import;
-use super::import::{comment, head, named, points, project_file, write};
-use super::import_refusal::refusal;
-use super::import_single_mode::{SingleMode, single_mode};
+use super::refusal::refusal;
+use super::single_mode::{SingleMode, single_mode};
+use super::text::{comment, head, named, points};
+use super::{ImportError, Imported, Request, Result};
 use crate::control::Control;
-use crate::exchange::mapping::{ChannelTable, Proposal, propose};
-use crate::exchange::project::{plan, template};
+use crate::exchange::mapping::{ChannelTable, Proposal, propose, runs_of};
+use crate::exchange::project::plan;
 use crate::measurement::{Kind, Part, Quantity, Record, frequency, proposal, steady_part};
-use anyhow::{Context, bail, ensure};
 use dashpot_datafiles::open;
 use serde::Serialize;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// Fewest samples of a run.
 const FEWEST: usize = 32;
@@ -33,61 +32,101 @@ struct Looks {
     reason: String,
 }
 
-pub(super) fn run(arguments: &Import) -> anyhow::Result<String> {
-    let mut mapping = mapping(arguments)?;
+/// What becomes a run: a file, and its set where it has several of that layout.
+struct RunSource {
+    file: PathBuf,
+    set: Option<String>,
+}
+
+/// The project of records by their mapping.
+pub(super) fn import(request: &Request, mapping: Proposal, out: &Path, control: &Control) -> Result<Imported> {
+    let mut mapping = usable(request, mapping)?;
+    if mapping.needs_sampling && request.sampling_hz.is_none() {
+        let problem = "the file does not say the time between samples; give it by --sampling-hz";
+        return Err(ImportError::of(&request.files[0], problem));
+    }
+    let sources = sources(request, &mapping)?;
+    let mut looks = looks_of(request, &mapping, &sources, out, control)?;
+    let forced = mapping.channels.iter().any(|table| matches!(table.quantity, Quantity::Force | Quantity::Base));
+    let alone = !forced && request.mass.is_none() && request.channels.is_none();
+    let single = if alone { single_mode(&looks[0].0, &mut mapping) } else { None };
+    if single.is_some() {
+        looks = looks_of(request, &mapping, &sources, out, control)?;
+    }
+    let head = project_head(request, &mapping, out, &looks, single.as_ref())?;
+    let tables = tables(request, &mapping, &sources, out, &looks)?;
+    // The project must open before it is there.
+    plan(&format!("{head}{tables}"), out)?.load(control)?;
+    let summary = summary(request, &mapping, &sources, &looks, single.as_ref(), out);
+    Ok(Imported { head, tables, summary, remarks: Vec::new() })
+}
+
+/// The mapping as text for a template; what is not mapped in comments.
+pub(super) fn template(request: &Request, mapping: Proposal) -> Result<String> {
+    let mapping = usable(request, mapping)?;
+    let mut text = format!("# Mapping of the channels of {}\n", request.files[0].display());
+    if mapping.needs_sampling {
+        text.push_str("# the file does not say the time between samples: give it by --sampling-hz\n");
+    }
+    text.push('\n');
+    Ok(text + &channels(&mapping) + &unused(&mapping))
+}
+
+/// The mapping that is given, else what the first file proposes.
+pub(super) fn mapping(request: &Request) -> Result<Proposal> {
+    match &request.channels {
+        Some(channels) => Ok(Proposal { channels: channels.clone(), ..Proposal::default() }),
+        None => Ok(propose(open(&request.files[0])?.contents())),
+    }
+}
+
+/// The mapping where something of it is mapped; channels in the unit of their sensor where nothing else moves.
+fn usable(request: &Request, mut mapping: Proposal) -> Result<Proposal> {
     if mapping.channels.is_empty() {
         mapping.channels = std::mem::take(&mut mapping.uncalibrated);
     }
     if mapping.channels.is_empty() {
-        bail!("{}: {}", arguments.files[0].display(), refusal(open(&arguments.files[0])?.contents(), &mapping.left));
+        let why = refusal(open(&request.files[0])?.contents(), &mapping.left);
+        return Err(ImportError::of(&request.files[0], why));
     }
-    if arguments.propose {
-        return proposal_text(&arguments.files[0], &mapping);
-    }
-    let first = arguments.files[0].display();
-    ensure!(
-        !mapping.needs_sampling || arguments.sampling_hz.is_some(),
-        "{first}: the file does not say the time between samples; give it by --sampling-hz"
-    );
-    let out = project_file(arguments)?;
-    let mut looks = looks_of(arguments, &mapping, &out)?;
-    let forced = mapping.channels.iter().any(|table| matches!(table.quantity, Quantity::Force | Quantity::Base));
-    let alone = !forced && arguments.mass.is_none() && arguments.map.is_none();
-    let single = if alone { single_mode(&looks[0].0, &mut mapping) } else { None };
-    if single.is_some() {
-        looks = looks_of(arguments, &mapping, &out)?;
-    }
-    let text = project(arguments, &mapping, &out, &looks, single.as_ref())?;
-    // The project must open before it is there.
-    plan(&text, &out)?.load(&Control::unattended())?;
-    write(&out, &text)?;
-    Ok(summary(arguments, &mapping, &looks, single.as_ref(), &out))
+    Ok(mapping)
 }
 
-fn mapping(arguments: &Import) -> anyhow::Result<Proposal> {
-    let Some(path) = &arguments.map else { return Ok(propose(open(&arguments.files[0])?.contents())) };
-    let name = path.display().to_string();
-    let text = std::fs::read_to_string(path).with_context(|| format!("{name}: the template cannot be read"))?;
-    Ok(Proposal { channels: template(&text, &name)?, ..Proposal::default() })
+/// What becomes a run, in order.
+fn sources(request: &Request, mapping: &Proposal) -> Result<Vec<RunSource>> {
+    let mut sources = Vec::new();
+    for file in &request.files {
+        let sets = runs_of(open(file)?.contents(), &mapping.channels);
+        let part = |set| RunSource { file: file.clone(), set };
+        match sets.len() {
+            0 | 1 => sources.push(part(None)),
+            _ => sources.extend(sets.into_iter().map(|set| part(Some(set)))),
+        }
+    }
+    Ok(sources)
 }
 
 /// Every record by the mapping, and what it looks like.
-fn looks_of(arguments: &Import, mapping: &Proposal, out: &Path) -> anyhow::Result<Vec<(Record, Looks)>> {
-    let mut text = head(arguments, out, &points(&labels(mapping)), 0.5 * highest_rate(arguments)?)?;
-    text.push_str(&channels(mapping)?);
-    for file in &arguments.files {
-        text.push_str(&run_table(arguments, &named(file, out)?));
+fn looks_of(
+    request: &Request,
+    mapping: &Proposal,
+    sources: &[RunSource],
+    out: &Path,
+    control: &Control,
+) -> Result<Vec<(Record, Looks)>> {
+    let mut text = head(request, out, &points(&labels(mapping)), 0.5 * highest_rate(request)?)?;
+    text.push_str(&channels(mapping));
+    for source in sources {
+        text.push_str(&run_table(request, source, out)?);
     }
     let planned = plan(&text, out)?;
     let mut found = Vec::new();
-    for index in 0..planned.runs.len() {
-        let record = planned.record(index, &Control::unattended())?;
-        let file = arguments.files[index].display();
-        ensure!(
-            record.len() >= FEWEST,
-            "{file}: has {} samples, and a run needs {FEWEST}; export the whole record",
-            record.len()
-        );
+    for (index, source) in sources.iter().enumerate() {
+        let record = planned.record(index, control)?;
+        if record.len() < FEWEST {
+            let problem = format!("has {} samples, and a run needs {FEWEST}; export the whole record", record.len());
+            return Err(ImportError::of(&source.file, problem));
+        }
         let looks = look(&record);
         found.push((record, looks));
     }
@@ -144,26 +183,31 @@ fn labels(mapping: &Proposal) -> Vec<String> {
 }
 
 /// The tables `[[channel]]`, what was assumed above each.
-fn channels(mapping: &Proposal) -> anyhow::Result<String> {
+fn channels(mapping: &Proposal) -> String {
     let mut text = String::new();
     for table in &mapping.channels {
         for (_, what) in mapping.assumed.iter().filter(|(name, _)| *name == table.channel()) {
             text.push_str(&comment(&format!("Assumed: {what}.")));
         }
-        text.push_str(&toml::to_string(&Mapping { channel: [table] })?);
+        text.push_str(&toml_of(table));
         text.push('\n');
     }
-    Ok(text)
+    text
+}
+
+fn toml_of(table: &ChannelTable) -> String {
+    // A table of words and numbers always is TOML.
+    toml::to_string(&Mapping { channel: [table] }).unwrap_or_default()
 }
 
 /// Channels that are not used, as comments that become tables where their marks are taken away.
-fn unused(mapping: &Proposal) -> anyhow::Result<String> {
+fn unused(mapping: &Proposal) -> String {
     let mut text = String::new();
     for table in &mapping.uncalibrated {
         text.push_str(
             "# Not used, as nothing says what it measures; fill in quantity, dof, unit and factor (units a number):\n",
         );
-        for line in toml::to_string(&Mapping { channel: [table] })?.lines() {
+        for line in toml_of(table).lines() {
             text.push_str(&format!("# {line}\n"));
         }
         text.push('\n');
@@ -174,28 +218,32 @@ fn unused(mapping: &Proposal) -> anyhow::Result<String> {
     if !mapping.left.is_empty() {
         text.push('\n');
     }
-    Ok(text)
-}
-
-fn run_table(arguments: &Import, file: &str) -> String {
-    let mut text = format!("[[run]]\nfile = {}\n", toml::Value::from(file));
-    if let Some(rate) = arguments.sampling_hz {
-        text.push_str(&format!("sampling_hz = {rate:?}\n"));
-    }
     text
 }
 
-fn project(
-    arguments: &Import,
+fn run_table(request: &Request, source: &RunSource, out: &Path) -> Result<String> {
+    let quoted = |text: &str| toml::Value::from(text).to_string();
+    let mut text = format!("[[run]]\nfile = {}\n", quoted(&named(&source.file, out)?));
+    if let Some(set) = &source.set {
+        text.push_str(&format!("set = {}\n", quoted(set)));
+    }
+    if let Some(rate) = request.sampling_hz {
+        text.push_str(&format!("sampling_hz = {rate:?}\n"));
+    }
+    Ok(text)
+}
+
+fn project_head(
+    request: &Request,
     mapping: &Proposal,
     out: &Path,
     looks: &[(Record, Looks)],
     single: Option<&SingleMode>,
-) -> anyhow::Result<String> {
+) -> Result<String> {
     let transient = looks.iter().any(|(_, looks)| looks.kind != Kind::Steady);
     let structure = match single {
         Some(single) => single.structure(),
-        None if transient && arguments.mass.is_none() => format!(
+        None if transient && request.mass.is_none() => format!(
             "{}{}",
             comment(
                 "Decays and transients need mass and stiffness: give a finite-element model by --mass and --stiffness, or write \
@@ -205,12 +253,21 @@ fn project(
         ),
         None => points(&labels(mapping)),
     };
-    let mut text = head(arguments, out, &structure, 0.5 * highest_rate(arguments)?)?;
-    text.push_str(&channels(mapping)?);
-    text.push_str(&unused(mapping)?);
-    for (file, (_, looks)) in arguments.files.iter().zip(looks) {
+    head(request, out, &structure, 0.5 * highest_rate(request)?)
+}
+
+/// The mapping and the runs.
+fn tables(
+    request: &Request,
+    mapping: &Proposal,
+    sources: &[RunSource],
+    out: &Path,
+    looks: &[(Record, Looks)],
+) -> Result<String> {
+    let mut text = channels(mapping) + &unused(mapping);
+    for (source, (_, looks)) in sources.iter().zip(looks) {
         text.push_str(&comment(&format!("Kind {}: {}.", looks.kind.name(), looks.reason)));
-        text.push_str(&run_table(arguments, &named(file, out)?));
+        text.push_str(&run_table(request, source, out)?);
         if looks.kind != Kind::Steady {
             text.push_str(&format!("kind = \"{}\"\n", looks.kind.name()));
         }
@@ -226,8 +283,9 @@ fn project(
 
 /// What was made of the files, for the user.
 fn summary(
-    arguments: &Import,
+    request: &Request,
     mapping: &Proposal,
+    sources: &[RunSource],
     looks: &[(Record, Looks)],
     single: Option<&SingleMode>,
     out: &Path,
@@ -239,11 +297,12 @@ fn summary(
     for (name, why) in &mapping.left {
         text.push_str(&format!("not mapped: \"{name}\" ({why})\n"));
     }
-    for (file, (_, looks)) in arguments.files.iter().zip(looks) {
-        text.push_str(&format!("{}: {}: {}\n", file.display(), looks.kind.name(), looks.reason));
+    for (source, (_, looks)) in sources.iter().zip(looks) {
+        let set = source.set.as_ref().map_or_else(String::new, |set| format!(", set \"{set}\""));
+        text.push_str(&format!("{}{set}: {}: {}\n", source.file.display(), looks.kind.name(), looks.reason));
     }
     let steady = looks.iter().any(|(_, looks)| looks.kind == Kind::Steady);
-    let model = arguments.mass.is_some() || single.is_some();
+    let model = request.mass.is_some() || single.is_some();
     let forced = mapping.channels.iter().any(|table| matches!(table.quantity, Quantity::Force | Quantity::Base));
     if let Some(single) = single {
         text.push_str(&format!("{}\n", single.words()));
@@ -258,24 +317,14 @@ fn summary(
         );
     }
     let count = |n: usize, what: &str| if n == 1 { format!("1 {what}") } else { format!("{n} {what}s") };
-    let (runs, channels) = (count(arguments.files.len(), "run"), count(mapping.channels.len(), "channel"));
+    let (runs, channels) = (count(sources.len(), "run"), count(mapping.channels.len(), "channel"));
     format!("{text}{runs} of {channels} are in {}\n", out.display())
 }
 
-/// The mapping as text for a template; what is not mapped in comments.
-fn proposal_text(file: &Path, mapping: &Proposal) -> anyhow::Result<String> {
-    let mut text = format!("# Mapping of the channels of {}\n", file.display());
-    if mapping.needs_sampling {
-        text.push_str("# the file does not say the time between samples: give it by --sampling-hz\n");
-    }
-    text.push('\n');
-    Ok(text + &channels(mapping)? + &unused(mapping)?)
-}
-
 /// Sampling rate of the first file, Hz.
-fn highest_rate(arguments: &Import) -> anyhow::Result<f64> {
-    let file = open(&arguments.files[0])?;
+fn highest_rate(request: &Request) -> Result<f64> {
+    let file = open(&request.files[0])?;
     let steps = file.contents().sets.iter().flat_map(|set| &set.channels).filter_map(|channel| channel.axis.step());
     let least = steps.filter(|step| *step > 0.0).fold(f64::INFINITY, f64::min);
-    Ok(arguments.sampling_hz.unwrap_or(if least.is_finite() { 1.0 / least } else { 2000.0 }))
+    Ok(request.sampling_hz.unwrap_or(if least.is_finite() { 1.0 / least } else { 2000.0 }))
 }

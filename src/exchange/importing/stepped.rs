@@ -1,7 +1,7 @@
-//! `dashpot import` of a stepped-sine table: a project with `[[harmonics]]`, one run a row.
+//! Import of a stepped-sine table: a project with `[[harmonics]]`, one run a row.
 
-use super::arguments_import::Import;
-use super::import::{comment, head, named, points, project_file, write};
+use super::text::{comment, head, named, points};
+use super::{Imported, Request, Result};
 use crate::control::Control;
 use crate::exchange::mapping::Stepped;
 use crate::exchange::project::plan;
@@ -13,12 +13,11 @@ use std::path::Path;
 /// Share of the scatter of the dynamic mass that a mass and a spring must explain to be told.
 const EXPLAINED: f64 = 0.9;
 
-/// Writes the project of the table `table`.
-pub(super) fn run(arguments: &Import, table: &Stepped) -> anyhow::Result<String> {
-    let out = project_file(arguments)?;
-    let mut text = project(arguments, table, &out)?;
-    let loaded = plan(&text, &out)?.load(&Control::unattended())?;
-    if arguments.mass.is_none()
+/// The project of the table `table`.
+pub(super) fn import(request: &Request, table: &Stepped, out: &Path, control: &Control) -> Result<Imported> {
+    let (mut head, tables) = project(request, table, out)?;
+    let loaded = plan(&format!("{head}{tables}"), out)?.load(control)?;
+    if request.mass.is_none()
         && let Some([mass, stiffness]) = oscillator(&loaded.runs)
     {
         let hint = comment(&format!(
@@ -29,24 +28,22 @@ pub(super) fn run(arguments: &Import, table: &Stepped) -> anyhow::Result<String>
         let chain = format!(
             "# kind = \"chain\"\n# masses = [{mass:.4}]\n# ground_stiffness = [{stiffness:.5e}]\n# coupling_stiffness = []\n"
         );
-        text = text.replacen("[structure]\n", &format!("[structure]\n{hint}{chain}"), 1);
-        plan(&text, &out)?;
+        head = head.replacen("[structure]\n", &format!("[structure]\n{hint}{chain}"), 1);
+        plan(&format!("{head}{tables}"), out)?;
     }
-    if arguments.propose {
-        return Ok(text);
-    }
-    write(&out, &text)?;
     let assumed = table.assumed.iter().map(|what| format!("assumed: {what}\n")).collect::<String>();
-    Ok(format!("{assumed}{} is in {}\n", table.words(), out.display()))
+    let summary = format!("{assumed}{} is in {}\n", table.words(), out.display());
+    Ok(Imported { head, tables, summary, remarks: Vec::new() })
 }
 
-fn project(arguments: &Import, table: &Stepped, out: &Path) -> anyhow::Result<String> {
-    let mut text = head(arguments, out, &points(&table.dofs), 2.0 * table.band_hz[1])?;
-    text.push_str(&comment(&format!("{}.", table.words())));
+/// Head and tables of the project.
+fn project(request: &Request, table: &Stepped, out: &Path) -> Result<(String, String)> {
+    let head = head(request, out, &points(&table.dofs), 2.0 * table.band_hz[1])?;
+    let mut text = comment(&format!("{}.", table.words()));
     for what in &table.assumed {
         text.push_str(&comment(&format!("Assumed: {what}.")));
     }
-    for file in &arguments.files {
+    for file in &request.files {
         text.push_str(&format!("[[harmonics]]\nfile = {}\n", toml::Value::from(named(file, out)?)));
         let keys = [("force", &table.force), ("response", &table.response)];
         for (key, value) in keys.into_iter().filter_map(|(key, value)| Some((key, value.as_ref()?))) {
@@ -57,7 +54,7 @@ fn project(arguments: &Import, table: &Stepped, out: &Path) -> anyhow::Result<St
         }
         text.push('\n');
     }
-    Ok(text)
+    Ok((head, text))
 }
 
 /// Mass (kg) and stiffness (N/m) of the one mode that the runs show, by least squares of `Re(F / A) = m - k / omega^2`.

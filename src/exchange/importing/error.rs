@@ -1,0 +1,28 @@
+//! Why files cannot be imported.
+
+use crate::exchange::matrices::TableError;
+use crate::exchange::project::ProjectError;
+use std::path::Path;
+
+/// One line: the file, what is wrong and how to mend it.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[expect(missing_docs, reason = "the messages say it")]
+pub enum ImportError {
+    #[error(transparent)]
+    File(#[from] dashpot_datafiles::Error),
+    #[error(transparent)]
+    Project(#[from] ProjectError),
+    #[error(transparent)]
+    Model(#[from] TableError),
+    #[error("{file}: {problem}")]
+    Of { file: String, problem: String },
+    #[error("{0}")]
+    Said(String),
+}
+
+impl ImportError {
+    /// What is wrong with a file.
+    pub(super) fn of(file: &Path, problem: impl Into<String>) -> Self {
+        Self::Of { file: file.display().to_string(), problem: problem.into() }
+    }
+}
