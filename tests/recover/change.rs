@@ -95,7 +95,8 @@ fn states_with_other_places_are_refused_in_one_line() {
         measured: Measurements { runs, transient_runs: &[], ratios: &[] },
         settings: &settings,
     };
-    let states = [of(&chain, &sources[..], &with_noise(&runs, NOISE, 4)[..]), of(&beam, &far[..], &bent[..])];
+    let again = with_noise(&runs, NOISE, 4);
+    let states = [of(&chain, &sources[..], &again[..]), of(&beam, &far[..], &bent[..])];
     let error = change(states, &Control::unattended()).unwrap_err();
     assert!(matches!(&error, ChangeError::NoDof { .. }), "{error}");
     assert!(error.to_string().contains("DOF \"17\"") && !error.to_string().contains('\n'));
