@@ -13,7 +13,7 @@ fn a_project_is_opened_and_saved_under_another_name_without_a_desktop() {
     harness.state_mut().own_dialogs = true;
     harness.key_press_modifiers(Modifiers::COMMAND, Key::O);
     harness.run_steps(3);
-    harness.get_by_label("Open a project");
+    harness.get_by_label("Open a project or measurements");
     harness.get_by_role_and_label(Role::TextInput, "File name").click();
     harness.run_steps(2);
     harness.event(egui::Event::Text(folder.join("project.toml").display().to_string()));

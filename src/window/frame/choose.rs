@@ -153,7 +153,7 @@ mod tests {
     #[test]
     fn folders_come_first_and_only_what_can_be_meant_is_listed() {
         let folder = tempfile::tempdir().unwrap();
-        for name in ["b.toml", "a.csv", ".hidden.toml"] {
+        for name in ["b.toml", "a.pdf", ".hidden.toml"] {
             std::fs::write(folder.path().join(name), "x").unwrap();
         }
         std::fs::create_dir(folder.path().join("z")).unwrap();
