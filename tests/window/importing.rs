@@ -37,6 +37,19 @@ fn shown(harness: &mut Harness<'_, App>) {
     settle(harness);
 }
 
+/// A picture in which the folder of the test, another one every time, is not named.
+fn picture(harness: &mut Harness<'_, App>, name: &str) {
+    let exchanged = |harness: &mut Harness<'_, App>, target: String| match &mut harness.state_mut().importing {
+        Some(Importing::Ready(draft)) => std::mem::replace(&mut draft.target, target),
+        other => panic!("{other:?}"),
+    };
+    let target = exchanged(harness, "measurements/project.toml".to_owned());
+    settle(harness);
+    harness.snapshot(name);
+    exchanged(harness, target);
+    settle(harness);
+}
+
 fn press(harness: &mut Harness<'_, App>, label: &str) {
     let button = harness.get_by_role_and_label(Role::Button, label);
     assert!(!button.accesskit_node().is_disabled(), "{label} cannot be pressed");
@@ -53,7 +66,7 @@ fn a_foreign_file_is_looked_into_mapped_and_becomes_a_run() {
     shown(&mut harness);
     harness.get_by_role_and_label(Role::TextInput, "DOF of Kraft 9");
     harness.get_by_role_and_label(Role::ComboBox, "Quantity of Beschl 5");
-    harness.snapshot("import-records");
+    picture(&mut harness, "import-records");
     press(&mut harness, "Add to the project");
     let document = harness.state().document.as_ref().unwrap();
     assert_eq!(document.project.runs.len(), 5, "{:?}", harness.state().message);
@@ -108,7 +121,7 @@ fn frequency_responses_become_a_project_that_identifies() {
     let mut harness = start_sized([1024.0, 700.0]);
     drop_files(&mut harness, &[hammer(folder.path())]);
     shown(&mut harness);
-    harness.snapshot("import-responses-small");
+    picture(&mut harness, "import-responses-small");
     press(&mut harness, "Make the project");
     let state = harness.state();
     let document = state.document.as_ref().unwrap_or_else(|| panic!("{:?}", state.message));
@@ -138,5 +151,5 @@ fn frequency_responses_are_shown_with_their_places() {
     let mut harness = start_sized([1280.0, 800.0]);
     drop_files(&mut harness, &[hammer(folder.path())]);
     shown(&mut harness);
-    harness.snapshot("import-responses");
+    picture(&mut harness, "import-responses");
 }
