@@ -232,6 +232,7 @@ fn powered(token: &str) -> (&str, i32) {
 
 #[cfg(test)]
 mod tests {
+    #![allow(clippy::disallowed_methods, reason = "tests")]
     use super::{Acceleration, Damping, Force, Frequency, Length, Units, choose, now, shown};
 
     fn is(units: Units, unit: &str, factor: f64, text: &str) {

@@ -8,6 +8,7 @@ use std::ops::Range;
 /// The fundamentals in a part of the record.
 pub(super) struct Fundamentals {
     /// Fundamental of every channel.
+    #[allow(clippy::struct_field_names, reason = "what they are called")]
     pub fundamentals: Vec<c64>,
     /// Variance of a fundamental for noise of variance 1.
     pub unit_variance: f64,

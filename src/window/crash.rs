@@ -34,6 +34,7 @@ pub fn watch(folder: PathBuf) {
         if std::thread::current().name() == Some("main") {
             let text = report(info, &Backtrace::force_capture());
             // There is nobody left to tell that it cannot be written.
+            #[allow(clippy::disallowed_methods, reason = "a panic is no time for an atomic write")]
             let _ = std::fs::create_dir_all(&folder).and_then(|()| std::fs::write(folder.join(NEW), text));
         }
     }));
@@ -66,6 +67,7 @@ pub fn left_behind(folder: &Path) -> Option<PathBuf> {
 
 #[cfg(test)]
 mod tests {
+    #![allow(clippy::disallowed_methods, reason = "tests")]
     #![allow(clippy::unwrap_used, reason = "tests")]
     use super::{KEPT, LAST, left_behind, remember, text};
 

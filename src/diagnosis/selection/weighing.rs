@@ -51,7 +51,7 @@ const WEIGHED: usize = 6;
 const FINISHED: usize = 2;
 
 /// Weighs fitted candidates, each with the model that was updated beside it.
-pub(super) fn weighed<'a>(fits: Vec<(Base<'a>, Refit)>) -> Result<Option<Weighed<'a>>, DiagnosisError> {
+pub(super) fn weighed(fits: Vec<(Base<'_>, Refit)>) -> Result<Option<Weighed<'_>>, DiagnosisError> {
     let mut all = with_likely_scales(fits)?;
     let limits = all.first().map_or(Ok(Vec::new()), limits_of)?;
     all.retain(|c| !limits.iter().any(|l| l.cost < c.cost && same_set(&l.refit.effects, &c.refit.effects)));
@@ -77,7 +77,7 @@ pub(super) fn weighed<'a>(fits: Vec<(Base<'a>, Refit)>) -> Result<Option<Weighed
 }
 
 /// The candidates that may be the best, each with the scales that are most likely beside it, best first.
-fn with_likely_scales<'a>(mut fits: Vec<(Base<'a>, Refit)>) -> Result<Vec<Candidate<'a>>, DiagnosisError> {
+fn with_likely_scales(mut fits: Vec<(Base<'_>, Refit)>) -> Result<Vec<Candidate<'_>>, DiagnosisError> {
     fits.retain(|(base, refit)| is_effect(base, refit));
     fits.sort_by(|a, b| cost(&a.0, Some(&a.1)).total_cmp(&cost(&b.0, Some(&b.1))));
     let Some((first, best)) = fits.first() else { return Ok(Vec::new()) };

@@ -146,6 +146,7 @@ fn entries(ui: &mut Ui, dialog: &mut Choosing) {
 
 #[cfg(test)]
 mod tests {
+    #![allow(clippy::disallowed_methods, reason = "tests")]
     #![allow(clippy::unwrap_used, reason = "tests")]
     use super::Choosing;
     use crate::window::files::Pick;

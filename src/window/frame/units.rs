@@ -36,7 +36,7 @@ pub fn menu(ui: &mut Ui) {
     if chosen != units::now() {
         units::choose(chosen);
         // Plots start afresh: their ranges belong to the old units.
-        ui.ctx().data_mut(|d| d.remove_by_type::<egui_plot::PlotMemory>());
+        ui.ctx().data_mut(egui::util::IdTypeMap::remove_by_type::<egui_plot::PlotMemory>);
         ui.ctx().request_repaint();
     }
 }

@@ -75,6 +75,7 @@ pub struct Responses {
     /// DOFs that the files name.
     pub places: Vec<PlaceRow>,
     /// Labels of the responses in the order of the functions, with commas, where the files name none.
+    #[allow(clippy::struct_field_names, reason = "what they are called")]
     pub responses: String,
     /// Labels of the references then.
     pub references: String,
