@@ -1,5 +1,5 @@
 //! Complex modes from measured frequency responses: the poly-reference least-squares complex frequency-domain estimator
-//! (Peeters, Van der Auweraer, Guillaume 2004) within the band of every resonance, then maximum likelihood ([`super::refine`]).
+//! (Peeters, Van der Auweraer, Guillaume 2004) within the band of every resonance, then maximum likelihood (`refine`).
 //!
 //! ```text
 //! H(w) = B(z) A(z)^-1        A = sum_r alpha_r z^r, m x m        z = exp(i theta), theta from 0 to pi over the band
@@ -8,7 +8,7 @@
 //!
 //! with `X = w_o [1 z z^2 ...]`, `Y = -X (x) H_o`, rows weighted by `1 / |H_o|` for noise in proportion. Poles are the eigenvalues of
 //! the companion matrix; those that return from order to order with a frequency and damping that do not move are modes:
-//! the stabilisation diagram. Then every band is fitted again with the modes of the others taken off ([`super::neighbours`]). **Needs** receptances with several lines within every half-power band. **Limits**: modes
+//! the stabilisation diagram. Then every band is fitted again with the modes of the others taken off (`neighbours`). **Needs** receptances with several lines within every half-power band. **Limits**: modes
 //! that show as one peak are told apart only by several drives or sensors; the linear estimate alone is biased by noise.
 
 use super::extracted_mode::ExtractedMode;

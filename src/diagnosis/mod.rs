@@ -11,7 +11,7 @@
 //! where `a_f` is the response to the force channel `f`, whose noise reaches every channel alike. All fits minimise
 //! `chi^2 = sum e^H S^-1 e`. The search goes *place before law*: a free complex force at a place explains the residual
 //! whatever the law ([`localisation`]); the law is read from that force against the motion ([`candidates`]); the short list is fitted
-//! on the response itself ([`selection`]) and ranked by evidence ([`diagnose`]).
+//! on the response itself ([`selection`]) and ranked by evidence ([`diagnose()`]).
 
 pub mod candidates;
 pub mod channels;

@@ -2,7 +2,7 @@
 //!
 //! Two equations are at hand, both linear in the coefficients at a given motion:
 //! the energy equation `G c = e` (one row a run, [`crate::balance`]), and, where mass and stiffness are known and agree with
-//! the data, the response equation (real and imaginary part of every sensor and harmonic, [`response_form`]), whose
+//! the data, the response equation (real and imaginary part of every sensor and harmonic, `response_form`), whose
 //! least squares solution is the maximum likelihood estimate. [`identify`] searches the best sets of each size, decides
 //! where to stop, and says why.
 

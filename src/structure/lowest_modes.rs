@@ -5,7 +5,7 @@
 //! sum_{r > m} phi_r phi_r^T / (omega_r^2 - w^2) = sum_t (w^2 + s)^t R_t,   R_0 = A^-1 - sum_{r <= m} phi_r phi_r^T / (omega_r^2 + s),   R_t+1 = A^-1 M R_t
 //! ```
 //!
-//! Every new block is made orthogonal to the whole basis (twice), so no mode comes twice; a block of [`BLOCK`] vectors finds
+//! Every new block is made orthogonal to the whole basis (twice), so no mode comes twice; a block of `BLOCK` vectors finds
 //! modes of that multiplicity. One factorisation (n^3 / 3) and some products with the basis take the place of all n modes
 //! (about 10 n^3, most of it slow): seconds instead of minutes at 2000 DOFs.
 

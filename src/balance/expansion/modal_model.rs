@@ -2,7 +2,7 @@
 //! diag(1 / (omega_r^2 - w^2)) Phi_r^T`, with `Z_m = diag(omega_k^2 - w^2) + Phi_m^T D Phi_m` and `D` the complex stiffness
 //! of all sources.
 //!
-//! Up to [`ALL`] DOFs every mode is retained and `H` is exact; beyond, only the lowest modes are computed, and those above
+//! Up to `ALL` DOFs every mode is retained and `H` is exact; beyond, only the lowest modes are computed, and those above
 //! respond without damping, as their damping does not show there ([`LowestModes::rest`]).
 
 use crate::balance::BalanceError;

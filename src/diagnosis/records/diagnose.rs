@@ -2,7 +2,7 @@
 //!
 //! 1. The model as it is, then corrected (stiffness, sizes of known sources, a shift a record).
 //! 2. Places by a free force ([`super::localisation`]); every law at those that matter, from where the measured motion wants it,
-//!    on short parts of the records with initial states of their own ([`super::parts`]); the best on longer parts and at last on
+//!    on short parts of the records with initial states of their own (`parts`); the best on longer parts and at last on
 //!    whole records.
 //! 3. What is left of a fit is coloured: differences of its squared residual are divided by its misfit and by the number of
 //!    samples over which it stays alike, so that many samples of one error do not count as many.

@@ -1,4 +1,4 @@
-//! The laws, one file each, as the table of laws ([`super::table`]) lists them.
+//! The laws, one file each, as the table of laws (`table`) lists them.
 
 use super::internal::Internal;
 use super::linear::Linear;

@@ -1,5 +1,5 @@
 //! Records of tests that are not steady, as a data recorder would have written them: what drives the structure
-//! ([`loading`]), its motion by time integration, the filter against aliasing and the converter ([`recorder`]).
+//! ([`loading`]), its motion by time integration, the filter against aliasing and the converter (`recorder`).
 
 mod component;
 pub mod loading;

@@ -4,9 +4,9 @@
 //! M x'' + C x' + K x + sum_l L_l F_l(d_l, d_l', states) = B u(t),      y = S (x'', x' or x)
 //! ```
 //!
-//! Modes in the band and residual flexibility ([`reduction`]); the linear part moves exactly between samples in its damped
-//! modes, the measured force being linear there ([`system`], [`step`], [`changes`]); local forces are implicit with their mean over a step
-//! ([`element`]); friction is set-valued: it sticks or slips, and a reversal is located within the step ([`march`]).
+//! Modes in the band and residual flexibility (`reduction`); the linear part moves exactly between samples in its damped
+//! modes, the measured force being linear there (`system`, `step`, `changes`); local forces are implicit with their mean over a step
+//! (`element`); friction is set-valued: it sticks or slips, and a reversal is located within the step (`march`).
 //! Derivatives by parameters of laws, stiffness, mass and the initial state are those of the same steps, the instants of
 //! reversals included.
 

@@ -42,7 +42,7 @@ pub enum TransientParameter {
     Mass,
     /// Logarithm of the stiffness of a kept mode.
     Mode(usize),
-    /// Entry of the initial state (see [`TransientModel::predict`]).
+    /// Entry of the initial state (see `TransientModel::predict`).
     Initial(usize),
 }
 
