@@ -6,7 +6,7 @@ use crate::diagnosis::residual::data::{Data, DiagnosisError, Problem};
 use crate::diagnosis::residual::levels::sessions;
 use crate::diagnosis::residual::prediction::{Predictor, RunPrediction};
 use crate::diagnosis::selection::search::Base;
-use crate::diagnosis::selection::stepwise;
+use crate::diagnosis::selection::{found, stepwise};
 use crate::diagnosis::updating::parameters::UpdatingParameter;
 use crate::effects::Source;
 use crate::math::statistics::root_mean_square;
@@ -242,7 +242,7 @@ fn explained(base: Base) -> Result<Result<Diagnosis, ChannelFault>, DiagnosisErr
         channel_faults: Vec::new(),
         complete: true,
     };
-    if stepwise::agrees(&base, before, 0) {
+    if found::agrees(&base, before, 0) {
         return Ok(Ok(diagnosis));
     }
     match stepwise::explain(base, before)? {

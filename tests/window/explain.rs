@@ -221,7 +221,8 @@ fn a_detuned_model_is_corrected_and_lacks_nothing() {
     settle(&mut harness);
     let [before, floor] = error(&harness);
     assert!(before > 20.0 * floor, "the detuned model is wrong by {before}, noise {floor}");
-    assert_eq!(verdict(&harness), Verdict::Detuned, "no effect is missing");
+    let told = harness.state().doc.as_ref().and_then(|d| d.results.diagnosis.as_ref().map(|x| format!("{:?}", x.suggestions)));
+    assert_eq!(verdict(&harness), Verdict::Detuned, "no effect is missing {told:?}");
     harness.get_by_label("The model is detuned");
     picture(&mut harness, "explain-detuned");
     press(&mut harness, "Correct the model");

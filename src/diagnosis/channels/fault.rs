@@ -1,10 +1,13 @@
 //! What can be wrong with a channel, in words.
 
+use crate::effects::{Kind, Source};
 use crate::measurement::Quantity;
 use crate::measurement::channel::STANDARD_GRAVITY;
 
 const INCH: f64 = 0.0254;
 const FOOT: f64 = 0.3048;
+/// Logarithm of a gain up to which it is one that measuring chains have.
+const ORDINARY_GAIN: f64 = 0.08;
 
 /// What is wrong.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -153,6 +156,12 @@ fn three_digits(value: f64) -> String {
     let digits = (2 - value.abs().log10().floor() as i32).max(0) as usize;
     let text = format!("{value:.digits$}");
     if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
+}
+
+/// Whether an effect is a factor on a channel that measuring chains have.
+pub(crate) fn is_ordinary_gain(source: &Source) -> bool {
+    let Kind::Channel(law) = source.effect.kind() else { return false };
+    law.neutral() != 0.0 && (source.parameters[0] / law.neutral()).ln().abs() < ORDINARY_GAIN
 }
 
 #[cfg(test)]

@@ -13,7 +13,7 @@
 //! all frequencies down to a fraction.
 
 mod cells;
-mod fault;
+pub(crate) mod fault;
 mod search;
 
 pub use fault::{ChannelFault, Fault};

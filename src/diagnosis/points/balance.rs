@@ -1,11 +1,13 @@
 //! Energies of a `points` problem as data, and effects fitted to them.
 
-use crate::diagnosis::diagnose::Added;
+use super::uncertainty::Uncertainty;
+use crate::diagnosis::diagnose::{Added, Correction};
 use crate::diagnosis::points::energies::{PointsEnergy, displacement, energies};
 use crate::diagnosis::residual::data::{DiagnosisError, Problem, RunData};
 use crate::diagnosis::residual::energy_balance::{input, taken};
 use crate::diagnosis::residual::prediction::transfer;
 use crate::diagnosis::selection::levenberg_marquardt::{Residual, Variables, descend};
+use crate::diagnosis::updating::parameters::UpdatingParameter;
 use crate::effects::{Effect, Leg, Motion, Place, Range, Source, State};
 use crate::math::statistics::root_mean_square;
 use crate::structure::Structure;
@@ -16,6 +18,8 @@ use std::convert::Infallible;
 
 /// Allowance for what no model matches, relative to the energy of the run.
 const ALLOWANCE: f64 = 5e-4;
+/// Step of derivatives by the logarithm of a gain and by a phase.
+const STEP: f64 = 1e-4;
 /// Samples a period.
 const SAMPLES: usize = 256;
 
@@ -24,6 +28,7 @@ pub(crate) struct Balance<'a> {
     pub structure: &'a Structure,
     pub known: Vec<Source>,
     pub runs: Vec<RunData>,
+    uncertainty: Option<Uncertainty>,
     /// Input less what is known, J.
     pub missing: Vec<f64>,
     pub input: Vec<f64>,
@@ -61,11 +66,77 @@ impl<'a> Balance<'a> {
             input: plain.iter().map(|e| e.input).collect(),
             deviation: deviation.collect(),
             runs: data.runs,
+            uncertainty: None,
         })
     }
 
+    /// The same with all that is uncertain of the model and the channels, its scales times `multiple`.
+    #[must_use]
+    pub fn with_uncertainty(self, multiple: f64) -> Self {
+        let uncertain = if multiple > 0.0 { self.uncertain() } else { Vec::new() };
+        let uncertainty = Some(Uncertainty::new(uncertain, &self.over_deviations(&self.input), multiple));
+        Self { uncertainty, ..self }
+    }
+
+    /// Sizes of known sources, gains and phases of channels with the derivative of the energy that is left by each, over its
+    /// deviation.
+    fn uncertain(&self) -> Vec<(UpdatingParameter, Vec<f64>)> {
+        let known = |(k, source)| (UpdatingParameter::Known(k), self.over_deviations(&self.energies(source)));
+        let mut uncertain: Vec<_> = self.known.iter().enumerate().map(known).collect();
+        let omega = self.mean_omega();
+        for name in self.channel_names() {
+            let by = |effect, value| {
+                let place = Place::Channel(name.clone());
+                let source = Source { effect, place, state: State::Known, parameters: vec![value] };
+                let left = self.left(&[source]);
+                let change: Vec<f64> = left.iter().zip(&self.missing).map(|(a, b)| (b - a) / STEP).collect();
+                self.over_deviations(&change)
+            };
+            uncertain.push((UpdatingParameter::Gain(name.clone()), by(Effect::Gain, 1.0 + STEP)));
+            uncertain.push((UpdatingParameter::Delay(name.clone()), by(Effect::Delay, STEP / omega)));
+        }
+        uncertain
+    }
+
+    fn over_deviations(&self, energies: &[f64]) -> Vec<f64> {
+        energies.iter().zip(&self.deviation).map(|(e, d)| e / d).collect()
+    }
+
+    /// What the uncertainty costs in evidence.
+    pub fn cost(&self) -> f64 {
+        self.uncertainty.as_ref().map_or(0.0, |u| u.log_determinant)
+    }
+
+    /// Energies of unit covariance.
+    fn whitened(&self, energies: &[f64]) -> Vec<f64> {
+        let rows = self.over_deviations(energies);
+        self.uncertainty.as_ref().map_or_else(|| rows.clone(), |u| u.whitened(&rows))
+    }
+
+    /// Corrections of known sources beside `effects`.
+    pub fn corrections(&self, effects: &[Source]) -> Vec<Correction> {
+        let rows = self.over_deviations(&self.left(effects));
+        self.uncertainty.as_ref().map_or_else(Vec::new, |u| u.corrections(&rows))
+    }
+
+    /// Arithmetic mean of the circular frequencies, rad/s.
+    pub fn mean_omega(&self) -> f64 {
+        self.runs.iter().map(|r| r.omega).sum::<f64>() / self.runs.len().max(1) as f64
+    }
+
+    /// Names of all channels, each once.
+    pub fn channel_names(&self) -> Vec<String> {
+        let mut names: Vec<String> = Vec::new();
+        for channel in self.runs.iter().flat_map(|r| r.forces.iter().chain(&r.responses)) {
+            if !names.contains(&channel.name) {
+                names.push(channel.name.clone());
+            }
+        }
+        names
+    }
+
     pub fn weighted(&self) -> Vec<f64> {
-        self.missing.iter().zip(&self.deviation).map(|(e, d)| e / d).collect()
+        self.whitened(&self.missing)
     }
 
     fn energies(&self, source: &Source) -> Vec<f64> {
@@ -82,9 +153,9 @@ impl<'a> Balance<'a> {
             for effect in Effect::ALL.into_iter().filter(|e| e.law().is_some() && e.dissipates()) {
                 for parameters in effect.shapes(&range) {
                     let source = Source { effect, place: Place::Dofs(dofs.clone()), state: State::Known, parameters };
-                    let weighted: Vec<f64> =
-                        self.energies(&source).iter().zip(&self.deviation).map(|(e, d)| e / d).collect();
-                    if weighted.iter().all(|w| w.is_finite()) && weighted.iter().any(|w| *w > 0.0) {
+                    let energies = self.energies(&source);
+                    let weighted = self.whitened(&energies);
+                    if weighted.iter().all(|w| w.is_finite()) && energies.iter().any(|e| *e > 0.0) {
                         columns.push(Column { source, weighted });
                     }
                 }
@@ -124,24 +195,23 @@ impl<'a> Balance<'a> {
 
     /// Errors of every channel, from a small one.
     pub fn faults(&self) -> Vec<Source> {
-        let omega = self.runs.iter().map(|r| r.omega).sum::<f64>() / self.runs.len().max(1) as f64;
-        let mut names: Vec<&String> = Vec::new();
-        for channel in self.runs.iter().flat_map(|r| r.forces.iter().chain(&r.responses)) {
-            if !names.contains(&&channel.name) {
-                names.push(&channel.name);
-            }
-        }
-        let fault = |name: &&String, effect, value| {
-            let place = Place::Channel((*name).clone());
+        let omega = self.mean_omega();
+        let fault = |name: &String, effect, value| {
+            let place = Place::Channel(name.clone());
             Source { effect, place, state: State::Known, parameters: vec![value] }
         };
-        let both = |name: &&String| [fault(name, Effect::Delay, 1e-3 / omega), fault(name, Effect::Gain, 1.02)];
-        names.iter().flat_map(both).collect()
+        let both = |name: &String| [fault(name, Effect::Delay, 1e-3 / omega), fault(name, Effect::Gain, 1.02)];
+        self.channel_names().iter().flat_map(both).collect()
     }
 
-    /// Relative error per run with `effects`.
+    /// Relative error per run with `effects` and the corrections of known sources beside them.
     pub fn errors(&self, effects: &[Source]) -> Vec<f64> {
-        let left = self.left(effects);
+        let mut left = self.left(effects);
+        for correction in self.corrections(effects) {
+            let UpdatingParameter::Known(k) = correction.parameter else { continue };
+            let taken = self.energies(&self.known[k]);
+            left.iter_mut().zip(taken).for_each(|(l, e)| *l -= (correction.factor - 1.0) * e);
+        }
         left.iter().zip(&self.input).map(|(l, e)| if *e == 0.0 { 1.0 } else { (l / e).abs() }).collect()
     }
 
@@ -157,24 +227,24 @@ impl<'a> Balance<'a> {
         });
         let added = added.collect();
         let error = root_mean_square(&self.errors(&found));
-        let held_out = self.held_out(&found, &descent.residual, &descent.jacobian);
+        let held_out = self.held_out(&found, &descent.jacobian);
         Fitted { added, chi_square: descent.chi_square, parameters: variables.len(), error, held_out }
     }
 
     /// Error of each run by the linearised fit without it: the residual over one less its leverage.
-    fn held_out(&self, effects: &[Source], residual: &[f64], jacobian: &Mat<f64>) -> f64 {
+    fn held_out(&self, effects: &[Source], jacobian: &Mat<f64>) -> f64 {
         let n = jacobian.ncols();
         let normal = transposed_product(jacobian.as_ref(), jacobian.as_ref());
         let identity = Mat::<f64>::identity(n, n);
         let Ok(inverse) = crate::math::least_squares::solve_symmetric(normal.as_ref(), identity.as_ref()) else {
             return root_mean_square(&self.errors(effects));
         };
-        let errors: Vec<f64> = (0..residual.len())
+        let errors = self.errors(effects);
+        let errors: Vec<f64> = (0..errors.len())
             .map(|r| {
                 let row = |i: usize, k: usize| jacobian[(r, i)] * inverse[(i, k)] * jacobian[(r, k)];
                 let leverage: f64 = (0..n).map(|i| (0..n).map(|k| row(i, k)).sum::<f64>()).sum();
-                let scale = if self.input[r] == 0.0 { 1.0 } else { self.input[r].abs() };
-                residual[r] * self.deviation[r] / scale / (1.0 - leverage.min(0.9))
+                errors[r] / (1.0 - leverage.min(0.9))
             })
             .collect();
         root_mean_square(&errors)
@@ -192,7 +262,7 @@ impl Residual for OnEnergy<'_> {
 
     fn residual(&mut self, theta: &[f64]) -> Result<Vec<f64>, Infallible> {
         let left = self.balance.left(&self.variables.effects(theta));
-        Ok(left.iter().zip(&self.balance.deviation).map(|(l, d)| l / d).collect())
+        Ok(self.balance.whitened(&left))
     }
 
     fn jacobian(&mut self, theta: &[f64], at: &[f64]) -> Result<Mat<f64>, Infallible> {

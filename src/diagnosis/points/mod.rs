@@ -3,3 +3,4 @@
 pub mod balance;
 pub mod energies;
 pub mod search;
+mod uncertainty;

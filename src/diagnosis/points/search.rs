@@ -8,22 +8,28 @@
 //! fitted in all their parameters. What takes no energy (springs, masses) cannot be seen.
 
 use crate::control::Control;
+use crate::diagnosis::channels::fault::is_ordinary_gain;
 use crate::diagnosis::diagnose::{Added, Diagnosis, Step, Suggestion, Verdict};
 use crate::diagnosis::points::balance::{Balance, Column, Fitted};
+use crate::diagnosis::points::uncertainty::MULTIPLES;
 use crate::diagnosis::residual::data::{DiagnosisError, Problem};
 use crate::diagnosis::selection::conclusion::{TOLERATED, UNTRUSTED};
 use crate::effects::{Effect, Source};
 use crate::math::statistics::{bayesian_information, evidence_weights, root_mean_square};
 
 /// Sets that are fitted in all their parameters, at each number of effects.
-const REFITS: usize = 24;
+const REFITS: usize = 12;
+/// Drafts whose score is this many times that of the best are not fitted.
+const HOPELESS: f64 = 3.0;
+/// Sets that are fitted even where time is up.
+const LEAST: usize = 2;
 /// Evidence that an effect must bring.
 const EVIDENCE: f64 = 15.0;
 /// Difference of the squared residual within which two suggestions cannot be told apart.
 const ALIKE: f64 = 9.0;
 /// What every parameter of a law beyond its first costs besides the information criterion: the simpler law wins unless the
 /// data demand the other.
-const EXTRA: f64 = 4.0;
+const EXTRA: f64 = 8.0;
 /// Bounds of the gain of a channel.
 const GAINS: [f64; 2] = [0.5, 2.0];
 
@@ -53,14 +59,34 @@ fn solve(columns: &[&Column], e: &[f64]) -> Option<(f64, Vec<f64>)> {
 
 /// Diagnoses a `points` problem.
 pub(crate) fn diagnose(problem: &Problem, excluded: &[Source], control: &Control) -> Result<Diagnosis, DiagnosisError> {
-    let first = Balance::new(problem, &[])?;
-    let best = climb(&first, excluded, control)?;
+    let mut best: Option<(f64, f64, Vec<Vec<Fitted>>)> = None;
+    for multiple in MULTIPLES {
+        let balance = Balance::new(problem, &[])?.with_uncertainty(multiple);
+        let rungs = climb(&balance, excluded, control)?;
+        let cost = evidence(&balance, &rungs);
+        if best.as_ref().is_none_or(|(least, ..)| cost < *least) {
+            best = Some((cost, multiple, rungs));
+        }
+        if control.is_late() {
+            break;
+        }
+    }
+    let Some((_, multiple, rungs)) = best else { return Err(DiagnosisError::NoRuns) };
     // The noise of the motion counts once it is known how much energy the new sources take.
     let effects: Vec<Source> =
-        best.last().map(|r| r[0].added.iter().map(|a| a.source.clone()).collect()).unwrap_or_default();
-    let balance = Balance::new(problem, &effects)?;
-    let rungs = climb(&balance, excluded, control)?;
+        rungs.last().map(|r| r[0].added.iter().map(|a| a.source.clone()).collect()).unwrap_or_default();
+    let balance = Balance::new(problem, &effects)?.with_uncertainty(multiple);
+    let rungs = if effects.is_empty() { rungs } else { climb(&balance, excluded, control)? };
     Ok(conclude(&balance, &rungs))
+}
+
+/// Evidence of where a search ended, the smaller the better.
+fn evidence(balance: &Balance, rungs: &[Vec<Fitted>]) -> f64 {
+    let fit = match rungs.last() {
+        Some(top) => criterion(&top[0], balance.missing.len()),
+        None => square(&balance.weighted()),
+    };
+    fit + balance.cost()
 }
 
 fn climb(balance: &Balance, excluded: &[Source], control: &Control) -> Result<Vec<Vec<Fitted>>, DiagnosisError> {
@@ -86,7 +112,7 @@ fn climb(balance: &Balance, excluded: &[Source], control: &Control) -> Result<Ve
             let fresh = faults.filter(|f| !set.iter().any(|s| s.is_same(f)));
             sets.extend(fresh.map(|f| set.iter().cloned().chain(std::iter::once(f)).collect()));
         }
-        let fits = ranked(balance, &sets, n);
+        let fits = ranked(balance, &sets, control);
         let Some(best) = fits.first() else { break };
         let scale = (best.chi_square / (n - best.parameters).max(1) as f64).max(1.0);
         let penalty = (best.parameters as f64 - last.1 as f64) * (n as f64).ln();
@@ -103,6 +129,11 @@ fn climb(balance: &Balance, excluded: &[Source], control: &Control) -> Result<Ve
 fn agrees(chi_square: f64, n: usize, parameters: usize) -> bool {
     let freedom = n.saturating_sub(parameters) as f64;
     chi_square <= 1.15 * (freedom + 3.0 * (2.0 * freedom).sqrt())
+}
+
+/// Score beyond which drafts are not fitted where the best has the score `best`: their shapes are those of a grid.
+fn hopeless(best: f64) -> f64 {
+    HOPELESS * best.abs() + 60.0
 }
 
 /// The best sets of one column or two, with one shape a law and place.
@@ -131,8 +162,9 @@ fn drafts(columns: &[Column], e: &[f64], count: usize) -> Vec<Vec<Source>> {
         }
     }
     found.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let hopeless = hopeless(found.first().map_or(f64::INFINITY, |best| best.0));
     let mut sets: Vec<Vec<Source>> = Vec::new();
-    for (_, set, scales) in found {
+    for (_, set, scales) in found.into_iter().take_while(|(score, ..)| *score < hopeless) {
         let sources: Vec<Source> = set.iter().zip(&scales).map(|(&k, &s)| grown(&columns[k].source, s)).collect();
         let seen = |other: &Vec<Source>| other.iter().zip(&sources).all(|(a, b)| a.is_same(b));
         if !sets.iter().any(seen) {
@@ -151,9 +183,13 @@ fn grown(source: &Source, scale: f64) -> Source {
     source
 }
 
-fn ranked(balance: &Balance, drafts: &[Vec<Source>], n: usize) -> Vec<Fitted> {
-    let enough = |f: &Fitted| f.parameters < n && f.chi_square.is_finite() && f.added.iter().all(is_bounded);
-    let mut fits: Vec<Fitted> = drafts.iter().map(|d| balance.fit(d)).filter(enough).collect();
+fn ranked(balance: &Balance, drafts: &[Vec<Source>], control: &Control) -> Vec<Fitted> {
+    let n = balance.missing.len();
+    let exact = balance.cost() == 0.0;
+    let bounded = |added: &Added| is_bounded(added) && (exact || !is_ordinary_gain(&added.source));
+    let enough = |f: &Fitted| f.parameters < n && f.chi_square.is_finite() && f.added.iter().all(bounded);
+    let in_time = drafts.iter().enumerate().take_while(|(k, _)| *k < LEAST || !control.is_late());
+    let mut fits: Vec<Fitted> = in_time.map(|(_, d)| balance.fit(d)).filter(enough).collect();
     fits.sort_by(|a, b| criterion(a, n).total_cmp(&criterion(b, n)));
     fits
 }
@@ -170,7 +206,8 @@ fn criterion(fit: &Fitted, n: usize) -> f64 {
 
 fn conclude(balance: &Balance, rungs: &[Vec<Fitted>]) -> Diagnosis {
     let n = balance.missing.len();
-    let before = root_mean_square(&balance.errors(&[]));
+    let stated = balance.missing.iter().zip(&balance.input).map(|(l, e)| if *e == 0.0 { 1.0 } else { (l / e).abs() });
+    let before = root_mean_square(&stated.collect::<Vec<_>>());
     let relative = balance.deviation.iter().zip(&balance.input).map(|(d, e)| d / e.abs().max(f64::MIN_POSITIVE));
     let mut diagnosis = Diagnosis {
         error_before: before,
@@ -185,14 +222,23 @@ fn conclude(balance: &Balance, rungs: &[Vec<Fitted>]) -> Diagnosis {
     };
     let (Some(first), Some(top)) = (rungs.first(), rungs.last()) else {
         let e = balance.weighted();
-        if !agrees(square(&e), n, 0) {
-            diagnosis.verdict = Verdict::Undecided;
+        diagnosis.corrections = balance.corrections(&[]);
+        diagnosis.verdict = match (agrees(square(&e), n, 0), diagnosis.corrections.is_empty()) {
+            (true, true) => Verdict::Adequate,
+            (true, false) => Verdict::Detuned,
+            (false, _) => Verdict::Unexplained,
+        };
+        if !diagnosis.corrections.is_empty() {
+            let error = root_mean_square(&balance.errors(&[]));
+            diagnosis.steps.push(Step { added: Vec::new(), error, misfit: square(&e) / n as f64 });
         }
         return diagnosis;
     };
     let step =
         |r: &Vec<Fitted>| Step { added: r[0].added.clone(), error: r[0].error, misfit: r[0].chi_square / n as f64 };
     diagnosis.steps.extend(rungs.iter().map(step));
+    let set: Vec<Source> = top[0].added.iter().map(|added| added.source.clone()).collect();
+    diagnosis.corrections = balance.corrections(&set);
     // What even the best leaves beyond the noise is no noise that could tell the others apart.
     let scale = (top[0].chi_square / n.saturating_sub(top[0].parameters).max(1) as f64).max(1.0);
     let scaled = |f: &Fitted| criterion(f, n) - f.chi_square * (1.0 - scale.recip());

@@ -4,10 +4,10 @@ use crate::diagnosis::diagnose::{Added, Correction, Diagnosis, Step, Suggestion,
 use crate::diagnosis::residual::data::DiagnosisError;
 use crate::diagnosis::residual::prediction::FINAL;
 use crate::diagnosis::selection::fitted_model::{Bench, Refit};
+use crate::diagnosis::selection::found::{Found, Rung, same_set};
 use crate::diagnosis::selection::next_test::{next_test, pinning_test};
 use crate::diagnosis::selection::search::{Base, scale_of};
 use crate::diagnosis::selection::sentences::sentences;
-use crate::diagnosis::selection::stepwise::{Found, Rung, same_set};
 use crate::diagnosis::updating::parameters::{Scales, UpdatingParameter};
 use crate::effects::Source;
 use crate::math::numerals::significant;

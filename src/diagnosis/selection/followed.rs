@@ -89,7 +89,7 @@ impl<'a> Base<'a> {
         let draft = |effect: Effect| -> Option<Draft> {
             let unit = Source { effect, place: Place::Whole(None), state: State::Known, parameters: vec![1.0] };
             let fresh = !others.iter().any(|e| e.is_same(&unit)) && self.data.allows(&unit);
-            let column = self.noise.updating.column(self.whole_rows(&seen, &unit));
+            let column = self.noise.updating.column(self.linear_rows(&seen, &unit));
             let size = dot(&column, &column);
             let value = dot(&column, &rows) / size;
             if !fresh || size <= 0.0 || !effect.parameters()[0].allows(value) {
@@ -102,8 +102,8 @@ impl<'a> Base<'a> {
         whole.filter_map(draft).collect()
     }
 
-    /// Whitened derivative of all runs by the parameter of a law of the whole structure.
-    fn whole_rows(&self, seen: &MeasuredMotion, unit: &Source) -> Vec<f64> {
+    /// Whitened derivative of all runs by the parameter of a linear law.
+    pub(super) fn linear_rows(&self, seen: &MeasuredMotion, unit: &Source) -> Vec<f64> {
         let mut rows = Vec::with_capacity(self.count());
         let sum = [(Unknown::Source { source: 0, parameter: 0 }, 1.0)];
         for r in 0..self.data.runs.len() {
@@ -118,7 +118,7 @@ impl<'a> Base<'a> {
         let seen = MeasuredMotion::new(&self.predictor, self.data, &self.predictions, self.control)?;
         let mut rows = self.bench().at_reference(&self.predictions);
         let value = source.parameters[0];
-        rows.iter_mut().zip(self.whole_rows(&seen, source)).for_each(|(r, c)| *r -= value * c);
+        rows.iter_mut().zip(self.linear_rows(&seen, source)).for_each(|(r, c)| *r -= value * c);
         Some(self.noise.updating.solve(&rows))
     }
 }

@@ -161,6 +161,8 @@ pub(crate) trait Residual {
 
 /// A descent has arrived when no more than this is to be gained, in units of the squared residual per datum.
 const ARRIVED: f64 = 0.02;
+/// Share of what the derivative promises below which a step gains next to nothing.
+const STUCK: f64 = 1e-3;
 /// Steps in a row that gain no more than that before a descent gives up.
 const IDLE: usize = 3;
 
@@ -189,7 +191,8 @@ pub(crate) fn descend<R: Residual>(problem: &mut R, theta: &[f64], steps: usize)
         let Some((next, after, chi)) = step(problem, &theta, (&residual, &jacobian), &equations, &mut damping)? else {
             break;
         };
-        idle = if chi_square - chi < enough { idle + 1 } else { 0 };
+        let gain = chi_square - chi;
+        idle = if gain < enough || gain < STUCK * equations.to_go() { idle + 1 } else { 0 };
         (theta, residual, chi_square) = (next, after, chi);
         jacobian = problem.jacobian(&theta, &residual)?;
         equations = Normal::new(&jacobian, &residual);

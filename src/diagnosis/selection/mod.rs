@@ -1,10 +1,12 @@
 //! Fits on the response, stepwise selection of effects, conclusions, the next test.
 
+mod beside_corrections;
 pub mod conclusion;
 pub mod fit_problem;
 pub mod fits;
 pub mod fitted_model;
 mod followed;
+pub(crate) mod found;
 mod joint_fit;
 mod left_out;
 pub mod levenberg_marquardt;
@@ -14,6 +16,7 @@ mod pairs;
 pub mod search;
 pub mod sentences;
 mod short_list;
+mod single_change;
 pub mod stepwise;
 pub mod updated;
 mod weighing;

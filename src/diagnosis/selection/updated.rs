@@ -7,8 +7,8 @@ use crate::diagnosis::residual::energy_balance::scaled_factors;
 use crate::diagnosis::residual::prediction::{FINAL, Predictor, RunPrediction};
 use crate::diagnosis::selection::fit_problem::{RunSlopes, run_slopes};
 use crate::diagnosis::selection::fitted_model::{Bench, Refit, Starts};
+use crate::diagnosis::selection::found::agrees;
 use crate::diagnosis::selection::search::Base;
-use crate::diagnosis::selection::stepwise::agrees;
 use crate::diagnosis::updating::measured_motion::MeasuredMotion;
 use crate::diagnosis::updating::noise_model::{Linearisation, NoiseModel, amplitudes, of_channel};
 use crate::diagnosis::updating::parameters::{Scales, Updating, UpdatingParameter};
@@ -29,8 +29,11 @@ const ARRIVED: f64 = 1e-3;
 const ROUNDS: usize = 3;
 /// Steps of the effects in each.
 const REFITTED: usize = 4;
-/// Share of the squared residual by which the linear fit of the updating parameters may still fall where they have settled.
-const SETTLED: f64 = 0.02;
+/// Evidence by which the linear fit of the updating parameters may still fall where they have settled: less than any decision
+/// hangs on.
+const SETTLED: f64 = 2.0;
+/// Share of what the linear fit promises below which a step is too slow to go on.
+const SLOW: f64 = 1e-3;
 /// Steps of a joint fit of effects and updating parameters.
 const JOINT_STEPS: usize = 12;
 /// Factor of the measured over the predicted motion, off one, up to which derivatives are taken at the predicted one.
@@ -163,7 +166,7 @@ impl<'a> Base<'a> {
         let mut here = base.cost_at_reference(&base.predictions);
         for _ in 0..rounds {
             let linear = square(&base.bench().residual(&base.predictions)) + base.noise.cost();
-            if here - linear < SETTLED * base.count() as f64 || base.control.is_late() {
+            if here - linear < SETTLED || base.control.is_late() {
                 break;
             }
             let joint = base.joint_fit(&[], &Vec::new(), &FINAL, JOINT_STEPS)?;
@@ -172,7 +175,11 @@ impl<'a> Base<'a> {
             if then >= here {
                 break;
             }
+            let slow = here - then < slowest(here - linear);
             (base, here) = (there, then);
+            if slow {
+                break;
+            }
         }
         Ok(base)
     }
@@ -261,7 +268,7 @@ impl<'a> Base<'a> {
         let mut here = base.cost_at_reference(&base.predictions_with(&refit.effects, &refit.starts)?);
         for _ in 0..rounds {
             let linear = refit.chi_square + base.noise.cost();
-            if here - linear < SETTLED * base.count() as f64 || base.control.is_late() {
+            if here - linear < SETTLED || base.control.is_late() {
                 break;
             }
             let joint = base.joint_fit(&refit.effects, &refit.starts, settings, JOINT_STEPS)?;
@@ -272,7 +279,11 @@ impl<'a> Base<'a> {
             if then >= here && again.chi_square + there.noise.cost() > linear - 1.0 {
                 break;
             }
+            let slow = here - then < slowest(here - linear);
             (base, refit, here) = (there, again, then);
+            if slow {
+                break;
+            }
         }
         Ok((base, refit))
     }
@@ -327,6 +338,9 @@ fn settings_for<'s>(effects: &[Source], settings: &'s Settings) -> &'s Settings 
 /// Relative error of a run from which on it may be on another branch than the measured one.
 const FAR: f64 = 0.1;
 
+/// Share of a run that the model misses below which its derivatives are those of the measured motion.
+const CLOSE: f64 = 0.1;
+
 /// Error of the measured motion, relative: gains of sensors, and what modes do not show between them.
 const MOTION: f64 = 0.01;
 
@@ -342,7 +356,8 @@ fn leverage(data: &Data, updating: &Updating, common: &[RunSlopes], predictions:
             missing += weight * (y - prediction.channels[c][0]).norm_sqr();
             moved += weight * of_model.iter().map(|&k| (slopes[k][c][0] * updating.prior(k)).norm_sqr()).sum::<f64>();
         }
-        if size > 0.0 { MOTION * (moved / size).sqrt() * (missing / size).sqrt().min(1.0) } else { 0.0 }
+        let missing = (missing / size).sqrt().min(1.0);
+        if size > 0.0 && missing > CLOSE { MOTION * (moved / size).sqrt() * missing } else { 0.0 }
     };
     data.runs.iter().zip(common).zip(predictions).map(of_run).collect()
 }
@@ -354,6 +369,11 @@ fn towards(updating: &Updating, target: &[f64]) -> Updating {
     };
     let values = updating.values.iter().zip(target).enumerate().map(moved).collect();
     Updating { values, ..updating.clone() }
+}
+
+/// Least gain of a step towards a linear fit that promises `more`.
+fn slowest(more: f64) -> f64 {
+    (SLOW * more).max(0.5 * SETTLED)
 }
 
 fn square(values: &[f64]) -> f64 {

@@ -3,12 +3,13 @@
 
 use super::left_out::{exceeds, groups, probabilities};
 use crate::diagnosis::candidates::special_cases::is_limit;
+use crate::diagnosis::channels::fault::is_ordinary_gain;
 use crate::diagnosis::residual::data::DiagnosisError;
 use crate::diagnosis::residual::prediction::{FINAL, SEARCH};
 use crate::diagnosis::selection::fits::{FIRST_STEPS, STEPS};
 use crate::diagnosis::selection::fitted_model::Refit;
+use crate::diagnosis::selection::found::same_set;
 use crate::diagnosis::selection::search::Base;
-use crate::diagnosis::selection::stepwise::same_set;
 use crate::diagnosis::updating::parameters::{Scales, UpdatingParameter};
 use crate::effects::{Effect, Place, Range, Source};
 use crate::structure::Part;
@@ -197,6 +198,9 @@ fn is_effect(base: &Base, refit: &Refit) -> bool {
         let source = &source.simpler(&Range::UNKNOWN).unwrap_or_else(|| source.clone());
         // What the model has too much of is no missing effect, but a correction.
         if matches!(source.effect, Effect::Mass | Effect::Stiffness) && source.parameters[0] < 0.0 {
+            return true;
+        }
+        if is_ordinary_gain(source) {
             return true;
         }
         let part = match (source.effect, &source.place) {

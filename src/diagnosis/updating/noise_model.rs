@@ -186,7 +186,7 @@ fn common_rows(runs: &[Whitening], linearisation: &Linearisation, k: usize) -> V
 }
 
 /// Effective number of parameters of a class that the data determine from which on its scale is estimated.
-const LEAST_KNOWN: f64 = 0.5;
+pub(crate) const LEAST_KNOWN: f64 = 0.5;
 
 /// Derivatives of the recorded amplitudes of a run by the gain or the delay of a channel, `[channel][harmonic - 1]`, where
 /// they are `amplitudes`.

@@ -127,6 +127,11 @@ impl UpdatingParameter {
         matches!(self, Self::Structure(_) | Self::Known(_) | Self::Session(_))
     }
 
+    /// Whether it corrects a mode rather than a part.
+    pub fn is_of_mode(&self) -> bool {
+        matches!(self, Self::Structure(Part::Mode(_)) | Self::Shape { .. })
+    }
+
     /// Whether it corrects what the model states, rather than telling how tests differ.
     pub fn is_stated(&self) -> bool {
         matches!(self, Self::Structure(_) | Self::Known(_))

@@ -1,0 +1,76 @@
+//! What else than sensor noise makes the energies of a `points` problem differ from a right model: the sizes of known sources, gains
+//! and phases of channels, what is in proportion to the energy of a run.
+//!
+//! ```text
+//! e = D u + n,    u_k ~ N(0, (kappa s_k)^2),    n_r ~ N(0, d_r^2 + (kappa s_p e_r)^2)
+//! C = diag(n) + D S^2 D^T,    rows and columns are multiplied by C^(-1/2)
+//! ```
+//!
+//! `kappa` is chosen beside each set of effects by its likelihood, so that exact data shrink it to nothing.
+
+use crate::diagnosis::diagnose::Correction;
+use crate::diagnosis::updating::parameters::{Scales, UpdatingParameter};
+use dashpot_numerics::{dot, symmetric};
+use faer::Mat;
+
+/// Multiples of the scales of the search that are tried.
+pub(super) const MULTIPLES: [f64; 3] = [1.0, 0.3, 0.0];
+
+/// What is uncertain of the energies, at one multiple of its scales.
+pub(super) struct Uncertainty {
+    /// Parameters and the prior deviation of each.
+    parameters: Vec<(UpdatingParameter, f64)>,
+    /// Derivatives of the energy that is left by each, one list a parameter, over the deviation of each run.
+    slopes: Vec<Vec<f64>>,
+    /// `C^(-1/2)` in units of the deviations.
+    root: Mat<f64>,
+    /// `ln det C` in the same units.
+    pub log_determinant: f64,
+}
+
+impl Uncertainty {
+    /// Of uncertain parameters with the derivative of the energy that is left by each, over its deviation, and of the `input`
+    /// over its deviation, one value a run; all scales are those of the search times `multiple`.
+    pub fn new(uncertain: Vec<(UpdatingParameter, Vec<f64>)>, input: &[f64], multiple: f64) -> Self {
+        let n = input.len();
+        let scales = Scales::SEARCH.list();
+        let (parameters, slopes): (Vec<_>, Vec<_>) =
+            uncertain.into_iter().map(|(p, slope)| ((p.clone(), multiple * scales[p.class()]), slope)).unzip();
+        let proportional = 2.0 * Scales::SEARCH.response * multiple;
+        let covariance = Mat::from_fn(n, n, |i, j| {
+            let shared: f64 = parameters.iter().zip(&slopes).map(|((_, s), d)| s * s * d[i] * d[j]).sum();
+            let own = 1.0 + (proportional * input[i]).powi(2);
+            shared + if i == j { own } else { 0.0 }
+        });
+        let Some((values, vectors)) = symmetric(covariance.as_ref()) else {
+            return Self { parameters, slopes, root: Mat::identity(n, n), log_determinant: 0.0 };
+        };
+        // No eigenvalue is below one but by rounding.
+        let values: Vec<f64> = values.into_iter().map(|v| v.max(1.0)).collect();
+        let entry = |i: usize, j: usize| (0..n).map(|k| vectors[(i, k)] * vectors[(j, k)] / values[k].sqrt()).sum();
+        let log_determinant = values.iter().map(|v| v.ln()).sum();
+        Self { parameters, slopes, root: Mat::from_fn(n, n, entry), log_determinant }
+    }
+
+    /// Energies over their deviations, with unit covariance.
+    pub fn whitened(&self, rows: &[f64]) -> Vec<f64> {
+        (0..rows.len()).map(|i| rows.iter().enumerate().map(|(j, r)| self.root[(i, j)] * r).sum()).collect()
+    }
+
+    /// Corrections of known sources where the energies over their deviations leave `rows`.
+    pub fn corrections(&self, rows: &[f64]) -> Vec<Correction> {
+        let whitened = self.whitened(rows);
+        let of = |((parameter, scale), slope): (&(UpdatingParameter, f64), &Vec<f64>)| {
+            let slope = self.whitened(slope);
+            let value = scale * scale * dot(&slope, &whitened);
+            let variance = scale * scale * (1.0 - scale * scale * dot(&slope, &slope));
+            let factor = value.exp();
+            parameter.is_stated().then(|| Correction {
+                parameter: parameter.clone(),
+                factor,
+                deviation: factor * variance.max(0.0).sqrt(),
+            })
+        };
+        self.parameters.iter().zip(&self.slopes).filter_map(of).collect()
+    }
+}

@@ -1,0 +1,180 @@
+//! The search with updating parameters free beside effects: corrections alone, one change in place of many corrections, laws.
+
+use crate::diagnosis::channels::ChannelFault;
+use crate::diagnosis::residual::data::DiagnosisError;
+use crate::diagnosis::residual::prediction::FINAL;
+use crate::diagnosis::selection::conclusion::{self, Outcome, TOLERATED};
+use crate::diagnosis::selection::fitted_model::Refit;
+use crate::diagnosis::selection::found::{DOUBTFUL, EVIDENCE, Found, MOST_EFFECTS, Rung, agrees, distinct, nearly};
+use crate::diagnosis::selection::left_out::{exceeds, groups};
+use crate::diagnosis::selection::search::{Base, scale_of};
+use crate::diagnosis::selection::weighing::{Weighed, weighed};
+use crate::diagnosis::updating::detuning::is_likely;
+use crate::diagnosis::updating::parameters::UpdatingParameter;
+use crate::effects::{Effect, Kind, Source};
+
+/// The same beside corrections, whose freedom has its cost already: having been chosen among some thousand.
+const CHOSEN: f64 = 16.0;
+/// The same of one spring or mass in place of many corrections: having been chosen among some sixty places, each the likelier by
+/// none of the corrections being larger than models are wrong by.
+const CHANGED: f64 = 6.0;
+/// What it must promise to be followed.
+const PROMISED: f64 = 4.0;
+/// The same of a further effect there, real models lack a little everywhere, and of a spring or a mass, which is like a
+/// correction itself.
+const FURTHER: f64 = 100.0;
+/// Squared residual per datum of corrections as they are first found, over that of the best effect, from which on they are no
+/// rival.
+const RIVALLED: f64 = 4.0;
+
+/// The search with the updating parameters free: at each stage the candidates seen from the model as it was updated last,
+/// then the model updated beside the best of them, and the candidates again.
+pub(super) fn beside_updating(
+    base: Base<'_>,
+    before: f64,
+) -> Result<Result<Outcome<'_>, ChannelFault>, DiagnosisError> {
+    let mut found = Found { updated: true, rungs: Vec::new(), agrees: false, before };
+    let stated = base.bench().error(&base.predictions);
+    let bare = base.bare()?;
+    // Where corrections alone agree with the data and no law would bring its evidence beside them, none is followed but what one
+    // change explains instead of them.
+    let settled = bare.misfit() < DOUBTFUL;
+    let changes = if bare.misfit() < TOLERATED { bare.single_changes(PROMISED)? } else { Vec::new() };
+    let mut promises = !settled || bare.promises(CHOSEN)?;
+    if !promises && changes.is_empty() {
+        let (likely, _) = bare.likely()?;
+        if !likely.promises(CHOSEN)? {
+            found.agrees = agrees(&likely, likely.misfit() * likely.count() as f64, 0);
+            return Ok(Ok(Outcome { base: likely, found }));
+        }
+        promises = true;
+    }
+    let (mut here, mut first) = (bare.with_scales(bare.linearisation.updating.scales), Vec::new());
+    if promises {
+        let (localised, drafts) = match base.localised()? {
+            Ok(localised) => localised,
+            Err(fault) => return Ok(Err(fault)),
+        };
+        (here, first) = (localised, drafts);
+    }
+    let mut first = Some(first);
+    let (mut likely, mut least) = bare.roughly();
+    let mut told_alone = false;
+    while found.rungs.len() < MOST_EFFECTS && (found.rungs.is_empty() || !here.control.is_late()) {
+        let from = found.rungs.last().map(|rung| rung.refits[0].clone());
+        let fits = match (&from, first.take()) {
+            (None, Some(drafts)) => {
+                let mut fits = here.followed(drafts)?;
+                let follow = |k: usize| bare.followed_change(&changes[k]);
+                fits.extend(bare.control.map(changes.len(), follow).into_iter().collect::<Result<Vec<_>, _>>()?);
+                fits
+            }
+            (Some(from), _) => here.followed_beside(from, FURTHER)?,
+            (None, None) => Vec::new(),
+        };
+        if found.rungs.is_empty() {
+            let refits: Vec<Refit> = fits.iter().map(|(_, refit)| refit.clone()).collect();
+            (here.early)(&conclusion::early(&here, &here.ranked(refits)));
+        }
+        let Some(weighed) = weighed(fits)? else { break };
+        let best = &weighed.refits[0];
+        let scale = scale_of(&weighed.refits, weighed.base.count());
+        let doubtful = best.effects.iter().any(like_a_correction) || scale > DOUBTFUL;
+        if from.is_none() && (bare.misfit() < RIVALLED * scale || doubtful) {
+            (likely, least) = alone(&bare, &weighed)?;
+            told_alone = true;
+        }
+        // What only lowers the error because every run has a stiffness of its own is nothing that could be added.
+        let raises = best.error > stated;
+        let known = best.parameters < weighed.base.count();
+        if raises || !known || (least - weighed.least) / scale < evidence_needed(&weighed.base, best) {
+            break;
+        }
+        if (told_alone || from.is_some()) && !predicts_better(&weighed, (&likely, from.as_ref()))? {
+            break;
+        }
+        found.agrees = agrees(&weighed.base, best.chi_square, best.parameters);
+        least = weighed.least;
+        let noise = weighed.base.noise.clone();
+        found.rungs.push(Rung { scale, noise, refits: weighed.refits, probabilities: weighed.probabilities });
+        likely = weighed.base;
+        here = Base { predictions: likely.predictions.clone(), noise: likely.noise.clone(), ..likely.shallow() };
+        // Corrections beyond what models are wrong by may stand in for one effect more.
+        if found.agrees && is_likely(&likely) {
+            break;
+        }
+    }
+    if found.rungs.is_empty() {
+        if !told_alone {
+            (likely, _) = bare.likely()?;
+        }
+        found.agrees = agrees(&likely, likely.misfit() * likely.count() as f64, 0);
+    }
+    pruned(&likely, &mut found)?;
+    Ok(Ok(Outcome { base: likely, found }))
+}
+
+/// The model with corrections alone, as likely as they make it, and its evidence: they may have ended in another valley than
+/// those beside the effect.
+fn alone<'a>(bare: &Base<'a>, weighed: &Weighed<'a>) -> Result<(Base<'a>, f64), DiagnosisError> {
+    let (likely, least) = bare.likely()?;
+    let beside = bare.updated(&weighed.base.linearisation.updating, &[], &Vec::new())?;
+    let (estimated, cost) = beside.estimated()?;
+    Ok(if cost < least { (estimated, cost) } else { (likely, least) })
+}
+
+/// Whether the best of the candidates predicts runs that are left out better than the model with corrections and the effects
+/// before it, by more than may be by chance. A channel that is read wrongly, and a spring or
+/// mass that corrections can stand for, predict little better: they are told by their evidence alone.
+fn predicts_better(weighed: &Weighed, (likely, before): (&Base, Option<&Refit>)) -> Result<bool, DiagnosisError> {
+    let best = &weighed.refits[0];
+    let channel = best.effects.last().is_some_and(|e| matches!(e.effect.kind(), Kind::Channel(_)));
+    if channel || is_single_change(best) {
+        return Ok(true);
+    }
+    let groups = groups(likely.data);
+    Ok(exceeds(&weighed.base.left_out(Some(best), &groups)?, &likely.left_out(before, &groups)?))
+}
+
+fn like_a_correction(source: &Source) -> bool {
+    matches!(source.effect, Effect::Stiffness | Effect::Mass)
+}
+
+/// Evidence that the last effect of a fit must bring beside `likely`, the model with corrections and the effects before it.
+fn evidence_needed(base: &Base, refit: &Refit) -> f64 {
+    let by_modes = base.linearisation.updating.parameters.iter().any(UpdatingParameter::is_of_mode);
+    match refit.effects.len() {
+        // Corrections of modes do not stand for errors of one part: a spring or mass may be one.
+        1 if is_single_change(refit) && by_modes => FURTHER,
+        1 if is_single_change(refit) => CHANGED,
+        1 => CHOSEN,
+        _ => FURTHER,
+    }
+}
+
+/// Whether a fit is one spring or mass, which corrections can stand for.
+fn is_single_change(refit: &Refit) -> bool {
+    matches!(refit.effects.as_slice(), [only] if like_a_correction(only))
+}
+
+/// Drops effects that the last set of a search no longer needs, now that the others are there.
+fn pruned(base: &Base, found: &mut Found) -> Result<(), DiagnosisError> {
+    while let Some(best) = found.rungs.last().map(|rung| rung.refits[0].clone()).filter(|r| r.effects.len() > 1) {
+        let mut refits = Vec::new();
+        for k in 0..best.effects.len() {
+            let mut fewer = best.effects.clone();
+            fewer.remove(k);
+            refits.push(base.bench().refit(&fewer, 10, &FINAL, &best.starts)?);
+        }
+        let (refits, noise) = base.polished(base.ranked(refits))?;
+        let enough = |r: &Refit| base.evidence(r, 1.0) < base.evidence(&best, 1.0) + EVIDENCE;
+        let Some(first) = refits.first().filter(|r| enough(r)) else { break };
+        found.agrees = agrees(base, first.chi_square, first.parameters) || nearly(base, first, found.before);
+        found.rungs.pop();
+        let scale = scale_of(&refits, base.count());
+        let before = found.rungs.pop().map_or_else(Vec::new, |rung| rung.refits);
+        let refits = distinct(base.ranked(refits.into_iter().chain(before).collect()));
+        found.rungs.push(Rung { probabilities: base.probabilities(&refits), refits, scale, noise });
+    }
+    Ok(())
+}

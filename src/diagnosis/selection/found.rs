@@ -1,0 +1,88 @@
+//! Fits that a search keeps on its way, and when they agree with the data.
+
+use crate::diagnosis::selection::fitted_model::Refit;
+use crate::diagnosis::selection::search::Base;
+use crate::diagnosis::updating::noise_model::NoiseModel;
+use crate::effects::Source;
+use std::sync::Arc;
+
+/// Most effects that are added.
+pub(super) const MOST_EFFECTS: usize = 3;
+/// Evidence (difference of the information criterion) that an effect must bring: its own, and that of having been
+/// chosen among thousands.
+pub(super) const EVIDENCE: f64 = 25.0;
+/// Squared residual per datum beyond which it is not noise that hides an effect, but what no model matches.
+pub(super) const DOUBTFUL: f64 = 1.5;
+/// Deviations of the sum of squares within which a model agrees with the data.
+pub(super) const AGREES: f64 = 4.0;
+/// Share of the squared residual of the model as it is, and error of the response, that nobody's records and integrators
+/// are better than: what is left below both is no further effect.
+pub(super) const LAST: f64 = 4e-4;
+const LAST_ERROR: f64 = 2e-3;
+
+/// Sets of effects of one size, fitted, best first.
+pub(crate) struct Rung {
+    pub refits: Vec<Refit>,
+    /// Squared residual per datum of the best, at least 1.
+    pub scale: f64,
+    /// Noise with the truncation of the best.
+    pub noise: Arc<NoiseModel>,
+    /// Probability of each.
+    pub probabilities: Vec<f64>,
+}
+
+/// Where a search ended.
+pub(crate) struct Found {
+    /// Whether updating parameters were freed.
+    pub updated: bool,
+    pub rungs: Vec<Rung>,
+    /// Whether the last rung agrees with the data.
+    pub agrees: bool,
+    /// Squared residual of the model as it is.
+    pub before: f64,
+}
+
+/// Whether a squared residual with `parameters` fitted is that of noise.
+pub(crate) fn agrees(base: &Base, chi_square: f64, parameters: usize) -> bool {
+    let n = base.count().saturating_sub(parameters) as f64;
+    chi_square <= n + AGREES * (2.0 * n).sqrt()
+}
+
+/// Whether what a fit leaves is no more than what records and integrators are wrong by, where the model as it is has the
+/// squared residual `before`.
+pub(crate) fn nearly(base: &Base, refit: &Refit, before: f64) -> bool {
+    small(base, refit, before, [LAST, LAST_ERROR])
+}
+
+/// Whether what a fit leaves beyond the noise is below a `share` of the squared residual `before`, and below an `error` of
+/// the response.
+pub(super) fn small(base: &Base, refit: &Refit, before: f64, [share, error]: [f64; 2]) -> bool {
+    let n = base.count() as f64;
+    let excess = (refit.chi_square - n).max(0.0);
+    let beyond_noise = refit.error * (excess / refit.chi_square.max(f64::MIN_POSITIVE)).sqrt();
+    excess < share * (before - n) && beyond_noise < error
+}
+
+/// Whether a fit agrees with the data, or all but.
+pub(crate) fn fits_well(base: &Base, found: &Found, refit: &Refit) -> bool {
+    agrees(base, refit.chi_square, refit.parameters) || nearly(base, refit, found.before)
+}
+
+pub(crate) fn level(refit: &Refit) -> (f64, usize) {
+    (refit.chi_square, refit.parameters)
+}
+
+/// The best fit of every set.
+pub(crate) fn distinct(refits: Vec<Refit>) -> Vec<Refit> {
+    let mut kept: Vec<Refit> = Vec::with_capacity(refits.len());
+    for refit in refits {
+        if !kept.iter().any(|k| same_set(&k.effects, &refit.effects)) {
+            kept.push(refit);
+        }
+    }
+    kept
+}
+
+pub(crate) fn same_set(a: &[Source], b: &[Source]) -> bool {
+    a.len() == b.len() && a.iter().all(|x| b.iter().any(|y| x.is_same(y)))
+}
