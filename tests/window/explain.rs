@@ -221,8 +221,9 @@ fn a_detuned_model_is_corrected_and_lacks_nothing() {
     settle(&mut harness);
     let [before, floor] = error(&harness);
     assert!(before > 20.0 * floor, "the detuned model is wrong by {before}, noise {floor}");
-    let told = harness.state().doc.as_ref().and_then(|d| d.results.diagnosis.as_ref().map(|x| format!("{:?}", x.suggestions)));
-    assert_eq!(verdict(&harness), Verdict::Detuned, "no effect is missing {told:?}");
+    let app = harness.state();
+    let found = app.derived.explained.diagnosis(app.document.as_ref().unwrap()).unwrap().as_ref().unwrap();
+    assert_eq!(found.verdict, Verdict::Detuned, "no effect is missing: {:?}", found.suggestions);
     harness.get_by_label("The model is detuned");
     picture(&mut harness, "explain-detuned");
     press(&mut harness, "Correct the model");

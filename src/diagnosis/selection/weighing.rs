@@ -66,11 +66,12 @@ pub(super) fn weighed(fits: Vec<(Base<'_>, Refit)>) -> Result<Option<Weighed<'_>
         let Candidate { base, refit, .. } = all.remove(0);
         let (base, mut refit) = finished(base, refit)?;
         refit.error = base.error_of_structure(&refit.effects, &refit.starts)?;
-        if !is_effect(&base, &refit) {
+        let least = cost(&base, Some(&refit));
+        let told = with_told_deviations(&base, refit)?;
+        if !is_effect(&base, &told) {
             continue;
         }
-        let least = cost(&base, Some(&refit));
-        let mut refits = vec![with_told_deviations(&base, refit)?];
+        let mut refits = vec![told];
         refits.extend(all.into_iter().map(|candidate| candidate.refit));
         return Ok(Some(Weighed { base, refits, probabilities, least }));
     }
