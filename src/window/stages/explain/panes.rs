@@ -89,10 +89,7 @@ pub fn error_map(ui: &mut Ui, app: &mut App, asks: &mut Vec<Ask>) {
     let clicked = map.show(ui, most);
     ui.add_space(space::XS);
     map::legend(ui, &scale);
-    // A low pane leaves it to the cards to say.
-    if ui.available_height() >= size::SMALL + space::XS {
-        ui.add(Label::new(RichText::new(left_over(previewed)).size(size::SMALL).color(ui.palette().weak)).truncate());
-    }
+    ui.add(Label::new(RichText::new(left_over(previewed)).size(size::SMALL).color(ui.palette().weak)).truncate());
     let worst = || grid.runs.first().zip(grid.channels.first()).map(|(run, channel)| (*run, channel.clone()));
     let first = !look.chosen && look.worst_first && app.view.run == 0;
     app.view.explain.chosen = true;
