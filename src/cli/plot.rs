@@ -255,12 +255,12 @@ impl Plotter<'_> {
         let axis = words::axis(fit.channel.quantity, rotation);
         let title = format!("{}, run {}", fit.channel, run + 1);
         if self.arguments.what == PlotKind::Record {
-            let plot = RecordPlot { trace: &found, fit, omega: r.fit.omega, axis, id: &title };
+            let plot = RecordPlot { trace: &found, fit: &found.fit, omega: r.fit.omega, axis, id: &title };
             return self.sheet(&title, plot.figures(self.palette).into_iter().map(|f| f.0).collect());
         }
         let unit = axis.rsplit(", ").next().unwrap_or_default();
         let lines = found.spectrum.as_ref().context("the record is too short for a spectrum")?;
-        self.sheet(&title, vec![spectrum::figure(self.palette, lines, fit, r.fit.omega, unit)])
+        self.sheet(&title, vec![spectrum::figure(self.palette, lines, &found.fit, r.fit.omega, unit)])
     }
 
     fn error_map(&self) -> anyhow::Result<Drawn> {

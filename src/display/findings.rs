@@ -21,20 +21,24 @@ pub fn is_detuned(diagnosis: &Diagnosis) -> bool {
     corrected || diagnosis.verdict == Verdict::Detuned
 }
 
+/// Whether what is left is more than noise, but nothing that was searched takes anything of it away.
+pub fn is_stuck(diagnosis: &Diagnosis) -> bool {
+    let after = diagnosis.steps.last().map_or(diagnosis.noise_floor, |s| s.error);
+    is_detuned(diagnosis) && after > WORTH * diagnosis.error_before
+}
+
 /// The verdict as a sentence.
 pub fn sentence(diagnosis: &Diagnosis) -> String {
     let times = diagnosis.error_before / diagnosis.noise_floor.max(f64::MIN_POSITIVE);
     let (error, floor) = (in_words(diagnosis.error_before), format::percent(diagnosis.noise_floor));
     match diagnosis.verdict {
+        _ if is_stuck(diagnosis) => format!(
+            "The error of {error} is more than noise makes ({floor}), but neither a law known here nor a correction of the \
+             model takes anything of it away. Look at the error map for where and when it is largest; sensors there or runs at \
+             other levels would tell more."
+        ),
         Verdict::Adequate | Verdict::Detuned if is_detuned(diagnosis) => {
-            let after = diagnosis.steps.last().map_or(diagnosis.noise_floor, |s| s.error);
-            if after > WORTH * diagnosis.error_before {
-                return format!(
-                    "Its error of {error} is more than noise makes ({floor}), but neither a law known here nor a correction of \
-                     the model takes anything of it away."
-                );
-            }
-            let after = in_words(after);
+            let after = in_words(diagnosis.steps.last().map_or(diagnosis.noise_floor, |s| s.error));
             format!(
                 "It is only detuned: with the corrections below its error falls from {error} to {after} (noise {floor})."
             )
@@ -104,13 +108,5 @@ pub fn telling(corrections: &[Correction], most: usize) -> Vec<&Correction> {
 
 /// A correction in words: what, and by how much with its deviation: `+2.00 ± 0.05 %`.
 pub fn change(correction: &Correction) -> String {
-    let change = format::with_deviation(100.0 * (correction.factor - 1.0), 100.0 * correction.deviation, "%");
-    // What is rounded to nothing has no sign.
-    let unsigned = change.trim_start_matches('−');
-    let zero = unsigned.split(' ').next().and_then(|v| v.parse::<f64>().ok()) == Some(0.0);
-    match correction.factor {
-        _ if zero => unsigned.to_owned(),
-        f if f > 1.0 => format!("+{change}"),
-        _ => change,
-    }
+    format::signed(100.0 * (correction.factor - 1.0), 100.0 * correction.deviation, "%")
 }

@@ -35,6 +35,18 @@ pub fn with_deviation(value: f64, deviation: f64, unit: &str) -> String {
     format!("{numbers} {}", pretty_unit(&unit)).trim_end().to_owned()
 }
 
+/// A difference with its deviation and its sign: `+0.20 ± 0.04 %`; what is rounded to nothing has none.
+pub fn signed(value: f64, deviation: f64, unit: &str) -> String {
+    let text = with_deviation(value, deviation, unit);
+    let unsigned = text.trim_start_matches('−');
+    let zero = unsigned.split(' ').next().and_then(|v| v.parse::<f64>().ok()) == Some(0.0);
+    match value {
+        _ if zero => unsigned.to_owned(),
+        v if v > 0.0 => format!("+{text}"),
+        _ => text,
+    }
+}
+
 /// An SI unit with dots and superscripts, from its spelling in ASCII: `N s^2/m^2` to `N·s²/m²`.
 pub fn pretty_unit(unit: &str) -> String {
     unit.replace("^2", "²").replace("^3", "³").replace(' ', "·")

@@ -3,5 +3,6 @@
 pub mod change;
 pub mod findings;
 pub mod format;
+pub mod glossary;
 pub mod units;
 pub mod words;

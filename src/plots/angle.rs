@@ -18,7 +18,7 @@ pub fn figure(palette: &Palette, outcome: &Outcome, current: usize, limit_deg: f
     let one = |k: usize| best.get(k).copied().into_iter().collect::<Vec<_>>();
     let (chosen, accepted) = (one(current), one(outcome.accepted));
     let most = outcome.steps.last().map_or(1, |s| s.count) as f64;
-    let x = Axis::new("Number of sources", "").ticks(Ticks::Whole).include(&[0.5, most + 0.5]);
+    let x = Axis::new("Sources", "").ticks(Ticks::Whole).include(&[0.5, most + 0.5]);
     let y = Axis::log("Angle", "°").include(&[limit_deg.max(LEAST)]);
     Figure::new("Angle against number of sources", x, y)
         .points("limit", palette.missing, Look::Levels(1.4), vec![[1.0, limit_deg.max(LEAST)]])

@@ -162,6 +162,7 @@ impl ChannelResponse<'_> {
                 .points(trial, palette.missing, Look::Rings(7.0), points(&|s| s.trial))
                 .points("measured", palette.measured, Look::Dots(3.5), points(&|s| Some(s.measured)))
                 .points("", palette.accent, Look::Rings(9.0), points(&|s| (s.run == self.run).then_some(s.measured)));
+            figure.series.retain(|s| s.name != trial || !s.points(0.0, f64::INFINITY, 1).is_empty());
             figure.margin = 0.06;
             figure
         };

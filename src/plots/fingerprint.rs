@@ -68,6 +68,9 @@ fn cloud(points: &[PrintPoint]) -> ([f64; 2], [f64; 2]) {
     ([mean(|p| p.x), mean(|p| p.y)], ends)
 }
 
+/// Room for the name of a law above the end of its line, as a share of the height of the cloud.
+const HEADROOM: f64 = 0.30;
+
 /// Faint lines with the powers of simple laws through the middle of the cloud, no further up and down than it reaches.
 fn laws(mut figure: Figure, palette: &Palette, print: &Print) -> Figure {
     let ([x, y], ends) = cloud(&print.points);
@@ -84,6 +87,8 @@ fn laws(mut figure: Figure, palette: &Palette, print: &Print) -> Figure {
         // At its right end, where lines of different powers are apart; the trend covers the one that it follows.
         if let (Some(&[x, y]), true) = (points.last(), print.slope.is_none_or(|s| (s[0] - power).abs() > 0.3)) {
             let at = [x, y + 0.03 * (high - low)].map(|v| 10f64.powf(v));
+            // Room above the highest for its name, which would else stand below the edge, on its own line.
+            figure.y.include.push(10f64.powf(y + HEADROOM * (high - low)));
             figure.labels.push(Label { at, text: (*name).to_owned(), colour: palette.weak });
         }
         let points = points.into_iter().map(|p| p.map(|v| 10f64.powf(v))).collect();

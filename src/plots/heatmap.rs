@@ -29,8 +29,11 @@ pub fn occupied(matrix: &Mat<f64>) -> Vec<usize> {
 
 /// Room for labels at the left and above.
 const LABEL: f32 = 30.0;
-/// Room for the scale of colours at the right.
+/// Room for the scale of colours at the right, and its least height with the unit above.
 const SCALE: f32 = 66.0;
+const LEAST_SCALE: f32 = 58.0;
+/// Width of a letter of a label.
+const LETTER: f32 = 6.4;
 
 /// Where the cells stand.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -74,7 +77,8 @@ impl HeatMap<'_> {
         }
         let largest = self.largest();
         let type_size = size::SMALL.min(0.30 * cell + 2.0);
-        let every = (13.0 / cell).ceil().max(1.0) as usize;
+        let longest = self.rows.iter().map(|&i| self.labels[i].chars().count()).max().unwrap_or(1) as f32;
+        let every = ((LETTER * longest + 5.0).max(13.0) / cell).ceil().max(1.0) as usize;
         for (r, &i) in self.rows.iter().enumerate() {
             if r % every == 0 {
                 self.labels(drawing, cells, r, palette);
@@ -114,7 +118,7 @@ impl HeatMap<'_> {
         let largest = self.largest();
         let negative = self.rows.iter().any(|&i| self.rows.iter().any(|&j| self.matrix[(i, j)] < 0.0));
         let low = if negative { -1.0 } else { 0.0 };
-        let height = cells.height().min(220.0);
+        let height = cells.height().clamp(LEAST_SCALE, 220.0);
         let bar = Rect::from_min_size(cells.right_top() + vec2(14.0, 24.0), vec2(10.0, height - 24.0));
         for k in 0..STEPS {
             let share = 1.0 - (1.0 - low) * (k as f32 + 0.5) / STEPS as f32;
@@ -126,7 +130,12 @@ impl HeatMap<'_> {
         drawing.rect(bar, Color32::TRANSPARENT, theme::hair(palette.line));
         let unit = format::pretty_unit(self.unit);
         drawing.words(cells.right_top() + vec2(14.0, 6.0), Align2::LEFT_CENTER, unit, size::SMALL, palette.weak);
-        let ends: &[f32] = if negative { &[1.0, 0.0, -1.0] } else { &[1.0, 0.0] };
+        // Between the ends only where its label has room.
+        let ends: &[f32] = match negative {
+            true if bar.height() >= 4.0 * size::SMALL => &[1.0, 0.0, -1.0],
+            true => &[1.0, -1.0],
+            false => &[1.0, 0.0],
+        };
         for &share in ends {
             let y = bar.top() + bar.height() * (1.0 - share) / (1.0 - low);
             let text = format::significant(f64::from(share) * largest, 3);

@@ -27,5 +27,6 @@ pub mod sheet;
 pub mod spectrum;
 pub mod style;
 pub mod svg;
+pub mod tables;
 pub mod ticks;
 pub mod trace;

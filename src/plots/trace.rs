@@ -3,7 +3,7 @@
 use super::pyramid::Pyramid;
 use crate::control::Control;
 use crate::math::spectrum::Spectrum;
-use crate::measurement::{ChannelFit, Record};
+use crate::measurement::{self, ChannelFit, Quantity, Record};
 use faer::c64;
 use std::f64::consts::TAU;
 use std::sync::Arc;
@@ -11,6 +11,8 @@ use std::sync::Arc;
 /// One channel of a record, ready to be drawn.
 #[derive(Debug, Clone)]
 pub struct Trace {
+    /// The harmonics of what was recorded: on a moving base those before its motion is taken off.
+    pub fit: ChannelFit,
     /// The record.
     pub record: Arc<Pyramid>,
     /// Record minus fit, at every sample.
@@ -23,6 +25,8 @@ pub struct Trace {
 pub fn trace(record: &Arc<Record>, fit: &ChannelFit, omega: f64, control: &Control) -> Option<Trace> {
     let row = record.channels().iter().position(|c| *c == fit.channel)?;
     let (time, samples) = (record.time(), record.samples(row));
+    let own = as_recorded(record, row, fit, omega)?;
+    let fit = &own;
     let (first, last) = (*time.first()?, *time.last()?);
     let middle = 0.5 * (first + last);
     let residual: Vec<f64> = time.iter().zip(samples).map(|(&t, y)| y - fitted(fit, omega, middle, t)).collect();
@@ -34,7 +38,15 @@ pub fn trace(record: &Arc<Record>, fit: &ChannelFit, omega: f64, control: &Contr
     control.check().ok()?;
     let step = (last - first) / (time.len().max(2) - 1) as f64;
     let spectrum = Spectrum::new(samples, step).map(|s| Arc::new(lines(&s, fit, omega)));
-    Some(Trace { record: Arc::new(whole), residual: Arc::new(residual), spectrum })
+    Some(Trace { record: Arc::new(whole), residual: Arc::new(residual), spectrum, fit: own })
+}
+
+/// The fit of a channel as it was recorded: where the base moves, that of the run is relative to it.
+fn as_recorded(record: &Record, row: usize, fit: &ChannelFit, omega: f64) -> Option<ChannelFit> {
+    if record.channels().iter().all(|c| c.quantity != Quantity::Base) {
+        return Some(fit.clone());
+    }
+    measurement::fit(record, omega, fit.amplitudes.len()).ok()?.channels.into_iter().nth(row)
 }
 
 /// Lines of a spectrum up to a little above the highest harmonic; what lies far below the highest is drawn at a floor.

@@ -1,7 +1,7 @@
 //! What all panes are made of, as one extension of `egui::Ui`.
 
 use super::theme::{self, Palette, size, space};
-use crate::display::{format, units};
+use crate::display::{format, glossary, units};
 use egui::text::{Galley, LayoutJob, TextWrapping};
 use egui::{
     Align, Color32, ComboBox, CornerRadius, DragValue, FontId, Frame, Label, Layout, Margin, Pos2, Response, RichText,
@@ -26,9 +26,17 @@ fn name_left(ui: &mut Ui, name: &str, rest: f32) -> Response {
     let label = Label::new(RichText::new(name).color(weak)).selectable(false).wrap();
     ui.allocate_ui_with_layout(room, Layout::left_to_right(Align::Center), |ui| {
         ui.set_min_width(room.x);
-        ui.add(label)
+        explained(ui.add(label), glossary::meaning(name))
     })
     .inner
+}
+
+/// With its meaning under the pointer, where it is a term.
+pub fn explained(response: Response, meaning: Option<&str>) -> Response {
+    match meaning {
+        Some(meaning) => response.on_hover_text(meaning),
+        None => response,
+    }
 }
 
 /// Paints a line of words that starts at `left` (its middle) and ends with dots where it is wider than `room`; gives back
@@ -92,7 +100,8 @@ impl UiExt for Ui {
 
     fn title(&mut self, title: &str, remark: &str) {
         self.horizontal(|ui| {
-            ui.label(RichText::new(title).size(size::HEADING).color(ui.palette().ink));
+            let label = ui.label(RichText::new(title).size(size::HEADING).color(ui.palette().ink));
+            explained(label, glossary::meaning(title));
             if !remark.is_empty() {
                 ui.add(Label::new(RichText::new(remark).size(size::SMALL).color(ui.palette().weak)).truncate());
             }
@@ -101,24 +110,30 @@ impl UiExt for Ui {
 
     fn hint(&mut self, text: impl Into<String>) -> Response {
         let colour = self.palette().weak;
-        self.label(RichText::new(text).size(size::SMALL).color(colour))
+        let text: String = text.into();
+        let meaning = glossary::meaning(&text);
+        let response = self.label(RichText::new(text).size(size::SMALL).color(colour));
+        explained(response, meaning)
     }
 
     fn pair(&mut self, name: &str, value: impl Into<String>) {
         let (value, weak) = (value.into(), self.palette().weak);
         let (room, gap) = (self.available_width(), space::S);
         let [name_width, value_width] = [name, value.as_str()].map(|text| width(self, text, theme::font(size::BODY)));
+        let meaning = glossary::meaning(name);
         let name = Label::new(RichText::new(name).color(weak)).wrap();
         if name_width + gap + value_width <= room || value_width < 0.4 * room {
             self.horizontal(|ui| {
                 let left = vec2(room - value_width - gap, space::ROW);
-                ui.allocate_ui_with_layout(left, Layout::left_to_right(Align::Center), |ui| ui.add(name));
+                ui.allocate_ui_with_layout(left, Layout::left_to_right(Align::Center), |ui| {
+                    explained(ui.add(name), meaning)
+                });
                 ui.with_layout(Layout::right_to_left(Align::Center), |ui| ui.add(Label::new(value).extend()));
             });
             return;
         }
         // A long value stands under its name.
-        self.add(name);
+        explained(self.add(name), meaning);
         self.with_layout(Layout::top_down(Align::Max), |ui| ui.add(Label::new(value).wrap()));
     }
 

@@ -23,6 +23,8 @@ mod sizes;
 mod space;
 mod states;
 mod support;
+mod terms;
 mod units;
 mod values;
 mod wing;
+mod zoom;

@@ -84,15 +84,13 @@ impl Model {
         let mut said: Vec<String> = Vec::new();
         let name = |s: &Source| format!("{} {}", words::effect(s.effect), at(structure, &s.place));
         let twin = |list: &[Source], s: &Source| list.iter().find(|other| other.is_same(s)).cloned();
-        for source in &self.known {
-            match twin(&before.known, source) {
-                None => said.push(format!("+ {}", name(source))),
-                Some(old) if old.parameters != source.parameters => said.push(format!("{} changed", name(source))),
-                Some(_) => {}
-            }
-        }
+        // What came and went first: where there is much to say, the rest is only counted.
+        let new = self.known.iter().filter(|s| twin(&before.known, s).is_none());
+        said.extend(new.map(|s| format!("+ {}", name(s))));
         let gone = before.known.iter().filter(|s| twin(&self.known, s).is_none());
         said.extend(gone.map(|s| format!("− {}", name(s))));
+        let changed = |s: &&Source| twin(&before.known, s).is_some_and(|old| old.parameters != s.parameters);
+        said.extend(self.known.iter().filter(changed).map(|s| format!("{} changed", name(s))));
         for sensor in &self.sensors {
             if !before.sensors.contains(sensor) {
                 said.push(format!("{} corrected", sensor.channel));
@@ -109,7 +107,7 @@ impl Model {
         match said.len() {
             0 => "the same model".to_owned(),
             1..=2 => said.join(", "),
-            many => format!("{} and {} more", said[0], many - 1),
+            many => format!("{} and {} more changes", said[0], many - 1),
         }
     }
 }

@@ -117,15 +117,17 @@ pub const HIDDEN: [Sample; 5] = [
     },
 ];
 
-/// Height of a card, points.
+/// Height of a card, points; of one so narrow that its sentence takes a line more.
 const HEIGHT: f32 = 176.0;
+const NARROW: f32 = 250.0;
+const MORE: f32 = 18.0;
 
 /// Shows a card; true when it was clicked.
 pub fn card(ui: &mut Ui, width: f32, sample: &Sample, file: Option<&Path>) -> bool {
     let palette = ui.palette();
     let present = file.is_some_and(Path::exists);
     let sense = if present { Sense::click() } else { Sense::hover() };
-    let (rect, response) = ui.allocate_exact_size(vec2(width, HEIGHT), sense);
+    let (rect, response) = ui.allocate_exact_size(vec2(width, HEIGHT + if width < NARROW { MORE } else { 0.0 }), sense);
     response.widget_info(|| WidgetInfo::labeled(Role::Button, present, sample.title));
     let lit = response.hovered() && present || response.has_focus();
     let line = theme::hair(if lit { palette.accent } else { palette.line });

@@ -1,16 +1,22 @@
 //! The desk: panes that can be moved, split, closed and brought back; each stage has its own arrangement, remembered.
 
 use super::panes::{Pane, arrangement};
+use super::tabs::Fit;
+use crate::display::glossary;
 use crate::window::app::{App, Ask};
 use crate::window::stages;
 use crate::window::theme::{self, Palette, size, space};
 use crate::window::view::Stage;
+use crate::window::widgets::explained;
 use egui::{
     Color32, CornerRadius, Frame, Id, Margin, Rect, Response, Role, Sense, Stroke, Ui, WidgetInfo, WidgetText, vec2,
 };
 use egui_tiles::{Behavior, SimplificationOptions, TabState, Tabs, Tile, TileId, Tiles, Tree, UiResponse};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
+
+/// Least room behind a title for the cross that closes its pane, points.
+const CROSS_ROOM: f32 = 11.0;
 
 /// Arrangements of the stages that were opened.
 #[derive(Debug, Clone, Default, Serialize, Deserialize)]
@@ -71,11 +77,16 @@ pub fn show(ui: &mut Ui, app: &mut App, asks: &mut Vec<Ask>) {
     let stage = app.view.stage;
     // The tree is taken out while its panes look at the application.
     let mut tree = app.desk.trees.remove(&stage).unwrap_or_else(|| arrangement(stage));
-    let mut panes = Panes { app, asks, alone: true, closed: None };
+    let mut panes = Panes { app, asks, alone: true, fit: Fit::default(), closed: None, chosen: None };
     tree.ui(&mut panes, ui);
+    let chosen = panes.chosen;
     // Closed panes keep their place, so that View > Panes can bring them back to it.
     if let Some(tile) = panes.closed {
         tree.set_visible(tile, false);
+        ui.ctx().request_repaint();
+    }
+    if let Some(tile) = chosen {
+        tree.make_active(|id, _| id == tile);
         ui.ctx().request_repaint();
     }
     app.desk.trees.insert(stage, tree);
@@ -86,8 +97,12 @@ struct Panes<'a> {
     asks: &'a mut Vec<Ask>,
     /// Whether the tab that is drawn is the only one of its bar.
     alone: bool,
+    /// How the tabs of the bar that is drawn stand.
+    fit: Fit,
     /// The pane that is to be closed after this frame.
     closed: Option<TileId>,
+    /// The pane that was chosen in the list of those without a tab.
+    chosen: Option<TileId>,
 }
 
 impl Behavior<Pane> for Panes<'_> {
@@ -113,8 +128,12 @@ impl Behavior<Pane> for Panes<'_> {
         let palette = Palette::of(ui.visuals());
         let title = self.tab_title_for_tile(tiles, tile).text().to_owned();
         let galley = ui.painter().layout_no_wrap(title.clone(), theme::font(size::BODY), Color32::PLACEHOLDER);
-        let cross = 16.0;
-        let (_, rect) = ui.allocate_space(vec2(galley.size().x + space::M + cross, ui.available_height()));
+        let [before, after] = if self.fit.is_left_out(tile) { [0.0; 2] } else { self.fit.pads };
+        let wide = if self.fit.is_left_out(tile) { 0.0 } else { galley.size().x + before + after };
+        let (_, rect) = ui.allocate_space(vec2(wide, ui.available_height()));
+        if self.fit.is_left_out(tile) {
+            return ui.interact(rect, id, Sense::hover());
+        }
         let response = ui.interact(rect, id, Sense::click_and_drag());
         response.widget_info(|| WidgetInfo::selected(Role::Tab, true, state.active, &title));
         if state.is_being_dragged {
@@ -127,16 +146,18 @@ impl Behavior<Pane> for Panes<'_> {
             _ if hovered => palette.ink,
             _ => palette.weak,
         };
-        let at = rect.left_center() + vec2(space::M, -0.5 * galley.size().y);
+        let at = rect.left_center() + vec2(before, -0.5 * galley.size().y);
         ui.painter().galley(at, galley, ink);
         if state.active && !self.alone {
             let line = Rect::from_min_max(
-                rect.left_bottom() + vec2(space::M - 2.0, -2.0),
-                rect.right_bottom() - vec2(cross - 2.0, 0.0),
+                rect.left_bottom() + vec2(before - 2.0, -2.0),
+                rect.right_bottom() - vec2(after - 2.0, 0.0),
             );
             ui.painter().rect_filled(line, 1.0, palette.accent);
         }
-        if hovered {
+        // Where tabs stand close together the menu closes panes: a cross would lie on the title.
+        let response = explained(response, glossary::meaning(&title));
+        if hovered && after >= CROSS_ROOM {
             self.close_button(ui, rect, tile, &title);
         }
         response
@@ -151,6 +172,10 @@ impl Behavior<Pane> for Panes<'_> {
             ui.add_space(space::S);
             super::schematic::switches(ui, self.app, self.asks);
         }
+        let shown = tabs.children.iter().filter(|tile| tiles.is_visible_in_layout(**tile));
+        let titles: Vec<_> = shown.filter_map(|tile| Some((*tile, tiles.get_pane(tile)?.title()))).collect();
+        self.fit = Fit::new(ui, &titles, tabs.active, ui.available_width());
+        self.chosen = self.fit.list(ui).or(self.chosen);
     }
 
     fn simplification_options(&self) -> SimplificationOptions {
@@ -190,7 +215,7 @@ impl Behavior<Pane> for Panes<'_> {
 impl Panes<'_> {
     fn close_button(&mut self, ui: &mut Ui, tab: Rect, tile: TileId, title: &str) {
         let palette = Palette::of(ui.visuals());
-        let rect = Rect::from_center_size(tab.right_center() - vec2(8.0, 0.0), vec2(14.0, 14.0));
+        let rect = Rect::from_center_size(tab.right_center() - vec2(7.0, 0.0), vec2(14.0, 14.0));
         let response = ui.interact(rect, ui.scope_id().with(("close", tile)), Sense::click());
         response.widget_info(|| WidgetInfo::labeled(Role::Button, true, format!("Close {title}")));
         let ink = if response.hovered() { palette.error } else { palette.weak };

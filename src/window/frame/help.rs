@@ -30,7 +30,8 @@ fn keys(ctx: &Context, open: &mut bool) {
         });
         ui.add_space(space::S);
         ui.hint("On the schematic: Tab goes from DOF to DOF and from source to source, Enter is a click.");
-        ui.hint("In plots: drag pans, right drag zooms into a box, double click shows all again.");
+        ui.hint("In plots: drag pans, right drag zooms into a box, double click shows all again; Backspace goes back to what was");
+        ui.hint("in sight before, Shift+Backspace on. Ctrl+C copies the values of the plot or table under the pointer.");
     });
 }
 

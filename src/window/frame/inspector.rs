@@ -128,7 +128,9 @@ fn adjust(ui: &mut Ui, r: &crate::measurement::Run, asks: &mut Vec<Ask>) {
     if let Some(new) = ui.quantity("Force level", r.level.unwrap_or(0) as f64, "") {
         set(asks, Command::SetRunLevel { file: file(), level: (new != 0.0).then_some(new.round() as i64) });
     }
+    ui.add_space(space::XS);
     ui.horizontal_wrapped(|ui| {
+        ui.spacing_mut().item_spacing.y = space::S;
         if ui.button("Estimate the frequency").clicked() {
             set(asks, Command::SetRunFrequency { file: file(), frequency: None });
         }

@@ -12,5 +12,6 @@ pub mod panes;
 pub mod schematic;
 pub mod start;
 pub mod status;
+mod tabs;
 pub mod top;
 pub mod units;

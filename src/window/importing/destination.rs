@@ -84,12 +84,12 @@ fn model(ui: &mut Ui, draft: &Draft) -> Option<Wish> {
             ui.hint("none: only energies at the measured points are balanced");
         } else {
             ui.label(named.join(", "));
-            if ui.small_button("Without").clicked() {
+            if ui.button("Without").clicked() {
                 wish = Some(Wish::NoModel);
             }
         }
         let what = "Mass and stiffness of NASTRAN (bulk data, punch, OUTPUT4), Abaqus or CalculiX, or Matrix Market, and nodes.";
-        if ui.small_button("Choose files…").on_hover_text(what).clicked() {
+        if ui.button("Choose files…").on_hover_text(what).clicked() {
             wish = Some(Wish::Model);
         }
     });

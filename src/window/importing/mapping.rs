@@ -4,7 +4,7 @@ use super::draft::ChannelRow;
 use crate::measurement::Quantity;
 use crate::window::theme::space;
 use crate::window::widgets::UiExt;
-use egui::{ComboBox, DragValue, Label, Response, Role, TextEdit, Ui, WidgetInfo};
+use egui::{Align, ComboBox, DragValue, Label, Layout, Response, Role, TextEdit, Ui, WidgetInfo};
 use egui_extras::{Column, TableBuilder, TableRow};
 
 /// Quantities and their words on the screen.
@@ -15,17 +15,8 @@ const QUANTITIES: [(Quantity, &str); 5] = [
     (Quantity::Displacement, "displacement"),
     (Quantity::Base, "base motion"),
 ];
-/// Columns with what they mean.
-const COLUMNS: [(&str, &str); 8] = [
-    ("", "Whether the channel is imported."),
-    ("Channel", "Name in the file."),
-    ("Quantity", "What it measures."),
-    ("DOF", "Where it is: the label of the degree of freedom; of a base its direction."),
-    ("Sense", "+ along the direction of the DOF, − against it."),
-    ("Unit", "Unit of the numbers, where the file says none or a wrong one."),
-    ("Factor", "Calibration: units a number of the file."),
-    ("Late, ms", "How late it is recorded."),
-];
+/// Columns; the first says whether the channel is imported.
+const COLUMNS: [&str; 8] = ["Use", "Channel", "Quantity", "DOF", "Sense", "Unit", "Factor", "Late, ms"];
 
 /// Shows the table.
 pub fn show(ui: &mut Ui, rows: &mut [ChannelRow], unit_of: impl Fn(&str) -> String) {
@@ -35,7 +26,8 @@ pub fn show(ui: &mut Ui, rows: &mut [ChannelRow], unit_of: impl Fn(&str) -> Stri
         .striped(true)
         .max_scroll_height(height)
         .auto_shrink(false)
-        .column(Column::exact(22.0))
+        .cell_layout(Layout::left_to_right(Align::Center))
+        .column(Column::exact(28.0))
         .column(Column::remainder().at_least(84.0).clip(true))
         .column(Column::exact(118.0))
         .column(Column::exact(58.0))
@@ -44,10 +36,8 @@ pub fn show(ui: &mut Ui, rows: &mut [ChannelRow], unit_of: impl Fn(&str) -> Stri
         .column(Column::exact(74.0))
         .column(Column::exact(58.0))
         .header(space::ROW, |mut header| {
-            for (name, what) in COLUMNS {
-                header.col(|ui| {
-                    ui.hint(name).on_hover_text(what);
-                });
+            for name in COLUMNS {
+                header.col(|ui| drop(ui.hint(name)));
             }
         })
         .body(|body| {
@@ -119,7 +109,7 @@ fn one(line: &mut TableRow<'_, '_>, k: usize, row: &mut ChannelRow, unit_of: &im
 /// A button that turns the sense round.
 pub fn sense(ui: &mut Ui, sign: &mut Option<i64>, name: &str) {
     let against = *sign == Some(-1);
-    let button = ui.small_button(if against { " − " } else { " + " });
+    let button = ui.button(if against { " − " } else { " + " });
     button.widget_info(|| WidgetInfo::selected(Role::Button, true, against, format!("Sense of {name}")));
     if button.on_hover_text("Turns it round.").clicked() {
         *sign = (!against).then_some(-1);

@@ -5,7 +5,7 @@ use super::mapping::sense;
 use crate::exchange::frf::Form;
 use crate::window::theme::space;
 use crate::window::widgets::UiExt;
-use egui::{ComboBox, DragValue, Label, Role, TextEdit, Ui, WidgetInfo};
+use egui::{Align, ComboBox, DragValue, Label, Layout, Role, TextEdit, Ui, WidgetInfo};
 use egui_extras::{Column, TableBuilder};
 
 /// Shows what is decided of frequency responses.
@@ -25,18 +25,13 @@ pub fn show(ui: &mut Ui, responses: &mut Responses) {
         .striped(true)
         .max_scroll_height(height)
         .auto_shrink(false)
+        .cell_layout(Layout::left_to_right(Align::Center))
         .column(Column::remainder().at_least(120.0).clip(true))
         .column(Column::exact(110.0))
         .column(Column::exact(60.0))
         .header(space::ROW, |mut header| {
-            for (name, what) in [
-                ("Place in the file", "Node and direction of the measuring system."),
-                ("DOF", "Label of the degree of freedom in the project."),
-                ("Sense", "+ along the direction of the DOF, − against it."),
-            ] {
-                header.col(|ui| {
-                    ui.hint(name).on_hover_text(what);
-                });
+            for name in ["Place in the file", "DOF", "Sense"] {
+                header.col(|ui| drop(ui.hint(name)));
             }
         })
         .body(|body| {
@@ -76,7 +71,7 @@ fn options(ui: &mut Ui, responses: &mut Responses) {
         let drag = DragValue::new(&mut responses.averages)
             .range(0..=1_000_000)
             .custom_formatter(|value, _| if value < 1.0 { "not known".to_owned() } else { format!("{value}") });
-        ui.add(drag).labelled_by(label.id).on_hover_text("With the coherences they give the deviation of every value.");
+        ui.add(drag).labelled_by(label.id);
     });
 }
 

@@ -14,7 +14,7 @@ use crate::window::solid::paint::graphics;
 use crate::window::theme::Palette;
 use crate::window::wake::wake;
 use crate::window::widgets::UiExt;
-use egui::{Context, Id, Response, Ui, Vec2, vec2};
+use egui::{Context, Id, Key, KeyboardShortcut, Modifiers, Response, Ui, Vec2, vec2};
 use egui_wgpu::RenderState;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
@@ -24,6 +24,8 @@ const PAPER: Vec2 = vec2(900.0, 560.0);
 /// Pixels of a PNG a point.
 const FINE: f32 = 2.0;
 
+/// Keys that copy the values of the plot under the pointer.
+const COPY: KeyboardShortcut = KeyboardShortcut::new(Modifiers::COMMAND, Key::C);
 /// Longest wait for a file that is being written when the window closes.
 const PATIENCE: Duration = Duration::from_secs(3);
 
@@ -112,7 +114,10 @@ pub fn offer(
     let ctx = ui.ctx();
     register(ctx, title);
     for response in responses {
-        response.context_menu(|ui| menu(ui, title, table));
+        response.context_menu(|ui| menu(ui, title, table, response));
+    }
+    if responses.iter().any(Response::hovered) && copied(ctx) {
+        ctx.copy_text(table());
     }
     let wanted: Wanted = ctx.data(|d| d.get_temp(wanted_id())).unwrap_or_default();
     let (own, others): (Wanted, Wanted) = wanted.into_iter().partition(|(t, _)| t == title);
@@ -127,8 +132,16 @@ pub fn offer(
     ctx.request_repaint();
 }
 
-fn menu(ui: &mut Ui, title: &str, table: &dyn Fn() -> String) {
-    if ui.button("Copy values").on_hover_text("As a table with tabs, for a spreadsheet.").clicked() {
+/// Whether the keys to copy were pressed outside a field of text.
+pub fn copied(ctx: &Context) -> bool {
+    !ctx.egui_wants_keyboard_input() && ctx.input(|i| i.events.iter().any(|e| matches!(e, egui::Event::Copy)))
+}
+
+fn menu(ui: &mut Ui, title: &str, table: &dyn Fn() -> String, plot: &Response) {
+    let copy = egui::Button::new("Copy values").shortcut_text(ui.ctx().format_shortcut(&COPY));
+    let copy = ui.add(copy).on_hover_text("As a table with tabs, for a spreadsheet.");
+    copy.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, "Copy values"));
+    if copy.clicked() {
         ui.copy_text(table());
         ui.close();
     }
@@ -139,6 +152,7 @@ fn menu(ui: &mut Ui, title: &str, table: &dyn Fn() -> String) {
             ui.close();
         }
     }
+    super::zoom::menu(ui, plot);
     ui.separator();
     ui.hint("Drag pans, right drag zooms a box, double click shows all.");
     ui.hint("Shift and click sets two cursors, a third takes them away.");

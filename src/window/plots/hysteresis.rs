@@ -9,12 +9,15 @@ use crate::plots::sheet::{Panel, Sheet};
 use crate::window::widgets::UiExt;
 use egui::{Ui, vec2};
 
+/// Least width of a loop, points.
+const LEAST: f32 = 200.0;
+
 /// Shows loops side by side, as many as there is room for.
 pub fn show(ui: &mut Ui, title: &str, loops: &[Loop]) {
     let palette = ui.palette();
     let figures: Vec<Figure> = loops.iter().map(|l| l.figure(palette)).collect();
     key_row(ui, figures.iter());
-    let columns = ((ui.available_width() / 250.0) as usize).clamp(1, loops.len().max(1));
+    let columns = ((ui.available_width() / LEAST) as usize).clamp(1, loops.len().max(1));
     let rows = loops.len().div_ceil(columns).clamp(1, 2);
     let room = ui.available_size();
     let size = vec2(room.x / columns as f32 - 8.0, (room.y / rows as f32 - 10.0).max(150.0));

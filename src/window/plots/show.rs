@@ -4,6 +4,7 @@
 use super::cursors;
 use super::export;
 use super::polyline::Polyline;
+use super::zoom::{Sight, Zoom};
 use super::{axis, curve, frame};
 use crate::display::format::significant;
 use crate::plots::figure::{Axis, Data, Figure, Label, Look, Series, Ticks};
@@ -59,6 +60,7 @@ impl Stack<'_> {
     fn plots(self, ui: &mut Ui, height: f32) {
         let group = (self.figures.len() > 1).then(|| Id::unique(("stack", self.id)));
         let last = self.figures.len().saturating_sub(1);
+        let zoom = Zoom::begin(ui.ctx(), self.id);
         let mut panels = Vec::new();
         let mut responses = Vec::new();
         for (k, (figure, share)) in self.figures.into_iter().enumerate() {
@@ -67,11 +69,12 @@ impl Stack<'_> {
             // The axis of x takes room from the plots in proportion, not from the last one alone.
             let own = share * (height - RULER) + ruler;
             let place = Place { id: &format!("{} {k}", self.id), height: own, group, ruler: k == last };
-            let out = place.show(ui, &figure);
-            let (low, high) = (out.transform.bounds().min(), out.transform.bounds().max());
-            panels.push(Panel { figure, bounds: [[low[0], high[0]], [low[1], high[1]]] });
+            let out = place.draw(ui, &figure, (&zoom, k));
+            panels.push(Panel { figure, bounds: sight(&out) });
             responses.push(out.response);
         }
+        let shown: Vec<_> = responses.iter().zip(&panels).map(|(r, p)| (r, &p.figure, p.bounds)).collect();
+        zoom.end(ui, &shown);
         let sheet = Sheet { title: self.title.to_owned(), columns: 1, panels };
         export::offer_sheet(ui, &responses, sheet);
     }
@@ -126,9 +129,23 @@ pub struct Place<'a> {
     pub ruler: bool,
 }
 
+/// What is in sight of a plot.
+pub fn sight(out: &PlotResponse<()>) -> Sight {
+    let (low, high) = (out.transform.bounds().min(), out.transform.bounds().max());
+    [[low[0], high[0]], [low[1], high[1]]]
+}
+
 impl Place<'_> {
-    /// Shows a plot.
+    /// Shows a plot that stands alone.
     pub fn show(&self, ui: &mut Ui, figure: &Figure) -> PlotResponse<()> {
+        let zoom = Zoom::begin(ui.ctx(), self.id);
+        let out = self.draw(ui, figure, (&zoom, 0));
+        zoom.end(ui, &[(&out.response, figure, sight(&out))]);
+        out
+    }
+
+    /// Draws a plot, the one of that number in its history of zooms.
+    fn draw(&self, ui: &mut Ui, figure: &Figure, (zoom, number): (&Zoom, usize)) -> PlotResponse<()> {
         let palette = ui.palette();
         let (x, y) = (figure.x.clone(), figure.y.clone());
         let (xt, yt, square) = (figure.x.clone(), figure.y.clone(), figure.square);
@@ -181,6 +198,7 @@ impl Place<'_> {
         let mut read = Vec::new();
         let out = plot.show(ui, |plot| {
             reset(plot, figure);
+            zoom.apply(plot, number);
             figure.series.iter().for_each(|s| series(plot, figure, s));
             figure.labels.iter().for_each(|l| words(plot, figure, l));
             read = cursors::show(plot, self.id, figure, palette).words(figure);
@@ -190,14 +208,30 @@ impl Place<'_> {
     }
 }
 
-/// Name and unit of an axis where there is room for both, else the unit, else nothing: a name that runs into another says less
+/// Names of axes and how they are cut short where a plot is low.
+const SHORT: [(&str, &str); 10] = [
+    ("Acceleration", "Acc."),
+    ("Amplitude", "Ampl."),
+    ("Displacement", "Displ."),
+    ("Frequency", "Freq."),
+    ("Imaginary part", "Imag."),
+    ("Magnitude", "Mag."),
+    ("Real part", "Real"),
+    ("Residual", "Res."),
+    ("Rotation", "Rot."),
+    ("Velocity", "Vel."),
+];
+
+/// Name and unit of an axis where there is room for both, else a short name and the unit, else the unit, else nothing: a name that runs into another says less
 /// than none.
 fn fitting(ui: &Ui, axis: &Axis, room: f32) -> String {
     let width = |text: &str| {
         let font = theme::font(theme::size::SMALL);
         ui.painter().layout_no_wrap(text.to_owned(), font, egui::Color32::PLACEHOLDER).size().x
     };
-    let choices = [axis.label(), axis.unit.clone()];
+    let short = SHORT.iter().find(|(name, _)| *name == axis.name).map_or(axis.name.as_str(), |(_, short)| short);
+    let short = Axis { name: short.to_owned(), ..axis.clone() };
+    let choices = [axis.label(), short.label(), axis.unit.clone()];
     choices.into_iter().find(|text| width(text) + 6.0 <= room).unwrap_or_default()
 }
 

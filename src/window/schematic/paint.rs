@@ -180,13 +180,18 @@ fn name(painter: &Painter, palette: &Palette, (scene, layout): (&Scene, &Layout)
     let rect = Align2::LEFT_CENTER.anchor_size(handle.label, words.size());
     let hidden = |ends: &[Pos2; 2]| Rect::from_two_pos(ends[0], ends[1]).expand2(vec2(4.0, 2.0)).intersects(rect);
     let mirrored = 2.0 * handle.pos.x - rect.right();
+    // Lines behind a label fade, so that it can be read.
+    let ground =
+        |rect: Rect| painter.rect_filled(rect.shrink2(vec2(0.0, 2.0)), 2.0, palette.canvas.gamma_multiply(0.7));
     if !layout.exciters.iter().any(|(_, ends)| hidden(ends)) {
+        ground(rect);
         painter.galley(rect.min, words, colour);
         return;
     }
     // At the left no name may stand on its neighbour's.
     let beside = Rect::from_min_size(pos2(mirrored, rect.top()), rect.size()).expand(8.0);
     if !layout.handles.iter().any(|h| h.dof != handle.dof && !h.rotation && beside.contains(h.pos)) {
+        ground(beside.shrink(8.0));
         painter.galley(pos2(mirrored, rect.top()), words, colour);
     }
 }

@@ -82,7 +82,7 @@ impl Pen<'_> {
 
     fn letter(&self, text: &str) {
         let font = crate::window::theme::font(crate::window::theme::size::SMALL - 1.5);
-        let at = self.middle - Vec2::new(0.0, 13.0);
+        let at = self.middle - Vec2::new(0.0, 12.0);
         self.painter.text(at, egui::Align2::CENTER_CENTER, text, font, self.stroke.color);
     }
 

@@ -8,8 +8,8 @@ use crate::display::format;
 use crate::effects::Effect;
 use crate::window::solid::{self, wire::Wire};
 use crate::window::theme::{self, Palette};
-use crate::window::widgets::elided;
-use egui::{CursorIcon, Key, Pos2, Rect, Response, Role, Sense, Ui, Vec2, WidgetInfo, vec2};
+use crate::window::widgets::{elided, width};
+use egui::{CursorIcon, Key, Pos2, Rect, Response, Role, Sense, Ui, Vec2, WidgetInfo, pos2};
 
 /// Points about a node of a wire model within which it is pointed at.
 const NODE_REACH: f32 = 4.0;
@@ -96,14 +96,19 @@ impl View<'_> {
         intents
     }
 
-    /// What is shown, cut short with dots before the first arrow that stands as high.
+    /// What is shown, beside the arrows that stand as high: before the first, else behind the last, else cut short with dots.
     fn caption(&self, ui: &Ui, corner: Pos2, layout: &Layout, area: Rect) {
-        let arrows = layout.exciters.iter().map(|(_, [tip, _])| *tip);
-        let in_the_way = arrows.filter(|tip| tip.y < corner.y + CAPTION && tip.x > corner.x).map(|tip| tip.x - ARROW);
-        let end = in_the_way.fold(area.right() - theme::space::S, f32::min);
+        let high = |ends: &&[Pos2; 2]| ends[0].y.min(ends[1].y) < corner.y + CAPTION && ends[0].x > corner.x;
+        let arrows: Vec<&[Pos2; 2]> = layout.exciters.iter().map(|(_, ends)| ends).filter(high).collect();
+        let edge = area.right() - theme::space::S;
+        let first = arrows.iter().map(|e| e[0].x.min(e[1].x) - ARROW).fold(edge, f32::min);
+        let last = arrows.iter().map(|e| e[0].x.max(e[1].x) + ARROW).fold(corner.x, f32::max);
         let (font, weak) = (theme::font(theme::size::SMALL), Palette::of(ui.visuals()).weak);
-        let middle = corner + vec2(0.0, 0.5 * theme::size::SMALL + 2.0);
-        elided(ui, self.caption, font, weak, middle, end - corner.x);
+        let wanted = width(ui, self.caption, font.clone());
+        let behind = wanted > first - corner.x && edge - last > first - corner.x;
+        let (start, end) = if behind { (last, edge) } else { (corner.x, first) };
+        let middle = pos2(start, corner.y + 0.5 * theme::size::SMALL + 2.0);
+        elided(ui, self.caption, font, weak, middle, end - start);
     }
 
     /// A node in the accessibility tree for every DOF and source, reached by Tab and pressed with Enter.

@@ -32,7 +32,7 @@ pub fn show(ui: &mut Ui, app: &mut App, asks: &mut Vec<Ask>) {
         None => ui.empty("Both states are being identified", "The progress is in the bar below."),
         Some(Err(error)) => ui.empty("The states cannot be compared", &error),
         Some(Ok(compared)) => {
-            ScrollArea::vertical().auto_shrink(false).show(ui, |ui| answer(ui, &compared));
+            ScrollArea::vertical().auto_shrink(false).show(ui, |ui| answer(ui, &compared, &against));
         }
     }
 }
@@ -53,9 +53,14 @@ fn choices(ui: &mut Ui, names: &[String], against: &mut Option<Against>, asks: &
     }
 }
 
-fn answer(ui: &mut Ui, compared: &Compared) {
+fn answer(ui: &mut Ui, compared: &Compared, against: &Against) {
     let Compared { titles, structure, change } = compared;
-    ui.hint(format!("First: {}.  Second: {}.", titles[0], titles[1]));
+    // Two states of one structure often bear one title.
+    let which = match against {
+        Against::Project(_) => [", the earlier state", ", this project"],
+        Against::Sessions(_) => ["", ""],
+    };
+    ui.hint(format!("First: {}{}.  Second: {}{}.", titles[0], which[0], titles[1], which[1]));
     let any = change.changed().next().is_some();
     let colour = if any { ui.palette().missing } else { ui.palette().ink };
     ui.label(RichText::new(said::sentence(structure, change)).color(colour));
@@ -112,8 +117,7 @@ impl Row {
     }
 
     fn difference(&self) -> String {
-        let text = format::with_deviation(self.pair.difference, self.pair.deviation, "");
-        if self.pair.difference > 0.0 && !text.starts_with('0') { format!("+{text}") } else { text }
+        format::signed(self.pair.difference, self.pair.deviation, "")
     }
 }
 
@@ -144,7 +148,7 @@ fn table(ui: &mut Ui, what: &str, rows: &[Row]) {
             }
             head.col(|ui| drop(ui.hint("Unit")));
             head.col(|ui| {
-                super::head_right(ui, "Chance").on_hover_text("Probability of a difference as large by noise alone.");
+                super::head_right(ui, "Chance");
             });
         })
         .body(|body| body.rows(space::ROW, rows.len(), |mut row| cells(&mut row, rows, in_full)));

@@ -29,8 +29,11 @@ const FREQUENCY: f32 = 72.0;
 const LEVEL: f32 = 42.0;
 const NOISE: f32 = 62.0;
 const HARMONICS: f32 = 68.0;
-const FLAGS: f32 = 92.0;
+/// Widest column of flags.
+const FLAGS: f32 = 180.0;
 const FLAG_COUNT: f32 = 44.0;
+/// Room about the words of a flag.
+const PILL: f32 = 28.0;
 
 /// Which columns there is room for: harmonics go first, then the words of the flags, then the noise.
 #[derive(Debug, Clone, Copy)]
@@ -38,14 +41,19 @@ struct Shown {
     noise: bool,
     harmonics: bool,
     words: bool,
+    /// Width of the column of flags.
+    flags: f32,
 }
 
 impl Shown {
-    fn new(width: f32, levels: bool) -> Self {
+    /// In a table of `width` points whose longest flags take `longest`.
+    fn new(width: f32, levels: bool, longest: f32) -> Self {
         let always = 30.0 + LEAST_FILE + FREQUENCY + FLAG_COUNT + if levels { LEVEL } else { 0.0 } + 7.0 * space::XS;
         let room = width - always;
-        let words = FLAGS - FLAG_COUNT;
-        Self { noise: room > NOISE, words: room > NOISE + words, harmonics: room > NOISE + words + HARMONICS }
+        let more = longest.clamp(FLAG_COUNT, FLAGS) - FLAG_COUNT;
+        let words = room > NOISE + more;
+        let flags = if words { FLAG_COUNT + more } else { FLAG_COUNT };
+        Self { noise: room > NOISE, words, harmonics: room > NOISE + more + HARMONICS, flags }
     }
 
     /// Whether a column is shown.
@@ -121,7 +129,7 @@ pub fn record(ui: &mut Ui, app: &mut App) {
         Traced::Ready(trace) => {
             let axis = words::axis(fit.channel.quantity, false);
             let id = format!("run {} {}", run + 1, fit.channel);
-            RecordPlot { trace: &trace, fit, omega: r.fit.omega, axis, id: &id }.show(ui);
+            RecordPlot { trace: &trace, fit: &trace.fit, omega: r.fit.omega, axis, id: &id }.show(ui);
         }
     }
 }
@@ -160,7 +168,14 @@ pub fn spectrum(ui: &mut Ui, app: &mut App) {
     let unit = words::axis(fit.channel.quantity, false).rsplit(", ").next().unwrap_or("");
     match &trace.spectrum {
         Some(s) => {
-            charts::spectrum(ui, &format!("spectrum, run {} {}", run + 1, fit.channel), s, fit, r.fit.omega, unit);
+            charts::spectrum(
+                ui,
+                &format!("spectrum, run {} {}", run + 1, fit.channel),
+                s,
+                &trace.fit,
+                r.fit.omega,
+                unit,
+            );
         }
         None => ui.empty("No spectrum", "The record is too short for one."),
     }
@@ -238,7 +253,8 @@ fn table(ui: &mut Ui, p: &Project, (rows, order): (&[usize], &mut Order), chosen
     ui.style_mut().interaction.selectable_labels = false;
     let levels = p.runs.iter().any(|r| r.level.is_some());
     ui.spacing_mut().item_spacing.x = space::XS;
-    let shown = Shown::new(ui.available_width(), levels);
+    let flags = p.runs.iter().filter_map(flags).map(|text| width(ui, &text, theme::font(theme::size::SMALL)) + PILL);
+    let shown = Shown::new(ui.available_width(), levels, flags.fold(0.0, f32::max));
     TableBuilder::new(ui)
         .striped(true)
         .sense(Sense::click())
@@ -249,19 +265,19 @@ fn table(ui: &mut Ui, p: &Project, (rows, order): (&[usize], &mut Order), chosen
         .column(Column::exact(if levels { LEVEL } else { 0.0 }))
         .column(Column::exact(if shown.noise { NOISE } else { 0.0 }))
         .column(Column::exact(if shown.harmonics { HARMONICS } else { 0.0 }))
-        .column(Column::exact(if shown.words { FLAGS } else { FLAG_COUNT }).clip(true))
+        .column(Column::exact(shown.flags).clip(true))
         .header(space::ROW, |mut header| {
             header.col(|ui| drop(ui.hint("Use")));
             header.col(|ui| drop(order.head(ui, "File", Key::File, false)));
-            for (name, key, what) in [
-                ("Frequency", Key::Frequency, "Frequency at which the harmonics are fitted."),
-                ("Level", Key::Level, "Label of the force level."),
-                ("Noise", Key::Noise, "Noise over signal, root mean square over the channels."),
-                ("Harmonics", Key::Harmonics, "Largest higher harmonic over the fundamental, over all motions."),
+            for (name, key) in [
+                ("Frequency", Key::Frequency),
+                ("Level", Key::Level),
+                ("Noise", Key::Noise),
+                ("Harmonics", Key::Harmonics),
             ] {
                 header.col(|ui| {
                     if shown.has(key) && (levels || key != Key::Level) {
-                        order.head(ui, name, key, true).on_hover_text(what);
+                        order.head(ui, name, key, true);
                     }
                 });
             }
@@ -294,7 +310,7 @@ fn cells(row: &mut TableRow<'_, '_>, run: &Run, (index, shown): (usize, Shown), 
             asks.push(Ask::Edit(Edit::UseRun(run.file.clone(), used)));
         }
     });
-    row.col(|ui| drop(ui.label(&run.file)));
+    row.col(|ui| drop(ui.label(&run.file).on_hover_text(&run.file)));
     row.col(|ui| drop(ui.number(format!("{} Hz", format::significant(run.fit.omega / std::f64::consts::TAU, 4)))));
     row.col(|ui| drop(ui.number(run.level.map_or_else(String::new, |level| level.to_string()))));
     row.col(|ui| {
@@ -309,19 +325,20 @@ fn cells(row: &mut TableRow<'_, '_>, run: &Run, (index, shown): (usize, Shown), 
     });
     row.col(|ui| {
         ui.add_space(space::S);
-        if let Some(first) = run.findings.first() {
-            let more = run.findings.len() - 1;
-            let text = words::flag(first.flag);
-            let text = match (shown.words, more) {
-                (true, 0) => text.to_owned(),
-                (true, _) => format!("{text} +{more}"),
-                // The words stand in the inspector and under the pointer.
-                (false, _) => (more + 1).to_string(),
-            };
+        if let Some(text) = flags(run) {
+            // Where there is no room the words stand in the inspector and under the pointer.
+            let text = if shown.words { text } else { run.findings.len().to_string() };
             let reasons: Vec<&str> = run.findings.iter().map(|f| f.reason.as_str()).collect();
             ui.pill(&text, ui.palette().warning).on_hover_text(reasons.join("\n"));
         }
     });
+}
+
+/// The first flag of a run and how many more it has, in words.
+fn flags(run: &Run) -> Option<String> {
+    let (first, more) = (run.findings.first()?, run.findings.len() - 1);
+    let text = words::flag(first.flag);
+    Some(if more == 0 { text.to_owned() } else { format!("{text} +{more}") })
 }
 
 /// The largest higher harmonic over the fundamental, over all motions of a run.

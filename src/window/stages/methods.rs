@@ -92,11 +92,8 @@ fn table(ui: &mut Ui, found: &SideBySide, chosen: &mut Option<Method>) {
         .header(space::ROW, |mut row| {
             row.col(|ui| drop(ui.hint("Method")));
             if known {
-                for (name, what) in [
-                    ("Error C", "Of the damping matrix against the reference (3.135), per cent."),
-                    ("MAC error", "Largest deviation of the modes from those of the reference (3.134)."),
-                ] {
-                    row.col(|ui| drop(super::head_right(ui, name).on_hover_text(what)));
+                for name in ["Error C", "MAC error"] {
+                    row.col(|ui| drop(super::head_right(ui, name)));
                 }
             }
             for mode in 0..modes {

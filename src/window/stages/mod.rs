@@ -15,6 +15,8 @@ pub mod structure;
 use super::app::{App, Ask};
 use super::frame;
 use super::frame::panes::Pane;
+use super::plots::export::copied;
+use crate::plots::tables;
 use egui::Ui;
 
 /// Shows a pane.
@@ -52,6 +54,31 @@ pub fn show(ui: &mut Ui, pane: Pane, app: &mut App, asks: &mut Vec<Ask>) {
         Pane::Missing => explain::panes::missing(ui, app, asks),
         Pane::Corrections => explain::corrections::show(ui, app, asks),
         Pane::Ledger => explain::panes::way(ui, app, asks),
+    }
+    if ui.rect_contains_pointer(ui.max_rect())
+        && copied(ui.ctx())
+        && let Some(text) = table(ui, pane, app)
+    {
+        ui.ctx().copy_text(text);
+    }
+}
+
+/// What stands in the table of a pane, as text with tabs.
+fn table(ui: &Ui, pane: Pane, app: &mut App) -> Option<String> {
+    let document = app.document.as_ref()?;
+    let p = &document.project;
+    if pane == Pane::Modes {
+        let modes = app.derived.modes(ui.ctx(), document)?.ok()?;
+        return Some(tables::modes(&modes));
+    }
+    let outcome = app.derived.known_outcome(document).and_then(|o| o.as_ref().ok());
+    match pane {
+        Pane::Runs => Some(tables::runs(p)),
+        Pane::Sources => Some(tables::sources(p)),
+        Pane::Steps => Some(tables::steps(p, outcome?)),
+        Pane::Values | Pane::Energy => Some(tables::coefficients(p, outcome?)),
+        Pane::Damping => Some(tables::damping(outcome?)),
+        _ => None,
     }
 }
 

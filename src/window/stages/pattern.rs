@@ -99,7 +99,7 @@ fn tile(ui: &mut Ui, effect: Effect, chosen: bool, words: Arc<Galley>, size: Vec
     let line = theme::hair(if lit { palette.accent } else { palette.line });
     ui.painter().rect(rect, 5.0, fill, line, StrokeKind::Inside);
     let ink = if chosen { palette.accent } else { palette.ink };
-    let (x, y) = (rect.center().x, rect.top() + 19.0);
+    let (x, y) = (rect.center().x, rect.top() + 20.0);
     symbols::draw(ui.painter(), effect, [pos2(x - 30.0, y), pos2(x + 30.0, y)], theme::pen(ink));
     let middle = 0.5 * (rect.top() + SYMBOL - 4.0 + rect.bottom());
     ui.painter().galley_with_override_text_color(pos2(x, middle - 0.5 * words.size().y), words, ink);

@@ -5,7 +5,7 @@ use crate::exchange::Project;
 use crate::identify::Outcome;
 use crate::plots::bars::Bar;
 use crate::plots::bode::Diagram;
-use crate::plots::heatmap;
+use crate::plots::{heatmap, tables};
 use crate::response::frequency_response::Quantity;
 use crate::window::app::App;
 use crate::window::plots::{bars, hysteresis};
@@ -170,18 +170,8 @@ fn ratios(ui: &mut Ui, outcome: &Outcome) {
         .column(Column::remainder().at_least(80.0))
         .header(space::ROW, |mut row| {
             row.col(|ui| drop(ui.hint("Mode")));
-            let half_power = "From the half-power points of the measured responses.";
-            for (name, what) in [
-                ("Frequency", ""),
-                (name_of_measure, "Of the model with what was identified; View > Units chooses ζ, Q, η or δ."),
-                ("Half-power", half_power),
-            ] {
-                row.col(|ui| {
-                    let head = super::head_right(ui, name);
-                    if !what.is_empty() {
-                        head.on_hover_text(what);
-                    }
-                });
+            for name in ["Frequency", name_of_measure, "Half-power"] {
+                row.col(|ui| drop(super::head_right(ui, name)));
             }
         })
         .body(|body| {
@@ -253,7 +243,7 @@ pub fn values(ui: &mut Ui, app: &mut App) {
                 .on_hover_text("Columns are separated by tabs, as spreadsheets want them.")
                 .clicked()
             {
-                ui.ctx().copy_text(tabbed(p, &outcome));
+                ui.ctx().copy_text(tables::coefficients(p, &outcome));
             }
         });
     });
@@ -304,21 +294,4 @@ fn if_there(there: bool, cell: impl FnOnce() -> egui::Response) {
     if there {
         cell();
     }
-}
-
-/// The table with all digits, columns separated by tabs.
-fn tabbed(p: &Project, outcome: &Outcome) -> String {
-    let mut text = "law\tplace\tstate\tcoefficient\tdeviation\tunit\tenergy %\n".to_owned();
-    for e in &outcome.sources {
-        let Some(s) = p.sources.get(e.source) else { continue };
-        let unit = s.effect.coefficient().map_or("", |k| s.effect.parameters()[k].unit);
-        let place = words::place(&p.structure, &s.place);
-        let state = words::state(s.state);
-        let law = s.effect.name();
-        text.push_str(&format!(
-            "{law}\t{place}\t{state}\t{:e}\t{:e}\t{unit}\t{}\n",
-            e.coefficient, e.deviation, e.energy_percent
-        ));
-    }
-    text
 }

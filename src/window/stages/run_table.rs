@@ -1,10 +1,10 @@
 //! Order and filter of the table of runs.
 
-use crate::display::words;
+use crate::display::{glossary, words};
 use crate::exchange::Project;
 use crate::measurement::Run;
 use crate::window::theme::space;
-use crate::window::widgets::UiExt;
+use crate::window::widgets::{UiExt, explained};
 use egui::{Align, Label, Layout, Response, RichText, Role, Sense, Shape, Stroke, Ui, WidgetInfo, vec2};
 
 /// Runs from which on the table has a filter.
@@ -93,6 +93,7 @@ impl Order {
                 response
             })
             .inner;
+        let response = explained(response, glossary::meaning(name));
         response
             .widget_info(|| WidgetInfo::labeled(Role::Button, true, format!("Sort by {}", name.trim().to_lowercase())));
         if response.clicked() {

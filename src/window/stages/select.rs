@@ -139,15 +139,11 @@ fn table(ui: &mut Ui, p: &Project, outcome: &Outcome, current: usize, chosen: &m
         .column(Column::exact(if wide { CHI_SQUARE } else { 0.0 }))
         .header(space::ROW, |mut row| {
             row.col(|ui| drop(ui.hint("Sources")));
-            row.col(|ui| drop(ui.hint("Which").on_hover_text("The sources, under them their coefficients.")));
-            for (name, what) in [
-                ("Angle", "Angle between measured and identified energies of the runs."),
-                ("Energy error", "Distance of the identified energies from the measured, relative."),
-                (PER_ROW, "About 1 where the set explains the data to their noise."),
-            ] {
+            row.col(|ui| drop(ui.hint("Which")));
+            for name in ["Angle", "Energy error", PER_ROW] {
                 row.col(|ui| {
                     if wide || name != PER_ROW {
-                        super::head_right(ui, name).on_hover_text(what);
+                        super::head_right(ui, name);
                     }
                 });
             }

@@ -175,12 +175,8 @@ pub fn expansion(ui: &mut Ui, app: &mut App) {
         .columns(Column::exact(figures), 3)
         .header(space::ROW, |mut row| {
             row.col(|ui| drop(ui.hint("Run")));
-            for (name, what) in [
-                ("At sensors", "Measured minus expanded motion at the sensors, relative to the measured."),
-                ("In deviations", "The same in standard deviations of the noise: about 1 where the model agrees."),
-                ("At other DOFs", "Expected relative error of the expanded motion over all DOFs."),
-            ] {
-                row.col(|ui| drop(super::head_right(ui, name).on_hover_text(what)));
+            for name in ["At sensors", "In deviations", "At other DOFs"] {
+                row.col(|ui| drop(super::head_right(ui, name)));
             }
         })
         .body(|body| {

@@ -28,6 +28,9 @@ const LEAST_LEAD: f32 = 8.0;
 const LEAST_SYMBOL: f32 = 20.0;
 /// Least depth of the ground under the axis, points.
 const LEAST_DROP: f32 = 46.0;
+/// Room of a label: of each letter, and beside them, points.
+const LETTER: f32 = 6.6;
+const BESIDE_LABEL: f32 = 13.0;
 
 struct Frame<'a> {
     scene: &'a Scene,
@@ -159,8 +162,30 @@ impl<'a> Frame<'a> {
             let pos = node - vec2(0.0, ROTATION_UP);
             Handle { dof, pos, radius: HANDLE, rotation, label: pos + vec2(9.0, 0.0), labelled: false }
         } else {
-            Handle { dof, pos: node, radius: HANDLE, rotation, label: node + vec2(8.0, -11.0), labelled: true }
+            Handle {
+                dof,
+                pos: node,
+                radius: HANDLE,
+                rotation,
+                label: node + vec2(8.0, -11.0),
+                labelled: self.has_label(d.node),
+            }
         }
+    }
+
+    /// Whether the label of a node is shown: of so many that each has room beside its neighbour's sensor, the last among them.
+    fn has_label(&self, node: usize) -> bool {
+        let last = self.scene.nodes.len().saturating_sub(1);
+        let pitch = self.scale * self.span() / last.max(1) as f32;
+        let longest = self.scene.dofs.iter().map(|d| d.label.chars().count()).max().unwrap_or(1) as f32;
+        let every = ((BESIDE_LABEL + LETTER * longest) / pitch.max(1.0)).ceil().max(1.0) as usize;
+        (last - node.min(last)).is_multiple_of(every)
+    }
+
+    /// Length along x, m.
+    fn span(&self) -> f32 {
+        let greatest = self.scene.nodes.iter().map(|n| n.position[0]).fold(f64::NEG_INFINITY, f64::max);
+        (greatest - self.least) as f32
     }
 
     fn marks(

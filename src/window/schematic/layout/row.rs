@@ -11,6 +11,11 @@ const POINT: f32 = 30.0;
 const WALL: f32 = 34.0;
 const LANE: f32 = 28.0;
 const DROP: f32 = 74.0;
+/// Least depth of the ground below a mass, and its hatches.
+const LEAST_DROP: f32 = 40.0;
+const HATCH: f32 = 12.0;
+/// Room above the masses for sensors, arrows and the line that says what is shown.
+const ABOVE: f32 = 44.0;
 
 /// Whether a structure without a shape of its own stands in a row: one DOF a node, all nodes on a line.
 pub(super) fn fits(scene: &Scene) -> bool {
@@ -46,6 +51,8 @@ struct Frame<'a> {
     first: f32,
     gap: f32,
     axis: f32,
+    /// Depth of the ground below the masses.
+    drop: f32,
     size: Vec2,
 }
 
@@ -95,6 +102,12 @@ impl<'a> Frame<'a> {
         let start = left + ((right - left - used) / 2.0).max(0.0);
         let first = start + (gap - base) * share(walls[0]) + base / 2.0;
         let last = first + gap * (n.max(1) - 1) as f32;
+        let below = legs.iter().any(|l| matches!(l.slot, Slot::Below(_)));
+        let axis = area.center().y - 6.0;
+        // Where the ground below has no room the row goes up, then the ground comes nearer.
+        let lacks = |axis: f32| (axis + 0.5 * height + DROP + HATCH - area.bottom()).max(0.0);
+        let free = (axis - 0.5 * height - ABOVE - area.top()).max(0.0);
+        let axis = axis - if below { lacks(axis).min(free) } else { 0.0 };
         Self {
             scene,
             shape,
@@ -103,7 +116,8 @@ impl<'a> Frame<'a> {
             legs,
             first,
             gap,
-            axis: area.center().y - 6.0,
+            axis,
+            drop: (DROP - lacks(axis)).max(LEAST_DROP),
             size: vec2(base, height),
         }
     }
@@ -191,7 +205,7 @@ impl<'a> Frame<'a> {
         let pitch = 26.0_f32.min(0.9 * self.gap / count);
         let x = rect.center().x + (rank - 0.5 * (count - 1.0)) * pitch;
         let start = pos2(x.clamp(rect.left() - self.gap, rect.right() + self.gap), rect.bottom() + 8.0);
-        let foot = pos2(start.x, rect.bottom() + DROP);
+        let foot = pos2(start.x, rect.bottom() + self.drop);
         let shoulder = pos2(start.x.clamp(rect.left() + 2.0, rect.right() - 2.0), rect.bottom());
         Part {
             leads: vec![[shoulder, start]],

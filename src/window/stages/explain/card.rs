@@ -99,7 +99,7 @@ impl Card<'_> {
         let palette = ui.palette();
         let source = &self.suggestion.added.source;
         let words = self.head_words(ui);
-        let height = (words.total() + 6.0).max(if self.unfolded { 40.0 } else { 26.0 });
+        let height = (words.total() + 6.0).max(if self.unfolded { 40.0 } else { 34.0 });
         let (area, response) = ui.allocate_exact_size(vec2(ui.available_width(), height), Sense::click());
         let (so_far, chance) = (self.is_provisional(), chance(self.probability));
         let (kind, about) = if so_far { ("Provisional suggestion", "about ") } else { ("Suggestion", "") };

@@ -9,7 +9,7 @@ use super::{Deed, Scene};
 use crate::diagnosis::Diagnosis;
 use crate::diagnosis::diagnose::Verdict;
 use crate::diagnosis::updating::parameters::UpdatingParameter;
-use crate::display::findings::{self, is_detuned, sentence};
+use crate::display::findings::{self, is_detuned, is_stuck, sentence};
 use crate::display::format;
 use crate::display::format::in_words;
 use crate::display::words;
@@ -141,7 +141,7 @@ fn list(ui: &mut Ui, scene: &Scene<'_>, look: &mut Look, asks: &mut Vec<Ask>) {
 
 /// What the model states wrongly and the search corrected beside the effects.
 fn detuned(ui: &mut Ui, scene: &Scene<'_>, diagnosis: &Diagnosis, asks: &mut Vec<Ask>) {
-    if diagnosis.corrections.is_empty() {
+    if diagnosis.corrections.is_empty() || is_stuck(diagnosis) {
         return;
     }
     ui.add_space(space::XS);
@@ -191,6 +191,11 @@ fn adequate(ui: &mut Ui, scene: &Scene<'_>, diagnosis: &Diagnosis) {
     let palette = ui.palette();
     ui.add_space(space::M);
     ui.horizontal(|ui| {
+        if is_stuck(diagnosis) {
+            let said = RichText::new("Something is left that nothing here explains");
+            ui.label(said.size(size::HEADING + 2.0).color(palette.warning));
+            return;
+        }
         let (area, _) = ui.allocate_exact_size(vec2(30.0, 30.0), Sense::hover());
         let c = area.center();
         ui.painter().circle_filled(c, 13.0, palette.good);

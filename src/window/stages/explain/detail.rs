@@ -10,7 +10,8 @@ use crate::plots::figure::Figure;
 use crate::plots::response_curve::{Curve, levels, neighbourhood};
 use crate::plots::samples;
 use crate::window::plots::show::Stack;
-use crate::window::widgets::UiExt;
+use crate::window::theme::{self, size, space};
+use crate::window::widgets::{UiExt, width};
 use egui::{Align, Layout, Ui};
 
 /// What is shown of one cell.
@@ -38,7 +39,7 @@ impl Detail<'_> {
         let Some(run) = p.runs.get(self.run) else { return };
         let level = run.level.map_or_else(String::new, |l| format!(", level {l}"));
         let frequency = format::with_unit(run.frequency_hz(), "Hz");
-        let remark = format!("run {}, {frequency}{level}", self.run + 1);
+        let remarks = [&level, ""].map(|level| format!("run {}, {frequency}{level}", self.run + 1));
         ui.horizontal(|ui| {
             ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
                 ui.spacing_mut().item_spacing.x = 2.0;
@@ -47,8 +48,15 @@ impl Detail<'_> {
                         look.tab = tab;
                     }
                 }
-                // What is left of the row belongs to the title, which is cut before it runs into the tabs.
-                ui.with_layout(Layout::left_to_right(Align::Center), |ui| ui.title(self.channel, &remark));
+                ui.add_space(space::M);
+                // What is left of the row belongs to the title: it says no more than there is room for.
+                let room = ui.available_width() - width(ui, self.channel, theme::font(size::HEADING)) - space::M;
+                let fits = |remark: &&String| width(ui, remark, theme::font(size::SMALL)) <= room;
+                let remark = remarks.iter().find(fits).map_or("", String::as_str);
+                ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
+                    ui.spacing_mut().item_spacing.x = space::S;
+                    ui.title(self.channel, remark);
+                });
             });
         });
         let Some(now) = samples::channel(self.comparison, self.run, self.channel) else {

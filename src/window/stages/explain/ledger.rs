@@ -2,6 +2,7 @@
 
 use super::{Deed, Scene, cards};
 use crate::diagnosis::diagnose::Verdict;
+use crate::display::findings::is_stuck;
 use crate::display::format::in_words;
 use crate::plots::figure::{Axis, Figure, Look, Ticks};
 use crate::window::app::Ask;
@@ -43,6 +44,9 @@ pub fn show(ui: &mut Ui, scene: &Scene<'_>, asks: &mut Vec<Ask>) {
 fn ahead(scene: &Scene<'_>) -> Vec<[f64; 2]> {
     let ledger = &scene.explained.ledger;
     let Some(Ok(diagnosis)) = scene.explained.diagnosis(scene.document) else { return Vec::new() };
+    if is_stuck(diagnosis) {
+        return Vec::new();
+    }
     let Some(now) = ledger.steps().get(ledger.current()) else { return Vec::new() };
     let start = std::iter::once(now.error).chain(diagnosis.steps.iter().skip(1).map(|s| s.error));
     start.enumerate().map(|(k, error)| [(ledger.current() + k) as f64, percent(error)]).collect()

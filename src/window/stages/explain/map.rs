@@ -43,7 +43,7 @@ impl Map<'_> {
         );
         let extent = vec2(label + columns * cell.x, HEAD + rows * cell.y);
         let mut clicked = None;
-        ScrollArea::both().id_salt("map").max_height(most.max(60.0)).auto_shrink([false, true]).show(ui, |ui| {
+        ScrollArea::both().id_salt("map").max_height(most.max(HEAD + 24.0)).auto_shrink([false, true]).show(ui, |ui| {
             let (area, response) = ui.allocate_exact_size(extent, Sense::click());
             response.widget_info(|| WidgetInfo::labeled(Role::Image, true, "Error map"));
             let sheet = Sheet { origin: area.min + vec2(label, HEAD), cell };

@@ -16,7 +16,7 @@ mod ranking;
 mod schematic;
 
 use crate::diagnosis::diagnose::Verdict;
-use crate::display::findings::is_detuned;
+use crate::display::findings::{is_detuned, is_stuck};
 use crate::display::format;
 use crate::display::words;
 use crate::display::words::at;
@@ -292,6 +292,9 @@ pub fn mark(document: &Document, explained: &Explained) -> Mark {
     };
     let (error, floor) = (format::in_words(comparison.error), format::percent(comparison.noise_floor));
     match explained.diagnosis(document) {
+        Some(Ok(d)) if is_stuck(d) => {
+            Mark::attention(&format!("Error {error}, noise floor {floor}: nothing known here explains what is left."))
+        }
         Some(Ok(d)) if is_detuned(d) => {
             Mark::attention(&format!("The model is detuned: error {error}, noise floor {floor}. No effect is missing."))
         }

@@ -7,6 +7,7 @@ use super::{Deed, Scene, card, cards, ledger};
 use crate::diagnosis::Comparison;
 use crate::display::format::in_words;
 use crate::effects::{Source, State};
+use crate::identify::{Estimate, Outcome};
 use crate::plots::error_map::{ENERGY, Grid, Scale};
 use crate::plots::response_curve::Curve;
 use crate::plots::samples;
@@ -71,7 +72,11 @@ pub fn error_map(ui: &mut Ui, app: &mut App, asks: &mut Vec<Ask>) {
     let previewed = shown.tried().unwrap_or(shown.comparison);
     let grid = Grid::new(previewed, look.worst_first);
     let scale = Scale::new(scene.explained.ledger.least_floor(), scene.explained.ledger.worst());
-    let worst_first = head(ui, &scene, look.worst_first, previewed, asks);
+    let worst_first = head(ui, look.worst_first, previewed);
+    let outcome = app.derived.known_outcome(document).and_then(|o| o.as_ref().ok());
+    if shown.trial.is_none() {
+        not_taken_over(ui, &scene, outcome.map(Arc::as_ref), asks);
+    }
     if let Some((source, tried)) = shown.trial {
         preview(ui, &scene, source, shown.comparison, tried, asks);
     }
@@ -95,16 +100,30 @@ pub fn error_map(ui: &mut Ui, app: &mut App, asks: &mut Vec<Ask>) {
     app.view.explain.worst_first = worst_first;
 }
 
+/// How many times the noise floor an error may be that is no more than noise.
+const AT_FLOOR: f64 = 1.2;
+
+/// `frequency, level and place`.
+fn listed(words: &[&str]) -> String {
+    match words {
+        [] => String::new(),
+        [one] => (*one).to_owned(),
+        [rest @ .., last] => format!("{} and {last}", rest.join(", ")),
+    }
+}
+
 /// Whether what is left over depends on anything, in one sentence.
 fn left_over(comparison: &Comparison) -> String {
     /// Probability below which noise alone is not believed.
     const RARE: f64 = 0.01;
     let on: Vec<&str> = comparison.whiteness.iter().filter(|w| w.probability < RARE).map(|w| w.of.word()).collect();
+    // An error at the floor is explained, even where many runs make a faint trend in it certain.
+    let faint = comparison.error <= AT_FLOOR * comparison.noise_floor;
     match &on[..] {
         _ if comparison.whiteness.is_empty() => String::new(),
         [] => "What is left looks like noise: it depends on nothing.".to_owned(),
-        [one] => format!("What is left depends on {one}: it is not noise."),
-        [rest @ .., last] => format!("What is left depends on {} and {last}: it is not noise.", rest.join(", ")),
+        _ if faint => format!("What is left is as small as the noise; a faint trend with {} is in it.", listed(&on)),
+        on => format!("What is left depends on {}: it is not noise.", listed(on)),
     }
 }
 
@@ -156,7 +175,7 @@ pub fn way(ui: &mut Ui, app: &App, asks: &mut Vec<Ask>) {
 }
 
 /// Title and order of the map; gives back whether the worst stands first.
-fn head(ui: &mut Ui, scene: &Scene<'_>, worst_first: bool, comparison: &Comparison, asks: &mut Vec<Ask>) -> bool {
+fn head(ui: &mut Ui, worst_first: bool, comparison: &Comparison) -> bool {
     let mut order = worst_first;
     ui.horizontal(|ui| {
         let text = format!(
@@ -177,22 +196,27 @@ fn head(ui: &mut Ui, scene: &Scene<'_>, worst_first: bool, comparison: &Comparis
             });
         });
     });
-    let p = &scene.document.project;
-    let known = p.sources.iter().any(|s| s.state == State::Known);
-    let sought = p.sources.iter().any(|s| matches!(s.state, State::Candidate | State::Forced));
-    if !known && sought {
-        ui.horizontal_wrapped(|ui| {
-            ui.label(
-                RichText::new("The model has no damping yet: only known sources act in it.")
-                    .color(ui.palette().warning),
-            );
-            let tip = "Makes the identified sources known at their values.";
-            if ui.button("Take over what was identified").on_hover_text(tip).clicked() {
-                asks.push(Ask::Explain(Deed::TakeOver));
-            }
-        });
-    }
     order
+}
+
+/// What was identified but does not act in the model yet, with the button that takes it over.
+fn not_taken_over(ui: &mut Ui, scene: &Scene<'_>, outcome: Option<&Outcome>, asks: &mut Vec<Ask>) {
+    let sources = &scene.document.project.sources;
+    let sought = |s: &Source| matches!(s.state, State::Candidate | State::Forced);
+    let found = |e: &Estimate| e.coefficient > 0.0 && sources.get(e.source).is_some_and(sought);
+    if !outcome.is_some_and(|o| o.sources.iter().any(found)) {
+        return;
+    }
+    let known = sources.iter().any(|s| s.state == State::Known);
+    let said =
+        if known { "What was identified does not act in the model yet." } else { "The model has no damping yet." };
+    ui.horizontal_wrapped(|ui| {
+        ui.label(RichText::new(said).color(ui.palette().warning)).on_hover_text("Only known sources act in the model.");
+        let tip = "Makes the identified sources known at their values.";
+        if ui.button("Take over what was identified").on_hover_text(tip).clicked() {
+            asks.push(Ask::Explain(Deed::TakeOver));
+        }
+    });
 }
 
 /// The line that says that what is shown is not so.
