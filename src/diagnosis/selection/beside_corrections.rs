@@ -1,5 +1,6 @@
 //! The search with updating parameters free beside effects: corrections alone, one change in place of many corrections, laws.
 
+use super::single_change::is_like_a_correction;
 use crate::diagnosis::channels::ChannelFault;
 use crate::diagnosis::residual::data::DiagnosisError;
 use crate::diagnosis::residual::prediction::FINAL;
@@ -10,8 +11,7 @@ use crate::diagnosis::selection::left_out::{exceeds, groups};
 use crate::diagnosis::selection::search::{Base, scale_of};
 use crate::diagnosis::selection::weighing::{Weighed, weighed};
 use crate::diagnosis::updating::detuning::is_likely;
-use crate::diagnosis::updating::parameters::UpdatingParameter;
-use crate::effects::{Effect, Kind, Source};
+use crate::effects::Kind;
 
 /// The same beside corrections, whose freedom has its cost already: having been chosen among some thousand.
 const CHOSEN: f64 = 16.0;
@@ -60,6 +60,7 @@ pub(super) fn beside_updating(
     let mut first = Some(first);
     let (mut likely, mut least) = bare.roughly();
     let mut told_alone = false;
+    let by_modes = bare.linearisation.updating.is_by_modes();
     while found.rungs.len() < MOST_EFFECTS && (found.rungs.is_empty() || !here.control.is_late()) {
         let from = found.rungs.last().map(|rung| rung.refits[0].clone());
         let fits = match (&from, first.take()) {
@@ -79,7 +80,7 @@ pub(super) fn beside_updating(
         let Some(weighed) = weighed(fits)? else { break };
         let best = &weighed.refits[0];
         let scale = scale_of(&weighed.refits, weighed.base.count());
-        let doubtful = best.effects.iter().any(like_a_correction) || scale > DOUBTFUL;
+        let doubtful = best.effects.iter().any(|e| is_like_a_correction(e.effect)) || scale > DOUBTFUL;
         if from.is_none() && (bare.misfit() < RIVALLED * scale || doubtful) {
             (likely, least) = alone(&bare, &weighed)?;
             told_alone = true;
@@ -87,7 +88,7 @@ pub(super) fn beside_updating(
         // What only lowers the error because every run has a stiffness of its own is nothing that could be added.
         let raises = best.error > stated;
         let known = best.parameters < weighed.base.count();
-        if raises || !known || (least - weighed.least) / scale < evidence_needed(&weighed.base, best) {
+        if raises || !known || (least - weighed.least) / scale < evidence_needed(best, by_modes) {
             break;
         }
         if (told_alone || from.is_some()) && !predicts_better(&weighed, (&likely, from.as_ref()))? {
@@ -129,22 +130,17 @@ fn alone<'a>(bare: &Base<'a>, weighed: &Weighed<'a>) -> Result<(Base<'a>, f64), 
 fn predicts_better(weighed: &Weighed, (likely, before): (&Base, Option<&Refit>)) -> Result<bool, DiagnosisError> {
     let best = &weighed.refits[0];
     let channel = best.effects.last().is_some_and(|e| matches!(e.effect.kind(), Kind::Channel(_)));
-    if channel || is_single_change(best) {
+    let by_modes = weighed.base.linearisation.updating.is_by_modes();
+    if channel || (is_single_change(best) && !by_modes) {
         return Ok(true);
     }
     let groups = groups(likely.data);
     Ok(exceeds(&weighed.base.left_out(Some(best), &groups)?, &likely.left_out(before, &groups)?))
 }
 
-fn like_a_correction(source: &Source) -> bool {
-    matches!(source.effect, Effect::Stiffness | Effect::Mass)
-}
-
 /// Evidence that the last effect of a fit must bring beside `likely`, the model with corrections and the effects before it.
-fn evidence_needed(base: &Base, refit: &Refit) -> f64 {
-    let by_modes = base.linearisation.updating.parameters.iter().any(UpdatingParameter::is_of_mode);
+fn evidence_needed(refit: &Refit, by_modes: bool) -> f64 {
     match refit.effects.len() {
-        // Corrections of modes do not stand for errors of one part: a spring or mass may be one.
         1 if is_single_change(refit) && by_modes => FURTHER,
         1 if is_single_change(refit) => CHANGED,
         1 => CHOSEN,
@@ -154,7 +150,7 @@ fn evidence_needed(base: &Base, refit: &Refit) -> f64 {
 
 /// Whether a fit is one spring or mass, which corrections can stand for.
 fn is_single_change(refit: &Refit) -> bool {
-    matches!(refit.effects.as_slice(), [only] if like_a_correction(only))
+    matches!(refit.effects.as_slice(), [only] if is_like_a_correction(only.effect))
 }
 
 /// Drops effects that the last set of a search no longer needs, now that the others are there.

@@ -92,11 +92,13 @@ impl<'a> Base<'a> {
         let [responses, forces] = self.data.channel_names();
         // One of several forces acts through a response of its own.
         let read = |name: &String| responses.len() > 1 && responses.contains(name) || forces == [name.clone()];
+        let by_modes = self.linearisation.updating.is_by_modes();
         let mut units = Vec::new();
         for effect in Effect::ALL.into_iter().filter(|e| e.is_linear() && e.parameters().len() == 1) {
             let unit = |place: Place| Source { effect, place, state: State::Known, parameters: vec![1.0] };
             let at = |place: &&Place| match (effect.kind(), place) {
-                (Kind::Relative(_), Place::Dofs(_)) => true,
+                // Corrections of modes do not stand for errors of one part: a spring or mass may be one.
+                (Kind::Relative(_), Place::Dofs(_)) => !(by_modes && is_like_a_correction(effect)),
                 (Kind::Channel(law), Place::Channel(name)) => {
                     read(name) && (responses.contains(name) || law.neutral() != 0.0)
                 }
@@ -134,6 +136,11 @@ impl<'a> Base<'a> {
         }
         rows
     }
+}
+
+/// Whether an effect adds to what corrections multiply.
+pub(super) fn is_like_a_correction(effect: Effect) -> bool {
+    matches!(effect, Effect::Stiffness | Effect::Mass)
 }
 
 /// The effect with what a fit gives beyond none, of a channel that multiplies in the logarithm; none where that is no more than

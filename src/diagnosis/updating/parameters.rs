@@ -127,11 +127,6 @@ impl UpdatingParameter {
         matches!(self, Self::Structure(_) | Self::Known(_) | Self::Session(_))
     }
 
-    /// Whether it corrects a mode rather than a part.
-    pub fn is_of_mode(&self) -> bool {
-        matches!(self, Self::Structure(Part::Mode(_)) | Self::Shape { .. })
-    }
-
     /// Whether it corrects what the model states, rather than telling how tests differ.
     pub fn is_stated(&self) -> bool {
         matches!(self, Self::Structure(_) | Self::Known(_))
@@ -220,6 +215,11 @@ impl Updating {
     /// Number of parameters.
     pub fn len(&self) -> usize {
         self.parameters.len()
+    }
+
+    /// Whether modes are corrected, for want of parts that are known.
+    pub fn is_by_modes(&self) -> bool {
+        self.parameters.iter().any(|p| matches!(p, UpdatingParameter::Structure(Part::Mode(_))))
     }
 
     /// Whether nothing may be updated.
