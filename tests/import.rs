@@ -7,6 +7,8 @@ mod bad;
 mod dialects;
 #[path = "import/files.rs"]
 mod files;
+#[path = "import/laboratories.rs"]
+mod laboratories;
 #[path = "import/mapped.rs"]
 mod mapped;
 #[path = "import/sets.rs"]

@@ -250,7 +250,7 @@ def _(p):
     scipy.io.savemat(p, {"FrequencyResponse": one})
 
 
-@case("idfrd.mat")
+@case("idfrd.mat", ["--form", "receptance"])
 def _(p):
     scipy.io.savemat(p, {"sys": {"Frequency": FREQ, "FrequencyUnit": "Hz", "ResponseData": RECEPTANCE.reshape(1, 1, -1), "InputName": np.array(["force@1"], dtype=object),
                                  "OutputName": np.array(["disp@1"], dtype=object)}}, oned_as="column")

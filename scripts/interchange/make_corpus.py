@@ -185,6 +185,22 @@ def mats():
     hdf5storage.savemat(str(OUT / "v73.mat"), {"t": TIME.reshape(-1, 1), "x": np.stack([FORCE, ODD], axis=1), "H": FRF.reshape(-1, 1), "fs": 1000.0, "note": "text",
                                                "run": {"x": ODD.reshape(-1, 1), "dt": 0.002}}, format="7.3")
     expect("v73.mat", "mat", [("", "x[1]", "", STEP, FORCE), ("", "x[2]", "", STEP, ODD), ("", "H", "", STEP, FRF), ("run", "x", "", 0.002, ODD)])
+    v73_structs()
+
+
+def v73_structs():
+    """An array of structs as MATLAB 7.3 keeps it: a data set of references a field."""
+    with h5py.File(OUT / "v73-structs.mat", "w", userblock_size=512) as file:
+        refs, top = file.create_group("#refs#"), file.create_group("r")
+        top.attrs["MATLAB_class"] = np.bytes_("struct")
+        for field, both in [("x", (FORCE, ODD)), ("dt", (STEP, STEP))]:
+            made = [refs.create_dataset(f"{field}{i}", data=np.atleast_2d(v)) for i, v in enumerate(both)]
+            for data in made:
+                data.attrs["MATLAB_class"] = np.bytes_("double")
+            top.create_dataset(field, data=np.array([[data.ref for data in made]], dtype=h5py.ref_dtype).T, dtype=h5py.ref_dtype)
+    with open(OUT / "v73-structs.mat", "r+b") as file:
+        file.write(b"MATLAB 7.3 MAT-file, Platform: PCWIN64 HDF5 schema 1.00 .".ljust(116) + b" " * 8 + struct.pack("<H", 0x0200) + b"IM")
+    expect("v73-structs.mat", "mat", [("r/(1)", "x", "", STEP, FORCE), ("r/(2)", "x", "", STEP, ODD)])
 
 
 def hdf5s():

@@ -464,7 +464,7 @@ def _(p):
         data.attrs["units"] = ["s", "N", "m/s^2"]
 
 
-@case("compound.h5", (), LINE)
+@case("compound.h5")
 def _(p):
     rows = np.zeros(N, dtype=[("time", "f8"), ("force", "f4"), ("acc", "f8")])
     rows["time"], rows["force"], rows["acc"] = T, FORCE, ACC

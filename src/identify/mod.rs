@@ -11,6 +11,7 @@ pub mod change;
 mod collinear;
 mod describe;
 pub mod error;
+mod exchange;
 mod finish;
 mod found;
 mod layouts;

@@ -137,6 +137,6 @@ fn common(state: &State) -> u64 {
 fn run_key(table: &RunTable, common: u64) -> Key {
     let mut hasher = DefaultHasher::new();
     let part = [table.frequency, table.start_s, table.end_s, table.sampling_hz];
-    (common, &table.set, part.map(|value| value.map(f64::to_bits))).hash(&mut hasher);
+    (common, &table.set, &table.sets, part.map(|value| value.map(f64::to_bits))).hash(&mut hasher);
     (table.file.clone(), hasher.finish())
 }

@@ -7,8 +7,8 @@ use std::f64::consts::TAU;
 use std::path::Path;
 
 const M: f64 = 2.0;
-const C: f64 = 8.0;
-const G: f64 = 9.806_65;
+pub(super) const C: f64 = 8.0;
+pub(super) const G: f64 = 9.806_65;
 
 /// Receptance, m/N: real and imaginary part.
 fn receptance(frequency_hz: f64) -> [f64; 2] {
@@ -19,7 +19,7 @@ fn receptance(frequency_hz: f64) -> [f64; 2] {
 }
 
 /// Time, force, displacement and acceleration of sample `i` at 1 kHz.
-fn sample(i: usize) -> [f64; 4] {
+pub(super) fn sample(i: usize) -> [f64; 4] {
     let (t, [re, im]) = (i as f64 / 1000.0, receptance(20.0));
     let (omega, phase) = (TAU * 20.0, TAU * 20.0 * t);
     let x = 5.0 * (re * phase.cos() - im * phase.sin());
@@ -27,12 +27,12 @@ fn sample(i: usize) -> [f64; 4] {
 }
 
 /// Rows of a table.
-fn rows(row: impl Fn([f64; 4]) -> String) -> String {
+pub(super) fn rows(row: impl Fn([f64; 4]) -> String) -> String {
     (0..700).map(|i| row(sample(i)) + "\n").collect()
 }
 
 /// Accelerance over frequency, row by row.
-fn lines(row: impl Fn(f64, [f64; 2]) -> String) -> String {
+pub(super) fn lines(row: impl Fn(f64, [f64; 2]) -> String) -> String {
     let line = |i: i32| {
         let f = 5.0 + 0.25 * f64::from(i);
         row(f, receptance(f).map(|part| -part * (TAU * f).powi(2))) + "\n"
@@ -41,13 +41,13 @@ fn lines(row: impl Fn(f64, [f64; 2]) -> String) -> String {
 }
 
 /// The coefficient that `identify` finds in a project.
-fn coefficient(folder: &Path) -> f64 {
+pub(super) fn coefficient(folder: &Path) -> f64 {
     let identified = json(&["identify", "--json", &folder.join("project.toml").display().to_string()]);
     assert_eq!(identified["sources"].as_array().unwrap().len(), 1, "{identified}");
     identified["sources"][0]["parameters"]["c"].as_f64().unwrap()
 }
 
-fn right(text: &str, more: &[&str]) -> (String, String) {
+pub(super) fn right(text: &str, more: &[&str]) -> (String, String) {
     let folder = tempfile::tempdir().unwrap();
     let made = imported(folder.path(), "test.csv", text, more);
     let c = coefficient(folder.path());

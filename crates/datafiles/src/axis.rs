@@ -27,6 +27,15 @@ pub(crate) fn ascending(values: &[f64]) -> bool {
     values.windows(2).all(|pair| pair[1] >= pair[0]) && values.iter().all(|value| value.is_finite())
 }
 
+/// The unit of times that count from 1970 (2001 to 2099) by their size, where they are not in seconds.
+pub(crate) fn unit_since_1970(first: f64) -> Option<&'static str> {
+    let seconds = 978_307_200.0..4_102_444_800.0;
+    [("ms", 1e3), ("us", 1e6), ("ns", 1e9)]
+        .into_iter()
+        .find(|(_, scale)| seconds.contains(&(first / scale)))
+        .map(|(unit, _)| unit)
+}
+
 /// Time or frequency by the name or the unit of a column.
 pub(crate) fn kind_of(name: &str, unit: &str) -> Option<Kind> {
     let name = name.trim().to_lowercase();
@@ -47,7 +56,8 @@ pub(crate) fn kind_of(name: &str, unit: &str) -> Option<Kind> {
     if timed.iter().any(|start| word.starts_with(start)) || name == "t" || name == "x_value" || name == "t_s" {
         return Some(Kind::Time);
     }
-    let second = matches!(unit.as_str(), "s" | "sec" | "secs" | "second" | "seconds" | "ms" | "us" | "µs" | "min");
+    let second =
+        matches!(unit.as_str(), "s" | "sec" | "secs" | "second" | "seconds" | "ms" | "us" | "µs" | "ns" | "min");
     (second && (name.is_empty() || word == "x" || word == "t")).then_some(Kind::Time)
 }
 
@@ -65,6 +75,12 @@ mod tests {
         );
         assert_eq!(even_step(&[0.0, 0.1, 0.3]), None);
         assert_eq!(even_step(&[1.0]), None);
+    }
+
+    #[test]
+    fn times_since_1970_show_their_unit() {
+        let of = |first: f64| unit_since_1970(first).unwrap_or("s");
+        assert_eq!([1.7e9, 1.7e12, 1.7e15, 1.7e18, 0.0, 5e4].map(of), ["s", "ms", "us", "ns", "s", "s"]);
     }
 
     #[test]

@@ -5,10 +5,14 @@ use crate::detect;
 use crate::error::{Error, Fault, Read};
 use crate::guard::guarded;
 use crate::parts::{self, Pairing};
+use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
 /// Most values of one channel that are read into memory: 4 GiB of real numbers.
 pub(crate) const MOST_VALUES: u64 = 1 << 29;
+
+/// Most notes of a set.
+const MOST_NOTES: usize = 64;
 
 /// Values of a channel.
 #[derive(Debug, Clone, PartialEq)]
@@ -83,8 +87,35 @@ fn opened(path: &Path, join: impl FnOnce(Contents, Box<dyn Source>) -> Read<Tree
         let (contents, source) = parts::among_channels(contents, source)?;
         join(contents, source)
     });
-    let (contents, source) = opened.map_err(|fault| fault.of(&name))?;
+    let (mut contents, source) = opened.map_err(|fault| fault.of(&name))?;
+    tell_apart(&mut contents);
     Ok(DataFile { path: path.to_owned(), contents, source })
+}
+
+/// Channels of one set that have the same name are numbered from the second on: `Acc`, `Acc (2)`.
+fn tell_apart(contents: &mut Contents) {
+    for set in &mut contents.sets {
+        let mut seen: HashMap<String, usize> = set.channels.iter().map(|channel| (channel.name.clone(), 0)).collect();
+        if seen.len() == set.channels.len() {
+            continue;
+        }
+        for channel in &mut set.channels {
+            let Some(count) = seen.get_mut(&channel.name) else { continue };
+            *count += 1;
+            let mut number = *count;
+            while number > 1 && seen.contains_key(&format!("{} ({number})", channel.name)) {
+                number += 1;
+            }
+            if number > 1 {
+                let again = format!("{} ({number})", channel.name);
+                set.notes
+                    .push(format!("\"{}\" stands twice in the file: the second is called \"{again}\"", channel.name));
+                seen.insert(again.clone(), 1);
+                channel.name = again;
+            }
+        }
+        set.notes.truncate(MOST_NOTES);
+    }
 }
 
 impl DataFile {

@@ -219,6 +219,9 @@ pub fn split(text: &str) -> (String, String) {
 const MEASURED: &[&str] = &[
     "t",
     "time",
+    "timestamp",
+    "epoch",
+    "elapsed",
     "zeit",
     "f",
     "freq",
@@ -251,7 +254,7 @@ const MEASURED: &[&str] = &[
 /// Units behind a name of time, force or motion in its last parts: `acc_mg`, `force_N`, `acceleration_m_s2`: the name without
 /// the unit, and the unit.
 pub fn suffix(name: &str) -> Option<(&str, &'static str)> {
-    const ENDS: [(&str, &str); 25] = [
+    const ENDS: [(&str, &str); 26] = [
         ("_m_s2", "m/s^2"),
         ("_mm_s2", "mm/s^2"),
         ("_m_s_2", "m/s^2"),
@@ -273,6 +276,7 @@ pub fn suffix(name: &str) -> Option<(&str, &'static str)> {
         ("_in", "in"),
         ("_ms", "ms"),
         ("_us", "us"),
+        ("_ns", "ns"),
         ("_s", "s"),
         ("_sec", "s"),
         ("_mV", "mV"),

@@ -36,6 +36,8 @@ struct Looks {
 struct RunSource {
     file: PathBuf,
     set: Option<String>,
+    /// Its sets where every channel is one of its own.
+    sets: Vec<String>,
 }
 
 /// The project of records by their mapping.
@@ -97,13 +99,28 @@ fn sources(request: &Request, mapping: &Proposal) -> Result<Vec<RunSource>> {
     let mut sources = Vec::new();
     for file in &request.files {
         let sets = runs_of(open(file)?.contents(), &mapping.channels);
-        let part = |set| RunSource { file: file.clone(), set };
+        let part = |set| RunSource { file: file.clone(), set, sets: Vec::new() };
         match sets.len() {
             0 | 1 => sources.push(part(None)),
             _ => sources.extend(sets.into_iter().map(|set| part(Some(set)))),
         }
+        for sets in further_runs(request, mapping, file)? {
+            sources.push(RunSource { file: file.clone(), set: None, sets });
+        }
     }
     Ok(sources)
+}
+
+/// The sets of further runs of a file, where its own mapping is that of all files.
+fn further_runs(request: &Request, mapping: &Proposal, file: &Path) -> Result<Vec<Vec<String>>> {
+    if request.files.first().is_some_and(|first| first == file) && request.channels.is_none() {
+        return Ok(mapping.further_runs.clone());
+    }
+    let own = propose(open(file)?.contents());
+    let place = |table: &ChannelTable| (table.name.clone(), table.set.clone(), table.channel());
+    let alike = own.channels.len() == mapping.channels.len()
+        && own.channels.iter().zip(&mapping.channels).all(|(own, table)| place(own) == place(table));
+    Ok(if alike { own.further_runs } else { Vec::new() })
 }
 
 /// Every record by the mapping, and what it looks like.
@@ -227,6 +244,10 @@ fn run_table(request: &Request, source: &RunSource, out: &Path) -> Result<String
     if let Some(set) = &source.set {
         text.push_str(&format!("set = {}\n", quoted(set)));
     }
+    if !source.sets.is_empty() {
+        let sets: Vec<String> = source.sets.iter().map(|set| quoted(set)).collect();
+        text.push_str(&format!("sets = [{}]\n", sets.join(", ")));
+    }
     if let Some(rate) = request.sampling_hz {
         text.push_str(&format!("sampling_hz = {rate:?}\n"));
     }
@@ -298,7 +319,8 @@ fn summary(
         text.push_str(&format!("not mapped: \"{name}\" ({why})\n"));
     }
     for (source, (_, looks)) in sources.iter().zip(looks) {
-        let set = source.set.as_ref().map_or_else(String::new, |set| format!(", set \"{set}\""));
+        let set = source.set.as_ref().or(source.sets.first());
+        let set = set.map_or_else(String::new, |set| format!(", set \"{set}\""));
         text.push_str(&format!("{}{set}: {}: {}\n", source.file.display(), looks.kind.name(), looks.reason));
     }
     let steady = looks.iter().any(|(_, looks)| looks.kind == Kind::Steady);

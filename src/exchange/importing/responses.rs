@@ -117,7 +117,10 @@ fn said(request: &Request) -> Result<Said> {
 }
 
 fn project(request: &Request, out: &Path) -> Result<Found> {
-    let Said { count, highest_hz, points, measured, assumed } = said(request)?;
+    let Said { count, highest_hz, points, measured, mut assumed } = said(request)?;
+    assumed.extend(nowhere(request, &points).map(|name| {
+        format!("the file says no place of its reference {name}: it is taken to act at the first response; correct it under [frf.dofs]")
+    }));
     let (labels, dofs) = labelled(request, &points)?;
     let up_to = if highest_hz > 0.0 { 2.0 * highest_hz } else { 2000.0 };
     let head = head(request, out, &points_structure(&labels), up_to)?;
@@ -136,11 +139,12 @@ fn labelled(request: &Request, points: &[(String, Point)]) -> Result<(Vec<String
     let own: Vec<String> = points.iter().map(|(_, point)| format!("{}{}", point.node, point.direction)).collect();
     let (mut labels, names): (Vec<String>, Vec<&String>) = match model(request)? {
         Some(model) => {
-            let unsaid = points.iter().filter(|(name, _)| template_label(request, name).is_none());
+            let unsaid = points.iter().filter(|(name, _)| template_label(request, name).is_none() && !is_nowhere(name));
             let wanted: Vec<Point> = unsaid.map(|(_, point)| point.clone()).collect();
             let mut found = places(&wanted, &model)?.into_iter();
             let label = |(name, _): &(String, Point)| match template_label(request, name) {
                 Some(_) => String::new(),
+                None if is_nowhere(name) => String::new(),
                 None => found.next().unwrap_or_default(),
             };
             (points.iter().map(label).collect(), own.iter().collect())
@@ -153,6 +157,13 @@ fn labelled(request: &Request, points: &[(String, Point)]) -> Result<(Vec<String
             said.trim_start_matches('-').clone_into(label);
         }
     }
+    let first = labels.iter().zip(points).find(|(_, (name, _))| !is_nowhere(name)).map(|(label, _)| label.clone());
+    if let Some(first) = first {
+        let unplaced: Vec<&String> = nowhere(request, points).collect();
+        for (label, _) in labels.iter_mut().zip(points).filter(|(_, (name, _))| unplaced.contains(&name)) {
+            label.clone_from(&first);
+        }
+    }
     let other = labels.iter().zip(names).zip(points).filter(|((label, name), _)| label != name);
     let dofs = other.map(|((label, _), (name, _))| (name.clone(), label.clone())).collect();
     let mut once: Vec<String> = Vec::new();
@@ -162,6 +173,16 @@ fn labelled(request: &Request, points: &[(String, Point)]) -> Result<(Vec<String
         }
     }
     Ok((once, dofs))
+}
+
+/// Whether a DOF of a file is none: node 0, as scanning vibrometers call the channel of the force.
+fn is_nowhere(name: &str) -> bool {
+    name == "0:S"
+}
+
+/// DOFs of the files that are none and that no template places.
+fn nowhere<'a>(request: &'a Request, points: &'a [(String, Point)]) -> impl Iterator<Item = &'a String> {
+    points.iter().map(|(name, _)| name).filter(|name| is_nowhere(name) && template_label(request, name).is_none())
 }
 
 /// The label that a template gives a DOF, `-` in front of it where it is reversed.
@@ -304,6 +325,14 @@ fn of_template(template: &FrfTable) -> String {
 /// Names of response and reference of a function. Universal Files state them; elsewhere the name of the channel may.
 fn pair(file: &DataFile, channel: &Channel) -> Option<[String; 2]> {
     match (channel.attribute("response"), channel.attribute("reference")) {
+        // Node 0 is no point: its entity alone is there, or nothing.
+        (Some(response), reference)
+            if file.contents().format == Format::Uff
+                && response.contains(':')
+                && reference.is_none_or(|reference| !reference.contains(':')) =>
+        {
+            Some([response.to_owned(), "0:S".to_owned()])
+        }
         (Some(response), Some(reference)) => Some([response.to_owned(), reference.to_owned()]),
         _ if file.contents().format == Format::Uff => None,
         _ => pair_in_name(&channel.name),

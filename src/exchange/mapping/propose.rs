@@ -27,6 +27,8 @@ pub struct Proposal {
     pub left: Vec<(String, String)>,
     /// Whether the file does not say the time between samples.
     pub needs_sampling: bool,
+    /// Further runs of a file in which every data set is one channel: their sets, one a mapped channel in their order.
+    pub further_runs: Vec<Vec<String>>,
 }
 
 /// A channel on its way into the mapping.
@@ -68,7 +70,8 @@ pub fn propose(contents: &Contents) -> Proposal {
         }
     }
     let drafts = proposal.of_one_length(drafts);
-    proposal.number(drafts);
+    let again = proposal.number(drafts);
+    proposal.take_further_runs(again);
     proposal
 }
 
@@ -110,7 +113,8 @@ impl Proposal {
     }
 
     /// Gives channels without a place the next number: motions in their order, forces that of the first motion.
-    fn number(&mut self, mut drafts: Vec<Draft<'_>>) {
+    /// Returns those whose place is taken by a channel of the same name.
+    fn number<'a>(&mut self, mut drafts: Vec<Draft<'a>>) -> Vec<Draft<'a>> {
         let mut taken: Vec<String> = drafts.iter().filter(|d| d.placed).map(|d| d.table.dof.clone()).collect();
         let is_motion = |draft: &&mut Draft<'_>| !matches!(draft.table.quantity, Quantity::Force | Quantity::Base);
         for draft in drafts.iter_mut().filter(is_motion).filter(|draft| !draft.placed) {
@@ -126,20 +130,39 @@ impl Proposal {
             draft.table.dof.clone_from(&first);
             draft.assumed.push(format!("the file says no DOF: it is taken to act at DOF {first}"));
         }
-        for draft in drafts {
-            self.take(draft);
+        drafts.into_iter().filter_map(|draft| self.take(draft)).collect()
+    }
+
+    /// Runs that repeat every mapped channel in sets further behind, as Universal Files hold one run after the other.
+    fn take_further_runs(&mut self, again: Vec<Draft<'_>>) {
+        let same = |table: &ChannelTable, draft: &Draft<'_>| {
+            table.channel() == draft.table.channel() && table.name == draft.table.name && table.unit == draft.table.unit
+        };
+        let sets_of = |table: &ChannelTable| -> Vec<String> {
+            again.iter().filter(|draft| same(table, draft)).filter_map(|draft| draft.table.set.clone()).collect()
+        };
+        let sets: Vec<Vec<String>> = self.channels.iter().map(sets_of).collect();
+        let runs = sets.iter().map(Vec::len).min().unwrap_or(0);
+        if runs > 0 && self.uncalibrated.is_empty() && sets.iter().all(|own| own.len() == runs) {
+            self.further_runs = (0..runs).map(|run| sets.iter().map(|own| own[run].clone()).collect()).collect();
+            return;
+        }
+        for draft in again {
+            let name = draft.table.channel();
+            self.leave(draft.channel, &format!("{name} is proposed for another channel already"));
         }
     }
 
-    fn take(&mut self, draft: Draft<'_>) {
+    /// Takes a channel into the mapping; returns it where its place there is taken.
+    fn take<'a>(&mut self, draft: Draft<'a>) -> Option<Draft<'a>> {
         let name = draft.table.channel();
         if self.channels.iter().chain(&self.uncalibrated).any(|other| other.channel() == name) {
-            self.leave(draft.channel, &format!("{name} is proposed for another channel already"));
-            return;
+            return Some(draft);
         }
         self.needs_sampling |= draft.channel.axis == Axis::None;
         self.assumed.extend(draft.assumed.into_iter().map(|what| (name.clone(), what)));
         if draft.calibrated { &mut self.channels } else { &mut self.uncalibrated }.push(draft.table);
+        None
     }
 }
 
@@ -198,6 +221,10 @@ fn draft(channel: &Channel, set: Option<String>, moved: bool) -> Result<Draft<'_
         return Ok(Draft { channel, table, placed: place.is_some(), calibrated: false, assumed });
     };
     let mut draft = of(ChannelTable { sign, ..table(channel, set, quantity, label) }, place.is_some());
+    if let Some(scale) = channel.attribute("scale beside").and_then(|scale| scale.parse().ok()) {
+        draft.table.factor = Some(scale);
+        draft.assumed.push(format!("its whole numbers are taken times the scale beside them, {scale}"));
+    }
     if turned {
         draft.table.unit = Some("rad".to_owned());
         draft.assumed.push("by its name an angle; the file says no unit: rad is assumed".to_owned());

@@ -23,6 +23,8 @@ pub(crate) struct Template<'a> {
     pub channels: &'a [ChannelTable],
     /// Set of the run.
     pub set: Option<&'a str>,
+    /// Sets of the run, one a channel in their order; none: those that the channels state.
+    pub sets: &'a [String],
     /// Sampling rate where the file has no time, Hz.
     pub sampling_hz: Option<f64>,
 }
@@ -46,7 +48,7 @@ impl At<'_> {
 /// Whether a file is a record in the project's own form (`time [s]`, `QUANTITY@DOF [UNIT]`) that nothing of the mapping
 /// is meant for. Without a mapping every file is that whose ending is `csv`, or that is no file of another format.
 pub(crate) fn reads_as_own(path: &Path, template: Template<'_>) -> bool {
-    if template.sampling_hz.is_some() || template.set.is_some() {
+    if template.sampling_hz.is_some() || template.set.is_some() || !template.sets.is_empty() {
         return false;
     }
     if template.channels.is_empty() {
@@ -99,7 +101,16 @@ pub(crate) fn read_mapped(
             "no [[channel]] says what its channels measure; `dashpot import FILE --propose` writes them",
         ));
     }
-    let places = channels.iter().map(|table| locate(&file, table, template.set, &at)).collect::<Result<Vec<_>, _>>()?;
+    if !template.sets.is_empty() && template.sets.len() != channels.len() {
+        let (sets, channels) = (template.sets.len(), channels.len());
+        return Err(at.error(
+            None,
+            format!("`sets` of its [[run]] names {sets} sets, one for each of the {channels} [[channel]] is needed"),
+        ));
+    }
+    let set_of = |i: usize| template.sets.get(i).map(String::as_str).or(template.set);
+    let place = |(i, table)| locate(&file, table, set_of(i), &at);
+    let places = channels.iter().enumerate().map(place).collect::<Result<Vec<_>, _>>()?;
     let count = |&(set, channel): &(usize, usize)| file.contents().sets[set].channels[channel].count;
     if let Some(problem) = too_large(places.iter().map(count).sum(), channels.len()) {
         return Err(at.error(None, problem));
@@ -271,6 +282,7 @@ fn times(
         "" | "s" | "sec" | "secs" | "second" | "seconds" => 1.0,
         "ms" => 1e-3,
         "us" | "µs" => 1e-6,
+        "ns" => 1e-9,
         "min" => 60.0,
         "h" => 3600.0,
         other => {

@@ -70,6 +70,8 @@ pub enum TableProblem {
     Outside { row: usize, column: usize, size: usize },
     #[error("entry ({row}, {column}) lies above the diagonal of a symmetric matrix; give the lower triangle only")]
     AboveDiagonal { row: usize, column: usize },
+    #[error("entries ({row}, {column}) and ({column}, {row}) differ; mass and stiffness must be symmetric")]
+    NotSymmetric { row: usize, column: usize },
     #[error("entry ({row}, {column}) is given twice; leave one out")]
     EntryTwice { row: usize, column: usize },
     #[error("\"{text}\" is not a finite number")]

@@ -14,6 +14,11 @@ pub fn parse_market(text: &str, file: &str) -> Result<Mat<f64>, TableError> {
     let mut rest = lines.filter(|(_, line)| !line.is_empty() && !line.starts_with('%'));
     let (at, sizes) = rest.next().ok_or_else(|| TableError::file(file, TableProblem::Empty))?;
     let (n, entries) = size(sizes, coordinate, symmetric).map_err(|problem| TableError::line(file, at, problem))?;
+    // A number and its separator take two bytes: a header alone asks for no memory.
+    if !coordinate && entries > text.len() / 2 + 1 {
+        let found = rest.flat_map(|(_, line)| line.split_whitespace()).count();
+        return Err(TableError::file(file, TableProblem::Count { found, expected: entries }));
+    }
     let mut builder = Builder { matrix: Mat::zeros(n, n), symmetric, seen: vec![false; n * n] };
     let mut cursor = if n == 0 { None } else { Some((0, 0)) };
     let mut found = 0;
@@ -42,7 +47,7 @@ pub fn parse_market(text: &str, file: &str) -> Result<Mat<f64>, TableError> {
 }
 
 /// Whether the file is `coordinate` and whether it is `symmetric`.
-fn banner(line: &str) -> Result<(bool, bool), TableProblem> {
+pub(super) fn banner(line: &str) -> Result<(bool, bool), TableProblem> {
     let lower = line.to_lowercase();
     let words: Vec<&str> = lower.split_whitespace().collect();
     let ["%%matrixmarket", "matrix", layout, field, symmetry] = words[..] else {
@@ -66,6 +71,16 @@ fn banner(line: &str) -> Result<(bool, bool), TableProblem> {
 
 /// Rows of the square matrix, and the number of entries that follow.
 fn size(line: &str, coordinate: bool, symmetric: bool) -> Result<(usize, usize), TableProblem> {
+    size_below(line, coordinate, symmetric, MOST_DOFS)
+}
+
+/// [`size`] with another limit of the number of rows.
+pub(super) fn size_below(
+    line: &str,
+    coordinate: bool,
+    symmetric: bool,
+    most: usize,
+) -> Result<(usize, usize), TableProblem> {
     let expected = if coordinate { "rows, columns and entries" } else { "rows and columns" };
     let bad = || TableProblem::BadSize { expected, found: quote(line) };
     let sizes = line.split_whitespace().map(str::parse).collect::<Result<Vec<usize>, _>>().map_err(|_| bad())?;
@@ -77,8 +92,8 @@ fn size(line: &str, coordinate: bool, symmetric: bool) -> Result<(usize, usize),
     if rows != columns {
         return Err(TableProblem::NotSquare { rows, columns });
     }
-    if rows > MOST_DOFS {
-        return Err(TableProblem::TooLarge { rows, most: MOST_DOFS });
+    if rows > most {
+        return Err(TableProblem::TooLarge { rows, most });
     }
     if rows == 0 {
         return Err(TableProblem::Empty);

@@ -4,6 +4,7 @@ mod deck;
 pub mod error;
 pub mod market;
 pub mod model;
+mod sparse_market;
 pub mod table;
 mod write;
 

@@ -6,6 +6,7 @@
 
 use super::deck::read_deck;
 use super::error::{TableError, TableProblem, read_deck_text as read};
+use super::sparse_market::parse_sparse_market;
 use super::{read_dofs, read_lines, read_matrix, read_nodes};
 use crate::structure::imported::ImportedDof;
 use crate::structure::reduction::SparseSystem;
@@ -175,6 +176,9 @@ fn one(path: &Path, name: Option<&str>, what: &str) -> Result<(Matrix, Geometry)
     let file = path.display().to_string();
     match kind(path) {
         Kind::Plain | Kind::Input => {
+            if let Some(matrix) = sparse(path)? {
+                return Ok((matrix, Geometry::default()));
+            }
             let dense = read_matrix(path)?;
             let n = dense.nrows();
             Ok((plain(&dense, n), Geometry::default()))
@@ -201,6 +205,15 @@ fn one(path: &Path, name: Option<&str>, what: &str) -> Result<(Matrix, Geometry)
             Ok((calculix::read_matrix(&text, &file, &dofs)?, geometry))
         }
     }
+}
+
+/// A Matrix Market file of single entries, whose size is not limited by memory for all.
+fn sparse(path: &Path) -> Result<Option<Matrix>, TableError> {
+    if !begins(path, |text| text.starts_with("%%")) {
+        return Ok(None);
+    }
+    let (text, file) = read(path)?;
+    parse_sparse_market(&text, &file)
 }
 
 /// The lower triangle of a plain matrix; that the upper one is alike is checked where the structure is built.

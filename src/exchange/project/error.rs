@@ -71,6 +71,8 @@ pub enum Problem {
     Empty { table: String, what: &'static str, example: &'static str },
     #[error("`{key}` is there without `{other}`; give both or none")]
     HalfAForce { key: &'static str, other: &'static str },
+    #[error("`set` and `sets` both say where the channels are; leave `set` out")]
+    SetAndSets,
     #[error("a `points` structure has no mass matrix to add a lumped mass to; leave it out or give the matrices")]
     MassOnPoints,
     #[error("law `{law}` is an error of a measuring channel; write it under [[sensor]] with `channel`")]

@@ -244,6 +244,9 @@ pub struct RunTable {
     /// Set of a laboratory file, where it has several with the channels of the mapping.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub set: Option<String>,
+    /// Sets of a laboratory file in which every data set is one channel: one a `[[channel]]`, in their order.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub sets: Vec<String>,
     /// Sampling rate of a laboratory file without time, Hz.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub sampling_hz: Option<f64>,

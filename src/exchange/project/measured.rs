@@ -50,7 +50,7 @@ impl ProjectFile {
     /// # Errors
     /// The name of the first file that is in the project already (of a run: with the same set and the same part).
     pub fn add_measurements(&mut self, tables: MeasurementTables) -> Result<(), String> {
-        let key = |run: &RunTable| (run.file.clone(), run.set.clone(), run.start_s.map(f64::to_bits));
+        let key = |run: &RunTable| (run.file.clone(), run.set.clone(), run.sets.clone(), run.start_s.map(f64::to_bits));
         for run in &tables.run {
             if self.run.iter().any(|other| key(other) == key(run)) {
                 return Err(run.file.clone());

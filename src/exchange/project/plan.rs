@@ -64,6 +64,8 @@ pub struct PlannedRun {
     pub insisted: bool,
     /// Set of a laboratory file.
     pub set: Option<String>,
+    /// Sets of a laboratory file, one a channel of the mapping; none: those that the mapping says.
+    pub sets: Vec<String>,
     /// Sampling rate of a laboratory file without time, Hz.
     pub sampling_hz: Option<f64>,
     /// Force of the recipe, `amplitude_n cos(omega t)`, where it is given.
@@ -195,6 +197,7 @@ fn runs(file: &ProjectFile, structure: &Structure, folder: &Path, at: At<'_>) ->
             enabled: table.enabled != Some(false),
             insisted: table.enabled == Some(true),
             set: table.set.clone(),
+            sets: table.sets.clone(),
             sampling_hz: table.sampling_hz,
             force,
             frequency_shift: table.frequency_shift,
@@ -208,7 +211,10 @@ fn runs(file: &ProjectFile, structure: &Structure, folder: &Path, at: At<'_>) ->
 
 /// Whether both are the same part of the same file.
 fn is_same(run: &PlannedRun, table: &RunTable) -> bool {
-    run.file == table.file && run.set == table.set && run.part == Part { start_s: table.start_s, end_s: table.end_s }
+    run.file == table.file
+        && run.set == table.set
+        && run.sets == table.sets
+        && run.part == Part { start_s: table.start_s, end_s: table.end_s }
 }
 
 fn planned_base(table: &RunTable) -> Option<PlannedBase> {
@@ -281,8 +287,12 @@ impl Plan {
             let problem = if simulated { Problem::NotSimulated { file } } else { Problem::NoRecord { file } };
             return Err(self.run_error(run, "file", problem));
         }
-        let template =
-            Template { channels: &self.file.channel, set: planned.set.as_deref(), sampling_hz: planned.sampling_hz };
+        let template = Template {
+            channels: &self.file.channel,
+            set: planned.set.as_deref(),
+            sets: &planned.sets,
+            sampling_hz: planned.sampling_hz,
+        };
         let read = if reads_as_own(&planned.path, template) {
             read_record_with(&planned.path, &self.structure, control)
         } else {

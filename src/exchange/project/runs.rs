@@ -11,11 +11,12 @@ use crate::measurement::{Kind, Part, Quantity};
 
 type Read<T> = Result<T, ProjectError>;
 
-const RUN: [&str; 18] = [
+const RUN: [&str; 19] = [
     "base",
     "base_m_s2",
     "response",
     "set",
+    "sets",
     "sampling_hz",
     "file",
     "frequency",
@@ -71,11 +72,21 @@ fn run(table: &Table<'_>) -> Read<RunTable> {
         frequency_shift: frequency_shift(table)?,
         excitation: excitation::parse(table)?,
         set: table.text("set")?,
+        sets: sets(table)?,
         sampling_hz,
         base: table.word("base", &AXES, |word| AXES.contains(&word).then(|| word.to_owned()))?,
         base_m_s2: table.number("base_m_s2")?,
         response: base::response(table)?,
     })
+}
+
+/// `sets`: one a `[[channel]]`, in place of `set`.
+fn sets(table: &Table<'_>) -> Read<Vec<String>> {
+    let sets = table.texts("sets")?;
+    if sets.is_some() && table.text("set")?.is_some() {
+        return Err(table.error("sets", Problem::SetAndSets));
+    }
+    Ok(sets.unwrap_or_default())
 }
 
 /// The DOF and the size of a force, which belong together.

@@ -3,6 +3,7 @@
 //! The tree is made of headers and a few values of each data set; chunks that no listing shows are never read.
 
 mod lzf;
+mod structs;
 mod value;
 
 use crate::contents::{Contents, Format};
@@ -115,7 +116,8 @@ impl Walk {
                 continue;
             }
             let name = inner.name().to_owned();
-            let node = Node::Group(self.group(&inner, depth + 1)?);
+            let fields = self.group(&inner, depth + 1)?;
+            let node = Node::Group(if self.matlab { structs::elements(fields) } else { fields });
             let attributes = inner.attributes().map(attributes).unwrap_or_default();
             entries.push(Entry { name, node, attributes });
         }
@@ -164,7 +166,9 @@ impl Walk {
         let node = match (class.as_deref(), dataset.dtype()) {
             _ if empty => Node::Text(vec![String::new()]),
             (Some("char"), _) => text(&dataset).unwrap_or_else(skipped),
-            (Some("cell"), _) => self.cell(&dataset, depth),
+            (Some("cell"), _) => self.cell(&dataset, depth, ["{", "}"]),
+            // A field of an array of structs.
+            (None, Datatype::Reference { .. }) if self.matlab => self.cell(&dataset, depth, ["(", ")"]),
             (Some(class @ ("string" | "table" | "datetime" | "timetable" | "function_handle")), _) => {
                 Node::Skipped(format!("it is an object of MATLAB ({class}); save its numbers as arrays"))
             }
@@ -178,8 +182,8 @@ impl Walk {
         Entry { name, node, attributes }
     }
 
-    /// A cell of MATLAB: references to what is in it.
-    fn cell(&mut self, dataset: &Dataset, depth: usize) -> Node {
+    /// A cell of MATLAB: references to what is in it, each named by its number in brackets.
+    fn cell(&mut self, dataset: &Dataset, depth: usize, [open, close]: [&str; 2]) -> Node {
         if depth > DEEPEST || dataset.num_elements().is_ok_and(|count| count > MOST_TEXTS) {
             return Node::Skipped("the cell is too large or too deep; save its parts alone".to_owned());
         }
@@ -189,7 +193,7 @@ impl Walk {
         let mut entries = Vec::new();
         for (i, reference) in bytes.chunks_exact(8).enumerate() {
             let address = u64::from_le_bytes(reference.try_into().unwrap_or_default());
-            let name = format!("{{{}}}", i + 1);
+            let name = format!("{open}{}{close}", i + 1);
             let entry = match self.references.get(&address).cloned() {
                 Some(Object::Dataset(dataset)) => self.dataset(dataset, depth + 1),
                 Some(Object::Group(group)) => match self.group(&group, depth + 1) {

@@ -111,7 +111,8 @@ pub(super) fn said(name: &str) -> Said {
     };
     let (mut rest, mut core) = (String::new(), String::new());
     let mut found = said.part.is_some();
-    for token in tokens(&name) {
+    said.coherence = numbered_coherence(&name);
+    for token in tokens(&name).into_iter().skip(usize::from(said.coherence)) {
         let word = token.to_lowercase();
         let is = |list: &[&str]| list.contains(&word.as_str());
         let part =
@@ -141,6 +142,14 @@ pub(super) fn said(name: &str) -> Said {
     said.core = core;
     said.rest = tidy(&rest);
     said
+}
+
+/// `C1,2(f)`: the coherence beside `H1,2(f)` of dynamic signal analysers.
+fn numbered_coherence(name: &str) -> bool {
+    let digits = |text: &str| !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit());
+    let Some((from, to)) = name.trim().strip_prefix('C').and_then(|rest| rest.split_once(',')) else { return false };
+    let to = to.split_once('(').map_or(to, |(number, _)| number);
+    digits(from) && digits(to.trim())
 }
 
 /// Takes a unit in brackets out of a name.
@@ -255,6 +264,8 @@ mod tests {
         assert_eq!(said("Phase (rad)").scale.or(said("Phase rad").scale), Some(Scale::Radians));
         assert_eq!(said("FRF (m/s²/N) Mag").unit.as_deref(), Some("m/s²/N"));
         assert!(said("Coherence 7/19").coherence && said("gamma2").coherence && !said("Real").coherence);
+        assert!(said("C1,2(f)").coherence && said("C1,2(f)").core == said("H1,2(f)").core);
+        assert!(!said("Channel 1,2").coherence && !said("CH1").coherence);
         assert_eq!((said("Remark").part, said("Point 3").part), (None, None));
     }
 

@@ -81,7 +81,13 @@ fn parts_below_names(lines: &[HeaderLine], width: usize) -> Option<(HeaderLine, 
     let at = lines.iter().rposition(is_parts).filter(|_| width > 2)?;
     let names = (at.saturating_sub(2)..at).rev().find(|&i| {
         let filled = lines[i].cells.iter().filter(|cell| !cell.is_empty()).count();
-        lines[i].cells.len() > 1 && filled > 1 && !units_row(&lines[i].cells) && lines[i].cells.len() + 2 > width
+        // `Signal:` in front of a text is a label, no name over columns.
+        let labels = lines[i].cells[0].trim_end().ends_with(':');
+        lines[i].cells.len() > 1
+            && filled > 1
+            && !labels
+            && !units_row(&lines[i].cells)
+            && lines[i].cells.len() + 2 > width
     })?;
     let mut parts = lines[at].clone();
     let mut others = lines.to_vec();
@@ -147,7 +153,9 @@ fn rows(lines: &[HeaderLine], width: usize) -> Header {
 
 /// Rows of names and units by their place right above the numbers.
 fn unlabelled(lines: &[HeaderLine], width: usize) -> (Option<usize>, Option<usize>) {
-    let wide = |i: &usize| lines[*i].cells.len() >= width.saturating_sub(width / 4).max(1);
+    // `X-Axis:` in front of its texts is a line of its own, no row over the columns.
+    let labels = |i: usize| width > 1 && lines[i].cells[0].trim_end().ends_with(':');
+    let wide = |i: &usize| lines[*i].cells.len() >= width.saturating_sub(width / 4).max(1) && !labels(*i);
     let Some(last) = (0..lines.len()).rev().find(wide) else { return (None, None) };
     let above = last.checked_sub(1).filter(wide);
     if units_row(&lines[last].cells) {
@@ -194,11 +202,11 @@ fn units_row(cells: &[String]) -> bool {
 }
 
 /// A cell without a comment sign in front.
-fn uncommented(cell: &str) -> &str {
+pub(super) fn uncommented(cell: &str) -> &str {
     cell.trim_start_matches(['#', '%', '!', '/', '*']).trim()
 }
 
-fn label(cell: &str) -> String {
+pub(super) fn label(cell: &str) -> String {
     uncommented(cell).trim_end_matches([':', '=']).trim().to_lowercase()
 }
 

@@ -2,6 +2,7 @@
 
 pub(crate) mod cell;
 mod header;
+mod listed;
 mod sets;
 
 pub(crate) use cell::Cell;
@@ -175,6 +176,11 @@ impl Blocks {
         if self.open.is_none() && self.remark_behind(cells) {
             return self.numbers(line, &cells[..cells.len() - 1]);
         }
+        if self.open.is_none()
+            && let Some(width) = self.words_beside(cells)
+        {
+            return self.numbers(line, &cells[..width]);
+        }
         if self.header.len() >= MOST_HEADER {
             self.header.remove(MOST_HEADER / 2);
             self.lost_header += 1;
@@ -193,6 +199,17 @@ impl Blocks {
                 && line.cells.last().is_some_and(|cell| REMARKS.contains(&cell.trim().to_lowercase().as_str()))
         };
         numbers.len() > 1 && numbers.iter().all(Cell::is_number) && self.header.iter().any(named)
+    }
+
+    /// Width of the table where the words of a row of numbers stand beside it, under no name and behind an empty column.
+    fn words_beside(&self, cells: &[Cell]) -> Option<usize> {
+        let names = self.header.last()?;
+        let first = names.cells.iter().position(|cell| !cell.is_empty())?;
+        let width = names.cells.len();
+        let over_all = names.cells[first..].iter().all(|cell| !cell.is_empty()) && width - first > 1;
+        let full = cells.len() > width && cells[first..width].iter().all(Cell::is_number);
+        let beside = cells.get(width).is_some_and(Cell::is_empty);
+        (over_all && full && beside).then_some(width)
     }
 
     /// What looked like a block of one row was a line of the header.

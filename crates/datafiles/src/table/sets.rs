@@ -1,7 +1,7 @@
 //! From blocks of numbers to sets: which column is the abscissa, how many values each has.
 
-use super::{Block, Numbers, header};
-use crate::axis::{ascending, even_step, kind_of};
+use super::{Block, Numbers, header, listed};
+use crate::axis::{ascending, even_step, kind_of, unit_since_1970};
 use crate::contents::{Axis, Channel, FIRST, Kind, Number, Set};
 use crate::error::{Fault, Read};
 use crate::file::{Source, Values};
@@ -54,15 +54,24 @@ pub(crate) fn finish(name: &str, blocks: Vec<Block>) -> (Vec<Set>, Vec<Columns>)
 fn one(name: String, mut block: Block) -> (Set, Columns) {
     let width = block.columns.len();
     let mut header = header::read(&block.header, width);
+    listed::take(&mut header, &block.header);
     join_date(&mut header, &mut block);
     let axis = find_axis(&header, &block.columns, block.rows);
     let kind = axis.map_or(if header.step.is_some() { Kind::Time } else { Kind::Table }, |(_, kind)| kind);
     let mut set = Set::new(name, kind);
     set.notes.extend(header.remarks.iter().filter(|line| !line.is_empty()).take(20).cloned());
+    set.notes.extend(axis.and_then(|(at, _)| without_empty_ends(&mut block, at)));
     let axis_values = axis.map(|(at, _)| block.columns[at].re.clone());
     let (mut columns, step) = (Columns::default(), axis_values.as_deref().and_then(even_step));
     if let Some((at, _)) = axis {
         set.axis_unit = axis_unit(&header, at, kind, block.columns[at].clock);
+        if kind == Kind::Time && header.units[at].is_empty() && !block.columns[at].clock {
+            let counted = block.columns[at].re.first().copied().and_then(unit_since_1970);
+            if let Some(unit) = counted {
+                unit.clone_into(&mut set.axis_unit);
+                set.notes.push(format!("the times count from 1970: by their size they are taken in {unit}"));
+            }
+        }
         if header.names[at].is_empty() {
             set.notes.push(format!("column {} rises evenly and has no name: it is taken as the time in s", at + 1));
         }
@@ -107,6 +116,32 @@ fn one(name: String, mut block: Block) -> (Set, Columns) {
     }
     columns.axis = axis_values;
     (set, columns)
+}
+
+/// Leaves out the first and last rows in which no column but the abscissa has a number; says how many.
+fn without_empty_ends(block: &mut Block, axis: usize) -> Option<String> {
+    let rows = block.rows;
+    let others = |i: &usize| *i != axis && !block.columns[*i].re.is_empty();
+    let columns: Vec<usize> = (0..block.columns.len()).filter(others).collect();
+    let whole = |&i: &usize| block.columns[i].re.len() == rows && block.columns[i].im.is_empty();
+    if columns.is_empty() || !columns.iter().all(whole) {
+        return None;
+    }
+    let empty = |row: usize| columns.iter().all(|&i| block.columns[i].re[row].is_nan());
+    let front = (0..rows).take_while(|&row| empty(row)).count();
+    let back = (front..rows).rev().take_while(|&row| empty(row)).count();
+    if front == rows || front + back == 0 {
+        return None;
+    }
+    for i in columns {
+        let column = &mut block.columns[i];
+        column.re.truncate(rows - back);
+        column.re.drain(..front);
+        column.first += front;
+    }
+    Some(format!(
+        "{front} rows at the start and {back} at the end have no numbers (NaN) beside the abscissa: they are left out"
+    ))
 }
 
 /// A column of dates and one of times of day behind it are one clock.

@@ -1,6 +1,7 @@
 //! Words that files of arrays use for sampling rates, steps, units and names.
 
 use super::{Array, Entry, Node};
+use crate::contents::Number;
 
 fn plain(name: &str) -> String {
     name.chars().filter(|c| c.is_alphanumeric()).collect::<String>().to_lowercase()
@@ -25,13 +26,13 @@ pub(crate) fn sampling(name: &str, value: f64) -> Option<Sampling> {
             Some(Sampling::Step(1.0 / value))
         }
         "dt" | "ts" | "deltat" | "dts" | "step" | "timestep" | "sampleinterval" | "samplinginterval"
-        | "sampleperiod" | "samplingperiod" | "wfincrement" | "xincrement" | "increment" | "dx" | "deltax"
+        | "sampleperiod" | "samplingperiod" | "wfincrement" | "xincrement" | "xinc" | "increment" | "dx" | "deltax"
         | "interval"
             if usable =>
         {
             Some(Sampling::Step(value))
         }
-        "t0" | "x0" | "startvalue" | "xstart" | "start" | "starttime" if value.is_finite() => {
+        "t0" | "x0" | "startvalue" | "xstart" | "xorg" | "start" | "starttime" if value.is_finite() => {
             Some(Sampling::Start(value))
         }
         _ => None,
@@ -77,6 +78,25 @@ pub(super) fn is_names_word(name: &str) -> bool {
             | "varnames"
             | "fields"
     )
+}
+
+/// A scalar beside whole numbers that says what one of them is worth, such as `scale` or `lsb`.
+pub(super) fn scale_beside(entries: &[Entry], first: &[Number]) -> Option<f64> {
+    let whole = |number: &Number| matches!(number, Number::Real(value) if value.fract() == 0.0);
+    if first.is_empty() || !first.iter().all(whole) {
+        return None;
+    }
+    let named = |entry: &&Entry| {
+        matches!(
+            plain(&entry.name).as_str(),
+            "scale" | "scalefactor" | "scaling" | "slope" | "lsb" | "conversionfactor"
+        )
+    };
+    let scalar = |entry: &Entry| match &entry.node {
+        Node::Array(array) => array.scalar(),
+        _ => None,
+    };
+    entries.iter().filter(named).find_map(scalar).filter(|scale| scale.is_finite() && *scale != 0.0)
 }
 
 /// The unit among attributes.

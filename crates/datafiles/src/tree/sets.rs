@@ -106,6 +106,12 @@ impl Made<'_> {
                 Node::Group(_) => {}
             }
         }
+        if let [channel] = &mut set.channels[..] {
+            channel.attributes.extend(
+                names::scale_beside(entries, &channel.first)
+                    .map(|scale| ("scale beside".to_owned(), scale.to_string())),
+            );
+        }
         set.kind = kind(&set, axis.as_ref());
         set.axis_unit = match (&axis, set.kind) {
             (Some(axis), _) => axis.unit.clone(),
