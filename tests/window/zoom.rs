@@ -61,7 +61,7 @@ fn labels(harness: &Harness<'_, App>) -> Vec<String> {
         match shape {
             egui::Shape::Vec(shapes) => shapes.iter().for_each(|s| collect(s, all)),
             egui::Shape::Text(text) if text.pos.y > 780.0 && text.pos.y < 850.0 => {
-                all.push(text.galley.text().to_owned())
+                all.push(text.galley.text().to_owned());
             }
             _ => {}
         }

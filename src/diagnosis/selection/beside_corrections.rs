@@ -36,27 +36,14 @@ pub(super) fn beside_updating(
     let mut found = Found { updated: true, rungs: Vec::new(), agrees: false, before };
     let stated = base.bench().error(&base.predictions);
     let bare = base.bare()?;
-    // Where corrections alone agree with the data and no law would bring its evidence beside them, none is followed but what one
-    // change explains instead of them.
-    let settled = bare.misfit() < DOUBTFUL;
-    let changes = if bare.misfit() < TOLERATED { bare.single_changes(PROMISED)? } else { Vec::new() };
-    let mut promises = !settled || bare.promises(CHOSEN)?;
-    if !promises && changes.is_empty() {
-        let (likely, _) = bare.likely()?;
-        if !likely.promises(CHOSEN)? {
+    let (mut here, first) = match first_fits(&base, &bare)? {
+        First::Fits(here, fits) => (here, fits),
+        First::None(likely) => {
             found.agrees = agrees(&likely, likely.misfit() * likely.count() as f64, 0);
             return Ok(Ok(Outcome { base: likely, found }));
         }
-        promises = true;
-    }
-    let (mut here, mut first) = (bare.with_scales(bare.linearisation.updating.scales), Vec::new());
-    if promises {
-        let (localised, drafts) = match base.localised()? {
-            Ok(localised) => localised,
-            Err(fault) => return Ok(Err(fault)),
-        };
-        (here, first) = (localised, drafts);
-    }
+        First::Unreliable(fault) => return Ok(Err(fault)),
+    };
     let mut first = Some(first);
     let (mut likely, mut least) = bare.roughly();
     let mut told_alone = false;
@@ -64,12 +51,7 @@ pub(super) fn beside_updating(
     while found.rungs.len() < MOST_EFFECTS && (found.rungs.is_empty() || !here.control.is_late()) {
         let from = found.rungs.last().map(|rung| rung.refits[0].clone());
         let fits = match (&from, first.take()) {
-            (None, Some(drafts)) => {
-                let mut fits = here.followed(drafts)?;
-                let follow = |k: usize| bare.followed_change(&changes[k]);
-                fits.extend(bare.control.map(changes.len(), follow).into_iter().collect::<Result<Vec<_>, _>>()?);
-                fits
-            }
+            (None, Some(fits)) => fits,
             (Some(from), _) => here.followed_beside(from, FURTHER)?,
             (None, None) => Vec::new(),
         };
@@ -113,6 +95,42 @@ pub(super) fn beside_updating(
     }
     pruned(&likely, &mut found)?;
     Ok(Ok(Outcome { base: likely, found }))
+}
+
+/// What a search beside corrections begins with.
+enum First<'a> {
+    /// The model from which candidates were seen, and these fitted.
+    Fits(Base<'a>, Vec<(Base<'a>, Refit)>),
+    /// Nothing: corrections alone, as likely as they make the model.
+    None(Base<'a>),
+    /// A channel that is not to be relied on.
+    Unreliable(ChannelFault),
+}
+
+/// The first candidates beside the corrections of `bare`. Where corrections alone agree with the data and no law would bring its
+/// evidence beside them, none is followed but what one change explains instead of them.
+fn first_fits<'a>(base: &Base<'a>, bare: &Base<'a>) -> Result<First<'a>, DiagnosisError> {
+    let changes = if bare.misfit() < TOLERATED { bare.single_changes(PROMISED)? } else { Vec::new() };
+    let mut promises = bare.misfit() >= DOUBTFUL || bare.promises(CHOSEN)?;
+    if !promises && changes.is_empty() {
+        let (likely, _) = bare.likely()?;
+        if !likely.promises(CHOSEN)? {
+            return Ok(First::None(likely));
+        }
+        promises = true;
+    }
+    let (mut here, mut fits) = (bare.with_scales(bare.linearisation.updating.scales), Vec::new());
+    if promises {
+        let (localised, drafts) = match base.localised()? {
+            Ok(localised) => localised,
+            Err(fault) => return Ok(First::Unreliable(fault)),
+        };
+        fits = localised.followed(drafts)?;
+        here = localised;
+    }
+    let follow = |k: usize| bare.followed_change(&changes[k]);
+    fits.extend(bare.control.map(changes.len(), follow).into_iter().collect::<Result<Vec<_>, _>>()?);
+    Ok(First::Fits(here, fits))
 }
 
 /// The model with corrections alone, as likely as they make it, and its evidence: they may have ended in another valley than

@@ -210,7 +210,7 @@ impl<'a> Gram<'a> {
             let unit = |i: usize, j: usize| f64::from(u8::from(i == j));
             let normal = Mat::from_fn(q, q, |i, j| widths[i] * product[(i, j)] * widths[j] + unit(i, j));
             let Some(factor) = Cholesky::new(normal.as_ref()) else { break };
-            let mut sides = Mat::from_fn(q, q + 1, |i, j| unit(i, j));
+            let mut sides = Mat::from_fn(q, q + 1, unit);
             (0..q).for_each(|i| sides[(i, q)] = widths[i] * right[i]);
             let solved = factor.solve(sides.as_ref());
             let explained: f64 = (0..q).map(|i| solved[(i, q)] * sides[(i, q)]).sum();

@@ -90,15 +90,8 @@ impl Made<'_> {
                     } else {
                         let axis = axis.as_ref().filter(|axis| axis.entry != i);
                         let is_axis = axis.is_none() && entries.get(i).is_some_and(|_| self.is_axis(entries, i));
-                        channels(
-                            &mut set,
-                            &mut places,
-                            entry,
-                            array,
-                            axis,
-                            if is_axis { Context::default() } else { context },
-                            &labels,
-                        );
+                        let context = if is_axis { Context::default() } else { context };
+                        channels(&mut set, &mut places, entry, array, axis, context, &labels);
                     }
                 }
                 Node::Text(texts) => note(&mut set, format!("{}: {}", entry.name, texts.join(", "))),
