@@ -7,15 +7,16 @@
 //! one column a law, place and shape of its grid. All columns and all pairs of columns are looked at; the best are
 //! fitted in all their parameters. What takes no energy (springs, masses) cannot be seen.
 
+use super::conclusion::conclude;
+use super::evidence::{agrees, criterion, square};
 use crate::control::Control;
 use crate::diagnosis::channels::fault::is_ordinary_gain;
-use crate::diagnosis::diagnose::{Added, Diagnosis, Step, Suggestion, Verdict};
+use crate::diagnosis::diagnose::{Added, Diagnosis};
 use crate::diagnosis::points::balance::{Balance, Column, Fitted};
 use crate::diagnosis::points::uncertainty::MULTIPLES;
 use crate::diagnosis::residual::data::{DiagnosisError, Problem};
-use crate::diagnosis::selection::conclusion::{TOLERATED, UNTRUSTED};
 use crate::effects::{Effect, Source};
-use crate::math::statistics::{bayesian_information, evidence_weights, root_mean_square};
+use crate::math::statistics::bayesian_information;
 
 /// Sets that are fitted in all their parameters, at each number of effects.
 const REFITS: usize = 12;
@@ -25,11 +26,6 @@ const HOPELESS: f64 = 3.0;
 const LEAST: usize = 2;
 /// Evidence that an effect must bring.
 const EVIDENCE: f64 = 15.0;
-/// Difference of the squared residual within which two suggestions cannot be told apart.
-const ALIKE: f64 = 9.0;
-/// What every parameter of a law beyond its first costs besides the information criterion: the simpler law wins unless the
-/// data demand the other.
-const EXTRA: f64 = 8.0;
 /// Bounds of the gain of a channel.
 const GAINS: [f64; 2] = [0.5, 2.0];
 
@@ -125,12 +121,6 @@ fn climb(balance: &Balance, excluded: &[Source], control: &Control) -> Result<Ve
     Ok(rungs)
 }
 
-/// Whether a squared residual is that of noise.
-fn agrees(chi_square: f64, n: usize, parameters: usize) -> bool {
-    let freedom = n.saturating_sub(parameters) as f64;
-    chi_square <= 1.15 * (freedom + 3.0 * (2.0 * freedom).sqrt())
-}
-
 /// Score beyond which drafts are not fitted where the best has the score `best`: their shapes are those of a grid.
 fn hopeless(best: f64) -> f64 {
     HOPELESS * best.abs() + 60.0
@@ -197,108 +187,4 @@ fn ranked(balance: &Balance, drafts: &[Vec<Source>], control: &Control) -> Vec<F
 /// Whether an error of a channel is one that channels have: a gain that makes all energy vanish explains anything.
 fn is_bounded(added: &Added) -> bool {
     added.source.effect != Effect::Gain || (GAINS[0]..=GAINS[1]).contains(&added.source.parameters[0])
-}
-
-fn criterion(fit: &Fitted, n: usize) -> f64 {
-    let extra: usize = fit.added.iter().map(|a| a.source.parameters.len() - 1).sum();
-    bayesian_information(fit.chi_square, fit.parameters, n) + EXTRA * extra as f64
-}
-
-fn conclude(balance: &Balance, rungs: &[Vec<Fitted>]) -> Diagnosis {
-    let n = balance.missing.len();
-    let stated = balance.missing.iter().zip(&balance.input).map(|(l, e)| if *e == 0.0 { 1.0 } else { (l / e).abs() });
-    let before = root_mean_square(&stated.collect::<Vec<_>>());
-    let relative = balance.deviation.iter().zip(&balance.input).map(|(d, e)| d / e.abs().max(f64::MIN_POSITIVE));
-    let mut diagnosis = Diagnosis {
-        error_before: before,
-        noise_floor: root_mean_square(&relative.collect::<Vec<_>>()),
-        verdict: Verdict::Adequate,
-        suggestions: Vec::new(),
-        steps: vec![Step { added: Vec::new(), error: before, misfit: square(&balance.weighted()) / n as f64 }],
-        next_test: Vec::new(),
-        corrections: Vec::new(),
-        channel_faults: Vec::new(),
-        complete: true,
-    };
-    let (Some(first), Some(top)) = (rungs.first(), rungs.last()) else {
-        let e = balance.weighted();
-        diagnosis.corrections = balance.corrections(&[]);
-        diagnosis.verdict = match (agrees(square(&e), n, 0), diagnosis.corrections.is_empty()) {
-            (true, true) => Verdict::Adequate,
-            (true, false) => Verdict::Detuned,
-            (false, _) => Verdict::Unexplained,
-        };
-        if !diagnosis.corrections.is_empty() {
-            let error = root_mean_square(&balance.errors(&[]));
-            diagnosis.steps.push(Step { added: Vec::new(), error, misfit: square(&e) / n as f64 });
-        }
-        return diagnosis;
-    };
-    let step =
-        |r: &Vec<Fitted>| Step { added: r[0].added.clone(), error: r[0].error, misfit: r[0].chi_square / n as f64 };
-    diagnosis.steps.extend(rungs.iter().map(step));
-    let set: Vec<Source> = top[0].added.iter().map(|added| added.source.clone()).collect();
-    diagnosis.corrections = balance.corrections(&set);
-    // What even the best leaves beyond the noise is no noise that could tell the others apart.
-    let scale = (top[0].chi_square / n.saturating_sub(top[0].parameters).max(1) as f64).max(1.0);
-    let scaled = |f: &Fitted| criterion(f, n) - f.chi_square * (1.0 - scale.recip());
-    let weights = evidence_weights(&top.iter().map(scaled).collect::<Vec<_>>());
-    for fit in top {
-        for added in &fit.added {
-            if diagnosis.suggestions.iter().any(|s| s.added.source.is_same(&added.source))
-                || diagnosis.suggestions.len() >= 8
-            {
-                continue;
-            }
-            let with = top.iter().zip(&weights).filter(|(f, _)| contains(f, &added.source));
-            let probability = with.map(|(_, w)| w).sum::<f64>().min(1.0);
-            let alone = first.iter().find(|f| contains(f, &added.source)).unwrap_or(fit);
-            diagnosis.suggestions.push(Suggestion {
-                added: added.clone(),
-                error_after: alone.error,
-                held_out_error_after: alone.held_out,
-                probability,
-                evidence: sentences(added, before, alone.error),
-                indistinguishable_from: alike(top, &added.source),
-            });
-        }
-    }
-    if diagnosis.steps.last().is_some_and(|step| step.misfit > TOLERATED) {
-        diagnosis.suggestions.iter_mut().for_each(|s| s.probability *= UNTRUSTED);
-    }
-    let sure = diagnosis.suggestions.first().is_some_and(|s| s.probability >= 0.5);
-    diagnosis.verdict = if sure { Verdict::Missing } else { Verdict::Undecided };
-    diagnosis
-}
-
-fn square(values: &[f64]) -> f64 {
-    values.iter().map(|x| x * x).sum()
-}
-
-fn contains(fit: &Fitted, source: &Source) -> bool {
-    fit.added.iter().any(|a| a.source.is_same(source))
-}
-
-fn alike(top: &[Fitted], source: &Source) -> Vec<Source> {
-    let mut found: Vec<Source> = Vec::new();
-    for fit in top.iter().filter(|f| f.chi_square - top[0].chi_square < ALIKE) {
-        let fresh: Vec<&Source> = fit.added.iter().map(|a| &a.source).filter(|s| !contains(&top[0], s)).collect();
-        if let [other] = fresh[..]
-            && contains(&top[0], source)
-            && !contains(fit, source)
-            && !found.iter().any(|f| f.is_same(other))
-        {
-            found.push(other.clone());
-        }
-    }
-    found
-}
-
-fn sentences(added: &Added, before: f64, after: f64) -> Vec<String> {
-    vec![
-        added.source.effect.sentence().to_string(),
-        crate::diagnosis::selection::sentences::values(&added.source, &added.deviations),
-        format!("The error of the energy falls from {:.3} % to {:.3} %.", 100.0 * before, 100.0 * after),
-        "Without mass and stiffness only the energy of each run can be compared.".to_string(),
-    ]
 }

@@ -74,3 +74,64 @@ impl Uncertainty {
         self.parameters.iter().zip(&self.slopes).filter_map(of).collect()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::least_squares::solve_symmetric;
+
+    const ROWS: [f64; 4] = [3.0, -1.0, 4.0, 0.5];
+    const INPUT: [f64; 4] = [40.0, 55.0, 80.0, 20.0];
+
+    fn slopes() -> [Vec<f64>; 2] {
+        [vec![30.0, 10.0, 45.0, 2.0], vec![5.0, -20.0, 8.0, 12.0]]
+    }
+
+    fn uncertainty() -> Uncertainty {
+        let [a, b] = slopes();
+        Uncertainty::new(
+            vec![(UpdatingParameter::Known(0), a), (UpdatingParameter::Gain("acc@1".into()), b)],
+            &INPUT,
+            1.0,
+        )
+    }
+
+    /// Variance of what is each run's own.
+    fn own(r: usize) -> f64 {
+        1.0 + (2.0 * Scales::SEARCH.response * INPUT[r]).powi(2)
+    }
+
+    #[test]
+    fn whitened_rows_have_unit_covariance() {
+        let (uncertainty, [a, b]) = (uncertainty(), slopes());
+        let (s, g) = (Scales::SEARCH.known, Scales::SEARCH.gain);
+        let covariance =
+            Mat::from_fn(4, 4, |i, j| s * s * a[i] * a[j] + g * g * b[i] * b[j] + if i == j { own(i) } else { 0.0 });
+        let unit = &uncertainty.root * &covariance * uncertainty.root.transpose();
+        for i in 0..4 {
+            for j in 0..4 {
+                assert!((unit[(i, j)] - f64::from(u8::from(i == j))).abs() < 1e-9, "{i} {j}: {}", unit[(i, j)]);
+            }
+        }
+        let factor = dashpot_numerics::Cholesky::new(covariance.as_ref()).map(|c| c.log_determinant());
+        assert!(factor.is_some_and(|l| (l - uncertainty.log_determinant).abs() < 1e-9));
+    }
+
+    /// The mean and variance of normal equations with the prior, `(D^T V^-1 D + S^-2) u = D^T V^-1 e`.
+    #[test]
+    fn corrections_are_those_of_the_normal_equations() {
+        let slopes = slopes();
+        let priors = [Scales::SEARCH.known, Scales::SEARCH.gain];
+        let inner = |a: &[f64], b: &[f64]| (0..4).map(|r| a[r] * b[r] / own(r)).sum::<f64>();
+        let normal =
+            Mat::from_fn(2, 2, |i, j| inner(&slopes[i], &slopes[j]) + if i == j { priors[i].powi(-2) } else { 0.0 });
+        let sides =
+            Mat::from_fn(2, 2, |i, j| if j == 0 { inner(&slopes[i], &ROWS) } else { f64::from(u8::from(i == 0)) });
+        let Ok(solved) = solve_symmetric(normal.as_ref(), sides.as_ref()) else { panic!("singular") };
+        let corrections = uncertainty().corrections(&ROWS);
+        assert_eq!(corrections.len(), 1, "gains are not of the model");
+        let known = &corrections[0];
+        assert!((known.factor.ln() - solved[(0, 0)]).abs() < 1e-9);
+        assert!((known.deviation / known.factor - solved[(0, 1)].sqrt()).abs() < 1e-9);
+    }
+}

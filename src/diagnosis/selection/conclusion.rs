@@ -25,6 +25,8 @@ pub(crate) const UNTRUSTED: f64 = 0.35;
 const UNEXPLAINED: f64 = 100.0;
 /// Most suggestions.
 const MOST: usize = 8;
+/// The same where time is up.
+const FEW: usize = 2;
 
 /// Where a search ended, with what it was made on.
 pub(crate) struct Outcome<'a> {
@@ -86,6 +88,7 @@ impl Outcome<'_> {
         // Nothing is ambiguous where the next best has next to no probability: then the size is what is least certain.
         let rival = top.refits.get(1).filter(|_| weights.get(1).is_some_and(|w| *w > RIVAL));
         diagnosis.next_test = match rival {
+            _ if quiet.control.is_late() => None,
             Some(rival) => next_test(&quiet, &best.effects, &rival.effects)?,
             None => pinning_test(&quiet, best)?,
         }
@@ -155,9 +158,11 @@ fn alone(bench: &Bench, source: &Source, best: &Refit, first: &Rung) -> Result<R
 /// Suggestions beyond the best set: what else was fitted at the same number of effects.
 fn alternatives(bench: &Bench, top: &Rung, weights: &[f64], diagnosis: &mut Diagnosis) -> Result<(), DiagnosisError> {
     for refit in top.refits.iter().skip(1) {
+        // Each takes as long as all runs take to be predicted.
+        let most = if bench.control.is_late() { FEW } else { MOST };
         for item in added(refit, top.scale) {
             let listed = diagnosis.suggestions.iter().any(|s| s.added.source.is_same(&item.source));
-            if listed || diagnosis.suggestions.len() >= MOST {
+            if listed || diagnosis.suggestions.len() >= most {
                 continue;
             }
             diagnosis.suggestions.push(Suggestion {

@@ -316,6 +316,9 @@ impl<'a> Base<'a> {
         let settings = settings_for(refit.map_or(&[], |refit| &refit.effects), settings);
         let (mut base, mut fitted) = (self.with_scales(self.linearisation.updating.scales), refit.cloned());
         for _ in 0..ROUNDS {
+            if base.control.is_late() {
+                break;
+            }
             let predictions = match &fitted {
                 Some(refit) => base.bench().predict(&refit.effects, settings, &refit.starts)?,
                 None => base.predictions.clone(),

@@ -1,7 +1,7 @@
 //! Names, units and the sampling rate out of the lines above a block of numbers.
 
-use super::HeaderLine;
 use super::cell::number;
+use super::header_line::HeaderLine;
 use crate::axis::kind_of;
 use crate::parts::is_bare_part;
 use crate::units::{is_unit, split, stripped, suffix};

@@ -2,6 +2,7 @@
 
 pub(crate) mod cell;
 mod header;
+mod header_line;
 mod listed;
 mod sets;
 
@@ -9,17 +10,12 @@ pub(crate) use cell::Cell;
 pub(crate) use sets::{Column, Columns, TableSource, finish, first};
 
 use crate::error::{Fault, Read, one_line};
+use header_line::HeaderLine;
 
 /// Most lines of a header that are kept: names and units stand right above the numbers.
 const MOST_HEADER: usize = 200;
 /// Most columns of a table.
 const MOST_COLUMNS: usize = 20_000;
-
-/// A line of a header.
-#[derive(Debug, Clone)]
-pub(crate) struct HeaderLine {
-    pub cells: Vec<String>,
-}
 
 /// A block of numbers.
 #[derive(Debug, Clone, Default)]

@@ -1,0 +1,124 @@
+//! From the fits of a search on energies to what is said.
+
+use super::balance::{Balance, Fitted};
+use super::evidence::{agrees, criterion, square};
+use crate::diagnosis::diagnose::{Added, Diagnosis, Step, Suggestion, Verdict};
+use crate::diagnosis::selection::conclusion::{TOLERATED, UNTRUSTED};
+use crate::effects::Source;
+use crate::math::statistics::{evidence_weights, root_mean_square};
+
+/// Difference of the squared residual within which two suggestions cannot be told apart.
+const ALIKE: f64 = 9.0;
+/// Most suggestions.
+const MOST: usize = 8;
+
+/// The answer of a search that ended with these fits, one list a number of effects.
+pub(super) fn conclude(balance: &Balance, rungs: &[Vec<Fitted>]) -> Diagnosis {
+    let mut diagnosis = as_stated(balance);
+    match (rungs.first(), rungs.last()) {
+        (Some(first), Some(top)) => {
+            diagnosis.steps.extend(rungs.iter().map(|rung| step(balance, &rung[0])));
+            let set: Vec<Source> = top[0].added.iter().map(|added| added.source.clone()).collect();
+            diagnosis.corrections = balance.corrections(&set);
+            suggest(&mut diagnosis, balance, (first, top));
+        }
+        _ => without_effects(&mut diagnosis, balance),
+    }
+    diagnosis
+}
+
+fn step(balance: &Balance, fit: &Fitted) -> Step {
+    Step { added: fit.added.clone(), error: fit.error, misfit: fit.chi_square / balance.missing.len() as f64 }
+}
+
+/// What is said of the model as it is.
+fn as_stated(balance: &Balance) -> Diagnosis {
+    let relative = |values: &[f64]| {
+        let over = |(v, e): (&f64, &f64)| if *e == 0.0 { 1.0 } else { (v / e).abs() };
+        root_mean_square(&values.iter().zip(&balance.input).map(over).collect::<Vec<_>>())
+    };
+    let (before, misfit) = (relative(&balance.missing), square(&balance.weighted()) / balance.missing.len() as f64);
+    Diagnosis {
+        error_before: before,
+        noise_floor: relative(&balance.deviation),
+        verdict: Verdict::Adequate,
+        suggestions: Vec::new(),
+        steps: vec![Step { added: Vec::new(), error: before, misfit }],
+        next_test: Vec::new(),
+        corrections: Vec::new(),
+        channel_faults: Vec::new(),
+        complete: true,
+    }
+}
+
+/// The verdict where no effect has the evidence.
+fn without_effects(diagnosis: &mut Diagnosis, balance: &Balance) {
+    let (n, left) = (balance.missing.len(), square(&balance.weighted()));
+    diagnosis.corrections = balance.corrections(&[]);
+    diagnosis.verdict = match (agrees(left, n, 0), diagnosis.corrections.is_empty()) {
+        (true, true) => Verdict::Adequate,
+        (true, false) => Verdict::Detuned,
+        (false, _) => Verdict::Unexplained,
+    };
+    if !diagnosis.corrections.is_empty() {
+        let error = root_mean_square(&balance.errors(&[]));
+        diagnosis.steps.push(Step { added: Vec::new(), error, misfit: left / n as f64 });
+    }
+}
+
+/// The effects of the best sets with their probabilities, and the verdict.
+fn suggest(diagnosis: &mut Diagnosis, balance: &Balance, (first, top): (&[Fitted], &[Fitted])) {
+    let n = balance.missing.len();
+    // What even the best leaves beyond the noise is no noise that could tell the others apart.
+    let scale = (top[0].chi_square / n.saturating_sub(top[0].parameters).max(1) as f64).max(1.0);
+    let scaled = |f: &Fitted| criterion(f, n) - f.chi_square * (1.0 - scale.recip());
+    let weights = evidence_weights(&top.iter().map(scaled).collect::<Vec<_>>());
+    let trust = if top[0].chi_square > TOLERATED * n as f64 { UNTRUSTED } else { 1.0 };
+    for (fit, added) in top.iter().flat_map(|fit| fit.added.iter().map(move |added| (fit, added))) {
+        let listed = diagnosis.suggestions.iter().any(|s| s.added.source.is_same(&added.source));
+        if listed || diagnosis.suggestions.len() >= MOST {
+            continue;
+        }
+        let with = top.iter().zip(&weights).filter(|(f, _)| contains(f, &added.source));
+        let probability = trust * with.map(|(_, w)| w).sum::<f64>().min(1.0);
+        let alone = first.iter().find(|f| contains(f, &added.source)).unwrap_or(fit);
+        diagnosis.suggestions.push(Suggestion {
+            added: added.clone(),
+            error_after: alone.error,
+            held_out_error_after: alone.held_out,
+            probability,
+            evidence: sentences(added, diagnosis.error_before, alone.error),
+            indistinguishable_from: alike(top, &added.source),
+        });
+    }
+    let sure = diagnosis.suggestions.first().is_some_and(|s| s.probability >= 0.5);
+    diagnosis.verdict = if sure { Verdict::Missing } else { Verdict::Undecided };
+}
+
+fn contains(fit: &Fitted, source: &Source) -> bool {
+    fit.added.iter().any(|a| a.source.is_same(source))
+}
+
+fn alike(top: &[Fitted], source: &Source) -> Vec<Source> {
+    let mut found: Vec<Source> = Vec::new();
+    for fit in top.iter().filter(|f| f.chi_square - top[0].chi_square < ALIKE) {
+        let fresh: Vec<&Source> = fit.added.iter().map(|a| &a.source).filter(|s| !contains(&top[0], s)).collect();
+        if let [other] = fresh[..]
+            && contains(&top[0], source)
+            && !contains(fit, source)
+            && !found.iter().any(|f| f.is_same(other))
+        {
+            found.push(other.clone());
+        }
+    }
+    found
+}
+
+fn sentences(added: &Added, before: f64, after: f64) -> Vec<String> {
+    vec![
+        added.source.effect.sentence().to_string(),
+        crate::diagnosis::selection::sentences::values(&added.source, &added.deviations),
+        format!("The error of the energy falls from {:.3} % to {:.3} %.", 100.0 * before, 100.0 * after),
+        "Without mass and stiffness only the energy of each run can be compared.".to_string(),
+    ]
+}
