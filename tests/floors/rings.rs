@@ -305,7 +305,7 @@ fn list(names: &BTreeSet<String>) -> String {
 #[test]
 fn no_files_need_one_another_in_a_ring() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
+    let mut open: BTreeMap<&str, Vec<String>> = BTreeMap::new();
     let mut wrong = String::new();
     for folder in CRATES {
         let files = read(&root.join(folder));
@@ -313,7 +313,7 @@ fn no_files_need_one_another_in_a_ring() {
             for (module, ties) in &ring {
                 let path = files[module].path.strip_prefix(root).unwrap();
                 match OPEN.iter().find(|(room, _)| path.starts_with(room)) {
-                    Some((room, _)) => *counts.entry(room).or_default() += 1,
+                    Some((room, _)) => open.entry(room).or_default().push(path.display().to_string()),
                     None => wrong += &format!("{} needs {}\n", path.display(), ties.join(", ")),
                 }
             }
@@ -321,9 +321,9 @@ fn no_files_need_one_another_in_a_ring() {
         }
     }
     for (room, most) in OPEN {
-        let count = counts.get(room).copied().unwrap_or(0);
-        if count > most {
-            wrong += &format!("{count} files of {room} stand in rings; at most {most}\n");
+        let files = open.remove(room).unwrap_or_default();
+        if files.len() > most {
+            wrong += &format!("{} files stand in rings; at most {most}: {}\n", files.len(), files.join(", "));
         }
     }
     assert!(wrong.is_empty(), "files that need one another in a ring:\n{wrong}");

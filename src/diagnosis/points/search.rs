@@ -99,15 +99,7 @@ fn climb(balance: &Balance, excluded: &[Source], control: &Control) -> Result<Ve
             break;
         }
         let mut sets = drafts(&columns, &e, count);
-        let before: Vec<Vec<Source>> = match rungs.last() {
-            None => vec![Vec::new()],
-            Some(fits) => fits.iter().take(3).map(|f| f.added.iter().map(|a| a.source.clone()).collect()).collect(),
-        };
-        for set in before {
-            let faults = balance.faults().into_iter().filter(allowed);
-            let fresh = faults.filter(|f| !set.iter().any(|s| s.is_same(f)));
-            sets.extend(fresh.map(|f| set.iter().cloned().chain(std::iter::once(f)).collect()));
-        }
+        sets.extend(with_faults(balance, rungs.last(), &allowed));
         let fits = ranked(balance, &sets, control);
         let Some(best) = fits.first() else { break };
         let scale = (best.chi_square / (n - best.parameters).max(1) as f64).max(1.0);
@@ -124,6 +116,21 @@ fn climb(balance: &Balance, excluded: &[Source], control: &Control) -> Result<Ve
 /// Score beyond which drafts are not fitted where the best has the score `best`: their shapes are those of a grid.
 fn hopeless(best: f64) -> f64 {
     HOPELESS * best.abs() + 60.0
+}
+
+/// The best sets so far, each with one error of a channel more.
+fn with_faults(balance: &Balance, last: Option<&Vec<Fitted>>, allowed: impl Fn(&Source) -> bool) -> Vec<Vec<Source>> {
+    let before: Vec<Vec<Source>> = match last {
+        None => vec![Vec::new()],
+        Some(fits) => fits.iter().take(3).map(|f| f.added.iter().map(|a| a.source.clone()).collect()).collect(),
+    };
+    let mut sets = Vec::new();
+    for set in before {
+        let faults = balance.faults().into_iter().filter(&allowed);
+        let fresh = faults.filter(|f| !set.iter().any(|s| s.is_same(f)));
+        sets.extend(fresh.map(|f| set.iter().cloned().chain(std::iter::once(f)).collect()));
+    }
+    sets
 }
 
 /// The best sets of one column or two, with one shape a law and place.

@@ -3,7 +3,6 @@
 //! The tree is made of headers and a few values of each data set; chunks that no listing shows are never read.
 
 mod lzf;
-mod structs;
 mod value;
 
 use crate::contents::{Contents, Format};
@@ -117,7 +116,7 @@ impl Walk {
             }
             let name = inner.name().to_owned();
             let fields = self.group(&inner, depth + 1)?;
-            let node = Node::Group(if self.matlab { structs::elements(fields) } else { fields });
+            let node = Node::Group(if self.matlab { value::elements(fields) } else { fields });
             let attributes = inner.attributes().map(attributes).unwrap_or_default();
             entries.push(Entry { name, node, attributes });
         }

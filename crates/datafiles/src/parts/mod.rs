@@ -10,7 +10,7 @@
 mod abscissa;
 mod pairs;
 mod source;
-mod words;
+pub(crate) mod words;
 
 pub(crate) use abscissa::among_channels;
 use source::Joined;
@@ -261,12 +261,6 @@ fn re(number: Number) -> f64 {
         Number::Real(value) => value,
         Number::Complex([re, _]) => re,
     }
-}
-
-/// Whether a name holds one of the words for a part and nothing else: a row of `Real`, `Imag` below the names.
-pub(crate) fn is_bare_part(name: &str) -> bool {
-    let said = words::said(name);
-    said.part.is_some() && said.stem.is_empty()
 }
 
 /// Whether a name is that of a coherence.

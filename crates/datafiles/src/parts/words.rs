@@ -234,6 +234,12 @@ fn tidy(text: &str) -> String {
     text.trim().to_owned()
 }
 
+/// Whether a name holds one of the words for a part and nothing else: a row of `Real`, `Imag` below the names.
+pub(crate) fn is_bare_part(name: &str) -> bool {
+    let said = said(name);
+    said.part.is_some() && said.stem.is_empty()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -3,7 +3,7 @@
 use super::cell::number;
 use super::header_line::HeaderLine;
 use crate::axis::kind_of;
-use crate::parts::is_bare_part;
+use crate::parts::words::is_bare_part;
 use crate::units::{is_unit, split, stripped, suffix};
 
 /// What a header says.
