@@ -11,7 +11,7 @@ const CRATES: [&str; 5] =
 
 /// Rings that are still open to mend: a folder, and how many files of it stand in rings at the most. It only shrinks.
 const OPEN: [(&str, usize); 9] = [
-    ("crates/datafiles", 21),
+    ("crates/datafiles", 20),
     ("crates/fe-files", 3),
     ("crates/uff", 6),
     ("src/diagnosis", 26),
