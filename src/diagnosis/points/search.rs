@@ -99,7 +99,7 @@ fn climb(balance: &Balance, excluded: &[Source], control: &Control) -> Result<Ve
             break;
         }
         let mut sets = drafts(&columns, &e, count);
-        sets.extend(with_faults(balance, rungs.last(), &allowed));
+        sets.extend(with_faults(balance, rungs.last(), allowed));
         let fits = ranked(balance, &sets, control);
         let Some(best) = fits.first() else { break };
         let scale = (best.chi_square / (n - best.parameters).max(1) as f64).max(1.0);
