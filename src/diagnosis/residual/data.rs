@@ -29,6 +29,14 @@ pub enum DiagnosisError {
     Cancelled(#[from] Cancelled),
 }
 
+/// What was computed of a model; none where no structure is like that, with a mass below zero: where a search went too far.
+pub(crate) fn if_possible<T>(computed: Result<T, DiagnosisError>) -> Result<Option<T>, DiagnosisError> {
+    match computed {
+        Err(DiagnosisError::Model(_)) => Ok(None),
+        other => other.map(Some),
+    }
+}
+
 /// A model and its measurements, borrowed from a project.
 #[derive(Debug, Clone, Copy)]
 pub struct Problem<'a> {

@@ -4,7 +4,7 @@ use super::search::{ReferenceModel, UnfittedSet, joined};
 use super::short_list::{Breadth, needed};
 use super::weighing::cost;
 use crate::diagnosis::candidates::start::start;
-use crate::diagnosis::residual::data::DiagnosisError;
+use crate::diagnosis::residual::data::{DiagnosisError, if_possible};
 use crate::diagnosis::residual::prediction::SEARCH;
 use crate::diagnosis::selection::fits::STEPS;
 use crate::diagnosis::selection::fitted_model::{FittedModel, Starts};
@@ -54,7 +54,8 @@ impl<'a> ReferenceModel<'a> {
         count: usize,
         follow: impl Fn(usize) -> Result<(ReferenceModel<'s>, FittedModel), DiagnosisError> + Sync,
     ) -> Result<Vec<(ReferenceModel<'s>, FittedModel)>, DiagnosisError> {
-        let mut begun = self.control.map(count, follow).into_iter().collect::<Result<Vec<_>, _>>()?;
+        let begun = self.control.map(count, |k| if_possible(follow(k))).into_iter().collect::<Result<Vec<_>, _>>()?;
+        let mut begun: Vec<_> = begun.into_iter().flatten().collect();
         begun.sort_by(|a, b| cost(&a.0, Some(&a.1)).total_cmp(&cost(&b.0, Some(&b.1))));
         let rest = begun.split_off(begun.len().min(FINALISTS));
         let further = |k: usize| {

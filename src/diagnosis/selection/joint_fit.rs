@@ -9,7 +9,7 @@
 //! eliminated linearly, and these moved afterwards, creeps along a valley; together they arrive in a few steps. Gains and delays of
 //! channels and the factor on the response of a run are linear and stay eliminated.
 
-use crate::diagnosis::residual::data::DiagnosisError;
+use crate::diagnosis::residual::data::{DiagnosisError, if_possible};
 use crate::diagnosis::residual::prediction::{Predictor, RunPrediction};
 use crate::diagnosis::selection::fit_problem::{run_slopes, unknowns_of};
 use crate::diagnosis::selection::fitted_model::{Estimator, Starts, starts_of};
@@ -199,7 +199,7 @@ impl Residual for Joint<'_, '_> {
     }
 
     fn residual(&mut self, at: &[f64]) -> Result<Vec<f64>, DiagnosisError> {
-        let trial = self.compute(at)?;
+        let Some(trial) = if_possible(self.compute(at))? else { return Ok(vec![f64::INFINITY]) };
         let rows = self.rows(&trial);
         self.last = Some(trial);
         Ok(rows)

@@ -8,7 +8,7 @@
 use crate::diagnosis::channels::{ChannelFault, Fault, mended};
 use crate::diagnosis::localisation::free_force::{FreeForce, Placing};
 use crate::diagnosis::localisation::location::Spot;
-use crate::diagnosis::residual::data::DiagnosisError;
+use crate::diagnosis::residual::data::{DiagnosisError, if_possible};
 use crate::diagnosis::selection::search::{ReferenceModel, UnfittedSet};
 use crate::diagnosis::selection::short_list::Breadth;
 use crate::diagnosis::updating::parameters::Updating;
@@ -74,7 +74,9 @@ impl<'a> ReferenceModel<'a> {
             if here.least < CLOSE * self.count() as f64 || self.control.is_late() {
                 break;
             }
-            let there = self.updated(&here.reference.towards(&here.target), &[], &Vec::new())?.seen(breadth)?;
+            let moved = self.updated(&here.reference.towards(&here.target), &[], &Vec::new());
+            let Some(there) = if_possible(moved)? else { break };
+            let there = there.seen(breadth)?;
             let progress = here.progress(&there);
             if progress < 1.0 {
                 here = there;

@@ -2,7 +2,7 @@
 
 use crate::diagnosis::candidates::friction::friction;
 use crate::diagnosis::residual::branch::{distance, nearest};
-use crate::diagnosis::residual::data::{Data, DiagnosisError, RunData};
+use crate::diagnosis::residual::data::{Data, DiagnosisError, RunData, if_possible};
 use crate::diagnosis::residual::energy_balance::scaled_factors;
 use crate::diagnosis::residual::prediction::{FINAL, Predictor, RunPrediction};
 use crate::diagnosis::selection::fit_problem::{RunSlopes, run_slopes};
@@ -144,7 +144,7 @@ impl<'a> ReferenceModel<'a> {
         let mut updating = Updating::all(stated, known, self.data);
         let mut best: Option<(f64, ReferenceModel<'a>)> = None;
         for step in 0..STEPS {
-            let reference = self.updated(&updating, &[], &Vec::new())?;
+            let Some(reference) = if_possible(self.updated(&updating, &[], &Vec::new()))? else { break };
             let rows = reference.estimator().at_reference(&reference.predictions);
             let here = square(&rows);
             let misfit = (here / self.count() as f64).max(1.0);
