@@ -1,7 +1,7 @@
 //! Corrections of what the model states, as JSON and in words.
 
 use super::source_words::{labels, named, title};
-use crate::diagnosis::diagnose::Correction;
+use crate::diagnosis::updating::correction::Correction;
 use crate::diagnosis::updating::parameters::UpdatingParameter;
 use crate::effects::Place;
 use crate::exchange::Project;

@@ -1,6 +1,6 @@
 //! What model updating corrected, written into a project: its own numbers, or `[[structure.correction]]` where it has none.
 
-use crate::diagnosis::diagnose::Correction;
+use crate::diagnosis::updating::correction::Correction;
 use crate::diagnosis::updating::parameters::UpdatingParameter;
 use crate::effects::{Place, Source, State};
 use crate::exchange::Project;

@@ -11,6 +11,7 @@ use super::source_words::{named, title, with_values};
 use super::table::{number, table};
 use crate::control::Control;
 use crate::diagnosis::diagnose::{Diagnosis, Early, Suggestion, diagnose_without};
+use crate::display::findings;
 use crate::effects::{Source, State};
 use crate::exchange::Project;
 use crate::exchange::project::load;
@@ -127,6 +128,7 @@ fn document(project: &Project, diagnosis: &Diagnosis) -> Value {
         "noise_floor": diagnosis.noise_floor,
         "verdict": diagnosis.verdict.word(),
         "complete": diagnosis.complete,
+        "searched_runs": (!diagnosis.runs.is_empty()).then_some(&diagnosis.runs),
         "runs": project.runs.iter().map(run).collect::<Vec<_>>(),
         "suggestions": channel_faults::suggestions(&diagnosis.channel_faults)
             .chain(diagnosis.suggestions.iter().map(|s| suggestion(structure, s)))
@@ -173,6 +175,7 @@ fn text(project: &Project, diagnosis: &Diagnosis) -> String {
         number(100.0 * diagnosis.noise_floor),
         diagnosis.verdict.word()
     );
+    lines.extend(findings::searched_runs(diagnosis).map(|sentence| sentence + "\n"));
     lines.push_str(&channel_faults::text(&diagnosis.channel_faults));
     lines.push_str(&suggestions_in_words(structure, diagnosis));
     if !diagnosis.corrections.is_empty() {

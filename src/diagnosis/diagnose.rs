@@ -2,12 +2,14 @@
 
 use crate::control::Control;
 use crate::diagnosis::channels::{self, ChannelFault};
+use crate::diagnosis::on_all_runs;
 use crate::diagnosis::residual::data::{Data, DiagnosisError, Problem};
 use crate::diagnosis::residual::levels::sessions;
 use crate::diagnosis::residual::prediction::{Predictor, RunPrediction};
+use crate::diagnosis::residual::telling_runs::telling;
 use crate::diagnosis::selection::search::ReferenceModel;
 use crate::diagnosis::selection::{found, stepwise};
-use crate::diagnosis::updating::parameters::UpdatingParameter;
+use crate::diagnosis::updating::correction::Correction;
 use crate::effects::Source;
 use crate::math::statistics::root_mean_square;
 use std::sync::Arc;
@@ -111,6 +113,9 @@ pub struct Diagnosis {
     pub channel_faults: Vec<ChannelFault>,
     /// Whether the search came to its end before its time was up ([`Control::hurry`]).
     pub complete: bool,
+    /// Numbers of the runs of the project that were searched where there are more than a search needs: those that tell most
+    /// (its errors are of all runs); none where all were.
+    pub runs: Vec<usize>,
 }
 
 impl Diagnosis {
@@ -127,17 +132,6 @@ impl Diagnosis {
         let set = self.steps.last().map_or(&[][..], |step| &step.added);
         !self.corrections.is_empty() && set.iter().any(|added| added.source.is_same(source))
     }
-}
-
-/// A correction of what the model states.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Correction {
-    /// What is corrected.
-    pub parameter: UpdatingParameter,
-    /// Factor on it.
-    pub factor: f64,
-    /// Standard deviation of the factor.
-    pub deviation: f64,
 }
 
 /// Is told of suggestions as soon as there are any, before they are fitted to the end: their errors and probabilities are
@@ -191,15 +185,23 @@ fn searched(
         return crate::diagnosis::points::search::diagnose(problem, excluded, control);
     }
     let data = Data::new(problem)?;
-    let data = Data { excluded: excluded.to_vec(), sessions: sessions(problem, &data), ..data };
-    let predictor = Arc::new(Predictor::new(problem.structure, problem.known(), &data)?);
-    let reference = ReferenceModel::new(predictor.clone(), &data, control, early)?;
-    let mut faults = channels::find(&predictor, &data, &reference.predictions);
+    let all = Data { excluded: excluded.to_vec(), sessions: sessions(problem, &data), ..data };
+    let Some(data) = telling(&all) else { return on_runs(problem, &all, control, early) };
+    let diagnosis = on_runs(problem, &data, control, early)?;
+    let runs = data.runs.iter().map(|run| run.index).collect();
+    Ok(Diagnosis { runs, ..on_all_runs::told(problem, &all, diagnosis, control)? })
+}
+
+/// What is found on the runs of `data`.
+fn on_runs(problem: &Problem, data: &Data, control: &Control, early: &Early) -> Result<Diagnosis, DiagnosisError> {
+    let predictor = Arc::new(Predictor::new(problem.structure, problem.known(), data)?);
+    let reference = ReferenceModel::new(predictor.clone(), data, control, early)?;
+    let mut faults = channels::find(&predictor, data, &reference.predictions);
     let asis = agreement(&reference);
     drop(reference);
     let mendable = faults.len();
     let mut diagnosis = loop {
-        let mended = channels::mended(&data, &faults);
+        let mended = channels::mended(data, &faults);
         let reference = ReferenceModel::new(predictor.clone(), &mended, control, early)?;
         match explained(reference)? {
             Ok(diagnosis) => break diagnosis,
@@ -221,7 +223,7 @@ fn searched(
 }
 
 /// The model as it is, as a first step.
-fn agreement(reference: &ReferenceModel) -> Step {
+pub(super) fn agreement(reference: &ReferenceModel) -> Step {
     let estimator = reference.estimator();
     let before = square(&estimator.residual(&reference.predictions));
     Step {
@@ -245,6 +247,7 @@ fn explained(reference: ReferenceModel) -> Result<Result<Diagnosis, ChannelFault
         corrections: Vec::new(),
         channel_faults: Vec::new(),
         complete: true,
+        runs: Vec::new(),
     };
     if found::agrees(&reference, before, 0) {
         return Ok(Ok(diagnosis));

@@ -19,6 +19,7 @@ pub mod compare;
 pub mod component;
 pub mod diagnose;
 pub mod localisation;
+mod on_all_runs;
 pub mod points;
 pub mod records;
 pub mod residual;

@@ -3,7 +3,8 @@
 use super::format::{self, in_words};
 use super::words;
 use crate::diagnosis::Diagnosis;
-use crate::diagnosis::diagnose::{Correction, Verdict};
+use crate::diagnosis::diagnose::Verdict;
+use crate::diagnosis::updating::correction::Correction;
 use crate::diagnosis::updating::parameters::UpdatingParameter;
 use crate::effects::{Place, Source};
 use crate::structure::{Part, Structure};
@@ -25,6 +26,14 @@ pub fn is_detuned(diagnosis: &Diagnosis) -> bool {
 pub fn is_stuck(diagnosis: &Diagnosis) -> bool {
     let after = diagnosis.steps.last().map_or(diagnosis.noise_floor, |s| s.error);
     is_detuned(diagnosis) && after > WORTH * diagnosis.error_before
+}
+
+/// On which runs was searched, where there are more than a search needs.
+pub fn searched_runs(diagnosis: &Diagnosis) -> Option<String> {
+    let count = diagnosis.runs.len();
+    (count > 0).then(|| {
+        format!("Searched on {count} runs, those along the curve of each level that tell most; errors are of all runs.")
+    })
 }
 
 /// The verdict as a sentence.

@@ -74,6 +74,8 @@ impl<T: InternalLaw> Internal<T> {
     fn steady(&self, p: &[f64], d: &[f64]) -> [f64; 2] {
         let bound = self.0.bound(p);
         let (mut low, mut high, mut start) = (-bound, bound, self.unslipped(p, d));
+        let (least, most) = extremes(d);
+        let size = bound.min(self.0.step(p, 0.0, 0.0).by_way * (d[most] - d[least]));
         let mut slope = 1.0;
         for _ in 0..STEPS {
             let [end, by_start] = self.period(p, d, start);
@@ -91,8 +93,8 @@ impl<T: InternalLaw> Internal<T> {
             let next = if newton > low && newton < high { newton } else { 0.5 * (low + high) };
             let change = (next - start).abs();
             start = next;
-            // Newton converges quadratically: what is left is rounding.
-            if change <= 1e-13 * bound {
+            // Newton converges quadratically: what is left is rounding, as the step to the fixed point magnifies it.
+            if change * (1.0 - slope) <= 1e-13 * size {
                 break;
             }
         }
@@ -147,12 +149,8 @@ impl<T: InternalLaw + Copy + Send + 'static> Law for Internal<T> {
     }
 
     fn force(&self, p: &[f64], motion: &Motion, force: &mut [f64]) {
-        let d = &motion.displacement;
-        let [mut now, _] = self.steady(p, d);
-        for (n, f) in force.iter_mut().enumerate() {
-            *f = now;
-            now = self.0.step(p, now, d[(n + 1) % d.len()] - d[n]).force;
-        }
+        let (ways, _) = self.ways(p, &motion.displacement);
+        ways.iter().zip(force).for_each(|((start, _), f)| *f = *start);
     }
 
     fn tangent(&self, p: &[f64], motion: &Motion, direction: &Motion, tangent: &mut [f64]) {
@@ -160,7 +158,12 @@ impl<T: InternalLaw + Copy + Send + 'static> Law for Internal<T> {
     }
 
     fn linearised<'a>(&'a self, p: &'a [f64], motion: &'a Motion) -> Linearised<'a> {
+        self.force_and_tangent(p, motion, &mut [])
+    }
+
+    fn force_and_tangent<'a>(&'a self, p: &'a [f64], motion: &'a Motion, force: &mut [f64]) -> Linearised<'a> {
         let (ways, slope) = self.ways(p, &motion.displacement);
+        ways.iter().zip(force).for_each(|((start, _), f)| *f = *start);
         let (least, most) = extremes(&motion.displacement);
         let stiffness = self.0.step(p, 0.0, 0.0).by_way;
         Box::new(move |direction, tangent| {

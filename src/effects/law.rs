@@ -95,6 +95,12 @@ pub trait Law: Sync {
         Box::new(move |direction, tangent| self.tangent(p, motion, direction, tangent))
     }
 
+    /// [`Law::force`] and [`Law::linearised`] of one motion. What both need is computed once.
+    fn force_and_tangent<'a>(&'a self, p: &'a [f64], motion: &'a Motion, force: &mut [f64]) -> Linearised<'a> {
+        self.force(p, motion, force);
+        self.linearised(p, motion)
+    }
+
     /// Derivative of [`Law::force`] by parameter number `k`, N per unit of that parameter at every sample.
     fn parameter_tangent(&self, p: &[f64], k: usize, motion: &Motion, tangent: &mut [f64]);
 

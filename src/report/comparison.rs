@@ -5,7 +5,8 @@ use super::figures::{figure, sheet};
 use super::page::Page;
 use crate::control::Control;
 use crate::diagnosis::candidates::restoring_force::RestoringForce;
-use crate::diagnosis::diagnose::{Correction, Suggestion, Verdict};
+use crate::diagnosis::diagnose::{Suggestion, Verdict};
+use crate::diagnosis::updating::correction::Correction;
 use crate::diagnosis::{Comparison, Diagnosis};
 use crate::display::format::{chance, in_words, polished};
 use crate::display::{findings, format, words};
@@ -106,6 +107,9 @@ fn missing(page: &mut Page, content: &Content<'_>, found: &Diagnosis) {
     page.sentence(&findings::sentence(found));
     if !found.complete {
         page.warning("The search was ended before its time: this is the best so far.");
+    }
+    if let Some(runs) = findings::searched_runs(found) {
+        page.sentence(&runs);
     }
     corrections(page, content, found);
     suggestions(page, &content.project.structure, &found.suggestions);

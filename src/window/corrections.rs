@@ -1,7 +1,7 @@
 //! What becomes of the corrections of the model that a search found: other numbers of the structure and of its known sources.
 
 use super::additions::labels;
-use crate::diagnosis::diagnose::Correction;
+use crate::diagnosis::updating::correction::Correction;
 use crate::diagnosis::updating::parameters::UpdatingParameter;
 use crate::effects::{Effect, Source, State};
 use crate::exchange::Project;

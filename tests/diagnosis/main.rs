@@ -3,6 +3,7 @@
 
 mod comparison;
 mod hidden;
+mod level_series;
 mod missing_force;
 #[path = "../../examples/hidden_effects/random.rs"]
 #[allow(dead_code, reason = "shared with the example, which uses all of it")]

@@ -9,12 +9,12 @@
 use crate::control::Control;
 use crate::diagnosis::candidates::fingerprint::{Exponent, Fingerprint, fingerprint};
 use crate::diagnosis::candidates::identified_force::{PlaceData, Ratio};
-use crate::diagnosis::diagnose::Correction;
 use crate::diagnosis::points::energies::energies;
 use crate::diagnosis::residual::data::{Data, DiagnosisError, Problem, RunData};
 use crate::diagnosis::residual::energy_balance::measured_displacement;
 use crate::diagnosis::residual::prediction::{FINAL, Predictor, SEARCH};
 use crate::diagnosis::selection::search::ReferenceModel;
+use crate::diagnosis::updating::correction::Correction;
 use crate::diagnosis::updating::parameters::Updating;
 use crate::effects::{Effect, Place, Source};
 use faer::c64;

@@ -26,14 +26,14 @@ impl ReferenceModel<'_> {
             let (forces, fields) = self.free(&view, &[at]);
             let data = self.at_place(&view, at, &forces[0], &fields);
             let fields = Arc::new(fields);
-            let fits = source.effect.wider().into_iter().flat_map(|effect| data.starts(effect, SHAPES));
+            let laws = source.effect.wider().into_iter().flat_map(|effect| data.starts(effect, SHAPES));
             let unfitted = |effect| UnfittedSet {
                 effects: joined(&others.effects, &[effect]),
                 score: 0.0,
                 fields: fields.clone(),
             };
             let unfitted: Vec<UnfittedSet> =
-                fits.map(|fit| fit.source).filter(|source| self.data.allows(source)).map(unfitted).collect();
+                laws.map(|law| law.source).filter(|source| self.data.allows(source)).map(unfitted).collect();
             fits.extend(self.fit_all(&unfitted)?);
         }
         Ok(fits)

@@ -15,13 +15,14 @@
 use crate::control::Control;
 use crate::diagnosis::candidates::friction::friction;
 use crate::diagnosis::candidates::identified_force::{PlaceData, shrunk};
-use crate::diagnosis::diagnose::{Correction, Diagnosis};
+use crate::diagnosis::diagnose::Diagnosis;
 use crate::diagnosis::localisation::free_force::FreeForce;
 use crate::diagnosis::localisation::location::Spot;
 use crate::diagnosis::residual::data::{Data, DiagnosisError, Problem, RunData};
 use crate::diagnosis::residual::levels::Levels;
 use crate::diagnosis::residual::prediction::{Predictor, SEARCH};
 use crate::diagnosis::selection::search::ReferenceModel;
+use crate::diagnosis::updating::correction::Correction;
 use crate::diagnosis::updating::parameters::Updating;
 use crate::effects::{Law, Motion, Place, Source};
 use faer::c64;

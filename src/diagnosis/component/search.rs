@@ -69,6 +69,7 @@ pub fn diagnose_component(
         corrections: Vec::new(),
         channel_faults: Vec::new(),
         complete: true,
+        runs: Vec::new(),
     };
     if before < AGREES * floor {
         return Ok(diagnosis);

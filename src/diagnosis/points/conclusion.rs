@@ -48,6 +48,7 @@ fn as_stated(balance: &Balance) -> Diagnosis {
         corrections: Vec::new(),
         channel_faults: Vec::new(),
         complete: true,
+        runs: Vec::new(),
     }
 }
 

@@ -8,7 +8,7 @@
 //!
 //! `kappa` is chosen beside each set of effects by its likelihood, so that exact data shrink it to nothing.
 
-use crate::diagnosis::diagnose::Correction;
+use crate::diagnosis::updating::correction::Correction;
 use crate::diagnosis::updating::parameters::{Scales, UpdatingParameter};
 use dashpot_numerics::{dot, symmetric};
 use faer::Mat;

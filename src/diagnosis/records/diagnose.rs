@@ -68,6 +68,7 @@ pub fn diagnose_records(
         corrections: Vec::new(),
         channel_faults: Vec::new(),
         complete: true,
+        runs: Vec::new(),
     };
     if misfit(&bare) < AGREES {
         return Ok(diagnosis);

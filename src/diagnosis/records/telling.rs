@@ -3,7 +3,8 @@
 use super::data::{RecordError, Records};
 use super::evidence::{evidence, misfit, parameters, scale};
 use super::fitted::FittedRecords;
-use crate::diagnosis::diagnose::{Added, Correction, Suggestion};
+use crate::diagnosis::diagnose::{Added, Suggestion};
+use crate::diagnosis::updating::correction::Correction;
 use crate::diagnosis::updating::parameters::UpdatingParameter;
 use crate::effects::Source;
 use crate::math::statistics::evidence_weights;

@@ -7,5 +7,6 @@ pub mod energy_balance;
 pub(crate) mod levels;
 pub mod prediction;
 pub mod run_nuisance;
+pub(crate) mod telling_runs;
 pub mod whiteness;
 pub mod whitening;

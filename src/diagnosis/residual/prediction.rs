@@ -39,6 +39,28 @@ pub(crate) const FINAL: Settings = Settings {
 /// The same where truncation would still show above the noise: nearly sticking friction.
 const FINEST: Settings = Settings { most_harmonics: 63, ..FINAL };
 
+/// Share of the noise that truncation of the series may add.
+const OF_THE_NOISE: f64 = 0.01;
+/// Relative truncation beyond which no noise lets it go.
+const COARSEST: f64 = 1e-3;
+
+/// `settings` for a response that is compared with a run: harmonics that were not measured need not rest, and those that were no
+/// better than the noise lets see.
+fn as_exact_as(data: &RunData, settings: &Settings) -> Settings {
+    let relative = |&c: &usize| {
+        let channel = &data.responses[c];
+        let (y, s) = (channel.measured.first()?.norm(), channel.deviation.first()?);
+        (y > 0.0).then_some(s / y)
+    };
+    let noise = data.alive.iter().filter_map(relative).fold(f64::INFINITY, f64::min);
+    let allowed = if noise.is_finite() { (OF_THE_NOISE * noise).min(COARSEST) } else { 0.0 };
+    Settings {
+        watched: settings.watched.min(data.harmonics.max(1)),
+        truncation: settings.truncation.max(allowed),
+        ..*settings
+    }
+}
+
 /// Predicted response of one run.
 #[derive(Debug, Clone)]
 pub struct RunPrediction {
@@ -178,7 +200,8 @@ impl Predictor {
         control: &Control,
     ) -> Result<RunPrediction, ResponseError> {
         let excitation = excitation(data, effects);
-        let response = self.runs[r].respond(&self.sources(effects), &excitation, settings, start, control)?;
+        let settings = as_exact_as(data, settings);
+        let response = self.runs[r].respond(&self.sources(effects), &excitation, &settings, start, control)?;
         Ok(recorded(data, effects, response))
     }
 

@@ -38,7 +38,9 @@ pub(super) fn beside_updating(
     let mut found = Found { updated: true, by_size: Vec::new(), agrees: false, before };
     let stated = reference.estimator().error(&reference.predictions);
     let bare = reference.bare()?;
-    let (mut here, first) = match first_fits(&reference, &bare)? {
+    // Before candidates are followed, which takes long: what differs from run to run may be more than tests usually differ by.
+    let corrected = bare.likely()?;
+    let (mut here, first) = match first_fits(&reference, &bare, &corrected.0)? {
         First::Fits(here, fits) => (here, fits),
         First::None(likely) => {
             found.agrees = agrees(&likely, likely.misfit() * likely.count() as f64, 0);
@@ -47,7 +49,7 @@ pub(super) fn beside_updating(
         First::Unreliable(fault) => return Ok(Err(fault)),
     };
     let mut first = Some(first);
-    let (mut likely, mut least) = bare.roughly();
+    let (mut likely, mut least) = corrected;
     let mut told_alone = false;
     let by_modes = bare.linearisation.updating.is_by_modes();
     while found.by_size.len() < MOST_EFFECTS && (found.by_size.is_empty() || !here.control.is_late()) {
@@ -66,7 +68,7 @@ pub(super) fn beside_updating(
         let scale = scale_of(&weighed.fits, weighed.reference.count());
         let doubtful = best.effects.iter().any(|e| is_like_a_correction(e.effect)) || scale > DOUBTFUL;
         if from.is_none() && (bare.misfit() < RIVALLED * scale || doubtful) {
-            (likely, least) = alone(&bare, &weighed)?;
+            (likely, least) = alone((likely, least), &bare, &weighed)?;
             told_alone = true;
         }
         // What only lowers the error because every run has a stiffness of its own is nothing that could be added.
@@ -91,9 +93,6 @@ pub(super) fn beside_updating(
         }
     }
     if found.by_size.is_empty() {
-        if !told_alone {
-            (likely, _) = bare.likely()?;
-        }
         found.agrees = agrees(&likely, likely.misfit() * likely.count() as f64, 0);
     }
     pruned(&likely, &mut found)?;
@@ -112,13 +111,16 @@ enum First<'a> {
 
 /// The first candidates beside the corrections of `bare`. Where corrections alone agree with the data and no law would bring its
 /// evidence beside them, none is followed but what one change explains instead of them.
-fn first_fits<'a>(reference: &ReferenceModel<'a>, bare: &ReferenceModel<'a>) -> Result<First<'a>, DiagnosisError> {
+fn first_fits<'a>(
+    reference: &ReferenceModel<'a>,
+    bare: &ReferenceModel<'a>,
+    likely: &ReferenceModel<'a>,
+) -> Result<First<'a>, DiagnosisError> {
     let changes = if bare.misfit() < TOLERATED { bare.single_changes(PROMISED)? } else { Vec::new() };
     let mut promises = bare.misfit() >= DOUBTFUL || bare.promises(CHOSEN)?;
     if !promises && changes.is_empty() {
-        let (likely, _) = bare.likely()?;
         if !likely.promises(CHOSEN)? {
-            return Ok(First::None(likely));
+            return Ok(First::None(likely.with_scales(likely.linearisation.updating.scales)));
         }
         promises = true;
     }
@@ -138,8 +140,11 @@ fn first_fits<'a>(reference: &ReferenceModel<'a>, bare: &ReferenceModel<'a>) -> 
 
 /// The model with corrections alone, as likely as they make it, and its evidence: they may have ended in another valley than
 /// those beside the effect.
-fn alone<'a>(bare: &ReferenceModel<'a>, weighed: &Weighed<'a>) -> Result<(ReferenceModel<'a>, f64), DiagnosisError> {
-    let (likely, least) = bare.likely()?;
+fn alone<'a>(
+    (likely, least): (ReferenceModel<'a>, f64),
+    bare: &ReferenceModel<'a>,
+    weighed: &Weighed<'a>,
+) -> Result<(ReferenceModel<'a>, f64), DiagnosisError> {
     let beside = bare.updated(&weighed.reference.linearisation.updating, &[], &Vec::new())?;
     let (estimated, cost) = beside.estimated()?;
     Ok(if cost < least { (estimated, cost) } else { (likely, least) })

@@ -1,6 +1,6 @@
 //! From where a search ended to what is said: suggestions with their probabilities, steps, what cannot be told apart.
 
-use crate::diagnosis::diagnose::{Added, Correction, Diagnosis, Step, Suggestion, Verdict, noise_floor};
+use crate::diagnosis::diagnose::{Added, Diagnosis, Step, Suggestion, Verdict, noise_floor};
 use crate::diagnosis::residual::data::DiagnosisError;
 use crate::diagnosis::residual::prediction::FINAL;
 use crate::diagnosis::selection::fitted_model::{Estimator, FittedModel};
@@ -8,6 +8,7 @@ use crate::diagnosis::selection::found::{FittedSets, Found, same_set};
 use crate::diagnosis::selection::next_test::{next_test, pinning_test};
 use crate::diagnosis::selection::search::{ReferenceModel, scale_of};
 use crate::diagnosis::selection::sentences::sentences;
+use crate::diagnosis::updating::correction::Correction;
 use crate::diagnosis::updating::parameters::{Scales, UpdatingParameter};
 use crate::effects::Source;
 use crate::math::numerals::significant;

@@ -2,6 +2,7 @@
 
 use super::search::{ReferenceModel, UnfittedSet, joined};
 use super::short_list::{Breadth, needed};
+use super::weighing::cost;
 use crate::diagnosis::candidates::start::start;
 use crate::diagnosis::residual::data::DiagnosisError;
 use crate::diagnosis::residual::prediction::SEARCH;
@@ -25,6 +26,8 @@ const COARSE: f64 = 3.0;
 /// Best sets whose limits are followed too, and how many times their score those may leave.
 const HEARD: usize = 2;
 const LIMIT: f64 = 2.0;
+/// Candidates that are followed to the end.
+const FINALISTS: usize = 4;
 /// Times that a model is updated beside its candidate.
 const UPDATES: usize = 6;
 
@@ -42,8 +45,25 @@ impl<'a> ReferenceModel<'a> {
             targets.push(self.updated_beside(&mut view, unfitted)?);
         }
         drop(view);
-        let follow = |k: usize| self.followed_set(&unfitted[k], targets[k].as_deref(), &[]);
-        self.control.map(unfitted.len(), follow).into_iter().collect()
+        self.all_followed(unfitted.len(), |k| self.followed_set(&unfitted[k], targets[k].as_deref(), &[]))
+    }
+
+    /// `count` candidates followed a little, the best of them to the end.
+    fn all_followed<'s>(
+        &self,
+        count: usize,
+        follow: impl Fn(usize) -> Result<(ReferenceModel<'s>, FittedModel), DiagnosisError> + Sync,
+    ) -> Result<Vec<(ReferenceModel<'s>, FittedModel)>, DiagnosisError> {
+        let mut begun = self.control.map(count, follow).into_iter().collect::<Result<Vec<_>, _>>()?;
+        begun.sort_by(|a, b| cost(&a.0, Some(&a.1)).total_cmp(&cost(&b.0, Some(&b.1))));
+        let rest = begun.split_off(begun.len().min(FINALISTS));
+        let further = |k: usize| {
+            let (reference, fit) = &begun[k];
+            reference.with_scales(reference.linearisation.updating.scales).settled(fit.clone(), &SEARCH, UPDATES - 1)
+        };
+        let mut fits = self.control.map(begun.len(), further).into_iter().collect::<Result<Vec<_>, _>>()?;
+        fits.extend(rest);
+        Ok(fits)
     }
 
     /// The candidates for one effect beside those of `from`, each fitted with a model updated beside it; none where none
@@ -60,11 +80,10 @@ impl<'a> ReferenceModel<'a> {
         unfitted.retain(|d| d.score < bound);
         unfitted.sort_by(|a, b| a.score.total_cmp(&b.score));
         let unfitted = promising(needed(unfitted), self.count());
-        let follow = |k: usize| self.followed_set(&unfitted[k], None, &from.effects);
-        self.control.map(unfitted.len(), follow).into_iter().collect()
+        self.all_followed(unfitted.len(), |k| self.followed_set(&unfitted[k], None, &from.effects))
     }
 
-    /// A candidate fitted on the response in turn with the updating parameters beside it, which start at `target`.
+    /// A candidate fitted on the response, then with the updating parameters beside it, which start at `target`.
     fn followed_set(
         &self,
         unfitted: &UnfittedSet,
@@ -79,7 +98,7 @@ impl<'a> ReferenceModel<'a> {
         let updating = target.map_or_else(|| updating.clone(), |u| updating.at(u));
         let reference = self.updated(&updating, &effects, &starts)?;
         let fit = reference.estimator().fit(&effects, STEPS, &SEARCH, &starts)?;
-        reference.settled(fit, &SEARCH, UPDATES)
+        reference.settled(fit, &SEARCH, 1)
     }
 
     /// The laws of the whole structure, regressed at the measured motion.
@@ -155,11 +174,11 @@ fn promising(unfitted: Vec<UnfittedSet>, count: usize) -> Vec<UnfittedSet> {
 
 /// The best sets with the simpler laws that they contain as limits, from all `unfitted`.
 fn with_limits(mut kept: Vec<UnfittedSet>, unfitted: &[UnfittedSet]) -> Vec<UnfittedSet> {
-    for unfitted in kept.clone().iter().take(HEARD) {
-        let (effect, place) = (unfitted.effects[0].effect, &unfitted.effects[0].place);
+    for set in kept.clone().iter().take(HEARD) {
+        let (effect, place) = (set.effects[0].effect, &set.effects[0].place);
         for simpler in effect.limits() {
             let is = |d: &&UnfittedSet| d.effects[0].effect == simpler && d.effects[0].place.is_same(place);
-            let near = |d: &&UnfittedSet| d.score < LIMIT * unfitted.score.abs();
+            let near = |d: &&UnfittedSet| d.score < LIMIT * set.score.abs();
             if !kept.iter().any(|d| is(&d)) {
                 kept.extend(unfitted.iter().find(is).filter(near).cloned());
             }

@@ -68,10 +68,6 @@ pub(crate) fn fits_well(reference: &ReferenceModel, found: &Found, fit: &FittedM
     agrees(reference, fit.chi_square, fit.parameters) || nearly(reference, fit, found.before)
 }
 
-pub(crate) fn level(fit: &FittedModel) -> (f64, usize) {
-    (fit.chi_square, fit.parameters)
-}
-
 /// The best fit of every set.
 pub(crate) fn distinct(fits: Vec<FittedModel>) -> Vec<FittedModel> {
     let mut kept: Vec<FittedModel> = Vec::with_capacity(fits.len());

@@ -34,6 +34,8 @@ const EXTRA: f64 = 8.0;
 const POSING: f64 = 20.0;
 /// Scaled squared residual beyond the best law that a free force of a place may leave where its laws are looked at.
 const MARGIN: f64 = 150.0;
+/// Share of the squared residual of the model as it is up to which a regressed law may still agree with the data.
+const WORTH: f64 = 0.05;
 /// Places at which the law found is tried too, where no law can tell them apart.
 const ELSEWHERE: usize = 6;
 
@@ -129,9 +131,27 @@ impl<'a> ReferenceModel<'a> {
 
     /// Sets of the effects of `from` and one more, fitted on the response, best first by evidence.
     pub fn singles(&self, from: Option<&FittedModel>) -> Result<Vec<FittedModel>, DiagnosisError> {
-        let mut view = self.view(from)?;
         let effects = from.map_or(&[][..], |fit| &fit.effects);
-        let mut unfitted = short_list(self.unfitted(&mut view, effects, Breadth::All)?, FITS);
+        let unfitted = self.unfitted(&mut self.view(from)?, effects, Breadth::All)?;
+        self.fitted_singles(unfitted, from)
+    }
+
+    /// The laws regressed on the free forces of this model if the best of them leaves at most `least`, or a twentieth of the
+    /// squared residual `before`: else free forces that explain everything (of one sensor they always do) are those of no law.
+    pub(super) fn regressed_within(&self, least: f64, before: f64) -> Result<Option<Vec<UnfittedSet>>, DiagnosisError> {
+        let unfitted = self.unfitted(&mut self.view(None)?, &[], Breadth::All)?;
+        let left = unfitted.iter().map(|set| set.score).fold(f64::INFINITY, f64::min);
+        Ok((left <= least.max(WORTH * before)).then_some(unfitted))
+    }
+
+    /// Sets of the effects of `from` and one of `unfitted`, fitted on the response, best first by evidence.
+    pub(super) fn fitted_singles(
+        &self,
+        unfitted: Vec<UnfittedSet>,
+        from: Option<&FittedModel>,
+    ) -> Result<Vec<FittedModel>, DiagnosisError> {
+        let effects = from.map_or(&[][..], |fit| &fit.effects);
+        let mut unfitted = short_list(unfitted, FITS);
         unfitted.iter_mut().for_each(|d| d.effects = joined(effects, &d.effects));
         let mut begun = self.begun(&unfitted)?;
         begun.extend(self.whole(from, crate::diagnosis::selection::fits::FIRST_STEPS)?);

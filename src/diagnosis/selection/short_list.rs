@@ -96,8 +96,8 @@ pub(super) fn short_list(mut unfitted: Vec<UnfittedSet>, most: usize) -> Vec<Unf
             break;
         }
     }
-    for unfitted in kept.clone().iter().take(LAWS_AT_ONE_PLACE) {
-        let (effect, place) = (unfitted.effects[0].effect, &unfitted.effects[0].place);
+    for set in kept.clone().iter().take(LAWS_AT_ONE_PLACE) {
+        let (effect, place) = (set.effects[0].effect, &set.effects[0].place);
         for simpler in effect.limits() {
             let is = |d: &&UnfittedSet| d.effects[0].effect == simpler && d.effects[0].place == *place;
             if kept.iter().any(|d| is(&d)) {

@@ -3,7 +3,7 @@
 
 use super::beside_corrections::beside_updating;
 use super::found::{
-    AGREES, DOUBTFUL, EVIDENCE, FittedSets, Found, LAST, MOST_EFFECTS, distinct, fits_well, level, same_set, small,
+    AGREES, DOUBTFUL, EVIDENCE, FittedSets, Found, LAST, MOST_EFFECTS, distinct, fits_well, same_set, small,
 };
 use crate::diagnosis::candidates::special_cases::is_limit;
 use crate::diagnosis::channels::ChannelFault;
@@ -22,8 +22,14 @@ const PLAIN: f64 = 1e-4;
 const PLAIN_ERROR: f64 = 1e-3;
 /// How many times the squared residual of noise free forces may leave where the laws behind them may still explain it.
 const REACH: f64 = 4.0;
+/// How many times that the best law regressed on the free forces may leave: where two parameters of friction that sticks are
+/// those of a grid, it leaves some times what its fit on the response will.
+const NEAR: f64 = 20.0;
 /// Scaled squared residual within which places are worth trying with a law that was found elsewhere.
 const ELSEWHERE: f64 = 40.0;
+/// Squared residual per datum that the law nearest to the free forces leaves from which on the model is not exact.
+const INEXACT: f64 = 30.0;
+
 /// One effect more where a set agrees with the data, if it has overwhelming evidence: the sum of squares alone may hide
 /// an effect that others stand in for.
 fn confirm(reference: &ReferenceModel, found: &mut Found) -> Result<(), DiagnosisError> {
@@ -60,8 +66,9 @@ pub(crate) fn explain(
     let n = reference.count() as f64;
     let noise = REACH * (n + AGREES * (2.0 * n).sqrt());
     let within = |least: f64| least <= noise || least - n < LAST * (before - n);
-    if within(reach.single) {
-        climb(&reference, &mut exact, (before, 0), 1)?;
+    let single = if within(reach.single) { reference.regressed_within(NEAR * noise, before)? } else { None };
+    if let Some(unfitted) = single {
+        add_size(&reference, &mut exact, reference.fitted_singles(unfitted, None)?, (before, 0))?;
     } else {
         add_size(&reference, &mut exact, reference.ranked(reference.whole(None, STEPS)?), (before, 0))?;
         exact = if exact.agrees { exact } else { none() };
@@ -99,23 +106,6 @@ fn two_at_once(reference: &ReferenceModel, found: &mut Found) -> Result<bool, Di
     Ok(found.agrees)
 }
 
-/// Adds effects as long as the data demand them, up to `most`.
-pub(crate) fn climb(
-    reference: &ReferenceModel,
-    found: &mut Found,
-    mut last: (f64, usize),
-    most: usize,
-) -> Result<(), DiagnosisError> {
-    while found.by_size.len() < most && !found.agrees {
-        let fits = next(reference, &found.by_size)?;
-        if !add_size(reference, found, fits, last)? {
-            break;
-        }
-        last = found.by_size.last().map_or(last, |r| level(&r.fits[0]));
-    }
-    Ok(())
-}
-
 /// Adds the sets of these fits if the best of them has the evidence.
 pub(crate) fn add_size(
     reference: &ReferenceModel,
@@ -128,13 +118,15 @@ pub(crate) fn add_size(
     }
     let (mut fits, mut noise) = reference.polished(fits)?;
     let Some(best) = fits.first() else { return Ok(false) };
-    if !fits_well(reference, found, best) {
+    // Beside a model that is not exact none of them agrees: other laws and places are then looked at beside corrections.
+    let hopeless = best.chi_square > INEXACT * reference.count() as f64;
+    if !hopeless && !fits_well(reference, found, best) {
         let more = reference.wider(best)?;
         fits.extend(more);
         (fits, noise) = reference.polished(distinct(reference.ranked(fits)))?;
     }
     let Some(best) = fits.first() else { return Ok(false) };
-    if let Some(source) = best.effects.last() {
+    if let Some(source) = best.effects.last().filter(|_| !hopeless) {
         let quiet =
             ReferenceModel { noise: noise.clone(), predictions: reference.predictions.clone(), ..reference.shallow() };
         let margin = ELSEWHERE * scale_of(&fits, reference.count());
@@ -173,19 +165,4 @@ fn plainest(reference: &ReferenceModel, found: &Found, mut fits: Vec<FittedModel
         fits.retain(|set| !contains(set, &simple));
     }
     fits
-}
-
-/// Sets of one effect more than the last.
-fn next(reference: &ReferenceModel, by_size: &[FittedSets]) -> Result<Vec<FittedModel>, DiagnosisError> {
-    let Some(last) = by_size.last() else { return reference.singles(None) };
-    let quiet =
-        ReferenceModel { noise: last.noise.clone(), predictions: reference.predictions.clone(), ..reference.shallow() };
-    let mut fits = Vec::new();
-    for start in last.fits.iter().take(2) {
-        fits.extend(quiet.singles(Some(start))?);
-    }
-    if by_size.len() == 1 {
-        fits.extend(quiet.pairs()?);
-    }
-    Ok(distinct(reference.ranked(fits)))
 }

@@ -215,7 +215,7 @@ impl<'a> ReferenceModel<'a> {
 
     /// Relative error of this model with `effects`, all runs alike, as `compare` tells it of a project in which the corrections
     /// are taken over.
-    pub(super) fn error_of_structure(&self, effects: &[Source], starts: &Starts) -> Result<f64, DiagnosisError> {
+    pub(crate) fn error_of_structure(&self, effects: &[Source], starts: &Starts) -> Result<f64, DiagnosisError> {
         let predictor = self.of_structure()?;
         let estimator = Estimator { predictor: &predictor, ..self.estimator() };
         let mut predictions = estimator.predict(effects, &FINAL, starts)?;
@@ -235,6 +235,13 @@ impl<'a> ReferenceModel<'a> {
         Ok(estimator.error(&predictions))
     }
 
+    /// The same where the responses are those that follow from `starts`.
+    pub(super) fn error_of_followed(&self, effects: &[Source], starts: &Starts) -> Result<f64, DiagnosisError> {
+        let predictor = self.of_structure()?;
+        let estimator = Estimator { predictor: &predictor, ..self.estimator() };
+        Ok(estimator.error(&estimator.predict(effects, &FINAL, starts)?))
+    }
+
     /// The updated model with all runs alike.
     pub(super) fn of_structure(&self) -> Result<Predictor, DiagnosisError> {
         self.predictor.updated(&self.linearisation.updating.of_structure())
@@ -243,12 +250,6 @@ impl<'a> ReferenceModel<'a> {
     /// Squared residual per datum without any effect.
     pub(super) fn misfit(&self) -> f64 {
         square(&self.estimator().residual(&self.predictions)) / self.count().max(1) as f64
-    }
-
-    /// This model as it is, and its evidence.
-    pub(super) fn roughly(&self) -> (ReferenceModel<'a>, f64) {
-        let left = square(&self.estimator().residual(&self.predictions));
-        (self.with_scales(self.linearisation.updating.scales), left + self.noise.cost())
     }
 
     /// This model settled with the scales that are estimated without any effect, and its evidence.

@@ -87,13 +87,14 @@ fn with_likely_scales(mut fits: Vec<(ReferenceModel<'_>, FittedModel)>) -> Resul
     // Where even the best leaves much with the scales of the search, these say little of the order.
     let coarse = left > COARSE * first.count() as f64;
     let near = least + if coarse { LIGHT.max(HEAVY * left) } else { LIGHT };
-    let count = fits.iter().take(WEIGHED).take_while(|(reference, fit)| cost(reference, Some(fit)) < near).count();
+    let most = if control.is_late() { FINISHED } else { WEIGHED };
+    let count = fits.iter().take(most).take_while(|(reference, fit)| cost(reference, Some(fit)) < near).count();
     let likely = |k: usize| {
         let (own, fit) = &fits[k];
-        let (reference, fit) = own.with_likely_scales(Some(fit), &SEARCH)?;
-        let fit = fit.unwrap_or_else(|| fit.clone());
-        if cost(&reference, Some(&fit)) < cost(own, Some(fit)) {
-            return candidate(reference, fit);
+        let (reference, scaled) = own.with_likely_scales(Some(fit), &SEARCH)?;
+        let scaled = scaled.unwrap_or_else(|| fit.clone());
+        if cost(&reference, Some(&scaled)) < cost(own, Some(fit)) {
+            return candidate(reference, scaled);
         }
         candidate(own.with_scales(own.linearisation.updating.scales), fit.clone())
     };
@@ -103,7 +104,12 @@ fn with_likely_scales(mut fits: Vec<(ReferenceModel<'_>, FittedModel)>) -> Resul
 }
 
 fn candidate(reference: ReferenceModel<'_>, fit: FittedModel) -> Result<Candidate<'_>, DiagnosisError> {
-    let error = reference.error_of_structure(&fit.effects, &fit.starts)?;
+    // On which branch each run is takes as long as a fit.
+    let error = if reference.control.is_late() {
+        reference.error_of_followed(&fit.effects, &fit.starts)?
+    } else {
+        reference.error_of_structure(&fit.effects, &fit.starts)?
+    };
     let densities = reference.left_out(Some(&fit), &groups(reference.data))?;
     Ok(Candidate { cost: cost(&reference, Some(&fit)), fit: FittedModel { error, ..fit }, densities, reference })
 }
@@ -229,7 +235,7 @@ fn is_effect(reference: &ReferenceModel, fit: &FittedModel) -> bool {
 }
 
 /// Evidence of a model whose updating parameters are free, with the effects of `fit`; the smaller, the better.
-fn cost(reference: &ReferenceModel, fit: Option<&FittedModel>) -> f64 {
+pub(super) fn cost(reference: &ReferenceModel, fit: Option<&FittedModel>) -> f64 {
     let fit = match fit {
         Some(fit) => reference.evidence(fit, 1.0),
         None => reference.estimator().residual(&reference.predictions).iter().map(|r| r * r).sum(),

@@ -6,12 +6,12 @@
 //! ```
 
 use crate::control::Control;
-use crate::diagnosis::diagnose::Correction;
 use crate::diagnosis::residual::data::{Data, DiagnosisError, Problem};
 use crate::diagnosis::residual::prediction::Predictor;
 use crate::diagnosis::selection::conclusion::corrections;
 use crate::diagnosis::selection::found::agrees;
 use crate::diagnosis::selection::search::ReferenceModel;
+use crate::diagnosis::updating::correction::Correction;
 use crate::diagnosis::updating::parameters::UpdatingParameter;
 use crate::structure::Part;
 use std::sync::Arc;

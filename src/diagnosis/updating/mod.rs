@@ -1,5 +1,6 @@
 //! Model updating: what the model states wrongly, with priors and scales (Friswell and Mottershead 1995).
 
+pub mod correction;
 pub mod detuning;
 pub mod marginalisation;
 pub(crate) mod measured_motion;

@@ -13,9 +13,10 @@
 //! (Harville 1977; [`Marginalisation`](super::marginalisation::Marginalisation), [`RunNuisance`]). A relative change `s` of all
 //! stiffness shifts all natural frequencies by `s / 2`.
 
+use super::correction::{Correction, with_corrections};
 use super::parameters::{Updating, UpdatingParameter};
 use crate::control::Control;
-use crate::diagnosis::diagnose::{Correction, Diagnosis};
+use crate::diagnosis::diagnose::Diagnosis;
 use crate::diagnosis::residual::data::{Data, DiagnosisError, Problem};
 use crate::diagnosis::residual::prediction::{FINAL, Predictor, RunPrediction};
 #[cfg(doc)]
@@ -106,11 +107,7 @@ pub fn scatter(
     }
     let data = Data::new(problem)?;
     let known = problem.known();
-    let mut updating = Updating::all(problem.structure, &known, &data);
-    for (parameter, value) in updating.parameters.iter().zip(&mut updating.values) {
-        let stated = corrections.iter().find(|c| c.parameter == *parameter);
-        *value = stated.map_or(0.0, |c| c.factor.ln());
-    }
+    let updating = with_corrections(Updating::all(problem.structure, &known, &data), corrections);
     let predictor = Arc::new(Predictor::new(problem.structure, known, &data)?);
     let stated = ReferenceModel::new(predictor, &data, control, &|_| {})?;
     let mut reference = stated.updated(&updating, effects, &Vec::new())?;

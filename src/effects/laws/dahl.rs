@@ -50,9 +50,11 @@ impl InternalLaw for Dahl {
     fn step(&self, p: &[f64], start: f64, way: f64) -> Way {
         let [stiffness, force] = [p[0], p[1]];
         let sliding = force * if way < 0.0 { -1.0 } else { 1.0 };
-        let fading = (-stiffness * way.abs() / force).exp();
+        let exponent = -stiffness * way.abs() / force;
+        let fading = exponent.exp();
         Way {
-            force: sliding + (start - sliding) * fading,
+            // Of ways that are short of sliding, the difference of two large forces would be rounding.
+            force: start * fading - sliding * exponent.exp_m1(),
             by_start: fading,
             by_way: stiffness * (1.0 - start / sliding) * fading,
         }

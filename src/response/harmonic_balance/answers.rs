@@ -119,12 +119,11 @@ impl NonlinearLeg {
         let sampled_motion = sampled(fourier, omega, motion);
         let (mut samples, mut column) = (vec![0.0; fourier.samples()], vec![0.0; width]);
         let mut value = vec![0.0; width];
-        self.law.force(&self.parameters, &sampled_motion, &mut samples);
+        let tangent = self.law.force_and_tangent(&self.parameters, &sampled_motion, &mut samples);
         fourier.project(&samples, &mut value);
         let mut by_motion = vec![0.0; width * width];
         // Laws with memory look at displacements only.
         let mut direction = Motion { velocity: Vec::new(), acceleration: Vec::new(), ..sampled_motion.clone() };
-        let tangent = self.law.linearised(&self.parameters, &sampled_motion);
         for k in fourier.rows() {
             fourier.wave(k, &mut direction.displacement);
             tangent(&direction, &mut samples);

@@ -126,6 +126,9 @@ fn answer(ui: &mut Ui, scene: &Scene<'_>, diagnosis: &Diagnosis, look: &mut Look
     if !diagnosis.complete {
         limit::best_so_far(ui, asks);
     }
+    if let Some(runs) = findings::searched_runs(diagnosis) {
+        ui.weak(runs);
+    }
     if matches!(diagnosis.verdict, Verdict::Adequate | Verdict::Detuned) {
         adequate(ui, scene, diagnosis);
     } else {
