@@ -1,7 +1,8 @@
 //! A finite-element model under the measurements, reduced where it is large.
 
+use super::error::{ImportError, Result};
+use super::request::Request;
 use super::text::named;
-use super::{ImportError, Request, Result};
 use crate::exchange::matrices::model::{Model, ModelFiles, read_model};
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -36,6 +37,16 @@ pub(super) fn structure(request: &Request, out: &Path, up_to_hz: f64) -> Result<
         text.push_str(&format!("\n[structure.reduce]\nup_to_hz = {up_to_hz:?}\n"));
     }
     Ok(Some(text))
+}
+
+/// Head of a project with the structure of the model that is given, else with `own`, and candidates.
+pub(super) fn head(request: &Request, out: &Path, own: &str, up_to_hz: f64) -> Result<String> {
+    let title = request.files[0].file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned());
+    let structure = structure(request, out, up_to_hz)?.unwrap_or_else(|| own.to_owned());
+    Ok(format!(
+        "[project]\nformat = 1\ntitle = {}\n\n{structure}\n[[candidates]]\nlaw = \"viscous\"\nwhere = \"each-translation\"\n\n",
+        toml::Value::from(title)
+    ))
 }
 
 /// Least reach of points given in another unit than the model, over its size.

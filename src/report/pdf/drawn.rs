@@ -1,7 +1,6 @@
 //! A drawing in a PDF. Colours that let the ground through are mixed with it: pages need no transparency.
 
-use super::FACE;
-use super::face::Face;
+use super::face::{FACE, Face};
 use crate::plots::drawing::{Drawing, Mark, Stroke};
 use ecolor::Color32;
 use emath::{Align, Align2, Pos2};
