@@ -60,55 +60,42 @@ pub struct Palette {
     pub levels: [Color32; 4],
 }
 
-const LIGHT: Palette = Palette {
-    measured: Color32::from_rgb(0x00, 0x66, 0xA6),
-    model: Color32::from_rgb(0xD5, 0x5E, 0x00),
-    missing: Color32::from_rgb(0xA8, 0x4A, 0x86),
-    accent: Color32::from_rgb(0x0B, 0x72, 0x6E),
-    accent_faint: Color32::from_rgb(0xDC, 0xEF, 0xED),
-    ink: Color32::from_rgb(0x17, 0x1D, 0x24),
-    weak: Color32::from_rgb(0x56, 0x61, 0x6D),
-    line: Color32::from_rgb(0xD6, 0xDB, 0xE1),
-    grid: Color32::from_rgb(0xC2, 0xC9, 0xD1),
-    desk: Color32::from_rgb(0xE9, 0xEC, 0xEF),
-    pane: Color32::from_rgb(0xFA, 0xFB, 0xFC),
-    canvas: Color32::from_rgb(0xFF, 0xFF, 0xFF),
-    raised: Color32::from_rgb(0xEF, 0xF2, 0xF5),
-    good: Color32::from_rgb(0x1B, 0x7F, 0x4B),
-    warning: Color32::from_rgb(0x9A, 0x62, 0x00),
-    error: Color32::from_rgb(0xB3, 0x26, 0x1E),
-    levels: [
-        Color32::from_rgb(0x44, 0x17, 0x61),
-        Color32::from_rgb(0x2A, 0x6A, 0x96),
-        Color32::from_rgb(0x1F, 0x8F, 0x6E),
-        Color32::from_rgb(0xB8, 0x8A, 0x00),
-    ],
-};
+const LIGHT: Palette = palette(0);
+const DARK: Palette = palette(1);
 
-const DARK: Palette = Palette {
-    measured: Color32::from_rgb(0x56, 0xB4, 0xE9),
-    model: Color32::from_rgb(0xF0, 0x9A, 0x3E),
-    missing: Color32::from_rgb(0xE0, 0x8F, 0xC0),
-    accent: Color32::from_rgb(0x4F, 0xC4, 0xBB),
-    accent_faint: Color32::from_rgb(0x1B, 0x3B, 0x3A),
-    ink: Color32::from_rgb(0xE6, 0xE9, 0xED),
-    weak: Color32::from_rgb(0x9D, 0xA8, 0xB4),
-    line: Color32::from_rgb(0x33, 0x3A, 0x42),
-    grid: Color32::from_rgb(0x4A, 0x53, 0x5D),
-    desk: Color32::from_rgb(0x0E, 0x10, 0x13),
-    pane: Color32::from_rgb(0x1A, 0x1E, 0x23),
-    canvas: Color32::from_rgb(0x14, 0x17, 0x1B),
-    raised: Color32::from_rgb(0x26, 0x2C, 0x33),
-    good: Color32::from_rgb(0x5C, 0xC8, 0x8F),
-    warning: Color32::from_rgb(0xE8, 0xB3, 0x4B),
-    error: Color32::from_rgb(0xF2, 0x8B, 0x82),
-    levels: [
-        Color32::from_rgb(0x8C, 0x6B, 0xD6),
-        Color32::from_rgb(0x4A, 0x9B, 0xD4),
-        Color32::from_rgb(0x4F, 0xC4, 0x8B),
-        Color32::from_rgb(0xF5, 0xD7, 0x42),
-    ],
-};
+/// The colours on a light (0) or a dark (1) ground, each beside the other.
+const fn palette(ground: usize) -> Palette {
+    Palette {
+        measured: rgb([0x0066A6, 0x56B4E9][ground]),
+        model: rgb([0xD55E00, 0xF09A3E][ground]),
+        missing: rgb([0xA84A86, 0xE08FC0][ground]),
+        accent: rgb([0x0B726E, 0x4FC4BB][ground]),
+        accent_faint: rgb([0xDCEFED, 0x1B3B3A][ground]),
+        ink: rgb([0x171D24, 0xE6E9ED][ground]),
+        weak: rgb([0x56616D, 0x9DA8B4][ground]),
+        line: rgb([0xD6DBE1, 0x333A42][ground]),
+        grid: rgb([0xC2C9D1, 0x4A535D][ground]),
+        desk: rgb([0xE9ECEF, 0x0E1013][ground]),
+        pane: rgb([0xFAFBFC, 0x1A1E23][ground]),
+        canvas: rgb([0xFFFFFF, 0x14171B][ground]),
+        raised: rgb([0xEFF2F5, 0x262C33][ground]),
+        good: rgb([0x1B7F4B, 0x5CC88F][ground]),
+        warning: rgb([0x9A6200, 0xE8B34B][ground]),
+        error: rgb([0xB3261E, 0xF28B82][ground]),
+        levels: [
+            rgb([0x441761, 0x8C6BD6][ground]),
+            rgb([0x2A6A96, 0x4A9BD4][ground]),
+            rgb([0x1F8F6E, 0x4FC48B][ground]),
+            rgb([0xB88A00, 0xF5D742][ground]),
+        ],
+    }
+}
+
+/// A colour of its red, green and blue bytes.
+const fn rgb(hex: u32) -> Color32 {
+    let [_, red, green, blue] = hex.to_be_bytes();
+    Color32::from_rgb(red, green, blue)
+}
 
 impl Palette {
     /// The palette of the light theme; that of what is printed.

@@ -1,5 +1,6 @@
 //! The classical methods side by side: ratios and errors of each, and the matrix of one beside what it is held against.
 
+use super::identified;
 use crate::classical::Damping;
 use crate::classical::method::Method;
 use crate::classical::side_by_side::{Applied, SideBySide};
@@ -93,12 +94,12 @@ fn table(ui: &mut Ui, found: &SideBySide, chosen: &mut Option<Method>) {
             row.col(|ui| drop(ui.hint("Method")));
             if known {
                 for name in ["Error C", "MAC error"] {
-                    row.col(|ui| drop(super::head_right(ui, name)));
+                    row.col(|ui| drop(identified::head_right(ui, name)));
                 }
             }
             for mode in 0..modes {
                 let name = format!("ζ{}, %", mode + 1);
-                row.col(|ui| drop(super::head_right(ui, &name).on_hover_text("Damping ratio of the mode.")));
+                row.col(|ui| drop(identified::head_right(ui, &name).on_hover_text("Damping ratio of the mode.")));
             }
         })
         .body(|mut body| {

@@ -1,11 +1,12 @@
 //! What is missing? The verdict, the ranked suggestions as cards, and what the user has ruled out.
 
 use super::card;
+use super::deed::Deed;
 use super::force;
 use super::limit;
 use super::look::Look;
 use super::ranking::{open, ranked};
-use super::{Deed, Scene};
+use super::scene::Scene;
 use crate::diagnosis::Diagnosis;
 use crate::diagnosis::diagnose::Verdict;
 use crate::diagnosis::updating::parameters::UpdatingParameter;
@@ -15,8 +16,8 @@ use crate::display::format::in_words;
 use crate::display::words;
 use crate::display::words::at;
 use crate::effects::Source;
+use crate::session::corrections::{self, Adopted};
 use crate::window::app::Ask;
-use crate::window::corrections::{self, Adopted};
 use crate::window::explained::{HOPELESS, Standing};
 use crate::window::theme::{self, size, space};
 use crate::window::widgets::UiExt;
@@ -176,8 +177,7 @@ fn detuned(ui: &mut Ui, scene: &Scene<'_>, diagnosis: &Diagnosis, asks: &mut Vec
 /// The commands that take the corrections over.
 pub fn adopted(scene: &Scene<'_>, diagnosis: &Diagnosis) -> Adopted {
     let known = |index: usize| scene.explained.known(scene.document, index);
-    let file = scene.document.session().document().file();
-    corrections::adopt(&diagnosis.corrections, &known, &scene.document.project, file)
+    corrections::adopt(&diagnosis.corrections, &known, scene.document.session().document())
 }
 
 /// What a correction corrects.

@@ -1,0 +1,58 @@
+//! Where each stage stands, and why in one line.
+
+use super::app::App;
+use super::frame::top::StageStatus;
+use super::stages;
+use super::view::Stage;
+use crate::display::words;
+use crate::effects::State;
+use crate::identify::Status;
+
+impl App {
+    /// Where the stage stands, for its tab: whether it needs attention and why, in one line.
+    pub fn status(&self, stage: Stage) -> StageStatus {
+        let Some(document) = &self.document else { return StageStatus::empty("No project is open.") };
+        let p = &document.project;
+        match stage {
+            Stage::Measure if p.runs.is_empty() => StageStatus::empty("No runs: import measurements."),
+            Stage::Measure => {
+                let flagged = p.runs.iter().filter(|r| r.enabled && !r.findings.is_empty()).count();
+                let used = p.runs.iter().filter(|r| r.enabled).count();
+                if flagged > 0 {
+                    StageStatus::attention(&format!("{flagged} of {used} used runs are flagged."))
+                } else {
+                    StageStatus::done(&format!("{used} runs are used, none is flagged."))
+                }
+            }
+            Stage::Structure if p.structure.matrices().is_none() => {
+                StageStatus::done("Points: energy balance only, no model.")
+            }
+            Stage::Structure => StageStatus::done(&format!("{} degrees of freedom.", p.structure.len())),
+            Stage::Pattern => {
+                let open = p.sources.iter().filter(|s| matches!(s.state, State::Candidate | State::Forced)).count();
+                if open == 0 {
+                    StageStatus::empty("No candidates: click on the schematic or add a family.")
+                } else {
+                    StageStatus::done(&format!("{open} candidates."))
+                }
+            }
+            Stage::Explain => stages::explain::status(document, &self.derived.explained),
+            Stage::Select | Stage::Result => match self.derived.known_outcome(document) {
+                None => StageStatus::empty("Identification has not ended yet."),
+                Some(Err(_)) if p.runs.iter().all(|r| !r.enabled) => {
+                    StageStatus::empty("There are no runs to identify from.")
+                }
+                Some(Err(error)) => StageStatus::attention(error),
+                Some(Ok(outcome)) => {
+                    let text = format!(
+                        "{}: {}.",
+                        words::counted(outcome.accepted_step().count, "source"),
+                        stages::select::status(outcome.status)
+                    );
+                    let good = matches!(outcome.status, Status::WithinNoise | Status::BelowAngle);
+                    if good { StageStatus::done(&text) } else { StageStatus::attention(&text) }
+                }
+            },
+        }
+    }
+}
