@@ -23,6 +23,7 @@ mod incompleteness;
 mod label;
 mod methods;
 mod moving_base;
+mod named_sources;
 mod play;
 mod plot;
 mod records;
@@ -35,7 +36,6 @@ mod simulate_component;
 mod simulate_frf;
 mod simulate_write;
 mod source_json;
-mod source_words;
 mod table;
 
 use arguments::{Arguments, Command};

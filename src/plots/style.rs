@@ -82,13 +82,18 @@ const fn palette(ground: usize) -> Palette {
         good: rgb([0x1B7F4B, 0x5CC88F][ground]),
         warning: rgb([0x9A6200, 0xE8B34B][ground]),
         error: rgb([0xB3261E, 0xF28B82][ground]),
-        levels: [
-            rgb([0x441761, 0x8C6BD6][ground]),
-            rgb([0x2A6A96, 0x4A9BD4][ground]),
-            rgb([0x1F8F6E, 0x4FC48B][ground]),
-            rgb([0xB88A00, 0xF5D742][ground]),
-        ],
+        levels: levels(ground),
     }
+}
+
+/// Levels of force from lowest to highest.
+const fn levels(ground: usize) -> [Color32; 4] {
+    [
+        rgb([0x441761, 0x8C6BD6][ground]),
+        rgb([0x2A6A96, 0x4A9BD4][ground]),
+        rgb([0x1F8F6E, 0x4FC48B][ground]),
+        rgb([0xB88A00, 0xF5D742][ground]),
+    ]
 }
 
 /// A colour of its red, green and blue bytes.

@@ -69,7 +69,7 @@ fn agreement(page: &mut Page, content: &Content<'_>, found: &Comparison, control
     let worst = Grid::new(found, true);
     let (Some(&run), Some(channel)) = (worst.runs.first(), worst.channels.first()) else { return };
     if channel != ENERGY {
-        worst_channel(page, content, found, (run, channel), control);
+        worst_channel(page, content, found, run, channel, control);
     }
 }
 
@@ -78,7 +78,8 @@ fn worst_channel(
     page: &mut Page,
     content: &Content<'_>,
     found: &Comparison,
-    (run, channel): (usize, &str),
+    run: usize,
+    channel: &str,
     control: &Control,
 ) {
     let p = content.compared();

@@ -72,7 +72,7 @@ pub(super) fn places(points: &[Point], model: &Model) -> Result<Vec<String>> {
     let nodes: Vec<(&str, [f64; 3])> =
         model.nodes.iter().flatten().map(|node| (node.label.as_str(), node.position)).collect();
     let by_place = nearest(points, &nodes, &labels);
-    let one = |point: &Point| {
+    let label_of = |point: &Point| {
         let own = format!("{}{}", point.node, point.direction);
         if let Some(node) = by_place.get(&own) {
             return Ok(format!("{node}{}", point.direction));
@@ -85,7 +85,7 @@ pub(super) fn places(points: &[Point], model: &Model) -> Result<Vec<String>> {
             point.node, point.direction
         )))
     };
-    points.iter().map(one).collect()
+    points.iter().map(label_of).collect()
 }
 
 /// Nodes of the model at the places of the points; empty where positions do not fit the model in any unit.
@@ -102,7 +102,7 @@ fn nearest(
     if extent.is_nan() || extent <= 0.0 || points.iter().any(|point| point.position.is_none()) {
         return BTreeMap::new();
     }
-    let at = |scale: f64| -> Option<BTreeMap<String, String>> {
+    let nodes_at_scale = |scale: f64| -> Option<BTreeMap<String, String>> {
         let mut found = BTreeMap::new();
         // Whatever lies near the origin fits in some unit: points in another must span some of the model.
         let reach = points.iter().filter_map(|p| p.position).flatten().fold(0.0, |most: f64, x| most.max(x.abs()));
@@ -121,7 +121,7 @@ fn nearest(
         }
         Some(found)
     };
-    SCALES.iter().find_map(|&scale| at(scale)).unwrap_or_default()
+    SCALES.iter().find_map(|&scale| nodes_at_scale(scale)).unwrap_or_default()
 }
 
 #[cfg(test)]

@@ -90,7 +90,7 @@ fn change_list(there: &mut ArrayOfTables, before: &ArrayOfTables, after: &ArrayO
                     change_table(&mut changed, old[free], new[place]);
                     changed
                 }
-                None => table_anew(*table),
+                None => table_anew(table),
             });
             free += 1;
         }

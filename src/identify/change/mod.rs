@@ -157,9 +157,9 @@ fn modes(outcomes: &[Outcome; 2]) -> Vec<ModeChange> {
     if first.len() != second.len() {
         return Vec::new();
     }
-    let one = |(a, b): (&super::results::ModeResult, &super::results::ModeResult)| ModeChange {
+    let mode_change = |(a, b): (&super::results::ModeResult, &super::results::ModeResult)| ModeChange {
         frequency_hz: [a.frequency_hz, b.frequency_hz],
         ratio: Pair::new([a.damping_ratio, b.damping_ratio], [a.damping_ratio_deviation, b.damping_ratio_deviation]),
     };
-    first.iter().zip(second).map(one).collect()
+    first.iter().zip(second).map(mode_change).collect()
 }

@@ -208,10 +208,10 @@ fn fitting(files: &[Opened], channels: &[ChannelTable]) -> bool {
 fn first_channel(files: &[Opened]) -> Option<(usize, usize, usize)> {
     files.iter().enumerate().find_map(|(f, opened)| {
         let sets = &opened.file.as_ref().ok()?.contents().sets;
-        let of = |(s, set): (usize, &dashpot_datafiles::Set)| {
+        let channel_of_set = |(s, set): (usize, &dashpot_datafiles::Set)| {
             set.channels.iter().position(|channel| channel.count > 1).map(|c| (f, s, c))
         };
-        sets.iter().enumerate().find_map(of)
+        sets.iter().enumerate().find_map(channel_of_set)
     })
 }
 

@@ -10,7 +10,7 @@
 //! The projection is parallel: equal heights stay equal wherever they stand, so that bars can be compared.
 
 use super::pick::Ray;
-use egui::{Pos2, Rect, Vec2, pos2, vec2};
+use egui::{Pos2, Rect, Vec2, vec2};
 use nalgebra::Vector3;
 
 /// The direction from which something is looked at.

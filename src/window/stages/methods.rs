@@ -105,7 +105,7 @@ fn table(ui: &mut Ui, found: &SideBySide, chosen: &mut Option<Method>) {
         .body(|mut body| {
             for entry in &found.entries {
                 if let Ok(applied) = &entry.outcome {
-                    applied_row(&mut body, entry.method, applied, (known, modes), chosen);
+                    applied_row(&mut body, entry.method, applied, known, modes, chosen);
                 }
             }
             summary(&mut body, found, errors, modes);
@@ -127,14 +127,14 @@ fn applied_row(
     body: &mut TableBody<'_>,
     method: Method,
     applied: &Applied,
-    (known, modes): (bool, usize),
+    known: bool,
+    modes: usize,
     chosen: &mut Option<Method>,
 ) {
     body.row(space::ROW, |mut row| {
         row.set_selected(*chosen == Some(method));
         row.col(|ui| drop(name(ui, method.title()).on_hover_text(method.words().join("\n"))));
-        if known {
-            let errors = applied.errors;
+        if let Some(errors) = known.then_some(applied.errors) {
             row.col(|ui| drop(ui.number(errors.map_or_else(dash, |e| format::percent(0.01 * e.eps_c)))));
             row.col(|ui| drop(ui.number(errors.map_or_else(dash, |e| format::significant(e.mac, 2)))));
         }
