@@ -66,22 +66,22 @@ const DARK: Palette = palette(1);
 /// The colours on a light (0) or a dark (1) ground, each beside the other.
 const fn palette(ground: usize) -> Palette {
     Palette {
-        measured: rgb([0x0066A6, 0x56B4E9][ground]),
-        model: rgb([0xD55E00, 0xF09A3E][ground]),
-        missing: rgb([0xA84A86, 0xE08FC0][ground]),
-        accent: rgb([0x0B726E, 0x4FC4BB][ground]),
-        accent_faint: rgb([0xDCEFED, 0x1B3B3A][ground]),
-        ink: rgb([0x171D24, 0xE6E9ED][ground]),
-        weak: rgb([0x56616D, 0x9DA8B4][ground]),
-        line: rgb([0xD6DBE1, 0x333A42][ground]),
-        grid: rgb([0xC2C9D1, 0x4A535D][ground]),
-        desk: rgb([0xE9ECEF, 0x0E1013][ground]),
-        pane: rgb([0xFAFBFC, 0x1A1E23][ground]),
-        canvas: rgb([0xFFFFFF, 0x14171B][ground]),
-        raised: rgb([0xEFF2F5, 0x262C33][ground]),
-        good: rgb([0x1B7F4B, 0x5CC88F][ground]),
-        warning: rgb([0x9A6200, 0xE8B34B][ground]),
-        error: rgb([0xB3261E, 0xF28B82][ground]),
+        measured: rgb([0x00_66_A6, 0x56_B4_E9][ground]),
+        model: rgb([0xD5_5E_00, 0xF0_9A_3E][ground]),
+        missing: rgb([0xA8_4A_86, 0xE0_8F_C0][ground]),
+        accent: rgb([0x0B_72_6E, 0x4F_C4_BB][ground]),
+        accent_faint: rgb([0xDC_EF_ED, 0x1B_3B_3A][ground]),
+        ink: rgb([0x17_1D_24, 0xE6_E9_ED][ground]),
+        weak: rgb([0x56_61_6D, 0x9D_A8_B4][ground]),
+        line: rgb([0xD6_DB_E1, 0x33_3A_42][ground]),
+        grid: rgb([0xC2_C9_D1, 0x4A_53_5D][ground]),
+        desk: rgb([0xE9_EC_EF, 0x0E_10_13][ground]),
+        pane: rgb([0xFA_FB_FC, 0x1A_1E_23][ground]),
+        canvas: rgb([0xFF_FF_FF, 0x14_17_1B][ground]),
+        raised: rgb([0xEF_F2_F5, 0x26_2C_33][ground]),
+        good: rgb([0x1B_7F_4B, 0x5C_C8_8F][ground]),
+        warning: rgb([0x9A_62_00, 0xE8_B3_4B][ground]),
+        error: rgb([0xB3_26_1E, 0xF2_8B_82][ground]),
         levels: levels(ground),
     }
 }
@@ -89,10 +89,10 @@ const fn palette(ground: usize) -> Palette {
 /// Levels of force from lowest to highest.
 const fn levels(ground: usize) -> [Color32; 4] {
     [
-        rgb([0x441761, 0x8C6BD6][ground]),
-        rgb([0x2A6A96, 0x4A9BD4][ground]),
-        rgb([0x1F8F6E, 0x4FC48B][ground]),
-        rgb([0xB88A00, 0xF5D742][ground]),
+        rgb([0x44_17_61, 0x8C_6B_D6][ground]),
+        rgb([0x2A_6A_96, 0x4A_9B_D4][ground]),
+        rgb([0x1F_8F_6E, 0x4F_C4_8B][ground]),
+        rgb([0xB8_8A_00, 0xF5_D7_42][ground]),
     ]
 }
 
