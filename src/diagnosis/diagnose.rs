@@ -5,7 +5,7 @@ use crate::diagnosis::channels::{self, ChannelFault};
 use crate::diagnosis::residual::data::{Data, DiagnosisError, Problem};
 use crate::diagnosis::residual::levels::sessions;
 use crate::diagnosis::residual::prediction::{Predictor, RunPrediction};
-use crate::diagnosis::selection::search::Base;
+use crate::diagnosis::selection::search::ReferenceModel;
 use crate::diagnosis::selection::{found, stepwise};
 use crate::diagnosis::updating::parameters::UpdatingParameter;
 use crate::effects::Source;
@@ -193,15 +193,15 @@ fn searched(
     let data = Data::new(problem)?;
     let data = Data { excluded: excluded.to_vec(), sessions: sessions(problem, &data), ..data };
     let predictor = Arc::new(Predictor::new(problem.structure, problem.known(), &data)?);
-    let base = Base::new(predictor.clone(), &data, control, early)?;
-    let mut faults = channels::find(&predictor, &data, &base.predictions);
-    let asis = agreement(&base);
-    drop(base);
+    let reference = ReferenceModel::new(predictor.clone(), &data, control, early)?;
+    let mut faults = channels::find(&predictor, &data, &reference.predictions);
+    let asis = agreement(&reference);
+    drop(reference);
     let mendable = faults.len();
     let mut diagnosis = loop {
         let mended = channels::mended(&data, &faults);
-        let base = Base::new(predictor.clone(), &mended, control, early)?;
-        match explained(base)? {
+        let reference = ReferenceModel::new(predictor.clone(), &mended, control, early)?;
+        match explained(reference)? {
             Ok(diagnosis) => break diagnosis,
             Err(fault) => faults.push(fault),
         }
@@ -221,41 +221,45 @@ fn searched(
 }
 
 /// The model as it is, as a first step.
-fn agreement(base: &Base) -> Step {
-    let bench = base.bench();
-    let before = square(&bench.residual(&base.predictions));
-    Step { added: Vec::new(), error: bench.error(&base.predictions), misfit: before / base.count().max(1) as f64 }
+fn agreement(reference: &ReferenceModel) -> Step {
+    let estimator = reference.estimator();
+    let before = square(&estimator.residual(&reference.predictions));
+    Step {
+        added: Vec::new(),
+        error: estimator.error(&reference.predictions),
+        misfit: before / reference.count().max(1) as f64,
+    }
 }
 
-/// Explains what the base model leaves; or a channel that is not to be relied on.
-fn explained(base: Base) -> Result<Result<Diagnosis, ChannelFault>, DiagnosisError> {
-    let bench = base.bench();
-    let before = square(&bench.residual(&base.predictions));
+/// Explains what the reference model leaves; or a channel that is not to be relied on.
+fn explained(reference: ReferenceModel) -> Result<Result<Diagnosis, ChannelFault>, DiagnosisError> {
+    let estimator = reference.estimator();
+    let before = square(&estimator.residual(&reference.predictions));
     let diagnosis = Diagnosis {
-        error_before: bench.error(&base.predictions),
-        noise_floor: noise_floor(&base, &[], &base.predictions),
+        error_before: estimator.error(&reference.predictions),
+        noise_floor: noise_floor(&reference, &[], &reference.predictions),
         verdict: Verdict::Adequate,
         suggestions: Vec::new(),
-        steps: vec![agreement(&base)],
+        steps: vec![agreement(&reference)],
         next_test: Vec::new(),
         corrections: Vec::new(),
         channel_faults: Vec::new(),
         complete: true,
     };
-    if found::agrees(&base, before, 0) {
+    if found::agrees(&reference, before, 0) {
         return Ok(Ok(diagnosis));
     }
-    match stepwise::explain(base, before)? {
+    match stepwise::explain(reference, before)? {
         Ok(outcome) => Ok(Ok(outcome.conclude(diagnosis)?)),
         Err(fault) => Ok(Err(fault)),
     }
 }
 
 /// Error that noise and truncation alone would leave.
-pub(crate) fn noise_floor(base: &Base, effects: &[Source], predictions: &[RunPrediction]) -> f64 {
-    let Ok(noise) = base.noise_of(effects, predictions) else { return f64::NAN };
+pub(crate) fn noise_floor(reference: &ReferenceModel, effects: &[Source], predictions: &[RunPrediction]) -> f64 {
+    let Ok(noise) = reference.noise_of(effects, predictions) else { return f64::NAN };
     let mut floors = Vec::new();
-    for ((run, noise), prediction) in base.data.runs.iter().zip(&noise.runs).zip(predictions) {
+    for ((run, noise), prediction) in reference.data.runs.iter().zip(&noise.runs).zip(predictions) {
         let residual = |k: usize, h: usize| run.responses[k].measured[h - 1] - prediction.channels[k][h - 1];
         for c in 0..run.responses.len() {
             let scale = run.scale(c);

@@ -9,8 +9,9 @@ pub fn significant(value: f64, digits: usize) -> String {
     if value.is_finite() { numerals::significant(value, digits).replace('-', "−") } else { "–".to_owned() }
 }
 
-/// A value as it is edited: all digits that it has, in powers of ten where it is very large or very small.
+/// A value as it is edited: to ten digits, in powers of ten where it is very large or very small.
 pub fn editable(value: f64) -> String {
+    let value = format!("{value:.9e}").parse().unwrap_or(value);
     let plain = value == 0.0 || (1e-4..1e6).contains(&value.abs());
     let text = if plain { format!("{value}") } else { format!("{value:e}") };
     text.replace('-', "−")
@@ -117,7 +118,8 @@ mod tests {
         assert_eq!(editable(69e9), "6.9e10");
         assert_eq!(editable(-2.1e-12), "−2.1e−12");
         assert_eq!(editable(7850.0), "7850");
-        assert_eq!(editable(13.066_184_254), "13.066184254");
+        assert_eq!(editable(13.066_184_254), "13.06618425");
+        assert_eq!(editable(16.999_892_204_851_99), "16.9998922");
     }
 
     #[test]

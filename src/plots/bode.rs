@@ -9,6 +9,10 @@ use crate::response::frequency_response::Quantity;
 use faer::c64;
 use std::f64::consts::TAU;
 
+/// Bounds of half the band of a Nyquist diagram, natural logarithms of frequency.
+const LEAST_BAND: f64 = 0.08;
+const MOST_BAND: f64 = 0.4;
+
 /// A receptance between two DOFs on a range of frequencies.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Response {
@@ -119,9 +123,18 @@ impl Diagram<'_> {
         [magnitude, angle]
     }
 
+    /// Half the band of a Nyquist diagram about `centre` (rad/s), as a natural logarithm: half way to the nearest run of
+    /// another resonance, so that the circle closes and no other is drawn with it.
+    fn band(&self, centre: f64) -> f64 {
+        let away = |r: &crate::measurement::Run| (r.fit.omega / centre).ln().abs();
+        let others = self.project.runs.iter().filter(|r| r.enabled).map(away).filter(|d| *d > 2.0 * LEAST_BAND);
+        (0.5 * others.fold(f64::INFINITY, f64::min)).clamp(LEAST_BAND, MOST_BAND)
+    }
+
     /// Imaginary over real part within a band about `centre` (rad/s).
     pub fn nyquist_figure(&self, palette: &Palette, centre: f64) -> Figure {
-        let near = |w: f64| (w / centre).ln().abs() < 0.08;
+        let band = self.band(centre);
+        let near = |w: f64| (w / centre).ln().abs() < band;
         let plane = |h: c64| [h.re, h.im];
         let line = self.model().into_iter().filter(|&(w, _)| near(w)).map(|(_, h)| plane(h)).collect();
         let points: Vec<Point> = self.points().into_iter().filter(|p| near(p.omega)).collect();

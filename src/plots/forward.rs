@@ -51,15 +51,21 @@ fn spread(p: &Project, modes: impl Iterator<Item = (f64, f64)>) -> Vec<f64> {
     let mut omega: Vec<f64> = (0..=400).map(|k| low * (high / low).powf(f64::from(k) / 400.0)).collect();
     for (centre, ratio) in modes {
         let width = (ratio * centre).max(1e-5 * centre);
-        for k in -60..=60 {
-            let x = f64::from(k) / 12.0;
-            omega.push(centre + width * x.sinh());
-        }
+        omega.extend(half_widths().into_iter().flat_map(|x| [centre - width * x, centre + width * x]));
     }
     omega.retain(|w| (low..=high).contains(w));
     omega.sort_by(f64::total_cmp);
     omega.dedup();
     omega
+}
+
+/// Distances from a resonance in half-power half-widths at which its circle is drawn: a receptance near it goes round by
+/// twice the arctangent of the distance, so that the tangents of equal steps are equal arcs; far off they grow in ratio.
+fn half_widths() -> Vec<f64> {
+    const ARC: f64 = 1.8;
+    let near = (0..=48).map(|k| (ARC * f64::from(k)).to_radians().tan());
+    let far = (1..=12).map(|k| (48.0 * ARC).to_radians().tan() * 1.3_f64.powi(k));
+    near.chain(far).collect()
 }
 
 /// The receptance between two DOFs at `omega` (rad/s).
@@ -113,4 +119,24 @@ pub fn run_loops(p: &Project, outcome: &Outcome, run: usize) -> Result<Vec<Loop>
     let sources: Vec<Source> =
         outcome.sources.iter().filter_map(|e| Some(p.sources.get(e.source)?.with_coefficient(e.coefficient))).collect();
     Ok(hysteresis::loops(p, run, &x, &sources))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::half_widths;
+    use faer::c64;
+
+    /// Of one mass, `H = 1 / (1 + i x)` near resonance: a circle whose points lie close together all round.
+    #[test]
+    fn a_circle_is_drawn_in_steps_of_a_few_degrees() {
+        let at = |x: f64| c64::new(1.0, 0.0) / c64::new(1.0, x);
+        let around: Vec<c64> = half_widths().into_iter().map(at).collect();
+        let centre = c64::new(0.5, 0.0);
+        let turn = |z: c64| (z - centre).im.atan2((z - centre).re);
+        for pair in around.windows(2) {
+            let step = (turn(pair[0]) - turn(pair[1])).rem_euclid(std::f64::consts::TAU).to_degrees();
+            assert!(step < 3.7, "a step of {step} degrees");
+        }
+        assert!(around.last().is_some_and(|z| z.norm() < 0.01), "the circle closes");
+    }
 }

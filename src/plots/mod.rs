@@ -1,5 +1,6 @@
 //! Plots as data: figures with axes and units, drawings of lines, areas and words, and their SVG. Knows no window.
 
+pub mod amplitude_curve;
 pub mod angle;
 pub mod axis;
 pub mod bars;

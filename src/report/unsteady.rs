@@ -6,21 +6,18 @@ use super::figures::sheet;
 use super::page::Page;
 use crate::diagnosis::component::Loops;
 use crate::diagnosis::records::RecordComparison;
-use crate::diagnosis::records::amplitude::AmplitudePoint;
-use crate::diagnosis::records::compare::{ModeCurve, OneRecord};
+use crate::diagnosis::records::compare::OneRecord;
+use crate::display::format;
 use crate::display::format::in_words;
-use crate::display::{format, words};
 use crate::exchange::Project;
-use crate::measurement::{Quantity, TransientRun};
+use crate::measurement::TransientRun;
+use crate::plots::amplitude_curve::{LEAST_POINTS, figure};
 use crate::plots::component_loops;
-use crate::plots::figure::{Axis, Figure, Look};
 use crate::plots::style::Palette;
 use crate::session::validation::is_component;
 
 /// Records whose loops or amplitude curves are drawn.
 const MOST_DRAWN: usize = 4;
-/// Points from which on a curve says something.
-const LEAST_POINTS: usize = 3;
 
 /// The records in the table of measurements: as many columns as steady runs have.
 pub(super) fn row(number: usize, run: &TransientRun) -> Vec<String> {
@@ -83,18 +80,6 @@ fn curves(page: &mut Page, file: &str, record: &OneRecord) {
     let Some(curve) = record.curves.iter().find(|c| c.measured.len() >= LEAST_POINTS) else { return };
     let near = format::with_unit(curve.frequency_hz, "Hz");
     let title = format!("{file}: damping ratio and frequency over amplitude, {} near {near}", curve.channel);
-    sheet(page, &title, vec![over_amplitude(curve, true), over_amplitude(curve, false)]);
-}
-
-fn over_amplitude(curve: &ModeCurve, ratio: bool) -> Figure {
-    let palette = Palette::light();
-    let quantity = curve.channel.split('@').next().and_then(Quantity::from_word);
-    let name = quantity.map_or("Amplitude", |q| words::axis(q, false));
-    let y = if ratio { Axis::new("Damping ratio", "%") } else { Axis::new("Frequency", "Hz") };
-    let points = |list: &[AmplitudePoint]| -> Vec<[f64; 2]> {
-        list.iter().map(|p| [p.amplitude, if ratio { 100.0 * p.damping_ratio } else { p.frequency_hz }]).collect()
-    };
-    Figure::new(if ratio { "Damping ratio" } else { "Frequency" }, Axis::of(name), y)
-        .points("measured", palette.measured, Look::Dots(3.0), points(&curve.measured))
-        .points("model", palette.model, Look::Line(1.6), points(&curve.model))
+    let drawn = [true, false].map(|ratio| figure(curve, ratio, Palette::light()));
+    sheet(page, &title, drawn.to_vec());
 }

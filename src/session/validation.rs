@@ -6,6 +6,7 @@ use crate::diagnosis::component::{Loops, compare_component, diagnose_component};
 use crate::diagnosis::diagnose::Early;
 use crate::diagnosis::records::{RecordComparison, RecordError, Records, compare_records, diagnose_records};
 use crate::diagnosis::{Diagnosis, Problem};
+use crate::effects::Source;
 use crate::exchange::Project;
 use crate::structure::StructureKind;
 
@@ -56,16 +57,28 @@ pub fn compared_with_records(
     project: &Project,
     control: &Control,
 ) -> Result<Option<RecordComparison>, ValidationError> {
+    compared_with_effects(project, &[], control)
+}
+
+/// The same with `effects` added to the model.
+///
+/// # Errors
+/// As [`compared_with_records`].
+pub fn compared_with_effects(
+    project: &Project,
+    effects: &[Source],
+    control: &Control,
+) -> Result<Option<RecordComparison>, ValidationError> {
     if !has_records(project) {
         return Ok(None);
     }
     if is_component(project) {
-        return Ok(Some(compare_component(&loops(project)?, &[])?));
+        return Ok(Some(compare_component(&loops(project)?, effects)?));
     }
     if project.structure.matrices().is_none() {
         return Ok(None);
     }
-    Ok(Some(compare_records(&records(project)?, &[], control)?))
+    Ok(Some(compare_records(&records(project)?, effects, control)?))
 }
 
 /// What the model of the records lacks.

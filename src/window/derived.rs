@@ -11,11 +11,12 @@ use crate::classical::FrequencyResponses;
 use crate::classical::incompleteness::{self, Grid, Incompleteness};
 use crate::classical::side_by_side::{SideBySide, side_by_side};
 use crate::control::Control;
-use crate::identify::{self, Outcome};
+use crate::identify::{self, Measurements, Outcome};
 use crate::measurement::Quantity;
 use crate::plots::bode::Response;
 use crate::plots::forward;
 use crate::plots::hysteresis::Loop;
+use crate::plots::pyramid::Pyramid;
 use crate::session::Revisions;
 use crate::session::states::{self, Against, Compared};
 use crate::structure::modes::Modes;
@@ -40,6 +41,7 @@ pub struct Derived {
     methods: Slot<u64, SideBySide>,
     incompleteness: Slot<u64, Incompleteness>,
     change: Slot<(u64, Against), Compared>,
+    unsteady: Slot<(u64, usize, usize), Pyramid>,
     prepared_records: PreparedRecords,
     seen: Revisions,
     /// Of the stage Explain.
@@ -58,6 +60,7 @@ impl Default for Derived {
             methods: Slot::new("Classical methods"),
             incompleteness: Slot::new("Study of incompleteness"),
             change: Slot::new("Comparing two states"),
+            unsteady: Slot::new("Preparing a record"),
             prepared_records: PreparedRecords::default(),
             seen: Revisions::default(),
             explained: Explained::default(),
@@ -86,6 +89,7 @@ impl Derived {
         self.methods.cancel();
         self.incompleteness.cancel();
         self.change.cancel();
+        self.unsteady.cancel();
         self.prepared_records.cancel();
     }
 
@@ -128,6 +132,7 @@ impl Derived {
             .or(self.methods.running())
             .or(self.incompleteness.running())
             .or(self.change.running())
+            .or(self.unsteady.running())
             .or(self.prepared_records.running())
             .or_else(|| self.explained.running())
     }
@@ -137,12 +142,31 @@ impl Derived {
         self.prepared_records.get(ctx, &document.project.runs, run, channel)
     }
 
+    /// A channel of a record that is not steady, ready to be drawn; `None` while it is prepared.
+    pub fn unsteady(
+        &mut self,
+        ctx: &Context,
+        document: &Document,
+        [record, channel]: [usize; 2],
+    ) -> Option<Result<Arc<Pyramid>, String>> {
+        let key = (document.session().revisions().measurements, record, channel);
+        self.unsteady.get(ctx, &key, || {
+            let run = document.project.transient_runs.get(record).cloned();
+            move |_: &Control| {
+                let run = run.ok_or("there is no such record")?;
+                Ok(Pyramid::new(run.time(), run.samples(channel)))
+            }
+        })
+    }
+
     /// The answer of the identification for the document as it stands; `None` while it is computed.
     pub fn outcome(&mut self, ctx: &Context, document: &Document) -> Option<Result<Arc<Outcome>, String>> {
         self.outcome.get(ctx, &document.revision(), || {
             let p = document.project.clone();
             move |control: &Control| {
-                identify::identify(&p.structure, &p.sources, &p.runs, &p.settings, control).map_err(|e| e.to_string())
+                let given = Measurements { runs: &p.runs, transient_runs: &p.transient_runs, ratios: &[] };
+                let found = identify::identify_measured(&p.structure, &p.sources, given, &p.settings, control);
+                found.map_err(|e| e.to_string())
             }
         })
     }

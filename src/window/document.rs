@@ -223,7 +223,7 @@ fn project(state: &session::Document, records: &Records) -> Project {
         sources: state.sources().as_ref().clone(),
         ruled_out: state.ruled_out().as_ref().clone(),
         runs: records.runs(state),
-        transient_runs: Vec::new(),
+        transient_runs: records.transient_runs(state),
         settings: file.analysis.clone(),
         remarks: Vec::new(),
     }

@@ -4,7 +4,7 @@ use crate::control::Control;
 use crate::exchange::project::file::{ProjectFile, RunTable};
 use crate::exchange::project::frf::FrfTable;
 use crate::exchange::project::{Plan, plan};
-use crate::measurement::Run;
+use crate::measurement::{Run, TransientRun};
 use crate::session::Document as State;
 use std::collections::HashMap;
 use std::hash::{DefaultHasher, Hash, Hasher};
@@ -17,6 +17,7 @@ type Key = (String, u64);
 #[derive(Debug, Clone, Default)]
 pub struct Records {
     kept: HashMap<Key, Vec<Run>>,
+    unsteady: HashMap<Key, TransientRun>,
 }
 
 /// Records that a change needs and that are still to be read: long work.
@@ -25,13 +26,17 @@ pub struct Missing {
     file: ProjectFile,
     folder: PathBuf,
     runs: Vec<(usize, Key)>,
+    unsteady: Vec<(usize, Key)>,
     harmonics: Vec<Key>,
     responses: Vec<(usize, Key)>,
 }
 
 /// Records that were read.
 #[derive(Debug)]
-pub struct Fitted(Vec<(Key, Vec<Run>)>);
+pub struct Fitted {
+    runs: Vec<(Key, Vec<Run>)>,
+    unsteady: Vec<(Key, TransientRun)>,
+}
 
 impl Records {
     /// The runs of a state of the document in the order of its file, as far as their records were read.
@@ -48,24 +53,41 @@ impl Records {
         recorded.chain(fitted.flatten().cloned()).chain(responses.flatten().cloned()).collect()
     }
 
+    /// The decays and transients of a state of the document, as far as they were read.
+    pub fn transient_runs(&self, state: &State) -> Vec<TransientRun> {
+        let (file, on) = (state.file(), common(state));
+        let unsteady = file.run.iter().filter(|table| !table.kind.is_steady());
+        let run = |table: &RunTable| {
+            let mut run = self.unsteady.get(&unsteady_key(table, on))?.clone();
+            (run.enabled, run.level, run.session) = (table.enabled != Some(false), table.level, table.session.clone());
+            Some(run)
+        };
+        unsteady.filter_map(run).collect()
+    }
+
     /// What a state of the document needs and is not read yet.
     pub fn missing(&self, state: &State) -> Option<Missing> {
         let (file, on) = (state.file(), common(state));
         let steady = file.run.iter().enumerate().filter(|(_, table)| table.kind.is_steady());
         let runs: Vec<(usize, Key)> = steady.map(|(k, table)| (k, run_key(table, on))).collect();
         let runs: Vec<(usize, Key)> = runs.into_iter().filter(|(_, key)| !self.kept.contains_key(key)).collect();
+        let unsteady = file.run.iter().enumerate().filter(|(_, table)| !table.kind.is_steady());
+        let unsteady: Vec<(usize, Key)> = unsteady.map(|(k, table)| (k, unsteady_key(table, on))).collect();
+        let unsteady: Vec<(usize, Key)> =
+            unsteady.into_iter().filter(|(_, key)| !self.unsteady.contains_key(key)).collect();
         let harmonics: Vec<Key> = file.harmonics.iter().map(|table| (table.file.clone(), on)).collect();
         let harmonics = if harmonics.iter().all(|key| self.kept.contains_key(key)) { Vec::new() } else { harmonics };
         let responses = file.frf.iter().enumerate().map(|(k, table)| (k, frf_key(table, on)));
         let responses: Vec<(usize, Key)> = responses.filter(|(_, key)| !self.kept.contains_key(key)).collect();
         let (file, folder) = (ProjectFile::clone(file), state.folder().to_owned());
-        let any = !runs.is_empty() || !harmonics.is_empty() || !responses.is_empty();
-        any.then_some(Missing { file, folder, runs, harmonics, responses })
+        let any = !runs.is_empty() || !unsteady.is_empty() || !harmonics.is_empty() || !responses.is_empty();
+        any.then_some(Missing { file, folder, runs, unsteady, harmonics, responses })
     }
 
     /// Keeps what was read.
     pub fn take(&mut self, fitted: Fitted) {
-        self.kept.extend(fitted.0);
+        self.kept.extend(fitted.runs);
+        self.unsteady.extend(fitted.unsteady);
     }
 }
 
@@ -78,7 +100,8 @@ impl Missing {
         let text = self.file.to_toml().map_err(|e| e.to_string())?;
         let plan = plan(&text, &self.folder.join("project.toml")).map_err(|e| e.to_string())?;
         let mut fitted = Vec::new();
-        let count = self.runs.len() + self.harmonics.len();
+        let count = self.runs.len() + self.unsteady.len() + self.harmonics.len();
+        let unsteady = unsteady(&plan, &self.unsteady, (self.runs.len(), count), control)?;
         for (done, (index, key)) in self.runs.into_iter().enumerate() {
             control.check().map_err(|e| e.to_string())?;
             let piece = control.piece(done, count);
@@ -91,8 +114,25 @@ impl Missing {
         for (index, key) in self.responses {
             fitted.push((key, plan.frf(index, control).map_err(|e| e.to_string())?.runs));
         }
-        Ok(Fitted(fitted))
+        Ok(Fitted { runs: fitted, unsteady })
     }
+}
+
+/// Decays and transients; they are pieces of the work from number `first` of `count` on.
+fn unsteady(
+    plan: &Plan,
+    missing: &[(usize, Key)],
+    (first, count): (usize, usize),
+    control: &Control,
+) -> Result<Vec<(Key, TransientRun)>, String> {
+    let one = |(done, (index, key)): (usize, &(usize, Key))| {
+        control.check().map_err(|e| e.to_string())?;
+        let piece = control.piece(first + done, count);
+        let run = plan.transient_run(*index, &piece).map_err(|e| e.to_string())?;
+        piece.report(1.0);
+        Ok((key.clone(), run))
+    };
+    missing.iter().enumerate().map(one).collect()
 }
 
 /// Runs that came as fitted harmonics; each file's runs bear its name or stand in its order.
@@ -139,4 +179,12 @@ fn run_key(table: &RunTable, common: u64) -> Key {
     let part = [table.frequency, table.start_s, table.end_s, table.sampling_hz];
     (common, &table.set, &table.sets, part.map(|value| value.map(f64::to_bits))).hash(&mut hasher);
     (table.file.clone(), hasher.finish())
+}
+
+/// A record that is not steady also depends on its kind and on the window over its motion.
+fn unsteady_key(table: &RunTable, common: u64) -> Key {
+    let (file, on) = run_key(table, common);
+    let mut hasher = DefaultHasher::new();
+    (on, format!("{:?}", table.kind), table.exponential_window_s.map(f64::to_bits)).hash(&mut hasher);
+    (file, hasher.finish())
 }

@@ -7,6 +7,7 @@ use super::view::Stage;
 use crate::display::words;
 use crate::effects::State;
 use crate::identify::Status;
+use crate::session::validation::has_records;
 
 impl App {
     /// Where the stage stands, for its tab: whether it needs attention and why, in one line.
@@ -14,6 +15,10 @@ impl App {
         let Some(document) = &self.document else { return StageStatus::empty("No project is open.") };
         let p = &document.project;
         match stage {
+            Stage::Measure if p.runs.is_empty() && !p.transient_runs.is_empty() => {
+                let used = p.transient_runs.iter().filter(|r| r.enabled).count();
+                StageStatus::done(&format!("{} not steady: decays, transients.", words::counted(used, "record")))
+            }
             Stage::Measure if p.runs.is_empty() => StageStatus::empty("No runs: import measurements."),
             Stage::Measure => {
                 let flagged = p.runs.iter().filter(|r| r.enabled && !r.findings.is_empty()).count();
@@ -39,7 +44,7 @@ impl App {
             Stage::Explain => stages::explain::status(document, &self.derived.explained),
             Stage::Select | Stage::Result => match self.derived.known_outcome(document) {
                 None => StageStatus::empty("Identification has not ended yet."),
-                Some(Err(_)) if p.runs.iter().all(|r| !r.enabled) => {
+                Some(Err(_)) if p.runs.iter().all(|r| !r.enabled) && !has_records(p) => {
                     StageStatus::empty("There are no runs to identify from.")
                 }
                 Some(Err(error)) => StageStatus::attention(error),

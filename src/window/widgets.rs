@@ -204,7 +204,9 @@ impl UiExt for Ui {
             return None;
         }
         self.data_mut(|d| d.remove_temp::<f64>(key));
-        (shown != value && shown.is_finite()).then_some(shown / factor)
+        // What was looked at with fewer digits than it has was not changed.
+        let changed = format::editable(shown) != format::editable(value);
+        (changed && shown.is_finite()).then_some(shown / factor)
     }
 
     fn choice<T: Copy + PartialEq>(&mut self, name: &str, now: T, all: &[T], word: fn(T) -> &'static str) -> Option<T> {

@@ -14,7 +14,7 @@ use crate::diagnosis::points::energies::energies;
 use crate::diagnosis::residual::data::{Data, DiagnosisError, Problem, RunData};
 use crate::diagnosis::residual::energy_balance::measured_displacement;
 use crate::diagnosis::residual::prediction::{FINAL, Predictor, SEARCH};
-use crate::diagnosis::selection::search::Base;
+use crate::diagnosis::selection::search::ReferenceModel;
 use crate::diagnosis::updating::parameters::Updating;
 use crate::effects::{Effect, Place, Source};
 use faer::c64;
@@ -108,14 +108,14 @@ pub fn print(
         ..Updating::default()
     };
     let predictor = if updating.is_empty() { predictor } else { predictor.updated(&updating)? };
-    let base = Base::new(Arc::new(predictor), &data, control, &|_| {})?;
+    let reference = ReferenceModel::new(Arc::new(predictor), &data, control, &|_| {})?;
     match &source.place {
         Place::Dofs(_) => {
             let set: Vec<Source> = others.iter().chain(std::iter::once(source)).cloned().collect();
-            let refit = base.bench().refit(&set, 1, &SEARCH, &[])?;
-            Ok(base.place_data(&refit, source)?.as_ref().and_then(|place| of_place(place, &data)))
+            let fit = reference.estimator().fit(&set, 1, &SEARCH, &[])?;
+            Ok(reference.place_data(&fit, source)?.as_ref().and_then(|place| of_place(place, &data)))
         }
-        Place::Channel(name) => of_channel(&base, &others, name, source.effect),
+        Place::Channel(name) => of_channel(&reference, &others, name, source.effect),
         Place::Whole(_) => Ok(None),
     }
 }
@@ -153,10 +153,15 @@ fn powers(ratios: &[(usize, Ratio)], found: &Fingerprint) -> Option<Print> {
 }
 
 /// Measured over modelled fundamental of one channel in every run.
-fn of_channel(base: &Base, others: &[Source], name: &str, effect: Effect) -> Result<Option<Print>, DiagnosisError> {
-    let predictions = base.bench().predict(others, &FINAL, &[])?;
+fn of_channel(
+    reference: &ReferenceModel,
+    others: &[Source],
+    name: &str,
+    effect: Effect,
+) -> Result<Option<Print>, DiagnosisError> {
+    let predictions = reference.estimator().predict(others, &FINAL, &[])?;
     let mut ratios: Vec<(usize, f64, c64, f64)> = Vec::new();
-    for ((run, prediction), noise) in base.data.runs.iter().zip(&predictions).zip(&base.noise.runs) {
+    for ((run, prediction), noise) in reference.data.runs.iter().zip(&predictions).zip(&reference.noise.runs) {
         let Some(c) = run.responses.iter().position(|channel| channel.name == name) else { continue };
         let (measured, model) = (run.responses[c].measured[0], prediction.channels[c][0]);
         if model.norm() > 0.0 {

@@ -2,18 +2,18 @@
 //! own fits may have ended in a valley of the wrong side while the model was still far off.
 
 use crate::diagnosis::residual::data::DiagnosisError;
-use crate::diagnosis::selection::fitted_model::Refit;
-use crate::diagnosis::selection::search::{Base, Draft, joined};
+use crate::diagnosis::selection::fitted_model::FittedModel;
+use crate::diagnosis::selection::search::{ReferenceModel, UnfittedSet, joined};
 use std::sync::Arc;
 
 /// Shapes of each law that are tried.
 const SHAPES: usize = 2;
 
-impl Base<'_> {
+impl ReferenceModel<'_> {
     /// The set `best` with each of its effects in turn replaced by laws that it may have been taken for, from their best
     /// shapes against the free force that the rest of `best` leaves at the place.
-    pub fn wider(&self, best: &Refit) -> Result<Vec<Refit>, DiagnosisError> {
-        let mut refits = Vec::new();
+    pub fn wider(&self, best: &FittedModel) -> Result<Vec<FittedModel>, DiagnosisError> {
+        let mut fits = Vec::new();
         for source in best.effects.iter().filter(|e| !e.effect.wider().is_empty()) {
             let mut others = best.clone();
             others.effects.retain(|e| !e.is_same(source));
@@ -27,12 +27,15 @@ impl Base<'_> {
             let data = self.at_place(&view, at, &forces[0], &fields);
             let fields = Arc::new(fields);
             let fits = source.effect.wider().into_iter().flat_map(|effect| data.starts(effect, SHAPES));
-            let draft =
-                |effect| Draft { effects: joined(&others.effects, &[effect]), score: 0.0, fields: fields.clone() };
-            let drafts: Vec<Draft> =
-                fits.map(|fit| fit.source).filter(|source| self.data.allows(source)).map(draft).collect();
-            refits.extend(self.refit_all(&drafts)?);
+            let unfitted = |effect| UnfittedSet {
+                effects: joined(&others.effects, &[effect]),
+                score: 0.0,
+                fields: fields.clone(),
+            };
+            let unfitted: Vec<UnfittedSet> =
+                fits.map(|fit| fit.source).filter(|source| self.data.allows(source)).map(unfitted).collect();
+            fits.extend(self.fit_all(&unfitted)?);
         }
-        Ok(refits)
+        Ok(fits)
     }
 }

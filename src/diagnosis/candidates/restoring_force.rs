@@ -21,7 +21,7 @@ use crate::diagnosis::localisation::location::Spot;
 use crate::diagnosis::residual::data::{Data, DiagnosisError, Problem, RunData};
 use crate::diagnosis::residual::levels::Levels;
 use crate::diagnosis::residual::prediction::{Predictor, SEARCH};
-use crate::diagnosis::selection::search::Base;
+use crate::diagnosis::selection::search::ReferenceModel;
 use crate::diagnosis::updating::parameters::Updating;
 use crate::effects::{Law, Motion, Place, Source};
 use faer::c64;
@@ -102,12 +102,12 @@ pub fn restoring_force(
     // What is suggested in place of the best set was not found beside it.
     let others = if others.len() < found.len() { others } else { Vec::new() };
     let data = Data::new(problem)?;
-    let base = Base::new(corrected(problem, corrections, &data)?, &data, control, &|_| {})?;
+    let reference = ReferenceModel::new(corrected(problem, corrections, &data)?, &data, control, &|_| {})?;
     let set: Vec<Source> = others.iter().chain(std::iter::once(source)).cloned().collect();
-    let refit = base.bench().refit(&set, 1, &SEARCH, &[])?;
+    let fit = reference.estimator().fit(&set, 1, &SEARCH, &[])?;
     let law = with_law.then_some(source);
     let levels = Levels::new(problem, &data);
-    Ok(base.place_data(&refit, source)?.and_then(|place| drawn(&place, &source.place, law, &data, &levels)))
+    Ok(reference.place_data(&fit, source)?.and_then(|place| drawn(&place, &source.place, law, &data, &levels)))
 }
 
 /// The missing force at the place that explains most, whatever the law: what is left to see where nothing was named.
@@ -123,13 +123,13 @@ pub fn at_best_place(
         return Ok(None);
     }
     let data = Data::new(problem)?;
-    let base = Base::new(corrected(problem, corrections, &data)?, &data, control, &|_| {})?;
-    let mut view = base.view(None)?;
+    let reference = ReferenceModel::new(corrected(problem, corrections, &data)?, &data, control, &|_| {})?;
+    let mut view = reference.view(None)?;
     let is_leg = |s: usize| matches!(view.screen.spots[s], Spot::Leg(_));
     let Some(best) = view.screen.singles().iter().map(|p| p.spots[0]).find(|&s| is_leg(s)) else { return Ok(None) };
-    base.need(&mut view, &[best])?;
-    let (forces, fields) = base.free(&view, &[best]);
-    let place = base.at_place(&view, best, &forces[0], &fields);
+    reference.need(&mut view, &[best])?;
+    let (forces, fields) = reference.free(&view, &[best]);
+    let place = reference.at_place(&view, best, &forces[0], &fields);
     Ok(drawn(&place, &view.screen.spots[best].place(), None, &data, &Levels::new(problem, &data)))
 }
 

@@ -2,7 +2,7 @@
 
 use crate::diagnosis::localisation::free_force::Placing;
 use crate::diagnosis::residual::data::DiagnosisError;
-use crate::diagnosis::selection::search::Base;
+use crate::diagnosis::selection::search::ReferenceModel;
 
 /// Least squared residual that free forces leave.
 pub(crate) struct Reach {
@@ -10,7 +10,7 @@ pub(crate) struct Reach {
     pub pair: f64,
 }
 
-impl Base<'_> {
+impl ReferenceModel<'_> {
     /// How little free forces at one place, or at two, leave of the squared residual.
     pub fn reach(&self) -> Result<Reach, DiagnosisError> {
         let view = self.view(None)?;

@@ -13,11 +13,11 @@ const ALIKE: f64 = 9.0;
 const MOST: usize = 8;
 
 /// The answer of a search that ended with these fits, one list a number of effects.
-pub(super) fn conclude(balance: &Balance, rungs: &[Vec<Fitted>]) -> Diagnosis {
+pub(super) fn conclude(balance: &Balance, by_size: &[Vec<Fitted>]) -> Diagnosis {
     let mut diagnosis = as_stated(balance);
-    match (rungs.first(), rungs.last()) {
+    match (by_size.first(), by_size.last()) {
         (Some(first), Some(top)) => {
-            diagnosis.steps.extend(rungs.iter().map(|rung| step(balance, &rung[0])));
+            diagnosis.steps.extend(by_size.iter().map(|fitted_sets| step(balance, &fitted_sets[0])));
             let set: Vec<Source> = top[0].added.iter().map(|added| added.source.clone()).collect();
             diagnosis.corrections = balance.corrections(&set);
             suggest(&mut diagnosis, balance, (first, top));

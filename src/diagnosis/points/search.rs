@@ -19,8 +19,8 @@ use crate::effects::{Effect, Source};
 use crate::math::statistics::bayesian_information;
 
 /// Sets that are fitted in all their parameters, at each number of effects.
-const REFITS: usize = 12;
-/// Drafts whose score is this many times that of the best are not fitted.
+const FITS: usize = 12;
+/// Sets whose score is this many times that of the best are not fitted.
 const HOPELESS: f64 = 3.0;
 /// Sets that are fitted even where time is up.
 const LEAST: usize = 2;
@@ -58,27 +58,27 @@ pub(crate) fn diagnose(problem: &Problem, excluded: &[Source], control: &Control
     let mut best: Option<(f64, f64, Vec<Vec<Fitted>>)> = None;
     for multiple in MULTIPLES {
         let balance = Balance::new(problem, &[])?.with_uncertainty(multiple);
-        let rungs = climb(&balance, excluded, control)?;
-        let cost = evidence(&balance, &rungs);
+        let by_size = climb(&balance, excluded, control)?;
+        let cost = evidence(&balance, &by_size);
         if best.as_ref().is_none_or(|(least, ..)| cost < *least) {
-            best = Some((cost, multiple, rungs));
+            best = Some((cost, multiple, by_size));
         }
         if control.is_late() {
             break;
         }
     }
-    let Some((_, multiple, rungs)) = best else { return Err(DiagnosisError::NoRuns) };
+    let Some((_, multiple, by_size)) = best else { return Err(DiagnosisError::NoRuns) };
     // The noise of the motion counts once it is known how much energy the new sources take.
     let effects: Vec<Source> =
-        rungs.last().map(|r| r[0].added.iter().map(|a| a.source.clone()).collect()).unwrap_or_default();
+        by_size.last().map(|r| r[0].added.iter().map(|a| a.source.clone()).collect()).unwrap_or_default();
     let balance = Balance::new(problem, &effects)?.with_uncertainty(multiple);
-    let rungs = if effects.is_empty() { rungs } else { climb(&balance, excluded, control)? };
-    Ok(conclude(&balance, &rungs))
+    let by_size = if effects.is_empty() { by_size } else { climb(&balance, excluded, control)? };
+    Ok(conclude(&balance, &by_size))
 }
 
 /// Evidence of where a search ended, the smaller the better.
-fn evidence(balance: &Balance, rungs: &[Vec<Fitted>]) -> f64 {
-    let fit = match rungs.last() {
+fn evidence(balance: &Balance, by_size: &[Vec<Fitted>]) -> f64 {
+    let fit = match by_size.last() {
         Some(top) => criterion(&top[0], balance.missing.len()),
         None => square(&balance.weighted()),
     };
@@ -92,14 +92,14 @@ fn climb(balance: &Balance, excluded: &[Source], control: &Control) -> Result<Ve
     let mut last = (e.iter().map(|x| x * x).sum::<f64>(), 0);
     let mut columns = if agrees(last.0, n, 0) { Vec::new() } else { balance.columns() };
     columns.retain(|column| allowed(&column.source));
-    let mut rungs: Vec<Vec<Fitted>> = Vec::new();
+    let mut by_size: Vec<Vec<Fitted>> = Vec::new();
     for count in 1..=2 {
         control.check()?;
         if agrees(last.0, n, last.1) || columns.is_empty() {
             break;
         }
-        let mut sets = drafts(&columns, &e, count);
-        sets.extend(with_faults(balance, rungs.last(), allowed));
+        let mut sets = unfitted(&columns, &e, count);
+        sets.extend(with_faults(balance, by_size.last(), allowed));
         let fits = ranked(balance, &sets, control);
         let Some(best) = fits.first() else { break };
         let scale = (best.chi_square / (n - best.parameters).max(1) as f64).max(1.0);
@@ -108,12 +108,12 @@ fn climb(balance: &Balance, excluded: &[Source], control: &Control) -> Result<Ve
             break;
         }
         last = (best.chi_square, best.parameters);
-        rungs.push(fits);
+        by_size.push(fits);
     }
-    Ok(rungs)
+    Ok(by_size)
 }
 
-/// Score beyond which drafts are not fitted where the best has the score `best`: their shapes are those of a grid.
+/// Score beyond which sets are not fitted where the best has the score `best`: their shapes are those of a grid.
 fn hopeless(best: f64) -> f64 {
     HOPELESS * best.abs() + 60.0
 }
@@ -134,7 +134,7 @@ fn with_faults(balance: &Balance, last: Option<&Vec<Fitted>>, allowed: impl Fn(&
 }
 
 /// The best sets of one column or two, with one shape a law and place.
-fn drafts(columns: &[Column], e: &[f64], count: usize) -> Vec<Vec<Source>> {
+fn unfitted(columns: &[Column], e: &[f64], count: usize) -> Vec<Vec<Source>> {
     let mut found: Vec<(f64, Vec<usize>, Vec<f64>)> = Vec::new();
     let mut consider = |set: Vec<usize>| {
         let chosen: Vec<&Column> = set.iter().map(|&k| &columns[k]).collect();
@@ -167,7 +167,7 @@ fn drafts(columns: &[Column], e: &[f64], count: usize) -> Vec<Vec<Source>> {
         if !sets.iter().any(seen) {
             sets.push(sources);
         }
-        if sets.len() == REFITS {
+        if sets.len() == FITS {
             break;
         }
     }
@@ -180,12 +180,12 @@ fn grown(source: &Source, scale: f64) -> Source {
     source
 }
 
-fn ranked(balance: &Balance, drafts: &[Vec<Source>], control: &Control) -> Vec<Fitted> {
+fn ranked(balance: &Balance, unfitted: &[Vec<Source>], control: &Control) -> Vec<Fitted> {
     let n = balance.missing.len();
     let exact = balance.cost() == 0.0;
     let bounded = |added: &Added| is_bounded(added) && (exact || !is_ordinary_gain(&added.source));
     let enough = |f: &Fitted| f.parameters < n && f.chi_square.is_finite() && f.added.iter().all(bounded);
-    let in_time = drafts.iter().enumerate().take_while(|(k, _)| *k < LEAST || !control.is_late());
+    let in_time = unfitted.iter().enumerate().take_while(|(k, _)| *k < LEAST || !control.is_late());
     let mut fits: Vec<Fitted> = in_time.map(|(_, d)| balance.fit(d)).filter(enough).collect();
     fits.sort_by(|a, b| criterion(a, n).total_cmp(&criterion(b, n)));
     fits

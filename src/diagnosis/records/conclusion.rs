@@ -3,7 +3,7 @@
 use super::data::RecordError;
 use super::evidence::{AGREES, misfit};
 use super::fitted::FittedRecords;
-use super::search::{Rungs, Search};
+use super::search::{Search, SetsBySize};
 use super::telling::{added, corrections, suggestions, words};
 use super::told::added_as_told;
 use crate::diagnosis::diagnose::{Diagnosis, Step, Suggestion, Verdict};
@@ -14,13 +14,13 @@ const PHASE_LOST: [f64; 2] = [0.08, 0.7];
 
 impl Search<'_> {
     /// Fills `diagnosis` with what was found.
-    pub fn conclude(&self, rungs: &Rungs, diagnosis: &mut Diagnosis) -> Result<(), RecordError> {
-        let Some(best) = rungs.last.first() else {
+    pub fn conclude(&self, by_size: &SetsBySize, diagnosis: &mut Diagnosis) -> Result<(), RecordError> {
+        let Some(best) = by_size.last.first() else {
             diagnosis.verdict = Verdict::Unexplained;
             return Ok(());
         };
         let told = self.told(best)?;
-        for (level, fit) in &rungs.earlier {
+        for (level, fit) in &by_size.earlier {
             let step = self.step(fit, *level)?;
             // Corrections that only please the weights of the fit are no step.
             let worth = |s: &Step| !s.added.is_empty() || s.error < diagnosis.error_before;
@@ -37,9 +37,9 @@ impl Search<'_> {
             };
             return Ok(());
         }
-        diagnosis.suggestions = suggestions(self.records, &rungs.last)?;
+        diagnosis.suggestions = suggestions(self.records, &by_size.last)?;
         for suggestion in &mut diagnosis.suggestions {
-            self.complete(suggestion, &told, &rungs.last)?;
+            self.complete(suggestion, &told, &by_size.last)?;
         }
         let floor = diagnosis.noise_floor.max(f64::MIN_POSITIVE);
         if let Some(first) = diagnosis.suggestions.first_mut() {

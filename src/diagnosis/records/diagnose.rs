@@ -12,7 +12,7 @@ use super::compare::{floors, started};
 use super::data::{RecordError, Records};
 use super::evidence::{AGREES, evidence, misfit, scale};
 use super::fitted::FittedRecords;
-use super::search::{Rungs, Search};
+use super::search::{Search, SetsBySize};
 use super::telling::{last_deviations, suggestions};
 use crate::control::Control;
 use crate::diagnosis::diagnose::{Diagnosis, Early, Step, Verdict};
@@ -72,8 +72,8 @@ pub fn diagnose_records(
     if misfit(&bare) < AGREES {
         return Ok(diagnosis);
     }
-    let rungs = search.climbed(&bare, early)?;
-    search.conclude(&rungs, &mut diagnosis)?;
+    let by_size = search.climbed(&bare, early)?;
+    search.conclude(&by_size, &mut diagnosis)?;
     diagnosis.complete = control.is_complete();
     control.report(1.0);
     Ok(diagnosis)
@@ -81,35 +81,41 @@ pub fn diagnose_records(
 
 impl Search<'_> {
     /// Effects added on the shorter parts until no more is found, what was found carried on to the whole records.
-    fn climbed(&self, bare: &FittedRecords, early: &Early) -> Result<Rungs, RecordError> {
+    fn climbed(&self, bare: &FittedRecords, early: &Early) -> Result<SetsBySize, RecordError> {
         let whole = self.levels.len() - 1;
         let mut bare = self.carried(bare, whole, 0)?;
-        let mut rungs = Rungs { earlier: Vec::new(), last: vec![self.corrected(&bare)?] };
+        let mut by_size = SetsBySize { earlier: Vec::new(), last: vec![self.corrected(&bare)?] };
         for level in 0..=whole {
             if level > 0 {
-                rungs.last = self.lengthened(&rungs.last, level - 1)?;
+                by_size.last = self.lengthened(&by_size.last, level - 1)?;
             }
             if level > 0 {
                 bare = self.carried(&bare, level - 1, level)?;
             }
-            let found_none = rungs.last.first().is_some_and(|f| f.effects.is_empty());
+            let found_none = by_size.last.first().is_some_and(|f| f.effects.is_empty());
             if level < GROWING || (level == whole && (found_none || whole == GROWING)) {
-                self.grow(level, &bare, &mut rungs, early)?;
+                self.grow(level, &bare, &mut by_size, early)?;
             }
             self.control.report(0.9 * (level + 1) as f64 / (whole + 1) as f64);
         }
-        if let Some(corrected) = rungs.last.first().filter(|f| f.effects.is_empty()).cloned() {
+        if let Some(corrected) = by_size.last.first().filter(|f| f.effects.is_empty()).cloned() {
             let single = self.single_changes(&corrected)?;
             if !single.is_empty() {
-                rungs = Rungs { earlier: vec![(whole, corrected)], last: single };
+                by_size = SetsBySize { earlier: vec![(whole, corrected)], last: single };
             }
         }
-        Ok(rungs)
+        Ok(by_size)
     }
 
     /// Adds effects on the parts of a level while they are better.
-    fn grow(&self, level: usize, bare: &FittedRecords, rungs: &mut Rungs, early: &Early) -> Result<(), RecordError> {
-        while let Some(best) = rungs.last.first() {
+    fn grow(
+        &self,
+        level: usize,
+        bare: &FittedRecords,
+        by_size: &mut SetsBySize,
+        early: &Early,
+    ) -> Result<(), RecordError> {
+        while let Some(best) = by_size.last.first() {
             if agrees(best) || best.effects.len() >= MOST_EFFECTS || self.control.is_late() {
                 break;
             }
@@ -120,8 +126,8 @@ impl Search<'_> {
             }
             *top = self.pruned(level, top)?;
             early(&suggestions(&self.levels[level], &found)?);
-            rungs.earlier.push((level, best.clone()));
-            rungs.last = found;
+            by_size.earlier.push((level, best.clone()));
+            by_size.last = found;
         }
         Ok(())
     }

@@ -37,7 +37,7 @@ pub(super) struct Search<'a> {
 
 /// Sets of growing size: the best of each as it stood when the next effect was found, of the last all that were followed, fitted
 /// to the whole records.
-pub(super) struct Rungs {
+pub(super) struct SetsBySize {
     pub earlier: Vec<(usize, FittedRecords)>,
     pub last: Vec<FittedRecords>,
 }

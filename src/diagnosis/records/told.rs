@@ -51,11 +51,11 @@ impl Search<'_> {
             start.modes.iter_mut().for_each(|v| *v = if by_mode { *v + fit.stiffness } else { 0.0 });
             start.mass = if mass { fit.mass } else { 0.0 };
             start.shifts.fill(0.0);
-            let mut next = self.refit(&start, mask.clone())?;
+            let mut next = self.fit(&start, mask.clone())?;
             let mut free = mask;
             if by_mode {
                 free = self.kept_modes(&mut next, free, sources);
-                next = self.refit(&next, free.clone())?;
+                next = self.fit(&next, free.clone())?;
             }
             let count = free.iter().filter(|f| **f).count();
             if found.as_ref().is_none_or(|best| is_plainer((&next, count), (&best.0, best.1))) {
@@ -65,7 +65,7 @@ impl Search<'_> {
         Ok(found.map_or_else(|| fit.clone(), |(fit, _)| fit))
     }
 
-    fn refit(&self, start: &FittedRecords, corrections: Vec<bool>) -> Result<FittedRecords, RecordError> {
+    fn fit(&self, start: &FittedRecords, corrections: Vec<bool>) -> Result<FittedRecords, RecordError> {
         let free = Free { corrections, shifts: false };
         match (FitProblem { records: self.records, free, share: 1.0, control: self.control }).improve(start, ITERATIONS)
         {

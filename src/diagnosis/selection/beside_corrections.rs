@@ -5,10 +5,12 @@ use crate::diagnosis::channels::ChannelFault;
 use crate::diagnosis::residual::data::DiagnosisError;
 use crate::diagnosis::residual::prediction::FINAL;
 use crate::diagnosis::selection::conclusion::{self, Outcome, TOLERATED};
-use crate::diagnosis::selection::fitted_model::Refit;
-use crate::diagnosis::selection::found::{DOUBTFUL, EVIDENCE, Found, MOST_EFFECTS, Rung, agrees, distinct, nearly};
+use crate::diagnosis::selection::fitted_model::FittedModel;
+use crate::diagnosis::selection::found::{
+    DOUBTFUL, EVIDENCE, FittedSets, Found, MOST_EFFECTS, agrees, distinct, nearly,
+};
 use crate::diagnosis::selection::left_out::{exceeds, groups};
-use crate::diagnosis::selection::search::{Base, scale_of};
+use crate::diagnosis::selection::search::{ReferenceModel, scale_of};
 use crate::diagnosis::selection::weighing::{Weighed, weighed};
 use crate::diagnosis::updating::detuning::is_likely;
 use crate::effects::Kind;
@@ -30,17 +32,17 @@ const RIVALLED: f64 = 4.0;
 /// The search with the updating parameters free: at each stage the candidates seen from the model as it was updated last,
 /// then the model updated beside the best of them, and the candidates again.
 pub(super) fn beside_updating(
-    base: Base<'_>,
+    reference: ReferenceModel<'_>,
     before: f64,
 ) -> Result<Result<Outcome<'_>, ChannelFault>, DiagnosisError> {
-    let mut found = Found { updated: true, rungs: Vec::new(), agrees: false, before };
-    let stated = base.bench().error(&base.predictions);
-    let bare = base.bare()?;
-    let (mut here, first) = match first_fits(&base, &bare)? {
+    let mut found = Found { updated: true, by_size: Vec::new(), agrees: false, before };
+    let stated = reference.estimator().error(&reference.predictions);
+    let bare = reference.bare()?;
+    let (mut here, first) = match first_fits(&reference, &bare)? {
         First::Fits(here, fits) => (here, fits),
         First::None(likely) => {
             found.agrees = agrees(&likely, likely.misfit() * likely.count() as f64, 0);
-            return Ok(Ok(Outcome { base: likely, found }));
+            return Ok(Ok(Outcome { reference: likely, found }));
         }
         First::Unreliable(fault) => return Ok(Err(fault)),
     };
@@ -48,20 +50,20 @@ pub(super) fn beside_updating(
     let (mut likely, mut least) = bare.roughly();
     let mut told_alone = false;
     let by_modes = bare.linearisation.updating.is_by_modes();
-    while found.rungs.len() < MOST_EFFECTS && (found.rungs.is_empty() || !here.control.is_late()) {
-        let from = found.rungs.last().map(|rung| rung.refits[0].clone());
+    while found.by_size.len() < MOST_EFFECTS && (found.by_size.is_empty() || !here.control.is_late()) {
+        let from = found.by_size.last().map(|fitted_sets| fitted_sets.fits[0].clone());
         let fits = match (&from, first.take()) {
             (None, Some(fits)) => fits,
             (Some(from), _) => here.followed_beside(from, FURTHER)?,
             (None, None) => Vec::new(),
         };
-        if found.rungs.is_empty() {
-            let refits: Vec<Refit> = fits.iter().map(|(_, refit)| refit.clone()).collect();
-            (here.early)(&conclusion::early(&here, &here.ranked(refits)));
+        if found.by_size.is_empty() {
+            let fits: Vec<FittedModel> = fits.iter().map(|(_, fit)| fit.clone()).collect();
+            (here.early)(&conclusion::early(&here, &here.ranked(fits)));
         }
         let Some(weighed) = weighed(fits)? else { break };
-        let best = &weighed.refits[0];
-        let scale = scale_of(&weighed.refits, weighed.base.count());
+        let best = &weighed.fits[0];
+        let scale = scale_of(&weighed.fits, weighed.reference.count());
         let doubtful = best.effects.iter().any(|e| is_like_a_correction(e.effect)) || scale > DOUBTFUL;
         if from.is_none() && (bare.misfit() < RIVALLED * scale || doubtful) {
             (likely, least) = alone(&bare, &weighed)?;
@@ -69,47 +71,48 @@ pub(super) fn beside_updating(
         }
         // What only lowers the error because every run has a stiffness of its own is nothing that could be added.
         let raises = best.error > stated;
-        let known = best.parameters < weighed.base.count();
+        let known = best.parameters < weighed.reference.count();
         if raises || !known || (least - weighed.least) / scale < evidence_needed(best, by_modes) {
             break;
         }
         if (told_alone || from.is_some()) && !predicts_better(&weighed, (&likely, from.as_ref()))? {
             break;
         }
-        found.agrees = agrees(&weighed.base, best.chi_square, best.parameters);
+        found.agrees = agrees(&weighed.reference, best.chi_square, best.parameters);
         least = weighed.least;
-        let noise = weighed.base.noise.clone();
-        found.rungs.push(Rung { scale, noise, refits: weighed.refits, probabilities: weighed.probabilities });
-        likely = weighed.base;
-        here = Base { predictions: likely.predictions.clone(), noise: likely.noise.clone(), ..likely.shallow() };
+        let noise = weighed.reference.noise.clone();
+        found.by_size.push(FittedSets { scale, noise, fits: weighed.fits, probabilities: weighed.probabilities });
+        likely = weighed.reference;
+        here =
+            ReferenceModel { predictions: likely.predictions.clone(), noise: likely.noise.clone(), ..likely.shallow() };
         // Corrections beyond what models are wrong by may stand in for one effect more.
         if found.agrees && is_likely(&likely) {
             break;
         }
     }
-    if found.rungs.is_empty() {
+    if found.by_size.is_empty() {
         if !told_alone {
             (likely, _) = bare.likely()?;
         }
         found.agrees = agrees(&likely, likely.misfit() * likely.count() as f64, 0);
     }
     pruned(&likely, &mut found)?;
-    Ok(Ok(Outcome { base: likely, found }))
+    Ok(Ok(Outcome { reference: likely, found }))
 }
 
 /// What a search beside corrections begins with.
 enum First<'a> {
     /// The model from which candidates were seen, and these fitted.
-    Fits(Base<'a>, Vec<(Base<'a>, Refit)>),
+    Fits(ReferenceModel<'a>, Vec<(ReferenceModel<'a>, FittedModel)>),
     /// Nothing: corrections alone, as likely as they make the model.
-    None(Base<'a>),
+    None(ReferenceModel<'a>),
     /// A channel that is not to be relied on.
     Unreliable(ChannelFault),
 }
 
 /// The first candidates beside the corrections of `bare`. Where corrections alone agree with the data and no law would bring its
 /// evidence beside them, none is followed but what one change explains instead of them.
-fn first_fits<'a>(base: &Base<'a>, bare: &Base<'a>) -> Result<First<'a>, DiagnosisError> {
+fn first_fits<'a>(reference: &ReferenceModel<'a>, bare: &ReferenceModel<'a>) -> Result<First<'a>, DiagnosisError> {
     let changes = if bare.misfit() < TOLERATED { bare.single_changes(PROMISED)? } else { Vec::new() };
     let mut promises = bare.misfit() >= DOUBTFUL || bare.promises(CHOSEN)?;
     if !promises && changes.is_empty() {
@@ -121,11 +124,11 @@ fn first_fits<'a>(base: &Base<'a>, bare: &Base<'a>) -> Result<First<'a>, Diagnos
     }
     let (mut here, mut fits) = (bare.with_scales(bare.linearisation.updating.scales), Vec::new());
     if promises {
-        let (localised, drafts) = match base.localised()? {
+        let (localised, unfitted) = match reference.localised()? {
             Ok(localised) => localised,
             Err(fault) => return Ok(First::Unreliable(fault)),
         };
-        fits = localised.followed(drafts)?;
+        fits = localised.followed(unfitted)?;
         here = localised;
     }
     let follow = |k: usize| bare.followed_change(&changes[k]);
@@ -135,9 +138,9 @@ fn first_fits<'a>(base: &Base<'a>, bare: &Base<'a>) -> Result<First<'a>, Diagnos
 
 /// The model with corrections alone, as likely as they make it, and its evidence: they may have ended in another valley than
 /// those beside the effect.
-fn alone<'a>(bare: &Base<'a>, weighed: &Weighed<'a>) -> Result<(Base<'a>, f64), DiagnosisError> {
+fn alone<'a>(bare: &ReferenceModel<'a>, weighed: &Weighed<'a>) -> Result<(ReferenceModel<'a>, f64), DiagnosisError> {
     let (likely, least) = bare.likely()?;
-    let beside = bare.updated(&weighed.base.linearisation.updating, &[], &Vec::new())?;
+    let beside = bare.updated(&weighed.reference.linearisation.updating, &[], &Vec::new())?;
     let (estimated, cost) = beside.estimated()?;
     Ok(if cost < least { (estimated, cost) } else { (likely, least) })
 }
@@ -145,50 +148,55 @@ fn alone<'a>(bare: &Base<'a>, weighed: &Weighed<'a>) -> Result<(Base<'a>, f64), 
 /// Whether the best of the candidates predicts runs that are left out better than the model with corrections and the effects
 /// before it, by more than may be by chance. A channel that is read wrongly, and a spring or
 /// mass that corrections can stand for, predict little better: they are told by their evidence alone.
-fn predicts_better(weighed: &Weighed, (likely, before): (&Base, Option<&Refit>)) -> Result<bool, DiagnosisError> {
-    let best = &weighed.refits[0];
+fn predicts_better(
+    weighed: &Weighed,
+    (likely, before): (&ReferenceModel, Option<&FittedModel>),
+) -> Result<bool, DiagnosisError> {
+    let best = &weighed.fits[0];
     let channel = best.effects.last().is_some_and(|e| matches!(e.effect.kind(), Kind::Channel(_)));
-    let by_modes = weighed.base.linearisation.updating.is_by_modes();
+    let by_modes = weighed.reference.linearisation.updating.is_by_modes();
     if channel || (is_single_change(best) && !by_modes) {
         return Ok(true);
     }
     let groups = groups(likely.data);
-    Ok(exceeds(&weighed.base.left_out(Some(best), &groups)?, &likely.left_out(before, &groups)?))
+    Ok(exceeds(&weighed.reference.left_out(Some(best), &groups)?, &likely.left_out(before, &groups)?))
 }
 
 /// Evidence that the last effect of a fit must bring beside `likely`, the model with corrections and the effects before it.
-fn evidence_needed(refit: &Refit, by_modes: bool) -> f64 {
-    match refit.effects.len() {
-        1 if is_single_change(refit) && by_modes => FURTHER,
-        1 if is_single_change(refit) => CHANGED,
+fn evidence_needed(fit: &FittedModel, by_modes: bool) -> f64 {
+    match fit.effects.len() {
+        1 if is_single_change(fit) && by_modes => FURTHER,
+        1 if is_single_change(fit) => CHANGED,
         1 => CHOSEN,
         _ => FURTHER,
     }
 }
 
 /// Whether a fit is one spring or mass, which corrections can stand for.
-fn is_single_change(refit: &Refit) -> bool {
-    matches!(refit.effects.as_slice(), [only] if is_like_a_correction(only.effect))
+fn is_single_change(fit: &FittedModel) -> bool {
+    matches!(fit.effects.as_slice(), [only] if is_like_a_correction(only.effect))
 }
 
 /// Drops effects that the last set of a search no longer needs, now that the others are there.
-fn pruned(base: &Base, found: &mut Found) -> Result<(), DiagnosisError> {
-    while let Some(best) = found.rungs.last().map(|rung| rung.refits[0].clone()).filter(|r| r.effects.len() > 1) {
-        let mut refits = Vec::new();
+fn pruned(reference: &ReferenceModel, found: &mut Found) -> Result<(), DiagnosisError> {
+    while let Some(best) =
+        found.by_size.last().map(|fitted_sets| fitted_sets.fits[0].clone()).filter(|r| r.effects.len() > 1)
+    {
+        let mut fits = Vec::new();
         for k in 0..best.effects.len() {
             let mut fewer = best.effects.clone();
             fewer.remove(k);
-            refits.push(base.bench().refit(&fewer, 10, &FINAL, &best.starts)?);
+            fits.push(reference.estimator().fit(&fewer, 10, &FINAL, &best.starts)?);
         }
-        let (refits, noise) = base.polished(base.ranked(refits))?;
-        let enough = |r: &Refit| base.evidence(r, 1.0) < base.evidence(&best, 1.0) + EVIDENCE;
-        let Some(first) = refits.first().filter(|r| enough(r)) else { break };
-        found.agrees = agrees(base, first.chi_square, first.parameters) || nearly(base, first, found.before);
-        found.rungs.pop();
-        let scale = scale_of(&refits, base.count());
-        let before = found.rungs.pop().map_or_else(Vec::new, |rung| rung.refits);
-        let refits = distinct(base.ranked(refits.into_iter().chain(before).collect()));
-        found.rungs.push(Rung { probabilities: base.probabilities(&refits), refits, scale, noise });
+        let (fits, noise) = reference.polished(reference.ranked(fits))?;
+        let enough = |r: &FittedModel| reference.evidence(r, 1.0) < reference.evidence(&best, 1.0) + EVIDENCE;
+        let Some(first) = fits.first().filter(|r| enough(r)) else { break };
+        found.agrees = agrees(reference, first.chi_square, first.parameters) || nearly(reference, first, found.before);
+        found.by_size.pop();
+        let scale = scale_of(&fits, reference.count());
+        let before = found.by_size.pop().map_or_else(Vec::new, |fitted_sets| fitted_sets.fits);
+        let fits = distinct(reference.ranked(fits.into_iter().chain(before).collect()));
+        found.by_size.push(FittedSets { probabilities: reference.probabilities(&fits), fits, scale, noise });
     }
     Ok(())
 }

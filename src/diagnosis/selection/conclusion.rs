@@ -3,10 +3,10 @@
 use crate::diagnosis::diagnose::{Added, Correction, Diagnosis, Step, Suggestion, Verdict, noise_floor};
 use crate::diagnosis::residual::data::DiagnosisError;
 use crate::diagnosis::residual::prediction::FINAL;
-use crate::diagnosis::selection::fitted_model::{Bench, Refit};
-use crate::diagnosis::selection::found::{Found, Rung, same_set};
+use crate::diagnosis::selection::fitted_model::{Estimator, FittedModel};
+use crate::diagnosis::selection::found::{FittedSets, Found, same_set};
 use crate::diagnosis::selection::next_test::{next_test, pinning_test};
-use crate::diagnosis::selection::search::{Base, scale_of};
+use crate::diagnosis::selection::search::{ReferenceModel, scale_of};
 use crate::diagnosis::selection::sentences::sentences;
 use crate::diagnosis::updating::parameters::{Scales, UpdatingParameter};
 use crate::effects::Source;
@@ -30,49 +30,53 @@ const FEW: usize = 2;
 
 /// Where a search ended, with what it was made on.
 pub(crate) struct Outcome<'a> {
-    pub base: Base<'a>,
+    pub reference: ReferenceModel<'a>,
     pub found: Found,
 }
 
 impl Outcome<'_> {
     /// Fills in what was found.
     pub fn conclude(&self, mut diagnosis: Diagnosis) -> Result<Diagnosis, DiagnosisError> {
-        let base = &self.base;
-        let rungs = &self.found.rungs;
-        let Some(top) = rungs.last() else {
-            let bench = base.bench();
-            let misfit = square(&bench.residual(&base.predictions)) / base.count().max(1) as f64;
-            let error = base.error_of_structure(&[], &Vec::new())?;
+        let reference = &self.reference;
+        let by_size = &self.found.by_size;
+        let Some(top) = by_size.last() else {
+            let estimator = reference.estimator();
+            let misfit = square(&estimator.residual(&reference.predictions)) / reference.count().max(1) as f64;
+            let error = reference.error_of_structure(&[], &Vec::new())?;
             diagnosis.verdict = match (self.found.updated, misfit < TOLERATED) {
                 (true, true) => Verdict::Detuned,
                 (false, true) => Verdict::Adequate,
                 (_, false) => Verdict::Unexplained,
             };
             if self.found.updated {
-                diagnosis.corrections = corrections(base);
+                diagnosis.corrections = corrections(reference);
                 diagnosis.steps.push(Step { added: Vec::new(), error, misfit });
             }
             return Ok(diagnosis);
         };
-        let best = &top.refits[0];
-        let quiet = Base { predictions: base.predictions.clone(), noise: top.noise.clone(), ..base.shallow() };
-        let predictions = quiet.bench().predict(&best.effects, &FINAL, &best.starts)?;
+        let best = &top.fits[0];
+        let quiet = ReferenceModel {
+            predictions: reference.predictions.clone(),
+            noise: top.noise.clone(),
+            ..reference.shallow()
+        };
+        let predictions = quiet.estimator().predict(&best.effects, &FINAL, &best.starts)?;
         diagnosis.noise_floor = noise_floor(&quiet, &best.effects, &predictions);
         diagnosis.corrections = corrections(&quiet);
-        let misfit = best.chi_square / base.count().max(1) as f64;
+        let misfit = best.chi_square / reference.count().max(1) as f64;
         let trust = if misfit > TOLERATED { UNTRUSTED } else { 1.0 };
         let weights: Vec<f64> = top.probabilities.iter().map(|p| p * trust).collect();
-        let ordered = order(&quiet.bench(), best, &rungs[0])?;
+        let ordered = order(&quiet.estimator(), best, &by_size[0])?;
         for set in &ordered {
-            let misfit = set.chi_square / base.count().max(1) as f64;
+            let misfit = set.chi_square / reference.count().max(1) as f64;
             diagnosis.steps.push(Step { added: added(set, top.scale), error: set.error, misfit });
         }
         let structure = quiet.of_structure()?;
-        let alike_runs = Bench { predictor: &structure, ..quiet.bench() };
+        let alike_runs = Estimator { predictor: &structure, ..quiet.estimator() };
         let final_set = added(ordered.last().unwrap_or(best), top.scale);
         for item in &final_set {
-            let alone = alone(&quiet.bench(), &item.source, best, &rungs[0])?;
-            let probability = containing(&top.refits, &weights, &item.source);
+            let alone = alone(&quiet.estimator(), &item.source, best, &by_size[0])?;
+            let probability = containing(&top.fits, &weights, &item.source);
             let evidence = sentences(&quiet, item, best, diagnosis.error_before, alone.error)?;
             diagnosis.suggestions.push(Suggestion {
                 added: item.clone(),
@@ -81,12 +85,12 @@ impl Outcome<'_> {
                 held_out_error_after: alike_runs.held_out_error(&alone)?,
                 probability,
                 evidence,
-                indistinguishable_from: alike(&top.refits, best, &item.source, top.scale),
+                indistinguishable_from: alike(&top.fits, best, &item.source, top.scale),
             });
         }
         alternatives(&alike_runs, top, &weights, &mut diagnosis)?;
         // Nothing is ambiguous where the next best has next to no probability: then the size is what is least certain.
-        let rival = top.refits.get(1).filter(|_| weights.get(1).is_some_and(|w| *w > RIVAL));
+        let rival = top.fits.get(1).filter(|_| weights.get(1).is_some_and(|w| *w > RIVAL));
         diagnosis.next_test = match rival {
             _ if quiet.control.is_late() => None,
             Some(rival) => next_test(&quiet, &best.effects, &rival.effects)?,
@@ -107,33 +111,33 @@ impl Outcome<'_> {
 }
 
 /// Suggestions of fits that are not finished: for somebody who waits.
-pub(crate) fn early(base: &Base, refits: &[Refit]) -> Vec<Suggestion> {
-    let scale = scale_of(refits, base.count());
-    let weights = base.probabilities(refits);
-    let of = |(refit, &probability): (&Refit, &f64)| {
-        let added = added(refit, scale).pop()?;
+pub(crate) fn early(reference: &ReferenceModel, fits: &[FittedModel]) -> Vec<Suggestion> {
+    let scale = scale_of(fits, reference.count());
+    let weights = reference.probabilities(fits);
+    let of = |(fit, &probability): (&FittedModel, &f64)| {
+        let added = added(fit, scale).pop()?;
         let evidence = vec![added.source.effect.sentence().to_string()];
-        let (error_after, held_out_error_after) = (refit.error, refit.error);
+        let (error_after, held_out_error_after) = (fit.error, fit.error);
         let indistinguishable_from = Vec::new();
         Some(Suggestion { added, error_after, held_out_error_after, probability, evidence, indistinguishable_from })
     };
-    refits.iter().zip(&weights).take(MOST).filter_map(of).collect()
+    fits.iter().zip(&weights).take(MOST).filter_map(of).collect()
 }
 
 /// The effects of the best set in the order in which they help, each prefix fitted.
-fn order(bench: &Bench, best: &Refit, first: &Rung) -> Result<Vec<Refit>, DiagnosisError> {
+fn order(estimator: &Estimator, best: &FittedModel, first: &FittedSets) -> Result<Vec<FittedModel>, DiagnosisError> {
     if best.effects.len() == 1 {
         return Ok(vec![best.clone()]);
     }
     let mut rest = best.effects.clone();
-    let mut chain: Vec<Refit> = Vec::new();
+    let mut chain: Vec<FittedModel> = Vec::new();
     let mut chosen: Vec<Source> = Vec::new();
     while rest.len() > 1 {
         let mut options = Vec::new();
         for k in 0..rest.len() {
             let set: Vec<Source> = chosen.iter().chain(std::iter::once(&rest[k])).cloned().collect();
-            let known = first.refits.iter().find(|r| same_set(&r.effects, &set));
-            options.push(known.map_or_else(|| bench.refit(&set, 8, &FINAL, &[]), |r| Ok(r.clone()))?);
+            let known = first.fits.iter().find(|r| same_set(&r.effects, &set));
+            options.push(known.map_or_else(|| estimator.fit(&set, 8, &FINAL, &[]), |r| Ok(r.clone()))?);
         }
         let k = (0..rest.len()).min_by(|&a, &b| options[a].chi_square.total_cmp(&options[b].chi_square));
         let k = k.unwrap_or(0);
@@ -144,34 +148,44 @@ fn order(bench: &Bench, best: &Refit, first: &Rung) -> Result<Vec<Refit>, Diagno
     Ok(chain)
 }
 
-fn alone(bench: &Bench, source: &Source, best: &Refit, first: &Rung) -> Result<Refit, DiagnosisError> {
+fn alone(
+    estimator: &Estimator,
+    source: &Source,
+    best: &FittedModel,
+    first: &FittedSets,
+) -> Result<FittedModel, DiagnosisError> {
     let set = std::slice::from_ref(source);
     if same_set(&best.effects, set) {
         return Ok(best.clone());
     }
-    match first.refits.iter().find(|r| same_set(&r.effects, set)) {
-        Some(refit) => bench.refit(&refit.effects, 3, &FINAL, &refit.starts),
-        None => bench.refit(set, 8, &FINAL, &[]),
+    match first.fits.iter().find(|r| same_set(&r.effects, set)) {
+        Some(fit) => estimator.fit(&fit.effects, 3, &FINAL, &fit.starts),
+        None => estimator.fit(set, 8, &FINAL, &[]),
     }
 }
 
 /// Suggestions beyond the best set: what else was fitted at the same number of effects.
-fn alternatives(bench: &Bench, top: &Rung, weights: &[f64], diagnosis: &mut Diagnosis) -> Result<(), DiagnosisError> {
-    for refit in top.refits.iter().skip(1) {
+fn alternatives(
+    estimator: &Estimator,
+    top: &FittedSets,
+    weights: &[f64],
+    diagnosis: &mut Diagnosis,
+) -> Result<(), DiagnosisError> {
+    for fit in top.fits.iter().skip(1) {
         // Each takes as long as all runs take to be predicted.
-        let most = if bench.control.is_late() { FEW } else { MOST };
-        for item in added(refit, top.scale) {
+        let most = if estimator.control.is_late() { FEW } else { MOST };
+        for item in added(fit, top.scale) {
             let listed = diagnosis.suggestions.iter().any(|s| s.added.source.is_same(&item.source));
             if listed || diagnosis.suggestions.len() >= most {
                 continue;
             }
             diagnosis.suggestions.push(Suggestion {
-                error_after: refit.error,
-                held_out_error_after: bench.held_out_error(refit)?,
-                probability: containing(&top.refits, weights, &item.source),
+                error_after: fit.error,
+                held_out_error_after: estimator.held_out_error(fit)?,
+                probability: containing(&top.fits, weights, &item.source),
                 evidence: vec![format!(
                     "With it the error would be {} % instead of {} %.",
-                    significant(100.0 * refit.error, 3),
+                    significant(100.0 * fit.error, 3),
                     significant(100.0 * diagnosis.error_before, 3)
                 )],
                 indistinguishable_from: Vec::new(),
@@ -182,11 +196,11 @@ fn alternatives(bench: &Bench, top: &Rung, weights: &[f64], diagnosis: &mut Diag
     Ok(())
 }
 
-/// Corrections of what the model states, at the reference of `base`, with the deviations that hold where nothing is known
+/// Corrections of what the model states, at the values of `reference`, with the deviations that hold where nothing is known
 /// better than laboratories know it: scales that are estimated from few runs may be too small.
-pub(crate) fn corrections(base: &Base) -> Vec<Correction> {
-    let updating = &base.linearisation.updating;
-    let told = base.with_scales(updating.scales.at_least(&Scales::SEARCH));
+pub(crate) fn corrections(reference: &ReferenceModel) -> Vec<Correction> {
+    let updating = &reference.linearisation.updating;
+    let told = reference.with_scales(updating.scales.at_least(&Scales::SEARCH));
     let variances = told.noise.updating.variances();
     let of = |(k, parameter): (usize, &UpdatingParameter)| {
         let deviation = told.linearisation.updating.prior(k) * variances.get(k)?.sqrt();
@@ -205,25 +219,25 @@ fn square(values: &[f64]) -> f64 {
 }
 
 /// The effects of a fit; what the model leaves beyond the noise widens their deviations.
-fn added(refit: &Refit, scale: f64) -> Vec<Added> {
+fn added(fit: &FittedModel, scale: f64) -> Vec<Added> {
     let widened = |d: &Vec<f64>| d.iter().map(|d| d * scale.max(1.0).sqrt()).collect();
-    let pairs = refit.effects.iter().zip(&refit.deviations);
+    let pairs = fit.effects.iter().zip(&fit.deviations);
     pairs.map(|(source, deviations)| Added { source: source.clone(), deviations: widened(deviations) }).collect()
 }
 
 /// Probability of all sets that contain an effect at a place.
-fn containing(refits: &[Refit], weights: &[f64], source: &Source) -> f64 {
-    let with = refits.iter().zip(weights).filter(|(r, _)| r.effects.iter().any(|e| e.is_same(source)));
+fn containing(fits: &[FittedModel], weights: &[f64], source: &Source) -> f64 {
+    let with = fits.iter().zip(weights).filter(|(r, _)| r.effects.iter().any(|e| e.is_same(source)));
     with.map(|(_, w)| w).sum::<f64>().min(1.0)
 }
 
 /// Effects that in place of `source` leave a residual that differs by no more than noise.
-fn alike(refits: &[Refit], best: &Refit, source: &Source, scale: f64) -> Vec<Source> {
+fn alike(fits: &[FittedModel], best: &FittedModel, source: &Source, scale: f64) -> Vec<Source> {
     let others: Vec<&Source> = best.effects.iter().filter(|e| !e.is_same(source)).collect();
-    let near = refits.iter().filter(|r| (r.chi_square - best.chi_square) / scale < ALIKE);
+    let near = fits.iter().filter(|r| (r.chi_square - best.chi_square) / scale < ALIKE);
     let mut found: Vec<Source> = Vec::new();
-    for refit in near {
-        let fresh: Vec<&Source> = refit.effects.iter().filter(|e| !others.iter().any(|o| o.is_same(e))).collect();
+    for fit in near {
+        let fresh: Vec<&Source> = fit.effects.iter().filter(|e| !others.iter().any(|o| o.is_same(e))).collect();
         if let [other] = fresh[..]
             && !other.is_same(source)
             && !found.iter().any(|f| f.is_same(other))

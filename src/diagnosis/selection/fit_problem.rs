@@ -2,7 +2,7 @@
 
 use crate::diagnosis::residual::data::{ChannelData, DiagnosisError, RunData};
 use crate::diagnosis::residual::prediction::{Predictor, RunPrediction, transfer};
-use crate::diagnosis::selection::fitted_model::{Bench, Starts};
+use crate::diagnosis::selection::fitted_model::{Estimator, Starts};
 use crate::diagnosis::selection::levenberg_marquardt::{Residual, Variables};
 use crate::effects::{Kind, Source};
 use crate::response::harmonic_balance::Settings;
@@ -20,7 +20,7 @@ pub(crate) struct Trial {
 
 /// The residual on the response as a function of the variables of the effects.
 pub(crate) struct OnResponse<'a> {
-    pub bench: Bench<'a>,
+    pub estimator: Estimator<'a>,
     pub variables: &'a Variables,
     pub settings: Settings,
     /// Responses at the last point that was accepted, from which trials start.
@@ -85,7 +85,7 @@ pub(super) fn unknowns_of(effects: &[Source], known: usize) -> Vec<Vec<(Unknown,
 impl OnResponse<'_> {
     fn compute(&self, theta: &[f64]) -> Result<Trial, DiagnosisError> {
         let effects = self.variables.effects(theta);
-        let predictions = self.bench.predict(&effects, &self.settings, &self.starts)?;
+        let predictions = self.estimator.predict(&effects, &self.settings, &self.starts)?;
         Ok(Trial { theta: theta.to_vec(), predictions })
     }
 
@@ -115,17 +115,17 @@ impl OnResponse<'_> {
     /// parameters at their reference; `None` where a response has no derivatives. Empty for parameters of channels.
     fn analytic_columns(&self, trial: &Trial) -> Result<Option<Vec<Vec<f64>>>, DiagnosisError> {
         let effects = self.variables.effects(&trial.theta);
-        let known = self.bench.predictor.known().len();
+        let known = self.estimator.predictor.known().len();
         let (sums, factors) = (unknowns_of(&effects, known), self.variables.slopes(&trial.theta));
-        let mut columns: Vec<Vec<f64>> = vec![Vec::with_capacity(self.bench.count()); trial.theta.len()];
-        for (r, run) in self.bench.data.runs.iter().enumerate() {
-            self.bench.control.check()?;
+        let mut columns: Vec<Vec<f64>> = vec![Vec::with_capacity(self.estimator.count()); trial.theta.len()];
+        for (r, run) in self.estimator.data.runs.iter().enumerate() {
+            self.estimator.control.check()?;
             let prediction = &trial.predictions[r];
-            let Some(slopes) = run_slopes(self.bench.predictor, r, run, &effects, prediction, &sums) else {
+            let Some(slopes) = run_slopes(self.estimator.predictor, r, run, &effects, prediction, &sums) else {
                 return Ok(None);
             };
             for ((column, slope), factor) in columns.iter_mut().zip(&slopes).zip(&factors) {
-                self.bench.whitened(r, column, |c, h| -slope[c][h - 1] * *factor);
+                self.estimator.whitened(r, column, |c, h| -slope[c][h - 1] * *factor);
             }
         }
         Ok(Some(columns))
@@ -135,7 +135,7 @@ impl OnResponse<'_> {
     pub fn at_reference(&mut self, theta: &[f64]) -> Result<(Vec<f64>, Vec<Vec<f64>>), DiagnosisError> {
         let trial = self.trial(theta)?;
         self.starts = trial.predictions.iter().map(|p| p.found.then(|| p.response.clone())).collect();
-        let rows = |predictions: &[RunPrediction]| self.bench.at_reference(predictions);
+        let rows = |predictions: &[RunPrediction]| self.estimator.at_reference(predictions);
         let residual = rows(&trial.predictions);
         let analytic = self.analytic_columns(&trial)?;
         let channels = self.of_channels();
@@ -161,12 +161,12 @@ impl Residual for OnResponse<'_> {
     type Error = DiagnosisError;
 
     fn is_late(&self) -> bool {
-        self.bench.control.is_late()
+        self.estimator.control.is_late()
     }
 
     fn residual(&mut self, theta: &[f64]) -> Result<Vec<f64>, DiagnosisError> {
         let trial = self.compute(theta)?;
-        let residual = self.bench.residual(&trial.predictions);
+        let residual = self.estimator.residual(&trial.predictions);
         self.last = Some(trial);
         Ok(residual)
     }
@@ -176,11 +176,11 @@ impl Residual for OnResponse<'_> {
         self.starts = trial.predictions.iter().map(|p| p.found.then(|| p.response.clone())).collect();
         let mut analytic = self.analytic_columns(&trial)?;
         let channels = self.of_channels();
-        let rows = |predictions: &[RunPrediction]| self.bench.residual(predictions);
+        let rows = |predictions: &[RunPrediction]| self.estimator.residual(predictions);
         let mut columns = Vec::with_capacity(theta.len());
         for (k, of_channel) in channels.into_iter().enumerate() {
             columns.push(match &mut analytic {
-                Some(analytic) if !of_channel => self.bench.noise.updating.column(std::mem::take(&mut analytic[k])),
+                Some(analytic) if !of_channel => self.estimator.noise.updating.column(std::mem::take(&mut analytic[k])),
                 _ => self.difference(theta, k, rows, at)?,
             });
         }

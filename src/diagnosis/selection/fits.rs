@@ -1,12 +1,12 @@
-//! Fits of drafts on the response: all of them a little, the promising ones to the end, the best with all harmonics.
+//! Fits of sets on the response: all of them a little, the promising ones to the end, the best with all harmonics.
 
 use crate::diagnosis::candidates::special_cases::is_limit;
 use crate::diagnosis::candidates::start::start;
 use crate::diagnosis::residual::data::DiagnosisError;
 use crate::diagnosis::residual::prediction::{FINAL, SEARCH};
-use crate::diagnosis::selection::fitted_model::{Bench, Refit, Starts};
+use crate::diagnosis::selection::fitted_model::{Estimator, FittedModel, Starts};
 use crate::diagnosis::selection::found::same_set;
-use crate::diagnosis::selection::search::{Base, Draft, joined, scale_of};
+use crate::diagnosis::selection::search::{ReferenceModel, UnfittedSet, joined, scale_of};
 use crate::diagnosis::updating::noise_model::NoiseModel;
 use crate::effects::{Effect, Kind, Place, Range, Source, State};
 use std::sync::Arc;
@@ -19,7 +19,7 @@ const ROUGHLY: usize = 2;
 const COARSE: f64 = 30.0;
 /// The same from which on no simpler law is heard beside the best.
 const HOPELESSLY_COARSE: f64 = 1e3;
-/// Steps of a fit on the response: of all drafts, and of those that may still become the best.
+/// Steps of a fit on the response: of all sets, and of those that may still become the best.
 pub(crate) const FIRST_STEPS: usize = 4;
 pub(crate) const STEPS: usize = 20;
 /// Gain of the squared residual, in units of what the best leaves per datum, that is worth going on for.
@@ -31,48 +31,48 @@ const PROMISE: f64 = 0.9;
 /// Evidence by which a fit under way may be promised to lag behind the best and still be followed.
 const HOPELESS_FIT: f64 = 60.0;
 
-impl Base<'_> {
-    /// Fits the drafts on the response: all of them a little, those that may still become the best to the end.
-    pub(crate) fn refit_all(&self, drafts: &[Draft]) -> Result<Vec<Refit>, DiagnosisError> {
-        self.finished(self.begun(drafts)?)
+impl ReferenceModel<'_> {
+    /// Fits the sets on the response: all of them a little, those that may still become the best to the end.
+    pub(crate) fn fit_all(&self, unfitted: &[UnfittedSet]) -> Result<Vec<FittedModel>, DiagnosisError> {
+        self.finished(self.begun(unfitted)?)
     }
 
-    /// First steps of a fit of every draft, from the motion that the data show.
-    pub(crate) fn begun(&self, drafts: &[Draft]) -> Result<Vec<Refit>, DiagnosisError> {
+    /// First steps of a fit of every set, from the motion that the data show.
+    pub(crate) fn begun(&self, unfitted: &[UnfittedSet]) -> Result<Vec<FittedModel>, DiagnosisError> {
         let first = |k: usize| {
-            let draft = &drafts[k];
-            let sources = self.predictor.sources(&draft.effects);
-            let runs = self.data.runs.iter().zip(draft.fields.iter());
+            let unfitted = &unfitted[k];
+            let sources = self.predictor.sources(&unfitted.effects);
+            let runs = self.data.runs.iter().zip(unfitted.fields.iter());
             let starts: Starts = runs.map(|(run, field)| start(&sources, run.omega, field)).collect();
-            self.bench().refit(&draft.effects, FIRST_STEPS, &SEARCH, &starts)
+            self.estimator().fit(&unfitted.effects, FIRST_STEPS, &SEARCH, &starts)
         };
-        self.control.map(drafts.len(), first).into_iter().collect()
+        self.control.map(unfitted.len(), first).into_iter().collect()
     }
 
     /// The fits that may still become the best, followed to the end; the others as they are. Valleys are long where
     /// corrections are free beside effects much like them: those that still promise to be the best go on once more.
-    pub(crate) fn finished(&self, begun: Vec<Refit>) -> Result<Vec<Refit>, DiagnosisError> {
+    pub(crate) fn finished(&self, begun: Vec<FittedModel>) -> Result<Vec<FittedModel>, DiagnosisError> {
         let once = self.followed_once(begun)?;
         self.followed_once(once)
     }
 
-    fn followed_once(&self, begun: Vec<Refit>) -> Result<Vec<Refit>, DiagnosisError> {
+    fn followed_once(&self, begun: Vec<FittedModel>) -> Result<Vec<FittedModel>, DiagnosisError> {
         let scale = scale_of(&begun, self.count());
         let best = begun.iter().map(|r| self.evidence(r, scale)).fold(f64::INFINITY, f64::min);
-        let promised = |r: &Refit| self.evidence(r, scale) - r.descent.to_go.min(PROMISE * r.chi_square) / scale;
+        let promised = |r: &FittedModel| self.evidence(r, scale) - r.descent.to_go.min(PROMISE * r.chi_square) / scale;
         let go_on = |k: usize| {
-            let refit = &begun[k];
-            if refit.descent.to_go < LEFT * scale || promised(refit) > best + HOPELESS_FIT {
-                return Ok(refit.clone());
+            let fit = &begun[k];
+            if fit.descent.to_go < LEFT * scale || promised(fit) > best + HOPELESS_FIT {
+                return Ok(fit.clone());
             }
-            self.bench().refit(&refit.effects, STEPS, &SEARCH, &refit.starts)
+            self.estimator().fit(&fit.effects, STEPS, &SEARCH, &fit.starts)
         };
         self.control.map(begun.len(), go_on).into_iter().collect()
     }
 
     /// The laws of the whole structure, from a light start.
-    pub fn whole(&self, from: Option<&Refit>, steps: usize) -> Result<Vec<Refit>, DiagnosisError> {
-        let effects = from.map_or(&[][..], |refit| &refit.effects);
+    pub fn whole(&self, from: Option<&FittedModel>, steps: usize) -> Result<Vec<FittedModel>, DiagnosisError> {
+        let effects = from.map_or(&[][..], |fit| &fit.effects);
         let omega = self.data.runs.iter().map(|r| r.omega.ln()).sum::<f64>() / self.data.runs.len() as f64;
         let light = |effect: Effect| {
             let unit = match effect {
@@ -89,29 +89,29 @@ impl Base<'_> {
             .filter(|source| self.data.allows(source))
             .map(|source| joined(effects, &[source]))
             .collect();
-        let fit = |k: usize| self.bench().refit(&sets[k], steps, &SEARCH, &[]);
+        let fit = |k: usize| self.estimator().fit(&sets[k], steps, &SEARCH, &[]);
         self.control.map(sets.len(), fit).into_iter().collect()
     }
 
-    /// The sets of `refits` in which a law is all but a simpler one, with that in its stead.
-    fn by_their_name(&self, refits: &[Refit]) -> Result<Vec<Refit>, DiagnosisError> {
-        let named = |refit: &Refit| -> Option<Vec<Source>> {
+    /// The sets of `fits` in which a law is all but a simpler one, with that in its stead.
+    fn by_their_name(&self, fits: &[FittedModel]) -> Result<Vec<FittedModel>, DiagnosisError> {
+        let named = |fit: &FittedModel| -> Option<Vec<Source>> {
             let plain =
-                || refit.effects.iter().map(|e| e.simpler(&Range::UNKNOWN).unwrap_or_else(|| e.clone())).collect();
-            refit.effects.iter().any(|e| e.simpler(&Range::UNKNOWN).is_some()).then(plain)
+                || fit.effects.iter().map(|e| e.simpler(&Range::UNKNOWN).unwrap_or_else(|| e.clone())).collect();
+            fit.effects.iter().any(|e| e.simpler(&Range::UNKNOWN).is_some()).then(plain)
         };
         let fresh = |effects: &Vec<Source>| {
-            !refits.iter().any(|r| same_set(&r.effects, effects)) && effects.iter().all(|e| self.data.allows(e))
+            !fits.iter().any(|r| same_set(&r.effects, effects)) && effects.iter().all(|e| self.data.allows(e))
         };
-        let sets: Vec<Vec<Source>> = refits.iter().filter_map(named).filter(fresh).collect();
-        let fit = |k: usize| self.bench().refit(&sets[k], STEPS, &SEARCH, &[]);
+        let sets: Vec<Vec<Source>> = fits.iter().filter_map(named).filter(fresh).collect();
+        let fit = |k: usize| self.estimator().fit(&sets[k], STEPS, &SEARCH, &[]);
         self.control.map(sets.len(), fit).into_iter().collect()
     }
 
-    /// Fits the best of `refits` again with all harmonics that matter and the noise of the best of them, truncation
+    /// Fits the best of `fits` again with all harmonics that matter and the noise of the best of them, truncation
     /// included; the others follow as they are.
-    pub fn polished(&self, refits: Vec<Refit>) -> Result<(Vec<Refit>, Arc<NoiseModel>), DiagnosisError> {
-        let mut best = refits;
+    pub fn polished(&self, fits: Vec<FittedModel>) -> Result<(Vec<FittedModel>, Arc<NoiseModel>), DiagnosisError> {
+        let mut best = fits;
         let scale = scale_of(&best, self.count());
         let bound = best.first().map_or(0.0, |r| self.evidence(r, scale)) + HOPELESS_FIT;
         let near = best.iter().take_while(|r| self.evidence(r, scale) < bound).count();
@@ -120,23 +120,23 @@ impl Base<'_> {
         // Few harmonics speak for laws that can bend to what they lack: the simpler ones are to be heard as well.
         if let Some(set) = best.first().filter(|_| scale < HOPELESSLY_COARSE).map(|r| r.effects.clone()) {
             let (simpler, others) = rest.into_iter().partition(|r| is_limit(&r.effects, &set));
-            best.extend::<Vec<Refit>>(simpler);
+            best.extend::<Vec<FittedModel>>(simpler);
             rest = others;
         }
         best.extend(self.by_their_name(&best)?);
         let mut noise = self.noise.clone();
         for steps in [8, 4] {
-            let bench = Bench { noise: &noise, ..self.bench() };
+            let estimator = Estimator { noise: &noise, ..self.estimator() };
             let again = |k: usize| {
-                let refit = &best[k];
-                let arrived = refit.descent.to_go < FAR * refit.chi_square;
+                let fit = &best[k];
+                let arrived = fit.descent.to_go < FAR * fit.chi_square;
                 let steps = if arrived { steps } else { STEPS };
-                bench.refit(&refit.effects, steps, &FINAL, &refit.starts)
+                estimator.fit(&fit.effects, steps, &FINAL, &fit.starts)
             };
-            let refits = self.control.map(best.len(), again).into_iter().collect::<Result<Vec<_>, _>>()?;
-            best = self.ranked(refits);
+            let fits = self.control.map(best.len(), again).into_iter().collect::<Result<Vec<_>, _>>()?;
+            best = self.ranked(fits);
             let Some(first) = best.first() else { break };
-            let predictions = self.bench().predict(&first.effects, &FINAL, &first.starts)?;
+            let predictions = self.estimator().predict(&first.effects, &FINAL, &first.starts)?;
             noise = Arc::new(self.noise_of(&first.effects, &predictions)?);
         }
         best.extend(rest);

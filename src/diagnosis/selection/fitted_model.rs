@@ -26,7 +26,7 @@ pub(crate) type Starts = Vec<Option<Response>>;
 
 /// A model to be fitted: the predictor with its data and noise.
 #[derive(Clone, Copy)]
-pub(crate) struct Bench<'a> {
+pub(crate) struct Estimator<'a> {
     pub predictor: &'a Predictor,
     pub data: &'a Data,
     pub noise: &'a NoiseModel,
@@ -35,7 +35,7 @@ pub(crate) struct Bench<'a> {
 
 /// A set of effects fitted on the response.
 #[derive(Debug, Clone)]
-pub struct Refit {
+pub struct FittedModel {
     /// Effects with their parameters.
     pub effects: Vec<Source>,
     /// Standard deviation of every parameter, of every effect.
@@ -50,7 +50,7 @@ pub struct Refit {
     pub(crate) descent: Descent,
 }
 
-impl Bench<'_> {
+impl Estimator<'_> {
     /// Number of real data.
     pub fn count(&self) -> usize {
         self.noise.count()
@@ -131,43 +131,43 @@ impl Bench<'_> {
     }
 
     /// Fits all parameters of `effects` from where they are.
-    pub fn refit(
+    pub fn fit(
         &self,
         effects: &[Source],
         steps: usize,
         settings: &Settings,
         starts: &[Option<Response>],
-    ) -> Result<Refit, DiagnosisError> {
+    ) -> Result<FittedModel, DiagnosisError> {
         let steps = if self.control.is_late() { steps.min(HURRIED) } else { steps };
         let (variables, start) = Variables::new(effects);
-        let (bench, settings, starts) = (*self, *settings, starts.to_vec());
-        let mut response = OnResponse { bench, variables: &variables, settings, starts, last: None };
+        let (estimator, settings, starts) = (*self, *settings, starts.to_vec());
+        let mut response = OnResponse { estimator, variables: &variables, settings, starts, last: None };
         let descent = descend(&mut response, &start, steps)?;
         let trial = response.trial(&descent.theta)?;
         Ok(finished(self, &variables, descent, trial))
     }
 
     /// Error on runs that were left out: groups of runs in turn, the parameters refitted without them (linearised).
-    pub fn held_out_error(&self, refit: &Refit) -> Result<f64, DiagnosisError> {
-        let (variables, _) = Variables::new(&refit.effects);
+    pub fn held_out_error(&self, fit: &FittedModel) -> Result<f64, DiagnosisError> {
+        let (variables, _) = Variables::new(&fit.effects);
         let folds = FOLDS.min(self.data.runs.len());
         if folds < 2 {
-            return Ok(refit.error);
+            return Ok(fit.error);
         }
         let mut rows = 0;
-        let mut fold_of_row = Vec::with_capacity(refit.descent.residual.len());
+        let mut fold_of_row = Vec::with_capacity(fit.descent.residual.len());
         for (r, noise) in self.noise.runs.iter().enumerate() {
             rows += noise.len();
             fold_of_row.resize(rows, r % folds);
         }
         // The priors of updating parameters are never left out.
-        fold_of_row.resize(refit.descent.residual.len(), usize::MAX);
+        fold_of_row.resize(fit.descent.residual.len(), usize::MAX);
         let mut predictions: Vec<Option<RunPrediction>> = vec![None; self.data.runs.len()];
         for fold in 0..folds {
-            let theta = without(&refit.descent, &fold_of_row, fold);
+            let theta = without(&fit.descent, &fold_of_row, fold);
             let effects = variables.effects(&theta[..variables.len()]);
             for (r, run) in self.data.runs.iter().enumerate().filter(|(r, _)| r % folds == fold) {
-                let start = refit.starts.get(r).and_then(Option::as_ref);
+                let start = fit.starts.get(r).and_then(Option::as_ref);
                 let predicted = self.predictor.predict(r, run, &effects, &FINAL, start, self.control);
                 predictions[r] = Some(predicted.or_else(|_| self.at_rest(r))?);
             }
@@ -176,16 +176,16 @@ impl Bench<'_> {
     }
 }
 
-fn finished(bench: &Bench, variables: &Variables, descent: Descent, trial: Trial) -> Refit {
+fn finished(estimator: &Estimator, variables: &Variables, descent: Descent, trial: Trial) -> FittedModel {
     let effects = variables.effects(&descent.theta);
     let slopes = variables.slopes(&descent.theta);
     let all = descent.deviations();
     let mut own = all.iter().zip(&slopes).map(|(d, s)| d * s.abs());
     let deviations = effects.iter().map(|e| own.by_ref().take(e.parameters.len()).collect()).collect();
-    Refit {
+    FittedModel {
         chi_square: descent.chi_square,
         parameters: variables.len(),
-        error: bench.error(&trial.predictions),
+        error: estimator.error(&trial.predictions),
         starts: starts_of(trial.predictions),
         effects,
         deviations,

@@ -1,12 +1,12 @@
 //! Candidates beside updating parameters: laws regressed at the measured motion, each followed with a model of its own.
 
-use super::search::{Base, Draft, joined};
+use super::search::{ReferenceModel, UnfittedSet, joined};
 use super::short_list::{Breadth, needed};
 use crate::diagnosis::candidates::start::start;
 use crate::diagnosis::residual::data::DiagnosisError;
 use crate::diagnosis::residual::prediction::SEARCH;
 use crate::diagnosis::selection::fits::STEPS;
-use crate::diagnosis::selection::fitted_model::{Refit, Starts};
+use crate::diagnosis::selection::fitted_model::{FittedModel, Starts};
 use crate::diagnosis::updating::measured_motion::MeasuredMotion;
 use crate::effects::{Effect, Kind, Place, Source, State};
 use crate::math::statistics::bayesian_information;
@@ -22,71 +22,74 @@ const AT_ONE_PLACE: usize = 4;
 const MARGIN: f64 = 60.0;
 /// Squared residual per datum of the best from which on candidates of twice that are followed too.
 const COARSE: f64 = 3.0;
-/// Best drafts whose limits are followed too, and how many times their score those may leave.
+/// Best sets whose limits are followed too, and how many times their score those may leave.
 const HEARD: usize = 2;
 const LIMIT: f64 = 2.0;
 /// Times that a model is updated beside its candidate.
 const UPDATES: usize = 6;
 
-impl<'a> Base<'a> {
-    /// The candidates among `drafts`, regressed beside the model as it is, that are worth following, each fitted with a model
+impl<'a> ReferenceModel<'a> {
+    /// The candidates among `unfitted`, regressed beside the model as it is, that are worth following, each fitted with a model
     /// updated beside it.
-    pub(crate) fn followed(&self, drafts: Vec<Draft>) -> Result<Vec<(Base<'a>, Refit)>, DiagnosisError> {
-        let drafts = promising(needed(drafts), self.count());
+    pub(crate) fn followed(
+        &self,
+        unfitted: Vec<UnfittedSet>,
+    ) -> Result<Vec<(ReferenceModel<'a>, FittedModel)>, DiagnosisError> {
+        let unfitted = promising(needed(unfitted), self.count());
         let mut view = self.view(None)?;
-        let mut targets = Vec::with_capacity(drafts.len());
-        for draft in &drafts {
-            targets.push(self.updated_beside(&mut view, draft)?);
+        let mut targets = Vec::with_capacity(unfitted.len());
+        for unfitted in &unfitted {
+            targets.push(self.updated_beside(&mut view, unfitted)?);
         }
         drop(view);
-        let follow = |k: usize| self.followed_draft(&drafts[k], targets[k].as_deref(), &[]);
-        self.control.map(drafts.len(), follow).into_iter().collect()
+        let follow = |k: usize| self.followed_set(&unfitted[k], targets[k].as_deref(), &[]);
+        self.control.map(unfitted.len(), follow).into_iter().collect()
     }
 
     /// The candidates for one effect beside those of `from`, each fitted with a model updated beside it; none where none
     /// would bring `evidence`.
     pub(crate) fn followed_beside(
         &self,
-        from: &Refit,
+        from: &FittedModel,
         evidence: f64,
-    ) -> Result<Vec<(Base<'a>, Refit)>, DiagnosisError> {
+    ) -> Result<Vec<(ReferenceModel<'a>, FittedModel)>, DiagnosisError> {
         let mut view = self.view(Some(from))?;
         let bound = view.screen.nothing() - evidence;
-        let mut drafts = self.drafts(&mut view, &from.effects, Breadth::All)?;
+        let mut unfitted = self.unfitted(&mut view, &from.effects, Breadth::All)?;
         drop(view);
-        drafts.retain(|d| d.score < bound);
-        drafts.sort_by(|a, b| a.score.total_cmp(&b.score));
-        let drafts = promising(needed(drafts), self.count());
-        let follow = |k: usize| self.followed_draft(&drafts[k], None, &from.effects);
-        self.control.map(drafts.len(), follow).into_iter().collect()
+        unfitted.retain(|d| d.score < bound);
+        unfitted.sort_by(|a, b| a.score.total_cmp(&b.score));
+        let unfitted = promising(needed(unfitted), self.count());
+        let follow = |k: usize| self.followed_set(&unfitted[k], None, &from.effects);
+        self.control.map(unfitted.len(), follow).into_iter().collect()
     }
 
     /// A candidate fitted on the response in turn with the updating parameters beside it, which start at `target`.
-    fn followed_draft(
+    fn followed_set(
         &self,
-        draft: &Draft,
+        unfitted: &UnfittedSet,
         target: Option<&[f64]>,
         others: &[Source],
-    ) -> Result<(Base<'a>, Refit), DiagnosisError> {
-        let effects = joined(others, &draft.effects);
+    ) -> Result<(ReferenceModel<'a>, FittedModel), DiagnosisError> {
+        let effects = joined(others, &unfitted.effects);
         let sources = self.predictor.sources(&effects);
-        let runs = self.data.runs.iter().zip(draft.fields.iter());
+        let runs = self.data.runs.iter().zip(unfitted.fields.iter());
         let starts: Starts = runs.map(|(run, field)| start(&sources, run.omega, field)).collect();
         let updating = &self.linearisation.updating;
         let updating = target.map_or_else(|| updating.clone(), |u| updating.at(u));
-        let base = self.updated(&updating, &effects, &starts)?;
-        let refit = base.bench().refit(&effects, STEPS, &SEARCH, &starts)?;
-        base.settled(refit, &SEARCH, UPDATES)
+        let reference = self.updated(&updating, &effects, &starts)?;
+        let fit = reference.estimator().fit(&effects, STEPS, &SEARCH, &starts)?;
+        reference.settled(fit, &SEARCH, UPDATES)
     }
 
     /// The laws of the whole structure, regressed at the measured motion.
-    pub(crate) fn whole_drafts(&self, others: &[Source]) -> Vec<Draft> {
+    pub(crate) fn whole_sets(&self, others: &[Source]) -> Vec<UnfittedSet> {
         let Some(seen) = MeasuredMotion::new(&self.predictor, self.data, &self.predictions, self.control) else {
             return Vec::new();
         };
-        let rows = self.bench().residual(&self.predictions);
+        let rows = self.estimator().residual(&self.predictions);
         let square = dot(&rows, &rows);
-        let draft = |effect: Effect| -> Option<Draft> {
+        let unfitted = |effect: Effect| -> Option<UnfittedSet> {
             let unit = Source { effect, place: Place::Whole(None), state: State::Known, parameters: vec![1.0] };
             let fresh = !others.iter().any(|e| e.is_same(&unit)) && self.data.allows(&unit);
             let column = self.noise.updating.column(self.linear_rows(&seen, &unit));
@@ -96,10 +99,14 @@ impl<'a> Base<'a> {
                 return None;
             }
             let score = bayesian_information(square - value * value * size, 1, self.count());
-            Some(Draft { effects: vec![Source { parameters: vec![value], ..unit }], score, fields: Arc::default() })
+            Some(UnfittedSet {
+                effects: vec![Source { parameters: vec![value], ..unit }],
+                score,
+                fields: Arc::default(),
+            })
         };
         let whole = Effect::ALL.into_iter().filter(|e| matches!(e.kind(), Kind::Whole(_)));
-        whole.filter_map(draft).collect()
+        whole.filter_map(unfitted).collect()
     }
 
     /// Whitened derivative of all runs by the parameter of a linear law.
@@ -108,7 +115,7 @@ impl<'a> Base<'a> {
         let sum = [(Unknown::Source { source: 0, parameter: 0 }, 1.0)];
         for r in 0..self.data.runs.len() {
             let slope = seen.slope(r, std::slice::from_ref(unit), &sum);
-            self.bench().whitened(r, &mut rows, |c, h| slope[c][h - 1]);
+            self.estimator().whitened(r, &mut rows, |c, h| slope[c][h - 1]);
         }
         rows
     }
@@ -116,45 +123,45 @@ impl<'a> Base<'a> {
     /// Updating parameters that fit best beside a law of the whole structure.
     pub(crate) fn updated_beside_whole(&self, source: &Source) -> Option<Vec<f64>> {
         let seen = MeasuredMotion::new(&self.predictor, self.data, &self.predictions, self.control)?;
-        let mut rows = self.bench().at_reference(&self.predictions);
+        let mut rows = self.estimator().at_reference(&self.predictions);
         let value = source.parameters[0];
         rows.iter_mut().zip(self.linear_rows(&seen, source)).for_each(|(r, c)| *r -= value * c);
         Some(self.noise.updating.solve(&rows))
     }
 }
 
-/// The best drafts, no more than a few at one place.
-fn promising(drafts: Vec<Draft>, count: usize) -> Vec<Draft> {
-    let Some(best) = drafts.first().map(|d| d.score) else { return drafts };
+/// The best sets, no more than a few at one place.
+fn promising(unfitted: Vec<UnfittedSet>, count: usize) -> Vec<UnfittedSet> {
+    let Some(best) = unfitted.first().map(|d| d.score) else { return unfitted };
     let scale = (best / count.max(1) as f64).max(1.0);
     // Where even the best leaves much, the motion between the sensors is not known well enough to tell them apart.
     let margin = if scale > COARSE { best } else { MARGIN * scale };
-    let mut kept: Vec<Draft> = Vec::new();
-    for draft in drafts.iter().take_while(|d| d.score < best + margin) {
-        let here = kept.iter().filter(|k| k.effects[0].place == draft.effects[0].place).count();
+    let mut kept: Vec<UnfittedSet> = Vec::new();
+    for unfitted in unfitted.iter().take_while(|d| d.score < best + margin) {
+        let here = kept.iter().filter(|k| k.effects[0].place == unfitted.effects[0].place).count();
         if here < AT_ONE_PLACE && kept.len() < FOLLOWED {
-            kept.push(draft.clone());
+            kept.push(unfitted.clone());
         }
     }
     // Where hardly another place may be it, more of its laws.
-    for draft in drafts.iter().take_while(|d| d.score < best + margin) {
-        let known = |k: &Draft| k.effects[0].is_same(&draft.effects[0]);
+    for unfitted in unfitted.iter().take_while(|d| d.score < best + margin) {
+        let known = |k: &UnfittedSet| k.effects[0].is_same(&unfitted.effects[0]);
         if kept.len() < FOLLOWED && !kept.iter().any(known) {
-            kept.push(draft.clone());
+            kept.push(unfitted.clone());
         }
     }
-    with_limits(kept, &drafts)
+    with_limits(kept, &unfitted)
 }
 
-/// The best drafts with the simpler laws that they contain as limits, from all `drafts`.
-fn with_limits(mut kept: Vec<Draft>, drafts: &[Draft]) -> Vec<Draft> {
-    for draft in kept.clone().iter().take(HEARD) {
-        let (effect, place) = (draft.effects[0].effect, &draft.effects[0].place);
+/// The best sets with the simpler laws that they contain as limits, from all `unfitted`.
+fn with_limits(mut kept: Vec<UnfittedSet>, unfitted: &[UnfittedSet]) -> Vec<UnfittedSet> {
+    for unfitted in kept.clone().iter().take(HEARD) {
+        let (effect, place) = (unfitted.effects[0].effect, &unfitted.effects[0].place);
         for simpler in effect.limits() {
-            let is = |d: &&Draft| d.effects[0].effect == simpler && d.effects[0].place.is_same(place);
-            let near = |d: &&Draft| d.score < LIMIT * draft.score.abs();
+            let is = |d: &&UnfittedSet| d.effects[0].effect == simpler && d.effects[0].place.is_same(place);
+            let near = |d: &&UnfittedSet| d.score < LIMIT * unfitted.score.abs();
             if !kept.iter().any(|d| is(&d)) {
-                kept.extend(drafts.iter().find(is).filter(near).cloned());
+                kept.extend(unfitted.iter().find(is).filter(near).cloned());
             }
         }
     }

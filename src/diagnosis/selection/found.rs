@@ -1,7 +1,7 @@
 //! Fits that a search keeps on its way, and when they agree with the data.
 
-use crate::diagnosis::selection::fitted_model::Refit;
-use crate::diagnosis::selection::search::Base;
+use crate::diagnosis::selection::fitted_model::FittedModel;
+use crate::diagnosis::selection::search::ReferenceModel;
 use crate::diagnosis::updating::noise_model::NoiseModel;
 use crate::effects::Source;
 use std::sync::Arc;
@@ -21,8 +21,8 @@ pub(super) const LAST: f64 = 4e-4;
 const LAST_ERROR: f64 = 2e-3;
 
 /// Sets of effects of one size, fitted, best first.
-pub(crate) struct Rung {
-    pub refits: Vec<Refit>,
+pub(crate) struct FittedSets {
+    pub fits: Vec<FittedModel>,
     /// Squared residual per datum of the best, at least 1.
     pub scale: f64,
     /// Noise with the truncation of the best.
@@ -35,49 +35,49 @@ pub(crate) struct Rung {
 pub(crate) struct Found {
     /// Whether updating parameters were freed.
     pub updated: bool,
-    pub rungs: Vec<Rung>,
-    /// Whether the last rung agrees with the data.
+    pub by_size: Vec<FittedSets>,
+    /// Whether the largest sets agree with the data.
     pub agrees: bool,
     /// Squared residual of the model as it is.
     pub before: f64,
 }
 
 /// Whether a squared residual with `parameters` fitted is that of noise.
-pub(crate) fn agrees(base: &Base, chi_square: f64, parameters: usize) -> bool {
-    let n = base.count().saturating_sub(parameters) as f64;
+pub(crate) fn agrees(reference: &ReferenceModel, chi_square: f64, parameters: usize) -> bool {
+    let n = reference.count().saturating_sub(parameters) as f64;
     chi_square <= n + AGREES * (2.0 * n).sqrt()
 }
 
 /// Whether what a fit leaves is no more than what records and integrators are wrong by, where the model as it is has the
 /// squared residual `before`.
-pub(crate) fn nearly(base: &Base, refit: &Refit, before: f64) -> bool {
-    small(base, refit, before, [LAST, LAST_ERROR])
+pub(crate) fn nearly(reference: &ReferenceModel, fit: &FittedModel, before: f64) -> bool {
+    small(reference, fit, before, [LAST, LAST_ERROR])
 }
 
 /// Whether what a fit leaves beyond the noise is below a `share` of the squared residual `before`, and below an `error` of
 /// the response.
-pub(super) fn small(base: &Base, refit: &Refit, before: f64, [share, error]: [f64; 2]) -> bool {
-    let n = base.count() as f64;
-    let excess = (refit.chi_square - n).max(0.0);
-    let beyond_noise = refit.error * (excess / refit.chi_square.max(f64::MIN_POSITIVE)).sqrt();
+pub(super) fn small(reference: &ReferenceModel, fit: &FittedModel, before: f64, [share, error]: [f64; 2]) -> bool {
+    let n = reference.count() as f64;
+    let excess = (fit.chi_square - n).max(0.0);
+    let beyond_noise = fit.error * (excess / fit.chi_square.max(f64::MIN_POSITIVE)).sqrt();
     excess < share * (before - n) && beyond_noise < error
 }
 
 /// Whether a fit agrees with the data, or all but.
-pub(crate) fn fits_well(base: &Base, found: &Found, refit: &Refit) -> bool {
-    agrees(base, refit.chi_square, refit.parameters) || nearly(base, refit, found.before)
+pub(crate) fn fits_well(reference: &ReferenceModel, found: &Found, fit: &FittedModel) -> bool {
+    agrees(reference, fit.chi_square, fit.parameters) || nearly(reference, fit, found.before)
 }
 
-pub(crate) fn level(refit: &Refit) -> (f64, usize) {
-    (refit.chi_square, refit.parameters)
+pub(crate) fn level(fit: &FittedModel) -> (f64, usize) {
+    (fit.chi_square, fit.parameters)
 }
 
 /// The best fit of every set.
-pub(crate) fn distinct(refits: Vec<Refit>) -> Vec<Refit> {
-    let mut kept: Vec<Refit> = Vec::with_capacity(refits.len());
-    for refit in refits {
-        if !kept.iter().any(|k| same_set(&k.effects, &refit.effects)) {
-            kept.push(refit);
+pub(crate) fn distinct(fits: Vec<FittedModel>) -> Vec<FittedModel> {
+    let mut kept: Vec<FittedModel> = Vec::with_capacity(fits.len());
+    for fit in fits {
+        if !kept.iter().any(|k| same_set(&k.effects, &fit.effects)) {
+            kept.push(fit);
         }
     }
     kept

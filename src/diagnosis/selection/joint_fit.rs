@@ -12,9 +12,9 @@
 use crate::diagnosis::residual::data::DiagnosisError;
 use crate::diagnosis::residual::prediction::{Predictor, RunPrediction};
 use crate::diagnosis::selection::fit_problem::{run_slopes, unknowns_of};
-use crate::diagnosis::selection::fitted_model::{Bench, Starts, starts_of};
+use crate::diagnosis::selection::fitted_model::{Estimator, Starts, starts_of};
 use crate::diagnosis::selection::levenberg_marquardt::{Residual, Variables, descend};
-use crate::diagnosis::selection::search::Base;
+use crate::diagnosis::selection::search::ReferenceModel;
 use crate::diagnosis::updating::noise_model::NoiseModel;
 use crate::diagnosis::updating::parameters::Updating;
 use crate::effects::{Kind, Source};
@@ -37,7 +37,7 @@ pub(super) struct JointFit {
     pub starts: Starts,
 }
 
-impl Base<'_> {
+impl ReferenceModel<'_> {
     /// Fits `effects`, the updating parameters of the model and the stiffness of each run together, in at most `steps` steps,
     /// with responses that start from `starts`.
     pub(super) fn joint_fit(
@@ -57,7 +57,7 @@ impl Base<'_> {
         let noise = self.noise.of_channels(&self.linearisation);
         let (starts, settings) = (starts.clone(), *settings);
         let mut problem =
-            Joint { base: self, variables: &variables, updating, of_model, noise, settings, starts, last: None };
+            Joint { reference: self, variables: &variables, updating, of_model, noise, settings, starts, last: None };
         let descent = descend(&mut problem, &start, steps)?;
         let trial = problem.trial(&descent.theta)?;
         Ok(JointFit {
@@ -78,7 +78,7 @@ struct Trial {
 /// The residual as a function of the variables of the effects, the updating parameters of the model and the shifts of the
 /// runs, the latter two in their natural units.
 struct Joint<'a, 'b> {
-    base: &'a Base<'b>,
+    reference: &'a ReferenceModel<'b>,
     variables: &'a Variables,
     /// Updating parameters at the start.
     updating: Updating,
@@ -110,13 +110,13 @@ impl Joint<'_, '_> {
         Updating { shifts, ..self.updating.at(&u) }
     }
 
-    fn bench<'x>(&'x self, predictor: &'x Predictor) -> Bench<'x> {
-        Bench { predictor, noise: &self.noise, ..self.base.bench() }
+    fn estimator<'x>(&'x self, predictor: &'x Predictor) -> Estimator<'x> {
+        Estimator { predictor, noise: &self.noise, ..self.reference.estimator() }
     }
 
     fn compute(&self, at: &[f64]) -> Result<Trial, DiagnosisError> {
-        let predictor = self.base.predictor.updated(&self.updating_at(at))?;
-        let predictions = self.bench(&predictor).predict(&self.effects(at), &self.settings, &self.starts)?;
+        let predictor = self.reference.predictor.updated(&self.updating_at(at))?;
+        let predictions = self.estimator(&predictor).predict(&self.effects(at), &self.settings, &self.starts)?;
         Ok(Trial { at: at.to_vec(), predictor, predictions })
     }
 
@@ -129,8 +129,8 @@ impl Joint<'_, '_> {
 
     /// Whitened residual of predictions, then the standardised updating parameters and shifts.
     fn rows(&self, trial: &Trial) -> Vec<f64> {
-        let bench = self.bench(&trial.predictor);
-        let mut rows = bench.residual(&trial.predictions);
+        let estimator = self.estimator(&trial.predictor);
+        let mut rows = estimator.residual(&trial.predictions);
         rows.extend(trial.at[self.variables.len()..].iter().map(|x| x * UNIT));
         rows
     }
@@ -162,11 +162,11 @@ impl Joint<'_, '_> {
     /// Whitened derivatives of the data by all variables at a trial, what belongs to channels not yet eliminated.
     fn data_columns(&self, trial: &Trial, effects: &[Source]) -> Result<Vec<Vec<f64>>, DiagnosisError> {
         let (sums, factors) = (self.unknowns(effects, &trial.predictor), self.factors(&trial.at));
-        let (bench, common) = (self.bench(&trial.predictor), sums.len() - 1);
-        let mut columns: Vec<Vec<f64>> = vec![vec![0.0; bench.count()]; trial.at.len()];
+        let (estimator, common) = (self.estimator(&trial.predictor), sums.len() - 1);
+        let mut columns: Vec<Vec<f64>> = vec![vec![0.0; estimator.count()]; trial.at.len()];
         let mut at = 0;
-        for (r, run) in bench.data.runs.iter().enumerate() {
-            bench.control.check()?;
+        for (r, run) in estimator.data.runs.iter().enumerate() {
+            estimator.control.check()?;
             let slopes = run_slopes(&trial.predictor, r, run, effects, &trial.predictions[r], &sums);
             let Some(slopes) = slopes else {
                 at += self.noise.runs[r].len();
@@ -181,7 +181,7 @@ impl Joint<'_, '_> {
             };
             for (k, (slope, factor)) in slopes.iter().zip(&factors).enumerate().filter(|(k, _)| acts(*k)) {
                 own.clear();
-                bench.whitened(r, &mut own, |c, h| -slope[c][h - 1] * *factor);
+                estimator.whitened(r, &mut own, |c, h| -slope[c][h - 1] * *factor);
                 let column = if k < common { k } else { common + r };
                 columns[column][at..at + own.len()].copy_from_slice(&own);
             }
@@ -195,7 +195,7 @@ impl Residual for Joint<'_, '_> {
     type Error = DiagnosisError;
 
     fn is_late(&self) -> bool {
-        self.base.control.is_late()
+        self.reference.control.is_late()
     }
 
     fn residual(&mut self, at: &[f64]) -> Result<Vec<f64>, DiagnosisError> {
@@ -299,31 +299,31 @@ mod tests {
         (0..FORCES.len() * OMEGAS.len()).map(run).collect()
     }
 
-    /// What `check` finds on the base model of those records, its updating parameters free.
-    fn with_base(check: impl Fn(&Base)) {
+    /// What `check` finds on the reference model of those records, its updating parameters free.
+    fn with_base(check: impl Fn(&ReferenceModel)) {
         let (stated, known, runs) = (chain(1.0), known(), runs());
         let problem = Problem { structure: &stated, sources: &known, runs: &runs };
         let data = Data::new(&problem).unwrap();
         let predictor = Arc::new(Predictor::new(&stated, known.clone(), &data).unwrap());
         let (control, early) = (Control::unattended(), |_: &[crate::diagnosis::diagnose::Suggestion]| {});
-        let base = Base::new(predictor, &data, &control, &early).unwrap();
+        let reference = ReferenceModel::new(predictor, &data, &control, &early).unwrap();
         let updating = Updating::all(&stated, &known, &data);
-        check(&base.updated(&updating, &[hidden()], &Vec::new()).unwrap());
+        check(&reference.updated(&updating, &[hidden()], &Vec::new()).unwrap());
     }
 
-    fn joint<'a, 'b>(base: &'a Base<'b>, variables: &'a Variables) -> Joint<'a, 'b> {
-        let updating = base.linearisation.updating.of_model();
+    fn joint<'a, 'b>(reference: &'a ReferenceModel<'b>, variables: &'a Variables) -> Joint<'a, 'b> {
+        let updating = reference.linearisation.updating.of_model();
         let of_model = (0..updating.len()).filter(|&k| updating.parameters[k].is_of_model()).collect();
-        let noise = base.noise.of_channels(&base.linearisation);
-        Joint { base, variables, updating, of_model, noise, settings: FINAL, starts: Vec::new(), last: None }
+        let noise = reference.noise.of_channels(&reference.linearisation);
+        Joint { reference, variables, updating, of_model, noise, settings: FINAL, starts: Vec::new(), last: None }
     }
 
     #[test]
     fn the_jacobian_is_that_of_the_residual_in_effects_updating_parameters_and_shifts() {
-        with_base(|base| {
+        with_base(|reference| {
             let (variables, mut at) = Variables::new(&[hidden()]);
-            let mut problem = joint(base, &variables);
-            at.extend(vec![0.1; problem.of_model.len() + base.data.runs.len()]);
+            let mut problem = joint(reference, &variables);
+            at.extend(vec![0.1; problem.of_model.len() + reference.data.runs.len()]);
             let residual = problem.residual(&at).unwrap();
             let jacobian = problem.jacobian(&at, &residual).unwrap();
             for k in 0..at.len() {
@@ -344,9 +344,9 @@ mod tests {
 
     #[test]
     fn effect_model_and_drift_of_the_runs_are_found_together() {
-        with_base(|base| {
+        with_base(|reference| {
             let start = Source { parameters: vec![3e6], ..hidden() };
-            let fit = base.joint_fit(&[start], &Vec::new(), &FINAL, 30).unwrap();
+            let fit = reference.joint_fit(&[start], &Vec::new(), &FINAL, 30).unwrap();
             let size = fit.effects[0].parameters[0];
             assert!((size / 4e6 - 1.0).abs() < 0.02, "{size}");
             // What is common to all runs is the model's; the prior draws the rest to nothing, each run as far as it is not seen.
@@ -354,7 +354,7 @@ mod tests {
                 let mean = list.iter().sum::<f64>() / list.len() as f64;
                 list.iter().map(|x| x - mean).collect()
             };
-            let truth = centred(&(0..base.data.runs.len()).map(shift).collect::<Vec<_>>());
+            let truth = centred(&(0..reference.data.runs.len()).map(shift).collect::<Vec<_>>());
             let found = centred(&fit.updating.shifts);
             let product = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
             let cosine = product(&truth, &found) / (product(&truth, &truth) * product(&found, &found)).sqrt();

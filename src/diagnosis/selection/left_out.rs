@@ -16,9 +16,9 @@
 use crate::diagnosis::residual::data::{Data, DiagnosisError};
 use crate::diagnosis::residual::prediction::FINAL;
 use crate::diagnosis::selection::fit_problem::OnResponse;
-use crate::diagnosis::selection::fitted_model::Refit;
+use crate::diagnosis::selection::fitted_model::FittedModel;
 use crate::diagnosis::selection::levenberg_marquardt::Variables;
-use crate::diagnosis::selection::search::Base;
+use crate::diagnosis::selection::search::ReferenceModel;
 use crate::math::statistics::evidence_weights;
 use dashpot_numerics::{Cholesky, dot};
 use faer::Mat;
@@ -53,13 +53,13 @@ pub(super) fn groups(data: &Data) -> Vec<usize> {
     groups
 }
 
-impl Base<'_> {
-    /// Logarithm of the predictive density of each group of runs, left out of the fit of `refit` (none: corrections
+impl ReferenceModel<'_> {
+    /// Logarithm of the predictive density of each group of runs, left out of the fit of `fit` (none: corrections
     /// alone).
-    pub(super) fn left_out(&self, refit: Option<&Refit>, groups: &[usize]) -> Result<Vec<f64>, DiagnosisError> {
-        let (variables, theta) = Variables::new(refit.map_or(&[], |refit| &refit.effects));
-        let (bench, starts) = (self.bench(), refit.map_or_else(Vec::new, |refit| refit.starts.clone()));
-        let mut problem = OnResponse { bench, variables: &variables, settings: FINAL, starts, last: None };
+    pub(super) fn left_out(&self, fit: Option<&FittedModel>, groups: &[usize]) -> Result<Vec<f64>, DiagnosisError> {
+        let (variables, theta) = Variables::new(fit.map_or(&[], |fit| &fit.effects));
+        let (estimator, starts) = (self.estimator(), fit.map_or_else(Vec::new, |fit| fit.starts.clone()));
+        let mut problem = OnResponse { estimator, variables: &variables, settings: FINAL, starts, last: None };
         let (rows, own) = problem.at_reference(&theta)?;
         let rows = self.noise.updating.without_reference(rows);
         let mut columns: Vec<Vec<f64>> = own.into_iter().map(|c| c.into_iter().map(|x| -x).collect()).collect();

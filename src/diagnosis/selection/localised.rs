@@ -9,7 +9,7 @@ use crate::diagnosis::channels::{ChannelFault, Fault, mended};
 use crate::diagnosis::localisation::free_force::{FreeForce, Placing};
 use crate::diagnosis::localisation::location::Spot;
 use crate::diagnosis::residual::data::DiagnosisError;
-use crate::diagnosis::selection::search::{Base, Draft};
+use crate::diagnosis::selection::search::{ReferenceModel, UnfittedSet};
 use crate::diagnosis::selection::short_list::Breadth;
 use crate::diagnosis::updating::parameters::Updating;
 
@@ -30,13 +30,13 @@ const SCATTER: [f64; 2] = [0.02, 0.3];
 
 /// A model whose places were looked at.
 struct Seen<'a> {
-    base: Base<'a>,
+    reference: ReferenceModel<'a>,
     /// Squared residual that the best law leaves, with its penalty.
     least: f64,
     /// The same of free forces at the best place.
     free: f64,
     /// Laws at their places, best first.
-    drafts: Vec<Draft>,
+    unfitted: Vec<UnfittedSet>,
     /// Standardised updating parameters that fit beside the best law or, where laws are far off, place.
     target: Vec<f64>,
     by_law: bool,
@@ -54,16 +54,16 @@ impl Seen<'_> {
     }
 }
 
-impl<'a> Base<'a> {
+impl<'a> ReferenceModel<'a> {
     /// The model with the updating parameters that fit best beside what leaves least at the measured motion, and the laws
     /// regressed there, best first; or the channel that does not fit the others, whatever the law.
-    pub fn localised(&self) -> Result<Result<(Base<'a>, Vec<Draft>), ChannelFault>, DiagnosisError> {
+    pub fn localised(&self) -> Result<Result<(ReferenceModel<'a>, Vec<UnfittedSet>), ChannelFault>, DiagnosisError> {
         let (stated, known) = self.predictor.stated();
         let here = self.moved_beside(Updating::all(stated, known, self.data))?;
         if let Some(fault) = self.doubted(&here)? {
             return Ok(Err(fault));
         }
-        Ok(Ok((here.base, here.drafts)))
+        Ok(Ok((here.reference, here.unfitted)))
     }
 
     fn moved_beside(&self, updating: Updating) -> Result<Seen<'a>, DiagnosisError> {
@@ -74,7 +74,7 @@ impl<'a> Base<'a> {
             if here.least < CLOSE * self.count() as f64 || self.control.is_late() {
                 break;
             }
-            let there = self.updated(&here.base.towards(&here.target), &[], &Vec::new())?.seen(breadth)?;
+            let there = self.updated(&here.reference.towards(&here.target), &[], &Vec::new())?.seen(breadth)?;
             let progress = here.progress(&there);
             if progress < 1.0 {
                 here = there;
@@ -86,10 +86,10 @@ impl<'a> Base<'a> {
                 break;
             }
             breadth = Breadth::All;
-            here = here.base.seen(breadth)?;
+            here = here.reference.seen(breadth)?;
         }
         if breadth == Breadth::Near && !self.control.is_late() {
-            here = here.base.seen(Breadth::All)?;
+            here = here.reference.seen(Breadth::All)?;
         }
         Ok(here)
     }
@@ -97,14 +97,14 @@ impl<'a> Base<'a> {
     /// This model with what the best law leaves.
     fn seen(self, breadth: Breadth) -> Result<Seen<'a>, DiagnosisError> {
         let mut view = self.view(None)?;
-        let mut drafts = self.drafts(&mut view, &[], breadth)?;
-        drafts.extend(self.whole_drafts(&[]));
-        drafts.sort_by(|a, b| a.score.total_cmp(&b.score));
+        let mut unfitted = self.unfitted(&mut view, &[], breadth)?;
+        unfitted.extend(self.whole_sets(&[]));
+        unfitted.sort_by(|a, b| a.score.total_cmp(&b.score));
         let placings = view.screen.singles();
         let free = placings.first().map_or(f64::INFINITY, |p| p.chi_square);
-        let least = drafts.first().map_or(f64::INFINITY, |best| best.score);
+        let least = unfitted.first().map_or(f64::INFINITY, |best| best.score);
         let by_law = least < BY_LAW * free;
-        let target = match (drafts.first(), placings.first()) {
+        let target = match (unfitted.first(), placings.first()) {
             (Some(best), _) if by_law => self.updated_beside(&mut view, best)?,
             (_, Some(place)) => Some(view.screen.updated(&place.spots)),
             _ => None,
@@ -117,15 +117,15 @@ impl<'a> Base<'a> {
         let suspects = placings.iter().take(DOUBTED).filter_map(suspect).collect();
         drop(view);
         let target = target.unwrap_or_else(|| self.linearisation.updating.standardised());
-        Ok(Seen { target, base: self, least, free, by_law, at_channel, drafts, suspects })
+        Ok(Seen { target, reference: self, least, free, by_law, at_channel, unfitted, suspects })
     }
 
     /// Whether a law regressed beside the model as it is would bring `evidence`.
     pub(super) fn promises(&self, evidence: f64) -> Result<bool, DiagnosisError> {
         let mut view = self.view(None)?;
         let bound = view.screen.nothing() - evidence;
-        let drafts = self.drafts(&mut view, &[], Breadth::All)?;
-        Ok(drafts.iter().chain(&self.whole_drafts(&[])).any(|draft| draft.score < bound))
+        let unfitted = self.unfitted(&mut view, &[], Breadth::All)?;
+        Ok(unfitted.iter().chain(&self.whole_sets(&[])).any(|unfitted| unfitted.score < bound))
     }
 
     /// The channel whose readings, taken to scatter from run to run, let a law leave far less than any does while all channels
@@ -143,10 +143,10 @@ impl<'a> Base<'a> {
         for (name, scatter) in &here.suspects {
             let fault = unreliable(name, *scatter);
             let data = mended(self.data, std::slice::from_ref(&fault));
-            let base = Base { data: &data, early: &|_| {}, ..self.shallow() };
-            let seen = base.moved_beside(here.base.linearisation.updating.clone())?;
-            let after =
-                seen.least + seen.base.noise_determinant() - here.base.noise_determinant() + self.noise_determinant();
+            let reference = ReferenceModel { data: &data, early: &|_| {}, ..self.shallow() };
+            let seen = reference.moved_beside(here.reference.linearisation.updating.clone())?;
+            let after = seen.least + seen.reference.noise_determinant() - here.reference.noise_determinant()
+                + self.noise_determinant();
             let relieved = after - before < -(1.0 - RELIEVED) * here.least;
             if relieved && best.as_ref().is_none_or(|(least, _)| after < *least) {
                 best = Some((after, fault));

@@ -9,9 +9,9 @@
 use crate::diagnosis::diagnose::NextTest;
 use crate::diagnosis::residual::data::DiagnosisError;
 use crate::diagnosis::residual::prediction::SEARCH;
-use crate::diagnosis::selection::fitted_model::Refit;
+use crate::diagnosis::selection::fitted_model::FittedModel;
 use crate::diagnosis::selection::levenberg_marquardt::Variables;
-use crate::diagnosis::selection::search::Base;
+use crate::diagnosis::selection::search::ReferenceModel;
 use crate::effects::{Effect, Kind, Source};
 use crate::math::least_squares::solve_symmetric;
 use crate::response::harmonic_balance::{Excitation, Response};
@@ -36,10 +36,10 @@ struct Trial {
 
 impl Trial {
     /// Frequencies around those of the runs, at two levels of force.
-    fn all(base: &Base) -> Vec<Self> {
-        let omegas = base.data.runs.iter().map(|r| r.omega);
+    fn all(reference: &ReferenceModel) -> Vec<Self> {
+        let omegas = reference.data.runs.iter().map(|r| r.omega);
         let (low, high) = omegas.fold((f64::INFINITY, 0.0_f64), |(l, h), w| (l.min(w), h.max(w)));
-        let sizes = base.data.runs.iter().flat_map(|r| r.forces.iter().map(|f| (f.dof, f.size())));
+        let sizes = reference.data.runs.iter().flat_map(|r| r.forces.iter().map(|f| (f.dof, f.size())));
         let Some((dof, force)) = sizes.max_by(|a, b| a.1.total_cmp(&b.1)) else { return Vec::new() };
         let omega = |k: usize| 0.9 * low * (1.1 * high / (0.9 * low)).powf(k as f64 / (FREQUENCIES - 1) as f64);
         let at = |k: usize, level: f64| {
@@ -49,9 +49,9 @@ impl Trial {
         (0..FREQUENCIES).flat_map(|k| LEVELS.map(|level| at(k, level))).collect()
     }
 
-    fn respond(&self, base: &Base, effects: &[Source], start: Option<&Response>) -> Option<Response> {
-        let sources = base.predictor.sources(effects);
-        base.predictor.run(0).respond(&sources, &self.excitation, &SEARCH, start, base.control).ok()
+    fn respond(&self, reference: &ReferenceModel, effects: &[Source], start: Option<&Response>) -> Option<Response> {
+        let sources = reference.predictor.sources(effects);
+        reference.predictor.run(0).respond(&sources, &self.excitation, &SEARCH, start, reference.control).ok()
     }
 
     fn named(&self, why: String) -> NextTest {
@@ -60,13 +60,17 @@ impl Trial {
 }
 
 /// The test that separates the effects `best` from those of `rival`; none if nothing does.
-pub(crate) fn next_test(base: &Base, best: &[Source], rival: &[Source]) -> Result<Option<NextTest>, DiagnosisError> {
+pub(crate) fn next_test(
+    reference: &ReferenceModel,
+    best: &[Source],
+    rival: &[Source],
+) -> Result<Option<NextTest>, DiagnosisError> {
     let mut found: Option<(f64, Trial)> = None;
-    for trial in Trial::all(base) {
-        base.control.check()?;
-        let Some(a) = trial.respond(base, best, None) else { continue };
-        let Some(b) = trial.respond(base, rival, None) else { continue };
-        let gain = difference(base, &a, &b);
+    for trial in Trial::all(reference) {
+        reference.control.check()?;
+        let Some(a) = trial.respond(reference, best, None) else { continue };
+        let Some(b) = trial.respond(reference, rival, None) else { continue };
+        let gain = difference(reference, &a, &b);
         if found.as_ref().is_none_or(|(most, _)| gain > *most) {
             found = Some((gain, trial));
         }
@@ -86,15 +90,15 @@ pub(crate) fn next_test(base: &Base, best: &[Source], rival: &[Source]) -> Resul
 }
 
 /// The test that narrows the least certain parameter of `best` down most; none if none narrows it down much.
-pub(crate) fn pinning_test(base: &Base, best: &Refit) -> Result<Option<NextTest>, DiagnosisError> {
+pub(crate) fn pinning_test(reference: &ReferenceModel, best: &FittedModel) -> Result<Option<NextTest>, DiagnosisError> {
     let Some((effect, parameter)) = least_certain(best) else { return Ok(None) };
     let at = best.effects[..effect].iter().map(|e| e.parameters.len()).sum::<usize>() + parameter;
     let Some(known) = information(best) else { return Ok(None) };
     let Some(before) = deviation(&known, at) else { return Ok(None) };
     let mut found: Option<(f64, Trial)> = None;
-    for trial in Trial::all(base) {
-        base.control.check()?;
-        let Some(more) = trial_information(base, best, &trial) else { continue };
+    for trial in Trial::all(reference) {
+        reference.control.check()?;
+        let Some(more) = trial_information(reference, best, &trial) else { continue };
         let together = Mat::from_fn(known.nrows(), known.ncols(), |i, j| known[(i, j)] + more[(i, j)]);
         let Some(after) = deviation(&together, at) else { continue };
         if found.as_ref().is_none_or(|(least, _)| after < *least) {
@@ -115,7 +119,7 @@ pub(crate) fn pinning_test(base: &Base, best: &Refit) -> Result<Option<NextTest>
 }
 
 /// The parameter of the largest relative deviation among those of effects on the structure.
-fn least_certain(best: &Refit) -> Option<(usize, usize)> {
+fn least_certain(best: &FittedModel) -> Option<(usize, usize)> {
     let on_structure = |e: &Source| !matches!(e.effect.kind(), Kind::Channel(_));
     let effects = best.effects.iter().zip(&best.deviations).enumerate().filter(|(_, (e, _))| on_structure(e));
     let all = effects.flat_map(|(i, (effect, deviations))| {
@@ -126,7 +130,7 @@ fn least_certain(best: &Refit) -> Option<(usize, usize)> {
 }
 
 /// What the runs say of the variables of the effects, the corrections of the model being free too.
-fn information(best: &Refit) -> Option<Mat<f64>> {
+fn information(best: &FittedModel) -> Option<Mat<f64>> {
     let jacobian = best.descent.jacobian.as_ref();
     let (normal, n) = (transposed_product(jacobian, jacobian), best.parameters);
     let size = normal.nrows();
@@ -143,23 +147,23 @@ fn deviation(information: &Mat<f64>, k: usize) -> Option<f64> {
 }
 
 /// What one run of the trial would say.
-fn trial_information(base: &Base, best: &Refit, trial: &Trial) -> Option<Mat<f64>> {
+fn trial_information(reference: &ReferenceModel, best: &FittedModel, trial: &Trial) -> Option<Mat<f64>> {
     let (variables, theta) = Variables::new(&best.effects);
-    let here = trial.respond(base, &best.effects, None)?;
+    let here = trial.respond(reference, &best.effects, None)?;
     let mut slopes: Vec<Vec<c64>> = Vec::with_capacity(theta.len());
     for k in 0..theta.len() {
         let mut moved = theta.clone();
         moved[k] += STEP;
-        let there = trial.respond(base, &variables.effects(&moved), Some(&here))?;
-        slopes.push(base.data.runs[0].alive.iter().map(|&c| seen(base, c, &here, &there) / STEP).collect());
+        let there = trial.respond(reference, &variables.effects(&moved), Some(&here))?;
+        slopes.push(reference.data.runs[0].alive.iter().map(|&c| seen(reference, c, &here, &there) / STEP).collect());
     }
     let product = |i: usize, j: usize| slopes[i].iter().zip(&slopes[j]).map(|(a, b)| (a.conj() * b).re).sum::<f64>();
     Some(Mat::from_fn(theta.len(), theta.len(), product))
 }
 
 /// Change of a sensor of the first run from one response to another, in units of the noise that its channel had.
-fn seen(base: &Base, c: usize, a: &Response, b: &Response) -> c64 {
-    let (run, noise) = (&base.data.runs[0], &base.noise.runs[0]);
+fn seen(reference: &ReferenceModel, c: usize, a: &Response, b: &Response) -> c64 {
+    let (run, noise) = (&reference.data.runs[0], &reference.noise.runs[0]);
     let channel = &run.responses[c];
     let relative = noise.deviation(c, 1) / channel.size().max(f64::MIN_POSITIVE);
     let (x, y) = (a.amplitude(channel.dof, 1), b.amplitude(channel.dof, 1));
@@ -168,7 +172,7 @@ fn seen(base: &Base, c: usize, a: &Response, b: &Response) -> c64 {
 }
 
 /// Difference of two responses at the sensors of the first run, in units of the noise that its channels had.
-fn difference(base: &Base, a: &Response, b: &Response) -> f64 {
-    let alive = base.data.runs[0].alive.iter();
-    alive.map(|&c| seen(base, c, a, b).norm_sqr()).sum::<f64>().sqrt()
+fn difference(reference: &ReferenceModel, a: &Response, b: &Response) -> f64 {
+    let alive = reference.data.runs[0].alive.iter();
+    alive.map(|&c| seen(reference, c, a, b).norm_sqr()).sum::<f64>().sqrt()
 }

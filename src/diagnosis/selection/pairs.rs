@@ -1,20 +1,20 @@
 //! Two effects at once: laws regressed at the pairs of places that two free forces explain best.
 
-use super::search::{Base, Draft, REFITS, joined};
+use super::search::{FITS, ReferenceModel, UnfittedSet, joined};
 use super::short_list::{Breadth, hopeless, needed};
 use crate::diagnosis::residual::data::DiagnosisError;
-use crate::diagnosis::selection::fitted_model::Refit;
+use crate::diagnosis::selection::fitted_model::FittedModel;
 
 /// Pairs of places whose laws are looked at.
 const PAIRS: usize = 48;
 /// Of these, pairs of which laws of many parameters are looked at too.
 const PAIRS_OF_ALL_LAWS: usize = 6;
 
-impl Base<'_> {
+impl ReferenceModel<'_> {
     /// Sets of two new effects at the pairs of places that explain most.
-    pub fn pairs(&self) -> Result<Vec<Refit>, DiagnosisError> {
+    pub fn pairs(&self) -> Result<Vec<FittedModel>, DiagnosisError> {
         let mut view = self.view(None)?;
-        let mut drafts = Vec::new();
+        let mut unfitted = Vec::new();
         let placings = view.screen.pairs(PAIRS);
         let (first, others) = placings.split_at(placings.len().min(PAIRS_OF_ALL_LAWS));
         let mut laws = self.all_laws(&mut view, first, &[], Breadth::All)?;
@@ -24,15 +24,19 @@ impl Base<'_> {
             for a in first.iter().take(3) {
                 for b in second.iter().take(3) {
                     let score = placing.chi_square + a.score + b.score;
-                    drafts.push(Draft { effects: joined(&a.effects, &b.effects), score, fields: a.fields.clone() });
+                    unfitted.push(UnfittedSet {
+                        effects: joined(&a.effects, &b.effects),
+                        score,
+                        fields: a.fields.clone(),
+                    });
                 }
             }
         }
-        drafts.sort_by(|a, b| a.score.total_cmp(&b.score));
-        drafts = needed(drafts);
-        drafts.truncate(REFITS);
-        let bound = hopeless(drafts.first().map_or(f64::INFINITY, |best| best.score));
-        drafts.retain(|d| d.score < bound);
-        Ok(self.ranked(self.refit_all(&drafts)?))
+        unfitted.sort_by(|a, b| a.score.total_cmp(&b.score));
+        unfitted = needed(unfitted);
+        unfitted.truncate(FITS);
+        let bound = hopeless(unfitted.first().map_or(f64::INFINITY, |best| best.score));
+        unfitted.retain(|d| d.score < bound);
+        Ok(self.ranked(self.fit_all(&unfitted)?))
     }
 }

@@ -12,7 +12,7 @@ use crate::diagnosis::localisation::location::{Receptances, Spot};
 use crate::diagnosis::residual::data::{Data, DiagnosisError};
 use crate::diagnosis::residual::prediction::{FINAL, Predictor, RunPrediction};
 use crate::diagnosis::residual::whitening::Whitening;
-use crate::diagnosis::selection::fitted_model::{Bench, Refit};
+use crate::diagnosis::selection::fitted_model::{Estimator, FittedModel};
 use crate::diagnosis::updating::noise_model::{Linearisation, NoiseModel};
 use crate::effects::{Place, Range, Source};
 use crate::math::statistics::{bayesian_information, evidence_weights};
@@ -26,7 +26,7 @@ const NEAR: usize = 5;
 /// Places whose laws are looked at before the others.
 const AHEAD: usize = 2;
 /// Sets that are fitted on the response.
-pub(super) const REFITS: usize = 10;
+pub(super) const FITS: usize = 10;
 /// What every parameter of a law beyond its first costs in evidence besides its information criterion: where one law
 /// contains another as a limit, the simpler wins unless the data demand the other.
 const EXTRA: f64 = 8.0;
@@ -39,22 +39,22 @@ const ELSEWHERE: usize = 6;
 
 /// A set of effects with its score before it is fitted on the response.
 #[derive(Debug, Clone)]
-pub(crate) struct Draft {
+pub(crate) struct UnfittedSet {
     pub effects: Vec<Source>,
     pub score: f64,
     /// Motion that the data show if the effects are right.
     pub(crate) fields: Arc<Fields>,
 }
 
-/// Everything that a search needs about one base model.
-pub(crate) struct Base<'a> {
+/// Everything that a search needs about one reference model.
+pub(crate) struct ReferenceModel<'a> {
     /// The known model, its updating parameters at their reference.
     pub predictor: Arc<Predictor>,
     pub data: &'a Data,
     pub control: &'a Control,
     /// What updating parameters do, at their reference.
     pub linearisation: Arc<Linearisation>,
-    /// Predictions of the base model.
+    /// Predictions of the reference model.
     pub predictions: Vec<RunPrediction>,
     /// Noise of the residuals.
     pub noise: Arc<NoiseModel>,
@@ -69,7 +69,7 @@ pub(crate) struct View<'a> {
     predictions: Vec<RunPrediction>,
 }
 
-impl<'a> Base<'a> {
+impl<'a> ReferenceModel<'a> {
     /// The known model itself.
     pub fn new(
         predictor: Arc<Predictor>,
@@ -78,10 +78,10 @@ impl<'a> Base<'a> {
         early: &'a Early<'a>,
     ) -> Result<Self, DiagnosisError> {
         let (linearisation, noise) = (Arc::default(), Arc::default());
-        let mut base = Self { predictor, data, control, linearisation, predictions: Vec::new(), noise, early };
-        base.predictions = base.bench().predict(&[], &FINAL, &[])?;
-        base.noise = Arc::new(base.noise_of(&[], &base.predictions)?);
-        Ok(base)
+        let mut reference = Self { predictor, data, control, linearisation, predictions: Vec::new(), noise, early };
+        reference.predictions = reference.estimator().predict(&[], &FINAL, &[])?;
+        reference.noise = Arc::new(reference.noise_of(&[], &reference.predictions)?);
+        Ok(reference)
     }
 
     /// Noise of the residual of a model with `effects` and its predictions.
@@ -99,8 +99,8 @@ impl<'a> Base<'a> {
     }
 
     /// What fits on the response are made with.
-    pub fn bench(&self) -> Bench<'_> {
-        Bench { predictor: &self.predictor, data: self.data, noise: &self.noise, control: self.control }
+    pub fn estimator(&self) -> Estimator<'_> {
+        Estimator { predictor: &self.predictor, data: self.data, noise: &self.noise, control: self.control }
     }
 
     /// Number of real data.
@@ -109,12 +109,12 @@ impl<'a> Base<'a> {
     }
 
     /// The residual of the known model, or of a fit, seen from every place.
-    pub(crate) fn view(&self, of: Option<&Refit>) -> Result<View<'_>, DiagnosisError> {
-        let effects = of.map_or(&[][..], |refit| &refit.effects);
+    pub(crate) fn view(&self, of: Option<&FittedModel>) -> Result<View<'_>, DiagnosisError> {
+        let effects = of.map_or(&[][..], |fit| &fit.effects);
         let mut receptances = Receptances::new(&self.predictor, self.data, effects);
         let predictions = match of {
             None => self.predictions.clone(),
-            Some(refit) => self.bench().predict(effects, &FINAL, &refit.starts)?,
+            Some(fit) => self.estimator().predict(effects, &FINAL, &fit.starts)?,
         };
         let (data, noise) = (self.data, &*self.noise);
         let freedom = Freedom {
@@ -128,23 +128,23 @@ impl<'a> Base<'a> {
     }
 
     /// Sets of the effects of `from` and one more, fitted on the response, best first by evidence.
-    pub fn singles(&self, from: Option<&Refit>) -> Result<Vec<Refit>, DiagnosisError> {
+    pub fn singles(&self, from: Option<&FittedModel>) -> Result<Vec<FittedModel>, DiagnosisError> {
         let mut view = self.view(from)?;
-        let effects = from.map_or(&[][..], |refit| &refit.effects);
-        let mut drafts = short_list(self.drafts(&mut view, effects, Breadth::All)?, REFITS);
-        drafts.iter_mut().for_each(|d| d.effects = joined(effects, &d.effects));
-        let mut begun = self.begun(&drafts)?;
+        let effects = from.map_or(&[][..], |fit| &fit.effects);
+        let mut unfitted = short_list(self.unfitted(&mut view, effects, Breadth::All)?, FITS);
+        unfitted.iter_mut().for_each(|d| d.effects = joined(effects, &d.effects));
+        let mut begun = self.begun(&unfitted)?;
         begun.extend(self.whole(from, crate::diagnosis::selection::fits::FIRST_STEPS)?);
         Ok(self.ranked(self.finished(begun)?))
     }
 
     /// Laws at the places that explain most, regressed on the free forces there beside `effects`.
-    pub(crate) fn drafts(
+    pub(crate) fn unfitted(
         &self,
         view: &mut View,
         effects: &[Source],
         breadth: Breadth,
-    ) -> Result<Vec<Draft>, DiagnosisError> {
+    ) -> Result<Vec<UnfittedSet>, DiagnosisError> {
         let placings = match breadth {
             Breadth::Near => view.screen.singles().into_iter().take(NEAR).collect(),
             _ => self.worth_while(view, effects)?,
@@ -157,18 +157,22 @@ impl<'a> Base<'a> {
                 laws[k] = all;
             }
         }
-        let mut drafts = Vec::new();
+        let mut unfitted = Vec::new();
         for (placing, laws) in placings.iter().zip(laws) {
             let options = laws.into_iter().flatten();
-            drafts.extend(options.map(|d| Draft { score: d.score + placing.chi_square, ..d }));
+            unfitted.extend(options.map(|d| UnfittedSet { score: d.score + placing.chi_square, ..d }));
         }
-        Ok(drafts)
+        Ok(unfitted)
     }
 
-    /// Standardised updating parameters that fit best beside the law of `draft` at its place, whose force is that at the
+    /// Standardised updating parameters that fit best beside the law of `unfitted` at its place, whose force is that at the
     /// measured motion; `None` where the place is not seen.
-    pub(crate) fn updated_beside(&self, view: &mut View, draft: &Draft) -> Result<Option<Vec<f64>>, DiagnosisError> {
-        let source = &draft.effects[0];
+    pub(crate) fn updated_beside(
+        &self,
+        view: &mut View,
+        unfitted: &UnfittedSet,
+    ) -> Result<Option<Vec<f64>>, DiagnosisError> {
+        let source = &unfitted.effects[0];
         if matches!(source.place, Place::Whole(_)) {
             return Ok(self.updated_beside_whole(source));
         }
@@ -181,10 +185,10 @@ impl<'a> Base<'a> {
         Ok(data.forces_of(source).map(|forces| view.screen.updated_beside(spot, &forces)))
     }
 
-    /// The free force of the place of `source` when the model has the other effects of `refit`; none for whole-structure
+    /// The free force of the place of `source` when the model has the other effects of `fit`; none for whole-structure
     /// laws.
-    pub fn place_data(&self, refit: &Refit, source: &Source) -> Result<Option<PlaceData>, DiagnosisError> {
-        let mut others = refit.clone();
+    pub fn place_data(&self, fit: &FittedModel, source: &Source) -> Result<Option<PlaceData>, DiagnosisError> {
+        let mut others = fit.clone();
         others.effects.retain(|e| !e.is_same(source));
         others.starts.clear();
         let mut view = self.view(Some(&others))?;
@@ -198,7 +202,12 @@ impl<'a> Base<'a> {
 
     /// The set `best` with its effect `source` at other places that leave no more than `margin` beyond what its own place
     /// leaves to a free force.
-    pub fn elsewhere(&self, best: &Refit, source: &Source, margin: f64) -> Result<Vec<Refit>, DiagnosisError> {
+    pub fn elsewhere(
+        &self,
+        best: &FittedModel,
+        source: &Source,
+        margin: f64,
+    ) -> Result<Vec<FittedModel>, DiagnosisError> {
         let mut others = best.clone();
         others.effects.retain(|e| !e.is_same(source));
         others.starts.clear();
@@ -212,12 +221,12 @@ impl<'a> Base<'a> {
             .take(ELSEWHERE)
             .cloned()
             .collect();
-        let mut drafts = Vec::new();
+        let mut unfitted = Vec::new();
         for options in self.all_laws(&mut view, &near, &others.effects, Breadth::All)? {
             let same = options.into_iter().flatten().find(|d| d.effects[0].effect == source.effect);
-            drafts.extend(same.map(|d| Draft { effects: joined(&others.effects, &d.effects), ..d }));
+            unfitted.extend(same.map(|d| UnfittedSet { effects: joined(&others.effects, &d.effects), ..d }));
         }
-        self.refit_all(&drafts)
+        self.fit_all(&unfitted)
     }
 
     /// Computes the receptances of the spots.
@@ -294,7 +303,7 @@ impl<'a> Base<'a> {
         placings: &[Placing],
         effects: &[Source],
         breadth: Breadth,
-    ) -> Result<Vec<Vec<Vec<Draft>>>, DiagnosisError> {
+    ) -> Result<Vec<Vec<Vec<UnfittedSet>>>, DiagnosisError> {
         for placing in placings {
             self.need(view, &placing.spots)?;
         }
@@ -307,30 +316,30 @@ impl<'a> Base<'a> {
     }
 
     /// Laws fitted to the free forces of each spot of a placing, best first; the score is their misfit with its penalty.
-    fn laws(&self, view: &View, placing: &Placing, effects: &[Source], breadth: Breadth) -> Vec<Vec<Draft>> {
+    fn laws(&self, view: &View, placing: &Placing, effects: &[Source], breadth: Breadth) -> Vec<Vec<UnfittedSet>> {
         let (forces, fields) = self.free(view, &placing.spots);
         let fields = Arc::new(fields);
         let of = |(&s, forces): (&usize, &Vec<Vec<FreeForce>>)| {
             let data = self.at_place(view, s, forces, &fields);
             let fresh = |source: &Source| !effects.iter().any(|e| e.is_same(source)) && self.data.allows(source);
             let fits = if breadth == Breadth::All { data.fits() } else { data.simple_fits() };
-            let mut drafts: Vec<Draft> = fits
+            let mut unfitted: Vec<UnfittedSet> = fits
                 .into_iter()
                 .filter(|fit| fresh(&fit.source))
                 .map(|fit| {
                     let score = bayesian_information(fit.misfit, fit.source.parameters.len(), data.count());
-                    Draft { effects: vec![fit.source], score, fields: fields.clone() }
+                    UnfittedSet { effects: vec![fit.source], score, fields: fields.clone() }
                 })
                 .collect();
-            drafts.sort_by(|a, b| a.score.total_cmp(&b.score));
-            drafts
+            unfitted.sort_by(|a, b| a.score.total_cmp(&b.score));
+            unfitted
         };
         placing.spots.iter().zip(&forces).map(of).collect()
     }
 
     /// The same model and data without what was computed of them.
-    pub fn shallow(&self) -> Base<'a> {
-        Base {
+    pub fn shallow(&self) -> ReferenceModel<'a> {
+        ReferenceModel {
             predictor: self.predictor.clone(),
             data: self.data,
             control: self.control,
@@ -342,43 +351,42 @@ impl<'a> Base<'a> {
     }
 
     /// Information criterion of a fit, its squared residual scaled by what the best model leaves beyond the noise.
-    pub fn evidence(&self, refit: &Refit, scale: f64) -> f64 {
-        bayesian_information(refit.chi_square / scale.max(1.0), refit.parameters, self.count())
-            + Self::complexity(refit)
+    pub fn evidence(&self, fit: &FittedModel, scale: f64) -> f64 {
+        bayesian_information(fit.chi_square / scale.max(1.0), fit.parameters, self.count()) + Self::complexity(fit)
     }
 
     /// What the laws of a fit cost in evidence for their kind, whatever the data.
-    pub fn complexity(refit: &Refit) -> f64 {
-        let extra: usize = refit.effects.iter().map(|e| e.parameters.len() - 1).sum();
-        let posing = refit.effects.iter().filter(|e| e.simpler(&Range::UNKNOWN).is_some()).count();
+    pub fn complexity(fit: &FittedModel) -> f64 {
+        let extra: usize = fit.effects.iter().map(|e| e.parameters.len() - 1).sum();
+        let posing = fit.effects.iter().filter(|e| e.simpler(&Range::UNKNOWN).is_some()).count();
         EXTRA * extra as f64 + POSING * posing as f64
     }
 
     /// Probability of each fit by its evidence, their squared residuals scaled by what the best leaves.
-    pub fn probabilities(&self, refits: &[Refit]) -> Vec<f64> {
-        let scale = scale_of(refits, self.count());
-        evidence_weights(&refits.iter().map(|refit| self.evidence(refit, scale)).collect::<Vec<f64>>())
+    pub fn probabilities(&self, fits: &[FittedModel]) -> Vec<f64> {
+        let scale = scale_of(fits, self.count());
+        evidence_weights(&fits.iter().map(|fit| self.evidence(fit, scale)).collect::<Vec<f64>>())
     }
 
     /// Best first; none of more parameters than runs.
-    pub fn ranked(&self, mut refits: Vec<Refit>) -> Vec<Refit> {
+    pub fn ranked(&self, mut fits: Vec<FittedModel>) -> Vec<FittedModel> {
         let allowed = |(e, d): (&Source, &Vec<f64>)| !e.is_disguised() && is_allowed(&self.data.excluded, e, d);
-        let few = |r: &Refit| r.parameters <= self.data.runs.len();
-        refits.retain(|r| {
+        let few = |r: &FittedModel| r.parameters <= self.data.runs.len();
+        fits.retain(|r| {
             r.chi_square.is_finite()
                 && few(r)
                 && r.effects.iter().zip(&r.deviations).all(allowed)
                 && r.effects.iter().zip(&r.deviations).all(is_real)
         });
-        let scale = scale_of(&refits, self.count());
-        refits.sort_by(|a, b| self.evidence(a, scale).total_cmp(&self.evidence(b, scale)));
-        refits
+        let scale = scale_of(&fits, self.count());
+        fits.sort_by(|a, b| self.evidence(a, scale).total_cmp(&self.evidence(b, scale)));
+        fits
     }
 }
 
 /// Squared residual per datum of the best fit, at least 1.
-pub(crate) fn scale_of(refits: &[Refit], count: usize) -> f64 {
-    let least = refits.iter().map(|r| r.chi_square / count.saturating_sub(r.parameters).max(1) as f64);
+pub(crate) fn scale_of(fits: &[FittedModel], count: usize) -> f64 {
+    let least = fits.iter().map(|r| r.chi_square / count.saturating_sub(r.parameters).max(1) as f64);
     least.fold(f64::INFINITY, f64::min).clamp(1.0, 1e12)
 }
 

@@ -3,16 +3,16 @@
 use crate::diagnosis::candidates::fingerprint::fingerprint;
 use crate::diagnosis::diagnose::Added;
 use crate::diagnosis::residual::data::DiagnosisError;
-use crate::diagnosis::selection::fitted_model::Refit;
-use crate::diagnosis::selection::search::Base;
+use crate::diagnosis::selection::fitted_model::FittedModel;
+use crate::diagnosis::selection::search::ReferenceModel;
 use crate::effects::{Place, Source};
 use crate::math::numerals::{significant, with_deviation};
 
 /// The sentences for an effect of the set `best`.
 pub(crate) fn sentences(
-    base: &Base,
+    reference: &ReferenceModel,
     added: &Added,
-    best: &Refit,
+    best: &FittedModel,
     before: f64,
     after: f64,
 ) -> Result<Vec<String>, DiagnosisError> {
@@ -22,7 +22,7 @@ pub(crate) fn sentences(
     said.push(format!("With it alone the error goes from {before} % to {after} %."));
     match &source.place {
         Place::Dofs(_) => {
-            if let Some(data) = base.place_data(best, source)?
+            if let Some(data) = reference.place_data(best, source)?
                 && let Some(found) = fingerprint(&data)
             {
                 said.extend(found.sentences());

@@ -1,6 +1,6 @@
 //! Which candidates are fitted, and which fits are kept.
 
-use super::search::Draft;
+use super::search::UnfittedSet;
 use crate::diagnosis::candidates::friction::friction;
 use crate::diagnosis::candidates::law_force::GAINS;
 use crate::diagnosis::candidates::special_cases::is_limit;
@@ -9,11 +9,11 @@ use crate::effects::{Kind, SetValued, Source};
 
 /// Most laws of one place that are fitted on the response.
 const LAWS_AT_ONE_PLACE: usize = 4;
-/// Drafts whose score is this many times that of the best are not fitted.
+/// Sets whose score is this many times that of the best are not fitted.
 const HOPELESS: f64 = 5.0;
 /// Places by either order at which laws of many parameters are regressed.
 const TELLING: usize = 3;
-/// Score, in units of that of a draft, below which a simpler one is as good for a start.
+/// Score, in units of that of a set, below which a simpler one is as good for a start.
 const CLEARLY: f64 = 1.2;
 /// Relative deviation of the size of an effect from which on there may as well be none.
 const VOID: f64 = 0.5;
@@ -33,7 +33,7 @@ pub(super) fn is_real((source, deviations): (&Source, &Vec<f64>)) -> bool {
     }
 }
 
-/// Score beyond which drafts are not fitted where the best has the score `best`.
+/// Score beyond which sets are not fitted where the best has the score `best`.
 pub(super) fn hopeless(best: f64) -> f64 {
     HOPELESS * best.abs() + 300.0
 }
@@ -51,7 +51,7 @@ pub(crate) enum Breadth {
 
 /// The places whose laws of many parameters are regressed: those that leave least to a free force, and those that leave least
 /// to a law of few.
-pub(super) fn telling(placings: &[Placing], laws: &[Vec<Vec<Draft>>]) -> Vec<usize> {
+pub(super) fn telling(placings: &[Placing], laws: &[Vec<Vec<UnfittedSet>>]) -> Vec<usize> {
     let score = |k: usize| {
         let best = laws[k].iter().flatten().map(|d| d.score).fold(f64::INFINITY, f64::min);
         placings[k].chi_square + best
@@ -73,37 +73,37 @@ fn falls(source: &Source) -> bool {
     friction(source.effect).is_some_and(SetValued::has_smooth_part)
 }
 
-/// Drafts without falling friction where plain friction explains the free forces as well: its responses take longest, and it
+/// Sets without falling friction where plain friction explains the free forces as well: its responses take longest, and it
 /// is fitted where plain friction leaves something.
-pub(super) fn needed(drafts: Vec<Draft>) -> Vec<Draft> {
-    let falling = |d: &Draft| d.effects.iter().filter(|e| falls(e)).count();
-    let plainer = |a: &Draft, b: &Draft| falling(a) < falling(b) && is_limit(&a.effects, &b.effects);
-    let needless = |d: &Draft| drafts.iter().any(|s| s.score < CLEARLY * d.score.abs() && plainer(s, d));
-    drafts.iter().filter(|d| !needless(d)).cloned().collect()
+pub(super) fn needed(unfitted: Vec<UnfittedSet>) -> Vec<UnfittedSet> {
+    let falling = |d: &UnfittedSet| d.effects.iter().filter(|e| falls(e)).count();
+    let plainer = |a: &UnfittedSet, b: &UnfittedSet| falling(a) < falling(b) && is_limit(&a.effects, &b.effects);
+    let needless = |d: &UnfittedSet| unfitted.iter().any(|s| s.score < CLEARLY * d.score.abs() && plainer(s, d));
+    unfitted.iter().filter(|d| !needless(d)).cloned().collect()
 }
 
-/// The best drafts, no more than a few at one place, each with the simpler laws that it contains as limits.
-pub(super) fn short_list(mut drafts: Vec<Draft>, most: usize) -> Vec<Draft> {
-    drafts.sort_by(|a, b| a.score.total_cmp(&b.score));
-    let hopeless = hopeless(drafts.first().map_or(f64::INFINITY, |best| best.score));
-    let mut kept: Vec<Draft> = Vec::new();
-    for draft in drafts.iter().filter(|d| d.score < hopeless) {
-        let here = kept.iter().filter(|k| k.effects[0].place == draft.effects[0].place).count();
+/// The best sets, no more than a few at one place, each with the simpler laws that it contains as limits.
+pub(super) fn short_list(mut unfitted: Vec<UnfittedSet>, most: usize) -> Vec<UnfittedSet> {
+    unfitted.sort_by(|a, b| a.score.total_cmp(&b.score));
+    let hopeless = hopeless(unfitted.first().map_or(f64::INFINITY, |best| best.score));
+    let mut kept: Vec<UnfittedSet> = Vec::new();
+    for unfitted in unfitted.iter().filter(|d| d.score < hopeless) {
+        let here = kept.iter().filter(|k| k.effects[0].place == unfitted.effects[0].place).count();
         if here < LAWS_AT_ONE_PLACE {
-            kept.push(draft.clone());
+            kept.push(unfitted.clone());
         }
         if kept.len() == most {
             break;
         }
     }
-    for draft in kept.clone().iter().take(LAWS_AT_ONE_PLACE) {
-        let (effect, place) = (draft.effects[0].effect, &draft.effects[0].place);
+    for unfitted in kept.clone().iter().take(LAWS_AT_ONE_PLACE) {
+        let (effect, place) = (unfitted.effects[0].effect, &unfitted.effects[0].place);
         for simpler in effect.limits() {
-            let is = |d: &&Draft| d.effects[0].effect == simpler && d.effects[0].place == *place;
+            let is = |d: &&UnfittedSet| d.effects[0].effect == simpler && d.effects[0].place == *place;
             if kept.iter().any(|d| is(&d)) {
                 continue;
             }
-            kept.extend(drafts.iter().find(is).cloned());
+            kept.extend(unfitted.iter().find(is).cloned());
         }
     }
     kept

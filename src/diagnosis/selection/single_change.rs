@@ -9,12 +9,12 @@
 //! wrong by. Beside the one part that is changed their scale is small again, and so is `E`. Everything is linear about the model as
 //! it was corrected, so that all places are looked at; the best are followed.
 
-use super::search::Base;
+use super::search::ReferenceModel;
 use crate::diagnosis::channels::fault::is_ordinary_gain;
 use crate::diagnosis::residual::data::DiagnosisError;
 use crate::diagnosis::residual::prediction::SEARCH;
 use crate::diagnosis::selection::fits::STEPS;
-use crate::diagnosis::selection::fitted_model::Refit;
+use crate::diagnosis::selection::fitted_model::FittedModel;
 use crate::diagnosis::updating::measured_motion::MeasuredMotion;
 use crate::diagnosis::updating::noise_model::LEAST_KNOWN;
 use crate::diagnosis::updating::parameters::{Scales, Updating, UpdatingParameter};
@@ -43,7 +43,7 @@ pub(super) struct SingleChange {
     pub gain: f64,
 }
 
-impl<'a> Base<'a> {
+impl<'a> ReferenceModel<'a> {
     /// The single changes that promise `evidence` beside what the corrections of this model are reduced to, best first; none
     /// where the model has sources that are not linear.
     pub(super) fn single_changes(&self, evidence: f64) -> Result<Vec<SingleChange>, DiagnosisError> {
@@ -54,7 +54,7 @@ impl<'a> Base<'a> {
             return Ok(Vec::new());
         };
         let marginal = &self.noise.updating;
-        let rows = marginal.without_reference(self.bench().at_reference(&self.predictions));
+        let rows = marginal.without_reference(self.estimator().at_reference(&self.predictions));
         let model = Gram::new(&marginal.updating, marginal.slopes(), &rows);
         let without = model.estimated(None).cost - (self.count() as f64).ln();
         let mut changes = Vec::new();
@@ -75,11 +75,14 @@ impl<'a> Base<'a> {
     }
 
     /// The change followed with a model updated beside it.
-    pub(super) fn followed_change(&self, change: &SingleChange) -> Result<(Base<'a>, Refit), DiagnosisError> {
+    pub(super) fn followed_change(
+        &self,
+        change: &SingleChange,
+    ) -> Result<(ReferenceModel<'a>, FittedModel), DiagnosisError> {
         let effects = std::slice::from_ref(&change.source);
-        let base = self.updated(&change.updating, effects, &Vec::new())?;
-        let refit = base.bench().refit(effects, STEPS, &SEARCH, &[])?;
-        base.settled(refit, &SEARCH, UPDATES)
+        let reference = self.updated(&change.updating, effects, &Vec::new())?;
+        let fit = reference.estimator().fit(effects, STEPS, &SEARCH, &[])?;
+        reference.settled(fit, &SEARCH, UPDATES)
     }
 
     /// Linear laws of one parameter, at the places that leave least to a free force, and of the whole structure.
@@ -132,7 +135,7 @@ impl<'a> Base<'a> {
                 };
                 amplitudes[c][h - 1] * law.transfer_derivative(law.neutral(), h as f64 * run.omega) * own
             };
-            self.bench().whitened(r, &mut rows, slope);
+            self.estimator().whitened(r, &mut rows, slope);
         }
         rows
     }

@@ -3,15 +3,15 @@
 
 use super::beside_corrections::beside_updating;
 use super::found::{
-    AGREES, DOUBTFUL, EVIDENCE, Found, LAST, MOST_EFFECTS, Rung, distinct, fits_well, level, same_set, small,
+    AGREES, DOUBTFUL, EVIDENCE, FittedSets, Found, LAST, MOST_EFFECTS, distinct, fits_well, level, same_set, small,
 };
 use crate::diagnosis::candidates::special_cases::is_limit;
 use crate::diagnosis::channels::ChannelFault;
 use crate::diagnosis::residual::data::DiagnosisError;
 use crate::diagnosis::selection::conclusion::{self, Outcome};
 use crate::diagnosis::selection::fits::STEPS;
-use crate::diagnosis::selection::fitted_model::Refit;
-use crate::diagnosis::selection::search::{Base, scale_of};
+use crate::diagnosis::selection::fitted_model::FittedModel;
+use crate::diagnosis::selection::search::{ReferenceModel, scale_of};
 
 /// Deviations within which it agrees so well that no further effect is looked for.
 const SETTLED: f64 = 1.5;
@@ -26,155 +26,166 @@ const REACH: f64 = 4.0;
 const ELSEWHERE: f64 = 40.0;
 /// One effect more where a set agrees with the data, if it has overwhelming evidence: the sum of squares alone may hide
 /// an effect that others stand in for.
-fn confirm(base: &Base, found: &mut Found) -> Result<(), DiagnosisError> {
-    let Some(last) = found.rungs.last().filter(|_| found.rungs.len() < MOST_EFFECTS) else { return Ok(()) };
-    let best = &last.refits[0];
-    let (n, parameters) = (base.count() as f64, best.parameters);
-    let settled = |refit: &Refit| refit.chi_square <= n - parameters as f64 + SETTLED * (2.0 * n).sqrt();
+fn confirm(reference: &ReferenceModel, found: &mut Found) -> Result<(), DiagnosisError> {
+    let Some(last) = found.by_size.last().filter(|_| found.by_size.len() < MOST_EFFECTS) else { return Ok(()) };
+    let best = &last.fits[0];
+    let (n, parameters) = (reference.count() as f64, best.parameters);
+    let settled = |fit: &FittedModel| fit.chi_square <= n - parameters as f64 + SETTLED * (2.0 * n).sqrt();
     if settled(best) || best.chi_square > DOUBTFUL * n {
         return Ok(());
     }
-    let quiet = Base { noise: last.noise.clone(), predictions: base.predictions.clone(), ..base.shallow() };
-    let (refits, noise) = quiet.polished(quiet.singles(Some(best))?)?;
-    let Some(more) = refits.first() else { return Ok(()) };
-    if base.evidence(more, 1.0) + CONFIRMED < base.evidence(best, 1.0) && settled(more) {
-        let scale = scale_of(&refits, base.count());
-        found.rungs.push(Rung { probabilities: base.probabilities(&refits), refits, scale, noise });
+    let quiet =
+        ReferenceModel { noise: last.noise.clone(), predictions: reference.predictions.clone(), ..reference.shallow() };
+    let (fits, noise) = quiet.polished(quiet.singles(Some(best))?)?;
+    let Some(more) = fits.first() else { return Ok(()) };
+    if reference.evidence(more, 1.0) + CONFIRMED < reference.evidence(best, 1.0) && settled(more) {
+        let scale = scale_of(&fits, reference.count());
+        found.by_size.push(FittedSets { probabilities: reference.probabilities(&fits), fits, scale, noise });
     }
     Ok(())
 }
 
 /// The search: with the model as it is, so far as free forces at one place or two could explain the data at all, then
 /// with its updating parameters free.
-pub(crate) fn explain(base: Base<'_>, before: f64) -> Result<Result<Outcome<'_>, ChannelFault>, DiagnosisError> {
-    if base.data.doubted {
-        return beside_updating(base, before);
+pub(crate) fn explain(
+    reference: ReferenceModel<'_>,
+    before: f64,
+) -> Result<Result<Outcome<'_>, ChannelFault>, DiagnosisError> {
+    if reference.data.doubted {
+        return beside_updating(reference, before);
     }
-    let none = || Found { updated: false, rungs: Vec::new(), agrees: false, before };
+    let none = || Found { updated: false, by_size: Vec::new(), agrees: false, before };
     let mut exact = none();
-    let reach = base.reach()?;
-    let n = base.count() as f64;
+    let reach = reference.reach()?;
+    let n = reference.count() as f64;
     let noise = REACH * (n + AGREES * (2.0 * n).sqrt());
     let within = |least: f64| least <= noise || least - n < LAST * (before - n);
     if within(reach.single) {
-        climb(&base, &mut exact, (before, 0), 1)?;
+        climb(&reference, &mut exact, (before, 0), 1)?;
     } else {
-        add_rung(&base, &mut exact, base.ranked(base.whole(None, STEPS)?), (before, 0))?;
+        add_size(&reference, &mut exact, reference.ranked(reference.whole(None, STEPS)?), (before, 0))?;
         exact = if exact.agrees { exact } else { none() };
     }
     if exact.agrees {
-        confirm(&base, &mut exact)?;
-        return Ok(Ok(Outcome { base, found: exact }));
+        confirm(&reference, &mut exact)?;
+        return Ok(Ok(Outcome { reference, found: exact }));
     }
     // Free forces at two places explain whatever two sensors see.
-    let telling = base.data.runs.iter().all(|run| run.alive.len() > 2);
-    if telling && !within(reach.single) && reach.pair <= noise && two_at_once(&base, &mut exact)? {
-        confirm(&base, &mut exact)?;
-        return Ok(Ok(Outcome { base, found: exact }));
+    let telling = reference.data.runs.iter().all(|run| run.alive.len() > 2);
+    if telling && !within(reach.single) && reach.pair <= noise && two_at_once(&reference, &mut exact)? {
+        confirm(&reference, &mut exact)?;
+        return Ok(Ok(Outcome { reference, found: exact }));
     }
     // Where time is up, what was found on the model as it is is the best so far.
-    if !exact.rungs.is_empty() && base.control.is_late() {
-        return Ok(Ok(Outcome { base, found: exact }));
+    if !exact.by_size.is_empty() && reference.control.is_late() {
+        return Ok(Ok(Outcome { reference, found: exact }));
     }
-    beside_updating(base, before)
+    beside_updating(reference, before)
 }
 
 /// Whether two effects at once agree with the data; then they are what was found.
-fn two_at_once(base: &Base, found: &mut Found) -> Result<bool, DiagnosisError> {
-    let (refits, noise) = base.polished(distinct(base.pairs()?))?;
-    let refits = plainest(base, found, refits);
-    found.agrees = refits.first().is_some_and(|best| fits_well(base, found, best));
+fn two_at_once(reference: &ReferenceModel, found: &mut Found) -> Result<bool, DiagnosisError> {
+    let (fits, noise) = reference.polished(distinct(reference.pairs()?))?;
+    let fits = plainest(reference, found, fits);
+    found.agrees = fits.first().is_some_and(|best| fits_well(reference, found, best));
     if found.agrees {
-        found.rungs.push(Rung {
-            scale: scale_of(&refits, base.count()),
-            probabilities: base.probabilities(&refits),
-            refits,
+        found.by_size.push(FittedSets {
+            scale: scale_of(&fits, reference.count()),
+            probabilities: reference.probabilities(&fits),
+            fits,
             noise,
         });
     }
     Ok(found.agrees)
 }
 
-/// Adds rungs as long as the data demand them, up to `most`.
-pub(crate) fn climb(base: &Base, found: &mut Found, mut last: (f64, usize), most: usize) -> Result<(), DiagnosisError> {
-    while found.rungs.len() < most && !found.agrees {
-        let refits = next(base, &found.rungs)?;
-        if !add_rung(base, found, refits, last)? {
+/// Adds effects as long as the data demand them, up to `most`.
+pub(crate) fn climb(
+    reference: &ReferenceModel,
+    found: &mut Found,
+    mut last: (f64, usize),
+    most: usize,
+) -> Result<(), DiagnosisError> {
+    while found.by_size.len() < most && !found.agrees {
+        let fits = next(reference, &found.by_size)?;
+        if !add_size(reference, found, fits, last)? {
             break;
         }
-        last = found.rungs.last().map_or(last, |r| level(&r.refits[0]));
+        last = found.by_size.last().map_or(last, |r| level(&r.fits[0]));
     }
     Ok(())
 }
 
-/// Adds the rung of these fits if the best of them has the evidence.
-pub(crate) fn add_rung(
-    base: &Base,
+/// Adds the sets of these fits if the best of them has the evidence.
+pub(crate) fn add_size(
+    reference: &ReferenceModel,
     found: &mut Found,
-    refits: Vec<Refit>,
+    fits: Vec<FittedModel>,
     last: (f64, usize),
 ) -> Result<bool, DiagnosisError> {
-    if found.rungs.is_empty() {
-        (base.early)(&conclusion::early(base, &refits));
+    if found.by_size.is_empty() {
+        (reference.early)(&conclusion::early(reference, &fits));
     }
-    let (mut refits, mut noise) = base.polished(refits)?;
-    let Some(best) = refits.first() else { return Ok(false) };
-    if !fits_well(base, found, best) {
-        let more = base.wider(best)?;
-        refits.extend(more);
-        (refits, noise) = base.polished(distinct(base.ranked(refits)))?;
+    let (mut fits, mut noise) = reference.polished(fits)?;
+    let Some(best) = fits.first() else { return Ok(false) };
+    if !fits_well(reference, found, best) {
+        let more = reference.wider(best)?;
+        fits.extend(more);
+        (fits, noise) = reference.polished(distinct(reference.ranked(fits)))?;
     }
-    let Some(best) = refits.first() else { return Ok(false) };
+    let Some(best) = fits.first() else { return Ok(false) };
     if let Some(source) = best.effects.last() {
-        let quiet = Base { noise: noise.clone(), predictions: base.predictions.clone(), ..base.shallow() };
-        let margin = ELSEWHERE * scale_of(&refits, base.count());
-        let fresh = |r: &Refit| !refits.iter().any(|known| same_set(&known.effects, &r.effects));
-        let moved: Vec<Refit> = quiet.elsewhere(best, source, margin)?.into_iter().filter(fresh).collect();
+        let quiet =
+            ReferenceModel { noise: noise.clone(), predictions: reference.predictions.clone(), ..reference.shallow() };
+        let margin = ELSEWHERE * scale_of(&fits, reference.count());
+        let fresh = |r: &FittedModel| !fits.iter().any(|known| same_set(&known.effects, &r.effects));
+        let moved: Vec<FittedModel> = quiet.elsewhere(best, source, margin)?.into_iter().filter(fresh).collect();
         if !moved.is_empty() {
-            refits.extend(moved);
-            (refits, noise) = quiet.polished(base.ranked(refits))?;
+            fits.extend(moved);
+            (fits, noise) = quiet.polished(reference.ranked(fits))?;
         }
     }
-    let refits = plainest(base, found, refits);
-    let Some(best) = refits.first() else { return Ok(false) };
-    if best.parameters >= base.count() {
+    let fits = plainest(reference, found, fits);
+    let Some(best) = fits.first() else { return Ok(false) };
+    if best.parameters >= reference.count() {
         return Ok(false);
     }
-    let scale = scale_of(&refits, base.count());
-    let penalty = best.parameters.saturating_sub(last.1) as f64 * (base.count() as f64).ln();
+    let scale = scale_of(&fits, reference.count());
+    let penalty = best.parameters.saturating_sub(last.1) as f64 * (reference.count() as f64).ln();
     let gain = (last.0 - best.chi_square) / scale - penalty;
     if gain < EVIDENCE {
         return Ok(false);
     }
-    found.agrees = fits_well(base, found, best);
-    found.rungs.push(Rung { probabilities: base.probabilities(&refits), refits, scale, noise });
+    found.agrees = fits_well(reference, found, best);
+    found.by_size.push(FittedSets { probabilities: reference.probabilities(&fits), fits, scale, noise });
     Ok(true)
 }
 
 /// Without the sets whose laws contain simpler ones that leave no more than records and integrators are wrong by: what
 /// little such laws explain beyond is as likely an error of those.
-fn plainest(base: &Base, found: &Found, mut refits: Vec<Refit>) -> Vec<Refit> {
-    let enough = |refit: &Refit| small(base, refit, found.before, [PLAIN, PLAIN_ERROR]);
-    let contains = |set: &Refit, simple: &Refit| {
+fn plainest(reference: &ReferenceModel, found: &Found, mut fits: Vec<FittedModel>) -> Vec<FittedModel> {
+    let enough = |fit: &FittedModel| small(reference, fit, found.before, [PLAIN, PLAIN_ERROR]);
+    let contains = |set: &FittedModel, simple: &FittedModel| {
         simple.parameters < set.parameters && is_limit(&simple.effects, &set.effects) && enough(simple)
     };
-    while let Some(best) = refits.first() {
-        let Some(simple) = refits.iter().find(|r| contains(best, r)).cloned() else { break };
-        refits.retain(|set| !contains(set, &simple));
+    while let Some(best) = fits.first() {
+        let Some(simple) = fits.iter().find(|r| contains(best, r)).cloned() else { break };
+        fits.retain(|set| !contains(set, &simple));
     }
-    refits
+    fits
 }
 
-/// Sets of one effect more than the last rung.
-fn next(base: &Base, rungs: &[Rung]) -> Result<Vec<Refit>, DiagnosisError> {
-    let Some(last) = rungs.last() else { return base.singles(None) };
-    let quiet = Base { noise: last.noise.clone(), predictions: base.predictions.clone(), ..base.shallow() };
-    let mut refits = Vec::new();
-    for start in last.refits.iter().take(2) {
-        refits.extend(quiet.singles(Some(start))?);
+/// Sets of one effect more than the last.
+fn next(reference: &ReferenceModel, by_size: &[FittedSets]) -> Result<Vec<FittedModel>, DiagnosisError> {
+    let Some(last) = by_size.last() else { return reference.singles(None) };
+    let quiet =
+        ReferenceModel { noise: last.noise.clone(), predictions: reference.predictions.clone(), ..reference.shallow() };
+    let mut fits = Vec::new();
+    for start in last.fits.iter().take(2) {
+        fits.extend(quiet.singles(Some(start))?);
     }
-    if rungs.len() == 1 {
-        refits.extend(quiet.pairs()?);
+    if by_size.len() == 1 {
+        fits.extend(quiet.pairs()?);
     }
-    Ok(distinct(base.ranked(refits)))
+    Ok(distinct(reference.ranked(fits)))
 }

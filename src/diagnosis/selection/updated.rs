@@ -6,9 +6,9 @@ use crate::diagnosis::residual::data::{Data, DiagnosisError, RunData};
 use crate::diagnosis::residual::energy_balance::scaled_factors;
 use crate::diagnosis::residual::prediction::{FINAL, Predictor, RunPrediction};
 use crate::diagnosis::selection::fit_problem::{RunSlopes, run_slopes};
-use crate::diagnosis::selection::fitted_model::{Bench, Refit, Starts};
+use crate::diagnosis::selection::fitted_model::{Estimator, FittedModel, Starts};
 use crate::diagnosis::selection::found::agrees;
-use crate::diagnosis::selection::search::Base;
+use crate::diagnosis::selection::search::ReferenceModel;
 use crate::diagnosis::updating::measured_motion::MeasuredMotion;
 use crate::diagnosis::updating::noise_model::{Linearisation, NoiseModel, amplitudes, of_channel};
 use crate::diagnosis::updating::parameters::{Scales, Updating, UpdatingParameter};
@@ -42,7 +42,7 @@ const NEAR: f64 = 0.3;
 /// for it.
 const FIELD: [f64; 2] = [0.02, 50.0];
 
-impl<'a> Base<'a> {
+impl<'a> ReferenceModel<'a> {
     /// The model with its updating parameters at `updating`, linearised beside `effects`, whose responses start from
     /// `starts`.
     ///
@@ -53,19 +53,19 @@ impl<'a> Base<'a> {
         updating: &Updating,
         effects: &[Source],
         starts: &Starts,
-    ) -> Result<Base<'a>, DiagnosisError> {
+    ) -> Result<ReferenceModel<'a>, DiagnosisError> {
         let updating = &updating.of_model();
         let predictor = Arc::new(self.predictor.updated(updating)?);
-        let mut base = Base { predictor, predictions: Vec::new(), ..self.shallow() };
-        base.predictions = base.bench().predict(&[], &FINAL, &[])?;
+        let mut reference = ReferenceModel { predictor, predictions: Vec::new(), ..self.shallow() };
+        reference.predictions = reference.estimator().predict(&[], &FINAL, &[])?;
         let predictions = if effects.is_empty() {
-            base.predictions.clone()
+            reference.predictions.clone()
         } else {
-            base.bench().predict(effects, &FINAL, starts)?
+            reference.estimator().predict(effects, &FINAL, starts)?
         };
-        base.linearisation = Arc::new(base.linearised(updating, effects, &predictions));
-        base.noise = Arc::new(base.noise_of(effects, &predictions)?);
-        Ok(base)
+        reference.linearisation = Arc::new(reference.linearised(updating, effects, &predictions));
+        reference.noise = Arc::new(reference.noise_of(effects, &predictions)?);
+        Ok(reference)
     }
 
     fn linearised(&self, updating: &Updating, effects: &[Source], predictions: &[RunPrediction]) -> Linearisation {
@@ -125,7 +125,11 @@ impl<'a> Base<'a> {
     }
 
     fn predictions_with(&self, effects: &[Source], starts: &Starts) -> Result<Vec<RunPrediction>, DiagnosisError> {
-        if effects.is_empty() { Ok(self.predictions.clone()) } else { self.bench().predict(effects, &FINAL, starts) }
+        if effects.is_empty() {
+            Ok(self.predictions.clone())
+        } else {
+            self.estimator().predict(effects, &FINAL, starts)
+        }
     }
 
     /// The updating parameters of this model moved to the standardised `target`, none by more than the longest step.
@@ -135,19 +139,19 @@ impl<'a> Base<'a> {
     }
 
     /// The model whose updating parameters fit the measurement best without any effect.
-    pub fn bare(&self) -> Result<Base<'a>, DiagnosisError> {
+    pub fn bare(&self) -> Result<ReferenceModel<'a>, DiagnosisError> {
         let (stated, known) = self.predictor.stated();
         let mut updating = Updating::all(stated, known, self.data);
-        let mut best: Option<(f64, Base<'a>)> = None;
+        let mut best: Option<(f64, ReferenceModel<'a>)> = None;
         for step in 0..STEPS {
-            let base = self.updated(&updating, &[], &Vec::new())?;
-            let rows = base.bench().at_reference(&base.predictions);
+            let reference = self.updated(&updating, &[], &Vec::new())?;
+            let rows = reference.estimator().at_reference(&reference.predictions);
             let here = square(&rows);
             let misfit = (here / self.count() as f64).max(1.0);
-            let target = updating.at(&base.noise.updating.solve_with_misfit(&rows, misfit)).values;
+            let target = updating.at(&reference.noise.updating.solve_with_misfit(&rows, misfit)).values;
             let least = best.as_ref().map_or(f64::INFINITY, |(least, _)| *least);
             if here < least {
-                best = Some((here, base));
+                best = Some((here, reference));
             }
             if (step > 2 && least - here < ARRIVED * least) || self.control.is_late() {
                 break;
@@ -155,45 +159,45 @@ impl<'a> Base<'a> {
             updating = towards(&updating, &target);
         }
         match best {
-            Some((_, base)) => base.settled_bare(STEPS),
+            Some((_, reference)) => reference.settled_bare(STEPS),
             None => self.updated(&updating, &[], &Vec::new()),
         }
     }
 
     /// The model moved until its updating parameters leave what their linear fit leaves, without any effect.
-    fn settled_bare(self, rounds: usize) -> Result<Base<'a>, DiagnosisError> {
-        let mut base = self;
-        let mut here = base.cost_at_reference(&base.predictions);
+    fn settled_bare(self, rounds: usize) -> Result<ReferenceModel<'a>, DiagnosisError> {
+        let mut reference = self;
+        let mut here = reference.cost_at_reference(&reference.predictions);
         for _ in 0..rounds {
-            let linear = square(&base.bench().residual(&base.predictions)) + base.noise.cost();
-            if here - linear < SETTLED || base.control.is_late() {
+            let linear = square(&reference.estimator().residual(&reference.predictions)) + reference.noise.cost();
+            if here - linear < SETTLED || reference.control.is_late() {
                 break;
             }
-            let joint = base.joint_fit(&[], &Vec::new(), &FINAL, JOINT_STEPS)?;
-            let there = base.updated(&joint.updating, &[], &Vec::new())?;
+            let joint = reference.joint_fit(&[], &Vec::new(), &FINAL, JOINT_STEPS)?;
+            let there = reference.updated(&joint.updating, &[], &Vec::new())?;
             let then = there.cost_at_reference(&there.predictions);
             if then >= here {
                 break;
             }
             let slow = here - then < slowest(here - linear);
-            (base, here) = (there, then);
+            (reference, here) = (there, then);
             if slow {
                 break;
             }
         }
-        Ok(base)
+        Ok(reference)
     }
 
     /// This model with the scales that are most likely without any effect, and its evidence: without gains and differences
     /// from run to run, or without those alone, where that agrees with the data; else the best of these and of the scales
     /// that are estimated.
-    pub fn likely(&self) -> Result<(Base<'a>, f64), DiagnosisError> {
+    pub fn likely(&self) -> Result<(ReferenceModel<'a>, f64), DiagnosisError> {
         let alike = Scales { shift: Scales::LEAST.shift, response: Scales::LEAST.response, ..Scales::SEARCH };
         let exact = Scales { gain: Scales::LEAST.gain, phase: Scales::LEAST.phase, ..alike };
-        let mut best: Option<(f64, Base<'a>)> = None;
+        let mut best: Option<(f64, ReferenceModel<'a>)> = None;
         for scales in [exact, alike] {
             let strict = self.with_scales(scales).settled_bare(STEPS)?;
-            let left = square(&strict.bench().residual(&strict.predictions));
+            let left = square(&strict.estimator().residual(&strict.predictions));
             let cost = left + strict.noise.cost();
             if agrees(&strict, left, 0) {
                 return Ok((strict, cost));
@@ -213,8 +217,8 @@ impl<'a> Base<'a> {
     /// are taken over.
     pub(super) fn error_of_structure(&self, effects: &[Source], starts: &Starts) -> Result<f64, DiagnosisError> {
         let predictor = self.of_structure()?;
-        let bench = Bench { predictor: &predictor, ..self.bench() };
-        let mut predictions = bench.predict(effects, &FINAL, starts)?;
+        let estimator = Estimator { predictor: &predictor, ..self.estimator() };
+        let mut predictions = estimator.predict(effects, &FINAL, starts)?;
         // A run whose motion is not that of its start any more may have ended on another branch than `compare` looks for.
         let far: Vec<usize> = (0..predictions.len())
             .filter(|&r| distance(&self.data.runs[r], &predictions[r]) > FAR * FAR)
@@ -228,7 +232,7 @@ impl<'a> Base<'a> {
                 Err(_) => {}
             }
         }
-        Ok(bench.error(&predictions))
+        Ok(estimator.error(&predictions))
     }
 
     /// The updated model with all runs alike.
@@ -238,67 +242,67 @@ impl<'a> Base<'a> {
 
     /// Squared residual per datum without any effect.
     pub(super) fn misfit(&self) -> f64 {
-        square(&self.bench().residual(&self.predictions)) / self.count().max(1) as f64
+        square(&self.estimator().residual(&self.predictions)) / self.count().max(1) as f64
     }
 
     /// This model as it is, and its evidence.
-    pub(super) fn roughly(&self) -> (Base<'a>, f64) {
-        let left = square(&self.bench().residual(&self.predictions));
+    pub(super) fn roughly(&self) -> (ReferenceModel<'a>, f64) {
+        let left = square(&self.estimator().residual(&self.predictions));
         (self.with_scales(self.linearisation.updating.scales), left + self.noise.cost())
     }
 
     /// This model settled with the scales that are estimated without any effect, and its evidence.
-    pub(super) fn estimated(&self) -> Result<(Base<'a>, f64), DiagnosisError> {
+    pub(super) fn estimated(&self) -> Result<(ReferenceModel<'a>, f64), DiagnosisError> {
         let settled = self.with_likely_scales(None, &FINAL)?.0.settled_bare(STEPS)?;
         let estimated = settled.with_likely_scales(None, &FINAL)?.0;
-        let cost = square(&estimated.bench().residual(&estimated.predictions)) + estimated.noise.cost();
+        let cost = square(&estimated.estimator().residual(&estimated.predictions)) + estimated.noise.cost();
         Ok((estimated, cost))
     }
 
-    /// The model and the effects of `refit` moved in turn until neither moves any more: until the updating parameters at the
+    /// The model and the effects of `fit` moved in turn until neither moves any more: until the updating parameters at the
     /// reference leave what their linear fit leaves.
     pub(crate) fn settled(
         self,
-        refit: Refit,
+        fit: FittedModel,
         settings: &Settings,
         rounds: usize,
-    ) -> Result<(Base<'a>, Refit), DiagnosisError> {
-        let settings = settings_for(&refit.effects, settings);
-        let (mut base, mut refit) = (self, refit);
-        let mut here = base.cost_at_reference(&base.predictions_with(&refit.effects, &refit.starts)?);
+    ) -> Result<(ReferenceModel<'a>, FittedModel), DiagnosisError> {
+        let settings = settings_for(&fit.effects, settings);
+        let (mut reference, mut fit) = (self, fit);
+        let mut here = reference.cost_at_reference(&reference.predictions_with(&fit.effects, &fit.starts)?);
         for _ in 0..rounds {
-            let linear = refit.chi_square + base.noise.cost();
-            if here - linear < SETTLED || base.control.is_late() {
+            let linear = fit.chi_square + reference.noise.cost();
+            if here - linear < SETTLED || reference.control.is_late() {
                 break;
             }
-            let joint = base.joint_fit(&refit.effects, &refit.starts, settings, JOINT_STEPS)?;
-            let there = base.updated(&joint.updating, &joint.effects, &joint.starts)?;
-            let again = there.bench().refit(&joint.effects, REFITTED, settings, &joint.starts)?;
+            let joint = reference.joint_fit(&fit.effects, &fit.starts, settings, JOINT_STEPS)?;
+            let there = reference.updated(&joint.updating, &joint.effects, &joint.starts)?;
+            let again = there.estimator().fit(&joint.effects, REFITTED, settings, &joint.starts)?;
             let then = there.cost_at_reference(&there.predictions_with(&again.effects, &again.starts)?);
             // Where the model was far off its own noise, the evidence at the old reference and at the new differ in kind.
             if then >= here && again.chi_square + there.noise.cost() > linear - 1.0 {
                 break;
             }
             let slow = here - then < slowest(here - linear);
-            (base, refit, here) = (there, again, then);
+            (reference, fit, here) = (there, again, then);
             if slow {
                 break;
             }
         }
-        Ok((base, refit))
+        Ok((reference, fit))
     }
 
     /// Evidence of predictions with the updating parameters of the model at their reference, priors included.
     fn cost_at_reference(&self, predictions: &[RunPrediction]) -> f64 {
-        self.noise.updating.left_by_channels(&self.bench().at_reference(predictions)) + self.noise.cost()
+        self.noise.updating.left_by_channels(&self.estimator().at_reference(predictions)) + self.noise.cost()
     }
 
     /// The same model with other scales of the priors.
-    pub fn with_scales(&self, scales: Scales) -> Base<'a> {
+    pub fn with_scales(&self, scales: Scales) -> ReferenceModel<'a> {
         let updating = self.linearisation.updating.with_scales(scales);
         let linearisation = Linearisation { updating, ..(*self.linearisation).clone() };
         let noise = NoiseModel::new(self.noise.runs.clone(), &linearisation);
-        Base {
+        ReferenceModel {
             linearisation: Arc::new(linearisation),
             noise: Arc::new(noise),
             predictions: self.predictions.clone(),
@@ -306,30 +310,31 @@ impl<'a> Base<'a> {
         }
     }
 
-    /// The model with the scales that are most likely beside the effects of `refit` (none: the model alone), and the
+    /// The model with the scales that are most likely beside the effects of `fit` (none: the model alone), and the
     /// effects fitted with them.
     pub fn with_likely_scales(
         &self,
-        refit: Option<&Refit>,
+        fit: Option<&FittedModel>,
         settings: &Settings,
-    ) -> Result<(Base<'a>, Option<Refit>), DiagnosisError> {
-        let settings = settings_for(refit.map_or(&[], |refit| &refit.effects), settings);
-        let (mut base, mut fitted) = (self.with_scales(self.linearisation.updating.scales), refit.cloned());
+    ) -> Result<(ReferenceModel<'a>, Option<FittedModel>), DiagnosisError> {
+        let settings = settings_for(fit.map_or(&[], |fit| &fit.effects), settings);
+        let (mut reference, mut fitted) = (self.with_scales(self.linearisation.updating.scales), fit.cloned());
         for _ in 0..ROUNDS {
-            if base.control.is_late() {
+            if reference.control.is_late() {
                 break;
             }
             let predictions = match &fitted {
-                Some(refit) => base.bench().predict(&refit.effects, settings, &refit.starts)?,
-                None => base.predictions.clone(),
+                Some(fit) => reference.estimator().predict(&fit.effects, settings, &fit.starts)?,
+                None => reference.predictions.clone(),
             };
             for _ in 0..ROUNDS {
-                base = base.with_scales(base.noise.scales(&base.bench().at_reference(&predictions)));
+                reference =
+                    reference.with_scales(reference.noise.scales(&reference.estimator().at_reference(&predictions)));
             }
-            let Some(refit) = &fitted else { break };
-            fitted = Some(base.bench().refit(&refit.effects, REFITTED, settings, &refit.starts)?);
+            let Some(fit) = &fitted else { break };
+            fitted = Some(reference.estimator().fit(&fit.effects, REFITTED, settings, &fit.starts)?);
         }
-        Ok((base, fitted))
+        Ok((reference, fitted))
     }
 }
 

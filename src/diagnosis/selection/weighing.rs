@@ -7,9 +7,9 @@ use crate::diagnosis::channels::fault::is_ordinary_gain;
 use crate::diagnosis::residual::data::DiagnosisError;
 use crate::diagnosis::residual::prediction::{FINAL, SEARCH};
 use crate::diagnosis::selection::fits::{FIRST_STEPS, STEPS};
-use crate::diagnosis::selection::fitted_model::Refit;
+use crate::diagnosis::selection::fitted_model::FittedModel;
 use crate::diagnosis::selection::found::same_set;
-use crate::diagnosis::selection::search::Base;
+use crate::diagnosis::selection::search::ReferenceModel;
 use crate::diagnosis::updating::parameters::{Scales, UpdatingParameter};
 use crate::effects::{Effect, Place, Range, Source};
 use crate::structure::Part;
@@ -18,9 +18,9 @@ use crate::structure::factors::Share;
 /// Weighed candidates.
 pub(super) struct Weighed<'a> {
     /// The model with the scales of the best.
-    pub base: Base<'a>,
+    pub reference: ReferenceModel<'a>,
     /// Best first.
-    pub refits: Vec<Refit>,
+    pub fits: Vec<FittedModel>,
     /// Of each of them.
     pub probabilities: Vec<f64>,
     /// Evidence of the best.
@@ -31,8 +31,8 @@ pub(super) struct Weighed<'a> {
 struct Candidate<'a> {
     /// Its evidence, the smaller the better.
     cost: f64,
-    base: Base<'a>,
-    refit: Refit,
+    reference: ReferenceModel<'a>,
+    fit: FittedModel,
     /// Logarithms of its predictive densities of groups of runs that are left out.
     densities: Vec<f64>,
 }
@@ -52,48 +52,48 @@ const WEIGHED: usize = 6;
 const FINISHED: usize = 2;
 
 /// Weighs fitted candidates, each with the model that was updated beside it.
-pub(super) fn weighed(fits: Vec<(Base<'_>, Refit)>) -> Result<Option<Weighed<'_>>, DiagnosisError> {
+pub(super) fn weighed(fits: Vec<(ReferenceModel<'_>, FittedModel)>) -> Result<Option<Weighed<'_>>, DiagnosisError> {
     let mut all = with_likely_scales(fits)?;
     let limits = all.first().map_or(Ok(Vec::new()), limits_of)?;
-    all.retain(|c| !limits.iter().any(|l| l.cost < c.cost && same_set(&l.refit.effects, &c.refit.effects)));
-    let fresh = |l: &Candidate| !all.iter().any(|c| same_set(&l.refit.effects, &c.refit.effects));
+    all.retain(|c| !limits.iter().any(|l| l.cost < c.cost && same_set(&l.fit.effects, &c.fit.effects)));
+    let fresh = |l: &Candidate| !all.iter().any(|c| same_set(&l.fit.effects, &c.fit.effects));
     let fresh: Vec<Candidate> = limits.into_iter().filter(fresh).collect();
     all.extend(fresh);
     all.sort_by(|a, b| a.cost.total_cmp(&b.cost));
     simplest_first(&mut all);
     for _ in 0..FINISHED.min(all.len()) {
         let probabilities = probabilities_of(&all);
-        let Candidate { base, refit, .. } = all.remove(0);
-        let (base, mut refit) = finished(base, refit)?;
-        refit.error = base.error_of_structure(&refit.effects, &refit.starts)?;
-        let least = cost(&base, Some(&refit));
-        let told = with_told_deviations(&base, refit)?;
-        if !is_effect(&base, &told) {
+        let Candidate { reference, fit, .. } = all.remove(0);
+        let (reference, mut fit) = finished(reference, fit)?;
+        fit.error = reference.error_of_structure(&fit.effects, &fit.starts)?;
+        let least = cost(&reference, Some(&fit));
+        let told = with_told_deviations(&reference, fit)?;
+        if !is_effect(&reference, &told) {
             continue;
         }
-        let mut refits = vec![told];
-        refits.extend(all.into_iter().map(|candidate| candidate.refit));
-        return Ok(Some(Weighed { base, refits, probabilities, least }));
+        let mut fits = vec![told];
+        fits.extend(all.into_iter().map(|candidate| candidate.fit));
+        return Ok(Some(Weighed { reference, fits, probabilities, least }));
     }
     Ok(None)
 }
 
 /// The candidates that may be the best, each with the scales that are most likely beside it, best first.
-fn with_likely_scales(mut fits: Vec<(Base<'_>, Refit)>) -> Result<Vec<Candidate<'_>>, DiagnosisError> {
-    fits.retain(|(base, refit)| is_effect(base, refit));
+fn with_likely_scales(mut fits: Vec<(ReferenceModel<'_>, FittedModel)>) -> Result<Vec<Candidate<'_>>, DiagnosisError> {
+    fits.retain(|(reference, fit)| is_effect(reference, fit));
     fits.sort_by(|a, b| cost(&a.0, Some(&a.1)).total_cmp(&cost(&b.0, Some(&b.1))));
     let Some((first, best)) = fits.first() else { return Ok(Vec::new()) };
     let (control, least, left) = (first.control, cost(first, Some(best)), best.chi_square);
     // Where even the best leaves much with the scales of the search, these say little of the order.
     let coarse = left > COARSE * first.count() as f64;
     let near = least + if coarse { LIGHT.max(HEAVY * left) } else { LIGHT };
-    let count = fits.iter().take(WEIGHED).take_while(|(base, refit)| cost(base, Some(refit)) < near).count();
+    let count = fits.iter().take(WEIGHED).take_while(|(reference, fit)| cost(reference, Some(fit)) < near).count();
     let likely = |k: usize| {
         let (own, fit) = &fits[k];
-        let (base, refit) = own.with_likely_scales(Some(fit), &SEARCH)?;
-        let refit = refit.unwrap_or_else(|| fit.clone());
-        if cost(&base, Some(&refit)) < cost(own, Some(fit)) {
-            return candidate(base, refit);
+        let (reference, fit) = own.with_likely_scales(Some(fit), &SEARCH)?;
+        let fit = fit.unwrap_or_else(|| fit.clone());
+        if cost(&reference, Some(&fit)) < cost(own, Some(fit)) {
+            return candidate(reference, fit);
         }
         candidate(own.with_scales(own.linearisation.updating.scales), fit.clone())
     };
@@ -102,31 +102,31 @@ fn with_likely_scales(mut fits: Vec<(Base<'_>, Refit)>) -> Result<Vec<Candidate<
     Ok(all)
 }
 
-fn candidate(base: Base<'_>, refit: Refit) -> Result<Candidate<'_>, DiagnosisError> {
-    let error = base.error_of_structure(&refit.effects, &refit.starts)?;
-    let densities = base.left_out(Some(&refit), &groups(base.data))?;
-    Ok(Candidate { cost: cost(&base, Some(&refit)), refit: Refit { error, ..refit }, densities, base })
+fn candidate(reference: ReferenceModel<'_>, fit: FittedModel) -> Result<Candidate<'_>, DiagnosisError> {
+    let error = reference.error_of_structure(&fit.effects, &fit.starts)?;
+    let densities = reference.left_out(Some(&fit), &groups(reference.data))?;
+    Ok(Candidate { cost: cost(&reference, Some(&fit)), fit: FittedModel { error, ..fit }, densities, reference })
 }
 
 /// The sets in which one effect of the best is the simpler law that it contains as a limit, fitted beside the same model: a
 /// simpler law that was followed by itself may have ended in a valley of its own.
 fn limits_of<'a>(best: &Candidate<'a>) -> Result<Vec<Candidate<'a>>, DiagnosisError> {
     let mut limits = Vec::new();
-    for (k, source) in best.refit.effects.iter().enumerate() {
+    for (k, source) in best.fit.effects.iter().enumerate() {
         for simpler in source.limits().filter(|s| s.parameters.iter().all(|p| p.is_normal())) {
-            let mut effects = best.refit.effects.clone();
+            let mut effects = best.fit.effects.clone();
             effects[k] = simpler;
-            if best.base.control.is_late() || !best.base.data.allows(&effects[k]) {
+            if best.reference.control.is_late() || !best.reference.data.allows(&effects[k]) {
                 continue;
             }
-            let base = best.base.with_scales(best.base.linearisation.updating.scales);
-            let begun = base.bench().refit(&effects, FIRST_STEPS, &SEARCH, &best.refit.starts)?;
-            if cost(&base, Some(&begun)) > best.cost + LIGHT {
+            let reference = best.reference.with_scales(best.reference.linearisation.updating.scales);
+            let begun = reference.estimator().fit(&effects, FIRST_STEPS, &SEARCH, &best.fit.starts)?;
+            if cost(&reference, Some(&begun)) > best.cost + LIGHT {
                 continue;
             }
-            let refit = base.bench().refit(&begun.effects, STEPS, &SEARCH, &begun.starts)?;
-            if is_effect(&base, &refit) {
-                limits.push(candidate(base, refit)?);
+            let fit = reference.estimator().fit(&begun.effects, STEPS, &SEARCH, &begun.starts)?;
+            if is_effect(&reference, &fit) {
+                limits.push(candidate(reference, fit)?);
             }
         }
     }
@@ -138,8 +138,8 @@ fn limits_of<'a>(best: &Candidate<'a>) -> Result<Vec<Candidate<'a>>, DiagnosisEr
 fn simplest_first(all: &mut [Candidate]) {
     while let Some(best) = all.first() {
         let simpler = |c: &Candidate| {
-            c.refit.parameters < best.refit.parameters
-                && is_limit(&c.refit.effects, &best.refit.effects)
+            c.fit.parameters < best.fit.parameters
+                && is_limit(&c.fit.effects, &best.fit.effects)
                 && !exceeds(&best.densities, &c.densities)
         };
         let Some(k) = all.iter().position(simpler) else { break };
@@ -150,11 +150,11 @@ fn simplest_first(all: &mut [Candidate]) {
 /// Probability of each candidate. What contains the first and predicts no better is the first by another name.
 fn probabilities_of(all: &[Candidate]) -> Vec<f64> {
     let densities: Vec<Vec<f64>> = all.iter().map(|c| c.densities.clone()).collect();
-    let priors: Vec<f64> = all.iter().map(|c| -0.5 * Base::complexity(&c.refit)).collect();
+    let priors: Vec<f64> = all.iter().map(|c| -0.5 * ReferenceModel::complexity(&c.fit)).collect();
     let mut list = probabilities(&densities, &priors);
     let Some(first) = all.first() else { return list };
     for (k, other) in all.iter().enumerate().skip(1) {
-        if is_limit(&first.refit.effects, &other.refit.effects) && !exceeds(&other.densities, &first.densities) {
+        if is_limit(&first.fit.effects, &other.fit.effects) && !exceeds(&other.densities, &first.densities) {
             list[0] += std::mem::take(&mut list[k]);
         }
     }
@@ -162,19 +162,22 @@ fn probabilities_of(all: &[Candidate]) -> Vec<f64> {
 }
 
 /// A candidate with its model, settled in turn with the most likely scales.
-fn finished(base: Base<'_>, refit: Refit) -> Result<(Base<'_>, Refit), DiagnosisError> {
-    let (mut base, mut refit) = (base, refit);
+fn finished(
+    reference: ReferenceModel<'_>,
+    fit: FittedModel,
+) -> Result<(ReferenceModel<'_>, FittedModel), DiagnosisError> {
+    let (mut reference, mut fit) = (reference, fit);
     for _ in 0..SETTLED_AGAIN {
-        if base.control.is_late() {
+        if reference.control.is_late() {
             break;
         }
-        let (there, settled) = base.settled(refit, &SEARCH, UPDATES)?;
+        let (there, settled) = reference.settled(fit, &SEARCH, UPDATES)?;
         let (likely, again) = there.with_likely_scales(Some(&settled), &SEARCH)?;
         let again = again.unwrap_or_else(|| settled.clone());
         let better = cost(&likely, Some(&again)) < cost(&there, Some(&settled));
-        (base, refit) = if better { (likely, again) } else { (there, settled) };
+        (reference, fit) = if better { (likely, again) } else { (there, settled) };
     }
-    base.settled(refit, &FINAL, UPDATES)
+    reference.settled(fit, &FINAL, UPDATES)
 }
 
 /// Whether both are the same coupling read from either end.
@@ -184,17 +187,17 @@ fn is_reverse(a: Part, b: Part) -> bool {
 
 /// A fit with the deviations that hold where nothing is known better than laboratories know it: what is common to all gains
 /// and all of the model no data tell, so that the likeliest scales are too small for it.
-fn with_told_deviations(base: &Base, refit: Refit) -> Result<Refit, DiagnosisError> {
-    let scales = base.linearisation.updating.scales.at_least(&Scales::SEARCH);
-    let told = base.with_scales(scales).bench().refit(&refit.effects, 1, &FINAL, &refit.starts)?;
-    Ok(Refit { deviations: told.deviations, ..refit })
+fn with_told_deviations(reference: &ReferenceModel, fit: FittedModel) -> Result<FittedModel, DiagnosisError> {
+    let scales = reference.linearisation.updating.scales.at_least(&Scales::SEARCH);
+    let told = reference.with_scales(scales).estimator().fit(&fit.effects, 1, &FINAL, &fit.starts)?;
+    Ok(FittedModel { deviations: told.deviations, ..fit })
 }
 
 /// Relative size of an added spring or mass up to which it is an error of the one that is there.
 const OF_THE_PART: f64 = 0.05;
 
 /// Whether every effect of a fit is of a size that the data know, and more than an error of a part of the model.
-fn is_effect(base: &Base, refit: &Refit) -> bool {
+fn is_effect(reference: &ReferenceModel, fit: &FittedModel) -> bool {
     let within = |source: &Source| {
         let source = &source.simpler(&Range::UNKNOWN).unwrap_or_else(|| source.clone());
         // What the model has too much of is no missing effect, but a correction.
@@ -210,25 +213,26 @@ fn is_effect(base: &Base, refit: &Refit) -> bool {
             (Effect::Stiffness, Place::Dofs(dofs)) if dofs.len() == 2 => Part::Coupling([dofs[0], dofs[1]]),
             _ => return false,
         };
-        let parameters = &base.linearisation.updating.parameters;
+        let parameters = &reference.linearisation.updating.parameters;
         let updated = parameters.iter().any(|p| match p {
             UpdatingParameter::Structure(other) => *other == part || is_reverse(*other, part),
             _ => false,
         });
-        let own = match base.predictor.structure().share(part).filter(|_| updated || source.effect == Effect::Mass) {
+        let own = match reference.predictor.structure().share(part).filter(|_| updated || source.effect == Effect::Mass)
+        {
             Some(Share { stiffness, mass }) => stiffness.iter().chain(&mass).next().map_or(0.0, |e| e.2.abs()),
             None => 0.0,
         };
         source.parameters[0].abs() < OF_THE_PART * own
     };
-    !base.ranked(vec![refit.clone()]).is_empty() && !refit.effects.iter().any(within)
+    !reference.ranked(vec![fit.clone()]).is_empty() && !fit.effects.iter().any(within)
 }
 
-/// Evidence of a model whose updating parameters are free, with the effects of `refit`; the smaller, the better.
-fn cost(base: &Base, refit: Option<&Refit>) -> f64 {
-    let fit = match refit {
-        Some(refit) => base.evidence(refit, 1.0),
-        None => base.bench().residual(&base.predictions).iter().map(|r| r * r).sum(),
+/// Evidence of a model whose updating parameters are free, with the effects of `fit`; the smaller, the better.
+fn cost(reference: &ReferenceModel, fit: Option<&FittedModel>) -> f64 {
+    let fit = match fit {
+        Some(fit) => reference.evidence(fit, 1.0),
+        None => reference.estimator().residual(&reference.predictions).iter().map(|r| r * r).sum(),
     };
-    fit + base.noise.cost()
+    fit + reference.noise.cost()
 }

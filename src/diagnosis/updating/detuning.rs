@@ -11,7 +11,7 @@ use crate::diagnosis::residual::data::{Data, DiagnosisError, Problem};
 use crate::diagnosis::residual::prediction::Predictor;
 use crate::diagnosis::selection::conclusion::corrections;
 use crate::diagnosis::selection::found::agrees;
-use crate::diagnosis::selection::search::Base;
+use crate::diagnosis::selection::search::ReferenceModel;
 use crate::diagnosis::updating::parameters::UpdatingParameter;
 use crate::structure::Part;
 use std::sync::Arc;
@@ -81,23 +81,23 @@ pub fn detuning(problem: &Problem, control: &Control) -> Result<Option<Detuning>
     }
     let data = Data::new(problem)?;
     let predictor = Arc::new(Predictor::new(problem.structure, problem.known(), &data)?);
-    let base = Base::new(predictor, &data, control, &|_| {})?;
-    let bench = base.bench();
-    let before = square(&bench.residual(&base.predictions));
-    if agrees(&base, before, 0) {
-        let error_after = bench.error(&base.predictions);
+    let reference = ReferenceModel::new(predictor, &data, control, &|_| {})?;
+    let estimator = reference.estimator();
+    let before = square(&estimator.residual(&reference.predictions));
+    if agrees(&reference, before, 0) {
+        let error_after = estimator.error(&reference.predictions);
         return Ok(Some(Detuning { reading: Reading::Agrees, share: 0.0, error_after, corrections: Vec::new() }));
     }
-    let bare = base.bare()?;
-    let after = square(&bare.bench().residual(&bare.predictions));
-    let noise = base.count() as f64;
+    let bare = reference.bare()?;
+    let after = square(&bare.estimator().residual(&bare.predictions));
+    let noise = reference.count() as f64;
     let share = ((before - after) / (before - noise).max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
     let reading = match (is_likely(&bare), agrees(&bare, after, 0)) {
         (true, true) => Reading::Detuned,
         (true, false) if share > MOST => Reading::DetunedAndMissing,
         _ => Reading::Missing,
     };
-    let error_after = bare.bench().error(&bare.predictions);
+    let error_after = bare.estimator().error(&bare.predictions);
     Ok(Some(Detuning { reading, share, error_after, corrections: corrections(&bare) }))
 }
 
@@ -110,8 +110,8 @@ const LIKELY_SIZE: f64 = 0.5;
 const LIKELY_SUPPORT: f64 = 1.5;
 
 /// Whether no updating parameter is farther from nothing than models are wrong: else an effect may pass for a correction.
-pub(crate) fn is_likely(base: &Base) -> bool {
-    let updating = &base.linearisation.updating;
+pub(crate) fn is_likely(reference: &ReferenceModel) -> bool {
+    let updating = &reference.linearisation.updating;
     updating.parameters.iter().zip(&updating.values).all(|(parameter, v)| match parameter {
         UpdatingParameter::Structure(Part::Support(_)) => v.abs() < LIKELY_SUPPORT,
         UpdatingParameter::Structure(_) => v.abs() < LIKELY,

@@ -20,7 +20,7 @@ use crate::diagnosis::residual::data::{Data, DiagnosisError, Problem};
 use crate::diagnosis::residual::prediction::{FINAL, Predictor, RunPrediction};
 #[cfg(doc)]
 use crate::diagnosis::residual::run_nuisance::RunNuisance;
-use crate::diagnosis::selection::search::Base;
+use crate::diagnosis::selection::search::ReferenceModel;
 use crate::effects::Source;
 use std::sync::Arc;
 
@@ -112,20 +112,20 @@ pub fn scatter(
         *value = stated.map_or(0.0, |c| c.factor.ln());
     }
     let predictor = Arc::new(Predictor::new(problem.structure, known, &data)?);
-    let stated = Base::new(predictor, &data, control, &|_| {})?;
-    let mut base = stated.updated(&updating, effects, &Vec::new())?;
-    let predictions = base.bench().predict(effects, &FINAL, &[])?;
+    let stated = ReferenceModel::new(predictor, &data, control, &|_| {})?;
+    let mut reference = stated.updated(&updating, effects, &Vec::new())?;
+    let predictions = reference.estimator().predict(effects, &FINAL, &[])?;
     for _ in 0..ROUNDS {
-        base = base.with_scales(base.noise.scales(&base.bench().at_reference(&predictions)));
+        reference = reference.with_scales(reference.noise.scales(&reference.estimator().at_reference(&predictions)));
     }
-    Ok(Some(estimated(&base, &predictions)))
+    Ok(Some(estimated(&reference, &predictions)))
 }
 
-fn estimated(base: &Base, predictions: &[RunPrediction]) -> Scatter {
-    let rows = base.bench().at_reference(predictions);
-    let updating = &base.linearisation.updating;
-    let u = base.noise.updating.solve(&rows);
-    let variances = base.noise.updating.variances();
+fn estimated(reference: &ReferenceModel, predictions: &[RunPrediction]) -> Scatter {
+    let rows = reference.estimator().at_reference(predictions);
+    let updating = &reference.linearisation.updating;
+    let u = reference.noise.updating.solve(&rows);
+    let variances = reference.noise.updating.variances();
     let common = |wanted: &UpdatingParameter| {
         let k = updating.parameters.iter().position(|p| p == wanted)?;
         let (prior, variance) = (updating.prior(k), variances.get(k)?);
@@ -136,13 +136,13 @@ fn estimated(base: &Base, predictions: &[RunPrediction]) -> Scatter {
         let delay = common(&UpdatingParameter::Delay(channel.clone()));
         Some(ChannelScatter { channel: channel.clone(), gain: common(p)?, delay })
     });
-    Scatter { channels: channels.collect(), runs: of_runs(base, rows, &u) }
+    Scatter { channels: channels.collect(), runs: of_runs(reference, rows, &u) }
 }
 
 /// What is left beside the common parameters `u`, run by run.
-fn of_runs(base: &Base, rows: Vec<f64>, u: &[f64]) -> Vec<RunScatter> {
-    let left = base.noise.updating.left(rows, u);
-    let scales = base.linearisation.updating.scales;
+fn of_runs(reference: &ReferenceModel, rows: Vec<f64>, u: &[f64]) -> Vec<RunScatter> {
+    let left = reference.noise.updating.left(rows, u);
+    let scales = reference.linearisation.updating.scales;
     let mut at = 0;
     let of = |(r, noise): (usize, &crate::diagnosis::residual::whitening::Whitening)| {
         let estimate = noise.nuisance().estimate(&left[at..at + noise.len()]);
@@ -152,11 +152,11 @@ fn of_runs(base: &Base, rows: Vec<f64>, u: &[f64]) -> Vec<RunScatter> {
             Some(Estimated { value: scale * value, deviation: scale * variance.sqrt() })
         };
         Some(RunScatter {
-            run: base.data.runs[r].index,
+            run: reference.data.runs[r].index,
             frequency: one(0, 0.5 * scales.shift)?,
             amplitude: one(1, scales.response)?,
             phase: one(2, scales.response)?,
         })
     };
-    base.noise.runs.iter().enumerate().filter_map(of).collect()
+    reference.noise.runs.iter().enumerate().filter_map(of).collect()
 }

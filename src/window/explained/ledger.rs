@@ -81,6 +81,17 @@ impl Ledger {
         path
     }
 
+    /// All steps as text with tabs: errors as shares, the step that each came from, whether it is the present one.
+    pub fn table(&self) -> String {
+        let line = |(k, step): (usize, &Step)| {
+            let parent = step.parent.map_or_else(String::new, |p| p.to_string());
+            let now = if k == self.current { "yes" } else { "no" };
+            format!("{k}\t{}\t{parent}\t{:e}\t{:e}\t{now}\n", step.label, step.error, step.noise_floor)
+        };
+        let lines: String = self.steps.iter().enumerate().map(line).collect();
+        format!("step\twhat was changed\tafter step\terror\tnoise floor\tnow\n{lines}")
+    }
+
     /// Lowest noise floor of all steps: the other end of the scale.
     pub fn least_floor(&self) -> f64 {
         self.steps.iter().map(|s| s.noise_floor).fold(f64::INFINITY, f64::min)
@@ -134,6 +145,11 @@ mod tests {
         assert_eq!(ledger.path(), [0, 2], "the other way is kept beside this one");
         let labels: Vec<&str> = ledger.steps().iter().map(|s| s.label.as_str()).collect();
         assert_eq!(labels, ["Model as opened", "+ viscous dashpot at DOF 1", "+ Coulomb friction at DOF 2"]);
+        let rows: Vec<Vec<String>> =
+            ledger.table().lines().map(|l| l.split('\t').map(str::to_owned).collect()).collect();
+        assert!(rows.len() == 4 && rows.iter().all(|r| r.len() == rows[0].len()), "{rows:?}");
+        assert_eq!(rows[3][1..4], ["+ Coulomb friction at DOF 2", "0", "1e-1"]);
+        assert_eq!((rows[2][5].as_str(), rows[3][5].as_str()), ("no", "yes"));
         // A candidate does not act in the model: no step.
         let source = SourceAt { law: Effect::Coulomb, dofs: vec!["2".into()], elements: None, state: None };
         session.apply(&Command::SetSourceState { source, state: State::Candidate }).unwrap();

@@ -11,15 +11,17 @@ use super::document::Document;
 use crate::diagnosis::candidates::fingerprint_plot::Print;
 use crate::diagnosis::candidates::restoring_force::RestoringForce;
 use crate::diagnosis::diagnose::Suggestion;
+use crate::diagnosis::records::compare::OneRecord;
 use crate::diagnosis::updating::scatter::Scatter;
 use crate::diagnosis::{Comparison, Diagnosis};
 use crate::effects::{Place, Source};
 use crate::exchange::Project;
 use crate::plots::response_curve::Curve;
+use crate::session::validation::only_records;
 use cache::{Cache, Cached};
 use egui::Context;
 use first_suggestions::FirstSuggestions;
-use jobs::{compare_job, curve_job, force_job, print_job, scatter_job, search_job};
+use jobs::{compare_job, curve_job, decay_job, force_job, print_job, scatter_job, search_job};
 use ledger::Ledger;
 use model::{Key, Search};
 use std::sync::Arc;
@@ -68,6 +70,7 @@ pub struct Explained {
     scatters: Cache<Search, Option<Scatter>>,
     curves: Cache<(Key, usize), Vec<Curve>>,
     trial_curves: Cache<(Tried, usize), Vec<Curve>>,
+    decays: Cache<Tried, Vec<OneRecord>>,
     /// The way so far.
     pub ledger: Ledger,
 }
@@ -86,6 +89,7 @@ impl Default for Explained {
             scatters: Cache::new("Scatter of channels and runs"),
             curves: Cache::new("Frequency response"),
             trial_curves: Cache::new("Frequency response"),
+            decays: Cache::new("Amplitude curves"),
             ledger: Ledger::default(),
         }
     }
@@ -133,7 +137,7 @@ impl Explained {
     /// Takes in what has been computed and starts what is wanted and not there yet.
     pub fn update(&mut self, ctx: &Context, document: &Document, wanted: &Wanted) {
         self.collect();
-        if document.project.runs.is_empty() {
+        if document.project.runs.is_empty() && !only_records(&document.project) {
             return;
         }
         let key = self.key(document);
@@ -167,6 +171,11 @@ impl Explained {
             Some(diagnosis) => self.scatters.want(ctx, &search, || scatter_job(p, diagnosis)),
             None => self.scatters.rest(),
         }
+        if only_records(p) {
+            let tried = (key, wanted.trial.clone());
+            self.decays.want(ctx, &tried, || decay_job(p, wanted.trial.as_ref()));
+            return;
+        }
         match wanted.curve.filter(|_| p.structure.matrices().is_some()) {
             Some(run) => self.curves.want(ctx, &(key, run), || curve_job(p, None, run)),
             None => self.curves.rest(),
@@ -183,6 +192,7 @@ impl Explained {
         self.scatters.collect();
         self.curves.collect();
         self.trial_curves.collect();
+        self.decays.collect();
     }
 
     fn on_trial(&mut self, ctx: &Context, p: &Arc<Project>, key: &Key, wanted: &Wanted) {
@@ -268,6 +278,11 @@ impl Explained {
         self.trial_curves.get(&((self.current(document)?, Some(source.clone())), run))
     }
 
+    /// Records that are not steady with the model beside them, with an effect on trial.
+    pub fn decays(&self, document: &Document, trial: Option<&Source>) -> Option<&Cached<Vec<OneRecord>>> {
+        self.decays.get(&(self.current(document)?, trial.cloned()))
+    }
+
     fn search(&self, document: &Document) -> Option<Search> {
         Some(Search::new(self.current(document)?, document.session().document()))
     }
@@ -296,6 +311,7 @@ impl Explained {
             .or_else(|| self.scatters.running())
             .or_else(|| self.curves.running())
             .or_else(|| self.trial_curves.running())
+            .or_else(|| self.decays.running())
     }
 
     /// Stops all that runs.
@@ -307,6 +323,7 @@ impl Explained {
         self.scatters.cancel();
         self.curves.cancel();
         self.trial_curves.cancel();
+        self.decays.cancel();
     }
 
     /// The search answers with the best so far, as soon as it can.
@@ -325,5 +342,6 @@ impl Explained {
         self.scatters.retry();
         self.curves.retry();
         self.trial_curves.retry();
+        self.decays.retry();
     }
 }

@@ -5,6 +5,7 @@ use super::tabs::Fit;
 use crate::display::glossary;
 use crate::window::app::{App, Ask};
 use crate::window::stages;
+use crate::window::stages::explain::switches::in_bar;
 use crate::window::theme::{self, Palette, size, space};
 use crate::window::widgets::explained;
 use egui::{
@@ -111,9 +112,14 @@ impl Behavior<Pane> for Panes<'_> {
     }
 
     fn top_bar_right_ui(&mut self, tiles: &Tiles<Pane>, ui: &mut Ui, _tile: TileId, tabs: &Tabs, _offset: &mut f32) {
-        if tabs.active.and_then(|tile| tiles.get_pane(&tile)) == Some(&Pane::Schematic) {
-            ui.add_space(space::S);
-            super::schematic::switches(ui, self.app, self.asks);
+        match tabs.active.and_then(|tile| tiles.get_pane(&tile)) {
+            Some(Pane::Schematic) => {
+                ui.add_space(space::S);
+                super::schematic::switches(ui, self.app, self.asks);
+            }
+            Some(Pane::ErrorMap) => in_bar(ui, 0, Pane::ErrorMap.title(), &mut self.app.view.explain),
+            Some(Pane::Cell) => in_bar(ui, 1, Pane::Cell.title(), &mut self.app.view.explain),
+            _ => {}
         }
         let shown = tabs.children.iter().filter(|tile| tiles.is_visible_in_layout(**tile));
         let titles: Vec<_> = shown.filter_map(|tile| Some((*tile, tiles.get_pane(tile)?.title()))).collect();

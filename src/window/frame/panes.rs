@@ -184,7 +184,7 @@ pub fn arrangement(stage: Stage) -> Tree<Pane> {
 /// Schematic, error map and its cell above each other; the suggestions in full height; ledger and inspector at the right.
 fn explain() -> Tree<Pane> {
     let mut tiles = Tiles::default();
-    let rows = [(Pane::Schematic, 0.27), (Pane::ErrorMap, 0.32), (Pane::Cell, 0.41)];
+    let rows = [(Pane::Schematic, 0.27), (Pane::ErrorMap, 0.30), (Pane::Cell, 0.43)];
     let rows = rows.map(|(pane, share)| (tabs(&mut tiles, &[pane]), share));
     let left = shared(&mut tiles, LinearDir::Vertical, &rows);
     let columns = [

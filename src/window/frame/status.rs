@@ -75,7 +75,13 @@ fn summary(ui: &mut Ui, app: &App) {
             parts.push(format!("noise floor {}", format::percent(floor)));
         }
     }
-    parts.push(format!("{used} of {} runs", p.runs.len()));
+    if !p.runs.is_empty() || p.transient_runs.is_empty() {
+        parts.push(format!("{used} of {} runs", p.runs.len()));
+    }
+    if !p.transient_runs.is_empty() {
+        let used = p.transient_runs.iter().filter(|r| r.enabled).count();
+        parts.push(format!("{used} of {} records over time", p.transient_runs.len()));
+    }
     parts.push(format!("{}, {} DOFs", words::kind(p.structure.kind()), p.structure.len()));
     ui.hint(parts.join("   ·   "));
 }

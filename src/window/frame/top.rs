@@ -4,7 +4,7 @@ use crate::exchange::export::Format;
 use crate::session::recent::Recent;
 use crate::window::app::{App, Ask};
 use crate::window::commands::Command;
-use crate::window::plots::export;
+use crate::window::plots::{export, table};
 use crate::window::theme::{self, Palette, size, space};
 use crate::window::view::Stage;
 use crate::window::widgets::{UiExt, folded};
@@ -160,10 +160,14 @@ fn file(ui: &mut Ui, app: &App, asks: &mut Vec<Ask>) {
                     ui.close();
                 }
             }
-        });
+        })
+        .response
+        .on_disabled_hover_text("What is identified can be exported; nothing is yet. The stage Select says why.");
     });
-    entry(ui, Command::Report, known, None, asks);
+    // A report holds what there is, with or without sources to identify.
+    entry(ui, Command::Report, open, None, asks);
     plots(ui);
+    tables(ui);
     ui.separator();
     entry(ui, Command::Close, open, None, asks);
     entry(ui, Command::Quit, true, None, asks);
@@ -185,6 +189,21 @@ fn plots(ui: &mut Ui) {
                         }
                     }
                 });
+            }
+        });
+    });
+}
+
+/// The tables on the screen, to be written to files.
+fn tables(ui: &mut Ui) {
+    let shown = table::shown(ui.ctx());
+    ui.add_enabled_ui(!shown.is_empty(), |ui| {
+        ui.menu_button("Export table", |ui| {
+            for title in shown {
+                if ui.button(format!("{title}…")).on_hover_text("As CSV: SI units, all digits.").clicked() {
+                    table::want(ui.ctx(), &title);
+                    ui.close();
+                }
             }
         });
     });

@@ -81,7 +81,8 @@ fn model(ui: &mut Ui, draft: &Draft) -> Option<Wish> {
     ui.horizontal(|ui| {
         ui.hint("Model");
         if named.is_empty() {
-            ui.hint("none: only energies at the measured points are balanced");
+            ui.hint("none: only energies at the measured points are balanced")
+                .on_hover_text("A beam or a chain of masses: File > New from template first, then import into it.");
         } else {
             ui.label(named.join(", "));
             if ui.button("Without").clicked() {

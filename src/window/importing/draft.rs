@@ -7,7 +7,7 @@ use crate::exchange::importing::{Functions, Holds, Request, look};
 use crate::exchange::mapping::{ChannelTable, Proposal};
 use crate::measurement::Quantity;
 use crate::window::background::Slot;
-use dashpot_datafiles::{DataFile, open};
+use dashpot_datafiles::{DataFile, Kind, open};
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -204,15 +204,18 @@ fn fitting(files: &[Opened], channels: &[ChannelTable]) -> bool {
     !channels.is_empty() && files.iter().all(|file| channels.iter().all(|table| has(file, table)))
 }
 
-/// The first channel that has values.
+/// The first channel that has values: of what was measured, before geometry and tables.
 fn first_channel(files: &[Opened]) -> Option<(usize, usize, usize)> {
-    files.iter().enumerate().find_map(|(f, opened)| {
-        let sets = &opened.file.as_ref().ok()?.contents().sets;
-        let channel_of_set = |(s, set): (usize, &dashpot_datafiles::Set)| {
-            set.channels.iter().position(|channel| channel.count > 1).map(|c| (f, s, c))
-        };
-        sets.iter().enumerate().find_map(channel_of_set)
-    })
+    let first = |wanted: &dyn Fn(Kind) -> bool| {
+        files.iter().enumerate().find_map(|(f, opened)| {
+            let sets = &opened.file.as_ref().ok()?.contents().sets;
+            let channel_of_set = |(s, set): (usize, &dashpot_datafiles::Set)| {
+                set.channels.iter().position(|channel| channel.count > 1).map(|c| (f, s, c))
+            };
+            sets.iter().enumerate().filter(|(_, set)| wanted(set.kind)).find_map(channel_of_set)
+        })
+    };
+    first(&|kind| matches!(kind, Kind::Time | Kind::Frf)).or_else(|| first(&|_| true))
 }
 
 /// A name beside a file that is not taken.

@@ -4,7 +4,7 @@ use super::draft::Draft;
 use crate::display::format::{pretty_unit, significant};
 use crate::window::theme::{self, size, space};
 use crate::window::widgets::{UiExt, elided};
-use dashpot_datafiles::{Channel, DataFile, Set};
+use dashpot_datafiles::{Channel, DataFile, Set, is_coherence};
 use egui::{Role, ScrollArea, Sense, Ui, WidgetInfo, pos2, vec2};
 use std::sync::Arc;
 
@@ -129,7 +129,11 @@ fn aside(ui: &Ui, text: &str, right: f32, middle: f32) -> f32 {
 
 /// Unit, number of values and sampling of a channel.
 fn details(channel: &Channel, set: &Set) -> String {
-    let unit = if channel.unit.is_empty() { "no unit".to_owned() } else { pretty_unit(&channel.unit) };
+    let unit = match channel.unit.as_str() {
+        "" if is_coherence(&set.name) || is_coherence(&channel.name) => "coherence".to_owned(),
+        "" => "no unit".to_owned(),
+        unit => pretty_unit(unit),
+    };
     let sampling = match channel.axis.step() {
         Some(step) if set.axis_unit == "s" && step > 0.0 => format!("{} Hz", significant(1.0 / step, 5)),
         Some(step) => format!("step {} {}", significant(step, 4), set.axis_unit),

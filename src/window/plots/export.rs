@@ -25,7 +25,7 @@ const PAPER: Vec2 = vec2(900.0, 560.0);
 const FINE: f32 = 2.0;
 
 /// Keys that copy the values of the plot under the pointer.
-const COPY: KeyboardShortcut = KeyboardShortcut::new(Modifiers::COMMAND, Key::C);
+pub(super) const COPY: KeyboardShortcut = KeyboardShortcut::new(Modifiers::COMMAND, Key::C);
 /// Longest wait for a file that is being written when the window closes.
 const PATIENCE: Duration = Duration::from_secs(3);
 
@@ -52,11 +52,13 @@ impl Kind {
 
 /// Titles that were asked for and as what.
 type Wanted = Vec<(String, Kind)>;
-/// A plot that waits to be written, with its values.
+/// A plot or a table that waits to be written, with its values.
 #[derive(Debug, Clone)]
 struct Asked {
+    title: String,
     kind: Kind,
-    drawing: Drawing,
+    /// None of a table.
+    drawing: Option<Drawing>,
     /// Columns separated by tabs.
     table: String,
 }
@@ -74,6 +76,14 @@ fn ready_id() -> Id {
     Id::NULL.with("drawn plots")
 }
 
+fn over_id() -> Id {
+    Id::NULL.with("plot under the pointer")
+}
+
+fn said_id() -> Id {
+    Id::NULL.with("copied values")
+}
+
 /// Asks the plot of that title for its drawing.
 pub fn want(ctx: &Context, title: &str, kind: Kind) {
     ctx.data_mut(|d| d.get_temp_mut_or_default::<Wanted>(wanted_id()).push((title.to_owned(), kind)));
@@ -82,15 +92,20 @@ pub fn want(ctx: &Context, title: &str, kind: Kind) {
 
 /// Titles of the plots on the screen, in the order in which they were drawn.
 pub fn shown(ctx: &Context) -> Vec<String> {
+    recent(ctx, shown_id())
+}
+
+/// Titles that were registered in a list in this frame or the one before.
+pub(super) fn recent(ctx: &Context, list: Id) -> Vec<String> {
     let now = ctx.cumulative_frame_nr();
-    let list: Vec<(u64, String)> = ctx.data(|d| d.get_temp(shown_id())).unwrap_or_default();
+    let list: Vec<(u64, String)> = ctx.data(|d| d.get_temp(list)).unwrap_or_default();
     list.into_iter().filter(|(frame, _)| now - frame <= 1).map(|(_, title)| title).collect()
 }
 
-fn register(ctx: &Context, title: &str) {
+pub(super) fn register(ctx: &Context, list: Id, title: &str) {
     let now = ctx.cumulative_frame_nr();
     ctx.data_mut(|d| {
-        let list: &mut Vec<(u64, String)> = d.get_temp_mut_or_default(shown_id());
+        let list: &mut Vec<(u64, String)> = d.get_temp_mut_or_default(list);
         list.retain(|(frame, other)| now - frame <= 1 && other != title);
         list.push((now, title.to_owned()));
     });
@@ -112,29 +127,59 @@ pub fn offer(
     table: &dyn Fn() -> String,
 ) {
     let ctx = ui.ctx();
-    register(ctx, title);
+    register(ctx, shown_id(), title);
     for response in responses {
         response.context_menu(|ui| menu(ui, title, table, response));
     }
-    if responses.iter().any(Response::hovered) && copied(ctx) {
-        ctx.copy_text(table());
+    if responses.iter().any(Response::hovered) {
+        ctx.data_mut(|d| d.insert_temp(over_id(), ctx.cumulative_frame_nr()));
+        if copied(ctx) {
+            copy(ctx, title, table());
+        }
     }
+    for kind in take_wishes(ctx, title) {
+        let drawing = Some(draw(ui.palette()));
+        ask(ctx, Asked { title: title.to_owned(), kind, drawing, table: table() });
+    }
+}
+
+/// Whether the pointer is over a plot that was drawn in this frame.
+pub(super) fn over_plot(ctx: &Context) -> bool {
+    ctx.data(|d| d.get_temp::<u64>(over_id())).is_some_and(|frame| frame == ctx.cumulative_frame_nr())
+}
+
+/// The kinds of files that were asked of a title, which are not asked again.
+pub(super) fn take_wishes(ctx: &Context, title: &str) -> Vec<Kind> {
     let wanted: Wanted = ctx.data(|d| d.get_temp(wanted_id())).unwrap_or_default();
     let (own, others): (Wanted, Wanted) = wanted.into_iter().partition(|(t, _)| t == title);
-    if own.is_empty() {
-        return;
+    if !own.is_empty() {
+        ctx.data_mut(|d| d.insert_temp(wanted_id(), others));
     }
-    ctx.data_mut(|d| {
-        d.insert_temp(wanted_id(), others);
-        let ready: &mut Ready = d.get_temp_mut_or_default(ready_id());
-        ready.extend(own.into_iter().map(|(_, kind)| Asked { kind, drawing: draw(ui.palette()), table: table() }));
-    });
+    own.into_iter().map(|(_, kind)| kind).collect()
+}
+
+fn ask(ctx: &Context, asked: Asked) {
+    ctx.data_mut(|d| d.get_temp_mut_or_default::<Ready>(ready_id()).push(asked));
     ctx.request_repaint();
 }
 
-/// Whether the keys to copy were pressed outside a field of text.
+/// Has a table written as CSV.
+pub(super) fn write_table(ctx: &Context, title: &str, table: String) {
+    ask(ctx, Asked { title: title.to_owned(), kind: Kind::Csv, drawing: None, table });
+}
+
+/// Puts values on the clipboard and says so.
+pub(super) fn copy(ctx: &Context, title: &str, table: String) {
+    let rows = table.lines().filter(|line| !line.is_empty()).count();
+    ctx.data_mut(|d| d.insert_temp(said_id(), format!("Copied: {title}, {rows} lines.")));
+    ctx.copy_text(table);
+}
+
+/// Whether the keys to copy were pressed outside a field of text and without words marked that would be copied.
 pub fn copied(ctx: &Context) -> bool {
-    !ctx.egui_wants_keyboard_input() && ctx.input(|i| i.events.iter().any(|e| matches!(e, egui::Event::Copy)))
+    let pressed = || ctx.input(|i| i.events.iter().any(|e| matches!(e, egui::Event::Copy)));
+    let marked = || ctx.plugin::<egui::text_selection::LabelSelectionState>().lock().has_selection();
+    !ctx.egui_wants_keyboard_input() && pressed() && !marked()
 }
 
 fn menu(ui: &mut Ui, title: &str, table: &dyn Fn() -> String, plot: &Response) {
@@ -142,7 +187,7 @@ fn menu(ui: &mut Ui, title: &str, table: &dyn Fn() -> String, plot: &Response) {
     let copy = ui.add(copy).on_hover_text("As a table with tabs, for a spreadsheet.");
     copy.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, "Copy values"));
     if copy.clicked() {
-        ui.copy_text(table());
+        self::copy(ui.ctx(), title, table());
         ui.close();
     }
     let kinds = [(Kind::Svg, "Export as SVG…"), (Kind::Png, "Export as PNG…"), (Kind::Csv, "Export values as CSV…")];
@@ -172,14 +217,17 @@ pub struct Exports {
 impl Exports {
     /// Starts what was asked for; gives back how an export ended, once.
     pub fn poll(&mut self, ctx: &Context) -> Option<Ending> {
+        if let Some(said) = ctx.data_mut(|d| d.remove_temp::<String>(said_id())) {
+            return Some((said, false));
+        }
         let ready: Ready = ctx.data_mut(|d| d.remove_temp(ready_id())).unwrap_or_default();
-        for Asked { kind, drawing, table } in ready {
+        for Asked { title, kind, drawing, table } in ready {
             let (state, folder) = (graphics(ctx), self.folder.clone());
             let work = move |_: &crate::control::Control| {
-                let path = target(kind, &drawing, folder.as_deref())?;
-                let written = match kind {
-                    Kind::Csv => write_bytes(&path, csv(&table).as_bytes()),
-                    _ => write(&drawing, kind, &path, state),
+                let path = target(kind, &title, folder.as_deref())?;
+                let written = match drawing.filter(|_| kind != Kind::Csv) {
+                    Some(drawing) => write(&drawing, kind, &path, state),
+                    None => write_bytes(&path, csv(&table).as_bytes()),
                 };
                 Some(written.map(|()| path))
             };
@@ -204,10 +252,10 @@ impl Exports {
     }
 }
 
-/// The file: in a folder by the drawing's title, else by a dialog, which blocks until it is closed.
-fn target(kind: Kind, drawing: &Drawing, folder: Option<&Path>) -> Option<PathBuf> {
+/// The file: in a folder by its title, else by a dialog, which blocks until it is closed.
+fn target(kind: Kind, title: &str, folder: Option<&Path>) -> Option<PathBuf> {
     let ending = kind.ending();
-    let name = format!("{}.{ending}", file_name(&drawing.title));
+    let name = format!("{}.{ending}", file_name(title));
     match folder {
         Some(folder) => Some(folder.join(name)),
         None => rfd::FileDialog::new().set_file_name(name).add_filter(ending, &[ending]).save_file(),

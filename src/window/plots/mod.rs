@@ -11,6 +11,7 @@ pub mod paint;
 pub mod polyline;
 pub mod record;
 pub mod show;
+pub mod table;
 pub mod zoom;
 
 use super::theme::{Palette, size};

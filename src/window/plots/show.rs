@@ -53,7 +53,11 @@ impl Stack<'_> {
         if room >= least {
             return self.plots(ui, room);
         }
-        ScrollArea::vertical().id_salt(("stack", self.id)).auto_shrink(false).show(ui, |ui| self.plots(ui, least));
+        ScrollArea::vertical().id_salt(("stack", self.id)).auto_shrink(false).show(ui, |ui| {
+            // The uppermost number stands half above the plot.
+            ui.add_space(theme::space::XS + 2.0);
+            self.plots(ui, least);
+        });
     }
 
     /// The plots in `height` points.

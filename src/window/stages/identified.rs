@@ -1,6 +1,7 @@
 //! What panes of an identification have in common: its outcome or what is shown in its place, heads of columns.
 
 use crate::identify::Outcome;
+use crate::session::validation::has_records;
 use crate::window::derived::Derived;
 use crate::window::document::Document;
 use crate::window::theme::space;
@@ -12,7 +13,7 @@ use std::sync::Arc;
 pub fn outcome(ui: &mut Ui, derived: &mut Derived, document: &Document) -> Option<Arc<Outcome>> {
     match derived.outcome(ui.ctx(), document) {
         Some(Ok(outcome)) => return Some(outcome),
-        Some(Err(_)) if document.project.runs.iter().all(|r| !r.enabled) => {
+        Some(Err(_)) if document.project.runs.iter().all(|r| !r.enabled) && !has_records(&document.project) => {
             ui.empty("No runs to identify from", "Import measurements, or tick the runs that are to be used.");
         }
         Some(Err(error)) => ui.empty("Nothing was identified", &error),

@@ -1,6 +1,7 @@
 //! Measure: the runs with what is wrong with them, the record with its fit, the spectrum.
 
-use super::run_table::{Key, Order};
+use super::run_table::{Key, Order, common_folder};
+use super::unsteady;
 use crate::display::{format, words};
 use crate::exchange::Project;
 use crate::measurement::{Quantity, Run};
@@ -8,6 +9,7 @@ use crate::plots::record::RecordPlot;
 use crate::plots::{overview, samples};
 use crate::window::app::{App, Ask};
 use crate::window::background::CANCELLED;
+use crate::window::commands::Command;
 use crate::window::derived::Derived;
 use crate::window::document::Document;
 use crate::window::edits::Edit;
@@ -68,14 +70,25 @@ impl Shown {
 
 const FOLLOWS: &str = "It follows the run that is selected in the table.";
 const EMPTY: [&str; 2] =
-    ["No runs yet", "Import steady-state records with File > Import measurements, or drop them on this window."];
+    ["No runs yet", "Import files of measurements of any of the formats, or drop them on this window."];
 
 /// The table of runs.
 pub fn runs(ui: &mut Ui, app: &mut App, asks: &mut Vec<Ask>) {
     let Some(document) = &app.document else { return };
     let p = &document.project;
+    if p.runs.is_empty() && !p.transient_runs.is_empty() {
+        let ticked = unsteady::table(ui, p, &mut app.view.run);
+        asks.extend(ticked.map(|(file, used)| Ask::Edit(Edit::UseRun(file, used))));
+        return;
+    }
     if p.runs.is_empty() {
         ui.empty(EMPTY[0], EMPTY[1]);
+        ui.add_space(space::S);
+        ui.vertical_centered(|ui| {
+            if ui.primary(Command::Import.entry().label).clicked() {
+                asks.push(Ask::Command(Command::Import));
+            }
+        });
         return;
     }
     let mut order = std::mem::take(&mut app.view.runs);
@@ -110,7 +123,7 @@ pub fn overview(ui: &mut Ui, app: &mut App) {
 
 /// The record of a channel with the fitted curve on top and the residual under it.
 pub fn record(ui: &mut Ui, app: &mut App) {
-    let Some((run, channel)) = looked_at(app) else { return ui.empty("No record yet", FOLLOWS) };
+    let Some((run, channel)) = looked_at(app) else { return over_time(ui, app) };
     let Some(document) = &app.document else { return };
     let r = &document.project.runs[run];
     let mut chosen = channel;
@@ -132,6 +145,18 @@ pub fn record(ui: &mut Ui, app: &mut App) {
             RecordPlot { trace: &trace, fit: &trace.fit, omega: r.fit.omega, axis, id: &id }.show(ui);
         }
     }
+}
+
+/// The record that is selected where none is steady.
+fn over_time(ui: &mut Ui, app: &mut App) {
+    let Some(document) = &app.document else { return };
+    let records = &document.project.transient_runs;
+    let index = app.view.run.min(records.len().saturating_sub(1));
+    let Some(run) = records.get(index) else { return ui.empty("No record yet", FOLLOWS) };
+    app.view.channel = unsteady::channels(ui, run, app.view.channel.min(run.channels().len().saturating_sub(1)));
+    let Some(channel) = run.channels().get(app.view.channel) else { return };
+    let prepared = app.derived.unsteady(ui.ctx(), document, [index, app.view.channel]);
+    unsteady::samples(ui, &run.file, channel, prepared);
 }
 
 /// All channels of a run under each other on one axis of time.
@@ -255,6 +280,7 @@ fn table(ui: &mut Ui, p: &Project, (rows, order): (&[usize], &mut Order), chosen
     ui.spacing_mut().item_spacing.x = space::XS;
     let flags = p.runs.iter().filter_map(flags).map(|text| width(ui, &text, theme::font(theme::size::SMALL)) + PILL);
     let shown = Shown::new(ui.available_width(), levels, flags.fold(0.0, f32::max));
+    let folder = common_folder(p);
     TableBuilder::new(ui)
         .striped(true)
         .sense(Sense::click())
@@ -291,7 +317,7 @@ fn table(ui: &mut Ui, p: &Project, (rows, order): (&[usize], &mut Order), chosen
             body.rows(space::ROW, rows.len(), |mut row| {
                 let index = rows[row.index()];
                 row.set_selected(index == selected);
-                cells(&mut row, &p.runs[index], (index, shown), asks);
+                cells(&mut row, &p.runs[index], (index, shown, folder), asks);
                 if row.response().clicked() {
                     *chosen = index;
                 }
@@ -299,7 +325,7 @@ fn table(ui: &mut Ui, p: &Project, (rows, order): (&[usize], &mut Order), chosen
         });
 }
 
-fn cells(row: &mut TableRow<'_, '_>, run: &Run, (index, shown): (usize, Shown), asks: &mut Vec<Ask>) {
+fn cells(row: &mut TableRow<'_, '_>, run: &Run, (index, shown, folder): (usize, Shown, usize), asks: &mut Vec<Ask>) {
     row.col(|ui| {
         let mut used = run.enabled;
         let response = ui.checkbox(&mut used, "");
@@ -310,7 +336,7 @@ fn cells(row: &mut TableRow<'_, '_>, run: &Run, (index, shown): (usize, Shown), 
             asks.push(Ask::Edit(Edit::UseRun(run.file.clone(), used)));
         }
     });
-    row.col(|ui| drop(ui.label(&run.file).on_hover_text(&run.file)));
+    row.col(|ui| drop(ui.label(run.file.get(folder..).unwrap_or(&run.file)).on_hover_text(&run.file)));
     row.col(|ui| drop(ui.number(format!("{} Hz", format::significant(run.fit.omega / std::f64::consts::TAU, 4)))));
     row.col(|ui| drop(ui.number(run.level.map_or_else(String::new, |level| level.to_string()))));
     row.col(|ui| {

@@ -12,11 +12,12 @@ pub mod result;
 pub mod run_table;
 pub mod select;
 pub mod structure;
+pub mod unsteady;
 
 use super::app::{App, Ask};
 use super::frame;
 use super::frame::panes::Pane;
-use super::plots::export::copied;
+use super::plots::table as tabled;
 use crate::plots::tables;
 use egui::Ui;
 
@@ -56,22 +57,59 @@ pub fn show(ui: &mut Ui, pane: Pane, app: &mut App, asks: &mut Vec<Ask>) {
         Pane::Corrections => explain::corrections::show(ui, app, asks),
         Pane::Ledger => explain::panes::way(ui, app, asks),
     }
-    if ui.rect_contains_pointer(ui.max_rect())
-        && copied(ui.ctx())
-        && let Some(text) = table(ui, pane, app)
+    if TABLES.contains(&pane)
+        && app.document.is_some()
+        && let Some(wish) = tabled::offer(ui, ui.max_rect(), pane.title())
     {
-        ui.ctx().copy_text(text);
+        match table(ui, pane, app) {
+            Some(text) => tabled::give(ui.ctx(), pane.title(), wish, text),
+            None => app.fail(format!("{}: there is no table yet.", pane.title())),
+        }
     }
 }
+
+/// Panes that hold a table.
+const TABLES: [Pane; 12] = [
+    Pane::Runs,
+    Pane::Modes,
+    Pane::Expansion,
+    Pane::Sources,
+    Pane::Steps,
+    Pane::Values,
+    Pane::Energy,
+    Pane::Damping,
+    Pane::Methods,
+    Pane::Change,
+    Pane::ErrorMap,
+    Pane::Ledger,
+];
 
 /// What stands in the table of a pane, as text with tabs.
 fn table(ui: &Ui, pane: Pane, app: &mut App) -> Option<String> {
     let document = app.document.as_ref()?;
-    let p = &document.project;
-    if pane == Pane::Modes {
-        let modes = app.derived.modes(ui.ctx(), document)?.ok()?;
-        return Some(tables::modes(&modes));
+    match pane {
+        Pane::Modes => Some(tables::modes(app.derived.modes(ui.ctx(), document)?.ok()?.as_ref())),
+        Pane::Methods => Some(tables::methods(app.derived.methods(ui.ctx(), document)?.ok()?.as_ref())),
+        Pane::Change => {
+            let against = app.view.against.clone()?;
+            Some(tables::change(app.derived.change(ui.ctx(), document, &against)?.ok()?.as_ref()))
+        }
+        Pane::ErrorMap => {
+            let comparison = app.derived.explained.comparison(document)?.as_ref().ok()?;
+            Some(tables::errors(&document.project, comparison))
+        }
+        Pane::Ledger => {
+            let ledger = &app.derived.explained.ledger;
+            (!ledger.steps().is_empty()).then(|| ledger.table())
+        }
+        _ => identified(pane, app),
     }
+}
+
+/// The tables of the project and of what was identified.
+fn identified(pane: Pane, app: &App) -> Option<String> {
+    let document = app.document.as_ref()?;
+    let p = &document.project;
     let outcome = app.derived.known_outcome(document).and_then(|o| o.as_ref().ok());
     match pane {
         Pane::Runs => Some(tables::runs(p)),
@@ -79,6 +117,7 @@ fn table(ui: &Ui, pane: Pane, app: &mut App) -> Option<String> {
         Pane::Steps => Some(tables::steps(p, outcome?)),
         Pane::Values | Pane::Energy => Some(tables::coefficients(p, outcome?)),
         Pane::Damping => Some(tables::damping(outcome?)),
+        Pane::Expansion => Some(tables::expansion(p, outcome?)),
         _ => None,
     }
 }

@@ -9,7 +9,7 @@ use crate::plots::bode::Diagram;
 use crate::plots::{heatmap, tables};
 use crate::response::frequency_response::Quantity;
 use crate::window::app::App;
-use crate::window::plots::{bars, hysteresis};
+use crate::window::plots::{bars, hysteresis, table as tabled};
 use crate::window::solid;
 use crate::window::theme::{self, size, space};
 use crate::window::widgets::{UiExt, width};
@@ -244,7 +244,7 @@ pub fn values(ui: &mut Ui, app: &mut App) {
                 .on_hover_text("Columns are separated by tabs, as spreadsheets want them.")
                 .clicked()
             {
-                ui.ctx().copy_text(tables::coefficients(p, &outcome));
+                tabled::give(ui.ctx(), "Values", tabled::Wish::Copy, tables::coefficients(p, &outcome));
             }
         });
     });

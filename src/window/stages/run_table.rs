@@ -120,3 +120,10 @@ fn holds(run: &Run, wanted: &str) -> bool {
     let flags = run.findings.iter().any(|f| words::flag(f.flag).contains(wanted));
     run.file.to_lowercase().contains(wanted) || level.contains(wanted) || flags
 }
+
+/// Length of the folder in which all runs lie, which says nothing of any: the names have its room.
+pub fn common_folder(p: &Project) -> usize {
+    let Some(first) = p.runs.first().map(|r| r.file.as_str()) else { return 0 };
+    let folder = first.rfind(['/', '\\']).map_or(0, |at| at + 1);
+    if p.runs.iter().all(|r| r.file.starts_with(&first[..folder])) { folder } else { 0 }
+}

@@ -87,13 +87,22 @@ fn header(ui: &mut Ui, outcome: &Outcome, current: usize, asks: &mut Vec<Ask>) {
             }
         }
     });
+    ending(ui, outcome, asks);
+    ui.add_space(space::XS);
+}
+
+/// How the search ended and why; where something is left, the way on.
+fn ending(ui: &mut Ui, outcome: &Outcome, asks: &mut Vec<Ask>) {
     let good = matches!(outcome.status, Status::WithinNoise | Status::BelowAngle);
     let colour = if good { ui.palette().good } else { ui.palette().warning };
     ui.horizontal_wrapped(|ui| {
         ui.pill(status(outcome.status), colour);
         ui.hint(&outcome.reason);
+        let tip = "Takes what was identified as known and searches for what it does not explain.";
+        if outcome.status == Status::AboveNoise && ui.link("What is missing?").on_hover_text(tip).clicked() {
+            asks.push(Ask::Command(Command::Explain));
+        }
     });
-    ui.add_space(space::XS);
 }
 
 /// How the search ended, in words.

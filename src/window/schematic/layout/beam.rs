@@ -28,6 +28,8 @@ const LEAST_LEAD: f32 = 8.0;
 const LEAST_SYMBOL: f32 = 20.0;
 /// Least depth of the ground under the axis, points.
 const LEAST_DROP: f32 = 46.0;
+/// Least room of the mark of the ground under its line, points.
+const LEAST_BELOW: f32 = 10.0;
 /// Room of a label: of each letter, and beside them, points.
 const LETTER: f32 = 6.6;
 const BESIDE_LABEL: f32 = 13.0;
@@ -86,8 +88,9 @@ impl<'a> Frame<'a> {
         let nearer = (-spare).clamp(0.0, DROP - LEAST_DROP);
         let higher = (-spare - nearer).clamp(0.0, (above - LEAST_ABOVE).max(0.0));
         let axis = top + above - higher + (spare / 2.0).max(0.0);
+        let drop = (DROP - nearer).min(area.bottom() - LEAST_BELOW - axis).max(LEAST_LEAD + LEAST_SYMBOL);
         // Neither caption nor ground are reached, whatever the phase of the motion.
-        let room = (axis - top - ABOVE_NODE).min(DROP - nearer - BELOW_NODE);
+        let room = (axis - top - ABOVE_NODE).min(drop - BELOW_NODE);
         let deflection = DEFLECTION.min(room.max(6.0));
         let deflected = shape.is_some();
         Self {
@@ -99,7 +102,7 @@ impl<'a> Frame<'a> {
             axis,
             deflection,
             exciter: (axis - top - deflection * highest(scene, shape)).clamp(EXCITER_LEAST, EXCITER_UP),
-            ground: axis + DROP - nearer,
+            ground: axis + drop,
             first_lane: axis - base - if deflected { 8.0 } else { 0.0 },
         }
     }

@@ -88,6 +88,27 @@ fn everything_stays_inside_the_pane() {
     }
 }
 
+/// The least pane of the window, and one as low as beside the error map on a small screen.
+#[test]
+fn the_ground_stays_inside_a_low_pane() {
+    let sources = candidates(&[&[0], &[2], &[6]]);
+    let shape = [0.1, 0.0, 0.3, 0.0, 0.6, 0.0, -1.0, 0.0];
+    let mut scene = Scene::new(&samples::cantilever(4), &sources, &[]);
+    scene.dofs[6].exciter = true;
+    for height in [112.0, 125.0, 150.0] {
+        let area = Rect::from_min_size(pos2(10.0, 20.0), vec2(430.0, height));
+        let layout = Layout::new(&scene, area, Camera::default(), Some(&shape));
+        let feet = layout.sources.iter().filter_map(|s| s.parts[0].ground);
+        for foot in feet {
+            assert!(foot.pos.y + 8.0 <= area.bottom(), "the hatching under {:?} is cut off by {area:?}", foot.pos);
+        }
+        for source in &layout.sources {
+            let [start, end] = source.parts[0].glyph;
+            assert!(end.y - start.y > 10.0, "a symbol of {} points at {height}", end.y - start.y);
+        }
+    }
+}
+
 #[test]
 fn a_wire_model_seen_from_above_keeps_its_proportions() {
     let scene = Scene::new(&samples::points(), &[], &[]);

@@ -217,7 +217,7 @@ impl Card<'_> {
                 }
             }
             Some(Err(error)) => drop(ui.hint(format!("No fingerprint: {error}"))),
-            None if matches!(source.place, Place::Whole(_)) => {}
+            None if matches!(source.place, Place::Whole(_)) || self.scene.document.project.runs.is_empty() => {}
             None if self.standing == Standing::Final => drop(ui.hint("The fingerprint is being computed.")),
             None => drop(ui.hint("The fingerprint follows when the search has ended.")),
         }

@@ -17,6 +17,7 @@ use crate::display::words;
 use crate::display::words::at;
 use crate::effects::Source;
 use crate::session::corrections::{self, Adopted};
+use crate::session::validation::only_records;
 use crate::window::app::Ask;
 use crate::window::explained::{HOPELESS, Standing};
 use crate::window::theme::{self, size, space};
@@ -28,6 +29,10 @@ const MOST_CORRECTIONS: usize = 4;
 
 /// Shows the pane.
 pub fn show(ui: &mut Ui, scene: &Scene<'_>, look: &mut Look, limit_s: Option<f64>, asks: &mut Vec<Ask>) {
+    if scene.document.project.runs.is_empty() && !only_records(&scene.document.project) {
+        ui.empty("Nothing to compare with", "Import measurements: runs, decays or frequency responses.");
+        return;
+    }
     match scene.explained.diagnosis(scene.document) {
         None if scene.explained.is_cancelled(scene.document) => {
             ui.horizontal(|ui| {
@@ -38,14 +43,20 @@ pub fn show(ui: &mut Ui, scene: &Scene<'_>, look: &mut Look, limit_s: Option<f64
             });
             so_far(ui, scene, look, asks);
         }
+        None if super::scene::is_undamped(scene.document) && !look.anyway => {
+            ui.title("The model has no damping yet", "");
+            ui.label("Its sources are candidates: identified, but not acting, so that its errors say nothing of what is missing.");
+            ui.add_space(space::XS);
+            ui.hint("Once they are known they act, and it is searched for what they do not explain.");
+            ui.add_space(space::XS);
+            waiting(ui, true, asks);
+        }
         None if far_off(scene) && !look.anyway => {
             ui.label("The model is wrong by > 1000 %: at these frequencies hardly anything in it takes out energy.");
             ui.hint(
                 "Give it the damping that is known, or take over what was identified; then its errors say something.",
             );
-            if ui.button("Search anyway").clicked() {
-                asks.push(Ask::Explain(Deed::Search));
-            }
+            waiting(ui, false, asks);
         }
         None => searching(ui, scene, look, limit_s, asks),
         Some(Err(error)) => {
@@ -61,6 +72,19 @@ pub fn show(ui: &mut Ui, scene: &Scene<'_>, look: &mut Look, limit_s: Option<f64
             });
         }
     }
+}
+
+/// Ways on where the search waits.
+fn waiting(ui: &mut Ui, identified: bool, asks: &mut Vec<Ask>) {
+    ui.horizontal_wrapped(|ui| {
+        let tip = "Makes the identified sources known at their values, and searches for what is missing beside them.";
+        if identified && ui.primary("Take over and search").on_hover_text(tip).clicked() {
+            asks.push(Ask::Explain(Deed::TakeOver));
+        }
+        if ui.button("Search anyway").clicked() {
+            asks.push(Ask::Explain(Deed::Search));
+        }
+    });
 }
 
 /// The search goes on: what it does, then the cards that there are so far.

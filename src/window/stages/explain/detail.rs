@@ -40,25 +40,13 @@ impl Detail<'_> {
         let level = run.level.map_or_else(String::new, |l| format!(", level {l}"));
         let frequency = format::with_unit(run.frequency_hz(), "Hz");
         let remarks = [&level, ""].map(|level| format!("run {}, {frequency}{level}", self.run + 1));
-        ui.horizontal(|ui| {
-            ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-                ui.spacing_mut().item_spacing.x = 2.0;
-                for tab in Tab::ALL.into_iter().rev() {
-                    if ui.selectable_label(look.tab == tab, tab.label()).on_hover_text(tab.tooltip()).clicked() {
-                        look.tab = tab;
-                    }
-                }
-                ui.add_space(space::M);
-                // What is left of the row belongs to the title: it says no more than there is room for.
-                let room = ui.available_width() - width(ui, self.channel, theme::font(size::HEADING)) - space::M;
-                let fits = |remark: &&String| width(ui, remark, theme::font(size::SMALL)) <= room;
-                let remark = remarks.iter().find(fits).map_or("", String::as_str);
-                ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
-                    ui.spacing_mut().item_spacing.x = space::S;
-                    ui.title(self.channel, remark);
-                });
+        if look.in_bar[1] {
+            ui.title(self.channel, &remarks[0]);
+        } else {
+            ui.horizontal(|ui| {
+                ui.with_layout(Layout::right_to_left(Align::Center), |ui| self.title_beside(ui, look, &remarks));
             });
-        });
+        }
         let Some(now) = samples::channel(self.comparison, self.run, self.channel) else {
             ui.empty("Nothing to compare", "This run does not have the channel.");
             return;
@@ -76,6 +64,19 @@ impl Detail<'_> {
             },
             Tab::Frequency | Tab::Level => self.along(ui, look.tab),
         }
+    }
+
+    /// Channel and run beside the switches: they say no more than there is room for.
+    fn title_beside(&self, ui: &mut Ui, look: &mut Look, remarks: &[String]) {
+        super::switches::tabs(ui, look);
+        ui.add_space(space::M);
+        let room = ui.available_width() - width(ui, self.channel, theme::font(size::HEADING)) - space::M;
+        let fits = |remark: &&String| width(ui, remark, theme::font(size::SMALL)) <= room;
+        let remark = remarks.iter().find(fits).map_or("", String::as_str);
+        ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
+            ui.spacing_mut().item_spacing.x = space::S;
+            ui.title(self.channel, remark);
+        });
     }
 
     fn along(&self, ui: &mut Ui, tab: Tab) {

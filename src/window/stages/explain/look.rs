@@ -46,6 +46,10 @@ pub struct Look {
     pub worst_first: bool,
     /// Plot of the selected cell.
     pub tab: Tab,
+    /// Whether the order of the map and the plots of the cell are chosen in the bars of their panes, which have room for it.
+    pub in_bar: [bool; 2],
+    /// Channel of the selected record that is not steady.
+    pub record: Option<String>,
     /// Suggestion whose card is open; `None` opens the first.
     pub open: Option<Source>,
     /// Effect on trial.
@@ -65,6 +69,8 @@ impl Default for Look {
         Self {
             worst_first: true,
             tab: Tab::default(),
+            in_bar: [false; 2],
+            record: None,
             open: None,
             trial: None,
             chosen: false,

@@ -5,14 +5,18 @@ use crate::display::format::in_words;
 use crate::exchange::Project;
 use crate::plots::error_map::{self, Cell, ENERGY, Grid, Scale};
 use crate::window::theme::{self, Palette, size};
-use crate::window::widgets::UiExt;
+use crate::window::widgets::{UiExt, width};
 use egui::{
-    Align2, Color32, Pos2, Rect, Role, ScrollArea, Sense, Shape, Stroke, StrokeKind, Ui, Vec2, WidgetInfo, pos2, vec2,
+    Align2, Color32, FontId, Pos2, Rect, Response, Role, ScrollArea, Sense, Shape, Stroke, StrokeKind, Ui, Vec2,
+    WidgetInfo, pos2, vec2,
 };
 
 /// Most cells that are nodes of their own for screen readers.
 const MANY: usize = 800;
 const HEAD: f32 = 18.0;
+/// Room about the number in a cell, and least size of a cell that has one, points.
+const ABOUT: f32 = 5.0;
+const READABLE: Vec2 = vec2(20.0, 13.0);
 /// Pieces of the legend's colours.
 const STEPS: usize = 48;
 
@@ -48,7 +52,7 @@ impl Map<'_> {
             response.widget_info(|| WidgetInfo::labeled(Role::Image, true, "Error map"));
             let sheet = Sheet { origin: area.min + vec2(label, HEAD), cell };
             self.head(ui, area, &sheet);
-            self.cells(ui, &sheet);
+            self.cells(ui, &sheet, self.numbered(ui, cell));
             if self.grid.runs.len() * self.grid.channels.len() <= MANY {
                 clicked = self.nodes(ui, &sheet);
             } else if let Some((row, column)) = response.interact_pointer_pos().and_then(|p| self.at(&sheet, p)) {
@@ -84,9 +88,15 @@ impl Map<'_> {
         }
     }
 
-    fn cells(&self, ui: &Ui, sheet: &Sheet) {
+    /// Whether cells of that size hold their numbers.
+    fn numbered(&self, ui: &Ui, cell: Vec2) -> bool {
+        let fits = |c: &Cell| width(ui, &error_map::percent(*c), figures()) + ABOUT <= cell.x;
+        cell.y >= READABLE.y && cell.x >= READABLE.x && self.grid.cells.iter().flatten().flatten().all(fits)
+    }
+
+    fn cells(&self, ui: &Ui, sheet: &Sheet, numbered: bool) {
         let palette = ui.palette();
-        let font = theme::font(size::SMALL - 0.5);
+        let font = figures();
         for (row, cells) in self.grid.cells.iter().enumerate() {
             for (column, cell) in cells.iter().enumerate() {
                 let rect = sheet.rect(row, column).shrink(0.5);
@@ -98,7 +108,7 @@ impl Map<'_> {
                 ui.painter().rect_filled(rect, 1.5, fill);
                 if !self.grid.used[column] {
                     hatch(ui, rect, palette.weak);
-                } else if sheet.cell.x >= 34.0 {
+                } else if numbered {
                     let text = error_map::percent(*cell);
                     ui.painter().text(rect.center(), Align2::CENTER_CENTER, text, font.clone(), palette.text_on(fill));
                 }
@@ -149,19 +159,31 @@ impl Map<'_> {
     /// `Run 3, 10.4 Hz, level 2, acc@7: error 23.1 %, noise floor 0.31 %`.
     fn words(&self, row: usize, column: usize) -> String {
         let (index, channel) = (self.grid.runs[column], &self.grid.channels[row]);
-        let run = &self.project.runs[index];
-        let level = run.level.map_or_else(String::new, |l| format!(", level {l}"));
+        let (run, record) = (self.project.runs.get(index), self.project.transient_runs.get(index));
+        let level = run.map_or_else(|| record.and_then(|r| r.level), |r| r.level);
+        let level = level.map_or_else(String::new, |l| format!(", level {l}"));
+        let steady = run.map(|run| format::with_unit(run.frequency_hz(), "Hz"));
+        let which = steady.or_else(|| record.map(|r| r.file.clone())).unwrap_or_default();
         let what = if channel == ENERGY { "energy" } else { channel };
         let Some(cell) = self.grid.cells[row][column] else { return format!("Run {}: no {channel}", index + 1) };
         format!(
-            "Run {}, {}{level}, {what}: error {}, noise floor {}{}",
+            "Run {}, {which}{level}, {what}: error {}, noise floor {}{}",
             index + 1,
-            format::with_unit(run.frequency_hz(), "Hz"),
             in_words(cell.error),
             format::percent(cell.noise_floor),
             if self.grid.used[column] { "" } else { ", not used" }
         )
     }
+}
+
+/// Font of the numbers in cells.
+fn figures() -> FontId {
+    theme::font(size::SMALL - 0.5)
+}
+
+/// Height of a map whose cells are `cell` points high.
+pub fn height(grid: &Grid, cell: f32) -> f32 {
+    HEAD + cell * grid.channels.len().max(1) as f32
 }
 
 /// Where cells stand.
@@ -194,10 +216,10 @@ fn hatch(ui: &Ui, rect: Rect, colour: Color32) {
 }
 
 /// The scale of colours with its ends, round values and the noise floor.
-pub fn legend(ui: &mut Ui, scale: &Scale) {
+pub fn legend(ui: &mut Ui, scale: &Scale) -> Response {
     let palette = ui.palette();
     let font = theme::font(size::SMALL);
-    let (area, _) = ui.allocate_exact_size(vec2(ui.available_width(), 28.0), Sense::hover());
+    let (area, response) = ui.allocate_exact_size(vec2(ui.available_width(), 28.0), Sense::hover());
     let painter = ui.painter();
     let noise = Rect::from_min_size(area.min + vec2(0.0, 1.0), vec2(16.0, 9.0));
     painter.rect(noise, 2.0, palette.raised, theme::hair(palette.line), StrokeKind::Inside);
@@ -221,6 +243,7 @@ pub fn legend(ui: &mut Ui, scale: &Scale) {
     }
     mark(scale.most, in_words(scale.most), palette.weak);
     painter.add(Shape::rect_stroke(bar, 2.0, theme::hair(palette.line), StrokeKind::Outside));
+    response
 }
 
 /// A round share as per cent without trailing zeros.

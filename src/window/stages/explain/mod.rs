@@ -3,6 +3,7 @@
 mod card;
 mod cards;
 pub mod corrections;
+mod decay;
 pub mod deed;
 mod detail;
 mod fingerprint;
@@ -16,6 +17,7 @@ pub mod panes;
 mod ranking;
 mod scene;
 mod schematic;
+pub mod switches;
 
 use crate::diagnosis::diagnose::Verdict;
 use crate::display::findings::{is_detuned, is_stuck};
@@ -23,7 +25,9 @@ use crate::display::format;
 use crate::display::words;
 use crate::display::words::at;
 use crate::effects::{Source, State};
+use crate::identify::Outcome;
 use crate::session::corrections::adopt;
+use crate::session::validation::only_records;
 use crate::session::{Command, suggestions};
 use crate::window::app::App;
 use crate::window::document::Document;
@@ -34,7 +38,7 @@ use crate::window::frame::top::StageStatus;
 use crate::window::view::{Stage, View};
 use deed::Deed;
 use egui::Context;
-use scene::Scene;
+use scene::{Scene, is_undamped};
 pub use schematic::{Errors, errors};
 use std::time::Duration;
 
@@ -45,21 +49,23 @@ pub fn wanted(document: &Document, view: &View, explained: &Explained) -> Wanted
     }
     let look = &view.explain;
     let open = ranking::open(document, explained, look).filter(|(_, standing)| *standing == Standing::Final);
-    let print = open.map(|(s, _)| s.added.source.clone());
-    let curve = (look.tab == look::Tab::Frequency).then_some(view.run);
+    // Fingerprints, forces and curves over frequency are those of steady runs.
+    let steady = !document.project.runs.is_empty();
+    let print = open.filter(|_| steady).map(|(s, _)| s.added.source.clone());
+    let curve = (steady && look.tab == look::Tab::Frequency).then_some(view.run);
     let named = print.is_some();
     let unexplained = || {
         let found = explained.diagnosis(document).and_then(|d| d.as_ref().ok());
         found.is_some_and(|d| d.verdict == Verdict::Unexplained)
     };
-    let force = named || unexplained();
+    let force = steady && (named || unexplained());
     Wanted {
-        diagnosis: true,
+        diagnosis: look.anyway || !is_undamped(document),
         anyway: look.anyway,
         trial: look.trial.clone(),
         print,
         force,
-        scatter: look.scatter,
+        scatter: steady && look.scatter,
         limit: view.limit_s.map(Duration::from_secs_f64),
         curve,
     }
@@ -216,24 +222,37 @@ fn correct_sensor(app: &mut App, ctx: &Context, channel: String, [gain, delay]: 
 /// What the identification found becomes known.
 fn take_over(app: &mut App, ctx: &Context) {
     let Some(document) = &app.document else { return };
-    let Some(Ok(outcome)) = app.derived.known_outcome(document) else { return };
-    let sources = &document.project.sources;
-    let sought = |s: usize| sources.get(s).is_some_and(|s| matches!(s.state, State::Candidate | State::Forced));
-    let found: Vec<(usize, f64)> = outcome
-        .sources
-        .iter()
-        .filter(|e| sought(e.source) && e.coefficient > 0.0)
-        .map(|e| (e.source, e.coefficient))
-        .collect();
+    let found = match app.derived.known_outcome(document) {
+        Some(Ok(outcome)) => sought(&document.project.sources, outcome),
+        Some(Err(error)) => return app.fail(format!("Nothing was identified: {error}")),
+        None => return app.fail("Identification is still running; ask again when it has ended.".to_owned()),
+    };
+    let said = match found.len() {
+        0 => return app.fail("No source was identified: draw other candidates in the stage Pattern.".to_owned()),
+        1 => "Known now: 1 identified source. Undo takes it back.".to_owned(),
+        many => format!("Known now: {many} identified sources. Undo takes them back."),
+    };
     match suggestions::take_over(&found, document.session().document()) {
-        Ok(commands) => app.edit(ctx, &Edit::All(commands)),
+        Ok(commands) => {
+            app.edit(ctx, &Edit::All(commands));
+            if app.message.as_ref().is_none_or(|m| !m.failed) {
+                app.say(said);
+            }
+        }
         Err(error) => app.fail(error),
     }
 }
 
+/// Sources that were sought and identified, with their coefficients.
+fn sought(sources: &[Source], outcome: &Outcome) -> Vec<(usize, f64)> {
+    let sought = |s: usize| sources.get(s).is_some_and(|s| matches!(s.state, State::Candidate | State::Forced));
+    let found = outcome.sources.iter().filter(|e| sought(e.source) && e.coefficient > 0.0);
+    found.map(|e| (e.source, e.coefficient)).collect()
+}
+
 /// Where the model stands against the data, in one line.
 pub fn status(document: &Document, explained: &Explained) -> StageStatus {
-    if document.project.runs.is_empty() {
+    if document.project.runs.is_empty() && !only_records(&document.project) {
         return StageStatus::empty("No runs to compare the model with.");
     }
     let comparison = match explained.comparison(document) {
@@ -243,6 +262,9 @@ pub fn status(document: &Document, explained: &Explained) -> StageStatus {
     };
     let (error, floor) = (format::in_words(comparison.error), format::percent(comparison.noise_floor));
     match explained.diagnosis(document) {
+        None if is_undamped(document) => StageStatus::attention(
+            "The model has no damping yet: take over what was identified, then see what is left.",
+        ),
         Some(Ok(d)) if is_stuck(d) => StageStatus::attention(&format!(
             "Error {error}, noise floor {floor}: nothing known here explains what is left."
         )),

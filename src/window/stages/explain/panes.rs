@@ -13,6 +13,7 @@ use crate::identify::{Estimate, Outcome};
 use crate::plots::error_map::{ENERGY, Grid, Scale};
 use crate::plots::response_curve::Curve;
 use crate::plots::samples;
+use crate::session::validation::only_records;
 use crate::window::app::{App, Ask};
 use crate::window::explained::cache::Cached;
 use crate::window::theme::{size, space};
@@ -64,17 +65,18 @@ impl<'a> Shown<'a> {
 pub fn error_map(ui: &mut Ui, app: &mut App, asks: &mut Vec<Ask>) {
     let Some(document) = &app.document else { return };
     let p = &document.project;
-    if p.runs.is_empty() {
-        ui.empty("Nothing to compare with", "Add [[run]] entries with steady-state records to the project.");
+    if p.runs.is_empty() && !only_records(p) {
+        ui.empty("Nothing to compare with", "Import measurements: runs, decays or frequency responses.");
         return;
     }
     let scene = Scene { document, explained: &app.derived.explained };
-    let look = app.view.explain.clone();
-    let Some(shown) = Shown::new(ui, &scene, &look, asks) else { return };
+    let mut look = app.view.explain.clone();
+    let before = look.clone();
+    let Some(shown) = Shown::new(ui, &scene, &before, asks) else { return };
     let previewed = shown.tried().unwrap_or(shown.comparison);
     let grid = Grid::new(previewed, look.worst_first);
     let scale = Scale::new(scene.explained.ledger.least_floor(), scene.explained.ledger.worst());
-    let worst_first = head(ui, look.worst_first, previewed);
+    head(ui, &mut look, previewed);
     let outcome = app.derived.known_outcome(document).and_then(|o| o.as_ref().ok());
     if shown.trial.is_none() {
         not_taken_over(ui, &scene, outcome.map(Arc::as_ref), asks);
@@ -82,25 +84,39 @@ pub fn error_map(ui: &mut Ui, app: &mut App, asks: &mut Vec<Ask>) {
     if let Some((source, tried)) = shown.trial {
         preview(ui, &scene, source, shown.comparison, tried, asks);
     }
-    let run = app.view.run.min(p.runs.len() - 1);
-    let name = samples::selected(p, run, app.view.channel);
+    let records = p.runs.is_empty();
+    let run = app.view.run.min(if records { p.transient_runs.len() } else { p.runs.len() }.saturating_sub(1));
+    let name = if records { look.record.clone() } else { samples::selected(p, run, app.view.channel) };
     let selected = if grid.channels[0] == ENERGY { Some(ENERGY) } else { name.as_deref() };
     let selected = selected.map(|channel| (run, channel));
     let map = Map { project: p, grid: &grid, scale, selected, stale: shown.stale };
-    let most = ui.available_height() - 62.0;
-    let clicked = map.show(ui, most);
+    // The cells come first: what is left over is said in a line of its own where they are high enough beside it.
+    let (room, said) = (ui.available_height() - LEGEND, left_over(previewed));
+    let with_words = room - SENTENCE >= map::height(&grid, LOW);
+    let clicked = map.show(ui, if with_words { room - SENTENCE } else { room });
     ui.add_space(space::XS);
-    map::legend(ui, &scale);
-    ui.add(Label::new(RichText::new(left_over(previewed)).size(size::SMALL).color(ui.palette().weak)).truncate());
+    let legend = map::legend(ui, &scale);
+    if with_words {
+        ui.add(Label::new(RichText::new(said).size(size::SMALL).color(ui.palette().weak)).truncate());
+    } else if !said.is_empty() {
+        legend.on_hover_text(said);
+    }
     let worst = || grid.runs.first().zip(grid.channels.first()).map(|(run, channel)| (*run, channel.clone()));
-    let first = !look.chosen && look.worst_first && app.view.run == 0;
-    app.view.explain.chosen = true;
+    let first = !before.chosen && before.worst_first && app.view.run == 0;
+    look.chosen = true;
     if let Some((run, channel)) = clicked.or_else(|| worst().filter(|_| first)) {
         app.view.channel = samples::index(p, run, &channel).unwrap_or(app.view.channel);
         app.view.run = run;
+        look.record = Some(channel);
     }
-    app.view.explain.worst_first = worst_first;
+    app.view.explain = look;
 }
+
+/// Height of the legend of the map, and of the sentence under it, points.
+const LEGEND: f32 = 40.0;
+const SENTENCE: f32 = 22.0;
+/// Least height of cells beside which the sentence has room, points.
+const LOW: f32 = 14.0;
 
 /// How many times the noise floor an error may be that is no more than noise.
 const AT_FLOOR: f64 = 1.2;
@@ -141,6 +157,10 @@ pub fn cell(ui: &mut Ui, app: &mut App, asks: &mut Vec<Ask>) {
         ui.empty("Energies only", "Points have no model of mass and stiffness: the energy of each run is compared.");
         return;
     }
+    if p.runs.is_empty() {
+        super::decay::show(ui, document, scene.explained, (look.trial.as_ref(), app.view.run));
+        return;
+    }
     let run = app.view.run.min(p.runs.len().saturating_sub(1));
     let Some(name) = samples::selected(p, run, app.view.channel) else {
         ui.empty("No motion", "The selected run measures forces only.");
@@ -176,29 +196,25 @@ pub fn way(ui: &mut Ui, app: &App, asks: &mut Vec<Ask>) {
     ledger::show(ui, &Scene { document, explained: &app.derived.explained }, asks);
 }
 
-/// Title and order of the map; gives back whether the worst stands first.
-fn head(ui: &mut Ui, worst_first: bool, comparison: &Comparison) -> bool {
-    let mut order = worst_first;
+/// Title and order of the map.
+fn head(ui: &mut Ui, look: &mut Look, comparison: &Comparison) {
+    let energy = if comparison.energy_error.is_finite() {
+        format!(", energy error {}", in_words(comparison.energy_error))
+    } else {
+        String::new()
+    };
+    let text = format!("error {}{energy}; cells in %", in_words(comparison.error));
+    let words = Label::new(RichText::new(&text).size(size::SMALL).color(ui.palette().weak)).truncate();
+    if look.in_bar[0] {
+        ui.add(words);
+        return;
+    }
     ui.horizontal(|ui| {
-        let text = format!(
-            "error {}, energy error {}; cells in %",
-            in_words(comparison.error),
-            in_words(comparison.energy_error)
-        );
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-            ui.spacing_mut().item_spacing.x = 2.0;
-            for (worst, label) in [(false, "In order"), (true, "Worst first")] {
-                if ui.selectable_label(worst_first == worst, label).clicked() {
-                    order = worst;
-                }
-            }
-            ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
-                let weak = ui.palette().weak;
-                ui.add(Label::new(RichText::new(&text).size(size::SMALL).color(weak)).truncate());
-            });
+            super::switches::order(ui, look);
+            ui.with_layout(Layout::left_to_right(Align::Center), |ui| ui.add(words));
         });
     });
-    order
 }
 
 /// What was identified but does not act in the model yet, with the button that takes it over.

@@ -1,0 +1,76 @@
+//! Tables of panes leave the window: copied with one key or by a context menu, written as CSV by that menu or by the menu
+//! File. A table is asked for its text only when somebody wants it.
+
+use super::export::{self, COPY, Kind};
+use egui::containers::menu::menu_style;
+use egui::{Align, Context, Id, Layout, Popup, PopupAnchor, PopupKind, Rect, SetOpenCommand, Ui};
+
+/// What is wanted of a table.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Wish {
+    /// On the clipboard, with tabs.
+    Copy,
+    /// In a file.
+    Csv,
+}
+
+fn shown_id() -> Id {
+    Id::NULL.with("shown tables")
+}
+
+/// Titles of the tables on the screen, in the order in which they were drawn.
+pub fn shown(ctx: &Context) -> Vec<String> {
+    export::recent(ctx, shown_id())
+}
+
+/// Offers the table of that title in the pane `area`; gives back what is wanted of it in this frame.
+pub fn offer(ui: &Ui, area: Rect, title: &str) -> Option<Wish> {
+    let ctx = ui.ctx();
+    export::register(ctx, shown_id(), title);
+    // A plot in the pane has keys and a menu of its own.
+    let over = ui.rect_contains_pointer(area) && !export::over_plot(ctx);
+    let opened = over && ctx.input(|i| i.pointer.secondary_clicked());
+    let chosen = menu(ui, title, opened);
+    if !export::take_wishes(ctx, title).is_empty() {
+        return Some(Wish::Csv);
+    }
+    chosen.or((over && export::copied(ctx)).then_some(Wish::Copy))
+}
+
+/// Does what is wanted with the text of the table, columns separated by tabs.
+pub fn give(ctx: &Context, title: &str, wish: Wish, text: String) {
+    match wish {
+        Wish::Copy => export::copy(ctx, title, text),
+        Wish::Csv => export::write_table(ctx, title, text),
+    }
+}
+
+fn menu(ui: &Ui, title: &str, opened: bool) -> Option<Wish> {
+    let (ctx, id) = (ui.ctx().clone(), ui.scope_id().with("table menu"));
+    let entries = |ui: &mut Ui| {
+        let mut wish = None;
+        let copy = egui::Button::new("Copy table").shortcut_text(ui.ctx().format_shortcut(&COPY));
+        let copy = ui.add(copy).on_hover_text("With tabs, for a spreadsheet: SI units, all digits.");
+        copy.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, "Copy table"));
+        if copy.clicked() {
+            wish = Some(Wish::Copy);
+        }
+        if ui.button("Export table as CSV…").clicked() {
+            wish = Some(Wish::Csv);
+        }
+        wish
+    };
+    Popup::new(id, ctx, PopupAnchor::PointerFixed, ui.layer_id())
+        .kind(PopupKind::Menu)
+        .layout(Layout::top_down_justified(Align::Min))
+        .style(menu_style)
+        .open_memory(opened.then_some(SetOpenCommand::Bool(true)))
+        .accessible_name(format!("Menu of the table {title}"))
+        .show(entries)?
+        .inner
+}
+
+/// Asks the table of that title for its text, to be written to a file.
+pub fn want(ctx: &Context, title: &str) {
+    export::want(ctx, title, Kind::Csv);
+}
