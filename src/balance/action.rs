@@ -185,18 +185,20 @@ pub fn force(source: &Source, structure: &Structure, field: Field<'_>) -> Vec<Do
                 std::iter::once((leg.first, f)).chain(opposite)
             })
             .collect(),
-        Kind::Whole(law) => {
-            let columns: Vec<Vec<c64>> = (0..field.numbers.len())
-                .map(|k| {
-                    let factor = law.factor(source.coefficient(), field.frequency(k));
-                    let bx = basis_times(structure, law.basis(), range(&source.place), field.x, k);
-                    bx.into_iter().map(|v| v * factor).collect()
-                })
-                .collect();
-            (0..structure.len()).map(|i| (i, columns.iter().map(|c| c[i]).collect())).collect()
-        }
+        Kind::Whole(law) => whole_force(law, source, structure, field),
         Kind::Channel(_) => Vec::new(),
     }
+}
+
+/// The force of a law of the whole structure, at every DOF.
+fn whole_force(law: &dyn WholeLaw, source: &Source, structure: &Structure, field: Field<'_>) -> Vec<DofForce> {
+    let at_harmonic = |k: usize| -> Vec<c64> {
+        let factor = law.factor(source.coefficient(), field.frequency(k));
+        let bx = basis_times(structure, law.basis(), range(&source.place), field.x, k);
+        bx.into_iter().map(|v| v * factor).collect()
+    };
+    let columns: Vec<Vec<c64>> = (0..field.numbers.len()).map(at_harmonic).collect();
+    (0..structure.len()).map(|i| (i, columns.iter().map(|c| c[i]).collect())).collect()
 }
 
 fn leg_force(law: &dyn Law, p: &[f64], field: Field<'_>, d: &[c64]) -> Vec<c64> {

@@ -114,12 +114,12 @@ impl Loop {
     /// [`ComponentError`]: a channel that is missing, a displacement that does not move.
     pub fn new(index: usize, run: &TransientRun) -> Result<Self, ComponentError> {
         let file = run.file.clone();
-        let of = |quantity: Quantity, needed| {
+        let only_channel = |quantity: Quantity, needed| {
             let found = run.channels().iter().position(|c| c.quantity == quantity);
             found.ok_or(ComponentError::NoChannel { file: file.clone(), needed })
         };
-        let moved = of(Quantity::Displacement, "of displacement (disp)")?;
-        let pushed = of(Quantity::Force, "of force (force)")?;
+        let moved = only_channel(Quantity::Displacement, "of displacement (disp)")?;
+        let pushed = only_channel(Quantity::Force, "of force (force)")?;
         let (d, force, step) = (run.samples(moved), run.samples(pushed), run.step());
         let mean = d.iter().sum::<f64>() / d.len() as f64;
         let centred: Vec<f64> = d.iter().map(|d| d - mean).collect();

@@ -46,12 +46,12 @@ impl SteadyState {
             return 4.0 * only.norm();
         }
         // The path length: the distance between successive positions.
-        let at = |i: usize| -> f64 {
+        let displacement_at = |i: usize| -> f64 {
             let angle = TAU * (i % SAMPLES) as f64 / SAMPLES as f64;
             let turned = |(h, x): (usize, &c64)| (x * c64::from_polar(1.0, (h + 1) as f64 * angle)).re;
             self.displacement.iter().enumerate().map(turned).sum()
         };
-        (0..SAMPLES).map(|i| (at(i + 1) - at(i)).abs()).sum()
+        (0..SAMPLES).map(|i| (displacement_at(i + 1) - displacement_at(i)).abs()).sum()
     }
 }
 

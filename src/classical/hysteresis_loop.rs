@@ -29,15 +29,3 @@ pub fn from_harmonics(omega: f64, displacement: &[c64], force: &[c64], stiffness
     let size: f64 = displacement.iter().map(c64::norm_sqr).sum();
     Loop { area, viscous: area / (PI * omega * speed), loss_factor: area / (PI * stiffness * size) }
 }
-
-/// Area of a closed polygon of samples of one period, J: short of the smooth loop by about `(2 pi / samples)^2 / 6` of itself.
-pub fn polygon_area(displacement: &[f64], force: &[f64]) -> f64 {
-    let n = displacement.len().min(force.len());
-    // The loop is run clockwise in the plane of x and f when energy is lost, so twice the area is sum f dx - x df.
-    (0..n)
-        .map(|i| {
-            let j = (i + 1) % n;
-            0.5 * (force[i] * displacement[j] - force[j] * displacement[i])
-        })
-        .sum()
-}

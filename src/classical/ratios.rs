@@ -55,15 +55,11 @@ impl Data<'_> {
         let mut found = Vec::new();
         let mut why = "two runs of different level near one resonance".to_string();
         for mode in 0..self.model.len() {
-            let states: Vec<_> = losses.iter().filter(|l| l.mode == mode).map(ModalLoss::state).collect();
-            if states.len() < 2 {
+            let of_mode: Vec<&ModalLoss> = losses.iter().filter(|l| l.mode == mode).collect();
+            if !have_levels(&of_mode) {
                 continue;
             }
-            let levels = losses.iter().filter(|l| l.mode == mode).map(|l| l.force);
-            let (least, most) = levels.fold((f64::INFINITY, 0.0_f64), |(a, b), v| (a.min(v), b.max(v)));
-            if most < LEVELS * least {
-                continue;
-            }
+            let states: Vec<_> = of_mode.into_iter().map(ModalLoss::state).collect();
             match super::energy_single::viscous_and_friction(&states) {
                 Ok(fit) if fit.c < 0.0 || fit.friction < 0.0 => {
                     why =
@@ -121,6 +117,13 @@ struct ModalLoss {
     force: f64,
     /// Modal amplitude, kg^(1/2) m.
     q: f64,
+}
+
+/// Whether there are runs at levels far enough apart to tell friction from viscous damping.
+fn have_levels(losses: &[&ModalLoss]) -> bool {
+    let (least, most) =
+        losses.iter().fold((f64::INFINITY, 0.0_f64), |(least, most), l| (least.min(l.force), most.max(l.force)));
+    losses.len() >= 2 && most >= LEVELS * least
 }
 
 impl ModalLoss {

@@ -1,8 +1,9 @@
 //! Corrections of what the model states, as JSON and in words.
 
-use super::source_words::{labels, named, title};
+use super::named_sources::{labels, named};
 use crate::diagnosis::updating::correction::Correction;
 use crate::diagnosis::updating::parameters::UpdatingParameter;
+use crate::display::findings;
 use crate::effects::Place;
 use crate::exchange::Project;
 use crate::session::validation::problem;
@@ -56,45 +57,18 @@ pub(super) fn correction(project: &Project, correction: &Correction) -> Value {
 
 /// A correction in words.
 pub(super) fn corrected(project: &Project, correction: &Correction) -> String {
-    let structure = &project.structure;
-    let what = match &correction.parameter {
-        UpdatingParameter::Structure(part) => part_in_words(structure, *part, correction.factor),
-        UpdatingParameter::Known(index) => {
-            problem(project).known().get(*index).map_or_else(String::new, |s| title(structure, s))
-        }
-        UpdatingParameter::Gain(channel) => format!("gain of {channel}"),
-        UpdatingParameter::Delay(channel) => format!("delay of {channel}"),
-        UpdatingParameter::Shape { mode, channel } => format!("shape of mode {} at {channel}", mode + 1),
-        UpdatingParameter::Session(session) => format!("stiffness of session {}", session + 1),
+    let what = findings::corrected(&project.structure, &problem(project).known(), &correction.parameter);
+    let spring = match correction.parameter {
+        UpdatingParameter::Structure(Part::Support(held)) => spring_of(&project.structure, held, correction.factor),
+        _ => None,
     };
-    format!("  {what}: times {:.4} +- {:.4}", correction.factor, correction.deviation)
+    let spring = spring.unwrap_or_default();
+    format!("  {what}{spring}: times {:.4} +- {:.4}", correction.factor, correction.deviation)
 }
 
-/// A part of the model in words; `factor` is that on it.
-fn part_in_words(structure: &Structure, part: Part, factor: f64) -> String {
-    let place = |dofs: &[usize]| labels(structure, &Place::Dofs(dofs.to_vec())).join(" - ");
-    let elements = |[first, last]: [usize; 2]| {
-        if first == last { format!("element {}", first + 1) } else { format!("elements {} to {}", first + 1, last + 1) }
-    };
-    match part {
-        Part::Stiffness => "all stiffness".to_owned(),
-        Part::Mass => "all mass".to_owned(),
-        Part::Mode(mode) => format!("stiffness of mode {}", mode + 1),
-        Part::GroundSpring(dof) => format!("spring at {}", place(&[dof])),
-        Part::Coupling(pair) => format!("spring at {}", place(&pair)),
-        Part::PointMass(dof) => format!("mass at {}", place(&[dof])),
-        Part::ElementStiffness(range) => format!("stiffness of {}", elements(range)),
-        Part::ElementMass(range) => format!("mass of {}", elements(range)),
-        Part::Support(held) => support(structure, held, factor),
-    }
-}
-
-/// A support in words, with the spring that it is.
-fn support(structure: &Structure, held: HeldDof, factor: f64) -> String {
-    let node = structure.held_node(held).unwrap_or_default();
+/// The spring that a support is which gives way.
+fn spring_of(structure: &Structure, held: HeldDof, factor: f64) -> Option<String> {
     let unit = if held.dof % 2 == 1 { "N m/rad" } else { "N/m" };
-    match structure.stiffness_at(held).filter(|_| factor < 1.0) {
-        Some(k) => format!("support at node {node} (a spring of {:.3e} {unit})", k * factor / (1.0 - factor)),
-        None => format!("support at node {node}"),
-    }
+    let stiffness = structure.stiffness_at(held).filter(|_| factor < 1.0)?;
+    Some(format!(" (a spring of {:.3e} {unit})", stiffness * factor / (1.0 - factor)))
 }

@@ -1,24 +1,24 @@
 //! `dashpot diagnose`: which effect is missing, ranked, with evidence.
 
-use super::addition;
 use super::arguments::Diagnose;
 use super::channel_faults;
 use super::corrected::{corrected, correction};
-use super::corrections::correct;
 use super::identified;
+use super::named_sources::{named, with_values};
 use super::run_flags::{self, flags};
-use super::source_words::{named, title, with_values};
 use super::table::{number, table};
 use crate::control::Control;
 use crate::diagnosis::diagnose::{Diagnosis, Early, Suggestion, diagnose_without};
 use crate::display::findings;
-use crate::effects::{Source, State};
+use crate::display::words::title;
+use crate::effects::Source;
 use crate::exchange::Project;
 use crate::exchange::project::load;
-use crate::exchange::project::relocate::{canonical, renamed};
+use crate::session::save::text_after;
 use crate::session::time_limit::hurry_after;
 use crate::session::validation::{diagnosed_from_records, only_records, problem};
 use crate::session::workers::Threads;
+use crate::session::{Document, Session, corrections, suggestions};
 use crate::structure::{Coupled, Structure};
 use anyhow::Context;
 use serde_json::{Value, json};
@@ -37,7 +37,6 @@ pub(super) fn run(arguments: &Diagnose) -> anyhow::Result<String> {
     if !only_records(&project) {
         run_flags::check(&project, &arguments.file)?;
     }
-    let written = project.sources.clone();
     let taken = identified::take_over(&mut project, arguments.identified, &arguments.file, &control)?;
     if project.runs.iter().any(|run| run.is_used() && run.per_unit_force) {
         eprintln!("{}", channel_faults::NO_AMPLITUDE);
@@ -48,7 +47,7 @@ pub(super) fn run(arguments: &Diagnose) -> anyhow::Result<String> {
     }
     let diagnosis = searched(&project, &control, &early).with_context(|| arguments.file.display().to_string())?;
     if let Some(out) = &arguments.apply {
-        apply(&arguments.file, out, &Written { project: &project, sources: &written, taken: &taken }, &diagnosis)?;
+        apply(&arguments.file, out, &Written { project: &project, taken: &taken }, &diagnosis)?;
     }
     if arguments.json {
         let mut document = document(&project, &diagnosis);
@@ -60,22 +59,10 @@ pub(super) fn run(arguments: &Diagnose) -> anyhow::Result<String> {
     Ok(format!("{}{}", text(&project, &diagnosis), run_flags::text(&project)))
 }
 
-/// A project with what its file says of its sources and what was taken over beside them.
+/// A project, and what was identified and taken as known beside what its file says.
 struct Written<'a> {
     project: &'a Project,
-    sources: &'a [Source],
     taken: &'a [Source],
-}
-
-impl Written<'_> {
-    /// The project as its file will be once what was taken over is in its tables, in their order.
-    fn with_tables(&self, tables: usize) -> Project {
-        let mut sources = self.sources[..tables.min(self.sources.len())].to_vec();
-        let there = |s: &Source| sources.iter().any(|t| t.state == State::Known && t.is_same(s));
-        let new: Vec<Source> = self.taken.iter().filter(|s| !there(s)).cloned().collect();
-        sources.extend(new);
-        Project { sources, ..self.project.clone() }
-    }
 }
 
 /// On the steady runs; on the records where there are no others.
@@ -221,58 +208,41 @@ fn steps_in_words(structure: &Structure, diagnosis: &Diagnosis) -> String {
     lines
 }
 
-/// Writes the project with the best suggestion, or the set that it is of, added as `known`, and the corrections; comments and everything else stay as they are.
+/// Writes the project with the best suggestion, or the set that it is of, added as `known`, and the corrections; comments
+/// and everything else stay as they are.
 fn apply(file: &Path, out: &Path, written: &Written, diagnosis: &Diagnosis) -> anyhow::Result<()> {
     let context = || file.display().to_string();
-    let text = std::fs::read_to_string(file).with_context(context)?;
-    let mut document: toml_edit::DocumentMut = text.parse().with_context(context)?;
-    let tables =
-        document.get("source").and_then(toml_edit::Item::as_array_of_tables).map_or(0, toml_edit::ArrayOfTables::len);
-    let before = Project { sources: written.sources[..tables].to_vec(), ..written.project.clone() };
+    let mut document = Session::open(file).with_context(context)?.document().clone();
     for source in written.taken {
-        addition::add(&mut document, &before, source).with_context(context)?;
+        document = added(&document, source).with_context(context)?;
     }
-    let project = &written.with_tables(tables);
+    let known = problem(written.project).known();
+    let adopted = corrections::adopt(&diagnosis.corrections, &|index: usize| known.get(index).cloned(), &document);
+    for &k in &adopted.left {
+        let said = corrected(written.project, &diagnosis.corrections[k]);
+        eprintln!("not written, for want of a key for it:{said}");
+    }
+    for command in &adopted.commands {
+        document = document.after(command).with_context(context)?;
+    }
+    let best = diagnosis.suggestions.first().map(|best| diagnosis.added_with(&best.added.source));
+    for source in best.into_iter().flatten() {
+        document = added(&document, &source).with_context(context)?;
+    }
+    let folder = out.parent().unwrap_or(Path::new(""));
+    let text = text_after(&document.file_in(folder)?, Some(file))?;
+    let mut text: toml_edit::DocumentMut = text.parse().with_context(context)?;
     for fault in &diagnosis.channel_faults {
-        if let Err(why) = channel_faults::mend(&mut document, written.project, fault) {
+        if let Err(why) = channel_faults::mend(&mut text, written.project, fault) {
             eprintln!("not written: {}: {why}", fault.words());
         }
     }
-    for correction in &diagnosis.corrections {
-        if !correct(&mut document, project, correction) {
-            eprintln!("not written, for want of a key for it:{}", corrected(project, correction));
-        }
-    }
-    if let Some(best) = diagnosis.suggestions.first() {
-        for source in diagnosis.added_with(&best.added.source) {
-            addition::add(&mut document, project, &source).with_context(context)?;
-        }
-    }
-    let folder = |path: &Path| canonical(path.parent().unwrap_or(Path::new("")));
-    let (from, to) = (folder(file).with_context(context)?, folder(out).with_context(|| out.display().to_string())?);
-    if from != to {
-        relocate(&mut document, &from, &to);
-    }
-    crate::exchange::atomic::write_atomically(out, document.to_string().as_bytes())
+    crate::exchange::atomic::write_atomically(out, text.to_string().as_bytes())
         .with_context(|| out.display().to_string())
 }
 
-/// Names the files of a project from the folder of the copy.
-fn relocate(document: &mut toml_edit::DocumentMut, from: &Path, to: &Path) {
-    let rename = |table: &mut toml_edit::Table, key: &str| {
-        if let Some(name) = table.get(key).and_then(toml_edit::Item::as_str) {
-            let name = renamed(name, from, to);
-            table[key] = toml_edit::value(name);
-        }
-    };
-    for name in ["run", "harmonics", "frf"] {
-        if let Some(list) = document.get_mut(name).and_then(toml_edit::Item::as_array_of_tables_mut) {
-            list.iter_mut().for_each(|table| rename(table, "file"));
-        }
-    }
-    if let Some(structure) = document.get_mut("structure").and_then(toml_edit::Item::as_table_mut) {
-        for key in ["mass", "stiffness", "nodes", "dofs", "lines"] {
-            rename(structure, key);
-        }
-    }
+/// The document with an effect added.
+fn added(document: &Document, source: &Source) -> anyhow::Result<Document> {
+    let command = suggestions::add(source, document).map_err(anyhow::Error::msg)?;
+    Ok(document.after(&command)?)
 }

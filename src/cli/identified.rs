@@ -1,7 +1,7 @@
 //! Takes over what `identify` finds before a model is compared: a project whose damping is still to be found has a model
 //! without any, and nothing limits its response at resonance.
 
-use super::source_words::labels;
+use super::named_sources::labels;
 use crate::control::Control;
 use crate::diagnosis::compare;
 use crate::effects::Source;

@@ -13,10 +13,6 @@ pub(super) fn document(project: &Project, outcome: &Outcome) -> Value {
     let labels: Vec<&str> = project.structure.dofs().iter().map(|dof| dof.label.as_str()).collect();
     let known = |e: &crate::identify::Estimate| estimate(e, &project.sources, &project.structure);
     let energy = labels.iter().zip(&outcome.results.energy_percent);
-    let modes = outcome.results.modes.iter().enumerate().map(|(index, mode)| {
-        json!({"mode": index + 1, "frequency_hz": mode.frequency_hz, "damping_ratio": mode.damping_ratio,
-               "standard_deviation": mode.damping_ratio_deviation, "half_power_ratio": mode.half_power_ratio})
-    });
     json!({
         "title": project.title,
         "runs": runs(project, outcome),
@@ -28,11 +24,21 @@ pub(super) fn document(project: &Project, outcome: &Outcome) -> Value {
         "sources": outcome.sources.iter().map(known).collect::<Vec<_>>(),
         "matrix": matrices(&labels, outcome),
         "energy_percent": energy.map(|(dof, percent)| json!({"dof": dof, "percent": percent})).collect::<Vec<_>>(),
-        "modes": modes.collect::<Vec<_>>(),
+        "modes": modes(outcome),
         "indistinguishable": indistinguishable(project, outcome),
         "warnings": outcome.warnings,
         "reduction": super::reduction::document(&project.structure),
     })
+}
+
+fn modes(outcome: &Outcome) -> Vec<Value> {
+    let numbered = outcome.results.modes.iter().enumerate();
+    numbered
+        .map(|(index, mode)| {
+            json!({"mode": index + 1, "frequency_hz": mode.frequency_hz, "damping_ratio": mode.damping_ratio,
+                   "standard_deviation": mode.damping_ratio_deviation, "half_power_ratio": mode.half_power_ratio})
+        })
+        .collect()
 }
 
 /// Every run of the project; energies of those that are not used are null.
@@ -68,7 +74,7 @@ fn records(project: &Project, outcome: &Outcome) -> Vec<Value> {
                "released_energy_j": w.released_energy, "stored_energy_j": w.stored_energy,
                "identified_energy_j": w.identified_energy, "standard_deviation_j": w.deviation})
     };
-    let one = |(index, run): (usize, &TransientRun)| {
+    let record_in_json = |(index, run): (usize, &TransientRun)| {
         let found = outcome.records.iter().find(|record| record.record == index);
         let windows = found.map(|record| record.windows.iter().map(window).collect::<Vec<_>>());
         json!({
@@ -87,7 +93,7 @@ fn records(project: &Project, outcome: &Outcome) -> Vec<Value> {
             "reasons": run.findings.iter().map(|finding| finding.reason.as_str()).collect::<Vec<_>>(),
         })
     };
-    project.transient_runs.iter().enumerate().map(one).collect()
+    project.transient_runs.iter().enumerate().map(record_in_json).collect()
 }
 
 fn selection(project: &Project, step: &Step) -> Value {

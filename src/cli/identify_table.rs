@@ -112,11 +112,11 @@ fn selection(project: &Project, outcome: &Outcome) -> String {
 }
 
 fn set(project: &Project, step: &Step) -> String {
-    let one = |estimate: &Estimate| {
+    let estimate_in_words = |estimate: &Estimate| {
         let source = &project.sources[estimate.source];
         format!("{} {} {}", source.effect, place_text(source, &project.structure), number(estimate.coefficient))
     };
-    step.sources.iter().map(one).collect::<Vec<_>>().join(", ")
+    step.sources.iter().map(estimate_in_words).collect::<Vec<_>>().join(", ")
 }
 
 /// DOF labels joined by dashes, the whole structure, or the channel's name.

@@ -75,13 +75,13 @@ fn row(entry: &Entry, applied: &Applied, count: usize) -> Vec<String> {
 }
 
 fn notes(found: &SideBySide) -> String {
-    let of = |entry: &Entry| -> Vec<String> {
+    let notes_of = |entry: &Entry| -> Vec<String> {
         let damping = entry.outcome.as_ref().ok().and_then(|applied| applied.damping.as_ref());
         damping
             .map(|d| d.notes.iter().map(|note| format!("  {}: {note}\n", entry.method.title())).collect())
             .unwrap_or_default()
     };
-    let lines: Vec<String> = found.entries.iter().flat_map(of).collect();
+    let lines: Vec<String> = found.entries.iter().flat_map(notes_of).collect();
     if lines.is_empty() { String::new() } else { format!("Remarks\n{}\n", lines.concat()) }
 }
 
@@ -97,12 +97,12 @@ fn matrices(project: &Project, found: &SideBySide) -> String {
         }
         format!("{title}\n{}\n", table(&rows))
     };
-    let one = |entry: &Entry| -> Option<String> {
+    let matrix_of = |entry: &Entry| -> Option<String> {
         let damping = entry.outcome.as_ref().ok()?.damping.as_ref()?;
         Some(print(entry.method.title(), &damping.viscous))
     };
     let reference = found.reference.as_ref().map(|c| print("Reference", c));
-    reference.into_iter().chain(found.entries.iter().filter_map(one)).collect()
+    reference.into_iter().chain(found.entries.iter().filter_map(matrix_of)).collect()
 }
 
 fn document(project: &Project, found: &SideBySide) -> Value {

@@ -2,7 +2,6 @@
 //!
 //! Exit status: 0 done, 1 the input is at fault (one line on standard error), 2 wrong usage.
 
-mod addition;
 mod argument_values;
 mod arguments;
 mod arguments_import;
@@ -13,7 +12,6 @@ mod compare;
 mod contents;
 mod convert;
 mod corrected;
-mod corrections;
 mod diagnose;
 mod export;
 mod identified;
@@ -25,6 +23,7 @@ mod incompleteness;
 mod label;
 mod methods;
 mod moving_base;
+mod named_sources;
 mod play;
 mod plot;
 mod records;
@@ -37,7 +36,6 @@ mod simulate_component;
 mod simulate_frf;
 mod simulate_write;
 mod source_json;
-mod source_words;
 mod table;
 
 use arguments::{Arguments, Command};

@@ -110,11 +110,11 @@ impl Plotter<'_> {
         let problem = Problem { structure: &p.structure, sources: &p.sources, runs: &p.runs };
         let diagnosis = diagnose(&problem, self.control)?;
         let dof = self.dof()?;
-        let at = |s: &&diagnose::Suggestion| match &s.added.source.place {
+        let is_at_place = |s: &&diagnose::Suggestion| match &s.added.source.place {
             crate::effects::Place::Dofs(dofs) => dof.is_none_or(|d| dofs.contains(&d)),
             _ => false,
         };
-        let suggestion = diagnosis.suggestions.iter().find(at);
+        let suggestion = diagnosis.suggestions.iter().find(is_at_place);
         ensure!(
             suggestion.is_some() || dof.is_none(),
             "--dof {}: no suggestion is there; `dashpot diagnose` lists them",

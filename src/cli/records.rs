@@ -29,7 +29,7 @@ pub(super) fn document(project: &Project, comparison: &RecordComparison) -> Vec<
             json!({keys[0]: from, keys[1]: to, "amplitude": p.size, "error": p.error})
         }
     };
-    let one = |r: &OneRecord| {
+    let record_in_json = |r: &OneRecord| {
         let run = &project.transient_runs[r.index];
         let channel = |(name, [error, floor]): &(String, [f64; 2])| json!({"channel": name, "error": error, "noise_floor": floor});
         json!({
@@ -41,17 +41,17 @@ pub(super) fn document(project: &Project, comparison: &RecordComparison) -> Vec<
             "curves": r.curves.iter().map(curve).collect::<Vec<_>>(),
         })
     };
-    comparison.records.iter().map(one).collect()
+    comparison.records.iter().map(record_in_json).collect()
 }
 
 fn curve(curve: &ModeCurve) -> Value {
     let points = |list: &[AmplitudePoint]| -> Vec<Value> {
-        let of = |p: &AmplitudePoint| {
+        let point_in_json = |p: &AmplitudePoint| {
             json!({"time_s": p.time_s, "amplitude": p.amplitude, "frequency_hz": p.frequency_hz,
                    "damping_ratio": p.damping_ratio, "amplitude_deviation": p.amplitude_deviation,
                    "frequency_deviation_hz": p.frequency_deviation_hz, "damping_deviation": p.damping_deviation})
         };
-        list.iter().map(of).collect()
+        list.iter().map(point_in_json).collect()
     };
     json!({"channel": curve.channel, "frequency_hz": curve.frequency_hz, "measured": points(&curve.measured),
            "model": points(&curve.model), "lines": lines(&curve.measured)})
@@ -59,12 +59,15 @@ fn curve(curve: &ModeCurve) -> Value {
 
 /// Straight lines through a curve: damping ratio over amplitude, squared frequency over squared amplitude, logarithms.
 fn lines(points: &[AmplitudePoint]) -> Value {
-    let of = |found: Option<Line>| {
+    let line_in_json = |found: Option<Line>| {
         found.map(|l| json!({"offset": l.offset, "slope": l.slope, "offset_deviation": l.deviations[0], "slope_deviation": l.deviations[1]}))
     };
     let [ratio, square, slope] = fitted(points);
-    json!({"damping_ratio_over_amplitude": of(ratio), "frequency_squared_over_amplitude_squared": of(square),
-           "logarithms_of_damping_ratio_over_amplitude": of(slope)})
+    json!({
+        "damping_ratio_over_amplitude": line_in_json(ratio),
+        "frequency_squared_over_amplitude_squared": line_in_json(square),
+        "logarithms_of_damping_ratio_over_amplitude": line_in_json(slope),
+    })
 }
 
 fn fitted(points: &[AmplitudePoint]) -> [Option<Line>; 3] {
@@ -102,11 +105,11 @@ pub(super) fn amplitude(arguments: &Analysis) -> anyhow::Result<String> {
         bail!("{name}: amplitude curves need a structure with matrices and a run of kind \"decay\" or \"transient\"");
     };
     if arguments.json {
-        let one = |r: &OneRecord| {
+        let curves_of = |r: &OneRecord| {
             let curves: Vec<Value> = r.curves.iter().map(curve).collect();
             json!({"file": project.transient_runs[r.index].file, "curves": curves})
         };
-        let records: Vec<Value> = comparison.records.iter().map(one).collect();
+        let records: Vec<Value> = comparison.records.iter().map(curves_of).collect();
         let document = json!({"title": project.title, "records": records});
         return Ok(format!("{}\n", serde_json::to_string_pretty(&document)?));
     }

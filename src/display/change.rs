@@ -6,14 +6,14 @@ use crate::structure::Structure;
 
 /// What a reader takes away: which sources changed and by how much, or that none did.
 pub fn sentence(structure: &Structure, found: &Change) -> String {
-    let one = |s: &SourceChange| {
+    let source_in_words = |s: &SourceChange| {
         let name = words::title(structure, &s.source);
         let by = format::with_deviation(s.coefficient.difference, s.coefficient.deviation, unit(s));
         let sign = if s.coefficient.difference > 0.0 { "+" } else { "" };
         let share = relative(s).map_or_else(String::new, |r| format!(" ({r})"));
         format!("{name}: {sign}{by}{share}")
     };
-    let changed: Vec<String> = found.changed().map(one).collect();
+    let changed: Vec<String> = found.changed().map(source_in_words).collect();
     let together = found.chance.map_or_else(String::new, |p| {
         format!(" All differences together have a probability of chance of {}.", chance(p))
     });

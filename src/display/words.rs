@@ -1,7 +1,7 @@
 //! Names for people of what has names in files.
 
 use crate::balance::{Expansion, Weights};
-use crate::effects::{Effect, Place, Source, State};
+use crate::effects::{Effect, Place, Source};
 use crate::measurement::{Flag, Quantity};
 use crate::structure::beam::Supports;
 use crate::structure::{Structure, StructureKind};
@@ -14,17 +14,6 @@ pub fn effect(effect: Effect) -> &'static str {
 /// The name of a parameter for readers: `Loss stiffness`; a single letter stays what it is.
 pub fn parameter(name: &str) -> String {
     if name.len() == 1 { name.to_owned() } else { capital(&name.replace('_', " ")) }
-}
-
-/// A state in words.
-pub fn state(state: State) -> &'static str {
-    match state {
-        State::Known => "known",
-        State::Candidate => "candidate",
-        State::Forced => "forced",
-        State::Off => "off",
-        State::Reference => "reference",
-    }
 }
 
 /// A flag in words.

@@ -69,6 +69,19 @@ pub enum State {
     Reference,
 }
 
+impl State {
+    /// Its one word, in files and for people.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Known => "known",
+            Self::Candidate => "candidate",
+            Self::Forced => "forced",
+            Self::Off => "off",
+            Self::Reference => "reference",
+        }
+    }
+}
+
 /// A law at a place.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Source {

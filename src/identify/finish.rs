@@ -57,13 +57,13 @@ pub(super) fn outcome(problem: &Problem<'_>, found: &Found) -> Result<Outcome, I
 
 /// Energy of each known source (rows) in each run (columns), J.
 fn known_energies(problem: &Problem<'_>, found: &Found) -> Vec<Vec<f64>> {
-    let of = |source| {
+    let energies_of = |source| {
         let run = |(m, e): &(crate::balance::Measured, crate::balance::Expanded)| {
             action::energy(source, problem.structure, e.field(m))
         };
         found.state.runs.iter().map(run).collect::<Vec<f64>>()
     };
-    let with_windows = |(k, source)| of(source).into_iter().chain(problem.windows.known(k)).collect();
+    let with_windows = |(k, source)| energies_of(source).into_iter().chain(problem.windows.known(k)).collect();
     problem.known.iter().enumerate().map(with_windows).collect()
 }
 
@@ -142,7 +142,7 @@ impl Teller<'_> {
     fn records(&self, step: &Step) -> Vec<RecordOutcome> {
         let mut next = self.found.state.runs.len();
         let windows = &self.problem.windows;
-        let one = |(&record, rows): (&usize, &WindowRows)| {
+        let record_outcome = |(&record, rows): (&usize, &WindowRows)| {
             let first = next;
             next += rows.len();
             let window = |k: usize| WindowOutcome {
@@ -161,34 +161,35 @@ impl Teller<'_> {
                 corner_hz: rows.corner_hz,
             }
         };
-        windows.record.iter().zip(&windows.rows).map(one).collect()
+        windows.record.iter().zip(&windows.rows).map(record_outcome).collect()
     }
 
     fn runs(&self, step: &Step, acting: &[crate::effects::Source]) -> Vec<RunOutcome> {
         let (problem, state) = (self.problem, &self.found.state);
-        let one = |(r, (measured, expanded)): (usize, &(crate::balance::Measured, crate::balance::Expanded))| {
-            let noise = if measured.noisy {
-                weights::residual_deviation(problem.structure, measured, expanded, acting)
-            } else {
-                0.0
+        let run_outcome =
+            |(r, (measured, expanded)): (usize, &(crate::balance::Measured, crate::balance::Expanded))| {
+                let noise = if measured.noisy {
+                    weights::residual_deviation(problem.structure, measured, expanded, acting)
+                } else {
+                    0.0
+                };
+                let known = |i: &usize| expanded.known[*i];
+                let square = |i: usize| expanded.x[(i, 0)].norm_sqr();
+                let rows: Vec<usize> = (0..expanded.known.len()).filter(known).collect();
+                let size: f64 = rows.iter().map(|&i| square(i)).sum();
+                let error: f64 = rows.iter().map(|&i| 2.0 * expanded.deviation[(i, 0)].powi(2)).sum();
+                RunOutcome {
+                    run: problem.run_index[r],
+                    input_energy: state.equation.input[r],
+                    energy_deviation: noise,
+                    identified_energy: step.identified_energy[r],
+                    misfit: expanded.misfit,
+                    relative_misfit: expanded.relative_misfit,
+                    expansion_error: if size > 0.0 { (error / size).sqrt() } else { 0.0 },
+                    harmonics: measured.numbers.clone(),
+                }
             };
-            let known = |i: &usize| expanded.known[*i];
-            let square = |i: usize| expanded.x[(i, 0)].norm_sqr();
-            let rows: Vec<usize> = (0..expanded.known.len()).filter(known).collect();
-            let size: f64 = rows.iter().map(|&i| square(i)).sum();
-            let error: f64 = rows.iter().map(|&i| 2.0 * expanded.deviation[(i, 0)].powi(2)).sum();
-            RunOutcome {
-                run: problem.run_index[r],
-                input_energy: state.equation.input[r],
-                energy_deviation: noise,
-                identified_energy: step.identified_energy[r],
-                misfit: expanded.misfit,
-                relative_misfit: expanded.relative_misfit,
-                expansion_error: if size > 0.0 { (error / size).sqrt() } else { 0.0 },
-                harmonics: measured.numbers.clone(),
-            }
-        };
-        state.runs.iter().enumerate().map(one).collect()
+        state.runs.iter().enumerate().map(run_outcome).collect()
     }
 }
 

@@ -92,11 +92,6 @@ impl LeastSquares {
         Ok(Solution { x: x.col_as_slice(0).to_vec(), residual, residual_norm, freedom, variance })
     }
 
-    /// `(A^T A)^-1`, n x n: times the variance of one row it is the covariance of the solution.
-    pub fn inverse_normal(&self) -> Mat<f64> {
-        product_transposed(self.backward.as_ref(), self.backward.as_ref())
-    }
-
     /// Moore-Penrose inverse, n x m (of the matrix with unit columns, scaled back).
     pub fn pseudo_inverse(&self) -> Mat<f64> {
         product(self.backward.as_ref(), self.forward.as_ref())
@@ -199,8 +194,6 @@ mod tests {
         assert!((fit.variance - 6.0).abs() < 1e-12 && fit.freedom == 1);
         let deviations = problem.standard_deviations(fit.variance);
         assert!((deviations[0] - 2f64.sqrt()).abs() < 1e-13 && (deviations[1] - 3f64.sqrt()).abs() < 1e-13);
-        let covariance = problem.inverse_normal();
-        assert!((covariance[(1, 1)] - 0.5).abs() < 1e-14 && covariance[(0, 1)].abs() < 1e-14);
     }
 
     #[test]

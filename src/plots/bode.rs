@@ -39,7 +39,7 @@ pub struct Point {
 
 /// Measured receptances at the fundamentals of all used runs that have both channels.
 pub fn measured(p: &Project, response: usize, excitation: usize) -> Vec<Point> {
-    let one = |run: &crate::measurement::Run| {
+    let response_of = |run: &crate::measurement::Run| {
         let channel =
             |want: &dyn Fn(&crate::measurement::Channel) -> bool| run.fit.channels.iter().find(|c| want(&c.channel));
         let force = channel(&|c| c.quantity == Measured::Force && c.dof == excitation)?;
@@ -54,7 +54,7 @@ pub fn measured(p: &Project, response: usize, excitation: usize) -> Vec<Point> {
         };
         Some(Point { omega, value, deviation: relative(motion).hypot(relative(force)) })
     };
-    p.runs.iter().filter(|r| r.enabled).filter_map(one).collect()
+    p.runs.iter().filter(|r| r.enabled).filter_map(response_of).collect()
 }
 
 /// A frequency response and what is divided by the force.

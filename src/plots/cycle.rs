@@ -29,15 +29,15 @@ pub struct Cycle<'a> {
 
 /// `Re sum y_h exp(i h t)` at `SAMPLES + 1` points of a turn.
 fn wave(amplitudes: &[c64]) -> Vec<f64> {
-    let at = |k: usize| {
+    let sum_at = |k: usize| {
         let t = TAU * k as f64 / SAMPLES as f64;
-        let one = |(h, y): (usize, &c64)| {
+        let harmonic_at = |(h, y): (usize, &c64)| {
             let (s, c) = ((h + 1) as f64 * t).sin_cos();
             y.re * c - y.im * s
         };
-        amplitudes.iter().enumerate().map(one).sum()
+        amplitudes.iter().enumerate().map(harmonic_at).sum()
     };
-    (0..=SAMPLES).map(at).collect()
+    (0..=SAMPLES).map(sum_at).collect()
 }
 
 /// A factor and prefix by which a largest value reads well, in steps of a thousand.
@@ -68,14 +68,14 @@ impl Cycle<'_> {
     /// One period.
     pub fn time(&self, palette: &Palette) -> Figure {
         let (period, milli) = (TAU / self.fit.omega, 1e3);
-        let of = |c: &ChannelComparison, model: bool| {
+        let wave_of = |c: &ChannelComparison, model: bool| {
             let values: Vec<c64> = c.harmonics.iter().map(|h| if model { h.model } else { h.measured }).collect();
             wave(&values)
         };
         let points = |wave: Vec<f64>| -> Vec<[f64; 2]> {
             wave.into_iter().enumerate().map(|(k, y)| [milli * period * k as f64 / SAMPLES as f64, y]).collect()
         };
-        let rest = of(self.now, false).iter().zip(of(self.now, true)).map(|(y, m)| y - m).collect();
+        let rest = wave_of(self.now, false).iter().zip(wave_of(self.now, true)).map(|(y, m)| y - m).collect();
         let x = Axis::new("Time", "ms").include(&[0.0, milli * period]);
         let figure = Figure::new("One period", x, Axis::of(words::axis(self.quantity, self.rotation))).points(
             "measured minus model",
@@ -83,7 +83,7 @@ impl Cycle<'_> {
             Look::Line(1.0),
             points(rest),
         );
-        self.curves(figure, palette, &|c, model| points(of(c, model)))
+        self.curves(figure, palette, &|c, model| points(wave_of(c, model)))
     }
 
     /// Force of the first exciter over the displacement that the channel stands for; none where no force is measured.
@@ -91,11 +91,11 @@ impl Cycle<'_> {
         let force = self.fit.channels.iter().find(|c| c.channel.quantity == Quantity::Force)?;
         let order = self.quantity.derivatives().unwrap_or(0);
         let displacement = |c: &ChannelComparison, model: bool| {
-            let one = |h: &HarmonicComparison| {
+            let displacement_of = |h: &HarmonicComparison| {
                 let value = if model { h.model } else { h.measured };
                 value / c64::new(0.0, h.harmonic as f64 * self.fit.omega).powi(order)
             };
-            wave(&c.harmonics.iter().map(one).collect::<Vec<_>>())
+            wave(&c.harmonics.iter().map(displacement_of).collect::<Vec<_>>())
         };
         let largest = largest(&displacement(self.now, false)).max(largest(&displacement(self.now, true)));
         let (factor, prefix) = scaled(largest);

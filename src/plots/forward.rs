@@ -13,7 +13,7 @@ use faer::c64;
 
 /// The sources of the answer at their values; a law that is not linear stands as the dashpot that takes out as much energy.
 pub fn acting(p: &Project, outcome: &Outcome) -> Vec<Source> {
-    let one = |(k, estimate): (usize, &identify::Estimate)| {
+    let source_of = |(k, estimate): (usize, &identify::Estimate)| {
         let source = p.sources.get(estimate.source)?.with_coefficient(estimate.coefficient);
         if source.effect.is_linear() {
             return Some(source);
@@ -22,7 +22,7 @@ pub fn acting(p: &Project, outcome: &Outcome) -> Vec<Source> {
         let dashpot = source.unit_dashpot();
         Some(dashpot.with_coefficient(c))
     };
-    outcome.sources.iter().enumerate().filter_map(one).collect()
+    outcome.sources.iter().enumerate().filter_map(source_of).collect()
 }
 
 /// The known sources of a project that are linear in the motion: what a frequency response of the model as it stands has.
@@ -96,12 +96,12 @@ pub fn motions(p: &Project, outcome: Option<&Outcome>) -> Result<Vec<Vec<c64>>, 
     let usable: Vec<Measured> = measured.iter().flatten().cloned().collect();
     let expander = Expander::new(&p.structure, p.settings.expansion, &usable).map_err(|e| e.to_string())?;
     let damping = outcome.map_or_else(Vec::new, |outcome| acting(p, outcome));
-    let one = |measured: &Measured| {
+    let motion_of = |measured: &Measured| {
         let acting = Acting { sources: &damping, motion: None, model_error: outcome.map_or(1.0, |o| o.model_error) };
         let expanded = expander.expand(measured, acting).ok()?;
         Some((0..p.structure.len()).map(|d| expanded.x[(d, 0)]).collect())
     };
-    Ok(measured.iter().map(|run| run.as_ref().and_then(one).unwrap_or_default()).collect())
+    Ok(measured.iter().map(|run| run.as_ref().and_then(motion_of).unwrap_or_default()).collect())
 }
 
 /// Loops at the model's steady state under the measured force's fundamental.

@@ -60,11 +60,11 @@ pub fn loops(p: &Project, run: usize, x: &[c64], acting: &[Source]) -> Vec<Loop>
 
 /// The loop of two harmonic quantities over one period.
 fn ellipse(x: c64, f: c64) -> Vec<[f64; 2]> {
-    let at = |k: usize| {
+    let point_at = |k: usize| {
         let (s, c) = (TAU * k as f64 / SAMPLES as f64).sin_cos();
         [x.re * c - x.im * s, f.re * c - f.im * s]
     };
-    (0..=SAMPLES).map(at).collect()
+    (0..=SAMPLES).map(point_at).collect()
 }
 
 /// Work per period of the force of a closed loop, J: the integral of `f dx` by the trapezoidal rule.
@@ -78,10 +78,10 @@ impl Loop {
         if self.measured.is_empty() {
             return format::prefixed(area(&self.model), "J");
         }
-        let one = |name: &str, points: &[[f64; 2]]| {
+        let energy_in_words = |name: &str, points: &[[f64; 2]]| {
             (!points.is_empty()).then(|| format!("{name} {}", format::prefixed(area(points), "J")))
         };
-        [one("model", &self.model), one("measured", &self.measured)]
+        [energy_in_words("model", &self.model), energy_in_words("measured", &self.measured)]
             .into_iter()
             .flatten()
             .collect::<Vec<_>>()

@@ -2,7 +2,7 @@
 
 use super::channel_response::per_force;
 use super::figure::{Axis, Figure, Look, Ticks};
-use super::response_curve::{force, levels};
+use super::response_curve::{Level, force, levels};
 use super::samples::phase;
 use super::style::Palette;
 use crate::display::format;
@@ -26,29 +26,32 @@ struct Group {
 
 /// Runs that have the `channel`, by their labels where all have one, else by their force.
 fn groups(p: &Project, channel: &Channel) -> Vec<Group> {
-    let all: Vec<usize> = (0..p.runs.len()).collect();
-    let labels: Option<Vec<i64>> = p.runs.iter().map(|r| r.level).collect();
-    let lists: Vec<(String, Vec<usize>)> = match labels {
-        Some(labels) if !labels.is_empty() => {
-            let mut kinds = labels.clone();
-            kinds.sort_unstable();
-            kinds.dedup();
-            let of = |kind: &i64| all.iter().copied().filter(|&r| labels[r] == *kind).collect();
-            kinds.iter().map(|kind| (format!("level {kind}"), of(kind))).collect()
-        }
-        _ => levels(p, &all).into_iter().map(|l| (format!("{} N", format::significant(l.force, 2)), l.runs)).collect(),
-    };
     let ratio = |&run: &usize| {
         let fit = p.runs[run].fit.channels.iter().find(|c| c.channel == *channel)?;
         let (_, force) = force(p, run).filter(|(_, f)| f.norm() > 0.0)?;
         Some((run, p.runs[run].frequency_hz(), *fit.amplitudes.first()? / force))
     };
-    let one = |(name, runs): (String, Vec<usize>)| {
+    let group_of = |(name, runs): (String, Vec<usize>)| {
         let mut points: Vec<(usize, f64, c64)> = runs.iter().filter_map(ratio).collect();
         points.sort_by(|a, b| a.1.total_cmp(&b.1));
         Group { name, points }
     };
-    lists.into_iter().map(one).filter(|g| !g.points.is_empty()).collect()
+    runs_by_level(p).into_iter().map(group_of).filter(|g| !g.points.is_empty()).collect()
+}
+
+/// Name and runs of every level.
+fn runs_by_level(p: &Project) -> Vec<(String, Vec<usize>)> {
+    let all: Vec<usize> = (0..p.runs.len()).collect();
+    let labels: Option<Vec<i64>> = p.runs.iter().map(|r| r.level).collect();
+    let Some(labels) = labels.filter(|labels| !labels.is_empty()) else {
+        let named = |level: Level| (format!("{} N", format::significant(level.force, 2)), level.runs);
+        return levels(p, &all).into_iter().map(named).collect();
+    };
+    let mut kinds = labels.clone();
+    kinds.sort_unstable();
+    kinds.dedup();
+    let labelled = |kind: i64| all.iter().copied().filter(|&r| labels[r] == kind).collect();
+    kinds.into_iter().map(|kind| (format!("level {kind}"), labelled(kind))).collect()
 }
 
 /// Amplitude above phase with their shares of the height; the selected `run` is ringed. Empty where no run has the channel

@@ -43,12 +43,12 @@ fn name(run: &RunForce) -> String {
 fn colours(force: &RestoringForce, palette: &Palette) -> Vec<[Color32; 2]> {
     let mut levels: Vec<usize> = force.runs.iter().map(|r| r.level).collect();
     levels.dedup();
-    let of = |run: &RunForce| {
+    let colour_of = |run: &RunForce| {
         let at = levels.iter().position(|l| *l == run.level).unwrap_or(0);
         let colour = palette.level(at as f32 / (levels.len().max(2) - 1) as f32);
         if levels.len() < 2 { [palette.measured, palette.missing] } else { [colour; 2] }
     };
-    force.runs.iter().map(of).collect()
+    force.runs.iter().map(colour_of).collect()
 }
 
 /// Force over displacement, and over velocity.

@@ -31,7 +31,7 @@ pub fn channel<'a>(comparison: &'a Comparison, run: usize, name: &str) -> Option
 
 /// All runs that have the channel and a force.
 pub fn samples(p: &Project, comparison: &Comparison, trial: Option<&Comparison>, name: &str) -> Vec<Sample> {
-    let one = |run: usize| {
+    let sample_of = |run: usize| {
         let (_, force) = curve::force(p, run)?;
         let first = |c: &Comparison| channel(c, run, name)?.harmonics.first().copied();
         let now = first(comparison)?;
@@ -44,7 +44,7 @@ pub fn samples(p: &Project, comparison: &Comparison, trial: Option<&Comparison>,
             trial: trial.and_then(first).map(|h| h.model / force),
         })
     };
-    (0..p.runs.len()).filter_map(one).collect()
+    (0..p.runs.len()).filter_map(sample_of).collect()
 }
 
 /// Degrees.

@@ -49,11 +49,11 @@ impl Sheet {
 
     /// All values in sight as a table with tabs.
     pub fn table(&self) -> String {
-        let one = |p: &Panel| {
+        let panel_as_text = |p: &Panel| {
             let [from, to] = p.bounds[0].map(|v| p.figure.x.value(v));
             p.figure.table(from, to)
         };
-        self.panels.iter().map(one).collect()
+        self.panels.iter().map(panel_as_text).collect()
     }
 
     /// The drawing of `size` points.

@@ -60,55 +60,47 @@ pub struct Palette {
     pub levels: [Color32; 4],
 }
 
-const LIGHT: Palette = Palette {
-    measured: Color32::from_rgb(0x00, 0x66, 0xA6),
-    model: Color32::from_rgb(0xD5, 0x5E, 0x00),
-    missing: Color32::from_rgb(0xA8, 0x4A, 0x86),
-    accent: Color32::from_rgb(0x0B, 0x72, 0x6E),
-    accent_faint: Color32::from_rgb(0xDC, 0xEF, 0xED),
-    ink: Color32::from_rgb(0x17, 0x1D, 0x24),
-    weak: Color32::from_rgb(0x56, 0x61, 0x6D),
-    line: Color32::from_rgb(0xD6, 0xDB, 0xE1),
-    grid: Color32::from_rgb(0xC2, 0xC9, 0xD1),
-    desk: Color32::from_rgb(0xE9, 0xEC, 0xEF),
-    pane: Color32::from_rgb(0xFA, 0xFB, 0xFC),
-    canvas: Color32::from_rgb(0xFF, 0xFF, 0xFF),
-    raised: Color32::from_rgb(0xEF, 0xF2, 0xF5),
-    good: Color32::from_rgb(0x1B, 0x7F, 0x4B),
-    warning: Color32::from_rgb(0x9A, 0x62, 0x00),
-    error: Color32::from_rgb(0xB3, 0x26, 0x1E),
-    levels: [
-        Color32::from_rgb(0x44, 0x17, 0x61),
-        Color32::from_rgb(0x2A, 0x6A, 0x96),
-        Color32::from_rgb(0x1F, 0x8F, 0x6E),
-        Color32::from_rgb(0xB8, 0x8A, 0x00),
-    ],
-};
+const LIGHT: Palette = palette(0);
+const DARK: Palette = palette(1);
 
-const DARK: Palette = Palette {
-    measured: Color32::from_rgb(0x56, 0xB4, 0xE9),
-    model: Color32::from_rgb(0xF0, 0x9A, 0x3E),
-    missing: Color32::from_rgb(0xE0, 0x8F, 0xC0),
-    accent: Color32::from_rgb(0x4F, 0xC4, 0xBB),
-    accent_faint: Color32::from_rgb(0x1B, 0x3B, 0x3A),
-    ink: Color32::from_rgb(0xE6, 0xE9, 0xED),
-    weak: Color32::from_rgb(0x9D, 0xA8, 0xB4),
-    line: Color32::from_rgb(0x33, 0x3A, 0x42),
-    grid: Color32::from_rgb(0x4A, 0x53, 0x5D),
-    desk: Color32::from_rgb(0x0E, 0x10, 0x13),
-    pane: Color32::from_rgb(0x1A, 0x1E, 0x23),
-    canvas: Color32::from_rgb(0x14, 0x17, 0x1B),
-    raised: Color32::from_rgb(0x26, 0x2C, 0x33),
-    good: Color32::from_rgb(0x5C, 0xC8, 0x8F),
-    warning: Color32::from_rgb(0xE8, 0xB3, 0x4B),
-    error: Color32::from_rgb(0xF2, 0x8B, 0x82),
-    levels: [
-        Color32::from_rgb(0x8C, 0x6B, 0xD6),
-        Color32::from_rgb(0x4A, 0x9B, 0xD4),
-        Color32::from_rgb(0x4F, 0xC4, 0x8B),
-        Color32::from_rgb(0xF5, 0xD7, 0x42),
-    ],
-};
+/// The colours on a light (0) or a dark (1) ground, each beside the other.
+const fn palette(ground: usize) -> Palette {
+    Palette {
+        measured: rgb([0x00_66_A6, 0x56_B4_E9][ground]),
+        model: rgb([0xD5_5E_00, 0xF0_9A_3E][ground]),
+        missing: rgb([0xA8_4A_86, 0xE0_8F_C0][ground]),
+        accent: rgb([0x0B_72_6E, 0x4F_C4_BB][ground]),
+        accent_faint: rgb([0xDC_EF_ED, 0x1B_3B_3A][ground]),
+        ink: rgb([0x17_1D_24, 0xE6_E9_ED][ground]),
+        weak: rgb([0x56_61_6D, 0x9D_A8_B4][ground]),
+        line: rgb([0xD6_DB_E1, 0x33_3A_42][ground]),
+        grid: rgb([0xC2_C9_D1, 0x4A_53_5D][ground]),
+        desk: rgb([0xE9_EC_EF, 0x0E_10_13][ground]),
+        pane: rgb([0xFA_FB_FC, 0x1A_1E_23][ground]),
+        canvas: rgb([0xFF_FF_FF, 0x14_17_1B][ground]),
+        raised: rgb([0xEF_F2_F5, 0x26_2C_33][ground]),
+        good: rgb([0x1B_7F_4B, 0x5C_C8_8F][ground]),
+        warning: rgb([0x9A_62_00, 0xE8_B3_4B][ground]),
+        error: rgb([0xB3_26_1E, 0xF2_8B_82][ground]),
+        levels: levels(ground),
+    }
+}
+
+/// Levels of force from lowest to highest.
+const fn levels(ground: usize) -> [Color32; 4] {
+    [
+        rgb([0x44_17_61, 0x8C_6B_D6][ground]),
+        rgb([0x2A_6A_96, 0x4A_9B_D4][ground]),
+        rgb([0x1F_8F_6E, 0x4F_C4_8B][ground]),
+        rgb([0xB8_8A_00, 0xF5_D7_42][ground]),
+    ]
+}
+
+/// A colour of its red, green and blue bytes.
+const fn rgb(hex: u32) -> Color32 {
+    let [_, red, green, blue] = hex.to_be_bytes();
+    Color32::from_rgb(red, green, blue)
+}
 
 impl Palette {
     /// The palette of the light theme; that of what is printed.

@@ -32,7 +32,7 @@ pub fn runs(p: &Project) -> String {
 pub fn sources(p: &Project) -> String {
     let line = |s: &Source| {
         let place = words::place(&p.structure, &s.place);
-        format!("{}\t{place}\t{}", words::effect(s.effect), words::state(s.state))
+        format!("{}\t{place}\t{}", words::effect(s.effect), s.state.word())
     };
     table("law\tplace\tstate", p.sources.iter().map(line))
 }
@@ -47,11 +47,11 @@ pub fn modes(modes: &Modes) -> String {
 pub fn steps(p: &Project, outcome: &Outcome) -> String {
     let line = |step: &Step| {
         let sources = step.sources.iter().filter_map(|e| Some((p.sources.get(e.source)?, e)));
-        let one = |(s, e): (&Source, &crate::identify::Estimate)| {
+        let source_in_words = |(s, e): (&Source, &crate::identify::Estimate)| {
             let place = words::short_place(&p.structure, &s.place);
             format!("{} {place} {:e}", words::effect(s.effect), e.coefficient)
         };
-        let which: Vec<String> = sources.map(one).collect();
+        let which: Vec<String> = sources.map(source_in_words).collect();
         let per_row = step.chi_square / step.freedom.max(1) as f64;
         let (angle, error, which) = (step.angle_deg, step.relative_error, which.join("; "));
         format!("{}\t{which}\t{angle:e}\t{error:e}\t{per_row:e}", step.count)
@@ -65,7 +65,7 @@ pub fn coefficients(p: &Project, outcome: &Outcome) -> String {
     let line = |e: &crate::identify::Estimate| {
         let s = p.sources.get(e.source)?;
         let unit = s.effect.coefficient().map_or("", |k| s.effect.parameters()[k].unit);
-        let (law, place, state) = (s.effect.name(), words::place(&p.structure, &s.place), words::state(s.state));
+        let (law, place, state) = (s.effect.name(), words::place(&p.structure, &s.place), s.state.word());
         let (value, deviation, share) = (e.coefficient, e.deviation, e.energy_percent);
         Some(format!("{law}\t{place}\t{state}\t{value:e}\t{deviation:e}\t{unit}\t{share}"))
     };

@@ -70,7 +70,7 @@ fn agreement(page: &mut Page, content: &Content<'_>, found: &Comparison, control
     let worst = Grid::new(found, true);
     let (Some(&run), Some(channel)) = (worst.runs.first(), worst.channels.first()) else { return };
     if channel != ENERGY {
-        worst_channel(page, content, found, (run, channel), control);
+        worst_channel(page, content, found, run, channel, control);
     }
 }
 
@@ -79,7 +79,8 @@ fn worst_channel(
     page: &mut Page,
     content: &Content<'_>,
     found: &Comparison,
-    (run, channel): (usize, &str),
+    run: usize,
+    channel: &str,
     control: &Control,
 ) {
     let p = content.compared();

@@ -133,11 +133,11 @@ fn diagnose(p: &Project, comparison: &Found<Comparison>, control: &Control) -> F
 fn fingerprints(p: &Project, diagnosis: &Diagnosis, control: &Control) -> Vec<(Source, Print)> {
     let last = diagnosis.steps.last();
     let found: Vec<Source> = last.map_or_else(Vec::new, |s| s.added.iter().map(|a| a.source.clone()).collect());
-    let one = |source: &Source| {
+    let fingerprint_of = |source: &Source| {
         let print = prints::print(&problem(p), &found, &diagnosis.corrections, source, control).ok()??;
         Some((source.clone(), print))
     };
-    diagnosis.suggestions.iter().take(MOST_PRINTS).filter_map(|s| one(&s.added.source)).collect()
+    diagnosis.suggestions.iter().take(MOST_PRINTS).filter_map(|s| fingerprint_of(&s.added.source)).collect()
 }
 
 /// The missing force of the first suggestions; of the best place where nothing was named though something is missing.
@@ -147,9 +147,9 @@ fn forces(p: &Project, diagnosis: &Diagnosis, control: &Control) -> Vec<(Option<
     if wanted.is_empty() && diagnosis.verdict == Verdict::Unexplained {
         wanted.push(None);
     }
-    let one = |source: Option<Source>| {
+    let force_of = |source: Option<Source>| {
         let force = restoring_force::of_diagnosis(&problem(p), diagnosis, source.as_ref(), control).ok()??;
         Some((source, force))
     };
-    wanted.into_iter().filter_map(one).collect()
+    wanted.into_iter().filter_map(force_of).collect()
 }

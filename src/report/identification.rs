@@ -47,7 +47,7 @@ fn identified(page: &mut Page, p: &Project, outcome: &Outcome) {
         Some(vec![
             words::capital(words::effect(s.effect)),
             words::place(&p.structure, &s.place),
-            words::state(s.state).to_owned(),
+            s.state.word().to_owned(),
             words::coefficient(s, e),
             format::percent(0.01 * e.energy_percent),
         ])

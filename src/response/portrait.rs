@@ -169,10 +169,10 @@ fn energy(setup: &Setup, own: &[AtLevel<Points>]) -> Points {
     let largest = amplitudes.fold(0.0, f64::max);
     let largest = if largest > 0.0 { largest } else { 1e-3 };
     let omega = TAU * setup.frequency_hz;
-    let at = |k: usize| {
+    let energy_at = |k: usize| {
         let amplitude = largest * 10f64.powf(-2.0 + 2.5 * k as f64 / 60.0);
         let motion = Motion::cosine(omega, amplitude, 1024);
         [amplitude, law.energy(&setup.source.parameters, &motion)]
     };
-    (0..=60).map(at).collect()
+    (0..=60).map(energy_at).collect()
 }

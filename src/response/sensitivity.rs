@@ -157,7 +157,7 @@ fn at_order(
     let motion = prepared.condensed.motion(u, 1.0);
     let displacements = prepared.displacements(run, excitation, u);
     let at = Differentiated { run, sources, excitation, prepared: &prepared, balance, u, motion, displacements };
-    let one = |&unknown: &Unknown| {
+    let sensitivity_of = |&unknown: &Unknown| {
         let loads = at.loads(unknown);
         let mut linear = at.linear_change(&loads);
         let mut motion = at.prepared.condensed.motion_of(|h| run.compliance(h), &linear);
@@ -168,7 +168,7 @@ fn at_order(
         at.add_legs(&change, &mut linear);
         Mat::from_fn(run.len(), order, |i, h| linear[h + 1].get(i).copied().unwrap_or(c64::new(0.0, 0.0)))
     };
-    Ok(unknowns.iter().map(one).collect())
+    Ok(unknowns.iter().map(sensitivity_of).collect())
 }
 
 impl Differentiated<'_> {

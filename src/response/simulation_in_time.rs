@@ -70,11 +70,11 @@ pub fn record_in_time(
     let track = Track::new(&mut model, excitation, recorder, control)?;
     let signal = |(c, channel): (usize, &Channel)| {
         let [delay, gain] = sensor_errors(recorder.sensors, channel);
-        let at = |&t: &f64| match channel.quantity {
+        let recorded_at = |&t: &f64| match channel.quantity {
             Quantity::Force => gain * force(excitation, channel.dof, t - delay),
             _ => gain * track.at(c, t - delay),
         };
-        recorder.time.iter().map(at).collect()
+        recorder.time.iter().map(recorded_at).collect()
     };
     Ok(recorder.channels.iter().enumerate().map(signal).collect())
 }
@@ -112,10 +112,10 @@ fn force(excitation: &Excitation, dof: usize, t: f64) -> f64 {
         let (sin, cos) = (h as f64 * excitation.omega * t).sin_cos();
         f.re * cos - f.im * sin
     };
-    let of = |force: &super::harmonic_balance::HarmonicForce| {
+    let force_of = |force: &super::harmonic_balance::HarmonicForce| {
         (1..=force.harmonics.len()).fold(force.mean, |sum, h| sum + wave(h, force.amplitude(h)))
     };
-    excitation.forces.iter().filter(|force| force.dof == dof).map(of).sum()
+    excitation.forces.iter().filter(|force| force.dof == dof).map(force_of).sum()
 }
 
 /// What the channels show at the steps of the integrator.

@@ -73,13 +73,13 @@ pub fn signals(omega: f64, time: &[f64], motions: &[ChannelMotion]) -> Vec<Vec<f
 }
 
 fn signal(omega: f64, time: &[f64], motion: &ChannelMotion) -> Vec<f64> {
-    let at = |t: f64| {
+    let value_at = |t: f64| {
         motion.amplitudes.iter().enumerate().fold(motion.mean, |sum, (index, y)| {
             let (sin, cos) = ((index + 1) as f64 * omega * t).sin_cos();
             sum + y.re * cos - y.im * sin
         })
     };
-    time.iter().map(|&t| at(t)).collect()
+    time.iter().map(|&t| value_at(t)).collect()
 }
 
 fn contaminate(samples: &mut [Vec<f64>], noise: Noise) {

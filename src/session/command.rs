@@ -162,7 +162,7 @@ impl Command {
             Self::SetNotes(_) => "change notes".into(),
             Self::AddSource(spec) => format!("add {}", spec.law.noun()),
             Self::RemoveSource(at) => format!("remove {}", at.law.noun()),
-            Self::SetSourceState { source, state } => format!("make {} {}", source.law.noun(), state_word(*state)),
+            Self::SetSourceState { source, state } => format!("make {} {}", source.law.noun(), state.word()),
             Self::SetSourceParameters { source, .. } => format!("change {}", source.law.noun()),
             Self::AddCandidates { law, .. } => format!("add {} candidates", law.noun()),
             Self::RemoveCandidates { law, .. } => format!("remove {} candidates", law.noun()),
@@ -189,14 +189,4 @@ impl Command {
 
 fn counted(verb: &str, count: usize, noun: &str) -> String {
     if count == 1 { format!("{verb} {noun}") } else { format!("{verb} {count} {noun}s") }
-}
-
-fn state_word(state: State) -> &'static str {
-    match state {
-        State::Known => "known",
-        State::Candidate => "candidate",
-        State::Forced => "forced",
-        State::Off => "off",
-        State::Reference => "reference",
-    }
 }

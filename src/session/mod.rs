@@ -3,6 +3,7 @@
 
 pub mod apply;
 pub mod command;
+pub mod corrections;
 pub mod document;
 pub mod history;
 pub mod identified;
@@ -16,6 +17,7 @@ pub mod session;
 mod sources;
 pub mod states;
 mod structure;
+pub mod suggestions;
 pub mod time_limit;
 pub mod validation;
 pub mod workers;

@@ -2,7 +2,7 @@
 
 use crate::effects::Effect;
 use crate::effects::source::SourceError;
-use crate::exchange::project::ProjectError;
+use crate::exchange::project::{Problem, ProjectError};
 use crate::structure::StructureError;
 
 /// Why a change was refused; the document is as it was.
@@ -13,14 +13,10 @@ pub enum Refusal {
     DrawnTwice { law: Effect, place: String },
     #[error("there is no `{law}` at {place}; choose a source of the pattern")]
     NoSuchSource { law: Effect, place: String },
-    #[error("`{law}` is an error of a measuring channel, not a source; set it on the channel")]
-    ChannelLaw { law: Effect },
     #[error("the family `{family}` of `{law}` is already drawn")]
     FamilyTwice { law: Effect, family: &'static str },
     #[error("the family `{family}` of `{law}` is not drawn")]
     NoSuchFamily { law: Effect, family: &'static str },
-    #[error("the family `{family}` finds no place on this structure; choose another")]
-    EmptyFamily { family: &'static str },
     #[error("a {kind} has no number `{name}`; it has {known}")]
     NoSuchNumber { kind: &'static str, name: String, known: String },
     #[error("`{name}` must be a whole number of at least 1, not {value}")]
@@ -56,5 +52,13 @@ pub enum Refusal {
     #[error(transparent)]
     Source(#[from] SourceError),
     #[error(transparent)]
+    Pattern(Box<Problem>),
+    #[error(transparent)]
     Project(#[from] ProjectError),
+}
+
+impl From<Problem> for Refusal {
+    fn from(problem: Problem) -> Self {
+        Self::Pattern(Box::new(problem))
+    }
 }

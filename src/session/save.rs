@@ -2,6 +2,7 @@
 
 use crate::exchange::atomic::write_atomically;
 use crate::exchange::project::file::ProjectFile;
+use crate::exchange::project::rewrite::rewritten;
 use std::ffi::OsString;
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
@@ -38,17 +39,27 @@ pub fn autosave_path(path: &Path) -> PathBuf {
     path.with_file_name(name)
 }
 
-/// The text of the project as it is saved.
-pub fn text(file: &ProjectFile) -> Result<String, SaveError> {
+/// The text of the project as it is saved in place of the file at `from`: with its comments, where it holds a project.
+pub fn text_after(file: &ProjectFile, from: Option<&Path>) -> Result<String, SaveError> {
+    let kept = from.and_then(|from| {
+        let text = std::fs::read_to_string(from).ok()?;
+        let (old, _) = ProjectFile::parse(&text, "").ok()?;
+        rewritten(&text, &old, file)
+    });
+    kept.map_or_else(|| text(file), Ok)
+}
+
+/// The text of the project, written out in full.
+fn text(file: &ProjectFile) -> Result<String, SaveError> {
     file.to_toml().map_err(|error| SaveError::NotWritable { reason: error.to_string() })
 }
 
-/// Saves the project, then forgets its autosave.
+/// Saves the project in the text of the file at `from`, then forgets its autosave.
 ///
 /// # Errors
 /// [`SaveError`]; then the file is as it was.
-pub fn save(file: &ProjectFile, path: &Path) -> Result<(), SaveError> {
-    write(path, &text(file)?, "save the project")?;
+pub fn save(file: &ProjectFile, path: &Path, from: Option<&Path>) -> Result<(), SaveError> {
+    write(path, &text_after(file, from)?, "save the project")?;
     forget_autosave(path)
 }
 

@@ -133,7 +133,7 @@ impl Session {
     /// [`SaveError`]; then the file is as it was and the document still unsaved.
     pub fn save(&mut self) -> Result<(), SaveError> {
         let path = self.path.clone().ok_or(SaveError::NoPath)?;
-        save::save(&self.document.file_in(parent(&path))?, &path)?;
+        save::save(&self.document.file_in(parent(&path))?, &path, Some(&path))?;
         self.saved = Some(self.document.file().clone());
         self.kept = None;
         Ok(())
@@ -144,7 +144,7 @@ impl Session {
     /// # Errors
     /// [`SaveError`]; then the session goes on with the old file.
     pub fn save_as(&mut self, path: &Path) -> Result<(), SaveError> {
-        save::save(&self.document.file_in(parent(path))?, path)?;
+        save::save(&self.document.file_in(parent(path))?, path, self.path.as_deref())?;
         self.path = Some(path.to_owned());
         self.saved = Some(self.document.file().clone());
         self.kept = None;

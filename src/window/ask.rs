@@ -3,11 +3,11 @@
 use super::commands::Command;
 use super::edits::Edit;
 use super::files::Pick;
-use super::frame::leave::Changes;
 use super::frame::panes::Pane;
 use super::importing::Wish;
+use super::leaving::Changes;
 use super::schematic::gesture::Intent;
-use super::stages;
+use super::stages::explain::deed::Deed;
 use super::view::Stage;
 use crate::exchange::export::Format;
 use std::path::PathBuf;
@@ -51,7 +51,7 @@ pub enum Ask {
     /// Open or close a pane of the stage.
     Pane(Pane, bool),
     /// Something in the stage Explain.
-    Explain(stages::explain::Deed),
+    Explain(Deed),
     /// A dialog for a file.
     Pick(Pick),
     /// Files that were chosen in a dialog of the window.

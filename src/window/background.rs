@@ -2,7 +2,7 @@
 
 use crate::control::Control;
 use crate::session::jobs::{Job, JobError};
-use crate::window::wake::wake;
+use crate::window::repaint::request_repaint;
 use egui::Context;
 use std::sync::Arc;
 
@@ -40,7 +40,7 @@ impl<K: Clone + PartialEq, T: Send + 'static> Slot<K, T> {
             return Some(result.clone());
         }
         if self.job.as_ref().is_none_or(|job| job.key() != key) {
-            match Job::start(self.name, key.clone(), wake(ctx), work()) {
+            match Job::start(self.name, key.clone(), request_repaint(ctx), work()) {
                 Ok(job) => self.job = Some(job),
                 Err(error) => self.done = Some((key.clone(), Err(error.to_string()))),
             }

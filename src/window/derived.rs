@@ -4,8 +4,8 @@
 use super::background::Slot;
 use super::document::Document;
 use super::explained::Explained;
+use super::prepared_records::{PreparedRecord, PreparedRecords};
 use super::schematic::Scene;
-use super::traces::{Traced, Traces};
 use super::view::View;
 use crate::classical::FrequencyResponses;
 use crate::classical::incompleteness::{self, Grid, Incompleteness};
@@ -42,7 +42,7 @@ pub struct Derived {
     incompleteness: Slot<u64, Incompleteness>,
     change: Slot<(u64, Against), Compared>,
     unsteady: Slot<(u64, usize, usize), Pyramid>,
-    traces: Traces,
+    prepared_records: PreparedRecords,
     seen: Revisions,
     /// Of the stage Explain.
     pub explained: Explained,
@@ -61,7 +61,7 @@ impl Default for Derived {
             incompleteness: Slot::new("Study of incompleteness"),
             change: Slot::new("Comparing two states"),
             unsteady: Slot::new("Preparing a record"),
-            traces: Traces::default(),
+            prepared_records: PreparedRecords::default(),
             seen: Revisions::default(),
             explained: Explained::default(),
         }
@@ -73,7 +73,7 @@ impl Derived {
     pub fn keep_up(&mut self, document: &Document) {
         let now = document.session().revisions();
         if self.seen.structure != now.structure || self.seen.measurements != now.measurements {
-            self.traces.clear();
+            self.prepared_records.clear();
         }
         self.seen = now;
     }
@@ -90,7 +90,7 @@ impl Derived {
         self.incompleteness.cancel();
         self.change.cancel();
         self.unsteady.cancel();
-        self.traces.cancel();
+        self.prepared_records.cancel();
     }
 
     /// The motion of every DOF in every run at its fundamental, m or rad: measured where it is, expanded where it is not.
@@ -133,13 +133,13 @@ impl Derived {
             .or(self.incompleteness.running())
             .or(self.change.running())
             .or(self.unsteady.running())
-            .or(self.traces.running())
+            .or(self.prepared_records.running())
             .or_else(|| self.explained.running())
     }
 
     /// A channel of a run, by its index in the fit.
-    pub fn trace(&mut self, ctx: &Context, document: &Document, run: usize, channel: usize) -> Traced {
-        self.traces.get(ctx, &document.project.runs, run, channel)
+    pub fn trace(&mut self, ctx: &Context, document: &Document, run: usize, channel: usize) -> PreparedRecord {
+        self.prepared_records.get(ctx, &document.project.runs, run, channel)
     }
 
     /// A channel of a record that is not steady, ready to be drawn; `None` while it is prepared.

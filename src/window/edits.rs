@@ -134,3 +134,75 @@ fn next(state: State) -> State {
         State::Off | State::Reference => State::Candidate,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, clippy::disallowed_methods, reason = "tests")]
+    use crate::control::Control;
+    use crate::effects::{Effect, Place, Source};
+    use crate::exchange::project::load;
+    use crate::session::suggestions;
+    use crate::window::document::{Applied, Document};
+    use crate::window::edits::Edit;
+
+    const CHAIN: &str = "[project]\nformat = 1\ntitle = \"Chain\"\n[structure]\nkind = \"chain\"\nmasses = [1.0, 2.0]\n\
+                         ground_stiffness = [100.0, 0.0]\ncoupling_stiffness = [50.0]\n\
+                         [[harmonics]]\nfile = \"h.csv\"\n";
+    const HARMONICS: &str = "run,frequency_hz,channel,harmonic,cos,sin\na,2.0,force@1 [N],1,1.0,0.0\na,2.0,force@1 [N],2,0.0,0.0\n\
+                             a,2.0,acc@2 [m/s^2],1,0.3,-0.4\na,2.0,acc@2 [m/s^2],2,0.01,0.02\n";
+
+    fn document() -> (tempfile::TempDir, Document) {
+        let folder = tempfile::tempdir().unwrap();
+        std::fs::write(folder.path().join("h.csv"), HARMONICS).unwrap();
+        let path = folder.path().join("project.toml");
+        std::fs::write(&path, CHAIN).unwrap();
+        let document = Document::open(&path, &Control::unattended()).unwrap().0;
+        (folder, document)
+    }
+
+    /// Adds an effect, and reads what that needs.
+    fn add(d: &mut Document, source: &Source) -> Result<(), String> {
+        let command = suggestions::add(source, d.session().document())?;
+        match d.apply(&Edit::Do(command))? {
+            Applied::Done(_) => Ok(()),
+            Applied::Waits(waiting) => d.finish(waiting.read(&Control::unattended())?),
+        }
+    }
+
+    fn channel(effect: Effect, value: f64) -> Source {
+        Source::known(effect, Place::Channel("acc@2".to_owned()), &[value])
+    }
+
+    #[test]
+    fn a_corrected_channel_is_that_of_the_saved_project_read_anew_and_undo_restores_it() {
+        let (folder, mut d) = document();
+        let before = d.project.runs.clone();
+        for error in [channel(Effect::Delay, 2e-3), channel(Effect::Gain, 1.1), channel(Effect::Delay, 1e-3)] {
+            add(&mut d, &error).unwrap();
+        }
+        d.save().unwrap();
+        let again = load(&folder.path().join("project.toml"), &Control::unattended()).unwrap();
+        for (now, read) in d.project.runs[0].fit.channels.iter().zip(&again.runs[0].fit.channels) {
+            for (a, b) in now.amplitudes.iter().zip(&read.amplitudes) {
+                assert!((a - b).norm() < 1e-14, "{a} is not {b}");
+            }
+        }
+        assert_ne!(d.project.runs, before);
+        while d.undo().is_some() {}
+        assert_eq!(d.project.runs, before);
+    }
+
+    #[test]
+    fn an_effect_that_is_there_already_grows_by_what_was_found() {
+        let (_folder, mut d) = document();
+        let damper = |c: f64| Source::known(Effect::Viscous, Place::Dofs(vec![0, 1]), &[c]);
+        add(&mut d, &damper(2.0)).unwrap();
+        add(&mut d, &damper(0.5)).unwrap();
+        assert_eq!(d.project.sources.len(), 1);
+        assert!((d.project.sources[0].parameters[0] - 2.5).abs() < 1e-15);
+        let slider = |force: f64| Source::known(Effect::ElasticSlider, Place::Dofs(vec![1]), &[1000.0, force]);
+        add(&mut d, &slider(1.0)).unwrap();
+        assert!(add(&mut d, &slider(2.0)).unwrap_err().contains("already"));
+        assert_eq!(d.undo().as_deref(), Some("add elastic slider"));
+    }
+}

@@ -1,14 +1,12 @@
 //! The window: reads the document, draws it, and turns gestures into edits. Holds no physics.
 
-mod act;
-pub mod additions;
+mod actions;
 pub mod app;
 pub mod arguments;
 pub mod ask;
 pub mod background;
-mod chosen;
+mod chosen_files;
 pub mod commands;
-pub mod corrections;
 pub mod crash;
 pub mod derived;
 pub mod document;
@@ -18,23 +16,25 @@ pub mod files;
 pub mod frame;
 mod import;
 pub mod importing;
+pub mod jobs;
 pub mod learn;
-mod marks;
+pub mod leaving;
 pub mod offscreen;
 pub mod photograph;
 pub mod picture;
 pub mod plots;
+pub mod prepared_records;
 pub mod records;
+pub mod repaint;
 pub mod schematic;
 pub mod solid;
+mod stage_status;
 pub mod stages;
 pub mod templates;
 pub mod theme;
-pub mod traces;
+mod update;
 pub mod view;
-pub mod wake;
 pub mod widgets;
-pub mod work;
 
 pub use app::App;
 pub use photograph::Photograph;

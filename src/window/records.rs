@@ -138,7 +138,7 @@ fn unsteady(
 /// Runs that came as fitted harmonics; each file's runs bear its name or stand in its order.
 fn harmonics(plan: &Plan, keys: &[Key]) -> Result<Vec<(Key, Vec<Run>)>, String> {
     let corrections = plan.corrections();
-    let one = |(index, key): (usize, &Key)| {
+    let harmonics_of = |(index, key): (usize, &Key)| {
         let mut alone = plan.clone();
         alone.file.harmonics = vec![plan.file.harmonics[index].clone()];
         let read = alone.harmonics().map_err(|e| e.to_string())?;
@@ -147,7 +147,7 @@ fn harmonics(plan: &Plan, keys: &[Key]) -> Result<Vec<(Key, Vec<Run>)>, String> 
             fitted.map(|run| plan.on_its_base(None, run).map_err(|e| e.to_string())).collect::<Result<_, _>>()?;
         Ok((key.clone(), runs))
     };
-    keys.iter().enumerate().map(one).collect()
+    keys.iter().enumerate().map(harmonics_of).collect()
 }
 
 /// Runs of a file of frequency responses depend on all that its table says.

@@ -3,7 +3,7 @@
 use dashpot::classical::circle_fit::circle_fit;
 use dashpot::classical::energy_single::{SteadyState, viscous, viscous_and_friction};
 use dashpot::classical::half_power::peaks;
-use dashpot::classical::hysteresis_loop::{from_harmonics, polygon_area};
+use dashpot::classical::hysteresis_loop::from_harmonics;
 use dashpot::classical::log_decrement::{log_decrement, ratio};
 use dashpot::classical::{ClassicalError, DecayRecord};
 use faer::c64;
@@ -110,6 +110,18 @@ fn steady(omega: f64, x: f64, c: f64, friction: f64) -> SteadyState {
     // The fundamental of the force that keeps x cos(w t) up: k x - w^2 m x + i (w c x + 4 F / pi).
     let force = c64::new((K - omega * omega * M) * x, omega * c * x + 4.0 * friction / PI);
     SteadyState { omega, displacement: vec![c64::new(x, 0.0)], force: vec![force] }
+}
+
+/// Area of a closed polygon of samples of one period, J: short of the smooth loop by about `(2 pi / samples)^2 / 6` of itself.
+fn polygon_area(displacement: &[f64], force: &[f64]) -> f64 {
+    let n = displacement.len().min(force.len());
+    // The loop is run clockwise in the plane of x and f when energy is lost, so twice the area is sum f dx - x df.
+    (0..n)
+        .map(|i| {
+            let j = (i + 1) % n;
+            0.5 * (force[i] * displacement[j] - force[j] * displacement[i])
+        })
+        .sum()
 }
 
 #[test]

@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used, reason = "tests")]
 
 mod comparison;
+mod energy_rows;
 mod hidden;
 mod level_series;
 mod missing_force;

@@ -29,7 +29,7 @@ fn victim() {
     for n in 1.. {
         autosave(&state(n), &path).unwrap();
         writeln!(out, "kept {n}").unwrap();
-        save(&state(n), &path).unwrap();
+        save(&state(n), &path, Some(&path)).unwrap();
         writeln!(out, "saved {n}").unwrap();
     }
 }
@@ -93,7 +93,7 @@ fn round_time() -> Duration {
     let path = folder.path().join("project.toml");
     let start = std::time::Instant::now();
     autosave(&state(1), &path).unwrap();
-    save(&state(1), &path).unwrap();
+    save(&state(1), &path, Some(&path)).unwrap();
     start.elapsed()
 }
 

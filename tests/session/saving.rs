@@ -68,6 +68,24 @@ fn saved_in_another_folder_it_names_the_same_records() {
 }
 
 #[test]
+fn what_is_saved_keeps_the_comments_of_the_file_under_both_names() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("project.toml");
+    let text = format!("# measured on Monday\n{BEAM}\n# not yet known\n[[ruled_out]]\nlaw = \"coulomb\"\ndofs = [3]\n");
+    std::fs::write(&path, &text).unwrap();
+    let mut session = Session::open(&path).unwrap();
+    session.apply(&title("changed")).unwrap();
+    session.save().unwrap();
+    let saved = std::fs::read_to_string(&path).unwrap();
+    assert!(saved.starts_with("# measured on Monday\n") && saved.contains("title = \"changed\""), "{saved}");
+    let differ = text.lines().zip(saved.lines()).filter(|(a, b)| a != b).count();
+    assert!(differ == 1 && text.lines().count() == saved.lines().count(), "only the title is another:\n{saved}");
+    let other = folder.path().join("copy.toml");
+    session.save_as(&other).unwrap();
+    assert_eq!(std::fs::read_to_string(&other).unwrap(), saved);
+}
+
+#[test]
 fn a_damaged_autosave_is_no_harm() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("project.toml");

@@ -3,7 +3,7 @@
 use crate::support::{beam, open, settle};
 use dashpot::window::App;
 use dashpot::window::commands::Command;
-use dashpot::window::frame::dock::Desk;
+use dashpot::window::frame::desk::Desk;
 use dashpot::window::frame::panes::Pane;
 use dashpot::window::view::Stage;
 use egui::Theme;

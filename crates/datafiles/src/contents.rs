@@ -1,5 +1,7 @@
 //! What is in a file, as a tree that is cheap to make: sets, and channels with their units, steps and first values.
 
+use uff::Values;
+
 /// Most values of a channel that its entry shows.
 pub(crate) const FIRST: usize = 3;
 
@@ -80,6 +82,14 @@ pub enum Number {
     Real(f64),
     /// Complex: real and imaginary part.
     Complex([f64; 2]),
+}
+
+/// The first values of a channel for its entry.
+pub(crate) fn first_numbers(values: &Values) -> Vec<Number> {
+    match values {
+        Values::Real(values) => values.iter().take(FIRST).map(|&value| Number::Real(value)).collect(),
+        Values::Complex(values) => values.iter().take(FIRST).map(|&value| Number::Complex(value)).collect(),
+    }
 }
 
 /// The abscissa of a channel.

@@ -2,7 +2,7 @@
 
 use crate::contents::Contents;
 use crate::error::{Fault, Read};
-use crate::file::Source;
+use crate::source::Source;
 use crate::{hdf5, mat, npy, npz, tdms, text, universal, wav, xlsx};
 use std::fs::File;
 use std::io::{BufReader, Read as _, Seek, SeekFrom};

@@ -5,49 +5,13 @@ use crate::detect;
 use crate::error::{Error, Fault, Read};
 use crate::guard::guarded;
 use crate::parts::{self, Pairing};
+use crate::source::{MOST_VALUES, Source};
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
-
-/// Most values of one channel that are read into memory: 4 GiB of real numbers.
-pub(crate) const MOST_VALUES: u64 = 1 << 29;
+use uff::Values;
 
 /// Most notes of a set.
 const MOST_NOTES: usize = 64;
-
-/// Values of a channel.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Values {
-    /// Real numbers.
-    Real(Vec<f64>),
-    /// Complex numbers: real and imaginary part.
-    Complex(Vec<[f64; 2]>),
-}
-
-impl Values {
-    /// Number of values.
-    pub fn len(&self) -> usize {
-        match self {
-            Self::Real(values) => values.len(),
-            Self::Complex(values) => values.len(),
-        }
-    }
-
-    /// Whether there is none.
-    pub fn is_empty(&self) -> bool {
-        self.len() == 0
-    }
-}
-
-/// Reads what [`Contents`] lists; indices were checked.
-pub(crate) trait Source: Send + Sync {
-    /// Values of a channel.
-    fn read(&self, set: usize, channel: usize) -> Read<Values>;
-
-    /// Abscissa of a channel whose axis is [`Axis::Stored`].
-    fn axis(&self, _set: usize, _channel: usize) -> Read<Vec<f64>> {
-        Err(Fault::new("the abscissa is not stored"))
-    }
-}
 
 /// A file that was opened: its tree, and its channels on request.
 pub struct DataFile {

@@ -33,6 +33,7 @@ mod mat;
 mod npy;
 mod npz;
 mod parts;
+mod source;
 mod table;
 mod tdms;
 mod text;
@@ -44,5 +45,6 @@ mod xlsx;
 
 pub use contents::{Axis, Channel, Contents, Format, Kind, Number, Set};
 pub use error::Error;
-pub use file::{DataFile, Values, open, open_paired};
+pub use file::{DataFile, open, open_paired};
 pub use parts::{Pairing, core_of, is_coherence};
+pub use uff::Values;

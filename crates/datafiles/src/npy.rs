@@ -6,7 +6,7 @@
 use crate::bytes::{Scalar, check_size, take};
 use crate::contents::{Contents, Format};
 use crate::error::{Fault, Read, one_line};
-use crate::file::Source;
+use crate::source::Source;
 use crate::tree::{Array, Arrays, Entry, Flat, Node, Shape, TreeSource, sets};
 use std::fs::File;
 use std::io::{Read as Bytes, Seek, SeekFrom};

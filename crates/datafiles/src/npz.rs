@@ -2,8 +2,8 @@
 
 use crate::contents::{Contents, Format};
 use crate::error::{Fault, Read};
-use crate::file::Source;
 use crate::npy::Header;
+use crate::source::Source;
 use crate::tree::{Arrays, Entry, Flat, Node, TreeSource, sets};
 use std::fs::File;
 use std::io::BufReader;

@@ -1,12 +1,12 @@
 //! Universal Files: the sets of the crate `uff` as sets of channels. Each data set is a set.
 
-use crate::contents::{Axis, Channel, Contents, FIRST, Format, Kind, Number, Set};
+use crate::contents::{Axis, Channel, Contents, FIRST, Format, Kind, Number, Set, first_numbers};
 use crate::error::{Fault, Read, one_line};
-use crate::file::{Source, Values};
+use crate::source::Source;
 use std::fs::File;
 use std::path::Path;
 use std::sync::Mutex;
-use uff::{Dof, FunctionHeader, FunctionKind, Reading, Summary};
+use uff::{Dof, FunctionHeader, FunctionKind, Reading, Summary, Values};
 
 /// Most bytes of sets that are read for their first values.
 const MOST_PREVIEWED: u64 = 256 << 20;
@@ -176,7 +176,7 @@ fn fill(set: &mut Set, reading: &Reading) {
     match &reading.set {
         uff::Set::Function(function) => {
             if let Some(channel) = set.channels.first_mut() {
-                channel.first = first(&function.values);
+                channel.first = first_numbers(&function.values);
                 // What is there counts, not what the header states.
                 channel.count = function.values.len() as u64;
                 if let Some(uneven) = &function.uneven {
@@ -250,14 +250,14 @@ fn shape_channels(
     frequency: Option<f64>,
     damping: Option<f64>,
     nodes: usize,
-    values: &uff::Values,
+    values: &Values,
 ) {
     set.kind = Kind::Shape;
     set.name = format!("{} shape", set.name);
     let name = id.iter().map(|line| line.trim()).find(|line| !line.is_empty()).unwrap_or("shape");
     let mut channel = Channel::new(name, "", values.len() as u64);
     channel.complex = values.is_complex();
-    channel.first = first(values);
+    channel.first = first_numbers(values);
     let mut attribute = |word: &str, value: Option<f64>| {
         channel.attributes.extend(value.map(|value| (word.to_owned(), value.to_string())));
     };
@@ -265,20 +265,6 @@ fn shape_channels(
     attribute("damping ratio", damping);
     attribute("nodes", Some(nodes as f64));
     set.channels.push(channel);
-}
-
-fn first(values: &uff::Values) -> Vec<Number> {
-    match values {
-        uff::Values::Real(values) => values.iter().take(FIRST).map(|&value| Number::Real(value)).collect(),
-        uff::Values::Complex(values) => values.iter().take(FIRST).map(|&value| Number::Complex(value)).collect(),
-    }
-}
-
-fn plain(values: uff::Values) -> Values {
-    match values {
-        uff::Values::Real(values) => Values::Real(values),
-        uff::Values::Complex(values) => Values::Complex(values),
-    }
 }
 
 impl Universal {
@@ -291,9 +277,9 @@ impl Universal {
 impl Source for Universal {
     fn read(&self, set: usize, channel: usize) -> Read<Values> {
         match self.set(set)? {
-            uff::Set::Function(function) => Ok(plain(function.values)),
-            uff::Set::Shape(shape) => Ok(plain(shape.values)),
-            uff::Set::Analysis(shape) => Ok(plain(shape.values)),
+            uff::Set::Function(function) => Ok(function.values),
+            uff::Set::Shape(shape) => Ok(shape.values),
+            uff::Set::Analysis(shape) => Ok(shape.values),
             uff::Set::Nodes(nodes) | uff::Set::DoubleNodes(nodes) => Ok(Values::Real(match channel {
                 3 => nodes.iter().map(|node| node.label as f64).collect(),
                 axis => nodes.iter().map(|node| node.position[axis.min(2)]).collect(),

@@ -3,11 +3,12 @@
 use crate::bytes::check_size;
 use crate::contents::{Axis, Channel, Contents, FIRST, Format, Kind, Number, Set};
 use crate::error::{Fault, Read};
-use crate::file::{Source, Values};
+use crate::source::Source;
 use hound::{SampleFormat, WavReader};
 use std::fs::File;
 use std::io::BufReader;
 use std::path::{Path, PathBuf};
+use uff::Values;
 
 struct Wav {
     path: PathBuf,

@@ -2,8 +2,8 @@
 
 use crate::contents::{Contents, Format};
 use crate::error::{Fault, Read};
-use crate::file::Source;
-use crate::table::{Blocks, Cell, TableSource, finish};
+use crate::source::Source;
+use crate::table::{Block, Blocks, Cell, TableSource, finish};
 use calamine::{DataRef, Reader, Xlsx};
 use std::io::{Read as Bytes, Seek};
 
@@ -91,7 +91,7 @@ impl Rows {
         Ok(())
     }
 
-    fn finish(mut self) -> Read<(Vec<crate::table::Block>, usize)> {
+    fn finish(mut self) -> Read<(Vec<Block>, usize)> {
         self.flush()?;
         Ok(self.blocks.finish())
     }

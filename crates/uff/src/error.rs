@@ -145,3 +145,11 @@ pub enum Problem {
         expected: usize,
     },
 }
+
+/// An error of the system at a byte.
+pub(crate) fn io_at(byte: u64) -> impl Fn(std::io::Error) -> Error {
+    move |error| {
+        let place = Place { byte, ..Place::default() };
+        Error { place, problem: Problem::Io { reason: error.to_string() } }
+    }
+}

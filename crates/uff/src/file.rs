@@ -1,57 +1,15 @@
 //! A file: the list of its sets, made without parsing their numbers, and each set when it is asked for.
 
 use crate::body::Body;
-use crate::error::{Error, Problem};
+use crate::entry::{Entry, Summary};
+use crate::error::{Error, Problem, io_at};
 use crate::lines::Lines;
 use crate::place::Place;
 use crate::scan;
 use crate::sets::Set;
-use crate::sets::analysis::{self, AnalysisHeader};
-use crate::sets::function::{self, FunctionHeader};
-use crate::sets::model::Model;
-use crate::sets::shape::{self, ShapeHeader};
-use crate::sets::units::Units;
 use crate::warning::Warning;
 use std::io::{Cursor, Read, Seek};
-use std::ops::Range;
 use std::path::Path;
-
-/// A set in the list of a file.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Entry {
-    /// Number of the data set, such as 58; 0 where it cannot be read.
-    pub number: u32,
-    /// Whether it holds binary data (58b).
-    pub binary: bool,
-    /// Place of the record with its number.
-    pub place: Place,
-    /// Bytes from that record to the closing delimiter.
-    pub bytes: Range<u64>,
-    /// What its first records say.
-    pub summary: Summary,
-}
-
-/// What the first records of a set say.
-#[derive(Debug, Clone, PartialEq)]
-#[non_exhaustive]
-pub enum Summary {
-    /// A function.
-    Function(Box<FunctionHeader>),
-    /// Data at nodes (55).
-    Shape(Box<ShapeHeader>),
-    /// Analysis data (2414).
-    Analysis(Box<AnalysisHeader>),
-    /// Units.
-    Units(Units),
-    /// What the file is about.
-    Model(Box<Model>),
-    /// Nodes, elements and lines: they have no header.
-    Geometry,
-    /// A set that is not known here.
-    Unknown,
-    /// The first records cannot be read.
-    Unreadable(Error),
-}
 
 /// A set with its numbers and what was read over.
 #[derive(Debug, Clone, PartialEq)]
@@ -141,33 +99,5 @@ impl<R: Read + Seek> File<R> {
     /// Reads all sets in turn; a set that cannot be read is an error in its place.
     pub fn read_all(&mut self) -> Vec<Result<Reading, Error>> {
         (0..self.sets.len()).map(|i| self.read(i)).collect()
-    }
-}
-
-/// Summary of a set from its first lines.
-pub(crate) fn summary(number: u32, head: &[u8], origin: Place) -> Summary {
-    let mut body = Body::new(head, origin);
-    let read = |body: &mut Body<'_>| -> Result<Summary, Error> {
-        if number == 58 {
-            return function::read_header(body).map(|header| Summary::Function(Box::new(header)));
-        }
-        body.line();
-        Ok(match number {
-            55 => Summary::Shape(Box::new(shape::read_header(body)?)),
-            2414 => Summary::Analysis(Box::new(analysis::read_header(body)?)),
-            164 => Summary::Units(Units::read(body)?),
-            151 => Summary::Model(Box::new(Model::read(body))),
-            15 | 82 | 2411 | 2412 => Summary::Geometry,
-            _ => Summary::Unknown,
-        })
-    };
-    read(&mut body).unwrap_or_else(Summary::Unreadable)
-}
-
-/// An error of the system at a byte.
-pub(crate) fn io_at(byte: u64) -> impl Fn(std::io::Error) -> Error {
-    move |error| {
-        let place = Place { byte, ..Place::default() };
-        Error { place, problem: Problem::Io { reason: error.to_string() } }
     }
 }

@@ -2,6 +2,7 @@
 
 mod body;
 mod dof;
+mod entry;
 mod error;
 mod fields;
 mod file;
@@ -16,8 +17,9 @@ mod warning;
 mod write;
 
 pub use dof::Dof;
+pub use entry::{Entry, Summary};
 pub use error::{Error, Problem};
-pub use file::{Entry, File, Reading, Summary};
+pub use file::{File, Reading};
 pub use place::Place;
 pub use sets::analysis::{Analysis, AnalysisHeader};
 pub use sets::elements::Element;

@@ -4,8 +4,8 @@
 //! hold anything that looks like a delimiter, so that their end is computed from the header and then looked at; long
 //! functions in text are passed over in the same way.
 
-use crate::error::{Error, Problem};
-use crate::file::{Entry, Summary, io_at, summary};
+use crate::entry::{Entry, Summary};
+use crate::error::{Error, Problem, io_at};
 use crate::lines::{FileLine, Lines, delimiter};
 use crate::number::{integer, trim};
 use crate::place::Place;
@@ -136,7 +136,7 @@ fn one_set<R: Read + Seek>(
     head.push(b'\n');
     let end = if number == 58 { function_end(lines, &mut head, place, binary)? } else { plain_end(lines, &mut head)? };
     let summary = match said {
-        Some(_) => summary(number, &head, place),
+        Some(_) => Summary::read(number, &head, place),
         None => Summary::Unreadable(Error { place, problem: Problem::NotASetNumber { text: quote(&first.bytes) } }),
     };
     let bytes = first.byte..end.as_ref().map_or(lines.length, |end| end.byte);
@@ -180,7 +180,7 @@ fn function_end<R: Read + Seek>(
         head.extend_from_slice(&line.bytes);
         head.push(b'\n');
     }
-    let Summary::Function(header) = summary(58, head, place) else {
+    let Summary::Function(header) = Summary::read(58, head, place) else {
         return if binary { search(lines) } else { plain_end(lines, &mut Vec::new()) };
     };
     if binary {

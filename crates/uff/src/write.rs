@@ -16,7 +16,7 @@ use crate::sets::shape::Shape;
 use crate::sets::trace::TraceLine;
 use crate::sets::units::Units;
 use crate::sets::{Set, Unknown};
-use columns::Columns;
+use columns::{Columns, consistent};
 use std::io::Write;
 
 /// Writes sets, each between its delimiters.
@@ -196,8 +196,4 @@ fn write_unknown(out: &mut Columns, unknown: &Unknown) {
     if unknown.bytes.last().is_some_and(|&b| b != b'\n') {
         out.end();
     }
-}
-
-fn consistent(what: &'static str, found: usize, expected: usize) -> Result<(), Problem> {
-    if found == expected { Ok(()) } else { Err(Problem::Inconsistent { what, found, expected }) }
 }

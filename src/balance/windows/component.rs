@@ -37,12 +37,13 @@ pub(super) fn rows(
         let over = |&(a, b): &(usize, usize)| one.step * (a..b).map(|n| force[n] * one.v[n]).sum::<f64>();
         ends.iter().map(over).collect()
     };
-    let of = |source: &Source| -> Result<Vec<f64>, WindowError> {
+    let energies_of = |source: &Source| -> Result<Vec<f64>, WindowError> {
         let none = ComponentError::NoTimeDomain { law: source.effect.name() };
         Ok(work(&one.law_force(source).ok_or(none)?))
     };
-    let units: Vec<Vec<f64>> = columns.iter().map(|s| of(&s.with_coefficient(1.0))).collect::<Result<_, _>>()?;
-    let taken: Vec<Vec<f64>> = known.iter().map(of).collect::<Result<_, _>>()?;
+    let units: Vec<Vec<f64>> =
+        columns.iter().map(|s| energies_of(&s.with_coefficient(1.0))).collect::<Result<_, _>>()?;
+    let taken: Vec<Vec<f64>> = known.iter().map(energies_of).collect::<Result<_, _>>()?;
     let mean = one.force.iter().sum::<f64>() / one.force.len() as f64;
     let mass = structure.origin().component_mass;
     let driven: Vec<f64> = one.force.iter().zip(&one.a).map(|(f, a)| f - mean - mass * a).collect();

@@ -70,11 +70,11 @@ fn add_numerical(motion: &Motion, ends: &[(usize, usize)], covariance: &mut Mat<
 fn force_noise(motion: &Motion, first: (usize, usize), second: (usize, usize)) -> f64 {
     let common = first.0.max(second.0)..first.1.min(second.1);
     let shapes = &motion.band.shapes;
-    let of = |(j, (dof, _)): (usize, &(usize, Vec<f64>))| {
+    let noise_of_force = |(j, (dof, _)): (usize, &(usize, Vec<f64>))| {
         let velocity = |n: usize| (0..motion.v.len()).map(|r| shapes[(*dof, r)] * motion.v[r][n]).sum::<f64>();
         motion.force_variance[j] * motion.step.powi(2) * common.clone().map(|n| velocity(n).powi(2)).sum::<f64>()
     };
-    motion.forces.iter().enumerate().map(of).sum()
+    motion.forces.iter().enumerate().map(noise_of_force).sum()
 }
 
 /// Lines of the transforms of windows that lie in the band.
@@ -92,10 +92,10 @@ impl Lines {
         let resolution = line_omega(length, motion.step);
         let gain = |k: usize| motion.band.gain(k as f64 * resolution / TAU);
         let band: Vec<usize> = (1..length / 2).filter(|&k| gain(k) > 0.0).collect();
-        let of = |&(order, variance): &(i32, f64)| {
+        let weights_of_sensor = |&(order, variance): &(i32, f64)| {
             band.iter().map(|&k| gain(k) * (k as f64 * resolution).powi(-order) * variance.sqrt()).collect()
         };
-        let weights = motion.sensors.iter().map(of).collect();
+        let weights = motion.sensors.iter().map(weights_of_sensor).collect();
         Self { transform: RealTransform::new(length), length, band, resolution, weights }
     }
 

@@ -143,7 +143,7 @@ fn noise_energy(motion: &Motion) -> f64 {
     let lines = 400;
     let top = band.high[1];
     let width = top / f64::from(lines);
-    let of = |r: usize| {
+    let noise_of_mode = |r: usize| {
         let line = |k: i32| {
             let hz = (f64::from(k) + 0.5) * width;
             let omega = TAU * hz;
@@ -157,19 +157,19 @@ fn noise_energy(motion: &Motion) -> f64 {
         };
         (0..lines).map(line).sum::<f64>()
     };
-    (0..motion.q.len()).map(of).sum()
+    (0..motion.q.len()).map(noise_of_mode).sum()
 }
 
 /// Power of the exciters at every sample, W.
 fn input_power(motion: &Motion) -> Vec<f64> {
     let shapes = &motion.band.shapes;
-    let at = |n: usize| {
-        let of = |(dof, u): &(usize, Vec<f64>)| {
+    let power_at = |n: usize| {
+        let power_of_force = |(dof, u): &(usize, Vec<f64>)| {
             u[n] * (0..motion.v.len()).map(|r| shapes[(*dof, r)] * motion.v[r][n]).sum::<f64>()
         };
-        motion.forces.iter().map(of).sum()
+        motion.forces.iter().map(power_of_force).sum()
     };
-    (0..motion.q[0].len()).map(at).collect()
+    (0..motion.q[0].len()).map(power_at).collect()
 }
 
 /// `sum v_r^2` at every sample.

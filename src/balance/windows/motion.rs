@@ -125,17 +125,20 @@ fn modal_lines(
         let weight = band.expansion[(r, s)];
         for (k, (line, z)) in lines.iter_mut().zip(spectrum).enumerate() {
             if gains[k] > 0.0 {
-                let w = k as f64 * resolution;
-                let factor = match order {
-                    0 => c64::new(1.0, 0.0),
-                    1 => c64::new(0.0, -1.0 / w),
-                    _ => c64::new(-1.0 / (w * w), 0.0),
-                };
-                *line += z * factor * (weight * gains[k]);
+                *line += z * integrated(order, k as f64 * resolution) * (weight * gains[k]);
             }
         }
     }
     lines
+}
+
+/// `(i omega)^-k`: from a derivative of order `k` to the displacement.
+fn integrated(order: i32, omega: f64) -> c64 {
+    match order {
+        0 => c64::new(1.0, 0.0),
+        1 => c64::new(0.0, -1.0 / omega),
+        _ => c64::new(-1.0 / (omega * omega), 0.0),
+    }
 }
 
 /// The first `n` samples of the signal with these lines.

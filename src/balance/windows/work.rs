@@ -5,7 +5,7 @@
 
 use super::band::line_omega;
 use super::motion::Motion;
-use crate::effects::{Effect, Kind, Leg, Source};
+use crate::effects::{Effect, Kind, Law, Leg, Source};
 use crate::response::linear_matrices::unit_matrix;
 use crate::structure::Structure;
 use dashpot_numerics::{product, transposed_product};
@@ -90,13 +90,7 @@ impl<'a> Works<'a> {
             return Some(d.iter().zip(v.iter()).map(force).collect());
         }
         if law.dynamic_stiffness(parameters, 1.0).is_some() {
-            let resolution = line_omega(motion.padded, motion.step);
-            let line = |k: usize| {
-                let d: c64 = motion.lines.iter().zip(&weights).map(|(lines, w)| lines[k] * *w).sum();
-                let z = if k == 0 { None } else { law.dynamic_stiffness(parameters, k as f64 * resolution) };
-                d * z.unwrap_or(c64::new(0.0, 0.0))
-            };
-            return Some(motion.signal((0..=motion.padded / 2).map(line).collect()));
+            return Some(linear_force(law, parameters, motion, &weights));
         }
         let mut memory = law.memory(parameters)?;
         Some(d.iter().map(|d| memory.advance(*d, motion.step)).collect())
@@ -111,15 +105,26 @@ impl<'a> Works<'a> {
         let shapes = motion.band.shapes.as_ref();
         let modal = transposed_product(shapes, product(basis.as_ref(), shapes).as_ref());
         let resolution = line_omega(motion.padded, motion.step);
-        let of = |r: usize| {
+        let force_on_mode = |r: usize| {
             let line = |k: usize| {
                 let q: c64 = motion.lines.iter().enumerate().map(|(s, lines)| lines[k] * modal[(r, s)]).sum();
                 if k == 0 { c64::new(0.0, 0.0) } else { q * law.factor(source.coefficient(), k as f64 * resolution) }
             };
             motion.signal((0..=motion.padded / 2).map(line).collect())
         };
-        (0..motion.q.len()).map(of).collect()
+        (0..motion.q.len()).map(force_on_mode).collect()
     }
+}
+
+/// Force of a law that is linear, from its dynamic stiffness on the lines of the record.
+fn linear_force(law: &dyn Law, parameters: &[f64], motion: &Motion, weights: &[f64]) -> Vec<f64> {
+    let resolution = line_omega(motion.padded, motion.step);
+    let line = |k: usize| {
+        let d: c64 = motion.lines.iter().zip(weights).map(|(lines, w)| lines[k] * *w).sum();
+        let z = if k == 0 { None } else { law.dynamic_stiffness(parameters, k as f64 * resolution) };
+        d * z.unwrap_or(c64::new(0.0, 0.0))
+    };
+    motion.signal((0..=motion.padded / 2).map(line).collect())
 }
 
 fn combined(modal: &[Vec<f64>], weights: &[f64]) -> Vec<f64> {

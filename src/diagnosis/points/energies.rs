@@ -1,14 +1,19 @@
-//! `points` structures: no response can be predicted, so the model is judged by the energy of each run.
+//! `points` structures: no response can be predicted, so the model is judged by the energy of each run, which is that of the
+//! rows of identification ([`crate::balance`]).
 //!
 //! ```text
 //! e_r = input energy of run r,     m_r = energy taken out by the sources,     error |e_r - m_r| / |e_r|
 //! ```
-//!
-//! The variance of `e_r - m_r` is propagated from the deviations of every measured amplitude by finite differences.
 
+use crate::balance::energy::input_energy;
+use crate::balance::expansion::Acting;
+use crate::balance::weights::residual_deviation;
+use crate::balance::{Expanded, Expander, Expansion, Measured, action};
 use crate::diagnosis::residual::data::{Data, DiagnosisError, Problem, RunData};
-use crate::diagnosis::residual::energy_balance::{input, measured_displacement, taken};
+use crate::diagnosis::residual::energy_balance::measured_displacement;
 use crate::effects::Source;
+use crate::measurement::Run;
+use crate::structure::Structure;
 use faer::c64;
 
 /// Energies of one run.
@@ -41,35 +46,27 @@ pub fn energies(problem: &Problem, effects: &[Source]) -> Result<Vec<PointsEnerg
     Data::new(problem)?;
     let data = Data::every(problem)?;
     let sources: Vec<Source> = problem.known().into_iter().chain(effects.iter().cloned()).collect();
-    Ok(data.runs.iter().map(|run| of_run(problem, run, &sources)).collect())
+    Ok(data.runs.iter().map(|run| of_run(problem, run.index, &sources)).collect())
 }
 
-fn of_run(problem: &Problem, run: &RunData, sources: &[Source]) -> PointsEnergy {
-    let both = |run: &RunData| -> [f64; 2] {
-        let field = |dof: usize| displacement(run, dof);
-        let lost = sources.iter().map(|s| taken(problem.structure, s, run.omega, &field)).sum();
-        [input(run, &field), lost]
+/// The energies of run `index`; nothing is put in where no sensor sees the drive point or no force acts.
+fn of_run(problem: &Problem, index: usize, sources: &[Source]) -> PointsEnergy {
+    let structure = problem.structure;
+    let Some((measured, expanded)) = motion(structure, &problem.runs[index]) else {
+        return PointsEnergy { index, input: 0.0, taken: 0.0, deviation: 0.0 };
     };
-    let [given, lost] = both(run);
-    let mut variance = 0.0;
-    let mut moved = run.clone();
-    // Only the fundamental carries energy worth its noise.
-    for part in [c64::new(1.0, 0.0), c64::new(0.0, 1.0)] {
-        for force in [true, false] {
-            let count = if force { run.forces.len() } else { run.responses.len() };
-            for c in 0..count {
-                let deviation = if force { run.forces[c].deviation[0] } else { run.responses[c].deviation[0] };
-                let list = if force { &mut moved.forces } else { &mut moved.responses };
-                let before = list[c].measured[0];
-                list[c].measured[0] = before + part * deviation;
-                let [g, l] = both(&moved);
-                variance += ((g - l) - (given - lost)).powi(2);
-                let list = if force { &mut moved.forces } else { &mut moved.responses };
-                list[c].measured[0] = before;
-            }
-        }
-    }
-    PointsEnergy { index: run.index, input: given, taken: lost, deviation: variance.sqrt() }
+    let input = input_energy(structure, &measured, &expanded).unwrap_or(0.0);
+    let taken = sources.iter().map(|source| action::energy(source, structure, expanded.field(&measured))).sum();
+    let noisy = measured.noisy.then(|| residual_deviation(structure, &measured, &expanded, sources));
+    PointsEnergy { index, input, taken, deviation: noisy.unwrap_or(0.0) }
+}
+
+/// The motion where sensors are, sensors at one DOF averaged by their variances.
+fn motion(structure: &Structure, run: &Run) -> Option<(Measured, Expanded)> {
+    let measured = Measured::new(run).ok()?;
+    let expander = Expander::new(structure, Expansion::None, std::slice::from_ref(&measured)).ok()?;
+    let expanded = expander.expand(&measured, Acting::NOTHING).ok()?;
+    Some((measured, expanded))
 }
 
 /// Measured displacement of a DOF; at rest where nothing measures it.

@@ -1,6 +1,6 @@
 //! Abaqus input: `DASHPOT1` to the ground and `DASHPOT2` between nodes, one element set a dashpot.
 
-use super::dashpots::{dashpots, grid_component};
+use super::dashpots::{Dashpot, dashpots, grid_component};
 use super::files::Export;
 use super::identified::Identified;
 use std::fmt::Write;
@@ -20,19 +20,25 @@ pub(super) fn export(identified: &Identified, path: &Path) -> Export {
         let _ = writeln!(text, "** {warning}");
     }
     for (index, dashpot) in dashpots.iter().enumerate() {
-        let id = FIRST_ID + index;
-        let set = format!("DASHPOT-{}", index + 1);
-        let (node, direction) = grid_component(identified.structure, dashpot.leg.first);
-        let (kind, nodes, directions) = match dashpot.leg.second.map(|dof| grid_component(identified.structure, dof)) {
-            None => ("DASHPOT1", format!("{node}"), format!("{direction}")),
-            Some((other, along)) => ("DASHPOT2", format!("{node}, {other}"), format!("{direction}, {along}")),
-        };
-        let _ = writeln!(text, "*ELEMENT, TYPE={kind}, ELSET={set}\n{id}, {nodes}");
-        let _ = writeln!(text, "*DASHPOT, ELSET={set}\n{directions}\n{}", real(dashpot.c));
+        text.push_str(&element(identified, index, dashpot));
     }
     let mut export = Export { warnings, ..Export::default() };
     export.add(path.to_owned(), text);
     export
+}
+
+/// One dashpot in an element set of its own.
+fn element(identified: &Identified, index: usize, dashpot: &Dashpot) -> String {
+    let (id, set) = (FIRST_ID + index, format!("DASHPOT-{}", index + 1));
+    let (node, direction) = grid_component(identified.structure, dashpot.leg.first);
+    let (kind, nodes, directions) = match dashpot.leg.second.map(|dof| grid_component(identified.structure, dof)) {
+        None => ("DASHPOT1", format!("{node}"), format!("{direction}")),
+        Some((other, along)) => ("DASHPOT2", format!("{node}, {other}"), format!("{direction}, {along}")),
+    };
+    format!(
+        "*ELEMENT, TYPE={kind}, ELSET={set}\n{id}, {nodes}\n*DASHPOT, ELSET={set}\n{directions}\n{}\n",
+        real(dashpot.c)
+    )
 }
 
 /// A number that Abaqus reads as real: it has a point or an exponent.

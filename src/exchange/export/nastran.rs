@@ -4,7 +4,7 @@
 //! Small fields are 8 characters; numbers stand in the large form (16 characters, `*` after the card's name), so that
 //! they keep twelve digits.
 
-use super::dashpots::{dashpots, grid_component};
+use super::dashpots::{Dashpot, dashpots, grid_component};
 use super::files::{Export, beside};
 use super::identified::Identified;
 use crate::structure::Structure;
@@ -22,13 +22,7 @@ pub(super) fn export(identified: &Identified, path: &Path) -> Export {
         let _ = writeln!(text, "$ {warning}");
     }
     for (index, dashpot) in dashpots.iter().enumerate() {
-        let id = FIRST_ID + index;
-        let (grid, component) = grid_component(identified.structure, dashpot.leg.first);
-        let _ = writeln!(text, "{:<8}{id:>16}{}{grid:>16}{component:>16}", "CDAMP2*", large(dashpot.c, 'E'));
-        let _ = match dashpot.leg.second.map(|second| grid_component(identified.structure, second)) {
-            Some((grid, component)) => writeln!(text, "{:<8}{grid:>16}{component:>16}", "*"),
-            None => writeln!(text, "{:<8}", "*"),
-        };
+        text.push_str(&element(identified.structure, FIRST_ID + index, dashpot));
     }
     let mut export = Export { warnings, ..Export::default() };
     export.add(path.to_owned(), text);
@@ -39,6 +33,16 @@ pub(super) fn export(identified: &Identified, path: &Path) -> Export {
     whole.push_str(&dmig("CDAMP", identified.viscous, identified.structure));
     export.add(beside(path, "dmig"), whole);
     export
+}
+
+/// `CDAMP2` in the large form, two lines.
+fn element(structure: &Structure, id: usize, dashpot: &Dashpot) -> String {
+    let (grid, component) = grid_component(structure, dashpot.leg.first);
+    let first = format!("{:<8}{id:>16}{}{grid:>16}{component:>16}\n", "CDAMP2*", large(dashpot.c, 'E'));
+    match dashpot.leg.second.map(|second| grid_component(structure, second)) {
+        Some((grid, component)) => first + &format!("{:<8}{grid:>16}{component:>16}\n", "*"),
+        None => first + &format!("{:<8}\n", "*"),
+    }
 }
 
 fn heading(identified: &Identified) -> String {

@@ -41,7 +41,7 @@ pub fn write_outcome(
 
 /// The accepted sources at their values, then the known ones.
 fn sources(project: &Project, outcome: &Outcome) -> Vec<IdentifiedSource> {
-    let one = |estimate: &crate::identify::Estimate| {
+    let identified = |estimate: &crate::identify::Estimate| {
         let source = project.sources[estimate.source].with_coefficient(estimate.coefficient);
         let mut deviation = vec![0.0; source.parameters.len()];
         if let Some(k) = source.effect.coefficient() {
@@ -49,5 +49,5 @@ fn sources(project: &Project, outcome: &Outcome) -> Vec<IdentifiedSource> {
         }
         IdentifiedSource { source, deviation, energy_percent: estimate.energy_percent }
     };
-    outcome.sources.iter().map(one).collect()
+    outcome.sources.iter().map(identified).collect()
 }

@@ -1,8 +1,7 @@
 //! Coherences in files that are no Universal Files: real columns with that word beside the responses of their set.
 
+use super::checks::is_coherence;
 use super::error::FrfProblem;
-use super::other::wrong;
-use super::reader::is_coherence;
 use crate::measurement::frf::ResponseSet;
 use dashpot_datafiles::{DataFile, Error, Values, core_of, is_coherence as is_named};
 
@@ -55,7 +54,7 @@ pub(super) fn attach(
         values
     };
     if !is_coherence(&values) {
-        return Err(wrong(file, at, "this coherence is not between 0 and 1; export it without a scale"));
+        return Err(FrfProblem::channel(file, at, "this coherence is not between 0 and 1; export it without a scale"));
     }
     set.functions[function].coherence = Some(values);
     Ok(())

@@ -1,5 +1,7 @@
 //! What can be wrong with a file of frequency responses.
 
+use dashpot_datafiles::DataFile;
+
 /// A file of frequency responses that cannot be used.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[error("{file}: {problem}")]
@@ -34,5 +36,11 @@ impl FrfProblem {
     /// The problem of a set, counted from 0.
     pub(super) fn set(index: usize, what: impl Into<String>) -> Self {
         Self::Set { set: format!("set {}", index + 1), what: what.into() }
+    }
+
+    /// The problem of a channel of a file of sets and channels.
+    pub(super) fn channel(file: &DataFile, (set, channel): (usize, usize), what: &str) -> Self {
+        let name = &file.contents().sets[set].channels[channel].name;
+        Self::Set { set: format!("channel \"{name}\""), what: what.to_owned() }
     }
 }

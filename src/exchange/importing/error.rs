@@ -4,6 +4,9 @@ use crate::exchange::matrices::TableError;
 use crate::exchange::project::ProjectError;
 use std::path::Path;
 
+/// What an import gives, or why it cannot.
+pub(super) type Result<T, E = ImportError> = std::result::Result<T, E>;
+
 /// One line: the file, what is wrong and how to mend it.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[expect(missing_docs, reason = "the messages say it")]

@@ -1,6 +1,7 @@
 //! Files and folders that are given together: which are measurements, which belong to a finite-element model.
 
-use super::{ImportError, Request, Result};
+use super::error::{ImportError, Result};
+use super::request::Request;
 use std::path::{Path, PathBuf};
 
 /// Deepest folders that are looked into.

@@ -1,7 +1,8 @@
 //! A finite-element model under the measurements, reduced where it is large.
 
+use super::error::{ImportError, Result};
+use super::request::Request;
 use super::text::named;
-use super::{ImportError, Request, Result};
 use crate::exchange::matrices::model::{Model, ModelFiles, read_model};
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -38,6 +39,16 @@ pub(super) fn structure(request: &Request, out: &Path, up_to_hz: f64) -> Result<
     Ok(Some(text))
 }
 
+/// Head of a project with the structure of the model that is given, else with `own`, and candidates.
+pub(super) fn head(request: &Request, out: &Path, own: &str, up_to_hz: f64) -> Result<String> {
+    let title = request.files[0].file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned());
+    let structure = structure(request, out, up_to_hz)?.unwrap_or_else(|| own.to_owned());
+    Ok(format!(
+        "[project]\nformat = 1\ntitle = {}\n\n{structure}\n[[candidates]]\nlaw = \"viscous\"\nwhere = \"each-translation\"\n\n",
+        toml::Value::from(title)
+    ))
+}
+
 /// Least reach of points given in another unit than the model, over its size.
 const SPANNED: f64 = 0.1;
 
@@ -61,7 +72,7 @@ pub(super) fn places(points: &[Point], model: &Model) -> Result<Vec<String>> {
     let nodes: Vec<(&str, [f64; 3])> =
         model.nodes.iter().flatten().map(|node| (node.label.as_str(), node.position)).collect();
     let by_place = nearest(points, &nodes, &labels);
-    let one = |point: &Point| {
+    let label_of = |point: &Point| {
         let own = format!("{}{}", point.node, point.direction);
         if let Some(node) = by_place.get(&own) {
             return Ok(format!("{node}{}", point.direction));
@@ -74,7 +85,7 @@ pub(super) fn places(points: &[Point], model: &Model) -> Result<Vec<String>> {
             point.node, point.direction
         )))
     };
-    points.iter().map(one).collect()
+    points.iter().map(label_of).collect()
 }
 
 /// Nodes of the model at the places of the points; empty where positions do not fit the model in any unit.
@@ -91,7 +102,7 @@ fn nearest(
     if extent.is_nan() || extent <= 0.0 || points.iter().any(|point| point.position.is_none()) {
         return BTreeMap::new();
     }
-    let at = |scale: f64| -> Option<BTreeMap<String, String>> {
+    let nodes_at_scale = |scale: f64| -> Option<BTreeMap<String, String>> {
         let mut found = BTreeMap::new();
         // Whatever lies near the origin fits in some unit: points in another must span some of the model.
         let reach = points.iter().filter_map(|p| p.position).flatten().fold(0.0, |most: f64, x| most.max(x.abs()));
@@ -110,7 +121,7 @@ fn nearest(
         }
         Some(found)
     };
-    SCALES.iter().find_map(|&scale| at(scale)).unwrap_or_default()
+    SCALES.iter().find_map(|&scale| nodes_at_scale(scale)).unwrap_or_default()
 }
 
 #[cfg(test)]

@@ -1,9 +1,11 @@
 //! Import of time records: a mapping of their channels, one run a file or set, of the kind that its record looks like.
 
+use super::error::{ImportError, Result};
+use super::model::head;
 use super::refusal::refusal;
+use super::request::{Imported, Request};
 use super::single_mode::{SingleMode, single_mode};
-use super::text::{comment, head, named, points};
-use super::{ImportError, Imported, Request, Result};
+use super::text::{comment, named, points};
 use crate::control::Control;
 use crate::exchange::mapping::{ChannelTable, Proposal, propose, runs_of};
 use crate::exchange::project::plan;

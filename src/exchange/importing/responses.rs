@@ -1,8 +1,9 @@
 //! Import of frequency responses: a project with `[[frf]]`, its DOFs those of the file or of a model.
 
-use super::model::{Point, model, places};
-use super::text::{comment, head, named, points as points_structure};
-use super::{ImportError, Imported, Request, Result};
+use super::error::{ImportError, Result};
+use super::model::{Point, head, model, places};
+use super::request::{Imported, Request};
+use super::text::{comment, named, points as points_structure};
 use crate::control::Control;
 use crate::exchange::frf::{Form, pair_in_name, plain_place, response_in_name};
 use crate::exchange::project::frf::FrfTable;

@@ -1,7 +1,9 @@
 //! Import of a stepped-sine table: a project with `[[harmonics]]`, one run a row.
 
-use super::text::{comment, head, named, points};
-use super::{Imported, Request, Result};
+use super::error::Result;
+use super::model::head;
+use super::request::{Imported, Request};
+use super::text::{comment, named, points};
 use crate::control::Control;
 use crate::exchange::mapping::Stepped;
 use crate::exchange::project::plan;

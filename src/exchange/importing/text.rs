@@ -1,18 +1,8 @@
 //! Pieces of text that projects out of files have in common.
 
-use super::{ImportError, Request, Result, model};
+use super::error::{ImportError, Result};
 use crate::exchange::project::relocate::{canonical, renamed};
 use std::path::Path;
-
-/// Head of a project with the structure of the model that is given, else with `own`, and candidates.
-pub(super) fn head(request: &Request, out: &Path, own: &str, up_to_hz: f64) -> Result<String> {
-    let title = request.files[0].file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned());
-    let structure = model::structure(request, out, up_to_hz)?.unwrap_or_else(|| own.to_owned());
-    Ok(format!(
-        "[project]\nformat = 1\ntitle = {}\n\n{structure}\n[[candidates]]\nlaw = \"viscous\"\nwhere = \"each-translation\"\n\n",
-        toml::Value::from(title)
-    ))
-}
 
 /// `[structure]` of measured points.
 pub(super) fn points(labels: &[String]) -> String {

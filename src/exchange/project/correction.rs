@@ -170,9 +170,9 @@ pub fn corrected(structure: Structure, tables: &[CorrectionTable]) -> Result<Str
     if tables.is_empty() {
         return Ok(structure);
     }
-    let one = |(k, table): (usize, &CorrectionTable)| {
+    let factor_of = |(k, table): (usize, &CorrectionTable)| {
         Ok((table.part(&structure).map_err(|problem| (k, problem))?, table.factor))
     };
-    let factors = tables.iter().enumerate().map(one).collect::<Result<Vec<_>, _>>()?;
+    let factors = tables.iter().enumerate().map(factor_of).collect::<Result<Vec<_>, _>>()?;
     Ok(structure.with_factors(&factors))
 }

@@ -2,6 +2,7 @@
 //! A reduced structure keeps them.
 
 use super::file::{ProjectFile, Shape};
+use super::frf::FrfTable;
 use super::label::Label;
 use crate::exchange::frf::labels_in;
 use crate::exchange::records::places::contents;
@@ -23,11 +24,7 @@ pub(super) fn labels(file: &ProjectFile, folder: &Path) -> Vec<String> {
     labels.extend(file.simulate.channels.iter().filter_map(|text| Some(ChannelName::parse(text).ok()?.label)));
     labels.extend(file.sensor.iter().filter_map(|sensor| Some(parse_name(&sensor.channel).ok()?.1)));
     labels.extend(file.channel.iter().map(|channel| channel.dof.clone()));
-    for table in &file.frf {
-        let named = table.dofs.values().chain(&table.responses).chain(&table.references);
-        labels.extend(named.flat_map(|label| [label.0.clone(), label.0.trim_start_matches('-').to_owned()]));
-        labels.extend(labels_in(&folder.join(&table.file)));
-    }
+    labels.extend(file.frf.iter().flat_map(|table| of_responses(table, folder)));
     let records = file.run.iter().map(|run| &run.file).chain(file.harmonics.iter().map(|table| &table.file));
     for name in records {
         if let Ok((_, points)) = contents(&folder.join(name)) {
@@ -35,6 +32,13 @@ pub(super) fn labels(file: &ProjectFile, folder: &Path) -> Vec<String> {
         }
     }
     labels
+}
+
+/// Labels that a table of frequency responses and its file name.
+fn of_responses(table: &FrfTable, folder: &Path) -> Vec<String> {
+    let named = table.dofs.values().chain(&table.responses).chain(&table.references);
+    let named = named.flat_map(|label| [label.0.clone(), label.0.trim_start_matches('-').to_owned()]);
+    named.chain(labels_in(&folder.join(&table.file))).collect()
 }
 
 /// Notes in the project which DOFs were kept, so that what is built anew from its structure alone is the same.

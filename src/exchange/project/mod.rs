@@ -22,10 +22,11 @@ pub mod plan;
 mod reader;
 mod reduce;
 pub mod relocate;
+pub mod rewrite;
 pub mod ruled_out;
 mod ruled_out_sources;
 mod runs;
-mod sources;
+pub mod sources;
 mod structure;
 
 pub use channel::template;

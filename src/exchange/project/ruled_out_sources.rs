@@ -35,8 +35,8 @@ pub(super) fn ruled_out(
     structure: &Structure,
     at: At<'_>,
 ) -> Result<Vec<Source>, ProjectError> {
-    let one = |(table, lines): (&RuledOutTable, _)| {
+    let source_of = |(table, lines): (&RuledOutTable, _)| {
         table.source(structure).map_err(|problem| at.error(blamed(lines, &problem), problem))
     };
-    tables.iter().zip(&at.lines.ruled_out).map(one).collect()
+    tables.iter().zip(&at.lines.ruled_out).map(source_of).collect()
 }

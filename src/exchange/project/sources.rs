@@ -36,24 +36,47 @@ pub(super) fn line(lines: &BTreeMap<String, usize>, key: &str) -> usize {
     lines.get(key).or_else(|| lines.get("")).copied().unwrap_or(1)
 }
 
-/// All sources: those written one by one, then the families where nothing is written already.
-pub(super) fn sources(file: &ProjectFile, structure: &Structure, at: At<'_>) -> Result<Vec<Source>, ProjectError> {
+/// Tables of sources that do not make a pattern on a structure; tables are counted from 0.
+#[derive(Debug, Clone, PartialEq)]
+pub enum PatternError {
+    /// A table of a source.
+    Source {
+        /// Which.
+        table: usize,
+        /// What is wrong with it.
+        problem: Problem,
+    },
+    /// A table of a family of candidates.
+    Family {
+        /// Which.
+        table: usize,
+        /// What is wrong with it.
+        problem: Problem,
+    },
+    /// Two tables of one law at the same place.
+    Twice {
+        /// Both, in the order of the file.
+        tables: [usize; 2],
+    },
+}
+
+/// All sources: those written one by one, then the families where nothing is written already. A place that is a candidate
+/// already, or forced, is not offered twice.
+///
+/// # Errors
+/// [`PatternError`] for the first table that does not hold.
+pub fn expanded(file: &ProjectFile, structure: &Structure) -> Result<Vec<Source>, PatternError> {
     let mut sources: Vec<Source> = Vec::new();
-    for (i, table) in file.source.iter().enumerate() {
-        let lines = &at.lines.source[i];
-        let source = single(table, structure).map_err(|problem| at.error(blamed(lines, &problem), problem))?;
+    for (table, written) in file.source.iter().enumerate() {
+        let source = single(written, structure).map_err(|problem| PatternError::Source { table, problem })?;
         if let Some(first) = sources.iter().position(|other| clashes(other, &source)) {
-            let what = format!("law `{}` at the same place", source.effect);
-            let first = line(&at.lines.source[first], "");
-            return Err(at.error(line(lines, ""), Problem::Twice { what, first }));
+            return Err(PatternError::Twice { tables: [first, table] });
         }
         sources.push(source);
     }
-    for (i, table) in file.candidates.iter().enumerate() {
-        let lines = &at.lines.candidates[i];
-        let family = family(table, structure).map_err(|problem| at.error(blamed(lines, &problem), problem))?;
-        // A place that is a candidate already, or forced, is not offered twice.
-        for source in family {
+    for (table, family) in file.candidates.iter().enumerate() {
+        let members = members(family, structure).map_err(|problem| PatternError::Family { table, problem })?;
+        for source in members {
             if !sources.iter().any(|other| is_sought(other.state) && other.is_same(&source)) {
                 sources.push(source);
             }
@@ -62,7 +85,21 @@ pub(super) fn sources(file: &ProjectFile, structure: &Structure, at: At<'_>) -> 
     Ok(sources)
 }
 
-fn is_sought(state: State) -> bool {
+/// The sources of a file, what is wrong with its lines.
+pub(super) fn sources(file: &ProjectFile, structure: &Structure, at: At<'_>) -> Result<Vec<Source>, ProjectError> {
+    expanded(file, structure).map_err(|error| match error {
+        PatternError::Source { table, problem } => at.error(blamed(&at.lines.source[table], &problem), problem),
+        PatternError::Family { table, problem } => at.error(blamed(&at.lines.candidates[table], &problem), problem),
+        PatternError::Twice { tables: [first, second] } => {
+            let what = format!("law `{}` at the same place", file.source[second].law);
+            let [first, second] = [first, second].map(|table| line(&at.lines.source[table], ""));
+            at.error(second, Problem::Twice { what, first })
+        }
+    })
+}
+
+/// Whether identification may select it.
+pub fn is_sought(state: State) -> bool {
     matches!(state, State::Candidate | State::Forced)
 }
 
@@ -90,7 +127,10 @@ pub(super) fn blamed(lines: &BTreeMap<String, usize>, problem: &Problem) -> usiz
 }
 
 /// The place of a law on DOFs, or of one of the whole structure with its range of elements.
-pub(super) fn at_place(
+///
+/// # Errors
+/// [`Problem`] where there is no such place, or the law cannot act there.
+pub fn at_place(
     effect: Effect,
     dofs: &[Label],
     range: Option<[i64; 2]>,
@@ -111,7 +151,11 @@ pub(super) fn at_place(
     })
 }
 
-fn single(table: &SourceTable, structure: &Structure) -> Result<Source, Problem> {
+/// The source of one table, checked.
+///
+/// # Errors
+/// [`Problem`] where the law cannot act there or not with these parameters.
+pub fn single(table: &SourceTable, structure: &Structure) -> Result<Source, Problem> {
     let effect = table.law;
     let place = at_place(effect, &table.dofs, table.elements, structure)?;
     let values: Vec<(&str, f64)> = table.parameters.iter().map(|(name, &value)| (name.as_str(), value)).collect();
@@ -131,7 +175,11 @@ fn elements(effect: Effect, range: [i64; 2], structure: &Structure) -> Result<[u
     Ok([first - 1, last - 1])
 }
 
-fn family(table: &CandidatesTable, structure: &Structure) -> Result<Vec<Source>, Problem> {
+/// The candidates of one family, checked.
+///
+/// # Errors
+/// [`Problem`] where one cannot act, or there is no place for any.
+pub fn members(table: &CandidatesTable, structure: &Structure) -> Result<Vec<Source>, Problem> {
     if matches!(table.law.kind(), Kind::Channel(_)) {
         return Err(Problem::ChannelLaw { law: table.law.name() });
     }

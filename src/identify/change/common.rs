@@ -1,7 +1,8 @@
 //! The sources that two states have in common, by law and labels of the place.
 
-use super::{ChangeError, Condition, NAMES, Outcome};
+use super::condition::{ChangeError, Condition, NAMES};
 use crate::effects::{Place, Source, State};
+use crate::identify::Outcome;
 use crate::structure::Structure;
 
 /// A source that a state accepted, in the DOFs of both.

@@ -12,27 +12,17 @@
 //! rejective multiple test procedure, Scandinavian Journal of Statistics 6 (1979) 65-70.
 
 mod common;
+mod condition;
 mod test;
 
-use super::{IdentifyError, Measurements, Outcome, Settings, identify_measured};
+pub use condition::{ChangeError, Condition};
+pub use test::LEVEL;
+
+use super::{Outcome, Settings, identify_measured};
 use crate::control::Control;
 use crate::effects::Source;
-use crate::structure::Structure;
-pub use test::LEVEL;
+use condition::NAMES;
 use test::{chance, chi_square_of, holm};
-
-/// One state of the structure: its model, sources and measurements.
-#[derive(Debug, Clone, Copy)]
-pub struct Condition<'a> {
-    /// Mass, stiffness and geometry; DOFs of both states have the same labels where sources act.
-    pub structure: &'a Structure,
-    /// Known sources and candidates.
-    pub sources: &'a [Source],
-    /// Runs in use.
-    pub measured: Measurements<'a>,
-    /// How it is identified.
-    pub settings: &'a Settings,
-}
 
 /// A coefficient or a damping ratio in both states, with its standard deviations.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -105,21 +95,6 @@ impl Change {
     }
 }
 
-/// Why two states cannot be held against each other.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-#[expect(missing_docs, reason = "the messages say it")]
-pub enum ChangeError {
-    #[error("the {state} state: {reason}")]
-    State { state: &'static str, reason: IdentifyError },
-    #[error(
-        "the {state} state has no DOF \"{label}\", where the other has a source; give both structures the same DOFs and labels"
-    )]
-    NoDof { state: &'static str, label: String },
-}
-
-/// What the states are called.
-const NAMES: [&str; 2] = ["first", "second"];
-
 /// Identifies both states and says what changed.
 ///
 /// # Errors
@@ -182,9 +157,9 @@ fn modes(outcomes: &[Outcome; 2]) -> Vec<ModeChange> {
     if first.len() != second.len() {
         return Vec::new();
     }
-    let one = |(a, b): (&super::results::ModeResult, &super::results::ModeResult)| ModeChange {
+    let mode_change = |(a, b): (&super::results::ModeResult, &super::results::ModeResult)| ModeChange {
         frequency_hz: [a.frequency_hz, b.frequency_hz],
         ratio: Pair::new([a.damping_ratio, b.damping_ratio], [a.damping_ratio_deviation, b.damping_ratio_deviation]),
     };
-    first.iter().zip(second).map(one).collect()
+    first.iter().zip(second).map(mode_change).collect()
 }

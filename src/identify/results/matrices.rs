@@ -35,15 +35,11 @@ fn is_viscous(effect: Effect) -> bool {
 
 /// Energy-equivalent viscous coefficients of all acting sources.
 pub(crate) fn equivalent(structure: &Structure, runs: &[(Measured, Expanded)], acting: &[Source]) -> EquivalentViscous {
-    let energies: Vec<Vec<(f64, f64)>> = runs
-        .iter()
-        .map(|(measured, expanded)| {
-            let field = expanded.field(measured);
-            let pair =
-                |s: &Source| (action::energy(s, structure, field), action::energy(&s.unit_dashpot(), structure, field));
-            acting.iter().map(pair).collect()
-        })
-        .collect();
+    let of_run = |(measured, expanded): &(Measured, Expanded)| -> Vec<(f64, f64)> {
+        let energy = |source: &Source| action::energy(source, structure, expanded.field(measured));
+        acting.iter().map(|source| (energy(source), energy(&source.unit_dashpot()))).collect()
+    };
+    let energies: Vec<Vec<(f64, f64)>> = runs.iter().map(of_run).collect();
     let ratio = |(energy, unit): (f64, f64)| if unit > 0.0 { energy / unit } else { 0.0 };
     let total = |j: usize| energies.iter().fold((0.0, 0.0), |sum, row| (sum.0 + row[j].0, sum.1 + row[j].1));
     EquivalentViscous {

@@ -1,7 +1,6 @@
 //! A drawing in a PDF. Colours that let the ground through are mixed with it: pages need no transparency.
 
-use super::FACE;
-use super::face::Face;
+use super::face::{FACE, Face};
 use crate::plots::drawing::{Drawing, Mark, Stroke};
 use ecolor::Color32;
 use emath::{Align, Align2, Pos2};
@@ -49,7 +48,7 @@ fn mark(content: &mut Content, face: &Face, mark: &Mark, ground: Color32) {
         }
         Mark::Words { at, align, text, size, colour, upright } => {
             fill(content, *colour, ground);
-            words(content, face, (*at, *align), text, *size, *upright);
+            words(content, face, *at, *align, text, *size, *upright);
         }
         Mark::Inside(rect, _) => {
             content.save_state();
@@ -93,7 +92,7 @@ fn finish(content: &mut Content, inside: Color32, stroke: Stroke, ground: Color3
 }
 
 /// Words about a point, as in the SVG: the baseline by hand, upright ones turned about the point.
-fn words(content: &mut Content, face: &Face, (at, align): (Pos2, Align2), text: &str, size: f32, upright: bool) {
+fn words(content: &mut Content, face: &Face, at: Pos2, align: Align2, text: &str, size: f32, upright: bool) {
     let back = face.width(text, size)
         * match align.x() {
             Align::Min => 0.0,

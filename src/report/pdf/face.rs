@@ -1,11 +1,13 @@
 //! The face of a PDF: the one of the window (Ubuntu Light, Ubuntu Font Licence 1.0), embedded whole; glyphs by their numbers.
 
-use super::compressed;
+use super::deflate::compressed;
 use pdf_writer::types::{CidFontType, FontFlags, SystemInfo, UnicodeCmap};
 use pdf_writer::{Filter, Name, Pdf, Rect, Ref, Str};
 use std::cell::RefCell;
 use std::collections::BTreeMap;
 
+/// Name of the face in the resources of a page.
+pub(super) const FACE: Name<'static> = Name(b"F1");
 const NAME: Name<'static> = Name(b"Ubuntu-Light");
 const IDENTITY: SystemInfo<'static> = SystemInfo { registry: Str(b"Adobe"), ordering: Str(b"Identity"), supplement: 0 };
 

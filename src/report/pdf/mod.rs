@@ -1,19 +1,16 @@
 //! A report as PDF: A4 pages with text that can be searched and copied, drawings as lines, the type embedded.
 
+mod deflate;
 mod drawn;
 mod face;
 mod paper;
 
 use super::page::Part;
-use face::{Face, FontError};
-use flate2::Compression;
-use flate2::write::ZlibEncoder;
+use deflate::compressed;
+use face::{FACE, Face, FontError};
 use paper::{HEIGHT, Paper, WIDTH};
-use pdf_writer::{Content, Filter, Name, Pdf, Rect, Ref, TextStr};
-use std::io::Write as _;
+use pdf_writer::{Content, Filter, Pdf, Rect, Ref, TextStr};
 
-/// Name of the face in the resources of a page.
-const FACE: Name<'static> = Name(b"F1");
 /// Objects before the pages: catalogue, tree of pages, information, and those of the face.
 const FIRST_PAGE: i32 = 10;
 
@@ -52,12 +49,6 @@ fn assembled(title: &str, face: &Face, pages: Vec<Content>) -> Vec<u8> {
         pdf.stream(marks, &bytes).filter(Filter::FlateDecode);
     }
     pdf.finish()
-}
-
-/// Bytes as a deflated stream; writing into memory does not fail.
-fn compressed(bytes: &[u8]) -> Vec<u8> {
-    let mut encoder = ZlibEncoder::new(Vec::new(), Compression::default());
-    encoder.write_all(bytes).and_then(|()| encoder.finish()).unwrap_or_default()
 }
 
 #[cfg(test)]

@@ -35,11 +35,11 @@ impl Fourier {
     /// Harmonics 1..=`harmonics` at `samples` equal steps of one period; `samples` is even and above `4 harmonics`.
     pub fn new(harmonics: usize, samples: usize) -> Self {
         debug_assert!(samples.is_multiple_of(2) && samples > 4 * harmonics);
-        let at = |n: usize| {
+        let point_at = |n: usize| {
             let (sin, cos) = (TAU * n as f64 / samples as f64).sin_cos();
             [cos, sin]
         };
-        let circle = Arc::new((0..samples).map(at).collect());
+        let circle = Arc::new((0..samples).map(point_at).collect());
         Self { harmonics, samples, transform: RealTransform::new(samples), circle, parity: Parity::All }
     }
 

@@ -45,14 +45,14 @@ impl Balance<'_> {
             let table = self.fourier.with(parity);
             let apart = Balance { condensed: self.condensed, fourier: &table };
             let most = if parity == Parity::Odd { STEPS } else { STEPS_APART };
-            let ending = apart.iterate(u, &sets, (level, tolerance, most));
+            let ending = apart.iterate(u, &sets, level, tolerance, most);
             if ending.converged || parity == Parity::Odd {
                 return ending;
             }
             steps = ending.steps;
             *u = start;
         }
-        let ending = self.iterate(u, &[Kept::all(self.condensed)], (level, tolerance, STEPS));
+        let ending = self.iterate(u, &[Kept::all(self.condensed)], level, tolerance, STEPS);
         Ending { steps: steps + ending.steps, ..ending }
     }
 
@@ -72,7 +72,7 @@ impl Balance<'_> {
         below(SMALL).then(|| (Parity::Split, vec![odd, even]))
     }
 
-    fn iterate(&self, u: &mut Vec<f64>, sets: &[Kept], (level, tolerance, most): (f64, f64, usize)) -> Ending {
+    fn iterate(&self, u: &mut Vec<f64>, sets: &[Kept], level: f64, tolerance: f64, most: usize) -> Ending {
         let mut state = self.state(u, level);
         let mut best = (f64::INFINITY, u.clone());
         let mut factors = Factors::default();

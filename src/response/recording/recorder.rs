@@ -193,11 +193,11 @@ fn filtered(signal: &[f64], early: f64, kernel: &[f64], place: f64) -> f64 {
     let share = place - base;
     let half = (kernel.len() / 2) as i64;
     let first = base as i64 - half;
-    let at = |n: i64| match usize::try_from(n) {
+    let sample_at = |n: i64| match usize::try_from(n) {
         Ok(n) => signal[n.min(signal.len() - 1)],
         Err(_) => early,
     };
-    let value = |shift: i64| kernel.iter().zip(first + shift..).map(|(w, n)| w * at(n)).sum::<f64>();
+    let value = |shift: i64| kernel.iter().zip(first + shift..).map(|(w, n)| w * sample_at(n)).sum::<f64>();
     if share == 0.0 { value(0) } else { (1.0 - share) * value(0) + share * value(1) }
 }
 

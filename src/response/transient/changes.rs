@@ -109,10 +109,10 @@ impl Changes {
         let half = self.width / 2;
         for (c, added) in self.added.chunks_exact_mut(self.width).enumerate() {
             for k in 0..half {
-                let at = |end: usize| {
+                let state_at = |end: usize| {
                     c64::new(self.ends[end][c * self.width + k], self.ends[end][c * self.width + half + k])
                 };
-                let [start, end] = [at(0), at(1)];
+                let [start, end] = [state_at(0), state_at(1)];
                 let sum = step.constant[k] * start + step.rising[k] * (end - start);
                 (added[k], added[half + k]) = (sum.re, sum.im);
             }

@@ -97,7 +97,8 @@ impl Derivatives {
         &mut self,
         piece: &Piece,
         elements: &mut [Element],
-        (views, patterns): (&[View], &[Vec<f64>]),
+        views: &[View],
+        patterns: &[Vec<f64>],
         receptance: &Receptance,
     ) {
         if self.changed.is_empty() {

@@ -83,14 +83,14 @@ pub(super) struct Element {
 impl Element {
     /// At rest at the origin, differentiated by `count` parameters.
     pub fn new(source: usize, form: Form, law: &'static dyn Law, parameters: &[f64], count: usize) -> Self {
-        let at = |k: usize, step: f64| {
+        let with_parameter = |k: usize, step: f64| {
             let mut p = parameters.to_vec();
             p[k] += step;
             law.memory(&p)
         };
         let masing = form == Form::Masing;
         let width = |k: usize| VARIATION * parameters[k].abs().max(1e-9);
-        let vary = |k: usize| Some(([at(k, -width(k))?, at(k, width(k))?], 2.0 * width(k)));
+        let vary = |k: usize| Some(([with_parameter(k, -width(k))?, with_parameter(k, width(k))?], 2.0 * width(k)));
         let varied = if masing && count > 0 { (0..parameters.len()).filter_map(vary).collect() } else { Vec::new() };
         let backbone = if masing { law.memory(parameters) } else { None };
         Self {

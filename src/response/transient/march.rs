@@ -249,8 +249,8 @@ impl<'a> March<'a> {
         after.clear();
         after.extend(self.views.iter().map(|v| dot(&v.displacement, next)));
         let piece = Piece { step, full, drives, forces, side, states: [&self.z, next], before, after };
-        let seen = (self.views, &self.system.patterns[..]);
-        self.derivatives.advance(&piece, &mut self.elements, seen, &self.receptance);
+        let patterns = &self.system.patterns[..];
+        self.derivatives.advance(&piece, &mut self.elements, self.views, patterns, &self.receptance);
         std::mem::swap(&mut self.z, next);
         self.side.clone_from(side);
         self.forces.clone_from(forces);

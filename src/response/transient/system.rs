@@ -154,10 +154,10 @@ impl LinearSystem {
 
     /// The row on flat states of one on the states of the coordinates.
     fn on_modes(&self, row: &[f64]) -> Vec<f64> {
-        let of = |k: usize| {
+        let on_mode = |k: usize| {
             (row.iter().enumerate().map(|(i, r)| self.backward[(i, k)] * *r).sum::<c64>() * self.weight[k]).conj()
         };
-        flat(&(0..self.lambda.len()).map(of).collect::<Vec<c64>>())
+        flat(&(0..self.lambda.len()).map(on_mode).collect::<Vec<c64>>())
     }
 
     /// Of the derivatives of the reduced matrices by a parameter.

@@ -1,11 +1,11 @@
 //! What is computed for the stage Explain, each by the model it was computed from: comparisons, diagnoses, fingerprints,
 //! response curves; and the ledger of all models that were looked at.
 
-pub mod early;
+pub mod cache;
+pub mod first_suggestions;
+mod jobs;
 pub mod ledger;
 pub mod model;
-pub mod shelf;
-mod work;
 
 use super::document::Document;
 use crate::diagnosis::candidates::fingerprint_plot::Print;
@@ -18,14 +18,14 @@ use crate::effects::{Place, Source};
 use crate::exchange::Project;
 use crate::plots::response_curve::Curve;
 use crate::session::validation::only_records;
-use early::Early;
+use cache::{Cache, Cached};
 use egui::Context;
+use first_suggestions::FirstSuggestions;
+use jobs::{compare_job, curve_job, decay_job, force_job, print_job, scatter_job, search_job};
 use ledger::Ledger;
 use model::{Key, Search};
-use shelf::{Kept, Shelf};
 use std::sync::Arc;
 use std::time::Duration;
-use work::{compare_job, curve_job, decay_job, force_job, print_job, scatter_job, search_job};
 
 /// Error beyond which a model lacks its damping altogether, and the search waits until it is asked for.
 pub const HOPELESS: f64 = 10.0;
@@ -61,16 +61,16 @@ pub struct Explained {
     key: Option<(u64, Key)>,
     /// The project as the jobs read it, shared by all of one revision.
     project: Option<(u64, Arc<Project>)>,
-    comparisons: Shelf<Tried, Comparison>,
-    trials: Shelf<Tried, Comparison>,
-    diagnoses: Shelf<Search, Diagnosis>,
-    early: Early,
-    prints: Shelf<(Search, Source), Option<Print>>,
-    forces: Shelf<(Search, Option<Source>), Option<RestoringForce>>,
-    scatters: Shelf<Search, Option<Scatter>>,
-    curves: Shelf<(Key, usize), Vec<Curve>>,
-    trial_curves: Shelf<(Tried, usize), Vec<Curve>>,
-    decays: Shelf<Tried, Vec<OneRecord>>,
+    comparisons: Cache<Tried, Comparison>,
+    trials: Cache<Tried, Comparison>,
+    diagnoses: Cache<Search, Diagnosis>,
+    early: FirstSuggestions,
+    prints: Cache<(Search, Source), Option<Print>>,
+    forces: Cache<(Search, Option<Source>), Option<RestoringForce>>,
+    scatters: Cache<Search, Option<Scatter>>,
+    curves: Cache<(Key, usize), Vec<Curve>>,
+    trial_curves: Cache<(Tried, usize), Vec<Curve>>,
+    decays: Cache<Tried, Vec<OneRecord>>,
     /// The way so far.
     pub ledger: Ledger,
 }
@@ -80,16 +80,16 @@ impl Default for Explained {
         Self {
             key: None,
             project: None,
-            comparisons: Shelf::new("Comparing"),
-            trials: Shelf::new("Trying"),
-            diagnoses: Shelf::new("Searching for what is missing"),
-            early: Early::default(),
-            prints: Shelf::new("Fingerprint"),
-            forces: Shelf::new("Missing force"),
-            scatters: Shelf::new("Scatter of channels and runs"),
-            curves: Shelf::new("Frequency response"),
-            trial_curves: Shelf::new("Frequency response"),
-            decays: Shelf::new("Amplitude curves"),
+            comparisons: Cache::new("Comparing"),
+            trials: Cache::new("Trying"),
+            diagnoses: Cache::new("Searching for what is missing"),
+            early: FirstSuggestions::default(),
+            prints: Cache::new("Fingerprint"),
+            forces: Cache::new("Missing force"),
+            scatters: Cache::new("Scatter of channels and runs"),
+            curves: Cache::new("Frequency response"),
+            trial_curves: Cache::new("Frequency response"),
+            decays: Cache::new("Amplitude curves"),
             ledger: Ledger::default(),
         }
     }
@@ -211,7 +211,7 @@ impl Explained {
     }
 
     /// The comparison of the document as it stands, if it is there; starts nothing.
-    pub fn comparison(&self, document: &Document) -> Option<&Kept<Comparison>> {
+    pub fn comparison(&self, document: &Document) -> Option<&Cached<Comparison>> {
         self.comparisons.get(&(self.current(document)?, None))
     }
 
@@ -221,12 +221,12 @@ impl Explained {
     }
 
     /// The comparison with an effect on trial.
-    pub fn trial(&self, document: &Document, source: &Source) -> Option<&Kept<Comparison>> {
+    pub fn trial(&self, document: &Document, source: &Source) -> Option<&Cached<Comparison>> {
         self.trials.get(&(self.current(document)?, Some(source.clone())))
     }
 
     /// The diagnosis of the document as it stands.
-    pub fn diagnosis(&self, document: &Document) -> Option<&Kept<Diagnosis>> {
+    pub fn diagnosis(&self, document: &Document) -> Option<&Cached<Diagnosis>> {
         self.diagnoses.get(&self.search(document)?)
     }
 
@@ -253,33 +253,33 @@ impl Explained {
     }
 
     /// The fingerprint of a suggestion.
-    pub fn print(&self, document: &Document, source: &Source) -> Option<&Kept<Option<Print>>> {
+    pub fn print(&self, document: &Document, source: &Source) -> Option<&Cached<Option<Print>>> {
         let search = self.search(document)?;
         self.prints.get(&(search, source.clone()))
     }
 
     /// The missing force at the place of a suggestion, or at the place that explains most.
-    pub fn force(&self, document: &Document, source: Option<&Source>) -> Option<&Kept<Option<RestoringForce>>> {
+    pub fn force(&self, document: &Document, source: Option<&Source>) -> Option<&Cached<Option<RestoringForce>>> {
         self.forces.get(&(self.search(document)?, source.cloned()))
     }
 
     /// What the data say of channels and runs.
-    pub fn scatter(&self, document: &Document) -> Option<&Kept<Option<Scatter>>> {
+    pub fn scatter(&self, document: &Document) -> Option<&Cached<Option<Scatter>>> {
         self.scatters.get(&self.search(document)?)
     }
 
     /// The response curves of the model near a run, one a level.
-    pub fn curve(&self, document: &Document, run: usize) -> Option<&Kept<Vec<Curve>>> {
+    pub fn curve(&self, document: &Document, run: usize) -> Option<&Cached<Vec<Curve>>> {
         self.curves.get(&(self.current(document)?, run))
     }
 
     /// The response curves with an effect on trial.
-    pub fn trial_curve(&self, document: &Document, source: &Source, run: usize) -> Option<&Kept<Vec<Curve>>> {
+    pub fn trial_curve(&self, document: &Document, source: &Source, run: usize) -> Option<&Cached<Vec<Curve>>> {
         self.trial_curves.get(&((self.current(document)?, Some(source.clone())), run))
     }
 
     /// Records that are not steady with the model beside them, with an effect on trial.
-    pub fn decays(&self, document: &Document, trial: Option<&Source>) -> Option<&Kept<Vec<OneRecord>>> {
+    pub fn decays(&self, document: &Document, trial: Option<&Source>) -> Option<&Cached<Vec<OneRecord>>> {
         self.decays.get(&(self.current(document)?, trial.cloned()))
     }
 

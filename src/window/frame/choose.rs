@@ -1,6 +1,6 @@
 //! A file is chosen inside the window, where the desktop has no dialogs of its own.
 
-use crate::window::app::{App, Ask};
+use crate::window::ask::Ask;
 use crate::window::files::{self, Pick};
 use crate::window::theme::{size, space};
 use crate::window::widgets::UiExt;
@@ -79,8 +79,8 @@ impl Choosing {
 }
 
 /// Shows the dialog while one is open.
-pub fn show(ctx: &Context, app: &mut App, asks: &mut Vec<Ask>) {
-    let Some(dialog) = &mut app.choosing else { return };
+pub fn show(ctx: &Context, choosing: &mut Option<Choosing>, asks: &mut Vec<Ask>) {
+    let Some(dialog) = choosing else { return };
     let frame = Frame::popup(&ctx.global_style()).inner_margin(Margin::same(18));
     let mut ended = false;
     let modal = Modal::new(Id::unique("choose a file")).frame(frame).show(ctx, |ui| {
@@ -106,7 +106,7 @@ pub fn show(ctx: &Context, app: &mut App, asks: &mut Vec<Ask>) {
         });
     });
     if ended || modal.should_close() {
-        app.choosing = None;
+        *choosing = None;
     }
 }
 

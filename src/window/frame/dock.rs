@@ -7,71 +7,14 @@ use crate::window::app::{App, Ask};
 use crate::window::stages;
 use crate::window::stages::explain::switches::in_bar;
 use crate::window::theme::{self, Palette, size, space};
-use crate::window::view::Stage;
 use crate::window::widgets::explained;
 use egui::{
     Color32, CornerRadius, Frame, Id, Margin, Rect, Response, Role, Sense, Stroke, Ui, WidgetInfo, WidgetText, vec2,
 };
-use egui_tiles::{Behavior, SimplificationOptions, TabState, Tabs, Tile, TileId, Tiles, Tree, UiResponse};
-use serde::{Deserialize, Serialize};
-use std::collections::BTreeMap;
+use egui_tiles::{Behavior, SimplificationOptions, TabState, Tabs, TileId, Tiles, UiResponse};
 
 /// Least room behind a title for the cross that closes its pane, points.
 const CROSS_ROOM: f32 = 11.0;
-
-/// Arrangements of the stages that were opened.
-#[derive(Debug, Clone, Default, Serialize, Deserialize)]
-pub struct Desk {
-    trees: BTreeMap<Stage, Tree<Pane>>,
-}
-
-impl Desk {
-    fn tree(&mut self, stage: Stage) -> &mut Tree<Pane> {
-        self.trees.entry(stage).or_insert_with(|| arrangement(stage))
-    }
-
-    /// Back to the arrangement that the program starts with.
-    pub fn reset(&mut self, stage: Stage) {
-        self.trees.remove(&stage);
-    }
-
-    /// Panes of a stage and whether each is open.
-    pub fn panes(&self, stage: Stage) -> Vec<(Pane, bool)> {
-        let initial;
-        let tiles = if let Some(tree) = self.trees.get(&stage) {
-            &tree.tiles
-        } else {
-            initial = arrangement(stage);
-            &initial.tiles
-        };
-        let mut panes: Vec<(Pane, bool)> = tiles
-            .iter()
-            .filter_map(|(id, tile)| match tile {
-                Tile::Pane(pane) => Some((*pane, tiles.is_visible(*id))),
-                Tile::Container(_) => None,
-            })
-            .collect();
-        panes.sort_unstable();
-        panes
-    }
-
-    /// Where a pane was drawn last; `None` where it is closed or behind another.
-    pub fn rect(&self, stage: Stage, pane: Pane) -> Option<Rect> {
-        let tiles = &self.trees.get(&stage)?.tiles;
-        let parent = tiles.parent_of(tiles.find_pane(&pane)?)?;
-        tiles.rect(tiles.find_pane(&pane)?).and(tiles.rect(parent))
-    }
-
-    /// Opens or closes a pane; one that is opened comes to the front of its tabs.
-    pub fn set_open(&mut self, stage: Stage, pane: Pane, open: bool) {
-        let tree = self.tree(stage);
-        let Some(tile) = tree.tiles.find_pane(&pane) else { return };
-        tree.set_visible(tile, open);
-        if open {
-            tree.make_active(|id, _| id == tile);
-        }
-    }
-}
 
 /// Shows the panes of the stage that is open.
 pub fn show(ui: &mut Ui, app: &mut App, asks: &mut Vec<Ask>) {

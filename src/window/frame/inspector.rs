@@ -52,7 +52,7 @@ fn project(ui: &mut Ui, p: &Project, asks: &mut Vec<Ask>) {
     for state in [State::Candidate, State::Forced, State::Known, State::Reference, State::Off] {
         let count = p.sources.iter().filter(|s| s.state == state).count();
         if count > 0 {
-            ui.pair(&format!("Sources, {}", words::state(state)), count.to_string());
+            ui.pair(&format!("Sources, {}", state.word()), count.to_string());
         }
     }
     ui.add_space(space::M);
@@ -208,7 +208,7 @@ fn source(ui: &mut Ui, p: &Project, index: usize, asks: &mut Vec<Ask>) {
     ui.add_space(space::XS);
     ui.horizontal(|ui| {
         for state in [State::Candidate, State::Forced, State::Known, State::Off] {
-            if ui.selectable_label(s.state == state, words::state(state)).clicked() {
+            if ui.selectable_label(s.state == state, state.word()).clicked() {
                 asks.push(Ask::Edit(Edit::SetState(index, state)));
             }
         }

@@ -1,34 +1,10 @@
 //! What is asked before unsaved changes are left behind.
 
 use crate::window::app::{App, Ask};
+use crate::window::leaving::Changes;
 use crate::window::theme::{size, space};
 use crate::window::widgets::UiExt;
 use egui::{Context, Frame, Id, Margin, Modal, RichText};
-use std::path::PathBuf;
-
-/// Where the user wants to go.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub enum Leave {
-    /// Out of the program.
-    Quit,
-    /// Back to the start screen.
-    Close,
-    /// To another project.
-    Open(PathBuf),
-    /// To a new project, by the number of its template.
-    New(usize),
-}
-
-/// What the user wants to become of the changes.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Changes {
-    /// Save them, then go.
-    Save,
-    /// Forget them and go.
-    Discard,
-    /// Stay.
-    Keep,
-}
 
 /// Asks while somebody wants to leave.
 pub fn show(ctx: &Context, app: &App, asks: &mut Vec<Ask>) {

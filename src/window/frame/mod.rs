@@ -2,6 +2,7 @@
 
 pub mod cards;
 pub mod choose;
+pub mod desk;
 pub mod dock;
 pub mod help;
 pub mod icons;

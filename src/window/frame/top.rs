@@ -13,7 +13,7 @@ use egui::{Align, Align2, Button, Color32, Frame, Layout, Margin, Panel, Rect, R
 
 /// Where a stage stands, and why in one line.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Mark {
+pub struct StageStatus {
     kind: Kind,
     /// The reason.
     pub reason: String,
@@ -26,7 +26,7 @@ enum Kind {
     Attention,
 }
 
-impl Mark {
+impl StageStatus {
     /// Nothing there yet.
     pub fn empty(reason: &str) -> Self {
         Self { kind: Kind::Empty, reason: reason.to_owned() }
@@ -229,12 +229,12 @@ fn stages(ui: &mut Ui, app: &App, asks: &mut Vec<Ask>) {
             if k > 0 {
                 chevron(ui);
             }
-            if tab(ui, stage, app.view.stage == stage, &app.mark(stage)) {
+            if tab(ui, stage, app.view.stage == stage, &app.status(stage)) {
                 asks.push(Ask::Stage(stage));
             }
         }
         ui.add_space(space::L);
-        let mark = app.mark(app.view.stage);
+        let mark = app.status(app.view.stage);
         let colour = if mark.kind == Kind::Attention { ui.palette().warning } else { ui.palette().weak };
         reason(ui, &mark.reason, colour);
     });
@@ -257,7 +257,7 @@ fn chevron(ui: &mut Ui) {
 }
 
 /// A stage with its mark; true when it was clicked.
-fn tab(ui: &mut Ui, stage: Stage, open: bool, mark: &Mark) -> bool {
+fn tab(ui: &mut Ui, stage: Stage, open: bool, mark: &StageStatus) -> bool {
     let palette = ui.palette();
     let galley =
         ui.painter().layout_no_wrap(stage.label().to_owned(), theme::font(size::HEADING), Color32::PLACEHOLDER);

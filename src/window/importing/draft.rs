@@ -209,10 +209,10 @@ fn first_channel(files: &[Opened]) -> Option<(usize, usize, usize)> {
     let first = |wanted: &dyn Fn(Kind) -> bool| {
         files.iter().enumerate().find_map(|(f, opened)| {
             let sets = &opened.file.as_ref().ok()?.contents().sets;
-            let of = |(s, set): (usize, &dashpot_datafiles::Set)| {
+            let channel_of_set = |(s, set): (usize, &dashpot_datafiles::Set)| {
                 set.channels.iter().position(|channel| channel.count > 1).map(|c| (f, s, c))
             };
-            sets.iter().enumerate().filter(|(_, set)| wanted(set.kind)).find_map(of)
+            sets.iter().enumerate().filter(|(_, set)| wanted(set.kind)).find_map(channel_of_set)
         })
     };
     first(&|kind| matches!(kind, Kind::Time | Kind::Frf)).or_else(|| first(&|_| true))

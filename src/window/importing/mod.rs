@@ -15,7 +15,7 @@ pub use draft::{Draft, OpenProject};
 pub use view::show;
 
 use super::document::Document;
-use super::wake::wake;
+use super::repaint::request_repaint;
 use crate::control::Control;
 use crate::exchange::atomic::write_atomically;
 use crate::exchange::importing::{Request, import};
@@ -75,7 +75,7 @@ impl Importing {
         ctx: &Context,
         work: impl FnOnce(&Control) -> Result<Draft, String> + Send + 'static,
     ) -> Result<Self, String> {
-        Job::start("Reading measurements", (), wake(ctx), work).map(Self::Looking).map_err(|e| e.to_string())
+        Job::start("Reading measurements", (), request_repaint(ctx), work).map(Self::Looking).map_err(|e| e.to_string())
     }
 
     /// Goes on where work has ended; a draft that fits the mapping of the open project is accepted at once.
@@ -127,8 +127,9 @@ impl Draft {
     pub fn accepted(self, ctx: &Context) -> Result<Importing, String> {
         let (request, target) = (self.decided(), self.destination());
         let into = self.into_open();
-        let job =
-            Job::start("Importing", (), wake(ctx), move |control: &Control| make(&request, &target, into, control));
+        let job = Job::start("Importing", (), request_repaint(ctx), move |control: &Control| {
+            make(&request, &target, into, control)
+        });
         job.map(|job| Importing::Making(Box::new(self), job)).map_err(|e| e.to_string())
     }
 }

@@ -2,18 +2,19 @@
 
 mod figures;
 pub mod lesson;
+mod page;
+
+pub use page::Learn;
 
 use super::app::{App, Ask};
-use super::background::Slot;
 use super::commands::Command;
 use super::plots::show::Stack;
 use super::theme::{Palette, space};
 use super::widgets::UiExt;
-use crate::control::Control;
 use crate::display::{format, words};
 use crate::plots::figure::Figure;
-use crate::response::portrait::{Portrait, portrait};
-use egui::{CentralPanel, Context, Frame, Margin, Panel, ScrollArea, Slider, Ui, vec2};
+use crate::response::portrait::Portrait;
+use egui::{CentralPanel, Frame, Margin, Panel, ScrollArea, Slider, Ui, vec2};
 use lesson::{Lesson, System};
 use std::sync::Arc;
 
@@ -21,49 +22,6 @@ use std::sync::Arc;
 const CHOICES: f32 = 300.0;
 /// Plots in a row.
 const COLUMNS: usize = 3;
-
-/// The page: what is chosen, and what was computed of it.
-#[derive(Debug)]
-pub struct Learn {
-    /// Whether it is open.
-    pub open: bool,
-    /// What is looked at.
-    pub lesson: Lesson,
-    slot: Slot<Lesson, Portrait>,
-    /// The last one, shown while the next is computed.
-    last: Option<Result<Arc<Portrait>, String>>,
-}
-
-impl Default for Learn {
-    fn default() -> Self {
-        Self { open: false, lesson: Lesson::default(), slot: Slot::new("Laws"), last: None }
-    }
-}
-
-impl Learn {
-    /// Name and progress of what runs.
-    pub fn running(&self) -> Option<(&str, f64)> {
-        self.slot.running()
-    }
-
-    /// Gives up what runs.
-    pub fn cancel(&mut self) {
-        self.slot.cancel();
-    }
-
-    fn update(&mut self, ctx: &Context) {
-        let lesson = self.lesson.clone();
-        let work = || {
-            move |control: &Control| {
-                let setup = lesson.setup().map_err(|e| e.to_string())?;
-                portrait(&setup, control).map_err(|e| e.to_string())
-            }
-        };
-        if let Some(found) = self.slot.get(ctx, &self.lesson, work) {
-            self.last = Some(found);
-        }
-    }
-}
 
 /// Room between the plots of a row, points: a curve that ends at its frame does not run into the words of the next.
 const BETWEEN: f32 = 20.0;

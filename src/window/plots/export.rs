@@ -10,9 +10,9 @@ use crate::plots::sheet::Sheet;
 use crate::plots::svg;
 use crate::session::jobs::Job;
 use crate::window::offscreen::Offscreen;
+use crate::window::repaint::request_repaint;
 use crate::window::solid::paint::graphics;
 use crate::window::theme::Palette;
-use crate::window::wake::wake;
 use crate::window::widgets::UiExt;
 use egui::{Context, Id, Key, KeyboardShortcut, Modifiers, Response, Ui, Vec2, vec2};
 use egui_wgpu::RenderState;
@@ -231,7 +231,7 @@ impl Exports {
                 };
                 Some(written.map(|()| path))
             };
-            match Job::start("Exporting", (), wake(ctx), work) {
+            match Job::start("Exporting", (), request_repaint(ctx), work) {
                 Ok(job) => self.jobs.push(job),
                 Err(error) => return Some((error.to_string(), true)),
             }

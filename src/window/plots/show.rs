@@ -265,12 +265,14 @@ fn reset(plot: &mut PlotUi<'_>, figure: &Figure) {
 /// The values under the pointer, in the corner.
 fn read_out<'a>(x: &Axis, y: &Axis) -> CoordinatesFormatter<'a> {
     let (x, y) = (x.clone(), y.clone());
-    let one = |axis: &Axis, place: f64| match &axis.ticks {
+    let read_out_at = |axis: &Axis, place: f64| match &axis.ticks {
         Ticks::Names(names) => names.get(place.round().max(0.0) as usize).cloned().unwrap_or_default(),
         Ticks::Whole => format!("{} {:.0}", axis.name, place),
         _ => format!("{} {}", significant(axis.read(place), 4), axis.unit),
     };
-    CoordinatesFormatter::new(move |p: &PlotPoint, _: &PlotBounds| format!("{}   {}", one(&x, p.x), one(&y, p.y)))
+    CoordinatesFormatter::new(move |p: &PlotPoint, _: &PlotBounds| {
+        format!("{}   {}", read_out_at(&x, p.x), read_out_at(&y, p.y))
+    })
 }
 
 /// The values of the point that the pointer is near to.

@@ -52,7 +52,7 @@ fn source(ui: &mut Ui, scene: &Scene, slot: usize) -> Option<Intent> {
     ui.hint(words::effect(source.effect));
     let mut chosen = None;
     for state in [State::Candidate, State::Forced, State::Known, State::Off] {
-        if ui.selectable_label(source.state == state, words::state(state)).clicked() {
+        if ui.selectable_label(source.state == state, state.word()).clicked() {
             chosen = Some(Intent::Edit(Edit::SetState(source.index, state)));
         }
     }

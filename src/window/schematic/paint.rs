@@ -54,7 +54,7 @@ pub fn paint(painter: &Painter, palette: &Palette, scene: &Scene, layout: &Layou
     }
     for handle in &layout.handles {
         paint_handle(painter, palette, scene, handle, marks);
-        name(painter, palette, (scene, layout), handle, marks);
+        name(painter, palette, scene, layout, handle, marks);
     }
     instruments(painter, palette, layout);
     drag(painter, palette, marks);
@@ -164,7 +164,7 @@ fn paint_handle(painter: &Painter, palette: &Palette, scene: &Scene, handle: &Ha
 }
 
 /// The label of a DOF: in a mass, else at the right of its node, or at the left where an arrow stands at the right.
-fn name(painter: &Painter, palette: &Palette, (scene, layout): (&Scene, &Layout), handle: &Handle, marks: &Marks<'_>) {
+fn name(painter: &Painter, palette: &Palette, scene: &Scene, layout: &Layout, handle: &Handle, marks: &Marks<'_>) {
     let target = Some(Target::Dof(handle.dof));
     let lit = target == marks.hovered || target == marks.selected;
     if !handle.labelled && !lit {
@@ -215,13 +215,13 @@ fn mass_body(painter: &Painter, palette: &Palette, handle: &Handle, round: bool,
 fn rotation(painter: &Painter, palette: &Palette, handle: &Handle, lit: bool) {
     let colour = if lit { palette.accent } else { palette.weak.gamma_multiply(0.8) };
     let r = handle.radius + 0.5;
-    let at = |degrees: f32| {
+    let point_at = |degrees: f32| {
         let (s, c) = degrees.to_radians().sin_cos();
         handle.pos + vec2(r * c, -r * s)
     };
-    let arc = (0..=10).map(|k| at(-40.0 + 25.0 * k as f32)).collect();
+    let arc = (0..=10).map(|k| point_at(-40.0 + 25.0 * k as f32)).collect();
     painter.add(Shape::line(arc, Stroke::new(1.3, colour)));
-    let tip = at(-40.0);
+    let tip = point_at(-40.0);
     painter.add(Shape::convex_polygon(
         vec![tip + vec2(-2.5, 2.5), tip + vec2(3.5, 0.5), tip + vec2(-0.5, -3.5)],
         colour,

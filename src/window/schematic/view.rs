@@ -205,7 +205,7 @@ impl View<'_> {
             [a, b] => format!("between DOF {a} and {b}"),
             _ => format!("chain {}", labels.join("–")),
         };
-        let state = if source.suggested { "suggested" } else { crate::display::words::state(source.state) };
+        let state = if source.suggested { "suggested" } else { source.state.word() };
         let value = source.identified.as_ref().map_or_else(String::new, |v| format!(", {v}"));
         format!("Source {}, {place}, {state}{value}", crate::display::words::effect(source.effect))
     }

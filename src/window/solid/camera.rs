@@ -10,7 +10,7 @@
 //! The projection is parallel: equal heights stay equal wherever they stand, so that bars can be compared.
 
 use super::pick::Ray;
-use egui::{Pos2, Rect, Vec2, pos2, vec2};
+use egui::{Pos2, Rect, Vec2, vec2};
 use nalgebra::Vector3;
 
 /// The direction from which something is looked at.
@@ -126,19 +126,19 @@ impl Projection {
     }
 }
 
-/// The point of a clip space on the screen; the inverse of what a graphics adapter does with [`Projection::clip`].
-pub fn on_screen(clip: [f32; 2], viewport: Rect) -> Pos2 {
-    let half = viewport.size() / 2.0;
-    pos2(viewport.center().x + clip[0] * half.x, viewport.center().y - clip[1] * half.y)
-}
-
 #[cfg(test)]
 mod tests {
-    use super::{Camera, Projection, on_screen};
-    use egui::{Rect, pos2, vec2};
+    use super::{Camera, Projection};
+    use egui::{Pos2, Rect, pos2, vec2};
     use nalgebra::Vector3;
 
     const ROOM: Rect = Rect { min: pos2(100.0, 50.0), max: pos2(700.0, 450.0) };
+
+    /// The point of a clip space on the screen; the inverse of what a graphics adapter does with [`Projection::clip`].
+    fn on_screen(clip: [f32; 2], viewport: Rect) -> Pos2 {
+        let half = viewport.size() / 2.0;
+        pos2(viewport.center().x + clip[0] * half.x, viewport.center().y - clip[1] * half.y)
+    }
 
     fn corners() -> Vec<Vector3<f32>> {
         (0..8).map(|k| Vector3::new((k & 1) as f32 * 3.0, ((k >> 1) & 1) as f32 * 2.0, (k >> 2) as f32)).collect()

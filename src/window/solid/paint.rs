@@ -2,7 +2,7 @@
 
 use super::camera::{Camera, Projection};
 use super::mesh::Mesh;
-use super::pipeline::Studio;
+use super::pipeline::{SceneUniform, Studio};
 use egui::{Context, Id, Painter, Rect};
 use egui_wgpu::{CallbackResources, CallbackTrait, RenderState, ScreenDescriptor, wgpu};
 use nalgebra::Vector3;
@@ -13,16 +13,6 @@ pub const NO_ADAPTER: &str = "Drawing in space needs a Vulkan or OpenGL driver; 
 
 /// Part of the light that comes from everywhere.
 const AMBIENT: f32 = 0.60;
-
-/// What the pipeline is told at every frame.
-#[derive(Debug, Clone, Copy, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
-#[repr(C)]
-pub(super) struct SceneUniform {
-    /// Columns of the matrix from space to clip space.
-    pub clip: [[f32; 4]; 4],
-    /// Unit vector to the light, and the share of light from everywhere.
-    pub light: [f32; 4],
-}
 
 /// A mesh, how it is looked at, and where it stands on the screen.
 #[derive(Debug, Clone)]

@@ -1,7 +1,6 @@
 //! The pipeline: bodies with depth and four samples a pixel into a texture, the texture into egui's pass.
 
 use super::mesh::{Mesh, Vertex};
-use super::paint::SceneUniform;
 use egui::Id;
 use egui_wgpu::wgpu;
 use std::collections::HashMap;
@@ -13,6 +12,16 @@ const COLOUR: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
 const DEPTH: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
 /// Pictures whose textures are kept; more are never on the screen at once.
 const MOST: usize = 8;
+
+/// What the pipeline is told at every frame.
+#[derive(Debug, Clone, Copy, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+#[repr(C)]
+pub(super) struct SceneUniform {
+    /// Columns of the matrix from space to clip space.
+    pub clip: [[f32; 4]; 4],
+    /// Unit vector to the light, and the share of light from everywhere.
+    pub light: [f32; 4],
+}
 
 /// Pipelines and what each picture keeps between frames.
 pub(super) struct Studio {

@@ -1,5 +1,6 @@
 //! Change: two states of the structure held against each other, each source and mode with its deviations.
 
+use super::identified;
 use super::result::widest;
 use crate::display::{change as said, format, words};
 use crate::identify::change::{ModeChange, Pair, SourceChange};
@@ -144,11 +145,11 @@ fn table(ui: &mut Ui, what: &str, rows: &[Row]) {
         .header(space::ROW, |mut head| {
             head.col(|ui| drop(ui.hint(what)));
             for name in ["First", "Second", "Difference"] {
-                head.col(|ui| drop(super::head_right(ui, name)));
+                head.col(|ui| drop(identified::head_right(ui, name)));
             }
             head.col(|ui| drop(ui.hint("Unit")));
             head.col(|ui| {
-                super::head_right(ui, "Chance");
+                identified::head_right(ui, "Chance");
             });
         })
         .body(|body| body.rows(space::ROW, rows.len(), |mut row| cells(&mut row, rows, in_full)));

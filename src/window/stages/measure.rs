@@ -16,8 +16,8 @@ use crate::window::edits::Edit;
 use crate::window::plots::charts;
 use crate::window::plots::record;
 use crate::window::plots::show::Stack;
+use crate::window::prepared_records::PreparedRecord;
 use crate::window::theme::{self, space};
-use crate::window::traces::Traced;
 use crate::window::widgets::{UiExt, width};
 use egui::{Sense, Ui};
 use egui_extras::{Column, TableBuilder, TableRow};
@@ -136,10 +136,10 @@ pub fn record(ui: &mut Ui, app: &mut App) {
     }
     let Some(fit) = r.fit.channels.get(channel) else { return };
     match app.derived.trace(ui.ctx(), document, run, channel) {
-        Traced::Absent => amplitudes(ui, r, channel),
-        Traced::Coming => ui.empty("The record is being prepared", ""),
-        Traced::Cancelled => ui.empty("There is no record to show", CANCELLED),
-        Traced::Ready(trace) => {
+        PreparedRecord::Absent => amplitudes(ui, r, channel),
+        PreparedRecord::Coming => ui.empty("The record is being prepared", ""),
+        PreparedRecord::Cancelled => ui.empty("There is no record to show", CANCELLED),
+        PreparedRecord::Ready(trace) => {
             let axis = words::axis(fit.channel.quantity, false);
             let id = format!("run {} {}", run + 1, fit.channel);
             RecordPlot { trace: &trace, fit: &trace.fit, omega: r.fit.omega, axis, id: &id }.show(ui);
@@ -165,10 +165,10 @@ fn lanes(ui: &mut Ui, derived: &mut Derived, document: &Document, run: usize) {
     let mut shown = Vec::new();
     for (k, fit) in r.fit.channels.iter().enumerate() {
         match derived.trace(ui.ctx(), document, run, k) {
-            Traced::Ready(trace) => shown.push((fit, trace)),
-            Traced::Absent => {}
-            Traced::Coming => return ui.empty("The records are being prepared", ""),
-            Traced::Cancelled => return ui.empty("There are no records to show", CANCELLED),
+            PreparedRecord::Ready(trace) => shown.push((fit, trace)),
+            PreparedRecord::Absent => {}
+            PreparedRecord::Coming => return ui.empty("The records are being prepared", ""),
+            PreparedRecord::Cancelled => return ui.empty("There are no records to show", CANCELLED),
         }
     }
     if shown.is_empty() {
@@ -185,10 +185,10 @@ pub fn spectrum(ui: &mut Ui, app: &mut App) {
     let r = &document.project.runs[run];
     let Some(fit) = r.fit.channels.get(channel) else { return };
     let trace = match app.derived.trace(ui.ctx(), document, run, channel) {
-        Traced::Absent => return ui.empty("No spectrum", "This run came as fitted harmonics."),
-        Traced::Coming => return ui.empty("The spectrum is being prepared", ""),
-        Traced::Cancelled => return ui.empty("There is no spectrum to show", CANCELLED),
-        Traced::Ready(trace) => trace,
+        PreparedRecord::Absent => return ui.empty("No spectrum", "This run came as fitted harmonics."),
+        PreparedRecord::Coming => return ui.empty("The spectrum is being prepared", ""),
+        PreparedRecord::Cancelled => return ui.empty("There is no spectrum to show", CANCELLED),
+        PreparedRecord::Ready(trace) => trace,
     };
     let unit = words::axis(fit.channel.quantity, false).rsplit(", ").next().unwrap_or("");
     match &trace.spectrum {

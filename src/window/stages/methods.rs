@@ -1,5 +1,6 @@
 //! The classical methods side by side: ratios and errors of each, and the matrix of one beside what it is held against.
 
+use super::identified;
 use crate::classical::Damping;
 use crate::classical::method::Method;
 use crate::classical::side_by_side::{Applied, SideBySide};
@@ -93,18 +94,18 @@ fn table(ui: &mut Ui, found: &SideBySide, chosen: &mut Option<Method>) {
             row.col(|ui| drop(ui.hint("Method")));
             if known {
                 for name in ["Error C", "MAC error"] {
-                    row.col(|ui| drop(super::head_right(ui, name)));
+                    row.col(|ui| drop(identified::head_right(ui, name)));
                 }
             }
             for mode in 0..modes {
                 let name = format!("ζ{}, %", mode + 1);
-                row.col(|ui| drop(super::head_right(ui, &name).on_hover_text("Damping ratio of the mode.")));
+                row.col(|ui| drop(identified::head_right(ui, &name).on_hover_text("Damping ratio of the mode.")));
             }
         })
         .body(|mut body| {
             for entry in &found.entries {
                 if let Ok(applied) = &entry.outcome {
-                    applied_row(&mut body, entry.method, applied, (known, modes), chosen);
+                    applied_row(&mut body, entry.method, applied, known, modes, chosen);
                 }
             }
             summary(&mut body, found, errors, modes);
@@ -126,14 +127,14 @@ fn applied_row(
     body: &mut TableBody<'_>,
     method: Method,
     applied: &Applied,
-    (known, modes): (bool, usize),
+    known: bool,
+    modes: usize,
     chosen: &mut Option<Method>,
 ) {
     body.row(space::ROW, |mut row| {
         row.set_selected(*chosen == Some(method));
         row.col(|ui| drop(name(ui, method.title()).on_hover_text(method.words().join("\n"))));
-        if known {
-            let errors = applied.errors;
+        if let Some(errors) = known.then_some(applied.errors) {
             row.col(|ui| drop(ui.number(errors.map_or_else(dash, |e| format::percent(0.01 * e.eps_c)))));
             row.col(|ui| drop(ui.number(errors.map_or_else(dash, |e| format::significant(e.mac, 2)))));
         }

@@ -2,6 +2,7 @@
 
 pub mod change;
 pub mod explain;
+mod identified;
 pub mod incompleteness;
 pub mod measure;
 pub mod methods;
@@ -18,7 +19,6 @@ use super::frame;
 use super::frame::panes::Pane;
 use super::plots::table as tabled;
 use crate::plots::tables;
-use crate::session::validation::has_records;
 use egui::Ui;
 
 /// Shows a pane.
@@ -120,45 +120,4 @@ fn identified(pane: Pane, app: &App) -> Option<String> {
         Pane::Expansion => Some(tables::expansion(p, outcome?)),
         _ => None,
     }
-}
-
-/// The answer of the identification, or what is shown in its place.
-pub fn outcome(
-    ui: &mut Ui,
-    derived: &mut super::derived::Derived,
-    document: &super::document::Document,
-) -> Option<std::sync::Arc<crate::identify::Outcome>> {
-    use super::widgets::UiExt;
-    match derived.outcome(ui.ctx(), document) {
-        Some(Ok(outcome)) => return Some(outcome),
-        Some(Err(_)) if document.project.runs.iter().all(|r| !r.enabled) && !has_records(&document.project) => {
-            ui.empty("No runs to identify from", "Import measurements, or tick the runs that are to be used.");
-        }
-        Some(Err(error)) => ui.empty("Nothing was identified", &error),
-        None => ui.empty("Identification is running", "Its progress is in the bar below."),
-    }
-    None
-}
-
-/// The same for panes beside the one that says why.
-pub fn outcome_quietly(
-    ui: &mut Ui,
-    derived: &mut super::derived::Derived,
-    document: &super::document::Document,
-) -> Option<std::sync::Arc<crate::identify::Outcome>> {
-    use super::widgets::UiExt;
-    let found = derived.outcome(ui.ctx(), document).and_then(Result::ok);
-    if found.is_none() {
-        ui.empty("Nothing yet", "It follows what is identified.");
-    }
-    found
-}
-
-/// The name of a column of numbers.
-pub fn head_right(ui: &mut Ui, name: &str) -> egui::Response {
-    ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-        ui.add_space(super::theme::space::XS);
-        super::widgets::UiExt::hint(ui, name)
-    })
-    .inner
 }

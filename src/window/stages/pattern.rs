@@ -115,14 +115,14 @@ fn law_name(ui: &Ui, effect: Effect, width: f32) -> Arc<Galley> {
 }
 
 fn parameters(effect: Effect) -> String {
-    let one = |p: &crate::effects::Parameter| {
+    let parameter_in_words = |p: &crate::effects::Parameter| {
         if p.unit.is_empty() {
             p.name.to_owned()
         } else {
             format!("{}, {}", p.name, crate::display::format::pretty_unit(p.unit))
         }
     };
-    effect.parameters().iter().map(one).collect::<Vec<_>>().join("\n")
+    effect.parameters().iter().map(parameter_in_words).collect::<Vec<_>>().join("\n")
 }
 
 /// The list of sources; the one that was clicked.
@@ -134,7 +134,7 @@ fn list(ui: &mut Ui, p: &Project, view: &View, asks: &mut Vec<Ask>) -> Option<us
         for state in [State::Candidate, State::Forced, State::Known, State::Reference, State::Off] {
             if count(state) > 0 {
                 let colour = source_stroke(palette, state, false, true).color;
-                ui.pill(&format!("{} {}", count(state), words::state(state)), colour);
+                ui.pill(&format!("{} {}", count(state), state.word()), colour);
             }
         }
         if count(State::Candidate) > 0 && ui.button(Command::ClearCandidates.entry().label).clicked() {
@@ -173,7 +173,7 @@ fn list(ui: &mut Ui, p: &Project, view: &View, asks: &mut Vec<Ask>) -> Option<us
                 });
                 row.col(|ui| drop(ui.label(words::effect(s.effect))));
                 row.col(|ui| drop(ui.label(words::place(&p.structure, &s.place))));
-                row.col(|ui| drop(ui.pill(words::state(s.state), stroke.color)));
+                row.col(|ui| drop(ui.pill(s.state.word(), stroke.color)));
                 if localised(row.response(), p, s).clicked() {
                     chosen = Some(index);
                 }

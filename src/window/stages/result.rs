@@ -1,5 +1,6 @@
 //! Result: the damping matrix, energy shares, damping ratios, frequency responses, hysteresis.
 
+use super::identified;
 use crate::display::{format, units, words};
 use crate::exchange::Project;
 use crate::identify::Outcome;
@@ -22,13 +23,13 @@ const SHARE: f32 = 64.0;
 /// The answer, or what is shown in its place.
 fn ready(ui: &mut Ui, app: &mut App) -> Option<Arc<Outcome>> {
     let document = app.document.as_ref()?;
-    super::outcome(ui, &mut app.derived, document)
+    identified::outcome(ui, &mut app.derived, document)
 }
 
 /// The damping matrix as a heat map or as bars in space.
 pub fn matrix(ui: &mut Ui, app: &mut App) {
     let Some(document) = &app.document else { return };
-    let Some(outcome) = super::outcome_quietly(ui, &mut app.derived, document) else { return };
+    let Some(outcome) = identified::outcome_quietly(ui, &mut app.derived, document) else { return };
     let (mut whole, mut in_space) = (app.view.whole_matrix, app.view.matrix_in_space);
     heat(ui, &document.project, &outcome, &mut whole, &mut in_space);
     (app.view.whole_matrix, app.view.matrix_in_space) = (whole, in_space);
@@ -171,7 +172,7 @@ fn ratios(ui: &mut Ui, outcome: &Outcome) {
         .header(space::ROW, |mut row| {
             row.col(|ui| drop(ui.hint("Mode")));
             for name in ["Frequency", name_of_measure, "Half-power"] {
-                row.col(|ui| drop(super::head_right(ui, name)));
+                row.col(|ui| drop(identified::head_right(ui, name)));
             }
         })
         .body(|body| {
@@ -269,8 +270,8 @@ pub fn values(ui: &mut Ui, app: &mut App) {
         .header(space::ROW, |mut row| {
             row.col(|ui| if_there(with_law, || ui.hint("Law")));
             row.col(|ui| drop(ui.hint("Place")));
-            row.col(|ui| drop(super::head_right(ui, "Coefficient")));
-            row.col(|ui| if_there(with_share, || super::head_right(ui, "Energy")));
+            row.col(|ui| drop(identified::head_right(ui, "Coefficient")));
+            row.col(|ui| if_there(with_share, || identified::head_right(ui, "Energy")));
         })
         .body(|body| {
             body.rows(space::ROW, outcome.sources.len(), |mut row| {

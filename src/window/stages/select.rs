@@ -1,5 +1,6 @@
 //! Select: one row a step, its coefficients and alternatives, the angle against the number of sources, energy per run.
 
+use super::identified;
 use crate::display::{format, words};
 use crate::effects::State;
 use crate::exchange::Project;
@@ -28,7 +29,7 @@ const PER_ROW: &str = "χ² per row";
 /// What the panes of the stage share: the answer and the step that is looked at.
 fn ready(ui: &mut Ui, app: &mut App, says_why: bool) -> Option<(Arc<Outcome>, usize)> {
     let document = app.document.as_ref()?;
-    let look = if says_why { super::outcome } else { super::outcome_quietly };
+    let look = if says_why { identified::outcome } else { identified::outcome_quietly };
     let outcome = look(ui, &mut app.derived, document)?;
     let current = app.view.step.unwrap_or(outcome.accepted).min(outcome.steps.len().checked_sub(1)?);
     Some((outcome, current))
@@ -152,7 +153,7 @@ fn table(ui: &mut Ui, p: &Project, outcome: &Outcome, current: usize, chosen: &m
             for name in ["Angle", "Energy error", PER_ROW] {
                 row.col(|ui| {
                     if wide || name != PER_ROW {
-                        super::head_right(ui, name);
+                        identified::head_right(ui, name);
                     }
                 });
             }

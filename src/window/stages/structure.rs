@@ -1,5 +1,6 @@
 //! Structure: natural frequencies beside the frequencies of the runs, mode shapes, which DOFs are measured.
 
+use super::identified;
 use crate::display::{format, words};
 use crate::exchange::Project;
 use crate::measurement::Quantity;
@@ -67,9 +68,9 @@ fn table(ui: &mut Ui, p: &Project, modes: &Modes, chosen: &mut usize) {
         .column(Column::exact(66.0))
         .header(space::ROW, |mut header| {
             header.col(|ui| drop(ui.hint("Mode")));
-            header.col(|ui| drop(super::head_right(ui, "Frequency")));
+            header.col(|ui| drop(identified::head_right(ui, "Frequency")));
             header.col(|ui| drop(ui.hint("   Nearest run")));
-            header.col(|ui| drop(super::head_right(ui, "Run is")));
+            header.col(|ui| drop(identified::head_right(ui, "Run is")));
         })
         .body(|body| {
             body.rows(space::ROW, modes.len(), |mut row| {
@@ -161,7 +162,7 @@ pub fn expansion(ui: &mut Ui, app: &mut App) {
     ui.pair("Measured DOFs", format!("{} of {}", labels.len(), p.structure.len()));
     ui.hint(labels.join(", "));
     ui.add_space(space::S);
-    let Some(outcome) = super::outcome(ui, &mut app.derived, document) else { return };
+    let Some(outcome) = identified::outcome(ui, &mut app.derived, document) else { return };
     ui.pair("Expansion to the others", words::expansion(outcome.expansion));
     ui.pair("Model error it allows for", format::percent(outcome.model_error));
     ui.add_space(space::S);
@@ -176,7 +177,7 @@ pub fn expansion(ui: &mut Ui, app: &mut App) {
         .header(space::ROW, |mut row| {
             row.col(|ui| drop(ui.hint("Run")));
             for name in ["At sensors", "In deviations", "At other DOFs"] {
-                row.col(|ui| drop(super::head_right(ui, name)));
+                row.col(|ui| drop(identified::head_right(ui, name)));
             }
         })
         .body(|body| {

@@ -7,7 +7,7 @@ mod value;
 
 use crate::contents::{Contents, Format};
 use crate::error::{Fault, Read, one_line};
-use crate::file::{MOST_VALUES, Source};
+use crate::source::{MOST_VALUES, Source};
 use crate::tree::{Array, Arrays, Entry, Flat, Node, Shape, TreeSource, sets};
 use hdf5_reader::group::Group;
 use hdf5_reader::{Attribute, Dataset, Datatype, Hdf5File, OpenOptions, SliceInfo, SliceInfoElem};

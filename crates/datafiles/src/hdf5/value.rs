@@ -86,7 +86,7 @@ struct Record(Vec<u8>);
 /// The records at ascending places of a data set.
 pub(super) fn peek_records(dataset: &Dataset, places: &[u64]) -> Result<Vec<Vec<u8>>> {
     let extents = dataset.shape();
-    let one = |&place: &u64| {
+    let record_at = |&place: &u64| {
         let mut rest = place;
         let mut selections = Vec::new();
         for &extent in extents.iter().rev() {
@@ -98,7 +98,7 @@ pub(super) fn peek_records(dataset: &Dataset, places: &[u64]) -> Result<Vec<Vec<
         let found = dataset.read_slice::<Record>(&SliceInfo { selections })?;
         Ok(found.iter().next().map(|record| record.0.clone()).unwrap_or_default())
     };
-    places.iter().map(one).collect()
+    places.iter().map(record_at).collect()
 }
 
 impl H5Type for Record {
@@ -143,11 +143,11 @@ impl H5Type for Value {
 /// The elements of an array of structs in MATLAB 7.3 (a group with a data set of references a field), named `(1)`, `(2)` and so on; other groups as they are.
 pub(super) fn elements(fields: Vec<Entry>) -> Vec<Entry> {
     let Some(count) = common_count(&fields) else { return fields };
-    let of = |i: usize| {
+    let element = |i: usize| {
         let field = |field: &Entry| Entry { name: field.name.clone(), ..element(field, i) };
         Entry::new(format!("({})", i + 1), Node::Group(fields.iter().map(field).collect()))
     };
-    (0..count).map(of).collect()
+    (0..count).map(element).collect()
 }
 
 /// Number of elements, the same in every field; none where a field is no list of them.

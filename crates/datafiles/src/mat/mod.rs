@@ -5,7 +5,7 @@ mod v5;
 
 use crate::contents::{Contents, Format};
 use crate::error::Read;
-use crate::file::Source;
+use crate::source::Source;
 use crate::tree::{TreeSource, sets};
 use std::path::Path;
 

@@ -4,7 +4,8 @@ use super::source::{Column, Joined};
 use crate::axis::{ascending, even_step, kind_of};
 use crate::contents::{Axis, Contents, Kind, Set};
 use crate::error::Read;
-use crate::file::{Source, Values};
+use crate::source::Source;
+use uff::Values;
 
 /// Most values of a channel that is read to see whether it is an abscissa.
 const MOST_READ: u64 = 1 << 24;

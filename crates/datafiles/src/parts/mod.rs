@@ -18,11 +18,12 @@ use source::Joined;
 use crate::axis::ascending;
 use crate::contents::{Axis, Channel, Contents, FIRST, Kind, Number, Set};
 use crate::error::Read;
-use crate::file::{Source, Values};
+use crate::source::Source;
 use crate::units::{is_unit, reference_of_decibel};
 use pairs::{Form, Pair};
 use source::{Column, Conversion};
 use std::f64::consts::{PI, TAU};
+use uff::Values;
 use words::{Said, Scale};
 
 /// Columns that follow each other two by two, for files whose names do not say it.

@@ -1,7 +1,8 @@
 //! Reads complex channels out of two real ones.
 
 use crate::error::{Fault, Read};
-use crate::file::{Source, Values};
+use crate::source::Source;
+use uff::Values;
 
 /// How two real numbers make a complex one.
 #[derive(Debug, Clone, Copy, PartialEq)]

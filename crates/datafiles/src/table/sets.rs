@@ -1,10 +1,12 @@
 //! From blocks of numbers to sets: which column is the abscissa, how many values each has.
 
-use super::{Block, Numbers, header, listed};
+use super::blocks::{Block, Numbers};
+use super::{header, listed};
 use crate::axis::{ascending, even_step, kind_of, unit_since_1970};
-use crate::contents::{Axis, Channel, FIRST, Kind, Number, Set};
+use crate::contents::{Axis, Channel, Kind, Set, first_numbers};
 use crate::error::{Fault, Read};
-use crate::file::{Source, Values};
+use crate::source::Source;
+use uff::Values;
 
 /// Values of a column.
 #[derive(Debug, Clone)]
@@ -104,7 +106,7 @@ fn one(name: String, mut block: Block) -> (Set, Columns) {
         }
         let column = Column { first: numbers.first, values: values(numbers) };
         channel.complex = matches!(column.values, Values::Complex(_));
-        channel.first = first(&column.values);
+        channel.first = first_numbers(&column.values);
         set.channels.push(channel);
         columns.channels.push(column);
     }
@@ -205,12 +207,4 @@ fn values(numbers: Numbers) -> Values {
     let mut im = numbers.im;
     im.resize(numbers.re.len(), 0.0);
     Values::Complex(numbers.re.into_iter().zip(im).map(|(re, im)| [re, im]).collect())
-}
-
-/// The first values of a column for its entry.
-pub(crate) fn first(values: &Values) -> Vec<Number> {
-    match values {
-        Values::Real(values) => values.iter().take(FIRST).map(|&value| Number::Real(value)).collect(),
-        Values::Complex(values) => values.iter().take(FIRST).map(|&value| Number::Complex(value)).collect(),
-    }
 }

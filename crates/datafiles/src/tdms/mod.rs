@@ -8,15 +8,16 @@ mod objects;
 mod scale;
 mod segment;
 
-use crate::contents::{Axis, Channel, Contents, FIRST, Format, Kind, Number, Set};
+use crate::contents::{Axis, Channel, Contents, FIRST, Format, Kind, Set, first_numbers};
 use crate::error::{Fault, Read};
-use crate::file::{Source, Values};
+use crate::source::Source;
 use crate::tree::{Sampling, sampling};
 use objects::{Object, Property, Run};
 use scale::Scaling;
 use std::fs::File;
 use std::io::{BufReader, Read as _, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
+use uff::Values;
 
 /// Bytes that are read at once from interleaved data.
 const PIECE: u64 = 1 << 20;
@@ -120,10 +121,7 @@ fn channel(object: &Object, place: &Place, path: &Path) -> Read<Channel> {
         channel.axis = Axis::Even { start: number("wf_start_offset").unwrap_or(0.0), step };
     }
     channel.attributes.extend(object.properties.iter().take(60).map(|(name, value)| (name.clone(), value.to_string())));
-    channel.first = match read(path, place, FIRST as u64)? {
-        Values::Real(values) => values.into_iter().map(Number::Real).collect(),
-        Values::Complex(values) => values.into_iter().map(Number::Complex).collect(),
-    };
+    channel.first = first_numbers(&read(path, place, FIRST as u64)?);
     Ok(channel)
 }
 

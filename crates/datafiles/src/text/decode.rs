@@ -59,3 +59,8 @@ fn latin(byte: u8) -> char {
         other => char::from(other),
     }
 }
+
+/// Lines with their numbers from 1.
+pub(super) fn numbered(text: &str) -> impl Iterator<Item = (u64, &str)> {
+    text.lines().enumerate().map(|(i, line)| (i as u64 + 1, line))
+}

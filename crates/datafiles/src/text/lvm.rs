@@ -3,12 +3,13 @@
 //! Source: "Specification for the LabVIEW Measurement File (.lvm)", National Instruments. `X_Columns` is `No`, `One` or
 //! `Multi` (a column of x before each channel); `Multi_Headings` says whether each segment repeats the header.
 
+use super::decode::numbered;
 use crate::axis::even_step;
-use crate::contents::{Axis, Channel, Contents, Format, Kind, Set};
+use crate::contents::{Axis, Channel, Contents, Format, Kind, Set, first_numbers};
 use crate::error::{Fault, Read, one_line};
-use crate::file::Values;
 use crate::table::cell::number;
 use crate::table::{Column, Columns, TableSource};
+use uff::Values;
 
 const SPECIAL: &str = "***Start_Special***";
 const SPECIAL_END: &str = "***End_Special***";
@@ -50,7 +51,7 @@ enum Place {
 }
 
 pub(super) fn read(text: &str) -> Read<(Contents, TableSource)> {
-    let mut lines = super::numbered(text);
+    let mut lines = numbered(text);
     let head = head(&mut lines)?;
     let mut segments: Vec<Segment> = Vec::new();
     let mut place = Place::Between;
@@ -296,7 +297,7 @@ impl Segment {
             },
             None => Axis::None,
         };
-        channel.first = crate::table::first(&Values::Real(values.iter().take(3).copied().collect()));
+        channel.first = first_numbers(&Values::Real(values.iter().take(3).copied().collect()));
         channel
     }
 }

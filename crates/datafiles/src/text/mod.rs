@@ -6,9 +6,10 @@ mod lvm;
 
 use crate::contents::{Contents, Format};
 use crate::error::{Fault, Read};
-use crate::file::Source;
+use crate::source::Source;
 use crate::table::{Blocks, TableSource, finish};
 pub(crate) use decode::decode;
+use decode::numbered;
 use dialect::{Dialect, Separator};
 use std::path::Path;
 
@@ -72,9 +73,4 @@ fn table(text: &str) -> Read<(Contents, TableSource)> {
         contents.format = Format::Txt;
     }
     Ok((contents, TableSource { sets: columns }))
-}
-
-/// Lines with their numbers from 1.
-fn numbered(text: &str) -> impl Iterator<Item = (u64, &str)> {
-    text.lines().enumerate().map(|(i, line)| (i as u64 + 1, line))
 }

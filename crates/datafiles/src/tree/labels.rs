@@ -54,12 +54,12 @@ impl Labels {
         if cells.is_empty() || cells.len() != self.names.len() || !cells.iter().all(numbered) {
             return None;
         }
-        let one = |(i, entry): (usize, &Entry)| {
+        let named_entry = |(i, entry): (usize, &Entry)| {
             let unit = self.units.get(i).filter(|_| self.units.len() == cells.len());
             let unit = unit.map(|unit| ("unit".to_owned(), unit.clone()));
             let attributes = entry.attributes.iter().cloned().chain(unit).collect();
             Entry { name: self.names[i].clone(), node: entry.node.clone(), attributes }
         };
-        Some(cells.iter().enumerate().map(one).collect())
+        Some(cells.iter().enumerate().map(named_entry).collect())
     }
 }

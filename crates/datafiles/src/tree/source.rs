@@ -2,8 +2,9 @@
 
 use super::Cut;
 use crate::error::{Fault, Read};
-use crate::file::{MOST_VALUES, Source, Values};
+use crate::source::{MOST_VALUES, Source};
 use std::sync::{Arc, Mutex};
+use uff::Values;
 
 /// All values of an array in the order of the file.
 #[derive(Debug, Clone, PartialEq)]

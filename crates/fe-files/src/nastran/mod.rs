@@ -49,13 +49,13 @@ pub fn read_parts(parts: &[(&str, &str)]) -> Result<Bulk, FileError> {
 
 /// Files that a deck includes, with the lines (from 1) that say so.
 pub fn includes(text: &str) -> Vec<(usize, String)> {
-    let of = |(index, line): (usize, &str)| {
+    let included = |(index, line): (usize, &str)| {
         let line = line.split('$').next()?.trim();
         let (word, name) = line.split_once([' ', '\t', '=', '\'', '"'])?;
         let name = name.trim().trim_matches(['\'', '"']).trim();
         (word.eq_ignore_ascii_case("include") && !name.is_empty()).then(|| (index + 1, name.to_owned()))
     };
-    text.lines().enumerate().filter_map(of).collect()
+    text.lines().enumerate().filter_map(included).collect()
 }
 
 /// The text with its tabs as blanks: fields begin at every eighth column.

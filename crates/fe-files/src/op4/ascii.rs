@@ -1,6 +1,6 @@
 //! Ascii: numbers in fields of the width that the header gives (such as `1P,3E23.16`), heads as whole numbers in lines of their own.
 
-use super::{Found, Header, short_head};
+use super::header::{Found, Header, short_head};
 use crate::error::{FileError, Place, Problem, quote};
 use crate::number::{real, whole};
 

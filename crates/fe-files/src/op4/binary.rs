@@ -1,6 +1,6 @@
 //! Binary: Fortran records, each between two copies of its length in bytes; the byte order is told by the first.
 
-use super::{Found, Header, short_head};
+use super::header::{Found, Header, short_head};
 use crate::error::{FileError, Place, Problem};
 
 type Read<T> = Result<T, (usize, Problem)>;

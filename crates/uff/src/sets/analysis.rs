@@ -2,13 +2,12 @@
 
 use super::elements::integers;
 use super::function::identification;
-use super::shape::{KINDS, MOST_PER_NODE};
-use crate::body::{Body, Odd};
+use super::kinds::Kinds;
+use super::rows::{Rows, read_rows};
+use crate::body::Body;
 use crate::error::{Error, Problem};
-use crate::fields;
 use crate::text::{decode, named};
 use crate::values::Values;
-use crate::warning::Fault;
 
 /// Analysis data.
 #[derive(Debug, Clone, PartialEq)]
@@ -126,22 +125,13 @@ pub(crate) fn read_header(body: &mut Body<'_>) -> Result<AnalysisHeader, Error> 
     let name = named(&decode(body.required("record 2 (name)")?.bytes));
     let location = first_integer(body, "record 3 (location)")?;
     let id = identification(body)?;
-    let line = body.required(KINDS.record)?;
-    let kinds = fields::read(body, line, &KINDS)?;
-    let data_type = kinds.integer(4);
-    if !matches!(data_type, 1 | 2 | 4 | 5 | 6) {
-        return Err(body.error(line, Problem::DataType { found: data_type }));
-    }
-    let per_node = usize::try_from(kinds.integer(5)).ok().filter(|&n| n <= MOST_PER_NODE).ok_or_else(|| {
-        body.error(line, Problem::Negative { field: "the number of values a node", found: kinds.integer(5) })
-    })?;
+    let Kinds { model, analysis, characteristic, quantity, data_type, per_node } = Kinds::read(body, &[1, 2, 4, 5, 6])?;
     let mut numbers = Vec::new();
     for record in ["record 10 (whole numbers)", "record 11 (whole numbers)"] {
         let line = body.required(record)?;
         numbers.extend(integers(body, line)?);
     }
     let reals = body.reals(12)?;
-    let [model, analysis, characteristic, quantity] = [0, 1, 2, 3].map(|i| kinds.integer(i));
     Ok(AnalysisHeader {
         label,
         name,
@@ -164,71 +154,4 @@ fn first_integer(body: &mut Body<'_>, record: &'static str) -> Result<i64, Error
         .first()
         .copied()
         .ok_or_else(|| body.error(line, Problem::Short { record, needed: 1, found: 0 }))
-}
-
-/// Numbers of a full line.
-const PER_LINE: usize = 6;
-
-/// Longer rows are not filled with zeros: a short file must not grow to many numbers.
-const MOST_FILLED: usize = 64;
-
-/// Rows of numbers, each after a record of labels.
-pub(crate) struct Rows {
-    pub labels: Vec<Vec<i64>>,
-    pub numbers: Vec<f64>,
-    /// Where each row begins in `numbers`; one entry more than rows.
-    pub starts: Vec<usize>,
-}
-
-/// Reads records of at least `width` labels, each followed by as many numbers as `row` says for it.
-pub(crate) fn read_rows(body: &mut Body<'_>, width: usize, row: impl Fn(&[i64]) -> usize) -> Result<Rows, Error> {
-    let mut rows = Rows { labels: Vec::new(), numbers: Vec::new(), starts: vec![0] };
-    let mut all = Odd::default();
-    while let Some(line) = body.line() {
-        let labels = integers(body, line)?;
-        if labels.len() < width {
-            let problem = Problem::Short { record: "the record before values", needed: width, found: labels.len() };
-            return Err(body.error(line, problem));
-        }
-        let wanted = row(&labels);
-        let mut numbers = Vec::with_capacity(wanted.min(body.rest().len() / 2 + 1));
-        let mut odd = Odd::default();
-        let mut last = line;
-        while numbers.len() < wanted {
-            let Some(next) = body.line() else { break };
-            let full = numbers.len() % PER_LINE == 0 && wanted - numbers.len() == 1;
-            if !numbers.is_empty() && !full && is_label(next.bytes) {
-                body.back_to(next);
-                break;
-            }
-            body.reals_of(next, wanted, &mut numbers, &mut odd)?;
-            last = next;
-        }
-        if let Some((line, more)) = odd.surplus {
-            let problem = Problem::TooMany { expected: wanted, found: wanted + more as usize };
-            return Err(body.error(line, problem));
-        }
-        all.join(odd);
-        let found = numbers.len();
-        if found < wanted {
-            if wanted > MOST_FILLED {
-                let problem = Problem::Short { record: "a row of values", needed: wanted, found };
-                return Err(body.error(last, problem));
-            }
-            numbers.resize(wanted, 0.0);
-            body.warn(last, Fault::ShortRow { expected: wanted, found });
-        }
-        rows.labels.push(labels);
-        rows.numbers.extend(numbers);
-        rows.starts.push(rows.numbers.len());
-    }
-    all.tell(body);
-    Ok(rows)
-}
-
-/// Whether a line holds a single whole number in the columns of a label.
-fn is_label(line: &[u8]) -> bool {
-    const WIDTH: usize = 10;
-    let text = crate::number::trim(line);
-    text.len() <= WIDTH && text.iter().all(u8::is_ascii_digit)
 }

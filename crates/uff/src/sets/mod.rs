@@ -3,8 +3,10 @@
 pub(crate) mod analysis;
 pub(crate) mod elements;
 pub(crate) mod function;
+mod kinds;
 pub(crate) mod model;
 pub(crate) mod nodes;
+mod rows;
 pub(crate) mod shape;
 pub(crate) mod trace;
 pub(crate) mod units;

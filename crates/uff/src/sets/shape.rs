@@ -1,10 +1,10 @@
 //! Data set 55: data at nodes, such as mode shapes and operating shapes.
 
 use super::function::identification;
+use super::kinds::Kinds;
+use super::rows::{Rows, read_rows};
 use crate::body::Body;
 use crate::error::{Error, Problem};
-use crate::fields::{self, Kind, Layout};
-use crate::sets::analysis::{Rows, read_rows};
 use crate::values::Values;
 
 /// Data at nodes.
@@ -106,36 +106,11 @@ impl Shape {
 /// Reads records 1 to 8.
 pub(crate) fn read_header(body: &mut Body<'_>) -> Result<ShapeHeader, Error> {
     let id = identification(body)?;
-    let line = body.required(KINDS.record)?;
-    let kinds = fields::read(body, line, &KINDS)?;
-    let complex = match kinds.integer(4) {
-        2 | 4 => false,
-        5 | 6 => true,
-        found => return Err(body.error(line, Problem::DataType { found })),
-    };
-    let per_node = usize::try_from(kinds.integer(5)).ok().filter(|&n| n <= MOST_PER_NODE).ok_or_else(|| {
-        body.error(line, Problem::Negative { field: "the number of values a node", found: kinds.integer(5) })
-    })?;
+    let Kinds { model, analysis, characteristic, quantity, data_type, per_node } = Kinds::read(body, &[2, 4, 5, 6])?;
+    let complex = matches!(data_type, 5 | 6);
     let (integers, reals) = parameters(body)?;
-    let [model, analysis, characteristic, quantity] = [0, 1, 2, 3].map(|i| kinds.integer(i));
     Ok(ShapeHeader { id, model, analysis, characteristic, quantity, complex, per_node, integers, reals })
 }
-
-/// More values at a node are a mistake in the column.
-pub(crate) const MOST_PER_NODE: usize = 10_000;
-
-pub(crate) const KINDS: Layout = Layout {
-    record: "the record of kinds",
-    columns: &[
-        ("model type", 10, Kind::Integer),
-        ("analysis type", 10, Kind::Integer),
-        ("data characteristic", 10, Kind::Integer),
-        ("specific data type", 10, Kind::Integer),
-        ("data type", 10, Kind::Integer),
-        ("values a node", 10, Kind::Integer),
-    ],
-    required: 6,
-};
 
 /// Records 7 and 8: how many whole and real numbers, the whole numbers, the real numbers.
 fn parameters(body: &mut Body<'_>) -> Result<(Vec<i64>, Vec<f64>), Error> {

@@ -110,3 +110,8 @@ pub(super) fn scientific(x: f64, decimals: usize, letter: char) -> String {
     let (sign, digits) = exponent.strip_prefix('-').map_or(('+', exponent), |digits| ('-', digits));
     format!("{mantissa}{letter}{sign}{digits:0>2}")
 }
+
+/// Refuses a set whose counts contradict one another.
+pub(super) fn consistent(what: &'static str, found: usize, expected: usize) -> Result<(), Problem> {
+    if found == expected { Ok(()) } else { Err(Problem::Inconsistent { what, found, expected }) }
+}

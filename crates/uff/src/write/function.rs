@@ -1,7 +1,6 @@
 //! Writes data set 58 as text or binary.
 
-use super::columns::{Columns, scientific};
-use super::consistent;
+use super::columns::{Columns, consistent, scientific};
 use crate::error::Problem;
 use crate::sets::function::{Axis, ByteOrder, Function};
 use crate::values::Values;

@@ -131,7 +131,7 @@ impl<'a> Frame<'a> {
         let length = (self.scene.nodes[b].position[0] - self.scene.nodes[a].position[0]) as f32;
         let (wa, wb) = (self.motion(a, false), self.motion(b, false));
         let (sa, sb) = (self.motion(a, true) * length, self.motion(b, true) * length);
-        let at = |k: usize| {
+        let point_at = |k: usize| {
             let t = k as f32 / POINTS_PER_ELEMENT as f32;
             let (t2, t3) = (t * t, t * t * t);
             let w = wa * (1.0 - 3.0 * t2 + 2.0 * t3)
@@ -140,7 +140,7 @@ impl<'a> Frame<'a> {
                 + sb * (t3 - t2);
             pos2(p.x + t * (q.x - p.x), self.axis - self.deflection * w)
         };
-        (0..=POINTS_PER_ELEMENT).map(at).collect()
+        (0..=POINTS_PER_ELEMENT).map(point_at).collect()
     }
 
     fn supports(&self) -> Vec<PlacedSupport> {

@@ -1,7 +1,9 @@
 //! One suggestion: symbol, law and place, size, probability, error before and after, evidence, fingerprint, buttons.
 
+use super::deed::Deed;
 use super::gauge::Gauge;
-use super::{Deed, Scene, fingerprint, force};
+use super::scene::Scene;
+use super::{fingerprint, force};
 use crate::diagnosis::diagnose::Suggestion;
 use crate::display::format::{self, chance, polished};
 use crate::display::words;

@@ -1,11 +1,12 @@
 //! What is missing? The verdict, the ranked suggestions as cards, and what the user has ruled out.
 
 use super::card;
+use super::deed::Deed;
 use super::force;
 use super::limit;
 use super::look::Look;
 use super::ranking::{open, ranked};
-use super::{Deed, Scene};
+use super::scene::Scene;
 use crate::diagnosis::Diagnosis;
 use crate::diagnosis::diagnose::Verdict;
 use crate::diagnosis::updating::parameters::UpdatingParameter;
@@ -15,9 +16,9 @@ use crate::display::format::in_words;
 use crate::display::words;
 use crate::display::words::at;
 use crate::effects::Source;
+use crate::session::corrections::{self, Adopted};
 use crate::session::validation::only_records;
 use crate::window::app::Ask;
-use crate::window::corrections::{self, Adopted};
 use crate::window::explained::{HOPELESS, Standing};
 use crate::window::theme::{self, size, space};
 use crate::window::widgets::UiExt;
@@ -42,7 +43,7 @@ pub fn show(ui: &mut Ui, scene: &Scene<'_>, look: &mut Look, limit_s: Option<f64
             });
             so_far(ui, scene, look, asks);
         }
-        None if super::is_undamped(scene.document) && !look.anyway => {
+        None if super::scene::is_undamped(scene.document) && !look.anyway => {
             ui.title("The model has no damping yet", "");
             ui.label("Its sources are candidates: identified, but not acting, so that its errors say nothing of what is missing.");
             ui.add_space(space::XS);
@@ -203,8 +204,7 @@ fn detuned(ui: &mut Ui, scene: &Scene<'_>, diagnosis: &Diagnosis, asks: &mut Vec
 /// The commands that take the corrections over.
 pub fn adopted(scene: &Scene<'_>, diagnosis: &Diagnosis) -> Adopted {
     let known = |index: usize| scene.explained.known(scene.document, index);
-    let file = scene.document.session().document().file();
-    corrections::adopt(&diagnosis.corrections, &known, &scene.document.project, file)
+    corrections::adopt(&diagnosis.corrections, &known, scene.document.session().document())
 }
 
 /// What a correction corrects.

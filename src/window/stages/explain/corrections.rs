@@ -1,12 +1,14 @@
 //! Corrections and scatter: what the data say of the model, of each channel and of each run, each with its deviation; what
 //! the project has a number for is taken over one by one.
 
-use super::{Deed, Scene, cards};
+use super::cards;
+use super::deed::Deed;
+use super::scene::Scene;
 use crate::diagnosis::Diagnosis;
 use crate::diagnosis::updating::scatter::{ChannelScatter, Estimated, RunScatter, Scatter};
 use crate::display::{findings, format};
+use crate::session::corrections::adopt;
 use crate::window::app::{App, Ask};
-use crate::window::corrections::adopt;
 use crate::window::theme::{self, size, space};
 use crate::window::widgets::{UiExt, folded};
 use egui::{Align, Align2, Layout, Rect, Role, ScrollArea, Sense, Ui, WidgetInfo, pos2, vec2};
@@ -134,12 +136,11 @@ fn model(ui: &mut Ui, scene: &Scene<'_>, diagnosis: &Diagnosis, asks: &mut Vec<A
         return;
     }
     let (document, known) = (scene.document, |k: usize| scene.explained.known(scene.document, k));
-    let file = document.session().document().file();
     for (k, correction) in diagnosis.corrections.iter().enumerate() {
         let name = cards::corrected(scene, &correction.parameter);
         let deviations = (correction.factor - 1.0) / correction.deviation.max(f64::MIN_POSITIVE);
         let row = Row { name: &name, value: findings::change(correction), deviations };
-        let adopted = adopt(std::slice::from_ref(correction), &known, &document.project, file);
+        let adopted = adopt(std::slice::from_ref(correction), &known, document.session().document());
         if row.show(ui, Some((&name, !adopted.commands.is_empty()))) {
             asks.push(Ask::Explain(Deed::CorrectOne(k)));
         }

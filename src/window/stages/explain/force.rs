@@ -1,6 +1,6 @@
 //! The missing force over displacement and over velocity, in the card of its suggestion or where nothing is suggested.
 
-use super::Scene;
+use super::scene::Scene;
 use crate::diagnosis::candidates::restoring_force::RestoringForce;
 use crate::effects::{Place, Source};
 use crate::plots::restoring_force::{caption, figures, title};

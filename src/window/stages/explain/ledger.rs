@@ -1,6 +1,8 @@
 //! The ledger: error against steps on a logarithmic axis with the noise floor, and the steps by name, each a way back.
 
-use super::{Deed, Scene, cards};
+use super::cards;
+use super::deed::Deed;
+use super::scene::Scene;
 use crate::diagnosis::diagnose::Verdict;
 use crate::display::findings::is_stuck;
 use crate::display::format::in_words;

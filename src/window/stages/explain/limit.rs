@@ -1,6 +1,6 @@
 //! The time limit of the search for what is missing: its setting, and what is said where a search was ended before its time.
 
-use super::Deed;
+use super::deed::Deed;
 use crate::window::app::Ask;
 use crate::window::theme::space;
 use crate::window::widgets::UiExt;

@@ -4,6 +4,7 @@ mod card;
 mod cards;
 pub mod corrections;
 mod decay;
+pub mod deed;
 mod detail;
 mod fingerprint;
 mod force;
@@ -14,6 +15,7 @@ pub mod look;
 mod map;
 pub mod panes;
 mod ranking;
+mod scene;
 mod schematic;
 pub mod switches;
 
@@ -23,79 +25,22 @@ use crate::display::format;
 use crate::display::words;
 use crate::display::words::at;
 use crate::effects::{Source, State};
-use crate::exchange::project::file::ProjectFile;
 use crate::identify::Outcome;
-use crate::session::Command;
+use crate::session::corrections::adopt;
 use crate::session::validation::only_records;
-use crate::window::additions;
+use crate::session::{Command, suggestions};
 use crate::window::app::App;
 use crate::window::document::Document;
 use crate::window::edits::Edit;
 use crate::window::explained::model::Key;
 use crate::window::explained::{Explained, Standing, Wanted};
-use crate::window::frame::top::Mark;
+use crate::window::frame::top::StageStatus;
 use crate::window::view::{Stage, View};
+use deed::Deed;
 use egui::Context;
+use scene::{Scene, is_undamped};
 pub use schematic::{Errors, errors};
 use std::time::Duration;
-
-/// What may be asked for in the stage.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Deed {
-    /// Preview an effect.
-    Try(Source),
-    /// End the preview.
-    Stop,
-    /// Put an effect into the model.
-    Add(Source),
-    /// Rule an effect out at its place.
-    Exclude(Source),
-    /// Take that back.
-    Restore(Source),
-    /// Go to a step of the ledger.
-    Return(usize),
-    /// Put what was identified into the model.
-    TakeOver,
-    /// Put the corrections that the search found into the model.
-    Correct,
-    /// Put one of them, by its place in the list, into the model.
-    CorrectOne(usize),
-    /// State that a channel reads too large by a share, or is recorded late by a time in s.
-    CorrectSensor {
-        /// Name of the channel, such as `acc@7`.
-        channel: String,
-        /// Share by which it reads too large.
-        gain: f64,
-        /// Time by which it is late, s.
-        delay: f64,
-    },
-    /// Start it again.
-    Retry,
-    /// End the search with the best so far.
-    Hurry,
-    /// End searches with the best so far after a time in s, or let them come to their end.
-    Limit(Option<f64>),
-    /// Search to the end, without a limit.
-    SearchOn,
-    /// Search though the model is far from the data.
-    Search,
-}
-
-/// What the panes read.
-pub struct Scene<'a> {
-    /// The open project.
-    pub document: &'a Document,
-    /// What was computed from it.
-    pub explained: &'a Explained,
-}
-
-/// Whether no damping acts in the model yet though sources are sought: its errors say nothing of what is missing then.
-pub fn is_undamped(document: &Document) -> bool {
-    let sources = &document.project.sources;
-    let acts = |s: &Source| s.state == State::Known;
-    let sought = |s: &Source| matches!(s.state, State::Candidate | State::Forced);
-    document.project.structure.matrices().is_some() && sources.iter().any(sought) && !sources.iter().any(acts)
-}
 
 /// What is to be computed for what is looked at.
 pub fn wanted(document: &Document, view: &View, explained: &Explained) -> Wanted {
@@ -154,7 +99,7 @@ pub fn answer(app: &mut App, ctx: &Context, deed: Deed) {
         }
         Deed::Restore(source) => {
             let Some(document) = &app.document else { return };
-            let at = additions::effect_at(&source, &document.project.structure);
+            let at = suggestions::effect_at(&source, &document.project.structure);
             app.edit(ctx, &Edit::Do(Command::Allow(at)));
         }
         Deed::Return(step) => go_back(app, step),
@@ -186,10 +131,9 @@ fn go_back(app: &mut App, step: usize) {
 /// Puts an effect into the model and says so.
 fn add(app: &mut App, ctx: &Context, source: &Source) {
     let Some(document) = &app.document else { return };
-    let file = document.session().document().file();
     let place = at(&document.project.structure, &source.place);
     let scene = Scene { document, explained: &app.derived.explained };
-    match with_corrections(&scene, source, file) {
+    match with_corrections(&scene, source) {
         Ok(commands) => {
             let beside = if commands.len() > 1 { ", with what else the search found and corrected" } else { "" };
             app.edit(ctx, &Edit::All(commands));
@@ -202,17 +146,17 @@ fn add(app: &mut App, ctx: &Context, source: &Source) {
 }
 
 /// What adds a suggested effect as it was promised: the corrections that were fitted beside it, and the rest of its set.
-fn with_corrections(scene: &Scene<'_>, source: &Source, file: &ProjectFile) -> Result<Vec<Command>, String> {
-    let project = &scene.document.project;
+fn with_corrections(scene: &Scene<'_>, source: &Source) -> Result<Vec<Command>, String> {
+    let document = scene.document.session().document();
     let Some(Ok(diagnosis)) = scene.explained.diagnosis(scene.document) else {
-        return Ok(vec![additions::add(source, project, file)?]);
+        return Ok(vec![suggestions::add(source, document)?]);
     };
     let mut commands = Vec::new();
     if diagnosis.is_corrected_beside(source) {
         commands.extend(cards::adopted(scene, diagnosis).commands);
     }
     for one in diagnosis.added_with(source) {
-        commands.push(additions::add(&one, project, file)?);
+        commands.push(suggestions::add(&one, document)?);
     }
     Ok(commands)
 }
@@ -223,7 +167,7 @@ fn rule_out(app: &mut App, ctx: &Context, source: &Source) {
     let structure = &document.project.structure;
     let said =
         format!("Ruled out: {} {}. Undo takes it back.", words::effect(source.effect), at(structure, &source.place));
-    let command = Command::RuleOut(additions::effect_at(source, structure));
+    let command = Command::RuleOut(suggestions::effect_at(source, structure));
     app.edit(ctx, &Edit::Do(command));
     if app.message.as_ref().is_none_or(|m| !m.failed) {
         app.say(said);
@@ -250,8 +194,7 @@ fn correct_one(app: &mut App, ctx: &Context, k: usize) {
     let Some(correction) = diagnosis.corrections.get(k) else { return };
     let name = cards::corrected(&scene, &correction.parameter);
     let known = |index: usize| scene.explained.known(document, index);
-    let file = document.session().document().file();
-    let adopted = crate::window::corrections::adopt(std::slice::from_ref(correction), &known, &document.project, file);
+    let adopted = adopt(std::slice::from_ref(correction), &known, document.session().document());
     app.edit(ctx, &Edit::All(adopted.commands));
     if app.message.as_ref().is_none_or(|m| !m.failed) {
         app.say(format!("Corrected: {name}. Undo takes it back."));
@@ -289,7 +232,7 @@ fn take_over(app: &mut App, ctx: &Context) {
         1 => "Known now: 1 identified source. Undo takes it back.".to_owned(),
         many => format!("Known now: {many} identified sources. Undo takes them back."),
     };
-    match additions::take_over(&found, &document.project) {
+    match suggestions::take_over(&found, document.session().document()) {
         Ok(commands) => {
             app.edit(ctx, &Edit::All(commands));
             if app.message.as_ref().is_none_or(|m| !m.failed) {
@@ -308,33 +251,33 @@ fn sought(sources: &[Source], outcome: &Outcome) -> Vec<(usize, f64)> {
 }
 
 /// Where the model stands against the data, in one line.
-pub fn mark(document: &Document, explained: &Explained) -> Mark {
+pub fn status(document: &Document, explained: &Explained) -> StageStatus {
     if document.project.runs.is_empty() && !only_records(&document.project) {
-        return Mark::empty("No runs to compare the model with.");
+        return StageStatus::empty("No runs to compare the model with.");
     }
     let comparison = match explained.comparison(document) {
-        None => return Mark::empty("The comparison of model and measurement is running."),
-        Some(Err(error)) => return Mark::attention(error),
+        None => return StageStatus::empty("The comparison of model and measurement is running."),
+        Some(Err(error)) => return StageStatus::attention(error),
         Some(Ok(comparison)) => comparison,
     };
     let (error, floor) = (format::in_words(comparison.error), format::percent(comparison.noise_floor));
     match explained.diagnosis(document) {
-        None if is_undamped(document) => {
-            Mark::attention("The model has no damping yet: take over what was identified, then see what is left.")
-        }
-        Some(Ok(d)) if is_stuck(d) => {
-            Mark::attention(&format!("Error {error}, noise floor {floor}: nothing known here explains what is left."))
-        }
-        Some(Ok(d)) if is_detuned(d) => {
-            Mark::attention(&format!("The model is detuned: error {error}, noise floor {floor}. No effect is missing."))
-        }
+        None if is_undamped(document) => StageStatus::attention(
+            "The model has no damping yet: take over what was identified, then see what is left.",
+        ),
+        Some(Ok(d)) if is_stuck(d) => StageStatus::attention(&format!(
+            "Error {error}, noise floor {floor}: nothing known here explains what is left."
+        )),
+        Some(Ok(d)) if is_detuned(d) => StageStatus::attention(&format!(
+            "The model is detuned: error {error}, noise floor {floor}. No effect is missing."
+        )),
         Some(Ok(d)) if matches!(d.verdict, Verdict::Adequate | Verdict::Detuned) => {
-            Mark::done(&format!("The model explains the data: error {error}, noise floor {floor}."))
+            StageStatus::done(&format!("The model explains the data: error {error}, noise floor {floor}."))
         }
         None | Some(Err(_)) if comparison.error <= 1.2 * comparison.noise_floor => {
-            Mark::done(&format!("Error {error}, at the noise floor {floor}."))
+            StageStatus::done(&format!("Error {error}, at the noise floor {floor}."))
         }
-        _ => Mark::attention(&format!(
+        _ => StageStatus::attention(&format!(
             "The model is wrong by {error}, noise floor {floor}.{}",
             best_guess(document, explained)
         )),

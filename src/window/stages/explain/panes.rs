@@ -1,9 +1,11 @@
 //! The panes of the stage, each on its own: error map, the cell that was clicked, suggestions, ledger.
 
+use super::deed::Deed;
 use super::detail::Detail;
 use super::look::Look;
 use super::map::{self, Map};
-use super::{Deed, Scene, card, cards, ledger};
+use super::scene::Scene;
+use super::{card, cards, ledger};
 use crate::diagnosis::Comparison;
 use crate::display::format::in_words;
 use crate::effects::{Source, State};
@@ -13,7 +15,7 @@ use crate::plots::response_curve::Curve;
 use crate::plots::samples;
 use crate::session::validation::only_records;
 use crate::window::app::{App, Ask};
-use crate::window::explained::shelf::Kept;
+use crate::window::explained::cache::Cached;
 use crate::window::theme::{size, space};
 use crate::window::widgets::UiExt;
 use egui::{Align, Label, Layout, RichText, Ui};
@@ -164,7 +166,7 @@ pub fn cell(ui: &mut Ui, app: &mut App, asks: &mut Vec<Ask>) {
         ui.empty("No motion", "The selected run measures forces only.");
         return;
     };
-    let good = |found: Option<&Kept<Vec<Curve>>>| found.and_then(|c| c.as_ref().ok()).map(Arc::clone);
+    let good = |found: Option<&Cached<Vec<Curve>>>| found.and_then(|c| c.as_ref().ok()).map(Arc::clone);
     let own = good(scene.explained.curve(document, run));
     let other = shown.trial.and_then(|(t, _)| good(scene.explained.trial_curve(document, t, run)));
     let detail = Detail {

@@ -2,26 +2,26 @@
 
 use crate::control::Control;
 use crate::session::jobs::Job;
-use crate::window::wake::wake;
+use crate::window::repaint::request_repaint;
 use std::sync::Arc;
 
 /// Results kept; the oldest goes first.
 const MOST: usize = 32;
 
 /// A result or one line that says why there is none.
-pub type Kept<T> = Result<Arc<T>, String>;
+pub type Cached<T> = Result<Arc<T>, String>;
 
 /// Results of one kind, and the job for one more.
 #[derive(Debug)]
-pub struct Shelf<K, T> {
+pub struct Cache<K, T> {
     name: &'static str,
-    done: Vec<(K, Kept<T>)>,
+    done: Vec<(K, Cached<T>)>,
     job: Option<Job<K, Result<T, String>>>,
     cancelled: Option<K>,
 }
 
-impl<K: Clone + PartialEq, T: Send + 'static> Shelf<K, T> {
-    /// An empty shelf; `name` is that of its jobs in the status bar.
+impl<K: Clone + PartialEq, T: Send + 'static> Cache<K, T> {
+    /// An empty cache; `name` is that of its jobs in the status bar.
     pub fn new(name: &'static str) -> Self {
         Self { name, done: Vec::new(), job: None, cancelled: None }
     }
@@ -37,7 +37,7 @@ impl<K: Clone + PartialEq, T: Send + 'static> Shelf<K, T> {
         if there || self.job.as_ref().is_some_and(|job| job.key() == key) {
             return;
         }
-        match Job::start(self.name, key.clone(), wake(ctx), make()) {
+        match Job::start(self.name, key.clone(), request_repaint(ctx), make()) {
             Ok(job) => self.job = Some(job),
             Err(error) => self.keep(key.clone(), Err(error.to_string())),
         }
@@ -51,7 +51,7 @@ impl<K: Clone + PartialEq, T: Send + 'static> Shelf<K, T> {
         self.keep(job.key().clone(), result);
     }
 
-    fn keep(&mut self, key: K, result: Kept<T>) {
+    fn keep(&mut self, key: K, result: Cached<T>) {
         if self.done.len() == MOST {
             drop(self.done.remove(0));
         }
@@ -65,7 +65,7 @@ impl<K: Clone + PartialEq, T: Send + 'static> Shelf<K, T> {
     }
 
     /// The result for `key`, if it is there.
-    pub fn get(&self, key: &K) -> Option<&Kept<T>> {
+    pub fn get(&self, key: &K) -> Option<&Cached<T>> {
         self.done.iter().find(|(of, _)| of == key).map(|(_, result)| result)
     }
 
@@ -84,7 +84,7 @@ impl<K: Clone + PartialEq, T: Send + 'static> Shelf<K, T> {
         self.job.as_ref().and_then(Job::running)
     }
 
-    /// Stops the running job; it is not started again for its key until [`Shelf::retry`].
+    /// Stops the running job; it is not started again for its key until [`Cache::retry`].
     pub fn cancel(&mut self) {
         if let Some(job) = self.job.take() {
             self.cancelled = Some(job.key().clone());
@@ -118,15 +118,15 @@ impl<K: Clone + PartialEq, T: Send + 'static> Shelf<K, T> {
 #[cfg(test)]
 mod tests {
     #![allow(clippy::unwrap_used, reason = "tests")]
-    use super::Shelf;
+    use super::Cache;
     use crate::control::Control;
     use std::time::{Duration, Instant};
 
-    fn wait(shelf: &mut Shelf<u32, u32>, key: u32) -> u32 {
+    fn wait(cache: &mut Cache<u32, u32>, key: u32) -> u32 {
         let start = Instant::now();
         loop {
-            shelf.want(&egui::Context::default(), &key, || move |_: &Control| Ok(10 * key));
-            if let Some(result) = shelf.get(&key) {
+            cache.want(&egui::Context::default(), &key, || move |_: &Control| Ok(10 * key));
+            if let Some(result) = cache.get(&key) {
                 return **result.as_ref().unwrap();
             }
             assert!(start.elapsed() < Duration::from_secs(20));
@@ -136,16 +136,16 @@ mod tests {
 
     #[test]
     fn a_result_is_computed_once_and_is_there_when_asked_for_again() {
-        let mut shelf = Shelf::new("Work");
-        assert_eq!((wait(&mut shelf, 1), wait(&mut shelf, 2)), (10, 20));
-        shelf.want(&egui::Context::default(), &1, || |_: &Control| panic!("it is there already"));
-        assert_eq!(**shelf.get(&1).unwrap().as_ref().unwrap(), 10);
-        assert!(shelf.running().is_none());
+        let mut cache = Cache::new("Work");
+        assert_eq!((wait(&mut cache, 1), wait(&mut cache, 2)), (10, 20));
+        cache.want(&egui::Context::default(), &1, || |_: &Control| panic!("it is there already"));
+        assert_eq!(**cache.get(&1).unwrap().as_ref().unwrap(), 10);
+        assert!(cache.running().is_none());
     }
 
     #[test]
     fn what_was_cancelled_is_not_started_again_before_it_is_asked_for() {
-        let mut shelf: Shelf<u32, u32> = Shelf::new("Work");
+        let mut cache: Cache<u32, u32> = Cache::new("Work");
         let slow = || {
             |control: &Control| {
                 while control.check().is_ok() {
@@ -154,11 +154,11 @@ mod tests {
                 Err("cancelled".to_owned())
             }
         };
-        shelf.want(&egui::Context::default(), &1, slow);
-        shelf.cancel();
-        shelf.want(&egui::Context::default(), &1, slow);
-        assert!(shelf.is_cancelled(&1) && shelf.running().is_none());
-        shelf.retry();
-        assert_eq!(wait(&mut shelf, 1), 10);
+        cache.want(&egui::Context::default(), &1, slow);
+        cache.cancel();
+        cache.want(&egui::Context::default(), &1, slow);
+        assert!(cache.is_cancelled(&1) && cache.running().is_none());
+        cache.retry();
+        assert_eq!(wait(&mut cache, 1), 10);
     }
 }

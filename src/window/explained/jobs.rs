@@ -1,6 +1,6 @@
 //! The work behind the stage, one job each: pure functions of a project.
 
-use super::early::Mailbox;
+use super::first_suggestions::Mailbox;
 use super::model::Search;
 use crate::control::Control;
 use crate::diagnosis::candidates::fingerprint_plot::{self as prints, Print};

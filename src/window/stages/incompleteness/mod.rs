@@ -1,6 +1,10 @@
 //! What modes and sensors that were not measured cost the classical methods: errors of each against the number of both.
 
-use crate::classical::incompleteness::{Case, Incompleteness, METHODS, MatrixErrors};
+mod choice;
+
+pub use choice::{Along, Choice, Error};
+
+use crate::classical::incompleteness::{Case, Incompleteness, METHODS};
 use crate::classical::method::Method;
 use crate::plots::figure::{Axis, Figure, Look, Ticks};
 use crate::window::app::App;
@@ -13,50 +17,6 @@ use egui::{Color32, Label, RichText, Ui};
 const LEAST: f64 = 1e-3;
 /// DOFs that are named one by one.
 const NAMED: usize = 8;
-
-/// What the errors are drawn against.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Along {
-    /// The number of modes, at one set of sensors.
-    Modes,
-    /// The number of sensors, with as many modes as all sets of sensors allow.
-    Sensors,
-}
-
-/// What is drawn.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Error {
-    /// `eps_C` (3.135), with `eps_p` (3.117).
-    Matrix,
-    /// Largest deviation of the modes (3.134).
-    Mac,
-}
-
-/// What is looked at.
-#[derive(Debug, Clone, Copy)]
-pub struct Choice {
-    /// Axis of x.
-    pub along: Along,
-    /// Axis of y.
-    pub error: Error,
-    /// Which of the sets of sensors.
-    pub set: usize,
-}
-
-impl Default for Choice {
-    fn default() -> Self {
-        Self { along: Along::Modes, error: Error::Matrix, set: 0 }
-    }
-}
-
-impl Choice {
-    fn of(self, errors: &MatrixErrors) -> Option<f64> {
-        match self.error {
-            Error::Matrix => Some(errors.eps_c),
-            Error::Mac => errors.mac,
-        }
-    }
-}
 
 /// Shows the plot under its choices.
 pub fn show(ui: &mut Ui, app: &mut App) {

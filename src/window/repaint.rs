@@ -1,4 +1,4 @@
-//! Waking the window from the thread of a job, without keeping the window alive.
+//! Asking for a frame of the window from the thread of a job, without keeping the window alive.
 //!
 //! A context holds the graphics device. Were the last context dropped on the thread of a job, the device would be taken
 //! down there, and the process crashes where it ends at the same moment.
@@ -8,71 +8,71 @@ use egui::{Context, Id};
 use std::fmt;
 use std::sync::Arc;
 
-/// The window that jobs wake, until it is [silent](Guard).
+/// The window that jobs ask for a frame, until the [guard](RepaintGuard) is dropped.
 #[derive(Clone, Default)]
-pub struct Bell(Arc<Mutex<Option<Context>>>);
+pub struct RepaintHandle(Arc<Mutex<Option<Context>>>);
 
-impl Bell {
+impl RepaintHandle {
     /// The one of this window.
     pub fn of(ctx: &Context) -> Self {
         let new = || Self(Arc::new(Mutex::new(Some(ctx.clone()))));
-        ctx.data_mut(|d| d.get_temp_mut_or_insert_with(Id::NULL.with("bell"), new).clone())
+        ctx.data_mut(|d| d.get_temp_mut_or_insert_with(Id::NULL.with("handle"), new).clone())
     }
 
     /// Asks for a frame.
-    pub fn ring(&self) {
+    pub fn request(&self) {
         if let Some(ctx) = &*self.0.lock() {
             ctx.request_repaint();
         }
     }
 
     /// Forgets the window: no job holds anything of it after this.
-    fn silence(&self) {
+    fn forget_window(&self) {
         *self.0.lock() = None;
     }
 }
 
-impl fmt::Debug for Bell {
+impl fmt::Debug for RepaintHandle {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str("Bell")
+        f.write_str("RepaintHandle")
     }
 }
 
-/// Silences the bell of a window where the state of the window ends.
+/// Takes the window from the handle where the state of the window ends.
 #[derive(Debug, Default)]
-pub struct Guard(Option<Bell>);
+pub struct RepaintGuard(Option<RepaintHandle>);
 
-impl Guard {
-    /// Guards the bell of this window.
+impl RepaintGuard {
+    /// Guards the handle of this window.
     pub fn watch(&mut self, ctx: &Context) {
-        self.0.get_or_insert_with(|| Bell::of(ctx));
+        self.0.get_or_insert_with(|| RepaintHandle::of(ctx));
     }
 }
 
-impl Drop for Guard {
+impl Drop for RepaintGuard {
     fn drop(&mut self) {
-        if let Some(bell) = &self.0 {
-            bell.silence();
+        if let Some(handle) = &self.0 {
+            handle.forget_window();
         }
     }
 }
 
 /// What a job calls once its result waits.
-pub fn wake(ctx: &Context) -> impl FnOnce() + Send + use<> + 'static {
-    let bell = Bell::of(ctx);
-    move || bell.ring()
+pub fn request_repaint(ctx: &Context) -> impl FnOnce() + Send + use<> + 'static {
+    let handle = RepaintHandle::of(ctx);
+    move || handle.request()
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{Guard, wake};
+    use super::{RepaintGuard, request_repaint};
     use egui::Context;
     use std::sync::Arc;
 
     #[test]
     fn a_job_asks_for_a_frame() {
         let ctx = Context::default();
-        wake(&ctx)();
+        request_repaint(&ctx)();
         assert!(ctx.has_requested_repaint());
     }
 
@@ -81,8 +81,8 @@ mod tests {
         let ctx = Context::default();
         let witness = Arc::new(());
         ctx.data_mut(|d| d.insert_temp(egui::Id::NULL, Arc::clone(&witness)));
-        let late = wake(&ctx);
-        let mut guard = Guard::default();
+        let late = request_repaint(&ctx);
+        let mut guard = RepaintGuard::default();
         guard.watch(&ctx);
         drop((guard, ctx));
         assert_eq!(Arc::strong_count(&witness), 1, "what the window held is gone while the job lives");

@@ -1,14 +1,15 @@
 //! What becomes of the corrections of the model that a search found: other numbers of the structure and of its known sources.
+//! The command line and the window correct by the same commands.
 
-use super::additions::labels;
+use super::command::{Command, SourceAt};
+use super::document::Document;
+use super::suggestions::labels;
 use crate::diagnosis::updating::correction::Correction;
 use crate::diagnosis::updating::parameters::UpdatingParameter;
 use crate::effects::{Effect, Source, State};
-use crate::exchange::Project;
 use crate::exchange::project::correction::CorrectionTable;
-use crate::exchange::project::file::{ProjectFile, Shape, StructureTable};
-use crate::session::{Command, SourceAt};
-use crate::structure::Part;
+use crate::exchange::project::file::{Shape, StructureTable};
+use crate::structure::{Part, Structure};
 use std::collections::BTreeMap;
 
 /// How corrections are taken over.
@@ -21,28 +22,24 @@ pub struct Adopted {
 }
 
 /// Multiplies what the project states by the factors of `corrections`; `known` gives the known source of an index.
-pub fn adopt(
-    corrections: &[Correction],
-    known: &dyn Fn(usize) -> Option<Source>,
-    project: &Project,
-    file: &ProjectFile,
-) -> Adopted {
+pub fn adopt(corrections: &[Correction], known: &dyn Fn(usize) -> Option<Source>, document: &Document) -> Adopted {
+    let (structure, table) = (document.structure(), &document.file().structure);
     let mut adopted = Adopted::default();
-    let mut numbers = Numbers { table: &file.structure, values: BTreeMap::new() };
+    let mut numbers = Numbers { table, values: BTreeMap::new() };
     let mut tables = Vec::new();
     for (k, correction) in corrections.iter().enumerate() {
         let factor = correction.factor;
         match &correction.parameter {
             UpdatingParameter::Structure(part) => {
                 if *part == Part::Mass {
-                    adopted.commands.extend(lumped(&file.structure, factor));
+                    adopted.commands.extend(lumped(table, factor));
                 }
                 if !numbers.part(*part, factor) {
-                    tables.push(CorrectionTable::of(&project.structure, *part, factor));
+                    tables.push(CorrectionTable::of(structure, *part, factor));
                 }
             }
             UpdatingParameter::Known(index) => match known(*index) {
-                Some(source) => adopted.commands.push(resized(&source, factor, project)),
+                Some(source) => adopted.commands.push(resized(&source, factor, structure)),
                 None => adopted.left.push(k),
             },
             UpdatingParameter::Gain(_)
@@ -137,8 +134,8 @@ fn lumped(table: &StructureTable, factor: f64) -> Vec<Command> {
 }
 
 /// A known source of another size: its coefficient, or stiffness and force together.
-fn resized(source: &Source, factor: f64, project: &Project) -> Command {
-    let (dofs, elements) = labels(&source.place, &project.structure);
+fn resized(source: &Source, factor: f64, structure: &Structure) -> Command {
+    let (dofs, elements) = labels(&source.place, structure);
     let effect: Effect = source.effect;
     let parameters = effect
         .scaled()
@@ -154,9 +151,7 @@ mod tests {
     #![allow(clippy::unwrap_used, clippy::disallowed_methods, reason = "tests")]
 
     use super::*;
-    use crate::control::Control;
-    use crate::window::document::Document;
-    use crate::window::edits::Edit;
+    use crate::session::Session;
 
     const CHAIN: &str = "[project]\nformat = 1\ntitle = \"Chain\"\n[structure]\nkind = \"chain\"\nmasses = [1.0, 2.0]\n\
                          ground_stiffness = [100.0, 0.0]\ncoupling_stiffness = [50.0]\n\
@@ -168,12 +163,11 @@ mod tests {
     }
 
     #[test]
-    fn corrections_multiply_what_the_project_states_and_are_undone_together() {
+    fn corrections_multiply_what_the_project_states() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("project.toml");
         std::fs::write(&path, CHAIN).unwrap();
-        let mut d = Document::open(&path, &Control::unattended()).unwrap().0;
-        let before = d.session().document().file().clone();
+        let d = Session::open(&path).unwrap().document().clone();
         let list = [
             correction(UpdatingParameter::Structure(Part::Stiffness), 1.1),
             correction(UpdatingParameter::Structure(Part::Mass), 0.9),
@@ -181,16 +175,14 @@ mod tests {
             correction(UpdatingParameter::Known(0), 1.5),
             correction(UpdatingParameter::Gain("acc@1".to_owned()), 1.01),
         ];
-        let known = |k: usize| d.project.sources.iter().filter(|s| s.state == State::Known).nth(k).cloned();
-        let adopted = adopt(&list, &known, &d.project, &before);
+        let known = |k: usize| d.sources().iter().filter(|s| s.state == State::Known).nth(k).cloned();
+        let adopted = adopt(&list, &known, &d);
         assert_eq!(adopted.left, [4], "a gain is no number of the model");
-        d.apply(&Edit::All(adopted.commands)).unwrap();
-        let stiffness = d.project.structure.matrices().unwrap().stiffness.clone();
+        let d = adopted.commands.iter().fold(d, |d, command| d.after(command).unwrap());
+        let stiffness = d.structure().matrices().unwrap().stiffness.clone();
         assert!((stiffness[(0, 1)] + 50.0 * 1.1 * 1.2).abs() < 1e-9 && (stiffness[(0, 0)] - 176.0).abs() < 1e-9);
-        let mass = d.project.structure.matrices().unwrap().mass.clone();
+        let mass = d.structure().matrices().unwrap().mass.clone();
         assert!((mass[(1, 1)] - 2.25).abs() < 1e-12 && (mass[(0, 0)] - 0.9).abs() < 1e-12);
-        assert!((d.project.sources[0].parameters[0] - 3.0).abs() < 1e-12);
-        d.undo().unwrap();
-        assert_eq!(*d.session().document().file(), before);
+        assert!((d.sources()[0].parameters[0] - 3.0).abs() < 1e-12);
     }
 }

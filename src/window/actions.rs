@@ -5,7 +5,7 @@ use super::commands::Command;
 use super::document::Document;
 use super::edits::Edit;
 use super::files::{self, Pick};
-use super::frame::leave::{Changes, Leave};
+use super::leaving::{Changes, Leave};
 use super::view::Stage;
 use crate::exchange::Project;
 use crate::exchange::export::Format;

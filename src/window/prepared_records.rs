@@ -1,6 +1,6 @@
 //! Records, residuals and spectra ready to be drawn, computed in the background, a channel of a run each.
 
-use super::wake::wake;
+use super::repaint::request_repaint;
 use crate::control::Control;
 use crate::measurement::Run;
 use crate::plots::trace::{Trace, trace};
@@ -12,12 +12,12 @@ use std::sync::Arc;
 
 /// Jobs at a time.
 const AT_ONCE: usize = 2;
-/// Traces that are kept.
+/// PreparedRecords that are kept.
 const KEPT: usize = 64;
 
-/// What is known of a channel.
+/// What there is to draw of a channel.
 #[derive(Debug, Clone)]
-pub enum Traced {
+pub enum PreparedRecord {
     /// The run came without a time record.
     Absent,
     /// It is being computed.
@@ -31,9 +31,9 @@ pub enum Traced {
 /// Run, channel, and what its fit depends on: frequency and number of harmonics.
 type Key = (usize, usize, u64, usize);
 
-/// Traces and the jobs that compute them.
+/// PreparedRecords and the jobs that compute them.
 #[derive(Debug, Default)]
-pub struct Traces {
+pub struct PreparedRecords {
     done: HashMap<Key, (u64, Arc<Trace>)>,
     jobs: HashMap<Key, Job<(), Option<Trace>>>,
     given_up: HashSet<Key>,
@@ -66,30 +66,30 @@ impl Batch {
     }
 }
 
-impl Traces {
+impl PreparedRecords {
     /// A channel of a run, by its index in the fit.
-    pub fn get(&mut self, ctx: &Context, runs: &[Run], run: usize, channel: usize) -> Traced {
-        let Some(r) = runs.get(run) else { return Traced::Absent };
-        let (Some(record), Some(fit)) = (&r.record, r.fit.channels.get(channel)) else { return Traced::Absent };
+    pub fn get(&mut self, ctx: &Context, runs: &[Run], run: usize, channel: usize) -> PreparedRecord {
+        let Some(r) = runs.get(run) else { return PreparedRecord::Absent };
+        let (Some(record), Some(fit)) = (&r.record, r.fit.channels.get(channel)) else { return PreparedRecord::Absent };
         let key = (run, channel, r.fit.omega.to_bits(), fit.amplitudes.len());
         self.clock += 1;
         self.collect();
         if let Some((used, trace)) = self.done.get_mut(&key) {
             *used = self.clock;
-            return Traced::Ready(Arc::clone(trace));
+            return PreparedRecord::Ready(Arc::clone(trace));
         }
         if self.given_up.contains(&key) {
-            return Traced::Cancelled;
+            return PreparedRecord::Cancelled;
         }
         self.batch.ask(key, self.jobs.is_empty());
         if !self.jobs.contains_key(&key) && self.jobs.len() < AT_ONCE {
             let (record, fit, omega) = (Arc::clone(record), fit.clone(), r.fit.omega);
             let work = move |control: &Control| trace(&record, &fit, omega, control);
-            if let Ok(job) = Job::start("Preparing records", (), wake(ctx), work) {
+            if let Ok(job) = Job::start("Preparing records", (), request_repaint(ctx), work) {
                 self.jobs.insert(key, job);
             }
         }
-        Traced::Coming
+        PreparedRecord::Coming
     }
 
     fn collect(&mut self) {

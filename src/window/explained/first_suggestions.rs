@@ -2,7 +2,7 @@
 
 use super::model::Search;
 use crate::diagnosis::diagnose::Suggestion;
-use crate::window::wake::Bell;
+use crate::window::repaint::RepaintHandle;
 use egui::Context;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
@@ -10,7 +10,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 #[derive(Debug, Clone)]
 pub struct Mailbox {
     latest: Arc<Mutex<Option<Vec<Suggestion>>>>,
-    bell: Bell,
+    repaint: RepaintHandle,
 }
 
 impl Mailbox {
@@ -21,21 +21,21 @@ impl Mailbox {
     /// Leaves suggestions, in place of those that nobody has fetched yet, and asks for a frame.
     pub fn put(&self, found: &[Suggestion]) {
         *self.latest() = Some(found.to_vec());
-        self.bell.ring();
+        self.repaint.request();
     }
 }
 
 /// The provisional suggestions of the last search that was started.
 #[derive(Debug, Default)]
-pub struct Early {
+pub struct FirstSuggestions {
     search: Option<(Search, Mailbox)>,
     found: Vec<Suggestion>,
 }
 
-impl Early {
+impl FirstSuggestions {
     /// A mailbox for a new search; what an earlier one told is forgotten.
     pub fn expect(&mut self, ctx: &Context, search: &Search) -> Mailbox {
-        let mailbox = Mailbox { latest: Arc::default(), bell: Bell::of(ctx) };
+        let mailbox = Mailbox { latest: Arc::default(), repaint: RepaintHandle::of(ctx) };
         self.search = Some((search.clone(), mailbox.clone()));
         self.found.clear();
         mailbox

@@ -1,4 +1,4 @@
-//! Effects at their places in the words and JSON of diagnoses.
+//! Effects at their places in the JSON of diagnoses.
 
 use crate::diagnosis::diagnose::Added;
 use crate::effects::{Place, Source};
@@ -34,14 +34,4 @@ pub(super) fn with_values(structure: &Structure, added: &Added) -> Map<String, V
     map.insert("parameters".into(), by_name(&added.source.parameters));
     map.insert("standard_deviation".into(), by_name(&added.deviations));
     map
-}
-
-/// Effect and place in words.
-pub(super) fn title(structure: &Structure, source: &Source) -> String {
-    let place = match &source.place {
-        Place::Channel(channel) => format!("of {channel}"),
-        Place::Whole(_) => "of the whole structure".to_owned(),
-        place @ Place::Dofs(_) => format!("at {}", labels(structure, place).join(" - ")),
-    };
-    format!("{} {place}", source.effect.title())
 }

@@ -3,10 +3,11 @@
 //! Response and reference of a channel are told, in this order, by `responses` and `references` of the project (columns of
 //! an array, all responses to the first reference first), by what the file says of the channel, by its name.
 
+use super::checks::{drop_zero, same_frequencies};
 use super::coherences::{attach, coherences};
 use super::error::FrfProblem;
 use super::names::{pair_in_name, place_of_name, response_in_name};
-use super::reader::{FrfSource, drop_zero};
+use super::source::FrfSource;
 use super::units::{Form, motion_of_unit, ratio_of_unit};
 use crate::control::Control;
 use crate::measurement::frf::{FrequencyResponse, ResponseSet};
@@ -15,9 +16,6 @@ use crate::structure::Structure;
 use dashpot_datafiles::{DataFile, Kind, Values, open, open_paired};
 use faer::c64;
 use std::path::Path;
-
-/// Largest difference of the frequencies of two functions, relative.
-const SAME: f64 = 1e-6;
 
 /// The functions of a file on their common frequencies, and what the file has to note.
 pub(super) fn read(
@@ -56,14 +54,18 @@ pub(super) fn read(
         let frequencies = frequencies(&file, at, source.step_hz)?;
         if set.frequencies_hz.is_empty() {
             set.frequencies_hz = frequencies;
-        } else if !same(&set.frequencies_hz, &frequencies) {
-            return Err(wrong(&file, at, "its frequencies are not those before it; put it into a file of its own"));
+        } else if !same_frequencies(&set.frequencies_hz, &frequencies) {
+            return Err(FrfProblem::channel(
+                &file,
+                at,
+                "its frequencies are not those before it; put it into a file of its own",
+            ));
         }
         let function = function(&file, at, k, source, structure)?;
         let twice = |f: &FrequencyResponse| f.response == function.response && f.reference == function.reference;
         if set.functions.iter().any(twice) {
             let what = format!("{} over {} is there already; keep one of them", function.response, function.reference);
-            return Err(wrong(&file, at, &what));
+            return Err(FrfProblem::channel(&file, at, &what));
         }
         set.functions.push(function);
     }
@@ -78,11 +80,6 @@ pub(super) fn read(
 fn data(error: &dashpot_datafiles::Error) -> FrfProblem {
     let place = error.place.as_ref().map_or_else(String::new, |place| format!("{place}: "));
     FrfProblem::Data(format!("{place}{}", error.problem))
-}
-
-pub(super) fn wrong(file: &DataFile, (set, channel): (usize, usize), what: &str) -> FrfProblem {
-    let name = &file.contents().sets[set].channels[channel].name;
-    FrfProblem::Set { set: format!("channel \"{name}\""), what: what.to_owned() }
 }
 
 /// Set and channel of every function; of complex columns without frequencies too where their step is `given`.
@@ -102,25 +99,31 @@ fn frequencies(file: &DataFile, at: (usize, usize), step_hz: Option<f64>) -> Res
         "" | "hz" | "1/s" => 1.0,
         "khz" => 1e3,
         "rad/s" => 1.0 / std::f64::consts::TAU,
-        _ => return Err(wrong(file, at, &format!("its abscissa is in \"{unit}\"; export over frequency in Hz"))),
+        _ => {
+            return Err(FrfProblem::channel(
+                file,
+                at,
+                &format!("its abscissa is in \"{unit}\"; export over frequency in Hz"),
+            ));
+        }
     };
     let count = file.contents().sets[at.0].channels[at.1].count;
     let axis = if let Some(axis) = file.axis(at.0, at.1).map_err(|error| data(&error))? {
         axis
     } else {
         let missing = "the file does not say its frequencies; add `step_hz` to its [[frf]], or save them beside it";
-        let step = step_hz.ok_or_else(|| wrong(file, at, missing))?;
+        let step = step_hz.ok_or_else(|| FrfProblem::channel(file, at, missing))?;
         (0..count).map(|i| step * i as f64).collect()
     };
     let axis: Vec<f64> = axis.into_iter().map(|f| f * scale).collect();
     if axis.iter().any(|f| !f.is_finite()) || axis.windows(2).any(|pair| pair[1] <= pair[0]) {
-        return Err(wrong(file, at, "its frequencies do not increase; export over ascending frequencies"));
+        return Err(FrfProblem::channel(
+            file,
+            at,
+            "its frequencies do not increase; export over ascending frequencies",
+        ));
     }
     Ok(axis)
-}
-
-fn same(a: &[f64], b: &[f64]) -> bool {
-    a.len() == b.len() && a.iter().zip(b).all(|(a, b)| (a - b).abs() <= SAME * b.abs().max(1e-9))
 }
 
 /// Function number `k` of the file.
@@ -134,21 +137,22 @@ fn function(
     let entry = &file.contents().sets[at.0].channels[at.1];
     let pair = pair(file, at, k, source)?;
     let [response, reference] = if source.reciprocity { [&pair[1], &pair[0]] } else { [&pair[0], &pair[1]] };
-    let find = |name: &str| place_of_name(name, &source.dofs, structure).map_err(|what| wrong(file, at, &what));
+    let find =
+        |name: &str| place_of_name(name, &source.dofs, structure).map_err(|what| FrfProblem::channel(file, at, &what));
     let ((response, sign), (reference, other)) = (find(response)?, find(reference)?);
     let spoken = Form::spoken(&entry.name).or_else(|| Form::spoken(&file.contents().sets[at.0].name));
-    let (form, scale) = form(source, spoken, &entry.unit).map_err(|what| wrong(file, at, &what))?;
+    let (form, scale) = form(source, spoken, &entry.unit).map_err(|what| FrfProblem::channel(file, at, &what))?;
     if form.is_inverse() && response != reference {
         let what =
             "force over motion between different DOFs is not the inverse of a response; export motion over force";
-        return Err(wrong(file, at, what));
+        return Err(FrfProblem::channel(file, at, what));
     }
     let values = match file.read(at.0, at.1).map_err(|error| data(&error))? {
         Values::Complex(values) => values,
         Values::Real(values) => values.into_iter().map(|re| [re, 0.0]).collect(),
     };
     if values.iter().flatten().any(|part| !part.is_finite()) {
-        return Err(wrong(file, at, "has values that are no numbers; export it again or leave it out"));
+        return Err(FrfProblem::channel(file, at, "has values that are no numbers; export it again or leave it out"));
     }
     let factor = scale * sign * other;
     let value = |[re, im]: [f64; 2]| {
@@ -167,7 +171,7 @@ fn function(
 /// Names of response and reference.
 fn pair(file: &DataFile, at: (usize, usize), k: usize, source: &FrfSource) -> Result<[String; 2], FrfProblem> {
     let entry = &file.contents().sets[at.0].channels[at.1];
-    if let Some(listed) = source.listed(k).map_err(|what| wrong(file, at, &what))? {
+    if let Some(listed) = source.listed(k).map_err(|what| FrfProblem::channel(file, at, &what))? {
         return Ok(listed);
     }
     if let (Some(response), Some(reference)) = (entry.attribute("response"), entry.attribute("reference")) {
@@ -178,7 +182,7 @@ fn pair(file: &DataFile, at: (usize, usize), k: usize, source: &FrfSource) -> Re
     }
     match (&source.references[..], response_in_name(&entry.name)) {
         ([reference], Some(response)) => Ok([response, reference.clone()]),
-        _ => Err(wrong(
+        _ => Err(FrfProblem::channel(
             file,
             at,
             "neither its name nor the file says its DOFs; add `responses = [...]` and `references = [...]` to the [[frf]]",

@@ -3,8 +3,8 @@
 use super::app::App;
 use super::files::Pick;
 use super::frame::choose::Choosing;
-use super::frame::leave::Leave;
 use super::import::is_project;
+use super::leaving::Leave;
 use crate::session::states::Against;
 use egui::Context;
 use std::path::{Path, PathBuf};
@@ -46,7 +46,7 @@ impl App {
             self.choosing = Some(Choosing::new(pick, std::path::absolute(&folder).unwrap_or(folder)));
             return;
         }
-        let asked = self.work.pick(ctx, pick);
+        let asked = self.jobs.pick(ctx, pick);
         self.note(asked);
     }
 }

@@ -3,7 +3,7 @@
 
 use super::document::{Document, Ready, Waiting};
 use super::files::{self, Pick};
-use super::wake::wake;
+use super::repaint::request_repaint;
 use crate::control::Control;
 use crate::session::jobs::{Job, JobError};
 use egui::Context;
@@ -25,19 +25,19 @@ pub enum Done {
 
 /// All that runs.
 #[derive(Debug, Default)]
-pub struct Work {
-    jobs: Vec<Job<(), Done>>,
+pub struct Jobs {
+    running: Vec<Job<(), Done>>,
 }
 
-impl Work {
+impl Jobs {
     fn start(
         &mut self,
         ctx: &Context,
         name: &str,
         work: impl FnOnce(&Control) -> Done + Send + 'static,
     ) -> Result<(), String> {
-        let job = Job::start(name, (), wake(ctx), work).map_err(|e| e.to_string())?;
-        self.jobs.push(job);
+        let job = Job::start(name, (), request_repaint(ctx), work).map_err(|e| e.to_string())?;
+        self.running.push(job);
         Ok(())
     }
 
@@ -47,7 +47,7 @@ impl Work {
     /// One line, where no thread can be started.
     pub fn load(&mut self, ctx: &Context, file: PathBuf) -> Result<(), String> {
         let name = file.file_name().map_or_else(String::new, |n| n.to_string_lossy().into_owned());
-        self.jobs.retain(|job| !job.name().starts_with("Reading"));
+        self.running.retain(|job| !job.name().starts_with("Reading"));
         self.start(ctx, &format!("Reading {name}"), move |control| {
             Done::Loaded(Document::open(&file, control).map(|(document, recovered)| (Box::new(document), recovered)))
         })
@@ -68,7 +68,7 @@ impl Work {
     /// # Errors
     /// One line, where no thread can be started.
     pub fn pick(&mut self, ctx: &Context, pick: Pick) -> Result<(), String> {
-        if self.jobs.iter().any(|job| job.name() == files::ASKING) {
+        if self.running.iter().any(|job| job.name() == files::ASKING) {
             return Ok(());
         }
         let asked = files::ask(pick);
@@ -91,7 +91,7 @@ impl Work {
     /// What has ended since the last look; work that broke down as its message.
     pub fn poll(&mut self) -> Vec<Result<Done, JobError>> {
         let mut ended = Vec::new();
-        self.jobs.retain(|job| match job.poll() {
+        self.running.retain(|job| match job.poll() {
             Some(result) => {
                 ended.push(result);
                 false
@@ -103,16 +103,16 @@ impl Work {
 
     /// Waits for everything that runs, each at most so long; for pictures and tests.
     pub fn wait(&mut self, longest: Duration) -> Vec<Result<Done, JobError>> {
-        self.jobs.drain(..).filter_map(|job| job.wait(longest)).collect()
+        self.running.drain(..).filter_map(|job| job.wait(longest)).collect()
     }
 
     /// Name and progress of what runs; a file dialog is no work.
     pub fn running(&self) -> Option<(&str, f64)> {
-        self.jobs.iter().find(|job| job.name() != files::ASKING).map(|job| (job.name(), job.progress()))
+        self.running.iter().find(|job| job.name() != files::ASKING).map(|job| (job.name(), job.progress()))
     }
 
     /// Gives up all that runs.
     pub fn cancel(&mut self) {
-        self.jobs.clear();
+        self.running.clear();
     }
 }

@@ -1,0 +1,229 @@
+//! Blocks of numbers in rows that come one by one.
+
+use super::cell::Cell;
+use super::header_line::HeaderLine;
+use crate::error::{Fault, Read, one_line};
+
+/// Most lines of a header that are kept: names and units stand right above the numbers.
+const MOST_HEADER: usize = 200;
+/// Most columns of a table.
+const MOST_COLUMNS: usize = 20_000;
+
+/// A block of numbers.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Block {
+    /// Lines above it, without blank ones.
+    pub header: Vec<HeaderLine>,
+    /// Rows.
+    pub rows: usize,
+    pub columns: Vec<Numbers>,
+}
+
+/// Numbers of a column while its rows come in.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Numbers {
+    pub re: Vec<f64>,
+    /// As long as `re` where any number was complex, else empty.
+    pub im: Vec<f64>,
+    /// Whether the numbers are clock times.
+    pub clock: bool,
+    /// Rows from the end without a number.
+    pub missing: usize,
+    /// Empty cells between numbers.
+    pub gaps: usize,
+    /// Row of the first number.
+    pub first: usize,
+}
+
+impl Numbers {
+    fn push(&mut self, cell: &Cell, row: usize) {
+        let [re, im] = match cell {
+            Cell::Real(value) => [*value, 0.0],
+            Cell::Complex(value) => *value,
+            Cell::Clock(value) => {
+                self.clock = true;
+                [*value, 0.0]
+            }
+            Cell::Empty | Cell::Word(_) => {
+                self.missing += 1;
+                return;
+            }
+        };
+        if self.re.is_empty() {
+            self.first = row;
+            self.missing = 0;
+        }
+        for _ in 0..self.missing {
+            self.re.push(f64::NAN);
+            self.gaps += 1;
+        }
+        self.missing = 0;
+        if matches!(cell, Cell::Complex(_)) || !self.im.is_empty() {
+            self.im.resize(self.re.len(), 0.0);
+            self.im.push(im);
+        }
+        self.re.push(re);
+    }
+}
+
+/// Finds blocks of numbers in rows that come one by one.
+#[derive(Debug, Default)]
+pub(crate) struct Blocks {
+    header: Vec<HeaderLine>,
+    open: Option<Block>,
+    done: Vec<Block>,
+    gap: bool,
+    lost_header: usize,
+}
+
+impl Blocks {
+    /// Takes the next row; `line` is its number from 1.
+    pub(crate) fn push(&mut self, line: u64, cells: &[Cell]) -> Read<()> {
+        let width = cells.iter().rposition(|cell| !cell.is_empty()).map_or(0, |last| last + 1);
+        let cells = &cells[..width];
+        if width == 0 {
+            self.gap = true;
+            return Ok(());
+        }
+        if width > MOST_COLUMNS {
+            return Err(Fault::line(line, format!("has {width} columns; at most {MOST_COLUMNS} are read")));
+        }
+        let words = cells.iter().filter(|cell| matches!(cell, Cell::Word(_))).count();
+        if words == 0 {
+            self.numbers(line, cells)?;
+        } else {
+            self.words(line, cells, words)?;
+        }
+        self.gap = false;
+        Ok(())
+    }
+
+    fn numbers(&mut self, line: u64, cells: &[Cell]) -> Read<()> {
+        if let Some(block) = &self.open
+            && cells.len() > block.columns.len()
+        {
+            let (found, expected) = (cells.len(), block.columns.len());
+            if block.rows <= 1 {
+                // A lone number above the table, such as a count of samples.
+                self.demote();
+            } else if self.gap {
+                self.close();
+            } else {
+                return Err(Fault::line(
+                    line,
+                    format!(
+                        "there are {found} cells and {expected} columns above; give each row one cell a column (with a decimal comma, separate the columns by semicolons)"
+                    ),
+                ));
+            }
+        }
+        let header = &mut self.header;
+        let block = self.open.get_or_insert_with(|| {
+            let header = std::mem::take(header);
+            let named = header.last().map_or(0, |line| line.cells.len());
+            let width = cells.len().max(if named <= cells.len() + 64 { named } else { 0 });
+            Block { header, rows: 0, columns: vec![Numbers::default(); width] }
+        });
+        let row = block.rows;
+        for (i, column) in block.columns.iter_mut().enumerate() {
+            column.push(cells.get(i).unwrap_or(&Cell::Empty), row);
+        }
+        block.rows += 1;
+        Ok(())
+    }
+
+    fn words(&mut self, line: u64, cells: &[Cell], words: usize) -> Read<()> {
+        if let Some(block) = &self.open {
+            let numbers = cells.iter().filter(|cell| cell.is_number()).count();
+            let comment =
+                matches!(cells.first(), Some(Cell::Word(word)) if word.starts_with(['#', '%', '!', '*', '/']));
+            // Words behind the last column are remarks.
+            let remark =
+                cells[..cells.len().min(block.columns.len())].iter().all(|cell| !matches!(cell, Cell::Word(_)));
+            if remark && numbers > 0 {
+                let kept = cells[..block.columns.len()].to_vec();
+                return self.numbers(line, &kept);
+            }
+            if numbers > 0 && numbers >= words && !self.gap && block.rows > 1 {
+                let at = cells.iter().position(|cell| matches!(cell, Cell::Word(_))).unwrap_or_default();
+                let Cell::Word(word) = &cells[at] else { return Ok(()) };
+                return Err(Fault::line(
+                    line,
+                    format!(
+                        "column {}: \"{}\" is not a number; write one such as 1.25e-3, or leave the cell empty",
+                        at + 1,
+                        one_line(word, 40)
+                    ),
+                ));
+            }
+            if comment {
+                return Ok(());
+            }
+            if block.rows <= 1 { self.demote() } else { self.close() }
+        }
+        if self.open.is_none() && self.remark_behind(cells) {
+            return self.numbers(line, &cells[..cells.len() - 1]);
+        }
+        if self.open.is_none()
+            && let Some(width) = self.words_beside(cells)
+        {
+            return self.numbers(line, &cells[..width]);
+        }
+        if self.header.len() >= MOST_HEADER {
+            self.header.remove(MOST_HEADER / 2);
+            self.lost_header += 1;
+        }
+        self.header.push(HeaderLine { cells: cells.iter().map(text).collect() });
+        Ok(())
+    }
+
+    /// Whether the only word of a row stands in its last cell, under the name of a column of remarks.
+    fn remark_behind(&self, cells: &[Cell]) -> bool {
+        const REMARKS: [&str; 8] =
+            ["comment", "comments", "kommentar", "remark", "remarks", "bemerkung", "note", "event"];
+        let Some((Cell::Word(_), numbers)) = cells.split_last() else { return false };
+        let named = |line: &HeaderLine| {
+            line.cells.len() == cells.len()
+                && line.cells.last().is_some_and(|cell| REMARKS.contains(&cell.trim().to_lowercase().as_str()))
+        };
+        numbers.len() > 1 && numbers.iter().all(Cell::is_number) && self.header.iter().any(named)
+    }
+
+    /// Width of the table where the words of a row of numbers stand beside it, under no name and behind an empty column.
+    fn words_beside(&self, cells: &[Cell]) -> Option<usize> {
+        let names = self.header.last()?;
+        let first = names.cells.iter().position(|cell| !cell.is_empty())?;
+        let width = names.cells.len();
+        let over_all = names.cells[first..].iter().all(|cell| !cell.is_empty()) && width - first > 1;
+        let full = cells.len() > width && cells[first..width].iter().all(Cell::is_number);
+        let beside = cells.get(width).is_some_and(Cell::is_empty);
+        (over_all && full && beside).then_some(width)
+    }
+
+    /// What looked like a block of one row was a line of the header.
+    fn demote(&mut self) {
+        let Some(block) = self.open.take() else { return };
+        self.header = block.header;
+        let cells = block.columns.iter().map(|column| column.re.first().map_or_else(String::new, ToString::to_string));
+        self.header.push(HeaderLine { cells: cells.collect() });
+    }
+
+    fn close(&mut self) {
+        self.done.extend(self.open.take());
+    }
+
+    /// Blocks in the order of the file, and the lines that follow the last.
+    pub(crate) fn finish(mut self) -> (Vec<Block>, usize) {
+        self.close();
+        (self.done, self.header.len() + self.lost_header)
+    }
+}
+
+fn text(cell: &Cell) -> String {
+    match cell {
+        Cell::Empty => String::new(),
+        Cell::Real(value) | Cell::Clock(value) => value.to_string(),
+        Cell::Complex([re, im]) => format!("{re}{im:+}j"),
+        Cell::Word(word) => word.clone(),
+    }
+}

@@ -1,0 +1,42 @@
+//! What a project says of a file of frequency responses.
+
+use super::units::Form;
+use dashpot_datafiles::Pairing;
+use std::collections::BTreeMap;
+
+/// How a file is to be read.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct FrfSource {
+    /// What the functions relate; from their units where it is not given.
+    pub form: Option<Form>,
+    /// Factor from the file's numbers to SI, negative to reverse; from the units where it is not given.
+    pub scale: Option<f64>,
+    /// Number of averages.
+    pub averages: Option<usize>,
+    /// Whether responses and references are exchanged: a roving hammer gives columns by reciprocity.
+    pub reciprocity: bool,
+    /// DOFs of the file by name, such as `12:+Z`, and their labels in the structure.
+    pub dofs: BTreeMap<String, String>,
+    /// Labels of the responses, in the order of the columns of an array, responses first; `-` in front reverses.
+    pub responses: Vec<String>,
+    /// Labels of the references, in the order of the columns of an array.
+    pub references: Vec<String>,
+    /// Step of the frequencies from 0 Hz on, Hz, of a file that does not say them.
+    pub step_hz: Option<f64>,
+    /// How the columns are parts of complex numbers two by two, where their names do not say it.
+    pub columns: Option<Pairing>,
+}
+
+impl FrfSource {
+    /// Labels of response and reference of function number `k` by the lists, where there are any: all responses to the first
+    /// reference first.
+    pub(super) fn listed(&self, k: usize) -> Result<Option<[String; 2]>, String> {
+        if self.responses.is_empty() {
+            return Ok(None);
+        }
+        let reference = self.references.get(k / self.responses.len());
+        let reference =
+            reference.ok_or("`responses` and `references` name fewer functions than there are; name every one")?;
+        Ok(Some([self.responses[k % self.responses.len()].clone(), reference.clone()]))
+    }
+}

@@ -1,0 +1,202 @@
+//! Universal Files to measured frequency responses: functions of type 4, coherences of type 6 beside them.
+
+use super::checks::{drop_zero, is_coherence, same_frequencies};
+use super::error::FrfProblem;
+use super::names::{place, place_of_name};
+use super::source::FrfSource;
+use super::units::{Form, ratio};
+use crate::control::Control;
+use crate::measurement::frf::{FrequencyResponse, ResponseSet};
+use crate::measurement::{Channel, Quantity};
+use crate::structure::Structure;
+use faer::c64;
+use std::collections::BTreeMap;
+use uff::{File, Function, FunctionHeader, FunctionKind, Set, Summary};
+
+/// Type of an abscissa of frequencies.
+const FREQUENCY: i64 = 18;
+
+/// Reads the functions of one file for a structure.
+pub(super) struct Reader<'a> {
+    pub file: &'a mut File<std::fs::File>,
+    pub source: &'a FrfSource,
+    pub structure: &'a Structure,
+}
+
+/// A response in the file.
+struct Found {
+    set: usize,
+    function: FrequencyResponse,
+    pair: [uff::Dof; 2],
+}
+
+impl Reader<'_> {
+    /// All responses with their coherences, and the faults that were read over.
+    pub(super) fn read(mut self, name: &str, control: &Control) -> Result<(ResponseSet, Vec<String>), FrfProblem> {
+        let entries = self.file.sets().to_vec();
+        let units = entries.iter().find_map(|entry| match &entry.summary {
+            Summary::Units(units) => Some(units.clone()),
+            _ => None,
+        });
+        let named =
+            |summary: &Summary| matches!(summary, Summary::Function(f) if f.kind == FunctionKind::FrequencyResponse);
+        let unnamed = !entries.iter().any(|entry| named(&entry.summary));
+        let mut faults: Vec<String> = self.file.warnings().iter().map(|fault| format!("{name}: {fault}")).collect();
+        let (mut found, mut frequencies, mut coherences) = (Vec::new(), Vec::new(), Vec::new());
+        for (set, entry) in entries.iter().enumerate() {
+            let Summary::Function(header) = &entry.summary else { continue };
+            let wanted = match header.kind {
+                FunctionKind::FrequencyResponse | FunctionKind::Coherence => true,
+                // Some programs leave the type out.
+                FunctionKind::General => unnamed && header.complex && header.abscissa.quantity == FREQUENCY,
+                _ => false,
+            };
+            if !wanted {
+                continue;
+            }
+            if control.check().is_err() {
+                break;
+            }
+            let reading = self.file.read(set).map_err(FrfProblem::File)?;
+            faults.extend(reading.warnings.iter().map(|fault| format!("{name}: {fault}")));
+            let Set::Function(function) = reading.set else { continue };
+            common_frequencies(&mut frequencies, &function, set)?;
+            if header.kind == FunctionKind::Coherence {
+                coherences.push((set, function));
+            } else {
+                found.push(self.response([set, found.len()], &function, units.as_ref())?);
+            }
+        }
+        if found.is_empty() {
+            return Err(FrfProblem::NoResponses);
+        }
+        no_pair_twice(&found)?;
+        for (set, coherence) in coherences {
+            attach(&mut found, set, &coherence)?;
+        }
+        let functions = found.into_iter().map(|found| found.function).collect();
+        let mut set = ResponseSet {
+            name: name.to_string(),
+            frequencies_hz: frequencies,
+            functions,
+            averages: self.source.averages,
+        };
+        drop_zero(&mut set);
+        Ok((set, faults))
+    }
+
+    /// Set number `set`, the `k`-th that is a frequency response.
+    fn response(
+        &mut self,
+        [set, k]: [usize; 2],
+        function: &Function,
+        units: Option<&uff::Units>,
+    ) -> Result<Found, FrfProblem> {
+        let header = &function.header;
+        let wrong = |what: String| FrfProblem::set(set, what);
+        let (form, scale) = self.form(header, units).map_err(wrong)?;
+        let pair = [header.response.clone(), header.reference.clone()];
+        let sides = match self.source.listed(k).map_err(wrong)? {
+            Some(listed) => listed.map(|name| place_of_name(&name, &self.source.dofs, self.structure)),
+            None => [0, 1].map(|side: usize| place(&pair[side], &self.source.dofs, self.structure)),
+        };
+        let [first, second] = sides;
+        let (mut response, mut reference) = (first.map_err(wrong)?, second.map_err(wrong)?);
+        if self.source.reciprocity {
+            std::mem::swap(&mut response, &mut reference);
+        }
+        let ((response, sign), (reference, other)) = (response, reference);
+        if form.is_inverse() && response != reference {
+            return Err(wrong(
+                "force over motion between different DOFs is not the inverse of a response; export motion over force"
+                    .to_string(),
+            ));
+        }
+        let factor = scale * sign * other;
+        let value = |i: usize| {
+            let [re, im] = function.values.get(i).unwrap_or([f64::NAN; 2]);
+            let value = c64::new(re, im) * factor;
+            if form.is_inverse() { c64::new(1.0, 0.0) / value } else { value }
+        };
+        let channel = |quantity, dof: usize| Channel { quantity, dof, label: self.structure.label(dof).to_string() };
+        let function = FrequencyResponse {
+            response: channel(form.quantity(), response),
+            reference: channel(Quantity::Force, reference),
+            values: (0..function.values.len()).map(value).collect(),
+            coherence: None,
+        };
+        Ok(Found { set, function, pair })
+    }
+
+    /// Form and factor to SI: from the project, else from the units of the file.
+    fn form(&self, header: &FunctionHeader, units: Option<&uff::Units>) -> Result<(Form, f64), String> {
+        match (self.source.form, self.source.scale) {
+            (Some(form), Some(scale)) => Ok((form, scale)),
+            (form, scale) => {
+                let ratio = ratio(header, units)?;
+                if form.is_some_and(|form| form != ratio.form) {
+                    return Err(format!(
+                        "its units are those of another form ({:?}); correct `form`, or give `scale` too",
+                        ratio.form
+                    ));
+                }
+                // With a form in the units, a scale corrects them.
+                Ok((ratio.form, ratio.to_si * scale.unwrap_or(1.0)))
+            }
+        }
+    }
+}
+
+/// Takes the frequencies of the first function and compares those of the others.
+fn common_frequencies(common: &mut Vec<f64>, function: &Function, set: usize) -> Result<(), FrfProblem> {
+    let unit = function.header.abscissa.unit.as_str();
+    if !matches!(unit, "" | "Hz" | "hz" | "HZ" | "1/s") {
+        return Err(FrfProblem::set(set, format!("its abscissa is in \"{unit}\"; export over frequency in Hz")));
+    }
+    let frequencies = function.abscissas();
+    if frequencies.iter().any(|f| !f.is_finite()) || frequencies.windows(2).any(|pair| pair[1] <= pair[0]) {
+        return Err(FrfProblem::set(set, "its frequencies do not increase; export over ascending frequencies"));
+    }
+    if common.is_empty() {
+        *common = frequencies;
+        return Ok(());
+    }
+    if same_frequencies(common, &frequencies) {
+        return Ok(());
+    }
+    let what = "its frequencies are not those of the functions before it; put it into a file of its own";
+    Err(FrfProblem::set(set, what))
+}
+
+fn no_pair_twice(found: &[Found]) -> Result<(), FrfProblem> {
+    let mut seen: BTreeMap<(usize, usize), usize> = BTreeMap::new();
+    for one in found {
+        let pair = (one.function.response.dof, one.function.reference.dof);
+        if let Some(first) = seen.insert(pair, one.set) {
+            let what = format!(
+                "{} over {} is in set {} already; keep one of them",
+                one.function.response,
+                one.function.reference,
+                first + 1
+            );
+            return Err(FrfProblem::set(one.set, what));
+        }
+    }
+    Ok(())
+}
+
+/// Gives a coherence to the response of the same DOFs; one without a response is left out.
+fn attach(found: &mut [Found], set: usize, coherence: &Function) -> Result<(), FrfProblem> {
+    let header = &coherence.header;
+    let same = |one: &&mut Found| {
+        let key = |dof: &uff::Dof| (dof.node, dof.direction.abs());
+        key(&one.pair[0]) == key(&header.response) && key(&one.pair[1]) == key(&header.reference)
+    };
+    let Some(one) = found.iter_mut().find(same) else { return Ok(()) };
+    let values: Vec<f64> = (0..coherence.values.len()).filter_map(|i| coherence.values.get(i)).map(|v| v[0]).collect();
+    if !is_coherence(&values) {
+        return Err(FrfProblem::set(set, "this coherence is not between 0 and 1; export it without a scale"));
+    }
+    one.function.coherence = Some(values);
+    Ok(())
+}

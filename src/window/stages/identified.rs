@@ -1,0 +1,41 @@
+//! What panes of an identification have in common: its outcome or what is shown in its place, heads of columns.
+
+use crate::identify::Outcome;
+use crate::session::validation::has_records;
+use crate::window::derived::Derived;
+use crate::window::document::Document;
+use crate::window::theme::space;
+use crate::window::widgets::UiExt;
+use egui::{Align, Layout, Response, Ui};
+use std::sync::Arc;
+
+/// The answer of the identification, or what is shown in its place.
+pub fn outcome(ui: &mut Ui, derived: &mut Derived, document: &Document) -> Option<Arc<Outcome>> {
+    match derived.outcome(ui.ctx(), document) {
+        Some(Ok(outcome)) => return Some(outcome),
+        Some(Err(_)) if document.project.runs.iter().all(|r| !r.enabled) && !has_records(&document.project) => {
+            ui.empty("No runs to identify from", "Import measurements, or tick the runs that are to be used.");
+        }
+        Some(Err(error)) => ui.empty("Nothing was identified", &error),
+        None => ui.empty("Identification is running", "Its progress is in the bar below."),
+    }
+    None
+}
+
+/// The same for panes beside the one that says why.
+pub fn outcome_quietly(ui: &mut Ui, derived: &mut Derived, document: &Document) -> Option<Arc<Outcome>> {
+    let found = derived.outcome(ui.ctx(), document).and_then(Result::ok);
+    if found.is_none() {
+        ui.empty("Nothing yet", "It follows what is identified.");
+    }
+    found
+}
+
+/// The name of a column of numbers.
+pub fn head_right(ui: &mut Ui, name: &str) -> Response {
+    ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+        ui.add_space(space::XS);
+        ui.hint(name)
+    })
+    .inner
+}
