@@ -33,6 +33,7 @@ const WORTH: f64 = 0.15;
 /// The same of a mass or spring, which any error of the model's own masses and springs resembles.
 const WORTH_OF_CONSTANT: f64 = 0.5;
 const DECISIVE: f64 = 0.25;
+const HALVED: f64 = 0.4;
 /// Levels of parts on which effects are added; on whole records where there are no more levels than that, or nothing was found.
 const GROWING: usize = 2;
 /// Steps of a fit with one effect less.
@@ -113,7 +114,7 @@ impl Search<'_> {
             if agrees(best) || best.effects.len() >= MOST_EFFECTS || self.control.is_late() {
                 break;
             }
-            let mut found = self.extended(level, best, bare)?;
+            let mut found = self.beside_rivals(level, &rungs.last, bare)?;
             let Some(top) = found.first_mut() else { break };
             if !self.is_better(level, top, best)? {
                 break;
@@ -134,7 +135,8 @@ impl Search<'_> {
         if !stands_out(new) {
             return Ok(false);
         }
-        if gain < GAIN {
+        // What halves the error of a set needs no count of how alike the samples of that error are.
+        if gain < GAIN && (old.effects.is_empty() || worth < HALVED) {
             return Ok(false);
         }
         // Both leave no more than noise: what is known of the corrections decides.
