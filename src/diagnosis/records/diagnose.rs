@@ -12,7 +12,7 @@ use super::compare::{floors, started};
 use super::data::{RecordError, Records};
 use super::evidence::{AGREES, evidence, misfit, scale};
 use super::fitted::FittedRecords;
-use super::search::{Rungs, Search};
+use super::search::{FEW_MODES, Rungs, Search};
 use super::telling::{last_deviations, suggestions};
 use crate::control::Control;
 use crate::diagnosis::diagnose::{Diagnosis, Early, Step, Verdict};
@@ -33,7 +33,8 @@ const WORTH: f64 = 0.15;
 /// The same of a mass or spring, which any error of the model's own masses and springs resembles.
 const WORTH_OF_CONSTANT: f64 = 0.5;
 const DECISIVE: f64 = 0.25;
-const HALVED: f64 = 0.4;
+/// Share of the error of a set, of records of few modes, that decides by itself.
+const GREAT: f64 = 0.3;
 /// Levels of parts on which effects are added; on whole records where there are no more levels than that, or nothing was found.
 const GROWING: usize = 2;
 /// Steps of a fit with one effect less.
@@ -135,8 +136,9 @@ impl Search<'_> {
         if !stands_out(new) {
             return Ok(false);
         }
-        // What halves the error of a set needs no count of how alike the samples of that error are.
-        if gain < GAIN && (old.effects.is_empty() || worth < HALVED) {
+        // In the few amplitudes of short parts samples are so alike that a great part of the error of a set must do.
+        let great = self.records.kept <= FEW_MODES && !old.effects.is_empty() && worth > GREAT;
+        if gain < GAIN && !great {
             return Ok(false);
         }
         // Both leave no more than noise: what is known of the corrections decides.

@@ -15,6 +15,8 @@ use crate::effects::Source;
 const BEGINNING: usize = 3;
 const FOLLOWING: usize = 7;
 const FOLLOWED: usize = 6;
+/// Modes up to which places tell little and one law is easily taken for another: there more is tried.
+pub(super) const FEW_MODES: usize = 2;
 /// Share of each part of a decay that is fitted first.
 const FIRST: f64 = 0.35;
 /// Rivals of the best set beside which a further effect is looked for, and the squared residual over that of the best up to which.
@@ -126,7 +128,9 @@ impl Search<'_> {
     ) -> Result<Vec<FittedRecords>, RecordError> {
         let Some(best) = rivals.first() else { return Ok(Vec::new()) };
         let mut found = self.extended(level, best, bare)?;
-        let near = |f: &&FittedRecords| !best.effects.is_empty() && f.chi_square < NEAR * best.chi_square;
+        let near = |f: &&FittedRecords| {
+            self.records.kept <= FEW_MODES && !best.effects.is_empty() && f.chi_square < NEAR * best.chi_square
+        };
         for rival in rivals.iter().skip(1).filter(near).take(BESIDE) {
             for more in self.extended(level, rival, bare)? {
                 if !found.iter().any(|f| is_same_set(&f.effects, &more.effects)) {
@@ -151,7 +155,7 @@ impl Search<'_> {
             starts.truncate(FURTHER);
         }
         let alone = self.control.alone();
-        let free = self.levels[level].list.iter().all(|r| r.forces.is_empty());
+        let free = self.records.kept <= FEW_MODES && self.levels[level].list.iter().all(|r| r.forces.is_empty());
         // A start that runs away, or a mass that takes away all there is, is no start. Where a frequency follows the amplitude the
         // phase of a decay is lost within a part: its first periods are fitted first.
         let begin = |start: &FittedRecords| {
