@@ -2,6 +2,7 @@
 
 use super::files::Written;
 use super::lab::{self, Plan};
+use super::lab_records;
 use super::random::Random;
 use super::suite::{Kindness, hidden};
 use super::unsteady::{self, Unsteady};
@@ -23,6 +24,7 @@ enum Recipe {
     Exact(Vec<Effect>, Kindness),
     Laboratory(Plan),
     Unsteady(Unsteady),
+    LaboratoryRecords(lab_records::Plan),
 }
 
 impl Case {
@@ -33,6 +35,7 @@ impl Case {
             Recipe::Exact(effects, kindness) => hidden(effects, *kindness, random).map(Written::from),
             Recipe::Laboratory(plan) => lab::project(*plan, random),
             Recipe::Unsteady(plan) => unsteady::project(*plan, random),
+            Recipe::LaboratoryRecords(plan) => lab_records::project(*plan, random),
         })
     }
 }
@@ -53,6 +56,7 @@ pub fn cases(seeds: Range<u64>) -> Vec<Case> {
             }
         }
         cases.extend(unsteady(seed));
+        cases.extend(laboratory_records(seed));
     }
     cases
 }
@@ -72,6 +76,15 @@ fn unsteady(seed: u64) -> Vec<Case> {
         }
     }
     cases
+}
+
+/// One laboratory project of every kind of test.
+fn laboratory_records(seed: u64) -> impl Iterator<Item = Case> {
+    (0..lab_records::CLASSES.len()).map(move |c| {
+        let mut random = Random::new(8_000_000_000 + seed * 10 + c as u64);
+        let plan = lab_records::Plan::of(seed, c, &mut random);
+        Case { name: plan.name(seed), make: Recipe::LaboratoryRecords(plan), random }
+    })
 }
 
 fn case(class: &str, effect: Effect, beam: bool, seed: u64, mut random: Random) -> Option<Case> {

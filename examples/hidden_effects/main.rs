@@ -13,6 +13,7 @@ mod errors;
 mod files;
 mod judge;
 mod lab;
+mod lab_records;
 mod random;
 mod records;
 mod sizing;

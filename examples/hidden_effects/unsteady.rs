@@ -43,11 +43,19 @@ pub struct Unsteady {
 }
 
 /// One test: what is done, where, and how it is sampled.
-struct Test {
-    loading: Loading,
-    dof: usize,
-    rate_hz: f64,
-    samples: usize,
+pub struct Test {
+    pub loading: Loading,
+    pub dof: usize,
+    pub rate_hz: f64,
+    pub samples: usize,
+}
+
+/// What an effect is sized in: the structure with what is known of it, the tests, the rows that are measured.
+pub struct Setup<'a> {
+    pub structure: &'a Structure,
+    pub known: &'a [Source],
+    pub tests: &'a [Test],
+    pub sensors: &'a [usize],
 }
 
 /// A project; `None` where the effect cannot be made as large as wanted.
@@ -62,7 +70,8 @@ pub fn project(plan: Unsteady, random: &mut Random) -> Option<Written> {
     let mut truth = Vec::new();
     if let Some(effect) = plan.effect {
         let source = Source::candidate(effect, Place::Dofs(place(&exact, random)));
-        truth.push(sized(source, &exact, &known, &tests, &sensors, random.within(0.1, 0.4))?);
+        let setup = Setup { structure: &exact, known: &known, tests: &tests, sensors: &sensors };
+        truth.push(sized(source, &setup, random.within(0.1, 0.4))?);
     }
     let all: Vec<Source> = known.iter().chain(&truth).cloned().collect();
     let (noise, seed) = (random.within(0.002, 0.01), random.below(1_000_000) as u64);
@@ -120,7 +129,7 @@ fn sensors(structure: &Structure, beam: bool) -> Vec<usize> {
     [1, 2, 3].map(|k| rows[k * rows.len() / 3 - 1]).to_vec()
 }
 
-fn place(structure: &Structure, random: &mut Random) -> Vec<usize> {
+pub fn place(structure: &Structure, random: &mut Random) -> Vec<usize> {
     let (pairs, rows) = (structure.neighbours(), structure.translations());
     if random.uniform() < 0.3 {
         pairs[random.below(pairs.len())].to_vec()
@@ -135,7 +144,7 @@ fn channels(plan: Unsteady, structure: &Structure, test: &Test, sensors: &[usize
     force.into_iter().chain(sensors.iter().map(|&dof| channel(Quantity::Acceleration, dof))).collect()
 }
 
-fn recorded(structure: &Structure, sources: &[Source], test: &Test, channels: &[Channel]) -> Option<Vec<Vec<f64>>> {
+pub fn recorded(structure: &Structure, sources: &[Source], test: &Test, channels: &[Channel]) -> Option<Vec<Vec<f64>>> {
     let setup = TestSetup {
         loading: &test.loading,
         dof: test.dof,
@@ -149,14 +158,8 @@ fn recorded(structure: &Structure, sources: &[Source], test: &Test, channels: &[
 }
 
 /// Parameters such that the motion changes by `target`.
-fn sized(
-    mut source: Source,
-    structure: &Structure,
-    known: &[Source],
-    tests: &[Test],
-    sensors: &[usize],
-    target: f64,
-) -> Option<Source> {
+pub fn sized(mut source: Source, setup: &Setup, target: f64) -> Option<Source> {
+    let Setup { structure, known, tests, sensors } = *setup;
     let leg = source.place.legs().first().copied()?;
     let channel = |quantity, dof: usize| Channel { quantity, dof, label: structure.label(dof).to_string() };
     let dofs: Vec<usize> = [Some(leg.first), leg.second].into_iter().flatten().collect();

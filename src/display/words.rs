@@ -35,6 +35,7 @@ pub fn flag(flag: Flag) -> &'static str {
         Flag::TooShort => "too short",
         Flag::Drift => "drift",
         Flag::ExponentialWindow => "exponential window",
+        Flag::BeforeRelease => "begins before its release",
     }
 }
 

@@ -38,6 +38,8 @@ pub enum Flag {
     Drift,
     /// An exponential window was laid over the record.
     ExponentialWindow,
+    /// The record of a decay begins before its release; it is used from there on.
+    BeforeRelease,
 }
 
 /// A flag with its reason in words and numbers.

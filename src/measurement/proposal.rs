@@ -14,6 +14,13 @@ const NO_FORCE: f64 = 0.02;
 const DIES: f64 = 0.5;
 /// Length of a contact, over the record, below which the force is that of a hammer.
 const HAMMER: f64 = 0.1;
+/// Motion before a release, over its largest, that is rest; that of an even drive, of its last block and of all before it; its first
+/// half over its second; blocks that it lasts at least.
+const QUIET: f64 = 0.2;
+const EVEN: f64 = 0.9;
+const DRIVEN: f64 = 0.7;
+const NO_TREND: f64 = 1.02;
+const LONG: usize = 10;
 /// Share of the power on the largest lines from which a signal is periodic.
 const PERIODIC: f64 = 0.8;
 
@@ -42,6 +49,45 @@ pub fn propose(record: &Record) -> Proposal {
         (Some(_), Some(_)) if most > 0.0 => driven(record, Quantity::Force),
         _ => free(record, &motion, at),
     }
+}
+
+/// Time (s) from which on a record of a decay shows it, where it begins earlier: at rest or held still, under a force that ends,
+/// or driven evenly. None where it may begin at once.
+pub(super) fn release(record: &Record) -> Option<f64> {
+    let force = envelope(record, |quantity| quantity == Quantity::Force);
+    let motion = envelope(record, |quantity| quantity != Quantity::Force);
+    let most = force.iter().copied().fold(0.0, f64::max);
+    let driven = force.iter().rposition(|f| most > 0.0 && *f > NO_FORCE * most).map_or(0, |last| last + 1);
+    let at = |block: usize| block * record.len() / BLOCKS;
+    let sample = at(driven).max(released(record, &motion, at));
+    (sample > 0 && sample + at(LONG) < record.len()).then(|| record.time()[sample])
+}
+
+/// Sample from which on nothing drives the motion, which was at rest or even before; 0 where neither is seen.
+fn released(record: &Record, motion: &[f64], at: impl Fn(usize) -> usize) -> usize {
+    let largest = motion.iter().copied().fold(0.0, f64::max);
+    let large = motion.iter().rposition(|m| *m > EVEN * largest).unwrap_or(0);
+    let peak = motion.iter().position(|m| *m >= largest).unwrap_or(0);
+    if peak > 0 && motion[..peak.div_ceil(2)].iter().all(|m| *m < QUIET * largest) {
+        // A displacement is let go where it is largest; an acceleration is largest while it is struck.
+        let near = at(peak - 1)..at((peak + 2).min(BLOCKS));
+        let size = |n: usize| displacements(record).map(|y| y[n].abs()).fold(0.0, f64::max);
+        let top = near.clone().max_by(|&a, &b| size(a).total_cmp(&size(b)));
+        return top.filter(|&n| size(n) > 0.0).unwrap_or(near.end);
+    }
+    if is_even(&motion[..large], largest) { at(large + 1) } else { 0 }
+}
+
+/// Whether a drive holds these blocks: none falls far below the `largest`, and they fall no more than chance has it.
+fn is_even(motion: &[f64], largest: f64) -> bool {
+    let mean = |part: &[f64]| part.iter().sum::<f64>() / part.len() as f64;
+    let steady = || mean(&motion[1..motion.len() / 2]) < NO_TREND * mean(&motion[motion.len() / 2..]);
+    motion.len() >= LONG && motion[1..].iter().all(|m| *m > DRIVEN * largest) && steady()
+}
+
+fn displacements(record: &Record) -> impl Iterator<Item = &[f64]> {
+    let numbers = (0..record.channels().len()).filter(|&c| record.channels()[c].quantity == Quantity::Displacement);
+    numbers.map(|c| record.samples(c))
 }
 
 /// The force ends before the record does.

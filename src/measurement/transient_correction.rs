@@ -3,9 +3,10 @@
 //! A channel with known delay `tau` and gain `g` records `g y(t - tau)`; the run holds `y`, read between the samples by a
 //! polynomial through six of them (error below 1e-3 of the amplitude up to a fifth of the sampling rate).
 
+use super::proposal::release;
 use super::run::Correction;
 use super::transient_run::{TransientLabel, TransientRun};
-use super::{Channel, Finding, Flag, Quantity, Record, transient_quality};
+use super::{Channel, Finding, Flag, Kind, Part, Quantity, Record, transient_quality};
 use std::borrow::Cow;
 use std::sync::Arc;
 
@@ -40,7 +41,9 @@ impl TransientRun {
         record: Arc<Record>,
         corrections: &[Correction],
     ) -> Result<Self, TransientRunError> {
-        let samples = label.part.samples(record.time());
+        let released_s = release_of(&label, &record);
+        let part = Part { start_s: label.part.start_s.or(released_s), ..label.part };
+        let samples = part.samples(record.time());
         if samples.len() < FEWEST_SAMPLES {
             let (first_s, last_s) = (record.time()[0], record.time()[record.len() - 1]);
             return Err(TransientRunError::PartTooShort { found: samples.len(), first_s, last_s });
@@ -57,8 +60,21 @@ impl TransientRun {
         let mut run = Self { file, record, kind, part, level, session, enabled, findings: Vec::new(), samples };
         run.findings = transient_quality::assess(&run);
         run.findings.extend(exponential_window_s.map(|constant| windowed(&run, constant)));
+        run.findings.extend(released_s.map(released));
         Ok(run)
     }
+}
+
+/// Release (s) of a decay of which the project does not say where it begins.
+fn release_of(label: &TransientLabel, record: &Record) -> Option<f64> {
+    if label.kind == Kind::Decay && label.part.start_s.is_none() { release(record) } else { None }
+}
+
+/// What is said of a decay that is used from its release on.
+fn released(start_s: f64) -> Finding {
+    let reason =
+        format!("the record begins before the release; it is used from {start_s:.4} s on, `start_s` says otherwise");
+    Finding { flag: Flag::BeforeRelease, reason }
 }
 
 fn check_steps(time: &[f64], first: usize) -> Result<(), TransientRunError> {

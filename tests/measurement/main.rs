@@ -5,5 +5,6 @@
 mod fits;
 mod flags;
 mod frequencies;
+mod releases;
 mod runs;
 mod signals;

@@ -6,11 +6,14 @@ use super::fitted::FittedRecords;
 use super::search::{Search, SetsBySize};
 use super::telling::{added, corrections, suggestions, words};
 use super::told::added_as_told;
-use crate::diagnosis::diagnose::{Diagnosis, Step, Suggestion, Verdict};
+use crate::diagnosis::diagnose::{Added, Diagnosis, Step, Suggestion, Verdict};
 
 /// Error of what is told from which on the phase may be lost over the whole record, and the share of it that parts of the record
 /// leave at most where it is.
 const PHASE_LOST: [f64; 2] = [0.08, 0.7];
+
+/// Probability up to which a suggestion is told as its fit stands, without what it predicts and promises.
+const UNLIKELY: f64 = 1e-3;
 
 impl Search<'_> {
     /// Fills `diagnosis` with what was found.
@@ -38,13 +41,14 @@ impl Search<'_> {
             return Ok(());
         }
         diagnosis.suggestions = suggestions(self.records, &by_size.last)?;
-        for suggestion in &mut diagnosis.suggestions {
+        for suggestion in diagnosis.suggestions.iter_mut().filter(|s| s.probability > UNLIKELY) {
             self.complete(suggestion, &told, &by_size.last)?;
         }
         let floor = diagnosis.noise_floor.max(f64::MIN_POSITIVE);
         if let Some(first) = diagnosis.suggestions.first_mut() {
             first.evidence.extend(self.words_on_all(&told, floor)?);
         }
+        widen(diagnosis);
         let sure = diagnosis.suggestions.first().is_some_and(|s| s.probability >= 0.5);
         diagnosis.verdict = if sure { Verdict::Missing } else { Verdict::Undecided };
         Ok(())
@@ -104,4 +108,20 @@ impl Search<'_> {
         }
         Ok(words)
     }
+}
+
+/// Widens the deviations of what is told by what is left beyond noise: any share of what the effects take away may be theirs.
+fn widen(diagnosis: &mut Diagnosis) {
+    let Some(before) = diagnosis.steps.first().map(|s| s.misfit.max(1.0)) else { return };
+    let share = |misfit: f64| ((misfit - 1.0).max(0.0) / before).sqrt().min(1.0);
+    let wider = |added: &mut Added, share: f64| {
+        let values = added.source.parameters.iter();
+        added.deviations.iter_mut().zip(values).for_each(|(d, p)| *d = d.hypot(share * p));
+    };
+    let last = diagnosis.steps.last().map_or(0.0, |s| share(s.misfit));
+    for step in &mut diagnosis.steps {
+        let own = share(step.misfit);
+        step.added.iter_mut().for_each(|added| wider(added, own));
+    }
+    diagnosis.suggestions.iter_mut().for_each(|s| wider(&mut s.added, last));
 }

@@ -12,7 +12,7 @@ use super::compare::{floors, started};
 use super::data::{RecordError, Records};
 use super::evidence::{AGREES, evidence, misfit, scale};
 use super::fitted::FittedRecords;
-use super::search::{Search, SetsBySize};
+use super::search::{FEW_MODES, Search, SetsBySize};
 use super::telling::{last_deviations, suggestions};
 use crate::control::Control;
 use crate::diagnosis::diagnose::{Diagnosis, Early, Step, Verdict};
@@ -33,6 +33,8 @@ const WORTH: f64 = 0.15;
 /// The same of a mass or spring, which any error of the model's own masses and springs resembles.
 const WORTH_OF_CONSTANT: f64 = 0.5;
 const DECISIVE: f64 = 0.25;
+/// Share of the error of a set, of records of few modes, that decides by itself.
+const GREAT: f64 = 0.3;
 /// Levels of parts on which effects are added; on whole records where there are no more levels than that, or nothing was found.
 const GROWING: usize = 2;
 /// Steps of a fit with one effect less.
@@ -120,7 +122,7 @@ impl Search<'_> {
             if agrees(best) || best.effects.len() >= MOST_EFFECTS || self.control.is_late() {
                 break;
             }
-            let mut found = self.extended(level, best, bare)?;
+            let mut found = self.beside_rivals(level, &by_size.last, bare)?;
             let Some(top) = found.first_mut() else { break };
             if !self.is_better(level, top, best)? {
                 break;
@@ -141,7 +143,9 @@ impl Search<'_> {
         if !stands_out(new) {
             return Ok(false);
         }
-        if gain < GAIN {
+        // In the few amplitudes of short parts samples are so alike that a great part of the error of a set must do.
+        let great = self.records.kept <= FEW_MODES && !old.effects.is_empty() && worth > GREAT;
+        if gain < GAIN && !great {
             return Ok(false);
         }
         // Both leave no more than noise: what is known of the corrections decides.

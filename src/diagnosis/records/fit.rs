@@ -15,9 +15,12 @@ use super::variables::{scales, slopes};
 use dashpot_numerics::Cholesky;
 use faer::Mat;
 
-/// Dampings that are tried for a step, and the share of what is left below which a fit has ended.
+/// Dampings that are tried for a step.
 const ATTEMPTS: usize = 6;
+/// Gain of a step below which a fit has ended: as a share of what is left, and in units of what one squared deviation is worth (a
+/// parameter then moves by less than a seventh of its deviation).
 const LEAST_GAIN: f64 = 1e-7;
+const NO_GAIN: f64 = 0.02;
 
 /// What the priors weigh: what the start leaves demands it, so that many samples of one error do not bend what is known.
 fn unit_of(start: &FittedRecords) -> f64 {
@@ -39,9 +42,9 @@ impl FitProblem<'_> {
             }
             let before = normal.left.total(unit);
             let Some((next, there)) = self.step(&best, &scales, unit, &normal, &mut damping)? else { break };
-            let gain = (before - there.left.total(unit)) / before;
+            let gain = before - there.left.total(unit);
             (best, normal) = (next, there);
-            if gain < LEAST_GAIN {
+            if gain < (LEAST_GAIN * before).max(NO_GAIN * unit) {
                 break;
             }
         }

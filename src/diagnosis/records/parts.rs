@@ -1,7 +1,7 @@
 //! Records cut into parts, each with an initial state of its own (multiple shooting, Bock 1983): over a part a model that is
 //! off loses no phase, while the parts together hold the amplitudes of the whole record.
 //!
-//! Parts grow by [`GROWTH`] from level to level until one would be half of the record; the last level is the whole. Decays are
+//! Parts grow by [`GROWTH`] or [`GROWTH_DRIVEN`] from level to level until one would be half of the record; the last level is the whole. Decays are
 //! thinned to the samples that their motion needs.
 
 use super::compare::struck;
@@ -10,8 +10,11 @@ use super::weights::local;
 
 /// Periods of the dominant motion in the shortest parts.
 const PERIODS: f64 = 8.0;
-/// Ratio of the lengths of parts from one level to the next.
+/// Ratio of the lengths of parts from one level to the next; of long records in which forces act all the time, which hold the phase.
 const GROWTH: f64 = 3.0;
+const GROWTH_DRIVEN: f64 = 9.0;
+/// Periods of the dominant motion from which on such a record is long.
+const LONG: f64 = 400.0;
 /// Most parts of a record and of all records; more records than that have one part each.
 const MOST: usize = 5;
 const MOST_OF_ALL: usize = 8;
@@ -30,11 +33,14 @@ const FEWEST: usize = 48;
 impl Records<'_> {
     /// The records in parts of growing length, at last whole.
     pub(super) fn levels(&self) -> Vec<Self> {
+        let long = |r: &RecordData| r.dominant_hz * r.step * r.len() as f64 > LONG;
+        let driven = self.list.iter().all(|r| !r.forces.is_empty() && struck(r).is_none() && long(r));
+        let growth = if driven { GROWTH_DRIVEN } else { GROWTH };
         let mut levels = Vec::new();
         let mut periods = PERIODS;
         while let Some(parts) = self.in_parts(periods) {
             levels.push(parts);
-            periods *= GROWTH;
+            periods *= growth;
         }
         let whole = self.list.iter().map(|r| r.part(0, r.len(), STEP_PHASE[1])).collect();
         levels.push(Self { list: whole, ..self.clone() });

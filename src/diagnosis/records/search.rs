@@ -15,13 +15,25 @@ use crate::effects::Source;
 const BEGINNING: usize = 3;
 const FOLLOWING: usize = 7;
 const FOLLOWED: usize = 6;
+/// Modes up to which places tell little and one law is easily taken for another: there more is tried.
+pub(super) const FEW_MODES: usize = 2;
+/// Share of each part of a decay that is fitted first.
+const FIRST: f64 = 0.35;
+/// Rivals of the best set beside which a further effect is looked for, and the squared residual over that of the best up to which.
+const BESIDE: usize = 1;
+const NEAR: f64 = 2.0;
 /// Starts of a further effect on longer parts.
 const FURTHER: usize = 13;
 /// Fits that are carried on to longer parts, and the steps there.
 const RIVALS: usize = 4;
+/// Evidence by which a fit may be behind the best to be carried on, and fits that are carried on all the same.
+const BEHIND: f64 = 80.0;
+const LEAST_RIVALS: usize = 2;
 const CARRYING: usize = 12;
-/// Squared residual over the least one beyond which a fit is not followed further: after the first steps, and on longer parts.
-const HOPELESS: [f64; 2] = [12.0, 4.0];
+/// Squared residual over the least one, or over that of half the noise, beyond which a fit is not followed further: after the
+/// first steps, and on longer parts.
+const HOPELESS: [f64; 2] = [12.0, 3.0];
+const NOISE: f64 = 0.5;
 
 /// The search for what is missing in some records.
 pub(super) struct Search<'a> {
@@ -106,6 +118,29 @@ impl Search<'_> {
         Ok(fitted)
     }
 
+    /// Fits of the best of `rivals` with one effect more, best first, and of those that leave hardly more: which of two laws comes
+    /// first may be told by what comes second.
+    pub fn beside_rivals(
+        &self,
+        level: usize,
+        rivals: &[FittedRecords],
+        bare: &FittedRecords,
+    ) -> Result<Vec<FittedRecords>, RecordError> {
+        let Some(best) = rivals.first() else { return Ok(Vec::new()) };
+        let mut found = self.extended(level, best, bare)?;
+        let near = |f: &&FittedRecords| {
+            self.records.kept <= FEW_MODES && !best.effects.is_empty() && f.chi_square < NEAR * best.chi_square
+        };
+        for rival in rivals.iter().skip(1).filter(near).take(BESIDE) {
+            for more in self.extended(level, rival, bare)? {
+                if !found.iter().any(|f| is_same_set(&f.effects, &more.effects)) {
+                    found.push(more);
+                }
+            }
+        }
+        Ok(self.sorted(level, found))
+    }
+
     /// Fits of `best` with one effect more, best first; `bare` is the model as it is, on the same level.
     pub fn extended(
         &self,
@@ -120,21 +155,22 @@ impl Search<'_> {
             starts.truncate(FURTHER);
         }
         let alone = self.control.alone();
-        // A start that runs away, or a mass that takes away all there is, is no start.
-        let begin = |k: usize| self.fit_by(level, &starts[k], (1.0, BEGINNING), &alone).ok();
-        let begun = self.control.map(starts.len(), begin);
-        self.control.check()?;
+        let free = self.records.kept <= FEW_MODES && self.levels[level].list.iter().all(|r| r.forces.is_empty());
+        // A start that runs away, or a mass that takes away all there is, is no start. Where a frequency follows the amplitude the
+        // phase of a decay is lost within a part: its first periods are fitted first.
+        let begin = |start: &FittedRecords| {
+            let first = if free { self.fit_by(level, start, (FIRST, BEGINNING), &alone).ok() } else { None };
+            self.fit_by(level, first.as_ref().unwrap_or(start), (1.0, BEGINNING), &alone).ok()
+        };
         let mut found: Vec<FittedRecords> = Vec::new();
-        for fitted in begun.into_iter().flatten() {
-            let same =
-                |o: &FittedRecords| o.effects.last().zip(fitted.effects.last()).is_some_and(|(a, b)| a.is_same(b));
-            match found.iter_mut().find(|o| same(o)) {
-                Some(own) if fitted.chi_square < own.chi_square => *own = fitted,
-                Some(_) => {}
-                None => found.push(fitted),
-            }
-        }
+        add_begun(&mut found, self.control.map(starts.len(), |k| begin(&starts[k])));
+        self.control.check()?;
         keep(&mut found, FOLLOWED, HOPELESS[0]);
+        if let Some(law) = found.first().and_then(|f| f.effects.last()).map(|e| e.effect).filter(|_| level == 0) {
+            let more = self.begun_elsewhere(base, law, &starts);
+            add_begun(&mut found, self.control.map(more.len(), |k| begin(&more[k])));
+            keep(&mut found, FOLLOWED, HOPELESS[0]);
+        }
         let follow = |k: usize| self.fit_by(level, &found[k], (1.0, FOLLOWING), &alone).ok();
         let followed = self.control.map(found.len(), follow).into_iter().flatten().collect();
         Ok(self.sorted(level, followed))
@@ -144,6 +180,11 @@ impl Search<'_> {
     pub fn lengthened(&self, rivals: &[FittedRecords], level: usize) -> Result<Vec<FittedRecords>, RecordError> {
         let mut few = rivals.to_vec();
         few.truncate(RIVALS);
+        if let Some(best) = rivals.first() {
+            let unit = scale(best);
+            let near = few.iter().filter(|f| evidence(f, unit) < evidence(best, unit) + BEHIND).count();
+            few.truncate(near.max(LEAST_RIVALS));
+        }
         let alone = self.control.alone();
         let longer = |k: usize| {
             let start = self.carried(&few[k], level, level + 1).ok()?;
@@ -171,10 +212,27 @@ impl Search<'_> {
     }
 }
 
+/// Adds fits that were begun, of each law at a place the best.
+fn add_begun(found: &mut Vec<FittedRecords>, begun: Vec<Option<FittedRecords>>) {
+    for fitted in begun.into_iter().flatten() {
+        let same = |o: &FittedRecords| o.effects.last().zip(fitted.effects.last()).is_some_and(|(a, b)| a.is_same(b));
+        match found.iter_mut().find(|o| same(o)) {
+            Some(own) if fitted.chi_square < own.chi_square => *own = fitted,
+            Some(_) => {}
+            None => found.push(fitted),
+        }
+    }
+}
+
+/// Whether two sets hold the same effects, in any order.
+fn is_same_set(a: &[Source], b: &[Source]) -> bool {
+    a.len() == b.len() && a.iter().all(|x| b.iter().any(|y| y.is_same(x)))
+}
+
 /// The best `count` by their squared residual, none of them `hopeless` times the least.
 fn keep(found: &mut Vec<FittedRecords>, count: usize, hopeless: f64) {
     found.sort_by(|a, b| a.chi_square.total_cmp(&b.chi_square));
     found.truncate(count);
     let least = found.first().map_or(0.0, |f| f.chi_square);
-    found.retain(|f| f.chi_square <= hopeless * least.max(f.count as f64));
+    found.retain(|f| f.chi_square <= hopeless * least.max(NOISE * f.count as f64));
 }

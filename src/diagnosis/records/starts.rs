@@ -28,8 +28,11 @@ const PLACES: usize = 2;
 const SHAPES: usize = 5;
 /// Laws that are fitted at the places that the equation of motion demands, from the best place on.
 const QUOTAS: [usize; 3] = [LAWS.len(), 3, 2];
+/// Laws at other places that the equation of motion demands next; other places of the law that fits best.
+const NEXT: usize = 4;
+const ELSEWHERE: usize = 5;
 /// Share of what the equation of motion of several modes leaves that one effect more must take away, or none is looked for.
-const NEEDED: f64 = 0.9;
+const NEEDED: f64 = 0.8;
 /// Misfit of the equation of motion over the least one beyond which a law is not fitted to the response.
 const BEHIND: f64 = 4.0;
 /// Force of a law at the start, as a share of the spring force there.
@@ -89,6 +92,8 @@ impl Search<'_> {
                 places.push(place);
             }
         }
+        let next = ranked.iter().filter(|r| !places.iter().any(|p| p.is_same(&r.source.place))).take(NEXT);
+        let next: Vec<Source> = next.map(|r| r.source.clone()).collect();
         let quotas = places.iter().copied().zip(QUOTAS);
         let more =
             located.iter().filter(|p| !places.iter().any(|q| q.is_same(p))).map(|p| (p, QUOTAS[QUOTAS.len() - 1]));
@@ -100,7 +105,25 @@ impl Search<'_> {
                 .map(|r| r.source.clone())
                 .collect::<Vec<_>>()
         };
-        quotas.chain(more).flat_map(of).collect()
+        let mut sources: Vec<Source> = quotas.chain(more).flat_map(of).collect();
+        let further = next.into_iter().filter(|n| !sources.iter().any(|s| s.is_same(n))).collect::<Vec<_>>();
+        sources.extend(further);
+        sources
+    }
+
+    /// Fits that are to be begun with a law at the places where it was not begun yet, those that the equation of motion demands most.
+    pub fn begun_elsewhere(&self, base: &FittedRecords, law: Effect, begun: &[FittedRecords]) -> Vec<FittedRecords> {
+        let Some(regression) = Regression::new(self.records, base, self.control) else { return Vec::new() };
+        let structure = self.records.structure;
+        let mut all = Family::EachTranslation.places(structure);
+        all.extend(Family::EachPair.places(structure));
+        let known = |s: &Source| {
+            let taken = begun.iter().filter_map(|f| f.effects.last());
+            taken.chain(&base.effects).chain(self.excluded).any(|e| e.is_same(s))
+        };
+        let ranked = regression.ranked(&all, &[law], self.control);
+        let open = ranked.into_iter().filter(|r| !known(&r.source)).take(ELSEWHERE);
+        open.map(|r| regression.tuned(base, Some(&r.source))).collect()
     }
 
     /// Places that matter beside what is in `best`, most likely first.

@@ -15,23 +15,25 @@ use crate::structure::Part;
 const PLAIN: [f64; 2] = [1.1, 1.3];
 /// Misfit from which on what is left is no noise.
 const MODEL_ERROR: f64 = 1.5;
-/// Share to which the mass of a model is known.
-const MASS: f64 = 0.005;
+/// Share to which the mass of a model, on which all forces depend, and the gains of its sensors, on which all lengths and speeds
+/// do, are known.
+const KNOWN: f64 = 0.005;
 /// Difference of evidence within which effects cannot be told apart.
 const ALIKE: f64 = 9.0;
-/// Most suggestions.
+/// Most suggestions; those that are as good as excluded stand among the first few only.
 const MOST: usize = 8;
+const FEW: usize = 3;
+const NEVER: f64 = 1e-9;
 
-/// The effects of a fit with deviations as wide as what it leaves demands, and as the mass of any model, on which all forces
-/// depend.
+/// The effects of a fit with deviations as wide as what it leaves demands, and as what no model and no sensor is better known than.
 pub(super) fn added(fit: &FittedRecords) -> Vec<Added> {
     let wide = scale(fit).sqrt();
     let mut at = 0;
     let of = |source: &Source| {
         let mut deviations: Vec<f64> =
             fit.deviations[at..at + source.parameters.len()].iter().map(|d| d * wide).collect();
-        let forces = source.effect.scaled().iter();
-        forces.for_each(|&k| deviations[k] = deviations[k].hypot(MASS * source.parameters[k]));
+        let sized = source.effect.parameters().iter().enumerate().filter(|(_, p)| !p.unit.is_empty());
+        sized.for_each(|(k, _)| deviations[k] = deviations[k].hypot(KNOWN * source.parameters[k]));
         at += source.parameters.len();
         Added { source: source.clone(), deviations }
     };
@@ -52,7 +54,7 @@ pub(super) fn suggestions(records: &Records, found: &[FittedRecords]) -> Result<
                 known.probability = (known.probability + weight).min(1.0);
                 continue;
             }
-            if list.len() >= MOST {
+            if list.len() >= MOST || (list.len() >= FEW && *weight < NEVER) {
                 continue;
             }
             let alike = |other: &&FittedRecords| (other.chi_square - fit.chi_square).abs() / unit < ALIKE;

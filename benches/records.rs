@@ -1,0 +1,120 @@
+//! Records that are not steady: a long decay compared, its window rows, and prediction with derivatives; what an adaptive
+//! integrator needs for the same is measured by `scripts/integrator-speed.py`.
+
+use criterion::{Criterion, criterion_group, criterion_main};
+use dashpot::balance::windows::window_rows;
+use dashpot::control::Control;
+use dashpot::diagnosis::records::{Records, compare_records};
+use dashpot::effects::{Effect, Place, Source};
+use dashpot::measurement::{Channel, Kind, Quantity, Record, TransientLabel, TransientRun};
+use dashpot::response::transient::{SampledForces, TransientModel, TransientParameter, TransientSetup};
+use dashpot::structure::Structure;
+use dashpot::structure::beam::{BeamParameters, Supports};
+use dashpot::structure::chain::ChainParameters;
+use std::f64::consts::TAU;
+use std::hint::black_box;
+use std::sync::Arc;
+
+const SAMPLES: usize = 100_000;
+const CHANNELS: usize = 8;
+
+fn beam() -> Structure {
+    let (youngs_modulus, density, elements, supports) = (69e9, 2700.0, 10, Supports::ClampedFree);
+    BeamParameters { length: 0.56, breadth: 0.04, depth: 0.004, youngs_modulus, density, elements, supports }
+        .build(&[])
+        .unwrap_or_else(|error| panic!("{error}"))
+}
+
+fn dashpot(dof: usize, c: f64) -> Source {
+    Source::known(Effect::Viscous, Place::Dofs(vec![dof]), &[c])
+}
+
+/// A decay of two modes seen by eight accelerometers, with a little noise.
+fn decay(structure: &Structure) -> TransientRun {
+    let modes = structure.modes().unwrap_or_else(|error| panic!("{error}"));
+    let rows = structure.translations();
+    let step = 1.0 / 2000.0;
+    let mut state = 7_u64;
+    let mut uniform = move || {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (state >> 11) as f64 / (1_u64 << 53) as f64 - 0.5
+    };
+    let dofs: Vec<usize> = rows.iter().rev().take(CHANNELS).copied().collect();
+    let sample = |dof: usize, n: usize| -> f64 {
+        let t = step * n as f64;
+        let of = |r: usize| {
+            let omega = modes.omega[r];
+            -omega * omega * modes.shapes[(dof, r)] * 1e-4 * (-0.1 * t).exp() * (omega * t).cos()
+        };
+        of(0) + of(1)
+    };
+    let samples = dofs.iter().map(|&dof| (0..SAMPLES).map(|n| sample(dof, n) + 0.01 * uniform()).collect()).collect();
+    let channel = |&dof: &usize| Channel { quantity: Quantity::Acceleration, dof, label: structure.label(dof).into() };
+    let time = (0..SAMPLES).map(|n| step * n as f64).collect();
+    let record = Record::new(time, dofs.iter().map(channel).collect(), samples);
+    let record = record.unwrap_or_else(|error| panic!("{error}"));
+    let label = TransientLabel { file: "decay".into(), kind: Kind::Decay, enabled: true, ..Default::default() };
+    TransientRun::new(label, Arc::new(record), &[]).unwrap_or_else(|error| panic!("{error}"))
+}
+
+fn long_decay(c: &mut Criterion) {
+    faer::set_global_parallelism(faer::Par::Seq);
+    let mut group = c.benchmark_group("decay of 100 000 samples x 8 channels");
+    group.sample_size(10);
+    let structure = beam();
+    let run = decay(&structure);
+    let known = vec![dashpot(18, 0.05)];
+    let control = Control::unattended();
+    group.bench_function("compared", |b| {
+        b.iter(|| {
+            let records = Records::new(&structure, &known, std::slice::from_ref(&run));
+            let records = records.unwrap_or_else(|error| panic!("{error}"));
+            compare_records(&records, &[], &control).map(black_box).map(|c| c.error)
+        });
+    });
+    let candidates: Vec<Source> = structure.translations().into_iter().map(|dof| dashpot(dof, 1.0)).collect();
+    group.bench_function("window rows of ten sources", |b| {
+        b.iter(|| window_rows(&structure, &[], &candidates, &[&run], &control).map(black_box).map(|rows| rows.len()));
+    });
+}
+
+/// The oscillator of `scripts/integrator-speed.py`: 1 kg on 400 N/m, a dashpot and a cubic spring, 200 s from 0.1 m.
+fn oscillator(c: &mut Criterion) {
+    let chain = ChainParameters { masses: vec![1.0], ground_stiffness: vec![400.0], coupling_stiffness: vec![] };
+    let structure = chain.build(&[]).unwrap_or_else(|error| panic!("{error}"));
+    let modes = structure.modes().unwrap_or_else(|error| panic!("{error}"));
+    let cubic = Source::known(Effect::CubicStiffness, Place::Dofs(vec![0]), &[8000.0]);
+    let sources = [dashpot(0, 0.05), cubic];
+    let channels = [Channel { quantity: Quantity::Displacement, dof: 0, label: "1".into() }];
+    let setup = TransientSetup {
+        structure: &structure,
+        modes: &modes,
+        kept: 1,
+        sources: &sources,
+        drives: &[],
+        channels: &channels,
+        factors: [1.0; 2],
+        mode_stiffness: &[],
+    };
+    let model = TransientModel::new(&setup).unwrap_or_else(|error| panic!("{error}"));
+    let by = |source| TransientParameter::Source { source, parameter: 0 };
+    let parameters = [by(0), by(1), TransientParameter::Initial(0), TransientParameter::Initial(1)];
+    let predicted = |substeps: usize| {
+        let forces = SampledForces { step: TAU / 20.0 / 24.0, samples: 15_279, forces: Vec::new(), substeps };
+        model.predict(&forces, &[0.1, 0.0], &parameters).unwrap_or_else(|error| panic!("{error}"))
+    };
+    let exact = predicted(256);
+    let mut group = c.benchmark_group("oscillator with four derivatives");
+    group.sample_size(10);
+    for substeps in [1, 2, 4, 8] {
+        let found = predicted(substeps);
+        let pairs = found.channels[0].iter().zip(&exact.channels[0]);
+        let off = pairs.map(|(a, b)| (a - b).abs()).fold(0.0_f64, f64::max) / 0.1;
+        group.bench_function(format!("{substeps} steps a sample, off by {off:.1e} of the amplitude"), |b| {
+            b.iter(|| black_box(predicted(substeps).channels[0][100]));
+        });
+    }
+}
+
+criterion_group!(benches, long_decay, oscillator);
+criterion_main!(benches);
