@@ -61,7 +61,7 @@ pub fn project(plan: Plan, random: &mut Random) -> Option<Written> {
     let hidden = plan.effect.map(|effect| Source::candidate(effect, Place::Dofs(place(&model, random))));
     let sensors = sensors(&model, hidden.as_ref(), random);
     let rows: Vec<usize> = sensors.iter().map(|&s| truth.row[s]).collect();
-    let tests: Vec<Test> = (0..1 + random.below(3)).map(|k| test(plan, &model, &truth, k, random)).collect();
+    let tests: Vec<Test> = (0..=random.below(3)).map(|k| test(plan, &model, &truth, k, random)).collect();
     let quantity = match random.uniform() {
         x if x < 0.7 => Quantity::Acceleration,
         x if x < 0.85 => Quantity::Velocity,

@@ -2,6 +2,7 @@
 
 use super::arguments::Run;
 use crate::session::Session;
+use crate::session::save::text_after;
 use crate::session::script::{parse, play};
 use anyhow::Context;
 
@@ -15,7 +16,7 @@ pub(super) fn run(arguments: &Run) -> anyhow::Result<String> {
     for (number, label) in labels.iter().enumerate() {
         eprintln!("{} {label}", number + 1);
     }
-    let Some(out) = &arguments.out else { return Ok(session.document().file().to_toml()?) };
+    let Some(out) = &arguments.out else { return Ok(text_after(session.document().file(), Some(&arguments.file))?) };
     session.save_as(out)?;
     Ok(String::new())
 }

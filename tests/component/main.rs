@@ -7,7 +7,7 @@ use dashpot::diagnosis::component::{compare_component, diagnose_component};
 use dashpot::diagnosis::diagnose::{Diagnosis, Verdict};
 use dashpot::effects::{Effect, Place, Source};
 use dashpot::identify::{Measurements, Settings, identify_measured};
-use dashpot::measurement::{Channel, Kind, Quantity, Record, TransientLabel, TransientRun};
+use dashpot::measurement::{Channel, Kind, Quantity, TransientLabel, TransientRun};
 use dashpot::response::recording::{Loading, component_force};
 use dashpot::response::synthesis::{Noise, record};
 use dashpot::structure::Structure;
@@ -100,33 +100,4 @@ fn the_energy_of_every_cycle_gives_the_coefficients() {
         let expected = truth[estimate.source].coefficient();
         assert!((estimate.coefficient / expected - 1.0).abs() < 0.03, "{estimate:?}");
     }
-}
-
-/// Play of 4 mm between the damper and its eye, in which nothing is felt after a turn, is told; without play nothing is said of it.
-#[test]
-fn play_is_told_beside_the_law() {
-    let words = |runs: &[TransientRun]| {
-        let evidence = diagnosed(&[], runs).suggestions.remove(0).evidence;
-        evidence.into_iter().find(|words| words.contains("play"))
-    };
-    let clean = tests(&[at(Effect::ElasticSlider, &[8e6, 9000.0])]);
-    assert_eq!(words(&clean), None);
-    let said = words(&clean.iter().map(|run| loosened(run, 0.004)).collect::<Vec<_>>()).unwrap();
-    let told: f64 = said.split("about ").nth(1).unwrap().split(' ').next().unwrap().parse().unwrap();
-    assert!((told - 4.0).abs() < 1.0, "{said}");
-}
-
-/// The run with no force while the displacement is within a clearance of `play` m, whose other side follows when it is taken up.
-fn loosened(run: &TransientRun, play: f64) -> TransientRun {
-    let (d, mut f) = (run.samples(0).to_vec(), run.samples(1).to_vec());
-    let mut follower = d[0];
-    for (d, f) in d.iter().zip(&mut f) {
-        follower = follower.clamp(d - 0.5 * play, d + 0.5 * play);
-        if (d - follower).abs() < 0.499 * play {
-            *f = 0.0;
-        }
-    }
-    let made = Record::new(run.time().to_vec(), run.channels().to_vec(), vec![d, f]).unwrap();
-    let label = TransientLabel { file: run.file.clone(), kind: run.kind, enabled: true, ..Default::default() };
-    TransientRun::new(label, Arc::new(made), &[]).unwrap()
 }

@@ -73,7 +73,7 @@ fn diagnosed(hidden: &[Source], c: f64, random: &mut Random) -> Diagnosis {
     let problem = Problem { structure: &stated, sources: &known, runs: &runs };
     let diagnosis = diagnose(&problem, &Control::unattended()).unwrap();
     let searched = diagnosis.runs.len();
-    assert!(searched <= 40 && searched >= 36, "{searched}");
+    assert!((36..=40).contains(&searched), "{searched}");
     diagnosis
 }
 

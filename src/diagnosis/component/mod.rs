@@ -11,7 +11,6 @@
 
 mod compare;
 mod fit;
-mod play;
 mod search;
 
 pub use crate::balance::loops::{ComponentError, Loops};

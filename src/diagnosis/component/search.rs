@@ -6,13 +6,12 @@
 //!    one law.
 
 use super::fit::{Fitted, error, freedom, improved, predicted, residual};
-use super::play::play;
 use crate::balance::loops::{ComponentError, Loops};
 use crate::control::Control;
 use crate::diagnosis::candidates::special_cases::is_allowed;
 use crate::diagnosis::diagnose::{Added, Diagnosis, Early, Step, Suggestion, Verdict};
 use crate::effects::{Effect, Place, Source, State};
-use crate::math::statistics::{evidence_weights, median, root_mean_square};
+use crate::math::statistics::{evidence_weights, root_mean_square};
 use dashpot_numerics::dot;
 
 /// Rows on which shapes are compared, shapes a law that go into pairs, fits of one law and of two.
@@ -102,9 +101,6 @@ pub fn diagnose_component(
     let rivals = if best.effects.len() == 2 { &pairs } else { &singles };
     ranked.extend(rivals.iter().filter(|f| **f != best).cloned());
     diagnosis.suggestions = search.suggestions(&ranked, Some(held))?;
-    if let Some(first) = diagnosis.suggestions.first_mut() {
-        first.evidence.extend(search.words_on_play(&best)?);
-    }
     let sure = diagnosis.suggestions.first().is_some_and(|s| s.probability >= 0.5);
     diagnosis.verdict = match best.error(records) {
         error if error > POOR => Verdict::Unexplained,
@@ -314,23 +310,6 @@ impl Search<'_> {
             }
         }
         Ok(list)
-    }
-
-    /// What is said of play that the loops show and the best laws do not.
-    fn words_on_play(&self, best: &Fitted) -> Result<Option<String>, ComponentError> {
-        let mut ways: [Vec<f64>; 2] = Default::default();
-        for one in &self.loops.list {
-            let shown = play(one, &predicted(self.loops, one, &best.effects)?);
-            shown.into_iter().for_each(|both| ways.iter_mut().zip(both).for_each(|(list, way)| list.push(way)));
-        }
-        if 2 * ways[0].len() <= self.loops.list.len() {
-            return Ok(None);
-        }
-        let [measured, law] = ways.each_ref().map(|list| 1e3 * median(list));
-        Ok(Some(format!(
-            "After a reversal the force stays near zero over {measured:.2} mm, with this law over {law:.2} mm: the loops show play (backlash) of about {:.1} mm, which no law here has.",
-            measured - law
-        )))
     }
 
     /// Relative error of the energy of the records, root mean square.

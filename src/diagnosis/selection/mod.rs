@@ -17,6 +17,7 @@ pub mod search;
 pub mod sentences;
 mod short_list;
 mod single_change;
+mod singles;
 pub mod stepwise;
 pub mod updated;
 mod weighing;

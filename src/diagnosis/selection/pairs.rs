@@ -1,7 +1,8 @@
 //! Two effects at once: laws regressed at the pairs of places that two free forces explain best.
 
-use super::search::{FITS, ReferenceModel, UnfittedSet, joined};
+use super::search::{ReferenceModel, UnfittedSet, joined};
 use super::short_list::{Breadth, hopeless, needed};
+use super::singles::FITS;
 use crate::diagnosis::residual::data::DiagnosisError;
 use crate::diagnosis::selection::fitted_model::FittedModel;
 

@@ -1,6 +1,6 @@
 //! The search for one more effect, or two at once: places first, then laws, then the fit on the response.
 
-use super::short_list::{Breadth, hopeless, is_real, short_list, telling};
+use super::short_list::{Breadth, hopeless, is_real, telling};
 use crate::control::Control;
 use crate::diagnosis::candidates::identified_force::{PlaceData, shrunk};
 use crate::diagnosis::candidates::special_cases::is_allowed;
@@ -25,8 +25,6 @@ const PLACES: usize = 24;
 const NEAR: usize = 5;
 /// Places whose laws are looked at before the others.
 const AHEAD: usize = 2;
-/// Sets that are fitted on the response.
-pub(super) const FITS: usize = 10;
 /// What every parameter of a law beyond its first costs in evidence besides its information criterion: where one law
 /// contains another as a limit, the simpler wins unless the data demand the other.
 const EXTRA: f64 = 8.0;
@@ -34,8 +32,6 @@ const EXTRA: f64 = 8.0;
 const POSING: f64 = 20.0;
 /// Scaled squared residual beyond the best law that a free force of a place may leave where its laws are looked at.
 const MARGIN: f64 = 150.0;
-/// Share of the squared residual of the model as it is up to which a regressed law may still agree with the data.
-const WORTH: f64 = 0.05;
 /// Places at which the law found is tried too, where no law can tell them apart.
 const ELSEWHERE: usize = 6;
 
@@ -127,35 +123,6 @@ impl<'a> ReferenceModel<'a> {
         };
         let screen = Screen::new(&self.predictor, data, &predictions, noise, &mut receptances, &freedom, self.control)?;
         Ok(View { screen, receptances, predictions })
-    }
-
-    /// Sets of the effects of `from` and one more, fitted on the response, best first by evidence.
-    pub fn singles(&self, from: Option<&FittedModel>) -> Result<Vec<FittedModel>, DiagnosisError> {
-        let effects = from.map_or(&[][..], |fit| &fit.effects);
-        let unfitted = self.unfitted(&mut self.view(from)?, effects, Breadth::All)?;
-        self.fitted_singles(unfitted, from)
-    }
-
-    /// The laws regressed on the free forces of this model if the best of them leaves at most `least`, or a twentieth of the
-    /// squared residual `before`: else free forces that explain everything (of one sensor they always do) are those of no law.
-    pub(super) fn regressed_within(&self, least: f64, before: f64) -> Result<Option<Vec<UnfittedSet>>, DiagnosisError> {
-        let unfitted = self.unfitted(&mut self.view(None)?, &[], Breadth::All)?;
-        let left = unfitted.iter().map(|set| set.score).fold(f64::INFINITY, f64::min);
-        Ok((left <= least.max(WORTH * before)).then_some(unfitted))
-    }
-
-    /// Sets of the effects of `from` and one of `unfitted`, fitted on the response, best first by evidence.
-    pub(super) fn fitted_singles(
-        &self,
-        unfitted: Vec<UnfittedSet>,
-        from: Option<&FittedModel>,
-    ) -> Result<Vec<FittedModel>, DiagnosisError> {
-        let effects = from.map_or(&[][..], |fit| &fit.effects);
-        let mut unfitted = short_list(unfitted, FITS);
-        unfitted.iter_mut().for_each(|d| d.effects = joined(effects, &d.effects));
-        let mut begun = self.begun(&unfitted)?;
-        begun.extend(self.whole(from, crate::diagnosis::selection::fits::FIRST_STEPS)?);
-        Ok(self.ranked(self.finished(begun)?))
     }
 
     /// Laws at the places that explain most, regressed on the free forces there beside `effects`.
