@@ -132,7 +132,8 @@ pub fn offer(
         response.context_menu(|ui| menu(ui, title, table, response));
     }
     if responses.iter().any(Response::hovered) {
-        ctx.data_mut(|d| d.insert_temp(over_id(), ctx.cumulative_frame_nr()));
+        let now = ctx.cumulative_frame_nr();
+        ctx.data_mut(|d| d.insert_temp(over_id(), now));
         if copied(ctx) {
             copy(ctx, title, table());
         }
@@ -145,7 +146,8 @@ pub fn offer(
 
 /// Whether the pointer is over a plot that was drawn in this frame.
 pub(super) fn over_plot(ctx: &Context) -> bool {
-    ctx.data(|d| d.get_temp::<u64>(over_id())).is_some_and(|frame| frame == ctx.cumulative_frame_nr())
+    let now = ctx.cumulative_frame_nr();
+    ctx.data(|d| d.get_temp::<u64>(over_id())) == Some(now)
 }
 
 /// The kinds of files that were asked of a title, which are not asked again.
