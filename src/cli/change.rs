@@ -14,7 +14,7 @@ use serde_json::{Value, json};
 use std::sync::Arc;
 
 pub(super) fn run(arguments: &ChangeStates) -> anyhow::Result<String> {
-    let control = Control::unattended().with_workers(Arc::new(Threads::default()));
+    let control = Control::unattended().with_workers(Arc::new(Threads));
     let pair = projects(arguments, &control)?;
     pair.iter().for_each(super::remarks::tell_remarks);
     let second = arguments.after.as_ref().unwrap_or(&arguments.before);

@@ -31,7 +31,7 @@ const MOST_PAIRS: usize = 16;
 
 /// Diagnoses, prints, and writes the project with the best suggestion where asked.
 pub(super) fn run(arguments: &Diagnose) -> anyhow::Result<String> {
-    let control = Control::unattended().with_workers(Arc::new(Threads::default()));
+    let control = Control::unattended().with_workers(Arc::new(Threads));
     let mut project = load(&arguments.file, &control)?;
     super::remarks::tell_remarks(&project);
     if !only_records(&project) {

@@ -19,7 +19,7 @@ const MOST_MODES: usize = 6;
 const MOST_DOFS: usize = 8;
 
 pub(super) fn run(arguments: &Methods) -> anyhow::Result<String> {
-    let control = Control::unattended().with_workers(Arc::new(Threads::default()));
+    let control = Control::unattended().with_workers(Arc::new(Threads));
     let project = load(&arguments.file, &control)?;
     super::remarks::tell_remarks(&project);
     let found = side_by_side(&project.structure, &project.sources, &project.runs, &control)

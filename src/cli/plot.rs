@@ -45,7 +45,7 @@ pub(super) fn run(arguments: &Plot) -> anyhow::Result<String> {
         "--out {}: a plot is written as .svg, its values as .csv; `dashpot picture` draws pixels",
         arguments.out.display()
     );
-    let control = Control::unattended().with_workers(Arc::new(Threads::default()));
+    let control = Control::unattended().with_workers(Arc::new(Threads));
     let project = load(&arguments.file, &control)?;
     let plotter = Plotter { arguments, p: &project, palette: palette(arguments), control: &control };
     let drawn = plotter.draw().with_context(|| arguments.file.display().to_string())?;

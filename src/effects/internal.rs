@@ -56,10 +56,13 @@ pub trait InternalLaw: Sync {
 pub struct Internal<T>(pub T);
 
 impl<T: InternalLaw> Internal<T> {
-    /// From one end of the period to the other: force and its derivative by that at the start.
-    fn period(&self, p: &[f64], d: &[f64], start: f64) -> [f64; 2] {
+    /// Adds where each way of the period starts and leads to from the force `start`; the force at the end, and its derivative by
+    /// `start`.
+    fn period(&self, p: &[f64], d: &[f64], start: f64, ways: &mut Vec<(f64, Way)>) -> [f64; 2] {
+        ways.clear();
         (0..d.len()).fold([start, 1.0], |[force, slope], n| {
             let way = self.0.step(p, force, d[(n + 1) % d.len()] - d[n]);
+            ways.push((force, way));
             [way.force, slope * way.by_start]
         })
     }
@@ -70,15 +73,15 @@ impl<T: InternalLaw> Internal<T> {
         (self.0.step(p, 0.0, 0.0).by_way * (d[0] - middle(d))).clamp(-bound, bound)
     }
 
-    /// Force at the first sample in steady state, and the slope of the period's map there.
-    fn steady(&self, p: &[f64], d: &[f64]) -> [f64; 2] {
+    /// The ways of one period in steady state, and the slope of the period's map there.
+    fn ways(&self, p: &[f64], d: &[f64]) -> (Vec<(f64, Way)>, f64) {
         let bound = self.0.bound(p);
         let (mut low, mut high, mut start) = (-bound, bound, self.unslipped(p, d));
         let (least, most) = extremes(d);
         let size = bound.min(self.0.step(p, 0.0, 0.0).by_way * (d[most] - d[least]));
-        let mut slope = 1.0;
+        let (mut ways, mut slope) = (Vec::with_capacity(d.len()), 1.0);
         for _ in 0..STEPS {
-            let [end, by_start] = self.period(p, d, start);
+            let [end, by_start] = self.period(p, d, start, &mut ways);
             slope = by_start;
             if slope > SLIPLESS {
                 break;
@@ -92,28 +95,16 @@ impl<T: InternalLaw> Internal<T> {
             let newton = start + rest / (1.0 - slope);
             let next = if newton > low && newton < high { newton } else { 0.5 * (low + high) };
             let change = (next - start).abs();
-            start = next;
             // Newton converges quadratically: what is left is rounding, as the step to the fixed point magnifies it.
             if change * (1.0 - slope) <= 1e-13 * size {
                 break;
             }
+            start = next;
         }
-        [start, slope]
-    }
-
-    /// The ways of one period in steady state, each with the force from which it starts, and the slope of the period's map.
-    fn ways(&self, p: &[f64], d: &[f64]) -> (Vec<(f64, Way)>, f64) {
-        let [mut force, slope] = self.steady(p, d);
-        let follow = |n: usize| {
-            let way = self.0.step(p, force, d[(n + 1) % d.len()] - d[n]);
-            (std::mem::replace(&mut force, way.force), way)
-        };
-        ((0..d.len()).map(follow).collect(), slope)
+        (ways, slope)
     }
 }
 
-/// Carries a derivative around the period: `added(n)` comes in on the way from sample `n`; `unslipped` is its value at the
-/// first sample where nothing slips.
 fn carry(ways: &[(f64, Way)], slope: f64, unslipped: f64, added: impl Fn(usize) -> f64, out: &mut [f64]) {
     let mut value = unslipped;
     if slope <= SLIPLESS {

@@ -1,19 +1,31 @@
 //! Fast change between harmonics and samples: the sines of one number of samples, computed once.
 
 use super::Motion;
+use dashpot_numerics::{scalar_products, sum};
 use faer::c64;
+use std::borrow::Cow;
 use std::f64::consts::TAU;
 
 /// Sine and cosine at the equal steps of one period; make one for a solver and reuse it.
 #[derive(Debug, Clone)]
 pub struct Sampling {
     table: Vec<(f64, f64)>,
+    /// Cosine, then sine of harmonic 1, 2, ... at every sample, of those that are kept.
+    waves: Vec<f64>,
 }
 
 impl Sampling {
     /// For periods of `samples` equal steps.
     pub fn new(samples: usize) -> Self {
-        Self { table: (0..samples).map(|n| (TAU * n as f64 / samples as f64).sin_cos()).collect() }
+        let table = (0..samples).map(|n| (TAU * n as f64 / samples as f64).sin_cos()).collect();
+        Self { table, waves: Vec::new() }
+    }
+
+    /// For periods of `samples` equal steps of which the harmonics up to `harmonics` are asked for many times.
+    pub fn with_harmonics(samples: usize, harmonics: usize) -> Self {
+        let sampling = Self::new(samples);
+        let waves = (1..=harmonics).flat_map(|h| sampling.computed(h)).collect();
+        Self { waves, ..sampling }
     }
 
     /// Number of samples in the period.
@@ -42,7 +54,7 @@ impl Sampling {
     }
 
     /// Computes the samples of `motion` anew from its `omega`, `mean` and `harmonics`. Allocates nothing if the motion
-    /// has as many samples as `self` already.
+    /// has as many samples as `self` already and its harmonics are kept.
     pub fn refresh(&self, motion: &mut Motion) {
         let Motion { omega, mean, harmonics, displacement, velocity, acceleration } = motion;
         displacement.clear();
@@ -56,8 +68,10 @@ impl Sampling {
                 continue;
             }
             let w = (index + 1) as f64 * *omega;
+            let wave = self.wave(index + 1);
+            let (cos, sin) = wave.split_at(self.len());
             let outputs = displacement.iter_mut().zip(velocity.iter_mut()).zip(acceleration.iter_mut());
-            for (((d, v), a), (sin, cos)) in outputs.zip(self.waves(index + 1)) {
+            for (((d, v), a), (cos, sin)) in outputs.zip(cos.iter().zip(sin)) {
                 let in_phase = amplitude.re * cos - amplitude.im * sin;
                 *d += in_phase;
                 *v -= w * (amplitude.re * sin + amplitude.im * cos);
@@ -70,30 +84,30 @@ impl Sampling {
     /// from half the number of samples upwards are aliases of lower ones.
     pub fn analyse(&self, values: &[f64], harmonics: &mut [c64]) -> f64 {
         let scale = 2.0 / self.len() as f64;
-        for (index, amplitude) in harmonics.iter_mut().enumerate() {
-            let (mut re, mut im) = (0.0, 0.0);
-            for (value, (sin, cos)) in values.iter().zip(self.waves(index + 1)) {
-                re += value * cos;
-                im -= value * sin;
-            }
-            *amplitude = c64::new(scale * re, scale * im);
+        let orders = harmonics.len();
+        let rows = match self.waves.get(..2 * orders * self.len()) {
+            Some(waves) => Cow::Borrowed(waves),
+            None => Cow::Owned((1..=orders).flat_map(|h| self.computed(h)).collect()),
+        };
+        let mut products = Vec::with_capacity(2 * orders);
+        scalar_products(&rows, values, self.len(), &mut products);
+        for (amplitude, pair) in harmonics.iter_mut().zip(products.chunks_exact(2)) {
+            *amplitude = c64::new(scale * pair[0], -scale * pair[1]);
         }
-        0.5 * scale * values.iter().sum::<f64>()
+        0.5 * scale * sum(values)
     }
 
-    /// Sine and cosine of harmonic `h` at every sample.
-    fn waves(&self, h: usize) -> impl Iterator<Item = (f64, f64)> {
-        let count = self.len();
-        let step = h % count.max(1);
-        let mut at = 0;
-        (0..count).map(move |_| {
-            let wave = self.table[at];
-            at += step;
-            if at >= count {
-                at -= count;
-            }
-            wave
-        })
+    /// Cosine, then sine of harmonic `h` at every sample.
+    fn wave(&self, h: usize) -> Cow<'_, [f64]> {
+        let kept = self.waves.get(2 * (h - 1) * self.len()..2 * h * self.len());
+        kept.map_or_else(|| Cow::Owned(self.computed(h)), Cow::Borrowed)
+    }
+
+    fn computed(&self, h: usize) -> Vec<f64> {
+        let waves = (0..self.len()).map(|n| self.table[n * h % self.len()]);
+        let (sin, mut cos): (Vec<f64>, Vec<f64>) = waves.unzip();
+        cos.extend(sin);
+        cos
     }
 }
 
@@ -128,6 +142,18 @@ mod tests {
         let [d, v, a] = motion.at(motion.step() * 5.0);
         assert!((d - motion.displacement[5]).abs() < 1e-14);
         assert!((v - motion.velocity[5]).abs() < 1e-12 && (a - motion.acceleration[5]).abs() < 1e-10);
+    }
+
+    #[test]
+    fn harmonics_that_are_kept_are_those_that_are_computed() {
+        let harmonics = [c64::new(1.0, -2.0), c64::new(0.0, 0.7), c64::new(0.3, 0.1), c64::new(0.2, -0.4)];
+        let (plain, kept) = (Sampling::new(40), Sampling::with_harmonics(40, 3));
+        let motion = kept.motion(7.0, 0.25, &harmonics);
+        assert_eq!(motion, plain.motion(7.0, 0.25, &harmonics));
+        let mut found = [[c64::new(0.0, 0.0); 4]; 2];
+        plain.analyse(&motion.velocity, &mut found[0]);
+        kept.analyse(&motion.velocity, &mut found[1]);
+        assert_eq!(found[0], found[1]);
     }
 
     #[test]

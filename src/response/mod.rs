@@ -5,6 +5,7 @@ pub mod frequency_response;
 pub mod hammer;
 pub mod harmonic_balance;
 pub mod linear_matrices;
+mod observation;
 pub mod portrait;
 pub mod recording;
 pub mod sensitivity;

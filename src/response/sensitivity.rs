@@ -7,11 +7,13 @@
 //! ```
 //!
 //! with `A_h` the receptance of the linear rest and `J = 1 - Phi_F + Phi_D C` the Jacobian of the balance, factorised once.
+//! `A_h` is symmetric, so that its rows at the legs and at the DOFs asked for serve all unknowns ([`super::observation`]).
 //! Where the response is extrapolated from two numbers of harmonics, so are its derivatives.
 
 use super::harmonic_balance::LinearPart;
 use super::harmonic_balance::richardson;
 use super::harmonic_balance::{Balance, Excitation, Lu, Prepared, Response, ResponseError, RunModel};
+use super::observation::{Observation, observations};
 use crate::effects::Kind;
 use crate::effects::Source;
 use crate::structure::factors::{Part, Share};
@@ -79,25 +81,30 @@ pub enum SensitivityError {
     Response(#[from] ResponseError),
 }
 
-/// Derivatives of all displacement amplitudes: for each unknown an n x H matrix (column `h - 1` is harmonic `h`), m per
-/// unit of the unknown.
+/// Derivatives of the displacement amplitudes of `dofs`: for each unknown a matrix of one row a DOF and H columns (column
+/// `h - 1` is harmonic `h`), m per unit of the unknown.
 ///
 /// `response` is that of `run` with `sources` to `excitation`.
+///
+/// # Errors
+/// [`SensitivityError`]: an unknown that is not in the model, a turning point, a response with other sources.
 pub fn sensitivities(
     run: &RunModel,
     sources: &[Source],
     excitation: &Excitation,
     response: &Response,
+    dofs: &[usize],
     unknowns: &[Unknown],
 ) -> Result<Vec<Mat<c64>>, SensitivityError> {
     for unknown in unknowns {
         check(*unknown, sources, run.len(), excitation.forces.len())?;
     }
     let run = run.fitting(sources);
-    let mut fine = at_order(&run, sources, excitation, response, &response.unknowns, response.order(), unknowns)?;
+    let at = |u: &[f64], order: usize| at_order(&run, sources, excitation, (u, order), dofs, unknowns);
+    let mut fine = at(&response.unknowns, response.order())?;
     if let Some((order, coarse)) = &response.coarse {
         let order = *order;
-        let below = at_order(&run, sources, excitation, response, coarse, order, unknowns)?;
+        let below = at(coarse, order)?;
         let weight = richardson(order, response.order());
         for (fine, below) in fine.iter_mut().zip(&below) {
             for h in 0..order {
@@ -137,13 +144,13 @@ struct Differentiated<'a> {
     displacements: Vec<Vec<c64>>,
 }
 
+/// The derivatives at the unknowns `u` of the balance with harmonics up to `order`.
 fn at_order(
     run: &RunModel,
     sources: &[Source],
     excitation: &Excitation,
-    response: &Response,
-    u: &[f64],
-    order: usize,
+    (u, order): (&[f64], usize),
+    dofs: &[usize],
     unknowns: &[Unknown],
 ) -> Result<Vec<Mat<c64>>, SensitivityError> {
     let prepared = Prepared::new(run, sources, excitation, order)?;
@@ -152,21 +159,21 @@ fn at_order(
     }
     let balance = prepared.balance();
     let state = balance.state(u, 1.0);
-    let turning = || SensitivityError::TurningPoint { frequency_hz: response.omega / TAU };
+    let turning = || SensitivityError::TurningPoint { frequency_hz: excitation.omega / TAU };
     let lu = Lu::new(u.len(), balance.jacobian(&state.answers)).ok_or_else(turning)?;
     let motion = prepared.condensed.motion(u, 1.0);
     let displacements = prepared.displacements(run, excitation, u);
+    let observed = observations(&prepared.condensed, run, dofs);
     let at = Differentiated { run, sources, excitation, prepared: &prepared, balance, u, motion, displacements };
     let sensitivity_of = |&unknown: &Unknown| {
         let loads = at.loads(unknown);
-        let mut linear = at.linear_change(&loads);
-        let mut motion = at.prepared.condensed.motion_of(|h| run.compliance(h), &linear);
+        let mut motion = at.linear_motion(&observed, &loads);
         at.add_softening(unknown, &mut motion);
         let mut change = at.balance.answer_change(&state.answers, &motion);
         at.add_parameter(unknown, &mut change);
         lu.solve(&mut change);
-        at.add_legs(&change, &mut linear);
-        Mat::from_fn(run.len(), order, |i, h| linear[h + 1].get(i).copied().unwrap_or(c64::new(0.0, 0.0)))
+        let forces = |h: usize, j: usize| at.prepared.condensed.get(&change, h, j);
+        Mat::from_fn(dofs.len(), order, |i, h| observed[h + 1].displacement(i, &loads[h + 1], |j| forces(h + 1, j)))
     };
     Ok(unknowns.iter().map(sensitivity_of).collect())
 }
@@ -178,33 +185,35 @@ impl Differentiated<'_> {
 
     /// Pseudo-forces `-dZ_h X_h` at all DOFs per harmonic; empty where there is none.
     fn loads(&self, unknown: Unknown) -> Vec<Vec<c64>> {
+        let linear = self.run.linear();
+        let share = if let Unknown::Part(part) = unknown { linear.structure().share(part) } else { None };
         let load = |h: usize| -> Vec<c64> {
             let (x, w) = (&self.displacements[h], self.omega(h));
-            match unknown {
-                Unknown::ForceScale(force) => {
+            match (unknown, &share) {
+                (Unknown::ForceScale(force), _) => {
                     let force = &self.excitation.forces[force];
                     single(x.len(), force.dof, force.amplitude(h))
                 }
-                Unknown::ForceAdvance(force) => {
+                (Unknown::ForceAdvance(force), _) => {
                     let force = &self.excitation.forces[force];
                     single(x.len(), force.dof, force.amplitude(h) * c64::new(0.0, w))
                 }
+                (_, Some(share)) => share_force(linear, share, x, w),
                 _ => pseudo_force(self.run, self.sources, unknown, x, w).unwrap_or_default(),
             }
         };
         (0..self.displacements.len()).map(load).collect()
     }
 
-    /// Displacements of the linear rest under the pseudo-forces, per harmonic; empty where there is no force.
-    fn linear_change(&self, loads: &[Vec<c64>]) -> Vec<Vec<c64>> {
-        let respond = |(h, load): (usize, &Vec<c64>)| {
-            if load.is_empty() {
-                Vec::new()
-            } else {
-                self.prepared.condensed.linear_response(self.run.compliance(h), h, load)
+    /// Motion of what is kept, in the order of the unknowns, of the linear rest under the pseudo-forces.
+    fn linear_motion(&self, observed: &[Observation], loads: &[Vec<c64>]) -> Vec<f64> {
+        let mut motion = vec![0.0; self.prepared.condensed.size()];
+        for (h, (observed, load)) in observed.iter().zip(loads).enumerate() {
+            for (j, value) in observed.motions(load).enumerate() {
+                self.prepared.condensed.add(&mut motion, h, j, value);
             }
-        };
-        loads.iter().enumerate().map(respond).collect()
+        }
+        motion
     }
 
     /// Adds what a slider moves on when the spring `k` before it gets stiffer: `F / k^2`.
@@ -228,18 +237,6 @@ impl Differentiated<'_> {
             change[range].iter_mut().zip(direct).for_each(|(c, d)| *c += d);
         }
     }
-
-    /// Adds what a change of the leg forces does.
-    fn add_legs(&self, forces: &[f64], x: &mut [Vec<c64>]) {
-        if forces.is_empty() {
-            return;
-        }
-        for (h, x) in x.iter_mut().enumerate() {
-            let change = self.prepared.condensed.pulled(self.run.compliance(h), h, self.run.len(), forces);
-            x.resize(change.len(), c64::new(0.0, 0.0));
-            x.iter_mut().zip(change).for_each(|(x, c)| *x += c);
-        }
-    }
 }
 
 /// Pseudo-force `-dZ x` (N per unit of `unknown`) of the motion `x` (m, by DOF) at circular frequency `w` (rad/s); `None`
@@ -259,20 +256,19 @@ pub(crate) fn pseudo_force(
         Unknown::Density => Some(linear.apply_density(-linear.factors(w)[1], x)),
         Unknown::LumpedMass(dof) => Some(single(x.len(), dof, x[dof] * (w * w))),
         Unknown::ModeStiffness(mode) => linear.apply_mode(mode, x),
-        Unknown::Part(part) => part_force(linear, part, x, w),
+        Unknown::Part(part) => Some(share_force(linear, &linear.structure().share(part)?, x, w)),
         Unknown::Source { source, parameter } => source_force(linear, &sources[source], parameter, x, w),
         Unknown::ForceScale(_) | Unknown::ForceAdvance(_) => None,
     }
 }
 
-/// Pseudo-force of a part of the structure.
-fn part_force(linear: &LinearPart, part: Part, x: &[c64], w: f64) -> Option<Vec<c64>> {
+/// Pseudo-force of a part of the structure with this share in its matrices.
+fn share_force(linear: &LinearPart, share: &Share, x: &[c64], w: f64) -> Vec<c64> {
     let [fk, fm] = linear.factors(w);
-    let Share { stiffness, mass } = linear.structure().share(part)?;
     let mut load = vec![c64::new(0.0, 0.0); x.len()];
-    stiffness.into_iter().for_each(|(i, j, value)| load[i] -= x[j] * (fk * value));
-    mass.into_iter().for_each(|(i, j, value)| load[i] -= x[j] * (fm * value));
-    Some(load)
+    share.stiffness.iter().for_each(|&(i, j, value)| load[i] -= x[j] * (fk * value));
+    share.mass.iter().for_each(|&(i, j, value)| load[i] -= x[j] * (fm * value));
+    load
 }
 
 /// Pseudo-force of a linear source.

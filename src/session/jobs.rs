@@ -51,7 +51,7 @@ impl<K, T: Send + 'static> Job<K, T> {
         wake: impl FnOnce() + Send + 'static,
         work: impl FnOnce(&Control) -> T + Send + 'static,
     ) -> Result<Self, JobError> {
-        let control = Control::default().with_workers(Arc::new(Threads::default()));
+        let control = Control::default().with_workers(Arc::new(Threads));
         let (sender, result) = sync_channel(1);
         let (inside, title) = (control.clone(), name.to_owned());
         let body = move || {

@@ -1,38 +1,16 @@
 //! Threads lent to the engine for independent pieces of work.
 
 use crate::control::Workers;
-use std::num::NonZeroUsize;
-use std::sync::atomic::{AtomicUsize, Ordering};
-use std::thread::{available_parallelism, scope};
+use rayon::iter::{IndexedParallelIterator, IntoParallelIterator, ParallelIterator};
 
-/// As many threads as the machine has processors; they live as long as one heap of work.
-#[derive(Debug, Clone, Copy)]
-pub struct Threads {
-    count: usize,
-}
-
-impl Default for Threads {
-    fn default() -> Self {
-        Self { count: available_parallelism().map_or(1, NonZeroUsize::get) }
-    }
-}
+/// The threads of rayon's pool, as many as the machine has processors. Pieces that are divided themselves are shared with
+/// whoever is idle, so that the last long piece of a heap of work has all threads.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Threads;
 
 impl Workers for Threads {
     fn each(&self, count: usize, piece: &(dyn Fn(usize) + Sync)) {
-        let next = AtomicUsize::new(0);
-        let work = || {
-            loop {
-                let k = next.fetch_add(1, Ordering::Relaxed);
-                if k >= count {
-                    break;
-                }
-                piece(k);
-            }
-        };
-        scope(|scope| {
-            (1..self.count.min(count)).for_each(|_| drop(scope.spawn(work)));
-            work();
-        });
+        (0..count).into_par_iter().with_max_len(1).for_each(piece);
     }
 }
 
@@ -41,17 +19,17 @@ mod tests {
     use super::*;
     use crate::control::Control;
     use std::sync::Arc;
+    use std::sync::atomic::{AtomicUsize, Ordering};
 
     #[test]
     fn every_piece_is_done_once_and_in_its_place() {
-        let threads = Threads { count: 3 };
         let done = AtomicUsize::new(0);
-        let control = Control::unattended().with_workers(Arc::new(threads));
+        let control = Control::unattended().with_workers(Arc::new(Threads));
         let squares = control.map(1000, |k| {
             done.fetch_add(1, Ordering::Relaxed);
-            k * k
+            control.map(3, |n| n * k).into_iter().sum::<usize>()
         });
         assert_eq!(done.into_inner(), 1000);
-        assert!(squares.iter().enumerate().all(|(k, &s)| s == k * k));
+        assert!(squares.iter().enumerate().all(|(k, &s)| s == 3 * k));
     }
 }

@@ -26,7 +26,8 @@ fn solved(structure: &Structure, sources: &[Source], start: Option<&Response>) -
 fn derived(structure: &Structure, sources: &[Source], unknowns: &[Unknown]) -> (Response, Vec<Mat<c64>>) {
     let response = solved(structure, sources, None);
     let run = ForwardModel::new(structure, sources).unwrap().at(excitation().omega);
-    let derivatives = sensitivities(&run, sources, &excitation(), &response, unknowns).unwrap();
+    let derivatives =
+        sensitivities(&run, sources, &excitation(), &response, &(0..run.len()).collect::<Vec<_>>(), unknowns).unwrap();
     (response, derivatives)
 }
 
@@ -156,7 +157,9 @@ fn unknowns_that_do_not_exist_are_named() {
     let response = balanced(&structure, &sources, &excitation(), &settings());
     let run = ForwardModel::new(&structure, &sources).unwrap().at(excitation().omega);
     for unknown in [Unknown::Source { source: 1, parameter: 0 }, Unknown::LumpedMass(5), Unknown::ModeStiffness(7)] {
-        let error = sensitivities(&run, &sources, &excitation(), &response, &[unknown]).unwrap_err();
+        let error =
+            sensitivities(&run, &sources, &excitation(), &response, &(0..run.len()).collect::<Vec<_>>(), &[unknown])
+                .unwrap_err();
         assert!(matches!(error, SensitivityError::NoSuchUnknown { .. }));
     }
 }

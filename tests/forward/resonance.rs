@@ -136,7 +136,8 @@ fn derivatives_at_a_natural_frequency() {
     let (all, start) = (sources([1.0; 3]), at([1.0; 3]));
     let run = ForwardModel::new(&structure, &all).unwrap().at(excitation.omega);
     let unknowns: Vec<Unknown> = (0..3).map(|source| Unknown::Source { source, parameter: 0 }).collect();
-    let derivatives = sensitivities(&run, &all, &excitation, &start, &unknowns).unwrap();
+    let derivatives =
+        sensitivities(&run, &all, &excitation, &start, &(0..run.len()).collect::<Vec<_>>(), &unknowns).unwrap();
     for (k, scale) in [8.0, 300.0, 0.001].into_iter().enumerate() {
         let step = 1e-4;
         let moved = |sign: f64| {

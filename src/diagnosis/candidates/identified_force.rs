@@ -88,7 +88,8 @@ impl PlaceData {
         impedances: Vec<f64>,
         freedom: Option<ForceFreedom>,
     ) -> Self {
-        let sampling = Sampling::new(SAMPLES);
+        let harmonics = data.runs.iter().map(|run| run.harmonics).max().unwrap_or(0);
+        let sampling = Sampling::with_harmonics(SAMPLES, harmonics);
         let motion = |(run, field): (&RunData, &Mat<c64>)| {
             let harmonics = match spot {
                 Spot::Leg(leg) => relative(field, *leg),

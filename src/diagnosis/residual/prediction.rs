@@ -293,22 +293,23 @@ impl Predictor {
         let flat: Vec<Unknown> = asked.iter().flatten().map(|(unknown, _)| *unknown).collect();
         let sources = self.sources(effects);
         let excitation = excitation(data, effects);
-        let all = sensitivities(&self.runs[r], &sources, &excitation, &prediction.response, &flat)?;
+        let dofs: Vec<usize> = data.responses.iter().map(|channel| channel.dof).collect();
+        let all = sensitivities(&self.runs[r], &sources, &excitation, &prediction.response, &dofs, &flat)?;
         let mut rest = &all[..];
         let mut derivatives = Vec::with_capacity(by.len());
         for (by, asked) in by.iter().zip(&asked) {
             let (own, others) = rest.split_at(asked.len());
             rest = others;
-            let change = |dof: usize, h: usize| {
+            let change = |c: usize, h: usize| {
                 let terms = own.iter().zip(asked).filter(|(change, _)| h <= change.ncols());
-                terms.fold(c64::new(0.0, 0.0), |sum, (change, (_, factor))| sum + change[(dof, h - 1)] * *factor)
+                terms.fold(c64::new(0.0, 0.0), |sum, (change, (_, factor))| sum + change[(c, h - 1)] * *factor)
             };
             let channel = |c: usize| -> Vec<c64> {
                 let channel = &data.responses[c];
                 let at = |h: usize| {
                     let w = h as f64 * data.omega;
                     let direct = own_transfer(*by, effects, &channel.name, w) * prediction.channels[c][h - 1];
-                    direct + transfer(effects, &channel.name, w) * channel.from_displacement(w) * change(channel.dof, h)
+                    direct + transfer(effects, &channel.name, w) * channel.from_displacement(w) * change(c, h)
                 };
                 (1..=data.harmonics).map(at).collect()
             };

@@ -1,5 +1,6 @@
 //! The residual on the response as a function of everything that is fitted, with its derivatives.
 
+use crate::control::Cancelled;
 use crate::diagnosis::residual::data::{ChannelData, DiagnosisError, RunData};
 use crate::diagnosis::residual::prediction::{Predictor, RunPrediction, transfer};
 use crate::diagnosis::selection::fitted_model::{Estimator, Starts};
@@ -47,22 +48,23 @@ pub(crate) fn run_slopes(
     let sources = predictor.sources(effects);
     let unknowns: Vec<Unknown> = sums.iter().flatten().map(|(unknown, _)| *unknown).collect();
     let excitation = run.excitation(|channel, w| transfer(effects, &channel.name, w));
-    let all = sensitivities(predictor.run(r), &sources, &excitation, &prediction.response, &unknowns).ok()?;
+    let dofs: Vec<usize> = run.responses.iter().map(|channel| channel.dof).collect();
+    let all = sensitivities(predictor.run(r), &sources, &excitation, &prediction.response, &dofs, &unknowns).ok()?;
     let mut rest = &all[..];
     let mut slopes = Vec::with_capacity(sums.len());
     for sum in sums {
         let (own, others) = rest.split_at(sum.len());
         rest = others;
-        let channel = |channel: &ChannelData| -> Vec<c64> {
+        let channel = |(c, channel): (usize, &ChannelData)| -> Vec<c64> {
             let at = |h: usize| {
                 let w = h as f64 * run.omega;
-                let entry = |m: &Mat<c64>| if h <= m.ncols() { m[(channel.dof, h - 1)] } else { ZERO };
+                let entry = |m: &Mat<c64>| if h <= m.ncols() { m[(c, h - 1)] } else { ZERO };
                 let change = own.iter().zip(sum).fold(ZERO, |s, (m, (_, factor))| s + entry(m) * *factor);
                 transfer(effects, &channel.name, w) * channel.from_displacement(w) * change
             };
             (1..=run.harmonics).map(at).collect()
         };
-        slopes.push(run.responses.iter().map(channel).collect());
+        slopes.push(run.responses.iter().enumerate().map(channel).collect());
     }
     Some(slopes)
 }
@@ -118,10 +120,13 @@ impl OnResponse<'_> {
         let known = self.estimator.predictor.known().len();
         let (sums, factors) = (unknowns_of(&effects, known), self.variables.slopes(&trial.theta));
         let mut columns: Vec<Vec<f64>> = vec![Vec::with_capacity(self.estimator.count()); trial.theta.len()];
-        for (r, run) in self.estimator.data.runs.iter().enumerate() {
+        let data = self.estimator.data;
+        let of_run = |r: usize| {
             self.estimator.control.check()?;
-            let prediction = &trial.predictions[r];
-            let Some(slopes) = run_slopes(self.estimator.predictor, r, run, &effects, prediction, &sums) else {
+            Ok(run_slopes(self.estimator.predictor, r, &data.runs[r], &effects, &trial.predictions[r], &sums))
+        };
+        for (r, slopes) in self.estimator.control.map(data.runs.len(), of_run).into_iter().enumerate() {
+            let Some(slopes) = slopes.map_err(|cancelled: Cancelled| DiagnosisError::from(cancelled))? else {
                 return Ok(None);
             };
             for ((column, slope), factor) in columns.iter_mut().zip(&slopes).zip(&factors) {

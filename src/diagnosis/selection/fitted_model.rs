@@ -2,7 +2,7 @@
 //! Marquardt's method to the whitened amplitudes of all channels, runs and harmonics; updating parameters are eliminated.
 
 use crate::control::Control;
-use crate::diagnosis::residual::data::{Data, DiagnosisError, RunData, size};
+use crate::diagnosis::residual::data::{Data, DiagnosisError, size};
 use crate::diagnosis::residual::prediction::{FINAL, Predictor, RunPrediction, SEARCH};
 use crate::diagnosis::selection::fit_problem::{OnResponse, Trial};
 use crate::diagnosis::selection::levenberg_marquardt::{Descent, Variables, descend};
@@ -63,7 +63,8 @@ impl Estimator<'_> {
         settings: &Settings,
         starts: &[Option<Response>],
     ) -> Result<Vec<RunPrediction>, DiagnosisError> {
-        let run = |(r, run): (usize, &RunData)| {
+        let run = |r: usize| {
+            let run = &self.data.runs[r];
             self.control.check()?;
             self.control.advance(PACE);
             let start = starts.get(r).and_then(Option::as_ref);
@@ -78,7 +79,7 @@ impl Estimator<'_> {
                 Err(_) => self.at_rest(r),
             }
         };
-        self.data.runs.iter().enumerate().map(run).collect()
+        self.control.map(self.data.runs.len(), run).into_iter().collect()
     }
 
     fn at_rest(&self, r: usize) -> Result<RunPrediction, DiagnosisError> {

@@ -20,7 +20,7 @@ use crate::diagnosis::updating::parameters::Updating;
 use crate::effects::{Kind, Source};
 use crate::response::harmonic_balance::Settings;
 use crate::response::sensitivity::Unknown;
-use faer::Mat;
+use faer::{Mat, c64};
 
 /// Step of a variable of a channel for derivatives by differences.
 const STEP: f64 = 1e-4;
@@ -163,26 +163,27 @@ impl Joint<'_, '_> {
     fn data_columns(&self, trial: &Trial, effects: &[Source]) -> Result<Vec<Vec<f64>>, DiagnosisError> {
         let (sums, factors) = (self.unknowns(effects, &trial.predictor), self.factors(&trial.at));
         let (estimator, common) = (self.estimator(&trial.predictor), sums.len() - 1);
+        let acts = |k: usize, r: usize| {
+            let of_model = k.checked_sub(self.variables.len()).and_then(|k| self.of_model.get(k));
+            of_model.is_none_or(|&k| self.updating.acts_in(k, r))
+        };
+        // Whitened rows of one run, with the number of their column.
+        let rows_of = |r: usize| -> Result<Vec<(usize, Vec<f64>)>, DiagnosisError> {
+            estimator.control.check()?;
+            let run = &estimator.data.runs[r];
+            let slopes = run_slopes(&trial.predictor, r, run, effects, &trial.predictions[r], &sums);
+            let slopes = slopes.iter().flatten().zip(&factors).enumerate().filter(|(k, _)| acts(*k, r));
+            let row = |(k, (slope, factor)): (usize, (&Vec<Vec<c64>>, &f64))| {
+                let mut own = Vec::new();
+                estimator.whitened(r, &mut own, |c, h| -slope[c][h - 1] * *factor);
+                (if k < common { k } else { common + r }, own)
+            };
+            Ok(slopes.map(row).collect())
+        };
         let mut columns: Vec<Vec<f64>> = vec![vec![0.0; estimator.count()]; trial.at.len()];
         let mut at = 0;
-        for (r, run) in estimator.data.runs.iter().enumerate() {
-            estimator.control.check()?;
-            let slopes = run_slopes(&trial.predictor, r, run, effects, &trial.predictions[r], &sums);
-            let Some(slopes) = slopes else {
-                at += self.noise.runs[r].len();
-                continue;
-            };
-            let mut own = Vec::new();
-            let own_variables = self.variables.len();
-            let acts = |k: usize| {
-                k.checked_sub(own_variables)
-                    .and_then(|k| self.of_model.get(k))
-                    .is_none_or(|&k| self.updating.acts_in(k, r))
-            };
-            for (k, (slope, factor)) in slopes.iter().zip(&factors).enumerate().filter(|(k, _)| acts(*k)) {
-                own.clear();
-                estimator.whitened(r, &mut own, |c, h| -slope[c][h - 1] * *factor);
-                let column = if k < common { k } else { common + r };
+        for (r, rows) in estimator.control.map(estimator.data.runs.len(), rows_of).into_iter().enumerate() {
+            for (column, own) in rows? {
                 columns[column][at..at + own.len()].copy_from_slice(&own);
             }
             at += self.noise.runs[r].len();

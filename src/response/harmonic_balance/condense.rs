@@ -217,22 +217,6 @@ impl Condensed {
         x
     }
 
-    /// Displacements of all DOFs at harmonic `h` under the kept forces `u` alone.
-    pub fn pulled(&self, compliance: &Compliance, h: usize, size: usize, u: &[f64]) -> Vec<c64> {
-        let mut force = vec![c64::new(0.0, 0.0); size];
-        let legs = self.legs.iter().map(|l| l.leg).enumerate();
-        for (j, leg) in legs.chain(self.kept_linear(h)) {
-            let mut loads = Vec::with_capacity(2);
-            push_leg(&mut loads, leg, self.get(u, h, j));
-            loads.into_iter().for_each(|(i, f)| force[i] += f);
-        }
-        for (r, mode) in compliance.resonant.iter().enumerate() {
-            let p = self.get(u, h, self.legs.len() + r);
-            force.iter_mut().zip(&mode.pattern).for_each(|(f, v)| *f -= p * *v);
-        }
-        self.linear_response(compliance, h, &force)
-    }
-
     /// Takes away what the forces of the modes at resonance do.
     fn subtract_resonant(&self, compliance: &Compliance, h: usize, u: &[f64], x: &mut [c64]) {
         for (r, mode) in compliance.resonant.iter().enumerate() {

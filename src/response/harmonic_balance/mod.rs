@@ -34,6 +34,7 @@ mod solve;
 mod stability;
 
 pub(crate) use compliance::LinearPart;
+pub(crate) use condense::Condensed;
 pub(crate) use dense::Lu;
 pub(crate) use fourier::add_amplitude;
 pub(crate) use newton::Balance;
