@@ -38,7 +38,7 @@ pub(super) fn correction(project: &Project, correction: &Correction) -> Value {
             }
             ("source", "", Value::Null)
         }
-        UpdatingParameter::Gain(channel) => ("gain", "channel", json!(channel)),
+        UpdatingParameter::Gain(channel) | UpdatingParameter::ForceGain(channel) => ("gain", "channel", json!(channel)),
         UpdatingParameter::Delay(channel) => ("delay", "channel", json!(channel)),
         UpdatingParameter::Shape { mode, channel } => {
             map.insert("channel".into(), json!(channel));

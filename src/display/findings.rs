@@ -80,7 +80,7 @@ pub fn corrected(structure: &Structure, known: &[Source], parameter: &UpdatingPa
         UpdatingParameter::Known(index) => {
             known.get(*index).map_or_else(|| "A known source".to_owned(), |s| words::title(structure, s))
         }
-        UpdatingParameter::Gain(channel) => format!("Gain of {channel}"),
+        UpdatingParameter::Gain(channel) | UpdatingParameter::ForceGain(channel) => format!("Gain of {channel}"),
         UpdatingParameter::Delay(channel) => format!("Delay of {channel}"),
         UpdatingParameter::Shape { mode, channel } => format!("Shape of mode {} at {channel}", mode + 1),
         UpdatingParameter::Session(session) => format!("Stiffness of session {}", session + 1),

@@ -11,6 +11,7 @@ pub mod law;
 pub mod laws;
 pub mod limits;
 pub mod linear;
+mod loading_curve;
 pub mod masing;
 pub mod memory;
 pub mod memoryless;

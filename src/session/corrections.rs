@@ -43,6 +43,7 @@ pub fn adopt(corrections: &[Correction], known: &dyn Fn(usize) -> Option<Source>
                 None => adopted.left.push(k),
             },
             UpdatingParameter::Gain(_)
+            | UpdatingParameter::ForceGain(_)
             | UpdatingParameter::Delay(_)
             | UpdatingParameter::Shape { .. }
             | UpdatingParameter::Session(_) => {

@@ -4,14 +4,14 @@ use super::eliminator::Eliminator;
 use super::identified_force::{LawFit, PlaceData};
 
 /// Runs on which the parameters of such a law are found where there are many more.
-const RUNS: usize = 16;
+const RUNS: usize = 10;
 
 impl PlaceData {
     /// The same place seen in few of its runs, spread evenly over the amplitudes of its motion; `None` where there are not
     /// many more.
     pub(super) fn thinned(&self) -> Option<Self> {
         let mut seen: Vec<usize> = (0..self.forces.len()).filter(|&r| !self.forces[r].is_empty()).collect();
-        if seen.len() < RUNS + RUNS / 2 {
+        if seen.len() < RUNS + RUNS / 4 {
             return None;
         }
         let amplitude = |r: usize| self.motions[r].harmonics.first().map_or(0.0, |d| d.norm());

@@ -114,6 +114,8 @@ pub struct Predictor {
     /// Structure and known sources as the project states them.
     stated: Arc<(Structure, Vec<Source>)>,
     omegas: Vec<f64>,
+    /// Errors of the force channels that go with the updating parameters.
+    force_gains: Vec<Source>,
 }
 
 /// The model at every frequency; runs of one frequency share what is computed there.
@@ -146,7 +148,7 @@ impl Predictor {
         let omegas: Vec<f64> = data.runs.iter().map(|run| run.omega).collect();
         let runs = run_models(&omegas, |omega| model.at(omega));
         let stated = Arc::new((structure.clone(), known.clone()));
-        Ok(Self { model, runs, known, stated, omegas })
+        Ok(Self { model, runs, known, stated, omegas, force_gains: Vec::new() })
     }
 
     /// The same with the stated structure and known sources updated.
@@ -160,7 +162,16 @@ impl Predictor {
                 *run = run.stiffened(1.0 + shift);
             }
         }
-        Ok(Self { model, runs, known, stated: self.stated.clone(), omegas: self.omegas.clone() })
+        let (stated, omegas) = (self.stated.clone(), self.omegas.clone());
+        Ok(Self { model, runs, known, stated, omegas, force_gains: updating.force_gains() })
+    }
+
+    /// The forces that the structure felt: as measured, freed of the errors of their channels, those among `effects` and those of
+    /// the updating parameters.
+    pub(crate) fn excitation(&self, data: &RunData, effects: &[Source]) -> Excitation {
+        data.excitation(|channel, w| {
+            transfer(effects, &channel.name, w) * transfer(&self.force_gains, &channel.name, w)
+        })
     }
 
     /// Structure and known sources as the project states them.
@@ -199,7 +210,7 @@ impl Predictor {
         start: Option<&Response>,
         control: &Control,
     ) -> Result<RunPrediction, ResponseError> {
-        let excitation = excitation(data, effects);
+        let excitation = self.excitation(data, effects);
         let settings = as_exact_as(data, settings);
         let response = self.runs[r].respond(&self.sources(effects), &excitation, &settings, start, control)?;
         Ok(recorded(data, effects, response))
@@ -252,7 +263,8 @@ impl Predictor {
         settings: &Settings,
         control: &Control,
     ) -> Result<Vec<(RunPrediction, bool)>, ResponseError> {
-        let found = self.runs[r].branches(&self.sources(effects), &excitation(data, effects), settings, control)?;
+        let found =
+            self.runs[r].branches(&self.sources(effects), &self.excitation(data, effects), settings, control)?;
         Ok(found.into_iter().map(|(response, stable)| (recorded(data, effects, response), stable)).collect())
     }
 
@@ -266,7 +278,7 @@ impl Predictor {
         start: &Response,
         control: &Control,
     ) -> Result<(RunPrediction, bool), ResponseError> {
-        let (sources, excitation) = (self.sources(effects), excitation(data, effects));
+        let (sources, excitation) = (self.sources(effects), self.excitation(data, effects));
         let response = self.runs[r].respond(&sources, &excitation, settings, Some(start), control)?;
         let stable = is_stable(&self.runs[r], &sources, &excitation, &response);
         Ok((recorded(data, effects, response), stable))
@@ -292,7 +304,7 @@ impl Predictor {
         let asked: Vec<Vec<(Unknown, f64)>> = by.iter().map(|by| self.unknowns(*by, effects, data)).collect();
         let flat: Vec<Unknown> = asked.iter().flatten().map(|(unknown, _)| *unknown).collect();
         let sources = self.sources(effects);
-        let excitation = excitation(data, effects);
+        let excitation = self.excitation(data, effects);
         let dofs: Vec<usize> = data.responses.iter().map(|channel| channel.dof).collect();
         let all = sensitivities(&self.runs[r], &sources, &excitation, &prediction.response, &dofs, &flat)?;
         let mut rest = &all[..];
@@ -339,11 +351,6 @@ impl Predictor {
             }
         }
     }
-}
-
-/// The forces that the structure felt: as measured, freed of the errors of their channels among `effects`.
-fn excitation(data: &RunData, effects: &[Source]) -> Excitation {
-    data.excitation(|channel, w| transfer(effects, &channel.name, w))
 }
 
 /// What the response channels record of `response`.

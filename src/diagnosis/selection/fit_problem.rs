@@ -47,7 +47,7 @@ pub(crate) fn run_slopes(
     }
     let sources = predictor.sources(effects);
     let unknowns: Vec<Unknown> = sums.iter().flatten().map(|(unknown, _)| *unknown).collect();
-    let excitation = run.excitation(|channel, w| transfer(effects, &channel.name, w));
+    let excitation = predictor.excitation(run, effects);
     let dofs: Vec<usize> = run.responses.iter().map(|channel| channel.dof).collect();
     let all = sensitivities(predictor.run(r), &sources, &excitation, &prediction.response, &dofs, &unknowns).ok()?;
     let mut rest = &all[..];

@@ -9,7 +9,7 @@
 //! eliminated linearly, and these moved afterwards, creeps along a valley; together they arrive in a few steps. Gains and delays of
 //! channels and the factor on the response of a run are linear and stay eliminated.
 
-use crate::diagnosis::residual::data::{DiagnosisError, if_possible};
+use crate::diagnosis::residual::data::{DiagnosisError, RunData, if_possible};
 use crate::diagnosis::residual::prediction::{Predictor, RunPrediction};
 use crate::diagnosis::selection::fit_problem::{run_slopes, unknowns_of};
 use crate::diagnosis::selection::fitted_model::{Estimator, Starts, starts_of};
@@ -136,9 +136,9 @@ impl Joint<'_, '_> {
     }
 
     /// What the response is differentiated by: for every variable of an effect, every updating parameter, and the stiffness.
-    fn unknowns(&self, effects: &[Source], predictor: &Predictor) -> Vec<Vec<(Unknown, f64)>> {
+    fn unknowns(&self, effects: &[Source], predictor: &Predictor, run: &RunData) -> Vec<Vec<(Unknown, f64)>> {
         let mut sums = unknowns_of(effects, predictor.known().len());
-        sums.extend(self.of_model.iter().map(|&k| self.updating.unknowns(k, predictor.known())));
+        sums.extend(self.of_model.iter().map(|&k| self.updating.unknowns(k, predictor.known(), run)));
         sums.push(vec![(Unknown::Stiffness, 1.0)]);
         sums
     }
@@ -161,8 +161,8 @@ impl Joint<'_, '_> {
 
     /// Whitened derivatives of the data by all variables at a trial, what belongs to channels not yet eliminated.
     fn data_columns(&self, trial: &Trial, effects: &[Source]) -> Result<Vec<Vec<f64>>, DiagnosisError> {
-        let (sums, factors) = (self.unknowns(effects, &trial.predictor), self.factors(&trial.at));
-        let (estimator, common) = (self.estimator(&trial.predictor), sums.len() - 1);
+        let (factors, estimator) = (self.factors(&trial.at), self.estimator(&trial.predictor));
+        let common = factors.len() - 1;
         let acts = |k: usize, r: usize| {
             let of_model = k.checked_sub(self.variables.len()).and_then(|k| self.of_model.get(k));
             of_model.is_none_or(|&k| self.updating.acts_in(k, r))
@@ -171,6 +171,7 @@ impl Joint<'_, '_> {
         let rows_of = |r: usize| -> Result<Vec<(usize, Vec<f64>)>, DiagnosisError> {
             estimator.control.check()?;
             let run = &estimator.data.runs[r];
+            let sums = self.unknowns(effects, &trial.predictor, run);
             let slopes = run_slopes(&trial.predictor, r, run, effects, &trial.predictions[r], &sums);
             let slopes = slopes.iter().flatten().zip(&factors).enumerate().filter(|(k, _)| acts(*k, r));
             let row = |(k, (slope, factor)): (usize, (&Vec<Vec<c64>>, &f64))| {

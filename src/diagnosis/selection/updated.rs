@@ -70,8 +70,6 @@ impl<'a> ReferenceModel<'a> {
 
     fn linearised(&self, updating: &Updating, effects: &[Source], predictions: &[RunPrediction]) -> Linearisation {
         let known = self.predictor.known();
-        let mut sums: Vec<Vec<(Unknown, f64)>> = (0..updating.len()).map(|k| updating.unknowns(k, known)).collect();
-        sums.push(vec![(Unknown::Stiffness, 1.0)]);
         let linear = effects.is_empty() && known.iter().all(|source| source.effect.is_linear());
         let seen = linear.then(|| MeasuredMotion::new(&self.predictor, self.data, predictions, self.control)).flatten();
         let runs = self.data.runs.iter().zip(predictions);
@@ -79,6 +77,9 @@ impl<'a> ReferenceModel<'a> {
         let shapes = ShapeErrors::new(&self.predictor, updating, self.data);
         let of_run = |r: usize| {
             let run = &self.data.runs[r];
+            let mut sums: Vec<Vec<(Unknown, f64)>> =
+                (0..updating.len()).map(|k| updating.unknowns(k, known, run)).collect();
+            sums.push(vec![(Unknown::Stiffness, 1.0)]);
             let mut slopes = match &seen {
                 Some(seen) => seen.slopes(r, &sums),
                 None => self.model_slopes(r, effects, &predictions[r], &sums),
@@ -194,23 +195,26 @@ impl<'a> ReferenceModel<'a> {
     pub fn likely(&self) -> Result<(ReferenceModel<'a>, f64), DiagnosisError> {
         let alike = Scales { shift: Scales::LEAST.shift, response: Scales::LEAST.response, ..Scales::SEARCH };
         let exact = Scales { gain: Scales::LEAST.gain, phase: Scales::LEAST.phase, ..alike };
-        let mut best: Option<(f64, ReferenceModel<'a>)> = None;
-        for scales in [exact, alike] {
+        let strict = |scales: Scales| -> Result<(ReferenceModel<'a>, f64, bool), DiagnosisError> {
             let strict = self.with_scales(scales).settled_bare(STEPS)?;
             let left = square(&strict.estimator().residual(&strict.predictions));
-            let cost = left + strict.noise.cost();
-            if agrees(&strict, left, 0) {
-                return Ok((strict, cost));
-            }
-            if best.as_ref().is_none_or(|(least, _)| cost < *least) {
-                best = Some((cost, strict));
-            }
+            let (cost, enough) = (left + strict.noise.cost(), agrees(&strict, left, 0));
+            Ok((strict, cost, enough))
+        };
+        let first = strict(exact)?;
+        if first.2 {
+            return Ok((first.0, first.1));
         }
-        let (estimated, cost) = self.estimated()?;
-        Ok(match best {
-            Some((least, strict)) if least < cost => (strict, least),
-            _ => (estimated, cost),
-        })
+        let other = |k: usize| if k == 0 { strict(alike) } else { self.estimated().map(|(r, cost)| (r, cost, false)) };
+        let mut tried = vec![first];
+        for other in self.control.map(2, other) {
+            tried.push(other?);
+        }
+        let agreeing = tried.iter().position(|(_, _, enough)| *enough);
+        let cost = |k: &usize| tried[*k].1;
+        let best = agreeing.or_else(|| (0..tried.len()).min_by(|a, b| cost(a).total_cmp(&cost(b)))).unwrap_or(0);
+        let (reference, cost, _) = tried.swap_remove(best);
+        Ok((reference, cost))
     }
 
     /// Relative error of this model with `effects`, all runs alike, as `compare` tells it of a project in which the corrections

@@ -192,10 +192,13 @@ fn is_reverse(a: Part, b: Part) -> bool {
 }
 
 /// A fit with the deviations that hold where nothing is known better than laboratories know it: what is common to all gains
-/// and all of the model no data tell, so that the likeliest scales are too small for it.
+/// and all of the model no data tell, so that the likeliest scales are too small for it. All derivatives are taken at the fit: what
+/// only a common factor of forces and motions tells apart would seem known from derivatives of two points.
 fn with_told_deviations(reference: &ReferenceModel, fit: FittedModel) -> Result<FittedModel, DiagnosisError> {
     let scales = reference.linearisation.updating.scales.at_least(&Scales::SEARCH);
-    let told = reference.with_scales(scales).estimator().fit(&fit.effects, 1, &FINAL, &fit.starts)?;
+    let updating = reference.linearisation.updating.with_scales(scales);
+    let there = reference.updated(&updating, &fit.effects, &fit.starts)?;
+    let told = there.estimator().fit(&fit.effects, 0, &FINAL, &fit.starts)?;
     Ok(FittedModel { deviations: told.deviations, ..fit })
 }
 

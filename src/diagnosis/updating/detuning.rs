@@ -117,6 +117,7 @@ pub(crate) fn is_likely(reference: &ReferenceModel) -> bool {
         UpdatingParameter::Structure(_) => v.abs() < LIKELY,
         UpdatingParameter::Known(_) => v.abs() < LIKELY_SIZE,
         UpdatingParameter::Gain(_)
+        | UpdatingParameter::ForceGain(_)
         | UpdatingParameter::Delay(_)
         | UpdatingParameter::Shape { .. }
         | UpdatingParameter::Session(_) => true,

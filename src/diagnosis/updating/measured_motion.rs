@@ -63,6 +63,11 @@ impl<'a> MeasuredMotion<'a> {
         let (x, w) = (&self.fields[r], run.omega);
         let mut force = vec![c64::new(0.0, 0.0); x.len()];
         for (unknown, factor) in sum {
+            if let Unknown::ForceScale(channel) = *unknown {
+                let channel = &run.forces[channel];
+                force[channel.dof] += channel.measured[0] * *factor;
+                continue;
+            }
             let own = pseudo_force(self.predictor.run(r), sources, *unknown, x, w);
             force.iter_mut().zip(own.unwrap_or_default()).for_each(|(f, own)| *f += own * *factor);
         }
@@ -136,7 +141,7 @@ mod tests {
         let updating = Updating::all(&stated, &known, &data);
         let spring = UpdatingParameter::Structure(Part::GroundSpring(0));
         let k = updating.parameters.iter().position(|p| *p == spring).unwrap();
-        let sum = updating.unknowns(k, &known);
+        let sum = updating.unknowns(k, &known, &data.runs[0]);
         for (r, run) in data.runs.iter().enumerate() {
             let slope = seen.slope(r, &known, &sum);
             for c in 0..3 {

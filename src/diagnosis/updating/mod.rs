@@ -7,5 +7,6 @@ pub(crate) mod measured_motion;
 pub(crate) mod modal_expansion;
 pub mod noise_model;
 pub mod parameters;
+mod parts;
 pub mod scatter;
 pub(crate) mod shape_errors;

@@ -5,21 +5,14 @@
 //! parameter is the logarithm `v` of a factor (a delay: seconds) with the prior `N(0, s^2)`; `s` belongs to its class
 //! ([`Scales`]), so that it moves only so far as the data ask for it (Friswell and Mottershead 1995, chapter 8).
 
-use crate::diagnosis::residual::data::Data;
-use crate::effects::Source;
+use super::parts::parts;
+use crate::diagnosis::residual::data::{Data, RunData};
+use crate::effects::{Effect, Place, Source};
 use crate::response::sensitivity::Unknown;
-use crate::structure::{Part, Structure, StructureKind};
+use crate::structure::{Part, Structure};
 
-/// Groups of elements of a beam whose stiffness and mass are updated each on its own.
-const ELEMENT_GROUPS: usize = 12;
-/// Springs and masses of imported matrices that are updated one by one; above, modes are.
-const MOST_SPRINGS: usize = 40;
-/// Modes in the band that are updated where neither elements nor springs are known.
-const MOST_MODES: usize = 8;
 /// Most errors of mode shapes, a mode and channel each.
 const MOST_SHAPES: usize = 48;
-/// Logarithm of a frequency ratio within which a mode counts as in the band of a run.
-const NEAR_BAND: f64 = 0.35;
 /// Prior deviation of a support in multiples of that of the size of a known source: of a clamp that is taken for rigid, half
 /// may be left.
 const SUPPORT: f64 = 2.0;
@@ -33,8 +26,10 @@ pub enum UpdatingParameter {
     Structure(Part),
     /// Factor on the size of one known source.
     Known(usize),
-    /// Factor that a channel reads too large.
+    /// Factor that a response channel reads too large.
     Gain(String),
+    /// Factor that a force channel reads too large.
+    ForceGain(String),
     /// Time that a channel is recorded late, s.
     Delay(String),
     /// Error of the shape of a mode at a response channel, relative to its root mean square over the channels.
@@ -116,15 +111,15 @@ impl UpdatingParameter {
             // A support is known about as well as the size of a source.
             Self::Structure(Part::Support(_)) | Self::Known(_) => 1,
             Self::Structure(_) | Self::Shape { .. } => 0,
-            Self::Gain(_) => 2,
+            Self::Gain(_) | Self::ForceGain(_) => 2,
             Self::Delay(_) => 3,
             Self::Session(_) => 6,
         }
     }
 
-    /// Whether it belongs to the model rather than to the measuring chain.
+    /// Whether predictions contain it; gains and delays of responses only multiply them.
     pub fn is_of_model(&self) -> bool {
-        matches!(self, Self::Structure(_) | Self::Known(_) | Self::Session(_))
+        matches!(self, Self::Structure(_) | Self::Known(_) | Self::Session(_) | Self::ForceGain(_))
     }
 
     /// Whether it corrects what the model states, rather than telling how tests differ.
@@ -191,8 +186,9 @@ impl Updating {
             parameters.extend(responses.iter().cloned().map(UpdatingParameter::Gain));
             parameters.extend(responses.into_iter().map(UpdatingParameter::Delay));
         }
-        if forces.len() > 1 {
-            parameters.extend(forces.into_iter().map(UpdatingParameter::Gain));
+        // The sizes of laws that depend on the amplitude are known no better than the force.
+        if !data.per_unit_force {
+            parameters.extend(forces.into_iter().map(UpdatingParameter::ForceGain));
         }
         let sessions = data.sessions.iter().max().map_or(0, |last| last + 1);
         if sessions > 1 {
@@ -287,6 +283,17 @@ impl Updating {
         self.values[k].clamp(-LARGEST, LARGEST).exp()
     }
 
+    /// The gains of force channels, as errors of these channels.
+    pub fn force_gains(&self) -> Vec<Source> {
+        let gain = |(k, parameter): (usize, &UpdatingParameter)| match parameter {
+            UpdatingParameter::ForceGain(name) => {
+                Some(Source::known(Effect::Gain, Place::Channel(name.clone()), &[self.factor(k)]))
+            }
+            _ => None,
+        };
+        self.parameters.iter().enumerate().filter_map(gain).collect()
+    }
+
     /// The updated structure.
     pub fn structure(&self, structure: &Structure) -> Structure {
         let factor = |(k, parameter): (usize, &UpdatingParameter)| match parameter {
@@ -308,9 +315,9 @@ impl Updating {
         updated
     }
 
-    /// What the response is differentiated by for parameter `k`, each with its factor; none for channels. `known` are the
-    /// updated sources.
-    pub fn unknowns(&self, k: usize, known: &[Source]) -> Vec<(Unknown, f64)> {
+    /// What the response of `run` is differentiated by for parameter `k`, each with its factor; none for response channels.
+    /// `known` are the updated sources.
+    pub fn unknowns(&self, k: usize, known: &[Source], run: &RunData) -> Vec<(Unknown, f64)> {
         match &self.parameters[k] {
             UpdatingParameter::Structure(part) => vec![(unknown(*part), 1.0)],
             UpdatingParameter::Known(j) => {
@@ -319,6 +326,10 @@ impl Updating {
                 known[*j].effect.scaled().iter().map(of).collect()
             }
             UpdatingParameter::Session(_) => vec![(Unknown::Stiffness, 1.0)],
+            UpdatingParameter::ForceGain(name) => {
+                let force = run.forces.iter().position(|channel| channel.name == *name);
+                force.map(|force| (Unknown::ForceScale(force), -1.0)).into_iter().collect()
+            }
             UpdatingParameter::Gain(_) | UpdatingParameter::Delay(_) | UpdatingParameter::Shape { .. } => Vec::new(),
         }
     }
@@ -341,42 +352,10 @@ fn unknown(part: Part) -> Unknown {
     }
 }
 
-/// Parts of a structure that are wrong independently of each other, as far as its kind shows them.
-fn parts(structure: &Structure, omegas: &[f64]) -> Vec<Part> {
-    let mut parts = vec![Part::Stiffness, Part::Mass];
-    let chain = structure.elements().is_empty() && structure.kind() == StructureKind::Chain;
-    parts.extend(structure.lumped().iter().filter(|_| !chain).map(|&row| Part::PointMass(row)));
-    let count = structure.elements().len();
-    if count > 0 {
-        let groups = ELEMENT_GROUPS.min(count);
-        let range = |g: usize| [g * count / groups, (g + 1) * count / groups - 1];
-        parts.extend((0..groups).map(|g| Part::ElementStiffness(range(g))));
-        parts.extend((0..groups).map(|g| Part::ElementMass(range(g))));
-        parts.extend(structure.supports().into_iter().map(Part::Support));
-        return parts;
-    }
-    let springs = structure.springs(MOST_SPRINGS);
-    if springs.is_empty() || (structure.kind() != StructureKind::Chain && structure.len() > MOST_SPRINGS) {
-        parts.extend(modes_in_band(structure, omegas).into_iter().map(Part::Mode));
-    } else {
-        parts.extend(springs);
-        parts.extend((0..structure.len()).map(Part::PointMass));
-    }
-    parts
-}
-
-/// Modes whose frequencies the runs come near to.
-fn modes_in_band(structure: &Structure, omegas: &[f64]) -> Vec<usize> {
-    let Ok(modes) = structure.modes() else { return Vec::new() };
-    let near = |w: f64| omegas.iter().any(|&o| w > 0.0 && (o / w).ln().abs() < NEAR_BAND);
-    (0..modes.len()).filter(|&r| near(modes.omega[r])).take(MOST_MODES).collect()
-}
-
 #[cfg(test)]
 mod tests {
     #![allow(clippy::unwrap_used, reason = "tests")]
     use super::*;
-    use crate::effects::{Effect, Place};
     use crate::structure::chain::ChainParameters;
 
     #[test]

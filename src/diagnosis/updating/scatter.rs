@@ -129,7 +129,7 @@ fn estimated(reference: &ReferenceModel, predictions: &[RunPrediction]) -> Scatt
         Some(Estimated { value: prior * u[k], deviation: prior * variance.sqrt() })
     };
     let channels = updating.parameters.iter().filter_map(|p| {
-        let UpdatingParameter::Gain(channel) = p else { return None };
+        let (UpdatingParameter::Gain(channel) | UpdatingParameter::ForceGain(channel)) = p else { return None };
         let delay = common(&UpdatingParameter::Delay(channel.clone()));
         Some(ChannelScatter { channel: channel.clone(), gain: common(p)?, delay })
     });

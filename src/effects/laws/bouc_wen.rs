@@ -11,6 +11,7 @@
 
 use crate::effects::internal::{InternalLaw, Way};
 use crate::effects::limits::{CLOSE, Limit};
+use crate::effects::loading_curve::{LoadingCurve, Reached};
 use crate::effects::parameter::Ends;
 use crate::effects::symbol::{Mark, Tone};
 use crate::effects::{Description, Effect, Parameter};
@@ -57,69 +58,19 @@ fn relative(p: &[f64], d: f64) -> f64 {
     p[0] * d / p[1]
 }
 
-/// `z` after a way, with its derivatives.
-struct Reached {
-    z: f64,
-    by_start: f64,
-    by_way: f64,
-    by_exponent: f64,
-}
-
-/// Steps: near the kink that small exponents have at rest, elsewhere, and times the rate at which the curve bends.
-const FIRST: f64 = 0.02;
-const LONGEST: f64 = 0.05;
-const BENT: f64 = 0.1;
-/// `n (1 - z)` below which what is left to rise falls off as an exponential.
-const RISEN: f64 = 1e-3;
-
-/// From `z >= 0` up the curve `dz/dxi = 1 - z^n` over `way >= 0`, by the classical Runge-Kutta method with steps so short
-/// that its error is below 1e-7; where asked for, the derivative by `n` is carried along: `w' = -n z^(n-1) w - z^n ln z`.
-/// Near `z = 1`, with `e = 1 - z`, `e' = -n e + n (n-1) / 2 e^2` has a closed form, and `w = (w_0 + e_0 xi) exp(-n xi)`.
-fn risen<const BY_EXPONENT: bool>(start: f64, way: f64, n: f64) -> Reached {
-    let slope = |z: f64, w: f64| {
-        if z <= 0.0 {
-            return [1.0, 0.0];
-        }
-        let power = z.powf(n);
-        [1.0 - power, if BY_EXPONENT { -n * power / z * w - power * z.ln() } else { 0.0 }]
-    };
-    let [mut z, mut w, mut left] = [start, 0.0, way];
-    while left > 0.0 {
-        let e = 1.0 - z;
-        if n * e < RISEN {
-            let fade = (-n * left).exp();
-            z = 1.0 - e * fade / (1.0 - 0.5 * (n - 1.0) * e * (1.0 - fade));
-            w = (w + e * left) * fade;
-            break;
-        }
-        let a = slope(z, w);
-        let longest = if z < 0.1 { FIRST } else { LONGEST.min(BENT / (n * (1.0 - a[0]) + 1.0)) };
-        // Two steps of equal length rather than a long one and a rest.
-        let h = if left < longest { left } else { longest.min(0.5 * left) };
-        let b = slope(z + 0.5 * h * a[0], w + 0.5 * h * a[1]);
-        let c = slope(z + 0.5 * h * b[0], w + 0.5 * h * b[1]);
-        let d = slope(z + h * c[0], w + h * c[1]);
-        z = (z + h / 6.0 * (a[0] + 2.0 * (b[0] + c[0]) + d[0])).min(1.0);
-        w += h / 6.0 * (a[1] + 2.0 * (b[1] + c[1]) + d[1]);
-        left -= h;
-    }
-    let (rate, first) = (1.0 - z.powf(n), 1.0 - start.powf(n));
-    let by_start = if first > 1e-12 { rate / first } else { (-n * way).exp() };
-    Reached { z, by_start, by_way: rate, by_exponent: w }
-}
-
 /// From `z` over the signed way `xi`.
-fn reached<const BY_EXPONENT: bool>(z: f64, xi: f64, n: f64) -> Reached {
+fn reached(z: f64, xi: f64, n: f64) -> Reached {
     let sign = if xi < 0.0 { -1.0 } else { 1.0 };
     let (z, way) = (sign * z, xi.abs());
     if z + way <= 0.0 {
         return Reached { z: sign * (z + way), by_start: 1.0, by_way: 1.0, by_exponent: 0.0 };
     }
+    let curve = LoadingCurve::of(n);
     let up = if z < 0.0 {
-        let up = risen::<BY_EXPONENT>(0.0, z + way, n);
+        let up = curve.risen(0.0, z + way);
         Reached { by_start: up.by_way, ..up }
     } else {
-        risen::<BY_EXPONENT>(z.min(1.0), way, n)
+        curve.risen(z, way)
     };
     Reached { z: sign * up.z, by_exponent: sign * up.by_exponent, ..up }
 }
@@ -130,13 +81,13 @@ impl InternalLaw for BoucWen {
     }
 
     fn step(&self, p: &[f64], start: f64, way: f64) -> Way {
-        let to = reached::<false>(start / p[1], relative(p, way), p[2]);
+        let to = reached(start / p[1], relative(p, way), p[2]);
         Way { force: p[1] * to.z, by_start: to.by_start, by_way: p[0] * to.by_way }
     }
 
     fn step_by(&self, p: &[f64], k: usize, start: f64, way: f64) -> f64 {
         let (z, xi) = (start / p[1], relative(p, way));
-        let to = if k < 2 { reached::<false>(z, xi, p[2]) } else { reached::<true>(z, xi, p[2]) };
+        let to = reached(z, xi, p[2]);
         match k {
             0 => way * to.by_way,
             1 => to.z - z * to.by_start - xi * to.by_way,
