@@ -16,8 +16,8 @@ use std::rc::Rc;
 /// longest, and times the rate at which the curve bends.
 const FIRST: f64 = 1e-3;
 const GROWTH: f64 = 1.25;
-const LONGEST: f64 = 0.05;
-const BENT: f64 = 0.1;
+const LONGEST: f64 = 0.03;
+const BENT: f64 = 0.06;
 /// `n (1 - z)` below which what is left to rise falls off as an exponential.
 const RISEN: f64 = 1e-3;
 /// Steps of Newton's method on a cubic that is almost straight.

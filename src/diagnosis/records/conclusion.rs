@@ -7,6 +7,8 @@ use super::search::{Search, SetsBySize};
 use super::telling::{added, corrections, suggestions, words};
 use super::told::added_as_told;
 use crate::diagnosis::diagnose::{Added, Diagnosis, Step, Suggestion, Verdict};
+use crate::diagnosis::updating::part_error::{is_within_part, part_of, takes_away};
+use crate::effects::Source;
 
 /// Error of what is told from which on the phase may be lost over the whole record, and the share of it that parts of the record
 /// leave at most where it is.
@@ -15,7 +17,16 @@ const PHASE_LOST: [f64; 2] = [0.08, 0.7];
 /// Probability up to which a suggestion is told as its fit stands, without what it predicts and promises.
 const UNLIKELY: f64 = 1e-3;
 
+/// Relative size of an added spring or mass up to which it may stand for errors of many: some times that of one.
+const TOGETHER: f64 = 0.25;
+
 impl Search<'_> {
+    /// Whether an effect is a spring or mass of no more than several of them may be wrong by together.
+    fn is_correction(&self, source: &Source) -> bool {
+        let structure = self.records.structure;
+        takes_away(source) || part_of(source).is_some_and(|part| is_within_part(structure, source, part, TOGETHER))
+    }
+
     /// Fills `diagnosis` with what was found.
     pub fn conclude(&self, by_size: &SetsBySize, diagnosis: &mut Diagnosis) -> Result<(), RecordError> {
         let Some(best) = by_size.last.first() else {
@@ -50,7 +61,14 @@ impl Search<'_> {
         }
         widen(diagnosis);
         let sure = diagnosis.suggestions.first().is_some_and(|s| s.probability >= 0.5);
-        diagnosis.verdict = if sure { Verdict::Missing } else { Verdict::Undecided };
+        // One spring or mass stands for the many that a model states a little wrongly.
+        let corrected = told.effects.iter().all(|effect| self.is_correction(effect));
+        diagnosis.verdict = match (corrected, sure) {
+            (true, _) if misfit(&told) > AGREES => Verdict::Unexplained,
+            (true, _) => Verdict::Detuned,
+            (false, true) => Verdict::Missing,
+            (false, false) => Verdict::Undecided,
+        };
         Ok(())
     }
 

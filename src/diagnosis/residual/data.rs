@@ -177,6 +177,8 @@ pub struct Data {
     pub per_unit_force: bool,
     /// Whether a channel is not relied on: then the model is not taken for exact either.
     pub doubted: bool,
+    /// Whether the runs are those that tell most of more.
+    pub chosen: bool,
     /// Rows of the DOFs that are rotations.
     pub rotations: Vec<usize>,
     /// Number of the session of each run; none where they cannot be told apart.
@@ -202,7 +204,15 @@ impl Data {
         let per_unit_force = runs.iter().any(|run| problem.runs[run.index].per_unit_force);
         let dofs = problem.structure.dofs().iter().enumerate();
         let rotations = dofs.filter(|(_, dof)| dof.direction.is_rotation()).map(|(row, _)| row).collect();
-        Self { runs, excluded: Vec::new(), per_unit_force, doubted: false, rotations, sessions: Vec::new() }
+        Self {
+            runs,
+            excluded: Vec::new(),
+            per_unit_force,
+            doubted: false,
+            chosen: false,
+            rotations,
+            sessions: Vec::new(),
+        }
     }
 
     /// Whether an effect at its place may be suggested: not one that is ruled out, none of more parameters than runs,

@@ -31,7 +31,7 @@ pub(crate) fn telling(data: &Data) -> Option<Data> {
     chosen.sort_unstable();
     let sessions = if data.sessions.is_empty() { Vec::new() } else { chosen.iter().map(|&r| session(r)).collect() };
     let runs = chosen.iter().map(|&r| data.runs[r].clone()).collect();
-    Some(Data { runs, sessions, ..data.clone() })
+    Some(Data { runs, sessions, chosen: true, ..data.clone() })
 }
 
 /// Length of the curve of the fundamentals up to each of the runs `own`.

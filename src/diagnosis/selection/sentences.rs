@@ -19,7 +19,8 @@ pub(crate) fn sentences(
     let source = &added.source;
     let mut said = vec![source.effect.sentence().to_string(), values(source, &added.deviations)];
     let [before, after] = [before, after].map(|share| significant(100.0 * share, 3));
-    said.push(format!("With it alone the error goes from {before} % to {after} %."));
+    let on = if reference.data.chosen { " on the runs that were searched" } else { "" };
+    said.push(format!("With it alone the error{on} goes from {before} % to {after} %."));
     match &source.place {
         Place::Dofs(_) => {
             if let Some(data) = reference.place_data(best, source)?

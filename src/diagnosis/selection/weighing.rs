@@ -11,9 +11,9 @@ use crate::diagnosis::selection::fitted_model::FittedModel;
 use crate::diagnosis::selection::found::same_set;
 use crate::diagnosis::selection::search::ReferenceModel;
 use crate::diagnosis::updating::parameters::{Scales, UpdatingParameter};
-use crate::effects::{Effect, Place, Range, Source};
+use crate::diagnosis::updating::part_error::{is_within_part, part_of, takes_away};
+use crate::effects::{Effect, Range, Source};
 use crate::structure::Part;
-use crate::structure::factors::Share;
 
 /// Weighed candidates.
 pub(super) struct Weighed<'a> {
@@ -209,30 +209,20 @@ const OF_THE_PART: f64 = 0.05;
 fn is_effect(reference: &ReferenceModel, fit: &FittedModel) -> bool {
     let within = |source: &Source| {
         let source = &source.simpler(&Range::UNKNOWN).unwrap_or_else(|| source.clone());
-        // What the model has too much of is no missing effect, but a correction.
-        if matches!(source.effect, Effect::Mass | Effect::Stiffness) && source.parameters[0] < 0.0 {
+        if takes_away(source) {
             return true;
         }
         if is_ordinary_gain(source) {
             return true;
         }
-        let part = match (source.effect, &source.place) {
-            (Effect::Mass, Place::Dofs(dofs)) if dofs.len() == 1 => Part::PointMass(dofs[0]),
-            (Effect::Stiffness, Place::Dofs(dofs)) if dofs.len() == 1 => Part::GroundSpring(dofs[0]),
-            (Effect::Stiffness, Place::Dofs(dofs)) if dofs.len() == 2 => Part::Coupling([dofs[0], dofs[1]]),
-            _ => return false,
-        };
+        let Some(part) = part_of(source) else { return false };
         let parameters = &reference.linearisation.updating.parameters;
         let updated = parameters.iter().any(|p| match p {
             UpdatingParameter::Structure(other) => *other == part || is_reverse(*other, part),
             _ => false,
         });
-        let own = match reference.predictor.structure().share(part).filter(|_| updated || source.effect == Effect::Mass)
-        {
-            Some(Share { stiffness, mass }) => stiffness.iter().chain(&mass).next().map_or(0.0, |e| e.2.abs()),
-            None => 0.0,
-        };
-        source.parameters[0].abs() < OF_THE_PART * own
+        (updated || source.effect == Effect::Mass)
+            && is_within_part(reference.predictor.structure(), source, part, OF_THE_PART)
     };
     !reference.ranked(vec![fit.clone()]).is_empty() && !fit.effects.iter().any(within)
 }

@@ -7,6 +7,7 @@ pub(crate) mod measured_motion;
 pub(crate) mod modal_expansion;
 pub mod noise_model;
 pub mod parameters;
+pub(crate) mod part_error;
 mod parts;
 pub mod scatter;
 pub(crate) mod shape_errors;
