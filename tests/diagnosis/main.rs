@@ -3,6 +3,7 @@
 
 mod comparison;
 mod energy_rows;
+mod force_gain;
 mod hidden;
 mod level_series;
 mod missing_force;
