@@ -11,12 +11,15 @@ use dashpot::session::workers::Threads;
 use dashpot::structure::Structure;
 use dashpot::structure::chain::ChainParameters;
 use faer::{Mat, c64};
+use rand::SeedableRng;
+use rand_chacha::ChaCha8Rng;
+use rand_distr::{Distribution, StandardNormal};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 const RUNS: usize = 60;
 const SENSORS: usize = 10;
-/// Standard deviation of a channel over its amplitude.
+/// Standard deviation of each part of a channel over its amplitude.
 const NOISE: f64 = 1e-3;
 
 fn chain(n: usize) -> Structure {
@@ -45,6 +48,8 @@ fn runs(structure: &Structure) -> Vec<Run> {
     let stiffness = DynamicStiffness::new(structure, &truth).unwrap_or_else(|error| panic!("{error}"));
     let drives = [at(0.03), at(0.36), at(0.75)];
     let sensors: Vec<usize> = (0..SENSORS).map(|s| at((s as f64 + 0.5) / SENSORS as f64)).chain(drives).collect();
+    let mut random = ChaCha8Rng::seed_from_u64(15);
+    let mut normal = move || -> f64 { StandardNormal.sample(&mut random) };
     (0..RUNS)
         .map(|r| {
             let omega = 11.0 + 0.9 * (r / 3) as f64;
@@ -62,7 +67,10 @@ fn runs(structure: &Structure) -> Vec<Run> {
                 }
             };
             let mut channels = vec![channel(Quantity::Force, drive, c64::new(1.0, 0.0))];
-            channels.extend(sensors.iter().map(|&dof| channel(Quantity::Displacement, dof, column[dof])));
+            channels.extend(sensors.iter().map(|&dof| {
+                let noise = c64::new(normal(), normal()) * NOISE * column[dof].norm();
+                channel(Quantity::Displacement, dof, column[dof] + noise)
+            }));
             let fit = HarmonicFit { omega, omega_deviation: 0.0, channels };
             Run {
                 file: format!("{r}"),
@@ -87,6 +95,13 @@ fn peak_gigabytes() -> f64 {
     line.and_then(|line| line.split_whitespace().next()?.parse::<f64>().ok()).unwrap_or(0.0) / 1e6
 }
 
+/// Processor time of this process, all threads, s; 0 where the system does not say.
+fn processor_seconds() -> f64 {
+    let stat = std::fs::read_to_string("/proc/self/stat").unwrap_or_default();
+    let fields: Vec<f64> = stat.split_whitespace().skip(13).take(2).filter_map(|word| word.parse().ok()).collect();
+    fields.iter().sum::<f64>() / 100.0
+}
+
 fn bench(c: &mut Criterion) {
     let mut group = c.benchmark_group("identify");
     group.sample_size(10).warm_up_time(Duration::from_millis(1)).measurement_time(Duration::from_secs(5));
@@ -98,14 +113,18 @@ fn bench(c: &mut Criterion) {
         let settings = Settings { max_sources: 6, harmonics: 1, ..Settings::default() };
         let title = format!("{n} DOFs, {} candidates, {RUNS} runs", sources.len());
         let control = Control::unattended().with_workers(Arc::new(Threads::default()));
-        let start = Instant::now();
+        let (start, before) = (Instant::now(), processor_seconds());
         let outcome = identify(&structure, &sources, &runs, &settings, &control);
-        let seconds = start.elapsed().as_secs_f64();
+        let (seconds, processor) = (start.elapsed().as_secs_f64(), processor_seconds() - before);
         let outcome = outcome.unwrap_or_else(|error| panic!("{error}"));
         let step = outcome.accepted_step();
         let found: Vec<String> = step.sources.iter().map(|e| format!("{}: {:.3}", e.source, e.coefficient)).collect();
         let gigabytes = peak_gigabytes();
-        println!("{title}: {seconds:.2} s, {gigabytes:.2} GB at most; {:?}, {}", outcome.form, found.join(", "));
+        println!(
+            "{title}: {seconds:.2} s, {processor:.2} s of processors, {gigabytes:.2} GB at most; {:?}, {}",
+            outcome.form,
+            found.join(", ")
+        );
         // Once is enough for the large ones.
         if n <= 500 && only.is_none() {
             group.bench_function(title, |bencher| {

@@ -42,6 +42,17 @@ def brick():
     return k, m
 
 
+def factor(matrix):
+    """Factors of a matrix of symmetric pattern: the ordering for that fills in far less than the default."""
+    return sla.splu(matrix.tocsc(), permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.01, options={"SymmetricMode": True})
+
+
+def lowest(k, m, count):
+    """The lowest frequencies, Hz."""
+    inverse = sla.LinearOperator(k.shape, factor(k).solve)
+    return np.sqrt(np.sort(sla.eigsh(k, count, m, sigma=0, OPinv=inverse)[0])) / (2 * np.pi)
+
+
 def main():
     nx, ny, nz = map(int, sys.argv[1:4])
     folder = pathlib.Path(sys.argv[4])
@@ -70,7 +81,7 @@ def main():
     dampers = [(3 * number[nx // 2, ny // 2, nz] + 2, 400.0), (3 * number[nx, ny // 2, nz] + 2, 150.0)]
     place = {d: i for i, d in enumerate(free)}
     label = lambda d: f"{d // 3 + 1}{'xyz'[d % 3]}"
-    modes = np.sqrt(np.sort(sla.eigsh(matrices["sti"].tocsc(), 6, matrices["mas"].tocsc(), sigma=0)[0])) / (2 * np.pi)
+    modes = lowest(matrices["sti"], matrices["mas"], 6)
     print("frequencies, Hz:", modes)
     c = sp.lil_matrix(matrices["sti"].shape)
     for d, value in dampers:
@@ -80,7 +91,7 @@ def main():
         w = 2 * np.pi * f
         load = np.zeros(len(free), complex)
         load[place[force]] = 10.0
-        x = sla.spsolve((matrices["sti"] - w**2 * matrices["mas"] + 1j * w * c).tocsc(), load)
+        x = factor(matrices["sti"] - w**2 * matrices["mas"] + 1j * w * c).solve(load)
         lines.append(f"{r + 1},{f:.9f},force@{label(force)} [N],1,10.0,0.0,0.0,0.0")
         for d in sensors:
             y = -w**2 * x[place[d]]

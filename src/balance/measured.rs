@@ -6,6 +6,7 @@
 
 use super::BalanceError;
 use crate::measurement::{ChannelFit, Quantity, Run};
+use crate::structure::Structure;
 use faer::{Mat, c64};
 
 /// Deviation relative to a channel's amplitude below which a run counts as free of noise.
@@ -83,6 +84,26 @@ impl Measured {
         let sensors = amplitudes(&sensors, omega, &numbers);
         let forces = amplitudes(&forces, omega, &numbers);
         Ok(Self { file, omega, numbers, sensors, forces, noisy })
+    }
+
+    /// Takes no sensor as better than `part` of the largest motion of its kind, translation or rotation, at the same
+    /// harmonic. Runs whose noise is not known stay as they are.
+    pub fn limit_range(&mut self, part: f64, structure: &Structure) {
+        if !self.noisy {
+            return;
+        }
+        let turns = |dof: &usize| structure.dofs()[*dof].direction.is_rotation();
+        let is_rotation: Vec<bool> = self.sensors.dofs.iter().map(turns).collect();
+        for k in 0..self.harmonics() {
+            for kind in [false, true] {
+                let places: Vec<usize> = (0..self.sensors.len()).filter(|&s| is_rotation[s] == kind).collect();
+                let largest = places.iter().fold(0.0_f64, |most, &s| most.max(self.sensors.values[(s, k)].norm()));
+                for s in places {
+                    let deviation = &mut self.sensors.deviations[(s, k)];
+                    *deviation = deviation.hypot(part * largest);
+                }
+            }
+        }
     }
 
     /// Number of kept harmonics.

@@ -27,6 +27,7 @@ pub mod results;
 mod search;
 pub mod settings;
 mod solve;
+mod sparse_start;
 mod state;
 mod stopping;
 mod system;
@@ -155,6 +156,11 @@ fn response_start(problem: &Problem<'_>, start: &State, control: &Control) -> Re
     let wanted = matches!(problem.settings.weights, Weights::Auto | Weights::Noise);
     if problem.expander.method() != Expansion::Dynamic || !wanted || problem.columns.is_empty() {
         return Ok(None);
+    }
+    if problem.columns.len() > promising::MANY
+        && let Some(state) = sparse_start::sparse_start(problem, start, control)?
+    {
+        return Ok(Some(state));
     }
     let mut state = start.in_motion(problem, start.coefficients.clone(), 0.0)?;
     let mut best: Option<(f64, State)> = None;

@@ -5,6 +5,7 @@ use super::measurements::Measurements;
 use super::ratios::Ratios;
 use super::window_columns::WindowColumns;
 use super::{IdentifyError, Settings};
+use crate::balance::expansion::modal_model::ModalModel;
 use crate::balance::{Expander, Expansion, Measured, Weights};
 use crate::control::Control;
 use crate::effects::{Source, State as SourceState};
@@ -54,10 +55,13 @@ impl<'a> Problem<'a> {
         }
         let per_unit_force = run_index.iter().any(|&r| runs[r].per_unit_force);
         let measured: Result<Vec<Measured>, _> = run_index.iter().map(|&r| Measured::new(&runs[r])).collect();
-        let measured = measured?;
+        let mut measured = measured?;
         // Without steady runs there is no harmonic to expand.
         let expansion = if measured.is_empty() { Expansion::None } else { settings.expansion };
         let expander = Expander::new(structure, expansion, &measured)?;
+        if let Some(truncation) = expander.model().map(ModalModel::truncation).filter(|part| *part > 0.0) {
+            measured.iter_mut().for_each(|run| run.limit_range(truncation, structure));
+        }
         let mut problem = Self {
             structure,
             sources,

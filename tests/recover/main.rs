@@ -5,6 +5,7 @@ mod bad_input;
 mod beam;
 mod chain;
 mod change;
+mod many;
 mod noise;
 mod points;
 mod ratios;

@@ -21,6 +21,8 @@ const ALL: usize = 250;
 const BAND: f64 = 6.0;
 /// ... or where they are more than [`ALL`], up to this one: the series for the rest must still converge.
 const NARROW: f64 = 2.0;
+/// Error of a receptance over its column's largest entry where modes are left to the series.
+const TRUNCATION: f64 = 1e-6;
 /// Least number of retained modes.
 const LEAST: usize = 60;
 
@@ -67,6 +69,12 @@ impl ModalModel {
             return Ok(Self { modes: lowest.modes.clone(), rest: Some(HigherModes { lowest, dofs, columns }) });
         }
         Ok(Self { modes: structure.modes().map_err(failed)?, rest: None })
+    }
+
+    /// Error of a receptance over the largest of its column: 0 where every mode is retained. Far from the force, below the
+    /// lowest mode, the sum of the modes is many orders smaller than its terms.
+    pub fn truncation(&self) -> f64 {
+        if self.rest.is_some() { TRUNCATION } else { 0.0 }
     }
 
     /// Number of DOFs.
