@@ -32,14 +32,23 @@ pub struct Way {
 
 /// A law given by what one straight way does to its force.
 pub trait InternalLaw: Sync {
+    /// What the ways of one set of parameters have in common, computed once.
+    type Shape: Send + Sync + 'static;
+
     /// As [`Law::description`].
     fn description(&self) -> &'static Description;
 
+    /// What the ways of the parameters `p` have in common.
+    fn shape(&self, p: &[f64]) -> Self::Shape;
+
+    /// Slope of the force at rest, N/m.
+    fn stiffness(&self, p: &[f64]) -> f64;
+
     /// From the force `start` (N) over the straight `way` (m).
-    fn step(&self, p: &[f64], start: f64, way: f64) -> Way;
+    fn step(&self, shape: &Self::Shape, p: &[f64], start: f64, way: f64) -> Way;
 
     /// Derivative of the force at the end by parameter `k`, start and way held.
-    fn step_by(&self, p: &[f64], k: usize, start: f64, way: f64) -> f64;
+    fn step_by(&self, shape: &Self::Shape, p: &[f64], k: usize, start: f64, way: f64) -> f64;
 
     /// Largest force, N: no way leads beyond it.
     fn bound(&self, p: &[f64]) -> f64;
@@ -58,10 +67,10 @@ pub struct Internal<T>(pub T);
 impl<T: InternalLaw> Internal<T> {
     /// Adds where each way of the period starts and leads to from the force `start`; the force at the end, and its derivative by
     /// `start`.
-    fn period(&self, p: &[f64], d: &[f64], start: f64, ways: &mut Vec<(f64, Way)>) -> [f64; 2] {
+    fn period(&self, (shape, p): (&T::Shape, &[f64]), d: &[f64], start: f64, ways: &mut Vec<(f64, Way)>) -> [f64; 2] {
         ways.clear();
         (0..d.len()).fold([start, 1.0], |[force, slope], n| {
-            let way = self.0.step(p, force, d[(n + 1) % d.len()] - d[n]);
+            let way = self.0.step(shape, p, force, d[(n + 1) % d.len()] - d[n]);
             ways.push((force, way));
             [way.force, slope * way.by_start]
         })
@@ -70,18 +79,18 @@ impl<T: InternalLaw> Internal<T> {
     /// The force of a spring about the middle of the motion, within the bound.
     fn unslipped(&self, p: &[f64], d: &[f64]) -> f64 {
         let bound = self.0.bound(p);
-        (self.0.step(p, 0.0, 0.0).by_way * (d[0] - middle(d))).clamp(-bound, bound)
+        (self.0.stiffness(p) * (d[0] - middle(d))).clamp(-bound, bound)
     }
 
     /// The ways of one period in steady state, and the slope of the period's map there.
     fn ways(&self, p: &[f64], d: &[f64]) -> (Vec<(f64, Way)>, f64) {
-        let bound = self.0.bound(p);
+        let (bound, shape) = (self.0.bound(p), self.0.shape(p));
         let (mut low, mut high, mut start) = (-bound, bound, self.unslipped(p, d));
         let (least, most) = extremes(d);
-        let size = bound.min(self.0.step(p, 0.0, 0.0).by_way * (d[most] - d[least]));
+        let size = bound.min(self.0.stiffness(p) * (d[most] - d[least]));
         let (mut ways, mut slope) = (Vec::with_capacity(d.len()), 1.0);
         for _ in 0..STEPS {
-            let [end, by_start] = self.period(p, d, start, &mut ways);
+            let [end, by_start] = self.period((&shape, p), d, start, &mut ways);
             slope = by_start;
             if slope > SLIPLESS {
                 break;
@@ -156,7 +165,7 @@ impl<T: InternalLaw + Copy + Send + 'static> Law for Internal<T> {
         let (ways, slope) = self.ways(p, &motion.displacement);
         ways.iter().zip(force).for_each(|((start, _), f)| *f = *start);
         let (least, most) = extremes(&motion.displacement);
-        let stiffness = self.0.step(p, 0.0, 0.0).by_way;
+        let stiffness = self.0.stiffness(p);
         Box::new(move |direction, tangent| {
             let e = &direction.displacement;
             let unslipped = stiffness * (e[0] - 0.5 * (e[least] + e[most]));
@@ -170,16 +179,16 @@ impl<T: InternalLaw + Copy + Send + 'static> Law for Internal<T> {
 
     fn by_parameters<'a>(&'a self, p: &'a [f64], motion: &'a Motion) -> ByParameter<'a> {
         let d = &motion.displacement;
-        let (ways, slope) = self.ways(p, d);
+        let ((ways, slope), shape) = (self.ways(p, d), self.0.shape(p));
         Box::new(move |k, tangent| {
-            let by = |n: usize| self.0.step_by(p, k, ways[n].0, d[(n + 1) % d.len()] - d[n]);
+            let by = |n: usize| self.0.step_by(&shape, p, k, ways[n].0, d[(n + 1) % d.len()] - d[n]);
             let added: Vec<f64> = (0..d.len()).map(by).collect();
-            carry(&ways, slope, self.0.step_by(p, k, 0.0, d[0] - middle(d)), |n| added[n], tangent);
+            carry(&ways, slope, self.0.step_by(&shape, p, k, 0.0, d[0] - middle(d)), |n| added[n], tangent);
         })
     }
 
     fn memory(&self, p: &[f64]) -> Option<Box<dyn Memory>> {
-        Some(Box::new(InternalMemory { law: self.0, p: p.to_vec(), last: [0.0; 2] }))
+        Some(Box::new(InternalMemory { law: self.0, shape: self.0.shape(p), p: p.to_vec(), last: [0.0; 2] }))
     }
 
     fn energy_per_cycle(&self, p: &[f64], amplitude: f64, _omega: f64) -> Option<f64> {
@@ -215,8 +224,9 @@ impl<T: InternalLaw + Copy + Send + 'static> Law for Internal<T> {
 }
 
 /// The law stepped through time from rest.
-struct InternalMemory<T> {
+struct InternalMemory<T: InternalLaw> {
     law: T,
+    shape: T::Shape,
     p: Vec<f64>,
     /// Displacement (m) and force (N) of the last instant.
     last: [f64; 2],
@@ -224,7 +234,7 @@ struct InternalMemory<T> {
 
 impl<T: InternalLaw> Memory for InternalMemory<T> {
     fn trial(&self, d: f64, _step: f64) -> [f64; 2] {
-        let way = self.law.step(&self.p, self.last[1], d - self.last[0]);
+        let way = self.law.step(&self.shape, &self.p, self.last[1], d - self.last[0]);
         [way.force, way.by_way]
     }
 

@@ -9,14 +9,12 @@
 //! `z(xi_0)` the force at its start. Between the nodes cubics with the slopes there (Hermite) are exact to 1e-7. Near `z = 1`,
 //! with `e = 1 - z`, `e' = -n e + n (n-1) / 2 e^2` has a closed form, and `w = (w_0 + e_0 xi) exp(-n xi)`.
 
-use std::cell::RefCell;
-use std::rc::Rc;
-
 /// Steps between nodes: at rest, where small exponents give a kink, and how much longer each may be than the one before; the
-/// longest, and times the rate at which the curve bends.
+/// longest, over the exponent of large ones, and times the rate at which the curve bends.
 const FIRST: f64 = 1e-3;
 const GROWTH: f64 = 1.25;
 const LONGEST: f64 = 0.03;
+const SHARP: f64 = 0.4;
 const BENT: f64 = 0.06;
 /// `n (1 - z)` below which what is left to rise falls off as an exponential.
 const RISEN: f64 = 1e-3;
@@ -25,7 +23,7 @@ const STEPS: usize = 4;
 
 /// A force after a way that loads, with its derivatives.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Reached {
+pub(crate) struct Reached {
     pub z: f64,
     pub by_start: f64,
     pub by_way: f64,
@@ -42,27 +40,14 @@ struct Node {
 
 /// The curve of one exponent.
 #[derive(Debug)]
-pub(super) struct LoadingCurve {
+pub struct LoadingCurve {
     n: f64,
     nodes: Vec<Node>,
 }
 
-thread_local! {
-    /// The curve that was asked for last: a period and its derivatives ask for one exponent many times.
-    static LAST: RefCell<Option<Rc<LoadingCurve>>> = const { RefCell::new(None) };
-}
-
 impl LoadingCurve {
-    /// The curve of the exponent `n`, at least 1.
-    pub fn of(n: f64) -> Rc<Self> {
-        LAST.with_borrow_mut(|last| match last {
-            Some(curve) if curve.n.to_bits() == n.to_bits() => curve.clone(),
-            _ => last.insert(Rc::new(Self::new(n))).clone(),
-        })
-    }
-
-    /// By the classical Runge-Kutta method from node to node.
-    fn new(n: f64) -> Self {
+    /// The curve of the exponent `n`, at least 1, by the classical Runge-Kutta method from node to node.
+    pub fn new(n: f64) -> Self {
         let slope = |[z, w]: [f64; 2]| {
             if z <= 0.0 {
                 return [1.0, 0.0];
@@ -85,7 +70,7 @@ impl LoadingCurve {
             let d = slope(moved(c, h));
             at = std::array::from_fn(|i| at[i] + h / 6.0 * (a[i] + 2.0 * (b[i] + c[i]) + d[i]));
             way += h;
-            longest = LONGEST.min(GROWTH * longest);
+            longest = LONGEST.min(SHARP / n).min(GROWTH * longest);
             nodes.push(node(way, at));
         }
         Self { n, nodes }
@@ -96,7 +81,7 @@ impl LoadingCurve {
     }
 
     /// From the force `start` (0 to 1) over `way >= 0`.
-    pub fn risen(&self, start: f64, way: f64) -> Reached {
+    pub(crate) fn risen(&self, start: f64, way: f64) -> Reached {
         if start >= self.last().z[0] {
             return self.end(start.min(1.0), 0.0, way);
         }

@@ -133,10 +133,19 @@ fn what_a_channel_reads_too_large_and_late_and_a_run_that_shifted_are_told() {
     assert_eq!(found.runs.len(), 12);
     let second = found.channels.iter().find(|c| c.channel == "acc@2").unwrap();
     let (gain, delay) = (second.gain, second.delay.unwrap());
-    assert!((gain.value - 0.02).abs() < 3.0 * gain.deviation && gain.deviations() > 5.0, "{gain:?}");
+    // What is common to all channels no data tell: it is shared among them, so that one stands out against the others.
+    let others: Vec<f64> = found
+        .channels
+        .iter()
+        .filter(|c| c.channel.starts_with("acc") && c.channel != "acc@2")
+        .map(|c| c.gain.value)
+        .collect();
+    let apart = gain.value - others.iter().sum::<f64>() / others.len() as f64;
+    assert!((apart - 0.02).abs() < 1e-3, "{apart} {gain:?}");
+    assert!((gain.value - 0.02).abs() < 3.0 * gain.deviation, "{gain:?}");
     assert!((delay.value - 4e-5).abs() < 3.0 * delay.deviation && delay.deviations() > 5.0, "{delay:?}");
     for other in found.channels.iter().filter(|c| c.channel != "acc@2") {
-        assert!(other.gain.value.abs() < 5e-3, "{other:?}");
+        assert!(other.gain.value.abs() < 2.0 * other.gain.deviation, "{other:?}");
     }
     // What all runs share is the structure's: a run has shifted against the others.
     let shifted = &found.runs[3].frequency;

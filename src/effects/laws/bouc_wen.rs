@@ -58,14 +58,13 @@ fn relative(p: &[f64], d: f64) -> f64 {
     p[0] * d / p[1]
 }
 
-/// From `z` over the signed way `xi`.
-fn reached(z: f64, xi: f64, n: f64) -> Reached {
+/// From `z` over the signed way `xi`, on the first loading curve.
+fn reached(curve: &LoadingCurve, z: f64, xi: f64) -> Reached {
     let sign = if xi < 0.0 { -1.0 } else { 1.0 };
     let (z, way) = (sign * z, xi.abs());
     if z + way <= 0.0 {
         return Reached { z: sign * (z + way), by_start: 1.0, by_way: 1.0, by_exponent: 0.0 };
     }
-    let curve = LoadingCurve::of(n);
     let up = if z < 0.0 {
         let up = curve.risen(0.0, z + way);
         Reached { by_start: up.by_way, ..up }
@@ -76,18 +75,28 @@ fn reached(z: f64, xi: f64, n: f64) -> Reached {
 }
 
 impl InternalLaw for BoucWen {
+    type Shape = LoadingCurve;
+
+    fn shape(&self, p: &[f64]) -> LoadingCurve {
+        LoadingCurve::new(p[2])
+    }
+
+    fn stiffness(&self, p: &[f64]) -> f64 {
+        p[0]
+    }
+
     fn description(&self) -> &'static Description {
         &DESCRIPTION
     }
 
-    fn step(&self, p: &[f64], start: f64, way: f64) -> Way {
-        let to = reached(start / p[1], relative(p, way), p[2]);
+    fn step(&self, curve: &LoadingCurve, p: &[f64], start: f64, way: f64) -> Way {
+        let to = reached(curve, start / p[1], relative(p, way));
         Way { force: p[1] * to.z, by_start: to.by_start, by_way: p[0] * to.by_way }
     }
 
-    fn step_by(&self, p: &[f64], k: usize, start: f64, way: f64) -> f64 {
+    fn step_by(&self, curve: &LoadingCurve, p: &[f64], k: usize, start: f64, way: f64) -> f64 {
         let (z, xi) = (start / p[1], relative(p, way));
-        let to = reached(z, xi, p[2]);
+        let to = reached(curve, z, xi);
         match k {
             0 => way * to.by_way,
             1 => to.z - z * to.by_start - xi * to.by_way,

@@ -43,11 +43,19 @@ const DESCRIPTION: Description = Description {
 };
 
 impl InternalLaw for Dahl {
+    type Shape = ();
+
+    fn shape(&self, _p: &[f64]) {}
+
+    fn stiffness(&self, p: &[f64]) -> f64 {
+        p[0]
+    }
+
     fn description(&self) -> &'static Description {
         &DESCRIPTION
     }
 
-    fn step(&self, p: &[f64], start: f64, way: f64) -> Way {
+    fn step(&self, _shape: &(), p: &[f64], start: f64, way: f64) -> Way {
         let [stiffness, force] = [p[0], p[1]];
         let sliding = force * if way < 0.0 { -1.0 } else { 1.0 };
         let exponent = -stiffness * way.abs() / force;
@@ -60,7 +68,7 @@ impl InternalLaw for Dahl {
         }
     }
 
-    fn step_by(&self, p: &[f64], k: usize, start: f64, way: f64) -> f64 {
+    fn step_by(&self, _shape: &(), p: &[f64], k: usize, start: f64, way: f64) -> f64 {
         let [stiffness, force] = [p[0], p[1]];
         let sign = if way < 0.0 { -1.0 } else { 1.0 };
         let length = way.abs() / force;
