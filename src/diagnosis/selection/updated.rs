@@ -195,8 +195,9 @@ impl<'a> ReferenceModel<'a> {
     pub fn likely(&self) -> Result<(ReferenceModel<'a>, f64), DiagnosisError> {
         let alike = Scales { shift: Scales::LEAST.shift, response: Scales::LEAST.response, ..Scales::SEARCH };
         let exact = Scales { gain: Scales::LEAST.gain, phase: Scales::LEAST.phase, ..alike };
+        let start = self.updated(&self.linearisation.updating.without_force_gains(), &[], &Vec::new())?;
         let strict = |scales: Scales| -> Result<(ReferenceModel<'a>, f64, bool), DiagnosisError> {
-            let strict = self.with_scales(scales).settled_bare(STEPS)?;
+            let strict = start.with_scales(scales).settled_bare(STEPS)?;
             let left = square(&strict.estimator().residual(&strict.predictions));
             let (cost, enough) = (left + strict.noise.cost(), agrees(&strict, left, 0));
             Ok((strict, cost, enough))

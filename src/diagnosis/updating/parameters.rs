@@ -249,6 +249,15 @@ impl Updating {
         Self { values: self.parameters.iter().zip(&self.values).map(value).collect(), ..self.clone() }
     }
 
+    /// The same with the gains of forces at nothing: where scales leave them no freedom they cannot be moved back.
+    #[must_use]
+    pub fn without_force_gains(&self) -> Self {
+        let value = |(parameter, v): (&UpdatingParameter, &f64)| {
+            if matches!(parameter, UpdatingParameter::ForceGain(_)) { 0.0 } else { *v }
+        };
+        Self { values: self.parameters.iter().zip(&self.values).map(value).collect(), ..self.clone() }
+    }
+
     /// The same with all runs alike: what holds of the structure, not of the records.
     #[must_use]
     pub fn of_structure(&self) -> Self {
