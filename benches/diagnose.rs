@@ -41,7 +41,7 @@ fn project(effect: Effect, sensors: usize, runs: usize) -> Hidden {
 
 fn measure(criterion: &mut Criterion) {
     faer::set_global_parallelism(faer::Par::Seq);
-    let control = || Control::unattended().with_workers(Arc::new(Threads::default()));
+    let control = || Control::unattended().with_workers(Arc::new(Threads));
     let mut group = criterion.benchmark_group("diagnose");
     group.sample_size(10);
     let mut one = |name: String, effect: Effect, sensors: usize, runs: usize| {

@@ -209,7 +209,7 @@ fn comparison(c: &mut Criterion) {
     group.sample_size(10);
     for (name, sources) in [("linear_model", &sources[..2]), ("three_frictions", &sources[..])] {
         let problem = Problem { structure: &structure, sources, runs: &runs };
-        let shared = Control::unattended().with_workers(Arc::new(Threads::default()));
+        let shared = Control::unattended().with_workers(Arc::new(Threads));
         for (threads, control) in [("one_thread", Control::unattended()), ("all_threads", shared)] {
             group.bench_function(BenchmarkId::new(format!("{name}/{threads}"), runs.len()), |b| {
                 b.iter(|| compare(&problem, &[], &control).map(black_box));

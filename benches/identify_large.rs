@@ -112,7 +112,7 @@ fn bench(c: &mut Criterion) {
         let (sources, runs) = (candidates(n), runs(&structure));
         let settings = Settings { max_sources: 6, harmonics: 1, ..Settings::default() };
         let title = format!("{n} DOFs, {} candidates, {RUNS} runs", sources.len());
-        let control = Control::unattended().with_workers(Arc::new(Threads::default()));
+        let control = Control::unattended().with_workers(Arc::new(Threads));
         let (start, before) = (Instant::now(), processor_seconds());
         let outcome = identify(&structure, &sources, &runs, &settings, &control);
         let (seconds, processor) = (start.elapsed().as_secs_f64(), processor_seconds() - before);

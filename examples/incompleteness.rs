@@ -34,7 +34,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut sensors: Vec<Vec<usize>> = vec![(0..structure.len()).collect()];
     sensors.extend([10, 5, 3].map(|count| spread_sensors(&structure, count)));
     let grid = Grid { sensors, modes: (1..=20).collect(), mac: true };
-    let control = Control::unattended().with_workers(Arc::new(Threads::default()));
+    let control = Control::unattended().with_workers(Arc::new(Threads));
     let study = incompleteness(&structure, truth.as_ref(), &grid, &control)?;
     println!("modes,sensors,method,eps_c_percent,eps_p_percent,mac_error,mac_error_measured");
     for case in &study.cases {

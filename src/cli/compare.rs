@@ -28,7 +28,7 @@ const SIGNIFICANT: f64 = 0.001;
 
 /// Compares and prints.
 pub(super) fn run(arguments: &Analysis) -> anyhow::Result<String> {
-    let control = Control::unattended().with_workers(Arc::new(Threads::default()));
+    let control = Control::unattended().with_workers(Arc::new(Threads));
     let mut project = load(&arguments.file, &control)?;
     super::remarks::tell_remarks(&project);
     reduction::warn(&project.structure);

@@ -31,7 +31,7 @@ pub(super) fn run(arguments: &Identify) -> anyhow::Result<String> {
 
 /// Loads and identifies a project, with damping ratios if they are asked for.
 pub(super) fn identified(file: &Path, ratios: Option<&Path>) -> anyhow::Result<(Project, Outcome)> {
-    let control = Control::unattended().with_workers(Arc::new(Threads::default()));
+    let control = Control::unattended().with_workers(Arc::new(Threads));
     let project = load(file, &control)?;
     say_other_kinds(&project);
     super::remarks::tell_remarks(&project);

@@ -16,7 +16,7 @@ use serde_json::{Map, Value, json};
 use std::sync::Arc;
 
 pub(super) fn run(arguments: &Methods) -> anyhow::Result<String> {
-    let control = Control::unattended().with_workers(Arc::new(Threads::default()));
+    let control = Control::unattended().with_workers(Arc::new(Threads));
     let context = || arguments.file.display().to_string();
     let project = load(&arguments.file, &control)?;
     let known = known_damping(&project.structure, &project.sources);

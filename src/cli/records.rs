@@ -98,7 +98,7 @@ pub(super) fn text(project: &Project, comparison: &RecordComparison) -> String {
 
 /// `dashpot amplitude`: curves of every record that is not steady, in its channel of greatest response.
 pub(super) fn amplitude(arguments: &Analysis) -> anyhow::Result<String> {
-    let control = Control::unattended().with_workers(Arc::new(Threads::default()));
+    let control = Control::unattended().with_workers(Arc::new(Threads));
     let project = load(&arguments.file, &control)?;
     let name = arguments.file.display();
     let Some(comparison) = compared(&project, &arguments.file, &control)? else {

@@ -7,7 +7,7 @@ use crate::session::workers::Threads;
 use std::sync::Arc;
 
 pub(super) fn run(arguments: &Report) -> anyhow::Result<String> {
-    let control = Control::unattended().with_workers(Arc::new(Threads::default()));
+    let control = Control::unattended().with_workers(Arc::new(Threads));
     let written = report::report(&arguments.file, &arguments.out, &control).map_err(anyhow::Error::msg)?;
     eprintln!("{written}");
     Ok(String::new())

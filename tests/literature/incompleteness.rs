@@ -74,7 +74,7 @@ fn a_grid_is_made_for_any_structure_and_shared_among_workers() {
     assert!(grid.mac && grid.modes.len() == 20);
     let small = Grid { modes: vec![2, 7], ..grid };
     let alone = incompleteness(&structure, truth().as_ref(), &small, &Control::unattended()).unwrap();
-    let control = Control::unattended().with_workers(Arc::new(Threads::default()));
+    let control = Control::unattended().with_workers(Arc::new(Threads));
     assert_eq!(incompleteness(&structure, truth().as_ref(), &small, &control).unwrap(), alone);
     assert!((control.progress() - 1.0).abs() < 1e-6);
 }
