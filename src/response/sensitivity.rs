@@ -7,7 +7,7 @@
 //! ```
 //!
 //! with `A_h` the receptance of the linear rest and `J = 1 - Phi_F + Phi_D C` the Jacobian of the balance, factorised once.
-//! `A_h` is symmetric, so that its rows at the legs and at the DOFs asked for serve all unknowns ([`super::observation`]).
+//! `A_h` is symmetric, so that its rows at the legs and at the DOFs asked for serve all unknowns (`observation`).
 //! Where the response is extrapolated from two numbers of harmonics, so are its derivatives.
 
 use super::harmonic_balance::LinearPart;
