@@ -56,7 +56,10 @@ pub fn shaped(effect: Effect, [d, v, omega]: [f64; 3], s: f64) -> Vec<f64> {
     match effect {
         Effect::Power => vec![s / v.powf(1.6), 1.6],
         Effect::Fractional => vec![s / d / omega.powf(0.4), 0.4],
-        Effect::ElasticSlider => vec![s / (0.25 * d), s],
+        Effect::ElasticSlider | Effect::Dahl => vec![s / (0.25 * d), s],
+        Effect::BoucWen => vec![s / (0.25 * d), s, 1.5],
+        Effect::AsymmetricViscous => vec![s / v, 0.5 * s / v],
+        Effect::AsymmetricCoulomb => vec![s, 0.3 * s],
         Effect::Maxwell => vec![s / d, s / d / omega],
         Effect::Iwan => vec![s / (0.3 * d), s, -0.5, 1.0],
         Effect::Stribeck => vec![s, 2.0 * s, 0.1 * v],
