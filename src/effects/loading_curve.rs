@@ -6,7 +6,7 @@
 //! ```
 //!
 //! The equation does not know where it is, so that every way that loads is a part of this one curve, `z(xi_0 + way)` with
-//! `z(xi_0)` the force at its start. Between the nodes cubics with the slopes there (Hermite) are exact to 1e-7. Near `z = 1`,
+//! `z(xi_0)` the force at its start. Between the nodes cubics with the slopes there (Hermite) are exact to 2e-7. Near `z = 1`,
 //! with `e = 1 - z`, `e' = -n e + n (n-1) / 2 e^2` has a closed form, and `w = (w_0 + e_0 xi) exp(-n xi)`.
 
 /// Steps between nodes: at rest, where small exponents give a kink, and how much longer each may be than the one before; the
