@@ -13,6 +13,39 @@ pub(crate) fn take(reader: &mut impl io::Read, count: u64) -> Read<Vec<u8>> {
     Ok(bytes)
 }
 
+/// An empty vector with room for exactly `count` numbers, so that it never grows: a vector that doubles takes three times
+/// the memory of a long channel. `count` must have been checked against the size of the file.
+pub(crate) fn room(count: u64) -> Read<Vec<f64>> {
+    let mut values = Vec::new();
+    let there = usize::try_from(count).is_ok_and(|count| values.try_reserve_exact(count).is_ok());
+    if there { Ok(values) } else { Err(Fault::new("is too large for memory; cut the record into shorter ones")) }
+}
+
+/// Bytes that are read at once of a long array.
+const PIECE: u64 = 1 << 20;
+
+/// `count` numbers that are `stride` numbers apart, from where the reader stands; only one piece of the file is in memory beside them.
+pub(crate) fn strided(
+    reader: &mut impl io::Read,
+    (scalar, big): (Scalar, bool),
+    stride: u64,
+    count: u64,
+) -> Read<Vec<f64>> {
+    let (width, step) = (scalar.size() as u64, scalar.size() as u64 * stride.max(1));
+    let rows = (PIECE / step).max(1);
+    let mut values = room(count)?;
+    let mut done = 0;
+    while done < count {
+        let rows = rows.min(count - done);
+        // Behind the last number nothing may follow.
+        let rest = if done + rows < count { step - width } else { 0 };
+        let bytes = take(reader, (rows - 1) * step + width + rest)?;
+        values.extend(bytes.chunks(step as usize).filter_map(|row| scalar.get(row, big)));
+        done += rows;
+    }
+    Ok(values)
+}
+
 /// A type of number in a binary file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Scalar {

@@ -67,6 +67,9 @@ impl From<std::io::Error> for Fault {
         if error.kind() == std::io::ErrorKind::UnexpectedEof {
             return Self::new("ends before its data do; it was cut short: copy or export it again");
         }
+        if error.kind() == std::io::ErrorKind::InvalidData {
+            return Self::new("its compressed data are damaged; save the file again");
+        }
         Self::new(format!("cannot be read: {error}; check the path and the permissions"))
     }
 }

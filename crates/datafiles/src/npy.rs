@@ -3,11 +3,11 @@
 //! Source: "NEP 1: A simple file format for NumPy arrays": magic, version, length of the header, and a Python dictionary of
 //! `descr`, `fortran_order` and `shape`.
 
-use crate::bytes::{Scalar, check_size, take};
+use crate::bytes::{Scalar, check_size, strided, take};
 use crate::contents::{Contents, Format};
 use crate::error::{Fault, Read, one_line};
 use crate::source::Source;
-use crate::tree::{Array, Arrays, Entry, Flat, Node, Shape, TreeSource, sets};
+use crate::tree::{Array, Arrays, Cut, Entry, Flat, Node, Shape, TreeSource, sets};
 use std::fs::File;
 use std::io::{Read as Bytes, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
@@ -209,6 +209,20 @@ impl Arrays for Npy {
     fn read(&self, _id: usize) -> Read<Flat> {
         let mut file = File::open(&self.path)?;
         Header::read(&mut file)?.values(&mut std::io::BufReader::new(file))
+    }
+
+    fn column(&self, _id: usize, cut: &Cut, channel: u64) -> Option<Read<Flat>> {
+        self.real_column(cut, channel).transpose()
+    }
+}
+
+impl Npy {
+    fn real_column(&self, cut: &Cut, channel: u64) -> Read<Option<Flat>> {
+        let mut file = File::open(&self.path)?;
+        let header = Header::read(&mut file)?;
+        let Some(numbers) = header.numbers().filter(|numbers| !numbers.complex) else { return Ok(None) };
+        file.seek_relative((cut.offset(channel) * numbers.size()) as i64)?;
+        strided(&mut file, (numbers.scalar, numbers.big), cut.stride, cut.count).map(|re| Some(Flat::real(re)))
     }
 }
 

@@ -1,6 +1,6 @@
 //! WAV files: one channel a track; integers are shares of full scale as they are in the file.
 
-use crate::bytes::check_size;
+use crate::bytes::{check_size, room};
 use crate::contents::{Axis, Channel, Contents, FIRST, Format, Kind, Number, Set};
 use crate::error::{Fault, Read};
 use crate::source::Source;
@@ -81,20 +81,19 @@ impl Source for Wav {
         let spec = reader.spec();
         let full = 2f64.powi(i32::from(spec.bits_per_sample) - 1);
         let tracks = usize::from(spec.channels);
-        let values: Read<Vec<f64>> = match spec.sample_format {
-            SampleFormat::Float => reader
-                .samples::<f32>()
-                .skip(channel)
-                .step_by(tracks)
-                .map(|value| value.map(f64::from).map_err(wrong))
-                .collect(),
-            SampleFormat::Int => reader
-                .samples::<i32>()
-                .skip(channel)
-                .step_by(tracks)
-                .map(|value| value.map(|value| f64::from(value) / full).map_err(wrong))
-                .collect(),
-        };
-        values.map(Values::Real)
+        let mut values = room(u64::from(reader.duration()))?;
+        match spec.sample_format {
+            SampleFormat::Float => {
+                for value in reader.samples::<f32>().skip(channel).step_by(tracks) {
+                    values.push(f64::from(value.map_err(wrong)?));
+                }
+            }
+            SampleFormat::Int => {
+                for value in reader.samples::<i32>().skip(channel).step_by(tracks) {
+                    values.push(f64::from(value.map_err(wrong)?) / full);
+                }
+            }
+        }
+        Ok(Values::Real(values))
     }
 }

@@ -2,13 +2,14 @@
 //!
 //! The tree is made of headers and a few values of each data set; chunks that no listing shows are never read.
 
+mod column;
 mod lzf;
 mod value;
 
 use crate::contents::{Contents, Format};
 use crate::error::{Fault, Read, one_line};
 use crate::source::{MOST_VALUES, Source};
-use crate::tree::{Array, Arrays, Entry, Flat, Node, Shape, TreeSource, sets};
+use crate::tree::{Array, Arrays, Cut, Entry, Flat, Node, Shape, TreeSource, sets};
 use hdf5_reader::group::Group;
 use hdf5_reader::{Attribute, Dataset, Datatype, Hdf5File, OpenOptions, SliceInfo, SliceInfoElem};
 use std::collections::{BTreeMap, HashSet};
@@ -44,6 +45,8 @@ pub(crate) fn open(path: &Path, matlab: bool) -> Read<(Contents, Box<dyn Source>
         .with_max_read_bytes((MOST_VALUES * 16) as usize)
         .with_filter_registry(lzf::filters())
         .with_max_chunk_bytes(1 << 28)
+        // Channels are read chunk by chunk, each once.
+        .with_chunk_cache_bytes(16 << 20)
         .with_max_object_header_bytes(1 << 24);
     let file = Hdf5File::open_with_options(path, options).map_err(wrong)?;
     let root = file.root_group().map_err(wrong)?;
@@ -375,9 +378,24 @@ impl Arrays for Hdf5 {
             return Ok(Flat { re: field.column(dataset).map_err(wrong)?, im: Vec::new() });
         }
         let values = dataset.read_array_uncached::<Value>().map_err(wrong)?;
-        let re = values.iter().map(|value| value.0[0] * stored.factor + stored.offset).collect();
         let complex = value::readable(dataset.dtype()).unwrap_or(false);
+        let re = values.iter().map(|value| value.0[0]).collect();
         let im = if complex { values.iter().map(|value| value.0[1]).collect() } else { Vec::new() };
-        Ok(Flat { re, im })
+        Ok(stored.scaled(Flat { re, im }))
+    }
+
+    fn column(&self, id: usize, cut: &Cut, channel: u64) -> Option<Read<Flat>> {
+        let stored = self.datasets.get(id).filter(|stored| stored.field.is_none())?;
+        let complex = value::readable(stored.dataset.dtype()).unwrap_or(false);
+        column::column(&stored.dataset, cut, channel, complex).map(|flat| flat.map(|flat| stored.scaled(flat)))
+    }
+}
+
+impl Stored {
+    fn scaled(&self, mut flat: Flat) -> Flat {
+        if self.factor != 1.0 || self.offset != 0.0 {
+            flat.re.iter_mut().for_each(|value| *value = *value * self.factor + self.offset);
+        }
+        flat
     }
 }

@@ -1,5 +1,7 @@
 //! MAT files of versions 4 to 7 (version 7.3 is HDF5).
 
+mod input;
+mod numbers;
 mod v4;
 mod v5;
 

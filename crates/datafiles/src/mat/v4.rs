@@ -3,9 +3,9 @@
 //! Source: "MAT-File Format", MathWorks, chapter 2. Header: `1000 M + 10 P + T`, rows, columns, imaginary flag, length of
 //! the name.
 
-use crate::bytes::{Scalar, check_size, take};
+use crate::bytes::{Scalar, check_size, strided, take};
 use crate::error::{Fault, Read, one_line};
-use crate::tree::{Array, Arrays, Entry, Flat, Node, Shape};
+use crate::tree::{Array, Arrays, Cut, Entry, Flat, Node, Shape};
 use std::fs::File;
 use std::io::{BufReader, Read as _, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
@@ -177,5 +177,15 @@ impl Arrays for V4 {
         let re = header.scalar.all(&take(&mut file, part)?, header.big);
         let im = if header.complex { header.scalar.all(&take(&mut file, part)?, header.big) } else { Vec::new() };
         Ok(Flat { re, im })
+    }
+
+    fn column(&self, id: usize, cut: &Cut, channel: u64) -> Option<Read<Flat>> {
+        let header = self.headers.get(id).filter(|header| !header.complex)?;
+        let read = || {
+            let mut file = File::open(&self.path)?;
+            file.seek(SeekFrom::Start(header.data + cut.offset(channel) * header.scalar.size() as u64))?;
+            strided(&mut file, (header.scalar, header.big), cut.stride, cut.count).map(Flat::real)
+        };
+        Some(read())
     }
 }

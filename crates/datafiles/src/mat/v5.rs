@@ -3,12 +3,14 @@
 //! Source: "MAT-File Format", MathWorks, chapter 1. The tree is made in one pass over the elements without keeping their
 //! numbers; an array is read by a second pass over the element it is in.
 
-use crate::bytes::{Scalar, take};
+use super::input::{Input, word};
+use super::numbers::Part;
+use crate::bytes::take;
 use crate::error::{Fault, Read, one_line};
-use crate::tree::{Array, Arrays, Entry, Flat, Node, Shape};
+use crate::tree::{Arrays, Cut, Entry, Flat, Node};
 use flate2::read::ZlibDecoder;
 use std::fs::File;
-use std::io::{self, BufReader, Read as _, Seek, SeekFrom};
+use std::io::{BufReader, Read as _, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
 
 const MATRIX: u32 = 14;
@@ -103,74 +105,28 @@ fn shift(entry: &mut Entry, first: usize) {
     }
 }
 
-fn word(bytes: &[u8], big: bool) -> u32 {
-    let bytes = bytes.get(..4).and_then(|bytes| bytes.try_into().ok()).unwrap_or_default();
-    if big { u32::from_be_bytes(bytes) } else { u32::from_le_bytes(bytes) }
-}
-
-/// Bytes of an element.
-enum Input {
-    Plain(io::Take<BufReader<File>>),
-    Packed(Box<ZlibDecoder<io::Take<BufReader<File>>>>),
-}
-
-impl io::Read for Input {
-    fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
-        match self {
-            Self::Plain(file) => file.read(buffer),
-            Self::Packed(stream) => stream.read(buffer),
-        }
-    }
-}
-
-impl Input {
-    fn some(&mut self, count: u64) -> Read<Vec<u8>> {
-        take(self, count).map_err(|fault| match self {
-            Self::Packed(_) if fault.problem.starts_with("cannot be read") => {
-                Fault::new("its compressed data are damaged; save the file again")
-            }
-            _ => fault,
-        })
-    }
-
-    fn skip(&mut self, count: u64) -> Read<()> {
-        if let Self::Plain(file) = self {
-            // Within the element: a jump in place of reading.
-            if count > file.limit() {
-                return Err(io::Error::from(io::ErrorKind::UnexpectedEof).into());
-            }
-            let left = file.limit() - count;
-            file.get_mut().seek_relative(i64::try_from(count).unwrap_or(i64::MAX))?;
-            file.set_limit(left);
-            return Ok(());
-        }
-        let passed = io::copy(&mut self.take(count), &mut io::sink()).map_err(Fault::from)?;
-        if passed < count { Err(io::Error::from(io::ErrorKind::UnexpectedEof).into()) } else { Ok(()) }
-    }
-}
-
 /// Header of a matrix.
-struct Header {
+pub(super) struct Header {
     class: u32,
-    complex: bool,
-    extents: Vec<u64>,
-    name: String,
+    pub complex: bool,
+    pub extents: Vec<u64>,
+    pub name: String,
 }
 
 /// A pass over the matrices of an element.
-struct Walk<'a> {
-    input: &'a mut Input,
-    big: bool,
+pub(super) struct Walk<'a> {
+    pub input: &'a mut Input,
+    pub big: bool,
     /// Arrays met so far.
-    number: usize,
-    /// Number of the array whose values are wanted.
-    wanted: Option<usize>,
-    found: Option<Flat>,
+    pub number: usize,
+    /// Number of the array whose values are wanted, and the channel of it where not all are.
+    pub wanted: Option<(usize, Option<Part>)>,
+    pub found: Option<Flat>,
 }
 
 impl Walk<'_> {
     /// Tag of an element: its type, its size, and its data where they are in the tag.
-    fn tag(&mut self) -> Read<(u32, u64, Option<Vec<u8>>)> {
+    pub(super) fn tag(&mut self) -> Read<(u32, u64, Option<Vec<u8>>)> {
         let tag = self.input.some(8)?;
         let first = word(&tag, self.big);
         if first >> 16 != 0 {
@@ -266,7 +222,7 @@ impl Walk<'_> {
         }
     }
 
-    fn count(header: &Header) -> Read<u64> {
+    pub(super) fn count(header: &Header) -> Read<u64> {
         let product = header.extents.iter().try_fold(1_u64, |product, &extent| product.checked_mul(extent));
         product.ok_or_else(|| {
             Fault::new(format!("\"{}\" states more values than any file holds; save it again", header.name))
@@ -356,76 +312,24 @@ impl Walk<'_> {
         }
         Ok((0..rows).map(|row| one_line(&letters.iter().skip(row).step_by(rows).collect::<String>(), 400)).collect())
     }
-
-    fn numbers(&mut self, header: &Header) -> Read<Array> {
-        let id = self.number;
-        self.number += 1;
-        let shape = Shape::new(header.extents.iter().copied(), true);
-        let count = Self::count(header)?;
-        let wanted = shape.wanted();
-        let whole = self.wanted == Some(id);
-        let re = self.part(count, &wanted, whole, &header.name)?;
-        let im = if header.complex { self.part(count, &wanted, whole, &header.name)? } else { Vec::new() };
-        let peek = if whole {
-            self.found = Some(Flat { re, im });
-            Vec::new()
-        } else {
-            (0..re.len()).map(|i| [re[i], im.get(i).copied().unwrap_or(0.0)]).collect()
-        };
-        Ok(Array { id, shape, complex: header.complex, peek })
-    }
-
-    /// The real or the imaginary part: all of it, or the values at the places wanted.
-    fn part(&mut self, count: u64, wanted: &[u64], whole: bool, name: &str) -> Read<Vec<f64>> {
-        let (kind, size, inside) = self.tag()?;
-        let scalar = match kind {
-            1 => Scalar::I8,
-            2 => Scalar::U8,
-            3 => Scalar::I16,
-            4 => Scalar::U16,
-            5 => Scalar::I32,
-            6 => Scalar::U32,
-            7 => Scalar::F32,
-            9 => Scalar::F64,
-            12 => Scalar::I64,
-            13 => Scalar::U64,
-            other => {
-                return Err(Fault::new(format!(
-                    "\"{name}\" has numbers of an unknown type {other}; save the file again"
-                )));
-            }
-        };
-        let width = scalar.size() as u64;
-        if size / width != count {
-            let found = size / width;
-            return Err(Fault::new(format!("\"{name}\" states {count} values and holds {found}; save the file again")));
-        }
-        if let Some(bytes) = inside {
-            let all = scalar.all(&bytes, self.big);
-            return Ok(if whole { all } else { wanted.iter().filter_map(|&i| all.get(i as usize).copied()).collect() });
-        }
-        let values = if whole {
-            scalar.all(&self.input.some(size)?, self.big)
-        } else {
-            let (mut values, mut at) = (Vec::with_capacity(wanted.len()), 0);
-            for &place in wanted {
-                self.input.skip((place - at) * width)?;
-                values.push(scalar.get(&self.input.some(width)?, self.big).unwrap_or(f64::NAN));
-                at = place + 1;
-            }
-            self.input.skip((count - at) * width)?;
-            values
-        };
-        self.input.skip(size.next_multiple_of(8) - count * width)?;
-        Ok(values)
-    }
 }
 
 impl Arrays for V5 {
     fn read(&self, id: usize) -> Read<Flat> {
+        self.values(id, None)
+    }
+
+    fn column(&self, id: usize, cut: &Cut, channel: u64) -> Option<Read<Flat>> {
+        Some(self.values(id, Some(Part { cut: cut.clone(), channel })))
+    }
+}
+
+impl V5 {
+    fn values(&self, id: usize, part: Option<Part>) -> Read<Flat> {
         let place = *self.arrays.get(id).ok_or_else(|| Fault::new("there is no such array"))?;
         let (mut input, _, _) = self.enter(place.element)?;
-        let mut walk = Walk { input: &mut input, big: self.big, number: 0, wanted: Some(place.number), found: None };
+        let wanted = Some((place.number, part));
+        let mut walk = Walk { input: &mut input, big: self.big, number: 0, wanted, found: None };
         walk.matrix(0)?;
         walk.found.ok_or_else(|| Fault::new("its numbers are not where they were; was the file changed?"))
     }

@@ -8,6 +8,7 @@ mod objects;
 mod scale;
 mod segment;
 
+use crate::bytes::room;
 use crate::contents::{Axis, Channel, Contents, FIRST, Format, Kind, Set, first_numbers};
 use crate::error::{Fault, Read};
 use crate::source::Source;
@@ -128,8 +129,9 @@ fn channel(object: &Object, place: &Place, path: &Path) -> Read<Channel> {
 /// The first `most` values of a channel.
 fn read(path: &Path, place: &Place, most: u64) -> Read<Values> {
     let mut file = BufReader::new(File::open(path)?);
-    let mut raw: Vec<f64> = Vec::new();
     let parts = if place.complex { 2 } else { 1 };
+    let count: u64 = place.runs.iter().map(Run::total).fold(0, u64::saturating_add).min(most);
+    let mut raw = room(count.saturating_mul(parts))?;
     for run in &place.runs {
         for chunk in 0..run.chunks {
             let left = most.saturating_sub(raw.len() as u64 / parts);
@@ -152,12 +154,13 @@ fn piece(file: &mut BufReader<File>, run: &Run, at: u64, count: u64, raw: &mut V
     let (size, stride) = (run.size(), run.stride.max(1));
     file.seek(SeekFrom::Start(at))?;
     let rows = (PIECE / stride).max(1);
+    let mut bytes = Vec::new();
     let mut done = 0;
     while done < count {
         let rows = rows.min(count - done);
         // The last row ends with the value, which may be the last of the file.
         let wanted = (rows - 1) * stride + size;
-        let mut bytes = Vec::with_capacity(wanted as usize);
+        bytes.clear();
         file.by_ref().take(wanted).read_to_end(&mut bytes)?;
         if (bytes.len() as u64) < wanted {
             return Err(Fault::byte(at, "the data end before their count does; the file was cut short: copy it again"));

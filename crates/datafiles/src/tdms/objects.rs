@@ -102,6 +102,11 @@ impl Run {
         if chunk + 1 == self.chunks { self.last } else { self.count }
     }
 
+    /// Number of its values.
+    pub(super) fn total(&self) -> u64 {
+        self.count.saturating_mul(self.chunks.saturating_sub(1)).saturating_add(self.last)
+    }
+
     /// Adds the value in `bytes`: one number, or two of a complex one.
     pub(super) fn value(&self, bytes: &[u8], raw: &mut Vec<f64>) {
         match self.coding {
@@ -146,10 +151,7 @@ impl Object {
     }
 
     pub(super) fn count(&self) -> u64 {
-        self.runs
-            .iter()
-            .map(|run| run.count.saturating_mul(run.chunks.saturating_sub(1)).saturating_add(run.last))
-            .sum()
+        self.runs.iter().map(Run::total).sum()
     }
 }
 

@@ -75,6 +75,11 @@ pub(crate) struct Cut {
 }
 
 impl Cut {
+    /// All of a vector as one channel.
+    pub(crate) fn vector(count: u64) -> Self {
+        Self { channels: 1, count, stride: 1, inner: 1, outer: 1 }
+    }
+
     /// Place of the first value of a channel.
     pub(crate) fn offset(&self, channel: u64) -> u64 {
         // Channels run over the indices below and above that of the samples.
@@ -101,7 +106,7 @@ impl Shape {
     pub(crate) fn cut(&self, samples: Option<u64>) -> Option<Cut> {
         let total = self.len()?;
         if total == 0 || self.extents.is_empty() {
-            return Some(Cut { channels: 1, count: total, stride: 1, inner: 1, outer: 1 });
+            return Some(Cut::vector(total));
         }
         let longest = (0..self.extents.len()).max_by_key(|&i| (self.extents[i], usize::MAX - i))?;
         let along =

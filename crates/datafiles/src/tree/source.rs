@@ -26,10 +26,18 @@ impl Flat {
     }
 }
 
-/// Reads whole arrays.
+/// Values of an array up to which it is read whole and kept: its other channels are mostly asked for next.
+const KEPT: u64 = 1 << 20;
+
+/// Reads arrays.
 pub(crate) trait Arrays: Send + Sync {
     /// All values of array number `id`.
     fn read(&self, id: usize) -> Read<Flat>;
+
+    /// One channel of array number `id` without the others in memory; none where the array is only read whole.
+    fn column(&self, _id: usize, _cut: &Cut, _channel: u64) -> Option<Read<Flat>> {
+        None
+    }
 }
 
 /// Where a channel's values are.
@@ -71,6 +79,12 @@ impl TreeSource {
         Ok(flat)
     }
 
+    /// A channel of a large array, where it can be read alone.
+    fn alone(&self, id: usize, cut: &Cut, channel: u64) -> Option<Read<Flat>> {
+        let large = cut.count.saturating_mul(cut.channels) > KEPT;
+        if large { self.arrays.column(id, cut, channel) } else { None }
+    }
+
     fn place(&self, set: usize, channel: usize) -> Read<&Place> {
         self.sets.get(set).and_then(|set| set.get(channel)).ok_or_else(|| Fault::new("there is no such channel"))
     }
@@ -79,6 +93,10 @@ impl TreeSource {
 impl Source for TreeSource {
     fn read(&self, set: usize, channel: usize) -> Read<Values> {
         let place = self.place(set, channel)?;
+        if let Some(flat) = self.alone(place.id, &place.cut, place.channel).filter(|_| !place.whole) {
+            let Flat { re, im } = flat?;
+            return Ok(if im.is_empty() { Values::Real(re) } else { values(re.into_iter(), im.into_iter(), true) });
+        }
         if place.cut.count.saturating_mul(place.cut.channels) > MOST_VALUES {
             return Err(Fault::new("its array is too large for memory; save it in pieces"));
         }
@@ -100,8 +118,12 @@ impl Source for TreeSource {
     }
 
     fn axis(&self, set: usize, channel: usize) -> Read<Vec<f64>> {
-        let axis = self.place(set, channel)?.axis.ok_or_else(|| Fault::new("the abscissa is not stored"))?;
-        Ok(self.array(axis)?.re.clone())
+        let place = self.place(set, channel)?;
+        let axis = place.axis.ok_or_else(|| Fault::new("the abscissa is not stored"))?;
+        match self.alone(axis, &Cut::vector(place.cut.count), 0) {
+            Some(flat) => Ok(flat?.re),
+            None => Ok(self.array(axis)?.re.clone()),
+        }
     }
 }
 
