@@ -40,6 +40,24 @@ impl Spectrum {
         Some(Self { resolution_hz: 1.0 / (n as f64 * time_step), amplitude })
     }
 
+    /// Spectrum with the mean power of others of the same length; `None` where one of them is none, or there are none.
+    pub fn mean(spectra: impl Iterator<Item = Option<Self>>) -> Option<Self> {
+        let mut sum: Option<Self> = None;
+        let mut count = 0.0;
+        for spectrum in spectra {
+            let mut spectrum = spectrum?;
+            spectrum.amplitude.iter_mut().for_each(|a| *a *= *a);
+            count += 1.0;
+            match &mut sum {
+                Some(sum) => sum.amplitude.iter_mut().zip(&spectrum.amplitude).for_each(|(sum, a)| *sum += a),
+                None => sum = Some(spectrum),
+            }
+        }
+        let mut mean = sum?;
+        mean.amplitude.iter_mut().for_each(|a| *a = (*a / count).sqrt());
+        Some(mean)
+    }
+
     /// Frequency of line `k`, Hz.
     pub fn frequency_hz(&self, k: usize) -> f64 {
         k as f64 * self.resolution_hz

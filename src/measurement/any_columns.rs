@@ -3,6 +3,7 @@
 //! They are made block by block, small enough for the cache, by complex powers of one sine and cosine a sample; every
 //! channel is multiplied with the block while it is there.
 
+use super::slope::Slope;
 use super::sums::Sums;
 use dashpot_numerics::{dot, sum};
 use std::ops::Range;
@@ -95,15 +96,32 @@ impl<'a> AnyColumns<'a> {
         products
     }
 
-    /// What the unknowns of each channel leave of it.
-    pub(super) fn residuals(&self, channels: &[&[f64]], unknowns: &[Vec<f64>]) -> Vec<Vec<f64>> {
-        let mut residuals: Vec<Vec<f64>> = channels.iter().map(|channel| channel.to_vec()).collect();
+    /// Calls `work` with the range of each block and what the unknowns leave of the channel there.
+    pub(super) fn each_residual(&self, channel: &[f64], unknowns: &[f64], mut work: impl FnMut(Range<usize>, &[f64])) {
+        let mut left = Vec::with_capacity(BLOCK);
         self.blocks(self.harmonics, |range, columns| {
-            for (residual, unknowns) in residuals.iter_mut().zip(unknowns) {
-                subtract(&mut residual[range.clone()], columns, unknowns);
-            }
+            left.clear();
+            left.extend_from_slice(&channel[range.clone()]);
+            subtract(&mut left, columns, unknowns);
+            work(range, &left);
         });
-        residuals
+    }
+
+    /// What the unknowns leave of a channel beside the derivative of the fit, `-(t - middle) (columns * turn)`; times in s.
+    pub(super) fn slope(&self, channel: &[f64], [unknowns, turn]: [&[f64]; 2]) -> Slope {
+        let mut slope = Slope::zero(self.harmonics);
+        self.blocks(self.harmonics, |range, columns| {
+            let mut left = channel[range.clone()].to_vec();
+            subtract(&mut left, columns, unknowns);
+            let mut derivative = vec![0.0; range.len()];
+            subtract(&mut derivative, columns, turn);
+            for (j, t) in derivative.iter_mut().zip(&self.time[range]) {
+                *j *= t - self.middle;
+            }
+            slope.add(&left, &derivative);
+            add_products(&derivative, columns, &mut slope.products);
+        });
+        slope
     }
 }
 

@@ -9,9 +9,11 @@
 
 use super::any_columns::AnyColumns;
 use super::even_columns::EvenColumns;
+use super::slope::Slope;
 use super::sums::Sums;
 use dashpot_numerics::Cholesky;
 use faer::Mat;
+use std::ops::Range;
 
 /// Least share of a column that is not explained by those before it: less, and its coefficient has lost six of sixteen
 /// digits. A record that holds a period is far from it unless most of the period is missing.
@@ -75,22 +77,32 @@ impl<'a> Design<'a> {
         }
     }
 
-    /// What the unknowns of each channel leave of it.
-    pub(super) fn residuals(&self, channels: &[&[f64]], unknowns: &[Vec<f64>]) -> Vec<Vec<f64>> {
+    /// Calls `work` with the range of each block of samples and what the unknowns leave of the channel there.
+    pub(super) fn each_residual(&self, channel: &[f64], unknowns: &[f64], work: impl FnMut(Range<usize>, &[f64])) {
         match &self.columns {
-            Columns::Even(columns) => columns.residuals(channels, unknowns),
-            Columns::Any(columns) => columns.residuals(channels, unknowns),
+            Columns::Even(columns) => columns.each_residual(channel, unknowns, work),
+            Columns::Any(columns) => columns.each_residual(channel, unknowns, work),
         }
     }
 
-    /// `-(t - t_mid) (columns * unknowns)`; the caller turns cosines into sines to make it a derivative.
-    pub(super) fn times_moment(&self, unknowns: &[f64]) -> Vec<f64> {
-        let nothing = vec![0.0; self.time.len()];
-        let mut values = self.residuals(&[&nothing], &[unknowns.to_vec()]).swap_remove(0);
-        for (value, t) in values.iter_mut().zip(self.time) {
-            *value *= t - self.middle;
+    /// What the unknowns leave of a channel.
+    pub(super) fn residual(&self, channel: &[f64], unknowns: &[f64]) -> Vec<f64> {
+        let mut residual = Vec::with_capacity(channel.len());
+        self.each_residual(channel, unknowns, |_, left| residual.extend_from_slice(left));
+        residual
+    }
+
+    /// What unknowns leave of a channel beside the derivative of a fit with the unknowns `of` by the frequency.
+    pub(super) fn slope(&self, channel: &[f64], unknowns: &[f64], of: &[f64]) -> Slope {
+        let mut turn = vec![0.0; of.len()];
+        for h in 1..of.len() / 2 {
+            turn[2 * h] = -(h as f64) * of[2 * h + 1];
+            turn[2 * h + 1] = h as f64 * of[2 * h];
         }
-        values
+        match &self.columns {
+            Columns::Even(columns) => columns.slope(channel, [unknowns, &turn], self.time, self.middle),
+            Columns::Any(columns) => columns.slope(channel, [unknowns, &turn]),
+        }
     }
 
     /// The solution for given products.
@@ -198,7 +210,7 @@ mod tests {
             let values: Vec<f64> = time.iter().map(|t| (t * t * 3.0).sin() + t).collect();
             let products = design.products(&[&values]);
             let unknowns: Vec<f64> = (0..8).map(|k| 0.3 + f64::from(k)).collect();
-            let residuals = design.residuals(&[&values], std::slice::from_ref(&unknowns));
+            let residuals = [design.residual(&values, &unknowns)];
             for k in 0..8 {
                 let slow: f64 = time.iter().zip(&values).map(|(&t, y)| column(&design, omega, t, k) * y).sum();
                 assert!((products[0][k] - slow).abs() < 1e-10, "{k}: {} {slow}", products[0][k]);
@@ -206,6 +218,35 @@ mod tests {
             for (n, (&t, y)) in time.iter().zip(&values).enumerate() {
                 let slow: f64 = y - (0..8).map(|k| unknowns[k] * column(&design, omega, t, k)).sum::<f64>();
                 assert!((residuals[0][n] - slow).abs() < 1e-11, "{n}: {} {slow}", residuals[0][n]);
+            }
+        });
+    }
+
+    #[test]
+    fn the_slope_is_that_of_the_columns() {
+        designs(|time, design, omega| {
+            let values: Vec<f64> = time.iter().map(|t| (t * t * 3.0).sin() + t).collect();
+            let unknowns: Vec<f64> = (0..8).map(|k| 0.3 + f64::from(k)).collect();
+            let slope = design.slope(&values, &unknowns, &unknowns);
+            let residual = design.residual(&values, &unknowns);
+            // d/d omega of a cos(h theta) + b sin(h theta), written out.
+            let derivative: Vec<f64> = time
+                .iter()
+                .map(|&t| {
+                    let of = |k: usize| column(&design, omega, t, k);
+                    let each =
+                        |h: usize| h as f64 * (unknowns[2 * h + 1] * of(2 * h) - unknowns[2 * h] * of(2 * h + 1));
+                    (t - design.middle) * (1..4).map(each).sum::<f64>()
+                })
+                .collect();
+            let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+            let near = |found: f64, expected: f64| assert!((found / expected - 1.0).abs() < 1e-9, "{found} {expected}");
+            near(slope.squares, dot(&residual, &residual));
+            near(slope.along, dot(&derivative, &residual));
+            near(slope.length, dot(&derivative, &derivative));
+            for k in 0..8 {
+                let slow: f64 = time.iter().zip(&derivative).map(|(&t, j)| column(&design, omega, t, k) * j).sum();
+                assert!((slope.products[k] - slow).abs() < 1e-9, "{k}: {} {slow}", slope.products[k]);
             }
         });
     }

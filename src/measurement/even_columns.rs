@@ -9,9 +9,11 @@
 //! sum cos(k theta) = sin(n x/2) / sin(x/2) = D(x),    sum m sin(m x) = -D'(x),    sum m^2 = n (n^2 - 1) / 12
 //! ```
 
+use super::slope::Slope;
 use super::sums::Sums;
 use dashpot_numerics::{LANES, dot, sum};
 use faer::c64;
+use std::ops::Range;
 
 /// Half of the samples of a block.
 const HALF: usize = 128;
@@ -98,7 +100,7 @@ impl EvenColumns {
     }
 
     /// Calls `work` with every block's number and its range.
-    fn blocks(&self) -> impl Iterator<Item = (usize, std::ops::Range<usize>)> {
+    fn blocks(&self) -> impl Iterator<Item = (usize, Range<usize>)> {
         let n = self.samples;
         (0..n.div_ceil(BLOCK)).map(move |block| (block, block * BLOCK..(block * BLOCK + BLOCK).min(n)))
     }
@@ -143,24 +145,48 @@ impl EvenColumns {
         }
     }
 
-    /// What the unknowns of each channel leave of it.
-    pub(super) fn residuals(&self, channels: &[&[f64]], unknowns: &[Vec<f64>]) -> Vec<Vec<f64>> {
-        channels.iter().zip(unknowns).map(|(channel, unknowns)| self.residual_of(channel, unknowns)).collect()
+    /// Calls `work` with the range of each block and what the unknowns leave of the channel there.
+    pub(super) fn each_residual(&self, channel: &[f64], unknowns: &[f64], mut work: impl FnMut(Range<usize>, &[f64])) {
+        for (block, range) in self.blocks() {
+            let mut left = self.fitted(block, unknowns);
+            for (left, y) in left.iter_mut().zip(&channel[range.clone()]) {
+                *left = y - *left;
+            }
+            let length = range.len();
+            work(range, &left[..length]);
+        }
     }
 
-    fn residual_of(&self, channel: &[f64], unknowns: &[f64]) -> Vec<f64> {
-        let mut residual = Vec::with_capacity(self.samples);
+    /// What the unknowns leave of a channel beside the derivative of the fit, `-(t - middle) (columns * turn)`; times in s.
+    pub(super) fn slope(&self, channel: &[f64], [unknowns, turn]: [&[f64]; 2], time: &[f64], middle: f64) -> Slope {
+        let mut slope = Slope::zero(self.harmonics);
+        let mut derivative = [0.0; BLOCK];
         for (block, range) in self.blocks() {
-            let (even, odd) = self.halves(block, unknowns);
-            let mut fitted = [0.0; BLOCK];
-            let (left, right) = fitted.split_at_mut(HALF);
-            for ((l, r), (e, o)) in left.iter_mut().rev().zip(right).zip(even.iter().zip(&odd)) {
-                *l = e - o;
-                *r = e + o;
+            let (fitted, turned) = (self.fitted(block, unknowns), self.fitted(block, turn));
+            let mut left = fitted;
+            for (left, y) in left.iter_mut().zip(&channel[range.clone()]) {
+                *left = y - *left;
             }
-            residual.extend(channel[range].iter().zip(&fitted).map(|(y, fit)| y - fit));
+            derivative.fill(0.0);
+            for ((j, turned), t) in derivative.iter_mut().zip(&turned).zip(&time[range.clone()]) {
+                *j = -turned * (t - middle);
+            }
+            slope.add(&left[..range.len()], &derivative[..range.len()]);
+            self.add_products(block, &derivative, &mut slope.products);
         }
-        residual
+        slope
+    }
+
+    /// The fit over a block, in the order of its samples.
+    fn fitted(&self, block: usize, unknowns: &[f64]) -> [f64; BLOCK] {
+        let (even, odd) = self.halves(block, unknowns);
+        let mut fitted = [0.0; BLOCK];
+        let (left, right) = fitted.split_at_mut(HALF);
+        for ((l, r), (e, o)) in left.iter_mut().rev().zip(right).zip(even.iter().zip(&odd)) {
+            *l = e - o;
+            *r = e + o;
+        }
+        fitted
     }
 
     /// Even and odd part of the fit about a block's middle.

@@ -8,6 +8,7 @@
 
 use super::design::Design;
 use super::noise::Lag;
+use super::slope::Slope;
 use super::{Channel, Record};
 use dashpot_numerics::dot;
 use faer::{Mat, c64};
@@ -105,7 +106,10 @@ pub(super) struct Solved<'a> {
     pub(super) design: Design<'a>,
     /// Unknowns of every channel: offset, slope times half of the duration, cos 1, sin 1, ...
     pub(super) unknowns: Vec<Vec<f64>>,
-    pub(super) residuals: Vec<Vec<f64>>,
+    /// The samples of every channel.
+    values: Vec<&'a [f64]>,
+    /// Unknowns before digits that an offset or a slope cost were won back.
+    first: Vec<Vec<f64>>,
 }
 
 /// Fits harmonics 1 to `harmonics` of the circular frequency `omega` (rad/s) to every channel.
@@ -166,22 +170,22 @@ pub(super) fn resolvable(time: &[f64], omega: f64, harmonics: usize) -> Result<u
 /// solved again, and they come back.
 pub(super) fn solve<'a>(
     time: &'a [f64],
-    values: &[&[f64]],
+    values: &[&'a [f64]],
     omega: f64,
     harmonics: usize,
 ) -> Result<Solved<'a>, FitError> {
     let undetermined = FitError::Undetermined { frequency_hz: omega / TAU };
     let design = Design::new(time, omega, harmonics).ok_or(undetermined)?;
-    let mut unknowns: Vec<Vec<f64>> = design.products(values).iter().map(|b| design.solve(b)).collect();
-    let residuals = design.residuals(values, &unknowns);
-    let lost = (0..values.len()).filter(|&c| loses_digits(&design, &unknowns[c]));
-    for c in lost.collect::<Vec<_>>() {
-        let products = design.products(&[&residuals[c]]);
+    let first: Vec<Vec<f64>> = design.products(values).iter().map(|b| design.solve(b)).collect();
+    let mut unknowns = first.clone();
+    let lost = (0..values.len()).filter(|&c| loses_digits(&design, &first[c]));
+    for c in lost {
+        let products = design.products(&[&design.residual(values[c], &first[c])]);
         for (u, correction) in unknowns[c].iter_mut().zip(design.solve(&products[0])) {
             *u += correction;
         }
     }
-    Ok(Solved { design, unknowns, residuals })
+    Ok(Solved { design, unknowns, values: values.to_vec(), first })
 }
 
 /// Whether the amplitudes lose more than a digit to the offset, the slope or columns that resemble each other.
@@ -210,11 +214,27 @@ impl Solved<'_> {
         (amplitudes, turn_covariance(&middle, &turns))
     }
 
+    /// What the fit leaves of a channel. It is made anew at each call: of a long record it is as large as the channel.
+    pub(super) fn residual(&self, channel: usize) -> Vec<f64> {
+        self.design.residual(self.values[channel], &self.first[channel])
+    }
+
+    /// What the fit leaves of a channel beside its derivative by the frequency.
+    pub(super) fn slope(&self, channel: usize) -> Slope {
+        self.design.slope(self.values[channel], &self.first[channel], &self.unknowns[channel])
+    }
+
+    /// Sum of the squares of what the fit leaves of a channel.
+    pub(super) fn squares(&self, channel: usize) -> f64 {
+        let mut squares = 0.0;
+        self.design.each_residual(self.values[channel], &self.first[channel], |_, left| squares += dot(left, left));
+        squares
+    }
+
     /// Variance of one sample from the residual over its degrees of freedom.
     pub(super) fn residual_variance(&self, channel: usize) -> f64 {
-        let residual = &self.residuals[channel];
-        let freedom = residual.len().saturating_sub(self.design.unknowns()).max(1);
-        dot(residual, residual) / freedom as f64
+        let freedom = self.values[channel].len().saturating_sub(self.design.unknowns()).max(1);
+        self.squares(channel) / freedom as f64
     }
 }
 
@@ -239,7 +259,7 @@ fn noise_variances(record: &Record, omega: f64, solved: &Solved<'_>) -> Vec<f64>
     let enough = periods + 1e-9 >= FEWEST_PERIODS_FOR_SCATTER;
     let lag = if enough { Lag::new(record.time(), period) } else { None };
     let variance = |c: usize| {
-        let measured = lag.as_ref().map_or_else(|| solved.residual_variance(c), |l| l.variance(&solved.residuals[c]));
+        let measured = lag.as_ref().map_or_else(|| solved.residual_variance(c), |l| l.variance(&solved.residual(c)));
         let largest = record.samples(c).iter().fold(0.0_f64, |most, y| most.max(y.abs()));
         // Rounding that repeats in every period shows in no scatter, and averaging over periods does not lessen it.
         let rounding = record.resolution(c).powi(2) / 12.0;

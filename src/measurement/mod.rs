@@ -22,6 +22,7 @@ pub mod run;
 mod settling;
 mod signal;
 mod slips;
+mod slope;
 mod stuck;
 mod sums;
 mod transient_correction;

@@ -21,6 +21,8 @@ const EVEN: f64 = 0.9;
 const DRIVEN: f64 = 0.7;
 const NO_TREND: f64 = 1.02;
 const LONG: usize = 10;
+/// Most samples that one spectrum is made of.
+const LONGEST_PART: usize = 1 << 20;
 /// Share of the power on the largest lines from which a signal is periodic.
 const PERIODIC: f64 = 0.8;
 
@@ -145,7 +147,9 @@ fn driven(record: &Record, quantity: Quantity) -> Proposal {
 
 /// Share of a channel's power within two lines of its largest line and of the multiples of that.
 fn concentration(record: &Record, channel: usize) -> f64 {
-    let Some(spectrum) = Spectrum::new(record.samples(channel), record.step()) else { return 0.0 };
+    // Of a long record the mean over parts: their lines are still far narrower than those of any resonance.
+    let parts = record.samples(channel).chunks_exact(record.len().min(LONGEST_PART));
+    let Some(spectrum) = Spectrum::mean(parts.map(|part| Spectrum::new(part, record.step()))) else { return 0.0 };
     let power: Vec<f64> = spectrum.amplitude.iter().map(|a| a * a).collect();
     let Some(top) = (1..power.len()).max_by(|&a, &b| power[a].total_cmp(&power[b])) else { return 0.0 };
     let total: f64 = power[1..].iter().sum();
