@@ -50,12 +50,14 @@ pub(super) fn import(request: &Request, mapping: Proposal, out: &Path, control: 
         return Err(ImportError::of(&request.files[0], problem));
     }
     let sources = sources(request, &mapping)?;
-    let mut looks = looks_of(request, &mapping, &sources, out, control)?;
+    let (first, mut looks) = looks_of(request, &mapping, &sources, out, control)?;
     let forced = mapping.channels.iter().any(|table| matches!(table.quantity, Quantity::Force | Quantity::Base));
     let alone = !forced && request.mass.is_none() && request.channels.is_none();
-    let single = if alone { single_mode(&looks[0].0, &mut mapping) } else { None };
+    let single = if alone { first.as_ref().and_then(|first| single_mode(first, &mut mapping)) } else { None };
+    // Records may be as large as memory: none is kept while others are read.
+    drop(first);
     if single.is_some() {
-        looks = looks_of(request, &mapping, &sources, out, control)?;
+        looks = looks_of(request, &mapping, &sources, out, control)?.1;
     }
     let head = project_head(request, &mapping, out, &looks, single.as_ref())?;
     let tables = tables(request, &mapping, &sources, out, &looks)?;
@@ -125,31 +127,33 @@ fn further_runs(request: &Request, mapping: &Proposal, file: &Path) -> Result<Ve
     Ok(if alike { own.further_runs } else { Vec::new() })
 }
 
-/// Every record by the mapping, and what it looks like.
+/// The first record by the mapping, and what every record looks like.
 fn looks_of(
     request: &Request,
     mapping: &Proposal,
     sources: &[RunSource],
     out: &Path,
     control: &Control,
-) -> Result<Vec<(Record, Looks)>> {
+) -> Result<(Option<Record>, Vec<Looks>)> {
     let mut text = head(request, out, &points(&labels(mapping)), 0.5 * highest_rate(request)?)?;
     text.push_str(&channels(mapping));
     for source in sources {
         text.push_str(&run_table(request, source, out)?);
     }
     let planned = plan(&text, out)?;
-    let mut found = Vec::new();
+    let (mut first, mut found) = (None, Vec::new());
     for (index, source) in sources.iter().enumerate() {
         let record = planned.record(index, control)?;
         if record.len() < FEWEST {
             let problem = format!("has {} samples, and a run needs {FEWEST}; export the whole record", record.len());
             return Err(ImportError::of(&source.file, problem));
         }
-        let looks = look(&record);
-        found.push((record, looks));
+        found.push(look(&record));
+        if index == 0 {
+            first = Some(record);
+        }
     }
-    Ok(found)
+    Ok((first, found))
 }
 
 fn look(record: &Record) -> Looks {
@@ -260,10 +264,10 @@ fn project_head(
     request: &Request,
     mapping: &Proposal,
     out: &Path,
-    looks: &[(Record, Looks)],
+    looks: &[Looks],
     single: Option<&SingleMode>,
 ) -> Result<String> {
-    let transient = looks.iter().any(|(_, looks)| looks.kind != Kind::Steady);
+    let transient = looks.iter().any(|looks| looks.kind != Kind::Steady);
     let structure = match single {
         Some(single) => single.structure(),
         None if transient && request.mass.is_none() => format!(
@@ -280,15 +284,9 @@ fn project_head(
 }
 
 /// The mapping and the runs.
-fn tables(
-    request: &Request,
-    mapping: &Proposal,
-    sources: &[RunSource],
-    out: &Path,
-    looks: &[(Record, Looks)],
-) -> Result<String> {
+fn tables(request: &Request, mapping: &Proposal, sources: &[RunSource], out: &Path, looks: &[Looks]) -> Result<String> {
     let mut text = channels(mapping) + &unused(mapping);
-    for (source, (_, looks)) in sources.iter().zip(looks) {
+    for (source, looks) in sources.iter().zip(looks) {
         text.push_str(&comment(&format!("Kind {}: {}.", looks.kind.name(), looks.reason)));
         text.push_str(&run_table(request, source, out)?);
         if looks.kind != Kind::Steady {
@@ -309,7 +307,7 @@ fn summary(
     request: &Request,
     mapping: &Proposal,
     sources: &[RunSource],
-    looks: &[(Record, Looks)],
+    looks: &[Looks],
     single: Option<&SingleMode>,
     out: &Path,
 ) -> String {
@@ -320,17 +318,17 @@ fn summary(
     for (name, why) in &mapping.left {
         text.push_str(&format!("not mapped: \"{name}\" ({why})\n"));
     }
-    for (source, (_, looks)) in sources.iter().zip(looks) {
+    for (source, looks) in sources.iter().zip(looks) {
         let set = source.set.as_ref().or(source.sets.first());
         let set = set.map_or_else(String::new, |set| format!(", set \"{set}\""));
         text.push_str(&format!("{}{set}: {}: {}\n", source.file.display(), looks.kind.name(), looks.reason));
     }
-    let steady = looks.iter().any(|(_, looks)| looks.kind == Kind::Steady);
+    let steady = looks.iter().any(|looks| looks.kind == Kind::Steady);
     let model = request.mass.is_some() || single.is_some();
     let forced = mapping.channels.iter().any(|table| matches!(table.quantity, Quantity::Force | Quantity::Base));
     if let Some(single) = single {
         text.push_str(&format!("{}\n", single.words()));
-    } else if !model && looks.iter().any(|(_, looks)| looks.kind != Kind::Steady) {
+    } else if !model && looks.iter().any(|looks| looks.kind != Kind::Steady) {
         text.push_str(
             "decays and transients need mass and stiffness: give a model by --mass, or fill in [structure]\n",
         );

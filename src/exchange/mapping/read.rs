@@ -8,7 +8,7 @@ use crate::exchange::records::{RecordFileError, RecordProblem, base_channel};
 use crate::measurement::channel::ChannelName;
 use crate::measurement::{Channel, Quantity, Record};
 use crate::structure::{Structure, StructureKind};
-use dashpot_datafiles::{DataFile, Kind, Values, open};
+use dashpot_datafiles::{Axis, DataFile, Kind, Values, open};
 use std::path::Path;
 
 /// Largest difference of the times of two channels of a run, in steps.
@@ -117,9 +117,12 @@ pub(crate) fn read_mapped(
     }
     let mut time: Option<Vec<f64>> = None;
     let (mut found, mut samples) = (Vec::new(), Vec::new());
-    for (table, (set, channel)) in channels.iter().zip(places) {
+    for (table, &(set, channel)) in channels.iter().zip(&places) {
         found.push(target(table, structure, &at)?);
         samples.push(values(&file, set, channel, table, &at)?);
+        if time.is_some() && same_even_axis(&file, places[0], (set, channel)) {
+            continue;
+        }
         let own = times(&file, set, channel, table, template.sampling_hz, &at)?;
         match &time {
             None => time = Some(own),
@@ -297,7 +300,7 @@ fn times(
             Err(at.error(Some(&table.name), problem))
         }
         (None, Some(rate)) => Ok((0..entry.count).map(|i| i as f64 / rate).collect()),
-        (Some(axis), rate) => {
+        (Some(mut axis), rate) => {
             if let (Some(rate), Some(step)) = (rate, entry.axis.step())
                 && (rate * step * scale - 1.0).abs() > SAME_RATE
             {
@@ -307,9 +310,20 @@ fn times(
                     format!("the file is sampled at {found} Hz and `sampling_hz` says {rate}; leave it out"),
                 ));
             }
-            Ok(axis.into_iter().map(|time| time * scale).collect())
+            axis.iter_mut().for_each(|time| *time *= scale);
+            Ok(axis)
         }
     }
+}
+
+/// Whether the file states the same even times for two channels, so that they need not be compared one by one.
+fn same_even_axis(file: &DataFile, first: (usize, usize), other: (usize, usize)) -> bool {
+    let sets = &file.contents().sets;
+    let of = |(set, channel): (usize, usize)| {
+        let entry = &sets[set].channels[channel];
+        (&entry.axis, entry.count, &sets[set].axis_unit)
+    };
+    matches!(of(first).0, Axis::Even { .. }) && of(first) == of(other)
 }
 
 /// Channels of a run share their times.
