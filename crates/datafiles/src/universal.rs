@@ -8,6 +8,8 @@ use std::path::Path;
 use std::sync::Mutex;
 use uff::{Dof, FunctionHeader, FunctionKind, Reading, Summary, Values};
 
+/// Bytes from which on only the first values of a binary function are read for the listing.
+const LARGE: u64 = 1 << 22;
 /// Most bytes of sets that are read for their first values.
 const MOST_PREVIEWED: u64 = 256 << 20;
 /// Most warnings that are shown of a file.
@@ -57,11 +59,16 @@ pub(crate) fn open(path: &Path) -> Read<(Contents, Box<dyn Source>)> {
     for (i, entry) in entries.iter().enumerate() {
         let suffix = if entry.binary { "b" } else { "" };
         let mut set = Set::new(format!("{} ({}{suffix})", i + 1, entry.number), Kind::Table);
-        previewed += entry.bytes.end - entry.bytes.start;
-        let reading = (previewed <= MOST_PREVIEWED).then(|| file.read(i));
         if let Summary::Function(header) = &entry.summary {
             function(&mut set, header, units.as_ref());
         }
+        if let (Some(Ok(values)), Some(channel)) = (file.first_values(i, LARGE), set.channels.first_mut()) {
+            channel.first = first_numbers(&values);
+            contents.sets.push(set);
+            continue;
+        }
+        previewed += entry.bytes.end - entry.bytes.start;
+        let reading = (previewed <= MOST_PREVIEWED).then(|| file.read(i));
         match reading {
             Some(Ok(reading)) => fill(&mut set, &reading),
             Some(Err(error)) => set.notes.push(format!("cannot be read: {error}")),

@@ -7,6 +7,7 @@ use crate::lines::Lines;
 use crate::place::Place;
 use crate::scan;
 use crate::sets::Set;
+use crate::values::Values;
 use crate::warning::Warning;
 use std::io::{Cursor, Read, Seek};
 use std::path::Path;
@@ -85,14 +86,35 @@ impl<R: Read + Seek> File<R> {
             return Err(error.clone());
         }
         let length = entry.bytes.end - entry.bytes.start;
-        let bytes = self.lines.bytes(entry.bytes.start, length).map_err(|error| match error.kind() {
-            std::io::ErrorKind::OutOfMemory => {
-                Error { place: entry.place, problem: Problem::TooLarge { bytes: length } }
-            }
-            _ => Error { place: entry.place, problem: Problem::Io { reason: error.to_string() } },
+        let (place, number, from) = (entry.place, entry.number, entry.bytes.start);
+        self.read_bytes(place, number, from, length)
+    }
+
+    /// Reads the first values of set `i` alone, where it is a binary function in even steps that is longer than `most`
+    /// bytes and is all there. None of any other set.
+    pub fn first_values(&mut self, i: usize, most: u64) -> Option<Result<Values, Error>> {
+        let entry = self.sets.get(i)?;
+        let length = entry.bytes.end - entry.bytes.start;
+        let Summary::Function(header) = &entry.summary else { return None };
+        let whole = header.binary_sizes()[0] < length;
+        if !entry.binary || !header.even || !whole || length <= most {
+            return None;
+        }
+        let (place, number, from) = (entry.place, entry.number, entry.bytes.start);
+        match self.read_bytes(place, number, from, most) {
+            Ok(Reading { set: Set::Function(function), .. }) => Some(Ok(function.values)),
+            Ok(_) => None,
+            Err(error) => Some(Err(error)),
+        }
+    }
+
+    fn read_bytes(&mut self, place: Place, number: u32, from: u64, length: u64) -> Result<Reading, Error> {
+        let bytes = self.lines.bytes(from, length).map_err(|error| match error.kind() {
+            std::io::ErrorKind::OutOfMemory => Error { place, problem: Problem::TooLarge { bytes: length } },
+            _ => Error { place, problem: Problem::Io { reason: error.to_string() } },
         })?;
-        let mut body = Body::new(&bytes, entry.place);
-        let set = Set::read(entry.number, &mut body)?;
+        let mut body = Body::new(&bytes, place);
+        let set = Set::read(number, &mut body)?;
         Ok(Reading { set, warnings: body.warnings })
     }
 

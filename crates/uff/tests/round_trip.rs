@@ -147,3 +147,18 @@ fn what_does_not_fit_the_format_is_refused_in_words() {
     nodes[0].label = 12_345_678_901;
     assert!(to_bytes(&[Set::Nodes(nodes)]).unwrap_err().to_string().contains("does not fit the 10 columns"));
 }
+
+#[test]
+fn the_first_values_of_a_long_binary_function_are_read_alone() {
+    for form in [(false, true), (true, true), (false, false)] {
+        let mut long = function(form.0, form.1, true, Some(ByteOrder::Little));
+        long.values = values(5000, form.0);
+        let text = function(false, true, true, None);
+        let mut file = File::from_bytes(to_bytes(&[Set::Function(long), Set::Function(text)]).unwrap()).unwrap();
+        let first = file.first_values(0, 4096).unwrap().unwrap();
+        let Set::Function(all) = file.read(0).unwrap().set else { unreachable!() };
+        assert!(first.len() > 100 && first.len() < 5000, "{}", first.len());
+        assert!((0..first.len()).all(|i| first.get(i) == all.values.get(i)));
+        assert!(file.first_values(0, 1 << 20).is_none() && file.first_values(1, 16).is_none());
+    }
+}
