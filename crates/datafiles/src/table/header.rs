@@ -84,6 +84,7 @@ fn parts_below_names(lines: &[HeaderLine], width: usize) -> Option<(HeaderLine, 
         // `Signal:` in front of a text is a label, no name over columns.
         let labels = lines[i].cells[0].trim_end().ends_with(':');
         lines[i].cells.len() > 1
+            && fits(&lines[i].cells, width)
             && filled > 1
             && !labels
             && !units_row(&lines[i].cells)
@@ -164,7 +165,7 @@ fn unlabelled(lines: &[HeaderLine], width: usize) -> (Option<usize>, Option<usiz
     // Further rows, such as sensors and comments, between the units and the numbers.
     let lower = last.saturating_sub(MOST_BELOW)..last;
     if let Some(units) = lower.rev().find(|i| wide(i) && units_row(&lines[*i].cells))
-        && above != Some(units)
+        && (above != Some(units) || same_throughout(&lines[last].cells))
         && let Some(names) = names_above(lines, units, width)
     {
         return (Some(names), Some(units));
@@ -174,6 +175,16 @@ fn unlabelled(lines: &[HeaderLine], width: usize) -> (Option<usize>, Option<usiz
         Some(at) => (Some(last), Some(at)),
         None => (Some(last), None),
     }
+}
+
+/// Whether a row has no more words than there are columns; one that has says something else.
+fn fits(cells: &[String], width: usize) -> bool {
+    cells.iter().rposition(|cell| !cell.trim().is_empty()).is_none_or(|last| last < width)
+}
+
+/// Whether a row says the same of several columns, such as the time at which all were started: it holds no names.
+fn same_throughout(cells: &[String]) -> bool {
+    cells.len() > 1 && !cells[0].trim().is_empty() && cells.iter().all(|cell| *cell == cells[0])
 }
 
 /// The nearest wide row above a row of units whose names tell the columns apart.
@@ -188,7 +199,7 @@ fn names_above(lines: &[HeaderLine], units: usize, width: usize) -> Option<usize
             && !names.iter().any(|name| is_bare_part(name))
     };
     let near = units.saturating_sub(MOST_BELOW)..units;
-    near.rev().find(|&i| !units_row(&lines[i].cells) && distinct(&lines[i].cells))
+    near.rev().find(|&i| !units_row(&lines[i].cells) && fits(&lines[i].cells, width) && distinct(&lines[i].cells))
 }
 
 /// Whether most of the cells of a row are units.
@@ -352,6 +363,10 @@ mod tests {
             "SensorType=;U9C;B12",
         ];
         assert_eq!(of(&catman, 3), ("Zeit,Kraft,Acc_1".into(), "s,N,g".into()));
+        assert_eq!(
+            of(&["Zeit;Kraft;Acc", "s;N;g", "at 11:58;at 11:58;at 11:58"], 3),
+            ("Zeit,Kraft,Acc".into(), "s,N,g".into())
+        );
         assert_eq!(of(&["Force;;Acc;", "X [s];Y [N];X [s];Y [g]"], 4), ("X,Force,X,Acc".into(), "s,N,s,g".into()));
         assert_eq!(of(&["t/s;F/N;s/µm"], 3), ("t,F,s".into(), "s,N,µm".into()));
         assert_eq!(of(&["time_s;force_N;acc_mg"], 3), ("time_s,force_N,acc_mg".into(), "s,N,mg".into()));
@@ -366,7 +381,7 @@ mod tests {
         assert_eq!((header.names.join(",").as_str(), header.units[0].as_str()), (names, "Hz"));
         let header = read(&lines(&["f;H11;H11", "[Hz];[m/s²/N];[m/s²/N]", "-;Re;Im"]), 3);
         assert_eq!((header.names[2].as_str(), header.units[2].as_str()), ("H11 Im", "m/s²/N"));
-        let header = read(&lines(&["Frequency;Real;Imag", "Hz;g/N;g/N"]), 3);
+        let header = read(&lines(&["Point;Beam:1;Direction;+Z", "Frequency;Real;Imag", "Hz;g/N;g/N"]), 3);
         assert_eq!((header.names.join(",").as_str(), header.units[2].as_str()), ("Frequency,Real,Imag", "g/N"));
     }
 
