@@ -66,10 +66,15 @@ pub enum StructureError {
         "the model is not that of a stable structure: its stiffness is not positive semi-definite; leave out Lagrange multipliers and geometric stiffness"
     )]
     NotStable,
-    #[error("more than {most} modes would be needed up to {up_to_hz} Hz; lower `up_to_hz` of [structure.reduce]")]
+    #[error("more than {most} modes would be needed up to {} Hz; lower `up_to_hz` of [structure.reduce]", six_digits(*up_to_hz))]
     TooManyModes { most: usize, up_to_hz: f64 },
     #[error("the modes could not be computed: {reason}")]
     Modes { reason: String },
+}
+
+/// A number to six significant digits: limits that were computed, such as twice a frequency, end in roundings.
+pub(super) fn six_digits(number: f64) -> f64 {
+    format!("{number:.5e}").parse().unwrap_or(number)
 }
 
 /// The few labels most like `label`, for the message about an unknown one.

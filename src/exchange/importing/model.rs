@@ -34,7 +34,11 @@ pub(super) fn structure(request: &Request, out: &Path, up_to_hz: f64) -> Result<
         text.push_str(&format!("nodes = {}\n", quoted(nodes)?));
     }
     if model.system.mass.size() > LARGE {
-        text.push_str(&format!("\n[structure.reduce]\nup_to_hz = {up_to_hz:?}\n"));
+        // Of a step that is no binary number the rate ends in roundings.
+        text.push_str(&format!(
+            "\n[structure.reduce]\nup_to_hz = {}\n",
+            toml::Value::Float((1e6 * up_to_hz).round() / 1e6)
+        ));
     }
     Ok(Some(text))
 }

@@ -19,6 +19,7 @@ mod reduce;
 pub use mode_check::ModeCheck;
 pub use reduce::reduce;
 
+use super::error::six_digits;
 use dashpot_numerics::SparseSymmetric;
 
 /// Mass and stiffness of a whole model, n x n.
@@ -93,6 +94,7 @@ impl Reduction {
     /// The reduction and its error, in one sentence.
     pub fn sentence(&self) -> String {
         let Wanted { method, up_to_hz, band_hz, .. } = self.wanted;
+        let [up_to_hz, band_hz] = [up_to_hz, band_hz].map(six_digits);
         let modes = match method {
             Method::Guyan => String::new(),
             Method::CraigBampton => {

@@ -136,3 +136,13 @@ fn what_cannot_be_done_is_said() {
     let error = reduce(&system, &directions, &all, wanted).unwrap_err();
     assert_eq!(error, StructureError::NothingReduced { kept: 22, degrees: 22 });
 }
+
+#[test]
+fn limits_that_were_computed_are_said_to_six_digits() {
+    let (_, structure) = beam(12, Supports::ClampedFree);
+    let (system, directions) = system(&structure);
+    let wanted = Wanted { method: Method::CraigBampton, up_to_hz: 6.0 * 308.1, band_hz: 3.0 * 308.1, error: 0.5 };
+    assert_eq!(wanted.up_to_hz.to_string(), "1848.6000000000001");
+    let sentence = reduce(&system, &directions, &[10, 22], wanted).unwrap().1.sentence();
+    assert!(sentence.contains("up to 1848.6 Hz") && sentence.contains("up to 924.3 Hz"), "{sentence}");
+}
