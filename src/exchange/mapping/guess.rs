@@ -89,6 +89,10 @@ pub(super) fn place_of(text: &str) -> Option<(String, Option<i64>)> {
     let start = text[..end]
         .rfind(|c: char| !c.is_ascii_digit())
         .map_or(0, |at| at + text[at..].chars().next().map_or(1, char::len_utf8));
+    if words(&text[..start]).last().is_some_and(|word| word == "ai") {
+        // An analogue input is a place in the amplifier, not on the structure.
+        return None;
+    }
     let number = text[start..end].trim_start_matches('0');
     let number = if number.is_empty() { "0" } else { number };
     let behind: String =
@@ -120,6 +124,7 @@ mod tests {
         assert_eq!(place("acc_07_x"), Some(("7x".into(), 1)));
         assert_eq!(place("sine 1:S"), Some(("1".into(), 1)));
         assert_eq!((place("Force"), place("7 left"), place("0:S")), (None, None, None));
+        assert_eq!((place("Acc/AI 2"), place("Acc/AI2 ")), (None, None));
     }
 
     #[test]
