@@ -1,5 +1,6 @@
 //! A channel of a file as a small plot.
 
+use crate::display::format::pretty_unit;
 use crate::plots::figure::{Axis, Data, Figure, Look};
 use crate::plots::pyramid::Pyramid;
 use crate::plots::style::Palette;
@@ -64,7 +65,7 @@ impl Preview {
                 Drawn::Samples(Arc::new(Pyramid::new(&axis, &values)))
             }
         };
-        Ok(Self { name: entry.name.clone(), across, unit: entry.unit.clone(), drawn })
+        Ok(Self { name: entry.name.clone(), across, unit: pretty_unit(&entry.unit), drawn })
     }
 
     /// The plot.
