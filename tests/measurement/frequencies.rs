@@ -1,7 +1,7 @@
 //! The frequency found in a record.
 
 use crate::signals::{Signal, beam, even, record, z};
-use dashpot::measurement::{FitError, Quantity, frequency::estimate};
+use dashpot::measurement::{Channel, FitError, Quantity, Record, frequency::estimate};
 use std::f64::consts::TAU;
 
 #[test]
@@ -33,6 +33,27 @@ fn the_deviation_is_that_of_the_bound_and_honest() {
         squares += ((found.omega - TAU * 23.4) / found.deviation).powi(2) / f64::from(seeds as u32);
     }
     assert!((squares.sqrt() - 1.0).abs() < 0.12, "{}", squares.sqrt());
+}
+
+#[test]
+fn a_long_record_has_the_deviation_of_the_bound_too() {
+    // More than 2^20 samples: parts first, then the whole of it.
+    let (samples, rate_hz, noise) = (2_300_000, 10_000.0, 0.5);
+    let signals = [Signal::new(Quantity::Force, 0, &[z(1.0, 0.0)], noise)];
+    let bound = 24.0_f64.sqrt() * noise / (samples as f64).powf(1.5) * rate_hz;
+    let found = estimate(&record(&signals, 37.212_3, even(samples, rate_hz), 4), 2).unwrap();
+    assert!((found.deviation / bound - 1.0).abs() < 0.1, "{} {bound}", found.deviation);
+    assert!((found.omega - TAU * 37.212_3).abs() < 4.0 * found.deviation, "{found:?}");
+}
+
+#[test]
+fn a_long_record_that_begins_in_silence_is_found_by_its_loudest_part() {
+    let time = even(1_700_000, 5000.0);
+    let (channel, from) = (Channel { quantity: Quantity::Force, dof: 0, label: "1".into() }, 200.0);
+    let force = time.iter().map(|&t| if t < from { 0.0 } else { (TAU * 21.345 * t).cos() }).collect();
+    let found = estimate(&Record::new(time, vec![channel], vec![force]).unwrap(), 1).unwrap();
+    // A fit to the whole of it sees the switching on, by some thousandths of a line of the spectrum.
+    assert!((found.omega / TAU - 21.345).abs() * 340.0 < 0.01, "{}", found.omega / TAU);
 }
 
 #[test]
