@@ -36,10 +36,12 @@ impl FileError {
 
 impl fmt::Display for FileError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        // Names of matrices are bytes of the file: one with a line end in it must not break the line.
+        let problem: String = self.problem.to_string().chars().map(|c| if c.is_control() { ' ' } else { c }).collect();
         match self.place {
-            Place::File => write!(f, "{}: {}", self.file, self.problem),
-            Place::Line(line) => write!(f, "{}:{line}: {}", self.file, self.problem),
-            Place::Byte(byte) => write!(f, "{}: byte {byte}: {}", self.file, self.problem),
+            Place::File => write!(f, "{}: {problem}", self.file),
+            Place::Line(line) => write!(f, "{}:{line}: {problem}", self.file),
+            Place::Byte(byte) => write!(f, "{}: byte {byte}: {problem}", self.file),
         }
     }
 }
@@ -113,4 +115,16 @@ impl fmt::Debug for Float {
 /// A piece of a file for a message: one line, not too long.
 pub(crate) fn quote(text: &str) -> String {
     text.chars().map(|c| if c.is_control() { ' ' } else { c }).take(60).collect::<String>().trim().to_owned()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_name_with_a_line_end_leaves_the_message_on_one_line() {
+        let problem = Problem::TooLarge { name: "K\nA".to_owned(), rows: 11_522 };
+        let text = FileError::new("a.op4", Place::Byte(0), problem).to_string();
+        assert!(text.starts_with("a.op4: byte 0: matrix K A is said to have 11522 rows"), "{text}");
+    }
 }
