@@ -129,6 +129,10 @@ fn headers_of_measuring_programs_are_read_through() {
     right(&format!("% t(s) F(N) a(m/s^2)\n{}", tabs().replace('\t', "  ")), &[]);
     let pairs = rows(|[t, f, _, a]| format!("{t},{f},{t},{a}"));
     right(&format!("Force,,Acc,\nX [s],Y [N],X [s],Y [m/s^2]\n{pairs}"), &[]);
+    // Inputs of the amplifier are no places.
+    right(&format!("Sample rate: 1000\n\nTime (s)\tForce/AI 1 (N)\tAcc/AI 2 (m/s^2)\n{}", tabs()), &[]);
+    let started = "Zeit\tKraft\tBeschl\ns\tN\tm/s²\nStart: 11:58\tStart: 11:58\tStart: 11:58\n";
+    right(&format!("{started}{}", comma(tabs())), &[]);
     let remarks = tabs().replace('\t', ";").replacen('\n', ";start\n", 1);
     right(&format!("Time [s];Force [N];Acc [m/s^2];Comment\n{remarks}"), &[]);
 }
@@ -191,6 +195,24 @@ fn a_template_says_of_responses_what_the_files_do_not() {
     let file = folder.path().join("a.txt").display().to_string();
     let error = dashpot(&["import", &file, "--map", &map, "--propose"]).unwrap_err();
     assert!(error.contains("template.toml:2") && error.contains("real-imag") && !error.contains('\n'), "{error}");
+}
+
+#[test]
+fn what_is_said_is_of_files_that_are_there_and_of_channels_that_are_used() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = |name: &str, text: String| {
+        std::fs::write(folder.path().join(name), text).unwrap();
+        folder.path().join(name).display().to_string()
+    };
+    let bare =
+        file("point_1.csv", format!("Frequency [Hz],Real,Imag\n{}", lines(|f, [re, im]| format!("{f},{re},{im}"))));
+    let error = dashpot(&["import", &bare, "--out", &folder.path().join("p.toml").display().to_string()]).unwrap_err();
+    let said = "point_1.csv: channel \"FRF\": the file says no unit";
+    assert!(error.contains(said) && !error.contains("p.toml"), "{error}");
+    let volts = rows(|[t, f, _, a]| format!("{t},{f},{a}"));
+    let volts = file("volts.csv", format!("Time [s],Force [N],out [V]\n{volts}"));
+    let said = dashpot(&["import", &volts, "--out", &folder.path().join("q.toml").display().to_string()]).unwrap();
+    assert!(said.contains("assumed: force@1") && !said.contains("assumed: disp@1"), "{said}");
 }
 
 #[test]

@@ -1,11 +1,25 @@
 //! Why files cannot be imported.
 
 use crate::exchange::matrices::TableError;
-use crate::exchange::project::ProjectError;
+use crate::exchange::project::{Problem, ProjectError};
 use std::path::Path;
 
 /// What an import gives, or why it cannot.
 pub(super) type Result<T, E = ImportError> = std::result::Result<T, E>;
+
+/// A fault of a measurement without the line of the project that names it: there is no such file for the user to look into.
+fn unwritten(error: &ProjectError) -> String {
+    match *error.problem {
+        Problem::Table(_)
+        | Problem::Record(_)
+        | Problem::Frf(_)
+        | Problem::Fit { .. }
+        | Problem::NotSteady { .. }
+        | Problem::Part { .. }
+        | Problem::Transient { .. } => error.problem.to_string(),
+        _ => format!("{}, which is not written: {}", error.file, error.problem),
+    }
+}
 
 /// One line: the file, what is wrong and how to mend it.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -15,6 +29,9 @@ pub enum ImportError {
     File(#[from] dashpot_datafiles::Error),
     #[error(transparent)]
     Project(#[from] ProjectError),
+    /// What is wrong with the project that the files would make, which is not written.
+    #[error("{}", unwritten(.0))]
+    Unwritten(ProjectError),
     #[error(transparent)]
     Model(#[from] TableError),
     #[error("{file}: {problem}")]

@@ -62,7 +62,7 @@ pub(super) fn import(request: &Request, mapping: Proposal, out: &Path, control: 
     let head = project_head(request, &mapping, out, &looks, single.as_ref())?;
     let tables = tables(request, &mapping, &sources, out, &looks)?;
     // The project must open before it is there.
-    plan(&format!("{head}{tables}"), out)?.load(control)?;
+    plan(&format!("{head}{tables}"), out).and_then(|plan| plan.load(control)).map_err(ImportError::Unwritten)?;
     let summary = summary(request, &mapping, &sources, &looks, single.as_ref(), out);
     Ok(Imported { head, tables, summary, remarks: Vec::new() })
 }
@@ -140,10 +140,10 @@ fn looks_of(
     for source in sources {
         text.push_str(&run_table(request, source, out)?);
     }
-    let planned = plan(&text, out)?;
+    let planned = plan(&text, out).map_err(ImportError::Unwritten)?;
     let (mut first, mut found) = (None, Vec::new());
     for (index, source) in sources.iter().enumerate() {
-        let record = planned.record(index, control)?;
+        let record = planned.record(index, control).map_err(ImportError::Unwritten)?;
         if record.len() < FEWEST {
             let problem = format!("has {} samples, and a run needs {FEWEST}; export the whole record", record.len());
             return Err(ImportError::of(&source.file, problem));
@@ -312,7 +312,8 @@ fn summary(
     out: &Path,
 ) -> String {
     let mut text = String::new();
-    for (name, what) in &mapping.assumed {
+    let used = |name: &String| mapping.channels.iter().any(|table| table.channel() == *name);
+    for (name, what) in mapping.assumed.iter().filter(|(name, _)| used(name)) {
         text.push_str(&format!("assumed: {name}: {what}\n"));
     }
     for (name, why) in &mapping.left {

@@ -43,7 +43,8 @@ fn of_set<'a>(set: &'a Set, request: &Request) -> impl Iterator<Item = &'a Chann
 /// The project of frequency responses.
 pub(super) fn import(request: &Request, out: &Path, control: &Control) -> Result<Imported> {
     let Found { head, tables, summary, assumed } = project(request, out)?;
-    let project = plan(&format!("{head}{tables}"), out)?.load(control)?;
+    let project =
+        plan(&format!("{head}{tables}"), out).and_then(|plan| plan.load(control)).map_err(ImportError::Unwritten)?;
     let assumed = assumed.iter().map(|what| format!("assumed: {what}\n")).collect::<String>();
     let runs = project.runs.len();
     let summary = format!("{assumed}{summary}, {runs} runs of one line each, are in {}\n", out.display());

@@ -1,6 +1,6 @@
 //! Import of a stepped-sine table: a project with `[[harmonics]]`, one run a row.
 
-use super::error::Result;
+use super::error::{ImportError, Result};
 use super::model::head;
 use super::request::{Imported, Request};
 use super::text::{comment, named, points};
@@ -18,7 +18,8 @@ const EXPLAINED: f64 = 0.9;
 /// The project of the table `table`.
 pub(super) fn import(request: &Request, table: &Stepped, out: &Path, control: &Control) -> Result<Imported> {
     let (mut head, tables) = project(request, table, out)?;
-    let loaded = plan(&format!("{head}{tables}"), out)?.load(control)?;
+    let loaded =
+        plan(&format!("{head}{tables}"), out).and_then(|plan| plan.load(control)).map_err(ImportError::Unwritten)?;
     if request.mass.is_none()
         && let Some([mass, stiffness]) = oscillator(&loaded.runs)
     {
@@ -31,7 +32,7 @@ pub(super) fn import(request: &Request, table: &Stepped, out: &Path, control: &C
             "# kind = \"chain\"\n# masses = [{mass:.4}]\n# ground_stiffness = [{stiffness:.5e}]\n# coupling_stiffness = []\n"
         );
         head = head.replacen("[structure]\n", &format!("[structure]\n{hint}{chain}"), 1);
-        plan(&format!("{head}{tables}"), out)?;
+        plan(&format!("{head}{tables}"), out).map_err(ImportError::Unwritten)?;
     }
     let assumed = table.assumed.iter().map(|what| format!("assumed: {what}\n")).collect::<String>();
     let summary = format!("{assumed}{} is in {}\n", table.words(), out.display());
