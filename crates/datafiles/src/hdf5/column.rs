@@ -1,5 +1,6 @@
 //! One channel of a data set, block by block: what is not asked for is not kept, and where the layout allows not read.
 
+use super::fault::wrong;
 use super::value::Value;
 use crate::bytes::room;
 use crate::error::{Fault, Read};
@@ -62,7 +63,7 @@ fn read(dataset: &Dataset, layout: &Layout<'_>, count: u64, complex: bool) -> Re
     let mut from = 0;
     while from < count {
         let to = from.saturating_add(rows).min(count);
-        let block = dataset.read_slice::<Value>(&layout.selection(from, to, stride > 1)).map_err(super::wrong)?;
+        let block = dataset.read_slice::<Value>(&layout.selection(from, to, stride > 1)).map_err(wrong)?;
         if from == 0 {
             // Only what begins in the file is given memory.
             flat = Flat { re: room(count)?, im: room(if complex { count } else { 0 })? };

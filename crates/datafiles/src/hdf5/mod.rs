@@ -3,6 +3,7 @@
 //! The tree is made of headers and a few values of each data set; chunks that no listing shows are never read.
 
 mod column;
+mod fault;
 mod lzf;
 mod value;
 
@@ -10,6 +11,7 @@ use crate::contents::{Contents, Format};
 use crate::error::{Fault, Read, one_line};
 use crate::source::{MOST_VALUES, Source};
 use crate::tree::{Array, Arrays, Cut, Entry, Flat, Node, Shape, TreeSource, sets};
+use fault::wrong;
 use hdf5_reader::group::Group;
 use hdf5_reader::{Attribute, Dataset, Datatype, Hdf5File, OpenOptions, SliceInfo, SliceInfoElem};
 use std::collections::{BTreeMap, HashSet};
@@ -67,13 +69,6 @@ pub(crate) fn open(path: &Path, matlab: bool) -> Read<(Contents, Box<dyn Source>
         contents.notes.push("there is no data set of numbers".to_owned());
     }
     Ok((contents, Box::new(TreeSource::new(Box::new(arrays), places))))
-}
-
-fn wrong(error: impl std::fmt::Display) -> Fault {
-    Fault::new(format!(
-        "cannot be read as HDF5 ({}); it was cut short or is damaged: copy or export it again",
-        one_line(&error.to_string(), 160)
-    ))
 }
 
 /// Objects that cells of MATLAB refer to, by their address.

@@ -2,6 +2,7 @@
 
 use crate::bytes::take;
 use crate::error::{Fault, Read};
+use crate::tree::Cut;
 use flate2::read::ZlibDecoder;
 use std::fs::File;
 use std::io::{self, BufReader, Read as _};
@@ -51,4 +52,11 @@ impl Input {
         let passed = io::copy(&mut self.take(count), &mut io::sink()).map_err(Fault::from)?;
         if passed < count { Err(io::Error::from(io::ErrorKind::UnexpectedEof).into()) } else { Ok(()) }
     }
+}
+
+/// A channel of an array.
+#[derive(Debug, Clone)]
+pub(super) struct Part {
+    pub cut: Cut,
+    pub channel: u64,
 }

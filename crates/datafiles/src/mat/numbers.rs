@@ -1,16 +1,10 @@
 //! Numbers of a MAT file: those that a listing shows, one channel of an array, or all of it.
 
+use super::input::Part;
 use super::v5::{Header, Walk};
 use crate::bytes::{Scalar, strided};
 use crate::error::{Fault, Read};
-use crate::tree::{Array, Cut, Flat, Shape};
-
-/// A channel of an array.
-#[derive(Debug, Clone)]
-pub(super) struct Part {
-    pub cut: Cut,
-    pub channel: u64,
-}
+use crate::tree::{Array, Flat, Shape};
 
 /// Which values of an array are read.
 enum Values<'a> {

@@ -3,8 +3,7 @@
 //! Source: "MAT-File Format", MathWorks, chapter 1. The tree is made in one pass over the elements without keeping their
 //! numbers; an array is read by a second pass over the element it is in.
 
-use super::input::{Input, word};
-use super::numbers::Part;
+use super::input::{Input, Part, word};
 use crate::bytes::take;
 use crate::error::{Fault, Read, one_line};
 use crate::tree::{Arrays, Cut, Entry, Flat, Node};
