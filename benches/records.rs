@@ -95,6 +95,7 @@ fn oscillator(c: &mut Criterion) {
         channels: &channels,
         factors: [1.0; 2],
         mode_stiffness: &[],
+        shape_errors: &[],
     };
     let model = TransientModel::new(&setup).unwrap_or_else(|error| panic!("{error}"));
     let by = |source| TransientParameter::Source { source, parameter: 0 };

@@ -32,6 +32,21 @@ pub enum Ends {
     Open,
 }
 
+impl Parameter {
+    /// Powers of scale in the parameter: by what multiple of a common relative error of forces and motions it is wrong, as its unit
+    /// has newtons and metres. `exponent` is that of a law of any power.
+    pub fn powers_of_scale(&self, exponent: f64) -> f64 {
+        match self.unit {
+            "N" | "m" | "m/s" => 1.0,
+            "N/m" | "N s/m" | "N s^a/m" | "kg" => 2.0,
+            "N/m^2" | "N s^2/m^2" => 3.0,
+            "N/m^3" => 4.0,
+            "N (s/m)^e" => 1.0 + exponent,
+            _ => 0.0,
+        }
+    }
+}
+
 /// The variable `theta` behind a parameter `p` in fits.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Scaling {

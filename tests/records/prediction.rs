@@ -37,6 +37,7 @@ struct Case {
     forces: SampledForces,
     initial: Vec<f64>,
     factors: [f64; 2],
+    shape_errors: Vec<Vec<f64>>,
 }
 
 impl Case {
@@ -51,6 +52,7 @@ impl Case {
             channels: &self.channels,
             factors: self.factors,
             mode_stiffness: &[],
+            shape_errors: &self.shape_errors,
         };
         TransientModel::new(&setup).unwrap().predict(&self.forces, &self.initial, parameters).unwrap()
     }
@@ -64,6 +66,7 @@ impl Case {
             drives: self.drives.clone(),
             forces: self.forces.clone(),
             initial: self.initial.clone(),
+            shape_errors: self.shape_errors.clone(),
             ..*self
         };
         match parameter {
@@ -95,6 +98,7 @@ fn friction_stops_where_it_should() {
         forces: quiet(step, 130, 1),
         initial: vec![0.05, 0.0],
         factors: [1.0; 2],
+        shape_errors: vec![],
     };
     let record = case.run(&[]);
     let fall = f / k;
@@ -141,6 +145,7 @@ fn derivatives_are_those_of_the_record() {
             forces: SampledForces { step, samples: 700, forces: vec![drive.clone()], substeps: 2 },
             initial: vec![2e-4, 1e-5, 0.0, 1e-5, 0.0, 0.0],
             factors: [1.0; 2],
+            shape_errors: vec![],
         };
         let mut parameters: Vec<TransientParameter> =
             (0..values.len()).map(|parameter| TransientParameter::Source { source: 1, parameter }).collect();
@@ -176,4 +181,69 @@ fn derivatives_are_those_of_the_record() {
             }
         }
     }
+}
+
+/// A beam under a force that changes slowly, from rest, seen by an accelerometer and a displacement sensor.
+fn slowly_driven(samples: std::ops::Range<usize>, initial: Vec<f64>) -> Case {
+    let step = 5e-4;
+    let force = |n: usize| 6.0 * (1.0 - (n as f64 * step * 40.0).cos());
+    Case {
+        structure: beam(),
+        sources: vec![known(Effect::Viscous, &[6], &[0.5])],
+        channels: channels(&[(Quantity::Acceleration, 10), (Quantity::Displacement, 4)]),
+        drives: vec![10],
+        kept: 2,
+        forces: SampledForces { step, samples: samples.len(), forces: vec![samples.map(force).collect()], substeps: 1 },
+        initial,
+        factors: [1.0; 2],
+        shape_errors: vec![],
+    }
+}
+
+fn size(list: &[f64]) -> f64 {
+    list.iter().map(|x| x * x).sum::<f64>().sqrt()
+}
+
+/// A part that begins while a force acts goes on as the whole record does: what is not followed rests under the force.
+#[test]
+fn a_part_of_a_record_begins_without_a_blow() {
+    let (first, all) = (400, 1000);
+    let whole = slowly_driven(0..all, vec![0.0; 4]).run(&[]);
+    let state = slowly_driven(0..first + 1, vec![0.0; 4]).run(&[]).end;
+    let part = slowly_driven(first..all, state).run(&[]);
+    for (own, whole) in part.channels.iter().zip(&whole.channels) {
+        let apart: Vec<f64> = own.iter().zip(&whole[first..]).map(|(a, b)| a - b).collect();
+        // The force is followed to its rate at the start: what its second derivative does is left.
+        assert!(size(&apart) < 4e-2 * size(own), "{:.1e}", size(&apart) / size(own));
+    }
+}
+
+/// There, too, derivatives by the stiffness are those of the record, what rests under the force included.
+#[test]
+fn what_rests_under_a_force_follows_the_stiffness() {
+    let case = slowly_driven(150..600, vec![1e-4, -2e-5, 0.0, 1e-5]);
+    let found = &case.run(&[TransientParameter::Stiffness]).derivatives[0];
+    let [up, down] = [1e-5, -1e-5].map(|by| case.moved(TransientParameter::Stiffness, by));
+    for c in 0..2 {
+        let difference: Vec<f64> = up.channels[c].iter().zip(&down.channels[c]).map(|(a, b)| (a - b) / 2e-5).collect();
+        let apart: Vec<f64> = found[c].iter().zip(&difference).map(|(a, b)| a - b).collect();
+        assert!(size(&apart) < 1e-5 * size(&difference), "channel {c}: {:.1e}", size(&apart) / size(&difference));
+    }
+}
+
+/// Errors of the shapes add what the modes show: the record is linear in them.
+#[test]
+fn errors_of_shapes_add_what_the_modes_show() {
+    let mut case = slowly_driven(0..600, vec![1e-4, -2e-5, 0.0, 1e-5]);
+    case.sources.push(known(Effect::CubicStiffness, &[8], &[4e7]));
+    let plain = case.run(&[TransientParameter::Stiffness]);
+    case.shape_errors = vec![vec![0.3, -0.2], vec![0.0, 0.5]];
+    let wrong = case.run(&[]);
+    for (c, (order, errors)) in [2, 0].into_iter().zip(&case.shape_errors).enumerate() {
+        let modes = &plain.modal[order];
+        let more = |n: usize| errors.iter().zip(modes).map(|(e, mode)| e * mode[n]).sum::<f64>();
+        let apart: Vec<f64> = (0..600).map(|n| wrong.channels[c][n] - plain.channels[c][n] - more(n)).collect();
+        assert!(size(&apart) < 1e-10 * size(&wrong.channels[c]), "channel {c}");
+    }
+    assert!(plain.modal[1].is_empty(), "no channel shows a velocity");
 }

@@ -3,30 +3,23 @@
 use super::data::RecordError;
 use super::evidence::{AGREES, misfit};
 use super::fitted::FittedRecords;
+use super::model_errors::ModelErrors;
 use super::search::{Search, SetsBySize};
 use super::telling::{added, corrections, suggestions, words};
 use super::told::added_as_told;
 use crate::diagnosis::diagnose::{Added, Diagnosis, Step, Suggestion, Verdict};
-use crate::diagnosis::updating::part_error::{is_within_part, part_of, takes_away};
-use crate::effects::Source;
 
 /// Error of what is told from which on the phase may be lost over the whole record, and the share of it that parts of the record
 /// leave at most where it is.
 const PHASE_LOST: [f64; 2] = [0.08, 0.7];
 
+/// Steps of a fit beside a part that was corrected.
+const REFITTING: usize = 7;
+
 /// Probability up to which a suggestion is told as its fit stands, without what it predicts and promises.
 const UNLIKELY: f64 = 1e-3;
 
-/// Relative size of an added spring or mass up to which it may stand for errors of many: some times that of one.
-const TOGETHER: f64 = 0.25;
-
 impl Search<'_> {
-    /// Whether an effect is a spring or mass of no more than several of them may be wrong by together.
-    fn is_correction(&self, source: &Source) -> bool {
-        let structure = self.records.structure;
-        takes_away(source) || part_of(source).is_some_and(|part| is_within_part(structure, source, part, TOGETHER))
-    }
-
     /// Fills `diagnosis` with what was found.
     pub fn conclude(&self, by_size: &SetsBySize, diagnosis: &mut Diagnosis) -> Result<(), RecordError> {
         let Some(best) = by_size.last.first() else {
@@ -40,35 +33,64 @@ impl Search<'_> {
             let worth = |s: &Step| !s.added.is_empty() || s.error < diagnosis.error_before;
             diagnosis.steps.extend(step.filter(worth));
         }
-        let error = told.error(self.records, 0.0, 1.0)?;
-        diagnosis.steps.push(Step { added: added(&told), error, misfit: misfit(&told) });
-        diagnosis.corrections = corrections(self.records, &told);
-        if best.effects.is_empty() {
-            diagnosis.verdict = match misfit(&told) {
+        diagnosis.suggestions = suggestions(self.records, &by_size.last)?;
+        let model_errors = ModelErrors::of(self.records.structure, &told);
+        if model_errors.sources.is_empty() {
+            return self.conclude_told(&told, misfit(&told), &by_size.last, diagnosis);
+        }
+        // What a spring or mass changes of a part is made a number of the structure, and the rest is fitted beside it.
+        let without = |fit: &FittedRecords| {
+            let mut fit = fit.clone();
+            fit.effects.retain(|e| !model_errors.holds(e));
+            fit
+        };
+        diagnosis.suggestions.retain(|s| !model_errors.holds(&s.added.source));
+        let structure = self.records.structure.with_factors(&model_errors.factors());
+        let (plain, records) = (self.plain.on(&structure)?, self.records.on(&structure)?);
+        let (excluded, control) = (self.excluded, self.control);
+        let search = Search { records: &records, plain: &plain, levels: records.levels(), excluded, control };
+        let fits: Vec<FittedRecords> = by_size.last.iter().map(without).collect();
+        let corrected = search.told(&search.corrected_whole(&fits[0])?)?;
+        diagnosis.corrections.clone_from(&model_errors.corrections);
+        let left = if corrected.effects.is_empty() { misfit(&told) } else { misfit(&corrected) };
+        search.conclude_told(&corrected, left, &fits, diagnosis)
+    }
+
+    /// A fit on whole records, with deviations of its own.
+    fn corrected_whole(&self, fit: &FittedRecords) -> Result<FittedRecords, RecordError> {
+        self.fit(self.levels.len() - 1, fit, 1.0, REFITTING)
+    }
+
+    /// Says what is told; `left` is the misfit by which it is judged, `fits` are the sets of the last size.
+    fn conclude_told(
+        &self,
+        told: &FittedRecords,
+        left: f64,
+        fits: &[FittedRecords],
+        diagnosis: &mut Diagnosis,
+    ) -> Result<(), RecordError> {
+        let error = self.promised(told, &told.effects)?;
+        diagnosis.steps.push(Step { added: added(told), error, misfit: misfit(told) });
+        diagnosis.corrections.extend(corrections(self.records, told));
+        if told.effects.is_empty() {
+            diagnosis.suggestions.clear();
+            diagnosis.verdict = match left {
                 left if left > AGREES => Verdict::Unexplained,
                 _ if diagnosis.corrections.is_empty() => Verdict::Adequate,
                 _ => Verdict::Detuned,
             };
             return Ok(());
         }
-        diagnosis.suggestions = suggestions(self.records, &by_size.last)?;
         for suggestion in diagnosis.suggestions.iter_mut().filter(|s| s.probability > UNLIKELY) {
-            self.complete(suggestion, &told, &by_size.last)?;
+            self.complete(suggestion, (told, error), fits)?;
         }
         let floor = diagnosis.noise_floor.max(f64::MIN_POSITIVE);
         if let Some(first) = diagnosis.suggestions.first_mut() {
-            first.evidence.extend(self.words_on_all(&told, floor)?);
+            first.evidence.extend(self.words_on_all(told, error, floor)?);
         }
         widen(diagnosis);
         let sure = diagnosis.suggestions.first().is_some_and(|s| s.probability >= 0.5);
-        // One spring or mass stands for the many that a model states a little wrongly.
-        let corrected = told.effects.iter().all(|effect| self.is_correction(effect));
-        diagnosis.verdict = match (corrected, sure) {
-            (true, _) if misfit(&told) > AGREES => Verdict::Unexplained,
-            (true, _) => Verdict::Detuned,
-            (false, true) => Verdict::Missing,
-            (false, false) => Verdict::Undecided,
-        };
+        diagnosis.verdict = if sure { Verdict::Missing } else { Verdict::Undecided };
         Ok(())
     }
 
@@ -76,7 +98,8 @@ impl Search<'_> {
     fn step(&self, fit: &FittedRecords, level: usize) -> Result<Option<Step>, RecordError> {
         let whole = self.levels.len() - 1;
         let on_whole = self.carried(fit, level, whole).and_then(|fit| self.quiet(whole, &fit));
-        match on_whole.and_then(|fit| Ok((fit.error(self.records, 0.0, 1.0)?, fit))) {
+        let stated = |fit: &FittedRecords| self.quiet(whole, &fit.stated(self.records))?.error(self.records, 0.0, 1.0);
+        match on_whole.and_then(|fit| Ok((stated(&fit)?, fit))) {
             Ok((error, fit)) => Ok(Some(Step { added: added(&fit), error, misfit: misfit(&fit) })),
             Err(RecordError::Model { .. } | RecordError::Singular) => Ok(None),
             Err(other) => Err(other),
@@ -87,7 +110,7 @@ impl Search<'_> {
     fn complete(
         &self,
         suggestion: &mut Suggestion,
-        told: &FittedRecords,
+        (told, error): (&FittedRecords, f64),
         fits: &[FittedRecords],
     ) -> Result<(), RecordError> {
         let has = |f: &&FittedRecords| f.effects.iter().any(|e| e.is_same(&suggestion.added.source));
@@ -95,17 +118,20 @@ impl Search<'_> {
             suggestion.held_out_error_after = self.held_out(self.levels.len() - 1, fit)?;
         }
         suggestion.added = added_as_told(&added(told), &suggestion.added);
-        suggestion.error_after = self.promised(told, std::slice::from_ref(&suggestion.added.source))?;
+        // A member of the set is added with the set.
+        let in_set = told.effects.iter().any(|e| e.is_same(&suggestion.added.source));
+        suggestion.error_after =
+            if in_set { error } else { self.promised(told, std::slice::from_ref(&suggestion.added.source))? };
         suggestion.evidence = words(&suggestion.added.source, suggestion.error_after);
         Ok(())
     }
 
     /// What is said of all that is told together.
-    fn words_on_all(&self, told: &FittedRecords, floor: f64) -> Result<Vec<String>, RecordError> {
-        let error = told.error(self.plain, 0.0, 1.0)?;
+    fn words_on_all(&self, told: &FittedRecords, error: f64, floor: f64) -> Result<Vec<String>, RecordError> {
         let mut words = Vec::new();
-        if told.effects.len() > 1 {
-            words.push(format!("With all {} effects the error is {:.2} %.", told.effects.len(), 100.0 * error));
+        let count = told.effects.len();
+        if count > 1 {
+            words.push(format!("With all {count} effects the error is {:.2} %.", 100.0 * error));
         }
         let whole = self.levels.len() - 1;
         if error > PHASE_LOST[0] && whole > 0 {

@@ -62,6 +62,8 @@ pub struct RecordData {
     pub channels: Vec<Channel>,
     /// Their samples less their means where they are displacements of a decay, SI.
     pub samples: Vec<Vec<f64>>,
+    /// Largest sample of every channel of the whole record, SI.
+    pub largest: Vec<f64>,
     /// Rows of the driven DOFs.
     pub drives: Vec<usize>,
     /// Their forces, N.
@@ -91,6 +93,8 @@ pub struct Records<'a> {
     pub kept: usize,
     /// Records that are used.
     pub list: Vec<RecordData>,
+    /// Channels of motion that differ.
+    pub(super) sensors: Vec<Channel>,
 }
 
 impl<'a> Records<'a> {
@@ -114,7 +118,18 @@ impl<'a> Records<'a> {
         let limit = (1.5 * top).min(nyquist);
         let below = modes.omega.iter().filter(|w| **w <= TAU * limit).count();
         let kept = below.clamp(1, MOST_MODES).min(modes.len());
-        Ok(Self { structure, known, modes, kept, list })
+        let sensors = different(&list);
+        Ok(Self { structure, known, modes, kept, list, sensors })
+    }
+
+    /// The same records beside another structure of the same DOFs.
+    pub(super) fn on<'b>(&self, structure: &'b Structure) -> Result<Records<'b>, RecordError>
+    where
+        'a: 'b,
+    {
+        let modes = structure.modes()?;
+        let kept = self.kept.min(modes.len());
+        Ok(Records { structure, modes, kept, ..self.clone() })
     }
 
     /// Frequency (Hz) from which on motion is not that of the modes that are followed.
@@ -146,16 +161,17 @@ impl<'a> Records<'a> {
     }
 
     /// The model of a record with these sources and factors on stiffness and mass, and logarithms of those on the
-    /// stiffness of single modes.
+    /// stiffness of single modes; `shape_errors` of the sensors.
     pub(crate) fn model(
         &self,
         record: &RecordData,
         sources: &[Source],
         factors: [f64; 2],
-        mode_stiffness: &[f64],
+        (mode_stiffness, shape_errors): (&[f64], &[Vec<f64>]),
     ) -> Result<TransientModel, RecordError> {
         let (structure, modes, kept) = (self.structure, &self.modes, self.kept);
         let (drives, channels) = (&record.drives[..], &record.channels[..]);
+        let shape_errors = &self.shape_errors(record, shape_errors);
         TransientModel::new(&TransientSetup {
             structure,
             modes,
@@ -165,6 +181,7 @@ impl<'a> Records<'a> {
             channels,
             factors,
             mode_stiffness,
+            shape_errors,
         })
         .map_err(|reason| RecordError::Model { file: record.file.clone(), reason })
     }
@@ -217,6 +234,7 @@ fn record(index: usize, run: &TransientRun) -> Result<RecordData, RecordError> {
     let channels: Vec<Channel> = seen.iter().map(|&c| run.channels()[c].clone()).collect();
     let samples: Vec<Vec<f64>> = seen.iter().map(|&c| run.samples(c).to_vec()).collect();
     let step = run.step();
+    let largest = samples.iter().map(|y| y.iter().fold(0.0_f64, |m, y| m.max(y.abs()))).collect();
     let noise: Vec<f64> = samples.iter().map(|y| noise_of(y, step)).collect();
     let sigma = samples.iter().zip(&noise).map(|(y, noise)| vec![*noise; y.len()]).collect();
     let mut record = RecordData {
@@ -228,6 +246,7 @@ fn record(index: usize, run: &TransientRun) -> Result<RecordData, RecordError> {
         step,
         channels,
         samples,
+        largest,
         drives: driven.iter().map(|&c| run.channels()[c].dof).collect(),
         forces: driven.iter().map(|&c| run.samples(c).to_vec()).collect(),
         noise,
@@ -271,4 +290,15 @@ fn highest_hz(record: &RecordData) -> f64 {
     }
     let shown = peaks(&record.samples[0], record.step, 0.05, 1);
     shown.into_iter().fold(highest, f64::max)
+}
+
+/// The channels that differ in what they measure and where.
+fn different(records: &[RecordData]) -> Vec<Channel> {
+    let mut list: Vec<Channel> = Vec::new();
+    for channel in records.iter().flat_map(|r| &r.channels) {
+        if !list.iter().any(|c| c.dof == channel.dof && c.quantity == channel.quantity) {
+            list.push(channel.clone());
+        }
+    }
+    list
 }

@@ -12,6 +12,7 @@ use super::compare::{floors, started};
 use super::data::{RecordError, Records};
 use super::evidence::{AGREES, evidence, misfit, scale};
 use super::fitted::FittedRecords;
+use super::problem::corrected_by;
 use super::search::{FEW_MODES, Search, SetsBySize};
 use super::telling::{last_deviations, suggestions};
 use crate::control::Control;
@@ -19,8 +20,11 @@ use crate::diagnosis::diagnose::{Diagnosis, Early, Step, Verdict};
 use crate::effects::{Effect, Source};
 use crate::math::statistics::root_mean_square;
 
-/// Squared corrections over their prior deviations beyond which an effect that makes them needless is looked for.
-const PLAUSIBLE: f64 = 16.0;
+/// Squared corrections over their prior deviations beyond which an effect that makes them needless is looked for: of all, and of each
+/// where they are many.
+const PLAUSIBLE: [f64; 2] = [16.0, 8.0];
+/// Misfit of a set of effects from which on no further one is looked for: what it could explain is no more than models are wrong by.
+const ENOUGH: f64 = 2.0;
 /// Most effects of a set.
 const MOST_EFFECTS: usize = 3;
 /// Share of each record that is fitted when the rest is to be predicted.
@@ -30,6 +34,8 @@ const LEARNT: f64 = 0.6;
 /// still loses the phase.
 const GAIN: f64 = 12.0;
 const WORTH: f64 = 0.15;
+/// Gain of evidence by which an effect must make corrections needless, where both leave no more than noise.
+const NEEDLESS: f64 = 40.0;
 /// The same of a mass or spring, which any error of the model's own masses and springs resembles.
 const WORTH_OF_CONSTANT: f64 = 0.5;
 const DECISIVE: f64 = 0.25;
@@ -148,9 +154,9 @@ impl Search<'_> {
         if gain < GAIN && !great {
             return Ok(false);
         }
-        // Both leave no more than noise: what is known of the corrections decides.
+        // Both leave no more than noise: what is known of the corrections decides, where they tell much.
         if misfit(old) < AGREES {
-            return Ok(true);
+            return Ok(gain > NEEDLESS);
         }
         let constant = new.effects.last().is_some_and(|e| matches!(e.effect, Effect::Mass | Effect::Stiffness));
         if worth < if constant { WORTH_OF_CONSTANT } else { WORTH } {
@@ -190,7 +196,9 @@ impl Search<'_> {
 
 /// Whether a fit leaves no more than noise, and that with corrections that can be.
 fn agrees(fit: &FittedRecords) -> bool {
-    misfit(fit) < AGREES && fit.prior < PLAUSIBLE
+    let count = 2 + fit.known.len() + fit.modes.len();
+    let enough = if fit.effects.is_empty() { AGREES } else { ENOUGH };
+    misfit(fit) < enough && corrected_by(fit) < PLAUSIBLE[0].max(PLAUSIBLE[1] * count as f64)
 }
 
 /// Whether the force of the last effect is more than its deviation allows it to be by chance.

@@ -1,9 +1,13 @@
 //! What a fit is worth: its misfit, and its evidence on the scale of what the best fit leaves.
 
+use super::data::Records;
 use super::fitted::FittedRecords;
 
 /// Misfit up to which a model agrees.
 pub(super) const AGREES: f64 = 1.15;
+
+/// Periods of the dominant motion over which the error of a model stays alike.
+const PERIODS: f64 = 3.0;
 
 /// Squared residual a sample, over the noise.
 pub(super) fn misfit(fit: &FittedRecords) -> f64 {
@@ -31,7 +35,23 @@ pub(super) fn scale(fit: &FittedRecords) -> f64 {
     }
     let alike = if own > 0.0 { (next / own).clamp(0.0, 0.98) } else { 0.0 };
     let length = if misfit(fit) > 2.0 { ((1.0 + alike) / (1.0 - alike)).max(1.0) } else { 1.0 };
-    misfit(fit).max(1.0) * length
+    misfit(fit).max(1.0) * length.max(fit.alike)
+}
+
+/// Samples of the used `shares` of some records over which what a model leaves stays alike: noise differs from sample to sample, the
+/// error of a model stays what it is over some periods of the motion.
+pub(super) fn alike(records: &Records, share: f64) -> f64 {
+    let (mut sum, mut count) = (0.0, 0.0);
+    for record in &records.list {
+        let used = ((share * record.len() as f64) as usize).max(1);
+        let periods = (PERIODS / (record.dominant_hz * record.step)).max(1.0);
+        for (sigma, noise) in record.sigma.iter().zip(&record.noise) {
+            let of_model = |s: &f64| 1.0 - (noise / s).powi(2).min(1.0);
+            sum += periods * sigma.iter().take(used).map(of_model).sum::<f64>();
+            count += used as f64;
+        }
+    }
+    1.0 + sum / f64::max(count, 1.0)
 }
 
 /// What one parameter more costs.

@@ -7,7 +7,7 @@
 //! `u` is 1 where the model leaves noise, more where it leaves more ([`super::evidence`]).
 
 use super::data::RecordError;
-use super::evidence::scale;
+use super::evidence::{alike, scale};
 use super::fitted::FittedRecords;
 use super::normal::{Left, Normal, solve};
 use super::problem::FitProblem;
@@ -110,6 +110,7 @@ impl FitProblem<'_> {
         let deviation =
             |k: usize| inverse[(k, k)].max(0.0).sqrt() * scaling[k] * slopes.get(k).copied().unwrap_or(1.0).abs();
         best.deviations = (0..shared).map(deviation).collect();
+        best.alike = alike(self.records, self.share);
         let Left { chi_square, prior, count, residual } = normal.left;
         (best.chi_square, best.prior, best.count, best.residual) = (chi_square, prior, count, residual);
         Ok(best)

@@ -19,6 +19,10 @@ pub struct FittedRecords {
     pub modes: Vec<f64>,
     /// Logarithm of the factor on all mass.
     pub mass: f64,
+    /// Errors of the shapes of the followed modes at every sensor, `[sensor][mode]` ([`super::shape_errors`]).
+    pub shapes: Vec<Vec<f64>>,
+    /// Offsets of the channels of each record over their largest samples, `[record][channel]`.
+    pub offsets: Vec<Vec<f64>>,
     /// Logarithm of the factor on the stiffness of each record.
     pub shifts: Vec<f64>,
     /// Initial state of each record.
@@ -29,8 +33,10 @@ pub struct FittedRecords {
     pub prior: f64,
     /// Number of samples in it.
     pub count: usize,
-    /// Standard deviations of the parameters of the effects, then of stiffness, of the known sources, of the modes and of mass, in
-    /// units of the noise that was stated.
+    /// Samples over which what a model leaves stays alike, because it is an error of the model ([`super::evidence`]); at least 1.
+    pub alike: f64,
+    /// Standard deviations of the parameters of the effects, then of stiffness, of the known sources, of the modes, of mass and of
+    /// the shapes, in units of the noise that was stated.
     pub deviations: Vec<f64>,
     /// What is left, over the noise: `[record][channel][sample]`.
     pub residual: Vec<Vec<Vec<f64>>>,
@@ -45,11 +51,14 @@ impl FittedRecords {
             known: vec![0.0; records.known.len()],
             modes: vec![0.0; records.kept],
             mass: 0.0,
+            shapes: records.no_shape_errors(),
+            offsets: records.no_offsets(),
             shifts: vec![0.0; records.list.len()],
             initial: vec![vec![0.0; 2 * records.kept]; records.list.len()],
             chi_square: f64::INFINITY,
             prior: 0.0,
             count: 0,
+            alike: 1.0,
             deviations: Vec::new(),
             residual: Vec::new(),
         }
@@ -75,11 +84,27 @@ impl FittedRecords {
     ) -> Result<TransientResponse, RecordError> {
         let record = &records.list[r];
         let factor = (self.stiffness + self.shifts[r]).exp();
-        let model = records.model(record, &self.sources(records), [factor, self.mass.exp()], &self.modes)?;
+        let model =
+            records.model(record, &self.sources(records), [factor, self.mass.exp()], (&self.modes, &self.shapes))?;
         let forces = record.excitation(samples, model.is_linear());
-        model
+        let mut response = model
             .predict(&forces, &self.initial[r], parameters)
-            .map_err(|reason| RecordError::Model { file: record.file.clone(), reason })
+            .map_err(|reason| RecordError::Model { file: record.file.clone(), reason })?;
+        for (c, (channel, offset)) in response.channels.iter_mut().zip(&self.offsets[r]).enumerate() {
+            let offset = offset * record.largest[c];
+            channel.iter_mut().for_each(|y| *y += offset);
+        }
+        Ok(response)
+    }
+
+    /// The same without what no project states: errors of shapes, gains and offsets of channels, shifts of records.
+    pub(super) fn stated(&self, records: &Records) -> Self {
+        Self {
+            shapes: records.no_shape_errors(),
+            offsets: records.no_offsets(),
+            shifts: vec![0.0; records.list.len()],
+            ..self.clone()
+        }
     }
 
     /// Relative error of the model over samples `from..to` (shares of the length of every record).

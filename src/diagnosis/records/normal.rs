@@ -1,7 +1,7 @@
 //! The normal equations of a fit of records at a point: products of the derivatives of every record, with the priors of the
 //! corrections, and the step of Levenberg and Marquardt that follows from them.
 
-use super::data::RecordError;
+use super::data::{RecordData, RecordError};
 use super::fitted::FittedRecords;
 use super::problem::FitProblem;
 use crate::response::transient::{TransientError, TransientParameter};
@@ -49,7 +49,7 @@ impl FitProblem<'_> {
             normal.left.prior += (value / deviation).powi(2);
         }
         // What is held moves nowhere.
-        let laws = self.shared(at) - self.free.corrections.len();
+        let laws = self.first_correction(at);
         for (j, _) in self.free.corrections.iter().enumerate().filter(|(_, free)| !**free) {
             normal.matrix[(laws + j, laws + j)] = 1.0;
         }
@@ -106,29 +106,77 @@ impl FitProblem<'_> {
         let mut response = at.predict(self.records, r, self.samples(r), &parameters)?;
         let left = self.over_noise(r, &response.channels)?;
         let count = parameters.len();
-        let (mut products, mut against) = (vec![0.0; count * count], vec![0.0; count]);
+        let mut products = Products::new(count + self.shapes() + self.offsets());
         for (c, e) in left.iter().enumerate() {
-            let sigma = &self.records.list[r].sigma[c];
+            let record = &self.records.list[r];
+            let sigma = &record.sigma[c];
             for list in &mut response.derivatives {
                 list[c].iter_mut().zip(sigma).for_each(|(d, s)| *d /= s);
             }
-            for a in 0..count {
-                let own = &response.derivatives[a][c];
-                against[a] += dot(own, e);
-                for b in 0..=a {
-                    products[a * count + b] += dot(own, &response.derivatives[b][c]);
+            let mut columns: Vec<(usize, &[f64])> =
+                response.derivatives.iter().enumerate().map(|(k, list)| (k, &list[c][..])).collect();
+            let shapes = self.shape_columns(record, c, &response.modal);
+            let first = count + self.records.sensor(record, c) * self.records.kept;
+            columns.extend(shapes.iter().enumerate().map(|(k, list)| (first + k, &list[..])));
+            let offset = self.offset_column(r, c, e.len());
+            columns.extend(offset.iter().map(|list| (count + self.shapes() + c, &list[..])));
+            products.add(&columns, e);
+        }
+        let of = |p: &TransientParameter| parameters.iter().position(|q| q == p).unwrap_or(0);
+        let mut unknowns: Vec<(usize, usize, f64)> = unknowns.iter().map(|(p, k, s)| (of(p), *k, *s)).collect();
+        let first = self.shared(at) - self.shapes();
+        unknowns.extend((0..self.shapes()).map(|k| (count + k, first + k, 1.0)));
+        let (own, first) = (count + self.shapes(), self.offset_variable(at, r));
+        unknowns.extend((0..self.offsets()).map(|c| (own + c, first + c, 1.0)));
+        let square = left.iter().flatten().map(|e| e * e).sum();
+        Ok(RecordPart { unknowns, products, square, left })
+    }
+
+    /// Derivative of a channel of record `r` by its offset, over the noise; none where offsets are held.
+    fn offset_column(&self, r: usize, c: usize, samples: usize) -> Option<Vec<f64>> {
+        let record = &self.records.list[r];
+        let (largest, sigma) = (record.largest[c], &record.sigma[c][..samples]);
+        self.free.shapes.then(|| sigma.iter().map(|s| largest / s).collect())
+    }
+
+    /// Derivatives of a channel by the errors of its shapes, over the noise, one list a kept mode; none where they are held.
+    fn shape_columns(&self, record: &RecordData, c: usize, modal: &[Vec<Vec<f64>>; 3]) -> Vec<Vec<f64>> {
+        let order = record.channels[c].quantity.derivatives().and_then(|order| usize::try_from(order).ok());
+        let (Some(modes), true) = (order.and_then(|order| modal.get(order)), self.free.shapes) else {
+            return Vec::new();
+        };
+        let column = |(r, list): (usize, &Vec<f64>)| {
+            let size = self.records.shape_size(r);
+            list.iter().zip(&record.sigma[c]).map(|(q, s)| size * q / s).collect()
+        };
+        modes.iter().enumerate().map(column).collect()
+    }
+}
+
+/// Products of columns with each other and with what is left.
+struct Products {
+    count: usize,
+    matrix: Vec<f64>,
+    against: Vec<f64>,
+}
+
+impl Products {
+    fn new(count: usize) -> Self {
+        Self { count, matrix: vec![0.0; count * count], against: vec![0.0; count] }
+    }
+
+    /// Adds those of one channel: its columns with their numbers, and what is left of it.
+    fn add(&mut self, columns: &[(usize, &[f64])], left: &[f64]) {
+        for (i, (a, own)) in columns.iter().enumerate() {
+            self.against[*a] += dot(own, left);
+            for (b, other) in &columns[..=i] {
+                let product = dot(own, other);
+                self.matrix[a * self.count + b] += product;
+                if a != b {
+                    self.matrix[b * self.count + a] += product;
                 }
             }
         }
-        for a in 0..count {
-            for b in 0..a {
-                products[b * count + a] = products[a * count + b];
-            }
-        }
-        let of = |p: &TransientParameter| parameters.iter().position(|q| q == p).unwrap_or(0);
-        let unknowns = unknowns.iter().map(|(p, k, s)| (of(p), *k, *s)).collect();
-        let square = left.iter().flatten().map(|e| e * e).sum();
-        Ok(RecordPart { unknowns, products, against, square, left })
     }
 }
 
@@ -136,19 +184,18 @@ impl FitProblem<'_> {
 struct RecordPart {
     /// Number of the derivative, of the variable, and the factor between them.
     unknowns: Vec<(usize, usize, f64)>,
-    products: Vec<f64>,
-    against: Vec<f64>,
+    products: Products,
     square: f64,
     left: Vec<Vec<f64>>,
 }
 
 impl Normal {
     fn add(&mut self, part: &RecordPart) {
-        let count = part.against.len();
+        let Products { count, matrix, against } = &part.products;
         for (p, k, s) in &part.unknowns {
-            self.gradient[*k] += s * part.against[*p];
+            self.gradient[*k] += s * against[*p];
             for (q, l, t) in &part.unknowns {
-                self.matrix[(*k, *l)] += s * t * part.products[p * count + q];
+                self.matrix[(*k, *l)] += s * t * matrix[p * count + q];
             }
         }
     }

@@ -116,6 +116,7 @@ impl RecordData {
             step: self.step * every as f64,
             channels: self.channels.clone(),
             samples: of(&self.samples),
+            largest: self.largest.clone(),
             drives: self.drives.clone(),
             forces: of(&self.forces),
             noise: self.noise.clone(),

@@ -11,8 +11,8 @@ use crate::control::Control;
 use crate::response::transient::TransientParameter;
 
 /// Prior deviation of the logarithm of all stiffness, of the size of a known source, of the stiffness of one record, of that of
-/// a mode, of all mass.
-const PRIORS: [f64; 5] = [0.03, 0.15, 0.002, 0.02, 0.02];
+/// a mode, of all mass, of the shape of a mode at a sensor, of an offset over the largest sample.
+const PRIORS: [f64; 7] = [0.03, 0.15, 0.002, 0.02, 0.02, 0.02, 0.01];
 /// Largest change of a logarithm in one step.
 const REACH: f64 = 1.0;
 
@@ -24,12 +24,14 @@ pub struct Free {
     pub corrections: Vec<bool>,
     /// The shift of every record.
     pub shifts: bool,
+    /// The shapes of the modes at the sensors, and the offsets of the channels of every record.
+    pub shapes: bool,
 }
 
 impl Free {
     /// Initial states and effects only.
     pub fn nothing() -> Self {
-        Self { corrections: Vec::new(), shifts: false }
+        Self { corrections: Vec::new(), shifts: false, shapes: false }
     }
 
     /// All of it but the stiffness of single modes.
@@ -40,19 +42,30 @@ impl Free {
         free
     }
 
-    /// All of it.
+    /// All of it but the mass, for which shapes and the stiffness of modes stand.
     pub fn all(records: &Records) -> Self {
         let mut corrections = vec![true; 2 + records.known.len() + modes(records)];
-        // A motion without a force shows no mass.
-        let last = corrections.len() - 1;
-        corrections[last] = records.list.iter().any(|r| !r.forces.is_empty());
-        Self { corrections, shifts: true }
+        corrections[1 + records.known.len() + modes(records)] = false;
+        Self { corrections, shifts: true, shapes: true }
     }
 }
 
 /// Modes whose stiffness may be free beside that of all; none where there is only one.
 pub(super) fn modes(records: &Records) -> usize {
     if records.kept > 1 { records.kept } else { 0 }
+}
+
+/// Squared corrections of stiffness, mass, modes and known sources over their prior deviations; the shapes of the modes count as
+/// one, by their mean.
+pub(super) fn corrected_by(fit: &FittedRecords) -> f64 {
+    let square = |list: &[f64], deviation: f64| list.iter().map(|v| (v / deviation).powi(2)).sum::<f64>();
+    let shapes: f64 = fit.shapes.iter().map(|list| square(list, PRIORS[5])).sum();
+    let count = fit.shapes.iter().map(Vec::len).sum::<usize>().max(1) as f64;
+    square(&[fit.stiffness], PRIORS[0])
+        + square(&fit.known, PRIORS[1])
+        + square(&fit.modes, PRIORS[3])
+        + square(&[fit.mass], PRIORS[4])
+        + shapes / count
 }
 
 /// A fit to the first part of every record.
@@ -68,12 +81,37 @@ impl FitProblem<'_> {
     /// Number of shared variables.
     pub(super) fn shared(&self, at: &FittedRecords) -> usize {
         let laws: usize = at.effects.iter().map(|e| e.parameters.len()).sum();
-        laws + self.free.corrections.len()
+        laws + self.free.corrections.len() + self.shapes()
+    }
+
+    /// Number of errors of shapes that are free, those of a sensor one behind the other: the last of the shared variables.
+    pub(super) fn shapes(&self) -> usize {
+        if self.free.shapes { self.records.sensors() * self.records.kept } else { 0 }
+    }
+
+    /// Number of the first correction among the variables, which follow those of the laws.
+    pub(super) fn first_correction(&self, at: &FittedRecords) -> usize {
+        self.shared(at) - self.shapes() - self.free.corrections.len()
+    }
+
+    /// Number of the variable of the shape of mode 0 at a sensor; none where shapes are held.
+    pub(super) fn shape_variable(&self, at: &FittedRecords, sensor: usize) -> Option<usize> {
+        self.free.shapes.then(|| self.shared(at) - self.shapes() + sensor * self.records.kept)
     }
 
     /// Variables of each record.
     pub(super) fn local(&self) -> usize {
-        2 * self.records.kept + usize::from(self.free.shifts)
+        2 * self.records.kept + usize::from(self.free.shifts) + self.offsets()
+    }
+
+    /// Offsets of each record, the last of its variables.
+    pub(super) fn offsets(&self) -> usize {
+        if self.free.shapes { self.records.most_channels() } else { 0 }
+    }
+
+    /// Number of the variable of the offset of channel 0 of a record.
+    pub(super) fn offset_variable(&self, at: &FittedRecords, r: usize) -> usize {
+        self.shared(at) + (r + 1) * self.local() - self.offsets()
     }
 
     /// `at` moved by a change of all variables.
@@ -98,6 +136,10 @@ impl FitProblem<'_> {
             }
             next.mass += change[k + self.free.corrections.len() - 1].clamp(-0.1, 0.1);
         }
+        for (sensor, errors) in next.shapes.iter_mut().enumerate() {
+            let Some(first) = self.shape_variable(at, sensor) else { break };
+            errors.iter_mut().zip(&change[first..]).for_each(|(e, c)| *e += c.clamp(-0.1, 0.1));
+        }
         let (shared, local) = (self.shared(at), self.local());
         for r in 0..self.records.list.len() {
             let from = shared + r * local;
@@ -106,6 +148,10 @@ impl FitProblem<'_> {
             }
             if self.free.shifts {
                 next.shifts[r] += change[from + 2 * self.records.kept].clamp(-0.05, 0.05);
+            }
+            if self.free.shapes {
+                let first = self.offset_variable(at, r);
+                next.offsets[r].iter_mut().zip(&change[first..]).for_each(|(o, c)| *o += c);
             }
         }
         next
@@ -159,7 +205,7 @@ impl FitProblem<'_> {
 
     /// Corrections with their prior deviations: number of the variable, value, deviation.
     pub(super) fn priors(&self, at: &FittedRecords) -> Vec<(usize, f64, f64)> {
-        let laws = self.shared(at) - self.free.corrections.len();
+        let laws = self.first_correction(at);
         let mut list = Vec::new();
         if !self.free.corrections.is_empty() {
             list.push((laws, at.stiffness, PRIORS[0]));
@@ -167,6 +213,15 @@ impl FitProblem<'_> {
             list.extend((0..modes(self.records)).map(|r| (laws + 1 + at.known.len() + r, at.modes[r], PRIORS[3])));
             list.push((laws + self.free.corrections.len() - 1, at.mass, PRIORS[4]));
             list.retain(|(k, ..)| self.free.corrections[k - laws]);
+        }
+        for (sensor, errors) in at.shapes.iter().enumerate() {
+            let Some(first) = self.shape_variable(at, sensor) else { break };
+            list.extend(errors.iter().enumerate().map(|(r, e)| (first + r, *e, PRIORS[5])));
+        }
+        for r in 0..self.records.list.len() {
+            let first = self.offset_variable(at, r);
+            let offset = |c: usize| at.offsets[r].get(c).copied().unwrap_or(0.0);
+            list.extend((0..self.offsets()).map(|c| (first + c, offset(c), PRIORS[6])));
         }
         if self.free.shifts {
             let at_record = |r: usize| self.shared(at) + r * self.local() + 2 * self.records.kept;

@@ -8,29 +8,27 @@
 //! for every mode `r` that the sensors tell apart (`crate::balance::windows`), on the lines of the tapered record inside the
 //! band of its filter. A line is weighted by the covariance that the noise of the channels leaves there, and by a share of the
 //! elastic force by which any model is wrong. Stiffness of every mode and sizes of known sources are eliminated beside the law,
-//! with priors, so that a frequency that is off is not taken for a law. The motion that the laws act on is the measured one:
+//! with priors, so that a frequency that is off is not taken for a law; so are the
+//! measured force and what shapes that are wrong mix of one mode into the equation of another. The motion that the laws act on is the measured one:
 //! no phase is lost, however long the record, and every law costs one transform.
 
 use super::data::Records;
 use super::fitted::FittedRecords;
+use super::modal_equations::{Equation, ModalEquations};
 use crate::balance::windows::motion::Motion;
 use crate::balance::windows::work::Works;
 use crate::control::Control;
 use crate::effects::{Effect, Place, Range, Source, State};
-use dashpot_numerics::{Cholesky, RealTransform, dot};
-use faer::{Mat, c64};
-use std::f64::consts::{PI, TAU};
+use dashpot_numerics::{Cholesky, dot};
+use faer::Mat;
+use std::f64::consts::TAU;
 
-/// Prior deviations of the stiffness of a mode and of the size of a known source, as shares.
-const PRIORS: [f64; 2] = [0.03, 0.2];
-/// Share of the elastic force by which a model is taken to be wrong on a line.
-const MODEL_SHARE: f64 = 3e-3;
+/// Prior deviations of the stiffness of a mode, of the size of a known source and of the shapes of modes, as shares.
+const PRIORS: [f64; 3] = [0.03, 0.2, 0.02];
+/// Most pairs of modes whose shapes are taken to be mixed by the errors of the model: those of nearest numbers.
+const MOST_PAIRS: usize = 12;
 /// Largest relative change of a nuisance.
 const MOST_CHANGE: f64 = 0.15;
-/// Lines of a taper's flank, and of the width within which a resonance is not told from its neighbours.
-const FLANK: f64 = 2.0;
-/// Most lines of a record, those of greatest motion.
-const MOST_LINES: usize = 600;
 
 /// A law at a place with the coefficient that fits best.
 #[derive(Debug, Clone, PartialEq)]
@@ -44,7 +42,7 @@ pub(crate) struct Regressed {
 /// What is left of the equations of motion of all records, weighted, with nuisances eliminated.
 pub(crate) struct Regression<'a> {
     records: &'a Records<'a>,
-    parts: Vec<Part>,
+    parts: Vec<ModalEquations>,
     /// Orthonormal columns of the nuisances, prior rows behind.
     nuisances: Vec<Vec<f64>>,
     /// The columns themselves, with the nuisance that one of each stands for.
@@ -55,77 +53,79 @@ pub(crate) struct Regression<'a> {
     left: Vec<f64>,
 }
 
-/// One record.
-struct Part {
-    motion: Motion,
-    first: usize,
-    taper: Vec<f64>,
-    transform: RealTransform,
-    lines: Vec<usize>,
-    /// Rows that whiten the modes on each line, lower triangle.
-    whitening: Vec<Mat<f64>>,
-}
-
 impl<'a> Regression<'a> {
     /// Of the records beside what `fit` holds; `None` where no record's sensors tell a mode apart.
     pub fn new(records: &'a Records<'a>, fit: &FittedRecords, control: &Control) -> Option<Self> {
-        let made: Vec<Part> =
-            records.list.iter().filter_map(|r| Part::new(Motion::new(&records.modes, &r.run, control).ok()?)).collect();
+        let made: Vec<ModalEquations> = records
+            .list
+            .iter()
+            .filter_map(|r| ModalEquations::new(Motion::new(&records.modes, &r.run, control).ok()?))
+            .collect();
         if made.is_empty() {
             return None;
         }
         let sources = fit.sources(records);
         let (mut measured, mut known) = (Vec::new(), vec![Vec::new(); sources.len()]);
         let modes = made.iter().map(|p| p.motion.q.len()).max().unwrap_or(0);
+        let pairs = pairs(modes);
         let mut stiffness = vec![Vec::new(); modes];
+        let mut coupled = vec![Vec::new(); pairs.len()];
+        let mut driven = vec![Vec::new(); modes];
         let factor = fit.stiffness.exp();
         for part in &made {
             let mut works = Works::new(records.structure, &part.motion);
             let forces: Vec<Vec<Vec<f64>>> = sources.iter().map(|s| works.modal_force(s)).collect();
             let list = forces.iter().map(|f| part.rows(f));
             list.zip(&mut known).for_each(|(rows, all)| all.extend(rows));
-            let (elastic, balance) = part.equation(factor);
-            let total: Vec<f64> = part.rows(&balance);
-            measured.extend(total);
-            for (r, all) in stiffness.iter_mut().enumerate() {
-                let only = |s: usize| if s == r { elastic[s].clone() } else { vec![0.0; elastic[s].len()] };
-                all.extend(part.rows(&(0..elastic.len()).map(only).collect::<Vec<_>>()));
+            let Equation { elastic, pushed, balance } = part.equation(factor);
+            measured.extend(part.rows(&balance));
+            let count = elastic.len();
+            for (r, (all, pushes)) in stiffness.iter_mut().zip(&mut driven).enumerate() {
+                all.extend(part.rows_of(r, elastic.get(r), count));
+                pushes.extend(part.rows_of(r, pushed.get(r), count));
+            }
+            for (all, [r, s]) in coupled.iter_mut().zip(&pairs) {
+                all.extend(part.rows_of(*r, part.leak([*r, *s], &elastic).as_ref(), count));
             }
         }
         let rows = measured.len();
         for list in &known {
             measured.iter_mut().zip(list).for_each(|(m, f)| *m -= f);
         }
-        let count = modes + records.known.len();
-        measured.resize(rows + count, 0.0);
+        let stiff = stiffness.into_iter().map(|rows| (rows, PRIORS[0]));
+        let sized = known.into_iter().take(records.known.len()).map(|rows| (rows, PRIORS[1]));
+        let shaped = coupled.into_iter().chain(driven).map(|rows| (rows, PRIORS[2]));
+        let lists: Vec<(Vec<f64>, f64)> = stiff.chain(sized).chain(shaped).collect();
+        measured.resize(rows + lists.len(), 0.0);
         let base = Self {
             records,
             parts: made,
             nuisances: Vec::new(),
             columns: Vec::new(),
             measured: Vec::new(),
-            left: measured,
-        };
-        let with = |mut regression: Self, unit: f64| {
-            let measured = std::mem::take(&mut regression.left);
-            for k in 0..count {
-                let (list, prior) = if k < modes { (&stiffness[k], PRIORS[0]) } else { (&known[k - modes], PRIORS[1]) };
-                let mut column: Vec<f64> = list.iter().map(|x| prior / unit * x).collect();
-                column.extend((0..count).map(|j| f64::from(u8::from(j == k))));
-                regression.columns.push((column.clone(), prior / unit));
-                let mut own = regression.beside(column);
-                let size = dot(&own, &own).sqrt();
-                own.iter_mut().for_each(|x| *x /= size);
-                regression.nuisances.push(own);
-            }
-            regression.left = regression.beside(measured.clone());
-            regression.measured.clone_from(&measured);
-            (regression, measured)
+            left: Vec::new(),
         };
         // Where the nuisances leave much, rows are alike: a prior weighs as much as what is left.
-        let (first, measured) = with(base, 1.0);
+        let first = base.eliminated(&lists, &measured, 1.0);
         let unit = (first.misfit() / rows.max(1) as f64).sqrt().max(1.0);
-        Some(with(Self { nuisances: Vec::new(), columns: Vec::new(), left: measured, ..first }, unit).0)
+        Some(first.eliminated(&lists, &measured, unit))
+    }
+
+    /// With nuisances of these rows and prior deviations taken out of what was `measured`; a prior weighs `unit` squared.
+    fn eliminated(mut self, lists: &[(Vec<f64>, f64)], measured: &[f64], unit: f64) -> Self {
+        (self.nuisances, self.columns) = (Vec::new(), Vec::new());
+        for (k, (list, prior)) in lists.iter().enumerate() {
+            let mut column: Vec<f64> = list.iter().map(|x| prior / unit * x).collect();
+            column.extend((0..lists.len()).map(|j| f64::from(u8::from(j == k))));
+            self.columns.push((column.clone(), prior / unit));
+            let mut own = self.beside(self.beside(column));
+            let size = dot(&own, &own).sqrt();
+            own.iter_mut().for_each(|x| *x /= size);
+            self.nuisances.push(own);
+        }
+        self.left = self.beside(self.beside(measured.to_vec()));
+        self.measured = measured.to_vec();
+        self
     }
 
     /// Weighted squared residual without any law.
@@ -166,7 +166,8 @@ impl<'a> Regression<'a> {
         for (r, mode) in band.iter().enumerate().filter(|(_, mode)| **mode < self.records.kept) {
             modes[*mode] = value(r);
         }
-        Some((modes, (band.len()..count).map(value).collect()))
+        let known = band.len()..band.len() + self.records.known.len();
+        Some((modes, known.map(value).collect()))
     }
 
     /// `fit` with the stiffness of its modes and the sizes of known sources that the equation of motion along the measured motion
@@ -187,11 +188,9 @@ impl<'a> Regression<'a> {
 
     /// A column with what the nuisances explain taken out.
     fn beside(&self, mut column: Vec<f64>) -> Vec<f64> {
-        for _ in 0..2 {
-            for other in &self.nuisances {
-                let share = dot(&column, other);
-                column.iter_mut().zip(other).for_each(|(x, o)| *x -= share * o);
-            }
+        for other in &self.nuisances {
+            let share = dot(&column, other);
+            column.iter_mut().zip(other).for_each(|(x, o)| *x -= share * o);
         }
         column
     }
@@ -252,126 +251,11 @@ impl<'a> Regression<'a> {
     }
 }
 
-impl Part {
-    fn new(motion: Motion) -> Option<Self> {
-        let length = smooth(motion.usable.len());
-        let first = motion.usable.start;
-        let flank = (FLANK * TAU / motion.band.omega[0] / motion.step) as usize;
-        if length < 4 * flank.max(8) {
-            return None;
-        }
-        let edge = |n: usize| n.min(length - 1 - n) as f64 / flank as f64;
-        let taper: Vec<f64> = (0..length).map(|n| 0.5 - 0.5 * (PI * edge(n).min(1.0)).cos()).collect();
-        let transform = RealTransform::new(length);
-        let mut part = Self { motion, first, taper, transform, lines: Vec::new(), whitening: Vec::new() };
-        let resolution = 1.0 / (length as f64 * part.motion.step);
-        let band = &part.motion.band;
-        let inside = |k: &usize| *k as f64 * resolution >= band.low[1] && *k as f64 * resolution <= band.high[0];
-        let all: Vec<usize> = (1..length / 2).filter(inside).collect();
-        part.lines.clone_from(&all);
-        let elastic = part.equation(1.0).0;
-        let spectra: Vec<Vec<c64>> = elastic.iter().map(|x| part.spectrum(x)).collect();
-        let height = |i: usize| spectra.iter().map(|s| s[i].norm_sqr()).sum::<f64>();
-        let mut order: Vec<usize> = (0..all.len()).collect();
-        order.sort_by(|&a, &b| height(b).total_cmp(&height(a)));
-        order.truncate(MOST_LINES);
-        part.lines = order.iter().map(|&i| all[i]).collect();
-        let whitening = order.iter().map(|&i| {
-            let sizes: Vec<f64> = spectra.iter().map(|s| s[i].norm()).collect();
-            part.whitening(all[i], &sizes)
-        });
-        part.whitening = whitening.collect::<Option<Vec<_>>>()?;
-        (!part.lines.is_empty()).then_some(part)
-    }
-
-    /// Elastic force of every mode, and what its equation leaves: `phi^T B u - q'' - omega^2 q`.
-    fn equation(&self, factor: f64) -> (Vec<Vec<f64>>, Vec<Vec<f64>>) {
-        let motion = &self.motion;
-        let resolution = TAU / (motion.padded as f64 * motion.step);
-        let mut elastic = Vec::new();
-        let mut balance = Vec::new();
-        for (r, omega) in motion.band.omega.iter().enumerate() {
-            let square = factor * omega.powi(2);
-            let inertia = |(k, z): (usize, &c64)| z * (k as f64 * resolution).powi(2);
-            let mut rest = motion.signal(motion.lines[r].iter().enumerate().map(inertia).collect());
-            for (dof, u) in &motion.forces {
-                let shape = motion.band.shapes[(*dof, r)];
-                rest.iter_mut().zip(u).for_each(|(x, u)| *x += shape * u);
-            }
-            let own: Vec<f64> = motion.q[r].iter().map(|q| square * q).collect();
-            rest.iter_mut().zip(&own).for_each(|(x, k)| *x -= k);
-            elastic.push(own);
-            balance.push(rest);
-        }
-        (elastic, balance)
-    }
-
-    /// Lines of the tapered part of a signal.
-    fn spectrum(&self, signal: &[f64]) -> Vec<c64> {
-        let mut work: Vec<f64> = signal[self.first..].iter().zip(&self.taper).map(|(y, w)| y * w).collect();
-        let lines = self.transform.forward(&mut work);
-        self.lines.iter().map(|&k| lines[k]).collect()
-    }
-
-    /// Whitened rows of modal signals, real and imaginary parts.
-    fn rows(&self, modal: &[Vec<f64>]) -> Vec<f64> {
-        let spectra: Vec<Vec<c64>> = modal.iter().map(|x| self.spectrum(x)).collect();
-        let mut rows = Vec::with_capacity(2 * modal.len() * self.lines.len());
-        for (i, whitening) in self.whitening.iter().enumerate() {
-            for r in 0..modal.len() {
-                let sum: c64 = (0..=r).map(|s| spectra[s][i] * whitening[(r, s)]).sum();
-                rows.extend([sum.re, sum.im]);
-            }
-        }
-        rows
-    }
-
-    /// Inverse of the lower factor of the covariance of the modal equations on a line.
-    fn whitening(&self, line: usize, elastic: &[f64]) -> Option<Mat<f64>> {
-        let (motion, band) = (&self.motion, &self.motion.band);
-        let count = band.omega.len();
-        let resolution = TAU / (self.taper.len() as f64 * motion.step);
-        let omega = line as f64 * resolution;
-        let window: f64 = 0.5 * dot(&self.taper, &self.taper);
-        let stiff = |r: usize| (band.omega[r].powi(2) - omega * omega).hypot(FLANK * 2.0 * band.omega[r] * resolution);
-        let noise = |r: usize, s: usize| -> f64 {
-            let of = |(c, (order, variance)): (usize, &(i32, f64))| {
-                band.expansion[(r, c)] * band.expansion[(s, c)] * variance * omega.powi(-2 * order)
-            };
-            motion.sensors.iter().enumerate().map(of).sum::<f64>() * window
-        };
-        let covariance = Mat::from_fn(count, count, |r, s| {
-            let model = if r == s { (MODEL_SHARE * elastic[r]).powi(2) * (1.0 + 1e-9) } else { 0.0 };
-            stiff(r) * stiff(s) * noise(r, s) + model
-        });
-        let scale: Vec<f64> = (0..count).map(|r| covariance[(r, r)].max(f64::MIN_POSITIVE).sqrt()).collect();
-        let unit = Mat::from_fn(count, count, |r, s| {
-            covariance[(r, s)] / (scale[r] * scale[s]) + if r == s { 1e-9 } else { 0.0 }
-        });
-        let cholesky = Cholesky::new(unit.as_ref())?;
-        let factor = cholesky.factor();
-        let mut inverse = Mat::<f64>::zeros(count, count);
-        for j in 0..count {
-            for i in j..count {
-                let rest: f64 = (j..i).map(|k| factor[(i, k)] * inverse[(k, j)]).sum();
-                inverse[(i, j)] = (f64::from(u8::from(i == j)) - rest) / factor[(i, i)];
-            }
-        }
-        Some(Mat::from_fn(count, count, |i, j| inverse[(i, j)] / scale[j]))
-    }
-}
-
-/// The largest number of small factors that is no greater than `n`.
-fn smooth(n: usize) -> usize {
-    let mut best = 0;
-    for odd in [1, 3, 5, 9, 15] {
-        let mut length = 2 * odd;
-        while 2 * length <= n {
-            length *= 2;
-        }
-        if length <= n {
-            best = best.max(length);
-        }
-    }
-    best
+/// Pairs of different modes, those of nearest numbers first, at most [`MOST_PAIRS`].
+fn pairs(modes: usize) -> Vec<[usize; 2]> {
+    let mut all: Vec<[usize; 2]> =
+        (0..modes).flat_map(|r| (0..modes).map(move |s| [r, s])).filter(|[r, s]| r != s).collect();
+    all.sort_by_key(|[r, s]| r.abs_diff(*s));
+    all.truncate(MOST_PAIRS);
+    all
 }

@@ -17,6 +17,9 @@ const FOLLOWING: usize = 7;
 const FOLLOWED: usize = 6;
 /// Modes up to which places tell little and one law is easily taken for another: there more is tried.
 pub(super) const FEW_MODES: usize = 2;
+/// Rounds in which the model alone is corrected again, and the share of the squared residual of the one before that ends them.
+const ROUNDS: usize = 4;
+const ENDED: f64 = 0.8;
 /// Share of each part of a decay that is fitted first.
 const FIRST: f64 = 0.35;
 /// Rivals of the best set beside which a further effect is looked for, and the squared residual over that of the best up to which.
@@ -90,7 +93,8 @@ impl Search<'_> {
         let found: Vec<Option<usize>> = (0..records.list.len()).map(same).collect();
         let rest = vec![0.0; 2 * records.kept];
         let initial = found.iter().map(|k| k.map_or_else(|| rest.clone(), |k| fit.initial[k].clone())).collect();
-        let start = FittedRecords { initial, shifts: vec![0.0; records.list.len()], ..fit.clone() };
+        let (shifts, offsets) = (vec![0.0; records.list.len()], records.no_offsets());
+        let start = FittedRecords { offsets, shifts, initial, ..fit.clone() };
         if found.iter().all(Option::is_some) {
             return Ok(start);
         }
@@ -114,6 +118,15 @@ impl Search<'_> {
             && other.chi_square < fitted.chi_square
         {
             fitted = other;
+        }
+        // What is left decides what priors weigh: while a round leaves much less, they are asked again.
+        for _ in 0..ROUNDS {
+            let next = self.fit(0, &fitted, 1.0, FOLLOWING)?;
+            let ended = next.chi_square > ENDED * fitted.chi_square;
+            fitted = next;
+            if ended {
+                break;
+            }
         }
         Ok(fitted)
     }
@@ -172,7 +185,12 @@ impl Search<'_> {
             keep(&mut found, FOLLOWED, HOPELESS[0]);
         }
         let follow = |k: usize| self.fit_by(level, &found[k], (1.0, FOLLOWING), &alone).ok();
-        let followed = self.control.map(found.len(), follow).into_iter().flatten().collect();
+        let mut followed: Vec<FittedRecords> = self.control.map(found.len(), follow).into_iter().flatten().collect();
+        keep(&mut followed, FOLLOWED, HOPELESS[0]);
+        let plainer = self.begun_plainer(&followed);
+        let follow = |k: usize| self.fit_by(level, &plainer[k], (1.0, FOLLOWING), &alone).ok();
+        followed.extend(self.control.map(plainer.len(), follow).into_iter().flatten());
+        self.control.check()?;
         Ok(self.sorted(level, followed))
     }
 

@@ -30,11 +30,14 @@ const SHAPES: usize = 5;
 const QUOTAS: [usize; 3] = [LAWS.len(), 3, 2];
 /// Laws at other places that the equation of motion demands next; other places of the law that fits best.
 const NEXT: usize = 4;
+/// Places of a mass and of a spring that are fitted whatever else the equation of motion demands.
+const CONSTANTS: usize = 2;
 const ELSEWHERE: usize = 5;
 /// Share of what the equation of motion of several modes leaves that one effect more must take away, or none is looked for.
 const NEEDED: f64 = 0.8;
-/// Misfit of the equation of motion over the least one beyond which a law is not fitted to the response.
-const BEHIND: f64 = 4.0;
+/// Misfit of the equation of motion over the least one beyond which a law is not fitted to the response, at the best place and at
+/// others.
+const BEHIND: [f64; 2] = [16.0, 4.0];
 /// Force of a law at the start, as a share of the spring force there.
 const SIZES: [f64; 2] = [0.01, 0.1];
 
@@ -85,7 +88,13 @@ impl Search<'_> {
         // At the best place every law is fitted: what rises and falls with the amplitude is not told apart here.
         let place = ranked.first().map(|r| r.source.place.clone());
         let best_place = |r: &Regressed| place.as_ref().is_some_and(|p| p.is_same(&r.source.place));
-        ranked.retain(|r| best_place(r) || r.misfit <= (BEHIND * least).max(regression.rows() as f64));
+        // Masses and springs look like the errors of the shapes that are taken out: only a fit tells them.
+        let constant = |law: Effect| {
+            ranked.iter().filter(move |r| r.source.effect == law).take(CONSTANTS).map(|r| r.source.clone())
+        };
+        let constants: Vec<Source> = constant(Effect::Mass).chain(constant(Effect::Stiffness)).collect();
+        let near = |r: &Regressed, behind: f64| r.misfit <= (behind * least).max(regression.rows() as f64);
+        ranked.retain(|r| near(r, BEHIND[usize::from(!best_place(r))]));
         let mut places: Vec<&Place> = Vec::new();
         for place in ranked.iter().map(|r| &r.source.place) {
             if places.len() < QUOTAS.len() && !places.iter().any(|p| p.is_same(place)) {
@@ -106,7 +115,8 @@ impl Search<'_> {
                 .collect::<Vec<_>>()
         };
         let mut sources: Vec<Source> = quotas.chain(more).flat_map(of).collect();
-        let further = next.into_iter().filter(|n| !sources.iter().any(|s| s.is_same(n))).collect::<Vec<_>>();
+        let further =
+            next.into_iter().chain(constants).filter(|n| !sources.iter().any(|s| s.is_same(n))).collect::<Vec<_>>();
         sources.extend(further);
         sources
     }
@@ -124,6 +134,25 @@ impl Search<'_> {
         let ranked = regression.ranked(&all, &[law], self.control);
         let open = ranked.into_iter().filter(|r| !known(&r.source)).take(ELSEWHERE);
         open.map(|r| regression.tuned(base, Some(&r.source))).collect()
+    }
+
+    /// The best of `found` with each simpler law that its own contains in place of it, where none is among them yet: a slider whose
+    /// spring is stiff, or a power law of exponent 1, says less plainly what a law of one parameter says.
+    pub fn begun_plainer(&self, found: &[FittedRecords]) -> Vec<FittedRecords> {
+        let Some((best, law)) = found.first().and_then(|f| Some((f, f.effects.last()?))) else { return Vec::new() };
+        let known = |s: &Source| {
+            let taken = found.iter().filter_map(|f| f.effects.last());
+            taken.chain(&best.effects).chain(self.excluded).any(|e| e.is_same(s))
+        };
+        let allowed = |s: &Source| s.parameters.iter().zip(s.effect.parameters()).all(|(v, p)| p.allows(*v));
+        let simpler = law.limits().filter(|s| LAWS.contains(&s.effect) && !known(s) && allowed(s));
+        let in_place = |source: Source| {
+            let mut start = best.clone();
+            start.effects.pop();
+            start.effects.push(source);
+            start
+        };
+        simpler.map(in_place).collect()
     }
 
     /// Places that matter beside what is in `best`, most likely first.

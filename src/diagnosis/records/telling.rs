@@ -7,7 +7,7 @@ use crate::diagnosis::diagnose::{Added, Suggestion};
 use crate::diagnosis::updating::correction::Correction;
 use crate::diagnosis::updating::parameters::UpdatingParameter;
 use crate::effects::Source;
-use crate::math::statistics::evidence_weights;
+use crate::math::statistics::{evidence_weights, root_mean_square};
 use crate::structure::Part;
 
 /// Share by which the squared residual of a law of fewer parameters may be larger than that of another at its place, which
@@ -15,8 +15,7 @@ use crate::structure::Part;
 const PLAIN: [f64; 2] = [1.1, 1.3];
 /// Misfit from which on what is left is no noise.
 const MODEL_ERROR: f64 = 1.5;
-/// Share to which the mass of a model, on which all forces depend, and the gains of its sensors, on which all lengths and speeds
-/// do, are known.
+/// Share to which forces and motions are known at best.
 const KNOWN: f64 = 0.005;
 /// Difference of evidence within which effects cannot be told apart.
 const ALIKE: f64 = 9.0;
@@ -25,15 +24,22 @@ const MOST: usize = 8;
 const FEW: usize = 3;
 const NEVER: f64 = 1e-9;
 
-/// The effects of a fit with deviations as wide as what it leaves demands, and as what no model and no sensor is better known than.
+/// The effects of a fit with deviations as wide as what it leaves demands, and as the scale of forces and motions at a place is
+/// known: no sensor is there, and shapes at the sensors are wrong by what was found of them.
 pub(super) fn added(fit: &FittedRecords) -> Vec<Added> {
     let wide = scale(fit).sqrt();
+    let shapes: Vec<f64> = fit.shapes.iter().flatten().copied().collect();
+    let known = root_mean_square(&shapes).max(KNOWN);
     let mut at = 0;
     let of = |source: &Source| {
         let mut deviations: Vec<f64> =
             fit.deviations[at..at + source.parameters.len()].iter().map(|d| d * wide).collect();
-        let sized = source.effect.parameters().iter().enumerate().filter(|(_, p)| !p.unit.is_empty());
-        sized.for_each(|(k, _)| deviations[k] = deviations[k].hypot(KNOWN * source.parameters[k]));
+        let exponent = source.effect.parameters().iter().position(|p| p.name == "exponent");
+        let exponent = exponent.map_or(1.0, |k| source.parameters[k]);
+        for (k, parameter) in source.effect.parameters().iter().enumerate() {
+            let share = known * parameter.powers_of_scale(exponent);
+            deviations[k] = deviations[k].hypot(share * source.parameters[k]);
+        }
         at += source.parameters.len();
         Added { source: source.clone(), deviations }
     };

@@ -15,8 +15,8 @@ use crate::effects::Source;
 
 /// Deviations from 0 at which a correction of a known source and of a mode is kept.
 const MOVED: [f64; 2] = [4.0, 2.0];
-/// Least change of a known source, of a mode and of all mass that is told.
-const LEAST: [f64; 3] = [0.01, 1e-4, 3e-3];
+/// Least change of a known source and of a mode that is told.
+const LEAST: [f64; 2] = [0.01, 1e-4];
 /// Steps of the fits.
 const ITERATIONS: usize = 6;
 
@@ -31,42 +31,45 @@ impl Search<'_> {
             fit.known[j].abs() > (MOVED[0] * deviation).max(LEAST[0])
         };
         let known: Vec<bool> = (0..sources).map(moved).collect();
-        let heavier = fit.deviations.get(first + 1 + sources + count).copied().unwrap_or(f64::INFINITY) * wide;
-        let mass = fit.mass.abs() > (MOVED[0] * heavier).max(LEAST[2]);
-        let mask = |stiffness: bool, modes: bool| {
+        let mask = |[stiffness, modes, mass]: [bool; 3]| {
             let sizes = known.iter().copied().chain(vec![modes; count]);
             std::iter::once(stiffness).chain(sizes).chain([mass]).collect::<Vec<bool>>()
         };
-        let dominant = self.dominant();
-        let mut all =
-            vec![(mask(false, false), 0.0, false), (mask(true, false), fit.stiffness + fit.modes[dominant], false)];
+        let uniform = fit.stiffness + fit.modes[self.dominant()];
+        let mut all = vec![([false; 3], 0.0), ([true, false, false], uniform)];
+        // A motion without a force shows no mass.
+        if self.records.list.iter().any(|r| !r.forces.is_empty()) {
+            all.push(([true, false, true], uniform));
+        }
         if count > 0 {
-            all.push((mask(false, true), 0.0, true));
+            all.push(([false, true, false], 0.0));
         }
         let mut found: Option<(FittedRecords, usize)> = None;
-        for (mask, stiffness, by_mode) in all {
+        for (what, stiffness) in all {
+            let (mask, by_mode) = (mask(what), what[1]);
             let mut start = fit.clone();
             start.stiffness = stiffness;
             start.known.iter_mut().zip(&known).filter(|(_, moved)| !**moved).for_each(|(v, _)| *v = 0.0);
             start.modes.iter_mut().for_each(|v| *v = if by_mode { *v + fit.stiffness } else { 0.0 });
-            start.mass = if mass { fit.mass } else { 0.0 };
             start.shifts.fill(0.0);
+            let mut consider = |next: &FittedRecords, free: &[bool]| {
+                let count = free.iter().filter(|f| **f).count();
+                if found.as_ref().is_none_or(|best| is_plainer((next, count), (&best.0, best.1))) {
+                    found = Some((next.clone(), count));
+                }
+            };
             let mut next = self.fitted_anew(&start, mask.clone())?;
-            let mut free = mask;
+            consider(&next, &mask);
             if by_mode {
-                free = self.kept_modes(&mut next, free, sources);
-                next = self.fitted_anew(&next, free.clone())?;
-            }
-            let count = free.iter().filter(|f| **f).count();
-            if found.as_ref().is_none_or(|best| is_plainer((&next, count), (&best.0, best.1))) {
-                found = Some((next, count));
+                let free = self.kept_modes(&mut next, mask, sources);
+                consider(&self.fitted_anew(&next, free.clone())?, &free);
             }
         }
         Ok(found.map_or_else(|| fit.clone(), |(fit, _)| fit))
     }
 
     fn fitted_anew(&self, start: &FittedRecords, corrections: Vec<bool>) -> Result<FittedRecords, RecordError> {
-        let free = Free { corrections, shifts: false };
+        let free = Free { corrections, shifts: false, shapes: true };
         match (FitProblem { records: self.records, free, share: 1.0, control: self.control }).improve(start, ITERATIONS)
         {
             // A start without its corrections may run away: then it is no rival.
@@ -96,17 +99,18 @@ impl Search<'_> {
         (0..self.records.kept).min_by(|a, b| off(a).total_cmp(&off(b))).unwrap_or(0)
     }
 
-    /// What comparing the project shows with the corrections of `told` and these effects.
+    /// What comparing the project shows with the corrections of `told` and these effects, their parameters as they are.
     pub fn promised(&self, told: &FittedRecords, effects: &[Source]) -> Result<f64, RecordError> {
-        let start = FittedRecords {
+        let mut records = self.plain.clone();
+        records.known.extend_from_slice(effects);
+        let mut start = FittedRecords {
             stiffness: told.stiffness,
-            known: told.known.clone(),
             modes: told.modes.clone(),
             mass: told.mass,
-            initial: told.initial.clone(),
-            ..FittedRecords::start(self.plain, effects)
+            ..FittedRecords::start(&records, &[])
         };
-        match started_from(self.plain, start, self.control).and_then(|fit| fit.error(self.plain, 0.0, 1.0)) {
+        start.known[..told.known.len()].copy_from_slice(&told.known);
+        match started_from(&records, start, self.control).and_then(|fit| fit.error(&records, 0.0, 1.0)) {
             Err(RecordError::Model { .. }) => Ok(f64::INFINITY),
             other => other,
         }

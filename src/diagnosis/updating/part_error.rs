@@ -23,9 +23,13 @@ pub(crate) fn takes_away(source: &Source) -> bool {
 
 /// Whether a spring or mass is less than `share` of `part`, which it would change.
 pub(crate) fn is_within_part(structure: &Structure, source: &Source, part: Part, share: f64) -> bool {
-    let Some(Share { stiffness, mass }) = structure.share(part) else { return false };
-    let own = stiffness.iter().chain(&mass).next().map_or(0.0, |entry| entry.2.abs());
-    source.parameters[0].abs() < share * own
+    source.parameters[0].abs() < share * size_of(structure, part)
+}
+
+/// Spring, N/m, or mass, kg, of a part of a structure; 0 where it has none.
+pub(crate) fn size_of(structure: &Structure, part: Part) -> f64 {
+    let Some(Share { stiffness, mass }) = structure.share(part) else { return 0.0 };
+    stiffness.iter().chain(&mass).next().map_or(0.0, |entry| entry.2.abs())
 }
 
 #[cfg(test)]

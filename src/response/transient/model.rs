@@ -15,6 +15,8 @@ use faer::Mat;
 
 /// What a channel shows.
 struct Sensor {
+    /// Times the motion is differentiated; none for a force.
+    order: Option<i32>,
     functional: Functional,
     /// Shape along the reduced coordinates, for accelerations.
     pattern: Option<Vec<f64>>,
@@ -32,6 +34,8 @@ pub struct TransientModel {
     changes: Vec<(TransientParameter, Matrices)>,
     /// Stiffness of each coordinate as it is in the model, 1/s^2.
     mode_stiffness: Vec<f64>,
+    /// Static displacement of each residual coordinate under a unit of every drive.
+    flexibility: Vec<Vec<f64>>,
 }
 
 impl TransientModel {
@@ -62,10 +66,13 @@ impl TransientModel {
             View { displacement: of(0).row, velocity: of(1).row, acceleration: of(2) }
         };
         let views = legs.iter().map(|(_, leg, ..)| view(*leg)).collect();
-        let sensor = |channel: &Channel| {
-            let pattern = along(driven(&channel.dof));
+        let sensor = |(c, channel): (usize, &Channel)| {
+            let mut pattern = along(driven(&channel.dof));
+            let errors = setup.shape_errors.get(c).into_iter().flatten().take(reduction.kept);
+            pattern.iter_mut().zip(errors).for_each(|(p, e)| *p += e);
             let order = channel.quantity.derivatives();
             Sensor {
+                order,
                 functional: system.functional(&pattern, order.unwrap_or(0)),
                 pattern: (order == Some(2)).then_some(pattern),
                 drive: match channel.quantity {
@@ -74,9 +81,12 @@ impl TransientModel {
                 },
             }
         };
-        let sensors = setup.channels.iter().map(sensor).collect();
-        let mode_stiffness = (0..size).map(|r| modal_stiffness(setup, &reduction, r)).collect();
-        Ok(Self { reduction, system, views, sensors, legs, changes, mode_stiffness })
+        let sensors = setup.channels.iter().enumerate().map(sensor).collect();
+        let mode_stiffness: Vec<f64> = (0..size).map(|r| modal_stiffness(setup, &reduction, r)).collect();
+        let drives = legs.len()..legs.len() + setup.drives.len();
+        let under = |r: usize| drives.clone().map(|i| inputs[(r, i)] / mode_stiffness[r]).collect();
+        let flexibility = (reduction.kept..size).map(under).collect();
+        Ok(Self { reduction, system, views, sensors, legs, changes, mode_stiffness, flexibility })
     }
 
     /// Number of kept modes `m`; an initial state has `2 m` entries.
@@ -102,10 +112,12 @@ impl TransientModel {
     ) -> Result<TransientResponse, TransientError> {
         let substeps = forces.substeps.max(1);
         let length = forces.step / substeps as f64;
-        let (mut march, mut writer) = self.start(initial, parameters, length);
+        let first: Vec<[f64; 2]> = forces.forces.iter().map(|list| at_start(list, forces.step)).collect();
+        let (mut march, mut writer) = self.start(initial, &first, parameters, length);
         let count = self.sensors.len();
         let mut channels = vec![Vec::with_capacity(forces.samples); count];
         let mut derivatives = vec![vec![Vec::with_capacity(forces.samples); count]; parameters.len()];
+        let mut modal = self.no_modal(parameters, forces.samples);
         let drives = forces.forces.len();
         let (mut u, mut from, mut to) = (vec![0.0; drives], vec![0.0; drives], vec![0.0; drives]);
         for n in 0..forces.samples {
@@ -119,12 +131,27 @@ impl TransientModel {
                 march.advance(&from, &to)?;
             }
             u.iter_mut().zip(&forces.forces).for_each(|(u, list)| *u = list[n]);
-            self.write(&mut march, &mut writer, &u, &mut channels, &mut derivatives);
+            let inputs = self.write(&mut march, &mut writer, &u, &mut channels, &mut derivatives);
+            writer.write_modal(&march.z, &inputs, &mut modal);
         }
         if !march.z.iter().all(|z| z.is_finite()) {
             return Err(TransientError::StepFailed);
         }
-        Ok(TransientResponse { channels, derivatives, end: self.state(&march.z) })
+        Ok(TransientResponse { channels, derivatives, modal, end: self.state(&march.z) })
+    }
+
+    /// Empty lists of what channels show of the kept modes, where derivatives by `parameters` are asked for.
+    fn no_modal(&self, parameters: &[TransientParameter], samples: usize) -> [Vec<Vec<f64>>; 3] {
+        let wanted = |order| !parameters.is_empty() && self.sensors.iter().any(|s| s.order == Some(order));
+        let list = |order| if wanted(order) { vec![Vec::with_capacity(samples); self.kept()] } else { Vec::new() };
+        [0, 1, 2].map(list)
+    }
+
+    /// What a channel of an order of differentiation shows of each kept mode.
+    fn modes_seen(&self, order: i32) -> Vec<Functional> {
+        let unit =
+            |r: usize| -> Vec<f64> { (0..self.system.coordinates()).map(|k| f64::from(u8::from(k == r))).collect() };
+        (0..self.kept()).map(|r| self.system.functional(&unit(r), order)).collect()
     }
 
     /// Unit of velocity entries of the initial state.
@@ -132,13 +159,21 @@ impl TransientModel {
         if self.reduction.omega[r] > 0.0 { self.reduction.omega[r] } else { 1.0 }
     }
 
-    fn modes_of(&self, state: &[f64]) -> Vec<f64> {
+    /// Damped modes of an initial state; the residual coordinates, which are not followed, rest under the `drives`, each a force and
+    /// its rate, so that a part of a record does not begin with a blow.
+    fn modes_of(&self, state: &[f64], drives: &[[f64; 2]]) -> Vec<f64> {
         let (kept, size) = (self.kept(), self.system.coordinates());
         let mut displacement = vec![0.0; size];
         let mut velocity = vec![0.0; size];
         for r in 0..kept {
             displacement[r] = state[r];
             velocity[r] = state[kept + r] * self.rate(r);
+        }
+        for (r, list) in self.flexibility.iter().enumerate() {
+            for (flexibility, [force, rate]) in list.iter().zip(drives) {
+                displacement[kept + r] += flexibility * force;
+                velocity[kept + r] += flexibility * rate;
+            }
         }
         self.system.modes_of(&displacement, &velocity)
     }
@@ -149,7 +184,14 @@ impl TransientModel {
         (0..kept).map(|r| p[r]).chain((0..kept).map(|r| v[r] / self.rate(r))).collect()
     }
 
-    fn start(&self, initial: &[f64], parameters: &[TransientParameter], length: f64) -> (March<'_>, Writer) {
+    fn start(
+        &self,
+        initial: &[f64],
+        drives: &[[f64; 2]],
+        parameters: &[TransientParameter],
+        length: f64,
+    ) -> (March<'_>, Writer) {
+        let state = self.modes_of(initial, drives);
         let element = |(source, _, form, law, p): &Nonlinear| Element::new(*source, *form, *law, p, parameters.len());
         let elements: Vec<Element> = self.legs.iter().map(element).collect();
         let mut changes: Vec<LinearChange> = Vec::new();
@@ -159,28 +201,34 @@ impl TransientModel {
                 changes.push(change);
                 changes.len() - 1
             });
-            sensitivities.push(self.sensitivity(*parameter, initial.len(), change));
+            let state = self.initial_derivative(*parameter, initial.len(), drives);
+            let own = match *parameter {
+                TransientParameter::Source { source, parameter } => Some((source, parameter)),
+                _ => None,
+            };
+            sensitivities.push(Sensitivity { state, own, change });
         }
-        let drives = self.system.beta.len() - elements.len();
         let writer = Writer::new(self, &changes);
-        let from = (self.modes_of(initial), drives);
+        let from = (state, drives.len());
         (March::new(&self.system, &self.views, elements, from, (sensitivities, &changes), length), writer)
     }
 
-    fn sensitivity(&self, parameter: TransientParameter, initial: usize, change: Option<usize>) -> Sensitivity {
-        let state = match parameter {
+    /// How the initial state, of `count` entries under the `drives`, changes with a parameter.
+    fn initial_derivative(&self, parameter: TransientParameter, count: usize, drives: &[[f64; 2]]) -> Vec<f64> {
+        let rest = vec![0.0; count];
+        match parameter {
             TransientParameter::Initial(k) => {
-                let mut unit = vec![0.0; initial];
+                let mut unit = rest;
                 unit[k] = 1.0;
-                self.modes_of(&unit)
+                self.modes_of(&unit, &[])
+            }
+            // What rests under a force moves back as the stiffness grows.
+            TransientParameter::Stiffness => {
+                let back: Vec<[f64; 2]> = drives.iter().map(|drive| drive.map(|u| -u)).collect();
+                self.modes_of(&rest, &back)
             }
             _ => vec![0.0; 2 * self.system.lambda.len()],
-        };
-        let own = match parameter {
-            TransientParameter::Source { source, parameter } => Some((source, parameter)),
-            _ => None,
-        };
-        Sensitivity { state, own, change }
+        }
     }
 
     fn change(&self, parameter: TransientParameter) -> Option<LinearChange> {
@@ -192,7 +240,7 @@ impl TransientModel {
         self.changes.iter().find(|(p, _)| *p == parameter).map(|(_, by)| self.system.change(by))
     }
 
-    /// What the channels show at the present sample under the drives `u`.
+    /// What the channels show at the present sample under the drives `u`; the inputs of the linear part there.
     fn write(
         &self,
         march: &mut March,
@@ -200,7 +248,7 @@ impl TransientModel {
         u: &[f64],
         channels: &mut [Vec<f64>],
         derivatives: &mut [Vec<Vec<f64>>],
-    ) {
+    ) -> Vec<f64> {
         let count = march.elements.len();
         let motion: Vec<[f64; 2]> =
             self.views.iter().map(|v| [dot(&v.displacement, &march.z), dot(&v.velocity, &march.z)]).collect();
@@ -220,7 +268,7 @@ impl TransientModel {
             });
         }
         if derivatives.is_empty() {
-            return;
+            return inputs;
         }
         writer.changed(&march.z, &inputs);
         let width = march.z.len();
@@ -241,6 +289,7 @@ impl TransientModel {
                 list.push(writer.seen[theta * sensors + c] + pushed + changed);
             }
         }
+        inputs
     }
 
     /// Derivative of the present force of element `l`.
@@ -259,6 +308,15 @@ impl TransientModel {
     }
 }
 
+/// A sampled force at its start, and its rate there by its first three samples.
+fn at_start(force: &[f64], step: f64) -> [f64; 2] {
+    match force {
+        [a, b, c, ..] => [*a, (4.0 * b - 3.0 * a - c) / (2.0 * step)],
+        [a, ..] => [*a, 0.0],
+        [] => [0.0; 2],
+    }
+}
+
 /// What turns states into samples of the channels.
 struct Writer {
     /// Rows of the sensors, one behind the other.
@@ -270,6 +328,8 @@ struct Writer {
     state: Vec<f64>,
     by_change: Vec<f64>,
     seen: Vec<f64>,
+    /// What a channel of each order shows of each kept mode.
+    modes: [Vec<Functional>; 3],
 }
 
 impl Writer {
@@ -294,6 +354,16 @@ impl Writer {
             state: Vec::new(),
             by_change: Vec::new(),
             seen: Vec::new(),
+            modes: [0, 1, 2].map(|order| model.modes_seen(order)),
+        }
+    }
+
+    /// Adds what channels show of the kept modes at a state under inputs.
+    fn write_modal(&self, z: &[f64], inputs: &[f64], modal: &mut [Vec<Vec<f64>>; 3]) {
+        for (lists, functionals) in modal.iter_mut().zip(&self.modes) {
+            for (list, functional) in lists.iter_mut().zip(functionals) {
+                list.push(dot(&functional.row, z) + dot(&functional.inputs, inputs));
+            }
         }
     }
 

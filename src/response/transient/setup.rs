@@ -24,6 +24,8 @@ pub struct TransientSetup<'a> {
     pub factors: [f64; 2],
     /// Logarithms of factors on the stiffness of the kept modes beside that; none for those beyond its end.
     pub mode_stiffness: &'a [f64],
+    /// What each channel's mass-normalised shape is more than the model's, `[channel][kept mode]`, kg^(-1/2); none beyond its end.
+    pub shape_errors: &'a [Vec<f64>],
 }
 
 /// A parameter by which records are differentiated.
@@ -66,6 +68,9 @@ pub struct TransientResponse {
     pub channels: Vec<Vec<f64>>,
     /// `[parameter][channel][sample]`.
     pub derivatives: Vec<Vec<Vec<f64>>>,
+    /// What a channel of each order of differentiation shows of a unit of each kept mode, `[order][mode][sample]`; empty where no
+    /// derivatives are asked for, or no channel has the order.
+    pub modal: [Vec<Vec<f64>>; 3],
     /// State at the last sample, in the terms of the initial one.
     pub end: Vec<f64>,
 }
