@@ -6,7 +6,8 @@ use super::fitted::FittedRecords;
 /// Misfit up to which a model agrees.
 pub(super) const AGREES: f64 = 1.15;
 
-/// Periods of the dominant motion over which the error of a model stays alike.
+/// Periods of the dominant motion over which the error of a model stays alike: with 3 parameters of the development projects
+/// (laboratory records, seeds 0 to 7) scatter by 1.07 of what is told, with 1 by 1.74.
 const PERIODS: f64 = 3.0;
 
 /// Squared residual a sample, over the noise.
@@ -38,7 +39,7 @@ pub(super) fn scale(fit: &FittedRecords) -> f64 {
     misfit(fit).max(1.0) * length.max(fit.alike)
 }
 
-/// Samples of the used `shares` of some records over which what a model leaves stays alike: noise differs from sample to sample, the
+/// Samples, of the used `share` of some records, over which what a model leaves stays alike: noise differs from sample to sample, the
 /// error of a model stays what it is over some periods of the motion.
 pub(super) fn alike(records: &Records, share: f64) -> f64 {
     let (mut sum, mut count) = (0.0, 0.0);

@@ -8,9 +8,9 @@
 //! for every mode `r` that the sensors tell apart (`crate::balance::windows`), on the lines of the tapered record inside the
 //! band of its filter. A line is weighted by the covariance that the noise of the channels leaves there, and by a share of the
 //! elastic force by which any model is wrong. Stiffness of every mode and sizes of known sources are eliminated beside the law,
-//! with priors, so that a frequency that is off is not taken for a law; so are the
-//! measured force and what shapes that are wrong mix of one mode into the equation of another. The motion that the laws act on is the measured one:
-//! no phase is lost, however long the record, and every law costs one transform.
+//! with priors, so that a frequency that is off is not taken for a law. So are the gain of the measured force, and what wrong
+//! shapes bring of one mode into the equation of another. The motion that the laws act on is the measured one: no phase is lost,
+//! however long the record, and every law costs one transform.
 
 use super::data::Records;
 use super::fitted::FittedRecords;

@@ -85,7 +85,7 @@ impl Search<'_> {
         if !best.effects.is_empty() && self.records.kept > 1 && least > NEEDED * regression.misfit() {
             return Vec::new();
         }
-        // At the best place every law is fitted: what rises and falls with the amplitude is not told apart here.
+        // At the best place more laws are fitted: what rises and falls with the amplitude is not told apart here.
         let place = ranked.first().map(|r| r.source.place.clone());
         let best_place = |r: &Regressed| place.as_ref().is_some_and(|p| p.is_same(&r.source.place));
         // Masses and springs look like the errors of the shapes that are taken out: only a fit tells them.

@@ -1,8 +1,9 @@
 //! What is told of a fit, so that the error that is promised is the one that comparing the project shows once it is done.
 //!
 //! A search varies all stiffness and that of every mode at once, which say much the same, and a shift of every record, which no
-//! project states. What is told must do without: the fit is made again with all stiffness alone, with modes alone and with
-//! neither, each beside the known sources that moved, and the plainest that leaves as little stands for all of it.
+//! project states. What is told must do without: the fit is made again with all stiffness alone, with all mass beside it, with
+//! modes alone and with neither, each beside the known sources that moved, and the plainest that leaves as little stands for all
+//! of it. Errors of shapes and offsets stay free meanwhile, or the rest would bend to them; the promise is made without them.
 
 use super::compare::started_from;
 use super::data::RecordError;
