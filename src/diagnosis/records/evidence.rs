@@ -7,7 +7,7 @@ use super::fitted::FittedRecords;
 pub(super) const AGREES: f64 = 1.15;
 
 /// Periods of the dominant motion over which the error of a model stays alike: with 3 parameters of the development projects
-/// (laboratory records, seeds 0 to 7) scatter by 1.07 of what is told, with 1 by 1.74.
+/// (laboratory records, seeds 0 to 7) scatter by 1.2 of what is told, with 1 by 1.7.
 const PERIODS: f64 = 3.0;
 
 /// Squared residual a sample, over the noise.
