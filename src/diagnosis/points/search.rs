@@ -17,6 +17,7 @@ use crate::diagnosis::points::uncertainty::MULTIPLES;
 use crate::diagnosis::residual::data::{DiagnosisError, Problem};
 use crate::effects::{Effect, Source};
 use crate::math::statistics::bayesian_information;
+use std::cell::OnceCell;
 
 /// Sets that are fitted in all their parameters, at each number of effects.
 const FITS: usize = 12;
@@ -56,9 +57,11 @@ fn solve(columns: &[&Column], e: &[f64]) -> Option<(f64, Vec<f64>)> {
 /// Diagnoses a `points` problem.
 pub(crate) fn diagnose(problem: &Problem, excluded: &[Source], control: &Control) -> Result<Diagnosis, DiagnosisError> {
     let mut best: Option<(f64, f64, Vec<Vec<Fitted>>)> = None;
+    // What laws take out of the measured motion is the same whatever is uncertain.
+    let shapes = OnceCell::new();
     for multiple in MULTIPLES {
         let balance = Balance::new(problem, &[])?.with_uncertainty(multiple);
-        let by_size = climb(&balance, excluded, control)?;
+        let by_size = climb(&balance, &shapes, excluded, control)?;
         let cost = evidence(&balance, &by_size);
         if best.as_ref().is_none_or(|(least, ..)| cost < *least) {
             best = Some((cost, multiple, by_size));
@@ -72,7 +75,7 @@ pub(crate) fn diagnose(problem: &Problem, excluded: &[Source], control: &Control
     let effects: Vec<Source> =
         by_size.last().map(|r| r[0].added.iter().map(|a| a.source.clone()).collect()).unwrap_or_default();
     let balance = Balance::new(problem, &effects)?.with_uncertainty(multiple);
-    let by_size = if effects.is_empty() { by_size } else { climb(&balance, excluded, control)? };
+    let by_size = if effects.is_empty() { by_size } else { climb(&balance, &shapes, excluded, control)? };
     Ok(conclude(&balance, &by_size))
 }
 
@@ -85,12 +88,18 @@ fn evidence(balance: &Balance, by_size: &[Vec<Fitted>]) -> f64 {
     fit + balance.cost()
 }
 
-fn climb(balance: &Balance, excluded: &[Source], control: &Control) -> Result<Vec<Vec<Fitted>>, DiagnosisError> {
+fn climb(
+    balance: &Balance,
+    shapes: &OnceCell<Vec<(Source, Vec<f64>)>>,
+    excluded: &[Source],
+    control: &Control,
+) -> Result<Vec<Vec<Fitted>>, DiagnosisError> {
     let allowed = |source: &Source| !excluded.iter().any(|other| other.is_same(source));
     let e = balance.weighted();
     let n = e.len();
     let mut last = (e.iter().map(|x| x * x).sum::<f64>(), 0);
-    let mut columns = if agrees(last.0, n, 0) { Vec::new() } else { balance.columns() };
+    let shapes = || shapes.get_or_init(|| balance.shapes());
+    let mut columns = if agrees(last.0, n, 0) { Vec::new() } else { balance.columns(shapes()) };
     columns.retain(|column| allowed(&column.source));
     let mut by_size: Vec<Vec<Fitted>> = Vec::new();
     for count in 1..=2 {

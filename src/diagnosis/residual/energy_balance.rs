@@ -17,7 +17,7 @@ use faer::{Mat, c64};
 use std::f64::consts::PI;
 
 /// Samples a period for laws without an exact formula.
-const SAMPLES: usize = 512;
+pub(crate) const SAMPLES: usize = 512;
 
 /// Displacement amplitudes of harmonics 1.. (m) of a DOF.
 pub type Field<'a> = dyn Fn(usize) -> Vec<c64> + 'a;
@@ -31,10 +31,10 @@ pub fn input(run: &RunData, field: &Field) -> f64 {
     run.forces.iter().map(|f| of_channel(f.dof, &f.measured)).sum()
 }
 
-/// Energy in J that a source takes out over one period of `field`.
-pub fn taken(structure: &Structure, source: &Source, omega: f64, field: &Field) -> f64 {
+/// Energy in J that a source takes out over one period of `field`, from so many `samples` of it.
+pub fn taken(structure: &Structure, source: &Source, omega: f64, field: &Field, samples: usize) -> f64 {
     let (Kind::Whole(law), Some(basis)) = (source.effect.kind(), whole_matrix(structure, source)) else {
-        return source.energy(omega, field, SAMPLES).unwrap_or(0.0);
+        return source.energy(omega, field, samples).unwrap_or(0.0);
     };
     let all: Vec<Vec<c64>> = (0..structure.len()).map(field).collect();
     let order = all.first().map_or(0, Vec::len);
@@ -78,7 +78,7 @@ pub fn energy_error(structure: &Structure, sources: &[Source], run: &RunData, pr
     };
     let driven = |dof: usize| measured_displacement(run, dof).unwrap_or_else(|| field(dof));
     let given = input(run, &driven);
-    let lost: f64 = sources.iter().map(|s| taken(structure, s, run.omega, &field)).sum();
+    let lost: f64 = sources.iter().map(|s| taken(structure, s, run.omega, &field, SAMPLES)).sum();
     if given == 0.0 { if lost == 0.0 { 0.0 } else { 1.0 } } else { ((given - lost) / given).abs() }
 }
 
