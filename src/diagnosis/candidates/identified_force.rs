@@ -28,7 +28,10 @@ const SAMPLES: usize = 128;
 const ENOUGH: f64 = 3.0;
 /// Multiple of what the best law of two parameters leaves up to which the best shape of a law of more may still become the
 /// best once its parameters are fitted.
-const PROMISING: f64 = 4.0;
+const PROMISING: f64 = 10.0;
+/// Gain of the misfit, in units of what is left per datum, below which a regression has arrived: it orders candidates that are
+/// followed if within dozens of such units, and is where their fit on the response starts.
+const ENOUGH_FOR_A_START: f64 = 1.0;
 /// How many times what the best shape of a law leaves another may leave that a fit starts from too.
 const VALLEYS: f64 = 1.3;
 /// Step of a variable for difference quotients: friction has kinks, and the step is to see past those of single samples.
@@ -363,6 +366,10 @@ impl Equation<'_> {
 
 impl Residual for Equation<'_> {
     type Error = Infallible;
+
+    fn enough(&self) -> f64 {
+        ENOUGH_FOR_A_START
+    }
 
     fn residual(&mut self, theta: &[f64]) -> Result<Vec<f64>, Infallible> {
         let p = self.parameters(theta);

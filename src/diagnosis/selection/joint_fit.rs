@@ -26,6 +26,9 @@ use faer::{Mat, c64};
 const STEP: f64 = 1e-4;
 /// Prior deviations in one natural unit of an updating parameter or a shift: steps are limited in such units.
 const UNIT: f64 = 3.0;
+/// Gain of the squared residual, in units of what is left per datum, below which a fit has arrived: a quarter of the evidence to
+/// which a model is settled, in rounds of which every one starts from where the last one ended.
+const ENOUGH: f64 = 0.5;
 
 /// Where a joint fit ended.
 pub(super) struct JointFit {
@@ -198,6 +201,10 @@ impl Residual for Joint<'_, '_> {
 
     fn is_late(&self) -> bool {
         self.reference.control.is_late()
+    }
+
+    fn enough(&self) -> f64 {
+        ENOUGH
     }
 
     fn residual(&mut self, at: &[f64]) -> Result<Vec<f64>, DiagnosisError> {

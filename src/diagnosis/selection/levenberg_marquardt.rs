@@ -5,7 +5,7 @@
 
 use crate::effects::{Parameter, Source};
 use crate::math::least_squares::solve_symmetric;
-use dashpot_numerics::transposed_product;
+use dashpot_numerics::{Cholesky, transposed_product};
 use faer::Mat;
 
 /// Least and largest damping factor before a descent gives up.
@@ -123,6 +123,14 @@ pub(crate) struct Descent {
 }
 
 impl Descent {
+    /// Logarithm of the share of the parameters' prior, normal with unit deviation in the variables (a factor of `e` for sizes),
+    /// that the data leave: `-1/2 ln det(J^T J + 1)`.
+    pub fn log_volume(&self) -> f64 {
+        let mut normal = transposed_product(self.jacobian.as_ref(), self.jacobian.as_ref());
+        (0..normal.nrows()).for_each(|k| normal[(k, k)] += 1.0);
+        Cholesky::new(normal.as_ref()).map_or(0.0, |factor| -0.5 * factor.log_determinant())
+    }
+
     /// Standard deviations of the variables for a residual of unit variance; infinite where the data say nothing, very
     /// large where they cannot tell variables apart. A variable that does nothing leaves those of the others alone.
     pub fn deviations(&self) -> Vec<f64> {
@@ -157,6 +165,10 @@ pub(crate) trait Residual {
     fn is_late(&self) -> bool {
         false
     }
+    /// Gain of the squared residual, in units of what is left per datum, below which the descent has arrived.
+    fn enough(&self) -> f64 {
+        ARRIVED
+    }
 }
 
 /// A descent has arrived when no more than this is to be gained, in units of the squared residual per datum.
@@ -184,7 +196,7 @@ pub(crate) fn descend<R: Residual>(problem: &mut R, theta: &[f64], steps: usize)
     let mut equations = Normal::new(&jacobian, &residual);
     let (mut damping, mut idle) = (1e-3, 0);
     for _ in 0..steps {
-        let enough = ARRIVED * (chi_square / residual.len().max(1) as f64).max(1.0);
+        let enough = problem.enough() * (chi_square / residual.len().max(1) as f64).max(1.0);
         if equations.to_go() < enough || problem.is_late() {
             break;
         }
@@ -339,5 +351,13 @@ mod tests {
         let Ok(descent) = descend(&mut valley, &[-1.2, 1.0], 200);
         assert!((descent.theta[0] - 1.0).abs() < 1e-2, "{:?}", descent.theta);
         assert!(valley.0 < 60, "{} residuals", valley.0);
+    }
+
+    /// Of a size that the data know to a tenth and one of which they know nothing, a tenth of the prior is left.
+    #[test]
+    fn the_volume_that_is_left_is_that_of_what_the_data_know() {
+        let jacobian = Mat::from_fn(3, 2, |i, k| if k == 0 { [6.0, 8.0, 0.0][i] } else { 0.0 });
+        let descent = Descent { theta: vec![0.0; 2], chi_square: 0.0, residual: vec![0.0; 3], jacobian, to_go: 0.0 };
+        assert!((descent.log_volume() + 0.5 * 101.0_f64.ln()).abs() < 1e-12, "{}", descent.log_volume());
     }
 }
