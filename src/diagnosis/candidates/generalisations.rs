@@ -4,6 +4,7 @@
 use crate::diagnosis::residual::data::DiagnosisError;
 use crate::diagnosis::selection::fitted_model::FittedModel;
 use crate::diagnosis::selection::search::{ReferenceModel, UnfittedSet, joined};
+use crate::effects::Effect;
 use std::sync::Arc;
 
 /// Shapes of each law that are tried.
@@ -11,10 +12,18 @@ const SHAPES: usize = 2;
 
 impl ReferenceModel<'_> {
     /// The set `best` with each of its effects in turn replaced by laws that it may have been taken for, from their best
-    /// shapes against the free force that the rest of `best` leaves at the place.
-    pub fn wider(&self, best: &FittedModel) -> Result<Vec<FittedModel>, DiagnosisError> {
+    /// shapes against the free force that the rest of `best` leaves at the place; of these laws, those that are `wanted`.
+    pub fn wider(
+        &self,
+        best: &FittedModel,
+        wanted: impl Fn(Effect) -> bool,
+    ) -> Result<Vec<FittedModel>, DiagnosisError> {
         let mut fits = Vec::new();
-        for source in best.effects.iter().filter(|e| !e.effect.wider().is_empty()) {
+        for source in &best.effects {
+            let laws: Vec<Effect> = source.effect.wider().into_iter().filter(|&effect| wanted(effect)).collect();
+            if laws.is_empty() {
+                continue;
+            }
             let mut others = best.clone();
             others.effects.retain(|e| !e.is_same(source));
             others.starts.clear();
@@ -26,7 +35,7 @@ impl ReferenceModel<'_> {
             let (forces, fields) = self.free(&view, &[at]);
             let data = self.at_place(&view, at, &forces[0], &fields);
             let fields = Arc::new(fields);
-            let laws = source.effect.wider().into_iter().flat_map(|effect| data.starts(effect, SHAPES));
+            let laws = laws.into_iter().flat_map(|effect| data.starts(effect, SHAPES));
             let unfitted = |effect| UnfittedSet {
                 effects: joined(&others.effects, &[effect]),
                 score: 0.0,

@@ -36,6 +36,9 @@ pub(crate) const FINAL: Settings = Settings {
     patience: 250,
 };
 
+/// The same for friction that is still far from what was measured.
+pub(crate) const RUBBING: Settings = Settings { truncation: 1e-4, tolerance: 1e-8, ..FINAL };
+
 /// The same where truncation would still show above the noise: nearly sticking friction.
 const FINEST: Settings = Settings { most_harmonics: 63, ..FINAL };
 

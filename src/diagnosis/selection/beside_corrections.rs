@@ -63,6 +63,9 @@ pub(super) fn beside_updating(
             let fits: Vec<FittedModel> = fits.iter().map(|(_, fit)| fit.clone()).collect();
             (here.early)(&conclusion::early(&here, &here.ranked(fits)));
         }
+        if from.is_some() && here.control.is_late() {
+            break;
+        }
         let Some(weighed) = weighed(fits)? else { break };
         let best = &weighed.fits[0];
         let scale = scale_of(&weighed.fits, weighed.reference.count());

@@ -23,7 +23,7 @@ pub(crate) const TOLERATED: f64 = 4.0;
 /// development seeds for which that was so, a third had the law that was told.
 pub(crate) const UNTRUSTED: f64 = 0.35;
 /// Squared residual per datum from which on no law of the library gives what is missing.
-const UNEXPLAINED: f64 = 100.0;
+pub(super) const UNEXPLAINED: f64 = 100.0;
 /// Most suggestions.
 const MOST: usize = 8;
 /// The same where time is up.

@@ -2,7 +2,7 @@
 
 use super::search::{ReferenceModel, UnfittedSet, joined};
 use super::short_list::{Breadth, needed};
-use super::weighing::cost;
+use super::weighing::{bound_beside, cost};
 use crate::diagnosis::candidates::start::start;
 use crate::diagnosis::residual::data::{DiagnosisError, if_possible};
 use crate::diagnosis::residual::prediction::SEARCH;
@@ -11,6 +11,7 @@ use crate::diagnosis::selection::fitted_model::{FittedModel, Starts};
 use crate::diagnosis::updating::measured_motion::MeasuredMotion;
 use crate::effects::{Effect, Kind, Place, Source, State};
 use crate::math::statistics::bayesian_information;
+use crate::response::harmonic_balance::Settings;
 use crate::response::sensitivity::Unknown;
 use dashpot_numerics::dot;
 use std::sync::Arc;
@@ -21,8 +22,9 @@ const FOLLOWED: usize = 8;
 const AT_ONE_PLACE: usize = 4;
 /// Scaled score beyond the best up to which candidates are followed.
 const MARGIN: f64 = 60.0;
-/// Squared residual per datum of the best from which on candidates of twice that are followed too.
-const COARSE: f64 = 3.0;
+/// Squared residual per datum of the best from which on candidates of twice that are followed too: what it leaves beyond the
+/// noise is the error of the motion between the sensors, which is no law's.
+const COARSE: f64 = 1.5;
 /// Best sets whose limits are followed too, and how many times their score those may leave.
 const HEARD: usize = 2;
 const LIMIT: f64 = 2.0;
@@ -30,6 +32,8 @@ const LIMIT: f64 = 2.0;
 const FINALISTS: usize = 4;
 /// Times that a model is updated beside its candidate.
 const UPDATES: usize = 6;
+/// Share of the evidence that a further effect must bring in the end which it must bring by its first fit.
+const BROUGHT: f64 = 0.5;
 
 impl<'a> ReferenceModel<'a> {
     /// The candidates among `unfitted`, regressed beside the model as it is, that are worth following, each fitted with a model
@@ -45,19 +49,29 @@ impl<'a> ReferenceModel<'a> {
             targets.push(self.updated_beside(&mut view, unfitted)?);
         }
         drop(view);
-        self.all_followed(unfitted.len(), |k| self.followed_set(&unfitted[k], targets[k].as_deref(), &[]))
+        self.all_followed(unfitted.len(), f64::INFINITY, |k| {
+            self.followed_set(&unfitted[k], targets[k].as_deref(), (&[], &SEARCH))
+        })
     }
 
-    /// `count` candidates followed a little, the best of them to the end.
+    /// `count` candidates followed a little, the best of them to the end; none whose evidence is not below `bound` by then.
     fn all_followed<'s>(
         &self,
         count: usize,
+        bound: f64,
         follow: impl Fn(usize) -> Result<(ReferenceModel<'s>, FittedModel), DiagnosisError> + Sync,
     ) -> Result<Vec<(ReferenceModel<'s>, FittedModel)>, DiagnosisError> {
-        let begun = self.control.map(count, |k| if_possible(follow(k))).into_iter().collect::<Result<Vec<_>, _>>()?;
+        // What further effects there are is worth no more time than there is.
+        let begin = |k: usize| {
+            if bound < f64::INFINITY && self.control.is_late() { Ok(None) } else { if_possible(follow(k)) }
+        };
+        let begun = self.control.map(count, begin).into_iter().collect::<Result<Vec<_>, _>>()?;
         let mut begun: Vec<_> = begun.into_iter().flatten().collect();
+        begun.retain(|(reference, fit)| cost(reference, Some(fit)) < bound);
         begun.sort_by(|a, b| cost(&a.0, Some(&a.1)).total_cmp(&cost(&b.0, Some(&b.1))));
-        let rest = begun.split_off(begun.len().min(FINALISTS));
+        let near = begun.first().map_or(0.0, |(reference, fit)| bound_beside(reference, fit));
+        let finalists = begun.iter().take(FINALISTS).take_while(|(reference, fit)| cost(reference, Some(fit)) < near);
+        let rest = begun.split_off(finalists.count());
         let further = |k: usize| {
             let (reference, fit) = &begun[k];
             reference.with_scales(reference.linearisation.updating.scales).settled(fit.clone(), &SEARCH, UPDATES - 1)
@@ -81,7 +95,11 @@ impl<'a> ReferenceModel<'a> {
         unfitted.retain(|d| d.score < bound);
         unfitted.sort_by(|a, b| a.score.total_cmp(&b.score));
         let unfitted = promising(needed(unfitted), self.count());
-        self.all_followed(unfitted.len(), |k| self.followed_set(&unfitted[k], None, &from.effects))
+        // On the same footing as what they are beside.
+        let settings = self.settings_for(from, &SEARCH);
+        self.all_followed(unfitted.len(), cost(self, Some(from)) - BROUGHT * evidence, |k| {
+            self.followed_set(&unfitted[k], None, (&from.effects, settings))
+        })
     }
 
     /// A candidate fitted on the response, then with the updating parameters beside it, which start at `target`.
@@ -89,7 +107,7 @@ impl<'a> ReferenceModel<'a> {
         &self,
         unfitted: &UnfittedSet,
         target: Option<&[f64]>,
-        others: &[Source],
+        (others, settings): (&[Source], &Settings),
     ) -> Result<(ReferenceModel<'a>, FittedModel), DiagnosisError> {
         let effects = joined(others, &unfitted.effects);
         let sources = self.predictor.sources(&effects);
@@ -98,7 +116,7 @@ impl<'a> ReferenceModel<'a> {
         let updating = &self.linearisation.updating;
         let updating = target.map_or_else(|| updating.clone(), |u| updating.at(u));
         let reference = self.updated(&updating, &effects, &starts)?;
-        let fit = reference.estimator().fit(&effects, STEPS, &SEARCH, &starts)?;
+        let fit = reference.estimator().fit(&effects, STEPS, settings, &starts)?;
         reference.settled(fit, &SEARCH, 1)
     }
 

@@ -2,6 +2,7 @@
 
 mod beside_corrections;
 pub mod conclusion;
+mod exactness;
 pub mod fit_problem;
 pub mod fits;
 pub mod fitted_model;

@@ -345,8 +345,12 @@ impl<'a> ReferenceModel<'a> {
     /// What the laws of a fit cost in evidence for their kind, whatever the data.
     pub fn complexity(fit: &FittedModel) -> f64 {
         let extra: usize = fit.effects.iter().map(|e| e.parameters.len() - 1).sum();
-        let posing = fit.effects.iter().filter(|e| e.simpler(&Range::UNKNOWN).is_some()).count();
-        EXTRA * extra as f64 + POSING * posing as f64
+        EXTRA * extra as f64 + Self::posing(fit)
+    }
+
+    /// The part of it that laws cost which are all but a simpler one.
+    pub fn posing(fit: &FittedModel) -> f64 {
+        POSING * fit.effects.iter().filter(|e| e.simpler(&Range::UNKNOWN).is_some()).count() as f64
     }
 
     /// Probability of each fit by its evidence, their squared residuals scaled by what the best leaves.

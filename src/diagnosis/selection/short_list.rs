@@ -16,7 +16,7 @@ const TELLING: usize = 3;
 /// Score, in units of that of a set, below which a simpler one is as good for a start.
 const CLEARLY: f64 = 1.2;
 /// Relative deviation of the size of an effect from which on there may as well be none.
-const VOID: f64 = 0.5;
+pub(super) const VOID: f64 = 0.5;
 
 /// Whether an effect with the standard deviations of its parameters is one: of a size that the data know, within bounds.
 pub(super) fn is_real((source, deviations): (&Source, &Vec<f64>)) -> bool {

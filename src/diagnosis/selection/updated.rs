@@ -1,10 +1,10 @@
 //! The model with its updating parameters moved to where the data ask for them, and linearised there.
 
-use crate::diagnosis::candidates::friction::friction;
 use crate::diagnosis::residual::branch::{distance, nearest};
 use crate::diagnosis::residual::data::{Data, DiagnosisError, RunData, if_possible};
 use crate::diagnosis::residual::energy_balance::scaled_factors;
 use crate::diagnosis::residual::prediction::{FINAL, Predictor, RunPrediction};
+use crate::diagnosis::selection::exactness::rubs;
 use crate::diagnosis::selection::fit_problem::{RunSlopes, run_slopes};
 use crate::diagnosis::selection::fitted_model::{Estimator, FittedModel, Starts};
 use crate::diagnosis::selection::found::agrees;
@@ -31,7 +31,7 @@ const ROUNDS: usize = 3;
 const REFITTED: usize = 4;
 /// Evidence by which the linear fit of the updating parameters may still fall where they have settled: less than any decision
 /// hangs on.
-const SETTLED: f64 = 2.0;
+pub(super) const SETTLED: f64 = 2.0;
 /// Share of what the linear fit promises below which a step is too slow to go on.
 const SLOW: f64 = 1e-3;
 /// Steps of a joint fit of effects and updating parameters.
@@ -273,7 +273,9 @@ impl<'a> ReferenceModel<'a> {
         settings: &Settings,
         rounds: usize,
     ) -> Result<(ReferenceModel<'a>, FittedModel), DiagnosisError> {
-        let settings = settings_for(&fit.effects, settings);
+        let settings = self.settings_for(&fit, settings);
+        // What friction leaves depends on the number of harmonics.
+        let fit = if rubs(&fit.effects) { self.refitted(&fit, settings)? } else { fit };
         let (mut reference, mut fit) = (self, fit);
         let mut here = reference.cost_at_reference(&reference.predictions_with(&fit.effects, &fit.starts)?);
         for _ in 0..rounds {
@@ -303,6 +305,10 @@ impl<'a> ReferenceModel<'a> {
         self.noise.updating.left_by_channels(&self.estimator().at_reference(predictions)) + self.noise.cost()
     }
 
+    fn refitted(&self, fit: &FittedModel, settings: &Settings) -> Result<FittedModel, DiagnosisError> {
+        self.estimator().fit(&fit.effects, REFITTED, settings, &fit.starts)
+    }
+
     /// The same model with other scales of the priors.
     pub fn with_scales(&self, scales: Scales) -> ReferenceModel<'a> {
         let updating = self.linearisation.updating.with_scales(scales);
@@ -323,7 +329,7 @@ impl<'a> ReferenceModel<'a> {
         fit: Option<&FittedModel>,
         settings: &Settings,
     ) -> Result<(ReferenceModel<'a>, Option<FittedModel>), DiagnosisError> {
-        let settings = settings_for(fit.map_or(&[], |fit| &fit.effects), settings);
+        let settings = fit.map_or(settings, |fit| self.settings_for(fit, settings));
         let (mut reference, mut fitted) = (self.with_scales(self.linearisation.updating.scales), fit.cloned());
         for _ in 0..ROUNDS {
             if reference.control.is_late() {
@@ -338,15 +344,10 @@ impl<'a> ReferenceModel<'a> {
                     reference.with_scales(reference.noise.scales(&reference.estimator().at_reference(&predictions)));
             }
             let Some(fit) = &fitted else { break };
-            fitted = Some(reference.estimator().fit(&fit.effects, REFITTED, settings, &fit.starts)?);
+            fitted = Some(reference.refitted(fit, settings)?);
         }
         Ok((reference, fitted))
     }
-}
-
-/// How exactly responses with `effects` are computed: friction that sticks in a part of the cycle takes many harmonics.
-fn settings_for<'s>(effects: &[Source], settings: &'s Settings) -> &'s Settings {
-    if effects.iter().any(|e| friction(e.effect).is_some()) { &FINAL } else { settings }
 }
 
 /// Relative error of a run from which on it may be on another branch than the measured one.

@@ -2,14 +2,18 @@
 //! model beside them cost), with probabilities by how well they predict runs that are left out.
 
 use super::left_out::{exceeds, groups, probabilities};
+use super::short_list::VOID;
 use crate::diagnosis::candidates::special_cases::is_limit;
 use crate::diagnosis::channels::fault::is_ordinary_gain;
 use crate::diagnosis::residual::data::DiagnosisError;
 use crate::diagnosis::residual::prediction::{FINAL, SEARCH};
+use crate::diagnosis::selection::conclusion::UNEXPLAINED;
+use crate::diagnosis::selection::exactness::rubs;
 use crate::diagnosis::selection::fits::{FIRST_STEPS, STEPS};
 use crate::diagnosis::selection::fitted_model::FittedModel;
-use crate::diagnosis::selection::found::same_set;
+use crate::diagnosis::selection::found::{DOUBTFUL, same_set};
 use crate::diagnosis::selection::search::ReferenceModel;
+use crate::diagnosis::selection::updated::SETTLED;
 use crate::diagnosis::updating::parameters::{Scales, UpdatingParameter};
 use crate::diagnosis::updating::part_error::{is_within_part, part_of, takes_away};
 use crate::effects::{Effect, Range, Source};
@@ -48,12 +52,23 @@ const COARSE: f64 = 3.0;
 const HEAVY: f64 = 2.0;
 /// Candidates whose scales are estimated.
 const WEIGHED: usize = 6;
+/// Laws that the best may have been taken for which are weighed, and rounds in which model and law are settled for each.
+const WIDER: usize = 2;
+const WIDER_UPDATES: usize = 3;
+/// Difference of the logarithms of predictive densities, summed over the groups, below which two laws say the same.
+const SAME: f64 = 0.5;
 /// Candidates that are settled to the end: where the best turns out to be nothing, the next.
 const FINISHED: usize = 2;
 
 /// Weighs fitted candidates, each with the model that was updated beside it.
 pub(super) fn weighed(fits: Vec<(ReferenceModel<'_>, FittedModel)>) -> Result<Option<Weighed<'_>>, DiagnosisError> {
     let mut all = with_likely_scales(fits)?;
+    let wider = all.first().map_or(Ok(Vec::new()), wider_than)?;
+    let fresh = |w: &Candidate| !all.iter().any(|c| c.cost < w.cost && same_set(&w.fit.effects, &c.fit.effects));
+    let wider: Vec<Candidate> = wider.into_iter().filter(fresh).collect();
+    all.retain(|c| !wider.iter().any(|w| same_set(&w.fit.effects, &c.fit.effects)));
+    all.extend(wider);
+    all.sort_by(|a, b| a.cost.total_cmp(&b.cost));
     let limits = all.first().map_or(Ok(Vec::new()), limits_of)?;
     all.retain(|c| !limits.iter().any(|l| l.cost < c.cost && same_set(&l.fit.effects, &c.fit.effects)));
     let fresh = |l: &Candidate| !all.iter().any(|c| same_set(&l.fit.effects, &c.fit.effects));
@@ -83,10 +98,7 @@ fn with_likely_scales(mut fits: Vec<(ReferenceModel<'_>, FittedModel)>) -> Resul
     fits.retain(|(reference, fit)| is_effect(reference, fit));
     fits.sort_by(|a, b| cost(&a.0, Some(&a.1)).total_cmp(&cost(&b.0, Some(&b.1))));
     let Some((first, best)) = fits.first() else { return Ok(Vec::new()) };
-    let (control, least, left) = (first.control, cost(first, Some(best)), best.chi_square);
-    // Where even the best leaves much with the scales of the search, these say little of the order.
-    let coarse = left > COARSE * first.count() as f64;
-    let near = least + if coarse { LIGHT.max(HEAVY * left) } else { LIGHT };
+    let (control, near) = (first.control, bound_beside(first, best));
     let most = if control.is_late() { FINISHED } else { WEIGHED };
     let count = fits.iter().take(most).take_while(|(reference, fit)| cost(reference, Some(fit)) < near).count();
     let likely = |k: usize| {
@@ -103,6 +115,13 @@ fn with_likely_scales(mut fits: Vec<(ReferenceModel<'_>, FittedModel)>) -> Resul
     Ok(all)
 }
 
+/// Evidence, with the scales of the search, beyond which no other scales would make a candidate the best beside `best`.
+pub(super) fn bound_beside(reference: &ReferenceModel, best: &FittedModel) -> f64 {
+    // Where even the best leaves much with the scales of the search, these say little of the order.
+    let coarse = best.chi_square > COARSE * reference.count() as f64;
+    cost(reference, Some(best)) + if coarse { LIGHT.max(HEAVY * best.chi_square) } else { LIGHT }
+}
+
 fn candidate(reference: ReferenceModel<'_>, fit: FittedModel) -> Result<Candidate<'_>, DiagnosisError> {
     // On which branch each run is takes as long as a fit.
     let error = if reference.control.is_late() {
@@ -112,6 +131,36 @@ fn candidate(reference: ReferenceModel<'_>, fit: FittedModel) -> Result<Candidat
     };
     let densities = reference.left_out(Some(&fit), &groups(reference.data))?;
     Ok(Candidate { cost: cost(&reference, Some(&fit)), fit: FittedModel { error, ..fit }, densities, reference })
+}
+
+/// The laws that the best may have been taken for, in its stead and each with a model settled beside it: where the best is linear,
+/// whose neighbours are fitted in no time, or leaves more than noise hides, as a simple law does that was easier to follow.
+fn wider_than<'a>(best: &Candidate<'a>) -> Result<Vec<Candidate<'a>>, DiagnosisError> {
+    let (reference, left) = (&best.reference, best.fit.chi_square / best.reference.count() as f64);
+    let linear = best.fit.effects.iter().all(|e| e.effect.is_linear());
+    let doubtful = left > DOUBTFUL;
+    if reference.control.is_late() || left > UNEXPLAINED || !(linear || doubtful) {
+        return Ok(Vec::new());
+    }
+    let mut fits = reference.wider(&best.fit, |effect| doubtful || effect.is_linear())?;
+    fits.sort_by(|a, b| cost(reference, Some(a)).total_cmp(&cost(reference, Some(b))));
+    let bound = |fit: &FittedModel| match doubtful {
+        // Friction is judged with more harmonics than it is fitted with here.
+        true if rubs(&fit.effects) => HEAVY * best.cost,
+        true => best.cost,
+        false => best.cost + LIGHT,
+    };
+    let mut wider: Vec<Candidate> = Vec::new();
+    for fit in fits {
+        let known = wider.iter().any(|c| same_set(&c.fit.effects, &fit.effects));
+        let near = cost(reference, Some(&fit)) < bound(&fit) && is_effect(reference, &fit);
+        if !known && near && wider.len() < WIDER {
+            let own = reference.with_scales(reference.linearisation.updating.scales);
+            let (there, settled) = own.settled(fit, &SEARCH, WIDER_UPDATES)?;
+            wider.push(candidate(there, settled)?);
+        }
+    }
+    Ok(wider)
 }
 
 /// The sets in which one effect of the best is the simpler law that it contains as a limit, fitted beside the same model: a
@@ -153,18 +202,29 @@ fn simplest_first(all: &mut [Candidate]) {
     }
 }
 
-/// Probability of each candidate. What contains the first and predicts no better is the first by another name.
+/// Probability of each candidate: by how it predicts, and by the share of what its parameters might have been that explains the
+/// data. A neighbour of the first that predicts as well shares with it, the less the more closely its parameters had to be
+/// chosen; what contains the first and predicts the same, or has a parameter that the data do not know, is the first by another
+/// name.
 fn probabilities_of(all: &[Candidate]) -> Vec<f64> {
     let densities: Vec<Vec<f64>> = all.iter().map(|c| c.densities.clone()).collect();
-    let priors: Vec<f64> = all.iter().map(|c| -0.5 * ReferenceModel::complexity(&c.fit)).collect();
-    let mut list = probabilities(&densities, &priors);
+    let prior = |c: &Candidate| c.fit.descent.log_volume() - 0.5 * ReferenceModel::posing(&c.fit);
+    let mut list = probabilities(&densities, &all.iter().map(prior).collect::<Vec<f64>>());
     let Some(first) = all.first() else { return list };
+    let differ = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| (a - b).abs()).sum::<f64>();
     for (k, other) in all.iter().enumerate().skip(1) {
-        if is_limit(&first.fit.effects, &other.fit.effects) && !exceeds(&other.densities, &first.densities) {
+        let same = || is_open(&other.fit) || differ(&first.densities, &other.densities) < SAME;
+        if is_limit(&first.fit.effects, &other.fit.effects) && same() {
             list[0] += std::mem::take(&mut list[k]);
         }
     }
     list
+}
+
+/// Whether a fit has a parameter that the data do not know, which may as well be at a limit.
+fn is_open(fit: &FittedModel) -> bool {
+    let open = |(p, d): (&f64, &f64)| d.is_nan() || *d >= VOID * p.abs();
+    fit.effects.iter().zip(&fit.deviations).any(|(e, d)| e.parameters.iter().zip(d).any(open))
 }
 
 /// A candidate with its model, settled in turn with the most likely scales.
@@ -177,11 +237,15 @@ fn finished(
         if reference.control.is_late() {
             break;
         }
+        let before = cost(&reference, Some(&fit));
         let (there, settled) = reference.settled(fit, &SEARCH, UPDATES)?;
         let (likely, again) = there.with_likely_scales(Some(&settled), &SEARCH)?;
         let again = again.unwrap_or_else(|| settled.clone());
         let better = cost(&likely, Some(&again)) < cost(&there, Some(&settled));
         (reference, fit) = if better { (likely, again) } else { (there, settled) };
+        if before - cost(&reference, Some(&fit)) < SETTLED {
+            break;
+        }
     }
     reference.settled(fit, &FINAL, UPDATES)
 }
