@@ -23,8 +23,9 @@ const AT_ONE_PLACE: usize = 4;
 /// Scaled score beyond the best up to which candidates are followed.
 const MARGIN: f64 = 60.0;
 /// Squared residual per datum of the best from which on candidates of twice that are followed too: what it leaves beyond the
-/// noise is the error of the motion between the sensors, which is no law's.
-const COARSE: f64 = 1.5;
+/// noise is the error of the motion between the sensors, which is no law's. Linear laws are followed in no time.
+const COARSE: f64 = 3.0;
+const COARSE_FOR_LINEAR: f64 = 1.5;
 /// Best sets whose limits are followed too, and how many times their score those may leave.
 const HEARD: usize = 2;
 const LIMIT: f64 = 2.0;
@@ -173,16 +174,21 @@ fn promising(unfitted: Vec<UnfittedSet>, count: usize) -> Vec<UnfittedSet> {
     let Some(best) = unfitted.first().map(|d| d.score) else { return unfitted };
     let scale = (best / count.max(1) as f64).max(1.0);
     // Where even the best leaves much, the motion between the sensors is not known well enough to tell them apart.
-    let margin = if scale > COARSE { best } else { MARGIN * scale };
+    let margin = |d: &UnfittedSet| {
+        let linear = d.effects.iter().all(|e| e.effect.is_linear());
+        let coarse = if linear { COARSE_FOR_LINEAR } else { COARSE };
+        if scale > coarse { best } else { MARGIN * scale }
+    };
+    let near: Vec<&UnfittedSet> = unfitted.iter().filter(|d| d.score < best + margin(d)).collect();
     let mut kept: Vec<UnfittedSet> = Vec::new();
-    for unfitted in unfitted.iter().take_while(|d| d.score < best + margin) {
+    for &unfitted in &near {
         let here = kept.iter().filter(|k| k.effects[0].place == unfitted.effects[0].place).count();
         if here < AT_ONE_PLACE && kept.len() < FOLLOWED {
             kept.push(unfitted.clone());
         }
     }
     // Where hardly another place may be it, more of its laws.
-    for unfitted in unfitted.iter().take_while(|d| d.score < best + margin) {
+    for &unfitted in &near {
         let known = |k: &UnfittedSet| k.effects[0].is_same(&unfitted.effects[0]);
         if kept.len() < FOLLOWED && !kept.iter().any(known) {
             kept.push(unfitted.clone());
