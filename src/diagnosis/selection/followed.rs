@@ -6,6 +6,7 @@ use super::weighing::{bound_beside, cost};
 use crate::diagnosis::candidates::start::start;
 use crate::diagnosis::residual::data::{DiagnosisError, if_possible};
 use crate::diagnosis::residual::prediction::SEARCH;
+use crate::diagnosis::selection::exactness::settings_for;
 use crate::diagnosis::selection::fits::STEPS;
 use crate::diagnosis::selection::fitted_model::{FittedModel, Starts};
 use crate::diagnosis::updating::measured_motion::MeasuredMotion;
@@ -97,7 +98,7 @@ impl<'a> ReferenceModel<'a> {
         unfitted.sort_by(|a, b| a.score.total_cmp(&b.score));
         let unfitted = promising(needed(unfitted), self.count());
         // On the same footing as what they are beside.
-        let settings = self.settings_for(from, &SEARCH);
+        let settings = settings_for(from, self.count(), &SEARCH);
         self.all_followed(unfitted.len(), cost(self, Some(from)) - BROUGHT * evidence, |k| {
             self.followed_set(&unfitted[k], None, (&from.effects, settings))
         })

@@ -4,7 +4,7 @@ use crate::diagnosis::residual::branch::{distance, nearest};
 use crate::diagnosis::residual::data::{Data, DiagnosisError, RunData, if_possible};
 use crate::diagnosis::residual::energy_balance::scaled_factors;
 use crate::diagnosis::residual::prediction::{FINAL, Predictor, RunPrediction};
-use crate::diagnosis::selection::exactness::rubs;
+use crate::diagnosis::selection::exactness::{rubs, settings_for};
 use crate::diagnosis::selection::fit_problem::{RunSlopes, run_slopes};
 use crate::diagnosis::selection::fitted_model::{Estimator, FittedModel, Starts};
 use crate::diagnosis::selection::found::agrees;
@@ -273,7 +273,7 @@ impl<'a> ReferenceModel<'a> {
         settings: &Settings,
         rounds: usize,
     ) -> Result<(ReferenceModel<'a>, FittedModel), DiagnosisError> {
-        let settings = self.settings_for(&fit, settings);
+        let settings = settings_for(&fit, self.count(), settings);
         // What friction leaves depends on the number of harmonics.
         let fit = if rubs(&fit.effects) { self.refitted(&fit, settings)? } else { fit };
         let (mut reference, mut fit) = (self, fit);
@@ -329,7 +329,7 @@ impl<'a> ReferenceModel<'a> {
         fit: Option<&FittedModel>,
         settings: &Settings,
     ) -> Result<(ReferenceModel<'a>, Option<FittedModel>), DiagnosisError> {
-        let settings = fit.map_or(settings, |fit| self.settings_for(fit, settings));
+        let settings = fit.map_or(settings, |fit| settings_for(fit, self.count(), settings));
         let (mut reference, mut fitted) = (self.with_scales(self.linearisation.updating.scales), fit.cloned());
         for _ in 0..ROUNDS {
             if reference.control.is_late() {
