@@ -11,6 +11,7 @@
 
 use crate::math::least_squares::LeastSquares;
 use crate::math::spectrum::Spectrum;
+use dashpot_numerics::{Cholesky, dot};
 use faer::Mat;
 use std::f64::consts::TAU;
 
@@ -18,8 +19,9 @@ use std::f64::consts::TAU;
 const PERIODS: f64 = 4.0;
 /// Iterations of a window.
 const ITERATIONS: usize = 30;
-/// Columns of the fit: a, b, delta, omega, r, c_0, c_1 and two harmonics.
-const COLUMNS: usize = 11;
+/// Columns of the linear part: a, b, c_0, c_1 and two harmonics; of the fit: delta, omega and r besides.
+const LINEAR: usize = 8;
+const COLUMNS: usize = LINEAR + 3;
 
 /// One window.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -156,25 +158,25 @@ fn fit(window: &[f64], step: f64, omega: f64, time_s: f64) -> Option<AmplitudePo
     let mut shape = [0.0, omega * half, 0.0];
     let mut last = f64::INFINITY;
     for _ in 0..ITERATIONS {
-        let (columns, a, b, left) = linear(window, &time, &shape)?;
-        let square: f64 = left.iter().map(|r| r * r).sum();
-        let full = Mat::from_fn(window.len(), COLUMNS, |n, j| match j {
-            j if j < 8 => columns[n][j],
-            _ => derivative(time[n], &shape, a, b, j - 8),
-        });
-        let solution = LeastSquares::new(full.as_ref()).ok()?;
-        let change = solution.solve(&left).ok()?.x;
-        let small = (8..COLUMNS).all(|j| change[j].abs() < 1e-9);
+        let mut columns = linear_columns(&time, &shape);
+        let x = NormalEquations::new(&columns)?.solve(&columns, window);
+        let left: Vec<f64> =
+            (0..window.len()).map(|n| window[n] - (0..LINEAR).map(|j| columns[j][n] * x[j]).sum::<f64>()).collect();
+        let square = dot(&left, &left);
+        let derivatives = derivatives(&time, &columns, [x[0], x[1]]);
+        columns.extend(derivatives);
+        let equations = NormalEquations::new(&columns)?;
+        let change = equations.solve(&columns, &left);
+        let small = (LINEAR..COLUMNS).all(|j| change[j].abs() < 1e-9);
         if small || (square <= last && last - square < 1e-14 * square) {
-            let freedom = (window.len() - COLUMNS) as f64;
-            let d = solution.standard_deviations(square / freedom);
+            let variance = square / (window.len() - COLUMNS) as f64;
+            let d = equations.standard_deviations(variance);
             let (rate, w) = (shape[0] / half, shape[1] / half);
-            let amplitude = a.hypot(b);
             let zeta = rate / w;
-            let [by_rate, by_w] = [d[8] / half, d[9] / half];
+            let [by_rate, by_w] = [d[LINEAR] / half, d[LINEAR + 1] / half];
             return Some(AmplitudePoint {
                 time_s,
-                amplitude,
+                amplitude: x[0].hypot(x[1]),
                 frequency_hz: w / TAU,
                 damping_ratio: zeta,
                 amplitude_deviation: d[0].hypot(d[1]) / std::f64::consts::SQRT_2,
@@ -183,10 +185,7 @@ fn fit(window: &[f64], step: f64, omega: f64, time_s: f64) -> Option<AmplitudePo
             });
         }
         last = square;
-        let limit = |x: f64, most: f64| x.clamp(-most, most);
-        shape[0] += limit(change[8], 0.5);
-        shape[1] += limit(change[9], 0.5);
-        shape[2] += limit(change[10], 0.5);
+        shape.iter_mut().zip(&change[LINEAR..]).for_each(|(s, c)| *s += c.clamp(-0.5, 0.5));
         if shape[1] <= 0.0 || !shape.iter().all(|x| x.is_finite()) {
             return None;
         }
@@ -194,31 +193,54 @@ fn fit(window: &[f64], step: f64, omega: f64, time_s: f64) -> Option<AmplitudePo
     None
 }
 
-/// Linear part at a shape: columns, `a`, `b` and what is left.
-fn linear(window: &[f64], time: &[f64], shape: &[f64; 3]) -> Option<(Vec<[f64; 8]>, f64, f64, Vec<f64>)> {
-    let row = |&t: &f64| {
-        let (decay, theta) = ((-shape[0] * t).exp(), shape[1] * t + shape[2] * t * t);
-        let wave = |h: f64| ((h * theta).cos(), (h * theta).sin());
-        let (c1, s1) = wave(1.0);
-        let (c2, s2) = wave(2.0);
-        let (c3, s3) = wave(3.0);
-        [decay * c1, decay * s1, 1.0, t, c2, s2, c3, s3]
-    };
-    let columns: Vec<[f64; 8]> = time.iter().map(row).collect();
-    let matrix = Mat::from_fn(window.len(), 8, |n, j| columns[n][j]);
-    let x = LeastSquares::new(matrix.as_ref()).ok()?.solve(window).ok()?.x;
-    let model = |c: &[f64; 8]| c.iter().zip(&x).map(|(c, x)| c * x).sum::<f64>();
-    let left = window.iter().zip(&columns).map(|(y, c)| y - model(c)).collect();
-    Some((columns, x[0], x[1], left))
+/// Columns of the linear part at a shape: the sinusoid, a straight line, two harmonics.
+fn linear_columns(time: &[f64], shape: &[f64; 3]) -> Vec<Vec<f64>> {
+    let mut columns: Vec<Vec<f64>> = (0..LINEAR).map(|_| Vec::with_capacity(time.len())).collect();
+    for &t in time {
+        let decay = (-shape[0] * t).exp();
+        let (sin, cos) = (shape[1] * t + shape[2] * t * t).sin_cos();
+        let (cos_2, sin_2) = (2.0 * cos * cos - 1.0, 2.0 * sin * cos);
+        let (cos_3, sin_3) = (cos_2 * cos - sin_2 * sin, sin_2 * cos + cos_2 * sin);
+        let row = [decay * cos, decay * sin, 1.0, t, cos_2, sin_2, cos_3, sin_3];
+        columns.iter_mut().zip(row).for_each(|(column, value)| column.push(value));
+    }
+    columns
 }
 
-/// Derivative of the sinusoid by `delta`, `omega` or `r / 2`.
-fn derivative(t: f64, shape: &[f64; 3], a: f64, b: f64, k: usize) -> f64 {
-    let (sin, cos) = (shape[1] * t + shape[2] * t * t).sin_cos();
-    let decay = (-shape[0] * t).exp();
-    match k {
-        0 => -t * decay * (a * cos + b * sin),
-        1 => t * decay * (b * cos - a * sin),
-        _ => t * t * decay * (b * cos - a * sin),
+/// Derivatives of the sinusoid `a cos + b sin` of the first two columns by `delta`, `omega` and `r / 2`.
+fn derivatives(time: &[f64], columns: &[Vec<f64>], [a, b]: [f64; 2]) -> [Vec<f64>; 3] {
+    let along = |n: usize, u: f64, v: f64| u * columns[0][n] + v * columns[1][n];
+    let by = |f: &dyn Fn(usize) -> f64| (0..time.len()).map(f).collect();
+    [
+        by(&|n| -time[n] * along(n, a, b)),
+        by(&|n| time[n] * along(n, b, -a)),
+        by(&|n| time[n] * time[n] * along(n, b, -a)),
+    ]
+}
+
+/// Normal equations of columns, scaled to unit length: sinusoids over some periods are far from alike.
+struct NormalEquations {
+    factor: Cholesky,
+    scale: Vec<f64>,
+}
+
+impl NormalEquations {
+    fn new(columns: &[Vec<f64>]) -> Option<Self> {
+        let scale: Vec<f64> = columns.iter().map(|c| dot(c, c).max(f64::MIN_POSITIVE).sqrt().recip()).collect();
+        let matrix =
+            Mat::from_fn(columns.len(), columns.len(), |i, j| scale[i] * scale[j] * dot(&columns[i], &columns[j]));
+        Some(Self { factor: Cholesky::new(matrix.as_ref())?, scale })
+    }
+
+    fn solve(&self, columns: &[Vec<f64>], signal: &[f64]) -> Vec<f64> {
+        let right = Mat::from_fn(self.scale.len(), 1, |i, _| self.scale[i] * dot(&columns[i], signal));
+        let x = self.factor.solve(right.as_ref());
+        self.scale.iter().enumerate().map(|(i, s)| s * x[(i, 0)]).collect()
+    }
+
+    fn standard_deviations(&self, variance: f64) -> Vec<f64> {
+        let n = self.scale.len();
+        let inverse = self.factor.solve(Mat::<f64>::identity(n, n).as_ref());
+        self.scale.iter().enumerate().map(|(i, s)| s * (variance * inverse[(i, i)].max(0.0)).sqrt()).collect()
     }
 }
