@@ -96,6 +96,9 @@ fn oscillator(c: &mut Criterion) {
         factors: [1.0; 2],
         mode_stiffness: &[],
         shape_errors: &[],
+        parts: &[],
+        directions: &[],
+        step: [TAU / 20.0 / 24.0; 2],
     };
     let model = TransientModel::new(&setup).unwrap_or_else(|error| panic!("{error}"));
     let by = |source| TransientParameter::Source { source, parameter: 0 };

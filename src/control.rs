@@ -61,6 +61,12 @@ impl Control {
         Self { workers: None, ..self.clone() }
     }
 
+    /// The same control that is never late: for what an answer cannot do without.
+    #[must_use]
+    pub fn unhurried(&self) -> Self {
+        Self { hurried: Arc::default(), ..self.clone() }
+    }
+
     /// Asks the computation to answer with the best that it has so far.
     pub fn hurry(&self) {
         self.hurried.store(true, Ordering::Relaxed);

@@ -5,9 +5,9 @@ use dashpot::measurement::{Channel, Quantity};
 use dashpot::response::transient::{
     SampledForces, TransientModel, TransientParameter, TransientResponse, TransientSetup,
 };
-use dashpot::structure::Structure;
 use dashpot::structure::beam::{BeamParameters, Supports};
 use dashpot::structure::chain::ChainParameters;
+use dashpot::structure::{Part, Structure};
 
 fn mass_on_spring() -> Structure {
     ChainParameters { masses: vec![1.0], ground_stiffness: vec![400.0], coupling_stiffness: vec![] }.build(&[]).unwrap()
@@ -38,6 +38,10 @@ struct Case {
     initial: Vec<f64>,
     factors: [f64; 2],
     shape_errors: Vec<Vec<f64>>,
+    parts: Vec<(Part, f64)>,
+    directions: Vec<Vec<f64>>,
+    /// Steps that the model is told of, as a share of those that it is followed in.
+    told_step: f64,
 }
 
 impl Case {
@@ -53,6 +57,9 @@ impl Case {
             factors: self.factors,
             mode_stiffness: &[],
             shape_errors: &self.shape_errors,
+            parts: &self.parts,
+            directions: &self.directions,
+            step: [1.0, (self.forces.substeps as f64).recip()].map(|share| share * self.told_step * self.forces.step),
         };
         TransientModel::new(&setup).unwrap().predict(&self.forces, &self.initial, parameters).unwrap()
     }
@@ -67,6 +74,8 @@ impl Case {
             forces: self.forces.clone(),
             initial: self.initial.clone(),
             shape_errors: self.shape_errors.clone(),
+            parts: self.parts.clone(),
+            directions: self.directions.clone(),
             ..*self
         };
         match parameter {
@@ -74,6 +83,10 @@ impl Case {
             TransientParameter::Stiffness => case.factors[0] *= by.exp(),
             TransientParameter::Mass => case.factors[1] *= by.exp(),
             TransientParameter::Initial(k) => case.initial[k] += by,
+            TransientParameter::Direction(k) => {
+                let weights = &case.directions[k];
+                case.parts.iter_mut().zip(weights).for_each(|((_, v), w)| *v += w * by);
+            }
             TransientParameter::Mode(_) => unreachable!("not moved here"),
         }
         case.run(&[])
@@ -99,6 +112,9 @@ fn friction_stops_where_it_should() {
         initial: vec![0.05, 0.0],
         factors: [1.0; 2],
         shape_errors: vec![],
+        parts: vec![],
+        directions: vec![],
+        told_step: 1.0,
     };
     let record = case.run(&[]);
     let fall = f / k;
@@ -111,6 +127,15 @@ fn friction_stops_where_it_should() {
     let rest = 0.05 - 8.0 * fall;
     assert!((record.channels[0][129] - rest).abs() < 1e-12);
     assert!(record.channels[1][120..].iter().all(|a| a.abs() < 1e-9));
+}
+
+/// Parts of the beam with logarithms of their factors.
+fn wrong_parts() -> Vec<(Part, f64)> {
+    vec![
+        (Part::ElementStiffness([0, 1]), 0.03),
+        (Part::ElementMass([3, 5]), -0.02),
+        (Part::Support(beam().supports()[0]), -0.05),
+    ]
 }
 
 /// Derivatives by everything against central differences, through sticking, sliding and impacts.
@@ -135,6 +160,7 @@ fn derivatives_are_those_of_the_record() {
     let drive: Vec<f64> = (0..700)
         .map(|n| if n < 20 { 12.0 * (f64::from(n) / 20.0 * std::f64::consts::PI).sin() } else { 0.0 })
         .collect();
+    let parts = wrong_parts();
     for (effect, values) in laws {
         let case = Case {
             structure: beam(),
@@ -146,6 +172,9 @@ fn derivatives_are_those_of_the_record() {
             initial: vec![2e-4, 1e-5, 0.0, 1e-5, 0.0, 0.0],
             factors: [1.0; 2],
             shape_errors: vec![],
+            parts: parts.clone(),
+            directions: vec![vec![0.02, -0.03, 0.01], vec![0.0, 0.01, 0.02]],
+            told_step: 1.0,
         };
         let mut parameters: Vec<TransientParameter> =
             (0..values.len()).map(|parameter| TransientParameter::Source { source: 1, parameter }).collect();
@@ -153,6 +182,8 @@ fn derivatives_are_those_of_the_record() {
             TransientParameter::Source { source: 0, parameter: 0 },
             TransientParameter::Stiffness,
             TransientParameter::Mass,
+            TransientParameter::Direction(0),
+            TransientParameter::Direction(1),
             TransientParameter::Initial(0),
             TransientParameter::Initial(4),
         ]);
@@ -163,6 +194,7 @@ fn derivatives_are_those_of_the_record() {
                     1e-5 * case.sources[*source].parameters[*parameter].abs()
                 }
                 TransientParameter::Initial(_) => 1e-9,
+                TransientParameter::Direction(_) => 1e-4,
                 _ => 1e-6,
             };
             let (up, down) = (case.moved(*parameter, width), case.moved(*parameter, -width));
@@ -197,6 +229,9 @@ fn slowly_driven(samples: std::ops::Range<usize>, initial: Vec<f64>) -> Case {
         initial,
         factors: [1.0; 2],
         shape_errors: vec![],
+        parts: vec![],
+        directions: vec![],
+        told_step: 1.0,
     }
 }
 
@@ -246,4 +281,50 @@ fn errors_of_shapes_add_what_the_modes_show() {
         assert!(size(&apart) < 1e-10 * size(&wrong.channels[c]), "channel {c}");
     }
     assert!(plain.modal[1].is_empty(), "no channel shows a velocity");
+}
+
+/// Parts that are stated wrongly, followed in the modes of the model as stated, move a record as they move the structure.
+#[test]
+fn parts_in_the_modes_of_the_model_are_those_of_the_structure() {
+    let factors = [(Part::ElementStiffness([0, 1]), 0.97_f64), (Part::ElementMass([4, 5]), 1.03)];
+    let mut stated = slowly_driven(0..1200, vec![0.0; 12]);
+    stated.kept = 6;
+    let plain = stated.run(&[]);
+    stated.parts = factors.iter().map(|&(part, f)| (part, f.ln())).collect();
+    let mut changed = slowly_driven(0..1200, vec![0.0; 12]);
+    changed.kept = 6;
+    changed.structure = beam().with_factors(&factors);
+    let (by_parts, exact) = (stated.run(&[]), changed.run(&[]));
+    for c in 0..2 {
+        let apart = |a: &[f64]| size(&a.iter().zip(&exact.channels[c]).map(|(a, b)| a - b).collect::<Vec<f64>>());
+        let (off, before) = (apart(&by_parts.channels[c]), apart(&plain.channels[c]));
+        assert!(off < 0.02 * before, "channel {c}: {off:.1e} of {before:.1e}");
+    }
+}
+
+/// Friction next to a clamp that holds for a while: what keeps it at rest swings from step to step where a residual coordinate
+/// that is faster than the steps is hardly damped (five times the record), and less where it only follows.
+#[test]
+fn friction_that_holds_does_not_ring() {
+    let case = |substeps: usize, told_step: f64| Case {
+        structure: beam(),
+        sources: vec![known(Effect::Viscous, &[10], &[0.05]), known(Effect::Coulomb, &[0], &[2.0])],
+        channels: channels(&[(Quantity::Acceleration, 10)]),
+        drives: vec![],
+        kept: 3,
+        forces: quiet(1e-3, 1000, substeps),
+        initial: vec![1e-3, 1e-4, 0.0, 0.0, 0.0, 0.0],
+        factors: [1.0; 2],
+        shape_errors: vec![],
+        parts: vec![],
+        directions: vec![],
+        told_step,
+    };
+    let fine = case(32, 1e-6).run(&[]);
+    let off = |coarse: &TransientResponse| {
+        let apart: Vec<f64> = coarse.channels[0].iter().zip(&fine.channels[0]).map(|(a, b)| a - b).collect();
+        size(&apart) / size(&fine.channels[0])
+    };
+    let [damped, ringing] = [1.0, 1e-6].map(|told_step| off(&case(1, told_step).run(&[])));
+    assert!(damped < 0.2 * ringing && damped < 0.7, "{damped:.2} of {ringing:.2}");
 }

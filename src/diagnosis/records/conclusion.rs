@@ -5,13 +5,18 @@ use super::evidence::{AGREES, misfit};
 use super::fitted::FittedRecords;
 use super::model_errors::ModelErrors;
 use super::search::{Search, SetsBySize};
-use super::telling::{added, corrections, suggestions, words};
+use super::telling::{added, corrections, corrections_of_parts, suggestions, words};
 use super::told::added_as_told;
 use crate::diagnosis::diagnose::{Added, Diagnosis, Step, Suggestion, Verdict};
+use crate::diagnosis::updating::correction::Correction;
+use crate::structure::Part;
 
 /// Error of what is told from which on the phase may be lost over the whole record, and the share of it that parts of the record
 /// leave at most where it is.
 const PHASE_LOST: [f64; 2] = [0.08, 0.7];
+
+/// Promised error with corrected parts over that without from which on they are told.
+const BETTER: f64 = 0.8;
 
 /// Steps of a fit beside a part that was corrected.
 const REFITTING: usize = 7;
@@ -26,7 +31,6 @@ impl Search<'_> {
             diagnosis.verdict = Verdict::Unexplained;
             return Ok(());
         };
-        let told = self.told(best)?;
         for (level, fit) in &by_size.earlier {
             let step = self.step(fit, *level)?;
             // Corrections that only please the weights of the fit are no step.
@@ -34,9 +38,39 @@ impl Search<'_> {
             diagnosis.steps.extend(step.filter(worth));
         }
         diagnosis.suggestions = suggestions(self.records, &by_size.last)?;
-        let model_errors = ModelErrors::of(self.records.structure, &told);
+        let told = self.told(best)?;
+        let corrections = corrections_of_parts(self.records, best);
+        if corrections.is_empty() {
+            return self.conclude_with(&told, &by_size.last, diagnosis);
+        }
+        // The parts of the structure as the fit has them, where that leaves clearly less than corrections of all of it or of modes.
+        let factors: Vec<(Part, f64)> = corrections.iter().map(|(part, c)| (*part, c.factor)).collect();
+        let structure = self.records.structure.with_factors(&factors);
+        let (plain, records) = (self.plain.on(&structure)?, self.records.on(&structure)?);
+        let (excluded, control) = (self.excluded, self.control);
+        let search = Search { records: &records, plain: &plain, levels: records.levels(), excluded, control };
+        let as_stated = |fit: &FittedRecords| FittedRecords { parts: vec![0.0; records.parts.len()], ..fit.clone() };
+        let fits: Vec<FittedRecords> = by_size.last.iter().map(as_stated).collect();
+        let beside_parts = search.told(&fits[0])?;
+        let [left, before] =
+            [search.promised(&beside_parts, &beside_parts.effects)?, self.promised(&told, &told.effects)?];
+        if left > BETTER * before {
+            return self.conclude_with(&told, &by_size.last, diagnosis);
+        }
+        diagnosis.corrections.extend(corrections.into_iter().map(|(_, c)| c));
+        search.conclude_with(&beside_parts, &fits, diagnosis)
+    }
+
+    /// Concludes with what is told, masses and springs that are errors of the model made corrections of it.
+    fn conclude_with(
+        &self,
+        told: &FittedRecords,
+        found: &[FittedRecords],
+        diagnosis: &mut Diagnosis,
+    ) -> Result<(), RecordError> {
+        let model_errors = ModelErrors::of(self.records.structure, told);
         if model_errors.sources.is_empty() {
-            return self.conclude_told(&told, misfit(&told), &by_size.last, diagnosis);
+            return self.conclude_told(told, misfit(told), found, diagnosis);
         }
         // What a spring or mass changes of a part is made a number of the structure, and the rest is fitted beside it.
         let without = |fit: &FittedRecords| {
@@ -49,10 +83,10 @@ impl Search<'_> {
         let (plain, records) = (self.plain.on(&structure)?, self.records.on(&structure)?);
         let (excluded, control) = (self.excluded, self.control);
         let search = Search { records: &records, plain: &plain, levels: records.levels(), excluded, control };
-        let fits: Vec<FittedRecords> = by_size.last.iter().map(without).collect();
+        let fits: Vec<FittedRecords> = found.iter().map(without).collect();
         let corrected = search.told(&search.corrected_whole(&fits[0])?)?;
-        diagnosis.corrections.clone_from(&model_errors.corrections);
-        let left = if corrected.effects.is_empty() { misfit(&told) } else { misfit(&corrected) };
+        model_errors.corrections.iter().for_each(|more| correct(&mut diagnosis.corrections, more));
+        let left = if corrected.effects.is_empty() { misfit(told) } else { misfit(&corrected) };
         search.conclude_told(&corrected, left, &fits, diagnosis)
     }
 
@@ -152,6 +186,16 @@ impl Search<'_> {
         }
         Ok(words)
     }
+}
+
+/// Adds a correction, to that of the same part where there is one.
+fn correct(corrections: &mut Vec<Correction>, more: &Correction) {
+    let Some(own) = corrections.iter_mut().find(|c| c.parameter == more.parameter) else {
+        corrections.push(more.clone());
+        return;
+    };
+    own.deviation = (own.deviation * more.factor).hypot(more.deviation * own.factor);
+    own.factor *= more.factor;
 }
 
 /// Widens the deviations of what is told by what is left beyond noise: any share of what the effects take away may be theirs.

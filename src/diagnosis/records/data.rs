@@ -1,6 +1,7 @@
 //! The records of a project as they are fitted: forces, responses, noise, the modes that they show.
 
 use super::amplitude::peaks;
+use super::part_directions::PartDirections;
 use super::weights::{deviations, with_share};
 use crate::control::Cancelled;
 use crate::effects::{Kind as EffectKind, Source, State};
@@ -9,7 +10,7 @@ use crate::math::statistics::median;
 use crate::measurement::{Channel, Kind, TransientRun};
 use crate::response::transient::{SampledForces, TransientError, TransientModel, TransientSetup};
 use crate::structure::modes::Modes;
-use crate::structure::{Structure, StructureError};
+use crate::structure::{Part, Structure, StructureError};
 use std::f64::consts::TAU;
 
 /// Most modes that are followed one by one; the rest by residual flexibility.
@@ -91,6 +92,8 @@ pub struct Records<'a> {
     pub modes: Modes,
     /// How many are followed.
     pub kept: usize,
+    /// How the parts of the structure may be stated wrongly.
+    pub(super) parts: PartDirections,
     /// Records that are used.
     pub list: Vec<RecordData>,
     /// Channels of motion that differ.
@@ -119,7 +122,8 @@ impl<'a> Records<'a> {
         let below = modes.omega.iter().filter(|w| **w <= TAU * limit).count();
         let kept = below.clamp(1, MOST_MODES).min(modes.len());
         let sensors = different(&list);
-        Ok(Self { structure, known, modes, kept, list, sensors })
+        let parts = PartDirections::new(structure, &modes, kept);
+        Ok(Self { structure, known, modes, kept, parts, list, sensors })
     }
 
     /// The same records beside another structure of the same DOFs.
@@ -129,7 +133,13 @@ impl<'a> Records<'a> {
     {
         let modes = structure.modes()?;
         let kept = self.kept.min(modes.len());
-        Ok(Records { structure, modes, kept, ..self.clone() })
+        let parts = PartDirections::new(structure, &modes, kept);
+        Ok(Records { structure, modes, kept, parts, ..self.clone() })
+    }
+
+    /// Logarithms of the factors on the stiffness of the kept modes that stand for the parts of a fit.
+    pub(super) fn stiffness_by_parts(&self, parts: &[f64]) -> Vec<f64> {
+        self.parts.stiffness_of_modes(parts, self.kept)
     }
 
     /// Frequency (Hz) from which on motion is not that of the modes that are followed.
@@ -167,7 +177,7 @@ impl<'a> Records<'a> {
         record: &RecordData,
         sources: &[Source],
         factors: [f64; 2],
-        (mode_stiffness, shape_errors): (&[f64], &[Vec<f64>]),
+        (mode_stiffness, parts, shape_errors): (&[f64], &[(Part, f64)], &[Vec<f64>]),
     ) -> Result<TransientModel, RecordError> {
         let (structure, modes, kept) = (self.structure, &self.modes, self.kept);
         let (drives, channels) = (&record.drives[..], &record.channels[..]);
@@ -181,6 +191,9 @@ impl<'a> Records<'a> {
             channels,
             factors,
             mode_stiffness,
+            parts,
+            directions: &self.parts.weights,
+            step: [record.step, record.step / record.substeps.max(1) as f64],
             shape_errors,
         })
         .map_err(|reason| RecordError::Model { file: record.file.clone(), reason })

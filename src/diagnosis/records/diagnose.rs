@@ -196,7 +196,7 @@ impl Search<'_> {
 
 /// Whether a fit leaves no more than noise, and that with corrections that can be.
 fn agrees(fit: &FittedRecords) -> bool {
-    let count = 2 + fit.known.len() + fit.modes.len();
+    let count = 2 + fit.known.len() + fit.modes.len() + fit.parts.len();
     let enough = if fit.effects.is_empty() { AGREES } else { ENOUGH };
     misfit(fit) < enough && corrected_by(fit) < PLAUSIBLE[0].max(PLAUSIBLE[1] * count as f64)
 }

@@ -19,6 +19,8 @@ pub struct FittedRecords {
     pub modes: Vec<f64>,
     /// Logarithm of the factor on all mass.
     pub mass: f64,
+    /// Deviations of the parts of the structure along their directions ([`super::part_directions`]).
+    pub parts: Vec<f64>,
     /// Errors of the shapes of the followed modes at every sensor, `[sensor][mode]` ([`super::shape_errors`]).
     pub shapes: Vec<Vec<f64>>,
     /// Offsets of the channels of each record over their largest samples, `[record][channel]`.
@@ -51,6 +53,7 @@ impl FittedRecords {
             known: vec![0.0; records.known.len()],
             modes: vec![0.0; records.kept],
             mass: 0.0,
+            parts: vec![0.0; records.parts.len()],
             shapes: records.no_shape_errors(),
             offsets: records.no_offsets(),
             shifts: vec![0.0; records.list.len()],
@@ -84,8 +87,13 @@ impl FittedRecords {
     ) -> Result<TransientResponse, RecordError> {
         let record = &records.list[r];
         let factor = (self.stiffness + self.shifts[r]).exp();
-        let model =
-            records.model(record, &self.sources(records), [factor, self.mass.exp()], (&self.modes, &self.shapes))?;
+        let parts = records.parts.logarithms(&self.parts);
+        let model = records.model(
+            record,
+            &self.sources(records),
+            [factor, self.mass.exp()],
+            (&self.modes, &parts, &self.shapes),
+        )?;
         let forces = record.excitation(samples, model.is_linear());
         let mut response = model
             .predict(&forces, &self.initial[r], parameters)

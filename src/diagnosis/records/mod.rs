@@ -18,6 +18,7 @@ pub mod localisation;
 mod modal_equations;
 mod model_errors;
 mod normal;
+mod part_directions;
 mod parts;
 mod problem;
 mod regression;

@@ -13,14 +13,16 @@ use crate::response::transient::TransientParameter;
 /// Prior deviation of the logarithm of all stiffness, of the size of a known source, of the stiffness of one record, of that of
 /// a mode, of all mass, of the shape of a mode at a sensor, of an offset over the largest sample.
 const PRIORS: [f64; 7] = [0.03, 0.15, 0.002, 0.02, 0.02, 0.02, 0.01];
+/// Those of the stiffness and of the shape of a mode where errors of parts are free: then little but gains is left for them.
+const BESIDE_PARTS: f64 = 0.01;
 /// Largest change of a logarithm in one step.
 const REACH: f64 = 1.0;
 
 /// What is free beside the initial states and the effects.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Free {
-    /// All stiffness, then the size of every known source, then the stiffness of every mode, at last all mass; none where it is
-    /// empty.
+    /// All stiffness, then the size of every known source, then the stiffness of every mode, then all mass, at last the parts; none
+    /// where it is empty.
     pub corrections: Vec<bool>,
     /// The shift of every record.
     pub shifts: bool,
@@ -39,13 +41,15 @@ impl Free {
         let mut free = Self::all(records);
         let first = 1 + records.known.len();
         free.corrections[first..first + modes(records)].fill(false);
+        free.corrections[first + modes(records) + 1..].fill(false);
         free
     }
 
-    /// All of it but the mass, for which shapes and the stiffness of modes stand.
+    /// All of it; the mass, beside the stiffness, stands for the gain of a measured force, where errors of the shapes do not.
     pub fn all(records: &Records) -> Self {
-        let mut corrections = vec![true; 2 + records.known.len() + modes(records)];
-        corrections[1 + records.known.len() + modes(records)] = false;
+        let mut corrections = vec![true; 2 + records.known.len() + modes(records) + records.parts.len()];
+        let driven = records.list.iter().any(|r| !r.forces.is_empty());
+        corrections[1 + records.known.len() + modes(records)] = driven && !records.parts.is_empty();
         Self { corrections, shifts: true, shapes: true }
     }
 }
@@ -65,6 +69,7 @@ pub(super) fn corrected_by(fit: &FittedRecords) -> f64 {
         + square(&fit.known, PRIORS[1])
         + square(&fit.modes, PRIORS[3])
         + square(&[fit.mass], PRIORS[4])
+        + square(&fit.parts, 1.0)
         + shapes / count
 }
 
@@ -92,6 +97,11 @@ impl FitProblem<'_> {
     /// Number of the first correction among the variables, which follow those of the laws.
     pub(super) fn first_correction(&self, at: &FittedRecords) -> usize {
         self.shared(at) - self.shapes() - self.free.corrections.len()
+    }
+
+    /// Number of the variable of all mass, which those of the parts follow.
+    pub(super) fn mass_variable(&self, at: &FittedRecords) -> usize {
+        self.first_correction(at) + 1 + self.records.known.len() + modes(self.records)
     }
 
     /// Number of the variable of the shape of mode 0 at a sensor; none where shapes are held.
@@ -134,7 +144,9 @@ impl FitProblem<'_> {
             for r in 0..modes(self.records) {
                 next.modes[r] += change[k + 1 + at.known.len() + r].clamp(-0.1, 0.1);
             }
-            next.mass += change[k + self.free.corrections.len() - 1].clamp(-0.1, 0.1);
+            let mass = self.mass_variable(at);
+            next.mass += change[mass].clamp(-0.1, 0.1);
+            next.parts.iter_mut().zip(&change[mass + 1..]).for_each(|(v, c)| *v += c.clamp(-3.0, 3.0));
         }
         for (sensor, errors) in next.shapes.iter_mut().enumerate() {
             let Some(first) = self.shape_variable(at, sensor) else { break };
@@ -194,13 +206,21 @@ impl FitProblem<'_> {
             }
             let modes = (0..modes(self.records)).filter(|r| free(1 + offset + r));
             list.extend(modes.map(|r| (TransientParameter::Mode(r), k + 1 + offset + r, 1.0)));
-            let mass = self.free.corrections.len() - 1;
+            let mass = self.mass_variable(at) - k;
             if free(mass) {
                 list.push((TransientParameter::Mass, k + mass, 1.0));
             }
+            let parts = (0..at.parts.len()).filter(|p| free(mass + 1 + p));
+            list.extend(parts.map(|p| (TransientParameter::Direction(p), k + mass + 1 + p, 1.0)));
         }
         list.extend((0..2 * self.records.kept).map(|j| (TransientParameter::Initial(j), from + j, 1.0)));
         list
+    }
+
+    /// Prior deviation of the stiffness or of the shape of a mode, `alone` where no errors of parts are free beside it.
+    fn beside_parts(&self, alone: f64) -> f64 {
+        let parts = self.free.corrections.iter().rev().take(self.records.parts.len());
+        if parts.into_iter().any(|free| *free) { BESIDE_PARTS } else { alone }
     }
 
     /// Corrections with their prior deviations: number of the variable, value, deviation.
@@ -208,15 +228,19 @@ impl FitProblem<'_> {
         let laws = self.first_correction(at);
         let mut list = Vec::new();
         if !self.free.corrections.is_empty() {
+            let mode = self.beside_parts(PRIORS[3]);
             list.push((laws, at.stiffness, PRIORS[0]));
             list.extend(at.known.iter().enumerate().map(|(j, v)| (laws + 1 + j, *v, PRIORS[1])));
-            list.extend((0..modes(self.records)).map(|r| (laws + 1 + at.known.len() + r, at.modes[r], PRIORS[3])));
-            list.push((laws + self.free.corrections.len() - 1, at.mass, PRIORS[4]));
+            list.extend((0..modes(self.records)).map(|r| (laws + 1 + at.known.len() + r, at.modes[r], mode)));
+            let mass = self.mass_variable(at);
+            list.push((mass, at.mass, PRIORS[4]));
+            list.extend(at.parts.iter().enumerate().map(|(p, v)| (mass + 1 + p, *v, 1.0)));
             list.retain(|(k, ..)| self.free.corrections[k - laws]);
         }
+        let shape = self.beside_parts(PRIORS[5]);
         for (sensor, errors) in at.shapes.iter().enumerate() {
             let Some(first) = self.shape_variable(at, sensor) else { break };
-            list.extend(errors.iter().enumerate().map(|(r, e)| (first + r, *e, PRIORS[5])));
+            list.extend(errors.iter().enumerate().map(|(r, e)| (first + r, *e, shape)));
         }
         for r in 0..self.records.list.len() {
             let first = self.offset_variable(at, r);

@@ -176,6 +176,12 @@ impl<'a> Regression<'a> {
         let mut tuned = fit.clone();
         if let Some((modes, known)) = self.corrections(law) {
             tuned.modes = modes.iter().map(|x| x.ln_1p()).collect();
+            if let Some((all, parts)) = self.records.parts.explaining(&tuned.modes) {
+                let explained = self.records.stiffness_by_parts(&parts);
+                tuned.modes.iter_mut().zip(explained).for_each(|(v, by)| *v -= all + by);
+                tuned.stiffness += all;
+                tuned.parts.iter_mut().zip(parts).for_each(|(own, more)| *own += more);
+            }
             tuned.known.iter_mut().zip(&known).for_each(|(v, x)| *v += x.ln_1p());
             if tuned.modes.len() == 1 {
                 tuned.stiffness += tuned.modes[0];

@@ -113,11 +113,14 @@ impl Search<'_> {
     pub fn corrected(&self, bare: &FittedRecords) -> Result<FittedRecords, RecordError> {
         let mut fitted = self.fit(0, bare, 1.0, FOLLOWING)?;
         // The motion itself may know better how far the model is off.
-        if let Some(regression) = Regression::new(self.records, bare, self.control)
-            && let Ok(other) = self.fit(0, &regression.tuned(bare, None), 1.0, FOLLOWING)
-            && other.chi_square < fitted.chi_square
-        {
-            fitted = other;
+        if let Some(regression) = Regression::new(self.records, bare, self.control) {
+            // Corrections by a measured motion are not bent to what the model leaves: priors weigh what noise demands.
+            let start = FittedRecords { count: 0, ..regression.tuned(bare, None) };
+            if let Ok(other) = self.fit(0, &start, 1.0, FOLLOWING)
+                && other.chi_square < fitted.chi_square
+            {
+                fitted = other;
+            }
         }
         // What is left decides what priors weigh: while a round leaves much less, they are asked again.
         for _ in 0..ROUNDS {

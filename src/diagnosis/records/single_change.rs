@@ -35,11 +35,13 @@ impl Search<'_> {
         if modes(records) < FEWEST_MODES || misfit(corrected) > AGREES {
             return Ok(Vec::new());
         }
-        let mean = corrected.modes.iter().sum::<f64>() / corrected.modes.len() as f64;
+        let by_parts = records.stiffness_by_parts(&corrected.parts);
+        let mean = corrected.modes.iter().chain(&by_parts).sum::<f64>() / corrected.modes.len() as f64;
         let plain = FittedRecords {
             stiffness: corrected.stiffness + mean,
             modes: vec![0.0; records.kept],
             mass: 0.0,
+            parts: vec![0.0; records.parts.len()],
             ..corrected.clone()
         };
         if misfit(&fit(&plain, self.control)?) < AGREES {
@@ -83,7 +85,8 @@ fn change(records: &Records, corrected: &FittedRecords, effect: Effect, place: &
         if effect == Effect::Mass { -shape * shape } else { (shape / records.modes.omega[r]).powi(2) }
     };
     let matrix = Mat::from_fn(records.kept, 2, |r, k| if k == 0 { 1.0 } else { by(r) });
-    let wanted: Vec<f64> = (0..records.kept).map(|r| corrected.stiffness + corrected.modes[r]).collect();
+    let by_parts = records.stiffness_by_parts(&corrected.parts);
+    let wanted: Vec<f64> = (0..records.kept).map(|r| corrected.stiffness + corrected.modes[r] + by_parts[r]).collect();
     let solved = LeastSquares::new(matrix.as_ref()).ok()?.solve(&wanted).ok()?.x;
     let left: f64 = (0..records.kept).map(|r| (wanted[r] - solved[0] - solved[1] * by(r)).powi(2)).sum();
     let source = Source { effect, place: place.clone(), state: State::Known, parameters: vec![solved[1]] };

@@ -3,6 +3,7 @@
 use super::data::{RecordError, Records};
 use super::evidence::{evidence, misfit, parameters, scale};
 use super::fitted::FittedRecords;
+use super::problem::modes;
 use crate::diagnosis::diagnose::{Added, Suggestion};
 use crate::diagnosis::updating::correction::Correction;
 use crate::diagnosis::updating::parameters::UpdatingParameter;
@@ -98,7 +99,7 @@ pub(super) fn last_deviations(fit: &FittedRecords) -> Vec<f64> {
 pub(super) fn corrections(records: &Records, fit: &FittedRecords) -> Vec<Correction> {
     let wide = scale(fit).sqrt();
     let first = parameters(fit);
-    let modes = if records.kept > 1 { records.kept } else { 0 };
+    let modes = modes(records);
     let values =
         std::iter::once(fit.stiffness).chain(fit.known.iter().copied()).chain(fit.modes.iter().take(modes).copied());
     let values = values.chain([fit.mass]);
@@ -111,6 +112,20 @@ pub(super) fn corrections(records: &Records, fit: &FittedRecords) -> Vec<Correct
         (v != 0.0).then(|| Correction { parameter, factor: v.exp(), deviation: deviation * v.exp() })
     };
     values.zip(names).enumerate().filter_map(of).collect()
+}
+
+/// Corrections of the parts of the structure that a fit moved along their directions.
+pub(super) fn corrections_of_parts(records: &Records, fit: &FittedRecords) -> Vec<(Part, Correction)> {
+    let wide = scale(fit).sqrt();
+    let first = parameters(fit) + 2 + records.known.len() + modes(records);
+    let own = |k: usize| fit.deviations.get(first + k).map_or(1.0, |d| (d * wide).min(1.0));
+    let own: Vec<f64> = (0..fit.parts.len()).map(own).collect();
+    let parts = records.parts.logarithms(&fit.parts).into_iter().zip(records.parts.deviations(&own));
+    let correction = |((part, v), deviation): ((Part, f64), f64)| {
+        let parameter = UpdatingParameter::Structure(part);
+        (part, Correction { parameter, factor: v.exp(), deviation: deviation * v.exp() })
+    };
+    parts.map(correction).filter(|(_, c)| c.factor != 1.0).collect()
 }
 
 /// Takes out the fits whose last law has more parameters than another at the same place that leaves all but as little.

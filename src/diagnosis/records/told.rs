@@ -34,24 +34,35 @@ impl Search<'_> {
         let known: Vec<bool> = (0..sources).map(moved).collect();
         let mask = |[stiffness, modes, mass]: [bool; 3]| {
             let sizes = known.iter().copied().chain(vec![modes; count]);
-            std::iter::once(stiffness).chain(sizes).chain([mass]).collect::<Vec<bool>>()
+            let parts = vec![false; self.records.parts.len()];
+            std::iter::once(stiffness).chain(sizes).chain([mass]).chain(parts).collect::<Vec<bool>>()
         };
-        let uniform = fit.stiffness + fit.modes[self.dominant()];
-        let mut all = vec![([false; 3], 0.0), ([true, false, false], uniform)];
+        let by_parts = self.records.stiffness_by_parts(&fit.parts);
+        // Where all mass is held, frequencies are as they were by less stiffness.
+        let all = fit.stiffness - fit.mass;
+        let uniform = all + fit.modes[self.dominant()] + by_parts[self.dominant()];
+        let mut variants = vec![([false; 3], 0.0), ([true, false, false], uniform)];
+        if count > 0 {
+            variants.push(([false, true, false], 0.0));
+        }
         // A motion without a force shows no mass.
         if self.records.list.iter().any(|r| !r.forces.is_empty()) {
-            all.push(([true, false, true], uniform));
-        }
-        if count > 0 {
-            all.push(([false, true, false], 0.0));
+            variants.push(([true, false, true], uniform + fit.mass));
+            if fit.mass != 0.0 && count > 0 {
+                variants.push(([false, true, true], 0.0));
+            }
         }
         let mut found: Option<(FittedRecords, usize)> = None;
-        for (what, stiffness) in all {
+        for (what, stiffness) in variants {
             let (mask, by_mode) = (mask(what), what[1]);
             let mut start = fit.clone();
             start.stiffness = stiffness;
             start.known.iter_mut().zip(&known).filter(|(_, moved)| !**moved).for_each(|(v, _)| *v = 0.0);
-            start.modes.iter_mut().for_each(|v| *v = if by_mode { *v + fit.stiffness } else { 0.0 });
+            let held = if what[2] { fit.stiffness } else { all };
+            let by_parts = by_parts.iter().map(|v| v + held);
+            start.modes.iter_mut().zip(by_parts).for_each(|(v, more)| *v = if by_mode { *v + more } else { 0.0 });
+            start.mass = if what[2] { fit.mass } else { 0.0 };
+            start.parts.fill(0.0);
             start.shifts.fill(0.0);
             let mut consider = |next: &FittedRecords, free: &[bool]| {
                 let count = free.iter().filter(|f| **f).count();
@@ -111,7 +122,7 @@ impl Search<'_> {
             ..FittedRecords::start(&records, &[])
         };
         start.known[..told.known.len()].copy_from_slice(&told.known);
-        match started_from(&records, start, self.control).and_then(|fit| fit.error(&records, 0.0, 1.0)) {
+        match started_from(&records, start, &self.control.unhurried()).and_then(|fit| fit.error(&records, 0.0, 1.0)) {
             Err(RecordError::Model { .. }) => Ok(f64::INFINITY),
             other => other,
         }

@@ -8,6 +8,6 @@ pub(crate) mod modal_expansion;
 pub mod noise_model;
 pub mod parameters;
 pub(crate) mod part_error;
-mod parts;
+pub(crate) mod parts;
 pub mod scatter;
 pub(crate) mod shape_errors;

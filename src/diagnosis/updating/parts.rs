@@ -12,7 +12,7 @@ const MOST_MODES: usize = 8;
 const NEAR_BAND: f64 = 0.35;
 
 /// Parts of a structure that are wrong independently of each other, as far as its kind shows them.
-pub(super) fn parts(structure: &Structure, omegas: &[f64]) -> Vec<Part> {
+pub(crate) fn parts(structure: &Structure, omegas: &[f64]) -> Vec<Part> {
     let mut parts = vec![Part::Stiffness, Part::Mass];
     let chain = structure.elements().is_empty() && structure.kind() == StructureKind::Chain;
     parts.extend(structure.lumped().iter().filter(|_| !chain).map(|&row| Part::PointMass(row)));

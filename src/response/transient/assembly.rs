@@ -6,7 +6,11 @@ use super::reduction::{RESIDUAL_DAMPING, Reduction};
 use super::setup::{TransientParameter, TransientSetup};
 use super::system::Matrices;
 use crate::effects::{Basis, Effect, Kind, Law, Leg, Place, Source};
+use crate::structure::factors::Triplets;
 use faer::Mat;
+
+/// Phase of a residual coordinate in a step, rad, from which on it only follows.
+const RESOLVED: f64 = 4.0;
 
 /// A nonlinear relative motion: its source, leg, form, law and parameters.
 pub(super) type Nonlinear = (usize, Leg, Form, &'static dyn Law, Vec<f64>);
@@ -58,7 +62,7 @@ pub(super) fn assemble(
         own.mass[(r, r)] = heavy;
         own.stiffness[(r, r)] = modal_stiffness(setup, reduction, r);
     }
-    let mut changes = Vec::new();
+    let mut changes = add_parts(setup, reduction, &mut own);
     let mut total = own.clone();
     let (mut by_stiffness, mut by_mass) = (Matrices::zeros(size), Matrices::zeros(size));
     by_stiffness.stiffness = own.stiffness.clone();
@@ -79,12 +83,48 @@ pub(super) fn assemble(
         }
         changes.push((TransientParameter::Source { source: index, parameter: 0 }, by));
     }
+    let linear = setup.sources.iter().all(|s| is_linear(s.effect));
+    let step = setup.step[usize::from(!linear)];
     for r in reduction.kept..size {
-        total.damping[(r, r)] += 2.0 * RESIDUAL_DAMPING * reduction.omega[r];
+        let omega = reduction.omega[r];
+        total.damping[(r, r)] += 2.0 * residual_damping(omega * step) * omega;
     }
     changes.push((TransientParameter::Stiffness, by_stiffness));
     changes.push((TransientParameter::Mass, by_mass));
     (total, changes)
+}
+
+/// Adds to the matrices of a structure what its parts are more than stated, and gives the derivatives by them.
+fn add_parts(setup: &TransientSetup, reduction: &Reduction, own: &mut Matrices) -> Vec<(TransientParameter, Matrices)> {
+    let size = reduction.omega.len();
+    let reduced = |entries: &Triplets, factor: f64| {
+        let mut sum = Mat::<f64>::zeros(size, size);
+        for &(i, j, value) in entries {
+            for s in 0..size {
+                let along = factor * value * reduction.basis[(j, s)];
+                (0..size).for_each(|r| sum[(r, s)] += reduction.basis[(i, r)] * along);
+            }
+        }
+        sum
+    };
+    let mut changes = vec![Matrices::zeros(size); setup.directions.len()];
+    for (p, (part, logarithm)) in setup.parts.iter().enumerate() {
+        let Some(share) = setup.structure.share(*part) else { continue };
+        let (stiffness, mass) = (reduced(&share.stiffness, setup.factors[0]), reduced(&share.mass, setup.factors[1]));
+        own.stiffness += &stiffness * faer::Scale(logarithm.exp_m1());
+        own.mass += &mass * faer::Scale(logarithm.exp_m1());
+        for (by, weights) in changes.iter_mut().zip(setup.directions) {
+            by.stiffness += &stiffness * faer::Scale(weights[p] * logarithm.exp());
+            by.mass += &mass * faer::Scale(weights[p] * logarithm.exp());
+        }
+    }
+    changes.into_iter().enumerate().map(|(k, by)| (TransientParameter::Direction(k), by)).collect()
+}
+
+/// Damping ratio of a residual coordinate that moves by `phase` rad in a step. One that swings faster than the steps can follow
+/// would ring under forces that jump from step to step, and its alias would turn the sign of what holds friction at rest.
+fn residual_damping(phase: f64) -> f64 {
+    (phase / RESOLVED).powi(4).clamp(RESIDUAL_DAMPING, 1.0)
 }
 
 /// What a linear source of unit parameter adds to its matrix.

@@ -2,8 +2,8 @@
 
 use crate::effects::Source;
 use crate::measurement::Channel;
-use crate::structure::Structure;
 use crate::structure::modes::Modes;
+use crate::structure::{Part, Structure};
 
 /// What a model is made of.
 #[derive(Debug, Clone, Copy)]
@@ -24,6 +24,12 @@ pub struct TransientSetup<'a> {
     pub factors: [f64; 2],
     /// Logarithms of factors on the stiffness of the kept modes beside that; none for those beyond its end.
     pub mode_stiffness: &'a [f64],
+    /// Parts of the structure with logarithms of factors on their stiffness or mass beside that.
+    pub parts: &'a [(Part, f64)],
+    /// Directions in which these logarithms move together, `[direction][part]`.
+    pub directions: &'a [Vec<f64>],
+    /// Time between samples and between the steps of a model that is not linear, s.
+    pub step: [f64; 2],
     /// What each channel's mass-normalised shape is more than the model's, `[channel][kept mode]`, kg^(-1/2); none beyond its end.
     pub shape_errors: &'a [Vec<f64>],
 }
@@ -44,6 +50,8 @@ pub enum TransientParameter {
     Mass,
     /// Logarithm of the stiffness of a kept mode.
     Mode(usize),
+    /// Way along a direction of the parts of the structure, by its number in the setup.
+    Direction(usize),
     /// Entry of the initial state (see `TransientModel::predict`).
     Initial(usize),
 }
