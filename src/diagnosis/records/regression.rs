@@ -175,12 +175,13 @@ impl<'a> Regression<'a> {
     pub fn tuned(&self, fit: &FittedRecords, law: Option<&Source>) -> FittedRecords {
         let mut tuned = fit.clone();
         if let Some((modes, known)) = self.corrections(law) {
-            tuned.modes = modes.iter().map(|x| x.ln_1p()).collect();
+            // The equation of motion was asked with all mass as stated and no part corrected.
+            tuned.modes = modes.iter().map(|x| x.ln_1p() + fit.mass).collect();
             if let Some((all, parts)) = self.records.parts.explaining(&tuned.modes) {
                 let explained = self.records.stiffness_by_parts(&parts);
                 tuned.modes.iter_mut().zip(explained).for_each(|(v, by)| *v -= all + by);
                 tuned.stiffness += all;
-                tuned.parts.iter_mut().zip(parts).for_each(|(own, more)| *own += more);
+                tuned.parts = parts;
             }
             tuned.known.iter_mut().zip(&known).for_each(|(v, x)| *v += x.ln_1p());
             if tuned.modes.len() == 1 {

@@ -38,7 +38,7 @@ impl Search<'_> {
         let by_parts = records.stiffness_by_parts(&corrected.parts);
         let mean = corrected.modes.iter().chain(&by_parts).sum::<f64>() / corrected.modes.len() as f64;
         let plain = FittedRecords {
-            stiffness: corrected.stiffness + mean,
+            stiffness: corrected.stiffness - corrected.mass + mean,
             modes: vec![0.0; records.kept],
             mass: 0.0,
             parts: vec![0.0; records.parts.len()],
@@ -86,7 +86,8 @@ fn change(records: &Records, corrected: &FittedRecords, effect: Effect, place: &
     };
     let matrix = Mat::from_fn(records.kept, 2, |r, k| if k == 0 { 1.0 } else { by(r) });
     let by_parts = records.stiffness_by_parts(&corrected.parts);
-    let wanted: Vec<f64> = (0..records.kept).map(|r| corrected.stiffness + corrected.modes[r] + by_parts[r]).collect();
+    let all = corrected.stiffness - corrected.mass;
+    let wanted: Vec<f64> = (0..records.kept).map(|r| all + corrected.modes[r] + by_parts[r]).collect();
     let solved = LeastSquares::new(matrix.as_ref()).ok()?.solve(&wanted).ok()?.x;
     let left: f64 = (0..records.kept).map(|r| (wanted[r] - solved[0] - solved[1] * by(r)).powi(2)).sum();
     let source = Source { effect, place: place.clone(), state: State::Known, parameters: vec![solved[1]] };
