@@ -23,9 +23,11 @@ const PART: f64 = 0.02;
 /// number of modes.
 const LEAST: f64 = 1e-3;
 const BEYOND: usize = 2;
-/// Prior deviations of the logarithms of all stiffness, and of that of a mode beyond what its parts explain.
-const ALL: f64 = 0.03;
-const MODE: f64 = 0.02;
+/// Prior deviation of the logarithm of all stiffness.
+pub(super) const ALL: f64 = 0.03;
+/// Prior deviation of the logarithm of a mode's stiffness, and of its shape at a sensor, where errors of parts stand beside them:
+/// little but gains is left.
+pub(super) const MODE: f64 = 0.01;
 
 /// Parts with the directions in which they are wrong.
 #[derive(Debug, Clone, Default)]

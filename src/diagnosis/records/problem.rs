@@ -6,15 +6,14 @@
 
 use super::data::Records;
 use super::fitted::FittedRecords;
+use super::part_directions::{ALL, MODE};
 use super::variables::{at_variable, variable};
 use crate::control::Control;
 use crate::response::transient::TransientParameter;
 
 /// Prior deviation of the logarithm of all stiffness, of the size of a known source, of the stiffness of one record, of that of
 /// a mode, of all mass, of the shape of a mode at a sensor, of an offset over the largest sample.
-const PRIORS: [f64; 7] = [0.03, 0.15, 0.002, 0.02, 0.02, 0.02, 0.01];
-/// Those of the stiffness and of the shape of a mode where errors of parts are free: then little but gains is left for them.
-const BESIDE_PARTS: f64 = 0.01;
+const PRIORS: [f64; 7] = [ALL, 0.15, 0.002, 0.02, 0.02, 0.02, 0.01];
 /// Largest change of a logarithm in one step.
 const REACH: f64 = 1.0;
 
@@ -219,8 +218,8 @@ impl FitProblem<'_> {
 
     /// Prior deviation of the stiffness or of the shape of a mode, `alone` where no errors of parts are free beside it.
     fn beside_parts(&self, alone: f64) -> f64 {
-        let parts = self.free.corrections.iter().rev().take(self.records.parts.len());
-        if parts.into_iter().any(|free| *free) { BESIDE_PARTS } else { alone }
+        let mut parts = self.free.corrections.iter().rev().take(self.records.parts.len());
+        if parts.any(|free| *free) { MODE } else { alone }
     }
 
     /// Corrections with their prior deviations: number of the variable, value, deviation.
