@@ -179,24 +179,35 @@ impl<'a> Records<'a> {
         factors: [f64; 2],
         (mode_stiffness, parts, shape_errors): (&[f64], &[(Part, f64)], &[Vec<f64>]),
     ) -> Result<TransientModel, RecordError> {
-        let (structure, modes, kept) = (self.structure, &self.modes, self.kept);
-        let (drives, channels) = (&record.drives[..], &record.channels[..]);
         let shape_errors = &self.shape_errors(record, shape_errors);
-        TransientModel::new(&TransientSetup {
-            structure,
-            modes,
-            kept,
+        let setup = self.setup(record, sources, factors, (mode_stiffness, parts));
+        let directions = &self.parts.weights;
+        TransientModel::new(&TransientSetup { directions, shape_errors, ..setup })
+            .map_err(|reason| RecordError::Model { file: record.file.clone(), reason })
+    }
+
+    /// The same before it is assembled, without errors of shapes and derivatives by parts.
+    pub(super) fn setup<'s>(
+        &'s self,
+        record: &'s RecordData,
+        sources: &'s [Source],
+        factors: [f64; 2],
+        (mode_stiffness, parts): (&'s [f64], &'s [(Part, f64)]),
+    ) -> TransientSetup<'s> {
+        TransientSetup {
+            structure: self.structure,
+            modes: &self.modes,
+            kept: self.kept,
             sources,
-            drives,
-            channels,
+            drives: &record.drives,
+            channels: &record.channels,
             factors,
             mode_stiffness,
             parts,
-            directions: &self.parts.weights,
+            directions: &[],
             step: [record.step, record.step / record.substeps.max(1) as f64],
-            shape_errors,
-        })
-        .map_err(|reason| RecordError::Model { file: record.file.clone(), reason })
+            shape_errors: &[],
+        }
     }
 }
 

@@ -22,7 +22,7 @@ use crate::math::statistics::root_mean_square;
 
 /// Squared corrections over their prior deviations beyond which an effect that makes them needless is looked for: of all, and of each
 /// where they are many.
-const PLAUSIBLE: [f64; 2] = [16.0, 8.0];
+const PLAUSIBLE: [f64; 2] = [16.0, 3.0];
 /// Misfit of a set of effects from which on no further one is looked for: what it could explain is no more than models are wrong by.
 const ENOUGH: f64 = 2.0;
 /// Most effects of a set.
@@ -89,20 +89,18 @@ pub fn diagnose_records(
 }
 
 impl Search<'_> {
-    /// Effects added on the shorter parts until no more is found, what was found carried on to the whole records.
+    /// Effects added on the shortest parts on which the model shows that it lacks one, until no more is found; what was found carried
+    /// on to the whole records.
     fn climbed(&self, bare: &FittedRecords, early: &Early) -> Result<SetsBySize, RecordError> {
         let whole = self.levels.len() - 1;
-        let mut bare = self.carried(bare, whole, 0)?;
+        let bare = self.carried(bare, whole, 0)?;
         let mut by_size = SetsBySize { earlier: Vec::new(), last: vec![self.corrected(&bare)?] };
         for level in 0..=whole {
             if level > 0 {
                 by_size.last = self.lengthened(&by_size.last, level - 1)?;
             }
-            if level > 0 {
-                bare = self.carried(&bare, level - 1, level)?;
-            }
             let found_none = by_size.last.first().is_some_and(|f| f.effects.is_empty());
-            if level < GROWING || (level == whole && (found_none || whole == GROWING)) {
+            if level < GROWING || found_none || (level == whole && whole == GROWING) {
                 self.grow(level, &bare, &mut by_size, early)?;
             }
             self.control.report(0.9 * (level + 1) as f64 / (whole + 1) as f64);
@@ -146,7 +144,8 @@ impl Search<'_> {
         let scale = scale(new);
         let gain = evidence(old, scale) - evidence(new, scale);
         let worth = 1.0 - (new.chi_square / old.chi_square).sqrt();
-        if !stands_out(new) {
+        // On short parts the force and the spring of a slider may be uncertain each while what they do together is not.
+        if level + 1 == self.levels.len() && !stands_out(new) {
             return Ok(false);
         }
         // In the few amplitudes of short parts samples are so alike that a great part of the error of a set must do.

@@ -77,6 +77,11 @@ impl FittedRecords {
         records.known.iter().zip(&self.known).map(sized).chain(self.effects.iter().cloned()).collect()
     }
 
+    /// Factors on all stiffness and on all mass in record `r`.
+    pub(super) fn factors(&self, r: usize) -> [f64; 2] {
+        [(self.stiffness + self.shifts[r]).exp(), self.mass.exp()]
+    }
+
     /// The record of number `r` that the model gives over `samples` samples.
     pub(crate) fn predict(
         &self,
@@ -86,14 +91,9 @@ impl FittedRecords {
         parameters: &[TransientParameter],
     ) -> Result<TransientResponse, RecordError> {
         let record = &records.list[r];
-        let factor = (self.stiffness + self.shifts[r]).exp();
         let parts = records.parts.logarithms(&self.parts);
-        let model = records.model(
-            record,
-            &self.sources(records),
-            [factor, self.mass.exp()],
-            (&self.modes, &parts, &self.shapes),
-        )?;
+        let model =
+            records.model(record, &self.sources(records), self.factors(r), (&self.modes, &parts, &self.shapes))?;
         let forces = record.excitation(samples, model.is_linear());
         let mut response = model
             .predict(&forces, &self.initial[r], parameters)

@@ -32,11 +32,17 @@ impl Left {
 
 impl FitProblem<'_> {
     pub(super) fn normal(&self, at: &FittedRecords, scales: &[Vec<f64>], unit: f64) -> Result<Normal, RecordError> {
+        let parts = self.control.map(self.records.list.len(), |r| {
+            self.derivatives(at, scales, r).map(|derivatives| derivatives.products(1.0))
+        });
+        Ok(self.assembled(at, unit, parts.into_iter().collect::<Result<_, _>>()?))
+    }
+
+    /// The equations of the products of all records, with the priors.
+    pub(super) fn assembled(&self, at: &FittedRecords, unit: f64, parts: Vec<RecordPart>) -> Normal {
         let size = self.shared(at) + self.records.list.len() * self.local();
         let mut normal = Normal { matrix: Mat::zeros(size, size), gradient: vec![0.0; size], left: Left::default() };
-        let parts = self.control.map(self.records.list.len(), |r| self.part(at, scales, r));
         for part in parts {
-            let part = part?;
             normal.add(&part);
             normal.left.chi_square += part.square;
             normal.left.count += part.left.iter().map(Vec::len).sum::<usize>();
@@ -53,7 +59,7 @@ impl FitProblem<'_> {
         for (j, _) in self.free.corrections.iter().enumerate().filter(|(_, free)| !**free) {
             normal.matrix[(laws + j, laws + j)] = 1.0;
         }
-        Ok(normal)
+        normal
     }
 
     /// What a model leaves, without derivatives.
@@ -94,8 +100,13 @@ impl FitProblem<'_> {
         Ok(left)
     }
 
-    /// Products of the derivatives of one record.
-    fn part(&self, at: &FittedRecords, scales: &[Vec<f64>], r: usize) -> Result<RecordPart, RecordError> {
+    /// Derivatives of what record `r` leaves, over the noise.
+    pub(super) fn derivatives(
+        &self,
+        at: &FittedRecords,
+        scales: &[Vec<f64>],
+        r: usize,
+    ) -> Result<RecordDerivatives, RecordError> {
         let unknowns = self.unknowns(at, scales, r);
         let mut parameters: Vec<TransientParameter> = Vec::new();
         for (p, ..) in &unknowns {
@@ -106,21 +117,20 @@ impl FitProblem<'_> {
         let mut response = at.predict(self.records, r, self.samples(r), &parameters)?;
         let left = self.over_noise(r, &response.channels)?;
         let count = parameters.len();
-        let mut products = Products::new(count + self.shapes() + self.offsets());
+        let record = &self.records.list[r];
+        let mut channels = Vec::with_capacity(left.len());
         for (c, e) in left.iter().enumerate() {
-            let record = &self.records.list[r];
-            let sigma = &record.sigma[c];
-            for list in &mut response.derivatives {
-                list[c].iter_mut().zip(sigma).for_each(|(d, s)| *d /= s);
+            let mut columns: Vec<(usize, Vec<f64>)> = Vec::new();
+            for (k, list) in response.derivatives.iter_mut().enumerate() {
+                list[c].iter_mut().zip(&record.sigma[c]).for_each(|(d, s)| *d /= s);
+                columns.push((k, std::mem::take(&mut list[c])));
             }
-            let mut columns: Vec<(usize, &[f64])> =
-                response.derivatives.iter().enumerate().map(|(k, list)| (k, &list[c][..])).collect();
             let shapes = self.shape_columns(record, c, &response.modal);
             let first = count + self.records.sensor(record, c) * self.records.kept;
-            columns.extend(shapes.iter().enumerate().map(|(k, list)| (first + k, &list[..])));
+            columns.extend(shapes.into_iter().enumerate().map(|(k, list)| (first + k, list)));
             let offset = self.offset_column(r, c, e.len());
-            columns.extend(offset.iter().map(|list| (count + self.shapes() + c, &list[..])));
-            products.add(&columns, e);
+            columns.extend(offset.into_iter().map(|list| (count + self.shapes() + c, list)));
+            channels.push(columns);
         }
         let of = |p: &TransientParameter| parameters.iter().position(|q| q == p).unwrap_or(0);
         let mut unknowns: Vec<(usize, usize, f64)> = unknowns.iter().map(|(p, k, s)| (of(p), *k, *s)).collect();
@@ -128,8 +138,7 @@ impl FitProblem<'_> {
         unknowns.extend((0..self.shapes()).map(|k| (count + k, first + k, 1.0)));
         let (own, first) = (count + self.shapes(), self.offset_variable(at, r));
         unknowns.extend((0..self.offsets()).map(|c| (own + c, first + c, 1.0)));
-        let square = left.iter().flatten().map(|e| e * e).sum();
-        Ok(RecordPart { unknowns, products, square, left })
+        Ok(RecordDerivatives { unknowns, count: count + self.shapes() + self.offsets(), channels, left })
     }
 
     /// Derivative of a channel of record `r` by its offset, over the noise; none where offsets are held.
@@ -150,6 +159,33 @@ impl FitProblem<'_> {
             list.iter().zip(&record.sigma[c]).map(|(q, s)| size * q / s).collect()
         };
         modes.iter().enumerate().map(column).collect()
+    }
+}
+
+/// Derivatives of one record.
+#[derive(Clone)]
+pub(super) struct RecordDerivatives {
+    /// Number of the derivative, of the variable, and the factor between them.
+    pub unknowns: Vec<(usize, usize, f64)>,
+    /// Number of derivatives.
+    pub count: usize,
+    /// Of each channel: numbers of derivatives with their samples, over the noise.
+    pub channels: Vec<Vec<(usize, Vec<f64>)>>,
+    /// What is left, over the noise, `[channel][sample]`.
+    pub left: Vec<Vec<f64>>,
+}
+
+impl RecordDerivatives {
+    /// Their products, each sample counted `times`.
+    pub fn products(self, times: f64) -> RecordPart {
+        let mut products = Products::new(self.count);
+        for (columns, e) in self.channels.iter().zip(&self.left) {
+            let columns: Vec<(usize, &[f64])> = columns.iter().map(|(k, list)| (*k, &list[..])).collect();
+            products.add(&columns, e);
+        }
+        products.matrix.iter_mut().chain(&mut products.against).for_each(|x| *x *= times);
+        let square = times * self.left.iter().flatten().map(|e| e * e).sum::<f64>();
+        RecordPart { unknowns: self.unknowns, products, square, left: self.left }
     }
 }
 
@@ -181,7 +217,7 @@ impl Products {
 }
 
 /// Products of the derivatives of one record.
-struct RecordPart {
+pub(super) struct RecordPart {
     /// Number of the derivative, of the variable, and the factor between them.
     unknowns: Vec<(usize, usize, f64)>,
     products: Products,

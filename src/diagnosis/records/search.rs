@@ -6,6 +6,7 @@ use super::evidence::{evidence, scale};
 use super::fitted::FittedRecords;
 use super::problem::{FitProblem, Free};
 use super::regression::Regression;
+use super::starts::LAWS;
 use super::telling::{last_deviations, plainest};
 use crate::control::Control;
 use crate::diagnosis::candidates::special_cases::is_allowed;
@@ -26,7 +27,7 @@ const FIRST: f64 = 0.35;
 const BESIDE: usize = 1;
 const NEAR: f64 = 2.0;
 /// Starts of a further effect on longer parts.
-const FURTHER: usize = 13;
+const FURTHER: usize = 8;
 /// Fits that are carried on to longer parts, and the steps there.
 const RIVALS: usize = 4;
 /// Evidence by which a fit may be behind the best to be carried on, and fits that are carried on all the same.
@@ -157,7 +158,7 @@ impl Search<'_> {
         Ok(self.sorted(level, found))
     }
 
-    /// Fits of `best` with one effect more, best first; `bare` is the model as it is, on the same level.
+    /// Fits of `best` with one effect more, best first; `bare` is the model as it is, on the shortest parts.
     pub fn extended(
         &self,
         level: usize,
@@ -165,11 +166,13 @@ impl Search<'_> {
         bare: &FittedRecords,
     ) -> Result<Vec<FittedRecords>, RecordError> {
         // The first effect is looked for beside the model as it is, whose stiffness is not bent to what is missing.
-        let base = if best.effects.is_empty() { bare } else { best };
+        let base = if best.effects.is_empty() && level == 0 { bare } else { best };
         let mut starts = self.begun(level, best, base);
-        if level > 0 && !best.effects.is_empty() {
+        let scored = self.scored(level, best, &self.all_places(), &LAWS);
+        if level > 0 {
             starts.truncate(FURTHER);
         }
+        starts.splice(0..0, scored);
         let alone = self.control.alone();
         let free = self.records.kept <= FEW_MODES && self.levels[level].list.iter().all(|r| r.forces.is_empty());
         // A start that runs away, or a mass that takes away all there is, is no start. Where a frequency follows the amplitude the
@@ -194,7 +197,7 @@ impl Search<'_> {
         let follow = |k: usize| self.fit_by(level, &plainer[k], (1.0, FOLLOWING), &alone).ok();
         followed.extend(self.control.map(plainer.len(), follow).into_iter().flatten());
         self.control.check()?;
-        Ok(self.sorted(level, followed))
+        self.beside_wider(level, self.sorted(level, followed))
     }
 
     /// The best of `rivals` fitted on the parts of the next level, best first.
@@ -214,7 +217,28 @@ impl Search<'_> {
         let mut found = self.control.map(few.len(), longer).into_iter().flatten().collect();
         self.control.check()?;
         keep(&mut found, RIVALS, HOPELESS[1]);
-        Ok(self.sorted(level + 1, found))
+        self.beside_wider(level + 1, self.sorted(level + 1, found))
+    }
+
+    /// Fits, best first, with those of wider laws in place of the last law of the best.
+    fn beside_wider(&self, level: usize, mut found: Vec<FittedRecords>) -> Result<Vec<FittedRecords>, RecordError> {
+        let starts = self.begun_wider(level, &found)?;
+        let alone = self.control.alone();
+        let fit = |k: usize| self.fit_by(level, &starts[k], (1.0, FOLLOWING), &alone).ok();
+        let wider: Vec<FittedRecords> = self.control.map(starts.len(), fit).into_iter().flatten().collect();
+        self.control.check()?;
+        if wider.is_empty() {
+            return Ok(found);
+        }
+        for one in wider {
+            let same = |o: &FittedRecords| o.effects.last().zip(one.effects.last()).is_some_and(|(a, b)| a.is_same(b));
+            match found.iter_mut().find(|o| same(o)) {
+                Some(own) if one.chi_square < own.chi_square => *own = one,
+                Some(_) => {}
+                None => found.push(one),
+            }
+        }
+        Ok(self.sorted(level, found))
     }
 
     /// Those that may be told, by evidence; on whole records without those that a simpler law makes needless.

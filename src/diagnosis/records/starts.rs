@@ -8,7 +8,7 @@ use crate::effects::{Effect, Family, Motion, Place, Range, Source, State};
 use std::f64::consts::TAU;
 
 /// Laws that have a force in time.
-const LAWS: [Effect; 13] = [
+pub(super) const LAWS: [Effect; 13] = [
     Effect::Viscous,
     Effect::Coulomb,
     Effect::Quadratic,
@@ -68,9 +68,7 @@ impl Search<'_> {
         // One mode alone shows no mass or spring beside its own stiffness.
         let seen = |s: &Source| self.records.kept > 1 || !matches!(s.effect, Effect::Mass | Effect::Stiffness);
         let open = |s: &Source| seen(s) && !base.effects.iter().chain(self.excluded).any(|e| e.is_same(s));
-        let structure = self.records.structure;
-        let mut all = Family::EachTranslation.places(structure);
-        all.extend(Family::EachPair.places(structure));
+        let all = self.all_places();
         let located = self.places(best);
         let Some(regression) = regression else {
             let of = |place: &Place| {
@@ -124,9 +122,7 @@ impl Search<'_> {
     /// Fits that are to be begun with a law at the places where it was not begun yet, those that the equation of motion demands most.
     pub fn begun_elsewhere(&self, base: &FittedRecords, law: Effect, begun: &[FittedRecords]) -> Vec<FittedRecords> {
         let Some(regression) = Regression::new(self.records, base, self.control) else { return Vec::new() };
-        let structure = self.records.structure;
-        let mut all = Family::EachTranslation.places(structure);
-        all.extend(Family::EachPair.places(structure));
+        let all = self.all_places();
         let known = |s: &Source| {
             let taken = begun.iter().filter_map(|f| f.effects.last());
             taken.chain(&base.effects).chain(self.excluded).any(|e| e.is_same(s))
@@ -155,11 +151,15 @@ impl Search<'_> {
         simpler.map(in_place).collect()
     }
 
+    /// Every place where a law may act.
+    pub fn all_places(&self) -> Vec<Place> {
+        let structure = self.records.structure;
+        Family::EachTranslation.places(structure).into_iter().chain(Family::EachPair.places(structure)).collect()
+    }
+
     /// Places that matter beside what is in `best`, most likely first.
     fn places(&self, best: &FittedRecords) -> Vec<Place> {
-        let structure = self.records.structure;
-        let mut all = Family::EachTranslation.places(structure);
-        all.extend(Family::EachPair.places(structure));
+        let mut all = self.all_places();
         // Corrections may have been bent to what is missing: the model is asked as it is, too.
         let located: Vec<LocatedForce> = locate(self.records, &all, best.stiffness);
         if located.is_empty() {

@@ -10,6 +10,7 @@
 //! Derivatives by parameters of laws, stiffness, mass and the initial state are those of the same steps, the instants of
 //! reversals included.
 
+mod along;
 mod assembly;
 mod changes;
 mod derivatives;
@@ -24,6 +25,7 @@ mod step;
 mod system;
 mod view;
 
+pub use along::force_along;
 pub use error::TransientError;
 pub use model::TransientModel;
 pub use setup::{SampledForces, TransientParameter, TransientResponse, TransientSetup};

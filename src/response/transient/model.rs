@@ -14,10 +14,10 @@ use dashpot_numerics::{dot, scalar_products};
 use faer::Mat;
 
 /// What a channel shows.
-struct Sensor {
+pub(super) struct Sensor {
     /// Times the motion is differentiated; none for a force.
     order: Option<i32>,
-    functional: Functional,
+    pub(super) functional: Functional,
     /// Shape along the reduced coordinates, for accelerations.
     pattern: Option<Vec<f64>>,
     /// The drive that a force channel repeats.
@@ -27,9 +27,9 @@ struct Sensor {
 /// A model that predicts records.
 pub struct TransientModel {
     reduction: Reduction,
-    system: LinearSystem,
+    pub(super) system: LinearSystem,
     views: Vec<View>,
-    sensors: Vec<Sensor>,
+    pub(super) sensors: Vec<Sensor>,
     legs: Vec<Nonlinear>,
     changes: Vec<(TransientParameter, Matrices)>,
     /// Stiffness of each coordinate as it is in the model, 1/s^2.
@@ -161,7 +161,7 @@ impl TransientModel {
 
     /// Damped modes of an initial state; the residual coordinates, which are not followed, rest under the `drives`, each a force and
     /// its rate, so that a part of a record does not begin with a blow.
-    fn modes_of(&self, state: &[f64], drives: &[[f64; 2]]) -> Vec<f64> {
+    pub(super) fn modes_of(&self, state: &[f64], drives: &[[f64; 2]]) -> Vec<f64> {
         let (kept, size) = (self.kept(), self.system.coordinates());
         let mut displacement = vec![0.0; size];
         let mut velocity = vec![0.0; size];

@@ -1,0 +1,258 @@
+//! What one law more at a place would take away of what a fit leaves, to first order (score test: Rao 1948).
+//!
+//! ```text
+//! w = d y / d c at c = 0:  the linear model's record under the force of the law along the motion of the fit, c = 1
+//! c = (w^T e - b^T A^-1 g) / (w^T w - b^T A^-1 b),      gain = c (w^T e - b^T A^-1 g)
+//! ```
+//!
+//! `e` is what the fit leaves over the noise, `A` and `g` its normal equations, `b` the products of `w` with its derivatives:
+//! corrections, shapes, offsets and initial states are free beside the law. No motion is expanded from few sensors, and a law that
+//! is weak beside the errors of the model is weighed as the fit itself will weigh it; a fit that has lost the phase tells nothing.
+
+use super::data::{RecordData, RecordError, Records};
+use super::evidence::{evidence, scale};
+use super::fit_motion::{FitMotion, MotionOfDof};
+use super::fitted::FittedRecords;
+use super::normal::RecordDerivatives;
+use super::problem::{FitProblem, Free};
+use super::search::Search;
+use super::variables::scales;
+use crate::effects::{Effect, Leg, Place, Source, State};
+use crate::response::transient::{TransientModel, TransientSetup, force_along};
+use dashpot_numerics::{Cholesky, dot};
+use faer::Mat;
+
+/// Samples of all channels of a record that are looked at, about.
+const MOST_SAMPLES: usize = 8000;
+
+/// Starts that are taken, and how many of them may be of one law or at one place.
+const TAKEN: usize = 10;
+const ALIKE: usize = 3;
+/// Shares of the way to where a law promises most at which a fit may begin.
+const SHARES: [f64; 3] = [1.0, 0.5, 0.2];
+
+/// A law at a place with the coefficient that fits best.
+#[derive(Debug, Clone)]
+pub(super) struct Scored {
+    /// Effect, place and parameters.
+    pub source: Source,
+    /// Drop of the squared residual over the noise, to first order.
+    pub gain: f64,
+    /// Change of all variables of the fit that goes with it.
+    change: Vec<f64>,
+}
+
+/// A fit with its equations, beside which laws are weighed.
+pub(super) struct ScoreTest<'a> {
+    records: &'a Records<'a>,
+    fit: &'a FittedRecords,
+    /// Sources of the linear part of the model.
+    linear: Vec<Source>,
+    motion: FitMotion,
+    parts: Vec<Part>,
+    factored: Cholesky,
+    scaling: Vec<f64>,
+    /// `A^-1 g`.
+    step: Vec<f64>,
+}
+
+/// One record.
+struct Part {
+    /// Numbers of the derivatives, of the variables, and factors between them.
+    unknowns: Vec<(usize, usize, f64)>,
+    count: usize,
+    /// Derivatives and what is left of every channel, one sample of `every`.
+    channels: Vec<Vec<(usize, Vec<f64>)>>,
+    left: Vec<Vec<f64>>,
+    every: usize,
+}
+
+impl<'a> ScoreTest<'a> {
+    /// Of a fit on its records, as far as `free` is.
+    pub fn new(problem: &'a FitProblem<'a>, fit: &'a FittedRecords) -> Result<Self, RecordError> {
+        let records = problem.records;
+        let scales = scales(&fit.effects);
+        let made = problem.control.map(records.list.len(), |r| -> Result<_, RecordError> {
+            Ok(Thinned::new(problem.derivatives(fit, &scales, r)?))
+        });
+        let (mut parts, mut products) = (Vec::new(), Vec::new());
+        for one in made {
+            let Thinned { derivatives, every } = one?;
+            let RecordDerivatives { unknowns, count, channels, left } = derivatives.clone();
+            products.push(derivatives.products(every as f64));
+            parts.push(Part { unknowns, count, channels, left, every });
+        }
+        let normal = problem.assembled(fit, scale(fit), products);
+        let size = normal.gradient.len();
+        let scaling: Vec<f64> = (0..size).map(|k| normal.matrix[(k, k)].max(1e-300).sqrt().recip()).collect();
+        let unit = Mat::from_fn(size, size, |i, j| {
+            let ridge = if i == j { 1e-9 } else { 0.0 };
+            normal.matrix[(i, j)] * scaling[i] * scaling[j] + ridge
+        });
+        let factored = Cholesky::new(unit.as_ref()).ok_or(RecordError::Singular)?;
+        let linear = fit.sources(records).into_iter().filter(|s| s.effect.is_linear()).collect();
+        let motion = FitMotion::new(records, fit, problem.control)?;
+        let mut test = Self { records, fit, linear, motion, parts, factored, scaling, step: Vec::new() };
+        test.step = test.solved(&normal.gradient);
+        Ok(test)
+    }
+
+    fn solved(&self, right: &[f64]) -> Vec<f64> {
+        let scaled = Mat::from_fn(right.len(), 1, |i, _| right[i] * self.scaling[i]);
+        let x = self.factored.solve(scaled.as_ref());
+        self.scaling.iter().enumerate().map(|(i, s)| x[(i, 0)] * s).collect()
+    }
+
+    /// The best shape of each law at a place; none where the place does not move.
+    pub fn at(&self, place: &Place, laws: &[Effect]) -> Vec<Scored> {
+        let Some(leg) = place.legs().first().copied() else { return Vec::new() };
+        let made: Result<Vec<Forced>, RecordError> =
+            (0..self.parts.len()).map(|r| self.forced(leg, r)).collect::<Result<_, _>>();
+        let (Ok(forced), Some(range)) = (made, self.motion.range(leg)) else { return Vec::new() };
+        let best = |effect: &Effect| {
+            let shapes = effect.shapes(&range).into_iter();
+            shapes
+                .filter_map(|shape| self.scored(*effect, place, shape, &forced))
+                .max_by(|a, b| a.gain.total_cmp(&b.gain))
+        };
+        laws.iter().filter_map(best).collect()
+    }
+
+    /// The linear model of record `r` under forces along a leg.
+    fn forced(&self, leg: Leg, r: usize) -> Result<Forced, RecordError> {
+        let record = &self.records.list[r];
+        let drives: Vec<usize> = std::iter::once(leg.first).chain(leg.second).collect();
+        let fit = self.fit;
+        let parts = self.records.parts.logarithms(&fit.parts);
+        let errors = self.records.shape_errors(record, &fit.shapes);
+        let setup = self.records.setup(record, &self.linear, fit.factors(r), (&fit.modes, &parts));
+        let model = TransientModel::new(&TransientSetup { drives: &drives, shape_errors: &errors, ..setup })
+            .map_err(|reason| RecordError::Model { file: record.file.clone(), reason })?;
+        let motion = self.motion.relative(leg, r).ok_or(RecordError::Singular)?;
+        Ok(Forced { model, motion, drives: drives.len() })
+    }
+
+    /// A shape with the scale that fits best.
+    fn scored(&self, effect: Effect, place: &Place, shape: Vec<f64>, forced: &[Forced]) -> Option<Scored> {
+        let mut source = Source { effect, place: place.clone(), state: State::Known, parameters: shape };
+        let mut against = vec![0.0; self.step.len()];
+        let (mut product, mut square) = (0.0, 0.0);
+        for (r, (part, forced)) in self.parts.iter().zip(forced).enumerate() {
+            let record = &self.records.list[r];
+            let channels = forced.under(&source, record)?;
+            let times = part.every as f64;
+            let mut by = vec![0.0; part.count];
+            for (c, y) in channels.iter().enumerate() {
+                let sigma = &record.sigma[c];
+                let w: Vec<f64> = (0..y.len()).step_by(part.every).map(|n| y[n] / sigma[n]).collect();
+                product += times * dot(&w, &part.left[c]);
+                square += times * dot(&w, &w);
+                part.channels[c].iter().for_each(|(k, column)| by[*k] += times * dot(&w, column));
+            }
+            part.unknowns.iter().for_each(|(p, k, s)| against[*k] += s * by[*p]);
+        }
+        let beside = self.solved(&against);
+        let product = product - dot(&against, &self.step);
+        let rest = square - dot(&against, &beside);
+        let factor = product / rest;
+        effect.scaled().iter().for_each(|&k| source.parameters[k] *= factor);
+        let allowed = source.parameters.iter().zip(effect.parameters()).all(|(v, p)| p.allows(*v));
+        (rest > 1e-9 * square && factor != 0.0 && allowed).then(|| {
+            let change = self.step.iter().zip(&beside).map(|(own, by)| own - factor * by).collect();
+            Scored { source, gain: factor * product, change }
+        })
+    }
+}
+
+/// A linear model that forces along a leg drive, and the motion along it.
+struct Forced {
+    model: TransientModel,
+    motion: MotionOfDof,
+    drives: usize,
+}
+
+impl Forced {
+    /// What the channels show of the force of a source along the motion.
+    fn under(&self, source: &Source, record: &RecordData) -> Option<Vec<Vec<f64>>> {
+        let [d, v, a] = &self.motion;
+        let force = force_along(source, [d, v, a], record.step)?;
+        let against: Vec<f64> = force.iter().map(|f| -f).collect();
+        let forces = if self.drives > 1 { vec![against, force] } else { vec![against] };
+        Some(self.model.forced(&forces, record.step))
+    }
+}
+
+/// Derivatives of a record, of its samples one of `every`.
+struct Thinned {
+    derivatives: RecordDerivatives,
+    every: usize,
+}
+
+impl Thinned {
+    fn new(mut derivatives: RecordDerivatives) -> Self {
+        let samples: usize = derivatives.left.iter().map(Vec::len).sum();
+        let every = samples.div_ceil(MOST_SAMPLES).max(1);
+        if every > 1 {
+            let thin = |list: &mut Vec<f64>| *list = list.iter().copied().step_by(every).collect();
+            derivatives.channels.iter_mut().flatten().for_each(|(_, column)| thin(column));
+            derivatives.left.iter_mut().for_each(thin);
+        }
+        Self { derivatives, every }
+    }
+}
+
+impl Search<'_> {
+    /// Starts of a fit with one law more: those at places that promise the best evidence beside `fit`, its variables moved with them.
+    pub fn scored(&self, level: usize, fit: &FittedRecords, places: &[Place], laws: &[Effect]) -> Vec<FittedRecords> {
+        let records = &self.levels[level];
+        let mut free = Free::all(records);
+        free.shifts = level + 1 == self.levels.len();
+        let alone = self.control.alone();
+        let problem = FitProblem { records, free, share: 1.0, control: &alone };
+        let Ok(test) = ScoreTest::new(&problem, fit) else { return Vec::new() };
+        let open = |s: &Scored| !fit.effects.iter().chain(self.excluded).any(|e| e.is_same(&s.source));
+        let of = |k: usize| test.at(&places[k], laws);
+        let mut all: Vec<Scored> = self.control.map(places.len(), of).into_iter().flatten().filter(open).collect();
+        let unit = scale(fit);
+        let bare = FittedRecords { residual: Vec::new(), ..fit.clone() };
+        let worth = |s: &Scored| {
+            let effects = fit.effects.iter().chain([&s.source]).cloned().collect();
+            evidence(&FittedRecords { effects, chi_square: fit.chi_square - s.gain, ..bare.clone() }, unit)
+        };
+        let none = evidence(&bare, unit);
+        all.retain(|s| worth(s) < none);
+        all.sort_by(|a, b| worth(a).total_cmp(&worth(b)));
+        let scales = scales(&fit.effects);
+        let chosen = diverse(all);
+        self.control.map(chosen.len(), |k| begun(&problem, fit, &scales, &chosen[k]))
+    }
+}
+
+/// A fit with a law added and its variables moved as the law demands, as far as most is taken away: far from the fit nothing is linear.
+fn begun(problem: &FitProblem, fit: &FittedRecords, scales: &[Vec<f64>], scored: &Scored) -> FittedRecords {
+    let along = |share: f64| {
+        let change: Vec<f64> = scored.change.iter().map(|c| share * c).collect();
+        let mut start = problem.moved(fit, scales, &change);
+        let mut source = scored.source.clone();
+        source.effect.scaled().iter().for_each(|&k| source.parameters[k] *= share);
+        start.effects.push(source);
+        start
+    };
+    let left = |start: &FittedRecords| problem.left(start).map_or(f64::INFINITY, |left| left.total(scale(fit)));
+    let starts: Vec<(f64, FittedRecords)> = SHARES.map(along).into_iter().map(|s| (left(&s), s)).collect();
+    let best = starts.into_iter().min_by(|a, b| a.0.total_cmp(&b.0));
+    best.map_or_else(|| along(1.0), |(_, start)| start)
+}
+
+/// The first of a list, no more of one law or one place than [`ALIKE`].
+fn diverse(all: Vec<Scored>) -> Vec<Scored> {
+    let mut taken: Vec<Scored> = Vec::new();
+    for one in all {
+        let of_law = taken.iter().filter(|t| t.source.effect == one.source.effect).count();
+        let of_place = taken.iter().filter(|t| t.source.place.is_same(&one.source.place)).count();
+        if of_law < ALIKE && of_place < ALIKE && taken.len() < TAKEN {
+            taken.push(one);
+        }
+    }
+    taken
+}
