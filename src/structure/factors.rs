@@ -153,25 +153,33 @@ impl Structure {
     #[must_use]
     pub fn with_factors(&self, factors: &[(Part, f64)]) -> Self {
         let mut changed = self.clone();
-        let Some(mut matrices) = changed.matrices.take() else { return changed };
-        self.add_modes(&mut matrices, factors);
         for &(part, factor) in factors {
-            if let Some(share) = self.share(part) {
+            // Of the part as those before have left it.
+            let share = changed.share(part);
+            let held = if let Part::Support(held) = part { changed.of_held_mass(held) } else { Triplets::new() };
+            let Some(matrices) = &mut changed.matrices else { return changed };
+            if let Some(share) = share {
                 add(&mut matrices.stiffness, &share.stiffness, factor - 1.0);
                 add(&mut matrices.mass, &share.mass, factor - 1.0);
             }
+            add(&mut matrices.mass, &held, (factor - 1.0).powi(2));
             if let Part::Support(held) = part {
-                add(&mut matrices.mass, &self.of_held_mass(held), (factor - 1.0).powi(2));
                 changed.elements.get_mut(held.element).into_iter().for_each(|e| e.release(held.dof, factor));
             }
-            changed.scale_elements(part, factor);
+            if !matches!(part, Part::Stiffness | Part::Mass) {
+                changed.scale_elements(part, factor);
+            }
         }
+        let Some(mut matrices) = changed.matrices.clone() else { return changed };
+        // Modes are those of the structure with its parts as they are now.
+        changed.add_modes(&mut matrices, factors);
         for &(part, factor) in factors {
             match part {
                 Part::Stiffness => matrices.stiffness *= faer::Scale(factor),
                 Part::Mass => matrices.mass *= faer::Scale(factor),
-                _ => {}
+                _ => continue,
             }
+            changed.scale_elements(part, factor);
         }
         changed.matrices = Some(matrices);
         changed
@@ -285,6 +293,25 @@ mod tests {
         for r in 0..4 {
             let expected = 0.5 * (1.02_f64 / 0.99 * if r == 1 { 1.04 } else { 1.0 }).ln();
             assert!(((after[r] / before[r]).ln() - expected).abs() < 1e-9, "mode {r}");
+        }
+    }
+
+    /// One list of factors is the same as one factor after the other, all mass and modes last.
+    #[test]
+    fn factors_are_taken_one_after_the_other() {
+        let structure = beam();
+        let parts = [
+            (Part::ElementMass([3, 4]), 1.1),
+            (Part::PointMass(4), 0.7),
+            (Part::ElementMass([3, 3]), 0.95),
+            (Part::ElementStiffness([0, 1]), 1.2),
+        ];
+        let last = [(Part::Mass, 1.05), (Part::Mode(1), 1.06)];
+        let at_once = structure.with_factors(&[last[0], last[1], parts[0], parts[1], parts[2], parts[3]]);
+        let stepwise = parts.iter().chain(&last).fold(structure, |now, one| now.with_factors(&[*one]));
+        let (a, b) = (at_once.modes().unwrap().omega, stepwise.modes().unwrap().omega);
+        for r in 0..6 {
+            assert!((a[r] / b[r] - 1.0).abs() < 1e-9, "mode {r}: {} for {}", a[r], b[r]);
         }
     }
 

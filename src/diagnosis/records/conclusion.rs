@@ -1,7 +1,7 @@
 //! What is said at the end of a search: steps, corrections, suggestions with their errors, the verdict.
 
 use super::data::RecordError;
-use super::evidence::{AGREES, misfit};
+use super::evidence::{AGREES, misfit, scale};
 use super::fitted::FittedRecords;
 use super::model_errors::ModelErrors;
 use super::search::{Search, SetsBySize};
@@ -27,7 +27,8 @@ const UNLIKELY: f64 = 1e-3;
 impl Search<'_> {
     /// Fills `diagnosis` with what was found.
     pub fn conclude(&self, by_size: &SetsBySize, diagnosis: &mut Diagnosis) -> Result<(), RecordError> {
-        let Some(best) = by_size.last.first() else {
+        let last: Vec<FittedRecords> = by_size.last.iter().map(without_void).collect();
+        let Some(best) = last.first() else {
             diagnosis.verdict = Verdict::Unexplained;
             return Ok(());
         };
@@ -37,11 +38,11 @@ impl Search<'_> {
             let worth = |s: &Step| !s.added.is_empty() || s.error < diagnosis.error_before;
             diagnosis.steps.extend(step.filter(worth));
         }
-        diagnosis.suggestions = suggestions(self.records, &by_size.last)?;
+        diagnosis.suggestions = suggestions(self.records, &last)?;
         let told = self.told(best)?;
         let corrections = corrections_of_parts(self.records, best);
         if corrections.is_empty() {
-            return self.conclude_with(&told, &by_size.last, diagnosis);
+            return self.conclude_with(&told, &last, diagnosis);
         }
         // The parts of the structure as the fit has them, where that leaves clearly less than corrections of all of it or of modes.
         let factors: Vec<(Part, f64)> = corrections.iter().map(|(part, c)| (*part, c.factor)).collect();
@@ -50,12 +51,12 @@ impl Search<'_> {
         let (excluded, control) = (self.excluded, self.control);
         let search = Search { records: &records, plain: &plain, levels: records.levels(), excluded, control };
         let as_stated = |fit: &FittedRecords| FittedRecords { parts: vec![0.0; records.parts.len()], ..fit.clone() };
-        let fits: Vec<FittedRecords> = by_size.last.iter().map(as_stated).collect();
+        let fits: Vec<FittedRecords> = last.iter().map(as_stated).collect();
         let beside_parts = search.told(&fits[0])?;
         let [left, before] =
             [search.promised(&beside_parts, &beside_parts.effects)?, self.promised(&told, &told.effects)?];
         if left > BETTER * before {
-            return self.conclude_with(&told, &by_size.last, diagnosis);
+            return self.conclude_with(&told, &last, diagnosis);
         }
         diagnosis.corrections.extend(corrections.into_iter().map(|(_, c)| c));
         search.conclude_with(&beside_parts, &fits, diagnosis)
@@ -186,6 +187,25 @@ impl Search<'_> {
         }
         Ok(words)
     }
+}
+
+/// A fit without the effects that later ones have left no size worth telling, where any other is left.
+fn without_void(fit: &FittedRecords) -> FittedRecords {
+    let wide = scale(fit).sqrt();
+    let (mut kept, mut deviations, mut first) = (Vec::new(), Vec::new(), 0);
+    for effect in &fit.effects {
+        let own = &fit.deviations[first..first + effect.parameters.len()];
+        first += effect.parameters.len();
+        if effect.effect.scaled().iter().any(|&k| effect.parameters[k].abs() > wide * own[k]) {
+            kept.push(effect.clone());
+            deviations.extend_from_slice(own);
+        }
+    }
+    if kept.is_empty() || kept.len() == fit.effects.len() {
+        return fit.clone();
+    }
+    deviations.extend_from_slice(&fit.deviations[first..]);
+    FittedRecords { effects: kept, deviations, ..fit.clone() }
 }
 
 /// Adds a correction, to that of the same part where there is one.

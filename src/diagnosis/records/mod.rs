@@ -15,6 +15,7 @@ mod evidence;
 mod fit;
 mod fit_motion;
 mod fitted;
+mod laws;
 pub mod localisation;
 mod modal_equations;
 mod model_errors;

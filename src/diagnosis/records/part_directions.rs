@@ -45,10 +45,8 @@ impl PartDirections {
     /// Of the first `kept` modes; none where these are one, the structure shows no parts, or a support may give way.
     pub fn new(structure: &Structure, modes: &Modes, kept: usize) -> Self {
         let mut list = parts(structure, &[]);
-        list.retain(|part| !matches!(part, Part::Stiffness | Part::Mass | Part::Mode(_)));
-        // A support that gives way moves modes in ways that those on rigid supports do not show: corrections of modes stand for all.
-        let gives_way = list.iter().any(|part| matches!(part, Part::Support(_)));
-        if kept < 2 || list.is_empty() || gives_way {
+        list.retain(|part| !matches!(part, Part::Stiffness | Part::Mass | Part::Mode(_) | Part::Support(_)));
+        if kept < 2 || list.is_empty() {
             return Self::default();
         }
         let changes: Vec<ModalChange> =

@@ -219,7 +219,7 @@ impl FitProblem<'_> {
     /// Prior deviation of the stiffness or of the shape of a mode, `alone` where no errors of parts are free beside it.
     fn beside_parts(&self, alone: f64) -> f64 {
         let mut parts = self.free.corrections.iter().rev().take(self.records.parts.len());
-        if parts.any(|free| *free) { MODE } else { alone }
+        if parts.any(|free| *free) && self.records.structure.supports().is_empty() { MODE } else { alone }
     }
 
     /// Corrections with their prior deviations: number of the variable, value, deviation.

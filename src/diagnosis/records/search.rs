@@ -4,9 +4,9 @@ use super::compare::first_states;
 use super::data::{RecordError, Records};
 use super::evidence::{evidence, scale};
 use super::fitted::FittedRecords;
+use super::laws::LAWS;
 use super::problem::{FitProblem, Free};
 use super::regression::Regression;
-use super::starts::LAWS;
 use super::telling::{last_deviations, plainest};
 use crate::control::Control;
 use crate::diagnosis::candidates::special_cases::is_allowed;
@@ -26,8 +26,8 @@ const FIRST: f64 = 0.35;
 /// Rivals of the best set beside which a further effect is looked for, and the squared residual over that of the best up to which.
 const BESIDE: usize = 1;
 const NEAR: f64 = 2.0;
-/// Starts of a further effect on longer parts.
-const FURTHER: usize = 8;
+/// Starts by regression beside those that are scored, on the shortest parts and on longer ones.
+const FURTHER: [usize; 2] = [24, 8];
 /// Fits that are carried on to longer parts, and the steps there.
 const RIVALS: usize = 4;
 /// Evidence by which a fit may be behind the best to be carried on, and fits that are carried on all the same.
@@ -169,9 +169,7 @@ impl Search<'_> {
         let base = if best.effects.is_empty() && level == 0 { bare } else { best };
         let mut starts = self.begun(level, best, base);
         let scored = self.scored(level, best, &self.all_places(), &LAWS);
-        if level > 0 {
-            starts.truncate(FURTHER);
-        }
+        starts.truncate(FURTHER[usize::from(level > 0)]);
         starts.splice(0..0, scored);
         let alone = self.control.alone();
         let free = self.records.kept <= FEW_MODES && self.levels[level].list.iter().all(|r| r.forces.is_empty());

@@ -1,28 +1,13 @@
 //! Where fits of one effect more begin: what the equation of motion demands along the measured motion, else a grid of all laws.
 
 use super::fitted::FittedRecords;
+use super::laws::LAWS;
 use super::localisation::{LocatedForce, locate};
 use super::regression::{Regressed, Regression};
 use super::search::Search;
 use crate::effects::{Effect, Family, Motion, Place, Range, Source, State};
 use std::f64::consts::TAU;
 
-/// Laws that have a force in time.
-pub(super) const LAWS: [Effect; 13] = [
-    Effect::Viscous,
-    Effect::Coulomb,
-    Effect::Quadratic,
-    Effect::Stiffness,
-    Effect::CubicStiffness,
-    Effect::QuadraticStiffness,
-    Effect::Mass,
-    Effect::Power,
-    Effect::ElasticSlider,
-    Effect::Maxwell,
-    Effect::Gap,
-    Effect::Stribeck,
-    Effect::Iwan,
-];
 /// Places that a free force names, shapes of a law where no equation of motion sizes it.
 const PLACES: usize = 2;
 const SHAPES: usize = 5;
