@@ -204,6 +204,9 @@ impl Thinned {
 impl Search<'_> {
     /// Starts of a fit with one law more: those at places that promise the best evidence beside `fit`, its variables moved with them.
     pub fn scored(&self, level: usize, fit: &FittedRecords, places: &[Place], laws: &[Effect]) -> Vec<FittedRecords> {
+        if self.control.is_late() {
+            return Vec::new();
+        }
         let records = &self.levels[level];
         let mut free = Free::all(records);
         free.shifts = level + 1 == self.levels.len();

@@ -183,11 +183,6 @@ impl Search<'_> {
         add_begun(&mut found, self.control.map(starts.len(), |k| begin(&starts[k])));
         self.control.check()?;
         keep(&mut found, FOLLOWED, HOPELESS[0]);
-        if let Some(law) = found.first().and_then(|f| f.effects.last()).map(|e| e.effect).filter(|_| level == 0) {
-            let more = self.begun_elsewhere(base, law, &starts);
-            add_begun(&mut found, self.control.map(more.len(), |k| begin(&more[k])));
-            keep(&mut found, FOLLOWED, HOPELESS[0]);
-        }
         let follow = |k: usize| self.fit_by(level, &found[k], (1.0, FOLLOWING), &alone).ok();
         let mut followed: Vec<FittedRecords> = self.control.map(found.len(), follow).into_iter().flatten().collect();
         keep(&mut followed, FOLLOWED, HOPELESS[0]);
@@ -195,7 +190,7 @@ impl Search<'_> {
         let follow = |k: usize| self.fit_by(level, &plainer[k], (1.0, FOLLOWING), &alone).ok();
         followed.extend(self.control.map(plainer.len(), follow).into_iter().flatten());
         self.control.check()?;
-        self.beside_wider(level, self.sorted(level, followed))
+        self.beside_neighbours(level, self.sorted(level, followed))
     }
 
     /// The best of `rivals` fitted on the parts of the next level, best first.
@@ -215,27 +210,27 @@ impl Search<'_> {
         let mut found = self.control.map(few.len(), longer).into_iter().flatten().collect();
         self.control.check()?;
         keep(&mut found, RIVALS, HOPELESS[1]);
-        self.beside_wider(level + 1, self.sorted(level + 1, found))
+        self.beside_neighbours(level + 1, self.sorted(level + 1, found))
     }
 
-    /// Fits, best first, with those of wider laws in place of the last law of the best.
-    fn beside_wider(&self, level: usize, mut found: Vec<FittedRecords>) -> Result<Vec<FittedRecords>, RecordError> {
-        let starts = self.begun_wider(level, &found)?;
-        let alone = self.control.alone();
-        let fit = |k: usize| self.fit_by(level, &starts[k], (1.0, FOLLOWING), &alone).ok();
-        let wider: Vec<FittedRecords> = self.control.map(starts.len(), fit).into_iter().flatten().collect();
-        self.control.check()?;
-        if wider.is_empty() {
+    /// Fits, best first, with those of neighbours in place of the last law of the best: of wider laws, and of whole records of the simpler
+    /// ones that it contains.
+    fn beside_neighbours(
+        &self,
+        level: usize,
+        mut found: Vec<FittedRecords>,
+    ) -> Result<Vec<FittedRecords>, RecordError> {
+        let mut starts = self.begun_wider(level, &found)?;
+        if level + 1 == self.levels.len() {
+            starts.extend(self.begun_plainer(&found));
+        }
+        if starts.is_empty() {
             return Ok(found);
         }
-        for one in wider {
-            let same = |o: &FittedRecords| o.effects.last().zip(one.effects.last()).is_some_and(|(a, b)| a.is_same(b));
-            match found.iter_mut().find(|o| same(o)) {
-                Some(own) if one.chi_square < own.chi_square => *own = one,
-                Some(_) => {}
-                None => found.push(one),
-            }
-        }
+        let alone = self.control.alone();
+        let fit = |k: usize| self.fit_by(level, &starts[k], (1.0, FOLLOWING), &alone).ok();
+        add_begun(&mut found, self.control.map(starts.len(), fit));
+        self.control.check()?;
         Ok(self.sorted(level, found))
     }
 

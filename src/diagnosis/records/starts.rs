@@ -13,11 +13,10 @@ const PLACES: usize = 2;
 const SHAPES: usize = 5;
 /// Laws that are fitted at the places that the equation of motion demands, from the best place on.
 const QUOTAS: [usize; 3] = [LAWS.len(), 3, 2];
-/// Laws at other places that the equation of motion demands next; other places of the law that fits best.
+/// Laws at other places that the equation of motion demands next.
 const NEXT: usize = 4;
 /// Places of a mass and of a spring that are fitted whatever else the equation of motion demands.
 const CONSTANTS: usize = 2;
-const ELSEWHERE: usize = 5;
 /// Share of what the equation of motion of several modes leaves that one effect more must take away, or none is looked for.
 const NEEDED: f64 = 0.8;
 /// Misfit of the equation of motion over the least one beyond which a law is not fitted to the response, at the best place and at
@@ -102,19 +101,6 @@ impl Search<'_> {
             next.into_iter().chain(constants).filter(|n| !sources.iter().any(|s| s.is_same(n))).collect::<Vec<_>>();
         sources.extend(further);
         sources
-    }
-
-    /// Fits that are to be begun with a law at the places where it was not begun yet, those that the equation of motion demands most.
-    pub fn begun_elsewhere(&self, base: &FittedRecords, law: Effect, begun: &[FittedRecords]) -> Vec<FittedRecords> {
-        let Some(regression) = Regression::new(self.records, base, self.control) else { return Vec::new() };
-        let all = self.all_places();
-        let known = |s: &Source| {
-            let taken = begun.iter().filter_map(|f| f.effects.last());
-            taken.chain(&base.effects).chain(self.excluded).any(|e| e.is_same(s))
-        };
-        let ranked = regression.ranked(&all, &[law], self.control);
-        let open = ranked.into_iter().filter(|r| !known(&r.source)).take(ELSEWHERE);
-        open.map(|r| regression.tuned(base, Some(&r.source))).collect()
     }
 
     /// The best of `found` with each simpler law that its own contains in place of it, where none is among them yet: a slider whose

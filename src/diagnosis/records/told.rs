@@ -11,6 +11,7 @@ use super::evidence::{information, misfit, parameters, scale};
 use super::fitted::FittedRecords;
 use super::problem::{FitProblem, Free, modes};
 use super::search::Search;
+use crate::control::Control;
 use crate::diagnosis::diagnose::Added;
 use crate::effects::Source;
 
@@ -52,8 +53,9 @@ impl Search<'_> {
                 variants.push(([false, true, true], 0.0));
             }
         }
-        let mut found: Option<(FittedRecords, usize)> = None;
-        for (what, stiffness) in variants {
+        let alone = self.control.alone();
+        let variant = |k: usize| -> Result<Vec<(FittedRecords, usize)>, RecordError> {
+            let (what, stiffness) = variants[k];
             let (mask, by_mode) = (mask(what), what[1]);
             let mut start = fit.clone();
             start.stiffness = stiffness;
@@ -64,26 +66,33 @@ impl Search<'_> {
             start.mass = if what[2] { fit.mass } else { 0.0 };
             start.parts.fill(0.0);
             start.shifts.fill(0.0);
-            let mut consider = |next: &FittedRecords, free: &[bool]| {
-                let count = free.iter().filter(|f| **f).count();
-                if found.as_ref().is_none_or(|best| is_plainer((next, count), (&best.0, best.1))) {
-                    found = Some((next.clone(), count));
-                }
-            };
-            let mut next = self.fitted_anew(&start, mask.clone())?;
-            consider(&next, &mask);
+            let mut next = self.fitted_anew(&start, mask.clone(), &alone)?;
+            let mut found = vec![(next.clone(), number(&mask))];
             if by_mode {
                 let free = self.kept_modes(&mut next, mask, sources);
-                consider(&self.fitted_anew(&next, free.clone())?, &free);
+                found.push((self.fitted_anew(&next, free.clone(), &alone)?, number(&free)));
+            }
+            Ok(found)
+        };
+        let mut best: Option<(FittedRecords, usize)> = None;
+        for found in self.control.map(variants.len(), variant) {
+            for (next, count) in found? {
+                if best.as_ref().is_none_or(|best| is_plainer((&next, count), (&best.0, best.1))) {
+                    best = Some((next, count));
+                }
             }
         }
-        Ok(found.map_or_else(|| fit.clone(), |(fit, _)| fit))
+        Ok(best.map_or_else(|| fit.clone(), |(fit, _)| fit))
     }
 
-    fn fitted_anew(&self, start: &FittedRecords, corrections: Vec<bool>) -> Result<FittedRecords, RecordError> {
+    fn fitted_anew(
+        &self,
+        start: &FittedRecords,
+        corrections: Vec<bool>,
+        control: &Control,
+    ) -> Result<FittedRecords, RecordError> {
         let free = Free { corrections, shifts: false, shapes: true };
-        match (FitProblem { records: self.records, free, share: 1.0, control: self.control }).improve(start, ITERATIONS)
-        {
+        match (FitProblem { records: self.records, free, share: 1.0, control }).improve(start, ITERATIONS) {
             // A start without its corrections may run away: then it is no rival.
             Err(RecordError::Model { .. }) => Ok(FittedRecords { chi_square: f64::INFINITY, ..start.clone() }),
             other => other,
@@ -127,6 +136,11 @@ impl Search<'_> {
             other => other,
         }
     }
+}
+
+/// Number of corrections that are free.
+fn number(free: &[bool]) -> usize {
+    free.iter().filter(|f| **f).count()
 }
 
 /// Whether the first of two fits, each with its number of corrections, has more evidence.

@@ -23,7 +23,7 @@ impl Search<'_> {
         let wider: Vec<Effect> =
             law.effect.wider().into_iter().filter(|e| LAWS.contains(e) && *e != law.effect).collect();
         let Some(leg) = law.place.legs().first().copied() else { return Ok(Vec::new()) };
-        if misfit(best) < AGREES || wider.is_empty() {
+        if misfit(best) < AGREES || wider.is_empty() || self.control.is_late() {
             return Ok(Vec::new());
         }
         let records = &self.levels[level];
