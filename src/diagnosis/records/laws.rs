@@ -3,7 +3,7 @@
 use crate::effects::Effect;
 
 /// Laws that have a force in time.
-pub(super) const LAWS: [Effect; 13] = [
+pub(super) const LAWS: [Effect; 14] = [
     Effect::Viscous,
     Effect::Coulomb,
     Effect::Quadratic,
@@ -17,4 +17,5 @@ pub(super) const LAWS: [Effect; 13] = [
     Effect::Gap,
     Effect::Stribeck,
     Effect::Iwan,
+    Effect::AsymmetricViscous,
 ];

@@ -186,9 +186,6 @@ impl Search<'_> {
         let follow = |k: usize| self.fit_by(level, &found[k], (1.0, FOLLOWING), &alone).ok();
         let mut followed: Vec<FittedRecords> = self.control.map(found.len(), follow).into_iter().flatten().collect();
         keep(&mut followed, FOLLOWED, HOPELESS[0]);
-        let plainer = self.begun_plainer(&followed);
-        let follow = |k: usize| self.fit_by(level, &plainer[k], (1.0, FOLLOWING), &alone).ok();
-        followed.extend(self.control.map(plainer.len(), follow).into_iter().flatten());
         self.control.check()?;
         self.beside_neighbours(level, self.sorted(level, followed))
     }
@@ -213,17 +210,15 @@ impl Search<'_> {
         self.beside_neighbours(level + 1, self.sorted(level + 1, found))
     }
 
-    /// Fits, best first, with those of neighbours in place of the last law of the best: of wider laws, and of whole records of the simpler
-    /// ones that it contains.
+    /// Fits, best first, with those of neighbours in place of the last law of the best: of wider laws and of the simpler ones that it
+    /// contains.
     fn beside_neighbours(
         &self,
         level: usize,
         mut found: Vec<FittedRecords>,
     ) -> Result<Vec<FittedRecords>, RecordError> {
         let mut starts = self.begun_wider(level, &found)?;
-        if level + 1 == self.levels.len() {
-            starts.extend(self.begun_plainer(&found));
-        }
+        starts.extend(self.begun_plainer(&found));
         if starts.is_empty() {
             return Ok(found);
         }
