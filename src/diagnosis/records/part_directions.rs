@@ -42,7 +42,8 @@ pub(super) struct PartDirections {
 }
 
 impl PartDirections {
-    /// Of the first `kept` modes; none where these are one, the structure shows no parts, or a support may give way.
+    /// Of the first `kept` modes; none where these are one or the structure shows no parts. Supports that give way are no part here: they
+    /// move modes in ways that those on rigid supports do not show; corrections of modes and shapes stand for them.
     pub fn new(structure: &Structure, modes: &Modes, kept: usize) -> Self {
         let mut list = parts(structure, &[]);
         list.retain(|part| !matches!(part, Part::Stiffness | Part::Mass | Part::Mode(_) | Part::Support(_)));
