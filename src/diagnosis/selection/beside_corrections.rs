@@ -40,7 +40,7 @@ pub(super) fn beside_updating(
     let bare = reference.bare()?;
     // Before candidates are followed, which takes long: what differs from run to run may be more than tests usually differ by.
     let corrected = bare.likely()?;
-    let (mut here, first) = match first_fits(&reference, &bare, &corrected.0)? {
+    let (mut here, first) = match first_fits((&reference, before), &bare, &corrected.0)? {
         First::Fits(here, fits) => (here, fits),
         First::None(likely) => {
             found.agrees = agrees(&likely, likely.misfit() * likely.count() as f64, 0);
@@ -115,7 +115,7 @@ enum First<'a> {
 /// The first candidates beside the corrections of `bare`. Where corrections alone agree with the data and no law would bring its
 /// evidence beside them, none is followed but what one change explains instead of them.
 fn first_fits<'a>(
-    reference: &ReferenceModel<'a>,
+    (reference, before): (&ReferenceModel<'a>, f64),
     bare: &ReferenceModel<'a>,
     likely: &ReferenceModel<'a>,
 ) -> Result<First<'a>, DiagnosisError> {
@@ -134,6 +134,7 @@ fn first_fits<'a>(
             Err(fault) => return Ok(First::Unreliable(fault)),
         };
         fits = localised.followed(unfitted)?;
+        fits.extend(reference.followed_whole(before)?);
         here = localised;
     }
     let follow = |k: usize| bare.followed_change(&changes[k]);
