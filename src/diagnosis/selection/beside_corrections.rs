@@ -28,6 +28,9 @@ const FURTHER: f64 = 100.0;
 /// Squared residual per datum of corrections as they are first found, over that of the best effect, from which on they are no
 /// rival.
 const RIVALLED: f64 = 4.0;
+/// Share of the error of the stated model that effects may leave where corrections that raise it are no rival of theirs: further
+/// than chance or one run on another branch would bring them.
+const HALVED: f64 = 0.5;
 
 /// The search with the updating parameters free: at each stage the candidates seen from the model as it was updated last,
 /// then the model updated beside the best of them, and the candidates again.
@@ -40,7 +43,7 @@ pub(super) fn beside_updating(
     let bare = reference.bare()?;
     // Before candidates are followed, which takes long: what differs from run to run may be more than tests usually differ by.
     let corrected = bare.likely()?;
-    let (mut here, first) = match first_fits(&reference, &bare, &corrected.0)? {
+    let (mut here, first) = match first_fits((&reference, before), &bare, &corrected.0)? {
         First::Fits(here, fits) => (here, fits),
         First::None(likely) => {
             found.agrees = agrees(&likely, likely.misfit() * likely.count() as f64, 0);
@@ -69,10 +72,8 @@ pub(super) fn beside_updating(
         let Some(weighed) = weighed(fits)? else { break };
         let best = &weighed.fits[0];
         let scale = scale_of(&weighed.fits, weighed.reference.count());
-        let doubtful = best.effects.iter().any(|e| is_like_a_correction(e.effect)) || scale > DOUBTFUL;
-        if from.is_none() && (bare.misfit() < RIVALLED * scale || doubtful) {
-            (likely, least) = alone((likely, least), &bare, &weighed)?;
-            told_alone = true;
+        if from.is_none() {
+            ((likely, least), told_alone) = rival((likely, least), &bare, &weighed, stated)?;
         }
         // What only lowers the error because every run has a stiffness of its own is nothing that could be added.
         let raises = best.error > stated;
@@ -115,7 +116,7 @@ enum First<'a> {
 /// The first candidates beside the corrections of `bare`. Where corrections alone agree with the data and no law would bring its
 /// evidence beside them, none is followed but what one change explains instead of them.
 fn first_fits<'a>(
-    reference: &ReferenceModel<'a>,
+    (reference, before): (&ReferenceModel<'a>, f64),
     bare: &ReferenceModel<'a>,
     likely: &ReferenceModel<'a>,
 ) -> Result<First<'a>, DiagnosisError> {
@@ -134,11 +135,33 @@ fn first_fits<'a>(
             Err(fault) => return Ok(First::Unreliable(fault)),
         };
         fits = localised.followed(unfitted)?;
+        fits.extend(reference.followed_whole(before)?);
         here = localised;
     }
     let follow = |k: usize| bare.followed_change(&changes[k]);
     fits.extend(bare.control.map(changes.len(), follow).into_iter().collect::<Result<Vec<_>, _>>()?);
     Ok(First::Fits(here, fits))
+}
+
+/// The model with corrections alone that the effects of `weighed` are to be better than, its evidence, and whether it is near
+/// enough for both to be judged by what they predict.
+fn rival<'a>(
+    (mut likely, mut least): (ReferenceModel<'a>, f64),
+    bare: &ReferenceModel<'a>,
+    weighed: &Weighed<'a>,
+    stated: f64,
+) -> Result<((ReferenceModel<'a>, f64), bool), DiagnosisError> {
+    let best = &weighed.fits[0];
+    let scale = scale_of(&weighed.fits, weighed.reference.count());
+    let doubtful = best.effects.iter().any(|e| is_like_a_correction(e.effect)) || scale > DOUBTFUL;
+    let near = bare.misfit() < RIVALLED * scale || doubtful;
+    if near {
+        (likely, least) = alone((likely, least), bare, weighed)?;
+    }
+    if is_hollow(&likely, best, stated)? {
+        return Ok(((likely, f64::INFINITY), false));
+    }
+    Ok(((likely, least), near))
 }
 
 /// The model with corrections alone, as likely as they make it, and its evidence: they may have ended in another valley than
@@ -151,6 +174,13 @@ fn alone<'a>(
     let beside = bare.updated(&weighed.reference.linearisation.updating, &[], &Vec::new())?;
     let (estimated, cost) = beside.estimated()?;
     Ok(if cost < least { (estimated, cost) } else { (likely, least) })
+}
+
+/// Whether the corrections of `likely` alone are no rival of the effects of `best`: they predict the tests worse than the model as it
+/// was stated, with the relative error `stated`, which the effects at least halve. They then lower the squared residual only by
+/// what is free from run to run, and by scaling stiffness, mass and force together.
+fn is_hollow(likely: &ReferenceModel, best: &FittedModel, stated: f64) -> Result<bool, DiagnosisError> {
+    Ok(best.error < HALVED * stated && likely.error_of_structure(&[], &Vec::new())? > stated)
 }
 
 /// Whether the best of the candidates predicts runs that are left out better than the model with corrections and the effects
