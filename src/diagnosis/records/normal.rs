@@ -163,7 +163,6 @@ impl FitProblem<'_> {
 }
 
 /// Derivatives of one record.
-#[derive(Clone)]
 pub(super) struct RecordDerivatives {
     /// Number of the derivative, of the variable, and the factor between them.
     pub unknowns: Vec<(usize, usize, f64)>,
@@ -177,7 +176,7 @@ pub(super) struct RecordDerivatives {
 
 impl RecordDerivatives {
     /// Their products, each sample counted `times`.
-    pub fn products(self, times: f64) -> RecordPart {
+    pub fn products(&self, times: f64) -> RecordPart {
         let mut products = Products::new(self.count);
         for (columns, e) in self.channels.iter().zip(&self.left) {
             let columns: Vec<(usize, &[f64])> = columns.iter().map(|(k, list)| (*k, &list[..])).collect();
@@ -185,7 +184,7 @@ impl RecordDerivatives {
         }
         products.matrix.iter_mut().chain(&mut products.against).for_each(|x| *x *= times);
         let square = times * self.left.iter().flatten().map(|e| e * e).sum::<f64>();
-        RecordPart { unknowns: self.unknowns, products, square, left: self.left }
+        RecordPart { unknowns: self.unknowns.clone(), products, square, left: self.left.clone() }
     }
 }
 

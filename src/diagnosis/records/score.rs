@@ -27,7 +27,7 @@ const MOST_SAMPLES: usize = 8000;
 
 /// Starts that are taken, and how many of them may be of one law or at one place.
 const TAKEN: usize = 10;
-const ALIKE: usize = 3;
+const MOST_ALIKE: usize = 3;
 /// Shares of the way to where a law promises most at which a fit may begin.
 const SHARES: [f64; 3] = [1.0, 0.5, 0.2];
 
@@ -49,39 +49,32 @@ pub(super) struct ScoreTest<'a> {
     /// Sources of the linear part of the model.
     linear: Vec<Source>,
     motion: FitMotion,
-    parts: Vec<Part>,
+    thinned: Vec<Thinned>,
     factored: Cholesky,
     scaling: Vec<f64>,
     /// `A^-1 g`.
     step: Vec<f64>,
 }
 
-/// One record.
-struct Part {
-    /// Numbers of the derivatives, of the variables, and factors between them.
-    unknowns: Vec<(usize, usize, f64)>,
-    count: usize,
-    /// Derivatives and what is left of every channel, one sample of `every`.
-    channels: Vec<Vec<(usize, Vec<f64>)>>,
-    left: Vec<Vec<f64>>,
+/// Derivatives of a record, of its samples one of `every`.
+struct Thinned {
+    derivatives: RecordDerivatives,
     every: usize,
 }
 
 impl<'a> ScoreTest<'a> {
-    /// Of a fit on its records, as far as `free` is.
+    /// Of a fit on the records of `problem`, with what is free there.
+    ///
+    /// # Errors
+    /// [`RecordError`]: a model that cannot be predicted, equations without a solution.
     pub fn new(problem: &'a FitProblem<'a>, fit: &'a FittedRecords) -> Result<Self, RecordError> {
         let records = problem.records;
         let scales = scales(&fit.effects);
         let made = problem.control.map(records.list.len(), |r| -> Result<_, RecordError> {
             Ok(Thinned::new(problem.derivatives(fit, &scales, r)?))
         });
-        let (mut parts, mut products) = (Vec::new(), Vec::new());
-        for one in made {
-            let Thinned { derivatives, every } = one?;
-            let RecordDerivatives { unknowns, count, channels, left } = derivatives.clone();
-            products.push(derivatives.products(every as f64));
-            parts.push(Part { unknowns, count, channels, left, every });
-        }
+        let thinned: Vec<Thinned> = made.into_iter().collect::<Result<_, _>>()?;
+        let products = thinned.iter().map(|t| t.derivatives.products(t.every as f64)).collect();
         let normal = problem.assembled(fit, scale(fit), products);
         let size = normal.gradient.len();
         let scaling: Vec<f64> = (0..size).map(|k| normal.matrix[(k, k)].max(1e-300).sqrt().recip()).collect();
@@ -92,7 +85,7 @@ impl<'a> ScoreTest<'a> {
         let factored = Cholesky::new(unit.as_ref()).ok_or(RecordError::Singular)?;
         let linear = fit.sources(records).into_iter().filter(|s| s.effect.is_linear()).collect();
         let motion = FitMotion::new(records, fit, problem.control)?;
-        let mut test = Self { records, fit, linear, motion, parts, factored, scaling, step: Vec::new() };
+        let mut test = Self { records, fit, linear, motion, thinned, factored, scaling, step: Vec::new() };
         test.step = test.solved(&normal.gradient);
         Ok(test)
     }
@@ -107,7 +100,7 @@ impl<'a> ScoreTest<'a> {
     pub fn at(&self, place: &Place, laws: &[Effect]) -> Vec<Scored> {
         let Some(leg) = place.legs().first().copied() else { return Vec::new() };
         let made: Result<Vec<Forced>, RecordError> =
-            (0..self.parts.len()).map(|r| self.forced(leg, r)).collect::<Result<_, _>>();
+            (0..self.thinned.len()).map(|r| self.forced(leg, r)).collect::<Result<_, _>>();
         let (Ok(forced), Some(range)) = (made, self.motion.range(leg)) else { return Vec::new() };
         let best = |effect: &Effect| {
             let shapes = effect.shapes(&range).into_iter();
@@ -137,19 +130,19 @@ impl<'a> ScoreTest<'a> {
         let mut source = Source { effect, place: place.clone(), state: State::Known, parameters: shape };
         let mut against = vec![0.0; self.step.len()];
         let (mut product, mut square) = (0.0, 0.0);
-        for (r, (part, forced)) in self.parts.iter().zip(forced).enumerate() {
+        for (r, (Thinned { derivatives, every }, forced)) in self.thinned.iter().zip(forced).enumerate() {
             let record = &self.records.list[r];
             let channels = forced.under(&source, record)?;
-            let times = part.every as f64;
-            let mut by = vec![0.0; part.count];
+            let times = *every as f64;
+            let mut by = vec![0.0; derivatives.count];
             for (c, y) in channels.iter().enumerate() {
                 let sigma = &record.sigma[c];
-                let w: Vec<f64> = (0..y.len()).step_by(part.every).map(|n| y[n] / sigma[n]).collect();
-                product += times * dot(&w, &part.left[c]);
+                let w: Vec<f64> = (0..y.len()).step_by(*every).map(|n| y[n] / sigma[n]).collect();
+                product += times * dot(&w, &derivatives.left[c]);
                 square += times * dot(&w, &w);
-                part.channels[c].iter().for_each(|(k, column)| by[*k] += times * dot(&w, column));
+                derivatives.channels[c].iter().for_each(|(k, column)| by[*k] += times * dot(&w, column));
             }
-            part.unknowns.iter().for_each(|(p, k, s)| against[*k] += s * by[*p]);
+            derivatives.unknowns.iter().for_each(|(p, k, s)| against[*k] += s * by[*p]);
         }
         let beside = self.solved(&against);
         let product = product - dot(&against, &self.step);
@@ -180,12 +173,6 @@ impl Forced {
         let forces = if self.drives > 1 { vec![against, force] } else { vec![against] };
         Some(self.model.forced(&forces, record.step))
     }
-}
-
-/// Derivatives of a record, of its samples one of `every`.
-struct Thinned {
-    derivatives: RecordDerivatives,
-    every: usize,
 }
 
 impl Thinned {
@@ -247,15 +234,105 @@ fn begun(problem: &FitProblem, fit: &FittedRecords, scales: &[Vec<f64>], scored:
     best.map_or_else(|| along(1.0), |(_, start)| start)
 }
 
-/// The first of a list, no more of one law or one place than [`ALIKE`].
+/// The first of a list, no more of one law or one place than [`MOST_ALIKE`].
 fn diverse(all: Vec<Scored>) -> Vec<Scored> {
     let mut taken: Vec<Scored> = Vec::new();
     for one in all {
         let of_law = taken.iter().filter(|t| t.source.effect == one.source.effect).count();
         let of_place = taken.iter().filter(|t| t.source.place.is_same(&one.source.place)).count();
-        if of_law < ALIKE && of_place < ALIKE && taken.len() < TAKEN {
+        if of_law < MOST_ALIKE && of_place < MOST_ALIKE && taken.len() < TAKEN {
             taken.push(one);
         }
     }
     taken
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "tests")]
+    use super::*;
+    use crate::control::Control;
+    use crate::measurement::transient_run::TransientLabel;
+    use crate::measurement::{Channel, Kind, Quantity, Record, TransientRun};
+    use crate::response::transient::SampledForces;
+    use crate::structure::Structure;
+    use crate::structure::chain::ChainParameters;
+    use std::sync::Arc;
+
+    const STEP: f64 = 5e-3;
+    const SAMPLES: usize = 2400;
+
+    fn chain() -> Structure {
+        let (masses, ground_stiffness) = (vec![2.0, 1.0, 1.5], vec![800.0, 0.0, 0.0]);
+        ChainParameters { masses, ground_stiffness, coupling_stiffness: vec![1500.0, 900.0] }.build(&[]).unwrap()
+    }
+
+    fn source(effect: Effect, dofs: &[usize], parameters: &[f64]) -> Source {
+        Source::known(effect, Place::Dofs(dofs.to_vec()), parameters)
+    }
+
+    /// A decay of the chain with these sources, all three displacements with 0.2 % of noise that is the same at every call.
+    fn decay(structure: &Structure, sources: &[Source]) -> TransientRun {
+        let modes = structure.modes().unwrap();
+        let channel =
+            |dof: usize| Channel { quantity: Quantity::Displacement, dof, label: structure.label(dof).into() };
+        let channels: Vec<Channel> = (0..3).map(channel).collect();
+        let setup = TransientSetup {
+            structure,
+            modes: &modes,
+            kept: 3,
+            sources,
+            drives: &[],
+            channels: &channels,
+            factors: [1.0; 2],
+            mode_stiffness: &[],
+            parts: &[],
+            directions: &[],
+            step: [STEP; 2],
+            shape_errors: &[],
+        };
+        let forces = SampledForces { step: STEP, samples: SAMPLES, forces: Vec::new(), substeps: 4 };
+        let model = TransientModel::new(&setup).unwrap();
+        let mut rows = model.predict(&forces, &[0.02, -0.01, 0.005, 0.0, 0.0, 0.0], &[]).unwrap().channels;
+        let mut state = 1_u64;
+        for y in rows.iter_mut().flatten() {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            *y += 4e-5 * ((state >> 11) as f64 / (1_u64 << 53) as f64 - 0.5);
+        }
+        let time = (0..SAMPLES).map(|k| STEP * k as f64).collect();
+        let label = TransientLabel { file: "decay.csv".into(), kind: Kind::Decay, enabled: true, ..Default::default() };
+        TransientRun::new(label, Arc::new(Record::new(time, channels, rows).unwrap()), &[]).unwrap()
+    }
+
+    /// Of a law that is little in the response, what the score promises is what a fit with the law takes away, and its coefficient is
+    /// that of the fit; no other law at any place promises more.
+    #[test]
+    fn what_a_score_promises_is_what_a_fit_finds() {
+        let structure = chain();
+        let known = vec![source(Effect::Viscous, &[0], &[0.8])];
+        let hidden = source(Effect::Quadratic, &[2], &[0.4]);
+        let run = decay(&structure, &[known[0].clone(), hidden.clone()]);
+        let records = Records::new(&structure, &known, std::slice::from_ref(&run)).unwrap();
+        let control = Control::unattended();
+        let free = Free { shifts: false, ..Free::all(&records) };
+        let problem = FitProblem { records: &records, free, share: 1.0, control: &control };
+        let fit = problem.improve(&FittedRecords::start(&records, &[]), 20).unwrap();
+        let test = ScoreTest::new(&problem, &fit).unwrap();
+        let laws = [Effect::Viscous, Effect::Coulomb, Effect::Quadratic, Effect::CubicStiffness];
+        let places = [vec![0], vec![1], vec![2], vec![0, 1], vec![1, 2]].map(Place::Dofs);
+        let mut all: Vec<Scored> = places.iter().flat_map(|place| test.at(place, &laws)).collect();
+        all.sort_by(|a, b| b.gain.total_cmp(&a.gain));
+        let best = &all[0];
+        assert!(best.source.is_same(&hidden), "{:?} {:?}", best.source.effect, best.source.place);
+
+        let mut start = fit.clone();
+        start.effects.push(best.source.clone());
+        let with = problem.improve(&start, 20).unwrap();
+        let [promised, found] = [best.source.parameters[0], with.effects[0].parameters[0]];
+        assert!((promised / found - 1.0).abs() < 0.1, "{promised} for {found}");
+        assert!((found / hidden.parameters[0] - 1.0).abs() < 0.05, "{found}");
+        let total = |fit: &FittedRecords| fit.chi_square + scale(&with) * fit.prior;
+        let taken = total(&fit) - total(&with);
+        assert!((best.gain / taken - 1.0).abs() < 0.15, "{} for {taken}", best.gain);
+    }
 }

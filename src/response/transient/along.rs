@@ -30,23 +30,26 @@ pub fn force_along(source: &Source, [d, v, a]: [&[f64]; 3], step: f64) -> Option
 }
 
 impl TransientModel {
-    /// What the channels of a linear model show of `forces` (N, one list a drive, at equal steps of `step` s) that find it at rest,
-    /// `[channel][sample]`; forces go straight from sample to sample.
+    /// What the channels show of `forces` (N, one list a drive, at equal steps of `step` s) that find the linear part of the model at
+    /// rest, `[channel][sample]`; forces go straight from sample to sample.
     pub fn forced(&self, forces: &[Vec<f64>], step: f64) -> Vec<Vec<f64>> {
         let samples = forces.first().map_or(0, Vec::len);
         let first: Vec<[f64; 2]> = forces.iter().map(|list| [list.first().copied().unwrap_or(0.0), 0.0]).collect();
         let mut z = self.modes_of(&vec![0.0; 2 * self.kept()], &first);
         let stepped = Step::new(&self.system, step);
         let mut channels = vec![Vec::with_capacity(samples); self.sensors.len()];
+        // Drives stand behind the elements of the model, which are left at rest.
+        let behind = self.legs.len();
         for n in 0..samples {
             if n > 0 {
                 stepped.decay(&mut z);
                 for (input, list) in forces.iter().enumerate() {
-                    stepped.drive(input, list[n - 1], list[n], &mut z);
+                    stepped.drive(behind + input, list[n - 1], list[n], &mut z);
                 }
             }
             for (sensor, list) in self.sensors.iter().zip(&mut channels) {
-                let direct: f64 = sensor.functional.inputs.iter().zip(forces).map(|(c, list)| c * list[n]).sum();
+                let direct: f64 =
+                    sensor.functional.inputs.iter().skip(behind).zip(forces).map(|(c, list)| c * list[n]).sum();
                 list.push(dot(&sensor.functional.row, &z) + direct);
             }
         }

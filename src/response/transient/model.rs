@@ -30,7 +30,7 @@ pub struct TransientModel {
     pub(super) system: LinearSystem,
     views: Vec<View>,
     pub(super) sensors: Vec<Sensor>,
-    legs: Vec<Nonlinear>,
+    pub(super) legs: Vec<Nonlinear>,
     changes: Vec<(TransientParameter, Matrices)>,
     /// Stiffness of each coordinate as it is in the model, 1/s^2.
     mode_stiffness: Vec<f64>,
