@@ -277,22 +277,8 @@ mod tests {
         let channel =
             |dof: usize| Channel { quantity: Quantity::Displacement, dof, label: structure.label(dof).into() };
         let channels: Vec<Channel> = (0..3).map(channel).collect();
-        let setup = TransientSetup {
-            structure,
-            modes: &modes,
-            kept: 3,
-            sources,
-            drives: &[],
-            channels: &channels,
-            factors: [1.0; 2],
-            mode_stiffness: &[],
-            parts: &[],
-            directions: &[],
-            step: [STEP; 2],
-            shape_errors: &[],
-        };
         let forces = SampledForces { step: STEP, samples: SAMPLES, forces: Vec::new(), substeps: 4 };
-        let model = TransientModel::new(&setup).unwrap();
+        let model = TransientModel::new(&TransientSetup::stated(structure, &modes, sources, &channels, STEP)).unwrap();
         let mut rows = model.predict(&forces, &[0.02, -0.01, 0.005, 0.0, 0.0, 0.0], &[]).unwrap().channels;
         let mut state = 1_u64;
         for y in rows.iter_mut().flatten() {

@@ -80,32 +80,9 @@ mod tests {
         let channel = |q: &Quantity, dof: usize| Channel { quantity: *q, dof, label: String::new() };
         let channels: Vec<Channel> =
             quantities.iter().flat_map(|q| (0..3).map(move |dof| (q, dof))).map(|(q, dof)| channel(q, dof)).collect();
-        let model = TransientModel::new(&setup(structure, &modes, sources, &[], &channels)).unwrap();
+        let model = TransientModel::new(&TransientSetup::stated(structure, &modes, sources, &channels, STEP)).unwrap();
         let forces = SampledForces { step: STEP, samples: SAMPLES, forces: Vec::new(), substeps: 1 };
         model.predict(&forces, &[0.02, -0.01, 0.005, 0.0, 0.0, 0.0], &[]).unwrap().channels
-    }
-
-    fn setup<'a>(
-        structure: &'a Structure,
-        modes: &'a crate::structure::modes::Modes,
-        sources: &'a [Source],
-        drives: &'a [usize],
-        channels: &'a [Channel],
-    ) -> TransientSetup<'a> {
-        TransientSetup {
-            structure,
-            modes,
-            kept: 3,
-            sources,
-            drives,
-            channels,
-            factors: [1.0; 2],
-            mode_stiffness: &[],
-            parts: &[],
-            directions: &[],
-            step: [STEP; 2],
-            shape_errors: &[],
-        }
     }
 
     /// A little of a law, stepped with the model, changes the record as its force along the motion without it does.
@@ -133,7 +110,8 @@ mod tests {
             let channels: Vec<Channel> =
                 (0..3).map(|dof| Channel { quantity: Quantity::Displacement, dof, label: String::new() }).collect();
             let sources = [known.clone()];
-            let model = TransientModel::new(&setup(&structure, &modes, &sources, &[1], &channels)).unwrap();
+            let setup = TransientSetup::stated(&structure, &modes, &sources, &channels, STEP);
+            let model = TransientModel::new(&TransientSetup { drives: &[1], ..setup }).unwrap();
             let change = model.forced(&[force], STEP);
             for c in 0..3 {
                 let expected: Vec<f64> = with[c].iter().zip(&before[c]).map(|(w, b)| w - b).collect();

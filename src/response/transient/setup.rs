@@ -34,6 +34,33 @@ pub struct TransientSetup<'a> {
     pub shape_errors: &'a [Vec<f64>],
 }
 
+#[cfg(test)]
+impl<'a> TransientSetup<'a> {
+    /// A structure as it is stated, three modes followed, in steps of `step` s.
+    pub(crate) fn stated(
+        structure: &'a Structure,
+        modes: &'a Modes,
+        sources: &'a [Source],
+        channels: &'a [Channel],
+        step: f64,
+    ) -> Self {
+        Self {
+            structure,
+            modes,
+            kept: 3,
+            sources,
+            drives: &[],
+            channels,
+            factors: [1.0; 2],
+            mode_stiffness: &[],
+            parts: &[],
+            directions: &[],
+            step: [step; 2],
+            shape_errors: &[],
+        }
+    }
+}
+
 /// A parameter by which records are differentiated.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum TransientParameter {
