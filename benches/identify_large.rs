@@ -19,6 +19,8 @@ use std::time::{Duration, Instant};
 
 const RUNS: usize = 60;
 const SENSORS: usize = 10;
+/// Where the dashpots are, as parts of the chain.
+const PLACES: [f64; 4] = [0.21, 0.47, 0.66, 0.9];
 /// Standard deviation of each part of a channel over its amplitude.
 const NOISE: f64 = 1e-3;
 
@@ -38,17 +40,18 @@ fn candidates(n: usize) -> Vec<Source> {
     grounded.chain(near).chain(far).map(|dofs| Source::candidate(Effect::Viscous, Place::Dofs(dofs))).collect()
 }
 
-fn runs(structure: &Structure) -> Vec<Run> {
+fn runs(structure: &Structure, seed: u64) -> Vec<Run> {
     let n = structure.len();
     let at = |part: f64| (part * n as f64) as usize;
-    let truth: Vec<Source> = [(at(0.21), 3.0), (at(0.47), 2.0), (at(0.66), 5.0), (at(0.9), 1.0)]
+    let truth: Vec<Source> = PLACES
         .iter()
-        .map(|&(dof, c)| Source::known(Effect::Viscous, Place::Dofs(vec![dof]), &[c]))
+        .zip([3.0, 2.0, 5.0, 1.0])
+        .map(|(&part, c)| Source::known(Effect::Viscous, Place::Dofs(vec![at(part)]), &[c]))
         .collect();
     let stiffness = DynamicStiffness::new(structure, &truth).unwrap_or_else(|error| panic!("{error}"));
     let drives = [at(0.03), at(0.36), at(0.75)];
     let sensors: Vec<usize> = (0..SENSORS).map(|s| at((s as f64 + 0.5) / SENSORS as f64)).chain(drives).collect();
-    let mut random = ChaCha8Rng::seed_from_u64(15);
+    let mut random = ChaCha8Rng::seed_from_u64(seed);
     let mut normal = move || -> f64 { StandardNormal.sample(&mut random) };
     (0..RUNS)
         .map(|r| {
@@ -105,11 +108,12 @@ fn processor_seconds() -> f64 {
 fn bench(c: &mut Criterion) {
     let mut group = c.benchmark_group("identify");
     group.sample_size(10).warm_up_time(Duration::from_millis(1)).measurement_time(Duration::from_secs(5));
-    // A number on the command line is the only size.
+    // A number on the command line is the only size; SEED that of the noise.
     let only = std::env::args().find_map(|argument| argument.parse::<usize>().ok());
+    let seed = std::env::var("SEED").ok().and_then(|seed| seed.parse().ok()).unwrap_or(15);
     for n in [250, 500, 1000, 2000].into_iter().filter(|&n| only.is_none_or(|only| n == only)) {
         let structure = chain(n);
-        let (sources, runs) = (candidates(n), runs(&structure));
+        let (sources, runs) = (candidates(n), runs(&structure, seed));
         let settings = Settings { max_sources: 6, harmonics: 1, ..Settings::default() };
         let title = format!("{n} DOFs, {} candidates, {RUNS} runs", sources.len());
         let control = Control::unattended().with_workers(Arc::new(Threads));
@@ -120,9 +124,17 @@ fn bench(c: &mut Criterion) {
         let step = outcome.accepted_step();
         let found: Vec<String> = step.sources.iter().map(|e| format!("{}: {:.3}", e.source, e.coefficient)).collect();
         let gigabytes = peak_gigabytes();
+        let true_places: Vec<Source> = PLACES
+            .iter()
+            .map(|&part| Source::candidate(Effect::Viscous, Place::Dofs(vec![(part * n as f64) as usize])))
+            .collect();
+        let known =
+            identify(&structure, &true_places, &runs, &settings, &control).unwrap_or_else(|error| panic!("{error}"));
+        let truth = known.steps.last().map_or(f64::NAN, |step| step.chi_square);
         println!(
-            "{title}: {seconds:.2} s, {processor:.2} s of processors, {gigabytes:.2} GB at most; {:?}, {}",
+            "{title}: {seconds:.2} s, {processor:.2} s of processors, {gigabytes:.2} GB at most; {:?}, chi-square {:.1} (at the true places {truth:.1}), {}",
             outcome.form,
+            step.chi_square,
             found.join(", ")
         );
         // Once is enough for the large ones.

@@ -60,7 +60,8 @@ pub(crate) fn search(
         a: &reduced,
         b: &b,
         forced: &forced,
-        keep: problem.settings.keep,
+        // Of very many columns those that are best alone are neighbours of one place, which need not be a source.
+        keep: if chosen.len() == system.a.ncols() { problem.settings.keep } else { 0 },
         all: chosen.len() == system.a.ncols(),
     };
     let singles = task.singles(control)?;

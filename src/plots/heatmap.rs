@@ -27,7 +27,7 @@ pub fn occupied(matrix: &Mat<f64>) -> Vec<usize> {
     (0..matrix.nrows()).filter(|&i| (0..matrix.ncols()).any(|j| matrix[(i, j)] != 0.0)).collect()
 }
 
-/// Room for labels at the left and above.
+/// Room for labels above, and the least at the left.
 const LABEL: f32 = 30.0;
 /// Room for the scale of colours at the right, and its least height with the unit above.
 const SCALE: f32 = 66.0;
@@ -60,25 +60,34 @@ impl HeatMap<'_> {
         Some([row(at.y)?, row(at.x)?])
     }
 
+    /// Characters of the longest label.
+    fn longest(&self) -> f32 {
+        self.rows.iter().map(|&i| self.labels[i].chars().count()).max().unwrap_or(1) as f32
+    }
+
+    /// Room for the labels at the left.
+    fn left(&self) -> f32 {
+        (LETTER * self.longest() + 12.0).max(LABEL)
+    }
+
     /// Side of a cell that fits into `room`.
     fn cell(&self, room: Rect) -> f32 {
         let n = self.rows.len().max(1) as f32;
-        ((room.width() - LABEL - SCALE) / n).min((room.height() - LABEL - 10.0) / n).clamp(2.0, 92.0)
+        ((room.width() - self.left() - SCALE) / n).min((room.height() - LABEL - 10.0) / n).clamp(2.0, 92.0)
     }
 
     /// Draws it into `room`; gives back where its cells stand.
     pub fn draw(&self, drawing: &mut Drawing, room: Rect, palette: &Palette) -> Cells {
         let n = self.rows.len() as f32;
         let cell = self.cell(room);
-        let cells = Cells { origin: room.min + vec2(LABEL, LABEL), cell };
+        let cells = Cells { origin: room.min + vec2(self.left(), LABEL), cell };
         let ground = Rect::from_min_size(cells.origin, Vec2::splat(n * cell));
         if cell < 8.0 {
             drawing.rect(ground, palette.raised, Stroke::NONE);
         }
         let largest = self.largest();
         let type_size = size::SMALL.min(0.30 * cell + 2.0);
-        let longest = self.rows.iter().map(|&i| self.labels[i].chars().count()).max().unwrap_or(1) as f32;
-        let every = ((LETTER * longest + 5.0).max(13.0) / cell).ceil().max(1.0) as usize;
+        let every = ((LETTER * self.longest() + 5.0).max(13.0) / cell).ceil().max(1.0) as usize;
         for (r, &i) in self.rows.iter().enumerate() {
             if r % every == 0 {
                 self.labels(drawing, cells, r, palette);

@@ -86,6 +86,21 @@ fn exact_data_give_back_the_true_set() {
     assert!(found.sets[0].angle < 1e-12 && found.sets[1].angle > 1e-4);
 }
 
+/// Sets of neighbours: with one column a place off, its neighbour in truth is best a place off to the other side, so that
+/// only both together move to the truth.
+#[test]
+fn two_neighbouring_columns_are_found_together_without_a_tree() {
+    let bump = |i: usize, j: usize| (-((4.0 * i as f64 - j as f64) / 12.0).powi(2)).exp();
+    let a = Mat::from_fn(50, 190, bump);
+    for truth in [[41, 52, 120, 133], [60, 68, 110, 150], [30, 90, 97, 160], [60, 66, 72, 150]] {
+        let b: Vec<f64> =
+            (0..50).map(|i| truth.iter().zip([2.0, 1.0, 1.5, 0.7]).map(|(&j, c)| c * bump(i, j)).sum()).collect();
+        let question = SubsetProblem { node_limit: 1, ..problem(a.as_ref(), &b, 4, 3, &[]) };
+        let found = branch_and_bound(&question, &Control::unattended()).unwrap();
+        assert_eq!(found.sets[0].columns, truth, "{:?}", found.sets[0]);
+    }
+}
+
 #[test]
 fn collinear_zero_and_repeated_columns() {
     let (plain, b) = planted(9, 8, 10, 3, 0.05);

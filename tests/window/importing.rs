@@ -30,27 +30,31 @@ fn written(sample: &Sample, name: &str, frequency_hz: f64) -> PathBuf {
 }
 
 /// Steps until the files were read and are shown.
-fn shown(harness: &mut Harness<'_, App>) {
+pub fn shown(harness: &mut Harness<'_, App>) {
     settle(harness);
     assert!(matches!(harness.state().importing, Some(Importing::Ready(_))), "{:?}", harness.state().message);
     harness.remove_cursor();
     settle(harness);
 }
 
-/// A picture in which the folder of the test, another one every time, is not named.
-fn picture(harness: &mut Harness<'_, App>, name: &str) {
-    let exchanged = |harness: &mut Harness<'_, App>, target: String| match &mut harness.state_mut().importing {
+/// Names another file for the project that is to be made; returns the one that was named.
+pub fn target_named(harness: &mut Harness<'_, App>, target: String) -> String {
+    match &mut harness.state_mut().importing {
         Some(Importing::Ready(draft)) => std::mem::replace(&mut draft.target, target),
         other => panic!("{other:?}"),
-    };
-    let target = exchanged(harness, "measurements/project.toml".to_owned());
+    }
+}
+
+/// A picture in which the folder of the test, another one every time, is not named.
+fn picture(harness: &mut Harness<'_, App>, name: &str) {
+    let target = target_named(harness, "measurements/project.toml".to_owned());
     settle(harness);
     harness.snapshot(name);
-    exchanged(harness, target);
+    target_named(harness, target);
     settle(harness);
 }
 
-fn press(harness: &mut Harness<'_, App>, label: &str) {
+pub fn press(harness: &mut Harness<'_, App>, label: &str) {
     let button = harness.get_by_role_and_label(Role::Button, label);
     assert!(!button.accesskit_node().is_disabled(), "{label} cannot be pressed");
     button.click();

@@ -26,5 +26,6 @@ mod support;
 mod terms;
 mod units;
 mod values;
+mod walk_frf;
 mod wing;
 mod zoom;

@@ -1,6 +1,6 @@
 //! WAV files: one channel a track; integers are shares of full scale as they are in the file.
 
-use crate::bytes::{check_size, room};
+use crate::bytes::{Scalar, check_size, room, strided};
 use crate::contents::{Axis, Channel, Contents, FIRST, Format, Kind, Number, Set};
 use crate::error::{Fault, Read};
 use crate::source::Source;
@@ -81,18 +81,24 @@ impl Source for Wav {
         let spec = reader.spec();
         let full = 2f64.powi(i32::from(spec.bits_per_sample) - 1);
         let tracks = usize::from(spec.channels);
-        let mut values = room(u64::from(reader.duration()))?;
-        match spec.sample_format {
-            SampleFormat::Float => {
-                for value in reader.samples::<f32>().skip(channel).step_by(tracks) {
-                    values.push(f64::from(value.map_err(wrong)?));
-                }
-            }
-            SampleFormat::Int => {
-                for value in reader.samples::<i32>().skip(channel).step_by(tracks) {
-                    values.push(f64::from(value.map_err(wrong)?) / full);
-                }
-            }
+        let count = u64::from(reader.duration());
+        // The reader stands at the first sample. 24 bit and single bytes have no plain type of number.
+        let plain = match (spec.sample_format, spec.bits_per_sample) {
+            (SampleFormat::Float, 32) => Some((Scalar::F32, 1.0)),
+            (SampleFormat::Int, 16) => Some((Scalar::I16, full)),
+            (SampleFormat::Int, 32) => Some((Scalar::I32, full)),
+            _ => None,
+        };
+        if let Some((scalar, full)) = plain {
+            let mut file = reader.into_inner();
+            file.seek_relative((channel * scalar.size()) as i64)?;
+            let mut values = strided(&mut file, (scalar, false), tracks as u64, count)?;
+            values.iter_mut().for_each(|value| *value /= full);
+            return Ok(Values::Real(values));
+        }
+        let mut values = room(count)?;
+        for value in reader.samples::<i32>().skip(channel).step_by(tracks) {
+            values.push(f64::from(value.map_err(wrong)?) / full);
         }
         Ok(Values::Real(values))
     }

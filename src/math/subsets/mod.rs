@@ -189,6 +189,16 @@ impl Best {
         if self.sets.len() < self.keep { 1.0 } else { self.sets[self.keep - 1].0 }
     }
 
+    /// The best set, forced columns included.
+    fn first(&self) -> Option<&[usize]> {
+        self.sets.first().map(|(_, columns, _)| columns.as_slice())
+    }
+
+    /// Residual of the best set; infinite where there is none.
+    fn least(&self) -> f64 {
+        self.sets.first().map_or(f64::INFINITY, |(residual, _, _)| *residual)
+    }
+
     fn offer(&mut self, set: Vec<usize>, x: Vec<f64>, residual: f64) {
         let full = self.sets.len() >= self.keep;
         if (full && residual >= self.threshold()) || self.sets.iter().any(|(_, other, _)| *other == set) {

@@ -98,6 +98,14 @@ impl Schur {
         &self.gram[i * self.stride..i * self.stride + self.columns.len()]
     }
 
+    /// Number of the column that lowers the squared residual most with a positive coefficient.
+    pub fn best_single(&self) -> Option<usize> {
+        let gain = |i: usize| self.g[i] * self.g[i] / self.diagonal[i];
+        (0..self.columns.len())
+            .filter(|&i| self.g[i] > 0.0 && self.diagonal[i] > 0.0)
+            .max_by(|&i, &j| gain(i).total_cmp(&gain(j)))
+    }
+
     /// Every single column that may bring the squared residual down to `goal`.
     pub fn singles(&self, goal: f64, signs: bool) -> Vec<usize> {
         let gain = self.squared_residual - goal;

@@ -40,7 +40,6 @@ pub fn branch_and_bound(problem: &SubsetProblem<'_>, control: &Control) -> Resul
         unit.try_set(&[], &mut search.best)?;
         return Ok(search.best.finish(&unit, true, 1));
     }
-    search.greedy(&free)?;
     search.start(&free)?;
     let (complete, nodes) = (search.complete, search.nodes);
     Ok(search.best.finish(&unit, complete, nodes))
@@ -68,50 +67,6 @@ struct Node {
 }
 
 impl Search<'_> {
-    /// A good first answer: the best column after the best column, then exchanges as long as they help.
-    fn greedy(&mut self, free: &[usize]) -> Result<(), SubsetError> {
-        let mut set: Vec<usize> = Vec::new();
-        while set.len() < self.unit.chosen {
-            set.push(0);
-            let place = set.len() - 1;
-            self.improve(&mut set, place, free, f64::INFINITY)?;
-        }
-        let mut residual = self.unit.solve(&set)?.2;
-        loop {
-            let before = residual;
-            for place in 0..set.len() {
-                residual = self.improve(&mut set, place, free, residual)?;
-            }
-            if residual >= before {
-                return Ok(());
-            }
-        }
-    }
-
-    /// Replaces one column by the one that lowers the residual most below `residual`.
-    fn improve(
-        &mut self,
-        set: &mut [usize],
-        place: usize,
-        free: &[usize],
-        mut residual: f64,
-    ) -> Result<f64, SubsetError> {
-        self.control.check()?;
-        let mut winner = set[place];
-        for &candidate in free {
-            if set.iter().enumerate().any(|(k, &j)| k != place && j == candidate) {
-                continue;
-            }
-            set[place] = candidate;
-            let value = self.unit.try_set(set, &mut self.best)?;
-            if value < residual {
-                (residual, winner) = (value, candidate);
-            }
-        }
-        set[place] = winner;
-        Ok(residual)
-    }
-
     fn start(&mut self, free: &[usize]) -> Result<(), SubsetError> {
         let columns: Vec<usize> = self.unit.forced.iter().chain(free).copied().collect();
         let mut schur = Schur::new(columns.clone(), self.normal.n, &self.normal.gram, &self.normal.h);
@@ -124,9 +79,36 @@ impl Search<'_> {
                 }
             }
         }
+        self.replace(&schur)?;
         let mut relaxed = Relaxed::default();
         relaxed.optimise(self.normal, self.unit, &columns)?;
         self.visit(Node { chosen: Vec::new(), free: free.to_vec(), schur, relaxed })
+    }
+
+    /// A good first answer: the best column after the best column, then two columns at a time replaced by the best two beside
+    /// the others, as long as that helps (A. J. Miller, Subset Selection in Regression, 2nd ed. (2002) ch. 3). Two at once,
+    /// because of two neighbours that are both one place off neither moves alone.
+    fn replace(&mut self, root: &Schur) -> Result<(), SubsetError> {
+        let mut set = forward(root, self.unit.chosen);
+        // In the order of the sets that are kept, so that a round has every pair.
+        set.sort_unstable();
+        self.unit.try_set(&set, &mut self.best)?;
+        loop {
+            let before = self.best.least();
+            for (p, q) in pairs_of_places(set.len()) {
+                self.control.check()?;
+                let others: Vec<usize> = (0..set.len()).filter(|k| *k != p && *k != q).map(|k| set[k]).collect();
+                if let Some(schur) = without(root, &others) {
+                    self.complete_set(&schur, &others, set.len() - others.len())?;
+                }
+                if let Some(best) = self.best.first() {
+                    set = best.iter().copied().filter(|j| !self.unit.forced.contains(j)).collect();
+                }
+            }
+            if self.best.least() >= before {
+                return Ok(());
+            }
+        }
     }
 
     /// Squared residual down to which a set is of interest.
@@ -170,14 +152,16 @@ impl Search<'_> {
 
     /// The last one or two columns.
     fn last(&mut self, node: &Node, missing: usize) -> Result<(), SubsetError> {
-        if !self.count()? {
-            return Ok(());
-        }
+        if self.count()? { self.complete_set(&node.schur, &node.chosen, missing) } else { Ok(()) }
+    }
+
+    /// Offers every set of the chosen columns and one or two more that may be among the best.
+    fn complete_set(&mut self, schur: &Schur, chosen: &[usize], missing: usize) -> Result<(), SubsetError> {
         // A forced column may be zero, and then the signs of unbounded least squares say nothing.
         let signs = self.unit.forced.is_empty();
-        let mut set = node.chosen.clone();
+        let mut set = chosen.to_vec();
         if missing == 1 {
-            for column in node.schur.singles(self.goal(), signs) {
+            for column in schur.singles(self.goal(), signs) {
                 set.push(column);
                 self.unit.try_set(&set, &mut self.best)?;
                 set.pop();
@@ -185,7 +169,7 @@ impl Search<'_> {
             return Ok(());
         }
         let goal = self.goal();
-        node.schur.pairs(goal, signs, |p, q| {
+        schur.pairs(goal, signs, |p, q| {
             set.extend([p, q]);
             if !(signs && self.normal.has_negative(&set)) {
                 self.unit.try_set(&set, &mut self.best)?;
@@ -210,4 +194,34 @@ impl Search<'_> {
 fn carries_most(node: &Node) -> Option<usize> {
     let used = node.relaxed.passive.iter().zip(&node.relaxed.x).filter(|(j, _)| node.free.contains(j));
     used.max_by(|a, b| a.1.total_cmp(b.1)).map(|(&j, _)| j)
+}
+
+/// Columns chosen one after the other, each the one that lowers the residual most with a positive coefficient.
+fn forward(root: &Schur, count: usize) -> Vec<usize> {
+    let mut schur = root.clone();
+    let mut set = Vec::new();
+    while set.len() < count {
+        let Some(p) = schur.best_single() else { break };
+        set.push(schur.columns[p]);
+        let Some(next) = schur.choose(p) else { break };
+        schur = next;
+    }
+    set
+}
+
+/// The columns beside some that are chosen; `None` where these depend on each other.
+fn without(root: &Schur, chosen: &[usize]) -> Option<Schur> {
+    let mut schur = root.clone();
+    for &column in chosen {
+        schur = schur.choose(schur.position(column)?)?;
+    }
+    Some(schur)
+}
+
+/// Every pair of places of a set; of a set of one its place twice.
+fn pairs_of_places(count: usize) -> Vec<(usize, usize)> {
+    if count == 1 {
+        return vec![(0, 0)];
+    }
+    (0..count).flat_map(|p| (p + 1..count).map(move |q| (p, q))).collect()
 }

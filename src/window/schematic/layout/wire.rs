@@ -113,7 +113,10 @@ impl<'a> Frame<'a> {
         let shift = if self.alone[d.node] { Vec2::ZERO } else { self.along(dof) * reach };
         let pos = self.node(d.node, true) + shift;
         let few = self.scene.dofs.len() <= 24;
-        Handle { dof, pos, radius: 4.0, rotation, label: pos + vec2(8.0, -8.0), labelled: few && !rotation }
+        // Marks of rotations stand beside the node: the label goes above them.
+        let turns = self.scene.dofs.iter().any(|other| other.node == d.node && other.direction.is_rotation());
+        let label = pos + vec2(8.0, if turns { -19.0 } else { -8.0 });
+        Handle { dof, pos, radius: 4.0, rotation, label, labelled: few && !rotation }
     }
 
     fn source(&self, slot: usize) -> PlacedSource {
