@@ -108,9 +108,9 @@ fn processor_seconds() -> f64 {
 fn bench(c: &mut Criterion) {
     let mut group = c.benchmark_group("identify");
     group.sample_size(10).warm_up_time(Duration::from_millis(1)).measurement_time(Duration::from_secs(5));
-    // A number on the command line is the only size; SEED that of the noise.
-    let only = std::env::args().find_map(|argument| argument.parse::<usize>().ok());
-    let seed = std::env::var("SEED").ok().and_then(|seed| seed.parse().ok()).unwrap_or(15);
+    // A number on the command line is the only size, a second one the seed of the noise.
+    let mut numbers = std::env::args().filter_map(|argument| argument.parse::<usize>().ok());
+    let (only, seed) = (numbers.next(), numbers.next().unwrap_or(15) as u64);
     for n in [250, 500, 1000, 2000].into_iter().filter(|&n| only.is_none_or(|only| n == only)) {
         let structure = chain(n);
         let (sources, runs) = (candidates(n), runs(&structure, seed));
