@@ -4,7 +4,7 @@
 //! The covariance of a complex amplitude is taken as circular (equal variances of real and imaginary part, harmonics
 //! independent), which is exact for records of whole periods and good for records of many.
 
-use super::BalanceError;
+use super::error::BalanceError;
 use crate::measurement::{ChannelFit, Quantity, Run};
 use crate::structure::Structure;
 use faer::{Mat, c64};

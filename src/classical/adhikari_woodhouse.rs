@@ -11,8 +11,9 @@
 //! of second order in `C`); with fewer modes than DOFs what `V` has outside the span of `U` is lost
 //! ([`projection_error`], 3.117), and ratios of modes that were not measured are invented.
 
+use super::data::{Damping, ModalData};
+use super::error::ClassicalError;
 use super::linear::{form, imaginary, real};
-use super::{ClassicalError, Damping, ModalData};
 use crate::math::eigen::symmetrised;
 use crate::math::fill::filled;
 use crate::math::least_squares::LeastSquares;

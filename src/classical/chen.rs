@@ -8,8 +8,9 @@
 //! mass nor stiffness. **Limits**: viscous damping only. `H` is inverted, so every mode must be in the data: with
 //! fewer modes than DOFs it is singular but for noise, and the high modes, which are not measured, rule the result.
 
+use super::data::{Damping, ReceptanceData};
+use super::error::ClassicalError;
 use super::linear::{imaginary, real, solve};
-use super::{ClassicalError, Damping, ReceptanceData};
 use crate::math::eigen::symmetrised;
 use crate::math::fill::filled;
 use faer::Mat;

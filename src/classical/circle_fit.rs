@@ -8,7 +8,7 @@
 //! speed along it gives `wn` and `zeta`. **Needs** three lines or more around a resonance. **Limits**: the other modes must
 //! be constant over the lines; hysteretic damping belongs on the circle of the receptance.
 
-use super::ClassicalError;
+use super::error::ClassicalError;
 use crate::math::fill::filled;
 use crate::math::least_squares::LeastSquares;
 use faer::c64;

@@ -1,6 +1,6 @@
 //! What the methods take and what they give.
 
-use super::ClassicalError;
+use super::error::ClassicalError;
 use crate::math::fill::filled_complex;
 use crate::structure::damped_modes::DampedMode;
 use faer::{Mat, c64};

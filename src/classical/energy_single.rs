@@ -8,7 +8,7 @@
 //! frequency for both parameters. **Limits**: equivalent parameters of the amplitudes and frequencies measured; with one
 //! harmonic the friction column is `4 |X|`, parallel to the viscous one where `w |X|` is the same in every run.
 
-use super::ClassicalError;
+use super::error::ClassicalError;
 use crate::math::fill::filled;
 use crate::math::least_squares::LeastSquares;
 use faer::c64;

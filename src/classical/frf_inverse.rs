@@ -8,8 +8,9 @@
 //! the modes above are taken as undamped; a plain pseudo-inverse of the truncated sum would be useless (errors of 1e5 per
 //! cent), because the inverse is ruled by the modes that are missing.
 
+use super::data::{Damping, ModalData};
+use super::error::ClassicalError;
 use super::linear::{column, inverse};
-use super::{ClassicalError, Damping, ModalData};
 use crate::math::fill::filled;
 use crate::structure::modes::Modes;
 use faer::{Mat, MatRef, c64};

@@ -8,8 +8,10 @@
 //! **Needs** the motion of *all* DOFs under known harmonic forces, 3 (n + 1) / 4 loads or more at different frequencies; one
 //! exciter will do. **Limits**: every DOF must be measured; the loads must bring out every mode.
 
+use super::data::{Damping, LoadCase};
+use super::error::ClassicalError;
+use super::instrumental::Identified;
 use super::linear::{dynamic_stiffness, inverse, packed, solve, unpacked};
-use super::{ClassicalError, Damping, LoadCase, instrumental::Identified};
 use crate::math::fill::filled;
 use crate::math::least_squares::LeastSquares;
 use faer::{Mat, c64};

@@ -9,8 +9,9 @@
 //! and `C = M [M^-1 C]`, symmetrised. **Needs** mass, stiffness and complex modes at all DOFs. **Limits**: the modes
 //! above the measured ones get the mean damping of those measured, whatever theirs is.
 
+use super::data::{Damping, ModalData};
+use super::error::ClassicalError;
 use super::linear::column;
-use super::{ClassicalError, Damping, ModalData};
 use crate::math::eigen::{least_eigenvalue, real_general, symmetrised};
 use crate::math::fill::filled;
 use crate::math::least_squares::{LeastSquares, solve_symmetric};

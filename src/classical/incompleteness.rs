@@ -6,11 +6,12 @@
 //! ([`super::resonant::expanded`]). Errors: `eps_C` (3.135), `eps_p` (3.117), the generalised MAC (3.134).
 
 use super::adhikari_woodhouse::{original, projection_error, symmetric};
+use super::data::{Damping, ModalData};
+use super::error::ClassicalError;
 use super::errors::{generalised_mac, mac_error, matrix_error};
 use super::linear::column;
 use super::method::Method;
 use super::resonant::{expanded, is_seen};
-use super::{ClassicalError, Damping, ModalData};
 use super::{frf_inverse, ibrahim, lancaster, minas_inman, pilkey_inman};
 use crate::control::Control;
 use crate::effects::{Source, State};

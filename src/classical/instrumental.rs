@@ -11,8 +11,9 @@
 //! **Needs** the receptance between all DOFs at two lines or more. **Limits**: `Z H = I` needs every mode, as any
 //! inversion; few lines away from the resonances say little of `C`.
 
+use super::data::{Damping, ReceptanceData};
+use super::error::ClassicalError;
 use super::linear::{dynamic_stiffness, inverse, solve};
-use super::{ClassicalError, Damping, ReceptanceData};
 use crate::math::eigen::symmetrised;
 use crate::math::fill::filled;
 use crate::math::least_squares::LeastSquares;

@@ -9,8 +9,9 @@
 //! gives back the measured poles exactly, but the rest is undamped and the matrix is in general indefinite: some motions
 //! would gain energy. Errors of the phases of the shapes enter multiplied by `lambda^2`.
 
+use super::data::{Damping, ModalData};
+use super::error::ClassicalError;
 use super::linear::column;
-use super::{ClassicalError, Damping, ModalData};
 use faer::{Mat, MatRef};
 
 /// `C` of (3.91).

@@ -8,8 +8,9 @@
 //! or more (one, if there is no structural damping); neither mass nor stiffness. **Limits**: as every inversion of `H`,
 //! all modes must be in the data (3.76-3.81); lines too close to each other cannot tell `C` from `D`.
 
+use super::data::{Damping, ReceptanceData};
+use super::error::ClassicalError;
 use super::linear::inverse;
-use super::{ClassicalError, Damping, ReceptanceData};
 use crate::math::eigen::symmetrised;
 use crate::math::fill::filled;
 use faer::Mat;

@@ -11,7 +11,8 @@
 //! taken along.) **Limits**: energy that DOFs pass to each other is far larger than what is lost, so small errors
 //! of stiffness or phase ruin single rows; only their sum over all DOFs, the energy balance of the whole, is robust.
 
-use super::{ClassicalError, Damping};
+use super::data::Damping;
+use super::error::ClassicalError;
 use crate::balance::action::{self, Field};
 use crate::balance::{Expanded, Measured};
 use crate::effects::Source;

@@ -1,6 +1,6 @@
 //! Small dense helpers of complex matrices.
 
-use super::ClassicalError;
+use super::error::ClassicalError;
 use crate::math::fill::{filled, filled_complex};
 use dashpot_numerics::{ComplexLu, RealLu};
 use faer::{Mat, MatRef, c64};

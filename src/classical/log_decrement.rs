@@ -8,7 +8,8 @@
 //! **Needs** a free decay of one mode. **Limits**: one mode at a time (filter the others out); damping that is
 //! not viscous bends the line, which is reported.
 
-use super::{ClassicalError, DecayRecord};
+use super::data::DecayRecord;
+use super::error::ClassicalError;
 use crate::math::fill::filled;
 use crate::math::least_squares::LeastSquares;
 use std::f64::consts::{PI, TAU};

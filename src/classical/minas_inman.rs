@@ -8,8 +8,9 @@
 //! reduced to the DOFs measured, [`reduced`]). **Limits**: with fewer modes than DOFs the rows do not fix all entries and
 //! the shortest solution is taken; errors of `M` and `K` all end in `C`; a reduced model is stiffer than the structure.
 
+use super::data::{Damping, ModalData};
+use super::error::ClassicalError;
 use super::linear::{column, packed, times, unpacked};
-use super::{ClassicalError, Damping, ModalData};
 use crate::math::fill::filled;
 use crate::math::least_squares::{LeastSquares, solve_symmetric};
 use faer::{Mat, MatRef};

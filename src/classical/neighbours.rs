@@ -8,7 +8,7 @@
 //! The straight line of a single band does not follow the tail of a close neighbour; once that is taken off only modes outside
 //! of all lines are left to it. Without noise the true modes are where this ends.
 
-use super::ClassicalError;
+use super::error::ClassicalError;
 use super::extracted_mode::ExtractedMode;
 use super::refine::{Band, refine};
 use crate::control::Control;

@@ -10,8 +10,9 @@
 //! after its first term, so the error is of the first order of (coupling / distance of the lines from the resonances):
 //! lines near a resonance are left out here ([`CLEAR`]), where the neglected term rules.
 
+use super::data::{Damping, ReceptanceData};
+use super::error::ClassicalError;
 use super::linear::imaginary;
-use super::{ClassicalError, Damping, ReceptanceData};
 use crate::math::eigen::symmetrised;
 use crate::math::fill::{filled, filled_complex};
 use crate::math::least_squares::LeastSquares;

@@ -8,9 +8,10 @@
 //! **Needs** the mass matrix and complex modes of any scale; the direct form the stiffness matrix too. **Limits**: those of
 //! Lancaster's formula; the iteration converges where damping is light and slows as it grows.
 
+use super::data::{Damping, ModalData};
+use super::error::ClassicalError;
 use super::lancaster;
 use super::linear::{column, form};
-use super::{ClassicalError, Damping, ModalData};
 use crate::math::fill::filled_complex;
 use faer::{Mat, MatRef, c64};
 

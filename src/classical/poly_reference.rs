@@ -11,11 +11,12 @@
 //! the stabilisation diagram. Then every band is fitted again with the modes of the others taken off (`neighbours`). **Needs** receptances with several lines within every half-power band. **Limits**: modes
 //! that show as one peak are told apart only by several drives or sensors; the linear estimate alone is biased by noise.
 
+use super::data::ModalData;
+use super::error::ClassicalError;
 use super::extracted_mode::ExtractedMode;
 use super::neighbours::{self, Stretch};
 use super::refine::{Band, refine};
 use super::responses::FrequencyResponses;
-use super::{ClassicalError, ModalData};
 use crate::control::Control;
 use crate::math::eigen::real_general;
 use crate::math::fill::filled_complex;

@@ -1,8 +1,9 @@
 //! Methods of [`super::side_by_side`] that give damping ratios only, applied to the peaks and runs of each mode.
 
+use super::error::ClassicalError;
 use super::measured_ratios::{SAME_MODE, circle_ratios, half_power_ratios};
+use super::resonant;
 use super::side_by_side::{Applied, Data, Ratio, missing};
-use super::{ClassicalError, resonant};
 use std::f64::consts::{PI, TAU};
 
 /// Least ratio of forces between runs of one mode that can tell friction from viscous damping: along one sweep the other

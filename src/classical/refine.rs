@@ -7,7 +7,7 @@
 //! `P` and `Q` stand for all modes outside. The residues are linear and eliminated (variable projection in Kaufman's form); the
 //! model is analytic in the poles, so Gauss-Newton runs on complex unknowns.
 
-use super::ClassicalError;
+use super::error::ClassicalError;
 use super::extracted_mode::ExtractedMode;
 use super::responses::FrequencyResponses;
 use crate::math::fill::filled_complex;

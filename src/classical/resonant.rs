@@ -11,8 +11,10 @@
 //! drive. **Limits**: errors are of second order in the damping; errors of the model all end in the shapes. Where lines are many
 //! [`super::poly_reference`] does without the model.
 
+use super::data::ModalData;
+use super::error::ClassicalError;
 use super::linear::form;
-use super::{ClassicalError, FrequencyResponses, ModalData};
+use super::responses::FrequencyResponses;
 use crate::math::fill::{filled, filled_complex};
 use crate::math::least_squares::LeastSquares;
 use crate::structure::SystemMatrices;

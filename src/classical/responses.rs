@@ -1,6 +1,6 @@
 //! Frequency responses as measured: a line a run, harmonic 1 of every sensor over the exciter's force.
 
-use super::{LoadCase, ReceptanceData};
+use super::data::{LoadCase, ReceptanceData};
 use crate::math::fill::filled_complex;
 use crate::measurement::Run;
 use faer::{Mat, c64};

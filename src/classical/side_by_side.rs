@@ -1,9 +1,12 @@
 //! Every method that the data allow, on the same runs; for each that cannot run, why.
 
+use super::data::{Damping, ModalData, ReceptanceData};
+use super::error::ClassicalError;
 use super::incompleteness::known_damping;
 use super::method::Method;
 use super::poly_reference::{Extraction, extract};
-use super::{ClassicalError, Damping, FrequencyResponses, ModalData, ReceptanceData, errors, resonant};
+use super::responses::FrequencyResponses;
+use super::{errors, resonant};
 use crate::balance::expansion::Acting;
 use crate::balance::{Expander, Expansion, Measured};
 use crate::control::Control;
@@ -255,7 +258,7 @@ impl Data<'_> {
         )
     }
 
-    fn loads(&self) -> Result<Vec<super::LoadCase>, ClassicalError> {
+    fn loads(&self) -> Result<Vec<super::data::LoadCase>, ClassicalError> {
         let (n, responses) = (self.structure.len(), self.responses()?);
         let measured = responses.sensors.len();
         responses.loads(n).map_or_else(|| missing(format!("a sensor at every DOF: {measured} of {n} are measured")), Ok)

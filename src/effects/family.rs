@@ -1,7 +1,9 @@
 //! Families of candidates: each translation, each DOF, each pair, one chain.
 
-use super::Kind;
-use super::{Effect, Place, Source};
+use super::effect::Effect;
+use super::kind::Kind;
+use super::place::Place;
+use super::source::Source;
 use crate::structure::{Direction, Structure};
 use serde::{Deserialize, Serialize};
 

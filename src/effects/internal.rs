@@ -8,9 +8,12 @@
 //! Where the motion is so small that nothing slips, the map gives back what it was given and any mean force would do;
 //! the force is then that of the spring about the middle of the motion, which is the limit of small slip.
 
+use super::description::Description;
+use super::law::Law;
 use super::law::{ByParameter, Linearised, Manner};
+use super::memory::Memory;
+use super::motion::Motion;
 use super::turning::turning_points;
-use super::{Description, Law, Memory, Motion};
 
 /// Slope of the period's map from which on nothing slips.
 const SLIPLESS: f64 = 1.0 - 1e-9;

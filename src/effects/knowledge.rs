@@ -1,6 +1,11 @@
 //! What may be asked of an effect by its name alone: its law and what is known of it.
 
-use super::{ChannelLaw, Constant, Description, Effect, Exponents, Kind, Law, Parameter, Range};
+use super::description::{Constant, Description, Exponents};
+use super::effect::Effect;
+use super::kind::Kind;
+use super::law::{ChannelLaw, Law};
+use super::parameter::Parameter;
+use super::range::Range;
 
 impl Effect {
     /// The scalar law, for effects on a relative motion.

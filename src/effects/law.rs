@@ -5,7 +5,12 @@
 //! stiffness), [`super::memoryless`] (force at one instant), [`super::masing`] (backbone of sliders),
 //! [`super::internal`] (one force that follows a rate equation along the displacement).
 
-use super::{Basis, Description, Memory, Motion, Parameter, SetValued, Steep};
+use super::basis::Basis;
+use super::description::Description;
+use super::memory::Memory;
+use super::motion::Motion;
+use super::parameter::Parameter;
+use super::set_valued::{SetValued, Steep};
 use faer::c64;
 
 /// Value and slopes of a force that depends on the present displacement and velocity only.

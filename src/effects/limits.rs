@@ -1,6 +1,7 @@
 //! Special cases: parameters at which a law is a simpler one.
 
-use super::{Effect, Range};
+use super::effect::Effect;
+use super::range::Range;
 
 /// Relative distance from a limit within which a law is taken for the simpler one there.
 pub const CLOSE: f64 = 0.03;

@@ -1,8 +1,11 @@
 //! Laws that are linear in the motion, harmonic by harmonic: `F_h = Z(h omega) D_h`. Written as their dynamic stiffness,
 //! lifted to samples of a period here. Energy per cycle of `d = X cos(omega t)`: `pi Im Z(omega) X^2`.
 
+use super::description::Description;
+use super::law::Law;
 use super::law::Manner;
-use super::{Description, Law, Memory, Motion};
+use super::memory::Memory;
+use super::motion::Motion;
 use faer::c64;
 use std::f64::consts::PI;
 

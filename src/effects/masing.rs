@@ -11,10 +11,14 @@
 //! greatest |d| of the period lies on the backbone, so one period of marching that starts there is periodic at once,
 //! whatever came before.
 
+use super::description::Description;
+use super::law::Law;
 use super::law::{Linearised, Manner};
 use super::memory::MasingMemory;
+use super::memory::Memory;
+use super::motion::Motion;
+use super::set_valued::SetValued;
 use super::turning::loop_ranges;
-use super::{Description, Law, Memory, Motion, SetValued};
 
 /// Marches a steady period: `out[n]` at every sample of `displacement` (m).
 ///

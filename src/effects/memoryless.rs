@@ -2,8 +2,11 @@
 //!
 //! A force that jumps at rest is 0 there and has no slope; solvers ask such laws by [`SetValued`] or [`Steep`].
 
+use super::description::Description;
+use super::law::Law;
 use super::law::{Manner, Point, Variable};
-use super::{Description, Law, Motion, SetValued, Steep};
+use super::motion::Motion;
+use super::set_valued::{SetValued, Steep};
 
 /// A force that depends on the present displacement or velocity only.
 pub trait MemorylessLaw: Sync {

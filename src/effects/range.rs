@@ -1,6 +1,6 @@
 //! Range of a relative motion over the runs: what the start grid of a law is laid over, and its limits are judged by.
 
-use super::Motion;
+use super::motion::Motion;
 
 /// Sizes of a relative motion over several runs.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -1,6 +1,6 @@
 //! Fast change between harmonics and samples: the sines of one number of samples, computed once.
 
-use super::Motion;
+use super::motion::Motion;
 use dashpot_numerics::{scalar_products, sum};
 use faer::c64;
 use std::borrow::Cow;

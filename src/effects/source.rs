@@ -1,7 +1,12 @@
 //! A source: a law at a place, what is known of it, and whether it may be selected.
 
+use super::basis::Basis;
+use super::effect::Effect;
+use super::kind::Kind;
+use super::motion::Motion;
 use super::motion::linear_energy;
-use super::{Basis, Effect, Kind, Motion, Place, Range};
+use super::place::Place;
+use super::range::Range;
 use crate::structure::Structure;
 use faer::c64;
 use serde::{Deserialize, Serialize};
@@ -201,7 +206,7 @@ impl Source {
             return Some(0.0);
         }
         let linear = self.effect.is_linear();
-        let of_leg = |leg: super::Leg| {
+        let of_leg = |leg: super::place::Leg| {
             let mut relative = displacement(leg.first);
             if let Some(second) = leg.second {
                 for (d, other) in relative.iter_mut().zip(displacement(second)) {

@@ -1,6 +1,6 @@
 //! Turning points of a periodic motion, where `d' = 0`: rate-independent laws know nothing else of it.
 
-use super::Motion;
+use super::motion::Motion;
 
 /// Displacements at the turning points of one period in order of time, each a true extreme; empty for a motion at rest.
 /// Zeros of the velocity between samples are refined on the harmonics, so the extremes are exact to rounding.

@@ -1,6 +1,6 @@
 //! What the effects are called in tables, titles and sentences: the law's one name, its formula and its sentence.
 
-use super::Effect;
+use super::effect::Effect;
 use std::sync::LazyLock;
 
 /// The names with a capital letter, in the order of [`Effect::ALL`].

@@ -1,5 +1,6 @@
 //! Puts the outcome together from what the passes found.
 
+use super::error::IdentifyError;
 use super::found::Found;
 use super::outcome::{Estimate, Outcome, RankedAlternative, RecordOutcome, RunOutcome, Step, WindowOutcome};
 use super::problem::Problem;
@@ -7,7 +8,7 @@ use super::results::{self, ResultsInput};
 use super::search::SizeRanking;
 use super::stopping::{angle_deg, penalty};
 use super::system::System;
-use super::{IdentifyError, collinear, solve, warnings};
+use super::{collinear, solve, warnings};
 use crate::balance::windows::WindowRows;
 use crate::balance::{action, weights};
 use crate::math::subsets::RankedSet;

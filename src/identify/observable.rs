@@ -1,7 +1,9 @@
 //! Which columns the sensors see at all, and whether anything was put in.
 
 use super::describe::describe;
-use super::{IdentifyError, problem::Problem, state::State};
+use super::error::IdentifyError;
+use super::problem::Problem;
+use super::state::State;
 use crate::balance::energy::is_observable;
 
 impl Problem<'_> {

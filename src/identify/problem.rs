@@ -1,10 +1,11 @@
 //! What is asked: columns, known sources, runs in use.
 
 use super::describe::describe;
+use super::error::IdentifyError;
 use super::measurements::Measurements;
 use super::ratios::Ratios;
+use super::settings::Settings;
 use super::window_columns::WindowColumns;
-use super::{IdentifyError, Settings};
 use crate::balance::expansion::modal_model::ModalModel;
 use crate::balance::{Expander, Expansion, Measured, Weights};
 use crate::control::Control;

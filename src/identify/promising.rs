@@ -1,7 +1,9 @@
 //! The most promising of very many columns: those of the best sets by exchange over all of them with the columns that are most
 //! like them, then those that explain most of what the best so far leave, in rounds.
 
-use super::{IdentifyError, exchange::Exchange, system::System};
+use super::error::IdentifyError;
+use super::exchange::Exchange;
+use super::system::System;
 use crate::math::nnls::nnls;
 
 /// Columns up to which all are taken.

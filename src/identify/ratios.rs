@@ -1,6 +1,7 @@
 //! Measured damping ratios with the modes of the model that they belong to.
 
-use super::{IdentifyError, describe::describe};
+use super::describe::describe;
+use super::error::IdentifyError;
 use crate::effects::{Constant, Effect, Source};
 use crate::measurement::MeasuredRatio;
 use crate::response::linear_matrices::LinearMatrices;

@@ -4,8 +4,10 @@
 //! positive coefficients only; forced columns are in every set. Where sets are few, all are looked at; else branch and bound
 //! proves the best. Beside them the best set without the `keep` rule, where it is another one.
 
+use super::error::IdentifyError;
+use super::problem::Problem;
 use super::promising::promising;
-use super::{IdentifyError, problem::Problem, system::System};
+use super::system::System;
 use crate::control::Control;
 use crate::math::subsets::{RankedSet, Ranking, SubsetProblem, branch_and_bound, combinations, exhaustive};
 use faer::Mat;

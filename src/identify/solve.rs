@@ -1,7 +1,8 @@
 //! Non-negative least squares on some columns, with standard deviations and condition.
 
+use super::error::IdentifyError;
 use super::promising::{non_negative, promising};
-use super::{IdentifyError, system::System};
+use super::system::System;
 use crate::math::least_squares::LeastSquares;
 use crate::math::nnls::nnls;
 use faer::Mat;

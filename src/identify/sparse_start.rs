@@ -5,8 +5,13 @@
 //! found by exchange: first of the energies, whose motion needs no model of the damping, then of the response at the motion
 //! that the last set gives (Gauss-Newton with the set chosen anew at each step).
 
+use super::error::IdentifyError;
+use super::exchange::Exchange;
 use super::outcome::Form;
-use super::{IdentifyError, exchange::Exchange, problem::Problem, response_form, solve, state::State, system::System};
+use super::problem::Problem;
+use super::state::State;
+use super::system::System;
+use super::{response_form, solve};
 use crate::balance::Weights;
 use crate::control::Control;
 

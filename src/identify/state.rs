@@ -1,6 +1,7 @@
 //! The motion of all runs at given coefficients, and the energy equation there.
 
-use super::{IdentifyError, problem::Problem};
+use super::error::IdentifyError;
+use super::problem::Problem;
 use crate::balance::expansion::Acting;
 use crate::balance::{EnergyEquation, Expanded, Measured};
 

@@ -1,7 +1,7 @@
 //! Windows of records that are not steady as rows beside those of the steady runs: raw for what is told of energies, whitened
 //! by their covariance for the solution.
 
-use super::IdentifyError;
+use super::error::IdentifyError;
 use super::system::System;
 use crate::balance::EnergyEquation;
 use crate::balance::windows::{WindowRows, window_rows};

@@ -10,8 +10,9 @@
 //! `-M r A`, `kappa^2 = (sum |M r|)^2 / sum (M r)^2`: exact where the structure answers all of them alike, too large elsewhere
 //! (Cauchy and Schwarz, for equal masses).
 
+use super::channel::{Channel, Quantity};
 use super::fit::turn_covariance;
-use super::{Channel, ChannelFit, HarmonicFit, Quantity};
+use super::fit::{ChannelFit, HarmonicFit};
 use faer::c64;
 
 /// How a structure takes a motion of its base along one axis.

@@ -1,8 +1,10 @@
 //! What is no steady motion at all: a free decay, noise, a sum of sines that one fundamental does not hold.
 
+use super::finding::{Finding, Flag};
+use super::fit::HarmonicFit;
 use super::ramps::blocks;
+use super::record::Record;
 use super::signal::references;
-use super::{Finding, Flag, HarmonicFit, Record};
 use crate::math::statistics::median;
 
 /// Share of its first amplitude to which a motion must have fallen at the end of the record to be a free decay.

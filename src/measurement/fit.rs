@@ -6,10 +6,11 @@
 //! of the noise times the inverse normal matrix. The noise is the scatter between periods (`noise.rs`) where the record
 //! holds two or more, else the residual over its degrees of freedom.
 
+use super::channel::Channel;
 use super::design::Design;
 use super::noise::Lag;
+use super::record::Record;
 use super::slope::Slope;
-use super::{Channel, Record};
 use dashpot_numerics::dot;
 use faer::{Mat, c64};
 use std::f64::consts::TAU;

@@ -13,10 +13,12 @@
 //! Of a long record the spectrum is the mean of those of its parts, and the frequency of its loudest part is refined on
 //! ever longer parts around it: the steps over the whole record, which cost most, are then one or two.
 
+use super::channel::Quantity;
+use super::fit::FitError;
 use super::fit::{Solved, resolvable, solve};
 use super::noise::Lag;
+use super::record::Record;
 use super::slope::Slope;
-use super::{FitError, Quantity, Record};
 use crate::math::spectrum::Spectrum;
 use dashpot_numerics::dot;
 use std::f64::consts::TAU;

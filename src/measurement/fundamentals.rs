@@ -1,7 +1,8 @@
 //! The fundamental of every channel in a part of a record.
 
+use super::fit::HarmonicFit;
 use super::fit::{resolvable, solve};
-use super::{HarmonicFit, Record};
+use super::record::Record;
 use faer::c64;
 use std::ops::Range;
 

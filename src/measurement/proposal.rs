@@ -3,7 +3,9 @@
 //! Root mean squares over blocks of time say where force acts and where motion is. No force while the motion dies away: a
 //! decay, from where the force ends. Force that acts all the time on few lines: steady. Everything else: transient.
 
-use super::{Kind, Part, Quantity, Record};
+use super::channel::Quantity;
+use super::kind::{Kind, Part};
+use super::record::Record;
 use crate::math::spectrum::Spectrum;
 
 /// Blocks of time.

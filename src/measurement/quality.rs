@@ -2,9 +2,11 @@
 //!
 //! Nothing is corrected here; every finding says why in numbers. Thresholds are named, with their reasons.
 
+use super::finding::{Finding, Flag};
+use super::fit::{ChannelFit, HarmonicFit};
 use super::record::Record;
 use super::signal::references;
-use super::{ChannelFit, Finding, Flag, HarmonicFit, decay, settling, slips, stuck};
+use super::{decay, settling, slips, stuck};
 use faer::c64;
 
 /// Noise over signal from which a run is called noisy. The thesis works with 5 %; at 20 % a record of 1000 samples

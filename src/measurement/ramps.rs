@@ -5,9 +5,10 @@
 //! response grows or falls while the force stays as it is; here the force itself does. What falls off behind a steady part
 //! is run down, whatever the force: a friction damper that is moved ever less still gives the same force.
 
+use super::fit::HarmonicFit;
 use super::fundamentals::fundamentals;
+use super::record::Record;
 use super::signal::references;
-use super::{HarmonicFit, Record};
 use crate::math::statistics::median;
 
 /// Blocks that the record is cut into, where it has periods enough.
@@ -125,6 +126,6 @@ pub(super) fn blocks(record: &Record, fit: &HarmonicFit) -> Option<(Vec<f64>, Ve
 }
 
 /// The steady part of a record whose force is run up or down; none where it is steady from end to end.
-pub fn steady_part(record: &Record, fit: &HarmonicFit) -> Option<super::Part> {
-    find(record, fit).map(|ramps| super::Part { start_s: ramps.up, end_s: ramps.down })
+pub fn steady_part(record: &Record, fit: &HarmonicFit) -> Option<super::kind::Part> {
+    find(record, fit).map(|ramps| super::kind::Part { start_s: ramps.up, end_s: ramps.down })
 }

@@ -1,6 +1,6 @@
 //! A time record in SI units that holds only finite numbers at times that never go back.
 
-use super::Channel;
+use super::channel::Channel;
 use std::ops::Range;
 
 /// Fewest samples of a record: one unknown more than offset, slope and one harmonic.

@@ -4,9 +4,13 @@
 //! Motions are integrated analytically: `X_h = Y_h / (i h omega)^k`, k = 0, 1, 2 for displacements, velocities and
 //! accelerations (6.5, 6.6).
 
+use super::channel::{Channel, Quantity};
+use super::finding::{Finding, Flag};
+use super::fit::{ChannelFit, FitError, HarmonicFit};
 use super::fit::{fit, turn_covariance};
+use super::record::Record;
 use super::signal::references;
-use super::{Channel, ChannelFit, Finding, FitError, Flag, HarmonicFit, Quantity, Record, frequency, quality};
+use super::{frequency, quality};
 use faer::{Mat, c64};
 use std::f64::consts::TAU;
 use std::sync::Arc;

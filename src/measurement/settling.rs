@@ -11,10 +11,12 @@
 //! The parts compared are whole periods and begin at the same phase, so that harmonics above those fitted change both
 //! alike.
 
+use super::finding::{Finding, Flag};
+use super::fit::HarmonicFit;
 use super::fundamentals::fundamentals;
 use super::noise::Lag;
+use super::record::Record;
 use super::signal::references;
-use super::{Finding, Flag, HarmonicFit, Record};
 use crate::math::statistics::median;
 use faer::c64;
 use std::f64::consts::SQRT_2;

@@ -1,6 +1,7 @@
 //! How large the periodic part of each channel is, and what the channel is judged by.
 
-use super::{ChannelFit, HarmonicFit, Quantity};
+use super::channel::Quantity;
+use super::fit::{ChannelFit, HarmonicFit};
 
 /// Smallest amplitude that a channel is judged by, as a share of the largest of its quantity in the run: a sensor at a
 /// node must not rule.

@@ -3,9 +3,12 @@
 //! The force's phase must not slip against the given frequency over the record; the given frequency must not leave a
 //! residual that another explains; and the force must have something at it, not only at its multiples.
 
+use super::channel::Quantity;
+use super::finding::{Finding, Flag};
+use super::fit::HarmonicFit;
 use super::fit::solve;
 use super::frequency::{Frequency, coarse, leading, refine};
-use super::{Finding, Flag, HarmonicFit, Quantity, Record};
+use super::record::Record;
 use std::f64::consts::TAU;
 
 /// Slip of the phase over the record, rad, that matters: it lowers a fitted amplitude by a sixth of a per cent.

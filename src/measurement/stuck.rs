@@ -3,7 +3,9 @@
 //! Both compare with the fit: where it moves by more than rounding and noise explain, equal samples are a fault.
 
 use super::even_columns::EvenColumns;
-use super::{ChannelFit, Finding, Flag, HarmonicFit, Record};
+use super::finding::{Finding, Flag};
+use super::fit::{ChannelFit, HarmonicFit};
+use super::record::Record;
 use crate::math::statistics::median;
 use faer::c64;
 

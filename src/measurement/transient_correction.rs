@@ -3,10 +3,14 @@
 //! A channel with known delay `tau` and gain `g` records `g y(t - tau)`; the run holds `y`, read between the samples by a
 //! polynomial through six of them (error below 1e-3 of the amplitude up to a fifth of the sampling rate).
 
+use super::channel::{Channel, Quantity};
+use super::finding::{Finding, Flag};
+use super::kind::{Kind, Part};
 use super::proposal::release;
+use super::record::Record;
 use super::run::Correction;
+use super::transient_quality;
 use super::transient_run::{TransientLabel, TransientRun};
-use super::{Channel, Finding, Flag, Kind, Part, Quantity, Record, transient_quality};
 use std::borrow::Cow;
 use std::sync::Arc;
 

@@ -1,7 +1,10 @@
 //! Quality of a record that is not steady: what an engineer should know before trusting it. Nothing is corrected here.
 
+use super::channel::Quantity;
+use super::finding::{Finding, Flag};
+use super::kind::Kind;
 use super::proposal::propose;
-use super::{Finding, Flag, Kind, Quantity, TransientRun};
+use super::transient_run::TransientRun;
 use crate::math::spectrum::Spectrum;
 
 /// Force, over its largest, that belongs to a contact.

@@ -1,6 +1,9 @@
 //! One run that is not in steady state: a part of a record in time.
 
-use super::{Channel, Finding, Kind, Part, Quantity, Record};
+use super::channel::{Channel, Quantity};
+use super::finding::Finding;
+use super::kind::{Kind, Part};
+use super::record::Record;
 use std::ops::Range;
 use std::sync::Arc;
 

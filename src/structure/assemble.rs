@@ -1,8 +1,9 @@
 //! The last steps that every kind of structure shares: lumped masses and the checks that make a [`Structure`] valid.
 
+use super::error::StructureError;
 use super::error::{nearest, positive};
 use super::lumped_mass::LumpedMass;
-use super::{Dof, Element, Node, Origin, Structure, StructureError, StructureKind, SystemMatrices};
+use super::{Dof, Element, Node, Origin, Structure, StructureKind, SystemMatrices};
 use crate::math::eigen;
 use dashpot_numerics::Cholesky;
 use faer::{Mat, MatRef};

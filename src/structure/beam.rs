@@ -9,9 +9,10 @@
 //! direction of `depth`); a rotation is the slope w'.
 
 use super::assemble::{MOST_DOFS, Parts};
+use super::error::StructureError;
 use super::error::positive;
 use super::lumped_mass::LumpedMass;
-use super::{Direction, Dof, Element, Node, Structure, StructureError, StructureKind, SystemMatrices};
+use super::{Direction, Dof, Element, Node, Structure, StructureKind, SystemMatrices};
 use faer::Mat;
 use nalgebra::Matrix4;
 use serde::{Deserialize, Serialize};

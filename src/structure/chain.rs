@@ -2,9 +2,10 @@
 //! and `k` between consecutive masses.
 
 use super::assemble::{MOST_DOFS, Parts};
+use super::error::StructureError;
 use super::error::{not_negative, positive};
 use super::lumped_mass::LumpedMass;
-use super::{Direction, Dof, Node, Structure, StructureError, StructureKind, SystemMatrices};
+use super::{Direction, Dof, Node, Structure, StructureKind, SystemMatrices};
 use faer::Mat;
 use serde::{Deserialize, Serialize};
 

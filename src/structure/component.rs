@@ -1,8 +1,9 @@
 //! One component in a testing machine, say a damper: its displacement is imposed, its force measured. It has one degree of
 //! freedom and no equation of motion; a mass only adds its inertia to the force.
 
+use super::error::StructureError;
 use super::points::PointParameters;
-use super::{Structure, StructureError, StructureKind};
+use super::{Structure, StructureKind};
 use serde::{Deserialize, Serialize};
 
 /// A component.

@@ -9,8 +9,9 @@
 //! which is skew-symmetric but for the damping: well balanced whatever the units, and singular nowhere (a rigid body mode
 //! only loses its row of `Omega q`). A mode without stiffness has the pole 0 beside that of its damping.
 
+use super::error::StructureError;
 use super::modes::{Modes, failure};
-use super::{StructureError, SystemMatrices, modes};
+use super::{SystemMatrices, modes};
 use crate::math::eigen;
 use dashpot_numerics::{product, transposed_product};
 use faer::{ColRef, Mat, MatRef, c64};

@@ -1,9 +1,10 @@
 //! A structure given by its mass and stiffness matrices, with an optional map of their rows to nodes and directions.
 
 use super::assemble::{MOST_DOFS, Parts};
+use super::error::StructureError;
 use super::error::nearest;
 use super::lumped_mass::LumpedMass;
-use super::{Direction, Dof, Node, Structure, StructureError, StructureKind, SystemMatrices};
+use super::{Direction, Dof, Node, Structure, StructureKind, SystemMatrices};
 use faer::Mat;
 
 /// One row of the table of DOFs.

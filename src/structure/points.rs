@@ -1,7 +1,8 @@
 //! Points without mass and stiffness: what is measured is all there is, and only the energy balance can be used.
 
 use super::assemble::Parts;
-use super::{Direction, Dof, Node, Structure, StructureError, StructureKind};
+use super::error::StructureError;
+use super::{Direction, Dof, Node, Structure, StructureKind};
 use serde::{Deserialize, Serialize};
 
 /// The measured points.

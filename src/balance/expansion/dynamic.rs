@@ -7,8 +7,8 @@
 
 use super::expanded::{Acting, Expanded, state_misfit};
 use super::modal_model::ModalModel;
-use crate::balance::Measured;
 use crate::balance::action::{self, Field, Secant};
+use crate::balance::measured::Measured;
 use crate::effects::Basis;
 use crate::structure::Structure;
 use dashpot_numerics::ComplexLu;

@@ -1,7 +1,7 @@
 //! The motion of all DOFs as an expansion gives it, and what is known to act while it is found.
 
-use crate::balance::Measured;
 use crate::balance::action::{self, Field, Secant};
+use crate::balance::measured::Measured;
 use crate::effects::Source;
 use faer::{Mat, c64};
 

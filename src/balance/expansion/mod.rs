@@ -9,7 +9,9 @@ mod points;
 
 pub use expanded::{Acting, Expanded};
 
-use super::{BalanceError, Expansion, Measured};
+use super::Expansion;
+use super::error::BalanceError;
+use super::measured::Measured;
 use crate::structure::Structure;
 use modal_model::ModalModel;
 

@@ -5,7 +5,8 @@
 
 use super::expanded::{Expanded, from_maps, no_maps};
 use super::modal_model::ModalModel;
-use crate::balance::{BalanceError, Measured};
+use crate::balance::error::BalanceError;
+use crate::balance::measured::Measured;
 use crate::math::least_squares::LeastSquares;
 use faer::{Mat, c64};
 

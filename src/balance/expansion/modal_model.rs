@@ -5,8 +5,8 @@
 //! Up to `ALL` DOFs every mode is retained and `H` is exact; beyond, only the lowest modes are computed, and those above
 //! respond without damping, as their damping does not show there ([`LowestModes::rest`]).
 
-use crate::balance::BalanceError;
 use crate::balance::action::Secant;
+use crate::balance::error::BalanceError;
 use crate::effects::Basis;
 use crate::math::fill::{filled, filled_complex};
 use crate::structure::lowest_modes::{LowestModes, Rest};

@@ -2,7 +2,7 @@
 //! inverse to their variances.
 
 use super::expanded::{Expanded, from_maps, no_maps};
-use crate::balance::Measured;
+use crate::balance::measured::Measured;
 use faer::{Mat, c64};
 
 pub(super) fn expand(n: usize, measured: &Measured) -> Expanded {

@@ -9,7 +9,7 @@
 //! that the filter forgets within a few periods. Force and motion pass the same filter, and with them the equation of motion
 //! of the kept modes holds exactly, whatever the filter.
 
-use super::WindowError;
+use super::window_rows::WindowError;
 use crate::math::least_squares::{pseudo_inverse, thin_svd};
 use crate::measurement::TransientRun;
 use crate::structure::modes::Modes;

@@ -7,7 +7,7 @@
 //! over every whole cycle of a record. `F_0`, the zero of the force cell, does no work over a cycle that closes; what it does
 //! over one that does not is taken out with the mean force. Noise of the force acts through the velocity.
 
-use super::{WindowError, WindowRows};
+use super::window_rows::{WindowError, WindowRows};
 use crate::balance::loops::{ComponentError, Loop};
 use crate::effects::Source;
 use crate::measurement::TransientRun;

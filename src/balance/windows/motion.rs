@@ -1,7 +1,7 @@
 //! Modal motion of a record in its band, displacements and velocities integrated in the frequency domain, and the noise of it.
 
-use super::WindowError;
 use super::band::{Band, FLAT, line_omega};
+use super::window_rows::WindowError;
 use crate::control::Control;
 use crate::measurement::TransientRun;
 use crate::structure::modes::Modes;

@@ -8,7 +8,12 @@ use crate::effects::law::{Point, Variable};
 use crate::effects::limits::{CLOSE, Limit};
 use crate::effects::memoryless::sign;
 use crate::effects::symbol::{Mark, Tone};
-use crate::effects::{Description, Effect, MemorylessLaw, Motion, Parameter, SetValued};
+use crate::effects::description::Description;
+use crate::effects::effect::Effect;
+use crate::effects::memoryless::MemorylessLaw;
+use crate::effects::motion::Motion;
+use crate::effects::parameter::Parameter;
+use crate::effects::set_valued::SetValued;
 
 /// Friction of different size to either side.
 #[derive(Debug)]

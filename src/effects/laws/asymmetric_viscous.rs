@@ -5,7 +5,10 @@ use crate::effects::description::Exponents;
 use crate::effects::law::{Point, Variable};
 use crate::effects::limits::{Limit, alike};
 use crate::effects::symbol::Mark;
-use crate::effects::{Description, Effect, MemorylessLaw, Parameter};
+use crate::effects::description::Description;
+use crate::effects::effect::Effect;
+use crate::effects::memoryless::MemorylessLaw;
+use crate::effects::parameter::Parameter;
 use std::f64::consts::FRAC_PI_2;
 
 /// Dashpot that resists pull and push differently.

@@ -14,7 +14,9 @@ use crate::effects::limits::{CLOSE, Limit};
 use crate::effects::loading_curve::{LoadingCurve, Reached};
 use crate::effects::parameter::Ends;
 use crate::effects::symbol::{Mark, Tone};
-use crate::effects::{Description, Effect, Parameter};
+use crate::effects::description::Description;
+use crate::effects::effect::Effect;
+use crate::effects::parameter::Parameter;
 
 /// Smooth hysteresis.
 #[derive(Debug, Clone, Copy)]

@@ -8,7 +8,11 @@ use crate::effects::law::{Point, Variable};
 use crate::effects::memoryless::sign;
 use crate::effects::symbol::{Mark, Tone};
 use crate::effects::turning::total_variation;
-use crate::effects::{Description, MemorylessLaw, Motion, Parameter, SetValued};
+use crate::effects::description::Description;
+use crate::effects::memoryless::MemorylessLaw;
+use crate::effects::motion::Motion;
+use crate::effects::parameter::Parameter;
+use crate::effects::set_valued::SetValued;
 
 /// Coulomb friction.
 #[derive(Debug)]

@@ -12,7 +12,9 @@
 use crate::effects::internal::{InternalLaw, Way};
 use crate::effects::limits::{CLOSE, Limit};
 use crate::effects::symbol::{Mark, Tone};
-use crate::effects::{Description, Effect, Parameter};
+use crate::effects::description::Description;
+use crate::effects::effect::Effect;
+use crate::effects::parameter::Parameter;
 
 /// Friction with a fading presliding stiffness.
 #[derive(Debug, Clone, Copy)]

@@ -6,7 +6,10 @@
 use crate::effects::limits::{CLOSE, Limit};
 use crate::effects::masing::MasingLaw;
 use crate::effects::symbol::{Mark, Tone};
-use crate::effects::{Description, Effect, Parameter, SetValued};
+use crate::effects::description::Description;
+use crate::effects::effect::Effect;
+use crate::effects::parameter::Parameter;
+use crate::effects::set_valued::SetValued;
 
 /// Spring in series with a slider.
 #[derive(Debug, Clone, Copy)]

@@ -5,7 +5,10 @@ use crate::effects::description::Exponents;
 use crate::effects::limits::{Limit, near};
 use crate::effects::parameter::Ends;
 use crate::effects::symbol::{Mark, Tone};
-use crate::effects::{Description, Effect, LinearLaw, Parameter};
+use crate::effects::description::Description;
+use crate::effects::effect::Effect;
+use crate::effects::linear::LinearLaw;
+use crate::effects::parameter::Parameter;
 use faer::c64;
 use std::f64::consts::FRAC_PI_2;
 

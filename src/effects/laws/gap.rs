@@ -4,7 +4,10 @@ use crate::effects::law::{Point, Variable};
 use crate::effects::limits::{CLOSE, Limit};
 use crate::effects::range::geometric;
 use crate::effects::symbol::{HALF_WIDTH, Mark};
-use crate::effects::{Description, Effect, MemorylessLaw, Parameter};
+use crate::effects::description::Description;
+use crate::effects::effect::Effect;
+use crate::effects::memoryless::MemorylessLaw;
+use crate::effects::parameter::Parameter;
 
 /// Clearance on both sides, then a spring.
 #[derive(Debug)]

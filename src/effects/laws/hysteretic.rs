@@ -3,7 +3,9 @@
 
 use crate::effects::description::{Constant, Exponents};
 use crate::effects::symbol::Mark;
-use crate::effects::{Description, LinearLaw, Parameter};
+use crate::effects::description::Description;
+use crate::effects::linear::LinearLaw;
+use crate::effects::parameter::Parameter;
 use faer::c64;
 
 /// Hysteretic damper.

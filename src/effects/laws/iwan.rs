@@ -18,7 +18,10 @@ use crate::effects::masing::MasingLaw;
 use crate::effects::parameter::Ends;
 use crate::effects::range::geometric;
 use crate::effects::symbol::{Mark, Tone};
-use crate::effects::{Description, Effect, Parameter, Range};
+use crate::effects::description::Description;
+use crate::effects::effect::Effect;
+use crate::effects::parameter::Parameter;
+use crate::effects::range::Range;
 
 /// Parallel elastic sliders with power-law distributed yield forces.
 #[derive(Debug, Clone, Copy)]

@@ -1,9 +1,11 @@
 //! Loss factor of the material: `F_h = i loss_factor K X_h` at each harmonic; no force at rest.
 
-use crate::effects::Basis;
+use crate::effects::basis::Basis;
 use crate::effects::description::Constant;
 use crate::effects::symbol::Mark;
-use crate::effects::{Description, Parameter, WholeLaw};
+use crate::effects::description::Description;
+use crate::effects::law::WholeLaw;
+use crate::effects::parameter::Parameter;
 use faer::c64;
 
 /// Complex stiffness of the whole structure.

@@ -4,7 +4,11 @@
 use crate::effects::limits::{CLOSE, Limit};
 use crate::effects::memory::MaxwellMemory;
 use crate::effects::symbol::Mark;
-use crate::effects::{Description, Effect, LinearLaw, Memory, Parameter};
+use crate::effects::description::Description;
+use crate::effects::effect::Effect;
+use crate::effects::linear::LinearLaw;
+use crate::effects::memory::Memory;
+use crate::effects::parameter::Parameter;
 use faer::c64;
 
 /// Spring in series with a dashpot.

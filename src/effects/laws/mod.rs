@@ -1,11 +1,12 @@
 //! The laws, one file each, as the table of laws (`table`) lists them.
 
+use super::effect::Effect;
 use super::internal::Internal;
+use super::kind::Kind;
 use super::linear::Linear;
 use super::masing::Masing;
 use super::memoryless::Memoryless;
 use super::table::table_of_laws;
-use super::{Effect, Kind};
 
 /// What a law of a family acts on.
 macro_rules! kind {

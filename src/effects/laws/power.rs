@@ -10,7 +10,11 @@ use crate::effects::law::{Point, Variable};
 use crate::effects::limits::{CLOSE, Limit, near};
 use crate::effects::parameter::Ends;
 use crate::effects::symbol::Mark;
-use crate::effects::{Description, Effect, MemorylessLaw, Parameter, Steep};
+use crate::effects::description::Description;
+use crate::effects::effect::Effect;
+use crate::effects::memoryless::MemorylessLaw;
+use crate::effects::parameter::Parameter;
+use crate::effects::set_valued::Steep;
 use statrs::function::gamma::gamma;
 use std::f64::consts::PI;
 

@@ -4,7 +4,9 @@
 use crate::effects::description::Exponents;
 use crate::effects::law::{Point, Variable};
 use crate::effects::symbol::{HALF_WIDTH, Mark, Tone};
-use crate::effects::{Description, MemorylessLaw, Parameter};
+use crate::effects::description::Description;
+use crate::effects::memoryless::MemorylessLaw;
+use crate::effects::parameter::Parameter;
 
 /// Quadratic damping.
 #[derive(Debug)]

@@ -2,7 +2,9 @@
 
 use crate::effects::law::{Point, Variable};
 use crate::effects::symbol::Mark;
-use crate::effects::{Description, MemorylessLaw, Parameter};
+use crate::effects::description::Description;
+use crate::effects::memoryless::MemorylessLaw;
+use crate::effects::parameter::Parameter;
 
 /// Asymmetric spring.
 #[derive(Debug)]

@@ -1,9 +1,11 @@
 //! Stiffness-proportional viscous damping: `F = beta K x'`.
 
-use crate::effects::Basis;
+use crate::effects::basis::Basis;
 use crate::effects::description::Constant;
 use crate::effects::symbol::Mark;
-use crate::effects::{Description, Parameter, WholeLaw};
+use crate::effects::description::Description;
+use crate::effects::law::WholeLaw;
+use crate::effects::parameter::Parameter;
 use faer::c64;
 
 /// Viscous damping in proportion to the stiffness matrix.

@@ -10,7 +10,12 @@ use crate::effects::memoryless::sign;
 use crate::effects::range::geometric;
 use crate::effects::symbol::{Mark, Tone};
 use crate::effects::turning::total_variation;
-use crate::effects::{Description, Effect, MemorylessLaw, Motion, Parameter, SetValued};
+use crate::effects::description::Description;
+use crate::effects::effect::Effect;
+use crate::effects::memoryless::MemorylessLaw;
+use crate::effects::motion::Motion;
+use crate::effects::parameter::Parameter;
+use crate::effects::set_valued::SetValued;
 
 /// Friction that falls from a static to a sliding force with speed.
 #[derive(Debug)]

@@ -1,6 +1,7 @@
 //! The outcome of an identification as what is exported.
 
-use super::{ExportError, Format, Identified, IdentifiedMode, IdentifiedSource, Written, write};
+use super::identified::{Identified, IdentifiedMode, IdentifiedSource};
+use super::{ExportError, Format, Written, write};
 use crate::effects::Effect;
 use crate::exchange::Project;
 use crate::identify::Outcome;

@@ -2,7 +2,7 @@
 
 use super::condition::{ChangeError, Condition, NAMES};
 use crate::effects::{Place, Source, State};
-use crate::identify::Outcome;
+use crate::identify::outcome::Outcome;
 use crate::structure::Structure;
 
 /// A source that a state accepted, in the DOFs of both.

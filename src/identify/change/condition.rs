@@ -1,7 +1,9 @@
 //! The two states that are held against each other.
 
 use crate::effects::Source;
-use crate::identify::{IdentifyError, Measurements, Settings};
+use crate::identify::error::IdentifyError;
+use crate::identify::measurements::Measurements;
+use crate::identify::settings::Settings;
 use crate::structure::Structure;
 
 /// One state of the structure: its model, sources and measurements.

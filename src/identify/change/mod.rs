@@ -18,7 +18,9 @@ mod test;
 pub use condition::{ChangeError, Condition};
 pub use test::LEVEL;
 
-use super::{Outcome, Settings, identify_measured};
+use super::identify_measured;
+use super::outcome::Outcome;
+use super::settings::Settings;
 use crate::control::Control;
 use crate::effects::Source;
 use condition::NAMES;

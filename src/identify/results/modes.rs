@@ -3,7 +3,7 @@
 //! Viscous sources enter as they are. Laws that are not viscous enter by their energy-equivalent coefficient over all runs,
 //! hysteretic ones by `h / omega_r` at each mode, to first order: `d lambda / d c_j = -lambda psi^T B_j psi`.
 
-use super::ResultsInput;
+use super::input::ResultsInput;
 use super::matrices::{EquivalentViscous, weighted_sum};
 use crate::effects::Kind;
 use crate::effects::{Constant, Effect, Source};

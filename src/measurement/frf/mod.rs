@@ -7,7 +7,9 @@
 pub mod lines;
 pub mod variance;
 
-use super::{Channel, ChannelFit, Correction, HarmonicFit, Run};
+use super::channel::Channel;
+use super::fit::{ChannelFit, HarmonicFit};
+use super::run::{Correction, Run};
 use faer::{Mat, c64};
 use lines::Density;
 use std::f64::consts::TAU;

@@ -6,7 +6,7 @@
 //!
 //! Laws with memory are marched in steps of a sixteenth of a sample, from rest where the record starts.
 
-use super::Loading;
+use super::loading::Loading;
 use crate::effects::{Constant, Source};
 
 /// Steps of the laws a sample.

@@ -3,7 +3,7 @@
 //! The filter is a sinc under a Kaiser window (Oppenheim and Schafer, *Discrete-Time Signal Processing*, 2010, 7.6) without
 //! delay: flat to 0.34 of the sampling rate, 80 dB down from 0.5. It is the same for forces and motions.
 
-use super::Loading;
+use super::loading::Loading;
 use crate::control::Control;
 use crate::effects::{Effect, Source};
 use crate::measurement::{Channel, Quantity};

@@ -1,13 +1,15 @@
 //! The reduction itself.
 
 use super::check::check;
+use super::mode_check::ModeCheck;
 use super::pencil::Shifted;
-use super::{Method, ModeCheck, Reduction, SparseSystem, Wanted};
+use super::{Method, Reduction, SparseSystem, Wanted};
 use crate::math::eigen::symmetrised;
 use crate::math::fill::filled;
+use crate::structure::error::StructureError;
 use crate::structure::lowest_modes::Pencil;
 use crate::structure::modes::Modes;
-use crate::structure::{Direction, StructureError, SystemMatrices};
+use crate::structure::{Direction, SystemMatrices};
 use dashpot_numerics::{SparseCholesky, SparseSymmetric, product, transposed_product};
 use faer::Mat;
 

@@ -3,7 +3,8 @@
 
 use super::*;
 use crate::structure::beam::{BeamParameters, Supports};
-use crate::structure::{Direction, Structure, StructureError};
+use crate::structure::error::StructureError;
+use crate::structure::{Direction, Structure};
 use faer::MatRef;
 
 fn beam(elements: usize, supports: Supports) -> (BeamParameters, Structure) {

@@ -7,10 +7,11 @@
 
 mod elements;
 
+use super::error::StructureError;
 use super::error::positive;
 use super::imported::{ImportedDof, ImportedParameters};
 use super::lumped_mass::LumpedMass;
-use super::{Direction, Node, Structure, StructureError};
+use super::{Direction, Node, Structure};
 use elements::Sheet;
 use faer::Mat;
 use nalgebra::Vector3;
