@@ -326,7 +326,7 @@ def uffs():
             pyuff.UFF(str(path)).write_sets({**data, "binary": binary}, "add")
         b = "b" if binary else ""
         read = pyuff.UFF(str(path)).read_sets()
-        expect(name, "uff", [(f"1 (58{b}) frequency response", "12:+Z/1:-Z", "(m/s^2)/(N)", 0.5, read[0]["data"]),
+        expect(name, "uff", [(f"1 (58{b}) frequency response", "12:+Z/1:-Z", "m/s^2/N", 0.5, read[0]["data"]),
                              (f"2 (58{b}) time response", "7:+X", "g", 0.5, read[1]["data"])])
 
 

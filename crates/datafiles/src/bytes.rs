@@ -27,23 +27,39 @@ const PIECE: u64 = 1 << 20;
 /// `count` numbers that are `stride` numbers apart, from where the reader stands; only one piece of the file is in memory beside them.
 pub(crate) fn strided(
     reader: &mut impl io::Read,
-    (scalar, big): (Scalar, bool),
+    kind: (Scalar, bool),
     stride: u64,
     count: u64,
 ) -> Read<Vec<f64>> {
+    Ok(columns(reader, kind, stride, count, &[0])?.pop().unwrap_or_default())
+}
+
+/// Columns of `count` rows that are `stride` numbers long, from where the reader stands: those that lie so many numbers into
+/// a row, in ascending order.
+pub(crate) fn columns(
+    reader: &mut impl io::Read,
+    (scalar, big): (Scalar, bool),
+    stride: u64,
+    count: u64,
+    wanted: &[u64],
+) -> Read<Vec<Vec<f64>>> {
     let (width, step) = (scalar.size() as u64, scalar.size() as u64 * stride.max(1));
-    let rows = (PIECE / step).max(1);
-    let mut values = room(count)?;
+    let needed = width * (wanted.last().unwrap_or(&0) + 1);
+    let most = (PIECE / step).max(1);
+    let mut found = wanted.iter().map(|_| room(count)).collect::<Read<Vec<_>>>()?;
     let mut done = 0;
     while done < count {
-        let rows = rows.min(count - done);
+        let rows = most.min(count - done);
         // Behind the last number nothing may follow.
-        let rest = if done + rows < count { step - width } else { 0 };
-        let bytes = take(reader, (rows - 1) * step + width + rest)?;
-        values.extend(bytes.chunks(step as usize).filter_map(|row| scalar.get(row, big)));
+        let rest = if done + rows < count { step } else { needed };
+        let bytes = take(reader, (rows - 1) * step + rest)?;
+        for (column, at) in found.iter_mut().zip(wanted) {
+            let from = (at * width) as usize;
+            column.extend(bytes.chunks(step as usize).filter_map(|row| scalar.get(row.get(from..)?, big)));
+        }
         done += rows;
     }
-    Ok(values)
+    Ok(found)
 }
 
 /// A type of number in a binary file.

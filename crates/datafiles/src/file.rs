@@ -102,6 +102,28 @@ impl DataFile {
         guarded(|| self.source.read(set, channel)).map_err(|fault| self.error(set, channel, fault))
     }
 
+    /// Reads several channels of set number `set`, in one pass over the file where its rows or chunks hold them together.
+    ///
+    /// # Errors
+    /// As [`Self::read`].
+    pub fn read_several(&self, set: usize, channels: &[usize]) -> Result<Vec<Values>, Error> {
+        channels.iter().try_for_each(|&channel| self.check(set, channel))?;
+        // Rows are passed from their first channel to the last.
+        let mut order: Vec<usize> = (0..channels.len()).collect();
+        order.sort_by_key(|&i| channels[i]);
+        let ascending: Vec<usize> = order.iter().map(|&i| channels[i]).collect();
+        if channels.len() > 1
+            && ascending.windows(2).all(|pair| pair[0] < pair[1])
+            && let Some(Ok(values)) = guarded(|| Ok(self.source.together(set, &ascending))).unwrap_or_default()
+        {
+            let mut found: Vec<(usize, Values)> = order.into_iter().zip(values).collect();
+            found.sort_by_key(|(i, _)| *i);
+            return Ok(found.into_iter().map(|(_, values)| values).collect());
+        }
+        // One by one, also where that failed: so it is told which channel is damaged.
+        channels.iter().map(|&channel| self.read(set, channel)).collect()
+    }
+
     /// Reads the abscissa of a channel in the unit of the set's abscissa; none where the file says none.
     ///
     /// # Errors

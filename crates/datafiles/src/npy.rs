@@ -3,7 +3,7 @@
 //! Source: "NEP 1: A simple file format for NumPy arrays": magic, version, length of the header, and a Python dictionary of
 //! `descr`, `fortran_order` and `shape`.
 
-use crate::bytes::{Scalar, check_size, strided, take};
+use crate::bytes::{Scalar, check_size, columns, take};
 use crate::contents::{Contents, Format};
 use crate::error::{Fault, Read, one_line};
 use crate::source::Source;
@@ -212,17 +212,30 @@ impl Arrays for Npy {
     }
 
     fn column(&self, _id: usize, cut: &Cut, channel: u64) -> Option<Read<Flat>> {
-        self.real_column(cut, channel).transpose()
+        let one = |mut flats: Vec<Flat>| flats.pop().ok_or_else(|| Fault::new("there is no such column"));
+        self.real_columns(cut, &[channel]).transpose().map(|flats| flats.and_then(one))
+    }
+
+    fn columns(&self, _id: usize, cut: &Cut, channels: &[u64]) -> Option<Read<Vec<Flat>>> {
+        self.real_columns(cut, channels).transpose()
     }
 }
 
 impl Npy {
-    fn real_column(&self, cut: &Cut, channel: u64) -> Read<Option<Flat>> {
+    /// Columns in one pass; none where they are complex, or not beside each other in ascending order.
+    fn real_columns(&self, cut: &Cut, channels: &[u64]) -> Read<Option<Vec<Flat>>> {
         let mut file = File::open(&self.path)?;
         let header = Header::read(&mut file)?;
         let Some(numbers) = header.numbers().filter(|numbers| !numbers.complex) else { return Ok(None) };
-        file.seek_relative((cut.offset(channel) * numbers.size()) as i64)?;
-        strided(&mut file, (numbers.scalar, numbers.big), cut.stride, cut.count).map(|re| Some(Flat::real(re)))
+        let first = channels.first().map_or(0, |&channel| cut.offset(channel));
+        let places: Vec<u64> = channels.iter().map(|&channel| cut.offset(channel).wrapping_sub(first)).collect();
+        let beside = places.windows(2).all(|pair| pair[0] < pair[1]) && places.iter().all(|&at| at < cut.stride.max(1));
+        if !beside {
+            return Ok(None);
+        }
+        file.seek_relative((first * numbers.size()) as i64)?;
+        let read = columns(&mut file, (numbers.scalar, numbers.big), cut.stride, cut.count, &places)?;
+        Ok(Some(read.into_iter().map(Flat::real).collect()))
     }
 }
 

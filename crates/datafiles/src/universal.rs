@@ -108,7 +108,8 @@ fn function(set: &mut Set, header: &FunctionHeader, units: Option<&uff::Units>) 
     let unit = match (header.ordinate.unit.as_str(), header.denominator.unit.as_str()) {
         (unit, "") => unit.to_owned(),
         ("", below) => format!("1/{below}"),
-        (unit, below) => format!("({unit})/({below})"),
+        (unit, below) if below.contains(['/', '*', '·', ' ']) => format!("{unit}/({below})"),
+        (unit, below) => format!("{unit}/{below}"),
     };
     let unit = by_set.map_or(unit, str::to_owned);
     let mut channel = Channel::new(name(header), unit, header.count);

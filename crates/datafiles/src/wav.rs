@@ -1,6 +1,6 @@
 //! WAV files: one channel a track; integers are shares of full scale as they are in the file.
 
-use crate::bytes::{Scalar, check_size, room, strided};
+use crate::bytes::{Scalar, check_size, columns, room};
 use crate::contents::{Axis, Channel, Contents, FIRST, Format, Kind, Number, Set};
 use crate::error::{Fault, Read};
 use crate::source::Source;
@@ -75,31 +75,44 @@ fn samples(reader: &mut WavReader<BufReader<File>>, most: usize) -> Read<Vec<f64
     }
 }
 
+/// Tracks of a coding whose numbers have a plain type, in one pass; none of 24 bit and of single bytes.
+fn plain(reader: WavReader<BufReader<File>>, tracks: &[usize]) -> Option<Read<Vec<Values>>> {
+    let spec = reader.spec();
+    let full = 2f64.powi(i32::from(spec.bits_per_sample) - 1);
+    let (scalar, full) = match (spec.sample_format, spec.bits_per_sample) {
+        (SampleFormat::Float, 32) => (Scalar::F32, 1.0),
+        (SampleFormat::Int, 16) => (Scalar::I16, full),
+        (SampleFormat::Int, 32) => (Scalar::I32, full),
+        _ => return None,
+    };
+    let (count, wanted) = (u64::from(reader.duration()), tracks.iter().map(|&track| track as u64).collect::<Vec<_>>());
+    // The reader stands at the first sample.
+    let read = columns(&mut reader.into_inner(), (scalar, false), u64::from(spec.channels), count, &wanted);
+    let shares = |mut values: Vec<f64>| {
+        values.iter_mut().for_each(|value| *value /= full);
+        Values::Real(values)
+    };
+    Some(read.map(|columns| columns.into_iter().map(shares).collect()))
+}
+
 impl Source for Wav {
     fn read(&self, _set: usize, channel: usize) -> Read<Values> {
+        if let Some(read) = plain(reader(&self.path)?, &[channel]) {
+            return Ok(read?.pop().unwrap_or(Values::Real(Vec::new())));
+        }
         let mut reader = reader(&self.path)?;
         let spec = reader.spec();
         let full = 2f64.powi(i32::from(spec.bits_per_sample) - 1);
-        let tracks = usize::from(spec.channels);
-        let count = u64::from(reader.duration());
-        // The reader stands at the first sample. 24 bit and single bytes have no plain type of number.
-        let plain = match (spec.sample_format, spec.bits_per_sample) {
-            (SampleFormat::Float, 32) => Some((Scalar::F32, 1.0)),
-            (SampleFormat::Int, 16) => Some((Scalar::I16, full)),
-            (SampleFormat::Int, 32) => Some((Scalar::I32, full)),
-            _ => None,
-        };
-        if let Some((scalar, full)) = plain {
-            let mut file = reader.into_inner();
-            file.seek_relative((channel * scalar.size()) as i64)?;
-            let mut values = strided(&mut file, (scalar, false), tracks as u64, count)?;
-            values.iter_mut().for_each(|value| *value /= full);
-            return Ok(Values::Real(values));
-        }
-        let mut values = room(count)?;
-        for value in reader.samples::<i32>().skip(channel).step_by(tracks) {
+        let mut values = room(u64::from(reader.duration()))?;
+        for value in reader.samples::<i32>().skip(channel).step_by(usize::from(spec.channels)) {
             values.push(f64::from(value.map_err(wrong)?) / full);
         }
         Ok(Values::Real(values))
+    }
+
+    fn together(&self, _set: usize, channels: &[usize]) -> Option<Read<Vec<Values>>> {
+        // Rows are passed once, from the left to the right.
+        let ascending = channels.windows(2).all(|pair| pair[0] < pair[1]);
+        if ascending { plain(reader(&self.path).ok()?, channels) } else { None }
     }
 }

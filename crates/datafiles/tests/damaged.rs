@@ -1,41 +1,11 @@
 //! Files that are damaged, foreign or cut short: one clear line or what can still be read, never a panic, bounded memory.
 #![allow(clippy::disallowed_methods, clippy::unwrap_used, reason = "tests")]
 
-use dashpot_datafiles::{Error, open};
-use rand::{RngExt, SeedableRng};
-use rand_chacha::ChaCha8Rng;
-use std::path::{Path, PathBuf};
+mod common;
 
-fn corpus() -> Vec<PathBuf> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/corpus");
-    let mut files: Vec<PathBuf> = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
-    files.retain(|path| path.extension().is_some_and(|end| end != "json"));
-    files.sort();
-    files
-}
-
-/// Opens a file and reads every channel and abscissa of it; what is read must be what was listed.
-fn read_all(path: &Path) -> Result<usize, Error> {
-    let file = open(path)?;
-    let mut read = 0;
-    for (s, set) in file.contents().sets.iter().enumerate() {
-        for (c, channel) in set.channels.iter().enumerate() {
-            if let Ok(values) = file.read(s, c) {
-                assert_eq!(values.len() as u64, channel.count, "{}: {}", path.display(), channel.name);
-                read += 1;
-            }
-            let _ = file.axis(s, c);
-        }
-    }
-    Ok(read)
-}
-
-/// One line that names the file and says more than that.
-fn check(error: &Error) {
-    let text = error.to_string();
-    assert!(!text.contains('\n') && text.len() > error.file.len() + 20, "{text}");
-    assert!(text.starts_with(&error.file), "{text}");
-}
+use dashpot_datafiles::open;
+use common::{check, corpus, read_all};
+use std::path::PathBuf;
 
 fn written(folder: &tempfile::TempDir, name: &str, bytes: &[u8]) -> PathBuf {
     let path = folder.path().join(name);
@@ -59,85 +29,6 @@ fn files_cut_short_anywhere_make_one_line() {
         }
     }
     assert!(bad > 150, "{bad}");
-}
-
-/// Changes a file as damage does: bytes, bits, pieces lost, doubled or filled, lengths set to the largest.
-fn mutate(bytes: &mut Vec<u8>, random: &mut ChaCha8Rng) {
-    for _ in 0..random.random_range(1..6) {
-        if bytes.is_empty() {
-            return;
-        }
-        // Headers matter most.
-        let most = if random.random_range(0..2) == 0 { bytes.len().min(256) } else { bytes.len() };
-        let at = random.random_range(0..most);
-        let end = (at + random.random_range(1..32)).min(bytes.len());
-        match random.random_range(0..8) {
-            0 => bytes[at] = random.random(),
-            1 => bytes[at] ^= 1 << random.random_range(0..8),
-            2 => bytes[at..(at + 4).min(end)].fill(0xFF),
-            3 => bytes[at..end].fill(0),
-            4 => drop(bytes.drain(at..end)),
-            5 => {
-                let piece = bytes[at..end].to_vec();
-                bytes.splice(at..at, piece);
-            }
-            6 => bytes.truncate(at),
-            _ => {
-                let odd: [&[u8]; 8] =
-                    [b"NaN", b"-1\n", b"1e999", b"\x00", b",,,", b"\"", b"\xFF\xFE", b"99999999999999999999"];
-                let piece = odd[random.random_range(0..odd.len())];
-                bytes.splice(at..at, piece.iter().copied());
-            }
-        }
-    }
-}
-
-/// Most memory that the process has asked for, kB; none where the system does not tell.
-fn peak() -> Option<u64> {
-    let status = std::fs::read_to_string("/proc/self/status").ok()?;
-    status.lines().find_map(|line| line.strip_prefix("VmPeak:"))?.trim().trim_end_matches(" kB").parse().ok()
-}
-
-fn fuzz(rounds: usize) {
-    let before = peak();
-    let folder = tempfile::tempdir().unwrap();
-    let mut random = ChaCha8Rng::seed_from_u64(15);
-    let files: Vec<(String, Vec<u8>)> = corpus()
-        .iter()
-        .map(|path| (path.file_name().unwrap().to_string_lossy().into_owned(), std::fs::read(path).unwrap()))
-        .collect();
-    let (mut refused, mut read) = (0, 0);
-    for _ in 0..rounds {
-        for (name, bytes) in &files {
-            let mut bytes = bytes.clone();
-            mutate(&mut bytes, &mut random);
-            let path = written(&folder, name, &bytes);
-            match read_all(&path) {
-                Ok(_) => read += 1,
-                Err(error) => {
-                    check(&error);
-                    refused += 1;
-                }
-            }
-        }
-    }
-    // Lengths in damaged headers of files below 100 kB: whatever they say, little memory is asked for.
-    if let (Some(before), Some(after)) = (before, peak()) {
-        assert!(after < before + 1024 * 1024, "{} MB were asked for", (after - before) / 1024);
-    }
-    println!("{refused} refused, {read} read");
-    assert!(refused > rounds && read > rounds);
-}
-
-#[test]
-fn damaged_files_never_panic() {
-    fuzz(40);
-}
-
-#[test]
-#[ignore = "an hour: cargo test --release -p dashpot-datafiles -- --ignored"]
-fn very_many_damaged_files_never_panic() {
-    fuzz(200_000);
 }
 
 #[test]

@@ -112,15 +112,27 @@ pub(super) fn ratio_of_unit(unit: &str) -> Result<Ratio, String> {
     let unknown =
         || format!("the unit \"{unit}\" is no motion over a force; give `form` and `scale` (file times scale is SI)");
     let plain: String = unit.chars().filter(|c| !c.is_whitespace()).collect();
-    match plain.to_lowercase().as_str() {
-        "1/kg" | "kg-1" | "kg^-1" => return Ok(Ratio { form: Form::Accelerance, to_si: 1.0 }),
-        "kg" => return Ok(Ratio { form: Form::ApparentMass, to_si: 1.0 }),
-        _ => {}
+    if let Some(form) = form_of_base_units(&plain) {
+        return Ok(Ratio { form, to_si: 1.0 });
     }
     let (over, under) = split(&plain).ok_or_else(unknown)?;
     let (top, bottom) =
         (LabUnit::from_name(&over).ok_or_else(unknown)?, LabUnit::from_name(&under).ok_or_else(unknown)?);
     of_sides((top.quantity, top.to_si), (bottom.quantity, bottom.to_si)).ok_or_else(unknown)
+}
+
+/// Forms whose SI units are written over one line: `1/kg`, `m/(N s^2)`, `s/kg`, `m/Ns`, `s^2/kg`, `kg/s`.
+fn form_of_base_units(unit: &str) -> Option<Form> {
+    let plain: String = unit.to_lowercase().replace('²', "2").replace(['(', ')', '^', '*', '·', '.'], "");
+    Some(match plain.as_str() {
+        "1/kg" | "kg-1" | "m/ns2" | "m/n/s2" => Form::Accelerance,
+        "s/kg" | "m/ns" | "m/n/s" => Form::Mobility,
+        "s2/kg" => Form::Receptance,
+        "kg" | "ns2/m" => Form::ApparentMass,
+        "kg/s" | "ns/m" => Form::Impedance,
+        "kg/s2" => Form::DynamicStiffness,
+        _ => return None,
+    })
 }
 
 /// Quantity and factor to SI of the unit of a motion alone, such as `g`.
@@ -198,6 +210,9 @@ mod tests {
         assert_eq!(read("(m/s)/N"), Some((Form::Mobility, 1.0)));
         assert_eq!(read("N/m"), Some((Form::DynamicStiffness, 1.0)));
         assert_eq!(read("1/kg"), Some((Form::Accelerance, 1.0)));
+        assert_eq!(read("m/(N·s²)"), Some((Form::Accelerance, 1.0)));
+        assert_eq!(read("m/(N s)"), Some((Form::Mobility, 1.0)));
+        assert_eq!(read("N s/m"), Some((Form::Impedance, 1.0)));
         assert_eq!((read("V/N"), read("m/s^2"), read("")), (None, None, None));
     }
 }

@@ -3,11 +3,13 @@
 //! The mapping is a template in the project, `[[channel]]`, and holds for all its files of the same layout. Files are opened
 //! by `dashpot_datafiles` and never rewritten.
 
+mod fault;
 mod guess;
 mod memory;
 pub mod propose;
 mod read;
 mod runs;
+mod samples;
 mod stepped;
 pub mod table;
 pub mod units;

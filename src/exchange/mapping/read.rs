@@ -1,20 +1,17 @@
 //! A run out of a laboratory file by the mapping of the project.
 
+use super::fault::{At, data};
 use super::memory::too_large;
 use super::propose::own_name;
+use super::samples::{same_even_axis, same_time, samples, times};
 use super::table::ChannelTable;
 use super::units::LabUnit;
 use crate::exchange::records::{RecordFileError, RecordProblem, base_channel};
 use crate::measurement::channel::ChannelName;
 use crate::measurement::{Channel, Quantity, Record};
 use crate::structure::{Structure, StructureKind};
-use dashpot_datafiles::{Axis, DataFile, Kind, Values, open};
+use dashpot_datafiles::{DataFile, open};
 use std::path::Path;
-
-/// Largest difference of the times of two channels of a run, in steps.
-const SAME_TIME: f64 = 0.01;
-/// Largest relative difference of a sampling rate that is given and that of the file.
-const SAME_RATE: f64 = 0.01;
 
 /// What the project says of its laboratory files.
 #[derive(Debug, Clone, Copy)]
@@ -27,22 +24,6 @@ pub(crate) struct Template<'a> {
     pub sets: &'a [String],
     /// Sampling rate where the file has no time, Hz.
     pub sampling_hz: Option<f64>,
-}
-
-struct At<'a> {
-    file: &'a str,
-}
-
-impl At<'_> {
-    fn error(&self, column: Option<&str>, problem: impl Into<String>) -> RecordFileError {
-        let problem = RecordProblem::DataFile { problem: problem.into() };
-        RecordFileError {
-            file: self.file.to_owned(),
-            line: None,
-            column: column.map(|name| format!("channel \"{name}\"")),
-            problem,
-        }
-    }
 }
 
 /// Whether a file is a record in the project's own form (`time [s]`, `QUANTITY@DOF [UNIT]`) that nothing of the mapping
@@ -116,10 +97,9 @@ pub(crate) fn read_mapped(
         return Err(at.error(None, problem));
     }
     let mut time: Option<Vec<f64>> = None;
-    let (mut found, mut samples) = (Vec::new(), Vec::new());
+    let found = channels.iter().map(|table| target(table, structure, &at)).collect::<Result<Vec<_>, _>>()?;
+    let samples = samples(&file, channels, &places, &at)?;
     for (table, &(set, channel)) in channels.iter().zip(&places) {
-        found.push(target(table, structure, &at)?);
-        samples.push(values(&file, set, channel, table, &at)?);
         if time.is_some() && same_even_axis(&file, places[0], (set, channel)) {
             continue;
         }
@@ -136,12 +116,6 @@ pub(crate) fn read_mapped(
         column: None,
         problem: RecordProblem::Record { problem },
     })
-}
-
-/// The error of the file itself.
-fn data(at: &At<'_>, error: dashpot_datafiles::Error) -> RecordFileError {
-    let problem = RecordProblem::DataFile { problem: error.problem };
-    RecordFileError { file: at.file.to_owned(), line: None, column: error.place, problem }
 }
 
 /// Channels whose names in the file are those of the project.
@@ -221,142 +195,4 @@ fn unit_suits(table: &ChannelTable, structure: &Structure, dof: usize, at: &At<'
         Some(&table.name),
         format!("DOF {} is a {kind} and is not measured in {name}; correct `unit` or `dof`", table.dof),
     ))
-}
-
-/// Samples in SI units, with sign and calibration.
-fn values(
-    file: &DataFile,
-    set: usize,
-    channel: usize,
-    table: &ChannelTable,
-    at: &At<'_>,
-) -> Result<Vec<f64>, RecordFileError> {
-    let entry = &file.contents().sets[set].channels[channel];
-    let kind = file.contents().sets[set].kind;
-    if matches!(kind, Kind::Frf | Kind::Spectrum | Kind::Shape | Kind::Geometry | Kind::Matrix) || entry.complex {
-        let problem =
-            format!("is of kind {}, and a run needs samples over time; choose a channel that has them", kind.word());
-        return Err(at.error(Some(&table.name), problem));
-    }
-    if entry.count == 0 {
-        return Err(at.error(Some(&table.name), "has 0 samples; export the record again or leave the channel out"));
-    }
-    let named = table.unit.as_deref().unwrap_or(&entry.unit);
-    let quantity = table.quantity;
-    let known = LabUnit::names_of(quantity);
-    let Some(unit) = LabUnit::from_name(named) else {
-        let problem = if named.is_empty() {
-            format!("the file says no unit; add `unit` to its [[channel]]: {known}")
-        } else {
-            format!(
-                "\"{named}\" is no known unit; add `unit` to its [[channel]] ({known}), with `factor` for units a number"
-            )
-        };
-        return Err(at.error(Some(&table.name), problem));
-    };
-    if !unit.measures(quantity) {
-        return Err(at.error(
-            Some(&table.name),
-            format!("{named} is not a unit of {}; correct `quantity` or `unit` ({known})", quantity.word()),
-        ));
-    }
-    let factor = unit.to_si * table.factor.unwrap_or(1.0) * table.sign.unwrap_or(1) as f64;
-    let read = file.read(set, channel).map_err(|error| data(at, error))?;
-    let Values::Real(mut samples) = read else {
-        return Err(at.error(Some(&table.name), "is complex, and a run needs samples over time"));
-    };
-    samples.iter_mut().for_each(|value| *value *= factor);
-    Ok(samples)
-}
-
-/// Times of a channel, s.
-fn times(
-    file: &DataFile,
-    set: usize,
-    channel: usize,
-    table: &ChannelTable,
-    sampling_hz: Option<f64>,
-    at: &At<'_>,
-) -> Result<Vec<f64>, RecordFileError> {
-    let entry = &file.contents().sets[set].channels[channel];
-    let axis = file.axis(set, channel).map_err(|error| data(at, error))?;
-    let unit = file.contents().sets[set].axis_unit.trim().to_lowercase();
-    let scale = match unit.as_str() {
-        "" | "s" | "sec" | "secs" | "second" | "seconds" => 1.0,
-        "ms" => 1e-3,
-        "us" | "µs" => 1e-6,
-        "ns" => 1e-9,
-        "min" => 60.0,
-        "h" => 3600.0,
-        other => {
-            return Err(
-                at.error(Some(&table.name), format!("its abscissa is in \"{other}\", and a run needs time in s"))
-            );
-        }
-    };
-    match (axis, sampling_hz) {
-        (None, None) => {
-            let problem = "the file does not say the time between samples; add `sampling_hz` to its [[run]]";
-            Err(at.error(Some(&table.name), problem))
-        }
-        (None, Some(rate)) => Ok((0..entry.count).map(|i| i as f64 / rate).collect()),
-        (Some(mut axis), rate) => {
-            if let (Some(rate), Some(step)) = (rate, entry.axis.step())
-                && (rate * step * scale - 1.0).abs() > SAME_RATE
-            {
-                let found = 1.0 / (step * scale);
-                return Err(at.error(
-                    Some(&table.name),
-                    format!("the file is sampled at {found} Hz and `sampling_hz` says {rate}; leave it out"),
-                ));
-            }
-            axis.iter_mut().for_each(|time| *time *= scale);
-            Ok(axis)
-        }
-    }
-}
-
-/// Whether the file states the same even times for two channels, so that they need not be compared one by one.
-fn same_even_axis(file: &DataFile, first: (usize, usize), other: (usize, usize)) -> bool {
-    let sets = &file.contents().sets;
-    let of = |(set, channel): (usize, usize)| {
-        let entry = &sets[set].channels[channel];
-        (&entry.axis, entry.count, &sets[set].axis_unit)
-    };
-    matches!(of(first).0, Axis::Even { .. }) && of(first) == of(other)
-}
-
-/// Channels of a run share their times.
-fn same_time(
-    first: &[f64],
-    own: &[f64],
-    a: &ChannelTable,
-    b: &ChannelTable,
-    at: &At<'_>,
-) -> Result<(), RecordFileError> {
-    if first.len() != own.len() {
-        let problem = format!(
-            "has {} samples and \"{}\" has {}; map channels of one length and rate",
-            own.len(),
-            a.name,
-            first.len()
-        );
-        return Err(at.error(Some(&b.name), problem));
-    }
-    let step = if first.len() > 1 { (first[first.len() - 1] - first[0]) / (first.len() - 1) as f64 } else { 0.0 };
-    // Written so that NaN is a difference.
-    let far = |(x, y): (&f64, &f64)| (x - y).is_nan() || (x - y).abs() > SAME_TIME * step.abs();
-    match first.iter().zip(own).position(far) {
-        None => Ok(()),
-        Some(i) => {
-            let problem = format!(
-                "sample {} is at {} s and that of \"{}\" at {} s; map channels of one start and rate",
-                i + 1,
-                own[i],
-                a.name,
-                first[i]
-            );
-            Err(at.error(Some(&b.name), problem))
-        }
-    }
 }

@@ -5,6 +5,7 @@
 mod column;
 mod fault;
 mod lzf;
+mod peek;
 mod value;
 
 use crate::contents::{Contents, Format};
@@ -13,17 +14,20 @@ use crate::source::{MOST_VALUES, Source};
 use crate::tree::{Array, Arrays, Cut, Entry, Flat, Node, Shape, TreeSource, sets};
 use fault::wrong;
 use hdf5_reader::group::Group;
-use hdf5_reader::{Attribute, Dataset, Datatype, Hdf5File, OpenOptions, SliceInfo, SliceInfoElem};
+use hdf5_reader::{Attribute, Dataset, Datatype, Hdf5File, OpenOptions};
 use std::collections::{BTreeMap, HashSet};
 use std::path::Path;
+use peek::{SMALL, peek};
 use value::{Field, Value};
 
 /// Deepest groups.
 const DEEPEST: usize = 32;
 /// Most groups and data sets of a file.
 const MOST_ENTRIES: usize = 200_000;
-/// Data sets of at most so many values are read whole for their first ones.
-const SMALL: u64 = 4096;
+/// Most bytes that one byte of a file unpacks to: deflate gives 1032 at most, and files have headers too.
+const UNPACKED: u64 = 1100;
+/// Largest chunk, bytes.
+const LARGEST_CHUNK: u64 = 1 << 28;
 /// Most texts of a data set that are kept.
 const MOST_TEXTS: u64 = 4096;
 
@@ -43,16 +47,19 @@ struct Stored {
 
 /// Opens an HDF5 file; `matlab` where its user block is that of MATLAB 7.3.
 pub(crate) fn open(path: &Path, matlab: bool) -> Read<(Contents, Box<dyn Source>)> {
+    let length = std::fs::metadata(path)?.len();
+    // What a header states is bounded by what the file can hold; a little more for fill values.
+    let holds = length.saturating_mul(UNPACKED).max(1 << 20);
     let options = OpenOptions::default()
-        .with_max_read_bytes((MOST_VALUES * 16) as usize)
+        .with_max_read_bytes(holds.saturating_mul(16).min(MOST_VALUES * 16) as usize)
         .with_filter_registry(lzf::filters())
-        .with_max_chunk_bytes(1 << 28)
+        .with_max_chunk_bytes(holds.min(LARGEST_CHUNK) as usize)
         // Channels are read chunk by chunk, each once.
         .with_chunk_cache_bytes(16 << 20)
         .with_max_object_header_bytes(1 << 24);
     let file = Hdf5File::open_with_options(path, options).map_err(wrong)?;
     let root = file.root_group().map_err(wrong)?;
-    let mut walk = Walk { matlab, datasets: Vec::new(), seen: HashSet::new(), references: BTreeMap::new(), entries: 0 };
+    let mut walk = Walk { matlab, length, datasets: Vec::new(), seen: HashSet::new(), references: BTreeMap::new(), entries: 0 };
     if matlab && let Ok(group) = root.group("#refs#") {
         walk.references = references(&group);
     }
@@ -86,6 +93,8 @@ enum Object {
 
 struct Walk {
     matlab: bool,
+    /// Bytes of the file.
+    length: u64,
     datasets: Vec<Stored>,
     /// Addresses of the groups that are being walked, against links that lead back.
     seen: HashSet<u64>,
@@ -221,6 +230,7 @@ impl Walk {
         }
         let shape = Shape::new(extents, self.matlab);
         let complex = value::readable(dataset.dtype()).unwrap_or(false);
+        self.fits(&dataset)?;
         let mut peek = peek(&dataset, &shape)?;
         let whole = matches!(dataset.dtype(), Datatype::FixedPoint { .. });
         let (factor, offset) = scaling(attributes, whole);
@@ -232,6 +242,21 @@ impl Walk {
         Ok(Node::Array(Array { id, shape, complex, peek }))
     }
 
+    /// A fault where a data set states more than the file can hold, so that no memory follows a damaged extent.
+    fn fits(&self, dataset: &Dataset) -> Read<()> {
+        let count = dataset.num_elements().map_err(wrong)?;
+        let size = dataset.raw_element_size().map_err(wrong)? as u64;
+        let most = if dataset.chunks().is_some() { self.length.saturating_mul(UNPACKED) } else { self.length };
+        if count > SMALL && count.saturating_mul(size) > most {
+            return Err(Fault::new(format!(
+                "it states {count} values of {size} bytes, more than a file of {} bytes holds; it was not written to its end, or is \
+                 damaged: export it again",
+                self.length
+            )));
+        }
+        Ok(())
+    }
+
     /// Records, such as tables of pandas and PyTables: a group with an array a numeric field.
     fn records(&mut self, dataset: &Dataset) -> Read<Node> {
         let fields = value::fields(dataset.dtype());
@@ -240,6 +265,7 @@ impl Walk {
                 "its values are records without a number; save each field as a data set".to_owned(),
             ));
         }
+        self.fits(dataset)?;
         let shape = Shape::new(dataset.shape().to_vec(), false);
         let wanted = shape.wanted();
         let rows = value::peek_records(dataset, &wanted).map_err(wrong)?;
@@ -272,56 +298,6 @@ fn scaling(attributes: &[(String, String)], whole: bool) -> (f64, f64) {
 
 fn skipped(fault: Fault) -> Node {
     Node::Skipped(fault.problem)
-}
-
-/// Values that a listing shows: of small data sets all, of large ones the slabs at the start of each extent.
-fn peek(dataset: &Dataset, shape: &Shape) -> Read<Vec<[f64; 2]>> {
-    let wanted = shape.wanted();
-    let extents = dataset.shape();
-    let total = dataset.num_elements().map_err(wrong)?;
-    if total == 0 {
-        return Ok(Vec::new());
-    }
-    let mut found = BTreeMap::new();
-    if total <= SMALL || extents.is_empty() {
-        let all = dataset.read_array::<Value>().map_err(wrong)?;
-        found.extend(all.iter().enumerate().map(|(i, value)| (i as u64, value.0)));
-    } else {
-        for along in 0..extents.len() {
-            if total / extents[along] <= 4096 {
-                slab(dataset, along, 0..extents[along].min(3), &mut found)?;
-            }
-        }
-        let last: Vec<u64> = extents.iter().map(|extent| extent - 1).collect();
-        corner(dataset, &last, total - 1, &mut found)?;
-    }
-    Ok(wanted.iter().map(|place| found.get(place).copied().unwrap_or([f64::NAN; 2])).collect())
-}
-
-fn slab(dataset: &Dataset, along: usize, range: std::ops::Range<u64>, found: &mut BTreeMap<u64, [f64; 2]>) -> Read<()> {
-    let extents = dataset.shape();
-    let mut selection = SliceInfo::all(extents.len());
-    selection.selections[along] = SliceInfoElem::Slice { start: range.start, end: range.end, step: 1 };
-    let values = dataset.read_slice::<Value>(&selection).map_err(wrong)?;
-    let mut part = extents.to_vec();
-    part[along] = range.end - range.start;
-    for (i, value) in values.iter().enumerate() {
-        let (mut rest, mut place, mut weight) = (i as u64, 0, 1);
-        for axis in (0..extents.len()).rev() {
-            place += rest % part[axis] * weight;
-            rest /= part[axis];
-            weight *= extents[axis];
-        }
-        found.insert(place, value.0);
-    }
-    Ok(())
-}
-
-fn corner(dataset: &Dataset, at: &[u64], place: u64, found: &mut BTreeMap<u64, [f64; 2]>) -> Read<()> {
-    let one = |&i: &u64| SliceInfoElem::Slice { start: i, end: i + 1, step: 1 };
-    let values = dataset.read_slice::<Value>(&SliceInfo { selections: at.iter().map(one).collect() }).map_err(wrong)?;
-    found.extend(values.iter().next().map(|value| (place, value.0)));
-    Ok(())
 }
 
 /// Text of MATLAB: numbers of letters, columns first.
@@ -380,9 +356,15 @@ impl Arrays for Hdf5 {
     }
 
     fn column(&self, id: usize, cut: &Cut, channel: u64) -> Option<Read<Flat>> {
+        let one = |mut flats: Vec<Flat>| flats.pop().ok_or_else(|| Fault::new("there is no such channel"));
+        self.columns(id, cut, &[channel]).map(|flats| flats.and_then(one))
+    }
+
+    fn columns(&self, id: usize, cut: &Cut, channels: &[u64]) -> Option<Read<Vec<Flat>>> {
         let stored = self.datasets.get(id).filter(|stored| stored.field.is_none())?;
         let complex = value::readable(stored.dataset.dtype()).unwrap_or(false);
-        column::column(&stored.dataset, cut, channel, complex).map(|flat| flat.map(|flat| stored.scaled(flat)))
+        let read = column::columns(&stored.dataset, cut, channels, complex)?;
+        Some(read.map(|flats| flats.into_iter().map(|flat| stored.scaled(flat)).collect()))
     }
 }
 

@@ -82,6 +82,18 @@ impl Source for Joined {
         self.values(set, self.column(set, channel)?)
     }
 
+    fn together(&self, set: usize, channels: &[usize]) -> Option<Read<Vec<Values>>> {
+        let below = |&channel: &usize| {
+            let mut column = self.column(set, channel).ok()?;
+            while let Column::WithAxis(inner, _) = column {
+                column = inner;
+            }
+            if let Column::Plain(at) = column { Some(*at) } else { None }
+        };
+        let below: Vec<usize> = channels.iter().map(below).collect::<Option<_>>()?;
+        self.below.together(set, &below)
+    }
+
     fn axis(&self, set: usize, channel: usize) -> Read<Vec<f64>> {
         match self.column(set, channel)? {
             Column::Plain(at) | Column::Pair([at, _], _) => self.below.axis(set, *at),

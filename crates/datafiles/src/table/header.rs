@@ -46,7 +46,7 @@ const MOST_BELOW: usize = 8;
 pub(crate) fn read(lines: &[HeaderLine], width: usize) -> Header {
     let lines: Vec<HeaderLine> = lines.iter().map(|line| words_of_comment(line, width)).collect();
     let lines = lines.as_slice();
-    let Some((parts, lines)) = parts_below_names(lines, width) else { return rows(lines, width) };
+    let Some((parts, lines)) = parts_beside_names(lines, width) else { return rows(lines, width) };
     let mut header = rows(&lines, width);
     for (name, part) in header.names.iter_mut().zip(&parts.cells) {
         if !part.trim().is_empty() {
@@ -64,9 +64,9 @@ fn words_of_comment(line: &HeaderLine, width: usize) -> HeaderLine {
     if commented && width > 1 && words.len() == width { HeaderLine { cells: words } } else { line.clone() }
 }
 
-/// A row of `Real`, `Imag` (or `Mag [g/N]`, `Phase [deg]`) below names that stand once over both: the row, and the other lines
+/// A row of `Real`, `Imag` (or `Mag [g/N]`, `Phase [deg]`) beside names that stand once over both: the row, and the other lines
 /// with the names over every column.
-fn parts_below_names(lines: &[HeaderLine], width: usize) -> Option<(HeaderLine, Vec<HeaderLine>)> {
+fn parts_beside_names(lines: &[HeaderLine], width: usize) -> Option<(HeaderLine, Vec<HeaderLine>)> {
     let is_parts = |line: &HeaderLine| {
         let mut distinct: Vec<String> =
             line.cells.iter().filter(|cell| is_bare_part(cell)).map(|c| c.to_lowercase()).collect();
@@ -79,7 +79,8 @@ fn parts_below_names(lines: &[HeaderLine], width: usize) -> Option<(HeaderLine, 
         parts > 1 && 2 * parts > line.cells.iter().filter(|cell| !cell.is_empty()).count()
     };
     let at = lines.iter().rposition(is_parts).filter(|_| width > 2)?;
-    let names = (at.saturating_sub(2)..at).rev().find(|&i| {
+    let named = |i: &usize| {
+        let i = *i;
         let filled = lines[i].cells.iter().filter(|cell| !cell.is_empty()).count();
         // `Signal:` in front of a text is a label, no name over columns.
         let labels = lines[i].cells[0].trim_end().ends_with(':');
@@ -89,8 +90,17 @@ fn parts_below_names(lines: &[HeaderLine], width: usize) -> Option<(HeaderLine, 
             && !labels
             && !units_row(&lines[i].cells)
             && lines[i].cells.len() + 2 > width
-    })?;
+    };
+    // Testlab has its names below the parts.
+    let above = (at.saturating_sub(2)..at).rev().find(named);
+    let names = above.or_else(|| (at + 1..lines.len()).find(named))?;
     let mut parts = lines[at].clone();
+    if above.is_none()
+        && let Some(first) = parts.cells.first_mut()
+    {
+        // The spacing of the abscissa, such as `Linear`.
+        first.clear();
+    }
     let mut others = lines.to_vec();
     let cells = &mut others[names].cells;
     cells.resize(width, String::new());

@@ -7,21 +7,16 @@ mod input;
 mod objects;
 mod scale;
 mod segment;
+mod values;
 
-use crate::bytes::room;
 use crate::contents::{Axis, Channel, Contents, FIRST, Format, Kind, Set, first_numbers};
 use crate::error::{Fault, Read};
 use crate::source::Source;
 use crate::tree::{Sampling, sampling};
 use objects::{Object, Property, Run};
 use scale::Scaling;
-use std::fs::File;
-use std::io::{BufReader, Read as _, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
 use uff::Values;
-
-/// Bytes that are read at once from interleaved data.
-const PIECE: u64 = 1 << 20;
 
 struct Tdms {
     path: PathBuf,
@@ -122,63 +117,24 @@ fn channel(object: &Object, place: &Place, path: &Path) -> Read<Channel> {
         channel.axis = Axis::Even { start: number("wf_start_offset").unwrap_or(0.0), step };
     }
     channel.attributes.extend(object.properties.iter().take(60).map(|(name, value)| (name.clone(), value.to_string())));
-    channel.first = first_numbers(&read(path, place, FIRST as u64)?);
+    channel.first = first_numbers(&values::first(path, place, FIRST as u64)?);
     Ok(channel)
-}
-
-/// The first `most` values of a channel.
-fn read(path: &Path, place: &Place, most: u64) -> Read<Values> {
-    let mut file = BufReader::new(File::open(path)?);
-    let parts = if place.complex { 2 } else { 1 };
-    let count: u64 = place.runs.iter().map(Run::total).fold(0, u64::saturating_add).min(most);
-    let mut raw = room(count.saturating_mul(parts))?;
-    for run in &place.runs {
-        for chunk in 0..run.chunks {
-            let left = most.saturating_sub(raw.len() as u64 / parts);
-            if left == 0 {
-                break;
-            }
-            let count = run.count_in(chunk).min(left);
-            piece(&mut file, run, run.start + chunk * run.chunk, count, &mut raw)?;
-        }
-    }
-    if place.complex {
-        return Ok(Values::Complex(raw.chunks_exact(2).map(|pair| [pair[0], pair[1]]).collect()));
-    }
-    place.scaling.apply(&mut raw);
-    Ok(Values::Real(raw))
-}
-
-/// `count` values from a byte on.
-fn piece(file: &mut BufReader<File>, run: &Run, at: u64, count: u64, raw: &mut Vec<f64>) -> Read<()> {
-    let (size, stride) = (run.size(), run.stride.max(1));
-    file.seek(SeekFrom::Start(at))?;
-    let rows = (PIECE / stride).max(1);
-    let mut bytes = Vec::new();
-    let mut done = 0;
-    while done < count {
-        let rows = rows.min(count - done);
-        // The last row ends with the value, which may be the last of the file.
-        let wanted = (rows - 1) * stride + size;
-        bytes.clear();
-        file.by_ref().take(wanted).read_to_end(&mut bytes)?;
-        if (bytes.len() as u64) < wanted {
-            return Err(Fault::byte(at, "the data end before their count does; the file was cut short: copy it again"));
-        }
-        if done + rows < count {
-            file.seek_relative((stride - size) as i64)?;
-        }
-        for row in bytes.chunks(stride as usize) {
-            run.value(&row[..size as usize], raw);
-        }
-        done += rows;
-    }
-    Ok(())
 }
 
 impl Source for Tdms {
     fn read(&self, set: usize, channel: usize) -> Read<Values> {
-        let place = self.sets.get(set).and_then(|set| set.get(channel));
-        read(&self.path, place.ok_or_else(|| Fault::new("there is no such channel"))?, u64::MAX)
+        let place = self.place(set, channel).ok_or_else(|| Fault::new("there is no such channel"))?;
+        values::first(&self.path, place, u64::MAX)
+    }
+
+    fn together(&self, set: usize, channels: &[usize]) -> Option<Read<Vec<Values>>> {
+        let places: Vec<&Place> = channels.iter().map(|&channel| self.place(set, channel)).collect::<Option<_>>()?;
+        values::interleaved(&places).then(|| values::all(&self.path, &places))
+    }
+}
+
+impl Tdms {
+    fn place(&self, set: usize, channel: usize) -> Option<&Place> {
+        self.sets.get(set).and_then(|set| set.get(channel))
     }
 }

@@ -5,13 +5,14 @@
 //! of `x_values` and `y_values` is one signal (exports of Simcenter Testlab).
 
 use super::labels::Labels;
+use super::headers::with_headers;
 use super::names::{self, Sampling};
 use super::source::Place;
 use super::{Array, Arrays, Cut, Entry, MOST_CHECKED, Node, Shape};
 use crate::axis::{ascending, even_step, kind_of};
 use crate::contents::{Axis, Channel, FIRST, Kind, Number, Set};
 use crate::error::{Read, one_line};
-use crate::units::suffix;
+use crate::units::{is_unit, suffix};
 
 /// Most notes that are kept of a group.
 const MOST_NOTES: usize = 40;
@@ -19,17 +20,17 @@ const MOST_NOTES: usize = 40;
 const DEEPEST: usize = 64;
 
 /// What a group hands to those below it.
-#[derive(Debug, Clone, Copy, Default)]
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
 struct Context {
     step: Option<f64>,
     start: f64,
-    /// Number of values of the even time vector above that `step` is of.
-    count: Option<u64>,
 }
 
-/// The abscissa of a group.
+/// The abscissa of a group, which is also that of groups below it.
+#[derive(Clone)]
 struct Abscissa {
-    entry: usize,
+    /// Its place among the entries of the group; none where it is of a group above.
+    entry: Option<usize>,
     id: usize,
     count: u64,
     step: Option<f64>,
@@ -44,7 +45,7 @@ pub(crate) fn sets(
     arrays: &dyn Arrays,
 ) -> Read<(Vec<Set>, Vec<Vec<Place>>)> {
     let mut made = Made { arrays, sets: Vec::new(), places: Vec::new() };
-    made.group("", entries, attributes, Context::default(), 0)?;
+    made.group("", entries, attributes, (Context::default(), None), 0)?;
     Ok((made.sets, made.places))
 }
 
@@ -60,26 +61,46 @@ impl Made<'_> {
         path: &str,
         entries: &[Entry],
         attributes: &[(String, String)],
-        above: Context,
+        above: (Context, Option<&Abscissa>),
         depth: usize,
     ) -> Read<()> {
         if self.signal(path, entries) {
             return Ok(());
         }
-        let mut context = above;
-        let scalars = entries.iter().filter_map(|entry| match &entry.node {
-            Node::Array(array) => Some((entry.name.as_str(), array.scalar()?)),
-            _ => None,
-        });
-        let words = attributes.iter().filter_map(|(name, value)| Some((name.as_str(), value.parse().ok()?)));
-        for (name, value) in words.chain(scalars) {
-            context.take(names::sampling(name, value));
+        let entries = &with_headers(entries)[..];
+        let context = above.0.within(entries, attributes);
+        let own = self.abscissa(entries)?;
+        let handed = above.1.filter(|axis| context == above.0 && is_of(axis, entries));
+        let axis = own.as_ref().or(handed);
+        let labels = Labels::of(entries);
+        self.set(path, entries, attributes, context, axis, &labels);
+        let below = own.map(|axis| Abscissa { entry: None, ..axis });
+        let below = below.as_ref().or(above.1.filter(|_| context == above.0));
+        for entry in entries {
+            if let Node::Group(inner) = &entry.node
+                && depth < DEEPEST
+            {
+                let name = if path.is_empty() { entry.name.clone() } else { format!("{path}/{}", entry.name) };
+                let named = labels.named_cells(inner);
+                let inner = named.as_deref().unwrap_or(inner);
+                self.group(&name, inner, &entry.attributes, (context, below), depth + 1)?;
+            }
         }
-        let axis = self.abscissa(entries)?;
-        let below = context.below(entries, axis.as_ref());
+        Ok(())
+    }
+
+    /// The arrays of a group as a set, square ones as sets of their own.
+    fn set(
+        &mut self,
+        path: &str,
+        entries: &[Entry],
+        attributes: &[(String, String)],
+        context: Context,
+        axis: Option<&Abscissa>,
+        labels: &Labels,
+    ) {
         let mut set = Set::new(path, Kind::Table);
         let mut places = Vec::new();
-        let labels = Labels::of(entries);
         for (i, entry) in entries.iter().enumerate() {
             match &entry.node {
                 Node::Array(array) => {
@@ -88,10 +109,9 @@ impl Made<'_> {
                     } else if array.shape.is_square() {
                         self.matrix(path, entry, array);
                     } else {
-                        let axis = axis.as_ref().filter(|axis| axis.entry != i);
-                        let is_axis = axis.is_none() && entries.get(i).is_some_and(|_| self.is_axis(entries, i));
-                        let context = if is_axis { Context::default() } else { context };
-                        channels(&mut set, &mut places, entry, array, axis, context, &labels);
+                        let is_axis = axis.is_some_and(|axis| axis.entry == Some(i));
+                        let (axis, context) = if is_axis { (None, Context::default()) } else { (axis, context) };
+                        channels(&mut set, &mut places, entry, array, axis, context, labels);
                     }
                 }
                 Node::Text(texts) => note(&mut set, format!("{}: {}", entry.name, texts.join(", "))),
@@ -105,12 +125,17 @@ impl Made<'_> {
                     .map(|scale| ("scale beside".to_owned(), scale.to_string())),
             );
         }
-        set.kind = kind(&set, axis.as_ref());
+        set.kind = kind(&set, axis);
         set.axis_unit = match (&axis, set.kind) {
             (Some(axis), _) => axis.unit.clone(),
             (None, Kind::Time) => "s".to_owned(),
             _ => String::new(),
         };
+        // A unit of the group is that of those of its arrays that say none.
+        if let Some(unit) = names::unit_of(attributes).filter(|unit| is_unit(unit)) {
+            let bare = set.channels.iter_mut().filter(|channel| channel.unit.is_empty());
+            bare.filter(|channel| channel.axis != Axis::None).for_each(|channel| unit.clone_into(&mut channel.unit));
+        }
         for (name, value) in attributes {
             note(&mut set, format!("{name}: {value}"));
         }
@@ -118,16 +143,6 @@ impl Made<'_> {
             self.sets.push(set);
             self.places.push(places);
         }
-        for entry in entries {
-            if let Node::Group(inner) = &entry.node
-                && depth < DEEPEST
-            {
-                let name = if path.is_empty() { entry.name.clone() } else { format!("{path}/{}", entry.name) };
-                let named = labels.named_cells(inner);
-                self.group(&name, named.as_deref().unwrap_or(inner), &entry.attributes, below, depth + 1)?;
-            }
-        }
-        Ok(())
     }
 
     /// The vector that is the abscissa of a group.
@@ -160,13 +175,9 @@ impl Made<'_> {
                 ("", _) => "Hz",
                 (unit, _) => unit,
             };
-            return Ok(Some(Abscissa { entry: i, id: array.id, count, step, kind, unit: unit.to_owned() }));
+            return Ok(Some(Abscissa { entry: Some(i), id: array.id, count, step, kind, unit: unit.to_owned() }));
         }
         Ok(None)
-    }
-
-    fn is_axis(&self, entries: &[Entry], i: usize) -> bool {
-        self.abscissa(entries).ok().flatten().is_some_and(|axis| axis.entry == i)
     }
 
     fn matrix(&mut self, path: &str, entry: &Entry, array: &Array) {
@@ -241,17 +252,23 @@ fn within(entry: &Entry, wanted: &impl Fn(&Entry) -> bool, depth: usize) -> bool
     }
 }
 
+/// Whether an abscissa of a group above is as long as an array here.
+fn is_of(axis: &Abscissa, entries: &[Entry]) -> bool {
+    entries.iter().any(|entry| matches!(&entry.node, Node::Array(array) if array.shape.extents.contains(&axis.count)))
+}
+
 impl Context {
-    /// What a group hands down: its own step, else that of its even time vector.
-    fn below(self, entries: &[Entry], axis: Option<&Abscissa>) -> Self {
-        let Some(axis) = axis.filter(|axis| self.step.is_none() && axis.kind == Kind::Time && axis.unit == "s") else {
-            return self;
-        };
-        let start = entries.get(axis.entry).and_then(|entry| match &entry.node {
-            Node::Array(array) => array.at(0),
+    /// With what the scalars and attributes of a group say.
+    fn within(mut self, entries: &[Entry], attributes: &[(String, String)]) -> Self {
+        let scalars = entries.iter().filter_map(|entry| match &entry.node {
+            Node::Array(array) => Some((entry.name.as_str(), array.scalar()?)),
             _ => None,
         });
-        Self { step: axis.step, start: start.map_or(0.0, |value| value[0]), count: Some(axis.count) }
+        let words = attributes.iter().filter_map(|(name, value)| Some((name.as_str(), value.parse().ok()?)));
+        for (name, value) in words.chain(scalars) {
+            self.take(names::sampling(name, value));
+        }
+        self
     }
 
     fn take(&mut self, sampling: Option<Sampling>) {
@@ -308,9 +325,7 @@ fn channels(
         channel.attributes.clone_from(&entry.attributes);
         channel.axis = match (axis, own.step) {
             (Some(axis), _) => Axis::Stored { step: axis.step },
-            (None, Some(step)) if cut.count > 1 && own.count.is_none_or(|count| count == cut.count) => {
-                Axis::Even { start: own.start, step }
-            }
+            (None, Some(step)) if cut.count > 1 => Axis::Even { start: own.start, step },
             _ => Axis::None,
         };
         channel.first = first(array, &cut, c);

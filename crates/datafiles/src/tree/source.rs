@@ -19,6 +19,11 @@ impl Flat {
         Self { re, im: Vec::new() }
     }
 
+    fn into_values(self) -> Values {
+        let Self { re, im } = self;
+        if im.is_empty() { Values::Real(re) } else { values(re.into_iter(), im.into_iter(), true) }
+    }
+
     /// Values at the places that a listing shows.
     pub(crate) fn peek(&self, wanted: &[u64]) -> Vec<[f64; 2]> {
         let at = |values: &[f64], i: u64| usize::try_from(i).ok().and_then(|i| values.get(i).copied());
@@ -36,6 +41,11 @@ pub(crate) trait Arrays: Send + Sync {
 
     /// One channel of array number `id` without the others in memory; none where the array is only read whole.
     fn column(&self, _id: usize, _cut: &Cut, _channel: u64) -> Option<Read<Flat>> {
+        None
+    }
+
+    /// Several channels of array number `id` in one pass over it; none where that is no gain.
+    fn columns(&self, _id: usize, _cut: &Cut, _channels: &[u64]) -> Option<Read<Vec<Flat>>> {
         None
     }
 }
@@ -94,8 +104,7 @@ impl Source for TreeSource {
     fn read(&self, set: usize, channel: usize) -> Read<Values> {
         let place = self.place(set, channel)?;
         if let Some(flat) = self.alone(place.id, &place.cut, place.channel).filter(|_| !place.whole) {
-            let Flat { re, im } = flat?;
-            return Ok(if im.is_empty() { Values::Real(re) } else { values(re.into_iter(), im.into_iter(), true) });
+            return Ok(flat?.into_values());
         }
         if place.cut.count.saturating_mul(place.cut.channels) > MOST_VALUES {
             return Err(Fault::new("its array is too large for memory; save it in pieces"));
@@ -115,6 +124,19 @@ impl Source for TreeSource {
         }
         let complex = !flat.im.is_empty();
         Ok(values(re.into_iter(), im.into_iter(), complex))
+    }
+
+    fn together(&self, set: usize, channels: &[usize]) -> Option<Read<Vec<Values>>> {
+        let places: Vec<&Place> = channels.iter().map(|&channel| self.place(set, channel).ok()).collect::<Option<_>>()?;
+        let first = places.first()?;
+        let large = first.cut.count.saturating_mul(first.cut.channels) > KEPT;
+        let alike = places.iter().all(|place| place.id == first.id && place.cut == first.cut && !place.whole);
+        if !large || !alike {
+            return None;
+        }
+        let wanted: Vec<u64> = places.iter().map(|place| place.channel).collect();
+        let read = self.arrays.columns(first.id, &first.cut, &wanted)?;
+        Some(read.map(|flats| flats.into_iter().map(Flat::into_values).collect()))
     }
 
     fn axis(&self, set: usize, channel: usize) -> Read<Vec<f64>> {
