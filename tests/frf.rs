@@ -1,6 +1,9 @@
 //! Frequency responses from a simulated hammer test to identified dashpots, and what is refused.
 #![allow(clippy::unwrap_used, clippy::disallowed_methods, missing_docs, reason = "tests")]
 
+#[path = "frf/modes.rs"]
+mod modes;
+
 use dashpot::cli::answer;
 use dashpot::control::Control;
 use dashpot::exchange::Project;

@@ -354,10 +354,26 @@ def times_and_names():
     expect("columns.h5", "hdf5", [("", "force", "N", STEP, FORCE), ("", "acc", "g", STEP, ODD)])
 
 
+def described():
+    """Names, units and rates in structs beside the arrays; frequencies and units in a group above; names below the parts."""
+    head = lambda name, unit: {"SignalName": name, "Unit": unit, "SampleFrequency": 1 / STEP}
+    scipy.io.savemat(OUT / "catman.mat", {"Channel_1_Data": FORCE[:, None], "Channel_1_Header": head("Kraft", "N"),
+                                          "Channel_2_Data": ODD[:, None], "Channel_2_Header": head("Beschl", "m/s^2")})
+    expect("catman.mat", "mat", [("", "Kraft", "N", STEP, FORCE), ("", "Beschl", "m/s^2", STEP, ODD)])
+    with h5py.File(OUT / "axis-above.h5", "w") as f:
+        f["frequencies"] = I * 0.5
+        f["frf/real"], f["frf/imag"] = FRF.real, FRF.imag
+        f["frf"].attrs["unit"] = "m/N"
+    expect("axis-above.h5", "hdf5", [("", "frequencies", "", None, I * 0.5), ("frf", "FRF", "m/N", 0.5, FRF)])
+    lines = ["Hz\t(m/s^2)/N\t(m/s^2)/N", "Linear\tReal\tImaginary", "Frequency\tFRF plate:1:+Z/rig:1:+Z\tFRF plate:1:+Z/rig:1:+Z"]
+    lines += ["\t".join(repr(float(v)) for v in row) for row in zip(I * 0.5, FRF.real, FRF.imag)]
+    text("names-below-parts.txt", "\n".join(lines) + "\n", "csv", [("", "FRF plate:1:+Z/rig:1:+Z", "(m/s^2)/N", 0.5, FRF)])
+
+
 import scipy.io.wavfile  # noqa: E402
 import scipy.sparse  # noqa: E402
 
-for make in [tables, lvms, sheets, mats, hdf5s, tdms, wavs, numpys, uffs, times_and_names]:
+for make in [tables, lvms, sheets, mats, hdf5s, tdms, wavs, numpys, uffs, times_and_names, described]:
     make()
 (OUT / "expected.json").write_text(json.dumps(EXPECTED, indent=0) + "\n")
 print(f"{len(EXPECTED)} files in {OUT}")

@@ -41,6 +41,7 @@ pub mod pilkey_inman;
 pub mod poly_reference;
 mod ratios;
 mod refine;
+pub mod reference_shapes;
 pub mod resonant;
 pub mod responses;
 pub mod side_by_side;

@@ -4,6 +4,7 @@ use super::data::{Damping, ModalData, ReceptanceData};
 use super::error::ClassicalError;
 use super::incompleteness::known_damping;
 use super::method::Method;
+use super::reference_shapes::{Beside, ReferenceShape, beside};
 use super::poly_reference::{Extraction, extract};
 use super::responses::FrequencyResponses;
 use super::{errors, resonant};
@@ -80,6 +81,8 @@ pub struct SideBySide {
     pub measured: usize,
     /// Ratios of the known truth.
     pub reference_ratios: Vec<Ratio>,
+    /// Modes and operating shapes of other programs, each beside the same mode here.
+    pub beside: Vec<Beside>,
     /// Deviation of each measured mode's ratio between the methods over their median, `(mode, spread)`.
     pub spread: Vec<(usize, f64)>,
 }
@@ -96,7 +99,7 @@ pub(super) struct Data<'a> {
     modal: Result<ModalData, String>,
 }
 
-/// Applies every method.
+/// Applies every method, and lays the modes of other programs beside what was measured.
 ///
 /// # Errors
 /// [`ClassicalError::Missing`] for a structure without matrices; [`ClassicalError::Cancelled`].
@@ -104,6 +107,7 @@ pub fn side_by_side(
     structure: &Structure,
     sources: &[Source],
     runs: &[Run],
+    references: &[ReferenceShape],
     control: &Control,
 ) -> Result<SideBySide, ClassicalError> {
     let Some(matrices) = structure.matrices() else {
@@ -130,6 +134,7 @@ pub fn side_by_side(
     let reference_ratios = truth.map_or_else(Vec::new, |(_, modes)| ratios(&modes));
     let measured = measured(&entries, data.modal.as_ref().map_or(0, ModalData::len));
     let spread = spread(&entries, measured);
+    let beside = beside(references, data.modal.as_ref().ok(), &data.model);
     Ok(SideBySide {
         modes_from,
         modal: data.modal.ok(),
@@ -138,6 +143,7 @@ pub fn side_by_side(
         reference,
         measured,
         reference_ratios,
+        beside,
         spread,
     })
 }

@@ -3,13 +3,14 @@
 use super::arguments::Methods;
 use super::table::{digits, number, table};
 use crate::classical::ModalData;
+use crate::classical::reference_shapes::{Beside, Match};
 use crate::classical::side_by_side::{Applied, Entry, Ratio, SideBySide, side_by_side};
 use crate::control::Control;
 use crate::exchange::Project;
 use crate::exchange::project::load;
 use crate::session::workers::Threads;
 use anyhow::Context;
-use faer::Mat;
+use faer::{Mat, c64};
 use serde_json::{Map, Value, json};
 use std::sync::Arc;
 
@@ -22,7 +23,7 @@ pub(super) fn run(arguments: &Methods) -> anyhow::Result<String> {
     let control = Control::unattended().with_workers(Arc::new(Threads));
     let project = load(&arguments.file, &control)?;
     super::remarks::tell_remarks(&project);
-    let found = side_by_side(&project.structure, &project.sources, &project.runs, &control)
+    let found = side_by_side(&project.structure, &project.sources, &project.runs, &project.reference_shapes, &control)
         .with_context(|| arguments.file.display().to_string())?;
     Ok(if arguments.json { format!("{:#}\n", document(&project, &found)) } else { report(&project, &found) })
 }
@@ -50,6 +51,7 @@ fn report(project: &Project, found: &SideBySide) -> String {
         rows.push(named("reference", &|mode| found.reference_ratios.get(mode).map(|r| r.ratio)));
     }
     text += &format!("Methods\n{}\n", table(&rows));
+    text += &of_other_programs(&found.beside);
     text += &notes(found);
     text += &matrices(project, found);
     text += "Cannot run\n";
@@ -72,6 +74,29 @@ fn row(entry: &Entry, applied: &Applied, count: usize) -> Vec<String> {
     let ratio = |mode: usize| applied.ratios.iter().find(|r| r.mode == mode).map(|r| 100.0 * r.ratio);
     cells.extend((0..count).map(|mode| optional(ratio(mode))));
     cells
+}
+
+/// Modes and operating shapes of other programs beside ours.
+fn of_other_programs(beside: &[Beside]) -> String {
+    if beside.is_empty() {
+        return String::new();
+    }
+    let mut rows = vec![
+        ["other program", "Hz", "zeta %", "measured here Hz", "zeta %", "MAC", "model Hz", "MAC"].map(str::to_owned).to_vec(),
+    ];
+    let hz = |value: f64| digits(value, 5);
+    let percent = |ratio: Option<f64>| ratio.map_or("-".to_owned(), |ratio| digits(100.0 * ratio, 3));
+    for Beside { reference, measured, model } in beside {
+        let of = |found: &Option<Match>| {
+            found.as_ref().map_or(["-".to_owned(), "-".to_owned()], |found| [hz(found.frequency_hz), digits(found.mac, 3)])
+        };
+        let ([ours, mac], [undamped, undamped_mac]) = (of(measured), of(model));
+        let ratio = percent(measured.as_ref().and_then(|found| found.damping_ratio));
+        let name = format!("{} ({})", reference.name, reference.kind.word());
+        let own = [name, hz(reference.frequency_hz), percent(reference.damping_ratio)];
+        rows.push([&own[..], &[ours, ratio, mac, undamped, undamped_mac]].concat());
+    }
+    format!("Modes of other programs\n{}\n", table(&rows))
 }
 
 fn notes(found: &SideBySide) -> String {
@@ -116,6 +141,7 @@ fn document(project: &Project, found: &SideBySide) -> Value {
         "complex_modes": found.modal.as_ref().map_or_else(Vec::new, complex_modes),
         "reference": found.reference.as_ref().map(rows),
         "reference_modes": found.reference_ratios.iter().map(ratio).collect::<Vec<_>>(),
+        "reference_shapes": found.beside.iter().map(|beside| shape(beside, &labels)).collect::<Vec<_>>(),
         "methods": found.entries.iter().map(entry).collect::<Vec<_>>(),
         "spread": spread.collect::<Vec<_>>(),
     })
@@ -148,6 +174,24 @@ fn entry(entry: &Entry) -> Value {
         }
     }
     Value::Object(map)
+}
+
+/// A mode of another program, and the same mode here with its shape in the scale of the other.
+fn shape(beside: &Beside, labels: &[&str]) -> Value {
+    let Beside { reference, measured, model } = beside;
+    let at = |values: &[c64]| -> Vec<Value> {
+        let rows = reference.at.iter().zip(values);
+        rows.map(|((dof, _), value)| json!({"dof": labels[*dof], "value": [value.re, value.im]})).collect()
+    };
+    let of = |found: &Option<Match>| {
+        found.as_ref().map(|found| {
+            json!({"mode": found.mode + 1, "frequency_hz": found.frequency_hz, "damping_ratio": found.damping_ratio,
+                "mac": found.mac, "shape": at(&found.at)})
+        })
+    };
+    let own: Vec<c64> = reference.at.iter().map(|(_, value)| *value).collect();
+    json!({"name": reference.name, "kind": reference.kind.word(), "frequency_hz": reference.frequency_hz,
+        "damping_ratio": reference.damping_ratio, "shape": at(&own), "measured": of(measured), "model": of(model)})
 }
 
 fn ratio(r: &Ratio) -> Value {

@@ -10,6 +10,7 @@ pub mod project;
 pub mod ratios;
 pub mod records;
 
+use crate::classical::reference_shapes::ReferenceShape;
 use crate::effects::Source;
 use crate::identify::Settings;
 use crate::measurement::{Run, TransientRun};
@@ -32,6 +33,8 @@ pub struct Project {
     pub runs: Vec<Run>,
     /// Decays and transients in the order of the file; channels corrected for their known errors.
     pub transient_runs: Vec<TransientRun>,
+    /// Modes and operating shapes of other programs.
+    pub reference_shapes: Vec<ReferenceShape>,
     /// Settings of the analysis.
     pub settings: Settings,
     /// What the user should know of the measurements: lines chosen, faults that were read over.

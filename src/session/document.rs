@@ -4,6 +4,8 @@ use super::refusal::Refusal;
 use super::save::SaveError;
 use super::{sources, structure};
 use crate::effects::Source;
+use crate::classical::reference_shapes::ReferenceShape;
+use crate::exchange::project::Problem;
 use crate::exchange::project::file::ProjectFile;
 use crate::structure::Structure;
 use std::path::{Path, PathBuf};
@@ -38,6 +40,7 @@ impl Revisions {
             || old.run != new.run
             || old.harmonics != new.harmonics
             || old.frf != new.frf
+            || old.modes != new.modes
             || old.sensor != new.sensor;
         step(measured || fitted(old) != fitted(new), &mut self.measurements);
         step(old.source != new.source || old.candidates != new.candidates, &mut self.sources);
@@ -53,6 +56,7 @@ pub struct Document {
     structure: Arc<Structure>,
     sources: Arc<Vec<Source>>,
     ruled_out: Arc<Vec<Source>>,
+    reference_shapes: Arc<Vec<ReferenceShape>>,
     folder: PathBuf,
 }
 
@@ -71,7 +75,9 @@ impl Document {
         // What was said of a place goes with the place.
         file.ruled_out.retain(|table| table.source(&structure).is_ok());
         let ruled_out = Arc::new(ruled_out(&file, &structure));
-        Ok(Self { file: Arc::new(file), structure, sources, ruled_out, folder: folder.to_owned() })
+        let reference_shapes = reference_shapes(&file, &structure, folder)?;
+        let (file, folder) = (Arc::new(file), folder.to_owned());
+        Ok(Self { file, structure, sources, ruled_out, reference_shapes, folder })
     }
 
     /// The document with another file; the structure is rebuilt only if it changed.
@@ -81,7 +87,12 @@ impl Document {
         }
         let sources = Arc::new(sources::expand(&file, &self.structure)?);
         let ruled_out = Arc::new(ruled_out(&file, &self.structure));
-        Ok(Self { file: Arc::new(file), sources, ruled_out, ..self.clone() })
+        let mut changed = Self { sources, ruled_out, ..self.clone() };
+        if file.modes != self.file.modes || file.frf != self.file.frf {
+            changed.reference_shapes = reference_shapes(&file, &self.structure, &self.folder)?;
+        }
+        changed.file = Arc::new(file);
+        Ok(changed)
     }
 
     /// The project file as data.
@@ -116,10 +127,24 @@ impl Document {
         &self.ruled_out
     }
 
+    /// Modes and operating shapes of other programs.
+    pub fn reference_shapes(&self) -> &Arc<Vec<ReferenceShape>> {
+        &self.reference_shapes
+    }
+
     /// Folder of the project, to which its files are relative.
     pub fn folder(&self) -> &Path {
         &self.folder
     }
+}
+
+fn reference_shapes(
+    file: &ProjectFile,
+    structure: &Structure,
+    folder: &Path,
+) -> Result<Arc<Vec<ReferenceShape>>, Refusal> {
+    let read = file.reference_shapes(structure, folder);
+    Ok(Arc::new(read.map_err(|(_, error)| Problem::Frf(Box::new(error)))?))
 }
 
 fn ruled_out(file: &ProjectFile, structure: &Structure) -> Vec<Source> {

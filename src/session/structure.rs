@@ -40,6 +40,7 @@ fn from_files(table: &StructureTable, folder: &Path) -> Result<Structure, Refusa
         run: Vec::new(),
         harmonics: Vec::new(),
         frf: Vec::new(),
+        modes: Vec::new(),
         base: BaseTable::default(),
         analysis: Settings::default(),
         simulate: SimulateTable::default(),

@@ -175,7 +175,9 @@ impl Derived {
     pub fn methods(&mut self, ctx: &Context, document: &Document) -> Option<Result<Arc<SideBySide>, String>> {
         self.methods.get(ctx, &document.revision(), || {
             let p = document.project.clone();
-            move |control: &Control| side_by_side(&p.structure, &p.sources, &p.runs, control).map_err(|e| e.to_string())
+            move |control: &Control| {
+                side_by_side(&p.structure, &p.sources, &p.runs, &p.reference_shapes, control).map_err(|e| e.to_string())
+            }
         })
     }
 

@@ -224,6 +224,7 @@ fn project(state: &session::Document, records: &Records) -> Project {
         ruled_out: state.ruled_out().as_ref().clone(),
         runs: records.runs(state),
         transient_runs: records.transient_runs(state),
+        reference_shapes: state.reference_shapes().as_ref().clone(),
         settings: file.analysis.clone(),
         remarks: Vec::new(),
     }

@@ -95,7 +95,7 @@ fn of(found: &SideBySide, method: Method) -> Result<&Applied, &String> {
 #[test]
 fn complete_data_without_noise() {
     let structure = five_masses();
-    let found = side_by_side(&structure, &sources(), &sweep(&structure), &Control::unattended()).unwrap();
+    let found = side_by_side(&structure, &sources(), &sweep(&structure), &[], &Control::unattended()).unwrap();
     assert_eq!(found.modes_from, "5 modes by the poly-reference estimator");
     let exact = found.reference_ratios.clone();
     let modal = found.modal.as_ref().unwrap();
@@ -140,7 +140,7 @@ fn complete_data_without_noise() {
 fn reasons_are_one_line_each() {
     let structure = five_masses();
     let runs: Vec<Run> = sweep(&structure).into_iter().take(3).collect();
-    let found = side_by_side(&structure, &sources(), &runs, &Control::unattended()).unwrap();
+    let found = side_by_side(&structure, &sources(), &runs, &[], &Control::unattended()).unwrap();
     let reasons: Vec<String> = found.entries.iter().filter_map(|e| e.outcome.clone().err()).collect();
     assert!(reasons.len() > 15, "{reasons:?}");
     for reason in reasons {

@@ -9,6 +9,7 @@ mod records;
 mod refusal;
 mod request;
 mod responses;
+mod shapes;
 mod single_mode;
 mod stepped;
 mod text;
@@ -40,6 +41,7 @@ pub enum Holds {
 /// # Errors
 /// One line for a file that cannot be read.
 pub fn look(request: &Request) -> Result<Holds> {
+    let request = &shapes::without(request);
     if has_responses(request)? {
         return responses::look(request).map(Holds::Responses);
     }
@@ -54,6 +56,12 @@ pub fn look(request: &Request) -> Result<Holds> {
 /// # Errors
 /// One line: what cannot be read, or what is missing and how to give it.
 pub fn import(request: &Request, out: &Path, control: &Control) -> Result<Imported> {
+    let shapes = shapes::files(request);
+    shapes::add(measurements(&shapes::without(request), out, control)?, &shapes, out)
+}
+
+/// The project of the measurements alone.
+fn measurements(request: &Request, out: &Path, control: &Control) -> Result<Imported> {
     if has_responses(request)? {
         return responses::import(request, out, control);
     }
@@ -68,6 +76,7 @@ pub fn import(request: &Request, out: &Path, control: &Control) -> Result<Import
 /// # Errors
 /// As [`import`].
 pub fn proposal(request: &Request, out: &Path, control: &Control) -> Result<String> {
+    let request = &shapes::without(request);
     if has_responses(request)? || stepped_table(request)?.is_some() {
         return import(request, out, control).map(|imported| imported.text());
     }

@@ -5,6 +5,7 @@ use super::excitation::ExcitationTable;
 use super::frf::FrfTable;
 pub use super::label::Label;
 pub use super::lines::Lines;
+pub use super::modes::ModesTable;
 pub use super::reduce::ReduceTable;
 use super::ruled_out::RuledOutTable;
 use crate::effects::family::Family;
@@ -54,6 +55,9 @@ pub struct ProjectFile {
     /// Tables `[[frf]]`.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub frf: Vec<FrfTable>,
+    /// Tables `[[modes]]`.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub modes: Vec<ModesTable>,
     /// Table `[base]`.
     #[serde(skip_serializing_if = "is_default")]
     pub base: BaseTable,

@@ -124,7 +124,7 @@ fn one(table: &Table<'_>, file: String) -> Result<FrfTable, ProjectError> {
         band: band(table)?,
         lines: table.count("lines", 1, MOST_LINES, "between 1 and 100000")?,
         enabled: table.flag("use")?.unwrap_or(true),
-        dofs: dofs(table)?,
+        dofs: dofs(table, "[frf.dofs]")?,
         responses: table.labels("responses")?.unwrap_or_default().into_iter().map(Label).collect(),
         references: table.labels("references")?.unwrap_or_default().into_iter().map(Label).collect(),
         step_hz: step(table)?,
@@ -176,8 +176,9 @@ fn band(table: &Table<'_>) -> Result<Option<[f64; 2]>, ProjectError> {
     }
 }
 
-fn dofs(table: &Table<'_>) -> Result<BTreeMap<String, Label>, ProjectError> {
-    let Some(map) = table.table("dofs", "[frf.dofs]")? else { return Ok(BTreeMap::new()) };
+/// DOFs of a file and their labels in the structure, a table called `title`.
+pub(super) fn dofs(table: &Table<'_>, title: &'static str) -> Result<BTreeMap<String, Label>, ProjectError> {
+    let Some(map) = table.table("dofs", title)? else { return Ok(BTreeMap::new()) };
     let mut dofs = BTreeMap::new();
     for key in map.keys() {
         if let Some(label) = map.label(key)? {

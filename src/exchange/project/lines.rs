@@ -27,6 +27,8 @@ pub struct Lines {
     pub harmonics: Vec<usize>,
     /// Tables `[[frf]]`.
     pub frf: Vec<usize>,
+    /// Tables `[[modes]]`.
+    pub modes: Vec<usize>,
     /// Table `[simulate]`.
     pub simulate: usize,
 }

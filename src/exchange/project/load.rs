@@ -50,6 +50,7 @@ impl Plan {
             ruled_out: self.ruled_out,
             runs,
             transient_runs,
+            reference_shapes: self.reference_shapes,
             settings: self.file.analysis,
             remarks,
         })

@@ -1,10 +1,10 @@
 //! Tables of measurements on their own: what an import adds to a project that is there.
 
 use super::error::{Problem, ProjectError};
-use super::file::{HarmonicsTable, Lines, ProjectFile, RunTable};
+use super::file::{HarmonicsTable, Lines, ModesTable, ProjectFile, RunTable};
 use super::frf::{self, FrfTable};
 use super::reader::{Origin, Table, one_line};
-use super::{channel, runs};
+use super::{channel, modes, runs};
 use crate::exchange::mapping::ChannelTable;
 use toml::de::DeTable;
 
@@ -19,6 +19,8 @@ pub struct MeasurementTables {
     pub harmonics: Vec<HarmonicsTable>,
     /// Tables `[[frf]]`.
     pub frf: Vec<FrfTable>,
+    /// Tables `[[modes]]`.
+    pub modes: Vec<ModesTable>,
 }
 
 impl MeasurementTables {
@@ -33,13 +35,14 @@ impl MeasurementTables {
             origin.error(error.span().map_or(0, |span| span.start), Problem::Syntax { message })
         })?;
         let root = Table::root(origin, document.get_ref());
-        root.only(&["channel", "run", "harmonics", "frf"])?;
+        root.only(&["channel", "run", "harmonics", "frf", "modes"])?;
         let mut lines = Lines::default();
         Ok(Self {
             channel: channel::parse(&root, &mut lines)?,
             run: runs::runs(&root, &mut lines)?,
             harmonics: runs::harmonics(&root, &mut lines)?,
             frf: frf::parse(&root, &mut lines)?,
+            modes: modes::parse(&root, &mut lines)?,
         })
     }
 }
@@ -70,6 +73,9 @@ impl ProjectFile {
         self.run.extend(tables.run);
         self.harmonics.extend(tables.harmonics);
         self.frf.extend(tables.frf);
+        // Reference data may come again with further measurements.
+        self.modes.retain(|known| tables.modes.iter().all(|table| table.file != known.file));
+        self.modes.extend(tables.modes);
         Ok(())
     }
 }

@@ -17,6 +17,7 @@ pub mod load_base;
 mod load_frf;
 mod measured;
 mod model;
+mod modes;
 mod parse;
 pub mod plan;
 mod reader;

@@ -13,7 +13,7 @@ use super::label::Label;
 use super::reader::{Origin, Table, one_line};
 use super::ruled_out;
 use super::runs::{harmonics, runs};
-use super::{base, reduce};
+use super::{base, modes, reduce};
 use crate::balance::{Expansion, Weights};
 use crate::effects::family::Family;
 use crate::effects::{Effect, State};
@@ -25,7 +25,7 @@ use crate::structure::component::ComponentParameters;
 use std::collections::BTreeMap;
 use toml::de::DeTable;
 
-const TABLES: [&str; 13] = [
+const TABLES: [&str; 14] = [
     "project",
     "structure",
     "source",
@@ -36,6 +36,7 @@ const TABLES: [&str; 13] = [
     "run",
     "harmonics",
     "frf",
+    "modes",
     "base",
     "analysis",
     "simulate",
@@ -104,6 +105,7 @@ impl ProjectFile {
             run: runs(&root, &mut lines)?,
             harmonics: harmonics(&root, &mut lines)?,
             frf: frf::parse(&root, &mut lines)?,
+            modes: modes::parse(&root, &mut lines)?,
             base: base::parse(&root)?,
             analysis: analysis(&root)?,
             simulate: simulate(&root, &mut lines)?,

@@ -5,9 +5,11 @@ use super::excitation::ExcitationTable;
 use super::file::{BaseResponse, Lines, ProjectFile, RunTable, SimulateTable};
 use super::kept;
 use super::label::Label;
+use super::modes;
 use super::ruled_out_sources::ruled_out;
 use super::sources::{At, line, sensors, sources};
 use super::structure::structure;
+use crate::classical::reference_shapes::ReferenceShape;
 use crate::control::Control;
 use crate::effects::Source;
 use crate::exchange::mapping::{Template, read_mapped, reads_as_own};
@@ -34,6 +36,8 @@ pub struct Plan {
     pub sensors: Vec<Source>,
     /// Effects at places that are known not to be what the model lacks.
     pub ruled_out: Vec<Source>,
+    /// Modes and operating shapes of other programs.
+    pub reference_shapes: Vec<ReferenceShape>,
     /// Runs in the order of the file.
     pub runs: Vec<PlannedRun>,
     pub(super) lines: Lines,
@@ -159,8 +163,10 @@ pub fn plan(text: &str, path: &Path) -> Result<Plan, ProjectError> {
     let sensors = sensors(&file.sensor, &structure, at)?;
     let ruled_out = ruled_out(&file.ruled_out, &structure, at)?;
     let runs = runs(&file, &structure, folder, at)?;
+    let reference_shapes = modes::shapes(&file, &lines, &structure, path)?;
     recorded(&file.simulate.channels, &structure).map_err(|problem| at.error(lines.simulate, problem))?;
-    Ok(Plan { path: path.to_owned(), structure, sources, sensors, ruled_out, runs, file, lines })
+    let path = path.to_owned();
+    Ok(Plan { path, structure, sources, sensors, ruled_out, reference_shapes, runs, file, lines })
 }
 
 fn runs(file: &ProjectFile, structure: &Structure, folder: &Path, at: At<'_>) -> Result<Vec<PlannedRun>, ProjectError> {

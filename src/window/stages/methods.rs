@@ -3,6 +3,7 @@
 use super::identified;
 use crate::classical::Damping;
 use crate::classical::method::Method;
+use crate::classical::reference_shapes::{Beside, Match};
 use crate::classical::side_by_side::{Applied, SideBySide};
 use crate::display::format;
 use crate::plots::heatmap::{HeatMap, occupied};
@@ -46,6 +47,7 @@ pub fn show(ui: &mut Ui, app: &mut App) {
                 ui.hint(words);
                 ScrollArea::vertical().id_salt("methods").auto_shrink(false).show(ui, |ui| {
                     table(ui, &found, &mut chosen);
+                    of_other_programs(ui, &found.beside);
                     refused(ui, &found);
                 });
             });
@@ -109,6 +111,47 @@ fn table(ui: &mut Ui, found: &SideBySide, chosen: &mut Option<Method>) {
                 }
             }
             summary(&mut body, found, errors, modes);
+        });
+}
+
+/// Modes and operating shapes of other programs beside the same modes here.
+fn of_other_programs(ui: &mut Ui, beside: &[Beside]) {
+    if beside.is_empty() {
+        return;
+    }
+    ui.add_space(space::S);
+    ui.label("Modes of other programs");
+    let hz = |value: f64| format::significant(value, 5);
+    let percent = |ratio: Option<f64>| ratio.map_or_else(dash, |ratio| format::significant(100.0 * ratio, 3));
+    let heads = ["Hz", "ζ, %", "Here, Hz", "ζ, %", "MAC", "Model, Hz", "MAC"];
+    TableBuilder::new(ui)
+        .id_salt("modes of other programs")
+        .vscroll(false)
+        .striped(true)
+        .cell_layout(Layout::left_to_right(Align::Center))
+        .column(Column::remainder().at_least(NAME).clip(true))
+        .columns(Column::exact(NUMBER + space::S), heads.len())
+        .header(space::ROW, |mut row| {
+            row.col(|ui| drop(ui.hint("Shape")));
+            for head in heads {
+                row.col(|ui| drop(identified::head_right(ui, head)));
+            }
+        })
+        .body(|mut body| {
+            for Beside { reference, measured, model } in beside {
+                let of = |found: &Option<Match>| {
+                    let cells = |found: &Match| [hz(found.frequency_hz), format::significant(found.mac, 3)];
+                    found.as_ref().map_or_else(|| [dash(), dash()], cells)
+                };
+                let ([ours, mac], [undamped, undamped_mac]) = (of(measured), of(model));
+                let ratio = percent(measured.as_ref().and_then(|found| found.damping_ratio));
+                let own = [hz(reference.frequency_hz), percent(reference.damping_ratio)];
+                let cells = own.into_iter().chain([ours, ratio, mac, undamped, undamped_mac]);
+                body.row(space::ROW, |mut row| {
+                    row.col(|ui| drop(name(ui, &reference.name).on_hover_text(reference.kind.word())));
+                    cells.for_each(|cell| drop(row.col(|ui| drop(ui.number(cell)))));
+                });
+            }
         });
 }
 
