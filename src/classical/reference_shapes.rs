@@ -3,7 +3,7 @@
 //! Two shapes are compared by the modal assurance criterion at the DOFs that the other program gives,
 //! `MAC = |a^H b|^2 / (a^H a b^H b)`, which no scale changes (Allemang and Brown, 1st IMAC, 1982).
 
-use super::ModalData;
+use super::data::ModalData;
 use crate::structure::modes::Modes;
 use faer::c64;
 
@@ -80,9 +80,8 @@ pub fn beside(references: &[ReferenceShape], measured: Option<&ModalData>, model
             let hz = modal.poles[p].norm() / std::f64::consts::TAU;
             compared(reference, (p, hz), Some(modal.damping_ratio(p)), |i| modal.shapes[(i, p)])
         };
-        let undamped = |p: usize| {
-            compared(reference, (p, model.frequency_hz(p)), None, |i| c64::new(model.shapes[(i, p)], 0.0))
-        };
+        let undamped =
+            |p: usize| compared(reference, (p, model.frequency_hz(p)), None, |i| c64::new(model.shapes[(i, p)], 0.0));
         let measured = measured.and_then(|modal| best(reference, (0..modal.len()).map(|p| complex(modal, p))));
         let modes = (0..model.shapes.ncols()).map(undamped);
         Beside { reference: reference.clone(), measured, model: best(reference, modes) }

@@ -82,13 +82,17 @@ fn of_other_programs(beside: &[Beside]) -> String {
         return String::new();
     }
     let mut rows = vec![
-        ["other program", "Hz", "zeta %", "measured here Hz", "zeta %", "MAC", "model Hz", "MAC"].map(str::to_owned).to_vec(),
+        ["other program", "Hz", "zeta %", "measured here Hz", "zeta %", "MAC", "model Hz", "MAC"]
+            .map(str::to_owned)
+            .to_vec(),
     ];
     let hz = |value: f64| digits(value, 5);
     let percent = |ratio: Option<f64>| ratio.map_or("-".to_owned(), |ratio| digits(100.0 * ratio, 3));
     for Beside { reference, measured, model } in beside {
         let of = |found: &Option<Match>| {
-            found.as_ref().map_or(["-".to_owned(), "-".to_owned()], |found| [hz(found.frequency_hz), digits(found.mac, 3)])
+            found
+                .as_ref()
+                .map_or(["-".to_owned(), "-".to_owned()], |found| [hz(found.frequency_hz), digits(found.mac, 3)])
         };
         let ([ours, mac], [undamped, undamped_mac]) = (of(measured), of(model));
         let ratio = percent(measured.as_ref().and_then(|found| found.damping_ratio));

@@ -3,8 +3,8 @@
 use super::refusal::Refusal;
 use super::save::SaveError;
 use super::{sources, structure};
-use crate::effects::Source;
 use crate::classical::reference_shapes::ReferenceShape;
+use crate::effects::Source;
 use crate::exchange::project::Problem;
 use crate::exchange::project::file::ProjectFile;
 use crate::structure::Structure;

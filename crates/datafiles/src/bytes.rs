@@ -25,12 +25,7 @@ pub(crate) fn room(count: u64) -> Read<Vec<f64>> {
 const PIECE: u64 = 1 << 20;
 
 /// `count` numbers that are `stride` numbers apart, from where the reader stands; only one piece of the file is in memory beside them.
-pub(crate) fn strided(
-    reader: &mut impl io::Read,
-    kind: (Scalar, bool),
-    stride: u64,
-    count: u64,
-) -> Read<Vec<f64>> {
+pub(crate) fn strided(reader: &mut impl io::Read, kind: (Scalar, bool), stride: u64, count: u64) -> Read<Vec<f64>> {
     Ok(columns(reader, kind, stride, count, &[0])?.pop().unwrap_or_default())
 }
 

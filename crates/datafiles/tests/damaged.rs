@@ -3,8 +3,8 @@
 
 mod common;
 
-use dashpot_datafiles::open;
 use common::{check, corpus, read_all};
+use dashpot_datafiles::open;
 use std::path::PathBuf;
 
 fn written(folder: &tempfile::TempDir, name: &str, bytes: &[u8]) -> PathBuf {

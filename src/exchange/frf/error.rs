@@ -26,7 +26,9 @@ pub enum FrfProblem {
         "has no frequency response: complex values over a frequency, or functions of type 4 (data set 58); name a file with them"
     )]
     NoResponses,
-    #[error("has no modes or operating shapes at nodes with a frequency (data sets 55 and 2414); name a file with them")]
+    #[error(
+        "has no modes or operating shapes at nodes with a frequency (data sets 55 and 2414); name a file with them"
+    )]
     NoShapes,
     #[error(
         "has no shape at a DOF of the structure; say under [modes.dofs] which they are, such as `\"12:+Z\" = LABEL`"

@@ -15,9 +15,9 @@ use crate::tree::{Array, Arrays, Cut, Entry, Flat, Node, Shape, TreeSource, sets
 use fault::wrong;
 use hdf5_reader::group::Group;
 use hdf5_reader::{Attribute, Dataset, Datatype, Hdf5File, OpenOptions};
+use peek::{SMALL, peek};
 use std::collections::{BTreeMap, HashSet};
 use std::path::Path;
-use peek::{SMALL, peek};
 use value::{Field, Value};
 
 /// Deepest groups.
@@ -59,7 +59,8 @@ pub(crate) fn open(path: &Path, matlab: bool) -> Read<(Contents, Box<dyn Source>
         .with_max_object_header_bytes(1 << 24);
     let file = Hdf5File::open_with_options(path, options).map_err(wrong)?;
     let root = file.root_group().map_err(wrong)?;
-    let mut walk = Walk { matlab, length, datasets: Vec::new(), seen: HashSet::new(), references: BTreeMap::new(), entries: 0 };
+    let mut walk =
+        Walk { matlab, length, datasets: Vec::new(), seen: HashSet::new(), references: BTreeMap::new(), entries: 0 };
     if matlab && let Ok(group) = root.group("#refs#") {
         walk.references = references(&group);
     }

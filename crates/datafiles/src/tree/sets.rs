@@ -4,8 +4,8 @@
 //! such as `fs` or `dt` gives an even one, in its group and in those below. Square matrices are sets of their own. A group
 //! of `x_values` and `y_values` is one signal (exports of Simcenter Testlab).
 
-use super::labels::Labels;
 use super::headers::with_headers;
+use super::labels::Labels;
 use super::names::{self, Sampling};
 use super::source::Place;
 use super::{Array, Arrays, Cut, Entry, MOST_CHECKED, Node, Shape};

@@ -127,7 +127,8 @@ impl Source for TreeSource {
     }
 
     fn together(&self, set: usize, channels: &[usize]) -> Option<Read<Vec<Values>>> {
-        let places: Vec<&Place> = channels.iter().map(|&channel| self.place(set, channel).ok()).collect::<Option<_>>()?;
+        let places: Vec<&Place> =
+            channels.iter().map(|&channel| self.place(set, channel).ok()).collect::<Option<_>>()?;
         let first = places.first()?;
         let large = first.cut.count.saturating_mul(first.cut.channels) > KEPT;
         let alike = places.iter().all(|place| place.id == first.id && place.cut == first.cut && !place.whole);
