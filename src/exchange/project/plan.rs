@@ -166,7 +166,7 @@ pub fn plan(text: &str, path: &Path) -> Result<Plan, ProjectError> {
     let reference_shapes = modes::shapes(&file, &lines, &structure, path)?;
     recorded(&file.simulate.channels, &structure).map_err(|problem| at.error(lines.simulate, problem))?;
     let path = path.to_owned();
-    Ok(Plan { path, structure, sources, sensors, ruled_out, reference_shapes, runs, file, lines })
+    Ok(Plan { path, file, structure, sources, sensors, ruled_out, reference_shapes, runs, lines })
 }
 
 fn runs(file: &ProjectFile, structure: &Structure, folder: &Path, at: At<'_>) -> Result<Vec<PlannedRun>, ProjectError> {
