@@ -97,3 +97,19 @@ fn lengths_in_headers_are_checked_before_memory_is_taken() {
     mat.extend(b"x\0");
     assert!(open(&written(&folder, "a.mat", &mat)).is_err());
 }
+
+#[test]
+fn a_short_part_of_a_mat_file_that_says_it_is_long_is_refused() {
+    // A 3 x 3 matrix whose numbers are said to be 72 bytes within their tag of eight.
+    let words = |words: &[u32]| words.iter().flat_map(|word| word.to_le_bytes()).collect::<Vec<u8>>();
+    let mut bytes = b"MATLAB 5.0 MAT-file".to_vec();
+    bytes.resize(124, b' ');
+    bytes.splice(116..124, [0; 8]);
+    bytes.extend(b"\x00\x01IM");
+    bytes.extend(words(&[14, 56, 6, 8, 6, 0, 5, 8, 3, 3, 1 | 1 << 16]));
+    bytes.extend(b"K\0\0\0");
+    bytes.extend(words(&[9 | 72 << 16, 0, 0, 0]));
+    let folder = tempfile::tempdir().unwrap();
+    let error = open(&written(&folder, "a.mat", &bytes)).expect_err("damaged").to_string();
+    assert!(error.contains("a part of 72 bytes is said to be in four"), "{error}");
+}

@@ -93,6 +93,9 @@ fn fuzz(reader: &str, inputs: usize, seed: u64) {
     watch_panics(folder.path());
     let (mut refused, mut read, before) = (0, 0, peak());
     for i in 0..inputs {
+        if i > 0 && i % 500_000 == 0 {
+            println!("{reader}: {i} inputs, {refused} refused, {read} read");
+        }
         let (name, bytes) = &seeds[i % seeds.len()];
         let mut bytes = bytes.clone();
         mutate(&mut bytes, &mut random);

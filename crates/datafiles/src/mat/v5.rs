@@ -130,7 +130,11 @@ impl Walk<'_> {
         let first = word(&tag, self.big);
         if first >> 16 != 0 {
             let (kind, size) = (first & 0xFFFF, (first >> 16) as usize);
-            return Ok((kind, size as u64, Some(tag[4..4 + size.min(4)].to_vec())));
+            if size > 4 {
+                let problem = format!("a part of {size} bytes is said to be in four; the file is damaged: save it again");
+                return Err(Fault::new(problem));
+            }
+            return Ok((kind, size as u64, Some(tag[4..4 + size].to_vec())));
         }
         Ok((first, u64::from(word(&tag[4..], self.big)), None))
     }
