@@ -8,6 +8,7 @@ use super::named_sources::{named, with_values};
 use super::run_flags::{self, flags};
 use super::table::{number, table};
 use crate::control::Control;
+use crate::diagnosis::channels::Fault;
 use crate::diagnosis::diagnose::{Diagnosis, Early, Suggestion, diagnose_without};
 use crate::display::findings;
 use crate::display::words::title;
@@ -18,7 +19,7 @@ use crate::session::save::text_after;
 use crate::session::time_limit::hurry_after;
 use crate::session::validation::{diagnosed_from_records, only_records, problem};
 use crate::session::workers::Threads;
-use crate::session::{Document, Session, corrections, suggestions};
+use crate::session::{Document, Session, corrections, mending, suggestions};
 use crate::structure::{Coupled, Structure};
 use anyhow::Context;
 use serde_json::{Value, json};
@@ -229,15 +230,17 @@ fn apply(file: &Path, out: &Path, written: &Written, diagnosis: &Diagnosis) -> a
     for source in best.into_iter().flatten() {
         document = added(&document, &source).with_context(context)?;
     }
-    let folder = out.parent().unwrap_or(Path::new(""));
-    let text = text_after(&document.file_in(folder)?, Some(file))?;
-    let mut text: toml_edit::DocumentMut = text.parse().with_context(context)?;
-    for fault in &diagnosis.channel_faults {
-        if let Err(why) = channel_faults::mend(&mut text, written.project, fault) {
-            eprintln!("not written: {}: {why}", fault.words());
+    let mendable = diagnosis.channel_faults.iter().filter(|fault| !matches!(fault.fault, Fault::Unreliable(_)));
+    for fault in mendable {
+        let command = mending::command(fault, written.project);
+        match command.and_then(|command| document.after(&command).map_err(|error| error.to_string())) {
+            Ok(mended) => document = mended,
+            Err(why) => eprintln!("not written: {}: {why}", fault.words()),
         }
     }
-    crate::exchange::atomic::write_atomically(out, text.to_string().as_bytes())
+    let folder = out.parent().unwrap_or(Path::new(""));
+    let text = text_after(&document.file_in(folder)?, Some(file))?;
+    crate::exchange::atomic::write_atomically(out, text.as_bytes())
         .with_context(|| out.display().to_string())
 }
 

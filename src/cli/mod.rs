@@ -20,7 +20,6 @@ mod identify_json;
 mod identify_table;
 mod import;
 mod incompleteness;
-mod label;
 mod methods;
 mod moving_base;
 mod named_sources;

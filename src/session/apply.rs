@@ -2,6 +2,7 @@
 
 use super::command::{Command, EffectAt, Setting, SourceAt, SourceSpec};
 use super::document::Document;
+use super::mending::mend;
 use super::refusal::Refusal;
 use super::{sources, structure};
 use crate::effects::{Effect, Family, State};
@@ -54,6 +55,7 @@ fn change(file: &mut ProjectFile, command: &Command, on: &Structure, folder: &Pa
         Command::SetRunFrequency { file: run, frequency } => set_frequency(file, run, *frequency),
         Command::SetRunLevel { file: run, level } => set(&mut run_of(file, run)?.level, *level),
         Command::SetSensor { channel, delay, gain } => set_sensor(file, channel, [*delay, *gain], on),
+        Command::MendChannels(mending) => mend(file, mending, on),
         Command::RuleOut(at) => rule_out(file, at, on),
         Command::Allow(at) => allow(file, at, on),
         Command::SetSetting(setting) => set_setting(file, *setting),

@@ -2,6 +2,7 @@
 //!
 //! In JSON a command is an object with one key, such as `{"add_source": {"law": "viscous", "dofs": ["3"]}}`.
 
+use super::mending::Mending;
 use crate::balance::{Expansion, Weights};
 use crate::effects::{Effect, Family, State};
 use crate::exchange::project::correction::CorrectionTable;
@@ -146,6 +147,8 @@ pub enum Command {
     SetRunLevel { file: String, level: Option<i64> },
     /// States the known errors of a channel: delay in s and gain; none of both forgets them.
     SetSensor { channel: String, delay: Option<f64>, gain: Option<f64> },
+    /// Mends what channels were found to read wrongly in their mapping.
+    MendChannels(Mending),
     /// States that an effect at its place is not what the model lacks: the search suggests others.
     RuleOut(EffectAt),
     /// Takes that back.
@@ -180,6 +183,7 @@ impl Command {
             Self::SetRunFrequency { .. } => "change frequency of run".into(),
             Self::SetRunLevel { .. } => "change level of run".into(),
             Self::SetSensor { channel, .. } => format!("change sensor {channel}"),
+            Self::MendChannels(mending) => counted("mend", mending.channels.len(), "channel"),
             Self::RuleOut(at) => format!("rule out {}", at.law.noun()),
             Self::Allow(at) => format!("allow {} again", at.law.noun()),
             Self::SetSetting(_) => "change setting".into(),

@@ -9,6 +9,7 @@ pub mod history;
 pub mod identified;
 pub mod jobs;
 pub mod recent;
+pub mod mending;
 mod refusal;
 pub mod save;
 pub mod script;

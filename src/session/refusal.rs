@@ -43,6 +43,8 @@ pub enum Refusal {
     NotRuledOut { law: Effect },
     #[error("`{law}` cannot be ruled out: {reason}")]
     NoSuchPlace { law: Effect, reason: String },
+    #[error("{channel} cannot be mended: {reason}")]
+    NotMended { channel: String, reason: String },
     #[error("an empty text cannot be the name of a file")]
     EmptyName,
     #[error("the project cannot be written as TOML: {reason}")]

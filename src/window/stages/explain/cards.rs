@@ -1,6 +1,7 @@
 //! What is missing? The verdict, the ranked suggestions as cards, and what the user has ruled out.
 
 use super::card;
+use super::channels;
 use super::deed::Deed;
 use super::force;
 use super::limit;
@@ -130,6 +131,7 @@ fn answer(ui: &mut Ui, scene: &Scene<'_>, diagnosis: &Diagnosis, look: &mut Look
     if let Some(runs) = findings::searched_runs(diagnosis) {
         ui.weak(runs);
     }
+    channels::show(ui, diagnosis, asks);
     if matches!(diagnosis.verdict, Verdict::Adequate | Verdict::Detuned) {
         adequate(ui, scene, diagnosis);
     } else {

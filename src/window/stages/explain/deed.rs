@@ -32,6 +32,8 @@ pub enum Deed {
         /// Time by which it is late, s.
         delay: f64,
     },
+    /// Mend a channel that was found to read wrongly, by its place in the list, in its mapping.
+    Mend(usize),
     /// Start it again.
     Retry,
     /// End the search with the best so far.

@@ -2,6 +2,7 @@
 
 mod card;
 mod cards;
+mod channels;
 pub mod corrections;
 mod decay;
 pub mod deed;
@@ -107,6 +108,7 @@ pub fn answer(app: &mut App, ctx: &Context, deed: Deed) {
         Deed::Correct => correct(app, ctx),
         Deed::CorrectOne(k) => correct_one(app, ctx, k),
         Deed::CorrectSensor { channel, gain, delay } => correct_sensor(app, ctx, channel, [gain, delay]),
+        Deed::Mend(k) => channels::mend(app, ctx, k),
         Deed::Retry => app.derived.explained.retry(),
         Deed::Hurry => app.derived.explained.hurry(),
         Deed::Limit(limit) => app.view.limit_s = limit,

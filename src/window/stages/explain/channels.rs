@@ -1,0 +1,67 @@
+//! Channels that were found to read wrongly: said before all else, each mended by one click.
+
+use super::deed::Deed;
+use super::scene::Scene;
+use crate::diagnosis::Diagnosis;
+use crate::diagnosis::channels::{ChannelFault, Fault};
+use crate::display::format::in_words;
+use crate::session::{Command, mending};
+use crate::window::app::{App, Ask};
+use crate::window::edits::Edit;
+use crate::window::theme::space;
+use crate::window::widgets::UiExt;
+use egui::{Align, Context, Layout, RichText, Ui};
+
+/// Shows the faults with the error before and after.
+pub fn show(ui: &mut Ui, diagnosis: &Diagnosis, asks: &mut Vec<Ask>) {
+    if diagnosis.channel_faults.is_empty() {
+        return;
+    }
+    ui.title("Channels first", "what follows is with them mended");
+    for (k, fault) in diagnosis.channel_faults.iter().enumerate() {
+        ui.horizontal(|ui| {
+            let words = format!("{}.", fault.words());
+            ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+                if is_mendable(fault) {
+                    let tip = "Writes it into the mapping of the channel. Undo takes it back.";
+                    if ui.primary("Mend").on_hover_text(tip).clicked() {
+                        asks.push(Ask::Explain(Deed::Mend(k)));
+                    }
+                }
+                ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
+                    ui.add(egui::Label::new(RichText::new(words).color(ui.palette().missing)).wrap());
+                });
+            });
+        });
+        let [before, after] = [fault.error_before, fault.error_after].map(in_words);
+        ui.hint(format!("Error of all channels {before} before, {after} after: {}.", fault.evidence()));
+    }
+    ui.add_space(space::XS);
+}
+
+/// A channel that scatters has no mapping that mends it.
+fn is_mendable(fault: &ChannelFault) -> bool {
+    !matches!(fault.fault, Fault::Unreliable(_))
+}
+
+/// Mends fault number `k` in the mapping; the search with the channel as it is then follows by itself.
+pub fn mend(app: &mut App, ctx: &Context, k: usize) {
+    match command(app, k) {
+        Some(Ok((words, command))) => {
+            app.edit(ctx, &Edit::Do(command));
+            if app.message.as_ref().is_none_or(|m| !m.failed) {
+                app.say(format!("Mended: {words}. Undo takes it back."));
+            }
+        }
+        Some(Err(error)) => app.fail(error),
+        None => {}
+    }
+}
+
+fn command(app: &App, k: usize) -> Option<Result<(String, Command), String>> {
+    let document = app.document.as_ref()?;
+    let scene = Scene { document, explained: &app.derived.explained };
+    let Some(Ok(diagnosis)) = scene.explained.diagnosis(document) else { return None };
+    let fault = diagnosis.channel_faults.get(k)?;
+    Some(mending::command(fault, &document.project).map(|command| (fault.words(), command)))
+}
