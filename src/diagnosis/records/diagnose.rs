@@ -19,6 +19,7 @@ use crate::control::Control;
 use crate::diagnosis::diagnose::{Diagnosis, Early, Step, Verdict};
 use crate::effects::{Effect, Source};
 use crate::math::statistics::root_mean_square;
+use crate::measurement::TransientRun;
 
 /// Squared corrections over their prior deviations beyond which an effect that makes them needless is looked for: of all, and of each
 /// where they are many.
@@ -88,7 +89,9 @@ pub fn diagnose_records(
         search.explain(&bare, &mut diagnosis, early)?;
     } else {
         let structure = records.structure.with_factors(&factors_of(&supports));
-        let held = records.on(&structure)?;
+        // More modes may be seen then.
+        let runs: Vec<TransientRun> = records.list.iter().map(|r| r.run.clone()).collect();
+        let held = Records::new(&structure, &records.known, &runs)?;
         let bare = started(&held, &[], control)?;
         let weighted = held.weighted(&bare.residual);
         let search = Search::new(&weighted, &held, (excluded, records.structure, &supports), control);

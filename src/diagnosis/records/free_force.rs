@@ -13,6 +13,7 @@
 use super::data::{RecordData, Records};
 use super::localisation::{Expansion, Line, Spectra};
 use crate::effects::Leg;
+use crate::measurement::Quantity;
 use dashpot_numerics::{Cholesky, RealTransform};
 use faer::{Mat, c64};
 use std::f64::consts::TAU;
@@ -21,6 +22,9 @@ use std::f64::consts::TAU;
 const HIGHEST: [f64; 2] = [3.3, 0.25];
 /// Most lines.
 const MOST_LINES: usize = 6000;
+/// Lowest line over the lowest natural frequency where no sensor shows displacements: below it a force is told from the ends of the
+/// record by nothing.
+const LOWEST: f64 = 0.5;
 /// Rounds of estimation, and lines on either side over which the size of the force is averaged, as a share of all.
 const ROUNDS: usize = 6;
 const NEIGHBOURS: f64 = 0.02;
@@ -29,14 +33,14 @@ const ONE_LINE: f64 = 1.0;
 
 /// The force at a place over a record, with the motion there, at its samples but the last.
 pub(super) struct FreeForce {
-    /// Force on the surroundings of the place, N, without its mean.
+    /// Force on the surroundings of the place, N, without its mean; of acceleration and velocity without what is slower than the modes.
     pub force: Vec<f64>,
-    /// Displacement (m, without its mean), velocity (m/s) and acceleration (m/s^2) along the place.
+    /// Displacement (m), velocity (m/s) and acceleration (m/s^2) along the place, of the same lines.
     pub motion: [Vec<f64>; 3],
     /// Standard deviation of a sample of the force, N.
     pub deviation: f64,
-    /// Number of lines.
-    pub lines: usize,
+    /// Numbers of its first and last line.
+    pub lines: [usize; 2],
 }
 
 /// Lines of a record with a place.
@@ -46,6 +50,8 @@ struct AtPlace<'a> {
     under: Vec<Vec<c64>>,
     /// `|a_k|^2`.
     squares: Vec<f64>,
+    /// Number of the first.
+    first: usize,
     record: &'a RecordData,
     unknowns: usize,
 }
@@ -56,7 +62,10 @@ impl FreeForce {
         let expansion = Expansion::new(records, 0.0);
         let length = record.step * (record.len() - 1) as f64;
         let highest = (HIGHEST[0] * record.highest_hz * length).min(HIGHEST[1] * (record.len() - 1) as f64) as usize;
-        let numbers: Vec<usize> = (1..=highest.min(MOST_LINES)).collect();
+        let slow = record.channels.iter().any(|c| c.quantity == Quantity::Displacement);
+        let lowest = records.modes.omega.iter().copied().find(|w| *w > 0.0).unwrap_or(0.0);
+        let first = if slow { 1 } else { ((LOWEST * lowest / TAU * length) as usize).max(1) };
+        let numbers: Vec<usize> = (first..=highest.min(first + MOST_LINES)).collect();
         let unknowns = 2 * records.kept;
         if numbers.len() < 2 * unknowns {
             return None;
@@ -66,13 +75,13 @@ impl FreeForce {
         let lines = expansion.lines_of(records, record, &spectra, &numbers);
         let under: Vec<Vec<c64>> = lines.iter().map(|line| line.under(&pattern)).collect();
         let squares = under.iter().map(|a| a.iter().map(c64::norm_sqr).sum()).collect();
-        let place = AtPlace { lines, under, squares, record, unknowns };
+        let place = AtPlace { lines, under, squares, first, record, unknowns };
         let (forces, variances, ends) = place.estimated()?;
         let motion = place.motion(&expansion, &spectra, (&pattern, &forces, &ends));
         let against: Vec<c64> = forces.iter().map(|g| -g).collect();
-        let force = over_time(&against, c64::new(0.0, 0.0), record);
+        let force = over_time(&against, first, record);
         let deviation = (2.0 * variances.iter().sum::<f64>()).sqrt() / length;
-        Some(Self { force, motion, deviation, lines: numbers.len() })
+        Some(Self { force, motion, deviation, lines: [first, first + numbers.len() - 1] })
     }
 }
 
@@ -157,11 +166,12 @@ impl AtPlace<'_> {
         let [moved, sped] = [0, kept].map(difference).map(|x| c64::new(x, 0.0));
         let mut orders: [Vec<c64>; 3] = Default::default();
         for (k, force) in forces.iter().enumerate() {
-            let w = TAU * (k + 1) as f64 / length;
+            let w = TAU * (self.first + k) as f64 / length;
             let known = expansion.sources(w);
             let h = expansion.receptance(w, &known, &column);
             let along = |modal: &dyn Fn(usize) -> c64| (0..size).map(|r| h[(r, 0)] * modal(r)).sum::<c64>();
-            let driven = |r: usize| drives.iter().zip(&spectra.forces).map(|(b, u)| u[k + 1] * b[r]).sum::<c64>();
+            let driven =
+                |r: usize| drives.iter().zip(&spectra.forces).map(|(b, u)| u[self.first + k] * b[r]).sum::<c64>();
             let mut d = along(&driven) + along(&|r| c64::new(pattern[r], 0.0)) * *force;
             for (j, s) in ends.iter().enumerate() {
                 let push = expansion.end_push(w, &known, j % kept, j >= kept);
@@ -171,19 +181,17 @@ impl AtPlace<'_> {
             let a = c64::new(0.0, w) * v + sped;
             orders.iter_mut().zip([d, v, a]).for_each(|(list, x)| list.push(x));
         }
-        let means = [c64::new(0.0, 0.0), moved, sped];
-        let mut lists = orders.iter().zip(means).map(|(lines, mean)| over_time(lines, mean, record));
+        let mut lists = orders.iter().map(|lines| over_time(lines, self.first, record));
         std::array::from_fn(|_| lists.next().unwrap_or_default())
     }
 }
 
-/// Samples of what has the Fourier integral `mean` on line 0 and `lines` from line 1 on, over a record without its last sample.
-fn over_time(lines: &[c64], mean: c64, record: &RecordData) -> Vec<f64> {
+/// Samples of what has the Fourier integral `lines` from line `first` on, over a record without its last sample.
+fn over_time(lines: &[c64], first: usize, record: &RecordData) -> Vec<f64> {
     let count = record.len() - 1;
     let length = record.step * count as f64;
     let mut all = vec![c64::new(0.0, 0.0); count / 2 + 1];
-    all[0] = c64::new(mean.re / length, 0.0);
-    all.iter_mut().skip(1).zip(lines).for_each(|(to, line)| *to = line / length);
+    all.iter_mut().skip(first).zip(lines).for_each(|(to, line)| *to = line / length);
     let mut samples = vec![0.0; count];
     RealTransform::new(count).backward(&mut all, &mut samples);
     samples
@@ -205,14 +213,14 @@ fn averaged(list: &[f64], weights: &[f64]) -> Vec<f64> {
     (0..list.len()).map(of).collect()
 }
 
-/// The same force with nothing but lines 1 to `lines`, of the samples of a record without its last.
-pub(super) fn in_band(force: &[f64], lines: usize) -> Vec<f64> {
+/// The same force with nothing but its lines from `first` to `last`, of the samples of a record without its last.
+pub(super) fn in_band(force: &[f64], [first, last]: [usize; 2]) -> Vec<f64> {
     let count = force.len();
     let transform = RealTransform::new(count);
     let mut work = force.to_vec();
     let mut spectrum = transform.forward(&mut work);
     for (k, line) in spectrum.iter_mut().enumerate() {
-        *line = if k == 0 || k > lines { c64::new(0.0, 0.0) } else { *line / count as f64 };
+        *line = if k < first || k > last { c64::new(0.0, 0.0) } else { *line / count as f64 };
     }
     if count % 2 == 0 {
         spectrum[count / 2].im = 0.0;

@@ -20,7 +20,7 @@ const PERIODS: f64 = 2.0;
 /// Motion in the parts that are shown, over the largest.
 const SIZES: [f64; 3] = [1.0, 0.5, 0.2];
 /// Most parts of all records.
-const MOST: usize = 4;
+const MOST: usize = 3;
 /// Share of a record at either end that is not shown: a spectrum does not know whether its ends meet.
 const ENDS: f64 = 0.04;
 /// Force over its deviation from which on it is shown.

@@ -37,7 +37,7 @@ impl Form {
             Effect::ElasticSlider | Effect::Iwan => Some(Self::Masing),
             Effect::Maxwell => Some(Self::Maxwell),
             Effect::Power => Some(Self::Smooth),
-            _ if law.internal(&typical(law)).is_some() => Some(Self::Internal),
+            Effect::Dahl | Effect::BoucWen => Some(Self::Internal),
             _ if law.point(&typical(law), 0.0, 1.0).is_none() => None,
             _ if law.set_valued().is_some() => Some(Self::Friction),
             _ => Some(Self::Smooth),
