@@ -68,6 +68,9 @@ impl std::fmt::Display for Named {
 pub struct Answer {
     pub document: Value,
     pub seconds: f64,
+    /// Seconds of processor time of the whole program meanwhile, where the system tells them: of this project, where one is judged at
+    /// a time. They stay what they are when other work shares the machine.
+    pub processor_seconds: f64,
     /// Error by `compare` after `--apply`, or why there is none.
     pub after: Result<f64, String>,
 }
@@ -77,7 +80,7 @@ pub fn ask(folder: &Path, options: &[String]) -> Result<Answer, String> {
     let project = folder.join("project.toml");
     let applied = folder.join("applied.toml");
     let _ = std::fs::remove_file(&applied);
-    let start = Instant::now();
+    let (start, used) = (Instant::now(), processor_seconds());
     let mut words = words("diagnose", &project);
     words.extend(options.iter().map(OsString::from));
     let adding = [words.clone(), vec!["--apply".into(), applied.clone().into()]].concat();
@@ -86,12 +89,21 @@ pub fn ask(folder: &Path, options: &[String]) -> Result<Answer, String> {
         // What cannot be written is a fault of its own; the answer counts all the same.
         Err(error) => (dashpot::cli::answer(words).map_err(|_| error.clone())?, Some(error)),
     };
-    let seconds = start.elapsed().as_secs_f64();
+    let (seconds, processor_seconds) = (start.elapsed().as_secs_f64(), processor_seconds() - used);
     let after = match unwritten {
         Some(error) => Err(error),
         None => dashpot::cli::answer(self::words("compare", &applied)).and_then(|text| error_of(&text)),
     };
-    Ok(Answer { document: parsed(&text)?, seconds, after })
+    Ok(Answer { document: parsed(&text)?, seconds, processor_seconds, after })
+}
+
+/// Processor time of this program, s, by `/proc` of Linux; NaN elsewhere.
+fn processor_seconds() -> f64 {
+    /// Ticks a second in which the kernel counts.
+    const TICKS: f64 = 100.0;
+    let text = std::fs::read_to_string("/proc/self/stat").unwrap_or_default();
+    let ticks = |k: usize| text.rsplit(')').next()?.split_whitespace().nth(k)?.parse::<f64>().ok();
+    ticks(11).zip(ticks(12)).map_or(f64::NAN, |(user, system)| (user + system) / TICKS)
 }
 
 fn words(command: &str, file: &Path) -> Vec<OsString> {

@@ -180,8 +180,9 @@ fn line(name: &str, truth: &Truth, suggestions: &[Suggestion], answer: &Answer, 
     let mark = if marks.is_empty() { "ok".to_string() } else { marks.join(" ") };
     let hidden: Vec<String> = truth.hidden.iter().map(Named::to_string).collect();
     let mut line = format!(
-        "{mark} | {:.2}s {name} | {} | {:.4} -> {:.4} floor {:.4} misfit {:.2} {}{}",
+        "{mark} | {:.2}s ({:.2} cpu) {name} | {} | {:.4} -> {:.4} floor {:.4} misfit {:.2} {}{}",
         answer.seconds,
+        answer.processor_seconds,
         hidden.join(" + "),
         number(&document["error_before"]),
         number(&last["error"]),

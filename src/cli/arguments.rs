@@ -294,10 +294,14 @@ pub(super) enum PlotKind {
     Nyquist,
     /// Loops of force over displacement of a run
     Hysteresis,
-    /// Time record of a channel with its fit and residual
+    /// Time record of a channel with its fit and residual; of one that is not steady, with the model's record
     Record,
-    /// Amplitude spectrum of a channel
+    /// Amplitude spectrum of a channel; of a record that is not steady, with those of the model and of what is left
     Spectrum,
+    /// What the model leaves of a record that is not steady over time and frequency
+    Spectrogram,
+    /// Damping ratio and frequency over amplitude, of decays and of what follows a hammer, measured and modelled
+    Amplitude,
     /// Error of every channel in every run
     ErrorMap,
     /// Measured on modelled over frequency, one curve a level of force

@@ -9,15 +9,15 @@ use super::run_flags::{self, flags};
 use super::table::{number, table};
 use crate::control::Control;
 use crate::diagnosis::channels::Fault;
-use crate::diagnosis::diagnose::{Diagnosis, Early, Suggestion, diagnose_without};
+use crate::diagnosis::diagnose::{Diagnosis, Suggestion, TestKind};
 use crate::display::findings;
 use crate::display::words::title;
 use crate::effects::Source;
 use crate::exchange::Project;
 use crate::exchange::project::load;
 use crate::session::save::text_after;
-use crate::session::time_limit::hurry_after;
-use crate::session::validation::{diagnosed_from_records, only_records, problem};
+use crate::session::time_limit::answer_within;
+use crate::session::validation::{diagnosed, only_records, problem};
 use crate::session::workers::Threads;
 use crate::session::{Document, Session, corrections, mending, suggestions};
 use crate::structure::{Coupled, Structure};
@@ -44,9 +44,9 @@ pub(super) fn run(arguments: &Diagnose) -> anyhow::Result<String> {
     }
     let early = |found: &[Suggestion]| eprint!("{}", first_words(&project.structure, found));
     if let Some(seconds) = arguments.seconds {
-        hurry_after(&control, Duration::from_secs_f64(seconds));
+        answer_within(&control, &project, Duration::from_secs_f64(seconds));
     }
-    let diagnosis = searched(&project, &control, &early).with_context(|| arguments.file.display().to_string())?;
+    let diagnosis = diagnosed(&project, &control, &early).with_context(|| arguments.file.display().to_string())?;
     if let Some(out) = &arguments.apply {
         apply(&arguments.file, out, &Written { project: &project, taken: &taken }, &diagnosis)?;
     }
@@ -64,14 +64,6 @@ pub(super) fn run(arguments: &Diagnose) -> anyhow::Result<String> {
 struct Written<'a> {
     project: &'a Project,
     taken: &'a [Source],
-}
-
-/// On the steady runs; on the records where there are no others.
-fn searched(project: &Project, control: &Control, early: &Early) -> anyhow::Result<Diagnosis> {
-    if !only_records(project) {
-        return Ok(diagnose_without(&problem(project), &project.ruled_out, control, early)?);
-    }
-    Ok(diagnosed_from_records(project, control, early)?)
 }
 
 /// The first suggestions while the search goes on.
@@ -105,8 +97,12 @@ fn document(project: &Project, diagnosis: &Diagnosis) -> Value {
         json!({"added": added, "error": step.error, "misfit": step.misfit})
     };
     let test = |test: &crate::diagnosis::diagnose::NextTest| {
-        json!({"frequency_hz": test.frequency_hz, "force_dof": structure.label(test.force_dof), "force_n": test.force,
-               "why": test.why})
+        let displacement_m = match test.kind {
+            TestKind::Release { displacement_m } => Some(displacement_m),
+            _ => None,
+        };
+        json!({"kind": test.kind.word(), "frequency_hz": test.frequency_hz, "displacement_m": displacement_m,
+               "force_dof": structure.label(test.force_dof), "force_n": test.force, "why": test.why})
     };
     let neighbours = structure.coupled().map(|coupled| neighbours(structure, &coupled));
     json!({
@@ -202,9 +198,7 @@ fn steps_in_words(structure: &Structure, diagnosis: &Diagnosis) -> String {
         lines.push_str(&format!("  {} %  {what}\n", number(100.0 * step.error)));
     }
     for test in &diagnosis.next_test {
-        let [frequency, force] = [test.frequency_hz, test.force].map(number);
-        let dof = structure.label(test.force_dof);
-        lines.push_str(&format!("\nnext test: {frequency} Hz, {force} N at DOF {dof}: {}\n", test.why));
+        lines.push_str(&format!("\nnext test: {}: {}\n", findings::next_test(structure, test), test.why));
     }
     lines
 }

@@ -2,10 +2,9 @@
 
 use super::arguments::{Plot, PlotKind};
 use crate::control::Control;
-use crate::diagnosis::candidates::restoring_force;
 use crate::diagnosis::component::{Loops, compare_component};
-use crate::diagnosis::diagnose::Verdict;
-use crate::diagnosis::{Comparison, Problem, compare, diagnose};
+use crate::diagnosis::diagnose::{self, Verdict};
+use crate::diagnosis::{Comparison, Problem, compare};
 use crate::display::words;
 use crate::exchange::Project;
 use crate::exchange::atomic::write_atomically;
@@ -21,10 +20,14 @@ use crate::plots::error_map::{Grid, Scale};
 use crate::plots::figure::{Figure, csv};
 use crate::plots::heatmap::{HeatMap, occupied};
 use crate::plots::record::RecordPlot;
+use crate::plots::record_residual::RecordResidual;
 use crate::plots::sheet::Sheet;
 use crate::plots::style::Palette;
 use crate::plots::trace::{Trace, trace};
-use crate::plots::{self, angle, component_loops, energy, forward, response_curve, samples, spectrum, svg};
+use crate::plots::{
+    self, amplitude_curve, angle, component_loops, energy, forward, response_curve, samples, spectrum, svg,
+};
+use crate::session::validation::{compared_with_records, diagnosed, missing_force};
 use crate::session::workers::Threads;
 use crate::structure::StructureKind;
 use anyhow::{Context, bail, ensure};
@@ -85,6 +88,8 @@ impl Plotter<'_> {
             PlotKind::Bode | PlotKind::Nyquist => self.response(),
             PlotKind::Hysteresis if self.p.structure.kind() == StructureKind::Component => self.component_loop(),
             PlotKind::Hysteresis => self.hysteresis(),
+            PlotKind::Spectrogram | PlotKind::Amplitude => self.unsteady(),
+            PlotKind::Record | PlotKind::Spectrum if self.p.runs.is_empty() => self.unsteady(),
             PlotKind::Record | PlotKind::Spectrum => self.record(),
             PlotKind::ErrorMap => self.error_map(),
             PlotKind::RestoringForce => self.restoring_force(),
@@ -107,8 +112,7 @@ impl Plotter<'_> {
     /// Of the suggestion at the DOF that was asked for, else of the first; without one of the place that explains most.
     fn restoring_force(&self) -> anyhow::Result<Drawn> {
         let p = self.p;
-        let problem = Problem { structure: &p.structure, sources: &p.sources, runs: &p.runs };
-        let diagnosis = diagnose(&problem, self.control)?;
+        let diagnosis = diagnosed(p, self.control, &|_| {})?;
         let dof = self.dof()?;
         let is_at_place = |s: &&diagnose::Suggestion| match &s.added.source.place {
             crate::effects::Place::Dofs(dofs) => dof.is_none_or(|d| dofs.contains(&d)),
@@ -126,7 +130,7 @@ impl Plotter<'_> {
             crate::display::findings::sentence(&diagnosis)
         );
         let source = suggestion.map(|s| &s.added.source);
-        let force = restoring_force::of_diagnosis(&problem, &diagnosis, source, self.control)?;
+        let force = missing_force(p, &diagnosis, source, self.control)?;
         let force = force.context("no run shows the force well enough to draw it")?;
         let sheet = plots::restoring_force::sheet(&force, &p.structure, self.palette);
         let size = self.arguments.size.map_or_else(|| sheet.paper(), |[w, h]| emath::vec2(w as f32, h as f32));
@@ -261,6 +265,39 @@ impl Plotter<'_> {
         let unit = axis.rsplit(", ").next().unwrap_or_default();
         let lines = found.spectrum.as_ref().context("the record is too short for a spectrum")?;
         self.sheet(&title, vec![spectrum::figure(self.palette, lines, &found.fit, r.fit.omega, unit)])
+    }
+
+    /// A record that is not steady against the model.
+    fn unsteady(&self) -> anyhow::Result<Drawn> {
+        let found = compared_with_records(self.p, self.control)?;
+        let found = found.context("there is no model with matrices and no decay or transient that is used")?;
+        let wanted = self.arguments.run.map_or(0, |run| run.saturating_sub(1));
+        let counted = || format!("--run {}: {} records are used", wanted + 1, found.records.len());
+        let record = found.records.get(wanted).with_context(counted)?;
+        let run = &self.p.transient_runs[record.index];
+        if self.arguments.what == PlotKind::Amplitude {
+            let curve = record.curves.iter().find(|c| c.measured.len() >= amplitude_curve::LEAST_POINTS);
+            let curve = curve.context("no mode stands out of this record long enough")?;
+            let title = format!("{}, {}", curve.channel, run.file);
+            return self.sheet(&title, [true, false].map(|r| amplitude_curve::figure(curve, r, self.palette)).to_vec());
+        }
+        let name = self.arguments.channel.as_deref();
+        let residual = RecordResidual::new(run, record, name);
+        let residual = residual.with_context(|| format!("--channel {}: {} has none", name.unwrap_or(""), run.file))?;
+        let title = residual.title();
+        match self.arguments.what {
+            PlotKind::Record => self.sheet(&title, residual.over_time(self.palette)),
+            PlotKind::Spectrum => {
+                let spectra = residual.spectra(self.palette);
+                self.sheet(&title, vec![spectra.context("the record is too short for a spectrum")?])
+            }
+            _ => {
+                let found = residual.spectrogram().context("the record is too short for a spectrogram")?;
+                let [width, height] = self.arguments.size.map_or([900.0, 480.0], |[w, h]| [w as f32, h as f32]);
+                let drawing = found.draw(emath::vec2(width, height), &format!("Left of {title}"), self.palette);
+                Ok(Drawn { drawing, table: found.table() })
+            }
+        }
     }
 
     fn error_map(&self) -> anyhow::Result<Drawn> {

@@ -79,14 +79,44 @@ pub struct Step {
     pub misfit: f64,
 }
 
+/// Kind of a test.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum TestKind {
+    /// Steady state under a sine.
+    Steady,
+    /// A decay after a DOF is let go from this displacement, m.
+    Release {
+        /// Displacement of the DOF, m.
+        displacement_m: f64,
+    },
+    /// The same blow, sweep or noise as was recorded, so many times as large.
+    Alike {
+        /// Force over that of the record.
+        times: f64,
+    },
+}
+
+impl TestKind {
+    /// Word in files.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Steady => "steady",
+            Self::Release { .. } => "decay",
+            Self::Alike { .. } => "transient",
+        }
+    }
+}
+
 /// A run that would tell suggestions apart or pin a parameter down.
 #[derive(Debug, Clone, PartialEq)]
 pub struct NextTest {
-    /// Frequency, Hz.
+    /// What kind of test.
+    pub kind: TestKind,
+    /// Frequency of a sine, Hz; of other tests that of the motion that stands out.
     pub frequency_hz: f64,
-    /// Row of the DOF to be driven.
+    /// Row of the DOF to be driven, or to be let go.
     pub force_dof: usize,
-    /// Amplitude of the force, N.
+    /// Amplitude of the force, N; of a release the one that holds the DOF there.
     pub force: f64,
     /// What it would show.
     pub why: String,

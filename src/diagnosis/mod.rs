@@ -24,6 +24,7 @@ pub mod points;
 pub mod records;
 pub mod residual;
 pub mod selection;
+pub mod together;
 pub mod updating;
 
 pub use compare::{Comparison, compare};

@@ -3,7 +3,7 @@
 use super::format::{self, in_words};
 use super::words;
 use crate::diagnosis::Diagnosis;
-use crate::diagnosis::diagnose::Verdict;
+use crate::diagnosis::diagnose::{NextTest, TestKind, Verdict};
 use crate::diagnosis::updating::correction::Correction;
 use crate::diagnosis::updating::parameters::UpdatingParameter;
 use crate::effects::{Place, Source};
@@ -34,6 +34,22 @@ pub fn searched_runs(diagnosis: &Diagnosis) -> Option<String> {
     (count > 0).then(|| {
         format!("Searched on {count} runs, those along the curve of each level that tell most; errors are of all runs.")
     })
+}
+
+/// A test that is proposed: `62 Hz with 4 N at DOF 19`, `a decay released from 2 mm at DOF 7`.
+pub fn next_test(structure: &Structure, test: &NextTest) -> String {
+    let at = structure.dofs().get(test.force_dof).map_or("?", |d| d.label.as_str());
+    let force = format::with_unit(test.force, "N");
+    match test.kind {
+        TestKind::Steady => format!("{} with {force} at DOF {at}", format::with_unit(test.frequency_hz, "Hz")),
+        TestKind::Release { displacement_m } => {
+            format!("a decay released from {} at DOF {at}, held by {force}", format::prefixed(displacement_m, "m"))
+        }
+        TestKind::Alike { times } => {
+            let size = if times > 1.0 { "larger" } else { "smaller" };
+            format!("the same test at DOF {at} with a {size} force, up to {force}")
+        }
+    }
 }
 
 /// The verdict as a sentence.

@@ -14,6 +14,7 @@ use super::law::{ByParameter, Linearised, Manner};
 use super::memory::Memory;
 use super::motion::Motion;
 use super::turning::turning_points;
+pub use super::ways::{InternalSteps, Way};
 
 /// Slope of the period's map from which on nothing slips.
 const SLIPLESS: f64 = 1.0 - 1e-9;
@@ -21,17 +22,6 @@ const SLIPLESS: f64 = 1.0 - 1e-9;
 const PARTS: usize = 256;
 /// Most steps of Newton's method to the steady state.
 const STEPS: usize = 80;
-
-/// Where a straight way leads the internal force.
-#[derive(Debug, Clone, Copy)]
-pub struct Way {
-    /// Force at the end, N.
-    pub force: f64,
-    /// Its derivative by the force at the start.
-    pub by_start: f64,
-    /// Its derivative by the way, N/m.
-    pub by_way: f64,
-}
 
 /// A law given by what one straight way does to its force.
 pub trait InternalLaw: Sync {
@@ -60,6 +50,23 @@ pub trait InternalLaw: Sync {
     fn loop_energy(&self, p: &[f64], amplitude: f64) -> Option<f64> {
         let _ = (p, amplitude);
         None
+    }
+}
+
+/// [`InternalSteps`] of a law.
+struct Stepped<T: InternalLaw> {
+    law: T,
+    shape: T::Shape,
+    p: Vec<f64>,
+}
+
+impl<T: InternalLaw + Send> InternalSteps for Stepped<T> {
+    fn step(&self, start: f64, way: f64) -> Way {
+        self.law.step(&self.shape, &self.p, start, way)
+    }
+
+    fn step_by(&self, k: usize, start: f64, way: f64) -> f64 {
+        self.law.step_by(&self.shape, &self.p, k, start, way)
     }
 }
 
@@ -192,6 +199,10 @@ impl<T: InternalLaw + Copy + Send + 'static> Law for Internal<T> {
 
     fn memory(&self, p: &[f64]) -> Option<Box<dyn Memory>> {
         Some(Box::new(InternalMemory { law: self.0, shape: self.0.shape(p), p: p.to_vec(), last: [0.0; 2] }))
+    }
+
+    fn internal(&self, p: &[f64]) -> Option<Box<dyn InternalSteps>> {
+        Some(Box::new(Stepped { law: self.0, shape: self.0.shape(p), p: p.to_vec() }))
     }
 
     fn energy_per_cycle(&self, p: &[f64], amplitude: f64, _omega: f64) -> Option<f64> {

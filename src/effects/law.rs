@@ -11,6 +11,7 @@ use super::memory::Memory;
 use super::motion::Motion;
 use super::parameter::Parameter;
 use super::set_valued::{SetValued, Steep};
+use super::ways::InternalSteps;
 use faer::c64;
 
 /// Value and slopes of a force that depends on the present displacement and velocity only.
@@ -151,6 +152,12 @@ pub trait Law: Sync {
     /// The law with memory at rest at the origin, to be stepped through time. `None` for laws without memory (see
     /// [`Law::point`]), for mass, and for hysteretic and fractional damping, which exist in steady state only.
     fn memory(&self, p: &[f64]) -> Option<Box<dyn Memory>> {
+        let _ = p;
+        None
+    }
+
+    /// The law as one internal force that follows the displacement, at its parameters; `None` for all others.
+    fn internal(&self, p: &[f64]) -> Option<Box<dyn InternalSteps>> {
         let _ = p;
         None
     }

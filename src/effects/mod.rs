@@ -25,6 +25,7 @@ pub mod source;
 pub mod symbol;
 mod table;
 pub mod turning;
+pub mod ways;
 pub mod wording;
 
 pub use basis::Basis;

@@ -1,6 +1,6 @@
 //! Frequency and damping ratio of one mode over its amplitude, measured and modelled: what the envelope of a decay tells.
 
-use super::figure::{Axis, Figure, Look};
+use super::figure::{Axis, Figure, Look, Scale, Ticks};
 use super::style::Palette;
 use crate::diagnosis::records::amplitude::AmplitudePoint;
 use crate::diagnosis::records::compare::ModeCurve;
@@ -10,15 +10,83 @@ use crate::measurement::Quantity;
 /// Points from which on a curve says something.
 pub const LEAST_POINTS: usize = 3;
 
+/// Largest over least amplitude from which on a slope shows: there the axes of the damping ratio are logarithmic.
+const WIDE: f64 = 2.0;
+
+/// Slopes of `ln zeta` over `ln A` of laws, as guides: dry friction, viscous damping, microslip (between these two: `chi + 1`), drag.
+const SLOPES: [(f64, &str); 4] =
+    [(-1.0, "dry friction, slope -1"), (0.0, "viscous, 0"), (0.5, "microslip, 1/2"), (1.0, "drag, 1")];
+
 /// Damping ratio over amplitude (`ratio`), else frequency over amplitude.
 pub fn figure(curve: &ModeCurve, ratio: bool, palette: &Palette) -> Figure {
     let quantity = curve.channel.split('@').next().and_then(Quantity::from_word);
     let name = quantity.map_or("Amplitude", |q| words::axis(q, false));
+    let wide = ratio && is_wide(&curve.measured);
+    let scale = if wide { Scale::Log } else { Scale::Linear };
     let y = if ratio { Axis::new("Damping ratio", "%") } else { Axis::new("Frequency", "Hz") };
     let points = |list: &[AmplitudePoint]| -> Vec<[f64; 2]> {
         list.iter().map(|p| [p.amplitude, if ratio { 100.0 * p.damping_ratio } else { p.frequency_hz }]).collect()
     };
-    Figure::new(if ratio { "Damping ratio" } else { "Frequency" }, Axis::of(name), y)
+    let deviation = |p: &AmplitudePoint| if ratio { 100.0 * p.damping_deviation } else { p.frequency_deviation_hz };
+    let title = if ratio { "Damping ratio" } else { "Frequency" };
+    let ticks = if wide { Ticks::OneTwoFive } else { Ticks::Auto };
+    let axis = |plain: Axis| Axis { scale, ticks: ticks.clone(), ..plain };
+    let mut figure = Figure::new(title, axis(Axis::of(name)), axis(y));
+    if wide {
+        for (slope, law) in SLOPES {
+            figure = figure.points(law, palette.weak, Look::Dashed(1.0), guide(&points(&curve.measured), slope));
+        }
+    }
+    figure
         .points("measured", palette.measured, Look::Dots(3.0), points(&curve.measured))
+        .deviation(curve.measured.iter().map(deviation).collect())
         .points("model", palette.model, Look::Line(1.6), points(&curve.model))
+}
+
+/// Whether damping ratios that can be drawn by their logarithm span amplitudes that are far apart.
+fn is_wide(points: &[AmplitudePoint]) -> bool {
+    let seen = points.iter().filter(|p| p.damping_ratio > 0.0 && p.amplitude > 0.0);
+    let (least, most) = seen.fold((f64::INFINITY, 0.0_f64), |(a, b), p| (a.min(p.amplitude), b.max(p.amplitude)));
+    most > WIDE * least
+}
+
+/// `y = y_0 (x / x_0)^slope` through the middle of the points, over as much of them as keeps it beside them.
+fn guide(points: &[[f64; 2]], slope: f64) -> Vec<[f64; 2]> {
+    let logs: Vec<[f64; 2]> =
+        points.iter().filter(|p| p[0] > 0.0 && p[1] > 0.0).map(|p| [p[0].ln(), p[1].ln()]).collect();
+    let sorted = |k: usize| {
+        let mut list: Vec<f64> = logs.iter().map(|p| p[k]).collect();
+        list.sort_by(f64::total_cmp);
+        list
+    };
+    let [x, y] = [sorted(0), sorted(1)];
+    let (Some(first), Some(last)) = (x.first().zip(y.first()), x.last().zip(y.last())) else { return Vec::new() };
+    let middle = [x[x.len() / 2], y[y.len() / 2]];
+    // Steep guides end where they leave the points, or they would squeeze them.
+    let room = 0.5 * (last.1 - first.1) + 0.4;
+    let reach = |to: f64| if slope == 0.0 { to } else { to.clamp(-room / slope.abs(), room / slope.abs()) };
+    let at = |to: f64| [(middle[0] + to).exp(), (middle[1] + slope * to).exp()];
+    vec![at(reach(first.0 - middle[0])), at(reach(last.0 - middle[0]))]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{SLOPES, guide};
+
+    /// A guide has its slope, passes through the middle of the points and stays beside them.
+    #[test]
+    fn guides_have_the_slopes_of_their_laws() {
+        let points: Vec<[f64; 2]> = (1..40).map(|k| [f64::from(k) * 1e-3, 2.0 / f64::from(k)]).collect();
+        for (slope, law) in SLOPES {
+            let line = guide(&points, slope);
+            let [[a, p], [b, q]] = [line[0], line[1]];
+            assert!(((q / p).ln() - slope * (b / a).ln()).abs() < 1e-12, "{law}");
+            let middle = p * (20e-3_f64 / a).powf(slope);
+            assert!((middle / 0.1 - 1.0).abs() < 1e-9, "{law}: {middle}");
+            assert!(p.max(q) < 10.0 && p.min(q) > 0.01, "{law}");
+        }
+        // Dry friction lies on its guide.
+        let line = guide(&points, -1.0);
+        assert!(line.iter().all(|p| (p[1] * p[0] / 2e-3 - 1.0).abs() < 1e-9));
+    }
 }

@@ -26,6 +26,13 @@ pub fn title(force: &RestoringForce, structure: &Structure) -> String {
 pub fn caption(force: &RestoringForce) -> String {
     let harmonics = force.runs.iter().map(|r| r.harmonics).max().unwrap_or(1);
     let deviation = force.runs.iter().map(|r| r.deviation).fold(0.0, f64::max);
+    if harmonics == 0 {
+        let law = force
+            .law
+            .as_ref()
+            .map_or_else(String::new, |s| format!("; lines: {} along the same motion", words::effect(s.effect)));
+        return format!("points: parts of records, ± {}{law}", format::prefixed(deviation, "N"));
+    }
     let law = force.law.as_ref().map_or_else(
         || "no law is drawn through them".to_owned(),
         |s| format!("lines: {} with the same harmonics", words::effect(s.effect)),

@@ -189,13 +189,8 @@ fn next_tests(page: &mut Page, content: &Content<'_>, found: &Diagnosis) {
     }
     page.chapter("Next test");
     for test in &found.next_test {
-        page.sentence(&format!(
-            "{} with {} (peak) at DOF {}: {}.",
-            format::with_unit(test.frequency_hz, "Hz"),
-            format::with_unit(test.force, "N"),
-            content.project.structure.dofs().get(test.force_dof).map_or("?", |d| d.label.as_str()),
-            polished(test.why.trim_end_matches('.'))
-        ));
+        let what = findings::next_test(&content.project.structure, test);
+        page.sentence(&format!("{}: {}.", words::capital(&what), polished(test.why.trim_end_matches('.'))));
     }
 }
 

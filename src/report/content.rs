@@ -2,7 +2,7 @@
 
 use crate::control::Control;
 use crate::diagnosis::candidates::fingerprint_plot::{self as prints, Print};
-use crate::diagnosis::candidates::restoring_force::{self, RestoringForce};
+use crate::diagnosis::candidates::restoring_force::RestoringForce;
 use crate::diagnosis::diagnose::Verdict;
 use crate::diagnosis::records::RecordComparison;
 use crate::diagnosis::{self, Comparison, Diagnosis};
@@ -10,7 +10,9 @@ use crate::effects::Source;
 use crate::exchange::Project;
 use crate::identify::{Measurements, Outcome, identify_measured};
 use crate::session::identified::take_over;
-use crate::session::validation::{compared_with_records, diagnosed_from_records, only_records, problem};
+use crate::session::validation::{
+    compared_with_records, diagnosed, diagnosed_from_records, missing_force, only_records, problem,
+};
 use std::sync::Arc;
 
 /// A result, or one line that says why there is none.
@@ -127,7 +129,7 @@ fn diagnose(p: &Project, comparison: &Found<Comparison>, control: &Control) -> F
                    take over what was identified, then its errors say something.";
         return Err(why.to_owned());
     }
-    diagnosis::diagnose::diagnose(&problem(p), control).map(Arc::new).map_err(|e| e.to_string())
+    diagnosed(p, control, &|_| {}).map(Arc::new).map_err(|e| e.to_string())
 }
 
 fn fingerprints(p: &Project, diagnosis: &Diagnosis, control: &Control) -> Vec<(Source, Print)> {
@@ -148,7 +150,7 @@ fn forces(p: &Project, diagnosis: &Diagnosis, control: &Control) -> Vec<(Option<
         wanted.push(None);
     }
     let force_of = |source: Option<Source>| {
-        let force = restoring_force::of_diagnosis(&problem(p), diagnosis, source.as_ref(), control).ok()??;
+        let force = missing_force(p, diagnosis, source.as_ref(), control).ok()??;
         Some((source, force))
     };
     wanted.into_iter().filter_map(force_of).collect()

@@ -2,10 +2,12 @@
 
 use crate::balance::loops::ComponentError;
 use crate::control::Control;
+use crate::diagnosis::candidates::restoring_force::{self, RestoringForce};
 use crate::diagnosis::component::{Loops, compare_component, diagnose_component};
-use crate::diagnosis::diagnose::Early;
-use crate::diagnosis::records::{RecordComparison, RecordError, Records, compare_records, diagnose_records};
-use crate::diagnosis::{Diagnosis, Problem};
+use crate::diagnosis::diagnose::{Early, diagnose_without};
+use crate::diagnosis::records::{self, RecordComparison, RecordError, Records, compare_records, diagnose_records};
+use crate::diagnosis::together::together;
+use crate::diagnosis::{Diagnosis, DiagnosisError, Problem};
 use crate::effects::Source;
 use crate::exchange::Project;
 use crate::structure::StructureKind;
@@ -19,6 +21,9 @@ pub enum ValidationError {
     /// Loops of one component.
     #[error(transparent)]
     Component(#[from] ComponentError),
+    /// Steady runs.
+    #[error(transparent)]
+    Steady(#[from] DiagnosisError),
 }
 
 /// The model and the steady runs of a project.
@@ -81,6 +86,22 @@ pub fn compared_with_effects(
     Ok(Some(compare_records(&records(project)?, effects, control)?))
 }
 
+/// What the model lacks in all measurements that are used: steady runs, records that are not steady, or what both say together.
+///
+/// # Errors
+/// [`ValidationError`]: runs, records or a model that cannot be compared.
+pub fn diagnosed(project: &Project, control: &Control, early: &Early<'_>) -> Result<Diagnosis, ValidationError> {
+    if only_records(project) {
+        return diagnosed_from_records(project, control, early);
+    }
+    let steady = |control: &Control| diagnose_without(&problem(project), &project.ruled_out, control, early);
+    if !has_records(project) || is_component(project) || project.structure.matrices().is_none() {
+        return Ok(steady(control)?);
+    }
+    let by_runs = steady(&control.piece(0, 2))?;
+    Ok(together(by_runs, diagnosed_from_records(project, &control.piece(1, 2), &|_| {})?))
+}
+
 /// What the model of the records lacks.
 ///
 /// # Errors
@@ -94,4 +115,24 @@ pub fn diagnosed_from_records(
         return Ok(diagnose_component(&loops(project)?, &project.ruled_out, control, early)?);
     }
     Ok(diagnose_records(&records(project)?, &project.ruled_out, control, early)?)
+}
+
+/// The missing force at the place of a suggestion of a diagnosis, or at the place that explains most, in steady runs or, where
+/// there are no others, in records; `None` where none can be drawn.
+///
+/// # Errors
+/// [`ValidationError`]: a model that cannot be compared.
+pub fn missing_force(
+    project: &Project,
+    diagnosis: &Diagnosis,
+    source: Option<&Source>,
+    control: &Control,
+) -> Result<Option<RestoringForce>, ValidationError> {
+    if !only_records(project) {
+        return Ok(restoring_force::of_diagnosis(&problem(project), diagnosis, source, control)?);
+    }
+    if is_component(project) || project.structure.matrices().is_none() {
+        return Ok(None);
+    }
+    Ok(records::missing_force(&records(project)?, diagnosis, source, control)?)
 }

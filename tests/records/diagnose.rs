@@ -1,8 +1,8 @@
 //! Hidden effects in decays and hammers, their records made by the independent stepping of the whole structure.
 
 use dashpot::control::Control;
-use dashpot::diagnosis::diagnose::{Diagnosis, Verdict};
-use dashpot::diagnosis::records::{Records, compare_records, diagnose_records};
+use dashpot::diagnosis::diagnose::{Added, Diagnosis, Step, Verdict};
+use dashpot::diagnosis::records::{Records, compare_records, diagnose_records, missing_force};
 use dashpot::diagnosis::updating::parameters::UpdatingParameter;
 use dashpot::effects::{Effect, Place, Source, State};
 use dashpot::measurement::transient_run::TransientLabel;
@@ -73,9 +73,14 @@ struct Project {
 
 impl Project {
     fn new(model: Structure, hidden: &[Source]) -> Self {
+        Self::of(&beam(), model, hidden)
+    }
+
+    /// Of a record of `specimen`.
+    fn of(specimen: &Structure, model: Structure, hidden: &[Source]) -> Self {
         let known = vec![at(Effect::Viscous, 6, &[0.05])];
         let truth: Vec<Source> = known.iter().chain(hidden).cloned().collect();
-        Self { model, known, runs: [decay(&beam(), &truth, 1500, 7)] }
+        Self { model, known, runs: [decay(specimen, &truth, 1500, 7)] }
     }
 
     fn records(&self) -> Records<'_> {
@@ -155,4 +160,59 @@ fn a_model_that_agrees_is_left_alone() {
     let diagnosis = diagnosed(&[]);
     assert_eq!(diagnosis.verdict, Verdict::Adequate);
     assert!(diagnosis.suggestions.is_empty() && diagnosis.corrections.is_empty());
+}
+
+/// A clamp that the model takes for rigid and that gives way is told as that, and nothing is missing.
+#[test]
+fn a_clamp_that_gives_way_is_told() {
+    let clamp = Part::Support(beam().supports()[0]);
+    let project = Project::of(&beam().with_factors(&[(clamp, 0.5)]), beam(), &[]);
+    let diagnosis = project.diagnosed(&Control::unattended());
+    assert!(diagnosis.suggestions.is_empty(), "{:?}", diagnosis.suggestions);
+    assert_eq!(diagnosis.verdict, Verdict::Detuned);
+    let told = diagnosis.corrections.iter().find(|c| c.parameter == UpdatingParameter::Structure(clamp));
+    let told = told.unwrap_or_else(|| panic!("{:?}", diagnosis.corrections));
+    assert!((told.factor - 0.5).abs() < (3.0 * told.deviation).max(0.05), "{told:?}");
+    let last = diagnosis.steps.last().unwrap();
+    assert!(last.error < 0.1 * diagnosis.error_before, "{} of {}", last.error, diagnosis.error_before);
+}
+
+/// The force that is drawn is that of the hidden law along the motion that the stepped truth has there.
+#[test]
+fn the_missing_force_of_a_decay_is_that_of_its_law() {
+    let hidden = at(Effect::CubicStiffness, 6, &[2e7]);
+    let project = Project::new(beam(), std::slice::from_ref(&hidden));
+    let added = Added { source: hidden.clone(), deviations: vec![0.0] };
+    let step = Step { added: vec![added], error: 0.0, misfit: 1.0 };
+    let diagnosis = Diagnosis {
+        error_before: 1.0,
+        noise_floor: 0.0,
+        verdict: Verdict::Missing,
+        suggestions: Vec::new(),
+        steps: vec![step],
+        next_test: Vec::new(),
+        corrections: Vec::new(),
+        channel_faults: Vec::new(),
+        complete: true,
+        runs: Vec::new(),
+    };
+    let drawn = missing_force(&project.records(), &diagnosis, Some(&hidden), &Control::unattended()).unwrap();
+    let drawn = drawn.expect("the force stands out");
+    assert!(drawn.runs.len() >= 2, "large and small motion");
+    let all = || drawn.runs.iter().flat_map(|run| &run.points);
+    let (mut left, mut size, mut most) = (0.0, 0.0, 0.0_f64);
+    for point in all() {
+        let force = 2e7 * point.displacement.powi(3);
+        left += (point.force - force).powi(2);
+        size += force * force;
+        most = most.max(point.displacement.abs());
+    }
+    assert!(left < 0.04 * size, "{:.3} of the force is off", (left / size).sqrt());
+    // Released from 3 mm.
+    assert!(most > 2e-3 && most < 3.2e-3, "{most}");
+    let deviation = drawn.runs[0].deviation;
+    assert!(
+        left / (all().count() as f64) < (4.0 * deviation).powi(2).max(0.01 * size / all().count() as f64),
+        "{deviation}"
+    );
 }

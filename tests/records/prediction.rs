@@ -152,6 +152,8 @@ fn derivatives_are_those_of_the_record() {
         (Effect::ElasticSlider, vec![4e3, 0.4]),
         (Effect::Iwan, vec![4e3, 0.8, -0.4, 0.5]),
         (Effect::Maxwell, vec![3e3, 4.0]),
+        (Effect::Dahl, vec![4e3, 0.4]),
+        (Effect::BoucWen, vec![4e3, 0.4, 1.7]),
         (Effect::Viscous, vec![0.4]),
         (Effect::Mass, vec![0.02]),
         (Effect::Stiffness, vec![300.0]),

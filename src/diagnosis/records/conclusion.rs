@@ -18,11 +18,14 @@ const PHASE_LOST: [f64; 2] = [0.08, 0.7];
 /// Promised error with corrected parts over that without from which on they are told.
 const BETTER: f64 = 0.8;
 
-/// Steps of a fit beside a part that was corrected.
-const REFITTING: usize = 7;
+/// Rounds and steps of a fit beside a part that was corrected.
+const REFITTING: [usize; 2] = [2, 4];
 
 /// Probability up to which a suggestion is told as its fit stands, without what it predicts and promises.
 const UNLIKELY: f64 = 1e-3;
+
+/// Probability of a suggestion from which on a test that would tell it from the first is named.
+const OPEN: f64 = 0.05;
 
 impl Search<'_> {
     /// Fills `diagnosis` with what was found.
@@ -39,24 +42,28 @@ impl Search<'_> {
             diagnosis.steps.extend(step.filter(worth));
         }
         diagnosis.suggestions = suggestions(self.records, &last)?;
-        let told = self.told(best)?;
         let corrections = corrections_of_parts(self.records, best);
-        if corrections.is_empty() {
-            return self.conclude_with(&told, &last, diagnosis);
+        // Where time is up the parts are told as the fit has them, whatever else could stand for them.
+        let late = self.control.is_late() && !corrections.is_empty();
+        let told = if late { None } else { Some(self.told(best)?) };
+        if let Some(told) = told.as_ref().filter(|_| corrections.is_empty()) {
+            return self.conclude_with(told, &last, diagnosis);
         }
         // The parts of the structure as the fit has them, where that leaves clearly less than corrections of all of it or of modes.
         let factors: Vec<(Part, f64)> = corrections.iter().map(|(part, c)| (*part, c.factor)).collect();
-        let structure = self.records.structure.with_factors(&factors);
+        let structure = self.structure_with(&factors);
         let (plain, records) = (self.plain.on(&structure)?, self.records.on(&structure)?);
-        let (excluded, control) = (self.excluded, self.control);
-        let search = Search { records: &records, plain: &plain, levels: records.levels(), excluded, control };
+        let known = (self.excluded, self.stated, self.supports);
+        let search = Search::new(&records, &plain, known, self.control);
         let as_stated = |fit: &FittedRecords| FittedRecords { parts: vec![0.0; records.parts.len()], ..fit.clone() };
         let fits: Vec<FittedRecords> = last.iter().map(as_stated).collect();
         let beside_parts = search.told(&fits[0])?;
-        let [left, before] =
-            [search.promised(&beside_parts, &beside_parts.effects)?, self.promised(&told, &told.effects)?];
-        if left > BETTER * before {
-            return self.conclude_with(&told, &last, diagnosis);
+        if let Some(told) = told {
+            let [left, before] =
+                [search.promised(&beside_parts, &beside_parts.effects)?, self.promised(&told, &told.effects)?];
+            if left > BETTER * before {
+                return self.conclude_with(&told, &last, diagnosis);
+            }
         }
         diagnosis.corrections.extend(corrections.into_iter().map(|(_, c)| c));
         search.conclude_with(&beside_parts, &fits, diagnosis)
@@ -82,8 +89,7 @@ impl Search<'_> {
         diagnosis.suggestions.retain(|s| !model_errors.holds(&s.added.source));
         let structure = self.records.structure.with_factors(&model_errors.factors());
         let (plain, records) = (self.plain.on(&structure)?, self.records.on(&structure)?);
-        let (excluded, control) = (self.excluded, self.control);
-        let search = Search { records: &records, plain: &plain, levels: records.levels(), excluded, control };
+        let search = Search::new(&records, &plain, (self.excluded, self.stated, self.supports), self.control);
         let fits: Vec<FittedRecords> = found.iter().map(without).collect();
         let corrected = search.told(&search.corrected_whole(&fits[0])?)?;
         model_errors.corrections.iter().for_each(|more| correct(&mut diagnosis.corrections, more));
@@ -123,10 +129,20 @@ impl Search<'_> {
         if let Some(first) = diagnosis.suggestions.first_mut() {
             first.evidence.extend(self.words_on_all(told, error, floor)?);
         }
+        if self.is_open(diagnosis) {
+            diagnosis.next_test = self.next_tests(fits)?;
+        }
         widen(diagnosis);
         let sure = diagnosis.suggestions.first().is_some_and(|s| s.probability >= 0.5);
         diagnosis.verdict = if sure { Verdict::Missing } else { Verdict::Undecided };
         Ok(())
+    }
+
+    /// Whether other effects than those that are told are still likely, and there is time to say what would tell them apart.
+    fn is_open(&self, diagnosis: &Diagnosis) -> bool {
+        let sure = diagnosis.suggestions.first().map_or(1.0, |s| s.probability);
+        let rivals = diagnosis.suggestions.iter().filter(|s| s.probability > OPEN).count();
+        sure < 1.0 - OPEN && rivals > 1 && !self.control.is_late()
     }
 
     /// A set of a shorter level on the whole records; none where it runs away there.
@@ -149,7 +165,7 @@ impl Search<'_> {
         fits: &[FittedRecords],
     ) -> Result<(), RecordError> {
         let has = |f: &&FittedRecords| f.effects.iter().any(|e| e.is_same(&suggestion.added.source));
-        if let Some(fit) = fits.iter().find(has) {
+        if let Some(fit) = fits.iter().find(has).filter(|_| !self.control.is_late()) {
             suggestion.held_out_error_after = self.held_out(self.levels.len() - 1, fit)?;
         }
         suggestion.added = added_as_told(&added(told), &suggestion.added);

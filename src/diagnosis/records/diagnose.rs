@@ -13,12 +13,13 @@ use super::data::{RecordError, Records};
 use super::evidence::{AGREES, evidence, misfit, scale};
 use super::fitted::FittedRecords;
 use super::problem::corrected_by;
-use super::search::{FEW_MODES, Search, SetsBySize};
+use super::search::{FEW_MODES, Search, SetsBySize, factors_of};
 use super::telling::{last_deviations, suggestions};
 use crate::control::Control;
 use crate::diagnosis::diagnose::{Diagnosis, Early, Step, Verdict};
 use crate::effects::{Effect, Source};
 use crate::math::statistics::root_mean_square;
+use crate::measurement::TransientRun;
 
 /// Squared corrections over their prior deviations beyond which an effect that makes them needless is looked for: of all, and of each
 /// where they are many.
@@ -43,10 +44,14 @@ const DECISIVE: f64 = 0.25;
 const GREAT: f64 = 0.3;
 /// Levels of parts on which effects are added; on whole records where there are no more levels than that, or nothing was found.
 const GROWING: usize = 2;
-/// Steps of a fit with one effect less.
-const PRUNING: usize = 6;
+/// Rounds and steps of a fit with one effect less, and of one on a part of the records.
+const PRUNING: [usize; 2] = [2, 3];
+const LEARNING: [usize; 2] = [2, 3];
 /// Deviations from zero that the force of an effect must have.
 const SURE: f64 = 3.0;
+/// Deviations that it must be on whole records not to be taken back, and rounds and steps of the fit without it.
+const VANISHED: f64 = 2.0;
+const WITHOUT: [usize; 2] = [4, 4];
 
 /// Finds what the model of `records` lacks; effects `excluded` are not suggested.
 ///
@@ -58,14 +63,12 @@ pub fn diagnose_records(
     control: &Control,
     early: &Early,
 ) -> Result<Diagnosis, RecordError> {
-    let plain = records;
     let bare = started(records, &[], control)?;
     let floors: Vec<f64> = records.list.iter().flat_map(|r| floors(r, &r.sigma)).collect();
-    let records = &records.weighted(&bare.residual);
-    let search = Search { records, plain, levels: records.levels(), excluded, control };
-    let whole = search.levels.len() - 1;
-    let bare = search.quiet(whole, &bare)?;
-    let before = bare.error(records, 0.0, 1.0)?;
+    let weighted = records.weighted(&bare.residual);
+    let search = Search::new(&weighted, records, (excluded, records.structure, &[]), control);
+    let bare = search.quiet(search.levels.len() - 1, &bare)?;
+    let before = bare.error(&weighted, 0.0, 1.0)?;
     let mut diagnosis = Diagnosis {
         error_before: before,
         noise_floor: root_mean_square(&floors),
@@ -81,14 +84,34 @@ pub fn diagnose_records(
     if misfit(&bare) < AGREES {
         return Ok(diagnosis);
     }
-    let by_size = search.climbed(&bare, early)?;
-    search.conclude(&by_size, &mut diagnosis)?;
+    let supports = search.giving_way(&bare)?;
+    if supports.is_empty() {
+        search.explain(&bare, &mut diagnosis, early)?;
+    } else {
+        let structure = records.structure.with_factors(&factors_of(&supports));
+        // More modes may be seen then.
+        let runs: Vec<TransientRun> = records.list.iter().map(|r| r.run.clone()).collect();
+        let held = Records::new(&structure, &records.known, &runs)?;
+        let bare = started(&held, &[], control)?;
+        let weighted = held.weighted(&bare.residual);
+        let search = Search::new(&weighted, &held, (excluded, records.structure, &supports), control);
+        diagnosis.corrections.clone_from(&supports);
+        let bare = search.quiet(search.levels.len() - 1, &bare)?;
+        search.explain(&bare, &mut diagnosis, early)?;
+    }
     diagnosis.complete = control.is_complete();
     control.report(1.0);
     Ok(diagnosis)
 }
 
 impl Search<'_> {
+    /// Searches beside `bare`, the model on whole records, and concludes.
+    fn explain(&self, bare: &FittedRecords, diagnosis: &mut Diagnosis, early: &Early) -> Result<(), RecordError> {
+        let by_size = self.climbed(bare, early)?;
+        self.conclude(&by_size, diagnosis)?;
+        Ok(())
+    }
+
     /// Effects added on the shortest parts on which the model shows that it lacks one, until no more is found; what was found carried
     /// on to the whole records.
     fn climbed(&self, bare: &FittedRecords, early: &Early) -> Result<SetsBySize, RecordError> {
@@ -104,6 +127,13 @@ impl Search<'_> {
                 self.grow(level, &bare, &mut by_size, early)?;
             }
             self.control.report(0.9 * (level + 1) as f64 / (whole + 1) as f64);
+        }
+        // What short parts showed may be nothing on the whole.
+        let vanished = by_size.last.first().is_some_and(|f| f.effects.len() == 1 && !is_sure(f, VANISHED));
+        if vanished && let Some((level, without)) = by_size.earlier.iter().rfind(|(_, f)| f.effects.is_empty()).cloned()
+        {
+            let start = self.carried(&without, level, whole)?;
+            by_size = SetsBySize { earlier: Vec::new(), last: vec![self.fit(whole, &start, 1.0, WITHOUT)?] };
         }
         if let Some(corrected) = by_size.last.first().filter(|f| f.effects.is_empty()).cloned() {
             let single = self.single_changes(&corrected)?;
@@ -184,7 +214,7 @@ impl Search<'_> {
 
     /// Error on the last part of each record of a fit on the rest.
     pub fn held_out(&self, level: usize, fit: &FittedRecords) -> Result<f64, RecordError> {
-        let learnt = self.fit(level, fit, LEARNT, 5);
+        let learnt = self.fit(level, fit, LEARNT, LEARNING);
         match learnt.and_then(|learnt| learnt.error(&self.levels[level], LEARNT, 1.0)) {
             Ok(error) => Ok(error),
             Err(RecordError::Model { .. } | RecordError::Singular) => Ok(f64::INFINITY),
@@ -202,8 +232,13 @@ fn agrees(fit: &FittedRecords) -> bool {
 
 /// Whether the force of the last effect is more than its deviation allows it to be by chance.
 fn stands_out(fit: &FittedRecords) -> bool {
+    is_sure(fit, SURE)
+}
+
+/// Whether it is more than so many deviations.
+fn is_sure(fit: &FittedRecords, least: f64) -> bool {
     let (Some(effect), wide) = (fit.effects.last(), scale(fit).sqrt()) else { return false };
     let deviations = last_deviations(fit);
     let sizes = effect.effect.scaled().iter();
-    sizes.map(|&k| effect.parameters[k].abs() / (wide * deviations[k])).any(|ratio| ratio > SURE)
+    sizes.map(|&k| effect.parameters[k].abs() / (wide * deviations[k])).any(|ratio| ratio > least)
 }

@@ -9,6 +9,7 @@
 use super::data::RecordError;
 use super::evidence::{alike, scale};
 use super::fitted::FittedRecords;
+use super::held::Held;
 use super::normal::{Left, Normal, solve};
 use super::problem::FitProblem;
 use super::variables::{scales, slopes};
@@ -27,28 +28,64 @@ fn unit_of(start: &FittedRecords) -> f64 {
     if start.count > 0 { scale(start) } else { 1.0 }
 }
 
+/// Where a descent is: the fit, and its equations.
+type Place = (FittedRecords, Normal);
+
 impl FitProblem<'_> {
     /// Improves a start in at most `iterations` steps; fewer where time is up.
     pub fn improve(&self, start: &FittedRecords, iterations: usize) -> Result<FittedRecords, RecordError> {
         let scales = scales(&start.effects);
         let unit = unit_of(start);
+        let normal = |at: &FittedRecords| self.normal(at, &scales, unit);
+        let (best, equations) = self.descend((start.clone(), normal(start)?), iterations, &scales, unit, &normal)?.0;
+        self.finish(best, &scales, equations)
+    }
+
+    /// The same in at most `rounds` of `steps` steps, in each of which all but the laws is differentiated once ([`Held`]).
+    pub fn begin(&self, start: &FittedRecords, [rounds, steps]: [usize; 2]) -> Result<FittedRecords, RecordError> {
+        let scales = scales(&start.effects);
+        let unit = unit_of(start);
         let mut best = start.clone();
-        let mut normal = self.normal(&best, &scales, unit)?;
+        for round in 0..rounds {
+            let Some((held, normal)) = Held::new(self, &best, &scales, unit)? else {
+                return self.improve(&best, rounds * steps);
+            };
+            let renewed = |at: &FittedRecords| held.normal(self, at, &scales, unit);
+            let ended;
+            let equations;
+            ((best, equations), ended) = self.descend((best, normal), steps, &scales, unit, &renewed)?;
+            if ended || round + 1 >= rounds || self.control.is_late() {
+                return self.finish(best, &scales, equations);
+            }
+        }
+        self.improve(&best, 0)
+    }
+
+    /// At most `steps` steps from a place, with equations by `normal`; whether the first of them gained nothing.
+    fn descend(
+        &self,
+        (mut best, mut equations): Place,
+        steps: usize,
+        scales: &[Vec<f64>],
+        unit: f64,
+        normal: &dyn Fn(&FittedRecords) -> Result<Normal, RecordError>,
+    ) -> Result<(Place, bool), RecordError> {
         let mut damping = 1e-3;
-        for _ in 0..iterations {
+        for k in 0..steps {
             self.control.check()?;
             if self.control.is_late() {
                 break;
             }
-            let before = normal.left.total(unit);
-            let Some((next, there)) = self.step(&best, &scales, unit, &normal, &mut damping)? else { break };
+            let before = equations.left.total(unit);
+            let next = self.step(&best, scales, unit, (&equations, normal), &mut damping)?;
+            let Some((next, there)) = next else { return Ok(((best, equations), k == 0)) };
             let gain = before - there.left.total(unit);
-            (best, normal) = (next, there);
+            (best, equations) = (next, there);
             if gain < (LEAST_GAIN * before).max(NO_GAIN * unit) {
-                break;
+                return Ok(((best, equations), k == 0));
             }
         }
-        self.finish(best, &scales, normal)
+        Ok(((best, equations), false))
     }
 
     /// One step that leaves less, with the equations there; `None` where none does.
@@ -57,26 +94,26 @@ impl FitProblem<'_> {
         best: &FittedRecords,
         scales: &[Vec<f64>],
         unit: f64,
-        normal: &Normal,
+        (equations, normal): (&Normal, &dyn Fn(&FittedRecords) -> Result<Normal, RecordError>),
         damping: &mut f64,
-    ) -> Result<Option<(FittedRecords, Normal)>, RecordError> {
-        let before = normal.left.total(unit);
+    ) -> Result<Option<Place>, RecordError> {
+        let before = equations.left.total(unit);
         for attempt in 0..ATTEMPTS {
-            let Some(change) = solve(normal, *damping) else {
+            let Some(change) = solve(equations, *damping) else {
                 *damping *= 10.0;
                 continue;
             };
             let trial = self.moved(best, scales, &change);
             // The first step is mostly one that leaves less; later ones are looked at without derivatives.
             let there = if attempt == 0 {
-                self.normal(&trial, scales, unit).map(|there| (there.left.total(unit), Some(there)))
+                normal(&trial).map(|there| (there.left.total(unit), Some(there)))
             } else {
                 self.left(&trial).map(|there| (there.total(unit), None))
             };
             match there {
                 Ok((total, there)) if total < before => {
                     *damping = (*damping * 0.2).max(1e-12);
-                    let there = there.map_or_else(|| self.normal(&trial, scales, unit), Ok)?;
+                    let there = there.map_or_else(|| normal(&trial), Ok)?;
                     return Ok(Some((trial, there)));
                 }
                 // A model that runs away is no step.

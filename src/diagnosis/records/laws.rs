@@ -3,7 +3,7 @@
 use crate::effects::Effect;
 
 /// Laws that have a force in time.
-pub(super) const LAWS: [Effect; 14] = [
+pub(super) const LAWS: [Effect; 16] = [
     Effect::Viscous,
     Effect::Coulomb,
     Effect::Quadratic,
@@ -18,4 +18,6 @@ pub(super) const LAWS: [Effect; 14] = [
     Effect::Stribeck,
     Effect::Iwan,
     Effect::AsymmetricViscous,
+    Effect::Dahl,
+    Effect::BoucWen,
 ];

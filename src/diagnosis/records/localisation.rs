@@ -59,7 +59,7 @@ pub fn locate(records: &Records, places: &[Place], stiffness: f64) -> Vec<Locate
 }
 
 /// The structure in its lowest modes.
-struct Expansion {
+pub(super) struct Expansion {
     shapes: Mat<f64>,
     squares: Vec<f64>,
     /// Known linear sources: their modal matrices and their dynamic stiffness at unit matrix.
@@ -69,16 +69,24 @@ struct Expansion {
 }
 
 /// One line of one record, whitened.
-struct Line {
-    measured: Vec<c64>,
+pub(super) struct Line {
+    pub measured: Vec<c64>,
     /// Columns of the end differences.
-    ends: Vec<Vec<c64>>,
+    pub ends: Vec<Vec<c64>>,
     /// `(i w)^o S D^-1`, a row a channel.
-    responses: Mat<c64>,
+    pub responses: Mat<c64>,
+}
+
+impl Line {
+    /// What a unit of force along `pattern` does to the channels.
+    pub fn under(&self, pattern: &[f64]) -> Vec<c64> {
+        let of = |c: usize| pattern.iter().enumerate().map(|(r, b)| self.responses[(c, r)] * *b).sum();
+        (0..self.measured.len()).map(of).collect()
+    }
 }
 
 impl Expansion {
-    fn new(records: &Records, stiffness: f64) -> Self {
+    pub fn new(records: &Records, stiffness: f64) -> Self {
         let size = records.modes.len().min(MOST_MODES);
         let shapes = records.modes.shapes.subcols(0, size).to_owned();
         let squares = (0..size).map(|r| stiffness.exp() * records.modes.omega[r].powi(2)).collect();
@@ -96,7 +104,7 @@ impl Expansion {
     }
 
     /// Dynamic stiffness of the known sources at a circular frequency.
-    fn sources(&self, w: f64) -> Mat<c64> {
+    pub fn sources(&self, w: f64) -> Mat<c64> {
         let size = self.squares.len();
         let mut sum = Mat::<c64>::zeros(size, size);
         for (matrix, source) in &self.known {
@@ -110,27 +118,40 @@ impl Expansion {
         sum
     }
 
-    fn pattern(&self, leg: Leg) -> Vec<f64> {
+    /// The modes along a leg.
+    pub fn pattern(&self, leg: Leg) -> Vec<f64> {
         (0..self.squares.len()).map(|r| leg.relative(|i| self.shapes[(i, r)])).collect()
     }
 
     /// Lines of a record, those of greatest response over the noise.
     fn lines(&self, records: &Records, record: &RecordData) -> Vec<Line> {
-        let transform =
-            |list: &Vec<Vec<f64>>| -> Vec<Vec<c64>> { list.iter().map(|y| fourier_integral(y, record.step)).collect() };
-        let (responses, forces) = (transform(&record.samples), transform(&record.forces));
-        let length = record.step * (record.len() - 1) as f64;
-        let highest = (HIGHEST * length / record.step) as usize;
-        let floor = |c: usize| record.noise[c] * (0.5 * record.step * length).sqrt();
-        let height = |k: usize| (0..responses.len()).map(|c| (responses[c][k].norm() / floor(c)).powi(2)).sum::<f64>();
+        let spectra = Spectra::new(record);
+        let responses = &spectra.responses;
+        let height = |k: usize| {
+            (0..responses.len()).map(|c| (responses[c][k].norm() / line_noise(record, c)).powi(2)).sum::<f64>()
+        };
+        let highest = (HIGHEST * (record.len() - 1) as f64) as usize;
         let mut numbers: Vec<usize> = (1..highest.min(responses[0].len())).collect();
         numbers.sort_by(|&a, &b| height(b).total_cmp(&height(a)));
         numbers.truncate(MOST_LINES);
+        self.lines_of(records, record, &spectra, &numbers)
+    }
+
+    /// Lines of these numbers of a record with its spectra.
+    pub fn lines_of(
+        &self,
+        records: &Records,
+        record: &RecordData,
+        Spectra { responses, forces }: &Spectra,
+        numbers: &[usize],
+    ) -> Vec<Line> {
+        let length = record.step * (record.len() - 1) as f64;
         let largest = |c: usize| responses[c].iter().skip(1).map(|y| y.norm()).fold(0.0, f64::max);
         let peaks: Vec<f64> = (0..responses.len()).map(largest).collect();
         let line = |&k: &usize| {
             let y: Vec<c64> = responses.iter().map(|list| list[k]).collect();
             let u: Vec<c64> = forces.iter().map(|list| list[k]).collect();
+            let floor = |c: usize| line_noise(record, c);
             let weight = |c: usize| 1.0 / floor(c).hypot(MODEL_SHARE * y[c].norm()).hypot(1e-5 * peaks[c]);
             let weights: Vec<f64> = (0..y.len()).map(weight).collect();
             self.line(records.kept, record, TAU * k as f64 / length, &y, &u, &weights)
@@ -138,17 +159,32 @@ impl Expansion {
         numbers.iter().map(line).collect()
     }
 
+    /// `D^-1` times columns, at a circular frequency with the dynamic stiffness `known` of the known sources there.
+    pub fn receptance(&self, w: f64, known: &Mat<c64>, columns: &Mat<c64>) -> Mat<c64> {
+        let size = self.squares.len();
+        let dynamic =
+            Mat::from_fn(size, size, |i, j| known[(i, j)] + if i == j { self.squares[i] - w * w } else { 0.0 });
+        ComplexLu::new(dynamic.as_ref()).solve(columns.as_ref())
+    }
+
+    /// Modal force that a unit difference of mode `r` between the ends of a record stands for, of its velocity or displacement.
+    pub fn end_push(&self, w: f64, known: &Mat<c64>, r: usize, velocity: bool) -> Vec<c64> {
+        let inertia = |i: usize| f64::from(u8::from(i == r)) + self.mass[(i, r)];
+        let push = |i: usize| {
+            if velocity { c64::new(inertia(i), 0.0) } else { c64::new(0.0, w) * inertia(i) + known[(i, r)].im / w }
+        };
+        (0..self.squares.len()).map(push).collect()
+    }
+
     fn line(&self, kept: usize, record: &RecordData, w: f64, y: &[c64], u: &[c64], weights: &[f64]) -> Line {
         let size = self.squares.len();
         let iw = c64::new(0.0, w);
         let known = self.sources(w);
-        let dynamic =
-            Mat::from_fn(size, size, |i, j| known[(i, j)] + if i == j { self.squares[i] - w * w } else { 0.0 });
         let order = |c: usize| record.channels[c].quantity.derivatives().unwrap_or(0);
         let shape = |c: usize, r: usize| self.shapes[(record.channels[c].dof, r)];
         // The dynamic stiffness is symmetric: rows of S D^-1 are columns of D^-1 S^T.
         let sensed = Mat::from_fn(size, y.len(), |r, c| iw.powi(order(c)) * shape(c, r));
-        let solved = ComplexLu::new(dynamic.as_ref()).solve(sensed.as_ref());
+        let solved = self.receptance(w, &known, &sensed);
         let responses = Mat::from_fn(y.len(), size, |c, r| solved[(r, c)] * weights[c]);
         let driven = |c: usize| -> c64 {
             let push = |(dof, u): (&usize, &c64)| -> c64 {
@@ -159,22 +195,38 @@ impl Expansion {
         let measured = (0..y.len()).map(|c| y[c] * weights[c] - driven(c)).collect();
         let end = |j: usize| -> Vec<c64> {
             let (r, velocity) = (j % kept, j >= kept);
+            let push = self.end_push(w, &known, r, velocity);
             let of = |c: usize| {
                 let direct = match (order(c), velocity) {
                     (1, false) | (2, true) => c64::new(shape(c, r), 0.0),
                     (2, false) => iw * shape(c, r),
                     _ => c64::new(0.0, 0.0),
                 };
-                let inertia = |i: usize| f64::from(u8::from(i == r)) + self.mass[(i, r)];
-                let push = |i: usize| {
-                    if velocity { c64::new(inertia(i), 0.0) } else { iw * inertia(i) + known[(i, r)].im / w }
-                };
-                direct * weights[c] - (0..size).map(|i| responses[(c, i)] * push(i)).sum::<c64>()
+                direct * weights[c] - (0..size).map(|i| responses[(c, i)] * push[i]).sum::<c64>()
             };
             (0..y.len()).map(of).collect()
         };
         Line { measured, ends: (0..2 * kept).map(end).collect(), responses }
     }
+}
+
+/// Spectra of the responses and of the forces of a record.
+pub(super) struct Spectra {
+    pub responses: Vec<Vec<c64>>,
+    pub forces: Vec<Vec<c64>>,
+}
+
+impl Spectra {
+    pub fn new(record: &RecordData) -> Self {
+        let transform =
+            |list: &Vec<Vec<f64>>| -> Vec<Vec<c64>> { list.iter().map(|y| fourier_integral(y, record.step)).collect() };
+        Self { responses: transform(&record.samples), forces: transform(&record.forces) }
+    }
+}
+
+/// Deviation of a real part of a line of the spectrum of channel `c`.
+fn line_noise(record: &RecordData, c: usize) -> f64 {
+    record.noise[c] * record.step * (0.5 * (record.len() - 1) as f64).sqrt()
 }
 
 /// Squared residual of the lines of a record with a free force along `pattern`, and its degrees of freedom.
@@ -184,8 +236,7 @@ fn misfit(lines: &[Line], pattern: &[f64], unknowns: usize) -> [f64; 2] {
     let (mut square, mut freedom) = (0.0, -(unknowns as f64));
     for line in lines {
         let count = line.measured.len();
-        let a: Vec<c64> =
-            (0..count).map(|c| pattern.iter().enumerate().map(|(r, b)| line.responses[(c, r)] * *b).sum()).collect();
+        let a = line.under(pattern);
         let size: f64 = a.iter().map(nalgebra::Complex::norm_sqr).sum();
         let projected = |x: &[c64]| -> Vec<c64> {
             let share: c64 = if size > 0.0 {

@@ -56,6 +56,9 @@ impl FitProblem<'_> {
         }
         // What is held moves nowhere.
         let laws = self.first_correction(at);
+        for k in 0..if self.free.effects { 0 } else { laws } {
+            normal.matrix[(k, k)] = 1.0;
+        }
         for (j, _) in self.free.corrections.iter().enumerate().filter(|(_, free)| !**free) {
             normal.matrix[(laws + j, laws + j)] = 1.0;
         }
@@ -116,15 +119,14 @@ impl FitProblem<'_> {
         }
         let mut response = at.predict(self.records, r, self.samples(r), &parameters)?;
         let left = self.over_noise(r, &response.channels)?;
+        let mut derivatives = std::mem::take(&mut response.derivatives);
+        self.whiten(r, &mut derivatives);
         let count = parameters.len();
         let record = &self.records.list[r];
         let mut channels = Vec::with_capacity(left.len());
         for (c, e) in left.iter().enumerate() {
-            let mut columns: Vec<(usize, Vec<f64>)> = Vec::new();
-            for (k, list) in response.derivatives.iter_mut().enumerate() {
-                list[c].iter_mut().zip(&record.sigma[c]).for_each(|(d, s)| *d /= s);
-                columns.push((k, std::mem::take(&mut list[c])));
-            }
+            let mut columns: Vec<(usize, Vec<f64>)> =
+                derivatives.iter_mut().map(|list| std::mem::take(&mut list[c])).enumerate().collect();
             let shapes = self.shape_columns(record, c, &response.modal);
             let first = count + self.records.sensor(record, c) * self.records.kept;
             columns.extend(shapes.into_iter().enumerate().map(|(k, list)| (first + k, list)));
@@ -139,6 +141,29 @@ impl FitProblem<'_> {
         let (own, first) = (count + self.shapes(), self.offset_variable(at, r));
         unknowns.extend((0..self.offsets()).map(|c| (own + c, first + c, 1.0)));
         Ok(RecordDerivatives { unknowns, count: count + self.shapes() + self.offsets(), channels, left })
+    }
+
+    /// What record `r` leaves over the noise, and its derivatives by some parameters, `[parameter][channel][sample]`.
+    pub(super) fn responses(
+        &self,
+        at: &FittedRecords,
+        r: usize,
+        parameters: &[TransientParameter],
+    ) -> Result<(Vec<Vec<f64>>, Vec<Vec<Vec<f64>>>), RecordError> {
+        let mut response = at.predict(self.records, r, self.samples(r), parameters)?;
+        let left = self.over_noise(r, &response.channels)?;
+        self.whiten(r, &mut response.derivatives);
+        Ok((left, response.derivatives))
+    }
+
+    /// Divides derivatives of record `r` by the noise.
+    fn whiten(&self, r: usize, derivatives: &mut [Vec<Vec<f64>>]) {
+        let record = &self.records.list[r];
+        for list in derivatives {
+            for (channel, sigma) in list.iter_mut().zip(&record.sigma) {
+                channel.iter_mut().zip(sigma).for_each(|(d, s)| *d /= s);
+            }
+        }
     }
 
     /// Derivative of a channel of record `r` by its offset, over the noise; none where offsets are held.
@@ -189,7 +214,8 @@ impl RecordDerivatives {
 }
 
 /// Products of columns with each other and with what is left.
-struct Products {
+#[derive(Clone)]
+pub(super) struct Products {
     count: usize,
     matrix: Vec<f64>,
     against: Vec<f64>,
@@ -200,28 +226,50 @@ impl Products {
         Self { count, matrix: vec![0.0; count * count], against: vec![0.0; count] }
     }
 
+    /// Forgets what stands against what is left, and all products of the first `laws` columns.
+    pub fn clear(&mut self, laws: usize) {
+        self.against.fill(0.0);
+        for a in 0..laws {
+            for b in 0..self.count {
+                (self.matrix[a * self.count + b], self.matrix[b * self.count + a]) = (0.0, 0.0);
+            }
+        }
+    }
+
+    /// Adds a product of column `a` with what is left.
+    pub fn add_against(&mut self, a: usize, product: f64) {
+        self.against[a] += product;
+    }
+
+    /// Adds a product of columns `a` and `b`.
+    pub fn add_product(&mut self, a: usize, b: usize, product: f64) {
+        self.matrix[a * self.count + b] += product;
+        if a != b {
+            self.matrix[b * self.count + a] += product;
+        }
+    }
+
     /// Adds those of one channel: its columns with their numbers, and what is left of it.
     fn add(&mut self, columns: &[(usize, &[f64])], left: &[f64]) {
         for (i, (a, own)) in columns.iter().enumerate() {
             self.against[*a] += dot(own, left);
             for (b, other) in &columns[..=i] {
-                let product = dot(own, other);
-                self.matrix[a * self.count + b] += product;
-                if a != b {
-                    self.matrix[b * self.count + a] += product;
-                }
+                self.add_product(*a, *b, dot(own, other));
             }
         }
     }
 }
 
 /// Products of the derivatives of one record.
+#[derive(Clone)]
 pub(super) struct RecordPart {
     /// Number of the derivative, of the variable, and the factor between them.
-    unknowns: Vec<(usize, usize, f64)>,
-    products: Products,
-    square: f64,
-    left: Vec<Vec<f64>>,
+    pub unknowns: Vec<(usize, usize, f64)>,
+    pub products: Products,
+    /// Squared residual over the noise.
+    pub square: f64,
+    /// What is left, over the noise, `[channel][sample]`.
+    pub left: Vec<Vec<f64>>,
 }
 
 impl Normal {

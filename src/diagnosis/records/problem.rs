@@ -27,12 +27,14 @@ pub struct Free {
     pub shifts: bool,
     /// The shapes of the modes at the sensors, and the offsets of the channels of every record.
     pub shapes: bool,
+    /// The parameters of the effects.
+    pub effects: bool,
 }
 
 impl Free {
     /// Initial states and effects only.
     pub fn nothing() -> Self {
-        Self { corrections: Vec::new(), shifts: false, shapes: false }
+        Self { corrections: Vec::new(), shifts: false, shapes: false, effects: true }
     }
 
     /// All of it but the stiffness of single modes.
@@ -49,7 +51,7 @@ impl Free {
         let mut corrections = vec![true; 2 + records.known.len() + modes(records) + records.parts.len()];
         let driven = records.list.iter().any(|r| !r.forces.is_empty());
         corrections[1 + records.known.len() + modes(records)] = driven && !records.parts.is_empty();
-        Self { corrections, shifts: true, shapes: true }
+        Self { corrections, shifts: true, shapes: true, effects: true }
     }
 }
 
@@ -183,7 +185,9 @@ impl FitProblem<'_> {
             for (parameter, law) in effect.effect.parameters().iter().enumerate() {
                 let now = variable(law, slopes[parameter], effect.parameters[parameter]);
                 let slope = at_variable(law, slopes[parameter], now)[1];
-                list.push((TransientParameter::Source { source, parameter }, k, slope));
+                if self.free.effects {
+                    list.push((TransientParameter::Source { source, parameter }, k, slope));
+                }
                 k += 1;
             }
         }

@@ -27,6 +27,8 @@ use std::f64::consts::TAU;
 const PRIORS: [f64; 3] = [0.03, 0.2, 0.02];
 /// Most pairs of modes whose shapes are taken to be mixed by the errors of the model: those of nearest numbers.
 const MOST_PAIRS: usize = 12;
+/// Places at which laws of several shapes are weighed.
+const PLACES: usize = 9;
 /// Largest relative change of a nuisance.
 const MOST_CHANGE: f64 = 0.15;
 
@@ -202,14 +204,21 @@ impl<'a> Regression<'a> {
         column
     }
 
-    /// The best of every effect at every place, best first.
+    /// The best of every effect at every place, best first; effects of several shapes at the places only where one of a single shape
+    /// explains most.
     pub fn ranked(&self, places: &[Place], effects: &[Effect], control: &Control) -> Vec<Regressed> {
-        let of = |k: usize| {
-            let mut works: Vec<Works<'_>> =
-                self.parts.iter().map(|p| Works::new(self.records.structure, &p.motion)).collect();
-            effects.iter().filter_map(|e| self.best(*e, &places[k], &mut works)).collect::<Vec<Regressed>>()
+        let (plain, shaped): (Vec<Effect>, Vec<Effect>) = effects.iter().partition(|e| e.parameters().len() == 1);
+        let at = |places: &[Place], effects: &[Effect]| -> Vec<Regressed> {
+            let of = |k: usize| {
+                let mut works: Vec<Works<'_>> =
+                    self.parts.iter().map(|p| Works::new(self.records.structure, &p.motion)).collect();
+                effects.iter().filter_map(|e| self.best(*e, &places[k], &mut works)).collect::<Vec<Regressed>>()
+            };
+            control.map(places.len(), of).into_iter().flatten().collect()
         };
-        let mut all: Vec<Regressed> = control.map(places.len(), of).into_iter().flatten().collect();
+        let mut all = at(places, &plain);
+        all.sort_by(|a, b| a.misfit.total_cmp(&b.misfit));
+        all.extend(at(&foremost(all.iter().map(|r| &r.source.place)), &shaped));
         all.sort_by(|a, b| a.misfit.total_cmp(&b.misfit));
         all
     }
@@ -256,6 +265,17 @@ impl<'a> Regression<'a> {
         range.least *= 0.3;
         (range.displacement > 0.0 && range.velocity > 0.0).then_some(range)
     }
+}
+
+/// The first [`PLACES`] different ones of some places.
+pub(super) fn foremost<'p>(places: impl Iterator<Item = &'p Place>) -> Vec<Place> {
+    let mut first: Vec<Place> = Vec::new();
+    for place in places {
+        if first.len() < PLACES && !first.iter().any(|p| p.is_same(place)) {
+            first.push(place.clone());
+        }
+    }
+    first
 }
 
 /// Pairs of different modes, those of nearest numbers first, at most [`MOST_PAIRS`].

@@ -15,6 +15,7 @@ use super::fit_motion::{FitMotion, MotionOfDof};
 use super::fitted::FittedRecords;
 use super::normal::RecordDerivatives;
 use super::problem::{FitProblem, Free};
+use super::regression::foremost;
 use super::search::Search;
 use super::variables::scales;
 use crate::effects::{Effect, Leg, Place, Source, State};
@@ -23,7 +24,7 @@ use dashpot_numerics::{Cholesky, dot};
 use faer::Mat;
 
 /// Samples of all channels of a record that are looked at, about.
-const MOST_SAMPLES: usize = 8000;
+const MOST_SAMPLES: usize = 5000;
 
 /// Starts that are taken, and how many of them may be of one law or at one place.
 const TAKEN: usize = 10;
@@ -201,8 +202,14 @@ impl Search<'_> {
         let problem = FitProblem { records, free, share: 1.0, control: &alone };
         let Ok(test) = ScoreTest::new(&problem, fit) else { return Vec::new() };
         let open = |s: &Scored| !fit.effects.iter().chain(self.excluded).any(|e| e.is_same(&s.source));
-        let of = |k: usize| test.at(&places[k], laws);
-        let mut all: Vec<Scored> = self.control.map(places.len(), of).into_iter().flatten().filter(open).collect();
+        let at = |places: &[Place], laws: &[Effect]| -> Vec<Scored> {
+            self.control.map(places.len(), |k| test.at(&places[k], laws)).into_iter().flatten().filter(open).collect()
+        };
+        // Laws of several shapes are weighed at the places only where one of a single shape promises most.
+        let (plain, shaped): (Vec<Effect>, Vec<Effect>) = laws.iter().partition(|e| e.parameters().len() == 1);
+        let mut all = at(places, &plain);
+        all.sort_by(|a, b| b.gain.total_cmp(&a.gain));
+        all.extend(at(&foremost(all.iter().map(|s| &s.source.place)), &shaped));
         let unit = scale(fit);
         let bare = FittedRecords { residual: Vec::new(), ..fit.clone() };
         let worth = |s: &Scored| {

@@ -10,12 +10,16 @@ use super::regression::Regression;
 use super::telling::{last_deviations, plainest};
 use crate::control::Control;
 use crate::diagnosis::candidates::special_cases::is_allowed;
-use crate::effects::Source;
+use crate::diagnosis::updating::correction::Correction;
+use crate::diagnosis::updating::parameters::UpdatingParameter;
+use crate::effects::{Family, Place, Source};
+use crate::structure::{Part, Structure};
 
-/// Steps of the first fits, of the fits of those that are followed, and how many are.
-const BEGINNING: usize = 3;
-const FOLLOWING: usize = 7;
+/// Rounds and steps in each of the first fits, of the fits of those that are followed, and how many are; steps of a correction.
+const BEGINNING: [usize; 2] = [1, 3];
+const FOLLOWING: [usize; 2] = [2, 4];
 const FOLLOWED: usize = 6;
+const CORRECTING: [usize; 2] = [3, 4];
 /// Modes up to which places tell little and one law is easily taken for another: there more is tried.
 pub(super) const FEW_MODES: usize = 2;
 /// Rounds in which the model alone is corrected again, and the share of the squared residual of the one before that ends them.
@@ -28,12 +32,14 @@ const BESIDE: usize = 1;
 const NEAR: f64 = 2.0;
 /// Starts by regression beside those that are scored, on the shortest parts and on longer ones.
 const FURTHER: [usize; 2] = [24, 8];
+/// Starts of which a fit is begun.
+const BEGUN: usize = 28;
 /// Fits that are carried on to longer parts, and the steps there.
 const RIVALS: usize = 4;
 /// Evidence by which a fit may be behind the best to be carried on, and fits that are carried on all the same.
 const BEHIND: f64 = 80.0;
 const LEAST_RIVALS: usize = 2;
-const CARRYING: usize = 12;
+const CARRYING: [usize; 2] = [4, 4];
 /// Squared residual over the least one, or over that of half the noise, beyond which a fit is not followed further: after the
 /// first steps, and on longer parts.
 const HOPELESS: [f64; 2] = [12.0, 3.0];
@@ -48,7 +54,19 @@ pub(super) struct Search<'a> {
     /// The weighted records in parts of growing length, the whole last.
     pub levels: Vec<Records<'a>>,
     pub excluded: &'a [Source],
+    /// The structure as it is stated, and its supports that were found to give way, as they do in that of the records.
+    pub stated: &'a Structure,
+    pub supports: &'a [Correction],
     pub control: &'a Control,
+}
+
+/// Parts of the structure with their factors.
+pub(super) fn factors_of(corrections: &[Correction]) -> Vec<(Part, f64)> {
+    let of = |c: &Correction| match c.parameter {
+        UpdatingParameter::Structure(part) => Some((part, c.factor)),
+        _ => None,
+    };
+    corrections.iter().filter_map(of).collect()
 }
 
 /// Sets of growing size: the best of each as it stood when the next effect was found, of the last all that were followed, fitted
@@ -58,30 +76,53 @@ pub(super) struct SetsBySize {
     pub last: Vec<FittedRecords>,
 }
 
+impl<'a> Search<'a> {
+    /// Of `weighted` records and the same `plain`.
+    pub fn new(
+        weighted: &'a Records<'a>,
+        plain: &'a Records<'a>,
+        (excluded, stated, supports): (&'a [Source], &'a Structure, &'a [Correction]),
+        control: &'a Control,
+    ) -> Self {
+        Self { records: weighted, plain, levels: weighted.levels(), excluded, stated, supports, control }
+    }
+
+    /// The structure as it is stated with its supports and other parts corrected.
+    pub fn structure_with(&self, factors: &[(Part, f64)]) -> Structure {
+        let mut all = factors_of(self.supports);
+        all.extend_from_slice(factors);
+        self.stated.with_factors(&all)
+    }
+}
+
 impl Search<'_> {
-    /// `start` improved on the first `share` of every part of `level`, everything free.
+    /// `start` improved on the first `share` of every part of `level`, everything free, in some rounds of some steps.
     pub fn fit(
         &self,
         level: usize,
         start: &FittedRecords,
         share: f64,
-        iterations: usize,
+        rounds: [usize; 2],
     ) -> Result<FittedRecords, RecordError> {
-        self.fit_by(level, start, (share, iterations), self.control)
+        self.fit_by(level, start, (share, rounds), self.control)
     }
 
     fn fit_by(
         &self,
         level: usize,
         start: &FittedRecords,
-        (share, iterations): (f64, usize),
+        (share, rounds): (f64, [usize; 2]),
         control: &Control,
     ) -> Result<FittedRecords, RecordError> {
+        self.problem(level, share, control).begin(start, rounds)
+    }
+
+    /// The fit of the first `share` of every part of `level`, everything free.
+    fn problem<'s>(&'s self, level: usize, share: f64, control: &'s Control) -> FitProblem<'s> {
         let records = &self.levels[level];
-        let mut free = Free::all(records);
         // A shift of each part of a record would stand for a frequency that follows the amplitude.
-        free.shifts = level + 1 == self.levels.len();
-        FitProblem { records, free, share, control }.improve(start, iterations)
+        let free = Free { shifts: level + 1 == self.levels.len(), ..Free::all(records) };
+        FitProblem { records, free, share, control }
     }
 
     /// A fit of one level as the start of one of another: initial states that are not known yet are read from the first periods.
@@ -112,12 +153,12 @@ impl Search<'_> {
 
     /// The model corrected on the shortest parts, where a frequency that is off does not lose the phase.
     pub fn corrected(&self, bare: &FittedRecords) -> Result<FittedRecords, RecordError> {
-        let mut fitted = self.fit(0, bare, 1.0, FOLLOWING)?;
+        let mut fitted = self.fit(0, bare, 1.0, CORRECTING)?;
         // The motion itself may know better how far the model is off.
         if let Some(regression) = Regression::new(self.records, bare, self.control) {
             // Corrections by a measured motion are not bent to what the model leaves: priors weigh what noise demands.
             let start = FittedRecords { count: 0, ..regression.tuned(bare, None) };
-            if let Ok(other) = self.fit(0, &start, 1.0, FOLLOWING)
+            if let Ok(other) = self.fit(0, &start, 1.0, CORRECTING)
                 && other.chi_square < fitted.chi_square
             {
                 fitted = other;
@@ -125,7 +166,7 @@ impl Search<'_> {
         }
         // What is left decides what priors weigh: while a round leaves much less, they are asked again.
         for _ in 0..ROUNDS {
-            let next = self.fit(0, &fitted, 1.0, FOLLOWING)?;
+            let next = self.fit(0, &fitted, 1.0, CORRECTING)?;
             let ended = next.chi_square > ENDED * fitted.chi_square;
             fitted = next;
             if ended {
@@ -171,7 +212,9 @@ impl Search<'_> {
         let scored = self.scored(level, best, &self.all_places(), &LAWS);
         starts.truncate(FURTHER[usize::from(level > 0)]);
         starts.splice(0..0, scored);
+        starts.retain(|s| s.effects.split_last().is_none_or(|(new, others)| !self.repeats(others, new)));
         let alone = self.control.alone();
+        let starts = self.nearest(level, starts, scale(best));
         let free = self.records.kept <= FEW_MODES && self.levels[level].list.iter().all(|r| r.forces.is_empty());
         // A start that runs away, or a mass that takes away all there is, is no start. Where a frequency follows the amplitude the
         // phase of a decay is lost within a part: its first periods are fitted first.
@@ -188,6 +231,41 @@ impl Search<'_> {
         keep(&mut followed, FOLLOWED, HOPELESS[0]);
         self.control.check()?;
         self.beside_neighbours(level, self.sorted(level, followed))
+    }
+
+    /// Whether an effect is of the law of one that is there, at the same place or a neighbouring one: together they would be one effect
+    /// between both places, which a model that is off a little asks for at every place.
+    fn repeats(&self, others: &[Source], new: &Source) -> bool {
+        let dofs = |s: &Source| match &s.place {
+            Place::Dofs(dofs) => dofs.clone(),
+            _ => Vec::new(),
+        };
+        let pairs = Family::EachPair.places(self.records.structure);
+        let near = |a: usize, b: usize| {
+            let joins = |place: &Place| matches!(place, Place::Dofs(pair) if pair.contains(&a) && pair.contains(&b));
+            a == b || pairs.iter().any(joins)
+        };
+        let same = |other: &&Source| other.effect == new.effect;
+        others.iter().filter(same).any(|o| dofs(o).iter().any(|&a| dofs(new).iter().any(|&b| near(a, b))))
+    }
+
+    /// The starts that leave least before anything is fitted, [`BEGUN`] of them; those of other laws than they before others of the same.
+    fn nearest(&self, level: usize, starts: Vec<FittedRecords>, unit: f64) -> Vec<FittedRecords> {
+        let alone = self.control.alone();
+        let problem = self.problem(level, 1.0, &alone);
+        let left = |k: usize| problem.left(&starts[k]).map_or(f64::INFINITY, |left| left.total(unit));
+        let mut order: Vec<(f64, usize)> = self.control.map(starts.len(), left).into_iter().zip(0..).collect();
+        order.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let law = |k: usize| starts[k].effects.last().map(|e| e.effect);
+        let first_of_law = |n: &usize| !order[..*n].iter().any(|(_, k)| law(*k) == law(order[*n].1));
+        let (firsts, others): (Vec<usize>, Vec<usize>) = (0..order.len()).partition(first_of_law);
+        let mut taken: Vec<usize> = (0..order.len().min(BEGUN / 2)).collect();
+        for n in firsts.into_iter().chain(others) {
+            if taken.len() < BEGUN && !taken.contains(&n) {
+                taken.push(n);
+            }
+        }
+        taken.into_iter().map(|n| starts[order[n].1].clone()).collect()
     }
 
     /// The best of `rivals` fitted on the parts of the next level, best first.

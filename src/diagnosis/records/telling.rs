@@ -128,16 +128,18 @@ pub(super) fn corrections_of_parts(records: &Records, fit: &FittedRecords) -> Ve
     parts.map(correction).filter(|(_, c)| c.factor != 1.0).collect()
 }
 
-/// Takes out the fits whose last law has more parameters than another at the same place that leaves all but as little.
+/// Takes out the fits whose last law has more parameters than another at the same place that leaves all but as little, with as little
+/// corrected.
 pub(super) fn plainest(found: &mut Vec<FittedRecords>) {
-    let simple: Vec<(f64, Source)> =
-        found.iter().filter_map(|f| Some((f.chi_square, f.effects.last()?.clone()))).collect();
+    let unit = found.iter().map(scale).fold(f64::INFINITY, f64::min);
+    let cost = |f: &FittedRecords| f.chi_square + unit * f.prior;
+    let simple: Vec<(f64, Source)> = found.iter().filter_map(|f| Some((cost(f), f.effects.last()?.clone()))).collect();
     let needless = |fit: &FittedRecords| {
         let Some(own) = fit.effects.last() else { return false };
-        let plainer = |(chi, other): &(f64, Source)| {
+        let plainer = |(left, other): &(f64, Source)| {
             other.place.is_same(&own.place)
                 && other.parameters.len() < own.parameters.len()
-                && *chi <= PLAIN[usize::from(misfit(fit) > MODEL_ERROR)] * fit.chi_square
+                && *left <= PLAIN[usize::from(misfit(fit) > MODEL_ERROR)] * cost(fit)
         };
         simple.iter().any(plainer)
     };

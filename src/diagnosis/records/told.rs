@@ -19,12 +19,18 @@ use crate::effects::Source;
 const MOVED: [f64; 2] = [4.0, 2.0];
 /// Least change of a known source and of a mode that is told.
 const LEAST: [f64; 2] = [0.01, 1e-4];
-/// Steps of the fits.
-const ITERATIONS: usize = 6;
+/// Rounds and steps of the fits.
+const ROUNDS: [usize; 2] = [2, 4];
+/// The same of those of initial states.
+const PROMISING: [usize; 2] = [3, 3];
 
 impl Search<'_> {
-    /// `fit` with the corrections that can be told, without shifts; its effects fitted beside them.
+    /// `fit` with the corrections that can be told, without shifts; its effects fitted beside them. Where time is up all its
+    /// corrections are told as they are.
     pub fn told(&self, fit: &FittedRecords) -> Result<FittedRecords, RecordError> {
+        if self.control.is_late() {
+            return Ok(FittedRecords { shifts: vec![0.0; fit.shifts.len()], ..fit.clone() });
+        }
         let (sources, count) = (self.records.known.len(), modes(self.records));
         let first = parameters(fit);
         let wide = scale(fit).sqrt();
@@ -72,6 +78,7 @@ impl Search<'_> {
                 let free = self.kept_modes(&mut next, mask, sources);
                 found.push((self.fitted_anew(&next, free.clone(), &alone)?, number(&free)));
             }
+            found.iter_mut().for_each(|(told, _)| keep_deviations(told, fit));
             Ok(found)
         };
         let mut best: Option<(FittedRecords, usize)> = None;
@@ -91,8 +98,9 @@ impl Search<'_> {
         corrections: Vec<bool>,
         control: &Control,
     ) -> Result<FittedRecords, RecordError> {
-        let free = Free { corrections, shifts: false, shapes: true };
-        match (FitProblem { records: self.records, free, share: 1.0, control }).improve(start, ITERATIONS) {
+        // What an effect is worth is told by the fit in which all else was free, or it would stand for what is held here.
+        let free = Free { corrections, shifts: false, shapes: true, effects: false };
+        match (FitProblem { records: self.records, free, share: 1.0, control }).begin(start, ROUNDS) {
             // A start without its corrections may run away: then it is no rival.
             Err(RecordError::Model { .. }) => Ok(FittedRecords { chi_square: f64::INFINITY, ..start.clone() }),
             other => other,
@@ -131,10 +139,29 @@ impl Search<'_> {
             ..FittedRecords::start(&records, &[])
         };
         start.known[..told.known.len()].copy_from_slice(&told.known);
-        match started_from(&records, start, &self.control.unhurried()).and_then(|fit| fit.error(&records, 0.0, 1.0)) {
+        // The same effects begin near where they end.
+        let near = effects.len() == told.effects.len() && told.initial.len() == start.initial.len();
+        let control = self.control.unhurried();
+        let fitted = if near {
+            start.initial.clone_from(&told.initial);
+            let free = Free::nothing();
+            FitProblem { records: &records, free, share: 1.0, control: &control }.begin(&start, PROMISING)
+        } else {
+            started_from(&records, start, &control)
+        };
+        match fitted.and_then(|fit| fit.error(&records, 0.0, 1.0)) {
             Err(RecordError::Model { .. }) => Ok(f64::INFINITY),
             other => other,
         }
+    }
+}
+
+/// Gives the effects of what is told the deviations that they have in `fit`, on the scale of what is told.
+fn keep_deviations(told: &mut FittedRecords, fit: &FittedRecords) {
+    let share = (scale(fit) / scale(told)).sqrt();
+    let count = parameters(fit).min(told.deviations.len());
+    for (told, own) in told.deviations[..count].iter_mut().zip(&fit.deviations) {
+        *told = own * share;
     }
 }
 

@@ -16,14 +16,15 @@ use dashpot_numerics::dot;
 const BEGUN: usize = 2;
 
 impl Search<'_> {
-    /// The best of `found` with its last law replaced by wider ones, from where they leave least; none where it leaves no more than
-    /// noise.
+    /// The best of `found` with its last law replaced by wider ones, from where they leave least; on parts of records none where it
+    /// leaves no more than noise.
     pub fn begun_wider(&self, level: usize, found: &[FittedRecords]) -> Result<Vec<FittedRecords>, RecordError> {
         let Some((best, law)) = found.first().and_then(|f| Some((f, f.effects.last()?))) else { return Ok(Vec::new()) };
         let wider: Vec<Effect> =
             law.effect.wider().into_iter().filter(|e| LAWS.contains(e) && *e != law.effect).collect();
         let Some(leg) = law.place.legs().first().copied() else { return Ok(Vec::new()) };
-        if misfit(best) < AGREES || wider.is_empty() || self.control.is_late() {
+        let explained = misfit(best) < AGREES && level + 1 < self.levels.len();
+        if explained || wider.is_empty() || self.control.is_late() {
             return Ok(Vec::new());
         }
         let records = &self.levels[level];

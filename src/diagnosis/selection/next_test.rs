@@ -6,7 +6,7 @@
 //! pinning      sqrt [ (N + sum_c Re a_c^H a_c / s_c^2)^-1 ]_kk,     N the information so far, a_c = dX_c / d theta
 //! ```
 
-use crate::diagnosis::diagnose::NextTest;
+use crate::diagnosis::diagnose::{NextTest, TestKind};
 use crate::diagnosis::residual::data::DiagnosisError;
 use crate::diagnosis::residual::prediction::SEARCH;
 use crate::diagnosis::selection::fitted_model::FittedModel;
@@ -55,7 +55,8 @@ impl Trial {
     }
 
     fn named(&self, why: String) -> NextTest {
-        NextTest { frequency_hz: self.excitation.omega / TAU, force_dof: self.dof, force: self.force, why }
+        let (kind, frequency_hz) = (TestKind::Steady, self.excitation.omega / TAU);
+        NextTest { kind, frequency_hz, force_dof: self.dof, force: self.force, why }
     }
 }
 

@@ -5,11 +5,13 @@
 //! friction that slips  the same on the side of its sign; at rest the force that keeps it there
 //! Masing hysteresis    F = (F_0 + F_1) / 2,  F_1 = F_r + 2 B((d_1 - d_r) / 2)       (from the reversal r)
 //! Maxwell              F = c v + (F_0 - c v) (1 - e^-a) / a,  a = k h / c           (exact for a straight step)
+//! one internal force   F = (F_0 + F_1) / 2,  F_1 = step(F_0, x)                     (Dahl, Bouc and Wen)
 //! ```
 //!
 //! Each element solves `x + w F(x) = b` for itself, with the receptance `w` over the step.
 
 use crate::effects::memory::open_reversals;
+use crate::effects::ways::{InternalSteps, Way};
 use crate::effects::{Effect, Law, Memory, Motion};
 use faer::c64;
 
@@ -25,6 +27,7 @@ pub(super) enum Form {
     Friction,
     Masing,
     Maxwell,
+    Internal,
 }
 
 impl Form {
@@ -34,6 +37,7 @@ impl Form {
             Effect::ElasticSlider | Effect::Iwan => Some(Self::Masing),
             Effect::Maxwell => Some(Self::Maxwell),
             Effect::Power => Some(Self::Smooth),
+            Effect::Dahl | Effect::BoucWen => Some(Self::Internal),
             _ if law.point(&typical(law), 0.0, 1.0).is_none() => None,
             _ if law.set_valued().is_some() => Some(Self::Friction),
             _ => Some(Self::Smooth),
@@ -74,6 +78,8 @@ pub(super) struct Element {
     /// The law at rest, and at rest with each parameter varied down and up, with the width of the variation.
     backbone: Option<Box<dyn Memory>>,
     varied: Vec<([Box<dyn Memory>; 2], f64)>,
+    /// The law of one internal force.
+    internal: Option<Box<dyn InternalSteps>>,
     last: Instant,
     reversals: Vec<Instant>,
     direction: f64,
@@ -101,6 +107,7 @@ impl Element {
             scratch: Motion::new(1.0, 0.0, &[c64::new(0.0, 0.0)], 1),
             backbone,
             varied,
+            internal: if form == Form::Internal { law.internal(parameters) } else { None },
             last: Instant { by: vec![[0.0; 2]; count], ..Instant::default() },
             reversals: Vec::new(),
             direction: 0.0,
@@ -133,7 +140,23 @@ impl Element {
                 let force = steady + (self.last.force - steady) * share;
                 Mean { force, by_step: c / step * (1.0 - share), by_start: 0.0 }
             }
+            Form::Internal => {
+                let way = self.way(x);
+                Mean { force: 0.5 * (self.last.force + way.force), by_step: 0.5 * way.by_way, by_start: 0.0 }
+            }
         }
+    }
+
+    /// Where the internal force is led by the displacement `x`.
+    fn way(&self, x: f64) -> Way {
+        let held = Way { force: self.last.force, by_start: 1.0, by_way: 0.0 };
+        self.internal.as_ref().map_or(held, |law| law.step(self.last.force, x))
+    }
+
+    /// Derivative of that by a parameter of the law.
+    fn way_by(&self, own: Option<usize>, x: f64) -> f64 {
+        let by = |k: usize| self.internal.as_ref().map_or(0.0, |law| law.step_by(k, self.last.force, x));
+        finite(own.map_or(0.0, by))
     }
 
     fn on_side(&self, v: f64, side: f64) -> f64 {
@@ -190,6 +213,13 @@ impl Element {
                     *out = share * self.last.by[theta][1] + own[theta].map_or(0.0, |k| self.maxwell_by(k, x, step));
                 }
             }
+            Form::Internal => {
+                let by_start = self.way(x).by_start;
+                for (theta, out) in out.iter_mut().enumerate() {
+                    let end = by_start * self.last.by[theta][1] + self.way_by(own[theta], x);
+                    *out = 0.5 * (self.last.by[theta][1] + end);
+                }
+            }
         }
     }
 
@@ -201,7 +231,7 @@ impl Element {
                 let point = self.law.point(&self.parameters, d, self.on_side(v, side)).unwrap_or_default();
                 [point.force, finite(point.by_displacement), finite(point.by_velocity)]
             }
-            Form::Masing | Form::Maxwell => [self.last.force, 0.0, 0.0],
+            Form::Masing | Form::Maxwell | Form::Internal => [self.last.force, 0.0, 0.0],
         }
     }
 
@@ -212,7 +242,7 @@ impl Element {
                 let v = self.on_side(v, side);
                 own.map_or(0.0, |k| self.at_instant(k, d, v))
             }
-            Form::Masing | Form::Maxwell => self.last.by[theta][1],
+            Form::Masing | Form::Maxwell | Form::Internal => self.last.by[theta][1],
         }
     }
 
@@ -257,6 +287,16 @@ impl Element {
                     self.last.by[theta] = [*change, past * decay + by_x * (change - before) + explicit];
                 }
                 (self.last.d, self.last.force) = (d, force);
+            }
+            Form::Internal => {
+                let x = d - self.last.d;
+                let way = self.way(x);
+                for (theta, change) in change.iter().enumerate() {
+                    let [before, past] = self.last.by[theta];
+                    let led = way.by_start * past + way.by_way * (change - before) + self.way_by(own[theta], x);
+                    self.last.by[theta] = [*change, led];
+                }
+                (self.last.d, self.last.force) = (d, way.force);
             }
         }
     }

@@ -4,9 +4,9 @@ use super::first_suggestions::Mailbox;
 use super::model::Search;
 use crate::control::Control;
 use crate::diagnosis::candidates::fingerprint_plot::{self as prints, Print};
-use crate::diagnosis::candidates::restoring_force::{self, RestoringForce};
+use crate::diagnosis::candidates::restoring_force::RestoringForce;
 use crate::diagnosis::compare::{ChannelComparison, RunComparison};
-use crate::diagnosis::diagnose::{Suggestion, diagnose_without};
+use crate::diagnosis::diagnose::Suggestion;
 use crate::diagnosis::records::RecordComparison;
 use crate::diagnosis::records::compare::OneRecord;
 use crate::diagnosis::updating::scatter::{self, Scatter};
@@ -15,8 +15,8 @@ use crate::effects::Source;
 use crate::exchange::Project;
 use crate::measurement::TransientRun;
 use crate::plots::response_curve::{self, Curve};
-use crate::session::time_limit::hurry_after;
-use crate::session::validation::{compared_with_effects, diagnosed_from_records, only_records, problem};
+use crate::session::time_limit::answer_within;
+use crate::session::validation::{compared_with_effects, diagnosed, missing_force, only_records, problem};
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -30,15 +30,11 @@ pub(super) fn search_job(
     let (p, search) = (Arc::clone(p), search.clone());
     move |control| {
         if let Some(limit) = limit {
-            hurry_after(control, limit);
+            answer_within(control, &p, limit);
         }
         let early = |found: &[Suggestion]| told.put(found);
-        if only_records(&p) {
-            let ruled_out = search.ruled_out().to_vec();
-            let p = Project { ruled_out, ..Project::clone(&p) };
-            return diagnosed_from_records(&p, control, &early).map_err(|e| e.to_string());
-        }
-        diagnose_without(&problem(&p), search.ruled_out(), control, &early).map_err(|e| e.to_string())
+        let p = Project { ruled_out: search.ruled_out().to_vec(), ..Project::clone(&p) };
+        diagnosed(&p, control, &early).map_err(|e| e.to_string())
     }
 }
 
@@ -123,9 +119,7 @@ pub(super) fn force_job(
     source: Option<Source>,
 ) -> impl FnOnce(&Control) -> Result<Option<RestoringForce>, String> + use<> {
     let p = Arc::clone(p);
-    move |control| {
-        restoring_force::of_diagnosis(&problem(&p), &diagnosis, source.as_ref(), control).map_err(|e| e.to_string())
-    }
+    move |control| missing_force(&p, &diagnosis, source.as_ref(), control).map_err(|e| e.to_string())
 }
 
 /// What the data say of channels and runs beside what a search found.

@@ -257,9 +257,7 @@ pub fn next_tests(ui: &mut Ui, scene: &Scene<'_>, diagnosis: &Diagnosis) {
     let structure = &scene.document.project.structure;
     ui.title("Next test", "what would tell most");
     for test in &diagnosis.next_test {
-        let label = structure.dofs().get(test.force_dof).map_or("?", |d| d.label.as_str());
-        let (frequency, force) = (format::with_unit(test.frequency_hz, "Hz"), format::with_unit(test.force, "N"));
-        ui.label(format!("{frequency} with {force} at DOF {label}"));
+        ui.label(words::capital(&findings::next_test(structure, test)));
         ui.hint(format!("{}.", format::polished(test.why.trim_end_matches('.'))));
     }
 }

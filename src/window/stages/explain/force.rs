@@ -5,6 +5,7 @@ use crate::diagnosis::candidates::restoring_force::RestoringForce;
 use crate::effects::{Place, Source};
 use crate::plots::restoring_force::{caption, figures, title};
 use crate::plots::sheet::{Panel, Sheet};
+use crate::session::validation::is_component;
 use crate::structure::Structure;
 use crate::window::plots::export;
 use crate::window::plots::show::{self, key_row};
@@ -18,7 +19,7 @@ const LEAST: f32 = 170.0;
 
 /// Shows the force of `source`, or at the place that explains most; says so while it is computed.
 pub fn show(ui: &mut Ui, scene: &Scene<'_>, source: Option<&Source>) {
-    if source.is_some_and(|s| !matches!(s.place, Place::Dofs(_))) || scene.document.project.runs.is_empty() {
+    if source.is_some_and(|s| !matches!(s.place, Place::Dofs(_))) || is_component(&scene.document.project) {
         return;
     }
     match scene.explained.force(scene.document, source) {
