@@ -1,17 +1,18 @@
 //! `dashpot plot`: one plot of a project as SVG, or its values as CSV. Needs no display and no graphics adapter.
 
 use super::arguments::{Plot, PlotKind};
+use super::plot_records::RecordPlots;
 use crate::control::Control;
 use crate::diagnosis::candidates::restoring_force;
 use crate::diagnosis::component::{Loops, compare_component};
 use crate::diagnosis::diagnose::Verdict;
-use crate::diagnosis::{Comparison, Problem, compare, diagnose};
+use crate::diagnosis::{Comparison, compare, diagnose};
 use crate::display::words;
 use crate::exchange::Project;
 use crate::exchange::atomic::write_atomically;
 use crate::exchange::project::load;
-use crate::identify::{Outcome, identify};
-use crate::measurement::Quantity;
+use crate::identify::{Measurements, Outcome, identify_measured};
+use crate::measurement::{Quantity, TransientRun};
 use crate::plots::bars::{self, Bar};
 use crate::plots::bode::{Diagram, Response};
 use crate::plots::channel_response::ChannelResponse;
@@ -25,9 +26,10 @@ use crate::plots::sheet::Sheet;
 use crate::plots::style::Palette;
 use crate::plots::trace::{Trace, trace};
 use crate::plots::{self, angle, component_loops, energy, forward, response_curve, samples, spectrum, svg};
+use crate::session::validation::{as_runs, compared_with_records, is_component, only_records, problem};
 use crate::session::workers::Threads;
-use crate::structure::StructureKind;
 use anyhow::{Context, bail, ensure};
+use clap::ValueEnum;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -35,6 +37,12 @@ use std::sync::Arc;
 struct Drawn {
     drawing: Drawing,
     table: String,
+}
+
+/// Whether a plot shows periodic motion, which records that are not steady do not hold.
+fn is_of_runs(what: PlotKind) -> bool {
+    use PlotKind::{Channel, Energy, Level, Loop, Nyquist, Overview, Period, RestoringForce, Spectrum};
+    matches!(what, Channel | Energy | Level | Loop | Nyquist | Overview | Period | RestoringForce | Spectrum)
 }
 
 /// Draws and writes.
@@ -71,7 +79,21 @@ struct Plotter<'a> {
 
 impl Plotter<'_> {
     fn draw(&self) -> anyhow::Result<Drawn> {
-        match self.arguments.what {
+        let what = self.arguments.what;
+        let steady = is_of_runs(what) || what == PlotKind::Hysteresis && !is_component(self.p);
+        ensure!(
+            !(steady && only_records(self.p)),
+            "{} is a plot of steady runs, and the project has none; its records are drawn by --what record, amplitude, \
+             error-map, angle, shares and matrix",
+            what.to_possible_value().map_or_else(String::new, |v| v.get_name().to_owned())
+        );
+        match what {
+            PlotKind::Record if only_records(self.p) => self.figure(self.records().record()?),
+            PlotKind::Amplitude => {
+                let (title, figures) = self.records().amplitude()?;
+                self.sheet(&title, figures)
+            }
+            PlotKind::Overview => self.overview(),
             PlotKind::Angle => {
                 let o = self.outcome()?;
                 self.figure(angle::figure(self.palette, &o, o.accepted, self.p.settings.stop_angle_deg))
@@ -83,13 +105,26 @@ impl Plotter<'_> {
             PlotKind::Shares => self.shares(),
             PlotKind::Matrix => self.matrix(),
             PlotKind::Bode | PlotKind::Nyquist => self.response(),
-            PlotKind::Hysteresis if self.p.structure.kind() == StructureKind::Component => self.component_loop(),
+            PlotKind::Hysteresis if is_component(self.p) => self.component_loop(),
             PlotKind::Hysteresis => self.hysteresis(),
             PlotKind::Record | PlotKind::Spectrum => self.record(),
             PlotKind::ErrorMap => self.error_map(),
             PlotKind::RestoringForce => self.restoring_force(),
             PlotKind::Channel | PlotKind::Level | PlotKind::Period | PlotKind::Loop => self.channel(),
         }
+    }
+
+    fn records(&self) -> RecordPlots<'_> {
+        let Plotter { arguments, p, palette, control } = *self;
+        RecordPlots { p, run: arguments.run, channel: arguments.channel.as_deref(), palette, control }
+    }
+
+    fn overview(&self) -> anyhow::Result<Drawn> {
+        let run = self.run()?;
+        let channel = &self.p.runs[run].fit.channels[self.channel_index(run)?].channel;
+        let figures = plots::overview::figures(self.p, channel, run, self.palette);
+        ensure!(!figures.is_empty(), "no run with {channel} has a force to divide by");
+        self.sheet(&format!("{channel} over the force, all runs"), figures.into_iter().map(|f| f.0).collect())
     }
 
     fn figure(&self, figure: Figure) -> anyhow::Result<Drawn> {
@@ -107,7 +142,7 @@ impl Plotter<'_> {
     /// Of the suggestion at the DOF that was asked for, else of the first; without one of the place that explains most.
     fn restoring_force(&self) -> anyhow::Result<Drawn> {
         let p = self.p;
-        let problem = Problem { structure: &p.structure, sources: &p.sources, runs: &p.runs };
+        let problem = problem(p);
         let diagnosis = diagnose(&problem, self.control)?;
         let dof = self.dof()?;
         let is_at_place = |s: &&diagnose::Suggestion| match &s.added.source.place {
@@ -135,13 +170,17 @@ impl Plotter<'_> {
 
     fn outcome(&self) -> anyhow::Result<Outcome> {
         let p = self.p;
-        Ok(identify(&p.structure, &p.sources, &p.runs, &p.settings, self.control)?)
+        let given = Measurements { runs: &p.runs, transient_runs: &p.transient_runs, ratios: &[] };
+        Ok(identify_measured(&p.structure, &p.sources, given, &p.settings, self.control)?)
     }
 
     fn comparison(&self) -> anyhow::Result<Comparison> {
-        let p = self.p;
-        let problem = Problem { structure: &p.structure, sources: &p.sources, runs: &p.runs };
-        Ok(compare(&problem, &[], self.control)?)
+        if only_records(self.p) {
+            let found = compared_with_records(self.p, self.control)?;
+            let found = found.context("records are compared with a model of mass and stiffness; points have none")?;
+            return Ok(as_runs(self.p, &found));
+        }
+        Ok(compare(&problem(self.p), &[], self.control)?)
     }
 
     /// Index of the run that was asked for, else of the first that is used.
@@ -193,7 +232,8 @@ impl Plotter<'_> {
     /// Of the identified model; of the known sources where the project has nothing to identify.
     fn response(&self) -> anyhow::Result<Drawn> {
         let p = self.p;
-        let channels = || p.runs.iter().flat_map(|r| &r.fit.channels).map(|c| &c.channel);
+        let steady = || p.runs.iter().flat_map(|r| &r.fit.channels).map(|c| &c.channel);
+        let channels = || steady().chain(p.transient_runs.iter().flat_map(TransientRun::channels));
         let excitation = channels().find(|c| c.quantity == Quantity::Force).map(|c| c.dof);
         let sensor = channels().filter(|c| c.quantity != Quantity::Force).map(|c| c.dof).next_back();
         let sensor = self.dof()?.or(sensor);

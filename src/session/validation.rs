@@ -2,12 +2,15 @@
 
 use crate::balance::loops::ComponentError;
 use crate::control::Control;
+use crate::diagnosis::compare::{ChannelComparison, RunComparison};
 use crate::diagnosis::component::{Loops, compare_component, diagnose_component};
 use crate::diagnosis::diagnose::Early;
+use crate::diagnosis::records::compare::OneRecord;
 use crate::diagnosis::records::{RecordComparison, RecordError, Records, compare_records, diagnose_records};
-use crate::diagnosis::{Diagnosis, Problem};
+use crate::diagnosis::{Comparison, Diagnosis, Problem};
 use crate::effects::Source;
 use crate::exchange::Project;
+use crate::measurement::TransientRun;
 use crate::structure::StructureKind;
 
 /// Why a model cannot be compared with records.
@@ -79,6 +82,37 @@ pub fn compared_with_effects(
         return Ok(None);
     }
     Ok(Some(compare_records(&records(project)?, effects, control)?))
+}
+
+/// The comparison with records that are not steady in the form of that with runs: an entry a record.
+pub fn as_runs(p: &Project, found: &RecordComparison) -> Comparison {
+    Comparison {
+        error: found.error,
+        noise_floor: found.noise_floor,
+        energy_error: f64::NAN,
+        runs: found.records.iter().map(|r| of_record(&p.transient_runs[r.index], r)).collect(),
+        levels: Vec::new(),
+        channels: Vec::new(),
+        harmonics: Vec::new(),
+        whiteness: Vec::new(),
+    }
+}
+
+fn of_record(run: &TransientRun, found: &OneRecord) -> RunComparison {
+    let dof = |name: &str| run.channels().iter().find(|c| c.to_string() == name).map_or(0, |c| c.dof);
+    let channel = |(name, [error, noise_floor]): &(String, [f64; 2])| {
+        let (channel, dof, harmonics) = (name.clone(), dof(name), Vec::new());
+        ChannelComparison { channel, dof, error: *error, noise_floor: *noise_floor, scale: 1.0, harmonics }
+    };
+    RunComparison {
+        index: found.index,
+        used: run.enabled,
+        error: found.error,
+        noise_floor: found.noise_floor,
+        branch: None,
+        energy_error: f64::NAN,
+        channels: found.channels.iter().map(channel).collect(),
+    }
 }
 
 /// What the model of the records lacks.
