@@ -21,11 +21,13 @@ mod identify_table;
 mod import;
 mod incompleteness;
 mod label;
+mod manual;
 mod methods;
 mod moving_base;
 mod named_sources;
 mod play;
 mod plot;
+mod plot_records;
 mod records;
 mod reduction;
 mod remarks;
@@ -37,6 +39,8 @@ mod simulate_frf;
 mod simulate_write;
 mod source_json;
 mod table;
+
+pub use manual::manual;
 
 use arguments::{Arguments, Command};
 use clap::Parser;
