@@ -80,6 +80,40 @@ fn every_plot_is_drawn_without_a_window_and_its_values_are_csv() {
     assert!(map.starts_with("channel,run 1"), "{map}");
 }
 
+/// Decays and components have plots of their own; what shows periodic motion says that they have none.
+#[test]
+fn records_that_are_not_steady_are_drawn_too() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = |name: &str| folder.path().join(name);
+    let decay = sample("decay-friction");
+    for kind in ["record", "amplitude", "error-map", "angle", "shares", "matrix"] {
+        let svg = written(&["plot", "--what", kind], &decay, &out("plot.svg"));
+        assert!(svg.starts_with("<?xml") && svg.contains("<text"), "{kind}");
+    }
+    let samples =
+        written(&["plot", "--what", "record", "--run", "2", "--channel", "acc@19"], &decay, &out("record.csv"));
+    assert!(samples.starts_with("Time (s)") || samples.contains("Time"), "{}", samples.lines().next().unwrap());
+    assert!(samples.lines().count() > 500, "{}", samples.lines().count());
+    let amplitude = written(&["plot", "--what", "amplitude"], &decay, &out("amplitude.svg"));
+    assert!(amplitude.contains("Damping ratio") && amplitude.contains(">model<"), "measured and modelled");
+    for kind in ["spectrum", "channel", "period", "nyquist", "hysteresis", "overview"] {
+        let refused = dashpot(&["plot", "--what", kind], &decay, &out("x.svg"));
+        let said = String::from_utf8(refused.stderr).unwrap();
+        assert_eq!(refused.status.code(), Some(1), "{kind}: {said}");
+        assert!(
+            said.contains(&format!("{kind} is a plot of steady runs")) && said.trim().lines().count() == 1,
+            "{said}"
+        );
+    }
+    let loops = sample("damper-loops");
+    for kind in ["record", "hysteresis", "error-map"] {
+        let svg = written(&["plot", "--what", kind], &loops, &out("loop.svg"));
+        assert!(svg.starts_with("<?xml"), "{kind}");
+    }
+    let runs = written(&["plot", "--what", "overview"], &sample("cantilever-friction"), &out("overview.svg"));
+    assert!(runs.contains("Magnitude") && runs.matches(">level ").count() > 1, "a key to every level");
+}
+
 #[test]
 fn what_cannot_be_drawn_is_refused_in_one_line() {
     let folder = tempfile::tempdir().unwrap();

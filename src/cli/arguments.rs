@@ -257,7 +257,7 @@ pub(super) struct Plot {
     /// File to write: .svg for the plot, .csv for its values
     #[arg(long)]
     pub out: PathBuf,
-    /// Run by its number in the project, from 1; the first that is used unless given
+    /// Run, or record that is not steady, by its number in the project, from 1; the first that is used unless given
     #[arg(long)]
     pub run: Option<usize>,
     /// Channel such as acc@7, of plots of one channel; the first motion unless given
@@ -300,10 +300,12 @@ pub(super) enum PlotKind {
     Spectrum,
     /// What the model leaves of a record that is not steady over time and frequency
     Spectrogram,
-    /// Damping ratio and frequency over amplitude, of decays and of what follows a hammer, measured and modelled
-    Amplitude,
-    /// Error of every channel in every run
+    /// Error of every channel in every run or record
     ErrorMap,
+    /// Amplitude and phase of a channel of all runs over frequency, one curve a level
+    Overview,
+    /// Damping ratio and frequency over amplitude of a record that is not steady, measured and modelled
+    Amplitude,
     /// Measured on modelled over frequency, one curve a level of force
     Channel,
     /// Measured on modelled over the level of force

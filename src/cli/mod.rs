@@ -20,11 +20,13 @@ mod identify_json;
 mod identify_table;
 mod import;
 mod incompleteness;
+mod manual;
 mod methods;
 mod moving_base;
 mod named_sources;
 mod play;
 mod plot;
+mod plot_records;
 mod records;
 mod reduction;
 mod remarks;
@@ -36,6 +38,8 @@ mod simulate_frf;
 mod simulate_write;
 mod source_json;
 mod table;
+
+pub use manual::manual;
 
 use arguments::{Arguments, Command};
 use clap::Parser;

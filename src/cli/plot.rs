@@ -1,16 +1,17 @@
 //! `dashpot plot`: one plot of a project as SVG, or its values as CSV. Needs no display and no graphics adapter.
 
 use super::arguments::{Plot, PlotKind};
+use super::plot_records::RecordPlots;
 use crate::control::Control;
 use crate::diagnosis::component::{Loops, compare_component};
 use crate::diagnosis::diagnose::{self, Verdict};
-use crate::diagnosis::{Comparison, Problem, compare};
+use crate::diagnosis::{Comparison, compare};
 use crate::display::words;
 use crate::exchange::Project;
 use crate::exchange::atomic::write_atomically;
 use crate::exchange::project::load;
-use crate::identify::{Outcome, identify};
-use crate::measurement::Quantity;
+use crate::identify::{Measurements, Outcome, identify_measured};
+use crate::measurement::{Quantity, TransientRun};
 use crate::plots::bars::{self, Bar};
 use crate::plots::bode::{Diagram, Response};
 use crate::plots::channel_response::ChannelResponse;
@@ -27,10 +28,12 @@ use crate::plots::trace::{Trace, trace};
 use crate::plots::{
     self, amplitude_curve, angle, component_loops, energy, forward, response_curve, samples, spectrum, svg,
 };
-use crate::session::validation::{compared_with_records, diagnosed, missing_force};
+use crate::session::validation::{
+    as_runs, compared_with_records, diagnosed, is_component, missing_force, only_records, problem,
+};
 use crate::session::workers::Threads;
-use crate::structure::StructureKind;
 use anyhow::{Context, bail, ensure};
+use clap::ValueEnum;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -38,6 +41,12 @@ use std::sync::Arc;
 struct Drawn {
     drawing: Drawing,
     table: String,
+}
+
+/// Whether a plot shows periodic motion, which records that are not steady do not hold.
+fn is_of_runs(what: PlotKind) -> bool {
+    use PlotKind::{Channel, Energy, Level, Loop, Nyquist, Overview, Period};
+    matches!(what, Channel | Energy | Level | Loop | Nyquist | Overview | Period)
 }
 
 /// Draws and writes.
@@ -74,7 +83,17 @@ struct Plotter<'a> {
 
 impl Plotter<'_> {
     fn draw(&self) -> anyhow::Result<Drawn> {
-        match self.arguments.what {
+        let what = self.arguments.what;
+        let steady = is_of_runs(what) || what == PlotKind::Hysteresis && !is_component(self.p);
+        ensure!(
+            !(steady && only_records(self.p)),
+            "{} is a plot of steady runs, and the project has none; its records are drawn by --what record, amplitude, \
+             error-map, angle, shares and matrix",
+            what.to_possible_value().map_or_else(String::new, |v| v.get_name().to_owned())
+        );
+        match what {
+            PlotKind::Record if !self.is_modelled() => self.figure(self.records().record()?),
+            PlotKind::Overview => self.overview(),
             PlotKind::Angle => {
                 let o = self.outcome()?;
                 self.figure(angle::figure(self.palette, &o, o.accepted, self.p.settings.stop_angle_deg))
@@ -86,15 +105,33 @@ impl Plotter<'_> {
             PlotKind::Shares => self.shares(),
             PlotKind::Matrix => self.matrix(),
             PlotKind::Bode | PlotKind::Nyquist => self.response(),
-            PlotKind::Hysteresis if self.p.structure.kind() == StructureKind::Component => self.component_loop(),
+            PlotKind::Hysteresis if is_component(self.p) => self.component_loop(),
             PlotKind::Hysteresis => self.hysteresis(),
             PlotKind::Spectrogram | PlotKind::Amplitude => self.unsteady(),
-            PlotKind::Record | PlotKind::Spectrum if self.p.runs.is_empty() => self.unsteady(),
+            PlotKind::Record | PlotKind::Spectrum if only_records(self.p) => self.unsteady(),
             PlotKind::Record | PlotKind::Spectrum => self.record(),
             PlotKind::ErrorMap => self.error_map(),
             PlotKind::RestoringForce => self.restoring_force(),
             PlotKind::Channel | PlotKind::Level | PlotKind::Period | PlotKind::Loop => self.channel(),
         }
+    }
+
+    /// Whether there is something to compare records that are not steady with; of steady runs, always.
+    fn is_modelled(&self) -> bool {
+        !only_records(self.p) || !is_component(self.p) && self.p.structure.matrices().is_some()
+    }
+
+    fn records(&self) -> RecordPlots<'_> {
+        let Plotter { arguments, p, palette, .. } = *self;
+        RecordPlots { p, run: arguments.run, channel: arguments.channel.as_deref(), palette }
+    }
+
+    fn overview(&self) -> anyhow::Result<Drawn> {
+        let run = self.run()?;
+        let channel = &self.p.runs[run].fit.channels[self.channel_index(run)?].channel;
+        let figures = plots::overview::figures(self.p, channel, run, self.palette);
+        ensure!(!figures.is_empty(), "no run with {channel} has a force to divide by");
+        self.sheet(&format!("{channel} over the force, all runs"), figures.into_iter().map(|f| f.0).collect())
     }
 
     fn figure(&self, figure: Figure) -> anyhow::Result<Drawn> {
@@ -139,13 +176,17 @@ impl Plotter<'_> {
 
     fn outcome(&self) -> anyhow::Result<Outcome> {
         let p = self.p;
-        Ok(identify(&p.structure, &p.sources, &p.runs, &p.settings, self.control)?)
+        let given = Measurements { runs: &p.runs, transient_runs: &p.transient_runs, ratios: &[] };
+        Ok(identify_measured(&p.structure, &p.sources, given, &p.settings, self.control)?)
     }
 
     fn comparison(&self) -> anyhow::Result<Comparison> {
-        let p = self.p;
-        let problem = Problem { structure: &p.structure, sources: &p.sources, runs: &p.runs };
-        Ok(compare(&problem, &[], self.control)?)
+        if only_records(self.p) {
+            let found = compared_with_records(self.p, self.control)?;
+            let found = found.context("records are compared with a model of mass and stiffness; points have none")?;
+            return Ok(as_runs(self.p, &found));
+        }
+        Ok(compare(&problem(self.p), &[], self.control)?)
     }
 
     /// Index of the run that was asked for, else of the first that is used.
@@ -197,7 +238,8 @@ impl Plotter<'_> {
     /// Of the identified model; of the known sources where the project has nothing to identify.
     fn response(&self) -> anyhow::Result<Drawn> {
         let p = self.p;
-        let channels = || p.runs.iter().flat_map(|r| &r.fit.channels).map(|c| &c.channel);
+        let steady = || p.runs.iter().flat_map(|r| &r.fit.channels).map(|c| &c.channel);
+        let channels = || steady().chain(p.transient_runs.iter().flat_map(TransientRun::channels));
         let excitation = channels().find(|c| c.quantity == Quantity::Force).map(|c| c.dof);
         let sensor = channels().filter(|c| c.quantity != Quantity::Force).map(|c| c.dof).next_back();
         let sensor = self.dof()?.or(sensor);
@@ -271,10 +313,10 @@ impl Plotter<'_> {
     fn unsteady(&self) -> anyhow::Result<Drawn> {
         let found = compared_with_records(self.p, self.control)?;
         let found = found.context("there is no model with matrices and no decay or transient that is used")?;
-        let wanted = self.arguments.run.map_or(0, |run| run.saturating_sub(1));
-        let counted = || format!("--run {}: {} records are used", wanted + 1, found.records.len());
-        let record = found.records.get(wanted).with_context(counted)?;
-        let run = &self.p.transient_runs[record.index];
+        let index = self.records().index()?;
+        let run = &self.p.transient_runs[index];
+        let off = || format!("{} is switched off", run.file);
+        let record = found.records.iter().find(|record| record.index == index).with_context(off)?;
         if self.arguments.what == PlotKind::Amplitude {
             let curve = record.curves.iter().find(|c| c.measured.len() >= amplitude_curve::LEAST_POINTS);
             let curve = curve.context("no mode stands out of this record long enough")?;

@@ -6,6 +6,7 @@ use crate::diagnosis::Diagnosis;
 use crate::diagnosis::diagnose::{NextTest, TestKind, Verdict};
 use crate::diagnosis::updating::correction::Correction;
 use crate::diagnosis::updating::parameters::UpdatingParameter;
+use crate::diagnosis::updating::scatter::{Estimated, Scatter};
 use crate::effects::{Place, Source};
 use crate::structure::{Part, Structure};
 
@@ -26,6 +27,44 @@ pub fn is_detuned(diagnosis: &Diagnosis) -> bool {
 pub fn is_stuck(diagnosis: &Diagnosis) -> bool {
     let after = diagnosis.steps.last().map_or(diagnosis.noise_floor, |s| s.error);
     is_detuned(diagnosis) && after > WORTH * diagnosis.error_before
+}
+
+/// How much the natural frequencies differ from run to run: the root mean square of their shifts, and the run that is off most.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RunSpread {
+    /// Root mean square of the relative shifts.
+    pub shift: f64,
+    /// Index of the run that is off most.
+    pub run: usize,
+    /// Its relative shift.
+    pub most: f64,
+}
+
+/// The spread of the runs where it is more than their deviations make: the mean square of shifts over deviations is one by
+/// chance, with a deviation of `sqrt(2 / n)` for `n` runs; three of these beyond it are no chance.
+pub fn spread_of_runs(scatter: &Scatter) -> Option<RunSpread> {
+    let shifts: Vec<_> = scatter.runs.iter().map(|r| (r.run, r.frequency)).collect();
+    let n = shifts.len() as f64;
+    let mean = |of: &dyn Fn(Estimated) -> f64| shifts.iter().map(|(_, s)| of(*s).powi(2)).sum::<f64>() / n;
+    let beyond_chance = mean(&Estimated::deviations) > 1.0 + 3.0 * (2.0 / n).sqrt();
+    let (run, most) = shifts.iter().max_by(|a, b| a.1.value.abs().total_cmp(&b.1.value.abs()))?;
+    let spread = RunSpread { shift: mean(&|s| s.value).sqrt(), run: *run, most: most.value };
+    (shifts.len() > 2 && beyond_chance).then_some(spread)
+}
+
+/// What is left where no law and no correction takes any of it away, but the runs differ from each other.
+pub fn scatter_sentence(diagnosis: &Diagnosis, spread: &RunSpread) -> String {
+    let sign = if spread.most > 0.0 { "+" } else { "" };
+    format!(
+        "The error of {} is more than noise makes ({}), but it is neither a missing law nor a wrong number of the model: natural \
+         frequencies differ by {} from run to run, in run {} by {sign}{}. A steady temperature, a set-up that is not touched between \
+         runs, or a session for each assembly would lower it. Every run is in the pane Corrections.",
+        in_words(diagnosis.error_before),
+        format::percent(diagnosis.noise_floor),
+        format::percent(spread.shift),
+        spread.run + 1,
+        format::percent(spread.most),
+    )
 }
 
 /// On which runs was searched, where there are more than a search needs.
@@ -52,6 +91,12 @@ pub fn next_test(structure: &Structure, test: &NextTest) -> String {
     }
 }
 
+/// That a model with this error explains the data.
+pub fn explained(error: f64, noise_floor: f64) -> String {
+    let (error, floor) = (in_words(error), format::percent(noise_floor));
+    format!("Its error of {error} is within what noise alone makes ({floor}). Nothing more is suggested.")
+}
+
 /// The verdict as a sentence.
 pub fn sentence(diagnosis: &Diagnosis) -> String {
     let times = diagnosis.error_before / diagnosis.noise_floor.max(f64::MIN_POSITIVE);
@@ -68,9 +113,7 @@ pub fn sentence(diagnosis: &Diagnosis) -> String {
                 "It is only detuned: with the corrections below its error falls from {error} to {after} (noise {floor})."
             )
         }
-        Verdict::Adequate | Verdict::Detuned => {
-            format!("Its error of {error} is within what noise alone makes ({floor}). Nothing more is suggested.")
-        }
+        Verdict::Adequate | Verdict::Detuned => explained(diagnosis.error_before, diagnosis.noise_floor),
         _ if diagnosis.error_before > 10.0 => {
             format!("The model is wrong by {error}: at these frequencies hardly anything in it takes out energy.")
         }
@@ -134,4 +177,30 @@ pub fn telling(corrections: &[Correction], most: usize) -> Vec<&Correction> {
 /// A correction in words: what, and by how much with its deviation: `+2.00 ± 0.05 %`.
 pub fn change(correction: &Correction) -> String {
     format::signed(100.0 * (correction.factor - 1.0), 100.0 * correction.deviation, "%")
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "tests")]
+    use super::{Estimated, Scatter, spread_of_runs};
+    use crate::diagnosis::updating::scatter::RunScatter;
+
+    fn scatter(shifts: &[f64], deviation: f64) -> Scatter {
+        let still = Estimated { value: 0.0, deviation: 1.0 };
+        let run = |(run, &value): (usize, &f64)| {
+            let frequency = Estimated { value, deviation };
+            RunScatter { run, frequency, amplitude: still, phase: still }
+        };
+        Scatter { channels: Vec::new(), runs: shifts.iter().enumerate().map(run).collect() }
+    }
+
+    #[test]
+    fn runs_differ_where_their_shifts_are_more_than_chance() {
+        let shifts = [1e-4, -2e-4, 5e-4, -3e-4, 2e-4, -1e-4];
+        assert_eq!(spread_of_runs(&scatter(&shifts, 3e-4)), None, "within their deviations");
+        let spread = spread_of_runs(&scatter(&shifts, 2e-5)).unwrap();
+        assert_eq!((spread.run, spread.most), (2, 5e-4));
+        assert!((spread.shift - (0.44e-6_f64 / 6.0).sqrt()).abs() < 1e-12, "{}", spread.shift);
+        assert_eq!(spread_of_runs(&scatter(&shifts[..2], 1e-6)), None, "two runs are no scatter");
+    }
 }

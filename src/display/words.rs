@@ -1,8 +1,9 @@
 //! Names for people of what has names in files.
 
+use super::format;
 use crate::balance::{Expansion, Weights};
 use crate::effects::{Effect, Place, Source};
-use crate::measurement::{Flag, Quantity};
+use crate::measurement::{Flag, Quantity, Run};
 use crate::structure::beam::Supports;
 use crate::structure::{Structure, StructureKind};
 
@@ -37,6 +38,11 @@ pub fn flag(flag: Flag) -> &'static str {
         Flag::ExponentialWindow => "exponential window",
         Flag::BeforeRelease => "begins before its release",
     }
+}
+
+/// Noise over signal of a run; a dash where its amplitudes came without deviations, for then it is not known.
+pub fn noise(run: &Run) -> String {
+    if run.noise_ratio > 0.0 { format::percent(run.noise_ratio) } else { "–".to_owned() }
 }
 
 /// A quantity with its SI unit, for an axis.
@@ -139,7 +145,7 @@ pub fn short_place(structure: &Structure, at: &Place) -> String {
 /// A coefficient with its deviation and unit.
 pub fn coefficient(source: &Source, estimate: &crate::identify::Estimate) -> String {
     let parameter = source.effect.coefficient().map(|k| source.effect.parameters()[k]);
-    super::format::with_deviation(estimate.coefficient, estimate.deviation, parameter.map_or("", |p| p.unit))
+    format::with_deviation(estimate.coefficient, estimate.deviation, parameter.map_or("", |p| p.unit))
 }
 
 /// Coefficients of several sources to three digits, the unit once where all have the same: `0.300, 0.800 N·s/m`.
@@ -148,7 +154,7 @@ pub fn coefficients<'a>(all: impl Iterator<Item = (&'a Source, &'a crate::identi
         .map(|(source, estimate)| {
             let unit = source.effect.coefficient().map_or("", |k| source.effect.parameters()[k].unit);
             let (factor, unit) = super::units::shown(unit);
-            (super::format::significant(factor * estimate.coefficient, 3), super::format::pretty_unit(&unit))
+            (format::significant(factor * estimate.coefficient, 3), format::pretty_unit(&unit))
         })
         .collect();
     let same = parts.windows(2).all(|w| w[0].1 == w[1].1);

@@ -42,6 +42,29 @@ pub enum Flag {
     BeforeRelease,
 }
 
+impl Flag {
+    /// All of them.
+    pub const ALL: [Self; 17] = [
+        Self::NotSettled,
+        Self::Noisy,
+        Self::Clipped,
+        Self::MissingSamples,
+        Self::DeadChannel,
+        Self::WrongFrequency,
+        Self::PhaseSensitive,
+        Self::NotPeriodic,
+        Self::OtherKind,
+        Self::NoPreTrigger,
+        Self::DoubleHit,
+        Self::CutDecay,
+        Self::OutOfBand,
+        Self::TooShort,
+        Self::Drift,
+        Self::ExponentialWindow,
+        Self::BeforeRelease,
+    ];
+}
+
 /// A flag with its reason in words and numbers.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Finding {

@@ -174,10 +174,32 @@ mod tests {
         (a.max(b) + 0.05) / (a.min(b) + 0.05)
     }
 
-    /// Deuteranopia after Machado, Oliveira and Fernandes (2009), severity 1.
-    fn deuteranopia(c: Color32) -> [f64; 3] {
-        let [r, g, b] = [linear(c.r()), linear(c.g()), linear(c.b())];
-        [0.367 * r + 0.861 * g - 0.228 * b, 0.280 * r + 0.673 * g + 0.047 * b, -0.012 * r + 0.043 * g + 0.969 * b]
+    /// Rows that make of a colour what an eye without one kind of cones sees.
+    type Eye = [[f64; 3]; 3];
+
+    /// Eyes without red, green and blue cones after Machado, Oliveira and Fernandes (2009), severity 1.
+    const EYES: [(&str, Eye); 3] = [
+        ("red", [[0.152, 1.053, -0.205], [0.115, 0.786, 0.099], [-0.004, -0.048, 1.052]]),
+        ("green", [[0.367, 0.861, -0.228], [0.280, 0.673, 0.047], [-0.012, 0.043, 0.969]]),
+        ("blue", [[1.256, -0.077, -0.179], [-0.078, 0.931, 0.148], [0.005, 0.691, 0.304]]),
+    ];
+
+    fn seen(c: Color32, eye: &Eye) -> [f64; 3] {
+        let lights = [linear(c.r()), linear(c.g()), linear(c.b())];
+        eye.map(|row| (0..3).map(|k| row[k] * lights[k]).sum())
+    }
+
+    fn distance(a: Color32, b: Color32, eye: &Eye) -> f64 {
+        let (a, b) = (seen(a, eye), seen(b, eye));
+        (0..3).map(|k| (a[k] - b[k]).powi(2)).sum::<f64>().sqrt()
+    }
+
+    #[test]
+    fn what_an_eye_sees_of_white_is_white() {
+        for (cones, eye) in EYES {
+            let off = seen(Color32::WHITE, &eye).map(|v| (v - 1.0).abs());
+            assert!(off.iter().all(|d| *d < 2e-3), "{cones}: {off:?}");
+        }
     }
 
     #[test]
@@ -193,12 +215,15 @@ mod tests {
     }
 
     #[test]
-    fn data_colours_stay_apart_for_an_eye_without_green() {
-        for p in [&LIGHT, &DARK] {
-            let seen = [p.measured, p.model, p.missing].map(deuteranopia);
-            for (i, j) in [(0, 1), (0, 2), (1, 2)] {
-                let distance: f64 = (0..3).map(|k| (seen[i][k] - seen[j][k]).powi(2)).sum::<f64>().sqrt();
-                assert!(distance > 0.12, "colours {i} and {j}: {distance:.3}");
+    fn data_colours_stay_apart_for_every_eye() {
+        for (cones, eye) in EYES {
+            for p in [&LIGHT, &DARK] {
+                for (a, b) in [(p.measured, p.model), (p.measured, p.missing), (p.model, p.missing)] {
+                    // A dark and a light colour are told apart whatever their hue; two of one lightness by their distance.
+                    let apart = distance(a, b, &eye);
+                    assert!(apart > 0.10, "without {cones}: {a:?} and {b:?}: {apart:.3}");
+                }
+                assert!(distance(p.good, p.error, &eye) > 0.06, "without {cones}: good and error");
             }
         }
     }
@@ -209,10 +234,11 @@ mod tests {
             let colours: Vec<Color32> = (0..=6).map(|k| p.level(k as f32 / 6.0)).collect();
             assert!(colours.windows(2).all(|c| luminance(c[0]) < luminance(c[1])), "lightness rises with the level");
             assert!(colours.iter().all(|c| contrast(*c, p.canvas) >= 3.0), "every level is seen");
-            let seen = colours.iter().step_by(2).map(|c| deuteranopia(*c)).collect::<Vec<_>>();
-            for pair in seen.windows(2) {
-                let distance: f64 = (0..3).map(|k| (pair[0][k] - pair[1][k]).powi(2)).sum::<f64>().sqrt();
-                assert!(distance > 0.08, "{distance:.3}");
+            for pair in colours.chunks(2).map(|c| c[0]).collect::<Vec<_>>().windows(2) {
+                for (cones, eye) in EYES {
+                    let apart = distance(pair[0], pair[1], &eye);
+                    assert!(apart > 0.07, "without {cones}: {apart:.3}");
+                }
             }
         }
     }

@@ -111,7 +111,7 @@ fn run_row(p: &Project, k: usize) -> Vec<String> {
     let used = if run.enabled { flags.join("; ") } else { "not used".to_owned() };
     let force = response_curve::force(p, k).map_or_else(String::new, |f| format::with_unit(f.1.norm(), "N"));
     let frequency = format::with_unit(run.frequency_hz(), "Hz");
-    vec![(k + 1).to_string(), run.file.clone(), frequency, force, level, format::percent(run.noise_ratio), used]
+    vec![(k + 1).to_string(), run.file.clone(), frequency, force, level, words::noise(run), used]
 }
 
 /// What is needed to compute the same again.

@@ -19,6 +19,16 @@ pub enum SaveError {
     /// The document has never been saved.
     #[error("the project has no file yet; save it under a name")]
     NoPath,
+    /// Somebody else has written the file since it was opened or saved here.
+    #[error(
+        "{} was changed by another window or program since it was opened here; save under another name, or open it again and \
+         make the changes there",
+        path.display()
+    )]
+    ChangedElsewhere {
+        /// File.
+        path: PathBuf,
+    },
     /// The disk refused.
     #[error("cannot {action}: {reason}; check the folder and its free space: {}", path.display())]
     Disk {
@@ -92,13 +102,15 @@ pub fn forget_autosave(path: &Path) -> Result<(), SaveError> {
     }
 }
 
+/// The project that the file at `path` holds; nothing where it is absent or holds none.
+pub fn on_disk(path: &Path) -> Option<ProjectFile> {
+    let text = std::fs::read_to_string(path).ok()?;
+    Some(ProjectFile::parse(&text, &path.display().to_string()).ok()?.0)
+}
+
 /// The unsaved project that a crash left beside `path`; nothing where the autosave is absent, unreadable or the same as
 /// the file.
 pub fn recoverable(path: &Path) -> Option<ProjectFile> {
-    let parse = |path: &Path| {
-        let text = std::fs::read_to_string(path).ok()?;
-        Some(ProjectFile::parse(&text, &path.display().to_string()).ok()?.0)
-    };
-    let kept = parse(&autosave_path(path))?;
-    (parse(path).as_ref() != Some(&kept)).then_some(kept)
+    let kept = on_disk(&autosave_path(path))?;
+    (on_disk(path).as_ref() != Some(&kept)).then_some(kept)
 }

@@ -17,8 +17,10 @@ pub struct Session {
     history: History<Document>,
     revisions: Revisions,
     path: Option<PathBuf>,
-    /// What the file on the disk holds.
+    /// The document as it was opened or saved last.
     saved: Option<Arc<ProjectFile>>,
+    /// What the file on the disk held then, as it is written there.
+    disk: Option<ProjectFile>,
     /// What the autosave holds.
     kept: Option<Arc<ProjectFile>>,
 }
@@ -27,7 +29,7 @@ impl Session {
     /// A session on a new document that has no file yet.
     pub fn new(document: Document) -> Self {
         let (history, revisions) = (History::default(), Revisions::default());
-        Self { document, history, revisions, path: None, saved: None, kept: None }
+        Self { document, history, revisions, path: None, saved: None, disk: None, kept: None }
     }
 
     /// Opens the project at `path`. Records are not read: that is long work.
@@ -38,7 +40,7 @@ impl Session {
         let plan = open(path)?;
         let document = Document::new(plan.file, parent(path))?;
         let saved = Some(document.file().clone());
-        Ok(Self { path: Some(path.to_owned()), saved, ..Self::new(document) })
+        Ok(Self { path: Some(path.to_owned()), saved, disk: save::on_disk(path), ..Self::new(document) })
     }
 
     /// The unsaved changes that a crash left beside the file, as one action that can be undone. Returns whether there were
@@ -130,13 +132,22 @@ impl Session {
     /// Saves the document to its file.
     ///
     /// # Errors
-    /// [`SaveError`]; then the file is as it was and the document still unsaved.
+    /// [`SaveError`], also where another window or program has changed the project there; then the file is as it was and the
+    /// document still unsaved.
     pub fn save(&mut self) -> Result<(), SaveError> {
         let path = self.path.clone().ok_or(SaveError::NoPath)?;
+        if save::on_disk(&path).is_some_and(|now| self.disk.as_ref() != Some(&now)) {
+            return Err(SaveError::ChangedElsewhere { path });
+        }
         save::save(&self.document.file_in(parent(&path))?, &path, Some(&path))?;
-        self.saved = Some(self.document.file().clone());
-        self.kept = None;
+        self.saved_to(&path);
         Ok(())
+    }
+
+    fn saved_to(&mut self, path: &Path) {
+        self.saved = Some(self.document.file().clone());
+        self.disk = save::on_disk(path);
+        self.kept = None;
     }
 
     /// Saves the document under another name and goes on with that; files are then named from its folder.
@@ -146,8 +157,7 @@ impl Session {
     pub fn save_as(&mut self, path: &Path) -> Result<(), SaveError> {
         save::save(&self.document.file_in(parent(path))?, path, self.path.as_deref())?;
         self.path = Some(path.to_owned());
-        self.saved = Some(self.document.file().clone());
-        self.kept = None;
+        self.saved_to(path);
         Ok(())
     }
 

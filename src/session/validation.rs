@@ -3,13 +3,16 @@
 use crate::balance::loops::ComponentError;
 use crate::control::Control;
 use crate::diagnosis::candidates::restoring_force::{self, RestoringForce};
+use crate::diagnosis::compare::{ChannelComparison, RunComparison};
 use crate::diagnosis::component::{Loops, compare_component, diagnose_component};
 use crate::diagnosis::diagnose::{Early, diagnose_without};
+use crate::diagnosis::records::compare::OneRecord;
 use crate::diagnosis::records::{self, RecordComparison, RecordError, Records, compare_records, diagnose_records};
 use crate::diagnosis::together::together;
-use crate::diagnosis::{Diagnosis, DiagnosisError, Problem};
+use crate::diagnosis::{Comparison, Diagnosis, DiagnosisError, Problem};
 use crate::effects::Source;
 use crate::exchange::Project;
+use crate::measurement::TransientRun;
 use crate::structure::StructureKind;
 
 /// Why a model cannot be compared with records.
@@ -100,6 +103,37 @@ pub fn diagnosed(project: &Project, control: &Control, early: &Early<'_>) -> Res
     }
     let by_runs = steady(&control.piece(0, 2))?;
     Ok(together(by_runs, diagnosed_from_records(project, &control.piece(1, 2), &|_| {})?))
+}
+
+/// The comparison with records that are not steady in the form of that with runs: an entry a record.
+pub fn as_runs(p: &Project, found: &RecordComparison) -> Comparison {
+    Comparison {
+        error: found.error,
+        noise_floor: found.noise_floor,
+        energy_error: f64::NAN,
+        runs: found.records.iter().map(|r| of_record(&p.transient_runs[r.index], r)).collect(),
+        levels: Vec::new(),
+        channels: Vec::new(),
+        harmonics: Vec::new(),
+        whiteness: Vec::new(),
+    }
+}
+
+fn of_record(run: &TransientRun, found: &OneRecord) -> RunComparison {
+    let dof = |name: &str| run.channels().iter().find(|c| c.to_string() == name).map_or(0, |c| c.dof);
+    let channel = |(name, [error, noise_floor]): &(String, [f64; 2])| {
+        let (channel, dof, harmonics) = (name.clone(), dof(name), Vec::new());
+        ChannelComparison { channel, dof, error: *error, noise_floor: *noise_floor, scale: 1.0, harmonics }
+    };
+    RunComparison {
+        index: found.index,
+        used: run.enabled,
+        error: found.error,
+        noise_floor: found.noise_floor,
+        branch: None,
+        energy_error: f64::NAN,
+        channels: found.channels.iter().map(channel).collect(),
+    }
 }
 
 /// What the model of the records lacks.

@@ -6,6 +6,7 @@ use super::document::Document;
 use super::edits::Edit;
 use super::files::{self, Pick};
 use super::leaving::{Changes, Leave};
+use super::motion;
 use super::view::Stage;
 use crate::exchange::Project;
 use crate::exchange::export::Format;
@@ -37,6 +38,7 @@ impl App {
             Command::ClearCandidates => self.edit(ctx, &Edit::ClearCandidates),
             Command::Cancel => self.stop(),
             Command::Theme => ctx.set_theme(if ctx.theme() == Theme::Dark { Theme::Light } else { Theme::Dark }),
+            Command::LessMotion => self.set_less_motion(ctx, !self.view.less_motion),
             Command::Shape => self.view.shape = !self.view.shape,
             Command::Animate => self.view.animate = !self.view.animate,
             Command::Measure => self.view.stage = Stage::Measure,
@@ -60,6 +62,13 @@ impl App {
             Command::Keys => self.view.keys = !self.view.keys,
             Command::About => self.view.about = !self.view.about,
         }
+    }
+
+    /// Leaves transitions out, and ends what moves, or lets them be.
+    pub(super) fn set_less_motion(&mut self, ctx: &Context, less: bool) {
+        self.view.less_motion = less;
+        self.view.animate &= !less;
+        motion::set_less(ctx, less);
     }
 
     /// Back or forth in the history; what was selected may not be there any more.
@@ -134,10 +143,10 @@ impl App {
         let Some(document) = &self.document else { return };
         match self.derived.known_outcome(document) {
             Some(Ok(outcome)) => {
-                let (project, outcome) = (document.project.clone(), outcome.clone());
+                let project = document.project.clone();
                 self.run(ctx, name, move |_| work(&project, &outcome));
             }
-            Some(Err(error)) => self.fail(error.clone()),
+            Some(Err(error)) => self.fail(error),
             None => self.fail("Identification is still running; ask again when it has ended.".to_owned()),
         }
     }
@@ -156,7 +165,7 @@ impl App {
             LedgerRow { label: step.label.clone(), error: step.error, noise_floor: step.noise_floor }
         };
         let known = Known {
-            outcome: self.derived.known_outcome(document).cloned(),
+            outcome: self.derived.known_outcome(document),
             comparison: explained.comparison(document).cloned(),
             diagnosis: explained.diagnosis(document).cloned(),
             ledger: explained.ledger.path().into_iter().map(row).collect(),

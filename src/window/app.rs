@@ -78,8 +78,8 @@ impl App {
         self.document = Some(document);
         self.importing = None;
         self.derived = Derived::default();
-        let View { law, tour, limit_s, .. } = self.view;
-        self.view = View { law, tour, limit_s, ..View::default() };
+        let View { law, tour, limit_s, less_motion, .. } = self.view;
+        self.view = View { law, less_motion, tour, limit_s, ..View::default() };
         self.message = None;
         if recovered {
             self.say("Unsaved changes of the last session were recovered; Undo takes them back.".to_owned());
@@ -137,6 +137,14 @@ impl App {
                 self.note(started);
             }
             Err(error) => self.fail(error),
+        }
+    }
+
+    /// The same, and says so where it is done.
+    pub fn edit_and_say(&mut self, ctx: &Context, edit: &Edit, said: String) {
+        self.edit(ctx, edit);
+        if self.message.as_ref().is_none_or(|m| !m.failed) {
+            self.say(said);
         }
     }
 

@@ -56,6 +56,8 @@ pub enum Ask {
     Pick(Pick),
     /// Files that were chosen in a dialog of the window.
     Picked(Pick, Vec<PathBuf>),
+    /// Say why something cannot be done.
+    Refuse(String),
     /// Close the message.
     Dismiss,
 }
@@ -77,6 +79,7 @@ impl Ask {
             Self::SaveAs(_) => "SaveAs".to_owned(),
             Self::Schematic(_) => "Schematic".to_owned(),
             Self::Explain(_) => "Explain".to_owned(),
+            Self::Refuse(_) => "Refuse".to_owned(),
             Self::Dismiss => "Dismiss".to_owned(),
         }
     }

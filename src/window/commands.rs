@@ -19,6 +19,7 @@ pub enum Command {
     ClearCandidates,
     Cancel,
     Theme,
+    LessMotion,
     Shape,
     Animate,
     Measure,
@@ -73,7 +74,7 @@ const fn entry(command: Command, label: &'static str, tooltip: &'static str, key
 }
 
 /// All commands.
-pub const TABLE: [Entry; 32] = [
+pub const TABLE: [Entry; 33] = [
     entry(Command::Open, "Open…", "Opens a project file.", ctrl(Key::O)),
     entry(
         Command::Import,
@@ -102,6 +103,12 @@ pub const TABLE: [Entry; 32] = [
     ),
     entry(Command::Cancel, "Cancel", "Gives up what is being computed.", ctrl(Key::Period)),
     entry(Command::Theme, "Dark theme", "Changes between light and dark.", ctrl(Key::D)),
+    entry(
+        Command::LessMotion,
+        "Less motion",
+        "Leaves out transitions and stops the schematic; on from the start where the desktop asks for it.",
+        None,
+    ),
     entry(Command::Shape, "Deflect the schematic", "Shows the shape of the selected run or mode.", plain(Key::S)),
     entry(Command::Animate, "Animate", "Moves the shape on the schematic.", plain(Key::Space)),
     entry(Command::Measure, "Measure", "Records, their fits and what is wrong with them.", ctrl(Key::Num1)),
@@ -134,7 +141,10 @@ impl Command {
 /// Commands whose keys were pressed in this frame; each press counts once.
 pub fn pressed(ctx: &egui::Context) -> Vec<Command> {
     let typing = ctx.egui_wants_keyboard_input();
-    let wanted = |e: &&Entry| e.keys.is_some_and(|k| !typing || k.modifiers.any());
+    // What has the focus is clicked by the space bar, as everywhere.
+    let focused = ctx.memory(|m| m.focused().is_some());
+    let clicks = |k: &KeyboardShortcut| focused && k.logical_key == Key::Space;
+    let wanted = |e: &&Entry| e.keys.is_some_and(|k| (!typing || k.modifiers.any()) && !clicks(&k));
     // Longer combinations first, so that Ctrl+Shift+Z is not taken for Ctrl+Z.
     let mut rows: Vec<&Entry> = TABLE.iter().filter(wanted).collect();
     rows.sort_by_key(|e| e.keys.map(|k| !k.modifiers.shift));

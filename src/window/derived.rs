@@ -1,7 +1,7 @@
 //! What is computed from the document, each remembering the revision it was computed from; everything that may take longer
 //! than a frame in the background.
 
-use super::background::Slot;
+use super::cache::{Cache, Cached};
 use super::document::Document;
 use super::explained::Explained;
 use super::prepared_records::{PreparedRecord, PreparedRecords};
@@ -33,15 +33,15 @@ type Asked = (u64, usize, usize);
 #[derive(Debug)]
 pub struct Derived {
     scene: Option<(u64, Arc<Scene>)>,
-    modes: Slot<u64, Modes>,
-    outcome: Slot<u64, Outcome>,
-    response: Slot<Asked, Response>,
-    motions: Slot<u64, Vec<Motion>>,
-    loops: Slot<(u64, usize), Vec<Loop>>,
-    methods: Slot<u64, SideBySide>,
-    incompleteness: Slot<u64, Incompleteness>,
-    change: Slot<(u64, Against), Compared>,
-    unsteady: Slot<(u64, usize, usize), Pyramid>,
+    modes: Cache<u64, Modes>,
+    outcome: Cache<u64, Outcome>,
+    response: Cache<Asked, Response>,
+    motions: Cache<u64, Vec<Motion>>,
+    loops: Cache<(u64, usize), Vec<Loop>>,
+    methods: Cache<u64, SideBySide>,
+    incompleteness: Cache<u64, Incompleteness>,
+    change: Cache<(u64, Against), Compared>,
+    unsteady: Cache<(u64, usize, usize), Pyramid>,
     prepared_records: PreparedRecords,
     seen: Revisions,
     /// Of the stage Explain.
@@ -52,15 +52,15 @@ impl Default for Derived {
     fn default() -> Self {
         Self {
             scene: None,
-            modes: Slot::new("Modes"),
-            outcome: Slot::new("Identifying"),
-            response: Slot::new("Frequency response"),
-            motions: Slot::new("Expanding the runs"),
-            loops: Slot::new("Hysteresis"),
-            methods: Slot::new("Classical methods"),
-            incompleteness: Slot::new("Study of incompleteness"),
-            change: Slot::new("Comparing two states"),
-            unsteady: Slot::new("Preparing a record"),
+            modes: Cache::of_last("Modes"),
+            outcome: Cache::of_last("Identifying"),
+            response: Cache::of_last("Frequency response"),
+            motions: Cache::of_last("Expanding the runs"),
+            loops: Cache::of_last("Hysteresis"),
+            methods: Cache::of_last("Classical methods"),
+            incompleteness: Cache::of_last("Study of incompleteness"),
+            change: Cache::of_last("Comparing two states"),
+            unsteady: Cache::of_last("Preparing a record"),
             prepared_records: PreparedRecords::default(),
             seen: Revisions::default(),
             explained: Explained::default(),
@@ -94,9 +94,9 @@ impl Derived {
     }
 
     /// The motion of every DOF in every run at its fundamental, m or rad: measured where it is, expanded where it is not.
-    pub fn motions(&mut self, ctx: &Context, document: &Document) -> Option<Result<Arc<Vec<Motion>>, String>> {
-        let outcome = self.known_outcome(document)?.as_ref().ok().map(Arc::clone);
-        self.motions.get(ctx, &document.revision(), || {
+    pub fn motions(&mut self, ctx: &Context, document: &Document) -> Option<Cached<Vec<Motion>>> {
+        let outcome = self.known_outcome(document)?.ok();
+        self.motions.obtain(ctx, &document.revision(), || {
             let p = document.project.clone();
             move |_: &Control| forward::motions(&p, outcome.as_deref())
         })
@@ -116,8 +116,8 @@ impl Derived {
     }
 
     /// Undamped modes of the structure as it stands; `None` while they are computed.
-    pub fn modes(&mut self, ctx: &Context, document: &Document) -> Option<Result<Arc<Modes>, String>> {
-        self.modes.get(ctx, &document.session().revisions().structure, || {
+    pub fn modes(&mut self, ctx: &Context, document: &Document) -> Option<Cached<Modes>> {
+        self.modes.obtain(ctx, &document.session().revisions().structure, || {
             let structure = document.project.structure.clone();
             move |_: &Control| structure.modes().map_err(|e| e.to_string())
         })
@@ -148,9 +148,9 @@ impl Derived {
         ctx: &Context,
         document: &Document,
         [record, channel]: [usize; 2],
-    ) -> Option<Result<Arc<Pyramid>, String>> {
+    ) -> Option<Cached<Pyramid>> {
         let key = (document.session().revisions().measurements, record, channel);
-        self.unsteady.get(ctx, &key, || {
+        self.unsteady.obtain(ctx, &key, || {
             let run = document.project.transient_runs.get(record).cloned();
             move |_: &Control| {
                 let run = run.ok_or("there is no such record")?;
@@ -160,8 +160,8 @@ impl Derived {
     }
 
     /// The answer of the identification for the document as it stands; `None` while it is computed.
-    pub fn outcome(&mut self, ctx: &Context, document: &Document) -> Option<Result<Arc<Outcome>, String>> {
-        self.outcome.get(ctx, &document.revision(), || {
+    pub fn outcome(&mut self, ctx: &Context, document: &Document) -> Option<Cached<Outcome>> {
+        self.outcome.obtain(ctx, &document.revision(), || {
             let p = document.project.clone();
             move |control: &Control| {
                 let given = Measurements { runs: &p.runs, transient_runs: &p.transient_runs, ratios: &[] };
@@ -172,8 +172,8 @@ impl Derived {
     }
 
     /// Every classical method that the data allow; `None` while they run.
-    pub fn methods(&mut self, ctx: &Context, document: &Document) -> Option<Result<Arc<SideBySide>, String>> {
-        self.methods.get(ctx, &document.revision(), || {
+    pub fn methods(&mut self, ctx: &Context, document: &Document) -> Option<Cached<SideBySide>> {
+        self.methods.obtain(ctx, &document.revision(), || {
             let p = document.project.clone();
             move |control: &Control| {
                 side_by_side(&p.structure, &p.sources, &p.runs, &p.reference_shapes, control).map_err(|e| e.to_string())
@@ -183,20 +183,16 @@ impl Derived {
 
     /// Errors of the classical methods on this structure against modes and sensors: with its known damping, else with the
     /// identified one; `None` while it is computed.
-    pub fn incompleteness(
-        &mut self,
-        ctx: &Context,
-        document: &Document,
-    ) -> Option<Result<Arc<Incompleteness>, String>> {
+    pub fn incompleteness(&mut self, ctx: &Context, document: &Document) -> Option<Cached<Incompleteness>> {
         let p = &document.project;
         let truth = match incompleteness::known_damping(&p.structure, &p.sources) {
             Some(known) => known,
             None => match self.known_outcome(document)? {
                 Ok(outcome) => outcome.results.equivalent_viscous.clone(),
-                Err(error) => return Some(Err(error.clone())),
+                Err(error) => return Some(Err(error)),
             },
         };
-        self.incompleteness.get(ctx, &document.revision(), || {
+        self.incompleteness.obtain(ctx, &document.revision(), || {
             let structure = p.structure.clone();
             let own = FrequencyResponses::from_runs(&p.runs).map_or_else(Vec::new, |r| r.sensors);
             move |control: &Control| {
@@ -207,13 +203,8 @@ impl Derived {
     }
 
     /// What changed between an earlier state and the project as it stands; `None` while both are identified.
-    pub fn change(
-        &mut self,
-        ctx: &Context,
-        document: &Document,
-        against: &Against,
-    ) -> Option<Result<Arc<Compared>, String>> {
-        self.change.get(ctx, &(document.revision(), against.clone()), || {
+    pub fn change(&mut self, ctx: &Context, document: &Document, against: &Against) -> Option<Cached<Compared>> {
+        self.change.obtain(ctx, &(document.revision(), against.clone()), || {
             let (p, against) = (document.project.clone(), against.clone());
             move |control: &Control| {
                 let states = states::states(&p, &against, control)?;
@@ -223,20 +214,15 @@ impl Derived {
     }
 
     /// The answer, if it is there and fresh; starts nothing.
-    pub fn known_outcome(&self, document: &Document) -> Option<&Result<Arc<Outcome>, String>> {
+    pub fn known_outcome(&self, document: &Document) -> Option<Cached<Outcome>> {
         self.outcome.known(&document.revision())
     }
 
     /// Receptance of the identified model between the selected DOF (else the last sensor) and the exciter.
-    pub fn response(
-        &mut self,
-        ctx: &Context,
-        document: &Document,
-        view: &View,
-    ) -> Option<Result<Arc<Response>, String>> {
+    pub fn response(&mut self, ctx: &Context, document: &Document, view: &View) -> Option<Cached<Response>> {
         let outcome = match self.known_outcome(document)? {
-            Ok(outcome) => Arc::clone(outcome),
-            Err(error) => return Some(Err(error.clone())),
+            Ok(outcome) => outcome,
+            Err(error) => return Some(Err(error)),
         };
         let p = &document.project;
         let channels = || p.runs.iter().flat_map(|r| &r.fit.channels).map(|c| &c.channel);
@@ -246,7 +232,7 @@ impl Derived {
             return Some(Err("No run has a force and a motion.".to_owned()));
         };
         let asked = (document.revision(), view.dof.unwrap_or(sensor), excitation);
-        self.response.get(ctx, &asked, || {
+        self.response.obtain(ctx, &asked, || {
             let (structure, sources) = (p.structure.clone(), forward::acting(p, &outcome));
             let omega = forward::frequencies(p, &outcome);
             move |control: &Control| forward::receptance(&structure, &sources, omega, [asked.1, asked.2], control)
@@ -254,12 +240,12 @@ impl Derived {
     }
 
     /// Hysteresis loops of a run from the identified model's steady state; `None` while they are computed.
-    pub fn loops(&mut self, ctx: &Context, document: &Document, run: usize) -> Option<Result<Arc<Vec<Loop>>, String>> {
+    pub fn loops(&mut self, ctx: &Context, document: &Document, run: usize) -> Option<Cached<Vec<Loop>>> {
         let outcome = match self.known_outcome(document)? {
-            Ok(outcome) => Arc::clone(outcome),
-            Err(error) => return Some(Err(error.clone())),
+            Ok(outcome) => outcome,
+            Err(error) => return Some(Err(error)),
         };
-        self.loops.get(ctx, &(document.revision(), run), || {
+        self.loops.obtain(ctx, &(document.revision(), run), || {
             let p = document.project.clone();
             move |_: &Control| forward::run_loops(&p, &outcome, run)
         })

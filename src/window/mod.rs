@@ -4,7 +4,7 @@ mod actions;
 pub mod app;
 pub mod arguments;
 pub mod ask;
-pub mod background;
+pub mod cache;
 mod chosen_files;
 pub mod commands;
 pub mod crash;
@@ -19,7 +19,9 @@ pub mod importing;
 pub mod jobs;
 pub mod learn;
 pub mod leaving;
+pub mod motion;
 pub mod offscreen;
+pub mod opened;
 pub mod photograph;
 pub mod picture;
 pub mod plots;
@@ -64,6 +66,8 @@ pub fn open(file: Option<PathBuf>, photograph: Option<PathBuf>) -> Result<(), St
             app.desk = desk;
         }
         app.view.limit_s = cc.storage.and_then(|storage| eframe::get_value(storage, "limit_s")).flatten();
+        let less: Option<bool> = cc.storage.and_then(|storage| eframe::get_value(storage, "less_motion")).flatten();
+        app.set_less_motion(&cc.egui_ctx, less.unwrap_or_else(motion::is_unwanted));
         let units = cc.storage.and_then(|storage| eframe::get_value(storage, "units"));
         crate::display::units::choose(units.unwrap_or_default());
         app.recent = eframe::storage_dir("dashpot").map(|folder| Recent::load(&folder.join("recent.json")));

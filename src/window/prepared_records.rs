@@ -1,13 +1,12 @@
 //! Records, residuals and spectra ready to be drawn, computed in the background, a channel of a run each.
 
-use super::repaint::request_repaint;
+use super::cache::{CANCELLED, Cache};
 use crate::control::Control;
 use crate::measurement::Run;
 use crate::plots::trace::{Trace, trace};
-use crate::session::jobs::Job;
 use egui::Context;
 use std::cell::Cell;
-use std::collections::{HashMap, HashSet};
+use std::collections::HashSet;
 use std::sync::Arc;
 
 /// Jobs at a time.
@@ -32,13 +31,16 @@ pub enum PreparedRecord {
 type Key = (usize, usize, u64, usize);
 
 /// PreparedRecords and the jobs that compute them.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub struct PreparedRecords {
-    done: HashMap<Key, (u64, Arc<Trace>)>,
-    jobs: HashMap<Key, Job<(), Option<Trace>>>,
-    given_up: HashSet<Key>,
+    traces: Cache<Key, Trace>,
     batch: Batch,
-    clock: u64,
+}
+
+impl Default for PreparedRecords {
+    fn default() -> Self {
+        Self { traces: Cache::of_many("Preparing records", AT_ONCE, KEPT), batch: Batch::default() }
+    }
 }
 
 /// What was asked for while jobs ran: one bar over all of it.
@@ -72,39 +74,18 @@ impl PreparedRecords {
         let Some(r) = runs.get(run) else { return PreparedRecord::Absent };
         let (Some(record), Some(fit)) = (&r.record, r.fit.channels.get(channel)) else { return PreparedRecord::Absent };
         let key = (run, channel, r.fit.omega.to_bits(), fit.amplitudes.len());
-        self.clock += 1;
-        self.collect();
-        if let Some((used, trace)) = self.done.get_mut(&key) {
-            *used = self.clock;
-            return PreparedRecord::Ready(Arc::clone(trace));
-        }
-        if self.given_up.contains(&key) {
-            return PreparedRecord::Cancelled;
-        }
-        self.batch.ask(key, self.jobs.is_empty());
-        if !self.jobs.contains_key(&key) && self.jobs.len() < AT_ONCE {
+        let idle = self.traces.running().is_none();
+        let found = self.traces.obtain(ctx, &key, || {
             let (record, fit, omega) = (Arc::clone(record), fit.clone(), r.fit.omega);
-            let work = move |control: &Control| trace(&record, &fit, omega, control);
-            if let Ok(job) = Job::start("Preparing records", (), request_repaint(ctx), work) {
-                self.jobs.insert(key, job);
-            }
-        }
-        PreparedRecord::Coming
-    }
-
-    fn collect(&mut self) {
-        let (done, clock) = (&mut self.done, self.clock);
-        self.jobs.retain(|key, job| match job.poll() {
-            Some(Ok(Some(trace))) => {
-                done.insert(*key, (clock, Arc::new(trace)));
-                false
-            }
-            Some(_) => false,
-            None => true,
+            move |control: &Control| trace(&record, &fit, omega, control).ok_or_else(|| CANCELLED.to_owned())
         });
-        while self.done.len() > KEPT {
-            let Some(oldest) = self.done.iter().min_by_key(|(_, (used, _))| *used).map(|(key, _)| *key) else { return };
-            self.done.remove(&oldest);
+        match found {
+            Some(Ok(trace)) => PreparedRecord::Ready(trace),
+            Some(Err(_)) => PreparedRecord::Cancelled,
+            None => {
+                self.batch.ask(key, idle);
+                PreparedRecord::Coming
+            }
         }
     }
 
@@ -115,15 +96,13 @@ impl PreparedRecords {
 
     /// Gives up what is being computed.
     pub fn cancel(&mut self) {
-        self.given_up.extend(self.jobs.drain().map(|(key, _)| key));
+        self.traces.cancel();
     }
 
     /// Name and progress of what is being prepared, all records together.
     pub fn running(&self) -> Option<(&str, f64)> {
-        let (name, _) = self.jobs.values().find_map(Job::running)?;
-        let finished = |key: &Key| if self.done.contains_key(key) { 1.0 } else { 0.0 };
-        let share = |key: &Key| self.jobs.get(key).map_or_else(|| finished(key), Job::progress);
-        Some((name, self.batch.progress(share)))
+        let (name, _) = self.traces.running()?;
+        Some((name, self.batch.progress(|key| self.traces.progress(key))))
     }
 }
 

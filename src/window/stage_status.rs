@@ -47,7 +47,7 @@ impl App {
                 Some(Err(_)) if p.runs.iter().all(|r| !r.enabled) && !has_records(p) => {
                     StageStatus::empty("There are no runs to identify from.")
                 }
-                Some(Err(error)) => StageStatus::attention(error),
+                Some(Err(error)) => StageStatus::attention(&error),
                 Some(Ok(outcome)) => {
                     let text = format!(
                         "{}: {}.",

@@ -12,8 +12,10 @@ use super::importing;
 use super::jobs::Done;
 use super::learn;
 use super::leaving::Leave;
+use super::opened::Opened;
 use super::schematic::gesture::Intent;
 use super::stages;
+use super::stages::explain::deed::Deed;
 use super::theme::{Palette, space};
 use super::view::Stage;
 use crate::display::units;
@@ -105,24 +107,40 @@ impl App {
         frame::top::show(ui, self, &mut asks);
         frame::status::show(ui, self, &mut asks);
         if self.learn.open {
-            learn::show(ui, self, &mut asks);
-        } else if self.importing.is_some() {
-            importing::show(ui, self, &mut asks);
-        } else if self.document.is_some() {
+            learn::show(ui, &mut self.learn, &mut asks);
+        } else if let Some(importing) = &mut self.importing {
+            importing::show(ui, importing, &mut asks);
+        } else if let Some(document) = &self.document {
             let desk = Frame::new().fill(Palette::of(ui.visuals()).desk).inner_margin(Margin::same(space::GAP as i8));
-            CentralPanel::default().frame(desk).show(ui, |ui| frame::dock::show(ui, self, &mut asks));
+            let opened = Opened { document, derived: &mut self.derived, view: &mut self.view };
+            CentralPanel::default().frame(desk).show(ui, |ui| frame::dock::show(ui, &mut self.desk, opened, &mut asks));
         } else {
             frame::start::show(ui, self.recent.as_ref().map_or(&[], Recent::files), &mut asks);
         }
-        frame::help::show(&ctx, self, &mut asks);
-        frame::notice::show(&ctx, self, &mut asks);
-        frame::leave::show(&ctx, self, &mut asks);
+        self.help(&ctx, &mut asks);
+        frame::notice::show(&ctx, self.message.as_ref(), &mut asks);
+        frame::notice::list(&ctx, &self.messages, &mut self.view.messages);
+        if self.leaving.is_some() {
+            let title = self.document.as_ref().map_or("", |d| &d.project.title);
+            frame::leave::show(&ctx, title, &mut asks);
+        }
         frame::choose::show(&ctx, &mut self.choosing, &mut asks);
+        frame::focus::show(&ctx, &mut self.view.by_keyboard);
         if let Some((text, failed)) = self.exports.poll(&ctx) {
             if failed { self.fail(text) } else { self.say(text) }
         }
         for ask in asks {
             self.answer(&ctx, ask);
+        }
+    }
+
+    /// The list of keys, what the program is, the tour.
+    fn help(&mut self, ctx: &Context, asks: &mut Vec<Ask>) {
+        frame::help::show(ctx, &mut self.view);
+        if self.document.is_some() {
+            frame::help::tour(ctx, &mut self.view, &mut self.desk);
+        } else if self.view.tour.is_some() && self.running().is_none() {
+            frame::help::begin_tour(&mut self.view, asks);
         }
     }
 
@@ -167,10 +185,28 @@ impl App {
             Ask::Stage(stage) => self.view.stage = stage,
             Ask::Schematic(intent) => self.intent(ctx, intent),
             Ask::Pane(pane, open) => self.desk.set_open(self.view.stage, pane, open),
-            Ask::Explain(deed) => stages::explain::answer(self, ctx, deed),
+            Ask::Explain(deed) => self.explain(ctx, deed),
             Ask::Pick(pick) => self.pick(ctx, pick),
             Ask::Picked(pick, paths) => self.picked(ctx, pick, paths),
+            Ask::Refuse(why) => self.fail(why),
             Ask::Dismiss => self.message = None,
+        }
+    }
+
+    /// Does a deed of the stage Explain: what it changes in the project, then what is looked at.
+    fn explain(&mut self, ctx: &Context, deed: Deed) {
+        let Some(document) = &mut self.document else { return };
+        let change = stages::explain::changes::change(&deed, document, &self.derived);
+        if let Deed::Return(step) = deed
+            && stages::explain::go_back(document, &self.derived.explained.ledger, step)
+        {
+            self.view.source = None;
+        }
+        stages::explain::look_on(deed, &mut self.view, &mut self.derived.explained);
+        match change {
+            Ok(Some(change)) => self.edit_and_say(ctx, &change.edit, change.said),
+            Ok(None) => {}
+            Err(error) => self.fail(error),
         }
     }
 
@@ -225,6 +261,9 @@ impl eframe::App for App {
     fn save(&mut self, storage: &mut dyn eframe::Storage) {
         eframe::set_value(storage, "desk", &self.desk);
         eframe::set_value(storage, "limit_s", &self.view.limit_s);
+        // Where it is as the desktop asks, it goes on following the desktop.
+        let own = Some(self.view.less_motion).filter(|less| *less != super::motion::is_unwanted());
+        eframe::set_value(storage, "less_motion", &own);
         eframe::set_value(storage, "units", &units::now());
     }
 }

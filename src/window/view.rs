@@ -86,6 +86,10 @@ pub struct View {
     pub shape: bool,
     /// Whether it moves.
     pub animate: bool,
+    /// Whether the keyboard moved the focus last.
+    pub by_keyboard: bool,
+    /// Whether transitions are left out; it is kept from project to project.
+    pub less_motion: bool,
     /// Phase of the motion, rad.
     pub phase: f64,
     /// Of the schematic.
@@ -127,6 +131,8 @@ impl Default for View {
             law: Effect::DASHPOT,
             shape: true,
             animate: false,
+            by_keyboard: false,
+            less_motion: false,
             phase: 0.0,
             schematic: ViewState::default(),
             keys: false,

@@ -110,3 +110,52 @@ fn recent_files_are_few_and_newest_first() {
     std::fs::write(&store, "not JSON").unwrap();
     assert!(Recent::load(&store).files().is_empty());
 }
+
+/// Two windows on one project: the one that saves later does not take back what the other has saved.
+#[test]
+fn what_another_window_saved_meanwhile_is_not_written_over() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("project.toml");
+    std::fs::write(&path, format!("# Of the laboratory\n{BEAM}")).unwrap();
+    let (mut one, mut other) = (Session::open(&path).unwrap(), Session::open(&path).unwrap());
+    one.apply(&title("first")).unwrap();
+    one.save().unwrap();
+    one.apply(&title("first again")).unwrap();
+    one.save().unwrap();
+
+    other.apply(&title("second")).unwrap();
+    let refused = other.save().unwrap_err().to_string();
+    assert!(refused.contains("changed by another window") && refused.contains("another name"), "{refused}");
+    assert!(!refused.contains('\n') && other.is_dirty());
+    assert_eq!(Session::open(&path).unwrap().document().file().project.title, "first again");
+    // Nothing of it is lost: it is saved under another name, and from there on by itself.
+    let own = folder.path().join("second.toml");
+    other.save_as(&own).unwrap();
+    other.apply(&title("second again")).unwrap();
+    other.save().unwrap();
+    assert_eq!(Session::open(&own).unwrap().document().file().project.title, "second again");
+    // Another comment, written with an editor, is no other project: it is kept.
+    let text = std::fs::read_to_string(&path).unwrap().replace("Of the laboratory", "Of the other laboratory");
+    std::fs::write(&path, text).unwrap();
+    one.apply(&title("third")).unwrap();
+    one.save().unwrap();
+    assert!(std::fs::read_to_string(&path).unwrap().contains("# Of the other laboratory"));
+}
+
+#[test]
+fn a_file_that_vanished_is_written_anew() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("project.toml");
+    std::fs::write(&path, BEAM).unwrap();
+    let mut session = Session::open(&path).unwrap();
+    std::fs::remove_file(&path).unwrap();
+    session.apply(&title("kept")).unwrap();
+    session.save().unwrap();
+    assert_eq!(Session::open(&path).unwrap().document().file().project.title, "kept");
+    // With its folder gone it says so, and what is unsaved stays.
+    std::fs::remove_dir_all(folder.path()).unwrap();
+    session.apply(&title("unsaved")).unwrap();
+    let refused = session.save().unwrap_err().to_string();
+    assert!(refused.contains("check the folder and its free space"), "{refused}");
+    assert!(session.is_dirty());
+}

@@ -10,8 +10,8 @@ use dashpot::window::explained::Standing;
 use dashpot::window::stages::explain::look::Tab;
 use dashpot::window::view::Stage;
 use egui::{Key, Modifiers, Theme, accesskit::Role};
-use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT, Queryable};
+use egui_kittest::{Harness, SnapshotOptions};
 use std::time::Duration;
 
 fn explain(theme: Theme) -> (crate::support::Sample, Harness<'static, App>) {
@@ -31,6 +31,14 @@ fn picture(harness: &mut Harness<'_, App>, name: &str) {
     harness.remove_cursor();
     settle(harness);
     harness.snapshot(name);
+}
+
+/// A picture of `docs/explain-tour.md`.
+fn picture_of_the_tour(harness: &mut Harness<'_, App>, name: &str) {
+    harness.remove_cursor();
+    settle(harness);
+    let options = SnapshotOptions::new().output_path("docs/pictures/explain").threshold(0.6).max_failed_pixels(10);
+    harness.snapshot_options(name, &options);
 }
 
 /// Error and noise floor of the model as it stands.
@@ -58,7 +66,7 @@ fn the_hidden_friction_is_named_tried_added_and_taken_back() {
     assert!(before > 10.0 * floor);
     assert_eq!(verdict(&harness), Verdict::Missing);
     harness.get_by_label_contains("Suggestion 1: Coulomb friction at DOF 7, probability");
-    picture(&mut harness, "explain-before");
+    picture_of_the_tour(&mut harness, "before");
 
     press(&mut harness, "Try");
     let app = harness.state();
@@ -66,7 +74,7 @@ fn the_hidden_friction_is_named_tried_added_and_taken_back() {
     let tried = app.derived.explained.trial(app.document.as_ref().unwrap(), &source).unwrap().as_ref().unwrap().error;
     assert!(tried < 2.0 * floor, "with the friction the error would be {tried}");
     assert!(friction_of(&harness).is_none() && error(&harness)[0] == before, "a preview changes nothing");
-    picture(&mut harness, "explain-try");
+    picture_of_the_tour(&mut harness, "try");
 
     press(&mut harness, "Add");
     let added = friction_of(&harness).unwrap();
@@ -76,7 +84,7 @@ fn the_hidden_friction_is_named_tried_added_and_taken_back() {
     assert!(after < 1.2 * floor, "error {after}, noise floor {floor}");
     assert_eq!(verdict(&harness), Verdict::Adequate);
     harness.get_by_label_contains("The model now explains the data");
-    picture(&mut harness, "explain-after");
+    picture_of_the_tour(&mut harness, "after");
 
     harness.key_press_modifiers(Modifiers::COMMAND, Key::Z);
     settle(&mut harness);
@@ -225,7 +233,7 @@ fn a_detuned_model_is_corrected_and_lacks_nothing() {
     let found = app.derived.explained.diagnosis(app.document.as_ref().unwrap()).unwrap().as_ref().unwrap();
     assert_eq!(found.verdict, Verdict::Detuned, "no effect is missing: {:?}", found.suggestions);
     harness.get_by_label("The model is detuned");
-    picture(&mut harness, "explain-detuned");
+    picture_of_the_tour(&mut harness, "detuned");
     press(&mut harness, "Correct the model");
     let [after, floor] = error(&harness);
     assert!(after < 1.2 * floor, "error {after}, noise floor {floor}");

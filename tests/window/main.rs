@@ -1,9 +1,11 @@
 //! The window, driven by accessible labels and real pointer events, and pictured by a software adapter.
 #![allow(clippy::unwrap_used, clippy::disallowed_methods, reason = "tests")]
 
+mod book;
 mod change;
 mod choose;
 mod desk;
+mod drive;
 mod events;
 mod explain;
 mod export;
@@ -12,6 +14,7 @@ mod friction;
 mod history;
 mod importing;
 mod journey;
+mod keyboard;
 mod laboratory;
 mod laws;
 mod legible;

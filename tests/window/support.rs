@@ -8,10 +8,12 @@ use dashpot::structure::beam::{BeamParameters, Supports};
 use dashpot::structure::chain::ChainParameters;
 use dashpot::window::App;
 use dashpot::window::document::Document;
-use egui_kittest::Harness;
+use egui_kittest::wgpu::WgpuTestRenderer;
+use egui_kittest::{Harness, TestRenderer};
 use faer::c64;
 use std::f64::consts::TAU;
 use std::fmt::Write as _;
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
@@ -160,21 +162,52 @@ pub fn open_sized(sample: &Sample, theme: egui::Theme, size: [f32; 2]) -> Harnes
 
 fn window(file: Option<PathBuf>, theme: egui::Theme, size: [f32; 2]) -> Harness<'static, App> {
     let setup = dashpot::window::offscreen::setup(wgpu::Backends::PRIMARY);
-    let mut harness =
-        Harness::builder().with_size(egui::Vec2::from(size)).with_theme(theme).wgpu_setup(setup).build_eframe(
-            move |cc| {
-                dashpot::window::theme::install(&cc.egui_ctx);
-                cc.egui_ctx.set_theme(theme);
-                let mut app = App::default();
-                if let Some(file) = file {
-                    app.open(&cc.egui_ctx, file);
-                    app.settle(&cc.egui_ctx).unwrap();
-                }
-                app
-            },
-        );
+    let mut harness = Harness::builder()
+        .with_size(egui::Vec2::from(size))
+        .with_theme(theme)
+        .renderer(Patient(WgpuTestRenderer::from_setup(setup)))
+        .build_eframe(move |cc| {
+            dashpot::window::theme::install(&cc.egui_ctx);
+            cc.egui_ctx.set_theme(theme);
+            let mut app = App::default();
+            if let Some(file) = file {
+                app.open(&cc.egui_ctx, file);
+                app.settle(&cc.egui_ctx).unwrap();
+            }
+            app
+        });
     harness.run_steps(3);
     harness
+}
+
+/// The renderer of egui's tests with patience: it gives the adapter ten seconds for a picture, and the one in software may need more while
+/// the machine is busy with other tests.
+struct Patient(WgpuTestRenderer);
+
+/// Tries of a picture.
+const TRIES: usize = 30;
+
+impl TestRenderer for Patient {
+    fn setup_eframe(&self, cc: &mut eframe::CreationContext<'_>, frame: &mut eframe::Frame) {
+        self.0.setup_eframe(cc, frame);
+    }
+
+    fn handle_delta(&mut self, delta: &mut egui::TexturesDelta) {
+        self.0.handle_delta(delta);
+    }
+
+    fn render(&mut self, ctx: &egui::Context, output: &egui::FullOutput) -> Result<image::RgbaImage, String> {
+        let mut last = Err("nothing was drawn".to_owned());
+        for _ in 0..TRIES {
+            // It says by a panic that a picture was not read back in time.
+            let tried = catch_unwind(AssertUnwindSafe(|| self.0.render(ctx, output)));
+            last = tried.unwrap_or_else(|_| Err("the picture was not read back in time".to_owned()));
+            if last.is_ok() {
+                break;
+            }
+        }
+        last
+    }
 }
 
 /// Steps until no job runs, at most ten minutes: a hang, not a slow machine, fails.

@@ -9,14 +9,14 @@
 //! `Psi(z) = integral_0^z du / (1 - u^exponent)`; the steady loop of `d = X cos(omega t)` turns at `z_m` with
 //! `z_m + Psi(z_m) = 2 stiffness X / force` and takes out `2 force^2 / stiffness (integral_0^z_m u dPsi - z_m^2 / 2)`.
 
+use crate::effects::description::Description;
+use crate::effects::effect::Effect;
 use crate::effects::internal::{InternalLaw, Way};
 use crate::effects::limits::{CLOSE, Limit};
 use crate::effects::loading_curve::{LoadingCurve, Reached};
 use crate::effects::parameter::Ends;
-use crate::effects::symbol::{Mark, Tone};
-use crate::effects::description::Description;
-use crate::effects::effect::Effect;
 use crate::effects::parameter::Parameter;
+use crate::effects::symbol::{Mark, Tone};
 
 /// Smooth hysteresis.
 #[derive(Debug, Clone, Copy)]

@@ -3,16 +3,16 @@
 //!
 //! The force is set-valued at rest: solvers take any force within `+-force` there, exactly ([`SetValued`]).
 
+use crate::effects::description::Description;
 use crate::effects::description::Exponents;
 use crate::effects::law::{Point, Variable};
-use crate::effects::memoryless::sign;
-use crate::effects::symbol::{Mark, Tone};
-use crate::effects::turning::total_variation;
-use crate::effects::description::Description;
 use crate::effects::memoryless::MemorylessLaw;
+use crate::effects::memoryless::sign;
 use crate::effects::motion::Motion;
 use crate::effects::parameter::Parameter;
 use crate::effects::set_valued::SetValued;
+use crate::effects::symbol::{Mark, Tone};
+use crate::effects::turning::total_variation;
 
 /// Coulomb friction.
 #[derive(Debug)]

@@ -1,11 +1,11 @@
 //! Cubic spring: `F = stiffness d^3`, hardening if positive. It takes out no energy.
 
+use crate::effects::description::Description;
 use crate::effects::description::Exponents;
 use crate::effects::law::{Point, Variable};
-use crate::effects::symbol::Mark;
-use crate::effects::description::Description;
 use crate::effects::memoryless::MemorylessLaw;
 use crate::effects::parameter::Parameter;
+use crate::effects::symbol::Mark;
 
 /// Symmetric hardening or softening spring.
 #[derive(Debug)]

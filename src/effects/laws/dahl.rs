@@ -9,12 +9,12 @@
 //! damping and a viscous part, which stand beside it as `stribeck` and `viscous` sources; its six parameters cannot be
 //! told apart from steady states.
 
-use crate::effects::internal::{InternalLaw, Way};
-use crate::effects::limits::{CLOSE, Limit};
-use crate::effects::symbol::{Mark, Tone};
 use crate::effects::description::Description;
 use crate::effects::effect::Effect;
+use crate::effects::internal::{InternalLaw, Way};
+use crate::effects::limits::{CLOSE, Limit};
 use crate::effects::parameter::Parameter;
+use crate::effects::symbol::{Mark, Tone};
 
 /// Friction with a fading presliding stiffness.
 #[derive(Debug, Clone, Copy)]

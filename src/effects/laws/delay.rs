@@ -1,9 +1,9 @@
 //! Delay of a channel: recorded `Y_h = exp(-i w delay)` times the true one at `w = h omega`; above 0, recorded late.
 
-use crate::effects::symbol::Mark;
 use crate::effects::description::Description;
 use crate::effects::law::ChannelLaw;
 use crate::effects::parameter::Parameter;
+use crate::effects::symbol::Mark;
 use faer::c64;
 
 /// A channel that is recorded late (or early, if negative).

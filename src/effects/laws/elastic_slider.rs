@@ -3,13 +3,13 @@
 //! `F' = stiffness d'` while it sticks, `|F| = force` while it slips. Energy per cycle of `d = X cos(omega t)`:
 //! `4 force (X - force / stiffness)` where it slips, else 0; of any motion: the sum over its closed loops.
 
-use crate::effects::limits::{CLOSE, Limit};
-use crate::effects::masing::MasingLaw;
-use crate::effects::symbol::{Mark, Tone};
 use crate::effects::description::Description;
 use crate::effects::effect::Effect;
+use crate::effects::limits::{CLOSE, Limit};
+use crate::effects::masing::MasingLaw;
 use crate::effects::parameter::Parameter;
 use crate::effects::set_valued::SetValued;
+use crate::effects::symbol::{Mark, Tone};
 
 /// Spring in series with a slider.
 #[derive(Debug, Clone, Copy)]

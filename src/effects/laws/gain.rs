@@ -1,9 +1,9 @@
 //! Gain of a channel: recorded `Y_h = gain` times the true one at every frequency.
 
-use crate::effects::symbol::{Mark, Tone};
 use crate::effects::description::Description;
 use crate::effects::law::ChannelLaw;
 use crate::effects::parameter::Parameter;
+use crate::effects::symbol::{Mark, Tone};
 use faer::c64;
 
 /// A channel that reads too large or too small.

@@ -1,13 +1,13 @@
 //! Gap: `F = stiffness (|d| - gap) sgn(d)` beyond the gap, 0 within. It takes out no energy.
 
-use crate::effects::law::{Point, Variable};
-use crate::effects::limits::{CLOSE, Limit};
-use crate::effects::range::geometric;
-use crate::effects::symbol::{HALF_WIDTH, Mark};
 use crate::effects::description::Description;
 use crate::effects::effect::Effect;
+use crate::effects::law::{Point, Variable};
+use crate::effects::limits::{CLOSE, Limit};
 use crate::effects::memoryless::MemorylessLaw;
 use crate::effects::parameter::Parameter;
+use crate::effects::range::geometric;
+use crate::effects::symbol::{HALF_WIDTH, Mark};
 
 /// Clearance on both sides, then a spring.
 #[derive(Debug)]

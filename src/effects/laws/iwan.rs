@@ -13,15 +13,15 @@
 //! continuous distribution is integrated exactly; there is no count of sliders. Energy per cycle of `d = X cos(omega t)`:
 //! `4 R X^(chi+3) / ((chi+2)(chi+3))` in partial slip; beyond, `4 (F_S X - integral phi^2 rho dphi)`.
 
+use crate::effects::description::Description;
+use crate::effects::effect::Effect;
 use crate::effects::limits::{CLOSE, Limit};
 use crate::effects::masing::MasingLaw;
 use crate::effects::parameter::Ends;
-use crate::effects::range::geometric;
-use crate::effects::symbol::{Mark, Tone};
-use crate::effects::description::Description;
-use crate::effects::effect::Effect;
 use crate::effects::parameter::Parameter;
 use crate::effects::range::Range;
+use crate::effects::range::geometric;
+use crate::effects::symbol::{Mark, Tone};
 
 /// Parallel elastic sliders with power-law distributed yield forces.
 #[derive(Debug, Clone, Copy)]

@@ -2,10 +2,10 @@
 
 use crate::effects::basis::Basis;
 use crate::effects::description::Constant;
-use crate::effects::symbol::Mark;
 use crate::effects::description::Description;
 use crate::effects::law::WholeLaw;
 use crate::effects::parameter::Parameter;
+use crate::effects::symbol::Mark;
 use faer::c64;
 
 /// Complex stiffness of the whole structure.

@@ -1,14 +1,14 @@
 //! Maxwell element, a spring in series with a dashpot: `F_h = k i w c / (k + i w c) D_h` at `w = h omega`.
 //! Energy per cycle of `d = X cos(omega t)`: `pi X^2 k^2 omega c / (k^2 + (omega c)^2)`.
 
-use crate::effects::limits::{CLOSE, Limit};
-use crate::effects::memory::MaxwellMemory;
-use crate::effects::symbol::Mark;
 use crate::effects::description::Description;
 use crate::effects::effect::Effect;
+use crate::effects::limits::{CLOSE, Limit};
 use crate::effects::linear::LinearLaw;
+use crate::effects::memory::MaxwellMemory;
 use crate::effects::memory::Memory;
 use crate::effects::parameter::Parameter;
+use crate::effects::symbol::Mark;
 use faer::c64;
 
 /// Spring in series with a dashpot.

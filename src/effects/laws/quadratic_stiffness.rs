@@ -1,10 +1,10 @@
 //! Quadratic spring: `F = stiffness d^2`, an asymmetry. It takes out no energy.
 
-use crate::effects::law::{Point, Variable};
-use crate::effects::symbol::Mark;
 use crate::effects::description::Description;
+use crate::effects::law::{Point, Variable};
 use crate::effects::memoryless::MemorylessLaw;
 use crate::effects::parameter::Parameter;
+use crate::effects::symbol::Mark;
 
 /// Asymmetric spring.
 #[derive(Debug)]

@@ -4,18 +4,18 @@
 //! `g(v) = (force - static_force) (1 - exp(-|v| / velocity)) sgn v`. The energy is `static_force` times the way travelled,
 //! exactly, less the smooth part by the trapezoidal rule.
 
-use crate::effects::law::{Point, Variable};
-use crate::effects::limits::{Limit, alike};
-use crate::effects::memoryless::sign;
-use crate::effects::range::geometric;
-use crate::effects::symbol::{Mark, Tone};
-use crate::effects::turning::total_variation;
 use crate::effects::description::Description;
 use crate::effects::effect::Effect;
+use crate::effects::law::{Point, Variable};
+use crate::effects::limits::{Limit, alike};
 use crate::effects::memoryless::MemorylessLaw;
+use crate::effects::memoryless::sign;
 use crate::effects::motion::Motion;
 use crate::effects::parameter::Parameter;
+use crate::effects::range::geometric;
 use crate::effects::set_valued::SetValued;
+use crate::effects::symbol::{Mark, Tone};
+use crate::effects::turning::total_variation;
 
 /// Friction that falls from a static to a sliding force with speed.
 #[derive(Debug)]

@@ -5,18 +5,15 @@ use super::model::Search;
 use crate::control::Control;
 use crate::diagnosis::candidates::fingerprint_plot::{self as prints, Print};
 use crate::diagnosis::candidates::restoring_force::RestoringForce;
-use crate::diagnosis::compare::{ChannelComparison, RunComparison};
 use crate::diagnosis::diagnose::Suggestion;
-use crate::diagnosis::records::RecordComparison;
 use crate::diagnosis::records::compare::OneRecord;
 use crate::diagnosis::updating::scatter::{self, Scatter};
 use crate::diagnosis::{self, Comparison, Diagnosis};
 use crate::effects::Source;
 use crate::exchange::Project;
-use crate::measurement::TransientRun;
 use crate::plots::response_curve::{self, Curve};
 use crate::session::time_limit::answer_within;
-use crate::session::validation::{compared_with_effects, diagnosed, missing_force, only_records, problem};
+use crate::session::validation::{as_runs, compared_with_effects, diagnosed, missing_force, only_records, problem};
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -48,40 +45,9 @@ pub(super) fn compare_job(
         if only_records(&p) {
             let found = compared_with_effects(&p, &effects, control).map_err(|e| e.to_string())?;
             let found = found.ok_or("records are compared with a model of mass and stiffness; points have none")?;
-            return Ok(of_records(&p, &found));
+            return Ok(as_runs(&p, &found));
         }
         diagnosis::compare(&problem(&p), &effects, control).map_err(|e| e.to_string())
-    }
-}
-
-/// The comparison with records that are not steady in the form of that with runs: an entry a record.
-fn of_records(p: &Project, found: &RecordComparison) -> Comparison {
-    Comparison {
-        error: found.error,
-        noise_floor: found.noise_floor,
-        energy_error: f64::NAN,
-        runs: found.records.iter().map(|r| of_record(&p.transient_runs[r.index], r)).collect(),
-        levels: Vec::new(),
-        channels: Vec::new(),
-        harmonics: Vec::new(),
-        whiteness: Vec::new(),
-    }
-}
-
-fn of_record(run: &TransientRun, found: &OneRecord) -> RunComparison {
-    let dof = |name: &str| run.channels().iter().find(|c| c.to_string() == name).map_or(0, |c| c.dof);
-    let channel = |(name, [error, noise_floor]): &(String, [f64; 2])| {
-        let (channel, dof, harmonics) = (name.clone(), dof(name), Vec::new());
-        ChannelComparison { channel, dof, error: *error, noise_floor: *noise_floor, scale: 1.0, harmonics }
-    };
-    RunComparison {
-        index: found.index,
-        used: run.enabled,
-        error: found.error,
-        noise_floor: found.noise_floor,
-        branch: None,
-        energy_error: f64::NAN,
-        channels: found.channels.iter().map(channel).collect(),
     }
 }
 

@@ -1,12 +1,12 @@
 //! What is computed for the stage Explain, each by the model it was computed from: comparisons, diagnoses, fingerprints,
 //! response curves; and the ledger of all models that were looked at.
 
-pub mod cache;
 pub mod first_suggestions;
 mod jobs;
 pub mod ledger;
 pub mod model;
 
+use super::cache::{Cache, Cached};
 use super::document::Document;
 use crate::diagnosis::candidates::fingerprint_plot::Print;
 use crate::diagnosis::candidates::restoring_force::RestoringForce;
@@ -18,7 +18,6 @@ use crate::effects::{Place, Source};
 use crate::exchange::Project;
 use crate::plots::response_curve::Curve;
 use crate::session::validation::only_records;
-use cache::{Cache, Cached};
 use egui::Context;
 use first_suggestions::FirstSuggestions;
 use jobs::{compare_job, curve_job, decay_job, force_job, print_job, scatter_job, search_job};

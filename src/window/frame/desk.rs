@@ -10,11 +10,12 @@ use std::collections::BTreeMap;
 /// Arrangements of the stages that were opened.
 #[derive(Debug, Clone, Default, Serialize, Deserialize)]
 pub struct Desk {
-    pub(super) trees: BTreeMap<Stage, Tree<Pane>>,
+    trees: BTreeMap<Stage, Tree<Pane>>,
 }
 
 impl Desk {
-    fn tree(&mut self, stage: Stage) -> &mut Tree<Pane> {
+    /// The arrangement of a stage.
+    pub(super) fn tree(&mut self, stage: Stage) -> &mut Tree<Pane> {
         self.trees.entry(stage).or_insert_with(|| arrangement(stage))
     }
 

@@ -1,9 +1,11 @@
 //! The desk: panes that can be moved, split, closed and brought back; each stage has its own arrangement, remembered.
 
-use super::panes::{Pane, arrangement};
+use super::desk::Desk;
+use super::panes::Pane;
 use super::tabs::Fit;
 use crate::display::glossary;
-use crate::window::app::{App, Ask};
+use crate::window::ask::Ask;
+use crate::window::opened::Opened;
 use crate::window::stages;
 use crate::window::stages::explain::switches::in_bar;
 use crate::window::theme::{self, Palette, size, space};
@@ -17,11 +19,9 @@ use egui_tiles::{Behavior, SimplificationOptions, TabState, Tabs, TileId, Tiles,
 const CROSS_ROOM: f32 = 11.0;
 
 /// Shows the panes of the stage that is open.
-pub fn show(ui: &mut Ui, app: &mut App, asks: &mut Vec<Ask>) {
-    let stage = app.view.stage;
-    // The tree is taken out while its panes look at the application.
-    let mut tree = app.desk.trees.remove(&stage).unwrap_or_else(|| arrangement(stage));
-    let mut panes = Panes { app, asks, alone: true, fit: Fit::default(), closed: None, chosen: None };
+pub fn show(ui: &mut Ui, desk: &mut Desk, opened: Opened<'_>, asks: &mut Vec<Ask>) {
+    let tree = desk.tree(opened.view.stage);
+    let mut panes = Panes { opened, asks, alone: true, fit: Fit::default(), closed: None, chosen: None };
     tree.ui(&mut panes, ui);
     let chosen = panes.chosen;
     // Closed panes keep their place, so that View > Panes can bring them back to it.
@@ -33,11 +33,10 @@ pub fn show(ui: &mut Ui, app: &mut App, asks: &mut Vec<Ask>) {
         tree.make_active(|id, _| id == tile);
         ui.ctx().request_repaint();
     }
-    app.desk.trees.insert(stage, tree);
 }
 
 struct Panes<'a> {
-    app: &'a mut App,
+    opened: Opened<'a>,
     asks: &'a mut Vec<Ask>,
     /// Whether the tab that is drawn is the only one of its bar.
     alone: bool,
@@ -59,7 +58,7 @@ impl Behavior<Pane> for Panes<'_> {
         ui.painter().rect_filled(rect, below, palette.pane);
         Frame::new().inner_margin(margin).show(ui, |ui| {
             ui.set_min_size(ui.available_size());
-            ui.push_id(*pane, |ui| stages::show(ui, *pane, self.app, self.asks));
+            ui.push_id(*pane, |ui| stages::show(ui, *pane, &mut self.opened, self.asks));
         });
         UiResponse::None
     }
@@ -115,10 +114,10 @@ impl Behavior<Pane> for Panes<'_> {
         match tabs.active.and_then(|tile| tiles.get_pane(&tile)) {
             Some(Pane::Schematic) => {
                 ui.add_space(space::S);
-                super::schematic::switches(ui, self.app, self.asks);
+                super::schematic::switches(ui, self.opened.view, self.asks);
             }
-            Some(Pane::ErrorMap) => in_bar(ui, 0, Pane::ErrorMap.title(), &mut self.app.view.explain),
-            Some(Pane::Cell) => in_bar(ui, 1, Pane::Cell.title(), &mut self.app.view.explain),
+            Some(Pane::ErrorMap) => in_bar(ui, 0, Pane::ErrorMap.title(), &mut self.opened.view.explain),
+            Some(Pane::Cell) => in_bar(ui, 1, Pane::Cell.title(), &mut self.opened.view.explain),
             _ => {}
         }
         let shown = tabs.children.iter().filter(|tile| tiles.is_visible_in_layout(**tile));

@@ -1,18 +1,18 @@
 //! Help: the list of keys, the tour of ten steps, and what the program is.
 
+use super::desk::Desk;
 use super::panes::Pane;
-use crate::window::app::{App, Ask};
+use crate::window::ask::Ask;
 use crate::window::commands::TABLE;
 use crate::window::theme::{Palette, size, space};
-use crate::window::view::Stage;
+use crate::window::view::{Stage, View};
 use crate::window::widgets::UiExt;
 use egui::{Context, Grid, Id, LayerId, Order, Rect, RichText, ScrollArea, StrokeKind, Window, pos2, vec2};
 
 /// Shows what is open of it.
-pub fn show(ctx: &Context, app: &mut App, asks: &mut Vec<Ask>) {
-    keys(ctx, &mut app.view.keys);
-    about(ctx, &mut app.view.about);
-    tour(ctx, app, asks);
+pub fn show(ctx: &Context, view: &mut View) {
+    keys(ctx, &mut view.keys);
+    about(ctx, &mut view.about);
 }
 
 fn keys(ctx: &Context, open: &mut bool) {
@@ -126,23 +126,20 @@ pub const TOUR: [Step; 10] = [
     ),
 ];
 
-fn tour(ctx: &Context, app: &mut App, asks: &mut Vec<Ask>) {
-    let Some(step) = app.view.tour else { return };
-    if app.document.is_none() {
-        begin(app, asks);
-        return;
-    }
+/// The step of the tour that is open, beside the pane that it points at.
+pub fn tour(ctx: &Context, view: &mut View, desk: &mut Desk) {
+    let Some(step) = view.tour else { return };
     let (stage, pane, title, text) = TOUR[step.min(TOUR.len() - 1)];
-    if app.view.tour_shown != Some(step) {
-        app.view.tour_shown = Some(step);
-        app.view.stage = stage;
+    if view.tour_shown != Some(step) {
+        view.tour_shown = Some(step);
+        view.stage = stage;
         if let Some(pane) = pane {
-            app.desk.set_open(stage, pane, true);
+            desk.set_open(stage, pane, true);
         }
         ctx.request_repaint();
         return;
     }
-    let target = pane.and_then(|pane| app.desk.rect(stage, pane));
+    let target = pane.and_then(|pane| desk.rect(stage, pane));
     let palette = Palette::of(&ctx.global_style().visuals);
     if let Some(rect) = target {
         let painter = ctx.layer_painter(LayerId::new(Order::Foreground, Id::unique("tour frame")));
@@ -157,22 +154,19 @@ fn tour(ctx: &Context, app: &mut App, asks: &mut Vec<Ask>) {
         .show(ctx, |ui| card(ui, step, title, text));
     match response.and_then(|r| r.inner).unwrap_or(Turn::Stay) {
         Turn::Stay => {}
-        Turn::Back => app.view.tour = Some(step.saturating_sub(1)),
-        Turn::Next if step + 1 < TOUR.len() => app.view.tour = Some(step + 1),
-        Turn::Next | Turn::End => (app.view.tour, app.view.tour_shown) = (None, None),
+        Turn::Back => view.tour = Some(step.saturating_sub(1)),
+        Turn::Next if step + 1 < TOUR.len() => view.tour = Some(step + 1),
+        Turn::Next | Turn::End => (view.tour, view.tour_shown) = (None, None),
     }
 }
 
 /// Without a project the tour begins on the sample.
-fn begin(app: &mut App, asks: &mut Vec<Ask>) {
-    if app.running().is_some() {
-        return;
-    }
+pub fn begin_tour(view: &mut View, asks: &mut Vec<Ask>) {
     if let Some(folder) = super::start::samples_folder() {
         asks.push(Ask::Open(folder.join("cantilever-case-2").join("project.toml")));
     } else {
-        app.view.tour = None;
-        app.fail("The samples are not here: open a project, then take the tour on it.".to_owned());
+        view.tour = None;
+        asks.push(Ask::Refuse("The samples are not here: open a project, then take the tour on it.".to_owned()));
     }
 }
 

@@ -7,24 +7,24 @@ use crate::exchange::Project;
 use crate::exchange::project::ProjectFile;
 use crate::identify::Settings;
 use crate::session::{Command, Setting};
-use crate::window::app::{App, Ask};
+use crate::window::ask::Ask;
+use crate::window::document::Document;
 use crate::window::edits::Edit;
 use crate::window::theme::space;
-use crate::window::view::Stage;
+use crate::window::view::{Stage, View};
 use crate::window::widgets::UiExt;
 use egui::{ScrollArea, Ui};
 
 /// Shows the inspector.
-pub fn show(ui: &mut Ui, app: &App, asks: &mut Vec<Ask>) {
-    let Some(document) = &app.document else { return };
+pub fn show(ui: &mut Ui, document: &Document, view: &View, asks: &mut Vec<Ask>) {
     let p = &document.project;
-    ScrollArea::vertical().auto_shrink(false).show(ui, |ui| match (app.view.source, app.view.dof) {
+    ScrollArea::vertical().auto_shrink(false).show(ui, |ui| match (view.source, view.dof) {
         (Some(source), _) if source < p.sources.len() => self::source(ui, p, source, asks),
         (_, Some(dof)) if dof < p.structure.len() => {
             self::dof(ui, p, dof);
             sensors(ui, p, document.session().document().file(), dof, asks);
         }
-        _ if app.view.stage == Stage::Measure && app.view.run < p.runs.len() => run(ui, p, app.view.run, asks),
+        _ if view.stage == Stage::Measure && view.run < p.runs.len() => run(ui, p, view.run, asks),
         _ => project(ui, p, asks),
     });
 }
@@ -99,7 +99,7 @@ fn run(ui: &mut Ui, p: &Project, index: usize, asks: &mut Vec<Ask>) {
         adjust(ui, r, asks);
     }
     ui.pair("Period", format::prefixed(r.fit.period(), "s"));
-    ui.pair("Noise over signal", format::percent(r.noise_ratio));
+    ui.pair("Noise over signal", words::noise(r));
     if let Some(record) = &r.record {
         ui.pair("Samples a channel", record.time().len().to_string());
         let span = record.time().last().unwrap_or(&0.0) - record.time().first().unwrap_or(&0.0);

@@ -1,17 +1,13 @@
 //! What is asked before unsaved changes are left behind.
 
-use crate::window::app::{App, Ask};
+use crate::window::ask::Ask;
 use crate::window::leaving::Changes;
 use crate::window::theme::{size, space};
 use crate::window::widgets::UiExt;
 use egui::{Context, Frame, Id, Margin, Modal, RichText};
 
-/// Asks while somebody wants to leave.
-pub fn show(ctx: &Context, app: &App, asks: &mut Vec<Ask>) {
-    if app.leaving.is_none() {
-        return;
-    }
-    let title = app.document.as_ref().map_or_else(String::new, |d| d.project.title.clone());
+/// Asks what becomes of the changes of the project with this title.
+pub fn show(ctx: &Context, title: &str, asks: &mut Vec<Ask>) {
     let frame = Frame::popup(&ctx.global_style()).inner_margin(Margin::same(18));
     let modal = Modal::new(Id::unique("leave")).frame(frame).show(ctx, |ui| {
         ui.set_width(360.0);

@@ -4,6 +4,7 @@ pub mod cards;
 pub mod choose;
 pub mod desk;
 pub mod dock;
+pub mod focus;
 pub mod help;
 pub mod icons;
 pub mod inspector;

@@ -1,33 +1,35 @@
 //! Notifications that stay until they are closed, and the list of all messages.
 
-use crate::window::app::{App, Ask};
+use crate::window::ask::{Ask, Message};
 use crate::window::theme::{self, Palette, space};
 use crate::window::widgets::UiExt;
 use egui::{Align, Align2, Area, Context, Frame, Id, Label, Layout, Margin, Order, RichText, ScrollArea, Window, vec2};
 
-/// Shows the failure that was not closed yet, and the list where it is open.
-pub fn show(ctx: &Context, app: &mut App, asks: &mut Vec<Ask>) {
-    if let Some(message) = app.message.as_ref().filter(|m| m.failed) {
+/// Shows a failure that was not closed yet.
+pub fn show(ctx: &Context, message: Option<&Message>, asks: &mut Vec<Ask>) {
+    if let Some(message) = message.filter(|m| m.failed) {
         card(ctx, &message.text, asks);
     }
-    let mut open = app.view.messages;
-    Window::new("Messages").open(&mut open).default_size([520.0, 260.0]).collapsible(false).show(ctx, |ui| {
-        if app.messages.is_empty() {
+}
+
+/// The list of all messages, where it is open.
+pub fn list(ctx: &Context, messages: &[Message], open: &mut bool) {
+    Window::new("Messages").open(open).default_size([520.0, 260.0]).collapsible(false).show(ctx, |ui| {
+        if messages.is_empty() {
             ui.hint("Nothing has been said yet.");
             return;
         }
         if ui.button("Copy all").clicked() {
-            let lines: Vec<&str> = app.messages.iter().map(|m| m.text.as_str()).collect();
+            let lines: Vec<&str> = messages.iter().map(|m| m.text.as_str()).collect();
             ui.ctx().copy_text(lines.join("\n"));
         }
         ScrollArea::vertical().auto_shrink(false).stick_to_bottom(true).show(ui, |ui| {
-            for message in &app.messages {
+            for message in messages {
                 let colour = if message.failed { ui.palette().error } else { ui.palette().ink };
                 ui.add(Label::new(RichText::new(&message.text).color(colour)).wrap());
             }
         });
     });
-    app.view.messages = open;
 }
 
 fn card(ctx: &Context, text: &str, asks: &mut Vec<Ask>) {

@@ -4,48 +4,49 @@ use crate::display::format;
 use crate::effects::State;
 use crate::exchange::Project;
 use crate::identify::Estimate;
-use crate::window::app::{App, Ask};
+use crate::window::ask::Ask;
 use crate::window::commands::Command;
+use crate::window::opened::Opened;
 use crate::window::schematic::Scene;
 use crate::window::schematic::hit::Target;
 use crate::window::schematic::view::View;
 use crate::window::stages::{explain, select};
-use crate::window::view::Stage;
+use crate::window::view::{Stage, View as LookedAt};
 use egui::Ui;
 use faer::c64;
 use std::sync::Arc;
 
 /// Shows the schematic.
-pub fn show(ui: &mut Ui, app: &mut App, asks: &mut Vec<Ask>) {
-    let Some(document) = &app.document else { return };
-    let mut scene = app.derived.scene(document);
-    let outcome = app.derived.known_outcome(document).and_then(|o| o.as_ref().ok());
+pub fn show(ui: &mut Ui, opened: &mut Opened<'_>, asks: &mut Vec<Ask>) {
+    let document = opened.document;
+    let mut scene = opened.derived.scene(document);
+    let outcome = opened.derived.known_outcome(document).and_then(Result::ok);
     let mut shares = None;
-    if let (Some(outcome), Stage::Select | Stage::Result) = (outcome, app.view.stage) {
-        let estimates = match (app.view.stage, select::current(&app.view, outcome)) {
+    if let (Some(outcome), Stage::Select | Stage::Result) = (&outcome, opened.view.stage) {
+        let estimates = match (opened.view.stage, select::current(opened.view, outcome)) {
             (Stage::Select, Some(step)) => &step.sources,
             _ => &outcome.sources,
         };
         scene = Arc::new(identified(&scene, &document.project, estimates));
         let total: Vec<f32> = outcome.results.energy_percent.iter().map(|v| 0.01 * *v as f32).collect();
-        shares = (app.view.stage == Stage::Result).then_some(total);
+        shares = (opened.view.stage == Stage::Result).then_some(total);
     }
     let mut errors = None;
-    if app.view.stage == Stage::Explain {
-        let laid = explain::errors(&scene, document, &app.view, &app.derived.explained);
+    if opened.view.stage == Stage::Explain {
+        let laid = explain::errors(&scene, document, opened.view, &opened.derived.explained);
         (scene, shares, errors) = (laid.scene, laid.shares, Some(laid.caption));
     }
-    let (moved, caption) = moved(ui, app, &scene);
+    let (moved, caption) = moved(ui, opened, &scene);
     let of_errors = errors.is_some();
     let caption = errors.unwrap_or(caption);
-    let shape = moved.as_ref().map(|m| m.at(app.view.phase));
+    let shape = moved.as_ref().map(|m| m.at(opened.view.phase));
     let largest = moved.map_or(0.0, |m| m.largest);
     let slot = |index: usize| scene.sources.iter().position(|s| s.index == index).map(Target::Source);
-    let selected = app.view.source.and_then(slot).or(app.view.dof.map(Target::Dof));
-    let law = (app.view.stage == Stage::Pattern).then_some(app.view.law).filter(|law| law.law().is_some());
+    let selected = opened.view.source.and_then(slot).or(opened.view.dof.map(Target::Dof));
+    let law = (opened.view.stage == Stage::Pattern).then_some(opened.view.law).filter(|law| law.law().is_some());
     let (shape, shares) = (shape.as_deref(), shares.as_deref());
     let view = View { scene: &scene, shape, largest, shares, errors: of_errors, selected, law, caption: &caption };
-    let intents = view.show(ui, &mut app.view.schematic);
+    let intents = view.show(ui, &mut opened.view.schematic);
     asks.extend(intents.into_iter().map(Ask::Schematic));
 }
 
@@ -83,18 +84,18 @@ impl Moved {
 }
 
 /// The motion that the stage is about, and what it is.
-fn moved(ui: &Ui, app: &mut App, scene: &Scene) -> (Option<Moved>, String) {
-    let Some(document) = &app.document else { return (None, String::new()) };
-    match app.view.stage {
+fn moved(ui: &Ui, opened: &mut Opened<'_>, scene: &Scene) -> (Option<Moved>, String) {
+    let document = opened.document;
+    match opened.view.stage {
         Stage::Pattern => {
             let verb = "Click a DOF: source to ground  ·  drag to another DOF: between them  ·  sweep: chain  ·  click again: state";
             (None, verb.to_owned())
         }
-        _ if !app.view.shape => (None, String::new()),
-        Stage::Structure => mode(ui, app, scene),
+        _ if !opened.view.shape => (None, String::new()),
+        Stage::Structure => mode(ui, opened, scene),
         _ => {
-            let Some(Ok(motions)) = app.derived.motions(ui.ctx(), document) else { return (None, String::new()) };
-            let (run, runs) = (app.view.run, &document.project.runs);
+            let Some(Ok(motions)) = opened.derived.motions(ui.ctx(), document) else { return (None, String::new()) };
+            let (run, runs) = (opened.view.run, &document.project.runs);
             let moved = motions.get(run).and_then(|x| Moved::new(scene, x));
             let caption = runs.get(run).filter(|_| moved.is_some()).map_or_else(String::new, |r| {
                 let (frequency, size) =
@@ -107,10 +108,10 @@ fn moved(ui: &Ui, app: &mut App, scene: &Scene) -> (Option<Moved>, String) {
     }
 }
 
-fn mode(ui: &Ui, app: &mut App, scene: &Scene) -> (Option<Moved>, String) {
-    let Some(document) = &app.document else { return (None, String::new()) };
-    let number = app.view.mode;
-    match app.derived.modes(ui.ctx(), document) {
+fn mode(ui: &Ui, opened: &mut Opened<'_>, scene: &Scene) -> (Option<Moved>, String) {
+    let document = opened.document;
+    let number = opened.view.mode;
+    match opened.derived.modes(ui.ctx(), document) {
         Some(Ok(modes)) if number < modes.len() => {
             let x: Vec<c64> = modes.shape(number).iter().map(|&v| c64::new(v, 0.0)).collect();
             let frequency = format::with_unit(modes.frequency_hz(number), "Hz");
@@ -121,11 +122,11 @@ fn mode(ui: &Ui, app: &mut App, scene: &Scene) -> (Option<Moved>, String) {
 }
 
 /// Whether the shape is shown and moves, at the right of the pane's title.
-pub fn switches(ui: &mut Ui, app: &App, asks: &mut Vec<Ask>) {
-    if app.view.stage == Stage::Pattern {
+pub fn switches(ui: &mut Ui, view: &LookedAt, asks: &mut Vec<Ask>) {
+    if view.stage == Stage::Pattern {
         return;
     }
-    for (command, on) in [(Command::Animate, app.view.animate), (Command::Shape, app.view.shape)] {
+    for (command, on) in [(Command::Animate, view.animate), (Command::Shape, view.shape)] {
         let label = if command == Command::Shape { "Deflect" } else { "Animate" };
         if ui.selectable_label(on, label).on_hover_text(command.entry().tooltip).clicked() {
             asks.push(Ask::Command(command));

@@ -69,7 +69,7 @@ fn summary(ui: &mut Ui, app: &App) {
     let used = p.runs.iter().filter(|r| r.enabled).count();
     let mut parts = Vec::new();
     if let Some(Ok(outcome)) = app.derived.known_outcome(document) {
-        let (error, floor) = error_and_floor(outcome);
+        let (error, floor) = error_and_floor(&outcome);
         parts.push(format!("energy error {}", format::percent(error)));
         if floor > 0.0 {
             parts.push(format!("noise floor {}", format::percent(floor)));

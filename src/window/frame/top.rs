@@ -102,6 +102,7 @@ fn menus(ui: &mut Ui, app: &App, asks: &mut Vec<Ask>) {
         ui.menu_button("Text size", text_sizes);
         entry(ui, Command::Messages, true, None, asks);
         entry(ui, Command::Theme, true, None, asks);
+        entry(ui, Command::LessMotion, true, None, asks);
     });
     ui.menu_button("Help", |ui| {
         for command in [Command::Tour, Command::Laws, Command::Keys, Command::About] {
@@ -151,7 +152,7 @@ fn file(ui: &mut Ui, app: &App, asks: &mut Vec<Ask>) {
     let dirty = app.document.as_ref().is_some_and(|d| d.session().is_dirty());
     entry(ui, Command::Save, dirty, None, asks);
     entry(ui, Command::SaveAs, open, None, asks);
-    let known = app.document.as_ref().and_then(|d| app.derived.known_outcome(d)).is_some_and(Result::is_ok);
+    let known = app.document.as_ref().and_then(|d| app.derived.known_outcome(d)).is_some_and(|o| o.is_ok());
     ui.add_enabled_ui(known, |ui| {
         ui.menu_button("Export", |ui| {
             for format in Format::ALL {

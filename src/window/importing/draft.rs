@@ -6,7 +6,7 @@ use crate::exchange::importing::files::listed;
 use crate::exchange::importing::{Functions, Holds, Request, look};
 use crate::exchange::mapping::{ChannelTable, Proposal};
 use crate::measurement::Quantity;
-use crate::window::background::Slot;
+use crate::window::cache::Cache;
 use dashpot_datafiles::{DataFile, Kind, open};
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -111,7 +111,7 @@ pub struct Draft {
     /// Sets whose channels are listed: file, set.
     pub unfolded: BTreeSet<(usize, usize)>,
     /// Its plot.
-    pub preview: Slot<(usize, usize, usize), Preview>,
+    pub preview: Cache<(usize, usize, usize), Preview>,
     /// Whether the mapping of the open project says all of the files.
     pub fits: bool,
 }
@@ -166,7 +166,7 @@ impl Draft {
             target,
             looked_at,
             unfolded,
-            preview: Slot::new("Drawing a channel"),
+            preview: Cache::of_last("Drawing a channel"),
             fits,
         };
         draft.into = draft.open.is_some() && draft.request.mass.is_none() && draft.unknown_dof().is_none();

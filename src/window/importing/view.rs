@@ -4,7 +4,7 @@ use super::destination;
 use super::draft::{Decided, Draft};
 use super::preview::Preview;
 use super::{Importing, mapping, places, tree};
-use crate::window::app::{App, Ask};
+use crate::window::ask::Ask;
 use crate::window::plots::show::Stack;
 use crate::window::theme::{Palette, space};
 use crate::window::widgets::UiExt;
@@ -17,9 +17,8 @@ const TREE: (f32, f32, f32) = (0.34, 300.0, 460.0);
 const PLOT: f32 = 0.36;
 
 /// Shows the page.
-pub fn show(ui: &mut Ui, app: &mut App, asks: &mut Vec<Ask>) {
+pub fn show(ui: &mut Ui, importing: &mut Importing, asks: &mut Vec<Ask>) {
     let palette = Palette::of(ui.visuals());
-    let Some(importing) = &mut app.importing else { return };
     let (draft, busy) = match importing {
         Importing::Looking(_) => {
             let pane = Frame::new().fill(palette.pane).inner_margin(Margin::same(14));
@@ -72,7 +71,7 @@ fn plot(ui: &mut Ui, draft: &mut Draft) {
         let file = Arc::clone(file);
         move |_: &crate::control::Control| Preview::of(&file, at.1, at.2)
     };
-    match draft.preview.get(ui.ctx(), &at, work) {
+    match draft.preview.obtain(ui.ctx(), &at, work) {
         None => ui.empty("The channel is being read", ""),
         Some(Err(error)) => ui.empty("No picture", &error),
         Some(Ok(preview)) => {

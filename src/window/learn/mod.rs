@@ -6,7 +6,7 @@ mod page;
 
 pub use page::Learn;
 
-use super::app::{App, Ask};
+use super::ask::Ask;
 use super::commands::Command;
 use super::plots::show::Stack;
 use super::theme::{Palette, space};
@@ -27,16 +27,16 @@ const COLUMNS: usize = 3;
 const BETWEEN: f32 = 20.0;
 
 /// Shows the page in place of the panes.
-pub fn show(ui: &mut Ui, app: &mut App, asks: &mut Vec<Ask>) {
+pub fn show(ui: &mut Ui, learn: &mut Learn, asks: &mut Vec<Ask>) {
     let palette = Palette::of(ui.visuals());
-    app.learn.update(ui.ctx());
+    learn.update(ui.ctx());
     let left = Frame::new().fill(palette.pane).inner_margin(Margin::same(14));
     Panel::left("choices of laws").frame(left).resizable(false).exact_size(CHOICES).show(ui, |ui| {
-        ScrollArea::vertical().auto_shrink(false).show(ui, |ui| choices(ui, &mut app.learn.lesson, asks));
+        ScrollArea::vertical().auto_shrink(false).show(ui, |ui| choices(ui, &mut learn.lesson, asks));
     });
     let right = Frame::new().fill(palette.pane).inner_margin(Margin { left: 14, right: 28, top: 10, bottom: 10 });
-    CentralPanel::default().frame(right).show(ui, |ui| match &app.learn.last {
-        Some(Ok(portrait)) => plots(ui, &Arc::clone(portrait), &app.learn.lesson),
+    CentralPanel::default().frame(right).show(ui, |ui| match &learn.last {
+        Some(Ok(portrait)) => plots(ui, &Arc::clone(portrait), &learn.lesson),
         Some(Err(error)) => ui.empty("This law cannot be shown", error),
         None => ui.empty("The law is being computed", ""),
     });

@@ -3,9 +3,8 @@
 use super::lesson::Lesson;
 use crate::control::Control;
 use crate::response::portrait::{Portrait, portrait};
-use crate::window::background::Slot;
+use crate::window::cache::{Cache, Cached};
 use egui::Context;
-use std::sync::Arc;
 
 /// The page: what is chosen, and what was computed of it.
 #[derive(Debug)]
@@ -14,26 +13,26 @@ pub struct Learn {
     pub open: bool,
     /// What is looked at.
     pub lesson: Lesson,
-    slot: Slot<Lesson, Portrait>,
+    portraits: Cache<Lesson, Portrait>,
     /// The last one, shown while the next is computed.
-    pub(super) last: Option<Result<Arc<Portrait>, String>>,
+    pub(super) last: Option<Cached<Portrait>>,
 }
 
 impl Default for Learn {
     fn default() -> Self {
-        Self { open: false, lesson: Lesson::default(), slot: Slot::new("Laws"), last: None }
+        Self { open: false, lesson: Lesson::default(), portraits: Cache::of_last("Laws"), last: None }
     }
 }
 
 impl Learn {
     /// Name and progress of what runs.
     pub fn running(&self) -> Option<(&str, f64)> {
-        self.slot.running()
+        self.portraits.running()
     }
 
     /// Gives up what runs.
     pub fn cancel(&mut self) {
-        self.slot.cancel();
+        self.portraits.cancel();
     }
 
     /// Asks for what is chosen, and takes over what was computed.
@@ -45,7 +44,7 @@ impl Learn {
                 portrait(&setup, control).map_err(|e| e.to_string())
             }
         };
-        if let Some(found) = self.slot.get(ctx, &self.lesson, work) {
+        if let Some(found) = self.portraits.obtain(ctx, &self.lesson, work) {
             self.last = Some(found);
         }
     }

@@ -23,7 +23,7 @@ use egui_plot::{
 const CORNER: f64 = 0.04;
 
 /// Least height of a plot in a stack without the axis of x, points; below it the stack scrolls.
-const LEAST: f32 = 50.0;
+const LEAST: f32 = 42.0;
 /// Room that the largest marks take at the edge of a plot, points.
 const MARK: f32 = 12.0;
 /// Height of the axis of x with its name, points.

@@ -5,8 +5,9 @@ use super::result::widest;
 use crate::display::{change as said, format, words};
 use crate::identify::change::{ModeChange, Pair, SourceChange};
 use crate::session::states::{Against, Compared, sessions};
-use crate::window::app::{App, Ask};
+use crate::window::ask::Ask;
 use crate::window::files::Pick;
+use crate::window::opened::Opened;
 use crate::window::theme::space;
 use crate::window::widgets::UiExt;
 use egui::{Align, Layout, RichText, ScrollArea, Ui};
@@ -16,19 +17,19 @@ use egui_extras::{Column, TableBuilder, TableRow};
 const CHANCE: f32 = 64.0;
 
 /// Shows the pane.
-pub fn show(ui: &mut Ui, app: &mut App, asks: &mut Vec<Ask>) {
-    let Some(document) = &app.document else { return };
+pub fn show(ui: &mut Ui, opened: &mut Opened<'_>, asks: &mut Vec<Ask>) {
+    let document = opened.document;
     let names = sessions(&document.project);
-    let Some(against) = app.view.against.clone() else {
+    let Some(against) = opened.view.against.clone() else {
         ui.empty(
             "What changed?",
             "Choose the project of an earlier state: before the bolt was tightened, before the repair.",
         );
-        ui.vertical_centered(|ui| choices(ui, &names, &mut app.view.against, asks));
+        ui.vertical_centered(|ui| choices(ui, &names, &mut opened.view.against, asks));
         return;
     };
-    let found = app.derived.change(ui.ctx(), document, &against);
-    ui.horizontal_wrapped(|ui| choices(ui, &names, &mut app.view.against, asks));
+    let found = opened.derived.change(ui.ctx(), document, &against);
+    ui.horizontal_wrapped(|ui| choices(ui, &names, &mut opened.view.against, asks));
     match found {
         None => ui.empty("Both states are being identified", "The progress is in the bar below."),
         Some(Err(error)) => ui.empty("The states cannot be compared", &error),

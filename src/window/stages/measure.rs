@@ -7,17 +7,19 @@ use crate::exchange::Project;
 use crate::measurement::{Quantity, Run};
 use crate::plots::record::RecordPlot;
 use crate::plots::{overview, samples};
-use crate::window::app::{App, Ask};
-use crate::window::background::CANCELLED;
+use crate::window::ask::Ask;
+use crate::window::cache::CANCELLED;
 use crate::window::commands::Command;
 use crate::window::derived::Derived;
 use crate::window::document::Document;
 use crate::window::edits::Edit;
+use crate::window::opened::Opened;
 use crate::window::plots::charts;
 use crate::window::plots::record;
 use crate::window::plots::show::Stack;
 use crate::window::prepared_records::PreparedRecord;
 use crate::window::theme::{self, space};
+use crate::window::view::View;
 use crate::window::widgets::{UiExt, width};
 use egui::{Sense, Ui};
 use egui_extras::{Column, TableBuilder, TableRow};
@@ -73,11 +75,9 @@ const EMPTY: [&str; 2] =
     ["No runs yet", "Import files of measurements of any of the formats, or drop them on this window."];
 
 /// The table of runs.
-pub fn runs(ui: &mut Ui, app: &mut App, asks: &mut Vec<Ask>) {
-    let Some(document) = &app.document else { return };
-    let p = &document.project;
+pub fn runs(ui: &mut Ui, p: &Project, view: &mut View, asks: &mut Vec<Ask>) {
     if p.runs.is_empty() && !p.transient_runs.is_empty() {
-        let ticked = unsteady::table(ui, p, &mut app.view.run);
+        let ticked = unsteady::table(ui, p, &mut view.run);
         asks.extend(ticked.map(|(file, used)| Ask::Edit(Edit::UseRun(file, used))));
         return;
     }
@@ -91,22 +91,20 @@ pub fn runs(ui: &mut Ui, app: &mut App, asks: &mut Vec<Ask>) {
         });
         return;
     }
-    let mut order = std::mem::take(&mut app.view.runs);
+    let mut order = std::mem::take(&mut view.runs);
     let rows = order.rows(p, distortion);
-    order.field(ui, rows.len(), p.runs.len());
-    let mut chosen = app.view.run;
+    order.field(ui, p, rows.len());
+    let mut chosen = view.run;
     table(ui, p, (&rows, &mut order), &mut chosen, asks);
-    (app.view.run, app.view.runs) = (chosen, order);
+    (view.run, view.runs) = (chosen, order);
 }
 
 /// Amplitude and phase of a channel of all runs over frequency, one curve a level.
-pub fn overview(ui: &mut Ui, app: &mut App) {
-    let Some((run, channel)) = looked_at(app) else { return ui.empty("No runs yet", FOLLOWS) };
-    let Some(document) = &app.document else { return };
-    let p = &document.project;
+pub fn overview(ui: &mut Ui, p: &Project, view: &mut View) {
+    let Some((run, channel)) = looked_at(p, view) else { return ui.empty("No runs yet", FOLLOWS) };
     let (mut chosen, mut every) = (channel, false);
     motions(ui, &p.runs[run], &mut chosen, &mut every);
-    app.view.channel = chosen;
+    view.channel = chosen;
     let Some(name) = samples::selected(p, run, chosen) else {
         ui.empty("No motion", "The selected run measures forces only.");
         return;
@@ -122,20 +120,20 @@ pub fn overview(ui: &mut Ui, app: &mut App) {
 }
 
 /// The record of a channel with the fitted curve on top and the residual under it.
-pub fn record(ui: &mut Ui, app: &mut App) {
-    let Some((run, channel)) = looked_at(app) else { return over_time(ui, app) };
-    let Some(document) = &app.document else { return };
+pub fn record(ui: &mut Ui, opened: &mut Opened<'_>) {
+    let Some((run, channel)) = looked_at(&opened.document.project, opened.view) else { return over_time(ui, opened) };
+    let document = opened.document;
     let r = &document.project.runs[run];
     let mut chosen = channel;
-    let mut every = app.view.every_channel;
+    let mut every = opened.view.every_channel;
     channels(ui, r, &mut chosen, &mut every);
-    (app.view.channel, app.view.every_channel) = (chosen, every);
+    (opened.view.channel, opened.view.every_channel) = (chosen, every);
     if every {
-        lanes(ui, &mut app.derived, document, run);
+        lanes(ui, opened.derived, document, run);
         return;
     }
     let Some(fit) = r.fit.channels.get(channel) else { return };
-    match app.derived.trace(ui.ctx(), document, run, channel) {
+    match opened.derived.trace(ui.ctx(), document, run, channel) {
         PreparedRecord::Absent => amplitudes(ui, r, channel),
         PreparedRecord::Coming => ui.empty("The record is being prepared", ""),
         PreparedRecord::Cancelled => ui.empty("There is no record to show", CANCELLED),
@@ -148,14 +146,14 @@ pub fn record(ui: &mut Ui, app: &mut App) {
 }
 
 /// The record that is selected where none is steady.
-fn over_time(ui: &mut Ui, app: &mut App) {
-    let Some(document) = &app.document else { return };
+fn over_time(ui: &mut Ui, opened: &mut Opened<'_>) {
+    let document = opened.document;
     let records = &document.project.transient_runs;
-    let index = app.view.run.min(records.len().saturating_sub(1));
+    let index = opened.view.run.min(records.len().saturating_sub(1));
     let Some(run) = records.get(index) else { return ui.empty("No record yet", FOLLOWS) };
-    app.view.channel = unsteady::channels(ui, run, app.view.channel.min(run.channels().len().saturating_sub(1)));
-    let Some(channel) = run.channels().get(app.view.channel) else { return };
-    let prepared = app.derived.unsteady(ui.ctx(), document, [index, app.view.channel]);
+    opened.view.channel = unsteady::channels(ui, run, opened.view.channel.min(run.channels().len().saturating_sub(1)));
+    let Some(channel) = run.channels().get(opened.view.channel) else { return };
+    let prepared = opened.derived.unsteady(ui.ctx(), document, [index, opened.view.channel]);
     unsteady::samples(ui, &run.file, channel, prepared);
 }
 
@@ -179,12 +177,14 @@ fn lanes(ui: &mut Ui, derived: &mut Derived, document: &Document, run: usize) {
 }
 
 /// The amplitude spectrum of the same channel.
-pub fn spectrum(ui: &mut Ui, app: &mut App) {
-    let Some((run, channel)) = looked_at(app) else { return ui.empty("No spectrum yet", FOLLOWS) };
-    let Some(document) = &app.document else { return };
+pub fn spectrum(ui: &mut Ui, opened: &mut Opened<'_>) {
+    let Some((run, channel)) = looked_at(&opened.document.project, opened.view) else {
+        return ui.empty("No spectrum yet", FOLLOWS);
+    };
+    let document = opened.document;
     let r = &document.project.runs[run];
     let Some(fit) = r.fit.channels.get(channel) else { return };
-    let trace = match app.derived.trace(ui.ctx(), document, run, channel) {
+    let trace = match opened.derived.trace(ui.ctx(), document, run, channel) {
         PreparedRecord::Absent => return ui.empty("No spectrum", "This run came as fitted harmonics."),
         PreparedRecord::Coming => return ui.empty("The spectrum is being prepared", ""),
         PreparedRecord::Cancelled => return ui.empty("There is no spectrum to show", CANCELLED),
@@ -207,11 +207,11 @@ pub fn spectrum(ui: &mut Ui, app: &mut App) {
 }
 
 /// The run and the channel that are looked at, where there is any.
-fn looked_at(app: &mut App) -> Option<(usize, usize)> {
-    let runs = &app.document.as_ref()?.project.runs;
-    app.view.run = app.view.run.min(runs.len().checked_sub(1)?);
-    app.view.channel = app.view.channel.min(runs[app.view.run].fit.channels.len().checked_sub(1)?);
-    Some((app.view.run, app.view.channel))
+fn looked_at(p: &Project, view: &mut View) -> Option<(usize, usize)> {
+    let runs = &p.runs;
+    view.run = view.run.min(runs.len().checked_sub(1)?);
+    view.channel = view.channel.min(runs[view.run].fit.channels.len().checked_sub(1)?);
+    Some((view.run, view.channel))
 }
 
 /// The motions of a run; of many, a list.
@@ -341,7 +341,7 @@ fn cells(row: &mut TableRow<'_, '_>, run: &Run, (index, shown, folder): (usize, 
     row.col(|ui| drop(ui.number(run.level.map_or_else(String::new, |level| level.to_string()))));
     row.col(|ui| {
         if shown.noise {
-            ui.number(format::percent(run.noise_ratio));
+            ui.number(words::noise(run));
         }
     });
     row.col(|ui| {

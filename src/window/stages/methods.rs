@@ -7,7 +7,7 @@ use crate::classical::reference_shapes::{Beside, Match};
 use crate::classical::side_by_side::{Applied, SideBySide};
 use crate::display::format;
 use crate::plots::heatmap::{HeatMap, occupied};
-use crate::window::app::App;
+use crate::window::opened::Opened;
 use crate::window::theme::{self, size, space};
 use crate::window::widgets::{UiExt, width};
 use egui::{Align, Layout, RichText, ScrollArea, Sense, Ui, vec2};
@@ -24,19 +24,19 @@ const SHARE: f32 = 0.7;
 const NAME: f32 = 146.0;
 
 /// Shows the table at the left and the matrices at the right.
-pub fn show(ui: &mut Ui, app: &mut App) {
-    let Some(document) = &app.document else { return };
-    let found = match app.derived.methods(ui.ctx(), document) {
+pub fn show(ui: &mut Ui, opened: &mut Opened<'_>) {
+    let document = opened.document;
+    let found = match opened.derived.methods(ui.ctx(), document) {
         Some(Ok(found)) => found,
         Some(Err(error)) => return ui.empty("The classical methods cannot run", &error),
         None => return ui.empty("The classical methods are running", "Their progress is in the bar below."),
     };
-    let identified = match app.derived.known_outcome(document) {
+    let identified = match opened.derived.known_outcome(document) {
         Some(Ok(outcome)) => Some(outcome.results.viscous.clone()),
         _ => None,
     };
     let labels: Vec<String> = document.project.structure.dofs().iter().map(|d| d.label.clone()).collect();
-    let mut chosen = app.view.method.filter(|m| ran(&found, *m).is_some()).or_else(|| first(&found));
+    let mut chosen = opened.view.method.filter(|m| ran(&found, *m).is_some()).or_else(|| first(&found));
     let room = ui.available_size();
     ui.horizontal_top(|ui| {
         ui.allocate_ui(vec2(SHARE * room.x, room.y), |ui| {
@@ -64,7 +64,7 @@ pub fn show(ui: &mut Ui, app: &mut App) {
             ScrollArea::vertical().show(ui, |ui| matrices(ui, &found, damping, identified.as_ref(), &labels));
         });
     });
-    app.view.method = chosen;
+    opened.view.method = chosen;
 }
 
 fn ran(found: &SideBySide, method: Method) -> Option<&Applied> {

@@ -14,56 +14,59 @@ pub mod select;
 pub mod structure;
 pub mod unsteady;
 
-use super::app::{App, Ask};
+use super::ask::Ask;
 use super::frame;
 use super::frame::panes::Pane;
+use super::opened::Opened;
 use super::plots::table as tabled;
 use crate::plots::tables;
 use egui::Ui;
 
 /// Shows a pane.
-pub fn show(ui: &mut Ui, pane: Pane, app: &mut App, asks: &mut Vec<Ask>) {
+pub fn show(ui: &mut Ui, pane: Pane, opened: &mut Opened<'_>, asks: &mut Vec<Ask>) {
+    let p = &opened.document.project;
     match pane {
-        Pane::Schematic => frame::schematic::show(ui, app, asks),
-        Pane::Inspector => frame::inspector::show(ui, app, asks),
-        Pane::Runs => measure::runs(ui, app, asks),
-        Pane::Overview => measure::overview(ui, app),
-        Pane::Record => measure::record(ui, app),
-        Pane::Spectrum => measure::spectrum(ui, app),
-        Pane::Parameters => parameters::show(ui, app, asks),
-        Pane::Modes => structure::modes(ui, app),
-        Pane::Frequencies => structure::frequencies(ui, app),
-        Pane::ModeShape => structure::shape(ui, app),
-        Pane::Expansion => structure::expansion(ui, app),
-        Pane::Laws => pattern::laws(ui, app, asks),
-        Pane::Sources => pattern::sources(ui, app, asks),
-        Pane::Steps => select::steps(ui, app, asks),
-        Pane::Set => select::set(ui, app, asks),
-        Pane::Angle => select::angle(ui, app),
-        Pane::RunEnergy => select::energy(ui, app),
-        Pane::Matrix => result::matrix(ui, app),
-        Pane::Energy => result::energy(ui, app),
-        Pane::Damping => result::damping(ui, app),
-        Pane::Bode => result::bode(ui, app),
-        Pane::Nyquist => result::nyquist(ui, app),
-        Pane::Hysteresis => result::hysteresis(ui, app),
-        Pane::Values => result::values(ui, app),
-        Pane::Change => change::show(ui, app, asks),
-        Pane::Methods => methods::show(ui, app),
-        Pane::Incompleteness => incompleteness::show(ui, app),
-        Pane::ErrorMap => explain::panes::error_map(ui, app, asks),
-        Pane::Cell => explain::panes::cell(ui, app, asks),
-        Pane::Missing => explain::panes::missing(ui, app, asks),
-        Pane::Corrections => explain::corrections::show(ui, app, asks),
-        Pane::Ledger => explain::panes::way(ui, app, asks),
+        Pane::Schematic => frame::schematic::show(ui, opened, asks),
+        Pane::Inspector => frame::inspector::show(ui, opened.document, opened.view, asks),
+        Pane::Runs => measure::runs(ui, p, opened.view, asks),
+        Pane::Overview => measure::overview(ui, p, opened.view),
+        Pane::Record => measure::record(ui, opened),
+        Pane::Spectrum => measure::spectrum(ui, opened),
+        Pane::Parameters => parameters::show(ui, opened.document, opened.view.dof, asks),
+        Pane::Modes => structure::modes(ui, opened),
+        Pane::Frequencies => structure::frequencies(ui, opened),
+        Pane::ModeShape => structure::shape(ui, opened),
+        Pane::Expansion => structure::expansion(ui, opened.document, opened.derived),
+        Pane::Laws => pattern::laws(ui, &mut opened.view.law, asks),
+        Pane::Sources => pattern::sources(ui, p, opened.view, asks),
+        Pane::Steps => select::steps(ui, opened, asks),
+        Pane::Set => select::set(ui, opened, asks),
+        Pane::Angle => select::angle(ui, opened),
+        Pane::RunEnergy => select::energy(ui, opened),
+        Pane::Matrix => result::matrix(ui, opened),
+        Pane::Energy => result::energy(ui, opened),
+        Pane::Damping => result::damping(ui, opened),
+        Pane::Bode => result::bode(ui, opened),
+        Pane::Nyquist => result::nyquist(ui, opened),
+        Pane::Hysteresis => result::hysteresis(ui, opened),
+        Pane::Values => result::values(ui, opened),
+        Pane::Change => change::show(ui, opened, asks),
+        Pane::Methods => methods::show(ui, opened),
+        Pane::Incompleteness => {
+            incompleteness::show(ui, opened.document, opened.derived, &mut opened.view.incompleteness);
+        }
+        Pane::ErrorMap => explain::panes::error_map(ui, opened, asks),
+        Pane::Cell => explain::panes::cell(ui, opened, asks),
+        Pane::Missing => explain::panes::missing(ui, opened, asks),
+        Pane::Corrections => explain::corrections::show(ui, opened, asks),
+        Pane::Ledger => explain::panes::way(ui, opened, asks),
     }
     if TABLES.contains(&pane)
-        && app.document.is_some()
         && let Some(wish) = tabled::offer(ui, ui.max_rect(), pane.title())
     {
-        match table(ui, pane, app) {
+        match table(ui, pane, opened) {
             Some(text) => tabled::give(ui.ctx(), pane.title(), wish, text),
-            None => app.fail(format!("{}: there is no table yet.", pane.title())),
+            None => asks.push(Ask::Refuse(format!("{}: there is no table yet.", pane.title()))),
         }
     }
 }
@@ -85,32 +88,33 @@ const TABLES: [Pane; 12] = [
 ];
 
 /// What stands in the table of a pane, as text with tabs.
-fn table(ui: &Ui, pane: Pane, app: &mut App) -> Option<String> {
-    let document = app.document.as_ref()?;
+fn table(ui: &Ui, pane: Pane, opened: &mut Opened<'_>) -> Option<String> {
+    let document = opened.document;
     match pane {
-        Pane::Modes => Some(tables::modes(app.derived.modes(ui.ctx(), document)?.ok()?.as_ref())),
-        Pane::Methods => Some(tables::methods(app.derived.methods(ui.ctx(), document)?.ok()?.as_ref())),
+        Pane::Modes => Some(tables::modes(opened.derived.modes(ui.ctx(), document)?.ok()?.as_ref())),
+        Pane::Methods => Some(tables::methods(opened.derived.methods(ui.ctx(), document)?.ok()?.as_ref())),
         Pane::Change => {
-            let against = app.view.against.clone()?;
-            Some(tables::change(app.derived.change(ui.ctx(), document, &against)?.ok()?.as_ref()))
+            let against = opened.view.against.clone()?;
+            Some(tables::change(opened.derived.change(ui.ctx(), document, &against)?.ok()?.as_ref()))
         }
         Pane::ErrorMap => {
-            let comparison = app.derived.explained.comparison(document)?.as_ref().ok()?;
+            let comparison = opened.derived.explained.comparison(document)?.as_ref().ok()?;
             Some(tables::errors(&document.project, comparison))
         }
         Pane::Ledger => {
-            let ledger = &app.derived.explained.ledger;
+            let ledger = &opened.derived.explained.ledger;
             (!ledger.steps().is_empty()).then(|| ledger.table())
         }
-        _ => identified(pane, app),
+        _ => identified(pane, opened),
     }
 }
 
 /// The tables of the project and of what was identified.
-fn identified(pane: Pane, app: &App) -> Option<String> {
-    let document = app.document.as_ref()?;
+fn identified(pane: Pane, opened: &Opened<'_>) -> Option<String> {
+    let document = opened.document;
     let p = &document.project;
-    let outcome = app.derived.known_outcome(document).and_then(|o| o.as_ref().ok());
+    let outcome = opened.derived.known_outcome(document).and_then(Result::ok);
+    let outcome = outcome.as_deref();
     match pane {
         Pane::Runs => Some(tables::runs(p)),
         Pane::Sources => Some(tables::sources(p)),

@@ -5,15 +5,15 @@ use crate::exchange::project::file::{ProjectFile, Shape};
 use crate::session::Command;
 use crate::structure::beam::{BeamParameters, Supports};
 use crate::structure::chain::ChainParameters;
-use crate::window::app::{App, Ask};
+use crate::window::ask::Ask;
+use crate::window::document::Document;
 use crate::window::edits::Edit;
 use crate::window::theme::space;
 use crate::window::widgets::UiExt;
 use egui::{ScrollArea, Ui};
 
-/// Shows the pane.
-pub fn show(ui: &mut Ui, app: &mut App, asks: &mut Vec<Ask>) {
-    let Some(document) = &app.document else { return };
+/// Shows the pane; a lumped mass may be added at the DOF that is selected.
+pub fn show(ui: &mut Ui, document: &Document, selected: Option<usize>, asks: &mut Vec<Ask>) {
     let file = document.session().document().file().clone();
     ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
         ui.set_max_width(ui.available_width().min(460.0));
@@ -42,7 +42,7 @@ pub fn show(ui: &mut Ui, app: &mut App, asks: &mut Vec<Ask>) {
                 ui.pair("Moving mass", format!("{} kg", component.mass));
             }
         }
-        masses(ui, &file, app.view.dof.map(|d| document.project.structure.label(d)), asks);
+        masses(ui, &file, selected.map(|d| document.project.structure.label(d)), asks);
     });
 }
 

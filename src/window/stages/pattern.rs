@@ -4,7 +4,7 @@ use crate::display::words;
 use crate::effects::Kind;
 use crate::effects::{Effect, Family, Source, State};
 use crate::exchange::Project;
-use crate::window::app::{App, Ask};
+use crate::window::ask::Ask;
 use crate::window::commands::Command;
 use crate::window::edits::Edit;
 use crate::window::plots::localisation;
@@ -27,17 +27,14 @@ const BETWEEN: f32 = 5.0;
 const ONE_ROW: f32 = 460.0;
 
 /// The palette of laws and the families of places.
-pub fn laws(ui: &mut Ui, app: &mut App, asks: &mut Vec<Ask>) {
-    let mut law = app.view.law;
-    palette(ui, &mut law, asks);
-    app.view.law = law;
+pub fn laws(ui: &mut Ui, law: &mut Effect, asks: &mut Vec<Ask>) {
+    palette(ui, law, asks);
 }
 
 /// The list of sources.
-pub fn sources(ui: &mut Ui, app: &mut App, asks: &mut Vec<Ask>) {
-    let Some(document) = &app.document else { return };
-    if let Some(source) = list(ui, &document.project, &app.view, asks) {
-        (app.view.source, app.view.dof) = (Some(source), None);
+pub fn sources(ui: &mut Ui, p: &Project, view: &mut View, asks: &mut Vec<Ask>) {
+    if let Some(source) = list(ui, p, view, asks) {
+        (view.source, view.dof) = (Some(source), None);
     }
 }
 

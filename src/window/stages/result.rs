@@ -8,7 +8,7 @@ use crate::plots::bars::Bar;
 use crate::plots::bode::Diagram;
 use crate::plots::{heatmap, tables};
 use crate::response::frequency_response::Quantity;
-use crate::window::app::App;
+use crate::window::opened::Opened;
 use crate::window::plots::{bars, hysteresis, table as tabled};
 use crate::window::solid;
 use crate::window::theme::{self, size, space};
@@ -21,41 +21,41 @@ use std::sync::Arc;
 const SHARE: f32 = 64.0;
 
 /// The answer, or what is shown in its place.
-fn ready(ui: &mut Ui, app: &mut App) -> Option<Arc<Outcome>> {
-    let document = app.document.as_ref()?;
-    identified::outcome(ui, &mut app.derived, document)
+fn ready(ui: &mut Ui, opened: &mut Opened<'_>) -> Option<Arc<Outcome>> {
+    let document = opened.document;
+    identified::outcome(ui, opened.derived, document)
 }
 
 /// The damping matrix as a heat map or as bars in space.
-pub fn matrix(ui: &mut Ui, app: &mut App) {
-    let Some(document) = &app.document else { return };
-    let Some(outcome) = identified::outcome_quietly(ui, &mut app.derived, document) else { return };
-    let (mut whole, mut in_space) = (app.view.whole_matrix, app.view.matrix_in_space);
+pub fn matrix(ui: &mut Ui, opened: &mut Opened<'_>) {
+    let document = opened.document;
+    let Some(outcome) = identified::outcome_quietly(ui, opened.derived, document) else { return };
+    let (mut whole, mut in_space) = (opened.view.whole_matrix, opened.view.matrix_in_space);
     heat(ui, &document.project, &outcome, &mut whole, &mut in_space);
-    (app.view.whole_matrix, app.view.matrix_in_space) = (whole, in_space);
+    (opened.view.whole_matrix, opened.view.matrix_in_space) = (whole, in_space);
 }
 
 /// Shares of the energy by source and by DOF.
-pub fn energy(ui: &mut Ui, app: &mut App) {
-    let Some(outcome) = ready(ui, app) else { return };
-    let Some(document) = &app.document else { return };
+pub fn energy(ui: &mut Ui, opened: &mut Opened<'_>) {
+    let Some(outcome) = ready(ui, opened) else { return };
+    let document = opened.document;
     shares(ui, &document.project, &outcome);
 }
 
 /// Damping ratios beside half-power values.
-pub fn damping(ui: &mut Ui, app: &mut App) {
-    let Some(outcome) = ready(ui, app) else { return };
+pub fn damping(ui: &mut Ui, opened: &mut Opened<'_>) {
+    let Some(outcome) = ready(ui, opened) else { return };
     ratios(ui, &outcome);
 }
 
 /// Magnitude and phase over frequency.
-pub fn bode(ui: &mut Ui, app: &mut App) {
-    response(ui, app, |diagram, ui, _| diagram.bode(ui));
+pub fn bode(ui: &mut Ui, opened: &mut Opened<'_>) {
+    response(ui, opened, |diagram, ui, _| diagram.bode(ui));
 }
 
 /// Imaginary over real part near the selected run.
-pub fn nyquist(ui: &mut Ui, app: &mut App) {
-    response(ui, app, |diagram, ui, run| {
+pub fn nyquist(ui: &mut Ui, opened: &mut Opened<'_>) {
+    response(ui, opened, |diagram, ui, run| {
         diagram.nyquist(ui, run);
     });
 }
@@ -190,37 +190,37 @@ fn ratios(ui: &mut Ui, outcome: &Outcome) {
         });
 }
 
-fn response(ui: &mut Ui, app: &mut App, draw: impl FnOnce(&Diagram<'_>, &mut Ui, f64)) {
-    if ready(ui, app).is_none() {
+fn response(ui: &mut Ui, opened: &mut Opened<'_>, draw: impl FnOnce(&Diagram<'_>, &mut Ui, f64)) {
+    if ready(ui, opened).is_none() {
         return;
     }
-    let Some(document) = &app.document else { return };
+    let document = opened.document;
     let p = &document.project;
-    match app.derived.response(ui.ctx(), document, &app.view) {
+    match opened.derived.response(ui.ctx(), document, opened.view) {
         None => ui.empty("The response is being computed", ""),
         Some(Err(error)) => ui.empty("There is no frequency response", &error),
         Some(Ok(response)) => {
             let labels = (p.structure.label(response.response), p.structure.label(response.excitation));
             ui.horizontal_wrapped(|ui| {
-                quantities(ui, &mut app.view.quantity);
+                quantities(ui, &mut opened.view.quantity);
                 ui.hint(format!("DOF {} for a force at DOF {}", labels.0, labels.1))
                     .on_hover_text("Select another DOF on the schematic.");
             });
-            let diagram = Diagram { project: p, response: &response, quantity: app.view.quantity };
-            let run = p.runs.get(app.view.run).map_or(1.0, |r| r.fit.omega);
+            let diagram = Diagram { project: p, response: &response, quantity: opened.view.quantity };
+            let run = p.runs.get(opened.view.run).map_or(1.0, |r| r.fit.omega);
             draw(&diagram, ui, run);
         }
     }
 }
 
 /// Loops of force over displacement of the selected run.
-pub fn hysteresis(ui: &mut Ui, app: &mut App) {
-    if ready(ui, app).is_none() {
+pub fn hysteresis(ui: &mut Ui, opened: &mut Opened<'_>) {
+    if ready(ui, opened).is_none() {
         return;
     }
-    let Some(document) = &app.document else { return };
-    let run = app.view.run;
-    match app.derived.loops(ui.ctx(), document, run) {
+    let document = opened.document;
+    let run = opened.view.run;
+    match opened.derived.loops(ui.ctx(), document, run) {
         None => ui.empty("The loops are being computed", ""),
         Some(Err(error)) => ui.empty("There are no loops", &error),
         Some(Ok(loops)) => {
@@ -232,9 +232,9 @@ pub fn hysteresis(ui: &mut Ui, app: &mut App) {
 }
 
 /// Everything identified as a table that can be copied.
-pub fn values(ui: &mut Ui, app: &mut App) {
-    let Some(outcome) = ready(ui, app) else { return };
-    let Some(document) = &app.document else { return };
+pub fn values(ui: &mut Ui, opened: &mut Opened<'_>) {
+    let Some(outcome) = ready(ui, opened) else { return };
+    let document = opened.document;
     let p = &document.project;
     ui.horizontal(|ui| {
         ui.hint("Coefficients with one standard deviation");

@@ -31,6 +31,8 @@ pub struct Order {
     pub key: Key,
     /// Whether the largest stands first.
     pub falling: bool,
+    /// Whether runs of one level stand together, in this order each.
+    pub by_level: bool,
     /// Words that file, level or flags of a run must hold.
     pub filter: String,
 }
@@ -60,11 +62,15 @@ impl Order {
         if self.falling {
             rows.reverse();
         }
+        if self.by_level {
+            rows.sort_by_key(|&r| p.runs[r].level);
+        }
         rows
     }
 
-    /// A field for the filter, where there are many runs, and how many are shown.
-    pub fn field(&mut self, ui: &mut Ui, shown: usize, all: usize) {
+    /// A field for the filter, where there are many runs, whether they stand together by level, and how many are shown.
+    pub fn field(&mut self, ui: &mut Ui, p: &Project, shown: usize) {
+        let all = p.runs.len();
         if all < MANY {
             return;
         }
@@ -73,6 +79,10 @@ impl Order {
             let field =
                 egui::TextEdit::singleline(&mut self.filter).hint_text("file, level or flag").desired_width(150.0);
             ui.add(field).labelled_by(label.id);
+            let levels = p.runs.iter().any(|r| r.level != p.runs[0].level);
+            if levels {
+                ui.checkbox(&mut self.by_level, "By level").on_hover_text("Runs of one force level stand together.");
+            }
             ui.hint(if shown == all { format!("{all} runs") } else { format!("{shown} of {all} runs") });
         });
         ui.add_space(space::XS);

@@ -5,9 +5,10 @@ use crate::display::{format, words};
 use crate::effects::State;
 use crate::exchange::Project;
 use crate::identify::{Outcome, Status, Step};
-use crate::window::app::{App, Ask};
+use crate::window::ask::Ask;
 use crate::window::commands::Command;
 use crate::window::edits::Edit;
+use crate::window::opened::Opened;
 use crate::window::plots::charts;
 use crate::window::theme::{self, size, space};
 use crate::window::view::View;
@@ -27,28 +28,28 @@ const CHI_SQUARE: f32 = 66.0;
 const PER_ROW: &str = "χ² per row";
 
 /// What the panes of the stage share: the answer and the step that is looked at.
-fn ready(ui: &mut Ui, app: &mut App, says_why: bool) -> Option<(Arc<Outcome>, usize)> {
-    let document = app.document.as_ref()?;
+fn ready(ui: &mut Ui, opened: &mut Opened<'_>, says_why: bool) -> Option<(Arc<Outcome>, usize)> {
+    let document = opened.document;
     let look = if says_why { identified::outcome } else { identified::outcome_quietly };
-    let outcome = look(ui, &mut app.derived, document)?;
-    let current = app.view.step.unwrap_or(outcome.accepted).min(outcome.steps.len().checked_sub(1)?);
+    let outcome = look(ui, opened.derived, document)?;
+    let current = opened.view.step.unwrap_or(outcome.accepted).min(outcome.steps.len().checked_sub(1)?);
     Some((outcome, current))
 }
 
 /// One row a step.
-pub fn steps(ui: &mut Ui, app: &mut App, asks: &mut Vec<Ask>) {
-    let Some((outcome, current)) = ready(ui, app, true) else { return };
-    let Some(document) = &app.document else { return };
-    let mut chosen = app.view.step;
+pub fn steps(ui: &mut Ui, opened: &mut Opened<'_>, asks: &mut Vec<Ask>) {
+    let Some((outcome, current)) = ready(ui, opened, true) else { return };
+    let document = opened.document;
+    let mut chosen = opened.view.step;
     header(ui, &outcome, current, asks);
     table(ui, &document.project, &outcome, current, &mut chosen);
-    app.view.step = chosen;
+    opened.view.step = chosen;
 }
 
 /// The set that is looked at, what cannot be told from it, and the alternatives of its size.
-pub fn set(ui: &mut Ui, app: &mut App, asks: &mut Vec<Ask>) {
-    let Some((outcome, current)) = ready(ui, app, false) else { return };
-    let Some(document) = &app.document else { return };
+pub fn set(ui: &mut Ui, opened: &mut Opened<'_>, asks: &mut Vec<Ask>) {
+    let Some((outcome, current)) = ready(ui, opened, false) else { return };
+    let document = opened.document;
     let p = &document.project;
     ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
         details(ui, p, &outcome.steps[current], asks);
@@ -60,16 +61,16 @@ pub fn set(ui: &mut Ui, app: &mut App, asks: &mut Vec<Ask>) {
 }
 
 /// Angle against the number of sources.
-pub fn angle(ui: &mut Ui, app: &mut App) {
-    let Some((outcome, current)) = ready(ui, app, false) else { return };
-    let Some(document) = &app.document else { return };
+pub fn angle(ui: &mut Ui, opened: &mut Opened<'_>) {
+    let Some((outcome, current)) = ready(ui, opened, false) else { return };
+    let document = opened.document;
     charts::angle(ui, &outcome, current, document.project.settings.stop_angle_deg);
 }
 
 /// Measured and identified energy of every run.
-pub fn energy(ui: &mut Ui, app: &mut App) {
-    let Some((outcome, current)) = ready(ui, app, false) else { return };
-    let Some(document) = &app.document else { return };
+pub fn energy(ui: &mut Ui, opened: &mut Opened<'_>) {
+    let Some((outcome, current)) = ready(ui, opened, false) else { return };
+    let document = opened.document;
     charts::energy(ui, &document.project, &outcome, current);
 }
 

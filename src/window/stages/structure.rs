@@ -6,7 +6,9 @@ use crate::exchange::Project;
 use crate::measurement::Quantity;
 use crate::plots::figure::{Axis, Figure, Look, Ticks};
 use crate::structure::modes::Modes;
-use crate::window::app::App;
+use crate::window::derived::Derived;
+use crate::window::document::Document;
+use crate::window::opened::Opened;
 use crate::window::plots::show::Stack;
 use crate::window::theme::space;
 use crate::window::widgets::UiExt;
@@ -19,17 +21,17 @@ use std::sync::Arc;
 const LEAST_FILE: f32 = 72.0;
 
 /// The modes, once they are there; else what is shown in their place.
-fn ready(ui: &mut Ui, app: &mut App) -> Option<Arc<Modes>> {
-    let document = app.document.as_ref()?;
+fn ready(ui: &mut Ui, opened: &mut Opened<'_>) -> Option<Arc<Modes>> {
+    let document = opened.document;
     if document.project.structure.matrices().is_none() {
         ui.empty("Points without a model", "No mass or stiffness is given: the energy balance needs none.");
         return None;
     }
-    match app.derived.modes(ui.ctx(), document) {
+    match opened.derived.modes(ui.ctx(), document) {
         None => ui.empty("Modes are being computed", "This takes a moment for large matrices."),
         Some(Err(error)) => ui.empty("There are no modes", &error),
         Some(Ok(modes)) => {
-            app.view.mode = app.view.mode.min(modes.len().saturating_sub(1));
+            opened.view.mode = opened.view.mode.min(modes.len().saturating_sub(1));
             return Some(modes);
         }
     }
@@ -37,12 +39,12 @@ fn ready(ui: &mut Ui, app: &mut App) -> Option<Arc<Modes>> {
 }
 
 /// The table of natural frequencies.
-pub fn modes(ui: &mut Ui, app: &mut App) {
-    let Some(modes) = ready(ui, app) else { return };
-    let Some(document) = &app.document else { return };
-    let mut mode = app.view.mode;
+pub fn modes(ui: &mut Ui, opened: &mut Opened<'_>) {
+    let Some(modes) = ready(ui, opened) else { return };
+    let document = opened.document;
+    let mut mode = opened.view.mode;
     table(ui, &document.project, &modes, &mut mode);
-    app.view.mode = mode;
+    opened.view.mode = mode;
 }
 
 /// The used run whose frequency is nearest to a mode, with its distance in per cent of the mode's frequency.
@@ -100,10 +102,10 @@ fn table(ui: &mut Ui, p: &Project, modes: &Modes, chosen: &mut usize) {
 }
 
 /// Natural frequencies as lines, runs as points.
-pub fn frequencies(ui: &mut Ui, app: &mut App) {
-    let Some(modes) = ready(ui, app) else { return };
-    let Some(document) = &app.document else { return };
-    let (p, mode, palette) = (&document.project, app.view.mode, ui.palette());
+pub fn frequencies(ui: &mut Ui, opened: &mut Opened<'_>) {
+    let Some(modes) = ready(ui, opened) else { return };
+    let document = opened.document;
+    let (p, mode, palette) = (&document.project, opened.view.mode, ui.palette());
     let runs: Vec<f64> = p.runs.iter().map(|r| r.fit.omega / TAU).collect();
     let highest = runs.iter().copied().fold(0.0, f64::max).max(modes.frequency_hz(2.min(modes.len() - 1)));
     let shown: Vec<usize> = (0..modes.len()).filter(|&r| modes.frequency_hz(r) <= 1.6 * highest).collect();
@@ -125,10 +127,10 @@ pub fn frequencies(ui: &mut Ui, app: &mut App) {
 }
 
 /// The translations of the selected mode as bars.
-pub fn shape(ui: &mut Ui, app: &mut App) {
-    let Some(modes) = ready(ui, app) else { return };
-    let Some(document) = &app.document else { return };
-    let (p, mode, palette) = (&document.project, app.view.mode, ui.palette());
+pub fn shape(ui: &mut Ui, opened: &mut Opened<'_>) {
+    let Some(modes) = ready(ui, opened) else { return };
+    let document = opened.document;
+    let (p, mode, palette) = (&document.project, opened.view.mode, ui.palette());
     let frequency = format::with_unit(modes.frequency_hz(mode), "Hz");
     let translations = p.structure.translations();
     let shape = upright(modes.shape(mode), &translations);
@@ -154,15 +156,14 @@ fn is_measured(p: &Project, dof: usize) -> bool {
 }
 
 /// What is measured, how the rest follows from it and how well.
-pub fn expansion(ui: &mut Ui, app: &mut App) {
-    let Some(document) = &app.document else { return };
+pub fn expansion(ui: &mut Ui, document: &Document, derived: &mut Derived) {
     let p = &document.project;
     let all: Vec<usize> = (0..p.structure.len()).collect();
     let labels: Vec<&str> = all.iter().filter(|&&d| is_measured(p, d)).map(|&d| p.structure.label(d)).collect();
     ui.pair("Measured DOFs", format!("{} of {}", labels.len(), p.structure.len()));
     ui.hint(labels.join(", "));
     ui.add_space(space::S);
-    let Some(outcome) = identified::outcome(ui, &mut app.derived, document) else { return };
+    let Some(outcome) = identified::outcome(ui, derived, document) else { return };
     ui.pair("Expansion to the others", words::expansion(outcome.expansion));
     ui.pair("Model error it allows for", format::percent(outcome.model_error));
     ui.add_space(space::S);

@@ -218,11 +218,15 @@ pub fn corrected(scene: &Scene<'_>, parameter: &UpdatingParameter) -> String {
 /// The end of the way: the model explains the data, and what brought it there.
 fn adequate(ui: &mut Ui, scene: &Scene<'_>, diagnosis: &Diagnosis) {
     let palette = ui.palette();
+    let spread = super::spread(scene.document, scene.explained).filter(|_| is_stuck(diagnosis));
     ui.add_space(space::M);
     ui.horizontal(|ui| {
         if is_stuck(diagnosis) {
-            let said = RichText::new("Something is left that nothing here explains");
-            ui.label(said.size(size::HEADING + 2.0).color(palette.warning));
+            let said = match spread {
+                Some(_) => "What is left is scatter from run to run",
+                None => "Something is left that nothing here explains",
+            };
+            ui.label(RichText::new(said).size(size::HEADING + 2.0).color(palette.warning));
             return;
         }
         let (area, _) = ui.allocate_exact_size(vec2(30.0, 30.0), Sense::hover());
@@ -235,7 +239,13 @@ fn adequate(ui: &mut Ui, scene: &Scene<'_>, diagnosis: &Diagnosis) {
         ui.label(RichText::new(said).size(size::HEADING + 2.0));
     });
     ui.add_space(space::XS);
-    ui.label(sentence(diagnosis));
+    let now = scene.explained.comparison(scene.document).and_then(|c| c.as_ref().ok());
+    ui.label(match (&spread, now) {
+        (Some(spread), _) => findings::scatter_sentence(diagnosis, spread),
+        // The error that stands elsewhere on the screen: a search predicts with other numbers of harmonics.
+        (None, Some(now)) if !is_detuned(diagnosis) => findings::explained(now.error, now.noise_floor),
+        _ => sentence(diagnosis),
+    });
     let ledger = &scene.explained.ledger;
     let path = ledger.path();
     if path.len() < 2 {

@@ -1,16 +1,13 @@
 //! Channels that were found to read wrongly: said before all else, each mended by one click.
 
 use super::deed::Deed;
-use super::scene::Scene;
 use crate::diagnosis::Diagnosis;
 use crate::diagnosis::channels::{ChannelFault, Fault};
 use crate::display::format::in_words;
-use crate::session::{Command, mending};
-use crate::window::app::{App, Ask};
-use crate::window::edits::Edit;
+use crate::window::app::Ask;
 use crate::window::theme::space;
 use crate::window::widgets::UiExt;
-use egui::{Align, Context, Layout, RichText, Ui};
+use egui::{Align, Layout, RichText, Ui};
 
 /// Shows the faults with the error before and after.
 pub fn show(ui: &mut Ui, diagnosis: &Diagnosis, asks: &mut Vec<Ask>) {
@@ -42,26 +39,4 @@ pub fn show(ui: &mut Ui, diagnosis: &Diagnosis, asks: &mut Vec<Ask>) {
 /// A channel that scatters has no mapping that mends it.
 fn is_mendable(fault: &ChannelFault) -> bool {
     !matches!(fault.fault, Fault::Unreliable(_))
-}
-
-/// Mends fault number `k` in the mapping; the search with the channel as it is then follows by itself.
-pub fn mend(app: &mut App, ctx: &Context, k: usize) {
-    match command(app, k) {
-        Some(Ok((words, command))) => {
-            app.edit(ctx, &Edit::Do(command));
-            if app.message.as_ref().is_none_or(|m| !m.failed) {
-                app.say(format!("Mended: {words}. Undo takes it back."));
-            }
-        }
-        Some(Err(error)) => app.fail(error),
-        None => {}
-    }
-}
-
-fn command(app: &App, k: usize) -> Option<Result<(String, Command), String>> {
-    let document = app.document.as_ref()?;
-    let scene = Scene { document, explained: &app.derived.explained };
-    let Some(Ok(diagnosis)) = scene.explained.diagnosis(document) else { return None };
-    let fault = diagnosis.channel_faults.get(k)?;
-    Some(mending::command(fault, &document.project).map(|command| (fault.words(), command)))
 }

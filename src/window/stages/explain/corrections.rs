@@ -5,14 +5,18 @@ use super::cards;
 use super::deed::Deed;
 use super::scene::Scene;
 use crate::diagnosis::Diagnosis;
+use crate::diagnosis::updating::correction::Correction;
 use crate::diagnosis::updating::scatter::{ChannelScatter, Estimated, RunScatter, Scatter};
 use crate::display::{findings, format};
 use crate::session::corrections::adopt;
-use crate::window::app::{App, Ask};
+use crate::window::ask::Ask;
+use crate::window::opened::Opened;
 use crate::window::theme::{self, size, space};
 use crate::window::widgets::{UiExt, folded};
-use egui::{Align, Align2, Layout, Rect, Role, ScrollArea, Sense, Ui, WidgetInfo, pos2, vec2};
+use egui::{Align, Align2, CollapsingHeader, Layout, Rect, Role, ScrollArea, Sense, Ui, WidgetInfo, pos2, vec2};
 
+/// Corrections of the model that are seen at once: those that stand out most.
+const MOST: usize = 8;
 /// Deviations at the ends of a bar.
 const ENDS: f64 = 8.0;
 /// Deviations from which on a value is no scatter.
@@ -25,10 +29,10 @@ const VALUE: f32 = 128.0;
 const BUTTON: f32 = 72.0;
 
 /// Shows the pane.
-pub fn show(ui: &mut Ui, app: &mut App, asks: &mut Vec<Ask>) {
-    app.view.explain.scatter_shown = true;
-    let Some(document) = &app.document else { return };
-    let scene = Scene { document, explained: &app.derived.explained };
+pub fn show(ui: &mut Ui, opened: &mut Opened<'_>, asks: &mut Vec<Ask>) {
+    opened.view.explain.scatter_shown = true;
+    let document = opened.document;
+    let scene = Scene { document, explained: &opened.derived.explained };
     let Some(Ok(diagnosis)) = scene.explained.diagnosis(document) else {
         ui.empty("The search comes first", "What the data say of model, channels and runs follows when it has ended.");
         return;
@@ -39,8 +43,8 @@ pub fn show(ui: &mut Ui, app: &mut App, asks: &mut Vec<Ask>) {
             Some(Ok(scatter)) => {
                 if let Some(scatter) = scatter.as_ref() {
                     channels(ui, scatter, asks);
-                    if let Some(run) = runs(ui, scatter, app.view.run) {
-                        app.view.run = run;
+                    if let Some(run) = runs(ui, scatter, opened.view.run) {
+                        opened.view.run = run;
                     }
                 }
             }
@@ -135,17 +139,30 @@ fn model(ui: &mut Ui, scene: &Scene<'_>, diagnosis: &Diagnosis, asks: &mut Vec<A
         ui.add_space(space::S);
         return;
     }
-    let (document, known) = (scene.document, |k: usize| scene.explained.known(scene.document, k));
-    for (k, correction) in diagnosis.corrections.iter().enumerate() {
-        let name = cards::corrected(scene, &correction.parameter);
-        let deviations = (correction.factor - 1.0) / correction.deviation.max(f64::MIN_POSITIVE);
-        let row = Row { name: &name, value: findings::change(correction), deviations };
-        let adopted = adopt(std::slice::from_ref(correction), &known, document.session().document());
-        if row.show(ui, Some((&name, !adopted.commands.is_empty()))) {
-            asks.push(Ask::Explain(Deed::CorrectOne(k)));
-        }
+    let telling = findings::telling(&diagnosis.corrections, MOST);
+    let is_telling = |c: &Correction| telling.iter().any(|t| std::ptr::eq(*t, c));
+    let all = || diagnosis.corrections.iter().enumerate();
+    all().filter(|(_, c)| is_telling(c)).for_each(|(k, c)| correction(ui, scene, (k, c), asks));
+    let others = diagnosis.corrections.len() - telling.len();
+    if others > 0 {
+        let named = format!("{others} more, nearer to what the project states");
+        CollapsingHeader::new(named).id_salt("other corrections").show(ui, |ui| {
+            all().filter(|(_, c)| !is_telling(c)).for_each(|(k, c)| correction(ui, scene, (k, c), asks));
+        });
     }
     ui.add_space(space::S);
+}
+
+/// One correction, by its place in the list, with the button that takes it over.
+fn correction(ui: &mut Ui, scene: &Scene<'_>, (k, correction): (usize, &Correction), asks: &mut Vec<Ask>) {
+    let known = |k: usize| scene.explained.known(scene.document, k);
+    let name = cards::corrected(scene, &correction.parameter);
+    let deviations = (correction.factor - 1.0) / correction.deviation.max(f64::MIN_POSITIVE);
+    let row = Row { name: &name, value: findings::change(correction), deviations };
+    let adopted = adopt(std::slice::from_ref(correction), &known, scene.document.session().document());
+    if row.show(ui, Some((&name, !adopted.commands.is_empty()))) {
+        asks.push(Ask::Explain(Deed::CorrectOne(k)));
+    }
 }
 
 fn channels(ui: &mut Ui, scatter: &Scatter, asks: &mut Vec<Ask>) {

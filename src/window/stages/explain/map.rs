@@ -14,6 +14,8 @@ use egui::{
 /// Most cells that are nodes of their own for screen readers.
 const MANY: usize = 800;
 const HEAD: f32 = 18.0;
+/// Room under the last row for the outline of a cell, points.
+const FOOT: f32 = 3.0;
 /// Room about the number in a cell, and least size of a cell that has one, points.
 const ABOUT: f32 = 5.0;
 const READABLE: Vec2 = vec2(20.0, 13.0);
@@ -43,9 +45,9 @@ impl Map<'_> {
         let (columns, rows) = (self.grid.runs.len().max(1) as f32, self.grid.channels.len().max(1) as f32);
         let cell = vec2(
             ((ui.available_width() - label - 2.0) / columns).clamp(7.0, 64.0),
-            ((most - HEAD) / rows).clamp(12.0, 26.0),
+            ((most - HEAD - FOOT) / rows).clamp(12.0, 26.0),
         );
-        let extent = vec2(label + columns * cell.x, HEAD + rows * cell.y);
+        let extent = vec2(label + columns * cell.x, HEAD + rows * cell.y + FOOT);
         let mut clicked = None;
         ScrollArea::both().id_salt("map").max_height(most.max(HEAD + 24.0)).auto_shrink([false, true]).show(ui, |ui| {
             let (area, response) = ui.allocate_exact_size(extent, Sense::click());
@@ -183,7 +185,7 @@ fn figures() -> FontId {
 
 /// Height of a map whose cells are `cell` points high.
 pub fn height(grid: &Grid, cell: f32) -> f32 {
-    HEAD + cell * grid.channels.len().max(1) as f32
+    HEAD + cell * grid.channels.len().max(1) as f32 + FOOT
 }
 
 /// Where cells stand.

@@ -14,8 +14,9 @@ use crate::plots::error_map::{ENERGY, Grid, Scale};
 use crate::plots::response_curve::Curve;
 use crate::plots::samples;
 use crate::session::validation::only_records;
-use crate::window::app::{App, Ask};
-use crate::window::explained::cache::Cached;
+use crate::window::ask::Ask;
+use crate::window::cache::Cached;
+use crate::window::opened::Opened;
 use crate::window::theme::{size, space};
 use crate::window::widgets::UiExt;
 use egui::{Align, Label, Layout, RichText, Ui};
@@ -62,31 +63,31 @@ impl<'a> Shown<'a> {
 }
 
 /// The error map with its legend.
-pub fn error_map(ui: &mut Ui, app: &mut App, asks: &mut Vec<Ask>) {
-    let Some(document) = &app.document else { return };
+pub fn error_map(ui: &mut Ui, opened: &mut Opened<'_>, asks: &mut Vec<Ask>) {
+    let document = opened.document;
     let p = &document.project;
     if p.runs.is_empty() && !only_records(p) {
         ui.empty("Nothing to compare with", "Import measurements: runs, decays or frequency responses.");
         return;
     }
-    let scene = Scene { document, explained: &app.derived.explained };
-    let mut look = app.view.explain.clone();
+    let scene = Scene { document, explained: &opened.derived.explained };
+    let mut look = opened.view.explain.clone();
     let before = look.clone();
     let Some(shown) = Shown::new(ui, &scene, &before, asks) else { return };
     let previewed = shown.tried().unwrap_or(shown.comparison);
     let grid = Grid::new(previewed, look.worst_first);
     let scale = Scale::new(scene.explained.ledger.least_floor(), scene.explained.ledger.worst());
     head(ui, &mut look, previewed);
-    let outcome = app.derived.known_outcome(document).and_then(|o| o.as_ref().ok());
+    let outcome = opened.derived.known_outcome(document).and_then(Result::ok);
     if shown.trial.is_none() {
-        not_taken_over(ui, &scene, outcome.map(Arc::as_ref), asks);
+        not_taken_over(ui, &scene, outcome.as_deref(), asks);
     }
     if let Some((source, tried)) = shown.trial {
         preview(ui, &scene, source, shown.comparison, tried, asks);
     }
     let records = p.runs.is_empty();
-    let run = app.view.run.min(if records { p.transient_runs.len() } else { p.runs.len() }.saturating_sub(1));
-    let name = if records { look.record.clone() } else { samples::selected(p, run, app.view.channel) };
+    let run = opened.view.run.min(if records { p.transient_runs.len() } else { p.runs.len() }.saturating_sub(1));
+    let name = if records { look.record.clone() } else { samples::selected(p, run, opened.view.channel) };
     let selected = if grid.channels[0] == ENERGY { Some(ENERGY) } else { name.as_deref() };
     let selected = selected.map(|channel| (run, channel));
     let map = Map { project: p, grid: &grid, scale, selected, stale: shown.stale };
@@ -102,14 +103,14 @@ pub fn error_map(ui: &mut Ui, app: &mut App, asks: &mut Vec<Ask>) {
         legend.on_hover_text(said);
     }
     let worst = || grid.runs.first().zip(grid.channels.first()).map(|(run, channel)| (*run, channel.clone()));
-    let first = !before.chosen && before.worst_first && app.view.run == 0;
+    let first = !before.chosen && before.worst_first && opened.view.run == 0;
     look.chosen = true;
     if let Some((run, channel)) = clicked.or_else(|| worst().filter(|_| first)) {
-        app.view.channel = samples::index(p, run, &channel).unwrap_or(app.view.channel);
-        app.view.run = run;
+        opened.view.channel = samples::index(p, run, &channel).unwrap_or(opened.view.channel);
+        opened.view.run = run;
         look.record = Some(channel);
     }
-    app.view.explain = look;
+    opened.view.explain = look;
 }
 
 /// Height of the legend of the map, and of the sentence under it, points.
@@ -146,11 +147,11 @@ fn left_over(comparison: &Comparison) -> String {
 }
 
 /// Measured against model in the selected cell.
-pub fn cell(ui: &mut Ui, app: &mut App, asks: &mut Vec<Ask>) {
-    let Some(document) = &app.document else { return };
+pub fn cell(ui: &mut Ui, opened: &mut Opened<'_>, asks: &mut Vec<Ask>) {
+    let document = opened.document;
     let p = &document.project;
-    let scene = Scene { document, explained: &app.derived.explained };
-    let mut look = app.view.explain.clone();
+    let scene = Scene { document, explained: &opened.derived.explained };
+    let mut look = opened.view.explain.clone();
     let before = look.clone();
     let Some(shown) = Shown::new(ui, &scene, &before, asks) else { return };
     if shown.comparison.runs.iter().all(|r| r.channels.is_empty()) {
@@ -158,11 +159,11 @@ pub fn cell(ui: &mut Ui, app: &mut App, asks: &mut Vec<Ask>) {
         return;
     }
     if p.runs.is_empty() {
-        super::decay::show(ui, document, scene.explained, (look.trial.as_ref(), app.view.run));
+        super::decay::show(ui, document, scene.explained, (look.trial.as_ref(), opened.view.run));
         return;
     }
-    let run = app.view.run.min(p.runs.len().saturating_sub(1));
-    let Some(name) = samples::selected(p, run, app.view.channel) else {
+    let run = opened.view.run.min(p.runs.len().saturating_sub(1));
+    let Some(name) = samples::selected(p, run, opened.view.channel) else {
         ui.empty("No motion", "The selected run measures forces only.");
         return;
     };
@@ -179,21 +180,21 @@ pub fn cell(ui: &mut Ui, app: &mut App, asks: &mut Vec<Ask>) {
         trial_curves: other.as_deref().map_or(&[][..], Vec::as_slice),
     };
     detail.show(ui, &mut look);
-    app.view.explain = look;
+    opened.view.explain = look;
 }
 
 /// What is missing?
-pub fn missing(ui: &mut Ui, app: &mut App, asks: &mut Vec<Ask>) {
-    let Some(document) = &app.document else { return };
-    let mut look = app.view.explain.clone();
-    cards::show(ui, &Scene { document, explained: &app.derived.explained }, &mut look, app.view.limit_s, asks);
-    app.view.explain = look;
+pub fn missing(ui: &mut Ui, opened: &mut Opened<'_>, asks: &mut Vec<Ask>) {
+    let document = opened.document;
+    let mut look = opened.view.explain.clone();
+    cards::show(ui, &Scene { document, explained: &opened.derived.explained }, &mut look, opened.view.limit_s, asks);
+    opened.view.explain = look;
 }
 
 /// The way so far.
-pub fn way(ui: &mut Ui, app: &App, asks: &mut Vec<Ask>) {
-    let Some(document) = &app.document else { return };
-    ledger::show(ui, &Scene { document, explained: &app.derived.explained }, asks);
+pub fn way(ui: &mut Ui, opened: &Opened<'_>, asks: &mut Vec<Ask>) {
+    let document = opened.document;
+    ledger::show(ui, &Scene { document, explained: &opened.derived.explained }, asks);
 }
 
 /// Title and order of the map.

@@ -7,7 +7,8 @@ pub use choice::{Along, Choice, Error};
 use crate::classical::incompleteness::{Case, Incompleteness, METHODS};
 use crate::classical::method::Method;
 use crate::plots::figure::{Axis, Figure, Look, Ticks};
-use crate::window::app::App;
+use crate::window::derived::Derived;
+use crate::window::document::Document;
 use crate::window::plots::show::Stack;
 use crate::window::theme::{Palette, size};
 use crate::window::widgets::UiExt;
@@ -19,14 +20,12 @@ const LEAST: f64 = 1e-3;
 const NAMED: usize = 8;
 
 /// Shows the plot under its choices.
-pub fn show(ui: &mut Ui, app: &mut App) {
-    let Some(document) = &app.document else { return };
-    let study = match app.derived.incompleteness(ui.ctx(), document) {
+pub fn show(ui: &mut Ui, document: &Document, derived: &mut Derived, choice: &mut Choice) {
+    let study = match derived.incompleteness(ui.ctx(), document) {
         Some(Ok(study)) => study,
         Some(Err(error)) => return ui.empty("Nothing to study", &error),
         None => return ui.empty("The study is running", "Its progress is in the bar below."),
     };
-    let choice = &mut app.view.incompleteness;
     choice.set = choice.set.min(study.sensors.len().saturating_sub(1));
     let with_mac = study.cases.iter().flat_map(|c| &c.methods).flatten().any(|e| e.mac.is_some());
     ui.horizontal_wrapped(|ui| {
