@@ -1,16 +1,16 @@
 //! A limit to the time that a computation may take: then it answers with the best that it has.
 
-use super::validation::only_records;
+use super::validation::has_records;
 use crate::control::Control;
 use crate::exchange::Project;
 use std::time::Duration;
 
-/// Share of a limit after which the search of records ends: the fits of whole records by which it concludes take the rest.
+/// Share of a limit after which a search in which records take part ends: the fits of whole records by which it concludes take the rest.
 const OF_RECORDS: f64 = 0.65;
 
 /// Hurries the search of a project, so that it answers within about `limit`.
 pub fn answer_within(control: &Control, project: &Project, limit: Duration) {
-    hurry_after(control, if only_records(project) { limit.mul_f64(OF_RECORDS) } else { limit });
+    hurry_after(control, if has_records(project) { limit.mul_f64(OF_RECORDS) } else { limit });
 }
 
 /// Hurries the work of `control` once `time` has passed.
