@@ -234,8 +234,7 @@ fn apply(file: &Path, out: &Path, written: &Written, diagnosis: &Diagnosis) -> a
     }
     let folder = out.parent().unwrap_or(Path::new(""));
     let text = text_after(&document.file_in(folder)?, Some(file))?;
-    crate::exchange::atomic::write_atomically(out, text.as_bytes())
-        .with_context(|| out.display().to_string())
+    crate::exchange::atomic::write_atomically(out, text.as_bytes()).with_context(|| out.display().to_string())
 }
 
 /// The document with an effect added.

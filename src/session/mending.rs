@@ -53,7 +53,8 @@ fn of_records(project: &Project) -> Vec<String> {
 /// Mends the mapping of the channels: their `[[channel]]`, those that are written for all channels of the records, and the
 /// `[frf.dofs]`.
 pub(super) fn mend(file: &mut ProjectFile, mending: &Mending, on: &Structure) -> Result<(), Refusal> {
-    let cannot = |reason: &str| Refusal::NotMended { channel: mending.channels.join(" and "), reason: reason.to_owned() };
+    let cannot =
+        |reason: &str| Refusal::NotMended { channel: mending.channels.join(" and "), reason: reason.to_owned() };
     if !file.harmonics.is_empty() {
         return Err(cannot("its harmonics were fitted elsewhere; mend their file"));
     }

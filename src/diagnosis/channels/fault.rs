@@ -99,7 +99,10 @@ fn common_words(channels: &[String], factor: f64) -> String {
     let (look, read) = if channels.len() == 1 { ("looks", "reads") } else { ("look", "read") };
     let size = factor.abs();
     if size == 1.0 {
-        return format!("{who} {look} reversed against the {}", if name.starts_with("force@") { "motions" } else { "force" });
+        return format!(
+            "{who} {look} reversed against the {}",
+            if name.starts_with("force@") { "motions" } else { "force" }
+        );
     }
     let turned = if factor < 0.0 { format!(" {look} reversed and") } else { String::new() };
     let (times, which) = if size > 1.0 { (size, "large") } else { (1.0 / size, "small") };

@@ -131,7 +131,8 @@ impl Walk<'_> {
         if first >> 16 != 0 {
             let (kind, size) = (first & 0xFFFF, (first >> 16) as usize);
             if size > 4 {
-                let problem = format!("a part of {size} bytes is said to be in four; the file is damaged: save it again");
+                let problem =
+                    format!("a part of {size} bytes is said to be in four; the file is damaged: save it again");
                 return Err(Fault::new(problem));
             }
             return Ok((kind, size as u64, Some(tag[4..4 + size].to_vec())));
