@@ -86,7 +86,7 @@ fn records_that_are_not_steady_are_drawn_too() {
     let folder = tempfile::tempdir().unwrap();
     let out = |name: &str| folder.path().join(name);
     let decay = sample("decay-friction");
-    for kind in ["record", "amplitude", "error-map", "angle", "shares", "matrix"] {
+    for kind in ["record", "spectrum", "spectrogram", "amplitude", "error-map", "angle", "shares", "matrix"] {
         let svg = written(&["plot", "--what", kind], &decay, &out("plot.svg"));
         assert!(svg.starts_with("<?xml") && svg.contains("<text"), "{kind}");
     }
@@ -96,7 +96,7 @@ fn records_that_are_not_steady_are_drawn_too() {
     assert!(samples.lines().count() > 500, "{}", samples.lines().count());
     let amplitude = written(&["plot", "--what", "amplitude"], &decay, &out("amplitude.svg"));
     assert!(amplitude.contains("Damping ratio") && amplitude.contains(">model<"), "measured and modelled");
-    for kind in ["spectrum", "channel", "period", "nyquist", "hysteresis", "overview"] {
+    for kind in ["energy", "channel", "period", "nyquist", "hysteresis", "overview"] {
         let refused = dashpot(&["plot", "--what", kind], &decay, &out("x.svg"));
         let said = String::from_utf8(refused.stderr).unwrap();
         assert_eq!(refused.status.code(), Some(1), "{kind}: {said}");
@@ -106,7 +106,7 @@ fn records_that_are_not_steady_are_drawn_too() {
         );
     }
     let loops = sample("damper-loops");
-    for kind in ["record", "hysteresis", "error-map"] {
+    for kind in ["hysteresis", "error-map"] {
         let svg = written(&["plot", "--what", kind], &loops, &out("loop.svg"));
         assert!(svg.starts_with("<?xml"), "{kind}");
     }
