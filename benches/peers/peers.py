@@ -197,9 +197,11 @@ def worst(found, truth):
     return max(abs(ratio / true - 1) for (_, ratio), (_, true) in zip(nearest, truth))
 
 
-def residual(problem, picked):
+def residual(problem, picked, signs_free=False):
+    """What a set of columns leaves of the right-hand side."""
     a, b = np.array(problem["a"])[:, picked], np.array(problem["b"])
-    return nnls(a, b)[1] / np.linalg.norm(b)
+    left = np.linalg.norm(a @ np.linalg.lstsq(a, b, rcond=None)[0] - b) if signs_free else nnls(a, b)[1]
+    return left / np.linalg.norm(b)
 
 
 def table(rows):
@@ -236,7 +238,7 @@ def main():
     p, found = problems["subset"], ours["subset"]
     answer = by_abess(p, p["size"])
     if answer:
-        rows.append(("best 5 of 90 columns, 24 rows", "abess", answer[1], f"residual {residual(p, answer[0]):.4%}", found["seconds"], f"{residual(p, found['columns']):.4%}" + (", proved" if found["proved"] else "")))
+        rows.append(("best 5 of 90 columns, 24 rows", "abess", answer[1], f"residual {residual(p, answer[0], signs_free=True):.4%}, signs free", found["seconds"], f"{residual(p, found['columns']):.4%}" + (", proved" if found["proved"] else "")))
 
     start = omega * (1 + 2e-4)
     (peer_omega, peer_amplitudes), seconds = timed(lambda: fit_by_least_squares(steady_problem, start), 3)
@@ -246,7 +248,7 @@ def main():
     rows.append(("frequency and harmonics, 8 channels x 5000 samples", "scipy least_squares, told the frequency to 2e-4", seconds, f"{abs(peer_omega / omega - 1):.1e}, {off(peer_amplitudes):.1e}", own["seconds"], f"{abs(own['omega'] / omega - 1):.1e}, {off(own_amplitudes):.1e}"))
 
     exact = integrate(1e-12)
-    for tolerance, answer in zip((1e-6, 1e-9), ours["oscillator"]):
+    for tolerance, answer in zip((1e-3, 1e-4), ours["oscillator"]):
         x, seconds = timed(lambda: integrate(tolerance), 3)
         peer_off, own_off = (np.abs(np.array(v) - exact).max() / OSCILLATOR["x0"] for v in (x, answer["x"]))
         rows.append((f"Duffing decay, 15 279 samples, four derivatives, {answer['substeps']} steps a sample", f"scipy solve_ivp DOP853, rtol {tolerance:.0e}", seconds, f"{peer_off:.1e}", answer["seconds"], f"{own_off:.1e}"))
@@ -257,7 +259,7 @@ def main():
     answer = by_pyema(truth)
     if answer:
         found, seconds = answer
-        rows.append(("damping ratios of four modes from responses with 2 % noise", "pyEMA, poly-reference LSCF, a band a mode", seconds, f"{worst(found, truth):.2%}", seconds_own, f"{worst(own, truth):.2%} (with the places of the dashpots)"))
+        rows.append(("damping ratios of four modes from responses of four sensors with 2 % noise (ours: two references, 8 averages)", "pyEMA, poly-reference LSCF, a band a mode", seconds, f"{worst(found, truth):.2%}", seconds_own, f"{worst(own, truth):.2%} (with the places of the dashpots)"))
     table(rows)
     print(f"\nPython {sys.version.split()[0]}, NumPy {np.__version__}", file=sys.stderr)
 
