@@ -2,7 +2,6 @@
 //!
 //! In JSON a command is an object with one key, such as `{"add_source": {"law": "viscous", "dofs": ["3"]}}`.
 
-use super::mending::Mending;
 use crate::balance::{Expansion, Weights};
 use crate::effects::{Effect, Family, State};
 use crate::exchange::project::correction::CorrectionTable;
@@ -67,6 +66,20 @@ pub struct EffectAt {
     /// Channel of an error of the measuring chain, such as `acc@7`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub channel: Option<String>,
+}
+
+/// What is wrong with channels, and how the records name theirs.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Mending {
+    /// Channels, such as `acc@7`: those that read `factor` times too large, or the two that are exchanged.
+    pub channels: Vec<String>,
+    /// How many times too large they read, negative where they are reversed; none where they are exchanged.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub factor: Option<f64>,
+    /// Names of the channels of the records, for a project that has no `[[channel]]` yet.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub records: Vec<String>,
 }
 
 /// A setting of the analysis and its new value.

@@ -1,7 +1,7 @@
 //! What becomes of a fault of a measuring channel: its mapping is mended. The command line and the window mend by the same
 //! command.
 
-use super::command::Command;
+use super::command::{Command, Mending};
 use super::refusal::Refusal;
 use crate::diagnosis::channels::{ChannelFault, Fault};
 use crate::exchange::Project;
@@ -10,21 +10,6 @@ use crate::exchange::project::file::{Label, ProjectFile};
 use crate::exchange::project::frf::FrfTable;
 use crate::measurement::channel::parse_name;
 use crate::structure::{Direction, Structure};
-use serde::{Deserialize, Serialize};
-
-/// What is wrong with channels, and how the records name theirs.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Mending {
-    /// Channels, such as `acc@7`: those that read `factor` times too large, or the two that are exchanged.
-    pub channels: Vec<String>,
-    /// How many times too large they read, negative where they are reversed; none where they are exchanged.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub factor: Option<f64>,
-    /// Names of the channels of the records, for a project that has no `[[channel]]` yet.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub records: Vec<String>,
-}
 
 /// The command that mends a fault.
 ///
@@ -115,14 +100,16 @@ fn in_responses(table: &mut FrfTable, mending: &Mending, on: &Structure) -> Resu
         Some(factor) if of_force || mending.channels.len() > 1 => {
             let scale = table.scale.unwrap_or(1.0);
             table.scale = Some(if of_force { scale * factor } else { scale / factor });
-            return Ok(());
+            Ok(())
         }
-        Some(factor) if factor != -1.0 => {
-            return Err("frequency responses have no factor a channel; mend the file".to_owned());
-        }
-        _ => {}
+        Some(factor) if factor != -1.0 => Err("frequency responses have no factor a channel; mend the file".to_owned()),
+        _ => turn_or_exchange(table, &labels, mending.factor.is_some(), on),
     }
-    for label in &labels {
+}
+
+/// Turns DOFs of frequency responses, or exchanges two of them.
+fn turn_or_exchange(table: &mut FrfTable, labels: &[&str], turn: bool, on: &Structure) -> Result<(), String> {
+    for label in labels {
         if !table.dofs.values().any(|known| known.0.trim_start_matches('-') == *label) {
             let key = of_file(on, label).ok_or_else(|| format!("DOF {label} has no node and direction"))?;
             table.dofs.insert(key, Label((*label).to_owned()));
@@ -131,10 +118,8 @@ fn in_responses(table: &mut FrfTable, mending: &Mending, on: &Structure) -> Resu
     for known in table.dofs.values_mut() {
         let (minus, plain) = (known.0.starts_with('-'), known.0.trim_start_matches('-').to_owned());
         let Some(at) = labels.iter().position(|label| *label == plain) else { continue };
-        let (minus, plain) = match mending.factor {
-            Some(_) => (!minus, plain),
-            None => (minus, labels.get(1 - at.min(1)).map_or(plain, |other| (*other).to_owned())),
-        };
+        let other = labels.get(1 - at.min(1)).map_or(plain.clone(), |other| (*other).to_owned());
+        let (minus, plain) = if turn { (!minus, plain) } else { (minus, other) };
         known.0 = if minus { format!("-{plain}") } else { plain };
     }
     Ok(())

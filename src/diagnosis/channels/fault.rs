@@ -74,10 +74,10 @@ impl ChannelFault {
         }
         let [before, after] = self.own_error.map(percent);
         if let Fault::Common(_) = self.fault {
+            let [shown, of] = self.frequencies;
             return format!(
-                "the motions over the force are off by the same factor at all {} frequencies, on and beside the resonances: their \
-                 error falls from {before} % to {after} %",
-                self.frequencies[1]
+                "most runs say so, at {shown} of {of} frequencies, beside the resonances too: the median of their errors falls from \
+                 {before} % to {after} %"
             );
         }
         let [shown, of] = self.frequencies;
@@ -159,7 +159,7 @@ fn misreadings() -> Vec<Misreading> {
     .collect()
 }
 
-fn quantity_of(name: &str) -> Option<Quantity> {
+pub(super) fn quantity_of(name: &str) -> Option<Quantity> {
     Quantity::from_word(name.split('@').next().unwrap_or_default())
 }
 

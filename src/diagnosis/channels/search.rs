@@ -208,15 +208,15 @@ fn transformed(cells: &Cells, hypothesis: &Hypothesis) -> Vec<c64> {
     measured
 }
 
-pub(super) fn word(name: &str) -> &str {
+fn word(name: &str) -> &str {
     name.split('@').next().unwrap_or_default()
 }
 
-pub(super) fn mean(values: &[f64]) -> f64 {
+fn mean(values: &[f64]) -> f64 {
     if values.is_empty() { 0.0 } else { values.iter().sum::<f64>() / values.len() as f64 }
 }
 
-pub(super) fn median(values: &[f64]) -> f64 {
+fn median(values: &[f64]) -> f64 {
     let mut values = values.to_vec();
     let middle = values.len() / 2;
     if values.is_empty() { 0.0 } else { *values.select_nth_unstable_by(middle, f64::total_cmp).1 }

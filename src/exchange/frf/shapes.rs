@@ -39,30 +39,50 @@ pub fn read_shapes(
     if raw.is_empty() {
         return Err(at(FrfProblem::NoShapes));
     }
-    // Programs write zeros where nothing was measured.
-    let moves = |dof: &uff::Dof| {
-        raw.iter().flat_map(|shape| &shape.at).any(|(other, value)| other == dof && value.norm() > 0.0)
-    };
-    let mut places: BTreeMap<(i64, i64), Option<(usize, f64)>> = BTreeMap::new();
+    let mut places = Places { raw: &raw, dofs, structure, known: BTreeMap::new() };
     let mut shapes = Vec::new();
     for shape in &raw {
+        let at = places.at(shape);
+        if at.iter().any(|(_, value)| value.norm() > 0.0) {
+            let Raw { kind, frequency_hz, damping_ratio, .. } = *shape;
+            let name = format!("{name}, {}", shape.name);
+            shapes.push(ReferenceShape { name, kind, frequency_hz, damping_ratio, at });
+        }
+    }
+    if shapes.is_empty() { Err(at(FrfProblem::ShapesElsewhere)) } else { Ok(shapes) }
+}
+
+/// Where the DOFs of a file lie in the structure.
+struct Places<'a> {
+    raw: &'a [Raw],
+    dofs: &'a BTreeMap<String, String>,
+    structure: &'a Structure,
+    /// Row and sign by node and direction; none where the structure has no such DOF, or no shape moves there.
+    known: BTreeMap<(i64, i64), Option<(usize, f64)>>,
+}
+
+impl Places<'_> {
+    /// A shape at the DOFs of the structure, each once.
+    fn at(&mut self, shape: &Raw) -> Vec<(usize, c64)> {
         let mut found: Vec<(usize, c64)> = Vec::new();
         for (dof, value) in &shape.at {
-            let known = places.entry((dof.node, dof.direction));
-            let known = known.or_insert_with(|| place(dof, dofs, structure).ok().filter(|_| moves(dof)));
-            if let Some((row, sign)) = *known
+            if let Some((row, sign)) = self.of(dof)
                 && found.iter().all(|(other, _)| *other != row)
             {
                 found.push((row, value * sign));
             }
         }
-        if found.iter().any(|(_, value)| value.norm() > 0.0) {
-            let Raw { kind, frequency_hz, damping_ratio, .. } = *shape;
-            let name = format!("{name}, {}", shape.name);
-            shapes.push(ReferenceShape { name, kind, frequency_hz, damping_ratio, at: found });
-        }
+        found
     }
-    if shapes.is_empty() { Err(at(FrfProblem::ShapesElsewhere)) } else { Ok(shapes) }
+
+    fn of(&mut self, dof: &uff::Dof) -> Option<(usize, f64)> {
+        // Programs write zeros where nothing was measured.
+        let mut values = self.raw.iter().flat_map(|shape| &shape.at).filter(|(other, _)| other == dof);
+        let known = self.known.entry((dof.node, dof.direction));
+        *known.or_insert_with(|| {
+            place(dof, self.dofs, self.structure).ok().filter(|_| values.any(|(_, value)| value.norm() > 0.0))
+        })
+    }
 }
 
 /// Whether a Universal File holds a mode or an operating shape.

@@ -22,6 +22,7 @@ mod parse;
 pub mod plan;
 mod reader;
 mod reduce;
+mod reference_shapes;
 pub mod relocate;
 pub mod rewrite;
 pub mod ruled_out;

@@ -5,7 +5,7 @@ use super::excitation::ExcitationTable;
 use super::file::{BaseResponse, Lines, ProjectFile, RunTable, SimulateTable};
 use super::kept;
 use super::label::Label;
-use super::modes;
+use super::reference_shapes;
 use super::ruled_out_sources::ruled_out;
 use super::sources::{At, line, sensors, sources};
 use super::structure::structure;
@@ -163,7 +163,7 @@ pub fn plan(text: &str, path: &Path) -> Result<Plan, ProjectError> {
     let sensors = sensors(&file.sensor, &structure, at)?;
     let ruled_out = ruled_out(&file.ruled_out, &structure, at)?;
     let runs = runs(&file, &structure, folder, at)?;
-    let reference_shapes = modes::shapes(&file, &lines, &structure, path)?;
+    let reference_shapes = reference_shapes::shapes(&file, &lines, &structure, path)?;
     recorded(&file.simulate.channels, &structure).map_err(|problem| at.error(lines.simulate, problem))?;
     let path = path.to_owned();
     Ok(Plan { path, file, structure, sources, sensors, ruled_out, reference_shapes, runs, lines })

@@ -121,8 +121,6 @@ fn of_other_programs(ui: &mut Ui, beside: &[Beside]) {
     }
     ui.add_space(space::S);
     ui.label("Modes of other programs");
-    let hz = |value: f64| format::significant(value, 5);
-    let percent = |ratio: Option<f64>| ratio.map_or_else(dash, |ratio| format::significant(100.0 * ratio, 3));
     let heads = ["Hz", "ζ, %", "Here, Hz", "ζ, %", "MAC", "Model, Hz", "MAC"];
     TableBuilder::new(ui)
         .id_salt("modes of other programs")
@@ -137,22 +135,25 @@ fn of_other_programs(ui: &mut Ui, beside: &[Beside]) {
                 row.col(|ui| drop(identified::head_right(ui, head)));
             }
         })
-        .body(|mut body| {
-            for Beside { reference, measured, model } in beside {
-                let of = |found: &Option<Match>| {
-                    let cells = |found: &Match| [hz(found.frequency_hz), format::significant(found.mac, 3)];
-                    found.as_ref().map_or_else(|| [dash(), dash()], cells)
-                };
-                let ([ours, mac], [undamped, undamped_mac]) = (of(measured), of(model));
-                let ratio = percent(measured.as_ref().and_then(|found| found.damping_ratio));
-                let own = [hz(reference.frequency_hz), percent(reference.damping_ratio)];
-                let cells = own.into_iter().chain([ours, ratio, mac, undamped, undamped_mac]);
-                body.row(space::ROW, |mut row| {
-                    row.col(|ui| drop(name(ui, &reference.name).on_hover_text(reference.kind.word())));
-                    cells.for_each(|cell| drop(row.col(|ui| drop(ui.number(cell)))));
-                });
-            }
-        });
+        .body(|mut body| beside.iter().for_each(|one| shape_row(&mut body, one)));
+}
+
+/// A shape of another program and the same mode here.
+fn shape_row(body: &mut TableBody<'_>, Beside { reference, measured, model }: &Beside) {
+    let hz = |value: f64| format::significant(value, 5);
+    let percent = |ratio: Option<f64>| ratio.map_or_else(dash, |ratio| format::significant(100.0 * ratio, 3));
+    let of = |found: &Option<Match>| {
+        let cells = |found: &Match| [hz(found.frequency_hz), format::significant(found.mac, 3)];
+        found.as_ref().map_or_else(|| [dash(), dash()], cells)
+    };
+    let ([ours, mac], [undamped, undamped_mac]) = (of(measured), of(model));
+    let ratio = percent(measured.as_ref().and_then(|found| found.damping_ratio));
+    let own = [hz(reference.frequency_hz), percent(reference.damping_ratio)];
+    body.row(space::ROW, |mut row| {
+        row.col(|ui| drop(name(ui, &reference.name).on_hover_text(reference.kind.word())));
+        let cells = own.into_iter().chain([ours, ratio, mac, undamped, undamped_mac]);
+        cells.for_each(|cell| drop(row.col(|ui| drop(ui.number(cell)))));
+    });
 }
 
 /// Methods that cannot run on these data, with one line why.

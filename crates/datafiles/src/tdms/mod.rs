@@ -13,21 +13,15 @@ use crate::contents::{Axis, Channel, Contents, FIRST, Format, Kind, Set, first_n
 use crate::error::{Fault, Read};
 use crate::source::Source;
 use crate::tree::{Sampling, sampling};
-use objects::{Object, Property, Run};
+use objects::{Object, Property};
 use scale::Scaling;
 use std::path::{Path, PathBuf};
 use uff::Values;
+use values::Place;
 
 struct Tdms {
     path: PathBuf,
     sets: Vec<Vec<Place>>,
-}
-
-/// A channel's data and what turns them into its numbers.
-struct Place {
-    runs: Vec<Run>,
-    scaling: Scaling,
-    complex: bool,
 }
 
 /// Opens a TDMS file.

@@ -1,7 +1,7 @@
 //! Values of channels from where their segments lie, piece by piece; of interleaved rows several channels in one pass.
 
-use super::Place;
 use super::objects::Run;
+use super::scale::Scaling;
 use crate::bytes::room;
 use crate::error::{Fault, Read};
 use std::fs::File;
@@ -11,6 +11,13 @@ use uff::Values;
 
 /// Bytes that are read at once from interleaved data.
 const PIECE: u64 = 1 << 20;
+
+/// A channel's data and what turns them into its numbers.
+pub(super) struct Place {
+    pub runs: Vec<Run>,
+    pub scaling: Scaling,
+    pub complex: bool,
+}
 
 /// The first `most` values of a channel.
 pub(super) fn first(path: &Path, place: &Place, most: u64) -> Read<Values> {

@@ -119,23 +119,7 @@ impl Made<'_> {
                 Node::Group(_) => {}
             }
         }
-        if let [channel] = &mut set.channels[..] {
-            channel.attributes.extend(
-                names::scale_beside(entries, &channel.first)
-                    .map(|scale| ("scale beside".to_owned(), scale.to_string())),
-            );
-        }
-        set.kind = kind(&set, axis);
-        set.axis_unit = match (&axis, set.kind) {
-            (Some(axis), _) => axis.unit.clone(),
-            (None, Kind::Time) => "s".to_owned(),
-            _ => String::new(),
-        };
-        // A unit of the group is that of those of its arrays that say none.
-        if let Some(unit) = names::unit_of(attributes).filter(|unit| is_unit(unit)) {
-            let bare = set.channels.iter_mut().filter(|channel| channel.unit.is_empty());
-            bare.filter(|channel| channel.axis != Axis::None).for_each(|channel| unit.clone_into(&mut channel.unit));
-        }
+        finish(&mut set, entries, attributes, axis);
         for (name, value) in attributes {
             note(&mut set, format!("{name}: {value}"));
         }
@@ -331,6 +315,26 @@ fn channels(
         channel.first = first(array, &cut, c);
         set.channels.push(channel);
         places.push(Place { id: array.id, cut: cut.clone(), channel: c, whole: false, axis: axis.map(|axis| axis.id) });
+    }
+}
+
+/// Kind, unit of the abscissa and what the group says of all its channels.
+fn finish(set: &mut Set, entries: &[Entry], attributes: &[(String, String)], axis: Option<&Abscissa>) {
+    if let [channel] = &mut set.channels[..] {
+        channel.attributes.extend(
+            names::scale_beside(entries, &channel.first).map(|scale| ("scale beside".to_owned(), scale.to_string())),
+        );
+    }
+    set.kind = kind(set, axis);
+    set.axis_unit = match (&axis, set.kind) {
+        (Some(axis), _) => axis.unit.clone(),
+        (None, Kind::Time) => "s".to_owned(),
+        _ => String::new(),
+    };
+    // A unit of the group is that of those of its arrays that say none.
+    if let Some(unit) = names::unit_of(attributes).filter(|unit| is_unit(unit)) {
+        let bare = set.channels.iter_mut().filter(|channel| channel.unit.is_empty());
+        bare.filter(|channel| channel.axis != Axis::None).for_each(|channel| unit.clone_into(&mut channel.unit));
     }
 }
 
