@@ -133,6 +133,11 @@ impl Search<'_> {
             diagnosis.next_test = self.next_tests(fits)?;
         }
         widen(diagnosis);
+        without_unknown(diagnosis);
+        if diagnosis.suggestions.is_empty() {
+            diagnosis.verdict = Verdict::Unexplained;
+            return Ok(());
+        }
         let sure = diagnosis.suggestions.first().is_some_and(|s| s.probability >= 0.5);
         diagnosis.verdict = if sure { Verdict::Missing } else { Verdict::Undecided };
         Ok(())
@@ -234,6 +239,22 @@ fn correct(corrections: &mut Vec<Correction>, more: &Correction) {
     own.factor *= more.factor;
 }
 
+/// Whether no size of an effect is as large as its deviation: the data do not know that it is there.
+fn is_unknown(added: &Added) -> bool {
+    let source = &added.source;
+    source.effect.scaled().iter().all(|&k| source.parameters[k].abs() < added.deviations[k])
+}
+
+/// Takes back suggestions of which the data know no size, as a search leaves them whose time was up, and the steps that hold nothing
+/// else.
+fn without_unknown(diagnosis: &mut Diagnosis) {
+    diagnosis.suggestions.retain(|s| !is_unknown(&s.added));
+    let empty = |step: &Step| !step.added.is_empty() && step.added.iter().all(is_unknown);
+    while diagnosis.steps.len() > 1 && diagnosis.steps.last().is_some_and(empty) {
+        diagnosis.steps.pop();
+    }
+}
+
 /// Widens the deviations of what is told by what is left beyond noise: any share of what the effects take away may be theirs.
 fn widen(diagnosis: &mut Diagnosis) {
     let Some(before) = diagnosis.steps.first().map(|s| s.misfit.max(1.0)) else { return };
@@ -248,4 +269,22 @@ fn widen(diagnosis: &mut Diagnosis) {
         step.added.iter_mut().for_each(|added| wider(added, own));
     }
     diagnosis.suggestions.iter_mut().for_each(|s| wider(&mut s.added, last));
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::effects::{Effect, Place, Source};
+
+    #[test]
+    fn an_effect_smaller_than_its_deviation_is_unknown() {
+        let added = |c: f64, deviation: f64| Added {
+            source: Source::known(Effect::Viscous, Place::Dofs(vec![0]), &[c]),
+            deviations: vec![deviation],
+        };
+        assert!(is_unknown(&added(2.0, 100.0)));
+        assert!(!is_unknown(&added(2.0, 0.1)));
+        // Nothing is said of a deviation that could not be computed.
+        assert!(!is_unknown(&added(2.0, f64::NAN)));
+    }
 }
