@@ -222,7 +222,7 @@ pub(super) fn in_band(force: &[f64], [first, last]: [usize; 2]) -> Vec<f64> {
     for (k, line) in spectrum.iter_mut().enumerate() {
         *line = if k < first || k > last { c64::new(0.0, 0.0) } else { *line / count as f64 };
     }
-    if count % 2 == 0 {
+    if count.is_multiple_of(2) {
         spectrum[count / 2].im = 0.0;
     }
     transform.backward(&mut spectrum, &mut work);
