@@ -115,30 +115,6 @@ fn a_wrong_unit_is_named_and_mended() {
 }
 
 #[test]
-fn a_unit_that_all_motions_share_is_named_once_and_mended() {
-    let folder = recorded();
-    changed(folder.path(), str::to_owned, |row| row[2..].iter_mut().for_each(|acc| *acc /= 9.806_65));
-    let (document, mended) = diagnosed(folder.path());
-    assert_eq!(words(&document), ["all 5 acc channels read 9.81 times too small: g read as m/s^2?"]);
-    let fault = &document["channel_faults"][0];
-    assert!(fault["error_after"].as_f64().unwrap() < 0.35 * fault["error_before"].as_f64().unwrap(), "{fault}");
-    assert_eq!(std::fs::read_to_string(&mended).unwrap().matches("factor = 9.80665").count(), 5);
-    let again: Value = serde_json::from_str(&run(&["diagnose", "--json"], &[&mended])).unwrap();
-    assert!(words(&again).is_empty(), "{:?}", words(&again));
-}
-
-#[test]
-fn a_reversed_force_is_named_and_mended_beside_a_reversed_sensor() {
-    let folder = recorded();
-    changed(folder.path(), str::to_owned, |row| (row[1], row[3]) = (-row[1], -row[3]));
-    let (document, mended) = diagnosed(folder.path());
-    assert_eq!(words(&document), ["force@19 looks reversed against the motions", "acc@7 looks reversed"]);
-    assert_eq!(std::fs::read_to_string(&mended).unwrap().matches("sign = -1").count(), 2);
-    let again: Value = serde_json::from_str(&run(&["diagnose", "--json"], &[&mended])).unwrap();
-    assert!(words(&again).is_empty(), "{:?}", words(&again));
-}
-
-#[test]
 fn a_model_without_its_damping_is_no_misread_channel() {
     let folder = recorded();
     let undamped = beam(69e9).replace("c = 0.2", "c = 0.0005") + &runs(false);

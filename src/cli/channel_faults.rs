@@ -22,15 +22,6 @@ pub(super) fn suggestions(faults: &[ChannelFault]) -> impl Iterator<Item = Value
                 map.insert("parameters".into(), json!({ "gain": factor }));
                 map.insert("standard_deviation".into(), json!({ "gain": null }));
             }
-            Fault::Common(factor) => {
-                map.insert("effect".into(), json!("gain"));
-                match &fault.channels[..] {
-                    [one] => map.insert("channel".into(), json!(one)),
-                    all => map.insert("channels".into(), json!(all)),
-                };
-                map.insert("parameters".into(), json!({ "gain": factor }));
-                map.insert("standard_deviation".into(), json!({ "gain": null }));
-            }
             Fault::Exchanged => {
                 map.insert("effect".into(), json!("exchanged"));
                 map.insert("dofs".into(), json!([]));
@@ -53,8 +44,8 @@ pub(super) fn document(fault: &ChannelFault) -> Value {
     let (kind, factor) = match fault.fault {
         Fault::Exchanged => ("exchanged", None),
         Fault::Unreliable(_) => ("unreliable", None),
-        Fault::Factor(-1.0) | Fault::Common(-1.0) => ("reversed", Some(-1.0)),
-        Fault::Factor(factor) | Fault::Common(factor) => ("factor", Some(factor)),
+        Fault::Factor(-1.0) => ("reversed", Some(-1.0)),
+        Fault::Factor(factor) => ("factor", Some(factor)),
     };
     json!({
         "fault": kind,

@@ -17,7 +17,7 @@ use crate::structure::{Direction, Structure};
 /// One sentence: the fault is none that a mapping can mend, or the records do not have one mapping.
 pub fn command(fault: &ChannelFault, project: &Project) -> Result<Command, String> {
     let factor = match fault.fault {
-        Fault::Factor(factor) | Fault::Common(factor) => Some(factor),
+        Fault::Factor(factor) => Some(factor),
         Fault::Exchanged => None,
         Fault::Unreliable(_) => return Err("a channel that scatters has no mapping that mends it".to_owned()),
     };

@@ -96,19 +96,6 @@ impl Cells {
         })
     }
 
-    /// What the channels that move read over what the model says, no mode free: number among all, ratio.
-    pub fn ratios(&self) -> Vec<(usize, c64)> {
-        let moving = (0..self.channels.len()).filter(|&i| self.moves[i] && self.model[i].norm() > 0.0);
-        moving.map(|i| (self.channels[i], self.measured[i] / self.model[i])).collect()
-    }
-
-    /// Mean error of the channels that move where they read `factor` times too large, no mode free.
-    pub fn error_with(&self, factor: f64) -> f64 {
-        let moving: Vec<usize> = (0..self.channels.len()).filter(|&i| self.moves[i]).collect();
-        let error = |&i: &usize| self.error(i, self.measured[i] / factor, self.model[i]);
-        moving.iter().map(error).sum::<f64>() / moving.len().max(1) as f64
-    }
-
     /// What the model says with the amplitudes of the free modes fitted to `measured`, the channel `without` left out.
     pub fn fitted(&self, measured: &[c64], without: Option<usize>) -> Vec<c64> {
         let (n, k) = (measured.len(), self.shapes.len());

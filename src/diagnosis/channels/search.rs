@@ -1,7 +1,6 @@
 //! Which fault of which channel explains what the shapes of the motion say, one after the other.
 
 use super::cells::{Cells, cells};
-use super::common::common;
 use super::fault::{ChannelFault, Fault, known_factor};
 use crate::diagnosis::residual::data::Data;
 use crate::diagnosis::residual::prediction::{Predictor, RunPrediction};
@@ -33,21 +32,8 @@ pub(crate) fn find(predictor: &Predictor, data: &Data, predictions: &[RunPredict
     let Some(modes) = modes(predictor.structure(), data) else { return Vec::new() };
     let (names, cells) = cells(predictor.structure(), &modes, data, predictions);
     let mut search = Search { names, cells, faults: Vec::new() };
-    let forces = data.channel_names()[1].clone();
-    if let Some(fault) = common(&search.names, &forces, &search.cells) {
-        search.cells.iter_mut().for_each(|cells| mend_all(cells, &fault));
-        search.faults.push(fault);
-    }
     while search.faults.len() < MOST && search.step() {}
     search.faults
-}
-
-/// What all channels of a run would read without a fault that they have in common; it is the motion that is scaled, also where
-/// the force is wrong.
-fn mend_all(cells: &mut Cells, fault: &ChannelFault) {
-    let Fault::Common(factor) = fault.fault else { return };
-    let factor = if fault.channels[0].starts_with("force@") { 1.0 / factor } else { factor };
-    cells.measured.iter_mut().for_each(|value| *value /= factor);
 }
 
 /// Modes up to the highest frequency that was measured and a little beyond; all of a small structure.
