@@ -120,6 +120,11 @@ pub fn sentence(diagnosis: &Diagnosis) -> String {
         Verdict::Missing => {
             format!("The model is wrong by {error}, {} times what noise alone makes.", format::significant(times, 2))
         }
+        Verdict::Unexplained if !diagnosis.complete => format!(
+            "The model is wrong by {error}, {} times the noise; time was up before the search found what mends it. Give it more \
+             time.",
+            format::significant(times, 2)
+        ),
         Verdict::Unexplained => format!(
             "The model is wrong by {error}, {} times the noise, and no law known here mends it: what the best leaves says \
              where to look, at other levels or with more sensors.",

@@ -92,10 +92,15 @@ fn what_cannot_be_mapped_is_one_line() {
         fail("file = \"lab.csv\"", "file = \"lab.csv\"\nsampling_hz = 2000")
             .contains("is sampled at 1024 Hz and `sampling_hz` says 2000")
     );
-    std::fs::write(folder.path().join("lab.csv"), "Kraft 1 [N],Acc 1 [g],Acc 2 [Volts]\n1,2,3\n2,3,4\n").unwrap();
+    let written = |unit: &str| {
+        let text = format!("Kraft 1 [N],Acc 1 [g],Acc 2 [{unit}]\n1,2,3\n2,3,4\n");
+        std::fs::write(folder.path().join("lab.csv"), text).unwrap();
+    };
+    written("g");
     assert!(
         fail("x", "x").contains("the file does not say the time between samples; add `sampling_hz` to its [[run]]")
     );
+    written("Volts");
     let volts = fail("file = \"lab.csv\"", "file = \"lab.csv\"\nsampling_hz = 2000");
     assert!(volts.contains("\"Volts\" is no known unit; add `unit` to its [[channel]]"), "{volts}");
     std::fs::write(

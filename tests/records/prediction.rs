@@ -138,10 +138,9 @@ fn wrong_parts() -> Vec<(Part, f64)> {
     ]
 }
 
-/// Derivatives by everything against central differences, through sticking, sliding and impacts.
-#[test]
-fn derivatives_are_those_of_the_record() {
-    let laws: Vec<(Effect, Vec<f64>)> = vec![
+/// Laws at sizes at which they act: friction that sticks and slides, stops that are hit.
+fn acting_laws() -> Vec<(Effect, Vec<f64>)> {
+    vec![
         (Effect::Coulomb, vec![0.3]),
         (Effect::Stribeck, vec![0.2, 0.35, 0.05]),
         (Effect::CubicStiffness, vec![4e7]),
@@ -157,13 +156,28 @@ fn derivatives_are_those_of_the_record() {
         (Effect::Viscous, vec![0.4]),
         (Effect::Mass, vec![0.02]),
         (Effect::Stiffness, vec![300.0]),
-    ];
+    ]
+}
+
+/// Half the width of the central difference by a parameter.
+fn width(case: &Case, parameter: TransientParameter) -> f64 {
+    match parameter {
+        TransientParameter::Source { source, parameter } => 1e-5 * case.sources[source].parameters[parameter].abs(),
+        TransientParameter::Initial(_) => 1e-9,
+        TransientParameter::Direction(_) => 1e-4,
+        _ => 1e-6,
+    }
+}
+
+/// Derivatives by everything against central differences, through sticking, sliding and impacts.
+#[test]
+fn derivatives_are_those_of_the_record() {
     let step = 5e-4;
     let drive: Vec<f64> = (0..700)
         .map(|n| if n < 20 { 12.0 * (f64::from(n) / 20.0 * std::f64::consts::PI).sin() } else { 0.0 })
         .collect();
     let parts = wrong_parts();
-    for (effect, values) in laws {
+    for (effect, values) in acting_laws() {
         let case = Case {
             structure: beam(),
             sources: vec![known(Effect::Viscous, &[6], &[0.05]), known(effect, &[8], &values)],
@@ -191,14 +205,7 @@ fn derivatives_are_those_of_the_record() {
         ]);
         let record = case.run(&parameters);
         for (theta, parameter) in parameters.iter().enumerate() {
-            let width = match parameter {
-                TransientParameter::Source { source, parameter } => {
-                    1e-5 * case.sources[*source].parameters[*parameter].abs()
-                }
-                TransientParameter::Initial(_) => 1e-9,
-                TransientParameter::Direction(_) => 1e-4,
-                _ => 1e-6,
-            };
+            let width = width(&case, *parameter);
             let (up, down) = (case.moved(*parameter, width), case.moved(*parameter, -width));
             for c in 0..2 {
                 let found = &record.derivatives[theta][c];

@@ -40,7 +40,7 @@ fn channels_that_share_their_rows_are_read_in_one_pass() {
     // 16 tracks of 32 bit.
     let mut head = b"RIFF\x00\x00\x00\x00WAVEfmt \x10\x00\x00\x00\x03\x00\x10\x00".to_vec();
     for word in [48_000, 48_000 * 64, 64 | 32 << 16, u32::from_le_bytes(*b"data"), 64 * ROWS as u32] {
-        head.extend((word as u32).to_le_bytes());
+        head.extend(word.to_le_bytes());
     }
     head.splice(4..8, (64 * ROWS as u32 + 36).to_le_bytes());
     let path = file(folder.path(), "tracks.wav", &head);

@@ -164,7 +164,7 @@ mod tests {
         let step = 0.01;
         let sample = |n: usize| 0.01 * (-0.05 * step * n as f64).exp() * (17.0 * step * n as f64).cos();
         let noise = |n: usize| 1e-5 * ((n * 7919 % 1000) as f64 / 500.0 - 1.0);
-        let time: Vec<f64> = (0..1200).map(|n| step * n as f64).collect();
+        let time: Vec<f64> = (0..1200).map(|n| step * f64::from(n)).collect();
         let channel = Channel { quantity: Quantity::Displacement, dof: 1, label: "2".into() };
         let rows = vec![(0..1200).map(|n| sample(n) + noise(n)).collect()];
         let label = TransientLabel { file: "decay.csv".into(), kind: Kind::Decay, enabled: true, ..Default::default() };

@@ -44,7 +44,9 @@ impl Outcome<'_> {
             let estimator = reference.estimator();
             let misfit = square(&estimator.residual(&reference.predictions)) / reference.count().max(1) as f64;
             let error = reference.error_of_structure(&[], &Vec::new())?;
-            diagnosis.verdict = match (self.found.updated, misfit < TOLERATED) {
+            // That corrections are all is no answer of a search whose time was up before laws were fitted.
+            let enough = misfit < TOLERATED && (self.found.agrees || reference.control.is_complete());
+            diagnosis.verdict = match (self.found.updated, enough) {
                 (true, true) => Verdict::Detuned,
                 (false, true) => Verdict::Adequate,
                 (_, false) => Verdict::Unexplained,

@@ -61,6 +61,11 @@ pub const TERMS: &[Term] = &[
         "Shapes in which the structure vibrates freely, each with its natural frequency; numbered from the lowest.",
     ),
     term(
+        "Shape",
+        &[],
+        "How the measured points move together: a mode shape or an operating shape that another program found.",
+    ),
+    term(
         "Parameters",
         &[],
         "The numbers that mass and stiffness are made of; changing one computes everything that follows anew.",
