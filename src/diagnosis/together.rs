@@ -5,7 +5,7 @@
 //! p(e | runs, records)  ~  p(e | runs) p(e | records)
 //! ```
 //!
-//! An effect that one of the searches did not name has a small probability there, [`UNNAMED`]: its search may have passed it over.
+//! An effect that one of the searches did not name has a small probability there, `UNNAMED`: its search may have passed it over.
 //! Sizes, corrections and errors are those of the search to which the likeliest effect belongs; what the other one finds is said.
 
 use super::diagnose::{Diagnosis, Suggestion, Verdict};
