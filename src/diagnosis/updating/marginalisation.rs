@@ -9,7 +9,7 @@
 //! (variable projection, Golub and Pereyra 1973; restricted maximum likelihood, Harville 1977).
 
 use super::parameters::{Scales, Updating};
-use dashpot_numerics::{Cholesky, dot, thin_qr};
+use dashpot_numerics::{Cholesky, dot, thin_qr, transposed_product};
 use faer::Mat;
 
 /// Updating parameters at a reference with what they do to the residual there.
@@ -23,7 +23,9 @@ pub struct Marginalisation {
     basis: Vec<Vec<f64>>,
     /// `B u_0`.
     offset: Vec<f64>,
-    /// Factor of `1 + B^T B`.
+    /// `1 + B^T B`.
+    normal: Option<Mat<f64>>,
+    /// Its factor.
     factor: Option<Cholesky>,
     /// `ln det (1 + B^T B)`.
     pub log_determinant: f64,
@@ -36,13 +38,13 @@ impl Marginalisation {
         if q == 0 {
             return Self { updating, ..Self::default() };
         }
-        let normal = Mat::from_fn(q, q, |i, j| dot(&slopes[i], &slopes[j]) + f64::from(u8::from(i == j)));
-        let Some(factor) = Cholesky::new(normal.as_ref()) else { return Self { updating, ..Self::default() } };
         let n = slopes[0].len();
         let stacked = Mat::from_fn(n + q, q, |i, k| match i.checked_sub(n) {
             Some(row) => f64::from(u8::from(row == k)),
             None => slopes[k][i],
         });
+        let normal = transposed_product(stacked.as_ref(), stacked.as_ref());
+        let Some(factor) = Cholesky::new(normal.as_ref()) else { return Self { updating, ..Self::default() } };
         let (orthonormal, triangle) = thin_qr(stacked.as_ref());
         let basis = (0..q).map(|k| orthonormal.col_as_slice(k).to_vec()).collect();
         let log_determinant = (0..q).map(|k| 2.0 * triangle[(k, k)].abs().ln()).sum();
@@ -51,7 +53,7 @@ impl Marginalisation {
         for (slope, u) in slopes.iter().zip(&u) {
             offset.iter_mut().zip(slope).for_each(|(o, s)| *o += u * s);
         }
-        Self { updating, slopes, basis, offset, factor: Some(factor), log_determinant }
+        Self { updating, slopes, basis, offset, normal: Some(normal), factor: Some(factor), log_determinant }
     }
 
     /// Whether no parameter is eliminated.
@@ -101,10 +103,10 @@ impl Marginalisation {
 
     /// The parameters (standardised) that fit the whitened residual `rows` where its variance is `misfit` rather than 1.
     pub fn solve_with_misfit(&self, rows: &[f64], misfit: f64) -> Vec<f64> {
+        let Some(mut normal) = self.normal.clone() else { return Vec::new() };
         let q = self.slopes.len();
         let full: Vec<f64> = rows.iter().zip(&self.offset).map(|(r, o)| r + o).collect();
-        let prior = |i: usize, j: usize| if i == j { misfit } else { 0.0 };
-        let normal = Mat::from_fn(q, q, |i, j| dot(&self.slopes[i], &self.slopes[j]) + prior(i, j));
+        (0..q).for_each(|k| normal[(k, k)] += misfit - 1.0);
         let right = Mat::from_fn(q, 1, |k, _| dot(&self.slopes[k], &full));
         match Cholesky::new(normal.as_ref()) {
             Some(factor) => factor.solve(right.as_ref()).col_as_slice(0).to_vec(),
