@@ -114,6 +114,17 @@ fn records_that_are_not_steady_are_drawn_too() {
     assert!(runs.contains("Magnitude") && runs.matches(">level ").count() > 1, "a key to every level");
 }
 
+/// A model whose damping is still to be identified is off by far more than any force that is missing: what is identified acts in it
+/// first, as in `compare` and `diagnose`.
+#[test]
+fn the_missing_force_of_an_undamped_model_is_that_beside_what_is_identified() {
+    let folder = tempfile::tempdir().unwrap();
+    let wing = dashpot(&["plot", "--what", "restoring-force"], &sample("goland-wing"), &folder.path().join("x.svg"));
+    let said = String::from_utf8(wing.stderr).unwrap();
+    assert_eq!(wing.status.code(), Some(1), "{said}");
+    assert!(said.contains("the model has no damping yet") && said.contains("no force is missing"), "{said}");
+}
+
 #[test]
 fn what_cannot_be_drawn_is_refused_in_one_line() {
     let folder = tempfile::tempdir().unwrap();

@@ -26,6 +26,7 @@ mod moving_base;
 mod named_sources;
 mod play;
 mod plot;
+mod plot_kinds;
 mod plot_records;
 mod records;
 mod reduction;

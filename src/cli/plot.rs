@@ -1,6 +1,7 @@
 //! `dashpot plot`: one plot of a project as SVG, or its values as CSV. Needs no display and no graphics adapter.
 
 use super::arguments::{Plot, PlotKind};
+use super::identified;
 use super::plot_records::RecordPlots;
 use crate::control::Control;
 use crate::diagnosis::component::{Loops, compare_component};
@@ -43,12 +44,6 @@ struct Drawn {
     table: String,
 }
 
-/// Whether a plot shows periodic motion, which records that are not steady do not hold.
-fn is_of_runs(what: PlotKind) -> bool {
-    use PlotKind::{Channel, Energy, Level, Loop, Nyquist, Overview, Period};
-    matches!(what, Channel | Energy | Level | Loop | Nyquist | Overview | Period)
-}
-
 /// Draws and writes.
 pub(super) fn run(arguments: &Plot) -> anyhow::Result<String> {
     let ending = arguments.out.extension().and_then(|e| e.to_str()).unwrap_or_default().to_lowercase();
@@ -58,7 +53,10 @@ pub(super) fn run(arguments: &Plot) -> anyhow::Result<String> {
         arguments.out.display()
     );
     let control = Control::unattended().with_workers(Arc::new(Threads));
-    let project = load(&arguments.file, &control)?;
+    let mut project = load(&arguments.file, &control)?;
+    if arguments.what.compares() && !only_records(&project) {
+        identified::take_over(&mut project, false, &arguments.file, &control)?;
+    }
     let plotter = Plotter { arguments, p: &project, palette: palette(arguments), control: &control };
     let drawn = plotter.draw().with_context(|| arguments.file.display().to_string())?;
     let text = if ending == "svg" { svg::write(&drawn.drawing) } else { csv(&drawn.table) };
@@ -84,7 +82,7 @@ struct Plotter<'a> {
 impl Plotter<'_> {
     fn draw(&self) -> anyhow::Result<Drawn> {
         let what = self.arguments.what;
-        let steady = is_of_runs(what) || what == PlotKind::Hysteresis && !is_component(self.p);
+        let steady = what.is_of_runs() || what == PlotKind::Hysteresis && !is_component(self.p);
         ensure!(
             !(steady && only_records(self.p)),
             "{} is a plot of steady runs, and the project has none; its records are drawn by --what record, amplitude, \
@@ -324,7 +322,7 @@ impl Plotter<'_> {
             return self.sheet(&title, [true, false].map(|r| amplitude_curve::figure(curve, r, self.palette)).to_vec());
         }
         let name = self.arguments.channel.as_deref();
-        let residual = RecordResidual::new(run, record, name);
+        let residual = RecordResidual::new(&self.p.structure, run, record, name);
         let residual = residual.with_context(|| format!("--channel {}: {} has none", name.unwrap_or(""), run.file))?;
         let title = residual.title();
         match self.arguments.what {

@@ -48,10 +48,14 @@ pub fn signed(value: f64, deviation: f64, unit: &str) -> String {
     }
 }
 
-/// An SI unit with dots and superscripts, from its spelling in ASCII: `N s^2/m^2` to `N·s²/m²`; `(m/s^2)/(N)` to `(m/s²)/N`.
+/// An SI unit with dots and superscripts, from its spelling in ASCII: `N s^2/m^2` to `N·s²/m²`; `(m/s^2)/(N)` to `m/s²/N`.
 pub fn pretty_unit(unit: &str) -> String {
     let unit = match unit.strip_suffix(')').and_then(|unit| unit.rsplit_once("/(")) {
         Some((above, below)) if !below.contains(['/', ' ', ')']) => &format!("{above}/{below}"),
+        _ => unit,
+    };
+    let unit = match unit.strip_prefix('(').and_then(|unit| unit.split_once(")/")) {
+        Some((above, below)) if !above.contains(['(', ')']) => &format!("{above}/{below}"),
         _ => unit,
     };
     unit.replace("^2", "²").replace("^3", "³").replace(' ', "·")
@@ -136,8 +140,8 @@ mod tests {
     fn units_follow_their_numbers() {
         assert_eq!(with_unit(0.2, "N s/m"), "0.2000 N·s/m");
         assert_eq!(pretty_unit("N s^2/m^2"), "N·s²/m²");
-        assert_eq!(pretty_unit("(m/s^2)/(N)"), "(m/s²)/N");
-        assert_eq!(pretty_unit("(m/s^2)/(N m)"), "(m/s²)/(N·m)");
+        assert_eq!(pretty_unit("(m/s^2)/(N)"), "m/s²/N");
+        assert_eq!(pretty_unit("(m/s^2)/(N m)"), "m/s²/(N·m)");
         assert_eq!(with_deviation(0.1072, 0.0021, "N s/m"), "0.1072 ± 0.0021 N·s/m");
         assert_eq!(with_deviation(512.3, 13.0, "N"), "512 ± 13 N");
         assert_eq!(with_deviation(3.0, 0.0, "N"), "3.000 N");

@@ -262,7 +262,7 @@ mod tests {
     #[test]
     fn accelerations_in_multiples_of_free_fall() {
         let g = Units { acceleration: Acceleration::FreeFall, length: Length::Millimetre, ..Units::default() };
-        is(g, "(m/s²)/N", 1.0 / 9.806_65, "g/N");
+        is(g, "m/s²/N", 1.0 / 9.806_65, "g/N");
         is(g, "m/s^2", 1.0 / 9.806_65, "g");
         is(g, "m/N", 1e3, "mm/N");
     }

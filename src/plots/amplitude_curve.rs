@@ -21,18 +21,19 @@ const SLOPES: [(f64, &str); 4] =
 pub fn figure(curve: &ModeCurve, ratio: bool, palette: &Palette) -> Figure {
     let quantity = curve.channel.split('@').next().and_then(Quantity::from_word);
     let name = quantity.map_or("Amplitude", |q| words::axis(q, false));
-    let wide = ratio && is_wide(&curve.measured);
-    let scale = if wide { Scale::Log } else { Scale::Linear };
+    // Both figures share the axis of amplitude, so that it is of one kind.
+    let wide = is_wide(&curve.measured);
     let y = if ratio { Axis::new("Damping ratio", "%") } else { Axis::new("Frequency", "Hz") };
     let points = |list: &[AmplitudePoint]| -> Vec<[f64; 2]> {
         list.iter().map(|p| [p.amplitude, if ratio { 100.0 * p.damping_ratio } else { p.frequency_hz }]).collect()
     };
     let deviation = |p: &AmplitudePoint| if ratio { 100.0 * p.damping_deviation } else { p.frequency_deviation_hz };
     let title = if ratio { "Damping ratio" } else { "Frequency" };
-    let ticks = if wide { Ticks::OneTwoFive } else { Ticks::Auto };
-    let axis = |plain: Axis| Axis { scale, ticks: ticks.clone(), ..plain };
-    let mut figure = Figure::new(title, axis(Axis::of(name)), axis(y));
-    if wide {
+    let logarithmic = |plain: Axis| Axis { scale: Scale::Log, ticks: Ticks::OneTwoFive, ..plain };
+    let x = if wide { logarithmic(Axis::of(name)) } else { Axis::of(name) };
+    let mut figure = Figure::new(title, x, if wide && ratio { logarithmic(y) } else { y });
+    figure.margin = 0.04;
+    if wide && ratio {
         for (slope, law) in SLOPES {
             figure = figure.points(law, palette.weak, Look::Dashed(1.0), guide(&points(&curve.measured), slope));
         }

@@ -197,10 +197,9 @@ fn title(part: Part) -> &'static str {
     }
 }
 
-/// `(m/s²)/N`.
+/// `m/s²/N`.
 pub(super) fn per_force(unit: &str) -> String {
-    let unit = format::pretty_unit(unit);
-    if unit.contains('/') { format!("({unit})/N") } else { format!("{unit}/N") }
+    format!("{}/N", format::pretty_unit(unit))
 }
 
 /// The curve in pieces of one stability, cut where a phase jumps by a turn; pieces share their ends.
@@ -257,7 +256,7 @@ mod tests {
 
     #[test]
     fn units_over_the_force_are_read_as_one() {
-        assert_eq!(per_force("m/s^2"), "(m/s²)/N");
+        assert_eq!(per_force("m/s^2"), "m/s²/N");
         assert_eq!(per_force("m"), "m/N");
     }
 }

@@ -204,6 +204,15 @@ impl Figure {
         text
     }
 
+    /// First and last value of x of every record in it.
+    pub fn spans(&self) -> Vec<[f64; 2]> {
+        let span = |series: &Series| match &series.data {
+            Data::Record(pyramid) => Some(pyramid.span()),
+            _ => None,
+        };
+        self.series.iter().filter_map(span).collect()
+    }
+
     /// Places of least and greatest x and y with a margin, for a drawing that nobody has zoomed.
     pub fn bounds(&self) -> [[f64; 2]; 2] {
         let mut range = [[f64::INFINITY, f64::NEG_INFINITY]; 2];

@@ -1,5 +1,5 @@
 //! One channel of a record that is not steady against the model's record: over time with what is left below, as spectra, and
-//! what is left over time and frequency.
+//! what is left over time and frequency. All that takes longer than a frame is done once, by [`RecordResidual::new`].
 
 use super::figure::{Axis, Data, Figure, Look};
 use super::pyramid::Pyramid;
@@ -9,77 +9,89 @@ use crate::diagnosis::records::compare::OneRecord;
 use crate::display::words;
 use crate::math::spectrum::Spectrum;
 use crate::measurement::TransientRun;
+use crate::structure::Structure;
 use std::sync::Arc;
 
+/// Measured, of the model, and left, ready to be drawn.
+type Three = [Arc<Pyramid>; 3];
+
 /// A channel of motion with what the model gives.
-pub struct RecordResidual<'a> {
-    run: &'a TransientRun,
-    /// Number of the channel in the record.
-    channel: usize,
-    measured: &'a [f64],
-    model: &'a [f64],
-    left: Vec<f64>,
+#[derive(Debug, Clone)]
+pub struct RecordResidual {
+    /// Name of the channel.
+    pub channel: String,
+    /// File of the record.
+    pub file: String,
+    axis: Axis,
+    samples: Three,
+    spectra: Option<Three>,
+    spectrogram: Option<Spectrogram>,
 }
 
-impl<'a> RecordResidual<'a> {
+impl RecordResidual {
     /// Of the channel of that name, else of the one of greatest error; `None` where the record has no such channel.
-    pub fn new(run: &'a TransientRun, found: &'a OneRecord, name: Option<&str>) -> Option<Self> {
+    pub fn new(structure: &Structure, run: &TransientRun, found: &OneRecord, name: Option<&str>) -> Option<Self> {
         let worst = |a: &usize, b: &usize| found.channels[*a].1[0].total_cmp(&found.channels[*b].1[0]);
         let named = |name: &str| found.channels.iter().position(|(own, _)| own == name);
         let k = name.map_or_else(|| (0..found.channels.len()).max_by(worst), named)?;
-        let is_it = |c: &crate::measurement::Channel| c.to_string() == found.channels[k].0;
-        let channel = run.channels().iter().position(is_it)?;
-        let model = found.model.get(k)?.as_slice();
-        let samples = run.samples(channel);
-        let left = samples.iter().zip(model).map(|(y, m)| y - m).collect();
-        Some(Self { run, channel, measured: samples, model, left })
+        let number = run.channels().iter().position(|c| c.to_string() == found.channels[k].0)?;
+        let channel = &run.channels()[number];
+        let rotation = structure.dofs().get(channel.dof).is_some_and(|d| d.direction.is_rotation());
+        let (measured, model) = (run.samples(number), found.model.get(k)?.as_slice());
+        let left: Vec<f64> = measured.iter().zip(model).map(|(y, m)| y - m).collect();
+        let three = [measured, model, &left];
+        Some(Self {
+            channel: channel.to_string(),
+            file: run.file.clone(),
+            axis: Axis::of(words::axis(channel.quantity, rotation)),
+            samples: three.map(|y| Arc::new(Pyramid::new(&run.time()[..y.len()], y))),
+            spectra: spectra(three, run.step()),
+            spectrogram: Spectrogram::new(&left, measured, (run.time()[0], run.step())),
+        })
     }
 
     /// Name of the channel with its record.
     pub fn title(&self) -> String {
-        format!("{} of {}", self.run.channels()[self.channel], self.run.file)
-    }
-
-    fn axis(&self) -> Axis {
-        Axis::of(words::axis(self.run.channels()[self.channel].quantity, false))
+        format!("{} of {}", self.channel, self.file)
     }
 
     /// Measured and modelled over time; what is left below on a scale of its own.
     pub fn over_time(&self, palette: &Palette) -> Vec<Figure> {
-        let time = self.run.time();
-        let list = |y: &[f64]| Data::Record(Arc::new(Pyramid::new(&time[..y.len()], y)));
+        let [measured, model, left] = self.samples.each_ref().map(|y| Data::Record(Arc::clone(y)));
         let x = || Axis::new("Time", "s");
-        let both = Figure::new("Measured and modelled", x(), self.axis())
-            .with("measured", palette.measured, Look::Line(1.2), list(self.measured))
-            .with("model", palette.model, Look::Line(1.2), list(self.model));
-        let y = Axis { name: format!("{} left", self.axis().name), ..self.axis() };
-        let left = Figure::new("What is left", x(), y).with("left", palette.missing, Look::Line(1.2), list(&self.left));
-        vec![both, left]
+        let both = Figure::new("Measured and modelled", x(), self.axis.clone())
+            .with("measured", palette.measured, Look::Line(1.2), measured)
+            .with("model", palette.model, Look::Line(1.2), model);
+        let y = Axis { name: "Residual".to_owned(), ..self.axis.clone() };
+        vec![both, Figure::new("What is left", x(), y).with("left", palette.missing, Look::Line(1.2), left)]
     }
 
     /// Amplitude spectra of what was measured, of the model's record and of what is left; `None` of a record that is too short.
     pub fn spectra(&self, palette: &Palette) -> Option<Figure> {
-        let line = |y: &[f64]| {
-            let spectrum = Spectrum::new(y, self.run.step())?;
-            let at = |k: usize| [spectrum.frequency_hz(k), spectrum.amplitude[k].max(f64::MIN_POSITIVE)];
-            Some((1..spectrum.amplitude.len()).map(at).collect::<Vec<[f64; 2]>>())
-        };
-        let record = |points: Vec<[f64; 2]>| {
-            let (x, y): (Vec<f64>, Vec<f64>) = points.into_iter().map(|[x, y]| (x, y)).unzip();
-            Data::Record(Arc::new(Pyramid::new(&x, &y)))
-        };
-        let [measured, model, left] = [line(self.measured)?, line(self.model)?, line(&self.left)?];
-        let unit = self.axis().unit;
+        let [measured, model, left] = self.spectra.as_ref()?.each_ref().map(|y| Data::Record(Arc::clone(y)));
         Some(
-            Figure::new("Spectra", Axis::new("Frequency", "Hz"), Axis::log("Amplitude", &unit))
-                .with("measured", palette.measured, Look::Line(1.2), record(measured))
-                .with("model", palette.model, Look::Line(1.2), record(model))
-                .with("left", palette.missing, Look::Line(1.2), record(left)),
+            Figure::new("Spectra", Axis::new("Frequency", "Hz"), Axis::log("Amplitude", &self.axis.unit))
+                .with("measured", palette.measured, Look::Line(1.2), measured)
+                .with("model", palette.model, Look::Line(1.2), model)
+                .with("left", palette.missing, Look::Line(1.2), left),
         )
     }
 
-    /// What is left over time and frequency, relative to the largest of what was measured.
-    pub fn spectrogram(&self) -> Option<Spectrogram> {
-        Spectrogram::new(&self.left, self.measured, (self.run.time()[0], self.run.step()))
+    /// What is left over time and frequency, relative to the largest of what was measured; `None` of a record that is too short.
+    pub fn spectrogram(&self) -> Option<&Spectrogram> {
+        self.spectrogram.as_ref()
     }
+}
+
+/// Amplitude spectra of samples `step` s apart.
+fn spectra(three: [&[f64]; 3], step: f64) -> Option<Three> {
+    let line = |y: &[f64]| {
+        let spectrum = Spectrum::new(y, step)?;
+        let lines = 1..spectrum.amplitude.len();
+        let frequencies: Vec<f64> = lines.clone().map(|k| spectrum.frequency_hz(k)).collect();
+        let amplitudes: Vec<f64> = lines.map(|k| spectrum.amplitude[k].max(f64::MIN_POSITIVE)).collect();
+        Some(Arc::new(Pyramid::new(&frequencies, &amplitudes)))
+    };
+    let [measured, model, left] = three;
+    Some([line(measured)?, line(model)?, line(left)?])
 }

@@ -20,7 +20,11 @@ const RANGE_DB: f64 = 60.0;
 /// Amplitude below the largest over all times, dB, from which on frequencies above are not drawn.
 const SILENT_DB: f64 = 54.0;
 /// Room of the axes and of the scale of colours.
-const MARGIN: [f32; 4] = [64.0, 68.0, 92.0, 44.0];
+const MARGIN: [f32; 4] = [64.0, 44.0, 92.0, 44.0];
+/// Room of the title on paper.
+const TITLE: f32 = 28.0;
+/// What the colours mean.
+const REMARK: &str = "dB below the largest amplitude that was measured";
 
 /// Amplitudes over time and frequency.
 #[derive(Debug, Clone, PartialEq)]
@@ -64,14 +68,20 @@ impl Spectrogram {
         Some(Self { time_s: [start, end], highest_hz: own.first()?.frequency_hz(count), decibels })
     }
 
-    /// Drawn with its axes and the scale of its colours.
+    /// Drawn on paper under its title, with its axes and the scale of its colours.
     pub fn draw(&self, room: Vec2, title: &str, palette: &Palette) -> Drawing {
         let mut drawing = Drawing::new(room, palette.canvas, title);
-        let [left, top, right, foot] = MARGIN;
-        let plot = Rect::from_min_max(pos2(left, top), pos2(room.x - right, room.y - foot));
         drawing.words(pos2(16.0, 18.0), Align2::LEFT_CENTER, title, size::HEADING, palette.ink);
-        let remark = "dB below the largest amplitude that was measured";
-        drawing.words(pos2(16.0, 38.0), Align2::LEFT_CENTER, remark, size::SMALL, palette.weak);
+        let below = Rect::from_min_max(pos2(0.0, TITLE), room.to_pos2());
+        self.draw_within(&mut drawing, below, palette);
+        drawing
+    }
+
+    /// Drawn with its axes and the scale of its colours; gives back the area of the cells.
+    pub fn draw_within(&self, drawing: &mut Drawing, room: Rect, palette: &Palette) -> Rect {
+        let [left, top, right, foot] = MARGIN;
+        let plot = Rect::from_min_max(room.min + vec2(left, top), room.max - vec2(right, foot));
+        drawing.words(room.min + vec2(16.0, 10.0), Align2::LEFT_CENTER, REMARK, size::SMALL, palette.weak);
         let rows = self.decibels.first().map_or(1, Vec::len).max(1);
         let cell = vec2(plot.width() / self.decibels.len().max(1) as f32, plot.height() / rows as f32);
         for (column, list) in self.decibels.iter().enumerate() {
@@ -83,9 +93,19 @@ impl Spectrogram {
             }
         }
         drawing.rect(plot, ecolor::Color32::TRANSPARENT, style::hair(palette.line));
-        self.axes(&mut drawing, plot, palette);
-        legend(&mut drawing, plot, palette);
-        drawing
+        self.axes(drawing, plot, palette);
+        legend(drawing, plot, palette);
+        plot
+    }
+
+    /// Time in s, frequency in Hz and level in dB of the cell at a point, where the cells fill `plot`.
+    pub fn at(&self, plot: Rect, point: Pos2) -> Option<[f64; 3]> {
+        let share = (point - plot.min) / plot.size();
+        let list =
+            plot.contains(point).then(|| self.decibels.get((share.x * self.decibels.len() as f32) as usize))??;
+        let level = list.get(((1.0 - share.y) * list.len() as f32) as usize)?;
+        let [from, to] = self.time_s;
+        Some([from + f64::from(share.x) * (to - from), f64::from(1.0 - share.y) * self.highest_hz, *level])
     }
 
     fn axes(&self, drawing: &mut Drawing, plot: Rect, palette: &Palette) {
@@ -104,8 +124,8 @@ impl Spectrogram {
         }
         let below = pos2(plot.center().x, plot.bottom() + 34.0);
         drawing.words(below, Align2::CENTER_CENTER, "Time, s", size::SMALL, palette.ink);
-        let above = pos2(plot.left() - 8.0, plot.top() - 8.0);
-        drawing.words(above, Align2::CENTER_CENTER, "Hz", size::SMALL, palette.ink);
+        let above = pos2(plot.left() - 48.0, plot.top() - 10.0);
+        drawing.words(above, Align2::LEFT_CENTER, "Frequency, Hz", size::SMALL, palette.ink);
     }
 
     /// The same as a table with tabs: a row a window, a column a frequency, dB.
@@ -140,7 +160,7 @@ fn legend(drawing: &mut Drawing, plot: Rect, palette: &Palette) {
     }
     for level in [0.0, -20.0, -40.0, -60.0] {
         let at = pos2(left + 20.0, plot.bottom() - plot.height() * share(level));
-        drawing.words(at, Align2::LEFT_CENTER, format!("{level:.0} dB"), size::SMALL, palette.weak);
+        drawing.words(at, Align2::LEFT_CENTER, format!("{level:.0} dB").replace('-', "−"), size::SMALL, palette.weak);
     }
 }
 

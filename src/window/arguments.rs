@@ -36,7 +36,8 @@ struct PictureArguments {
     /// Theme: light or dark.
     #[arg(long, default_value = "light", value_parser = ["light", "dark"])]
     theme: String,
-    /// Pane that is to be in front, such as bode, nyquist, hysteresis, record or parameters; matrix is drawn in space.
+    /// Pane that is to be in front, such as bode, nyquist, hysteresis, record or parameters; matrix is drawn in space; time,
+    /// spectrum, spectrogram and amplitude are those of a record in the stage explain.
     #[arg(long)]
     pane: Option<String>,
     /// Folder that takes every plot on the screen as SVG and PNG.

@@ -4,6 +4,7 @@ use super::app::App;
 use super::frame::panes::Pane;
 use super::offscreen::Offscreen;
 use super::plots::export;
+use super::stages::explain::look::RecordTab;
 use super::theme;
 use super::view::Stage;
 use egui::{Context, Theme};
@@ -16,7 +17,8 @@ pub struct Picture {
     pub file: Option<PathBuf>,
     /// Stage.
     pub stage: Stage,
-    /// Pane that is to be in front, by name; `matrix` shows the matrix as bars in space.
+    /// Pane that is to be in front, by name; `matrix` shows the matrix as bars in space; at the stage Explain `time`, `spectrum`,
+    /// `spectrogram` and `amplitude` show that plot of a record that is not steady.
     pub pane: Option<String>,
     /// Width and height, pixels.
     pub size: [u32; 2],
@@ -44,7 +46,13 @@ pub fn picture(picture: &Picture) -> Result<(), String> {
     app.view.stage = picture.stage;
     if let Some(name) = &picture.pane {
         app.view.matrix_in_space = name == "matrix";
-        let pane = if name == "matrix" { Pane::Matrix } else { Pane::from_name(name)? };
+        let tab = RecordTab::from_name(name).filter(|_| picture.stage == Stage::Explain);
+        app.view.explain.record_tab = tab.unwrap_or_default();
+        let pane = match (name.as_str(), tab) {
+            ("matrix", _) => Pane::Matrix,
+            (_, Some(_)) => Pane::Cell,
+            _ => Pane::from_name(name)?,
+        };
         app.desk.set_open(picture.stage, pane, true);
     }
     let [width, height] = picture.size;

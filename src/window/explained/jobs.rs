@@ -11,6 +11,7 @@ use crate::diagnosis::updating::scatter::{self, Scatter};
 use crate::diagnosis::{self, Comparison, Diagnosis};
 use crate::effects::Source;
 use crate::exchange::Project;
+use crate::plots::record_residual::RecordResidual;
 use crate::plots::response_curve::{self, Curve};
 use crate::session::time_limit::answer_within;
 use crate::session::validation::{as_runs, compared_with_effects, diagnosed, missing_force, only_records, problem};
@@ -51,7 +52,7 @@ pub(super) fn compare_job(
     }
 }
 
-/// Amplitude curves of records that are not steady, with an effect on trial.
+/// Records that are not steady with the model's beside them, with an effect on trial.
 pub(super) fn decay_job(
     p: &Arc<Project>,
     trial: Option<&Source>,
@@ -60,6 +61,23 @@ pub(super) fn decay_job(
     move |control| {
         let found = compared_with_effects(&p, &effects, control).map_err(|e| e.to_string())?;
         Ok(found.map_or_else(Vec::new, |found| found.records))
+    }
+}
+
+/// One channel of a record that is not steady with the model's: the one of that name, else the one of greatest error.
+pub(super) fn record_job(
+    p: &Arc<Project>,
+    found: Arc<Vec<OneRecord>>,
+    (index, channel): (usize, Option<String>),
+) -> impl FnOnce(&Control) -> Result<RecordResidual, String> + use<> {
+    let p = Arc::clone(p);
+    move |_| {
+        let of = |r: &&OneRecord| r.index == index;
+        let record = found.iter().find(of).zip(p.transient_runs.get(index));
+        let (record, run) = record.ok_or("The record is switched off.")?;
+        let residual = |name: Option<&str>| RecordResidual::new(&p.structure, run, record, name);
+        let residual = residual(channel.as_deref()).or_else(|| residual(None));
+        residual.ok_or_else(|| "No motion is measured in it.".to_owned())
     }
 }
 

@@ -16,11 +16,12 @@ use crate::diagnosis::updating::scatter::Scatter;
 use crate::diagnosis::{Comparison, Diagnosis};
 use crate::effects::{Place, Source};
 use crate::exchange::Project;
+use crate::plots::record_residual::RecordResidual;
 use crate::plots::response_curve::Curve;
 use crate::session::validation::only_records;
 use egui::Context;
 use first_suggestions::FirstSuggestions;
-use jobs::{compare_job, curve_job, decay_job, force_job, print_job, scatter_job, search_job};
+use jobs::{compare_job, curve_job, decay_job, force_job, print_job, record_job, scatter_job, search_job};
 use ledger::Ledger;
 use model::{Key, Search};
 use std::sync::Arc;
@@ -32,6 +33,9 @@ pub const HOPELESS: f64 = 10.0;
 /// A model with or without an effect on trial.
 pub type Tried = (Key, Option<Source>);
 
+/// A record that is not steady by its number in the project, and the channel that is looked at; `None` is the worst.
+pub type Shown = (usize, Option<String>);
+
 /// What the stage wants to see beside the comparison.
 #[derive(Debug, Clone, Default)]
 #[expect(clippy::struct_excessive_bools, reason = "each is a part of the stage that is wanted or not")]
@@ -42,10 +46,14 @@ pub struct Wanted {
     pub anyway: bool,
     /// The effect on trial.
     pub trial: Option<Source>,
-    /// The suggestion whose fingerprint is shown.
-    pub print: Option<Source>,
+    /// The suggestion whose card is open.
+    pub named: Option<Source>,
+    /// Whether its fingerprint is shown.
+    pub print: bool,
     /// Whether the missing force is shown: that of this suggestion, else at the place that explains most.
     pub force: bool,
+    /// The record that is not steady that is shown.
+    pub record: Option<Shown>,
     /// Whether corrections and scatter are shown.
     pub scatter: bool,
     /// Time after which the search answers with the best so far.
@@ -70,6 +78,7 @@ pub struct Explained {
     curves: Cache<(Key, usize), Vec<Curve>>,
     trial_curves: Cache<(Tried, usize), Vec<Curve>>,
     decays: Cache<Tried, Vec<OneRecord>>,
+    records: Cache<(Tried, Shown), RecordResidual>,
     /// The way so far.
     pub ledger: Ledger,
 }
@@ -88,7 +97,8 @@ impl Default for Explained {
             scatters: Cache::new("Scatter of channels and runs"),
             curves: Cache::new("Frequency response"),
             trial_curves: Cache::new("Frequency response"),
-            decays: Cache::new("Amplitude curves"),
+            decays: Cache::new("Records of the model"),
+            records: Cache::new("Preparing a record"),
             ledger: Ledger::default(),
         }
     }
@@ -151,7 +161,7 @@ impl Explained {
             self.diagnoses.want(ctx, &search, || search_job(p, &search, limit, self.early.expect(ctx, &search)));
         }
         self.on_trial(ctx, p, &key, wanted);
-        match &wanted.print {
+        match wanted.named.as_ref().filter(|_| wanted.print) {
             Some(source) => {
                 let asked = (search.clone(), source.clone());
                 let diagnosis = self.diagnoses.get(&search).and_then(|d| d.as_ref().ok()).map(Arc::clone);
@@ -161,8 +171,8 @@ impl Explained {
         }
         match self.diagnoses.get(&search).and_then(|d| d.as_ref().ok()).filter(|_| wanted.force).map(Arc::clone) {
             Some(diagnosis) => {
-                let asked = (search.clone(), wanted.print.clone());
-                self.forces.want(ctx, &asked, || force_job(p, diagnosis, wanted.print.clone()));
+                let asked = (search.clone(), wanted.named.clone());
+                self.forces.want(ctx, &asked, || force_job(p, diagnosis, wanted.named.clone()));
             }
             None => self.forces.rest(),
         }
@@ -171,9 +181,7 @@ impl Explained {
             None => self.scatters.rest(),
         }
         if only_records(p) {
-            let tried = (key, wanted.trial.clone());
-            self.decays.want(ctx, &tried, || decay_job(p, wanted.trial.as_ref()));
-            return;
+            return self.records_of(ctx, p, (key, wanted.trial.clone()), wanted.record.as_ref());
         }
         match wanted.curve.filter(|_| p.structure.matrices().is_some()) {
             Some(run) => self.curves.want(ctx, &(key, run), || curve_job(p, None, run)),
@@ -192,6 +200,15 @@ impl Explained {
         self.curves.collect();
         self.trial_curves.collect();
         self.decays.collect();
+        self.records.collect();
+    }
+
+    /// Records that are not steady with the model's, and the one that is shown ready to be drawn.
+    fn records_of(&mut self, ctx: &Context, p: &Arc<Project>, tried: Tried, shown: Option<&Shown>) {
+        self.decays.want(ctx, &tried, || decay_job(p, tried.1.as_ref()));
+        if let (Some(Ok(found)), Some(shown)) = (self.decays.get(&tried), shown) {
+            self.records.want(ctx, &(tried, shown.clone()), || record_job(p, Arc::clone(found), shown.clone()));
+        }
     }
 
     fn on_trial(&mut self, ctx: &Context, p: &Arc<Project>, key: &Key, wanted: &Wanted) {
@@ -282,6 +299,11 @@ impl Explained {
         self.decays.get(&(self.current(document)?, trial.cloned()))
     }
 
+    /// One channel of a record that is not steady, ready to be drawn.
+    pub fn record(&self, document: &Document, trial: Option<&Source>, shown: Shown) -> Option<&Cached<RecordResidual>> {
+        self.records.get(&((self.current(document)?, trial.cloned()), shown))
+    }
+
     fn search(&self, document: &Document) -> Option<Search> {
         Some(Search::new(self.current(document)?, document.session().document()))
     }
@@ -311,6 +333,7 @@ impl Explained {
             .or_else(|| self.curves.running())
             .or_else(|| self.trial_curves.running())
             .or_else(|| self.decays.running())
+            .or_else(|| self.records.running())
     }
 
     /// Stops all that runs.
@@ -323,6 +346,7 @@ impl Explained {
         self.curves.cancel();
         self.trial_curves.cancel();
         self.decays.cancel();
+        self.records.cancel();
     }
 
     /// The search answers with the best so far, as soon as it can.
@@ -342,5 +366,6 @@ impl Explained {
         self.curves.retry();
         self.trial_curves.retry();
         self.decays.retry();
+        self.records.retry();
     }
 }

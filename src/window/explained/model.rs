@@ -3,7 +3,9 @@
 use crate::display::words::{self, at};
 use crate::effects::Kind;
 use crate::effects::{Source, State};
-use crate::exchange::project::file::{RunTable, SensorTable, StructureTable};
+use crate::exchange::mapping::ChannelTable;
+use crate::exchange::project::file::{BaseTable, HarmonicsTable, RunTable, SensorTable, StructureTable};
+use crate::exchange::project::frf::FrfTable;
 use crate::session::Document;
 use crate::structure::Structure;
 use std::sync::Arc;
@@ -13,6 +15,10 @@ use std::sync::Arc;
 pub struct Model {
     structure: StructureTable,
     runs: Vec<RunTable>,
+    responses: Vec<FrfTable>,
+    fitted: Vec<HarmonicsTable>,
+    channels: Vec<ChannelTable>,
+    base: BaseTable,
     sensors: Vec<SensorTable>,
     harmonics: usize,
     /// Sources that act in the model.
@@ -66,6 +72,10 @@ impl Key {
         Self(Arc::new(Model {
             structure: file.structure.clone(),
             runs: file.run.clone(),
+            responses: file.frf.clone(),
+            fitted: file.harmonics.clone(),
+            channels: file.channel.clone(),
+            base: file.base,
             sensors: file.sensor.clone(),
             harmonics: file.analysis.harmonics,
             known: document.sources().iter().filter(acts).cloned().collect(),
@@ -73,7 +83,21 @@ impl Key {
     }
 }
 
+/// Channels that are read otherwise than before, in words. Where no mapping is written channels are read as they are.
+fn remapped(before: &[ChannelTable], now: &[ChannelTable]) -> Vec<String> {
+    let plain = |t: &ChannelTable| t.sign.is_none() && t.factor.is_none() && t.delay.is_none() && t.channel() == t.name;
+    let known = |t: &&ChannelTable| if before.is_empty() { plain(t) } else { before.contains(t) };
+    now.iter().filter(|t| !known(t)).map(|t| format!("{} read anew", t.channel())).collect()
+}
+
+/// Tables of the measurements but the mapping of their channels, and the number of harmonics.
+type Measured<'a> = (&'a [RunTable], &'a [FrfTable], &'a [HarmonicsTable], BaseTable, usize);
+
 impl Model {
+    fn measured(&self) -> Measured<'_> {
+        (&self.runs, &self.responses, &self.fitted, self.base, self.harmonics)
+    }
+
     /// What was changed on the way from `before` to this, in a few words.
     pub fn change(&self, before: &Self, structure: &Structure) -> String {
         let same_laws = self.known.len() == before.known.len()
@@ -101,7 +125,8 @@ impl Model {
         if self.structure != before.structure {
             said.push("structure changed".to_owned());
         }
-        if self.runs != before.runs || self.harmonics != before.harmonics {
+        said.extend(remapped(&before.channels, &self.channels));
+        if self.measured() != before.measured() {
             said.push("measurements changed".to_owned());
         }
         match said.len() {

@@ -116,8 +116,11 @@ impl Behavior<Pane> for Panes<'_> {
                 ui.add_space(space::S);
                 super::schematic::switches(ui, self.opened.view, self.asks);
             }
-            Some(Pane::ErrorMap) => in_bar(ui, 0, Pane::ErrorMap.title(), &mut self.opened.view.explain),
-            Some(Pane::Cell) => in_bar(ui, 1, Pane::Cell.title(), &mut self.opened.view.explain),
+            Some(pane @ (Pane::ErrorMap | Pane::Cell)) => {
+                let records = self.opened.document.project.runs.is_empty();
+                let place = usize::from(*pane == Pane::Cell);
+                in_bar(ui, (place, pane.title()), &mut self.opened.view.explain, records);
+            }
             _ => {}
         }
         let shown = tabs.children.iter().filter(|tile| tiles.is_visible_in_layout(**tile));

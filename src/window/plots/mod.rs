@@ -11,6 +11,7 @@ pub mod paint;
 pub mod polyline;
 pub mod record;
 pub mod show;
+pub mod spectrogram;
 pub mod table;
 pub mod zoom;
 

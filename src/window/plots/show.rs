@@ -192,6 +192,11 @@ impl Place<'_> {
         }
         if let Some([from, to]) = figure.start.map(|range| range.map(|v| figure.x.factor * v)) {
             plot = plot.default_x_bounds(from, to);
+        } else {
+            // A record gives no more than what is in sight: its ends are told.
+            for v in figure.spans().into_iter().flatten().filter_map(|v| figure.x.place(v)) {
+                plot = plot.include_x(v);
+            }
         }
         for v in figure.x.include.iter().filter_map(|v| figure.x.place(*v)) {
             plot = plot.include_x(v);
@@ -213,9 +218,10 @@ impl Place<'_> {
 }
 
 /// Names of axes and how they are cut short where a plot is low.
-const SHORT: [(&str, &str); 10] = [
+const SHORT: [(&str, &str); 11] = [
     ("Acceleration", "Acc."),
     ("Amplitude", "Ampl."),
+    ("Damping ratio", "Damping"),
     ("Displacement", "Displ."),
     ("Frequency", "Freq."),
     ("Imaginary part", "Imag."),
@@ -226,8 +232,8 @@ const SHORT: [(&str, &str); 10] = [
     ("Velocity", "Vel."),
 ];
 
-/// Name and unit of an axis where there is room for both, else a short name and the unit, else the unit, else nothing: a name that runs into another says less
-/// than none.
+/// Name and unit of an axis where there is room for both, else a short name and the unit, else both in two lines, else the unit,
+/// else nothing: a name that runs into another says less than none.
 fn fitting(ui: &Ui, axis: &Axis, room: f32) -> String {
     let width = |text: &str| {
         let font = theme::font(theme::size::SMALL);
@@ -235,7 +241,8 @@ fn fitting(ui: &Ui, axis: &Axis, room: f32) -> String {
     };
     let short = SHORT.iter().find(|(name, _)| *name == axis.name).map_or(axis.name.as_str(), |(_, short)| short);
     let short = Axis { name: short.to_owned(), ..axis.clone() };
-    let choices = [axis.label(), short.label(), axis.unit.clone()];
+    let folded = if axis.unit.is_empty() { short.name.clone() } else { format!("{},\n{}", short.name, axis.unit) };
+    let choices = [axis.label(), short.label(), folded, axis.unit.clone()];
     choices.into_iter().find(|text| width(text) + 6.0 <= room).unwrap_or_default()
 }
 

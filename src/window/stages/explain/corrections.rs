@@ -13,7 +13,10 @@ use crate::window::ask::Ask;
 use crate::window::opened::Opened;
 use crate::window::theme::{self, size, space};
 use crate::window::widgets::{UiExt, folded};
-use egui::{Align, Align2, CollapsingHeader, Layout, Rect, Role, ScrollArea, Sense, Ui, WidgetInfo, pos2, vec2};
+use egui::{
+    Align, Align2, CollapsingHeader, Color32, Layout, Painter, Rect, Role, ScrollArea, Sense, Shape, Ui, WidgetInfo,
+    pos2, vec2,
+};
 
 /// Corrections of the model that are seen at once: those that stand out most.
 const MOST: usize = 8;
@@ -117,14 +120,16 @@ fn bar(ui: &mut Ui, deviations: f64) {
     painter
         .line_segment([pos2(middle, track.top() - 2.0), pos2(middle, track.bottom() + 2.0)], theme::hair(palette.weak));
     if deviations.abs() > ENDS {
-        let end = if deviations > 0.0 {
-            (area.right() + 1.0, Align2::LEFT_CENTER, "›")
-        } else {
-            (area.left() - 1.0, Align2::RIGHT_CENTER, "‹")
-        };
-        painter.text(pos2(end.0, area.center().y), end.1, end.2, theme::font(size::BODY), colour);
+        arrow(painter, track, deviations > 0.0, palette.canvas);
     }
     response.on_hover_text(format!("{deviations:+.1} deviations; grey: ±{SEEN:.0}, ends: ±{ENDS:.0}"));
+}
+
+/// An arrow within the end of a bar that would go on: outside it would touch the figures beside it.
+fn arrow(painter: &Painter, track: Rect, right: bool, colour: Color32) {
+    let (end, back) = if right { (track.right() - 3.0, -3.0) } else { (track.left() + 3.0, 3.0) };
+    let points = [-2.5, 0.0, 2.5].map(|y: f32| pos2(if y == 0.0 { end } else { end + back }, track.center().y + y));
+    painter.add(Shape::line(points.into(), theme::pen(colour)));
 }
 
 fn percent(value: Estimated) -> String {

@@ -38,6 +38,47 @@ impl Tab {
     }
 }
 
+/// A plot of a record that is not steady.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[expect(missing_docs, reason = "the names say it")]
+pub enum RecordTab {
+    #[default]
+    Time,
+    Spectrum,
+    Spectrogram,
+    Amplitude,
+}
+
+impl RecordTab {
+    /// All of them.
+    pub const ALL: [Self; 4] = [Self::Time, Self::Spectrum, Self::Spectrogram, Self::Amplitude];
+
+    /// Name on its tab.
+    pub fn label(self) -> &'static str {
+        match self {
+            Self::Time => "Time",
+            Self::Spectrum => "Spectrum",
+            Self::Spectrogram => "Spectrogram",
+            Self::Amplitude => "Amplitude",
+        }
+    }
+
+    /// What it shows, in one sentence.
+    pub fn tooltip(self) -> &'static str {
+        match self {
+            Self::Time => "The record, measured and modelled, and what is left over below.",
+            Self::Spectrum => "Amplitude spectra of the measured record, of the model's and of what is left over.",
+            Self::Spectrogram => "What is left over, over time and frequency.",
+            Self::Amplitude => "Damping ratio and frequency of a mode over its amplitude, measured and modelled.",
+        }
+    }
+
+    /// The plot of that name, in any case.
+    pub fn from_name(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|tab| tab.label().eq_ignore_ascii_case(name))
+    }
+}
+
 /// State of the stage; neither saved nor undone.
 #[derive(Debug, Clone)]
 #[expect(clippy::struct_excessive_bools, reason = "each is a choice of the user that stands on its own")]
@@ -46,6 +87,8 @@ pub struct Look {
     pub worst_first: bool,
     /// Plot of the selected cell.
     pub tab: Tab,
+    /// Plot of the selected record that is not steady.
+    pub record_tab: RecordTab,
     /// Whether the order of the map and the plots of the cell are chosen in the bars of their panes, which have room for it.
     pub in_bar: [bool; 2],
     /// Channel of the selected record that is not steady.
@@ -69,6 +112,7 @@ impl Default for Look {
         Self {
             worst_first: true,
             tab: Tab::default(),
+            record_tab: RecordTab::default(),
             in_bar: [false; 2],
             record: None,
             open: None,

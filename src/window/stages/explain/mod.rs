@@ -5,7 +5,6 @@ mod cards;
 pub mod changes;
 mod channels;
 pub mod corrections;
-mod decay;
 pub mod deed;
 mod detail;
 mod fingerprint;
@@ -17,6 +16,7 @@ pub mod look;
 mod map;
 pub mod panes;
 mod ranking;
+mod record;
 mod scene;
 mod schematic;
 pub mod switches;
@@ -30,7 +30,7 @@ use crate::session::validation::only_records;
 use crate::window::document::Document;
 use crate::window::explained::ledger::Ledger;
 use crate::window::explained::model::Key;
-use crate::window::explained::{Explained, Standing, Wanted};
+use crate::window::explained::{Explained, Shown, Standing, Wanted};
 use crate::window::frame::top::StageStatus;
 use crate::window::view::{Stage, View};
 use deed::Deed;
@@ -45,26 +45,35 @@ pub fn wanted(document: &Document, view: &View, explained: &Explained) -> Wanted
     }
     let look = &view.explain;
     let open = ranking::open(document, explained, look).filter(|(_, standing)| *standing == Standing::Final);
-    // Fingerprints, forces and curves over frequency are those of steady runs.
+    let named = open.map(|(s, _)| s.added.source.clone());
+    // Fingerprints and curves over frequency are those of steady runs.
     let steady = !document.project.runs.is_empty();
-    let print = open.filter(|_| steady).map(|(s, _)| s.added.source.clone());
     let curve = (steady && look.tab == look::Tab::Frequency).then_some(view.run);
-    let named = print.is_some();
     let unexplained = || {
         let found = explained.diagnosis(document).and_then(|d| d.as_ref().ok());
         found.is_some_and(|d| d.verdict == Verdict::Unexplained)
     };
-    let force = steady && (named || unexplained());
+    let force = named.is_some() || unexplained();
     Wanted {
         diagnosis: look.anyway || !is_undamped(document),
         anyway: look.anyway,
         trial: look.trial.clone(),
-        print,
+        named,
+        print: steady,
         force,
+        record: (!steady).then(|| record_shown(document, view)),
         scatter: steady && (look.scatter || left_by_runs(document, explained)),
         limit: view.limit_s.map(Duration::from_secs_f64),
         curve,
     }
+}
+
+/// The record that is not steady that is looked at, and its channel: of those that are used, the first unless one is chosen.
+fn record_shown(document: &Document, view: &View) -> Shown {
+    let records = &document.project.transient_runs;
+    let chosen = records.get(view.run).filter(|r| r.enabled).map(|_| view.run);
+    let index = chosen.or_else(|| records.iter().position(|r| r.enabled));
+    (index.unwrap_or(0), view.explain.record.clone())
 }
 
 /// Whether what is left may be scatter of the runs, which has to be looked at before it is called unexplained.

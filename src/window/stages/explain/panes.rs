@@ -5,7 +5,7 @@ use super::detail::Detail;
 use super::look::Look;
 use super::map::{self, Map};
 use super::scene::Scene;
-use super::{card, cards, ledger};
+use super::{card, cards, ledger, record};
 use crate::diagnosis::Comparison;
 use crate::display::format::in_words;
 use crate::effects::{Source, State};
@@ -159,7 +159,8 @@ pub fn cell(ui: &mut Ui, opened: &mut Opened<'_>, asks: &mut Vec<Ask>) {
         return;
     }
     if p.runs.is_empty() {
-        super::decay::show(ui, document, scene.explained, (look.trial.as_ref(), opened.view.run));
+        record::show(ui, &scene, &mut look, opened.view.run);
+        opened.view.explain = look;
         return;
     }
     let run = opened.view.run.min(p.runs.len().saturating_sub(1));

@@ -1,0 +1,88 @@
+//! Records that are not steady against the model in the stage Explain: over time with what is left below, as spectra, what is left
+//! over time and frequency, damping ratio and frequency over amplitude.
+
+use crate::support::{Sample, open, open_sized, settle};
+use dashpot::control::Control;
+use dashpot::plots::record_residual::RecordResidual;
+use dashpot::session::validation::compared_with_records;
+use dashpot::window::App;
+use dashpot::window::stages::explain::look::RecordTab;
+use dashpot::window::view::Stage;
+use egui::{Theme, accesskit::Role};
+use egui_kittest::Harness;
+use egui_kittest::kittest::Queryable;
+use std::path::Path;
+
+/// A copy of a sample of the program.
+fn sample(name: &str) -> Sample {
+    let folder = tempfile::tempdir().unwrap();
+    for file in std::fs::read_dir(Path::new(env!("CARGO_MANIFEST_DIR")).join("sample-data").join(name)).unwrap() {
+        let file = file.unwrap();
+        std::fs::copy(file.path(), folder.path().join(file.file_name())).unwrap();
+    }
+    let path = folder.path().join("project.toml");
+    Sample { _folder: folder, path }
+}
+
+fn explain(harness: &mut Harness<'_, App>) {
+    harness.state_mut().view.stage = Stage::Explain;
+    settle(harness);
+}
+
+/// Shows a plot of the record by a click on its name, and pictures it.
+fn picture(harness: &mut Harness<'_, App>, tab: RecordTab, name: &str) {
+    harness.get_by_role_and_label(Role::Button, tab.label()).click();
+    settle(harness);
+    assert_eq!(harness.state().view.explain.record_tab, tab);
+    harness.remove_cursor();
+    settle(harness);
+    harness.snapshot(format!("{name}-{}", tab.label().to_lowercase()));
+}
+
+#[test]
+fn a_decay_is_seen_over_time_as_spectra_and_over_amplitude() {
+    let sample = sample("decay-friction");
+    let mut harness = open(&sample, Theme::Light);
+    explain(&mut harness);
+    for tab in RecordTab::ALL {
+        picture(&mut harness, tab, "decay");
+    }
+    // What is drawn is what the command line draws.
+    let app = harness.state();
+    let (document, look) = (app.document.as_ref().unwrap(), &app.view.explain);
+    let project = &document.project;
+    let found = compared_with_records(project, &Control::unattended()).unwrap().unwrap();
+    let record = found.records.iter().find(|record| record.index == app.view.run).unwrap();
+    let run = &project.transient_runs[record.index];
+    let direct = RecordResidual::new(&project.structure, run, record, look.record.as_deref()).unwrap();
+    let shown = app.derived.explained.record(document, None, (record.index, look.record.clone())).unwrap();
+    let shown = shown.as_ref().unwrap();
+    assert_eq!(shown.title(), direct.title());
+    assert_eq!(shown.spectrogram(), direct.spectrogram());
+}
+
+#[test]
+fn a_cell_of_the_map_chooses_record_and_channel() {
+    let sample = sample("hammer-maxwell");
+    let mut harness = open(&sample, Theme::Light);
+    explain(&mut harness);
+    harness.get_by_role_and_label(Role::Button, "In order").click();
+    harness.run_steps(3);
+    harness.get_all_by_label_contains("Run 2, hammer-02.csv").next().unwrap().click();
+    settle(&mut harness);
+    let app = harness.state();
+    let shown = (1, app.view.explain.record.clone());
+    let residual = app.derived.explained.record(app.document.as_ref().unwrap(), None, shown).unwrap().as_ref().unwrap();
+    assert!(residual.title().ends_with("of hammer-02.csv"), "{}", residual.title());
+    assert_eq!(Some(&residual.channel), app.view.explain.record.as_ref());
+    picture(&mut harness, RecordTab::Spectrum, "hammer");
+}
+
+#[test]
+fn a_sweep_fits_into_a_small_window() {
+    let sample = sample("sweep-cubic");
+    let mut harness = open_sized(&sample, Theme::Dark, [1024.0, 700.0]);
+    explain(&mut harness);
+    picture(&mut harness, RecordTab::Time, "sweep-1024");
+    picture(&mut harness, RecordTab::Spectrogram, "sweep-1024");
+}
