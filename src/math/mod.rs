@@ -1,5 +1,6 @@
 //! Numerical kernels that know nothing of structures.
 
+pub mod bootstrap;
 pub mod eigen;
 pub mod fill;
 pub mod hermitian;

@@ -12,7 +12,7 @@ use super::compare::{floors, started};
 use super::data::{RecordError, Records};
 use super::evidence::{AGREES, evidence, misfit, scale};
 use super::fitted::FittedRecords;
-use super::problem::corrected_by;
+use super::problem::{corrected_by, is_strained};
 use super::search::{FEW_MODES, Search, SetsBySize, factors_of};
 use super::telling::{last_deviations, suggestions};
 use crate::control::Control;
@@ -185,7 +185,7 @@ impl Search<'_> {
         }
         // Both leave no more than noise: what is known of the corrections decides, where they tell much.
         if misfit(old) < AGREES {
-            return Ok(gain > NEEDLESS);
+            return Ok(gain > NEEDLESS || is_strained(old) && !is_strained(new));
         }
         let constant = new.effects.last().is_some_and(|e| matches!(e.effect, Effect::Mass | Effect::Stiffness));
         if worth < if constant { WORTH_OF_CONSTANT } else { WORTH } {
@@ -227,7 +227,8 @@ impl Search<'_> {
 fn agrees(fit: &FittedRecords) -> bool {
     let count = 2 + fit.known.len() + fit.modes.len() + fit.parts.len();
     let enough = if fit.effects.is_empty() { AGREES } else { ENOUGH };
-    misfit(fit) < enough && corrected_by(fit) < PLAUSIBLE[0].max(PLAUSIBLE[1] * count as f64)
+    let plausible = corrected_by(fit) < PLAUSIBLE[0].max(PLAUSIBLE[1] * count as f64);
+    misfit(fit) < enough && plausible && (!fit.effects.is_empty() || !is_strained(fit))
 }
 
 /// Whether the force of the last effect is more than its deviation allows it to be by chance.
@@ -241,4 +242,20 @@ fn is_sure(fit: &FittedRecords, least: f64) -> bool {
     let deviations = last_deviations(fit);
     let sizes = effect.effect.scaled().iter();
     sizes.map(|&k| effect.parameters[k].abs() / (wide * deviations[k])).any(|ratio| ratio > least)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A known dashpot of twice its size is no correction of the model, whatever else is left: something is missing there.
+    #[test]
+    fn a_known_source_far_off_does_not_agree() {
+        let noise = FittedRecords { count: 100, ..FittedRecords::of_effects(Vec::new(), 100.0) };
+        let with = |factor: f64| FittedRecords { known: vec![factor.ln(); 1], ..noise.clone() };
+        assert!(agrees(&with(1.2)));
+        // Of many corrections one such size was hidden by the others.
+        let many = |factor: f64| FittedRecords { parts: vec![0.0; 12], ..with(factor) };
+        assert!(agrees(&many(1.2)) && !agrees(&many(2.2)));
+    }
 }

@@ -126,4 +126,27 @@ impl FittedRecords {
         }
         Ok(root_mean_square(&errors))
     }
+
+    /// A fit of nothing but effects, for tests of what is chosen among fits.
+    #[cfg(test)]
+    pub(super) fn of_effects(effects: Vec<Source>, chi_square: f64) -> Self {
+        Self {
+            effects,
+            stiffness: 0.0,
+            known: Vec::new(),
+            modes: Vec::new(),
+            mass: 0.0,
+            parts: Vec::new(),
+            shapes: Vec::new(),
+            offsets: Vec::new(),
+            shifts: Vec::new(),
+            initial: Vec::new(),
+            chi_square,
+            prior: 0.0,
+            count: 1,
+            alike: 1.0,
+            deviations: Vec::new(),
+            residual: Vec::new(),
+        }
+    }
 }

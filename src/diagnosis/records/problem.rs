@@ -14,6 +14,8 @@ use crate::response::transient::TransientParameter;
 /// Prior deviation of the logarithm of all stiffness, of the size of a known source, of the stiffness of one record, of that of
 /// a mode, of all mass, of the shape of a mode at a sensor, of an offset over the largest sample.
 const PRIORS: [f64; 7] = [ALL, 0.15, 0.002, 0.02, 0.02, 0.02, 0.01];
+/// Prior deviations by which a known source may be off.
+const STRAINED: f64 = 3.0;
 /// Largest change of a logarithm in one step.
 const REACH: f64 = 1.0;
 
@@ -72,6 +74,11 @@ pub(super) fn corrected_by(fit: &FittedRecords) -> f64 {
         + square(&[fit.mass], PRIORS[4])
         + square(&fit.parts, 1.0)
         + shapes / count
+}
+
+/// Whether a known source is off by more than its prior allows: then it stands for something else, as for steady runs.
+pub(super) fn is_strained(fit: &FittedRecords) -> bool {
+    fit.known.iter().any(|v| v.abs() > STRAINED * PRIORS[1])
 }
 
 /// A fit to the first part of every record.

@@ -7,6 +7,7 @@ use super::fitted::FittedRecords;
 use super::laws::LAWS;
 use super::problem::{FitProblem, Free};
 use super::regression::Regression;
+use super::rivals::{GivenUp, is_same_set, unlike};
 use super::telling::{last_deviations, plainest};
 use crate::control::Control;
 use crate::diagnosis::candidates::special_cases::is_allowed;
@@ -58,6 +59,8 @@ pub(super) struct Search<'a> {
     pub stated: &'a Structure,
     pub supports: &'a [Correction],
     pub control: &'a Control,
+    /// Sets with a neighbour of the best law that left hopelessly much on shorter parts, where no phase is lost.
+    pub given_up: GivenUp,
 }
 
 /// Parts of the structure with their factors.
@@ -84,7 +87,8 @@ impl<'a> Search<'a> {
         (excluded, stated, supports): (&'a [Source], &'a Structure, &'a [Correction]),
         control: &'a Control,
     ) -> Self {
-        Self { records: weighted, plain, levels: weighted.levels(), excluded, stated, supports, control }
+        let (levels, given_up) = (weighted.levels(), GivenUp::default());
+        Self { records: weighted, plain, levels, excluded, stated, supports, control, given_up }
     }
 
     /// The structure as it is stated with its supports and other parts corrected.
@@ -270,8 +274,7 @@ impl Search<'_> {
 
     /// The best of `rivals` fitted on the parts of the next level, best first.
     pub fn lengthened(&self, rivals: &[FittedRecords], level: usize) -> Result<Vec<FittedRecords>, RecordError> {
-        let mut few = rivals.to_vec();
-        few.truncate(RIVALS);
+        let mut few = unlike(rivals, RIVALS);
         if let Some(best) = rivals.first() {
             let unit = scale(best);
             let near = few.iter().filter(|f| evidence(f, unit) < evidence(best, unit) + BEHIND).count();
@@ -297,6 +300,7 @@ impl Search<'_> {
     ) -> Result<Vec<FittedRecords>, RecordError> {
         let mut starts = self.begun_wider(level, &found)?;
         starts.extend(self.begun_plainer(&found));
+        starts.retain(|s| !self.given_up.holds(&s.effects));
         if starts.is_empty() {
             return Ok(found);
         }
@@ -304,6 +308,9 @@ impl Search<'_> {
         let fit = |k: usize| self.fit_by(level, &starts[k], (1.0, FOLLOWING), &alone).ok();
         add_begun(&mut found, self.control.map(starts.len(), fit));
         self.control.check()?;
+        if !self.control.is_late() {
+            self.given_up.add_all(&found, |f, least| f.chi_square > HOPELESS[0] * least.max(NOISE * f.count as f64));
+        }
         Ok(self.sorted(level, found))
     }
 
@@ -333,11 +340,6 @@ fn add_begun(found: &mut Vec<FittedRecords>, begun: Vec<Option<FittedRecords>>) 
             None => found.push(fitted),
         }
     }
-}
-
-/// Whether two sets hold the same effects, in any order.
-fn is_same_set(a: &[Source], b: &[Source]) -> bool {
-    a.len() == b.len() && a.iter().all(|x| b.iter().any(|y| y.is_same(x)))
 }
 
 /// The best `count` by their squared residual, none of them `hopeless` times the least.

@@ -1,14 +1,15 @@
 //! Fits as suggestions: probabilities, deviations, corrections beside them.
 
 use super::data::{RecordError, Records};
-use super::evidence::{evidence, misfit, parameters, scale};
+use super::evidence::{misfit, parameters, scale};
 use super::fitted::FittedRecords;
+use super::probability::probabilities;
 use super::problem::modes;
 use crate::diagnosis::diagnose::{Added, Suggestion};
 use crate::diagnosis::updating::correction::Correction;
 use crate::diagnosis::updating::parameters::UpdatingParameter;
 use crate::effects::Source;
-use crate::math::statistics::{evidence_weights, root_mean_square};
+use crate::math::statistics::root_mean_square;
 use crate::structure::Part;
 
 /// Share by which the squared residual of a law of fewer parameters may be larger than that of another at its place, which
@@ -51,8 +52,7 @@ pub(super) fn added(fit: &FittedRecords) -> Vec<Added> {
 pub(super) fn suggestions(records: &Records, found: &[FittedRecords]) -> Result<Vec<Suggestion>, RecordError> {
     let Some(best) = found.first() else { return Ok(Vec::new()) };
     let unit = scale(best);
-    let criteria: Vec<f64> = found.iter().map(|f| evidence(f, unit)).collect();
-    let weights = evidence_weights(&criteria);
+    let weights = probabilities(found);
     let mut list: Vec<Suggestion> = Vec::new();
     for (fit, weight) in found.iter().zip(&weights) {
         let error = fit.error(records, 0.0, 1.0)?;

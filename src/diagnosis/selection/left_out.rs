@@ -19,12 +19,9 @@ use crate::diagnosis::selection::fit_problem::OnResponse;
 use crate::diagnosis::selection::fitted_model::FittedModel;
 use crate::diagnosis::selection::levenberg_marquardt::Variables;
 use crate::diagnosis::selection::search::ReferenceModel;
-use crate::math::statistics::evidence_weights;
+use crate::math::bootstrap::{DRAWS, shares};
 use dashpot_numerics::{Cholesky, dot};
 use faer::Mat;
-use rand::SeedableRng;
-use rand_chacha::ChaCha8Rng;
-use rand_distr::{Distribution, Exp1};
 
 /// About as many groups as runs are left out in.
 const GROUPS: usize = 12;
@@ -33,8 +30,6 @@ const GROUPS: usize = 12;
 const PRECISION: f64 = 1.0;
 /// Share of the draws in which a model must predict better: that within two standard deviations.
 const SURE: f64 = 0.975;
-/// Draws of the Bayesian bootstrap.
-const DRAWS: usize = 1000;
 
 /// The group of every run: neighbours in frequency of one session (or level).
 pub(super) fn groups(data: &Data) -> Vec<usize> {
@@ -149,32 +144,11 @@ pub(super) fn exceeds(densities: &[f64], others: &[f64]) -> bool {
     better as f64 >= SURE * DRAWS as f64
 }
 
-/// Probabilities of models from the logarithms of their predictive densities of the same groups of runs, and of their priors.
-pub(super) fn probabilities(densities: &[Vec<f64>], priors: &[f64]) -> Vec<f64> {
-    let groups = densities.first().map_or(0, Vec::len);
-    let mut sums = vec![0.0; densities.len()];
-    for shares in shares(groups) {
-        let score = |(of, prior): (&Vec<f64>, &f64)| -2.0 * (groups as f64 * dot(of, &shares) + prior);
-        let weights = evidence_weights(&densities.iter().zip(priors).map(score).collect::<Vec<f64>>());
-        sums.iter_mut().zip(weights).for_each(|(sum, weight)| *sum += weight / DRAWS as f64);
-    }
-    sums
-}
-
-/// Draws of the weights of `groups` (Dirichlet of ones), the same at every call.
-fn shares(groups: usize) -> impl Iterator<Item = Vec<f64>> {
-    let mut random = ChaCha8Rng::seed_from_u64(1);
-    (0..DRAWS).map(move |_| {
-        let shares: Vec<f64> = (0..groups).map(|_| Exp1.sample(&mut random)).collect();
-        let total: f64 = shares.iter().sum();
-        shares.into_iter().map(|share| share / total).collect()
-    })
-}
-
 #[cfg(test)]
 mod tests {
     #![allow(clippy::unwrap_used, reason = "tests")]
     use super::*;
+    use crate::math::bootstrap::probabilities;
 
     const ROWS: [f64; 7] = [0.4, -1.3, 2.0, 0.7, -0.2, 1.1, 0.3];
     const OF_ROW: [usize; 7] = [0, 0, 1, 1, 1, 2, 2];

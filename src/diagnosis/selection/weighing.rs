@@ -1,7 +1,7 @@
 //! Candidates with models of their own: ordered by their evidence (what they leave, what their parameters and the freedom of the
 //! model beside them cost), with probabilities by how well they predict runs that are left out.
 
-use super::left_out::{exceeds, groups, probabilities};
+use super::left_out::{exceeds, groups};
 use super::short_list::VOID;
 use crate::diagnosis::candidates::special_cases::is_limit;
 use crate::diagnosis::channels::fault::is_ordinary_gain;
@@ -17,6 +17,7 @@ use crate::diagnosis::selection::updated::SETTLED;
 use crate::diagnosis::updating::parameters::{Scales, UpdatingParameter};
 use crate::diagnosis::updating::part_error::{is_within_part, part_of, takes_away};
 use crate::effects::{Effect, Range, Source};
+use crate::math::bootstrap::probabilities;
 use crate::structure::Part;
 
 /// Weighed candidates.

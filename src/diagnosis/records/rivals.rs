@@ -1,0 +1,92 @@
+//! Which sets of effects are worth carrying on: rivals that differ in kind, and none that was given up on shorter parts.
+
+use super::fitted::FittedRecords;
+use crate::effects::{Effect, Source};
+use std::sync::{Mutex, PoisonError};
+
+/// Most rivals whose last law is of the kin of that of a better one at the same place: laws of one kin share their limits and bend to the same
+/// data, so that many of them say no more than two.
+const MOST_KIN: usize = 2;
+
+/// The first `count` of some fits, best first; of laws of one kin at a place the first [`MOST_KIN`] only, as long as there are others.
+pub(super) fn unlike(rivals: &[FittedRecords], count: usize) -> Vec<FittedRecords> {
+    let mut taken: Vec<usize> = Vec::new();
+    for (k, rival) in rivals.iter().enumerate() {
+        if taken.iter().filter(|&&t| is_kin(&rivals[t], rival)).count() < MOST_KIN && taken.len() < count {
+            taken.push(k);
+        }
+    }
+    let others: Vec<usize> = (0..rivals.len()).filter(|k| !taken.contains(k)).collect();
+    taken.extend(others.into_iter().take(count - taken.len().min(count)));
+    taken.sort_unstable();
+    taken.into_iter().map(|k| rivals[k].clone()).collect()
+}
+
+/// Whether the last laws of two fits, at the same place, are the same, or one has all limits of the other.
+fn is_kin(one: &FittedRecords, other: &FittedRecords) -> bool {
+    let (Some(a), Some(b)) = (one.effects.last(), other.effects.last()) else { return false };
+    let has_limits_of = |wide: Effect, other: Effect| {
+        other.limits().next().is_some() && other.limits().all(|limit| wide.contains(limit))
+    };
+    let (x, y) = (a.effect, b.effect);
+    a.place.is_same(&b.place) && (x == y || has_limits_of(x, y) || has_limits_of(y, x))
+}
+
+/// Whether two sets hold the same effects, in any order.
+pub(super) fn is_same_set(a: &[Source], b: &[Source]) -> bool {
+    a.len() == b.len() && a.iter().all(|x| b.iter().any(|y| y.is_same(x)))
+}
+
+/// Sets of effects that a search no longer follows.
+#[derive(Debug, Default)]
+pub(super) struct GivenUp(Mutex<Vec<Vec<Source>>>);
+
+impl GivenUp {
+    /// Whether a set, in whatever order, was given up.
+    pub fn holds(&self, effects: &[Source]) -> bool {
+        let sets = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        sets.iter().any(|set| is_same_set(set, effects))
+    }
+
+    /// Gives up the fits that leave `hopeless`ly much beside the least that any of them leaves.
+    pub fn add_all(&self, found: &[FittedRecords], hopeless: impl Fn(&FittedRecords, f64) -> bool) {
+        let least = found.iter().map(|f| f.chi_square).fold(f64::INFINITY, f64::min);
+        let mut sets = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        sets.extend(found.iter().filter(|f| hopeless(f, least)).map(|f| f.effects.clone()));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{GivenUp, unlike};
+    use crate::diagnosis::records::fitted::FittedRecords;
+    use crate::effects::{Effect, Place, Source};
+
+    fn fit(effect: Effect, chi_square: f64) -> FittedRecords {
+        let parameters = vec![1.0; effect.parameters().len()];
+        let effects = vec![Source::known(effect, Place::Dofs(vec![0]), &parameters)];
+        FittedRecords::of_effects(effects, chi_square)
+    }
+
+    #[test]
+    fn laws_of_another_kind_are_carried_on_beside_four_of_one_kin() {
+        let kin = [Effect::Dahl, Effect::BoucWen, Effect::ElasticSlider, Effect::Iwan];
+        let mut rivals: Vec<FittedRecords> = kin.iter().map(|law| fit(*law, 1.0)).collect();
+        rivals.push(fit(Effect::Power, 2.0));
+        let laws = |fits: Vec<FittedRecords>| fits.iter().map(|f| f.effects[0].effect).collect::<Vec<_>>();
+        let carried = laws(unlike(&rivals, 4));
+        assert_eq!(carried.len(), 4);
+        assert!(carried.contains(&Effect::Power), "{carried:?}");
+        // Where there is nothing else all of one kin are.
+        rivals.pop();
+        assert_eq!(laws(unlike(&rivals, 4)).len(), 4);
+    }
+
+    #[test]
+    fn what_leaves_hopelessly_much_on_short_parts_is_given_up() {
+        let (best, other) = (fit(Effect::Dahl, 1.0), fit(Effect::Gap, 100.0));
+        let given_up = GivenUp::default();
+        given_up.add_all(&[best.clone(), other.clone()], |f, least| f.chi_square > 12.0 * least);
+        assert!(given_up.holds(&other.effects) && !given_up.holds(&best.effects));
+    }
+}
