@@ -32,7 +32,8 @@ impl eframe::Storage for Store {
 
 #[test]
 fn a_pane_is_closed_brought_back_and_remembered() {
-    let mut harness = open(&beam(), Theme::Light);
+    let sample = beam();
+    let mut harness = open(&sample, Theme::Light);
     harness.get_by_role_and_label(Role::Tab, "Spectrum").hover();
     harness.run_steps(2);
     harness.get_by_label("Close Spectrum").click();
@@ -42,7 +43,8 @@ fn a_pane_is_closed_brought_back_and_remembered() {
     eframe::App::save(harness.state_mut(), &mut store);
     let desk: Desk = eframe::get_value(&store, "desk").unwrap();
     assert!(desk.panes(Stage::Measure).contains(&(Pane::Spectrum, false)));
-    let mut again = open(&beam(), Theme::Light);
+    let sample = beam();
+    let mut again = open(&sample, Theme::Light);
     again.state_mut().desk = desk;
     settle(&mut again);
     assert!(again.query_by_role_and_label(Role::Tab, "Spectrum").is_none());
@@ -54,7 +56,8 @@ fn a_pane_is_closed_brought_back_and_remembered() {
 
 #[test]
 fn a_pane_is_dragged_by_its_title_into_another_group() {
-    let mut harness = open(&beam(), Theme::Light);
+    let sample = beam();
+    let mut harness = open(&sample, Theme::Light);
     let rect = |h: &egui_kittest::Harness<'_, App>, name: &str| h.get_by_role_and_label(Role::Tab, name).rect();
     let (from, to) = (rect(&harness, "Spectrum").center(), rect(&harness, "Runs").center());
     harness.hover_at(from);

@@ -32,7 +32,8 @@ fn export_all(harness: &mut Harness<'_, App>, folder: &Path) -> usize {
 
 #[test]
 fn every_plot_is_written_as_svg_and_as_png() {
-    let mut harness = open(&beam(), Theme::Light);
+    let sample = beam();
+    let mut harness = open(&sample, Theme::Light);
     let folder = tempfile::tempdir().unwrap();
     let mut count = 0;
     for (stage, pane, in_space) in [
@@ -103,7 +104,8 @@ fn copy_values(harness: &mut Harness<'_, App>, plot: egui::Pos2) -> String {
 
 #[test]
 fn a_double_click_shows_all_of_a_record_and_another_its_start() {
-    let mut harness = open(&beam(), Theme::Light);
+    let sample = beam();
+    let mut harness = open(&sample, Theme::Light);
     harness.state_mut().view.stage = Stage::Measure;
     settle(&mut harness);
     let plot = harness.get_by_label("residual").rect().center() + egui::vec2(0.0, 120.0);
@@ -132,7 +134,8 @@ fn a_double_click_shows_all_of_a_record_and_another_its_start() {
 
 #[test]
 fn the_context_menu_of_a_plot_copies_its_values() {
-    let mut harness = open(&beam(), Theme::Light);
+    let sample = beam();
+    let mut harness = open(&sample, Theme::Light);
     harness.state_mut().view.stage = Stage::Result;
     settle(&mut harness);
     let plot = harness.get_by_label_contains("Matrix;").rect().center();

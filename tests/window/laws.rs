@@ -36,7 +36,8 @@ fn laws_are_learnt_before_a_project_is_open() {
 
 #[test]
 fn the_page_of_three_masses_comes_and_goes_over_a_project() {
-    let mut harness = open(&beam(), Theme::Dark);
+    let sample = beam();
+    let mut harness = open(&sample, Theme::Dark);
     harness.key_press_modifiers(Modifiers::COMMAND, Key::L);
     settle(&mut harness);
     harness.state_mut().learn.lesson = Lesson::new(System::ThreeMasses, Effect::CubicStiffness);

@@ -69,7 +69,8 @@ fn many(count: usize, channels: usize) -> Sample {
 
 #[test]
 fn many_runs_open_on_an_overview_and_are_sorted_and_filtered() {
-    let mut harness = open(&many(RUNS, CHANNELS), Theme::Light);
+    let sample = many(RUNS, CHANNELS);
+    let mut harness = open(&sample, Theme::Light);
     assert_eq!(harness.state().document.as_ref().unwrap().project.runs.len(), RUNS);
     let seen = |harness: &egui_kittest::Harness<'_, dashpot::window::App>, pane| {
         harness.state().desk.rect(Stage::Measure, pane).is_some()
@@ -120,7 +121,8 @@ fn frame_time(harness: &mut egui_kittest::Harness<'_, dashpot::window::App>) -> 
 
 #[test]
 fn two_thousand_runs_stay_fluid() {
-    let mut harness = open(&many(2000, 8), Theme::Light);
+    let sample = many(2000, 8);
+    let mut harness = open(&sample, Theme::Light);
     assert_eq!(harness.state().document.as_ref().unwrap().project.runs.len(), 2000);
     for stage in [Stage::Measure, Stage::Structure, Stage::Select, Stage::Result] {
         harness.state_mut().view.stage = stage;

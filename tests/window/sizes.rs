@@ -110,7 +110,8 @@ fn legible_with_words_of_80_and_of_200_per_cent() {
 /// A tab that has no room stands in a list, and comes to the front from there.
 #[test]
 fn tabs_without_room_are_in_a_list() {
-    let mut harness = open_sized(&beam(), Theme::Light, SMALLEST);
+    let sample = beam();
+    let mut harness = open_sized(&sample, Theme::Light, SMALLEST);
     harness.state_mut().view.stage = Stage::Result;
     settle(&mut harness);
     assert!(harness.query_by_role_and_label(Role::Tab, "Change").is_none());

@@ -9,7 +9,8 @@ use egui_kittest::kittest::Queryable;
 use egui_kittest::{Harness, SnapshotResults};
 
 fn result(theme: Theme) -> Harness<'static, App> {
-    let mut harness = open(&beam(), theme);
+    let sample = beam();
+    let mut harness = open(&sample, theme);
     harness.state_mut().view.stage = Stage::Result;
     harness.state_mut().view.matrix_in_space = true;
     settle(&mut harness);

@@ -21,7 +21,8 @@ fn picture(harness: &mut Harness<'static, App>, name: &str) {
 
 #[test]
 fn in_the_middle_of_a_drag() {
-    let mut harness = open(&beam(), Theme::Light);
+    let sample = beam();
+    let mut harness = open(&sample, Theme::Light);
     harness.state_mut().view.stage = Stage::Pattern;
     settle(&mut harness);
     let (from, to) = (at(&harness, "3"), at(&harness, "7"));
@@ -36,7 +37,8 @@ fn in_the_middle_of_a_drag() {
 
 #[test]
 fn the_menu_of_a_degree_of_freedom() {
-    let mut harness = open(&beam(), Theme::Light);
+    let sample = beam();
+    let mut harness = open(&sample, Theme::Light);
     harness.state_mut().view.stage = Stage::Pattern;
     settle(&mut harness);
     harness.get_by_label_contains("DOF 5, translation").click_secondary();
@@ -52,7 +54,8 @@ fn the_menu_of_a_degree_of_freedom() {
 
 #[test]
 fn running_work() {
-    let mut harness = open(&beam(), Theme::Light);
+    let sample = beam();
+    let mut harness = open(&sample, Theme::Light);
     let ctx = harness.ctx.clone();
     harness.state_mut().run(&ctx, "Reading and fitting records", |control| {
         control.report(0.4);
@@ -103,7 +106,8 @@ fn empty_panes_say_what_to_do() {
 
 #[test]
 fn values_that_can_be_edited() {
-    let mut harness = open(&beam(), Theme::Light);
+    let sample = beam();
+    let mut harness = open(&sample, Theme::Light);
     harness.state_mut().view.stage = Stage::Structure;
     harness.state_mut().desk.set_open(Stage::Structure, Pane::Parameters, true);
     harness.state_mut().desk.set_open(Stage::Structure, Pane::ModeShape, true);
@@ -114,7 +118,8 @@ fn values_that_can_be_edited() {
 
 #[test]
 fn the_tour_points_at_things() {
-    let mut harness = open(&beam(), Theme::Light);
+    let sample = beam();
+    let mut harness = open(&sample, Theme::Light);
     harness.state_mut().view.tour = Some(5);
     settle(&mut harness);
     picture(&mut harness, "tour");
