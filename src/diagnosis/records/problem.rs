@@ -9,13 +9,12 @@ use super::fitted::FittedRecords;
 use super::part_directions::{ALL, MODE};
 use super::variables::{at_variable, variable};
 use crate::control::Control;
+use crate::diagnosis::updating::detuning::LIKELY_SIZE;
 use crate::response::transient::TransientParameter;
 
 /// Prior deviation of the logarithm of all stiffness, of the size of a known source, of the stiffness of one record, of that of
 /// a mode, of all mass, of the shape of a mode at a sensor, of an offset over the largest sample.
 const PRIORS: [f64; 7] = [ALL, 0.15, 0.002, 0.02, 0.02, 0.02, 0.01];
-/// Prior deviations by which a known source may be off.
-const STRAINED: f64 = 3.0;
 /// Largest change of a logarithm in one step.
 const REACH: f64 = 1.0;
 
@@ -76,9 +75,9 @@ pub(super) fn corrected_by(fit: &FittedRecords) -> f64 {
         + shapes / count
 }
 
-/// Whether a known source is off by more than its prior allows: then it stands for something else, as for steady runs.
+/// Whether a known source is off by more than is believed without looking for an effect: then it stands for something else.
 pub(super) fn is_strained(fit: &FittedRecords) -> bool {
-    fit.known.iter().any(|v| v.abs() > STRAINED * PRIORS[1])
+    fit.known.iter().any(|v| v.abs() > LIKELY_SIZE)
 }
 
 /// A fit to the first part of every record.

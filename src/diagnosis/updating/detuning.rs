@@ -103,8 +103,8 @@ pub fn detuning(problem: &Problem, control: &Control) -> Result<Option<Detuning>
 
 /// Largest correction of a number of the model, as a logarithm, that is believed without looking for an effect.
 const LIKELY: f64 = 0.1;
-/// The same for the size of a known source.
-const LIKELY_SIZE: f64 = 0.5;
+/// The same for the size of a known source: a factor of 1.65.
+pub(crate) const LIKELY_SIZE: f64 = 0.5;
 
 /// The same for a support.
 const LIKELY_SUPPORT: f64 = 1.5;

@@ -72,7 +72,8 @@ impl<'a> MeasuredMotion<'a> {
             force.iter_mut().zip(own.unwrap_or_default()).for_each(|(f, own)| *f += own * *factor);
         }
         // A part of the structure acts at few of its DOFs.
-        let acting: Vec<(usize, c64)> = force.into_iter().enumerate().filter(|(_, f)| f.norm_sqr() > 0.0).collect();
+        let acting: Vec<(usize, c64)> =
+            force.into_iter().enumerate().filter(|(_, f)| *f != c64::new(0.0, 0.0)).collect();
         let channel = |channel: &ChannelData| {
             let moved = |&(dof, f): &(usize, c64)| self.receptances.entry(r, 1, dof, channel.dof) * f;
             let sum: c64 = acting.iter().map(moved).sum();
