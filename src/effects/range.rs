@@ -32,6 +32,22 @@ impl Range {
         }
     }
 
+    /// Of motions of which the circular frequency (rad/s) and the amplitude (m) of the fundamental are known, one pair a run.
+    pub fn of_amplitudes(pairs: impl Iterator<Item = [f64; 2]>) -> Self {
+        let empty = Self { displacement: 0.0, least: f64::INFINITY, velocity: 0.0, omega: 0.0 };
+        let mut count = 0.0;
+        let sum = pairs.fold(empty, |range, [omega, amplitude]| {
+            count += 1.0;
+            Self {
+                displacement: range.displacement.max(amplitude),
+                least: range.least.min(amplitude),
+                velocity: range.velocity.max(omega * amplitude),
+                omega: range.omega + omega.ln(),
+            }
+        });
+        if count == 0.0 { Self::UNKNOWN } else { Self { omega: (sum.omega / count).exp(), ..sum } }
+    }
+
     /// Extensions (m) at which a slider may begin to slip: from well below the least amplitude to the largest.
     pub fn yields(&self) -> Vec<f64> {
         geometric(0.3 * self.least.max(0.02 * self.displacement), 0.95 * self.displacement, 8)
@@ -43,4 +59,25 @@ pub fn geometric(first: f64, last: f64, count: usize) -> Vec<f64> {
     let (first, last) = (first.max(1e-300), last.max(1e-300));
     let ratio = (last / first).powf(1.0 / (count.max(2) - 1) as f64);
     (0..count).map(|k| first * ratio.powi(k as i32)).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::effects::Sampling;
+    use faer::c64;
+
+    /// Sampled sines have the range of their amplitudes; of no motion nothing is known.
+    #[test]
+    fn amplitudes_tell_the_range_of_sampled_motions() {
+        let pairs = [[10.0, 2e-3], [40.0, 1e-3]];
+        let sampling = Sampling::new(4096);
+        let motion = |[omega, amplitude]: [f64; 2]| sampling.motion(omega, 0.0, &[c64::new(amplitude, 0.0)]);
+        let (by_samples, told) = (Range::of(&pairs.map(motion)), Range::of_amplitudes(pairs.into_iter()));
+        let list = |r: Range| [r.displacement, r.least, r.velocity, r.omega];
+        for (a, b) in list(by_samples).into_iter().zip(list(told)) {
+            assert!((a / b - 1.0).abs() < 1e-5, "{a} {b}");
+        }
+        assert!(Range::of_amplitudes(std::iter::empty()).omega.is_nan());
+    }
 }

@@ -250,7 +250,7 @@ impl Predictor {
             let pairs = prediction.truncation[*c].iter().zip(&channel.deviation);
             pairs.clone().any(|(t, d)| *d > 0.0 && t > d)
         };
-        if !data.alive.iter().any(shows) {
+        if !data.alive.iter().any(shows) || control.is_late() {
             return Ok(prediction);
         }
         self.predict(r, data, effects, &FINEST, Some(&prediction.response), control)

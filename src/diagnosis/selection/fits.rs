@@ -8,7 +8,7 @@ use crate::diagnosis::selection::fitted_model::{Estimator, FittedModel, Starts};
 use crate::diagnosis::selection::found::same_set;
 use crate::diagnosis::selection::search::{ReferenceModel, UnfittedSet, joined, scale_of};
 use crate::diagnosis::updating::noise_model::NoiseModel;
-use crate::effects::{Effect, Kind, Place, Range, Source, State};
+use crate::effects::{Effect, Kind, Place, Source, State};
 use std::sync::Arc;
 
 /// Of these, sets that are fitted with all harmonics that matter.
@@ -96,9 +96,9 @@ impl ReferenceModel<'_> {
     /// The sets of `fits` in which a law is all but a simpler one, with that in its stead.
     fn by_their_name(&self, fits: &[FittedModel]) -> Result<Vec<FittedModel>, DiagnosisError> {
         let named = |fit: &FittedModel| -> Option<Vec<Source>> {
-            let plain =
-                || fit.effects.iter().map(|e| e.simpler(&Range::UNKNOWN).unwrap_or_else(|| e.clone())).collect();
-            fit.effects.iter().any(|e| e.simpler(&Range::UNKNOWN).is_some()).then(plain)
+            let mut plain = fit.effects.clone();
+            fit.all_but_simpler().for_each(|(k, simpler)| plain[k] = simpler);
+            (plain != fit.effects).then_some(plain)
         };
         let fresh = |effects: &Vec<Source>| {
             !fits.iter().any(|r| same_set(&r.effects, effects)) && effects.iter().all(|e| self.data.allows(e))

@@ -7,7 +7,7 @@ use crate::diagnosis::residual::prediction::{FINAL, Predictor, RunPrediction, SE
 use crate::diagnosis::selection::fit_problem::{OnResponse, Trial};
 use crate::diagnosis::selection::levenberg_marquardt::{Descent, Variables, descend};
 use crate::diagnosis::updating::noise_model::NoiseModel;
-use crate::effects::Source;
+use crate::effects::{Leg, Range, Source};
 use crate::math::statistics::root_mean_square;
 use crate::response::harmonic_balance::{Response, ResponseError, Settings};
 use faer::{Mat, c64};
@@ -48,6 +48,25 @@ pub struct FittedModel {
     pub error: f64,
     pub(crate) starts: Starts,
     pub(crate) descent: Descent,
+}
+
+impl FittedModel {
+    /// The effects that are all but a simpler law on the motion that the fit predicts at their place, each by its place in the
+    /// list, with that law.
+    pub(crate) fn all_but_simpler(&self) -> impl Iterator<Item = (usize, Source)> {
+        let simpler = |(k, source): (usize, &Source)| Some((k, source.simpler(&self.range_at(source))?));
+        self.effects.iter().enumerate().filter_map(simpler)
+    }
+
+    /// Range of the predicted relative motion at the place of `source`.
+    fn range_at(&self, source: &Source) -> Range {
+        let legs = source.place.legs();
+        let size = |motion: &Response| {
+            let of_leg = |leg: &Leg| leg.relative(|i| motion.amplitude(i, 1)).norm();
+            [motion.omega, legs.iter().map(of_leg).fold(0.0, f64::max)]
+        };
+        Range::of_amplitudes(self.starts.iter().flatten().map(size).filter(|[_, amplitude]| *amplitude > 0.0))
+    }
 }
 
 impl Estimator<'_> {

@@ -25,6 +25,10 @@ enum Variable {
     Between(f64, f64),
 }
 
+/// Largest variable of a parameter within limits: a hundredth of their distance from them. Beyond, its derivative dies out, and a
+/// descent that once overshot would never return.
+const INSIDE: f64 = 4.6;
+
 impl Variable {
     fn new(parameter: &Parameter, value: f64) -> Self {
         if parameter.least.is_finite() && parameter.greatest.is_finite() {
@@ -42,7 +46,7 @@ impl Variable {
             Self::Scaled(unit) => value / unit,
             Self::Between(low, high) => {
                 let share = ((value - low) / (high - low)).clamp(1e-6, 1.0 - 1e-6);
-                (share / (1.0 - share)).ln()
+                (share / (1.0 - share)).ln().clamp(-INSIDE, INSIDE)
             }
         }
     }
@@ -51,7 +55,7 @@ impl Variable {
         match self {
             Self::Log => theta.clamp(-600.0, 600.0).exp(),
             Self::Scaled(unit) => unit * theta,
-            Self::Between(low, high) => low + (high - low) / (1.0 + (-theta.clamp(-30.0, 30.0)).exp()),
+            Self::Between(low, high) => low + (high - low) / (1.0 + (-theta.clamp(-INSIDE, INSIDE)).exp()),
         }
     }
 

@@ -14,7 +14,7 @@ use crate::diagnosis::residual::prediction::{FINAL, Predictor, RunPrediction};
 use crate::diagnosis::residual::whitening::Whitening;
 use crate::diagnosis::selection::fitted_model::{Estimator, FittedModel};
 use crate::diagnosis::updating::noise_model::{Linearisation, NoiseModel};
-use crate::effects::{Place, Range, Source};
+use crate::effects::{Place, Source};
 use crate::math::statistics::{bayesian_information, evidence_weights};
 use faer::{Mat, c64};
 use std::sync::Arc;
@@ -350,7 +350,7 @@ impl<'a> ReferenceModel<'a> {
 
     /// The part of it that laws cost which are all but a simpler one.
     pub fn posing(fit: &FittedModel) -> f64 {
-        POSING * fit.effects.iter().filter(|e| e.simpler(&Range::UNKNOWN).is_some()).count() as f64
+        POSING * fit.all_but_simpler().count() as f64
     }
 
     /// Probability of each fit by its evidence, their squared residuals scaled by what the best leaves.

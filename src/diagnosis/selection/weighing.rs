@@ -63,7 +63,7 @@ const FINISHED: usize = 2;
 
 /// Weighs fitted candidates, each with the model that was updated beside it.
 pub(super) fn weighed(fits: Vec<(ReferenceModel<'_>, FittedModel)>) -> Result<Option<Weighed<'_>>, DiagnosisError> {
-    let mut all = with_likely_scales(fits)?;
+    let mut all = with_likely_scales(by_simplest_name(fits)?)?;
     let wider = all.first().map_or(Ok(Vec::new()), wider_than)?;
     let fresh = |w: &Candidate| !all.iter().any(|c| c.cost < w.cost && same_set(&w.fit.effects, &c.fit.effects));
     let wider: Vec<Candidate> = wider.into_iter().filter(fresh).collect();
@@ -81,7 +81,7 @@ pub(super) fn weighed(fits: Vec<(ReferenceModel<'_>, FittedModel)>) -> Result<Op
         let probabilities = probabilities_of(&all);
         let Candidate { reference, fit, .. } = all.remove(0);
         let (reference, mut fit) = finished(reference, fit)?;
-        fit.error = reference.error_of_structure(&fit.effects, &fit.starts)?;
+        fit.error = error_of(&reference, &fit)?;
         let least = cost(&reference, Some(&fit));
         let told = with_told_deviations(&reference, fit)?;
         if !is_effect(&reference, &told) {
@@ -123,13 +123,35 @@ pub(super) fn bound_beside(reference: &ReferenceModel, best: &FittedModel) -> f6
     cost(reference, Some(best)) + if coarse { LIGHT.max(HEAVY * best.chi_square) } else { LIGHT }
 }
 
+/// The fits in which no law is all but a simpler one on the motion at its place: with that in its stead, fitted beside the same
+/// model. Taken for itself, the law would run away to where no data hold it, and answer ever more slowly.
+fn by_simplest_name(
+    fits: Vec<(ReferenceModel<'_>, FittedModel)>,
+) -> Result<Vec<(ReferenceModel<'_>, FittedModel)>, DiagnosisError> {
+    let mut named: Vec<(ReferenceModel, FittedModel)> = Vec::new();
+    for (reference, fit) in fits {
+        let mut effects = fit.effects.clone();
+        fit.all_but_simpler().for_each(|(k, simpler)| effects[k] = simpler);
+        if effects == fit.effects || !effects.iter().all(|effect| reference.data.allows(effect)) {
+            named.push((reference, fit));
+        } else if !named.iter().any(|(_, other)| same_set(&other.effects, &effects)) {
+            let simpler = reference.estimator().fit(&effects, STEPS, &SEARCH, &fit.starts)?;
+            named.push((reference, simpler));
+        }
+    }
+    Ok(named)
+}
+
+/// Relative error of the model with the effects of `fit`. On which branch each run is takes as long as a fit.
+fn error_of(reference: &ReferenceModel, fit: &FittedModel) -> Result<f64, DiagnosisError> {
+    if reference.control.is_late() {
+        return reference.error_of_followed(&fit.effects, &fit.starts);
+    }
+    reference.error_of_structure(&fit.effects, &fit.starts)
+}
+
 fn candidate(reference: ReferenceModel<'_>, fit: FittedModel) -> Result<Candidate<'_>, DiagnosisError> {
-    // On which branch each run is takes as long as a fit.
-    let error = if reference.control.is_late() {
-        reference.error_of_followed(&fit.effects, &fit.starts)?
-    } else {
-        reference.error_of_structure(&fit.effects, &fit.starts)?
-    };
+    let error = error_of(&reference, &fit)?;
     let densities = reference.left_out(Some(&fit), &groups(reference.data))?;
     Ok(Candidate { cost: cost(&reference, Some(&fit)), fit: FittedModel { error, ..fit }, densities, reference })
 }
@@ -157,8 +179,10 @@ fn wider_than<'a>(best: &Candidate<'a>) -> Result<Vec<Candidate<'a>>, DiagnosisE
         let near = cost(reference, Some(&fit)) < bound(&fit) && is_effect(reference, &fit);
         if !known && near && wider.len() < WIDER {
             let own = reference.with_scales(reference.linearisation.updating.scales);
-            let (there, settled) = own.settled(fit, &SEARCH, WIDER_UPDATES)?;
-            wider.push(candidate(there, settled)?);
+            let settled = own.settled(fit, &SEARCH, WIDER_UPDATES)?;
+            for (there, settled) in by_simplest_name(vec![settled])? {
+                wider.push(candidate(there, settled)?);
+            }
         }
     }
     Ok(wider)
@@ -168,11 +192,14 @@ fn wider_than<'a>(best: &Candidate<'a>) -> Result<Vec<Candidate<'a>>, DiagnosisE
 /// simpler law that was followed by itself may have ended in a valley of its own.
 fn limits_of<'a>(best: &Candidate<'a>) -> Result<Vec<Candidate<'a>>, DiagnosisError> {
     let mut limits = Vec::new();
+    let late = best.reference.control.is_late();
     for (k, source) in best.fit.effects.iter().enumerate() {
-        for simpler in source.limits().filter(|s| s.parameters.iter().all(|p| p.is_normal())) {
+        // A parameter that the data do not know is told of no law, however late it is.
+        let heard = !late || is_open(&best.fit.deviations[k], source);
+        for simpler in source.limits().filter(|s| heard && s.parameters.iter().all(|p| p.is_normal())) {
             let mut effects = best.fit.effects.clone();
             effects[k] = simpler;
-            if best.reference.control.is_late() || !best.reference.data.allows(&effects[k]) {
+            if !best.reference.data.allows(&effects[k]) {
                 continue;
             }
             let reference = best.reference.with_scales(best.reference.linearisation.updating.scales);
@@ -214,7 +241,8 @@ fn probabilities_of(all: &[Candidate]) -> Vec<f64> {
     let Some(first) = all.first() else { return list };
     let differ = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| (a - b).abs()).sum::<f64>();
     for (k, other) in all.iter().enumerate().skip(1) {
-        let same = || is_open(&other.fit) || differ(&first.densities, &other.densities) < SAME;
+        let open = || other.fit.effects.iter().zip(&other.fit.deviations).any(|(e, d)| is_open(d, e));
+        let same = || open() || differ(&first.densities, &other.densities) < SAME;
         if is_limit(&first.fit.effects, &other.fit.effects) && same() {
             list[0] += std::mem::take(&mut list[k]);
         }
@@ -222,10 +250,9 @@ fn probabilities_of(all: &[Candidate]) -> Vec<f64> {
     list
 }
 
-/// Whether a fit has a parameter that the data do not know, which may as well be at a limit.
-fn is_open(fit: &FittedModel) -> bool {
-    let open = |(p, d): (&f64, &f64)| d.is_nan() || *d >= VOID * p.abs();
-    fit.effects.iter().zip(&fit.deviations).any(|(e, d)| e.parameters.iter().zip(d).any(open))
+/// Whether an effect has a parameter that the data do not know, which may as well be at a limit.
+fn is_open(deviations: &[f64], source: &Source) -> bool {
+    source.parameters.iter().zip(deviations).any(|(p, d)| d.is_nan() || *d >= VOID * p.abs())
 }
 
 /// A candidate with its model, settled in turn with the most likely scales.

@@ -46,7 +46,8 @@ pub(crate) fn level_arc(
     control: &Control,
 ) -> Result<(Option<Vec<f64>>, ArcEnding), ResponseError> {
     let mut found = None;
-    let ending = trace(balance, ([settings.tolerance, 1.0], settings.patience), control, |u, last| {
+    let gives_up = |steps: usize| settings.gives_up(steps, control);
+    let ending = trace(balance, ([settings.tolerance, 1.0], &gives_up), control, |u, last| {
         found = last.converged.then(|| u.to_vec());
         false
     })?;
@@ -60,7 +61,7 @@ pub(crate) fn all_crossings(
     control: &Control,
 ) -> Result<Vec<Vec<f64>>, ResponseError> {
     let mut found: Vec<Vec<f64>> = Vec::new();
-    trace(balance, ([tolerance, TOP], usize::MAX), control, |u, last| {
+    trace(balance, ([tolerance, TOP], &|_| false), control, |u, last| {
         if last.converged && !found.iter().any(|other| alike(other, u)) {
             found.push(u.to_vec());
         }
@@ -76,10 +77,10 @@ fn alike(a: &[f64], b: &[f64]) -> bool {
 }
 
 /// Follows the path up to `top` times the force and shows each answer at the full force to `visit`, until that has
-/// enough.
+/// enough or `gives_up` says so of the number of steps made.
 fn trace(
     balance: &Balance,
-    ([tolerance, top], patience): ([f64; 2], usize),
+    ([tolerance, top], gives_up): ([f64; 2], &dyn Fn(usize) -> bool),
     control: &Control,
     mut visit: impl FnMut(&[f64], Ending) -> bool,
 ) -> Result<ArcEnding, ResponseError> {
@@ -94,7 +95,7 @@ fn trace(
     let mut step = 0.02;
     for _ in 0..MOST_POINTS {
         control.check()?;
-        if result.ending.steps > patience {
+        if gives_up(result.ending.steps) {
             break;
         }
         let Some((next, steps)) = advance(balance, &point, step, tolerance, least) else {

@@ -48,6 +48,8 @@ pub use model::{ForwardModel, RunModel};
 pub use outcome::{Attempt, Response, SourceForce, Status, Step};
 pub use stability::{is_stable, multipliers};
 
+use crate::control::Control;
+
 /// How many harmonics, and how exactly.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Settings {
@@ -82,6 +84,12 @@ impl Default for Settings {
 }
 
 impl Settings {
+    /// Whether to make no further attempt after so many Newton steps: patience is at its end, or somebody who has little of
+    /// it waits for the best so far.
+    pub(crate) fn gives_up(&self, steps: usize, control: &Control) -> bool {
+        steps > self.patience || (self.patience < usize::MAX && control.is_late())
+    }
+
     /// A fixed number of harmonics.
     pub fn fixed(harmonics: usize) -> Self {
         Self { harmonics, most_harmonics: harmonics, ..Self::default() }

@@ -319,6 +319,9 @@ fn raise(
     let mut total = Ending { converged: false, steps: 0, residual: f64::INFINITY };
     for _ in 0..MOST_LEVELS {
         control.check()?;
+        if settings.gives_up(total.steps, control) {
+            break;
+        }
         let next = f64::min(level + step, 1.0);
         let mut trial = predicted(u, level, &before, next);
         let ending = balance.solve(&mut trial, next, settings.tolerance);
@@ -333,7 +336,7 @@ fn raise(
         } else {
             step *= 0.4;
             total.residual = ending.residual;
-            if step < LEAST_LEVEL_STEP || total.steps > settings.patience {
+            if step < LEAST_LEVEL_STEP {
                 break;
             }
         }
