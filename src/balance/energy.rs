@@ -4,11 +4,11 @@
 //! The drive point's own sensor gives `X` there where it exists: off resonance the energy hangs on a small phase, which an
 //! expansion does not know.
 
-use super::Expansion;
 use super::action;
 use super::error::BalanceError;
 use super::expansion::Expanded;
 use super::measured::Measured;
+use super::settings::Expansion;
 use crate::control::Control;
 use crate::effects::{Place, Source};
 use crate::math::fill::filled;

@@ -4,11 +4,11 @@
 //! coefficients: the gradients of `e` and `G` by the measured coefficients, added before they are squared, because the
 //! same sensors enter both.
 
-use super::Weights;
 use super::action;
 use super::energy::add_input_gradient;
 use super::expansion::Expanded;
 use super::measured::Measured;
+use super::settings::Weights;
 use crate::effects::Source;
 use crate::structure::Structure;
 use faer::{Mat, c64};

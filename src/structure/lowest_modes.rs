@@ -9,9 +9,9 @@
 //! modes of that multiplicity. One factorisation (n^3 / 3) and some products with the basis take the place of all n modes
 //! (about 10 n^3, most of it slow): seconds instead of minutes at 2000 DOFs.
 
-use super::SystemMatrices;
 use super::error::StructureError;
 use super::modes::{self, Modes, failure};
+use super::system::SystemMatrices;
 use crate::math::eigen;
 use crate::math::fill::filled;
 use dashpot_numerics::{Cholesky, product, transposed_product};

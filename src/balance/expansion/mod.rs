@@ -9,9 +9,9 @@ mod points;
 
 pub use expanded::{Acting, Expanded};
 
-use super::Expansion;
 use super::error::BalanceError;
 use super::measured::Measured;
+use super::settings::Expansion;
 use crate::structure::Structure;
 use modal_model::ModalModel;
 

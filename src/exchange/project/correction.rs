@@ -2,8 +2,8 @@
 //! such as the stiffness of a mode or of a range of elements; what model updating found.
 
 use super::error::{Problem, ProjectError};
-use super::file::Lines;
 use super::label::Label;
+use super::lines::Lines;
 use super::reader::Table;
 use crate::structure::{Part, Structure};
 use serde::{Deserialize, Serialize};

@@ -3,7 +3,7 @@
 //!
 //! With unit columns, `N = A^T A`, `h = A^T b` and `|b| = 1`, the residual of columns in use is `1 - x^T h`.
 
-use super::Unit;
+use super::unit_problem::Unit;
 use crate::math::nnls::{NnlsError, nnls};
 use faer::Mat;
 

@@ -1,10 +1,10 @@
 //! The lowest modes of a sparse pair by shift-invert block Lanczos ([`crate::structure::lowest_modes`]).
 
-use super::SparseSystem;
-use crate::structure::SystemMatrices;
+use super::request::SparseSystem;
 use crate::structure::error::StructureError;
 use crate::structure::lowest_modes::{Pencil, search};
 use crate::structure::modes::{Modes, modes};
+use crate::structure::system::SystemMatrices;
 use dashpot_numerics::{SparseCholesky, SparseSymmetric};
 use faer::{Mat, MatRef};
 use std::f64::consts::TAU;

@@ -1,8 +1,8 @@
 //! What modes and sensors that were not measured cost the classical methods: errors of each against the number of both.
 
-mod choice;
+pub mod choice;
 
-pub use choice::{Along, Choice, Error};
+use choice::{Along, Choice, Error};
 
 use crate::classical::incompleteness::{Case, Incompleteness, METHODS};
 use crate::classical::method::Method;
