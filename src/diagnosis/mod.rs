@@ -23,10 +23,12 @@ mod on_all_runs;
 pub mod points;
 pub mod records;
 pub mod residual;
+pub mod result;
 pub mod selection;
 pub mod together;
 pub mod updating;
 
 pub use compare::{Comparison, compare};
-pub use diagnose::{Diagnosis, diagnose};
+pub use diagnose::diagnose;
 pub use residual::data::{DiagnosisError, Problem};
+pub use result::Diagnosis;

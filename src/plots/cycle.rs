@@ -2,7 +2,7 @@
 
 use super::figure::{Axis, Figure, Look};
 use super::style::Palette;
-use crate::diagnosis::compare::{ChannelComparison, HarmonicComparison};
+use crate::diagnosis::residual::comparison::{ChannelComparison, HarmonicComparison};
 use crate::display::words;
 use crate::measurement::{HarmonicFit, Quantity};
 use faer::c64;

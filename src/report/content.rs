@@ -3,8 +3,8 @@
 use crate::control::Control;
 use crate::diagnosis::candidates::fingerprint_plot::{self as prints, Print};
 use crate::diagnosis::candidates::restoring_force::RestoringForce;
-use crate::diagnosis::diagnose::Verdict;
 use crate::diagnosis::records::RecordComparison;
+use crate::diagnosis::result::Verdict;
 use crate::diagnosis::{self, Comparison, Diagnosis};
 use crate::effects::Source;
 use crate::exchange::Project;

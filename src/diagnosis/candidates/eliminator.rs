@@ -8,7 +8,8 @@
 //!
 //! which is what the law leaves of the response itself, all else linear.
 
-use crate::diagnosis::localisation::free_force::{ForceFreedom, FreeForce};
+use crate::diagnosis::localisation::cell::FreeForce;
+use crate::diagnosis::localisation::free_force::ForceFreedom;
 use dashpot_numerics::{Cholesky, dot, thin_qr};
 use faer::Mat;
 

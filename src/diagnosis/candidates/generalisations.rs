@@ -1,9 +1,11 @@
 //! Where a law explains much but not all: the laws that contain it, or one of its limits, fitted anew at its place. Their
 //! own fits may have ended in a valley of the wrong side while the model was still far off.
 
+use crate::diagnosis::candidates::start::UnfittedSet;
 use crate::diagnosis::residual::data::DiagnosisError;
 use crate::diagnosis::selection::fitted_model::FittedModel;
-use crate::diagnosis::selection::search::{ReferenceModel, UnfittedSet, joined};
+use crate::diagnosis::selection::reference_model::ReferenceModel;
+use crate::diagnosis::selection::search::joined;
 use crate::effects::Effect;
 use std::sync::Arc;
 

@@ -13,7 +13,8 @@
 use crate::diagnosis::candidates::eliminator::Eliminator;
 use crate::diagnosis::candidates::friction::{friction, sizes};
 use crate::diagnosis::candidates::start::{Fields, relative};
-use crate::diagnosis::localisation::free_force::{ForceFreedom, FreeForce};
+use crate::diagnosis::localisation::cell::FreeForce;
+use crate::diagnosis::localisation::free_force::ForceFreedom;
 use crate::diagnosis::localisation::location::Spot;
 use crate::diagnosis::residual::data::{Data, RunData};
 use crate::diagnosis::selection::levenberg_marquardt::{Descent, Residual, Variables, descend};

@@ -2,7 +2,7 @@
 
 use crate::diagnosis::localisation::free_force::Placing;
 use crate::diagnosis::residual::data::DiagnosisError;
-use crate::diagnosis::selection::search::ReferenceModel;
+use crate::diagnosis::selection::reference_model::ReferenceModel;
 
 /// Least squared residual that free forces leave.
 pub(crate) struct Reach {

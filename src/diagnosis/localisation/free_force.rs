@@ -11,6 +11,7 @@
 
 use super::cell::{Cell, dot};
 use crate::control::Control;
+use crate::diagnosis::localisation::cell::FreeForce;
 use crate::diagnosis::localisation::location::{Receptances, Spot};
 use crate::diagnosis::residual::data::{Data, DiagnosisError};
 use crate::diagnosis::residual::prediction::{Predictor, RunPrediction};
@@ -44,15 +45,6 @@ pub(crate) struct Freedom {
     pub own: Vec<Vec<Vec<c64>>>,
     /// Values of those that are in the model already, `[run][parameter]`.
     pub own_values: Vec<Vec<f64>>,
-}
-
-/// A free complex force with its variance.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct FreeForce {
-    /// Force of the effect, N (relative error for channels).
-    pub value: c64,
-    /// Its weight: one over the variance of a real part.
-    pub weight: f64,
 }
 
 /// What one place, or two, leave unexplained.

@@ -1,11 +1,11 @@
 //! Energies of a `points` problem as data, and effects fitted to them.
 
 use super::uncertainty::Uncertainty;
-use crate::diagnosis::diagnose::Added;
 use crate::diagnosis::points::energies::{PointsEnergy, displacement, energies};
 use crate::diagnosis::residual::data::{DiagnosisError, Problem, RunData};
 use crate::diagnosis::residual::energy_balance::{input, taken};
 use crate::diagnosis::residual::prediction::transfer;
+use crate::diagnosis::result::Added;
 use crate::diagnosis::selection::levenberg_marquardt::{Residual, Variables, descend};
 use crate::diagnosis::updating::correction::Correction;
 use crate::diagnosis::updating::parameters::UpdatingParameter;

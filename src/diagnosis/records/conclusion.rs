@@ -7,7 +7,7 @@ use super::model_errors::ModelErrors;
 use super::search::{Search, SetsBySize};
 use super::telling::{added, corrections, corrections_of_parts, suggestions, words};
 use super::told::added_as_told;
-use crate::diagnosis::diagnose::{Added, Diagnosis, Step, Suggestion, Verdict};
+use crate::diagnosis::result::{Added, Diagnosis, Step, Suggestion, Verdict};
 use crate::diagnosis::updating::correction::Correction;
 use crate::structure::Part;
 

@@ -16,7 +16,7 @@ use super::problem::{corrected_by, is_strained};
 use super::search::{FEW_MODES, Search, SetsBySize, factors_of};
 use super::telling::{last_deviations, suggestions};
 use crate::control::Control;
-use crate::diagnosis::diagnose::{Diagnosis, Early, Step, Verdict};
+use crate::diagnosis::result::{Diagnosis, Early, Step, Verdict};
 use crate::effects::{Effect, Source};
 use crate::math::statistics::root_mean_square;
 use crate::measurement::TransientRun;

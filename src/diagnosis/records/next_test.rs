@@ -8,7 +8,7 @@
 use super::data::{RecordData, RecordError, Records};
 use super::fitted::FittedRecords;
 use super::search::Search;
-use crate::diagnosis::diagnose::{NextTest, TestKind};
+use crate::diagnosis::result::{NextTest, TestKind};
 use crate::measurement::Kind;
 use std::f64::consts::TAU;
 

@@ -12,7 +12,7 @@ use super::fitted::FittedRecords;
 use super::problem::{FitProblem, Free, modes};
 use super::search::Search;
 use crate::control::Control;
-use crate::diagnosis::diagnose::Added;
+use crate::diagnosis::result::Added;
 use crate::effects::Source;
 
 /// Deviations from 0 at which a correction of a known source and of a mode is kept.

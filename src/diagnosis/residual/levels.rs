@@ -1,9 +1,8 @@
 //! Levels of the runs: their labels where all have one, else amplitudes that runs share. Tests are controlled by the force
 //! or by the response; what is held within a level is what little of it scatters.
 
-use super::data::{Data, RunData};
+use super::data::{Data, Problem, RunData};
 use super::whiteness::numbered;
-use crate::diagnosis::Problem;
 use crate::measurement::Quantity;
 
 /// Runs without labels whose forces differ by less than this share are of one level.

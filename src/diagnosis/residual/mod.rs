@@ -2,11 +2,13 @@
 
 pub mod branch;
 pub mod breakdown;
+pub mod comparison;
 pub mod data;
 pub mod energy_balance;
 pub(crate) mod levels;
 pub mod prediction;
 pub mod run_nuisance;
 pub(crate) mod telling_runs;
+pub(crate) mod transfers;
 pub mod whiteness;
 pub mod whitening;

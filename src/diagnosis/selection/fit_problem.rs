@@ -3,7 +3,7 @@
 use crate::control::Cancelled;
 use crate::diagnosis::residual::data::{ChannelData, DiagnosisError, RunData};
 use crate::diagnosis::residual::prediction::{Predictor, RunPrediction, transfer};
-use crate::diagnosis::selection::fitted_model::{Estimator, Starts};
+use crate::diagnosis::selection::estimator::{Estimator, Starts};
 use crate::diagnosis::selection::levenberg_marquardt::{Residual, Variables};
 use crate::effects::{Kind, Source};
 use crate::response::harmonic_balance::Settings;

@@ -1,12 +1,15 @@
 //! Fits of sets on the response: all of them a little, the promising ones to the end, the best with all harmonics.
 
 use crate::diagnosis::candidates::special_cases::is_limit;
+use crate::diagnosis::candidates::start::UnfittedSet;
 use crate::diagnosis::candidates::start::start;
 use crate::diagnosis::residual::data::DiagnosisError;
 use crate::diagnosis::residual::prediction::{FINAL, SEARCH};
-use crate::diagnosis::selection::fitted_model::{Estimator, FittedModel, Starts};
+use crate::diagnosis::selection::estimator::{Estimator, Starts};
+use crate::diagnosis::selection::fitted_model::FittedModel;
 use crate::diagnosis::selection::found::same_set;
-use crate::diagnosis::selection::search::{ReferenceModel, UnfittedSet, joined, scale_of};
+use crate::diagnosis::selection::reference_model::{ReferenceModel, scale_of};
+use crate::diagnosis::selection::search::joined;
 use crate::diagnosis::updating::noise_model::NoiseModel;
 use crate::effects::{Effect, Kind, Place, Range, Source, State};
 use std::sync::Arc;

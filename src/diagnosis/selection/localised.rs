@@ -5,11 +5,13 @@
 //! way is far off (friction that sticks). Once a law leaves about as little as free forces, the model is moved beside that:
 //! it is the narrower hypothesis.
 
+use crate::diagnosis::candidates::start::UnfittedSet;
 use crate::diagnosis::channels::{ChannelFault, Fault, mended};
-use crate::diagnosis::localisation::free_force::{FreeForce, Placing};
+use crate::diagnosis::localisation::cell::FreeForce;
+use crate::diagnosis::localisation::free_force::Placing;
 use crate::diagnosis::localisation::location::Spot;
 use crate::diagnosis::residual::data::{DiagnosisError, if_possible};
-use crate::diagnosis::selection::search::{ReferenceModel, UnfittedSet};
+use crate::diagnosis::selection::reference_model::ReferenceModel;
 use crate::diagnosis::selection::short_list::Breadth;
 use crate::diagnosis::updating::parameters::Updating;
 

@@ -2,6 +2,7 @@
 
 mod beside_corrections;
 pub mod conclusion;
+pub mod estimator;
 mod exactness;
 pub mod fit_problem;
 pub mod fits;
@@ -14,6 +15,7 @@ pub mod levenberg_marquardt;
 mod localised;
 pub mod next_test;
 mod pairs;
+pub mod reference_model;
 pub mod search;
 pub mod sentences;
 mod short_list;

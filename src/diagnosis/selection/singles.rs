@@ -1,10 +1,12 @@
 //! Sets with one effect more, of laws that were regressed on free forces.
 
 use super::fits::FIRST_STEPS;
-use super::search::{ReferenceModel, UnfittedSet, joined};
+use super::search::joined;
 use super::short_list::{Breadth, short_list};
+use crate::diagnosis::candidates::start::UnfittedSet;
 use crate::diagnosis::residual::data::DiagnosisError;
 use crate::diagnosis::selection::fitted_model::FittedModel;
+use crate::diagnosis::selection::reference_model::ReferenceModel;
 
 /// Sets that are fitted on the response.
 pub(super) const FITS: usize = 10;

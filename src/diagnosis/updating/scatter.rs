@@ -16,12 +16,12 @@
 use super::correction::{Correction, with_corrections};
 use super::parameters::{Updating, UpdatingParameter};
 use crate::control::Control;
-use crate::diagnosis::diagnose::Diagnosis;
 use crate::diagnosis::residual::data::{Data, DiagnosisError, Problem};
 use crate::diagnosis::residual::prediction::{FINAL, Predictor, RunPrediction};
 #[cfg(doc)]
 use crate::diagnosis::residual::run_nuisance::RunNuisance;
-use crate::diagnosis::selection::search::ReferenceModel;
+use crate::diagnosis::result::Diagnosis;
+use crate::diagnosis::selection::reference_model::ReferenceModel;
 use crate::effects::Source;
 use std::sync::Arc;
 

@@ -1,7 +1,7 @@
 //! What a search tells before it has ended.
 
 use super::model::Search;
-use crate::diagnosis::diagnose::Suggestion;
+use crate::diagnosis::result::Suggestion;
 use crate::window::repaint::RepaintHandle;
 use egui::Context;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};

@@ -4,7 +4,7 @@ use super::deed::Deed;
 use super::gauge::Gauge;
 use super::scene::Scene;
 use super::{fingerprint, force};
-use crate::diagnosis::diagnose::Suggestion;
+use crate::diagnosis::result::Suggestion;
 use crate::display::format::{self, chance, polished};
 use crate::display::words;
 use crate::effects::{Place, Source};

@@ -9,7 +9,7 @@ use super::look::Look;
 use super::ranking::{open, ranked};
 use super::scene::Scene;
 use crate::diagnosis::Diagnosis;
-use crate::diagnosis::diagnose::Verdict;
+use crate::diagnosis::result::Verdict;
 use crate::diagnosis::updating::parameters::UpdatingParameter;
 use crate::display::findings::{self, is_detuned, is_stuck, sentence};
 use crate::display::format;

@@ -3,7 +3,7 @@
 use super::cards;
 use super::deed::Deed;
 use super::scene::Scene;
-use crate::diagnosis::diagnose::Verdict;
+use crate::diagnosis::result::Verdict;
 use crate::display::findings::is_stuck;
 use crate::display::format::in_words;
 use crate::plots::figure::{Axis, Figure, Look, Ticks};

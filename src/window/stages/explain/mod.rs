@@ -21,7 +21,7 @@ mod scene;
 mod schematic;
 pub mod switches;
 
-use crate::diagnosis::diagnose::Verdict;
+use crate::diagnosis::result::Verdict;
 use crate::display::findings::{RunSpread, is_detuned, is_stuck, spread_of_runs};
 use crate::display::format;
 use crate::display::words;

@@ -2,7 +2,7 @@
 
 use super::look::Look;
 use crate::diagnosis::candidates::special_cases::is_allowed;
-use crate::diagnosis::diagnose::Suggestion;
+use crate::diagnosis::result::Suggestion;
 use crate::window::document::Document;
 use crate::window::explained::{Explained, Standing};
 
