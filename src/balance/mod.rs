@@ -1,13 +1,13 @@
 //! From measured harmonics to the energy equation `G c = e`.
 
-pub mod action;
-pub mod energy;
-pub mod error;
+pub(crate) mod action;
+pub(crate) mod energy;
+pub(crate) mod error;
 pub mod expansion;
 pub mod loops;
-pub mod measured;
+pub(crate) mod measured;
 mod settings;
-pub mod weights;
+pub(crate) mod weights;
 pub mod windows;
 
 pub use energy::EnergyEquation;

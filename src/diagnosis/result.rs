@@ -131,7 +131,7 @@ pub struct Diagnosis {
     pub corrections: Vec<Correction>,
     /// Reversed, exchanged and misread channels; all the rest is of the data with these mended.
     pub channel_faults: Vec<ChannelFault>,
-    /// Whether the search came to its end before its time was up ([`Control::hurry`]).
+    /// Whether the search came to its end before its time was up ([`crate::control::Control::hurry`]).
     pub complete: bool,
     /// Numbers of the runs of the project that were searched where there are more than a search needs: those that tell most
     /// (its errors are of all runs); none where all were.

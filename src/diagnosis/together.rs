@@ -17,7 +17,7 @@ const UNNAMED: f64 = 0.01;
 const SURE: f64 = 0.5;
 
 /// Joins what a search in steady runs and one in records found; either alone where the other one suggests nothing.
-pub fn together(steady: Diagnosis, records: Diagnosis) -> Diagnosis {
+pub(crate) fn together(steady: Diagnosis, records: Diagnosis) -> Diagnosis {
     if records.suggestions.is_empty() {
         return Diagnosis { complete: steady.complete && records.complete, ..steady };
     }

@@ -16,7 +16,7 @@ use crate::session::validation::{
 use std::sync::Arc;
 
 /// A result, or one line that says why there is none.
-pub type Found<T> = Result<Arc<T>, String>;
+pub(super) type Found<T> = Result<Arc<T>, String>;
 
 /// One model that was looked at on the way to the present one.
 #[derive(Debug, Clone, PartialEq)]

@@ -44,7 +44,7 @@ pub struct HeldDof {
 }
 
 /// Entries of a symmetric matrix, `(row, column, value)`, both triangles.
-pub type Triplets = Vec<(usize, usize, f64)>;
+pub(crate) type Triplets = Vec<(usize, usize, f64)>;
 
 /// The share of one part in the matrices.
 #[derive(Debug, Clone, PartialEq, Default)]

@@ -8,14 +8,14 @@ pub mod component;
 mod coupling;
 pub mod damped_modes;
 mod error;
-pub mod factors;
+pub(crate) mod factors;
 mod geometry;
 pub mod imported;
-pub mod lowest_modes;
+pub(crate) mod lowest_modes;
 mod lumped_mass;
 pub mod modes;
 pub mod points;
-pub mod reduction;
+pub(crate) mod reduction;
 mod system;
 pub mod wing;
 

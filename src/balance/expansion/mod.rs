@@ -4,7 +4,7 @@
 mod dynamic;
 mod expanded;
 mod modal;
-pub mod modal_model;
+pub(crate) mod modal_model;
 mod points;
 
 pub use expanded::{Acting, Expanded};

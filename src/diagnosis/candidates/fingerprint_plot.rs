@@ -87,7 +87,7 @@ impl Print {
 ///
 /// # Errors
 /// What keeps the model from being compared.
-pub fn print(
+pub(crate) fn print(
     problem: &Problem,
     found: &[Source],
     corrections: &[Correction],

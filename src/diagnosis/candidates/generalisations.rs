@@ -15,7 +15,7 @@ const SHAPES: usize = 2;
 impl ReferenceModel<'_> {
     /// The set `best` with each of its effects in turn replaced by laws that it may have been taken for, from their best
     /// shapes against the free force that the rest of `best` leaves at the place; of these laws, those that are `wanted`.
-    pub fn wider(
+    pub(crate) fn wider(
         &self,
         best: &FittedModel,
         wanted: impl Fn(Effect) -> bool,

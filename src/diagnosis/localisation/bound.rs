@@ -12,7 +12,7 @@ pub(crate) struct Reach {
 
 impl ReferenceModel<'_> {
     /// How little free forces at one place, or at two, leave of the squared residual.
-    pub fn reach(&self) -> Result<Reach, DiagnosisError> {
+    pub(crate) fn reach(&self) -> Result<Reach, DiagnosisError> {
         let view = self.view(None)?;
         let least = |placings: Vec<Placing>| placings.first().map_or(f64::INFINITY, |p| p.chi_square);
         Ok(Reach { single: least(view.screen.singles()), pair: least(view.screen.pairs(1)) })

@@ -10,7 +10,7 @@ const INDEPENDENCE: f64 = 1e-6;
 
 /// A free complex force with its variance.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct FreeForce {
+pub(crate) struct FreeForce {
     /// Force of the effect, N (relative error for channels).
     pub value: c64,
     /// Its weight: one over the variance of a real part.

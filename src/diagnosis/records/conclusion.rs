@@ -29,7 +29,7 @@ const OPEN: f64 = 0.05;
 
 impl Search<'_> {
     /// Fills `diagnosis` with what was found.
-    pub fn conclude(&self, by_size: &SetsBySize, diagnosis: &mut Diagnosis) -> Result<(), RecordError> {
+    pub(super) fn conclude(&self, by_size: &SetsBySize, diagnosis: &mut Diagnosis) -> Result<(), RecordError> {
         let last: Vec<FittedRecords> = by_size.last.iter().map(without_void).collect();
         let Some(best) = last.first() else {
             diagnosis.verdict = Verdict::Unexplained;

@@ -213,7 +213,7 @@ impl Search<'_> {
     }
 
     /// Error on the last part of each record of a fit on the rest.
-    pub fn held_out(&self, level: usize, fit: &FittedRecords) -> Result<f64, RecordError> {
+    pub(super) fn held_out(&self, level: usize, fit: &FittedRecords) -> Result<f64, RecordError> {
         let learnt = self.fit(level, fit, LEARNT, LEARNING);
         match learnt.and_then(|learnt| learnt.error(&self.levels[level], LEARNT, 1.0)) {
             Ok(error) => Ok(error),

@@ -46,7 +46,7 @@ pub(crate) fn sessions(problem: &Problem, data: &Data) -> Vec<usize> {
 
 impl Levels {
     /// Levels of the runs of `data`.
-    pub fn new(problem: &Problem, data: &Data) -> Self {
+    pub(crate) fn new(problem: &Problem, data: &Data) -> Self {
         let labels = data.runs.iter().map(|run| problem.runs[run.index].level);
         if let Some(labels) = labels.collect::<Option<Vec<i64>>>() {
             return Self::labelled(&labels);

@@ -38,7 +38,7 @@ pub(crate) struct Outcome<'a> {
 
 impl Outcome<'_> {
     /// Fills in what was found.
-    pub fn conclude(&self, mut diagnosis: Diagnosis) -> Result<Diagnosis, DiagnosisError> {
+    pub(crate) fn conclude(&self, mut diagnosis: Diagnosis) -> Result<Diagnosis, DiagnosisError> {
         let reference = &self.reference;
         let by_size = &self.found.by_size;
         let Some(top) = by_size.last() else {

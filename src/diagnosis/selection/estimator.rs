@@ -26,12 +26,12 @@ pub(crate) struct Estimator<'a> {
 
 impl Estimator<'_> {
     /// Number of real data.
-    pub fn count(&self) -> usize {
+    pub(crate) fn count(&self) -> usize {
         self.noise.count()
     }
 
     /// Predicts every run; a run without a periodic answer is predicted to rest, and so fits nothing.
-    pub fn predict(
+    pub(crate) fn predict(
         &self,
         effects: &[Source],
         settings: &Settings,
@@ -67,13 +67,13 @@ impl Estimator<'_> {
     }
 
     /// Whitened residual of all runs, real and imaginary parts, updating parameters eliminated.
-    pub fn residual(&self, predictions: &[RunPrediction]) -> Vec<f64> {
+    pub(crate) fn residual(&self, predictions: &[RunPrediction]) -> Vec<f64> {
         self.noise.updating.residual(self.at_reference(predictions))
     }
 
     /// Whitened residual of all runs with the updating parameters at their reference; what differs from run to run is
     /// eliminated.
-    pub fn at_reference(&self, predictions: &[RunPrediction]) -> Vec<f64> {
+    pub(crate) fn at_reference(&self, predictions: &[RunPrediction]) -> Vec<f64> {
         let mut rows = Vec::with_capacity(self.count());
         for (r, (run, prediction)) in self.data.runs.iter().zip(predictions).enumerate() {
             let noise = &self.noise.runs[r];
@@ -85,14 +85,14 @@ impl Estimator<'_> {
         rows
     }
 
-    pub fn whitened(&self, r: usize, rows: &mut Vec<f64>, value: impl Fn(usize, usize) -> c64) {
+    pub(crate) fn whitened(&self, r: usize, rows: &mut Vec<f64>, value: impl Fn(usize, usize) -> c64) {
         let mut own = self.noise.runs[r].rows(value);
         self.noise.runs[r].nuisance().project(&mut own);
         rows.extend(own);
     }
 
     /// Relative root mean square error of predictions over runs and channels.
-    pub fn error(&self, predictions: &[RunPrediction]) -> f64 {
+    pub(crate) fn error(&self, predictions: &[RunPrediction]) -> f64 {
         let mut errors = Vec::new();
         for (run, prediction) in self.data.runs.iter().zip(predictions) {
             for (c, channel) in run.responses.iter().enumerate() {

@@ -74,7 +74,7 @@ impl ReferenceModel<'_> {
     }
 
     /// The laws of the whole structure, from a light start.
-    pub fn whole(&self, from: Option<&FittedModel>, steps: usize) -> Result<Vec<FittedModel>, DiagnosisError> {
+    pub(crate) fn whole(&self, from: Option<&FittedModel>, steps: usize) -> Result<Vec<FittedModel>, DiagnosisError> {
         let effects = from.map_or(&[][..], |fit| &fit.effects);
         let omega = self.data.runs.iter().map(|r| r.omega.ln()).sum::<f64>() / self.data.runs.len() as f64;
         let light = |effect: Effect| {
@@ -113,7 +113,10 @@ impl ReferenceModel<'_> {
 
     /// Fits the best of `fits` again with all harmonics that matter and the noise of the best of them, truncation
     /// included; the others follow as they are.
-    pub fn polished(&self, fits: Vec<FittedModel>) -> Result<(Vec<FittedModel>, Arc<NoiseModel>), DiagnosisError> {
+    pub(crate) fn polished(
+        &self,
+        fits: Vec<FittedModel>,
+    ) -> Result<(Vec<FittedModel>, Arc<NoiseModel>), DiagnosisError> {
         let mut best = fits;
         let scale = scale_of(&best, self.count());
         let bound = best.first().map_or(0.0, |r| self.evidence(r, scale)) + HOPELESS_FIT;

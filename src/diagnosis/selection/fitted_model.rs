@@ -20,7 +20,7 @@ const HURRIED: usize = 1;
 
 /// A set of effects fitted on the response.
 #[derive(Debug, Clone)]
-pub struct FittedModel {
+pub(crate) struct FittedModel {
     /// Effects with their parameters.
     pub effects: Vec<Source>,
     /// Standard deviation of every parameter, of every effect.
@@ -37,7 +37,7 @@ pub struct FittedModel {
 
 impl Estimator<'_> {
     /// Fits all parameters of `effects` from where they are.
-    pub fn fit(
+    pub(crate) fn fit(
         &self,
         effects: &[Source],
         steps: usize,
@@ -54,7 +54,7 @@ impl Estimator<'_> {
     }
 
     /// Error on runs that were left out: groups of runs in turn, the parameters refitted without them (linearised).
-    pub fn held_out_error(&self, fit: &FittedModel) -> Result<f64, DiagnosisError> {
+    pub(crate) fn held_out_error(&self, fit: &FittedModel) -> Result<f64, DiagnosisError> {
         let (variables, _) = Variables::new(&fit.effects);
         let folds = FOLDS.min(self.data.runs.len());
         if folds < 2 {

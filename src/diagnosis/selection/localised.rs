@@ -59,7 +59,9 @@ impl Seen<'_> {
 impl<'a> ReferenceModel<'a> {
     /// The model with the updating parameters that fit best beside what leaves least at the measured motion, and the laws
     /// regressed there, best first; or the channel that does not fit the others, whatever the law.
-    pub fn localised(&self) -> Result<Result<(ReferenceModel<'a>, Vec<UnfittedSet>), ChannelFault>, DiagnosisError> {
+    pub(crate) fn localised(
+        &self,
+    ) -> Result<Result<(ReferenceModel<'a>, Vec<UnfittedSet>), ChannelFault>, DiagnosisError> {
         let (stated, known) = self.predictor.stated();
         let here = self.moved_beside(Updating::all(stated, known, self.data))?;
         if let Some(fault) = self.doubted(&here)? {

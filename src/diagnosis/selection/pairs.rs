@@ -15,7 +15,7 @@ const PAIRS_OF_ALL_LAWS: usize = 6;
 
 impl ReferenceModel<'_> {
     /// Sets of two new effects at the pairs of places that explain most.
-    pub fn pairs(&self) -> Result<Vec<FittedModel>, DiagnosisError> {
+    pub(crate) fn pairs(&self) -> Result<Vec<FittedModel>, DiagnosisError> {
         let mut view = self.view(None)?;
         let mut unfitted = Vec::new();
         let placings = view.screen.pairs(PAIRS);

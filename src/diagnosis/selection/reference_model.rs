@@ -39,7 +39,7 @@ pub(crate) struct ReferenceModel<'a> {
 
 impl<'a> ReferenceModel<'a> {
     /// The known model itself.
-    pub fn new(
+    pub(crate) fn new(
         predictor: Arc<Predictor>,
         data: &'a Data,
         control: &'a Control,
@@ -53,7 +53,7 @@ impl<'a> ReferenceModel<'a> {
     }
 
     /// Noise of the residual of a model with `effects` and its predictions.
-    pub fn noise_of(&self, effects: &[Source], of: &[RunPrediction]) -> Result<NoiseModel, DiagnosisError> {
+    pub(crate) fn noise_of(&self, effects: &[Source], of: &[RunPrediction]) -> Result<NoiseModel, DiagnosisError> {
         let runs = self.data.runs.iter().enumerate();
         let runs: Result<Vec<Whitening>, DiagnosisError> = runs
             .map(|(r, run)| {
@@ -67,17 +67,17 @@ impl<'a> ReferenceModel<'a> {
     }
 
     /// What fits on the response are made with.
-    pub fn estimator(&self) -> Estimator<'_> {
+    pub(crate) fn estimator(&self) -> Estimator<'_> {
         Estimator { predictor: &self.predictor, data: self.data, noise: &self.noise, control: self.control }
     }
 
     /// Number of real data.
-    pub fn count(&self) -> usize {
+    pub(crate) fn count(&self) -> usize {
         self.noise.count()
     }
 
     /// The same model and data without what was computed of them.
-    pub fn shallow(&self) -> ReferenceModel<'a> {
+    pub(crate) fn shallow(&self) -> ReferenceModel<'a> {
         ReferenceModel {
             predictor: self.predictor.clone(),
             data: self.data,
@@ -90,29 +90,29 @@ impl<'a> ReferenceModel<'a> {
     }
 
     /// Information criterion of a fit, its squared residual scaled by what the best model leaves beyond the noise.
-    pub fn evidence(&self, fit: &FittedModel, scale: f64) -> f64 {
+    pub(crate) fn evidence(&self, fit: &FittedModel, scale: f64) -> f64 {
         bayesian_information(fit.chi_square / scale.max(1.0), fit.parameters, self.count()) + Self::complexity(fit)
     }
 
     /// What the laws of a fit cost in evidence for their kind, whatever the data.
-    pub fn complexity(fit: &FittedModel) -> f64 {
+    pub(crate) fn complexity(fit: &FittedModel) -> f64 {
         let extra: usize = fit.effects.iter().map(|e| e.parameters.len() - 1).sum();
         EXTRA * extra as f64 + Self::posing(fit)
     }
 
     /// The part of it that laws cost which are all but a simpler one.
-    pub fn posing(fit: &FittedModel) -> f64 {
+    pub(crate) fn posing(fit: &FittedModel) -> f64 {
         POSING * fit.effects.iter().filter(|e| e.simpler(&Range::UNKNOWN).is_some()).count() as f64
     }
 
     /// Probability of each fit by its evidence, their squared residuals scaled by what the best leaves.
-    pub fn probabilities(&self, fits: &[FittedModel]) -> Vec<f64> {
+    pub(crate) fn probabilities(&self, fits: &[FittedModel]) -> Vec<f64> {
         let scale = scale_of(fits, self.count());
         evidence_weights(&fits.iter().map(|fit| self.evidence(fit, scale)).collect::<Vec<f64>>())
     }
 
     /// Best first; none of more parameters than runs.
-    pub fn ranked(&self, mut fits: Vec<FittedModel>) -> Vec<FittedModel> {
+    pub(crate) fn ranked(&self, mut fits: Vec<FittedModel>) -> Vec<FittedModel> {
         let allowed = |(e, d): (&Source, &Vec<f64>)| !e.is_disguised() && is_allowed(&self.data.excluded, e, d);
         let few = |r: &FittedModel| r.parameters <= self.data.runs.len();
         fits.retain(|r| {
@@ -127,7 +127,7 @@ impl<'a> ReferenceModel<'a> {
     }
 
     /// How far the model agrees with the data as it is, as a first step.
-    pub fn agreement(&self) -> Step {
+    pub(crate) fn agreement(&self) -> Step {
         let estimator = self.estimator();
         let before = square(&estimator.residual(&self.predictions));
         Step {
@@ -138,7 +138,7 @@ impl<'a> ReferenceModel<'a> {
     }
 
     /// Error that noise and truncation alone would leave.
-    pub fn noise_floor(&self, effects: &[Source], predictions: &[RunPrediction]) -> f64 {
+    pub(crate) fn noise_floor(&self, effects: &[Source], predictions: &[RunPrediction]) -> f64 {
         let Ok(noise) = self.noise_of(effects, predictions) else { return f64::NAN };
         let mut floors = Vec::new();
         for ((run, noise), prediction) in self.data.runs.iter().zip(&noise.runs).zip(predictions) {

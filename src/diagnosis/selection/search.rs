@@ -34,7 +34,7 @@ pub(crate) struct View<'a> {
     predictions: Vec<RunPrediction>,
 }
 
-impl<'a> ReferenceModel<'a> {
+impl ReferenceModel<'_> {
     /// The residual of the known model, or of a fit, seen from every place.
     pub(crate) fn view(&self, of: Option<&FittedModel>) -> Result<View<'_>, DiagnosisError> {
         let effects = of.map_or(&[][..], |fit| &fit.effects);
@@ -103,7 +103,7 @@ impl<'a> ReferenceModel<'a> {
 
     /// The free force of the place of `source` when the model has the other effects of `fit`; none for whole-structure
     /// laws.
-    pub fn place_data(&self, fit: &FittedModel, source: &Source) -> Result<Option<PlaceData>, DiagnosisError> {
+    pub(crate) fn place_data(&self, fit: &FittedModel, source: &Source) -> Result<Option<PlaceData>, DiagnosisError> {
         let mut others = fit.clone();
         others.effects.retain(|e| !e.is_same(source));
         others.starts.clear();
@@ -118,7 +118,7 @@ impl<'a> ReferenceModel<'a> {
 
     /// The set `best` with its effect `source` at other places that leave no more than `margin` beyond what its own place
     /// leaves to a free force.
-    pub fn elsewhere(
+    pub(crate) fn elsewhere(
         &self,
         best: &FittedModel,
         source: &Source,

@@ -15,7 +15,7 @@ const WORTH: f64 = 0.05;
 
 impl ReferenceModel<'_> {
     /// Sets of the effects of `from` and one more, fitted on the response, best first by evidence.
-    pub fn singles(&self, from: Option<&FittedModel>) -> Result<Vec<FittedModel>, DiagnosisError> {
+    pub(crate) fn singles(&self, from: Option<&FittedModel>) -> Result<Vec<FittedModel>, DiagnosisError> {
         let effects = from.map_or(&[][..], |fit| &fit.effects);
         let unfitted = self.unfitted(&mut self.view(from)?, effects, Breadth::All)?;
         self.fitted_singles(unfitted, from)

@@ -49,7 +49,7 @@ impl<'a> ReferenceModel<'a> {
     ///
     /// Where the model is far off, its derivatives `-A dZ X` are taken at the measured motion rather than at its own
     /// (`X` times the factor that fits the sensors best): for a single mode the relation is then exact however far off.
-    pub fn updated(
+    pub(crate) fn updated(
         &self,
         updating: &Updating,
         effects: &[Source],
@@ -141,7 +141,7 @@ impl<'a> ReferenceModel<'a> {
     }
 
     /// The model whose updating parameters fit the measurement best without any effect.
-    pub fn bare(&self) -> Result<ReferenceModel<'a>, DiagnosisError> {
+    pub(crate) fn bare(&self) -> Result<ReferenceModel<'a>, DiagnosisError> {
         let (stated, known) = self.predictor.stated();
         let mut updating = Updating::all(stated, known, self.data);
         let mut best: Option<(f64, ReferenceModel<'a>)> = None;
@@ -193,7 +193,7 @@ impl<'a> ReferenceModel<'a> {
     /// This model with the scales that are most likely without any effect, and its evidence: without gains and differences
     /// from run to run, or without those alone, where that agrees with the data; else the best of these and of the scales
     /// that are estimated.
-    pub fn likely(&self) -> Result<(ReferenceModel<'a>, f64), DiagnosisError> {
+    pub(crate) fn likely(&self) -> Result<(ReferenceModel<'a>, f64), DiagnosisError> {
         let alike = Scales { shift: Scales::LEAST.shift, response: Scales::LEAST.response, ..Scales::SEARCH };
         let exact = Scales { gain: Scales::LEAST.gain, phase: Scales::LEAST.phase, ..alike };
         let start = self.updated(&self.linearisation.updating.without_force_gains(), &[], &Vec::new())?;
@@ -311,7 +311,7 @@ impl<'a> ReferenceModel<'a> {
     }
 
     /// The same model with other scales of the priors.
-    pub fn with_scales(&self, scales: Scales) -> ReferenceModel<'a> {
+    pub(crate) fn with_scales(&self, scales: Scales) -> ReferenceModel<'a> {
         let updating = self.linearisation.updating.with_scales(scales);
         let linearisation = Linearisation { updating, ..(*self.linearisation).clone() };
         let noise = NoiseModel::new(self.noise.runs.clone(), &linearisation);
@@ -325,7 +325,7 @@ impl<'a> ReferenceModel<'a> {
 
     /// The model with the scales that are most likely beside the effects of `fit` (none: the model alone), and the
     /// effects fitted with them.
-    pub fn with_likely_scales(
+    pub(crate) fn with_likely_scales(
         &self,
         fit: Option<&FittedModel>,
         settings: &Settings,

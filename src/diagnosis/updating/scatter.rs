@@ -10,7 +10,7 @@
 //! w_r = (1 + V_r^T V_r)^-1 V_r^T (r_r - B_r u)   covariance (1 + V_r^T V_r)^-1, u being known
 //! ```
 //!
-//! (Harville 1977; [`Marginalisation`](super::marginalisation::Marginalisation), [`RunNuisance`]). A relative change `s` of all
+//! (Harville 1977; `Marginalisation`, `RunNuisance`). A relative change `s` of all
 //! stiffness shifts all natural frequencies by `s / 2`.
 
 use super::correction::{Correction, with_corrections};

@@ -8,7 +8,7 @@ mod files;
 mod format;
 mod identified;
 mod json;
-pub mod mat5;
+pub(crate) mod mat5;
 mod mtx;
 mod nastran;
 mod outcome;

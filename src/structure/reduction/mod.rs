@@ -18,10 +18,10 @@ mod pencil;
 mod reduce;
 mod request;
 
-pub use mode_check::ModeCheck;
-pub use outcome::Reduction;
-pub use reduce::reduce;
-pub use request::{Method, SparseSystem, Wanted};
+pub(crate) use mode_check::ModeCheck;
+pub(crate) use outcome::Reduction;
+pub(crate) use reduce::reduce;
+pub(crate) use request::{Method, SparseSystem, Wanted};
 
 #[cfg(test)]
 mod tests;

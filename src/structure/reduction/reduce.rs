@@ -30,7 +30,7 @@ const MOST_TIMES: usize = 6;
 ///
 /// # Errors
 /// [`StructureError`]: nothing kept, too many modes, a structure that is not stable or, for Guyan, not restrained by `kept`.
-pub fn reduce(
+pub(crate) fn reduce(
     system: &SparseSystem,
     directions: &[Direction],
     kept: &[usize],

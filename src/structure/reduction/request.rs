@@ -4,7 +4,7 @@ use dashpot_numerics::SparseSymmetric;
 
 /// Mass and stiffness of a whole model, n x n.
 #[derive(Debug, Clone, PartialEq)]
-pub struct SparseSystem {
+pub(crate) struct SparseSystem {
     /// Mass, kg.
     pub mass: SparseSymmetric,
     /// Stiffness, N/m.

@@ -2,7 +2,7 @@
 //! `dashpot import` would write. Everything is read in the background.
 
 mod decided;
-pub mod destination;
+pub(crate) mod destination;
 mod draft;
 mod mapping;
 mod places;

@@ -1,6 +1,6 @@
 //! What modes and sensors that were not measured cost the classical methods: errors of each against the number of both.
 
-pub mod choice;
+pub(crate) mod choice;
 
 use choice::{Along, Choice, Error};
 
@@ -20,7 +20,7 @@ const LEAST: f64 = 1e-3;
 const NAMED: usize = 8;
 
 /// Shows the plot under its choices.
-pub fn show(ui: &mut Ui, document: &Document, derived: &mut Derived, choice: &mut Choice) {
+pub(crate) fn show(ui: &mut Ui, document: &Document, derived: &mut Derived, choice: &mut Choice) {
     let study = match derived.incompleteness(ui.ctx(), document) {
         Some(Ok(study)) => study,
         Some(Err(error)) => return ui.empty("Nothing to study", &error),
