@@ -8,7 +8,7 @@ use std::time::Instant;
 
 /// An effect at a place, named by its law and its DOFs or channel.
 #[derive(Debug, Clone)]
-pub struct Named {
+pub(crate) struct Named {
     pub effect: String,
     /// DOF labels, or one name of a channel.
     pub at: Vec<String>,
@@ -19,11 +19,11 @@ pub struct Named {
 }
 
 impl Named {
-    pub fn list(value: &Value) -> Vec<Self> {
+    pub(crate) fn list(value: &Value) -> Vec<Self> {
         value.as_array().map_or_else(Vec::new, |list| list.iter().map(Self::new).collect())
     }
 
-    pub fn new(value: &Value) -> Self {
+    pub(crate) fn new(value: &Value) -> Self {
         let text = |v: &Value| v.as_str().unwrap_or_default().to_string();
         let dofs = || value["dofs"].as_array().map_or_else(Vec::new, |d| d.iter().map(text).collect());
         let deviation = |name: &String| value["standard_deviation"][name].as_f64().unwrap_or(f64::INFINITY);
@@ -36,20 +36,20 @@ impl Named {
         }
     }
 
-    pub fn same_law(&self, other: &Self) -> bool {
+    pub(crate) fn same_law(&self, other: &Self) -> bool {
         self.effect == other.effect
     }
 
     /// A chain may be read from either end.
-    pub fn same_place(&self, other: &Self) -> bool {
+    pub(crate) fn same_place(&self, other: &Self) -> bool {
         self.at == other.at || self.at.iter().eq(other.at.iter().rev())
     }
 
-    pub fn same(&self, other: &Self) -> bool {
+    pub(crate) fn same(&self, other: &Self) -> bool {
         self.same_law(other) && self.same_place(other)
     }
 
-    pub fn of_channel(&self, channel: &str) -> bool {
+    pub(crate) fn of_channel(&self, channel: &str) -> bool {
         matches!(self.effect.as_str(), "gain" | "delay") && self.at.iter().any(|at| at == channel)
     }
 }
@@ -65,7 +65,7 @@ impl std::fmt::Display for Named {
 }
 
 /// The answer to one project.
-pub struct Answer {
+pub(crate) struct Answer {
     pub document: Value,
     pub seconds: f64,
     /// Seconds of processor time of the whole program meanwhile, where the system tells them: of this project, where one is judged at
@@ -76,7 +76,7 @@ pub struct Answer {
 }
 
 /// Asks `diagnose`, applies what it suggests, and asks `compare` of the result.
-pub fn ask(folder: &Path, options: &[String]) -> Result<Answer, String> {
+pub(crate) fn ask(folder: &Path, options: &[String]) -> Result<Answer, String> {
     let project = folder.join("project.toml");
     let applied = folder.join("applied.toml");
     let _ = std::fs::remove_file(&applied);

@@ -14,7 +14,7 @@ use std::ops::Range;
 const DRAWS: usize = 12;
 
 /// One project to be made.
-pub struct Case {
+pub(crate) struct Case {
     pub name: String,
     make: Recipe,
     random: Random,
@@ -29,7 +29,7 @@ enum Recipe {
 
 impl Case {
     /// The project, the first draw that works.
-    pub fn make(&mut self) -> Option<Written> {
+    pub(crate) fn make(&mut self) -> Option<Written> {
         let random = &mut self.random;
         (0..DRAWS).find_map(|_| match &self.make {
             Recipe::Exact(effects, kindness) => hidden(effects, *kindness, random).map(Written::from),
@@ -41,7 +41,7 @@ impl Case {
 }
 
 /// All projects of `seeds`: one of the laboratory and one of every other class, structure and effect a seed.
-pub fn cases(seeds: Range<u64>) -> Vec<Case> {
+pub(crate) fn cases(seeds: Range<u64>) -> Vec<Case> {
     let mut cases = Vec::new();
     for seed in seeds {
         let mut random = Random::new(seed.wrapping_mul(0x00C0_FFEE).wrapping_add(0x1AB));

@@ -12,7 +12,7 @@ use serde::Serialize;
 
 /// Standard deviations, relative: known damping, gains, gains of a careless laboratory, drift of the frequencies from run
 /// to run, level of the force.
-pub const KNOWN: f64 = 0.2;
+pub(crate) const KNOWN: f64 = 0.2;
 const GAINS: f64 = 0.01;
 const LARGE_GAINS: f64 = 0.03;
 const DRIFT: f64 = 0.0005;
@@ -20,7 +20,7 @@ const FORCE_LEVEL: f64 = 0.003;
 
 /// Factors from what the project states to what is true.
 #[derive(Debug, Clone, Default, Serialize)]
-pub struct ModelErrors {
+pub(crate) struct ModelErrors {
     /// Springs and masses of a chain (ground springs first), or of element groups of a beam.
     pub springs: Vec<f64>,
     pub masses: Vec<f64>,
@@ -38,7 +38,7 @@ pub struct ModelErrors {
 
 /// What is wrong with the measurement.
 #[derive(Debug, Clone, Default, Serialize)]
-pub struct ChannelErrors {
+pub(crate) struct ChannelErrors {
     /// Factor of every channel, the force last.
     pub gains: Vec<(String, f64)>,
     /// Relative shift of all frequencies, run by run.
@@ -50,7 +50,7 @@ pub struct ChannelErrors {
 
 /// One sensor that is mounted or set wrongly.
 #[derive(Debug, Clone, Serialize)]
-pub struct BadSensor {
+pub(crate) struct BadSensor {
     pub channel: String,
     /// `gain`, `delay` (s) or `loose` (a gain that changes from run to run by `value`).
     pub kind: &'static str,
@@ -60,18 +60,18 @@ pub struct BadSensor {
 }
 
 /// A normal deviate that never lies far out: models that are 1 % off are not 5 % off.
-pub fn factor(deviation: f64, random: &mut Random) -> f64 {
+pub(crate) fn factor(deviation: f64, random: &mut Random) -> f64 {
     1.0 + deviation * random.normal().clamp(-2.0, 2.0)
 }
 
 /// A structure as it truly is, and where each DOF of the model is in it.
-pub struct Truth {
+pub(crate) struct Truth {
     pub structure: Structure,
     pub row: Vec<usize>,
 }
 
 /// The true structure behind what `specimen` states with `lumped` masses, `percent` off.
-pub fn perturbed(
+pub(crate) fn perturbed(
     specimen: &Specimen,
     lumped: &[LumpedMass],
     percent: f64,
@@ -196,7 +196,7 @@ fn lines(structure: &Structure) -> Vec<[String; 2]> {
 }
 
 /// The matrices and tables of a structure, all stiffness times `stiffness`.
-pub fn imported(structure: &Structure, stiffness: f64) -> ImportedParameters {
+pub(crate) fn imported(structure: &Structure, stiffness: f64) -> ImportedParameters {
     let SystemMatrices { mass, stiffness: k } = structure.matrices().unwrap().clone();
     let dof = |d: &dashpot::structure::Dof| ImportedDof {
         label: d.label.clone(),
@@ -215,7 +215,7 @@ pub fn imported(structure: &Structure, stiffness: f64) -> ImportedParameters {
 impl ChannelErrors {
     /// Errors of `channels` (the force last) over `runs` runs; `careful` laboratories have no larger gains and no bad
     /// sensor, which the error of a channel that is looked for would be lost among.
-    pub fn random(channels: &[String], runs: usize, careful: bool, random: &mut Random) -> Self {
+    pub(crate) fn random(channels: &[String], runs: usize, careful: bool, random: &mut Random) -> Self {
         let large = random.uniform() < 0.15 && !careful;
         let gains = if large { LARGE_GAINS } else { GAINS };
         let gains = channels.iter().map(|c| (c.clone(), factor(gains, random))).collect();

@@ -13,7 +13,7 @@ use std::fmt::Write as _;
 use std::path::Path;
 
 /// A project to be written.
-pub struct Written {
+pub(crate) struct Written {
     /// Structure of the model, which the known sources act on.
     pub model: Structure,
     /// Its table in the project file.
@@ -53,7 +53,7 @@ impl From<Hidden> for Written {
 
 impl Written {
     /// Writes `project.toml`, the records, matrices, and `truth.json`.
-    pub fn write(&self, folder: &Path, title: &str) {
+    pub(crate) fn write(&self, folder: &Path, title: &str) {
         std::fs::create_dir_all(folder).unwrap();
         let mut text = format!("[project]\nformat = 1\ntitle = \"{title}\"\n\n[structure]\n{}\n", self.structure_toml);
         self.known.iter().for_each(|source| text.push_str(&table(source, &self.model)));
@@ -92,7 +92,7 @@ fn table(source: &Source, model: &Structure) -> String {
 }
 
 /// An effect in the words of `diagnose --json`.
-pub fn document(source: &Source, structure: &Structure) -> Value {
+pub(crate) fn document(source: &Source, structure: &Structure) -> Value {
     let parameters = source.effect.parameters().iter().zip(&source.parameters);
     let parameters: Map<String, Value> = parameters.map(|(p, v)| (p.name.to_string(), json!(v))).collect();
     let mut map = json!({"effect": source.effect.name(), "parameters": parameters});

@@ -16,7 +16,7 @@ const TOLD: f64 = 0.5;
 const PROMISE: f64 = 0.02;
 
 /// The line of a project and its score.
-pub struct Judged {
+pub(crate) struct Judged {
     pub line: String,
     pub tally: Tally,
 }
@@ -55,7 +55,7 @@ struct Suggestion {
 }
 
 /// Diagnoses the project in `folder` and scores the answer.
-pub fn judge(folder: &Path, name: &str, options: &[String]) -> Judged {
+pub(crate) fn judge(folder: &Path, name: &str, options: &[String]) -> Judged {
     let truth = Truth::read(folder);
     let mut tally = Tally { projects: 1, ..Tally::default() };
     tally.hidden = usize::from(!truth.hidden.is_empty());

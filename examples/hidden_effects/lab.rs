@@ -16,7 +16,7 @@ use dashpot::structure::{LumpedMass, Structure};
 use serde_json::{Value, json};
 
 /// What is hidden, in turn; the order is part of what a seed means, so laws are only ever added at the end.
-pub const LAWS: [Effect; 20] = [
+pub(crate) const LAWS: [Effect; 20] = [
     Effect::Viscous,
     Effect::Coulomb,
     Effect::Quadratic,
@@ -41,7 +41,7 @@ pub const LAWS: [Effect; 20] = [
 
 /// What a project of a seed is.
 #[derive(Debug, Clone, Copy)]
-pub struct Plan {
+pub(crate) struct Plan {
     /// Nothing in a quarter of them.
     pub effect: Option<Effect>,
     /// How far springs and masses are off, %.
@@ -51,7 +51,7 @@ pub struct Plan {
 
 /// What the project file gives.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Form {
+pub(crate) enum Form {
     Beam,
     Chain,
     /// The same as matrices without lines.
@@ -78,7 +78,7 @@ impl Form {
 }
 
 impl Plan {
-    pub fn of(seed: u64, random: &mut Random) -> Self {
+    pub(crate) fn of(seed: u64, random: &mut Random) -> Self {
         let hidden = (seed % 4 != 3).then(|| LAWS[((seed / 4 * 3 + seed % 4) % LAWS.len() as u64) as usize]);
         let percent = 1 + random.below(3) as u8;
         let dissipates = |e: Effect| matches!(e.kind(), Kind::Relative(_)) && e.dissipates() && e != Effect::Stiffness;
@@ -92,14 +92,14 @@ impl Plan {
         Self { effect: hidden, percent, form }
     }
 
-    pub fn name(self, seed: u64) -> String {
+    pub(crate) fn name(self, seed: u64) -> String {
         let effect = self.effect.map_or("none", Effect::name);
         format!("lab{}-{}-{effect}-{seed}", self.percent, self.form.word())
     }
 }
 
 /// A project of a plan; none where no periodic motion was found or the effect would be lost among the errors.
-pub fn project(plan: Plan, random: &mut Random) -> Option<Written> {
+pub(crate) fn project(plan: Plan, random: &mut Random) -> Option<Written> {
     let specimen = Specimen::random(plan.form.is_beam(), random);
     let lumped = lumped(&specimen, random);
     let model = specimen.build_with(&lumped);

@@ -15,7 +15,7 @@ use dashpot::structure::Structure;
 use serde_json::{Value, json};
 
 /// Classes, each a kind of test.
-pub const CLASSES: [&str; 4] = ["rdecay", "rhammer", "rsweep", "rnoise"];
+pub(crate) const CLASSES: [&str; 4] = ["rdecay", "rhammer", "rsweep", "rnoise"];
 /// Standard deviations, relative: known damping, gains of sensors and of the force.
 const KNOWN: f64 = 0.1;
 const SENSORS: f64 = 0.01;
@@ -25,7 +25,7 @@ const OFFSET: f64 = 0.003;
 
 /// What a project of a seed is.
 #[derive(Debug, Clone, Copy)]
-pub struct Plan {
+pub(crate) struct Plan {
     class: &'static str,
     /// Nothing in a quarter of them.
     effect: Option<Effect>,
@@ -35,21 +35,21 @@ pub struct Plan {
 
 impl Plan {
     /// The project of a seed and class number `c`.
-    pub fn of(seed: u64, c: usize, random: &mut Random) -> Self {
+    pub(crate) fn of(seed: u64, c: usize, random: &mut Random) -> Self {
         let turn = seed + c as u64;
         let law = (turn / 4 * 3 + turn % 4 + 5 * c as u64) % LAWS.len() as u64;
         let effect = (turn % 4 != 3).then(|| LAWS[law as usize]);
         Self { class: CLASSES[c], effect, percent: 1 + random.below(3) as u8, beam: random.uniform() < 0.5 }
     }
 
-    pub fn name(self, seed: u64) -> String {
+    pub(crate) fn name(self, seed: u64) -> String {
         let structure = if self.beam { "beam" } else { "chain" };
         format!("{}-{structure}-{}-{}-{seed}", self.class, self.effect.map_or("none", Effect::name), self.percent)
     }
 }
 
 /// A project of a plan; `None` where the effect cannot be made as large as wanted or would be lost among the errors.
-pub fn project(plan: Plan, random: &mut Random) -> Option<Written> {
+pub(crate) fn project(plan: Plan, random: &mut Random) -> Option<Written> {
     let specimen = Specimen::random(plan.beam, random);
     let model = specimen.build();
     let percent = f64::from(plan.percent);

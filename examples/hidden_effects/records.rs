@@ -19,7 +19,7 @@ const SAMPLES: usize = 64;
 const PERIODS: usize = 12;
 
 /// What is measured and how well.
-pub struct Chain<'a> {
+pub(crate) struct Chain<'a> {
     pub structure: &'a Structure,
     pub sensors: &'a [usize],
     /// Faults of channels are among them.
@@ -30,7 +30,7 @@ pub struct Chain<'a> {
 }
 
 /// Harmonics of displacement (n x H) in steady state.
-pub fn steady(structure: &Structure, sources: &[Source], excitation: &Excitation) -> Option<Mat<c64>> {
+pub(crate) fn steady(structure: &Structure, sources: &[Source], excitation: &Excitation) -> Option<Mat<c64>> {
     let control = Control::unattended();
     let acting: Vec<Source> =
         sources.iter().filter(|s| !matches!(s.effect.kind(), Kind::Channel(_))).cloned().collect();
@@ -54,7 +54,7 @@ pub fn steady(structure: &Structure, sources: &[Source], excitation: &Excitation
 }
 
 impl Chain<'_> {
-    pub fn record(&self, excitation: &Excitation, harmonics: &Mat<c64>, random: &mut Random) -> Record {
+    pub(crate) fn record(&self, excitation: &Excitation, harmonics: &Mat<c64>, random: &mut Random) -> Record {
         let omega = excitation.omega;
         let time: Vec<f64> = (0..SAMPLES * PERIODS).map(|n| n as f64 * TAU / omega / SAMPLES as f64).collect();
         let mut channels = Vec::new();

@@ -7,7 +7,13 @@ use dashpot::response::harmonic_balance::{Excitation, ForwardModel, Response, Se
 use dashpot::structure::Structure;
 
 /// A random place for an effect, its parameters to be sized.
-pub fn place(effect: Effect, structure: &Structure, sensors: &[usize], force: usize, random: &mut Random) -> Source {
+pub(crate) fn place(
+    effect: Effect,
+    structure: &Structure,
+    sensors: &[usize],
+    force: usize,
+    random: &mut Random,
+) -> Source {
     let place = match effect.kind() {
         Kind::Whole(_) => Place::Whole(None),
         Kind::Channel(_) => {
@@ -52,7 +58,7 @@ impl Scale {
 
 /// Parameters of an effect whose force is about `s` at the displacement `d`, the velocity `v` and the circular frequency
 /// `omega`.
-pub fn shaped(effect: Effect, [d, v, omega]: [f64; 3], s: f64) -> Vec<f64> {
+pub(crate) fn shaped(effect: Effect, [d, v, omega]: [f64; 3], s: f64) -> Vec<f64> {
     match effect {
         Effect::Power => vec![s / v.powf(1.6), 1.6],
         Effect::Fractional => vec![s / d / omega.powf(0.4), 0.4],
@@ -78,7 +84,7 @@ pub fn shaped(effect: Effect, [d, v, omega]: [f64; 3], s: f64) -> Vec<f64> {
 }
 
 /// Parameters such that the response changes by `target`; `None` where that cannot be had.
-pub fn size(
+pub(crate) fn size(
     mut source: Source,
     structure: &Structure,
     known: &[Source],

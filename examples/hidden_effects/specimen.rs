@@ -7,13 +7,13 @@ use dashpot::structure::chain::ChainParameters;
 use dashpot::structure::{LumpedMass, Structure};
 
 #[derive(Clone)]
-pub enum Specimen {
+pub(crate) enum Specimen {
     Beam(BeamParameters),
     Chain(ChainParameters),
 }
 
 impl Specimen {
-    pub fn random(beam: bool, random: &mut Random) -> Self {
+    pub(crate) fn random(beam: bool, random: &mut Random) -> Self {
         if beam {
             let elements = [6, 8, 8, 10][random.below(4)];
             let supports =
@@ -39,7 +39,7 @@ impl Specimen {
     }
 
     /// The same with frequencies off by `detuning` (relative), in one of several ways.
-    pub fn detuned(&self, detuning: f64, random: &mut Random) -> Self {
+    pub(crate) fn detuned(&self, detuning: f64, random: &mut Random) -> Self {
         let factor = (1.0 + detuning).powi(2);
         let way = random.below(3);
         match self.clone() {
@@ -59,18 +59,18 @@ impl Specimen {
         }
     }
 
-    pub fn build(&self) -> Structure {
+    pub(crate) fn build(&self) -> Structure {
         self.build_with(&[])
     }
 
-    pub fn build_with(&self, lumped: &[LumpedMass]) -> Structure {
+    pub(crate) fn build_with(&self, lumped: &[LumpedMass]) -> Structure {
         match self {
             Self::Beam(beam) => beam.build(lumped).unwrap(),
             Self::Chain(chain) => chain.build(lumped).unwrap(),
         }
     }
 
-    pub fn toml(&self) -> String {
+    pub(crate) fn toml(&self) -> String {
         match self {
             Self::Beam(beam) => format!("kind = \"beam\"\n{}", toml::to_string(beam).unwrap()),
             Self::Chain(chain) => format!("kind = \"chain\"\n{}", toml::to_string(chain).unwrap()),
@@ -78,7 +78,7 @@ impl Specimen {
     }
 
     /// Known damping: about 0.5 to 1.5 % in the lowest modes.
-    pub fn known(&self, structure: &Structure, random: &mut Random) -> Vec<Source> {
+    pub(crate) fn known(&self, structure: &Structure, random: &mut Random) -> Vec<Source> {
         let omega = structure.modes().unwrap().omega;
         let at = |effect, dofs: &[usize], c| Source::known(effect, Place::Dofs(dofs.to_vec()), &[c]);
         match self {

@@ -16,7 +16,7 @@ use std::sync::Arc;
 
 /// What a project is like.
 #[derive(Debug, Clone, Copy)]
-pub struct Kindness {
+pub(crate) struct Kindness {
     pub beam: bool,
     /// No mass and stiffness in the project: energies only, every mass measured.
     pub points: bool,
@@ -33,7 +33,7 @@ pub struct Kindness {
 }
 
 /// A project whose hidden effects are known to us only.
-pub struct Hidden {
+pub(crate) struct Hidden {
     /// Structure of the model (detuned or not).
     pub structure: Structure,
     /// Its table in a project file.
@@ -46,13 +46,13 @@ pub struct Hidden {
 }
 
 impl Hidden {
-    pub fn problem(&self) -> Problem<'_> {
+    pub(crate) fn problem(&self) -> Problem<'_> {
         Problem { structure: &self.structure, sources: &self.known, runs: &self.runs }
     }
 }
 
 /// A project with `effects` hidden at places and of sizes that `random` chooses.
-pub fn hidden(effects: &[Effect], kindness: Kindness, random: &mut Random) -> Option<Hidden> {
+pub(crate) fn hidden(effects: &[Effect], kindness: Kindness, random: &mut Random) -> Option<Hidden> {
     let specimen = Specimen::random(kindness.beam, random);
     let exact = specimen.build();
     let known = specimen.known(&exact, random);
@@ -94,7 +94,7 @@ fn structure(model: &Specimen, points: bool) -> (Structure, String) {
     (PointParameters { dofs: labels, positions: None }.build().unwrap(), toml)
 }
 
-pub fn file(index: usize) -> String {
+pub(crate) fn file(index: usize) -> String {
     format!("run-{:02}.csv", index + 1)
 }
 
@@ -103,7 +103,12 @@ fn run(index: usize, record: &Record, omega: f64) -> Run {
 }
 
 /// Sines near the natural frequencies `natural` (rad/s), at several levels of force.
-pub fn excitations(structure: &Structure, natural: &[f64], kindness: Kindness, random: &mut Random) -> Vec<Excitation> {
+pub(crate) fn excitations(
+    structure: &Structure,
+    natural: &[f64],
+    kindness: Kindness,
+    random: &mut Random,
+) -> Vec<Excitation> {
     let rows = structure.translations();
     let dof = rows[random.below(rows.len().min(4)) + rows.len() - rows.len().min(4)];
     let force = if kindness.beam { 2.0 } else { 30.0 };
@@ -132,7 +137,7 @@ pub fn excitations(structure: &Structure, natural: &[f64], kindness: Kindness, r
     list
 }
 
-pub fn sensors(structure: &Structure, kindness: Kindness, random: &mut Random) -> Vec<usize> {
+pub(crate) fn sensors(structure: &Structure, kindness: Kindness, random: &mut Random) -> Vec<usize> {
     let mut all = structure.translations();
     while all.len() > kindness.sensors && !kindness.points {
         all.remove(random.below(all.len()));

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 /// A suggestion: what probability it was told with, and whether it was right.
 #[derive(Debug, Clone, Copy)]
-pub struct Told {
+pub(crate) struct Told {
     pub probability: f64,
     pub law: bool,
     /// Law and place.
@@ -13,7 +13,7 @@ pub struct Told {
 
 /// What became of a suggestion that was taken over.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Added {
+pub(crate) enum Added {
     AsPromised,
     Otherwise,
     DoesNotOpen,
@@ -21,7 +21,7 @@ pub enum Added {
 
 /// Counts over projects of one class.
 #[derive(Debug, Default, Clone)]
-pub struct Tally {
+pub(crate) struct Tally {
     pub projects: usize,
     /// Projects with something hidden.
     pub hidden: usize,
@@ -47,7 +47,7 @@ pub struct Tally {
 }
 
 impl Tally {
-    pub fn add(&mut self, other: &Self) {
+    pub(crate) fn add(&mut self, other: &Self) {
         self.projects += other.projects;
         self.hidden += other.hidden;
         self.failed += other.failed;
@@ -112,7 +112,7 @@ const HEAD: &str = "\
 class       n fail | law   named three place | needl alarm | 3dev  10%   median% | asprm  bad  scatter | found floor | median   p90  worst";
 
 /// The tables: by class, over all, verdicts, probabilities told against how often they were right.
-pub fn report(tallies: &BTreeMap<String, Tally>) -> String {
+pub(crate) fn report(tallies: &BTreeMap<String, Tally>) -> String {
     let sum = |wanted: &dyn Fn(&str) -> bool| {
         let mut sum = Tally::default();
         tallies.iter().filter(|(class, _)| wanted(class)).for_each(|(_, tally)| sum.add(tally));

@@ -14,9 +14,9 @@ use dashpot::structure::Structure;
 use serde_json::{Value, json};
 
 /// Classes, each a kind of test.
-pub const CLASSES: [&str; 4] = ["decay", "hammer", "sweep", "noise"];
+pub(crate) const CLASSES: [&str; 4] = ["decay", "hammer", "sweep", "noise"];
 /// Laws that are hidden.
-pub const LAWS: [Effect; 12] = [
+pub(crate) const LAWS: [Effect; 12] = [
     Effect::Viscous,
     Effect::Coulomb,
     Effect::Quadratic,
@@ -35,7 +35,7 @@ const TESTS: usize = 2;
 
 /// What a project is like.
 #[derive(Debug, Clone, Copy)]
-pub struct Unsteady {
+pub(crate) struct Unsteady {
     pub class: &'static str,
     /// None for a model that lacks nothing.
     pub effect: Option<Effect>,
@@ -43,7 +43,7 @@ pub struct Unsteady {
 }
 
 /// One test: what is done, where, and how it is sampled.
-pub struct Test {
+pub(crate) struct Test {
     pub loading: Loading,
     pub dof: usize,
     pub rate_hz: f64,
@@ -51,7 +51,7 @@ pub struct Test {
 }
 
 /// What an effect is sized in: the structure with what is known of it, the tests, the rows that are measured.
-pub struct Setup<'a> {
+pub(crate) struct Setup<'a> {
     pub structure: &'a Structure,
     pub known: &'a [Source],
     pub tests: &'a [Test],
@@ -59,7 +59,7 @@ pub struct Setup<'a> {
 }
 
 /// A project; `None` where the effect cannot be made as large as wanted.
-pub fn project(plan: Unsteady, random: &mut Random) -> Option<Written> {
+pub(crate) fn project(plan: Unsteady, random: &mut Random) -> Option<Written> {
     let specimen = Specimen::random(plan.beam, random);
     let exact = specimen.build();
     let known = specimen.known(&exact, random);
@@ -129,7 +129,7 @@ fn sensors(structure: &Structure, beam: bool) -> Vec<usize> {
     [1, 2, 3].map(|k| rows[k * rows.len() / 3 - 1]).to_vec()
 }
 
-pub fn place(structure: &Structure, random: &mut Random) -> Vec<usize> {
+pub(crate) fn place(structure: &Structure, random: &mut Random) -> Vec<usize> {
     let (pairs, rows) = (structure.neighbours(), structure.translations());
     if random.uniform() < 0.3 {
         pairs[random.below(pairs.len())].to_vec()
@@ -144,7 +144,12 @@ fn channels(plan: Unsteady, structure: &Structure, test: &Test, sensors: &[usize
     force.into_iter().chain(sensors.iter().map(|&dof| channel(Quantity::Acceleration, dof))).collect()
 }
 
-pub fn recorded(structure: &Structure, sources: &[Source], test: &Test, channels: &[Channel]) -> Option<Vec<Vec<f64>>> {
+pub(crate) fn recorded(
+    structure: &Structure,
+    sources: &[Source],
+    test: &Test,
+    channels: &[Channel],
+) -> Option<Vec<Vec<f64>>> {
     let setup = TestSetup {
         loading: &test.loading,
         dof: test.dof,
@@ -158,7 +163,7 @@ pub fn recorded(structure: &Structure, sources: &[Source], test: &Test, channels
 }
 
 /// Parameters such that the motion changes by `target`.
-pub fn sized(mut source: Source, setup: &Setup, target: f64) -> Option<Source> {
+pub(crate) fn sized(mut source: Source, setup: &Setup, target: f64) -> Option<Source> {
     let Setup { structure, known, tests, sensors } = *setup;
     let leg = source.place.legs().first().copied()?;
     let channel = |quantity, dof: usize| Channel { quantity, dof, label: structure.label(dof).to_string() };

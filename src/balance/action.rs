@@ -48,7 +48,7 @@ impl Field<'_> {
 }
 
 /// A force on one DOF, one value a harmonic.
-pub type DofForce = (usize, Vec<c64>);
+pub(crate) type DofForce = (usize, Vec<c64>);
 
 /// A linear complex stiffness that stands for a source at one harmonic.
 #[derive(Debug, Clone, PartialEq)]
@@ -60,7 +60,7 @@ pub enum Secant {
 }
 
 /// Energy in J that `source` takes out over one period, at its own parameters.
-pub fn energy(source: &Source, structure: &Structure, field: Field<'_>) -> f64 {
+pub(crate) fn energy(source: &Source, structure: &Structure, field: Field<'_>) -> f64 {
     match source.effect.kind() {
         Kind::Relative(law) => source
             .place
@@ -106,7 +106,13 @@ fn range(place: &Place) -> Option<[usize; 2]> {
 }
 
 /// `B x_k` with `B` the mass or stiffness matrix, whole or restricted to a range of elements; zero without matrices.
-pub fn basis_times(structure: &Structure, basis: Basis, range: Option<[usize; 2]>, x: &Mat<c64>, k: usize) -> Vec<c64> {
+pub(crate) fn basis_times(
+    structure: &Structure,
+    basis: Basis,
+    range: Option<[usize; 2]>,
+    x: &Mat<c64>,
+    k: usize,
+) -> Vec<c64> {
     let mut product = vec![c64::new(0.0, 0.0); structure.len()];
     if let Some(range) = range {
         basis.entries(structure, range).for_each(|(i, j, value)| product[i] += x[(j, k)] * value);
@@ -124,7 +130,7 @@ pub fn basis_times(structure: &Structure, basis: Basis, range: Option<[usize; 2]
 
 /// Adds `weight` times the gradient of [`energy`] to `gradient` (n x harmonics): a change `dX` of the motion changes the
 /// energy by `Re sum conj(gradient) dX`. Sampled laws: along the amplitude of the fundamental.
-pub fn add_energy_gradient(
+pub(crate) fn add_energy_gradient(
     source: &Source,
     structure: &Structure,
     field: Field<'_>,
@@ -173,7 +179,7 @@ fn leg_gradient(law: &dyn Law, p: &[f64], field: Field<'_>, d: &[c64]) -> Vec<c6
 
 /// Force of the source on the structure with its sign turned, `L F(L^T X)`, as harmonics at the DOFs it touches:
 /// `Z X + force = F`.
-pub fn force(source: &Source, structure: &Structure, field: Field<'_>) -> Vec<DofForce> {
+pub(crate) fn force(source: &Source, structure: &Structure, field: Field<'_>) -> Vec<DofForce> {
     match source.effect.kind() {
         Kind::Relative(law) => source
             .place
@@ -238,7 +244,7 @@ fn harmonic(samples: &[f64], h: usize) -> c64 {
 
 /// The linear stiffness that stands for the source at kept harmonic `k`: exact for linear laws; for others the secant of the
 /// fundamental, its loss growing with frequency like a dashpot's.
-pub fn secant(source: &Source, field: Field<'_>, k: usize) -> Option<Secant> {
+pub(crate) fn secant(source: &Source, field: Field<'_>, k: usize) -> Option<Secant> {
     match source.effect.kind() {
         Kind::Relative(law) => {
             let legs = source.place.legs().into_iter().map(|leg| {
@@ -263,7 +269,7 @@ pub fn secant(source: &Source, field: Field<'_>, k: usize) -> Option<Secant> {
 }
 
 /// `D X` of one source whose stand-in stiffnesses lie between DOFs: forces on DOFs, one value a harmonic of `field`, N.
-pub fn secant_force(source: &Source, field: Field<'_>) -> Vec<DofForce> {
+pub(crate) fn secant_force(source: &Source, field: Field<'_>) -> Vec<DofForce> {
     let harmonics = field.numbers.len();
     let mut list = Vec::new();
     for k in 0..harmonics {

@@ -4,11 +4,11 @@
 //! The drive point's own sensor gives `X` there where it exists: off resonance the energy hangs on a small phase, which an
 //! expansion does not know.
 
-use super::Expansion;
 use super::action;
 use super::error::BalanceError;
 use super::expansion::Expanded;
 use super::measured::Measured;
+use super::settings::Expansion;
 use crate::control::Control;
 use crate::effects::{Place, Source};
 use crate::math::fill::filled;
@@ -28,7 +28,7 @@ pub struct EnergyEquation {
 }
 
 /// A source of unit linear coefficient.
-pub fn unit(source: &Source) -> Source {
+pub(crate) fn unit(source: &Source) -> Source {
     source.with_coefficient(1.0)
 }
 
@@ -77,7 +77,11 @@ fn drive_sensors(measured: &Measured, j: usize, k: usize) -> Vec<(usize, f64)> {
 ///
 /// # Errors
 /// [`BalanceError::DriveUnmeasured`].
-pub fn input_energy(structure: &Structure, measured: &Measured, expanded: &Expanded) -> Result<f64, BalanceError> {
+pub(crate) fn input_energy(
+    structure: &Structure,
+    measured: &Measured,
+    expanded: &Expanded,
+) -> Result<f64, BalanceError> {
     let mut sum = 0.0;
     for j in 0..measured.forces.len() {
         let dof = measured.forces.dofs[j];
@@ -100,7 +104,7 @@ pub fn input_energy(structure: &Structure, measured: &Measured, expanded: &Expan
 /// Gradient of the input energy: adds to `by_motion` (n x harmonics, where an expansion gives the drive), `by_sensors`
 /// (sensors x harmonics) and `by_forces` (force channels x harmonics); a change `d` of a coefficient changes the energy by
 /// `Re(conj(gradient) d)`.
-pub fn add_input_gradient(
+pub(crate) fn add_input_gradient(
     measured: &Measured,
     expanded: &Expanded,
     by_motion: &mut Mat<c64>,
@@ -130,7 +134,7 @@ pub fn add_input_gradient(
 }
 
 /// Whether the motion at every DOF that a source acts on is known in every run.
-pub fn is_observable(source: &Source, runs: &[(Measured, Expanded)], method: Expansion) -> bool {
+pub(crate) fn is_observable(source: &Source, runs: &[(Measured, Expanded)], method: Expansion) -> bool {
     match &source.place {
         Place::Dofs(dofs) => runs.iter().all(|(_, expanded)| dofs.iter().all(|&dof| expanded.known[dof])),
         Place::Whole(_) => method != Expansion::None || runs.iter().all(|(_, e)| e.known.iter().all(|k| *k)),

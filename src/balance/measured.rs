@@ -10,9 +10,9 @@ use crate::structure::Structure;
 use faer::{Mat, c64};
 
 /// Deviation relative to a channel's amplitude below which a run counts as free of noise.
-pub const NOISE_FREE: f64 = 1e-8;
+pub(crate) const NOISE_FREE: f64 = 1e-8;
 /// Deviation relative to the amplitude that stands in where none is known or the run is free of noise.
-pub const NOMINAL: f64 = 1e-9;
+pub(crate) const NOMINAL: f64 = 1e-9;
 /// A harmonic counts when its squared amplitude over twice its variance exceeds this in some channel (p < 1e-6).
 const SIGNIFICANT: f64 = 14.0;
 /// Part of the channel's largest amplitude below which a harmonic is rounding.

@@ -4,17 +4,22 @@
 //! coefficients: the gradients of `e` and `G` by the measured coefficients, added before they are squared, because the
 //! same sensors enter both.
 
-use super::Weights;
 use super::action;
 use super::energy::add_input_gradient;
 use super::expansion::Expanded;
 use super::measured::Measured;
+use super::settings::Weights;
 use crate::effects::Source;
 use crate::structure::Structure;
 use faer::{Mat, c64};
 
 /// Standard deviation of the energy residual of one run, J, with `sources` at their values (known ones included).
-pub fn residual_deviation(structure: &Structure, measured: &Measured, expanded: &Expanded, sources: &[Source]) -> f64 {
+pub(crate) fn residual_deviation(
+    structure: &Structure,
+    measured: &Measured,
+    expanded: &Expanded,
+    sources: &[Source],
+) -> f64 {
     let harmonics = measured.harmonics();
     let mut by_motion = Mat::zeros(structure.len(), harmonics);
     let mut by_sensors = Mat::zeros(measured.sensors.len(), harmonics);
@@ -42,7 +47,7 @@ fn add_adjoint(map: &Mat<c64>, gradient: &Mat<c64>, k: usize, to: &mut Mat<c64>)
 }
 
 /// Resolves `Auto`: `Noise` where deviations are known, else `Energy`.
-pub fn resolve(weights: Weights, runs: &[(Measured, Expanded)]) -> Weights {
+pub(crate) fn resolve(weights: Weights, runs: &[(Measured, Expanded)]) -> Weights {
     match weights {
         Weights::Auto if runs.iter().all(|(measured, _)| measured.noisy) => Weights::Noise,
         Weights::Auto => Weights::Energy,
@@ -51,7 +56,7 @@ pub fn resolve(weights: Weights, runs: &[(Measured, Expanded)]) -> Weights {
 }
 
 /// Factor of each row. `e` are the input energies, J; `sources` all that act, at their values.
-pub fn factors(
+pub(crate) fn factors(
     weights: Weights,
     structure: &Structure,
     runs: &[(Measured, Expanded)],

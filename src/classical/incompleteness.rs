@@ -3,7 +3,7 @@
 //!
 //! The modes are those of the structure with the damping `truth`, without noise: what is lost is lost by incompleteness
 //! alone. With fewer sensors than DOFs the shapes are expanded by the model's lowest modes, as measured ones are
-//! ([`super::resonant::expanded`]). Errors: `eps_C` (3.135), `eps_p` (3.117), the generalised MAC (3.134).
+//! (`super::resonant::expanded`). Errors: `eps_C` (3.135), `eps_p` (3.117), the generalised MAC (3.134).
 
 use super::adhikari_woodhouse::{original, projection_error, symmetric};
 use super::data::{Damping, ModalData};

@@ -7,7 +7,7 @@
 //! [`lancaster`], [`pilkey_inman`], [`ibrahim`], [`minas_inman`], [`adhikari_woodhouse`], [`frf_inverse`].
 //! [`liang`] balances the energy of every DOF.
 //!
-//! [`responses`] takes the lines of the runs, [`poly_reference`] or [`resonant`] the complex modes from them, and
+//! `responses` takes the lines of the runs, [`poly_reference`] or `resonant` the complex modes from them, and
 //! [`side_by_side`] applies every method that the data allow. [`measured_ratios`]
 //! gives ratios with deviations, for use beside the energies. [`errors`] measures them against a known truth (3.117, 3.132-3.135);
 //! [`incompleteness`] draws them against the number of modes and sensors.
@@ -15,9 +15,9 @@
 pub mod adhikari_woodhouse;
 pub mod chen;
 pub mod circle_fit;
-pub mod data;
+pub(crate) mod data;
 pub mod energy_single;
-pub mod error;
+pub(crate) mod error;
 pub mod errors;
 pub mod extracted_mode;
 pub mod frf_inverse;
@@ -40,10 +40,10 @@ pub mod phani_woodhouse;
 pub mod pilkey_inman;
 pub mod poly_reference;
 mod ratios;
-pub mod reference_shapes;
+pub(crate) mod reference_shapes;
 mod refine;
-pub mod resonant;
-pub mod responses;
+pub(crate) mod resonant;
+pub(crate) mod responses;
 pub mod side_by_side;
 
 pub use data::{Damping, DecayRecord, LoadCase, ModalData, ReceptanceData};

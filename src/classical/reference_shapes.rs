@@ -74,7 +74,7 @@ pub struct Beside {
 }
 
 /// Every shape of another program beside the complex modes as measured and the undamped modes of the model.
-pub fn beside(references: &[ReferenceShape], measured: Option<&ModalData>, model: &Modes) -> Vec<Beside> {
+pub(crate) fn beside(references: &[ReferenceShape], measured: Option<&ModalData>, model: &Modes) -> Vec<Beside> {
     let of = |reference: &ReferenceShape| {
         let complex = |modal: &ModalData, p: usize| {
             let hz = modal.poles[p].norm() / std::f64::consts::TAU;

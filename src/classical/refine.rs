@@ -33,7 +33,7 @@ pub(super) struct Band {
 }
 
 impl Band {
-    pub fn new(responses: &FrequencyResponses, first: usize, last: usize) -> Self {
+    pub(super) fn new(responses: &FrequencyResponses, first: usize, last: usize) -> Self {
         let values: Vec<Mat<c64>> = responses.values[first..=last].to_vec();
         let top = |i: usize, j: usize| values.iter().map(|h| h[(i, j)].norm()).fold(f64::MIN_POSITIVE, f64::max);
         let drives = responses.drives.len();
@@ -42,7 +42,7 @@ impl Band {
     }
 
     /// Takes off what is known already: the modes of `others` with their conjugates, and the conjugates of the band's `own`.
-    pub fn take_off(&mut self, others: &[&ExtractedMode], own: &[ExtractedMode]) {
+    pub(super) fn take_off(&mut self, others: &[&ExtractedMode], own: &[ExtractedMode]) {
         for (k, &w) in self.omega.iter().enumerate() {
             let s = c64::new(0.0, w);
             let known = |i: usize, j: usize| -> c64 {
@@ -55,24 +55,24 @@ impl Band {
         }
     }
 
-    pub fn sensors(&self) -> usize {
+    pub(super) fn sensors(&self) -> usize {
         self.values[0].nrows()
     }
 
-    pub fn drives(&self) -> usize {
+    pub(super) fn drives(&self) -> usize {
         self.values[0].ncols()
     }
 
-    pub fn outputs(&self) -> usize {
+    pub(super) fn outputs(&self) -> usize {
         self.sensors() * self.drives()
     }
 
-    pub fn value(&self, line: usize, sensor: usize, drive: usize) -> c64 {
+    pub(super) fn value(&self, line: usize, sensor: usize, drive: usize) -> c64 {
         self.values[line][(sensor, drive)]
     }
 
     /// Squared weight of a sensor's row at a line, all drives together.
-    pub fn weight(&self, line: usize, sensor: usize) -> f64 {
+    pub(super) fn weight(&self, line: usize, sensor: usize) -> f64 {
         let sum: f64 = (0..self.drives()).map(|j| self.scale(line, sensor, j).powi(2)).sum();
         1.0 / sum
     }

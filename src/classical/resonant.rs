@@ -24,7 +24,7 @@ use faer::c64;
 /// Part of a mode's largest motion below which a set of sensors does not see it.
 const UNSEEN: f64 = 1e-4;
 /// Largest distance of a run from a natural frequency, as a part of it.
-pub const NEAR: f64 = 0.012;
+pub(crate) const NEAR: f64 = 0.012;
 /// Condition of the shapes at the sensors above which the highest modes are left out.
 const WORST_CONDITION: f64 = 1e3;
 
@@ -32,7 +32,7 @@ const WORST_CONDITION: f64 = 1e3;
 ///
 /// # Errors
 /// [`ClassicalError::Few`] where even the lowest has none; those of the linear algebra.
-pub fn from_runs(
+pub(crate) fn from_runs(
     matrices: &SystemMatrices,
     model: &Modes,
     responses: &FrequencyResponses,
@@ -88,7 +88,7 @@ fn best_line(model: &Modes, responses: &FrequencyResponses, r: usize) -> Option<
 ///
 /// # Errors
 /// Those of the linear algebra.
-pub fn expanded(model: &Modes, sensors: &[usize], values: &[c64], r: usize) -> Result<Vec<c64>, ClassicalError> {
+pub(crate) fn expanded(model: &Modes, sensors: &[usize], values: &[c64], r: usize) -> Result<Vec<c64>, ClassicalError> {
     let n = model.shapes.nrows();
     if sensors.len() == n {
         let mut full = vec![c64::new(0.0, 0.0); n];

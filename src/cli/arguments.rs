@@ -331,7 +331,7 @@ pub(super) enum ResponseQuantity {
 
 impl ResponseQuantity {
     /// The same in the engine's terms.
-    pub fn quantity(self) -> Quantity {
+    pub(super) fn quantity(self) -> Quantity {
         match self {
             Self::Receptance => Quantity::Receptance,
             Self::Mobility => Quantity::Mobility,

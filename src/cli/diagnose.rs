@@ -9,7 +9,7 @@ use super::run_flags::{self, flags};
 use super::table::{number, table};
 use crate::control::Control;
 use crate::diagnosis::channels::Fault;
-use crate::diagnosis::diagnose::{Diagnosis, Suggestion, TestKind};
+use crate::diagnosis::result::{Diagnosis, Suggestion, TestKind};
 use crate::display::findings;
 use crate::display::words::title;
 use crate::effects::Source;
@@ -92,11 +92,11 @@ fn document(project: &Project, diagnosis: &Diagnosis) -> Value {
         json!({"file": run.file, "frequency_hz": run.fit.omega / std::f64::consts::TAU, "flags": flags(run),
         "findings": run_flags::findings(run)})
     };
-    let step = |step: &crate::diagnosis::diagnose::Step| {
+    let step = |step: &crate::diagnosis::result::Step| {
         let added: Vec<Value> = step.added.iter().map(|a| Value::Object(with_values(structure, a))).collect();
         json!({"added": added, "error": step.error, "misfit": step.misfit})
     };
-    let test = |test: &crate::diagnosis::diagnose::NextTest| {
+    let test = |test: &crate::diagnosis::result::NextTest| {
         let displacement_m = match test.kind {
             TestKind::Release { displacement_m } => Some(displacement_m),
             _ => None,

@@ -30,7 +30,7 @@ pub(super) fn channel(plan: &Plan, axis: usize) -> Channel {
 }
 
 impl MovingBase {
-    pub fn new(plan: &Plan, run: usize, axis: usize, harmonics: Vec<c64>) -> anyhow::Result<Self> {
+    pub(super) fn new(plan: &Plan, run: usize, axis: usize, harmonics: Vec<c64>) -> anyhow::Result<Self> {
         let base = base(&plan.structure, axis).context("a structure without mass has no force from its base")?;
         if base.along.is_empty() {
             let label = &base.label;
@@ -40,12 +40,12 @@ impl MovingBase {
         Ok(Self { base, channel: channel(plan, axis), harmonics, is_absolute })
     }
 
-    pub fn channel(&self) -> Channel {
+    pub(super) fn channel(&self) -> Channel {
         self.channel.clone()
     }
 
     /// Adds `-M r a` to what drives the structure.
-    pub fn drive(&self, excitation: &mut Excitation) {
+    pub(super) fn drive(&self, excitation: &mut Excitation) {
         for (dof, _, load) in &self.base.loads {
             let harmonics = self.harmonics.iter().map(|a| a * -load).collect();
             excitation.forces.push(HarmonicForce { dof: *dof, mean: 0.0, harmonics });
@@ -53,7 +53,7 @@ impl MovingBase {
     }
 
     /// Puts its acceleration into its own channel and its motion into the sensors that show it.
-    pub fn show(&self, motions: &mut [ChannelMotion], omega: f64, sensors: &[Source]) {
+    pub(super) fn show(&self, motions: &mut [ChannelMotion], omega: f64, sensors: &[Source]) {
         for motion in motions {
             let channel = &motion.channel;
             let own = *channel == self.channel;

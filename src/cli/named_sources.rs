@@ -1,6 +1,6 @@
 //! Effects at their places in the JSON of diagnoses.
 
-use crate::diagnosis::diagnose::Added;
+use crate::diagnosis::result::Added;
 use crate::effects::{Place, Source};
 use crate::structure::Structure;
 use serde_json::{Map, Value, json};

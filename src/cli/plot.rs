@@ -5,7 +5,8 @@ use super::identified;
 use super::plot_records::RecordPlots;
 use crate::control::Control;
 use crate::diagnosis::component::{Loops, compare_component};
-use crate::diagnosis::diagnose::{self, Verdict};
+use crate::diagnosis::result::Suggestion;
+use crate::diagnosis::result::Verdict;
 use crate::diagnosis::{Comparison, compare};
 use crate::display::words;
 use crate::exchange::Project;
@@ -149,7 +150,7 @@ impl Plotter<'_> {
         let p = self.p;
         let diagnosis = diagnosed(p, self.control, &|_| {})?;
         let dof = self.dof()?;
-        let is_at_place = |s: &&diagnose::Suggestion| match &s.added.source.place {
+        let is_at_place = |s: &&Suggestion| match &s.added.source.place {
             crate::effects::Place::Dofs(dofs) => dof.is_none_or(|d| dofs.contains(&d)),
             _ => false,
         };

@@ -21,7 +21,7 @@ pub(super) struct RecordPlots<'a> {
 
 impl RecordPlots<'_> {
     /// Index of the record that was asked for, else of the first that is used.
-    pub fn index(&self) -> anyhow::Result<usize> {
+    pub(super) fn index(&self) -> anyhow::Result<usize> {
         let records = &self.p.transient_runs;
         match self.run {
             Some(number) if (1..=records.len()).contains(&number) => Ok(number - 1),
@@ -41,7 +41,7 @@ impl RecordPlots<'_> {
     }
 
     /// The samples of one channel over time.
-    pub fn record(&self) -> anyhow::Result<Figure> {
+    pub(super) fn record(&self) -> anyhow::Result<Figure> {
         let run = &self.p.transient_runs[self.index()?];
         let number = self.channel(run)?;
         let channel = &run.channels()[number];

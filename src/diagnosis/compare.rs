@@ -6,68 +6,22 @@
 
 use crate::control::Control;
 use crate::diagnosis::points::energies::{PointsEnergy, energies};
-use crate::diagnosis::residual::branch::{Branch, nearest};
+use crate::diagnosis::residual::branch::nearest;
 use crate::diagnosis::residual::breakdown::{Group, by_channel, by_harmonic, by_level};
+use crate::diagnosis::residual::comparison::ChannelComparison;
+use crate::diagnosis::residual::comparison::HarmonicComparison;
+use crate::diagnosis::residual::comparison::RunComparison;
 use crate::diagnosis::residual::data::{Data, DiagnosisError, Problem, RunData, is_used, size};
 use crate::diagnosis::residual::energy_balance::energy_error;
 use crate::diagnosis::residual::levels::Levels;
-use crate::diagnosis::residual::prediction::{FINAL, Predictor, RunPrediction, transfer};
+use crate::diagnosis::residual::prediction::{Predictor, RunPrediction};
+use crate::diagnosis::residual::transfers::transfers;
 use crate::diagnosis::residual::whiteness::{Left, Whiteness, numbered, whiteness};
-use crate::diagnosis::residual::whitening::{Transfers, Whitening};
+use crate::diagnosis::residual::whitening::Whitening;
 use crate::effects::Source;
 use crate::math::statistics::root_mean_square;
-use crate::response::harmonic_balance::{Excitation, HarmonicForce};
 use faer::c64;
 use std::sync::atomic::{AtomicUsize, Ordering};
-
-/// One harmonic of a channel.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct HarmonicComparison {
-    /// Order, from 1.
-    pub harmonic: usize,
-    /// Measured complex amplitude `a - i b` of `a cos + b sin`, SI units.
-    pub measured: c64,
-    /// That of the model.
-    pub model: c64,
-    /// Standard deviation of a real part of their difference, were the model exact.
-    pub deviation: f64,
-}
-
-/// One channel of a run.
-#[derive(Debug, Clone, PartialEq)]
-pub struct ChannelComparison {
-    /// Name, such as `acc@7`.
-    pub channel: String,
-    /// Row of its DOF.
-    pub dof: usize,
-    /// Relative error.
-    pub error: f64,
-    /// What it would be were the model exact.
-    pub noise_floor: f64,
-    /// What errors are measured by, SI units.
-    pub scale: f64,
-    /// Harmonics.
-    pub harmonics: Vec<HarmonicComparison>,
-}
-
-/// One run.
-#[derive(Debug, Clone, PartialEq)]
-pub struct RunComparison {
-    /// Index in the project's runs.
-    pub index: usize,
-    /// Whether it takes part in the error.
-    pub used: bool,
-    /// Root mean square over the channels; that of the energy where there is no response to predict.
-    pub error: f64,
-    /// What the error would be were the model exact.
-    pub noise_floor: f64,
-    /// Which of several periodic motions the model was taken to be on; none where there is only one.
-    pub branch: Option<Branch>,
-    /// `|input - taken out by known sources| / |input|` at the measured motion.
-    pub energy_error: f64,
-    /// Channels; none for `points`.
-    pub channels: Vec<ChannelComparison>,
-}
 
 /// The model against the measurement.
 #[derive(Debug, Clone, PartialEq)]
@@ -157,39 +111,6 @@ fn add_left(
             left.push(Left { groups: [frequency, level, channel, h], value: value * turn });
         }
     }
-}
-
-/// Response of every channel to a unit of every force channel, `[harmonic][force][channel]`, by the linear sources of
-/// the model; measured where a single force drives a fundamental.
-pub(crate) fn transfers(
-    predictor: &Predictor,
-    r: usize,
-    run: &RunData,
-    effects: &[Source],
-    control: &Control,
-) -> Result<Transfers, crate::response::harmonic_balance::ResponseError> {
-    let mut sources = predictor.sources(effects);
-    sources.retain(|s| s.effect.is_linear());
-    let mut a: Transfers = vec![Vec::new(); run.harmonics];
-    for force in &run.forces {
-        let ones = vec![c64::new(1.0, 0.0); run.harmonics];
-        let forces = vec![HarmonicForce { dof: force.dof, mean: 0.0, harmonics: ones }];
-        let excitation = Excitation { omega: run.omega, forces };
-        let unit = predictor.run(r).respond(&sources, &excitation, &FINAL, None, control)?;
-        for (h, a) in a.iter_mut().enumerate() {
-            let w = (h + 1) as f64 * run.omega;
-            let of = |c: &crate::diagnosis::residual::data::ChannelData| {
-                transfer(effects, &c.name, w) * c.from_displacement(w) * unit.amplitude(c.dof, h + 1)
-            };
-            a.push(run.responses.iter().map(of).collect());
-        }
-    }
-    if let [force] = &run.forces[..]
-        && force.measured.first().is_some_and(|f| f.norm() > 0.0)
-    {
-        a[0][0] = run.responses.iter().map(|c| c.measured[0] / force.measured[0]).collect();
-    }
-    Ok(a)
 }
 
 fn of_run(run: &RunData, prediction: &RunPrediction, noise: &Whitening, used: bool, energy: f64) -> RunComparison {

@@ -10,23 +10,25 @@
 //!
 //! where `a_f` is the response to the force channel `f`, whose noise reaches every channel alike. All fits minimise
 //! `chi^2 = sum e^H S^-1 e`. The search goes *place before law*: a free complex force at a place explains the residual
-//! whatever the law ([`localisation`]); the law is read from that force against the motion ([`candidates`]); the short list is fitted
-//! on the response itself ([`selection`]) and ranked by evidence ([`diagnose()`]).
+//! whatever the law (`localisation`); the law is read from that force against the motion ([`candidates`]); the short list is fitted
+//! on the response itself (`selection`) and ranked by evidence ([`diagnose()`]).
 
 pub mod candidates;
 pub mod channels;
 pub mod compare;
 pub mod component;
 pub mod diagnose;
-pub mod localisation;
+pub(crate) mod localisation;
 mod on_all_runs;
-pub mod points;
+pub(crate) mod points;
 pub mod records;
 pub mod residual;
-pub mod selection;
-pub mod together;
+pub mod result;
+pub(crate) mod selection;
+pub(crate) mod together;
 pub mod updating;
 
 pub use compare::{Comparison, compare};
-pub use diagnose::{Diagnosis, diagnose};
+pub use diagnose::diagnose;
 pub use residual::data::{DiagnosisError, Problem};
+pub use result::Diagnosis;

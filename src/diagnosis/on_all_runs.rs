@@ -1,11 +1,11 @@
 //! Errors on all runs of what was found on those that tell most.
 
 use super::channels::mended;
-use super::diagnose::{Added, Diagnosis, agreement};
 use crate::control::Control;
 use crate::diagnosis::residual::data::{Data, DiagnosisError, Problem};
 use crate::diagnosis::residual::prediction::Predictor;
-use crate::diagnosis::selection::search::ReferenceModel;
+use crate::diagnosis::result::{Added, Diagnosis};
+use crate::diagnosis::selection::reference_model::ReferenceModel;
 use crate::diagnosis::updating::correction::{Correction, with_corrections};
 use crate::diagnosis::updating::noise_model::Linearisation;
 use crate::diagnosis::updating::parameters::Updating;
@@ -21,7 +21,7 @@ pub(super) fn told(
 ) -> Result<Diagnosis, DiagnosisError> {
     let predictor = Arc::new(Predictor::new(problem.structure, problem.known(), all)?);
     let raw = ReferenceModel::new(predictor.clone(), all, control, &|_| {})?;
-    diagnosis.error_before = agreement(&raw).error;
+    diagnosis.error_before = raw.agreement().error;
     let whole = mended(all, &diagnosis.channel_faults);
     let stated = ReferenceModel::new(predictor, &whole, control, &|_| {})?;
     let corrected = corrected(problem, &whole, &stated, &diagnosis.corrections);
@@ -31,7 +31,7 @@ pub(super) fn told(
         let as_it_is = effects.is_empty() && !(corrections && k + 1 == count);
         step.error = match (k, as_it_is) {
             (0, _) => diagnosis.error_before,
-            (_, true) => agreement(&stated).error,
+            (_, true) => stated.agreement().error,
             (_, false) => corrected.error_of_structure(&effects, &Vec::new())?,
         };
     }

@@ -8,7 +8,7 @@
 //! An effect that one of the searches did not name has a small probability there, `UNNAMED`: its search may have passed it over.
 //! Sizes, corrections and errors are those of the search to which the likeliest effect belongs; what the other one finds is said.
 
-use super::diagnose::{Diagnosis, Suggestion, Verdict};
+use crate::diagnosis::result::{Diagnosis, Suggestion, Verdict};
 use crate::effects::Source;
 
 /// Probability of an effect in a search that does not name it.
@@ -17,7 +17,7 @@ const UNNAMED: f64 = 0.01;
 const SURE: f64 = 0.5;
 
 /// Joins what a search in steady runs and one in records found; either alone where the other one suggests nothing.
-pub fn together(steady: Diagnosis, records: Diagnosis) -> Diagnosis {
+pub(crate) fn together(steady: Diagnosis, records: Diagnosis) -> Diagnosis {
     if records.suggestions.is_empty() {
         return Diagnosis { complete: steady.complete && records.complete, ..steady };
     }
@@ -85,7 +85,7 @@ fn said(name: &str, found: Option<&Suggestion>) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::diagnosis::diagnose::{Added, Step};
+    use crate::diagnosis::result::{Added, Step};
     use crate::effects::{Effect, Place};
 
     fn found(list: &[(Effect, usize, f64)]) -> Diagnosis {

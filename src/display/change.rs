@@ -5,7 +5,7 @@ use crate::identify::change::{Change, SourceChange};
 use crate::structure::Structure;
 
 /// What a reader takes away: which sources changed and by how much, or that none did.
-pub fn sentence(structure: &Structure, found: &Change) -> String {
+pub(crate) fn sentence(structure: &Structure, found: &Change) -> String {
     let source_in_words = |s: &SourceChange| {
         let name = words::title(structure, &s.source);
         let by = format::with_deviation(s.coefficient.difference, s.coefficient.deviation, unit(s));
@@ -25,7 +25,7 @@ pub fn sentence(structure: &Structure, found: &Change) -> String {
 }
 
 /// The difference as a share of the first value, where there is one.
-pub fn relative(s: &SourceChange) -> Option<String> {
+pub(crate) fn relative(s: &SourceChange) -> Option<String> {
     let [first, _] = s.coefficient.values;
     let known = first > 3.0 * s.coefficient.deviations[0];
     known.then(|| {
@@ -35,11 +35,11 @@ pub fn relative(s: &SourceChange) -> Option<String> {
 }
 
 /// Unit of the coefficient.
-pub fn unit(s: &SourceChange) -> &'static str {
+pub(crate) fn unit(s: &SourceChange) -> &'static str {
     s.source.effect.coefficient().map_or("", |k| s.source.effect.parameters()[k].unit)
 }
 
 /// A probability of chance: `0.23`, `3e-5`, `< 1e-12`.
-pub fn chance(p: f64) -> String {
+pub(crate) fn chance(p: f64) -> String {
     if p < 1e-12 { "< 1e-12".to_owned() } else { format::significant(p, 2).replace('−', "-") }
 }

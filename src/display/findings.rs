@@ -3,7 +3,7 @@
 use super::format::{self, in_words};
 use super::words;
 use crate::diagnosis::Diagnosis;
-use crate::diagnosis::diagnose::{NextTest, TestKind, Verdict};
+use crate::diagnosis::result::{NextTest, TestKind, Verdict};
 use crate::diagnosis::updating::correction::Correction;
 use crate::diagnosis::updating::parameters::UpdatingParameter;
 use crate::diagnosis::updating::scatter::{Estimated, Scatter};

@@ -1,6 +1,6 @@
 //! How values, units and names are shown to people: the same on the screen, in plots and in reports.
 
-pub mod change;
+pub(crate) mod change;
 pub mod findings;
 pub mod format;
 pub mod glossary;

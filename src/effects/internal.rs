@@ -14,7 +14,7 @@ use super::law::{ByParameter, Linearised, Manner};
 use super::memory::Memory;
 use super::motion::Motion;
 use super::turning::turning_points;
-pub use super::ways::{InternalSteps, Way};
+pub(crate) use super::ways::{InternalSteps, Way};
 
 /// Slope of the period's map from which on nothing slips.
 const SLIPLESS: f64 = 1.0 - 1e-9;
@@ -24,7 +24,7 @@ const PARTS: usize = 256;
 const STEPS: usize = 80;
 
 /// A law given by what one straight way does to its force.
-pub trait InternalLaw: Sync {
+pub(crate) trait InternalLaw: Sync {
     /// What the ways of one set of parameters have in common, computed once.
     type Shape: Send + Sync + 'static;
 
@@ -72,7 +72,7 @@ impl<T: InternalLaw + Send> InternalSteps for Stepped<T> {
 
 /// A law with one internal force as a [`Law`].
 #[derive(Debug)]
-pub struct Internal<T>(pub T);
+pub(crate) struct Internal<T>(pub T);
 
 impl<T: InternalLaw> Internal<T> {
     /// Adds where each way of the period starts and leads to from the force `start`; the force at the end, and its derivative by

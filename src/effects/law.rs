@@ -41,7 +41,7 @@ pub enum Manner {
 }
 
 /// From a direction to the tangent along it, both sampled.
-pub type Linearised<'a> = Box<dyn Fn(&Motion, &mut [f64]) + 'a>;
+pub(crate) type Linearised<'a> = Box<dyn Fn(&Motion, &mut [f64]) + 'a>;
 
 /// From the number of a parameter to the derivative of the force by it, sampled.
 pub type ByParameter<'a> = Box<dyn Fn(usize, &mut [f64]) + 'a>;

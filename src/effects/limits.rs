@@ -4,7 +4,7 @@ use super::effect::Effect;
 use super::range::Range;
 
 /// Relative distance from a limit within which a law is taken for the simpler one there.
-pub const CLOSE: f64 = 0.03;
+pub(crate) const CLOSE: f64 = 0.03;
 
 /// A simpler law that a law becomes where its parameters tend to an end of their range.
 #[derive(Debug, Clone, Copy)]
@@ -18,11 +18,11 @@ pub struct Limit {
 }
 
 /// Whether two values of one unit are the same within [`CLOSE`] of the larger.
-pub fn alike(a: f64, b: f64) -> bool {
+pub(crate) fn alike(a: f64, b: f64) -> bool {
     (a - b).abs() < CLOSE * a.abs().max(b.abs())
 }
 
 /// Whether a pure number is within [`CLOSE`] of `value`.
-pub fn near(p: f64, value: f64) -> bool {
+pub(crate) fn near(p: f64, value: f64) -> bool {
     (p - value).abs() < CLOSE
 }

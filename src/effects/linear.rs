@@ -29,7 +29,7 @@ pub trait LinearLaw: Sync {
 
 /// A linear law as a [`Law`].
 #[derive(Debug)]
-pub struct Linear<T>(pub T);
+pub(crate) struct Linear<T>(pub T);
 
 impl<T: LinearLaw> Law for Linear<T> {
     fn description(&self) -> &'static Description {

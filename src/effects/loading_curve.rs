@@ -40,14 +40,14 @@ struct Node {
 
 /// The curve of one exponent.
 #[derive(Debug)]
-pub struct LoadingCurve {
+pub(crate) struct LoadingCurve {
     n: f64,
     nodes: Vec<Node>,
 }
 
 impl LoadingCurve {
     /// The curve of the exponent `n`, at least 1, by the classical Runge-Kutta method from node to node.
-    pub fn new(n: f64) -> Self {
+    pub(crate) fn new(n: f64) -> Self {
         let slope = |[z, w]: [f64; 2]| {
             if z <= 0.0 {
                 return [1.0, 0.0];

@@ -24,7 +24,7 @@ use super::turning::loop_ranges;
 ///
 /// `start(n)` is the value at the sample of greatest displacement, `branch(r, n)` what is added on the way from the
 /// reversal at sample `r` to sample `n`. With `B` these give the force, with derivatives of `B` its tangents.
-pub fn march(
+pub(crate) fn march(
     displacement: &[f64],
     out: &mut [f64],
     start: impl Fn(usize) -> f64,
@@ -75,7 +75,7 @@ struct Marched {
 }
 
 /// A law given by its backbone.
-pub trait MasingLaw: Sync {
+pub(crate) trait MasingLaw: Sync {
     /// As [`Law::description`].
     fn description(&self) -> &'static Description;
 
@@ -105,7 +105,7 @@ pub trait MasingLaw: Sync {
 
 /// A law of Masing's kind as a [`Law`].
 #[derive(Debug)]
-pub struct Masing<T>(pub T);
+pub(crate) struct Masing<T>(pub T);
 
 impl<T: MasingLaw + Copy + Send + 'static> Law for Masing<T> {
     fn description(&self) -> &'static Description {

@@ -28,7 +28,7 @@ pub(crate) fn open_reversals(place: impl Fn(usize) -> f64, mut count: usize, d: 
 }
 
 /// Rate-independent hysteresis with the Masing branches of [`super::masing`], from the virgin state.
-pub struct MasingMemory<B> {
+pub(crate) struct MasingMemory<B> {
     /// Force and slope of the backbone at a displacement.
     backbone: B,
     /// Displacement and force where the motion turned and whose loops are still open.
@@ -41,7 +41,7 @@ pub struct MasingMemory<B> {
 
 impl<B: Fn(f64) -> [f64; 2]> MasingMemory<B> {
     /// At rest at the origin. `backbone` gives force (N) and slope (N/m), odd in the displacement.
-    pub fn new(backbone: B) -> Self {
+    pub(crate) fn new(backbone: B) -> Self {
         Self { backbone, reversals: Vec::new(), last: [0.0; 2], direction: 0.0 }
     }
 
@@ -88,7 +88,7 @@ impl<B: Fn(f64) -> [f64; 2]> Memory for MasingMemory<B> {
 }
 
 /// Maxwell element: `F' + F k / c = k d'`, solved exactly for a straight step.
-pub struct MaxwellMemory {
+pub(crate) struct MaxwellMemory {
     stiffness: f64,
     c: f64,
     last: [f64; 2],
@@ -96,7 +96,7 @@ pub struct MaxwellMemory {
 
 impl MaxwellMemory {
     /// Without force at the origin; `stiffness` in N/m and `c` in N s/m.
-    pub fn new(stiffness: f64, c: f64) -> Self {
+    pub(crate) fn new(stiffness: f64, c: f64) -> Self {
         Self { stiffness, c, last: [0.0; 2] }
     }
 }

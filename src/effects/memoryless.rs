@@ -53,7 +53,7 @@ pub trait MemorylessLaw: Sync {
 
 /// A memoryless law as a [`Law`].
 #[derive(Debug)]
-pub struct Memoryless<T>(pub T);
+pub(crate) struct Memoryless<T>(pub T);
 
 impl<T: MemorylessLaw> Law for Memoryless<T> {
     fn description(&self) -> &'static Description {
@@ -121,6 +121,6 @@ impl<T: MemorylessLaw> Law for Memoryless<T> {
 }
 
 /// Sign of `v`, 0 at rest.
-pub fn sign(v: f64) -> f64 {
+pub(crate) fn sign(v: f64) -> f64 {
     if v == 0.0 { 0.0 } else { v.signum() }
 }

@@ -55,7 +55,7 @@ impl Range {
 }
 
 /// `count` values from `first` to `last` in equal ratios.
-pub fn geometric(first: f64, last: f64, count: usize) -> Vec<f64> {
+pub(crate) fn geometric(first: f64, last: f64, count: usize) -> Vec<f64> {
     let (first, last) = (first.max(1e-300), last.max(1e-300));
     let ratio = (last / first).powf(1.0 / (count.max(2) - 1) as f64);
     (0..count).map(|k| first * ratio.powi(k as i32)).collect()

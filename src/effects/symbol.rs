@@ -48,8 +48,8 @@ impl Mark {
 }
 
 /// Half the width of a dashpot, points.
-pub const HALF_WIDTH: f32 = 7.0;
+pub(crate) const HALF_WIDTH: f32 = 7.0;
 /// A dashpot over the whole body.
-pub const DASHPOT: &[Mark] = &[Mark::Dashpot(-0.5, 0.5)];
+pub(crate) const DASHPOT: &[Mark] = &[Mark::Dashpot(-0.5, 0.5)];
 /// A spring over the whole body.
-pub const SPRING: &[Mark] = &[Mark::spring(-0.5, 0.5, 5)];
+pub(crate) const SPRING: &[Mark] = &[Mark::spring(-0.5, 0.5, 5)];

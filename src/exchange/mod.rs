@@ -2,12 +2,12 @@
 
 pub mod atomic;
 pub mod export;
-pub mod frf;
+pub(crate) mod frf;
 pub mod importing;
 pub mod mapping;
 pub mod matrices;
 pub mod project;
-pub mod ratios;
+pub(crate) mod ratios;
 pub mod records;
 
 use crate::classical::reference_shapes::ReferenceShape;

@@ -7,8 +7,7 @@ use std::path::Path;
 
 /// Why the ratios cannot be read.
 #[derive(Debug, thiserror::Error)]
-#[expect(missing_docs, reason = "the messages say it")]
-pub enum RatioFileError {
+pub(crate) enum RatioFileError {
     #[error("{file}: cannot be read: {reason}; write frequency_hz,damping_ratio,deviation and one mode a row")]
     Unreadable { file: String, reason: String },
     #[error("{file}:{line}: {what} is {value}; it must be a positive number{hint}")]
@@ -28,7 +27,7 @@ struct Row {
 ///
 /// # Errors
 /// [`RatioFileError`]: the file, the line, what is wrong and how to mend it.
-pub fn read_ratios(path: &Path) -> Result<Vec<MeasuredRatio>, RatioFileError> {
+pub(crate) fn read_ratios(path: &Path) -> Result<Vec<MeasuredRatio>, RatioFileError> {
     let file = path.display().to_string();
     let unreadable = |reason: String| RatioFileError::Unreadable { file: file.clone(), reason };
     let text = std::fs::read_to_string(path).map_err(|error| unreadable(error.to_string()))?;

@@ -37,7 +37,7 @@ pub(super) struct Exchange<'a> {
 }
 
 impl<'a> Exchange<'a> {
-    pub fn new(system: &'a System) -> Self {
+    pub(super) fn new(system: &'a System) -> Self {
         let (a, b) = (&system.a, &system.b);
         let norms: Vec<f64> = (0..a.ncols()).map(|j| a.col(j).norm_l2()).collect();
         let with_b = products(a, &norms, b);
@@ -45,7 +45,7 @@ impl<'a> Exchange<'a> {
     }
 
     /// Good sets of each size up to `most` sources beside the forced ones, the smallest first.
-    pub fn sets(&mut self, forced: &[usize], most: usize) -> Vec<Vec<usize>> {
+    pub(super) fn sets(&mut self, forced: &[usize], most: usize) -> Vec<Vec<usize>> {
         let mut set = forced.to_vec();
         let mut sets = Vec::new();
         while set.len() < forced.len() + most {
@@ -105,7 +105,7 @@ impl<'a> Exchange<'a> {
     }
 
     /// The columns that are most like a column, it itself first.
-    pub fn alike(&mut self, column: usize, count: usize) -> Vec<usize> {
+    pub(super) fn alike(&mut self, column: usize, count: usize) -> Vec<usize> {
         self.ask(column);
         let products = &self.products[&column];
         let mut order: Vec<usize> = (0..products.len()).filter(|&j| self.norms[j] > 0.0).collect();

@@ -8,7 +8,7 @@ use crate::balance::energy::is_observable;
 
 impl Problem<'_> {
     /// Leaves out columns whose motion is not known in every run.
-    pub fn drop_unobservable(&mut self, state: &State) -> Result<(), IdentifyError> {
+    pub(super) fn drop_unobservable(&mut self, state: &State) -> Result<(), IdentifyError> {
         let method = self.expander.method();
         for source in self.known.iter().filter(|s| s.effect.dissipates() && !is_observable(s, &state.runs, method)) {
             let name = describe(source, self.structure);

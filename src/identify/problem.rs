@@ -42,7 +42,7 @@ pub(crate) struct Problem<'a> {
 
 impl<'a> Problem<'a> {
     /// Sorts sources and runs.
-    pub fn new(
+    pub(super) fn new(
         structure: &'a Structure,
         sources: &'a [Source],
         given: Measurements<'_>,
@@ -158,17 +158,17 @@ impl<'a> Problem<'a> {
     }
 
     /// Energies and damping ratios.
-    pub fn equations(&self) -> usize {
+    pub(super) fn equations(&self) -> usize {
         self.measured.len() + self.windows.len() + self.ratios.as_ref().map_or(0, Ratios::len)
     }
 
     /// Whether deviations are known from the data in every run.
-    pub fn is_noisy(&self) -> bool {
+    pub(super) fn is_noisy(&self) -> bool {
         self.measured.iter().all(|m| m.noisy)
     }
 
     /// Whether the rows' weights change with the coefficients.
-    pub fn weights_follow_coefficients(&self) -> bool {
+    pub(super) fn weights_follow_coefficients(&self) -> bool {
         match self.settings.weights {
             Weights::Noise => true,
             Weights::Auto => self.is_noisy(),
@@ -177,7 +177,7 @@ impl<'a> Problem<'a> {
     }
 
     /// Known sources and the columns with positive coefficients, at their values.
-    pub fn acting(&self, coefficients: &[f64]) -> Vec<Source> {
+    pub(super) fn acting(&self, coefficients: &[f64]) -> Vec<Source> {
         let identified = self.columns.iter().zip(coefficients).filter(|(_, c)| **c > 0.0);
         self.known.iter().cloned().chain(identified.map(|(source, &c)| source.with_coefficient(c))).collect()
     }

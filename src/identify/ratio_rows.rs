@@ -26,7 +26,14 @@ const UNKNOWN: f64 = 0.01;
 
 impl Ratios {
     /// Adds the rows to the system of a form at a state, whose columns are those of `set`.
-    pub fn append(&self, problem: &Problem<'_>, state: &State, form: Form, system: System, set: &[usize]) -> System {
+    pub(super) fn append(
+        &self,
+        problem: &Problem<'_>,
+        state: &State,
+        form: Form,
+        system: System,
+        set: &[usize],
+    ) -> System {
         let acting = problem.acting(&state.coefficients);
         let Some(damped) = self.damped(problem.structure, &acting) else { return system };
         let weigh = Weigh::new(&system, form);

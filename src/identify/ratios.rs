@@ -23,7 +23,7 @@ pub(crate) struct Ratios {
 
 impl Ratios {
     /// Pairs ratios with modes of the model, known stiffnesses and masses in it.
-    pub fn new(
+    pub(super) fn new(
         structure: &Structure,
         sources: [&[Source]; 2],
         ratios: &[MeasuredRatio],
@@ -44,12 +44,12 @@ impl Ratios {
     }
 
     /// Number of ratios.
-    pub fn len(&self) -> usize {
+    pub(super) fn len(&self) -> usize {
         self.list.len()
     }
 
     /// The damped mode of each ratio at the sources that act.
-    pub fn damped(&self, structure: &Structure, acting: &[Source]) -> Option<Vec<DampedMode>> {
+    pub(super) fn damped(&self, structure: &Structure, acting: &[Source]) -> Option<Vec<DampedMode>> {
         let constant: Vec<Source> = acting.iter().filter(|s| !is_hysteretic(s.effect)).cloned().collect();
         let linear = LinearMatrices::new(structure, &constant).ok()?;
         let all = damped_modes_from(&self.modes, linear.viscous.as_ref()).ok()?;

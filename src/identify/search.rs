@@ -42,7 +42,7 @@ pub(crate) struct SizeRanking {
 
 impl SizeRanking {
     /// The best set.
-    pub fn best(&self) -> &RankedSet {
+    pub(super) fn best(&self) -> &RankedSet {
         &self.sets[0]
     }
 }

@@ -21,7 +21,7 @@ pub(crate) struct State {
 
 impl State {
     /// The motion when nothing is known of the sources but those given.
-    pub fn start(problem: &Problem<'_>) -> Result<Self, IdentifyError> {
+    pub(super) fn start(problem: &Problem<'_>) -> Result<Self, IdentifyError> {
         let runs = problem.control.map(problem.measured.len(), |r| {
             let acting = Acting { sources: &problem.known, motion: None, model_error: 1.0 };
             let measured = &problem.measured[r];
@@ -44,7 +44,7 @@ impl State {
     }
 
     /// The motion at other coefficients. Expansions that do not look at them are kept.
-    pub fn moved_to(
+    pub(super) fn moved_to(
         &self,
         problem: &Problem<'_>,
         coefficients: Vec<f64>,
@@ -56,7 +56,7 @@ impl State {
 
     /// The same with the energy equation of before, where only the response is asked: with thousands of columns the energies
     /// cost more than the motion. [`Self::balanced`] makes it good.
-    pub fn in_motion(
+    pub(super) fn in_motion(
         &self,
         problem: &Problem<'_>,
         coefficients: Vec<f64>,
@@ -76,7 +76,7 @@ impl State {
     }
 
     /// The energy equation at the present motion.
-    pub fn balanced(self, problem: &Problem<'_>) -> Result<Self, IdentifyError> {
+    pub(super) fn balanced(self, problem: &Problem<'_>) -> Result<Self, IdentifyError> {
         Self::with(problem, self.runs, self.coefficients, self.model_error)
     }
 
@@ -86,7 +86,7 @@ impl State {
     }
 
     /// The least model error with which the expansion follows the sensors to their noise.
-    pub fn adequate_model_error(&self, problem: &Problem<'_>) -> Result<f64, IdentifyError> {
+    pub(super) fn adequate_model_error(&self, problem: &Problem<'_>) -> Result<f64, IdentifyError> {
         let mut model_error = 1e-6;
         while problem.is_noisy() && model_error < 1.0 {
             problem.control.check()?;

@@ -17,19 +17,19 @@ pub(crate) struct System {
 
 impl System {
     /// Number of rows.
-    pub fn rows(&self) -> usize {
+    pub(super) fn rows(&self) -> usize {
         self.b.len()
     }
 
     /// Some of the columns, of all rows but those of one run.
-    pub fn part(&self, columns: &[usize], without: Option<usize>) -> (Mat<f64>, Vec<f64>) {
+    pub(super) fn part(&self, columns: &[usize], without: Option<usize>) -> (Mat<f64>, Vec<f64>) {
         let rows: Vec<usize> = (0..self.rows()).filter(|&i| Some(self.run[i]) != without).collect();
         let a = Mat::from_fn(rows.len(), columns.len(), |i, j| self.a[(rows[i], columns[j])]);
         (a, rows.iter().map(|&i| self.b[i]).collect())
     }
 
     /// `|A_S c - b|^2`, each row over its deviation where that is known.
-    pub fn chi_square(&self, columns: &[usize], coefficients: &[f64]) -> f64 {
+    pub(super) fn chi_square(&self, columns: &[usize], coefficients: &[f64]) -> f64 {
         (0..self.rows())
             .map(|i| {
                 let model: f64 = columns.iter().zip(coefficients).map(|(&j, c)| self.a[(i, j)] * c).sum();
@@ -40,7 +40,7 @@ impl System {
     }
 
     /// The least squares problem of some columns in no more rows than they are, plus one, by QR.
-    pub fn compressed(&self, columns: &[usize]) -> (Mat<f64>, Vec<f64>) {
+    pub(super) fn compressed(&self, columns: &[usize]) -> (Mat<f64>, Vec<f64>) {
         let n = columns.len();
         if self.rows() <= n + 1 {
             return self.part(columns, None);

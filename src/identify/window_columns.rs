@@ -29,7 +29,7 @@ pub(crate) struct WindowColumns {
 
 impl WindowColumns {
     /// Of every record that is enabled.
-    pub fn new(
+    pub(super) fn new(
         structure: &Structure,
         known: &[Source],
         columns: &[Source],
@@ -43,17 +43,17 @@ impl WindowColumns {
     }
 
     /// Number of windows.
-    pub fn len(&self) -> usize {
+    pub(super) fn len(&self) -> usize {
         self.rows.iter().map(WindowRows::len).sum()
     }
 
     /// Whether no record is used.
-    pub fn is_empty(&self) -> bool {
+    pub(super) fn is_empty(&self) -> bool {
         self.rows.is_empty()
     }
 
     /// Keeps some of the columns.
-    pub fn retain(&mut self, keep: &[bool]) {
+    pub(super) fn retain(&mut self, keep: &[bool]) {
         let kept: Vec<usize> = (0..keep.len()).filter(|&j| keep[j]).collect();
         let part = |g: &Mat<f64>| Mat::from_fn(g.nrows(), kept.len(), |i, j| g[(i, kept[j])]);
         self.rows.iter_mut().for_each(|rows| rows.g = part(&rows.g));
@@ -61,7 +61,7 @@ impl WindowColumns {
     }
 
     /// The energies of the windows behind those of the steady runs.
-    pub fn behind(&self, equation: EnergyEquation) -> EnergyEquation {
+    pub(super) fn behind(&self, equation: EnergyEquation) -> EnergyEquation {
         if self.is_empty() {
             return equation;
         }
@@ -83,12 +83,12 @@ impl WindowColumns {
     }
 
     /// Energy of known source number `source` in every window, J.
-    pub fn known(&self, source: usize) -> impl Iterator<Item = f64> + '_ {
+    pub(super) fn known(&self, source: usize) -> impl Iterator<Item = f64> + '_ {
         self.rows.iter().flat_map(move |rows| (0..rows.len()).map(move |i| rows.known[(i, source)]))
     }
 
     /// The system with the whitened rows of the columns of `set` behind its own.
-    pub fn append(&self, system: System, set: &[usize]) -> System {
+    pub(super) fn append(&self, system: System, set: &[usize]) -> System {
         if self.is_empty() {
             return system;
         }

@@ -15,10 +15,10 @@ use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, Exp1};
 
 /// Number of draws.
-pub const DRAWS: usize = 1000;
+pub(crate) const DRAWS: usize = 1000;
 
 /// Probabilities of models from the logarithms of their densities of the same groups of data, and of their priors.
-pub fn probabilities(densities: &[Vec<f64>], priors: &[f64]) -> Vec<f64> {
+pub(crate) fn probabilities(densities: &[Vec<f64>], priors: &[f64]) -> Vec<f64> {
     let groups = densities.first().map_or(0, Vec::len);
     let mut sums = vec![0.0; densities.len()];
     for shares in shares(groups) {
@@ -30,7 +30,7 @@ pub fn probabilities(densities: &[Vec<f64>], priors: &[f64]) -> Vec<f64> {
 }
 
 /// Draws of the weights of `groups` (Dirichlet of ones), the same at every call.
-pub fn shares(groups: usize) -> impl Iterator<Item = Vec<f64>> {
+pub(crate) fn shares(groups: usize) -> impl Iterator<Item = Vec<f64>> {
     let mut random = ChaCha8Rng::seed_from_u64(1);
     (0..DRAWS).map(move |_| {
         let shares: Vec<f64> = (0..groups).map(|_| Exp1.sample(&mut random)).collect();

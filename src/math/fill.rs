@@ -6,7 +6,7 @@
 use faer::{Mat, c64};
 
 /// A real matrix of the entries `entry(row, column)`.
-pub fn filled(rows: usize, columns: usize, mut entry: impl FnMut(usize, usize) -> f64) -> Mat<f64> {
+pub(crate) fn filled(rows: usize, columns: usize, mut entry: impl FnMut(usize, usize) -> f64) -> Mat<f64> {
     let mut matrix = Mat::<f64>::zeros(rows, columns);
     for j in 0..columns {
         for i in 0..rows {
@@ -17,7 +17,7 @@ pub fn filled(rows: usize, columns: usize, mut entry: impl FnMut(usize, usize) -
 }
 
 /// A complex matrix of the entries `entry(row, column)`.
-pub fn filled_complex(rows: usize, columns: usize, mut entry: impl FnMut(usize, usize) -> c64) -> Mat<c64> {
+pub(crate) fn filled_complex(rows: usize, columns: usize, mut entry: impl FnMut(usize, usize) -> c64) -> Mat<c64> {
     let mut matrix = Mat::<c64>::zeros(rows, columns);
     for j in 0..columns {
         for i in 0..rows {

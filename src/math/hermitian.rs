@@ -4,7 +4,7 @@ use faer::c64;
 
 /// Lower factor, row by row.
 #[derive(Debug, Clone, PartialEq)]
-pub struct HermitianFactor {
+pub(crate) struct HermitianFactor {
     l: Vec<c64>,
     size: usize,
 }
@@ -12,7 +12,7 @@ pub struct HermitianFactor {
 impl HermitianFactor {
     /// Factor of `s`, n x n row by row. A pivot below `least` times its diagonal entry is rounding and is raised to that, so
     /// that no certain channel is made of one that is not.
-    pub fn new(s: &[c64], least: f64) -> Self {
+    pub(crate) fn new(s: &[c64], least: f64) -> Self {
         let size = s.len().isqrt();
         let mut l = vec![c64::new(0.0, 0.0); size * size];
         for i in 0..size {
@@ -30,12 +30,12 @@ impl HermitianFactor {
     }
 
     /// `ln det S`.
-    pub fn log_determinant(&self) -> f64 {
+    pub(crate) fn log_determinant(&self) -> f64 {
         (0..self.size).map(|i| 2.0 * self.l[i * self.size + i].re.ln()).sum()
     }
 
     /// `v := L^-1 v`.
-    pub fn whiten(&self, v: &mut [c64]) {
+    pub(crate) fn whiten(&self, v: &mut [c64]) {
         for i in 0..self.size {
             let rest = (0..i).fold(v[i], |x, k| x - self.l[i * self.size + k] * v[k]);
             v[i] = rest / self.l[i * self.size + i].re;

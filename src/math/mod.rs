@@ -1,12 +1,12 @@
 //! Numerical kernels that know nothing of structures.
 
-pub mod bootstrap;
+pub(crate) mod bootstrap;
 pub mod eigen;
-pub mod fill;
-pub mod hermitian;
+pub(crate) mod fill;
+pub(crate) mod hermitian;
 pub mod least_squares;
 pub mod nnls;
-pub mod numerals;
-pub mod spectrum;
-pub mod statistics;
+pub(crate) mod numerals;
+pub(crate) mod spectrum;
+pub(crate) mod statistics;
 pub mod subsets;

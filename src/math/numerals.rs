@@ -5,7 +5,7 @@ const MOST_PLACES: usize = 8;
 
 /// `value +- deviation`, both to the digit that the deviation supports and under one power of ten; four significant digits
 /// where the deviation is not known.
-pub fn with_deviation(value: f64, deviation: f64) -> String {
+pub(crate) fn with_deviation(value: f64, deviation: f64) -> String {
     if deviation <= 0.0 || !deviation.is_finite() || !value.is_finite() {
         return significant(value, 4);
     }
@@ -21,7 +21,7 @@ pub fn with_deviation(value: f64, deviation: f64) -> String {
 }
 
 /// `value` with `digits` significant digits, in plain notation between 1e-3 and 1e5, else as `1.23e-7`; `-` for what is no number.
-pub fn significant(value: f64, digits: usize) -> String {
+pub(crate) fn significant(value: f64, digits: usize) -> String {
     if value == 0.0 {
         return "0".to_owned();
     }

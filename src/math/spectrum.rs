@@ -7,7 +7,7 @@ use std::f64::consts::TAU;
 
 /// One-sided amplitude spectrum.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Spectrum {
+pub(crate) struct Spectrum {
     /// Distance of two lines, Hz.
     pub resolution_hz: f64,
     /// Amplitude at `k * resolution_hz`, k = 0, 1, ..., in the unit of the signal.
@@ -16,7 +16,7 @@ pub struct Spectrum {
 
 /// A peak between two lines of a spectrum.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Peak {
+pub(crate) struct Peak {
     /// Frequency, Hz.
     pub frequency_hz: f64,
     /// Amplitude in the unit of the signal.
@@ -26,7 +26,7 @@ pub struct Peak {
 impl Spectrum {
     /// Spectrum of `signal`, sampled every `time_step` seconds; `None` for fewer than four samples, a time step that is
     /// not positive, or a value that is not finite.
-    pub fn new(signal: &[f64], time_step: f64) -> Option<Self> {
+    pub(crate) fn new(signal: &[f64], time_step: f64) -> Option<Self> {
         let n = signal.len();
         if n < 4 || !(time_step > 0.0 && time_step.is_finite()) || signal.iter().any(|v| !v.is_finite()) {
             return None;
@@ -41,7 +41,7 @@ impl Spectrum {
     }
 
     /// Spectrum with the mean power of others of the same length; `None` where one of them is none, or there are none.
-    pub fn mean(spectra: impl Iterator<Item = Option<Self>>) -> Option<Self> {
+    pub(crate) fn mean(spectra: impl Iterator<Item = Option<Self>>) -> Option<Self> {
         let mut sum: Option<Self> = None;
         let mut count = 0.0;
         for spectrum in spectra {
@@ -59,12 +59,12 @@ impl Spectrum {
     }
 
     /// Frequency of line `k`, Hz.
-    pub fn frequency_hz(&self, k: usize) -> f64 {
+    pub(crate) fn frequency_hz(&self, k: usize) -> f64 {
         k as f64 * self.resolution_hz
     }
 
     /// Local peak at line `k`, by a parabola through the logarithms of three lines: for a lone sine within 2 % of a line.
-    pub fn interpolate(&self, k: usize) -> Peak {
+    pub(crate) fn interpolate(&self, k: usize) -> Peak {
         let at = |i: usize| self.amplitude.get(i).copied().unwrap_or(0.0).max(f64::MIN_POSITIVE).ln();
         if k == 0 || k + 1 >= self.amplitude.len() {
             return Peak {
@@ -82,13 +82,13 @@ impl Spectrum {
     }
 
     /// The highest peak above the first line; `None` for a signal without any oscillation.
-    pub fn highest_peak(&self) -> Option<Peak> {
+    pub(crate) fn highest_peak(&self) -> Option<Peak> {
         let (k, value) = self.amplitude.iter().enumerate().skip(1).max_by(|a, b| a.1.total_cmp(b.1))?;
         (*value > 0.0).then(|| self.interpolate(k))
     }
 
     /// Local peaks of at least `fraction` of the highest, in order of frequency.
-    pub fn peaks(&self, fraction: f64) -> Vec<Peak> {
+    pub(crate) fn peaks(&self, fraction: f64) -> Vec<Peak> {
         let highest = self.amplitude.iter().skip(1).fold(0.0_f64, |m, v| m.max(*v));
         (1..self.amplitude.len().saturating_sub(1))
             .filter(|&k| {

@@ -3,10 +3,10 @@
 use statrs::distribution::{ChiSquared, ContinuousCDF, Normal};
 
 /// Standard deviation of a normal distribution over its median absolute deviation.
-pub const MAD_TO_DEVIATION: f64 = 1.482_602_218_505_602;
+pub(crate) const MAD_TO_DEVIATION: f64 = 1.482_602_218_505_602;
 
 /// `P(X > x)` for chi-square with `freedom` degrees of freedom, exact where it is tiny; 0 for `freedom == 0`, NaN for NaN.
-pub fn chi_square_tail(x: f64, freedom: usize) -> f64 {
+pub(crate) fn chi_square_tail(x: f64, freedom: usize) -> f64 {
     if x.is_nan() {
         return f64::NAN;
     }
@@ -18,7 +18,7 @@ pub fn chi_square_tail(x: f64, freedom: usize) -> f64 {
 
 /// Value that chi-square with `freedom` degrees of freedom stays below with `probability` (clamped to 0..1); 0 for
 /// `freedom == 0`.
-pub fn chi_square_quantile(probability: f64, freedom: usize) -> f64 {
+pub(crate) fn chi_square_quantile(probability: f64, freedom: usize) -> f64 {
     let p = probability.clamp(0.0, 1.0);
     if p >= 1.0 && freedom > 0 {
         return f64::INFINITY;
@@ -27,12 +27,12 @@ pub fn chi_square_quantile(probability: f64, freedom: usize) -> f64 {
 }
 
 /// `P(X <= x)` for the standard normal distribution.
-pub fn normal_cdf(x: f64) -> f64 {
+pub(crate) fn normal_cdf(x: f64) -> f64 {
     Normal::standard().cdf(x)
 }
 
 /// Root mean square; 0 for no values.
-pub fn root_mean_square(values: &[f64]) -> f64 {
+pub(crate) fn root_mean_square(values: &[f64]) -> f64 {
     if values.is_empty() {
         return 0.0;
     }
@@ -40,12 +40,12 @@ pub fn root_mean_square(values: &[f64]) -> f64 {
 }
 
 /// Arithmetic mean; NaN for no values.
-pub fn mean(values: &[f64]) -> f64 {
+pub(crate) fn mean(values: &[f64]) -> f64 {
     values.iter().sum::<f64>() / values.len() as f64
 }
 
 /// Sample standard deviation (divisor n - 1); 0 for fewer than two values.
-pub fn standard_deviation(values: &[f64]) -> f64 {
+pub(crate) fn standard_deviation(values: &[f64]) -> f64 {
     if values.len() < 2 {
         return 0.0;
     }
@@ -54,7 +54,7 @@ pub fn standard_deviation(values: &[f64]) -> f64 {
 }
 
 /// Quantile by linear interpolation between order statistics (type 7); `probability` is clamped to 0..1; NaN for no values.
-pub fn quantile(values: &[f64], probability: f64) -> f64 {
+pub(crate) fn quantile(values: &[f64], probability: f64) -> f64 {
     let mut sorted = values.to_vec();
     sorted.sort_by(f64::total_cmp);
     let Some(last) = sorted.len().checked_sub(1) else {
@@ -67,12 +67,12 @@ pub fn quantile(values: &[f64], probability: f64) -> f64 {
 }
 
 /// Median; NaN for no values.
-pub fn median(values: &[f64]) -> f64 {
+pub(crate) fn median(values: &[f64]) -> f64 {
     quantile(values, 0.5)
 }
 
 /// Standard deviation estimated from the median absolute deviation from the median: untouched by outliers.
-pub fn robust_deviation(values: &[f64]) -> f64 {
+pub(crate) fn robust_deviation(values: &[f64]) -> f64 {
     let centre = median(values);
     let distances: Vec<f64> = values.iter().map(|v| (v - centre).abs()).collect();
     MAD_TO_DEVIATION * median(&distances)
@@ -80,12 +80,12 @@ pub fn robust_deviation(values: &[f64]) -> f64 {
 
 /// Bayesian information criterion `chi^2 + p ln n` of a model with `parameters` free parameters whose weighted squared
 /// residual over `data` values is `chi_square`; the smaller, the better the evidence.
-pub fn bayesian_information(chi_square: f64, parameters: usize, data: usize) -> f64 {
+pub(crate) fn bayesian_information(chi_square: f64, parameters: usize, data: usize) -> f64 {
     chi_square + parameters as f64 * (data.max(1) as f64).ln()
 }
 
 /// Probabilities of models from their information criteria, `exp(-b/2)` normalised.
-pub fn evidence_weights(criteria: &[f64]) -> Vec<f64> {
+pub(crate) fn evidence_weights(criteria: &[f64]) -> Vec<f64> {
     let least = criteria.iter().copied().fold(f64::INFINITY, f64::min);
     let weights: Vec<f64> = criteria.iter().map(|b| (-0.5 * (b - least)).exp()).collect();
     let sum: f64 = weights.iter().sum();

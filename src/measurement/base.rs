@@ -17,7 +17,7 @@ use faer::c64;
 
 /// How a structure takes a motion of its base along one axis.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Base {
+pub(crate) struct Base {
     /// The base's label: `x`, `y` or `z`.
     pub label: String,
     /// Row, label and `M r` (kg) of the DOFs that are loaded.
@@ -27,10 +27,10 @@ pub struct Base {
 }
 
 /// Names of the axes.
-pub const AXES: [&str; 3] = ["x", "y", "z"];
+pub(crate) const AXES: [&str; 3] = ["x", "y", "z"];
 
 /// The run's harmonics with its base channels turned into forces; `is_absolute` tells whether its motions are.
-pub fn driven(mut fit: HarmonicFit, bases: &[Base], is_absolute: bool) -> HarmonicFit {
+pub(crate) fn driven(mut fit: HarmonicFit, bases: &[Base], is_absolute: bool) -> HarmonicFit {
     let (moving, mut channels): (Vec<ChannelFit>, Vec<ChannelFit>) =
         fit.channels.into_iter().partition(|c| c.channel.quantity == Quantity::Base);
     for motion in &moving {

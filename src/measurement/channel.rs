@@ -4,10 +4,10 @@ use serde::{Deserialize, Serialize};
 use std::fmt;
 
 /// Standard acceleration of gravity, m/s^2.
-pub const STANDARD_GRAVITY: f64 = 9.806_65;
+pub(crate) const STANDARD_GRAVITY: f64 = 9.806_65;
 
 /// Newtons in a pound-force.
-pub const POUND_FORCE: f64 = 4.448_221_615_260_5;
+pub(crate) const POUND_FORCE: f64 = 4.448_221_615_260_5;
 
 /// What a channel measures.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
@@ -78,7 +78,7 @@ pub struct Unit {
 }
 
 /// Every unit that files may use.
-pub const UNITS: [Unit; 14] = [
+pub(crate) const UNITS: [Unit; 14] = [
     unit("N", 1.0, Quantity::Force, false),
     unit("kN", 1e3, Quantity::Force, false),
     unit("lbf", POUND_FORCE, Quantity::Force, false),
@@ -141,7 +141,6 @@ pub struct ChannelName {
 
 /// What is wrong with a channel's name.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-#[expect(missing_docs, reason = "the messages say it")]
 pub enum ChannelError {
     #[error("\"{text}\" is not a channel; write QUANTITY@DOF [UNIT], such as acc@7 [m/s^2]")]
     NotAChannel { text: String },
@@ -181,7 +180,7 @@ impl ChannelName {
 }
 
 /// Reads `QUANTITY@DOF`, the name of a channel without its unit.
-pub fn parse_name(text: &str) -> Result<(Quantity, String), ChannelError> {
+pub(crate) fn parse_name(text: &str) -> Result<(Quantity, String), ChannelError> {
     let text = text.trim();
     let (word, label) = text.split_once('@').ok_or_else(|| ChannelError::NotAChannel { text: text.to_owned() })?;
     let quantity = Quantity::from_word(&word.trim().to_lowercase())

@@ -1,24 +1,24 @@
 //! Validated records: what was measured, the harmonics fitted to it with their covariance, and what is wrong with it.
 
 mod any_columns;
-pub mod base;
-pub mod channel;
+pub(crate) mod base;
+pub(crate) mod channel;
 mod decay;
 mod design;
 mod even_columns;
 mod finding;
 pub mod fit;
 pub mod frequency;
-pub mod frf;
+pub(crate) mod frf;
 mod fundamentals;
-pub mod kind;
+pub(crate) mod kind;
 mod noise;
-pub mod proposal;
+pub(crate) mod proposal;
 pub mod quality;
 mod ramps;
-pub mod ratio;
-pub mod record;
-pub mod run;
+pub(crate) mod ratio;
+pub(crate) mod record;
+pub(crate) mod run;
 mod settling;
 mod signal;
 mod slips;

@@ -30,7 +30,7 @@ const PERIODIC: f64 = 0.8;
 
 /// What a record looks like.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Proposal {
+pub(crate) struct Proposal {
     /// Kind.
     pub kind: Kind,
     /// Part to be used.
@@ -40,7 +40,7 @@ pub struct Proposal {
 }
 
 /// What a record looks like.
-pub fn propose(record: &Record) -> Proposal {
+pub(crate) fn propose(record: &Record) -> Proposal {
     let force = envelope(record, |quantity| quantity == Quantity::Force);
     let motion = envelope(record, |quantity| quantity != Quantity::Force);
     let most = force.iter().copied().fold(0.0, f64::max);

@@ -37,7 +37,7 @@ pub(super) struct Ramps {
 
 impl Ramps {
     /// What is wrong, and how to mend it.
-    pub fn reason(&self, fit: &HarmonicFit) -> String {
+    pub(super) fn reason(&self, fit: &HarmonicFit) -> String {
         let name = &fit.channels[self.channel].channel;
         let (what, cut) = match (self.up, self.down) {
             (Some(up), Some(down)) => {

@@ -4,7 +4,7 @@ use super::channel::Channel;
 use std::ops::Range;
 
 /// Fewest samples of a record: one unknown more than offset, slope and one harmonic.
-pub const FEWEST_SAMPLES: usize = 5;
+pub(crate) const FEWEST_SAMPLES: usize = 5;
 
 /// Largest share of times that may equal the one before. A few repeated samples are a finding; many mean that the
 /// times were written with too few digits to be used.

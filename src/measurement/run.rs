@@ -221,7 +221,7 @@ fn combine(all: Vec<Amplitudes>) -> Option<Amplitudes> {
 }
 
 /// Fits at the given frequency, or at that found in the record, whose deviation is then kept.
-pub fn fit_at(record: &Record, frequency_hz: Option<f64>, harmonics: usize) -> Result<HarmonicFit, FitError> {
+pub(crate) fn fit_at(record: &Record, frequency_hz: Option<f64>, harmonics: usize) -> Result<HarmonicFit, FitError> {
     if let Some(frequency_hz) = frequency_hz {
         return fit(record, TAU * frequency_hz, harmonics);
     }

@@ -24,7 +24,7 @@ use std::ops::Range;
 
 /// Change of an amplitude over the record, relative, that matters. A structure at 1 % damping that rings down by this
 /// much in ten periods gives back 0.3 % of the energy of the record; below that noise and sensors decide.
-pub const SETTLED: f64 = 2e-3;
+pub(super) const SETTLED: f64 = 2e-3;
 
 /// Probability that noise alone passes for a drift in one comparison: a run has some twenty.
 const DRIFT_BY_CHANCE: f64 = 1e-5;

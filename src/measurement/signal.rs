@@ -5,7 +5,7 @@ use super::fit::{ChannelFit, HarmonicFit};
 
 /// Smallest amplitude that a channel is judged by, as a share of the largest of its quantity in the run: a sensor at a
 /// node must not rule.
-pub const NODE_SHARE: f64 = 1.0 / 20.0;
+pub(super) const NODE_SHARE: f64 = 1.0 / 20.0;
 
 /// Root mean square of the periodic part of a channel.
 pub(super) fn signal(channel: &ChannelFit) -> f64 {

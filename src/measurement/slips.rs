@@ -12,7 +12,7 @@ use super::record::Record;
 use std::f64::consts::TAU;
 
 /// Slip of the phase over the record, rad, that matters: it lowers a fitted amplitude by a sixth of a per cent.
-pub const SLIP: f64 = 0.2;
+pub(super) const SLIP: f64 = 0.2;
 
 /// Deviations by which the slip must exceed its own.
 const SLIP_DEVIATIONS: f64 = 5.0;

@@ -15,7 +15,7 @@ use std::borrow::Cow;
 use std::sync::Arc;
 
 /// Fewest samples of a part.
-pub const FEWEST_SAMPLES: usize = 32;
+pub(super) const FEWEST_SAMPLES: usize = 32;
 /// Deviation of an instant from even steps that still counts as even, in steps.
 const UNEVEN: f64 = 0.25;
 /// Points of the polynomial between the samples.

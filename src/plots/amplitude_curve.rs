@@ -8,7 +8,7 @@ use crate::display::words;
 use crate::measurement::Quantity;
 
 /// Points from which on a curve says something.
-pub const LEAST_POINTS: usize = 3;
+pub(crate) const LEAST_POINTS: usize = 3;
 
 /// Largest over least amplitude from which on a slope shows: there the axes of the damping ratio are logarithmic.
 const WIDE: f64 = 2.0;
@@ -18,7 +18,7 @@ const SLOPES: [(f64, &str); 4] =
     [(-1.0, "dry friction, slope -1"), (0.0, "viscous, 0"), (0.5, "microslip, 1/2"), (1.0, "drag, 1")];
 
 /// Damping ratio over amplitude (`ratio`), else frequency over amplitude.
-pub fn figure(curve: &ModeCurve, ratio: bool, palette: &Palette) -> Figure {
+pub(crate) fn figure(curve: &ModeCurve, ratio: bool, palette: &Palette) -> Figure {
     let quantity = curve.channel.split('@').next().and_then(Quantity::from_word);
     let name = quantity.map_or("Amplitude", |q| words::axis(q, false));
     // Both figures share the axis of amplitude, so that it is of one kind.

@@ -8,7 +8,7 @@ use crate::identify::Outcome;
 const LEAST: f64 = 1e-8;
 
 /// The chart as a plot.
-pub fn figure(palette: &Palette, outcome: &Outcome, current: usize, limit_deg: f64) -> Figure {
+pub(crate) fn figure(palette: &Palette, outcome: &Outcome, current: usize, limit_deg: f64) -> Figure {
     let best: Vec<[f64; 2]> = outcome.steps.iter().map(|s| [s.count as f64, s.angle_deg.max(LEAST)]).collect();
     let others = outcome
         .steps

@@ -8,7 +8,7 @@ use emath::{Align2, Rect, pos2, vec2};
 
 /// One bar.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Bar {
+pub(crate) struct Bar {
     /// At the left.
     pub name: String,
     /// Share from 0 to 1.
@@ -19,16 +19,16 @@ pub struct Bar {
 
 impl Bar {
     /// Part of the track that is filled: the share itself, so that 34 % fill 34 % of it.
-    pub fn filled(&self) -> f32 {
+    pub(crate) fn filled(&self) -> f32 {
         self.share.abs().min(1.0) as f32
     }
 }
 
 /// Height of a row.
-pub const ROW: f32 = 24.0;
+pub(crate) const ROW: f32 = 24.0;
 
 /// Bars under each other on paper.
-pub fn draw(bars: &[Bar], title: &str, name_width: f32, palette: &Palette) -> Drawing {
+pub(crate) fn draw(bars: &[Bar], title: &str, name_width: f32, palette: &Palette) -> Drawing {
     let size = vec2(720.0, 56.0 + ROW * bars.len() as f32);
     let mut drawing = Drawing::new(size, palette.canvas, title);
     drawing.words(pos2(16.0, 20.0), Align2::LEFT_CENTER, title, size::HEADING, palette.ink);
@@ -48,7 +48,7 @@ pub fn draw(bars: &[Bar], title: &str, name_width: f32, palette: &Palette) -> Dr
 }
 
 /// Names and shares as a table with tabs.
-pub fn table(bars: &[Bar]) -> String {
+pub(crate) fn table(bars: &[Bar]) -> String {
     bars.iter().fold("name\tshare, %\n".to_owned(), |text, b| text + &format!("{}\t{:e}\n", b.name, 100.0 * b.share))
 }
 

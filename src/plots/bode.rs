@@ -28,7 +28,7 @@ pub struct Response {
 
 /// A measured receptance at the fundamental of a run.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Point {
+pub(crate) struct Point {
     /// Circular frequency, rad/s.
     pub omega: f64,
     /// Receptance, m/N.
@@ -38,7 +38,7 @@ pub struct Point {
 }
 
 /// Measured receptances at the fundamentals of all used runs that have both channels.
-pub fn measured(p: &Project, response: usize, excitation: usize) -> Vec<Point> {
+pub(crate) fn measured(p: &Project, response: usize, excitation: usize) -> Vec<Point> {
     let response_of = |run: &crate::measurement::Run| {
         let channel =
             |want: &dyn Fn(&crate::measurement::Channel) -> bool| run.fit.channels.iter().find(|c| want(&c.channel));
@@ -59,7 +59,7 @@ pub fn measured(p: &Project, response: usize, excitation: usize) -> Vec<Point> {
 
 /// A frequency response and what is divided by the force.
 #[derive(Debug, Clone, Copy)]
-pub struct Diagram<'a> {
+pub(crate) struct Diagram<'a> {
     /// The project, for labels and measured points.
     pub project: &'a Project,
     /// The model's curve.
@@ -89,7 +89,7 @@ impl Diagram<'_> {
     }
 
     /// Title of what is exported: which quantity between which DOFs.
-    pub fn title(&self, kind: &str) -> String {
+    pub(crate) fn title(&self, kind: &str) -> String {
         let label = |dof: usize| self.project.structure.label(dof);
         let r = self.response;
         format!(
@@ -101,7 +101,7 @@ impl Diagram<'_> {
     }
 
     /// Magnitude and phase as plots.
-    pub fn bode_figures(&self, palette: &Palette) -> [Figure; 2] {
+    pub(crate) fn bode_figures(&self, palette: &Palette) -> [Figure; 2] {
         let (model, points) = (self.model(), self.points());
         let size = |h: c64| h.re.hypot(h.im);
         let phase = |h: c64| h.im.atan2(h.re).to_degrees();
@@ -132,7 +132,7 @@ impl Diagram<'_> {
     }
 
     /// Imaginary over real part within a band about `centre` (rad/s).
-    pub fn nyquist_figure(&self, palette: &Palette, centre: f64) -> Figure {
+    pub(crate) fn nyquist_figure(&self, palette: &Palette, centre: f64) -> Figure {
         let band = self.band(centre);
         let near = |w: f64| (w / centre).ln().abs() < band;
         let plane = |h: c64| [h.re, h.im];

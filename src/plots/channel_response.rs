@@ -12,7 +12,7 @@ use faer::c64;
 const SAME_FREQUENCY: f64 = 0.015;
 
 /// What is plotted.
-pub struct ChannelResponse<'a> {
+pub(crate) struct ChannelResponse<'a> {
     /// Name of the channel.
     pub name: &'a str,
     /// Runs of the channel.
@@ -49,7 +49,7 @@ impl Part {
 
 impl ChannelResponse<'_> {
     /// Magnitude and phase over the force, along frequency; each with its share of the height.
-    pub fn over_frequency(&self, palette: &Palette) -> Vec<(Figure, f32)> {
+    pub(crate) fn over_frequency(&self, palette: &Palette) -> Vec<(Figure, f32)> {
         let figure = |part| self.frequency_figure(palette, part);
         present(vec![(figure(Part::Magnitude), 0.54), (figure(Part::Phase), 0.46)])
     }
@@ -139,7 +139,7 @@ impl ChannelResponse<'_> {
     }
 
     /// Magnitude and phase over the force, along the force, at the frequency of the run; none where there is one force only.
-    pub fn over_level(&self, palette: &Palette) -> Option<Vec<(Figure, f32)>> {
+    pub(crate) fn over_level(&self, palette: &Palette) -> Option<Vec<(Figure, f32)>> {
         let own = self.samples.iter().find(|s| s.run == self.run)?;
         let near = |s: &&Sample| (s.frequency / own.frequency).ln().abs() < SAME_FREQUENCY;
         let mut list: Vec<&Sample> = self.samples.iter().filter(near).collect();
@@ -170,7 +170,7 @@ impl ChannelResponse<'_> {
     }
 
     /// Title of what is exported.
-    pub fn title(&self, along: &str) -> String {
+    pub(crate) fn title(&self, along: &str) -> String {
         format!("{} along {along}, run {}", self.name, self.run + 1)
     }
 }

@@ -2,7 +2,7 @@
 
 use super::figure::{Axis, Figure, Look};
 use super::style::Palette;
-use crate::diagnosis::compare::{ChannelComparison, HarmonicComparison};
+use crate::diagnosis::residual::comparison::{ChannelComparison, HarmonicComparison};
 use crate::display::words;
 use crate::measurement::{HarmonicFit, Quantity};
 use faer::c64;
@@ -12,7 +12,7 @@ use std::f64::consts::TAU;
 const SAMPLES: usize = 240;
 
 /// A channel of one run, measured and modelled.
-pub struct Cycle<'a> {
+pub(crate) struct Cycle<'a> {
     /// Index of the run.
     pub run: usize,
     /// Harmonics of the run, for period and force.
@@ -66,7 +66,7 @@ impl Cycle<'_> {
     }
 
     /// One period.
-    pub fn time(&self, palette: &Palette) -> Figure {
+    pub(crate) fn time(&self, palette: &Palette) -> Figure {
         let (period, milli) = (TAU / self.fit.omega, 1e3);
         let wave_of = |c: &ChannelComparison, model: bool| {
             let values: Vec<c64> = c.harmonics.iter().map(|h| if model { h.model } else { h.measured }).collect();
@@ -87,7 +87,7 @@ impl Cycle<'_> {
     }
 
     /// Force of the first exciter over the displacement that the channel stands for; none where no force is measured.
-    pub fn hysteresis(&self, palette: &Palette) -> Option<Figure> {
+    pub(crate) fn hysteresis(&self, palette: &Palette) -> Option<Figure> {
         let force = self.fit.channels.iter().find(|c| c.channel.quantity == Quantity::Force)?;
         let order = self.quantity.derivatives().unwrap_or(0);
         let displacement = |c: &ChannelComparison, model: bool| {
@@ -111,7 +111,7 @@ impl Cycle<'_> {
     }
 
     /// Title of what is exported.
-    pub fn title(&self, what: &str) -> String {
+    pub(crate) fn title(&self, what: &str) -> String {
         format!("{}, {what}, run {}", self.now.channel, self.run + 1)
     }
 }

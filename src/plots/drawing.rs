@@ -2,7 +2,7 @@
 //! all three.
 
 use ecolor::Color32;
-use emath::{Align2, Pos2, Rect, Vec2, pos2};
+use emath::{Align2, Pos2, Rect, Vec2};
 
 /// A line's width and colour.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -114,9 +114,4 @@ impl Drawing {
     pub fn words(&mut self, at: Pos2, align: Align2, text: impl Into<String>, size: f32, colour: Color32) {
         self.marks.push(Mark::Words { at, align, text: text.into(), size, colour, upright: false });
     }
-}
-
-/// Corners of a rectangle whose sides are parallel to the screen.
-pub fn corners(rect: Rect) -> [Pos2; 4] {
-    [rect.left_top(), rect.right_top(), rect.right_bottom(), rect.left_bottom()].map(|p| pos2(p.x, p.y))
 }

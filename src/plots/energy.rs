@@ -6,7 +6,7 @@ use crate::exchange::Project;
 use crate::identify::Outcome;
 
 /// The chart as a plot.
-pub fn figure(palette: &Palette, p: &Project, outcome: &Outcome, current: usize) -> Figure {
+pub(crate) fn figure(palette: &Palette, p: &Project, outcome: &Outcome, current: usize) -> Figure {
     let step = outcome.steps.get(current).map_or(&[][..], |s| &s.identified_energy[..]);
     let number = |run: usize| run as f64 + 1.0;
     let pairs = || outcome.runs.iter().zip(step);

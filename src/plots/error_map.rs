@@ -64,7 +64,7 @@ impl Grid {
             });
             let mean = |name: &str| {
                 let used = comparison.runs.iter().filter(|r| r.used);
-                let square = |c: &crate::diagnosis::compare::ChannelComparison| c.error * c.error;
+                let square = |c: &crate::diagnosis::residual::comparison::ChannelComparison| c.error * c.error;
                 used.flat_map(|r| r.channels.iter().filter(|c| c.channel == name).map(square)).sum::<f64>()
             };
             channels.sort_by(|a, b| mean(b).total_cmp(&mean(a)));
@@ -190,7 +190,7 @@ impl Grid {
 
 /// A comparison with nothing but an error, its noise floor of 1 % and runs.
 #[cfg(test)]
-pub fn bare(error: f64, runs: Vec<crate::diagnosis::compare::RunComparison>) -> Comparison {
+pub fn bare(error: f64, runs: Vec<crate::diagnosis::residual::comparison::RunComparison>) -> Comparison {
     let [levels, channels, harmonics] = [Vec::new(), Vec::new(), Vec::new()];
     let (noise_floor, energy_error, whiteness) = (0.01, 0.0, Vec::new());
     Comparison { error, noise_floor, energy_error, runs, levels, channels, harmonics, whiteness }
@@ -200,7 +200,7 @@ pub fn bare(error: f64, runs: Vec<crate::diagnosis::compare::RunComparison>) -> 
 mod tests {
     use super::{Cell, ENERGY, Grid, Scale};
     use crate::diagnosis::Comparison;
-    use crate::diagnosis::compare::{ChannelComparison, RunComparison};
+    use crate::diagnosis::residual::comparison::{ChannelComparison, RunComparison};
 
     fn comparison() -> Comparison {
         let channel = |name: &str, dof, error| ChannelComparison {

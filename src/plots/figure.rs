@@ -1,7 +1,7 @@
 //! A plot as plain data: axes with units, series with names. The screen, the SVG, the PNG and the table of values are all
 //! made of it.
 
-pub use super::axis::{Axis, Scale, Ticks};
+pub(crate) use super::axis::{Axis, Scale, Ticks};
 use super::pyramid::Pyramid;
 use ecolor::Color32;
 use std::fmt;
@@ -248,7 +248,7 @@ impl Figure {
 }
 
 /// A table with tabs as CSV: fields that hold a comma or a quotation mark stand in quotation marks.
-pub fn csv(table: &str) -> String {
+pub(crate) fn csv(table: &str) -> String {
     let field = |text: &str| {
         let plain = !text.contains([',', '"']);
         if plain { text.to_owned() } else { format!("\"{}\"", text.replace('"', "\"\"")) }

@@ -6,7 +6,7 @@ use crate::diagnosis::candidates::fingerprint_plot::{Against, Measure, Print, Pr
 use crate::display::format;
 
 /// Title of the plot and what the slope says, in one line each.
-pub fn words(print: &Print) -> (String, String) {
+pub(crate) fn words(print: &Print) -> (String, String) {
     let what = match print.measure {
         Measure::Damping => "Equivalent damping",
         Measure::Stiffness => "Equivalent stiffness",
@@ -32,7 +32,7 @@ fn powers(print: &Print) -> bool {
 }
 
 /// Runs with deviations, the fitted trend, and the powers of simple laws.
-pub fn figure(print: &Print, palette: &Palette) -> Figure {
+pub(crate) fn figure(print: &Print, palette: &Palette) -> Figure {
     let powers = powers(print);
     let axis = |name, unit| {
         if powers { Axis::log(name, unit).ticks(Ticks::OneTwoFive) } else { Axis::new(name, unit) }

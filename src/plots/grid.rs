@@ -19,7 +19,7 @@ pub struct GridMark {
 }
 
 /// A step of 1, 2 or 5 times a power of ten that divides `span` into about `parts`.
-pub fn round_step(span: f64, parts: f64) -> f64 {
+pub(crate) fn round_step(span: f64, parts: f64) -> f64 {
     let raw = span / parts;
     let power = 10f64.powf(raw.log10().floor());
     let lead = raw / power;

@@ -23,7 +23,7 @@ pub struct Loop {
 }
 
 /// Loops of one run: the exciter's and one a source, for the model's amplitudes `x` of displacement (m) at the fundamental.
-pub fn loops(p: &Project, run: usize, x: &[c64], acting: &[Source]) -> Vec<Loop> {
+pub(crate) fn loops(p: &Project, run: usize, x: &[c64], acting: &[Source]) -> Vec<Loop> {
     let Some(r) = p.runs.get(run) else { return Vec::new() };
     let omega = r.fit.omega;
     let mut loops = Vec::new();
@@ -68,7 +68,7 @@ fn ellipse(x: c64, f: c64) -> Vec<[f64; 2]> {
 }
 
 /// Work per period of the force of a closed loop, J: the integral of `f dx` by the trapezoidal rule.
-pub fn area(points: &[[f64; 2]]) -> f64 {
+pub(crate) fn area(points: &[[f64; 2]]) -> f64 {
     points.windows(2).map(|p| 0.5 * (p[0][1] + p[1][1]) * (p[1][0] - p[0][0])).sum()
 }
 

@@ -8,7 +8,7 @@ const UNLABELLED: f64 = 0.15;
 
 /// Lines at 1, 2, ..., 9 of each decade; decades stand out, and where they are closer than labels `room` points apart can be,
 /// every second, third, fifth or tenth of them only.
-pub fn decades(input: &GridInput, room: f64) -> Vec<GridMark> {
+pub(crate) fn decades(input: &GridInput, room: f64) -> Vec<GridMark> {
     let (low, high) = input.bounds;
     let (first, last) = (low.floor() as i32, high.ceil() as i32);
     if last - first > 60 {
@@ -29,7 +29,7 @@ pub fn decades(input: &GridInput, room: f64) -> Vec<GridMark> {
 }
 
 /// Label of a decade: `0.01`, `1`, `100`, `1e−6`; nothing at the lines between.
-pub fn label(mark: GridMark) -> String {
+pub(crate) fn label(mark: GridMark) -> String {
     if mark.step_size < 1.0 {
         return String::new();
     }
@@ -45,7 +45,7 @@ pub fn label(mark: GridMark) -> String {
 const ROUND: f64 = 0.05;
 
 /// Decades and the lines between; where fewer than two of 1, 2 and 5 are in sight, lines at round numbers.
-pub fn one_two_five(input: &GridInput, room: f64) -> Vec<GridMark> {
+pub(crate) fn one_two_five(input: &GridInput, room: f64) -> Vec<GridMark> {
     let mut marks = decades(input, room);
     let (low, high) = input.bounds;
     if high - low > 2.0 || marks.iter().filter(|m| leads(m.value)).count() > 1 {
@@ -75,7 +75,7 @@ fn is_decade(value: f64) -> bool {
 }
 
 /// Label of such a line: 1, 2 and 5 of each decade, and every round number of a short range.
-pub fn one_two_five_label(mark: GridMark) -> String {
+pub(crate) fn one_two_five_label(mark: GridMark) -> String {
     if mark.step_size == UNLABELLED || (mark.step_size != ROUND && !leads(mark.value)) {
         return String::new();
     }

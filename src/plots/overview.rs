@@ -56,7 +56,7 @@ fn runs_by_level(p: &Project) -> Vec<(String, Vec<usize>)> {
 
 /// Amplitude above phase with their shares of the height; the selected `run` is ringed. Empty where no run has the channel
 /// and a force.
-pub fn figures(p: &Project, channel: &Channel, run: usize, palette: &Palette) -> Vec<(Figure, f32)> {
+pub(crate) fn figures(p: &Project, channel: &Channel, run: usize, palette: &Palette) -> Vec<(Figure, f32)> {
     let groups = groups(p, channel);
     if groups.is_empty() {
         return Vec::new();

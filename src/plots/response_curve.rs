@@ -11,7 +11,7 @@ use std::f64::consts::TAU;
 
 /// One point of a curve.
 #[derive(Debug, Clone, PartialEq)]
-pub struct CurvePoint {
+pub(crate) struct CurvePoint {
     /// Frequency, Hz.
     pub frequency: f64,
     /// Fundamental of every channel of the run over the fundamental of the force; channels in the order of the fit.
@@ -22,7 +22,7 @@ pub struct CurvePoint {
 
 /// A response curve at one force.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Curve {
+pub(crate) struct Curve {
     /// Force amplitude, N.
     pub force: f64,
     /// Points in order along the curve; the frequency may turn back.
@@ -33,7 +33,7 @@ pub struct Curve {
 const SETTINGS: SweepSettings = SweepSettings { harmonics: 5, tolerance: 1e-7, largest_step: 0.02, most_points: 1500 };
 
 /// Runs in the neighbourhood of `run` in frequency, and the range that a curve through them covers, Hz.
-pub fn neighbourhood(p: &Project, run: usize) -> Option<(Vec<usize>, [f64; 2])> {
+pub(crate) fn neighbourhood(p: &Project, run: usize) -> Option<(Vec<usize>, [f64; 2])> {
     let centre = p.runs.get(run)?.frequency_hz();
     let near: Vec<usize> =
         (0..p.runs.len()).filter(|&r| (p.runs[r].frequency_hz() / centre).ln().abs() < 0.22).collect();
@@ -44,7 +44,7 @@ pub fn neighbourhood(p: &Project, run: usize) -> Option<(Vec<usize>, [f64; 2])> 
 }
 
 /// The fundamental of the first force channel of a run: row of its DOF and complex amplitude, N.
-pub fn force(p: &Project, run: usize) -> Option<(usize, c64)> {
+pub(crate) fn force(p: &Project, run: usize) -> Option<(usize, c64)> {
     let channels = &p.runs.get(run)?.fit.channels;
     let force = channels.iter().find(|c| c.channel.quantity == Quantity::Force)?;
     Some((force.channel.dof, *force.amplitudes.first()?))
@@ -52,7 +52,7 @@ pub fn force(p: &Project, run: usize) -> Option<(usize, c64)> {
 
 /// Runs under one force.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Level {
+pub(crate) struct Level {
     /// Mean amplitude of the force, N.
     pub force: f64,
     /// The runs.
@@ -63,7 +63,7 @@ pub struct Level {
 const SAME_LEVEL: f64 = 0.12;
 
 /// The force levels of `runs`, lowest first; runs without force are left out.
-pub fn levels(p: &Project, runs: &[usize]) -> Vec<Level> {
+pub(crate) fn levels(p: &Project, runs: &[usize]) -> Vec<Level> {
     let force = |r: &usize| Some((force(p, *r)?.1.norm(), *r)).filter(|(f, _)| *f > 0.0);
     let mut list: Vec<(f64, usize)> = runs.iter().filter_map(force).collect();
     list.sort_by(|a, b| a.0.total_cmp(&b.0));
@@ -96,7 +96,7 @@ fn drawn(p: &Project, run: usize, near: &[usize]) -> Vec<f64> {
 ///
 /// # Errors
 /// One line: no force, no matrices, no periodic response at any level.
-pub fn curves(p: &Project, effects: &[Source], run: usize, control: &Control) -> Result<Vec<Curve>, String> {
+pub(crate) fn curves(p: &Project, effects: &[Source], run: usize, control: &Control) -> Result<Vec<Curve>, String> {
     let (dof, _) = force(p, run).ok_or("the run has no force channel")?;
     let (near, range) = neighbourhood(p, run).ok_or("there is no such run")?;
     let acts = |s: &&Source| !matches!(s.effect.kind(), Kind::Channel(_));

@@ -18,12 +18,12 @@ fn largest(force: &RestoringForce, of: fn(&ForcePoint) -> f64) -> f64 {
 }
 
 /// What the plots show, as a title: `Missing force at DOF 7`.
-pub fn title(force: &RestoringForce, structure: &Structure) -> String {
+pub(crate) fn title(force: &RestoringForce, structure: &Structure) -> String {
     format!("Missing force {}", words::at(structure, &force.place))
 }
 
 /// What stands in them, in one line: the law, the harmonics and the deviation of the points.
-pub fn caption(force: &RestoringForce) -> String {
+pub(crate) fn caption(force: &RestoringForce) -> String {
     let harmonics = force.runs.iter().map(|r| r.harmonics).max().unwrap_or(1);
     let deviation = force.runs.iter().map(|r| r.deviation).fold(0.0, f64::max);
     if harmonics == 0 {
@@ -59,7 +59,7 @@ fn colours(force: &RestoringForce, palette: &Palette) -> Vec<[Color32; 2]> {
 }
 
 /// Force over displacement, and over velocity.
-pub fn figures(force: &RestoringForce, structure: &Structure, palette: &Palette) -> [Figure; 2] {
+pub(crate) fn figures(force: &RestoringForce, structure: &Structure, palette: &Palette) -> [Figure; 2] {
     let rotation = match &force.place {
         Place::Dofs(dofs) => dofs.iter().any(|&d| structure.dofs().get(d).is_some_and(|d| d.direction.is_rotation())),
         _ => false,
@@ -121,7 +121,7 @@ fn curves(
 }
 
 /// Both plots on one sheet.
-pub fn sheet(force: &RestoringForce, structure: &Structure, palette: &Palette) -> Sheet {
+pub(crate) fn sheet(force: &RestoringForce, structure: &Structure, palette: &Palette) -> Sheet {
     let title = title(force, structure);
     let mut sheet = Sheet::of(&title, figures(force, structure, palette).into());
     sheet.columns = 2;
@@ -129,7 +129,7 @@ pub fn sheet(force: &RestoringForce, structure: &Structure, palette: &Palette) -
 }
 
 /// Values of all points as a table with tabs, SI units.
-pub fn table(force: &RestoringForce) -> String {
+pub(crate) fn table(force: &RestoringForce) -> String {
     let mut text =
         "run\tlevel\tfrequency (Hz)\tdisplacement (m)\tvelocity (m/s)\tforce (N)\tstandard deviation (N)\n".to_owned();
     for run in &force.runs {

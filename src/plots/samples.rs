@@ -2,7 +2,7 @@
 
 use super::response_curve as curve;
 use crate::diagnosis::Comparison;
-use crate::diagnosis::compare::ChannelComparison;
+use crate::diagnosis::residual::comparison::ChannelComparison;
 use crate::exchange::Project;
 use crate::measurement::Quantity;
 use faer::c64;

@@ -14,7 +14,7 @@ const BOTTOM: f32 = 46.0;
 
 /// A plot with what is in sight of it: places of x and of y.
 #[derive(Debug, Clone)]
-pub struct Panel {
+pub(crate) struct Panel {
     /// The plot.
     pub figure: Figure,
     /// First and last place in sight on both axes.
@@ -23,7 +23,7 @@ pub struct Panel {
 
 /// Plots that belong together.
 #[derive(Debug, Clone)]
-pub struct Sheet {
+pub(crate) struct Sheet {
     /// What they show together.
     pub title: String,
     /// Plots side by side; the others stand below.
@@ -34,13 +34,13 @@ pub struct Sheet {
 
 impl Sheet {
     /// Plots under each other with all of them in sight.
-    pub fn of(title: &str, figures: Vec<Figure>) -> Self {
+    pub(crate) fn of(title: &str, figures: Vec<Figure>) -> Self {
         let panels = figures.into_iter().map(|figure| Panel { bounds: figure.bounds(), figure }).collect();
         Self { title: title.to_owned(), columns: 1, panels }
     }
 
     /// Width and height of its paper, points: square for plots with equal units, higher for more plots.
-    pub fn paper(&self) -> Vec2 {
+    pub(crate) fn paper(&self) -> Vec2 {
         let square = self.panels.iter().any(|p| p.figure.square);
         let rows = self.panels.len().div_ceil(self.columns.max(1));
         let more = rows.saturating_sub(1) as f32;
@@ -48,7 +48,7 @@ impl Sheet {
     }
 
     /// All values in sight as a table with tabs.
-    pub fn table(&self) -> String {
+    pub(crate) fn table(&self) -> String {
         let panel_as_text = |p: &Panel| {
             let [from, to] = p.bounds[0].map(|v| p.figure.x.value(v));
             p.figure.table(from, to)
@@ -57,7 +57,7 @@ impl Sheet {
     }
 
     /// The drawing of `size` points.
-    pub fn drawing(&self, size: Vec2, palette: &Palette) -> Drawing {
+    pub(crate) fn drawing(&self, size: Vec2, palette: &Palette) -> Drawing {
         let mut drawing = Drawing::new(size, palette.canvas, &self.title);
         drawing.words(pos2(16.0, 20.0), Align2::LEFT_CENTER, self.title.clone(), size::HEADING, palette.ink);
         let columns = self.columns.clamp(1, self.panels.len().max(1));
@@ -74,7 +74,7 @@ impl Sheet {
 }
 
 /// The area of the curves within the area of a plot with its rulers.
-pub fn inner(outer: Rect) -> Rect {
+pub(crate) fn inner(outer: Rect) -> Rect {
     Rect::from_min_max(outer.min + vec2(LEFT, TOP), outer.max - vec2(RIGHT, BOTTOM))
 }
 
@@ -95,7 +95,7 @@ impl Panel {
     }
 
     /// Where a point x, y of the data stands in `area`; `None` for what has no place on the axes.
-    pub fn at(&self, [x, y]: [f64; 2], area: Rect) -> Option<Pos2> {
+    pub(crate) fn at(&self, [x, y]: [f64; 2], area: Rect) -> Option<Pos2> {
         let share = |place: f64, [low, high]: [f64; 2]| ((place - low) / (high - low)) as f32;
         let (x, y) = (self.figure.x.place(x)?, self.figure.y.place(y)?);
         let (u, v) = (share(x, self.bounds[0]), share(y, self.bounds[1]));

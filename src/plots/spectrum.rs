@@ -8,7 +8,7 @@ use std::f64::consts::TAU;
 use std::sync::Arc;
 
 /// A spectrum with the harmonics that were fitted.
-pub fn figure(palette: &Palette, spectrum: &Arc<Pyramid>, fit: &ChannelFit, omega: f64, unit: &str) -> Figure {
+pub(crate) fn figure(palette: &Palette, spectrum: &Arc<Pyramid>, fit: &ChannelFit, omega: f64, unit: &str) -> Figure {
     let frequency = omega / TAU;
     let floor = spectrum.range()[0].max(f64::MIN_POSITIVE);
     let height = |y: &faer::c64| y.re.hypot(y.im);

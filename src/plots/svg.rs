@@ -6,7 +6,7 @@ use emath::{Align, Align2, Pos2};
 use std::fmt::Write as _;
 
 /// Writes a drawing.
-pub fn write(drawing: &Drawing) -> String {
+pub(crate) fn write(drawing: &Drawing) -> String {
     let (w, h) = (drawing.size.x, drawing.size.y);
     let mut svg = String::from("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n");
     svg += &format!(

@@ -131,7 +131,7 @@ pub fn change(compared: &Compared) -> String {
 
 /// Error of the model in every run and channel, with what noise alone would make.
 pub fn errors(p: &Project, comparison: &Comparison) -> String {
-    let of_run = |run: &crate::diagnosis::compare::RunComparison| {
+    let of_run = |run: &crate::diagnosis::residual::comparison::RunComparison| {
         let (file, frequency) = p.runs.get(run.index).map_or(("", 0.0), |r| (r.file.as_str(), r.frequency_hz()));
         let level = p.runs.get(run.index).and_then(|r| r.level).map_or_else(String::new, |l| l.to_string());
         let start = format!("{file}\t{frequency:e}\t{level}");

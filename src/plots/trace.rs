@@ -22,7 +22,7 @@ pub struct Trace {
 }
 
 /// Computes a trace; `None` where the channel is not in the record, or cancelled.
-pub fn trace(record: &Arc<Record>, fit: &ChannelFit, omega: f64, control: &Control) -> Option<Trace> {
+pub(crate) fn trace(record: &Arc<Record>, fit: &ChannelFit, omega: f64, control: &Control) -> Option<Trace> {
     let row = record.channels().iter().position(|c| *c == fit.channel)?;
     let (time, samples) = (record.time(), record.samples(row));
     let own = as_recorded(record, row, fit, omega)?;
@@ -60,7 +60,7 @@ fn lines(spectrum: &Spectrum, fit: &ChannelFit, omega: f64) -> Pyramid {
 }
 
 /// `offset + slope (t - t_mid) + Re sum_h Y_h exp(i h omega t)`.
-pub fn fitted(fit: &ChannelFit, omega: f64, middle: f64, t: f64) -> f64 {
+pub(crate) fn fitted(fit: &ChannelFit, omega: f64, middle: f64, t: f64) -> f64 {
     let turn = c64::new((omega * t).cos(), (omega * t).sin());
     let mut power = c64::new(1.0, 0.0);
     let mut sum = fit.offset + fit.slope * (t - middle);

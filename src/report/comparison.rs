@@ -5,7 +5,7 @@ use super::figures::{figure, sheet};
 use super::page::Page;
 use crate::control::Control;
 use crate::diagnosis::candidates::restoring_force::RestoringForce;
-use crate::diagnosis::diagnose::{Suggestion, Verdict};
+use crate::diagnosis::result::{Suggestion, Verdict};
 use crate::diagnosis::updating::correction::Correction;
 use crate::diagnosis::{Comparison, Diagnosis};
 use crate::display::format::{chance, in_words, polished};

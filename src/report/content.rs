@@ -3,8 +3,8 @@
 use crate::control::Control;
 use crate::diagnosis::candidates::fingerprint_plot::{self as prints, Print};
 use crate::diagnosis::candidates::restoring_force::RestoringForce;
-use crate::diagnosis::diagnose::Verdict;
 use crate::diagnosis::records::RecordComparison;
+use crate::diagnosis::result::Verdict;
 use crate::diagnosis::{self, Comparison, Diagnosis};
 use crate::effects::Source;
 use crate::exchange::Project;
@@ -16,7 +16,7 @@ use crate::session::validation::{
 use std::sync::Arc;
 
 /// A result, or one line that says why there is none.
-pub type Found<T> = Result<Arc<T>, String>;
+pub(super) type Found<T> = Result<Arc<T>, String>;
 
 /// One model that was looked at on the way to the present one.
 #[derive(Debug, Clone, PartialEq)]

@@ -64,7 +64,7 @@ fn figure(number: usize, drawing: &Drawing) -> String {
 }
 
 /// The whole file.
-pub fn document(title: &str, parts: &[Part]) -> String {
+pub(super) fn document(title: &str, parts: &[Part]) -> String {
     let (title, body) = (escaped(title), parts.iter().map(written).collect::<String>());
     format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<title>{title}</title>\n\

@@ -4,7 +4,7 @@ use crate::plots::drawing::Drawing;
 
 /// One part of a report.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Part {
+pub(super) enum Part {
     /// Title of a chapter.
     Chapter(String),
     /// Title of a part of a chapter.
@@ -23,50 +23,50 @@ pub enum Part {
 
 /// A report under way.
 #[derive(Debug, Default)]
-pub struct Page {
+pub(super) struct Page {
     parts: Vec<Part>,
     figures: usize,
 }
 
 impl Page {
     /// Adds a chapter's title.
-    pub fn chapter(&mut self, title: &str) {
+    pub(super) fn chapter(&mut self, title: &str) {
         self.parts.push(Part::Chapter(title.to_owned()));
     }
 
     /// Adds the title of a part of a chapter.
-    pub fn section(&mut self, title: &str) {
+    pub(super) fn section(&mut self, title: &str) {
         self.parts.push(Part::Section(title.to_owned()));
     }
 
     /// Adds a sentence.
-    pub fn sentence(&mut self, text: &str) {
+    pub(super) fn sentence(&mut self, text: &str) {
         self.parts.push(Part::Sentence(text.to_owned()));
     }
 
     /// Adds a sentence of second rank.
-    pub fn remark(&mut self, text: &str) {
+    pub(super) fn remark(&mut self, text: &str) {
         self.parts.push(Part::Remark(text.to_owned()));
     }
 
     /// Adds a sentence that should not be missed.
-    pub fn warning(&mut self, text: &str) {
+    pub(super) fn warning(&mut self, text: &str) {
         self.parts.push(Part::Warning(text.to_owned()));
     }
 
     /// Adds a table; columns whose name ends in a bar `|` hold numbers and stand right.
-    pub fn table(&mut self, head: &[&str], rows: &[Vec<String>]) {
+    pub(super) fn table(&mut self, head: &[&str], rows: &[Vec<String>]) {
         self.parts.push(Part::Table(head.iter().map(|h| (*h).to_owned()).collect(), rows.to_vec()));
     }
 
     /// Adds a drawing.
-    pub fn drawing(&mut self, drawing: &Drawing) {
+    pub(super) fn drawing(&mut self, drawing: &Drawing) {
         self.figures += 1;
         self.parts.push(Part::Figure(self.figures, drawing.clone()));
     }
 
     /// All parts.
-    pub fn finish(self) -> Vec<Part> {
+    pub(super) fn finish(self) -> Vec<Part> {
         self.parts
     }
 }

@@ -19,7 +19,7 @@ const STRENGTH: f64 = 0.2;
 
 /// A simulated hammer test.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct HammerTest {
+pub(crate) struct HammerTest {
     /// Number of hits averaged, at least 1.
     pub averages: usize,
     /// Noise of a sensor over the root mean square of its signal in the band.
@@ -31,7 +31,7 @@ pub struct HammerTest {
 impl HammerTest {
     /// H1 and coherence of a function whose true values (per newton) are given at `frequencies_hz`; `stream` tells
     /// functions apart.
-    pub fn measure(&self, frequencies_hz: &[f64], truth: &[c64], stream: u64) -> (Vec<c64>, Vec<f64>) {
+    pub(crate) fn measure(&self, frequencies_hz: &[f64], truth: &[c64], stream: u64) -> (Vec<c64>, Vec<f64>) {
         let mut random = ChaCha8Rng::seed_from_u64(self.seed);
         random.set_stream(stream);
         let corner = CORNER * frequencies_hz.last().copied().unwrap_or(1.0);

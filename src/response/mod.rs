@@ -2,7 +2,7 @@
 
 pub mod dynamic_stiffness;
 pub mod frequency_response;
-pub mod hammer;
+pub(crate) mod hammer;
 pub mod harmonic_balance;
 pub mod linear_matrices;
 mod observation;

@@ -38,12 +38,12 @@ impl Observation {
     }
 
     /// Motion of each kept pattern of the linear rest under `load` (N, by DOF; empty is none).
-    pub fn motions(&self, load: &[c64]) -> impl Iterator<Item = c64> {
+    pub(super) fn motions(&self, load: &[c64]) -> impl Iterator<Item = c64> {
         self.kept.iter().map(move |row| product(row, load))
     }
 
     /// Displacement of DOF number `i` under `load` and under the `forces` of the kept patterns, which resist.
-    pub fn displacement(&self, i: usize, load: &[c64], forces: impl Fn(usize) -> c64) -> c64 {
+    pub(super) fn displacement(&self, i: usize, load: &[c64], forces: impl Fn(usize) -> c64) -> c64 {
         let coupling = self.coupling.iter().skip(i * self.kept.len()).take(self.kept.len()).enumerate();
         coupling.fold(product(&self.dofs[i], load), |x, (j, c)| x - *c * forces(j))
     }

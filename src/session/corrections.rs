@@ -14,7 +14,7 @@ use std::collections::BTreeMap;
 
 /// How corrections are taken over.
 #[derive(Debug, Default)]
-pub struct Adopted {
+pub(crate) struct Adopted {
     /// The commands that do it, to be undone together.
     pub commands: Vec<Command>,
     /// Which corrections the project has no number for, by their place in the list.
@@ -22,7 +22,11 @@ pub struct Adopted {
 }
 
 /// Multiplies what the project states by the factors of `corrections`; `known` gives the known source of an index.
-pub fn adopt(corrections: &[Correction], known: &dyn Fn(usize) -> Option<Source>, document: &Document) -> Adopted {
+pub(crate) fn adopt(
+    corrections: &[Correction],
+    known: &dyn Fn(usize) -> Option<Source>,
+    document: &Document,
+) -> Adopted {
     let (structure, table) = (document.structure(), &document.file().structure);
     let mut adopted = Adopted::default();
     let mut numbers = Numbers { table, values: BTreeMap::new() };

@@ -15,7 +15,7 @@ use crate::structure::{Direction, Structure};
 ///
 /// # Errors
 /// One sentence: the fault is none that a mapping can mend, or the records do not have one mapping.
-pub fn command(fault: &ChannelFault, project: &Project) -> Result<Command, String> {
+pub(crate) fn command(fault: &ChannelFault, project: &Project) -> Result<Command, String> {
     let factor = match fault.fault {
         Fault::Factor(factor) => Some(factor),
         Fault::Exchanged => None,

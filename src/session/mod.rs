@@ -1,20 +1,20 @@
 //! The one engine that the window, the command line and the tests speak to: a document, commands that change it, undo,
 //! jobs in the background, results that know what they were computed from, and saving.
 
-pub mod apply;
-pub mod command;
-pub mod corrections;
-pub mod document;
+pub(crate) mod apply;
+pub(crate) mod command;
+pub(crate) mod corrections;
+pub(crate) mod document;
 pub mod history;
 pub mod identified;
 pub mod jobs;
-pub mod mending;
+pub(crate) mod mending;
 pub mod recent;
 mod refusal;
 pub mod save;
 pub mod script;
 #[expect(clippy::module_inception, reason = "the session is what the floor is for")]
-pub mod session;
+pub(crate) mod session;
 mod sources;
 pub mod states;
 mod structure;

@@ -3,11 +3,12 @@
 use crate::balance::loops::ComponentError;
 use crate::control::Control;
 use crate::diagnosis::candidates::restoring_force::{self, RestoringForce};
-use crate::diagnosis::compare::{ChannelComparison, RunComparison};
 use crate::diagnosis::component::{Loops, compare_component, diagnose_component};
-use crate::diagnosis::diagnose::{Early, diagnose_without};
+use crate::diagnosis::diagnose::diagnose_without;
 use crate::diagnosis::records::compare::OneRecord;
 use crate::diagnosis::records::{self, RecordComparison, RecordError, Records, compare_records, diagnose_records};
+use crate::diagnosis::residual::comparison::{ChannelComparison, RunComparison};
+use crate::diagnosis::result::Early;
 use crate::diagnosis::together::together;
 use crate::diagnosis::{Comparison, Diagnosis, DiagnosisError, Problem};
 use crate::effects::Source;

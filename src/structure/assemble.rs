@@ -2,8 +2,9 @@
 
 use super::error::StructureError;
 use super::error::{nearest, positive};
+use super::geometry::{Dof, Node};
 use super::lumped_mass::LumpedMass;
-use super::{Dof, Element, Node, Origin, Structure, StructureKind, SystemMatrices};
+use super::system::{Element, Origin, Structure, StructureKind, SystemMatrices};
 use crate::math::eigen;
 use dashpot_numerics::Cholesky;
 use faer::{Mat, MatRef};

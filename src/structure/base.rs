@@ -4,7 +4,7 @@
 //! With consistent masses the columns of the held degrees of freedom load the free ones too; a beam knows its elements and
 //! adds them. Imported matrices are taken as they are.
 
-use super::Structure;
+use super::system::Structure;
 
 impl Structure {
     /// `M r` for a base that moves along axis 0, 1 or 2 (x, y, z): one value a degree of freedom, kg (kg m at rotations);

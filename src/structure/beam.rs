@@ -11,8 +11,9 @@
 use super::assemble::{MOST_DOFS, Parts};
 use super::error::StructureError;
 use super::error::positive;
+use super::geometry::{Direction, Dof, Node};
 use super::lumped_mass::LumpedMass;
-use super::{Direction, Dof, Element, Node, Structure, StructureKind, SystemMatrices};
+use super::system::{Element, Structure, StructureKind, SystemMatrices};
 use faer::Mat;
 use nalgebra::Matrix4;
 use serde::{Deserialize, Serialize};

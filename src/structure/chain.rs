@@ -4,8 +4,9 @@
 use super::assemble::{MOST_DOFS, Parts};
 use super::error::StructureError;
 use super::error::{not_negative, positive};
+use super::geometry::{Direction, Dof, Node};
 use super::lumped_mass::LumpedMass;
-use super::{Direction, Dof, Node, Structure, StructureKind, SystemMatrices};
+use super::system::{Structure, StructureKind, SystemMatrices};
 use faer::Mat;
 use serde::{Deserialize, Serialize};
 

@@ -3,7 +3,7 @@
 
 use super::error::StructureError;
 use super::points::PointParameters;
-use super::{Structure, StructureKind};
+use super::system::{Structure, StructureKind};
 use serde::{Deserialize, Serialize};
 
 /// A component.

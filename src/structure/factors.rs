@@ -7,7 +7,7 @@
 //! with `K_p`, `M_p` the share of part `p`: a range of elements, a spring, the stiffness of one mode, a point mass, a support
 //! (Friswell and Mottershead, Finite Element Model Updating in Structural Dynamics, 1995, chapter 8).
 
-use super::{Element, Structure, StructureKind, SystemMatrices};
+use super::system::{Element, Structure, StructureKind, SystemMatrices};
 use faer::Mat;
 
 /// A part of a structure; rows are counted from 0.
@@ -44,7 +44,7 @@ pub struct HeldDof {
 }
 
 /// Entries of a symmetric matrix, `(row, column, value)`, both triangles.
-pub type Triplets = Vec<(usize, usize, f64)>;
+pub(crate) type Triplets = Vec<(usize, usize, f64)>;
 
 /// The share of one part in the matrices.
 #[derive(Debug, Clone, PartialEq, Default)]

@@ -3,8 +3,9 @@
 use super::assemble::{MOST_DOFS, Parts};
 use super::error::StructureError;
 use super::error::nearest;
+use super::geometry::{Direction, Dof, Node};
 use super::lumped_mass::LumpedMass;
-use super::{Direction, Dof, Node, Structure, StructureKind, SystemMatrices};
+use super::system::{Structure, StructureKind, SystemMatrices};
 use faer::Mat;
 
 /// One row of the table of DOFs.

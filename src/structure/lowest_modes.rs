@@ -9,9 +9,9 @@
 //! modes of that multiplicity. One factorisation (n^3 / 3) and some products with the basis take the place of all n modes
 //! (about 10 n^3, most of it slow): seconds instead of minutes at 2000 DOFs.
 
-use super::SystemMatrices;
 use super::error::StructureError;
 use super::modes::{self, Modes, failure};
+use super::system::SystemMatrices;
 use crate::math::eigen;
 use crate::math::fill::filled;
 use dashpot_numerics::{Cholesky, product, transposed_product};
@@ -32,7 +32,7 @@ const TERMS: usize = 3;
 
 /// The lowest modes and the factors that give the rest.
 #[derive(Debug, Clone)]
-pub struct LowestModes {
+pub(crate) struct LowestModes {
     /// Modes in ascending order of frequency, shapes n x m.
     pub modes: Modes,
     factor: Cholesky,
@@ -45,7 +45,7 @@ impl LowestModes {
     ///
     /// # Errors
     /// [`StructureError::Modes`] when a small eigenvalue problem does not converge.
-    pub fn new(matrices: &SystemMatrices, highest: f64, least: usize) -> Result<Option<Self>, StructureError> {
+    pub(crate) fn new(matrices: &SystemMatrices, highest: f64, least: usize) -> Result<Option<Self>, StructureError> {
         let (k, m) = (matrices.stiffness.as_ref(), matrices.mass.as_ref());
         let n = m.nrows();
         let shift = SHIFT * highest * highest;
@@ -56,7 +56,7 @@ impl LowestModes {
     }
 
     /// What the higher modes add to the columns `dofs` of the receptance.
-    pub fn rest(&self, matrices: &SystemMatrices, dofs: &[usize]) -> Vec<Rest> {
+    pub(crate) fn rest(&self, matrices: &SystemMatrices, dofs: &[usize]) -> Vec<Rest> {
         let n = matrices.mass.nrows();
         let unit = filled(n, dofs.len(), |i, j| f64::from(u8::from(i == dofs[j])));
         let mut term = self.without_lowest(self.factor.solve(unit.as_ref()), dofs);
@@ -84,7 +84,7 @@ impl LowestModes {
 
 /// One column of what the higher modes add, at any frequency below them.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Rest {
+pub(crate) struct Rest {
     shift: f64,
     /// `R_t e_j`.
     terms: Vec<Vec<f64>>,
@@ -92,7 +92,7 @@ pub struct Rest {
 
 impl Rest {
     /// The column at `omega` (rad/s), n values, m/N.
-    pub fn at(&self, omega: f64) -> Vec<f64> {
+    pub(crate) fn at(&self, omega: f64) -> Vec<f64> {
         let x = omega * omega + self.shift;
         let value = |i: usize| self.terms.iter().rev().fold(0.0, |sum, term| sum * x + term[i]);
         (0..self.terms[0].len()).map(value).collect()

@@ -1,7 +1,7 @@
 //! Undamped modes: `K phi = omega^2 M phi`, scaled so that `Phi^T M Phi = I`.
 
 use super::error::StructureError;
-use super::{Structure, SystemMatrices};
+use super::system::{Structure, SystemMatrices};
 use crate::math::eigen::{self, EigenError};
 use faer::{Mat, c64};
 use std::f64::consts::TAU;

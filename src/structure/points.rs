@@ -2,7 +2,8 @@
 
 use super::assemble::Parts;
 use super::error::StructureError;
-use super::{Direction, Dof, Node, Structure, StructureKind};
+use super::geometry::{Direction, Dof, Node};
+use super::system::{Structure, StructureKind};
 use serde::{Deserialize, Serialize};
 
 /// The measured points.

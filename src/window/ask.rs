@@ -4,7 +4,7 @@ use super::commands::Command;
 use super::edits::Edit;
 use super::files::Pick;
 use super::frame::panes::Pane;
-use super::importing::Wish;
+use super::importing::destination::Wish;
 use super::leaving::Changes;
 use super::schematic::gesture::Intent;
 use super::stages::explain::deed::Deed;

@@ -8,13 +8,13 @@ use egui::Context;
 use std::sync::Arc;
 
 /// Why there is no result.
-pub const CANCELLED: &str = "It was cancelled; the next change computes it again.";
+pub(crate) const CANCELLED: &str = "It was cancelled; the next change computes it again.";
 
 /// Results that a cache keeps unless it is told otherwise.
 const KEPT: usize = 32;
 
 /// A result or one line that says why there is none.
-pub type Cached<T> = Result<Arc<T>, String>;
+pub(crate) type Cached<T> = Result<Arc<T>, String>;
 
 /// Results of one kind by their key, and the jobs that compute more of them.
 #[derive(Debug)]

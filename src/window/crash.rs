@@ -17,7 +17,7 @@ const TOLD: &str = "crash.txt";
 static LAST: Mutex<VecDeque<String>> = Mutex::new(VecDeque::new());
 
 /// Remembers what was asked for: its kind, never its data.
-pub fn remember(what: &str) {
+pub(crate) fn remember(what: &str) {
     let mut last = LAST.lock().unwrap_or_else(PoisonError::into_inner);
     if last.len() == KEPT {
         last.pop_front();
@@ -27,7 +27,7 @@ pub fn remember(what: &str) {
 
 /// From now on a panic of the thread that draws leaves a report in `folder`. Panics of jobs are told in the window, which
 /// goes on.
-pub fn watch(folder: PathBuf) {
+pub(crate) fn watch(folder: PathBuf) {
     let usual = std::panic::take_hook();
     std::panic::set_hook(Box::new(move |info| {
         usual(info);
@@ -59,7 +59,7 @@ fn text(place: &str, message: &str, last: &[String], trace: &str) -> String {
 }
 
 /// The report of the last start, where it broke down; told once.
-pub fn left_behind(folder: &Path) -> Option<PathBuf> {
+pub(crate) fn left_behind(folder: &Path) -> Option<PathBuf> {
     let told = folder.join(TOLD);
     std::fs::rename(folder.join(NEW), &told).ok()?;
     Some(told)

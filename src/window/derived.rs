@@ -24,7 +24,7 @@ use egui::Context;
 use std::sync::Arc;
 
 /// Displacement of every DOF in a run; empty where it cannot be expanded.
-pub type Motion = Vec<faer::c64>;
+pub(crate) type Motion = Vec<faer::c64>;
 
 /// Revision, response DOF, excited DOF.
 type Asked = (u64, usize, usize);

@@ -7,7 +7,7 @@ use rfd::AsyncFileDialog;
 use std::path::{Path, PathBuf};
 
 /// Name of the work that waits for a dialog.
-pub const ASKING: &str = "Choosing a file";
+pub(crate) const ASKING: &str = "Choosing a file";
 
 /// Endings of measurement files.
 const MEASUREMENTS: &[&str] =
@@ -46,7 +46,7 @@ impl Pick {
 }
 
 /// What a dialog asks for, in words.
-pub fn title(pick: Pick) -> &'static str {
+pub(crate) fn title(pick: Pick) -> &'static str {
     match pick {
         Pick::Open => "Open a project or measurements",
         Pick::EarlierState => "Project of the earlier state",
@@ -59,7 +59,7 @@ pub fn title(pick: Pick) -> &'static str {
 }
 
 /// Endings of the files that may be meant; empty for any.
-pub fn endings(pick: Pick) -> &'static [&'static str] {
+pub(crate) fn endings(pick: Pick) -> &'static [&'static str] {
     match pick {
         Pick::EarlierState | Pick::SaveAs => &["toml"],
         Pick::Open => OPENED,
@@ -71,7 +71,7 @@ pub fn endings(pick: Pick) -> &'static [&'static str] {
 }
 
 /// Name of a file that is to be written, proposed.
-pub fn proposal(pick: Pick) -> String {
+pub(crate) fn proposal(pick: Pick) -> String {
     match pick {
         Pick::SaveAs => "project.toml".to_owned(),
         Pick::Report => "report.pdf".to_owned(),
@@ -82,7 +82,7 @@ pub fn proposal(pick: Pick) -> String {
 
 /// Whether the desktop shows dialogs for files: through its portal, which needs a session bus, or through zenity. Other
 /// systems always do.
-pub fn desktop_has_dialogs() -> bool {
+pub(crate) fn desktop_has_dialogs() -> bool {
     if !cfg!(target_os = "linux") {
         return true;
     }
@@ -96,7 +96,7 @@ pub fn desktop_has_dialogs() -> bool {
 }
 
 /// Shows the dialog; what was chosen, empty where it was closed.
-pub fn ask(pick: Pick) -> impl Future<Output = Vec<PathBuf>> + Send {
+pub(crate) fn ask(pick: Pick) -> impl Future<Output = Vec<PathBuf>> + Send {
     let dialog = AsyncFileDialog::new().set_title(title(pick));
     let dialog = if pick.writes() { dialog.set_file_name(proposal(pick)) } else { dialog };
     let endings = endings(pick);
@@ -115,7 +115,7 @@ pub fn ask(pick: Pick) -> impl Future<Output = Vec<PathBuf>> + Send {
 ///
 /// # Errors
 /// One line.
-pub fn export(project: &Project, outcome: &Outcome, format: Format, path: &Path) -> Result<String, String> {
+pub(crate) fn export(project: &Project, outcome: &Outcome, format: Format, path: &Path) -> Result<String, String> {
     let written = write_outcome(project, outcome, format, path).map_err(|e| e.to_string())?;
     let names: Vec<String> = written.paths.iter().map(|p| p.display().to_string()).collect();
     let mut text = format!("Written: {}.", names.join(", "));
@@ -127,7 +127,7 @@ pub fn export(project: &Project, outcome: &Outcome, format: Format, path: &Path)
 }
 
 /// Usual extension of a format.
-pub fn extension(format: Format) -> &'static str {
+pub(crate) fn extension(format: Format) -> &'static str {
     match format {
         Format::Csv => "csv",
         Format::Mtx => "mtx",
@@ -139,7 +139,7 @@ pub fn extension(format: Format) -> &'static str {
 }
 
 /// A format in words, for the menu.
-pub fn words(format: Format) -> &'static str {
+pub(crate) fn words(format: Format) -> &'static str {
     match format {
         Format::Csv => "CSV table…",
         Format::Mtx => "Matrix Market…",

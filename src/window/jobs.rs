@@ -12,7 +12,7 @@ use std::time::Duration;
 
 /// How a piece of work ended.
 #[derive(Debug)]
-pub enum Done {
+pub(crate) enum Done {
     /// A project was read; whether unsaved changes of a crash were recovered.
     Loaded(Result<(Box<Document>, bool), String>),
     /// The records that a change waited for were read.
@@ -25,7 +25,7 @@ pub enum Done {
 
 /// All that runs.
 #[derive(Debug, Default)]
-pub struct Jobs {
+pub(crate) struct Jobs {
     running: Vec<Job<(), Done>>,
 }
 
@@ -45,7 +45,7 @@ impl Jobs {
     ///
     /// # Errors
     /// One line, where no thread can be started.
-    pub fn load(&mut self, ctx: &Context, file: PathBuf) -> Result<(), String> {
+    pub(crate) fn load(&mut self, ctx: &Context, file: PathBuf) -> Result<(), String> {
         let name = file.file_name().map_or_else(String::new, |n| n.to_string_lossy().into_owned());
         self.running.retain(|job| !job.name().starts_with("Reading"));
         self.start(ctx, &format!("Reading {name}"), move |control| {
@@ -57,7 +57,7 @@ impl Jobs {
     ///
     /// # Errors
     /// One line, where no thread can be started.
-    pub fn change(&mut self, ctx: &Context, waiting: Waiting) -> Result<(), String> {
+    pub(crate) fn change(&mut self, ctx: &Context, waiting: Waiting) -> Result<(), String> {
         self.start(ctx, "Reading and fitting records", move |control| {
             Done::Changed(waiting.read(control).map(Box::new))
         })
@@ -67,7 +67,7 @@ impl Jobs {
     ///
     /// # Errors
     /// One line, where no thread can be started.
-    pub fn pick(&mut self, ctx: &Context, pick: Pick) -> Result<(), String> {
+    pub(crate) fn pick(&mut self, ctx: &Context, pick: Pick) -> Result<(), String> {
         if self.running.iter().any(|job| job.name() == files::ASKING) {
             return Ok(());
         }
@@ -79,7 +79,7 @@ impl Jobs {
     ///
     /// # Errors
     /// One line, where no thread can be started.
-    pub fn say(
+    pub(crate) fn say(
         &mut self,
         ctx: &Context,
         name: &str,
@@ -89,7 +89,7 @@ impl Jobs {
     }
 
     /// What has ended since the last look; work that broke down as its message.
-    pub fn poll(&mut self) -> Vec<Result<Done, JobError>> {
+    pub(crate) fn poll(&mut self) -> Vec<Result<Done, JobError>> {
         let mut ended = Vec::new();
         self.running.retain(|job| match job.poll() {
             Some(result) => {
@@ -102,17 +102,17 @@ impl Jobs {
     }
 
     /// Waits for everything that runs, each at most so long; for pictures and tests.
-    pub fn wait(&mut self, longest: Duration) -> Vec<Result<Done, JobError>> {
+    pub(crate) fn wait(&mut self, longest: Duration) -> Vec<Result<Done, JobError>> {
         self.running.drain(..).filter_map(|job| job.wait(longest)).collect()
     }
 
     /// Name and progress of what runs; a file dialog is no work.
-    pub fn running(&self) -> Option<(&str, f64)> {
+    pub(crate) fn running(&self) -> Option<(&str, f64)> {
         self.running.iter().find(|job| job.name() != files::ASKING).map(|job| (job.name(), job.progress()))
     }
 
     /// Gives up all that runs.
-    pub fn cancel(&mut self) {
+    pub(crate) fn cancel(&mut self) {
         self.running.clear();
     }
 }

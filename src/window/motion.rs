@@ -14,7 +14,7 @@ const WISHES: [(&str, &str, [&str; 2]); 3] = [
 const TIME: f32 = 0.08;
 
 /// Whether the desktop of the user asks for less motion, so far as it says so in a file.
-pub fn is_unwanted() -> bool {
+pub(crate) fn is_unwanted() -> bool {
     std::env::home_dir().is_some_and(|home| is_unwanted_below(&home))
 }
 
@@ -28,7 +28,7 @@ fn is_unwanted_below(home: &Path) -> bool {
 }
 
 /// Widgets and scrolling change at once, or within a blink.
-pub fn set_less(ctx: &Context, less: bool) {
+pub(crate) fn set_less(ctx: &Context, less: bool) {
     ctx.all_styles_mut(|style| {
         style.animation_time = if less { 0.0 } else { TIME };
         style.scroll_animation =

@@ -32,7 +32,7 @@ type Key = (usize, usize, u64, usize);
 
 /// PreparedRecords and the jobs that compute them.
 #[derive(Debug)]
-pub struct PreparedRecords {
+pub(crate) struct PreparedRecords {
     traces: Cache<Key, Trace>,
     batch: Batch,
 }
@@ -70,7 +70,7 @@ impl Batch {
 
 impl PreparedRecords {
     /// A channel of a run, by its index in the fit.
-    pub fn get(&mut self, ctx: &Context, runs: &[Run], run: usize, channel: usize) -> PreparedRecord {
+    pub(crate) fn get(&mut self, ctx: &Context, runs: &[Run], run: usize, channel: usize) -> PreparedRecord {
         let Some(r) = runs.get(run) else { return PreparedRecord::Absent };
         let (Some(record), Some(fit)) = (&r.record, r.fit.channels.get(channel)) else { return PreparedRecord::Absent };
         let key = (run, channel, r.fit.omega.to_bits(), fit.amplitudes.len());
@@ -90,17 +90,17 @@ impl PreparedRecords {
     }
 
     /// Forgets everything.
-    pub fn clear(&mut self) {
+    pub(crate) fn clear(&mut self) {
         *self = Self::default();
     }
 
     /// Gives up what is being computed.
-    pub fn cancel(&mut self) {
+    pub(crate) fn cancel(&mut self) {
         self.traces.cancel();
     }
 
     /// Name and progress of what is being prepared, all records together.
-    pub fn running(&self) -> Option<(&str, f64)> {
+    pub(crate) fn running(&self) -> Option<(&str, f64)> {
         let (name, _) = self.traces.running()?;
         Some((name, self.batch.progress(|key| self.traces.progress(key))))
     }

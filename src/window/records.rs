@@ -15,14 +15,14 @@ type Key = (String, u64);
 
 /// Fitted runs by what they depend on; one entry a record, several runs for a file of harmonics.
 #[derive(Debug, Clone, Default)]
-pub struct Records {
+pub(crate) struct Records {
     kept: HashMap<Key, Vec<Run>>,
     unsteady: HashMap<Key, TransientRun>,
 }
 
 /// Records that a change needs and that are still to be read: long work.
 #[derive(Debug, Clone)]
-pub struct Missing {
+pub(crate) struct Missing {
     file: ProjectFile,
     folder: PathBuf,
     runs: Vec<(usize, Key)>,
@@ -33,14 +33,14 @@ pub struct Missing {
 
 /// Records that were read.
 #[derive(Debug)]
-pub struct Fitted {
+pub(crate) struct Fitted {
     runs: Vec<(Key, Vec<Run>)>,
     unsteady: Vec<(Key, TransientRun)>,
 }
 
 impl Records {
     /// The runs of a state of the document in the order of its file, as far as their records were read.
-    pub fn runs(&self, state: &State) -> Vec<Run> {
+    pub(crate) fn runs(&self, state: &State) -> Vec<Run> {
         let (file, on) = (state.file(), common(state));
         let recorded = file.run.iter().filter(|table| table.kind.is_steady()).filter_map(|table| {
             let mut run = self.kept.get(&run_key(table, on))?.first()?.clone();
@@ -54,7 +54,7 @@ impl Records {
     }
 
     /// The decays and transients of a state of the document, as far as they were read.
-    pub fn transient_runs(&self, state: &State) -> Vec<TransientRun> {
+    pub(crate) fn transient_runs(&self, state: &State) -> Vec<TransientRun> {
         let (file, on) = (state.file(), common(state));
         let unsteady = file.run.iter().filter(|table| !table.kind.is_steady());
         let run = |table: &RunTable| {
@@ -66,7 +66,7 @@ impl Records {
     }
 
     /// What a state of the document needs and is not read yet.
-    pub fn missing(&self, state: &State) -> Option<Missing> {
+    pub(crate) fn missing(&self, state: &State) -> Option<Missing> {
         let (file, on) = (state.file(), common(state));
         let steady = file.run.iter().enumerate().filter(|(_, table)| table.kind.is_steady());
         let runs: Vec<(usize, Key)> = steady.map(|(k, table)| (k, run_key(table, on))).collect();
@@ -85,7 +85,7 @@ impl Records {
     }
 
     /// Keeps what was read.
-    pub fn take(&mut self, fitted: Fitted) {
+    pub(crate) fn take(&mut self, fitted: Fitted) {
         self.kept.extend(fitted.runs);
         self.unsteady.extend(fitted.unsteady);
     }
@@ -96,7 +96,7 @@ impl Missing {
     ///
     /// # Errors
     /// One line: file, line, what is wrong and how to mend it; or cancelled.
-    pub fn read(self, control: &Control) -> Result<Fitted, String> {
+    pub(crate) fn read(self, control: &Control) -> Result<Fitted, String> {
         let text = self.file.to_toml().map_err(|e| e.to_string())?;
         let plan = plan(&text, &self.folder.join("project.toml")).map_err(|e| e.to_string())?;
         let mut fitted = Vec::new();

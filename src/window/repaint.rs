@@ -10,17 +10,17 @@ use std::sync::Arc;
 
 /// The window that jobs ask for a frame, until the [guard](RepaintGuard) is dropped.
 #[derive(Clone, Default)]
-pub struct RepaintHandle(Arc<Mutex<Option<Context>>>);
+pub(crate) struct RepaintHandle(Arc<Mutex<Option<Context>>>);
 
 impl RepaintHandle {
     /// The one of this window.
-    pub fn of(ctx: &Context) -> Self {
+    pub(crate) fn of(ctx: &Context) -> Self {
         let new = || Self(Arc::new(Mutex::new(Some(ctx.clone()))));
         ctx.data_mut(|d| d.get_temp_mut_or_insert_with(Id::NULL.with("handle"), new).clone())
     }
 
     /// Asks for a frame.
-    pub fn request(&self) {
+    pub(crate) fn request(&self) {
         if let Some(ctx) = &*self.0.lock() {
             ctx.request_repaint();
         }
@@ -40,11 +40,11 @@ impl fmt::Debug for RepaintHandle {
 
 /// Takes the window from the handle where the state of the window ends.
 #[derive(Debug, Default)]
-pub struct RepaintGuard(Option<RepaintHandle>);
+pub(crate) struct RepaintGuard(Option<RepaintHandle>);
 
 impl RepaintGuard {
     /// Guards the handle of this window.
-    pub fn watch(&mut self, ctx: &Context) {
+    pub(crate) fn watch(&mut self, ctx: &Context) {
         self.0.get_or_insert_with(|| RepaintHandle::of(ctx));
     }
 }
@@ -58,7 +58,7 @@ impl Drop for RepaintGuard {
 }
 
 /// What a job calls once its result waits.
-pub fn request_repaint(ctx: &Context) -> impl FnOnce() + Send + use<> + 'static {
+pub(crate) fn request_repaint(ctx: &Context) -> impl FnOnce() + Send + use<> + 'static {
     let handle = RepaintHandle::of(ctx);
     move || handle.request()
 }

@@ -2,7 +2,7 @@
 
 /// A template.
 #[derive(Debug, Clone, Copy)]
-pub struct Template {
+pub(crate) struct Template {
     /// Name in the menu.
     pub name: &'static str,
     /// Text of the project file.
@@ -10,7 +10,7 @@ pub struct Template {
 }
 
 /// All templates.
-pub const ALL: [Template; 3] = [
+pub(crate) const ALL: [Template; 3] = [
     Template {
         name: "Beam",
         text: "[project]\nformat = 1\ntitle = \"New beam\"\n[structure]\nkind = \"beam\"\nlength = 1.0\nbreadth = 0.04\n\

@@ -2,7 +2,7 @@
 
 use super::schematic::view::ViewState;
 use super::stages::explain::look::Look;
-use super::stages::incompleteness::Choice;
+use super::stages::incompleteness::choice::Choice;
 use super::stages::run_table::Order;
 use crate::classical::method::Method;
 use crate::effects::Effect;

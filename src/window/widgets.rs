@@ -5,7 +5,7 @@ use crate::display::{format, glossary, units};
 use egui::text::{Galley, LayoutJob, TextWrapping};
 use egui::{
     Align, Color32, ComboBox, CornerRadius, DragValue, FontId, Frame, Label, Layout, Margin, Pos2, Response, RichText,
-    Sense, Ui, WidgetText, vec2,
+    Ui, WidgetText, vec2,
 };
 use std::sync::Arc;
 
@@ -32,7 +32,7 @@ fn name_left(ui: &mut Ui, name: &str, rest: f32) -> Response {
 }
 
 /// With its meaning under the pointer, where it is a term.
-pub fn explained(response: Response, meaning: Option<&str>) -> Response {
+pub(crate) fn explained(response: Response, meaning: Option<&str>) -> Response {
     match meaning {
         Some(meaning) => response.on_hover_text(meaning),
         None => response,
@@ -41,7 +41,7 @@ pub fn explained(response: Response, meaning: Option<&str>) -> Response {
 
 /// Paints a line of words that starts at `left` (its middle) and ends with dots where it is wider than `room`; gives back
 /// its width.
-pub fn elided(ui: &Ui, text: &str, font: FontId, colour: Color32, left: Pos2, room: f32) -> f32 {
+pub(crate) fn elided(ui: &Ui, text: &str, font: FontId, colour: Color32, left: Pos2, room: f32) -> f32 {
     let mut job = LayoutJob::simple_singleline(text.to_owned(), font, colour);
     job.wrap = TextWrapping::truncate_at_width(room.max(8.0));
     let galley = ui.painter().layout_job(job);
@@ -51,19 +51,19 @@ pub fn elided(ui: &Ui, text: &str, font: FontId, colour: Color32, left: Pos2, ro
 }
 
 /// Words of one colour in at most `rows` lines of `room` points; dots where they are longer still.
-pub fn folded(ui: &Ui, text: &str, font: FontId, colour: Color32, room: f32, rows: usize) -> Arc<Galley> {
+pub(crate) fn folded(ui: &Ui, text: &str, font: FontId, colour: Color32, room: f32, rows: usize) -> Arc<Galley> {
     let mut job = LayoutJob::simple(text.to_owned(), font, colour, room.max(8.0));
     job.wrap.max_rows = rows;
     ui.painter().layout_job(job)
 }
 
 /// Width of words on one line, points.
-pub fn width(ui: &Ui, text: &str, font: FontId) -> f32 {
+pub(crate) fn width(ui: &Ui, text: &str, font: FontId) -> f32 {
     ui.painter().layout_no_wrap(text.to_owned(), font, Color32::PLACEHOLDER).size().x
 }
 
 /// The program's own widgets.
-pub trait UiExt {
+pub(crate) trait UiExt {
     /// Colours of the theme in force.
     fn palette(&self) -> &'static Palette;
     /// Title of a pane with a second-rank remark beside it.
@@ -78,8 +78,6 @@ pub trait UiExt {
     fn pill(&mut self, text: &str, colour: Color32) -> Response;
     /// A title, a sentence on what to do next, in the middle of an empty pane.
     fn empty(&mut self, title: &str, what_next: &str);
-    /// A pane with padding on the colour of panes.
-    fn pane<R>(&mut self, content: impl FnOnce(&mut Ui) -> R) -> R;
     /// The button that a pane is about.
     fn primary(&mut self, text: &str) -> Response;
     /// A name at the left and a value with its unit that can be edited at the right; the new value once it is meant:
@@ -89,8 +87,6 @@ pub trait UiExt {
     fn choice<T: Copy + PartialEq>(&mut self, name: &str, now: T, all: &[T], word: fn(T) -> &'static str) -> Option<T>;
     /// A name and its value beside each other, or where there is little room above each other.
     fn beside<R>(&mut self, content: impl FnOnce(&mut Ui) -> R) -> R;
-    /// A short line and a name: the key to a curve.
-    fn key(&mut self, colour: Color32, name: &str);
 }
 
 impl UiExt for Ui {
@@ -163,16 +159,6 @@ impl UiExt for Ui {
         });
     }
 
-    fn pane<R>(&mut self, content: impl FnOnce(&mut Ui) -> R) -> R {
-        let fill = self.palette().pane;
-        Frame::new()
-            .fill(fill)
-            .corner_radius(CornerRadius::same(6))
-            .inner_margin(Margin::symmetric(12, 10))
-            .show(self, content)
-            .inner
-    }
-
     fn primary(&mut self, text: &str) -> Response {
         let p = self.palette();
         let text = RichText::new(text).color(p.text_on(p.accent));
@@ -230,11 +216,5 @@ impl UiExt for Ui {
 
     fn beside<R>(&mut self, content: impl FnOnce(&mut Ui) -> R) -> R {
         if self.available_width() < NARROW { self.vertical(content).inner } else { self.horizontal(content).inner }
-    }
-
-    fn key(&mut self, colour: Color32, name: &str) {
-        let (rect, _) = self.allocate_exact_size(vec2(16.0, 12.0), Sense::hover());
-        self.painter().line_segment([rect.left_center(), rect.right_center()], theme::bold(colour));
-        self.hint(name);
     }
 }

@@ -8,7 +8,7 @@ use faer::linalg::solvers::Solve;
 use faer::{Mat, c64};
 use std::f64::consts::TAU;
 
-pub fn five_masses() -> Structure {
+pub(crate) fn five_masses() -> Structure {
     let chain = ChainParameters {
         masses: vec![1.727, 5.122, 8.213, 2.609, 1.339],
         ground_stiffness: vec![94263.0; 5],
@@ -18,7 +18,7 @@ pub fn five_masses() -> Structure {
 }
 
 /// (6.13), N s/m.
-pub fn damping() -> Mat<f64> {
+pub(crate) fn damping() -> Mat<f64> {
     let mut c = Mat::zeros(5, 5);
     for (i, j, value) in [
         (0, 0, 2.0413),
@@ -35,25 +35,25 @@ pub fn damping() -> Mat<f64> {
     c
 }
 
-pub fn scaled(c: &Mat<f64>, factor: f64) -> Mat<f64> {
+pub(crate) fn scaled(c: &Mat<f64>, factor: f64) -> Mat<f64> {
     Mat::from_fn(c.nrows(), c.ncols(), |i, j| factor * c[(i, j)])
 }
 
-pub fn modal(structure: &Structure, c: &Mat<f64>, count: usize) -> ModalData {
+pub(crate) fn modal(structure: &Structure, c: &Mat<f64>, count: usize) -> ModalData {
     let matrices = structure.matrices().unwrap();
     let modes = damped_modes(matrices.mass.as_ref(), matrices.stiffness.as_ref(), c.as_ref()).unwrap();
     ModalData::from_modes(&modes, count)
 }
 
 /// The same modes at scales of no meaning, as a test without a drive point gives them.
-pub fn unscaled(modes: &ModalData) -> ModalData {
+pub(crate) fn unscaled(modes: &ModalData) -> ModalData {
     let factor = |p: usize| c64::from_polar(0.3 + p as f64, 0.7 * p as f64 + 0.2);
     let shapes = Mat::from_fn(modes.degrees(), modes.len(), |i, p| modes.shapes[(i, p)] * factor(p));
     ModalData { poles: modes.poles.clone(), shapes, scaled: false }
 }
 
 /// Receptance by an LU of its own, `[K + i (w C + D) - w^2 M]^-1`.
-pub fn receptance(structure: &Structure, c: &Mat<f64>, d: &Mat<f64>, lines_hz: &[f64]) -> ReceptanceData {
+pub(crate) fn receptance(structure: &Structure, c: &Mat<f64>, d: &Mat<f64>, lines_hz: &[f64]) -> ReceptanceData {
     let matrices = structure.matrices().unwrap();
     let n = structure.len();
     let at = |hz: &f64| {
@@ -69,12 +69,12 @@ pub fn receptance(structure: &Structure, c: &Mat<f64>, d: &Mat<f64>, lines_hz: &
 }
 
 /// Lines over the band of the five modes.
-pub fn lines() -> Vec<f64> {
+pub(crate) fn lines() -> Vec<f64> {
     (0..60).map(|k| 15.3 + f64::from(k)).collect()
 }
 
 /// The motion under a unit force at one DOF.
-pub fn loads(receptance: &ReceptanceData, drive: usize) -> Vec<LoadCase> {
+pub(crate) fn loads(receptance: &ReceptanceData, drive: usize) -> Vec<LoadCase> {
     let n = receptance.degrees();
     let lines = receptance.omega.iter().zip(&receptance.matrices);
     lines
@@ -87,12 +87,12 @@ pub fn loads(receptance: &ReceptanceData, drive: usize) -> Vec<LoadCase> {
 }
 
 /// `|A - B| / |B|`, Frobenius.
-pub fn distance(a: &Mat<f64>, b: &Mat<f64>) -> f64 {
+pub(crate) fn distance(a: &Mat<f64>, b: &Mat<f64>) -> f64 {
     (a - b).norm_l2() / b.norm_l2()
 }
 
 #[track_caller]
-pub fn assert_exact(found: &Mat<f64>, expected: &Mat<f64>) {
+pub(crate) fn assert_exact(found: &Mat<f64>, expected: &Mat<f64>) {
     let error = distance(found, expected);
     assert!(error < 1e-6, "relative error {error:.2e}\n{found:?}");
 }

@@ -4,7 +4,7 @@
 use dashpot::balance::loops::Loops;
 use dashpot::control::Control;
 use dashpot::diagnosis::component::{compare_component, diagnose_component};
-use dashpot::diagnosis::diagnose::{Diagnosis, Verdict};
+use dashpot::diagnosis::result::{Diagnosis, Verdict};
 use dashpot::effects::{Effect, Place, Source};
 use dashpot::identify::{Measurements, Settings, identify_measured};
 use dashpot::measurement::{Channel, Kind, Quantity, TransientLabel, TransientRun};

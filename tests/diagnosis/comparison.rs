@@ -5,7 +5,7 @@ use super::suite::{Kindness, hidden};
 use dashpot::control::Control;
 use dashpot::diagnosis::Problem;
 use dashpot::diagnosis::compare;
-use dashpot::diagnosis::compare::ChannelComparison;
+use dashpot::diagnosis::residual::comparison::ChannelComparison;
 use dashpot::effects::Effect;
 use dashpot::exchange::project::load;
 use std::path::Path;

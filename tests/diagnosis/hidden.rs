@@ -3,7 +3,8 @@
 use super::random::Random;
 use super::suite::{Hidden, Kindness, hidden};
 use dashpot::control::Control;
-use dashpot::diagnosis::diagnose::{Diagnosis, Suggestion, Verdict, diagnose, diagnose_without};
+use dashpot::diagnosis::diagnose::{diagnose, diagnose_without};
+use dashpot::diagnosis::result::{Diagnosis, Suggestion, Verdict};
 use dashpot::effects::{Effect, Source};
 use std::sync::Mutex;
 

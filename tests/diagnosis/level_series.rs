@@ -3,7 +3,8 @@
 
 use super::random::Random;
 use dashpot::control::Control;
-use dashpot::diagnosis::diagnose::{Verdict, diagnose};
+use dashpot::diagnosis::diagnose::diagnose;
+use dashpot::diagnosis::result::Verdict;
 use dashpot::diagnosis::{Diagnosis, Problem};
 use dashpot::effects::{Effect, Place, Source};
 use dashpot::measurement::{Channel, ChannelFit, HarmonicFit, Quantity, Run};

@@ -2,7 +2,8 @@
 
 use dashpot::control::Control;
 use dashpot::diagnosis::Problem;
-use dashpot::diagnosis::diagnose::{Diagnosis, Verdict, diagnose};
+use dashpot::diagnosis::diagnose::diagnose;
+use dashpot::diagnosis::result::{Diagnosis, Verdict};
 use dashpot::effects::{Effect, Place};
 use dashpot::exchange::project::load;
 use std::path::Path;

@@ -4,7 +4,7 @@ use faer::Mat;
 use std::collections::BTreeMap;
 
 #[derive(Debug, Clone, PartialEq)]
-pub enum Value {
+pub(crate) enum Value {
     Numbers(Mat<f64>),
     Text(String),
     Cells(Vec<Value>),
@@ -12,12 +12,12 @@ pub enum Value {
 }
 
 impl Value {
-    pub fn numbers(&self) -> &Mat<f64> {
+    pub(crate) fn numbers(&self) -> &Mat<f64> {
         let Self::Numbers(m) = self else { panic!("{self:?} is no matrix of numbers") };
         m
     }
 
-    pub fn text(&self) -> &str {
+    pub(crate) fn text(&self) -> &str {
         let Self::Text(t) = self else { panic!("{self:?} is no text") };
         t
     }
@@ -92,7 +92,7 @@ fn array(data: &[u8]) -> (String, Value) {
     (name, value)
 }
 
-pub fn read(bytes: &[u8]) -> BTreeMap<String, Value> {
+pub(crate) fn read(bytes: &[u8]) -> BTreeMap<String, Value> {
     assert_eq!(&bytes[124..128], [0x00, 0x01, b'I', b'M']);
     let mut cursor = Cursor(&bytes[128..]);
     let mut variables = BTreeMap::new();

@@ -10,7 +10,7 @@ use dashpot::structure::Direction;
 use faer::c64;
 use std::path::Path;
 
-pub const FULL: &str = r#"
+pub(crate) const FULL: &str = r#"
 [project]
 format = 1
 title = "All there is"

@@ -9,9 +9,6 @@ use std::path::{Path, PathBuf};
 const CRATES: [&str; 5] =
     ["src", "crates/numerics/src", "crates/uff/src", "crates/datafiles/src", "crates/fe-files/src"];
 
-/// Rings that are still open to mend: a folder, and how many files of it stand in rings at the most. It only shrinks.
-const OPEN: [(&str, usize); 1] = [("src/diagnosis", 26)];
-
 /// A module of a crate as its path: `["effects", "laws", "coulomb"]`; the root is empty.
 type Module = Vec<String>;
 
@@ -295,25 +292,15 @@ fn list(names: &BTreeSet<String>) -> String {
 #[test]
 fn no_files_need_one_another_in_a_ring() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let mut open: BTreeMap<&str, Vec<String>> = BTreeMap::new();
     let mut wrong = String::new();
     for folder in CRATES {
         let files = read(&root.join(folder));
         for ring in rings(&files) {
             for (module, ties) in &ring {
                 let path = files[module].path.strip_prefix(root).unwrap();
-                match OPEN.iter().find(|(room, _)| path.starts_with(room)) {
-                    Some((room, _)) => open.entry(room).or_default().push(path.display().to_string()),
-                    None => wrong += &format!("{} needs {}\n", path.display(), ties.join(", ")),
-                }
+                wrong += &format!("{} needs {}\n", path.display(), ties.join(", "));
             }
-            wrong += if wrong.ends_with("\n\n") || wrong.is_empty() { "" } else { "\n" };
-        }
-    }
-    for (room, most) in OPEN {
-        let files = open.remove(room).unwrap_or_default();
-        if files.len() > most {
-            wrong += &format!("{} files stand in rings; at most {most}: {}\n", files.len(), files.join(", "));
+            wrong += "\n";
         }
     }
     assert!(wrong.is_empty(), "files that need one another in a ring:\n{wrong}");

@@ -10,7 +10,7 @@ use dashpot::structure::chain::ChainParameters;
 use faer::{Mat, c64};
 
 /// The five masses of the thesis' experiment (6.2).
-pub fn five_masses() -> Structure {
+pub(crate) fn five_masses() -> Structure {
     let chain = ChainParameters {
         masses: vec![1.727, 5.122, 8.213, 2.609, 1.339],
         ground_stiffness: vec![94263.0, 0.0, 0.0, 0.0, 0.0],
@@ -20,7 +20,7 @@ pub fn five_masses() -> Structure {
 }
 
 /// The cantilever of the thesis (3.3.6).
-pub fn cantilever(elements: usize) -> Structure {
+pub(crate) fn cantilever(elements: usize) -> Structure {
     let supports = Supports::ClampedFree;
     let (youngs_modulus, density) = (69e9, 2700.0);
     BeamParameters { length: 0.56, breadth: 0.04, depth: 0.004, youngs_modulus, density, elements, supports }
@@ -29,30 +29,35 @@ pub fn cantilever(elements: usize) -> Structure {
 }
 
 /// A source between DOFs that acts.
-pub fn source(effect: Effect, dofs: &[usize], parameters: &[f64]) -> Source {
+pub(crate) fn source(effect: Effect, dofs: &[usize], parameters: &[f64]) -> Source {
     Source::known(effect, Place::Dofs(dofs.to_vec()), parameters)
 }
 
 /// A source of the whole structure.
-pub fn whole(effect: Effect, value: f64) -> Source {
+pub(crate) fn whole(effect: Effect, value: f64) -> Source {
     Source::known(effect, Place::Whole(None), &[value])
 }
 
 /// Steady state by harmonic balance.
-pub fn balanced(structure: &Structure, sources: &[Source], excitation: &Excitation, settings: &Settings) -> Response {
+pub(crate) fn balanced(
+    structure: &Structure,
+    sources: &[Source],
+    excitation: &Excitation,
+    settings: &Settings,
+) -> Response {
     let model = ForwardModel::new(structure, sources).unwrap();
     model.respond(excitation, settings, None, &Control::unattended()).unwrap()
 }
 
 /// Harmonics 1..=5 by time stepping from rest.
-pub fn stepped(structure: &Structure, sources: &[Source], excitation: &Excitation, steps: usize) -> Mat<c64> {
+pub(crate) fn stepped(structure: &Structure, sources: &[Source], excitation: &Excitation, steps: usize) -> Mat<c64> {
     let mut model = TimeModel::new(structure, sources, excitation, steps).unwrap();
     model.settle(&Settling::default(), &Control::unattended()).unwrap();
     model.harmonics(5).unwrap()
 }
 
 /// Harmonics 1..=5 by time stepping from the state of a response nearby: what it settles to is its own.
-pub fn stepped_from(
+pub(crate) fn stepped_from(
     start: &Response,
     structure: &Structure,
     sources: &[Source],
@@ -66,14 +71,14 @@ pub fn stepped_from(
 }
 
 /// Largest difference of harmonic `h` over all DOFs, relative to the largest amplitude of that harmonic.
-pub fn difference(response: &Response, reference: &Mat<c64>, h: usize) -> f64 {
+pub(crate) fn difference(response: &Response, reference: &Mat<c64>, h: usize) -> f64 {
     let n = reference.nrows();
     let largest = (0..n).fold(0.0_f64, |m, i| m.max(reference[(i, h - 1)].norm()));
     (0..n).fold(0.0_f64, |m, i| m.max((response.amplitude(i, h) - reference[(i, h - 1)]).norm())) / largest
 }
 
 /// `X_h^H K X_h`: four times the mean, twice the greatest elastic energy of harmonic `h`, J.
-pub fn elastic(structure: &Structure, response: &Response, h: usize) -> f64 {
+pub(crate) fn elastic(structure: &Structure, response: &Response, h: usize) -> f64 {
     let stiffness = &structure.matrices().unwrap().stiffness;
     let mut sum = 0.0;
     for i in 0..structure.len() {

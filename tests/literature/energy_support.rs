@@ -9,7 +9,7 @@ use dashpot::structure::beam::{BeamParameters, Supports};
 use faer::linalg::solvers::Solve;
 use faer::{Mat, c64};
 
-pub fn cantilever() -> Structure {
+pub(crate) fn cantilever() -> Structure {
     let beam = BeamParameters {
         length: 0.56,
         breadth: 0.04,
@@ -23,7 +23,7 @@ pub fn cantilever() -> Structure {
 }
 
 /// The thesis' settings: single-mode expansion, rows as they are, five best single columns.
-pub fn thesis_settings() -> Settings {
+pub(crate) fn thesis_settings() -> Settings {
     Settings {
         harmonics: 1,
         expansion: Expansion::SingleMode,
@@ -35,17 +35,17 @@ pub fn thesis_settings() -> Settings {
 }
 
 /// Candidates of a law at every DOF.
-pub fn each_dof(structure: &Structure, effect: Effect) -> Vec<Source> {
+pub(crate) fn each_dof(structure: &Structure, effect: Effect) -> Vec<Source> {
     (0..structure.len()).map(|dof| Source::candidate(effect, Place::Dofs(vec![dof]))).collect()
 }
 
 /// Gives the candidate at a DOF (1-based label) another state.
-pub fn force_candidate(sources: &mut [Source], label: usize) {
+pub(crate) fn force_candidate(sources: &mut [Source], label: usize) {
     sources.iter_mut().filter(|s| s.place == Place::Dofs(vec![label - 1])).for_each(|s| s.state = State::Forced);
 }
 
 /// One noise-free channel with one harmonic.
-pub fn channel(quantity: Quantity, structure: &Structure, dof: usize, amplitude: c64) -> ChannelFit {
+pub(crate) fn channel(quantity: Quantity, structure: &Structure, dof: usize, amplitude: c64) -> ChannelFit {
     ChannelFit {
         channel: Channel { quantity, dof, label: structure.label(dof).to_string() },
         offset: 0.0,
@@ -56,7 +56,7 @@ pub fn channel(quantity: Quantity, structure: &Structure, dof: usize, amplitude:
     }
 }
 
-pub fn run(name: String, omega: f64, channels: Vec<ChannelFit>) -> Run {
+pub(crate) fn run(name: String, omega: f64, channels: Vec<ChannelFit>) -> Run {
     Run {
         file: name,
         level: None,
@@ -72,7 +72,7 @@ pub fn run(name: String, omega: f64, channels: Vec<ChannelFit>) -> Run {
 }
 
 /// Displacement under a unit force at DOF 19 with dashpots (label, N s/m) to the ground: an LU of its own, not the engine's.
-pub fn displacement(structure: &Structure, dashpots: &[(usize, f64)], omega: f64) -> Vec<c64> {
+pub(crate) fn displacement(structure: &Structure, dashpots: &[(usize, f64)], omega: f64) -> Vec<c64> {
     let matrices = structure.matrices().unwrap();
     let n = structure.len();
     let mut z =
@@ -85,7 +85,7 @@ pub fn displacement(structure: &Structure, dashpots: &[(usize, f64)], omega: f64
 }
 
 /// Runs at the first eight undamped natural frequencies, unit force at DOF 19, accelerometers at 7, 11, 19.
-pub fn resonant_runs(structure: &Structure, dashpots: &[(usize, f64)]) -> Vec<Run> {
+pub(crate) fn resonant_runs(structure: &Structure, dashpots: &[(usize, f64)]) -> Vec<Run> {
     let modes = structure.modes().unwrap();
     (0..8)
         .map(|r| {
@@ -101,13 +101,13 @@ pub fn resonant_runs(structure: &Structure, dashpots: &[(usize, f64)]) -> Vec<Ru
 }
 
 /// Labels of a step's sources (1-based) and their coefficients.
-pub fn told(step: &Step, sources: &[Source]) -> (Vec<usize>, Vec<f64>) {
+pub(crate) fn told(step: &Step, sources: &[Source]) -> (Vec<usize>, Vec<f64>) {
     let label = |s: usize| if let Place::Dofs(dofs) = &sources[s].place { dofs[0] + 1 } else { 0 };
     (step.sources.iter().map(|e| label(e.source)).collect(), step.sources.iter().map(|e| e.coefficient).collect())
 }
 
 /// Checks one step against printed places, coefficients and angle.
-pub fn assert_step(
+pub(crate) fn assert_step(
     outcome: &Outcome,
     sources: &[Source],
     places: &[usize],

@@ -13,7 +13,7 @@ use dashpot::structure::wing::WingParameters;
 use faer::{Mat, c64};
 
 /// Pairs of nodes whose vertical motions the fourteen dashpots join.
-pub const PAIRS: [(usize, usize); 14] = [
+pub(crate) const PAIRS: [(usize, usize); 14] = [
     (1, 4),
     (5, 8),
     (9, 12),
@@ -30,13 +30,13 @@ pub const PAIRS: [(usize, usize); 14] = [
     (56, 59),
 ];
 /// 200 lb s/ft, N s/m; the thesis prints 2919.
-pub const COEFFICIENT: f64 = 200.0 * 4.448_221_615_260_5 / 0.3048;
+pub(crate) const COEFFICIENT: f64 = 200.0 * 4.448_221_615_260_5 / 0.3048;
 
-pub fn vertical(structure: &Structure, node: usize) -> usize {
+pub(crate) fn vertical(structure: &Structure, node: usize) -> usize {
     structure.dof(&format!("{node}z")).unwrap()
 }
 
-pub fn damping(structure: &Structure, dashpots: &[(usize, usize, f64)]) -> Mat<f64> {
+pub(crate) fn damping(structure: &Structure, dashpots: &[(usize, usize, f64)]) -> Mat<f64> {
     let mut c = Mat::zeros(structure.len(), structure.len());
     for &(first, second, value) in dashpots {
         let (i, j) = (vertical(structure, first), vertical(structure, second));
@@ -48,7 +48,7 @@ pub fn damping(structure: &Structure, dashpots: &[(usize, usize, f64)]) -> Mat<f
     c
 }
 
-pub fn modes(structure: &Structure, c: &Mat<f64>) -> Vec<DampedMode> {
+pub(crate) fn modes(structure: &Structure, c: &Mat<f64>) -> Vec<DampedMode> {
     let matrices = structure.matrices().unwrap();
     damped_modes(matrices.mass.as_ref(), matrices.stiffness.as_ref(), c.as_ref()).unwrap()
 }

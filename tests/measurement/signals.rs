@@ -8,7 +8,7 @@ use rand_distr::{Distribution, StandardNormal};
 use std::f64::consts::TAU;
 
 /// A channel of known harmonics, noise and anything else.
-pub struct Signal {
+pub(crate) struct Signal {
     pub quantity: Quantity,
     pub dof: usize,
     pub amplitudes: Vec<c64>,
@@ -16,39 +16,39 @@ pub struct Signal {
 }
 
 impl Signal {
-    pub fn new(quantity: Quantity, dof: usize, amplitudes: &[c64], noise: f64) -> Self {
+    pub(crate) fn new(quantity: Quantity, dof: usize, amplitudes: &[c64], noise: f64) -> Self {
         Self { quantity, dof, amplitudes: amplitudes.to_vec(), noise }
     }
 
-    pub fn value(&self, omega: f64, t: f64) -> f64 {
+    pub(crate) fn value(&self, omega: f64, t: f64) -> f64 {
         let harmonics = self.amplitudes.iter().enumerate();
         harmonics.map(|(h, y)| (y * c64::new(0.0, (h + 1) as f64 * omega * t).exp()).re).sum()
     }
 }
 
-pub fn z(re: f64, im: f64) -> c64 {
+pub(crate) fn z(re: f64, im: f64) -> c64 {
     c64::new(re, im)
 }
 
-pub fn rng(seed: u64) -> ChaCha8Rng {
+pub(crate) fn rng(seed: u64) -> ChaCha8Rng {
     ChaCha8Rng::seed_from_u64(seed)
 }
 
-pub fn normal(rng: &mut ChaCha8Rng) -> f64 {
+pub(crate) fn normal(rng: &mut ChaCha8Rng) -> f64 {
     StandardNormal.sample(rng)
 }
 
-pub fn even(samples: usize, rate_hz: f64) -> Vec<f64> {
+pub(crate) fn even(samples: usize, rate_hz: f64) -> Vec<f64> {
     (0..samples).map(|n| n as f64 / rate_hz).collect()
 }
 
 /// A record of the signals with white noise.
-pub fn record(signals: &[Signal], frequency_hz: f64, time: Vec<f64>, seed: u64) -> Record {
+pub(crate) fn record(signals: &[Signal], frequency_hz: f64, time: Vec<f64>, seed: u64) -> Record {
     changed(signals, frequency_hz, time, seed, |_, _, y| y)
 }
 
 /// A record whose samples are changed by `(channel, time, value)` before it is made.
-pub fn changed(
+pub(crate) fn changed(
     signals: &[Signal],
     frequency_hz: f64,
     time: Vec<f64>,
@@ -72,7 +72,7 @@ pub fn changed(
 }
 
 /// A force and two accelerations near the resonance of a lightly damped beam, each with 5 % of noise.
-pub fn beam(noise: f64) -> Vec<Signal> {
+pub(crate) fn beam(noise: f64) -> Vec<Signal> {
     let response = z(40.0, -3.0);
     vec![
         Signal::new(Quantity::Force, 0, &[z(1.0, 0.1), z(0.0, 0.01)], noise * 0.71),

@@ -1,8 +1,8 @@
 //! Hidden effects in decays and hammers, their records made by the independent stepping of the whole structure.
 
 use dashpot::control::Control;
-use dashpot::diagnosis::diagnose::{Added, Diagnosis, Step, Verdict};
 use dashpot::diagnosis::records::{Records, compare_records, diagnose_records, missing_force};
+use dashpot::diagnosis::result::{Added, Diagnosis, Step, Verdict};
 use dashpot::diagnosis::updating::parameters::UpdatingParameter;
 use dashpot::effects::{Effect, Place, Source, State};
 use dashpot::measurement::transient_run::TransientLabel;

@@ -10,7 +10,7 @@ use dashpot::structure::points::PointParameters;
 use faer::c64;
 use std::f64::consts::{PI, TAU};
 
-pub fn five_points() -> Structure {
+pub(crate) fn five_points() -> Structure {
     let labels = (1..=5).map(|i| i.to_string()).collect();
     PointParameters { dofs: labels, positions: None }.build().unwrap()
 }

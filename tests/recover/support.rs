@@ -14,7 +14,7 @@ use rand_distr::{Distribution, StandardNormal};
 use std::f64::consts::TAU;
 
 /// The five masses of section 6.
-pub fn five_masses() -> Structure {
+pub(crate) fn five_masses() -> Structure {
     let chain = ChainParameters {
         masses: vec![1.727, 5.122, 8.213, 2.609, 1.339],
         ground_stiffness: vec![94263.0; 5],
@@ -23,7 +23,7 @@ pub fn five_masses() -> Structure {
     chain.build(&[]).unwrap()
 }
 
-pub fn cantilever() -> Structure {
+pub(crate) fn cantilever() -> Structure {
     let beam = BeamParameters {
         length: 0.56,
         breadth: 0.04,
@@ -36,17 +36,17 @@ pub fn cantilever() -> Structure {
     beam.build(&[]).unwrap()
 }
 
-pub fn source(effect: Effect, dofs: &[usize], value: f64) -> Source {
+pub(crate) fn source(effect: Effect, dofs: &[usize], value: f64) -> Source {
     Source::known(effect, Place::Dofs(dofs.to_vec()), &[value])
 }
 
-pub fn candidate(effect: Effect, dofs: &[usize]) -> Source {
+pub(crate) fn candidate(effect: Effect, dofs: &[usize]) -> Source {
     Source::candidate(effect, Place::Dofs(dofs.to_vec()))
 }
 
 /// What is measured, and how.
 #[derive(Clone)]
-pub struct Rig {
+pub(crate) struct Rig {
     pub drive: usize,
     pub sensors: Vec<usize>,
     pub frequencies_hz: Vec<f64>,
@@ -55,14 +55,20 @@ pub struct Rig {
 
 impl Rig {
     /// Frequencies of the first `count` modes times `factor`.
-    pub fn near_modes(structure: &Structure, count: usize, factor: f64, drive: usize, sensors: &[usize]) -> Self {
+    pub(crate) fn near_modes(
+        structure: &Structure,
+        count: usize,
+        factor: f64,
+        drive: usize,
+        sensors: &[usize],
+    ) -> Self {
         let modes = structure.modes().unwrap();
         let frequencies_hz = (0..count).map(|r| modes.frequency_hz(r) * factor).collect();
         Self { drive, sensors: sensors.to_vec(), frequencies_hz, force: 1.0 }
     }
 
     /// Noise-free runs of a linear model.
-    pub fn runs(&self, structure: &Structure, sources: &[Source]) -> Vec<Run> {
+    pub(crate) fn runs(&self, structure: &Structure, sources: &[Source]) -> Vec<Run> {
         let stiffness = DynamicStiffness::new(structure, sources).unwrap();
         self.frequencies_hz
             .iter()
@@ -83,7 +89,7 @@ impl Rig {
 }
 
 /// A noise-free channel.
-pub fn channel(quantity: Quantity, structure: &Structure, dof: usize, amplitudes: Vec<c64>) -> ChannelFit {
+pub(crate) fn channel(quantity: Quantity, structure: &Structure, dof: usize, amplitudes: Vec<c64>) -> ChannelFit {
     let size = 2 * amplitudes.len();
     ChannelFit {
         channel: Channel { quantity, dof, label: structure.label(dof).to_string() },
@@ -95,7 +101,7 @@ pub fn channel(quantity: Quantity, structure: &Structure, dof: usize, amplitudes
     }
 }
 
-pub fn run(name: String, omega: f64, channels: Vec<ChannelFit>) -> Run {
+pub(crate) fn run(name: String, omega: f64, channels: Vec<ChannelFit>) -> Run {
     Run {
         file: name,
         level: None,
@@ -111,7 +117,7 @@ pub fn run(name: String, omega: f64, channels: Vec<ChannelFit>) -> Run {
 }
 
 /// Adds noise of `relative` deviation of each channel's largest amplitude (real and imaginary part each) and states it.
-pub fn with_noise(runs: &[Run], relative: f64, seed: u64) -> Vec<Run> {
+pub(crate) fn with_noise(runs: &[Run], relative: f64, seed: u64) -> Vec<Run> {
     let mut random = ChaCha8Rng::seed_from_u64(seed);
     let mut noisy = runs.to_vec();
     for channel in noisy.iter_mut().flat_map(|r| r.fit.channels.iter_mut()) {
@@ -126,17 +132,17 @@ pub fn with_noise(runs: &[Run], relative: f64, seed: u64) -> Vec<Run> {
     noisy
 }
 
-pub fn all_sets() -> Settings {
+pub(crate) fn all_sets() -> Settings {
     Settings { keep: 0, max_sources: 4, ..Settings::default() }
 }
 
 /// Coefficients of the accepted set by index of source.
-pub fn accepted(outcome: &Outcome) -> Vec<(usize, f64)> {
+pub(crate) fn accepted(outcome: &Outcome) -> Vec<(usize, f64)> {
     outcome.accepted_step().sources.iter().map(|e| (e.source, e.coefficient)).collect()
 }
 
 /// Checks that exactly the expected sources were found, each to a relative tolerance, and what holds for every outcome.
-pub fn assert_found(outcome: &Outcome, expected: &[(usize, f64)], tolerance: f64) {
+pub(crate) fn assert_found(outcome: &Outcome, expected: &[(usize, f64)], tolerance: f64) {
     let found = accepted(outcome);
     let which = |list: &[(usize, f64)]| list.iter().map(|e| e.0).collect::<Vec<_>>();
     assert_eq!(which(&found), which(expected), "{}\n{found:?}", outcome.reason);

@@ -4,7 +4,7 @@ use dashpot::exchange::project::ProjectFile;
 use dashpot::session::{Document, Session};
 use std::path::Path;
 
-pub const BEAM: &str = r#"
+pub(crate) const BEAM: &str = r#"
 [project]
 format = 1
 title = "Beam"
@@ -30,10 +30,10 @@ file = "run-01.csv"
 frequency = 10.0
 "#;
 
-pub fn file() -> ProjectFile {
+pub(crate) fn file() -> ProjectFile {
     ProjectFile::parse(BEAM, "project.toml").unwrap().0
 }
 
-pub fn session() -> Session {
+pub(crate) fn session() -> Session {
     Session::new(Document::new(file(), Path::new("")).unwrap())
 }

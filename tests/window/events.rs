@@ -107,7 +107,7 @@ fn files(sample: &Sample) -> Vec<PathBuf> {
 }
 
 /// Time of the processor that this thread has taken; of the clock where the system does not say.
-pub fn spent(start: Instant) -> Duration {
+pub(crate) fn spent(start: Instant) -> Duration {
     let own = std::fs::read_to_string("/proc/thread-self/schedstat").ok();
     let own = own.and_then(|text| text.split(' ').next()?.parse().ok());
     own.map_or_else(|| start.elapsed(), Duration::from_nanos)

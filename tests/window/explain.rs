@@ -2,7 +2,7 @@
 
 use crate::friction::{FORCE, ROW, friction};
 use crate::support::{beam, detuned, open, settle};
-use dashpot::diagnosis::diagnose::{Suggestion, Verdict};
+use dashpot::diagnosis::result::{Suggestion, Verdict};
 use dashpot::effects::{Effect, Place, Source, State};
 use dashpot::exchange::project::file::Shape;
 use dashpot::window::App;

@@ -14,14 +14,14 @@ use std::f64::consts::TAU;
 use std::fmt::Write as _;
 
 /// Force of the pad at DOF 7, N.
-pub const FORCE: f64 = 0.2;
+pub(crate) const FORCE: f64 = 0.2;
 /// Row of its DOF.
-pub const ROW: usize = 6;
+pub(crate) const ROW: usize = 6;
 const NOISE: f64 = 0.01;
 
 /// Six frequencies about two resonances at two force levels, three accelerometers, 1 % noise; the project knows the two
 /// dashpots only.
-pub fn friction() -> Sample {
+pub(crate) fn friction() -> Sample {
     let head = "[project]\nformat = 1\ntitle = \"Cantilever with a friction pad somewhere\"\n[structure]\nkind = \"beam\"\n\
                 length = 0.5\nbreadth = 0.04\ndepth = 0.004\nyoungs_modulus = 69e9\ndensity = 2700.0\nelements = 5\n\
                 supports = \"clamped-free\"\n[[source]]\nlaw = \"viscous\"\ndofs = [3]\nstate = \"known\"\nc = 0.3\n\

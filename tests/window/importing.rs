@@ -30,7 +30,7 @@ fn written(sample: &Sample, name: &str, frequency_hz: f64) -> PathBuf {
 }
 
 /// Steps until the files were read and are shown.
-pub fn shown(harness: &mut Harness<'_, App>) {
+pub(crate) fn shown(harness: &mut Harness<'_, App>) {
     settle(harness);
     assert!(matches!(harness.state().importing, Some(Importing::Ready(_))), "{:?}", harness.state().message);
     harness.remove_cursor();
@@ -38,7 +38,7 @@ pub fn shown(harness: &mut Harness<'_, App>) {
 }
 
 /// Names another file for the project that is to be made; returns the one that was named.
-pub fn target_named(harness: &mut Harness<'_, App>, target: String) -> String {
+pub(crate) fn target_named(harness: &mut Harness<'_, App>, target: String) -> String {
     match &mut harness.state_mut().importing {
         Some(Importing::Ready(draft)) => std::mem::replace(&mut draft.target, target),
         other => panic!("{other:?}"),
@@ -54,7 +54,7 @@ fn picture(harness: &mut Harness<'_, App>, name: &str) {
     settle(harness);
 }
 
-pub fn press(harness: &mut Harness<'_, App>, label: &str) {
+pub(crate) fn press(harness: &mut Harness<'_, App>, label: &str) {
     let button = harness.get_by_role_and_label(Role::Button, label);
     assert!(!button.accesskit_node().is_disabled(), "{label} cannot be pressed");
     button.click();

@@ -31,7 +31,7 @@ fn collect(shape: &Shape, clip: Rect, all: &mut Vec<Words>) {
 
 /// Pairs of words that lie on each other, and words cut off at the left or right. Those that scroll out of a list above or
 /// below are not cut off, nor are words that `scroll` sideways by an arrow or a cursor.
-pub fn faults(shapes: &[ClippedShape], scroll: impl Fn(&str) -> bool) -> Vec<String> {
+pub(crate) fn faults(shapes: &[ClippedShape], scroll: impl Fn(&str) -> bool) -> Vec<String> {
     let mut all = Vec::new();
     shapes.iter().for_each(|s| collect(&s.shape, s.clip_rect, &mut all));
     all.retain(|w| w.seen.is_positive());

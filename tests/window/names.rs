@@ -11,7 +11,7 @@ use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT, Queryable};
 
 /// Roles of what can be clicked, dragged or typed into.
-pub const CONTROLS: [Role; 12] = [
+pub(crate) const CONTROLS: [Role; 12] = [
     Role::Button,
     Role::CheckBox,
     Role::RadioButton,

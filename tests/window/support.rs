@@ -18,19 +18,19 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 /// A project in a folder of its own.
-pub struct Sample {
+pub(crate) struct Sample {
     pub _folder: tempfile::TempDir,
     /// Its file.
     pub path: PathBuf,
 }
 
 /// A cantilever of five elements with dashpots of 0.3 and 0.8 N s/m at DOFs 3 and 7, measured at 5 and 9.
-pub fn beam() -> Sample {
+pub(crate) fn beam() -> Sample {
     beam_with(0.8)
 }
 
 /// The same with another dashpot at DOF 7.
-pub fn beam_with(second: f64) -> Sample {
+pub(crate) fn beam_with(second: f64) -> Sample {
     let parameters = BeamParameters {
         length: 0.5,
         breadth: 0.04,
@@ -49,7 +49,7 @@ pub fn beam_with(second: f64) -> Sample {
 }
 
 /// A cantilever whose project states Young's modulus 2 % too low and a dashpot 15 % too small, and lacks nothing else.
-pub fn detuned() -> Sample {
+pub(crate) fn detuned() -> Sample {
     let parameters = BeamParameters {
         length: 0.5,
         breadth: 0.04,
@@ -69,7 +69,7 @@ pub fn detuned() -> Sample {
 }
 
 /// Four masses with a dashpot between the second and the third and a known one at the first.
-pub fn chain() -> Sample {
+pub(crate) fn chain() -> Sample {
     let parameters = ChainParameters {
         masses: vec![1.0, 2.0, 1.5, 1.0],
         ground_stiffness: vec![4000.0, 0.0, 0.0, 2000.0],
@@ -88,7 +88,7 @@ pub fn chain() -> Sample {
 }
 
 /// Records at the natural frequencies, written as CSV.
-pub fn write(head: &str, structure: &Structure, truth: &[Source], force: usize, sensors: &[usize]) -> Sample {
+pub(crate) fn write(head: &str, structure: &Structure, truth: &[Source], force: usize, sensors: &[usize]) -> Sample {
     let folder = tempfile::tempdir().unwrap();
     let modes = structure.modes().unwrap();
     let stiffness = DynamicStiffness::new(structure, truth).unwrap();
@@ -131,17 +131,17 @@ fn record(structure: &Structure, x: &[c64], omega: f64, force: usize, sensors: &
 }
 
 /// The document of a sample, without a window.
-pub fn document(path: &Path) -> Document {
+pub(crate) fn document(path: &Path) -> Document {
     Document::open(path, &Control::unattended()).unwrap().0
 }
 
 /// A window without anything open.
-pub fn start() -> Harness<'static, App> {
+pub(crate) fn start() -> Harness<'static, App> {
     window(None, egui::Theme::Light, SIZE)
 }
 
 /// The same of another size.
-pub fn start_sized(size: [f32; 2]) -> Harness<'static, App> {
+pub(crate) fn start_sized(size: [f32; 2]) -> Harness<'static, App> {
     window(None, egui::Theme::Light, size)
 }
 
@@ -149,12 +149,12 @@ pub fn start_sized(size: [f32; 2]) -> Harness<'static, App> {
 const SIZE: [f32; 2] = [1440.0, 900.0];
 
 /// A window on a project, settled.
-pub fn open(sample: &Sample, theme: egui::Theme) -> Harness<'static, App> {
+pub(crate) fn open(sample: &Sample, theme: egui::Theme) -> Harness<'static, App> {
     open_sized(sample, theme, SIZE)
 }
 
 /// The same of another size.
-pub fn open_sized(sample: &Sample, theme: egui::Theme, size: [f32; 2]) -> Harness<'static, App> {
+pub(crate) fn open_sized(sample: &Sample, theme: egui::Theme, size: [f32; 2]) -> Harness<'static, App> {
     let mut harness = window(Some(sample.path.clone()), theme, size);
     settle(&mut harness);
     harness
@@ -211,7 +211,7 @@ impl TestRenderer for Patient {
 }
 
 /// Steps until no job runs, at most ten minutes: a hang, not a slow machine, fails.
-pub fn settle(harness: &mut Harness<'_, App>) {
+pub(crate) fn settle(harness: &mut Harness<'_, App>) {
     let start = Instant::now();
     harness.run_steps(2);
     // What one job brings may start the next one frames later.
@@ -236,7 +236,7 @@ fn step_on(harness: &mut Harness<'_, App>) {
 }
 
 /// Draws with the pointer from one place to another.
-pub fn drag(harness: &mut Harness<'_, App>, from: egui::Pos2, to: egui::Pos2) {
+pub(crate) fn drag(harness: &mut Harness<'_, App>, from: egui::Pos2, to: egui::Pos2) {
     harness.hover_at(from);
     harness.run_steps(1);
     harness.drag_at(from);
@@ -263,7 +263,7 @@ impl egui::DroppedFile for Dropped {
 }
 
 /// Drops files on the window.
-pub fn drop_files(harness: &mut Harness<'_, App>, files: &[PathBuf]) {
+pub(crate) fn drop_files(harness: &mut Harness<'_, App>, files: &[PathBuf]) {
     for file in files {
         harness.input_mut().dropped_files.push(std::sync::Arc::new(Dropped(file.clone())));
     }

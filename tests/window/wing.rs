@@ -81,7 +81,7 @@ fn table(matrix: &Mat<f64>) -> String {
 }
 
 /// The wing with dashpots at the tip, at an engine and across the chord, excited at the tip.
-pub fn wing() -> Sample {
+pub(crate) fn wing() -> Sample {
     let p = parameters();
     let structure = p.build(&[]).unwrap();
     let at = |i: usize, j: usize| row(i, j).unwrap();

@@ -11,7 +11,7 @@ use dashpot::structure::chain::ChainParameters;
 use std::sync::Arc;
 
 /// The five masses of section 6.
-pub fn five_masses() -> Structure {
+pub(crate) fn five_masses() -> Structure {
     let chain = ChainParameters {
         masses: vec![1.727, 5.122, 8.213, 2.609, 1.339],
         ground_stiffness: vec![94263.0; 5],
@@ -20,7 +20,7 @@ pub fn five_masses() -> Structure {
     chain.build(&[]).unwrap()
 }
 
-pub fn cantilever() -> Structure {
+pub(crate) fn cantilever() -> Structure {
     let beam = BeamParameters {
         length: 0.56,
         breadth: 0.04,
@@ -34,7 +34,7 @@ pub fn cantilever() -> Structure {
 }
 
 /// A test and the truth behind it.
-pub struct Case {
+pub(crate) struct Case {
     pub name: &'static str,
     pub structure: Structure,
     pub truth: Vec<Source>,
@@ -48,13 +48,13 @@ pub struct Case {
 }
 
 impl Case {
-    pub fn channels(&self) -> Vec<Channel> {
+    pub(crate) fn channels(&self) -> Vec<Channel> {
         let channel = |quantity, dof: usize| Channel { quantity, dof, label: self.structure.label(dof).to_owned() };
         let force = (self.kind == Kind::Transient).then(|| channel(Quantity::Force, self.dof));
         force.into_iter().chain(self.sensors.iter().map(|&dof| channel(Quantity::Acceleration, dof))).collect()
     }
 
-    pub fn clean(&self) -> TestRecord {
+    pub(crate) fn clean(&self) -> TestRecord {
         let channels = self.channels();
         let setup = TestSetup {
             loading: &self.loading,
@@ -68,7 +68,7 @@ impl Case {
         record_test(&self.structure, &self.truth, &setup, &Control::unattended()).unwrap()
     }
 
-    pub fn run(&self, clean: &TestRecord, noise: f64, seed: u64) -> TransientRun {
+    pub(crate) fn run(&self, clean: &TestRecord, noise: f64, seed: u64) -> TransientRun {
         let noise = (noise > 0.0).then_some(Noise { ratio: noise, seed, stream: 0 });
         let record = record(&clean.time, self.channels(), clean.samples.clone(), noise).unwrap();
         let label = TransientLabel { file: self.name.into(), kind: self.kind, enabled: true, ..Default::default() };
@@ -92,7 +92,7 @@ fn truth(effect: Effect, dof: usize, value: f64) -> Source {
 }
 
 /// A decay and a hammer test of each sample structure.
-pub fn cases() -> Vec<Case> {
+pub(crate) fn cases() -> Vec<Case> {
     let masses = || Case {
         name: "five masses, decay",
         structure: five_masses(),

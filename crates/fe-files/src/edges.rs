@@ -32,7 +32,7 @@ pub(crate) struct Edges {
 
 impl Edges {
     /// Adds an element; too few nodes draw nothing.
-    pub fn add(&mut self, shape: Shape, nodes: &[i64]) {
+    pub(crate) fn add(&mut self, shape: Shape, nodes: &[i64]) {
         let corners = |count: usize| nodes.get(..count);
         match shape {
             Shape::Line => nodes.windows(2).for_each(|pair| self.line(pair[0], pair[1])),
@@ -69,7 +69,7 @@ impl Edges {
     }
 
     /// All lines, each once.
-    pub fn finish(mut self) -> Vec<[i64; 2]> {
+    pub(crate) fn finish(mut self) -> Vec<[i64; 2]> {
         let faces = std::mem::take(&mut self.faces);
         for key in std::mem::take(&mut self.order) {
             if let Some(Some(corners)) = faces.get(&key) {

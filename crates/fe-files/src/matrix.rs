@@ -90,7 +90,7 @@ pub(crate) struct Rows {
 }
 
 impl Rows {
-    pub fn of(&mut self, dof: NodeDof) -> usize {
+    pub(crate) fn of(&mut self, dof: NodeDof) -> usize {
         *self.places.entry(dof).or_insert_with(|| {
             self.dofs.push(dof);
             self.dofs.len() - 1

@@ -27,12 +27,12 @@ pub(crate) struct Body<'a> {
 }
 
 impl<'a> Body<'a> {
-    pub fn new(bytes: &'a [u8], origin: Place) -> Self {
+    pub(crate) fn new(bytes: &'a [u8], origin: Place) -> Self {
         Self { bytes, at: 0, lines: 0, origin, warnings: Vec::new() }
     }
 
     /// The next line, blank or not.
-    pub fn any_line(&mut self) -> Option<Line<'a>> {
+    pub(crate) fn any_line(&mut self) -> Option<Line<'a>> {
         let rest = self.bytes.get(self.at..).filter(|rest| !rest.is_empty())?;
         let length = rest.iter().position(|&b| b == b'\n');
         let line = Line { bytes: &rest[..length.unwrap_or(rest.len())], at: self.at, lines_before: self.lines };
@@ -42,7 +42,7 @@ impl<'a> Body<'a> {
     }
 
     /// The next line that is not blank; blank ones are told.
-    pub fn line(&mut self) -> Option<Line<'a>> {
+    pub(crate) fn line(&mut self) -> Option<Line<'a>> {
         loop {
             let line = self.any_line()?;
             if !number::trim(line.bytes).is_empty() {
@@ -55,12 +55,12 @@ impl<'a> Body<'a> {
     }
 
     /// The line that must follow.
-    pub fn required(&mut self, record: &'static str) -> Result<Line<'a>, Error> {
+    pub(crate) fn required(&mut self, record: &'static str) -> Result<Line<'a>, Error> {
         self.any_line().ok_or_else(|| self.error_here(Problem::Ends { record }))
     }
 
     /// The line after this one, left where it is.
-    pub fn peek(&mut self) -> Option<Line<'a>> {
+    pub(crate) fn peek(&mut self) -> Option<Line<'a>> {
         let (at, lines, warnings) = (self.at, self.lines, self.warnings.len());
         let line = self.line();
         (self.at, self.lines) = (at, lines);
@@ -69,17 +69,17 @@ impl<'a> Body<'a> {
     }
 
     /// Goes back to the beginning of a line.
-    pub fn back_to(&mut self, line: Line<'_>) {
+    pub(crate) fn back_to(&mut self, line: Line<'_>) {
         self.at = line.at;
         self.lines = line.lines_before;
     }
 
     /// What was not read yet.
-    pub fn rest(&self) -> &'a [u8] {
+    pub(crate) fn rest(&self) -> &'a [u8] {
         self.bytes.get(self.at..).unwrap_or_default()
     }
 
-    pub fn place(&self, line: Line<'_>) -> Place {
+    pub(crate) fn place(&self, line: Line<'_>) -> Place {
         self.place_at(line.at, line.lines_before)
     }
 
@@ -87,27 +87,27 @@ impl<'a> Body<'a> {
         Place { line: self.origin.line.map(|first| first + lines), byte: self.origin.byte + at as u64, ..self.origin }
     }
 
-    pub fn warn(&mut self, line: Line<'_>, fault: Fault) {
+    pub(crate) fn warn(&mut self, line: Line<'_>, fault: Fault) {
         let place = self.place(line);
         self.warnings.push(Warning { place, fault });
     }
 
     /// A warning at the place where reading stopped.
-    pub fn warn_here(&mut self, fault: Fault) {
+    pub(crate) fn warn_here(&mut self, fault: Fault) {
         let place = self.place_at(self.at, self.lines);
         self.warnings.push(Warning { place, fault });
     }
 
-    pub fn error(&self, line: Line<'_>, problem: Problem) -> Error {
+    pub(crate) fn error(&self, line: Line<'_>, problem: Problem) -> Error {
         Error { place: self.place(line), problem }
     }
 
-    pub fn error_here(&self, problem: Problem) -> Error {
+    pub(crate) fn error_here(&self, problem: Problem) -> Error {
         Error { place: self.place_at(self.at, self.lines), problem }
     }
 
     /// Whole numbers separated by blanks, or `None` if something else stands there.
-    pub fn integers(line: Line<'_>) -> Option<Vec<i64>> {
+    pub(crate) fn integers(line: Line<'_>) -> Option<Vec<i64>> {
         let mut numbers = Vec::new();
         for token in line.bytes.split(u8::is_ascii_whitespace).filter(|token| !token.is_empty()) {
             numbers.push(number::integer(token)?);
@@ -116,7 +116,7 @@ impl<'a> Body<'a> {
     }
 
     /// Real numbers of the coming lines until `wanted` are there or the set ends. Tells what is not finite.
-    pub fn reals(&mut self, wanted: usize) -> Result<Vec<f64>, Error> {
+    pub(crate) fn reals(&mut self, wanted: usize) -> Result<Vec<f64>, Error> {
         // A number takes two bytes at least: a count never asks for more memory than the set could fill.
         let mut values = Vec::with_capacity(wanted.min(self.rest().len() / 2 + 1));
         let mut odd = Odd::default();
@@ -129,7 +129,7 @@ impl<'a> Body<'a> {
     }
 
     /// The numbers of one line, as many as are still wanted.
-    pub fn reals_of(
+    pub(crate) fn reals_of(
         &self,
         line: Line<'a>,
         wanted: usize,
@@ -180,7 +180,7 @@ impl<'a> Odd<'a> {
     }
 
     /// Adds the oddities of later lines.
-    pub fn join(&mut self, later: Self) {
+    pub(crate) fn join(&mut self, later: Self) {
         let add = |sum: &mut Option<(Line<'a>, u64)>, more: Option<(Line<'a>, u64)>| {
             if let Some((line, count)) = more {
                 sum.get_or_insert((line, 0)).1 += count;
@@ -191,7 +191,7 @@ impl<'a> Odd<'a> {
     }
 
     /// Hands the warnings over.
-    pub fn tell(&self, body: &mut Body<'a>) {
+    pub(crate) fn tell(&self, body: &mut Body<'a>) {
         if let Some((line, values)) = self.not_finite {
             body.warn(line, Fault::NotFinite { values });
         }

@@ -29,17 +29,17 @@ pub(crate) struct Fields(Vec<String>);
 
 impl Fields {
     /// A whole number, 0 where the field is empty.
-    pub fn integer(&self, i: usize) -> i64 {
+    pub(crate) fn integer(&self, i: usize) -> i64 {
         number::integer(self.0[i].as_bytes()).unwrap_or(0)
     }
 
     /// A real number, 0 where the field is empty.
-    pub fn real(&self, i: usize) -> f64 {
+    pub(crate) fn real(&self, i: usize) -> f64 {
         number::real(self.0[i].as_bytes()).unwrap_or(0.0)
     }
 
     /// Text without surrounding blanks.
-    pub fn text(&self, i: usize) -> &str {
+    pub(crate) fn text(&self, i: usize) -> &str {
         &self.0[i]
     }
 }

@@ -27,7 +27,7 @@ pub(crate) struct Lines<R> {
 }
 
 impl<R: Read + Seek> Lines<R> {
-    pub fn new(mut input: R) -> std::io::Result<Self> {
+    pub(crate) fn new(mut input: R) -> std::io::Result<Self> {
         const BUFFER: usize = 1 << 17;
         let length = input.seek(SeekFrom::End(0))?;
         input.seek(SeekFrom::Start(0))?;
@@ -35,7 +35,7 @@ impl<R: Read + Seek> Lines<R> {
     }
 
     /// The next line; `None` at the end of the file.
-    pub fn next(&mut self) -> std::io::Result<Option<FileLine>> {
+    pub(crate) fn next(&mut self) -> std::io::Result<Option<FileLine>> {
         let mut bytes = Vec::with_capacity(80);
         let kept = self.input.by_ref().take(KEPT as u64).read_until(b'\n', &mut bytes)?;
         if kept == 0 {
@@ -54,7 +54,7 @@ impl<R: Read + Seek> Lines<R> {
     }
 
     /// Goes to a byte; `line` is the number of the line that begins there.
-    pub fn go(&mut self, byte: u64, line: Option<u64>) -> std::io::Result<()> {
+    pub(crate) fn go(&mut self, byte: u64, line: Option<u64>) -> std::io::Result<()> {
         let offset = i64::try_from(byte).ok().zip(i64::try_from(self.byte).ok());
         match offset {
             Some((to, from)) => self.input.seek_relative(to - from)?,
@@ -65,7 +65,7 @@ impl<R: Read + Seek> Lines<R> {
     }
 
     /// Reads up to `length` bytes from `byte` on and stays after them.
-    pub fn bytes(&mut self, byte: u64, length: u64) -> std::io::Result<Vec<u8>> {
+    pub(crate) fn bytes(&mut self, byte: u64, length: u64) -> std::io::Result<Vec<u8>> {
         self.go(byte, None)?;
         let mut bytes = Vec::new();
         let there = length.min(self.length.saturating_sub(byte));

@@ -46,7 +46,7 @@ pub(super) fn expand(structure: &Structure, model: &ModalModel, measured: &Measu
 
 /// What the nonlinear sources' stand-in stiffness misses at the motion found before, per DOF and kept harmonic: forces on
 /// the structure beside the exciters.
-pub fn pseudo_forces(structure: &Structure, measured: &Measured, acting: Acting<'_>) -> Vec<(usize, Vec<c64>)> {
+pub(super) fn pseudo_forces(structure: &Structure, measured: &Measured, acting: Acting<'_>) -> Vec<(usize, Vec<c64>)> {
     let Some(x) = acting.motion else { return Vec::new() };
     let field = Field { omega: measured.omega, numbers: &measured.numbers, x };
     let mut sum: Vec<(usize, Vec<c64>)> = Vec::new();

@@ -4,14 +4,14 @@
 mod dynamic;
 mod expanded;
 mod modal;
-pub mod modal_model;
+pub(crate) mod modal_model;
 mod points;
 
 pub use expanded::{Acting, Expanded};
 
-use super::Expansion;
 use super::error::BalanceError;
 use super::measured::Measured;
+use super::settings::Expansion;
 use crate::structure::Structure;
 use modal_model::ModalModel;
 

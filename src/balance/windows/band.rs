@@ -46,7 +46,7 @@ pub(crate) struct Band {
 
 impl Band {
     /// The most modes that the sensors of a run tell apart; `sensors` are numbers of channels.
-    pub fn new(modes: &Modes, run: &TransientRun, sensors: &[usize]) -> Result<Self, WindowError> {
+    pub(crate) fn new(modes: &Modes, run: &TransientRun, sensors: &[usize]) -> Result<Self, WindowError> {
         let rate = 1.0 / run.step();
         let flexible: Vec<usize> = (0..modes.len()).filter(|&r| modes.omega[r] > 0.0).collect();
         let within = flexible.iter().filter(|&&r| modes.frequency_hz(r) < FLAT * rate).count();
@@ -81,12 +81,12 @@ impl Band {
     }
 
     /// `W` at a frequency in Hz.
-    pub fn gain(&self, hz: f64) -> f64 {
+    pub(crate) fn gain(&self, hz: f64) -> f64 {
         step(hz, self.low) * (1.0 - step(hz, self.high))
     }
 
     /// Samples of `step` s after which the filter, at the displacement of the lowest mode, has forgotten all but 1e-4.
-    pub fn memory(&self, step: f64) -> usize {
+    pub(crate) fn memory(&self, step: f64) -> usize {
         let slowest = 1.0 / (self.low[1] - self.low[0]);
         let steepest = 1.0 / (self.high[1] - self.high[0]);
         (MEMORY * slowest.max(steepest) / step).ceil() as usize

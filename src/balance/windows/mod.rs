@@ -5,7 +5,7 @@
 //! ```
 //!
 //! One row a window, many windows a record; a decay has `u = 0`, a steady motion over a period `[T + V] = 0`, which is the
-//! equation of [`super::energy`]. Motion at all DOFs comes from the modes of the undamped structure in the record's band
+//! equation of `super::energy`. Motion at all DOFs comes from the modes of the undamped structure in the record's band
 //! (`band`, `motion`), the work of sources from that motion (`work`), the covariance of the rows from the noise of the
 //! channels (`covariance`). Windows are whole multiples of the period of the mode that holds most energy and follow one
 //! another without gap: with their exact covariance, overlapping ones, which are sums of these, would add nothing.

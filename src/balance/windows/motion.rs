@@ -43,7 +43,7 @@ pub(crate) struct Motion {
 
 impl Motion {
     /// Of the part of a run that is used.
-    pub fn new(modes: &Modes, run: &TransientRun, control: &Control) -> Result<Self, WindowError> {
+    pub(crate) fn new(modes: &Modes, run: &TransientRun, control: &Control) -> Result<Self, WindowError> {
         let numbers = run.response_channels();
         let band = Band::new(modes, run, &numbers)?;
         let (n, step) = (run.len(), run.step());
@@ -96,17 +96,17 @@ impl Motion {
     }
 
     /// Energy of the kept modes at a sample, J: `sum (v^2 + omega^2 q^2) / 2`.
-    pub fn energy(&self, n: usize) -> f64 {
+    pub(crate) fn energy(&self, n: usize) -> f64 {
         (0..self.q.len()).map(|r| self.mode_energy(r, n)).sum()
     }
 
     /// Energy of one mode at a sample, J.
-    pub fn mode_energy(&self, r: usize, n: usize) -> f64 {
+    pub(crate) fn mode_energy(&self, r: usize, n: usize) -> f64 {
         0.5 * (self.v[r][n].powi(2) + (self.band.omega[r] * self.q[r][n]).powi(2))
     }
 
     /// Samples of a signal of these lines of the padded record.
-    pub fn signal(&self, lines: Vec<c64>) -> Vec<f64> {
+    pub(crate) fn signal(&self, lines: Vec<c64>) -> Vec<f64> {
         in_time(&RealTransform::new(self.padded), lines, self.q[0].len())
     }
 }

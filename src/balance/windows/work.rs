@@ -20,12 +20,12 @@ pub(crate) struct Works<'a> {
 }
 
 impl<'a> Works<'a> {
-    pub fn new(structure: &'a Structure, motion: &'a Motion) -> Self {
+    pub(crate) fn new(structure: &'a Structure, motion: &'a Motion) -> Self {
         Self { structure, motion, relative: HashMap::new() }
     }
 
     /// Power of a source at its own values, W, one value a sample.
-    pub fn power(&mut self, source: &Source) -> Vec<f64> {
+    pub(crate) fn power(&mut self, source: &Source) -> Vec<f64> {
         let mut power = vec![0.0; self.motion.q[0].len()];
         let motion = self.motion;
         match source.effect.kind() {
@@ -47,7 +47,7 @@ impl<'a> Works<'a> {
     }
 
     /// Modal forces of a source at its own values against the motion, N/sqrt(kg): one list a mode.
-    pub fn modal_force(&mut self, source: &Source) -> Vec<Vec<f64>> {
+    pub(crate) fn modal_force(&mut self, source: &Source) -> Vec<Vec<f64>> {
         if let Kind::Whole(_) = source.effect.kind() {
             return self.whole_force(source);
         }
@@ -62,13 +62,13 @@ impl<'a> Works<'a> {
     }
 
     /// Weight of each mode in a relative motion.
-    pub fn weights(&self, leg: Leg) -> Vec<f64> {
+    pub(crate) fn weights(&self, leg: Leg) -> Vec<f64> {
         let shapes = &self.motion.band.shapes;
         (0..self.motion.q.len()).map(|r| leg.relative(|i| shapes[(i, r)])).collect()
     }
 
     /// Relative displacement (m) and velocity (m/s) of a leg.
-    pub fn relative(&mut self, leg: Leg) -> &[Vec<f64>; 2] {
+    pub(crate) fn relative(&mut self, leg: Leg) -> &[Vec<f64>; 2] {
         let key = [leg.first, leg.second.unwrap_or(usize::MAX)];
         let weights = self.weights(leg);
         let motion = self.motion;
@@ -76,7 +76,7 @@ impl<'a> Works<'a> {
     }
 
     /// Force of a source in one of its legs, N, one value a sample; none where its law has none in time.
-    pub fn leg_force(&mut self, source: &Source, leg: Leg) -> Option<Vec<f64>> {
+    pub(crate) fn leg_force(&mut self, source: &Source, leg: Leg) -> Option<Vec<f64>> {
         let (weights, motion) = (self.weights(leg), self.motion);
         let [d, v] = self.relative(leg);
         if source.effect == Effect::Viscous {

@@ -8,7 +8,8 @@
 //!
 //! which is what the law leaves of the response itself, all else linear.
 
-use crate::diagnosis::localisation::free_force::{ForceFreedom, FreeForce};
+use crate::diagnosis::localisation::cell::FreeForce;
+use crate::diagnosis::localisation::free_force::ForceFreedom;
 use dashpot_numerics::{Cholesky, dot, thin_qr};
 use faer::Mat;
 
@@ -25,7 +26,7 @@ pub(crate) struct Eliminator {
 impl Eliminator {
     /// For the `forces` of a place, `[run][harmonic]`, in the order of their rows: run by run, harmonic by harmonic, real
     /// part first.
-    pub fn new(forces: &[Vec<FreeForce>], freedom: &ForceFreedom) -> Self {
+    pub(super) fn new(forces: &[Vec<FreeForce>], freedom: &ForceFreedom) -> Self {
         let q = freedom.information.nrows();
         let count: usize = forces.iter().map(|run| 2 * run.len()).sum();
         let mut stacked = Mat::<f64>::zeros(count + q, q);
@@ -55,7 +56,7 @@ impl Eliminator {
     }
 
     /// Weighted differences of free force and law with everything eliminated; the sum of their squares is `J`.
-    pub fn eliminated(&self, mut rows: Vec<f64>) -> Vec<f64> {
+    pub(super) fn eliminated(&self, mut rows: Vec<f64>) -> Vec<f64> {
         for &(at, lower) in &self.fundamentals {
             let turned = turn(lower, [rows[at], rows[at + 1]]);
             (rows[at], rows[at + 1]) = (turned[0], turned[1]);

@@ -12,11 +12,11 @@ use crate::math::least_squares::LeastSquares;
 use faer::{Mat, c64};
 
 /// An exponent with its standard deviation.
-pub type Exponent = [f64; 2];
+pub(crate) type Exponent = [f64; 2];
 
 /// The powers that a free force follows over the runs.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Fingerprint {
+pub(crate) struct Fingerprint {
     /// Whether most of the force is in phase with velocity rather than displacement.
     pub damping: bool,
     /// Power of the amplitude of the relative motion; none if all runs have the same.
@@ -66,7 +66,7 @@ fn spread(rows: &[[f64; 3]], k: usize) -> f64 {
 
 impl Fingerprint {
     /// What the powers say, in words.
-    pub fn sentences(&self) -> Vec<String> {
+    pub(crate) fn sentences(&self) -> Vec<String> {
         let what = if self.damping { "equivalent viscous coefficient" } else { "equivalent stiffness" };
         let law = |p: f64| match (self.damping, p) {
             (true, p) if p < -0.7 => "dry friction has -1",

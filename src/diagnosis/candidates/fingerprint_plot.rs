@@ -13,7 +13,7 @@ use crate::diagnosis::points::energies::energies;
 use crate::diagnosis::residual::data::{Data, DiagnosisError, Problem, RunData};
 use crate::diagnosis::residual::energy_balance::measured_displacement;
 use crate::diagnosis::residual::prediction::{FINAL, Predictor, SEARCH};
-use crate::diagnosis::selection::search::ReferenceModel;
+use crate::diagnosis::selection::reference_model::ReferenceModel;
 use crate::diagnosis::updating::correction::Correction;
 use crate::diagnosis::updating::parameters::Updating;
 use crate::effects::{Effect, Place, Source};
@@ -87,7 +87,7 @@ impl Print {
 ///
 /// # Errors
 /// What keeps the model from being compared.
-pub fn print(
+pub(crate) fn print(
     problem: &Problem,
     found: &[Source],
     corrections: &[Correction],

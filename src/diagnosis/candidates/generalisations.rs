@@ -1,9 +1,11 @@
 //! Where a law explains much but not all: the laws that contain it, or one of its limits, fitted anew at its place. Their
 //! own fits may have ended in a valley of the wrong side while the model was still far off.
 
+use crate::diagnosis::candidates::start::UnfittedSet;
 use crate::diagnosis::residual::data::DiagnosisError;
 use crate::diagnosis::selection::fitted_model::FittedModel;
-use crate::diagnosis::selection::search::{ReferenceModel, UnfittedSet, joined};
+use crate::diagnosis::selection::reference_model::ReferenceModel;
+use crate::diagnosis::selection::search::joined;
 use crate::effects::Effect;
 use std::sync::Arc;
 
@@ -13,7 +15,7 @@ const SHAPES: usize = 2;
 impl ReferenceModel<'_> {
     /// The set `best` with each of its effects in turn replaced by laws that it may have been taken for, from their best
     /// shapes against the free force that the rest of `best` leaves at the place; of these laws, those that are `wanted`.
-    pub fn wider(
+    pub(crate) fn wider(
         &self,
         best: &FittedModel,
         wanted: impl Fn(Effect) -> bool,

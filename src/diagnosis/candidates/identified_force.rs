@@ -13,7 +13,8 @@
 use crate::diagnosis::candidates::eliminator::Eliminator;
 use crate::diagnosis::candidates::friction::{friction, sizes};
 use crate::diagnosis::candidates::start::{Fields, relative};
-use crate::diagnosis::localisation::free_force::{ForceFreedom, FreeForce};
+use crate::diagnosis::localisation::cell::FreeForce;
+use crate::diagnosis::localisation::free_force::ForceFreedom;
 use crate::diagnosis::localisation::location::Spot;
 use crate::diagnosis::residual::data::{Data, RunData};
 use crate::diagnosis::selection::levenberg_marquardt::{Descent, Residual, Variables, descend};
@@ -73,7 +74,7 @@ pub(crate) struct Ratio {
 
 /// A law fitted to the free forces of a place.
 #[derive(Debug, Clone, PartialEq)]
-pub struct LawFit {
+pub(crate) struct LawFit {
     /// Effect with its parameters.
     pub source: Source,
     /// Weighted squared difference `J` of free force and law.
@@ -83,7 +84,7 @@ pub struct LawFit {
 impl PlaceData {
     /// The free `forces` of a spot with the motion `fields` that they imply; `impedances` (N s/m, one a run) are those of
     /// the structure there.
-    pub fn new(
+    pub(crate) fn new(
         data: &Data,
         spot: &Spot,
         forces: &[Vec<FreeForce>],
@@ -115,12 +116,12 @@ impl PlaceData {
     }
 
     /// Force over motion at the fundamental of every run in which both can be seen.
-    pub fn ratios(&self) -> Vec<Ratio> {
+    pub(crate) fn ratios(&self) -> Vec<Ratio> {
         self.ratios_by_run().into_iter().map(|(_, ratio)| ratio).collect()
     }
 
     /// The same with the number of the run in the data.
-    pub fn ratios_by_run(&self) -> Vec<(usize, Ratio)> {
+    pub(crate) fn ratios_by_run(&self) -> Vec<(usize, Ratio)> {
         let of = |(r, (motion, forces)): (usize, (&Motion, &Vec<FreeForce>))| {
             let (d, free) = (*motion.harmonics.first()?, *forces.first()?);
             let amplitude = d.norm();
@@ -138,13 +139,13 @@ impl PlaceData {
     }
 
     /// Number of real data.
-    pub fn count(&self) -> usize {
+    pub(crate) fn count(&self) -> usize {
         2 * self.forces.iter().flatten().filter(|f| f.weight > 0.0).count()
     }
 
     /// Fits every effect that can act here; those of many parameters only where simpler ones leave more than noise and one
     /// that they contain is among the best of those.
-    pub fn fits(&self) -> Vec<LawFit> {
+    pub(crate) fn fits(&self) -> Vec<LawFit> {
         let mut fits = self.simple_fits();
         let count = self.count() as f64;
         let noise = count + ENOUGH * (2.0 * count).sqrt();
@@ -165,12 +166,12 @@ impl PlaceData {
     }
 
     /// Fits every effect of no more than two parameters that can act here.
-    pub fn simple_fits(&self) -> Vec<LawFit> {
+    pub(crate) fn simple_fits(&self) -> Vec<LawFit> {
         Effect::ALL.into_iter().filter(|effect| is_simple(*effect)).filter_map(|effect| self.fit(effect)).collect()
     }
 
     /// Fits `effect`; `None` if it cannot act here or its best scale has an unphysical sign.
-    pub fn fit(&self, effect: Effect) -> Option<LawFit> {
+    pub(crate) fn fit(&self, effect: Effect) -> Option<LawFit> {
         self.fit_within(effect, f64::INFINITY)
     }
 
@@ -205,7 +206,7 @@ impl PlaceData {
     }
 
     /// Best shapes of `effect` as they are, for fits that start from somewhere sensible.
-    pub fn starts(&self, effect: Effect, most: usize) -> Vec<LawFit> {
+    pub(crate) fn starts(&self, effect: Effect, most: usize) -> Vec<LawFit> {
         let (Kind::Relative(law), Spot::Leg(_)) = (effect.kind(), &self.spot) else { return Vec::new() };
         let fit = |(misfit, parameters)| LawFit {
             source: Source { effect, place: self.spot.place(), state: State::Known, parameters },

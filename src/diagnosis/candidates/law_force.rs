@@ -13,7 +13,7 @@ pub(crate) const GAINS: [f64; 2] = [0.5, 2.0];
 impl PlaceData {
     /// Harmonics of the force of `source`, an effect that acts here, at the motion of every run, `[run][harmonic]`, N (of a
     /// channel its relative error); `None` of an effect that cannot act here.
-    pub fn forces_of(&self, source: &Source) -> Option<Vec<Vec<c64>>> {
+    pub(crate) fn forces_of(&self, source: &Source) -> Option<Vec<Vec<c64>>> {
         let p = &source.parameters;
         let of: Box<dyn Fn(usize, usize) -> Vec<c64>> = match (source.effect.kind(), &self.spot) {
             (Kind::Relative(law), Spot::Leg(_)) => match friction(source.effect) {

@@ -1,13 +1,13 @@
 //! Laws regressed on the identified force of a place: start grids, special cases, fingerprints.
 
 mod eliminator;
-pub mod fingerprint;
-pub mod fingerprint_plot;
-pub mod friction;
-pub mod generalisations;
-pub mod identified_force;
+pub(crate) mod fingerprint;
+pub(crate) mod fingerprint_plot;
+pub(crate) mod friction;
+pub(crate) mod generalisations;
+pub(crate) mod identified_force;
 pub(crate) mod law_force;
 pub mod restoring_force;
-pub mod special_cases;
-pub mod start;
+pub(crate) mod special_cases;
+pub(crate) mod start;
 mod thinning;

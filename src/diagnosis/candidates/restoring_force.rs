@@ -15,13 +15,13 @@
 use crate::control::Control;
 use crate::diagnosis::candidates::friction::friction;
 use crate::diagnosis::candidates::identified_force::{PlaceData, shrunk};
-use crate::diagnosis::diagnose::Diagnosis;
-use crate::diagnosis::localisation::free_force::FreeForce;
+use crate::diagnosis::localisation::cell::FreeForce;
 use crate::diagnosis::localisation::location::Spot;
 use crate::diagnosis::residual::data::{Data, DiagnosisError, Problem, RunData};
 use crate::diagnosis::residual::levels::Levels;
 use crate::diagnosis::residual::prediction::{Predictor, SEARCH};
-use crate::diagnosis::selection::search::ReferenceModel;
+use crate::diagnosis::result::Diagnosis;
+use crate::diagnosis::selection::reference_model::ReferenceModel;
 use crate::diagnosis::updating::correction::Correction;
 use crate::diagnosis::updating::parameters::Updating;
 use crate::effects::{Law, Motion, Place, Source};
@@ -145,7 +145,7 @@ pub fn of_diagnosis(
     source: Option<&Source>,
     control: &Control,
 ) -> Result<Option<RestoringForce>, DiagnosisError> {
-    let unexplained = diagnosis.verdict == crate::diagnosis::diagnose::Verdict::Unexplained;
+    let unexplained = diagnosis.verdict == crate::diagnosis::result::Verdict::Unexplained;
     let Some(source) = source else { return at_best_place(problem, &diagnosis.corrections, control) };
     let last = diagnosis.steps.last();
     let found: Vec<Source> = last.map_or_else(Vec::new, |s| s.added.iter().map(|a| a.source.clone()).collect());
@@ -254,7 +254,7 @@ fn telling(data: &PlaceData, levels: &Levels) -> Vec<usize> {
 #[cfg(test)]
 mod tests {
     use super::deviation;
-    use crate::diagnosis::localisation::free_force::FreeForce;
+    use crate::diagnosis::localisation::cell::FreeForce;
     use faer::c64;
 
     /// The force of a sample is a sum of `Re g exp(i phi)`, whose variance is that of one real part of `g`.

@@ -5,7 +5,7 @@ use crate::effects::{Effect, Source};
 /// Whether an effect with these standard deviations of its parameters may be suggested where those of `excluded` may not: it
 /// is none of them, nor a law that has one of them as a limit and a parameter that the data do not determine, which may be
 /// the same by another name.
-pub fn is_allowed(excluded: &[Source], source: &Source, deviations: &[f64]) -> bool {
+pub(crate) fn is_allowed(excluded: &[Source], source: &Source, deviations: &[f64]) -> bool {
     let out = |law: Effect| excluded.iter().any(|other| other.effect == law && other.place.is_same(&source.place));
     let undetermined = |(d, p): (&f64, &f64)| d.is_nan() || *d >= p.abs();
     let open = deviations.iter().zip(&source.parameters).any(undetermined);

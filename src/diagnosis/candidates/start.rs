@@ -4,12 +4,22 @@
 use crate::effects::{Leg, Sampling, Source};
 use crate::response::harmonic_balance::{Response, add_amplitude};
 use faer::{Mat, c64};
+use std::sync::Arc;
 
 /// Samples a period.
 const SAMPLES: usize = 256;
 
 /// Displacement amplitudes (m) of all DOFs in every run: n rows, column `h - 1` is harmonic `h`.
 pub(crate) type Fields = Vec<Mat<c64>>;
+
+/// A set of effects with its score before it is fitted on the response.
+#[derive(Debug, Clone)]
+pub(crate) struct UnfittedSet {
+    pub effects: Vec<Source>,
+    pub score: f64,
+    /// Motion that the data show if the effects are right.
+    pub(crate) fields: Arc<Fields>,
+}
 
 /// A start for a model of `sources` at circular frequency `omega` (rad/s): the forces of their laws on the motion
 /// `field`; none where no law needs a start.

@@ -97,7 +97,7 @@ impl Cells {
     }
 
     /// What the model says with the amplitudes of the free modes fitted to `measured`, the channel `without` left out.
-    pub fn fitted(&self, measured: &[c64], without: Option<usize>) -> Vec<c64> {
+    pub(super) fn fitted(&self, measured: &[c64], without: Option<usize>) -> Vec<c64> {
         let (n, k) = (measured.len(), self.shapes.len());
         if k == 0 {
             return self.model.clone();
@@ -135,7 +135,7 @@ impl Cells {
     }
 
     /// Relative error of a channel: 0 where they agree, 2 where the sign is wrong.
-    pub fn error(&self, channel: usize, measured: c64, fit: c64) -> f64 {
+    pub(super) fn error(&self, channel: usize, measured: c64, fit: c64) -> f64 {
         (measured - fit).norm() / measured.norm().max(fit.norm()).max(self.floor[channel])
     }
 }

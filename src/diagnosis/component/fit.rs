@@ -27,7 +27,7 @@ pub(super) struct Fitted {
 
 impl Fitted {
     /// Relative error of the force, root mean square over the records.
-    pub fn error(&self, records: usize) -> f64 {
+    pub(super) fn error(&self, records: usize) -> f64 {
         (self.square / records as f64).sqrt()
     }
 }

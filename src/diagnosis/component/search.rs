@@ -9,7 +9,7 @@ use super::fit::{Fitted, error, freedom, improved, predicted, residual};
 use crate::balance::loops::{ComponentError, Loops};
 use crate::control::Control;
 use crate::diagnosis::candidates::special_cases::is_allowed;
-use crate::diagnosis::diagnose::{Added, Diagnosis, Early, Step, Suggestion, Verdict};
+use crate::diagnosis::result::{Added, Diagnosis, Early, Step, Suggestion, Verdict};
 use crate::effects::{Effect, Place, Source, State};
 use crate::math::statistics::{evidence_weights, root_mean_square};
 use dashpot_numerics::dot;

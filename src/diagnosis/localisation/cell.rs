@@ -1,13 +1,21 @@
 //! One harmonic of one run seen from every place: whitened residual, columns of the places and of the parameters that are
 //! free, and what is left once free forces and the run's own parameters are eliminated.
 
-use super::free_force::FreeForce;
 use crate::math::least_squares::solve_symmetric;
 use faer::{Mat, c64};
 use std::borrow::Cow;
 
 /// Part of a second column that must be independent of the first.
 const INDEPENDENCE: f64 = 1e-6;
+
+/// A free complex force with its variance.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct FreeForce {
+    /// Force of the effect, N (relative error for channels).
+    pub value: c64,
+    /// Its weight: one over the variance of a real part.
+    pub weight: f64,
+}
 
 /// Whitened residual and columns of one harmonic of one run.
 #[derive(Debug, Clone)]

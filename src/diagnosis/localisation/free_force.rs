@@ -11,6 +11,7 @@
 
 use super::cell::{Cell, dot};
 use crate::control::Control;
+use crate::diagnosis::localisation::cell::FreeForce;
 use crate::diagnosis::localisation::location::{Receptances, Spot};
 use crate::diagnosis::residual::data::{Data, DiagnosisError};
 use crate::diagnosis::residual::prediction::{Predictor, RunPrediction};
@@ -21,7 +22,7 @@ use faer::{Mat, c64};
 
 /// The residual of a model seen from every place.
 #[derive(Debug, Clone)]
-pub struct Screen {
+pub(crate) struct Screen {
     /// Places.
     pub spots: Vec<Spot>,
     /// `[run][harmonic]`.
@@ -46,18 +47,9 @@ pub(crate) struct Freedom {
     pub own_values: Vec<Vec<f64>>,
 }
 
-/// A free complex force with its variance.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct FreeForce {
-    /// Force of the effect, N (relative error for channels).
-    pub value: c64,
-    /// Its weight: one over the variance of a real part.
-    pub weight: f64,
-}
-
 /// What one place, or two, leave unexplained.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Placing {
+pub(crate) struct Placing {
     /// Indices into the spots.
     pub spots: Vec<usize>,
     /// Squared whitened residual that is left.
@@ -110,11 +102,6 @@ impl Screen {
         let mut screen = Self { spots, cells, reference: freedom.values.clone(), misfit: 1.0 };
         screen.adjust();
         Ok(screen)
-    }
-
-    /// Squared whitened residual of the model as it is.
-    pub fn total(&self) -> f64 {
-        self.cells.iter().flatten().map(|cell| cell.total).sum()
     }
 
     /// Sets the misfit by what the best place leaves, with the parameters first held, then free.
@@ -176,18 +163,18 @@ impl Screen {
     }
 
     /// What the parameters leave without any force.
-    pub fn nothing(&self) -> f64 {
+    pub(crate) fn nothing(&self) -> f64 {
         self.left(&[], |cell| cell.total)
     }
 
     /// Every single place, best first.
-    pub fn singles(&self) -> Vec<Placing> {
+    pub(crate) fn singles(&self) -> Vec<Placing> {
         let of = |s: usize| Placing { spots: vec![s], chi_square: self.left(&[s], |cell| cell.left_by(s)) };
         sorted((0..self.spots.len()).map(of).collect())
     }
 
     /// Every pair of places, best first.
-    pub fn pairs(&self, most: usize) -> Vec<Placing> {
+    pub(crate) fn pairs(&self, most: usize) -> Vec<Placing> {
         let count = self.spots.len();
         let mut best: Vec<Placing> = Vec::new();
         for i in 0..count {
@@ -244,7 +231,7 @@ impl Screen {
     }
 
     /// The free force of each spot of a placing, `[spot][run][harmonic]`, the others there too.
-    pub fn forces(&self, spots: &[usize]) -> Vec<Vec<Vec<FreeForce>>> {
+    pub(crate) fn forces(&self, spots: &[usize]) -> Vec<Vec<Vec<FreeForce>>> {
         let freed = self.freed(spots);
         let (change, all) = freed.map_or_else(Default::default, |freed| (freed.change, freed.own));
         let mut forces = vec![Vec::with_capacity(self.cells.len()); spots.len()];

@@ -11,7 +11,7 @@ use std::collections::BTreeMap;
 
 /// A place at which one complex amplitude a harmonic, free in every run, may be added.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Spot {
+pub(crate) enum Spot {
     /// A force on a relative motion.
     Leg(Leg),
     /// An error of a response channel.
@@ -22,7 +22,7 @@ pub enum Spot {
 
 impl Spot {
     /// The place of an effect there.
-    pub fn place(&self) -> Place {
+    pub(crate) fn place(&self) -> Place {
         match self {
             Self::Leg(leg) => Place::Dofs(std::iter::once(leg.first).chain(leg.second).collect()),
             Self::Response(name) | Self::Force(name) => Place::Channel(name.clone()),
@@ -30,7 +30,7 @@ impl Spot {
     }
 
     /// Every DOF to the ground, every pair of neighbours, every channel.
-    pub fn all(structure: &Structure, data: &Data) -> Vec<Self> {
+    pub(crate) fn all(structure: &Structure, data: &Data) -> Vec<Self> {
         let ground = (0..structure.len()).map(|first| Self::Leg(Leg { first, second: None }));
         let pair = |[first, second]: [usize; 2]| Self::Leg(Leg { first, second: Some(second) });
         let [responses, forces] = data.channel_names();
@@ -52,14 +52,14 @@ pub(crate) struct Receptances<'a> {
 
 impl<'a> Receptances<'a> {
     /// For the known linear sources and the linear ones among `effects`.
-    pub fn new(predictor: &'a Predictor, data: &'a Data, effects: &[Source]) -> Self {
+    pub(crate) fn new(predictor: &'a Predictor, data: &'a Data, effects: &[Source]) -> Self {
         let mut linear = predictor.sources(effects);
         linear.retain(|s| s.effect.is_linear());
         Self { predictor, data, linear, columns: BTreeMap::new() }
     }
 
     /// Computes the column of `dof` in every run, if it is not there yet.
-    pub fn need(&mut self, dof: usize, control: &Control) -> Result<(), DiagnosisError> {
+    pub(crate) fn need(&mut self, dof: usize, control: &Control) -> Result<(), DiagnosisError> {
         if self.columns.contains_key(&dof) {
             return Ok(());
         }
@@ -77,20 +77,20 @@ impl<'a> Receptances<'a> {
     }
 
     /// Columns of the DOFs of a leg.
-    pub fn need_leg(&mut self, leg: Leg, control: &Control) -> Result<(), DiagnosisError> {
+    pub(crate) fn need_leg(&mut self, leg: Leg, control: &Control) -> Result<(), DiagnosisError> {
         self.need(leg.first, control)?;
         leg.second.map_or(Ok(()), |second| self.need(second, control))
     }
 
     /// Displacement (m) of `row` under a unit force (N) on `dof`, whose column was needed before; by reciprocity also
     /// the other way round.
-    pub fn entry(&self, r: usize, h: usize, row: usize, dof: usize) -> c64 {
+    pub(crate) fn entry(&self, r: usize, h: usize, row: usize, dof: usize) -> c64 {
         self.columns.get(&dof).map_or(c64::new(0.0, 0.0), |column| column[r][(row, h - 1)])
     }
 
     /// Impedance of the structure between the DOFs of `leg` in run `r`, whose columns were needed before: force over
     /// velocity, N s/m, the geometric mean over the harmonics.
-    pub fn impedance(&self, r: usize, run: &RunData, leg: Leg) -> f64 {
+    pub(crate) fn impedance(&self, r: usize, run: &RunData, leg: Leg) -> f64 {
         let mobility = |h: usize| {
             let own = leg.relative(|i| leg.relative(|j| self.entry(r, h, i, j)));
             (h as f64 * run.omega * own.norm()).ln()
@@ -100,7 +100,7 @@ impl<'a> Receptances<'a> {
     }
 
     /// Recorded amplitude of `channel` for a unit force on the structure at `leg` (its law feels `-1`).
-    pub fn channel(&self, r: usize, run: &RunData, h: usize, channel: &ChannelData, leg: Leg) -> c64 {
+    pub(crate) fn channel(&self, r: usize, run: &RunData, h: usize, channel: &ChannelData, leg: Leg) -> c64 {
         let displacement = leg.relative(|i| self.entry(r, h, i, channel.dof));
         displacement * channel.from_displacement(h as f64 * run.omega)
     }

@@ -1,6 +1,6 @@
 //! Place before law: free forces at candidate locations and what they could explain at most.
 
-pub mod bound;
-mod cell;
-pub mod free_force;
-pub mod location;
+pub(crate) mod bound;
+pub(crate) mod cell;
+pub(crate) mod free_force;
+pub(crate) mod location;

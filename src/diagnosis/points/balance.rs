@@ -1,11 +1,11 @@
 //! Energies of a `points` problem as data, and effects fitted to them.
 
 use super::uncertainty::Uncertainty;
-use crate::diagnosis::diagnose::Added;
 use crate::diagnosis::points::energies::{PointsEnergy, displacement, energies};
 use crate::diagnosis::residual::data::{DiagnosisError, Problem, RunData};
 use crate::diagnosis::residual::energy_balance::{input, taken};
 use crate::diagnosis::residual::prediction::transfer;
+use crate::diagnosis::result::Added;
 use crate::diagnosis::selection::levenberg_marquardt::{Residual, Variables, descend};
 use crate::diagnosis::updating::correction::Correction;
 use crate::diagnosis::updating::parameters::UpdatingParameter;
@@ -56,7 +56,7 @@ pub(crate) struct Fitted {
 }
 
 impl<'a> Balance<'a> {
-    pub fn new(problem: &'a Problem, effects: &[Source]) -> Result<Self, DiagnosisError> {
+    pub(crate) fn new(problem: &'a Problem, effects: &[Source]) -> Result<Self, DiagnosisError> {
         let data = crate::diagnosis::residual::data::Data::new(problem)?;
         let used = |e: &PointsEnergy| data.runs.iter().any(|r| r.index == e.index);
         let plain: Vec<PointsEnergy> = energies(problem, &[])?.into_iter().filter(used).collect();
@@ -75,7 +75,7 @@ impl<'a> Balance<'a> {
 
     /// The same with all that is uncertain of the model and the channels, its scales times `multiple`.
     #[must_use]
-    pub fn with_uncertainty(self, multiple: f64) -> Self {
+    pub(crate) fn with_uncertainty(self, multiple: f64) -> Self {
         let uncertain = if multiple > 0.0 { self.uncertain() } else { Vec::new() };
         let uncertainty = Some(Uncertainty::new(uncertain, &self.over_deviations(&self.input), multiple));
         Self { uncertainty, ..self }
@@ -106,7 +106,7 @@ impl<'a> Balance<'a> {
     }
 
     /// What the uncertainty costs in evidence.
-    pub fn cost(&self) -> f64 {
+    pub(crate) fn cost(&self) -> f64 {
         self.uncertainty.as_ref().map_or(0.0, |u| u.log_determinant)
     }
 
@@ -117,18 +117,18 @@ impl<'a> Balance<'a> {
     }
 
     /// Corrections of known sources beside `effects`.
-    pub fn corrections(&self, effects: &[Source]) -> Vec<Correction> {
+    pub(crate) fn corrections(&self, effects: &[Source]) -> Vec<Correction> {
         let rows = self.over_deviations(&self.left(effects));
         self.uncertainty.as_ref().map_or_else(Vec::new, |u| u.corrections(&rows))
     }
 
     /// Arithmetic mean of the circular frequencies, rad/s.
-    pub fn mean_omega(&self) -> f64 {
+    pub(crate) fn mean_omega(&self) -> f64 {
         self.runs.iter().map(|r| r.omega).sum::<f64>() / self.runs.len().max(1) as f64
     }
 
     /// Names of all channels, each once.
-    pub fn channel_names(&self) -> Vec<String> {
+    pub(crate) fn channel_names(&self) -> Vec<String> {
         let mut names: Vec<String> = Vec::new();
         for channel in self.runs.iter().flat_map(|r| r.forces.iter().chain(&r.responses)) {
             if !names.contains(&channel.name) {
@@ -138,7 +138,7 @@ impl<'a> Balance<'a> {
         names
     }
 
-    pub fn weighted(&self) -> Vec<f64> {
+    pub(crate) fn weighted(&self) -> Vec<f64> {
         self.whitened(&self.missing)
     }
 
@@ -148,7 +148,7 @@ impl<'a> Balance<'a> {
     }
 
     /// The shapes of a grid of every law at every place with the energies that they take out, J.
-    pub fn shapes(&self) -> Vec<(Source, Vec<f64>)> {
+    pub(crate) fn shapes(&self) -> Vec<(Source, Vec<f64>)> {
         let ground = (0..self.structure.len()).map(|dof| vec![dof]);
         let pairs = self.structure.neighbours().into_iter().map(|pair| pair.to_vec());
         let mut shapes = Vec::new();
@@ -168,7 +168,7 @@ impl<'a> Balance<'a> {
     }
 
     /// Columns of `shapes`.
-    pub fn columns(&self, shapes: &[(Source, Vec<f64>)]) -> Vec<Column> {
+    pub(crate) fn columns(&self, shapes: &[(Source, Vec<f64>)]) -> Vec<Column> {
         let column = |(source, energies): &(Source, Vec<f64>)| {
             let weighted = self.whitened(energies);
             weighted.iter().all(|w| w.is_finite()).then(|| Column { source: source.clone(), weighted })
@@ -206,7 +206,7 @@ impl<'a> Balance<'a> {
     }
 
     /// Errors of every channel, from a small one.
-    pub fn faults(&self) -> Vec<Source> {
+    pub(crate) fn faults(&self) -> Vec<Source> {
         let omega = self.mean_omega();
         let fault = |name: &String, effect, value| {
             let place = Place::Channel(name.clone());
@@ -217,7 +217,7 @@ impl<'a> Balance<'a> {
     }
 
     /// Relative error per run with `effects` and the corrections of known sources beside them.
-    pub fn errors(&self, effects: &[Source]) -> Vec<f64> {
+    pub(crate) fn errors(&self, effects: &[Source]) -> Vec<f64> {
         let mut left = self.left(effects);
         for correction in self.corrections(effects) {
             let UpdatingParameter::Known(k) = correction.parameter else { continue };
@@ -227,7 +227,7 @@ impl<'a> Balance<'a> {
         left.iter().zip(&self.input).map(|(l, e)| if *e == 0.0 { 1.0 } else { (l / e).abs() }).collect()
     }
 
-    pub fn fit(&self, effects: &[Source]) -> Fitted {
+    pub(crate) fn fit(&self, effects: &[Source]) -> Fitted {
         let (variables, start) = Variables::new(effects);
         let Ok(descent) = descend(&mut OnEnergy { balance: self, variables: &variables }, &start, 20);
         let found = variables.effects(&descent.theta);

@@ -2,7 +2,7 @@
 
 use super::balance::{Balance, Fitted};
 use super::evidence::{agrees, criterion, square};
-use crate::diagnosis::diagnose::{Added, Diagnosis, Step, Suggestion, Verdict};
+use crate::diagnosis::result::{Added, Diagnosis, Step, Suggestion, Verdict};
 use crate::diagnosis::selection::conclusion::{TOLERATED, UNTRUSTED};
 use crate::effects::Source;
 use crate::math::statistics::{evidence_weights, root_mean_square};

@@ -18,7 +18,7 @@ use faer::c64;
 
 /// Energies of one run.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct PointsEnergy {
+pub(crate) struct PointsEnergy {
     /// Index in the project's runs.
     pub index: usize,
     /// Energy put in over one period, J.
@@ -31,18 +31,18 @@ pub struct PointsEnergy {
 
 impl PointsEnergy {
     /// Relative error.
-    pub fn error(&self) -> f64 {
+    pub(crate) fn error(&self) -> f64 {
         if self.input == 0.0 { 1.0 } else { ((self.input - self.taken) / self.input).abs() }
     }
 
     /// What the error would be were the model exact.
-    pub fn noise(&self) -> f64 {
+    pub(crate) fn noise(&self) -> f64 {
         if self.input == 0.0 { 1.0 } else { (self.deviation / self.input).abs() }
     }
 }
 
 /// Energies of all runs of a `points` problem with `effects` added to the known sources.
-pub fn energies(problem: &Problem, effects: &[Source]) -> Result<Vec<PointsEnergy>, DiagnosisError> {
+pub(crate) fn energies(problem: &Problem, effects: &[Source]) -> Result<Vec<PointsEnergy>, DiagnosisError> {
     Data::new(problem)?;
     let data = Data::every(problem)?;
     let sources: Vec<Source> = problem.known().into_iter().chain(effects.iter().cloned()).collect();

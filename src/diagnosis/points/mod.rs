@@ -1,8 +1,8 @@
 //! The same questions for measured points without a model: energies alone.
 
-pub mod balance;
+pub(crate) mod balance;
 mod conclusion;
-pub mod energies;
+pub(crate) mod energies;
 mod evidence;
-pub mod search;
+pub(crate) mod search;
 mod uncertainty;

@@ -31,7 +31,7 @@ pub(super) struct Uncertainty {
 impl Uncertainty {
     /// Of uncertain parameters with the derivative of the energy that is left by each, over its deviation, and of the `input`
     /// over its deviation, one value a run; all scales are those of the search times `multiple`.
-    pub fn new(uncertain: Vec<(UpdatingParameter, Vec<f64>)>, input: &[f64], multiple: f64) -> Self {
+    pub(super) fn new(uncertain: Vec<(UpdatingParameter, Vec<f64>)>, input: &[f64], multiple: f64) -> Self {
         let n = input.len();
         let scales = Scales::SEARCH.list();
         let (parameters, slopes): (Vec<_>, Vec<_>) =
@@ -53,12 +53,12 @@ impl Uncertainty {
     }
 
     /// Energies over their deviations, with unit covariance.
-    pub fn whitened(&self, rows: &[f64]) -> Vec<f64> {
+    pub(super) fn whitened(&self, rows: &[f64]) -> Vec<f64> {
         (0..rows.len()).map(|i| rows.iter().enumerate().map(|(j, r)| self.root[(i, j)] * r).sum()).collect()
     }
 
     /// Corrections of known sources where the energies over their deviations leave `rows`.
-    pub fn corrections(&self, rows: &[f64]) -> Vec<Correction> {
+    pub(super) fn corrections(&self, rows: &[f64]) -> Vec<Correction> {
         let whitened = self.whitened(rows);
         let of = |((parameter, scale), slope): (&(UpdatingParameter, f64), &Vec<f64>)| {
             let slope = self.whitened(slope);

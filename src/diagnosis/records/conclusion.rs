@@ -7,7 +7,7 @@ use super::model_errors::ModelErrors;
 use super::search::{Search, SetsBySize};
 use super::telling::{added, corrections, corrections_of_parts, suggestions, words};
 use super::told::added_as_told;
-use crate::diagnosis::diagnose::{Added, Diagnosis, Step, Suggestion, Verdict};
+use crate::diagnosis::result::{Added, Diagnosis, Step, Suggestion, Verdict};
 use crate::diagnosis::updating::correction::Correction;
 use crate::structure::Part;
 
@@ -29,7 +29,7 @@ const OPEN: f64 = 0.05;
 
 impl Search<'_> {
     /// Fills `diagnosis` with what was found.
-    pub fn conclude(&self, by_size: &SetsBySize, diagnosis: &mut Diagnosis) -> Result<(), RecordError> {
+    pub(super) fn conclude(&self, by_size: &SetsBySize, diagnosis: &mut Diagnosis) -> Result<(), RecordError> {
         let last: Vec<FittedRecords> = by_size.last.iter().map(without_void).collect();
         let Some(best) = last.first() else {
             diagnosis.verdict = Verdict::Unexplained;

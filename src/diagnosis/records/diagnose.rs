@@ -16,7 +16,7 @@ use super::problem::{corrected_by, is_strained};
 use super::search::{FEW_MODES, Search, SetsBySize, factors_of};
 use super::telling::{last_deviations, suggestions};
 use crate::control::Control;
-use crate::diagnosis::diagnose::{Diagnosis, Early, Step, Verdict};
+use crate::diagnosis::result::{Diagnosis, Early, Step, Verdict};
 use crate::effects::{Effect, Source};
 use crate::math::statistics::root_mean_square;
 use crate::measurement::TransientRun;
@@ -213,7 +213,7 @@ impl Search<'_> {
     }
 
     /// Error on the last part of each record of a fit on the rest.
-    pub fn held_out(&self, level: usize, fit: &FittedRecords) -> Result<f64, RecordError> {
+    pub(super) fn held_out(&self, level: usize, fit: &FittedRecords) -> Result<f64, RecordError> {
         let learnt = self.fit(level, fit, LEARNT, LEARNING);
         match learnt.and_then(|learnt| learnt.error(&self.levels[level], LEARNT, 1.0)) {
             Ok(error) => Ok(error),

@@ -33,7 +33,7 @@ type Place = (FittedRecords, Normal);
 
 impl FitProblem<'_> {
     /// Improves a start in at most `iterations` steps; fewer where time is up.
-    pub fn improve(&self, start: &FittedRecords, iterations: usize) -> Result<FittedRecords, RecordError> {
+    pub(super) fn improve(&self, start: &FittedRecords, iterations: usize) -> Result<FittedRecords, RecordError> {
         let scales = scales(&start.effects);
         let unit = unit_of(start);
         let normal = |at: &FittedRecords| self.normal(at, &scales, unit);
@@ -42,7 +42,11 @@ impl FitProblem<'_> {
     }
 
     /// The same in at most `rounds` of `steps` steps, in each of which all but the laws is differentiated once ([`Held`]).
-    pub fn begin(&self, start: &FittedRecords, [rounds, steps]: [usize; 2]) -> Result<FittedRecords, RecordError> {
+    pub(super) fn begin(
+        &self,
+        start: &FittedRecords,
+        [rounds, steps]: [usize; 2],
+    ) -> Result<FittedRecords, RecordError> {
         let scales = scales(&start.effects);
         let unit = unit_of(start);
         let mut best = start.clone();

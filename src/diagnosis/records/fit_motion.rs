@@ -24,14 +24,14 @@ impl FitMotion {
     ///
     /// # Errors
     /// [`RecordError::Model`] where the model cannot be predicted.
-    pub fn new(records: &Records, fit: &FittedRecords, control: &Control) -> Result<Self, RecordError> {
+    pub(super) fn new(records: &Records, fit: &FittedRecords, control: &Control) -> Result<Self, RecordError> {
         let rows = control.map(records.list.len(), |r| of_record(records, fit, r));
         let omega = TAU * records.list.first().map_or(1.0, |r| r.dominant_hz);
         Ok(Self { rows: rows.into_iter().collect::<Result<_, _>>()?, omega })
     }
 
     /// Relative motion along a leg in record `r`; none where it is no translation.
-    pub fn relative(&self, leg: Leg, r: usize) -> Option<MotionOfDof> {
+    pub(super) fn relative(&self, leg: Leg, r: usize) -> Option<MotionOfDof> {
         let of = |dof: usize| self.rows[r].get(dof).and_then(Option::as_ref);
         let mut relative = of(leg.first)?.clone();
         if let Some(second) = leg.second {
@@ -43,7 +43,7 @@ impl FitMotion {
     }
 
     /// Range of the motion along a leg; none where nothing moves.
-    pub fn range(&self, leg: Leg) -> Option<Range> {
+    pub(super) fn range(&self, leg: Leg) -> Option<Range> {
         let most = |x: &[f64]| x.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
         let sizes: Vec<[f64; 2]> =
             (0..self.rows.len()).filter_map(|r| self.relative(leg, r).map(|[d, v, _]| [most(&d), most(&v)])).collect();

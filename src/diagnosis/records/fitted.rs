@@ -8,7 +8,7 @@ use crate::response::transient::{TransientParameter, TransientResponse};
 
 /// A model with the parameters that were fitted.
 #[derive(Debug, Clone, PartialEq)]
-pub struct FittedRecords {
+pub(crate) struct FittedRecords {
     /// Added effects.
     pub effects: Vec<Source>,
     /// Logarithm of the factor on all stiffness.
@@ -46,7 +46,7 @@ pub struct FittedRecords {
 
 impl FittedRecords {
     /// The model as it is, at rest.
-    pub fn start(records: &Records, effects: &[Source]) -> Self {
+    pub(crate) fn start(records: &Records, effects: &[Source]) -> Self {
         Self {
             effects: effects.to_vec(),
             stiffness: 0.0,

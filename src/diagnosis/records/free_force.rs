@@ -58,7 +58,7 @@ struct AtPlace<'a> {
 
 impl FreeForce {
     /// Of a record, whose known sources are linear, along `leg`; `None` where it is too short.
-    pub fn new(records: &Records, record: &RecordData, leg: Leg) -> Option<Self> {
+    pub(super) fn new(records: &Records, record: &RecordData, leg: Leg) -> Option<Self> {
         let expansion = Expansion::new(records, 0.0);
         let length = record.step * (record.len() - 1) as f64;
         let highest = (HIGHEST[0] * record.highest_hz * length).min(HIGHEST[1] * (record.len() - 1) as f64) as usize;

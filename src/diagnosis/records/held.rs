@@ -28,7 +28,7 @@ pub(super) struct Held {
 
 impl Held {
     /// At the start of a fit, with the equations there; `None` where they are too many to be held.
-    pub fn new(
+    pub(super) fn new(
         problem: &FitProblem,
         at: &FittedRecords,
         scales: &[Vec<f64>],
@@ -50,7 +50,7 @@ impl Held {
     }
 
     /// The equations at another point, only the laws differentiated there.
-    pub fn normal(
+    pub(super) fn normal(
         &self,
         problem: &FitProblem,
         at: &FittedRecords,

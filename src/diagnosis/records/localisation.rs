@@ -27,7 +27,7 @@ const MODEL_SHARE: f64 = 2e-3;
 
 /// A place with what is left when a free force acts there.
 #[derive(Debug, Clone, PartialEq)]
-pub struct LocatedForce {
+pub(crate) struct LocatedForce {
     /// Where.
     pub place: Place,
     /// Squared residual a degree of freedom, over the noise.
@@ -36,7 +36,7 @@ pub struct LocatedForce {
 
 /// Places from best to worst; empty where fewer than two channels see the motion, or known laws are nonlinear: then the
 /// spectrum cannot tell places apart. `stiffness` is the logarithm of the factor on all stiffness.
-pub fn locate(records: &Records, places: &[Place], stiffness: f64) -> Vec<LocatedForce> {
+pub(crate) fn locate(records: &Records, places: &[Place], stiffness: f64) -> Vec<LocatedForce> {
     if records.list.iter().any(|r| r.channels.len() < 2) || !records.known.iter().all(|s| s.effect.is_linear()) {
         return Vec::new();
     }
@@ -79,14 +79,14 @@ pub(super) struct Line {
 
 impl Line {
     /// What a unit of force along `pattern` does to the channels.
-    pub fn under(&self, pattern: &[f64]) -> Vec<c64> {
+    pub(super) fn under(&self, pattern: &[f64]) -> Vec<c64> {
         let of = |c: usize| pattern.iter().enumerate().map(|(r, b)| self.responses[(c, r)] * *b).sum();
         (0..self.measured.len()).map(of).collect()
     }
 }
 
 impl Expansion {
-    pub fn new(records: &Records, stiffness: f64) -> Self {
+    pub(super) fn new(records: &Records, stiffness: f64) -> Self {
         let size = records.modes.len().min(MOST_MODES);
         let shapes = records.modes.shapes.subcols(0, size).to_owned();
         let squares = (0..size).map(|r| stiffness.exp() * records.modes.omega[r].powi(2)).collect();
@@ -104,7 +104,7 @@ impl Expansion {
     }
 
     /// Dynamic stiffness of the known sources at a circular frequency.
-    pub fn sources(&self, w: f64) -> Mat<c64> {
+    pub(super) fn sources(&self, w: f64) -> Mat<c64> {
         let size = self.squares.len();
         let mut sum = Mat::<c64>::zeros(size, size);
         for (matrix, source) in &self.known {
@@ -119,7 +119,7 @@ impl Expansion {
     }
 
     /// The modes along a leg.
-    pub fn pattern(&self, leg: Leg) -> Vec<f64> {
+    pub(super) fn pattern(&self, leg: Leg) -> Vec<f64> {
         (0..self.squares.len()).map(|r| leg.relative(|i| self.shapes[(i, r)])).collect()
     }
 
@@ -138,7 +138,7 @@ impl Expansion {
     }
 
     /// Lines of these numbers of a record with its spectra.
-    pub fn lines_of(
+    pub(super) fn lines_of(
         &self,
         records: &Records,
         record: &RecordData,
@@ -160,7 +160,7 @@ impl Expansion {
     }
 
     /// `D^-1` times columns, at a circular frequency with the dynamic stiffness `known` of the known sources there.
-    pub fn receptance(&self, w: f64, known: &Mat<c64>, columns: &Mat<c64>) -> Mat<c64> {
+    pub(super) fn receptance(&self, w: f64, known: &Mat<c64>, columns: &Mat<c64>) -> Mat<c64> {
         let size = self.squares.len();
         let dynamic =
             Mat::from_fn(size, size, |i, j| known[(i, j)] + if i == j { self.squares[i] - w * w } else { 0.0 });
@@ -168,7 +168,7 @@ impl Expansion {
     }
 
     /// Modal force that a unit difference of mode `r` between the ends of a record stands for, of its velocity or displacement.
-    pub fn end_push(&self, w: f64, known: &Mat<c64>, r: usize, velocity: bool) -> Vec<c64> {
+    pub(super) fn end_push(&self, w: f64, known: &Mat<c64>, r: usize, velocity: bool) -> Vec<c64> {
         let inertia = |i: usize| f64::from(u8::from(i == r)) + self.mass[(i, r)];
         let push = |i: usize| {
             if velocity { c64::new(inertia(i), 0.0) } else { c64::new(0.0, w) * inertia(i) + known[(i, r)].im / w }
@@ -217,7 +217,7 @@ pub(super) struct Spectra {
 }
 
 impl Spectra {
-    pub fn new(record: &RecordData) -> Self {
+    pub(super) fn new(record: &RecordData) -> Self {
         let transform =
             |list: &Vec<Vec<f64>>| -> Vec<Vec<c64>> { list.iter().map(|y| fourier_integral(y, record.step)).collect() };
         Self { responses: transform(&record.samples), forces: transform(&record.forces) }

@@ -8,7 +8,7 @@ use super::free_force::{FreeForce, in_band};
 use super::localisation::locate;
 use crate::control::Control;
 use crate::diagnosis::candidates::restoring_force::{ForcePoint, RestoringForce, RunForce};
-use crate::diagnosis::diagnose::{Diagnosis, Verdict};
+use crate::diagnosis::result::{Diagnosis, Verdict};
 use crate::diagnosis::updating::parameters::UpdatingParameter;
 use crate::effects::{Family, Place, Source, State};
 use crate::math::statistics::root_mean_square;

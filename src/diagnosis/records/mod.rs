@@ -1,15 +1,15 @@
 //! Records that are not steady - decays, hammers, sweeps, noise - compared with the model, and what the model lacks in them.
 //!
 //! The model's record follows from the measured force and an initial state that is fitted with it (`fit`); a free force at
-//! a place, on the spectrum of the whole record with its end states as unknowns, says where ([`localisation`]); laws at the
-//! places that matter are fitted on the record itself, short parts of it first ([`diagnose`]); frequency and damping ratio against
+//! a place, on the spectrum of the whole record with its end states as unknowns, says where (`localisation`); laws at the
+//! places that matter are fitted on the record itself, short parts of it first (`diagnose`); frequency and damping ratio against
 //! amplitude are read by one estimator from record and model ([`amplitude`]).
 
 pub mod amplitude;
-pub mod compare;
+pub(crate) mod compare;
 mod conclusion;
-pub mod data;
-pub mod diagnose;
+pub(crate) mod data;
+pub(crate) mod diagnose;
 mod errors;
 mod evidence;
 mod fit;
@@ -18,7 +18,7 @@ mod fitted;
 mod free_force;
 mod held;
 mod laws;
-pub mod localisation;
+pub(crate) mod localisation;
 mod missing_force;
 mod modal_equations;
 mod model_errors;

@@ -37,7 +37,7 @@ pub(super) struct Equation {
 
 impl ModalEquations {
     /// Of a measured motion; none where the record is too short for the taper.
-    pub fn new(motion: Motion) -> Option<Self> {
+    pub(super) fn new(motion: Motion) -> Option<Self> {
         let length = smooth(motion.usable.len());
         let first = motion.usable.start;
         let flank = (FLANK * TAU / motion.band.omega[0] / motion.step) as usize;
@@ -69,7 +69,7 @@ impl ModalEquations {
     }
 
     /// The equation of motion of every mode.
-    pub fn equation(&self, factor: f64) -> Equation {
+    pub(super) fn equation(&self, factor: f64) -> Equation {
         let motion = &self.motion;
         let resolution = TAU / (motion.padded as f64 * motion.step);
         let mut equation = Equation::default();
@@ -93,14 +93,14 @@ impl ModalEquations {
 
     /// What an error of the shapes as large as they are brings of mode `s` into the equation of mode `r`: it reads its motion from
     /// sensors, and its stiffness couples the two.
-    pub fn leak(&self, [r, s]: [usize; 2], elastic: &[Vec<f64>]) -> Option<Vec<f64>> {
+    pub(super) fn leak(&self, [r, s]: [usize; 2], elastic: &[Vec<f64>]) -> Option<Vec<f64>> {
         let omega = &self.motion.band.omega;
         let ratio = (omega.get(r)? / omega.get(s)?).powi(2).max(1.0);
         Some(elastic[s].iter().map(|x| ratio * x).collect())
     }
 
     /// Whitened rows of a signal in the equation of mode `r` of `count`, rows of zeros where there is none.
-    pub fn rows_of(&self, r: usize, signal: Option<&Vec<f64>>, count: usize) -> Vec<f64> {
+    pub(super) fn rows_of(&self, r: usize, signal: Option<&Vec<f64>>, count: usize) -> Vec<f64> {
         let Some(signal) = signal else { return vec![0.0; 2 * count * self.lines.len()] };
         let spectrum = self.spectrum(signal);
         let mut rows = Vec::with_capacity(2 * count * spectrum.len());
@@ -119,7 +119,7 @@ impl ModalEquations {
     }
 
     /// Whitened rows of modal signals, real and imaginary parts.
-    pub fn rows(&self, modal: &[Vec<f64>]) -> Vec<f64> {
+    pub(super) fn rows(&self, modal: &[Vec<f64>]) -> Vec<f64> {
         let spectra: Vec<Vec<c64>> = modal.iter().map(|x| self.spectrum(x)).collect();
         let mut rows = Vec::with_capacity(2 * modal.len() * self.lines.len());
         for (i, whitening) in self.whitening.iter().enumerate() {

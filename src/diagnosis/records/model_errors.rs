@@ -26,7 +26,7 @@ pub(super) struct ModelErrors {
 
 impl ModelErrors {
     /// Of the effects of a fit.
-    pub fn of(structure: &Structure, fit: &FittedRecords) -> Self {
+    pub(super) fn of(structure: &Structure, fit: &FittedRecords) -> Self {
         let mut errors = Self { sources: Vec::new(), corrections: Vec::new() };
         let shapes: Vec<f64> = fit.shapes.iter().flatten().copied().collect();
         let together = (ERRORS * root_mean_square(&shapes)).clamp(TOGETHER[0], TOGETHER[1]);
@@ -44,12 +44,12 @@ impl ModelErrors {
     }
 
     /// Whether an effect is one of them.
-    pub fn holds(&self, source: &Source) -> bool {
+    pub(super) fn holds(&self, source: &Source) -> bool {
         self.sources.iter().any(|s| s.is_same(source))
     }
 
     /// Factors on the parts of the structure.
-    pub fn factors(&self) -> Vec<(Part, f64)> {
+    pub(super) fn factors(&self) -> Vec<(Part, f64)> {
         let of = |c: &Correction| match c.parameter {
             UpdatingParameter::Structure(part) => Some((part, c.factor)),
             _ => None,

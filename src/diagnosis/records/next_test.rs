@@ -8,7 +8,7 @@
 use super::data::{RecordData, RecordError, Records};
 use super::fitted::FittedRecords;
 use super::search::Search;
-use crate::diagnosis::diagnose::{NextTest, TestKind};
+use crate::diagnosis::result::{NextTest, TestKind};
 use crate::measurement::Kind;
 use std::f64::consts::TAU;
 
@@ -30,7 +30,7 @@ struct Trial {
 
 impl Search<'_> {
     /// The test that tells the first of `fits` from the next that holds other effects; none where nothing would.
-    pub fn next_tests(&self, fits: &[FittedRecords]) -> Result<Vec<NextTest>, RecordError> {
+    pub(super) fn next_tests(&self, fits: &[FittedRecords]) -> Result<Vec<NextTest>, RecordError> {
         let Some(best) = fits.first() else { return Ok(Vec::new()) };
         let other = |f: &&FittedRecords| !f.effects.iter().all(|e| best.effects.iter().any(|b| b.is_same(e)));
         let Some(rival) = fits.iter().skip(1).find(other) else { return Ok(Vec::new()) };

@@ -25,7 +25,7 @@ pub(super) struct Left {
 }
 
 impl Left {
-    pub fn total(&self, unit: f64) -> f64 {
+    pub(super) fn total(&self, unit: f64) -> f64 {
         self.chi_square + unit * self.prior
     }
 }
@@ -201,7 +201,7 @@ pub(super) struct RecordDerivatives {
 
 impl RecordDerivatives {
     /// Their products, each sample counted `times`.
-    pub fn products(&self, times: f64) -> RecordPart {
+    pub(super) fn products(&self, times: f64) -> RecordPart {
         let mut products = Products::new(self.count);
         for (columns, e) in self.channels.iter().zip(&self.left) {
             let columns: Vec<(usize, &[f64])> = columns.iter().map(|(k, list)| (*k, &list[..])).collect();
@@ -227,7 +227,7 @@ impl Products {
     }
 
     /// Forgets what stands against what is left, and all products of the first `laws` columns.
-    pub fn clear(&mut self, laws: usize) {
+    pub(super) fn clear(&mut self, laws: usize) {
         self.against.fill(0.0);
         for a in 0..laws {
             for b in 0..self.count {
@@ -237,12 +237,12 @@ impl Products {
     }
 
     /// Adds a product of column `a` with what is left.
-    pub fn add_against(&mut self, a: usize, product: f64) {
+    pub(super) fn add_against(&mut self, a: usize, product: f64) {
         self.against[a] += product;
     }
 
     /// Adds a product of columns `a` and `b`.
-    pub fn add_product(&mut self, a: usize, b: usize, product: f64) {
+    pub(super) fn add_product(&mut self, a: usize, b: usize, product: f64) {
         self.matrix[a * self.count + b] += product;
         if a != b {
             self.matrix[b * self.count + a] += product;

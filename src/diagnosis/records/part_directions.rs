@@ -44,7 +44,7 @@ pub(super) struct PartDirections {
 impl PartDirections {
     /// Of the first `kept` modes; none where these are one or the structure shows no parts. Supports that give way are no part here: they
     /// move modes in ways that those on rigid supports do not show; corrections of modes and shapes stand for them.
-    pub fn new(structure: &Structure, modes: &Modes, kept: usize) -> Self {
+    pub(super) fn new(structure: &Structure, modes: &Modes, kept: usize) -> Self {
         let mut list = parts(structure, &[]);
         list.retain(|part| !matches!(part, Part::Stiffness | Part::Mass | Part::Mode(_) | Part::Support(_)));
         if kept < 2 || list.is_empty() {
@@ -71,23 +71,23 @@ impl PartDirections {
     }
 
     /// Number of directions.
-    pub fn len(&self) -> usize {
+    pub(super) fn len(&self) -> usize {
         self.weights.len()
     }
 
     /// Whether there are none.
-    pub fn is_empty(&self) -> bool {
+    pub(super) fn is_empty(&self) -> bool {
         self.weights.is_empty()
     }
 
     /// Logarithms of the factors on the parts, of the deviations `z` along the directions.
-    pub fn logarithms(&self, z: &[f64]) -> Vec<(Part, f64)> {
+    pub(super) fn logarithms(&self, z: &[f64]) -> Vec<(Part, f64)> {
         let of = |(p, part): (usize, &Part)| (*part, self.weights.iter().zip(z).map(|(w, z)| w[p] * z).sum());
         self.parts.iter().enumerate().map(of).collect()
     }
 
     /// Deviations of these logarithms, of those of the directions; a part that no direction moves stays as uncertain as it was.
-    pub fn deviations(&self, own: &[f64]) -> Vec<f64> {
+    pub(super) fn deviations(&self, own: &[f64]) -> Vec<f64> {
         let of = |p: usize| {
             let pairs = || self.weights.iter().map(|w| w[p]).zip(own);
             let known: f64 = pairs().map(|(w, _)| w * w).sum();
@@ -98,13 +98,13 @@ impl PartDirections {
     }
 
     /// Logarithms of the factors on the stiffness of `kept` modes that stand for the deviations `z`, to first order.
-    pub fn stiffness_of_modes(&self, z: &[f64], kept: usize) -> Vec<f64> {
+    pub(super) fn stiffness_of_modes(&self, z: &[f64], kept: usize) -> Vec<f64> {
         (0..kept).map(|r| self.by_mode.iter().zip(z).map(|(by, z)| by[r] * z).sum()).collect()
     }
 
     /// Logarithm of the factor on all stiffness, and deviations along the directions, that most probably stand for these logarithms
     /// on the stiffness of the modes; `None` where there are no directions.
-    pub fn explaining(&self, modes: &[f64]) -> Option<(f64, Vec<f64>)> {
+    pub(super) fn explaining(&self, modes: &[f64]) -> Option<(f64, Vec<f64>)> {
         if self.is_empty() {
             return None;
         }

@@ -20,7 +20,7 @@ const REACH: f64 = 1.0;
 
 /// What is free beside the initial states and the effects.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Free {
+pub(super) struct Free {
     /// All stiffness, then the size of every known source, then the stiffness of every mode, then all mass, at last the parts; none
     /// where it is empty.
     pub corrections: Vec<bool>,
@@ -34,12 +34,12 @@ pub struct Free {
 
 impl Free {
     /// Initial states and effects only.
-    pub fn nothing() -> Self {
+    pub(super) fn nothing() -> Self {
         Self { corrections: Vec::new(), shifts: false, shapes: false, effects: true }
     }
 
     /// All of it but the stiffness of single modes.
-    pub fn but_modes(records: &Records) -> Self {
+    pub(super) fn but_modes(records: &Records) -> Self {
         let mut free = Self::all(records);
         let first = 1 + records.known.len();
         free.corrections[first..first + modes(records)].fill(false);
@@ -48,7 +48,7 @@ impl Free {
     }
 
     /// All of it; the mass, beside the stiffness, stands for the gain of a measured force, where errors of the shapes do not.
-    pub fn all(records: &Records) -> Self {
+    pub(super) fn all(records: &Records) -> Self {
         let mut corrections = vec![true; 2 + records.known.len() + modes(records) + records.parts.len()];
         let driven = records.list.iter().any(|r| !r.forces.is_empty());
         corrections[1 + records.known.len() + modes(records)] = driven && !records.parts.is_empty();

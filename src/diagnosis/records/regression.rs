@@ -57,7 +57,7 @@ pub(crate) struct Regression<'a> {
 
 impl<'a> Regression<'a> {
     /// Of the records beside what `fit` holds; `None` where no record's sensors tell a mode apart.
-    pub fn new(records: &'a Records<'a>, fit: &FittedRecords, control: &Control) -> Option<Self> {
+    pub(super) fn new(records: &'a Records<'a>, fit: &FittedRecords, control: &Control) -> Option<Self> {
         let made: Vec<ModalEquations> = records
             .list
             .iter()
@@ -131,18 +131,18 @@ impl<'a> Regression<'a> {
     }
 
     /// Weighted squared residual without any law.
-    pub fn misfit(&self) -> f64 {
+    pub(super) fn misfit(&self) -> f64 {
         dot(&self.left, &self.left)
     }
 
     /// Number of weighted rows.
-    pub fn rows(&self) -> usize {
+    pub(super) fn rows(&self) -> usize {
         self.left.len()
     }
 
     /// Relative changes of the stiffness of the followed modes and of the sizes of the known sources that fit best, beside a law
     /// or without one.
-    pub fn corrections(&self, law: Option<&Source>) -> Option<(Vec<f64>, Vec<f64>)> {
+    pub(super) fn corrections(&self, law: Option<&Source>) -> Option<(Vec<f64>, Vec<f64>)> {
         let band = &self.parts[0].motion.band.modes;
         if self.parts.iter().any(|p| p.motion.band.modes != *band) {
             return None;
@@ -174,7 +174,7 @@ impl<'a> Regression<'a> {
 
     /// `fit` with the stiffness of its modes and the sizes of known sources that the equation of motion along the measured motion
     /// demands, beside a law or without one: a motion that is measured loses no phase, however far the model is off.
-    pub fn tuned(&self, fit: &FittedRecords, law: Option<&Source>) -> FittedRecords {
+    pub(super) fn tuned(&self, fit: &FittedRecords, law: Option<&Source>) -> FittedRecords {
         let mut tuned = fit.clone();
         if let Some((modes, known)) = self.corrections(law) {
             // The equation of motion was asked with all mass as stated and no part corrected.
@@ -206,7 +206,7 @@ impl<'a> Regression<'a> {
 
     /// The best of every effect at every place, best first; effects of several shapes at the places only where one of a single shape
     /// explains most.
-    pub fn ranked(&self, places: &[Place], effects: &[Effect], control: &Control) -> Vec<Regressed> {
+    pub(super) fn ranked(&self, places: &[Place], effects: &[Effect], control: &Control) -> Vec<Regressed> {
         let (plain, shaped): (Vec<Effect>, Vec<Effect>) = effects.iter().partition(|e| e.parameters().len() == 1);
         let at = |places: &[Place], effects: &[Effect]| -> Vec<Regressed> {
             let of = |k: usize| {

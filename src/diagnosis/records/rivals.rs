@@ -43,13 +43,13 @@ pub(super) struct GivenUp(Mutex<Vec<Vec<Source>>>);
 
 impl GivenUp {
     /// Whether a set, in whatever order, was given up.
-    pub fn holds(&self, effects: &[Source]) -> bool {
+    pub(super) fn holds(&self, effects: &[Source]) -> bool {
         let sets = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         sets.iter().any(|set| is_same_set(set, effects))
     }
 
     /// Gives up the fits that leave `hopeless`ly much beside the least that any of them leaves.
-    pub fn add_all(&self, found: &[FittedRecords], hopeless: impl Fn(&FittedRecords, f64) -> bool) {
+    pub(super) fn add_all(&self, found: &[FittedRecords], hopeless: impl Fn(&FittedRecords, f64) -> bool) {
         let least = found.iter().map(|f| f.chi_square).fold(f64::INFINITY, f64::min);
         let mut sets = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         sets.extend(found.iter().filter(|f| hopeless(f, least)).map(|f| f.effects.clone()));

@@ -68,7 +68,7 @@ impl<'a> ScoreTest<'a> {
     ///
     /// # Errors
     /// [`RecordError`]: a model that cannot be predicted, equations without a solution.
-    pub fn new(problem: &'a FitProblem<'a>, fit: &'a FittedRecords) -> Result<Self, RecordError> {
+    pub(super) fn new(problem: &'a FitProblem<'a>, fit: &'a FittedRecords) -> Result<Self, RecordError> {
         let records = problem.records;
         let scales = scales(&fit.effects);
         let made = problem.control.map(records.list.len(), |r| -> Result<_, RecordError> {
@@ -98,7 +98,7 @@ impl<'a> ScoreTest<'a> {
     }
 
     /// The best shape of each law at a place; none where the place does not move.
-    pub fn at(&self, place: &Place, laws: &[Effect]) -> Vec<Scored> {
+    pub(super) fn at(&self, place: &Place, laws: &[Effect]) -> Vec<Scored> {
         let Some(leg) = place.legs().first().copied() else { return Vec::new() };
         let made: Result<Vec<Forced>, RecordError> =
             (0..self.thinned.len()).map(|r| self.forced(leg, r)).collect::<Result<_, _>>();
@@ -191,7 +191,13 @@ impl Thinned {
 
 impl Search<'_> {
     /// Starts of a fit with one law more: those at places that promise the best evidence beside `fit`, its variables moved with them.
-    pub fn scored(&self, level: usize, fit: &FittedRecords, places: &[Place], laws: &[Effect]) -> Vec<FittedRecords> {
+    pub(super) fn scored(
+        &self,
+        level: usize,
+        fit: &FittedRecords,
+        places: &[Place],
+        laws: &[Effect],
+    ) -> Vec<FittedRecords> {
         if self.control.is_late() {
             return Vec::new();
         }

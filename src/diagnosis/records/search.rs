@@ -81,7 +81,7 @@ pub(super) struct SetsBySize {
 
 impl<'a> Search<'a> {
     /// Of `weighted` records and the same `plain`.
-    pub fn new(
+    pub(super) fn new(
         weighted: &'a Records<'a>,
         plain: &'a Records<'a>,
         (excluded, stated, supports): (&'a [Source], &'a Structure, &'a [Correction]),
@@ -92,7 +92,7 @@ impl<'a> Search<'a> {
     }
 
     /// The structure as it is stated with its supports and other parts corrected.
-    pub fn structure_with(&self, factors: &[(Part, f64)]) -> Structure {
+    pub(super) fn structure_with(&self, factors: &[(Part, f64)]) -> Structure {
         let mut all = factors_of(self.supports);
         all.extend_from_slice(factors);
         self.stated.with_factors(&all)
@@ -101,7 +101,7 @@ impl<'a> Search<'a> {
 
 impl Search<'_> {
     /// `start` improved on the first `share` of every part of `level`, everything free, in some rounds of some steps.
-    pub fn fit(
+    pub(super) fn fit(
         &self,
         level: usize,
         start: &FittedRecords,
@@ -130,7 +130,7 @@ impl Search<'_> {
     }
 
     /// A fit of one level as the start of one of another: initial states that are not known yet are read from the first periods.
-    pub fn carried(&self, fit: &FittedRecords, from: usize, to: usize) -> Result<FittedRecords, RecordError> {
+    pub(super) fn carried(&self, fit: &FittedRecords, from: usize, to: usize) -> Result<FittedRecords, RecordError> {
         let (known, records) = (&self.levels[from], &self.levels[to]);
         let same = |k: usize| {
             let wanted = &records.list[k];
@@ -150,13 +150,13 @@ impl Search<'_> {
     }
 
     /// Initial states and effects only, nothing corrected.
-    pub fn quiet(&self, level: usize, start: &FittedRecords) -> Result<FittedRecords, RecordError> {
+    pub(super) fn quiet(&self, level: usize, start: &FittedRecords) -> Result<FittedRecords, RecordError> {
         FitProblem { records: &self.levels[level], free: Free::nothing(), share: 1.0, control: self.control }
             .improve(start, 3)
     }
 
     /// The model corrected on the shortest parts, where a frequency that is off does not lose the phase.
-    pub fn corrected(&self, bare: &FittedRecords) -> Result<FittedRecords, RecordError> {
+    pub(super) fn corrected(&self, bare: &FittedRecords) -> Result<FittedRecords, RecordError> {
         let mut fitted = self.fit(0, bare, 1.0, CORRECTING)?;
         // The motion itself may know better how far the model is off.
         if let Some(regression) = Regression::new(self.records, bare, self.control) {
@@ -182,7 +182,7 @@ impl Search<'_> {
 
     /// Fits of the best of `rivals` with one effect more, best first, and of those that leave hardly more: which of two laws comes
     /// first may be told by what comes second.
-    pub fn beside_rivals(
+    pub(super) fn beside_rivals(
         &self,
         level: usize,
         rivals: &[FittedRecords],
@@ -204,7 +204,7 @@ impl Search<'_> {
     }
 
     /// Fits of `best` with one effect more, best first; `bare` is the model as it is, on the shortest parts.
-    pub fn extended(
+    pub(super) fn extended(
         &self,
         level: usize,
         best: &FittedRecords,
@@ -273,7 +273,7 @@ impl Search<'_> {
     }
 
     /// The best of `rivals` fitted on the parts of the next level, best first.
-    pub fn lengthened(&self, rivals: &[FittedRecords], level: usize) -> Result<Vec<FittedRecords>, RecordError> {
+    pub(super) fn lengthened(&self, rivals: &[FittedRecords], level: usize) -> Result<Vec<FittedRecords>, RecordError> {
         let mut few = unlike(rivals, RIVALS);
         if let Some(best) = rivals.first() {
             let unit = scale(best);

@@ -27,7 +27,7 @@ const GAIN: f64 = 12.0;
 impl Search<'_> {
     /// Fits of one mass or spring to whole records, best first, where `corrected` needs the stiffness of single modes and they do
     /// not.
-    pub fn single_changes(&self, corrected: &FittedRecords) -> Result<Vec<FittedRecords>, RecordError> {
+    pub(super) fn single_changes(&self, corrected: &FittedRecords) -> Result<Vec<FittedRecords>, RecordError> {
         let records = self.records;
         let fit = |start: &FittedRecords, control| {
             FitProblem { records, free: Free::but_modes(records), share: 1.0, control }.improve(start, STEPS)

@@ -5,7 +5,7 @@
 //! ```
 //!
 //! (Euler and Maclaurin), with the derivatives of `y` at both ends by polynomials through six samples. No window, no leakage:
-//! what does not close over the record enters the equations by its end differences (see [`super::localisation`]).
+//! what does not close over the record enters the equations by its end differences (see `super::localisation`).
 
 use dashpot_numerics::RealTransform;
 use faer::c64;

@@ -27,7 +27,7 @@ const SIZES: [f64; 2] = [0.01, 0.1];
 
 impl Search<'_> {
     /// Fits that are to be begun, one law more each.
-    pub fn begun(&self, level: usize, best: &FittedRecords, base: &FittedRecords) -> Vec<FittedRecords> {
+    pub(super) fn begun(&self, level: usize, best: &FittedRecords, base: &FittedRecords) -> Vec<FittedRecords> {
         let regression = Regression::new(self.records, base, self.control);
         let sources = self.beginnings(level, best, base, regression.as_ref());
         let of = |k: usize| {
@@ -105,7 +105,7 @@ impl Search<'_> {
 
     /// The best of `found` with each simpler law that its own contains in place of it, where none is among them yet: a slider whose
     /// spring is stiff, or a power law of exponent 1, says less plainly what a law of one parameter says.
-    pub fn begun_plainer(&self, found: &[FittedRecords]) -> Vec<FittedRecords> {
+    pub(super) fn begun_plainer(&self, found: &[FittedRecords]) -> Vec<FittedRecords> {
         let Some((best, law)) = found.first().and_then(|f| Some((f, f.effects.last()?))) else { return Vec::new() };
         let known = |s: &Source| {
             let taken = found.iter().filter_map(|f| f.effects.last());
@@ -123,7 +123,7 @@ impl Search<'_> {
     }
 
     /// Every place where a law may act.
-    pub fn all_places(&self) -> Vec<Place> {
+    pub(super) fn all_places(&self) -> Vec<Place> {
         let structure = self.records.structure;
         Family::EachTranslation.places(structure).into_iter().chain(Family::EachPair.places(structure)).collect()
     }

@@ -32,7 +32,7 @@ type Tried = (f64, FittedRecords);
 
 impl Search<'_> {
     /// Supports that give way, with their factors; empty where that explains nothing.
-    pub fn giving_way(&self, bare: &FittedRecords) -> Result<Vec<Correction>, RecordError> {
+    pub(super) fn giving_way(&self, bare: &FittedRecords) -> Result<Vec<Correction>, RecordError> {
         let supports: Vec<Part> = self.records.structure.supports().into_iter().map(Part::Support).collect();
         if supports.is_empty() || self.records.kept < 2 {
             return Ok(Vec::new());

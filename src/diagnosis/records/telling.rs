@@ -5,7 +5,7 @@ use super::evidence::{misfit, parameters, scale};
 use super::fitted::FittedRecords;
 use super::probability::probabilities;
 use super::problem::modes;
-use crate::diagnosis::diagnose::{Added, Suggestion};
+use crate::diagnosis::result::{Added, Suggestion};
 use crate::diagnosis::updating::correction::Correction;
 use crate::diagnosis::updating::parameters::UpdatingParameter;
 use crate::effects::Source;

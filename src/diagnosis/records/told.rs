@@ -12,7 +12,7 @@ use super::fitted::FittedRecords;
 use super::problem::{FitProblem, Free, modes};
 use super::search::Search;
 use crate::control::Control;
-use crate::diagnosis::diagnose::Added;
+use crate::diagnosis::result::Added;
 use crate::effects::Source;
 
 /// Deviations from 0 at which a correction of a known source and of a mode is kept.
@@ -27,7 +27,7 @@ const PROMISING: [usize; 2] = [3, 3];
 impl Search<'_> {
     /// `fit` with the corrections that can be told, without shifts; its effects fitted beside them. Where time is up all its
     /// corrections are told as they are.
-    pub fn told(&self, fit: &FittedRecords) -> Result<FittedRecords, RecordError> {
+    pub(super) fn told(&self, fit: &FittedRecords) -> Result<FittedRecords, RecordError> {
         if self.control.is_late() {
             return Ok(FittedRecords { shifts: vec![0.0; fit.shifts.len()], ..fit.clone() });
         }
@@ -129,7 +129,7 @@ impl Search<'_> {
     }
 
     /// What comparing the project shows with the corrections of `told` and these effects, their parameters as they are.
-    pub fn promised(&self, told: &FittedRecords, effects: &[Source]) -> Result<f64, RecordError> {
+    pub(super) fn promised(&self, told: &FittedRecords, effects: &[Source]) -> Result<f64, RecordError> {
         let mut records = self.plain.clone();
         records.known.extend_from_slice(effects);
         let mut start = FittedRecords {

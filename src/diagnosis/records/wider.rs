@@ -18,7 +18,7 @@ const BEGUN: usize = 2;
 impl Search<'_> {
     /// The best of `found` with its last law replaced by wider ones, from where they leave least; on parts of records none where it
     /// leaves no more than noise.
-    pub fn begun_wider(&self, level: usize, found: &[FittedRecords]) -> Result<Vec<FittedRecords>, RecordError> {
+    pub(super) fn begun_wider(&self, level: usize, found: &[FittedRecords]) -> Result<Vec<FittedRecords>, RecordError> {
         let Some((best, law)) = found.first().and_then(|f| Some((f, f.effects.last()?))) else { return Ok(Vec::new()) };
         let wider: Vec<Effect> =
             law.effect.wider().into_iter().filter(|e| LAWS.contains(e) && *e != law.effect).collect();

@@ -1,6 +1,6 @@
 //! The error of a comparison, seen by level, channel and harmonic.
 
-use crate::diagnosis::compare::{ChannelComparison, RunComparison};
+use crate::diagnosis::residual::comparison::{ChannelComparison, RunComparison};
 use crate::math::statistics::root_mean_square;
 
 /// Error of one part of the comparison.

@@ -20,10 +20,10 @@ use std::f64::consts::PI;
 pub(crate) const SAMPLES: usize = 512;
 
 /// Displacement amplitudes of harmonics 1.. (m) of a DOF.
-pub type Field<'a> = dyn Fn(usize) -> Vec<c64> + 'a;
+pub(crate) type Field<'a> = dyn Fn(usize) -> Vec<c64> + 'a;
 
 /// Energy in J that the force channels of a run put in over one period, with the displacements `field`.
-pub fn input(run: &RunData, field: &Field) -> f64 {
+pub(crate) fn input(run: &RunData, field: &Field) -> f64 {
     let of_channel = |dof: usize, forces: &[c64]| -> f64 {
         let x = field(dof);
         x.iter().zip(forces).enumerate().map(|(i, (x, f))| PI * (i + 1) as f64 * (x.conj() * f).im).sum()
@@ -32,7 +32,7 @@ pub fn input(run: &RunData, field: &Field) -> f64 {
 }
 
 /// Energy in J that a source takes out over one period of `field`, from so many `samples` of it.
-pub fn taken(structure: &Structure, source: &Source, omega: f64, field: &Field, samples: usize) -> f64 {
+pub(crate) fn taken(structure: &Structure, source: &Source, omega: f64, field: &Field, samples: usize) -> f64 {
     let (Kind::Whole(law), Some(basis)) = (source.effect.kind(), whole_matrix(structure, source)) else {
         return source.energy(omega, field, samples).unwrap_or(0.0);
     };
@@ -46,7 +46,7 @@ pub fn taken(structure: &Structure, source: &Source, omega: f64, field: &Field, 
 }
 
 /// The measured displacement amplitudes of a DOF, if a channel measures it.
-pub fn measured_displacement(run: &RunData, dof: usize) -> Option<Vec<c64>> {
+pub(crate) fn measured_displacement(run: &RunData, dof: usize) -> Option<Vec<c64>> {
     // The least differentiated channel is the most direct one.
     let order = [Quantity::Displacement, Quantity::Velocity, Quantity::Acceleration];
     let channel = order.iter().find_map(|q| run.responses.iter().find(|c| c.dof == dof && c.quantity == *q))?;
@@ -55,7 +55,7 @@ pub fn measured_displacement(run: &RunData, dof: usize) -> Option<Vec<c64>> {
 }
 
 /// The field of a prediction scaled to the sensors, one complex factor a harmonic.
-pub fn scaled_factors(run: &RunData, prediction: &RunPrediction) -> Vec<c64> {
+pub(crate) fn scaled_factors(run: &RunData, prediction: &RunPrediction) -> Vec<c64> {
     let factor = |h: usize| {
         let (mut product, mut square) = (c64::new(0.0, 0.0), 0.0);
         for &c in &run.alive {
@@ -71,7 +71,12 @@ pub fn scaled_factors(run: &RunData, prediction: &RunPrediction) -> Vec<c64> {
 }
 
 /// `|input - taken| / |input|` of one run for a model with a prediction.
-pub fn energy_error(structure: &Structure, sources: &[Source], run: &RunData, prediction: &RunPrediction) -> f64 {
+pub(crate) fn energy_error(
+    structure: &Structure,
+    sources: &[Source],
+    run: &RunData,
+    prediction: &RunPrediction,
+) -> f64 {
     let factors = scaled_factors(run, prediction);
     let field = |dof: usize| -> Vec<c64> {
         factors.iter().enumerate().map(|(i, f)| f * prediction.response.amplitude(dof, i + 1)).collect()

@@ -1,9 +1,8 @@
 //! Levels of the runs: their labels where all have one, else amplitudes that runs share. Tests are controlled by the force
 //! or by the response; what is held within a level is what little of it scatters.
 
-use super::data::{Data, RunData};
+use super::data::{Data, Problem, RunData};
 use super::whiteness::numbered;
-use crate::diagnosis::Problem;
 use crate::measurement::Quantity;
 
 /// Runs without labels whose forces differ by less than this share are of one level.
@@ -47,7 +46,7 @@ pub(crate) fn sessions(problem: &Problem, data: &Data) -> Vec<usize> {
 
 impl Levels {
     /// Levels of the runs of `data`.
-    pub fn new(problem: &Problem, data: &Data) -> Self {
+    pub(crate) fn new(problem: &Problem, data: &Data) -> Self {
         let labels = data.runs.iter().map(|run| problem.runs[run.index].level);
         if let Some(labels) = labels.collect::<Option<Vec<i64>>>() {
             return Self::labelled(&labels);

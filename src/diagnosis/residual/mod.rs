@@ -1,12 +1,14 @@
 //! What was measured, what the model predicts, and what is left, whitened.
 
-pub mod branch;
+pub(crate) mod branch;
 pub mod breakdown;
+pub mod comparison;
 pub mod data;
-pub mod energy_balance;
+pub(crate) mod energy_balance;
 pub(crate) mod levels;
 pub mod prediction;
-pub mod run_nuisance;
+pub(crate) mod run_nuisance;
 pub(crate) mod telling_runs;
+pub(crate) mod transfers;
 pub mod whiteness;
-pub mod whitening;
+pub(crate) mod whitening;

@@ -13,7 +13,7 @@ use faer::Mat;
 
 /// Local nuisance parameters of one run, eliminated.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct RunNuisance {
+pub(crate) struct RunNuisance {
     /// `V`, one column a parameter, in units of its prior deviation.
     columns: Vec<Vec<f64>>,
     /// `Q`.
@@ -26,7 +26,7 @@ pub struct RunNuisance {
 
 /// What the data say of the local parameters of one run.
 #[derive(Debug, Clone, PartialEq)]
-pub struct RunNuisanceEstimate {
+pub(crate) struct RunNuisanceEstimate {
     /// Values in units of the prior deviations.
     pub values: Vec<f64>,
     /// Variances in the same units, 1 where the data say nothing.
@@ -35,7 +35,7 @@ pub struct RunNuisanceEstimate {
 
 impl RunNuisance {
     /// Of the whitened columns `V`.
-    pub fn new(columns: Vec<Vec<f64>>) -> Self {
+    pub(crate) fn new(columns: Vec<Vec<f64>>) -> Self {
         let q = columns.len();
         let gram = Mat::from_fn(q, q, |i, j| dot(&columns[i], &columns[j]));
         let (mut basis, mut shrinkage) = (Vec::new(), Vec::new());
@@ -56,38 +56,33 @@ impl RunNuisance {
 
     /// The same where the model has the parameters at `reference` already, in units of their prior deviations.
     #[must_use]
-    pub fn at(self, reference: Vec<f64>) -> Self {
+    pub(crate) fn at(self, reference: Vec<f64>) -> Self {
         Self { reference, ..self }
     }
 
     /// Turns a whitened residual of the run, with the parameters at the reference, into one with none of them.
-    pub fn without_reference(&self, rows: &mut [f64]) {
+    pub(crate) fn without_reference(&self, rows: &mut [f64]) {
         for (column, u) in self.columns.iter().zip(&self.reference).filter(|(_, u)| **u != 0.0) {
             rows.iter_mut().zip(column).for_each(|(r, c)| *r += u * c);
         }
     }
 
     /// Multiplies the whitened rows of the run by `(1 + V V^T)^(-1/2)`.
-    pub fn project(&self, rows: &mut [f64]) {
+    pub(crate) fn project(&self, rows: &mut [f64]) {
         for (direction, shrink) in self.basis.iter().zip(&self.shrinkage) {
             let share = shrink * dot(direction, rows);
             rows.iter_mut().zip(direction).for_each(|(r, d)| *r -= share * d);
         }
     }
 
-    /// Whether nothing is eliminated.
-    pub fn is_empty(&self) -> bool {
-        self.columns.is_empty()
-    }
-
     /// `ln det (1 + V V^T)`.
-    pub fn log_determinant(&self) -> f64 {
+    pub(crate) fn log_determinant(&self) -> f64 {
         self.shrinkage.iter().map(|s| -2.0 * (1.0 - s).ln()).sum()
     }
 
     /// The parameters given the whitened residual `rows` after it was projected: `(1 + V^T V)^-1 V^T r`, which is
     /// `V^T (1 + V V^T)^-1 r`.
-    pub fn estimate(&self, rows: &[f64]) -> RunNuisanceEstimate {
+    pub(crate) fn estimate(&self, rows: &[f64]) -> RunNuisanceEstimate {
         let q = self.columns.len();
         let unit = |i: usize, j: usize| if i == j { 1.0 } else { 0.0 };
         let normal = Mat::from_fn(q, q, |i, j| unit(i, j) + dot(&self.columns[i], &self.columns[j]));

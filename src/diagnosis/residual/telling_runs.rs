@@ -9,7 +9,7 @@ use super::data::{Data, RunData, size};
 use faer::c64;
 
 /// Runs that are searched at the most.
-pub const MOST: usize = 40;
+pub(crate) const MOST: usize = 40;
 /// Fewest of a session.
 const FEWEST: usize = 4;
 

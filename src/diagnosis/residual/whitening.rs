@@ -25,11 +25,11 @@ const NOISY: f64 = 2.5;
 const ASSUMED: f64 = 5e-3;
 
 /// Response of every channel to a unit of every force channel: `[harmonic][force][channel]`.
-pub type Transfers = Vec<Vec<Vec<c64>>>;
+pub(crate) type Transfers = Vec<Vec<Vec<c64>>>;
 
 /// Lower triangular factors that whiten the residual of one run; only channels that are alive take part.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Whitening {
+pub(crate) struct Whitening {
     /// Of the living channels, per harmonic.
     factors: Vec<HermitianFactor>,
     alive: Vec<usize>,
@@ -50,7 +50,7 @@ fn own_deviation(size: f64, deviation: f64) -> f64 {
 
 impl Whitening {
     /// Noise of `run` for a model of transfers `a` whose prediction has the error `truncation[channel][harmonic]`.
-    pub fn new(run: &RunData, a: &Transfers, truncation: &[Vec<f64>]) -> Self {
+    pub(crate) fn new(run: &RunData, a: &Transfers, truncation: &[Vec<f64>]) -> Self {
         let mut expected = vec![vec![0.0; run.harmonics]; run.responses.len()];
         let mut own = expected.clone();
         let mut force = Vec::with_capacity(run.harmonics);
@@ -74,39 +74,34 @@ impl Whitening {
 
     /// The same noise with local parameters of the run eliminated.
     #[must_use]
-    pub fn with_nuisance(self, nuisance: RunNuisance) -> Self {
+    pub(crate) fn with_nuisance(self, nuisance: RunNuisance) -> Self {
         Self { nuisance, ..self }
     }
 
     /// What differs from run to run, eliminated.
-    pub fn nuisance(&self) -> &RunNuisance {
+    pub(crate) fn nuisance(&self) -> &RunNuisance {
         &self.nuisance
     }
 
     /// Whitened real and imaginary parts of all harmonics, local parameters not eliminated; `value(c, h)` is the entry of
     /// response channel `c` at harmonic `h`.
-    pub fn rows(&self, value: impl Fn(usize, usize) -> c64) -> Vec<f64> {
+    pub(crate) fn rows(&self, value: impl Fn(usize, usize) -> c64) -> Vec<f64> {
         let of = |h: usize| self.apply(h, |c| value(c, h));
         (1..=self.factors.len()).flat_map(of).flat_map(|e| [e.re, e.im]).collect()
     }
 
     /// `ln det` of the covariance of all real values, what is the run's own not included.
-    pub fn log_determinant(&self) -> f64 {
+    pub(crate) fn log_determinant(&self) -> f64 {
         self.factors.iter().map(|factor| 2.0 * factor.log_determinant()).sum()
     }
 
     /// Number of real values of a whitened run.
-    pub fn len(&self) -> usize {
+    pub(crate) fn len(&self) -> usize {
         2 * self.alive.len() * self.factors.len()
     }
 
-    /// Whether no channel takes part.
-    pub fn is_empty(&self) -> bool {
-        self.alive.is_empty()
-    }
-
     /// `L^-1 v` at harmonic `h` (from 1); `value(c)` is the entry of response channel `c`.
-    pub fn apply(&self, h: usize, value: impl Fn(usize) -> c64) -> Vec<c64> {
+    pub(crate) fn apply(&self, h: usize, value: impl Fn(usize) -> c64) -> Vec<c64> {
         let mut result: Vec<c64> = self.alive.iter().map(|&c| value(c)).collect();
         self.factors[h - 1].whiten(&mut result);
         result
@@ -115,7 +110,7 @@ impl Whitening {
     /// Expected `|e_c|^2` over the harmonics of response channel `c`, were the model exact, given what the residual
     /// `e(c, h)` shows of the noise of the force: that is one number a harmonic, often the largest of all, and its scatter
     /// must not pass for an error of the model. Where the residual is more than noise it shows nothing.
-    pub fn expected_given(&self, c: usize, e: impl Fn(usize, usize) -> c64) -> f64 {
+    pub(crate) fn expected_given(&self, c: usize, e: impl Fn(usize, usize) -> c64) -> f64 {
         let at = |(i, force): (usize, &Option<(f64, Vec<c64>)>)| {
             let h = i + 1;
             let white: f64 = self.apply(h, |k| e(k, h)).iter().map(c64::norm_sqr).sum();
@@ -134,7 +129,7 @@ impl Whitening {
     }
 
     /// Standard deviation of one real part of harmonic `h` (from 1) of channel `c`.
-    pub fn deviation(&self, c: usize, h: usize) -> f64 {
+    pub(crate) fn deviation(&self, c: usize, h: usize) -> f64 {
         (0.5 * self.expected[c][h - 1]).sqrt()
     }
 }

@@ -10,7 +10,7 @@ use crate::diagnosis::selection::found::{
     DOUBTFUL, EVIDENCE, FittedSets, Found, MOST_EFFECTS, agrees, distinct, nearly,
 };
 use crate::diagnosis::selection::left_out::{exceeds, groups};
-use crate::diagnosis::selection::search::{ReferenceModel, scale_of};
+use crate::diagnosis::selection::reference_model::{ReferenceModel, scale_of};
 use crate::diagnosis::selection::weighing::{Weighed, weighed};
 use crate::diagnosis::updating::detuning::is_likely;
 use crate::effects::Kind;

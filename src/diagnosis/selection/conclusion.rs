@@ -1,12 +1,13 @@
 //! From where a search ended to what is said: suggestions with their probabilities, steps, what cannot be told apart.
 
-use crate::diagnosis::diagnose::{Added, Diagnosis, Step, Suggestion, Verdict, noise_floor};
 use crate::diagnosis::residual::data::DiagnosisError;
 use crate::diagnosis::residual::prediction::FINAL;
-use crate::diagnosis::selection::fitted_model::{Estimator, FittedModel};
+use crate::diagnosis::result::{Added, Diagnosis, Step, Suggestion, Verdict};
+use crate::diagnosis::selection::estimator::Estimator;
+use crate::diagnosis::selection::fitted_model::FittedModel;
 use crate::diagnosis::selection::found::{FittedSets, Found, same_set};
 use crate::diagnosis::selection::next_test::{next_test, pinning_test};
-use crate::diagnosis::selection::search::{ReferenceModel, scale_of};
+use crate::diagnosis::selection::reference_model::{ReferenceModel, scale_of};
 use crate::diagnosis::selection::sentences::sentences;
 use crate::diagnosis::updating::correction::Correction;
 use crate::diagnosis::updating::parameters::{Scales, UpdatingParameter};
@@ -37,7 +38,7 @@ pub(crate) struct Outcome<'a> {
 
 impl Outcome<'_> {
     /// Fills in what was found.
-    pub fn conclude(&self, mut diagnosis: Diagnosis) -> Result<Diagnosis, DiagnosisError> {
+    pub(crate) fn conclude(&self, mut diagnosis: Diagnosis) -> Result<Diagnosis, DiagnosisError> {
         let reference = &self.reference;
         let by_size = &self.found.by_size;
         let Some(top) = by_size.last() else {
@@ -64,7 +65,7 @@ impl Outcome<'_> {
             ..reference.shallow()
         };
         let predictions = quiet.estimator().predict(&best.effects, &FINAL, &best.starts)?;
-        diagnosis.noise_floor = noise_floor(&quiet, &best.effects, &predictions);
+        diagnosis.noise_floor = quiet.noise_floor(&best.effects, &predictions);
         diagnosis.corrections = corrections(&quiet);
         let misfit = best.chi_square / reference.count().max(1) as f64;
         let trust = if misfit > TOLERATED { UNTRUSTED } else { 1.0 };

@@ -3,7 +3,7 @@
 use crate::control::Cancelled;
 use crate::diagnosis::residual::data::{ChannelData, DiagnosisError, RunData};
 use crate::diagnosis::residual::prediction::{Predictor, RunPrediction, transfer};
-use crate::diagnosis::selection::fitted_model::{Estimator, Starts};
+use crate::diagnosis::selection::estimator::{Estimator, Starts};
 use crate::diagnosis::selection::levenberg_marquardt::{Residual, Variables};
 use crate::effects::{Kind, Source};
 use crate::response::harmonic_balance::Settings;
@@ -92,7 +92,7 @@ impl OnResponse<'_> {
     }
 
     /// The model at `theta`, the last one if it was there.
-    pub fn trial(&mut self, theta: &[f64]) -> Result<Trial, DiagnosisError> {
+    pub(crate) fn trial(&mut self, theta: &[f64]) -> Result<Trial, DiagnosisError> {
         match self.last.take().filter(|t| t.theta == theta) {
             Some(trial) => Ok(trial),
             None => self.compute(theta),
@@ -137,7 +137,7 @@ impl OnResponse<'_> {
     }
 
     /// [`Self::analytic_columns`] at `theta`, by differences where there are none, and the residual there.
-    pub fn at_reference(&mut self, theta: &[f64]) -> Result<(Vec<f64>, Vec<Vec<f64>>), DiagnosisError> {
+    pub(crate) fn at_reference(&mut self, theta: &[f64]) -> Result<(Vec<f64>, Vec<Vec<f64>>), DiagnosisError> {
         let trial = self.trial(theta)?;
         self.starts = trial.predictions.iter().map(|p| p.found.then(|| p.response.clone())).collect();
         let rows = |predictions: &[RunPrediction]| self.estimator.at_reference(predictions);

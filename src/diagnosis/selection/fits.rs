@@ -1,12 +1,15 @@
 //! Fits of sets on the response: all of them a little, the promising ones to the end, the best with all harmonics.
 
 use crate::diagnosis::candidates::special_cases::is_limit;
+use crate::diagnosis::candidates::start::UnfittedSet;
 use crate::diagnosis::candidates::start::start;
 use crate::diagnosis::residual::data::DiagnosisError;
 use crate::diagnosis::residual::prediction::{FINAL, SEARCH};
-use crate::diagnosis::selection::fitted_model::{Estimator, FittedModel, Starts};
+use crate::diagnosis::selection::estimator::{Estimator, Starts};
+use crate::diagnosis::selection::fitted_model::FittedModel;
 use crate::diagnosis::selection::found::same_set;
-use crate::diagnosis::selection::search::{ReferenceModel, UnfittedSet, joined, scale_of};
+use crate::diagnosis::selection::reference_model::{ReferenceModel, scale_of};
+use crate::diagnosis::selection::search::joined;
 use crate::diagnosis::updating::noise_model::NoiseModel;
 use crate::effects::{Effect, Kind, Place, Source, State};
 use std::sync::Arc;
@@ -71,7 +74,7 @@ impl ReferenceModel<'_> {
     }
 
     /// The laws of the whole structure, from a light start.
-    pub fn whole(&self, from: Option<&FittedModel>, steps: usize) -> Result<Vec<FittedModel>, DiagnosisError> {
+    pub(crate) fn whole(&self, from: Option<&FittedModel>, steps: usize) -> Result<Vec<FittedModel>, DiagnosisError> {
         let effects = from.map_or(&[][..], |fit| &fit.effects);
         let omega = self.data.runs.iter().map(|r| r.omega.ln()).sum::<f64>() / self.data.runs.len() as f64;
         let light = |effect: Effect| {
@@ -110,7 +113,10 @@ impl ReferenceModel<'_> {
 
     /// Fits the best of `fits` again with all harmonics that matter and the noise of the best of them, truncation
     /// included; the others follow as they are.
-    pub fn polished(&self, fits: Vec<FittedModel>) -> Result<(Vec<FittedModel>, Arc<NoiseModel>), DiagnosisError> {
+    pub(crate) fn polished(
+        &self,
+        fits: Vec<FittedModel>,
+    ) -> Result<(Vec<FittedModel>, Arc<NoiseModel>), DiagnosisError> {
         let mut best = fits;
         let scale = scale_of(&best, self.count());
         let bound = best.first().map_or(0.0, |r| self.evidence(r, scale)) + HOPELESS_FIT;

@@ -1,16 +1,16 @@
 //! The short list is judged on the response itself: the parameters of all added effects are fitted by Levenberg and
 //! Marquardt's method to the whitened amplitudes of all channels, runs and harmonics; updating parameters are eliminated.
 
-use crate::control::Control;
-use crate::diagnosis::residual::data::{Data, DiagnosisError, size};
-use crate::diagnosis::residual::prediction::{FINAL, Predictor, RunPrediction, SEARCH};
+use crate::diagnosis::residual::data::DiagnosisError;
+use crate::diagnosis::residual::prediction::{FINAL, RunPrediction};
+use crate::diagnosis::selection::estimator::Estimator;
+use crate::diagnosis::selection::estimator::Starts;
+use crate::diagnosis::selection::estimator::starts_of;
 use crate::diagnosis::selection::fit_problem::{OnResponse, Trial};
 use crate::diagnosis::selection::levenberg_marquardt::{Descent, Variables, descend};
-use crate::diagnosis::updating::noise_model::NoiseModel;
 use crate::effects::{Leg, Range, Source};
-use crate::math::statistics::root_mean_square;
-use crate::response::harmonic_balance::{Response, ResponseError, Settings};
-use faer::{Mat, c64};
+use crate::response::harmonic_balance::{Response, Settings};
+use faer::Mat;
 
 /// Groups of runs that are left out in turn.
 const FOLDS: usize = 4;
@@ -18,24 +18,9 @@ const FOLDS: usize = 4;
 /// Steps of a fit whose time is up.
 const HURRIED: usize = 1;
 
-/// Share of what remains of a search that one predicted run is taken for: a search asks for thousands of them.
-const PACE: f64 = 2e-4;
-
-/// A response of each run to start from.
-pub(crate) type Starts = Vec<Option<Response>>;
-
-/// A model to be fitted: the predictor with its data and noise.
-#[derive(Clone, Copy)]
-pub(crate) struct Estimator<'a> {
-    pub predictor: &'a Predictor,
-    pub data: &'a Data,
-    pub noise: &'a NoiseModel,
-    pub control: &'a Control,
-}
-
 /// A set of effects fitted on the response.
 #[derive(Debug, Clone)]
-pub struct FittedModel {
+pub(crate) struct FittedModel {
     /// Effects with their parameters.
     pub effects: Vec<Source>,
     /// Standard deviation of every parameter, of every effect.
@@ -70,88 +55,8 @@ impl FittedModel {
 }
 
 impl Estimator<'_> {
-    /// Number of real data.
-    pub fn count(&self) -> usize {
-        self.noise.count()
-    }
-
-    /// Predicts every run; a run without a periodic answer is predicted to rest, and so fits nothing.
-    pub fn predict(
-        &self,
-        effects: &[Source],
-        settings: &Settings,
-        starts: &[Option<Response>],
-    ) -> Result<Vec<RunPrediction>, DiagnosisError> {
-        let run = |r: usize| {
-            let run = &self.data.runs[r];
-            self.control.check()?;
-            self.control.advance(PACE);
-            let start = starts.get(r).and_then(Option::as_ref);
-            let predicted = if *settings == FINAL {
-                self.predictor.predict_well(r, run, effects, start, self.control)
-            } else {
-                self.predictor.predict(r, run, effects, settings, start, self.control)
-            };
-            match predicted {
-                Ok(prediction) => Ok(prediction),
-                Err(ResponseError::Cancelled(cancelled)) => Err(cancelled.into()),
-                Err(_) => self.at_rest(r),
-            }
-        };
-        self.control.map(self.data.runs.len(), run).into_iter().collect()
-    }
-
-    fn at_rest(&self, r: usize) -> Result<RunPrediction, DiagnosisError> {
-        let run = &self.data.runs[r];
-        let mut silent = run.clone();
-        silent.forces.iter_mut().for_each(|f| f.measured.fill(c64::new(0.0, 0.0)));
-        let file = format!("number {}", run.index + 1);
-        let failed = |reason| DiagnosisError::Response { file, reason };
-        let resting = self.predictor.predict(r, &silent, &[], &SEARCH, None, self.control).map_err(failed)?;
-        Ok(RunPrediction { found: false, ..resting })
-    }
-
-    /// Whitened residual of all runs, real and imaginary parts, updating parameters eliminated.
-    pub fn residual(&self, predictions: &[RunPrediction]) -> Vec<f64> {
-        self.noise.updating.residual(self.at_reference(predictions))
-    }
-
-    /// Whitened residual of all runs with the updating parameters at their reference; what differs from run to run is
-    /// eliminated.
-    pub fn at_reference(&self, predictions: &[RunPrediction]) -> Vec<f64> {
-        let mut rows = Vec::with_capacity(self.count());
-        for (r, (run, prediction)) in self.data.runs.iter().zip(predictions).enumerate() {
-            let noise = &self.noise.runs[r];
-            let mut own = noise.rows(|c, h| run.responses[c].measured[h - 1] - prediction.channels[c][h - 1]);
-            noise.nuisance().without_reference(&mut own);
-            noise.nuisance().project(&mut own);
-            rows.extend(own);
-        }
-        rows
-    }
-
-    pub fn whitened(&self, r: usize, rows: &mut Vec<f64>, value: impl Fn(usize, usize) -> c64) {
-        let mut own = self.noise.runs[r].rows(value);
-        self.noise.runs[r].nuisance().project(&mut own);
-        rows.extend(own);
-    }
-
-    /// Relative root mean square error of predictions over runs and channels.
-    pub fn error(&self, predictions: &[RunPrediction]) -> f64 {
-        let mut errors = Vec::new();
-        for (run, prediction) in self.data.runs.iter().zip(predictions) {
-            for (c, channel) in run.responses.iter().enumerate() {
-                let pairs = channel.measured.iter().zip(&prediction.channels[c]);
-                let difference: Vec<c64> = pairs.map(|(y, m)| y - m).collect();
-                let scale = run.scale(c);
-                errors.push(if scale > 0.0 { size(&difference) / scale } else { 0.0 });
-            }
-        }
-        root_mean_square(&errors)
-    }
-
     /// Fits all parameters of `effects` from where they are.
-    pub fn fit(
+    pub(crate) fn fit(
         &self,
         effects: &[Source],
         steps: usize,
@@ -168,7 +73,7 @@ impl Estimator<'_> {
     }
 
     /// Error on runs that were left out: groups of runs in turn, the parameters refitted without them (linearised).
-    pub fn held_out_error(&self, fit: &FittedModel) -> Result<f64, DiagnosisError> {
+    pub(crate) fn held_out_error(&self, fit: &FittedModel) -> Result<f64, DiagnosisError> {
         let (variables, _) = Variables::new(&fit.effects);
         let folds = FOLDS.min(self.data.runs.len());
         if folds < 2 {
@@ -211,11 +116,6 @@ fn finished(estimator: &Estimator, variables: &Variables, descent: Descent, tria
         deviations,
         descent,
     }
-}
-
-/// The responses of predictions, for others to start from.
-pub(crate) fn starts_of(predictions: Vec<RunPrediction>) -> Starts {
-    predictions.into_iter().map(|p| p.found.then_some(p.response)).collect()
 }
 
 /// Variables of the linearised fit without the rows of one fold.

@@ -1,14 +1,17 @@
 //! Candidates beside updating parameters: laws regressed at the measured motion, each followed with a model of its own.
 
-use super::search::{ReferenceModel, UnfittedSet, joined};
+use super::search::joined;
 use super::short_list::{Breadth, needed};
 use super::weighing::{bound_beside, cost};
+use crate::diagnosis::candidates::start::UnfittedSet;
 use crate::diagnosis::candidates::start::start;
 use crate::diagnosis::residual::data::{DiagnosisError, if_possible};
 use crate::diagnosis::residual::prediction::SEARCH;
+use crate::diagnosis::selection::estimator::Starts;
 use crate::diagnosis::selection::exactness::settings_for;
 use crate::diagnosis::selection::fits::STEPS;
-use crate::diagnosis::selection::fitted_model::{FittedModel, Starts};
+use crate::diagnosis::selection::fitted_model::FittedModel;
+use crate::diagnosis::selection::reference_model::ReferenceModel;
 use crate::diagnosis::updating::measured_motion::MeasuredMotion;
 use crate::diagnosis::updating::parameters::Updating;
 use crate::effects::{Effect, Kind, Place, Source, State};

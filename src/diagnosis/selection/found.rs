@@ -1,7 +1,7 @@
 //! Fits that a search keeps on its way, and when they agree with the data.
 
 use crate::diagnosis::selection::fitted_model::FittedModel;
-use crate::diagnosis::selection::search::ReferenceModel;
+use crate::diagnosis::selection::reference_model::ReferenceModel;
 use crate::diagnosis::updating::noise_model::NoiseModel;
 use crate::effects::Source;
 use std::sync::Arc;

@@ -11,10 +11,10 @@
 
 use crate::diagnosis::residual::data::{DiagnosisError, RunData, if_possible};
 use crate::diagnosis::residual::prediction::{Predictor, RunPrediction};
+use crate::diagnosis::selection::estimator::{Estimator, Starts, starts_of};
 use crate::diagnosis::selection::fit_problem::{run_slopes, unknowns_of};
-use crate::diagnosis::selection::fitted_model::{Estimator, Starts, starts_of};
 use crate::diagnosis::selection::levenberg_marquardt::{Residual, Variables, descend};
-use crate::diagnosis::selection::search::ReferenceModel;
+use crate::diagnosis::selection::reference_model::ReferenceModel;
 use crate::diagnosis::updating::noise_model::NoiseModel;
 use crate::diagnosis::updating::parameters::Updating;
 use crate::effects::{Kind, Source};
@@ -314,7 +314,7 @@ mod tests {
         let problem = Problem { structure: &stated, sources: &known, runs: &runs };
         let data = Data::new(&problem).unwrap();
         let predictor = Arc::new(Predictor::new(&stated, known.clone(), &data).unwrap());
-        let (control, early) = (Control::unattended(), |_: &[crate::diagnosis::diagnose::Suggestion]| {});
+        let (control, early) = (Control::unattended(), |_: &[crate::diagnosis::result::Suggestion]| {});
         let reference = ReferenceModel::new(predictor, &data, &control, &early).unwrap();
         let updating = Updating::all(&stated, &known, &data);
         check(&reference.updated(&updating, &[hidden()], &Vec::new()).unwrap());

@@ -81,7 +81,7 @@ pub(crate) struct Variables {
 
 impl Variables {
     /// All parameters of `effects`, with their variables at the start.
-    pub fn new(effects: &[Source]) -> (Self, Vec<f64>) {
+    pub(crate) fn new(effects: &[Source]) -> (Self, Vec<f64>) {
         let mut variables = Vec::new();
         let mut start = Vec::new();
         for effect in effects {
@@ -95,12 +95,12 @@ impl Variables {
     }
 
     /// Number of variables.
-    pub fn len(&self) -> usize {
+    pub(crate) fn len(&self) -> usize {
         self.variables.len()
     }
 
     /// The effects at `theta`.
-    pub fn effects(&self, theta: &[f64]) -> Vec<Source> {
+    pub(crate) fn effects(&self, theta: &[f64]) -> Vec<Source> {
         let mut effects = self.template.clone();
         let values = self.variables.iter().zip(theta).map(|(v, &t)| v.to_value(t));
         effects.iter_mut().flat_map(|e| e.parameters.iter_mut()).zip(values).for_each(|(p, v)| *p = v);
@@ -108,7 +108,7 @@ impl Variables {
     }
 
     /// Derivative of each parameter by its variable.
-    pub fn slopes(&self, theta: &[f64]) -> Vec<f64> {
+    pub(crate) fn slopes(&self, theta: &[f64]) -> Vec<f64> {
         self.variables.iter().zip(theta).map(|(v, &t)| v.slope(t)).collect()
     }
 }
@@ -129,7 +129,7 @@ pub(crate) struct Descent {
 impl Descent {
     /// Logarithm of the share of the parameters' prior, normal with unit deviation in the variables (a factor of `e` for sizes),
     /// that the data leave: `-1/2 ln det(J^T J + 1)`.
-    pub fn log_volume(&self) -> f64 {
+    pub(crate) fn log_volume(&self) -> f64 {
         let mut normal = transposed_product(self.jacobian.as_ref(), self.jacobian.as_ref());
         (0..normal.nrows()).for_each(|k| normal[(k, k)] += 1.0);
         Cholesky::new(normal.as_ref()).map_or(0.0, |factor| -0.5 * factor.log_determinant())
@@ -137,7 +137,7 @@ impl Descent {
 
     /// Standard deviations of the variables for a residual of unit variance; infinite where the data say nothing, very
     /// large where they cannot tell variables apart. A variable that does nothing leaves those of the others alone.
-    pub fn deviations(&self) -> Vec<f64> {
+    pub(crate) fn deviations(&self) -> Vec<f64> {
         let n = self.theta.len();
         let normal = transposed_product(self.jacobian.as_ref(), self.jacobian.as_ref());
         let sizes: Vec<f64> = (0..n).map(|i| normal[(i, i)].max(0.0).sqrt()).collect();

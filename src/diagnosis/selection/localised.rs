@@ -5,11 +5,13 @@
 //! way is far off (friction that sticks). Once a law leaves about as little as free forces, the model is moved beside that:
 //! it is the narrower hypothesis.
 
+use crate::diagnosis::candidates::start::UnfittedSet;
 use crate::diagnosis::channels::{ChannelFault, Fault, mended};
-use crate::diagnosis::localisation::free_force::{FreeForce, Placing};
+use crate::diagnosis::localisation::cell::FreeForce;
+use crate::diagnosis::localisation::free_force::Placing;
 use crate::diagnosis::localisation::location::Spot;
 use crate::diagnosis::residual::data::{DiagnosisError, if_possible};
-use crate::diagnosis::selection::search::{ReferenceModel, UnfittedSet};
+use crate::diagnosis::selection::reference_model::ReferenceModel;
 use crate::diagnosis::selection::short_list::Breadth;
 use crate::diagnosis::updating::parameters::Updating;
 
@@ -57,7 +59,9 @@ impl Seen<'_> {
 impl<'a> ReferenceModel<'a> {
     /// The model with the updating parameters that fit best beside what leaves least at the measured motion, and the laws
     /// regressed there, best first; or the channel that does not fit the others, whatever the law.
-    pub fn localised(&self) -> Result<Result<(ReferenceModel<'a>, Vec<UnfittedSet>), ChannelFault>, DiagnosisError> {
+    pub(crate) fn localised(
+        &self,
+    ) -> Result<Result<(ReferenceModel<'a>, Vec<UnfittedSet>), ChannelFault>, DiagnosisError> {
         let (stated, known) = self.predictor.stated();
         let here = self.moved_beside(Updating::all(stated, known, self.data))?;
         if let Some(fault) = self.doubted(&here)? {

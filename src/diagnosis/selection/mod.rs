@@ -1,24 +1,26 @@
 //! Fits on the response, stepwise selection of effects, conclusions, the next test.
 
 mod beside_corrections;
-pub mod conclusion;
+pub(crate) mod conclusion;
+pub(crate) mod estimator;
 mod exactness;
-pub mod fit_problem;
-pub mod fits;
-pub mod fitted_model;
+pub(crate) mod fit_problem;
+pub(crate) mod fits;
+pub(crate) mod fitted_model;
 mod followed;
 pub(crate) mod found;
 mod joint_fit;
 mod left_out;
-pub mod levenberg_marquardt;
+pub(crate) mod levenberg_marquardt;
 mod localised;
-pub mod next_test;
+pub(crate) mod next_test;
 mod pairs;
-pub mod search;
-pub mod sentences;
+pub(crate) mod reference_model;
+pub(crate) mod search;
+pub(crate) mod sentences;
 mod short_list;
 mod single_change;
 mod singles;
-pub mod stepwise;
-pub mod updated;
+pub(crate) mod stepwise;
+pub(crate) mod updated;
 mod weighing;

@@ -6,12 +6,12 @@
 //! pinning      sqrt [ (N + sum_c Re a_c^H a_c / s_c^2)^-1 ]_kk,     N the information so far, a_c = dX_c / d theta
 //! ```
 
-use crate::diagnosis::diagnose::{NextTest, TestKind};
 use crate::diagnosis::residual::data::DiagnosisError;
 use crate::diagnosis::residual::prediction::SEARCH;
+use crate::diagnosis::result::{NextTest, TestKind};
 use crate::diagnosis::selection::fitted_model::FittedModel;
 use crate::diagnosis::selection::levenberg_marquardt::Variables;
-use crate::diagnosis::selection::search::ReferenceModel;
+use crate::diagnosis::selection::reference_model::ReferenceModel;
 use crate::effects::{Effect, Kind, Source};
 use crate::math::least_squares::solve_symmetric;
 use crate::response::harmonic_balance::{Excitation, Response};

@@ -1,10 +1,12 @@
 //! Two effects at once: laws regressed at the pairs of places that two free forces explain best.
 
-use super::search::{ReferenceModel, UnfittedSet, joined};
+use super::search::joined;
 use super::short_list::{Breadth, hopeless, needed};
 use super::singles::FITS;
+use crate::diagnosis::candidates::start::UnfittedSet;
 use crate::diagnosis::residual::data::DiagnosisError;
 use crate::diagnosis::selection::fitted_model::FittedModel;
+use crate::diagnosis::selection::reference_model::ReferenceModel;
 
 /// Pairs of places whose laws are looked at.
 const PAIRS: usize = 48;
@@ -13,7 +15,7 @@ const PAIRS_OF_ALL_LAWS: usize = 6;
 
 impl ReferenceModel<'_> {
     /// Sets of two new effects at the pairs of places that explain most.
-    pub fn pairs(&self) -> Result<Vec<FittedModel>, DiagnosisError> {
+    pub(crate) fn pairs(&self) -> Result<Vec<FittedModel>, DiagnosisError> {
         let mut view = self.view(None)?;
         let mut unfitted = Vec::new();
         let placings = view.screen.pairs(PAIRS);

@@ -1,21 +1,18 @@
 //! The search for one more effect, or two at once: places first, then laws, then the fit on the response.
 
-use super::short_list::{Breadth, hopeless, is_real, telling};
-use crate::control::Control;
+use super::short_list::{Breadth, hopeless, telling};
 use crate::diagnosis::candidates::identified_force::{PlaceData, shrunk};
-use crate::diagnosis::candidates::special_cases::is_allowed;
 use crate::diagnosis::candidates::start::Fields;
-use crate::diagnosis::compare::transfers;
-use crate::diagnosis::diagnose::Early;
-use crate::diagnosis::localisation::free_force::{FreeForce, Freedom, Placing, Screen};
+use crate::diagnosis::candidates::start::UnfittedSet;
+use crate::diagnosis::localisation::cell::FreeForce;
+use crate::diagnosis::localisation::free_force::{Freedom, Placing, Screen};
 use crate::diagnosis::localisation::location::{Receptances, Spot};
-use crate::diagnosis::residual::data::{Data, DiagnosisError};
-use crate::diagnosis::residual::prediction::{FINAL, Predictor, RunPrediction};
-use crate::diagnosis::residual::whitening::Whitening;
-use crate::diagnosis::selection::fitted_model::{Estimator, FittedModel};
-use crate::diagnosis::updating::noise_model::{Linearisation, NoiseModel};
+use crate::diagnosis::residual::data::DiagnosisError;
+use crate::diagnosis::residual::prediction::{FINAL, RunPrediction};
+use crate::diagnosis::selection::fitted_model::FittedModel;
+use crate::diagnosis::selection::reference_model::ReferenceModel;
 use crate::effects::{Place, Source};
-use crate::math::statistics::{bayesian_information, evidence_weights};
+use crate::math::statistics::bayesian_information;
 use faer::{Mat, c64};
 use std::sync::Arc;
 
@@ -25,40 +22,10 @@ const PLACES: usize = 24;
 const NEAR: usize = 5;
 /// Places whose laws are looked at before the others.
 const AHEAD: usize = 2;
-/// What every parameter of a law beyond its first costs in evidence besides its information criterion: where one law
-/// contains another as a limit, the simpler wins unless the data demand the other.
-const EXTRA: f64 = 8.0;
-/// What a law costs that is fitted next to a simpler one: records are not so exact that they could tell.
-const POSING: f64 = 20.0;
 /// Scaled squared residual beyond the best law that a free force of a place may leave where its laws are looked at.
 const MARGIN: f64 = 150.0;
 /// Places at which the law found is tried too, where no law can tell them apart.
 const ELSEWHERE: usize = 6;
-
-/// A set of effects with its score before it is fitted on the response.
-#[derive(Debug, Clone)]
-pub(crate) struct UnfittedSet {
-    pub effects: Vec<Source>,
-    pub score: f64,
-    /// Motion that the data show if the effects are right.
-    pub(crate) fields: Arc<Fields>,
-}
-
-/// Everything that a search needs about one reference model.
-pub(crate) struct ReferenceModel<'a> {
-    /// The known model, its updating parameters at their reference.
-    pub predictor: Arc<Predictor>,
-    pub data: &'a Data,
-    pub control: &'a Control,
-    /// What updating parameters do, at their reference.
-    pub linearisation: Arc<Linearisation>,
-    /// Predictions of the reference model.
-    pub predictions: Vec<RunPrediction>,
-    /// Noise of the residuals.
-    pub noise: Arc<NoiseModel>,
-    /// Who is told of the first suggestions.
-    pub early: &'a Early<'a>,
-}
 
 /// The residual of a model seen from every place.
 pub(crate) struct View<'a> {
@@ -67,45 +34,7 @@ pub(crate) struct View<'a> {
     predictions: Vec<RunPrediction>,
 }
 
-impl<'a> ReferenceModel<'a> {
-    /// The known model itself.
-    pub fn new(
-        predictor: Arc<Predictor>,
-        data: &'a Data,
-        control: &'a Control,
-        early: &'a Early<'a>,
-    ) -> Result<Self, DiagnosisError> {
-        let (linearisation, noise) = (Arc::default(), Arc::default());
-        let mut reference = Self { predictor, data, control, linearisation, predictions: Vec::new(), noise, early };
-        reference.predictions = reference.estimator().predict(&[], &FINAL, &[])?;
-        reference.noise = Arc::new(reference.noise_of(&[], &reference.predictions)?);
-        Ok(reference)
-    }
-
-    /// Noise of the residual of a model with `effects` and its predictions.
-    pub fn noise_of(&self, effects: &[Source], of: &[RunPrediction]) -> Result<NoiseModel, DiagnosisError> {
-        let runs = self.data.runs.iter().enumerate();
-        let runs: Result<Vec<Whitening>, DiagnosisError> = runs
-            .map(|(r, run)| {
-                let file = format!("number {}", run.index + 1);
-                let failed = |reason| DiagnosisError::Response { file, reason };
-                let a = transfers(&self.predictor, r, run, effects, self.control).map_err(failed)?;
-                Ok(Whitening::new(run, &a, &of[r].truncation))
-            })
-            .collect();
-        Ok(NoiseModel::new(runs?, &self.linearisation))
-    }
-
-    /// What fits on the response are made with.
-    pub fn estimator(&self) -> Estimator<'_> {
-        Estimator { predictor: &self.predictor, data: self.data, noise: &self.noise, control: self.control }
-    }
-
-    /// Number of real data.
-    pub fn count(&self) -> usize {
-        self.noise.count()
-    }
-
+impl ReferenceModel<'_> {
     /// The residual of the known model, or of a fit, seen from every place.
     pub(crate) fn view(&self, of: Option<&FittedModel>) -> Result<View<'_>, DiagnosisError> {
         let effects = of.map_or(&[][..], |fit| &fit.effects);
@@ -174,7 +103,7 @@ impl<'a> ReferenceModel<'a> {
 
     /// The free force of the place of `source` when the model has the other effects of `fit`; none for whole-structure
     /// laws.
-    pub fn place_data(&self, fit: &FittedModel, source: &Source) -> Result<Option<PlaceData>, DiagnosisError> {
+    pub(crate) fn place_data(&self, fit: &FittedModel, source: &Source) -> Result<Option<PlaceData>, DiagnosisError> {
         let mut others = fit.clone();
         others.effects.retain(|e| !e.is_same(source));
         others.starts.clear();
@@ -189,7 +118,7 @@ impl<'a> ReferenceModel<'a> {
 
     /// The set `best` with its effect `source` at other places that leave no more than `margin` beyond what its own place
     /// leaves to a free force.
-    pub fn elsewhere(
+    pub(crate) fn elsewhere(
         &self,
         best: &FittedModel,
         source: &Source,
@@ -323,62 +252,6 @@ impl<'a> ReferenceModel<'a> {
         };
         placing.spots.iter().zip(&forces).map(of).collect()
     }
-
-    /// The same model and data without what was computed of them.
-    pub fn shallow(&self) -> ReferenceModel<'a> {
-        ReferenceModel {
-            predictor: self.predictor.clone(),
-            data: self.data,
-            control: self.control,
-            linearisation: self.linearisation.clone(),
-            predictions: Vec::new(),
-            noise: Arc::default(),
-            early: self.early,
-        }
-    }
-
-    /// Information criterion of a fit, its squared residual scaled by what the best model leaves beyond the noise.
-    pub fn evidence(&self, fit: &FittedModel, scale: f64) -> f64 {
-        bayesian_information(fit.chi_square / scale.max(1.0), fit.parameters, self.count()) + Self::complexity(fit)
-    }
-
-    /// What the laws of a fit cost in evidence for their kind, whatever the data.
-    pub fn complexity(fit: &FittedModel) -> f64 {
-        let extra: usize = fit.effects.iter().map(|e| e.parameters.len() - 1).sum();
-        EXTRA * extra as f64 + Self::posing(fit)
-    }
-
-    /// The part of it that laws cost which are all but a simpler one.
-    pub fn posing(fit: &FittedModel) -> f64 {
-        POSING * fit.all_but_simpler().count() as f64
-    }
-
-    /// Probability of each fit by its evidence, their squared residuals scaled by what the best leaves.
-    pub fn probabilities(&self, fits: &[FittedModel]) -> Vec<f64> {
-        let scale = scale_of(fits, self.count());
-        evidence_weights(&fits.iter().map(|fit| self.evidence(fit, scale)).collect::<Vec<f64>>())
-    }
-
-    /// Best first; none of more parameters than runs.
-    pub fn ranked(&self, mut fits: Vec<FittedModel>) -> Vec<FittedModel> {
-        let allowed = |(e, d): (&Source, &Vec<f64>)| !e.is_disguised() && is_allowed(&self.data.excluded, e, d);
-        let few = |r: &FittedModel| r.parameters <= self.data.runs.len();
-        fits.retain(|r| {
-            r.chi_square.is_finite()
-                && few(r)
-                && r.effects.iter().zip(&r.deviations).all(allowed)
-                && r.effects.iter().zip(&r.deviations).all(is_real)
-        });
-        let scale = scale_of(&fits, self.count());
-        fits.sort_by(|a, b| self.evidence(a, scale).total_cmp(&self.evidence(b, scale)));
-        fits
-    }
-}
-
-/// Squared residual per datum of the best fit, at least 1.
-pub(crate) fn scale_of(fits: &[FittedModel], count: usize) -> f64 {
-    let least = fits.iter().map(|r| r.chi_square / count.saturating_sub(r.parameters).max(1) as f64);
-    least.fold(f64::INFINITY, f64::min).clamp(1.0, 1e12)
 }
 
 pub(crate) fn joined(first: &[Source], second: &[Source]) -> Vec<Source> {

@@ -1,10 +1,10 @@
 //! The sentences an engineer would say for a suggestion.
 
 use crate::diagnosis::candidates::fingerprint::fingerprint;
-use crate::diagnosis::diagnose::Added;
 use crate::diagnosis::residual::data::DiagnosisError;
+use crate::diagnosis::result::Added;
 use crate::diagnosis::selection::fitted_model::FittedModel;
-use crate::diagnosis::selection::search::ReferenceModel;
+use crate::diagnosis::selection::reference_model::ReferenceModel;
 use crate::effects::{Place, Source};
 use crate::math::numerals::{significant, with_deviation};
 

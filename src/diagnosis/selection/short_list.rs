@@ -1,9 +1,9 @@
 //! Which candidates are fitted, and which fits are kept.
 
-use super::search::UnfittedSet;
 use crate::diagnosis::candidates::friction::friction;
 use crate::diagnosis::candidates::law_force::GAINS;
 use crate::diagnosis::candidates::special_cases::is_limit;
+use crate::diagnosis::candidates::start::UnfittedSet;
 use crate::diagnosis::localisation::free_force::Placing;
 use crate::effects::{Kind, SetValued, Source};
 

@@ -9,12 +9,12 @@
 //! wrong by. Beside the one part that is changed their scale is small again, and so is `E`. Everything is linear about the model as
 //! it was corrected, so that all places are looked at; the best are followed.
 
-use super::search::ReferenceModel;
 use crate::diagnosis::channels::fault::is_ordinary_gain;
 use crate::diagnosis::residual::data::DiagnosisError;
 use crate::diagnosis::residual::prediction::SEARCH;
 use crate::diagnosis::selection::fits::STEPS;
 use crate::diagnosis::selection::fitted_model::FittedModel;
+use crate::diagnosis::selection::reference_model::ReferenceModel;
 use crate::diagnosis::updating::measured_motion::MeasuredMotion;
 use crate::diagnosis::updating::noise_model::LEAST_KNOWN;
 use crate::diagnosis::updating::parameters::{Scales, Updating, UpdatingParameter};

@@ -1,10 +1,12 @@
 //! Sets with one effect more, of laws that were regressed on free forces.
 
 use super::fits::FIRST_STEPS;
-use super::search::{ReferenceModel, UnfittedSet, joined};
+use super::search::joined;
 use super::short_list::{Breadth, short_list};
+use crate::diagnosis::candidates::start::UnfittedSet;
 use crate::diagnosis::residual::data::DiagnosisError;
 use crate::diagnosis::selection::fitted_model::FittedModel;
+use crate::diagnosis::selection::reference_model::ReferenceModel;
 
 /// Sets that are fitted on the response.
 pub(super) const FITS: usize = 10;
@@ -13,7 +15,7 @@ const WORTH: f64 = 0.05;
 
 impl ReferenceModel<'_> {
     /// Sets of the effects of `from` and one more, fitted on the response, best first by evidence.
-    pub fn singles(&self, from: Option<&FittedModel>) -> Result<Vec<FittedModel>, DiagnosisError> {
+    pub(crate) fn singles(&self, from: Option<&FittedModel>) -> Result<Vec<FittedModel>, DiagnosisError> {
         let effects = from.map_or(&[][..], |fit| &fit.effects);
         let unfitted = self.unfitted(&mut self.view(from)?, effects, Breadth::All)?;
         self.fitted_singles(unfitted, from)

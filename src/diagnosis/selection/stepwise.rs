@@ -11,7 +11,7 @@ use crate::diagnosis::residual::data::DiagnosisError;
 use crate::diagnosis::selection::conclusion::{self, Outcome};
 use crate::diagnosis::selection::fits::STEPS;
 use crate::diagnosis::selection::fitted_model::FittedModel;
-use crate::diagnosis::selection::search::{ReferenceModel, scale_of};
+use crate::diagnosis::selection::reference_model::{ReferenceModel, scale_of};
 
 /// Deviations within which it agrees so well that no further effect is looked for.
 const SETTLED: f64 = 1.5;

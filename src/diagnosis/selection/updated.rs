@@ -4,11 +4,12 @@ use crate::diagnosis::residual::branch::{distance, nearest};
 use crate::diagnosis::residual::data::{Data, DiagnosisError, RunData, if_possible};
 use crate::diagnosis::residual::energy_balance::scaled_factors;
 use crate::diagnosis::residual::prediction::{FINAL, Predictor, RunPrediction};
+use crate::diagnosis::selection::estimator::{Estimator, Starts};
 use crate::diagnosis::selection::exactness::{rubs, settings_for};
 use crate::diagnosis::selection::fit_problem::{RunSlopes, run_slopes};
-use crate::diagnosis::selection::fitted_model::{Estimator, FittedModel, Starts};
+use crate::diagnosis::selection::fitted_model::FittedModel;
 use crate::diagnosis::selection::found::agrees;
-use crate::diagnosis::selection::search::ReferenceModel;
+use crate::diagnosis::selection::reference_model::ReferenceModel;
 use crate::diagnosis::updating::measured_motion::MeasuredMotion;
 use crate::diagnosis::updating::noise_model::{Linearisation, NoiseModel, amplitudes, of_channel};
 use crate::diagnosis::updating::parameters::{Scales, Updating, UpdatingParameter};
@@ -48,7 +49,7 @@ impl<'a> ReferenceModel<'a> {
     ///
     /// Where the model is far off, its derivatives `-A dZ X` are taken at the measured motion rather than at its own
     /// (`X` times the factor that fits the sensors best): for a single mode the relation is then exact however far off.
-    pub fn updated(
+    pub(crate) fn updated(
         &self,
         updating: &Updating,
         effects: &[Source],
@@ -140,7 +141,7 @@ impl<'a> ReferenceModel<'a> {
     }
 
     /// The model whose updating parameters fit the measurement best without any effect.
-    pub fn bare(&self) -> Result<ReferenceModel<'a>, DiagnosisError> {
+    pub(crate) fn bare(&self) -> Result<ReferenceModel<'a>, DiagnosisError> {
         let (stated, known) = self.predictor.stated();
         let mut updating = Updating::all(stated, known, self.data);
         let mut best: Option<(f64, ReferenceModel<'a>)> = None;
@@ -192,7 +193,7 @@ impl<'a> ReferenceModel<'a> {
     /// This model with the scales that are most likely without any effect, and its evidence: without gains and differences
     /// from run to run, or without those alone, where that agrees with the data; else the best of these and of the scales
     /// that are estimated.
-    pub fn likely(&self) -> Result<(ReferenceModel<'a>, f64), DiagnosisError> {
+    pub(crate) fn likely(&self) -> Result<(ReferenceModel<'a>, f64), DiagnosisError> {
         let alike = Scales { shift: Scales::LEAST.shift, response: Scales::LEAST.response, ..Scales::SEARCH };
         let exact = Scales { gain: Scales::LEAST.gain, phase: Scales::LEAST.phase, ..alike };
         let start = self.updated(&self.linearisation.updating.without_force_gains(), &[], &Vec::new())?;
@@ -310,7 +311,7 @@ impl<'a> ReferenceModel<'a> {
     }
 
     /// The same model with other scales of the priors.
-    pub fn with_scales(&self, scales: Scales) -> ReferenceModel<'a> {
+    pub(crate) fn with_scales(&self, scales: Scales) -> ReferenceModel<'a> {
         let updating = self.linearisation.updating.with_scales(scales);
         let linearisation = Linearisation { updating, ..(*self.linearisation).clone() };
         let noise = NoiseModel::new(self.noise.runs.clone(), &linearisation);
@@ -324,7 +325,7 @@ impl<'a> ReferenceModel<'a> {
 
     /// The model with the scales that are most likely beside the effects of `fit` (none: the model alone), and the
     /// effects fitted with them.
-    pub fn with_likely_scales(
+    pub(crate) fn with_likely_scales(
         &self,
         fit: Option<&FittedModel>,
         settings: &Settings,

@@ -12,7 +12,7 @@ use crate::diagnosis::selection::exactness::rubs;
 use crate::diagnosis::selection::fits::{FIRST_STEPS, STEPS};
 use crate::diagnosis::selection::fitted_model::FittedModel;
 use crate::diagnosis::selection::found::{DOUBTFUL, same_set};
-use crate::diagnosis::selection::search::ReferenceModel;
+use crate::diagnosis::selection::reference_model::ReferenceModel;
 use crate::diagnosis::selection::updated::SETTLED;
 use crate::diagnosis::updating::parameters::{Scales, UpdatingParameter};
 use crate::diagnosis::updating::part_error::{is_within_part, part_of, takes_away};

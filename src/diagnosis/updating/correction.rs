@@ -14,7 +14,7 @@ pub struct Correction {
 }
 
 /// The `updating` parameters at the factors of `corrections`, those without one at nothing.
-pub fn with_corrections(mut updating: Updating, corrections: &[Correction]) -> Updating {
+pub(crate) fn with_corrections(mut updating: Updating, corrections: &[Correction]) -> Updating {
     for (parameter, value) in updating.parameters.iter().zip(&mut updating.values) {
         let stated = corrections.iter().find(|c| c.parameter == *parameter);
         *value = stated.map_or(0.0, |c| c.factor.ln());

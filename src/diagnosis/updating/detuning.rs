@@ -10,7 +10,7 @@ use crate::diagnosis::residual::data::{Data, DiagnosisError, Problem};
 use crate::diagnosis::residual::prediction::Predictor;
 use crate::diagnosis::selection::conclusion::corrections;
 use crate::diagnosis::selection::found::agrees;
-use crate::diagnosis::selection::search::ReferenceModel;
+use crate::diagnosis::selection::reference_model::ReferenceModel;
 use crate::diagnosis::updating::correction::Correction;
 use crate::diagnosis::updating::parameters::UpdatingParameter;
 use crate::structure::Part;
@@ -21,7 +21,7 @@ const MOST: f64 = 0.9;
 
 /// What a comparison says of the model.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Reading {
+pub(crate) enum Reading {
     /// It agrees with the data as it is.
     Agrees,
     /// Corrections of what it states bring it down to the noise.
@@ -34,7 +34,7 @@ pub enum Reading {
 
 impl Reading {
     /// Word in files.
-    pub fn word(self) -> &'static str {
+    pub(crate) fn word(self) -> &'static str {
         match self {
             Self::Agrees => "agrees",
             Self::Detuned => "detuned",
@@ -44,7 +44,7 @@ impl Reading {
     }
 
     /// The same in a sentence.
-    pub fn sentence(self) -> &'static str {
+    pub(crate) fn sentence(self) -> &'static str {
         match self {
             Self::Agrees => "the model agrees with the data to the noise",
             Self::Detuned => {
@@ -60,7 +60,7 @@ impl Reading {
 
 /// What corrections alone would do.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Detuning {
+pub(crate) struct Detuning {
     /// What that says.
     pub reading: Reading,
     /// Share of the squared residual beyond the noise that they explain, 0 to 1.
@@ -75,7 +75,7 @@ pub struct Detuning {
 ///
 /// # Errors
 /// What keeps the model from being compared.
-pub fn detuning(problem: &Problem, control: &Control) -> Result<Option<Detuning>, DiagnosisError> {
+pub(crate) fn detuning(problem: &Problem, control: &Control) -> Result<Option<Detuning>, DiagnosisError> {
     if problem.structure.matrices().is_none() {
         return Ok(None);
     }

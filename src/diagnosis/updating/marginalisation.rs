@@ -14,7 +14,7 @@ use faer::Mat;
 
 /// Updating parameters at a reference with what they do to the residual there.
 #[derive(Debug, Clone, Default)]
-pub struct Marginalisation {
+pub(crate) struct Marginalisation {
     /// Parameters, values of the reference and scales.
     pub updating: Updating,
     /// `B`, one column a parameter: derivative of the whitened prediction, one row a datum.
@@ -33,7 +33,7 @@ pub struct Marginalisation {
 
 impl Marginalisation {
     /// Of `updating` at its values, whose standardised parameters have the whitened `slopes`.
-    pub fn new(updating: Updating, slopes: Vec<Vec<f64>>) -> Self {
+    pub(crate) fn new(updating: Updating, slopes: Vec<Vec<f64>>) -> Self {
         let q = slopes.len();
         if q == 0 {
             return Self { updating, ..Self::default() };
@@ -57,33 +57,28 @@ impl Marginalisation {
     }
 
     /// Whether no parameter is eliminated.
-    pub fn is_empty(&self) -> bool {
+    pub(crate) fn is_empty(&self) -> bool {
         self.slopes.is_empty()
     }
 
-    /// Number of parameters.
-    pub fn len(&self) -> usize {
-        self.slopes.len()
-    }
-
     /// `B`, one column a parameter.
-    pub fn slopes(&self) -> &[Vec<f64>] {
+    pub(crate) fn slopes(&self) -> &[Vec<f64>] {
         &self.slopes
     }
 
     /// Turns a whitened residual into the marginal one, a datum longer for every parameter.
-    pub fn residual(&self, rows: Vec<f64>) -> Vec<f64> {
+    pub(crate) fn residual(&self, rows: Vec<f64>) -> Vec<f64> {
         self.column(self.without_reference(rows))
     }
 
     /// Turns a whitened residual at the reference into one of the model with no parameter corrected, `r + B u_0`.
-    pub fn without_reference(&self, mut rows: Vec<f64>) -> Vec<f64> {
+    pub(crate) fn without_reference(&self, mut rows: Vec<f64>) -> Vec<f64> {
         rows.iter_mut().zip(&self.offset).for_each(|(r, o)| *r += o);
         rows
     }
 
     /// Turns a column of a Jacobian into the marginal one.
-    pub fn column(&self, mut rows: Vec<f64>) -> Vec<f64> {
+    pub(crate) fn column(&self, mut rows: Vec<f64>) -> Vec<f64> {
         rows.resize(rows.len() + self.basis.len(), 0.0);
         for direction in &self.basis {
             let share = dot(direction, &rows);
@@ -93,7 +88,7 @@ impl Marginalisation {
     }
 
     /// The parameters (standardised) that fit the whitened residual `rows`, which was taken at the reference.
-    pub fn solve(&self, rows: &[f64]) -> Vec<f64> {
+    pub(crate) fn solve(&self, rows: &[f64]) -> Vec<f64> {
         let Some(factor) = &self.factor else { return Vec::new() };
         let full: Vec<f64> = rows.iter().zip(&self.offset).map(|(r, o)| r + o).collect();
         let right = Mat::from_fn(self.slopes.len(), 1, |k, _| dot(&self.slopes[k], &full));
@@ -102,7 +97,7 @@ impl Marginalisation {
     }
 
     /// The parameters (standardised) that fit the whitened residual `rows` where its variance is `misfit` rather than 1.
-    pub fn solve_with_misfit(&self, rows: &[f64], misfit: f64) -> Vec<f64> {
+    pub(crate) fn solve_with_misfit(&self, rows: &[f64], misfit: f64) -> Vec<f64> {
         let Some(mut normal) = self.normal.clone() else { return Vec::new() };
         let q = self.slopes.len();
         let full: Vec<f64> = rows.iter().zip(&self.offset).map(|(r, o)| r + o).collect();
@@ -115,7 +110,7 @@ impl Marginalisation {
     }
 
     /// Variances of the standardised parameters, the effects being known.
-    pub fn variances(&self) -> Vec<f64> {
+    pub(crate) fn variances(&self) -> Vec<f64> {
         let Some(factor) = &self.factor else { return Vec::new() };
         let q = self.slopes.len();
         let inverse = factor.solve(Mat::<f64>::identity(q, q).as_ref());
@@ -124,7 +119,7 @@ impl Marginalisation {
 
     /// Least square that is left of the whitened residual `rows`, taken at the reference, with the parameters of the model
     /// there and only those of channels free; priors included.
-    pub fn left_by_channels(&self, rows: &[f64]) -> f64 {
+    pub(crate) fn left_by_channels(&self, rows: &[f64]) -> f64 {
         let of_model = |k: &usize| self.updating.parameters[*k].is_of_model();
         let (fixed, free): (Vec<usize>, Vec<usize>) = (0..self.slopes.len()).partition(of_model);
         let u = self.updating.standardised();
@@ -143,7 +138,7 @@ impl Marginalisation {
     }
 
     /// What is left of a whitened residual taken at the reference once the parameters are at `u`: `r - B (u - u_0)`.
-    pub fn left(&self, mut rows: Vec<f64>, u: &[f64]) -> Vec<f64> {
+    pub(crate) fn left(&self, mut rows: Vec<f64>, u: &[f64]) -> Vec<f64> {
         let reference = self.updating.standardised();
         for ((slope, u), u0) in self.slopes.iter().zip(u).zip(&reference) {
             rows.iter_mut().zip(slope).for_each(|(r, s)| *r -= (u - u0) * s);
@@ -154,7 +149,7 @@ impl Marginalisation {
     /// Scales of the classes of these parameters re-estimated from their values `u` and the `left` share of their prior
     /// variances (MacKay 1992, Neural Computation 4, 415): `s^2 <- s^2 sum u^2 / sum (1 - var)`; a class of which the
     /// data say nothing keeps its scale.
-    pub fn scales(&self, u: &[f64], least_known: f64) -> Scales {
+    pub(crate) fn scales(&self, u: &[f64], least_known: f64) -> Scales {
         let variances = self.variances();
         let mut list = self.updating.scales.list();
         for (class, scale) in list.iter_mut().enumerate().filter(|(class, _)| !matches!(class, 4 | 5)) {

@@ -29,7 +29,7 @@ pub(crate) struct MeasuredMotion<'a> {
 
 impl<'a> MeasuredMotion<'a> {
     /// Of the model of `predictor`, whose predictions without any effect these are; `None` where its receptance is singular.
-    pub fn new(
+    pub(crate) fn new(
         predictor: &'a Predictor,
         data: &'a Data,
         predictions: &[RunPrediction],
@@ -53,12 +53,12 @@ impl<'a> MeasuredMotion<'a> {
     }
 
     /// Derivatives of the recorded fundamentals of run `r` by sums of unknowns with factors, `[sum][channel][harmonic - 1]`.
-    pub fn slopes(&self, r: usize, sums: &[Vec<(Unknown, f64)>]) -> Vec<Vec<Vec<c64>>> {
+    pub(crate) fn slopes(&self, r: usize, sums: &[Vec<(Unknown, f64)>]) -> Vec<Vec<Vec<c64>>> {
         sums.iter().map(|sum| self.slope(r, self.predictor.known(), sum)).collect()
     }
 
     /// The same by one sum, whose sources are among `sources`, `[channel][harmonic - 1]`.
-    pub fn slope(&self, r: usize, sources: &[Source], sum: &[(Unknown, f64)]) -> Vec<Vec<c64>> {
+    pub(crate) fn slope(&self, r: usize, sources: &[Source], sum: &[(Unknown, f64)]) -> Vec<Vec<c64>> {
         let run = &self.data.runs[r];
         let (x, w) = (&self.fields[r], run.omega);
         let mut force = vec![c64::new(0.0, 0.0); x.len()];

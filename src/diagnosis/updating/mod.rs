@@ -1,11 +1,11 @@
 //! Model updating: what the model states wrongly, with priors and scales (Friswell and Mottershead 1995).
 
-pub mod correction;
-pub mod detuning;
-pub mod marginalisation;
+pub(crate) mod correction;
+pub(crate) mod detuning;
+pub(crate) mod marginalisation;
 pub(crate) mod measured_motion;
 pub(crate) mod modal_expansion;
-pub mod noise_model;
+pub(crate) mod noise_model;
 pub mod parameters;
 pub(crate) mod part_error;
 pub(crate) mod parts;

@@ -30,13 +30,13 @@ pub(crate) struct ModalExpansion {
 
 impl ModalExpansion {
     /// Of every run of `data` for the model of `predictor` with its `predictions`; none for a run whose model is singular.
-    pub fn of_runs(predictor: &Predictor, data: &Data, predictions: &[RunPrediction]) -> Vec<Option<Self>> {
+    pub(crate) fn of_runs(predictor: &Predictor, data: &Data, predictions: &[RunPrediction]) -> Vec<Option<Self>> {
         let runs = data.runs.iter().zip(predictions).enumerate();
         runs.map(|(r, (run, prediction))| Self::new(predictor, r, run, prediction)).collect()
     }
 
     /// Of run number `r`; none where its model is singular or agrees with the sensors.
-    pub fn new(predictor: &Predictor, r: usize, run: &RunData, prediction: &RunPrediction) -> Option<Self> {
+    pub(crate) fn new(predictor: &Predictor, r: usize, run: &RunData, prediction: &RunPrediction) -> Option<Self> {
         let basis = predictor.run(r).linear().basis();
         let dofs: Vec<usize> = run.alive.iter().map(|&c| run.responses[c].dof).collect();
         let n = predictor.structure().len();
@@ -66,7 +66,7 @@ impl ModalExpansion {
     }
 
     /// Corrects the fundamental `field` of `run`, m by DOF.
-    pub fn correct(&self, run: &RunData, field: &mut [c64]) {
+    pub(crate) fn correct(&self, run: &RunData, field: &mut [c64]) {
         for (k, difference) in differences(run, |dof| field[dof]).into_iter().enumerate() {
             field.iter_mut().zip(self.gain.col_as_slice(k)).for_each(|(x, g)| *x += difference * *g);
         }

@@ -18,11 +18,11 @@ use crate::diagnosis::residual::whitening::Whitening;
 use faer::c64;
 
 /// Derivatives of the recorded amplitudes of one run, `[parameter][channel][harmonic - 1]`.
-pub type RunSlopes = Vec<Vec<Vec<c64>>>;
+pub(crate) type RunSlopes = Vec<Vec<Vec<c64>>>;
 
 /// What updating parameters and those of the runs do to the recorded amplitudes near a reference.
 #[derive(Debug, Clone, Default)]
-pub struct Linearisation {
+pub(crate) struct Linearisation {
     /// Updating parameters, their values at the reference, and the scales.
     pub updating: Updating,
     /// By updating parameters (of unit logarithm or second), one list a run.
@@ -40,12 +40,12 @@ pub struct Linearisation {
 
 impl Linearisation {
     /// Whether nothing is free.
-    pub fn is_empty(&self) -> bool {
+    pub(crate) fn is_empty(&self) -> bool {
         self.common.is_empty()
     }
 
     /// Derivatives of the fundamentals by the standardised parameters, `[run][parameter][channel]`.
-    pub fn fundamentals(&self) -> Vec<Vec<Vec<c64>>> {
+    pub(crate) fn fundamentals(&self) -> Vec<Vec<Vec<c64>>> {
         let of_run = |slopes: &RunSlopes| {
             let of = |(k, slope): (usize, &Vec<Vec<c64>>)| {
                 slope.iter().map(|channel| channel[0] * self.updating.prior(k)).collect()
@@ -56,7 +56,7 @@ impl Linearisation {
     }
 
     /// The same by what differs from run to run.
-    pub fn own_fundamentals(&self, data: &Data) -> Vec<Vec<Vec<c64>>> {
+    pub(crate) fn own_fundamentals(&self, data: &Data) -> Vec<Vec<Vec<c64>>> {
         if self.is_empty() {
             return Vec::new();
         }
@@ -85,11 +85,11 @@ impl Linearisation {
 }
 
 /// Parameters that are a run's own: its stiffness, real and imaginary part of the factor on its response.
-pub const OWN: usize = 3;
+pub(crate) const OWN: usize = 3;
 
 /// Noise of the residual of all runs with everything eliminated that is not the parameter of an effect.
 #[derive(Debug, Clone, Default)]
-pub struct NoiseModel {
+pub(crate) struct NoiseModel {
     /// Of each run, what is its own eliminated.
     pub runs: Vec<Whitening>,
     /// Updating parameters.
@@ -98,7 +98,7 @@ pub struct NoiseModel {
 
 impl NoiseModel {
     /// Of the noise of the `runs`, with the parameters of `linearisation` eliminated.
-    pub fn new(runs: Vec<Whitening>, linearisation: &Linearisation) -> Self {
+    pub(crate) fn new(runs: Vec<Whitening>, linearisation: &Linearisation) -> Self {
         if linearisation.is_empty() {
             return Self { runs, updating: Marginalisation::default() };
         }
@@ -113,12 +113,12 @@ impl NoiseModel {
     }
 
     /// Number of real data.
-    pub fn count(&self) -> usize {
+    pub(crate) fn count(&self) -> usize {
         self.runs.iter().map(Whitening::len).sum()
     }
 
     /// `ln det` of the covariance by what is eliminated, and the prior of the scales: what freedom costs in evidence.
-    pub fn cost(&self) -> f64 {
+    pub(crate) fn cost(&self) -> f64 {
         if self.updating.is_empty() {
             return 0.0;
         }
@@ -128,7 +128,7 @@ impl NoiseModel {
 
     /// Scales re-estimated from the whitened residual `rows`, taken at the reference (one step of restricted maximum
     /// likelihood, MacKay 1992).
-    pub fn scales(&self, rows: &[f64]) -> Scales {
+    pub(crate) fn scales(&self, rows: &[f64]) -> Scales {
         let u = self.updating.solve(rows);
         let left = self.updating.left(rows.to_vec(), &u);
         let mut list = self.updating.scales(&u, LEAST_KNOWN).list();
@@ -190,7 +190,7 @@ pub(crate) const LEAST_KNOWN: f64 = 0.5;
 
 /// Derivatives of the recorded amplitudes of a run by the gain or the delay of a channel, `[channel][harmonic - 1]`, where
 /// they are `amplitudes`.
-pub fn of_channel(parameter: &UpdatingParameter, run: &RunData, amplitudes: &[Vec<c64>]) -> Vec<Vec<c64>> {
+pub(crate) fn of_channel(parameter: &UpdatingParameter, run: &RunData, amplitudes: &[Vec<c64>]) -> Vec<Vec<c64>> {
     let channel = |(channel, amplitudes): (&ChannelData, &Vec<c64>)| {
         let at = |(i, y): (usize, &c64)| match parameter {
             UpdatingParameter::Gain(name) if *name == channel.name => *y,
@@ -209,7 +209,7 @@ pub fn of_channel(parameter: &UpdatingParameter, run: &RunData, amplitudes: &[Ve
 const PREDICTED: f64 = 0.3;
 
 /// Amplitudes that gains multiply: predicted, but for fundamentals whose prediction is far off.
-pub fn amplitudes(run: &RunData, predicted: &[Vec<c64>]) -> Vec<Vec<c64>> {
+pub(crate) fn amplitudes(run: &RunData, predicted: &[Vec<c64>]) -> Vec<Vec<c64>> {
     let of = |(i, (y, model)): (usize, (&c64, &c64))| {
         if i > 0 || (y - model).norm() < PREDICTED * y.norm() { *model } else { *y }
     };

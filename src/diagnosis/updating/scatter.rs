@@ -10,18 +10,18 @@
 //! w_r = (1 + V_r^T V_r)^-1 V_r^T (r_r - B_r u)   covariance (1 + V_r^T V_r)^-1, u being known
 //! ```
 //!
-//! (Harville 1977; [`Marginalisation`](super::marginalisation::Marginalisation), [`RunNuisance`]). A relative change `s` of all
+//! (Harville 1977; `Marginalisation`, `RunNuisance`). A relative change `s` of all
 //! stiffness shifts all natural frequencies by `s / 2`.
 
 use super::correction::{Correction, with_corrections};
 use super::parameters::{Updating, UpdatingParameter};
 use crate::control::Control;
-use crate::diagnosis::diagnose::Diagnosis;
 use crate::diagnosis::residual::data::{Data, DiagnosisError, Problem};
 use crate::diagnosis::residual::prediction::{FINAL, Predictor, RunPrediction};
 #[cfg(doc)]
 use crate::diagnosis::residual::run_nuisance::RunNuisance;
-use crate::diagnosis::selection::search::ReferenceModel;
+use crate::diagnosis::result::Diagnosis;
+use crate::diagnosis::selection::reference_model::ReferenceModel;
 use crate::effects::Source;
 use std::sync::Arc;
 

@@ -29,7 +29,7 @@ struct Mode {
 
 impl ShapeErrors {
     /// Of the modes of the model of `predictor` whose shapes are among the parameters of `updating`; none where no mode is.
-    pub fn new(predictor: &Predictor, updating: &Updating, data: &Data) -> Self {
+    pub(crate) fn new(predictor: &Predictor, updating: &Updating, data: &Data) -> Self {
         let mut numbers: Vec<usize> = updating
             .parameters
             .iter()
@@ -55,7 +55,13 @@ impl ShapeErrors {
 
     /// Derivatives of the recorded amplitudes of `run` by the error of mode `number` at `channel`, `[channel][harmonic - 1]`,
     /// at the predicted motion times the factor that fits the sensors best.
-    pub fn slope(&self, number: usize, channel: &str, run: &RunData, prediction: &RunPrediction) -> Vec<Vec<c64>> {
+    pub(crate) fn slope(
+        &self,
+        number: usize,
+        channel: &str,
+        run: &RunData,
+        prediction: &RunPrediction,
+    ) -> Vec<Vec<c64>> {
         let mut slope = vec![vec![c64::new(0.0, 0.0); run.harmonics]; run.responses.len()];
         let Some(mode) = self.modes.iter().find(|mode| mode.number == number) else { return slope };
         let factors = scaled_factors(run, prediction);

@@ -17,7 +17,7 @@ use crate::effects::symbol::{Mark, Tone};
 
 /// Friction of different size to either side.
 #[derive(Debug)]
-pub struct AsymmetricCoulomb;
+pub(crate) struct AsymmetricCoulomb;
 
 const DESCRIPTION: Description = Description {
     scaled: &[0, 1],

@@ -13,7 +13,7 @@ use std::f64::consts::FRAC_PI_2;
 
 /// Dashpot that resists pull and push differently.
 #[derive(Debug)]
-pub struct AsymmetricViscous;
+pub(crate) struct AsymmetricViscous;
 
 const DESCRIPTION: Description = Description {
     scaled: &[0, 1],

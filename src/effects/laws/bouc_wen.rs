@@ -20,7 +20,7 @@ use crate::effects::symbol::{Mark, Tone};
 
 /// Smooth hysteresis.
 #[derive(Debug, Clone, Copy)]
-pub struct BoucWen;
+pub(crate) struct BoucWen;
 
 const DESCRIPTION: Description = Description {
     scaled: &[0, 1],

@@ -16,7 +16,7 @@ use crate::effects::turning::total_variation;
 
 /// Coulomb friction.
 #[derive(Debug)]
-pub struct Coulomb;
+pub(crate) struct Coulomb;
 
 const DESCRIPTION: Description = Description {
     exponents: |_| Exponents::damping(-1.0, -1.0),

@@ -9,7 +9,7 @@ use crate::effects::symbol::Mark;
 
 /// Symmetric hardening or softening spring.
 #[derive(Debug)]
-pub struct CubicStiffness;
+pub(crate) struct CubicStiffness;
 
 const DESCRIPTION: Description = Description {
     folds: true,

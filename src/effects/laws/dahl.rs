@@ -18,7 +18,7 @@ use crate::effects::symbol::{Mark, Tone};
 
 /// Friction with a fading presliding stiffness.
 #[derive(Debug, Clone, Copy)]
-pub struct Dahl;
+pub(crate) struct Dahl;
 
 const DESCRIPTION: Description = Description {
     scaled: &[0, 1],

@@ -8,7 +8,7 @@ use faer::c64;
 
 /// A channel that is recorded late (or early, if negative).
 #[derive(Debug)]
-pub struct Delay;
+pub(crate) struct Delay;
 
 const DESCRIPTION: Description = Description {
     dissipates: false,

@@ -13,7 +13,7 @@ use crate::effects::symbol::{Mark, Tone};
 
 /// Spring in series with a slider.
 #[derive(Debug, Clone, Copy)]
-pub struct ElasticSlider;
+pub(crate) struct ElasticSlider;
 
 const DESCRIPTION: Description = Description {
     scaled: &[0, 1],

@@ -14,7 +14,7 @@ use std::f64::consts::FRAC_PI_2;
 
 /// Element between a spring (order 0) and a dashpot (order 1).
 #[derive(Debug)]
-pub struct Fractional;
+pub(crate) struct Fractional;
 
 const DESCRIPTION: Description = Description {
     shapes: |_| [0.15, 0.3, 0.45, 0.6, 0.75, 0.9].map(|order| vec![1.0, order]).to_vec(),

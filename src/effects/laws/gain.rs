@@ -8,7 +8,7 @@ use faer::c64;
 
 /// A channel that reads too large or too small.
 #[derive(Debug)]
-pub struct Gain;
+pub(crate) struct Gain;
 
 const DESCRIPTION: Description = Description {
     dissipates: false,

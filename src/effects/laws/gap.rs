@@ -11,7 +11,7 @@ use crate::effects::symbol::{HALF_WIDTH, Mark};
 
 /// Clearance on both sides, then a spring.
 #[derive(Debug)]
-pub struct Gap;
+pub(crate) struct Gap;
 
 const DESCRIPTION: Description = Description {
     folds: true,

@@ -10,7 +10,7 @@ use faer::c64;
 
 /// Hysteretic damper.
 #[derive(Debug)]
-pub struct Hysteretic;
+pub(crate) struct Hysteretic;
 
 const DESCRIPTION: Description = Description {
     constant: Some(Constant::Hysteretic),

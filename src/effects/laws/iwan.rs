@@ -25,7 +25,7 @@ use crate::effects::symbol::{Mark, Tone};
 
 /// Parallel elastic sliders with power-law distributed yield forces.
 #[derive(Debug, Clone, Copy)]
-pub struct Iwan;
+pub(crate) struct Iwan;
 
 const fn spring(y: f32) -> Mark {
     Mark::Spring { ends: (-0.5, 0.05), coils: 3, y, height: 2.5 }

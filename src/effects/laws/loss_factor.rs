@@ -10,7 +10,7 @@ use faer::c64;
 
 /// Complex stiffness of the whole structure.
 #[derive(Debug)]
-pub struct LossFactor;
+pub(crate) struct LossFactor;
 
 const DESCRIPTION: Description = Description {
     constant: Some(Constant::Hysteretic),

@@ -9,7 +9,7 @@ use faer::c64;
 
 /// Lumped mass, missing or too much.
 #[derive(Debug)]
-pub struct Mass;
+pub(crate) struct Mass;
 
 const DESCRIPTION: Description = Description {
     dissipates: false,

@@ -10,7 +10,7 @@ use faer::c64;
 
 /// Viscous damping in proportion to the mass matrix.
 #[derive(Debug)]
-pub struct MassProportional;
+pub(crate) struct MassProportional;
 
 const DESCRIPTION: Description = Description {
     constant: Some(Constant::Viscous),

@@ -13,7 +13,7 @@ use faer::c64;
 
 /// Spring in series with a dashpot.
 #[derive(Debug)]
-pub struct Maxwell;
+pub(crate) struct Maxwell;
 
 const DESCRIPTION: Description = Description {
     scaled: &[0, 1],

@@ -23,7 +23,7 @@ macro_rules! kind {
 
 macro_rules! laws {
     ($($effect:ident: $family:ident = $file:ident,)*) => {
-        $(pub mod $file;)*
+        $(pub(crate) mod $file;)*
 
         impl Effect {
             /// The law behind the name.

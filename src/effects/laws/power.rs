@@ -20,7 +20,7 @@ use std::f64::consts::PI;
 
 /// Power-law damping.
 #[derive(Debug)]
-pub struct Power;
+pub(crate) struct Power;
 
 const DESCRIPTION: Description = Description {
     shapes: |_| [0.25, 0.5, 0.75, 1.3, 1.6, 2.5, 3.0].map(|e| vec![1.0, e]).to_vec(),

@@ -10,7 +10,7 @@ use crate::effects::symbol::{HALF_WIDTH, Mark, Tone};
 
 /// Quadratic damping.
 #[derive(Debug)]
-pub struct Quadratic;
+pub(crate) struct Quadratic;
 
 const FLUID: &[(f32, f32)] = &[(-0.2, -HALF_WIDTH), (0.5, -HALF_WIDTH), (0.5, HALF_WIDTH), (-0.2, HALF_WIDTH)];
 

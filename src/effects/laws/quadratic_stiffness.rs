@@ -8,7 +8,7 @@ use crate::effects::symbol::Mark;
 
 /// Asymmetric spring.
 #[derive(Debug)]
-pub struct QuadraticStiffness;
+pub(crate) struct QuadraticStiffness;
 
 const DESCRIPTION: Description = Description {
     odd: false,

@@ -9,7 +9,7 @@ use faer::c64;
 
 /// Linear spring, missing or too much.
 #[derive(Debug)]
-pub struct Stiffness;
+pub(crate) struct Stiffness;
 
 const DESCRIPTION: Description = Description {
     dissipates: false,

@@ -10,7 +10,7 @@ use faer::c64;
 
 /// Viscous damping in proportion to the stiffness matrix.
 #[derive(Debug)]
-pub struct StiffnessProportional;
+pub(crate) struct StiffnessProportional;
 
 const DESCRIPTION: Description = Description {
     constant: Some(Constant::Viscous),

@@ -19,7 +19,7 @@ use crate::effects::turning::total_variation;
 
 /// Friction that falls from a static to a sliding force with speed.
 #[derive(Debug)]
-pub struct Stribeck;
+pub(crate) struct Stribeck;
 
 const DESCRIPTION: Description = Description {
     scaled: &[0, 1],

@@ -9,7 +9,7 @@ use faer::c64;
 
 /// Viscous dashpot.
 #[derive(Debug)]
-pub struct Viscous;
+pub(crate) struct Viscous;
 
 const DESCRIPTION: Description = Description {
     constant: Some(Constant::Viscous),

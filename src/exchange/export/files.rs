@@ -16,7 +16,7 @@ pub(super) struct Export {
 }
 
 impl Export {
-    pub fn add(&mut self, path: PathBuf, bytes: impl Into<Vec<u8>>) {
+    pub(super) fn add(&mut self, path: PathBuf, bytes: impl Into<Vec<u8>>) {
         self.files.push(File { path, bytes: bytes.into() });
     }
 }

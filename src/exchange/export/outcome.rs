@@ -1,7 +1,8 @@
 //! The outcome of an identification as what is exported.
 
+use super::format::{ExportError, Format, Written};
 use super::identified::{Identified, IdentifiedMode, IdentifiedSource};
-use super::{ExportError, Format, Written, write};
+use super::write::write;
 use crate::effects::Effect;
 use crate::exchange::Project;
 use crate::identify::Outcome;

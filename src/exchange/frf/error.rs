@@ -14,7 +14,6 @@ pub struct FrfError {
 
 /// What is wrong, where, and how to mend it.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
-#[expect(missing_docs, reason = "the messages say it")]
 pub enum FrfProblem {
     #[error("{0}")]
     File(uff::Error),

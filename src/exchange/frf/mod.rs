@@ -12,10 +12,10 @@ mod units;
 mod universal;
 mod writer;
 
-pub use error::{FrfError, FrfProblem};
-pub use names::{pair_in_name, plain_place, response_in_name};
-pub use reader::{labels_in, read_responses};
-pub use shapes::{has_shapes, read_shapes};
-pub use source::FrfSource;
-pub use units::Form;
-pub use writer::{SimulatedSet, write_responses};
+pub(crate) use error::FrfError;
+pub(crate) use names::{pair_in_name, plain_place, response_in_name};
+pub(crate) use reader::{labels_in, read_responses};
+pub(crate) use shapes::{has_shapes, read_shapes};
+pub(crate) use source::FrfSource;
+pub(crate) use units::Form;
+pub(crate) use writer::{SimulatedSet, write_responses};

@@ -62,7 +62,7 @@ pub(super) fn place_of_name(
 }
 
 /// The place at the end of a name: `12:+Z` of `FRF Plate:12:+Z`, `1` of `Point 1`; the whole name where it ends in none.
-pub fn plain_place(name: &str) -> &str {
+pub(crate) fn plain_place(name: &str) -> &str {
     let name = name.trim();
     let tail = name.trim_end_matches(['x', 'y', 'z', 'X', 'Y', 'Z', 'S']);
     let tail = if name.len() - tail.len() > 1 { name } else { tail };
@@ -93,7 +93,7 @@ fn file_dof(text: &str) -> Option<uff::Dof> {
 }
 
 /// Response and reference in the name of a channel: `12:+Z/1:+Z`, `acc@7/force@19`, `H_7z_19z`, `FRF(3,1)`.
-pub fn pair_in_name(name: &str) -> Option<[String; 2]> {
+pub(crate) fn pair_in_name(name: &str) -> Option<[String; 2]> {
     if let Some((response, reference)) = name.split_once('/')
         && [response, reference].iter().all(|side| side.chars().any(|c| c.is_ascii_digit()))
     {
@@ -109,7 +109,7 @@ pub fn pair_in_name(name: &str) -> Option<[String; 2]> {
 }
 
 /// Response in a name that says no reference, such as `Point 3` or `Acc 12 +Z`: from its first digit on.
-pub fn response_in_name(name: &str) -> Option<String> {
+pub(crate) fn response_in_name(name: &str) -> Option<String> {
     let from = name.find(|c: char| c.is_ascii_digit())?;
     Some(name[from..].trim_end_matches(|c: char| !c.is_alphanumeric()).to_owned())
 }

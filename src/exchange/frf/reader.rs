@@ -11,7 +11,7 @@ use std::path::Path;
 use uff::File;
 
 /// The functions of a file on their common frequencies, and the faults that were read over.
-pub fn read_responses(
+pub(crate) fn read_responses(
     path: &Path,
     name: &str,
     source: &FrfSource,
@@ -38,7 +38,7 @@ fn is_universal(path: &Path) -> bool {
 }
 
 /// Labels in a structure of nodes and directions that the functions of a file may stand for, such as `12z`.
-pub fn labels_in(path: &Path) -> Vec<String> {
+pub(crate) fn labels_in(path: &Path) -> Vec<String> {
     let Ok(file) = dashpot_datafiles::open(path) else { return Vec::new() };
     let functions = file.contents().sets.iter().filter(|set| set.kind == dashpot_datafiles::Kind::Frf);
     let mut labels: Vec<String> = Vec::new();

@@ -28,7 +28,7 @@ struct Raw {
 ///
 /// # Errors
 /// [`FrfError`] for a file that cannot be read, or that has no shape at a DOF of the structure.
-pub fn read_shapes(
+pub(crate) fn read_shapes(
     path: &Path,
     name: &str,
     dofs: &BTreeMap<String, String>,
@@ -86,7 +86,7 @@ impl Places<'_> {
 }
 
 /// Whether a Universal File holds a mode or an operating shape.
-pub fn has_shapes(path: &Path) -> bool {
+pub(crate) fn has_shapes(path: &Path) -> bool {
     // Files of other formats may be large, and are told by their first bytes.
     let universal = dashpot_datafiles::open(path).is_ok_and(|file| file.contents().format == Format::Uff);
     universal && File::open(path).is_ok_and(|file| file.sets().iter().any(|entry| kind(&entry.summary).is_some()))

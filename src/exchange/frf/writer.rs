@@ -12,7 +12,7 @@ use uff::{Axis, Binary, ByteOrder, Dof, Function, FunctionKind, Node, Set, Trace
 
 /// A set that was simulated, with evenly spaced frequencies.
 #[derive(Debug, Clone, PartialEq)]
-pub struct SimulatedSet {
+pub(crate) struct SimulatedSet {
     /// The functions; the frequencies are `step_hz, 2 step_hz, ...` from `start_hz` on.
     pub set: ResponseSet,
     /// First frequency, Hz.
@@ -22,7 +22,7 @@ pub struct SimulatedSet {
 }
 
 /// Writes a simulated set to `path`.
-pub fn write_responses(path: &Path, simulated: &SimulatedSet, structure: &Structure) -> Result<(), FrfError> {
+pub(crate) fn write_responses(path: &Path, simulated: &SimulatedSet, structure: &Structure) -> Result<(), FrfError> {
     let at = |problem| FrfError { file: path.display().to_string(), problem };
     let bytes = bytes(simulated, structure).map_err(at)?;
     let failed = |error: std::io::Error| at(FrfProblem::Unwritable { reason: error.to_string() });

@@ -30,7 +30,7 @@ impl SingleMode {
     }
 
     /// `[structure]`.
-    pub fn structure(&self) -> String {
+    pub(super) fn structure(&self) -> String {
         let what = comment(&format!(
             "No model is given: one mass on a spring, with the {:.5} Hz that \"{}\" has at its smallest amplitudes. The mass is not \
              known: 1 kg stands there, so that forces and coefficients are those a kilogram. Fill in the modal mass at this DOF \
@@ -44,7 +44,7 @@ impl SingleMode {
     }
 
     /// What was assumed, in one line.
-    pub fn words(&self) -> String {
+    pub(super) fn words(&self) -> String {
         format!(
             "no model is given: one mass of 1 kg on a spring at {:.5} Hz, by \"{}\"; fill in the mass under [structure]",
             self.frequency_hz, self.channel

@@ -11,8 +11,8 @@ mod read;
 mod runs;
 mod samples;
 mod stepped;
-pub mod table;
-pub mod units;
+pub(crate) mod table;
+pub(crate) mod units;
 
 pub use propose::{Proposal, propose};
 pub use read::is_own_record;

@@ -5,7 +5,7 @@ use crate::measurement::channel::{POUND_FORCE, STANDARD_GRAVITY, Unit};
 
 /// A unit of a laboratory file.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct LabUnit {
+pub(crate) struct LabUnit {
     /// Factor to SI.
     pub to_si: f64,
     /// Quantity that is measured in it.
@@ -60,7 +60,7 @@ const ROTATIONS: [(&[&str], f64, Quantity); 8] = [
 
 impl LabUnit {
     /// The unit of that spelling.
-    pub fn from_name(name: &str) -> Option<Self> {
+    pub(crate) fn from_name(name: &str) -> Option<Self> {
         if let Some(unit) = Unit::from_name(name) {
             return Some(Self { to_si: unit.to_si, quantity: unit.quantity, rotation: unit.rotation });
         }
@@ -78,7 +78,7 @@ impl LabUnit {
     }
 
     /// Whether a quantity is measured in it; that of a base is the acceleration along a direction.
-    pub fn measures(&self, quantity: Quantity) -> bool {
+    pub(crate) fn measures(&self, quantity: Quantity) -> bool {
         match quantity {
             Quantity::Base => self.quantity == Quantity::Acceleration && !self.rotation,
             other => self.quantity == other,
@@ -86,7 +86,7 @@ impl LabUnit {
     }
 
     /// Units of a quantity for a message.
-    pub fn names_of(quantity: Quantity) -> &'static str {
+    pub(crate) fn names_of(quantity: Quantity) -> &'static str {
         match quantity {
             Quantity::Force => "N, mN, kN, lbf, kgf, N m",
             Quantity::Base => "m/s^2, mm/s^2, g, mg, in/s^2, ft/s^2",

@@ -1,9 +1,9 @@
 //! Matrices and their tables of nodes, DOFs and lines: Matrix Market and CSV.
 
 mod deck;
-pub mod error;
-pub mod market;
-pub mod model;
+pub(crate) mod error;
+pub(crate) mod market;
+pub(crate) mod model;
 mod sparse_market;
 pub mod table;
 mod write;

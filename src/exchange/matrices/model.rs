@@ -36,7 +36,7 @@ const DIRECTIONS: [(Direction, &str); 7] = [
 
 /// Files of a model, found beside the project, and the names of the matrices in them.
 #[derive(Debug, Clone, Copy)]
-pub struct ModelFiles<'a> {
+pub(crate) struct ModelFiles<'a> {
     /// Mass and stiffness.
     pub matrices: [&'a Path; 2],
     /// Names of the two in their files, where there are several.
@@ -51,7 +51,7 @@ pub struct ModelFiles<'a> {
 
 /// A whole model.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Model {
+pub(crate) struct Model {
     /// Mass and stiffness.
     pub system: SparseSystem,
     /// One entry a row; none where the files do not name the rows.
@@ -106,7 +106,7 @@ fn is_abaqus(text: &str) -> bool {
 }
 
 /// Whether a matrix file is one of a finite-element program rather than a plain one.
-pub fn is_model(path: &Path) -> bool {
+pub(crate) fn is_model(path: &Path) -> bool {
     kind(path) != Kind::Plain
 }
 
@@ -114,7 +114,7 @@ pub fn is_model(path: &Path) -> bool {
 ///
 /// # Errors
 /// [`TableError`], or [`dashpot_fe_files::FileError`] in it, with file, line, what is wrong and how to mend it.
-pub fn read_model(files: ModelFiles<'_>) -> Result<Model, TableError> {
+pub(crate) fn read_model(files: ModelFiles<'_>) -> Result<Model, TableError> {
     let mut geometry = Geometry::default();
     let mut matrices = Vec::new();
     for ((path, name), what) in files.matrices.into_iter().zip(files.names).zip(["M", "K"]) {
@@ -295,7 +295,7 @@ fn joined(
 }
 
 /// A sparse matrix in full.
-pub fn full(a: &SparseSymmetric) -> Mat<f64> {
+pub(crate) fn full(a: &SparseSymmetric) -> Mat<f64> {
     let mut full = Mat::zeros(a.size(), a.size());
     a.entries().for_each(|(i, j, value)| {
         full[(i, j)] = value;

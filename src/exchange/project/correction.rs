@@ -2,8 +2,8 @@
 //! such as the stiffness of a mode or of a range of elements; what model updating found.
 
 use super::error::{Problem, ProjectError};
-use super::file::Lines;
 use super::label::Label;
+use super::lines::Lines;
 use super::reader::Table;
 use crate::structure::{Part, Structure};
 use serde::{Deserialize, Serialize};
@@ -11,7 +11,6 @@ use serde::{Deserialize, Serialize};
 /// Kinds of parts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
-#[expect(missing_docs, reason = "the names say it")]
 pub enum Corrected {
     Stiffness,
     Mass,
@@ -166,7 +165,7 @@ pub(super) fn parse(structure: &Table<'_>, lines: &mut Lines) -> Result<Vec<Corr
 ///
 /// # Errors
 /// The number of the table, from 0, and what is wrong with it.
-pub fn corrected(structure: Structure, tables: &[CorrectionTable]) -> Result<Structure, (usize, Problem)> {
+pub(crate) fn corrected(structure: Structure, tables: &[CorrectionTable]) -> Result<Structure, (usize, Problem)> {
     if tables.is_empty() {
         return Ok(structure);
     }

@@ -1,8 +1,8 @@
 //! Tables `[[frf]]`: measured frequency responses as runs.
 
 use super::error::{Problem, ProjectError};
-use super::file::Lines;
 use super::label::Label;
+use super::lines::Lines;
 use super::reader::{Origin, Table, one_line};
 use crate::exchange::frf::{Form, FrfSource};
 use crate::measurement::frf::Selection;

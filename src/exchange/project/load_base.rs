@@ -8,7 +8,7 @@ use crate::measurement::{Quantity, Run};
 use crate::structure::Structure;
 
 /// How a structure takes a motion of its base along an axis (0 to 2); `None` without a mass matrix.
-pub fn base(structure: &Structure, axis: usize) -> Option<Base> {
+pub(crate) fn base(structure: &Structure, axis: usize) -> Option<Base> {
     let loads = structure.base_load(axis)?.into_iter().enumerate().filter(|(_, load)| *load != 0.0);
     let loads = loads.map(|(dof, load)| (dof, structure.label(dof).to_owned(), load)).collect();
     let is_along = |dof: &usize| structure.dofs()[*dof].direction.axis() == Some(axis);

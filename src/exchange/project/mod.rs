@@ -1,19 +1,19 @@
 //! Project files: TOML to [`ProjectFile`] (as written), to [`Plan`] (built), to [`Project`](super::Project) (records
 //! read and fitted).
 
-pub mod base;
+pub(crate) mod base;
 mod channel;
-pub mod correction;
-pub mod error;
-pub mod excitation;
+pub(crate) mod correction;
+pub(crate) mod error;
+pub(crate) mod excitation;
 pub mod file;
-pub mod frf;
+pub(crate) mod frf;
 mod kept;
 mod keys;
 pub mod label;
 mod lines;
 pub mod load;
-pub mod load_base;
+pub(crate) mod load_base;
 mod load_frf;
 mod measured;
 mod model;
@@ -23,12 +23,12 @@ pub mod plan;
 mod reader;
 mod reduce;
 mod reference_shapes;
-pub mod relocate;
-pub mod rewrite;
-pub mod ruled_out;
+pub(crate) mod relocate;
+pub(crate) mod rewrite;
+pub(crate) mod ruled_out;
 mod ruled_out_sources;
 mod runs;
-pub mod sources;
+pub(crate) mod sources;
 mod structure;
 
 pub use channel::template;

@@ -13,13 +13,13 @@ pub(super) struct Origin<'a> {
 
 impl Origin<'_> {
     /// Line, from 1, of a byte of the text.
-    pub fn line(self, offset: usize) -> usize {
+    pub(super) fn line(self, offset: usize) -> usize {
         let end = offset.min(self.text.len());
         self.text.as_bytes()[..end].split(|&byte| byte == b'\n').count()
     }
 
     /// The problem at a byte of the text.
-    pub fn error(self, offset: usize, problem: Problem) -> ProjectError {
+    pub(super) fn error(self, offset: usize, problem: Problem) -> ProjectError {
         ProjectError::new(self.file, Some(self.line(offset)), problem)
     }
 }
@@ -37,17 +37,17 @@ pub(super) struct Table<'a> {
 
 impl<'a> Table<'a> {
     /// The whole document.
-    pub fn root(origin: Origin<'a>, document: &'a DeTable<'a>) -> Self {
+    pub(super) fn root(origin: Origin<'a>, document: &'a DeTable<'a>) -> Self {
         Self { origin, name: "the project", start: 0, entries: document }
     }
 
     /// Line of the table's head.
-    pub fn line(&self) -> usize {
+    pub(super) fn line(&self) -> usize {
         self.origin.line(self.start)
     }
 
     /// Line of a key, or of the table's head without it.
-    pub fn line_of(&self, key: &str) -> usize {
+    pub(super) fn line_of(&self, key: &str) -> usize {
         self.origin.line(self.offset(key))
     }
 
@@ -57,19 +57,19 @@ impl<'a> Table<'a> {
     }
 
     /// The problem at a key.
-    pub fn error(&self, key: &str, problem: Problem) -> ProjectError {
+    pub(super) fn error(&self, key: &str, problem: Problem) -> ProjectError {
         self.origin.error(self.offset(key), problem)
     }
 
     /// Keys in the order of the text.
-    pub fn keys(&self) -> Vec<&'a str> {
+    pub(super) fn keys(&self) -> Vec<&'a str> {
         let mut keys: Vec<_> = self.entries.keys().map(|key| (key.span().start, key.get_ref().as_ref())).collect();
         keys.sort_unstable();
         keys.into_iter().map(|(_, key)| key).collect()
     }
 
     /// Fails on the first key that is not among `known`, and names the nearest that is.
-    pub fn only(&self, known: &[&str]) -> Result<(), ProjectError> {
+    pub(super) fn only(&self, known: &[&str]) -> Result<(), ProjectError> {
         match self.keys().into_iter().find(|key| !known.contains(key)) {
             None => Ok(()),
             Some(key) => {
@@ -84,7 +84,7 @@ impl<'a> Table<'a> {
     }
 
     /// A value that must be there.
-    pub fn need<T>(&self, key: &'static str, example: &str, value: Option<T>) -> Result<T, ProjectError> {
+    pub(super) fn need<T>(&self, key: &'static str, example: &str, value: Option<T>) -> Result<T, ProjectError> {
         let missing = || Problem::MissingKey { table: self.name.into(), key, example: example.into() };
         value.ok_or_else(|| self.origin.error(self.start, missing()))
     }
@@ -95,7 +95,7 @@ impl<'a> Table<'a> {
     }
 
     /// A finite number, written as integer or float.
-    pub fn number(&self, key: &str) -> Result<Option<f64>, ProjectError> {
+    pub(super) fn number(&self, key: &str) -> Result<Option<f64>, ProjectError> {
         self.get(key).map(|value| self.as_number(key, value)).transpose()
     }
 
@@ -110,7 +110,7 @@ impl<'a> Table<'a> {
     }
 
     /// A whole number.
-    pub fn whole(&self, key: &str) -> Result<Option<i64>, ProjectError> {
+    pub(super) fn whole(&self, key: &str) -> Result<Option<i64>, ProjectError> {
         let Some(value) = self.get(key) else { return Ok(None) };
         let DeValue::Integer(n) = value.get_ref() else { return Err(self.wrong(key, value, "a whole number")) };
         let number = integer(n.as_str(), n.radix()).and_then(|n| i64::try_from(n).ok());
@@ -119,7 +119,7 @@ impl<'a> Table<'a> {
     }
 
     /// A whole number from `least` to `most`; `range` says so in words.
-    pub fn count(
+    pub(super) fn count(
         &self,
         key: &str,
         least: usize,
@@ -134,7 +134,7 @@ impl<'a> Table<'a> {
     }
 
     /// Text.
-    pub fn text(&self, key: &str) -> Result<Option<String>, ProjectError> {
+    pub(super) fn text(&self, key: &str) -> Result<Option<String>, ProjectError> {
         match self.get(key) {
             None => Ok(None),
             Some(value) => match value.get_ref() {
@@ -145,7 +145,7 @@ impl<'a> Table<'a> {
     }
 
     /// True or false.
-    pub fn flag(&self, key: &str) -> Result<Option<bool>, ProjectError> {
+    pub(super) fn flag(&self, key: &str) -> Result<Option<bool>, ProjectError> {
         match self.get(key) {
             None => Ok(None),
             Some(value) => match value.get_ref() {
@@ -156,7 +156,7 @@ impl<'a> Table<'a> {
     }
 
     /// A word that `read` understands; `allowed` lists those that it does.
-    pub fn word<T>(
+    pub(super) fn word<T>(
         &self,
         key: &str,
         allowed: &[&str],
@@ -179,13 +179,13 @@ impl<'a> Table<'a> {
     }
 
     /// A list of finite numbers.
-    pub fn numbers(&self, key: &str) -> Result<Option<Vec<f64>>, ProjectError> {
+    pub(super) fn numbers(&self, key: &str) -> Result<Option<Vec<f64>>, ProjectError> {
         let Some(list) = self.list(key, "a list of numbers")? else { return Ok(None) };
         list.into_iter().map(|value| self.as_number(key, value)).collect::<Result<_, _>>().map(Some)
     }
 
     /// A list of lists of three numbers.
-    pub fn positions(&self, key: &str) -> Result<Option<Vec<[f64; 3]>>, ProjectError> {
+    pub(super) fn positions(&self, key: &str) -> Result<Option<Vec<[f64; 3]>>, ProjectError> {
         const EXPECTED: &str = "a list of [x, y, z]";
         let Some(list) = self.list(key, EXPECTED)? else { return Ok(None) };
         let position = |value: &Value<'_>| {
@@ -197,7 +197,7 @@ impl<'a> Table<'a> {
     }
 
     /// A label, written as text or as a whole number.
-    pub fn label(&self, key: &str) -> Result<Option<String>, ProjectError> {
+    pub(super) fn label(&self, key: &str) -> Result<Option<String>, ProjectError> {
         self.get(key).map(|value| self.as_label(key, value)).transpose()
     }
 
@@ -210,13 +210,13 @@ impl<'a> Table<'a> {
     }
 
     /// A list of labels.
-    pub fn labels(&self, key: &str) -> Result<Option<Vec<String>>, ProjectError> {
+    pub(super) fn labels(&self, key: &str) -> Result<Option<Vec<String>>, ProjectError> {
         let Some(list) = self.list(key, "a list of DOF labels, such as [3]")? else { return Ok(None) };
         list.into_iter().map(|value| self.as_label(key, value)).collect::<Result<_, _>>().map(Some)
     }
 
     /// A list of texts.
-    pub fn texts(&self, key: &str) -> Result<Option<Vec<String>>, ProjectError> {
+    pub(super) fn texts(&self, key: &str) -> Result<Option<Vec<String>>, ProjectError> {
         const EXPECTED: &str = "a list of texts in quotes";
         let Some(list) = self.list(key, EXPECTED)? else { return Ok(None) };
         let text = |value: &Value<'_>| match value.get_ref() {
@@ -227,7 +227,7 @@ impl<'a> Table<'a> {
     }
 
     /// The table `[key]`, called `name` in messages.
-    pub fn table(&self, key: &str, name: &'static str) -> Result<Option<Table<'a>>, ProjectError> {
+    pub(super) fn table(&self, key: &str, name: &'static str) -> Result<Option<Table<'a>>, ProjectError> {
         match self.get(key) {
             None => Ok(None),
             Some(value) => self.as_table(key, value, name).map(Some),
@@ -242,7 +242,7 @@ impl<'a> Table<'a> {
     }
 
     /// The tables `[[key]]`, called `name` in messages; none is fine.
-    pub fn tables(&self, key: &str, name: &'static str) -> Result<Vec<Table<'a>>, ProjectError> {
+    pub(super) fn tables(&self, key: &str, name: &'static str) -> Result<Vec<Table<'a>>, ProjectError> {
         let expected = "written as a list of tables, each under its name in double brackets";
         let list = self.list(key, expected)?.unwrap_or_default();
         list.into_iter().map(|value| self.as_table(key, value, name)).collect()

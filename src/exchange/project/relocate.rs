@@ -30,12 +30,12 @@ impl ProjectFile {
 }
 
 /// The folder without links; the empty path is where the program was started.
-pub fn canonical(folder: &Path) -> io::Result<PathBuf> {
+pub(crate) fn canonical(folder: &Path) -> io::Result<PathBuf> {
     if folder.as_os_str().is_empty() { Path::new(".").canonicalize() } else { folder.canonicalize() }
 }
 
 /// Name from folder `to` of a file that is named `name` from folder `from`; both folders absolute. Absolute names stay.
-pub fn renamed(name: &str, from: &Path, to: &Path) -> String {
+pub(crate) fn renamed(name: &str, from: &Path, to: &Path) -> String {
     if Path::new(name).is_absolute() {
         return name.to_owned();
     }

@@ -9,7 +9,7 @@ use toml_edit::{Array, ArrayOfTables, DocumentMut, Item, Table, TableLike};
 
 /// The text with what differs between `old`, which it holds, and `new`. `None` where the text cannot be changed so that it
 /// holds `new`, such as one that is not TOML.
-pub fn rewritten(text: &str, old: &ProjectFile, new: &ProjectFile) -> Option<String> {
+pub(crate) fn rewritten(text: &str, old: &ProjectFile, new: &ProjectFile) -> Option<String> {
     let mut document: DocumentMut = text.parse().ok()?;
     let in_full = |file: &ProjectFile| file.to_toml().ok()?.parse::<DocumentMut>().ok();
     let (before, after) = (in_full(old)?, in_full(new)?);

@@ -1,9 +1,9 @@
 //! Tables `[[ruled_out]]`: effects at places that the user knows not to be what the model lacks.
 
 use super::error::ProjectError;
-use super::file::Lines;
 use super::keys::elements;
 use super::label::Label;
+use super::lines::Lines;
 use super::reader::Table;
 use crate::effects::Effect;
 use serde::Serialize;

@@ -18,7 +18,7 @@ pub(super) struct At<'a> {
 }
 
 impl At<'_> {
-    pub fn error(self, line: usize, problem: Problem) -> ProjectError {
+    pub(super) fn error(self, line: usize, problem: Problem) -> ProjectError {
         ProjectError::new(self.file, Some(line), problem)
     }
 }
@@ -38,7 +38,7 @@ pub(super) fn line(lines: &BTreeMap<String, usize>, key: &str) -> usize {
 
 /// Tables of sources that do not make a pattern on a structure; tables are counted from 0.
 #[derive(Debug, Clone, PartialEq)]
-pub enum PatternError {
+pub(crate) enum PatternError {
     /// A table of a source.
     Source {
         /// Which.
@@ -65,7 +65,7 @@ pub enum PatternError {
 ///
 /// # Errors
 /// [`PatternError`] for the first table that does not hold.
-pub fn expanded(file: &ProjectFile, structure: &Structure) -> Result<Vec<Source>, PatternError> {
+pub(crate) fn expanded(file: &ProjectFile, structure: &Structure) -> Result<Vec<Source>, PatternError> {
     let mut sources: Vec<Source> = Vec::new();
     for (table, written) in file.source.iter().enumerate() {
         let source = single(written, structure).map_err(|problem| PatternError::Source { table, problem })?;
@@ -99,7 +99,7 @@ pub(super) fn sources(file: &ProjectFile, structure: &Structure, at: At<'_>) -> 
 }
 
 /// Whether identification may select it.
-pub fn is_sought(state: State) -> bool {
+pub(crate) fn is_sought(state: State) -> bool {
     matches!(state, State::Candidate | State::Forced)
 }
 
@@ -130,7 +130,7 @@ pub(super) fn blamed(lines: &BTreeMap<String, usize>, problem: &Problem) -> usiz
 ///
 /// # Errors
 /// [`Problem`] where there is no such place, or the law cannot act there.
-pub fn at_place(
+pub(crate) fn at_place(
     effect: Effect,
     dofs: &[Label],
     range: Option<[i64; 2]>,
@@ -155,7 +155,7 @@ pub fn at_place(
 ///
 /// # Errors
 /// [`Problem`] where the law cannot act there or not with these parameters.
-pub fn single(table: &SourceTable, structure: &Structure) -> Result<Source, Problem> {
+pub(crate) fn single(table: &SourceTable, structure: &Structure) -> Result<Source, Problem> {
     let effect = table.law;
     let place = at_place(effect, &table.dofs, table.elements, structure)?;
     let values: Vec<(&str, f64)> = table.parameters.iter().map(|(name, &value)| (name.as_str(), value)).collect();
@@ -179,7 +179,7 @@ fn elements(effect: Effect, range: [i64; 2], structure: &Structure) -> Result<[u
 ///
 /// # Errors
 /// [`Problem`] where one cannot act, or there is no place for any.
-pub fn members(table: &CandidatesTable, structure: &Structure) -> Result<Vec<Source>, Problem> {
+pub(crate) fn members(table: &CandidatesTable, structure: &Structure) -> Result<Vec<Source>, Problem> {
     if matches!(table.law.kind(), Kind::Channel(_)) {
         return Err(Problem::ChannelLaw { law: table.law.name() });
     }

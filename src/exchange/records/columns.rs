@@ -5,7 +5,7 @@ use crate::measurement::Quantity;
 
 /// What a column holds.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Role {
+pub(crate) enum Role {
     /// Frequency of the run; factor to Hz.
     Frequency(f64),
     /// Number of the level.
@@ -32,7 +32,7 @@ const RESPONSES: [(&[&str], Quantity); 3] = [
 ];
 
 /// What a column of that name holds; channels of the project's own form, such as `acc@7 [g]`, are [`Role::Other`].
-pub fn role(name: &str) -> Role {
+pub(crate) fn role(name: &str) -> Role {
     let name = name.trim();
     if let Some((radians, of)) = phase(name) {
         return Role::Phase(radians, of);

@@ -15,7 +15,7 @@ use std::f64::consts::TAU;
 use std::path::Path;
 
 /// Highest harmonic that is read: more is a mistake in the column.
-pub const HIGHEST_HARMONIC: usize = 1000;
+pub(crate) const HIGHEST_HARMONIC: usize = 1000;
 
 const NAMES: [&str; 8] = ["run", "frequency_hz", "channel", "harmonic", "cos", "sin", "cos_std", "sin_std"];
 const REQUIRED: usize = 6;
@@ -214,7 +214,7 @@ pub fn write_harmonics(
 }
 
 /// The text that [`write_harmonics`] writes.
-pub fn harmonics_text(runs: &[(&str, &HarmonicFit)], structure: &Structure) -> String {
+pub(crate) fn harmonics_text(runs: &[(&str, &HarmonicFit)], structure: &Structure) -> String {
     let known = runs.iter().all(|(_, fit)| fit.channels.iter().all(ChannelFit::has_deviation));
     let mut text = NAMES[..if known { 8 } else { REQUIRED }].join(",");
     text.push('\n');

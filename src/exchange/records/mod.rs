@@ -1,14 +1,14 @@
 //! Measured data in CSV files: time records and fitted harmonics, read leniently and written exactly.
 
-pub mod columns;
-pub mod error;
-pub mod harmonics;
+pub(crate) mod columns;
+pub(crate) mod error;
+pub(crate) mod harmonics;
 mod harmonics_run;
-pub mod places;
-pub mod reader;
-pub mod stepped_sine;
+pub(crate) mod places;
+pub(crate) mod reader;
+pub(crate) mod stepped_sine;
 mod table;
-pub mod writer;
+pub(crate) mod writer;
 
 pub use error::{RecordFileError, RecordProblem};
 pub use harmonics::{parse_harmonics, read_harmonics, read_harmonics_as, write_harmonics};

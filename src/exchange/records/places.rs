@@ -9,7 +9,7 @@ use std::path::Path;
 
 /// What a file holds.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Contents {
+pub(crate) enum Contents {
     /// A time record.
     Time,
     /// Fitted harmonics of runs.
@@ -21,7 +21,7 @@ pub enum Contents {
 ///
 /// # Errors
 /// [`RecordFileError`] for files that are no tables.
-pub fn contents(path: &Path) -> Result<(Contents, Structure), RecordFileError> {
+pub(crate) fn contents(path: &Path) -> Result<(Contents, Structure), RecordFileError> {
     let name = path.display().to_string();
     let at = At { file: &name };
     let bytes =

@@ -19,7 +19,7 @@ pub fn write_record(
 }
 
 /// The text that [`write_record`] writes.
-pub fn record_text(record: &Record, structure: &Structure, digits: Option<usize>) -> String {
+pub(crate) fn record_text(record: &Record, structure: &Structure, digits: Option<usize>) -> String {
     let mut text = String::from("time [s]");
     for channel in record.channels() {
         let name = channel_name(channel, structure);

@@ -58,7 +58,7 @@ pub(crate) fn equivalent(structure: &Structure, runs: &[(Measured, Expanded)], a
 
 /// `sum weight_j B_j` with the place matrix `B_j` of each source; n x n. Sources without one (channels, whole-structure laws
 /// without matrices) add nothing.
-pub fn weighted_sum(structure: &Structure, sources: &[Source], weights: &[f64]) -> Mat<f64> {
+pub(crate) fn weighted_sum(structure: &Structure, sources: &[Source], weights: &[f64]) -> Mat<f64> {
     let n = structure.len();
     let mut sum = Mat::zeros(n, n);
     for (source, weight) in sources.iter().zip(weights) {

@@ -1,15 +1,15 @@
 //! What is shown of the accepted set: matrices, energy shares, damped modes.
 
 mod input;
-pub mod matrices;
-pub mod modes;
-pub mod shares;
+pub(crate) mod matrices;
+pub(crate) mod modes;
+pub(crate) mod shares;
 
 use faer::Mat;
 
 pub(crate) use input::ResultsInput;
-pub use matrices::{EquivalentViscous, LawMatrix};
-pub use modes::ModeResult;
+pub(crate) use matrices::{EquivalentViscous, LawMatrix};
+pub(crate) use modes::ModeResult;
 
 /// Results of the accepted set with the known sources.
 #[derive(Debug, Clone, PartialEq)]

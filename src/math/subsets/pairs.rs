@@ -30,7 +30,7 @@ pub(super) struct Schur {
 }
 
 impl Schur {
-    pub fn new(columns: Vec<usize>, n: usize, gram: &[f64], h: &[f64]) -> Self {
+    pub(super) fn new(columns: Vec<usize>, n: usize, gram: &[f64], h: &[f64]) -> Self {
         let stride = columns.len();
         let at = |i: usize, j: usize| gram[columns[i] * n + columns[j]];
         Self {
@@ -44,13 +44,13 @@ impl Schur {
         }
     }
 
-    pub fn position(&self, column: usize) -> Option<usize> {
+    pub(super) fn position(&self, column: usize) -> Option<usize> {
         self.columns.iter().position(|&j| j == column)
     }
 
     /// Projects column number `p` of this matrix out and drops it and what then depends on it; `None` if it is itself
     /// dependent.
-    pub fn choose(&self, p: usize) -> Option<Self> {
+    pub(super) fn choose(&self, p: usize) -> Option<Self> {
         let pivot = self.diagonal[p];
         if pivot <= DEPENDENT {
             return None;
@@ -79,7 +79,7 @@ impl Schur {
     }
 
     /// Drops a column without choosing it; the last one takes its place.
-    pub fn discard(&mut self, p: usize) {
+    pub(super) fn discard(&mut self, p: usize) {
         let last = self.columns.len() - 1;
         let s = self.stride;
         for k in 0..=last {
@@ -99,7 +99,7 @@ impl Schur {
     }
 
     /// Number of the column that lowers the squared residual most with a positive coefficient.
-    pub fn best_single(&self) -> Option<usize> {
+    pub(super) fn best_single(&self) -> Option<usize> {
         let gain = |i: usize| self.g[i] * self.g[i] / self.diagonal[i];
         (0..self.columns.len())
             .filter(|&i| self.g[i] > 0.0 && self.diagonal[i] > 0.0)
@@ -107,7 +107,7 @@ impl Schur {
     }
 
     /// Every single column that may bring the squared residual down to `goal`.
-    pub fn singles(&self, goal: f64, signs: bool) -> Vec<usize> {
+    pub(super) fn singles(&self, goal: f64, signs: bool) -> Vec<usize> {
         let gain = self.squared_residual - goal;
         let allowance = self.allowance();
         let passes = |i: usize| {
@@ -118,7 +118,7 @@ impl Schur {
 
     /// Calls `found` with every pair that may bring the squared residual down to `goal`, with positive coefficients if
     /// `signs`. `found` returns the goal from there on.
-    pub fn pairs<E>(
+    pub(super) fn pairs<E>(
         &self,
         mut goal: f64,
         signs: bool,

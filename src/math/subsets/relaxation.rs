@@ -3,7 +3,7 @@
 //!
 //! With unit columns, `N = A^T A`, `h = A^T b` and `|b| = 1`, the residual of columns in use is `1 - x^T h`.
 
-use super::Unit;
+use super::unit_problem::Unit;
 use crate::math::nnls::{NnlsError, nnls};
 use faer::Mat;
 
@@ -23,7 +23,7 @@ pub(super) struct Normal {
 }
 
 impl Normal {
-    pub fn new(unit: &Unit) -> Self {
+    pub(super) fn new(unit: &Unit) -> Self {
         let n = unit.columns.len();
         let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(x, y)| x * y).sum::<f64>();
         let mut gram = vec![0.0; n * n];
@@ -41,7 +41,7 @@ impl Normal {
 impl Normal {
     /// Whether least squares without bounds on `set` gives a coefficient that is negative beyond rounding: then the best with
     /// bounds leaves a column out, and the set is none of its size. False where rounding hides it.
-    pub fn has_negative(&self, set: &[usize]) -> bool {
+    pub(super) fn has_negative(&self, set: &[usize]) -> bool {
         let k = set.len();
         let mut factor = vec![0.0; k * k];
         let mut x: Vec<f64> = set.iter().map(|&j| self.h[j]).collect();
@@ -83,7 +83,7 @@ pub(super) struct Relaxed {
 
 impl Relaxed {
     /// Drops a column; [`Relaxed::optimise`] must follow.
-    pub fn exclude(&mut self, column: usize) {
+    pub(super) fn exclude(&mut self, column: usize) {
         if let Some(k) = self.passive.iter().position(|&j| j == column) {
             self.passive.remove(k);
             self.x.remove(k);
@@ -91,7 +91,7 @@ impl Relaxed {
     }
 
     /// Continues from the present columns to the optimum over `allowed`.
-    pub fn optimise(&mut self, normal: &Normal, unit: &Unit, allowed: &[usize]) -> Result<(), NnlsError> {
+    pub(super) fn optimise(&mut self, normal: &Normal, unit: &Unit, allowed: &[usize]) -> Result<(), NnlsError> {
         if self.descend(normal, allowed).is_none() {
             self.slow(unit, allowed)?;
         }

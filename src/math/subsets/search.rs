@@ -6,8 +6,9 @@
 //! coefficient, and the node is closed.
 
 use super::pairs::Schur;
+use super::problem::{Ranking, SubsetError, SubsetProblem, combinations};
 use super::relaxation::{Normal, Relaxed};
-use super::{Best, Ranking, SubsetError, SubsetProblem, Unit, combinations};
+use super::unit_problem::{Best, Unit};
 use crate::control::Control;
 
 /// Squared residuals, relative to `|b|^2`, that the normal matrix cannot tell apart.

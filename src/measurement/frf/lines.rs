@@ -10,7 +10,7 @@
 
 /// Information a line, of one reference; 0 where a line must not be chosen.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Density(pub Vec<f64>);
+pub(crate) struct Density(pub Vec<f64>);
 
 /// How far the density must fall on both sides of a crest before that is a resonance and no ripple.
 const PROMINENCE: f64 = 10.0;
@@ -32,7 +32,7 @@ struct Peak {
 }
 
 /// The lines chosen for each reference, ascending; at most `most` altogether.
-pub fn choose(densities: &[Density], most: usize) -> Vec<Vec<usize>> {
+pub(crate) fn choose(densities: &[Density], most: usize) -> Vec<Vec<usize>> {
     let mut peaks: Vec<Peak> = densities.iter().enumerate().flat_map(|(r, density)| peaks(r, density)).collect();
     if peaks.is_empty() {
         peaks = densities.iter().enumerate().filter_map(|(r, density)| whole(r, density)).collect();
@@ -115,7 +115,7 @@ fn whole(reference: usize, density: &Density) -> Option<Peak> {
 }
 
 /// Ascending lines (with repetitions) in groups with gaps of more than a few lines between them: first, last, how many.
-pub fn groups(lines: &[usize]) -> Vec<(usize, usize, usize)> {
+pub(crate) fn groups(lines: &[usize]) -> Vec<(usize, usize, usize)> {
     const GAP: usize = 5;
     let mut groups: Vec<(usize, usize, usize)> = Vec::new();
     for &line in lines {

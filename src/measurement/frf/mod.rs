@@ -4,8 +4,8 @@
 //! A line holds no amplitude: laws whose damping depends on it cannot be told from such runs
 //! ([`Run::per_unit_force`](super::Run::per_unit_force)).
 
-pub mod lines;
-pub mod variance;
+pub(crate) mod lines;
+pub(crate) mod variance;
 
 use super::channel::Channel;
 use super::fit::{ChannelFit, HarmonicFit};
@@ -19,7 +19,7 @@ const LEAST_DEVIATION: f64 = 1e-4;
 
 /// One measured function, SI units.
 #[derive(Debug, Clone, PartialEq)]
-pub struct FrequencyResponse {
+pub(crate) struct FrequencyResponse {
     /// What responds: displacement, velocity or acceleration at a DOF.
     pub response: Channel,
     /// The force at the reference.
@@ -32,7 +32,7 @@ pub struct FrequencyResponse {
 
 /// Functions on common frequencies.
 #[derive(Debug, Clone, PartialEq)]
-pub struct ResponseSet {
+pub(crate) struct ResponseSet {
     /// Name in messages and in the names of runs.
     pub name: String,
     /// Frequencies, Hz, ascending and positive.
@@ -63,7 +63,7 @@ pub struct ChosenRuns {
 
 impl ResponseSet {
     /// Makes the runs of the most informative lines, corrected for the known errors of their channels.
-    pub fn runs(&self, selection: Selection, enabled: bool, corrections: &[Correction]) -> ChosenRuns {
+    pub(crate) fn runs(&self, selection: Selection, enabled: bool, corrections: &[Correction]) -> ChosenRuns {
         let variances: Vec<Vec<f64>> = self.functions.iter().map(|function| self.variance(function)).collect();
         let references = self.references();
         let densities: Vec<Density> =

@@ -24,7 +24,7 @@ const MEDIAN_OVER_MEAN: f64 = std::f64::consts::LN_2;
 const LEAST_COHERENCE: f64 = 1e-6;
 
 /// Variance of the real part (and of the imaginary part) of each value, from its coherence over `averages` averages.
-pub fn from_coherence(values: &[c64], coherence: &[f64], averages: usize) -> Vec<f64> {
+pub(crate) fn from_coherence(values: &[c64], coherence: &[f64], averages: usize) -> Vec<f64> {
     let freedom = 2.0 * (averages.max(2) - 1) as f64;
     let raw: Vec<f64> = values
         .iter()
@@ -42,7 +42,7 @@ pub fn from_coherence(values: &[c64], coherence: &[f64], averages: usize) -> Vec
 }
 
 /// Variance of the real part (and of the imaginary part) of each value, from the scatter about a smooth curve.
-pub fn from_scatter(values: &[c64]) -> Vec<f64> {
+pub(crate) fn from_scatter(values: &[c64]) -> Vec<f64> {
     const OF_DIFFERENCE: f64 = 20.0;
     let squares: Vec<f64> = values
         .windows(4)

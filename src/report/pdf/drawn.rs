@@ -11,7 +11,7 @@ use pdf_writer::{Content, Str};
 const HANDLE: f32 = 0.552_284_8;
 
 /// Draws with the upper left corner at `corner` (from the lower left of the page, y upwards), `scale` times as large.
-pub fn draw(content: &mut Content, face: &Face, drawing: &Drawing, corner: [f32; 2], scale: f32) {
+pub(super) fn draw(content: &mut Content, face: &Face, drawing: &Drawing, corner: [f32; 2], scale: f32) {
     content.save_state();
     // From here on y points down, as in the drawing.
     content.transform([scale, 0.0, 0.0, -scale, corner[0], corner[1]]);
@@ -113,7 +113,7 @@ fn words(content: &mut Content, face: &Face, at: Pos2, align: Align2, text: &str
 }
 
 /// One line of text with its place and direction.
-pub fn show(content: &mut Content, face: &Face, text: &str, size: f32, matrix: [f32; 6]) {
+pub(super) fn show(content: &mut Content, face: &Face, text: &str, size: f32, matrix: [f32; 6]) {
     let glyphs = face.encode(text);
     content.begin_text().set_font(FACE, size).set_text_matrix(matrix).show(Str(&glyphs)).end_text();
 }
@@ -129,7 +129,7 @@ fn pen(content: &mut Content, stroke: Stroke, ground: Color32) -> bool {
 }
 
 /// Sets the colour of areas and words.
-pub fn fill(content: &mut Content, colour: Color32, ground: Color32) {
+pub(super) fn fill(content: &mut Content, colour: Color32, ground: Color32) {
     let [r, g, b] = mixed(colour, ground);
     content.set_fill_rgb(r, g, b);
 }

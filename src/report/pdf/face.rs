@@ -14,10 +14,10 @@ const IDENTITY: SystemInfo<'static> = SystemInfo { registry: Str(b"Adobe"), orde
 /// The built-in face cannot be read.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 #[error("the type of the report cannot be read; this is an error of dashpot, write the report as .html")]
-pub struct FontError;
+pub(crate) struct FontError;
 
 /// A face and which of its glyphs were used.
-pub struct Face {
+pub(super) struct Face {
     face: ttf_parser::Face<'static>,
     used: RefCell<BTreeMap<u16, char>>,
 }
@@ -27,7 +27,7 @@ impl Face {
     ///
     /// # Errors
     /// [`FontError`].
-    pub fn built_in() -> Result<Self, FontError> {
+    pub(super) fn built_in() -> Result<Self, FontError> {
         let face = ttf_parser::Face::parse(epaint_default_fonts::UBUNTU_LIGHT, 0).map_err(|_| FontError)?;
         Ok(Self { face, used: RefCell::default() })
     }
@@ -53,17 +53,17 @@ impl Face {
     }
 
     /// Width of a text of `size` points.
-    pub fn width(&self, text: &str, size: f32) -> f32 {
+    pub(super) fn width(&self, text: &str, size: f32) -> f32 {
         text.chars().map(|c| self.advance(self.glyph(c))).sum::<f32>() * size / 1000.0
     }
 
     /// A text as the numbers of its glyphs.
-    pub fn encode(&self, text: &str) -> Vec<u8> {
+    pub(super) fn encode(&self, text: &str) -> Vec<u8> {
         text.chars().flat_map(|c| self.glyph(c).to_be_bytes()).collect()
     }
 
     /// Text in lines of at most `room` points, broken between words, and within a word that is longer.
-    pub fn lines(&self, text: &str, size: f32, room: f32) -> Vec<String> {
+    pub(super) fn lines(&self, text: &str, size: f32, room: f32) -> Vec<String> {
         let mut lines = vec![String::new()];
         for word in text.split_whitespace() {
             let last = lines.last().map_or("", String::as_str);
@@ -97,7 +97,7 @@ impl Face {
     }
 
     /// Writes the face into a file, as five objects from `first` on; gives back the font.
-    pub fn embed(&self, pdf: &mut Pdf, first: i32) -> Ref {
+    pub(super) fn embed(&self, pdf: &mut Pdf, first: i32) -> Ref {
         let [font, cid, descriptor, file, unicode] = [0, 1, 2, 3, 4].map(|k| Ref::new(first + k));
         pdf.type0_font(font)
             .base_font(NAME)

@@ -18,7 +18,7 @@ const FIRST_PAGE: i32 = 10;
 ///
 /// # Errors
 /// [`FontError`]: the face that is built in cannot be read.
-pub fn document(title: &str, parts: &[Part]) -> Result<Vec<u8>, FontError> {
+pub(super) fn document(title: &str, parts: &[Part]) -> Result<Vec<u8>, FontError> {
     let face = Face::built_in()?;
     let mut paper = Paper::new(&face, title);
     for (k, part) in parts.iter().enumerate() {

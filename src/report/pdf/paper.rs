@@ -9,9 +9,9 @@ use ecolor::Color32;
 use pdf_writer::Content;
 
 /// A4, points.
-pub const WIDTH: f32 = 595.28;
+pub(super) const WIDTH: f32 = 595.28;
 /// A4, points.
-pub const HEIGHT: f32 = 841.89;
+pub(super) const HEIGHT: f32 = 841.89;
 
 const LEFT: f32 = 56.0;
 const TOP: f32 = 60.0;
@@ -34,7 +34,7 @@ const WARNING: Color32 = Color32::from_rgb(0x8a, 0x5a, 0x00);
 const LINE: Color32 = Color32::from_rgb(0xd5, 0xda, 0xde);
 
 /// Pages under way.
-pub struct Paper<'a> {
+pub(super) struct Paper<'a> {
     face: &'a Face,
     title: &'a str,
     pages: Vec<Content>,
@@ -44,7 +44,7 @@ pub struct Paper<'a> {
 
 impl<'a> Paper<'a> {
     /// The first page with the title.
-    pub fn new(face: &'a Face, title: &'a str) -> Self {
+    pub(super) fn new(face: &'a Face, title: &'a str) -> Self {
         let mut paper = Self { face, title, pages: vec![Content::new()], at: TOP + 10.0 };
         paper.paragraph(title, TITLE, INK);
         let kind = concat!("Report of a vibration test, made by Dashpot ", env!("CARGO_PKG_VERSION"));
@@ -54,7 +54,7 @@ impl<'a> Paper<'a> {
     }
 
     /// Adds a part; a title stays with what comes `next`.
-    pub fn part(&mut self, part: &Part, next: Option<&Part>) {
+    pub(super) fn part(&mut self, part: &Part, next: Option<&Part>) {
         let figure = match next {
             Some(Part::Figure(_, drawing)) => scale(drawing) * drawing.size.y + 30.0,
             _ => 0.0,
@@ -81,7 +81,7 @@ impl<'a> Paper<'a> {
     }
 
     /// All pages with their numbers, lines to sign on the last.
-    pub fn finish(mut self) -> Vec<Content> {
+    pub(super) fn finish(mut self) -> Vec<Content> {
         self.need(80.0);
         self.at += 50.0;
         for (k, name) in ["Place and date", "Signature"].into_iter().enumerate() {

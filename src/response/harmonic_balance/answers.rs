@@ -70,7 +70,7 @@ impl NonlinearLeg {
     }
 
     /// `Phi` at the given coefficients of force and motion.
-    pub fn value(&self, fourier: &Fourier, omega: f64, force: &[f64], motion: &[f64]) -> Vec<f64> {
+    pub(crate) fn value(&self, fourier: &Fourier, omega: f64, force: &[f64], motion: &[f64]) -> Vec<f64> {
         if self.manner() == Manner::SetValued {
             return friction::value(self, fourier, omega, force, motion);
         }
@@ -89,7 +89,7 @@ impl NonlinearLeg {
     }
 
     /// `Phi` with its derivatives.
-    pub fn answer(&self, fourier: &Fourier, omega: f64, force: &[f64], motion: &[f64]) -> Answer {
+    pub(crate) fn answer(&self, fourier: &Fourier, omega: f64, force: &[f64], motion: &[f64]) -> Answer {
         match self.manner() {
             Manner::Memory => return self.memory_answer(fourier, omega, motion),
             Manner::SetValued => return friction::answer(self, fourier, omega, force, motion),
@@ -136,7 +136,14 @@ impl NonlinearLeg {
     }
 
     /// Derivative of `Phi` by parameter `k`, force and motion held.
-    pub fn by_parameter(&self, fourier: &Fourier, omega: f64, k: usize, force: &[f64], motion: &[f64]) -> Vec<f64> {
+    pub(crate) fn by_parameter(
+        &self,
+        fourier: &Fourier,
+        omega: f64,
+        k: usize,
+        force: &[f64],
+        motion: &[f64],
+    ) -> Vec<f64> {
         if self.manner() == Manner::SetValued {
             return friction::by_parameter(self, fourier, omega, k, force, motion);
         }
@@ -155,7 +162,7 @@ impl NonlinearLeg {
     }
 
     /// Samples of force, displacement and velocity; those the law does not look at stay zero.
-    pub fn histories(&self, fourier: &Fourier, omega: f64, force: &[f64], motion: &[f64]) -> [Vec<f64>; 3] {
+    pub(crate) fn histories(&self, fourier: &Fourier, omega: f64, force: &[f64], motion: &[f64]) -> [Vec<f64>; 3] {
         let blank = vec![0.0; fourier.samples()];
         let [mut f, mut d, mut v] = [blank.clone(), blank.clone(), blank];
         let velocity_law = self.law.variable() == Variable::Velocity;
@@ -174,7 +181,7 @@ impl NonlinearLeg {
 
     /// Local stiffness and damping along the period at a solution (for stability): the slopes of the law; where friction
     /// sticks, a damping that holds it.
-    pub fn slopes(&self, fourier: &Fourier, omega: f64, force: &[f64], motion: &[f64]) -> Vec<[f64; 2]> {
+    pub(crate) fn slopes(&self, fourier: &Fourier, omega: f64, force: &[f64], motion: &[f64]) -> Vec<[f64; 2]> {
         let [f, d, v] = self.histories(fourier, omega, force, motion);
         let answer = |n: usize| {
             let instant = self.instant(f[n], d[n], v[n]);

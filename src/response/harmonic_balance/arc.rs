@@ -7,11 +7,11 @@
 //!
 //! Each point at which the path passes the full force, `s = 1`, is an answer.
 
-use super::Settings;
 use super::dense::Lu;
 use super::error::ResponseError;
 use super::iterate::Ending;
 use super::newton::{Balance, relative};
+use super::settings::Settings;
 use crate::control::Control;
 
 /// Most points of the path.

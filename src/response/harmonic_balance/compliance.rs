@@ -36,7 +36,7 @@ pub(crate) struct LinearPart {
 
 impl LinearPart {
     /// Takes matrices and the whole-structure laws of `sources`.
-    pub fn new(structure: Arc<Structure>, sources: &[Source]) -> Result<Self, ModelError> {
+    pub(crate) fn new(structure: Arc<Structure>, sources: &[Source]) -> Result<Self, ModelError> {
         let matrices = structure.matrices().ok_or(ModelError::NoMatrices)?;
         let SystemMatrices { mass, stiffness } = matrices;
         Cholesky::new(mass.as_ref()).ok_or(ModelError::MassNotPositive)?;
@@ -47,7 +47,7 @@ impl LinearPart {
     }
 
     /// The same structure with the whole-structure laws among `sources` in place of its own.
-    pub fn with_whole(&self, sources: &[Source]) -> Self {
+    pub(crate) fn with_whole(&self, sources: &[Source]) -> Self {
         let mut part = Self { whole: Vec::new(), ..self.clone() };
         for source in sources {
             if let (Kind::Whole(law), Place::Whole(range)) = (source.effect.kind(), &source.place) {
@@ -59,18 +59,18 @@ impl LinearPart {
     }
 
     /// Whether the whole-structure laws among `sources` are those of this part.
-    pub fn has_whole(&self, sources: &[Source]) -> bool {
+    pub(crate) fn has_whole(&self, sources: &[Source]) -> bool {
         let given = sources.iter().filter(|s| matches!(s.effect.kind(), Kind::Whole(_)));
         given.eq(self.whole.iter().map(|(source, _)| source))
     }
 
     /// Undamped modes of the structure.
-    pub fn basis(&self) -> &ModalBasis {
+    pub(crate) fn basis(&self) -> &ModalBasis {
         &self.basis
     }
 
     /// The structure without its laws.
-    pub fn structure(&self) -> &Structure {
+    pub(crate) fn structure(&self) -> &Structure {
         &self.structure
     }
 
@@ -79,17 +79,17 @@ impl LinearPart {
     }
 
     /// The same structure with all stiffness multiplied by `factor`.
-    pub fn stiffened(&self, factor: f64) -> Self {
+    pub(crate) fn stiffened(&self, factor: f64) -> Self {
         Self { stiffness: factor, ..self.clone() }
     }
 
     /// Number of degrees of freedom.
-    pub fn len(&self) -> usize {
+    pub(crate) fn len(&self) -> usize {
         self.structure.len()
     }
 
     /// `factor B` as an n x n product with `x`, where `B` is the matrix on which the whole-structure law `source` acts.
-    pub fn apply_whole(&self, source: &Source, factor: c64, x: &[c64]) -> Vec<c64> {
+    pub(crate) fn apply_whole(&self, source: &Source, factor: c64, x: &[c64]) -> Vec<c64> {
         let own = self.whole.iter().find(|(s, _)| s.place == source.place && s.effect == source.effect);
         let matrices = self.matrices();
         let matrix = match (own, source.effect.kind()) {
@@ -101,7 +101,7 @@ impl LinearPart {
     }
 
     /// `(stiffness K + mass M) x` for the two given factors.
-    pub fn apply_matrices(&self, stiffness: c64, mass: c64, x: &[c64]) -> Vec<c64> {
+    pub(crate) fn apply_matrices(&self, stiffness: c64, mass: c64, x: &[c64]) -> Vec<c64> {
         let matrices = self.matrices();
         if mass.norm_sqr() == 0.0 {
             return multiply(&matrices.stiffness, stiffness, x);
@@ -115,7 +115,7 @@ impl LinearPart {
     }
 
     /// `factor M_e x` with the mass of the elements alone; the whole mass where there are no elements.
-    pub fn apply_density(&self, factor: c64, x: &[c64]) -> Vec<c64> {
+    pub(crate) fn apply_density(&self, factor: c64, x: &[c64]) -> Vec<c64> {
         let count = self.structure.elements().len();
         if count == 0 {
             return multiply(&self.matrices().mass, factor, x);
@@ -124,7 +124,7 @@ impl LinearPart {
     }
 
     /// `-omega_r^2 (M phi_r) (M phi_r)^T x`: the pseudo-force of a mode whose stiffness grows; `None` without such a mode.
-    pub fn apply_mode(&self, mode: usize, x: &[c64]) -> Option<Vec<c64>> {
+    pub(crate) fn apply_mode(&self, mode: usize, x: &[c64]) -> Option<Vec<c64>> {
         let square = *self.basis.squares.get(mode)?;
         let weighted = self.times_mass(self.basis.shape(mode));
         let amplitude = weighted.iter().zip(x).fold(c64::new(0.0, 0.0), |s, (w, x)| s + *x * *w);
@@ -132,7 +132,7 @@ impl LinearPart {
     }
 
     /// `M x`.
-    pub fn times_mass(&self, x: &[f64]) -> Vec<f64> {
+    pub(crate) fn times_mass(&self, x: &[f64]) -> Vec<f64> {
         let mass = &self.matrices().mass;
         let mut result = vec![0.0; x.len()];
         for (j, value) in x.iter().enumerate() {
@@ -142,7 +142,7 @@ impl LinearPart {
     }
 
     /// Factors of `K` and `M` in `Z(omega)`, without laws restricted to elements.
-    pub fn factors(&self, omega: f64) -> [c64; 2] {
+    pub(crate) fn factors(&self, omega: f64) -> [c64; 2] {
         let shift = if omega == 0.0 { self.floating_shift } else { 0.0 };
         let mut factors = [c64::new(1.0, REGULARISING_LOSS), c64::new(shift - omega * omega, 0.0)];
         if omega == 0.0 {
@@ -159,7 +159,7 @@ impl LinearPart {
     }
 
     /// `Z(omega)`, n x n.
-    pub fn dynamic_stiffness(&self, omega: f64) -> Mat<c64> {
+    pub(crate) fn dynamic_stiffness(&self, omega: f64) -> Mat<c64> {
         let [fk, fm] = self.factors(omega);
         let SystemMatrices { mass, stiffness } = self.matrices();
         let mut z = Mat::from_fn(self.len(), self.len(), |i, j| fk * stiffness[(i, j)] + fm * mass[(i, j)]);
@@ -174,7 +174,7 @@ impl LinearPart {
 
     /// Receptance at `omega` (rad/s; 0 is static); modes at resonance are set apart if `apart`. With `summed` modes are
     /// summed where that is exact, which is cheaper unless many entries are asked for.
-    pub fn compliance(&self, omega: f64, apart: bool, summed: bool) -> Compliance {
+    pub(crate) fn compliance(&self, omega: f64, apart: bool, summed: bool) -> Compliance {
         let factors = self.factors(omega);
         let modes = if apart && omega > 0.0 { near(&self.basis, factors) } else { Vec::new() };
         let mut resonant: Vec<Resonant> =
@@ -234,7 +234,7 @@ enum Inverse {
 
 impl Compliance {
     /// `v_a^T A v_b`, m/N.
-    pub fn between(&self, a: Pattern, b: Pattern) -> c64 {
+    pub(crate) fn between(&self, a: Pattern, b: Pattern) -> c64 {
         match (a, b) {
             (Pattern::Leg(a), Pattern::Leg(b)) => self.inverse.between(a, b),
             (Pattern::Leg(leg), Pattern::Resonant(r)) | (Pattern::Resonant(r), Pattern::Leg(leg)) => {
@@ -245,12 +245,12 @@ impl Compliance {
     }
 
     /// Displacements of all DOFs (m) under forces (N) at single DOFs.
-    pub fn apply_at(&self, forces: &[(usize, c64)], result: &mut [c64]) {
+    pub(crate) fn apply_at(&self, forces: &[(usize, c64)], result: &mut [c64]) {
         self.inverse.apply_at(forces, result);
     }
 
     /// Displacements of all DOFs under a force at every DOF.
-    pub fn apply(&self, force: &[c64], result: &mut [c64]) {
+    pub(crate) fn apply(&self, force: &[c64], result: &mut [c64]) {
         self.inverse.apply(force, result);
     }
 }

@@ -73,7 +73,7 @@ fn separated(sources: &[Source]) -> (Vec<NonlinearLeg>, Vec<LinearLeg>) {
 
 impl Condensed {
     /// Condenses for harmonics 0..=`harmonics`; `compliance(h)` is the receptance of the structure.
-    pub fn new<'a>(
+    pub(crate) fn new<'a>(
         compliance: impl Fn(usize) -> &'a Compliance,
         sources: &[Source],
         excitation: &Excitation,
@@ -97,33 +97,33 @@ impl Condensed {
     }
 
     /// Number of real coefficients of a leg, `2 H + 1`.
-    pub fn width(&self) -> usize {
+    pub(crate) fn width(&self) -> usize {
         2 * self.harmonics + 1
     }
 
     /// Number of unknowns of nonlinear legs.
-    pub fn leg_size(&self) -> usize {
+    pub(crate) fn leg_size(&self) -> usize {
         self.width() * self.legs.len()
     }
 
     /// Number of unknowns.
-    pub fn size(&self) -> usize {
+    pub(crate) fn size(&self) -> usize {
         self.leg_size() + 2 * self.resonances
     }
 
     /// Index of the cosine of mode number `r` at resonance with harmonic `h`; its sine follows.
-    pub fn resonant_index(&self, h: usize, r: usize) -> usize {
+    pub(crate) fn resonant_index(&self, h: usize, r: usize) -> usize {
         self.leg_size() + 2 * (self.levels[h].resonant_before + r)
     }
 
     /// Index of the cosine of kept leg `j` at harmonic `h >= 1`; its sine follows.
-    pub fn index(&self, h: usize, j: usize) -> usize {
+    pub(crate) fn index(&self, h: usize, j: usize) -> usize {
         let count = self.legs.len();
         if j < count { j * self.width() + 2 * h - 1 } else { self.resonant_index(h, j - count) }
     }
 
     /// Complex amplitude of kept leg `j` at harmonic `h` in coefficients laid out as the unknowns.
-    pub fn get(&self, u: &[f64], h: usize, j: usize) -> c64 {
+    pub(crate) fn get(&self, u: &[f64], h: usize, j: usize) -> c64 {
         let (count, width) = (self.legs.len(), self.width());
         if j < count {
             return amplitude(&u[j * width..(j + 1) * width], h);
@@ -133,7 +133,7 @@ impl Condensed {
     }
 
     /// Adds to it.
-    pub fn add(&self, u: &mut [f64], h: usize, j: usize, value: c64) {
+    pub(crate) fn add(&self, u: &mut [f64], h: usize, j: usize, value: c64) {
         let (count, width) = (self.legs.len(), self.width());
         if j < count {
             return add_amplitude(&mut u[j * width..(j + 1) * width], h, value);
@@ -144,7 +144,7 @@ impl Condensed {
     }
 
     /// Coefficients of the motions of the kept legs under `level` times the excitation and the forces `u`.
-    pub fn motion(&self, u: &[f64], level: f64) -> Vec<f64> {
+    pub(crate) fn motion(&self, u: &[f64], level: f64) -> Vec<f64> {
         let mut motion = vec![0.0; u.len()];
         for (h, at) in self.levels.iter().enumerate() {
             for i in 0..at.count() {
@@ -157,7 +157,7 @@ impl Condensed {
     }
 
     /// Motions of the kept legs in displacements `x` of all DOFs per harmonic (empty: at rest).
-    pub fn motion_of<'a>(&self, compliance: impl Fn(usize) -> &'a Compliance, x: &[Vec<c64>]) -> Vec<f64> {
+    pub(crate) fn motion_of<'a>(&self, compliance: impl Fn(usize) -> &'a Compliance, x: &[Vec<c64>]) -> Vec<f64> {
         let mut motion = vec![0.0; self.size()];
         for (h, x) in x.iter().enumerate().filter(|(_, x)| !x.is_empty()) {
             for (i, leg) in self.legs.iter().enumerate() {
@@ -174,14 +174,14 @@ impl Condensed {
     }
 
     /// Numbers of the linear legs among those kept at harmonic `h`.
-    pub fn kept_linear(&self, h: usize) -> impl Iterator<Item = (usize, Leg)> {
+    pub(crate) fn kept_linear(&self, h: usize) -> impl Iterator<Item = (usize, Leg)> {
         let first = self.levels[h].count().saturating_sub(self.linear_legs.len());
         let kept = if self.levels[h].keeps_linear { &self.linear_legs[..] } else { &[] };
         kept.iter().enumerate().map(move |(l, linear)| (first + l, linear.leg))
     }
 
     /// Forces of the linear legs at harmonic `h` when the kept ones have the coefficients `u`.
-    pub fn linear_forces(&self, h: usize, u: &[f64], level: f64) -> Vec<c64> {
+    pub(crate) fn linear_forces(&self, h: usize, u: &[f64], level: f64) -> Vec<c64> {
         let at = &self.levels[h];
         if at.keeps_linear {
             return self.kept_linear(h).map(|(j, _)| self.get(u, h, j)).collect();
@@ -196,7 +196,7 @@ impl Condensed {
     }
 
     /// Displacements of all DOFs at harmonic `h` under the external forces and the kept ones, `u`.
-    pub fn displacements(
+    pub(crate) fn displacements(
         &self,
         compliance: &Compliance,
         h: usize,
@@ -226,7 +226,7 @@ impl Condensed {
     }
 
     /// Response of the linear rest (kept forces held) to forces at every DOF, at harmonic `h`: displacements of all DOFs.
-    pub fn linear_response(&self, compliance: &Compliance, h: usize, force: &[c64]) -> Vec<c64> {
+    pub(crate) fn linear_response(&self, compliance: &Compliance, h: usize, force: &[c64]) -> Vec<c64> {
         let mut x = vec![c64::new(0.0, 0.0); force.len()];
         compliance.apply(force, &mut x);
         let motion: Vec<c64> = self.linear_legs.iter().map(|l| l.leg.relative(|i| x[i])).collect();

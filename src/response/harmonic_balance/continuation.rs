@@ -10,7 +10,6 @@
 //! may turn back. The determinant of `dR/dF` changes its sign at turning points, and with it the stability; the first
 //! point is judged by Floquet's multipliers.
 
-use super::Settings;
 use super::arc::bordered;
 use super::dense::Lu;
 use super::error::ResponseError;
@@ -19,6 +18,7 @@ use super::model::{ForwardModel, RunModel};
 use super::newton::relative;
 use super::outcome::Response;
 use super::prepared::Prepared;
+use super::settings::Settings;
 use super::solve::assemble;
 use super::stability::is_stable;
 use crate::control::Control;

@@ -15,7 +15,7 @@ pub(crate) enum Lu {
 
 impl Lu {
     /// Factors of the `size x size` matrix given row by row; `None` if it is singular or not finite.
-    pub fn new(size: usize, matrix: Vec<f64>) -> Option<Self> {
+    pub(crate) fn new(size: usize, matrix: Vec<f64>) -> Option<Self> {
         if size <= SMALL {
             return RowLu::new(size, matrix).map(Self::Small);
         }
@@ -30,7 +30,7 @@ impl Lu {
     }
 
     /// Replaces `rhs` by the solution.
-    pub fn solve(&self, rhs: &mut [f64]) {
+    pub(crate) fn solve(&self, rhs: &mut [f64]) {
         match self {
             Self::Small(lu) => lu.solve(rhs),
             Self::Large { size, lu } => {
@@ -42,7 +42,7 @@ impl Lu {
     }
 
     /// Sign of the determinant, -1 or 1.
-    pub fn sign(&self) -> f64 {
+    pub(crate) fn sign(&self) -> f64 {
         match self {
             Self::Small(lu) => lu.sign(),
             Self::Large { size, lu } => {

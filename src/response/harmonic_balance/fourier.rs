@@ -33,7 +33,7 @@ pub(crate) enum Parity {
 
 impl Fourier {
     /// Harmonics 1..=`harmonics` at `samples` equal steps of one period; `samples` is even and above `4 harmonics`.
-    pub fn new(harmonics: usize, samples: usize) -> Self {
+    pub(crate) fn new(harmonics: usize, samples: usize) -> Self {
         debug_assert!(samples.is_multiple_of(2) && samples > 4 * harmonics);
         let point_at = |n: usize| {
             let (sin, cos) = (TAU * n as f64 / samples as f64).sin_cos();
@@ -44,45 +44,45 @@ impl Fourier {
     }
 
     /// The same with fewer entries of matrices wanted.
-    pub fn with(&self, parity: Parity) -> Self {
+    pub(crate) fn with(&self, parity: Parity) -> Self {
         Self { parity, ..self.clone() }
     }
 
     /// Harmonics of wanted rows, without the mean.
-    pub fn orders(&self) -> impl Iterator<Item = usize> + use<> {
+    pub(crate) fn orders(&self) -> impl Iterator<Item = usize> + use<> {
         (1..=self.harmonics).step_by(1 + usize::from(self.parity == Parity::Odd))
     }
 
     /// Indices of wanted rows.
-    pub fn rows(&self) -> impl Iterator<Item = usize> + use<> {
+    pub(crate) fn rows(&self) -> impl Iterator<Item = usize> + use<> {
         let mean = if self.parity == Parity::Odd { None } else { Some(0) };
         mean.into_iter().chain(self.orders().flat_map(|h| [2 * h - 1, 2 * h]))
     }
 
     /// Harmonics of wanted columns in rows of harmonic `h`, without the mean.
-    pub fn partners(&self, h: usize) -> impl Iterator<Item = usize> + use<> {
+    pub(crate) fn partners(&self, h: usize) -> impl Iterator<Item = usize> + use<> {
         let all = self.parity == Parity::All;
         let first = if all || h % 2 == 1 { 1 } else { 2 };
         (first..=self.harmonics).step_by(if all { 1 } else { 2 })
     }
 
     /// Highest harmonic.
-    pub fn harmonics(&self) -> usize {
+    pub(crate) fn harmonics(&self) -> usize {
         self.harmonics
     }
 
     /// Samples in the period.
-    pub fn samples(&self) -> usize {
+    pub(crate) fn samples(&self) -> usize {
         self.samples
     }
 
     /// Number of real coefficients, `2 H + 1`.
-    pub fn width(&self) -> usize {
+    pub(crate) fn width(&self) -> usize {
         2 * self.harmonics + 1
     }
 
     /// Samples of the periodic function of `coefficients`.
-    pub fn synthesise(&self, coefficients: &[f64], samples: &mut [f64]) {
+    pub(crate) fn synthesise(&self, coefficients: &[f64], samples: &mut [f64]) {
         let mut spectrum = vec![c64::new(0.0, 0.0); self.samples / 2 + 1];
         spectrum[0].re = coefficients[0];
         for (x, pair) in spectrum[1..].iter_mut().zip(coefficients[1..].chunks_exact(2)) {
@@ -92,7 +92,7 @@ impl Fourier {
     }
 
     /// Samples of the function whose coefficient number `k` is 1 and all others 0.
-    pub fn wave(&self, k: usize, samples: &mut [f64]) {
+    pub(crate) fn wave(&self, k: usize, samples: &mut [f64]) {
         let h = k.div_ceil(2);
         let part = usize::from(k == 2 * h && k > 0);
         let mut at = 0;
@@ -111,7 +111,7 @@ impl Fourier {
     }
 
     /// Coefficients of the sampled function, truncated to the harmonics.
-    pub fn project(&self, samples: &[f64], coefficients: &mut [f64]) {
+    pub(crate) fn project(&self, samples: &[f64], coefficients: &mut [f64]) {
         let spectrum = self.spectrum(&mut samples.to_vec());
         coefficients[0] = spectrum[0].re;
         for (pair, x) in coefficients[1..].chunks_exact_mut(2).zip(&spectrum[1..]) {
@@ -120,13 +120,13 @@ impl Fourier {
     }
 
     /// Half the angle of harmonic `h` from one sample to the next.
-    pub fn half_angle(&self, h: usize) -> f64 {
+    pub(crate) fn half_angle(&self, h: usize) -> f64 {
         std::f64::consts::PI * h as f64 / self.samples as f64
     }
 
     /// Coefficients of the function half a sample earlier: its samples are those at the edges of the cells around the
     /// samples.
-    pub fn at_edges(&self, coefficients: &[f64]) -> Vec<f64> {
+    pub(crate) fn at_edges(&self, coefficients: &[f64]) -> Vec<f64> {
         let mut shifted = coefficients.to_vec();
         for h in 1..=self.harmonics {
             let (sin, cos) = self.half_angle(h).sin_cos();
@@ -140,7 +140,7 @@ impl Fourier {
     /// The matrix of "synthesise, multiply by `weight` sample by sample, project": `width x width`, row by row.
     /// Products of two harmonics are sums of harmonics, so the spectrum of `weight` up to `2 H` is all that is needed.
     /// Entries that are not wanted are zero or undefined.
-    pub fn multiplier(&self, weight: &[f64]) -> Vec<f64> {
+    pub(crate) fn multiplier(&self, weight: &[f64]) -> Vec<f64> {
         let width = self.width();
         let spectrum = self.spectrum(&mut weight.to_vec());
         let cos = |q: usize| spectrum[q].re;

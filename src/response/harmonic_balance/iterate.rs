@@ -34,7 +34,7 @@ pub(crate) struct Ending {
 
 impl Balance<'_> {
     /// Iterates `u` to the balance under `level` times the excitation.
-    pub fn solve(&self, u: &mut Vec<f64>, level: f64, tolerance: f64) -> Ending {
+    pub(crate) fn solve(&self, u: &mut Vec<f64>, level: f64, tolerance: f64) -> Ending {
         let mut steps = 0;
         if let Some((parity, sets)) = self.apart(u, level) {
             let start = u.clone();

@@ -21,17 +21,17 @@ pub(crate) const DROPPED: usize = usize::MAX;
 
 impl Kept {
     /// All unknowns.
-    pub fn all(condensed: &Condensed) -> Self {
+    pub(crate) fn all(condensed: &Condensed) -> Self {
         Self::of(condensed, |_| true)
     }
 
     /// Those of odd harmonics.
-    pub fn odd(condensed: &Condensed) -> Self {
+    pub(crate) fn odd(condensed: &Condensed) -> Self {
         Self::of(condensed, |h| h % 2 == 1)
     }
 
     /// Those of even harmonics and the mean.
-    pub fn even(condensed: &Condensed) -> Self {
+    pub(crate) fn even(condensed: &Condensed) -> Self {
         Self::of(condensed, |h| h.is_multiple_of(2))
     }
 
@@ -52,7 +52,7 @@ impl Kept {
     }
 
     /// Largest of these entries.
-    pub fn largest(&self, values: &[f64]) -> f64 {
+    pub(crate) fn largest(&self, values: &[f64]) -> f64 {
         self.indices.iter().fold(0.0_f64, |m, &k| m.max(values[k].abs()))
     }
 }

@@ -37,12 +37,12 @@ pub(crate) struct Level {
 
 impl Level {
     /// Number of kept legs.
-    pub fn count(&self) -> usize {
+    pub(crate) fn count(&self) -> usize {
         self.free.len()
     }
 
     /// Motion of kept leg `i` under a unit force of leg `j`, m/N, with the sign turned.
-    pub fn coupling(&self, i: usize, j: usize) -> c64 {
+    pub(crate) fn coupling(&self, i: usize, j: usize) -> c64 {
         self.coupling[i * self.count() + j]
     }
 }

@@ -16,21 +16,21 @@ pub(crate) struct ModalBasis {
 
 impl ModalBasis {
     /// Number of modes.
-    pub fn len(&self) -> usize {
+    pub(crate) fn len(&self) -> usize {
         self.squares.len()
     }
 
     /// Square of the natural circular frequency of mode `r`.
-    pub fn square(&self, r: usize) -> f64 {
+    pub(crate) fn square(&self, r: usize) -> f64 {
         self.squares[r]
     }
 
     /// Shape of mode `r`, n.
-    pub fn shape(&self, r: usize) -> &[f64] {
+    pub(crate) fn shape(&self, r: usize) -> &[f64] {
         self.shapes.col_as_slice(r)
     }
 
-    pub fn combine(&self, modal: impl Iterator<Item = c64>, result: &mut [c64]) {
+    pub(crate) fn combine(&self, modal: impl Iterator<Item = c64>, result: &mut [c64]) {
         for (r, q) in modal.enumerate() {
             for (x, shape) in result.iter_mut().zip(self.shapes.col_as_slice(r)) {
                 *x += q * *shape;

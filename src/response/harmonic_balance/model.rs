@@ -23,7 +23,7 @@ pub struct ForwardModel {
 pub(crate) struct Tables(Mutex<BTreeMap<(usize, usize), Arc<Fourier>>>);
 
 impl Tables {
-    pub fn get(&self, harmonics: usize, samples: usize) -> Arc<Fourier> {
+    pub(super) fn get(&self, harmonics: usize, samples: usize) -> Arc<Fourier> {
         let mut tables = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         tables.entry((harmonics, samples)).or_insert_with(|| Arc::new(Fourier::new(harmonics, samples))).clone()
     }

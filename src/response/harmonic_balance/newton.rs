@@ -31,7 +31,7 @@ impl Balance<'_> {
     }
 
     /// Residual at `u` under `level` times the excitation.
-    pub fn residual(&self, u: &[f64], level: f64) -> Vec<f64> {
+    pub(crate) fn residual(&self, u: &[f64], level: f64) -> Vec<f64> {
         let motion = self.condensed.motion(u, level);
         let mut residual = vec![0.0; u.len()];
         for (i, leg) in self.condensed.legs.iter().enumerate() {
@@ -46,7 +46,7 @@ impl Balance<'_> {
     }
 
     /// Residual and the laws' derivatives.
-    pub fn state(&self, u: &[f64], level: f64) -> State {
+    pub(crate) fn state(&self, u: &[f64], level: f64) -> State {
         let motion = self.condensed.motion(u, level);
         let mut residual = vec![0.0; u.len()];
         let mut answers = Vec::with_capacity(self.condensed.legs.len());
@@ -78,12 +78,12 @@ impl Balance<'_> {
     }
 
     /// Jacobian `dR/dF`, row by row.
-    pub fn jacobian(&self, answers: &[Answer]) -> Vec<f64> {
+    pub(crate) fn jacobian(&self, answers: &[Answer]) -> Vec<f64> {
         self.jacobian_of(answers, &Kept::all(self.condensed))
     }
 
     /// The rows and columns of the Jacobian that belong to the unknowns `kept`.
-    pub fn jacobian_of(&self, answers: &[Answer], kept: &Kept) -> Vec<f64> {
+    pub(crate) fn jacobian_of(&self, answers: &[Answer], kept: &Kept) -> Vec<f64> {
         let (size, width) = (kept.indices.len(), self.condensed.width());
         let mut jacobian = vec![0.0; size * size];
         for (i, answer) in answers.iter().enumerate() {
@@ -146,7 +146,7 @@ impl Balance<'_> {
     }
 
     /// Change of the laws' answers under a change `motion` of the relative motions (coefficients of all legs).
-    pub fn answer_change(&self, answers: &[Answer], motion: &[f64]) -> Vec<f64> {
+    pub(crate) fn answer_change(&self, answers: &[Answer], motion: &[f64]) -> Vec<f64> {
         let width = self.condensed.width();
         let mut change = Vec::with_capacity(motion.len());
         for (answer, part) in answers.iter().zip(motion.chunks_exact(width)) {
@@ -161,7 +161,7 @@ impl Balance<'_> {
     }
 
     /// Derivative of the residual by the level of the excitation: `-Phi_D D_lin`.
-    pub fn by_level(&self, answers: &[Answer]) -> Vec<f64> {
+    pub(crate) fn by_level(&self, answers: &[Answer]) -> Vec<f64> {
         let still = vec![0.0; self.condensed.size()];
         let mut change = self.answer_change(answers, &self.condensed.motion(&still, 1.0));
         change.iter_mut().for_each(|c| *c = -*c);

@@ -24,22 +24,22 @@ pub(crate) struct NonlinearLeg {
 
 impl NonlinearLeg {
     /// How the law is asked. A slider behind a spring is asked as the friction of the slider alone.
-    pub fn manner(&self) -> Manner {
+    pub(crate) fn manner(&self) -> Manner {
         if self.flexibility > 0.0 { Manner::SetValued } else { self.law.manner(&self.parameters) }
     }
 
     /// Whether the force may answer a larger motion in more than one way (stiffness laws fold the response).
-    pub fn folds(&self) -> bool {
+    pub(crate) fn folds(&self) -> bool {
         self.law.description().folds
     }
 
     /// Whether the opposite motion is answered by the opposite force.
-    pub fn is_odd(&self) -> bool {
+    pub(crate) fn is_odd(&self) -> bool {
         self.law.description().odd
     }
 
     /// Whether the law looks at the leg's own force.
-    pub fn takes_force(&self) -> bool {
+    pub(crate) fn takes_force(&self) -> bool {
         matches!(self.manner(), Manner::SetValued | Manner::Steep)
     }
 }

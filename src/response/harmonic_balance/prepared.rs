@@ -26,7 +26,7 @@ pub(crate) struct Prepared {
 }
 
 impl Prepared {
-    pub fn new(
+    pub(crate) fn new(
         run: &RunModel,
         sources: &[Source],
         excitation: &Excitation,
@@ -37,18 +37,18 @@ impl Prepared {
         Ok(Self { condensed, fourier })
     }
 
-    pub fn balance(&self) -> Balance<'_> {
+    pub(crate) fn balance(&self) -> Balance<'_> {
         Balance { condensed: &self.condensed, fourier: &self.fourier }
     }
 
     /// Displacements of all DOFs per harmonic, 0 first, under the kept forces `u`.
-    pub fn displacements(&self, run: &RunModel, excitation: &Excitation, u: &[f64]) -> Vec<Vec<c64>> {
+    pub(crate) fn displacements(&self, run: &RunModel, excitation: &Excitation, u: &[f64]) -> Vec<Vec<c64>> {
         let at = |h: usize| self.condensed.displacements(run.compliance(h), h, run.len(), excitation, u);
         (0..=self.condensed.harmonics).map(at).collect()
     }
 
     /// The unknowns of a response nearby: leg forces cut or filled with zeros, those of what is at resonance from its motion.
-    pub fn adapt(&self, run: &RunModel, start: &Response) -> Vec<f64> {
+    pub(crate) fn adapt(&self, run: &RunModel, start: &Response) -> Vec<f64> {
         let condensed = &self.condensed;
         let mut u = vec![0.0; condensed.size()];
         let (given, width) = (2 * start.order() + 1, condensed.width());

@@ -28,7 +28,7 @@ pub(crate) struct Resonant {
 
 impl Resonant {
     /// The mode without its column, from `M phi_r` and the square of its natural circular frequency (rad^2/s^2).
-    pub fn new(weighted: Vec<f64>, square: f64) -> Self {
+    pub(crate) fn new(weighted: Vec<f64>, square: f64) -> Self {
         let mut pattern = weighted;
         let size = pattern.iter().fold(f64::MIN_POSITIVE, |m, v| m.max(v.abs()));
         pattern.iter_mut().for_each(|v| *v /= size);
@@ -37,7 +37,7 @@ impl Resonant {
     }
 
     /// Motion of the mode's leg, `v^T x`.
-    pub fn motion(&self, x: &[c64]) -> c64 {
+    pub(crate) fn motion(&self, x: &[c64]) -> c64 {
         self.pattern.iter().zip(x).fold(c64::new(0.0, 0.0), |sum, (v, x)| sum + *x * *v)
     }
 }

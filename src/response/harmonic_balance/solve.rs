@@ -1,7 +1,6 @@
 //! From a start to the response: Newton's method, the force raised in steps where that fails, arc length in the force
 //! where it turns back; then more harmonics until the watched ones rest.
 
-use super::Settings;
 use super::arc::{all_crossings, level_arc};
 use super::condense::{Condensed, split};
 use super::dense::Lu;
@@ -14,6 +13,7 @@ use super::newton::Balance;
 use super::nonlinear_leg::NonlinearLeg;
 use super::outcome::{Attempt, Response, SourceForce, Status, Step};
 use super::prepared::Prepared;
+use super::settings::Settings;
 use super::stability::is_stable;
 use crate::control::Control;
 use crate::effects::{Manner, Source};

@@ -15,7 +15,7 @@ use super::nonlinear_leg::NonlinearLeg;
 use super::outcome::Response;
 use super::prepared::Prepared;
 use crate::effects::{Constant, Leg, Manner, Source};
-use crate::response::time_integration::Propagator;
+use crate::response::time_integration::propagator::Propagator;
 use faer::{Mat, c64};
 use std::f64::consts::TAU;
 

@@ -23,27 +23,27 @@ pub(crate) struct Element {
 
 impl Element {
     /// At rest at the origin.
-    pub fn new(leg: Leg, law: &'static dyn Law, parameters: &[f64]) -> Self {
+    pub(super) fn new(leg: Leg, law: &'static dyn Law, parameters: &[f64]) -> Self {
         let memory = law.memory(parameters);
         Self { leg, parameters: parameters.to_vec(), law, memory, remembered: 0.0 }
     }
 
     /// Forgets the past and goes to `d` (m).
-    pub fn restart(&mut self, d: f64) {
+    pub(super) fn restart(&mut self, d: f64) {
         self.memory = self.law.memory(&self.parameters);
         self.remembered = 0.0;
         self.commit(d, f64::INFINITY);
     }
 
     /// Ends a step of `step` s at `d` (m).
-    pub fn commit(&mut self, d: f64, step: f64) {
+    pub(super) fn commit(&mut self, d: f64, step: f64) {
         if let Some(memory) = &mut self.memory {
             self.remembered = memory.advance(d, step);
         }
     }
 
     /// Mean force of the step that satisfies `x + w F(x) = b`, from displacement `d` (m); `guess` is a force nearby.
-    pub fn force(&self, d: f64, w: f64, b: f64, step: f64, guess: f64) -> f64 {
+    pub(super) fn force(&self, d: f64, w: f64, b: f64, step: f64, guess: f64) -> f64 {
         match self.law.manner(&self.parameters) {
             Manner::SetValued => self.law.set_valued().map_or(0.0, |law| self.friction(law, w, b, step, guess)),
             Manner::Steep => self.law.steep().map_or(0.0, |law| self.steep(law, w, b, step)),

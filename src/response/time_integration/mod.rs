@@ -14,10 +14,8 @@
 
 mod element;
 mod model;
-mod propagator;
+pub(crate) mod propagator;
 mod settle;
-
-pub(crate) use propagator::Propagator;
 
 pub use model::{TimeError, TimeModel};
 pub use settle::{Samples, Settling};

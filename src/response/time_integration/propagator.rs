@@ -30,7 +30,7 @@ pub(crate) struct Propagator {
 impl Propagator {
     /// Of `mass`, `damping`, `stiffness` (n x n) and force patterns (n x inputs) for a step in s; `None` if the mass is
     /// not positive definite.
-    pub fn new(
+    pub(crate) fn new(
         mass: &Mat<f64>,
         damping: &Mat<f64>,
         stiffness: &Mat<f64>,
@@ -64,7 +64,7 @@ impl Propagator {
     }
 
     /// `next = exp(A h) state`.
-    pub fn advance(&self, state: &[f64], next: &mut [f64]) {
+    pub(crate) fn advance(&self, state: &[f64], next: &mut [f64]) {
         next.fill(0.0);
         for (j, &value) in state.iter().enumerate() {
             for (x, a) in next.iter_mut().zip(self.transition.col_as_slice(j)) {
@@ -74,7 +74,7 @@ impl Propagator {
     }
 
     /// Adds what a force of pattern `input` does that is constant over the step.
-    pub fn push(&self, input: usize, force: f64, next: &mut [f64]) {
+    pub(crate) fn push(&self, input: usize, force: f64, next: &mut [f64]) {
         if force != 0.0 {
             for (x, b) in next.iter_mut().zip(self.inputs.col_as_slice(input)) {
                 *x += b * force;
@@ -83,7 +83,7 @@ impl Propagator {
     }
 
     /// Accelerations (m/s^2) of all DOFs in `state` under forces of all patterns.
-    pub fn acceleration(&self, state: &[f64], forces: impl Iterator<Item = f64>) -> Vec<f64> {
+    pub(crate) fn acceleration(&self, state: &[f64], forces: impl Iterator<Item = f64>) -> Vec<f64> {
         let n = self.size;
         let displacements = state[..n].iter().map(|x| x / self.scale);
         let all = displacements.chain(state[n..].iter().copied()).chain(forces);
@@ -97,7 +97,7 @@ impl Propagator {
     }
 
     /// Displacement (m) of DOF `i` at the end of a step under a unit force of pattern `input` from rest.
-    pub fn displacement(&self, i: usize, input: usize) -> f64 {
+    pub(crate) fn displacement(&self, i: usize, input: usize) -> f64 {
         self.inputs[(i, input)] / self.scale
     }
 }

@@ -40,7 +40,12 @@ pub(super) struct Changes {
 
 impl Changes {
     /// Of the full `step`, with `elements` forces of elements and `drives` drives.
-    pub fn new(system: &LinearSystem, step: &Step, list: &[LinearChange], [elements, drives]: [usize; 2]) -> Self {
+    pub(super) fn new(
+        system: &LinearSystem,
+        step: &Step,
+        list: &[LinearChange],
+        [elements, drives]: [usize; 2],
+    ) -> Self {
         let count = system.lambda.len();
         let between: Vec<[c64; 2]> = if list.is_empty() {
             Vec::new()
@@ -80,12 +85,12 @@ impl Changes {
     }
 
     /// Whether there are none.
-    pub fn is_empty(&self) -> bool {
+    pub(super) fn is_empty(&self) -> bool {
         self.added.is_empty()
     }
 
     /// What a full step from the state `z` adds, into [`Self::added`].
-    pub fn over_full_step(&mut self, z: &[f64], forces: &StepForces) {
+    pub(super) fn over_full_step(&mut self, z: &[f64], forces: &StepForces) {
         self.inputs.clear();
         self.inputs.extend_from_slice(z);
         self.inputs.extend_from_slice(forces.elements);
@@ -96,7 +101,7 @@ impl Changes {
     }
 
     /// What a piece of a step between two states adds, into [`Self::added`].
-    pub fn over_piece(&mut self, step: &Step, states: [&[f64]; 2], forces: &StepForces) {
+    pub(super) fn over_piece(&mut self, step: &Step, states: [&[f64]; 2], forces: &StepForces) {
         for ((z, u), g) in states.into_iter().zip([forces.start, forces.end]).zip(&mut self.ends) {
             self.inputs.clear();
             self.inputs.extend_from_slice(z);

@@ -38,7 +38,13 @@ pub(super) struct Derivatives {
 }
 
 impl Derivatives {
-    pub fn new(views: &[View], elements: &[Element], list: Vec<Sensitivity>, changes: Changes, width: usize) -> Self {
+    pub(super) fn new(
+        views: &[View],
+        elements: &[Element],
+        list: Vec<Sensitivity>,
+        changes: Changes,
+        width: usize,
+    ) -> Self {
         let own_of = |element: &Element| {
             let of = |s: &Sensitivity| s.own.filter(|(source, _)| *source == element.source).map(|(_, k)| k);
             list.iter().map(of).collect::<Vec<Option<usize>>>()
@@ -62,17 +68,17 @@ impl Derivatives {
     }
 
     /// Number of parameters.
-    pub fn len(&self) -> usize {
+    pub(super) fn len(&self) -> usize {
         self.changed.len()
     }
 
     /// The derivative of the state by a parameter.
-    pub fn state(&self, theta: usize) -> &[f64] {
+    pub(super) fn state(&self, theta: usize) -> &[f64] {
         &self.states[theta * self.width..(theta + 1) * self.width]
     }
 
     /// Tells element `l` that it has come to `d` in a step of `step` s.
-    pub fn commit(&mut self, l: usize, element: &mut Element, d: f64, step: f64) {
+    pub(super) fn commit(&mut self, l: usize, element: &mut Element, d: f64, step: f64) {
         if element.form == Form::Smooth || element.form == Form::Friction {
             return;
         }
@@ -84,7 +90,7 @@ impl Derivatives {
     }
 
     /// Notes that the slip of `element` has ended at the present instant with this acceleration.
-    pub fn turned(&mut self, element: usize, view: &View, forces: &[f64], acceleration: f64) {
+    pub(super) fn turned(&mut self, element: usize, view: &View, forces: &[f64], acceleration: f64) {
         let when = |theta: usize| {
             if acceleration == 0.0 { 0.0 } else { -dot(&view.velocity, self.state(theta)) / acceleration }
         };
@@ -93,7 +99,7 @@ impl Derivatives {
     }
 
     /// Derivatives of the state and of the forces over a piece of a step; `patterns` are the modal patterns of the inputs.
-    pub fn advance(
+    pub(super) fn advance(
         &mut self,
         piece: &Piece,
         elements: &mut [Element],

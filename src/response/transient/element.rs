@@ -32,7 +32,7 @@ pub(super) enum Form {
 
 impl Form {
     /// Of an effect; `None` where it has no force in time that can be stepped here.
-    pub fn of(effect: Effect, law: &dyn Law) -> Option<Self> {
+    pub(super) fn of(effect: Effect, law: &dyn Law) -> Option<Self> {
         match effect {
             Effect::ElasticSlider | Effect::Iwan => Some(Self::Masing),
             Effect::Maxwell => Some(Self::Maxwell),
@@ -88,7 +88,7 @@ pub(super) struct Element {
 
 impl Element {
     /// At rest at the origin, differentiated by `count` parameters.
-    pub fn new(source: usize, form: Form, law: &'static dyn Law, parameters: &[f64], count: usize) -> Self {
+    pub(super) fn new(source: usize, form: Form, law: &'static dyn Law, parameters: &[f64], count: usize) -> Self {
         let with_parameter = |k: usize, step: f64| {
             let mut p = parameters.to_vec();
             p[k] += step;
@@ -116,12 +116,12 @@ impl Element {
     }
 
     /// Greatest force at rest, N.
-    pub fn static_force(&self) -> f64 {
+    pub(super) fn static_force(&self) -> f64 {
         self.law.point(&self.parameters, 0.0, CREEP).map_or(0.0, |p| p.force.abs())
     }
 
     /// Mean force of a step of `step` s from `d` (m) by `x`; `side` is the sign of the slip of friction.
-    pub fn mean(&self, d: f64, x: f64, step: f64, side: f64) -> Mean {
+    pub(super) fn mean(&self, d: f64, x: f64, step: f64, side: f64) -> Mean {
         match self.form {
             Form::Smooth | Form::Friction => {
                 let v = self.on_side(x / step, side);
@@ -164,7 +164,7 @@ impl Element {
     }
 
     /// Mean force that satisfies `x + w F(x) = b`, by Newton's method kept in a bracket; `guess` is a force nearby.
-    pub fn solve(&self, d: f64, w: f64, b: f64, step: f64, side: f64, guess: f64) -> f64 {
+    pub(super) fn solve(&self, d: f64, w: f64, b: f64, step: f64, side: f64, guess: f64) -> f64 {
         let mut x = b - w * guess;
         let mut bracket = [f64::NEG_INFINITY, f64::INFINITY];
         for _ in 0..100 {
@@ -192,7 +192,7 @@ impl Element {
 
     /// Derivatives of the mean force by all parameters at fixed displacements, of a step `[d, x, step, side]` as in
     /// [`Self::mean`]: `own` tells which parameter of the law each one is, where it is one.
-    pub fn by_parameters(&mut self, [d, x, step, side]: [f64; 4], own: &[Option<usize>], out: &mut [f64]) {
+    pub(super) fn by_parameters(&mut self, [d, x, step, side]: [f64; 4], own: &[Option<usize>], out: &mut [f64]) {
         match self.form {
             Form::Smooth | Form::Friction => {
                 let v = self.on_side(x / step, side);
@@ -224,7 +224,7 @@ impl Element {
     }
 
     /// Force at one instant, N, with its slopes by displacement and velocity; `held` is the force of friction at rest.
-    pub fn instant(&self, d: f64, v: f64, side: f64, held: f64) -> [f64; 3] {
+    pub(super) fn instant(&self, d: f64, v: f64, side: f64, held: f64) -> [f64; 3] {
         match self.form {
             Form::Friction if side == 0.0 => [held, 0.0, 0.0],
             Form::Smooth | Form::Friction => {
@@ -236,7 +236,7 @@ impl Element {
     }
 
     /// Derivative of [`Self::instant`] by parameter `theta` at fixed motion.
-    pub fn instant_by(&mut self, theta: usize, own: Option<usize>, d: f64, v: f64, side: f64) -> f64 {
+    pub(super) fn instant_by(&mut self, theta: usize, own: Option<usize>, d: f64, v: f64, side: f64) -> f64 {
         match self.form {
             Form::Smooth | Form::Friction => {
                 let v = self.on_side(v, side);
@@ -247,7 +247,7 @@ impl Element {
     }
 
     /// Ends a step of `step` s at `d`; `change` holds the derivatives of `d`, `own` as above.
-    pub fn commit(&mut self, d: f64, step: f64, change: &[f64], own: &[Option<usize>]) {
+    pub(super) fn commit(&mut self, d: f64, step: f64, change: &[f64], own: &[Option<usize>]) {
         match self.form {
             Form::Smooth | Form::Friction => {}
             Form::Masing => {

@@ -56,7 +56,7 @@ struct Trial {
 
 impl<'a> March<'a> {
     /// From the state `z` in steps of `length` s under `drives` drives.
-    pub fn new(
+    pub(super) fn new(
         system: &'a LinearSystem,
         views: &'a [View],
         mut elements: Vec<Element>,
@@ -78,7 +78,7 @@ impl<'a> March<'a> {
     }
 
     /// One step from the drives `u0` to `u1`.
-    pub fn advance(&mut self, u0: &[f64], u1: &[f64]) -> Result<(), TransientError> {
+    pub(super) fn advance(&mut self, u0: &[f64], u1: &[f64]) -> Result<(), TransientError> {
         let step = std::mem::replace(&mut self.step, Step::empty());
         let mut trial = std::mem::take(&mut self.trial);
         let done = self.advance_by(&step, &mut trial, u0, u1);

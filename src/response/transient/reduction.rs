@@ -33,7 +33,7 @@ pub(super) struct Reduction {
 
 impl Reduction {
     /// Keeps the lowest `kept` of `modes` and the residual flexibility under `patterns` (n x count).
-    pub fn new(
+    pub(super) fn new(
         matrices: &SystemMatrices,
         modes: &Modes,
         kept: usize,

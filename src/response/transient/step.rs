@@ -28,7 +28,7 @@ pub(super) struct Step {
 
 impl Step {
     /// Of `length` s.
-    pub fn new(system: &LinearSystem, length: f64) -> Self {
+    pub(super) fn new(system: &LinearSystem, length: f64) -> Self {
         let count = system.lambda.len();
         let (mut decay, mut constant, mut rising) = (vec![0.0; 2 * count], Vec::new(), Vec::new());
         for (k, lambda) in system.lambda.iter().enumerate() {
@@ -50,7 +50,7 @@ impl Step {
     }
 
     /// One that is no step, to stand in for another.
-    pub fn empty() -> Self {
+    pub(super) fn empty() -> Self {
         let none = Vec::new;
         Self { length: 0.0, decay: none(), constant: Vec::new(), rising: Vec::new(), constants: none(), rises: none() }
     }
@@ -61,26 +61,26 @@ impl Step {
     }
 
     /// `z <- e^(lambda h) z` of one state or of many.
-    pub fn decay(&self, z: &mut [f64]) {
+    pub(super) fn decay(&self, z: &mut [f64]) {
         turn(&self.decay, z);
     }
 
     /// Adds what a constant `force` does at an input.
-    pub fn push(&self, input: usize, force: f64, z: &mut [f64]) {
+    pub(super) fn push(&self, input: usize, force: f64, z: &mut [f64]) {
         if force != 0.0 {
             z.iter_mut().zip(self.of(&self.constants, input)).for_each(|(z, p)| *z += p * force);
         }
     }
 
     /// Adds what a drive does that goes from `start` to `end`.
-    pub fn drive(&self, input: usize, start: f64, end: f64, z: &mut [f64]) {
+    pub(super) fn drive(&self, input: usize, start: f64, end: f64, z: &mut [f64]) {
         let rise = end - start;
         let both = self.of(&self.constants, input).iter().zip(self.of(&self.rises, input));
         z.iter_mut().zip(both).for_each(|(z, (c, r))| *z += c * start + r * rise);
     }
 
     /// What a constant unit force at an input has done at the end, along a functional.
-    pub fn receptance(&self, input: usize, functional: &[f64]) -> f64 {
+    pub(super) fn receptance(&self, input: usize, functional: &[f64]) -> f64 {
         dot(functional, self.of(&self.constants, input))
     }
 }

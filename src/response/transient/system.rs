@@ -24,7 +24,7 @@ pub(super) struct Matrices {
 }
 
 impl Matrices {
-    pub fn zeros(size: usize) -> Self {
+    pub(super) fn zeros(size: usize) -> Self {
         let zeros = Mat::zeros(size, size);
         Self { mass: zeros.clone(), damping: zeros.clone(), stiffness: zeros }
     }
@@ -80,7 +80,7 @@ pub(super) struct LinearSystem {
 
 impl LinearSystem {
     /// Of the reduced matrices and force patterns (coordinates x inputs).
-    pub fn new(matrices: &Matrices, patterns: &Mat<f64>) -> Result<Self, TransientError> {
+    pub(super) fn new(matrices: &Matrices, patterns: &Mat<f64>) -> Result<Self, TransientError> {
         let m = matrices.mass.nrows();
         let mass = Cholesky::new(matrices.mass.as_ref()).ok_or(TransientError::NotPositive)?;
         let mut stiffness = matrices.stiffness.clone();
@@ -109,12 +109,12 @@ impl LinearSystem {
     }
 
     /// Number of reduced coordinates.
-    pub fn coordinates(&self) -> usize {
+    pub(super) fn coordinates(&self) -> usize {
         self.scale.len()
     }
 
     /// Flat state with displacement and velocity of the coordinates.
-    pub fn modes_of(&self, displacement: &[f64], velocity: &[f64]) -> Vec<f64> {
+    pub(super) fn modes_of(&self, displacement: &[f64], velocity: &[f64]) -> Vec<f64> {
         let m = self.coordinates();
         let sum = |k: usize| {
             (0..m)
@@ -127,7 +127,7 @@ impl LinearSystem {
     }
 
     /// Displacements and velocities of the coordinates in the flat state `z`.
-    pub fn coordinates_of(&self, z: &[f64]) -> (Vec<f64>, Vec<f64>) {
+    pub(super) fn coordinates_of(&self, z: &[f64]) -> (Vec<f64>, Vec<f64>) {
         let (m, count) = (self.coordinates(), self.lambda.len());
         let at = |i: usize, k: usize| (self.backward[(i, k)] * c64::new(z[k], z[count + k])).re;
         let row = |i: usize| (0..count).map(|k| self.weight[k] * at(i, k)).sum::<f64>();
@@ -135,7 +135,7 @@ impl LinearSystem {
     }
 
     /// Displacement (`order` 0), velocity (1) or acceleration (2) along `pattern`, one entry a coordinate.
-    pub fn functional(&self, pattern: &[f64], order: i32) -> Functional {
+    pub(super) fn functional(&self, pattern: &[f64], order: i32) -> Functional {
         let m = self.coordinates();
         let row: Vec<f64> = match order {
             0 => (0..2 * m).map(|j| if j < m { pattern[j] / self.scale[j] } else { 0.0 }).collect(),
@@ -147,7 +147,7 @@ impl LinearSystem {
     }
 
     /// How an acceleration along `pattern` changes with a parameter at a fixed state.
-    pub fn acceleration_change(&self, pattern: &[f64], change: &LinearChange) -> Functional {
+    pub(super) fn acceleration_change(&self, pattern: &[f64], change: &LinearChange) -> Functional {
         let row = self.on_modes(&weighted_rows(pattern, &change.rates));
         Functional { row, inputs: weighted_rows(pattern, &change.pushes) }
     }
@@ -161,7 +161,7 @@ impl LinearSystem {
     }
 
     /// Of the derivatives of the reduced matrices by a parameter.
-    pub fn change(&self, by: &Matrices) -> LinearChange {
+    pub(super) fn change(&self, by: &Matrices) -> LinearChange {
         let m = self.coordinates();
         let solved = |a: &Mat<f64>| self.mass.solve(a.as_ref());
         let lost = solved(&by.mass);

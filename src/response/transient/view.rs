@@ -43,7 +43,7 @@ pub(super) struct Piece<'a> {
 }
 
 impl Receptance {
-    pub fn new(views: &[View], step: &Step) -> Self {
+    pub(super) fn new(views: &[View], step: &Step) -> Self {
         let count = views.len();
         let table = |of: &dyn Fn(&View) -> &Vec<f64>| {
             views.iter().flat_map(|view| (0..count).map(|k| step.receptance(k, of(view)))).collect()

@@ -13,105 +13,15 @@
 
 mod check;
 mod mode_check;
+pub(super) mod outcome;
 mod pencil;
 mod reduce;
+mod request;
 
-pub use mode_check::ModeCheck;
-pub use reduce::reduce;
-
-use super::error::six_digits;
-use dashpot_numerics::SparseSymmetric;
-
-/// Mass and stiffness of a whole model, n x n.
-#[derive(Debug, Clone, PartialEq)]
-pub struct SparseSystem {
-    /// Mass, kg.
-    pub mass: SparseSymmetric,
-    /// Stiffness, N/m.
-    pub stiffness: SparseSymmetric,
-}
-
-/// Ways to reduce a model.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Method {
-    /// Static condensation.
-    Guyan,
-    /// Static condensation and fixed-interface modes.
-    CraigBampton,
-}
-
-impl Method {
-    /// Name in project files.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Guyan => "guyan",
-            Self::CraigBampton => "craig-bampton",
-        }
-    }
-
-    /// The method of that name.
-    pub fn from_name(name: &str) -> Option<Self> {
-        [Self::Guyan, Self::CraigBampton].into_iter().find(|method| method.name() == name)
-    }
-}
-
-/// What is asked of a reduction.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Wanted {
-    /// Method.
-    pub method: Method,
-    /// Fixed-interface modes are kept up to this frequency, Hz.
-    pub up_to_hz: f64,
-    /// The error is told on the modes up to this frequency, Hz.
-    pub band_hz: f64,
-    /// Largest relative error of a frequency in the band; more fixed-interface modes are kept where it is larger.
-    pub error: f64,
-}
-
-/// How a structure was reduced, and how well.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Reduction {
-    /// What was asked.
-    pub wanted: Wanted,
-    /// Degrees of freedom of the whole model.
-    pub from_dofs: usize,
-    /// Physical degrees of freedom that were kept; they come first.
-    pub kept: usize,
-    /// Fixed-interface modes that follow them.
-    pub fixed_interface_modes: usize,
-    /// Modes in the band, ascending.
-    pub modes: Vec<ModeCheck>,
-    /// `T^T M r` for a base that moves by 1 m in x, y and z: one value a reduced degree of freedom, kg.
-    pub base_loads: [Vec<f64>; 3],
-}
-
-impl Reduction {
-    /// The mode in the band whose frequency is off most.
-    pub fn worst(&self) -> Option<&ModeCheck> {
-        self.modes.iter().max_by(|a, b| a.frequency_error().abs().total_cmp(&b.frequency_error().abs()))
-    }
-
-    /// The reduction and its error, in one sentence.
-    pub fn sentence(&self) -> String {
-        let Wanted { method, up_to_hz, band_hz, .. } = self.wanted;
-        let [up_to_hz, band_hz] = [up_to_hz, band_hz].map(six_digits);
-        let modes = match method {
-            Method::Guyan => String::new(),
-            Method::CraigBampton => {
-                format!(" and {} fixed-interface modes up to {up_to_hz} Hz", self.fixed_interface_modes)
-            }
-        };
-        let error = self.worst().map_or_else(
-            || format!("the model has no mode up to {band_hz} Hz"),
-            |worst| {
-                let (count, percent) = (self.modes.len(), 100.0 * worst.frequency_error().abs());
-                format!("frequencies of the {count} modes up to {band_hz} Hz are off by {percent:.2e} % at most (at {:.5} Hz)", worst.full_hz)
-            },
-        );
-        let (method, from, kept) = (method.name(), self.from_dofs, self.kept);
-        format!("reduced by {method} from {from} degrees of freedom to {kept}{modes}; {error}")
-    }
-}
+pub(crate) use mode_check::ModeCheck;
+pub(crate) use outcome::Reduction;
+pub(crate) use reduce::reduce;
+pub(crate) use request::{Method, SparseSystem, Wanted};
 
 #[cfg(test)]
 mod tests;

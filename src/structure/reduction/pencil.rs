@@ -1,10 +1,10 @@
 //! The lowest modes of a sparse pair by shift-invert block Lanczos ([`crate::structure::lowest_modes`]).
 
-use super::SparseSystem;
-use crate::structure::SystemMatrices;
+use super::request::SparseSystem;
 use crate::structure::error::StructureError;
 use crate::structure::lowest_modes::{Pencil, search};
 use crate::structure::modes::{Modes, modes};
+use crate::structure::system::SystemMatrices;
 use dashpot_numerics::{SparseCholesky, SparseSymmetric};
 use faer::{Mat, MatRef};
 use std::f64::consts::TAU;
@@ -28,14 +28,14 @@ pub(super) struct Shifted<'a> {
 
 impl<'a> Shifted<'a> {
     /// The shift for frequencies up to `highest_hz`; `None` where `A` is not positive definite.
-    pub fn new(system: &'a SparseSystem, highest_hz: f64) -> Option<Self> {
+    pub(super) fn new(system: &'a SparseSystem, highest_hz: f64) -> Option<Self> {
         let shift = SHIFT * (TAU * highest_hz).powi(2);
         let factor = SparseCholesky::new(&system.stiffness.plus(shift, &system.mass))?;
         Some(Self { system, factor, shift })
     }
 
     /// All modes up to `highest_hz`, perhaps none.
-    pub fn modes(&self, highest_hz: f64) -> Result<Modes, StructureError> {
+    pub(super) fn modes(&self, highest_hz: f64) -> Result<Modes, StructureError> {
         let n = self.size();
         if n <= FEW {
             return self.all_modes(highest_hz);

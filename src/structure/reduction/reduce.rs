@@ -2,14 +2,16 @@
 
 use super::check::check;
 use super::mode_check::ModeCheck;
+use super::outcome::Reduction;
 use super::pencil::Shifted;
-use super::{Method, Reduction, SparseSystem, Wanted};
+use super::request::{Method, SparseSystem, Wanted};
 use crate::math::eigen::symmetrised;
 use crate::math::fill::filled;
 use crate::structure::error::StructureError;
+use crate::structure::geometry::Direction;
 use crate::structure::lowest_modes::Pencil;
 use crate::structure::modes::Modes;
-use crate::structure::{Direction, SystemMatrices};
+use crate::structure::system::SystemMatrices;
 use dashpot_numerics::{SparseCholesky, SparseSymmetric, product, transposed_product};
 use faer::Mat;
 
@@ -28,7 +30,7 @@ const MOST_TIMES: usize = 6;
 ///
 /// # Errors
 /// [`StructureError`]: nothing kept, too many modes, a structure that is not stable or, for Guyan, not restrained by `kept`.
-pub fn reduce(
+pub(crate) fn reduce(
     system: &SparseSystem,
     directions: &[Direction],
     kept: &[usize],

@@ -4,7 +4,9 @@
 use super::*;
 use crate::structure::beam::{BeamParameters, Supports};
 use crate::structure::error::StructureError;
-use crate::structure::{Direction, Structure};
+use crate::structure::geometry::Direction;
+use crate::structure::system::Structure;
+use dashpot_numerics::SparseSymmetric;
 use faer::MatRef;
 
 fn beam(elements: usize, supports: Supports) -> (BeamParameters, Structure) {

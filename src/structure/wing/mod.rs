@@ -9,9 +9,10 @@ mod elements;
 
 use super::error::StructureError;
 use super::error::positive;
+use super::geometry::{Direction, Node};
 use super::imported::{ImportedDof, ImportedParameters};
 use super::lumped_mass::LumpedMass;
-use super::{Direction, Node, Structure};
+use super::system::Structure;
 use elements::Sheet;
 use faer::Mat;
 use nalgebra::Vector3;

@@ -1,17 +1,17 @@
 //! What is computed for the stage Explain, each by the model it was computed from: comparisons, diagnoses, fingerprints,
 //! response curves; and the ledger of all models that were looked at.
 
-pub mod first_suggestions;
+pub(crate) mod first_suggestions;
 mod jobs;
-pub mod ledger;
-pub mod model;
+pub(crate) mod ledger;
+pub(crate) mod model;
 
 use super::cache::{Cache, Cached};
 use super::document::Document;
 use crate::diagnosis::candidates::fingerprint_plot::Print;
 use crate::diagnosis::candidates::restoring_force::RestoringForce;
-use crate::diagnosis::diagnose::Suggestion;
 use crate::diagnosis::records::compare::OneRecord;
+use crate::diagnosis::result::Suggestion;
 use crate::diagnosis::updating::scatter::Scatter;
 use crate::diagnosis::{Comparison, Diagnosis};
 use crate::effects::{Place, Source};
@@ -285,12 +285,12 @@ impl Explained {
     }
 
     /// The response curves of the model near a run, one a level.
-    pub fn curve(&self, document: &Document, run: usize) -> Option<&Cached<Vec<Curve>>> {
+    pub(crate) fn curve(&self, document: &Document, run: usize) -> Option<&Cached<Vec<Curve>>> {
         self.curves.get(&(self.current(document)?, run))
     }
 
     /// The response curves with an effect on trial.
-    pub fn trial_curve(&self, document: &Document, source: &Source, run: usize) -> Option<&Cached<Vec<Curve>>> {
+    pub(crate) fn trial_curve(&self, document: &Document, source: &Source, run: usize) -> Option<&Cached<Vec<Curve>>> {
         self.trial_curves.get(&((self.current(document)?, Some(source.clone())), run))
     }
 

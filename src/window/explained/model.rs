@@ -37,7 +37,7 @@ impl PartialEq for Key {
 
 /// What a search depends on: the model, and what it is not to suggest.
 #[derive(Debug, Clone)]
-pub struct Search {
+pub(crate) struct Search {
     /// Model and measurements.
     pub model: Key,
     ruled_out: Arc<Vec<Source>>,
@@ -54,12 +54,12 @@ impl PartialEq for Search {
 
 impl Search {
     /// The search on the model of `model` for what `document` has not ruled out.
-    pub fn new(model: Key, document: &Document) -> Self {
+    pub(crate) fn new(model: Key, document: &Document) -> Self {
         Self { model, ruled_out: Arc::clone(document.ruled_out()) }
     }
 
     /// What it is not to suggest.
-    pub fn ruled_out(&self) -> &[Source] {
+    pub(crate) fn ruled_out(&self) -> &[Source] {
         &self.ruled_out
     }
 }

@@ -8,7 +8,7 @@ use egui::{Align2, Painter, Rect, Role, Sense, Shape, Stroke, StrokeKind, Ui, Ve
 use std::path::Path;
 
 /// A sample project.
-pub struct Sample {
+pub(crate) struct Sample {
     /// Its folder among the samples.
     pub folder: &'static str,
     title: &'static str,
@@ -17,7 +17,7 @@ pub struct Sample {
 }
 
 /// Samples to find dampers in.
-pub const DAMPERS: [Sample; 9] = [
+pub(crate) const DAMPERS: [Sample; 9] = [
     Sample {
         folder: "cantilever-case-2",
         title: "Cantilever, unequal dashpots",
@@ -81,7 +81,7 @@ pub const DAMPERS: [Sample; 9] = [
 ];
 
 /// Samples of which the model lacks something.
-pub const HIDDEN: [Sample; 5] = [
+pub(crate) const HIDDEN: [Sample; 5] = [
     Sample {
         folder: "cantilever-friction",
         title: "Something rubs",
@@ -123,7 +123,7 @@ const NARROW: f32 = 250.0;
 const MORE: f32 = 18.0;
 
 /// Shows a card; true when it was clicked.
-pub fn card(ui: &mut Ui, width: f32, sample: &Sample, file: Option<&Path>) -> bool {
+pub(crate) fn card(ui: &mut Ui, width: f32, sample: &Sample, file: Option<&Path>) -> bool {
     let palette = ui.palette();
     let present = file.is_some_and(Path::exists);
     let sense = if present { Sense::click() } else { Sense::hover() };

@@ -79,7 +79,7 @@ impl Choosing {
 }
 
 /// Shows the dialog while one is open.
-pub fn show(ctx: &Context, choosing: &mut Option<Choosing>, asks: &mut Vec<Ask>) {
+pub(crate) fn show(ctx: &Context, choosing: &mut Option<Choosing>, asks: &mut Vec<Ask>) {
     let Some(dialog) = choosing else { return };
     let frame = Frame::popup(&ctx.global_style()).inner_margin(Margin::same(18));
     let mut ended = false;

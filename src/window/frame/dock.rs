@@ -19,7 +19,7 @@ use egui_tiles::{Behavior, SimplificationOptions, TabState, Tabs, TileId, Tiles,
 const CROSS_ROOM: f32 = 11.0;
 
 /// Shows the panes of the stage that is open.
-pub fn show(ui: &mut Ui, desk: &mut Desk, opened: Opened<'_>, asks: &mut Vec<Ask>) {
+pub(crate) fn show(ui: &mut Ui, desk: &mut Desk, opened: Opened<'_>, asks: &mut Vec<Ask>) {
     let tree = desk.tree(opened.view.stage);
     let mut panes = Panes { opened, asks, alone: true, fit: Fit::default(), closed: None, chosen: None };
     tree.ui(&mut panes, ui);

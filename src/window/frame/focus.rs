@@ -10,7 +10,7 @@ const CARRY: [Key; 5] = [Key::Tab, Key::ArrowUp, Key::ArrowDown, Key::ArrowLeft,
 const ROOM: f32 = 2.0;
 
 /// Shows it where the keyboard moved the focus last (`by_keyboard`); a press of the pointer hides it.
-pub fn show(ctx: &Context, by_keyboard: &mut bool) {
+pub(crate) fn show(ctx: &Context, by_keyboard: &mut bool) {
     let (pointed, carried) = ctx.input(|i| (i.pointer.any_pressed(), CARRY.iter().any(|key| i.key_pressed(*key))));
     *by_keyboard = (*by_keyboard || carried) && !pointed;
     if let Some(rect) = focused(ctx).filter(|_| *by_keyboard) {

@@ -10,7 +10,7 @@ use crate::window::widgets::UiExt;
 use egui::{Context, Grid, Id, LayerId, Order, Rect, RichText, ScrollArea, StrokeKind, Window, pos2, vec2};
 
 /// Shows what is open of it.
-pub fn show(ctx: &Context, view: &mut View) {
+pub(crate) fn show(ctx: &Context, view: &mut View) {
     keys(ctx, &mut view.keys);
     about(ctx, &mut view.about);
 }
@@ -53,7 +53,7 @@ fn about(ctx: &Context, open: &mut bool) {
 type Step = (Stage, Option<Pane>, &'static str, &'static str);
 
 /// The tour.
-pub const TOUR: [Step; 10] = [
+pub(crate) const TOUR: [Step; 10] = [
     (
         Stage::Measure,
         Some(Pane::Runs),
@@ -127,7 +127,7 @@ pub const TOUR: [Step; 10] = [
 ];
 
 /// The step of the tour that is open, beside the pane that it points at.
-pub fn tour(ctx: &Context, view: &mut View, desk: &mut Desk) {
+pub(crate) fn tour(ctx: &Context, view: &mut View, desk: &mut Desk) {
     let Some(step) = view.tour else { return };
     let (stage, pane, title, text) = TOUR[step.min(TOUR.len() - 1)];
     if view.tour_shown != Some(step) {
@@ -161,7 +161,7 @@ pub fn tour(ctx: &Context, view: &mut View, desk: &mut Desk) {
 }
 
 /// Without a project the tour begins on the sample.
-pub fn begin_tour(view: &mut View, asks: &mut Vec<Ask>) {
+pub(crate) fn begin_tour(view: &mut View, asks: &mut Vec<Ask>) {
     if let Some(folder) = super::start::samples_folder() {
         asks.push(Ask::Open(folder.join("cantilever-case-2").join("project.toml")));
     } else {

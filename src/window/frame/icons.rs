@@ -4,7 +4,7 @@ use crate::window::view::Stage;
 use egui::{Color32, Painter, Pos2, Rect, Shape, Stroke, pos2};
 
 /// Draws the symbol of a stage into a square.
-pub fn stage(painter: &Painter, stage: Stage, rect: Rect, colour: Color32) {
+pub(crate) fn stage(painter: &Painter, stage: Stage, rect: Rect, colour: Color32) {
     let pen = Stroke::new(1.5, colour);
     // Coordinates in the square from 0 to 1, y upwards.
     let at = |x: f32, y: f32| pos2(rect.left() + x * rect.width(), rect.bottom() - y * rect.height());
@@ -50,7 +50,7 @@ pub fn stage(painter: &Painter, stage: Stage, rect: Rect, colour: Color32) {
 }
 
 /// The program's icon, of which `assets/icons/dashpot.svg` is the drawing; nothing where it cannot be read.
-pub fn application() -> egui::IconData {
+pub(crate) fn application() -> egui::IconData {
     let png = include_bytes!("../../../assets/icons/128.png");
     image::load_from_memory(png).map_or_else(
         |_| egui::IconData::default(),

@@ -16,7 +16,7 @@ use crate::window::widgets::UiExt;
 use egui::{ScrollArea, Ui};
 
 /// Shows the inspector.
-pub fn show(ui: &mut Ui, document: &Document, view: &View, asks: &mut Vec<Ask>) {
+pub(crate) fn show(ui: &mut Ui, document: &Document, view: &View, asks: &mut Vec<Ask>) {
     let p = &document.project;
     ScrollArea::vertical().auto_shrink(false).show(ui, |ui| match (view.source, view.dof) {
         (Some(source), _) if source < p.sources.len() => self::source(ui, p, source, asks),
@@ -166,7 +166,7 @@ fn sensors(ui: &mut Ui, p: &Project, file: &ProjectFile, dof: usize, asks: &mut 
 }
 
 /// Frequency with its deviation where it was estimated.
-pub fn frequency(run: &crate::measurement::Run) -> String {
+pub(crate) fn frequency(run: &crate::measurement::Run) -> String {
     let hertz = std::f64::consts::TAU;
     format::with_deviation(run.fit.omega / hertz, run.fit.omega_deviation / hertz, "Hz")
 }

@@ -7,7 +7,7 @@ use crate::window::widgets::UiExt;
 use egui::{Context, Frame, Id, Margin, Modal, RichText};
 
 /// Asks what becomes of the changes of the project with this title.
-pub fn show(ctx: &Context, title: &str, asks: &mut Vec<Ask>) {
+pub(crate) fn show(ctx: &Context, title: &str, asks: &mut Vec<Ask>) {
     let frame = Frame::popup(&ctx.global_style()).inner_margin(Margin::same(18));
     let modal = Modal::new(Id::unique("leave")).frame(frame).show(ctx, |ui| {
         ui.set_width(360.0);

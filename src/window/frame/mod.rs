@@ -1,19 +1,19 @@
 //! What stands around the stages: bars, docked panes, inspector, schematic, start screen.
 
-pub mod cards;
-pub mod choose;
+pub(crate) mod cards;
+pub(crate) mod choose;
 pub mod desk;
-pub mod dock;
-pub mod focus;
-pub mod help;
-pub mod icons;
-pub mod inspector;
-pub mod leave;
-pub mod notice;
+pub(crate) mod dock;
+pub(crate) mod focus;
+pub(crate) mod help;
+pub(crate) mod icons;
+pub(crate) mod inspector;
+pub(crate) mod leave;
+pub(crate) mod notice;
 pub mod panes;
-pub mod schematic;
-pub mod start;
-pub mod status;
+pub(crate) mod schematic;
+pub(crate) mod start;
+pub(crate) mod status;
 mod tabs;
-pub mod top;
-pub mod units;
+pub(crate) mod top;
+pub(crate) mod units;

@@ -6,14 +6,14 @@ use crate::window::widgets::UiExt;
 use egui::{Align, Align2, Area, Context, Frame, Id, Label, Layout, Margin, Order, RichText, ScrollArea, Window, vec2};
 
 /// Shows a failure that was not closed yet.
-pub fn show(ctx: &Context, message: Option<&Message>, asks: &mut Vec<Ask>) {
+pub(crate) fn show(ctx: &Context, message: Option<&Message>, asks: &mut Vec<Ask>) {
     if let Some(message) = message.filter(|m| m.failed) {
         card(ctx, &message.text, asks);
     }
 }
 
 /// The list of all messages, where it is open.
-pub fn list(ctx: &Context, messages: &[Message], open: &mut bool) {
+pub(crate) fn list(ctx: &Context, messages: &[Message], open: &mut bool) {
     Window::new("Messages").open(open).default_size([520.0, 260.0]).collapsible(false).show(ctx, |ui| {
         if messages.is_empty() {
             ui.hint("Nothing has been said yet.");

@@ -17,7 +17,7 @@ use faer::c64;
 use std::sync::Arc;
 
 /// Shows the schematic.
-pub fn show(ui: &mut Ui, opened: &mut Opened<'_>, asks: &mut Vec<Ask>) {
+pub(crate) fn show(ui: &mut Ui, opened: &mut Opened<'_>, asks: &mut Vec<Ask>) {
     let document = opened.document;
     let mut scene = opened.derived.scene(document);
     let outcome = opened.derived.known_outcome(document).and_then(Result::ok);
@@ -122,7 +122,7 @@ fn mode(ui: &Ui, opened: &mut Opened<'_>, scene: &Scene) -> (Option<Moved>, Stri
 }
 
 /// Whether the shape is shown and moves, at the right of the pane's title.
-pub fn switches(ui: &mut Ui, view: &LookedAt, asks: &mut Vec<Ask>) {
+pub(crate) fn switches(ui: &mut Ui, view: &LookedAt, asks: &mut Vec<Ask>) {
     if view.stage == Stage::Pattern {
         return;
     }

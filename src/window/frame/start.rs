@@ -15,7 +15,7 @@ const IN_A_ROW: usize = 4;
 const GAP: f32 = 14.0;
 
 /// Where samples are looked for: beside the program, at and above the working directory, and where a package puts them.
-pub fn samples_folder() -> Option<PathBuf> {
+pub(crate) fn samples_folder() -> Option<PathBuf> {
     let here = std::env::current_dir().ok();
     let program = std::env::current_exe().ok();
     let roots = here.iter().chain(program.iter()).flat_map(|p| p.ancestors().take(5));
@@ -45,7 +45,7 @@ fn own_copy(project: PathBuf) -> PathBuf {
 }
 
 /// Shows the start screen.
-pub fn show(ui: &mut Ui, recent: &[PathBuf], asks: &mut Vec<Ask>) {
+pub(crate) fn show(ui: &mut Ui, recent: &[PathBuf], asks: &mut Vec<Ask>) {
     let palette = Palette::of(ui.visuals());
     let desk = Frame::new().fill(palette.desk).inner_margin(Margin::same(space::XL as i8));
     CentralPanel::default().frame(desk).show(ui, |ui| {

@@ -9,7 +9,7 @@ use crate::window::widgets::UiExt;
 use egui::{Align, Button, Frame, Layout, Margin, Panel, ProgressBar, RichText, Ui};
 
 /// Shows the bar.
-pub fn show(ui: &mut Ui, app: &App, asks: &mut Vec<Ask>) {
+pub(crate) fn show(ui: &mut Ui, app: &App, asks: &mut Vec<Ask>) {
     let palette = Palette::of(ui.visuals());
     let bar = Frame::new().fill(palette.pane).inner_margin(Margin::symmetric(12, 4));
     Panel::bottom("status").frame(bar).show(ui, |ui| {
@@ -56,7 +56,7 @@ fn message(ui: &mut Ui, app: &App, asks: &mut Vec<Ask>) {
 }
 
 /// Error of the accepted set and what the noise alone would leave, both relative to the measured energy.
-pub fn error_and_floor(outcome: &Outcome) -> (f64, f64) {
+pub(crate) fn error_and_floor(outcome: &Outcome) -> (f64, f64) {
     let square =
         |f: &dyn Fn(&crate::identify::RunOutcome) -> f64| outcome.runs.iter().map(|r| f(r).powi(2)).sum::<f64>();
     let measured = square(&|r| r.input_energy).max(f64::MIN_POSITIVE);

@@ -14,7 +14,7 @@ const LIST: f32 = 86.0;
 
 /// How the tabs of a bar stand.
 #[derive(Debug, Clone)]
-pub struct Fit {
+pub(super) struct Fit {
     /// Room before and after each title, points.
     pub pads: [f32; 2],
     /// Tabs without room, with their titles.
@@ -29,7 +29,7 @@ impl Default for Fit {
 
 impl Fit {
     /// Of tabs with their titles in a bar of `room` points; the active one has room always.
-    pub fn new(ui: &Ui, tabs: &[(TileId, &'static str)], active: Option<TileId>, room: f32) -> Self {
+    pub(super) fn new(ui: &Ui, tabs: &[(TileId, &'static str)], active: Option<TileId>, room: f32) -> Self {
         let wide = |title: &str| width(ui, title, theme::font(size::BODY));
         let titles: Vec<(TileId, &'static str, f32)> = tabs.iter().map(|&(t, title)| (t, title, wide(title))).collect();
         let words: f32 = titles.iter().map(|t| t.2).sum();
@@ -58,12 +58,12 @@ impl Fit {
     }
 
     /// Whether a tab stands in the list only.
-    pub fn is_left_out(&self, tile: TileId) -> bool {
+    pub(super) fn is_left_out(&self, tile: TileId) -> bool {
         self.left_out.iter().any(|(other, _)| *other == tile)
     }
 
     /// The list of tabs without room; gives back the one that is chosen.
-    pub fn list(&self, ui: &mut Ui) -> Option<TileId> {
+    pub(super) fn list(&self, ui: &mut Ui) -> Option<TileId> {
         if self.left_out.is_empty() {
             return None;
         }

@@ -44,7 +44,7 @@ impl StageStatus {
 }
 
 /// Shows both bars.
-pub fn show(ui: &mut Ui, app: &App, asks: &mut Vec<Ask>) {
+pub(crate) fn show(ui: &mut Ui, app: &App, asks: &mut Vec<Ask>) {
     let palette = Palette::of(ui.visuals());
     let bar = Frame::new().fill(palette.pane).inner_margin(Margin::symmetric(10, 4));
     Panel::top("menu").frame(bar).show(ui, |ui| {

@@ -5,7 +5,7 @@ use crate::window::widgets::UiExt;
 use egui::Ui;
 
 /// Shows the choices, a group a quantity.
-pub fn menu(ui: &mut Ui) {
+pub(crate) fn menu(ui: &mut Ui) {
     let mut chosen = units::now();
     group(
         ui,

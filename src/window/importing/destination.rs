@@ -30,7 +30,7 @@ impl Draft {
 }
 
 /// Shows destination, model and buttons.
-pub fn show(ui: &mut Ui, draft: &mut Draft) -> Option<Wish> {
+pub(crate) fn show(ui: &mut Ui, draft: &mut Draft) -> Option<Wish> {
     let mut wish = model(ui, draft);
     ui.horizontal(|ui| {
         if draft.open.is_some() {

@@ -19,7 +19,7 @@ const QUANTITIES: [(Quantity, &str); 5] = [
 const COLUMNS: [&str; 8] = ["Use", "Channel", "Quantity", "DOF", "Sense", "Unit", "Factor", "Late, ms"];
 
 /// Shows the table.
-pub fn show(ui: &mut Ui, rows: &mut [ChannelRow], unit_of: impl Fn(&str) -> String) {
+pub(super) fn show(ui: &mut Ui, rows: &mut [ChannelRow], unit_of: impl Fn(&str) -> String) {
     let height = ui.available_height();
     TableBuilder::new(ui)
         .id_salt("mapping")
@@ -107,7 +107,7 @@ fn one(line: &mut TableRow<'_, '_>, k: usize, row: &mut ChannelRow, unit_of: &im
 }
 
 /// A button that turns the sense round.
-pub fn sense(ui: &mut Ui, sign: &mut Option<i64>, name: &str) {
+pub(super) fn sense(ui: &mut Ui, sign: &mut Option<i64>, name: &str) {
     let against = *sign == Some(-1);
     let button = ui.button(if against { " − " } else { " + " });
     button.widget_info(|| WidgetInfo::selected(Role::Button, true, against, format!("Sense of {name}")));

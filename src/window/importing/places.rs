@@ -9,7 +9,7 @@ use egui::{Align, ComboBox, DragValue, Label, Layout, Role, TextEdit, Ui, Widget
 use egui_extras::{Column, TableBuilder};
 
 /// Shows what is decided of frequency responses.
-pub fn show(ui: &mut Ui, responses: &mut Responses) {
+pub(super) fn show(ui: &mut Ui, responses: &mut Responses) {
     options(ui, responses);
     for what in &responses.assumed {
         ui.hint(format!("Assumed: {what}."));

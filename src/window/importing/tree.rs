@@ -22,7 +22,7 @@ enum Line {
 }
 
 /// Shows the tree; a click on a channel draws it.
-pub fn show(ui: &mut Ui, draft: &mut Draft) {
+pub(super) fn show(ui: &mut Ui, draft: &mut Draft) {
     let lines = lines(draft);
     ui.spacing_mut().item_spacing.y = 0.0;
     ScrollArea::vertical().id_salt("import tree").auto_shrink(false).show_rows(ui, LINE, lines.len(), |ui, range| {

@@ -3,7 +3,8 @@
 use super::destination;
 use super::draft::{Decided, Draft};
 use super::preview::Preview;
-use super::{Importing, mapping, places, tree};
+use super::state::Importing;
+use super::{mapping, places, tree};
 use crate::window::ask::Ask;
 use crate::window::plots::show::Stack;
 use crate::window::theme::{Palette, space};

@@ -20,14 +20,14 @@ fn name(force: f64) -> String {
 }
 
 /// Free motion of the driven mass.
-pub fn decay(portrait: &Portrait, palette: &Palette) -> Result<Figure, String> {
+pub(super) fn decay(portrait: &Portrait, palette: &Palette) -> Result<Figure, String> {
     let points = portrait.decay.clone()?;
     let figure = Figure::new("Free motion", Axis::new("Time", "s"), Axis::new("Displacement", "m"));
     Ok(figure.points("", palette.model, Look::Line(1.6), points))
 }
 
 /// Magnitude and phase over frequency.
-pub fn bode(portrait: &Portrait, palette: &Palette) -> [Figure; 2] {
+pub(super) fn bode(portrait: &Portrait, palette: &Palette) -> [Figure; 2] {
     let frequency = || Axis::log("Frequency", "Hz").ticks(Ticks::OneTwoFive);
     let mut magnitude = Figure::new("Magnitude", frequency(), Axis::log("Receptance", "m/N"));
     let degrees = Axis::new("Phase", "°").ticks(Ticks::RightAngles).include(&[-180.0, 0.0]);
@@ -46,7 +46,7 @@ pub fn bode(portrait: &Portrait, palette: &Palette) -> [Figure; 2] {
 }
 
 /// Imaginary over real part.
-pub fn nyquist(portrait: &Portrait, palette: &Palette) -> Figure {
+pub(super) fn nyquist(portrait: &Portrait, palette: &Palette) -> Figure {
     let (x, y) = (Axis::new("Real part", "m/N").include(&[0.0]), Axis::new("Imaginary part", "m/N").include(&[0.0]));
     let mut figure = Figure::new("Nyquist diagram", x, y);
     (figure.square, figure.margin) = (true, 0.08);
@@ -62,7 +62,7 @@ pub fn nyquist(portrait: &Portrait, palette: &Palette) -> Figure {
 }
 
 /// Loops of force over displacement, of the exciter or of the law.
-pub fn loops(title: &str, all: &[AtLevel<Points>], palette: &Palette) -> Figure {
+pub(super) fn loops(title: &str, all: &[AtLevel<Points>], palette: &Palette) -> Figure {
     let mut figure = Figure::new(title, Axis::new("Displacement", "m"), Axis::new("Force", "N"));
     figure.margin = 0.08;
     for (k, one) in all.iter().enumerate().rev() {
@@ -78,7 +78,7 @@ pub fn loops(title: &str, all: &[AtLevel<Points>], palette: &Palette) -> Figure 
 ///
 /// # Errors
 /// One line for a law that takes out no energy.
-pub fn energy(portrait: &Portrait, palette: &Palette) -> Result<(Figure, String), String> {
+pub(super) fn energy(portrait: &Portrait, palette: &Palette) -> Result<(Figure, String), String> {
     let x = Axis::log("Amplitude", "m").ticks(Ticks::OneTwoFive);
     let points: Points = portrait.energy.iter().copied().filter(|p| p[1] > 1e-15).collect();
     let middle = points.len() / 2;

@@ -8,7 +8,7 @@ use crate::window::widgets::{UiExt, elided};
 use egui::{Align2, Rect, Sense, Ui, WidgetInfo, pos2, vec2};
 
 /// Shows bars under each other, each filled by its share of the whole; `title` is that of the exported picture.
-pub fn show(ui: &mut Ui, title: &str, bars: &[Bar], name_width: f32) {
+pub(crate) fn show(ui: &mut Ui, title: &str, bars: &[Bar], name_width: f32) {
     let mut responses = Vec::new();
     let palette = ui.palette();
     for bar in bars {

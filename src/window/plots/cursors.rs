@@ -12,13 +12,13 @@ const REACH: f32 = 24.0;
 
 /// Cursors of one plot in the terms of its figure: at most two.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub struct Cursors {
+pub(crate) struct Cursors {
     at: Vec<[f64; 2]>,
 }
 
 impl Cursors {
     /// Those of a plot.
-    pub fn of(ctx: &Context, plot: &str) -> Self {
+    pub(crate) fn of(ctx: &Context, plot: &str) -> Self {
         ctx.data(|d| d.get_temp::<Self>(id(plot))).unwrap_or_default()
     }
 
@@ -36,7 +36,7 @@ impl Cursors {
     }
 
     /// What is read at the cursors, line by line: each, and their difference.
-    pub fn words(&self, figure: &Figure) -> Vec<String> {
+    pub(crate) fn words(&self, figure: &Figure) -> Vec<String> {
         let one =
             |k: usize| format!("{}:  {}   {}", k + 1, said(&figure.x, self.at[k][0]), said(&figure.y, self.at[k][1]));
         let mut lines: Vec<String> = (0..self.at.len()).map(one).collect();
@@ -69,7 +69,7 @@ fn between(axis: &Axis, a: f64, b: f64) -> String {
 }
 
 /// Sets a cursor where the plot was clicked with Shift, and draws those that there are.
-pub fn show(plot: &mut PlotUi<'_>, name: &str, figure: &Figure, palette: &Palette) -> Cursors {
+pub(crate) fn show(plot: &mut PlotUi<'_>, name: &str, figure: &Figure, palette: &Palette) -> Cursors {
     let ctx = plot.ctx().clone();
     let mut cursors = Cursors::of(&ctx, name);
     let clicked = plot.response().clicked() && ctx.input(|i| i.modifiers.shift);
@@ -109,7 +109,7 @@ fn nearest(plot: &PlotUi<'_>, figure: &Figure, at: PlotPoint) -> Option<[f64; 2]
 }
 
 /// Lines of what is read, in the upper left corner of the plot.
-pub fn paint(painter: &egui::Painter, frame: Rect, lines: &[String], palette: &Palette) {
+pub(crate) fn paint(painter: &egui::Painter, frame: Rect, lines: &[String], palette: &Palette) {
     let font = theme::font(theme::size::SMALL);
     let galleys: Vec<_> =
         lines.iter().map(|line| painter.layout_no_wrap(line.clone(), font.clone(), palette.ink)).collect();

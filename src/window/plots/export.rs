@@ -112,7 +112,7 @@ pub(super) fn register(ctx: &Context, list: Id, title: &str) {
 }
 
 /// Offers a sheet of plots for copying and export.
-pub fn offer_sheet(ui: &Ui, responses: &[Response], sheet: Sheet) {
+pub(crate) fn offer_sheet(ui: &Ui, responses: &[Response], sheet: Sheet) {
     let title = sheet.title.clone();
     let draw = |palette: &Palette| sheet.drawing(PAPER, palette);
     offer(ui, responses, &title, &draw, &|| sheet.table());

@@ -13,7 +13,7 @@ use egui::{Ui, vec2};
 const LEAST: f32 = 200.0;
 
 /// Shows loops side by side, as many as there is room for.
-pub fn show(ui: &mut Ui, title: &str, loops: &[Loop]) {
+pub(crate) fn show(ui: &mut Ui, title: &str, loops: &[Loop]) {
     let palette = ui.palette();
     let figures: Vec<Figure> = loops.iter().map(|l| l.figure(palette)).collect();
     key_row(ui, figures.iter());

@@ -7,10 +7,10 @@ use crate::window::widgets::UiExt;
 use egui::{Align2, Rect, Role, Sense, Ui, Vec2, WidgetInfo, vec2};
 
 /// Entry of a DOF with itself or with another: row, column, value.
-pub type Entry = (usize, usize, i32);
+pub(crate) type Entry = (usize, usize, i32);
 
 /// The DOFs of a source in order, and the entries that are not zero, rows and columns counted in that order.
-pub fn matrix(legs: &[Leg]) -> (Vec<usize>, Vec<Entry>) {
+pub(crate) fn matrix(legs: &[Leg]) -> (Vec<usize>, Vec<Entry>) {
     let mut dofs: Vec<usize> = legs.iter().flat_map(|leg| [Some(leg.first), leg.second]).flatten().collect();
     dofs.sort_unstable();
     dofs.dedup();
@@ -31,7 +31,7 @@ pub fn matrix(legs: &[Leg]) -> (Vec<usize>, Vec<Entry>) {
 }
 
 /// Shows the grid; `label` names a DOF.
-pub fn show(ui: &mut Ui, legs: &[Leg], label: impl Fn(usize) -> String) {
+pub(crate) fn show(ui: &mut Ui, legs: &[Leg], label: impl Fn(usize) -> String) {
     const CELL: f32 = 26.0;
     const EDGE: f32 = 28.0;
     /// Rows beyond these are left out: the pattern repeats.

@@ -1,19 +1,19 @@
 //! Plots: one style for all, and the series of each kind.
 
-pub mod bars;
-pub mod charts;
-pub mod cursors;
+pub(crate) mod bars;
+pub(crate) mod charts;
+pub(crate) mod cursors;
 pub mod export;
-pub mod heatmap;
-pub mod hysteresis;
-pub mod localisation;
-pub mod paint;
-pub mod polyline;
-pub mod record;
-pub mod show;
-pub mod spectrogram;
-pub mod table;
-pub mod zoom;
+pub(crate) mod heatmap;
+pub(crate) mod hysteresis;
+pub(crate) mod localisation;
+pub(crate) mod paint;
+pub(crate) mod polyline;
+pub(crate) mod record;
+pub(crate) mod show;
+pub(crate) mod spectrogram;
+pub(crate) mod table;
+pub(crate) mod zoom;
 
 use super::theme::{Palette, size};
 use super::widgets::UiExt;

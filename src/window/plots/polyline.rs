@@ -9,7 +9,7 @@ use std::ops::RangeInclusive;
 const NEAR: f32 = 0.3;
 
 /// A curve.
-pub struct Polyline {
+pub(crate) struct Polyline {
     base: PlotItemBase,
     places: Vec<PlotPoint>,
     stroke: Stroke,
@@ -17,7 +17,7 @@ pub struct Polyline {
 
 impl Polyline {
     /// Through places on the axes.
-    pub fn new(name: &str, places: &[[f64; 2]], stroke: Stroke) -> Self {
+    pub(crate) fn new(name: &str, places: &[[f64; 2]], stroke: Stroke) -> Self {
         let places = places.iter().map(|p| PlotPoint::new(p[0], p[1])).collect();
         Self { base: PlotItemBase::new(name.to_owned()), places, stroke }
     }

@@ -20,7 +20,7 @@ impl RecordPlot<'_> {
 const LANE: f32 = 64.0;
 
 /// Records of all channels of a run under each other on one axis of time.
-pub fn lanes(ui: &mut Ui, run: usize, shown: &[(&ChannelFit, Arc<Trace>)], omega: f64) {
+pub(crate) fn lanes(ui: &mut Ui, run: usize, shown: &[(&ChannelFit, Arc<Trace>)], omega: f64) {
     let figures = lane_figures(ui.palette(), shown, omega);
     let title = format!("Records of run {}", run + 1);
     let height = (LANE * shown.len() as f32).max(ui.available_height() - 8.0);

@@ -31,7 +31,7 @@ const RULER: f32 = 36.0;
 
 /// Plots of one sheet: its title, and each plot with its share of the height.
 #[derive(Debug)]
-pub struct Stack<'a> {
+pub(crate) struct Stack<'a> {
     /// Tells it from others on the screen; another one starts with fresh axes.
     pub id: &'a str,
     /// Title of what is exported.
@@ -44,7 +44,7 @@ pub struct Stack<'a> {
 
 impl Stack<'_> {
     /// Shows the plots under each other in the room there is.
-    pub fn show(self, ui: &mut Ui) {
+    pub(crate) fn show(self, ui: &mut Ui) {
         if self.keys {
             key_row(ui, self.figures.iter().map(|(f, _)| f));
         }
@@ -85,7 +85,7 @@ impl Stack<'_> {
 }
 
 /// A row of keys to all series that have a name, each with the mark it is drawn with.
-pub fn key_row<'a>(ui: &mut Ui, figures: impl Iterator<Item = &'a Figure>) {
+pub(crate) fn key_row<'a>(ui: &mut Ui, figures: impl Iterator<Item = &'a Figure>) {
     let mut entries: Vec<&Series> = Vec::new();
     for series in figures.flat_map(|f| &f.series) {
         if !series.name.is_empty() && entries.iter().all(|e| e.name != series.name) {
@@ -122,7 +122,7 @@ fn key(ui: &mut Ui, series: &Series) {
 
 /// Where and how a plot stands on the screen.
 #[derive(Debug, Clone, Copy)]
-pub struct Place<'a> {
+pub(crate) struct Place<'a> {
     /// Tells it from others.
     pub id: &'a str,
     /// Height, points.
@@ -134,14 +134,14 @@ pub struct Place<'a> {
 }
 
 /// What is in sight of a plot.
-pub fn sight(out: &PlotResponse<()>) -> Sight {
+pub(crate) fn sight(out: &PlotResponse<()>) -> Sight {
     let (low, high) = (out.transform.bounds().min(), out.transform.bounds().max());
     [[low[0], high[0]], [low[1], high[1]]]
 }
 
 impl Place<'_> {
     /// Shows a plot that stands alone.
-    pub fn show(&self, ui: &mut Ui, figure: &Figure) -> PlotResponse<()> {
+    pub(crate) fn show(&self, ui: &mut Ui, figure: &Figure) -> PlotResponse<()> {
         let zoom = Zoom::begin(ui.ctx(), self.id);
         let out = self.draw(ui, figure, (&zoom, 0));
         zoom.end(ui, &[(&out.response, figure, sight(&out))]);

@@ -7,7 +7,7 @@ use egui::{Align, Context, Id, Layout, Popup, PopupAnchor, PopupKind, Rect, SetO
 
 /// What is wanted of a table.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Wish {
+pub(crate) enum Wish {
     /// On the clipboard, with tabs.
     Copy,
     /// In a file.
@@ -19,12 +19,12 @@ fn shown_id() -> Id {
 }
 
 /// Titles of the tables on the screen, in the order in which they were drawn.
-pub fn shown(ctx: &Context) -> Vec<String> {
+pub(crate) fn shown(ctx: &Context) -> Vec<String> {
     export::recent(ctx, shown_id())
 }
 
 /// Offers the table of that title in the pane `area`; gives back what is wanted of it in this frame.
-pub fn offer(ui: &Ui, area: Rect, title: &str) -> Option<Wish> {
+pub(crate) fn offer(ui: &Ui, area: Rect, title: &str) -> Option<Wish> {
     let ctx = ui.ctx();
     export::register(ctx, shown_id(), title);
     // A plot in the pane has keys and a menu of its own.
@@ -38,7 +38,7 @@ pub fn offer(ui: &Ui, area: Rect, title: &str) -> Option<Wish> {
 }
 
 /// Does what is wanted with the text of the table, columns separated by tabs.
-pub fn give(ctx: &Context, title: &str, wish: Wish, text: String) {
+pub(crate) fn give(ctx: &Context, title: &str, wish: Wish, text: String) {
     match wish {
         Wish::Copy => export::copy(ctx, title, text),
         Wish::Csv => export::write_table(ctx, title, text),
@@ -71,6 +71,6 @@ fn menu(ui: &Ui, title: &str, opened: bool) -> Option<Wish> {
 }
 
 /// Asks the table of that title for its text, to be written to a file.
-pub fn want(ctx: &Context, title: &str) {
+pub(crate) fn want(ctx: &Context, title: &str) {
     export::want(ctx, title, Kind::Csv);
 }

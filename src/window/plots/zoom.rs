@@ -15,7 +15,7 @@ const MOST: usize = 50;
 const SAME: f64 = 1e-9;
 
 /// First and last place along x and along y.
-pub type Sight = [[f64; 2]; 2];
+pub(crate) type Sight = [[f64; 2]; 2];
 
 /// What is asked of the plots of a stack.
 #[derive(Debug, Clone, PartialEq)]
@@ -78,14 +78,14 @@ fn differ(a: &Sight, b: &Sight) -> bool {
 }
 
 /// The history of the plots that are drawn now.
-pub struct Zoom {
+pub(crate) struct Zoom {
     id: Id,
     wanted: Option<Want>,
 }
 
 impl Zoom {
     /// Before the plots of the stack `name` are drawn.
-    pub fn begin(ctx: &Context, name: &str) -> Self {
+    pub(crate) fn begin(ctx: &Context, name: &str) -> Self {
         let id = Id::NULL.with(("zoom", name));
         let mut kept = Kept::of(ctx, id);
         let wanted = kept.want.take();
@@ -96,7 +96,7 @@ impl Zoom {
     }
 
     /// Moves the plot number `k` to what was asked for.
-    pub fn apply(&self, plot: &mut PlotUi<'_>, k: usize) {
+    pub(crate) fn apply(&self, plot: &mut PlotUi<'_>, k: usize) {
         match &self.wanted {
             None => {}
             Some(Want::All) => plot.set_auto_bounds(true),
@@ -109,7 +109,7 @@ impl Zoom {
     }
 
     /// After the plots are drawn: takes the steps of the user, his keys, and shows the window of limits.
-    pub fn end(self, ui: &Ui, plots: &[(&Response, &Figure, Sight)]) {
+    pub(crate) fn end(self, ui: &Ui, plots: &[(&Response, &Figure, Sight)]) {
         let ctx = ui.ctx();
         let mut kept = Kept::of(ctx, self.id);
         let before = (kept.past.len(), kept.future.len(), kept.typing, kept.touched);
@@ -142,7 +142,7 @@ impl Zoom {
 }
 
 /// Entries of the menu of a plot.
-pub fn menu(ui: &mut Ui, plot: &Response) {
+pub(crate) fn menu(ui: &mut Ui, plot: &Response) {
     let ctx = ui.ctx().clone();
     let Some(id) = ctx.data(|d| d.get_temp::<Id>(plot.id.with("its zoom"))) else { return };
     let mut kept = Kept::of(&ctx, id);

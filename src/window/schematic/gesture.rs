@@ -61,7 +61,7 @@ impl Drag {
 
 /// What a click asks for. Where the pattern is edited, a click on a DOF draws and a second click on a source cycles its
 /// state; elsewhere clicks only select.
-pub fn click(scene: &Scene, target: Option<Target>, selected: Option<Target>, editing: bool) -> Intent {
+pub(crate) fn click(scene: &Scene, target: Option<Target>, selected: Option<Target>, editing: bool) -> Intent {
     match target {
         Some(Target::Dof(dof)) if editing => Intent::Draw(vec![dof]),
         Some(Target::Dof(dof)) => Intent::SelectDof(dof),

@@ -18,12 +18,12 @@ const DOF_REACH: f32 = 7.0;
 const SOURCE_REACH: f32 = 9.0;
 
 /// The nearest target within reach of `at`.
-pub fn at(layout: &Layout, at: Pos2) -> Option<Target> {
+pub(crate) fn at(layout: &Layout, at: Pos2) -> Option<Target> {
     dof(layout, at).map(Target::Dof).or_else(|| source(layout, at).map(Target::Source))
 }
 
 /// The nearest DOF within reach.
-pub fn dof(layout: &Layout, at: Pos2) -> Option<usize> {
+pub(crate) fn dof(layout: &Layout, at: Pos2) -> Option<usize> {
     let handle = layout
         .handles
         .iter()
@@ -52,7 +52,7 @@ fn to_segment(p: Pos2, [a, b]: [Pos2; 2]) -> f32 {
 }
 
 /// Translations whose handles lie in `span`, from left to right; rotations never belong to a span.
-pub fn in_span(layout: &Layout, span: Rect) -> Vec<usize> {
+pub(crate) fn in_span(layout: &Layout, span: Rect) -> Vec<usize> {
     let mut inside: Vec<_> = layout.handles.iter().filter(|h| !h.rotation && span.contains(h.pos)).collect();
     inside.sort_by(|a, b| a.pos.x.total_cmp(&b.pos.x).then(a.pos.y.total_cmp(&b.pos.y)));
     inside.iter().map(|h| h.dof).collect()

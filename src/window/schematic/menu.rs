@@ -11,7 +11,7 @@ use crate::window::widgets::UiExt;
 use egui::Ui;
 
 /// Shows the entries for what was pointed at.
-pub fn show(ui: &mut Ui, scene: &Scene, target: Option<Target>, intents: &mut Vec<Intent>) {
+pub(crate) fn show(ui: &mut Ui, scene: &Scene, target: Option<Target>, intents: &mut Vec<Intent>) {
     let chosen = match target {
         Some(Target::Dof(dof)) => self::dof(ui, scene, dof),
         Some(Target::Source(slot)) => source(ui, scene, slot),

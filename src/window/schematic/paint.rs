@@ -10,7 +10,7 @@ use egui::{Align2, Color32, Painter, Pos2, Rect, Shape, Stroke, StrokeKind, pos2
 
 /// What is to stand out.
 #[derive(Debug, Clone, Copy, Default)]
-pub struct Marks<'a> {
+pub(crate) struct Marks<'a> {
     /// Under the pointer.
     pub hovered: Option<Target>,
     /// Selected.
@@ -30,7 +30,7 @@ pub struct Marks<'a> {
 }
 
 /// Paints everything.
-pub fn paint(painter: &Painter, palette: &Palette, scene: &Scene, layout: &Layout, marks: &Marks<'_>) {
+pub(crate) fn paint(painter: &Painter, palette: &Palette, scene: &Scene, layout: &Layout, marks: &Marks<'_>) {
     if marks.in_space {
         at_rest(painter, palette, layout);
     } else {
@@ -104,7 +104,7 @@ fn structure(painter: &Painter, palette: &Palette, scene: &Scene, layout: &Layou
 }
 
 /// The line of a source by its state.
-pub fn source_stroke(palette: &Palette, state: State, identified: bool, editing: bool) -> Stroke {
+pub(crate) fn source_stroke(palette: &Palette, state: State, identified: bool, editing: bool) -> Stroke {
     if identified {
         return Stroke::new(2.2, palette.model);
     }

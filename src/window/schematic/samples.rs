@@ -7,7 +7,7 @@ use crate::structure::chain::ChainParameters;
 use crate::structure::points::PointParameters;
 
 /// A cantilever of `elements` elements, 1 m long.
-pub fn cantilever(elements: usize) -> Structure {
+pub(crate) fn cantilever(elements: usize) -> Structure {
     BeamParameters {
         length: 1.0,
         breadth: 0.04,
@@ -22,7 +22,7 @@ pub fn cantilever(elements: usize) -> Structure {
 }
 
 /// Three masses, the first held to the ground.
-pub fn chain() -> Structure {
+pub(crate) fn chain() -> Structure {
     ChainParameters {
         masses: vec![1.0, 2.0, 1.0],
         ground_stiffness: vec![100.0, 0.0, 0.0],
@@ -33,7 +33,7 @@ pub fn chain() -> Structure {
 }
 
 /// Four points of a tetrahedron.
-pub fn points() -> Structure {
+pub(crate) fn points() -> Structure {
     PointParameters {
         dofs: ["a", "b", "c", "d"].map(str::to_owned).to_vec(),
         positions: Some(vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]),

@@ -6,7 +6,7 @@ use crate::effects::symbol::{HALF_WIDTH, Mark, Tone};
 use egui::{Color32, Painter, Pos2, Shape, Stroke, Vec2};
 
 /// Length of a symbol's body, points.
-pub const BODY: f32 = 28.0;
+pub(crate) const BODY: f32 = 28.0;
 
 /// A pen in the frame of one symbol: `x` along it from -1/2 to 1/2 of its body, `y` across in points.
 struct Pen<'a> {
@@ -18,7 +18,7 @@ struct Pen<'a> {
 }
 
 /// Draws the symbol of `effect` from `from` to `to`.
-pub fn draw(painter: &Painter, effect: Effect, [from, to]: [Pos2; 2], stroke: Stroke) {
+pub(crate) fn draw(painter: &Painter, effect: Effect, [from, to]: [Pos2; 2], stroke: Stroke) {
     let length = (to - from).length();
     if length < 4.0 {
         return;
@@ -126,7 +126,7 @@ impl Pen<'_> {
 }
 
 /// The ground: a line with hatches.
-pub fn ground(painter: &Painter, pos: Pos2, into: Vec2, width: f32, stroke: Stroke) {
+pub(crate) fn ground(painter: &Painter, pos: Pos2, into: Vec2, width: f32, stroke: Stroke) {
     let across = into.rot90();
     let half = width / 2.0;
     painter.line_segment([pos - across * half, pos + across * half], stroke);
@@ -139,7 +139,7 @@ pub fn ground(painter: &Painter, pos: Pos2, into: Vec2, width: f32, stroke: Stro
 }
 
 /// An arrow with a filled head.
-pub fn arrow(painter: &Painter, [tail, tip]: [Pos2; 2], stroke: Stroke) {
+pub(crate) fn arrow(painter: &Painter, [tail, tip]: [Pos2; 2], stroke: Stroke) {
     let direction = (tip - tail).normalized();
     let base = tip - direction * 9.0;
     painter.line_segment([tail, base], stroke);

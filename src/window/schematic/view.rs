@@ -30,7 +30,7 @@ pub struct ViewState {
 
 /// What to show.
 #[derive(Debug, Clone, Copy)]
-pub struct View<'a> {
+pub(crate) struct View<'a> {
     /// The scene.
     pub scene: &'a Scene,
     /// Displacement per DOF.
@@ -51,7 +51,7 @@ pub struct View<'a> {
 
 impl View<'_> {
     /// Shows the schematic in all the room there is; gives back what was asked for.
-    pub fn show(&self, ui: &mut Ui, state: &mut ViewState) -> Vec<Intent> {
+    pub(crate) fn show(&self, ui: &mut Ui, state: &mut ViewState) -> Vec<Intent> {
         let palette = Palette::of(ui.visuals());
         let (area, canvas) = ui.allocate_exact_size(ui.available_size(), Sense::click_and_drag());
         canvas.widget_info(|| WidgetInfo::labeled(Role::Image, true, "Schematic"));

@@ -28,7 +28,7 @@ const HOME: Camera = Camera { yaw: 5.75, pitch: 0.52, zoom: 1.0 };
 
 /// Bars of the shown rows of a matrix.
 #[derive(Debug, Clone)]
-pub struct Bars {
+pub(crate) struct Bars {
     /// Values, row by row.
     values: Vec<f64>,
     count: usize,
@@ -40,7 +40,7 @@ pub struct Bars {
 
 impl Bars {
     /// Of what a heat map shows.
-    pub fn new(map: &HeatMap<'_>) -> Self {
+    pub(crate) fn new(map: &HeatMap<'_>) -> Self {
         let rows = map.rows;
         let values: Vec<f64> = rows.iter().flat_map(|&i| rows.iter().map(move |&j| map.matrix[(i, j)])).collect();
         let low = values.iter().copied().fold(0.0, f64::min);
@@ -80,7 +80,7 @@ impl Bars {
     }
 
     /// All bars that are not zero.
-    pub fn mesh(&self, palette: &Palette) -> Mesh {
+    pub(crate) fn mesh(&self, palette: &Palette) -> Mesh {
         let mut mesh = Mesh::default();
         for at in self.cells().filter(|&at| self.value(at) != 0.0) {
             let [low, high] = self.body(at);
@@ -90,7 +90,7 @@ impl Bars {
     }
 
     /// Row and column of the bar that a ray meets first; else those of the cell at the level of zero.
-    pub fn pick(&self, ray: &Ray) -> Option<[usize; 2]> {
+    pub(crate) fn pick(&self, ray: &Ray) -> Option<[usize; 2]> {
         let met = self.cells().map(|at| {
             let [low, high] = self.body(at);
             (self.value(at) != 0.0).then(|| ray.enters_box(low, high)).flatten()
@@ -107,7 +107,7 @@ impl Bars {
     }
 
     /// A cell in words: `(7, 9)  −0.1230 N·s/m`.
-    pub fn describe(&self, at: [usize; 2], unit: &str) -> String {
+    pub(crate) fn describe(&self, at: [usize; 2], unit: &str) -> String {
         let [i, j] = at;
         format!("({}, {})  {}", self.labels[i], self.labels[j], format::with_unit(self.value(at), unit))
     }
@@ -133,13 +133,13 @@ impl Bars {
     }
 
     /// Where it stands in `room` as seen by `camera`.
-    pub fn projection(&self, camera: Camera, room: Rect) -> Projection {
+    pub(crate) fn projection(&self, camera: Camera, room: Rect) -> Projection {
         let inner = Rect::from_min_max(room.min + Vec2::new(52.0, 26.0), room.max - Vec2::new(36.0, 40.0));
         Projection::fit(&self.ruled("").corners(), camera, inner)
     }
 
     /// The faces of a bar that are turned to the eye, as areas on the screen with their outward unit vectors.
-    pub fn faces(&self, at: [usize; 2], p: &Projection) -> Vec<(Vec<egui::Pos2>, Vector3<f32>)> {
+    pub(crate) fn faces(&self, at: [usize; 2], p: &Projection) -> Vec<(Vec<egui::Pos2>, Vector3<f32>)> {
         let [low, high] = self.body(at);
         let toward = p.camera.axes()[2];
         let mut faces = Vec::new();
@@ -166,7 +166,7 @@ impl Bars {
 
     /// Shows it in the room there is; it is turned with the mouse and the arrow keys. `map` is what it was made of, `title`
     /// that of the exported picture.
-    pub fn show(&self, ui: &mut Ui, title: &str, map: &HeatMap<'_>) {
+    pub(crate) fn show(&self, ui: &mut Ui, title: &str, map: &HeatMap<'_>) {
         let unit = map.unit;
         if !available(ui.ctx()) {
             ui.empty("No graphics adapter", super::paint::NO_ADAPTER);

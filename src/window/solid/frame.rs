@@ -9,7 +9,7 @@ use nalgebra::Vector3;
 
 /// A box of `count` x `count` cells, `height` high.
 #[derive(Debug, Clone, Copy)]
-pub struct RuledBox<'a> {
+pub(crate) struct RuledBox<'a> {
     /// Cells along each side.
     pub count: usize,
     /// Height in cells.
@@ -26,14 +26,14 @@ pub struct RuledBox<'a> {
 
 impl RuledBox<'_> {
     /// All eight corners.
-    pub fn corners(&self) -> Vec<Vector3<f32>> {
+    pub(crate) fn corners(&self) -> Vec<Vector3<f32>> {
         let n = self.count as f32;
         let at = |k: usize| Vector3::new((k & 1) as f32 * n, ((k >> 1) & 1) as f32 * n, (k >> 2) as f32 * self.height);
         (0..8).map(at).collect()
     }
 
     /// Height of a value above the floor.
-    pub fn height_of(&self, value: f64) -> f32 {
+    pub(crate) fn height_of(&self, value: f64) -> f32 {
         let [low, high] = self.values;
         ((value - low) / (high - low)) as f32 * self.height
     }
@@ -54,7 +54,7 @@ impl RuledBox<'_> {
     }
 
     /// Floor, walls and their lines: what stands behind the bars.
-    pub fn back(&self, drawing: &mut Drawing, p: &Projection, palette: &Palette) {
+    pub(crate) fn back(&self, drawing: &mut Drawing, p: &Projection, palette: &Palette) {
         let n = self.count as f32;
         let floor = if p.camera.pitch >= 0.0 { 0.0 } else { self.height };
         let at = |x: f32, y: f32, z: f32| p.at(Vector3::new(x, y, z));
@@ -82,7 +82,13 @@ impl RuledBox<'_> {
     }
 
     /// Scale and labels.
-    pub fn rulers(&self, drawing: &mut Drawing, p: &Projection, palette: &Palette, stressed: Option<[usize; 2]>) {
+    pub(crate) fn rulers(
+        &self,
+        drawing: &mut Drawing,
+        p: &Projection,
+        palette: &Palette,
+        stressed: Option<[usize; 2]>,
+    ) {
         self.scale(drawing, p, palette);
         let n = self.count as f32;
         let (fx, fy) = (self.in_front(p, 0), self.in_front(p, 1));

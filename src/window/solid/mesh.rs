@@ -7,7 +7,7 @@ use std::f32::consts::{PI, TAU};
 /// A corner, as the shader reads it.
 #[derive(Debug, Clone, Copy, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
 #[repr(C)]
-pub struct Vertex {
+pub(crate) struct Vertex {
     /// Place.
     pub position: [f32; 3],
     /// Outward unit vector.
@@ -18,7 +18,7 @@ pub struct Vertex {
 
 /// Triangles.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct Mesh {
+pub(crate) struct Mesh {
     /// Corners.
     pub vertices: Vec<Vertex>,
     /// Three corners a triangle, counterclockwise from outside.
@@ -35,7 +35,7 @@ impl Mesh {
     }
 
     /// Adds a box between two corners, one colour.
-    pub fn cuboid(&mut self, low: Vector3<f32>, high: Vector3<f32>, colour: Color32) {
+    pub(crate) fn cuboid(&mut self, low: Vector3<f32>, high: Vector3<f32>, colour: Color32) {
         for axis in 0..3 {
             for side in [false, true] {
                 let (u, v) = ((axis + 1) % 3, (axis + 2) % 3);
@@ -56,7 +56,7 @@ impl Mesh {
     }
 
     /// Adds a tube from `ends[0]` to `ends[1]`, its colour running from one to the other; open at both ends.
-    pub fn tube(&mut self, ends: [Vector3<f32>; 2], radius: f32, colours: [Color32; 2], sides: u32) {
+    pub(crate) fn tube(&mut self, ends: [Vector3<f32>; 2], radius: f32, colours: [Color32; 2], sides: u32) {
         let along = ends[1] - ends[0];
         if along.norm() < 1e-12 {
             return;
@@ -80,7 +80,7 @@ impl Mesh {
     }
 
     /// Adds a ball of `rings` rings from pole to pole and twice as many meridians.
-    pub fn ball(&mut self, centre: Vector3<f32>, radius: f32, colour: Color32, rings: u32) {
+    pub(crate) fn ball(&mut self, centre: Vector3<f32>, radius: f32, colour: Color32, rings: u32) {
         let start = self.next();
         let round = 2 * rings;
         for i in 0..=rings {
@@ -98,11 +98,6 @@ impl Mesh {
                 self.indices.extend([a, b, b + 1, a, b + 1, a + 1]);
             }
         }
-    }
-
-    /// Radius of the ball about `middle` that holds everything.
-    pub fn reach(&self, middle: Vector3<f32>) -> f32 {
-        self.vertices.iter().map(|v| (Vector3::from(v.position) - middle).norm()).fold(1e-6, f32::max)
     }
 }
 

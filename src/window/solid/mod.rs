@@ -4,16 +4,15 @@
 //! egui's own pass has no depth. So each picture is drawn into a texture of its own first, multisampled and with depth,
 //! and that texture is then laid into egui's pass. Text and rulers are egui's, placed by the same projection.
 
-pub mod bars;
-pub mod camera;
-pub mod frame;
-pub mod mesh;
-pub mod paint;
-pub mod pick;
+pub(crate) mod bars;
+pub(crate) mod camera;
+pub(crate) mod frame;
+pub(crate) mod mesh;
+pub(crate) mod paint;
+pub(crate) mod pick;
 mod pipeline;
-pub mod turn;
-pub mod wire;
+pub(crate) mod turn;
+pub(crate) mod wire;
 
-pub use camera::{Camera, Projection};
-pub use mesh::Mesh;
-pub use paint::{Solid, available, install};
+pub(crate) use camera::{Camera, Projection};
+pub(crate) use paint::{available, install};

@@ -9,14 +9,14 @@ use nalgebra::Vector3;
 use std::sync::Arc;
 
 /// What to do where nothing can be drawn in space.
-pub const NO_ADAPTER: &str = "Drawing in space needs a Vulkan or OpenGL driver; the packages libvulkan1 and mesa-vulkan-drivers hold one in software.";
+pub(crate) const NO_ADAPTER: &str = "Drawing in space needs a Vulkan or OpenGL driver; the packages libvulkan1 and mesa-vulkan-drivers hold one in software.";
 
 /// Part of the light that comes from everywhere.
 const AMBIENT: f32 = 0.60;
 
 /// A mesh, how it is looked at, and where it stands on the screen.
 #[derive(Debug, Clone)]
-pub struct Solid {
+pub(crate) struct Solid {
     /// Tells one picture on the screen from another; its textures are kept under it.
     pub id: Id,
     /// What is drawn. Uploaded when it is another one than at the last frame.
@@ -30,7 +30,7 @@ pub struct Solid {
 }
 
 /// Builds the pipelines once for a window. Without a graphics state nothing happens, and [`available`] says so.
-pub fn install(ctx: &Context, state: Option<&RenderState>) {
+pub(crate) fn install(ctx: &Context, state: Option<&RenderState>) {
     let Some(state) = state else { return };
     if available(ctx) {
         return;
@@ -41,12 +41,12 @@ pub fn install(ctx: &Context, state: Option<&RenderState>) {
 }
 
 /// Whether solids can be drawn in this window.
-pub fn available(ctx: &Context) -> bool {
+pub(crate) fn available(ctx: &Context) -> bool {
     graphics(ctx).is_some()
 }
 
 /// The graphics state of this window.
-pub fn graphics(ctx: &Context) -> Option<RenderState> {
+pub(crate) fn graphics(ctx: &Context) -> Option<RenderState> {
     ctx.data(|d| d.get_temp(Id::NULL.with("graphics state")))
 }
 
@@ -57,13 +57,13 @@ fn light(camera: Camera) -> Vector3<f32> {
 }
 
 /// Brightness of a face with an outward unit vector; what the shader computes.
-pub fn shade(camera: Camera, normal: Vector3<f32>) -> f32 {
+pub(crate) fn shade(camera: Camera, normal: Vector3<f32>) -> f32 {
     AMBIENT + (1.0 - AMBIENT) * normal.dot(&light(camera)).max(0.0)
 }
 
 impl Solid {
     /// Adds it to what is painted.
-    pub fn paint(self, painter: &Painter) {
+    pub(crate) fn paint(self, painter: &Painter) {
         if self.viewport.width() >= 1.0 && self.viewport.height() >= 1.0 {
             painter.add(egui_wgpu::Callback::new_paint_callback(self.viewport, self));
         }

@@ -44,7 +44,7 @@ impl Ray {
 }
 
 /// The index with the least distance.
-pub fn nearest(distances: impl Iterator<Item = Option<f32>>) -> Option<usize> {
+pub(crate) fn nearest(distances: impl Iterator<Item = Option<f32>>) -> Option<usize> {
     distances.enumerate().filter_map(|(k, d)| Some((k, d?))).min_by(|a, b| a.1.total_cmp(&b.1)).map(|(k, _)| k)
 }
 

@@ -7,7 +7,7 @@ use egui::{EventFilter, Key, Response, Ui, vec2};
 const KEY_STEP: f32 = 15.0;
 
 /// Takes over what the mouse and the keys did to a picture; `home` is where a double click leads.
-pub fn turn(ui: &Ui, response: &Response, camera: &mut Camera, home: Camera) {
+pub(crate) fn turn(ui: &Ui, response: &Response, camera: &mut Camera, home: Camera) {
     if response.clicked() || response.drag_started() {
         response.request_focus();
     }

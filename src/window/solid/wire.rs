@@ -13,7 +13,7 @@ use std::sync::Arc;
 
 /// A structure in space with the share of every node.
 #[derive(Debug, Clone, Copy)]
-pub struct Wire<'a> {
+pub(crate) struct Wire<'a> {
     /// Lines and nodes.
     pub scene: &'a Scene,
     /// Where they stand.
@@ -29,7 +29,7 @@ impl Wire<'_> {
     }
 
     /// Share of each node from 0 to 1: of the energy where it is known, else of the motion; `None` at rest.
-    pub fn node_shares(&self) -> Option<Vec<f32>> {
+    pub(crate) fn node_shares(&self) -> Option<Vec<f32>> {
         let raw = match self.shares {
             Some(shares) => {
                 let mut sum = vec![0.0_f32; self.scene.nodes.len()];
@@ -45,7 +45,7 @@ impl Wire<'_> {
     }
 
     /// Tubes and balls.
-    pub fn mesh(&self, palette: &Palette) -> Mesh {
+    pub(crate) fn mesh(&self, palette: &Palette) -> Mesh {
         let shares = self.node_shares();
         let colour = |n: usize| match &shares {
             Some(shares) => palette.weak.lerp_to_gamma(palette.model, shares[n].powf(0.7)),
@@ -71,20 +71,20 @@ impl Wire<'_> {
     }
 
     /// The node that a ray meets first, with `reach` points on the screen about it.
-    pub fn pick(&self, ray: &Ray, reach: f32) -> Option<usize> {
+    pub(crate) fn pick(&self, ray: &Ray, reach: f32) -> Option<usize> {
         let radius = (self.ball() + reach) / self.space.projection.scale;
         nearest(self.space.nodes.iter().map(|at| ray.enters_ball(*at, radius)))
     }
 
     /// Radius about the middle of the view that holds every node.
-    pub fn reach(&self) -> f32 {
+    pub(crate) fn reach(&self) -> f32 {
         let p = &self.space.projection;
         let far = self.space.nodes.iter().map(|n| (n - p.middle).norm()).fold(1e-6, f32::max);
         far + 2.0 * self.ball() / p.scale
     }
 
     /// Paints it into `area`.
-    pub fn paint(&self, painter: &Painter, palette: &Palette, id: Id, area: Rect) {
+    pub(crate) fn paint(&self, painter: &Painter, palette: &Palette, id: Id, area: Rect) {
         let key = self.key(palette.ink);
         let kept = painter.ctx().data(|d| d.get_temp::<(u64, Arc<Mesh>)>(id));
         let mesh = match kept {

@@ -17,7 +17,7 @@ use egui_extras::{Column, TableBuilder, TableRow};
 const CHANCE: f32 = 64.0;
 
 /// Shows the pane.
-pub fn show(ui: &mut Ui, opened: &mut Opened<'_>, asks: &mut Vec<Ask>) {
+pub(crate) fn show(ui: &mut Ui, opened: &mut Opened<'_>, asks: &mut Vec<Ask>) {
     let document = opened.document;
     let names = sessions(&document.project);
     let Some(against) = opened.view.against.clone() else {

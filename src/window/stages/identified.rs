@@ -10,7 +10,7 @@ use egui::{Align, Layout, Response, Ui};
 use std::sync::Arc;
 
 /// The answer of the identification, or what is shown in its place.
-pub fn outcome(ui: &mut Ui, derived: &mut Derived, document: &Document) -> Option<Arc<Outcome>> {
+pub(super) fn outcome(ui: &mut Ui, derived: &mut Derived, document: &Document) -> Option<Arc<Outcome>> {
     match derived.outcome(ui.ctx(), document) {
         Some(Ok(outcome)) => return Some(outcome),
         Some(Err(_)) if document.project.runs.iter().all(|r| !r.enabled) && !has_records(&document.project) => {
@@ -23,7 +23,7 @@ pub fn outcome(ui: &mut Ui, derived: &mut Derived, document: &Document) -> Optio
 }
 
 /// The same for panes beside the one that says why.
-pub fn outcome_quietly(ui: &mut Ui, derived: &mut Derived, document: &Document) -> Option<Arc<Outcome>> {
+pub(super) fn outcome_quietly(ui: &mut Ui, derived: &mut Derived, document: &Document) -> Option<Arc<Outcome>> {
     let found = derived.outcome(ui.ctx(), document).and_then(Result::ok);
     if found.is_none() {
         ui.empty("Nothing yet", "It follows what is identified.");
@@ -32,7 +32,7 @@ pub fn outcome_quietly(ui: &mut Ui, derived: &mut Derived, document: &Document) 
 }
 
 /// The name of a column of numbers.
-pub fn head_right(ui: &mut Ui, name: &str) -> Response {
+pub(super) fn head_right(ui: &mut Ui, name: &str) -> Response {
     ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
         ui.add_space(space::XS);
         ui.hint(name)

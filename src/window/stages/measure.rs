@@ -75,7 +75,7 @@ const EMPTY: [&str; 2] =
     ["No runs yet", "Import files of measurements of any of the formats, or drop them on this window."];
 
 /// The table of runs.
-pub fn runs(ui: &mut Ui, p: &Project, view: &mut View, asks: &mut Vec<Ask>) {
+pub(crate) fn runs(ui: &mut Ui, p: &Project, view: &mut View, asks: &mut Vec<Ask>) {
     if p.runs.is_empty() && !p.transient_runs.is_empty() {
         let ticked = unsteady::table(ui, p, &mut view.run);
         asks.extend(ticked.map(|(file, used)| Ask::Edit(Edit::UseRun(file, used))));
@@ -100,7 +100,7 @@ pub fn runs(ui: &mut Ui, p: &Project, view: &mut View, asks: &mut Vec<Ask>) {
 }
 
 /// Amplitude and phase of a channel of all runs over frequency, one curve a level.
-pub fn overview(ui: &mut Ui, p: &Project, view: &mut View) {
+pub(crate) fn overview(ui: &mut Ui, p: &Project, view: &mut View) {
     let Some((run, channel)) = looked_at(p, view) else { return ui.empty("No runs yet", FOLLOWS) };
     let (mut chosen, mut every) = (channel, false);
     motions(ui, &p.runs[run], &mut chosen, &mut every);
@@ -120,7 +120,7 @@ pub fn overview(ui: &mut Ui, p: &Project, view: &mut View) {
 }
 
 /// The record of a channel with the fitted curve on top and the residual under it.
-pub fn record(ui: &mut Ui, opened: &mut Opened<'_>) {
+pub(crate) fn record(ui: &mut Ui, opened: &mut Opened<'_>) {
     let Some((run, channel)) = looked_at(&opened.document.project, opened.view) else { return over_time(ui, opened) };
     let document = opened.document;
     let r = &document.project.runs[run];
@@ -177,7 +177,7 @@ fn lanes(ui: &mut Ui, derived: &mut Derived, document: &Document, run: usize) {
 }
 
 /// The amplitude spectrum of the same channel.
-pub fn spectrum(ui: &mut Ui, opened: &mut Opened<'_>) {
+pub(crate) fn spectrum(ui: &mut Ui, opened: &mut Opened<'_>) {
     let Some((run, channel)) = looked_at(&opened.document.project, opened.view) else {
         return ui.empty("No spectrum yet", FOLLOWS);
     };

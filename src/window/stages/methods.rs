@@ -24,7 +24,7 @@ const SHARE: f32 = 0.7;
 const NAME: f32 = 146.0;
 
 /// Shows the table at the left and the matrices at the right.
-pub fn show(ui: &mut Ui, opened: &mut Opened<'_>) {
+pub(crate) fn show(ui: &mut Ui, opened: &mut Opened<'_>) {
     let document = opened.document;
     let found = match opened.derived.methods(ui.ctx(), document) {
         Some(Ok(found)) => found,

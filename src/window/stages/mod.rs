@@ -1,18 +1,18 @@
 //! The stages of the work, one file each; what several share.
 
-pub mod change;
+pub(crate) mod change;
 pub mod explain;
 mod identified;
-pub mod incompleteness;
-pub mod measure;
-pub mod methods;
-pub mod parameters;
-pub mod pattern;
-pub mod result;
+pub(crate) mod incompleteness;
+pub(crate) mod measure;
+pub(crate) mod methods;
+pub(crate) mod parameters;
+pub(crate) mod pattern;
+pub(crate) mod result;
 pub mod run_table;
-pub mod select;
-pub mod structure;
-pub mod unsteady;
+pub(crate) mod select;
+pub(crate) mod structure;
+pub(crate) mod unsteady;
 
 use super::ask::Ask;
 use super::frame;

@@ -13,7 +13,7 @@ use crate::window::widgets::UiExt;
 use egui::{ScrollArea, Ui};
 
 /// Shows the pane; a lumped mass may be added at the DOF that is selected.
-pub fn show(ui: &mut Ui, document: &Document, selected: Option<usize>, asks: &mut Vec<Ask>) {
+pub(crate) fn show(ui: &mut Ui, document: &Document, selected: Option<usize>, asks: &mut Vec<Ask>) {
     let file = document.session().document().file().clone();
     ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
         ui.set_max_width(ui.available_width().min(460.0));

@@ -27,12 +27,12 @@ const BETWEEN: f32 = 5.0;
 const ONE_ROW: f32 = 460.0;
 
 /// The palette of laws and the families of places.
-pub fn laws(ui: &mut Ui, law: &mut Effect, asks: &mut Vec<Ask>) {
+pub(crate) fn laws(ui: &mut Ui, law: &mut Effect, asks: &mut Vec<Ask>) {
     palette(ui, law, asks);
 }
 
 /// The list of sources.
-pub fn sources(ui: &mut Ui, p: &Project, view: &mut View, asks: &mut Vec<Ask>) {
+pub(crate) fn sources(ui: &mut Ui, p: &Project, view: &mut View, asks: &mut Vec<Ask>) {
     if let Some(source) = list(ui, p, view, asks) {
         (view.source, view.dof) = (Some(source), None);
     }

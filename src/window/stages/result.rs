@@ -27,7 +27,7 @@ fn ready(ui: &mut Ui, opened: &mut Opened<'_>) -> Option<Arc<Outcome>> {
 }
 
 /// The damping matrix as a heat map or as bars in space.
-pub fn matrix(ui: &mut Ui, opened: &mut Opened<'_>) {
+pub(crate) fn matrix(ui: &mut Ui, opened: &mut Opened<'_>) {
     let document = opened.document;
     let Some(outcome) = identified::outcome_quietly(ui, opened.derived, document) else { return };
     let (mut whole, mut in_space) = (opened.view.whole_matrix, opened.view.matrix_in_space);
@@ -36,25 +36,25 @@ pub fn matrix(ui: &mut Ui, opened: &mut Opened<'_>) {
 }
 
 /// Shares of the energy by source and by DOF.
-pub fn energy(ui: &mut Ui, opened: &mut Opened<'_>) {
+pub(crate) fn energy(ui: &mut Ui, opened: &mut Opened<'_>) {
     let Some(outcome) = ready(ui, opened) else { return };
     let document = opened.document;
     shares(ui, &document.project, &outcome);
 }
 
 /// Damping ratios beside half-power values.
-pub fn damping(ui: &mut Ui, opened: &mut Opened<'_>) {
+pub(crate) fn damping(ui: &mut Ui, opened: &mut Opened<'_>) {
     let Some(outcome) = ready(ui, opened) else { return };
     ratios(ui, &outcome);
 }
 
 /// Magnitude and phase over frequency.
-pub fn bode(ui: &mut Ui, opened: &mut Opened<'_>) {
+pub(crate) fn bode(ui: &mut Ui, opened: &mut Opened<'_>) {
     response(ui, opened, |diagram, ui, _| diagram.bode(ui));
 }
 
 /// Imaginary over real part near the selected run.
-pub fn nyquist(ui: &mut Ui, opened: &mut Opened<'_>) {
+pub(crate) fn nyquist(ui: &mut Ui, opened: &mut Opened<'_>) {
     response(ui, opened, |diagram, ui, run| {
         diagram.nyquist(ui, run);
     });
@@ -214,7 +214,7 @@ fn response(ui: &mut Ui, opened: &mut Opened<'_>, draw: impl FnOnce(&Diagram<'_>
 }
 
 /// Loops of force over displacement of the selected run.
-pub fn hysteresis(ui: &mut Ui, opened: &mut Opened<'_>) {
+pub(crate) fn hysteresis(ui: &mut Ui, opened: &mut Opened<'_>) {
     if ready(ui, opened).is_none() {
         return;
     }
@@ -232,7 +232,7 @@ pub fn hysteresis(ui: &mut Ui, opened: &mut Opened<'_>) {
 }
 
 /// Everything identified as a table that can be copied.
-pub fn values(ui: &mut Ui, opened: &mut Opened<'_>) {
+pub(crate) fn values(ui: &mut Ui, opened: &mut Opened<'_>) {
     let Some(outcome) = ready(ui, opened) else { return };
     let document = opened.document;
     let p = &document.project;

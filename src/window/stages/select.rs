@@ -37,7 +37,7 @@ fn ready(ui: &mut Ui, opened: &mut Opened<'_>, says_why: bool) -> Option<(Arc<Ou
 }
 
 /// One row a step.
-pub fn steps(ui: &mut Ui, opened: &mut Opened<'_>, asks: &mut Vec<Ask>) {
+pub(crate) fn steps(ui: &mut Ui, opened: &mut Opened<'_>, asks: &mut Vec<Ask>) {
     let Some((outcome, current)) = ready(ui, opened, true) else { return };
     let document = opened.document;
     let mut chosen = opened.view.step;
@@ -47,7 +47,7 @@ pub fn steps(ui: &mut Ui, opened: &mut Opened<'_>, asks: &mut Vec<Ask>) {
 }
 
 /// The set that is looked at, what cannot be told from it, and the alternatives of its size.
-pub fn set(ui: &mut Ui, opened: &mut Opened<'_>, asks: &mut Vec<Ask>) {
+pub(crate) fn set(ui: &mut Ui, opened: &mut Opened<'_>, asks: &mut Vec<Ask>) {
     let Some((outcome, current)) = ready(ui, opened, false) else { return };
     let document = opened.document;
     let p = &document.project;
@@ -61,14 +61,14 @@ pub fn set(ui: &mut Ui, opened: &mut Opened<'_>, asks: &mut Vec<Ask>) {
 }
 
 /// Angle against the number of sources.
-pub fn angle(ui: &mut Ui, opened: &mut Opened<'_>) {
+pub(crate) fn angle(ui: &mut Ui, opened: &mut Opened<'_>) {
     let Some((outcome, current)) = ready(ui, opened, false) else { return };
     let document = opened.document;
     charts::angle(ui, &outcome, current, document.project.settings.stop_angle_deg);
 }
 
 /// Measured and identified energy of every run.
-pub fn energy(ui: &mut Ui, opened: &mut Opened<'_>) {
+pub(crate) fn energy(ui: &mut Ui, opened: &mut Opened<'_>) {
     let Some((outcome, current)) = ready(ui, opened, false) else { return };
     let document = opened.document;
     charts::energy(ui, &document.project, &outcome, current);
@@ -107,7 +107,7 @@ fn ending(ui: &mut Ui, outcome: &Outcome, asks: &mut Vec<Ask>) {
 }
 
 /// How the search ended, in words.
-pub fn status(status: Status) -> &'static str {
+pub(crate) fn status(status: Status) -> &'static str {
     match status {
         Status::WithinNoise => "explains the data to the noise",
         Status::AboveNoise => "does not reach the noise",
@@ -118,7 +118,7 @@ pub fn status(status: Status) -> &'static str {
 }
 
 /// The sources of a set as one line: `viscous dashpot 3, 5, 13`.
-pub fn in_words(p: &Project, sources: impl Iterator<Item = usize>) -> String {
+pub(crate) fn in_words(p: &Project, sources: impl Iterator<Item = usize>) -> String {
     let mut laws: Vec<(&'static str, Vec<String>)> = Vec::new();
     for source in sources.filter_map(|s| p.sources.get(s)) {
         let (law, place) = (words::effect(source.effect), words::short_place(&p.structure, &source.place));
@@ -279,6 +279,6 @@ fn branch(ui: &mut Ui, sources: &[usize], text: &str, asks: &mut Vec<Ask>) {
 }
 
 /// The step that is looked at.
-pub fn current<'a>(view: &View, outcome: &'a Outcome) -> Option<&'a Step> {
+pub(crate) fn current<'a>(view: &View, outcome: &'a Outcome) -> Option<&'a Step> {
     outcome.steps.get(view.step.unwrap_or(outcome.accepted))
 }

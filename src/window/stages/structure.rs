@@ -39,7 +39,7 @@ fn ready(ui: &mut Ui, opened: &mut Opened<'_>) -> Option<Arc<Modes>> {
 }
 
 /// The table of natural frequencies.
-pub fn modes(ui: &mut Ui, opened: &mut Opened<'_>) {
+pub(crate) fn modes(ui: &mut Ui, opened: &mut Opened<'_>) {
     let Some(modes) = ready(ui, opened) else { return };
     let document = opened.document;
     let mut mode = opened.view.mode;
@@ -102,7 +102,7 @@ fn table(ui: &mut Ui, p: &Project, modes: &Modes, chosen: &mut usize) {
 }
 
 /// Natural frequencies as lines, runs as points.
-pub fn frequencies(ui: &mut Ui, opened: &mut Opened<'_>) {
+pub(crate) fn frequencies(ui: &mut Ui, opened: &mut Opened<'_>) {
     let Some(modes) = ready(ui, opened) else { return };
     let document = opened.document;
     let (p, mode, palette) = (&document.project, opened.view.mode, ui.palette());
@@ -127,7 +127,7 @@ pub fn frequencies(ui: &mut Ui, opened: &mut Opened<'_>) {
 }
 
 /// The translations of the selected mode as bars.
-pub fn shape(ui: &mut Ui, opened: &mut Opened<'_>) {
+pub(crate) fn shape(ui: &mut Ui, opened: &mut Opened<'_>) {
     let Some(modes) = ready(ui, opened) else { return };
     let document = opened.document;
     let (p, mode, palette) = (&document.project, opened.view.mode, ui.palette());
@@ -156,7 +156,7 @@ fn is_measured(p: &Project, dof: usize) -> bool {
 }
 
 /// What is measured, how the rest follows from it and how well.
-pub fn expansion(ui: &mut Ui, document: &Document, derived: &mut Derived) {
+pub(crate) fn expansion(ui: &mut Ui, document: &Document, derived: &mut Derived) {
     let p = &document.project;
     let all: Vec<usize> = (0..p.structure.len()).collect();
     let labels: Vec<&str> = all.iter().filter(|&&d| is_measured(p, d)).map(|&d| p.structure.label(d)).collect();
@@ -193,7 +193,7 @@ pub fn expansion(ui: &mut Ui, document: &Document, derived: &mut Derived) {
 }
 
 /// A shape with the sign that makes its largest translation positive.
-pub fn upright(mut shape: Vec<f64>, translations: &[usize]) -> Vec<f64> {
+pub(crate) fn upright(mut shape: Vec<f64>, translations: &[usize]) -> Vec<f64> {
     let largest = translations.iter().map(|&d| shape[d]).max_by(|a, b| a.abs().total_cmp(&b.abs())).unwrap_or(0.0);
     if largest < 0.0 {
         shape.iter_mut().for_each(|v| *v = -*v);

@@ -13,10 +13,10 @@ use egui_extras::{Column, TableBuilder, TableRow};
 use std::sync::Arc;
 
 /// A record by its file, and whether it is to be used from now on.
-pub type Ticked = Option<(String, bool)>;
+pub(crate) type Ticked = Option<(String, bool)>;
 
 /// The table, one row a record; gives back what was ticked.
-pub fn table(ui: &mut Ui, p: &Project, chosen: &mut usize) -> Ticked {
+pub(crate) fn table(ui: &mut Ui, p: &Project, chosen: &mut usize) -> Ticked {
     let mut ticked = None;
     ui.style_mut().interaction.selectable_labels = false;
     ui.spacing_mut().item_spacing.x = space::XS;
@@ -71,7 +71,7 @@ fn lasts(run: &TransientRun) -> f64 {
 }
 
 /// A button a channel; gives back the one that is looked at.
-pub fn channels(ui: &mut Ui, run: &TransientRun, mut chosen: usize) -> usize {
+pub(crate) fn channels(ui: &mut Ui, run: &TransientRun, mut chosen: usize) -> usize {
     ui.horizontal_wrapped(|ui| {
         for (k, channel) in run.channels().iter().enumerate() {
             if ui.selectable_label(k == chosen, channel.to_string()).clicked() {
@@ -83,7 +83,7 @@ pub fn channels(ui: &mut Ui, run: &TransientRun, mut chosen: usize) -> usize {
 }
 
 /// The samples of a channel over time, once they are prepared.
-pub fn samples(ui: &mut Ui, file: &str, of: &Channel, prepared: Option<Result<Arc<Pyramid>, String>>) {
+pub(crate) fn samples(ui: &mut Ui, file: &str, of: &Channel, prepared: Option<Result<Arc<Pyramid>, String>>) {
     let samples = match prepared {
         None => return ui.empty("The record is being prepared", ""),
         Some(Err(error)) => return ui.empty("There is no record to show", &error),

@@ -67,12 +67,12 @@ pub(super) fn fields(dtype: &Datatype) -> Vec<Field> {
 
 impl Field {
     /// The number of a record.
-    pub fn number(&self, record: &[u8]) -> Option<f64> {
+    pub(super) fn number(&self, record: &[u8]) -> Option<f64> {
         number(record.get(self.at..)?, &self.dtype)
     }
 
     /// All its numbers.
-    pub fn column(&self, dataset: &Dataset) -> Result<Vec<f64>> {
+    pub(super) fn column(&self, dataset: &Dataset) -> Result<Vec<f64>> {
         let size = dtype_element_size(dataset.dtype()).unwrap_or(1).max(1);
         let bytes = dataset.read_raw_bytes()?;
         Ok(bytes.chunks_exact(size).map(|record| self.number(record).unwrap_or(f64::NAN)).collect())

@@ -16,7 +16,7 @@ pub(super) struct Labels {
 pub(super) type Side = (&'static str, Vec<String>, Vec<String>);
 
 impl Labels {
-    pub fn of(entries: &[Entry]) -> Self {
+    pub(super) fn of(entries: &[Entry]) -> Self {
         let texts = |entry: &Entry| match &entry.node {
             Node::Text(texts) => Some(texts.clone()),
             _ => None,
@@ -49,7 +49,7 @@ impl Labels {
 
 impl Labels {
     /// The arrays of a cell under the names that lie beside it, one each.
-    pub fn named_cells(&self, cells: &[Entry]) -> Option<Vec<Entry>> {
+    pub(super) fn named_cells(&self, cells: &[Entry]) -> Option<Vec<Entry>> {
         let numbered = |entry: &Entry| entry.name.starts_with('{') && matches!(entry.node, Node::Array(_));
         if cells.is_empty() || cells.len() != self.names.len() || !cells.iter().all(numbered) {
             return None;

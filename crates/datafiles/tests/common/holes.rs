@@ -6,11 +6,11 @@ use std::io::{Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
 /// Numbers of a channel that is a vector, and rows of 16 channels (scripts/interchange/make_heads.py).
-pub const VECTOR: u64 = 1 << 22;
-pub const ROWS: u64 = 1 << 20;
+pub(crate) const VECTOR: u64 = 1 << 22;
+pub(crate) const ROWS: u64 = 1 << 20;
 
 /// A number of `/proc`: bytes that were read by the process, or its largest memory in bytes; none where there is no `/proc`.
-pub fn told(file: &str, word: &str) -> Option<u64> {
+pub(crate) fn told(file: &str, word: &str) -> Option<u64> {
     let text = std::fs::read_to_string(file).ok()?;
     let line = text.lines().find_map(|line| line.strip_prefix(word))?;
     let number: u64 = line.trim_start_matches(':').split_whitespace().next()?.parse().ok()?;
@@ -18,7 +18,7 @@ pub fn told(file: &str, word: &str) -> Option<u64> {
 }
 
 /// Lengthens a file by a hole of doubles and writes `(place, value)` among them.
-pub fn hole(path: &Path, doubles: u64, marks: &[(u64, f64)]) {
+pub(crate) fn hole(path: &Path, doubles: u64, marks: &[(u64, f64)]) {
     let mut file = OpenOptions::new().write(true).open(path).unwrap();
     let start = file.metadata().unwrap().len();
     file.set_len(start + 8 * doubles).unwrap();
@@ -29,7 +29,7 @@ pub fn hole(path: &Path, doubles: u64, marks: &[(u64, f64)]) {
 }
 
 /// A file with its head.
-pub fn file(folder: &Path, name: &str, head: &[u8]) -> PathBuf {
+pub(crate) fn file(folder: &Path, name: &str, head: &[u8]) -> PathBuf {
     let path = folder.join(name);
     File::create(&path).unwrap().write_all(head).unwrap();
     path
@@ -40,7 +40,7 @@ fn text(text: &str) -> Vec<u8> {
 }
 
 /// A TDMS file of four channels in one segment; `interleaved` where their values alternate.
-pub fn tdms(interleaved: bool) -> Vec<u8> {
+pub(crate) fn tdms(interleaved: bool) -> Vec<u8> {
     let mut meta = 4_u32.to_le_bytes().to_vec();
     for channel in 1..=4 {
         meta.extend(text(&format!("/'log'/'acc {channel}'")));

@@ -12,12 +12,12 @@ pub(super) struct Card<'a> {
 
 impl<'a> Card<'a> {
     /// Data field, from 0 behind the name; empty beyond the end.
-    pub fn field(&self, index: usize) -> &'a str {
+    pub(super) fn field(&self, index: usize) -> &'a str {
         self.fields.get(index).copied().unwrap_or("")
     }
 
     /// Number of data fields, trailing empty ones included.
-    pub fn len(&self) -> usize {
+    pub(super) fn len(&self) -> usize {
         self.fields.len()
     }
 }

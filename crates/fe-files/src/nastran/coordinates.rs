@@ -28,7 +28,7 @@ struct System {
 pub(super) struct Systems(HashMap<i64, System>);
 
 impl Systems {
-    pub fn add(&mut self, card: &Card<'_>) -> Result<(), Problem> {
+    pub(super) fn add(&mut self, card: &Card<'_>) -> Result<(), Problem> {
         let number = |k: usize| if card.field(k).is_empty() { Ok(0.0) } else { real(card.field(k)) };
         let mut points = [[0.0; 3]; 3];
         for (p, point) in points.iter_mut().enumerate() {
@@ -47,7 +47,7 @@ impl Systems {
     }
 
     /// A position in the basic system.
-    pub fn basic(&self, id: i64, position: [f64; 3]) -> Result<[f64; 3], Problem> {
+    pub(super) fn basic(&self, id: i64, position: [f64; 3]) -> Result<[f64; 3], Problem> {
         self.turned(id, position, 0)
     }
 

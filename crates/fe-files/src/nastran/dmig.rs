@@ -27,7 +27,7 @@ pub(super) struct Matrices {
 }
 
 impl Matrices {
-    pub fn card(&mut self, card: &Card<'_>) -> Result<(), Problem> {
+    pub(super) fn card(&mut self, card: &Card<'_>) -> Result<(), Problem> {
         let name = card.field(0).to_uppercase();
         let known = self.found.iter().position(|matrix| matrix.name == name);
         if card.field(1) == "0" {
@@ -52,7 +52,7 @@ impl Matrices {
     ///
     /// # Errors
     /// The reason against the first, where no other matrix is there.
-    pub fn finish(self, file: &str) -> Result<(Vec<Matrix>, Vec<String>), FileError> {
+    pub(super) fn finish(self, file: &str) -> Result<(Vec<Matrix>, Vec<String>), FileError> {
         if self.found.is_empty()
             && let Some((_, line, problem)) = self.refused.first()
         {

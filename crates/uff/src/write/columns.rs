@@ -9,23 +9,23 @@ pub(super) struct Columns {
 }
 
 impl Columns {
-    pub fn end(&mut self) {
+    pub(super) fn end(&mut self) {
         self.bytes.push(b'\n');
     }
 
-    pub fn delimiter(&mut self) {
+    pub(super) fn delimiter(&mut self) {
         self.bytes.extend_from_slice(b"    -1\n");
     }
 
     /// A line of text as it is.
-    pub fn text_line(&mut self, field: &'static str, text: &str) -> Result<(), Problem> {
+    pub(super) fn text_line(&mut self, field: &'static str, text: &str) -> Result<(), Problem> {
         self.left(field, text, text.chars().count())?;
         self.end();
         Ok(())
     }
 
     /// A line of at most 80 columns, `NONE` where it is empty.
-    pub fn named(&mut self, field: &'static str, text: &str) -> Result<(), Problem> {
+    pub(super) fn named(&mut self, field: &'static str, text: &str) -> Result<(), Problem> {
         const WIDTH: usize = 80;
         if text.trim() == "-1" {
             return Err(Problem::Character { field, text: "-1 (the delimiter)".to_string() });
@@ -36,7 +36,7 @@ impl Columns {
     }
 
     /// Text at the left of its columns, as latin-1.
-    pub fn left(&mut self, field: &'static str, text: &str, width: usize) -> Result<(), Problem> {
+    pub(super) fn left(&mut self, field: &'static str, text: &str, width: usize) -> Result<(), Problem> {
         let start = self.bytes.len();
         for c in text.chars() {
             let byte = u8::try_from(u32::from(c)).ok().filter(|_| !c.is_control());
@@ -51,22 +51,22 @@ impl Columns {
     }
 
     /// Text at the right of its columns.
-    pub fn right(&mut self, field: &'static str, text: &str, width: usize) -> Result<(), Problem> {
+    pub(super) fn right(&mut self, field: &'static str, text: &str, width: usize) -> Result<(), Problem> {
         self.left(field, &format!("{text:>width$}"), width)
     }
 
     /// A whole number at the right of its columns.
-    pub fn integer(&mut self, field: &'static str, number: i64, width: usize) -> Result<(), Problem> {
+    pub(super) fn integer(&mut self, field: &'static str, number: i64, width: usize) -> Result<(), Problem> {
         self.right(field, &number.to_string(), width)
     }
 
     /// Whole numbers in columns of ten.
-    pub fn integers(&mut self, field: &'static str, numbers: &[i64]) -> Result<(), Problem> {
+    pub(super) fn integers(&mut self, field: &'static str, numbers: &[i64]) -> Result<(), Problem> {
         numbers.iter().try_for_each(|&number| self.integer(field, number, 10))
     }
 
     /// Whole numbers in columns of ten, eight a line.
-    pub fn integer_lines(&mut self, field: &'static str, numbers: &[i64]) -> Result<(), Problem> {
+    pub(super) fn integer_lines(&mut self, field: &'static str, numbers: &[i64]) -> Result<(), Problem> {
         for line in numbers.chunks(8) {
             self.integers(field, line)?;
             self.end();
@@ -75,17 +75,17 @@ impl Columns {
     }
 
     /// A number in 13 columns with five decimals.
-    pub fn single(&mut self, x: f64) {
+    pub(super) fn single(&mut self, x: f64) {
         self.real(x, 13, 5, 'E');
     }
 
     /// A number in 25 columns with 17 decimals, which reads back exactly.
-    pub fn double(&mut self, x: f64) {
+    pub(super) fn double(&mut self, x: f64) {
         self.real(x, 25, 17, 'D');
     }
 
     /// Numbers in 13 columns, six a line.
-    pub fn single_lines(&mut self, numbers: &[f64]) {
+    pub(super) fn single_lines(&mut self, numbers: &[f64]) {
         for line in numbers.chunks(6) {
             line.iter().for_each(|&x| self.single(x));
             self.end();
@@ -93,7 +93,7 @@ impl Columns {
     }
 
     /// A number with an exponent of two digits at least.
-    pub fn real(&mut self, x: f64, width: usize, decimals: usize, letter: char) {
+    pub(super) fn real(&mut self, x: f64, width: usize, decimals: usize, letter: char) {
         let text = scientific(x, decimals, letter);
         self.bytes.extend_from_slice(format!("{text:>width$}").as_bytes());
     }

@@ -7,11 +7,11 @@ use uff::{
 };
 
 /// Numbers of all sizes that are exact in single precision.
-pub fn numbers(count: usize) -> Vec<f64> {
+pub(crate) fn numbers(count: usize) -> Vec<f64> {
     (0..count).map(|i| f64::from((i as f32 * 0.37).sin() * 10f32.powi((i % 9) as i32 - 4))).collect()
 }
 
-pub fn values(count: usize, complex: bool) -> Values {
+pub(crate) fn values(count: usize, complex: bool) -> Values {
     let all = numbers(2 * count);
     if complex {
         Values::Complex(all.chunks_exact(2).map(|pair| [pair[0], pair[1]]).collect())
@@ -21,7 +21,7 @@ pub fn values(count: usize, complex: bool) -> Values {
 }
 
 /// A function of one of the eight forms, as text or binary.
-pub fn function(complex: bool, double: bool, even: bool, order: Option<ByteOrder>) -> Function {
+pub(crate) fn function(complex: bool, double: bool, even: bool, order: Option<ByteOrder>) -> Function {
     const COUNT: usize = 23;
     let kind = if complex { FunctionKind::FrequencyResponse } else { FunctionKind::TimeResponse };
     let (response, reference) = (Dof { entity: "Acc 7".to_string(), ..Dof::new(12, 3) }, Dof::new(1, -2));
@@ -51,7 +51,7 @@ pub fn function(complex: bool, double: bool, even: bool, order: Option<ByteOrder
 }
 
 /// Every form of function.
-pub fn functions() -> Vec<Function> {
+pub(crate) fn functions() -> Vec<Function> {
     let mut all = Vec::new();
     for order in [None, Some(ByteOrder::Little), Some(ByteOrder::Big)] {
         for form in 0..8 {
@@ -61,11 +61,11 @@ pub fn functions() -> Vec<Function> {
     all
 }
 
-pub fn nodes() -> Vec<Node> {
+pub(crate) fn nodes() -> Vec<Node> {
     (1..=5).map(|i| Node { color: 3, ..Node::new(i * 10, [f64::from(i as u8) * 0.25, -0.5, 1.0e-3]) }).collect()
 }
 
-pub fn shape(complex: bool, per_node: usize) -> Shape {
+pub(crate) fn shape(complex: bool, per_node: usize) -> Shape {
     let (analysis, integers, reals) = if complex {
         (3, vec![1, 4], vec![-0.5, 62.5, 1.0, 0.0, 0.0, 2.0])
     } else {
@@ -91,7 +91,7 @@ pub fn shape(complex: bool, per_node: usize) -> Shape {
     Shape { header, nodes: (1..=6).collect(), values }
 }
 
-pub fn analysis(complex: bool) -> Analysis {
+pub(crate) fn analysis(complex: bool) -> Analysis {
     let header = AnalysisHeader {
         label: 4,
         name: "Mode 4".into(),
@@ -115,7 +115,7 @@ pub fn analysis(complex: bool) -> Analysis {
     Analysis { header, labels: vec![vec![10], vec![20]], starts, values }
 }
 
-pub fn elements() -> Vec<Element> {
+pub(crate) fn elements() -> Vec<Element> {
     let element = |label, descriptor, nodes: &[i64], beam| Element {
         label,
         descriptor,
@@ -133,7 +133,7 @@ pub fn elements() -> Vec<Element> {
     ]
 }
 
-pub fn model() -> Model {
+pub(crate) fn model() -> Model {
     let date = || ["22-Nov-26".to_string(), "04:32:02".to_string()];
     Model {
         name: "beam".into(),
@@ -147,7 +147,7 @@ pub fn model() -> Model {
     }
 }
 
-pub fn geometry() -> Vec<Set> {
+pub(crate) fn geometry() -> Vec<Set> {
     let line =
         TraceLine { number: 1, color: 8, name: "edge".into(), nodes: vec![10, 20, 30, 0, 40, 50, 10, 20, 30, 40] };
     vec![
@@ -162,7 +162,7 @@ pub fn geometry() -> Vec<Set> {
 }
 
 /// One file with every set in every form.
-pub fn everything() -> Vec<Set> {
+pub(crate) fn everything() -> Vec<Set> {
     let mut sets = geometry();
     sets.extend(functions().into_iter().map(Set::Function));
     sets.extend([shape(false, 3), shape(false, 6), shape(true, 3)].map(Set::Shape));

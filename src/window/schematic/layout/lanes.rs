@@ -1,7 +1,7 @@
 //! Packs intervals into as few lanes as possible, first come first served.
 
 /// Lane of every interval so that intervals of one lane do not overlap (touching ends do not share a lane).
-pub fn assign(intervals: &[[f32; 2]]) -> Vec<usize> {
+pub(super) fn assign(intervals: &[[f32; 2]]) -> Vec<usize> {
     let mut order: Vec<usize> = (0..intervals.len()).collect();
     order.sort_by(|&a, &b| intervals[a][0].total_cmp(&intervals[b][0]).then(a.cmp(&b)));
     let mut ends: Vec<f32> = Vec::new();

@@ -6,8 +6,8 @@ mod placed;
 mod row;
 mod wire;
 
-pub use crate::window::solid::Camera;
-pub use placed::{Ground, Handle, Layout, MassBox, Part, PlacedSource, PlacedSupport, Space};
+pub(crate) use crate::window::solid::Camera;
+pub(crate) use placed::{Ground, Handle, Layout, MassBox, Part, PlacedSource, PlacedSupport, Space};
 
 use super::model::Scene;
 use crate::structure::StructureKind;
@@ -48,7 +48,7 @@ impl Layout {
 }
 
 /// The largest translation of a shape.
-pub fn largest(scene: &Scene, shape: &[f64]) -> f64 {
+pub(crate) fn largest(scene: &Scene, shape: &[f64]) -> f64 {
     scene.translations().iter().filter_map(|&d| shape.get(d)).map(|v| v.abs()).fold(0.0, f64::max)
 }
 

@@ -4,7 +4,7 @@ use super::deed::Deed;
 use super::gauge::Gauge;
 use super::scene::Scene;
 use super::{fingerprint, force};
-use crate::diagnosis::diagnose::Suggestion;
+use crate::diagnosis::result::Suggestion;
 use crate::display::format::{self, chance, polished};
 use crate::display::words;
 use crate::effects::{Place, Source};
@@ -53,7 +53,7 @@ impl HeadWords {
 }
 
 /// A suggestion to show.
-pub struct Card<'a> {
+pub(super) struct Card<'a> {
     /// Document and results.
     pub scene: &'a Scene<'a>,
     /// This one.
@@ -74,7 +74,7 @@ impl Card<'_> {
     }
 
     /// Shows it; true when its head was clicked.
-    pub fn show(&self, ui: &mut Ui, on_trial: bool, asks: &mut Vec<Ask>) -> bool {
+    pub(super) fn show(&self, ui: &mut Ui, on_trial: bool, asks: &mut Vec<Ask>) -> bool {
         let palette = ui.palette();
         let line = if on_trial { palette.missing } else { palette.line };
         Frame::new()
@@ -267,7 +267,7 @@ impl Card<'_> {
 }
 
 /// `Coulomb friction at DOF 15`.
-pub fn name(scene: &Scene<'_>, source: &Source) -> String {
+pub(super) fn name(scene: &Scene<'_>, source: &Source) -> String {
     words::title(&scene.document.project.structure, source)
 }
 

@@ -9,7 +9,7 @@ use super::look::Look;
 use super::ranking::{open, ranked};
 use super::scene::Scene;
 use crate::diagnosis::Diagnosis;
-use crate::diagnosis::diagnose::Verdict;
+use crate::diagnosis::result::Verdict;
 use crate::diagnosis::updating::parameters::UpdatingParameter;
 use crate::display::findings::{self, is_detuned, is_stuck, sentence};
 use crate::display::format;
@@ -29,7 +29,7 @@ use egui::{Align, Button, Layout, RichText, ScrollArea, Sense, Ui, vec2};
 const MOST_CORRECTIONS: usize = 4;
 
 /// Shows the pane.
-pub fn show(ui: &mut Ui, scene: &Scene<'_>, look: &mut Look, limit_s: Option<f64>, asks: &mut Vec<Ask>) {
+pub(super) fn show(ui: &mut Ui, scene: &Scene<'_>, look: &mut Look, limit_s: Option<f64>, asks: &mut Vec<Ask>) {
     if scene.document.project.runs.is_empty() && !only_records(&scene.document.project) {
         ui.empty("Nothing to compare with", "Import measurements: runs, decays or frequency responses.");
         return;
@@ -204,13 +204,13 @@ fn detuned(ui: &mut Ui, scene: &Scene<'_>, diagnosis: &Diagnosis, asks: &mut Vec
 }
 
 /// The commands that take the corrections over.
-pub fn adopted(scene: &Scene<'_>, diagnosis: &Diagnosis) -> Adopted {
+pub(super) fn adopted(scene: &Scene<'_>, diagnosis: &Diagnosis) -> Adopted {
     let known = |index: usize| scene.explained.known(scene.document, index);
     corrections::adopt(&diagnosis.corrections, &known, scene.document.session().document())
 }
 
 /// What a correction corrects.
-pub fn corrected(scene: &Scene<'_>, parameter: &UpdatingParameter) -> String {
+pub(super) fn corrected(scene: &Scene<'_>, parameter: &UpdatingParameter) -> String {
     let known = scene.explained.all_known(scene.document);
     findings::corrected(&scene.document.project.structure, &known, parameter)
 }
@@ -260,7 +260,7 @@ fn adequate(ui: &mut Ui, scene: &Scene<'_>, diagnosis: &Diagnosis) {
 }
 
 /// The tests that would decide, in words; nothing where nothing is missing.
-pub fn next_tests(ui: &mut Ui, scene: &Scene<'_>, diagnosis: &Diagnosis) {
+pub(super) fn next_tests(ui: &mut Ui, scene: &Scene<'_>, diagnosis: &Diagnosis) {
     if matches!(diagnosis.verdict, Verdict::Adequate | Verdict::Detuned) || diagnosis.next_test.is_empty() {
         return;
     }

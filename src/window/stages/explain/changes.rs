@@ -16,7 +16,7 @@ use crate::window::edits::Edit;
 
 /// A change of the project and the sentence that says it once it is made.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Change {
+pub(crate) struct Change {
     /// The change.
     pub edit: Edit,
     /// What is said of it.
@@ -33,7 +33,7 @@ impl Change {
 ///
 /// # Errors
 /// One sentence that says why it cannot be done.
-pub fn change(deed: &Deed, document: &Document, derived: &Derived) -> Result<Option<Change>, String> {
+pub(crate) fn change(deed: &Deed, document: &Document, derived: &Derived) -> Result<Option<Change>, String> {
     let scene = &Scene { document, explained: &derived.explained };
     match deed {
         Deed::Add(source) => add(scene, source),

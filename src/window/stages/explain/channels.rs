@@ -10,7 +10,7 @@ use crate::window::widgets::UiExt;
 use egui::{Align, Layout, RichText, Ui};
 
 /// Shows the faults with the error before and after.
-pub fn show(ui: &mut Ui, diagnosis: &Diagnosis, asks: &mut Vec<Ask>) {
+pub(super) fn show(ui: &mut Ui, diagnosis: &Diagnosis, asks: &mut Vec<Ask>) {
     if diagnosis.channel_faults.is_empty() {
         return;
     }

@@ -32,7 +32,7 @@ const VALUE: f32 = 128.0;
 const BUTTON: f32 = 72.0;
 
 /// Shows the pane.
-pub fn show(ui: &mut Ui, opened: &mut Opened<'_>, asks: &mut Vec<Ask>) {
+pub(crate) fn show(ui: &mut Ui, opened: &mut Opened<'_>, asks: &mut Vec<Ask>) {
     opened.view.explain.scatter_shown = true;
     let document = opened.document;
     let scene = Scene { document, explained: &opened.derived.explained };

@@ -15,7 +15,7 @@ use crate::window::widgets::{UiExt, width};
 use egui::{Align, Layout, Ui};
 
 /// What is shown of one cell.
-pub struct Detail<'a> {
+pub(super) struct Detail<'a> {
     /// The project.
     pub project: &'a Project,
     /// Model against measurement.
@@ -34,7 +34,7 @@ pub struct Detail<'a> {
 
 impl Detail<'_> {
     /// Shows tabs and the plot that is chosen.
-    pub fn show(&self, ui: &mut Ui, look: &mut Look) {
+    pub(super) fn show(&self, ui: &mut Ui, look: &mut Look) {
         let p = self.project;
         let Some(run) = p.runs.get(self.run) else { return };
         let level = run.level.map_or_else(String::new, |l| format!(", level {l}"));

@@ -9,7 +9,7 @@ use crate::window::widgets::UiExt;
 use egui::Ui;
 
 /// Shows the plot `height` points high; `name` is of the suggestion that it belongs to.
-pub fn show(ui: &mut Ui, print: &Print, name: &str, height: f32) {
+pub(super) fn show(ui: &mut Ui, print: &Print, name: &str, height: f32) {
     let palette = ui.palette();
     let (title, slope) = words(print);
     ui.horizontal_wrapped(|ui| {

@@ -18,7 +18,7 @@ const PLOTS: f32 = 176.0;
 const LEAST: f32 = 170.0;
 
 /// Shows the force of `source`, or at the place that explains most; says so while it is computed.
-pub fn show(ui: &mut Ui, scene: &Scene<'_>, source: Option<&Source>) {
+pub(super) fn show(ui: &mut Ui, scene: &Scene<'_>, source: Option<&Source>) {
     if source.is_some_and(|s| !matches!(s.place, Place::Dofs(_))) || is_component(&scene.document.project) {
         return;
     }

@@ -8,7 +8,7 @@ use egui::{Align2, Rect, Role, Sense, Stroke, Ui, WidgetInfo, pos2, vec2};
 
 /// Errors to show, as shares.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Gauge {
+pub(super) struct Gauge {
     /// Of the model as it is.
     pub before: f64,
     /// With the effect.
@@ -30,12 +30,12 @@ impl Gauge {
     }
 
     /// The same in one line.
-    pub fn words(&self) -> String {
+    pub(super) fn words(&self) -> String {
         self.figures().join(", ").replace("   ", ", ")
     }
 
     /// Shows the bar and its figures under it.
-    pub fn show(&self, ui: &mut Ui) {
+    pub(super) fn show(&self, ui: &mut Ui) {
         let palette = ui.palette();
         let font = theme::font(size::SMALL);
         let [left, right] = self.figures();

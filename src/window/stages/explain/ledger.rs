@@ -3,7 +3,7 @@
 use super::cards;
 use super::deed::Deed;
 use super::scene::Scene;
-use crate::diagnosis::diagnose::Verdict;
+use crate::diagnosis::result::Verdict;
 use crate::display::findings::is_stuck;
 use crate::display::format::in_words;
 use crate::plots::figure::{Axis, Figure, Look, Ticks};
@@ -15,7 +15,7 @@ use crate::window::widgets::{UiExt, folded, width};
 use egui::{Align2, Role, ScrollArea, Sense, Ui, WidgetInfo, pos2, vec2};
 
 /// Shows chart and steps.
-pub fn show(ui: &mut Ui, scene: &Scene<'_>, asks: &mut Vec<Ask>) {
+pub(super) fn show(ui: &mut Ui, scene: &Scene<'_>, asks: &mut Vec<Ask>) {
     let ledger = &scene.explained.ledger;
     if ledger.steps().is_empty() {
         ui.hint("The first comparison is running.");

@@ -14,7 +14,7 @@ fn name(limit_s: Option<f64>) -> String {
 }
 
 /// The setting.
-pub fn setting(ui: &mut Ui, limit_s: Option<f64>, asks: &mut Vec<Ask>) {
+pub(super) fn setting(ui: &mut Ui, limit_s: Option<f64>, asks: &mut Vec<Ask>) {
     ui.add_space(space::XS);
     ui.horizontal(|ui| {
         ui.hint("Time limit of the search");
@@ -38,7 +38,7 @@ pub fn setting(ui: &mut Ui, limit_s: Option<f64>, asks: &mut Vec<Ask>) {
 }
 
 /// The setting, and a button that ends the search now.
-pub fn while_searching(ui: &mut Ui, limit_s: Option<f64>, asks: &mut Vec<Ask>) {
+pub(super) fn while_searching(ui: &mut Ui, limit_s: Option<f64>, asks: &mut Vec<Ask>) {
     setting(ui, limit_s, asks);
     let tip = "Ends the search with the best that it has found so far.";
     if ui.button("Answer with the best so far").on_hover_text(tip).clicked() {
@@ -48,7 +48,7 @@ pub fn while_searching(ui: &mut Ui, limit_s: Option<f64>, asks: &mut Vec<Ask>) {
 }
 
 /// What is said of an answer that a limit cut short.
-pub fn best_so_far(ui: &mut Ui, asks: &mut Vec<Ask>) {
+pub(super) fn best_so_far(ui: &mut Ui, asks: &mut Vec<Ask>) {
     ui.horizontal_wrapped(|ui| {
         let said = "The search was ended before its time: this is the best so far.";
         ui.label(RichText::new(said).color(ui.palette().warning));

@@ -23,7 +23,7 @@ const READABLE: Vec2 = vec2(20.0, 13.0);
 const STEPS: usize = 48;
 
 /// What the map shows.
-pub struct Map<'a> {
+pub(super) struct Map<'a> {
     /// Project, for frequencies and levels.
     pub project: &'a Project,
     /// Numbers.
@@ -38,7 +38,7 @@ pub struct Map<'a> {
 
 impl Map<'_> {
     /// Shows the map no higher than `most`; gives back the cell that was clicked, as run and row.
-    pub fn show(&self, ui: &mut Ui, most: f32) -> Option<(usize, String)> {
+    pub(super) fn show(&self, ui: &mut Ui, most: f32) -> Option<(usize, String)> {
         let font = theme::font(size::SMALL);
         let width = |name: &String| ui.painter().layout_no_wrap(name.clone(), font.clone(), Color32::WHITE).size().x;
         let label = self.grid.channels.iter().map(width).fold(24.0, f32::max) + 10.0;
@@ -184,7 +184,7 @@ fn figures() -> FontId {
 }
 
 /// Height of a map whose cells are `cell` points high.
-pub fn height(grid: &Grid, cell: f32) -> f32 {
+pub(super) fn height(grid: &Grid, cell: f32) -> f32 {
     HEAD + cell * grid.channels.len().max(1) as f32 + FOOT
 }
 
@@ -218,7 +218,7 @@ fn hatch(ui: &Ui, rect: Rect, colour: Color32) {
 }
 
 /// The scale of colours with its ends, round values and the noise floor.
-pub fn legend(ui: &mut Ui, scale: &Scale) -> Response {
+pub(super) fn legend(ui: &mut Ui, scale: &Scale) -> Response {
     let palette = ui.palette();
     let font = theme::font(size::SMALL);
     let (area, response) = ui.allocate_exact_size(vec2(ui.available_width(), 28.0), Sense::hover());

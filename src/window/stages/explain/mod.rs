@@ -2,10 +2,10 @@
 
 mod card;
 mod cards;
-pub mod changes;
+pub(crate) mod changes;
 mod channels;
-pub mod corrections;
-pub mod deed;
+pub(crate) mod corrections;
+pub(crate) mod deed;
 mod detail;
 mod fingerprint;
 mod force;
@@ -14,14 +14,14 @@ mod ledger;
 mod limit;
 pub mod look;
 mod map;
-pub mod panes;
+pub(crate) mod panes;
 mod ranking;
 mod record;
 mod scene;
 mod schematic;
-pub mod switches;
+pub(crate) mod switches;
 
-use crate::diagnosis::diagnose::Verdict;
+use crate::diagnosis::result::Verdict;
 use crate::display::findings::{RunSpread, is_detuned, is_stuck, spread_of_runs};
 use crate::display::format;
 use crate::display::words;
@@ -97,7 +97,7 @@ pub fn keep_up(look: &mut look::Look, document: &Document, explained: &Explained
     }
 }
 
-/// What a deed changes of what is looked at and searched; what it changes in the project says [`changes::change`].
+/// What a deed changes of what is looked at and searched; what it changes in the project says `changes::change`.
 pub fn look_on(deed: Deed, view: &mut View, explained: &mut Explained) {
     let look = &mut view.explain;
     match deed {

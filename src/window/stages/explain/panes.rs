@@ -63,7 +63,7 @@ impl<'a> Shown<'a> {
 }
 
 /// The error map with its legend.
-pub fn error_map(ui: &mut Ui, opened: &mut Opened<'_>, asks: &mut Vec<Ask>) {
+pub(crate) fn error_map(ui: &mut Ui, opened: &mut Opened<'_>, asks: &mut Vec<Ask>) {
     let document = opened.document;
     let p = &document.project;
     if p.runs.is_empty() && !only_records(p) {
@@ -147,7 +147,7 @@ fn left_over(comparison: &Comparison) -> String {
 }
 
 /// Measured against model in the selected cell.
-pub fn cell(ui: &mut Ui, opened: &mut Opened<'_>, asks: &mut Vec<Ask>) {
+pub(crate) fn cell(ui: &mut Ui, opened: &mut Opened<'_>, asks: &mut Vec<Ask>) {
     let document = opened.document;
     let p = &document.project;
     let scene = Scene { document, explained: &opened.derived.explained };
@@ -185,7 +185,7 @@ pub fn cell(ui: &mut Ui, opened: &mut Opened<'_>, asks: &mut Vec<Ask>) {
 }
 
 /// What is missing?
-pub fn missing(ui: &mut Ui, opened: &mut Opened<'_>, asks: &mut Vec<Ask>) {
+pub(crate) fn missing(ui: &mut Ui, opened: &mut Opened<'_>, asks: &mut Vec<Ask>) {
     let document = opened.document;
     let mut look = opened.view.explain.clone();
     cards::show(ui, &Scene { document, explained: &opened.derived.explained }, &mut look, opened.view.limit_s, asks);
@@ -193,7 +193,7 @@ pub fn missing(ui: &mut Ui, opened: &mut Opened<'_>, asks: &mut Vec<Ask>) {
 }
 
 /// The way so far.
-pub fn way(ui: &mut Ui, opened: &Opened<'_>, asks: &mut Vec<Ask>) {
+pub(crate) fn way(ui: &mut Ui, opened: &Opened<'_>, asks: &mut Vec<Ask>) {
     let document = opened.document;
     ledger::show(ui, &Scene { document, explained: &opened.derived.explained }, asks);
 }

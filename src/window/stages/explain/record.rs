@@ -18,7 +18,7 @@ use egui::{Align, Layout, Ui};
 const UPPER: f32 = 0.6;
 
 /// Shows the plot that is chosen of record number `index` of the project, with the effect on trial where there is one.
-pub fn show(ui: &mut Ui, scene: &Scene<'_>, look: &mut Look, index: usize) {
+pub(super) fn show(ui: &mut Ui, scene: &Scene<'_>, look: &mut Look, index: usize) {
     let found = match scene.explained.decays(scene.document, look.trial.as_ref()) {
         None => return ui.empty("The records are being compared", "Their progress is in the bar below."),
         Some(Err(error)) => return ui.empty("The records cannot be compared", error),

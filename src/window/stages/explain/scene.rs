@@ -5,7 +5,7 @@ use crate::window::document::Document;
 use crate::window::explained::Explained;
 
 /// What the panes read.
-pub struct Scene<'a> {
+pub(super) struct Scene<'a> {
     /// The open project.
     pub document: &'a Document,
     /// What was computed from it.
@@ -13,7 +13,7 @@ pub struct Scene<'a> {
 }
 
 /// Whether no damping acts in the model yet though sources are sought: its errors say nothing of what is missing then.
-pub fn is_undamped(document: &Document) -> bool {
+pub(super) fn is_undamped(document: &Document) -> bool {
     let sources = &document.project.sources;
     let acts = |s: &Source| s.state == State::Known;
     let sought = |s: &Source| matches!(s.state, State::Candidate | State::Forced);

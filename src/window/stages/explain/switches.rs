@@ -11,7 +11,7 @@ const BESIDE_TITLE: f32 = 30.0;
 
 /// Shows the switches of the map (0) or of the cell (1) in the bar of their pane, from right to left, where they have room
 /// beside its `title`; the pane is told. `records` tells that the cell shows a record that is not steady.
-pub fn in_bar(ui: &mut Ui, (place, title): (usize, &str), look: &mut Look, records: bool) {
+pub(crate) fn in_bar(ui: &mut Ui, (place, title): (usize, &str), look: &mut Look, records: bool) {
     let names: Vec<&str> = match (place, records) {
         (0, _) => ORDERS.map(|(_, label, _)| label).into(),
         (_, false) => Tab::ALL.map(Tab::label).into(),
@@ -45,17 +45,17 @@ const ORDERS: [Choice<bool>; 2] = [
 ];
 
 /// The order of the map, from right to left.
-pub fn order(ui: &mut Ui, look: &mut Look) {
+pub(crate) fn order(ui: &mut Ui, look: &mut Look) {
     choose(ui, &mut look.worst_first, ORDERS);
 }
 
 /// The plots of the cell, from right to left.
-pub fn tabs(ui: &mut Ui, look: &mut Look) {
+pub(crate) fn tabs(ui: &mut Ui, look: &mut Look) {
     choose(ui, &mut look.tab, Tab::ALL.map(|tab| (tab, tab.label(), tab.tooltip())));
 }
 
 /// The plots of a record that is not steady, from right to left.
-pub fn record_tabs(ui: &mut Ui, look: &mut Look) {
+pub(crate) fn record_tabs(ui: &mut Ui, look: &mut Look) {
     choose(ui, &mut look.record_tab, RecordTab::ALL.map(|tab| (tab, tab.label(), tab.tooltip())));
 }
 

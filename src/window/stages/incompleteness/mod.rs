@@ -1,8 +1,8 @@
 //! What modes and sensors that were not measured cost the classical methods: errors of each against the number of both.
 
-mod choice;
+pub(crate) mod choice;
 
-pub use choice::{Along, Choice, Error};
+use choice::{Along, Choice, Error};
 
 use crate::classical::incompleteness::{Case, Incompleteness, METHODS};
 use crate::classical::method::Method;
@@ -20,7 +20,7 @@ const LEAST: f64 = 1e-3;
 const NAMED: usize = 8;
 
 /// Shows the plot under its choices.
-pub fn show(ui: &mut Ui, document: &Document, derived: &mut Derived, choice: &mut Choice) {
+pub(crate) fn show(ui: &mut Ui, document: &Document, derived: &mut Derived, choice: &mut Choice) {
     let study = match derived.incompleteness(ui.ctx(), document) {
         Some(Ok(study)) => study,
         Some(Err(error)) => return ui.empty("Nothing to study", &error),

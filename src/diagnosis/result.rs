@@ -1,0 +1,159 @@
+//! What a diagnosis says: suggestions with their probabilities, steps, verdict, corrections and the next test.
+
+use crate::diagnosis::channels::fault::ChannelFault;
+use crate::diagnosis::updating::correction::Correction;
+use crate::effects::Source;
+
+/// What the comparison of model and data says.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Verdict {
+    /// The model agrees with the data to the noise.
+    Adequate,
+    /// An effect is missing, and it is named.
+    Missing,
+    /// The model disagrees, and the data cannot tell the suggestions apart.
+    Undecided,
+    /// What the model states is off, and nothing is missing.
+    Detuned,
+    /// Something is missing that no law known here, at any place, gives.
+    Unexplained,
+}
+
+impl Verdict {
+    /// Word in files.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Adequate => "adequate",
+            Self::Missing => "missing",
+            Self::Undecided => "undecided",
+            Self::Detuned => "detuned",
+            Self::Unexplained => "unexplained",
+        }
+    }
+}
+
+/// An effect with the standard deviations of its parameters.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Added {
+    /// Effect, place and parameters.
+    pub source: Source,
+    /// Standard deviation of every parameter.
+    pub deviations: Vec<f64>,
+}
+
+/// One suggested effect.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Suggestion {
+    /// The effect.
+    pub added: Added,
+    /// Error of the model with this effect alone added.
+    pub error_after: f64,
+    /// The same on runs that were left out of the fit.
+    pub held_out_error_after: f64,
+    /// Probability among all that was looked at, 0 to 1.
+    pub probability: f64,
+    /// Why, in sentences with numbers.
+    pub evidence: Vec<String>,
+    /// Other effects or places that fit as well within the noise.
+    pub indistinguishable_from: Vec<Source>,
+}
+
+/// The model on the way: effects added so far and the error with them.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Step {
+    /// Effects.
+    pub added: Vec<Added>,
+    /// Error, as in `compare`.
+    pub error: f64,
+    /// Squared residual per datum in units of the noise: 1 for a model that agrees.
+    pub misfit: f64,
+}
+
+/// Kind of a test.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum TestKind {
+    /// Steady state under a sine.
+    Steady,
+    /// A decay after a DOF is let go from this displacement, m.
+    Release {
+        /// Displacement of the DOF, m.
+        displacement_m: f64,
+    },
+    /// The same blow, sweep or noise as was recorded, so many times as large.
+    Alike {
+        /// Force over that of the record.
+        times: f64,
+    },
+}
+
+impl TestKind {
+    /// Word in files.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Steady => "steady",
+            Self::Release { .. } => "decay",
+            Self::Alike { .. } => "transient",
+        }
+    }
+}
+
+/// A run that would tell suggestions apart or pin a parameter down.
+#[derive(Debug, Clone, PartialEq)]
+pub struct NextTest {
+    /// What kind of test.
+    pub kind: TestKind,
+    /// Frequency of a sine, Hz; of other tests that of the motion that stands out.
+    pub frequency_hz: f64,
+    /// Row of the DOF to be driven, or to be let go.
+    pub force_dof: usize,
+    /// Amplitude of the force, N; of a release the one that holds the DOF there.
+    pub force: f64,
+    /// What it would show.
+    pub why: String,
+}
+
+/// The whole answer.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Diagnosis {
+    /// Error of the model as it is.
+    pub error_before: f64,
+    /// What it would be were the model exact.
+    pub noise_floor: f64,
+    /// Verdict.
+    pub verdict: Verdict,
+    /// Suggestions, best first; none if adequate.
+    pub suggestions: Vec<Suggestion>,
+    /// From the model as it is to the best one.
+    pub steps: Vec<Step>,
+    /// Tests worth doing next.
+    pub next_test: Vec<NextTest>,
+    /// What the model states wrongly, where the data demand it: corrections that were fitted beside the effects.
+    pub corrections: Vec<Correction>,
+    /// Reversed, exchanged and misread channels; all the rest is of the data with these mended.
+    pub channel_faults: Vec<ChannelFault>,
+    /// Whether the search came to its end before its time was up ([`crate::control::Control::hurry`]).
+    pub complete: bool,
+    /// Numbers of the runs of the project that were searched where there are more than a search needs: those that tell most
+    /// (its errors are of all runs); none where all were.
+    pub runs: Vec<usize>,
+}
+
+impl Diagnosis {
+    /// What is added with `source`: beside corrections the whole set that these were fitted with; else it alone.
+    pub fn added_with(&self, source: &Source) -> Vec<Source> {
+        match self.steps.last().filter(|_| self.is_corrected_beside(source)) {
+            Some(step) => step.added.iter().map(|added| added.source.clone()).collect(),
+            None => vec![source.clone()],
+        }
+    }
+
+    /// Whether `source` is of the set that the corrections were fitted with.
+    pub fn is_corrected_beside(&self, source: &Source) -> bool {
+        let set = self.steps.last().map_or(&[][..], |step| &step.added);
+        !self.corrections.is_empty() && set.iter().any(|added| added.source.is_same(source))
+    }
+}
+
+/// Is told of suggestions as soon as there are any, before they are fitted to the end: their errors and probabilities are
+/// provisional. It may be told several times; what it was told last replaces what it was told before.
+pub type Early<'a> = dyn Fn(&[Suggestion]) + Sync + 'a;

@@ -1,0 +1,163 @@
+//! One model with its data and noise that a search starts from, and how sets of effects fitted beside it are ranked.
+
+use super::short_list::is_real;
+use crate::control::Control;
+use crate::diagnosis::candidates::special_cases::is_allowed;
+use crate::diagnosis::residual::data::{Data, DiagnosisError};
+use crate::diagnosis::residual::prediction::{FINAL, Predictor, RunPrediction};
+use crate::diagnosis::residual::transfers::transfers;
+use crate::diagnosis::residual::whitening::Whitening;
+use crate::diagnosis::result::{Early, Step};
+use crate::diagnosis::selection::estimator::Estimator;
+use crate::diagnosis::selection::fitted_model::FittedModel;
+use crate::diagnosis::updating::noise_model::{Linearisation, NoiseModel};
+use crate::effects::Source;
+use crate::math::statistics::{bayesian_information, evidence_weights, root_mean_square};
+use std::sync::Arc;
+
+/// What every parameter of a law beyond its first costs in evidence besides its information criterion: where one law
+/// contains another as a limit, the simpler wins unless the data demand the other.
+const EXTRA: f64 = 8.0;
+/// What a law costs that is fitted next to a simpler one: records are not so exact that they could tell.
+const POSING: f64 = 20.0;
+
+/// Everything that a search needs about one reference model.
+pub(crate) struct ReferenceModel<'a> {
+    /// The known model, its updating parameters at their reference.
+    pub predictor: Arc<Predictor>,
+    pub data: &'a Data,
+    pub control: &'a Control,
+    /// What updating parameters do, at their reference.
+    pub linearisation: Arc<Linearisation>,
+    /// Predictions of the reference model.
+    pub predictions: Vec<RunPrediction>,
+    /// Noise of the residuals.
+    pub noise: Arc<NoiseModel>,
+    /// Who is told of the first suggestions.
+    pub early: &'a Early<'a>,
+}
+
+impl<'a> ReferenceModel<'a> {
+    /// The known model itself.
+    pub(crate) fn new(
+        predictor: Arc<Predictor>,
+        data: &'a Data,
+        control: &'a Control,
+        early: &'a Early<'a>,
+    ) -> Result<Self, DiagnosisError> {
+        let (linearisation, noise) = (Arc::default(), Arc::default());
+        let mut reference = Self { predictor, data, control, linearisation, predictions: Vec::new(), noise, early };
+        reference.predictions = reference.estimator().predict(&[], &FINAL, &[])?;
+        reference.noise = Arc::new(reference.noise_of(&[], &reference.predictions)?);
+        Ok(reference)
+    }
+
+    /// Noise of the residual of a model with `effects` and its predictions.
+    pub(crate) fn noise_of(&self, effects: &[Source], of: &[RunPrediction]) -> Result<NoiseModel, DiagnosisError> {
+        let runs = self.data.runs.iter().enumerate();
+        let runs: Result<Vec<Whitening>, DiagnosisError> = runs
+            .map(|(r, run)| {
+                let file = format!("number {}", run.index + 1);
+                let failed = |reason| DiagnosisError::Response { file, reason };
+                let a = transfers(&self.predictor, r, run, effects, self.control).map_err(failed)?;
+                Ok(Whitening::new(run, &a, &of[r].truncation))
+            })
+            .collect();
+        Ok(NoiseModel::new(runs?, &self.linearisation))
+    }
+
+    /// What fits on the response are made with.
+    pub(crate) fn estimator(&self) -> Estimator<'_> {
+        Estimator { predictor: &self.predictor, data: self.data, noise: &self.noise, control: self.control }
+    }
+
+    /// Number of real data.
+    pub(crate) fn count(&self) -> usize {
+        self.noise.count()
+    }
+
+    /// The same model and data without what was computed of them.
+    pub(crate) fn shallow(&self) -> ReferenceModel<'a> {
+        ReferenceModel {
+            predictor: self.predictor.clone(),
+            data: self.data,
+            control: self.control,
+            linearisation: self.linearisation.clone(),
+            predictions: Vec::new(),
+            noise: Arc::default(),
+            early: self.early,
+        }
+    }
+
+    /// Information criterion of a fit, its squared residual scaled by what the best model leaves beyond the noise.
+    pub(crate) fn evidence(&self, fit: &FittedModel, scale: f64) -> f64 {
+        bayesian_information(fit.chi_square / scale.max(1.0), fit.parameters, self.count()) + Self::complexity(fit)
+    }
+
+    /// What the laws of a fit cost in evidence for their kind, whatever the data.
+    pub(crate) fn complexity(fit: &FittedModel) -> f64 {
+        let extra: usize = fit.effects.iter().map(|e| e.parameters.len() - 1).sum();
+        EXTRA * extra as f64 + Self::posing(fit)
+    }
+
+    /// The part of it that laws cost which are all but a simpler one.
+    pub(crate) fn posing(fit: &FittedModel) -> f64 {
+        POSING * fit.all_but_simpler().count() as f64
+    }
+
+    /// Probability of each fit by its evidence, their squared residuals scaled by what the best leaves.
+    pub(crate) fn probabilities(&self, fits: &[FittedModel]) -> Vec<f64> {
+        let scale = scale_of(fits, self.count());
+        evidence_weights(&fits.iter().map(|fit| self.evidence(fit, scale)).collect::<Vec<f64>>())
+    }
+
+    /// Best first; none of more parameters than runs.
+    pub(crate) fn ranked(&self, mut fits: Vec<FittedModel>) -> Vec<FittedModel> {
+        let allowed = |(e, d): (&Source, &Vec<f64>)| !e.is_disguised() && is_allowed(&self.data.excluded, e, d);
+        let few = |r: &FittedModel| r.parameters <= self.data.runs.len();
+        fits.retain(|r| {
+            r.chi_square.is_finite()
+                && few(r)
+                && r.effects.iter().zip(&r.deviations).all(allowed)
+                && r.effects.iter().zip(&r.deviations).all(is_real)
+        });
+        let scale = scale_of(&fits, self.count());
+        fits.sort_by(|a, b| self.evidence(a, scale).total_cmp(&self.evidence(b, scale)));
+        fits
+    }
+
+    /// How far the model agrees with the data as it is, as a first step.
+    pub(crate) fn agreement(&self) -> Step {
+        let estimator = self.estimator();
+        let before = square(&estimator.residual(&self.predictions));
+        Step {
+            added: Vec::new(),
+            error: estimator.error(&self.predictions),
+            misfit: before / self.count().max(1) as f64,
+        }
+    }
+
+    /// Error that noise and truncation alone would leave.
+    pub(crate) fn noise_floor(&self, effects: &[Source], predictions: &[RunPrediction]) -> f64 {
+        let Ok(noise) = self.noise_of(effects, predictions) else { return f64::NAN };
+        let mut floors = Vec::new();
+        for ((run, noise), prediction) in self.data.runs.iter().zip(&noise.runs).zip(predictions) {
+            let residual = |k: usize, h: usize| run.responses[k].measured[h - 1] - prediction.channels[k][h - 1];
+            for c in 0..run.responses.len() {
+                let scale = run.scale(c);
+                floors.push(if scale > 0.0 { noise.expected_given(c, residual).sqrt() / scale } else { 0.0 });
+            }
+        }
+        root_mean_square(&floors)
+    }
+}
+
+/// Squared residual per datum of the best fit, at least 1.
+pub(crate) fn scale_of(fits: &[FittedModel], count: usize) -> f64 {
+    let least = fits.iter().map(|r| r.chi_square / count.saturating_sub(r.parameters).max(1) as f64);
+    least.fold(f64::INFINITY, f64::min).clamp(1.0, 1e12)
+}
+
+fn square(residual: &[f64]) -> f64 {
+    residual.iter().map(|r| r * r).sum()
+}

@@ -1,0 +1,140 @@
+//! A structure: its degrees of freedom, matrices and elements, and how it came about.
+
+use super::geometry::{Dof, Node};
+use super::lumped_mass::LumpedMass;
+use super::reduction::outcome::Reduction;
+use faer::Mat;
+use serde::{Deserialize, Serialize};
+
+/// What the structure was made from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+#[expect(missing_docs, reason = "the names say it")]
+pub enum StructureKind {
+    Beam,
+    Chain,
+    Matrices,
+    Points,
+    /// One component in a testing machine.
+    Component,
+}
+
+/// Mass and stiffness, both symmetric n x n; lumped masses are included.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SystemMatrices {
+    /// Mass, kg (kg m^2 for rotations), positive definite.
+    pub mass: Mat<f64>,
+    /// Stiffness, N/m, positive semi-definite.
+    pub stiffness: Mat<f64>,
+}
+
+/// One finite element, kept for laws that are restricted to a range of elements.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Element {
+    /// Row of the system matrices of each local DOF; `None` where it is supported.
+    pub dofs: Vec<Option<usize>>,
+    /// Local mass matrix.
+    pub mass: Mat<f64>,
+    /// Local stiffness matrix.
+    pub stiffness: Mat<f64>,
+}
+
+/// A structure whose labels are unique and whose matrices, where it has any, are symmetric with positive mass.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Structure {
+    pub(crate) kind: StructureKind,
+    pub(crate) dofs: Vec<Dof>,
+    pub(crate) nodes: Vec<Node>,
+    pub(crate) lines: Vec<[usize; 2]>,
+    pub(crate) matrices: Option<SystemMatrices>,
+    pub(crate) elements: Vec<Element>,
+    /// Rows with a lumped mass.
+    pub(crate) lumped: Vec<usize>,
+    pub(crate) origin: Origin,
+}
+
+/// How an imported structure came about, beyond its matrices.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Origin {
+    /// What the files hold that is not understood but could matter, a sentence each.
+    pub notes: Vec<String>,
+    /// How a larger model was reduced to the degrees of freedom that are here.
+    pub reduction: Option<Reduction>,
+    /// Mass of a component that moves with its force cell, kg.
+    pub component_mass: f64,
+}
+
+impl Structure {
+    /// What the structure was made from.
+    pub fn kind(&self) -> StructureKind {
+        self.kind
+    }
+
+    /// Number of degrees of freedom, n.
+    pub fn len(&self) -> usize {
+        self.dofs.len()
+    }
+
+    /// Whether there is no degree of freedom; never true for a structure that was built.
+    pub fn is_empty(&self) -> bool {
+        self.dofs.is_empty()
+    }
+
+    /// Degrees of freedom in the order of the matrix rows.
+    pub fn dofs(&self) -> &[Dof] {
+        &self.dofs
+    }
+
+    /// Nodes, supported ones included.
+    pub fn nodes(&self) -> &[Node] {
+        &self.nodes
+    }
+
+    /// Pairs of nodes to draw a line between.
+    pub fn lines(&self) -> &[[usize; 2]] {
+        &self.lines
+    }
+
+    /// Mass and stiffness; `None` for `points`.
+    pub fn matrices(&self) -> Option<&SystemMatrices> {
+        self.matrices.as_ref()
+    }
+
+    /// Rows of the DOFs with a lumped mass.
+    pub fn lumped(&self) -> &[usize] {
+        &self.lumped
+    }
+
+    /// Finite elements; empty unless the structure is a beam.
+    pub fn elements(&self) -> &[Element] {
+        &self.elements
+    }
+
+    /// Notes of the files and the reduction, where there is one.
+    pub fn origin(&self) -> &Origin {
+        &self.origin
+    }
+
+    /// Notes how the structure came about; lumped masses ride on the base like all others.
+    pub(crate) fn set_origin(&mut self, notes: Vec<String>, mut reduction: Option<Reduction>, lumped: &[LumpedMass]) {
+        if let Some(reduction) = &mut reduction {
+            for extra in lumped {
+                let Some(row) = self.dof(&extra.dof) else { continue };
+                if let Some(axis) = self.dofs[row].direction.axis() {
+                    reduction.base_loads[axis][row] += extra.mass;
+                }
+            }
+        }
+        self.origin = Origin { notes, reduction, ..Origin::default() };
+    }
+
+    /// Row of the DOF of that label.
+    pub fn dof(&self, label: &str) -> Option<usize> {
+        self.dofs.iter().position(|dof| dof.label == label)
+    }
+
+    /// Label of row `dof`.
+    pub fn label(&self, dof: usize) -> &str {
+        &self.dofs[dof].label
+    }
+}
