@@ -49,6 +49,8 @@ pub(crate) struct PlaceData {
     pub(super) histories: Vec<Vec<f64>>,
     /// Impedance of the structure between the DOFs of a leg, N s/m, one a run.
     pub(super) impedances: Vec<f64>,
+    /// Its static compliance there, m/N; 0 where it is free to move.
+    pub(super) static_compliance: f64,
     pub(super) sampling: Sampling,
     /// How the force changes with parameters that were free beside it, and these eliminated.
     pub(super) freedom: Option<(ForceFreedom, Eliminator)>,
@@ -82,14 +84,14 @@ pub(crate) struct LawFit {
 }
 
 impl PlaceData {
-    /// The free `forces` of a spot with the motion `fields` that they imply; `impedances` (N s/m, one a run) are those of
-    /// the structure there.
+    /// The free `forces` of a spot with the motion `fields` that they imply; `impedances` (N s/m, one a run) and static
+    /// compliance (m/N) are those of the structure there.
     pub(crate) fn new(
         data: &Data,
         spot: &Spot,
         forces: &[Vec<FreeForce>],
         fields: &Fields,
-        impedances: Vec<f64>,
+        (impedances, static_compliance): (Vec<f64>, f64),
         freedom: Option<ForceFreedom>,
     ) -> Self {
         let harmonics = data.runs.iter().map(|run| run.harmonics).max().unwrap_or(0);
@@ -112,7 +114,8 @@ impl PlaceData {
             let eliminator = Eliminator::new(forces, &freedom);
             (freedom, eliminator)
         });
-        Self { spot: spot.clone(), forces: forces.to_vec(), motions, histories, impedances, sampling, freedom, range }
+        let (spot, forces) = (spot.clone(), forces.to_vec());
+        Self { spot, forces, motions, histories, impedances, static_compliance, sampling, freedom, range }
     }
 
     /// Force over motion at the fundamental of every run in which both can be seen.
@@ -220,7 +223,7 @@ impl PlaceData {
         let source =
             |p: &[f64]| Source { effect, place: self.spot.place(), state: State::Known, parameters: p.to_vec() };
         let (misfit, parameters) = grid.first()?;
-        if effect.parameters().len() == 1 && friction(effect).is_none() {
+        if effect.parameters().len() == 1 && friction(effect).is_none() && law.description().odd {
             return Some(LawFit { source: source(parameters), misfit: *misfit });
         }
         // Laws of many parameters have many valleys.
@@ -239,11 +242,11 @@ impl PlaceData {
         fits.filter(|f| f.misfit.is_finite()).min_by(|a, b| a.misfit.total_cmp(&b.misfit))
     }
 
-    /// Best scale of the force at `p`, and the misfit with it.
+    /// Best scale of the force at `p`, and the misfit with it: about no mean, which laws that are not odd have.
     fn scale(&self, law: &dyn Law, p: &[f64]) -> (f64, f64) {
         let none = |_: usize, order: usize| vec![c64::new(0.0, 0.0); order];
         let measured = self.rows(1.0, none);
-        let force = self.rows(0.0, |r, order| self.law_force(law, p, &self.motions[r], order));
+        let force = self.rows(0.0, |r, order| self.at_motion(law, p, &self.motions[r], order));
         let (product, square, total) = (-dot(&measured, &force), dot(&force, &force), dot(&measured, &measured));
         if square > 0.0 { (product / square, total - product * product / square) } else { (0.0, total) }
     }
@@ -296,20 +299,6 @@ impl PlaceData {
         let rows = self.rows(1.0, |r, _| of_law[r].clone());
         dot(&rows, &rows)
     }
-
-    pub(super) fn law_force(&self, law: &dyn Law, p: &[f64], motion: &Motion, order: usize) -> Vec<c64> {
-        if law.dynamic_stiffness(p, motion.omega).is_some() {
-            let at = |(i, d): (usize, &c64)| {
-                law.dynamic_stiffness(p, (i + 1) as f64 * motion.omega).unwrap_or(c64::new(0.0, 0.0)) * d
-            };
-            return motion.harmonics.iter().enumerate().map(at).collect();
-        }
-        let mut samples = vec![0.0; motion.len()];
-        law.force(p, motion, &mut samples);
-        let mut harmonics = vec![c64::new(0.0, 0.0); order];
-        self.sampling.analyse(&samples, &mut harmonics);
-        harmonics
-    }
 }
 
 /// Whether a law has so few parameters that it is regressed at every place.
@@ -340,6 +329,15 @@ impl Equation<'_> {
         self.variables.effects(theta).remove(0).parameters
     }
 
+    /// Weighted differences between the free forces and those of the law with the parameters `p`.
+    fn left(&self, p: &[f64]) -> Vec<f64> {
+        let data = self.data;
+        data.rows(1.0, |r, order| match self.friction {
+            Some(friction) => data.held(friction, p, r, order),
+            None => data.law_force(self.law, p, r, order),
+        })
+    }
+
     /// Derivative of the residual by variable `k`, whose parameter has the derivative `slope`; `tangents` are those of the
     /// runs.
     fn column(&self, tangents: &[Option<ByParameter>], k: usize, slope: f64) -> Vec<f64> {
@@ -355,12 +353,11 @@ impl Equation<'_> {
         self.data.rows(0.0, change)
     }
 
-    /// The same of friction, by a difference.
-    fn difference(&self, friction: &dyn SetValued, theta: &[f64], at: &[f64], k: usize) -> Vec<f64> {
+    /// The same of friction and of laws that take a mean, by a difference.
+    fn difference(&self, theta: &[f64], at: &[f64], k: usize) -> Vec<f64> {
         let mut moved = theta.to_vec();
         moved[k] += STEP;
-        let p = self.parameters(&moved);
-        let there = self.data.rows(1.0, |r, order| self.data.held(friction, &p, r, order));
+        let there = self.left(&self.parameters(&moved));
         there.iter().zip(at).map(|(b, a)| (b - a) / STEP).collect()
     }
 }
@@ -373,18 +370,13 @@ impl Residual for Equation<'_> {
     }
 
     fn residual(&mut self, theta: &[f64]) -> Result<Vec<f64>, Infallible> {
-        let p = self.parameters(theta);
-        let data = self.data;
-        Ok(data.rows(1.0, |r, order| match self.friction {
-            Some(friction) => data.held(friction, &p, r, order),
-            None => data.law_force(self.law, &p, &data.motions[r], order),
-        }))
+        Ok(self.left(&self.parameters(theta)))
     }
 
     fn jacobian(&mut self, theta: &[f64], at: &[f64]) -> Result<Mat<f64>, Infallible> {
         let slopes = self.variables.slopes(theta).into_iter().enumerate();
-        let columns: Vec<Vec<f64>> = if let Some(friction) = self.friction {
-            slopes.map(|(k, _)| self.difference(friction, theta, at, k)).collect()
+        let columns: Vec<Vec<f64>> = if self.friction.is_some() || !self.law.description().odd {
+            slopes.map(|(k, _)| self.difference(theta, at, k)).collect()
         } else {
             let p = self.parameters(theta);
             let runs = self.data.motions.iter().zip(&self.data.forces);

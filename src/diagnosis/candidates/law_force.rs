@@ -3,10 +3,13 @@
 use super::friction::friction;
 use super::identified_force::{LawFit, PlaceData};
 use crate::diagnosis::localisation::location::Spot;
-use crate::effects::{ChannelLaw, Effect, Kind, Source, State};
+use crate::effects::{ChannelLaw, Effect, Kind, Law, Motion, Sampling, Source, State};
 use dashpot_numerics::dot;
 use faer::c64;
 
+/// Secant steps to the mean of a motion, and the share of it below which it rests.
+const SECANTS: usize = 8;
+const AT_REST: f64 = 1e-6;
 /// Bounds of the gain of a channel while it is searched.
 pub(crate) const GAINS: [f64; 2] = [0.5, 2.0];
 
@@ -18,7 +21,7 @@ impl PlaceData {
         let of: Box<dyn Fn(usize, usize) -> Vec<c64>> = match (source.effect.kind(), &self.spot) {
             (Kind::Relative(law), Spot::Leg(_)) => match friction(source.effect) {
                 Some(friction) => Box::new(move |r, order| self.held(friction, p, r, order)),
-                None => Box::new(move |r, order| self.law_force(law, p, &self.motions[r], order)),
+                None => Box::new(move |r, order| self.law_force(law, p, r, order)),
             },
             (Kind::Channel(law), Spot::Response(_) | Spot::Force(_)) => {
                 Box::new(move |r, order| self.channel_error(law, p[0], r, order))
@@ -26,6 +29,31 @@ impl PlaceData {
             _ => return None,
         };
         Some(self.forces.iter().enumerate().map(|(r, forces)| of(r, forces.len())).collect())
+    }
+
+    /// Harmonics of the force of a law at the motion of run `r` and the mean that its own mean force gives it there, which no
+    /// accelerometer records.
+    pub(super) fn law_force(&self, law: &dyn Law, p: &[f64], r: usize, order: usize) -> Vec<c64> {
+        let motion = &self.motions[r];
+        if law.description().odd || self.static_compliance == 0.0 {
+            return self.at_motion(law, p, motion, order);
+        }
+        let motion = about_its_mean(law, p, motion, (&self.sampling, self.static_compliance));
+        self.at_motion(law, p, &motion, order)
+    }
+
+    pub(super) fn at_motion(&self, law: &dyn Law, p: &[f64], motion: &Motion, order: usize) -> Vec<c64> {
+        if law.dynamic_stiffness(p, motion.omega).is_some() {
+            let at = |(i, d): (usize, &c64)| {
+                law.dynamic_stiffness(p, (i + 1) as f64 * motion.omega).unwrap_or(c64::new(0.0, 0.0)) * d
+            };
+            return motion.harmonics.iter().enumerate().map(at).collect();
+        }
+        let mut samples = vec![0.0; motion.len()];
+        law.force(p, motion, &mut samples);
+        let mut harmonics = vec![c64::new(0.0, 0.0); order];
+        self.sampling.analyse(&samples, &mut harmonics);
+        harmonics
     }
 
     /// Relative error of this channel by a law of parameter `p` at the harmonics of run `r`.
@@ -62,5 +90,50 @@ impl PlaceData {
         }
         let source = Source { effect, place: self.spot.place(), state: State::Known, parameters: vec![p] };
         Some(LawFit { source, misfit: misfit(p) })
+    }
+}
+
+/// `motion` about the mean `D_0 = -C_0 F_0(D_0)` that a structure of static compliance `C_0` (m/N) takes under the mean force of the
+/// law.
+fn about_its_mean(law: &dyn Law, p: &[f64], motion: &Motion, (sampling, compliance): (&Sampling, f64)) -> Motion {
+    let mut motion = motion.clone();
+    let mut samples = vec![0.0; motion.len()];
+    let mut rest = |motion: &mut Motion, mean: f64| {
+        motion.mean = mean;
+        sampling.refresh(motion);
+        law.force(p, motion, &mut samples);
+        mean + compliance * samples.iter().sum::<f64>() / samples.len() as f64
+    };
+    let mut before = (0.0, rest(&mut motion, 0.0));
+    let mut mean = -before.1;
+    for _ in 0..SECANTS {
+        let now = rest(&mut motion, mean);
+        let slope = (now - before.1) / (mean - before.0);
+        // Where the law is softer than the structure it has no mean to rest at: the last one tried is as good as any.
+        if !slope.is_finite() || slope <= 0.0 || now.abs() < AT_REST * mean.abs() {
+            break;
+        }
+        before = (mean, now);
+        mean -= now / slope;
+    }
+    motion
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A quadratic spring under `d = D_0 + a cos`: `D_0 = -C k (a^2 / 2 + D_0^2)`, a quadratic equation.
+    #[test]
+    fn a_spring_stiffer_in_one_direction_rests_beside_the_middle() {
+        let (k, a, compliance) = (8e6, 4e-3, 1e-5);
+        let Some(law) = Effect::QuadraticStiffness.law() else { panic!("a law") };
+        let sampling = Sampling::new(64);
+        let motion = sampling.motion(80.0, 0.0, &[c64::new(0.0, a)]);
+        let found = about_its_mean(law, &[k], &motion, (&sampling, compliance));
+        let share = compliance * k;
+        let exact = ((1.0 - 2.0 * (share * a).powi(2)).sqrt() - 1.0) / (2.0 * share);
+        assert!((found.mean / exact - 1.0).abs() < 1e-5, "{} {exact}", found.mean);
+        assert!((found.displacement[0] - motion.displacement[0] - found.mean).abs() < 1e-15);
     }
 }

@@ -203,7 +203,7 @@ fn points_of_law(data: &PlaceData, source: &Source, r: usize) -> Option<Vec<Forc
     let (order, motion) = (data.forces[r].len(), &data.motions[r]);
     let harmonics: Vec<c64> = match friction(source.effect) {
         Some(friction) => data.held(friction, &source.parameters, r, order),
-        None => data.law_force(law, &source.parameters, motion, order),
+        None => data.law_force(law, &source.parameters, r, order),
     };
     Some(points(motion, &data.sampling.motion(1.0, 0.0, &harmonics).displacement))
 }

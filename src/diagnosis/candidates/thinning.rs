@@ -28,6 +28,7 @@ impl PlaceData {
             motions: self.motions.clone(),
             histories: self.histories.clone(),
             impedances: self.impedances.clone(),
+            static_compliance: self.static_compliance,
             sampling: self.sampling.clone(),
             freedom,
             range: self.range,

@@ -188,7 +188,11 @@ impl ReferenceModel<'_> {
             Spot::Response(_) | Spot::Force(_) => 0.0,
         };
         let impedances = self.data.runs.iter().enumerate().map(impedance).collect();
-        PlaceData::new(self.data, spot, forces, fields, impedances, view.screen.freedom(s))
+        let still = match spot {
+            Spot::Leg(leg) if !self.data.runs.is_empty() => self.predictor.run(0).static_compliance(*leg),
+            _ => 0.0,
+        };
+        PlaceData::new(self.data, spot, forces, fields, (impedances, still), view.screen.freedom(s))
     }
 
     /// Places whose laws may become the best: what the best place leaves to its best law bounds what others may leave.

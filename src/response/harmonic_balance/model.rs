@@ -4,7 +4,8 @@ use super::compliance::{Compliance, LinearPart};
 use super::error::ModelError;
 use super::excitation::Excitation;
 use super::fourier::Fourier;
-use crate::effects::Source;
+use super::resonant::Pattern;
+use crate::effects::{Leg, Source};
 use crate::structure::Structure;
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
@@ -127,6 +128,12 @@ impl RunModel {
 
     pub(crate) fn compliance(&self, h: usize) -> &Compliance {
         self.compliances.0[h].get_or_init(|| self.linear.compliance(h as f64 * self.omega, self.apart, self.summed))
+    }
+
+    /// Static compliance of the linear structure between the DOFs of a leg, m/N; 0 where it is free to move there.
+    pub(crate) fn static_compliance(&self, leg: Leg) -> f64 {
+        let own = self.compliance(0).between(Pattern::Leg(leg), Pattern::Leg(leg)).re;
+        if own.is_finite() { own.max(0.0) } else { 0.0 }
     }
 
     pub(crate) fn linear(&self) -> &LinearPart {
