@@ -3,10 +3,9 @@
 
 use super::random::Random;
 use super::specimen::Specimen;
-use dashpot::structure::Structure;
 use dashpot::structure::beam::{BeamParameters, Supports};
 use dashpot::structure::imported::{ImportedDof, ImportedParameters};
-use dashpot::structure::{LumpedMass, SystemMatrices};
+use dashpot::structure::{LumpedMass, Structure, SystemMatrices};
 use faer::Mat;
 use serde::Serialize;
 

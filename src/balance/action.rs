@@ -5,9 +5,7 @@
 //! for a unit loss stiffness; Coulomb with one harmonic `4 |D|` (5.38 with `D` the relative amplitude). Every other law by
 //! sampling one period. Over the whole structure `pi sum_h h X_h^H Im(factor) B X_h`.
 
-use crate::effects::Basis;
-use crate::effects::Kind;
-use crate::effects::{Law, Leg, Motion, Place, Source, WholeLaw};
+use crate::effects::{Basis, Kind, Law, Leg, Motion, Place, Source, WholeLaw};
 use crate::structure::Structure;
 use faer::{Mat, c64};
 use std::f64::consts::{PI, TAU};

@@ -2,11 +2,10 @@
 
 use super::arguments::Analysis;
 use super::corrected::{corrected, correction};
-use super::identified;
 use super::records::compared;
-use super::reduction;
 use super::run_flags::{self, flags};
 use super::table::{number, table};
+use super::{identified, reduction};
 use crate::control::Control;
 use crate::diagnosis::records::RecordComparison;
 use crate::diagnosis::residual::breakdown::Group;

@@ -1,12 +1,11 @@
 //! `dashpot diagnose`: which effect is missing, ranked, with evidence.
 
 use super::arguments::Diagnose;
-use super::channel_faults;
 use super::corrected::{corrected, correction};
-use super::identified;
 use super::named_sources::{named, with_values};
 use super::run_flags::{self, flags};
 use super::table::{number, table};
+use super::{channel_faults, identified};
 use crate::control::Control;
 use crate::diagnosis::channels::Fault;
 use crate::diagnosis::result::{Diagnosis, Suggestion, TestKind};

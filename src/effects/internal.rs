@@ -9,8 +9,7 @@
 //! the force is then that of the spring about the middle of the motion, which is the limit of small slip.
 
 use super::description::Description;
-use super::law::Law;
-use super::law::{ByParameter, Linearised, Manner};
+use super::law::{ByParameter, Law, Linearised, Manner};
 use super::memory::Memory;
 use super::motion::Motion;
 use super::turning::turning_points;

@@ -2,8 +2,7 @@
 //! lifted to samples of a period here. Energy per cycle of `d = X cos(omega t)`: `pi Im Z(omega) X^2`.
 
 use super::description::Description;
-use super::law::Law;
-use super::law::Manner;
+use super::law::{Law, Manner};
 use super::memory::Memory;
 use super::motion::Motion;
 use faer::c64;

@@ -12,10 +12,8 @@
 //! whatever came before.
 
 use super::description::Description;
-use super::law::Law;
-use super::law::{Linearised, Manner};
-use super::memory::MasingMemory;
-use super::memory::Memory;
+use super::law::{Law, Linearised, Manner};
+use super::memory::{MasingMemory, Memory};
 use super::motion::Motion;
 use super::set_valued::SetValued;
 use super::turning::loop_ranges;

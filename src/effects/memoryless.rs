@@ -3,8 +3,7 @@
 //! A force that jumps at rest is 0 there and has no slope; solvers ask such laws by [`SetValued`] or [`Steep`].
 
 use super::description::Description;
-use super::law::Law;
-use super::law::{Manner, Point, Variable};
+use super::law::{Law, Manner, Point, Variable};
 use super::motion::Motion;
 use super::set_valued::{SetValued, Steep};
 

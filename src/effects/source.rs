@@ -3,8 +3,7 @@
 use super::basis::Basis;
 use super::effect::Effect;
 use super::kind::Kind;
-use super::motion::Motion;
-use super::motion::linear_energy;
+use super::motion::{Motion, linear_energy};
 use super::place::Place;
 use super::range::Range;
 use crate::structure::Structure;

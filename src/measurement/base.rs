@@ -11,8 +11,7 @@
 //! (Cauchy and Schwarz, for equal masses).
 
 use super::channel::{Channel, Quantity};
-use super::fit::turn_covariance;
-use super::fit::{ChannelFit, HarmonicFit};
+use super::fit::{ChannelFit, HarmonicFit, turn_covariance};
 use faer::c64;
 
 /// How a structure takes a motion of its base along one axis.

@@ -14,8 +14,7 @@
 //! ever longer parts around it: the steps over the whole record, which cost most, are then one or two.
 
 use super::channel::Quantity;
-use super::fit::FitError;
-use super::fit::{Solved, resolvable, solve};
+use super::fit::{FitError, Solved, resolvable, solve};
 use super::noise::Lag;
 use super::record::Record;
 use super::slope::Slope;

@@ -1,7 +1,6 @@
 //! The fundamental of every channel in a part of a record.
 
-use super::fit::HarmonicFit;
-use super::fit::{resolvable, solve};
+use super::fit::{HarmonicFit, resolvable, solve};
 use super::record::Record;
 use faer::c64;
 use std::ops::Range;

@@ -6,8 +6,7 @@
 
 use super::channel::{Channel, Quantity};
 use super::finding::{Finding, Flag};
-use super::fit::{ChannelFit, FitError, HarmonicFit};
-use super::fit::{fit, turn_covariance};
+use super::fit::{ChannelFit, FitError, HarmonicFit, fit, turn_covariance};
 use super::record::Record;
 use super::signal::references;
 use super::{frequency, quality};

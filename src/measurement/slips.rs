@@ -5,8 +5,7 @@
 
 use super::channel::Quantity;
 use super::finding::{Finding, Flag};
-use super::fit::HarmonicFit;
-use super::fit::solve;
+use super::fit::{HarmonicFit, solve};
 use super::frequency::{Frequency, coarse, leading, refine};
 use super::record::Record;
 use std::f64::consts::TAU;

@@ -7,9 +7,7 @@
 //! with `z_j = F / D` of every law on a relative motion (viscous `i omega c`, hysteretic `i h`, Maxwell, ...) and the mass
 //! or stiffness matrix `B_w` for laws over the whole structure or a range of its elements.
 
-use crate::effects::Basis;
-use crate::effects::Kind;
-use crate::effects::{Law, Leg, Place, Source, WholeLaw};
+use crate::effects::{Basis, Kind, Law, Leg, Place, Source, WholeLaw};
 use crate::structure::{Structure, SystemMatrices};
 use dashpot_numerics::ComplexLu;
 use faer::{Mat, c64};

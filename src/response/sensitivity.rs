@@ -10,12 +10,11 @@
 //! `A_h` is symmetric, so that its rows at the legs and at the DOFs asked for serve all unknowns (`observation`).
 //! Where the response is extrapolated from two numbers of harmonics, so are its derivatives.
 
-use super::harmonic_balance::LinearPart;
-use super::harmonic_balance::richardson;
-use super::harmonic_balance::{Balance, Excitation, Lu, Prepared, Response, ResponseError, RunModel};
+use super::harmonic_balance::{
+    Balance, Excitation, LinearPart, Lu, Prepared, Response, ResponseError, RunModel, richardson,
+};
 use super::observation::{Observation, observations};
-use crate::effects::Kind;
-use crate::effects::Source;
+use crate::effects::{Kind, Source};
 use crate::structure::factors::{Part, Share};
 use faer::{Mat, c64};
 use std::f64::consts::TAU;

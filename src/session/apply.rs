@@ -11,9 +11,8 @@ use crate::exchange::project::correction::CorrectionTable;
 use crate::exchange::project::file::{CandidatesTable, ProjectFile, RunTable, SensorTable, Shape, SourceTable};
 use crate::exchange::project::ruled_out::RuledOutTable;
 use crate::measurement::Quantity;
-use crate::structure::LumpedMass;
-use crate::structure::Structure;
 use crate::structure::beam::Supports;
+use crate::structure::{LumpedMass, Structure};
 use std::collections::BTreeMap;
 use std::path::Path;
 

@@ -1,7 +1,6 @@
 //! The last steps that every kind of structure shares: lumped masses and the checks that make a [`Structure`] valid.
 
-use super::error::StructureError;
-use super::error::{nearest, positive};
+use super::error::{StructureError, nearest, positive};
 use super::geometry::{Dof, Node};
 use super::lumped_mass::LumpedMass;
 use super::system::{Element, Origin, Structure, StructureKind, SystemMatrices};

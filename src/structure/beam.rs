@@ -9,8 +9,7 @@
 //! direction of `depth`); a rotation is the slope w'.
 
 use super::assemble::{MOST_DOFS, Parts};
-use super::error::StructureError;
-use super::error::positive;
+use super::error::{StructureError, positive};
 use super::geometry::{Direction, Dof, Node};
 use super::lumped_mass::LumpedMass;
 use super::system::{Element, Structure, StructureKind, SystemMatrices};

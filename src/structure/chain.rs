@@ -2,8 +2,7 @@
 //! and `k` between consecutive masses.
 
 use super::assemble::{MOST_DOFS, Parts};
-use super::error::StructureError;
-use super::error::{not_negative, positive};
+use super::error::{StructureError, not_negative, positive};
 use super::geometry::{Direction, Dof, Node};
 use super::lumped_mass::LumpedMass;
 use super::system::{Structure, StructureKind, SystemMatrices};

@@ -1,8 +1,7 @@
 //! A structure given by its mass and stiffness matrices, with an optional map of their rows to nodes and directions.
 
 use super::assemble::{MOST_DOFS, Parts};
-use super::error::StructureError;
-use super::error::nearest;
+use super::error::{StructureError, nearest};
 use super::geometry::{Direction, Dof, Node};
 use super::lumped_mass::LumpedMass;
 use super::system::{Structure, StructureKind, SystemMatrices};

@@ -1,23 +1,19 @@
 //! One frame: it takes over what has ended in the background, shows the panes, which read and ask, and answers them.
 
 use super::app::{App, Ask};
-use super::commands;
 use super::document::Document;
 use super::edits::Edit;
 use super::files::Pick;
-use super::frame;
 use super::frame::panes::Pane;
 use super::import::{dropped, is_project};
-use super::importing;
 use super::jobs::Done;
-use super::learn;
 use super::leaving::Leave;
 use super::opened::Opened;
 use super::schematic::gesture::Intent;
-use super::stages;
 use super::stages::explain::deed::Deed;
 use super::theme::{Palette, space};
 use super::view::Stage;
+use super::{commands, frame, importing, learn, stages};
 use crate::display::units;
 use crate::session::recent::Recent;
 use egui::{CentralPanel, Context, Frame, Margin, Ui};

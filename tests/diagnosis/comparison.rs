@@ -3,9 +3,8 @@
 use super::random::Random;
 use super::suite::{Kindness, hidden};
 use dashpot::control::Control;
-use dashpot::diagnosis::Problem;
-use dashpot::diagnosis::compare;
 use dashpot::diagnosis::residual::comparison::ChannelComparison;
+use dashpot::diagnosis::{Problem, compare};
 use dashpot::effects::Effect;
 use dashpot::exchange::project::load;
 use std::path::Path;

@@ -1,7 +1,6 @@
 //! Names in files and the tables of parameters.
 
-use dashpot::effects::Effect;
-use dashpot::effects::Kind;
+use dashpot::effects::{Effect, Kind};
 use faer::c64;
 
 #[test]

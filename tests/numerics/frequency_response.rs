@@ -6,12 +6,11 @@ use dashpot::response::dynamic_stiffness::{DynamicStiffness, DynamicStiffnessErr
 use dashpot::response::frequency_response::{Quantity, direct, half_power, modal, modal_hysteretic};
 use dashpot::response::linear_matrices::LinearMatrices;
 use dashpot::response::steady_state::steady_state;
-use dashpot::structure::Structure;
-use dashpot::structure::SystemMatrices;
 use dashpot::structure::beam::{BeamParameters, Supports};
 use dashpot::structure::chain::ChainParameters;
 use dashpot::structure::damped_modes::{damped_modes, damped_modes_from, hysteretic_modes};
 use dashpot::structure::modes::modes;
+use dashpot::structure::{Structure, SystemMatrices};
 use faer::c64;
 
 fn beam() -> Structure {

@@ -1,7 +1,6 @@
 //! How parameters of laws are varied in a fit: logarithms where they are positive, so that no step leaves their range.
 
-use crate::effects::Parameter;
-use crate::effects::{Effect, Source};
+use crate::effects::{Effect, Parameter, Source};
 
 /// How a parameter of a law is varied: its value and slope at `t`.
 pub(crate) fn at_variable(parameter: &Parameter, scale: f64, t: f64) -> [f64; 2] {

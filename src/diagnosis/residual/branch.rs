@@ -6,8 +6,7 @@ use crate::diagnosis::residual::data::RunData;
 use crate::diagnosis::residual::prediction::{FINAL, Predictor, RunPrediction};
 use crate::diagnosis::updating::modal_expansion::ModalExpansion;
 use crate::effects::Source;
-use crate::response::harmonic_balance::ResponseError;
-use crate::response::harmonic_balance::Settings;
+use crate::response::harmonic_balance::{ResponseError, Settings};
 use faer::{Mat, c64};
 
 /// Truncation error as a share of the smallest noise of a channel's fundamental.

@@ -4,8 +4,7 @@ use crate::control::Cancelled;
 use crate::effects::{Effect, Kind, Place, Source, source::State};
 use crate::measurement::{ChannelFit, Quantity, Run};
 use crate::response::harmonic_balance::{Excitation, HarmonicForce, ModelError, ResponseError};
-use crate::structure::Part;
-use crate::structure::Structure;
+use crate::structure::{Part, Structure};
 use faer::c64;
 
 /// A channel whose fundamental is below this share of the largest of its quantity in the run shows nothing.

@@ -1,8 +1,7 @@
 //! Fits of sets on the response: all of them a little, the promising ones to the end, the best with all harmonics.
 
 use crate::diagnosis::candidates::special_cases::is_limit;
-use crate::diagnosis::candidates::start::UnfittedSet;
-use crate::diagnosis::candidates::start::start;
+use crate::diagnosis::candidates::start::{UnfittedSet, start};
 use crate::diagnosis::residual::data::DiagnosisError;
 use crate::diagnosis::residual::prediction::{FINAL, SEARCH};
 use crate::diagnosis::selection::estimator::{Estimator, Starts};

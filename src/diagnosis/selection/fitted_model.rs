@@ -3,9 +3,7 @@
 
 use crate::diagnosis::residual::data::DiagnosisError;
 use crate::diagnosis::residual::prediction::{FINAL, RunPrediction};
-use crate::diagnosis::selection::estimator::Estimator;
-use crate::diagnosis::selection::estimator::Starts;
-use crate::diagnosis::selection::estimator::starts_of;
+use crate::diagnosis::selection::estimator::{Estimator, Starts, starts_of};
 use crate::diagnosis::selection::fit_problem::{OnResponse, Trial};
 use crate::diagnosis::selection::levenberg_marquardt::{Descent, Variables, descend};
 use crate::effects::{Leg, Range, Source};

@@ -3,8 +3,7 @@
 use super::search::joined;
 use super::short_list::{Breadth, needed};
 use super::weighing::{bound_beside, cost};
-use crate::diagnosis::candidates::start::UnfittedSet;
-use crate::diagnosis::candidates::start::start;
+use crate::diagnosis::candidates::start::{UnfittedSet, start};
 use crate::diagnosis::residual::data::{DiagnosisError, if_possible};
 use crate::diagnosis::residual::prediction::SEARCH;
 use crate::diagnosis::selection::estimator::Starts;

@@ -2,8 +2,7 @@
 
 use super::short_list::{Breadth, hopeless, telling};
 use crate::diagnosis::candidates::identified_force::{PlaceData, shrunk};
-use crate::diagnosis::candidates::start::Fields;
-use crate::diagnosis::candidates::start::UnfittedSet;
+use crate::diagnosis::candidates::start::{Fields, UnfittedSet};
 use crate::diagnosis::localisation::cell::FreeForce;
 use crate::diagnosis::localisation::free_force::{Freedom, Placing, Screen};
 use crate::diagnosis::localisation::location::{Receptances, Spot};

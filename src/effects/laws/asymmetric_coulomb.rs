@@ -3,13 +3,11 @@
 //! cycle of `d = X cos(omega t)`: `4 force X`; of any periodic motion: `force` times the way travelled.
 
 use super::coulomb::Coulomb;
-use crate::effects::description::Description;
-use crate::effects::description::Exponents;
+use crate::effects::description::{Description, Exponents};
 use crate::effects::effect::Effect;
 use crate::effects::law::{Point, Variable};
 use crate::effects::limits::{CLOSE, Limit};
-use crate::effects::memoryless::MemorylessLaw;
-use crate::effects::memoryless::sign;
+use crate::effects::memoryless::{MemorylessLaw, sign};
 use crate::effects::motion::Motion;
 use crate::effects::parameter::Parameter;
 use crate::effects::set_valued::SetValued;

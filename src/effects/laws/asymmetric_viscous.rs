@@ -1,8 +1,7 @@
 //! Asymmetric dashpot: `F = c_pull d'` while the displacement grows, `F = c_push d'` while it falls. Energy per cycle of
 //! `d = X cos(omega t)`: `pi omega X^2 (c_pull + c_push) / 2`; mean force: `(c_pull - c_push) omega X / pi`.
 
-use crate::effects::description::Description;
-use crate::effects::description::Exponents;
+use crate::effects::description::{Description, Exponents};
 use crate::effects::effect::Effect;
 use crate::effects::law::{Point, Variable};
 use crate::effects::limits::{Limit, alike};

@@ -14,8 +14,7 @@ use crate::effects::effect::Effect;
 use crate::effects::internal::{InternalLaw, Way};
 use crate::effects::limits::{CLOSE, Limit};
 use crate::effects::loading_curve::{LoadingCurve, Reached};
-use crate::effects::parameter::Ends;
-use crate::effects::parameter::Parameter;
+use crate::effects::parameter::{Ends, Parameter};
 use crate::effects::symbol::{Mark, Tone};
 
 /// Smooth hysteresis.

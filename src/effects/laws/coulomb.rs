@@ -3,11 +3,9 @@
 //!
 //! The force is set-valued at rest: solvers take any force within `+-force` there, exactly ([`SetValued`]).
 
-use crate::effects::description::Description;
-use crate::effects::description::Exponents;
+use crate::effects::description::{Description, Exponents};
 use crate::effects::law::{Point, Variable};
-use crate::effects::memoryless::MemorylessLaw;
-use crate::effects::memoryless::sign;
+use crate::effects::memoryless::{MemorylessLaw, sign};
 use crate::effects::motion::Motion;
 use crate::effects::parameter::Parameter;
 use crate::effects::set_valued::SetValued;

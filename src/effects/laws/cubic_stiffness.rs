@@ -1,7 +1,6 @@
 //! Cubic spring: `F = stiffness d^3`, hardening if positive. It takes out no energy.
 
-use crate::effects::description::Description;
-use crate::effects::description::Exponents;
+use crate::effects::description::{Description, Exponents};
 use crate::effects::law::{Point, Variable};
 use crate::effects::memoryless::MemorylessLaw;
 use crate::effects::parameter::Parameter;

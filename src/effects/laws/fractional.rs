@@ -1,13 +1,11 @@
 //! Fractional derivative (viscoelastic) damping: `F_h = c (i w)^order D_h` at `w = h omega`, 0 < order < 1.
 //! Energy per cycle of `d = X cos(omega t)`: `pi c omega^order X^2 sin(order pi / 2)`.
 
-use crate::effects::description::Description;
-use crate::effects::description::Exponents;
+use crate::effects::description::{Description, Exponents};
 use crate::effects::effect::Effect;
 use crate::effects::limits::{Limit, near};
 use crate::effects::linear::LinearLaw;
-use crate::effects::parameter::Ends;
-use crate::effects::parameter::Parameter;
+use crate::effects::parameter::{Ends, Parameter};
 use crate::effects::symbol::{Mark, Tone};
 use faer::c64;
 use std::f64::consts::FRAC_PI_2;

@@ -1,8 +1,7 @@
 //! Hysteretic (structural) damping: `F_h = i loss_stiffness D_h` at each harmonic, in quadrature with the displacement.
 //! Energy per cycle of `d = X cos(omega t)`: `pi loss_stiffness X^2`, whatever the frequency.
 
-use crate::effects::description::Description;
-use crate::effects::description::{Constant, Exponents};
+use crate::effects::description::{Constant, Description, Exponents};
 use crate::effects::linear::LinearLaw;
 use crate::effects::parameter::Parameter;
 use crate::effects::symbol::Mark;

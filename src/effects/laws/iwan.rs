@@ -17,10 +17,8 @@ use crate::effects::description::Description;
 use crate::effects::effect::Effect;
 use crate::effects::limits::{CLOSE, Limit};
 use crate::effects::masing::MasingLaw;
-use crate::effects::parameter::Ends;
-use crate::effects::parameter::Parameter;
-use crate::effects::range::Range;
-use crate::effects::range::geometric;
+use crate::effects::parameter::{Ends, Parameter};
+use crate::effects::range::{Range, geometric};
 use crate::effects::symbol::{Mark, Tone};
 
 /// Parallel elastic sliders with power-law distributed yield forces.

@@ -1,8 +1,7 @@
 //! Loss factor of the material: `F_h = i loss_factor K X_h` at each harmonic; no force at rest.
 
 use crate::effects::basis::Basis;
-use crate::effects::description::Constant;
-use crate::effects::description::Description;
+use crate::effects::description::{Constant, Description};
 use crate::effects::law::WholeLaw;
 use crate::effects::parameter::Parameter;
 use crate::effects::symbol::Mark;

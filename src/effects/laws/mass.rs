@@ -1,7 +1,6 @@
 //! Mass: `F = mass d''`. It stores energy and takes out none. Negative: the model is too heavy there.
 
-use crate::effects::description::Description;
-use crate::effects::description::{Constant, Exponents};
+use crate::effects::description::{Constant, Description, Exponents};
 use crate::effects::linear::LinearLaw;
 use crate::effects::parameter::Parameter;
 use crate::effects::symbol::{Mark, Tone};

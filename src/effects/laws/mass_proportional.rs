@@ -1,8 +1,7 @@
 //! Mass-proportional viscous damping: `F = alpha M x'`.
 
 use crate::effects::basis::Basis;
-use crate::effects::description::Constant;
-use crate::effects::description::Description;
+use crate::effects::description::{Constant, Description};
 use crate::effects::law::WholeLaw;
 use crate::effects::parameter::Parameter;
 use crate::effects::symbol::Mark;

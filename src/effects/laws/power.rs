@@ -5,14 +5,12 @@
 //! Below exponent 1 the slope at rest is infinite; there solvers ask for the speed at which `F(v) + r v = s`, and the
 //! slope of the law itself is given as 0 at rest.
 
-use crate::effects::description::Description;
-use crate::effects::description::Exponents;
+use crate::effects::description::{Description, Exponents};
 use crate::effects::effect::Effect;
 use crate::effects::law::{Point, Variable};
 use crate::effects::limits::{CLOSE, Limit, near};
 use crate::effects::memoryless::MemorylessLaw;
-use crate::effects::parameter::Ends;
-use crate::effects::parameter::Parameter;
+use crate::effects::parameter::{Ends, Parameter};
 use crate::effects::set_valued::Steep;
 use crate::effects::symbol::Mark;
 use statrs::function::gamma::gamma;

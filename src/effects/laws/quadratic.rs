@@ -1,8 +1,7 @@
 //! Quadratic (fluid) damping: `F = c d' |d'|`, `c` in N s^2/m^2. Energy per cycle of `d = X cos(omega t)`:
 //! `(8/3) c omega^2 X^3`.
 
-use crate::effects::description::Description;
-use crate::effects::description::Exponents;
+use crate::effects::description::{Description, Exponents};
 use crate::effects::law::{Point, Variable};
 use crate::effects::memoryless::MemorylessLaw;
 use crate::effects::parameter::Parameter;

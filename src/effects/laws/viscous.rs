@@ -1,7 +1,6 @@
 //! Viscous dashpot: `F = c d'`, `c` in N s/m. Energy per cycle of `d = X cos(omega t)`: `pi c omega X^2`.
 
-use crate::effects::description::Description;
-use crate::effects::description::{Constant, Exponents};
+use crate::effects::description::{Constant, Description, Exponents};
 use crate::effects::linear::LinearLaw;
 use crate::effects::parameter::Parameter;
 use crate::effects::symbol;

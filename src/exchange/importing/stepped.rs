@@ -7,8 +7,7 @@ use super::text::{comment, named, points};
 use crate::control::Control;
 use crate::exchange::mapping::Stepped;
 use crate::exchange::project::plan;
-use crate::measurement::Quantity;
-use crate::measurement::Run;
+use crate::measurement::{Quantity, Run};
 use faer::c64;
 use std::path::Path;
 

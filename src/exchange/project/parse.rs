@@ -1,19 +1,15 @@
 //! From text to [`ProjectFile`]: every key known, every value of its type; nothing else is read.
 
-use super::channel;
-use super::correction;
 use super::error::{Problem, ProjectError};
 use super::file::{
     CandidatesTable, FORMAT, Header, Lines, MatricesTable, PointsTable, ProjectFile, SensorTable, Shape, SimulateTable,
     SourceTable, StructureTable,
 };
-use super::frf;
 use super::keys::{elements, key_lines};
 use super::label::Label;
 use super::reader::{Origin, Table, one_line};
-use super::ruled_out;
 use super::runs::{harmonics, runs};
-use super::{base, modes, reduce};
+use super::{base, channel, correction, frf, modes, reduce, ruled_out};
 use crate::balance::{Expansion, Weights};
 use crate::effects::family::Family;
 use crate::effects::{Effect, State};

@@ -3,12 +3,11 @@
 use super::error::{Problem, ProjectError};
 use super::excitation::ExcitationTable;
 use super::file::{BaseResponse, Lines, ProjectFile, RunTable, SimulateTable};
-use super::kept;
 use super::label::Label;
-use super::reference_shapes;
 use super::ruled_out_sources::ruled_out;
 use super::sources::{At, line, sensors, sources};
 use super::structure::structure;
+use super::{kept, reference_shapes};
 use crate::classical::reference_shapes::ReferenceShape;
 use crate::control::Control;
 use crate::effects::Source;

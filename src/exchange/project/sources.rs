@@ -3,9 +3,8 @@
 use super::error::{Problem, ProjectError};
 use super::file::{CandidatesTable, Lines, ProjectFile, SensorTable, SourceTable};
 use super::label::Label;
-use crate::effects::Kind;
 use crate::effects::source::SourceError;
-use crate::effects::{Effect, Place, Source, State};
+use crate::effects::{Effect, Kind, Place, Source, State};
 use crate::measurement::Quantity;
 use crate::structure::{Structure, StructureError};
 use std::collections::BTreeMap;

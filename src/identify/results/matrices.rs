@@ -3,8 +3,7 @@
 //! The energy-equivalent coefficient of source `j` in run `r` is `E_rj / sum_legs (T/2) sum_h |h w D_h|^2`; over all runs
 //! both sums run over the runs too.
 
-use crate::balance::action;
-use crate::balance::{Expanded, Measured};
+use crate::balance::{Expanded, Measured, action};
 use crate::effects::{Constant, Effect, Source};
 use crate::response::linear_matrices::unit_matrix;
 use crate::structure::Structure;

@@ -5,8 +5,7 @@
 
 use super::input::ResultsInput;
 use super::matrices::{EquivalentViscous, weighted_sum};
-use crate::effects::Kind;
-use crate::effects::{Constant, Effect, Source};
+use crate::effects::{Constant, Effect, Kind, Source};
 use crate::response::frequency_response::{self, HalfPower};
 use crate::response::linear_matrices::{LinearMatrices, unit_matrix};
 use crate::structure::damped_modes::{DampedMode, damped_modes_from};

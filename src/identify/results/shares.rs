@@ -6,8 +6,7 @@
 
 use crate::balance::action::{self, Field};
 use crate::balance::{Expanded, Measured};
-use crate::effects::Kind;
-use crate::effects::{Leg, Place, Source};
+use crate::effects::{Kind, Leg, Place, Source};
 use crate::structure::Structure;
 
 /// Per cent at each DOF; adds up to 100 unless nothing is dissipated.

@@ -9,8 +9,7 @@
 use super::error::ModelError;
 use super::modal_basis::{ModalBasis, modal_basis};
 use super::resonant::{Pattern, Resonant, damping, near};
-use crate::effects::Basis;
-use crate::effects::{Kind, Leg, Source, place::Place};
+use crate::effects::{Basis, Kind, Leg, Source, place::Place};
 use crate::structure::{Structure, SystemMatrices};
 use dashpot_numerics::{Cholesky, ComplexLu};
 use faer::{Mat, c64};

@@ -7,8 +7,7 @@
 
 mod elements;
 
-use super::error::StructureError;
-use super::error::positive;
+use super::error::{StructureError, positive};
 use super::geometry::{Direction, Node};
 use super::imported::{ImportedDof, ImportedParameters};
 use super::lumped_mass::LumpedMass;

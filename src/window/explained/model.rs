@@ -1,8 +1,7 @@
 //! What a comparison depends on, as a key: two documents with the same model and the same measurements share their results.
 
 use crate::display::words::{self, at};
-use crate::effects::Kind;
-use crate::effects::{Source, State};
+use crate::effects::{Kind, Source, State};
 use crate::exchange::mapping::ChannelTable;
 use crate::exchange::project::file::{BaseTable, HarmonicsTable, RunTable, SensorTable, StructureTable};
 use crate::exchange::project::frf::FrfTable;

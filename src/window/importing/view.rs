@@ -1,10 +1,9 @@
 //! The page of an import, in place of the panes.
 
-use super::destination;
 use super::draft::{Decided, Draft};
 use super::preview::Preview;
 use super::state::Importing;
-use super::{mapping, places, tree};
+use super::{destination, mapping, places, tree};
 use crate::window::ask::Ask;
 use crate::window::plots::show::Stack;
 use crate::window::theme::{Palette, space};

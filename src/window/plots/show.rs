@@ -1,11 +1,9 @@
 //! Plots on the screen: drag pans, right drag zooms a box, double click shows all, the pointer reads out values, the context
 //! menu copies and exports.
 
-use super::cursors;
-use super::export;
 use super::polyline::Polyline;
 use super::zoom::{Sight, Zoom};
-use super::{axis, curve, frame};
+use super::{axis, cursors, curve, export, frame};
 use crate::display::format::significant;
 use crate::plots::figure::{Axis, Data, Figure, Label, Look, Series, Ticks};
 use crate::plots::sheet::{Panel, Sheet};

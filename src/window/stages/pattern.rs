@@ -1,8 +1,7 @@
 //! Pattern: the palette of laws, families at one click, the list of sources.
 
 use crate::display::words;
-use crate::effects::Kind;
-use crate::effects::{Effect, Family, Source, State};
+use crate::effects::{Effect, Family, Kind, Source, State};
 use crate::exchange::Project;
 use crate::window::ask::Ask;
 use crate::window::commands::Command;

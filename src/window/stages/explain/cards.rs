@@ -1,21 +1,17 @@
 //! What is missing? The verdict, the ranked suggestions as cards, and what the user has ruled out.
 
-use super::card;
-use super::channels;
 use super::deed::Deed;
-use super::force;
-use super::limit;
 use super::look::Look;
 use super::ranking::{open, ranked};
 use super::scene::Scene;
+use super::{card, channels, force, limit};
 use crate::diagnosis::Diagnosis;
 use crate::diagnosis::result::Verdict;
 use crate::diagnosis::updating::parameters::UpdatingParameter;
 use crate::display::findings::{self, is_detuned, is_stuck, sentence};
-use crate::display::format;
 use crate::display::format::in_words;
-use crate::display::words;
 use crate::display::words::at;
+use crate::display::{format, words};
 use crate::effects::Source;
 use crate::session::corrections::{self, Adopted};
 use crate::session::validation::only_records;

@@ -23,9 +23,8 @@ pub(crate) mod switches;
 
 use crate::diagnosis::result::Verdict;
 use crate::display::findings::{RunSpread, is_detuned, is_stuck, spread_of_runs};
-use crate::display::format;
-use crate::display::words;
 use crate::display::words::at;
+use crate::display::{format, words};
 use crate::session::validation::only_records;
 use crate::window::document::Document;
 use crate::window::explained::ledger::Ledger;
