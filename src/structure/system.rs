@@ -1,6 +1,6 @@
 //! A structure: its degrees of freedom, matrices and elements, and how it came about.
 
-use super::geometry::{Dof, Node};
+use super::geometry::{Direction, Dof, Node};
 use super::lumped_mass::LumpedMass;
 use super::reduction::outcome::Reduction;
 use faer::Mat;

@@ -190,3 +190,33 @@ fn a_force_and_a_displacement_at_one_point_may_be_a_component() {
     std::fs::write(&out, component).unwrap();
     assert!(dashpot(&["compare", &out.display().to_string()]).is_ok());
 }
+
+#[test]
+fn a_hammer_that_is_named_by_its_place_may_move_from_file_to_file() {
+    let folder = tempfile::tempdir().unwrap();
+    let rows: String = (0..600)
+        .map(|i| f64::from(i) * 1e-3)
+        .map(|t| format!("{t:.4},{:.6},{:.6}\n", (190.0 * t).sin(), (190.0 * t).cos()))
+        .collect();
+    let write = |name: &str, hammer: &str| {
+        let path = folder.path().join(name);
+        std::fs::write(&path, format!("Time [s],Hammer {hammer} [N],Acc 8z [m/s^2]\n{rows}")).unwrap();
+        path.display().to_string()
+    };
+    let files = [write("a.csv", "4z"), write("b.csv", "10z"), write("c.csv", "4z")];
+    let (said, project) = onto(folder.path(), &files, BEAM).unwrap();
+    assert!(said.contains("3 runs of 3 channels"), "{said}");
+    assert_eq!(project.matches("optional = true").count(), 2, "{project}");
+    let out = folder.path().join("p.toml");
+    let loaded = dashpot::exchange::project::load(&out, &dashpot::control::Control::unattended()).unwrap();
+    let names = |run: &dashpot::measurement::Run| {
+        let all = run.fit.channels.iter().map(|channel| channel.channel.to_string());
+        all.filter(|name| name.starts_with("force")).collect::<Vec<_>>().join(" ")
+    };
+    let forces: Vec<String> = loaded.runs.iter().map(names).collect();
+    assert_eq!(forces, ["force@4z", "force@10z", "force@4z"]);
+    // A channel that is not optional is missed.
+    std::fs::write(&out, project.replacen("optional = true", "optional = false", 1)).unwrap();
+    let error = dashpot(&["identify", &out.display().to_string()]).unwrap_err();
+    assert!(error.contains("the file has no channel of that name"), "{error}");
+}

@@ -58,6 +58,7 @@ fn translation(structure: &Structure, node: &str) -> Option<String> {
 
 #[cfg(test)]
 mod tests {
+    #![allow(clippy::unwrap_used, clippy::disallowed_methods, reason = "tests")]
     use super::*;
     use crate::exchange::mapping::ChannelTable;
 
@@ -75,6 +76,7 @@ mod tests {
             sign: None,
             factor: None,
             delay: None,
+            optional: false,
         };
         let mapping = Proposal { channels: labels.iter().map(table).collect(), ..Proposal::default() };
         let placed = placed(mapping, BEAM, Path::new("p.toml")).unwrap();

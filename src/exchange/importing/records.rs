@@ -74,13 +74,37 @@ pub(super) fn template(request: &Request, mapping: Proposal) -> Result<String> {
 
 /// The mapping that is given, else what the first file proposes.
 pub(super) fn mapping(request: &Request) -> Result<Proposal> {
-    match &request.channels {
-        Some(channels) => Ok(Proposal { channels: channels.clone(), ..Proposal::default() }),
-        None => {
-            let proposal = propose(open(&request.files[0])?.contents());
-            Ok(if request.has_model() { proposal } else { without_base(proposal) })
+    if let Some(channels) = &request.channels {
+        return Ok(Proposal { channels: channels.clone(), ..Proposal::default() });
+    }
+    let proposal = of_all_files(request)?;
+    Ok(if request.has_model() { proposal } else { without_base(proposal) })
+}
+
+/// What the first file proposes; where some of its channels move from file to file (a hammer that is named by its place), what
+/// all files propose, with those that some lack as optional.
+fn of_all_files(request: &Request) -> Result<Proposal> {
+    let own = |file: &PathBuf| Ok(propose(open(file)?.contents()));
+    let mut all = own(&request.files[0])?;
+    let further = request.files[1..].iter().map(own).collect::<Result<Vec<Proposal>>>()?;
+    let has = |proposal: &Proposal, name: &String| proposal.channels.iter().any(|table| table.name == *name);
+    let everywhere = |name: &String| further.iter().all(|proposal| has(proposal, name));
+    let fits = all.channels.iter().any(|table| everywhere(&table.name)) && all.further_runs.is_empty();
+    if !fits || all.channels.iter().any(|table| table.set.is_some()) {
+        return Ok(all);
+    }
+    for table in &mut all.channels {
+        table.optional = !everywhere(&table.name);
+    }
+    for proposal in further {
+        let fresh: Vec<ChannelTable> = proposal.channels.into_iter().filter(|table| !has(&all, &table.name)).collect();
+        for table in fresh {
+            let name = table.channel();
+            all.assumed.extend(proposal.assumed.iter().filter(|(channel, _)| *channel == name).cloned());
+            all.channels.push(ChannelTable { optional: true, ..table });
         }
     }
+    Ok(all)
 }
 
 /// The proposal with a base that was told by its name as a sensor like others: without mass its motion loads nothing.

@@ -207,6 +207,7 @@ fn table(channel: &Channel, set: Option<String>, quantity: Quantity, label: Stri
         sign: None,
         factor: None,
         delay: None,
+        optional: false,
     }
 }
 

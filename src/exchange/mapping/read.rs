@@ -76,6 +76,14 @@ pub(crate) fn read_mapped(
     } else {
         template.channels
     };
+    let present: Vec<ChannelTable>;
+    let channels = if template.sets.is_empty() && channels.iter().any(|table| table.optional) {
+        present =
+            channels.iter().filter(|table| !table.optional || holds(&file, table, template.set)).cloned().collect();
+        &present
+    } else {
+        channels
+    };
     if channels.is_empty() {
         return Err(at.error(
             None,
@@ -124,6 +132,13 @@ pub(crate) fn read_mapped(
 fn own_channels(file: &DataFile) -> Vec<ChannelTable> {
     let sets = file.contents().sets.iter();
     sets.flat_map(|set| set.channels.iter().filter_map(|channel| own_name(&set.name, channel))).collect()
+}
+
+/// Whether a file has the channel of a table.
+fn holds(file: &DataFile, table: &ChannelTable, run_set: Option<&str>) -> bool {
+    let wanted = run_set.or(table.set.as_deref());
+    let mut sets = file.contents().sets.iter().filter(|set| wanted.is_none_or(|wanted| wanted == set.name));
+    sets.any(|set| set.channels.iter().any(|channel| channel.name == table.name))
 }
 
 /// Set and channel of a table of the mapping: exactly one.

@@ -324,7 +324,9 @@ fn channels(
             .or_else(|| side.and_then(|(_, _, units)| listed(units)))
             .or_else(|| beside.map(str::to_owned))
             .or_else(|| suffix(&entry.name).filter(|_| cut.channels == 1).map(|(_, unit)| unit.to_owned()));
-        let unit = unit.or_else(|| listed(&labels.units)).unwrap_or_default();
+        // One unit beside functions is that of all of them.
+        let of_all = || labels.units.first().filter(|_| array.complex && labels.units.len() == 1).cloned();
+        let unit = unit.or_else(|| listed(&labels.units)).or_else(of_all).unwrap_or_default();
         let mut channel = Channel::new(name, unit, cut.count);
         channel.complex = array.complex;
         channel.attributes.clone_from(&entry.attributes);
