@@ -3,7 +3,8 @@
 
 use crate::control::Control;
 use crate::diagnosis::channels::{ChannelFault, Fault};
-use crate::diagnosis::diagnose::{Diagnosis, faults_of_channels};
+use crate::diagnosis::diagnose::faults_of_channels;
+use crate::diagnosis::result::Diagnosis;
 use crate::diagnosis::{DiagnosisError, Problem};
 use crate::effects::{Effect, Place, Source, State};
 use crate::exchange::Project;

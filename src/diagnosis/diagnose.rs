@@ -7,7 +7,7 @@ use crate::diagnosis::residual::data::{Data, DiagnosisError, Problem};
 use crate::diagnosis::residual::levels::sessions;
 use crate::diagnosis::residual::prediction::Predictor;
 use crate::diagnosis::residual::telling_runs::telling;
-use crate::diagnosis::result::{Diagnosis, Early, Verdict};
+use crate::diagnosis::result::{Diagnosis, Early, Step, Verdict};
 use crate::diagnosis::selection::reference_model::ReferenceModel;
 use crate::diagnosis::selection::{found, stepwise};
 use crate::effects::Source;
@@ -79,7 +79,7 @@ pub(crate) fn faults_of_channels(
     let data = telling(&all).unwrap_or(all);
     let predictor = Arc::new(Predictor::new(problem.structure, problem.known(), &data)?);
     let reference = ReferenceModel::new(predictor.clone(), &data, control, &|_| {})?;
-    Ok((channels::find(&predictor, &data, &reference.predictions), agreement(&reference)))
+    Ok((channels::find(&predictor, &data, &reference.predictions), reference.agreement()))
 }
 
 /// What is found on the runs of `data`.

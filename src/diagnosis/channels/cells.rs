@@ -128,7 +128,7 @@ impl Cells {
 
     /// Modal force over modal amplitude of the mode next to the run, where there is one: by the motion alone, whatever the
     /// model says of the size of the others.
-    pub fn next_to_mode(&self) -> Option<NextToMode> {
+    pub(super) fn next_to_mode(&self) -> Option<NextToMode> {
         let nearest = self.nearest.as_ref()?;
         let weights: Vec<f64> = self.floor.iter().map(|floor| 1.0 / floor.powi(2)).collect();
         let amplitude = *amplitudes(&nearest.shapes, &self.measured, &weights)?.first()?;

@@ -32,7 +32,7 @@ pub(crate) fn read_responses(
 ///
 /// # Errors
 /// [`FrfError`]: the file and what is wrong.
-pub fn read_test(
+pub(crate) fn read_test(
     folder: &Path,
     names: &[&String],
     source: &FrfSource,
