@@ -11,6 +11,8 @@ mod files;
 mod laboratories;
 #[path = "import/mapped.rs"]
 mod mapped;
+#[path = "import/onto_model.rs"]
+mod onto_model;
 #[path = "import/sets.rs"]
 mod sets;
 

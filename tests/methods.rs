@@ -172,3 +172,18 @@ fn incompleteness_without_a_known_damping() {
         String::from_utf8_lossy(&output.stderr)
     );
 }
+
+/// 48 lines of a hammer test: too few for an estimator but around the third mode, and each of the others has lines near it.
+#[test]
+fn modes_of_too_few_lines_for_the_estimator_come_from_the_lines_beside_them() {
+    let found = json("hammer-frf");
+    let how = found["modes_from"].as_str().unwrap();
+    assert!(
+        how.starts_with("1 mode by the poly-reference estimator, ") && how.contains("with the model's help"),
+        "{how}"
+    );
+    let modes = ratios(&found["complex_modes"]);
+    for (mode, reference) in [0.0100, 0.0032, 0.00268].into_iter().enumerate() {
+        assert!((modes[mode] / reference - 1.0).abs() < 0.03, "mode {mode}: {modes:?}");
+    }
+}

@@ -18,7 +18,7 @@ use crate::measurement::Run;
 use crate::structure::damped_modes::{DampedMode, damped_modes_from};
 use crate::structure::modes::Modes;
 use crate::structure::{Structure, SystemMatrices};
-use faer::Mat;
+use faer::{Mat, c64};
 
 /// A damping ratio that a method gives.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -165,7 +165,7 @@ fn reference(structure: &Structure, sources: &[Source]) -> Option<Mat<f64>> {
     sources.iter().any(|s| s.state == State::Reference).then(|| known_damping(structure, sources)).flatten()
 }
 
-/// Complex modes: from many lines by the poly-reference estimator, else from runs near the resonances.
+/// Complex modes: from many lines by the poly-reference estimator; those it does not find from runs near the resonances.
 type Found = (Option<Extraction>, Result<ModalData, String>, String);
 
 fn complex_modes(
@@ -181,14 +181,14 @@ fn complex_modes(
         Ok(extraction) if !extraction.modes.is_empty() => {
             let at_sensors = extraction.modal_data(responses);
             let full = expanded(model, responses, &at_sensors)?;
-            let words = format!("{} modes by the poly-reference estimator", full.len());
+            let (full, words) = completed(model, full, resonant::from_runs(matrices, model, responses).ok());
             return Ok((Some(extraction), Ok(full), words));
         }
         Err(ClassicalError::Cancelled) => return Err(ClassicalError::Cancelled),
         _ => {}
     }
     if let Ok(modal) = resonant::from_runs(matrices, model, responses) {
-        let words = format!("{} modes from runs near the resonances, with the model's help", modal.len());
+        let words = format!("{} from runs near the resonances, with the model's help", modes_in_words(modal.len()));
         return Ok((None, Ok(modal), words));
     }
     let why = format!(
@@ -197,6 +197,31 @@ fn complex_modes(
         model.frequency_hz(0)
     );
     Ok((None, Err(why), String::new()))
+}
+
+/// The modes of many lines, and of the modes of the model that are not among them those `from_runs`; how they were found.
+fn completed(model: &Modes, own: ModalData, from_runs: Option<ModalData>) -> (ModalData, String) {
+    let words = format!("{} by the poly-reference estimator", modes_in_words(own.len()));
+    // Shapes of another scale do not belong together.
+    let Some(other) = from_runs.filter(|_| own.scaled) else { return (own, words) };
+    let mode = |pole: &c64| model.nearest(pole.norm());
+    let found: Vec<Option<usize>> = own.poles.iter().map(mode).collect();
+    let missing: Vec<usize> = (0..other.len()).filter(|&p| !found.contains(&mode(&other.poles[p]))).collect();
+    if missing.is_empty() {
+        return (own, words);
+    }
+    let mut columns: Vec<(c64, Vec<c64>)> =
+        (0..own.len()).map(|p| (own.poles[p], super::linear::column(own.shapes.as_ref(), p))).collect();
+    columns.extend(missing.iter().map(|&p| (other.poles[p], super::linear::column(other.shapes.as_ref(), p))));
+    columns.sort_by(|a, b| a.0.im.total_cmp(&b.0.im));
+    let shapes = filled_complex(own.shapes.nrows(), columns.len(), |i, p| columns[p].1[i]);
+    let modal = ModalData { poles: columns.iter().map(|column| column.0).collect(), shapes, scaled: true };
+    let more = "from runs near the resonances, with the model's help";
+    (modal, format!("{words}, {} {more}", modes_in_words(missing.len())))
+}
+
+fn modes_in_words(count: usize) -> String {
+    if count == 1 { "1 mode".to_owned() } else { format!("{count} modes") }
 }
 
 /// Shapes at all DOFs.

@@ -13,7 +13,7 @@ pub(super) struct Import {
     #[arg(required = true, value_name = "FILE")]
     pub files: Vec<PathBuf>,
     /// Template, or project, whose [[channel]] tables (of frequency responses: whose first [[frf]]) say what the channels are;
-    /// proposed from the first file unless given
+    /// proposed from the first file unless given. A project with a model keeps it: all but its measurements
     #[arg(long)]
     pub map: Option<PathBuf>,
     /// Project to write; the name of the first file in this folder unless given

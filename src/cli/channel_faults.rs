@@ -22,6 +22,13 @@ pub(super) fn suggestions(faults: &[ChannelFault]) -> impl Iterator<Item = Value
                 map.insert("parameters".into(), json!({ "gain": factor }));
                 map.insert("standard_deviation".into(), json!({ "gain": null }));
             }
+            Fault::Common(factor) => {
+                map.insert("effect".into(), json!("gain"));
+                map.insert("dofs".into(), json!([]));
+                map.insert("channels".into(), json!(fault.channels));
+                map.insert("parameters".into(), json!({ "gain": factor }));
+                map.insert("standard_deviation".into(), json!({ "gain": null }));
+            }
             Fault::Exchanged => {
                 map.insert("effect".into(), json!("exchanged"));
                 map.insert("dofs".into(), json!([]));
@@ -44,8 +51,8 @@ pub(super) fn document(fault: &ChannelFault) -> Value {
     let (kind, factor) = match fault.fault {
         Fault::Exchanged => ("exchanged", None),
         Fault::Unreliable(_) => ("unreliable", None),
-        Fault::Factor(-1.0) => ("reversed", Some(-1.0)),
-        Fault::Factor(factor) => ("factor", Some(factor)),
+        Fault::Factor(-1.0) | Fault::Common(-1.0) => ("reversed", Some(-1.0)),
+        Fault::Factor(factor) | Fault::Common(factor) => ("factor", Some(factor)),
     };
     json!({
         "fault": kind,

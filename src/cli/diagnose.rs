@@ -2,6 +2,7 @@
 
 use super::arguments::Diagnose;
 use super::corrected::{corrected, correction};
+use super::mended_first::mended_first;
 use super::named_sources::{named, with_values};
 use super::run_flags::{self, flags};
 use super::table::{number, table};
@@ -37,7 +38,11 @@ pub(super) fn run(arguments: &Diagnose) -> anyhow::Result<String> {
     if !only_records(&project) {
         run_flags::check(&project, &arguments.file)?;
     }
-    let taken = identified::take_over(&mut project, arguments.identified, &arguments.file, &control)?;
+    let (mut taken, mut mended) = (Vec::new(), None);
+    if identified::is_needed(&project, arguments.identified, &control) {
+        (project, mended) = mended_first(project, &arguments.file, &control)?;
+        taken = identified::identify_known(&mut project, arguments.identified, &arguments.file, &control)?;
+    }
     if project.runs.iter().any(|run| run.is_used() && run.per_unit_force) {
         eprintln!("{}", channel_faults::NO_AMPLITUDE);
     }
@@ -45,9 +50,18 @@ pub(super) fn run(arguments: &Diagnose) -> anyhow::Result<String> {
     if let Some(seconds) = arguments.seconds {
         answer_within(&control, &project, Duration::from_secs_f64(seconds));
     }
-    let diagnosis = diagnosed(&project, &control, &early).with_context(|| arguments.file.display().to_string())?;
+    let mut diagnosis = diagnosed(&project, &control, &early).with_context(|| arguments.file.display().to_string())?;
     if let Some(out) = &arguments.apply {
-        apply(&arguments.file, out, &Written { project: &project, taken: &taken }, &diagnosis)?;
+        let document = match &mended {
+            Some(mended) => mended.document.clone(),
+            None => {
+                Session::open(&arguments.file).with_context(|| arguments.file.display().to_string())?.document().clone()
+            }
+        };
+        apply(&arguments.file, out, &Written { project: &project, document, taken: &taken }, &diagnosis)?;
+    }
+    if let Some(mended) = mended {
+        mended.before(&project.sources, &mut diagnosis, &control)?;
     }
     if arguments.json {
         let mut document = document(&project, &diagnosis);
@@ -62,6 +76,8 @@ pub(super) fn run(arguments: &Diagnose) -> anyhow::Result<String> {
 /// A project, and what was identified and taken as known beside what its file says.
 struct Written<'a> {
     project: &'a Project,
+    /// Its file.
+    document: Document,
     taken: &'a [Source],
 }
 
@@ -206,7 +222,7 @@ fn steps_in_words(structure: &Structure, diagnosis: &Diagnosis) -> String {
 /// and everything else stay as they are.
 fn apply(file: &Path, out: &Path, written: &Written, diagnosis: &Diagnosis) -> anyhow::Result<()> {
     let context = || file.display().to_string();
-    let mut document = Session::open(file).with_context(context)?.document().clone();
+    let mut document = written.document.clone();
     for source in written.taken {
         document = added(&document, source).with_context(context)?;
     }

@@ -15,9 +15,16 @@ use std::path::Path;
 
 /// Error of an undamped model, relative, from which on the comparison tells only that its damping is missing.
 const MEANINGLESS: f64 = 10.0;
+/// Error of a model that predicts no motion at all.
+const NO_BETTER: f64 = 1.0;
 
-/// Makes what `identify` finds known in `project`, where `asked` or where the model has no damping, candidates for it, and
-/// an error that says nothing else. Gives what was taken over.
+/// Whether what `identify` finds is to be made known first: where `asked`, or where the model has no damping, candidates for
+/// it, and an error that says nothing else.
+pub(super) fn is_needed(project: &Project, asked: bool, control: &Control) -> bool {
+    asked || is_meaningless(project, control)
+}
+
+/// Makes what `identify` finds known in `project`, where that is needed. Gives what was taken over.
 ///
 /// # Errors
 /// What keeps the project from being identified.
@@ -27,9 +34,22 @@ pub(super) fn take_over(
     file: &Path,
     control: &Control,
 ) -> anyhow::Result<Vec<Source>> {
-    if !asked && !is_meaningless(project, control) {
+    if !is_needed(project, asked, control) {
         return Ok(Vec::new());
     }
+    identify_known(project, asked, file, control)
+}
+
+/// Makes what `identify` finds known in `project`. Gives what was taken over.
+///
+/// # Errors
+/// What keeps the project from being identified.
+pub(super) fn identify_known(
+    project: &mut Project,
+    asked: bool,
+    file: &Path,
+    control: &Control,
+) -> anyhow::Result<Vec<Source>> {
     let outcome = identify(&project.structure, &project.sources, &project.runs, &project.settings, control)
         .with_context(|| format!("{}: what damps it could not be identified", file.display()))?;
     let taken = identified::take_over(project, &outcome);
@@ -43,7 +63,9 @@ fn is_meaningless(project: &Project, control: &Control) -> bool {
     let known = problem(project).known().iter().any(damps);
     let sought = project.sources.iter().any(|s| identified::is_sought(s) && damps(s));
     let error = || compare(&problem(project), &[], control).map_or(0.0, |c| c.error);
-    !known && sought && error() > MEANINGLESS
+    // Of frequency responses nothing is looked for but what is in proportion to the motion, as what `identify` finds.
+    let linear = project.runs.iter().filter(|run| run.is_used()).all(|run| run.per_unit_force);
+    !known && sought && error() > if linear { NO_BETTER } else { MEANINGLESS }
 }
 
 fn sentence(project: &Project, taken: &[Source], asked: bool) -> String {

@@ -5,10 +5,10 @@ use crate::control::Control;
 use crate::exchange::atomic::write_atomically;
 use crate::exchange::frf::Form;
 use crate::exchange::importing::files::listed;
-use crate::exchange::importing::{Request, import, proposal};
+use crate::exchange::importing::{Kept, Request, import, proposal};
 use crate::exchange::project::file::Label;
 use crate::exchange::project::frf::FrfTable;
-use crate::exchange::project::{frf_template, template};
+use crate::exchange::project::{Problem, frf_template, template};
 use anyhow::{Context, ensure};
 use dashpot_datafiles::Pairing;
 use std::path::{Path, PathBuf};
@@ -34,6 +34,7 @@ fn request(arguments: &Import) -> anyhow::Result<Request> {
     let mut request = Request {
         files,
         channels: None,
+        kept: None,
         sampling_hz: arguments.sampling_hz,
         mass: arguments.mass.clone(),
         stiffness: arguments.stiffness.clone(),
@@ -50,9 +51,13 @@ fn request(arguments: &Import) -> anyhow::Result<Request> {
     let Some(path) = &arguments.map else { return Ok(request) };
     let name = path.display().to_string();
     let text = std::fs::read_to_string(path).with_context(|| format!("{name}: the template cannot be read"))?;
-    match frf_template(&text, &name)? {
-        Some(table) => responses_template(&mut request, table),
-        None => request.channels = Some(template(&text, &name)?),
+    request.kept = Kept::of(&text, path);
+    match (frf_template(&text, &name)?, template(&text, &name)) {
+        (Some(table), _) => responses_template(&mut request, table),
+        (None, Ok(channels)) => request.channels = Some(channels),
+        // A model alone: the mapping is proposed.
+        (None, Err(error)) if request.kept.is_some() && matches!(*error.problem, Problem::Empty { .. }) => {}
+        (None, Err(error)) => return Err(error.into()),
     }
     Ok(request)
 }

@@ -21,6 +21,7 @@ mod identify_table;
 mod import;
 mod incompleteness;
 mod manual;
+mod mended_first;
 mod methods;
 mod moving_base;
 mod named_sources;

@@ -7,7 +7,7 @@ use crate::diagnosis::residual::data::{Data, DiagnosisError, Problem};
 use crate::diagnosis::residual::levels::sessions;
 use crate::diagnosis::residual::prediction::Predictor;
 use crate::diagnosis::residual::telling_runs::telling;
-use crate::diagnosis::result::{Diagnosis, Early, Verdict};
+use crate::diagnosis::result::{Diagnosis, Early, Step, Verdict};
 use crate::diagnosis::selection::reference_model::ReferenceModel;
 use crate::diagnosis::selection::{found, stepwise};
 use crate::effects::Source;
@@ -67,6 +67,21 @@ fn searched(
     Ok(Diagnosis { runs, ..on_all_runs::told(problem, &all, diagnosis, control)? })
 }
 
+/// Reversed, exchanged and misread channels alone, by the steady runs of `problem`, and how the model agrees with what they read.
+///
+/// # Errors
+/// [`DiagnosisError`]: runs or a model that cannot be compared.
+pub(crate) fn faults_of_channels(
+    problem: &Problem,
+    control: &Control,
+) -> Result<(Vec<ChannelFault>, Step), DiagnosisError> {
+    let all = Data::new(problem)?;
+    let data = telling(&all).unwrap_or(all);
+    let predictor = Arc::new(Predictor::new(problem.structure, problem.known(), &data)?);
+    let reference = ReferenceModel::new(predictor.clone(), &data, control, &|_| {})?;
+    Ok((channels::find(&predictor, &data, &reference.predictions), reference.agreement()))
+}
+
 /// What is found on the runs of `data`.
 fn on_runs(problem: &Problem, data: &Data, control: &Control, early: &Early) -> Result<Diagnosis, DiagnosisError> {
     let predictor = Arc::new(Predictor::new(problem.structure, problem.known(), data)?);
@@ -86,14 +101,12 @@ fn on_runs(problem: &Problem, data: &Data, control: &Control, early: &Early) -> 
     if faults.is_empty() {
         return Ok(diagnosis);
     }
-    diagnosis.error_before = asis.error;
     if mendable > 0 {
-        diagnosis.steps.insert(0, asis);
-        if diagnosis.verdict == Verdict::Adequate {
-            diagnosis.verdict = Verdict::Missing;
-        }
+        diagnosis.follows(asis, faults);
+    } else {
+        diagnosis.error_before = asis.error;
+        diagnosis.channel_faults = faults;
     }
-    diagnosis.channel_faults = faults;
     Ok(diagnosis)
 }
 

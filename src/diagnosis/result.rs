@@ -147,6 +147,17 @@ impl Diagnosis {
         }
     }
 
+    /// Makes this the answer to data whose channels had `faults`, with which the model agreed as `asis` says.
+    pub(crate) fn follows(&mut self, asis: Step, mut faults: Vec<ChannelFault>) {
+        self.error_before = asis.error;
+        self.steps.insert(0, asis);
+        if self.verdict == Verdict::Adequate {
+            self.verdict = Verdict::Missing;
+        }
+        faults.append(&mut self.channel_faults);
+        self.channel_faults = faults;
+    }
+
     /// Whether `source` is of the set that the corrections were fitted with.
     pub fn is_corrected_beside(&self, source: &Source) -> bool {
         let set = self.steps.last().map_or(&[][..], |step| &step.added);

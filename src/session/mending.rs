@@ -17,7 +17,7 @@ use crate::structure::{Direction, Structure};
 /// One sentence: the fault is none that a mapping can mend, or the records do not have one mapping.
 pub(crate) fn command(fault: &ChannelFault, project: &Project) -> Result<Command, String> {
     let factor = match fault.fault {
-        Fault::Factor(factor) => Some(factor),
+        Fault::Factor(factor) | Fault::Common(factor) => Some(factor),
         Fault::Exchanged => None,
         Fault::Unreliable(_) => return Err("a channel that scatters has no mapping that mends it".to_owned()),
     };
@@ -62,7 +62,18 @@ pub(super) fn mend(file: &mut ProjectFile, mending: &Mending, on: &Structure) ->
 fn plain(name: &str) -> Option<ChannelTable> {
     let (quantity, dof) = parse_name(name).ok()?;
     let name = name.to_owned();
-    Some(ChannelTable { name, set: None, quantity, dof, unit: None, sign: None, factor: None, delay: None })
+    let table = ChannelTable {
+        name,
+        set: None,
+        quantity,
+        dof,
+        unit: None,
+        sign: None,
+        factor: None,
+        delay: None,
+        optional: false,
+    };
+    Some(table)
 }
 
 fn in_mapping(tables: &mut [ChannelTable], mending: &Mending) -> Result<(), String> {

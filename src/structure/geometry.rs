@@ -25,6 +25,19 @@ impl Direction {
 }
 
 impl Direction {
+    /// Direction in space of a word such as `z` or `ry`.
+    pub(super) fn from_word(word: &str) -> Option<Self> {
+        const SPACE: [(&str, Direction); 6] = [
+            ("x", Direction::X),
+            ("y", Direction::Y),
+            ("z", Direction::Z),
+            ("rx", Direction::Rx),
+            ("ry", Direction::Ry),
+            ("rz", Direction::Rz),
+        ];
+        SPACE.iter().find(|(known, _)| word.eq_ignore_ascii_case(known)).map(|(_, direction)| *direction)
+    }
+
     /// 0, 1 or 2 for a translation along x, y or z.
     pub fn axis(self) -> Option<usize> {
         [Self::X, Self::Y, Self::Z].into_iter().position(|direction| direction == self)

@@ -1,6 +1,6 @@
 //! A structure: its degrees of freedom, matrices and elements, and how it came about.
 
-use super::geometry::{Dof, Node};
+use super::geometry::{Direction, Dof, Node};
 use super::lumped_mass::LumpedMass;
 use super::reduction::outcome::Reduction;
 use faer::Mat;
@@ -128,9 +128,17 @@ impl Structure {
         self.origin = Origin { notes, reduction, ..Origin::default() };
     }
 
-    /// Row of the DOF of that label.
+    /// Row of the DOF of that label; where no DOF has it, that of node and direction, such as `3z` of a beam.
     pub fn dof(&self, label: &str) -> Option<usize> {
-        self.dofs.iter().position(|dof| dof.label == label)
+        self.dofs.iter().position(|dof| dof.label == label).or_else(|| self.dof_at_node(label))
+    }
+
+    /// Row of the DOF of a node and direction that are written as one word, such as `12rz`.
+    fn dof_at_node(&self, word: &str) -> Option<usize> {
+        let digits = word.find(|c: char| !c.is_ascii_digit())?;
+        let (node, direction) = word.split_at(digits);
+        let direction = Direction::from_word(direction)?;
+        self.dofs.iter().position(|dof| dof.direction == direction && self.nodes[dof.node].label == node)
     }
 
     /// Label of row `dof`.

@@ -232,5 +232,6 @@ fn files_of_one_point_each_are_placed_by_their_names() {
     let said = dashpot(&["import", &a, &b, "--out", &out]).unwrap();
     assert!(said.contains("the responses are at 4, 9 by the numbers in their files, all driven at 4"), "{said}");
     let project = std::fs::read_to_string(&out).unwrap();
-    assert!(project.contains("responses = [\"9\"]") && project.contains("references = [\"4\"]"), "{project}");
+    assert!(project.contains("further_files = [\"point_9.csv\"]"), "{project}");
+    assert!(project.contains("responses = [\"4\", \"9\"]") && project.contains("references = [\"4\"]"), "{project}");
 }

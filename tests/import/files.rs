@@ -130,7 +130,7 @@ fn complex_values_without_frequencies_need_their_step() {
     let error = dashpot(&["import", &file, "--out", &out]).unwrap_err();
     assert!(error.contains("no frequencies; give their step by --step-hz"), "{error}");
     let said = dashpot(&["import", &file, "--out", &out, "--step-hz", "0.5", "--form", "accelerance"]).unwrap();
-    assert!(said.contains("1 functions at 1 DOFs"), "{said}");
+    assert!(said.contains("1 function at 1 DOF"), "{said}");
 }
 
 #[test]

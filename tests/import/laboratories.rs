@@ -33,6 +33,13 @@ fn records_that_a_universal_file_repeats_are_further_runs() {
         .map(|run| run["input_energy_j"].as_f64().unwrap())
         .collect();
     assert!((energies[1] / energies[0] - 4.0).abs() < 1e-3 && (energies[2] / energies[0] - 9.0).abs() < 1e-3);
+    // Denominators that are filled in where a record has none.
+    let none = format!("{:10}{:5}{:5}{:5} {:20} {:20}", 0, 0, 0, 0, "NONE", "NONE");
+    let filled = text.replace(&none, &none.replace("NONE                 NONE", "NONE                 N   "));
+    assert_ne!(filled, text);
+    let (_, project) = imported(folder.path(), "filled.uff", &filled, &[]);
+    assert!(!project.contains("factor") && !project.contains("unit"), "{project}");
+    let (_, project) = imported(folder.path(), "runs.uff", &text, &[]);
     // A set too few, and both ways of saying it.
     for (from, to, problem) in [
         (", \"4 (58) time response\"]", "]", "names 1 sets, one for each of the 2 [[channel]] is needed"),

@@ -102,10 +102,11 @@ fn function(set: &mut Set, header: &FunctionHeader, units: Option<&uff::Units>) 
         (unit, _) => unit.to_owned(),
     };
     set.name = format!("{} {}", set.name, header.kind.name());
-    let stated = !header.ordinate.unit.is_empty() || !header.denominator.unit.is_empty();
+    let below = denominator(header);
+    let stated = !header.ordinate.unit.is_empty() || !below.is_empty();
     let by_set =
         units.filter(|_| !stated && set.kind == Kind::Time).and_then(|units| unit_of(header.ordinate.quantity, units));
-    let unit = match (header.ordinate.unit.as_str(), header.denominator.unit.as_str()) {
+    let unit = match (header.ordinate.unit.as_str(), below) {
         (unit, "") => unit.to_owned(),
         ("", below) => format!("1/{below}"),
         (unit, below) if below.contains(['/', '*', '·', ' ']) => format!("{unit}/({below})"),
@@ -131,6 +132,16 @@ fn function(set: &mut Set, header: &FunctionHeader, units: Option<&uff::Units>) 
         attribute(&format!("id line {}", i + 1), line.trim().to_owned());
     }
     set.channels.push(channel);
+}
+
+/// Unit of the denominator of a function that has one. A coherence has none, and a record over time only where its type is
+/// stated: some programs fill the field with whatever the last function had.
+fn denominator(header: &FunctionHeader) -> &str {
+    match header.kind {
+        FunctionKind::Coherence => "",
+        FunctionKind::TimeResponse if header.denominator.quantity == 0 => "",
+        _ => &header.denominator.unit,
+    }
 }
 
 /// The unit of a record that states none, by its type of ordinate and the units of the file (set 164).

@@ -2,7 +2,7 @@
 
 use crate::effects::{Kind, Source};
 use crate::measurement::Quantity;
-use crate::measurement::channel::STANDARD_GRAVITY;
+use crate::measurement::channel::{POUND_FORCE, STANDARD_GRAVITY};
 
 const INCH: f64 = 0.0254;
 const FOOT: f64 = 0.3048;
@@ -14,6 +14,8 @@ const ORDINARY_GAIN: f64 = 0.08;
 pub enum Fault {
     /// A channel reads that many times its true value; -1: it is reversed.
     Factor(f64),
+    /// All motions together, or the force against all motions, read that many times their true value.
+    Common(f64),
     /// Two channels are at each other's place.
     Exchanged,
     /// What a channel reads scatters by that much from run to run, relative: it is loose, or late, or its gain drifts. It is
@@ -26,7 +28,7 @@ pub enum Fault {
 pub struct ChannelFault {
     /// What is wrong.
     pub fault: Fault,
-    /// Names, such as `acc@7`: one, or the two that are exchanged.
+    /// Names, such as `acc@7`: one, the two that are exchanged, or all that have a fault in common.
     pub channels: Vec<String>,
     /// Error of the model over all channels before it is mended, relative, modes nearby free.
     pub error_before: f64,
@@ -50,6 +52,7 @@ impl ChannelFault {
                     three_digits(100.0 * scatter)
                 )
             }
+            Fault::Common(factor) => common_words(&self.channels, factor),
             Fault::Factor(factor) => {
                 let reads = if factor < 0.0 { " looks reversed and reads" } else { " reads" };
                 if factor == -1.0 {
@@ -71,12 +74,38 @@ impl ChannelFault {
         }
         let [before, after] = self.own_error.map(percent);
         let [shown, of] = self.frequencies;
+        if let Fault::Common(_) = self.fault {
+            return format!(
+                "the masses of {shown} of {of} modes with runs about them say so, whatever their frequencies and damping: the error \
+                 of the masses falls from {before} % to {after} %"
+            );
+        }
         let what = if self.channels.len() == 2 { "their" } else { "its" };
         format!(
             "{what} own error falls from {before} % to {after} %, at {shown} of {of} frequencies, whatever the amplitudes \
              of the modes nearby"
         )
     }
+}
+
+/// A fault that channels have in common, in a sentence.
+fn common_words(channels: &[String], factor: f64) -> String {
+    let name = &channels[0];
+    let (who, look, read) = match channels.len() {
+        1 => (name.clone(), "looks", "reads"),
+        count => (format!("all {count} {} channels", name.split('@').next().unwrap_or_default()), "look", "read"),
+    };
+    let size = factor.abs();
+    if size == 1.0 {
+        return format!(
+            "{who} {look} reversed against the {}",
+            if name.starts_with("force@") { "motions" } else { "force" }
+        );
+    }
+    let turned = if factor < 0.0 { format!(" {look} reversed and") } else { String::new() };
+    let (times, which) = if size > 1.0 { (size, "large") } else { (1.0 / size, "small") };
+    let why = reason(name, size).map_or_else(String::new, |why| format!(": {why}?"));
+    format!("{who}{turned} {read} {} times too {which}{why}", three_digits(times))
 }
 
 /// A factor by which channels are misread, and by what.
@@ -88,6 +117,8 @@ struct Misreading {
 
 /// Largest relative distance of what is seen from the factor of a misreading.
 const WITHIN: f64 = 0.1;
+/// The same of what modal masses say.
+const ROUGHLY: f64 = 0.25;
 
 const fn misreading(factor: f64, quantity: Option<Quantity>, why: &'static str) -> Misreading {
     Misreading { factor, quantity, why }
@@ -96,7 +127,7 @@ const fn misreading(factor: f64, quantity: Option<Quantity>, why: &'static str) 
 /// Factors on what is true, each also as its inverse. Smaller ones (peak read as rms: 1.41) are no plain faults: a wrong gain
 /// of that size is left to the law `gain`, which estimates it.
 fn misreadings() -> Vec<Misreading> {
-    use Quantity::{Acceleration, Displacement, Velocity};
+    use Quantity::{Acceleration, Displacement, Force, Velocity};
     let of = |quantity, factor, larger, smaller| {
         [misreading(factor, Some(quantity), larger), misreading(1.0 / factor, Some(quantity), smaller)]
     };
@@ -109,6 +140,9 @@ fn misreadings() -> Vec<Misreading> {
         of(Acceleration, 1e3, "mm/s^2 read as m/s^2, or mg as g", "m/s^2 read as mm/s^2, or g as mg"),
         of(Acceleration, 1.0 / INCH, "in/s^2 read as m/s^2", "m/s^2 read as in/s^2"),
         of(Acceleration, 1.0 / FOOT, "ft/s^2 read as m/s^2", "m/s^2 read as ft/s^2"),
+        of(Force, POUND_FORCE, "N read as lbf", "lbf read as N"),
+        of(Force, STANDARD_GRAVITY, "N read as kgf", "kgf read as N"),
+        of(Force, 1e3, "N read as kN, or mN as N", "kN read as N, or N as mN"),
         of(Velocity, 1e3, "mm/s read as m/s", "m/s read as mm/s"),
         of(Velocity, 1.0 / INCH, "in/s read as m/s", "m/s read as in/s"),
         of(Velocity, 1e3 * INCH, "mm/s read as in/s", "in/s read as mm/s"),
@@ -125,18 +159,27 @@ fn misreadings() -> Vec<Misreading> {
     .collect()
 }
 
-fn quantity_of(name: &str) -> Option<Quantity> {
+pub(super) fn quantity_of(name: &str) -> Option<Quantity> {
     Quantity::from_word(name.split('@').next().unwrap_or_default())
 }
 
 /// The factor of a known misreading of a channel next to `seen` (positive), if one is near enough.
 pub(super) fn known_factor(name: &str, seen: f64) -> Option<f64> {
+    known(name, seen, WITHIN, true)
+}
+
+/// The same of its unit alone and of a rougher number: what all channels have in common is hardly an amplifier.
+pub(super) fn known_unit(name: &str, seen: f64) -> Option<f64> {
+    known(name, seen, ROUGHLY, false)
+}
+
+fn known(name: &str, seen: f64, within: f64, amplifiers: bool) -> Option<f64> {
     let quantity = quantity_of(name);
     let distance = |m: &Misreading| (seen / m.factor).ln().abs();
     misreadings()
         .iter()
-        .filter(|m| m.quantity.is_none() || m.quantity == quantity)
-        .filter(|m| distance(m) < WITHIN)
+        .filter(|m| (amplifiers && m.quantity.is_none()) || m.quantity == quantity)
+        .filter(|m| distance(m) < within)
         .min_by(|a, b| distance(a).total_cmp(&distance(b)))
         .map(|m| m.factor)
 }
@@ -180,6 +223,11 @@ mod tests {
         assert_eq!(fault(Fault::Exchanged, &["acc@7", "acc@11"]).words(), "acc@7 and acc@11 look exchanged");
         let g = fault(Fault::Factor(STANDARD_GRAVITY), &["acc@5"]).words();
         assert_eq!(g, "acc@5 reads 9.81 times too large: m/s^2 read as g?");
+        let all = fault(Fault::Common(1.0 / STANDARD_GRAVITY), &["acc@3", "acc@5"]).words();
+        assert_eq!(all, "all 2 acc channels read 9.81 times too small: g read as m/s^2?");
+        assert_eq!(fault(Fault::Common(-1.0), &["force@19"]).words(), "force@19 looks reversed against the motions");
+        let pounds = fault(Fault::Common(POUND_FORCE), &["force@19"]).words();
+        assert_eq!(pounds, "force@19 reads 4.45 times too large: N read as lbf?");
         let small = fault(Fault::Factor(-1e-3), &["disp@5"]).words();
         assert_eq!(small, "disp@5 looks reversed and reads 1000 times too small: m read as mm, or mm as um?");
     }

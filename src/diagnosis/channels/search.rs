@@ -1,6 +1,7 @@
 //! Which fault of which channel explains what the shapes of the motion say, one after the other.
 
 use super::cells::{Cells, cells};
+use super::common::common;
 use super::fault::{ChannelFault, Fault, known_factor};
 use crate::diagnosis::residual::data::Data;
 use crate::diagnosis::residual::prediction::{Predictor, RunPrediction};
@@ -32,7 +33,13 @@ pub(crate) fn find(predictor: &Predictor, data: &Data, predictions: &[RunPredict
     let Some(modes) = modes(predictor.structure(), data) else { return Vec::new() };
     let (names, cells) = cells(predictor.structure(), &modes, data, predictions);
     let mut search = Search { names, cells, faults: Vec::new() };
+    let forces = &data.channel_names()[1];
+    // A channel that is wrong for itself may hide what all have in common, and the other way round.
+    let shared = search.take_common(forces);
     while search.faults.len() < MOST && search.step() {}
+    if !shared {
+        search.take_common(forces);
+    }
     search.faults
 }
 
@@ -64,6 +71,18 @@ struct Errors {
 }
 
 impl Search {
+    /// Finds what all motions or the force read wrongly and mends it; whether there was that.
+    fn take_common(&mut self, forces: &[String]) -> bool {
+        let Some(fault) = common(&self.names, forces, &self.cells) else { return false };
+        if let Fault::Common(factor) = fault.fault {
+            // It is the motion that is scaled, also where the force is wrong.
+            let by = if fault.channels[0].starts_with("force@") { 1.0 / factor } else { factor };
+            self.cells.iter_mut().flat_map(|cells| &mut cells.measured).for_each(|value| *value /= by);
+        }
+        self.faults.push(fault);
+        true
+    }
+
     /// Finds the best fault and mends it; whether there was one.
     fn step(&mut self) -> bool {
         let before = self.errors(None);

@@ -34,13 +34,6 @@ pub(super) fn read(
     if places.is_empty() {
         return Err(FrfProblem::NoResponses);
     }
-    let listed = source.responses.len() * source.references.len().max(1);
-    if !source.responses.is_empty() && listed != places.len() {
-        return Err(FrfProblem::Data(format!(
-            "has {} functions, and `responses` times `references` are {listed}; name every column",
-            places.len()
-        )));
-    }
     let mut set = ResponseSet {
         name: name.to_string(),
         frequencies_hz: Vec::new(),

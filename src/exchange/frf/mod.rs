@@ -14,7 +14,7 @@ mod writer;
 
 pub(crate) use error::FrfError;
 pub(crate) use names::{pair_in_name, plain_place, response_in_name};
-pub(crate) use reader::{labels_in, read_responses};
+pub(crate) use reader::{labels_in, read_test};
 pub(crate) use shapes::{has_shapes, read_shapes};
 pub(crate) use source::FrfSource;
 pub(crate) use units::Form;

@@ -1,5 +1,6 @@
 //! Files of frequency responses of every format: which reader a file needs, and which labels it names.
 
+use super::checks::same_frequencies;
 use super::data_files;
 use super::error::{FrfError, FrfProblem};
 use super::source::FrfSource;
@@ -24,6 +25,64 @@ pub(crate) fn read_responses(
     }
     let mut file = File::open(path).map_err(|error| at(FrfProblem::File(error)))?;
     Reader { file: &mut file, source, structure }.read(name, control).map_err(at)
+}
+
+/// The functions of all files of a test on their common frequencies, and the faults that were read over; `names` are those
+/// of the files from `folder`.
+///
+/// # Errors
+/// [`FrfError`]: the file and what is wrong.
+pub(crate) fn read_test(
+    folder: &Path,
+    names: &[&String],
+    source: &FrfSource,
+    structure: &Structure,
+    control: &Control,
+) -> Result<(ResponseSet, Vec<String>), FrfError> {
+    let (mut test, mut faults): (Option<ResponseSet>, _) = (None, Vec::new());
+    let mut source = source.clone();
+    for name in names {
+        let path = folder.join(name);
+        let (set, more) = read_responses(&path, name, &source, structure, control)?;
+        faults.extend(more);
+        source.before += set.functions.len();
+        match &mut test {
+            None => test = Some(set),
+            Some(test) => {
+                join(test, set).map_err(|problem| FrfError { file: path.display().to_string(), problem })?;
+            }
+        }
+    }
+    let mut test = test.unwrap_or_else(|| ResponseSet { averages: source.averages, ..ResponseSet::default() });
+    if let Some(stated) = source.stated().filter(|stated| *stated != test.functions.len() && control.check().is_ok()) {
+        let (count, has) = (test.functions.len(), if names.len() == 1 { "has" } else { "and the files with it have" });
+        let what =
+            format!("{has} {count} functions, and `responses` times `references` are {stated}; name every column");
+        return Err(FrfError { file: folder.join(names[0]).display().to_string(), problem: FrfProblem::Data(what) });
+    }
+    if names.len() > 1 {
+        test.name = format!("{} and {} with it", test.name, names.len() - 1);
+    }
+    Ok((test, faults))
+}
+
+/// Adds the functions of a further file.
+fn join(test: &mut ResponseSet, set: ResponseSet) -> Result<(), FrfProblem> {
+    if !same_frequencies(&test.frequencies_hz, &set.frequencies_hz) {
+        let what = format!("its frequencies are not those of {}; give it an [[frf]] of its own", test.name);
+        return Err(FrfProblem::Data(what));
+    }
+    for function in set.functions {
+        if test.functions.iter().any(|f| f.response == function.response && f.reference == function.reference) {
+            let what = format!(
+                "{} over {} is in a file before it already; keep one of them, or give it an [[frf]] of its own",
+                function.response, function.reference
+            );
+            return Err(FrfProblem::Data(what));
+        }
+        test.functions.push(function);
+    }
+    Ok(())
 }
 
 /// Whether a file is a Universal File: -1 stands alone in its first line that is not blank.

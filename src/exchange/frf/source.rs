@@ -25,18 +25,26 @@ pub struct FrfSource {
     pub step_hz: Option<f64>,
     /// How the columns are parts of complex numbers two by two, where their names do not say it.
     pub columns: Option<Pairing>,
+    /// Functions of the same test in files before this one: the lists go on behind them.
+    pub before: usize,
 }
 
 impl FrfSource {
-    /// Labels of response and reference of function number `k` by the lists, where there are any: all responses to the first
+    /// Labels of response and reference of function number `k` of the file by the lists, where there are any: all responses to the first
     /// reference first.
     pub(super) fn listed(&self, k: usize) -> Result<Option<[String; 2]>, String> {
         if self.responses.is_empty() {
             return Ok(None);
         }
+        let k = k + self.before;
         let reference = self.references.get(k / self.responses.len());
         let reference =
             reference.ok_or("`responses` and `references` name fewer functions than there are; name every one")?;
         Ok(Some([self.responses[k % self.responses.len()].clone(), reference.clone()]))
+    }
+
+    /// Number of functions that the lists name, where there are any.
+    pub(super) fn stated(&self) -> Option<usize> {
+        (!self.responses.is_empty()).then(|| self.responses.len() * self.references.len().max(1))
     }
 }

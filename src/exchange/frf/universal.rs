@@ -82,7 +82,7 @@ impl Reader<'_> {
             averages: self.source.averages,
         };
         drop_zero(&mut set);
-        Ok((set, faults))
+        Ok((set, told_once(&faults)))
     }
 
     /// Set number `set`, the `k`-th that is a frequency response.
@@ -147,6 +147,25 @@ impl Reader<'_> {
     }
 }
 
+/// Faults of which several sets have the same, told of the first with the number of the others.
+fn told_once(faults: &[String]) -> Vec<String> {
+    // `file: set and line: what`
+    let what = |fault: &str| fault.splitn(3, ": ").nth(2).map(str::to_owned);
+    let mut told: Vec<(String, usize)> = Vec::new();
+    for fault in faults {
+        match told.iter_mut().find(|(first, _)| what(first).is_some() && what(first) == what(fault)) {
+            Some((_, others)) => *others += 1,
+            None => told.push((fault.clone(), 0)),
+        }
+    }
+    let words = |(fault, others)| match others {
+        0 => fault,
+        1 => format!("{fault} (so in 1 further set)"),
+        _ => format!("{fault} (so in {others} further sets)"),
+    };
+    told.into_iter().map(words).collect()
+}
+
 /// Takes the frequencies of the first function and compares those of the others.
 fn common_frequencies(common: &mut Vec<f64>, function: &Function, set: usize) -> Result<(), FrfProblem> {
     let unit = function.header.abscissa.unit.as_str();
@@ -199,4 +218,17 @@ fn attach(found: &mut [Found], set: usize, coherence: &Function) -> Result<(), F
     }
     one.function.coherence = Some(values);
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::told_once;
+
+    #[test]
+    fn a_fault_of_many_sets_is_told_once() {
+        let faults =
+            ["a: set 1, line 3: short", "a: set 2, byte 9: short", "a: set 3, line 4: long", "a: set 4, byte 1: short"];
+        let told = told_once(&faults.map(str::to_owned));
+        assert_eq!(told, ["a: set 1, line 3: short (so in 2 further sets)", "a: set 3, line 4: long"]);
+    }
 }

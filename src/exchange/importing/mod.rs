@@ -4,7 +4,11 @@
 
 mod error;
 pub mod files;
+mod functions;
+mod kept;
+mod looks;
 mod model;
+mod numbers;
 mod records;
 mod refusal;
 mod request;
@@ -15,6 +19,7 @@ mod stepped;
 mod text;
 
 pub use error::ImportError;
+pub use kept::Kept;
 pub use request::{Imported, Request};
 pub use responses::Functions;
 pub use text::named;

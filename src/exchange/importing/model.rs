@@ -43,9 +43,12 @@ pub(super) fn structure(request: &Request, out: &Path, up_to_hz: f64) -> Result<
     Ok(Some(text))
 }
 
-/// Head of a project with the structure of the model that is given, else with `own`, and candidates.
+/// Head of a project with the structure of the model that is given, else of the template, else with `own`, and candidates.
 pub(super) fn head(request: &Request, out: &Path, own: &str, up_to_hz: f64) -> Result<String> {
     let title = request.files[0].file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned());
+    if let (None, Some(kept)) = (&request.mass, &request.kept) {
+        return kept.head(out, &title);
+    }
     let structure = structure(request, out, up_to_hz)?.unwrap_or_else(|| own.to_owned());
     Ok(format!(
         "[project]\nformat = 1\ntitle = {}\n\n{structure}\n[[candidates]]\nlaw = \"viscous\"\nwhere = \"each-translation\"\n\n",
@@ -84,10 +87,17 @@ pub(super) fn places(points: &[Point], model: &Model) -> Result<Vec<String>> {
         if labels.contains(own.as_str()) {
             return Ok(own);
         }
-        Err(ImportError::Said(format!(
-            "point {} direction {} is not in the model, neither by its number nor by its place; say it under [frf.dofs]",
-            point.node, point.direction
-        )))
+        Err(ImportError::Said(match point.direction.as_str() {
+            "" => format!(
+                "point {own} of the measurement has no direction, and the model no DOF of that name; name the DOFs of the \
+                 functions by --responses and --references, such as --responses {own}z, or under [frf.dofs] of a --map"
+            ),
+            direction => format!(
+                "point {} direction {direction} is not in the model, neither by its number nor by its place; say it under \
+                 [frf.dofs] of a --map, or name the DOFs by --responses and --references",
+                point.node
+            ),
+        }))
     };
     points.iter().map(label_of).collect()
 }

@@ -1,37 +1,28 @@
 //! Import of time records: a mapping of their channels, one run a file or set, of the kind that its record looks like.
 
 use super::error::{ImportError, Result};
+use super::looks::{Looks, look};
 use super::model::head;
+use super::numbers::placed;
 use super::refusal::refusal;
 use super::request::{Imported, Request};
 use super::single_mode::{SingleMode, single_mode};
-use super::text::{comment, named, points};
+use super::text::{comment, counted, named, points};
 use crate::control::Control;
 use crate::exchange::mapping::{ChannelTable, Proposal, propose, runs_of};
 use crate::exchange::project::plan;
-use crate::measurement::{Kind, Part, Quantity, Record, frequency, proposal, steady_part};
+use crate::measurement::channel::parse_name;
+use crate::measurement::{Kind, Quantity, Record};
 use dashpot_datafiles::open;
 use serde::Serialize;
 use std::path::{Path, PathBuf};
 
 /// Fewest samples of a run.
 const FEWEST: usize = 32;
-/// Share of its largest size that a motion without a force keeps to the end where it is no decay.
-const KEPT: f64 = 0.7;
-/// Harmonics by which the steady part of a record is found.
-const HARMONICS: usize = 3;
-
 /// A table of a mapping, as it stands in a template or a project.
 #[derive(Serialize)]
 struct Mapping<'a> {
     channel: [&'a ChannelTable; 1],
-}
-
-/// What a record of the project looks like.
-struct Looks {
-    kind: Kind,
-    part: Part,
-    reason: String,
 }
 
 /// What becomes a run: a file, and its set where it has several of that layout.
@@ -45,6 +36,9 @@ struct RunSource {
 /// The project of records by their mapping.
 pub(super) fn import(request: &Request, mapping: Proposal, out: &Path, control: &Control) -> Result<Imported> {
     let mut mapping = usable(request, mapping)?;
+    if request.kept.is_some() && request.channels.is_none() {
+        mapping = placed(mapping, &head(request, out, "", 0.0)?, out)?;
+    }
     if mapping.needs_sampling && request.sampling_hz.is_none() {
         let problem = "the file does not say the time between samples; give it by --sampling-hz";
         return Err(ImportError::of(&request.files[0], problem));
@@ -52,7 +46,7 @@ pub(super) fn import(request: &Request, mapping: Proposal, out: &Path, control: 
     let sources = sources(request, &mapping)?;
     let (first, mut looks) = looks_of(request, &mapping, &sources, out, control)?;
     let forced = mapping.channels.iter().any(|table| matches!(table.quantity, Quantity::Force | Quantity::Base));
-    let alone = !forced && request.mass.is_none() && request.channels.is_none();
+    let alone = !forced && !request.has_model() && request.channels.is_none();
     let single = if alone { first.as_ref().and_then(|first| single_mode(first, &mut mapping)) } else { None };
     // Records may be as large as memory: none is kept while others are read.
     drop(first);
@@ -80,10 +74,52 @@ pub(super) fn template(request: &Request, mapping: Proposal) -> Result<String> {
 
 /// The mapping that is given, else what the first file proposes.
 pub(super) fn mapping(request: &Request) -> Result<Proposal> {
-    match &request.channels {
-        Some(channels) => Ok(Proposal { channels: channels.clone(), ..Proposal::default() }),
-        None => Ok(propose(open(&request.files[0])?.contents())),
+    if let Some(channels) = &request.channels {
+        return Ok(Proposal { channels: channels.clone(), ..Proposal::default() });
     }
+    let proposal = of_all_files(request)?;
+    Ok(if request.has_model() { proposal } else { without_base(proposal) })
+}
+
+/// What the first file proposes; where some of its channels move from file to file (a hammer that is named by its place), what
+/// all files propose, with those that some lack as optional.
+fn of_all_files(request: &Request) -> Result<Proposal> {
+    let own = |file: &PathBuf| Ok(propose(open(file)?.contents()));
+    let mut all = own(&request.files[0])?;
+    let further = request.files[1..].iter().map(own).collect::<Result<Vec<Proposal>>>()?;
+    let has = |proposal: &Proposal, name: &String| proposal.channels.iter().any(|table| table.name == *name);
+    let everywhere = |name: &String| further.iter().all(|proposal| has(proposal, name));
+    let fits = all.channels.iter().any(|table| everywhere(&table.name)) && all.further_runs.is_empty();
+    if !fits || all.channels.iter().any(|table| table.set.is_some()) {
+        return Ok(all);
+    }
+    for table in &mut all.channels {
+        table.optional = !everywhere(&table.name);
+    }
+    for proposal in further {
+        let fresh: Vec<ChannelTable> = proposal.channels.into_iter().filter(|table| !has(&all, &table.name)).collect();
+        for table in fresh {
+            let name = table.channel();
+            all.assumed.extend(proposal.assumed.iter().filter(|(channel, _)| *channel == name).cloned());
+            all.channels.push(ChannelTable { optional: true, ..table });
+        }
+    }
+    Ok(all)
+}
+
+/// The proposal with a base that was told by its name as a sensor like others: without mass its motion loads nothing.
+fn without_base(mut proposal: Proposal) -> Proposal {
+    let told = |table: &&mut ChannelTable| table.quantity == Quantity::Base && parse_name(&table.name).is_err();
+    for table in proposal.channels.iter_mut().filter(told) {
+        let old = table.channel();
+        (table.quantity, table.dof) = (Quantity::Acceleration, "base".to_owned());
+        let name = table.channel();
+        proposal.assumed.retain(|(channel, _)| *channel != old);
+        let why = "by its name the motion of the base; its force is known with a model: give one by --mass, or by --map a project \
+                   with a structure";
+        proposal.assumed.push((name, why.to_owned()));
+    }
+    proposal
 }
 
 /// The mapping where something of it is mapped; channels in the unit of their sensor where nothing else moves.
@@ -156,44 +192,6 @@ fn looks_of(
     Ok((first, found))
 }
 
-fn look(record: &Record) -> Looks {
-    let proposal::Proposal { kind, mut part, mut reason } = proposal::propose(record);
-    let forced = record.channels().iter().any(|channel| channel.quantity == Quantity::Force);
-    if kind == Kind::Transient || kind == Kind::Decay && (forced || !keeps(record)) {
-        return Looks { kind, part, reason };
-    }
-    if kind == Kind::Decay {
-        // Blocks shorter than a period rise and fall with it.
-        (part, reason) = (Part::default(), "no force is measured, and the motion keeps its size to the end".to_owned());
-    }
-    let found = frequency::estimate(record, HARMONICS);
-    match found.and_then(|found| crate::measurement::fit(record, found.omega, HARMONICS)) {
-        Ok(fit) => {
-            if let Some(steady) = steady_part(record, &fit) {
-                part = steady;
-                reason = format!("{reason}; what is run up or down is left out");
-            }
-            Looks { kind: Kind::Steady, part, reason }
-        }
-        Err(error) => {
-            Looks { kind: Kind::Transient, part: Part::default(), reason: format!("it is not steady: {error}") }
-        }
-    }
-}
-
-/// Whether every channel is nearly as large in the last eighth of a record as at its largest, by root mean squares about the mean.
-fn keeps(record: &Record) -> bool {
-    let size = |values: &[f64]| {
-        let mean = values.iter().sum::<f64>() / values.len() as f64;
-        (values.iter().map(|y| (y - mean).powi(2)).sum::<f64>() / values.len() as f64).sqrt()
-    };
-    (0..record.channels().len()).all(|c| {
-        let parts: Vec<f64> = record.samples(c).chunks(record.len().div_ceil(8)).map(size).collect();
-        let most = parts.iter().copied().fold(0.0, f64::max);
-        parts.last().is_none_or(|last| *last >= KEPT * most)
-    })
-}
-
 /// Labels of the DOFs of a mapping.
 fn labels(mapping: &Proposal) -> Vec<String> {
     let mut labels: Vec<String> = Vec::new();
@@ -260,6 +258,17 @@ fn run_table(request: &Request, source: &RunSource, out: &Path) -> Result<String
     Ok(text)
 }
 
+/// What else a force and a displacement at one point may be.
+const COMPONENT: &str = "If this is one component in a testing machine, its displacement imposed and its force measured, write kind = \
+                         \"component\" in place of both lines: `diagnose` then tries every law on whole loops.";
+
+/// Whether nothing but one force and one displacement is measured, both at one point.
+fn is_component_like(mapping: &Proposal) -> bool {
+    let [a, b] = &mapping.channels[..] else { return false };
+    let quantities = [a.quantity, b.quantity];
+    a.dof == b.dof && quantities.contains(&Quantity::Force) && quantities.contains(&Quantity::Displacement)
+}
+
 fn project_head(
     request: &Request,
     mapping: &Proposal,
@@ -270,7 +279,7 @@ fn project_head(
     let transient = looks.iter().any(|looks| looks.kind != Kind::Steady);
     let structure = match single {
         Some(single) => single.structure(),
-        None if transient && request.mass.is_none() => format!(
+        None if transient && !request.has_model() => format!(
             "{}{}",
             comment(
                 "Decays and transients need mass and stiffness: give a finite-element model by --mass and --stiffness, or write \
@@ -278,6 +287,7 @@ fn project_head(
             ),
             points(&labels(mapping))
         ),
+        None if is_component_like(mapping) => format!("{}{}", comment(COMPONENT), points(&labels(mapping))),
         None => points(&labels(mapping)),
     };
     head(request, out, &structure, 0.5 * highest_rate(request)?)
@@ -319,13 +329,9 @@ fn summary(
     for (name, why) in &mapping.left {
         text.push_str(&format!("not mapped: \"{name}\" ({why})\n"));
     }
-    for (source, looks) in sources.iter().zip(looks) {
-        let set = source.set.as_ref().or(source.sets.first());
-        let set = set.map_or_else(String::new, |set| format!(", set \"{set}\""));
-        text.push_str(&format!("{}{set}: {}: {}\n", source.file.display(), looks.kind.name(), looks.reason));
-    }
+    text.push_str(&kinds(sources, looks));
     let steady = looks.iter().any(|looks| looks.kind == Kind::Steady);
-    let model = request.mass.is_some() || single.is_some();
+    let model = request.has_model() || single.is_some();
     let forced = mapping.channels.iter().any(|table| matches!(table.quantity, Quantity::Force | Quantity::Base));
     if let Some(single) = single {
         text.push_str(&format!("{}\n", single.words()));
@@ -339,9 +345,28 @@ fn summary(
             "no force is measured: steady runs without one say nothing of energies; map the channel of the force\n",
         );
     }
-    let count = |n: usize, what: &str| if n == 1 { format!("1 {what}") } else { format!("{n} {what}s") };
-    let (runs, channels) = (count(sources.len(), "run"), count(mapping.channels.len(), "channel"));
+    let (runs, channels) = (counted(sources.len(), "run"), counted(mapping.channels.len(), "channel"));
     format!("{text}{runs} of {channels} are in {}\n", out.display())
+}
+
+/// Of what kind the runs are and why; runs that follow one another and are alike in one line.
+fn kinds(sources: &[RunSource], looks: &[Looks]) -> String {
+    let name = |source: &RunSource| {
+        let set = source.set.as_ref().or(source.sets.first());
+        let set = set.map_or_else(String::new, |set| format!(", set \"{set}\""));
+        format!("{}{set}", source.file.display())
+    };
+    let both: Vec<(&RunSource, &Looks)> = sources.iter().zip(looks).collect();
+    let alike = both.chunk_by(|(_, a), (_, b)| (a.kind, &a.reason) == (b.kind, &b.reason));
+    let line = |runs: &[(&RunSource, &Looks)]| {
+        let ((first, looks), (last, _)) = (runs[0], runs[runs.len() - 1]);
+        let names = match runs.len() {
+            1 => name(first),
+            n => format!("{} to {} ({n} runs)", name(first), name(last)),
+        };
+        format!("{names}: {}: {}\n", looks.kind.name(), looks.reason)
+    };
+    alike.map(line).collect()
 }
 
 /// Sampling rate of the first file, Hz.

@@ -1,5 +1,6 @@
 //! What is asked of an import, and what it gives.
 
+use super::kept::Kept;
 use crate::exchange::frf::Form;
 use crate::exchange::mapping::ChannelTable;
 use crate::exchange::project::frf::FrfTable;
@@ -13,6 +14,8 @@ pub struct Request {
     pub files: Vec<PathBuf>,
     /// What the channels of time records are.
     pub channels: Option<Vec<ChannelTable>>,
+    /// A project that has a model already: all of it but its measurements is kept. `mass` goes before it.
+    pub kept: Option<Kept>,
     /// Sampling rate of files that do not say it, Hz.
     pub sampling_hz: Option<f64>,
     /// Mass matrix of a finite-element model, or a file with mass and stiffness.
@@ -37,6 +40,13 @@ pub struct Request {
     pub references: Vec<String>,
     /// Table `[[frf]]` of a template.
     pub frf: Option<Box<FrfTable>>,
+}
+
+impl Request {
+    /// Whether there is mass and stiffness beside the measurements.
+    pub(super) fn has_model(&self) -> bool {
+        self.mass.is_some() || self.kept.is_some()
+    }
 }
 
 /// A project that was made of files.

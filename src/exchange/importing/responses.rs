@@ -1,16 +1,17 @@
 //! Import of frequency responses: a project with `[[frf]]`, its DOFs those of the file or of a model.
 
 use super::error::{ImportError, Result};
+use super::functions::{Measured, functions, measured, opened, pair, together};
 use super::model::{Point, head, model, places};
 use super::request::{Imported, Request};
-use super::text::{comment, named, points as points_structure};
+use super::text::{comment, counted, named, points as points_structure};
 use crate::control::Control;
-use crate::exchange::frf::{Form, pair_in_name, plain_place, response_in_name};
+use crate::exchange::frf::{Form, plain_place};
 use crate::exchange::project::frf::FrfTable;
 use crate::exchange::project::plan;
-use dashpot_datafiles::{Channel, Contents, DataFile, Format, Kind, Set, Values, open, open_paired};
+use dashpot_datafiles::{DataFile, Kind, Values};
 use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 /// Whether a file among them has frequency responses.
 pub(super) fn has_responses(request: &Request) -> Result<bool> {
@@ -22,24 +23,6 @@ pub(super) fn has_responses(request: &Request) -> Result<bool> {
     Ok(false)
 }
 
-/// Opens a file, its columns two by two where that is said.
-fn opened(request: &Request, file: &Path) -> Result<DataFile, dashpot_datafiles::Error> {
-    match request.columns {
-        Some(pairing) => open_paired(file, pairing),
-        None => open(file),
-    }
-}
-
-/// The functions of a file; complex columns without frequencies too where their step is given.
-fn functions<'a>(contents: &'a Contents, request: &Request) -> impl Iterator<Item = &'a Channel> {
-    contents.sets.iter().flat_map(|set| of_set(set, request))
-}
-
-fn of_set<'a>(set: &'a Set, request: &Request) -> impl Iterator<Item = &'a Channel> + use<'a> {
-    let wanted = set.kind == Kind::Frf || request.step_hz.is_some() && set.kind == Kind::Table;
-    set.channels.iter().filter(move |channel| wanted && channel.complex && channel.count > 0)
-}
-
 /// The project of frequency responses.
 pub(super) fn import(request: &Request, out: &Path, control: &Control) -> Result<Imported> {
     let Found { head, tables, summary, assumed } = project(request, out)?;
@@ -47,7 +30,8 @@ pub(super) fn import(request: &Request, out: &Path, control: &Control) -> Result
         plan(&format!("{head}{tables}"), out).and_then(|plan| plan.load(control)).map_err(ImportError::Unwritten)?;
     let assumed = assumed.iter().map(|what| format!("assumed: {what}\n")).collect::<String>();
     let runs = project.runs.len();
-    let summary = format!("{assumed}{summary}, {runs} runs of one line each, are in {}\n", out.display());
+    let runs = counted(runs, "run");
+    let summary = format!("{assumed}{summary}, {runs} of one line each, are in {}\n", out.display());
     Ok(Imported { head, tables, summary, remarks: project.remarks })
 }
 
@@ -84,13 +68,6 @@ struct Found {
     assumed: Vec<String>,
 }
 
-/// A file with responses and the labels of its functions in order, where names and file do not say them.
-struct Measured {
-    path: PathBuf,
-    responses: Vec<String>,
-    references: Vec<String>,
-}
-
 /// What the files say of their functions.
 struct Said {
     count: usize,
@@ -115,7 +92,8 @@ fn said(request: &Request) -> Result<Said> {
     if measured.iter().any(|one| !one.responses.is_empty()) {
         names = measured.iter().flat_map(|one| one.responses.iter().chain(&one.references)).cloned().collect();
     }
-    Ok(Said { count, highest_hz, points: points(&names, &files)?, measured, assumed })
+    let points = points(&names, &files)?;
+    Ok(Said { count, highest_hz, points, measured: together(measured, &files, request), assumed })
 }
 
 fn project(request: &Request, out: &Path) -> Result<Found> {
@@ -131,9 +109,11 @@ fn project(request: &Request, out: &Path) -> Result<Found> {
         tables.push_str(&comment(&format!("Assumed: {what}.")));
     }
     for one in &measured {
-        tables.push_str(&table(request, &named(&one.path, out)?, one, &dofs));
+        let further = one.further.iter().map(|file| named(file, out)).collect::<Result<Vec<_>>>()?;
+        tables.push_str(&table(request, &named(&one.path, out)?, &further, one, &dofs));
     }
-    Ok(Found { head, tables, summary: format!("{count} functions at {} DOFs", points.len()), assumed })
+    let summary = format!("{} at {}", counted(count, "function"), counted(points.len(), "DOF"));
+    Ok(Found { head, tables, summary, assumed })
 }
 
 /// Labels of the DOFs, and those of the file that are called otherwise in the project.
@@ -192,88 +172,20 @@ fn template_label<'a>(request: &'a Request, name: &str) -> Option<&'a str> {
     request.frf.as_ref()?.dofs.get(name).map(|label| label.0.as_str())
 }
 
-/// The files with responses; DOFs as they are given, else numbered in order where neither names nor files say them.
-fn measured(request: &Request, files: &[DataFile]) -> Result<(Vec<Measured>, Vec<String>)> {
-    let counts: Vec<usize> = files.iter().map(|file| functions(file.contents(), request).count()).collect();
-    let named =
-        files.iter().all(|file| functions(file.contents(), request).all(|channel| pair(file, channel).is_some()));
-    let total: usize = counts.iter().sum();
-    let mut assumed = Vec::new();
-    let (mut responses, mut references) = (request.responses.clone(), request.references.clone());
-    if !named && responses.is_empty() {
-        let (numbers, how) = numbered(request, files, &counts);
-        responses = numbers;
-        if references.is_empty() {
-            references = vec![responses[0].clone()];
-        }
-        if references.len() != 1 {
-            let problem =
-                "neither names nor file say the DOFs of the functions; give them by --responses and --references";
-            return Err(ImportError::of(&request.files[0], problem));
-        }
-        assumed.push(format!("{how}, all driven at {}", references[0]));
-    }
-    // One list for all files one after the other, or the same list for each.
-    let in_turn = references.len() == 1 && responses.len() == total && files.len() > 1;
-    let mut from = 0;
-    let mut measured = Vec::new();
-    for (file, count) in files.iter().zip(counts).filter(|(_, count)| *count > 0) {
-        let own = if in_turn { responses[from..from + count].to_vec() } else { responses.clone() };
-        from += count;
-        measured.push(Measured { path: file.path().to_owned(), responses: own, references: references.clone() });
-    }
-    Ok((measured, assumed))
-}
-
-/// Labels of responses whose references nothing says: by the numbers in the names of the functions, of their sets, of the
-/// files, else in their order; and how that is said.
-fn numbered(request: &Request, files: &[DataFile], counts: &[usize]) -> (Vec<String>, String) {
-    let functions = |file| functions_with_sets(file, request);
-    let label = |name: &str| {
-        let label: String = response_in_name(name)?.chars().filter(char::is_ascii_alphanumeric).collect();
-        Some(label.to_lowercase()).filter(|label| place_like(label))
-    };
-    let by_name: Vec<Option<String>> =
-        files.iter().flat_map(functions).map(|(_, channel)| label(&channel.name)).collect();
-    let by_set: Vec<Option<String>> = files.iter().flat_map(functions).map(|(set, _)| label(set)).collect();
-    let one_each = counts.iter().all(|count| *count < 2);
-    let measured = files.iter().zip(counts).filter(|(_, count)| **count > 0);
-    let by_file: Vec<Option<String>> = measured
-        .map(|(file, _)| label(&file.path().file_stem().unwrap_or_default().to_string_lossy()).filter(|_| one_each))
-        .collect();
-    let whose = [(by_name, "names"), (by_set, "sets"), (by_file, "files")];
-    for (labels, whose) in whose {
-        let mut seen: Vec<&String> = labels.iter().flatten().collect();
-        seen.sort_unstable();
-        seen.dedup();
-        if !labels.is_empty() && seen.len() == labels.len() {
-            let labels: Vec<String> = labels.into_iter().flatten().collect();
-            let how = format!("the responses are at {} by the numbers in their {whose}", labels.join(", "));
-            return (labels, how);
-        }
-    }
-    let total = counts.iter().sum::<usize>();
-    let how = format!("neither names nor file say the DOFs: the responses are numbered 1 to {total} in their order");
-    ((1..=total).map(|number| number.to_string()).collect(), how)
-}
-
-/// Whether a text is a number with a direction or without.
-fn place_like(text: &str) -> bool {
-    let end = text.find(|c: char| !c.is_ascii_digit()).unwrap_or(text.len());
-    end > 0 && matches!(&text[end..], "" | "x" | "y" | "z" | "rx" | "ry" | "rz")
-}
-
-/// The functions of a file with the names of their sets.
-fn functions_with_sets<'a>(file: &'a DataFile, request: &'a Request) -> impl Iterator<Item = (&'a str, &'a Channel)> {
-    let sets = file.contents().sets.iter();
-    sets.flat_map(move |set| of_set(set, request).map(move |channel| (set.name.as_str(), channel)))
-}
-
 /// The `[[frf]]` of a file.
-fn table(request: &Request, file: &str, measured: &Measured, dofs: &BTreeMap<String, String>) -> String {
+fn table(
+    request: &Request,
+    file: &str,
+    further: &[String],
+    measured: &Measured,
+    dofs: &BTreeMap<String, String>,
+) -> String {
     let quoted = |text: &str| toml::Value::from(text).to_string();
     let list = |labels: &[String]| labels.iter().map(|label| quoted(label)).collect::<Vec<_>>().join(", ");
     let mut text = format!("[[frf]]\nfile = {}\n", quoted(file));
+    if !further.is_empty() {
+        text.push_str(&format!("further_files = [{}]\n", list(further)));
+    }
     if let Some(form) = request.form {
         text.push_str(&format!("form = {}\n", quoted(Form::WORDS[form as usize])));
     }
@@ -322,23 +234,6 @@ fn of_template(template: &FrfTable) -> String {
         text.push_str(&format!("lines = {lines}\n"));
     }
     text
-}
-
-/// Names of response and reference of a function. Universal Files state them; elsewhere the name of the channel may.
-fn pair(file: &DataFile, channel: &Channel) -> Option<[String; 2]> {
-    match (channel.attribute("response"), channel.attribute("reference")) {
-        // Node 0 is no point: its entity alone is there, or nothing.
-        (Some(response), reference)
-            if file.contents().format == Format::Uff
-                && response.contains(':')
-                && reference.is_none_or(|reference| !reference.contains(':')) =>
-        {
-            Some([response.to_owned(), "0:S".to_owned()])
-        }
-        (Some(response), Some(reference)) => Some([response.to_owned(), reference.to_owned()]),
-        _ if file.contents().format == Format::Uff => None,
-        _ => pair_in_name(&channel.name),
-    }
 }
 
 /// The points that the names stand for, each once, by the name of its positive direction.

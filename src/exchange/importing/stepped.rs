@@ -19,7 +19,7 @@ pub(super) fn import(request: &Request, table: &Stepped, out: &Path, control: &C
     let (mut head, tables) = project(request, table, out)?;
     let loaded =
         plan(&format!("{head}{tables}"), out).and_then(|plan| plan.load(control)).map_err(ImportError::Unwritten)?;
-    if request.mass.is_none()
+    if !request.has_model()
         && let Some([mass, stiffness]) = oscillator(&loaded.runs)
     {
         let hint = comment(&format!(

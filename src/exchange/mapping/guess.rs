@@ -69,6 +69,29 @@ pub(super) fn symbol(name: &str) -> Option<Quantity> {
     letters.all(|c| c.is_ascii_digit() || matches!(c, '_' | ' ' | '[' | ']')).then_some(quantity)
 }
 
+/// Whether a name is that of the moving base: a shaker table, the ground.
+pub(super) fn of_base(name: &str) -> bool {
+    const BASES: [&str; 9] = ["base", "table", "ground", "platform", "basis", "tisch", "boden", "tavola", "sol"];
+    words(name).iter().any(|word| BASES.contains(&word.as_str()))
+}
+
+/// Direction `x`, `y` or `z` at the end of a name, such as `Table Z`.
+pub(super) fn direction_of(name: &str) -> Option<String> {
+    let last = words(name).pop()?;
+    matches!(last.as_str(), "x" | "y" | "z").then_some(last)
+}
+
+/// Place by what a file says beside a channel: `node` or `point` with a `direction`, or `dof`.
+pub(super) fn place_beside(attributes: &[(String, String)]) -> Option<(String, Option<i64>)> {
+    let said = |words: &[&str]| {
+        let plain = |name: &str| name.chars().filter(char::is_ascii_alphanumeric).collect::<String>().to_lowercase();
+        attributes.iter().find(|(name, _)| words.contains(&plain(name).as_str())).map(|(_, value)| value.trim())
+    };
+    let point = said(&["dof", "node", "nodeid", "nodenumber", "point", "pointid", "pointnumber"])?;
+    let direction = said(&["direction", "dir", "axis", "pointdirection"]).unwrap_or_default();
+    place_of(&format!("{point}{direction}")).or_else(|| place_of(point))
+}
+
 /// Whether a name is that of an angle.
 pub(super) fn angle(name: &str) -> bool {
     words(name).iter().any(|word| ANGLES.contains(&word.as_str()))
@@ -128,6 +151,18 @@ mod tests {
     }
 
     #[test]
+    fn places_beside_a_channel() {
+        let beside = |pairs: &[(&str, &str)]| {
+            let pairs: Vec<_> = pairs.iter().map(|(name, value)| ((*name).to_owned(), (*value).to_owned())).collect();
+            place_beside(&pairs)
+        };
+        assert_eq!(beside(&[("node", "10"), ("direction", "-Z")]), Some(("10z".into(), Some(-1))));
+        assert_eq!(beside(&[("Point ID", "7")]), Some(("7".into(), None)));
+        assert_eq!(beside(&[("dof", "7:+X"), ("unit", "N")]), Some(("7x".into(), None)));
+        assert_eq!((beside(&[("unit", "N")]), beside(&[("node", "left")])), (None, None));
+    }
+
+    #[test]
     fn words_say_the_quantity() {
         assert_eq!(spoken("Acc 7"), Some(Quantity::Acceleration));
         assert_eq!(spoken("Kraft_1"), Some(Quantity::Force));
@@ -136,6 +171,8 @@ mod tests {
             (symbol("F"), symbol("x_2"), spoken("Beschl.")),
             (Some(Quantity::Force), Some(Quantity::Displacement), Some(Quantity::Acceleration))
         );
+        assert!(of_base("Shaker table [g]") && of_base("base_z") && !of_base("acc 7") && !of_base("baseline 1"));
+        assert_eq!((direction_of("Table Z").as_deref(), direction_of("Table")), (Some("z"), None));
         assert!(angle("phi") && angle("Roll angle") && !angle("phase"));
         assert!(is_sensor_unit("Volts") && is_sensor_unit("µm/m") && !is_sensor_unit("Pa"));
     }

@@ -3,13 +3,15 @@
 //! What a file does not say is proposed with a note: DOFs numbered in the order of the channels, SI units. A channel that may
 //! be a motion in a unit of its sensor (volts, strain) is kept apart, as [`Proposal::uncalibrated`].
 
-use super::guess::{angle, is_sensor_unit, place_of, quantity_of_type, spoken, symbol};
+use super::guess::{
+    angle, direction_of, is_sensor_unit, of_base, place_beside, place_of, quantity_of_type, spoken, symbol,
+};
 use super::table::ChannelTable;
 use super::units::LabUnit;
 use crate::measurement::Quantity;
 use crate::measurement::channel::parse_name;
 use dashpot_datafiles::units::{sensitivity, suffix};
-use dashpot_datafiles::{Axis, Channel, Contents, Kind, Set};
+use dashpot_datafiles::{Axis, Channel, Contents, Format, Kind, Set};
 
 /// Names of channels that `dashpot_datafiles` found to be the times of others.
 const TIMES: &str = "time of ";
@@ -49,6 +51,7 @@ pub fn propose(contents: &Contents) -> Proposal {
         let quantity = LabUnit::from_name(&channel.unit).map(|unit| unit.quantity).or_else(|| spoken(&channel.name));
         angle(&channel.name) || quantity.is_some_and(|quantity| quantity != Quantity::Force)
     };
+    let recorder = contents.format == Format::Wav;
     // Where another channel moves, `x` may be anything.
     let moved = contents.sets.iter().flat_map(|set| &set.channels).any(moves);
     let recorded: Vec<&Set> = contents.sets.iter().filter(|set| matches!(set.kind, Kind::Time | Kind::Table)).collect();
@@ -60,7 +63,7 @@ pub fn propose(contents: &Contents) -> Proposal {
             let everywhere = contents.sets.iter().flat_map(|set| &set.channels).filter(same).count();
             let within = set.channels.iter().filter(same).count();
             let stated = (everywhere > within && alike.is_none()).then(|| set.name.clone());
-            match draft(channel, stated, moved) {
+            match draft(channel, stated, moved, recorder) {
                 _ if within > 1 => proposal.leave(channel, "two channels of the set have that name"),
                 _ if channel.count == 0 => proposal.leave(channel, "it has 0 samples"),
                 _ if channel.complex => proposal.leave(channel, "it is complex"),
@@ -69,7 +72,8 @@ pub fn propose(contents: &Contents) -> Proposal {
             }
         }
     }
-    let drafts = proposal.of_one_length(drafts);
+    let mut drafts = proposal.of_one_length(drafts);
+    take_for_base(&mut drafts);
     let again = proposal.number(drafts);
     proposal.take_further_runs(again);
     proposal
@@ -86,6 +90,26 @@ fn of_one_layout<'a>(sets: &[&'a Set]) -> Option<&'a Set> {
     let mut names = alike(found);
     names.sort_unstable();
     names.windows(2).all(|pair| pair[0] != pair[1]).then_some(found)
+}
+
+/// Takes the acceleration of a table or of the ground for the motion of the base, where no force is measured.
+fn take_for_base(drafts: &mut [Draft<'_>]) {
+    if drafts.iter().any(|draft| matches!(draft.table.quantity, Quantity::Force | Quantity::Base)) {
+        return;
+    }
+    let of_table = |draft: &&mut Draft<'_>| {
+        draft.calibrated && draft.table.quantity == Quantity::Acceleration && of_base(&draft.channel.name)
+    };
+    let [draft] = &mut drafts.iter_mut().filter(of_table).collect::<Vec<_>>()[..] else { return };
+    let said = direction_of(&draft.channel.name);
+    let direction = said.clone().unwrap_or_else(|| "z".to_owned());
+    draft.table.quantity = Quantity::Base;
+    draft.table.dof = direction;
+    draft.placed = true;
+    draft.assumed.push("by its name the motion of the base, and no force is measured".to_owned());
+    if said.is_none() {
+        draft.assumed.push("the file says no direction: z is assumed".to_owned());
+    }
 }
 
 impl Proposal {
@@ -183,10 +207,13 @@ fn table(channel: &Channel, set: Option<String>, quantity: Quantity, label: Stri
         sign: None,
         factor: None,
         delay: None,
+        optional: false,
     }
 }
 
-fn draft(channel: &Channel, set: Option<String>, moved: bool) -> Result<Draft<'_>, String> {
+/// What is proposed for a channel: `moved` where another channel of the file moves, `recorder` where the numbers are shares of
+/// full scale.
+fn draft(channel: &Channel, set: Option<String>, moved: bool, recorder: bool) -> Result<Draft<'_>, String> {
     let of =
         |table: ChannelTable, placed: bool| Draft { channel, table, placed, calibrated: true, assumed: Vec::new() };
     if let Ok((quantity, label)) = parse_name(&channel.name) {
@@ -203,13 +230,14 @@ fn draft(channel: &Channel, set: Option<String>, moved: bool) -> Result<Draft<'_
     let turned = unit.is_none() && channel.unit.is_empty() && angle(&channel.name);
     let quantity = unit.map(|unit| unit.quantity).or(spoken).or(turned.then_some(Quantity::Displacement));
     let name = suffix(&channel.name).map_or(channel.name.as_str(), |(front, _)| front);
-    let place = place_of(channel.attribute("response").unwrap_or(name));
+    let place = place_beside(&channel.attributes).or_else(|| place_of(channel.attribute("response").unwrap_or(name)));
     if let Some(draft) = calibrated(channel, set.clone(), place.clone()) {
         return Ok(draft);
     }
     let (label, sign) = place.clone().unwrap_or_default();
     let Some(quantity) = quantity else {
-        if !is_sensor_unit(&channel.unit) {
+        let share = recorder && channel.unit.is_empty();
+        if !share && !is_sensor_unit(&channel.unit) {
             return Err(match channel.unit.as_str() {
                 "" => "neither its unit nor its name says what it measures".to_owned(),
                 unit => format!("{unit} is no unit of a force or of a motion"),
@@ -217,7 +245,8 @@ fn draft(channel: &Channel, set: Option<String>, moved: bool) -> Result<Draft<'_
         }
         let table = table(channel, set, Quantity::Displacement, label);
         let table = ChannelTable { sign, unit: Some("m".to_owned()), factor: Some(1.0), ..table };
-        let assumed = vec![format!("nothing says what it measures: factor is 1 m a {}, fill in its own", channel.unit)];
+        let one = if share { "full scale" } else { &channel.unit };
+        let assumed = vec![format!("nothing says what it measures: factor is 1 m a {one}, fill in its own")];
         return Ok(Draft { channel, table, placed: place.is_some(), calibrated: false, assumed });
     };
     let mut draft = of(ChannelTable { sign, ..table(channel, set, quantity, label) }, place.is_some());

@@ -76,6 +76,14 @@ pub(crate) fn read_mapped(
     } else {
         template.channels
     };
+    let present: Vec<ChannelTable>;
+    let channels = if template.sets.is_empty() && channels.iter().any(|table| table.optional) {
+        present =
+            channels.iter().filter(|table| !table.optional || holds(&file, table, template.set)).cloned().collect();
+        &present
+    } else {
+        channels
+    };
     if channels.is_empty() {
         return Err(at.error(
             None,
@@ -97,7 +105,9 @@ pub(crate) fn read_mapped(
         return Err(at.error(None, problem));
     }
     let mut time: Option<Vec<f64>> = None;
-    let found = channels.iter().map(|table| target(table, structure, &at)).collect::<Result<Vec<_>, _>>()?;
+    let unit = |&(set, channel): &(usize, usize)| file.contents().sets[set].channels[channel].unit.as_str();
+    let target = |(table, place)| target(table, unit(place), structure, &at);
+    let found = channels.iter().zip(&places).map(target).collect::<Result<Vec<_>, _>>()?;
     let samples = samples(&file, channels, &places, &at)?;
     for (table, &(set, channel)) in channels.iter().zip(&places) {
         if time.is_some() && same_even_axis(&file, places[0], (set, channel)) {
@@ -122,6 +132,13 @@ pub(crate) fn read_mapped(
 fn own_channels(file: &DataFile) -> Vec<ChannelTable> {
     let sets = file.contents().sets.iter();
     sets.flat_map(|set| set.channels.iter().filter_map(|channel| own_name(&set.name, channel))).collect()
+}
+
+/// Whether a file has the channel of a table.
+fn holds(file: &DataFile, table: &ChannelTable, run_set: Option<&str>) -> bool {
+    let wanted = run_set.or(table.set.as_deref());
+    let mut sets = file.contents().sets.iter().filter(|set| wanted.is_none_or(|wanted| wanted == set.name));
+    sets.any(|set| set.channels.iter().any(|channel| channel.name == table.name))
 }
 
 /// Set and channel of a table of the mapping: exactly one.
@@ -162,8 +179,8 @@ fn locate(
     }
 }
 
-/// The channel of the project that a table names.
-fn target(table: &ChannelTable, structure: &Structure, at: &At<'_>) -> Result<Channel, RecordFileError> {
+/// The channel of the project that a table names; `unit` is that of the file.
+fn target(table: &ChannelTable, unit: &str, structure: &Structure, at: &At<'_>) -> Result<Channel, RecordFileError> {
     let label = table.dof.clone();
     if table.quantity == Quantity::Base {
         return base_channel(&label, structure).ok_or_else(|| {
@@ -178,21 +195,29 @@ fn target(table: &ChannelTable, structure: &Structure, at: &At<'_>) -> Result<Ch
             format!("the structure has no DOF \"{label}\"; correct `dof` of its [[channel]]"),
         ));
     };
-    unit_suits(table, structure, dof, at)?;
+    unit_suits(table, unit, structure, dof, at)?;
     Ok(Channel { quantity: table.quantity, dof, label })
 }
 
-/// Refuses a unit of rotation at a translation and the other way round, where the unit is given in the mapping.
-fn unit_suits(table: &ChannelTable, structure: &Structure, dof: usize, at: &At<'_>) -> Result<(), RecordFileError> {
-    let Some(unit) = table.unit.as_deref().and_then(LabUnit::from_name) else { return Ok(()) };
-    let rotation = structure.dofs()[dof].direction.is_rotation();
+/// Refuses a unit of rotation at a translation and the other way round. Of forces N at a rotation is read as N m.
+fn unit_suits(
+    table: &ChannelTable,
+    unit: &str,
+    structure: &Structure,
+    dof: usize,
+    at: &At<'_>,
+) -> Result<(), RecordFileError> {
+    let name = table.unit.as_deref().unwrap_or(unit);
+    let Some(unit) = LabUnit::from_name(name) else { return Ok(()) };
+    let direction = structure.dofs()[dof].direction;
+    let rotation = direction.is_rotation();
     if structure.kind() == StructureKind::Points || unit.rotation == rotation || unit.quantity == Quantity::Force {
         return Ok(());
     }
     let kind = if rotation { "rotation" } else { "translation" };
-    let name = table.unit.as_deref().unwrap_or_default();
+    let node = &structure.nodes()[structure.dofs()[dof].node].label;
     Err(at.error(
         Some(&table.name),
-        format!("DOF {} is a {kind} and is not measured in {name}; correct `unit` or `dof`", table.dof),
+        format!("DOF {} is a {kind} of node {node} and is not measured in {name}; correct `unit` or `dof`", table.dof),
     ))
 }

@@ -3,7 +3,7 @@
 use super::table::ChannelTable;
 use dashpot_datafiles::{Contents, Kind};
 
-/// Names of the sets that have every channel of a mapping that says no set; fewer than two where the file is one run. Sets
+/// Names of the sets that have every channel of a mapping that says no set, optional ones aside; fewer than two where the file is one run. Sets
 /// whose names are not their own cannot be told apart and are none.
 pub fn runs_of(contents: &Contents, channels: &[ChannelTable]) -> Vec<String> {
     if channels.is_empty() || channels.iter().any(|table| table.set.is_some()) {
@@ -14,7 +14,8 @@ pub fn runs_of(contents: &Contents, channels: &[ChannelTable]) -> Vec<String> {
         let has = |table: &ChannelTable| {
             set.channels.iter().any(|channel| channel.name == table.name && channel.count > 0 && !channel.complex)
         };
-        channels.iter().all(has)
+        // A set that has none of the channels is no run.
+        channels.iter().all(|table| table.optional || has(table)) && channels.iter().any(has)
     });
     let names: Vec<String> = whole.map(|set| set.name.clone()).collect();
     let twice = names.iter().enumerate().any(|(i, name)| names[..i].contains(name));

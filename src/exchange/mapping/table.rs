@@ -29,6 +29,9 @@ pub struct ChannelTable {
     /// How late it is recorded, s.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub delay: Option<f64>,
+    /// Whether files without it are read all the same: a hammer or sensor that moves from run to run.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub optional: bool,
 }
 
 #[allow(clippy::trivially_copy_pass_by_ref, clippy::ref_option, reason = "serde passes references to fields")]

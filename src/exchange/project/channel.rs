@@ -9,14 +9,16 @@ use crate::measurement::base::AXES;
 use toml::de::DeTable;
 
 const QUANTITIES: [&str; 5] = ["force", "acc", "vel", "disp", "base"];
-const KEYS: [&str; 9] = ["name", "set", "quantity", "dof", "direction", "unit", "sign", "factor", "delay"];
+const KEYS: [&str; 10] = ["name", "set", "quantity", "dof", "direction", "unit", "sign", "factor", "delay", "optional"];
 
 /// Reads the tables of a project.
 pub(super) fn parse(root: &Table<'_>, lines: &mut Lines) -> Result<Vec<ChannelTable>, ProjectError> {
     let mut channels: Vec<ChannelTable> = Vec::new();
     for table in root.tables("channel", "[[channel]]")? {
         let channel = one(&table)?;
-        if let Some(first) = channels.iter().position(|other| other.channel() == channel.channel()) {
+        // One or the other, where both need not be there.
+        let same = |other: &ChannelTable| other.channel() == channel.channel() && !(other.optional && channel.optional);
+        if let Some(first) = channels.iter().position(same) {
             let what = format!("the channel {}", channel.channel());
             return Err(table.error("dof", Problem::Twice { what, first: lines.channel[first] }));
         }
@@ -73,6 +75,7 @@ fn one(table: &Table<'_>) -> Result<ChannelTable, ProjectError> {
         sign,
         factor,
         delay: table.number("delay")?,
+        optional: table.flag("optional")?.unwrap_or(false),
     })
 }
 

@@ -11,8 +11,9 @@ use serde::{Serialize, Serializer};
 use std::collections::BTreeMap;
 use toml::de::DeTable;
 
-const KEYS: [&str; 13] = [
+const KEYS: [&str; 14] = [
     "file",
+    "further_files",
     "form",
     "scale",
     "averages",
@@ -39,6 +40,9 @@ const MOST_AVERAGES: usize = 1_000_000;
 pub struct FrfTable {
     /// Universal File, or another with complex values over a frequency; relative to the project.
     pub file: String,
+    /// Files of the same test, on the same frequencies, whose functions belong to those of `file`.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub further_files: Vec<String>,
     /// What the functions relate; from their units where it is left out.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub form: Option<Form>,
@@ -82,6 +86,7 @@ impl FrfTable {
     pub fn of(file: String) -> Self {
         Self {
             file,
+            further_files: Vec::new(),
             form: None,
             scale: None,
             averages: None,
@@ -117,6 +122,7 @@ fn one(table: &Table<'_>, file: String) -> Result<FrfTable, ProjectError> {
     }
     Ok(FrfTable {
         file,
+        further_files: table.texts("further_files")?.unwrap_or_default(),
         form: table.word("form", &Form::WORDS, Form::from_word)?,
         scale,
         averages: table.count("averages", 1, MOST_AVERAGES, "between 1 and 1000000")?,
@@ -189,7 +195,12 @@ pub(super) fn dofs(table: &Table<'_>, title: &'static str) -> Result<BTreeMap<St
 }
 
 impl FrfTable {
-    /// How its file is to be read.
+    /// Its files, as they are named from the project.
+    pub fn files(&self) -> impl Iterator<Item = &String> {
+        std::iter::once(&self.file).chain(&self.further_files)
+    }
+
+    /// How its files are to be read.
     pub fn source(&self) -> FrfSource {
         FrfSource {
             form: self.form,
@@ -201,6 +212,7 @@ impl FrfTable {
             references: self.references.iter().map(|label| label.0.clone()).collect(),
             step_hz: self.step_hz,
             columns: self.columns,
+            before: 0,
         }
     }
 

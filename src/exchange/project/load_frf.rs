@@ -3,7 +3,7 @@
 use super::error::{Problem, ProjectError};
 use super::plan::Plan;
 use crate::control::Control;
-use crate::exchange::frf::read_responses;
+use crate::exchange::frf::read_test;
 use crate::measurement::frf::ChosenRuns;
 use std::path::Path;
 
@@ -15,11 +15,12 @@ impl Plan {
     pub fn frf(&self, index: usize, control: &Control) -> Result<ChosenRuns, ProjectError> {
         let table = &self.file.frf[index];
         let wrong = |problem| self.error(Some(self.lines.frf[index]), problem);
-        let path = self.path.parent().unwrap_or(Path::new("")).join(&table.file);
-        if !path.is_file() {
-            return Err(wrong(Problem::NoRecord { file: table.file.clone() }));
+        let folder = self.path.parent().unwrap_or(Path::new(""));
+        let files: Vec<&String> = table.files().collect();
+        if let Some(missing) = files.iter().find(|file| !folder.join(file).is_file()) {
+            return Err(wrong(Problem::NoRecord { file: (*missing).clone() }));
         }
-        let (set, faults) = read_responses(&path, &table.file, &table.source(), &self.structure, control)
+        let (set, faults) = read_test(folder, &files, &table.source(), &self.structure, control)
             .map_err(|error| wrong(Problem::Frf(Box::new(error))))?;
         let mut chosen = set.runs(table.selection(), table.enabled, &self.corrections());
         if chosen.runs.is_empty() {

@@ -17,7 +17,8 @@ impl ProjectFile {
         }
         let records = file.run.iter_mut().map(|run| &mut run.file);
         let names = records.chain(file.harmonics.iter_mut().map(|harmonics| &mut harmonics.file));
-        let names = names.chain(file.frf.iter_mut().map(|frf| &mut frf.file));
+        let names = names
+            .chain(file.frf.iter_mut().flat_map(|frf| std::iter::once(&mut frf.file).chain(&mut frf.further_files)));
         let names = names.chain(file.modes.iter_mut().map(|modes| &mut modes.file));
         names.for_each(|name| *name = renamed(name, &from, &to));
         if let Shape::Matrices(table) = &mut file.structure.shape {

@@ -8,9 +8,21 @@
 //! Lines are dealt out in rounds: first the crest of every resonance, from the reference that shows it best, then its
 //! flanks, then further references and lines, until the number asked for is reached.
 
-/// Information a line, of one reference; 0 where a line must not be chosen.
+/// What the lines of one reference say.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Density(pub Vec<f64>);
+pub(crate) struct Density {
+    /// Information of each line; 0 where it must not be chosen.
+    pub information: Vec<f64>,
+    /// Whether a response stands out of its noise on a line: none is chosen where noise alone looks like information.
+    pub stands_out: Vec<bool>,
+}
+
+impl Density {
+    /// Lines that may be chosen.
+    fn usable(&self, line: usize) -> bool {
+        self.information[line] > 0.0 && self.stands_out[line]
+    }
+}
 
 /// How far the density must fall on both sides of a crest before that is a resonance and no ripple.
 const PROMINENCE: f64 = 10.0;
@@ -68,8 +80,9 @@ fn ranks(peaks: &[Peak]) -> Vec<usize> {
 
 /// The resonances of one reference.
 fn peaks(reference: usize, density: &Density) -> Vec<Peak> {
-    let d = &density.0;
-    let is_crest = |i: usize| d[i] > 0.0 && (i == 0 || d[i] > d[i - 1]) && (i + 1 == d.len() || d[i] >= d[i + 1]);
+    let d = &density.information;
+    let is_crest =
+        |i: usize| density.usable(i) && (i == 0 || d[i] > d[i - 1]) && (i + 1 == d.len() || d[i] >= d[i + 1]);
     let falls = |lines: &mut dyn Iterator<Item = usize>, height: f64| {
         for i in lines {
             if d[i] > height {
@@ -83,12 +96,13 @@ fn peaks(reference: usize, density: &Density) -> Vec<Peak> {
     };
     (0..d.len())
         .filter(|&i| is_crest(i) && falls(&mut (0..i).rev(), d[i]) && falls(&mut (i + 1..d.len()), d[i]))
-        .map(|crest| Peak { reference, crest, height: d[crest], order: order(d, crest) })
+        .map(|crest| Peak { reference, crest, height: d[crest], order: order(density, crest) })
         .collect()
 }
 
 /// Lines about a crest: itself, those at half power, those further out, then the others by their information.
-fn order(d: &[f64], crest: usize) -> Vec<usize> {
+fn order(density: &Density, crest: usize) -> Vec<usize> {
+    let d = &density.information;
     let reaches = |i: &usize| d[*i] >= FLANK * d[crest];
     let left = (0..crest).rev().take_while(reaches).last().unwrap_or(crest);
     let right = (crest + 1..d.len()).take_while(reaches).last().unwrap_or(crest);
@@ -102,13 +116,18 @@ fn order(d: &[f64], crest: usize) -> Vec<usize> {
     others.sort_by(|&a, &b| d[b].total_cmp(&d[a]));
     order.dedup();
     order.extend(others);
+    order.retain(|&i| density.usable(i));
     order
 }
 
 /// All lines of a reference by their information, where it shows no resonance.
 fn whole(reference: usize, density: &Density) -> Option<Peak> {
-    let d = &density.0;
-    let mut order: Vec<usize> = (0..d.len()).filter(|&i| d[i] > 0.0).collect();
+    let d = &density.information;
+    let mut order: Vec<usize> = (0..d.len()).filter(|&i| density.usable(i)).collect();
+    if order.is_empty() {
+        // Where all is noise the runs say so.
+        order = (0..d.len()).filter(|&i| d[i] > 0.0).collect();
+    }
     order.sort_by(|&a, &b| d[b].total_cmp(&d[a]));
     let crest = *order.first()?;
     Some(Peak { reference, crest, height: d[crest], order })
@@ -135,7 +154,21 @@ mod tests {
     fn density(peaks: &[(f64, f64)]) -> Density {
         let at =
             |i: usize| peaks.iter().map(|(f, height)| height / (1.0 + ((i as f64 - f) / 4.1).powi(2)).powi(2)).sum();
-        Density((0..400).map(at).collect())
+        of((0..400).map(at).collect())
+    }
+
+    fn of(information: Vec<f64>) -> Density {
+        let stands_out = vec![true; information.len()];
+        Density { information, stands_out }
+    }
+
+    #[test]
+    fn noise_that_looks_like_a_resonance_is_not_chosen() {
+        let mut density = density(&[(100.0, 1.0), (250.0, 50.0)]);
+        density.stands_out = (0..400).map(|i| i > 200).collect();
+        assert_eq!(choose(std::slice::from_ref(&density), 3), [vec![245, 250, 255]]);
+        density.stands_out = vec![false; 400];
+        assert_eq!(choose(&[density], 3)[0].len(), 3);
     }
 
     #[test]
@@ -150,9 +183,9 @@ mod tests {
 
     #[test]
     fn ripples_are_no_resonances_and_smooth_responses_still_give_lines() {
-        let rippled = Density((0..100).map(|i| 2.0 + f64::from(i % 3)).collect());
+        let rippled = of((0..100).map(|i| 2.0 + f64::from(i % 3)).collect());
         assert_eq!(choose(&[rippled], 4)[0].len(), 4);
-        assert_eq!(choose(&[Density(vec![0.0; 10])], 4), [Vec::<usize>::new()]);
+        assert_eq!(choose(&[of(vec![0.0; 10])], 4), [Vec::<usize>::new()]);
         assert_eq!(groups(&[1, 2, 2, 5, 20]), [(1, 5, 4), (20, 20, 1)]);
     }
 }

@@ -17,6 +17,10 @@ use std::f64::consts::TAU;
 /// Least standard deviation over the modulus: coherences of 1 and written digits promise more than transducers hold.
 const LEAST_DEVIATION: f64 = 1e-4;
 
+/// Least squared modulus of a value over that of its noise, `2 var`, for a line to say anything: noise alone, whose squared
+/// modulus is distributed exponentially, comes that far on one line of twenty thousand.
+const ABOVE_NOISE: f64 = 10.0;
+
 /// One measured function, SI units.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct FrequencyResponse {
@@ -31,7 +35,7 @@ pub(crate) struct FrequencyResponse {
 }
 
 /// Functions on common frequencies.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub(crate) struct ResponseSet {
     /// Name in messages and in the names of runs.
     pub name: String,
@@ -122,7 +126,13 @@ impl ResponseSet {
             let information = omega * omega * signal * size / members.len() as f64;
             if information.is_finite() { information } else { 0.0 }
         };
-        Density((0..self.frequencies_hz.len()).map(value).collect())
+        // What is noise looks large as a displacement at low frequencies.
+        let stands_out = |line: usize| {
+            let above = |&i: &usize| square(self.functions[i].values[line]) > ABOVE_NOISE * 2.0 * variances[i][line];
+            members.iter().any(above)
+        };
+        let lines = 0..self.frequencies_hz.len();
+        Density { information: lines.clone().map(value).collect(), stands_out: lines.map(stands_out).collect() }
     }
 
     fn run(

@@ -261,6 +261,7 @@ fn rows(proposal: Proposal) -> Vec<ChannelRow> {
             sign: None,
             factor: None,
             delay: None,
+            optional: false,
         },
         note: why.clone(),
     }));

@@ -77,6 +77,9 @@ pub(super) fn is_names_word(name: &str) -> bool {
             | "columnnames"
             | "varnames"
             | "fields"
+            | "dofs"
+            | "points"
+            | "pointids"
     )
 }
 

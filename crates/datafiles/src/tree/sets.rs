@@ -196,7 +196,8 @@ impl Made<'_> {
         // Complex values are over frequencies.
         let x_unit = x_unit.unwrap_or(if array.complex { "Hz" } else { "s" });
         let unit = names::text_at(entries, &["y_values", "quantity", "label"]).unwrap_or_default();
-        let name = names::text_at(entries, &["function_record", "name"]).unwrap_or(path);
+        let label = || names::text_at(entries, &["function_record", "primary_channel", "label"]);
+        let name = names::text_at(entries, &["function_record", "name"]).or_else(label).unwrap_or(path);
         let names = names::texts_at(entries, &["function_record", "name"]).to_vec();
         let units = names::texts_at(entries, &["y_values", "quantity", "label"]).to_vec();
         let stated =
@@ -219,6 +220,9 @@ impl Made<'_> {
             channel.complex = array.complex;
             channel.axis = Axis::Even { start, step };
             channel.first = first(array, &cut, c);
+            if cut.channels == 1 {
+                channel.attributes = sides(entries, array.complex);
+            }
             set.channels.push(channel);
             places.push(Place { id: array.id, cut: cut.clone(), channel: c, whole: false, axis: None });
         }
@@ -226,6 +230,19 @@ impl Made<'_> {
         self.places.push(places);
         true
     }
+}
+
+/// Where a signal was measured, by its `function_record`: the point of the response, and that of the reference of a function.
+fn sides(entries: &[Entry], function: bool) -> Vec<(String, String)> {
+    let side = |channel: &str| {
+        let said = |word: &str| names::text_at(entries, &["function_record", channel, word]);
+        let point =
+            said("point_id").or_else(|| said("point")).filter(|point| point.contains(|c: char| c.is_ascii_digit()))?;
+        Some(said("direction").map_or_else(|| point.to_owned(), |direction| format!("{point}:{direction}")))
+    };
+    let reference = || side("reference_channel").or_else(|| side("secondary_channel"));
+    let sides = [("response", side("primary_channel")), ("reference", function.then(reference).flatten())];
+    sides.into_iter().filter_map(|(word, place)| Some((word.to_owned(), place?))).collect()
 }
 
 /// Whether an entry or any below it is one that is looked for.
@@ -295,7 +312,11 @@ fn channels(
         let numbered = if cut.channels > 1 { format!("{}[{}]", entry.name, c + 1) } else { entry.name.clone() };
         let beside_name = side.and_then(|(_, names, _)| listed(names));
         let name = beside_name.or_else(|| listed(&own_names).filter(|_| cut.channels > 1));
-        let name = name.or_else(|| listed(&labels.names).filter(|_| cut.channels > 1)).unwrap_or(numbered);
+        let name = name.or_else(|| listed(&labels.names).filter(|_| cut.channels > 1));
+        // A place alone does not say what was measured there; the name of the array may.
+        let place = |name: &String| name.starts_with(|c: char| c.is_ascii_digit());
+        let name = name.map(|name| if place(&name) { format!("{} {name}", entry.name) } else { name });
+        let name = name.unwrap_or(numbered);
         let single = names::unit_of(&entry.attributes).filter(|_| own_units.is_empty());
         let unit = single
             .map(str::to_owned)
@@ -303,7 +324,9 @@ fn channels(
             .or_else(|| side.and_then(|(_, _, units)| listed(units)))
             .or_else(|| beside.map(str::to_owned))
             .or_else(|| suffix(&entry.name).filter(|_| cut.channels == 1).map(|(_, unit)| unit.to_owned()));
-        let unit = unit.or_else(|| listed(&labels.units)).unwrap_or_default();
+        // One unit beside functions is that of all of them.
+        let of_all = || labels.units.first().filter(|_| array.complex && labels.units.len() == 1).cloned();
+        let unit = unit.or_else(|| listed(&labels.units)).or_else(of_all).unwrap_or_default();
         let mut channel = Channel::new(name, unit, cut.count);
         channel.complex = array.complex;
         channel.attributes.clone_from(&entry.attributes);

@@ -1,0 +1,87 @@
+//! Faults of channels where the damping of the model is still to be identified from them: their mapping is mended first. What a
+//! reversed sensor makes of the damping is no model to start from.
+
+use crate::control::Control;
+use crate::diagnosis::channels::{ChannelFault, Fault};
+use crate::diagnosis::diagnose::faults_of_channels;
+use crate::diagnosis::result::Diagnosis;
+use crate::diagnosis::{DiagnosisError, Problem};
+use crate::effects::{Effect, Place, Source, State};
+use crate::exchange::Project;
+use crate::exchange::project::plan;
+use crate::session::validation::{only_records, problem};
+use crate::session::{Document, Session, mending};
+use anyhow::Context;
+use std::path::Path;
+
+/// Loss factors of the structure while the faults are looked for, of one that is damped lightly and of one that is damped well:
+/// the amplitudes of the modes are free, but channels are weighed by those of the model.
+const STAND_INS: [f64; 2] = [0.004, 0.03];
+
+/// What was mended of a project.
+pub(super) struct MendedFirst {
+    /// The project file with the mapping mended.
+    pub document: Document,
+    /// The project as its channels were read.
+    unmended: Project,
+    faults: Vec<ChannelFault>,
+}
+
+/// The project with its mapping mended where its channels have faults, and what was mended; as it is where they have none.
+///
+/// # Errors
+/// What keeps the mended project from being read.
+pub(super) fn mended_first(
+    project: Project,
+    file: &Path,
+    control: &Control,
+) -> anyhow::Result<(Project, Option<MendedFirst>)> {
+    if only_records(&project) || project.structure.matrices().is_none() {
+        return Ok((project, None));
+    }
+    let context = || file.display().to_string();
+    let mut faults = Vec::new();
+    for loss_factor in STAND_INS {
+        if faults.is_empty() {
+            faults = faults_with(&project, loss_factor, control).with_context(context)?;
+        }
+    }
+    if faults.is_empty() {
+        return Ok((project, None));
+    }
+    let mut document = Session::open(file).with_context(context)?.document().clone();
+    for fault in &faults {
+        let mended = mending::command(fault, &project)
+            .and_then(|command| document.after(&command).map_err(|refusal| refusal.to_string()));
+        // What no mapping can mend is told by the search, with the rest.
+        let Ok(mended) = mended else { return Ok((project, None)) };
+        document = mended;
+    }
+    let text = document.file().to_toml().with_context(context)?;
+    let mended = plan(&text, file).and_then(|plan| plan.load(control))?;
+    eprintln!("{}: mended first", faults.iter().map(ChannelFault::words).collect::<Vec<_>>().join("; "));
+    Ok((mended, Some(MendedFirst { document, unmended: project, faults })))
+}
+
+/// Faults that a mapping can mend, with a model that has this loss factor beside what is known.
+fn faults_with(project: &Project, loss_factor: f64, control: &Control) -> Result<Vec<ChannelFault>, DiagnosisError> {
+    let whole = Source::candidate(Effect::LossFactor, Place::Whole(None)).with_coefficient(loss_factor);
+    let mut damped = project.sources.clone();
+    damped.push(Source { state: State::Known, ..whole });
+    let (mut faults, _) = faults_of_channels(&Problem { sources: &damped, ..problem(project) }, control)?;
+    faults.retain(|fault| !matches!(fault.fault, Fault::Unreliable(_)));
+    Ok(faults)
+}
+
+impl MendedFirst {
+    /// Puts the faults before what was found with them mended; `known` is the model that was compared.
+    ///
+    /// # Errors
+    /// What keeps that model from being compared with the channels as they were read.
+    pub(super) fn before(self, known: &[Source], diagnosis: &mut Diagnosis, control: &Control) -> anyhow::Result<()> {
+        let as_read = Problem { sources: known, ..problem(&self.unmended) };
+        let (_, asis) = faults_of_channels(&as_read, control)?;
+        diagnosis.follows(asis, self.faults);
+        Ok(())
+    }
+}

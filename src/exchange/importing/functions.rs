@@ -1,0 +1,223 @@
+//! The functions of measurement files and where they were measured: response and reference by what the request says, by what
+//! the file says, by names of functions, sets and files.
+
+use super::error::{ImportError, Result};
+use super::request::Request;
+use crate::exchange::frf::{pair_in_name, response_in_name};
+use dashpot_datafiles::{Channel, Contents, DataFile, Format, Kind, Set, open, open_paired};
+use std::path::{Path, PathBuf};
+
+/// Opens a file, its columns two by two where that is said.
+pub(super) fn opened(request: &Request, file: &Path) -> Result<DataFile, dashpot_datafiles::Error> {
+    match request.columns {
+        Some(pairing) => open_paired(file, pairing),
+        None => open(file),
+    }
+}
+
+/// The functions of a file; complex columns without frequencies too where their step is given.
+pub(super) fn functions<'a>(contents: &'a Contents, request: &Request) -> impl Iterator<Item = &'a Channel> {
+    contents.sets.iter().flat_map(|set| of_set(set, request))
+}
+
+fn of_set<'a>(set: &'a Set, request: &Request) -> impl Iterator<Item = &'a Channel> + use<'a> {
+    let wanted = set.kind == Kind::Frf || request.step_hz.is_some() && set.kind == Kind::Table;
+    set.channels.iter().filter(move |channel| wanted && channel.complex && channel.count > 0)
+}
+
+/// A file with responses and the labels of its functions in order, where names and file do not say them.
+pub(super) struct Measured {
+    pub path: PathBuf,
+    /// Files of the same test with further responses to the same reference.
+    pub further: Vec<PathBuf>,
+    pub responses: Vec<String>,
+    pub references: Vec<String>,
+}
+
+/// The files with responses; DOFs as they are given, else numbered in order where neither names nor files say them.
+pub(super) fn measured(request: &Request, files: &[DataFile]) -> Result<(Vec<Measured>, Vec<String>)> {
+    let counts: Vec<usize> = files.iter().map(|file| functions(file.contents(), request).count()).collect();
+    let named =
+        files.iter().all(|file| functions(file.contents(), request).all(|channel| pair(file, channel).is_some()));
+    let total: usize = counts.iter().sum();
+    let mut assumed = Vec::new();
+    let (mut responses, mut references) = (request.responses.clone(), request.references.clone());
+    if !named && responses.is_empty() && references.is_empty() {
+        let measured = by_names_of_files(files, &counts);
+        if !measured.is_empty() {
+            let said = |one: &Measured| format!("{} over {}", one.responses[0], one.references[0]);
+            let said: Vec<String> = measured.iter().map(said).collect();
+            return Ok((measured, vec![format!("by the names of the files the functions are {}", said.join(", "))]));
+        }
+    }
+    if !named && responses.is_empty() {
+        let (numbers, how) = numbered(request, files, &counts);
+        responses = numbers;
+        if references.is_empty() {
+            references = vec![responses[0].clone()];
+        }
+        if references.len() != 1 {
+            let problem =
+                "neither names nor file say the DOFs of the functions; give them by --responses and --references";
+            return Err(ImportError::of(&request.files[0], problem));
+        }
+        assumed.push(format!("{how}, all driven at {}", references[0]));
+    }
+    // One list for all files one after the other, or the same list for each.
+    let in_turn = references.len() == 1 && responses.len() == total && files.len() > 1;
+    let mut from = 0;
+    let mut measured = Vec::new();
+    for (file, count) in files.iter().zip(counts).filter(|(_, count)| *count > 0) {
+        let own = if in_turn { responses[from..from + count].to_vec() } else { responses.clone() };
+        from += count;
+        let (path, further) = (file.path().to_owned(), Vec::new());
+        measured.push(Measured { path, further, responses: own, references: references.clone() });
+    }
+    Ok((measured, assumed))
+}
+
+/// The same with files of one test together: those with responses to the same single reference on the same frequencies. Each
+/// line then is one run of all sensors, not one of a sensor alone.
+pub(super) fn together(measured: Vec<Measured>, files: &[DataFile], request: &Request) -> Vec<Measured> {
+    let mut tests: Vec<(Measured, Option<Layout>)> = Vec::new();
+    for one in measured {
+        let file = files.iter().find(|file| file.path() == one.path);
+        let layout = file.and_then(|file| layout(&one, file, request));
+        let same = |(_, known): &&mut (Measured, Option<Layout>)| match (known, &layout) {
+            (Some(known), Some(layout)) => known.takes(layout),
+            _ => false,
+        };
+        match (tests.iter_mut().find(same), layout) {
+            (Some((test, Some(known))), Some(layout)) => {
+                test.further.push(one.path);
+                test.responses.extend(one.responses);
+                known.responses.extend(layout.responses);
+            }
+            (_, layout) => tests.push((one, layout)),
+        }
+    }
+    tests.into_iter().map(|(test, _)| test).collect()
+}
+
+/// What decides whether files are one test.
+struct Layout {
+    reference: String,
+    responses: Vec<String>,
+    frequencies: Vec<f64>,
+    /// Whether lists name the DOFs.
+    listed: bool,
+}
+
+impl Layout {
+    fn takes(&self, other: &Self) -> bool {
+        let near = |(a, b): (&f64, &f64)| (a - b).abs() <= 1e-6 * a.abs().max(1e-9);
+        self.reference == other.reference
+            && self.listed == other.listed
+            && self.frequencies.len() == other.frequencies.len()
+            && self.frequencies.iter().zip(&other.frequencies).all(near)
+            && other.responses.iter().all(|response| !self.responses.contains(response))
+    }
+}
+
+/// The layout of a file with responses to one reference; none where it has several, or frequencies that it does not say.
+fn layout(one: &Measured, file: &DataFile, request: &Request) -> Option<Layout> {
+    let listed = !one.responses.is_empty();
+    let pairs: Vec<[String; 2]> = match &one.references[..] {
+        [reference] if listed => one.responses.iter().map(|response| [response.clone(), reference.clone()]).collect(),
+        _ if listed => return None,
+        _ => functions(file.contents(), request).map(|channel| pair(file, channel)).collect::<Option<_>>()?,
+    };
+    let reference = pairs.first()?[1].clone();
+    let alone = pairs.iter().all(|pair| pair[1] == reference);
+    let sets = file.contents().sets.iter().enumerate();
+    let (set, channel) = sets.into_iter().find_map(|(s, set)| {
+        let wanted = of_set(set, request).next()?;
+        Some((s, set.channels.iter().position(|channel| std::ptr::eq(channel, wanted))?))
+    })?;
+    let frequencies = file.axis(set, channel).ok()??;
+    let responses = pairs.into_iter().map(|[response, _]| response).collect();
+    alone.then_some(Layout { reference, responses, frequencies, listed })
+}
+
+/// Files of one function each whose names hold response and reference, such as `H_7z_19z.csv`; none where one has not.
+fn by_names_of_files(files: &[DataFile], counts: &[usize]) -> Vec<Measured> {
+    let own = |file: &DataFile| {
+        let stem = file.path().file_stem()?.to_string_lossy().into_owned();
+        let [response, reference] = pair_in_name(&stem)?.map(|place| place.to_lowercase());
+        // Other names hold two numbers too: dates, counts.
+        let directed = |place: &str| place_like(place) && !place.ends_with(|c: char| c.is_ascii_digit());
+        let word = stem.split(|c: char| !c.is_ascii_alphabetic()).next().unwrap_or_default().to_lowercase();
+        let function =
+            ["h", "frf", "tf"].contains(&word.as_str()) && [&response, &reference].iter().all(|p| place_like(p));
+        (function || directed(&response) && directed(&reference)).then(|| Measured {
+            path: file.path().to_owned(),
+            further: Vec::new(),
+            responses: vec![response],
+            references: vec![reference],
+        })
+    };
+    let functions = files.iter().zip(counts).filter(|(_, count)| **count > 0);
+    let found: Option<Vec<Measured>> = functions.map(|(file, count)| own(file).filter(|_| *count == 1)).collect();
+    found.unwrap_or_default()
+}
+
+/// Labels of responses whose references nothing says: by the numbers in the names of the functions, of their sets, of the
+/// files, else in their order; and how that is said.
+fn numbered(request: &Request, files: &[DataFile], counts: &[usize]) -> (Vec<String>, String) {
+    let functions = |file| functions_with_sets(file, request);
+    let label = |name: &str| {
+        let label: String = response_in_name(name)?.chars().filter(char::is_ascii_alphanumeric).collect();
+        Some(label.to_lowercase()).filter(|label| place_like(label))
+    };
+    let by_name: Vec<Option<String>> =
+        files.iter().flat_map(functions).map(|(_, channel)| label(&channel.name)).collect();
+    let by_set: Vec<Option<String>> = files.iter().flat_map(functions).map(|(set, _)| label(set)).collect();
+    let one_each = counts.iter().all(|count| *count < 2);
+    let measured = files.iter().zip(counts).filter(|(_, count)| **count > 0);
+    let by_file: Vec<Option<String>> = measured
+        .map(|(file, _)| label(&file.path().file_stem().unwrap_or_default().to_string_lossy()).filter(|_| one_each))
+        .collect();
+    let whose = [(by_name, "names"), (by_set, "sets"), (by_file, "files")];
+    for (labels, whose) in whose {
+        let mut seen: Vec<&String> = labels.iter().flatten().collect();
+        seen.sort_unstable();
+        seen.dedup();
+        if !labels.is_empty() && seen.len() == labels.len() {
+            let labels: Vec<String> = labels.into_iter().flatten().collect();
+            let how = format!("the responses are at {} by the numbers in their {whose}", labels.join(", "));
+            return (labels, how);
+        }
+    }
+    let total = counts.iter().sum::<usize>();
+    let how = format!("neither names nor file say the DOFs: the responses are numbered 1 to {total} in their order");
+    ((1..=total).map(|number| number.to_string()).collect(), how)
+}
+
+/// Whether a text is a number with a direction or without.
+fn place_like(text: &str) -> bool {
+    let end = text.find(|c: char| !c.is_ascii_digit()).unwrap_or(text.len());
+    end > 0 && matches!(&text[end..], "" | "x" | "y" | "z" | "rx" | "ry" | "rz")
+}
+
+/// The functions of a file with the names of their sets.
+fn functions_with_sets<'a>(file: &'a DataFile, request: &'a Request) -> impl Iterator<Item = (&'a str, &'a Channel)> {
+    let sets = file.contents().sets.iter();
+    sets.flat_map(move |set| of_set(set, request).map(move |channel| (set.name.as_str(), channel)))
+}
+
+/// Names of response and reference of a function. Universal Files state them; elsewhere the name of the channel may.
+pub(super) fn pair(file: &DataFile, channel: &Channel) -> Option<[String; 2]> {
+    match (channel.attribute("response"), channel.attribute("reference")) {
+        // Node 0 is no point: its entity alone is there, or nothing.
+        (Some(response), reference)
+            if file.contents().format == Format::Uff
+                && response.contains(':')
+                && reference.is_none_or(|reference| !reference.contains(':')) =>
+        {
+            Some([response.to_owned(), "0:S".to_owned()])
+        }
+        (Some(response), Some(reference)) => Some([response.to_owned(), reference.to_owned()]),
+        _ if file.contents().format == Format::Uff => None,
+        _ => pair_in_name(&channel.name),
+    }
+}
