@@ -79,6 +79,9 @@ fn make(folder: &Path, filter: &str, first: u64, count: u64) {
 }
 
 fn judge_all(folder: &Path, filter: &str, workers: usize, options: &[String]) {
+    if workers > 1 {
+        println!("note: projects judged at once share the threads of this process: times say nothing");
+    }
     let entries = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
     let mut folders: Vec<PathBuf> = entries.filter(|p| p.join("project.toml").exists()).collect();
     folders.retain(|p| p.file_name().unwrap().to_string_lossy().contains(filter));
