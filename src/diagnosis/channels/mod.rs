@@ -10,7 +10,7 @@
 //! `X` displacement amplitudes of the fundamental (m, rad), `r` runs, `c` response channels. `b` is fitted to all channels of a
 //! run by least absolute deviations, so that a channel that is wrong hardly bends it. The error of a channel in a run is
 //! `|X - X_fit| / max(|X|, |X_fit|)`, 2 where the sign is wrong. A fault is named where it brings the error of its channels in
-//! all frequencies down to a fraction. Beside that, a factor that all motions have in common against the force ([`common`]): no
+//! all frequencies down to a fraction. Beside that, a factor that all motions have in common against the force (`common`): no
 //! shape shows it.
 
 mod cells;

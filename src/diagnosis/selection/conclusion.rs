@@ -30,6 +30,10 @@ const MOST: usize = 8;
 /// The same where time is up.
 const FEW: usize = 2;
 
+/// Share of the stated model's error that corrections may leave which do not agree with the data to the noise and are told as all
+/// there is.
+const MOST_LEFT: f64 = 0.5;
+
 /// Where a search ended, with what it was made on.
 pub(crate) struct Outcome<'a> {
     pub reference: ReferenceModel<'a>,
@@ -45,14 +49,18 @@ impl Outcome<'_> {
             let estimator = reference.estimator();
             let misfit = square(&estimator.residual(&reference.predictions)) / reference.count().max(1) as f64;
             let error = reference.error_of_structure(&[], &Vec::new())?;
-            // That corrections are all is no answer of a search whose time was up before laws were fitted.
-            let enough = misfit < TOLERATED && (self.found.agrees || reference.control.is_complete());
+            // That corrections are all is no answer of a search whose time was up before laws were fitted, nor where they leave most
+            // of the error beyond the noise.
+            let helps = !self.found.updated || error < MOST_LEFT * diagnosis.error_before;
+            let told = self.found.agrees || (helps && reference.control.is_complete());
+            let enough = misfit < TOLERATED && told;
             diagnosis.verdict = match (self.found.updated, enough) {
                 (true, true) => Verdict::Detuned,
                 (false, true) => Verdict::Adequate,
                 (_, false) => Verdict::Unexplained,
             };
-            if self.found.updated {
+            // Corrections that explain nothing and raise the error have followed what they cannot be.
+            if self.found.updated && (enough || error < diagnosis.error_before) {
                 diagnosis.corrections = corrections(reference);
                 diagnosis.steps.push(Step { added: Vec::new(), error, misfit });
             }
