@@ -45,27 +45,7 @@ impl Outcome<'_> {
     pub(crate) fn conclude(&self, mut diagnosis: Diagnosis) -> Result<Diagnosis, DiagnosisError> {
         let reference = &self.reference;
         let by_size = &self.found.by_size;
-        let Some(top) = by_size.last() else {
-            let estimator = reference.estimator();
-            let misfit = square(&estimator.residual(&reference.predictions)) / reference.count().max(1) as f64;
-            let error = reference.error_of_structure(&[], &Vec::new())?;
-            // That corrections are all is no answer of a search whose time was up before laws were fitted, nor where they leave most
-            // of the error beyond the noise.
-            let helps = !self.found.updated || error < MOST_LEFT * diagnosis.error_before;
-            let told = self.found.agrees || (helps && reference.control.is_complete());
-            let enough = misfit < TOLERATED && told;
-            diagnosis.verdict = match (self.found.updated, enough) {
-                (true, true) => Verdict::Detuned,
-                (false, true) => Verdict::Adequate,
-                (_, false) => Verdict::Unexplained,
-            };
-            // Corrections that explain nothing and raise the error have followed what they cannot be.
-            if self.found.updated && (enough || error < diagnosis.error_before) {
-                diagnosis.corrections = corrections(reference);
-                diagnosis.steps.push(Step { added: Vec::new(), error, misfit });
-            }
-            return Ok(diagnosis);
-        };
+        let Some(top) = by_size.last() else { return self.conclude_without_effects(diagnosis) };
         let best = &top.fits[0];
         let quiet = ReferenceModel {
             predictions: reference.predictions.clone(),
@@ -118,6 +98,30 @@ impl Outcome<'_> {
         } else {
             Verdict::Undecided
         };
+        Ok(diagnosis)
+    }
+
+    /// The same where no effect was found: corrections alone, if they are an answer.
+    fn conclude_without_effects(&self, mut diagnosis: Diagnosis) -> Result<Diagnosis, DiagnosisError> {
+        let reference = &self.reference;
+        let estimator = reference.estimator();
+        let misfit = square(&estimator.residual(&reference.predictions)) / reference.count().max(1) as f64;
+        let error = reference.error_of_structure(&[], &Vec::new())?;
+        // That corrections are all is no answer of a search whose time was up before laws were fitted, nor where they leave most
+        // of the error beyond the noise.
+        let helps = !self.found.updated || error < MOST_LEFT * diagnosis.error_before;
+        let told = self.found.agrees || (helps && reference.control.is_complete());
+        let enough = misfit < TOLERATED && told;
+        diagnosis.verdict = match (self.found.updated, enough) {
+            (true, true) => Verdict::Detuned,
+            (false, true) => Verdict::Adequate,
+            (_, false) => Verdict::Unexplained,
+        };
+        // Corrections that explain nothing and raise the error have followed what they cannot be.
+        if self.found.updated && (enough || error < diagnosis.error_before) {
+            diagnosis.corrections = corrections(reference);
+            diagnosis.steps.push(Step { added: Vec::new(), error, misfit });
+        }
         Ok(diagnosis)
     }
 }
