@@ -47,3 +47,17 @@ impl Settings {
         Self { harmonics, most_harmonics: harmonics, ..Self::default() }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Who asked for an answer at any price gets it; who has patience of a length is answered when time is up.
+    #[test]
+    fn patience_ends_by_steps_and_by_time() {
+        let (control, patient) = (Control::unattended(), Settings { patience: 80, ..Settings::default() });
+        assert!(!patient.gives_up(80, &control) && patient.gives_up(81, &control));
+        control.hurry();
+        assert!(patient.gives_up(0, &control) && !Settings::default().gives_up(usize::MAX, &control));
+    }
+}
