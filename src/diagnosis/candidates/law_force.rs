@@ -2,6 +2,7 @@
 
 use super::friction::friction;
 use super::identified_force::{LawFit, PlaceData};
+use crate::diagnosis::localisation::cell::FreeForce;
 use crate::diagnosis::localisation::location::Spot;
 use crate::effects::{ChannelLaw, Effect, Kind, Law, Motion, Sampling, Source, State};
 use dashpot_numerics::dot;
@@ -12,6 +13,11 @@ const SECANTS: usize = 8;
 const AT_REST: f64 = 1e-6;
 /// Bounds of the gain of a channel while it is searched.
 pub(crate) const GAINS: [f64; 2] = [0.5, 2.0];
+/// Delays that are tried: up to a share of the longest period, in steps of the phase at the highest frequency, and no more than so
+/// many either way.
+const TURNS: f64 = 0.5;
+const COARSE_PHASE: f64 = 0.5;
+const MOST_DELAYS: f64 = 500.0;
 
 impl PlaceData {
     /// Harmonics of the force of `source`, an effect that acts here, at the motion of every run, `[run][harmonic]`, N (of a
@@ -70,7 +76,7 @@ impl PlaceData {
             dot(&rows, &rows)
         };
         let step = law.small_step(self.range.omega.max(1e-3));
-        let mut p = law.neutral();
+        let mut p = if law.turns_phase() { self.coarse_delay(law) } else { law.neutral() };
         for _ in 0..12 {
             // Newton's method by differences: the misfit is nearly quadratic in the only parameter.
             let (low, mid, high) = (misfit(p - step), misfit(p), misfit(p + step));
@@ -90,6 +96,26 @@ impl PlaceData {
         }
         let source = Source { effect, place: self.spot.place(), state: State::Known, parameters: vec![p] };
         Some(LawFit { source, misfit: misfit(p) })
+    }
+
+    /// The delay, to a fraction of the shortest period, that leaves least of the free errors of this channel at the fundamentals: a
+    /// delay of a period or more has many valleys.
+    fn coarse_delay(&self, law: &dyn ChannelLaw) -> f64 {
+        let omegas = || self.motions.iter().map(|motion| motion.omega);
+        let (slowest, fastest) = (omegas().fold(f64::INFINITY, f64::min), omegas().fold(0.0, f64::max));
+        let (longest, step) = (TURNS * std::f64::consts::TAU / slowest, COARSE_PHASE / fastest);
+        let count = (longest / step).clamp(0.0, MOST_DELAYS);
+        let left = |p: f64| -> f64 {
+            let of_run = |(r, forces): (usize, &Vec<FreeForce>)| {
+                let error = self.channel_error(law, p, r, 1).first().copied();
+                let pair = forces.first().zip(error);
+                pair.map_or(0.0, |(free, error)| free.weight * (free.value - error).norm_sqr())
+            };
+            self.forces.iter().enumerate().map(of_run).sum()
+        };
+        let near_first = (0..=count as i32).flat_map(|k| [f64::from(k) * step, -f64::from(k) * step]);
+        let scored = near_first.map(|p| (left(p), p));
+        scored.min_by(|a, b| a.0.total_cmp(&b.0)).map_or(law.neutral(), |(_, p)| p)
     }
 }
 

@@ -27,8 +27,10 @@ pub(crate) struct Screen {
     pub spots: Vec<Spot>,
     /// `[run][harmonic]`.
     cells: Vec<Vec<Cell>>,
-    /// Present values of the updating parameters in units of their prior deviations.
+    /// Present values of the parameters that are common to all runs: of updating parameters in units of their prior deviations.
     reference: Vec<f64>,
+    /// How many of the last of them have no prior: those of laws of the whole structure.
+    without_prior: usize,
     /// Squared residual per datum that even the best place leaves, at least 1: the parameters are not to explain what is
     /// no noise.
     misfit: f64,
@@ -45,6 +47,17 @@ pub(crate) struct Freedom {
     pub own: Vec<Vec<Vec<c64>>>,
     /// Values of those that are in the model already, `[run][parameter]`.
     pub own_values: Vec<Vec<f64>>,
+}
+
+/// A law of the whole structure fitted beside the updating parameters.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct BesideWhole {
+    /// Its parameter.
+    pub value: f64,
+    /// Squared whitened residual that is left.
+    pub chi_square: f64,
+    /// Standardised updating parameters.
+    pub updated: Vec<f64>,
 }
 
 /// What one place, or two, leave unexplained.
@@ -99,7 +112,7 @@ impl Screen {
             };
             cells.push((1..=run.harmonics).map(at).collect());
         }
-        let mut screen = Self { spots, cells, reference: freedom.values.clone(), misfit: 1.0 };
+        let mut screen = Self { spots, cells, reference: freedom.values.clone(), without_prior: 0, misfit: 1.0 };
         screen.adjust();
         Ok(screen)
     }
@@ -132,7 +145,30 @@ impl Screen {
             run.iter().zip(forces).take(1).map(|(cell, f)| cell.with_force(spot, *f)).collect()
         };
         let cells = self.cells.iter().zip(forces).map(known).collect();
-        Self { cells, spots: Vec::new(), reference: self.reference.clone(), misfit: self.misfit }.updated(&[])
+        Self { cells, spots: Vec::new(), reference: self.reference.clone(), ..*self }.updated(&[])
+    }
+
+    /// What the law of the whole structure leaves whose unit parameter changes the whitened fundamentals by `columns`, one list
+    /// of channels a run, with the parameter and the updating parameters that fit best; `None` where nothing depends on it.
+    pub(crate) fn beside_whole(&self, columns: &[Vec<c64>]) -> Option<BesideWhole> {
+        let size: f64 = columns.iter().map(|column| dot(column, column).re).sum();
+        let scale = (size > 0.0).then(|| size.sqrt().recip())?;
+        let with_law = |(run, column): (&Vec<Cell>, &Vec<c64>)| {
+            let with_column = |cell: &Cell| {
+                let mut cell = cell.clone();
+                cell.slopes.resize(self.reference.len(), vec![c64::new(0.0, 0.0); column.len()]);
+                cell.slopes.push(column.iter().map(|z| *z * scale).collect());
+                cell
+            };
+            run.iter().take(1).map(with_column).chain(run.iter().skip(1).cloned()).collect()
+        };
+        let cells = self.cells.iter().zip(columns).map(with_law).collect();
+        let reference: Vec<f64> = self.reference.iter().copied().chain([0.0]).collect();
+        let beside = Self { cells, spots: Vec::new(), reference, without_prior: 1, ..*self };
+        let freed = beside.freed(&[])?;
+        let mut updated: Vec<f64> = beside.reference.iter().zip(&freed.change).map(|(u, change)| u + change).collect();
+        let value = updated.pop()? * scale;
+        Some(BesideWhole { value, chi_square: beside.left(&[], |cell| cell.total), updated })
     }
 
     /// How the free force at one spot would change with the parameters that are free; `None` where none is.
@@ -210,7 +246,8 @@ impl Screen {
         if self.cells.iter().flatten().all(|cell| cell.slopes.is_empty() && cell.own.is_empty()) {
             return None;
         }
-        let mut normal = Mat::from_fn(q, q, |i, j| if i == j { self.misfit } else { 0.0 });
+        let with_prior = q - self.without_prior;
+        let mut normal = Mat::from_fn(q, q, |i, j| if i == j && i < with_prior { self.misfit } else { 0.0 });
         let mut right: Vec<f64> = self.reference.iter().map(|u| -self.misfit * u).collect();
         let (mut gain, mut solved) = (0.0, Vec::with_capacity(self.cells.len()));
         for run in &self.cells {

@@ -1,9 +1,10 @@
 //! Candidates beside updating parameters: laws regressed at the measured motion, each followed with a model of its own.
 
-use super::search::joined;
+use super::search::{View, joined};
 use super::short_list::{Breadth, needed};
 use super::weighing::{bound_beside, cost};
 use crate::diagnosis::candidates::start::{UnfittedSet, start};
+use crate::diagnosis::localisation::free_force::BesideWhole;
 use crate::diagnosis::residual::data::{DiagnosisError, if_possible};
 use crate::diagnosis::residual::prediction::SEARCH;
 use crate::diagnosis::selection::estimator::Starts;
@@ -17,7 +18,7 @@ use crate::effects::{Effect, Kind, Place, Source, State};
 use crate::math::statistics::bayesian_information;
 use crate::response::harmonic_balance::Settings;
 use crate::response::sensitivity::Unknown;
-use dashpot_numerics::dot;
+use faer::c64;
 use std::sync::Arc;
 
 /// Most candidates that are followed.
@@ -147,31 +148,30 @@ impl<'a> ReferenceModel<'a> {
         reference.settled(fit, &SEARCH, 1)
     }
 
-    /// The laws of the whole structure, regressed at the measured motion.
-    pub(crate) fn whole_sets(&self, others: &[Source]) -> Vec<UnfittedSet> {
+    /// The laws of the whole structure, regressed at the measured motion beside the updating parameters as free forces at one
+    /// place are, and these.
+    pub(crate) fn whole_sets(&self, view: &View) -> Vec<(UnfittedSet, Vec<f64>)> {
         let Some(seen) = MeasuredMotion::new(&self.predictor, self.data, &self.predictions, self.control) else {
             return Vec::new();
         };
-        let rows = self.estimator().residual(&self.predictions);
-        let square = dot(&rows, &rows);
-        let unfitted = |effect: Effect| -> Option<UnfittedSet> {
+        let sum = [(Unknown::Source { source: 0, parameter: 0 }, 1.0)];
+        let unfitted = |effect: Effect| {
             let unit = Source { effect, place: Place::Whole(None), state: State::Known, parameters: vec![1.0] };
-            let fresh = !others.iter().any(|e| e.is_same(&unit)) && self.data.allows(&unit);
-            let column = self.noise.updating.column(self.linear_rows(&seen, &unit));
-            let size = dot(&column, &column);
-            let value = dot(&column, &rows) / size;
-            if !fresh || size <= 0.0 || !effect.parameters()[0].allows(value) {
+            if !self.data.allows(&unit) {
                 return None;
             }
-            let score = bayesian_information(square - value * value * size, 1, self.count());
-            Some(UnfittedSet {
-                effects: vec![Source { parameters: vec![value], ..unit }],
-                score,
-                fields: Arc::default(),
-            })
+            let column = |r: usize| {
+                let slope = seen.slope(r, std::slice::from_ref(&unit), &sum);
+                self.noise.runs[r].apply(1, |c| slope[c][0])
+            };
+            let columns: Vec<Vec<c64>> = (0..self.data.runs.len()).map(column).collect();
+            let BesideWhole { value, chi_square, updated } = view.screen.beside_whole(&columns)?;
+            let source = Source { parameters: vec![value], ..unit };
+            let score = bayesian_information(chi_square, 1, self.count());
+            let set = UnfittedSet { effects: vec![source], score, fields: Arc::default() };
+            effect.parameters()[0].allows(value).then_some((set, updated))
         };
-        let whole = Effect::ALL.into_iter().filter(|e| matches!(e.kind(), Kind::Whole(_)));
-        whole.filter_map(unfitted).collect()
+        Effect::ALL.into_iter().filter(|e| matches!(e.kind(), Kind::Whole(_))).filter_map(unfitted).collect()
     }
 
     /// Whitened derivative of all runs by the parameter of a linear law.
@@ -183,15 +183,6 @@ impl<'a> ReferenceModel<'a> {
             self.estimator().whitened(r, &mut rows, |c, h| slope[c][h - 1]);
         }
         rows
-    }
-
-    /// Updating parameters that fit best beside a law of the whole structure.
-    pub(crate) fn updated_beside_whole(&self, source: &Source) -> Option<Vec<f64>> {
-        let seen = MeasuredMotion::new(&self.predictor, self.data, &self.predictions, self.control)?;
-        let mut rows = self.estimator().at_reference(&self.predictions);
-        let value = source.parameters[0];
-        rows.iter_mut().zip(self.linear_rows(&seen, source)).for_each(|(r, c)| *r -= value * c);
-        Some(self.noise.updating.solve(&rows))
     }
 }
 

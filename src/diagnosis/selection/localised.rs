@@ -8,10 +8,10 @@
 use crate::diagnosis::candidates::start::UnfittedSet;
 use crate::diagnosis::channels::{ChannelFault, Fault, mended};
 use crate::diagnosis::localisation::cell::FreeForce;
-use crate::diagnosis::localisation::free_force::Placing;
 use crate::diagnosis::localisation::location::Spot;
 use crate::diagnosis::residual::data::{DiagnosisError, if_possible};
 use crate::diagnosis::selection::reference_model::ReferenceModel;
+use crate::diagnosis::selection::search::View;
 use crate::diagnosis::selection::short_list::Breadth;
 use crate::diagnosis::updating::parameters::Updating;
 
@@ -27,6 +27,8 @@ const BY_LAW: f64 = 2.0;
 const DOUBTED: usize = 4;
 /// Share of what the best law leaves to which a doubt must bring it.
 const RELIEVED: f64 = 0.5;
+/// Share of its squared free errors which a gain or a delay may leave of a channel that is steady from run to run.
+const STEADY: f64 = 0.25;
 /// Bounds of the scatter of a doubted channel.
 const SCATTER: [f64; 2] = [0.02, 0.3];
 
@@ -104,7 +106,7 @@ impl<'a> ReferenceModel<'a> {
     fn seen(self, breadth: Breadth) -> Result<Seen<'a>, DiagnosisError> {
         let mut view = self.view(None)?;
         let mut unfitted = self.unfitted(&mut view, &[], breadth)?;
-        unfitted.extend(self.whole_sets(&[]));
+        unfitted.extend(self.whole_sets(&view).into_iter().map(|(set, _)| set));
         unfitted.sort_by(|a, b| a.score.total_cmp(&b.score));
         let placings = view.screen.singles();
         let free = placings.first().map_or(f64::INFINITY, |p| p.chi_square);
@@ -115,15 +117,28 @@ impl<'a> ReferenceModel<'a> {
             (_, Some(place)) => Some(view.screen.updated(&place.spots)),
             _ => None,
         };
-        let suspect = |p: &Placing| match &view.screen.spots[p.spots[0]] {
-            Spot::Response(name) => Some((name.clone(), scatter(&view.screen.forces(&p.spots)[0]))),
-            _ => None,
-        };
-        let at_channel = placings.first().is_some_and(|p| suspect(p).is_some());
-        let suspects = placings.iter().take(DOUBTED).filter_map(suspect).collect();
+        let at_channel = placings.first().is_some_and(|p| matches!(view.screen.spots[p.spots[0]], Spot::Response(_)));
+        let near = placings.iter().take(DOUBTED).map(|p| p.spots[0]);
+        let suspects = near.filter_map(|spot| self.suspect(&view, spot, &unfitted)).collect();
         drop(view);
         let target = target.unwrap_or_else(|| self.linearisation.updating.standardised());
         Ok(Seen { target, reference: self, least, free, by_law, at_channel, unfitted, suspects })
+    }
+
+    /// The response channel of `spot` with the scatter of its free errors; none where they are of one gain or delay, which is no
+    /// scatter from run to run.
+    fn suspect(&self, view: &View, spot: usize, unfitted: &[UnfittedSet]) -> Option<(String, f64)> {
+        let Spot::Response(name) = &view.screen.spots[spot] else { return None };
+        let place = view.screen.spots[spot].place();
+        let (forces, fields) = self.free(view, &[spot]);
+        let law = unfitted.iter().find(|d| d.effects[0].place.is_same(&place));
+        let steady = law.is_some_and(|law| {
+            let expected = self.at_place(view, spot, &forces[0], &fields).forces_of(&law.effects[0]);
+            let pairs = || forces[0].iter().zip(expected.iter().flatten()).filter_map(|(f, e)| f.first().zip(e.first()));
+            let left: f64 = pairs().map(|(free, error)| (free.value - error).norm_sqr()).sum();
+            left < STEADY * pairs().map(|(free, _)| free.value.norm_sqr()).sum::<f64>()
+        });
+        (!steady).then(|| (name.clone(), scatter(&forces[0])))
     }
 
     /// Whether a law regressed beside the model as it is would bring `evidence`.
@@ -131,7 +146,8 @@ impl<'a> ReferenceModel<'a> {
         let mut view = self.view(None)?;
         let bound = view.screen.nothing() - evidence;
         let unfitted = self.unfitted(&mut view, &[], Breadth::All)?;
-        Ok(unfitted.iter().chain(&self.whole_sets(&[])).any(|unfitted| unfitted.score < bound))
+        let whole = self.whole_sets(&view).into_iter().map(|(set, _)| set);
+        Ok(unfitted.into_iter().chain(whole).any(|unfitted| unfitted.score < bound))
     }
 
     /// The channel whose readings, taken to scatter from run to run, let a law leave far less than any does while all channels

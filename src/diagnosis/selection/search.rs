@@ -89,7 +89,8 @@ impl ReferenceModel<'_> {
     ) -> Result<Option<Vec<f64>>, DiagnosisError> {
         let source = &unfitted.effects[0];
         if matches!(source.place, Place::Whole(_)) {
-            return Ok(self.updated_beside_whole(source));
+            let whole = self.whole_sets(view).into_iter().find(|(set, _)| set.effects[0].effect == source.effect);
+            return Ok(whole.map(|(_, updated)| updated));
         }
         let Some(spot) = view.screen.spots.iter().position(|s| s.place().is_same(&source.place)) else {
             return Ok(None);

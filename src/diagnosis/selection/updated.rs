@@ -17,13 +17,16 @@ use crate::diagnosis::updating::shape_errors::ShapeErrors;
 use crate::effects::Source;
 use crate::response::harmonic_balance::{ResponseError, Settings};
 use crate::response::sensitivity::Unknown;
+use crate::structure::Part;
 use faer::c64;
 use std::sync::Arc;
 
 /// Steps of the fit of the updating parameters alone.
 const STEPS: usize = 8;
-/// Largest change of a logarithm in one step.
+/// Largest change of a logarithm in one step: of a stiffness or mass, and of a support or the size of a known source, which are
+/// known less well and move the response less.
 const LONGEST: f64 = 0.05;
+const LONGEST_OF_SIZE: f64 = 0.2;
 /// Gain of the squared residual per datum below which the fit has arrived.
 const ARRIVED: f64 = 1e-3;
 /// Rounds in which scales and effects are fitted in turn.
@@ -381,7 +384,12 @@ fn leverage(data: &Data, updating: &Updating, common: &[RunSlopes], predictions:
 /// The values of `updating` moved to `target`, none by more than the longest step.
 fn towards(updating: &Updating, target: &[f64]) -> Updating {
     let moved = |(k, (from, to)): (usize, (&f64, &f64))| {
-        if updating.parameters[k].is_of_model() { from + (to - from).clamp(-LONGEST, LONGEST) } else { 0.0 }
+        let longest = match &updating.parameters[k] {
+            parameter if !parameter.is_of_model() => return 0.0,
+            UpdatingParameter::Known(_) | UpdatingParameter::Structure(Part::Support(_)) => LONGEST_OF_SIZE,
+            _ => LONGEST,
+        };
+        from + (to - from).clamp(-longest, longest)
     };
     let values = updating.values.iter().zip(target).enumerate().map(moved).collect();
     Updating { values, ..updating.clone() }
