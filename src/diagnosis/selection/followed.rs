@@ -41,6 +41,10 @@ const UPDATES: usize = 6;
 /// Share of the squared residual of the stated model which a law of the whole structure may leave beside it to be followed from
 /// there: a model that is off in frequency by some per cent leaves about as much with as without it.
 const STANDS_OUT: f64 = 0.2;
+/// How many times what its regression promised a candidate may leave before shorter steps of the model beside it are tried, and
+/// these, as shares of the whole.
+const MISSED: f64 = 3.0;
+const SHARES: [f64; 3] = [0.3, 0.1, 0.0];
 /// Share of the evidence that a further effect must bring in the end which it must bring by its first fit.
 const BROUGHT: f64 = 0.5;
 
@@ -141,10 +145,36 @@ impl<'a> ReferenceModel<'a> {
         let sources = self.predictor.sources(&effects);
         let runs = self.data.runs.iter().zip(unfitted.fields.iter());
         let starts: Starts = runs.map(|(run, field)| start(&sources, run.omega, field)).collect();
-        let updating = &self.linearisation.updating;
-        let updating = target.map_or_else(|| updating.clone(), |u| updating.at(u));
-        let reference = self.updated(&updating, &effects, &starts)?;
-        let fit = reference.estimator().fit(&effects, STEPS, settings, &starts)?;
+        let here = &self.linearisation.updating;
+        let begun = |updating: &Updating| {
+            let reference = self.updated(updating, &effects, &starts)?;
+            let fit = reference.estimator().fit(&effects, STEPS, settings, &starts)?;
+            Ok::<_, DiagnosisError>((reference, fit))
+        };
+        let Some(target) = target else {
+            let (reference, fit) = begun(here)?;
+            return reference.settled(fit, &SEARCH, 1);
+        };
+        let mut best = begun(&here.at(target))?;
+        let noise = self.count() as f64;
+        // The whole step is right where the response is as linear in the model as it is at the measured motion.
+        if best.1.chi_square > MISSED * unfitted.score.max(noise) && !self.control.is_late() {
+            let at_reference = |(reference, fit): &(ReferenceModel, FittedModel)| {
+                let predictions = reference.predictions_with(&fit.effects, &fit.starts)?;
+                Ok::<f64, DiagnosisError>(reference.cost_at_reference(&predictions))
+            };
+            let mut least = at_reference(&best)?;
+            for share in SHARES {
+                let from = here.standardised();
+                let part: Vec<f64> = from.iter().zip(target).map(|(u, to)| u + share * (to - u)).collect();
+                let Some(tried) = if_possible(begun(&here.at(&part)))? else { continue };
+                let then = at_reference(&tried)?;
+                if then < least {
+                    (best, least) = (tried, then);
+                }
+            }
+        }
+        let (reference, fit) = best;
         reference.settled(fit, &SEARCH, 1)
     }
 

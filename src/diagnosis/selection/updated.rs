@@ -129,7 +129,11 @@ impl<'a> ReferenceModel<'a> {
         slopes
     }
 
-    fn predictions_with(&self, effects: &[Source], starts: &Starts) -> Result<Vec<RunPrediction>, DiagnosisError> {
+    pub(super) fn predictions_with(
+        &self,
+        effects: &[Source],
+        starts: &Starts,
+    ) -> Result<Vec<RunPrediction>, DiagnosisError> {
         if effects.is_empty() {
             Ok(self.predictions.clone())
         } else {
@@ -305,7 +309,7 @@ impl<'a> ReferenceModel<'a> {
     }
 
     /// Evidence of predictions with the updating parameters of the model at their reference, priors included.
-    fn cost_at_reference(&self, predictions: &[RunPrediction]) -> f64 {
+    pub(super) fn cost_at_reference(&self, predictions: &[RunPrediction]) -> f64 {
         self.noise.updating.left_by_channels(&self.estimator().at_reference(predictions)) + self.noise.cost()
     }
 
