@@ -327,6 +327,9 @@ fn bend<R: Residual>(
 }
 
 #[cfg(test)]
+mod certified;
+
+#[cfg(test)]
 mod tests {
     use super::*;
 
