@@ -75,7 +75,7 @@ pub struct Beside {
 
 /// Every shape of another program beside the complex modes as measured and the undamped modes of the model.
 pub(crate) fn beside(references: &[ReferenceShape], measured: Option<&ModalData>, model: &Modes) -> Vec<Beside> {
-    let of = |reference: &ReferenceShape| {
+    let best_match = |reference: &ReferenceShape| {
         let complex = |modal: &ModalData, p: usize| {
             let hz = modal.poles[p].norm() / std::f64::consts::TAU;
             compared(reference, (p, hz), Some(modal.damping_ratio(p)), |i| modal.shapes[(i, p)])
@@ -86,7 +86,7 @@ pub(crate) fn beside(references: &[ReferenceShape], measured: Option<&ModalData>
         let modes = (0..model.shapes.ncols()).map(undamped);
         Beside { reference: reference.clone(), measured, model: best(reference, modes) }
     };
-    references.iter().map(of).collect()
+    references.iter().map(best_match).collect()
 }
 
 /// The mode of the likest shape among those near in frequency; where shapes tell nothing apart, the nearest.

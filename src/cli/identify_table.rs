@@ -4,7 +4,7 @@ use super::table::{digits, number, table};
 use crate::effects::{Place, Source, State};
 use crate::exchange::Project;
 use crate::identify::outcome::WindowOutcome;
-use crate::identify::{Estimate, Outcome, Step};
+use crate::identify::{Estimate, Outcome, SelectionStep};
 use crate::structure::Structure;
 use faer::Mat;
 use std::f64::consts::TAU;
@@ -111,7 +111,7 @@ fn selection(project: &Project, outcome: &Outcome) -> String {
     format!("Selection\n{}", table(&rows))
 }
 
-fn set(project: &Project, step: &Step) -> String {
+fn set(project: &Project, step: &SelectionStep) -> String {
     let estimate_in_words = |estimate: &Estimate| {
         let source = &project.sources[estimate.source];
         format!("{} {} {}", source.effect, place_text(source, &project.structure), number(estimate.coefficient))

@@ -88,8 +88,8 @@ pub fn record_test(
     let sample = |(c, signal): (usize, &Vec<f64>)| {
         let [delay, gain] = sensor_errors(setup.sensors, &setup.channels[c]);
         let early = if setup.channels[c].quantity == Quantity::Displacement { signal[0] } else { 0.0 };
-        let at = |n: usize| gain * filtered(signal, early, &kernel, n as f64 * FINER as f64 - delay / fine);
-        (0..setup.samples).map(at).collect()
+        let recorded = |n: usize| gain * filtered(signal, early, &kernel, n as f64 * FINER as f64 - delay / fine);
+        (0..setup.samples).map(recorded).collect()
     };
     Ok(TestRecord { samples: signals.iter().enumerate().map(sample).collect(), time })
 }

@@ -3,7 +3,7 @@
 use super::assembly::is_linear;
 use super::element::{Element, Form};
 use super::model::TransientModel;
-use super::step::Step;
+use super::step::LinearStep;
 use crate::effects::{Constant, Source};
 use dashpot_numerics::dot;
 
@@ -36,7 +36,7 @@ impl TransientModel {
         let samples = forces.first().map_or(0, Vec::len);
         let first: Vec<[f64; 2]> = forces.iter().map(|list| [list.first().copied().unwrap_or(0.0), 0.0]).collect();
         let mut z = self.modes_of(&vec![0.0; 2 * self.kept()], &first);
-        let stepped = Step::new(&self.system, step);
+        let stepped = LinearStep::new(&self.system, step);
         let mut channels = vec![Vec::with_capacity(samples); self.sensors.len()];
         // Drives stand behind the elements of the model, which are left at rest.
         let behind = self.legs.len();

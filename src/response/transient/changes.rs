@@ -10,7 +10,7 @@
 //! taken as linear between the ends of the piece.
 
 use super::exponentials::divided;
-use super::step::Step;
+use super::step::LinearStep;
 use super::system::{LinearChange, LinearSystem};
 use dashpot_numerics::add_product;
 use faer::c64;
@@ -42,7 +42,7 @@ impl Changes {
     /// Of the full `step`, with `elements` forces of elements and `drives` drives.
     pub(super) fn new(
         system: &LinearSystem,
-        step: &Step,
+        step: &LinearStep,
         list: &[LinearChange],
         [elements, drives]: [usize; 2],
     ) -> Self {
@@ -59,10 +59,10 @@ impl Changes {
         for column in 0..2 * count {
             let (j, z) = (column % count, if column < count { c64::new(1.0, 0.0) } else { c64::new(0.0, 1.0) });
             for change in list {
-                let at = |k: usize| k * count + j;
-                let parts = |k: usize| [change.direct[at(k)] * z, change.conjugate[at(k)] * z.conj()];
+                let index = |k: usize| k * count + j;
+                let parts = |k: usize| [change.direct[index(k)] * z, change.conjugate[index(k)] * z.conj()];
                 let rate = |k: usize| parts(k)[0] + parts(k)[1];
-                let sum = |k: usize| parts(k)[0] * between[at(k)][0] + parts(k)[1] * between[at(k)][1];
+                let sum = |k: usize| parts(k)[0] * between[index(k)][0] + parts(k)[1] * between[index(k)][1];
                 flatten(&(0..count).map(rate).collect::<Vec<c64>>(), &mut rates);
                 flatten(&(0..count).map(sum).collect::<Vec<c64>>(), &mut full);
             }
@@ -101,7 +101,7 @@ impl Changes {
     }
 
     /// What a piece of a step between two states adds, into [`Self::added`].
-    pub(super) fn over_piece(&mut self, step: &Step, states: [&[f64]; 2], forces: &StepForces) {
+    pub(super) fn over_piece(&mut self, step: &LinearStep, states: [&[f64]; 2], forces: &StepForces) {
         for ((z, u), g) in states.into_iter().zip([forces.start, forces.end]).zip(&mut self.ends) {
             self.inputs.clear();
             self.inputs.extend_from_slice(z);
@@ -128,7 +128,7 @@ impl Changes {
 /// The exact sum over a full step of what forces do; that of the state is its first term.
 struct Exact<'a> {
     system: &'a LinearSystem,
-    step: &'a Step,
+    step: &'a LinearStep,
     /// `(e^(lambda_k h) - e^(lambda_j h)) / (lambda_k - lambda_j)`, row by row; and with the conjugate of `lambda_j`.
     between: &'a [[c64; 2]],
 }

@@ -90,8 +90,8 @@ fn figure(study: &Incompleteness, choice: Choice, palette: &Palette) -> Figure {
         Along::Sensors => study.sensors[c.sensors].len() as f64,
     };
     let curve = |value: &dyn Fn(&Case) -> Option<f64>| {
-        let at = |c: &Case| Some([x(c), value(c)?.max(LEAST)]);
-        let mut points: Vec<[f64; 2]> = study.cases.iter().filter(chosen).filter_map(at).collect();
+        let point = |c: &Case| Some([x(c), value(c)?.max(LEAST)]);
+        let mut points: Vec<[f64; 2]> = study.cases.iter().filter(chosen).filter_map(point).collect();
         points.sort_by(|a, b| a[0].total_cmp(&b[0]));
         points
     };
