@@ -115,18 +115,13 @@ fn compared(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::structure::chain::ChainParameters;
+    use crate::common::models;
     use crate::structure::damped_modes::damped_modes_from;
     use faer::Mat;
 
     /// Complex modes of a chain with one dashpot, and its undamped ones.
     fn chain() -> (ModalData, Modes) {
-        let parameters = ChainParameters {
-            masses: vec![1.0, 2.0, 1.5],
-            ground_stiffness: vec![4e4, 0.0, 0.0],
-            coupling_stiffness: vec![5e4, 3e4],
-        };
-        let model = parameters.build(&[]).expect("a chain").modes().expect("modes");
+        let model = models::chain(&[1.0, 2.0, 1.5], &[4e4, 0.0, 0.0], &[5e4, 3e4]).modes().expect("modes");
         let c = Mat::from_fn(3, 3, |i, j| if (i, j) == (2, 2) { 8.0 } else { 0.0 });
         let modes = damped_modes_from(&model, c.as_ref()).expect("modes");
         (ModalData::from_modes(&modes, 3), model)

@@ -93,7 +93,7 @@ impl Derived {
             &mut self.unsteady,
             &mut self.prepared_records,
         ];
-        work.into_iter().for_each(|work| work.cancel());
+        work.into_iter().for_each(Background::cancel);
     }
 
     /// The motion of every DOF in every run at its fundamental, m or rad: measured where it is, expanded where it is not.

@@ -4,7 +4,6 @@ use super::support::{balanced, five_masses, source, whole};
 use crate::common::models::{chain, oscillator};
 use dashpot::effects::{Effect, Source};
 use dashpot::response::harmonic_balance::{Excitation, Response, Settings};
-use dashpot::structure::Structure;
 use faer::c64;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 

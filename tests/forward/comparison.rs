@@ -2,6 +2,7 @@
 #![allow(clippy::disallowed_methods, reason = "tests")]
 
 use super::support::{cantilever, source, whole};
+use crate::common::models::oscillator;
 use dashpot::control::Control;
 use dashpot::diagnosis::residual::whiteness::Dependence;
 use dashpot::diagnosis::{Comparison, Problem, compare};

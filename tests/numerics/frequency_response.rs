@@ -7,9 +7,9 @@ use dashpot::response::dynamic_stiffness::{DynamicStiffness, DynamicStiffnessErr
 use dashpot::response::frequency_response::{Quantity, direct, half_power, modal};
 use dashpot::response::linear_matrices::LinearMatrices;
 use dashpot::response::steady_state::steady_state;
+use dashpot::structure::SystemMatrices;
 use dashpot::structure::damped_modes::{damped_modes, damped_modes_from};
 use dashpot::structure::modes::modes;
-use dashpot::structure::{Structure, SystemMatrices};
 use faer::c64;
 use nalgebra::DMatrix;
 

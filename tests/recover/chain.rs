@@ -94,7 +94,7 @@ fn chain_of_dashpots_is_one_source() {
     let mut sources = candidates();
     sources.push(candidate(Effect::Viscous, &whole));
     let rig = Rig::near_modes(&structure, 5, 1.02, 0, &[0, 2, 4]);
-    let runs = rig.runs(&structure, &[source(Effect::Viscous, &whole, 3.0)]);
+    let runs = rig.runs(&structure, &[source(Effect::Viscous, &whole, &[3.0])]);
     let settings = Settings { stop_angle_deg: 1e-5, ..all_sets() };
     let outcome = identify(&structure, &sources, &runs, &settings, &Control::unattended()).unwrap();
     assert_found(&outcome, &[(9, 3.0)], 1e-8);

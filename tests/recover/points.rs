@@ -36,7 +36,7 @@ fn coefficients_to_1e_8_and_closure_to_1e_10() {
 }
 
 /// Motions with harmonics, and the force that puts in what the sources take out, by integrals of their own.
-fn runs_with_harmonics(structure: &Structure) -> Vec<Run> {
+fn runs_with_harmonics() -> Vec<Run> {
     (0..6)
         .map(|r| {
             let omega = TAU * (10.0 + r as f64);
@@ -78,7 +78,7 @@ fn friction_between_two_points_with_harmonics() {
     sources.extend((0..5).map(|i| candidate(Effect::Coulomb, &[i])));
     sources.extend((0..4).map(|i| candidate(Effect::Coulomb, &[i, i + 1])));
     let settings = Settings { stop_angle_deg: 1e-5, ..all_sets() };
-    let runs = runs_with_harmonics(&structure);
+    let runs = runs_with_harmonics();
     let outcome = identify(&structure, &sources, &runs, &settings, &Control::unattended()).unwrap();
     assert_found(&outcome, &[(4, 20.0), (15, 3.0)], 1e-8);
     // The equivalent dashpot of friction falls with amplitude.

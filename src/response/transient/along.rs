@@ -3,7 +3,7 @@
 use super::assembly::is_linear;
 use super::element::{Element, Form};
 use super::model::TransientModel;
-use super::step::LinearStep;
+use super::step::Step;
 use crate::effects::{Constant, Source};
 use dashpot_numerics::dot;
 
@@ -36,7 +36,7 @@ impl TransientModel {
         let samples = forces.first().map_or(0, Vec::len);
         let first: Vec<[f64; 2]> = forces.iter().map(|list| [list.first().copied().unwrap_or(0.0), 0.0]).collect();
         let mut z = self.modes_of(&vec![0.0; 2 * self.kept()], &first);
-        let stepped = LinearStep::new(&self.system, step);
+        let stepped = Step::new(&self.system, step);
         let mut channels = vec![Vec::with_capacity(samples); self.sensors.len()];
         // Drives stand behind the elements of the model, which are left at rest.
         let behind = self.legs.len();
@@ -61,18 +61,17 @@ impl TransientModel {
 mod tests {
     #![allow(clippy::unwrap_used, reason = "tests")]
     use super::*;
+    use crate::common::models;
     use crate::effects::{Effect, Place, State};
     use crate::measurement::{Channel, Quantity};
     use crate::response::transient::{SampledForces, TransientSetup};
     use crate::structure::Structure;
-    use crate::structure::chain::ChainParameters;
 
     const STEP: f64 = 2e-3;
     const SAMPLES: usize = 1500;
 
     fn chain() -> Structure {
-        let (masses, ground_stiffness) = (vec![2.0, 1.0, 1.5], vec![800.0, 0.0, 0.0]);
-        ChainParameters { masses, ground_stiffness, coupling_stiffness: vec![1500.0, 900.0] }.build(&[]).unwrap()
+        models::chain(&[2.0, 1.0, 1.5], &[800.0, 0.0, 0.0], &[1500.0, 900.0])
     }
 
     fn predicted(structure: &Structure, sources: &[Source], quantities: &[Quantity]) -> Vec<Vec<f64>> {

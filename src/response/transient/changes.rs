@@ -10,7 +10,7 @@
 //! taken as linear between the ends of the piece.
 
 use super::exponentials::divided;
-use super::step::LinearStep;
+use super::step::Step;
 use super::system::{LinearChange, LinearSystem};
 use dashpot_numerics::add_product;
 use faer::c64;
@@ -42,7 +42,7 @@ impl Changes {
     /// Of the full `step`, with `elements` forces of elements and `drives` drives.
     pub(super) fn new(
         system: &LinearSystem,
-        step: &LinearStep,
+        step: &Step,
         list: &[LinearChange],
         [elements, drives]: [usize; 2],
     ) -> Self {
@@ -101,7 +101,7 @@ impl Changes {
     }
 
     /// What a piece of a step between two states adds, into [`Self::added`].
-    pub(super) fn over_piece(&mut self, step: &LinearStep, states: [&[f64]; 2], forces: &StepForces) {
+    pub(super) fn over_piece(&mut self, step: &Step, states: [&[f64]; 2], forces: &StepForces) {
         for ((z, u), g) in states.into_iter().zip([forces.start, forces.end]).zip(&mut self.ends) {
             self.inputs.clear();
             self.inputs.extend_from_slice(z);
@@ -128,7 +128,7 @@ impl Changes {
 /// The exact sum over a full step of what forces do; that of the state is its first term.
 struct Exact<'a> {
     system: &'a LinearSystem,
-    step: &'a LinearStep,
+    step: &'a Step,
     /// `(e^(lambda_k h) - e^(lambda_j h)) / (lambda_k - lambda_j)`, row by row; and with the conjugate of `lambda_j`.
     between: &'a [[c64; 2]],
 }

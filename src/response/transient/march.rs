@@ -14,7 +14,7 @@ use super::changes::Changes;
 use super::derivatives::Derivatives;
 use super::element::{Element, Form};
 use super::error::TransientError;
-use super::step::LinearStep;
+use super::step::Step;
 use super::system::{LinearChange, LinearSystem};
 use super::view::{Piece, Receptance, Sensitivity, View};
 use dashpot_numerics::dot;
@@ -35,7 +35,7 @@ pub(super) struct March<'a> {
     pub side: Vec<f64>,
     /// Mean forces over the last step, N.
     pub forces: Vec<f64>,
-    step: LinearStep,
+    step: Step,
     receptance: Receptance,
     trial: Trial,
 }
@@ -64,7 +64,7 @@ impl<'a> March<'a> {
         (sensitivities, changes): (Vec<Sensitivity>, &[LinearChange]),
         length: f64,
     ) -> Self {
-        let step = LinearStep::new(system, length);
+        let step = Step::new(system, length);
         let receptance = Receptance::new(views, &step);
         let side = views.iter().map(|view| sign(dot(&view.velocity, &z))).collect();
         let changes = Changes::new(system, &step, changes, [elements.len(), drives]);
@@ -79,20 +79,14 @@ impl<'a> March<'a> {
 
     /// One step from the drives `u0` to `u1`.
     pub(super) fn advance(&mut self, u0: &[f64], u1: &[f64]) -> Result<(), TransientError> {
-        let step = std::mem::replace(&mut self.step, LinearStep::empty());
+        let step = std::mem::replace(&mut self.step, Step::empty());
         let mut trial = std::mem::take(&mut self.trial);
         let done = self.advance_by(&step, &mut trial, u0, u1);
         (self.step, self.trial) = (step, trial);
         done
     }
 
-    fn advance_by(
-        &mut self,
-        step: &LinearStep,
-        trial: &mut Trial,
-        u0: &[f64],
-        u1: &[f64],
-    ) -> Result<(), TransientError> {
+    fn advance_by(&mut self, step: &Step, trial: &mut Trial, u0: &[f64], u1: &[f64]) -> Result<(), TransientError> {
         let ahead = self.balance(step, true, trial, [u0, u1])?;
         if ahead.is_none() {
             self.accept(step, true, trial, [u0, u1], None);
@@ -100,7 +94,7 @@ impl<'a> March<'a> {
         }
         let (mut from, mut remaining) = (u0.to_vec(), step.length);
         for event in 0..=MOST_EVENTS {
-            let own = (event > 0).then(|| LinearStep::new(self.system, remaining));
+            let own = (event > 0).then(|| Step::new(self.system, remaining));
             let piece = own.as_ref().unwrap_or(step);
             let full = event == 0;
             let ahead = if full { ahead } else { self.balance(piece, full, trial, [&from, u1])? };
@@ -114,7 +108,7 @@ impl<'a> March<'a> {
             };
             let share = tau / remaining;
             let at: Vec<f64> = from.iter().zip(u1).map(|(a, b)| a + share * (b - a)).collect();
-            let part = LinearStep::new(self.system, tau);
+            let part = Step::new(self.system, tau);
             self.moved(&part, [&from, &at], &mut trial.free);
             self.accept(&part, false, trial, [&from, &at], Some(element));
             (from, remaining) = (at, remaining - tau);
@@ -128,7 +122,7 @@ impl<'a> March<'a> {
     /// Forces of the elements over a step, and the sides on which friction slips; an element that turns within it, if any.
     fn balance(
         &self,
-        step: &LinearStep,
+        step: &Step,
         full: bool,
         trial: &mut Trial,
         drives: [&[f64]; 2],
@@ -196,7 +190,7 @@ impl<'a> March<'a> {
     }
 
     /// The first element whose slip ends within the step, and when.
-    fn reversal(&self, step: &LinearStep, trial: &Trial, drives: [&[f64]; 2]) -> Option<(usize, f64)> {
+    fn reversal(&self, step: &Step, trial: &Trial, drives: [&[f64]; 2]) -> Option<(usize, f64)> {
         let turning = (0..self.elements.len()).filter(|&l| self.turns_within(trial, l));
         let when = |l: usize| {
             let start = dot(&self.views[l].velocity, &self.z);
@@ -206,8 +200,8 @@ impl<'a> March<'a> {
     }
 
     /// Relative velocity of element `l` after the time `t` of a step under constant forces.
-    fn velocity_at(&self, l: usize, step: &LinearStep, t: f64, [u0, u1]: [&[f64]; 2], forces: &[f64]) -> f64 {
-        let part = LinearStep::new(self.system, t);
+    fn velocity_at(&self, l: usize, step: &Step, t: f64, [u0, u1]: [&[f64]; 2], forces: &[f64]) -> f64 {
+        let part = Step::new(self.system, t);
         let share = t / step.length;
         let end: Vec<f64> = u0.iter().zip(u1).map(|(a, b)| a + share * (b - a)).collect();
         let mut z = Vec::new();
@@ -217,7 +211,7 @@ impl<'a> March<'a> {
     }
 
     /// Instant at which the velocity of element `l` passes zero, by regula falsi (Illinois).
-    fn crossing(&self, l: usize, step: &LinearStep, drives: [&[f64]; 2], forces: &[f64], ends: [f64; 2]) -> f64 {
+    fn crossing(&self, l: usize, step: &Step, drives: [&[f64]; 2], forces: &[f64], ends: [f64; 2]) -> f64 {
         let ([mut a, mut b], [mut at_a, mut at_b]) = ([0.0, step.length], ends);
         let mut last = 0;
         for _ in 0..60 {
@@ -240,7 +234,7 @@ impl<'a> March<'a> {
     }
 
     /// State after a step under the drives alone.
-    fn moved(&self, step: &LinearStep, [u0, u1]: [&[f64]; 2], z: &mut Vec<f64>) {
+    fn moved(&self, step: &Step, [u0, u1]: [&[f64]; 2], z: &mut Vec<f64>) {
         z.clone_from(&self.z);
         step.decay(z);
         for (i, (a, b)) in u0.iter().zip(u1).enumerate() {
@@ -249,7 +243,7 @@ impl<'a> March<'a> {
     }
 
     /// Takes a step that is decided: state, derivatives and memories move on. `turned` is the element that comes to rest.
-    fn accept(&mut self, step: &LinearStep, full: bool, trial: &mut Trial, drives: [&[f64]; 2], turned: Option<usize>) {
+    fn accept(&mut self, step: &Step, full: bool, trial: &mut Trial, drives: [&[f64]; 2], turned: Option<usize>) {
         let Trial { free: next, before, after, forces, side, .. } = trial;
         forces.iter().enumerate().for_each(|(l, force)| step.push(l, -force, next));
         after.clear();

@@ -13,7 +13,7 @@ use faer::c64;
 
 /// Factors of one length of step.
 #[derive(Debug, Clone)]
-pub(super) struct LinearStep {
+pub(super) struct Step {
     /// Length, s.
     pub length: f64,
     decay: Vec<f64>,
@@ -26,7 +26,7 @@ pub(super) struct LinearStep {
     rises: Vec<f64>,
 }
 
-impl LinearStep {
+impl Step {
     /// Of `length` s.
     pub(super) fn new(system: &LinearSystem, length: f64) -> Self {
         let count = system.lambda.len();

@@ -1,6 +1,6 @@
 //! What a march through a record shows to the derivatives that go along with it.
 
-use super::step::LinearStep;
+use super::step::Step;
 use super::system::Functional;
 
 /// What an element sees, on flat states.
@@ -28,7 +28,7 @@ pub(super) struct Receptance {
 
 /// A piece of a step that is decided.
 pub(super) struct Piece<'a> {
-    pub step: &'a LinearStep,
+    pub step: &'a Step,
     /// Whether it is a step of full length.
     pub full: bool,
     /// Drives at both ends, N.
@@ -43,7 +43,7 @@ pub(super) struct Piece<'a> {
 }
 
 impl Receptance {
-    pub(super) fn new(views: &[View], step: &LinearStep) -> Self {
+    pub(super) fn new(views: &[View], step: &Step) -> Self {
         let count = views.len();
         let table = |of: &dyn Fn(&View) -> &Vec<f64>| {
             views.iter().flat_map(|view| (0..count).map(|k| step.receptance(k, of(view)))).collect()

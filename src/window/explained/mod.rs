@@ -191,7 +191,7 @@ impl Explained {
 
     fn collect(&mut self) {
         self.early.collect();
-        self.background_mut().into_iter().for_each(|work| work.collect());
+        self.background_mut().into_iter().for_each(Background::collect);
     }
 
     /// All that may run; the search first, since it takes longest.
@@ -353,7 +353,7 @@ impl Explained {
     pub fn cancel(&mut self) {
         let [search, _, others @ ..] = self.background_mut();
         search.cancel();
-        others.into_iter().for_each(|work| work.cancel());
+        others.into_iter().for_each(Background::cancel);
     }
 
     /// The search answers with the best so far, as soon as it can.
@@ -364,6 +364,6 @@ impl Explained {
     /// Starts again what was cancelled, failed or ended before its time.
     pub fn retry(&mut self) {
         self.diagnoses.forget(|d| !d.complete);
-        self.background_mut().into_iter().for_each(|work| work.retry());
+        self.background_mut().into_iter().for_each(Background::retry);
     }
 }

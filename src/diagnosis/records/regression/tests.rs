@@ -24,7 +24,7 @@ fn free_motion(start: [f64; 2], law: impl Fn(f64, f64) -> f64) -> Vec<Vec<f64>> 
     let moved = |s: [f64; 4], k: [f64; 4], h: f64| [0, 1, 2, 3].map(|i| s[i] + h * k[i]);
     let h = STEP / FINE as f64;
     let mut state = [start[0], start[1], 0.0, 0.0];
-    let mut rows = vec![Vec::with_capacity(SAMPLES); 2];
+    let mut rows = vec![Vec::new(); 2];
     let mut noise = 1_u64;
     for _ in 0..SAMPLES {
         for (row, x) in rows.iter_mut().zip(state) {

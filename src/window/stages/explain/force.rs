@@ -42,7 +42,7 @@ fn plots(ui: &mut Ui, force: &RestoringForce, structure: &Structure) {
     let columns = if ui.available_width() >= 2.0 * LEAST { 2 } else { 1 };
     let width = ui.available_width() / columns as f32 - 4.0;
     let (mut panels, mut responses) = (Vec::new(), Vec::new());
-    let mut show_figure = |ui: &mut Ui, k: usize| {
+    let mut one = |ui: &mut Ui, k: usize| {
         let figure = figures[k].clone().displayed();
         ui.allocate_ui(vec2(width, PLOTS), |ui| {
             ui.set_width(width);
@@ -55,9 +55,9 @@ fn plots(ui: &mut Ui, force: &RestoringForce, structure: &Structure) {
         });
     };
     if columns == 2 {
-        ui.horizontal_top(|ui| (0..2).for_each(|k| show_figure(ui, k)));
+        ui.horizontal_top(|ui| (0..2).for_each(|k| one(ui, k)));
     } else {
-        (0..2).for_each(|k| show_figure(ui, k));
+        (0..2).for_each(|k| one(ui, k));
     }
     export::offer_sheet(ui, &responses, Sheet { title, columns: 2, panels });
 }
