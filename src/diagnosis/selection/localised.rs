@@ -134,7 +134,8 @@ impl<'a> ReferenceModel<'a> {
         let law = unfitted.iter().find(|d| d.effects[0].place.is_same(&place));
         let steady = law.is_some_and(|law| {
             let expected = self.at_place(view, spot, &forces[0], &fields).forces_of(&law.effects[0]);
-            let pairs = || forces[0].iter().zip(expected.iter().flatten()).filter_map(|(f, e)| f.first().zip(e.first()));
+            let pairs =
+                || forces[0].iter().zip(expected.iter().flatten()).filter_map(|(f, e)| f.first().zip(e.first()));
             let left: f64 = pairs().map(|(free, error)| (free.value - error).norm_sqr()).sum();
             left < STEADY * pairs().map(|(free, _)| free.value.norm_sqr()).sum::<f64>()
         });

@@ -54,7 +54,7 @@ fn screen(with_parameters: bool) -> Screen {
     let cells = (0..RUNS).map(|_| (0..HARMONICS).map(&mut cell).collect()).collect();
     let spots = (0..SPOTS).map(|first| Spot::Leg(Leg { first, second: None })).collect();
     let reference = if with_parameters { REFERENCE.to_vec() } else { Vec::new() };
-    Screen { spots, cells, reference, misfit: MISFIT }
+    Screen { spots, cells, reference, without_prior: 0, misfit: MISFIT }
 }
 
 /// All rows at once: real and imaginary parts of every cell, priors behind; unknown are the changes of the common parameters, those
@@ -215,6 +215,32 @@ fn a_force_follows_the_parameters_as_in_dense_least_squares() {
             close(freedom.information[(i, j)], information[(i, j)]);
         }
     }
+}
+
+/// A law of the whole structure is one column more at the fundamentals of all runs, without a prior.
+#[test]
+fn a_law_of_the_whole_structure_is_fitted_as_in_dense_least_squares() {
+    for with_parameters in [false, true] {
+        let screen = screen(with_parameters);
+        // Any columns will do: those of another place of each run, two thousand times as large.
+        let columns: Vec<Vec<c64>> =
+            screen.cells.iter().map(|run| run[0].columns[2].iter().map(|a| *a * 2e3).collect()).collect();
+        let mut dense = Dense::new(&screen, &[]);
+        let last = dense.matrix.ncols();
+        dense.matrix = dense.matrix.insert_column(last, 0.0);
+        for (r, column) in columns.iter().enumerate() {
+            dense.place(2 * CHANNELS * r * HARMONICS, Some(last), column);
+        }
+        let (x, left) = dense.solve();
+        let found = screen.beside_whole(&columns).expect("columns that are not zero");
+        close(found.value * 2e3, x[last] * 2e3);
+        close(found.chi_square, left);
+        for (k, u) in found.updated.into_iter().enumerate() {
+            close(u, screen.reference[k] + x[k]);
+        }
+    }
+    let silent = vec![vec![c64::new(0.0, 0.0); CHANNELS]; RUNS];
+    assert!(screen(true).beside_whole(&silent).is_none());
 }
 
 /// A chain that hides a dashpot `c` between two masses: the force there is `i w c (X_2 - X_1)`, and no other place explains as much.
