@@ -34,8 +34,7 @@ const ARRIVED: f64 = 1e-3;
 const ROUNDS: usize = 3;
 /// Steps of the effects in each.
 const REFITTED: usize = 4;
-/// Evidence by which the linear fit of the updating parameters may still fall where they have settled: less than any decision
-/// hangs on.
+/// Evidence that the linear fit of the updating parameters may still gain where they have settled: no decision hangs on less.
 pub(super) const SETTLED: f64 = 2.0;
 /// Share of what the linear fit promises below which a step is too slow to go on.
 const SLOW: f64 = 1e-3;
@@ -43,13 +42,11 @@ const SLOW: f64 = 1e-3;
 const JOINT_STEPS: usize = 12;
 /// Factor of the measured over the predicted motion, off one, up to which derivatives are taken at the predicted one.
 const NEAR: f64 = 0.3;
-/// Bounds of the factor by which the measured motion may differ from the predicted one where derivatives are corrected
-/// for it.
+/// Bounds of the factor by which the measured motion may differ from the predicted one where derivatives are corrected for it.
 const FIELD: [f64; 2] = [0.02, 50.0];
 
 impl<'a> ReferenceModel<'a> {
-    /// The model with its updating parameters at `updating`, linearised beside `effects`, whose responses start from
-    /// `starts`.
+    /// The model with its updating parameters at `updating`, linearised beside `effects`, whose responses start from `starts`.
     ///
     /// Where the model is far off, its derivatives `-A dZ X` are taken at the measured motion rather than at its own
     /// (`X` times the factor that fits the sensors best): for a single mode the relation is then exact however far off.
