@@ -1,6 +1,10 @@
 //! Periodic responses by harmonic balance: one response against time stepping, a sweep through folds, growth in size, and
 //! the comparison of a model with 24 runs.
 
+#[path = "../tests/common/mod.rs"]
+mod common;
+
+use common::models::{cantilever, uniform_chain};
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
 use dashpot::control::Control;
 use dashpot::diagnosis::{Problem, compare};
@@ -13,19 +17,10 @@ use dashpot::response::synthesis::{Noise, sampling_times, synthesise};
 use dashpot::response::time_integration::{Settling, TimeError, TimeModel};
 use dashpot::session::workers::Threads;
 use dashpot::structure::Structure;
-use dashpot::structure::beam::{BeamParameters, Supports};
-use dashpot::structure::chain::ChainParameters;
 use faer::{Mat, c64};
 use std::f64::consts::TAU;
 use std::hint::black_box;
 use std::sync::Arc;
-
-fn beam(elements: usize) -> Structure {
-    let (youngs_modulus, density, supports) = (69e9, 2700.0, Supports::ClampedFree);
-    BeamParameters { length: 0.56, breadth: 0.04, depth: 0.004, youngs_modulus, density, elements, supports }
-        .build(&[])
-        .unwrap_or_else(|error| panic!("{error}"))
-}
 
 fn source(effect: Effect, dof: usize, parameters: &[f64]) -> Source {
     Source::known(effect, Place::Dofs(vec![dof]), parameters)
@@ -49,7 +44,7 @@ fn one_response(c: &mut Criterion) {
     // As the program does: threads cost more than they save on matrices of this size.
     faer::set_global_parallelism(faer::Par::Seq);
     let mut group = c.benchmark_group("one_response");
-    let structure = beam(10);
+    let structure = cantilever(10);
     let sources = friction(20, 3);
     let excitation = Excitation::sine(TAU * 10.0, 18, c64::new(1.0, 0.0));
     let control = Control::unattended();
@@ -130,7 +125,7 @@ fn accuracies(structure: &Structure, sources: &[Source], excitation: &Excitation
 
 fn folds(c: &mut Criterion) {
     let sources = [damped(), source(Effect::CubicStiffness, 18, &[5e6])];
-    let Ok(model) = ForwardModel::new(&beam(10), &sources) else { return };
+    let Ok(model) = ForwardModel::new(&cantilever(10), &sources) else { return };
     let excitation = Excitation::sine(TAU * 10.0, 18, c64::new(0.003, 0.0));
     let settings = SweepSettings { largest_step: 0.01, ..SweepSettings::default() };
     let range = [TAU * 6.0, TAU * 20.0];
@@ -153,7 +148,7 @@ fn growth(c: &mut Criterion) {
     let control = Control::unattended();
     for count in [1, 2, 4, 8] {
         let sources = friction(20, count);
-        let Ok(model) = ForwardModel::new(&beam(10), &sources) else { continue };
+        let Ok(model) = ForwardModel::new(&cantilever(10), &sources) else { continue };
         let excitation = Excitation::sine(TAU * 10.0, 18, c64::new(1.0, 0.0));
         let run = model.at(excitation.omega);
         group.bench_function(BenchmarkId::new("nonlinear_dofs", count), |b| {
@@ -164,12 +159,7 @@ fn growth(c: &mut Criterion) {
     for n in [20, 200, 2000] {
         let at = |share: usize, f: f64| source(Effect::Coulomb, n * share / 4 - 1, &[f]);
         let sources = [damped(), at(1, 0.1), at(2, 0.2), at(4, 0.3)];
-        let chain = ChainParameters {
-            masses: vec![1.0 / n as f64; n],
-            ground_stiffness: [vec![1e3 * n as f64], vec![0.0; n - 1]].concat(),
-            coupling_stiffness: vec![1e3 * n as f64; n - 1],
-        };
-        let Ok(structure) = chain.build(&[]) else { continue };
+        let structure = uniform_chain(n, 1.0 / n as f64, 1e3 * n as f64);
         let Ok(model) = ForwardModel::new(&structure, &sources) else { continue };
         let excitation = Excitation::sine(TAU * 7.0, n - 1, c64::new(1.0, 0.0));
         group.bench_function(BenchmarkId::new("structure_dofs", n), |b| {
@@ -181,7 +171,7 @@ fn growth(c: &mut Criterion) {
 
 /// 24 runs of the beam with friction: eight frequencies, three forces.
 fn measured() -> (Structure, Vec<Source>, Vec<Run>) {
-    let (structure, sources) = (beam(10), friction(20, 3));
+    let (structure, sources) = (cantilever(10), friction(20, 3));
     let mut runs = Vec::new();
     let Ok(model) = ForwardModel::new(&structure, &sources) else { return (structure, sources, runs) };
     for k in 0..24 {

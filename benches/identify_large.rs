@@ -1,6 +1,10 @@
 //! Identification of large structures: chains of n masses, 2.5 n candidates to the ground, between neighbours and between
 //! next neighbours, 60 runs with ten sensors; four dashpots in truth. States how time grows with n.
 
+#[path = "../tests/common/mod.rs"]
+mod common;
+
+use common::models;
 use criterion::{Criterion, criterion_group, criterion_main};
 use dashpot::control::Control;
 use dashpot::effects::{Effect, Place, Source};
@@ -9,7 +13,6 @@ use dashpot::measurement::{Channel, ChannelFit, HarmonicFit, Quantity, Run};
 use dashpot::response::dynamic_stiffness::DynamicStiffness;
 use dashpot::session::workers::Threads;
 use dashpot::structure::Structure;
-use dashpot::structure::chain::ChainParameters;
 use faer::{Mat, c64};
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
@@ -25,12 +28,10 @@ const PLACES: [f64; 4] = [0.21, 0.47, 0.66, 0.9];
 const NOISE: f64 = 1e-3;
 
 fn chain(n: usize) -> Structure {
-    let parameters = ChainParameters {
-        masses: (0..n).map(|i| 1.0 + 0.1 * (0.7 * i as f64).sin()).collect(),
-        ground_stiffness: (0..n).map(|i| if i % 50 == 0 { 1e4 } else { 100.0 }).collect(),
-        coupling_stiffness: (1..n).map(|i| 1e6 * (1.0 + 0.2 * (0.3 * i as f64).cos())).collect(),
-    };
-    parameters.build(&[]).unwrap_or_else(|error| panic!("{error}"))
+    let masses: Vec<f64> = (0..n).map(|i| 1.0 + 0.1 * (0.7 * i as f64).sin()).collect();
+    let ground: Vec<f64> = (0..n).map(|i| if i % 50 == 0 { 1e4 } else { 100.0 }).collect();
+    let coupling: Vec<f64> = (1..n).map(|i| 1e6 * (1.0 + 0.2 * (0.3 * i as f64).cos())).collect();
+    models::chain(&masses, &ground, &coupling)
 }
 
 fn candidates(n: usize) -> Vec<Source> {

@@ -1,6 +1,10 @@
 //! Records that are not steady: a long decay compared, its window rows, and prediction with derivatives; what an adaptive
 //! integrator needs for the same is measured by `scripts/integrator-speed.py`.
 
+#[path = "../tests/common/mod.rs"]
+mod common;
+
+use common::models::{cantilever, oscillator as mass_on_spring};
 use criterion::{Criterion, criterion_group, criterion_main};
 use dashpot::balance::windows::window_rows;
 use dashpot::control::Control;
@@ -9,21 +13,12 @@ use dashpot::effects::{Effect, Place, Source};
 use dashpot::measurement::{Channel, Kind, Quantity, Record, TransientLabel, TransientRun};
 use dashpot::response::transient::{SampledForces, TransientModel, TransientParameter, TransientSetup};
 use dashpot::structure::Structure;
-use dashpot::structure::beam::{BeamParameters, Supports};
-use dashpot::structure::chain::ChainParameters;
 use std::f64::consts::TAU;
 use std::hint::black_box;
 use std::sync::Arc;
 
 const SAMPLES: usize = 100_000;
 const CHANNELS: usize = 8;
-
-fn beam() -> Structure {
-    let (youngs_modulus, density, elements, supports) = (69e9, 2700.0, 10, Supports::ClampedFree);
-    BeamParameters { length: 0.56, breadth: 0.04, depth: 0.004, youngs_modulus, density, elements, supports }
-        .build(&[])
-        .unwrap_or_else(|error| panic!("{error}"))
-}
 
 fn dashpot(dof: usize, c: f64) -> Source {
     Source::known(Effect::Viscous, Place::Dofs(vec![dof]), &[c])
@@ -61,7 +56,7 @@ fn long_decay(c: &mut Criterion) {
     faer::set_global_parallelism(faer::Par::Seq);
     let mut group = c.benchmark_group("decay of 100 000 samples x 8 channels");
     group.sample_size(10);
-    let structure = beam();
+    let structure = cantilever(10);
     let run = decay(&structure);
     let known = vec![dashpot(18, 0.05)];
     let control = Control::unattended();
@@ -80,8 +75,7 @@ fn long_decay(c: &mut Criterion) {
 
 /// The oscillator of `scripts/integrator-speed.py`: 1 kg on 400 N/m, a dashpot and a cubic spring, 200 s from 0.1 m.
 fn oscillator(c: &mut Criterion) {
-    let chain = ChainParameters { masses: vec![1.0], ground_stiffness: vec![400.0], coupling_stiffness: vec![] };
-    let structure = chain.build(&[]).unwrap_or_else(|error| panic!("{error}"));
+    let structure = mass_on_spring(1.0, 400.0);
     let modes = structure.modes().unwrap_or_else(|error| panic!("{error}"));
     let cubic = Source::known(Effect::CubicStiffness, Place::Dofs(vec![0]), &[8000.0]);
     let sources = [dashpot(0, 0.05), cubic];

@@ -108,8 +108,8 @@ impl Control {
     #[must_use]
     pub fn piece(&self, index: usize, count: usize) -> Self {
         let [from, to] = self.span;
-        let at = |k: usize| from + (to - from) * (k as f64 / count.max(1) as f64).min(1.0);
-        Self { span: [at(index), at(index + 1)], ..self.clone() }
+        let share = |k: usize| from + (to - from) * (k as f64 / count.max(1) as f64).min(1.0);
+        Self { span: [share(index), share(index + 1)], ..self.clone() }
     }
 
     /// Moves the progress by this share of what remains: for searches whose length nobody knows beforehand.

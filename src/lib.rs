@@ -35,6 +35,12 @@
 //! model is from its measurement), [`diagnosis::diagnose()`] (what it lacks) and [`response::simulation::Simulator`] (how it
 //! moves). A project is read by [`exchange::project::load()`]; structures and sources can be made without files as well.
 
+#[cfg(test)]
+extern crate self as dashpot;
+#[cfg(test)]
+#[path = "../tests/common/mod.rs"]
+mod common;
+
 pub mod balance;
 pub mod classical;
 pub mod cli;

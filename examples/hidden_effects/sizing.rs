@@ -108,7 +108,7 @@ pub(crate) fn size(
     let mut s = 0.02 * excitations[0].forces[0].harmonics[0].norm();
     for _ in 0..16 {
         source.parameters = scale.shaped(source.effect, s);
-        let model = base.with_sources(&[known, std::slice::from_ref(&source)].concat()).ok()?;
+        let model = ForwardModel::new(structure, &[known, std::slice::from_ref(&source)].concat()).ok()?;
         let mut errors = Vec::new();
         for (e, b) in excitations.iter().zip(&before) {
             let after = respond(&model, e)?;

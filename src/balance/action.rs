@@ -288,16 +288,11 @@ pub(crate) fn secant_force(source: &Source, field: Field<'_>) -> Vec<DofForce> {
 mod tests {
     #![allow(clippy::unwrap_used, reason = "tests")]
     use super::*;
+    use crate::common::models;
     use crate::effects::Effect;
-    use crate::structure::chain::ChainParameters;
 
     fn chain() -> Structure {
-        let p = ChainParameters {
-            masses: vec![1.0, 2.0],
-            ground_stiffness: vec![10.0, 0.0],
-            coupling_stiffness: vec![20.0],
-        };
-        p.build(&[]).unwrap()
+        models::chain(&[1.0, 2.0], &[10.0, 0.0], &[20.0])
     }
 
     fn motion() -> Mat<c64> {

@@ -168,8 +168,8 @@ impl Loop {
             return Some(along.iter().map(|x| source.coefficient() * x).collect());
         }
         if law.point(p, 0.0, 1.0).is_some() {
-            let at = |(d, v): (&f64, &f64)| law.point(p, *d, *v).unwrap_or_default().force;
-            return Some(self.d.iter().zip(&self.v).map(at).collect());
+            let force = |(d, v): (&f64, &f64)| law.point(p, *d, *v).unwrap_or_default().force;
+            return Some(self.d.iter().zip(&self.v).map(force).collect());
         }
         let mut memory = law.memory(p)?;
         // The record begins where the component is at rest.
@@ -215,8 +215,8 @@ fn cubic(samples: &[f64], step: f64) -> [f64; 3] {
 
 /// Standard deviation of white noise on a signal, from its third differences.
 fn noise(samples: &[f64]) -> f64 {
-    let of = |w: &[f64]| (w[3] - 3.0 * w[2] + 3.0 * w[1] - w[0]).abs();
-    let differences: Vec<f64> = samples.windows(4).map(of).collect();
+    let third_difference = |w: &[f64]| (w[3] - 3.0 * w[2] + 3.0 * w[1] - w[0]).abs();
+    let differences: Vec<f64> = samples.windows(4).map(third_difference).collect();
     crate::math::statistics::median(&differences) / (0.6745 * 20.0_f64.sqrt())
 }
 

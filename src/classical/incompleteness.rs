@@ -135,8 +135,8 @@ impl Incompleteness {
     /// Curve of one method at one set of sensors: (modes, `eps_C` in per cent), modes ascending; without those where it cannot run.
     pub fn eps_c(&self, sensors: usize, method: Method) -> Vec<[f64; 2]> {
         let Some(k) = METHODS.iter().position(|&m| m == method) else { return Vec::new() };
-        let at = |case: &Case| Some([case.modes as f64, case.methods[k].as_ref().ok()?.eps_c]);
-        self.cases.iter().filter(|case| case.sensors == sensors).filter_map(at).collect()
+        let point = |case: &Case| Some([case.modes as f64, case.methods[k].as_ref().ok()?.eps_c]);
+        self.cases.iter().filter(|case| case.sensors == sensors).filter_map(point).collect()
     }
 
     /// Curve of the projection error at one set of sensors: (modes, `eps_p` in per cent).

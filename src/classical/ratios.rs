@@ -87,8 +87,8 @@ impl Data<'_> {
                 let near = (run.fit.omega - self.model.omega[mode]).abs() < resonant::NEAR * self.model.omega[mode];
                 let phi = self.model.shapes[(drive, mode)];
                 let translations = self.structure.translations();
-                let at = |dof: usize| self.model.shapes[(dof, mode)].abs();
-                let largest = translations.into_iter().map(at).fold(0.0, f64::max);
+                let amplitude = |dof: usize| self.model.shapes[(dof, mode)].abs();
+                let largest = translations.into_iter().map(amplitude).fold(0.0, f64::max);
                 let area = super::hysteresis_loop::from_harmonics(run.fit.omega, &x, &f, 1.0).area;
                 let q = x[0].norm() / phi.abs();
                 let seen = phi.abs() > SEEN * largest;

@@ -75,7 +75,7 @@ pub struct Beside {
 
 /// Every shape of another program beside the complex modes as measured and the undamped modes of the model.
 pub(crate) fn beside(references: &[ReferenceShape], measured: Option<&ModalData>, model: &Modes) -> Vec<Beside> {
-    let of = |reference: &ReferenceShape| {
+    let best_match = |reference: &ReferenceShape| {
         let complex = |modal: &ModalData, p: usize| {
             let hz = modal.poles[p].norm() / std::f64::consts::TAU;
             compared(reference, (p, hz), Some(modal.damping_ratio(p)), |i| modal.shapes[(i, p)])
@@ -86,7 +86,7 @@ pub(crate) fn beside(references: &[ReferenceShape], measured: Option<&ModalData>
         let modes = (0..model.shapes.ncols()).map(undamped);
         Beside { reference: reference.clone(), measured, model: best(reference, modes) }
     };
-    references.iter().map(of).collect()
+    references.iter().map(best_match).collect()
 }
 
 /// The mode of the likest shape among those near in frequency; where shapes tell nothing apart, the nearest.
@@ -115,18 +115,13 @@ fn compared(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::structure::chain::ChainParameters;
+    use crate::common::models;
     use crate::structure::damped_modes::damped_modes_from;
     use faer::Mat;
 
     /// Complex modes of a chain with one dashpot, and its undamped ones.
     fn chain() -> (ModalData, Modes) {
-        let parameters = ChainParameters {
-            masses: vec![1.0, 2.0, 1.5],
-            ground_stiffness: vec![4e4, 0.0, 0.0],
-            coupling_stiffness: vec![5e4, 3e4],
-        };
-        let model = parameters.build(&[]).expect("a chain").modes().expect("modes");
+        let model = models::chain(&[1.0, 2.0, 1.5], &[4e4, 0.0, 0.0], &[5e4, 3e4]).modes().expect("modes");
         let c = Mat::from_fn(3, 3, |i, j| if (i, j) == (2, 2) { 8.0 } else { 0.0 });
         let modes = damped_modes_from(&model, c.as_ref()).expect("modes");
         (ModalData::from_modes(&modes, 3), model)

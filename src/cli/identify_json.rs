@@ -3,7 +3,7 @@
 use super::source_json::{estimate, place};
 use crate::exchange::Project;
 use crate::identify::outcome::WindowOutcome;
-use crate::identify::{Outcome, Step};
+use crate::identify::{Outcome, SelectionStep};
 use crate::measurement::TransientRun;
 use faer::Mat;
 use serde_json::{Map, Value, json};
@@ -96,7 +96,7 @@ fn records(project: &Project, outcome: &Outcome) -> Vec<Value> {
     project.transient_runs.iter().enumerate().map(record_in_json).collect()
 }
 
-fn selection(project: &Project, step: &Step) -> Value {
+fn selection(project: &Project, step: &SelectionStep) -> Value {
     let alternatives = step.alternatives.iter().map(|alternative| {
         let sources: Vec<Value> = alternative
             .sources

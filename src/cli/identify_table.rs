@@ -1,10 +1,10 @@
 //! `identify` for a reader: runs, selection, sources, energy, modes, each a table with units.
 
 use super::table::{digits, number, table};
-use crate::effects::{Place, Source, State};
+use crate::effects::{Source, State};
 use crate::exchange::Project;
 use crate::identify::outcome::WindowOutcome;
-use crate::identify::{Estimate, Outcome, Step};
+use crate::identify::{Estimate, Outcome, SelectionStep};
 use crate::structure::Structure;
 use faer::Mat;
 use std::f64::consts::TAU;
@@ -111,22 +111,12 @@ fn selection(project: &Project, outcome: &Outcome) -> String {
     format!("Selection\n{}", table(&rows))
 }
 
-fn set(project: &Project, step: &Step) -> String {
+fn set(project: &Project, step: &SelectionStep) -> String {
     let estimate_in_words = |estimate: &Estimate| {
         let source = &project.sources[estimate.source];
-        format!("{} {} {}", source.effect, place_text(source, &project.structure), number(estimate.coefficient))
+        format!("{} {} {}", source.effect, source.place.labels(&project.structure), number(estimate.coefficient))
     };
     step.sources.iter().map(estimate_in_words).collect::<Vec<_>>().join(", ")
-}
-
-/// DOF labels joined by dashes, the whole structure, or the channel's name.
-pub(super) fn place_text(source: &Source, structure: &Structure) -> String {
-    match &source.place {
-        Place::Dofs(dofs) => dofs.iter().map(|&d| structure.label(d)).collect::<Vec<_>>().join("-"),
-        Place::Whole(None) => "structure".to_owned(),
-        Place::Whole(Some([first, last])) => format!("elements {}-{}", first + 1, last + 1),
-        Place::Channel(name) => name.clone(),
-    }
 }
 
 fn sources(project: &Project, outcome: &Outcome) -> String {
@@ -137,7 +127,7 @@ fn sources(project: &Project, outcome: &Outcome) -> String {
         let reference = references.iter().find(|r| r.effect == source.effect && r.place.is_same(&source.place));
         rows.push(vec![
             source.effect.name().to_owned(),
-            place_text(source, &project.structure),
+            source.place.labels(&project.structure),
             if source.state == State::Known { "known" } else { "identified" }.to_owned(),
             number(estimate.coefficient),
             if source.state == State::Known { "-".to_owned() } else { digits(estimate.deviation, 2) },
@@ -155,7 +145,7 @@ fn sources(project: &Project, outcome: &Outcome) -> String {
     };
     let mut text = format!("Sources\n{}", table(&rows));
     for missing in references.iter().filter(|reference| !found(reference)) {
-        let place = place_text(missing, &project.structure);
+        let place = missing.place.labels(&project.structure);
         let value = number(missing.coefficient());
         text.push_str(&format!("  reference not found: {} {place} {value} {}\n", missing.effect, unit(missing)));
     }
@@ -169,7 +159,7 @@ fn unit(source: &Source) -> &'static str {
 fn indistinguishable(project: &Project, outcome: &Outcome) -> String {
     let name = |index: usize| {
         let source = &project.sources[index];
-        format!("{} {}", source.effect, place_text(source, &project.structure))
+        format!("{} {}", source.effect, source.place.labels(&project.structure))
     };
     let lines = outcome.collinear.iter().filter(|group| !group.others.is_empty()).map(|group| {
         let others: Vec<String> = group.others.iter().map(|&(index, _)| name(index)).collect();

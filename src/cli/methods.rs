@@ -89,12 +89,12 @@ fn of_other_programs(beside: &[Beside]) -> String {
     let hz = |value: f64| digits(value, 5);
     let percent = |ratio: Option<f64>| ratio.map_or("-".to_owned(), |ratio| digits(100.0 * ratio, 3));
     for Beside { reference, measured, model } in beside {
-        let of = |found: &Option<Match>| {
+        let match_cells = |found: &Option<Match>| {
             found
                 .as_ref()
                 .map_or(["-".to_owned(), "-".to_owned()], |found| [hz(found.frequency_hz), digits(found.mac, 3)])
         };
-        let ([ours, mac], [undamped, undamped_mac]) = (of(measured), of(model));
+        let ([ours, mac], [undamped, undamped_mac]) = (match_cells(measured), match_cells(model));
         let ratio = percent(measured.as_ref().and_then(|found| found.damping_ratio));
         let name = format!("{} ({})", reference.name, reference.kind.word());
         let own = [name, hz(reference.frequency_hz), percent(reference.damping_ratio)];
@@ -183,19 +183,19 @@ fn entry(entry: &Entry) -> Value {
 /// A mode of another program, and the same mode here with its shape in the scale of the other.
 fn shape(beside: &Beside, labels: &[&str]) -> Value {
     let Beside { reference, measured, model } = beside;
-    let at = |values: &[c64]| -> Vec<Value> {
+    let shape_values = |values: &[c64]| -> Vec<Value> {
         let rows = reference.at.iter().zip(values);
         rows.map(|((dof, _), value)| json!({"dof": labels[*dof], "value": [value.re, value.im]})).collect()
     };
-    let of = |found: &Option<Match>| {
+    let matched = |found: &Option<Match>| {
         found.as_ref().map(|found| {
             json!({"mode": found.mode + 1, "frequency_hz": found.frequency_hz, "damping_ratio": found.damping_ratio,
-                "mac": found.mac, "shape": at(&found.at)})
+                "mac": found.mac, "shape": shape_values(&found.at)})
         })
     };
     let own: Vec<c64> = reference.at.iter().map(|(_, value)| *value).collect();
     json!({"name": reference.name, "kind": reference.kind.word(), "frequency_hz": reference.frequency_hz,
-        "damping_ratio": reference.damping_ratio, "shape": at(&own), "measured": of(measured), "model": of(model)})
+        "damping_ratio": reference.damping_ratio, "shape": shape_values(&own), "measured": matched(measured), "model": matched(model)})
 }
 
 fn ratio(r: &Ratio) -> Value {

@@ -127,7 +127,7 @@ fn curve_text(run: &TransientRun, curve: &ModeCurve) -> String {
     let mut rows = vec![head.map(str::to_owned).to_vec()];
     for p in &curve.measured {
         let same = curve.model.iter().find(|m| m.time_s == p.time_s);
-        let of = |x: Option<f64>| x.map_or_else(String::new, number);
+        let cell = |x: Option<f64>| x.map_or_else(String::new, number);
         rows.push(vec![
             number(p.time_s),
             number(p.amplitude),
@@ -135,8 +135,8 @@ fn curve_text(run: &TransientRun, curve: &ModeCurve) -> String {
             number(p.frequency_deviation_hz),
             number(100.0 * p.damping_ratio),
             number(100.0 * p.damping_deviation),
-            of(same.map(|m| m.frequency_hz)),
-            of(same.map(|m| 100.0 * m.damping_ratio)),
+            cell(same.map(|m| m.frequency_hz)),
+            cell(same.map(|m| 100.0 * m.damping_ratio)),
         ]);
     }
     let mut text =

@@ -68,7 +68,7 @@ pub fn compare(problem: &Problem, effects: &[Source], control: &Control) -> Resu
     let frequencies = numbered(&data.runs.iter().map(|run| run.omega).collect::<Vec<f64>>(), SAME_FREQUENCY);
     let names = data.channel_names();
     let done = AtomicUsize::new(0);
-    let one = |r: usize| -> Result<(RunComparison, Vec<Left>), DiagnosisError> {
+    let compare_run = |r: usize| -> Result<(RunComparison, Vec<Left>), DiagnosisError> {
         control.check()?;
         let run = &data.runs[r];
         let failed = |reason| DiagnosisError::Response { file: problem.runs[run.index].file.clone(), reason };
@@ -84,7 +84,7 @@ pub fn compare(problem: &Problem, effects: &[Source], control: &Control) -> Resu
         control.report((done.fetch_add(1, Ordering::Relaxed) + 1) as f64 / data.runs.len() as f64);
         Ok((RunComparison { branch, ..of_run(run, &prediction, &noise, used, energy) }, left))
     };
-    let compared = control.map(data.runs.len(), one).into_iter().collect::<Result<Vec<_>, _>>()?;
+    let compared = control.map(data.runs.len(), compare_run).into_iter().collect::<Result<Vec<_>, _>>()?;
     let (runs, left): (Vec<RunComparison>, Vec<Vec<Left>>) = compared.into_iter().unzip();
     let left = left.concat();
     Ok(Comparison { whiteness: whiteness(&left), ..summary(runs, &levels) })
@@ -147,11 +147,11 @@ fn of_run(run: &RunData, prediction: &RunPrediction, noise: &Whitening, used: bo
 
 fn summary(runs: Vec<RunComparison>, levels: &Levels) -> Comparison {
     let used = || runs.iter().filter(|run| run.used);
-    let of = |value: fn(&ChannelComparison) -> f64| -> f64 {
+    let overall = |value: fn(&ChannelComparison) -> f64| -> f64 {
         let values: Vec<f64> = used().flat_map(|run| run.channels.iter().map(value)).collect();
         root_mean_square(&values)
     };
-    let (error, noise_floor) = (of(|c| c.error), of(|c| c.noise_floor));
+    let (error, noise_floor) = (overall(|c| c.error), overall(|c| c.noise_floor));
     let energies: Vec<f64> = used().map(|run| run.energy_error).collect();
     let energy_error = root_mean_square(&energies);
     let (channels, harmonics) = (by_channel(&runs), by_harmonic(&runs));

@@ -11,6 +11,7 @@ use crate::diagnosis::result::{Diagnosis, Early, Step, Verdict};
 use crate::diagnosis::selection::reference_model::ReferenceModel;
 use crate::diagnosis::selection::{found, stepwise};
 use crate::effects::Source;
+use crate::math::statistics::sum_of_squares;
 use std::sync::Arc;
 
 /// Finds what the model of `problem` lacks.
@@ -113,7 +114,7 @@ fn on_runs(problem: &Problem, data: &Data, control: &Control, early: &Early) -> 
 /// Explains what the reference model leaves; or a channel that is not to be relied on.
 fn explained(reference: ReferenceModel) -> Result<Result<Diagnosis, ChannelFault>, DiagnosisError> {
     let estimator = reference.estimator();
-    let before = square(&estimator.residual(&reference.predictions));
+    let before = sum_of_squares(&estimator.residual(&reference.predictions));
     let diagnosis = Diagnosis {
         error_before: estimator.error(&reference.predictions),
         noise_floor: reference.noise_floor(&[], &reference.predictions),
@@ -133,8 +134,4 @@ fn explained(reference: ReferenceModel) -> Result<Result<Diagnosis, ChannelFault
         Ok(outcome) => Ok(Ok(outcome.conclude(diagnosis)?)),
         Err(fault) => Ok(Err(fault)),
     }
-}
-
-fn square(residual: &[f64]) -> f64 {
-    residual.iter().map(|r| r * r).sum()
 }

@@ -24,11 +24,11 @@ pub(crate) fn together(steady: Diagnosis, records: Diagnosis) -> Diagnosis {
     if steady.suggestions.is_empty() {
         return Diagnosis { complete: steady.complete && records.complete, ..records };
     }
-    let of = |found: &Diagnosis, source: &Source| {
+    let probability_in = |found: &Diagnosis, source: &Source| {
         let own = found.suggestions.iter().find(|s| s.added.source.is_same(source));
         own.map_or(UNNAMED, |s| s.probability.max(UNNAMED))
     };
-    let joint = |source: &Source| of(&steady, source) * of(&records, source);
+    let joint = |source: &Source| probability_in(&steady, source) * probability_in(&records, source);
     let mut sources: Vec<Source> = Vec::new();
     for suggestion in steady.suggestions.iter().chain(&records.suggestions) {
         if !sources.iter().any(|s| s.is_same(&suggestion.added.source)) {
@@ -41,7 +41,7 @@ pub(crate) fn together(steady: Diagnosis, records: Diagnosis) -> Diagnosis {
     let together = count[0].max(count[1]) as f64;
     let probabilities: Vec<f64> = sources.iter().map(|s| (together * joint(s) / sum).min(1.0)).collect();
     let first = sources.iter().max_by(|a, b| joint(a).total_cmp(&joint(b)));
-    let by_records = first.is_some_and(|first| of(&records, first) > of(&steady, first));
+    let by_records = first.is_some_and(|first| probability_in(&records, first) > probability_in(&steady, first));
     let (mut base, other, name) =
         if by_records { (records, steady, "steady runs") } else { (steady, records, "records") };
     let foreign: Vec<Suggestion> = other

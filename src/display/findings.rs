@@ -152,7 +152,7 @@ pub fn corrected(structure: &Structure, known: &[Source], parameter: &UpdatingPa
 }
 
 fn corrected_part(structure: &Structure, part: Part) -> String {
-    let at = |dofs: &[usize]| words::at(structure, &Place::Dofs(dofs.to_vec()));
+    let place = |dofs: &[usize]| words::at(structure, &Place::Dofs(dofs.to_vec()));
     let elements = |[first, last]: [usize; 2]| {
         if first == last { format!("element {}", first + 1) } else { format!("elements {}–{}", first + 1, last + 1) }
     };
@@ -160,9 +160,9 @@ fn corrected_part(structure: &Structure, part: Part) -> String {
         Part::Stiffness => "All stiffness".to_owned(),
         Part::Mass => "All mass".to_owned(),
         Part::Mode(mode) => format!("Stiffness of mode {}", mode + 1),
-        Part::GroundSpring(dof) => format!("Spring {}", at(&[dof])),
-        Part::Coupling(pair) => format!("Spring {}", at(&pair)),
-        Part::PointMass(dof) => format!("Mass {}", at(&[dof])),
+        Part::GroundSpring(dof) => format!("Spring {}", place(&[dof])),
+        Part::Coupling(pair) => format!("Spring {}", place(&pair)),
+        Part::PointMass(dof) => format!("Mass {}", place(&[dof])),
         Part::ElementStiffness(range) => format!("Stiffness of {}", elements(range)),
         Part::ElementMass(range) => format!("Mass of {}", elements(range)),
         Part::Support(held) => format!("Support at node {}", structure.held_node(held).unwrap_or_default()),

@@ -193,14 +193,14 @@ mod tests {
                 let there = LoadingCurve::new(n).risen(start, way);
                 let h = 1e-6;
                 let difference = |plus: Reached, minus: Reached| (plus.z - minus.z) / (2.0 * h);
-                let at = |dn: f64, start: f64, way: f64| LoadingCurve::new(n + dn).risen(start, way);
-                let by_way = difference(at(0.0, start, way + h), at(0.0, start, way - h));
+                let risen = |dn: f64, start: f64, way: f64| LoadingCurve::new(n + dn).risen(start, way);
+                let by_way = difference(risen(0.0, start, way + h), risen(0.0, start, way - h));
                 assert!((there.by_way - by_way).abs() < 1e-6, "{n} {start} {way}");
                 if start > h {
-                    let by_start = difference(at(0.0, start + h, way), at(0.0, start - h, way));
+                    let by_start = difference(risen(0.0, start + h, way), risen(0.0, start - h, way));
                     assert!((there.by_start - by_start).abs() < 1e-6, "{n} {start} {way}");
                 }
-                let by_exponent = difference(at(h, start, way), at(-h, start, way));
+                let by_exponent = difference(risen(h, start, way), risen(-h, start, way));
                 assert!((there.by_exponent - by_exponent).abs() < 1e-5, "{n} {start} {way} {by_exponent}");
             }
         }

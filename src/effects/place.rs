@@ -1,5 +1,6 @@
 //! Where an effect acts.
 
+use crate::structure::Structure;
 use serde::{Deserialize, Serialize};
 
 /// One relative displacement `d = x_first - x_second`, or `d = x_first` to the ground. Indices are zero-based DOF rows.
@@ -33,6 +34,16 @@ pub enum Place {
 }
 
 impl Place {
+    /// Labels of its DOFs joined by dashes, such as `13-17`; `structure` for the whole, the name of a channel.
+    pub fn labels(&self, structure: &Structure) -> String {
+        match self {
+            Self::Dofs(dofs) => dofs.iter().map(|&d| structure.label(d)).collect::<Vec<_>>().join("-"),
+            Self::Whole(None) => "structure".to_owned(),
+            Self::Whole(Some([first, last])) => format!("elements {}-{}", first + 1, last + 1),
+            Self::Channel(name) => name.clone(),
+        }
+    }
+
     /// Whether both are the same place: `[1, 2]` is `[2, 1]`, and a chain may be read from either end.
     pub fn is_same(&self, other: &Self) -> bool {
         match (self, other) {

@@ -1,20 +1,20 @@
 //! The equations of a form at a state: energies or responses, windows of records, damping ratios.
 
 use super::outcome::Form;
-use super::{problem::Problem, response_form, state::State, system::System};
+use super::{problem::Problem, response_form, state::IdentificationState, system::System};
 use crate::balance::{Weights, weights};
 use crate::math::fill::filled;
 use faer::Mat;
 
 impl System {
     /// The equation of a form at a state, with the damping ratios that stand beside it.
-    pub(super) fn of(form: Form, problem: &Problem<'_>, state: &State) -> Self {
+    pub(super) fn of(form: Form, problem: &Problem<'_>, state: &IdentificationState) -> Self {
         let all: Vec<usize> = (0..problem.columns.len()).collect();
         Self::of_set(form, problem, state, &all)
     }
 
     /// The same for the columns of a set alone, in its order; all others must have a coefficient of zero.
-    pub(super) fn of_set(form: Form, problem: &Problem<'_>, state: &State, set: &[usize]) -> Self {
+    pub(super) fn of_set(form: Form, problem: &Problem<'_>, state: &IdentificationState, set: &[usize]) -> Self {
         let system = match form {
             Form::Energy => {
                 let whole = Self::energy(problem, state, problem.settings.weights);
@@ -36,7 +36,7 @@ impl System {
     }
 
     /// The energy equation, each row weighted.
-    pub(super) fn energy(problem: &Problem<'_>, state: &State, choice: Weights) -> Self {
+    pub(super) fn energy(problem: &Problem<'_>, state: &IdentificationState, choice: Weights) -> Self {
         let (structure, equation) = (problem.structure, &state.equation);
         let acting = problem.acting(&state.coefficients);
         let choice = weights::resolve(choice, &state.runs);

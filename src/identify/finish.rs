@@ -2,7 +2,7 @@
 
 use super::error::IdentifyError;
 use super::found::Found;
-use super::outcome::{Estimate, Outcome, RankedAlternative, RecordOutcome, RunOutcome, Step, WindowOutcome};
+use super::outcome::{Estimate, Outcome, RankedAlternative, RecordOutcome, RunOutcome, SelectionStep, WindowOutcome};
 use super::problem::Problem;
 use super::results::{self, ResultsInput};
 use super::search::SizeRanking;
@@ -76,7 +76,7 @@ struct Teller<'a> {
 }
 
 impl Teller<'_> {
-    fn step(&self, ranking: &SizeRanking) -> Result<Step, IdentifyError> {
+    fn step(&self, ranking: &SizeRanking) -> Result<SelectionStep, IdentifyError> {
         let (problem, system, equation) = (self.problem, &self.found.system, &self.found.state.equation);
         let columns = &ranking.best().columns;
         let fit = solve::fit(system, columns)?;
@@ -92,7 +92,7 @@ impl Teller<'_> {
         };
         let (count, rows) = (columns.len(), system.rows());
         let criterion = problem.is_noisy().then(|| fit.chi_square + penalty(problem, count, rows));
-        Ok(Step {
+        Ok(SelectionStep {
             count,
             sources: columns.iter().enumerate().map(estimate).collect(),
             angle_deg: angle_deg(self.energy, columns, &fit.coefficients),
@@ -140,7 +140,7 @@ impl Teller<'_> {
         self.problem.known_source.iter().enumerate().map(estimate).collect()
     }
 
-    fn records(&self, step: &Step) -> Vec<RecordOutcome> {
+    fn records(&self, step: &SelectionStep) -> Vec<RecordOutcome> {
         let mut next = self.found.state.runs.len();
         let windows = &self.problem.windows;
         let record_outcome = |(&record, rows): (&usize, &WindowRows)| {
@@ -165,7 +165,7 @@ impl Teller<'_> {
         windows.record.iter().zip(&windows.rows).map(record_outcome).collect()
     }
 
-    fn runs(&self, step: &Step, acting: &[crate::effects::Source]) -> Vec<RunOutcome> {
+    fn runs(&self, step: &SelectionStep, acting: &[crate::effects::Source]) -> Vec<RunOutcome> {
         let (problem, state) = (self.problem, &self.found.state);
         let run_outcome =
             |(r, (measured, expanded)): (usize, &(crate::balance::Measured, crate::balance::Expanded))| {

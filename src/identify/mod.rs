@@ -31,12 +31,14 @@ mod sparse_start;
 mod state;
 mod stopping;
 mod system;
+#[cfg(test)]
+mod tests;
 mod warnings;
 mod window_columns;
 
 pub use error::IdentifyError;
 pub use measurements::Measurements;
-pub use outcome::{Estimate, Form, Outcome, RankedAlternative, RunOutcome, Status, Step};
+pub use outcome::{Estimate, Form, Outcome, RankedAlternative, RunOutcome, SelectionStep, Status};
 pub use results::Results;
 pub use settings::Settings;
 
@@ -48,7 +50,7 @@ use crate::structure::Structure;
 use found::Found;
 use problem::Problem;
 use search::search;
-use state::State;
+use state::IdentificationState;
 
 use system::System;
 
@@ -117,10 +119,10 @@ pub fn identify_measured(
     control: &Control,
 ) -> Result<Outcome, IdentifyError> {
     let mut problem = Problem::new(structure, sources, measured, settings, control)?;
-    let mut first = State::start(&problem)?;
+    let mut first = IdentificationState::start(&problem)?;
     problem.drop_unobservable(&first)?;
     if first.coefficients.len() != problem.columns.len() {
-        first = State::start(&problem)?;
+        first = IdentificationState::start(&problem)?;
     }
     let start = balanced_start(&problem, first, control)?;
     control.report(0.1);
@@ -133,7 +135,11 @@ pub fn identify_measured(
 }
 
 /// A motion and coefficients (of all columns) that balance the energy, however they may be distributed.
-fn balanced_start(problem: &Problem<'_>, first: State, control: &Control) -> Result<State, IdentifyError> {
+fn balanced_start(
+    problem: &Problem<'_>,
+    first: IdentificationState,
+    control: &Control,
+) -> Result<IdentificationState, IdentifyError> {
     let mut state = first;
     if problem.expander.method() != Expansion::Dynamic {
         return Ok(state);
@@ -152,7 +158,11 @@ fn balanced_start(problem: &Problem<'_>, first: State, control: &Control) -> Res
 
 /// The state for the response form, if that form is wanted and even possible: with all columns at its disposal the model
 /// must reach the data.
-fn response_start(problem: &Problem<'_>, start: &State, control: &Control) -> Result<Option<State>, IdentifyError> {
+fn response_start(
+    problem: &Problem<'_>,
+    start: &IdentificationState,
+    control: &Control,
+) -> Result<Option<IdentificationState>, IdentifyError> {
     let wanted = matches!(problem.settings.weights, Weights::Auto | Weights::Noise);
     if problem.expander.method() != Expansion::Dynamic || !wanted || problem.columns.is_empty() {
         return Ok(None);
@@ -163,7 +173,7 @@ fn response_start(problem: &Problem<'_>, start: &State, control: &Control) -> Re
         return Ok(Some(state));
     }
     let mut state = start.in_motion(problem, start.coefficients.clone(), 0.0)?;
-    let mut best: Option<(f64, State)> = None;
+    let mut best: Option<(f64, IdentificationState)> = None;
     for step in 0..START_STEPS {
         control.check()?;
         let system = System::of(Form::Response, problem, &state);
@@ -189,7 +199,7 @@ fn response_start(problem: &Problem<'_>, start: &State, control: &Control) -> Re
     best.map(|(_, state)| state.balanced(problem)).transpose()
 }
 
-fn energy_passes(problem: &Problem<'_>, start: State, control: &Control) -> Result<Found, IdentifyError> {
+fn energy_passes(problem: &Problem<'_>, start: IdentificationState, control: &Control) -> Result<Found, IdentifyError> {
     let start = if problem.expander.method() == Expansion::Dynamic {
         let model_error = start.adequate_model_error(problem)?;
         start.moved_to(problem, start.coefficients.clone(), model_error)?
@@ -200,7 +210,12 @@ fn energy_passes(problem: &Problem<'_>, start: State, control: &Control) -> Resu
 }
 
 /// Search, decide, refit at the accepted set; again until the set does not change.
-fn passes(problem: &Problem<'_>, start: State, form: Form, control: &Control) -> Result<Found, IdentifyError> {
+fn passes(
+    problem: &Problem<'_>,
+    start: IdentificationState,
+    form: Form,
+    control: &Control,
+) -> Result<Found, IdentifyError> {
     let mut state = start;
     let mut last: Option<Vec<usize>> = None;
     let mut best: Option<Found> = None;
@@ -230,12 +245,12 @@ fn passes(problem: &Problem<'_>, start: State, form: Form, control: &Control) ->
 /// Solves for the coefficients of one set, moves to the motion that they give, and so on until nothing changes.
 fn refit(
     problem: &Problem<'_>,
-    state: &State,
+    state: &IdentificationState,
     set: &[usize],
     coefficients: &[f64],
     form: Form,
     control: &Control,
-) -> Result<State, IdentifyError> {
+) -> Result<IdentificationState, IdentifyError> {
     let model_error = state.model_error;
     let mut state = state.moved_to(problem, solve::scattered(problem.columns.len(), set, coefficients), model_error)?;
     if problem.expander.method() != Expansion::Dynamic && !problem.weights_follow_coefficients() {

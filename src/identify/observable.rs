@@ -3,12 +3,12 @@
 use super::describe::describe;
 use super::error::IdentifyError;
 use super::problem::Problem;
-use super::state::State;
+use super::state::IdentificationState;
 use crate::balance::energy::is_observable;
 
 impl Problem<'_> {
     /// Leaves out columns whose motion is not known in every run.
-    pub(super) fn drop_unobservable(&mut self, state: &State) -> Result<(), IdentifyError> {
+    pub(super) fn drop_unobservable(&mut self, state: &IdentificationState) -> Result<(), IdentifyError> {
         let method = self.expander.method();
         for source in self.known.iter().filter(|s| s.effect.dissipates() && !is_observable(s, &state.runs, method)) {
             let name = describe(source, self.structure);
@@ -41,7 +41,7 @@ impl Problem<'_> {
     }
 }
 
-fn check_input(state: &State) -> Result<(), IdentifyError> {
+fn check_input(state: &IdentificationState) -> Result<(), IdentifyError> {
     let steady = &state.equation.input[..state.runs.len()];
     if !steady.is_empty() && steady.iter().all(|&e| e <= 0.0) { Err(IdentifyError::NoInput) } else { Ok(()) }
 }

@@ -58,7 +58,7 @@ pub struct RankedAlternative {
 
 /// The best set of one size.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Step {
+pub struct SelectionStep {
     /// Number of sources.
     pub count: usize,
     /// The identified sources.
@@ -172,7 +172,7 @@ pub struct Outcome {
     /// Records that are not steady, in the order given.
     pub records: Vec<RecordOutcome>,
     /// Best set of each size, ascending.
-    pub steps: Vec<Step>,
+    pub steps: Vec<SelectionStep>,
     /// Index of the accepted step.
     pub accepted: usize,
     /// Accepted sources, then the known ones.
@@ -189,7 +189,7 @@ pub struct Outcome {
 
 impl Outcome {
     /// The accepted step.
-    pub fn accepted_step(&self) -> &Step {
+    pub fn accepted_step(&self) -> &SelectionStep {
         &self.steps[self.accepted]
     }
 }

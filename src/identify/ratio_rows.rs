@@ -10,7 +10,7 @@
 
 use super::outcome::Form;
 use super::ratios::{Ratios, is_hysteretic};
-use super::{problem::Problem, state::State, system::System};
+use super::{problem::Problem, state::IdentificationState, system::System};
 use crate::effects::Source;
 use crate::math::fill::filled;
 use crate::math::statistics::root_mean_square;
@@ -29,7 +29,7 @@ impl Ratios {
     pub(super) fn append(
         &self,
         problem: &Problem<'_>,
-        state: &State,
+        state: &IdentificationState,
         form: Form,
         system: System,
         set: &[usize],

@@ -6,7 +6,7 @@
 //! laws). Rows are whitened by the covariance `sigma_Y^2 + S H sigma_F^2 H^H S^T` of sensors and force, so that least squares
 //! iterated with the motion is the maximum likelihood estimate with the true force as a nuisance.
 
-use super::{problem::Problem, solve, state::State, system::System};
+use super::{problem::Problem, solve, state::IdentificationState, system::System};
 use crate::balance::action::{self, DofForce, Field};
 use crate::balance::{Expanded, Measured};
 use crate::effects::Source;
@@ -22,7 +22,7 @@ const TOLERATED: f64 = 1.5;
 const SMALL_MISFIT: f64 = 0.05;
 
 /// All rows of all runs, for the columns of `set`.
-pub(super) fn system(problem: &Problem<'_>, state: &State, set: &[usize]) -> System {
+pub(super) fn system(problem: &Problem<'_>, state: &IdentificationState, set: &[usize]) -> System {
     let acting = problem.acting(&state.coefficients);
     let parts = problem.control.map(state.runs.len(), |r| {
         let (measured, expanded) = &state.runs[r];

@@ -9,7 +9,7 @@ use super::error::IdentifyError;
 use super::exchange::Exchange;
 use super::outcome::Form;
 use super::problem::Problem;
-use super::state::State;
+use super::state::IdentificationState;
 use super::system::System;
 use super::{response_form, solve};
 use crate::balance::Weights;
@@ -25,12 +25,12 @@ const SOURCES: usize = 10;
 /// The state whose set leaves least of the data, with the motion of that set; `None` where no step brings the model to them.
 pub(super) fn sparse_start(
     problem: &Problem<'_>,
-    start: &State,
+    start: &IdentificationState,
     control: &Control,
-) -> Result<Option<State>, IdentifyError> {
+) -> Result<Option<IdentificationState>, IdentifyError> {
     let energies = System::energy(problem, start, Weights::Energy);
     let mut state = start.in_motion(problem, best_set(problem, &energies)?, 0.0)?;
-    let mut best: Option<(f64, State)> = None;
+    let mut best: Option<(f64, IdentificationState)> = None;
     for _ in 0..STEPS {
         control.check()?;
         let system = System::of(Form::Response, problem, &state);

@@ -10,7 +10,7 @@ const FITTED: f64 = 1.2;
 
 /// Where the iteration stands.
 #[derive(Debug, Clone)]
-pub(crate) struct State {
+pub(crate) struct IdentificationState {
     pub runs: Vec<(Measured, Expanded)>,
     pub equation: EnergyEquation,
     /// Of all columns.
@@ -19,7 +19,7 @@ pub(crate) struct State {
     pub model_error: f64,
 }
 
-impl State {
+impl IdentificationState {
     /// The motion when nothing is known of the sources but those given.
     pub(super) fn start(problem: &Problem<'_>) -> Result<Self, IdentifyError> {
         let runs = problem.control.map(problem.measured.len(), |r| {

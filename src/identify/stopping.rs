@@ -7,7 +7,7 @@ use super::outcome::{Form, Status};
 use super::problem::Problem;
 use super::search::SizeRanking;
 use super::solve;
-use super::state::State;
+use super::state::IdentificationState;
 use super::system::System;
 use crate::balance::Weights;
 use crate::math::numerals::significant;
@@ -38,7 +38,7 @@ struct Score {
 /// Decides among the best sets of each size.
 pub(crate) fn decide(
     problem: &Problem<'_>,
-    state: &State,
+    state: &IdentificationState,
     system: &System,
     rankings: &[SizeRanking],
     form: Form,
@@ -57,7 +57,13 @@ pub(crate) fn decide(
     Decision { status: Status::NothingLeft, reason, ..decision }
 }
 
-fn decided(problem: &Problem<'_>, state: &State, system: &System, rankings: &[SizeRanking], form: Form) -> Decision {
+fn decided(
+    problem: &Problem<'_>,
+    state: &IdentificationState,
+    system: &System,
+    rankings: &[SizeRanking],
+    form: Form,
+) -> Decision {
     let angle_rules = problem.settings.weights == Weights::None || !problem.is_noisy();
     if angle_rules && form == Form::Energy || !problem.is_noisy() {
         return by_angle(problem, state, rankings, form);
@@ -146,7 +152,7 @@ fn above_noise(scores: &[Score]) -> Decision {
 }
 
 /// The first set below the angle of the settings, else the one with the smallest angle.
-fn by_angle(problem: &Problem<'_>, state: &State, rankings: &[SizeRanking], form: Form) -> Decision {
+fn by_angle(problem: &Problem<'_>, state: &IdentificationState, rankings: &[SizeRanking], form: Form) -> Decision {
     let energy =
         if form == Form::Energy { None } else { Some(System::energy(problem, state, problem.settings.weights)) };
     let angle = |r: &SizeRanking| match &energy {

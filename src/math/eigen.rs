@@ -73,22 +73,6 @@ pub fn real_general(a: MatRef<'_, f64>) -> Result<(Vec<c64>, Mat<c64>), EigenErr
     dashpot_numerics::real_general(a).ok_or(EigenError::NoConvergence { size: a.nrows() })
 }
 
-/// Eigenvalues and right eigenvectors (columns) of a general complex matrix.
-///
-/// # Errors
-/// [`EigenError`] when an entry is not finite or the iteration does not converge.
-pub fn complex_general(a: MatRef<'_, c64>) -> Result<(Vec<c64>, Mat<c64>), EigenError> {
-    for column in 0..a.ncols() {
-        for row in 0..a.nrows() {
-            let value = a[(row, column)];
-            if !(value.re.is_finite() && value.im.is_finite()) {
-                return Err(EigenError::NotFinite { row, column, value: value.re + value.im });
-            }
-        }
-    }
-    dashpot_numerics::complex_general(a).ok_or(EigenError::NoConvergence { size: a.nrows() })
-}
-
 /// `(A + A^T) / 2`.
 pub fn symmetrised(a: MatRef<'_, f64>) -> Mat<f64> {
     Mat::from_fn(a.nrows(), a.ncols(), |i, j| 0.5 * (a[(i, j)] + a[(j, i)]))

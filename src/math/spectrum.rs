@@ -65,14 +65,14 @@ impl Spectrum {
 
     /// Local peak at line `k`, by a parabola through the logarithms of three lines: for a lone sine within 2 % of a line.
     pub(crate) fn interpolate(&self, k: usize) -> Peak {
-        let at = |i: usize| self.amplitude.get(i).copied().unwrap_or(0.0).max(f64::MIN_POSITIVE).ln();
+        let log_amplitude = |i: usize| self.amplitude.get(i).copied().unwrap_or(0.0).max(f64::MIN_POSITIVE).ln();
         if k == 0 || k + 1 >= self.amplitude.len() {
             return Peak {
                 frequency_hz: self.frequency_hz(k),
                 amplitude: self.amplitude.get(k).copied().unwrap_or(0.0),
             };
         }
-        let (left, centre, right) = (at(k - 1), at(k), at(k + 1));
+        let (left, centre, right) = (log_amplitude(k - 1), log_amplitude(k), log_amplitude(k + 1));
         let curvature = left - 2.0 * centre + right;
         let shift = if curvature < 0.0 { (0.5 * (left - right) / curvature).clamp(-0.5, 0.5) } else { 0.0 };
         Peak {

@@ -39,6 +39,11 @@ pub(crate) fn root_mean_square(values: &[f64]) -> f64 {
     super::nnls::norm(values) / (values.len() as f64).sqrt()
 }
 
+/// Sum of squares.
+pub(crate) fn sum_of_squares(values: &[f64]) -> f64 {
+    values.iter().map(|x| x * x).sum()
+}
+
 /// Arithmetic mean; NaN for no values.
 pub(crate) fn mean(values: &[f64]) -> f64 {
     values.iter().sum::<f64>() / values.len() as f64

@@ -233,9 +233,10 @@ mod tests {
             let derivative: Vec<f64> = time
                 .iter()
                 .map(|&t| {
-                    let of = |k: usize| column(&design, omega, t, k);
-                    let each =
-                        |h: usize| h as f64 * (unknowns[2 * h + 1] * of(2 * h) - unknowns[2 * h] * of(2 * h + 1));
+                    let column_of = |k: usize| column(&design, omega, t, k);
+                    let each = |h: usize| {
+                        h as f64 * (unknowns[2 * h + 1] * column_of(2 * h) - unknowns[2 * h] * column_of(2 * h + 1))
+                    };
                     (t - design.middle) * (1..4).map(each).sum::<f64>()
                 })
                 .collect();

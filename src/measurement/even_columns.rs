@@ -57,17 +57,17 @@ impl EvenColumns {
     pub(super) fn new(time: &[f64], omega: f64, harmonics: usize) -> Self {
         let samples = time.len();
         let phase = omega * (time[samples - 1] - time[0]) / (samples - 1) as f64;
-        let at = |h: usize, distance: f64| (h as f64 * phase * distance).sin_cos();
+        let sin_cos = |h: usize, distance: f64| (h as f64 * phase * distance).sin_cos();
         let distance = |j: usize| j as f64 + 0.5;
         let mut columns = Self { samples, harmonics, phase, cos: Vec::new(), sin: Vec::new(), turns: Vec::new() };
         columns.sin.extend((0..HALF).map(distance));
         for h in 1..=harmonics {
-            columns.cos.extend((0..HALF).map(|j| at(h, distance(j)).1));
-            columns.sin.extend((0..HALF).map(|j| at(h, distance(j)).0));
+            columns.cos.extend((0..HALF).map(|j| sin_cos(h, distance(j)).1));
+            columns.sin.extend((0..HALF).map(|j| sin_cos(h, distance(j)).0));
         }
         for block in 0..samples.div_ceil(BLOCK) {
             let middle = columns.middle_of(block);
-            columns.turns.extend((1..=harmonics).map(|h| at(h, middle)).map(|(sin, cos)| c64::new(cos, sin)));
+            columns.turns.extend((1..=harmonics).map(|h| sin_cos(h, middle)).map(|(sin, cos)| c64::new(cos, sin)));
         }
         columns
     }

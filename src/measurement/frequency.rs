@@ -243,12 +243,12 @@ impl<'a> Span<'a> {
     /// The step of every channel's residual at a fit.
     fn gradient(&self, solved: &Solved<'_>) -> Gradient {
         let slopes = (0..self.values.len()).map(|i| solved.slope(i)).zip(&self.rounding);
-        let of = |(slope, rounding): (Slope, &f64)| {
+        let information = |(slope, rounding): (Slope, &f64)| {
             let explained = dot(&solved.design.solve(&slope.products), &slope.products);
             let weight = 1.0 / slope.squares.max(*rounding);
             ([weight, slope.along, (slope.length - explained).max(0.0)], slope.squares)
         };
-        let (channels, squares): (Vec<[f64; 3]>, Vec<f64>) = slopes.map(of).unzip();
+        let (channels, squares): (Vec<[f64; 3]>, Vec<f64>) = slopes.map(information).unzip();
         Gradient { channels, cost: self.cost(squares.into_iter()) }
     }
 }

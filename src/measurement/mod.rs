@@ -36,6 +36,6 @@ pub use kind::{Kind, Part};
 pub use ramps::steady_part;
 pub use ratio::MeasuredRatio;
 pub use record::{Record, RecordError};
-pub use run::{Amplitudes, Correction, Run};
+pub use run::{Amplitudes, ChannelCorrection, Run};
 pub use transient_correction::TransientRunError;
 pub use transient_run::{TransientLabel, TransientRun};

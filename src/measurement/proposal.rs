@@ -45,13 +45,13 @@ pub(crate) fn propose(record: &Record) -> Proposal {
     let motion = envelope(record, |quantity| quantity != Quantity::Force);
     let most = force.iter().copied().fold(0.0, f64::max);
     let acts: Vec<usize> = (0..force.len()).filter(|&b| force[b] > NO_FORCE * most).collect();
-    let at = |block: usize| record.time()[(block * record.len() / BLOCKS).min(record.len() - 1)];
+    let time = |block: usize| record.time()[(block * record.len() / BLOCKS).min(record.len() - 1)];
     match (acts.first(), acts.last()) {
         (Some(&first), Some(&last)) if most > 0.0 && last + 2 < BLOCKS => {
-            after_force(record, &motion, [first, last], at)
+            after_force(record, &motion, [first, last], time)
         }
         (Some(_), Some(_)) if most > 0.0 => driven(record, Quantity::Force),
-        _ => free(record, &motion, at),
+        _ => free(record, &motion, time),
     }
 }
 
@@ -62,9 +62,9 @@ pub(super) fn release(record: &Record) -> Option<f64> {
     let motion = envelope(record, |quantity| quantity != Quantity::Force);
     let most = force.iter().copied().fold(0.0, f64::max);
     let driven = force.iter().rposition(|f| most > 0.0 && *f > NO_FORCE * most).map_or(0, |last| last + 1);
-    let at = |block: usize| block * record.len() / BLOCKS;
-    let sample = at(driven).max(released(record, &motion, at));
-    (sample > 0 && sample + at(LONG) < record.len()).then(|| record.time()[sample])
+    let first_sample = |block: usize| block * record.len() / BLOCKS;
+    let sample = first_sample(driven).max(released(record, &motion, first_sample));
+    (sample > 0 && sample + first_sample(LONG) < record.len()).then(|| record.time()[sample])
 }
 
 /// Sample from which on nothing drives the motion, which was at rest or even before; 0 where neither is seen.

@@ -41,7 +41,7 @@ pub struct Run {
 
 /// The known error of a channel: recorded = gain x true, late by the delay.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Correction {
+pub struct ChannelCorrection {
     /// The channel, by quantity and label.
     pub channel: Channel,
     /// How late it is recorded, s.
@@ -72,7 +72,7 @@ impl Run {
         record: Arc<Record>,
         frequency_hz: Option<f64>,
         harmonics: usize,
-        corrections: &[Correction],
+        corrections: &[ChannelCorrection],
     ) -> Result<Self, FitError> {
         let raw = fit_at(&record, frequency_hz, harmonics)?;
         let noise_ratio = noise_ratio(&raw);
@@ -90,7 +90,7 @@ impl Run {
         level: Option<i64>,
         enabled: bool,
         fit: HarmonicFit,
-        corrections: &[Correction],
+        corrections: &[ChannelCorrection],
     ) -> Self {
         let fit = corrected(fit, corrections);
         let findings = quality::assess_harmonics(&fit);
@@ -230,7 +230,7 @@ pub(crate) fn fit_at(record: &Record, frequency_hz: Option<f64>, harmonics: usiz
 }
 
 /// The fit with the known errors of its channels taken out.
-fn corrected(mut fit: HarmonicFit, corrections: &[Correction]) -> HarmonicFit {
+fn corrected(mut fit: HarmonicFit, corrections: &[ChannelCorrection]) -> HarmonicFit {
     let omega = fit.omega;
     for channel in &mut fit.channels {
         for error in corrections {
@@ -245,7 +245,7 @@ fn corrected(mut fit: HarmonicFit, corrections: &[Correction]) -> HarmonicFit {
 }
 
 /// Divides a channel by the transfer function of its error.
-fn correct(channel: &mut ChannelFit, error: &Correction, omega: f64) {
+fn correct(channel: &mut ChannelFit, error: &ChannelCorrection, omega: f64) {
     let factors: Vec<c64> = (1..=channel.amplitudes.len())
         .map(|h| {
             let (sin, cos) = (h as f64 * omega * error.delay).sin_cos();

@@ -8,7 +8,7 @@ use super::finding::{Finding, Flag};
 use super::kind::{Kind, Part};
 use super::proposal::release;
 use super::record::Record;
-use super::run::Correction;
+use super::run::ChannelCorrection;
 use super::transient_quality;
 use super::transient_run::{TransientLabel, TransientRun};
 use std::borrow::Cow;
@@ -43,7 +43,7 @@ impl TransientRun {
     pub fn new(
         label: TransientLabel,
         record: Arc<Record>,
-        corrections: &[Correction],
+        corrections: &[ChannelCorrection],
     ) -> Result<Self, TransientRunError> {
         let released_s = release_of(&label, &record);
         let part = Part { start_s: label.part.start_s.or(released_s), ..label.part };
@@ -91,7 +91,7 @@ fn check_steps(time: &[f64], first: usize) -> Result<(), TransientRunError> {
 }
 
 /// The record with every known delay and gain taken out; shared where there is none.
-fn corrected(record: Arc<Record>, corrections: &[Correction]) -> Arc<Record> {
+fn corrected(record: Arc<Record>, corrections: &[ChannelCorrection]) -> Arc<Record> {
     let correction = |channel: &Channel| {
         corrections.iter().find(|c| c.channel.quantity == channel.quantity && c.channel.dof == channel.dof)
     };
@@ -140,7 +140,7 @@ fn shifted(samples: &[f64], shift: f64) -> Cow<'_, [f64]> {
         return Cow::Borrowed(samples);
     }
     let last = samples.len() - 1;
-    let at = |n: usize| {
+    let sample = |n: usize| {
         let x = (n as f64 + shift).clamp(0.0, last as f64);
         let first = (x.floor() as usize).saturating_sub(POINTS / 2 - 1).min((last + 1).saturating_sub(POINTS));
         let points = first..(first + POINTS).min(last + 1);
@@ -149,7 +149,7 @@ fn shifted(samples: &[f64], shift: f64) -> Cow<'_, [f64]> {
         };
         points.clone().map(|i| weight(i) * samples[i]).sum()
     };
-    Cow::Owned((0..samples.len()).map(at).collect())
+    Cow::Owned((0..samples.len()).map(sample).collect())
 }
 
 #[cfg(test)]
@@ -177,7 +177,7 @@ mod tests {
     fn known_errors_of_a_channel_are_taken_out() {
         let [delay, gain] = [0.0037, 1.25];
         let wave = |t: f64| (TAU * 3.0 * t).sin() * (-0.2 * t).exp();
-        let correction = Correction { channel: channel(Quantity::Displacement), delay, gain };
+        let correction = ChannelCorrection { channel: channel(Quantity::Displacement), delay, gain };
         let run = TransientRun::new(label(None, None), record(|t| gain * wave(t - delay)), &[correction]).unwrap();
         let worst = (3..396).map(|n| (run.samples(0)[n] - wave(run.time()[n])).abs()).fold(0.0, f64::max);
         assert!(worst < 1e-5, "{worst}");

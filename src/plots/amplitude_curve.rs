@@ -66,8 +66,8 @@ fn guide(points: &[[f64; 2]], slope: f64) -> Vec<[f64; 2]> {
     // Steep guides end where they leave the points, or they would squeeze them.
     let room = 0.5 * (last.1 - first.1) + 0.4;
     let reach = |to: f64| if slope == 0.0 { to } else { to.clamp(-room / slope.abs(), room / slope.abs()) };
-    let at = |to: f64| [(middle[0] + to).exp(), (middle[1] + slope * to).exp()];
-    vec![at(reach(first.0 - middle[0])), at(reach(last.0 - middle[0]))]
+    let on_line = |to: f64| [(middle[0] + to).exp(), (middle[1] + slope * to).exp()];
+    vec![on_line(reach(first.0 - middle[0])), on_line(reach(last.0 - middle[0]))]
 }
 
 #[cfg(test)]

@@ -15,8 +15,8 @@ pub(crate) fn figure(palette: &Palette, outcome: &Outcome, current: usize, limit
         .iter()
         .flat_map(|s| s.alternatives.iter().map(|a| [s.count as f64, a.angle_deg.max(LEAST)]))
         .collect();
-    let one = |k: usize| best.get(k).copied().into_iter().collect::<Vec<_>>();
-    let (chosen, accepted) = (one(current), one(outcome.accepted));
+    let single = |k: usize| best.get(k).copied().into_iter().collect::<Vec<_>>();
+    let (chosen, accepted) = (single(current), single(outcome.accepted));
     let most = outcome.steps.last().map_or(1, |s| s.count) as f64;
     let x = Axis::new("Sources", "").ticks(Ticks::Whole).include(&[0.5, most + 0.5]);
     let y = Axis::log("Angle", "°").include(&[limit_deg.max(LEAST)]);

@@ -106,11 +106,11 @@ impl Diagram<'_> {
         let size = |h: c64| h.re.hypot(h.im);
         let phase = |h: c64| h.im.atan2(h.re).to_degrees();
         let frequency = || Axis::log("Frequency", "Hz").ticks(Ticks::OneTwoFive);
-        let at = |f: &dyn Fn(c64) -> f64| points.iter().map(|p| [p.omega / TAU, f(p.value)]).collect::<Vec<_>>();
+        let points_of = |f: &dyn Fn(c64) -> f64| points.iter().map(|p| [p.omega / TAU, f(p.value)]).collect::<Vec<_>>();
         let unit = format::pretty_unit(self.quantity.unit());
         let magnitude = Figure::new("Magnitude", frequency(), Axis::log(self.name(), &unit))
             .points("model", palette.model, Look::Line(1.8), model.iter().map(|&(w, h)| [w / TAU, size(h)]).collect())
-            .points("measured", palette.measured, Look::Dots(4.0), at(&size))
+            .points("measured", palette.measured, Look::Dots(4.0), points_of(&size))
             .deviation(points.iter().map(|p| p.deviation * size(p.value)).collect());
         let degrees = Axis::new("Phase", "°").ticks(Ticks::RightAngles).include(&[-180.0, 0.0]);
         let mut angle = Figure::new("Phase", frequency(), degrees);
@@ -118,7 +118,7 @@ impl Diagram<'_> {
             angle = angle.points("model", palette.model, Look::Line(1.8), piece);
         }
         let angle = angle
-            .points("measured", palette.measured, Look::Dots(4.0), at(&phase))
+            .points("measured", palette.measured, Look::Dots(4.0), points_of(&phase))
             .deviation(points.iter().map(|p| p.deviation.to_degrees()).collect());
         [magnitude, angle]
     }

@@ -1,7 +1,7 @@
 //! One channel over frequency (measured points on the model's curves, a colour a level of force) and over the force level.
 
 use super::figure::{Axis, Figure, Look, Ticks};
-use super::response_curve::{Curve, Level};
+use super::response_curve::{Curve, ForceLevel};
 use super::samples::{Sample, phase};
 use super::style::Palette;
 use crate::display::format;
@@ -20,7 +20,7 @@ pub(crate) struct ChannelResponse<'a> {
     /// Selected run.
     pub run: usize,
     /// Runs near it in frequency, by level.
-    pub levels: &'a [Level],
+    pub levels: &'a [ForceLevel],
     /// Index of the channel in the fit of the selected run.
     pub channel: usize,
     /// Unit of the channel.
@@ -72,11 +72,11 @@ impl ChannelResponse<'_> {
             let colour = self.colours(palette, level.force).measured;
             let name = if self.levels.len() > 1 { String::new() } else { "measured".to_owned() };
             let own = level.runs.contains(&self.run);
-            let of = |s: &&Sample| level.runs.contains(&s.run);
+            let in_level = |s: &&Sample| level.runs.contains(&s.run);
             let points = |of: &dyn Fn(&Sample) -> Option<c64>, list: &[&Sample]| -> Vec<[f64; 2]> {
                 list.iter().filter_map(|s| Some([s.frequency, part.of(of(s)?)])).collect()
             };
-            let list: Vec<&Sample> = self.samples.iter().filter(of).collect();
+            let list: Vec<&Sample> = self.samples.iter().filter(in_level).collect();
             // Where the prediction of a run does not lie on its curve, the run was on another branch.
             let lit = self.colours(palette, level.force).model;
             if own {

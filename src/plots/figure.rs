@@ -78,8 +78,8 @@ impl Series {
             Data::Function(curve, [start, end]) => {
                 let (from, to) = (from.max(*start), to.min(*end));
                 let n = 2 * columns.max(1);
-                let at = |k: usize| from + (to - from) * k as f64 / n as f64;
-                if to > from { (0..=n).map(|k| [at(k), (curve.0)(at(k))]).collect() } else { Vec::new() }
+                let abscissa = |k: usize| from + (to - from) * k as f64 / n as f64;
+                if to > from { (0..=n).map(|k| [abscissa(k), (curve.0)(abscissa(k))]).collect() } else { Vec::new() }
             }
         }
     }

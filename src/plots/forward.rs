@@ -129,8 +129,8 @@ mod tests {
     /// Of one mass, `H = 1 / (1 + i x)` near resonance: a circle whose points lie close together all round.
     #[test]
     fn a_circle_is_drawn_in_steps_of_a_few_degrees() {
-        let at = |x: f64| c64::new(1.0, 0.0) / c64::new(1.0, x);
-        let around: Vec<c64> = half_widths().into_iter().map(at).collect();
+        let on_circle = |x: f64| c64::new(1.0, 0.0) / c64::new(1.0, x);
+        let around: Vec<c64> = half_widths().into_iter().map(on_circle).collect();
         let centre = c64::new(0.5, 0.0);
         let turn = |z: c64| (z - centre).im.atan2((z - centre).re);
         for pair in around.windows(2) {

@@ -37,8 +37,8 @@ pub(crate) fn neighbourhood(p: &Project, run: usize) -> Option<(Vec<usize>, [f64
     let centre = p.runs.get(run)?.frequency_hz();
     let near: Vec<usize> =
         (0..p.runs.len()).filter(|&r| (p.runs[r].frequency_hz() / centre).ln().abs() < 0.22).collect();
-    let of = |r: &usize| p.runs[*r].frequency_hz();
-    let (low, high) = near.iter().map(of).fold((f64::INFINITY, 0.0_f64), |(l, h), f| (l.min(f), h.max(f)));
+    let frequency = |r: &usize| p.runs[*r].frequency_hz();
+    let (low, high) = near.iter().map(frequency).fold((f64::INFINITY, 0.0_f64), |(l, h), f| (l.min(f), h.max(f)));
     let margin = (0.35 * (high - low)).max(0.03 * centre);
     Some((near, [(low - margin).max(0.5 * low), high + margin]))
 }
@@ -52,7 +52,7 @@ pub(crate) fn force(p: &Project, run: usize) -> Option<(usize, c64)> {
 
 /// Runs under one force.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Level {
+pub(crate) struct ForceLevel {
     /// Mean amplitude of the force, N.
     pub force: f64,
     /// The runs.
@@ -63,7 +63,7 @@ pub(crate) struct Level {
 const SAME_LEVEL: f64 = 0.12;
 
 /// The force levels of `runs`, lowest first; runs without force are left out.
-pub(crate) fn levels(p: &Project, runs: &[usize]) -> Vec<Level> {
+pub(crate) fn levels(p: &Project, runs: &[usize]) -> Vec<ForceLevel> {
     let force = |r: &usize| Some((force(p, *r)?.1.norm(), *r)).filter(|(f, _)| *f > 0.0);
     let mut list: Vec<(f64, usize)> = runs.iter().filter_map(force).collect();
     list.sort_by(|a, b| a.0.total_cmp(&b.0));
@@ -75,8 +75,9 @@ pub(crate) fn levels(p: &Project, runs: &[usize]) -> Vec<Level> {
         }
     }
     let mean = |level: &Vec<(f64, usize)>| level.iter().map(|l| l.0).sum::<f64>() / level.len() as f64;
-    let one = |level: Vec<(f64, usize)>| Level { force: mean(&level), runs: level.into_iter().map(|l| l.1).collect() };
-    levels.into_iter().map(one).collect()
+    let level_of =
+        |level: Vec<(f64, usize)>| ForceLevel { force: mean(&level), runs: level.into_iter().map(|l| l.1).collect() };
+    levels.into_iter().map(level_of).collect()
 }
 
 /// Most levels that have a curve of their own: lines beyond these cannot be told apart.

@@ -175,9 +175,9 @@ mod tests {
     #[test]
     fn a_burst_stands_where_it_is() {
         let step = 1e-3;
-        let at = |n: usize| f64::from(u32::try_from(n).unwrap()) * step;
-        let tone: Vec<f64> = (0..8000).map(|n| (TAU * 20.0 * at(n)).sin()).collect();
-        let burst = |n: usize| if (5000..6500).contains(&n) { 0.1 * (TAU * 50.0 * at(n)).sin() } else { 0.0 };
+        let time = |n: usize| f64::from(u32::try_from(n).unwrap()) * step;
+        let tone: Vec<f64> = (0..8000).map(|n| (TAU * 20.0 * time(n)).sin()).collect();
+        let burst = |n: usize| if (5000..6500).contains(&n) { 0.1 * (TAU * 50.0 * time(n)).sin() } else { 0.0 };
         let found = Spectrogram::new(&(0..8000).map(burst).collect::<Vec<f64>>(), &tone, (0.0, step)).unwrap();
         assert!(found.decibels.len() >= COLUMNS - 2 && found.highest_hz < 120.0, "{}", found.highest_hz);
         let rows = found.decibels[0].len();

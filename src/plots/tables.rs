@@ -7,7 +7,7 @@ use crate::effects::Source;
 use crate::exchange::Project;
 use crate::identify::change::Pair;
 use crate::identify::results::ModeResult;
-use crate::identify::{Outcome, Step};
+use crate::identify::{Outcome, SelectionStep};
 use crate::measurement::Run;
 use crate::session::states::Compared;
 use crate::structure::modes::Modes;
@@ -45,7 +45,7 @@ pub fn modes(modes: &Modes) -> String {
 
 /// The best set for every number of sources.
 pub fn steps(p: &Project, outcome: &Outcome) -> String {
-    let line = |step: &Step| {
+    let line = |step: &SelectionStep| {
         let sources = step.sources.iter().filter_map(|e| Some((p.sources.get(e.source)?, e)));
         let source_in_words = |(s, e): (&Source, &crate::identify::Estimate)| {
             let place = words::short_place(&p.structure, &s.place);
@@ -88,8 +88,8 @@ pub fn damping(outcome: &Outcome) -> String {
 pub fn methods(found: &SideBySide) -> String {
     let modes = found.measured;
     let row = |ratios: &[Ratio]| -> String {
-        let one = |mode| ratios.iter().find(|r| r.mode == mode).map_or_else(String::new, |r| format!("{:e}", r.ratio));
-        (0..modes).map(|mode| format!("\t{}", one(mode))).collect()
+        let cell = |mode| ratios.iter().find(|r| r.mode == mode).map_or_else(String::new, |r| format!("{:e}", r.ratio));
+        (0..modes).map(|mode| format!("\t{}", cell(mode))).collect()
     };
     let line = |entry: &crate::classical::side_by_side::Entry| {
         let name = entry.method.title();
@@ -136,11 +136,11 @@ pub fn errors(p: &Project, comparison: &Comparison) -> String {
         let level = p.runs.get(run.index).and_then(|r| r.level).map_or_else(String::new, |l| l.to_string());
         let start = format!("{file}\t{frequency:e}\t{level}");
         let used = if run.used { "yes" } else { "no" };
-        let one = |what: &str, error: f64, floor: f64| format!("{start}\t{what}\t{error:e}\t{floor:e}\t{used}");
+        let row = |what: &str, error: f64, floor: f64| format!("{start}\t{what}\t{error:e}\t{floor:e}\t{used}");
         if run.channels.is_empty() {
-            return vec![one("energy", run.error, run.noise_floor)];
+            return vec![row("energy", run.error, run.noise_floor)];
         }
-        run.channels.iter().map(|c| one(&c.channel, c.error, c.noise_floor)).collect()
+        run.channels.iter().map(|c| row(&c.channel, c.error, c.noise_floor)).collect()
     };
     let head = "file\tfrequency (Hz)\tlevel\tchannel\terror\tnoise floor\tused";
     table(head, comparison.runs.iter().flat_map(of_run))

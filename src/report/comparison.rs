@@ -170,8 +170,9 @@ fn evidence(page: &mut Page, content: &Content<'_>, s: &Suggestion) {
     if let Some((_, print)) = content.fingerprints.iter().find(|(source, _)| source.is_same(&s.added.source)) {
         figure(page, fingerprint::figure(print, Palette::light()));
     }
-    let of = |source: &Option<crate::effects::Source>| source.as_ref().is_some_and(|o| o.is_same(&s.added.source));
-    if let Some((_, force)) = content.forces.iter().find(|(source, _)| of(source)) {
+    let is_suggested =
+        |source: &Option<crate::effects::Source>| source.as_ref().is_some_and(|o| o.is_same(&s.added.source));
+    if let Some((_, force)) = content.forces.iter().find(|(source, _)| is_suggested(source)) {
         missing_force(page, content, force);
     }
 }

@@ -10,7 +10,7 @@
 
 use super::dynamic_stiffness::{DynamicStiffness, DynamicStiffnessError};
 use crate::control::Control;
-use crate::structure::damped_modes::{DampedMode, HystereticMode};
+use crate::structure::damped_modes::DampedMode;
 use faer::c64;
 use serde::{Deserialize, Serialize};
 
@@ -90,11 +90,6 @@ pub fn modal(
         }
     }
     Ok(sum)
-}
-
-/// Receptance between two DOFs at `omega` (rad/s) as a sum over hysteretically damped modes.
-pub fn modal_hysteretic(modes: &[HystereticMode], response: usize, excitation: usize, omega: f64) -> c64 {
-    modes.iter().map(|m| m.shape[response] * m.shape[excitation] / (m.lambda_squared - omega * omega)).sum()
 }
 
 /// What the half-power points of a resonance peak show.

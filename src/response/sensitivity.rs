@@ -33,18 +33,12 @@ pub enum Unknown {
     Stiffness,
     /// Relative change of the mass matrix, lumped masses included, by 1.
     Mass,
-    /// Relative change of the mass of the elements (of the density), by 1; of the mass matrix where there are no elements.
-    Density,
-    /// Mass in kg added at a DOF (row).
-    LumpedMass(usize),
     /// Relative change of the stiffness of one undamped mode by 1: `dK = omega_r^2 (M phi_r)(M phi_r)^T`.
     ModeStiffness(usize),
     /// Relative change by 1 of a part of the structure that has a share of its own in the matrices.
     Part(Part),
     /// Relative change by 1 of force number `.0` of the excitation at all its harmonics.
     ForceScale(usize),
-    /// Time in s by which force number `.0` of the excitation acts earlier.
-    ForceAdvance(usize),
 }
 
 /// Why derivatives cannot be had.
@@ -122,9 +116,9 @@ fn check(unknown: Unknown, sources: &[Source], size: usize, forces: usize) -> Re
         Unknown::Source { source, parameter } => {
             sources.get(source).is_some_and(|s| parameter < s.effect.parameters().len())
         }
-        Unknown::Stiffness | Unknown::Mass | Unknown::Density | Unknown::Part(_) => true,
-        Unknown::ForceScale(force) | Unknown::ForceAdvance(force) => force < forces,
-        Unknown::LumpedMass(row) | Unknown::ModeStiffness(row) => row < size,
+        Unknown::Stiffness | Unknown::Mass | Unknown::Part(_) => true,
+        Unknown::ForceScale(force) => force < forces,
+        Unknown::ModeStiffness(row) => row < size,
     };
     let missing = SensitivityError::NoSuchUnknown { unknown, sources: sources.len(), forces, size };
     if exists { Ok(()) } else { Err(missing) }
@@ -193,10 +187,6 @@ impl Differentiated<'_> {
                     let force = &self.excitation.forces[force];
                     single(x.len(), force.dof, force.amplitude(h))
                 }
-                (Unknown::ForceAdvance(force), _) => {
-                    let force = &self.excitation.forces[force];
-                    single(x.len(), force.dof, force.amplitude(h) * c64::new(0.0, w))
-                }
                 (_, Some(share)) => share_force(linear, share, x, w),
                 _ => pseudo_force(self.run, self.sources, unknown, x, w).unwrap_or_default(),
             }
@@ -252,12 +242,10 @@ pub(crate) fn pseudo_force(
     match unknown {
         Unknown::Stiffness => Some(linear.apply_matrices(-linear.factors(w)[0], zero, x)),
         Unknown::Mass => Some(linear.apply_matrices(zero, -linear.factors(w)[1], x)),
-        Unknown::Density => Some(linear.apply_density(-linear.factors(w)[1], x)),
-        Unknown::LumpedMass(dof) => Some(single(x.len(), dof, x[dof] * (w * w))),
         Unknown::ModeStiffness(mode) => linear.apply_mode(mode, x),
         Unknown::Part(part) => Some(share_force(linear, &linear.structure().share(part)?, x, w)),
         Unknown::Source { source, parameter } => source_force(linear, &sources[source], parameter, x, w),
-        Unknown::ForceScale(_) | Unknown::ForceAdvance(_) => None,
+        Unknown::ForceScale(_) => None,
     }
 }
 

@@ -134,8 +134,9 @@ fn lumped(table: &StructureTable, factor: f64) -> Vec<Command> {
         return Vec::new();
     }
     let scaled = |mass: f64| Some(mass * factor);
-    let one = |l: &crate::structure::LumpedMass| Command::SetLumpedMass { dof: l.dof.clone(), mass: scaled(l.mass) };
-    table.lumped_mass.iter().map(one).collect()
+    let scaled_mass =
+        |l: &crate::structure::LumpedMass| Command::SetLumpedMass { dof: l.dof.clone(), mass: scaled(l.mass) };
+    table.lumped_mass.iter().map(scaled_mass).collect()
 }
 
 /// A known source of another size: its coefficient, or stiffness and force together.

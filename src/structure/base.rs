@@ -33,21 +33,13 @@ impl Structure {
 #[cfg(test)]
 mod tests {
     #![allow(clippy::unwrap_used, reason = "tests")]
+    use crate::common::models::cantilever_parameters;
     use crate::structure::LumpedMass;
-    use crate::structure::beam::{BeamParameters, Supports};
 
     /// The first modal participation mass of a cantilever is 61.3 % of its mass (Blevins, table 8-1: (2 * 0.7340955 / 1.8751)^2).
     #[test]
     fn participation_of_a_cantilever() {
-        let p = BeamParameters {
-            length: 0.5,
-            breadth: 0.04,
-            depth: 0.004,
-            youngs_modulus: 69e9,
-            density: 2700.0,
-            elements: 20,
-            supports: Supports::ClampedFree,
-        };
+        let p = cantilever_parameters(20);
         let beam = p.build(&[]).unwrap();
         let load = beam.base_load(2).unwrap();
         let modes = beam.modes().unwrap();

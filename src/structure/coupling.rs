@@ -76,9 +76,8 @@ fn strongest(i: usize, all: &[([usize; 2], f64)]) -> Vec<[usize; 2]> {
 #[cfg(test)]
 mod tests {
     #![allow(clippy::unwrap_used, reason = "tests")]
+    use crate::common::models::{cantilever, chain};
     use crate::math::least_squares::solve_symmetric;
-    use crate::structure::beam::{BeamParameters, Supports};
-    use crate::structure::chain::ChainParameters;
     use crate::structure::imported::{ImportedDof, ImportedParameters};
     use crate::structure::{Direction, Structure};
     use faer::Mat;
@@ -99,20 +98,10 @@ mod tests {
         }
     }
 
-    fn beam(elements: usize) -> Structure {
-        let supports = Supports::ClampedFree;
-        let (length, breadth, depth, youngs_modulus, density) = (0.56, 0.04, 0.004, 69e9, 2700.0);
-        BeamParameters { length, breadth, depth, youngs_modulus, density, elements, supports }.build(&[]).unwrap()
-    }
-
     #[test]
     fn matrices_without_lines_have_the_neighbours_of_the_structure_they_came_from() {
-        let chain = ChainParameters {
-            masses: vec![1.0, 2.0, 3.0, 1.0],
-            ground_stiffness: vec![1e4, 0.0, 0.0, 5e3],
-            coupling_stiffness: vec![1e5, 2e5, 5e4],
-        };
-        for structure in [chain.build(&[]).unwrap(), beam(6)] {
+        let chain = chain(&[1.0, 2.0, 3.0, 1.0], &[1e4, 0.0, 0.0, 5e3], &[1e5, 2e5, 5e4]);
+        for structure in [chain, cantilever(6)] {
             let again = imported(&structure).build(&[]).unwrap();
             assert!(!structure.neighbours().is_empty());
             assert_eq!(again.neighbours(), structure.neighbours());
@@ -124,7 +113,7 @@ mod tests {
     /// A beam reduced statically to its translations (Guyan) couples each to all others.
     #[test]
     fn of_dense_reduced_matrices_the_strongest_are_taken() {
-        let full = beam(14);
+        let full = cantilever(14);
         let matrices = full.matrices().unwrap();
         let (kept, gone): (Vec<usize>, Vec<usize>) =
             (0..full.len()).partition(|&i| !full.dofs()[i].direction.is_rotation());

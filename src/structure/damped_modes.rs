@@ -226,53 +226,6 @@ fn physical(undamped: &Modes, modal_shapes: &[Vec<c64>]) -> Vec<Vec<c64>> {
     (0..modal_shapes.len()).map(|j| (0..n).map(|i| c64::new(re[(i, j)], im[(i, j)])).collect()).collect()
 }
 
-/// One mode of a structure with hysteretic damping.
-#[derive(Debug, Clone, PartialEq)]
-pub struct HystereticMode {
-    /// `omega_r^2 (1 + i eta_r)`, rad^2/s^2.
-    pub lambda_squared: c64,
-    /// `omega_r / 2 pi`, Hz.
-    pub frequency_hz: f64,
-    /// Loss factor `eta_r`; at the resonance the damping ratio is `eta_r / 2`.
-    pub loss_factor: f64,
-    /// Shape with `psi^T M psi = 1`, n values.
-    pub shape: Vec<c64>,
-}
-
-/// Modes of `(K + i H) psi = omega^2 (1 + i eta) M psi` from the undamped ones, in ascending order of frequency.
-///
-/// # Errors
-/// As [`damped_modes_from`].
-pub fn hysteretic_modes(undamped: &Modes, h: MatRef<'_, f64>) -> Result<Vec<HystereticMode>, StructureError> {
-    let modal = modal_matrix(undamped, h)?;
-    let n = undamped.len();
-    let complex =
-        Mat::from_fn(n, n, |i, j| c64::new(if i == j { undamped.omega[i].powi(2) } else { 0.0 }, modal[(i, j)]));
-    let (values, vectors) = eigen::complex_general(complex.as_ref()).map_err(|e| failure(&e))?;
-    let modal_shapes: Vec<Vec<c64>> = (0..n)
-        .map(|r| {
-            let mut q: Vec<c64> = vectors.col(r).iter().copied().collect();
-            let square: c64 = q.iter().map(|v| v * v).sum();
-            if square.norm() > 0.0 {
-                scale(&mut q, c64::new(1.0, 0.0) / square.sqrt());
-            }
-            q
-        })
-        .collect();
-    let mut result: Vec<HystereticMode> = physical(undamped, &modal_shapes)
-        .into_iter()
-        .zip(&values)
-        .map(|(shape, &value)| HystereticMode {
-            lambda_squared: value,
-            frequency_hz: value.re.max(0.0).sqrt() / TAU,
-            loss_factor: if value.re > 0.0 { value.im / value.re } else { 0.0 },
-            shape,
-        })
-        .collect();
-    result.sort_by(|a, b| a.frequency_hz.total_cmp(&b.frequency_hz));
-    Ok(result)
-}
-
 #[cfg(test)]
 mod tests {
     #![allow(clippy::unwrap_used, reason = "tests")]
@@ -303,16 +256,5 @@ mod tests {
         assert!((found[2].frequency_hz * TAU - 200f64.sqrt()).abs() < 1e-10);
         let free = damped_modes(m.as_ref(), k.as_ref(), Mat::zeros(2, 2).as_ref()).unwrap();
         assert_eq!(free.len(), 2);
-    }
-
-    #[test]
-    fn proportional_hysteretic_damping_gives_its_loss_factor() {
-        let matrices = SystemMatrices { mass: mat![[1.0, 0.0], [0.0, 3.0]], stiffness: mat![[4.0, -1.0], [-1.0, 2.0]] };
-        let undamped = modes::modes(&matrices).unwrap();
-        let h = Mat::from_fn(2, 2, |i, j| 0.02 * matrices.stiffness[(i, j)]);
-        for (r, mode) in hysteretic_modes(&undamped, h.as_ref()).unwrap().iter().enumerate() {
-            assert!((mode.loss_factor - 0.02).abs() < 1e-12);
-            assert!((mode.frequency_hz - undamped.frequency_hz(r)).abs() < 1e-12);
-        }
     }
 }

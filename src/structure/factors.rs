@@ -268,19 +268,12 @@ fn add(matrix: &mut Mat<f64>, entries: &Triplets, factor: f64) {
 mod tests {
     #![allow(clippy::unwrap_used, reason = "tests")]
     use super::*;
+    use crate::common::models::{cantilever_parameters, chain, short_cantilever};
     use crate::structure::beam::{BeamParameters, Supports};
-    use crate::structure::chain::ChainParameters;
-
-    fn beam() -> Structure {
-        let (length, breadth, depth) = (0.5, 0.04, 0.004);
-        let (youngs_modulus, density, elements) = (7e10, 2700.0, 5);
-        let supports = Supports::ClampedFree;
-        BeamParameters { length, breadth, depth, youngs_modulus, density, elements, supports }.build(&[]).unwrap()
-    }
 
     #[test]
     fn frequencies_move_as_the_factors_say() {
-        let structure = beam();
+        let structure = short_cantilever(5);
         let factors = [(Part::Stiffness, 1.02), (Part::Mass, 0.99), (Part::Mode(1), 1.04)];
         let (before, after) =
             (structure.modes().unwrap().omega, structure.with_factors(&factors).modes().unwrap().omega);
@@ -293,7 +286,7 @@ mod tests {
     /// The factor of a mode is on the mode of the structure with its parts as they are then.
     #[test]
     fn modes_are_taken_after_parts() {
-        let structure = beam();
+        let structure = short_cantilever(5);
         let (part, mode) = ((Part::ElementStiffness([0, 1]), 1.2), (Part::Mode(1), 1.06));
         let at_once = structure.with_factors(&[mode, part]).modes().unwrap().omega;
         let stepwise = structure.with_factors(&[part]).with_factors(&[mode]).modes().unwrap().omega;
@@ -304,7 +297,7 @@ mod tests {
 
     #[test]
     fn groups_of_elements_add_up_to_all() {
-        let structure = beam();
+        let structure = short_cantilever(5);
         let groups = [(Part::ElementStiffness([0, 1]), 1.1), (Part::ElementStiffness([2, 4]), 1.1)];
         let (by_groups, at_once) = (structure.with_factors(&groups), structure.with_factors(&[(Part::Stiffness, 1.1)]));
         let difference = &by_groups.matrices().unwrap().stiffness - &at_once.matrices().unwrap().stiffness;
@@ -314,12 +307,7 @@ mod tests {
 
     #[test]
     fn springs_of_a_chain_are_those_it_was_built_from() {
-        let chain = ChainParameters {
-            masses: vec![1.0, 2.0, 3.0],
-            ground_stiffness: vec![5.0, 0.0, 7.0],
-            coupling_stiffness: vec![11.0, 13.0],
-        };
-        let chain = chain.build(&[]).unwrap();
+        let chain = chain(&[1.0, 2.0, 3.0], &[5.0, 0.0, 7.0], &[11.0, 13.0]);
         let expected = [Part::GroundSpring(0), Part::Coupling([0, 1]), Part::Coupling([1, 2]), Part::GroundSpring(2)];
         assert_eq!(chain.springs(40), expected);
         let stiffer = chain.with_factors(&[(Part::Coupling([0, 1]), 2.0), (Part::PointMass(1), 1.5)]);
@@ -343,10 +331,7 @@ mod tests {
 
     #[test]
     fn a_clamp_that_gives_way_is_a_rotation_on_a_spring() {
-        let supports = Supports::ClampedFree;
-        let (length, breadth, depth) = (0.5, 0.04, 0.004);
-        let beam =
-            BeamParameters { length, breadth, depth, youngs_modulus: 69e9, density: 2700.0, elements: 8, supports };
+        let beam = BeamParameters { length: 0.5, ..cantilever_parameters(8) };
         let model = beam.build(&[]).unwrap();
         let [held] = model.supports()[..] else { panic!("one support") };
         assert_eq!((held, model.held_node(held)), (HeldDof { element: 0, dof: 1 }, Some("0")));

@@ -286,17 +286,14 @@ fn normaliser(block: &Mat<f64>, by_mass: &Mat<f64>) -> Result<Mat<f64>, Structur
 mod tests {
     #![allow(clippy::unwrap_used, reason = "tests")]
     use super::*;
+    use crate::common::models;
     use crate::structure::Structure;
-    use crate::structure::chain::ChainParameters;
 
     /// A chain, with or without springs to the ground.
     fn chain(n: usize, ground: f64) -> Structure {
-        let p = ChainParameters {
-            masses: (0..n).map(|i| 1.0 + 0.1 * (0.7 * i as f64).sin()).collect(),
-            ground_stiffness: vec![ground; n],
-            coupling_stiffness: (1..n).map(|i| 1e4 * (1.0 + 0.2 * (0.3 * i as f64).cos())).collect(),
-        };
-        p.build(&[]).unwrap()
+        let masses: Vec<f64> = (0..n).map(|i| 1.0 + 0.1 * (0.7 * i as f64).sin()).collect();
+        let coupling: Vec<f64> = (1..n).map(|i| 1e4 * (1.0 + 0.2 * (0.3 * i as f64).cos())).collect();
+        models::chain(&masses, &vec![ground; n], &coupling)
     }
 
     #[test]

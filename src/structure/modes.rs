@@ -98,17 +98,12 @@ pub fn mac_real(a: &[f64], b: &[f64]) -> f64 {
 mod tests {
     #![allow(clippy::unwrap_used, reason = "tests")]
     use super::*;
-    use crate::structure::chain::ChainParameters;
+    use crate::common::models;
     use faer::mat;
 
     #[test]
     fn free_chain_has_one_rigid_mode() {
-        let chain = ChainParameters {
-            masses: vec![2.0, 3.0, 4.0],
-            ground_stiffness: vec![0.0; 3],
-            coupling_stiffness: vec![1e5, 2e5],
-        };
-        let modes = chain.build(&[]).unwrap().modes().unwrap();
+        let modes = models::chain(&[2.0, 3.0, 4.0], &[0.0; 3], &[1e5, 2e5]).modes().unwrap();
         assert_eq!(modes.omega[0], 0.0);
         assert!(modes.omega[1] > 1.0);
         assert!((modes.shapes[(0, 0)].abs() - 1.0 / 3.0).abs() < 1e-12); // 1 / sqrt(total mass)

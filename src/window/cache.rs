@@ -16,6 +16,18 @@ const KEPT: usize = 32;
 /// A result or one line that says why there is none.
 pub(crate) type Cached<T> = Result<Arc<T>, String>;
 
+/// Work in the background, whatever its results and their keys.
+pub(crate) trait Background {
+    /// Takes in what has ended.
+    fn collect(&mut self);
+    /// Name and progress of what runs.
+    fn running(&self) -> Option<(&str, f64)>;
+    /// Stops what runs; it is not started again for its key until [`Background::retry`].
+    fn cancel(&mut self);
+    /// Forgets that work was cancelled and what failed.
+    fn retry(&mut self);
+}
+
 /// Results of one kind by their key, and the jobs that compute more of them.
 #[derive(Debug)]
 pub struct Cache<K, T> {
@@ -79,15 +91,6 @@ impl<K: Clone + PartialEq, T: Send + 'static> Cache<K, T> {
         self.known(key)
     }
 
-    /// Takes in what has ended.
-    pub fn collect(&mut self) {
-        while let Some((place, result)) = self.jobs.iter().enumerate().find_map(|(k, job)| Some((k, job.poll()?))) {
-            let job = self.jobs.remove(place);
-            let result = result.map_err(|e| e.to_string()).and_then(|value| value.map(Arc::new));
-            self.keep(job.key().clone(), result);
-        }
-    }
-
     fn keep(&mut self, key: K, result: Cached<T>) {
         if self.done.len() == self.kept {
             drop(self.done.remove(0));
@@ -121,20 +124,10 @@ impl<K: Clone + PartialEq, T: Send + 'static> Cache<K, T> {
         self.done.iter().rev().filter(|(key, _)| fits(key)).find_map(|(_, result)| result.as_ref().ok())
     }
 
-    /// Name and progress of what runs.
-    pub fn running(&self) -> Option<(&str, f64)> {
-        self.jobs.iter().find_map(Job::running)
-    }
-
     /// How far the work for `key` has come, from 0 to 1.
     pub fn progress(&self, key: &K) -> f64 {
         let done = if self.get(key).is_some() { 1.0 } else { 0.0 };
         self.jobs.iter().find(|job| job.key() == key).map_or(done, Job::progress)
-    }
-
-    /// Stops what runs; it is not started again for its key until [`Cache::retry`].
-    pub fn cancel(&mut self) {
-        self.cancelled.extend(self.jobs.drain(..).map(|job| job.key().clone()));
     }
 
     /// What runs is to answer with the best that it has so far.
@@ -156,9 +149,26 @@ impl<K: Clone + PartialEq, T: Send + 'static> Cache<K, T> {
     pub fn is_cancelled(&self, key: &K) -> bool {
         self.cancelled.contains(key)
     }
+}
 
-    /// Forgets that work was cancelled and what failed.
-    pub fn retry(&mut self) {
+impl<K: Clone + PartialEq, T: Send + 'static> Background for Cache<K, T> {
+    fn collect(&mut self) {
+        while let Some((place, result)) = self.jobs.iter().enumerate().find_map(|(k, job)| Some((k, job.poll()?))) {
+            let job = self.jobs.remove(place);
+            let result = result.map_err(|e| e.to_string()).and_then(|value| value.map(Arc::new));
+            self.keep(job.key().clone(), result);
+        }
+    }
+
+    fn running(&self) -> Option<(&str, f64)> {
+        self.jobs.iter().find_map(Job::running)
+    }
+
+    fn cancel(&mut self) {
+        self.cancelled.extend(self.jobs.drain(..).map(|job| job.key().clone()));
+    }
+
+    fn retry(&mut self) {
         self.cancelled.clear();
         self.done.retain(|(_, result)| result.is_ok());
     }
@@ -167,7 +177,7 @@ impl<K: Clone + PartialEq, T: Send + 'static> Cache<K, T> {
 #[cfg(test)]
 mod tests {
     #![allow(clippy::unwrap_used, reason = "tests")]
-    use super::Cache;
+    use super::{Background, Cache};
     use crate::control::Control;
     use egui::Context;
     use std::time::{Duration, Instant};

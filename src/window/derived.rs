@@ -1,7 +1,7 @@
 //! What is computed from the document, each remembering the revision it was computed from; everything that may take longer
 //! than a frame in the background.
 
-use super::cache::{Cache, Cached};
+use super::cache::{Background, Cache, Cached};
 use super::document::Document;
 use super::explained::Explained;
 use super::prepared_records::{PreparedRecord, PreparedRecords};
@@ -81,16 +81,19 @@ impl Derived {
     /// Gives up what is being computed; it starts again with the next change.
     pub fn cancel(&mut self) {
         self.explained.cancel();
-        self.outcome.cancel();
-        self.response.cancel();
-        self.modes.cancel();
-        self.motions.cancel();
-        self.loops.cancel();
-        self.methods.cancel();
-        self.incompleteness.cancel();
-        self.change.cancel();
-        self.unsteady.cancel();
-        self.prepared_records.cancel();
+        let work: [&mut dyn Background; 10] = [
+            &mut self.outcome,
+            &mut self.modes,
+            &mut self.response,
+            &mut self.motions,
+            &mut self.loops,
+            &mut self.methods,
+            &mut self.incompleteness,
+            &mut self.change,
+            &mut self.unsteady,
+            &mut self.prepared_records,
+        ];
+        work.into_iter().for_each(Background::cancel);
     }
 
     /// The motion of every DOF in every run at its fundamental, m or rad: measured where it is, expanded where it is not.
@@ -125,16 +128,19 @@ impl Derived {
 
     /// Name and progress of the job that runs, if one does.
     pub fn running(&self) -> Option<(&str, f64)> {
-        let slots = self.outcome.running().or(self.modes.running()).or(self.response.running());
-        slots
-            .or(self.motions.running())
-            .or(self.loops.running())
-            .or(self.methods.running())
-            .or(self.incompleteness.running())
-            .or(self.change.running())
-            .or(self.unsteady.running())
-            .or(self.prepared_records.running())
-            .or_else(|| self.explained.running())
+        let work: [&dyn Background; 10] = [
+            &self.outcome,
+            &self.modes,
+            &self.response,
+            &self.motions,
+            &self.loops,
+            &self.methods,
+            &self.incompleteness,
+            &self.change,
+            &self.unsteady,
+            &self.prepared_records,
+        ];
+        work.into_iter().find_map(Background::running).or_else(|| self.explained.running())
     }
 
     /// A channel of a run, by its index in the fit.

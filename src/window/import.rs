@@ -5,7 +5,7 @@ use super::ask::Ask;
 use super::edits::Edit;
 use super::files::Pick;
 use super::importing::destination::Wish;
-use super::importing::{Importing, Made, OpenProject, Step};
+use super::importing::{Importing, Made, OpenProject, Progress};
 use crate::exchange::importing::Request;
 use crate::exchange::mapping::is_own_record;
 use crate::session::Command;
@@ -110,16 +110,16 @@ impl App {
     pub(super) fn step_import(&mut self, ctx: &Context) {
         let Some(importing) = self.importing.take() else { return };
         match importing.step(ctx) {
-            Step::Wait(importing) => self.importing = Some(importing),
-            Step::Failed(error, importing) => {
+            Progress::Wait(importing) => self.importing = Some(importing),
+            Progress::Failed(error, importing) => {
                 self.importing = importing;
                 self.fail(error);
             }
-            Step::Made(Made::Project(document, summary)) => {
+            Progress::Made(Made::Project(document, summary)) => {
                 self.loaded(*document, false);
                 self.say(summary);
             }
-            Step::Made(Made::Tables(tables, summary)) => {
+            Progress::Made(Made::Tables(tables, summary)) => {
                 self.edit(ctx, &Edit::Do(Command::ImportTables(tables)));
                 if self.message.as_ref().is_none_or(|message| !message.failed) {
                     self.say(summary);

@@ -1,6 +1,6 @@
 //! Records, residuals and spectra ready to be drawn, computed in the background, a channel of a run each.
 
-use super::cache::{CANCELLED, Cache};
+use super::cache::{Background, CANCELLED, Cache};
 use crate::control::Control;
 use crate::measurement::Run;
 use crate::plots::trace::{Trace, trace};
@@ -93,16 +93,25 @@ impl PreparedRecords {
     pub(crate) fn clear(&mut self) {
         *self = Self::default();
     }
+}
 
-    /// Gives up what is being computed.
-    pub(crate) fn cancel(&mut self) {
+impl Background for PreparedRecords {
+    fn collect(&mut self) {
+        self.traces.collect();
+    }
+
+    /// All records together.
+    fn running(&self) -> Option<(&str, f64)> {
+        let (name, _) = self.traces.running()?;
+        Some((name, self.batch.progress(|key| self.traces.progress(key))))
+    }
+
+    fn cancel(&mut self) {
         self.traces.cancel();
     }
 
-    /// Name and progress of what is being prepared, all records together.
-    pub(crate) fn running(&self) -> Option<(&str, f64)> {
-        let (name, _) = self.traces.running()?;
-        Some((name, self.batch.progress(|key| self.traces.progress(key))))
+    fn retry(&mut self) {
+        self.traces.retry();
     }
 }
 

@@ -125,14 +125,14 @@ fn unsteady(
     (first, count): (usize, usize),
     control: &Control,
 ) -> Result<Vec<(Key, TransientRun)>, String> {
-    let one = |(done, (index, key)): (usize, &(usize, Key))| {
+    let read = |(done, (index, key)): (usize, &(usize, Key))| {
         control.check().map_err(|e| e.to_string())?;
         let piece = control.piece(first + done, count);
         let run = plan.transient_run(*index, &piece).map_err(|e| e.to_string())?;
         piece.report(1.0);
         Ok((key.clone(), run))
     };
-    missing.iter().enumerate().map(one).collect()
+    missing.iter().enumerate().map(read).collect()
 }
 
 /// Runs that came as fitted harmonics; each file's runs bear its name or stand in its order.

@@ -1,11 +1,11 @@
 //! Complex modes extracted from frequency responses with noise, and the methods that run on them.
 
 use super::support::*;
+use crate::common::models::cantilever;
 use dashpot::classical::FrequencyResponses;
 use dashpot::classical::poly_reference::extract;
 use dashpot::control::Control;
 use dashpot::structure::Structure;
-use dashpot::structure::beam::{BeamParameters, Supports};
 use dashpot::structure::damped_modes::{DampedMode, damped_modes};
 use faer::{Mat, c64};
 use rand::SeedableRng;
@@ -13,20 +13,11 @@ use rand_distr::{Distribution, StandardNormal};
 use std::f64::consts::TAU;
 
 fn beam() -> (Structure, Mat<f64>) {
-    let beam = BeamParameters {
-        length: 0.56,
-        breadth: 0.04,
-        depth: 0.004,
-        youngs_modulus: 69e9,
-        density: 2700.0,
-        elements: 10,
-        supports: Supports::ClampedFree,
-    };
     let mut c = Mat::zeros(20, 20);
     for (label, value) in [(3, 0.2), (13, 0.5), (17, 0.15)] {
         c[(label - 1, label - 1)] = value;
     }
-    (beam.build(&[]).unwrap(), c)
+    (cantilever(10), c)
 }
 
 fn exact(structure: &Structure, c: &Mat<f64>) -> Vec<DampedMode> {

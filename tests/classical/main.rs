@@ -2,6 +2,8 @@
 #![allow(clippy::unwrap_used, reason = "tests")]
 
 mod all_methods;
+#[path = "../common/mod.rs"]
+mod common;
 mod energy_methods;
 mod extraction;
 mod modal_methods;

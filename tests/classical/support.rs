@@ -1,21 +1,12 @@
 //! The five masses of section 6.7 with the damping of (6.13), and complete noise-free data of them.
 
+pub(crate) use crate::common::models::five_masses;
 use dashpot::classical::{LoadCase, ModalData, ReceptanceData};
 use dashpot::structure::Structure;
-use dashpot::structure::chain::ChainParameters;
 use dashpot::structure::damped_modes::damped_modes;
 use faer::linalg::solvers::Solve;
 use faer::{Mat, c64};
 use std::f64::consts::TAU;
-
-pub(crate) fn five_masses() -> Structure {
-    let chain = ChainParameters {
-        masses: vec![1.727, 5.122, 8.213, 2.609, 1.339],
-        ground_stiffness: vec![94263.0; 5],
-        coupling_stiffness: vec![75136.0, 67744.0, 75466.0, 83396.0],
-    };
-    chain.build(&[]).unwrap()
-}
 
 /// (6.13), N s/m.
 pub(crate) fn damping() -> Mat<f64> {

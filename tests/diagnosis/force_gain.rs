@@ -2,31 +2,19 @@
 //! better, and says so.
 
 use super::random::Random;
+use crate::common::models::three_masses;
 use dashpot::control::Control;
 use dashpot::diagnosis::Problem;
 use dashpot::diagnosis::diagnose::diagnose;
 use dashpot::effects::{Effect, Place, Source};
 use dashpot::measurement::{Channel, ChannelFit, HarmonicFit, Quantity, Run};
 use dashpot::response::harmonic_balance::{Excitation, ForwardModel, Settings};
-use dashpot::structure::Structure;
-use dashpot::structure::chain::ChainParameters;
 use faer::{Mat, c64};
 
 /// What the force channel reads over the force; noise of all readings, relative.
 const READS: f64 = 1.015;
 const NOISE: f64 = 2e-3;
 const FRICTION: f64 = 0.4;
-
-/// Springs times `factors`, one each.
-fn chain(factors: [f64; 3]) -> Structure {
-    ChainParameters {
-        masses: vec![1.0; 3],
-        ground_stiffness: vec![2e4 * factors[0], 0.0, 0.0],
-        coupling_stiffness: vec![1e4 * factors[1], 1.5e4 * factors[2]],
-    }
-    .build(&[])
-    .unwrap()
-}
 
 fn channel(quantity: Quantity, dof: usize, mut amplitudes: Vec<c64>, random: &mut Random) -> ChannelFit {
     let size = NOISE * amplitudes[0].norm();
@@ -48,7 +36,7 @@ fn a_friction_force_is_known_no_better_than_the_force_that_was_measured() {
     let dashpot = |c: f64| Source::known(Effect::Viscous, Place::Dofs(vec![0]), &[c]);
     let friction = Source::known(Effect::Coulomb, Place::Dofs(vec![2]), &[FRICTION]);
     let sources = [dashpot(2.0), friction.clone()];
-    let model = ForwardModel::new(&chain([1.01, 0.99, 1.012]), &sources).unwrap();
+    let model = ForwardModel::new(&three_masses([1.01, 0.99, 1.012]), &sources).unwrap();
     let mut runs = Vec::new();
     for omega in [60.0, 64.0, 66.0, 150.0, 158.0] {
         for force in [1.0, 3.0, 9.0] {
@@ -65,7 +53,7 @@ fn a_friction_force_is_known_no_better_than_the_force_that_was_measured() {
             runs.push(Run::from_harmonics(format!("{omega} {force}"), None, true, fit, &[]));
         }
     }
-    let (stated, known) = (chain([1.0; 3]), [dashpot(2.3)]);
+    let (stated, known) = (three_masses([1.0; 3]), [dashpot(2.3)]);
     let problem = Problem { structure: &stated, sources: &known, runs: &runs };
     let diagnosis = diagnose(&problem, &Control::unattended()).unwrap();
     let first = &diagnosis.suggestions[0].added;

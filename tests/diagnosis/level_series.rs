@@ -2,6 +2,7 @@
 //! levels and settles within them, a model that is off by percents. Truth: harmonic balance, each run with its own stiffness.
 
 use super::random::Random;
+use crate::common::models::oscillator;
 use dashpot::control::Control;
 use dashpot::diagnosis::diagnose::diagnose;
 use dashpot::diagnosis::result::Verdict;
@@ -9,8 +10,6 @@ use dashpot::diagnosis::{Diagnosis, Problem};
 use dashpot::effects::{Effect, Place, Source};
 use dashpot::measurement::{Channel, ChannelFit, HarmonicFit, Quantity, Run};
 use dashpot::response::harmonic_balance::{Excitation, ForwardModel, Settings};
-use dashpot::structure::Structure;
-use dashpot::structure::chain::ChainParameters;
 use faer::{Mat, c64};
 
 /// Force of each level, N, and lines of each.
@@ -23,12 +22,6 @@ const FREQUENCY: f64 = 80.0;
 const RESEATED: f64 = 4e-3;
 const SETTLES: f64 = 1e-3;
 const NOISE: f64 = 5e-3;
-
-fn oscillator(stiffness: f64) -> Structure {
-    ChainParameters { masses: vec![MASS], ground_stiffness: vec![stiffness], coupling_stiffness: vec![] }
-        .build(&[])
-        .unwrap()
-}
 
 fn viscous(c: f64) -> Source {
     Source::known(Effect::Viscous, Place::Dofs(vec![0]), &[c])
@@ -57,7 +50,7 @@ fn diagnosed(hidden: &[Source], c: f64, random: &mut Random) -> Diagnosis {
         for line in 0..LINES {
             let omega = std::f64::consts::TAU * FREQUENCY * (0.985 + 0.03 * line as f64 / (LINES - 1) as f64);
             let own = k * (1.0 + seat + SETTLES * random.normal());
-            let model = ForwardModel::new(&oscillator(own), &sources).unwrap();
+            let model = ForwardModel::new(&oscillator(MASS, own), &sources).unwrap();
             let excitation = Excitation::sine(omega, 0, c64::new(force, 0.0));
             let response = model.respond(&excitation, &Settings::default(), None, &Control::unattended()).unwrap();
             let read = c64::new(1.0 + NOISE * random.normal(), NOISE * random.normal());
@@ -70,7 +63,7 @@ fn diagnosed(hidden: &[Source], c: f64, random: &mut Random) -> Diagnosis {
             runs.push(Run { level: Some(level as i64), ..run });
         }
     }
-    let (stated, known) = (oscillator(0.99 * k), [viscous(c / 1.2)]);
+    let (stated, known) = (oscillator(MASS, 0.99 * k), [viscous(c / 1.2)]);
     let problem = Problem { structure: &stated, sources: &known, runs: &runs };
     let diagnosis = diagnose(&problem, &Control::unattended()).unwrap();
     let searched = diagnosis.runs.len();

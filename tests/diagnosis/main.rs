@@ -1,6 +1,8 @@
 //! Projects with a hidden effect: the comparison sees it, the diagnosis names it.
 #![allow(clippy::unwrap_used, reason = "tests")]
 
+#[path = "../common/mod.rs"]
+mod common;
 mod comparison;
 mod energy_rows;
 mod force_gain;

@@ -1,5 +1,6 @@
 //! The missing force as it is drawn, and what is said of channels and runs, against what made the records.
 
+use crate::common::models;
 use dashpot::control::Control;
 use dashpot::diagnosis::Problem;
 use dashpot::diagnosis::candidates::restoring_force::{RestoringForce, at_best_place, restoring_force};
@@ -10,7 +11,6 @@ use dashpot::exchange::project::load;
 use dashpot::measurement::{Channel, ChannelFit, HarmonicFit, Quantity, Run};
 use dashpot::response::dynamic_stiffness::DynamicStiffness;
 use dashpot::structure::Structure;
-use dashpot::structure::chain::ChainParameters;
 use faer::{Mat, c64};
 use std::path::Path;
 
@@ -78,12 +78,7 @@ fn hidden_friction_is_seen_to_oppose_the_velocity() {
 }
 
 fn chain(factor: f64) -> Structure {
-    let parameters = ChainParameters {
-        masses: vec![1.0, 2.0, 1.5],
-        ground_stiffness: vec![4000.0 * factor, 0.0, 2000.0 * factor],
-        coupling_stiffness: vec![3000.0 * factor, 5000.0 * factor],
-    };
-    parameters.build(&[]).unwrap()
+    models::chain(&[1.0, 2.0, 1.5], &[4000.0, 0.0, 2000.0].map(|k| k * factor), &[3000.0, 5000.0].map(|k| k * factor))
 }
 
 /// Steady runs about the resonances of a chain, noise of 1e-4, whose second sensor reads 2 % too large and 40 us late, and

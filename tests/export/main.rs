@@ -1,13 +1,15 @@
 //! Every export is read back by an independent reader and compared at full precision.
 #![allow(clippy::disallowed_methods, clippy::unwrap_used, missing_docs, reason = "tests")]
 
+#[path = "../common/mod.rs"]
+mod common;
 mod formats;
 mod mat5;
 
+use common::models::cantilever;
 use dashpot::effects::{Effect, Place, Source};
 use dashpot::exchange::export::{Identified, IdentifiedMode, IdentifiedSource};
 use dashpot::structure::Structure;
-use dashpot::structure::beam::{BeamParameters, Supports};
 use faer::Mat;
 
 /// A result with sources to the ground, between DOFs, over a chain, and of laws that are not viscous.
@@ -22,17 +24,7 @@ pub struct Sample {
 
 impl Sample {
     pub fn beam() -> Self {
-        let structure = BeamParameters {
-            length: 0.56,
-            breadth: 0.04,
-            depth: 0.004,
-            youngs_modulus: 69e9,
-            density: 2700.0,
-            elements: 3,
-            supports: Supports::ClampedFree,
-        }
-        .build(&[])
-        .unwrap();
+        let structure = cantilever(3);
         let found = [
             (Effect::Viscous, vec![0], 1.0 / 3.0),
             (Effect::Viscous, vec![2, 4], 12_345.678_901_234_567),

@@ -1,29 +1,19 @@
 //! Time records and harmonics in CSV: what is understood, and what each fault is called.
 
+use crate::common::models::cantilever;
 use dashpot::control::Control;
 use dashpot::exchange::records::{
     parse_harmonics, parse_record, read_harmonics, read_record, read_record_with, write_harmonics, write_record,
 };
 use dashpot::measurement::{Quantity, Record, fit};
 use dashpot::structure::Structure;
-use dashpot::structure::beam::{BeamParameters, Supports};
 use dashpot::structure::points::PointParameters;
 use proptest::prelude::*;
 use std::f64::consts::TAU;
 
 /// Translations `1` and `3`, rotations `2` and `4`.
 fn beam() -> Structure {
-    BeamParameters {
-        length: 0.56,
-        breadth: 0.04,
-        depth: 0.004,
-        youngs_modulus: 69e9,
-        density: 2700.0,
-        elements: 2,
-        supports: Supports::ClampedFree,
-    }
-    .build(&[])
-    .unwrap()
+    cantilever(2)
 }
 
 fn points() -> Structure {

@@ -1,18 +1,11 @@
 //! Harmonic balance against solutions known in closed form.
 
 use super::support::{balanced, five_masses, source, whole};
+use crate::common::models::{chain, oscillator};
 use dashpot::effects::{Effect, Source};
 use dashpot::response::harmonic_balance::{Excitation, Response, Settings};
-use dashpot::structure::Structure;
-use dashpot::structure::chain::ChainParameters;
 use faer::c64;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
-
-fn oscillator(mass: f64, stiffness: f64) -> Structure {
-    ChainParameters { masses: vec![mass], ground_stiffness: vec![stiffness], coupling_stiffness: vec![] }
-        .build(&[])
-        .unwrap()
-}
 
 fn driven(sources: &[Source], omega: f64, force: f64, settings: &Settings) -> Response {
     balanced(&oscillator(2.0, 800.0), sources, &Excitation::sine(omega, 0, c64::new(force, 0.0)), settings)
@@ -139,8 +132,7 @@ fn a_linear_oscillator_at_resonance() {
 fn modes_satisfy_the_equations_of_motion() {
     let mut masses = vec![1.0; 70];
     masses[0] = 2.0;
-    let chain = ChainParameters { masses, ground_stiffness: vec![0.0; 70], coupling_stiffness: vec![1e6; 69] };
-    let structure = chain.build(&[]).unwrap();
+    let structure = chain(&masses, &[0.0; 70], &[1e6; 69]);
     let sources = [
         whole(Effect::LossFactor, 0.02),
         source(Effect::Viscous, &[30, 31], &[40.0]),

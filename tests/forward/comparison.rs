@@ -2,6 +2,7 @@
 #![allow(clippy::disallowed_methods, reason = "tests")]
 
 use super::support::{cantilever, source, whole};
+use crate::common::models::oscillator;
 use dashpot::control::Control;
 use dashpot::diagnosis::residual::whiteness::Dependence;
 use dashpot::diagnosis::{Comparison, Problem, compare};
@@ -13,7 +14,6 @@ use dashpot::response::harmonic_balance::{Excitation, ForwardModel, Settings};
 use dashpot::response::simulation::{SteadyState, recorded, usual_channels};
 use dashpot::response::synthesis::{Noise, sampling_times, synthesise};
 use dashpot::structure::Structure;
-use dashpot::structure::chain::ChainParameters;
 use faer::c64;
 use std::f64::consts::TAU;
 use std::path::Path;
@@ -53,9 +53,7 @@ fn samples_at_exact_natural_frequencies_agree_with_the_truth() {
 /// Duffing's oscillator, measured on both of its stable motions at one frequency and one force.
 #[test]
 fn the_branch_that_was_measured_is_named() {
-    let structure = ChainParameters { masses: vec![1.0], ground_stiffness: vec![1.0], coupling_stiffness: vec![] }
-        .build(&[])
-        .unwrap();
+    let structure = oscillator(1.0, 1.0);
     let sources = [source(Effect::Viscous, &[0], &[0.1]), source(Effect::CubicStiffness, &[0], &[0.5])];
     let excitation = Excitation::sine(1.5, 0, c64::new(0.4, 0.0));
     let run = ForwardModel::new(&structure, &sources).unwrap().at(1.5);

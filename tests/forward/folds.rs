@@ -1,6 +1,7 @@
 //! Turning points: Duffing's oscillator against its backbone and fold, all branches, stability against time stepping.
 
 use super::support::{cantilever, elastic, five_masses, source, whole};
+use crate::common::models::oscillator;
 use dashpot::control::Control;
 use dashpot::effects::{Effect, Source};
 use dashpot::response::harmonic_balance::{
@@ -8,7 +9,6 @@ use dashpot::response::harmonic_balance::{
 };
 use dashpot::response::time_integration::{Settling, TimeModel};
 use dashpot::structure::Structure;
-use dashpot::structure::chain::ChainParameters;
 use faer::c64;
 use std::f64::consts::TAU;
 
@@ -16,10 +16,6 @@ const M: f64 = 1.0;
 const C: f64 = 0.1;
 const K: f64 = 1.0;
 const K3: f64 = 0.5;
-
-fn oscillator() -> Structure {
-    ChainParameters { masses: vec![M], ground_stiffness: vec![K], coupling_stiffness: vec![] }.build(&[]).unwrap()
-}
 
 fn duffing() -> Vec<Source> {
     vec![source(Effect::Viscous, &[0], &[C]), source(Effect::CubicStiffness, &[0], &[K3])]
@@ -45,7 +41,7 @@ fn amplitudes(force: f64, w: f64) -> Vec<f64> {
 #[test]
 fn one_harmonic_of_duffing_has_the_textbook_branches() {
     let (force, omega) = (0.4, 1.5);
-    let model = ForwardModel::new(&oscillator(), &duffing()).unwrap();
+    let model = ForwardModel::new(&oscillator(M, K), &duffing()).unwrap();
     let excitation = Excitation::sine(omega, 0, c64::new(force, 0.0));
     let settings = SweepSettings { harmonics: 1, ..SweepSettings::default() };
     let found = branches(&model, &excitation, [0.3, 3.0], &settings, &Control::unattended()).unwrap();
@@ -68,7 +64,7 @@ fn one_harmonic_of_duffing_has_the_textbook_branches() {
 
 #[test]
 fn the_peak_of_duffing_lies_on_its_backbone() {
-    let model = ForwardModel::new(&oscillator(), &duffing()).unwrap();
+    let model = ForwardModel::new(&oscillator(M, K), &duffing()).unwrap();
     let excitation = Excitation::sine(1.0, 0, c64::new(0.2, 0.0));
     let settings = SweepSettings { largest_step: 0.003, ..SweepSettings::default() };
     let curve = sweep(&model, &excitation, [0.5, 2.5], &settings, &Control::unattended()).unwrap();
@@ -93,7 +89,7 @@ fn the_peak_of_duffing_lies_on_its_backbone() {
 #[test]
 fn the_folds_of_duffing_are_where_its_closed_form_folds() {
     let force = 0.4;
-    let model = ForwardModel::new(&oscillator(), &duffing()).unwrap();
+    let model = ForwardModel::new(&oscillator(M, K), &duffing()).unwrap();
     let excitation = Excitation::sine(1.0, 0, c64::new(force, 0.0));
     let settings = SweepSettings { harmonics: 1, largest_step: 2e-3, ..SweepSettings::default() };
     let curve = sweep(&model, &excitation, [0.5, 3.0], &settings, &Control::unattended()).unwrap();
@@ -110,13 +106,13 @@ fn the_folds_of_duffing_are_where_its_closed_form_folds() {
 
 #[test]
 fn both_stable_branches_hold_in_time_and_the_unstable_one_does_not() {
-    let model = ForwardModel::new(&oscillator(), &duffing()).unwrap();
+    let model = ForwardModel::new(&oscillator(M, K), &duffing()).unwrap();
     let excitation = Excitation::sine(1.5, 0, c64::new(0.4, 0.0));
     let settings = SweepSettings { harmonics: 9, ..SweepSettings::default() };
     let found = branches(&model, &excitation, [0.3, 3.0], &settings, &Control::unattended()).unwrap();
     assert_eq!(found.iter().filter(|p| p.stable).count(), 2);
     for point in &found {
-        let mut time = TimeModel::new(&oscillator(), &duffing(), &excitation, 2000).unwrap();
+        let mut time = TimeModel::new(&oscillator(M, K), &duffing(), &excitation, 2000).unwrap();
         time.start_from(&point.response);
         let waiting = Settling { accelerate: false, tolerance: 1e-7, most_periods: 400 };
         time.settle(&waiting, &Control::unattended()).unwrap();

@@ -4,13 +4,14 @@
 mod against_time;
 mod case_three;
 mod closed_forms;
+#[path = "../common/mod.rs"]
+mod common;
 mod comparison;
 mod derivatives;
 mod folds;
 mod harmonic_laws;
 mod hysteresis;
 mod portrait;
-mod predictions;
 mod recorded;
 mod resonance;
 mod robustness;

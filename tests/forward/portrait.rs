@@ -1,9 +1,9 @@
 //! What a law does to one mass, against closed forms.
 
+use crate::common::models::oscillator;
 use dashpot::control::Control;
 use dashpot::effects::{Effect, Place, Source};
 use dashpot::response::portrait::{LEVELS, Portrait, Setup, portrait};
-use dashpot::structure::chain::ChainParameters;
 use std::f64::consts::{PI, TAU};
 
 const MASS: f64 = 2.0;
@@ -11,10 +11,8 @@ const STIFFNESS: f64 = 1000.0;
 
 /// One mass on a spring as in figures 2.3 to 2.9.
 fn setup(effect: Effect, parameters: &[f64], background: f64) -> Setup {
-    let chain =
-        ChainParameters { masses: vec![MASS], ground_stiffness: vec![STIFFNESS], coupling_stiffness: Vec::new() };
     Setup {
-        structure: chain.build(&[]).unwrap(),
+        structure: oscillator(MASS, STIFFNESS),
         source: Source::known(effect, Place::Dofs(vec![0]), parameters),
         background,
         drive: 0,

@@ -1,6 +1,7 @@
 //! Records made by time integration against those of harmonic balance and against closed forms.
 
 use super::support::{balanced, five_masses, source, whole};
+use crate::common::models::oscillator;
 use dashpot::control::Control;
 use dashpot::effects::{Effect, Place, Source};
 use dashpot::measurement::{Channel, Quantity};
@@ -9,7 +10,6 @@ use dashpot::response::simulation::{SimulationError, SteadyState, recorded};
 use dashpot::response::simulation_in_time::{InTime, Recorder, record_in_time};
 use dashpot::response::synthesis::{sampling_times, synthesise};
 use dashpot::structure::Structure;
-use dashpot::structure::chain::ChainParameters;
 use faer::c64;
 use std::f64::consts::TAU;
 
@@ -77,9 +77,7 @@ fn both_ways_record_the_same() {
 /// From rest under `f cos(w t)`: `x = X cos(w t - p) + exp(-z t) (A cos(wd t) + B sin(wd t))`.
 #[test]
 fn a_transient_from_rest_is_that_of_the_oscillator() {
-    let chain =
-        ChainParameters { masses: vec![2.0], ground_stiffness: vec![800.0], coupling_stiffness: vec![] }.build(&[]);
-    let structure = chain.unwrap();
+    let structure = oscillator(2.0, 800.0);
     let (c, force, omega) = (2.0, 10.0, 17.0);
     let sources = [source(Effect::Viscous, &[0], &[c])];
     let excitation = Excitation::sine(omega, 0, c64::new(force, 0.0));

@@ -2,12 +2,12 @@
 //! against a direct solve of the whole dynamic stiffness, nonlinear ones by their energy and by closed forms.
 
 use super::support::{balanced, cantilever, five_masses, source};
+use crate::common::models::{oscillator, uniform_chain};
 use dashpot::effects::{Effect, Source};
 use dashpot::response::dynamic_stiffness::DynamicStiffness;
 use dashpot::response::harmonic_balance::{Excitation, ForwardModel, Response, Settings};
 use dashpot::response::sensitivity::{Unknown, sensitivities};
 use dashpot::structure::Structure;
-use dashpot::structure::chain::ChainParameters;
 use faer::c64;
 use std::f64::consts::PI;
 
@@ -28,12 +28,7 @@ fn linear_sources_at_every_natural_frequency() {
     let mass_sources = [source(Effect::Viscous, &[1, 2], &[0.8]), source(Effect::Hysteretic, &[4], &[50.0])];
     let (beam, masses) = (cantilever(10), five_masses());
     // Beyond the size up to which the inverse is formed.
-    let many = ChainParameters {
-        masses: vec![1.0; 70],
-        ground_stiffness: [vec![1e5], vec![0.0; 69]].concat(),
-        coupling_stiffness: vec![1e5; 69],
-    };
-    let many = many.build(&[]).unwrap();
+    let many = uniform_chain(70, 1.0, 1e5);
     for (name, structure, sources, dof) in [
         ("beam", &beam, &beam_sources[..], 18),
         ("one source on the beam", &beam, &beam_sources[..1], 18),
@@ -110,11 +105,10 @@ fn friction_at_natural_frequencies() {
 #[test]
 fn a_quadratic_damper_alone_holds_an_oscillator_at_resonance() {
     let (c, force) = (3.0, 10.0);
-    let chain = ChainParameters { masses: vec![2.0], ground_stiffness: vec![800.0], coupling_stiffness: vec![] };
     let settings = Settings { estimate: false, ..Settings::fixed(1) };
     let excitation = Excitation::sine(20.0, 0, c64::new(force, 0.0));
     let sources = [source(Effect::Quadratic, &[0], &[c])];
-    let response = balanced(&chain.build(&[]).unwrap(), &sources, &excitation, &settings);
+    let response = balanced(&oscillator(2.0, 800.0), &sources, &excitation, &settings);
     let expected = c64::new(0.0, -(force * 3.0 * PI / (8.0 * c * 400.0)).sqrt());
     assert!((response.amplitude(0, 1) - expected).norm() < 1e-4 * expected.norm());
 }
@@ -163,12 +157,7 @@ fn derivatives_at_a_natural_frequency() {
 fn nonlinear_sources_alone_at_shifted_natural_frequencies() {
     let settings = Settings { estimate: false, tolerance: 1e-12, ..Settings::fixed(1) };
     let (beam, masses) = (cantilever(10), five_masses());
-    let many = ChainParameters {
-        masses: vec![1.0; 70],
-        ground_stiffness: [vec![1e5], vec![0.0; 69]].concat(),
-        coupling_stiffness: vec![1e5; 69],
-    };
-    let many = many.build(&[]).unwrap();
+    let many = uniform_chain(70, 1.0, 1e5);
     let spring = |dofs: &[usize], k: f64| source(Effect::Stiffness, dofs, &[k]);
     let mass = |dof: usize, m: f64| source(Effect::Mass, &[dof], &[m]);
     for (name, structure, linear, damper, dof, force) in [

@@ -2,11 +2,11 @@
 //! response that balances all its forces, or say why not.
 
 use super::support::{cantilever, five_masses, source, whole};
+use crate::common::models::chain;
 use dashpot::control::Control;
 use dashpot::effects::{Effect, Place, Source};
 use dashpot::response::harmonic_balance::{Attempt, Excitation, ForwardModel, ResponseError, Settings};
 use dashpot::structure::Structure;
-use dashpot::structure::chain::ChainParameters;
 use faer::c64;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -126,16 +126,9 @@ fn any_source(rng: &mut ChaCha8Rng, size: usize, [force, d, omega]: [f64; 3]) ->
 
 /// Answers and one-line refusals of `count` random models, some of them with nothing that damps.
 fn wild_models(seed: u64, count: usize) -> [usize; 2] {
-    let floating = ChainParameters {
-        masses: vec![1.0, 2.0, 3.0],
-        ground_stiffness: vec![0.0; 3],
-        coupling_stiffness: vec![1e5; 2],
-    };
-    let structures: [(Structure, [f64; 3]); 3] = [
-        (five_masses(), [20.0, 5e-4, 130.0]),
-        (cantilever(4), [1.0, 1e-2, 65.0]),
-        (floating.build(&[]).unwrap(), [10.0, 1e-3, 200.0]),
-    ];
+    let floating = chain(&[1.0, 2.0, 3.0], &[0.0; 3], &[1e5; 2]);
+    let structures: [(Structure, [f64; 3]); 3] =
+        [(five_masses(), [20.0, 5e-4, 130.0]), (cantilever(4), [1.0, 1e-2, 65.0]), (floating, [10.0, 1e-3, 200.0])];
     let mut rng = ChaCha8Rng::seed_from_u64(seed);
     let settings = Settings { harmonics: 5, most_harmonics: 11, ..Settings::default() };
     let mut ends = [0, 0];

@@ -1,41 +1,17 @@
 //! Structures and comparisons that the tests share.
 
+use crate::common::models::five_masses_on;
+pub(crate) use crate::common::models::{cantilever, source, whole};
 use dashpot::control::Control;
-use dashpot::effects::{Effect, Place, Source};
+use dashpot::effects::Source;
 use dashpot::response::harmonic_balance::{Excitation, ForwardModel, Response, Settings};
 use dashpot::response::time_integration::{Settling, TimeModel};
 use dashpot::structure::Structure;
-use dashpot::structure::beam::{BeamParameters, Supports};
-use dashpot::structure::chain::ChainParameters;
 use faer::{Mat, c64};
 
-/// The five masses of the thesis' experiment (6.2).
+/// The five masses of the thesis' experiment (6.2), the first on a spring to the ground.
 pub(crate) fn five_masses() -> Structure {
-    let chain = ChainParameters {
-        masses: vec![1.727, 5.122, 8.213, 2.609, 1.339],
-        ground_stiffness: vec![94263.0, 0.0, 0.0, 0.0, 0.0],
-        coupling_stiffness: vec![75136.0, 67744.0, 75466.0, 83396.0],
-    };
-    chain.build(&[]).unwrap()
-}
-
-/// The cantilever of the thesis (3.3.6).
-pub(crate) fn cantilever(elements: usize) -> Structure {
-    let supports = Supports::ClampedFree;
-    let (youngs_modulus, density) = (69e9, 2700.0);
-    BeamParameters { length: 0.56, breadth: 0.04, depth: 0.004, youngs_modulus, density, elements, supports }
-        .build(&[])
-        .unwrap()
-}
-
-/// A source between DOFs that acts.
-pub(crate) fn source(effect: Effect, dofs: &[usize], parameters: &[f64]) -> Source {
-    Source::known(effect, Place::Dofs(dofs.to_vec()), parameters)
-}
-
-/// A source of the whole structure.
-pub(crate) fn whole(effect: Effect, value: f64) -> Source {
-    Source::known(effect, Place::Whole(None), &[value])
+    five_masses_on([94263.0, 0.0, 0.0, 0.0, 0.0])
 }
 
 /// Steady state by harmonic balance.

@@ -1,10 +1,10 @@
 //! Time stepping by itself: transients against closed forms, records, and what it refuses.
 
 use super::support::{five_masses, source, stepped, whole};
+use crate::common::models::oscillator;
 use dashpot::effects::Effect;
 use dashpot::response::harmonic_balance::Excitation;
 use dashpot::response::time_integration::{TimeError, TimeModel};
-use dashpot::structure::chain::ChainParameters;
 use faer::c64;
 use std::f64::consts::TAU;
 
@@ -12,9 +12,8 @@ use std::f64::consts::TAU;
 #[test]
 fn the_transient_of_an_oscillator_from_rest() {
     let (m, k, force, omega) = (2.0, 800.0, 3.0, 13.0_f64);
-    let chain = ChainParameters { masses: vec![m], ground_stiffness: vec![k], coupling_stiffness: vec![] };
     let excitation = Excitation::sine(omega, 0, c64::new(0.0, -force));
-    let mut model = TimeModel::new(&chain.build(&[]).unwrap(), &[], &excitation, 400).unwrap();
+    let mut model = TimeModel::new(&oscillator(m, k), &[], &excitation, 400).unwrap();
     let samples = model.record(2000).unwrap();
     let (wn, scale) = (20.0_f64, force / (k - m * omega * omega));
     for (row, &t) in samples.time.iter().enumerate() {
@@ -29,11 +28,10 @@ fn the_transient_of_an_oscillator_from_rest() {
 #[test]
 fn free_sliding_falls_in_a_straight_line() {
     let (k, friction) = (800.0, 4.0);
-    let chain = ChainParameters { masses: vec![2.0], ground_stiffness: vec![k], coupling_stiffness: vec![] };
     let sources = [source(Effect::Coulomb, &[0], &[friction])];
     // Frequency and steps of a period that is the natural one; no force.
     let excitation = Excitation::sine(20.0, 0, c64::new(0.0, 0.0));
-    let mut model = TimeModel::new(&chain.build(&[]).unwrap(), &sources, &excitation, 4000).unwrap();
+    let mut model = TimeModel::new(&oscillator(2.0, k), &sources, &excitation, 4000).unwrap();
     model.start(&[0.1], &[0.0]);
     for cycle in 1..=4 {
         model.run(4000).unwrap();

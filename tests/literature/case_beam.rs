@@ -14,14 +14,14 @@ const CASE_1: [Dashpot; 4] = [(3, 0.1), (5, 0.1), (13, 0.1), (17, 0.1)];
 const CASE_2: [(usize, f64); 4] = [(3, 0.01), (5, 0.5), (13, 0.1), (17, 1.0)];
 
 fn solve(dashpots: &[(usize, f64)], sources: &[Source]) -> Outcome {
-    let structure = cantilever();
+    let structure = cantilever(10);
     let runs = resonant_runs(&structure, dashpots);
     identify(&structure, sources, &runs, &thesis_settings(), &Control::unattended()).unwrap()
 }
 
 #[test]
 fn table_5_2_single_angles() {
-    let sources = each_dof(&cantilever(), Effect::Viscous);
+    let sources = each_dof(&cantilever(10), Effect::Viscous);
     let outcome = solve(&CASE_1, &sources);
     let step = &outcome.steps[0];
     let mut angles = vec![(told(step, &sources).0[0], step.angle_deg)];
@@ -38,7 +38,7 @@ fn table_5_2_single_angles() {
 
 #[test]
 fn table_5_3_case_1() {
-    let sources = each_dof(&cantilever(), Effect::Viscous);
+    let sources = each_dof(&cantilever(10), Effect::Viscous);
     let outcome = solve(&CASE_1, &sources);
     assert_step(&outcome, &sources, &[19], &[0.1071], 6.498, 6e-5);
     assert_step(&outcome, &sources, &[13, 19], &[0.1506, 0.0590], 0.405, 6e-5);
@@ -50,7 +50,7 @@ fn table_5_3_case_1() {
 
 #[test]
 fn table_5_4_damping_ratios() {
-    let structure = cantilever();
+    let structure = cantilever(10);
     let matrices = structure.matrices().unwrap();
     let ratios = |dashpots: &[(usize, f64)]| -> Vec<f64> {
         let mut c = Mat::<f64>::zeros(20, 20);
@@ -79,7 +79,7 @@ fn table_5_4_damping_ratios() {
 
 #[test]
 fn table_5_5_case_1a() {
-    let mut sources = each_dof(&cantilever(), Effect::Viscous);
+    let mut sources = each_dof(&cantilever(10), Effect::Viscous);
     force_candidate(&mut sources, 3);
     let outcome = solve(&CASE_1, &sources);
     assert_eq!(told(&outcome.steps[0], &sources).0, [3]);
@@ -90,7 +90,7 @@ fn table_5_5_case_1a() {
 
 #[test]
 fn table_5_7_case_2() {
-    let sources = each_dof(&cantilever(), Effect::Viscous);
+    let sources = each_dof(&cantilever(10), Effect::Viscous);
     let outcome = solve(&CASE_2, &sources);
     assert_step(&outcome, &sources, &[17], &[1.0837], 12.558, 6e-5);
     assert_step(&outcome, &sources, &[5, 17], &[0.5812, 1.0417], 1.029, 6e-5);

@@ -23,9 +23,9 @@ fn runs(structure: &Structure) -> Vec<Run> {
             let friction: f64 = [(7, 3.2), (15, 5.1), (19, 1.0)].iter().map(|&(l, f)| 4.0 * f * x(l - 1).abs()).sum();
             // Input energy pi Im(conj(X) F) of a force in quadrature with the tip.
             let force = c64::new(0.0, (viscous + friction) / (PI * x(18)));
-            let mut channels = vec![channel(Quantity::Force, structure, 18, force)];
+            let mut channels = vec![channel(Quantity::Force, 18, vec![force], 0.0)];
             for dof in [6, 10, 18] {
-                channels.push(channel(Quantity::Acceleration, structure, dof, c64::new(-x(dof) * omega * omega, 0.0)));
+                channels.push(channel(Quantity::Acceleration, dof, vec![c64::new(-x(dof) * omega * omega, 0.0)], 0.0));
             }
             run(format!("mode {}", r + 1), omega, channels)
         })
@@ -64,7 +64,7 @@ fn assert_named(outcome: &Outcome, sources: &[Source], expected: &[(&str, f64)],
 
 #[test]
 fn table_5_9_case_3() {
-    let structure = cantilever();
+    let structure = cantilever(10);
     let sources = candidates(&structure);
     let settings = Settings { max_sources: 6, stop_angle_deg: 1e-4, ..thesis_settings() };
     let outcome = identify(&structure, &sources, &runs(&structure), &settings, &Control::unattended()).unwrap();

@@ -69,7 +69,7 @@ struct Beam {
 
 impl Beam {
     fn new() -> Self {
-        let structure = cantilever();
+        let structure = cantilever(10);
         let mut truth = Mat::zeros(20, 20);
         for (label, c) in [(3, 0.2), (13, 0.5), (17, 0.15)] {
             truth[(label - 1, label - 1)] = c;

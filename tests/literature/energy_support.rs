@@ -1,26 +1,14 @@
 //! The cantilever of section 5.2 and its runs, computed directly from the linear model.
 
+pub(crate) use crate::common::models::cantilever;
+pub(crate) use crate::common::runs::{channel, run};
 use dashpot::balance::{Expansion, Weights};
 use dashpot::effects::{Effect, Place, Source, State};
-use dashpot::identify::{Outcome, Settings, Step};
-use dashpot::measurement::{Channel, ChannelFit, HarmonicFit, Quantity, Run};
+use dashpot::identify::{Outcome, SelectionStep, Settings};
+use dashpot::measurement::{Quantity, Run};
 use dashpot::structure::Structure;
-use dashpot::structure::beam::{BeamParameters, Supports};
 use faer::linalg::solvers::Solve;
 use faer::{Mat, c64};
-
-pub(crate) fn cantilever() -> Structure {
-    let beam = BeamParameters {
-        length: 0.56,
-        breadth: 0.04,
-        depth: 0.004,
-        youngs_modulus: 69e9,
-        density: 2700.0,
-        elements: 10,
-        supports: Supports::ClampedFree,
-    };
-    beam.build(&[]).unwrap()
-}
 
 /// The thesis' settings: single-mode expansion, rows as they are, five best single columns.
 pub(crate) fn thesis_settings() -> Settings {
@@ -44,33 +32,6 @@ pub(crate) fn force_candidate(sources: &mut [Source], label: usize) {
     sources.iter_mut().filter(|s| s.place == Place::Dofs(vec![label - 1])).for_each(|s| s.state = State::Forced);
 }
 
-/// One noise-free channel with one harmonic.
-pub(crate) fn channel(quantity: Quantity, structure: &Structure, dof: usize, amplitude: c64) -> ChannelFit {
-    ChannelFit {
-        channel: Channel { quantity, dof, label: structure.label(dof).to_string() },
-        offset: 0.0,
-        slope: 0.0,
-        amplitudes: vec![amplitude],
-        covariance: Mat::zeros(2, 2),
-        noise: 0.0,
-    }
-}
-
-pub(crate) fn run(name: String, omega: f64, channels: Vec<ChannelFit>) -> Run {
-    Run {
-        file: name,
-        level: None,
-        session: None,
-        enabled: true,
-        insisted: false,
-        record: None,
-        fit: HarmonicFit { omega, omega_deviation: 0.0, channels },
-        noise_ratio: 0.0,
-        findings: Vec::new(),
-        per_unit_force: false,
-    }
-}
-
 /// Displacement under a unit force at DOF 19 with dashpots (label, N s/m) to the ground: an LU of its own, not the engine's.
 pub(crate) fn displacement(structure: &Structure, dashpots: &[(usize, f64)], omega: f64) -> Vec<c64> {
     let matrices = structure.matrices().unwrap();
@@ -91,9 +52,9 @@ pub(crate) fn resonant_runs(structure: &Structure, dashpots: &[(usize, f64)]) ->
         .map(|r| {
             let omega = modes.omega[r];
             let x = displacement(structure, dashpots, omega);
-            let mut channels = vec![channel(Quantity::Force, structure, 18, c64::new(1.0, 0.0))];
+            let mut channels = vec![channel(Quantity::Force, 18, vec![c64::new(1.0, 0.0)], 0.0)];
             for dof in [6, 10, 18] {
-                channels.push(channel(Quantity::Acceleration, structure, dof, -x[dof] * omega * omega));
+                channels.push(channel(Quantity::Acceleration, dof, vec![-x[dof] * omega * omega], 0.0));
             }
             run(format!("mode {}", r + 1), omega, channels)
         })
@@ -101,7 +62,7 @@ pub(crate) fn resonant_runs(structure: &Structure, dashpots: &[(usize, f64)]) ->
 }
 
 /// Labels of a step's sources (1-based) and their coefficients.
-pub(crate) fn told(step: &Step, sources: &[Source]) -> (Vec<usize>, Vec<f64>) {
+pub(crate) fn told(step: &SelectionStep, sources: &[Source]) -> (Vec<usize>, Vec<f64>) {
     let label = |s: usize| if let Place::Dofs(dofs) = &sources[s].place { dofs[0] + 1 } else { 0 };
     (step.sources.iter().map(|e| label(e.source)).collect(), step.sources.iter().map(|e| e.coefficient).collect())
 }

@@ -27,7 +27,7 @@ fn study(structure: &Structure, sensors: &[usize], modes: &[usize]) -> Incomplet
 
 #[test]
 fn figures_3_12_and_3_13_from_one_call() {
-    let structure = cantilever();
+    let structure = cantilever(10);
     let modes = [1, 5, 10, 15, 19, 20];
     let found = study(&structure, &[20], &modes);
     let printed = [
@@ -53,7 +53,7 @@ fn figures_3_12_and_3_13_from_one_call() {
 /// What the table of docs/literature.md says of fewer sensors: completing the receptance loses its lead.
 #[test]
 fn fewer_sensors_cost_the_inverse_most() {
-    let structure = cantilever();
+    let structure = cantilever(10);
     let found = study(&structure, &[20, 10, 5], &[1, 3, 5, 10, 20]);
     let at = |s: usize, method, m: f64| found.eps_c(s, method).into_iter().find(|p| p[0] == m).unwrap()[1];
     for (s, inverse, lancaster) in [(0, 2.90, 29.8), (1, 21.3, 32.8)] {
@@ -67,7 +67,7 @@ fn fewer_sensors_cost_the_inverse_most() {
 
 #[test]
 fn a_grid_is_made_for_any_structure_and_shared_among_workers() {
-    let structure = cantilever();
+    let structure = cantilever(10);
     let grid = Grid::new(&structure, &[18, 6, 10]);
     assert_eq!(grid.sensors.iter().map(Vec::len).collect::<Vec<_>>(), [20, 10, 5, 3, 3]);
     assert_eq!(grid.sensors[4], [6, 10, 18]);
@@ -81,7 +81,7 @@ fn a_grid_is_made_for_any_structure_and_shared_among_workers() {
 
 #[test]
 fn what_cannot_be_studied_is_said() {
-    let structure = cantilever();
+    let structure = cantilever(10);
     let grid = Grid::new(&structure, &[]);
     let nothing = incompleteness(&structure, Mat::zeros(20, 20).as_ref(), &grid, &Control::unattended());
     assert!(matches!(nothing, Err(ClassicalError::Missing { .. })));
@@ -95,7 +95,7 @@ fn what_cannot_be_studied_is_said() {
 
 #[test]
 fn the_damping_to_be_found_is_what_is_known_or_for_reference() {
-    let structure = cantilever();
+    let structure = cantilever(10);
     let mut source = Source::known(Effect::Viscous, Place::Dofs(vec![2]), &[0.2]);
     let known = known_damping(&structure, std::slice::from_ref(&source)).unwrap();
     assert_eq!((known[(2, 2)], known.norm_l2()), (0.2, 0.2));

@@ -3,6 +3,8 @@
 
 mod case_beam;
 mod case_friction;
+#[path = "../common/mod.rs"]
+mod common;
 mod comparison;
 mod energy_support;
 mod incompleteness;

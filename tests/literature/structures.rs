@@ -1,8 +1,7 @@
 //! Frequencies and damping ratios printed in M. Prandina, Spatial Damping Identification, Liverpool 2010.
 
+use crate::common::models::{cantilever, chain, five_masses};
 use dashpot::structure::Structure;
-use dashpot::structure::beam::{BeamParameters, Supports};
-use dashpot::structure::chain::ChainParameters;
 use dashpot::structure::damped_modes::{DampedMode, damped_modes};
 use faer::Mat;
 
@@ -10,9 +9,6 @@ fn with_damping(structure: &Structure, c: &Mat<f64>) -> Vec<DampedMode> {
     let matrices = structure.matrices().unwrap();
     damped_modes(matrices.mass.as_ref(), matrices.stiffness.as_ref(), c.as_ref()).unwrap()
 }
-
-/// Table 6.2, kg.
-const FIVE_MASSES: [f64; 5] = [1.727, 5.122, 8.213, 2.609, 1.339];
 
 /// Table 3.1, column "exact", rad/s.
 const FREQUENCIES: [f64; 20] = [
@@ -28,16 +24,7 @@ const RATIOS: [f64; 20] = [
 
 #[test]
 fn beam_with_three_dashpots_tables_3_1_and_3_2() {
-    let beam = BeamParameters {
-        length: 0.56,
-        breadth: 0.04,
-        depth: 0.004,
-        youngs_modulus: 69e9,
-        density: 2700.0,
-        elements: 10,
-        supports: Supports::ClampedFree,
-    };
-    let structure = beam.build(&[]).unwrap();
+    let structure = cantilever(10);
     let mut c = Mat::zeros(20, 20);
     for (label, value) in [("3", 0.2), ("13", 0.5), ("17", 0.15)] {
         let row = structure.dof(label).unwrap();
@@ -55,12 +42,7 @@ fn beam_with_three_dashpots_tables_3_1_and_3_2() {
 
 #[test]
 fn five_masses_tables_6_2_and_6_3_and_damping_of_6_13() {
-    let chain = ChainParameters {
-        masses: FIVE_MASSES.to_vec(),
-        ground_stiffness: vec![94263.0; 5],
-        coupling_stiffness: vec![75136.0, 67744.0, 75466.0, 83396.0],
-    };
-    let structure = chain.build(&[]).unwrap();
+    let structure = five_masses();
     let undamped = structure.modes().unwrap();
     for (r, hz) in [21.876, 32.130, 42.481, 52.443, 64.361].into_iter().enumerate() {
         assert!((undamped.frequency_hz(r) - hz).abs() < 6e-4, "{}", undamped.frequency_hz(r));
@@ -86,16 +68,12 @@ fn five_masses_tables_6_2_and_6_3_and_damping_of_6_13() {
 }
 
 fn three_masses(k: [f64; 3], c3: f64) -> Vec<f64> {
-    let chain = ChainParameters {
-        masses: vec![3.0, 5.0, 8.0],
-        ground_stiffness: vec![k[0], 0.0, 0.0],
-        coupling_stiffness: vec![k[1], k[2]],
-    };
+    let structure = chain(&[3.0, 5.0, 8.0], &[k[0], 0.0, 0.0], &[k[1], k[2]]);
     let mut c = Mat::zeros(3, 3);
     for (i, j, sign) in [(1, 1, 1.0), (2, 2, 1.0), (1, 2, -1.0), (2, 1, -1.0)] {
         c[(i, j)] = sign * c3;
     }
-    with_damping(&chain.build(&[]).unwrap(), &c).iter().map(|m| m.damping_ratio).collect()
+    with_damping(&structure, &c).iter().map(|m| m.damping_ratio).collect()
 }
 
 #[test]

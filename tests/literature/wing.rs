@@ -104,10 +104,10 @@ fn runs(wing: &Structure, modes: usize, drives: &[usize]) -> Vec<Run> {
         for &node in drives {
             let drive = vertical(wing, node);
             let x = factor.receptance_column(drive).unwrap();
-            let mut channels = vec![channel(Quantity::Force, wing, drive, c64::new(1.0, 0.0))];
+            let mut channels = vec![channel(Quantity::Force, drive, vec![c64::new(1.0, 0.0)], 0.0)];
             channels.extend((1..=60).map(|n| {
                 let dof = vertical(wing, n);
-                channel(Quantity::Displacement, wing, dof, x[dof])
+                channel(Quantity::Displacement, dof, vec![x[dof]], 0.0)
             }));
             runs.push(run(format!("mode {} at {node}", r + 1), omega, channels));
         }

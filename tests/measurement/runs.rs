@@ -1,7 +1,7 @@
 //! Runs: known errors taken out, motions integrated, channels at one DOF combined.
 
 use crate::signals::{Signal, even, record, z};
-use dashpot::measurement::{Channel, Correction, Quantity, Run};
+use dashpot::measurement::{Channel, ChannelCorrection, Quantity, Run};
 use faer::c64;
 use std::f64::consts::TAU;
 use std::sync::Arc;
@@ -27,7 +27,7 @@ fn displacement() -> Vec<c64> {
     vec![z(1e-3, -2e-4), z(1e-5, 3e-5)]
 }
 
-fn run(signals: &[Signal], corrections: &[Correction]) -> Run {
+fn run(signals: &[Signal], corrections: &[ChannelCorrection]) -> Run {
     let record = Arc::new(record(signals, FREQUENCY_HZ, even(2000, 1000.0), 2));
     Run::from_record("run.csv".to_owned(), None, true, record, Some(FREQUENCY_HZ), 2, corrections).unwrap()
 }
@@ -49,7 +49,7 @@ fn every_quantity_becomes_the_same_displacement() {
 fn known_errors_are_taken_out_with_their_effect_on_the_deviation() {
     let signals = [motion(Quantity::Acceleration, 3, 0.0, 1e-3, 1.1)];
     let channel = Channel { quantity: Quantity::Acceleration, dof: 3, label: "4".to_owned() };
-    let correction = Correction { channel, delay: 1e-3, gain: 1.1 };
+    let correction = ChannelCorrection { channel, delay: 1e-3, gain: 1.1 };
     let wrong = run(&signals, &[]);
     let right = run(&signals, std::slice::from_ref(&correction));
     assert!(!close(&wrong.displacement(3).unwrap().amplitudes, &displacement()));

@@ -3,6 +3,8 @@
 
 mod base;
 mod calculix;
+#[path = "../common/mod.rs"]
+mod common;
 mod formats;
 mod reduced;
 

@@ -1,23 +1,14 @@
 //! A beam of 400 degrees of freedom as files of CalculiX's form, reduced in the project: what is simulated on the whole is
 //! found on the reduced model, and the error is told.
 
+use crate::common::models::cantilever;
 use crate::{json, said};
-use dashpot::structure::beam::{BeamParameters, Supports};
 use faer::Mat;
 use std::fs;
 use std::path::Path;
 
 fn write_model(folder: &Path) {
-    let beam = BeamParameters {
-        length: 0.56,
-        breadth: 0.04,
-        depth: 0.004,
-        youngs_modulus: 69e9,
-        density: 2700.0,
-        elements: 200,
-        supports: Supports::ClampedFree,
-    };
-    let structure = beam.build(&[]).unwrap();
+    let structure = cantilever(200);
     let matrices = structure.matrices().unwrap();
     let text = |a: &Mat<f64>| -> String {
         let places = (0..400).flat_map(|j| (j..400).map(move |i| (i, j)));

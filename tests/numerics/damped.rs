@@ -1,10 +1,10 @@
 //! Damped modes against proportional damping in closed form, their own equation, and finite differences.
 
+use crate::common::models::cantilever;
 use crate::random::{generator, positive, vector};
 use dashpot::math::eigen::generalised_symmetric;
 use dashpot::structure::SystemMatrices;
-use dashpot::structure::beam::{BeamParameters, Supports};
-use dashpot::structure::damped_modes::{DampedMode, damped_modes, damped_modes_from, hysteretic_modes};
+use dashpot::structure::damped_modes::{DampedMode, damped_modes, damped_modes_from};
 use dashpot::structure::modes::modes;
 use faer::{Mat, c64};
 
@@ -89,31 +89,6 @@ fn sensitivities_agree_with_finite_differences() {
 }
 
 #[test]
-fn hysteretic_modes_solve_their_equation() {
-    let s = system(8, 7);
-    let h = positive(&mut generator(9), 7, 0.0) * faer::Scale(2e4);
-    let undamped = modes(&s).unwrap();
-    for mode in hysteretic_modes(&undamped, h.as_ref()).unwrap() {
-        let mut worst = 0.0_f64;
-        for i in 0..7 {
-            let sum: c64 = (0..7)
-                .map(|j| {
-                    mode.shape[j] * (c64::new(s.stiffness[(i, j)], h[(i, j)]) - mode.lambda_squared * s.mass[(i, j)])
-                })
-                .sum();
-            worst = worst.max(sum.norm());
-        }
-        assert!(worst < 1e-8 * s.stiffness.norm_max());
-        let m: c64 = (0..7)
-            .flat_map(|i| (0..7).map(move |j| (i, j)))
-            .map(|(i, j)| mode.shape[i] * mode.shape[j] * s.mass[(i, j)])
-            .sum();
-        assert!((m - c64::new(1.0, 0.0)).norm() < 1e-11);
-        assert!(mode.loss_factor > 0.0);
-    }
-}
-
-#[test]
 fn no_damping_gives_the_undamped_modes() {
     let s = system(11, 10);
     let values = generalised_symmetric(s.stiffness.as_ref(), s.mass.as_ref()).unwrap().values;
@@ -128,16 +103,7 @@ fn no_damping_gives_the_undamped_modes() {
 fn many_degrees_of_freedom_keep_their_precision() {
     // Beyond 128 rows the eigenvalue solver of the linear algebra crate changes its method.
     let n = 160;
-    let beam = BeamParameters {
-        length: 0.56,
-        breadth: 0.04,
-        depth: 0.004,
-        youngs_modulus: 69e9,
-        density: 2700.0,
-        elements: n / 2,
-        supports: Supports::ClampedFree,
-    };
-    let structure = beam.build(&[]).unwrap();
+    let structure = cantilever(n / 2);
     let s = structure.matrices().unwrap();
     let undamped = structure.modes().unwrap();
     for r in 0..n {

@@ -2,6 +2,8 @@
 #![allow(clippy::unwrap_used, reason = "tests")]
 
 mod beams;
+#[path = "../common/mod.rs"]
+mod common;
 mod damped;
 mod frequency_response;
 mod least_squares;

@@ -1,5 +1,6 @@
 //! Hidden effects in decays and hammers, their records made by the independent stepping of the whole structure.
 
+use crate::common::models::short_cantilever;
 use dashpot::control::Control;
 use dashpot::diagnosis::records::{Records, compare_records, diagnose_records, missing_force};
 use dashpot::diagnosis::result::{Added, Diagnosis, Step, Verdict};
@@ -9,7 +10,6 @@ use dashpot::measurement::transient_run::TransientLabel;
 use dashpot::measurement::{Channel, Kind, Quantity, Record, TransientRun};
 use dashpot::response::harmonic_balance::Excitation;
 use dashpot::response::time_integration::TimeModel;
-use dashpot::structure::beam::{BeamParameters, Supports};
 use dashpot::structure::{Part, Structure};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -18,13 +18,6 @@ use std::sync::Arc;
 const STEP: f64 = 1e-3;
 /// Steps of the truth a sample.
 const FINE: usize = 40;
-
-fn beam() -> Structure {
-    let (length, breadth, depth) = (0.5, 0.04, 0.004);
-    let (youngs_modulus, density, elements) = (7e10, 2700.0, 4);
-    let supports = Supports::ClampedFree;
-    BeamParameters { length, breadth, depth, youngs_modulus, density, elements, supports }.build(&[]).unwrap()
-}
 
 /// A release from the shape of mode 1, 3 mm at the tip, recorded at three places with 0.3 % noise.
 fn decay(structure: &Structure, truth: &[Source], samples: usize, seed: u64) -> TransientRun {
@@ -80,14 +73,14 @@ impl Project {
     fn new(model: Structure, hidden: &[Source]) -> Self {
         let known = vec![at(Effect::Viscous, 6, &[0.05])];
         let truth: Vec<Source> = known.iter().chain(hidden).cloned().collect();
-        Self { model, known, runs: [decay(&beam(), &truth, 1500, 7)] }
+        Self { model, known, runs: [decay(&short_cantilever(4), &truth, 1500, 7)] }
     }
 
     /// Of a record of `specimen` that shows three modes, beside a model of the beam.
     fn of_three_modes(specimen: &Structure) -> Self {
         let known = vec![at(Effect::Viscous, 6, &[0.05])];
         let runs = [decay_of(specimen, &known, &[3e-3, 1e-3, 3e-4], (1500, 7))];
-        Self { model: beam(), known, runs }
+        Self { model: short_cantilever(4), known, runs }
     }
 
     fn records(&self) -> Records<'_> {
@@ -115,7 +108,7 @@ impl Project {
 }
 
 fn diagnosed(hidden: &[Source]) -> Diagnosis {
-    Project::new(beam(), hidden).diagnosed(&Control::unattended())
+    Project::new(short_cantilever(4), hidden).diagnosed(&Control::unattended())
 }
 
 fn found(diagnosis: &Diagnosis, effect: Effect, dof: usize, value: f64) {
@@ -143,7 +136,8 @@ fn a_cubic_spring_in_a_decay_is_found() {
 /// in the project, the error is the one that was promised.
 #[test]
 fn the_error_after_adding_is_the_one_that_was_promised() {
-    let model = beam().with_factors(&[(Part::Mode(0), 1.02), (Part::Mode(1), 0.975), (Part::Stiffness, 1.01)]);
+    let model =
+        short_cantilever(4).with_factors(&[(Part::Mode(0), 1.02), (Part::Mode(1), 0.975), (Part::Stiffness, 1.01)]);
     let project = Project::new(model, &[at(Effect::Coulomb, 4, &[0.02])]);
     let diagnosis = project.diagnosed(&Control::unattended());
     found(&diagnosis, Effect::Coulomb, 4, 0.02);
@@ -158,7 +152,7 @@ fn the_error_after_adding_is_the_one_that_was_promised() {
 fn an_answer_in_a_hurry_says_so() {
     let control = Control::unattended();
     control.hurry();
-    let diagnosis = Project::new(beam(), &[at(Effect::Coulomb, 4, &[0.02])]).diagnosed(&control);
+    let diagnosis = Project::new(short_cantilever(4), &[at(Effect::Coulomb, 4, &[0.02])]).diagnosed(&control);
     assert!(!diagnosis.complete && diagnosis.error_before > 0.1);
 }
 
@@ -172,8 +166,8 @@ fn a_model_that_agrees_is_left_alone() {
 /// A clamp that the model takes for rigid and that gives way is told as that, and nothing is missing.
 #[test]
 fn a_clamp_that_gives_way_is_told() {
-    let clamp = Part::Support(beam().supports()[0]);
-    let project = Project::of_three_modes(&beam().with_factors(&[(clamp, 0.5)]));
+    let clamp = Part::Support(short_cantilever(4).supports()[0]);
+    let project = Project::of_three_modes(&short_cantilever(4).with_factors(&[(clamp, 0.5)]));
     let diagnosis = project.diagnosed(&Control::unattended());
     assert!(diagnosis.suggestions.is_empty(), "{:?}", diagnosis.suggestions);
     assert_eq!(diagnosis.verdict, Verdict::Detuned);
@@ -188,7 +182,7 @@ fn a_clamp_that_gives_way_is_told() {
 #[test]
 fn the_missing_force_of_a_decay_is_that_of_its_law() {
     let hidden = at(Effect::CubicStiffness, 6, &[2e7]);
-    let project = Project::new(beam(), std::slice::from_ref(&hidden));
+    let project = Project::new(short_cantilever(4), std::slice::from_ref(&hidden));
     let added = Added { source: hidden.clone(), deviations: vec![0.0] };
     let step = Step { added: vec![added], error: 0.0, misfit: 1.0 };
     let diagnosis = Diagnosis {

@@ -2,6 +2,8 @@
 #![allow(clippy::unwrap_used, reason = "tests")]
 
 mod amplitude;
+#[path = "../common/mod.rs"]
+mod common;
 mod diagnose;
 mod measured;
 mod prediction;

@@ -1,12 +1,12 @@
 //! Measured decays, where `DASHPOT_MEASURED` names the folder that holds them.
 
+use crate::common::models::oscillator;
 use dashpot::control::Control;
 use dashpot::diagnosis::records::amplitude::{AmplitudePoint, Band, amplitude_curve, line};
 use dashpot::diagnosis::records::{Records, diagnose_records};
 use dashpot::effects::Effect;
 use dashpot::measurement::transient_run::TransientLabel;
 use dashpot::measurement::{Channel, Kind, Quantity, Record, TransientRun};
-use dashpot::structure::chain::ChainParameters;
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
@@ -60,10 +60,7 @@ fn the_roll_of_a_ship_lacks_drag() {
     let count = (60.0 / step) as usize;
     let angle = angle[..count.min(angle.len())].to_vec();
     let stiffness = (TAU / 2.544).powi(2);
-    let structure =
-        ChainParameters { masses: vec![1.0], ground_stiffness: vec![stiffness], coupling_stiffness: vec![] }
-            .build(&[])
-            .unwrap();
+    let structure = oscillator(1.0, stiffness);
     let time = (0..angle.len()).map(|n| step * n as f64).collect();
     let channel = Channel { quantity: Quantity::Displacement, dof: 0, label: "1".into() };
     let record = Record::new(time, vec![channel], vec![angle]).unwrap();

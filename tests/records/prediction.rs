@@ -1,28 +1,12 @@
 //! Predicted records against closed forms, an independent fine integration, and differences of themselves.
 
-use dashpot::effects::{Effect, Place, Source};
+use crate::common::models::{oscillator, short_cantilever, source};
+use dashpot::effects::{Effect, Source};
 use dashpot::measurement::{Channel, Quantity};
 use dashpot::response::transient::{
     SampledForces, TransientModel, TransientParameter, TransientResponse, TransientSetup,
 };
-use dashpot::structure::beam::{BeamParameters, Supports};
-use dashpot::structure::chain::ChainParameters;
 use dashpot::structure::{Part, Structure};
-
-fn mass_on_spring() -> Structure {
-    ChainParameters { masses: vec![1.0], ground_stiffness: vec![400.0], coupling_stiffness: vec![] }.build(&[]).unwrap()
-}
-
-fn beam() -> Structure {
-    let (length, breadth, depth) = (0.5, 0.04, 0.004);
-    let (youngs_modulus, density, elements) = (7e10, 2700.0, 6);
-    let supports = Supports::ClampedFree;
-    BeamParameters { length, breadth, depth, youngs_modulus, density, elements, supports }.build(&[]).unwrap()
-}
-
-fn known(effect: Effect, dofs: &[usize], parameters: &[f64]) -> Source {
-    Source::known(effect, Place::Dofs(dofs.to_vec()), parameters)
-}
 
 fn channels(list: &[(Quantity, usize)]) -> Vec<Channel> {
     list.iter().map(|&(quantity, dof)| Channel { quantity, dof, label: (dof + 1).to_string() }).collect()
@@ -103,8 +87,8 @@ fn friction_stops_where_it_should() {
     let (f, k, omega) = (2.6, 400.0, 20.0);
     let step = std::f64::consts::PI / omega / 16.0;
     let case = Case {
-        structure: mass_on_spring(),
-        sources: vec![known(Effect::Coulomb, &[0], &[f])],
+        structure: oscillator(1.0, 400.0),
+        sources: vec![source(Effect::Coulomb, &[0], &[f])],
         channels: channels(&[(Quantity::Displacement, 0), (Quantity::Acceleration, 0)]),
         drives: vec![],
         kept: 1,
@@ -134,7 +118,7 @@ fn wrong_parts() -> Vec<(Part, f64)> {
     vec![
         (Part::ElementStiffness([0, 1]), 0.03),
         (Part::ElementMass([3, 5]), -0.02),
-        (Part::Support(beam().supports()[0]), -0.05),
+        (Part::Support(short_cantilever(6).supports()[0]), -0.05),
     ]
 }
 
@@ -179,8 +163,8 @@ fn derivatives_are_those_of_the_record() {
     let parts = wrong_parts();
     for (effect, values) in acting_laws() {
         let case = Case {
-            structure: beam(),
-            sources: vec![known(Effect::Viscous, &[6], &[0.05]), known(effect, &[8], &values)],
+            structure: short_cantilever(6),
+            sources: vec![source(Effect::Viscous, &[6], &[0.05]), source(effect, &[8], &values)],
             channels: channels(&[(Quantity::Acceleration, 4), (Quantity::Displacement, 10)]),
             drives: vec![10],
             kept: 3,
@@ -229,8 +213,8 @@ fn slowly_driven(samples: std::ops::Range<usize>, initial: Vec<f64>) -> Case {
     let step = 5e-4;
     let force = |n: usize| 6.0 * (1.0 - (n as f64 * step * 40.0).cos());
     Case {
-        structure: beam(),
-        sources: vec![known(Effect::Viscous, &[6], &[0.5])],
+        structure: short_cantilever(6),
+        sources: vec![source(Effect::Viscous, &[6], &[0.5])],
         channels: channels(&[(Quantity::Acceleration, 10), (Quantity::Displacement, 4)]),
         drives: vec![10],
         kept: 2,
@@ -279,7 +263,7 @@ fn what_rests_under_a_force_follows_the_stiffness() {
 #[test]
 fn errors_of_shapes_add_what_the_modes_show() {
     let mut case = slowly_driven(0..600, vec![1e-4, -2e-5, 0.0, 1e-5]);
-    case.sources.push(known(Effect::CubicStiffness, &[8], &[4e7]));
+    case.sources.push(source(Effect::CubicStiffness, &[8], &[4e7]));
     let plain = case.run(&[TransientParameter::Stiffness]);
     case.shape_errors = vec![vec![0.3, -0.2], vec![0.0, 0.5]];
     let wrong = case.run(&[]);
@@ -302,7 +286,7 @@ fn parts_in_the_modes_of_the_model_are_those_of_the_structure() {
     stated.parts = factors.iter().map(|&(part, f)| (part, f.ln())).collect();
     let mut changed = slowly_driven(0..1200, vec![0.0; 12]);
     changed.kept = 6;
-    changed.structure = beam().with_factors(&factors);
+    changed.structure = short_cantilever(6).with_factors(&factors);
     let (by_parts, exact) = (stated.run(&[]), changed.run(&[]));
     for c in 0..2 {
         let apart = |a: &[f64]| size(&a.iter().zip(&exact.channels[c]).map(|(a, b)| a - b).collect::<Vec<f64>>());
@@ -316,8 +300,8 @@ fn parts_in_the_modes_of_the_model_are_those_of_the_structure() {
 #[test]
 fn friction_that_holds_does_not_ring() {
     let case = |substeps: usize, told_step: f64| Case {
-        structure: beam(),
-        sources: vec![known(Effect::Viscous, &[10], &[0.05]), known(Effect::Coulomb, &[0], &[2.0])],
+        structure: short_cantilever(6),
+        sources: vec![source(Effect::Viscous, &[10], &[0.05]), source(Effect::Coulomb, &[0], &[2.0])],
         channels: channels(&[(Quantity::Acceleration, 10)]),
         drives: vec![],
         kept: 3,

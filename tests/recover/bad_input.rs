@@ -10,7 +10,7 @@ use dashpot::measurement::{Quantity, Run};
 use dashpot::structure::Structure;
 
 fn runs() -> Vec<Run> {
-    let truth = [source(Effect::Viscous, &[1], 15.0)];
+    let truth = [source(Effect::Viscous, &[1], &[15.0])];
     Rig::near_modes(&five_masses(), 3, 1.01, 0, &[0, 1]).runs(&five_masses(), &truth)
 }
 

@@ -15,9 +15,9 @@ fn candidates() -> Vec<Source> {
 
 fn truth() -> Vec<Source> {
     vec![
-        source(Effect::Viscous, &[1, 2], 15.0),
-        source(Effect::Viscous, &[3, 4], 4.0),
-        source(Effect::Viscous, &[0], 2.0),
+        source(Effect::Viscous, &[1, 2], &[15.0]),
+        source(Effect::Viscous, &[3, 4], &[4.0]),
+        source(Effect::Viscous, &[0], &[2.0]),
     ]
 }
 
@@ -94,7 +94,7 @@ fn chain_of_dashpots_is_one_source() {
     let mut sources = candidates();
     sources.push(candidate(Effect::Viscous, &whole));
     let rig = Rig::near_modes(&structure, 5, 1.02, 0, &[0, 2, 4]);
-    let runs = rig.runs(&structure, &[source(Effect::Viscous, &whole, 3.0)]);
+    let runs = rig.runs(&structure, &[source(Effect::Viscous, &whole, &[3.0])]);
     let settings = Settings { stop_angle_deg: 1e-5, ..all_sets() };
     let outcome = identify(&structure, &sources, &runs, &settings, &Control::unattended()).unwrap();
     assert_found(&outcome, &[(9, 3.0)], 1e-8);
@@ -112,9 +112,9 @@ fn hysteretic_and_proportional_damping() {
     sources.push(Source::candidate(Effect::StiffnessProportional, Place::Whole(None)));
     sources.push(Source::candidate(Effect::MassProportional, Place::Whole(None)));
     let truth = [
-        source(Effect::Hysteretic, &[2], 500.0),
+        source(Effect::Hysteretic, &[2], &[500.0]),
         Source::known(Effect::LossFactor, Place::Whole(None), &[0.002]),
-        source(Effect::Viscous, &[3, 4], 4.0),
+        source(Effect::Viscous, &[3, 4], &[4.0]),
     ];
     for sensors in [vec![0, 1, 2, 3, 4], vec![0, 2, 4]] {
         let mut rig = Rig::near_modes(&structure, 5, 1.01, 0, &sensors);
@@ -131,12 +131,12 @@ fn hysteretic_and_proportional_damping() {
 fn known_and_forced_sources() {
     let structure = five_masses();
     let mut sources = candidates();
-    sources[8] = source(Effect::Viscous, &[3, 4], 4.0);
+    sources[8] = source(Effect::Viscous, &[3, 4], &[4.0]);
     sources[6].state = State::Forced;
     sources[0].state = State::Off;
     sources[1].state = State::Reference;
     let rig = Rig::near_modes(&structure, 5, 1.01, 0, &[0, 2, 4]);
-    let truth = [source(Effect::Viscous, &[1, 2], 15.0), source(Effect::Viscous, &[3, 4], 4.0)];
+    let truth = [source(Effect::Viscous, &[1, 2], &[15.0]), source(Effect::Viscous, &[3, 4], &[4.0])];
     let settings = Settings { stop_angle_deg: 1e-5, ..all_sets() };
     let runs = rig.runs(&structure, &truth);
     let outcome = identify(&structure, &sources, &runs, &settings, &Control::unattended()).unwrap();

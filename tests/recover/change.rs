@@ -22,7 +22,7 @@ fn settings() -> Settings {
 fn measured(structure: &Structure, second: f64) -> Vec<Run> {
     let mut rig = Rig::near_modes(structure, 5, 1.005, 0, &[0, 2, 4]);
     rig.frequencies_hz.extend(rig.frequencies_hz.clone().iter().map(|f| f * 0.99));
-    rig.runs(structure, &[source(Effect::Viscous, &[1, 2], 15.0), source(Effect::Viscous, &[3, 4], second)])
+    rig.runs(structure, &[source(Effect::Viscous, &[1, 2], &[15.0]), source(Effect::Viscous, &[3, 4], &[second])])
 }
 
 fn between(structure: &Structure, runs: [&[Run]; 2]) -> Change {
@@ -73,8 +73,9 @@ fn a_change_is_found_where_it_is() {
 fn a_source_of_one_state_only_is_held_against_none_in_the_other() {
     let structure = five_masses();
     let rig = Rig::near_modes(&structure, 5, 1.005, 0, &[0, 2, 4]);
-    let before = rig.runs(&structure, &[source(Effect::Viscous, &[1, 2], 15.0)]);
-    let after = rig.runs(&structure, &[source(Effect::Viscous, &[1, 2], 15.0), source(Effect::Viscous, &[4], 6.0)]);
+    let before = rig.runs(&structure, &[source(Effect::Viscous, &[1, 2], &[15.0])]);
+    let after =
+        rig.runs(&structure, &[source(Effect::Viscous, &[1, 2], &[15.0]), source(Effect::Viscous, &[4], &[6.0])]);
     let found = between(&structure, [&with_noise(&before, NOISE, 1), &with_noise(&after, NOISE, 2)]);
     let new = found.changed().next().unwrap();
     assert!(new.source.is_same(&candidate(Effect::Viscous, &[4])));
@@ -84,11 +85,11 @@ fn a_source_of_one_state_only_is_held_against_none_in_the_other() {
 
 #[test]
 fn states_with_other_places_are_refused_in_one_line() {
-    let (chain, beam) = (five_masses(), cantilever());
+    let (chain, beam) = (five_masses(), cantilever(10));
     let (sources, settings) = (sources(), settings());
     let far = [candidate(Effect::Viscous, &[16])];
     let (runs, bent) = (measured(&chain, 4.0), Rig::near_modes(&beam, 4, 1.0, 18, &[4, 10, 18]));
-    let bent = with_noise(&bent.runs(&beam, &[source(Effect::Viscous, &[16], 0.5)]), NOISE, 3);
+    let bent = with_noise(&bent.runs(&beam, &[source(Effect::Viscous, &[16], &[0.5])]), NOISE, 3);
     let of = |structure, sources, runs| Condition {
         structure,
         sources,

@@ -5,6 +5,8 @@ mod bad_input;
 mod beam;
 mod chain;
 mod change;
+#[path = "../common/mod.rs"]
+mod common;
 mod many;
 mod noise;
 mod points;

@@ -50,7 +50,7 @@ fn rig(sensors: &[usize]) -> Rig {
 }
 
 fn truth() -> [Source; 2] {
-    [source(Effect::Viscous, &[1, 2], 15.0), source(Effect::Viscous, &[3, 4], 4.0)]
+    [source(Effect::Viscous, &[1, 2], &[15.0]), source(Effect::Viscous, &[3, 4], &[4.0])]
 }
 
 #[test]

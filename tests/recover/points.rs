@@ -22,7 +22,7 @@ fn candidates() -> Vec<Source> {
 
 #[test]
 fn coefficients_to_1e_8_and_closure_to_1e_10() {
-    let truth = [source(Effect::Viscous, &[1, 2], 15.0), source(Effect::Viscous, &[3, 4], 4.0)];
+    let truth = [source(Effect::Viscous, &[1, 2], &[15.0]), source(Effect::Viscous, &[3, 4], &[4.0])];
     let mut rig = Rig::near_modes(&five_masses(), 5, 1.01, 0, &[0, 1, 2, 3, 4]);
     rig.frequencies_hz.extend([25.0, 50.0]);
     let runs = rig.runs(&five_masses(), &truth);
@@ -36,7 +36,7 @@ fn coefficients_to_1e_8_and_closure_to_1e_10() {
 }
 
 /// Motions with harmonics, and the force that puts in what the sources take out, by integrals of their own.
-fn runs_with_harmonics(structure: &Structure) -> Vec<Run> {
+fn runs_with_harmonics() -> Vec<Run> {
     (0..6)
         .map(|r| {
             let omega = TAU * (10.0 + r as f64);
@@ -62,9 +62,9 @@ fn runs_with_harmonics(structure: &Structure) -> Vec<Run> {
             let unit = x[0][0] / x[0][0].norm() * c64::new(0.0, 1.0);
             let force = unit * ((friction + viscous) / (PI * x[0][0].norm()));
             let zero = c64::new(0.0, 0.0);
-            let mut channels = vec![channel(Quantity::Force, structure, 0, vec![force, zero, zero])];
+            let mut channels = vec![channel(Quantity::Force, 0, vec![force, zero, zero], 0.0)];
             for (dof, amplitudes) in x.into_iter().enumerate() {
-                channels.push(channel(Quantity::Displacement, structure, dof, amplitudes));
+                channels.push(channel(Quantity::Displacement, dof, amplitudes, 0.0));
             }
             run(format!("run {r}"), omega, channels)
         })
@@ -78,7 +78,7 @@ fn friction_between_two_points_with_harmonics() {
     sources.extend((0..5).map(|i| candidate(Effect::Coulomb, &[i])));
     sources.extend((0..4).map(|i| candidate(Effect::Coulomb, &[i, i + 1])));
     let settings = Settings { stop_angle_deg: 1e-5, ..all_sets() };
-    let runs = runs_with_harmonics(&structure);
+    let runs = runs_with_harmonics();
     let outcome = identify(&structure, &sources, &runs, &settings, &Control::unattended()).unwrap();
     assert_found(&outcome, &[(4, 20.0), (15, 3.0)], 1e-8);
     // The equivalent dashpot of friction falls with amplitude.
@@ -88,7 +88,7 @@ fn friction_between_two_points_with_harmonics() {
 
 #[test]
 fn unmeasured_candidates_are_left_out_and_said_so() {
-    let truth = [source(Effect::Viscous, &[1, 2], 15.0)];
+    let truth = [source(Effect::Viscous, &[1, 2], &[15.0])];
     let rig = Rig::near_modes(&five_masses(), 5, 1.01, 0, &[0, 1, 2]);
     let runs = rig.runs(&five_masses(), &truth);
     let outcome = identify(&five_points(), &candidates(), &runs, &all_sets(), &Control::unattended()).unwrap();
@@ -99,7 +99,7 @@ fn unmeasured_candidates_are_left_out_and_said_so() {
 /// Two sources from two runs fit whatever they are: that is no agreement.
 #[test]
 fn as_many_sources_as_runs_leave_nothing_to_judge_by() {
-    let truth = [source(Effect::Viscous, &[1, 2], 15.0), source(Effect::Viscous, &[3, 4], 4.0)];
+    let truth = [source(Effect::Viscous, &[1, 2], &[15.0]), source(Effect::Viscous, &[3, 4], &[4.0])];
     let rig = Rig::near_modes(&five_masses(), 2, 1.01, 0, &[0, 1, 2, 3, 4]);
     let runs = rig.runs(&five_masses(), &truth);
     for runs in [runs.clone(), with_noise(&runs, 1e-3, 1)] {

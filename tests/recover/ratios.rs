@@ -13,7 +13,7 @@ use dashpot::structure::damped_modes::damped_modes;
 const VALUES: [(&[usize], f64); 3] = [(&[0], 2.0), (&[1, 2], 15.0), (&[3, 4], 4.0)];
 
 fn truth() -> Vec<Source> {
-    VALUES.iter().map(|&(dofs, c)| source(Effect::Viscous, dofs, c)).collect()
+    VALUES.iter().map(|&(dofs, c)| source(Effect::Viscous, dofs, &[c])).collect()
 }
 
 fn candidates() -> Vec<Source> {

@@ -1,48 +1,14 @@
 //! Runs made from a known model, with and without noise.
 
-use dashpot::effects::{Effect, Place, Source};
+pub(crate) use crate::common::models::{candidate, cantilever, cantilever_parameters, five_masses, source};
+pub(crate) use crate::common::runs::{channel, run, with_noise};
+use dashpot::effects::Source;
 use dashpot::identify::{Outcome, Settings};
-use dashpot::measurement::{Channel, ChannelFit, HarmonicFit, Quantity, Run};
+use dashpot::measurement::{Quantity, Run};
 use dashpot::response::dynamic_stiffness::DynamicStiffness;
 use dashpot::structure::Structure;
-use dashpot::structure::beam::{BeamParameters, Supports};
-use dashpot::structure::chain::ChainParameters;
-use faer::{Mat, c64};
-use rand::SeedableRng;
-use rand_chacha::ChaCha8Rng;
-use rand_distr::{Distribution, StandardNormal};
+use faer::c64;
 use std::f64::consts::TAU;
-
-/// The five masses of section 6.
-pub(crate) fn five_masses() -> Structure {
-    let chain = ChainParameters {
-        masses: vec![1.727, 5.122, 8.213, 2.609, 1.339],
-        ground_stiffness: vec![94263.0; 5],
-        coupling_stiffness: vec![75136.0, 67744.0, 75466.0, 83396.0],
-    };
-    chain.build(&[]).unwrap()
-}
-
-pub(crate) fn cantilever() -> Structure {
-    let beam = BeamParameters {
-        length: 0.56,
-        breadth: 0.04,
-        depth: 0.004,
-        youngs_modulus: 69e9,
-        density: 2700.0,
-        elements: 10,
-        supports: Supports::ClampedFree,
-    };
-    beam.build(&[]).unwrap()
-}
-
-pub(crate) fn source(effect: Effect, dofs: &[usize], value: f64) -> Source {
-    Source::known(effect, Place::Dofs(dofs.to_vec()), &[value])
-}
-
-pub(crate) fn candidate(effect: Effect, dofs: &[usize]) -> Source {
-    Source::candidate(effect, Place::Dofs(dofs.to_vec()))
-}
 
 /// What is measured, and how.
 #[derive(Clone)]
@@ -77,59 +43,15 @@ impl Rig {
                 let mut force = vec![c64::new(0.0, 0.0); structure.len()];
                 force[self.drive] = c64::new(self.force, 0.0);
                 let x = stiffness.solve(omega, &force).unwrap();
-                let mut channels = vec![channel(Quantity::Force, structure, self.drive, vec![force[self.drive]])];
+                let mut channels = vec![channel(Quantity::Force, self.drive, vec![force[self.drive]], 0.0)];
                 for &dof in &self.sensors {
                     let acceleration = vec![-x[dof] * omega * omega];
-                    channels.push(channel(Quantity::Acceleration, structure, dof, acceleration));
+                    channels.push(channel(Quantity::Acceleration, dof, acceleration, 0.0));
                 }
                 run(format!("{f:.2} Hz"), omega, channels)
             })
             .collect()
     }
-}
-
-/// A noise-free channel.
-pub(crate) fn channel(quantity: Quantity, structure: &Structure, dof: usize, amplitudes: Vec<c64>) -> ChannelFit {
-    let size = 2 * amplitudes.len();
-    ChannelFit {
-        channel: Channel { quantity, dof, label: structure.label(dof).to_string() },
-        offset: 0.0,
-        slope: 0.0,
-        amplitudes,
-        covariance: Mat::zeros(size, size),
-        noise: 0.0,
-    }
-}
-
-pub(crate) fn run(name: String, omega: f64, channels: Vec<ChannelFit>) -> Run {
-    Run {
-        file: name,
-        level: None,
-        session: None,
-        enabled: true,
-        insisted: false,
-        record: None,
-        fit: HarmonicFit { omega, omega_deviation: 0.0, channels },
-        noise_ratio: 0.0,
-        findings: Vec::new(),
-        per_unit_force: false,
-    }
-}
-
-/// Adds noise of `relative` deviation of each channel's largest amplitude (real and imaginary part each) and states it.
-pub(crate) fn with_noise(runs: &[Run], relative: f64, seed: u64) -> Vec<Run> {
-    let mut random = ChaCha8Rng::seed_from_u64(seed);
-    let mut noisy = runs.to_vec();
-    for channel in noisy.iter_mut().flat_map(|r| r.fit.channels.iter_mut()) {
-        let deviation = relative * channel.amplitudes.iter().fold(0.0_f64, |m, a| m.max(a.norm()));
-        for amplitude in &mut channel.amplitudes {
-            let mut sample = || -> f64 { StandardNormal.sample(&mut random) };
-            *amplitude += c64::new(sample(), sample()) * deviation;
-        }
-        let size = 2 * channel.amplitudes.len();
-        channel.covariance = Mat::from_fn(size, size, |i, j| if i == j { deviation * deviation } else { 0.0 });
-    }
-    noisy
 }
 
 pub(crate) fn all_sets() -> Settings {

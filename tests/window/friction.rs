@@ -1,5 +1,6 @@
 //! A cantilever with a friction pad that its project does not know.
 
+use crate::common::models::cantilever_parameters;
 use crate::support::Sample;
 use dashpot::control::Control;
 use dashpot::effects::{Effect, Place, Source};
@@ -8,7 +9,7 @@ use dashpot::measurement::{Channel, Quantity};
 use dashpot::response::harmonic_balance::Excitation;
 use dashpot::response::simulation_in_time::{InTime, Recorder, record_in_time};
 use dashpot::response::synthesis::{Noise, record, sampling_times};
-use dashpot::structure::beam::{BeamParameters, Supports};
+use dashpot::structure::beam::BeamParameters;
 use faer::c64;
 use std::f64::consts::TAU;
 use std::fmt::Write as _;
@@ -26,15 +27,7 @@ pub(crate) fn friction() -> Sample {
                 length = 0.5\nbreadth = 0.04\ndepth = 0.004\nyoungs_modulus = 69e9\ndensity = 2700.0\nelements = 5\n\
                 supports = \"clamped-free\"\n[[source]]\nlaw = \"viscous\"\ndofs = [3]\nstate = \"known\"\nc = 0.3\n\
                 [[source]]\nlaw = \"viscous\"\ndofs = [9]\nstate = \"known\"\nc = 0.2\n";
-    let parameters = BeamParameters {
-        length: 0.5,
-        breadth: 0.04,
-        depth: 0.004,
-        youngs_modulus: 69e9,
-        density: 2700.0,
-        elements: 5,
-        supports: Supports::ClampedFree,
-    };
+    let parameters = BeamParameters { length: 0.5, ..cantilever_parameters(5) };
     let structure = parameters.build(&[]).unwrap();
     let source = |effect, dof, value| Source::known(effect, Place::Dofs(vec![dof]), &[value]);
     let truth = [source(Effect::Viscous, 2, 0.3), source(Effect::Viscous, 8, 0.2), source(Effect::Coulomb, ROW, FORCE)];

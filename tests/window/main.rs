@@ -4,6 +4,8 @@
 mod book;
 mod change;
 mod choose;
+#[path = "../common/mod.rs"]
+mod common;
 mod desk;
 mod drive;
 mod events;

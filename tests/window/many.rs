@@ -1,10 +1,11 @@
 //! A project of 200 runs and 40 channels is as easy as one of 8: an overview first, tables that are sorted and filtered.
 
+use crate::common::models::cantilever_parameters;
 use crate::events::spent;
 use crate::support::{Sample, open, settle};
 use dashpot::effects::{Effect, Place, Source};
 use dashpot::response::dynamic_stiffness::DynamicStiffness;
-use dashpot::structure::beam::{BeamParameters, Supports};
+use dashpot::structure::beam::BeamParameters;
 use dashpot::window::frame::panes::Pane;
 use dashpot::window::stages::run_table::Key;
 use dashpot::window::view::Stage;
@@ -23,15 +24,7 @@ const RUNS: usize = 200;
 /// A cantilever of an element a channel, as harmonics: frequencies about three resonances at each of four levels, `count` runs in all,
 /// one dashpot that is not stated.
 fn many(count: usize, channels: usize) -> Sample {
-    let parameters = BeamParameters {
-        length: 1.0,
-        breadth: 0.04,
-        depth: 0.006,
-        youngs_modulus: 69e9,
-        density: 2700.0,
-        elements: channels,
-        supports: Supports::ClampedFree,
-    };
+    let parameters = BeamParameters { length: 1.0, depth: 0.006, ..cantilever_parameters(channels) };
     let structure = parameters.build(&[]).unwrap();
     let truth = [Source::known(Effect::Viscous, Place::Dofs(vec![channels]), &[1.5])];
     let (modes, stiffness) = (structure.modes().unwrap(), DynamicStiffness::new(&structure, &truth).unwrap());

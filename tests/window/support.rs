@@ -1,11 +1,11 @@
 //! A small project with records that carry their own answer, and a window on it.
 
+use crate::common::models::{cantilever_parameters, chain as chain_of};
 use dashpot::control::Control;
 use dashpot::effects::{Effect, Place, Source};
 use dashpot::response::dynamic_stiffness::DynamicStiffness;
 use dashpot::structure::Structure;
-use dashpot::structure::beam::{BeamParameters, Supports};
-use dashpot::structure::chain::ChainParameters;
+use dashpot::structure::beam::BeamParameters;
 use dashpot::window::App;
 use dashpot::window::document::Document;
 use egui_kittest::wgpu::WgpuTestRenderer;
@@ -31,15 +31,7 @@ pub(crate) fn beam() -> Sample {
 
 /// The same with another dashpot at DOF 7.
 pub(crate) fn beam_with(second: f64) -> Sample {
-    let parameters = BeamParameters {
-        length: 0.5,
-        breadth: 0.04,
-        depth: 0.004,
-        youngs_modulus: 69e9,
-        density: 2700.0,
-        elements: 5,
-        supports: Supports::ClampedFree,
-    };
+    let parameters = BeamParameters { length: 0.5, ..cantilever_parameters(5) };
     let structure = parameters.build(&[]).unwrap();
     let head = "[project]\nformat = 1\ntitle = \"Test beam\"\n[structure]\nkind = \"beam\"\nlength = 0.5\nbreadth = 0.04\n\
                 depth = 0.004\nyoungs_modulus = 69e9\ndensity = 2700.0\nelements = 5\nsupports = \"clamped-free\"\n\
@@ -50,15 +42,7 @@ pub(crate) fn beam_with(second: f64) -> Sample {
 
 /// A cantilever whose project states Young's modulus 2 % too low and a dashpot 15 % too small, and lacks nothing else.
 pub(crate) fn detuned() -> Sample {
-    let parameters = BeamParameters {
-        length: 0.5,
-        breadth: 0.04,
-        depth: 0.004,
-        youngs_modulus: 70.4e9,
-        density: 2700.0,
-        elements: 5,
-        supports: Supports::ClampedFree,
-    };
+    let parameters = BeamParameters { length: 0.5, youngs_modulus: 70.4e9, ..cantilever_parameters(5) };
     let structure = parameters.build(&[]).unwrap();
     let head = "[project]\nformat = 1\ntitle = \"Detuned beam\"\n[structure]\nkind = \"beam\"\nlength = 0.5\nbreadth = 0.04\n\
                 depth = 0.004\nyoungs_modulus = 69e9\ndensity = 2700.0\nelements = 5\nsupports = \"clamped-free\"\n\
@@ -70,12 +54,7 @@ pub(crate) fn detuned() -> Sample {
 
 /// Four masses with a dashpot between the second and the third and a known one at the first.
 pub(crate) fn chain() -> Sample {
-    let parameters = ChainParameters {
-        masses: vec![1.0, 2.0, 1.5, 1.0],
-        ground_stiffness: vec![4000.0, 0.0, 0.0, 2000.0],
-        coupling_stiffness: vec![3000.0, 5000.0, 4000.0],
-    };
-    let structure = parameters.build(&[]).unwrap();
+    let structure = chain_of(&[1.0, 2.0, 1.5, 1.0], &[4000.0, 0.0, 0.0, 2000.0], &[3000.0, 5000.0, 4000.0]);
     let head = "[project]\nformat = 1\ntitle = \"Test chain\"\n[structure]\nkind = \"chain\"\nmasses = [1.0, 2.0, 1.5, 1.0]\n\
                 ground_stiffness = [4000.0, 0.0, 0.0, 2000.0]\ncoupling_stiffness = [3000.0, 5000.0, 4000.0]\n\
                 [[source]]\nlaw = \"viscous\"\ndofs = [1]\nstate = \"known\"\nc = 1.0\n\

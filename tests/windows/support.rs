@@ -1,37 +1,13 @@
 //! Decays and hammer tests of the sample structures, by time integration in fine steps.
 
+use crate::common::models::{cantilever, five_masses};
 use dashpot::control::Control;
 use dashpot::effects::{Effect, Place, Source, State};
 use dashpot::measurement::{Channel, Kind, Quantity, TransientLabel, TransientRun};
 use dashpot::response::recording::{Loading, TestRecord, TestSetup, record_test};
 use dashpot::response::synthesis::{Noise, record};
 use dashpot::structure::Structure;
-use dashpot::structure::beam::{BeamParameters, Supports};
-use dashpot::structure::chain::ChainParameters;
 use std::sync::Arc;
-
-/// The five masses of section 6.
-pub(crate) fn five_masses() -> Structure {
-    let chain = ChainParameters {
-        masses: vec![1.727, 5.122, 8.213, 2.609, 1.339],
-        ground_stiffness: vec![94263.0; 5],
-        coupling_stiffness: vec![75136.0, 67744.0, 75466.0, 83396.0],
-    };
-    chain.build(&[]).unwrap()
-}
-
-pub(crate) fn cantilever() -> Structure {
-    let beam = BeamParameters {
-        length: 0.56,
-        breadth: 0.04,
-        depth: 0.004,
-        youngs_modulus: 69e9,
-        density: 2700.0,
-        elements: 10,
-        supports: Supports::ClampedFree,
-    };
-    beam.build(&[]).unwrap()
-}
 
 /// A test and the truth behind it.
 pub(crate) struct Case {
@@ -108,7 +84,7 @@ pub(crate) fn cases() -> Vec<Case> {
     };
     let beam = || Case {
         name: "cantilever, decay",
-        structure: cantilever(),
+        structure: cantilever(10),
         truth: vec![truth(Effect::Coulomb, 14, 0.01)],
         // A ring-down in one mode tells the law, not the place.
         candidates: candidates(&[Effect::Viscous, Effect::Coulomb], &[14]),

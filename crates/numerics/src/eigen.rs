@@ -51,12 +51,6 @@ pub fn real_general(a: MatRef<'_, f64>) -> Option<(Vec<c64>, Mat<c64>)> {
     Some((eigen.S().column_vector().iter().copied().collect(), eigen.U().to_owned()))
 }
 
-/// Eigenvalues and right vectors (columns) of a general complex matrix.
-pub fn complex_general(a: MatRef<'_, c64>) -> Option<(Vec<c64>, Mat<c64>)> {
-    let eigen = a.eigen().ok()?;
-    Some((eigen.S().column_vector().iter().copied().collect(), eigen.U().to_owned()))
-}
-
 fn symmetrised(a: MatRef<'_, f64>) -> Mat<f64> {
     Mat::from_fn(a.nrows(), a.ncols(), |i, j| 0.5 * (a[(i, j)] + a[(j, i)]))
 }

@@ -13,7 +13,7 @@ mod small;
 mod sparse;
 mod steps;
 
-pub use eigen::{complex_general, eigenvalues, generalised_symmetric, real_general, symmetric, symmetric_values};
+pub use eigen::{eigenvalues, generalised_symmetric, real_general, symmetric, symmetric_values};
 pub use factor::{Cholesky, ComplexLu, RealLu, least_squares, solve_indefinite, thin_qr, triangle};
 pub use fourier::RealTransform;
 pub use lanes::{LANES, dot, sum};

@@ -50,11 +50,11 @@ impl Band {
         let rate = 1.0 / run.step();
         let flexible: Vec<usize> = (0..modes.len()).filter(|&r| modes.omega[r] > 0.0).collect();
         let within = flexible.iter().filter(|&&r| modes.frequency_hz(r) < FLAT * rate).count();
-        let at = |s: usize, r: usize| modes.shapes[(run.channels()[sensors[s]].dof, r)];
+        let shape = |s: usize, r: usize| modes.shapes[(run.channels()[sensors[s]].dof, r)];
         for count in (1..=within.min(sensors.len())).rev() {
             let last = modes.frequency_hz(flexible[count - 1]);
             let next = flexible.get(count).map_or(f64::INFINITY, |&r| modes.frequency_hz(r));
-            let shapes = Mat::from_fn(sensors.len(), count, |s, r| at(s, flexible[r]));
+            let shapes = Mat::from_fn(sensors.len(), count, |s, r| shape(s, flexible[r]));
             let (_, values, _) = thin_svd(shapes.as_ref()).map_err(|_| too_few(run, within, sensors.len()))?;
             if next < GAP * last || values[count - 1] * CONDITION < values[0] {
                 continue;

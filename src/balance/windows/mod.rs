@@ -74,13 +74,13 @@ fn rows(
     let ends = windows(motion, dominant).ok_or_else(|| WindowError::OnlyNoise { file: run.file.clone() })?;
     let over = |power: &[f64]| ends.iter().map(|&(a, b)| integral(power, a, b, motion.step)).collect::<Vec<f64>>();
     let mut works = Works::new(structure, motion);
-    let of = |works: &mut Works<'_>, source: &Source| over(&works.power(source));
-    let units: Vec<Vec<f64>> = columns.iter().map(|s| of(&mut works, &s.with_coefficient(1.0))).collect();
+    let work = |works: &mut Works<'_>, source: &Source| over(&works.power(source));
+    let units: Vec<Vec<f64>> = columns.iter().map(|s| work(&mut works, &s.with_coefficient(1.0))).collect();
     // Mass and stiffness that are known are in the matrices.
     let stored = |source: &Source| matches!(source.effect, Effect::Mass | Effect::Stiffness);
     let zeros = vec![0.0; ends.len()];
     let taken: Vec<Vec<f64>> =
-        known.iter().map(|s| if stored(s) { zeros.clone() } else { of(&mut works, s) }).collect();
+        known.iter().map(|s| if stored(s) { zeros.clone() } else { work(&mut works, s) }).collect();
     let input = over(&input_power(motion));
     let change = |k: usize| motion.energy(ends[k].1) - motion.energy(ends[k].0);
     let e: Vec<f64> = (0..ends.len()).map(|k| input[k] - change(k) - taken.iter().map(|t| t[k]).sum::<f64>()).collect();

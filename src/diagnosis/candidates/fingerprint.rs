@@ -118,6 +118,7 @@ impl Fingerprint {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::f64::consts::TAU;
 
     fn said(damping: bool, p: Option<f64>, q: f64) -> String {
         let exponent = |x| [x, 0.02];
@@ -136,5 +137,62 @@ mod tests {
         assert!(said(true, Some(0.5), 0.5).contains("velocity alone"));
         assert!(said(false, Some(0.0), 2.0).contains("mass"));
         assert!(said(true, Some(-1.0), 0.0).contains("between the simple laws"));
+    }
+
+    /// Runs of a law of force `law(d, v)` at amplitudes and frequencies of their own: fundamental of the force over that of
+    /// `d = a cos w t`, by sums over one period.
+    fn runs(law: impl Fn(f64, f64) -> f64) -> Vec<Ratio> {
+        let of_run = |(amplitude, omega): (f64, f64)| {
+            let samples = 20_000;
+            let mut force = c64::new(0.0, 0.0);
+            for n in 0..samples {
+                let (sin, cos) = (TAU * (f64::from(n) + 0.5) / f64::from(samples)).sin_cos();
+                let weight = c64::new(cos, -sin) * (2.0 / f64::from(samples));
+                force += weight * law(amplitude * cos, -amplitude * omega * sin);
+            }
+            let ratio = force / amplitude;
+            Ratio { ratio, deviation: 1e-3 * ratio.norm(), weight: (1e-3 * ratio.norm()).powi(-2), amplitude, omega }
+        };
+        let amplitudes = [1e-4, 3e-4, 5e-4, 1e-3, 2e-3];
+        amplitudes.into_iter().flat_map(|a| [60.0, 75.0, 110.0].map(|w| (a, w))).map(of_run).collect()
+    }
+
+    /// `c_eq` of `|v|^n sign v` goes with `(w D)^(n - 1)`, of a loss that knows no speed with `D^0 w^-1`; `k_eq` of `d^n` with
+    /// `D^(n - 1)`.
+    #[test]
+    fn loops_have_the_exponents_of_their_laws() {
+        let power = |v: f64, n: f64| v.abs().powf(n) * v.signum();
+        let check = |law: &dyn Fn(f64, f64) -> f64, damping: bool, exponents: [f64; 2]| {
+            let Some(found) = of_ratios(&runs(law)) else { panic!("fifteen runs") };
+            assert_eq!((found.damping, found.runs), (damping, 15));
+            for (exponent, expected) in [found.by_amplitude, found.by_frequency].into_iter().zip(exponents) {
+                let Some([value, deviation]) = exponent else { panic!("amplitudes and frequencies vary") };
+                assert!((value - expected).abs() < 1e-3 && deviation < 1e-3, "{value} +- {deviation} for {expected}");
+            }
+        };
+        for n in [0.0, 0.5, 1.0, 1.7, 2.0] {
+            check(&|_, v| 3.0 * power(v, n), true, [n - 1.0; 2]);
+        }
+        for n in [1.0, 1.5, 3.0] {
+            check(&|d, _| 4e4 * power(d, n), false, [n - 1.0, 0.0]);
+        }
+        // A force in phase with velocity of the size of a displacement: hysteretic damping is that of one frequency each.
+        let hysteretic: Vec<Ratio> = runs(|d, _| 50.0 * d)
+            .into_iter()
+            .map(|run| Ratio { ratio: run.ratio * c64::new(0.0, 1.0), ..run })
+            .collect();
+        let Some(found) = of_ratios(&hysteretic) else { panic!("fifteen runs") };
+        let Some([q, _]) = found.by_frequency else { panic!("frequencies vary") };
+        assert!(found.damping && (q + 1.0).abs() < 1e-6, "{found:?}");
+    }
+
+    /// One amplitude in all runs says nothing of its power, and three runs nothing at all.
+    #[test]
+    fn what_does_not_vary_has_no_exponent() {
+        let alike: Vec<Ratio> = runs(|_, v| 2.0 * v).into_iter().filter(|run| run.amplitude == 1e-3).collect();
+        assert!(of_ratios(&alike).is_none(), "three runs");
+        let many: Vec<Ratio> = alike.iter().chain(&alike).copied().collect();
+        let Some(found) = of_ratios(&many) else { panic!("six runs") };
+        assert!(found.by_amplitude.is_none() && found.by_frequency.is_some());
     }
 }

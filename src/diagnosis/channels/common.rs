@@ -49,8 +49,8 @@ pub(super) fn common(channels: &[String], forces: &[String], cells: &[Cells]) ->
     let (names, factor) = named(channels, forces, sign, middle)?;
     let mended = if names[0].starts_with("force@") { factor } else { 1.0 / factor };
     let error = |by: f64| {
-        let one = |mass: f64| (mass / by - 1.0).abs() / (mass / by).abs().max(1.0);
-        median(&masses.iter().map(|(mass, _)| one(*mass)).collect::<Vec<f64>>())
+        let relative_error = |mass: f64| (mass / by - 1.0).abs() / (mass / by).abs().max(1.0);
+        median(&masses.iter().map(|(mass, _)| relative_error(*mass)).collect::<Vec<f64>>())
     };
     let (error_before, error_after) = (error(1.0), error(mended));
     Some(ChannelFault {
@@ -71,9 +71,9 @@ fn named(channels: &[String], forces: &[String], sign: f64, middle: f64) -> Opti
         return (sign < 0.0 && !whose.is_empty()).then(|| (whose.to_vec(), -1.0));
     }
     let one_quantity = channels.windows(2).all(|pair| quantity_of(&pair[0]) == quantity_of(&pair[1]));
-    let of = |names: &[String], seen: f64| Some((names.to_vec(), sign * known_unit(names.first()?, seen)?));
-    let motions = if one_quantity { of(channels, (-middle).exp()) } else { None };
-    motions.or_else(|| of(forces, middle.exp()))
+    let misread_as = |names: &[String], seen: f64| Some((names.to_vec(), sign * known_unit(names.first()?, seen)?));
+    let motions = if one_quantity { misread_as(channels, (-middle).exp()) } else { None };
+    motions.or_else(|| misread_as(forces, middle.exp()))
 }
 
 /// Apparent modal mass of every mode with runs on a line about it, and the number of these.
@@ -81,8 +81,8 @@ fn masses(runs: &[NextToMode]) -> Vec<(f64, usize)> {
     let mut modes: Vec<usize> = runs.iter().map(|run| run.mode).collect();
     modes.sort_unstable();
     modes.dedup();
-    let of = |mode: usize| mass(&runs.iter().filter(|run| run.mode == mode).collect::<Vec<_>>());
-    modes.into_iter().filter_map(of).collect()
+    let of_mode = |mode: usize| mass(&runs.iter().filter(|run| run.mode == mode).collect::<Vec<_>>());
+    modes.into_iter().filter_map(of_mode).collect()
 }
 
 /// Modal mass by the slope over the runs next to a mode, and their number.

@@ -128,28 +128,28 @@ const fn misreading(factor: f64, quantity: Option<Quantity>, why: &'static str) 
 /// of that size is left to the law `gain`, which estimates it.
 fn misreadings() -> Vec<Misreading> {
     use Quantity::{Acceleration, Displacement, Force, Velocity};
-    let of = |quantity, factor, larger, smaller| {
+    let both_ways = |quantity, factor, larger, smaller| {
         [misreading(factor, Some(quantity), larger), misreading(1.0 / factor, Some(quantity), smaller)]
     };
     let any = |factor, larger, smaller| [misreading(factor, None, larger), misreading(1.0 / factor, None, smaller)];
     [
-        of(Acceleration, STANDARD_GRAVITY, "m/s^2 read as g", "g read as m/s^2"),
-        of(Acceleration, STANDARD_GRAVITY / INCH, "in/s^2 read as g", "g read as in/s^2"),
-        of(Acceleration, STANDARD_GRAVITY / FOOT, "ft/s^2 read as g", "g read as ft/s^2"),
-        of(Acceleration, 1e3 * STANDARD_GRAVITY, "mm/s^2 read as g", "g read as mm/s^2"),
-        of(Acceleration, 1e3, "mm/s^2 read as m/s^2, or mg as g", "m/s^2 read as mm/s^2, or g as mg"),
-        of(Acceleration, 1.0 / INCH, "in/s^2 read as m/s^2", "m/s^2 read as in/s^2"),
-        of(Acceleration, 1.0 / FOOT, "ft/s^2 read as m/s^2", "m/s^2 read as ft/s^2"),
-        of(Force, POUND_FORCE, "N read as lbf", "lbf read as N"),
-        of(Force, STANDARD_GRAVITY, "N read as kgf", "kgf read as N"),
-        of(Force, 1e3, "N read as kN, or mN as N", "kN read as N, or N as mN"),
-        of(Velocity, 1e3, "mm/s read as m/s", "m/s read as mm/s"),
-        of(Velocity, 1.0 / INCH, "in/s read as m/s", "m/s read as in/s"),
-        of(Velocity, 1e3 * INCH, "mm/s read as in/s", "in/s read as mm/s"),
-        of(Displacement, 1e3, "mm read as m, or um as mm", "m read as mm, or mm as um"),
-        of(Displacement, 1e6, "um read as m", "m read as um"),
-        of(Displacement, 1.0 / INCH, "in read as m", "m read as in"),
-        of(Displacement, 1e3 * INCH, "mm read as in, or um as mil", "in read as mm, or mil as um"),
+        both_ways(Acceleration, STANDARD_GRAVITY, "m/s^2 read as g", "g read as m/s^2"),
+        both_ways(Acceleration, STANDARD_GRAVITY / INCH, "in/s^2 read as g", "g read as in/s^2"),
+        both_ways(Acceleration, STANDARD_GRAVITY / FOOT, "ft/s^2 read as g", "g read as ft/s^2"),
+        both_ways(Acceleration, 1e3 * STANDARD_GRAVITY, "mm/s^2 read as g", "g read as mm/s^2"),
+        both_ways(Acceleration, 1e3, "mm/s^2 read as m/s^2, or mg as g", "m/s^2 read as mm/s^2, or g as mg"),
+        both_ways(Acceleration, 1.0 / INCH, "in/s^2 read as m/s^2", "m/s^2 read as in/s^2"),
+        both_ways(Acceleration, 1.0 / FOOT, "ft/s^2 read as m/s^2", "m/s^2 read as ft/s^2"),
+        both_ways(Force, POUND_FORCE, "N read as lbf", "lbf read as N"),
+        both_ways(Force, STANDARD_GRAVITY, "N read as kgf", "kgf read as N"),
+        both_ways(Force, 1e3, "N read as kN, or mN as N", "kN read as N, or N as mN"),
+        both_ways(Velocity, 1e3, "mm/s read as m/s", "m/s read as mm/s"),
+        both_ways(Velocity, 1.0 / INCH, "in/s read as m/s", "m/s read as in/s"),
+        both_ways(Velocity, 1e3 * INCH, "mm/s read as in/s", "in/s read as mm/s"),
+        both_ways(Displacement, 1e3, "mm read as m, or um as mm", "m read as mm, or mm as um"),
+        both_ways(Displacement, 1e6, "um read as m", "m read as um"),
+        both_ways(Displacement, 1.0 / INCH, "in read as m", "m read as in"),
+        both_ways(Displacement, 1e3 * INCH, "mm read as in, or um as mil", "in read as mm, or mil as um"),
         any(180.0 / std::f64::consts::PI, "degrees read as radians", "radians read as degrees"),
         any(100.0, "cm read as m, or an amplifier at 100", "m read as cm, or an amplifier at 0.01"),
         any(10.0, "an amplifier set to 10", "an amplifier set to 0.1"),

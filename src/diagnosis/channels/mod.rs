@@ -47,8 +47,8 @@ pub(crate) fn mended(data: &Data, faults: &[ChannelFault]) -> Data {
                     .filter(|channel| channel.name == fault.channels[0])
                     .for_each(|channel| widen(channel, *scatter)),
                 Fault::Exchanged => {
-                    let at = |name: &String| run.responses.iter().position(|channel| channel.name == *name);
-                    if let (Some(a), Some(b)) = (at(&fault.channels[0]), at(&fault.channels[1])) {
+                    let position = |name: &String| run.responses.iter().position(|channel| channel.name == *name);
+                    if let (Some(a), Some(b)) = (position(&fault.channels[0]), position(&fault.channels[1])) {
                         exchange(&mut run.responses, a, b);
                     }
                 }

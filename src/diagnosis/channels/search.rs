@@ -116,7 +116,7 @@ impl Search {
     }
 
     fn errors(&self, hypothesis: Option<&Hypothesis>) -> Errors {
-        let one = |cells: &Cells| {
+        let cost = |cells: &Cells| {
             let own;
             let measured = match hypothesis {
                 Some(hypothesis) => {
@@ -128,7 +128,7 @@ impl Search {
             let fit = cells.fitted(measured, None);
             (0..fit.len()).map(|c| cells.error(c, measured[c], fit[c])).collect()
         };
-        Errors { cells: self.cells.iter().map(one).collect() }
+        Errors { cells: self.cells.iter().map(cost).collect() }
     }
 
     /// Mean over the frequencies of the error of some channels where they move; 0 where they nowhere do.
@@ -204,8 +204,8 @@ impl Search {
 /// What the channels of a run would read without the fault.
 fn transformed(cells: &Cells, hypothesis: &Hypothesis) -> Vec<c64> {
     let mut measured = cells.measured.clone();
-    let at = |channel: usize| cells.channels.iter().position(|&c| c == channel);
-    match (hypothesis.fault, hypothesis.channels.map(at)) {
+    let position = |channel: usize| cells.channels.iter().position(|&c| c == channel);
+    match (hypothesis.fault, hypothesis.channels.map(position)) {
         (Fault::Factor(factor), [Some(i), _]) => measured[i] /= factor,
         (Fault::Exchanged, [Some(i), Some(j)]) => measured.swap(i, j),
         _ => {}

@@ -349,3 +349,6 @@ fn sorted(mut placings: Vec<Placing>) -> Vec<Placing> {
     placings.sort_by(|a, b| a.chi_square.total_cmp(&b.chi_square));
     placings
 }
+
+#[cfg(test)]
+mod tests;

@@ -143,8 +143,8 @@ impl<'a> Balance<'a> {
     }
 
     fn energies(&self, source: &Source, samples: usize) -> Vec<f64> {
-        let of = |run: &RunData| taken(self.structure, source, run.omega, &|dof| displacement(run, dof), samples);
-        self.runs.iter().map(of).collect()
+        let energy = |run: &RunData| taken(self.structure, source, run.omega, &|dof| displacement(run, dof), samples);
+        self.runs.iter().map(energy).collect()
     }
 
     /// The shapes of a grid of every law at every place with the energies that they take out, J.
@@ -196,13 +196,13 @@ impl<'a> Balance<'a> {
         } else {
             Cow::Borrowed(&self.runs)
         };
-        let of = |(run, missing): (&RunData, &f64)| {
+        let error = |(run, missing): (&RunData, &f64)| {
             let field = |dof: usize| displacement(run, dof);
             let lost = |source: &Source| taken(self.structure, source, run.omega, &field, SAMPLES);
             let before = if faulty { input(run, &field) - self.known.iter().map(lost).sum::<f64>() } else { *missing };
             before - effects.iter().filter(|e| e.effect.law().is_some()).map(lost).sum::<f64>()
         };
-        runs.iter().zip(&self.missing).map(of).collect()
+        runs.iter().zip(&self.missing).map(error).collect()
     }
 
     /// Errors of every channel, from a small one.

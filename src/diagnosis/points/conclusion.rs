@@ -1,11 +1,11 @@
 //! From the fits of a search on energies to what is said.
 
 use super::balance::{Balance, Fitted};
-use super::evidence::{agrees, criterion, square};
+use super::evidence::{agrees, criterion};
 use crate::diagnosis::result::{Added, Diagnosis, Step, Suggestion, Verdict};
 use crate::diagnosis::selection::conclusion::{TOLERATED, UNTRUSTED};
 use crate::effects::Source;
-use crate::math::statistics::{evidence_weights, root_mean_square};
+use crate::math::statistics::{evidence_weights, root_mean_square, sum_of_squares};
 
 /// Difference of the squared residual within which two suggestions cannot be told apart.
 const ALIKE: f64 = 9.0;
@@ -37,7 +37,8 @@ fn as_stated(balance: &Balance) -> Diagnosis {
         let over = |(v, e): (&f64, &f64)| if *e == 0.0 { 1.0 } else { (v / e).abs() };
         root_mean_square(&values.iter().zip(&balance.input).map(over).collect::<Vec<_>>())
     };
-    let (before, misfit) = (relative(&balance.missing), square(&balance.weighted()) / balance.missing.len() as f64);
+    let (before, misfit) =
+        (relative(&balance.missing), sum_of_squares(&balance.weighted()) / balance.missing.len() as f64);
     Diagnosis {
         error_before: before,
         noise_floor: relative(&balance.deviation),
@@ -54,7 +55,7 @@ fn as_stated(balance: &Balance) -> Diagnosis {
 
 /// The verdict where no effect has the evidence.
 fn without_effects(diagnosis: &mut Diagnosis, balance: &Balance) {
-    let (n, left) = (balance.missing.len(), square(&balance.weighted()));
+    let (n, left) = (balance.missing.len(), sum_of_squares(&balance.weighted()));
     diagnosis.corrections = balance.corrections(&[]);
     diagnosis.verdict = match (agrees(left, n, 0), diagnosis.corrections.is_empty()) {
         (true, true) => Verdict::Adequate,

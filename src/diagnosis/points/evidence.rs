@@ -18,8 +18,3 @@ pub(super) fn criterion(fit: &Fitted, n: usize) -> f64 {
     let extra: usize = fit.added.iter().map(|a| a.source.parameters.len() - 1).sum();
     bayesian_information(fit.chi_square, fit.parameters, n) + EXTRA * extra as f64
 }
-
-/// Sum of squares.
-pub(super) fn square(values: &[f64]) -> f64 {
-    values.iter().map(|x| x * x).sum()
-}

@@ -8,7 +8,7 @@
 //! fitted in all their parameters. What takes no energy (springs, masses) cannot be seen.
 
 use super::conclusion::conclude;
-use super::evidence::{agrees, criterion, square};
+use super::evidence::{agrees, criterion};
 use crate::control::Control;
 use crate::diagnosis::channels::fault::is_ordinary_gain;
 use crate::diagnosis::points::balance::{Balance, Column, Fitted};
@@ -16,7 +16,7 @@ use crate::diagnosis::points::uncertainty::MULTIPLES;
 use crate::diagnosis::residual::data::{DiagnosisError, Problem};
 use crate::diagnosis::result::{Added, Diagnosis};
 use crate::effects::{Effect, Source};
-use crate::math::statistics::bayesian_information;
+use crate::math::statistics::{bayesian_information, sum_of_squares};
 use std::cell::OnceCell;
 
 /// Sets that are fitted in all their parameters, at each number of effects.
@@ -83,7 +83,7 @@ pub(crate) fn diagnose(problem: &Problem, excluded: &[Source], control: &Control
 fn evidence(balance: &Balance, by_size: &[Vec<Fitted>]) -> f64 {
     let fit = match by_size.last() {
         Some(top) => criterion(&top[0], balance.missing.len()),
-        None => square(&balance.weighted()),
+        None => sum_of_squares(&balance.weighted()),
     };
     fit + balance.cost()
 }

@@ -60,7 +60,7 @@ impl Uncertainty {
     /// Corrections of known sources where the energies over their deviations leave `rows`.
     pub(super) fn corrections(&self, rows: &[f64]) -> Vec<Correction> {
         let whitened = self.whitened(rows);
-        let of = |((parameter, scale), slope): (&(UpdatingParameter, f64), &Vec<f64>)| {
+        let estimate = |((parameter, scale), slope): (&(UpdatingParameter, f64), &Vec<f64>)| {
             let slope = self.whitened(slope);
             let value = scale * scale * dot(&slope, &whitened);
             let variance = scale * scale * (1.0 - scale * scale * dot(&slope, &slope));
@@ -71,7 +71,7 @@ impl Uncertainty {
                 deviation: factor * variance.max(0.0).sqrt(),
             })
         };
-        self.parameters.iter().zip(&self.slopes).filter_map(of).collect()
+        self.parameters.iter().zip(&self.slopes).filter_map(estimate).collect()
     }
 }
 

@@ -286,3 +286,6 @@ fn pairs(modes: usize) -> Vec<[usize; 2]> {
     all.truncate(MOST_PAIRS);
     all
 }
+
+#[cfg(test)]
+mod tests;

@@ -128,3 +128,6 @@ pub(crate) fn distance(run: &RunData, prediction: &RunPrediction) -> f64 {
     };
     (0..run.responses.len()).map(of).sum()
 }
+
+#[cfg(test)]
+mod tests;

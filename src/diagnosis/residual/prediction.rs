@@ -6,11 +6,10 @@
 use crate::control::Control;
 use crate::diagnosis::residual::data::{Data, DiagnosisError, RunData};
 use crate::diagnosis::updating::parameters::Updating;
-use crate::effects::{Effect, Kind, Place, Source};
+use crate::effects::{Kind, Place, Source};
 use crate::response::harmonic_balance::{
     Excitation, ForwardModel, Response, ResponseError, RunModel, Settings, is_stable,
 };
-use crate::response::sensitivity::{SensitivityError, Unknown, sensitivities};
 use crate::structure::Structure;
 use faer::c64;
 use std::sync::Arc;
@@ -75,37 +74,6 @@ pub struct RunPrediction {
     pub response: Response,
     /// Whether it is an answer to the forces; if none was found, the prediction is to rest.
     pub found: bool,
-}
-
-/// What the recorded amplitudes of a run are differentiated by.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum By {
-    /// Parameter of one of the effects added, errors of response and force channels included.
-    Effect {
-        /// Index in the list of effects.
-        effect: usize,
-        /// Index of the parameter.
-        parameter: usize,
-    },
-    /// Parameter of one of the known sources.
-    Known {
-        /// Index in [`Predictor::known`].
-        source: usize,
-        /// Index of the parameter.
-        parameter: usize,
-    },
-    /// Young's modulus, density, a lumped mass, the stiffness of one mode: see [`Unknown`].
-    Structure(Unknown),
-}
-
-/// A prediction with its derivatives.
-#[derive(Debug, Clone)]
-pub struct RunDerivatives {
-    /// The prediction.
-    pub prediction: RunPrediction,
-    /// `[unknown][channel][harmonic - 1]`: derivative of the recorded amplitude of each response channel, its unit per
-    /// unit of the unknown (relative changes: per 1).
-    pub derivatives: Vec<Vec<Vec<c64>>>,
 }
 
 /// The model over the runs, ready for any effects added to what is known.
@@ -286,74 +254,6 @@ impl Predictor {
         let stable = is_stable(&self.runs[r], &sources, &excitation, &response);
         Ok((recorded(data, effects, response), stable))
     }
-
-    /// [`Self::predict`] with the derivatives of every recorded amplitude by each of `by`.
-    ///
-    /// The response is solved once; then one factorisation serves all unknowns, each of which costs about one linear
-    /// solve. Where friction switches between sticking and slipping derivatives are those of the slip pattern that is.
-    ///
-    /// # Errors
-    /// Those of the prediction; [`SensitivityError::TurningPoint`]; [`SensitivityError::NoSuchUnknown`].
-    pub fn predict_with_derivatives(
-        &self,
-        r: usize,
-        data: &RunData,
-        (effects, by): (&[Source], &[By]),
-        settings: &Settings,
-        start: Option<&Response>,
-        control: &Control,
-    ) -> Result<RunDerivatives, SensitivityError> {
-        let prediction = self.predict(r, data, effects, settings, start, control)?;
-        let asked: Vec<Vec<(Unknown, f64)>> = by.iter().map(|by| self.unknowns(*by, effects, data)).collect();
-        let flat: Vec<Unknown> = asked.iter().flatten().map(|(unknown, _)| *unknown).collect();
-        let sources = self.sources(effects);
-        let excitation = self.excitation(data, effects);
-        let dofs: Vec<usize> = data.responses.iter().map(|channel| channel.dof).collect();
-        let all = sensitivities(&self.runs[r], &sources, &excitation, &prediction.response, &dofs, &flat)?;
-        let mut rest = &all[..];
-        let mut derivatives = Vec::with_capacity(by.len());
-        for (by, asked) in by.iter().zip(&asked) {
-            let (own, others) = rest.split_at(asked.len());
-            rest = others;
-            let change = |c: usize, h: usize| {
-                let terms = own.iter().zip(asked).filter(|(change, _)| h <= change.ncols());
-                terms.fold(c64::new(0.0, 0.0), |sum, (change, (_, factor))| sum + change[(c, h - 1)] * *factor)
-            };
-            let channel = |c: usize| -> Vec<c64> {
-                let channel = &data.responses[c];
-                let at = |h: usize| {
-                    let w = h as f64 * data.omega;
-                    let direct = own_transfer(*by, effects, &channel.name, w) * prediction.channels[c][h - 1];
-                    direct + transfer(effects, &channel.name, w) * channel.from_displacement(w) * change(c, h)
-                };
-                (1..=data.harmonics).map(at).collect()
-            };
-            derivatives.push((0..data.responses.len()).map(channel).collect());
-        }
-        Ok(RunDerivatives { prediction, derivatives })
-    }
-
-    /// The unknowns of the displacements behind `by`, each with its factor; none for errors of response channels.
-    fn unknowns(&self, by: By, effects: &[Source], data: &RunData) -> Vec<(Unknown, f64)> {
-        match by {
-            By::Structure(unknown) => vec![(unknown, 1.0)],
-            By::Known { source, parameter } => vec![(Unknown::Source { source, parameter }, 1.0)],
-            By::Effect { effect, parameter } => {
-                let on_structure = |e: &Source| !matches!(e.effect.kind(), Kind::Channel(_));
-                let Some(given) = effects.get(effect).filter(|e| !on_structure(e)) else {
-                    let before = effects.iter().take(effect).filter(|e| on_structure(e)).count();
-                    return vec![(Unknown::Source { source: self.known.len() + before, parameter }, 1.0)];
-                };
-                let forces = data.forces.iter().enumerate();
-                let felt = forces.filter(|(_, force)| given.place == Place::Channel(force.name.clone()));
-                felt.map(|(f, _)| match given.effect {
-                    Effect::Gain => (Unknown::ForceScale(f), -1.0 / given.parameters[0]),
-                    _ => (Unknown::ForceAdvance(f), 1.0),
-                })
-                .collect()
-            }
-        }
-    }
 }
 
 /// What the response channels record of `response`.
@@ -370,17 +270,4 @@ fn recorded(data: &RunData, effects: &[Source], response: Response) -> RunPredic
         truncation.push((1..=data.harmonics).map(|h| factor(h).norm() * error(h)).collect());
     }
     RunPrediction { channels, truncation, response, found: true }
-}
-
-/// Relative derivative of the transfer of the channel of that name by its own error, if that is what `by` names.
-fn own_transfer(by: By, effects: &[Source], name: &str, w: f64) -> c64 {
-    let zero = c64::new(0.0, 0.0);
-    let By::Effect { effect, .. } = by else { return zero };
-    match effects.get(effect).map(|e| (e, e.effect.kind())) {
-        Some((error, Kind::Channel(law))) if error.place == Place::Channel(name.to_owned()) => {
-            let value = error.parameters[0];
-            law.transfer_derivative(value, w) / law.transfer(value, w)
-        }
-        _ => zero,
-    }
 }

@@ -13,6 +13,7 @@ use crate::diagnosis::updating::correction::Correction;
 use crate::diagnosis::updating::parameters::{Scales, UpdatingParameter};
 use crate::effects::Source;
 use crate::math::numerals::significant;
+use crate::math::statistics::sum_of_squares;
 
 /// Difference of the scaled squared residual within which two suggestions cannot be told apart.
 const ALIKE: f64 = 9.0;
@@ -105,7 +106,7 @@ impl Outcome<'_> {
     fn conclude_without_effects(&self, mut diagnosis: Diagnosis) -> Result<Diagnosis, DiagnosisError> {
         let reference = &self.reference;
         let estimator = reference.estimator();
-        let misfit = square(&estimator.residual(&reference.predictions)) / reference.count().max(1) as f64;
+        let misfit = sum_of_squares(&estimator.residual(&reference.predictions)) / reference.count().max(1) as f64;
         let error = reference.error_of_structure(&[], &Vec::new())?;
         // That corrections are all is no answer of a search whose time was up before laws were fitted, nor where they leave most
         // of the error beyond the noise.
@@ -228,10 +229,6 @@ pub(crate) fn corrections(reference: &ReferenceModel) -> Vec<Correction> {
         })
     };
     updating.parameters.iter().enumerate().filter_map(of).collect()
-}
-
-fn square(values: &[f64]) -> f64 {
-    values.iter().map(|x| x * x).sum()
 }
 
 /// The effects of a fit; what the model leaves beyond the noise widens their deviations.

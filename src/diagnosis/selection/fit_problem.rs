@@ -193,3 +193,6 @@ impl Residual for OnResponse<'_> {
         Ok(Mat::from_fn(at.len(), columns.len(), |i, k| columns[k][i]))
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -131,3 +131,6 @@ fn without(descent: &Descent, fold_of_row: &[usize], fold: usize) -> Vec<f64> {
         Err(_) => descent.theta.clone(),
     }
 }
+
+#[cfg(test)]
+mod tests;

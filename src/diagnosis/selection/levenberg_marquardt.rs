@@ -5,6 +5,7 @@
 
 use crate::effects::{Parameter, Source};
 use crate::math::least_squares::solve_symmetric;
+use crate::math::statistics::sum_of_squares;
 use dashpot_numerics::{Cholesky, transposed_product};
 use faer::Mat;
 
@@ -195,7 +196,7 @@ const BENT: f64 = 0.4;
 pub(crate) fn descend<R: Residual>(problem: &mut R, theta: &[f64], steps: usize) -> Result<Descent, R::Error> {
     let mut theta = theta.to_vec();
     let mut residual = problem.residual(&theta)?;
-    let mut chi_square = square(&residual);
+    let mut chi_square = sum_of_squares(&residual);
     let mut jacobian = problem.jacobian(&theta, &residual)?;
     let mut equations = Normal::new(&jacobian, &residual);
     let (mut damping, mut idle) = (1e-3, 0);
@@ -267,7 +268,7 @@ fn step<R: Residual>(
     equations: &Normal,
     damping: &mut f64,
 ) -> Result<Option<Point>, R::Error> {
-    let chi_square = square(residual);
+    let chi_square = sum_of_squares(residual);
     while *damping < DAMPING[1] {
         if let Some(straight) = equations.move_by(*damping) {
             let straight: Vec<f64> = (0..theta.len()).map(|k| -straight[(k, 0)]).collect();
@@ -286,7 +287,7 @@ fn step<R: Residual>(
             };
             let next = moved(bend.as_ref().unwrap_or(&straight));
             let after = problem.residual(&next)?;
-            let chi = square(&after);
+            let chi = sum_of_squares(&after);
             if chi.is_finite() && chi < chi_square {
                 *damping = (*damping * 0.2).max(DAMPING[0]);
                 return Ok(Some((next, after, chi)));
@@ -325,9 +326,8 @@ fn bend<R: Residual>(
     Ok(small.then(|| straight.iter().zip(&half).map(|(s, h)| s + h).collect()))
 }
 
-fn square(residual: &[f64]) -> f64 {
-    residual.iter().map(|r| r * r).sum()
-}
+#[cfg(test)]
+mod certified;
 
 #[cfg(test)]
 mod tests {

@@ -177,3 +177,6 @@ fn difference(reference: &ReferenceModel, a: &Response, b: &Response) -> f64 {
     let alive = reference.data.runs[0].alive.iter();
     alive.map(|&c| seen(reference, c, a, b).norm_sqr()).sum::<f64>().sqrt()
 }
+
+#[cfg(test)]
+mod tests;

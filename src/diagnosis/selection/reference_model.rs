@@ -12,7 +12,7 @@ use crate::diagnosis::selection::estimator::Estimator;
 use crate::diagnosis::selection::fitted_model::FittedModel;
 use crate::diagnosis::updating::noise_model::{Linearisation, NoiseModel};
 use crate::effects::Source;
-use crate::math::statistics::{bayesian_information, evidence_weights, root_mean_square};
+use crate::math::statistics::{bayesian_information, evidence_weights, root_mean_square, sum_of_squares};
 use std::sync::Arc;
 
 /// What every parameter of a law beyond its first costs in evidence besides its information criterion: where one law
@@ -129,7 +129,7 @@ impl<'a> ReferenceModel<'a> {
     /// How far the model agrees with the data as it is, as a first step.
     pub(crate) fn agreement(&self) -> Step {
         let estimator = self.estimator();
-        let before = square(&estimator.residual(&self.predictions));
+        let before = sum_of_squares(&estimator.residual(&self.predictions));
         Step {
             added: Vec::new(),
             error: estimator.error(&self.predictions),
@@ -156,8 +156,4 @@ impl<'a> ReferenceModel<'a> {
 pub(crate) fn scale_of(fits: &[FittedModel], count: usize) -> f64 {
     let least = fits.iter().map(|r| r.chi_square / count.saturating_sub(r.parameters).max(1) as f64);
     least.fold(f64::INFINITY, f64::min).clamp(1.0, 1e12)
-}
-
-fn square(residual: &[f64]) -> f64 {
-    residual.iter().map(|r| r * r).sum()
 }

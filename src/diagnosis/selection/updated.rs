@@ -15,6 +15,7 @@ use crate::diagnosis::updating::noise_model::{Linearisation, NoiseModel, amplitu
 use crate::diagnosis::updating::parameters::{Scales, Updating, UpdatingParameter};
 use crate::diagnosis::updating::shape_errors::ShapeErrors;
 use crate::effects::Source;
+use crate::math::statistics::sum_of_squares;
 use crate::response::harmonic_balance::{ResponseError, Settings};
 use crate::response::sensitivity::Unknown;
 use crate::structure::Part;
@@ -33,8 +34,7 @@ const ARRIVED: f64 = 1e-3;
 const ROUNDS: usize = 3;
 /// Steps of the effects in each.
 const REFITTED: usize = 4;
-/// Evidence by which the linear fit of the updating parameters may still fall where they have settled: less than any decision
-/// hangs on.
+/// Evidence that the linear fit of the updating parameters may still gain where they have settled: no decision hangs on less.
 pub(super) const SETTLED: f64 = 2.0;
 /// Share of what the linear fit promises below which a step is too slow to go on.
 const SLOW: f64 = 1e-3;
@@ -42,13 +42,11 @@ const SLOW: f64 = 1e-3;
 const JOINT_STEPS: usize = 12;
 /// Factor of the measured over the predicted motion, off one, up to which derivatives are taken at the predicted one.
 const NEAR: f64 = 0.3;
-/// Bounds of the factor by which the measured motion may differ from the predicted one where derivatives are corrected
-/// for it.
+/// Bounds of the factor by which the measured motion may differ from the predicted one where derivatives are corrected for it.
 const FIELD: [f64; 2] = [0.02, 50.0];
 
 impl<'a> ReferenceModel<'a> {
-    /// The model with its updating parameters at `updating`, linearised beside `effects`, whose responses start from
-    /// `starts`.
+    /// The model with its updating parameters at `updating`, linearised beside `effects`, whose responses start from `starts`.
     ///
     /// Where the model is far off, its derivatives `-A dZ X` are taken at the measured motion rather than at its own
     /// (`X` times the factor that fits the sensors best): for a single mode the relation is then exact however far off.
@@ -155,7 +153,7 @@ impl<'a> ReferenceModel<'a> {
         for step in 0..STEPS {
             let Some(reference) = if_possible(self.updated(&updating, &[], &Vec::new()))? else { break };
             let rows = reference.estimator().at_reference(&reference.predictions);
-            let here = square(&rows);
+            let here = sum_of_squares(&rows);
             let misfit = (here / self.count() as f64).max(1.0);
             let target = updating.at(&reference.noise.updating.solve_with_misfit(&rows, misfit)).values;
             let least = best.as_ref().map_or(f64::INFINITY, |(least, _)| *least);
@@ -178,7 +176,8 @@ impl<'a> ReferenceModel<'a> {
         let mut reference = self;
         let mut here = reference.cost_at_reference(&reference.predictions);
         for _ in 0..rounds {
-            let linear = square(&reference.estimator().residual(&reference.predictions)) + reference.noise.cost();
+            let linear =
+                sum_of_squares(&reference.estimator().residual(&reference.predictions)) + reference.noise.cost();
             if here - linear < SETTLED || reference.control.is_late() {
                 break;
             }
@@ -206,7 +205,7 @@ impl<'a> ReferenceModel<'a> {
         let start = self.updated(&self.linearisation.updating.without_force_gains(), &[], &Vec::new())?;
         let strict = |scales: Scales| -> Result<(ReferenceModel<'a>, f64, bool), DiagnosisError> {
             let strict = start.with_scales(scales).settled_bare(STEPS)?;
-            let left = square(&strict.estimator().residual(&strict.predictions));
+            let left = sum_of_squares(&strict.estimator().residual(&strict.predictions));
             let (cost, enough) = (left + strict.noise.cost(), agrees(&strict, left, 0));
             Ok((strict, cost, enough))
         };
@@ -262,14 +261,14 @@ impl<'a> ReferenceModel<'a> {
 
     /// Squared residual per datum without any effect.
     pub(super) fn misfit(&self) -> f64 {
-        square(&self.estimator().residual(&self.predictions)) / self.count().max(1) as f64
+        sum_of_squares(&self.estimator().residual(&self.predictions)) / self.count().max(1) as f64
     }
 
     /// This model settled with the scales that are estimated without any effect, and its evidence.
     pub(super) fn estimated(&self) -> Result<(ReferenceModel<'a>, f64), DiagnosisError> {
         let settled = self.with_likely_scales(None, &FINAL)?.0.settled_bare(STEPS)?;
         let estimated = settled.with_likely_scales(None, &FINAL)?.0;
-        let cost = square(&estimated.estimator().residual(&estimated.predictions)) + estimated.noise.cost();
+        let cost = sum_of_squares(&estimated.estimator().residual(&estimated.predictions)) + estimated.noise.cost();
         Ok((estimated, cost))
     }
 
@@ -402,8 +401,4 @@ fn towards(updating: &Updating, target: &[f64]) -> Updating {
 /// Least gain of a step towards a linear fit that promises `more`.
 fn slowest(more: f64) -> f64 {
     (SLOW * more).max(0.5 * SETTLED)
-}
-
-fn square(values: &[f64]) -> f64 {
-    values.iter().map(|x| x * x).sum()
 }

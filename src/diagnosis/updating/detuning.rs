@@ -13,6 +13,7 @@ use crate::diagnosis::selection::found::agrees;
 use crate::diagnosis::selection::reference_model::ReferenceModel;
 use crate::diagnosis::updating::correction::Correction;
 use crate::diagnosis::updating::parameters::UpdatingParameter;
+use crate::math::statistics::sum_of_squares;
 use crate::structure::Part;
 use std::sync::Arc;
 
@@ -83,13 +84,13 @@ pub(crate) fn detuning(problem: &Problem, control: &Control) -> Result<Option<De
     let predictor = Arc::new(Predictor::new(problem.structure, problem.known(), &data)?);
     let reference = ReferenceModel::new(predictor, &data, control, &|_| {})?;
     let estimator = reference.estimator();
-    let before = square(&estimator.residual(&reference.predictions));
+    let before = sum_of_squares(&estimator.residual(&reference.predictions));
     if agrees(&reference, before, 0) {
         let error_after = estimator.error(&reference.predictions);
         return Ok(Some(Detuning { reading: Reading::Agrees, share: 0.0, error_after, corrections: Vec::new() }));
     }
     let bare = reference.bare()?;
-    let after = square(&bare.estimator().residual(&bare.predictions));
+    let after = sum_of_squares(&bare.estimator().residual(&bare.predictions));
     let noise = reference.count() as f64;
     let share = ((before - after) / (before - noise).max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
     let reading = match (is_likely(&bare), agrees(&bare, after, 0)) {
@@ -122,8 +123,4 @@ pub(crate) fn is_likely(reference: &ReferenceModel) -> bool {
         | UpdatingParameter::Shape { .. }
         | UpdatingParameter::Session(_) => true,
     })
-}
-
-fn square(values: &[f64]) -> f64 {
-    values.iter().map(|x| x * x).sum()
 }

@@ -1,7 +1,7 @@
 //! Comma-separated values: the viscous matrix with DOF labels, and tables of sources, energy and other laws beside it.
 
 use super::files::{Export, beside};
-use super::identified::{Identified, place_text};
+use super::identified::Identified;
 use crate::structure::Structure;
 use faer::Mat;
 use std::path::Path;
@@ -39,7 +39,7 @@ fn matrix(values: &Mat<f64>, structure: &Structure) -> String {
 fn sources(identified: &Identified) -> String {
     let mut text = String::from("law,place,state,parameter,value,standard_deviation,unit,energy_percent\n");
     for found in identified.sources {
-        let place = quoted(&place_text(&found.source, identified.structure));
+        let place = quoted(&found.source.place.labels(identified.structure));
         let state = if found.source.state == crate::effects::State::Known { "known" } else { "identified" };
         for (k, parameter) in found.source.effect.parameters().iter().enumerate() {
             text.push_str(&format!(

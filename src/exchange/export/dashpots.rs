@@ -1,6 +1,6 @@
 //! Viscous sources as single dashpots: what finite-element programs call CDAMP2 or DASHPOT elements.
 
-use super::identified::{Identified, place_text};
+use super::identified::Identified;
 use crate::effects::{Effect, Leg};
 use crate::structure::{Direction, Structure, StructureKind};
 
@@ -19,7 +19,7 @@ pub(super) fn dashpots(identified: &Identified, format: &str) -> (Vec<Dashpot>, 
             let c = source.coefficient();
             found.extend(source.place.legs().into_iter().map(|leg| Dashpot { leg, c }));
         } else {
-            let place = place_text(source, identified.structure);
+            let place = source.place.labels(identified.structure);
             warnings
                 .push(format!("{} at {place} is not viscous: {format} dashpots cannot hold it", source.effect.title()));
         }

@@ -46,14 +46,3 @@ pub struct Identified<'a> {
     /// Damped modes; empty without mass and stiffness.
     pub modes: &'a [IdentifiedMode],
 }
-
-/// DOF labels joined for a table, such as `13-17`; `structure` for the whole, the name for a channel.
-pub(super) fn place_text(source: &Source, structure: &Structure) -> String {
-    use crate::effects::Place;
-    match &source.place {
-        Place::Dofs(dofs) => dofs.iter().map(|&d| structure.label(d)).collect::<Vec<_>>().join("-"),
-        Place::Whole(None) => "structure".to_owned(),
-        Place::Whole(Some([first, last])) => format!("elements {}-{}", first + 1, last + 1),
-        Place::Channel(name) => name.clone(),
-    }
-}

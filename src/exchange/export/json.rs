@@ -1,7 +1,7 @@
 //! One JSON document: the words of `identify --json`, with every matrix.
 
 use super::files::Export;
-use super::identified::{Identified, place_text};
+use super::identified::Identified;
 use crate::effects::{Place, State};
 use faer::Mat;
 use serde_json::{Map, Value, json};
@@ -61,7 +61,7 @@ fn sources(identified: &Identified) -> Vec<Value> {
             let deviations: Map<String, Value> =
                 names.zip(&found.deviation).map(|(n, v)| (n.into(), json!(v))).collect();
             json!({"law": found.source.effect.name(), "dofs": dofs,
-                   "place": place_text(&found.source, identified.structure),
+                   "place": found.source.place.labels(identified.structure),
                    "known": found.source.state == State::Known, "parameters": values,
                    "standard_deviation": deviations, "energy_percent": found.energy_percent})
         })

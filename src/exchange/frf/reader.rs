@@ -19,12 +19,12 @@ pub(crate) fn read_responses(
     structure: &Structure,
     control: &Control,
 ) -> Result<(ResponseSet, Vec<String>), FrfError> {
-    let at = |problem| FrfError { file: path.display().to_string(), problem };
+    let in_file = |problem| FrfError { file: path.display().to_string(), problem };
     if source.columns.is_some() || !is_universal(path) {
-        return data_files::read(path, name, source, structure, control).map_err(at);
+        return data_files::read(path, name, source, structure, control).map_err(in_file);
     }
-    let mut file = File::open(path).map_err(|error| at(FrfProblem::File(error)))?;
-    Reader { file: &mut file, source, structure }.read(name, control).map_err(at)
+    let mut file = File::open(path).map_err(|error| in_file(FrfProblem::File(error)))?;
+    Reader { file: &mut file, source, structure }.read(name, control).map_err(in_file)
 }
 
 /// The functions of all files of a test on their common frequencies, and the faults that were read over; `names` are those

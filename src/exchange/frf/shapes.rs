@@ -34,10 +34,10 @@ pub(crate) fn read_shapes(
     dofs: &BTreeMap<String, String>,
     structure: &Structure,
 ) -> Result<Vec<ReferenceShape>, FrfError> {
-    let at = |problem| FrfError { file: name.to_owned(), problem };
-    let raw = raw(path).map_err(|error| at(FrfProblem::File(error)))?;
+    let in_file = |problem| FrfError { file: name.to_owned(), problem };
+    let raw = raw(path).map_err(|error| in_file(FrfProblem::File(error)))?;
     if raw.is_empty() {
-        return Err(at(FrfProblem::NoShapes));
+        return Err(in_file(FrfProblem::NoShapes));
     }
     let mut places = Places { raw: &raw, dofs, structure, known: BTreeMap::new() };
     let mut shapes = Vec::new();
@@ -49,7 +49,7 @@ pub(crate) fn read_shapes(
             shapes.push(ReferenceShape { name, kind, frequency_hz, damping_ratio, at });
         }
     }
-    if shapes.is_empty() { Err(at(FrfProblem::ShapesElsewhere)) } else { Ok(shapes) }
+    if shapes.is_empty() { Err(in_file(FrfProblem::ShapesElsewhere)) } else { Ok(shapes) }
 }
 
 /// Where the DOFs of a file lie in the structure.
@@ -140,6 +140,6 @@ fn raw(path: &Path) -> Result<Vec<Raw>, uff::Error> {
 
 /// The values of a node at its directions.
 fn directions(node: i64, values: &[[f64; 2]]) -> Vec<(uff::Dof, c64)> {
-    let at = |(k, value): (usize, &[f64; 2])| (uff::Dof::new(node, k as i64 + 1), c64::new(value[0], value[1]));
-    values.iter().enumerate().map(at).collect()
+    let at_node = |(k, value): (usize, &[f64; 2])| (uff::Dof::new(node, k as i64 + 1), c64::new(value[0], value[1]));
+    values.iter().enumerate().map(at_node).collect()
 }

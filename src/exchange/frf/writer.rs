@@ -23,9 +23,9 @@ pub(crate) struct SimulatedSet {
 
 /// Writes a simulated set to `path`.
 pub(crate) fn write_responses(path: &Path, simulated: &SimulatedSet, structure: &Structure) -> Result<(), FrfError> {
-    let at = |problem| FrfError { file: path.display().to_string(), problem };
-    let bytes = bytes(simulated, structure).map_err(at)?;
-    let failed = |error: std::io::Error| at(FrfProblem::Unwritable { reason: error.to_string() });
+    let in_file = |problem| FrfError { file: path.display().to_string(), problem };
+    let bytes = bytes(simulated, structure).map_err(in_file)?;
+    let failed = |error: std::io::Error| in_file(FrfProblem::Unwritable { reason: error.to_string() });
     write_atomically(path, &bytes).map_err(failed)
 }
 

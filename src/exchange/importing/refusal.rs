@@ -7,17 +7,17 @@ const MOST_NAMED: usize = 3;
 
 /// What is wrong with a file of which no channel could be mapped; `left` are its channels with the reasons.
 pub(super) fn refusal(contents: &Contents, left: &[(String, String)]) -> String {
-    let of = |kind: Kind| contents.sets.iter().filter(move |set| set.kind == kind);
+    let sets = |kind: Kind| contents.sets.iter().filter(move |set| set.kind == kind);
     let channels = |set: &Set| set.channels.len();
     let bare =
-        of(Kind::Table).flat_map(|set| &set.channels).filter(|channel| channel.complex && channel.count > 0).count();
+        sets(Kind::Table).flat_map(|set| &set.channels).filter(|channel| channel.complex && channel.count > 0).count();
     if bare > 0 {
         return format!(
             "its {bare} column{} complex values and no frequencies; give their step by --step-hz, and the DOFs by --responses and --references",
             if bare == 1 { " has" } else { "s have" }
         );
     }
-    if of(Kind::Time).chain(of(Kind::Table)).map(channels).sum::<usize>() > 0 {
+    if sets(Kind::Time).chain(sets(Kind::Table)).map(channels).sum::<usize>() > 0 {
         let named = left.iter().take(MOST_NAMED).map(|(name, why)| format!("\"{}\" ({why})", name.trim()));
         let named = named.collect::<Vec<_>>().join(", ");
         let more =
@@ -26,17 +26,17 @@ pub(super) fn refusal(contents: &Contents, left: &[(String, String)]) -> String 
             "no channel measures a force or a motion: {named}{more}; say by --map what they are, or export forces and motions"
         );
     }
-    if of(Kind::Spectrum).next().is_some() {
+    if sets(Kind::Spectrum).next().is_some() {
         return "holds spectra without phases (power spectra, coherences); export the time records, or frequency responses \
                 with their phases"
             .to_owned();
     }
-    if of(Kind::Shape).next().is_some() {
+    if sets(Kind::Shape).next().is_some() {
         return "holds shapes and no record of a force and a motion; export the frequency responses or time records that \
                 they came from"
             .to_owned();
     }
-    if of(Kind::Geometry).next().is_some() {
+    if sets(Kind::Geometry).next().is_some() {
         return "holds geometry and no measurement; import it together with the file of the measurement, or name it by \
                 --nodes beside --mass"
             .to_owned();

@@ -126,11 +126,11 @@ pub(super) fn times(
 /// Whether the file states the same even times for two channels, so that they need not be compared one by one.
 pub(super) fn same_even_axis(file: &DataFile, first: (usize, usize), other: (usize, usize)) -> bool {
     let sets = &file.contents().sets;
-    let of = |(set, channel): (usize, usize)| {
+    let axis_of = |(set, channel): (usize, usize)| {
         let entry = &sets[set].channels[channel];
         (&entry.axis, entry.count, &sets[set].axis_unit)
     };
-    matches!(of(first).0, Axis::Even { .. }) && of(first) == of(other)
+    matches!(axis_of(first).0, Axis::Even { .. }) && axis_of(first) == axis_of(other)
 }
 
 /// Channels of a run share their times.

@@ -51,7 +51,7 @@ fn full_name(channel: &Channel) -> String {
 
 fn of_set(file: &DataFile, s: usize, set: &Set) -> Option<Stepped> {
     let roles: Vec<Role> = set.channels.iter().map(|channel| role(&full_name(channel))).collect();
-    let at = |wanted: fn(&Role) -> bool| roles.iter().position(wanted);
+    let column = |wanted: fn(&Role) -> bool| roles.iter().position(wanted);
     let values = |c: usize| match file.read(s, c) {
         Ok(Values::Real(values)) => Some(values),
         _ => None,
@@ -60,7 +60,7 @@ fn of_set(file: &DataFile, s: usize, set: &Set) -> Option<Stepped> {
         Role::Phase(radians, _) => Some((c, *radians)),
         _ => None,
     })?;
-    let frequencies = match at(|role| matches!(role, Role::Frequency(_))) {
+    let frequencies = match column(|role| matches!(role, Role::Frequency(_))) {
         Some(c) => {
             let Role::Frequency(to_hz) = roles[c] else { return None };
             values(c)?.into_iter().map(|f| f * to_hz).collect()
@@ -71,7 +71,7 @@ fn of_set(file: &DataFile, s: usize, set: &Set) -> Option<Stepped> {
         }
         None => return None,
     };
-    let levels = at(|role| *role == Role::Level).and_then(values).unwrap_or_default();
+    let levels = column(|role| *role == Role::Level).and_then(values).unwrap_or_default();
     let levels: std::collections::BTreeSet<u64> = levels.iter().map(|level| level.to_bits()).collect();
     let finite = || frequencies.iter().copied().filter(|f: &f64| f.is_finite());
     let mut stepped = Stepped {
@@ -92,7 +92,7 @@ fn of_set(file: &DataFile, s: usize, set: &Set) -> Option<Stepped> {
         }
     }
     let response = roles.iter().position(|role| matches!(role, Role::Response(..)));
-    let force = at(|role| matches!(role, Role::Force(_)));
+    let force = column(|role| matches!(role, Role::Force(_)));
     if force.is_none() && named.iter().all(|(quantity, _)| *quantity != Quantity::Force)
         || response.is_none() && named.iter().all(|(quantity, _)| *quantity == Quantity::Force)
     {

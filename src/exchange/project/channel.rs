@@ -6,7 +6,6 @@ use super::reader::{Origin, Table, one_line};
 use crate::exchange::mapping::{ChannelTable, units::LabUnit};
 use crate::measurement::Quantity;
 use crate::measurement::base::AXES;
-use toml::de::DeTable;
 
 const QUANTITIES: [&str; 5] = ["force", "acc", "vel", "disp", "base"];
 const KEYS: [&str; 10] = ["name", "set", "quantity", "dof", "direction", "unit", "sign", "factor", "delay", "optional"];
@@ -34,10 +33,7 @@ pub(super) fn parse(root: &Table<'_>, lines: &mut Lines) -> Result<Vec<ChannelTa
 /// [`ProjectError`] with the line of the first thing that is wrong.
 pub fn template(text: &str, file: &str) -> Result<Vec<ChannelTable>, ProjectError> {
     let origin = Origin { file, text };
-    let document = DeTable::parse(text).map_err(|error| {
-        let message = one_line(error.message());
-        origin.error(error.span().map_or(0, |span| span.start), Problem::Syntax { message })
-    })?;
+    let document = origin.document()?;
     let channels = parse(&Table::root(origin, document.get_ref()), &mut Lines::default())?;
     if channels.is_empty() {
         let (what, example) = ("[[channel]]", "[[channel]] with `name`, `quantity` and `dof`");

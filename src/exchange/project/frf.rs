@@ -3,13 +3,12 @@
 use super::error::{Problem, ProjectError};
 use super::label::Label;
 use super::lines::Lines;
-use super::reader::{Origin, Table, one_line};
+use super::reader::{Origin, Table};
 use crate::exchange::frf::{Form, FrfSource};
 use crate::measurement::frf::Selection;
 use dashpot_datafiles::Pairing;
 use serde::{Serialize, Serializer};
 use std::collections::BTreeMap;
-use toml::de::DeTable;
 
 const KEYS: [&str; 14] = [
     "file",
@@ -150,10 +149,7 @@ fn word<S: Serializer>(columns: &Option<Pairing>, serializer: S) -> Result<S::Ok
 /// [`ProjectError`] with the line of what is wrong.
 pub fn frf_template(text: &str, name: &str) -> Result<Option<FrfTable>, ProjectError> {
     let origin = Origin { file: name, text };
-    let document = DeTable::parse(text).map_err(|error| {
-        let message = one_line(error.message());
-        origin.error(error.span().map_or(0, |span| span.start), Problem::Syntax { message })
-    })?;
+    let document = origin.document()?;
     let root = Table::root(origin, document.get_ref());
     let Some(first) = root.tables("frf", "[[frf]]")?.into_iter().next() else { return Ok(None) };
     one(&first, first.text("file")?.unwrap_or_default()).map(Some)

@@ -7,7 +7,7 @@ use crate::effects::{self, Place, Source};
 use crate::exchange::Project;
 use crate::exchange::records::base_channel;
 use crate::measurement::proposal::{Proposal, propose};
-use crate::measurement::run::Correction;
+use crate::measurement::run::ChannelCorrection;
 use crate::measurement::{Channel, Kind, Quantity, Run, TransientLabel, TransientRun, TransientRunError};
 use crate::structure::StructureKind;
 use std::path::Path;
@@ -131,13 +131,13 @@ impl Plan {
     }
 
     /// Known errors of the measuring chain, one entry a channel.
-    pub fn corrections(&self) -> Vec<Correction> {
-        let mut corrections: Vec<Correction> = Vec::new();
+    pub fn corrections(&self) -> Vec<ChannelCorrection> {
+        let mut corrections: Vec<ChannelCorrection> = Vec::new();
         for sensor in &self.sensors {
             let Some(channel) = self.channel(sensor) else { continue };
             let at = corrections.iter().position(|known| known.channel == channel).unwrap_or(corrections.len());
             if at == corrections.len() {
-                corrections.push(Correction { channel, delay: 0.0, gain: 1.0 });
+                corrections.push(ChannelCorrection { channel, delay: 0.0, gain: 1.0 });
             }
             match sensor.effect.kind() {
                 effects::Kind::Channel(law) if law.turns_phase() => corrections[at].delay = sensor.parameters[0],
@@ -154,7 +154,7 @@ impl Plan {
             let (Some(delay), Some(channel)) = (table.delay, channel) else { continue };
             match corrections.iter_mut().find(|known| known.channel == channel) {
                 Some(known) => known.delay += delay,
-                None => corrections.push(Correction { channel, delay, gain: 1.0 }),
+                None => corrections.push(ChannelCorrection { channel, delay, gain: 1.0 }),
             }
         }
         corrections

@@ -1,12 +1,11 @@
 //! Tables of measurements on their own: what an import adds to a project that is there.
 
-use super::error::{Problem, ProjectError};
+use super::error::ProjectError;
 use super::file::{HarmonicsTable, Lines, ModesTable, ProjectFile, RunTable};
 use super::frf::{self, FrfTable};
-use super::reader::{Origin, Table, one_line};
+use super::reader::{Origin, Table};
 use super::{channel, modes, runs};
 use crate::exchange::mapping::ChannelTable;
-use toml::de::DeTable;
 
 /// Measurements and how they are read.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -30,10 +29,7 @@ impl MeasurementTables {
     /// [`ProjectError`] with the line of the first thing that is wrong.
     pub fn parse(text: &str, file: &str) -> Result<Self, ProjectError> {
         let origin = Origin { file, text };
-        let document = DeTable::parse(text).map_err(|error| {
-            let message = one_line(error.message());
-            origin.error(error.span().map_or(0, |span| span.start), Problem::Syntax { message })
-        })?;
+        let document = origin.document()?;
         let root = Table::root(origin, document.get_ref());
         root.only(&["channel", "run", "harmonics", "frf", "modes"])?;
         let mut lines = Lines::default();

@@ -23,9 +23,9 @@ pub(super) fn structure(
     lumped: &[LumpedMass],
     named: &[String],
 ) -> Result<Structure, Problem> {
-    let at = |name: &String| folder.join(name);
-    let (mass, stiffness) = (at(&files.mass), at(&files.stiffness));
-    let [nodes, dofs, lines] = [&files.nodes, &files.dofs, &files.lines].map(|name| name.as_ref().map(at));
+    let beside = |name: &String| folder.join(name);
+    let (mass, stiffness) = (beside(&files.mass), beside(&files.stiffness));
+    let [nodes, dofs, lines] = [&files.nodes, &files.dofs, &files.lines].map(|name| name.as_ref().map(beside));
     let mut model = read_model(ModelFiles {
         matrices: [&mass, &stiffness],
         names: [files.mass_name.as_deref(), files.stiffness_name.as_deref()],

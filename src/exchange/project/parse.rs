@@ -7,7 +7,7 @@ use super::file::{
 };
 use super::keys::{elements, key_lines};
 use super::label::Label;
-use super::reader::{Origin, Table, one_line};
+use super::reader::{Origin, Table};
 use super::runs::{harmonics, runs};
 use super::{base, channel, correction, frf, modes, reduce, ruled_out};
 use crate::balance::{Expansion, Weights};
@@ -19,7 +19,6 @@ use crate::structure::beam::{BeamParameters, Supports};
 use crate::structure::chain::ChainParameters;
 use crate::structure::component::ComponentParameters;
 use std::collections::BTreeMap;
-use toml::de::DeTable;
 
 const TABLES: [&str; 14] = [
     "project",
@@ -81,10 +80,7 @@ impl ProjectFile {
     /// [`ProjectError`] with the line of the first thing that is wrong.
     pub fn parse(text: &str, file: &str) -> Result<(Self, Lines), ProjectError> {
         let origin = Origin { file, text };
-        let document = DeTable::parse(text).map_err(|error| {
-            let message = one_line(error.message());
-            origin.error(error.span().map_or(0, |span| span.start), Problem::Syntax { message })
-        })?;
+        let document = origin.document()?;
         let root = Table::root(origin, document.get_ref());
         // The version first: a newer file may have keys that are not known here.
         let project = header(&root)?;

@@ -15,7 +15,7 @@ use crate::exchange::mapping::{Template, read_mapped, reads_as_own};
 use crate::exchange::records::{SteppedSine, read_harmonics_as, read_record_with};
 use crate::identify::Settings;
 use crate::measurement::base::AXES;
-use crate::measurement::{ChannelName, Correction, HarmonicFit, Kind, Part, Quantity, Record, Run};
+use crate::measurement::{ChannelCorrection, ChannelName, HarmonicFit, Kind, Part, Quantity, Record, Run};
 use crate::response::recording::Loading;
 use crate::structure::Structure;
 use std::path::{Component, Path, PathBuf};
@@ -111,7 +111,7 @@ pub struct Fitted {
 
 impl Fitted {
     /// The run with its channels corrected.
-    pub fn run(self, corrections: &[Correction]) -> Run {
+    pub fn run(self, corrections: &[ChannelCorrection]) -> Run {
         let Self { name, fit, level, session, enabled } = self;
         let run = Run::from_harmonics(name, level, enabled != Some(false), fit, corrections);
         Run { session, insisted: enabled == Some(true), ..run }

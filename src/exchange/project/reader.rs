@@ -11,7 +11,15 @@ pub(super) struct Origin<'a> {
     pub text: &'a str,
 }
 
-impl Origin<'_> {
+impl<'a> Origin<'a> {
+    /// The document that the text is.
+    pub(super) fn document(self) -> Result<Spanned<DeTable<'a>>, ProjectError> {
+        DeTable::parse(self.text).map_err(|error| {
+            let message = one_line(error.message());
+            self.error(error.span().map_or(0, |span| span.start), Problem::Syntax { message })
+        })
+    }
+
     /// Line, from 1, of a byte of the text.
     pub(super) fn line(self, offset: usize) -> usize {
         let end = offset.min(self.text.len());

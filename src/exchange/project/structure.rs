@@ -51,11 +51,11 @@ pub(super) fn structure(
 }
 
 fn imported(files: &MatricesTable, folder: &Path) -> Result<ImportedParameters, Problem> {
-    let at = |name: &String| folder.join(name);
-    let optional = |name: &Option<String>| name.as_ref().map(at);
+    let beside = |name: &String| folder.join(name);
+    let optional = |name: &Option<String>| name.as_ref().map(beside);
     Ok(ImportedParameters {
-        mass: read_matrix(&at(&files.mass)).map_err(Problem::Table)?,
-        stiffness: read_matrix(&at(&files.stiffness)).map_err(Problem::Table)?,
+        mass: read_matrix(&beside(&files.mass)).map_err(Problem::Table)?,
+        stiffness: read_matrix(&beside(&files.stiffness)).map_err(Problem::Table)?,
         nodes: optional(&files.nodes).map(|path| read_nodes(&path)).transpose().map_err(Problem::Table)?,
         dofs: optional(&files.dofs).map(|path| read_dofs(&path)).transpose().map_err(Problem::Table)?,
         lines: optional(&files.lines)

@@ -208,11 +208,10 @@ fn level(table: &Table<'_>, column: usize) -> Result<i64, RecordFileError> {
 mod tests {
     #![allow(clippy::unwrap_used, reason = "tests")]
     use super::*;
-    use crate::structure::chain::ChainParameters;
+    use crate::common::models;
 
     fn chain() -> Structure {
-        let masses = vec![1.0, 2.0];
-        ChainParameters { masses, ground_stiffness: vec![1e3, 0.0], coupling_stiffness: vec![1e3] }.build(&[]).unwrap()
+        models::chain(&[1.0, 2.0], &[1e3, 0.0], &[1e3])
     }
 
     fn read(text: &str, stepped: &SteppedSine) -> Result<Vec<HarmonicsRun>, String> {

@@ -32,10 +32,10 @@ pub(super) struct Schur {
 impl Schur {
     pub(super) fn new(columns: Vec<usize>, n: usize, gram: &[f64], h: &[f64]) -> Self {
         let stride = columns.len();
-        let at = |i: usize, j: usize| gram[columns[i] * n + columns[j]];
+        let product = |i: usize, j: usize| gram[columns[i] * n + columns[j]];
         Self {
-            gram: (0..stride * stride).map(|k| at(k / stride, k % stride)).collect(),
-            diagonal: (0..stride).map(|i| at(i, i)).collect(),
+            gram: (0..stride * stride).map(|k| product(k / stride, k % stride)).collect(),
+            diagonal: (0..stride).map(|i| product(i, i)).collect(),
             g: columns.iter().map(|&j| h[j]).collect(),
             columns,
             stride,

@@ -106,11 +106,11 @@ fn order(density: &Density, crest: usize) -> Vec<usize> {
     let reaches = |i: &usize| d[*i] >= FLANK * d[crest];
     let left = (0..crest).rev().take_while(reaches).last().unwrap_or(crest);
     let right = (crest + 1..d.len()).take_while(reaches).last().unwrap_or(crest);
-    let at = |mut lines: Box<dyn Iterator<Item = usize>>, share: f64| lines.find(|&i| d[i] <= share * d[crest]);
+    let below = |mut lines: Box<dyn Iterator<Item = usize>>, share: f64| lines.find(|&i| d[i] <= share * d[crest]);
     let mut order = vec![crest];
     for share in [HALF_POWER, OUTER] {
-        order.extend(at(Box::new((left..crest).rev()), share));
-        order.extend(at(Box::new(crest + 1..=right), share));
+        order.extend(below(Box::new((left..crest).rev()), share));
+        order.extend(below(Box::new(crest + 1..=right), share));
     }
     let mut others: Vec<usize> = (left..=right).filter(|i| !order.contains(i)).collect();
     others.sort_by(|&a, &b| d[b].total_cmp(&d[a]));

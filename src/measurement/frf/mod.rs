@@ -9,7 +9,7 @@ pub(crate) mod variance;
 
 use super::channel::Channel;
 use super::fit::{ChannelFit, HarmonicFit};
-use super::run::{Correction, Run};
+use super::run::{ChannelCorrection, Run};
 use faer::{Mat, c64};
 use lines::Density;
 use std::f64::consts::TAU;
@@ -67,7 +67,7 @@ pub struct ChosenRuns {
 
 impl ResponseSet {
     /// Makes the runs of the most informative lines, corrected for the known errors of their channels.
-    pub(crate) fn runs(&self, selection: Selection, enabled: bool, corrections: &[Correction]) -> ChosenRuns {
+    pub(crate) fn runs(&self, selection: Selection, enabled: bool, corrections: &[ChannelCorrection]) -> ChosenRuns {
         let variances: Vec<Vec<f64>> = self.functions.iter().map(|function| self.variance(function)).collect();
         let references = self.references();
         let densities: Vec<Density> =
@@ -141,7 +141,7 @@ impl ResponseSet {
         line: usize,
         variances: &[Vec<f64>],
         enabled: bool,
-        corrections: &[Correction],
+        corrections: &[ChannelCorrection],
     ) -> Run {
         let frequency_hz = self.frequencies_hz[line];
         let reference = self.functions[members[0]].reference.clone();

@@ -40,8 +40,8 @@ impl Face {
             '≥' => '>',
             _ => '?',
         };
-        let of = |c: char| self.face.glyph_index(c).map(|g| g.0);
-        let glyph = of(c).or_else(|| of(like)).unwrap_or(0);
+        let glyph_of = |c: char| self.face.glyph_index(c).map(|g| g.0);
+        let glyph = glyph_of(c).or_else(|| glyph_of(like)).unwrap_or(0);
         self.used.borrow_mut().entry(glyph).or_insert(c);
         glyph
     }

@@ -113,15 +113,6 @@ impl LinearPart {
         result
     }
 
-    /// `factor M_e x` with the mass of the elements alone; the whole mass where there are no elements.
-    pub(crate) fn apply_density(&self, factor: c64, x: &[c64]) -> Vec<c64> {
-        let count = self.structure.elements().len();
-        if count == 0 {
-            return multiply(&self.matrices().mass, factor, x);
-        }
-        multiply(&Basis::Mass.of_elements(&self.structure, [0, count - 1]), factor, x)
-    }
-
     /// `-omega_r^2 (M phi_r) (M phi_r)^T x`: the pseudo-force of a mode whose stiffness grows; `None` without such a mode.
     pub(crate) fn apply_mode(&self, mode: usize, x: &[c64]) -> Option<Vec<c64>> {
         let square = *self.basis.squares.get(mode)?;

@@ -15,7 +15,7 @@ use super::compliance::Compliance;
 use super::error::ModelError;
 use super::excitation::Excitation;
 use super::fourier::{add_amplitude, amplitude};
-use super::level::{Level, level, multiply};
+use super::harmonic_system::{HarmonicSystem, harmonic_system, multiply};
 use super::linear_leg::{LinearLeg, push_leg};
 use super::nonlinear_leg::NonlinearLeg;
 use super::resonant::Pattern;
@@ -29,7 +29,7 @@ pub(crate) struct Condensed {
     pub legs: Vec<NonlinearLeg>,
     pub linear_legs: Vec<LinearLeg>,
     /// Harmonics 0..=H.
-    pub levels: Vec<Level>,
+    pub systems: Vec<HarmonicSystem>,
     /// Modes at resonance and linear legs that are kept, over all harmonics.
     resonances: usize,
     /// Whether every law answers the opposite motion by the opposite force.
@@ -80,20 +80,20 @@ impl Condensed {
         harmonics: usize,
     ) -> Result<Self, ModelError> {
         let (mut legs, linear_legs) = split(sources, compliance(1));
-        let mut levels: Vec<Level> = Vec::with_capacity(harmonics + 1);
+        let mut systems: Vec<HarmonicSystem> = Vec::with_capacity(harmonics + 1);
         let mut resonances = 0;
         for h in 0..=harmonics {
-            let mut level = level(compliance(h), sources, &legs, &linear_legs, excitation, h)?;
-            level.resonant_before = resonances;
-            resonances += level.resonant.len();
-            levels.push(level);
+            let mut system = harmonic_system(compliance(h), sources, &legs, &linear_legs, excitation, h)?;
+            system.resonant_before = resonances;
+            resonances += system.resonant.len();
+            systems.push(system);
         }
         for (i, leg) in legs.iter_mut().enumerate() {
-            leg.weight = velocity_weight(&levels, excitation.omega, i);
+            leg.weight = velocity_weight(&systems, excitation.omega, i);
         }
         let mirrored = legs.iter().all(NonlinearLeg::is_odd);
         let odd = mirrored && excitation.is_odd();
-        Ok(Self { omega: excitation.omega, harmonics, legs, linear_legs, levels, resonances, mirrored, odd })
+        Ok(Self { omega: excitation.omega, harmonics, legs, linear_legs, systems, resonances, mirrored, odd })
     }
 
     /// Number of real coefficients of a leg, `2 H + 1`.
@@ -113,7 +113,7 @@ impl Condensed {
 
     /// Index of the cosine of mode number `r` at resonance with harmonic `h`; its sine follows.
     pub(crate) fn resonant_index(&self, h: usize, r: usize) -> usize {
-        self.leg_size() + 2 * (self.levels[h].resonant_before + r)
+        self.leg_size() + 2 * (self.systems[h].resonant_before + r)
     }
 
     /// Index of the cosine of kept leg `j` at harmonic `h >= 1`; its sine follows.
@@ -146,7 +146,7 @@ impl Condensed {
     /// Coefficients of the motions of the kept legs under `level` times the excitation and the forces `u`.
     pub(crate) fn motion(&self, u: &[f64], level: f64) -> Vec<f64> {
         let mut motion = vec![0.0; u.len()];
-        for (h, at) in self.levels.iter().enumerate() {
+        for (h, at) in self.systems.iter().enumerate() {
             for i in 0..at.count() {
                 let pull = |j: usize| at.coupling(i, j) * self.get(u, h, j);
                 let d = (0..at.count()).fold(at.free[i] * level, |d, j| d - pull(j));
@@ -175,14 +175,14 @@ impl Condensed {
 
     /// Numbers of the linear legs among those kept at harmonic `h`.
     pub(crate) fn kept_linear(&self, h: usize) -> impl Iterator<Item = (usize, Leg)> {
-        let first = self.levels[h].count().saturating_sub(self.linear_legs.len());
-        let kept = if self.levels[h].keeps_linear { &self.linear_legs[..] } else { &[] };
+        let first = self.systems[h].count().saturating_sub(self.linear_legs.len());
+        let kept = if self.systems[h].keeps_linear { &self.linear_legs[..] } else { &[] };
         kept.iter().enumerate().map(move |(l, linear)| (first + l, linear.leg))
     }
 
     /// Forces of the linear legs at harmonic `h` when the kept ones have the coefficients `u`.
     pub(crate) fn linear_forces(&self, h: usize, u: &[f64], level: f64) -> Vec<c64> {
-        let at = &self.levels[h];
+        let at = &self.systems[h];
         if at.keeps_linear {
             return self.kept_linear(h).map(|(j, _)| self.get(u, h, j)).collect();
         }
@@ -236,10 +236,10 @@ impl Condensed {
 
     /// Takes away what the linear legs do when they would move by `motion` without their forces.
     fn subtract_linear(&self, compliance: &Compliance, h: usize, motion: &[c64], x: &mut [c64]) {
-        if motion.is_empty() || self.levels[h].keeps_linear {
+        if motion.is_empty() || self.systems[h].keeps_linear {
             return;
         }
-        let forces = multiply(&self.levels[h].elimination, motion);
+        let forces = multiply(&self.systems[h].elimination, motion);
         let mut loads = Vec::with_capacity(2 * forces.len());
         for (leg, force) in self.linear_legs.iter().zip(forces) {
             push_leg(&mut loads, leg.leg, force);
@@ -251,8 +251,8 @@ impl Condensed {
 }
 
 /// Velocity weight of friction: the leg's own impedance, between the extremes over the harmonics.
-fn velocity_weight(levels: &[Level], omega: f64, leg: usize) -> f64 {
-    let logs: Vec<f64> = levels
+fn velocity_weight(systems: &[HarmonicSystem], omega: f64, leg: usize) -> f64 {
+    let logs: Vec<f64> = systems
         .iter()
         .enumerate()
         .skip(1)

@@ -96,13 +96,13 @@ mod tests {
     #[test]
     fn harmonics_of_noise_are_not_essential() {
         let real = |x: &f64| c64::new(*x, 0.0);
-        let of = |values: &[f64]| {
+        let essential = |values: &[f64]| {
             let harmonics = values.iter().map(real).collect();
             Excitation { omega: 1.0, forces: vec![HarmonicForce { dof: 0, mean: 0.0, harmonics }] }.essential()
         };
-        assert_eq!(of(&[1.0]), 1);
-        assert_eq!(of(&[1.0, 0.01, 0.02, 0.0]), 1);
-        assert_eq!(of(&[1.0, 0.01, 0.2, 0.03]), 3);
-        assert_eq!(of(&[0.0, 0.0]), 0);
+        assert_eq!(essential(&[1.0]), 1);
+        assert_eq!(essential(&[1.0, 0.01, 0.02, 0.0]), 1);
+        assert_eq!(essential(&[1.0, 0.01, 0.2, 0.03]), 3);
+        assert_eq!(essential(&[0.0, 0.0]), 0);
     }
 }

@@ -8,7 +8,7 @@
 use super::dense::Lu;
 use super::fourier::Parity;
 use super::kept::Kept;
-use super::newton::{Balance, State, relative};
+use super::newton::{Balance, NewtonState, relative};
 
 /// Smallest share of a Newton step that is tried before it is taken all the same.
 const LEAST_SHARE: f64 = 1.0 / 64.0;
@@ -98,7 +98,7 @@ impl Balance<'_> {
     }
 
     /// Newton's step, each set of unknowns by its own part of the Jacobian.
-    fn step(&self, state: &State, sets: &[Kept], factors: &mut Factors) -> Option<Vec<f64>> {
+    fn step(&self, state: &NewtonState, sets: &[Kept], factors: &mut Factors) -> Option<Vec<f64>> {
         let mut step = vec![0.0; state.residual.len()];
         for (number, kept) in sets.iter().enumerate() {
             let mut part: Vec<f64> = kept.indices.iter().map(|&i| state.residual[i]).collect();
@@ -119,18 +119,18 @@ impl Balance<'_> {
     }
 
     /// The longest of the halved steps that lowers the residual, the full step if none does: where it leads.
-    fn moved(&self, u: &[f64], step: &[f64], residual: &[f64], level: f64) -> (Vec<f64>, State) {
+    fn moved(&self, u: &[f64], step: &[f64], residual: &[f64], level: f64) -> (Vec<f64>, NewtonState) {
         let norm = |x: &[f64]| x.iter().map(|v| v * v).sum::<f64>();
         let before = norm(residual);
-        let at = |share: f64| -> Vec<f64> { u.iter().zip(step).map(|(x, s)| x - share * s).collect() };
+        let shortened = |share: f64| -> Vec<f64> { u.iter().zip(step).map(|(x, s)| x - share * s).collect() };
         let better = |after: f64, share: f64| after < before * (1.0 - 1e-4 * share);
-        let full = at(1.0);
+        let full = shortened(1.0);
         let state = self.state(&full, level);
         let mut best = (norm(&state.residual), 1.0);
         let mut share = 1.0;
         while !better(best.0, best.1) && share > LEAST_SHARE {
             share *= 0.5;
-            let after = norm(&self.residual(&at(share), level));
+            let after = norm(&self.residual(&shortened(share), level));
             if after < best.0 || best.0.is_nan() {
                 best = (after, share);
             }
@@ -138,7 +138,7 @@ impl Balance<'_> {
         if best.1 == 1.0 {
             return (full, state);
         }
-        let chosen = at(best.1);
+        let chosen = shortened(best.1);
         let state = self.state(&chosen, level);
         (chosen, state)
     }

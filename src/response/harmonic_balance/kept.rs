@@ -38,7 +38,7 @@ impl Kept {
     fn of(condensed: &Condensed, takes: impl Fn(usize) -> bool) -> Self {
         let (mean, width) = (takes(0), condensed.width());
         let orders: Vec<usize> = (1..=condensed.harmonics).filter(|&h| takes(h)).collect();
-        let pairs = orders.iter().flat_map(|&h| (0..condensed.levels[h].count()).map(move |j| (h, j)));
+        let pairs = orders.iter().flat_map(|&h| (0..condensed.systems[h].count()).map(move |j| (h, j)));
         let mut indices: Vec<usize> = pairs.flat_map(|(h, j)| [0, 1].map(|k| condensed.index(h, j) + k)).collect();
         if mean {
             indices.extend((0..condensed.legs.len()).map(|j| j * width));

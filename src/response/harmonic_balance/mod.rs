@@ -19,9 +19,9 @@ mod error;
 mod excitation;
 mod fourier;
 mod friction;
+mod harmonic_system;
 mod iterate;
 mod kept;
-mod level;
 mod linear_leg;
 mod modal_basis;
 mod model;
@@ -46,6 +46,6 @@ pub use continuation::{Sweep, SweepEnd, SweepPoint, SweepSettings, branches, nea
 pub use error::{ModelError, ResponseError};
 pub use excitation::{Excitation, HarmonicForce};
 pub use model::{ForwardModel, RunModel};
-pub use outcome::{Attempt, Response, SourceForce, Status, Step};
+pub use outcome::{Attempt, ConvergenceStep, Response, SourceForce, Status};
 pub use settings::Settings;
 pub use stability::{is_stable, multipliers};

@@ -49,17 +49,6 @@ impl ForwardModel {
         self.linear.structure()
     }
 
-    /// The same structure with other sources; nothing of the structure is computed again.
-    pub fn with_sources(&self, sources: &[Source]) -> Result<Self, ModelError> {
-        check(sources, self.linear.len())?;
-        let linear = if self.linear.has_whole(sources) {
-            self.linear.clone()
-        } else {
-            Arc::new(self.linear.with_whole(sources))
-        };
-        Ok(Self { linear, sources: sources.to_vec(), tables: self.tables.clone() })
-    }
-
     /// The model at one fundamental frequency (rad/s), which keeps the structure's receptance for many sources.
     pub fn at(&self, omega: f64) -> RunModel {
         RunModel {

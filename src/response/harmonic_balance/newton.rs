@@ -15,7 +15,7 @@ pub(crate) struct Balance<'a> {
 }
 
 /// Residual with everything its Jacobian needs.
-pub(crate) struct State {
+pub(crate) struct NewtonState {
     pub residual: Vec<f64>,
     pub answers: Vec<Answer>,
 }
@@ -46,7 +46,7 @@ impl Balance<'_> {
     }
 
     /// Residual and the laws' derivatives.
-    pub(crate) fn state(&self, u: &[f64], level: f64) -> State {
+    pub(crate) fn state(&self, u: &[f64], level: f64) -> NewtonState {
         let motion = self.condensed.motion(u, level);
         let mut residual = vec![0.0; u.len()];
         let mut answers = Vec::with_capacity(self.condensed.legs.len());
@@ -59,13 +59,13 @@ impl Balance<'_> {
             answers.push(answer);
         }
         self.resonant_residual(u, &motion, &mut residual);
-        State { residual, answers }
+        NewtonState { residual, answers }
     }
 
     /// Harmonic, number there and stiffness of every mode at resonance.
     fn resonances(&self) -> impl Iterator<Item = (usize, usize, c64)> {
-        let levels = self.condensed.levels.iter().enumerate();
-        levels.flat_map(|(h, level)| level.resonant.iter().enumerate().map(move |(r, z)| (h, r, *z)))
+        let systems = self.condensed.systems.iter().enumerate();
+        systems.flat_map(|(h, system)| system.resonant.iter().enumerate().map(move |(r, z)| (h, r, *z)))
     }
 
     /// `p - z d` of the modes at resonance.
@@ -107,15 +107,15 @@ impl Balance<'_> {
     fn resonant_rows(&self, jacobian: &mut [f64], kept: &Kept) {
         let (condensed, size) = (self.condensed, kept.indices.len());
         for (h, r, z) in self.resonances() {
-            let (level, i) = (&condensed.levels[h], condensed.legs.len() + r);
+            let (system, i) = (&condensed.systems[h], condensed.legs.len() + r);
             let row = kept.slot[condensed.resonant_index(h, r)];
             if row == DROPPED {
                 continue;
             }
             jacobian[row * size + row] += 1.0;
             jacobian[(row + 1) * size + row + 1] += 1.0;
-            for j in 0..level.count() {
-                let slope = z * level.coupling(i, j);
+            for j in 0..system.count() {
+                let slope = z * system.coupling(i, j);
                 let column = kept.slot[condensed.index(h, j)];
                 // (a - i b) -> slope (a - i b), cosine and sine.
                 jacobian[row * size + column] += slope.re;
@@ -129,16 +129,16 @@ impl Balance<'_> {
     /// Adds a row of `Phi_D C_i`, the slopes of leg `i` by its own coefficients given.
     fn add_coupled(&self, i: usize, slopes: &[f64], kept: &Kept, out: &mut [f64]) {
         if kept.mean {
-            let (level, width) = (&self.condensed.levels[0], self.condensed.width());
-            for j in 0..level.count() {
-                out[kept.slot[j * width]] += slopes[0] * level.coupling(i, j).re;
+            let (system, width) = (&self.condensed.systems[0], self.condensed.width());
+            for j in 0..system.count() {
+                out[kept.slot[j * width]] += slopes[0] * system.coupling(i, j).re;
             }
         }
         for &h in &kept.orders {
             let (a, b) = (slopes[2 * h - 1], slopes[2 * h]);
-            let level = &self.condensed.levels[h];
-            for j in 0..level.count() {
-                let (c, cos) = (level.coupling(i, j), kept.slot[self.condensed.index(h, j)]);
+            let system = &self.condensed.systems[h];
+            for j in 0..system.count() {
+                let (c, cos) = (system.coupling(i, j), kept.slot[self.condensed.index(h, j)]);
                 out[cos] += a * c.re - b * c.im;
                 out[cos + 1] += a * c.im + b * c.re;
             }

@@ -18,7 +18,7 @@ pub enum Status {
 
 /// One attempt on the way to a response.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Step {
+pub struct ConvergenceStep {
     /// Harmonics.
     pub harmonics: usize,
     /// What was tried.
@@ -73,7 +73,7 @@ pub struct Response {
     /// Forces of all sources between single DOFs.
     pub forces: Vec<SourceForce>,
     /// Attempts in order.
-    pub history: Vec<Step>,
+    pub history: Vec<ConvergenceStep>,
     /// Number of nonlinear legs.
     pub(crate) legs: usize,
     /// Coefficients of the nonlinear leg forces, `2 H + 1` a leg, then the forces of modes at resonance.

@@ -43,8 +43,8 @@ impl Prepared {
 
     /// Displacements of all DOFs per harmonic, 0 first, under the kept forces `u`.
     pub(crate) fn displacements(&self, run: &RunModel, excitation: &Excitation, u: &[f64]) -> Vec<Vec<c64>> {
-        let at = |h: usize| self.condensed.displacements(run.compliance(h), h, run.len(), excitation, u);
-        (0..=self.condensed.harmonics).map(at).collect()
+        let of_harmonic = |h: usize| self.condensed.displacements(run.compliance(h), h, run.len(), excitation, u);
+        (0..=self.condensed.harmonics).map(of_harmonic).collect()
     }
 
     /// The unknowns of a response nearby: leg forces cut or filled with zeros, those of what is at resonance from its motion.
@@ -58,7 +58,7 @@ impl Prepared {
         }
         let amplitudes = start.raw.as_ref().unwrap_or(&start.harmonics);
         for h in 1..=condensed.harmonics.min(start.order()) {
-            let (x, stiffness) = (amplitudes.col_as_slice(h - 1), &condensed.levels[h].resonant);
+            let (x, stiffness) = (amplitudes.col_as_slice(h - 1), &condensed.systems[h].resonant);
             let modes = run.compliance(h).resonant.iter().map(|mode| mode.motion(x));
             let legs = condensed.kept_linear(h).map(|(_, leg)| leg.relative(|i| x[i]));
             for (r, (motion, z)) in modes.chain(legs).zip(stiffness).enumerate() {

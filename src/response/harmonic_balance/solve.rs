@@ -11,7 +11,7 @@ use super::iterate::Ending;
 use super::model::{ForwardModel, MOST_HARMONICS, RunModel};
 use super::newton::Balance;
 use super::nonlinear_leg::NonlinearLeg;
-use super::outcome::{Attempt, Response, SourceForce, Status, Step};
+use super::outcome::{Attempt, ConvergenceStep, Response, SourceForce, Status};
 use super::prepared::Prepared;
 use super::settings::Settings;
 use super::stability::is_stable;
@@ -155,7 +155,7 @@ struct Ladder<'a> {
     excitation: &'a Excitation,
     settings: &'a Settings,
     control: &'a Control,
-    history: Vec<Step>,
+    history: Vec<ConvergenceStep>,
 }
 
 impl Ladder<'_> {
@@ -269,13 +269,13 @@ fn at_order(
     settings: &Settings,
     start: Option<&Response>,
     control: &Control,
-    history: &mut Vec<Step>,
+    history: &mut Vec<ConvergenceStep>,
 ) -> Result<Response, ResponseError> {
     let balance = prepared.balance();
     let harmonics = prepared.condensed.harmonics;
     let mut record = |attempt: Attempt, ending: Ending| {
         let Ending { converged, steps, residual } = ending;
-        history.push(Step { harmonics, attempt, steps, residual, converged });
+        history.push(ConvergenceStep { harmonics, attempt, steps, residual, converged });
     };
     let folds = prepared.condensed.legs.iter().any(NonlinearLeg::folds);
     let mut u = start.map_or_else(|| vec![0.0; prepared.condensed.size()], |s| prepared.adapt(run, s));

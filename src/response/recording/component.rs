@@ -78,10 +78,10 @@ mod tests {
     #[test]
     fn the_imposed_motion_is_its_own_derivative() {
         for time in [0.1, 0.3, 0.7, 1.2, 1.9] {
-            let at = |t: f64| CYCLES.imposed(t, 2.0).unwrap();
+            let imposed = |t: f64| CYCLES.imposed(t, 2.0).unwrap();
             let width = 1e-5;
-            let by = |k: usize| (at(time + width)[k] - at(time - width)[k]) / (2.0 * width);
-            let here = at(time);
+            let by = |k: usize| (imposed(time + width)[k] - imposed(time - width)[k]) / (2.0 * width);
+            let here = imposed(time);
             assert!((by(0) - here[1]).abs() < 1e-6 && (by(1) - here[2]).abs() < 1e-4, "{time}");
         }
     }
@@ -89,14 +89,16 @@ mod tests {
     /// The energy that a cycle of friction takes is four times force times amplitude, that of a dashpot `pi c w A^2`.
     #[test]
     fn a_cycle_takes_the_energy_of_its_laws() {
-        let at = |effect, value: f64| Source::known(effect, Place::Dofs(vec![0]), &[value]);
+        let at_dof = |effect, value: f64| Source::known(effect, Place::Dofs(vec![0]), &[value]);
         let (rate, steady) = (2000.0, 1000..2000);
         let energy = |source: Source| {
             let (d, f) = component_force(&[source], 0.0, &CYCLES, rate, 3000).unwrap();
             steady.clone().map(|n| 0.5 * (f[n] + f[n + 1]) * (d[n + 1] - d[n])).sum::<f64>()
         };
         let omega = std::f64::consts::TAU * 2.0;
-        assert!((energy(at(Effect::Coulomb, 3.0)) / (4.0 * 3.0 * 0.01) - 1.0).abs() < 0.01);
-        assert!((energy(at(Effect::Viscous, 5.0)) / (std::f64::consts::PI * 5.0 * omega * 1e-4) - 1.0).abs() < 1e-3);
+        assert!((energy(at_dof(Effect::Coulomb, 3.0)) / (4.0 * 3.0 * 0.01) - 1.0).abs() < 0.01);
+        assert!(
+            (energy(at_dof(Effect::Viscous, 5.0)) / (std::f64::consts::PI * 5.0 * omega * 1e-4) - 1.0).abs() < 1e-3
+        );
     }
 }

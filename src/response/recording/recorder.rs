@@ -88,8 +88,8 @@ pub fn record_test(
     let sample = |(c, signal): (usize, &Vec<f64>)| {
         let [delay, gain] = sensor_errors(setup.sensors, &setup.channels[c]);
         let early = if setup.channels[c].quantity == Quantity::Displacement { signal[0] } else { 0.0 };
-        let at = |n: usize| gain * filtered(signal, early, &kernel, n as f64 * FINER as f64 - delay / fine);
-        (0..setup.samples).map(at).collect()
+        let recorded = |n: usize| gain * filtered(signal, early, &kernel, n as f64 * FINER as f64 - delay / fine);
+        (0..setup.samples).map(recorded).collect()
     };
     Ok(TestRecord { samples: signals.iter().enumerate().map(sample).collect(), time })
 }
@@ -219,17 +219,13 @@ pub fn quantise(samples: &mut [f64], bits: u32) -> f64 {
 mod tests {
     #![allow(clippy::unwrap_used, reason = "tests")]
     use super::*;
+    use crate::common::models;
     use crate::effects::Place;
-    use crate::structure::chain::ChainParameters;
     use std::f64::consts::TAU;
 
+    /// Of 10 Hz.
     fn oscillator() -> Structure {
-        let chain = ChainParameters {
-            masses: vec![2.0],
-            ground_stiffness: vec![2.0 * (TAU * 10.0).powi(2)],
-            coupling_stiffness: vec![],
-        };
-        chain.build(&[]).unwrap()
+        models::oscillator(2.0, 2.0 * (TAU * 10.0).powi(2))
     }
 
     fn record(loading: &Loading, sources: &[Source], quantity: Quantity, samples: usize) -> TestRecord {

@@ -130,8 +130,8 @@ mod tests {
     #[test]
     fn one_step_of_an_oscillator_is_exact() {
         let (m, c, k, f, t) = (2.0, 0.7, 50.0, 3.0, 0.4);
-        let one = |x: f64| Mat::from_fn(1, 1, |_, _| x);
-        let propagator = Propagator::new(&one(m), &one(c), &one(k), &one(1.0), t).unwrap();
+        let scalar = |x: f64| Mat::from_fn(1, 1, |_, _| x);
+        let propagator = Propagator::new(&scalar(m), &scalar(c), &scalar(k), &scalar(1.0), t).unwrap();
         let (x0, v0) = (0.3, -1.0);
         let mut next = [0.0; 2];
         propagator.advance(&[propagator.scale * x0, v0], &mut next);

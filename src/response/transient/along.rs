@@ -61,18 +61,17 @@ impl TransientModel {
 mod tests {
     #![allow(clippy::unwrap_used, reason = "tests")]
     use super::*;
+    use crate::common::models;
     use crate::effects::{Effect, Place, State};
     use crate::measurement::{Channel, Quantity};
     use crate::response::transient::{SampledForces, TransientSetup};
     use crate::structure::Structure;
-    use crate::structure::chain::ChainParameters;
 
     const STEP: f64 = 2e-3;
     const SAMPLES: usize = 1500;
 
     fn chain() -> Structure {
-        let (masses, ground_stiffness) = (vec![2.0, 1.0, 1.5], vec![800.0, 0.0, 0.0]);
-        ChainParameters { masses, ground_stiffness, coupling_stiffness: vec![1500.0, 900.0] }.build(&[]).unwrap()
+        models::chain(&[2.0, 1.0, 1.5], &[800.0, 0.0, 0.0], &[1500.0, 900.0])
     }
 
     fn predicted(structure: &Structure, sources: &[Source], quantities: &[Quantity]) -> Vec<Vec<f64>> {

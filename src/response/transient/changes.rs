@@ -59,10 +59,10 @@ impl Changes {
         for column in 0..2 * count {
             let (j, z) = (column % count, if column < count { c64::new(1.0, 0.0) } else { c64::new(0.0, 1.0) });
             for change in list {
-                let at = |k: usize| k * count + j;
-                let parts = |k: usize| [change.direct[at(k)] * z, change.conjugate[at(k)] * z.conj()];
+                let index = |k: usize| k * count + j;
+                let parts = |k: usize| [change.direct[index(k)] * z, change.conjugate[index(k)] * z.conj()];
                 let rate = |k: usize| parts(k)[0] + parts(k)[1];
-                let sum = |k: usize| parts(k)[0] * between[at(k)][0] + parts(k)[1] * between[at(k)][1];
+                let sum = |k: usize| parts(k)[0] * between[index(k)][0] + parts(k)[1] * between[index(k)][1];
                 flatten(&(0..count).map(rate).collect::<Vec<c64>>(), &mut rates);
                 flatten(&(0..count).map(sum).collect::<Vec<c64>>(), &mut full);
             }

@@ -46,8 +46,8 @@ impl Derivatives {
         width: usize,
     ) -> Self {
         let own_of = |element: &Element| {
-            let of = |s: &Sensitivity| s.own.filter(|(source, _)| *source == element.source).map(|(_, k)| k);
-            list.iter().map(of).collect::<Vec<Option<usize>>>()
+            let own_parameter = |s: &Sensitivity| s.own.filter(|(source, _)| *source == element.source).map(|(_, k)| k);
+            list.iter().map(own_parameter).collect::<Vec<Option<usize>>>()
         };
         Self {
             own: elements.iter().map(own_of).collect(),

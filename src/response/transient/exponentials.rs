@@ -56,13 +56,13 @@ mod tests {
     #[test]
     fn series_and_quotients_meet() {
         for angle in [0.3, 1.9, 3.0] {
-            let at = |r: f64| c64::new(r * f64::cos(angle), r * f64::sin(angle));
+            let argument = |r: f64| c64::new(r * f64::cos(angle), r * f64::sin(angle));
             for k in 0..3 {
-                let jump = integrals(at(0.499_999_999))[k] - integrals(at(0.500_000_001))[k];
+                let jump = integrals(argument(0.499_999_999))[k] - integrals(argument(0.500_000_001))[k];
                 assert!(jump.norm() < 1e-8);
             }
             let b = c64::new(-0.2, 4.0);
-            let jump = divided(b + at(0.999_999_999), b) - divided(b + at(1.000_000_001), b);
+            let jump = divided(b + argument(0.999_999_999), b) - divided(b + argument(1.000_000_001), b);
             assert!(jump.norm() < 1e-8);
             assert!((divided(b, b) - b.exp()).norm() < 1e-15);
         }

@@ -62,8 +62,8 @@ impl TransientModel {
         let (total, changes) = assemble(setup, &reduction, &along);
         let system = LinearSystem::new(&total, &inputs)?;
         let view = |leg: Leg| {
-            let of = |order| system.functional(&along(leg), order);
-            View { displacement: of(0).row, velocity: of(1).row, acceleration: of(2) }
+            let observed = |order| system.functional(&along(leg), order);
+            View { displacement: observed(0).row, velocity: observed(1).row, acceleration: observed(2) }
         };
         let views = legs.iter().map(|(_, leg, ..)| view(*leg)).collect();
         let sensor = |(c, channel): (usize, &Channel)| {

@@ -129,8 +129,8 @@ impl LinearSystem {
     /// Displacements and velocities of the coordinates in the flat state `z`.
     pub(super) fn coordinates_of(&self, z: &[f64]) -> (Vec<f64>, Vec<f64>) {
         let (m, count) = (self.coordinates(), self.lambda.len());
-        let at = |i: usize, k: usize| (self.backward[(i, k)] * c64::new(z[k], z[count + k])).re;
-        let row = |i: usize| (0..count).map(|k| self.weight[k] * at(i, k)).sum::<f64>();
+        let modal_part = |i: usize, k: usize| (self.backward[(i, k)] * c64::new(z[k], z[count + k])).re;
+        let row = |i: usize| (0..count).map(|k| self.weight[k] * modal_part(i, k)).sum::<f64>();
         ((0..m).map(|r| row(r) / self.scale[r]).collect(), (0..m).map(|r| row(m + r)).collect())
     }
 

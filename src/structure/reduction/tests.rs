@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used, reason = "tests")]
 
 use super::*;
+use crate::common::models::cantilever_parameters;
 use crate::structure::beam::{BeamParameters, Supports};
 use crate::structure::error::StructureError;
 use crate::structure::geometry::Direction;
@@ -10,15 +11,7 @@ use dashpot_numerics::SparseSymmetric;
 use faer::MatRef;
 
 fn beam(elements: usize, supports: Supports) -> (BeamParameters, Structure) {
-    let p = BeamParameters {
-        length: 0.56,
-        breadth: 0.04,
-        depth: 0.004,
-        youngs_modulus: 69e9,
-        density: 2700.0,
-        elements,
-        supports,
-    };
+    let p = BeamParameters { supports, ..cantilever_parameters(elements) };
     let structure = p.build(&[]).unwrap();
     (p, structure)
 }

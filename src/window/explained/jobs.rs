@@ -72,8 +72,8 @@ pub(super) fn record_job(
 ) -> impl FnOnce(&Control) -> Result<RecordResidual, String> + use<> {
     let p = Arc::clone(p);
     move |_| {
-        let of = |r: &&OneRecord| r.index == index;
-        let record = found.iter().find(of).zip(p.transient_runs.get(index));
+        let asked = |r: &&OneRecord| r.index == index;
+        let record = found.iter().find(asked).zip(p.transient_runs.get(index));
         let (record, run) = record.ok_or("The record is switched off.")?;
         let residual = |name: Option<&str>| RecordResidual::new(&p.structure, run, record, name);
         let residual = residual(channel.as_deref()).or_else(|| residual(None));

@@ -6,7 +6,7 @@ use crate::session::Document;
 
 /// One model on the way.
 #[derive(Debug, Clone)]
-pub struct Step {
+pub struct LedgerEntry {
     /// What was changed, in a few words.
     pub label: String,
     /// Its key.
@@ -26,13 +26,13 @@ pub struct Step {
 /// All steps in the order in which they were first reached.
 #[derive(Debug, Default)]
 pub struct Ledger {
-    steps: Vec<Step>,
+    steps: Vec<LedgerEntry>,
     current: usize,
 }
 
 impl Ledger {
     /// The steps.
-    pub fn steps(&self) -> &[Step] {
+    pub fn steps(&self) -> &[LedgerEntry] {
         &self.steps
     }
 
@@ -57,7 +57,7 @@ impl Ledger {
         );
         let channels = comparison.runs.iter().filter(|r| r.used).flat_map(|r| r.channels.iter().map(|c| c.error));
         let energies = comparison.runs.iter().filter(|r| r.used && r.channels.is_empty()).map(|r| r.error);
-        self.steps.push(Step {
+        self.steps.push(LedgerEntry {
             label,
             key: key.clone(),
             document: document.clone(),
@@ -83,7 +83,7 @@ impl Ledger {
 
     /// All steps as text with tabs: errors as shares, the step that each came from, whether it is the present one.
     pub fn table(&self) -> String {
-        let line = |(k, step): (usize, &Step)| {
+        let line = |(k, step): (usize, &LedgerEntry)| {
             let parent = step.parent.map_or_else(String::new, |p| p.to_string());
             let now = if k == self.current { "yes" } else { "no" };
             format!("{k}\t{}\t{parent}\t{:e}\t{:e}\t{now}\n", step.label, step.error, step.noise_floor)

@@ -6,7 +6,7 @@ mod jobs;
 pub(crate) mod ledger;
 pub(crate) mod model;
 
-use super::cache::{Cache, Cached};
+use super::cache::{Background, Cache, Cached};
 use super::document::Document;
 use crate::diagnosis::candidates::fingerprint_plot::Print;
 use crate::diagnosis::candidates::restoring_force::RestoringForce;
@@ -190,17 +190,39 @@ impl Explained {
     }
 
     fn collect(&mut self) {
-        self.comparisons.collect();
-        self.trials.collect();
-        self.diagnoses.collect();
         self.early.collect();
-        self.prints.collect();
-        self.forces.collect();
-        self.scatters.collect();
-        self.curves.collect();
-        self.trial_curves.collect();
-        self.decays.collect();
-        self.records.collect();
+        self.background_mut().into_iter().for_each(Background::collect);
+    }
+
+    /// All that may run; the search first, since it takes longest.
+    fn background(&self) -> [&dyn Background; 10] {
+        [
+            &self.diagnoses,
+            &self.comparisons,
+            &self.trials,
+            &self.prints,
+            &self.forces,
+            &self.scatters,
+            &self.curves,
+            &self.trial_curves,
+            &self.decays,
+            &self.records,
+        ]
+    }
+
+    fn background_mut(&mut self) -> [&mut dyn Background; 10] {
+        [
+            &mut self.diagnoses,
+            &mut self.comparisons,
+            &mut self.trials,
+            &mut self.prints,
+            &mut self.forces,
+            &mut self.scatters,
+            &mut self.curves,
+            &mut self.trial_curves,
+            &mut self.decays,
+            &mut self.records,
+        ]
     }
 
     /// Records that are not steady with the model's, and the one that is shown ready to be drawn.
@@ -324,29 +346,14 @@ impl Explained {
 
     /// Name and progress of what runs; the search first, since it takes longest.
     pub fn running(&self) -> Option<(&str, f64)> {
-        let others = self.comparisons.running().or_else(|| self.trials.running()).or_else(|| self.prints.running());
-        self.diagnoses
-            .running()
-            .or(others)
-            .or_else(|| self.forces.running())
-            .or_else(|| self.scatters.running())
-            .or_else(|| self.curves.running())
-            .or_else(|| self.trial_curves.running())
-            .or_else(|| self.decays.running())
-            .or_else(|| self.records.running())
+        self.background().into_iter().find_map(Background::running)
     }
 
-    /// Stops all that runs.
+    /// Stops all that runs but the comparison of the model as it stands.
     pub fn cancel(&mut self) {
-        self.diagnoses.cancel();
-        self.trials.cancel();
-        self.prints.cancel();
-        self.forces.cancel();
-        self.scatters.cancel();
-        self.curves.cancel();
-        self.trial_curves.cancel();
-        self.decays.cancel();
-        self.records.cancel();
+        let [search, _, others @ ..] = self.background_mut();
+        search.cancel();
+        others.into_iter().for_each(Background::cancel);
     }
 
     /// The search answers with the best so far, as soon as it can.
@@ -357,15 +364,6 @@ impl Explained {
     /// Starts again what was cancelled, failed or ended before its time.
     pub fn retry(&mut self) {
         self.diagnoses.forget(|d| !d.complete);
-        self.diagnoses.retry();
-        self.comparisons.retry();
-        self.trials.retry();
-        self.prints.retry();
-        self.forces.retry();
-        self.scatters.retry();
-        self.curves.retry();
-        self.trial_curves.retry();
-        self.decays.retry();
-        self.records.retry();
+        self.background_mut().into_iter().for_each(Background::retry);
     }
 }

@@ -151,22 +151,22 @@ pub(crate) fn card(ui: &mut Ui, width: f32, sample: &Sample, file: Option<&Path>
 fn beam(painter: &Painter, palette: &Palette, r: Rect, dashpots: &[usize], known: &[usize], lacks: Option<usize>) {
     let axis = r.top() + 40.0;
     let (left, right) = (r.left() + 34.0, r.right() - 24.0);
-    let at = |k: usize| left + (right - left) * k as f32 / 10.0;
+    let abscissa = |k: usize| left + (right - left) * k as f32 / 10.0;
     let lift = |k: f32| 15.0 * (k / 10.0).powi(2);
     let curve = (0..=40).map(|k| pos2(left + (right - left) * k as f32 / 40.0, axis - lift(k as f32 / 4.0))).collect();
     symbols::ground(painter, pos2(left, axis), Vec2::LEFT, 36.0, theme::bold(palette.ink));
     painter.add(Shape::line(curve, Stroke::new(4.0, palette.ink)));
     for &k in dashpots {
-        let (top, foot) = (pos2(at(k), axis - lift(k as f32)), pos2(at(k), r.bottom() - 12.0));
+        let (top, foot) = (pos2(abscissa(k), axis - lift(k as f32)), pos2(abscissa(k), r.bottom() - 12.0));
         let colour = if known.contains(&k) { palette.accent } else { palette.model };
         symbols::draw(painter, Effect::DASHPOT, [top, foot], theme::pen(colour));
         symbols::ground(painter, foot, Vec2::DOWN, 20.0, theme::hair(colour));
     }
     if let Some(k) = lacks {
-        question(painter, palette, pos2(at(k), axis + 22.0));
+        question(painter, palette, pos2(abscissa(k), axis + 22.0));
     }
     for k in [4, 6, 10] {
-        let body = Rect::from_center_size(pos2(at(k), axis - lift(k as f32) - 6.0), vec2(10.0, 7.0));
+        let body = Rect::from_center_size(pos2(abscissa(k), axis - lift(k as f32) - 6.0), vec2(10.0, 7.0));
         painter.rect_filled(body, 1.5, palette.measured);
     }
 }
@@ -228,28 +228,28 @@ fn question(painter: &Painter, palette: &Palette, at: egui::Pos2) {
 /// Ribs and spars of a wing seen from above and behind.
 fn wing(painter: &Painter, palette: &Palette, r: Rect) {
     let (root, span) = (pos2(r.left() + 36.0, r.center().y + 11.0), r.width() - 84.0);
-    let at = |rib: f32, chord: f32| pos2(root.x + span * rib + 26.0 * chord, root.y + 17.0 * chord - 24.0 * rib);
+    let on_wing = |rib: f32, chord: f32| pos2(root.x + span * rib + 26.0 * chord, root.y + 17.0 * chord - 24.0 * rib);
     let ends = |a, b, line| {
         painter.line_segment([a, b], line);
     };
     for chord in [-1.0, 0.0, 1.0] {
-        ends(at(0.0, chord), at(1.0, chord), theme::bold(palette.ink));
+        ends(on_wing(0.0, chord), on_wing(1.0, chord), theme::bold(palette.ink));
     }
     for rib in 0..=7_u8 {
         let share = f32::from(rib) / 7.0;
-        ends(at(share, -1.0), at(share, 1.0), theme::pen(palette.ink));
-        let place = at(share, if rib % 2 == 0 { 1.0 } else { -1.0 });
+        ends(on_wing(share, -1.0), on_wing(share, 1.0), theme::pen(palette.ink));
+        let place = on_wing(share, if rib % 2 == 0 { 1.0 } else { -1.0 });
         painter.circle_filled(place, 3.5, palette.model);
     }
 }
 
 fn points(painter: &Painter, palette: &Palette, r: Rect) {
     let step = (r.width() - 60.0) / 4.0;
-    let at = |k: usize| pos2(r.left() + 30.0 + step * k as f32, r.center().y);
+    let mass = |k: usize| pos2(r.left() + 30.0 + step * k as f32, r.center().y);
     for k in [1, 3] {
-        symbols::draw(painter, Effect::DASHPOT, [at(k), at(k + 1)], theme::pen(palette.model));
+        symbols::draw(painter, Effect::DASHPOT, [mass(k), mass(k + 1)], theme::pen(palette.model));
     }
     for k in 0..5 {
-        painter.circle(at(k), 10.0, palette.raised, theme::bold(palette.measured));
+        painter.circle(mass(k), 10.0, palette.raised, theme::bold(palette.measured));
     }
 }

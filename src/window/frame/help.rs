@@ -49,87 +49,95 @@ fn about(ctx: &Context, open: &mut bool) {
     });
 }
 
-/// A step of the tour: the stage and the pane that it points at, its title and its text.
-type Step = (Stage, Option<Pane>, &'static str, &'static str);
+/// A step of the tour.
+#[derive(Clone, Copy)]
+pub(crate) struct TourStep {
+    /// The stage that is shown.
+    stage: Stage,
+    /// The pane that it points at.
+    pane: Option<Pane>,
+    title: &'static str,
+    text: &'static str,
+}
 
 /// The tour.
-pub(crate) const TOUR: [Step; 10] = [
-    (
-        Stage::Measure,
-        Some(Pane::Runs),
-        "1 of 10: the runs",
-        "Each row is a steady-state test: one frequency, one level. Noise and harmonics are measured, flags say in words \
+pub(crate) const TOUR: [TourStep; 10] = [
+    TourStep {
+        stage: Stage::Measure,
+        pane: Some(Pane::Runs),
+        title: "1 of 10: the runs",
+        text: "Each row is a steady-state test: one frequency, one level. Noise and harmonics are measured, flags say in words \
          what is wrong. Untick a run to leave it out; all results follow by themselves.",
-    ),
-    (
-        Stage::Measure,
-        Some(Pane::Record),
-        "2 of 10: record and fit",
-        "The measured channel in blue, the fitted harmonics in orange, what is left over under them. A residual with a \
+    },
+    TourStep {
+        stage: Stage::Measure,
+        pane: Some(Pane::Record),
+        title: "2 of 10: record and fit",
+        text: "The measured channel in blue, the fitted harmonics in orange, what is left over under them. A residual with a \
          pattern means that the fit misses something.",
-    ),
-    (
-        Stage::Structure,
-        Some(Pane::Modes),
-        "3 of 10: the structure",
-        "Natural frequencies beside the runs that are near them. Click a mode to see its shape on the schematic; Space \
+    },
+    TourStep {
+        stage: Stage::Structure,
+        pane: Some(Pane::Modes),
+        title: "3 of 10: the structure",
+        text: "Natural frequencies beside the runs that are near them. Click a mode to see its shape on the schematic; Space \
          makes it move. Parameters, in the next tab, can be edited.",
-    ),
-    (
-        Stage::Pattern,
-        Some(Pane::Laws),
-        "4 of 10: the laws",
-        "What might lose energy, in the symbols that engineers draw. Choose a law here, then draw it on the schematic; the \
+    },
+    TourStep {
+        stage: Stage::Pattern,
+        pane: Some(Pane::Laws),
+        title: "4 of 10: the laws",
+        text: "What might lose energy, in the symbols that engineers draw. Choose a law here, then draw it on the schematic; the \
          buttons below add a whole family at once.",
-    ),
-    (
-        Stage::Pattern,
-        Some(Pane::Schematic),
-        "5 of 10: draw the pattern",
-        "Click a DOF: a source to the ground. Drag from DOF to DOF: between them. Sweep over a span: a chain. Click a source \
+    },
+    TourStep {
+        stage: Stage::Pattern,
+        pane: Some(Pane::Schematic),
+        title: "5 of 10: draw the pattern",
+        text: "Click a DOF: a source to the ground. Drag from DOF to DOF: between them. Sweep over a span: a chain. Click a source \
          again to make it candidate, forced, known or off.",
-    ),
-    (
-        Stage::Select,
-        Some(Pane::Steps),
-        "6 of 10: step by step",
-        "One row a number of sources: the best set, its coefficients with deviations, the angle between measured and \
+    },
+    TourStep {
+        stage: Stage::Select,
+        pane: Some(Pane::Steps),
+        title: "6 of 10: step by step",
+        text: "One row a number of sources: the best set, its coefficients with deviations, the angle between measured and \
          identified energies. The arrow keys step.",
-    ),
-    (
-        Stage::Select,
-        Some(Pane::Set),
-        "7 of 10: alternatives",
-        "Other sets of the same size, next best first. Click one to branch from it, or force a source that you know to be \
+    },
+    TourStep {
+        stage: Stage::Select,
+        pane: Some(Pane::Set),
+        title: "7 of 10: alternatives",
+        text: "Other sets of the same size, next best first. Click one to branch from it, or force a source that you know to be \
          there. Undo goes back.",
-    ),
-    (
-        Stage::Result,
-        Some(Pane::Matrix),
-        "8 of 10: the damping matrix",
-        "What was identified, as a map or as bars in space that the mouse turns. File > Export hands it to NASTRAN, \
+    },
+    TourStep {
+        stage: Stage::Result,
+        pane: Some(Pane::Matrix),
+        title: "8 of 10: the damping matrix",
+        text: "What was identified, as a map or as bars in space that the mouse turns. File > Export hands it to NASTRAN, \
          Abaqus, MATLAB and others.",
-    ),
-    (
-        Stage::Result,
-        Some(Pane::Bode),
-        "9 of 10: does the model fit?",
-        "Measured points on the model's curve: receptance, mobility or accelerance. Nyquist, hysteresis and damping ratios \
+    },
+    TourStep {
+        stage: Stage::Result,
+        pane: Some(Pane::Bode),
+        title: "9 of 10: does the model fit?",
+        text: "Measured points on the model's curve: receptance, mobility or accelerance. Nyquist, hysteresis and damping ratios \
          are in the tabs beside it.",
-    ),
-    (
-        Stage::Result,
-        None,
-        "10 of 10: make it yours",
-        "Panes can be dragged by their titles, split and closed; View > Reset layout puts them back. File > New makes a \
+    },
+    TourStep {
+        stage: Stage::Result,
+        pane: None,
+        title: "10 of 10: make it yours",
+        text: "Panes can be dragged by their titles, split and closed; View > Reset layout puts them back. File > New makes a \
          project of your own, and records are dropped on the window. F1 lists the keys.",
-    ),
+    },
 ];
 
 /// The step of the tour that is open, beside the pane that it points at.
 pub(crate) fn tour(ctx: &Context, view: &mut View, desk: &mut Desk) {
     let Some(step) = view.tour else { return };
-    let (stage, pane, title, text) = TOUR[step.min(TOUR.len() - 1)];
+    let TourStep { stage, pane, title, text } = TOUR[step.min(TOUR.len() - 1)];
     if view.tour_shown != Some(step) {
         view.tour_shown = Some(step);
         view.stage = stage;
@@ -220,7 +228,7 @@ fn beside(target: Option<Rect>, screen: Rect) -> egui::Pos2 {
 
 #[cfg(test)]
 mod tests {
-    use super::{CARD, TOUR, beside};
+    use super::{CARD, TOUR, TourStep, beside};
     use egui::{Rect, pos2, vec2};
 
     #[test]
@@ -239,7 +247,7 @@ mod tests {
 
     #[test]
     fn the_tour_has_ten_numbered_steps() {
-        for (k, (_, _, title, _)) in TOUR.iter().enumerate() {
+        for (k, TourStep { title, .. }) in TOUR.iter().enumerate() {
             assert!(title.starts_with(&format!("{} of 10", k + 1)));
         }
     }

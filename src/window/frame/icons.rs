@@ -7,13 +7,14 @@ use egui::{Color32, Painter, Pos2, Rect, Shape, Stroke, pos2};
 pub(crate) fn stage(painter: &Painter, stage: Stage, rect: Rect, colour: Color32) {
     let pen = Stroke::new(1.5, colour);
     // Coordinates in the square from 0 to 1, y upwards.
-    let at = |x: f32, y: f32| pos2(rect.left() + x * rect.width(), rect.bottom() - y * rect.height());
+    let point = |x: f32, y: f32| pos2(rect.left() + x * rect.width(), rect.bottom() - y * rect.height());
     let line = |points: &[(f32, f32)]| {
-        let points: Vec<Pos2> = points.iter().map(|&(x, y)| at(x, y)).collect();
+        let points: Vec<Pos2> = points.iter().map(|&(x, y)| point(x, y)).collect();
         painter.add(Shape::line(points, pen));
     };
-    let bar =
-        |x: f32, height: f32| painter.rect_filled(Rect::from_two_pos(at(x, 0.08), at(x + 0.2, height)), 0.5, colour);
+    let bar = |x: f32, height: f32| {
+        painter.rect_filled(Rect::from_two_pos(point(x, 0.08), point(x + 0.2, height)), 0.5, colour)
+    };
     match stage {
         Stage::Measure => {
             let wave: Vec<(f32, f32)> = (0..=24)
@@ -67,9 +68,9 @@ mod tests {
     fn the_icon_is_a_light_symbol_on_a_dark_ground_with_round_corners() {
         let icon = super::application();
         assert_eq!((icon.width, icon.height), (128, 128));
-        let at = |x: u32, y: u32| icon.rgba[4 * (y * icon.width + x) as usize..][..4].to_vec();
-        assert_eq!(at(0, 0)[3], 0, "corners are clear");
-        assert!(at(64, 85)[3] == 255 && at(64, 85)[0] < 100);
-        assert!(at(30, 52)[0] > 240, "the rod is light");
+        let pixel = |x: u32, y: u32| icon.rgba[4 * (y * icon.width + x) as usize..][..4].to_vec();
+        assert_eq!(pixel(0, 0)[3], 0, "corners are clear");
+        assert!(pixel(64, 85)[3] == 255 && pixel(64, 85)[0] < 100);
+        assert!(pixel(30, 52)[0] > 240, "the rod is light");
     }
 }

@@ -12,5 +12,5 @@ mod tree;
 mod view;
 
 pub use draft::{Draft, OpenProject};
-pub use state::{Importing, Made, Step};
+pub use state::{Importing, Made, Progress};
 pub use view::show;

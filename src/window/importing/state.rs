@@ -5,6 +5,7 @@ use crate::control::Control;
 use crate::exchange::atomic::write_atomically;
 use crate::exchange::importing::{Request, import};
 use crate::session::jobs::Job;
+use crate::window::cache::Background;
 use crate::window::document::Document;
 use crate::window::repaint::request_repaint;
 use egui::Context;
@@ -32,7 +33,7 @@ pub enum Importing {
 
 /// What a look at the work gives.
 #[derive(Debug)]
-pub enum Step {
+pub enum Progress {
     /// Nothing new.
     Wait(Importing),
     /// The files cannot be read, or no project can be made of them: why, and what is still shown.
@@ -66,25 +67,25 @@ impl Importing {
     }
 
     /// Goes on where work has ended; a draft that fits the mapping of the open project is accepted at once.
-    pub fn step(self, ctx: &Context) -> Step {
+    pub fn step(self, ctx: &Context) -> Progress {
         match self {
             Self::Looking(job) => match job.poll() {
-                None => Step::Wait(Self::Looking(job)),
-                Some(Err(error)) => Step::Failed(error.to_string(), None),
-                Some(Ok(Err(error))) => Step::Failed(error, None),
+                None => Progress::Wait(Self::Looking(job)),
+                Some(Err(error)) => Progress::Failed(error.to_string(), None),
+                Some(Ok(Err(error))) => Progress::Failed(error, None),
                 Some(Ok(Ok(draft))) if draft.fits => match draft.accepted(ctx) {
-                    Ok(making) => Step::Wait(making),
-                    Err(error) => Step::Failed(error, None),
+                    Ok(making) => Progress::Wait(making),
+                    Err(error) => Progress::Failed(error, None),
                 },
-                Some(Ok(Ok(draft))) => Step::Wait(Self::Ready(Box::new(draft))),
+                Some(Ok(Ok(draft))) => Progress::Wait(Self::Ready(Box::new(draft))),
             },
             Self::Making(draft, job) => match job.poll() {
-                None => Step::Wait(Self::Making(draft, job)),
-                Some(Err(error)) => Step::Failed(error.to_string(), Some(Self::Ready(draft))),
-                Some(Ok(Err(error))) => Step::Failed(error, Some(Self::Ready(draft))),
-                Some(Ok(Ok(made))) => Step::Made(made),
+                None => Progress::Wait(Self::Making(draft, job)),
+                Some(Err(error)) => Progress::Failed(error.to_string(), Some(Self::Ready(draft))),
+                Some(Ok(Err(error))) => Progress::Failed(error, Some(Self::Ready(draft))),
+                Some(Ok(Ok(made))) => Progress::Made(made),
             },
-            ready @ Self::Ready(_) => Step::Wait(ready),
+            ready @ Self::Ready(_) => Progress::Wait(ready),
         }
     }
 

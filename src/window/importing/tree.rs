@@ -64,7 +64,7 @@ fn one(ui: &mut Ui, draft: &mut Draft, line: &Line) {
     let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), LINE), Sense::click());
     let palette = ui.palette();
     let (font, small) = (theme::font(size::BODY), theme::font(size::SMALL));
-    let at = |level: f32| pos2(rect.left() + space::XS + INDENT * level, rect.center().y);
+    let indented = |level: f32| pos2(rect.left() + space::XS + INDENT * level, rect.center().y);
     let right = rect.right() - space::S;
     match line {
         Line::File(f) => {
@@ -72,7 +72,7 @@ fn one(ui: &mut Ui, draft: &mut Draft, line: &Line) {
             let format = opened.file.as_ref().map_or("not read", |file| file.contents().format.word());
             response.widget_info(|| WidgetInfo::labeled(Role::Label, true, format!("File {}", opened.name)));
             let width = aside(ui, format, right, rect.center().y);
-            elided(ui, &opened.name, font, palette.ink, at(0.0), right - width - at(0.0).x - space::S);
+            elided(ui, &opened.name, font, palette.ink, indented(0.0), right - width - indented(0.0).x - space::S);
         }
         Line::Set(f, s) => {
             let Some(file) = file_of(draft, *f) else { return };
@@ -83,7 +83,7 @@ fn one(ui: &mut Ui, draft: &mut Draft, line: &Line) {
             response.widget_info(|| WidgetInfo::selected(Role::Button, true, open, format!("Set {name}")));
             let width = aside(ui, &what, right, rect.center().y);
             let text = format!("{} {name}", if open { "−" } else { "+" });
-            elided(ui, &text, font, palette.ink, at(0.5), right - width - at(0.5).x - space::S);
+            elided(ui, &text, font, palette.ink, indented(0.5), right - width - indented(0.5).x - space::S);
             if response.clicked() && !draft.unfolded.remove(&(*f, *s)) {
                 draft.unfolded.insert((*f, *s));
             }
@@ -101,15 +101,15 @@ fn one(ui: &mut Ui, draft: &mut Draft, line: &Line) {
             }
             let level = if set.channels.len() == 1 { 0.5 } else { 1.5 };
             let width = aside(ui, &details(channel, set), right, rect.center().y);
-            elided(ui, name, font, palette.ink, at(level), right - width - at(level).x - space::S);
+            elided(ui, name, font, palette.ink, indented(level), right - width - indented(level).x - space::S);
             if response.clicked() {
                 draft.looked_at = Some(here);
             }
             response.on_hover_ui(|ui| tooltip(ui, set, channel));
         }
         Line::Note(note) => {
-            let room = rect.right() - at(1.0).x - space::S;
-            elided(ui, note, small, palette.weak, at(1.0), room);
+            let room = rect.right() - indented(1.0).x - space::S;
+            elided(ui, note, small, palette.weak, indented(1.0), room);
             response.on_hover_text(note);
         }
     }

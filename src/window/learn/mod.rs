@@ -102,7 +102,7 @@ struct Cell {
 }
 
 fn cells(portrait: &Portrait, lesson: &Lesson, palette: &Palette) -> [Cell; 6] {
-    let one = |figure: Figure| vec![(figure, 1.0)];
+    let alone = |figure: Figure| vec![(figure, 1.0)];
     let [magnitude, phase] = figures::bode(portrait, palette);
     let energy = figures::energy(portrait, palette);
     let power = energy.as_ref().map(|e| e.1.clone()).unwrap_or_default();
@@ -112,7 +112,7 @@ fn cells(portrait: &Portrait, lesson: &Lesson, palette: &Palette) -> [Cell; 6] {
         Cell {
             title: "Free motion",
             remark: format!("released from {}", format::with_unit(lesson.displacement, "m")),
-            figures: figures::decay(portrait, palette).map(one),
+            figures: figures::decay(portrait, palette).map(alone),
         },
         Cell {
             title: "Bode diagram",
@@ -122,19 +122,19 @@ fn cells(portrait: &Portrait, lesson: &Lesson, palette: &Palette) -> [Cell; 6] {
         Cell {
             title: "Nyquist diagram",
             remark: "of the receptance".to_owned(),
-            figures: Ok(one(figures::nyquist(portrait, palette))),
+            figures: Ok(alone(figures::nyquist(portrait, palette))),
         },
         Cell {
             title: "Hysteresis of the exciter",
             remark: at.clone(),
-            figures: Ok(one(figures::loops("Hysteresis of the exciter", &portrait.loops, palette))),
+            figures: Ok(alone(figures::loops("Hysteresis of the exciter", &portrait.loops, palette))),
         },
         Cell {
             title: "Hysteresis of the law",
             remark: at.clone(),
-            figures: Ok(one(figures::loops("Hysteresis of the law", &portrait.own, palette))),
+            figures: Ok(alone(figures::loops("Hysteresis of the law", &portrait.own, palette))),
         },
-        Cell { title: "Energy a cycle", remark: power, figures: energy.map(|e| one(e.0)) },
+        Cell { title: "Energy a cycle", remark: power, figures: energy.map(|e| alone(e.0)) },
     ]
 }
 

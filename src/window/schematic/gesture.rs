@@ -107,13 +107,13 @@ mod tests {
     #[test]
     fn a_drag_joins_two_dofs_or_sweeps_a_chain() {
         let (_, layout) = scene();
-        let at = |d: usize| layout.handle(d).unwrap().pos;
-        let mut drag = Drag::begin(&layout, at(2) + vec2(1.0, 0.0));
+        let position = |d: usize| layout.handle(d).unwrap().pos;
+        let mut drag = Drag::begin(&layout, position(2) + vec2(1.0, 0.0));
         assert_eq!(drag.dofs(&layout), None, "a drag that has not left its DOF draws nothing");
-        drag.now = at(6);
+        drag.now = position(6);
         assert_eq!(drag.dofs(&layout), Some(vec![2, 6]));
-        let mut sweep = Drag::begin(&layout, at(0) - vec2(40.0, 60.0));
-        sweep.now = at(4) + vec2(20.0, 40.0);
+        let mut sweep = Drag::begin(&layout, position(0) - vec2(40.0, 60.0));
+        sweep.now = position(4) + vec2(20.0, 40.0);
         assert_eq!(sweep.dofs(&layout), Some(vec![0, 2, 4]));
         assert!(sweep.span().is_some());
     }

@@ -88,23 +88,28 @@ impl Pen<'_> {
 
     /// Cup and piston between `a` and `b`.
     fn dashpot(&self, a: f32, b: f32) {
-        let at = |t: f32| a + (b - a) * t;
-        self.line(&[(at(0.0), 0.0), (at(0.55), 0.0)]);
-        self.line(&[(at(0.55), 1.0 - HALF_WIDTH), (at(0.55), HALF_WIDTH - 1.0)]);
-        self.line(&[(at(0.28), -HALF_WIDTH), (at(0.8), -HALF_WIDTH), (at(0.8), HALF_WIDTH), (at(0.28), HALF_WIDTH)]);
-        self.line(&[(at(0.8), 0.0), (at(1.0), 0.0)]);
+        let along = |t: f32| a + (b - a) * t;
+        self.line(&[(along(0.0), 0.0), (along(0.55), 0.0)]);
+        self.line(&[(along(0.55), 1.0 - HALF_WIDTH), (along(0.55), HALF_WIDTH - 1.0)]);
+        self.line(&[
+            (along(0.28), -HALF_WIDTH),
+            (along(0.8), -HALF_WIDTH),
+            (along(0.8), HALF_WIDTH),
+            (along(0.28), HALF_WIDTH),
+        ]);
+        self.line(&[(along(0.8), 0.0), (along(1.0), 0.0)]);
     }
 
     /// A rod that slides between two pressed pads.
     fn pads(&self, a: f32, b: f32, fill: Color32) {
-        let at = |t: f32| a + (b - a) * t;
-        self.line(&[(a, 0.0), (at(0.72), 0.0)]);
+        let along = |t: f32| a + (b - a) * t;
+        self.line(&[(a, 0.0), (along(0.72), 0.0)]);
         for side in [-1.0, 1.0] {
             let (near, far) = (2.5 * side, 7.5 * side);
-            self.fill(&[(at(0.25), near), (at(0.75), near), (at(0.75), far), (at(0.25), far)], fill);
-            self.line(&[(at(0.5), far), (at(0.5), 9.5 * side), (at(0.9), 9.5 * side), (at(0.9), 0.0)]);
+            self.fill(&[(along(0.25), near), (along(0.75), near), (along(0.75), far), (along(0.25), far)], fill);
+            self.line(&[(along(0.5), far), (along(0.5), 9.5 * side), (along(0.9), 9.5 * side), (along(0.9), 0.0)]);
         }
-        self.line(&[(at(0.9), 0.0), (b, 0.0)]);
+        self.line(&[(along(0.9), 0.0), (b, 0.0)]);
     }
 
     fn zigzag(&self, a: f32, b: f32, coils: usize, y: f32, height: f32) {

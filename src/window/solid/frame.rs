@@ -28,8 +28,9 @@ impl RuledBox<'_> {
     /// All eight corners.
     pub(crate) fn corners(&self) -> Vec<Vector3<f32>> {
         let n = self.count as f32;
-        let at = |k: usize| Vector3::new((k & 1) as f32 * n, ((k >> 1) & 1) as f32 * n, (k >> 2) as f32 * self.height);
-        (0..8).map(at).collect()
+        let corner =
+            |k: usize| Vector3::new((k & 1) as f32 * n, ((k >> 1) & 1) as f32 * n, (k >> 2) as f32 * self.height);
+        (0..8).map(corner).collect()
     }
 
     /// Height of a value above the floor.
@@ -57,27 +58,39 @@ impl RuledBox<'_> {
     pub(crate) fn back(&self, drawing: &mut Drawing, p: &Projection, palette: &Palette) {
         let n = self.count as f32;
         let floor = if p.camera.pitch >= 0.0 { 0.0 } else { self.height };
-        let at = |x: f32, y: f32, z: f32| p.at(Vector3::new(x, y, z));
+        let projected = |x: f32, y: f32, z: f32| p.at(Vector3::new(x, y, z));
         let (bx, by) = (self.behind(p, 0), self.behind(p, 1));
         let thin = theme::hair(palette.line);
         let fill = palette.pane;
-        drawing.area([at(0., 0., floor), at(n, 0., floor), at(n, n, floor), at(0., n, floor)], fill, thin);
+        drawing.area(
+            [projected(0., 0., floor), projected(n, 0., floor), projected(n, n, floor), projected(0., n, floor)],
+            fill,
+            thin,
+        );
         let h = self.height;
-        drawing.area([at(bx, 0., 0.), at(bx, n, 0.), at(bx, n, h), at(bx, 0., h)], fill, thin);
-        drawing.area([at(0., by, 0.), at(n, by, 0.), at(n, by, h), at(0., by, h)], fill, thin);
+        drawing.area(
+            [projected(bx, 0., 0.), projected(bx, n, 0.), projected(bx, n, h), projected(bx, 0., h)],
+            fill,
+            thin,
+        );
+        drawing.area(
+            [projected(0., by, 0.), projected(n, by, 0.), projected(n, by, h), projected(0., by, h)],
+            fill,
+            thin,
+        );
         if self.count <= 40 {
             for k in 1..self.count {
                 let k = k as f32;
-                drawing.line([at(k, 0., floor), at(k, n, floor)], thin);
-                drawing.line([at(0., k, floor), at(n, k, floor)], thin);
+                drawing.line([projected(k, 0., floor), projected(k, n, floor)], thin);
+                drawing.line([projected(0., k, floor), projected(n, k, floor)], thin);
             }
         }
         for value in self.levels() {
             let z = self.height_of(value);
             let zero = value.abs() < 1e-9 * self.step;
             let line = if zero { theme::hair(palette.weak) } else { thin };
-            drawing.line([at(bx, 0., z), at(bx, n, z)], line);
-            drawing.line([at(0., by, z), at(n, by, z)], line);
+            drawing.line([projected(bx, 0., z), projected(bx, n, z)], line);
+            drawing.line([projected(0., by, z), projected(n, by, z)], line);
         }
     }
 

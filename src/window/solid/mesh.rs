@@ -109,8 +109,8 @@ mod tests {
 
     /// Volume by the divergence theorem: every triangle with the origin; right only where all face outwards.
     fn volume(mesh: &Mesh) -> f32 {
-        let at = |k: u32| Vector3::from(mesh.vertices[k as usize].position);
-        mesh.indices.chunks(3).map(|t| at(t[0]).dot(&at(t[1]).cross(&at(t[2]))) / 6.0).sum()
+        let vertex = |k: u32| Vector3::from(mesh.vertices[k as usize].position);
+        mesh.indices.chunks(3).map(|t| vertex(t[0]).dot(&vertex(t[1]).cross(&vertex(t[2]))) / 6.0).sum()
     }
 
     #[test]

@@ -79,9 +79,9 @@ impl Solid {
 
     /// Width and height in pixels, at most what every adapter can draw on.
     fn pixels(&self, screen: &ScreenDescriptor) -> [u32; 2] {
-        let at = |v: f32| (v * screen.pixels_per_point).round() as i64;
+        let pixel = |v: f32| (v * screen.pixels_per_point).round() as i64;
         let (min, max) = (self.viewport.min, self.viewport.max);
-        [at(max.x) - at(min.x), at(max.y) - at(min.y)].map(|n| n.clamp(1, 8192) as u32)
+        [pixel(max.x) - pixel(min.x), pixel(max.y) - pixel(min.y)].map(|n| n.clamp(1, 8192) as u32)
     }
 }
 

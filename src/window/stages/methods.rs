@@ -142,11 +142,11 @@ fn of_other_programs(ui: &mut Ui, beside: &[Beside]) {
 fn shape_row(body: &mut TableBody<'_>, Beside { reference, measured, model }: &Beside) {
     let hz = |value: f64| format::significant(value, 5);
     let percent = |ratio: Option<f64>| ratio.map_or_else(dash, |ratio| format::significant(100.0 * ratio, 3));
-    let of = |found: &Option<Match>| {
+    let match_cells = |found: &Option<Match>| {
         let cells = |found: &Match| [hz(found.frequency_hz), format::significant(found.mac, 3)];
         found.as_ref().map_or_else(|| [dash(), dash()], cells)
     };
-    let ([ours, mac], [undamped, undamped_mac]) = (of(measured), of(model));
+    let ([ours, mac], [undamped, undamped_mac]) = (match_cells(measured), match_cells(model));
     let ratio = percent(measured.as_ref().and_then(|found| found.damping_ratio));
     let own = [hz(reference.frequency_hz), percent(reference.damping_ratio)];
     body.row(space::ROW, |mut row| {

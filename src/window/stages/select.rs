@@ -4,7 +4,7 @@ use super::identified;
 use crate::display::{format, words};
 use crate::effects::State;
 use crate::exchange::Project;
-use crate::identify::{Outcome, Status, Step};
+use crate::identify::{Outcome, SelectionStep, Status};
 use crate::window::ask::Ask;
 use crate::window::commands::Command;
 use crate::window::edits::Edit;
@@ -172,7 +172,7 @@ fn table(ui: &mut Ui, p: &Project, outcome: &Outcome, current: usize, chosen: &m
 }
 
 /// The sources of a step and their coefficients, folded into `room` points.
-fn step_words(ui: &Ui, p: &Project, step: &Step, room: f32) -> [Arc<Galley>; 2] {
+fn step_words(ui: &Ui, p: &Project, step: &SelectionStep, room: f32) -> [Arc<Galley>; 2] {
     let palette = ui.palette();
     let which = in_words(p, step.sources.iter().map(|s| s.source));
     let values = words::coefficients(step.sources.iter().filter_map(|e| Some((p.sources.get(e.source)?, e))));
@@ -210,7 +210,7 @@ fn cells(row: &mut TableRow<'_, '_>, outcome: &Outcome, (k, lines): (usize, &[Ar
     });
 }
 
-fn details(ui: &mut Ui, p: &Project, step: &Step, asks: &mut Vec<Ask>) {
+fn details(ui: &mut Ui, p: &Project, step: &SelectionStep, asks: &mut Vec<Ask>) {
     let plural = if step.count == 1 { "source" } else { "sources" };
     let proved = if step.proved { "proved to be the best" } else { "the best set found" };
     ui.title(&format!("{} {plural}", step.count), proved);
@@ -248,7 +248,7 @@ fn doubts(ui: &mut Ui, p: &Project, outcome: &Outcome) {
     }
 }
 
-fn alternatives(ui: &mut Ui, p: &Project, step: &Step, asks: &mut Vec<Ask>) {
+fn alternatives(ui: &mut Ui, p: &Project, step: &SelectionStep, asks: &mut Vec<Ask>) {
     ui.add_space(space::S);
     if let Some(best) = &step.best_of_all {
         let words = in_words(p, best.sources.iter().copied());
@@ -279,6 +279,6 @@ fn branch(ui: &mut Ui, sources: &[usize], text: &str, asks: &mut Vec<Ask>) {
 }
 
 /// The step that is looked at.
-pub(crate) fn current<'a>(view: &View, outcome: &'a Outcome) -> Option<&'a Step> {
+pub(crate) fn current<'a>(view: &View, outcome: &'a Outcome) -> Option<&'a SelectionStep> {
     outcome.steps.get(view.step.unwrap_or(outcome.accepted))
 }

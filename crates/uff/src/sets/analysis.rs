@@ -79,11 +79,6 @@ impl AnalysisHeader {
         (value != [0.0, 0.0]).then_some(value)
     }
 
-    /// Mode number.
-    pub fn mode_number(&self) -> i64 {
-        self.integers.get(5).copied().unwrap_or(0)
-    }
-
     /// Modal mass.
     pub fn modal_mass(&self) -> Option<f64> {
         self.reals.get(3).copied().filter(|&mass| mass != 0.0)

@@ -75,16 +75,6 @@ impl ShapeHeader {
     pub fn modal_mass(&self) -> Option<f64> {
         self.reals.get(1).copied().filter(|_| self.analysis == 2)
     }
-
-    /// Modal A of a complex mode, `[re, im]`.
-    pub fn modal_a(&self) -> Option<[f64; 2]> {
-        (matches!(self.analysis, 3 | 7) && self.reals.len() >= 4).then(|| [self.reals[2], self.reals[3]])
-    }
-
-    /// Modal B of a complex mode, `[re, im]`.
-    pub fn modal_b(&self) -> Option<[f64; 2]> {
-        (matches!(self.analysis, 3 | 7) && self.reals.len() >= 6).then(|| [self.reals[4], self.reals[5]])
-    }
 }
 
 impl Shape {

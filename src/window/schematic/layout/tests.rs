@@ -115,10 +115,10 @@ fn a_wire_model_seen_from_above_keeps_its_proportions() {
     assert!(Layout::turns(&scene));
     let above = Camera { yaw: 0.0, pitch: std::f32::consts::FRAC_PI_2, zoom: 1.0 };
     let layout = Layout::new(&scene, AREA, above, None);
-    let at = |d: usize| layout.handle(d).unwrap().pos;
-    let (x, y) = (at(1) - at(0), at(2) - at(0));
+    let position = |d: usize| layout.handle(d).unwrap().pos;
+    let (x, y) = (position(1) - position(0), position(2) - position(0));
     assert!(x.x > 0.0 && x.y.abs() < 1e-3, "x to the right: {x:?}");
     assert!(y.y < 0.0 && y.x.abs() < 1e-3, "y upwards: {y:?}");
     assert!((x.length() - y.length()).abs() < 1e-2);
-    assert!((at(3) - at(0)).length() < 1e-2, "z points at the eye");
+    assert!((position(3) - position(0)).length() < 1e-2, "z points at the eye");
 }

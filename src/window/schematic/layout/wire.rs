@@ -162,8 +162,8 @@ fn axis(direction: Direction) -> Option<usize> {
 /// Largest dimension of all nodes, m.
 fn extent(scene: &Scene) -> f64 {
     let range = |k: usize| {
-        let at = || scene.nodes.iter().map(|n| n.position[k]);
-        at().fold(f64::NEG_INFINITY, f64::max) - at().fold(f64::INFINITY, f64::min)
+        let coordinates = || scene.nodes.iter().map(|n| n.position[k]);
+        coordinates().fold(f64::NEG_INFINITY, f64::max) - coordinates().fold(f64::INFINITY, f64::min)
     };
     (0..3).map(range).fold(0.0, f64::max)
 }

@@ -62,7 +62,7 @@ fn percent(share: f64) -> f64 {
 fn chart(ui: &mut Ui, ledger: &Ledger, ahead: &[[f64; 2]]) {
     let palette = ui.palette();
     let steps = ledger.steps();
-    let at = |k: usize| [k as f64, percent(steps[k].error)];
+    let point = |k: usize| [k as f64, percent(steps[k].error)];
     let floor = percent(steps[ledger.current()].noise_floor);
     let last = ahead.last().map_or(0.0, |p| p[0]).max(steps.len() as f64 - 1.0).max(1.0);
     let x = Axis::new("Step", "").ticks(Ticks::Whole).include(&[-0.4, last + 0.4]);
@@ -86,13 +86,13 @@ fn chart(ui: &mut Ui, ledger: &Ledger, ahead: &[[f64; 2]]) {
         let Some(parent) = step.parent else { continue };
         let on = path.contains(&k);
         let colour = if on { palette.model } else { palette.weak.gamma_multiply(0.6) };
-        figure = figure.points("", colour, Look::Line(if on { 2.0 } else { 1.2 }), vec![at(parent), at(k)]);
+        figure = figure.points("", colour, Look::Line(if on { 2.0 } else { 1.2 }), vec![point(parent), point(k)]);
     }
-    let figure = figure.points("error", palette.model, Look::Dots(4.0), (0..steps.len()).map(at).collect()).points(
+    let figure = figure.points("error", palette.model, Look::Dots(4.0), (0..steps.len()).map(point).collect()).points(
         "now",
         palette.accent,
         Look::Dots(6.5),
-        vec![at(ledger.current())],
+        vec![point(ledger.current())],
     );
     Stack { id: "ledger chart", title: "Error against steps", figures: vec![(figure, 1.0)], keys: true }.show(ui);
 }

@@ -228,8 +228,8 @@ pub(super) fn legend(ui: &mut Ui, scale: &Scale) -> Response {
     let below = noise.bottom() + 2.0;
     let bar = Rect::from_min_max(pos2(area.left() + 78.0, noise.top()), pos2(area.right() - 30.0, noise.bottom()));
     for k in 0..STEPS {
-        let at = |k: usize| bar.left() + bar.width() * k as f32 / STEPS as f32;
-        let piece = Rect::from_min_max(pos2(at(k), bar.top()), pos2(at(k + 1) + 0.5, bar.bottom()));
+        let abscissa = |k: usize| bar.left() + bar.width() * k as f32 / STEPS as f32;
+        let piece = Rect::from_min_max(pos2(abscissa(k), bar.top()), pos2(abscissa(k + 1) + 0.5, bar.bottom()));
         painter.rect_filled(piece, 0.0, palette.error_shade((k as f32 + 0.5) / STEPS as f32));
     }
     painter.text(pos2(area.left(), below), Align2::LEFT_TOP, "noise", font.clone(), palette.weak);

@@ -90,8 +90,8 @@ fn figure(study: &Incompleteness, choice: Choice, palette: &Palette) -> Figure {
         Along::Sensors => study.sensors[c.sensors].len() as f64,
     };
     let curve = |value: &dyn Fn(&Case) -> Option<f64>| {
-        let at = |c: &Case| Some([x(c), value(c)?.max(LEAST)]);
-        let mut points: Vec<[f64; 2]> = study.cases.iter().filter(chosen).filter_map(at).collect();
+        let point = |c: &Case| Some([x(c), value(c)?.max(LEAST)]);
+        let mut points: Vec<[f64; 2]> = study.cases.iter().filter(chosen).filter_map(point).collect();
         points.sort_by(|a, b| a[0].total_cmp(&b[0]));
         points
     };
@@ -143,17 +143,12 @@ mod tests {
 
     use super::*;
     use crate::classical::incompleteness::{Grid, incompleteness};
+    use crate::common::models;
     use crate::control::Control;
-    use crate::structure::chain::ChainParameters;
     use faer::Mat;
 
     fn study() -> Incompleteness {
-        let parameters = ChainParameters {
-            masses: vec![1.0, 2.0, 1.5, 1.0],
-            ground_stiffness: vec![1e4; 4],
-            coupling_stiffness: vec![2e4; 3],
-        };
-        let structure = parameters.build(&[]).unwrap();
+        let structure = models::chain(&[1.0, 2.0, 1.5, 1.0], &[1e4; 4], &[2e4; 3]);
         let truth = Mat::from_fn(4, 4, |i, j| if i == j { 1.0 + i as f64 } else { 0.0 });
         let control = Control::unattended();
         incompleteness(&structure, truth.as_ref(), &Grid::new(&structure, &[]), &control).unwrap()

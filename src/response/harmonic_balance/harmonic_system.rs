@@ -15,8 +15,8 @@ const AT_RESONANCE: f64 = 1e4;
 /// Stiffness of a leg, relative to that of the structure there, from which on it is rigid.
 const RIGID: f64 = 1e4;
 
-/// Quantities of one harmonic. `m` kept legs (nonlinear ones, then those of [`Level::resonant`]) and `k` eliminated ones.
-pub(crate) struct Level {
+/// Quantities of one harmonic. `m` kept legs (nonlinear ones, then those of [`HarmonicSystem::resonant`]) and `k` eliminated ones.
+pub(crate) struct HarmonicSystem {
     /// `C_h`, m x m row by row, m/N.
     coupling: Vec<c64>,
     /// `D_lin,h`, m.
@@ -35,7 +35,7 @@ pub(crate) struct Level {
     pub keeps_linear: bool,
 }
 
-impl Level {
+impl HarmonicSystem {
     /// Number of kept legs.
     pub(crate) fn count(&self) -> usize {
         self.free.len()
@@ -48,14 +48,14 @@ impl Level {
 }
 
 /// Condenses harmonic `h`, whose receptance is `compliance`.
-pub(crate) fn level(
+pub(crate) fn harmonic_system(
     compliance: &Compliance,
     sources: &[Source],
     legs: &[NonlinearLeg],
     linear: &[LinearLeg],
     excitation: &Excitation,
     h: usize,
-) -> Result<Level, ModelError> {
+) -> Result<HarmonicSystem, ModelError> {
     let omega = h as f64 * excitation.omega;
     let table = |rows: &[Pattern], columns: &[Pattern]| -> Vec<c64> {
         rows.iter().flat_map(|&a| columns.iter().map(move |&b| compliance.between(a, b))).collect()
@@ -82,7 +82,7 @@ pub(crate) fn level(
             if value.norm_sqr() == 0.0 { sum } else { sum + compliance.between(*at, Pattern::Leg(force.leg())) * value }
         })
     };
-    let mut level = Level {
+    let mut system = HarmonicSystem {
         coupling: table(&kept, &kept),
         free: kept.iter().map(free).collect(),
         elimination,
@@ -92,15 +92,15 @@ pub(crate) fn level(
         resonant_before: 0,
         keeps_linear,
     };
-    level.eliminate();
+    system.eliminate();
     for (i, leg) in legs.iter().enumerate() {
         // A slider behind a spring moves by less than its ends do.
-        level.coupling[i * (kept.len() + 1)] += leg.flexibility;
+        system.coupling[i * (kept.len() + 1)] += leg.flexibility;
     }
-    Ok(level)
+    Ok(system)
 }
 
-impl Level {
+impl HarmonicSystem {
     /// Takes what the eliminated legs do into the coupling and the free motion of the kept ones.
     fn eliminate(&mut self) {
         let (m, k) = (self.free.len(), self.linear_free.len());
@@ -133,8 +133,8 @@ struct Elimination {
 
 fn eliminate(g: &[c64], z: &[c64]) -> Option<Elimination> {
     let k = z.len();
-    let one = |i: usize, j: usize| c64::new(if i == j { 1.0 } else { 0.0 }, 0.0);
-    let system: Vec<c64> = (0..k * k).map(|n| one(n / k, n % k) + g[n] * z[n % k]).collect();
+    let unit = |i: usize, j: usize| c64::new(if i == j { 1.0 } else { 0.0 }, 0.0);
+    let system: Vec<c64> = (0..k * k).map(|n| unit(n / k, n % k) + g[n] * z[n % k]).collect();
     let inverse = invert(k, system)?;
     let terms = |i: usize| 1.0 + (0..k).map(|j| (g[i * k + j] * z[j]).norm()).sum::<f64>();
     let growth = |i: usize| (0..k).map(|j| inverse[i * k + j].norm() * terms(j)).sum::<f64>();
