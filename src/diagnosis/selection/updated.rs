@@ -18,16 +18,11 @@ use crate::effects::Source;
 use crate::math::statistics::sum_of_squares;
 use crate::response::harmonic_balance::{ResponseError, Settings};
 use crate::response::sensitivity::Unknown;
-use crate::structure::Part;
 use faer::c64;
 use std::sync::Arc;
 
 /// Steps of the fit of the updating parameters alone.
 const STEPS: usize = 8;
-/// Largest change of a logarithm in one step: of a stiffness or mass, and of a support or the size of a known source, which are
-/// known less well and move the response less.
-const LONGEST: f64 = 0.05;
-const LONGEST_OF_SIZE: f64 = 0.2;
 /// Gain of the squared residual per datum below which the fit has arrived.
 const ARRIVED: f64 = 1e-3;
 /// Rounds in which scales and effects are fitted in turn.
@@ -142,7 +137,7 @@ impl<'a> ReferenceModel<'a> {
     /// The updating parameters of this model moved to the standardised `target`, none by more than the longest step.
     pub(super) fn towards(&self, target: &[f64]) -> Updating {
         let updating = &self.linearisation.updating;
-        towards(updating, &updating.at(target).values)
+        updating.towards(&updating.at(target).values)
     }
 
     /// The model whose updating parameters fit the measurement best without any effect.
@@ -163,7 +158,7 @@ impl<'a> ReferenceModel<'a> {
             if (step > 2 && least - here < ARRIVED * least) || self.control.is_late() {
                 break;
             }
-            updating = towards(&updating, &target);
+            updating = updating.towards(&target);
         }
         match best {
             Some((_, reference)) => reference.settled_bare(STEPS),
@@ -382,20 +377,6 @@ fn leverage(data: &Data, updating: &Updating, common: &[RunSlopes], predictions:
         if size > 0.0 && missing > CLOSE { MOTION * (moved / size).sqrt() * missing } else { 0.0 }
     };
     data.runs.iter().zip(common).zip(predictions).map(of_run).collect()
-}
-
-/// The values of `updating` moved to `target`, none by more than the longest step.
-fn towards(updating: &Updating, target: &[f64]) -> Updating {
-    let moved = |(k, (from, to)): (usize, (&f64, &f64))| {
-        let longest = match &updating.parameters[k] {
-            parameter if !parameter.is_of_model() => return 0.0,
-            UpdatingParameter::Known(_) | UpdatingParameter::Structure(Part::Support(_)) => LONGEST_OF_SIZE,
-            _ => LONGEST,
-        };
-        from + (to - from).clamp(-longest, longest)
-    };
-    let values = updating.values.iter().zip(target).enumerate().map(moved).collect();
-    Updating { values, ..updating.clone() }
 }
 
 /// Least gain of a step towards a linear fit that promises `more`.

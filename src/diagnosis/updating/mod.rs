@@ -2,6 +2,7 @@
 
 pub(crate) mod correction;
 pub(crate) mod detuning;
+pub(crate) mod limited_step;
 pub(crate) mod marginalisation;
 pub(crate) mod measured_motion;
 pub(crate) mod modal_expansion;
