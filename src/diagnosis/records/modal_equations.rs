@@ -131,6 +131,20 @@ impl ModalEquations {
         rows
     }
 
+    /// Whitened rows of one force that acts on every mode with the weight of that mode, `g_r = weights_r force`: those of
+    /// [`Self::rows`] from one transform.
+    pub(super) fn rows_along(&self, weights: &[f64], force: &[f64]) -> Vec<f64> {
+        let spectrum = self.spectrum(force);
+        let mut rows = Vec::with_capacity(2 * weights.len() * spectrum.len());
+        for (line, whitening) in spectrum.iter().zip(&self.whitening) {
+            for r in 0..weights.len() {
+                let factor: f64 = (0..=r).map(|s| weights[s] * whitening[(r, s)]).sum();
+                rows.extend([factor * line.re, factor * line.im]);
+            }
+        }
+        rows
+    }
+
     /// Inverse of the lower factor of the covariance of the modal equations on a line.
     fn whitening(&self, line: usize, elastic: &[f64]) -> Option<Mat<f64>> {
         let (motion, band) = (&self.motion, &self.motion.band);
