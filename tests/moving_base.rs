@@ -52,7 +52,7 @@ fn a_base_moves_as_its_record_says() {
             document["error"].as_f64().unwrap()
         };
         let [with, without] = [error("truth.toml"), error("model.toml")];
-        assert!(with < 0.02 && without > 0.1, "{response}: {with} {without}");
+        assert!(with < 0.01 && without > 0.05, "{response}: {with} {without}");
         let output = dashpot(&["diagnose", "model.toml", "--json"], &own);
         let document: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
         let first = &document["suggestions"][0];

@@ -94,9 +94,11 @@ pub(crate) fn figures(force: &RestoringForce, structure: &Structure, palette: &P
 
 /// Force as colour over displacement and velocity (force-state map: Crawley and Aubert 1986, AIAA Journal 24, 155): as identified, then,
 /// where a law is drawn, by the law along the same motion. A law without memory gives one colour at a point; one with memory gives
-/// others on the way there and back.
+/// others on the way there and back. The last colours stand for all forces beyond them.
 pub(crate) fn maps(force: &RestoringForce, structure: &Structure, palette: &Palette) -> Vec<Figure> {
-    let most = largest(force, |p| p.force);
+    // Single points scatter far beyond what a law does there: its force is the scale.
+    let of_law = force.runs.iter().flat_map(|r| &r.law).map(|p| p.force.abs()).fold(0.0, f64::max);
+    let most = if of_law > 0.0 { of_law } else { largest(force, |p| p.force) };
     if most <= 0.0 {
         return Vec::new();
     }

@@ -9,7 +9,7 @@
 //! Statistical Society B 39, 44). Fits that promise too little to be left out and predicted follow those of as many laws by the
 //! information criterion.
 
-use super::fit::{Fitted, error, freedom, improved};
+use super::fit::{Fitted, Ranked, error, freedom, improved};
 use super::search::{Search, parameters};
 use crate::balance::loops::ComponentError;
 use crate::math::statistics::root_mean_square;
@@ -22,15 +22,6 @@ const STEPS: usize = 8;
 const WORTH: f64 = 0.8;
 /// Share of the error of a law of fewer parameters, where it was left out, that one of more may at most leave.
 const PLAIN: f64 = 0.9;
-
-/// A fit with what it is ranked by.
-pub(super) struct Ranked {
-    pub fit: Fitted,
-    /// Relative error on each record, fitted to the others; none where that was not asked.
-    pub held_out: Option<f64>,
-    /// Minus twice the logarithm of its density, smaller is better.
-    pub criterion: f64,
-}
 
 impl Search<'_> {
     /// Fits in the order of their evidence, none left out.

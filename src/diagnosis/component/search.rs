@@ -6,8 +6,7 @@
 //!    better than one law. All, single laws and sums, are ranked by what they leave of the records that were left out
 //!    ([`super::ranking`]).
 
-use super::fit::{Fitted, error, freedom, improved, predicted, residual};
-use super::ranking::Ranked;
+use super::fit::{Fitted, Ranked, error, freedom, improved, predicted, residual};
 use crate::balance::loops::{ComponentError, Loops};
 use crate::control::Control;
 use crate::diagnosis::candidates::special_cases::is_allowed;
