@@ -124,3 +124,88 @@ impl Search<'_> {
         (factor.is_finite() && factor != 0.0 && allowed).then_some(source)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "tests")]
+    use super::*;
+    use crate::control::Control;
+    use crate::diagnosis::records::data::Records;
+    use crate::diagnosis::records::fitted::FittedRecords;
+    use crate::effects::Place;
+    use crate::measurement::transient_run::TransientLabel;
+    use crate::measurement::{Channel, Kind, Quantity, Record, TransientRun};
+    use crate::structure::Structure;
+    use crate::structure::chain::ChainParameters;
+    use std::sync::Arc;
+
+    fn chain() -> Structure {
+        let (masses, ground_stiffness) = (vec![2.0, 1.0, 1.5], vec![800.0, 0.0, 0.0]);
+        ChainParameters { masses, ground_stiffness, coupling_stiffness: vec![1500.0, 900.0] }.build(&[]).unwrap()
+    }
+
+    /// A decay in the first mode of the chain, all displacements.
+    fn decay(structure: &Structure) -> TransientRun {
+        let modes = structure.modes().unwrap();
+        let wave = |n: usize, dof: usize| {
+            let t = 5e-3 * n as f64;
+            2e-2 * modes.shapes[(dof, 0)] * (-0.3 * t).exp() * (modes.omega[0] * t).cos()
+        };
+        let channel = |dof: usize| Channel { quantity: Quantity::Displacement, dof, label: (dof + 1).to_string() };
+        let samples = (0..3).map(|dof| (0..2400).map(|n| wave(n, dof)).collect()).collect();
+        let time = (0..2400).map(|n| 5e-3 * f64::from(n)).collect();
+        let record = Record::new(time, (0..3).map(channel).collect(), samples).unwrap();
+        let label = TransientLabel { file: "decay.csv".into(), kind: Kind::Decay, enabled: true, ..Default::default() };
+        TransientRun::new(label, Arc::new(record), &[]).unwrap()
+    }
+
+    fn at(effect: Effect, dof: usize, parameters: &[f64]) -> Source {
+        Source::known(effect, Place::Dofs(vec![dof]), parameters)
+    }
+
+    /// What a search begins beside some fits, each of one effect with its squared residual.
+    fn begun(fits: &[(Source, f64)]) -> [Vec<Source>; 2] {
+        let structure = chain();
+        let run = decay(&structure);
+        let records = Records::new(&structure, &[], std::slice::from_ref(&run)).unwrap();
+        let control = Control::unattended();
+        let search = Search::new(&records, &records, (&[], &structure, &[]), &control);
+        let whole = search.levels.len() - 1;
+        let mut bare = FittedRecords::start(&search.levels[whole], &[]);
+        bare.initial[0][0] = 2e-2;
+        let fit = |(source, chi_square): &(Source, f64)| FittedRecords {
+            effects: vec![source.clone()],
+            chi_square: *chi_square,
+            count: 7200,
+            ..bare.clone()
+        };
+        let found: Vec<FittedRecords> = fits.iter().map(fit).collect();
+        let laws = |list: Vec<FittedRecords>| list.into_iter().filter_map(|mut f| f.effects.pop()).collect();
+        [laws(search.begun_plainer(whole, &found)), laws(search.begun_elsewhere(whole, &found).unwrap())]
+    }
+
+    /// A power law of exponent 1 is a dashpot: where the fit of one was cut off it begins again, with the same force.
+    #[test]
+    fn a_simpler_law_that_was_cut_off_begins_again() {
+        let power = (at(Effect::Power, 2, &[0.9, 1.0]), 7000.0);
+        let [plainer, _] = begun(&[power.clone(), (at(Effect::Viscous, 2, &[9.0]), 1e9)]);
+        let again = plainer.iter().find(|s| s.effect == Effect::Viscous).unwrap();
+        assert!((again.parameters[0] - 0.9).abs() < 1e-9, "{again:?}");
+        let [plainer, _] = begun(&[power, (at(Effect::Viscous, 2, &[0.9]), 7050.0)]);
+        assert!(plainer.iter().all(|s| s.effect != Effect::Viscous), "{plainer:?}");
+    }
+
+    /// The best law begins at the place of a near rival, doing its work; not where it was tried, and not where little speaks for the place.
+    #[test]
+    fn the_best_law_is_tried_at_the_places_of_its_rivals() {
+        let best = (at(Effect::Viscous, 2, &[0.9]), 7000.0);
+        let [_, elsewhere] = begun(&[best.clone(), (at(Effect::Coulomb, 1, &[5e-3]), 14_000.0)]);
+        assert!(elsewhere.iter().all(|s| s.effect == Effect::Viscous && s.place == Place::Dofs(vec![1])));
+        assert_eq!(elsewhere.len(), 1, "{elsewhere:?}");
+        assert!(elsewhere[0].parameters[0] > 0.0);
+        let tried = (at(Effect::Viscous, 1, &[0.4]), 15_000.0);
+        let far = (at(Effect::Coulomb, 0, &[5e-3]), 90_000.0);
+        let [_, elsewhere] = begun(&[best, (at(Effect::Coulomb, 1, &[5e-3]), 14_000.0), tried, far]);
+        assert!(elsewhere.is_empty(), "{elsewhere:?}");
+    }
+}
