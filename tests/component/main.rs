@@ -73,11 +73,12 @@ fn single_laws_stand_behind_the_sum_by_what_they_predict() {
     let [first, second] = [&diagnosis.suggestions[0], &diagnosis.suggestions[1]];
     let in_sum = |s: &Suggestion| s.evidence.iter().any(|words| words.contains("in a sum with"));
     assert!(in_sum(first) && in_sum(second), "{:?}", first.evidence);
-    assert!(first.probability > 0.9 && second.probability > 0.9);
-    // The other laws predict the left-out loops clearly worse, single ones among them.
-    let others: Vec<&Suggestion> = diagnosis.suggestions[2..].iter().collect();
-    assert!(others.iter().any(|s| !in_sum(s)), "{others:?}");
-    assert!(others.iter().all(|s| s.held_out_error_after > 1.2 * first.held_out_error_after), "{others:?}");
+    assert!(first.probability > 0.5 && second.probability > 0.5);
+    // Single laws stand behind it, and predict the left-out loops clearly worse.
+    let singles: Vec<&Suggestion> = diagnosis.suggestions[2..].iter().filter(|s| !in_sum(s)).collect();
+    assert!(!singles.is_empty(), "{:?}", diagnosis.suggestions);
+    assert!(singles.iter().all(|s| s.probability < 0.1));
+    assert!(singles.iter().all(|s| s.held_out_error_after > 1.2 * first.held_out_error_after), "{singles:?}");
     // A single law alone is ranked before the sums that hold it and predict no better.
     let alone = diagnosed(&[], &tests(&[at(Effect::Quadratic, &[150_000.0])]));
     assert!(!in_sum(&alone.suggestions[0]) && alone.suggestions[0].probability > 0.3, "{:?}", alone.suggestions);

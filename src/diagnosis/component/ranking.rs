@@ -1,13 +1,13 @@
 //! Single laws and sums of two in one order: by what they leave of loops that were left out.
 //!
 //! ```text
-//! score_k = n ln(e_k^2)     e_k: relative error of each record by laws fitted to the others, root mean square;  n independent data
+//! score_k = n ln(e_k^2) + p_k ln n     e_k: relative error of each record by laws fitted to the others, root mean square;
+//!                                      n independent data, p_k parameters
 //! ```
 //!
-//! That is minus twice the logarithm of the density of the left-out records with their common variance put at its best, so that
-//! weights `exp(-score / 2)` compare laws of any number of parameters without counting them (Stone 1977, Journal of the Royal
-//! Statistical Society B 39, 44). Fits that promise too little to be left out and predicted follow those of as many laws by the
-//! information criterion.
+//! The first term is minus twice the logarithm of the density of the left-out records with their common variance put at its best (Stone
+//! 1977, Journal of the Royal Statistical Society B 39, 44), the second puts laws of more parameters behind those that predict as well,
+//! as the information criterion does. Fits that promise too little to be left out and predicted follow those of as many laws.
 
 use super::fit::{Fitted, Ranked, error, freedom, improved};
 use super::search::{Search, parameters};
@@ -61,7 +61,8 @@ impl Search<'_> {
         for ranked in list.iter_mut().take(PREDICTED) {
             let held = self.held_out(&ranked.fit)?;
             ranked.held_out = Some(held);
-            ranked.criterion = freedom(self.all.len()) * held.powi(2).max(1e-12).ln();
+            let n = freedom(self.all.len());
+            ranked.criterion = n * held.powi(2).max(1e-12).ln() + parameters(&ranked.fit) as f64 * n.max(2.0).ln();
         }
         // What was not predicted is as far behind the last that was as its evidence is.
         let last = list.iter().rposition(|r| r.held_out.is_some());

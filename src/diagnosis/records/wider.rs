@@ -188,7 +188,7 @@ mod tests {
     #[test]
     fn a_simpler_law_that_was_cut_off_begins_again() {
         let power = (at(Effect::Power, 2, &[0.9, 1.0]), 7000.0);
-        let [plainer, _] = begun(&[power.clone(), (at(Effect::Viscous, 2, &[9.0]), 1e9)]);
+        let [plainer, _] = begun(&[power.clone(), (at(Effect::Viscous, 2, &[9.0]), 1e30)]);
         let again = plainer.iter().find(|s| s.effect == Effect::Viscous).unwrap();
         assert!((again.parameters[0] - 0.9).abs() < 1e-9, "{again:?}");
         let [plainer, _] = begun(&[power, (at(Effect::Viscous, 2, &[0.9]), 7050.0)]);
