@@ -40,8 +40,10 @@ impl Search<'_> {
             (None, None) => return Ok(Vec::new()),
         };
         let mut all: Vec<Ranked> = one.into_iter().chain(two).collect();
-        all.sort_by(|a, b| a.criterion.total_cmp(&b.criterion));
-        let least = all.first().map_or(0.0, |r| r.criterion);
+        // What was predicted goes before what was not.
+        let unseen = |r: &Ranked| r.held_out.is_none();
+        all.sort_by(|a, b| unseen(a).cmp(&unseen(b)).then(a.criterion.total_cmp(&b.criterion)));
+        let least = all.iter().map(|r| r.criterion).fold(f64::INFINITY, f64::min);
         if let Some(at) = all.iter().position(|r| r.fit == first) {
             let mut chosen = all.remove(at);
             chosen.criterion = least;
