@@ -29,6 +29,7 @@ mod play;
 mod plot;
 mod plot_kinds;
 mod plot_records;
+mod recorded_base;
 mod records;
 mod reduction;
 mod remarks;

@@ -5,6 +5,7 @@ use super::identified;
 use super::plot_records::RecordPlots;
 use crate::control::Control;
 use crate::diagnosis::component::{Loops, compare_component};
+use crate::diagnosis::records::compare::OneRecord;
 use crate::diagnosis::result::{Suggestion, Verdict};
 use crate::diagnosis::{Comparison, compare};
 use crate::display::words;
@@ -316,10 +317,7 @@ impl Plotter<'_> {
         let off = || format!("{} is switched off", run.file);
         let record = found.records.iter().find(|record| record.index == index).with_context(off)?;
         if self.arguments.what == PlotKind::Amplitude {
-            let curve = record.curves.iter().find(|c| c.measured.len() >= amplitude_curve::LEAST_POINTS);
-            let curve = curve.context("no mode stands out of this record long enough")?;
-            let title = format!("{}, {}", curve.channel, run.file);
-            return self.sheet(&title, [true, false].map(|r| amplitude_curve::figure(curve, r, self.palette)).to_vec());
+            return self.amplitude(record, &run.file);
         }
         let name = self.arguments.channel.as_deref();
         let residual = RecordResidual::new(&self.p.structure, run, record, name);
@@ -338,6 +336,13 @@ impl Plotter<'_> {
                 Ok(Drawn { drawing, table: found.table() })
             }
         }
+    }
+
+    /// Damping ratio and frequency over amplitude of every mode that stands out of a record.
+    fn amplitude(&self, record: &OneRecord, file: &str) -> anyhow::Result<Drawn> {
+        let curves = amplitude_curve::told(&record.curves);
+        let first = curves.first().context("no mode stands out of this record long enough")?;
+        self.sheet(&format!("{}, {file}", first.channel), amplitude_curve::figures(&curves, self.palette))
     }
 
     fn error_map(&self) -> anyhow::Result<Drawn> {

@@ -2,6 +2,7 @@
 
 use super::arguments::{Method, Records, Simulate};
 use super::moving_base::{self, MovingBase};
+use super::recorded_base::RecordedBase;
 use super::simulate_component as component;
 use super::simulate_write::{at_run, fit_record, write};
 use crate::control::Control;
@@ -11,7 +12,7 @@ use crate::measurement::base::AXES;
 use crate::measurement::channel::ChannelName;
 use crate::measurement::{Channel, ChannelFit, Quantity, Record};
 use crate::response::harmonic_balance::{Excitation, HarmonicForce};
-use crate::response::recording::{Loading, TestSetup, quantise, record_test};
+use crate::response::recording::{Loading, TestSetup, quantise, record_base_test, record_test};
 use crate::response::simulation::{Simulator, recorded, transfer, usual_channels};
 use crate::response::simulation_in_time::{InTime, Recorder, record_in_time};
 use crate::response::synthesis::{self, Noise, sampling_times, synthesise};
@@ -45,7 +46,7 @@ pub(super) fn run(arguments: &Simulate) -> anyhow::Result<String> {
             stream: index as u64,
         });
         if let Some(test) = plan.runs[index].test {
-            let record = recorded_test(&plan, &shifted(&plan, index), &sources, test, noise);
+            let record = recorded_test(&plan, (index, test), &shifted(&plan, index), &sources, noise);
             simulated.push(record.map_err(|error| at_run(&plan, index, error))?);
             continue;
         }
@@ -122,9 +123,9 @@ fn in_time(
 /// A test that is not steady, recorded with filter, noise and converter.
 fn recorded_test(
     plan: &Plan,
+    (index, test): (usize, PlannedTest),
     structure: &Structure,
     sources: &[Source],
-    test: PlannedTest,
     noise: Option<Noise>,
 ) -> anyhow::Result<Record> {
     let table = plan.simulate();
@@ -141,13 +142,18 @@ fn recorded_test(
     let force = Excitation::sine(TAU, test.dof, c64::new(0.0, 0.0));
     let mut channels =
         if table.channels.is_empty() { usual_channels(&plan.structure, &force) } else { channels(plan)? };
-    if matches!(test.loading, Loading::Release { .. }) {
+    let base = if test.loading == Loading::Base { Some(RecordedBase::read(plan, index)?) } else { None };
+    if matches!(test.loading, Loading::Release { .. } | Loading::Base) && table.channels.is_empty() {
         channels.retain(|channel| channel.quantity != Quantity::Force);
+        channels.splice(0..0, base.as_ref().map(RecordedBase::channel));
     }
     let (sensors, filter) = (&plan.sensors, table.filter);
     let setup =
         TestSetup { loading: &test.loading, dof: test.dof, channels: &channels, sensors, rate_hz, samples, filter };
-    let made = record_test(structure, sources, &setup, &Control::unattended())?;
+    let made = match &base {
+        Some(base) => record_base_test(structure, sources, &setup, &base.motion(), &Control::unattended())?,
+        None => record_test(structure, sources, &setup, &Control::unattended())?,
+    };
     let record = synthesis::record(&made.time, channels, made.samples, noise)?;
     Ok(match table.bits {
         Some(bits) => record.quantised(|samples| quantise(samples, bits)),

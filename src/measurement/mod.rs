@@ -2,6 +2,7 @@
 
 mod any_columns;
 pub(crate) mod base;
+pub(crate) mod base_in_time;
 pub(crate) mod channel;
 mod decay;
 mod design;

@@ -4,11 +4,11 @@ use super::figure::{Axis, Figure, Look, Scale, Ticks};
 use super::style::Palette;
 use crate::diagnosis::records::amplitude::AmplitudePoint;
 use crate::diagnosis::records::compare::ModeCurve;
-use crate::display::words;
+use crate::display::{format, words};
 use crate::measurement::Quantity;
 
 /// Points from which on a curve says something.
-pub(crate) const LEAST_POINTS: usize = 3;
+const LEAST_POINTS: usize = 3;
 
 /// Largest over least amplitude from which on a slope shows: there the axes of the damping ratio are logarithmic.
 const WIDE: f64 = 2.0;
@@ -16,6 +16,23 @@ const WIDE: f64 = 2.0;
 /// Slopes of `ln zeta` over `ln A` of laws, as guides: dry friction, viscous damping, microslip (between these two: `chi + 1`), drag.
 const SLOPES: [(f64, &str); 4] =
     [(-1.0, "dry friction, slope -1"), (0.0, "viscous, 0"), (0.5, "microslip, 1/2"), (1.0, "drag, 1")];
+
+/// The modes of a record whose curves say something.
+pub(crate) fn told(curves: &[ModeCurve]) -> Vec<&ModeCurve> {
+    curves.iter().filter(|c| c.measured.len() >= LEAST_POINTS).collect()
+}
+
+/// Both figures of every mode, the damping ratio first; each says its mode where there are several.
+pub(crate) fn figures(curves: &[&ModeCurve], palette: &Palette) -> Vec<Figure> {
+    let of = |(curve, ratio): (&&ModeCurve, bool)| {
+        let mut figure = figure(curve, ratio, palette);
+        if curves.len() > 1 {
+            figure.title = format!("{}, mode near {}", figure.title, format::with_unit(curve.frequency_hz, "Hz"));
+        }
+        figure
+    };
+    curves.iter().flat_map(|curve| [true, false].map(|ratio| (curve, ratio))).map(of).collect()
+}
 
 /// Damping ratio over amplitude (`ratio`), else frequency over amplitude.
 pub(crate) fn figure(curve: &ModeCurve, ratio: bool, palette: &Palette) -> Figure {

@@ -1,5 +1,5 @@
 //! The missing force at its place over displacement and over velocity: identified points in the colours of their levels, the
-//! law drawn through.
+//! law drawn through; and as colour over both, the surface of the force seen from above.
 
 use super::cycle::scaled;
 use super::figure::{Axis, Figure, Look};
@@ -11,6 +11,9 @@ use crate::effects::Place;
 use crate::measurement::Quantity;
 use crate::structure::Structure;
 use ecolor::Color32;
+
+/// Colours of a map; odd, so that one of them is that of no force.
+const CLASSES: usize = 9;
 
 /// Largest value of a coordinate over all runs.
 fn largest(force: &RestoringForce, of: fn(&ForcePoint) -> f64) -> f64 {
@@ -58,20 +61,26 @@ fn colours(force: &RestoringForce, palette: &Palette) -> Vec<[Color32; 2]> {
     force.runs.iter().map(colour_of).collect()
 }
 
-/// Force over displacement, and over velocity.
-pub(crate) fn figures(force: &RestoringForce, structure: &Structure, palette: &Palette) -> [Figure; 2] {
-    let rotation = match &force.place {
+fn is_rotation(force: &RestoringForce, structure: &Structure) -> bool {
+    match &force.place {
         Place::Dofs(dofs) => dofs.iter().any(|&d| structure.dofs().get(d).is_some_and(|d| d.direction.is_rotation())),
         _ => false,
-    };
-    let axis = |quantity, largest| {
-        let (factor, prefix) = scaled(largest);
-        let plain = Axis::of(words::axis(quantity, rotation));
-        (factor, Axis::new(&plain.name, &format!("{prefix}{}", plain.unit)).include(&[0.0]))
-    };
-    let (scale, y) = axis(Quantity::Force, largest(force, |p| p.force));
+    }
+}
+
+/// The axis of a quantity, and the factor on its values in SI units.
+fn axis(quantity: Quantity, rotation: bool, largest: f64) -> (f64, Axis) {
+    let (factor, prefix) = scaled(largest);
+    let plain = Axis::of(words::axis(quantity, rotation));
+    (factor, Axis::new(&plain.name, &format!("{prefix}{}", plain.unit)).include(&[0.0]))
+}
+
+/// Force over displacement, and over velocity.
+pub(crate) fn figures(force: &RestoringForce, structure: &Structure, palette: &Palette) -> [Figure; 2] {
+    let rotation = is_rotation(force, structure);
+    let (scale, y) = axis(Quantity::Force, rotation, largest(force, |p| p.force));
     let over = |what: &str, quantity, of: fn(&ForcePoint) -> f64| {
-        let (factor, x) = axis(quantity, largest(force, of));
+        let (factor, x) = axis(quantity, rotation, largest(force, of));
         let place = |p: &ForcePoint| [factor * of(p), scale * p.force];
         let mut figure = Figure::new(&format!("{} over {what}", title(force, structure)), x, y.clone());
         figure.margin = 0.06;
@@ -81,6 +90,51 @@ pub(crate) fn figures(force: &RestoringForce, structure: &Structure, palette: &P
         over("displacement", Quantity::Displacement, |p| p.displacement),
         over("velocity", Quantity::Velocity, |p| p.velocity),
     ]
+}
+
+/// Force as colour over displacement and velocity (force-state map: Crawley and Aubert 1986, AIAA Journal 24, 155): as identified, then,
+/// where a law is drawn, by the law along the same motion. A law without memory gives one colour at a point; one with memory gives
+/// others on the way there and back. The last colours stand for all forces beyond them.
+pub(crate) fn maps(force: &RestoringForce, structure: &Structure, palette: &Palette) -> Vec<Figure> {
+    // Single points scatter far beyond what a law does there: its force is the scale.
+    let of_law = force.runs.iter().flat_map(|r| &r.law).map(|p| p.force.abs()).fold(0.0, f64::max);
+    let most = if of_law > 0.0 { of_law } else { largest(force, |p| p.force) };
+    if most <= 0.0 {
+        return Vec::new();
+    }
+    let mut list = vec![map(force, structure, palette, ("identified", most, |r| &r.points))];
+    if let Some(law) = force.law.as_ref().filter(|_| force.runs.iter().any(|r| !r.law.is_empty())) {
+        list.push(map(force, structure, palette, (words::effect(law.effect), most, |r| &r.law)));
+    }
+    list
+}
+
+/// What a map shows: its name, the force of its last colour, the points of a run.
+type Mapped<'a> = (&'a str, f64, fn(&RunForce) -> &Vec<ForcePoint>);
+
+fn map(force: &RestoringForce, structure: &Structure, palette: &Palette, (name, most, points): Mapped<'_>) -> Figure {
+    let rotation = is_rotation(force, structure);
+    let [(a, x), (b, y)] = [
+        axis(Quantity::Displacement, rotation, largest(force, |p| p.displacement)),
+        axis(Quantity::Velocity, rotation, largest(force, |p| p.velocity)),
+    ];
+    let mut figure = Figure::new(&format!("{}, {name}", title(force, structure)), x, y);
+    figure.margin = 0.06;
+    let unit = Axis::of(words::axis(Quantity::Force, rotation)).unit;
+    let class = |p: &ForcePoint| ((0.5 + 0.5 * p.force / most).clamp(0.0, 1.0) * (CLASSES - 1) as f64).round() as usize;
+    for k in 0..CLASSES {
+        let share = k as f64 / (CLASSES - 1) as f64;
+        // The ends and the middle of the scale are named.
+        let key = match k {
+            _ if k % (CLASSES / 2) != 0 => String::new(),
+            k if 2 * k + 1 == CLASSES => format!("0 {unit}"),
+            _ => format::prefixed((2.0 * share - 1.0) * most, &unit),
+        };
+        let own = force.runs.iter().flat_map(points).filter(|p| class(p) == k);
+        let own = own.map(|p| [a * p.displacement, b * p.velocity]).collect();
+        figure = figure.points(&key, palette.level(share as f32), Look::Dots(2.4), own);
+    }
+    figure
 }
 
 /// With keys to marks and colours.
@@ -120,10 +174,13 @@ fn curves(
     figure
 }
 
-/// Both plots on one sheet.
+/// All plots on one sheet: over displacement and velocity, and below them the maps.
 pub(crate) fn sheet(force: &RestoringForce, structure: &Structure, palette: &Palette) -> Sheet {
     let title = title(force, structure);
-    let mut sheet = Sheet::of(&title, figures(force, structure, palette).into());
+    let mut sheet = Sheet::of(
+        &title,
+        figures(force, structure, palette).into_iter().chain(maps(force, structure, palette)).collect(),
+    );
     sheet.columns = 2;
     sheet
 }

@@ -11,7 +11,7 @@ use crate::display::format;
 use crate::display::format::in_words;
 use crate::exchange::Project;
 use crate::measurement::TransientRun;
-use crate::plots::amplitude_curve::{LEAST_POINTS, figure};
+use crate::plots::amplitude_curve::{figures, told};
 use crate::plots::component_loops;
 use crate::plots::style::Palette;
 use crate::session::validation::is_component;
@@ -75,11 +75,11 @@ fn loops(page: &mut Page, p: &Project, found: &RecordComparison) {
     }
 }
 
-/// Damping ratio and frequency over amplitude of the mode that stands out most in a record.
+/// Damping ratio and frequency over amplitude of the modes that stand out of a record.
 fn curves(page: &mut Page, file: &str, record: &OneRecord) {
-    let Some(curve) = record.curves.iter().find(|c| c.measured.len() >= LEAST_POINTS) else { return };
-    let near = format::with_unit(curve.frequency_hz, "Hz");
-    let title = format!("{file}: damping ratio and frequency over amplitude, {} near {near}", curve.channel);
-    let drawn = [true, false].map(|ratio| figure(curve, ratio, Palette::light()));
-    sheet(page, &title, drawn.to_vec());
+    for curve in told(&record.curves) {
+        let near = format::with_unit(curve.frequency_hz, "Hz");
+        let title = format!("{file}: damping ratio and frequency over amplitude, {} near {near}", curve.channel);
+        sheet(page, &title, figures(&[curve], Palette::light()));
+    }
 }

@@ -4,7 +4,7 @@
 use dashpot::balance::loops::Loops;
 use dashpot::control::Control;
 use dashpot::diagnosis::component::{compare_component, diagnose_component};
-use dashpot::diagnosis::result::{Diagnosis, Verdict};
+use dashpot::diagnosis::result::{Diagnosis, Suggestion, Verdict};
 use dashpot::effects::{Effect, Place, Source};
 use dashpot::identify::{Measurements, Settings, identify_measured};
 use dashpot::measurement::{Channel, Kind, Quantity, TransientLabel, TransientRun};
@@ -63,6 +63,26 @@ fn a_sum_of_two_laws_is_found_in_its_loops() {
         }
     }
     assert!(diagnosis.suggestions[0].held_out_error_after < 0.1 * diagnosis.error_before);
+}
+
+/// Single laws and sums stand in one list, ranked by what they leave of loops that they were not fitted to.
+#[test]
+fn single_laws_stand_behind_the_sum_by_what_they_predict() {
+    let truth = [at(Effect::ElasticSlider, &[4e6, 9000.0]), at(Effect::Viscous, &[12000.0])];
+    let diagnosis = diagnosed(&[], &tests(&truth));
+    let [first, second] = [&diagnosis.suggestions[0], &diagnosis.suggestions[1]];
+    let in_sum = |s: &Suggestion| s.evidence.iter().any(|words| words.contains("in a sum with"));
+    assert!(in_sum(first) && in_sum(second), "{:?}", first.evidence);
+    assert!(first.probability > 0.5 && second.probability > 0.5);
+    // Single laws stand behind it, and predict the left-out loops clearly worse.
+    let singles: Vec<&Suggestion> = diagnosis.suggestions[2..].iter().filter(|s| !in_sum(s)).collect();
+    assert!(!singles.is_empty(), "{:?}", diagnosis.suggestions);
+    assert!(singles.iter().all(|s| s.probability < 0.1));
+    assert!(singles.iter().all(|s| s.held_out_error_after > 1.2 * first.held_out_error_after), "{singles:?}");
+    // A single law alone is ranked before the sums that hold it and predict no better.
+    let alone = diagnosed(&[], &tests(&[at(Effect::Quadratic, &[150_000.0])]));
+    assert!(!in_sum(&alone.suggestions[0]) && alone.suggestions[0].probability > 0.3, "{:?}", alone.suggestions);
+    assert!(alone.suggestions.iter().any(in_sum));
 }
 
 #[test]

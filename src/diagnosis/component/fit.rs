@@ -32,6 +32,15 @@ impl Fitted {
     }
 }
 
+/// A fit with what it is ranked by.
+pub(super) struct Ranked {
+    pub fit: Fitted,
+    /// Relative error on each record, fitted to the others; none where that was not asked.
+    pub held_out: Option<f64>,
+    /// Minus twice the logarithm of its density, smaller is better.
+    pub criterion: f64,
+}
+
 /// Force that the known sources and `effects` give, without the zero of the force cell.
 pub(super) fn predicted(loops: &Loops, one: &Loop, effects: &[Source]) -> Result<Vec<f64>, ComponentError> {
     let mut sum: Vec<f64> = one.a.iter().map(|a| loops.mass * a).collect();

@@ -11,6 +11,7 @@
 
 mod compare;
 mod fit;
+mod ranking;
 mod search;
 
 pub use crate::balance::loops::{ComponentError, Loops};

@@ -2,10 +2,11 @@
 //!
 //! 1. Every law on the grid of its shapes, scaled to the force; every pair of shapes likewise, by their products.
 //! 2. The best of each are fitted in all their parameters.
-//! 3. Each record is left out in turn and predicted from the others: a sum of two is told only where it predicts better than
-//!    one law.
+//! 3. Each record is left out in turn and predicted from the others: a sum of two is told first only where it predicts clearly
+//!    better than one law. All, single laws and sums, are ranked by what they leave of the records that were left out
+//!    ([`super::ranking`]).
 
-use super::fit::{Fitted, error, freedom, improved, predicted, residual};
+use super::fit::{Fitted, Ranked, error, freedom, improved, predicted, residual};
 use crate::balance::loops::{ComponentError, Loops};
 use crate::control::Control;
 use crate::diagnosis::candidates::special_cases::is_allowed;
@@ -20,13 +21,6 @@ const SHAPES: usize = 6;
 const SINGLES: usize = 12;
 const PAIRS: usize = 10;
 const ITERATIONS: usize = 20;
-/// Fits of each number of laws that are left out and predicted.
-const PREDICTED: usize = 3;
-/// Share of the error of one law that a sum of two may at most leave where it was left out: 0.8 takes away a third of its
-/// square.
-const WORTH: f64 = 0.8;
-/// Share of the error of a law of fewer parameters, where it was left out, that one of more may at most leave.
-const PLAIN: f64 = 0.9;
 /// Error over that of the noise up to which a model agrees.
 const AGREES: f64 = 1.1;
 /// Error from which on the best laws explain nothing.
@@ -81,10 +75,11 @@ pub fn diagnose_component(
         return Ok(diagnosis);
     }
     control.report(0.4);
-    early(&search.suggestions(&singles, None)?);
+    early(&search.suggestions(&search.by_evidence(&singles))?);
     let pairs = search.fitted(Search::pairs(&columns), PAIRS)?;
     control.report(0.8);
-    let (best, held) = search.chosen(&singles, &pairs)?;
+    let ranked = search.ranked(&singles, &pairs)?;
+    let Some(best) = ranked.first().map(|r| r.fit.clone()) else { return Err(ComponentError::NoRuns) };
     let records = loops.list.len();
     for fits in [&singles, &pairs] {
         let top = if fits.first().is_some_and(|f| f.effects.len() == best.effects.len()) {
@@ -97,10 +92,7 @@ pub fn diagnose_component(
             diagnosis.steps.push(Step { added: added(fit), error, misfit: misfit(error) });
         }
     }
-    let mut ranked = vec![best.clone()];
-    let rivals = if best.effects.len() == 2 { &pairs } else { &singles };
-    ranked.extend(rivals.iter().filter(|f| **f != best).cloned());
-    diagnosis.suggestions = search.suggestions(&ranked, Some(held))?;
+    diagnosis.suggestions = search.suggestions(&ranked)?;
     let sure = diagnosis.suggestions.first().is_some_and(|s| s.probability >= 0.5);
     diagnosis.verdict = match best.error(records) {
         error if error > POOR => Verdict::Unexplained,
@@ -112,11 +104,11 @@ pub fn diagnose_component(
     Ok(diagnosis)
 }
 
-struct Search<'a> {
-    loops: &'a Loops,
-    excluded: &'a [Source],
-    control: &'a Control,
-    all: Vec<usize>,
+pub(super) struct Search<'a> {
+    pub loops: &'a Loops,
+    pub excluded: &'a [Source],
+    pub control: &'a Control,
+    pub all: Vec<usize>,
 }
 
 impl Search<'_> {
@@ -219,66 +211,17 @@ impl Search<'_> {
     }
 
     /// Bayesian information criterion on the independent data of the loops.
-    fn criterion(&self, fit: &Fitted) -> f64 {
+    pub(super) fn criterion(&self, fit: &Fitted) -> f64 {
         let count = freedom(self.all.len());
         count * fit.square.max(1e-12).ln() + parameters(fit) as f64 * count.max(2.0).ln()
     }
 
-    /// Error of a set on each record, fitted to the others.
-    fn held_out(&self, fit: &Fitted) -> Result<f64, ComponentError> {
-        if self.all.len() < 2 {
-            return Ok(fit.error(1));
-        }
-        let one = |k: usize| {
-            let others: Vec<usize> = self.all.iter().copied().filter(|&j| j != k).collect();
-            let learnt = improved(self.loops, &fit.effects, &others, 8, self.control)?;
-            error(self.loops, &learnt.effects, &[k])
-        };
-        let all = self.control.map(self.all.len(), one).into_iter().collect::<Result<Vec<f64>, _>>()?;
-        Ok(root_mean_square(&all))
-    }
-
-    /// What predicts best, one law unless two predict clearly better, with its error where it was left out.
-    fn chosen(&self, singles: &[Fitted], pairs: &[Fitted]) -> Result<(Fitted, f64), ComponentError> {
-        let best = |fits: &[Fitted]| -> Result<Option<(Fitted, f64)>, ComponentError> {
-            let mut found: Option<(Fitted, f64)> = None;
-            for fit in fits.iter().take(PREDICTED) {
-                let held = self.held_out(fit)?;
-                // A rival of less evidence has to predict clearly better, or nearly as well with fewer parameters.
-                let better = |(best, least): &(Fitted, f64)| {
-                    held < WORTH * least || (parameters(fit) < parameters(best) && PLAIN * held < *least)
-                };
-                if found.as_ref().is_none_or(better) {
-                    found = Some((fit.clone(), held));
-                }
-            }
-            Ok(found)
-        };
-        let one = best(singles)?;
-        let two = best(pairs)?;
-        match (one, two) {
-            (Some(one), Some(two)) if two.1 < WORTH * one.1 => Ok(two),
-            (Some(one), _) => Ok(one),
-            (None, two) => two.ok_or(ComponentError::NoRuns),
-        }
-    }
-
-    fn suggestions(&self, fits: &[Fitted], held: Option<f64>) -> Result<Vec<Suggestion>, ComponentError> {
-        let mut criteria: Vec<f64> = fits.iter().map(|f| self.criterion(f)).collect();
-        // What was chosen by its predictions goes first.
-        if held.is_some() && !criteria.is_empty() {
-            criteria[0] = criteria.iter().copied().fold(f64::INFINITY, f64::min);
-        }
-        let weights = evidence_weights(&criteria);
+    fn suggestions(&self, ranked: &[Ranked]) -> Result<Vec<Suggestion>, ComponentError> {
+        let weights = evidence_weights(&ranked.iter().map(|r| r.criterion).collect::<Vec<f64>>());
         let mut list: Vec<Suggestion> = Vec::new();
-        for (k, (fit, weight)) in fits.iter().zip(&weights).enumerate() {
+        for (k, (Ranked { fit, held_out, criterion }, weight)) in ranked.iter().zip(&weights).enumerate() {
             let error = fit.error(self.loops.list.len());
             let energy = self.energy_error(fit)?;
-            let held_out = match held {
-                Some(held) if k == 0 => held,
-                Some(_) if list.len() < MOST && *weight > 0.01 => self.held_out(fit)?,
-                _ => error,
-            };
             for added in added(fit) {
                 if let Some(known) = list.iter_mut().find(|s| s.added.source.is_same(&added.source)) {
                     known.probability = (known.probability + weight).min(1.0);
@@ -287,11 +230,11 @@ impl Search<'_> {
                 if list.len() >= MOST {
                     continue;
                 }
-                let alike = |j: &usize| *j != k && (criteria[*j] - criteria[k]).abs() < ALIKE;
-                let others = (0..fits.len()).filter(alike).flat_map(|j| &fits[j].effects);
+                let alike = |j: &usize| *j != k && (ranked[*j].criterion - criterion).abs() < ALIKE;
+                let others = (0..ranked.len()).filter(alike).flat_map(|j| &ranked[j].fit.effects);
                 let indistinguishable_from =
                     others.filter(|o| !fit.effects.iter().any(|e| e.is_same(o))).cloned().collect();
-                let words = vec![
+                let mut words = vec![
                     added.source.effect.sentence().to_string(),
                     format!(
                         "With it {:.2} % of the force is left, {:.2} % of the energy of the loops.",
@@ -299,10 +242,11 @@ impl Search<'_> {
                         100.0 * energy
                     ),
                 ];
+                words.extend(beside(fit, &added.source));
                 list.push(Suggestion {
                     added,
                     error_after: error,
-                    held_out_error_after: held_out,
+                    held_out_error_after: held_out.unwrap_or(error),
                     probability: *weight,
                     evidence: words,
                     indistinguishable_from,
@@ -329,8 +273,14 @@ fn is_determined(source: &Source, deviations: &[f64]) -> bool {
         || source.parameters.iter().zip(deviations).all(|(p, d)| d.is_finite() && *d < p.abs())
 }
 
+/// What is said of a law that stands in a sum.
+fn beside(fit: &Fitted, source: &Source) -> Option<String> {
+    let other = fit.effects.iter().find(|e| !e.is_same(source))?;
+    Some(format!("That is in a sum with another law: {}.", other.effect.title()))
+}
+
 /// Number of parameters of all laws.
-fn parameters(fit: &Fitted) -> usize {
+pub(super) fn parameters(fit: &Fitted) -> usize {
     fit.effects.iter().map(|e| e.parameters.len()).sum()
 }
 

@@ -41,7 +41,7 @@ impl Search<'_> {
             let worth = |s: &Step| !s.added.is_empty() || s.error < diagnosis.error_before;
             diagnosis.steps.extend(step.filter(worth));
         }
-        diagnosis.suggestions = suggestions(self.records, &last)?;
+        diagnosis.suggestions = suggestions(self.records, &last, self.control.is_late())?;
         let corrections = corrections_of_parts(self.records, best);
         // Where time is up the parts are told as the fit has them, whatever else could stand for them.
         let late = self.control.is_late() && !corrections.is_empty();

@@ -162,7 +162,7 @@ impl Search<'_> {
                 break;
             }
             *top = self.pruned(level, top)?;
-            early(&suggestions(&self.levels[level], &found)?);
+            early(&suggestions(&self.levels[level], &found, self.control.is_late())?);
             by_size.earlier.push((level, best.clone()));
             by_size.last = found;
         }

@@ -131,6 +131,20 @@ impl ModalEquations {
         rows
     }
 
+    /// Whitened rows of one force that acts on every mode with the weight of that mode, `g_r = weights_r force`: those of
+    /// [`Self::rows`] from one transform.
+    pub(super) fn rows_along(&self, weights: &[f64], force: &[f64]) -> Vec<f64> {
+        let spectrum = self.spectrum(force);
+        let mut rows = Vec::with_capacity(2 * weights.len() * spectrum.len());
+        for (line, whitening) in spectrum.iter().zip(&self.whitening) {
+            for r in 0..weights.len() {
+                let factor: f64 = (0..=r).map(|s| weights[s] * whitening[(r, s)]).sum();
+                rows.extend([factor * line.re, factor * line.im]);
+            }
+        }
+        rows
+    }
+
     /// Inverse of the lower factor of the covariance of the modal equations on a line.
     fn whitening(&self, line: usize, elastic: &[f64]) -> Option<Mat<f64>> {
         let (motion, band) = (&self.motion, &self.motion.band);
@@ -179,4 +193,49 @@ fn smooth(n: usize) -> usize {
         }
     }
     best
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "tests")]
+    use super::*;
+    use crate::control::Control;
+    use crate::measurement::transient_run::TransientLabel;
+    use crate::measurement::{Channel, Kind, Quantity, Record, TransientRun};
+    use crate::structure::chain::ChainParameters;
+    use std::sync::Arc;
+
+    /// One force on all modes has the rows that it has as a force on each.
+    #[test]
+    fn a_force_at_a_place_has_the_rows_of_its_modal_forces() {
+        let chain = ChainParameters {
+            masses: vec![2.0, 1.0],
+            ground_stiffness: vec![800.0, 0.0],
+            coupling_stiffness: vec![1500.0],
+        };
+        let structure = chain.build(&[]).unwrap();
+        let modes = structure.modes().unwrap();
+        let wave = |n: usize, dof: usize| -> f64 {
+            let t = 5e-3 * n as f64;
+            let of = |r: usize| modes.shapes[(dof, r)] * (-0.4 * t).exp() * (modes.omega[r] * t).cos();
+            1e-2 * (0..2).map(of).sum::<f64>()
+        };
+        let channel = |dof: usize| Channel { quantity: Quantity::Displacement, dof, label: (dof + 1).to_string() };
+        let samples = (0..2).map(|dof| (0..1600).map(|n| wave(n, dof)).collect()).collect();
+        let time = (0..1600).map(|n| 5e-3 * f64::from(n)).collect();
+        let record = Record::new(time, vec![channel(0), channel(1)], samples).unwrap();
+        let label = TransientLabel { file: "decay.csv".into(), kind: Kind::Decay, enabled: true, ..Default::default() };
+        let run = TransientRun::new(label, Arc::new(record), &[]).unwrap();
+        let motion = Motion::new(&modes, &run, &Control::unattended()).unwrap();
+        let part = ModalEquations::new(motion).unwrap();
+        let length = part.motion.q[0].len();
+        let force: Vec<f64> = (0..length).map(|n| (0.07 * n as f64).sin().powi(3)).collect();
+        let weights: Vec<f64> = (0..part.motion.q.len()).map(|r| 0.6 - 1.7 * r as f64).collect();
+        let modal: Vec<Vec<f64>> = weights.iter().map(|w| force.iter().map(|f| w * f).collect()).collect();
+        let (rows, along) = (part.rows(&modal), part.rows_along(&weights, &force));
+        let size = dot(&rows, &rows).sqrt();
+        assert!(rows.len() == along.len() && size > 0.0);
+        let off = rows.iter().zip(&along).map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt();
+        assert!(off < 1e-12 * size, "{off:e} of {size:e}");
+    }
 }

@@ -29,6 +29,8 @@ const PRIORS: [f64; 3] = [0.03, 0.2, 0.02];
 const MOST_PAIRS: usize = 12;
 /// Places at which laws of several shapes are weighed.
 const PLACES: usize = 9;
+/// Share of a column beside the nuisances below which they are taken out one by one: differences of squares round there.
+const ALMOST_ALL: f64 = 1e-6;
 /// Largest relative change of a nuisance.
 const MOST_CHANGE: f64 = 0.15;
 
@@ -235,16 +237,27 @@ impl<'a> Regression<'a> {
         let mut source = Source { effect, place: place.clone(), state: State::Known, parameters: shape };
         let mut column = Vec::with_capacity(self.left.len());
         for (part, works) in self.parts.iter().zip(works) {
-            column.extend(part.rows(&works.modal_force(&source)));
+            column.extend(rows_of(part, works, &source));
         }
         column.resize(self.left.len(), 0.0);
-        let column = self.beside(column);
-        let (product, square) = (dot(&column, &self.left), dot(&column, &column));
+        let (product, square) = self.against_left(column);
         let factor = product / square;
         effect.scaled().iter().for_each(|&k| source.parameters[k] *= factor);
         let allowed = source.parameters.iter().zip(effect.parameters()).all(|(v, p)| p.allows(*v));
         (factor.is_finite() && factor != 0.0 && allowed)
             .then(|| Regressed { source, misfit: self.misfit() - product * product / square })
+    }
+
+    /// Products of a column, with what the nuisances explain of it taken out, with what is left and with itself. What is left is orthogonal
+    /// to the nuisances, so that most columns need not be changed for it.
+    fn against_left(&self, column: Vec<f64>) -> (f64, f64) {
+        let all = dot(&column, &column);
+        let explained: f64 = self.nuisances.iter().map(|n| dot(&column, n).powi(2)).sum();
+        if all - explained > ALMOST_ALL * all {
+            return (dot(&column, &self.left), all - explained);
+        }
+        let column = self.beside(column);
+        (dot(&column, &self.left), dot(&column, &column))
     }
 
     /// Range of the motion at a place.
@@ -265,6 +278,16 @@ impl<'a> Regression<'a> {
         range.least *= 0.3;
         (range.displacement > 0.0 && range.velocity > 0.0).then_some(range)
     }
+}
+
+/// Whitened rows of a law at its own values.
+fn rows_of(part: &ModalEquations, works: &mut Works<'_>, source: &Source) -> Vec<f64> {
+    if let [leg] = source.place.legs()[..]
+        && let Some(force) = works.leg_force(source, leg)
+    {
+        return part.rows_along(&works.weights(leg), &force);
+    }
+    part.rows(&works.modal_force(source))
 }
 
 /// The first [`PLACES`] different ones of some places.

@@ -133,12 +133,12 @@ impl<'a> ScoreTest<'a> {
         let (mut product, mut square) = (0.0, 0.0);
         for (r, (Thinned { derivatives, every }, forced)) in self.thinned.iter().zip(forced).enumerate() {
             let record = &self.records.list[r];
-            let channels = forced.under(&source, record)?;
+            let channels = forced.under(&source, record, *every)?;
             let times = *every as f64;
             let mut by = vec![0.0; derivatives.count];
             for (c, y) in channels.iter().enumerate() {
                 let sigma = &record.sigma[c];
-                let w: Vec<f64> = (0..y.len()).step_by(*every).map(|n| y[n] / sigma[n]).collect();
+                let w: Vec<f64> = y.iter().zip(sigma.iter().step_by(*every)).map(|(y, s)| y / s).collect();
                 product += times * dot(&w, &derivatives.left[c]);
                 square += times * dot(&w, &w);
                 derivatives.channels[c].iter().for_each(|(k, column)| by[*k] += times * dot(&w, column));
@@ -166,13 +166,13 @@ struct Forced {
 }
 
 impl Forced {
-    /// What the channels show of the force of a source along the motion.
-    fn under(&self, source: &Source, record: &RecordData) -> Option<Vec<Vec<f64>>> {
+    /// What the channels show of the force of a source along the motion, one of `every` samples.
+    fn under(&self, source: &Source, record: &RecordData, every: usize) -> Option<Vec<Vec<f64>>> {
         let [d, v, a] = &self.motion;
         let force = force_along(source, [d, v, a], record.step)?;
         let against: Vec<f64> = force.iter().map(|f| -f).collect();
         let forces = if self.drives > 1 { vec![against, force] } else { vec![against] };
-        Some(self.model.forced(&forces, record.step))
+        Some(self.model.forced(&forces, record.step, every))
     }
 }
 

@@ -122,7 +122,7 @@ impl Search<'_> {
     }
 
     /// The fit of the first `share` of every part of `level`, everything free.
-    fn problem<'s>(&'s self, level: usize, share: f64, control: &'s Control) -> FitProblem<'s> {
+    pub(super) fn problem<'s>(&'s self, level: usize, share: f64, control: &'s Control) -> FitProblem<'s> {
         let records = &self.levels[level];
         // A shift of each part of a record would stand for a frequency that follows the amplitude.
         let free = Free { shifts: level + 1 == self.levels.len(), ..Free::all(records) };
@@ -299,11 +299,22 @@ impl Search<'_> {
         mut found: Vec<FittedRecords>,
     ) -> Result<Vec<FittedRecords>, RecordError> {
         let mut starts = self.begun_wider(level, &found)?;
-        starts.extend(self.begun_plainer(&found));
+        starts.extend(self.begun_plainer(level, &found));
         starts.retain(|s| !self.given_up.holds(&s.effects));
-        if starts.is_empty() {
-            return Ok(found);
+        if !starts.is_empty() {
+            found = self.with_begun(level, found, &starts)?;
         }
+        let elsewhere = self.begun_elsewhere(level, &found)?;
+        if elsewhere.is_empty() { Ok(found) } else { self.with_begun(level, found, &elsewhere) }
+    }
+
+    /// Fits with those that are begun at `starts`, best first; what leaves hopelessly much is given up.
+    fn with_begun(
+        &self,
+        level: usize,
+        mut found: Vec<FittedRecords>,
+        starts: &[FittedRecords],
+    ) -> Result<Vec<FittedRecords>, RecordError> {
         let alone = self.control.alone();
         let fit = |k: usize| self.fit_by(level, &starts[k], (1.0, FOLLOWING), &alone).ok();
         add_begun(&mut found, self.control.map(starts.len(), fit));

@@ -4,6 +4,7 @@ use super::fitted::FittedRecords;
 use super::laws::LAWS;
 use super::localisation::{LocatedForce, locate};
 use super::regression::{Regressed, Regression};
+use super::rivals::is_same_set;
 use super::search::Search;
 use crate::effects::{Effect, Family, Motion, Place, Range, Source, State};
 use std::f64::consts::TAU;
@@ -22,6 +23,8 @@ const NEEDED: f64 = 0.8;
 /// Misfit of the equation of motion over the least one beyond which a law is not fitted to the response, at the best place and at
 /// others.
 const BEHIND: [f64; 2] = [16.0, 4.0];
+/// Squared residual of a simpler law over that of the best up to which its fit has ended.
+const ENDED: f64 = 1.02;
 /// Force of a law at the start, as a share of the spring force there.
 const SIZES: [f64; 2] = [0.01, 0.1];
 
@@ -103,23 +106,29 @@ impl Search<'_> {
         sources
     }
 
-    /// The best of `found` with each simpler law that its own contains in place of it, where none is among them yet: a slider whose
-    /// spring is stiff, or a power law of exponent 1, says less plainly what a law of one parameter says.
-    pub(super) fn begun_plainer(&self, found: &[FittedRecords]) -> Vec<FittedRecords> {
+    /// The best of `found` with each simpler law that its own contains in place of it, where none is among them yet or one that was cut
+    /// off far from where it ends: a slider whose spring is stiff, or a power law of exponent 1, says less plainly what a law of one
+    /// parameter says.
+    pub(super) fn begun_plainer(&self, level: usize, found: &[FittedRecords]) -> Vec<FittedRecords> {
         let Some((best, law)) = found.first().and_then(|f| Some((f, f.effects.last()?))) else { return Vec::new() };
-        let known = |s: &Source| {
-            let taken = found.iter().filter_map(|f| f.effects.last());
-            taken.chain(&best.effects).chain(self.excluded).any(|e| e.is_same(s))
-        };
+        let taken = |s: &Source| best.effects.iter().chain(self.excluded).any(|e| e.is_same(s));
         let allowed = |s: &Source| s.parameters.iter().zip(s.effect.parameters()).all(|(v, p)| p.allows(*v));
-        let simpler = law.limits().filter(|s| LAWS.contains(&s.effect) && !known(s) && allowed(s));
+        let simpler = law.limits().filter(|s| LAWS.contains(&s.effect) && !taken(s) && allowed(s));
         let in_place = |source: Source| {
             let mut start = best.clone();
             start.effects.pop();
             start.effects.push(source);
             start
         };
-        simpler.map(in_place).collect()
+        let alone = self.control.alone();
+        let problem = self.problem(level, 1.0, &alone);
+        let leaves_less = |start: &FittedRecords| {
+            let same = |f: &&FittedRecords| is_same_set(&f.effects, &start.effects);
+            let Some(own) = found.iter().find(same) else { return true };
+            let ended = own.chi_square < ENDED * best.chi_square;
+            !ended && problem.left(start).is_ok_and(|left| left.chi_square < own.chi_square)
+        };
+        simpler.map(in_place).filter(leaves_less).collect()
     }
 
     /// Every place where a law may act.

@@ -48,11 +48,15 @@ pub(super) fn added(fit: &FittedRecords) -> Vec<Added> {
     fit.effects.iter().map(of).collect()
 }
 
-/// Suggestions of the fits of one size, best first.
-pub(super) fn suggestions(records: &Records, found: &[FittedRecords]) -> Result<Vec<Suggestion>, RecordError> {
+/// Suggestions of the fits of one size, best first, of a search that was `cut_off` or not.
+pub(super) fn suggestions(
+    records: &Records,
+    found: &[FittedRecords],
+    cut_off: bool,
+) -> Result<Vec<Suggestion>, RecordError> {
     let Some(best) = found.first() else { return Ok(Vec::new()) };
     let unit = scale(best);
-    let weights = probabilities(found);
+    let weights = probabilities(found, cut_off);
     let mut list: Vec<Suggestion> = Vec::new();
     for (fit, weight) in found.iter().zip(&weights) {
         let error = fit.error(records, 0.0, 1.0)?;

@@ -7,6 +7,7 @@ use super::fit_motion::FitMotion;
 use super::fitted::FittedRecords;
 use super::laws::LAWS;
 use super::problem::{FitProblem, Free};
+use super::rivals::is_same_set;
 use super::search::Search;
 use crate::effects::{Effect, Leg, Source};
 use crate::response::transient::force_along;
@@ -14,6 +15,10 @@ use dashpot_numerics::dot;
 
 /// Shapes of a wider law from which fits begin.
 const BEGUN: usize = 2;
+/// Places of rivals at which the law of the best is tried, and the squared residual over that of the best, or over the noise, up to which
+/// they are rivals.
+const ELSEWHERE: usize = 2;
+const NEAR: f64 = 4.0;
 
 impl Search<'_> {
     /// The best of `found` with its last law replaced by wider ones, from where they leave least; on parts of records none where it
@@ -22,25 +27,67 @@ impl Search<'_> {
         let Some((best, law)) = found.first().and_then(|f| Some((f, f.effects.last()?))) else { return Ok(Vec::new()) };
         let wider: Vec<Effect> =
             law.effect.wider().into_iter().filter(|e| LAWS.contains(e) && *e != law.effect).collect();
-        let Some(leg) = law.place.legs().first().copied() else { return Ok(Vec::new()) };
         let explained = misfit(best) < AGREES && level + 1 < self.levels.len();
         if explained || wider.is_empty() || self.control.is_late() {
             return Ok(Vec::new());
         }
+        self.begun_as(level, best, &wider)
+    }
+
+    /// The law of the best of `found` at the places of its nearest rivals, where it was not tried: what it is and where it acts is
+    /// decided together, and a law that was widened at one place only would be sure of that place.
+    pub(super) fn begun_elsewhere(
+        &self,
+        level: usize,
+        found: &[FittedRecords],
+    ) -> Result<Vec<FittedRecords>, RecordError> {
+        let Some((best, law)) = found.first().and_then(|f| Some((f, f.effects.last()?))) else { return Ok(Vec::new()) };
+        let ends = level == 0 || level + 1 == self.levels.len();
+        if !ends || self.control.is_late() {
+            return Ok(Vec::new());
+        }
+        let mut places = vec![&law.place];
+        let mut starts = Vec::new();
+        for rival in found.iter().skip(1).filter(|f| f.chi_square < NEAR * best.chi_square.max(f.count as f64)) {
+            let Some(other) = rival.effects.last() else { continue };
+            let same_others =
+                is_same_set(&rival.effects[..rival.effects.len() - 1], &best.effects[..best.effects.len() - 1]);
+            let new = !places.iter().any(|p| p.is_same(&other.place));
+            if places.len() > ELSEWHERE || !new || !same_others {
+                continue;
+            }
+            places.push(&other.place);
+            let tried = |f: &FittedRecords| {
+                f.effects.last().is_some_and(|e| e.effect == law.effect && e.place.is_same(&other.place))
+            };
+            if !found.iter().any(tried) {
+                starts.extend(self.begun_as(level, rival, &[law.effect])?);
+            }
+        }
+        starts.retain(|s| !self.given_up.holds(&s.effects));
+        Ok(starts)
+    }
+
+    /// `fit` with its last law replaced by others, each in the [`BEGUN`] shapes that leave least, doing the same force along the
+    /// motion of the fit.
+    fn begun_as(&self, level: usize, fit: &FittedRecords, laws: &[Effect]) -> Result<Vec<FittedRecords>, RecordError> {
+        let Some((law, leg)) = fit.effects.last().and_then(|e| Some((e, e.place.legs().first().copied()?))) else {
+            return Ok(Vec::new());
+        };
         let records = &self.levels[level];
-        let motion = FitMotion::new(records, best, self.control)?;
+        let motion = FitMotion::new(records, fit, self.control)?;
         let Some(range) = motion.range(leg) else { return Ok(Vec::new()) };
         let alone = self.control.alone();
         let problem = FitProblem { records, free: Free::all(records), share: 1.0, control: &alone };
         let mut starts = Vec::new();
-        for effect in wider {
+        for &effect in laws {
             let sources: Vec<Source> = effect
                 .shapes(&range)
                 .into_iter()
                 .filter_map(|shape| self.alike(law, effect, shape, (leg, &motion, level)))
                 .collect();
             let of = |k: usize| {
-                let mut start = best.clone();
+                let mut start = fit.clone();
                 start.effects.pop();
                 start.effects.push(sources[k].clone());
                 let left = problem.left(&start).ok()?.chi_square;
@@ -75,5 +122,90 @@ impl Search<'_> {
         effect.scaled().iter().for_each(|&k| source.parameters[k] *= factor);
         let allowed = source.parameters.iter().zip(effect.parameters()).all(|(v, p)| p.allows(*v));
         (factor.is_finite() && factor != 0.0 && allowed).then_some(source)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "tests")]
+    use super::*;
+    use crate::control::Control;
+    use crate::diagnosis::records::data::Records;
+    use crate::diagnosis::records::fitted::FittedRecords;
+    use crate::effects::Place;
+    use crate::measurement::transient_run::TransientLabel;
+    use crate::measurement::{Channel, Kind, Quantity, Record, TransientRun};
+    use crate::structure::Structure;
+    use crate::structure::chain::ChainParameters;
+    use std::sync::Arc;
+
+    fn chain() -> Structure {
+        let (masses, ground_stiffness) = (vec![2.0, 1.0, 1.5], vec![800.0, 0.0, 0.0]);
+        ChainParameters { masses, ground_stiffness, coupling_stiffness: vec![1500.0, 900.0] }.build(&[]).unwrap()
+    }
+
+    /// A decay in the first mode of the chain, all displacements.
+    fn decay(structure: &Structure) -> TransientRun {
+        let modes = structure.modes().unwrap();
+        let wave = |n: usize, dof: usize| {
+            let t = 5e-3 * n as f64;
+            2e-2 * modes.shapes[(dof, 0)] * (-0.3 * t).exp() * (modes.omega[0] * t).cos()
+        };
+        let channel = |dof: usize| Channel { quantity: Quantity::Displacement, dof, label: (dof + 1).to_string() };
+        let samples = (0..3).map(|dof| (0..2400).map(|n| wave(n, dof)).collect()).collect();
+        let time = (0..2400).map(|n| 5e-3 * f64::from(n)).collect();
+        let record = Record::new(time, (0..3).map(channel).collect(), samples).unwrap();
+        let label = TransientLabel { file: "decay.csv".into(), kind: Kind::Decay, enabled: true, ..Default::default() };
+        TransientRun::new(label, Arc::new(record), &[]).unwrap()
+    }
+
+    fn at(effect: Effect, dof: usize, parameters: &[f64]) -> Source {
+        Source::known(effect, Place::Dofs(vec![dof]), parameters)
+    }
+
+    /// What a search begins beside some fits, each of one effect with its squared residual.
+    fn begun(fits: &[(Source, f64)]) -> [Vec<Source>; 2] {
+        let structure = chain();
+        let run = decay(&structure);
+        let records = Records::new(&structure, &[], std::slice::from_ref(&run)).unwrap();
+        let control = Control::unattended();
+        let search = Search::new(&records, &records, (&[], &structure, &[]), &control);
+        let whole = search.levels.len() - 1;
+        let mut bare = FittedRecords::start(&search.levels[whole], &[]);
+        bare.initial[0][0] = 2e-2;
+        let fit = |(source, chi_square): &(Source, f64)| FittedRecords {
+            effects: vec![source.clone()],
+            chi_square: *chi_square,
+            count: 7200,
+            ..bare.clone()
+        };
+        let found: Vec<FittedRecords> = fits.iter().map(fit).collect();
+        let laws = |list: Vec<FittedRecords>| list.into_iter().filter_map(|mut f| f.effects.pop()).collect();
+        [laws(search.begun_plainer(whole, &found)), laws(search.begun_elsewhere(whole, &found).unwrap())]
+    }
+
+    /// A power law of exponent 1 is a dashpot: where the fit of one was cut off it begins again, with the same force.
+    #[test]
+    fn a_simpler_law_that_was_cut_off_begins_again() {
+        let power = (at(Effect::Power, 2, &[0.9, 1.0]), 7000.0);
+        let [plainer, _] = begun(&[power.clone(), (at(Effect::Viscous, 2, &[9.0]), 1e30)]);
+        let again = plainer.iter().find(|s| s.effect == Effect::Viscous).unwrap();
+        assert!((again.parameters[0] - 0.9).abs() < 1e-9, "{again:?}");
+        let [plainer, _] = begun(&[power, (at(Effect::Viscous, 2, &[0.9]), 7050.0)]);
+        assert!(plainer.iter().all(|s| s.effect != Effect::Viscous), "{plainer:?}");
+    }
+
+    /// The best law begins at the place of a near rival, doing its work; not where it was tried, and not where little speaks for the place.
+    #[test]
+    fn the_best_law_is_tried_at_the_places_of_its_rivals() {
+        let best = (at(Effect::Viscous, 2, &[0.9]), 7000.0);
+        let [_, elsewhere] = begun(&[best.clone(), (at(Effect::Coulomb, 1, &[5e-3]), 14_000.0)]);
+        assert!(elsewhere.iter().all(|s| s.effect == Effect::Viscous && s.place == Place::Dofs(vec![1])));
+        assert_eq!(elsewhere.len(), 1, "{elsewhere:?}");
+        assert!(elsewhere[0].parameters[0] > 0.0);
+        let tried = (at(Effect::Viscous, 1, &[0.4]), 15_000.0);
+        let far = (at(Effect::Coulomb, 0, &[5e-3]), 90_000.0);
+        let [_, elsewhere] = begun(&[best, (at(Effect::Coulomb, 1, &[5e-3]), 14_000.0), tried, far]);
+        assert!(elsewhere.is_empty(), "{elsewhere:?}");
     }
 }

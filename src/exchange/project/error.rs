@@ -95,6 +95,10 @@ pub enum Problem {
         "the base moves in {file}, but the structure has no mass that its motion could load; give mass and stiffness"
     )]
     BaseWithoutMass { file: String },
+    #[error(
+        "{channel} in {file} shows the moving base too; in time it can be taken out of accelerations only: measure them, or give response = \"relative\""
+    )]
+    RidesOnBase { file: String, channel: String },
     #[error("record {file}: {error}")]
     Fit { file: String, error: FitError },
     #[error("record {file}: {error}; it looks like kind = \"{kind}\": {reason}")]

@@ -12,8 +12,12 @@ const LONGEST: f64 = 1e6;
 /// Table `excitation` of a run.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct ExcitationTable {
-    /// DOF of the force; of a release, the one whose displacement is given.
-    pub dof: Label,
+    /// DOF of the force; of a release, the one whose displacement is given. A base has none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub dof: Option<Label>,
+    /// Of a moving base: the record with its acceleration.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub file: Option<String>,
     /// Length of the record, s.
     pub duration_s: f64,
     /// What is done.
@@ -32,6 +36,7 @@ pub(super) fn parse(run: &Table<'_>) -> Result<Option<ExcitationTable>, ProjectE
         2 => &["rms_n", "from_hz", "to_hz", "seed"],
         3 => &["rms_n", "from_hz", "to_hz", "odd", "seed"],
         5 => &["amplitude_m", "frequency_hz", "ramp_s"],
+        6 => &["file"],
         _ => &["displacement_m", "mode"],
     };
     let known: Vec<&str> = ["kind", "dof", "duration_s"].into_iter().chain(own.iter().copied()).collect();
@@ -42,14 +47,20 @@ pub(super) fn parse(run: &Table<'_>) -> Result<Option<ExcitationTable>, ProjectE
         2 => random(&table)?,
         3 => multisine(&table)?,
         5 => cycles(&table)?,
+        6 => Loading::Base,
         _ => release(&table)?,
     };
-    let dof = Label(table.need("dof", "dof = 19", table.label("dof")?)?);
+    let (mut dof, mut file) = (table.label("dof")?.map(Label), None);
+    if loading == Loading::Base {
+        file = Some(table.need("file", "file = \"base.csv\"", table.text("file")?)?);
+    } else {
+        dof = Some(table.need("dof", "dof = 19", dof)?);
+    }
     let duration_s = positive(&table, "duration_s", "duration_s = 2.0")?;
     if duration_s > LONGEST {
         return Err(out_of_range(&table, "duration_s", duration_s, "at most 1e6 s"));
     }
-    Ok(Some(ExcitationTable { dof, duration_s, loading }))
+    Ok(Some(ExcitationTable { dof, file, duration_s, loading }))
 }
 
 fn impulse(table: &Table<'_>) -> Result<Loading, ProjectError> {

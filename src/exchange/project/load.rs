@@ -124,10 +124,11 @@ impl Plan {
             enabled: planned.enabled,
             exponential_window_s: planned.exponential_window_s,
         };
-        TransientRun::new(label, Arc::new(record), &self.corrections()).map_err(|error| {
+        let run = TransientRun::new(label, Arc::new(record), &self.corrections()).map_err(|error| {
             let key = if matches!(error, TransientRunError::PartTooShort { .. }) { "start_s" } else { "file" };
             self.run_error(index, key, Problem::Transient { file: planned.file.clone(), error })
-        })
+        })?;
+        self.in_time_on_its_base(index, run)
     }
 
     /// Known errors of the measuring chain, one entry a channel.

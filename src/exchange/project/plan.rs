@@ -86,7 +86,7 @@ pub struct PlannedRun {
 /// A test of a recipe that is not steady.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PlannedTest {
-    /// Row of the DOF.
+    /// Row of the DOF; 0 of a moving base, which has none.
     pub dof: usize,
     /// Length of the record, s.
     pub duration_s: f64,
@@ -186,7 +186,7 @@ fn runs(file: &ProjectFile, structure: &Structure, folder: &Path, at: At<'_>) ->
             _ => None,
         };
         let planned = |excitation: &ExcitationTable| {
-            let dof = row(&excitation.dof, "excitation")?;
+            let dof = excitation.dof.as_ref().map_or(Ok(0), |label| row(label, "excitation"))?;
             Ok::<_, ProjectError>(PlannedTest { dof, duration_s: excitation.duration_s, loading: excitation.loading })
         };
         let test = table.excitation.as_ref().map(planned).transpose()?;

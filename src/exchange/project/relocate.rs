@@ -1,6 +1,6 @@
 //! A project in another folder: the files it names are named from there.
 
-use super::file::{ProjectFile, Shape};
+use super::file::{ProjectFile, RunTable, Shape};
 use std::io;
 use std::path::{Component, Path, PathBuf};
 
@@ -15,6 +15,13 @@ impl ProjectFile {
         if from == to {
             return Ok(file);
         }
+        let named = |run: &mut RunTable| {
+            let base = run.excitation.as_mut().and_then(|excitation| excitation.file.as_mut());
+            if let Some(name) = base {
+                *name = renamed(name, &from, &to);
+            }
+        };
+        file.run.iter_mut().for_each(named);
         let records = file.run.iter_mut().map(|run| &mut run.file);
         let names = records.chain(file.harmonics.iter_mut().map(|harmonics| &mut harmonics.file));
         let names = names

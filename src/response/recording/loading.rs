@@ -5,6 +5,7 @@
 //! sweep       u = force sin(phase),  phase' = 2 pi f(t),  f linear, or growing by the same ratio in the same time
 //! random      lines of equal amplitude and random phase and size between two frequencies (Gaussian), no two periods alike
 //! cycles      d = amplitude r(t) sin(2 pi f t): a displacement imposed on a component, r rising and falling over a ramp
+//! base        the acceleration of a base as a file has it ([`super::base::BaseMotion`])
 //! multisine   lines of equal amplitude and random phase; odd: every second one only, so that even distortion shows between
 //! ```
 //!
@@ -84,13 +85,15 @@ pub enum Loading {
         /// Time over which the amplitude is run up, and down again at the end, s.
         ramp_s: f64,
     },
+    /// A motion of the base that comes from a file.
+    Base,
 }
 
 impl Loading {
     /// Words in files.
-    pub const KINDS: [&str; 6] = ["impulse", "sweep", "random", "multisine", "release", "cycles"];
+    pub const KINDS: [&str; 7] = ["impulse", "sweep", "random", "multisine", "release", "cycles", "base"];
 
-    /// Force (N) at `samples` instants `step` s apart; none for a release.
+    /// Force (N) at `samples` instants `step` s apart; none for a release, a displacement that is imposed and a moving base.
     pub fn force(&self, samples: usize, step: f64) -> Option<Vec<f64>> {
         let duration = samples as f64 * step;
         let time = (0..samples).map(|n| n as f64 * step);
@@ -111,7 +114,7 @@ impl Loading {
             Self::Multisine { rms_n, from_hz, to_hz, odd, seed } => {
                 lines(&Lines { rms_n, band: [from_hz, to_hz], gaussian: false, odd, seed }, samples, step)
             }
-            Self::Release { .. } | Self::Cycles { .. } => return None,
+            Self::Release { .. } | Self::Cycles { .. } | Self::Base => return None,
         })
     }
 

@@ -3,6 +3,7 @@
 //! The filter is a sinc under a Kaiser window (Oppenheim and Schafer, *Discrete-Time Signal Processing*, 2010, 7.6) without
 //! delay: flat to 0.34 of the sampling rate, 80 dB down from 0.5. It is the same for forces and motions.
 
+use super::base::BaseMotion;
 use super::loading::Loading;
 use crate::control::Control;
 use crate::effects::{Effect, Source};
@@ -70,19 +71,55 @@ pub fn record_test(
     setup: &TestSetup,
     control: &Control,
 ) -> Result<TestRecord, SimulationError> {
+    recorded(structure, sources, setup, None, control)
+}
+
+/// The same on a base that moves; the loading of `setup` is not looked at.
+///
+/// # Errors
+/// [`SimulationError`]: laws that have no force in time, steps that fail.
+pub fn record_base_test(
+    structure: &Structure,
+    sources: &[Source],
+    setup: &TestSetup,
+    base: &BaseMotion,
+    control: &Control,
+) -> Result<TestRecord, SimulationError> {
+    recorded(structure, sources, setup, Some(base), control)
+}
+
+fn recorded(
+    structure: &Structure,
+    sources: &[Source],
+    setup: &TestSetup,
+    base: Option<&BaseMotion>,
+    control: &Control,
+) -> Result<TestRecord, SimulationError> {
     let fine = 1.0 / (setup.rate_hz * FINER as f64);
     let count = (setup.samples + HALF + 1) * FINER;
-    let force = setup.loading.force(setup.samples * FINER, fine).map(|mut force| {
+    let ridden = base.map(|base| (base, base.at_steps(count + 1, fine)));
+    let force = setup.loading.force(setup.samples * FINER, fine).filter(|_| base.is_none()).map(|mut force| {
         force.resize(count + 1, 0.0);
         force
     });
-    let driven = force.as_deref().map(|force| (setup.dof, force));
-    let mut model = TimeModel::under_force(structure, sources, driven, fine)?;
+    let mut model = match &ridden {
+        Some((base, steps)) => {
+            let loads: Vec<(usize, f64)> = base.loads.iter().map(|(dof, load)| (*dof, -load)).collect();
+            TimeModel::under_loads(structure, sources, Some((&loads, &steps.motion[0])), fine)?
+        }
+        None => TimeModel::under_force(structure, sources, force.as_deref().map(|f| (setup.dof, f)), fine)?,
+    };
     if let Loading::Release { displacement_m, mode } = *setup.loading {
         let release = release(structure, sources, setup.dof, displacement_m, mode)?;
         model.start(&release.displacement, &vec![0.0; structure.len()]);
     }
-    let signals = march(&mut model, setup, force.as_deref(), count, control)?;
+    let mut signals = march(&mut model, setup, force.as_deref(), count, control)?;
+    if let Some((base, steps)) = &ridden {
+        for (signal, channel) in signals.iter_mut().zip(setup.channels) {
+            let added = base.added(steps, channel).unwrap_or_default();
+            signal.iter_mut().zip(added).for_each(|(y, b)| *y += b);
+        }
+    }
     let time: Vec<f64> = (0..setup.samples).map(|n| n as f64 / setup.rate_hz).collect();
     let kernel = if setup.filter { kernel() } else { vec![1.0] };
     let sample = |(c, signal): (usize, &Vec<f64>)| {
@@ -260,6 +297,50 @@ mod tests {
         let most = made.samples[0].iter().fold(0.0_f64, |m, v| m.max(v.abs()));
         let expected = 2.0 / PI * 100.0 * 0.001 / 2.0;
         assert!((most / expected - 1.0).abs() < 0.01, "{most} {expected}");
+    }
+
+    /// An oscillator on a base that begins to move as a sine, against the closed form of its relative motion,
+    /// `x = -A / (w0^2 - w^2) (sin(w t) - w / w0 sin(w0 t))`; what rides on the base shows both.
+    #[test]
+    fn a_moving_base_drives_by_its_acceleration() {
+        let (omega0, omega, size) = (TAU * 10.0, TAU * 4.0, 3.0);
+        let channel = |quantity| Channel { quantity, dof: 0, label: "1".into() };
+        let moving = Channel { quantity: Quantity::Base, dof: 0, label: "x".into() };
+        let acceleration: Vec<f64> = (0..80_000).map(|n| size * (omega * 2.5e-5 * f64::from(n)).sin()).collect();
+        let channels = [moving.clone(), channel(Quantity::Displacement), channel(Quantity::Acceleration)];
+        let setup = TestSetup {
+            loading: &Loading::Base,
+            dof: 0,
+            channels: &channels,
+            sensors: &[],
+            rate_hz: 400.0,
+            samples: 400,
+            filter: false,
+        };
+        for is_absolute in [false, true] {
+            let base = BaseMotion {
+                loads: &[(0, 2.0)],
+                along: &[0],
+                channel: &moving,
+                acceleration: &acceleration,
+                step_s: 2.5e-5,
+                is_absolute,
+            };
+            let made = record_base_test(&oscillator(), &[], &setup, &base, &Control::unattended()).unwrap();
+            for n in [10, 100, 333] {
+                let t = made.time[n];
+                let a = size * (omega * t).sin();
+                let relative = -size / (omega0.powi(2) - omega.powi(2))
+                    * ((omega * t).sin() - omega / omega0 * (omega0 * t).sin());
+                let rides = if is_absolute { size * (t / omega - (omega * t).sin() / omega.powi(2)) } else { 0.0 };
+                assert!((made.samples[0][n] - a).abs() < 1e-3, "{n}: {} {a}", made.samples[0][n]);
+                let d = made.samples[1][n];
+                assert!((d - relative - rides).abs() < 2e-5 * size, "{n} {is_absolute}: {d} {relative} {rides}");
+                // x'' = -w0^2 x - a, and what rides on the base shows a beside it.
+                let expected = -omega0.powi(2) * relative - if is_absolute { 0.0 } else { a };
+                assert!((made.samples[2][n] - expected).abs() < 0.01 * size, "{n} {is_absolute}");
+            }
+        }
     }
 
     #[test]

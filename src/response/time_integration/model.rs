@@ -103,7 +103,7 @@ impl TimeModel {
         if steps < 8 || !(period > 0.0 && period.is_finite()) {
             return Err(TimeError::BadStep { steps, period_s: period });
         }
-        let driven: Vec<usize> = excitation.forces.iter().map(|force| force.dof).collect();
+        let driven: Vec<Vec<(usize, f64)>> = excitation.forces.iter().map(|force| vec![(force.dof, 1.0)]).collect();
         let drive = [drive(excitation, steps, true), drive(excitation, steps, false)];
         Self::driven(structure, sources, &driven, drive, period / steps as f64)
     }
@@ -116,23 +116,35 @@ impl TimeModel {
         force: Option<(usize, &[f64])>,
         step: f64,
     ) -> Result<Self, TimeError> {
+        let force = force.map(|(dof, values)| (vec![(dof, 1.0)], values));
+        Self::under_loads(structure, sources, force.as_ref().map(|(loads, values)| (&loads[..], *values)), step)
+    }
+
+    /// The same under one force in time that acts on several DOFs at once, each with its factor, as that of a moving base does.
+    pub fn under_loads(
+        structure: &Structure,
+        sources: &[Source],
+        force: Option<(&[(usize, f64)], &[f64])>,
+        step: f64,
+    ) -> Result<Self, TimeError> {
         let mean = |values: &[f64]| {
             let pairs = values.windows(2).map(|pair| 0.5 * (pair[0] + pair[1]));
             pairs.chain(values.last().copied()).collect::<Vec<f64>>()
         };
         match force {
-            Some((dof, values)) if !values.is_empty() => {
-                Self::driven(structure, sources, &[dof], [vec![mean(values)], vec![values.to_vec()]], step)
+            Some((loads, values)) if !values.is_empty() => {
+                let drive = [vec![mean(values)], vec![values.to_vec()]];
+                Self::driven(structure, sources, &[loads.to_vec()], drive, step)
             }
             _ => Self::driven(structure, sources, &[], [Vec::new(), Vec::new()], step),
         }
     }
 
-    /// Under given forces: their means over the steps and their values at the start of each.
+    /// Under given forces, each on DOFs with their factors: their means over the steps and their values at the start of each.
     fn driven(
         structure: &Structure,
         sources: &[Source],
-        driven: &[usize],
+        driven: &[Vec<(usize, f64)>],
         drive: [Vec<Vec<f64>>; 2],
         step: f64,
     ) -> Result<Self, TimeError> {
@@ -339,7 +351,7 @@ fn add_whole(damping: &mut Mat<f64>, structure: &Structure, source: &Source) {
 }
 
 /// Force patterns: of the elements first, then of the driven DOFs.
-fn patterns(n: usize, elements: &[Element], driven: &[usize]) -> Mat<f64> {
+fn patterns(n: usize, elements: &[Element], driven: &[Vec<(usize, f64)>]) -> Mat<f64> {
     let mut patterns = Mat::zeros(n, elements.len() + driven.len());
     for (j, element) in elements.iter().enumerate() {
         patterns[(element.leg.first, j)] = 1.0;
@@ -347,8 +359,8 @@ fn patterns(n: usize, elements: &[Element], driven: &[usize]) -> Mat<f64> {
             patterns[(second, j)] = -1.0;
         }
     }
-    for (j, &dof) in driven.iter().enumerate() {
-        patterns[(dof, elements.len() + j)] = 1.0;
+    for (j, loads) in driven.iter().enumerate() {
+        loads.iter().for_each(|&(dof, load)| patterns[(dof, elements.len() + j)] = load);
     }
     patterns
 }

@@ -31,13 +31,13 @@ pub fn force_along(source: &Source, [d, v, a]: [&[f64]; 3], step: f64) -> Option
 
 impl TransientModel {
     /// What the channels show of `forces` (N, one list a drive, at equal steps of `step` s) that find the linear part of the model at
-    /// rest, `[channel][sample]`; forces go straight from sample to sample.
-    pub fn forced(&self, forces: &[Vec<f64>], step: f64) -> Vec<Vec<f64>> {
+    /// rest, `[channel][sample]`, of every `every`-th sample from the first on; forces go straight from sample to sample.
+    pub fn forced(&self, forces: &[Vec<f64>], step: f64, every: usize) -> Vec<Vec<f64>> {
         let samples = forces.first().map_or(0, Vec::len);
         let first: Vec<[f64; 2]> = forces.iter().map(|list| [list.first().copied().unwrap_or(0.0), 0.0]).collect();
         let mut z = self.modes_of(&vec![0.0; 2 * self.kept()], &first);
         let stepped = Step::new(&self.system, step);
-        let mut channels = vec![Vec::with_capacity(samples); self.sensors.len()];
+        let mut channels = vec![Vec::with_capacity(samples.div_ceil(every)); self.sensors.len()];
         // Drives stand behind the elements of the model, which are left at rest.
         let behind = self.legs.len();
         for n in 0..samples {
@@ -46,6 +46,9 @@ impl TransientModel {
                 for (input, list) in forces.iter().enumerate() {
                     stepped.drive(behind + input, list[n - 1], list[n], &mut z);
                 }
+            }
+            if n % every != 0 {
+                continue;
             }
             for (sensor, list) in self.sensors.iter().zip(&mut channels) {
                 let direct: f64 =
@@ -111,7 +114,7 @@ mod tests {
             let sources = [known.clone()];
             let setup = TransientSetup::stated(&structure, &modes, &sources, &channels, STEP);
             let model = TransientModel::new(&TransientSetup { drives: &[1], ..setup }).unwrap();
-            let change = model.forced(&[force], STEP);
+            let change = model.forced(&[force], STEP, 1);
             for c in 0..3 {
                 let expected: Vec<f64> = with[c].iter().zip(&before[c]).map(|(w, b)| w - b).collect();
                 let size = expected.iter().map(|x| x * x).sum::<f64>().sqrt();

@@ -3,7 +3,8 @@
 use super::scene::Scene;
 use crate::diagnosis::candidates::restoring_force::RestoringForce;
 use crate::effects::{Place, Source};
-use crate::plots::restoring_force::{caption, figures, title};
+use crate::plots::figure::Figure;
+use crate::plots::restoring_force::{caption, figures, maps, title};
 use crate::plots::sheet::{Panel, Sheet};
 use crate::session::validation::is_component;
 use crate::structure::Structure;
@@ -35,7 +36,8 @@ pub(super) fn show(ui: &mut Ui, scene: &Scene<'_>, source: Option<&Source>) {
 
 fn plots(ui: &mut Ui, force: &RestoringForce, structure: &Structure) {
     let palette = ui.palette();
-    let figures = figures(force, structure, palette);
+    let above = figures(force, structure, palette);
+    let figures: Vec<Figure> = above.into_iter().chain(maps(force, structure, palette)).collect();
     let title = title(force, structure);
     ui.hint(format!("{title} over displacement and velocity")).on_hover_text(caption(force));
     key_row(ui, figures.iter().take(1));
@@ -54,10 +56,17 @@ fn plots(ui: &mut Ui, force: &RestoringForce, structure: &Structure) {
             responses.push(out.response);
         });
     };
-    if columns == 2 {
-        ui.horizontal_top(|ui| (0..2).for_each(|k| one(ui, k)));
-    } else {
-        (0..2).for_each(|k| one(ui, k));
+    for (row, keys) in (0..figures.len()).step_by(2).zip([None, figures.get(2)]) {
+        if let Some(map) = keys {
+            ui.hint("Force as colour over displacement and velocity");
+            key_row(ui, std::iter::once(map));
+        }
+        let plots = row..(row + 2).min(figures.len());
+        if columns == 2 {
+            ui.horizontal_top(|ui| plots.for_each(|k| one(ui, k)));
+        } else {
+            plots.for_each(|k| one(ui, k));
+        }
     }
     export::offer_sheet(ui, &responses, Sheet { title, columns: 2, panels });
 }

@@ -89,6 +89,8 @@ pub struct Look {
     pub tab: Tab,
     /// Plot of the selected record that is not steady.
     pub record_tab: RecordTab,
+    /// Which of the modes that stand out of the selected record is shown over its amplitude, from 0.
+    pub mode: usize,
     /// Whether the order of the map and the plots of the cell are chosen in the bars of their panes, which have room for it.
     pub in_bar: [bool; 2],
     /// Channel of the selected record that is not steady.
@@ -113,6 +115,7 @@ impl Default for Look {
             worst_first: true,
             tab: Tab::default(),
             record_tab: RecordTab::default(),
+            mode: 0,
             in_bar: [false; 2],
             record: None,
             open: None,

@@ -1,12 +1,12 @@
 //! A decay or transient against the model: over time with what is left below, as spectra, what is left over time and frequency,
-//! damping ratio and frequency over amplitude of the mode that stands out.
+//! damping ratio and frequency over amplitude of the modes that stand out, one at a time.
 
 use super::look::{Look, RecordTab};
 use super::scene::Scene;
 use super::switches::record_tabs;
 use crate::diagnosis::records::compare::OneRecord;
 use crate::display::format;
-use crate::plots::amplitude_curve::{LEAST_POINTS, figure};
+use crate::plots::amplitude_curve::{figures, told};
 use crate::plots::figure::Figure;
 use crate::plots::record_residual::RecordResidual;
 use crate::window::plots::show::Stack;
@@ -65,15 +65,26 @@ fn one(ui: &mut Ui, residual: &RecordResidual, look: &mut Look) {
 }
 
 fn curves(ui: &mut Ui, file: &str, record: &OneRecord, look: &mut Look) {
-    let Some(curve) = record.curves.iter().find(|c| c.measured.len() >= LEAST_POINTS) else {
+    let curves = told(&record.curves);
+    let Some(curve) = curves.get(look.mode).or_else(|| curves.first()).copied() else {
         head(ui, file, "", look);
         return ui.empty("No amplitude curve", "No mode stands out of this record long enough.");
     };
     let near = format::with_unit(curve.frequency_hz, "Hz");
     head(ui, &curve.channel, &format!("{file}, near {near}"), look);
-    let figures = [true, false].map(|ratio| (figure(curve, ratio, ui.palette()), 0.5)).to_vec();
+    if curves.len() > 1 {
+        ui.horizontal_wrapped(|ui| {
+            for (k, other) in curves.iter().enumerate() {
+                let name = format!("Mode near {}", format::with_unit(other.frequency_hz, "Hz"));
+                if ui.selectable_label(std::ptr::eq(*other, curve), name).clicked() {
+                    look.mode = k;
+                }
+            }
+        });
+    }
+    let drawn = figures(&[curve], ui.palette()).into_iter().map(|figure| (figure, 0.5)).collect();
     let title = format!("{file}: damping ratio and frequency over amplitude, {} near {near}", curve.channel);
-    Stack { id: &title, title: &title, figures, keys: true }.show(ui);
+    Stack { id: &title, title: &title, figures: drawn, keys: true }.show(ui);
 }
 
 /// Channel and file; beside the switches where the bar of the pane has no room for them, no more than there is room for.
