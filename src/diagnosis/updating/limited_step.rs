@@ -27,12 +27,13 @@ impl Updating {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::structure::HeldDof;
 
     #[test]
     fn a_step_is_as_long_as_what_it_changes_allows() {
         let parameters = vec![
             UpdatingParameter::Structure(Part::Stiffness),
-            UpdatingParameter::Structure(Part::Support(0)),
+            UpdatingParameter::Structure(Part::Support(HeldDof { element: 0, dof: 1 })),
             UpdatingParameter::Known(0),
             UpdatingParameter::Gain("acc@1".into()),
         ];
