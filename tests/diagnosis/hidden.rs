@@ -77,7 +77,7 @@ fn a_delay_of_more_than_half_a_period_is_named() {
         runs: 9,
         levels: 3,
         noise: 0.01,
-        size: 1.0,
+        size: 1.6,
         detuned: 0.01,
         unsettled: false,
     };

@@ -239,6 +239,11 @@ impl Screen {
         alone + self.misfit * prior - freed.gain
     }
 
+    /// Weight of the prior of common parameter `k`.
+    fn prior_weight(&self, k: usize) -> f64 {
+        if k + self.without_prior < self.reference.len() { self.misfit } else { 0.0 }
+    }
+
     /// Changes of the parameters that fit best together with free forces at `spots`; those of a run are eliminated first:
     /// `(1 + sum B^H P B) du = sum B^H P e - u`.
     fn freed(&self, spots: &[usize]) -> Option<Freed> {
@@ -246,8 +251,7 @@ impl Screen {
         if self.cells.iter().flatten().all(|cell| cell.slopes.is_empty() && cell.own.is_empty()) {
             return None;
         }
-        let with_prior = q - self.without_prior;
-        let mut normal = Mat::from_fn(q, q, |i, j| if i == j && i < with_prior { self.misfit } else { 0.0 });
+        let mut normal = Mat::from_fn(q, q, |i, j| if i == j { self.prior_weight(i) } else { 0.0 });
         let mut right: Vec<f64> = self.reference.iter().map(|u| -self.misfit * u).collect();
         let (mut gain, mut solved) = (0.0, Vec::with_capacity(self.cells.len()));
         for run in &self.cells {

@@ -98,8 +98,7 @@ impl<'a> ReferenceModel<'a> {
             if bound < f64::INFINITY && self.control.is_late() { Ok(None) } else { if_possible(follow(k)) }
         };
         let begun = self.control.map(count, begin).into_iter().collect::<Result<Vec<_>, _>>()?;
-        let mut begun: Vec<_> = begun.into_iter().flatten().collect();
-        begun.retain(|(reference, fit)| cost(reference, Some(fit)) < bound);
+        let mut begun: Vec<_> = begun.into_iter().flatten().filter(|(r, fit)| cost(r, Some(fit)) < bound).collect();
         begun.sort_by(|a, b| cost(&a.0, Some(&a.1)).total_cmp(&cost(&b.0, Some(&b.1))));
         let near = begun.first().map_or(0.0, |(reference, fit)| bound_beside(reference, fit));
         let finalists = begun.iter().take(FINALISTS).take_while(|(reference, fit)| cost(reference, Some(fit)) < near);
@@ -145,36 +144,20 @@ impl<'a> ReferenceModel<'a> {
         let sources = self.predictor.sources(&effects);
         let runs = self.data.runs.iter().zip(unfitted.fields.iter());
         let starts: Starts = runs.map(|(run, field)| start(&sources, run.omega, field)).collect();
-        let here = &self.linearisation.updating;
-        let begun = |updating: &Updating| {
-            let reference = self.updated(updating, &effects, &starts)?;
+        let begun = |u: &[f64]| {
+            let reference = self.updated(&self.linearisation.updating.at(u), &effects, &starts)?;
             let fit = reference.estimator().fit(&effects, STEPS, settings, &starts)?;
-            Ok::<_, DiagnosisError>((reference, fit))
+            Ok((reference, fit))
         };
-        let Some(target) = target else {
-            let (reference, fit) = begun(here)?;
-            return reference.settled(fit, &SEARCH, 1);
-        };
-        let mut best = begun(&here.at(target))?;
-        let noise = self.count() as f64;
-        // The whole step is right where the response is as linear in the model as it is at the measured motion.
-        if best.1.chi_square > MISSED * unfitted.score.max(noise) && !self.control.is_late() {
-            let at_reference = |(reference, fit): &(ReferenceModel, FittedModel)| {
-                let predictions = reference.predictions_with(&fit.effects, &fit.starts)?;
-                Ok::<f64, DiagnosisError>(reference.cost_at_reference(&predictions))
-            };
-            let mut least = at_reference(&best)?;
-            for share in SHARES {
-                let from = here.standardised();
-                let part: Vec<f64> = from.iter().zip(target).map(|(u, to)| u + share * (to - u)).collect();
-                let Some(tried) = if_possible(begun(&here.at(&part)))? else { continue };
-                let then = at_reference(&tried)?;
-                if then < least {
-                    (best, least) = (tried, then);
-                }
+        let here = self.linearisation.updating.standardised();
+        let whole = begun(target.unwrap_or(&here))?;
+        let left = MISSED * unfitted.score.max(self.count() as f64);
+        let (reference, fit) = match target {
+            Some(target) if whole.1.chi_square > left && !self.control.is_late() => {
+                shortened(whole, &here, target, begun)?
             }
-        }
-        let (reference, fit) = best;
+            _ => whole,
+        };
         reference.settled(fit, &SEARCH, 1)
     }
 
@@ -214,6 +197,31 @@ impl<'a> ReferenceModel<'a> {
         }
         rows
     }
+}
+
+/// The candidate of the step, `whole` or a share of it from `here` to `target`, that leaves least with the model where the step ends:
+/// the whole is right where the response is as linear in the model as it is at the measured motion.
+fn shortened<'a>(
+    whole: (ReferenceModel<'a>, FittedModel),
+    here: &[f64],
+    target: &[f64],
+    begun: impl Fn(&[f64]) -> Result<(ReferenceModel<'a>, FittedModel), DiagnosisError>,
+) -> Result<(ReferenceModel<'a>, FittedModel), DiagnosisError> {
+    let left = |(reference, fit): &(ReferenceModel, FittedModel)| {
+        let predictions = reference.predictions_with(&fit.effects, &fit.starts)?;
+        Ok::<f64, DiagnosisError>(reference.cost_at_reference(&predictions))
+    };
+    let mut least = left(&whole)?;
+    let mut best = whole;
+    for share in SHARES {
+        let part: Vec<f64> = here.iter().zip(target).map(|(u, to)| u + share * (to - u)).collect();
+        let Some(tried) = if_possible(begun(&part))? else { continue };
+        let then = left(&tried)?;
+        if then < least {
+            (best, least) = (tried, then);
+        }
+    }
+    Ok(best)
 }
 
 /// The best sets, no more than a few at one place.

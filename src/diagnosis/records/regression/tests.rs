@@ -61,12 +61,14 @@ fn check(hidden: &Source, law: impl Fn(f64, f64) -> f64, tolerance: f64) {
     // What it leaves is the noise, or what the band of the filter does not hold; without it much more is left.
     let (with, without, rows) = (best.misfit, regression.misfit(), regression.rows() as f64);
     assert!(with < (1.3 * rows).max(0.1 * without) && without > with + 100.0, "{with} of {without} in {rows} rows");
-    // What is said of the nuisances beside the law: that there are none.
-    let (modes, sizes) = regression.corrections(Some(&best.source)).unwrap();
-    assert!(
-        modes.iter().all(|x| x.abs() < 0.1 * tolerance) && sizes.iter().all(|x| x.abs() < 0.05),
-        "{modes:?} {sizes:?}"
-    );
+    without_nuisances(&regression, &best.source, 0.1 * tolerance);
+}
+
+/// What is said of the nuisances beside the law: that there are none.
+fn without_nuisances(regression: &Regression, law: &Source, tolerance: f64) {
+    let (modes, sizes) = regression.corrections(Some(law)).unwrap();
+    let none = modes.iter().all(|x| x.abs() < tolerance) && sizes.iter().all(|x| x.abs() < 0.05);
+    assert!(none, "{modes:?} {sizes:?}");
 }
 
 #[test]
