@@ -13,9 +13,9 @@ const SECANTS: usize = 8;
 const AT_REST: f64 = 1e-6;
 /// Bounds of the gain of a channel while it is searched.
 pub(crate) const GAINS: [f64; 2] = [0.5, 2.0];
-/// Delays that are tried: up to a share of the longest period, in steps of the phase at the highest frequency, and no more than so
-/// many either way.
-const TURNS: f64 = 0.5;
+/// Delays that are tried: up to half the longest period, beyond which a channel is as well early; in steps of half a radian at the
+/// highest frequency, within the valley of half a turn from which Newton's method arrives; no more than so many either way.
+const OF_LONGEST_PERIOD: f64 = 0.5;
 const COARSE_PHASE: f64 = 0.5;
 const MOST_DELAYS: f64 = 500.0;
 
@@ -103,7 +103,7 @@ impl PlaceData {
     fn coarse_delay(&self, law: &dyn ChannelLaw) -> f64 {
         let omegas = || self.motions.iter().map(|motion| motion.omega);
         let (slowest, fastest) = (omegas().fold(f64::INFINITY, f64::min), omegas().fold(0.0, f64::max));
-        let (longest, step) = (TURNS * std::f64::consts::TAU / slowest, COARSE_PHASE / fastest);
+        let (longest, step) = (OF_LONGEST_PERIOD * std::f64::consts::TAU / slowest, COARSE_PHASE / fastest);
         let count = (longest / step).clamp(0.0, MOST_DELAYS);
         let left = |p: f64| -> f64 {
             let of_run = |(r, forces): (usize, &Vec<FreeForce>)| {

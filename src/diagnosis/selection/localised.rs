@@ -27,7 +27,8 @@ const BY_LAW: f64 = 2.0;
 const DOUBTED: usize = 4;
 /// Share of what the best law leaves to which a doubt must bring it.
 const RELIEVED: f64 = 0.5;
-/// Share of its squared free errors which a gain or a delay may leave of a channel that is steady from run to run.
+/// Share of its squared free errors which a gain or a delay may leave of a channel that is steady from run to run: then most of
+/// them is the same in all runs, which looseness is not.
 const STEADY: f64 = 0.25;
 /// Bounds of the scatter of a doubted channel.
 const SCATTER: [f64; 2] = [0.02, 0.3];
