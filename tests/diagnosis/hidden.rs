@@ -67,6 +67,30 @@ fn faults_of_channels_are_not_explained_by_damping() {
     is_named(Effect::Gain, false, 22);
 }
 
+/// Its misfit has a valley for every turn of the phase, and the model beside it is detuned.
+#[test]
+fn a_delay_of_more_than_half_a_period_is_named() {
+    let kindness = Kindness {
+        beam: true,
+        points: false,
+        sensors: 5,
+        runs: 9,
+        levels: 3,
+        noise: 0.01,
+        size: 1.6,
+        detuned: 0.01,
+        unsettled: false,
+    };
+    let project = hidden(&[Effect::Delay], kindness, &mut Random::new(21)).unwrap();
+    let truth = &project.truth[0];
+    let fastest = project.runs.iter().map(|run| run.fit.omega).fold(0.0, f64::max);
+    assert!(fastest * truth.parameters[0] > std::f64::consts::PI, "{} s at {fastest} rad/s", truth.parameters[0]);
+    let diagnosis = diagnose(&project.problem(), &Control::unattended()).unwrap();
+    let first = &diagnosis.suggestions[0].added.source;
+    assert!(first.is_same(truth), "{:?}", diagnosis.suggestions);
+    assert!((first.parameters[0] / truth.parameters[0] - 1.0).abs() < 0.05, "{first:?}, hidden {truth:?}");
+}
+
 #[test]
 fn what_is_ruled_out_is_not_suggested_and_the_search_finds_what_else_it_could_be() {
     let (project, first) = project(&[Effect::Mass], false, 4);
