@@ -59,7 +59,7 @@ fn plots(ui: &mut Ui, force: &RestoringForce, structure: &Structure) {
     for (row, keys) in (0..figures.len()).step_by(2).zip([None, figures.get(2)]) {
         if let Some(map) = keys {
             let by_law = if figures.len() > row + 1 { ": as identified, then by the law" } else { "" };
-            ui.hint(&format!("Force as colour over displacement and velocity{by_law}"));
+            ui.hint(format!("Force as colour over displacement and velocity{by_law}"));
             key_row(ui, std::iter::once(map));
         }
         let plots = row..(row + 2).min(figures.len());
