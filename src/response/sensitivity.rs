@@ -182,6 +182,9 @@ impl Differentiated<'_> {
         let share = if let Unknown::Part(part) = unknown { linear.structure().share(part) } else { None };
         let load = |h: usize| -> Vec<c64> {
             let (x, w) = (&self.displacements[h], self.omega(h));
+            if !matches!(unknown, Unknown::ForceScale(_)) && x.iter().all(|x| x.norm_sqr() == 0.0) {
+                return Vec::new();
+            }
             match (unknown, &share) {
                 (Unknown::ForceScale(force), _) => {
                     let force = &self.excitation.forces[force];

@@ -9,6 +9,7 @@ mod force_gain;
 mod hidden;
 mod level_series;
 mod missing_force;
+mod points;
 #[path = "../../examples/hidden_effects/random.rs"]
 #[allow(dead_code, reason = "shared with the example, which uses all of it")]
 mod random;

@@ -146,10 +146,10 @@ impl PlaceData {
         2 * self.forces.iter().flatten().filter(|f| f.weight > 0.0).count()
     }
 
-    /// Fits every effect that can act here; those of many parameters only where simpler ones leave more than noise and one
-    /// that they contain is among the best of those.
-    pub(crate) fn fits(&self) -> Vec<LawFit> {
-        let mut fits = self.simple_fits();
+    /// Fits every effect that can act here, given those of [`Self::simple_fits`]: those of many parameters only where simpler
+    /// ones leave more than noise and one that they contain is among the best of those.
+    pub(crate) fn all_fits(&self, simple: Vec<LawFit>) -> Vec<LawFit> {
+        let mut fits = simple;
         let count = self.count() as f64;
         let noise = count + ENOUGH * (2.0 * count).sqrt();
         let least = fits.iter().map(|fit| fit.misfit).fold(f64::INFINITY, f64::min);
@@ -163,25 +163,25 @@ impl PlaceData {
         let thinned = self.thinned();
         let on = thinned.as_ref().unwrap_or(self);
         let bound = bound * on.count() as f64 / self.count().max(1) as f64;
-        let fit = |effect| on.fit_within(effect, bound).map(|fit| self.on_all_runs(fit));
+        let fit = |effect| on.fit_within(effect, bound, on).map(|fit| self.on_all_runs(fit));
         fits.extend(promising.into_iter().filter_map(fit));
         fits
     }
 
     /// Fits every effect of no more than two parameters that can act here.
     pub(crate) fn simple_fits(&self) -> Vec<LawFit> {
-        Effect::ALL.into_iter().filter(|effect| is_simple(*effect)).filter_map(|effect| self.fit(effect)).collect()
+        let thinned = self.thinned();
+        let grid = thinned.as_ref().unwrap_or(self);
+        let simple = Effect::ALL.into_iter().filter(|effect| is_simple(*effect));
+        simple.filter_map(|effect| self.fit_within(effect, f64::INFINITY, grid)).collect()
     }
 
-    /// Fits `effect`; `None` if it cannot act here or its best scale has an unphysical sign.
-    pub(crate) fn fit(&self, effect: Effect) -> Option<LawFit> {
-        self.fit_within(effect, f64::INFINITY)
-    }
-
-    /// The same; `None` too if the best shape of its grid leaves more than `bound`.
-    fn fit_within(&self, effect: Effect, bound: f64) -> Option<LawFit> {
+    /// Fits `effect` from the best shape of a grid on the runs of `grid`, the same place; `None` if it cannot act here, if its best scale
+    /// has an unphysical sign, or if the best shape leaves more than `bound` there.
+    fn fit_within(&self, effect: Effect, bound: f64, grid: &Self) -> Option<LawFit> {
         match (effect.kind(), &self.spot) {
-            (Kind::Relative(law), Spot::Leg(_)) => self.fit_law(effect, law, bound),
+            (Kind::Relative(law), Spot::Leg(_)) if is_scale(effect, law) => self.fit_scale(effect, law),
+            (Kind::Relative(law), Spot::Leg(_)) => self.fit_law(effect, law, grid.grid(effect, law), bound),
             (Kind::Channel(law), Spot::Response(_) | Spot::Force(_)) => self.fit_channel(effect, law),
             _ => None,
         }
@@ -211,21 +211,34 @@ impl PlaceData {
     /// Best shapes of `effect` as they are, for fits that start from somewhere sensible.
     pub(crate) fn starts(&self, effect: Effect, most: usize) -> Vec<LawFit> {
         let (Kind::Relative(law), Spot::Leg(_)) = (effect.kind(), &self.spot) else { return Vec::new() };
-        let fit = |(misfit, parameters)| LawFit {
+        self.starts_of(effect, law).take(most).collect()
+    }
+
+    fn starts_of(&self, effect: Effect, law: &dyn Law) -> impl Iterator<Item = LawFit> {
+        let fit = move |(misfit, parameters)| LawFit {
             source: Source { effect, place: self.spot.place(), state: State::Known, parameters },
             misfit,
         };
-        self.grid(effect, law).into_iter().take(most).map(fit).collect()
+        self.grid(effect, law).into_iter().map(fit)
     }
 
-    fn fit_law(&self, effect: Effect, law: &'static dyn Law, bound: f64) -> Option<LawFit> {
-        let grid: Vec<(f64, Vec<f64>)> = self.grid(effect, law).into_iter().filter(|(left, _)| *left < bound).collect();
+    /// A law that has a scale alone.
+    fn fit_scale(&self, effect: Effect, law: &'static dyn Law) -> Option<LawFit> {
+        self.starts_of(effect, law).next()
+    }
+
+    /// A law from the best shapes of a `grid` that leave less than `bound`.
+    fn fit_law(
+        &self,
+        effect: Effect,
+        law: &'static dyn Law,
+        mut grid: Vec<(f64, Vec<f64>)>,
+        bound: f64,
+    ) -> Option<LawFit> {
+        grid.retain(|(left, _)| *left < bound);
         let source =
             |p: &[f64]| Source { effect, place: self.spot.place(), state: State::Known, parameters: p.to_vec() };
-        let (misfit, parameters) = grid.first()?;
-        if effect.parameters().len() == 1 && friction(effect).is_none() && law.description().odd {
-            return Some(LawFit { source: source(parameters), misfit: *misfit });
-        }
+        let (misfit, _) = grid.first()?;
         // Laws of many parameters have many valleys.
         let starts = if effect.parameters().len() > 2 { 3 } else { 1 };
         let close = |(left, _): &&(f64, Vec<f64>)| *left < VALLEYS * misfit;
@@ -299,6 +312,11 @@ impl PlaceData {
         let rows = self.rows(1.0, |r, _| of_law[r].clone());
         dot(&rows, &rows)
     }
+}
+
+/// Whether the force of a law is its only parameter times that of the motion, which takes no mean by it.
+fn is_scale(effect: Effect, law: &dyn Law) -> bool {
+    effect.parameters().len() == 1 && friction(effect).is_none() && law.description().odd
 }
 
 /// Whether a law has so few parameters that it is regressed at every place.

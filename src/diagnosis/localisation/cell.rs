@@ -4,6 +4,7 @@
 use crate::math::least_squares::solve_symmetric;
 use faer::{Mat, c64};
 use std::borrow::Cow;
+use std::sync::OnceLock;
 
 /// Part of a second column that must be independent of the first.
 const INDEPENDENCE: f64 = 1e-6;
@@ -34,6 +35,8 @@ pub(super) struct Cell {
     pub(super) slopes: Vec<Vec<c64>>,
     /// `V`, one column a parameter that is the run's own.
     pub(super) own: Vec<Vec<c64>>,
+    /// Real parts of the products of the columns of `B` and `V` with each other, once they are needed.
+    pub(super) gram: OnceLock<Mat<f64>>,
 }
 
 impl Cell {
@@ -78,13 +81,30 @@ impl Cell {
         cell
     }
 
+    /// `Re [B V]^H [B V]`.
+    fn gram(&self) -> &Mat<f64> {
+        self.gram.get_or_init(|| {
+            let all: Vec<&Vec<c64>> = self.slopes.iter().chain(&self.own).collect();
+            let mut gram = Mat::zeros(all.len(), all.len());
+            for (i, a) in all.iter().enumerate() {
+                for (j, b) in all.iter().enumerate().take(i + 1) {
+                    let product = dot(a, b).re;
+                    gram[(i, j)] = product;
+                    gram[(j, i)] = product;
+                }
+            }
+            gram
+        })
+    }
+
     /// Normal equations of the common parameters where free forces at `spots` and the run's own parameters are eliminated.
     pub(super) fn eliminate(&self, spots: &[usize], misfit: f64) -> Eliminated {
         let basis = self.basis(spots);
         let all: Vec<&Vec<c64>> = self.slopes.iter().chain(&self.own).collect();
         let shares: Vec<Vec<c64>> = all.iter().map(|b| basis.iter().map(|v| dot(v, b)).collect()).collect();
         let seen: Vec<c64> = basis.iter().map(|v| dot(v, &self.residual)).collect();
-        let product = |i: usize, j: usize| (dot(all[i], all[j]) - dot(&shares[i], &shares[j])).re;
+        let gram = self.gram();
+        let product = |i: usize, j: usize| gram[(i, j)] - dot(&shares[i], &shares[j]).re;
         let load = |i: usize| (dot(all[i], &self.residual) - dot(&shares[i], &seen)).re;
         let (q, p) = (self.slopes.len(), self.own.len());
         let inner = Mat::from_fn(p, p, |i, j| product(q + i, q + j) + if i == j { misfit } else { 0.0 });

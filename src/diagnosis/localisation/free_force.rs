@@ -19,6 +19,7 @@ use crate::diagnosis::updating::noise_model::NoiseModel;
 use crate::effects::Leg;
 use crate::math::least_squares::solve_symmetric;
 use faer::{Mat, c64};
+use std::sync::OnceLock;
 
 /// The residual of a model seen from every place.
 #[derive(Debug, Clone)]
@@ -108,7 +109,16 @@ impl Screen {
                     own.map_or_else(Vec::new, |list| list.iter().map(|s| noise.runs[r].apply(1, |c| s[c])).collect())
                 };
                 let (slopes, own) = (whitened(&freedom.slopes), whitened(&freedom.own));
-                Cell { total: dot(&e, &e).re, residual: e, products, columns, squares, slopes, own }
+                Cell {
+                    total: dot(&e, &e).re,
+                    residual: e,
+                    products,
+                    columns,
+                    squares,
+                    slopes,
+                    own,
+                    gram: OnceLock::new(),
+                }
             };
             cells.push((1..=run.harmonics).map(at).collect());
         }
@@ -158,6 +168,7 @@ impl Screen {
                 let mut cell = cell.clone();
                 cell.slopes.resize(self.reference.len(), vec![c64::new(0.0, 0.0); column.len()]);
                 cell.slopes.push(column.iter().map(|z| *z * scale).collect());
+                cell.gram = OnceLock::new();
                 cell
             };
             run.iter().take(1).map(with_column).chain(run.iter().skip(1).cloned()).collect()

@@ -1,6 +1,6 @@
 //! Energies of a `points` problem as data, and effects fitted to them.
 
-use super::uncertainty::Uncertainty;
+use super::uncertainty::{Multiples, Uncertainty};
 use crate::diagnosis::points::energies::{PointsEnergy, displacement, energies};
 use crate::diagnosis::residual::data::{DiagnosisError, Problem, RunData};
 use crate::diagnosis::residual::energy_balance::{input, taken};
@@ -73,11 +73,11 @@ impl<'a> Balance<'a> {
         })
     }
 
-    /// The same with all that is uncertain of the model and the channels, its scales times `multiple`.
+    /// The same with all that is uncertain of the model and the channels, its scales times `multiples`.
     #[must_use]
-    pub(crate) fn with_uncertainty(self, multiple: f64) -> Self {
-        let uncertain = if multiple > 0.0 { self.uncertain() } else { Vec::new() };
-        let uncertainty = Some(Uncertainty::new(uncertain, &self.over_deviations(&self.input), multiple));
+    pub(crate) fn with_uncertainty(self, multiples: Multiples) -> Self {
+        let uncertain = if multiples.is_exact() { Vec::new() } else { self.uncertain() };
+        let uncertainty = Some(Uncertainty::new(uncertain, &self.over_deviations(&self.input), multiples));
         Self { uncertainty, ..self }
     }
 

@@ -12,12 +12,12 @@ use super::evidence::{agrees, criterion};
 use crate::control::Control;
 use crate::diagnosis::channels::fault::is_ordinary_gain;
 use crate::diagnosis::points::balance::{Balance, Column, Fitted};
-use crate::diagnosis::points::uncertainty::MULTIPLES;
+use crate::diagnosis::points::uncertainty::Multiples;
 use crate::diagnosis::residual::data::{DiagnosisError, Problem};
 use crate::diagnosis::result::{Added, Diagnosis};
 use crate::effects::{Effect, Source};
 use crate::math::statistics::{bayesian_information, sum_of_squares};
-use std::cell::OnceCell;
+use std::sync::OnceLock;
 
 /// Sets that are fitted in all their parameters, at each number of effects.
 const FITS: usize = 12;
@@ -54,27 +54,35 @@ fn solve(columns: &[&Column], e: &[f64]) -> Option<(f64, Vec<f64>)> {
     }
 }
 
+/// Where the search with one set of multiples ended.
+struct Ended {
+    /// Its evidence, the smaller the better.
+    cost: f64,
+    multiples: Multiples,
+    /// Fits of each number of effects, best first.
+    by_size: Vec<Vec<Fitted>>,
+}
+
 /// Diagnoses a `points` problem.
 pub(crate) fn diagnose(problem: &Problem, excluded: &[Source], control: &Control) -> Result<Diagnosis, DiagnosisError> {
-    let mut best: Option<(f64, f64, Vec<Vec<Fitted>>)> = None;
     // What laws take out of the measured motion is the same whatever is uncertain.
-    let shapes = OnceCell::new();
-    for multiple in MULTIPLES {
-        let balance = Balance::new(problem, &[])?.with_uncertainty(multiple);
+    let shapes = OnceLock::new();
+    let search_with = |k: usize| -> Result<Option<Ended>, DiagnosisError> {
+        if k > 0 && control.is_late() {
+            return Ok(None);
+        }
+        let multiples = Multiples::TRIED[k];
+        let balance = Balance::new(problem, &[])?.with_uncertainty(multiples);
         let by_size = climb(&balance, &shapes, excluded, control)?;
-        let cost = evidence(&balance, &by_size);
-        if best.as_ref().is_none_or(|(least, ..)| cost < *least) {
-            best = Some((cost, multiple, by_size));
-        }
-        if control.is_late() {
-            break;
-        }
-    }
-    let Some((_, multiple, by_size)) = best else { return Err(DiagnosisError::NoRuns) };
+        Ok(Some(Ended { cost: evidence(&balance, &by_size), multiples, by_size }))
+    };
+    let ended = control.map(Multiples::TRIED.len(), search_with).into_iter().collect::<Result<Vec<_>, _>>()?;
+    let best = ended.into_iter().flatten().min_by(|a, b| a.cost.total_cmp(&b.cost));
+    let Some(Ended { multiples, by_size, .. }) = best else { return Err(DiagnosisError::NoRuns) };
     // The noise of the motion counts once it is known how much energy the new sources take.
     let effects: Vec<Source> =
         by_size.last().map(|r| r[0].added.iter().map(|a| a.source.clone()).collect()).unwrap_or_default();
-    let balance = Balance::new(problem, &effects)?.with_uncertainty(multiple);
+    let balance = Balance::new(problem, &effects)?.with_uncertainty(multiples);
     let by_size = if effects.is_empty() { by_size } else { climb(&balance, &shapes, excluded, control)? };
     Ok(conclude(&balance, &by_size))
 }
@@ -90,11 +98,14 @@ fn evidence(balance: &Balance, by_size: &[Vec<Fitted>]) -> f64 {
 
 fn climb(
     balance: &Balance,
-    shapes: &OnceCell<Vec<(Source, Vec<f64>)>>,
+    shapes: &OnceLock<Vec<(Source, Vec<f64>)>>,
     excluded: &[Source],
     control: &Control,
 ) -> Result<Vec<Vec<Fitted>>, DiagnosisError> {
-    let allowed = |source: &Source| !excluded.iter().any(|other| other.is_same(source));
+    // More of a linear source that is known is a correction of that.
+    let corrected = balance.known.iter().filter(|source| source.effect.is_linear());
+    let left_out: Vec<&Source> = excluded.iter().chain(corrected).collect();
+    let allowed = |source: &Source| !left_out.iter().any(|other| other.is_same(source));
     let e = balance.weighted();
     let n = e.len();
     let mut last = (e.iter().map(|x| x * x).sum::<f64>(), 0);
@@ -194,8 +205,8 @@ fn ranked(balance: &Balance, unfitted: &[Vec<Source>], control: &Control) -> Vec
     let exact = balance.cost() == 0.0;
     let bounded = |added: &Added| is_bounded(added) && (exact || !is_ordinary_gain(&added.source));
     let enough = |f: &Fitted| f.parameters < n && f.chi_square.is_finite() && f.added.iter().all(bounded);
-    let in_time = unfitted.iter().enumerate().take_while(|(k, _)| *k < LEAST || !control.is_late());
-    let mut fits: Vec<Fitted> = in_time.map(|(_, d)| balance.fit(d)).filter(enough).collect();
+    let in_time = |k: usize| (k < LEAST || !control.is_late()).then(|| balance.fit(&unfitted[k]));
+    let mut fits: Vec<Fitted> = control.map(unfitted.len(), in_time).into_iter().flatten().filter(enough).collect();
     fits.sort_by(|a, b| criterion(a, n).total_cmp(&criterion(b, n)));
     fits
 }

@@ -6,15 +6,41 @@
 //! C = diag(n) + D S^2 D^T,    rows and columns are multiplied by C^(-1/2)
 //! ```
 //!
-//! `kappa` is chosen beside each set of effects by its likelihood, so that exact data shrink it to nothing.
+//! `kappa` is chosen beside each set of effects by its likelihood, so that exact data shrink it to nothing; that of known sources apart
+//! from that of the measurement: good sensors say nothing of how well a damper is known.
 
 use crate::diagnosis::updating::correction::Correction;
 use crate::diagnosis::updating::parameters::{Scales, UpdatingParameter};
 use dashpot_numerics::{dot, symmetric};
 use faer::Mat;
 
-/// Multiples of the scales of the search that are tried.
-pub(super) const MULTIPLES: [f64; 3] = [1.0, 0.3, 0.0];
+/// Multiples of the scales of the search.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Multiples {
+    /// Of the sizes of known sources.
+    pub known: f64,
+    /// Of gains and phases of channels and of what is in proportion to the energy.
+    pub measurement: f64,
+}
+
+impl Multiples {
+    const fn new(known: f64, measurement: f64) -> Self {
+        Self { known, measurement }
+    }
+
+    /// Those that are tried.
+    pub(super) const TRIED: [Self; 5] =
+        [Self::new(1.0, 1.0), Self::new(1.0, 0.3), Self::new(0.3, 0.3), Self::new(1.0, 0.0), Self::new(0.0, 0.0)];
+
+    /// Whether nothing is uncertain.
+    pub(super) fn is_exact(self) -> bool {
+        self.known == 0.0 && self.measurement == 0.0
+    }
+
+    fn of(self, parameter: &UpdatingParameter) -> f64 {
+        if matches!(parameter, UpdatingParameter::Known(_)) { self.known } else { self.measurement }
+    }
+}
 
 /// What is uncertain of the energies, at one multiple of its scales.
 pub(super) struct Uncertainty {
@@ -30,13 +56,13 @@ pub(super) struct Uncertainty {
 
 impl Uncertainty {
     /// Of uncertain parameters with the derivative of the energy that is left by each, over its deviation, and of the `input`
-    /// over its deviation, one value a run; all scales are those of the search times `multiple`.
-    pub(super) fn new(uncertain: Vec<(UpdatingParameter, Vec<f64>)>, input: &[f64], multiple: f64) -> Self {
+    /// over its deviation, one value a run; all scales are those of the search times their multiples.
+    pub(super) fn new(uncertain: Vec<(UpdatingParameter, Vec<f64>)>, input: &[f64], multiples: Multiples) -> Self {
         let n = input.len();
         let scales = Scales::SEARCH.list();
         let (parameters, slopes): (Vec<_>, Vec<_>) =
-            uncertain.into_iter().map(|(p, slope)| ((p.clone(), multiple * scales[p.class()]), slope)).unzip();
-        let proportional = 2.0 * Scales::SEARCH.response * multiple;
+            uncertain.into_iter().map(|(p, slope)| ((p.clone(), multiples.of(&p) * scales[p.class()]), slope)).unzip();
+        let proportional = 2.0 * Scales::SEARCH.response * multiples.measurement;
         let covariance = Mat::from_fn(n, n, |i, j| {
             let shared: f64 = parameters.iter().zip(&slopes).map(|((_, s), d)| s * s * d[i] * d[j]).sum();
             let own = 1.0 + (proportional * input[i]).powi(2);
@@ -92,7 +118,7 @@ mod tests {
         Uncertainty::new(
             vec![(UpdatingParameter::Known(0), a), (UpdatingParameter::Gain("acc@1".into()), b)],
             &INPUT,
-            1.0,
+            Multiples::TRIED[0],
         )
     }
 

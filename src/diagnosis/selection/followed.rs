@@ -82,7 +82,7 @@ impl<'a> ReferenceModel<'a> {
     fn followed_from(&self, fit: &FittedModel) -> Result<(ReferenceModel<'a>, FittedModel), DiagnosisError> {
         let (stated, known) = self.predictor.stated();
         let updating = Updating::all(stated, known, self.data);
-        let reference = self.updated(&updating, &fit.effects, &fit.starts)?;
+        let reference = self.updated_as(&updating, &fit.effects, &fit.starts, &SEARCH)?;
         let fit = reference.estimator().fit(&fit.effects, STEPS, &SEARCH, &fit.starts)?;
         reference.settled(fit, &SEARCH, UPDATES)
     }
@@ -146,7 +146,7 @@ impl<'a> ReferenceModel<'a> {
         let runs = self.data.runs.iter().zip(unfitted.fields.iter());
         let starts: Starts = runs.map(|(run, field)| start(&sources, run.omega, field)).collect();
         let begun = |u: &[f64]| {
-            let reference = self.updated(&self.linearisation.updating.at(u), &effects, &starts)?;
+            let reference = self.updated_as(&self.linearisation.updating.at(u), &effects, &starts, settings)?;
             let fit = reference.estimator().fit(&effects, STEPS, settings, &starts)?;
             Ok((reference, fit))
         };
@@ -209,7 +209,7 @@ fn shortened<'a>(
     begun: impl Fn(&[f64]) -> Result<(ReferenceModel<'a>, FittedModel), DiagnosisError>,
 ) -> Result<(ReferenceModel<'a>, FittedModel), DiagnosisError> {
     let left = |(reference, fit): &(ReferenceModel, FittedModel)| {
-        let predictions = reference.predictions_with(&fit.effects, &fit.starts)?;
+        let predictions = reference.predictions_with(&fit.effects, &fit.starts, &SEARCH)?;
         Ok::<f64, DiagnosisError>(reference.cost_at_reference(&predictions))
     };
     let mut least = left(&whole)?;

@@ -11,7 +11,7 @@ use crate::diagnosis::localisation::cell::FreeForce;
 use crate::diagnosis::localisation::location::Spot;
 use crate::diagnosis::residual::data::{DiagnosisError, if_possible};
 use crate::diagnosis::selection::reference_model::ReferenceModel;
-use crate::diagnosis::selection::search::View;
+use crate::diagnosis::selection::search::{RegressedSpots, View};
 use crate::diagnosis::selection::short_list::Breadth;
 use crate::diagnosis::updating::parameters::Updating;
 
@@ -49,9 +49,16 @@ struct Seen<'a> {
     at_channel: bool,
     /// Response channels among the best places, with the scatter of what they read, relative.
     suspects: Vec<(String, f64)>,
+    /// Laws that were regressed, by spot.
+    regressed: RegressedSpots,
 }
 
-impl Seen<'_> {
+impl<'a> Seen<'a> {
+    /// The same model with all laws at all places that may be the best.
+    fn seen_wider(self) -> Result<Seen<'a>, DiagnosisError> {
+        self.reference.seen(Breadth::All, self.regressed)
+    }
+
     /// How far the next step from `self` brought it to `there`, as a share of what was left.
     fn progress(&self, there: &Self) -> f64 {
         let by_law = there.least / self.least;
@@ -76,14 +83,14 @@ impl<'a> ReferenceModel<'a> {
     fn moved_beside(&self, updating: Updating) -> Result<Seen<'a>, DiagnosisError> {
         // Laws of many parameters take long: they are looked at where the others lead no further.
         let mut breadth = Breadth::Near;
-        let mut here = self.updated(&updating, &[], &Vec::new())?.seen(breadth)?;
+        let mut here = self.updated(&updating, &[], &Vec::new())?.seen(breadth, RegressedSpots::new())?;
         for _ in 0..STEPS {
             if here.least < CLOSE * self.count() as f64 || self.control.is_late() {
                 break;
             }
             let moved = self.updated(&here.reference.towards(&here.target), &[], &Vec::new());
             let Some(there) = if_possible(moved)? else { break };
-            let there = there.seen(breadth)?;
+            let there = there.seen(breadth, RegressedSpots::new())?;
             let progress = here.progress(&there);
             if progress < 1.0 {
                 here = there;
@@ -95,17 +102,18 @@ impl<'a> ReferenceModel<'a> {
                 break;
             }
             breadth = Breadth::All;
-            here = here.reference.seen(breadth)?;
+            here = here.seen_wider()?;
         }
         if breadth == Breadth::Near && !self.control.is_late() {
-            here = here.reference.seen(Breadth::All)?;
+            here = here.seen_wider()?;
         }
         Ok(here)
     }
 
-    /// This model with what the best law leaves.
-    fn seen(self, breadth: Breadth) -> Result<Seen<'a>, DiagnosisError> {
+    /// This model with what the best law leaves, of which some were `regressed` before.
+    fn seen(self, breadth: Breadth, regressed: RegressedSpots) -> Result<Seen<'a>, DiagnosisError> {
         let mut view = self.view(None)?;
+        view.regressed = regressed;
         let mut unfitted = self.unfitted(&mut view, &[], breadth)?;
         unfitted.extend(self.whole_sets(&view).into_iter().map(|(set, _)| set));
         unfitted.sort_by(|a, b| a.score.total_cmp(&b.score));
@@ -121,9 +129,9 @@ impl<'a> ReferenceModel<'a> {
         let at_channel = placings.first().is_some_and(|p| matches!(view.screen.spots[p.spots[0]], Spot::Response(_)));
         let near = placings.iter().take(DOUBTED).map(|p| p.spots[0]);
         let suspects = near.filter_map(|spot| self.suspect(&view, spot, &unfitted)).collect();
-        drop(view);
+        let regressed = view.regressed;
         let target = target.unwrap_or_else(|| self.linearisation.updating.standardised());
-        Ok(Seen { target, reference: self, least, free, by_law, at_channel, unfitted, suspects })
+        Ok(Seen { target, reference: self, least, free, by_law, at_channel, unfitted, suspects, regressed })
     }
 
     /// The response channel of `spot` with the scatter of its free errors; none where they are of one gain or delay, which is no

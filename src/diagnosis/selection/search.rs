@@ -1,7 +1,7 @@
 //! The search for one more effect, or two at once: places first, then laws, then the fit on the response.
 
 use super::short_list::{Breadth, hopeless, telling};
-use crate::diagnosis::candidates::identified_force::{PlaceData, shrunk};
+use crate::diagnosis::candidates::identified_force::{LawFit, PlaceData, shrunk};
 use crate::diagnosis::candidates::start::{Fields, UnfittedSet};
 use crate::diagnosis::localisation::cell::FreeForce;
 use crate::diagnosis::localisation::free_force::{Freedom, Placing, Screen};
@@ -13,6 +13,7 @@ use crate::diagnosis::selection::reference_model::ReferenceModel;
 use crate::effects::{Place, Source};
 use crate::math::statistics::bayesian_information;
 use faer::{Mat, c64};
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 /// Places whose laws are looked at.
@@ -31,6 +32,18 @@ pub(crate) struct View<'a> {
     pub(crate) screen: Screen,
     receptances: Receptances<'a>,
     predictions: Vec<RunPrediction>,
+    /// Spots whose simple laws have been regressed, each alone.
+    pub(super) regressed: RegressedSpots,
+}
+
+/// Spots of one model by their number.
+pub(super) type RegressedSpots = BTreeMap<usize, Arc<Regressed>>;
+
+/// A spot with its free force and the laws of one or two parameters that were regressed on it.
+pub(super) struct Regressed {
+    data: PlaceData,
+    fields: Arc<Fields>,
+    simple: Vec<LawFit>,
 }
 
 impl ReferenceModel<'_> {
@@ -50,7 +63,7 @@ impl ReferenceModel<'_> {
             own_values: (0..data.runs.len()).map(|r| self.linearisation.own_reference(r)).collect(),
         };
         let screen = Screen::new(&self.predictor, data, &predictions, noise, &mut receptances, &freedom, self.control)?;
-        Ok(View { screen, receptances, predictions })
+        Ok(View { screen, receptances, predictions, regressed: RegressedSpots::new() })
     }
 
     /// Laws at the places that explain most, regressed on the free forces there beside `effects`.
@@ -216,7 +229,7 @@ impl ReferenceModel<'_> {
         Ok(placings)
     }
 
-    /// [`Self::laws`] of every placing.
+    /// Laws fitted to the free forces of each spot of every placing, best first; the score is their misfit with its penalty.
     pub(super) fn all_laws(
         &self,
         view: &mut View,
@@ -227,34 +240,49 @@ impl ReferenceModel<'_> {
         for placing in placings {
             self.need(view, &placing.spots)?;
         }
-        let view = &*view;
-        let of = |k: usize| {
+        let found = self.control.map(placings.len(), |k| {
             self.control.check()?;
-            Ok(self.laws(view, &placings[k], effects, breadth))
-        };
-        self.control.map(placings.len(), of).into_iter().collect()
+            Ok::<_, DiagnosisError>(self.regressed(view, &placings[k]))
+        });
+        let found = found.into_iter().collect::<Result<Vec<_>, _>>()?;
+        for (placing, regressed) in placings.iter().zip(&found) {
+            if let ([spot], [only]) = (&placing.spots[..], &regressed[..]) {
+                view.regressed.insert(*spot, only.clone());
+            }
+        }
+        let laws = |k: usize| found[k].iter().map(|regressed| self.laws(regressed, effects, breadth)).collect();
+        Ok(self.control.map(placings.len(), laws))
     }
 
-    /// Laws fitted to the free forces of each spot of a placing, best first; the score is their misfit with its penalty.
-    fn laws(&self, view: &View, placing: &Placing, effects: &[Source], breadth: Breadth) -> Vec<Vec<UnfittedSet>> {
+    /// The simple laws of each spot of a placing, those of single spots where they were regressed before.
+    fn regressed(&self, view: &View, placing: &Placing) -> Vec<Arc<Regressed>> {
+        if let [spot] = &placing.spots[..]
+            && let Some(known) = view.regressed.get(spot)
+        {
+            return vec![known.clone()];
+        }
         let (forces, fields) = self.free(view, &placing.spots);
         let fields = Arc::new(fields);
         let of = |(&s, forces): (&usize, &Vec<Vec<FreeForce>>)| {
             let data = self.at_place(view, s, forces, &fields);
-            let fresh = |source: &Source| !effects.iter().any(|e| e.is_same(source)) && self.data.allows(source);
-            let fits = if breadth == Breadth::All { data.fits() } else { data.simple_fits() };
-            let mut unfitted: Vec<UnfittedSet> = fits
-                .into_iter()
-                .filter(|fit| fresh(&fit.source))
-                .map(|fit| {
-                    let score = bayesian_information(fit.misfit, fit.source.parameters.len(), data.count());
-                    UnfittedSet { effects: vec![fit.source], score, fields: fields.clone() }
-                })
-                .collect();
-            unfitted.sort_by(|a, b| a.score.total_cmp(&b.score));
-            unfitted
+            let simple = data.simple_fits();
+            Arc::new(Regressed { data, fields: fields.clone(), simple })
         };
         placing.spots.iter().zip(&forces).map(of).collect()
+    }
+
+    /// The laws of `breadth` at a spot beside `effects`.
+    fn laws(&self, regressed: &Regressed, effects: &[Source], breadth: Breadth) -> Vec<UnfittedSet> {
+        let Regressed { data, fields, simple } = regressed;
+        let fresh = |source: &Source| !effects.iter().any(|e| e.is_same(source)) && self.data.allows(source);
+        let fits = if breadth == Breadth::All { data.all_fits(simple.clone()) } else { simple.clone() };
+        let unfitted = |fit: LawFit| {
+            let score = bayesian_information(fit.misfit, fit.source.parameters.len(), data.count());
+            UnfittedSet { effects: vec![fit.source], score, fields: fields.clone() }
+        };
+        let mut unfitted: Vec<UnfittedSet> = fits.into_iter().filter(|fit| fresh(&fit.source)).map(unfitted).collect();
+        unfitted.sort_by(|a, b| a.score.total_cmp(&b.score));
+        unfitted
     }
 }
 

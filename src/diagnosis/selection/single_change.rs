@@ -80,7 +80,7 @@ impl<'a> ReferenceModel<'a> {
         change: &SingleChange,
     ) -> Result<(ReferenceModel<'a>, FittedModel), DiagnosisError> {
         let effects = std::slice::from_ref(&change.source);
-        let reference = self.updated(&change.updating, effects, &Vec::new())?;
+        let reference = self.updated_as(&change.updating, effects, &Vec::new(), &SEARCH)?;
         let fit = reference.estimator().fit(effects, STEPS, &SEARCH, &[])?;
         reference.settled(fit, &SEARCH, UPDATES)
     }

@@ -51,6 +51,17 @@ impl<'a> ReferenceModel<'a> {
         effects: &[Source],
         starts: &Starts,
     ) -> Result<ReferenceModel<'a>, DiagnosisError> {
+        self.updated_as(updating, effects, starts, &FINAL)
+    }
+
+    /// The same with the responses of the effects as exact as `settings`.
+    pub(super) fn updated_as(
+        &self,
+        updating: &Updating,
+        effects: &[Source],
+        starts: &Starts,
+        settings: &Settings,
+    ) -> Result<ReferenceModel<'a>, DiagnosisError> {
         let updating = &updating.of_model();
         let predictor = Arc::new(self.predictor.updated(updating)?);
         let mut reference = ReferenceModel { predictor, predictions: Vec::new(), ..self.shallow() };
@@ -58,7 +69,7 @@ impl<'a> ReferenceModel<'a> {
         let predictions = if effects.is_empty() {
             reference.predictions.clone()
         } else {
-            reference.estimator().predict(effects, &FINAL, starts)?
+            reference.estimator().predict(effects, settings, starts)?
         };
         reference.linearisation = Arc::new(reference.linearised(updating, effects, &predictions));
         reference.noise = Arc::new(reference.noise_of(effects, &predictions)?);
@@ -126,11 +137,12 @@ impl<'a> ReferenceModel<'a> {
         &self,
         effects: &[Source],
         starts: &Starts,
+        settings: &Settings,
     ) -> Result<Vec<RunPrediction>, DiagnosisError> {
         if effects.is_empty() {
             Ok(self.predictions.clone())
         } else {
-            self.estimator().predict(effects, &FINAL, starts)
+            self.estimator().predict(effects, settings, starts)
         }
     }
 
@@ -279,16 +291,16 @@ impl<'a> ReferenceModel<'a> {
         // What friction leaves depends on the number of harmonics.
         let fit = if rubs(&fit.effects) { self.refitted(&fit, settings)? } else { fit };
         let (mut reference, mut fit) = (self, fit);
-        let mut here = reference.cost_at_reference(&reference.predictions_with(&fit.effects, &fit.starts)?);
+        let mut here = reference.cost_at_reference(&reference.predictions_with(&fit.effects, &fit.starts, settings)?);
         for _ in 0..rounds {
             let linear = fit.chi_square + reference.noise.cost();
             if here - linear < SETTLED || reference.control.is_late() {
                 break;
             }
             let joint = reference.joint_fit(&fit.effects, &fit.starts, settings, JOINT_STEPS)?;
-            let there = reference.updated(&joint.updating, &joint.effects, &joint.starts)?;
+            let there = reference.updated_as(&joint.updating, &joint.effects, &joint.starts, settings)?;
             let again = there.estimator().fit(&joint.effects, REFITTED, settings, &joint.starts)?;
-            let then = there.cost_at_reference(&there.predictions_with(&again.effects, &again.starts)?);
+            let then = there.cost_at_reference(&there.predictions_with(&again.effects, &again.starts, settings)?);
             // Where the model was far off its own noise, the evidence at the old reference and at the new differ in kind.
             if then >= here && again.chi_square + there.noise.cost() > linear - 1.0 {
                 break;

@@ -136,8 +136,8 @@ fn eliminate(g: &[c64], z: &[c64]) -> Option<Elimination> {
     let unit = |i: usize, j: usize| c64::new(if i == j { 1.0 } else { 0.0 }, 0.0);
     let system: Vec<c64> = (0..k * k).map(|n| unit(n / k, n % k) + g[n] * z[n % k]).collect();
     let inverse = invert(k, system)?;
-    let terms = |i: usize| 1.0 + (0..k).map(|j| (g[i * k + j] * z[j]).norm()).sum::<f64>();
-    let growth = |i: usize| (0..k).map(|j| inverse[i * k + j].norm() * terms(j)).sum::<f64>();
+    let terms = |i: usize| 1.0 + (0..k).map(|j| (g[i * k + j] * z[j]).norm_sqr().sqrt()).sum::<f64>();
+    let growth = |i: usize| (0..k).map(|j| inverse[i * k + j].norm_sqr().sqrt() * terms(j)).sum::<f64>();
     let growth = (0..k).map(growth).fold(0.0, f64::max);
     Some(Elimination { stiffness: (0..k * k).map(|n| z[n / k] * inverse[n]).collect(), growth })
 }

@@ -95,9 +95,10 @@ impl Default for Receptances {
 }
 
 impl RunModel {
-    /// The same with all stiffness multiplied by `factor`.
+    /// The same with all stiffness multiplied by `factor`: of one run alone, and asked for few entries.
     pub(crate) fn stiffened(&self, factor: f64) -> Self {
-        Self { linear: Arc::new(self.linear.stiffened(factor)), compliances: Arc::default(), ..self.clone() }
+        let linear = Arc::new(self.linear.stiffened(factor));
+        Self { linear, compliances: Arc::default(), summed: true, ..self.clone() }
     }
 
     /// Fundamental circular frequency, rad/s.

@@ -219,14 +219,14 @@ impl Ladder<'_> {
 
 /// Whether the watched harmonics rest within the tolerance.
 fn rests(response: &Response, settings: &Settings) -> bool {
-    let largest =
-        (0..response.order()).flat_map(|h| response.harmonics.col_as_slice(h)).fold(0.0_f64, |m, x| m.max(x.norm()));
+    let all = (0..response.order()).flat_map(|h| response.harmonics.col_as_slice(h));
+    let largest = all.fold(0.0_f64, |m, x| m.max(x.norm_sqr())).sqrt();
     response.truncation.iter().take(settings.watched).all(|&t| t <= settings.truncation * largest)
 }
 
 /// `share` of the change of each harmonic of every DOF.
 fn change(a: &Response, b: &Response, order: usize, share: f64) -> Mat<f64> {
-    Mat::from_fn(b.mean.len(), order, |i, h| share * (b.amplitude(i, h + 1) - a.amplitude(i, h + 1)).norm())
+    Mat::from_fn(b.mean.len(), order, |i, h| share * (b.amplitude(i, h + 1) - a.amplitude(i, h + 1)).norm_sqr().sqrt())
 }
 
 /// Weight of the correction `fine - coarse` that takes the error, proportional to `1 / (H + 1/2)` for jumps, away.

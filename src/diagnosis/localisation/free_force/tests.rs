@@ -16,7 +16,7 @@ use faer::c64;
 use nalgebra::{DMatrix, DVector};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 const RUNS: usize = 3;
 const HARMONICS: usize = 2;
@@ -49,6 +49,7 @@ fn screen(with_parameters: bool) -> Screen {
             columns,
             slopes,
             own,
+            gram: OnceLock::new(),
         }
     };
     let cells = (0..RUNS).map(|_| (0..HARMONICS).map(&mut cell).collect()).collect();
