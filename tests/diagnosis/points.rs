@@ -1,7 +1,8 @@
 //! Structures of points: energies alone.
 
 use dashpot::control::Control;
-use dashpot::diagnosis::{Problem, Verdict, diagnose};
+use dashpot::diagnosis::result::Verdict;
+use dashpot::diagnosis::{Problem, diagnose};
 use dashpot::effects::{Source, State};
 use dashpot::exchange::project::load;
 use dashpot::identify::identify;
