@@ -4,6 +4,8 @@ use super::balance::{Balance, Fitted};
 use super::evidence::{agrees, criterion};
 use crate::diagnosis::result::{Added, Diagnosis, Step, Suggestion, Verdict};
 use crate::diagnosis::selection::conclusion::{TOLERATED, UNTRUSTED};
+use crate::diagnosis::updating::correction::Correction;
+use crate::diagnosis::updating::parameters::UpdatingParameter;
 use crate::effects::Source;
 use crate::math::statistics::{evidence_weights, root_mean_square, sum_of_squares};
 
@@ -17,14 +19,47 @@ pub(super) fn conclude(balance: &Balance, by_size: &[Vec<Fitted>]) -> Diagnosis 
     let mut diagnosis = as_stated(balance);
     match (by_size.first(), by_size.last()) {
         (Some(first), Some(top)) => {
-            diagnosis.steps.extend(by_size.iter().map(|fitted_sets| step(balance, &fitted_sets[0])));
             let set: Vec<Source> = top[0].added.iter().map(|added| added.source.clone()).collect();
             diagnosis.corrections = balance.corrections(&set);
-            suggest(&mut diagnosis, balance, (first, top));
+            for added in &top[0].added {
+                correct(&mut diagnosis.corrections, balance, added);
+            }
+            if set.iter().all(|source| known(balance, source).is_some()) {
+                diagnosis.steps.push(Step { added: Vec::new(), ..step(balance, &top[0]) });
+                diagnosis.verdict = Verdict::Detuned;
+            } else {
+                diagnosis.steps.extend(by_size.iter().map(|fitted_sets| step(balance, &fitted_sets[0])));
+                suggest(&mut diagnosis, balance, (first, top));
+            }
         }
         _ => without_effects(&mut diagnosis, balance),
     }
     diagnosis
+}
+
+/// Number of the known source of which `source` is more: linear sources of one law and place add up.
+fn known(balance: &Balance, source: &Source) -> Option<usize> {
+    balance
+        .known
+        .iter()
+        .position(|known| known.effect.is_linear() && known.parameters.len() == 1 && known.is_same(source))
+}
+
+/// Takes `added` as a correction of the known source of which it is more, if there is one of one size.
+fn correct(corrections: &mut Vec<Correction>, balance: &Balance, added: &Added) {
+    let Some(k) = known(balance, &added.source) else { return };
+    let (Some(&stated), Some(&more)) = (balance.known[k].parameters.first(), added.source.parameters.first()) else {
+        return;
+    };
+    let deviation = added.deviations.first().map_or(0.0, |d| d / stated);
+    let parameter = UpdatingParameter::Known(k);
+    match corrections.iter_mut().find(|c| c.parameter == parameter) {
+        Some(known) => {
+            known.factor += more / stated;
+            known.deviation = known.deviation.hypot(deviation);
+        }
+        None => corrections.push(Correction { parameter, factor: 1.0 + more / stated, deviation }),
+    }
 }
 
 fn step(balance: &Balance, fit: &Fitted) -> Step {
@@ -78,7 +113,7 @@ fn suggest(diagnosis: &mut Diagnosis, balance: &Balance, (first, top): (&[Fitted
     let trust = if top[0].chi_square > TOLERATED * n as f64 { UNTRUSTED } else { 1.0 };
     for (fit, added) in top.iter().flat_map(|fit| fit.added.iter().map(move |added| (fit, added))) {
         let listed = diagnosis.suggestions.iter().any(|s| s.added.source.is_same(&added.source));
-        if listed || diagnosis.suggestions.len() >= MOST {
+        if listed || known(balance, &added.source).is_some() || diagnosis.suggestions.len() >= MOST {
             continue;
         }
         let with = top.iter().zip(&weights).filter(|(f, _)| contains(f, &added.source));

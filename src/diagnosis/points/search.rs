@@ -102,10 +102,7 @@ fn climb(
     excluded: &[Source],
     control: &Control,
 ) -> Result<Vec<Vec<Fitted>>, DiagnosisError> {
-    // More of a linear source that is known is a correction of that.
-    let corrected = balance.known.iter().filter(|source| source.effect.is_linear());
-    let left_out: Vec<&Source> = excluded.iter().chain(corrected).collect();
-    let allowed = |source: &Source| !left_out.iter().any(|other| other.is_same(source));
+    let allowed = |source: &Source| !excluded.iter().any(|other| other.is_same(source));
     let e = balance.weighted();
     let n = e.len();
     let mut last = (e.iter().map(|x| x * x).sum::<f64>(), 0);
