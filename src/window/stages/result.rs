@@ -119,8 +119,6 @@ fn shares(ui: &mut Ui, p: &Project, outcome: &Outcome) {
             })
         };
         bars::show(ui, "Energy by source", &outcome.sources.iter().filter_map(bar).collect::<Vec<_>>(), 190.0);
-        ui.add_space(space::M);
-        ui.title("By degree of freedom", "where it is lost; adds up to 100 %");
         let by_dof: Vec<Bar> = outcome
             .results
             .energy_percent
@@ -133,7 +131,11 @@ fn shares(ui: &mut Ui, p: &Project, outcome: &Outcome) {
                 colour: palette.model,
             })
             .collect();
-        bars::show(ui, "Energy by degree of freedom", &by_dof, 190.0);
+        if !by_dof.is_empty() {
+            ui.add_space(space::M);
+            ui.title("By degree of freedom", "where it is lost; adds up to 100 %");
+            bars::show(ui, "Energy by degree of freedom", &by_dof, 190.0);
+        }
         ui.add_space(space::M);
         ui.title("Coefficients", "with one standard deviation");
         for estimate in &outcome.sources {
