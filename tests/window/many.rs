@@ -114,7 +114,7 @@ fn frame_time(harness: &mut egui_kittest::Harness<'_, dashpot::window::App>) -> 
 
 #[test]
 fn two_thousand_runs_stay_fluid() {
-    let sample = many(2000, CHANNELS);
+    let sample = many(2000, 8);
     let mut harness = open(&sample, Theme::Light);
     assert_eq!(harness.state().document.as_ref().unwrap().project.runs.len(), 2000);
     let mut slow = Vec::new();

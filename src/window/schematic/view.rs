@@ -107,7 +107,6 @@ impl View<'_> {
         let last = arrows.iter().map(|e| e[0].x.max(e[1].x) + ARROW).fold(corner.x, f32::max);
         let (font, weak) = (theme::font(theme::size::SMALL), Palette::of(ui.visuals()).weak);
         let wanted = width(ui, self.caption, font.clone());
-        let ground = layout.space.is_some() || self.shares.is_some();
         let behind = wanted > first - corner.x && edge - last > first - corner.x;
         let (start, end) = if behind { (last, edge) } else { (corner.x, first) };
         let middle = pos2(start, corner.y + 0.5 * theme::size::SMALL + 2.0);
@@ -117,8 +116,8 @@ impl View<'_> {
             std::iter::successors(Some(self.caption), |text| text.split_once(SEPARATOR).map(|(_, rest)| rest));
         let all: Vec<&str> = shorter.collect();
         let text = all.iter().copied().find(fits).unwrap_or_else(|| all.last().copied().unwrap_or_default());
-        if ground && !text.is_empty() {
-            // A structure in space or a halo may reach behind the words.
+        if !text.is_empty() {
+            // A structure in space, a halo or, in a low pane, the symbol of a source may reach behind the words.
             let size = vec2(width(ui, text, font.clone()).min(end - start), theme::size::SMALL + 4.0);
             let rect = Rect::from_min_size(middle - vec2(0.0, 0.5 * size.y), size).expand(3.0);
             ui.painter().rect_filled(rect, 3.0, Palette::of(ui.visuals()).canvas.gamma_multiply(0.85));

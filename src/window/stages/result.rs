@@ -68,8 +68,8 @@ fn heat(ui: &mut Ui, p: &Project, outcome: &Outcome, whole: &mut bool, in_space:
     } else {
         (&results.equivalent_viscous, "energy-equivalent viscous")
     };
+    let remark = format!("N·s/m, {name}");
     ui.horizontal(|ui| {
-        ui.hint(format!("N·s/m, {name}"));
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             ui.checkbox(whole, "All DOFs");
             for (shown, name) in [(true, "3-D"), (false, "Map")] {
@@ -77,6 +77,12 @@ fn heat(ui: &mut Ui, p: &Project, outcome: &Outcome, whole: &mut bool, in_space:
                     *in_space = shown;
                 }
             }
+            // Beside the switches where there is room, else the unit alone.
+            let fits = width(ui, &remark, theme::font(size::SMALL)) + space::S <= ui.available_width();
+            let shown = if fits { remark.as_str() } else { "N·s/m" };
+            ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
+                ui.hint(shown).on_hover_text(&remark);
+            });
         });
     });
     let occupied = heatmap::occupied(matrix);
