@@ -68,17 +68,17 @@ pub(crate) fn error_and_floor(outcome: &Outcome) -> (f64, f64) {
 /// What the stage is about, each error with the noise floor that belongs to it: the error of the motion and its floor at the stage
 /// Explain, as in all its panes; those of the energy balance elsewhere, which are other figures of the same records.
 fn errors(app: &App, document: &Document) -> Vec<String> {
-    let said = |error: String, floor: f64, name: &str| {
-        let floor = (floor > 0.0).then(|| format!("{name} {}", format::percent(floor)));
+    let said = |error: String, floor: f64| {
+        let floor = (floor > 0.0).then(|| format!("noise floor {}", format::percent(floor)));
         std::iter::once(error).chain(floor).collect()
     };
     if app.view.stage == Stage::Explain {
         let Some(Ok(c)) = app.derived.explained.comparison(document) else { return Vec::new() };
-        return said(format!("error {}", format::in_words(c.error)), c.noise_floor, "noise floor");
+        return said(format!("error {}", format::in_words(c.error)), c.noise_floor);
     }
     let Some(Ok(outcome)) = app.derived.known_outcome(document) else { return Vec::new() };
     let (error, floor) = error_and_floor(&outcome);
-    said(format!("energy error {}", format::percent(error)), floor, "of noise alone")
+    said(format!("energy error {}", format::percent(error)), floor)
 }
 
 fn summary(ui: &mut Ui, app: &App) {
