@@ -125,6 +125,8 @@ fn spectra(three: [&[f64]; 3], step: f64) -> Option<Three> {
 
 #[cfg(test)]
 mod tests {
+    #![allow(clippy::unwrap_used, reason = "tests")]
+
     use super::spectra;
     use std::f64::consts::TAU;
 

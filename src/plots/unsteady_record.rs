@@ -28,29 +28,31 @@ impl UnsteadyRecord {
         })
     }
 
-    fn figure(&self, palette: &Palette, title: &str, [x, y]: [Axis; 2], data: &Arc<Pyramid>) -> Figure {
-        let data = Data::Record(Arc::clone(data));
-        Figure::new(title, x, y).with("measured", palette.measured, Look::Line(1.2), data)
-    }
-
     fn axis(&self) -> Axis {
         Axis::of(words::axis(self.channel.quantity, false))
     }
 
     /// The samples over time.
     pub(crate) fn over_time(&self, palette: &Palette, title: &str) -> Figure {
-        self.figure(palette, title, [Axis::new("Time", "s"), self.axis()], &self.samples)
+        figure(palette, title, [Axis::new("Time", "s"), self.axis()], &self.samples)
     }
 
     /// The amplitude spectrum through a Hann window; `None` of a record that is too short.
     pub(crate) fn over_frequency(&self, palette: &Palette, title: &str) -> Option<Figure> {
         let y = Axis::log("Amplitude", &self.axis().unit);
-        Some(self.figure(palette, title, [Axis::new("Frequency", "Hz"), y], self.spectrum.as_ref()?))
+        Some(figure(palette, title, [Axis::new("Frequency", "Hz"), y], self.spectrum.as_ref()?))
     }
+}
+
+fn figure(palette: &Palette, title: &str, [x, y]: [Axis; 2], data: &Arc<Pyramid>) -> Figure {
+    let data = Data::Record(Arc::clone(data));
+    Figure::new(title, x, y).with("measured", palette.measured, Look::Line(1.2), data)
 }
 
 #[cfg(test)]
 mod tests {
+    #![allow(clippy::unwrap_used, reason = "tests")]
+
     use super::UnsteadyRecord;
     use crate::measurement::transient_run::TransientLabel;
     use crate::measurement::{Channel, Kind, Quantity, Record, TransientRun};
