@@ -72,7 +72,7 @@ mod tests {
         let run = TransientRun::new(label, record, &[]).unwrap();
         let shown = UnsteadyRecord::new(&run, 0).unwrap();
         let figure = shown.over_frequency(Palette::light(), "Spectrum").unwrap();
-        assert_eq!((figure.x.unit.as_str(), figure.y.unit.as_str()), ("Hz", "m/s^2"));
+        assert_eq!((figure.x.unit.as_str(), figure.y.unit.as_str()), ("Hz", "m/s²"));
         let Data::Record(lines) = &figure.series[0].data else { panic!("a record") };
         let points = lines.polyline(0.0, 500.0, 4000);
         let peak = points.iter().max_by(|a, b| a[1].total_cmp(&b[1])).unwrap();
