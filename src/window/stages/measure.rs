@@ -1,7 +1,7 @@
 //! Measure: the runs with what is wrong with them, the record with its fit, the spectrum.
 
 use super::run_table::{Key, Order, common_folder};
-use super::unsteady;
+use super::unsteady::{self, FOLLOWS};
 use crate::display::{format, words};
 use crate::exchange::Project;
 use crate::measurement::{Quantity, Run};
@@ -69,7 +69,6 @@ impl Shown {
     }
 }
 
-pub(super) const FOLLOWS: &str = "It follows the run that is selected in the table.";
 const EMPTY: [&str; 2] =
     ["No runs yet", "Import files of measurements of any of the formats, or drop them on this window."];
 

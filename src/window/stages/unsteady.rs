@@ -1,6 +1,5 @@
 //! Records that are not steady, decays and transients, in the stage Measure: their table, their samples over time, their spectra.
 
-use super::measure::FOLLOWS;
 use crate::display::{format, words};
 use crate::exchange::Project;
 use crate::measurement::TransientRun;
@@ -12,6 +11,9 @@ use crate::window::widgets::UiExt;
 use egui::{Align, Layout, Role, Sense, Ui, WidgetInfo};
 use egui_extras::{Column, TableBuilder, TableRow};
 use std::sync::Arc;
+
+/// Where a pane is empty because no run is selected.
+pub(super) const FOLLOWS: &str = "It follows the run that is selected in the table.";
 
 /// A record by its file, and whether it is to be used from now on.
 pub(crate) type Ticked = Option<(String, bool)>;
