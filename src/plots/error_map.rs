@@ -44,8 +44,8 @@ pub struct Grid {
 }
 
 impl Grid {
-    /// The map of a comparison, worst runs first and worst channels on top, or in the order of the project. It is made in every
-    /// frame: its cost goes with the number of cells.
+    /// The map of a comparison, worst runs first and worst channels on top, or in the order of the project. Its cost
+    /// goes with the number of cells.
     pub fn new(comparison: &Comparison, worst_first: bool) -> Self {
         let runs = &comparison.runs;
         let (mut channels, numbers) = numbered(comparison);
