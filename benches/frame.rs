@@ -1,14 +1,19 @@
 //! A frame of the window without drawing its pixels: layout, plots and tessellation, at the Measure stage with sixteen
-//! channels of a million samples each under each other; close up, all of it, and while it is dragged. The goal is 8 ms.
+//! channels of a million samples each under each other; close up, all of it, and while it is dragged; and at every stage of a
+//! project of 2000 runs and 40 channels while the pointer moves. The goal is 8 ms.
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use dashpot::control::Control;
+use dashpot::effects::{Effect, Place, Source};
 use dashpot::measurement::{Channel, Quantity, Record, Run};
+use dashpot::response::dynamic_stiffness::DynamicStiffness;
+use dashpot::structure::chain::ChainParameters;
 use dashpot::window::App;
 use dashpot::window::document::Document;
 use dashpot::window::frame::panes::Pane;
 use dashpot::window::view::Stage;
 use egui::{Context, Event, Modifiers, PointerButton, Pos2, RawInput, Rect, pos2, vec2};
+use faer::c64;
 use std::f64::consts::TAU;
 use std::fmt::Write as _;
 use std::hint::black_box;
@@ -18,6 +23,9 @@ const CHANNELS: usize = 16;
 const SAMPLES: usize = 1_000_000;
 const RATE: f64 = 10_000.0;
 const FREQUENCY: f64 = 50.0;
+/// Runs and masses of the project of many runs.
+const RUNS: usize = 2000;
+const MASSES: usize = 40;
 
 /// A chain of sixteen masses with a record of a million samples.
 fn document() -> Document {
@@ -108,6 +116,76 @@ impl Window {
     }
 }
 
+/// A chain of forty masses as harmonics: 2000 runs at four levels about its first three resonances, an accelerometer a mass.
+fn many_runs() -> Document {
+    let folder = tempfile::tempdir().expect("a folder");
+    let list = |value: &str, n: usize| vec![value; n].join(", ");
+    let mut text = format!(
+        "[project]\nformat = 1\ntitle = \"Many runs\"\n[structure]\nkind = \"chain\"\nmasses = [{}]\n\
+         ground_stiffness = [1e5{}]\ncoupling_stiffness = [{}]\n[[source]]\nlaw = \"viscous\"\ndofs = [3]\nstate = \"known\"\n\
+         c = 2.0\n[[candidates]]\nlaw = \"viscous\"\nwhere = \"each-translation\"\n",
+        list("1.0", MASSES),
+        ", 0.0".repeat(MASSES - 1),
+        list("1e5", MASSES - 1)
+    );
+    let structure = ChainParameters {
+        masses: vec![1.0; MASSES],
+        ground_stiffness: std::iter::once(1e5).chain(std::iter::repeat_n(0.0, MASSES - 1)).collect(),
+        coupling_stiffness: vec![1e5; MASSES - 1],
+    }
+    .build(&[])
+    .expect("a chain");
+    let place = |dof: usize, c: f64| Source::known(Effect::Viscous, Place::Dofs(vec![dof]), &[c]);
+    let stiffness = DynamicStiffness::new(&structure, &[place(2, 2.0), place(20, 5.0)]).expect("a model");
+    let modes = structure.modes().expect("modes");
+    for level in 1..=4 {
+        let mut table = "run,frequency_hz,channel,harmonic,cos,sin".to_owned();
+        for step in 0..RUNS / 4 {
+            let across = (step / 3) as f64 / (RUNS / 12) as f64;
+            let omega = modes.omega[step % 3] * (0.94 + 0.12 * across);
+            let mut load = vec![c64::new(0.0, 0.0); MASSES];
+            load[MASSES - 1] = c64::new(f64::from(level), 0.0);
+            let x = stiffness.solve(omega, &load).expect("a response");
+            let (run, frequency) = (format!("sweep-{level}-{step:03}"), omega / TAU);
+            let _ = write!(table, "\n{run},{frequency:.9},force@{MASSES} [N],1,{level},0");
+            for (k, x) in x.iter().enumerate() {
+                let y = x * (-omega * omega) * (1.0 + 0.004 * ((step * 7 + k * 3) % 11) as f64 / 5.0);
+                let _ = write!(table, "\n{run},{frequency:.9},acc@{} [m/s^2],1,{:.9e},{:.9e}", k + 1, y.re, -y.im);
+            }
+        }
+        let path = folder.path().join(format!("sweep-{level}.csv"));
+        dashpot::exchange::atomic::write_atomically(&path, table.as_bytes()).expect("a file");
+        let _ = write!(text, "[[harmonics]]\nfile = \"sweep-{level}.csv\"\nlevel = {level}\n");
+    }
+    let path = folder.path().join("project.toml");
+    dashpot::exchange::atomic::write_atomically(&path, text.as_bytes()).expect("a file");
+    Document::open(&path, &Control::unattended()).expect("a project").0
+}
+
+/// Every stage of a project of many runs while the pointer moves over it.
+fn bench_many_runs(c: &mut Criterion) {
+    let ctx = Context::default();
+    dashpot::window::theme::install(&ctx);
+    let mut app = App::default();
+    app.loaded(many_runs(), false);
+    // A search for what is missing ends by then, with the best so far.
+    app.view.limit_s = Some(10.0);
+    let mut window = Window { ctx, app, time: 0.0 };
+    for stage in Stage::ALL {
+        window.app.view.stage = stage;
+        window.frame(Vec::new());
+        window.settle();
+        let mut turn = 0_u32;
+        c.bench_function(&format!("frame, {RUNS} runs x {MASSES} channels, {}", stage.label()), |b| {
+            b.iter(|| {
+                turn += 1;
+                let at = pos2(60.0 + 20.0 * (turn % 40) as f32, 620.0 + (turn % 7) as f32);
+                black_box(window.frame(vec![Event::PointerMoved(at)]))
+            });
+        });
+    }
+}
+
 fn bench(c: &mut Criterion) {
     let ctx = Context::default();
     dashpot::window::theme::install(&ctx);
@@ -143,5 +221,5 @@ fn bench(c: &mut Criterion) {
     println!("{} triangles while dragged", window.frame(vec![Event::PointerMoved(pos2(at.x + 200.0, at.y))]));
 }
 
-criterion_group!(benches, bench);
+criterion_group!(benches, bench, bench_many_runs);
 criterion_main!(benches);

@@ -70,7 +70,8 @@ pub(super) fn run(arguments: &Diagnose) -> anyhow::Result<String> {
         }
         return Ok(format!("{}\n", serde_json::to_string_pretty(&document)?));
     }
-    Ok(format!("{}{}", text(&project, &diagnosis), run_flags::text(&project)))
+    let written = arguments.apply.as_ref().map_or_else(String::new, |out| format!("\nWritten: {}.\n", out.display()));
+    Ok(format!("{}{}{written}", text(&project, &diagnosis), run_flags::text(&project)))
 }
 
 /// A project, and what was identified and taken as known beside what its file says.

@@ -62,7 +62,7 @@ pub(super) fn run(arguments: &Plot) -> anyhow::Result<String> {
     let drawn = plotter.draw().with_context(|| arguments.file.display().to_string())?;
     let text = if ending == "svg" { svg::write(&drawn.drawing) } else { csv(&drawn.table) };
     write(&arguments.out, &text)?;
-    Ok(String::new())
+    Ok(format!("Written: {}.\n", arguments.out.display()))
 }
 
 fn write(path: &Path, text: &str) -> anyhow::Result<()> {

@@ -99,8 +99,13 @@ pub fn explained(error: f64, noise_floor: f64) -> String {
 
 /// The verdict as a sentence.
 pub fn sentence(diagnosis: &Diagnosis) -> String {
-    let times = diagnosis.error_before / diagnosis.noise_floor.max(f64::MIN_POSITIVE);
-    let (error, floor) = (in_words(diagnosis.error_before), format::percent(diagnosis.noise_floor));
+    sentence_of(diagnosis, [diagnosis.error_before, diagnosis.noise_floor])
+}
+
+/// The verdict as a sentence with an error of the model as it is and a noise floor, shares, that were computed elsewhere.
+pub fn sentence_of(diagnosis: &Diagnosis, [before, noise_floor]: [f64; 2]) -> String {
+    let times = before / noise_floor.max(f64::MIN_POSITIVE);
+    let (error, floor) = (in_words(before), format::percent(noise_floor));
     match diagnosis.verdict {
         _ if is_stuck(diagnosis) => format!(
             "The error of {error} is more than noise makes ({floor}), but neither a law known here nor a correction of the \
@@ -113,8 +118,8 @@ pub fn sentence(diagnosis: &Diagnosis) -> String {
                 "It is only detuned: with the corrections below its error falls from {error} to {after} (noise {floor})."
             )
         }
-        Verdict::Adequate | Verdict::Detuned => explained(diagnosis.error_before, diagnosis.noise_floor),
-        _ if diagnosis.error_before > 10.0 => {
+        Verdict::Adequate | Verdict::Detuned => explained(before, noise_floor),
+        _ if before > 10.0 => {
             format!("The model is wrong by {error}: at these frequencies hardly anything in it takes out energy.")
         }
         Verdict::Missing => {

@@ -44,47 +44,67 @@ pub struct Grid {
 }
 
 impl Grid {
-    /// The map of a comparison, worst runs first and worst channels on top, or in the order of the project.
+    /// The map of a comparison, worst runs first and worst channels on top, or in the order of the project. Its cost
+    /// goes with the number of cells.
     pub fn new(comparison: &Comparison, worst_first: bool) -> Self {
-        let mut channels: Vec<String> = Vec::new();
-        for name in comparison.runs.iter().flat_map(|r| r.channels.iter().map(|c| &c.channel)) {
-            if !channels.contains(name) {
-                channels.push(name.clone());
-            }
-        }
-        if channels.is_empty() {
-            channels.push(ENERGY.to_owned());
-        }
-        let mut order: Vec<usize> = (0..comparison.runs.len()).collect();
+        let runs = &comparison.runs;
+        let (mut channels, numbers) = numbered(comparison);
+        let mut order: Vec<usize> = (0..runs.len()).collect();
+        let mut rows: Vec<usize> = (0..channels.len()).collect();
         if worst_first {
-            let key = |k: &usize| (comparison.runs[*k].used, comparison.runs[*k].error);
-            order.sort_by(|a, b| {
-                let ((used_a, a), (used_b, b)) = (key(a), key(b));
-                used_b.cmp(&used_a).then(b.total_cmp(&a))
+            order.sort_by(|&a, &b| {
+                let (a, b) = (&runs[a], &runs[b]);
+                b.used.cmp(&a.used).then(b.error.total_cmp(&a.error))
             });
-            let mean = |name: &str| {
-                let used = comparison.runs.iter().filter(|r| r.used);
-                let square = |c: &crate::diagnosis::residual::comparison::ChannelComparison| c.error * c.error;
-                used.flat_map(|r| r.channels.iter().filter(|c| c.channel == name).map(square)).sum::<f64>()
-            };
-            channels.sort_by(|a, b| mean(b).total_cmp(&mean(a)));
-        }
-        let cell = |name: &str, k: usize| {
-            let run = &comparison.runs[k];
-            if run.channels.is_empty() {
-                return Some(Cell { error: run.error, noise_floor: comparison.noise_floor });
+            let mut squares = vec![0.0; channels.len()];
+            for (run, own) in runs.iter().zip(&numbers).filter(|(run, _)| run.used) {
+                run.channels.iter().zip(own).for_each(|(c, &k)| squares[k] += c.error * c.error);
             }
-            let channel = run.channels.iter().find(|c| c.channel == name)?;
-            Some(Cell { error: channel.error, noise_floor: channel.noise_floor })
-        };
-        let cells = channels.iter().map(|name| order.iter().map(|&k| cell(name, k)).collect()).collect();
+            rows.sort_by(|&a, &b| squares[b].total_cmp(&squares[a]));
+        }
+        let mut row_of = vec![0; channels.len()];
+        rows.iter().enumerate().for_each(|(row, &k)| row_of[k] = row);
+        if channels.is_empty() {
+            (channels, rows) = (vec![ENERGY.to_owned()], vec![0]);
+        }
+        let mut cells = vec![vec![None; runs.len()]; rows.len()];
+        for (column, &k) in order.iter().enumerate() {
+            let run = &runs[k];
+            if run.channels.is_empty() {
+                let whole = Some(Cell { error: run.error, noise_floor: comparison.noise_floor });
+                cells.iter_mut().for_each(|row| row[column] = whole);
+            }
+            for (c, &number) in run.channels.iter().zip(&numbers[k]) {
+                let cell = &mut cells[row_of[number]][column];
+                *cell = cell.or(Some(Cell { error: c.error, noise_floor: c.noise_floor }));
+            }
+        }
         Self {
-            runs: order.iter().map(|&k| comparison.runs[k].index).collect(),
-            used: order.iter().map(|&k| comparison.runs[k].used).collect(),
-            channels,
+            runs: order.iter().map(|&k| runs[k].index).collect(),
+            used: order.iter().map(|&k| runs[k].used).collect(),
+            channels: rows.iter().map(|&k| channels[k].clone()).collect(),
             cells,
         }
     }
+}
+
+/// All channels in the order in which the runs name them first, and the numbers in that list of the channels of every run.
+fn numbered(comparison: &Comparison) -> (Vec<String>, Vec<Vec<usize>>) {
+    let mut channels: Vec<String> = Vec::new();
+    let mut numbers = Vec::with_capacity(comparison.runs.len());
+    for run in &comparison.runs {
+        let mut own = Vec::with_capacity(run.channels.len());
+        for (place, c) in run.channels.iter().enumerate() {
+            // Nearly all runs have the same channels in the same order.
+            let there = channels.get(place).is_some_and(|name| *name == c.channel).then_some(place);
+            own.push(there.or_else(|| channels.iter().position(|name| *name == c.channel)).unwrap_or_else(|| {
+                channels.push(c.channel.clone());
+                channels.len() - 1
+            }));
+        }
+        numbers.push(own);
+    }
+    (channels, numbers)
 }
 
 /// Logarithmic scale of colours from the noise floor to the largest error.
@@ -233,6 +253,23 @@ mod tests {
         assert_eq!(grid.cells[0][0], Some(Cell { error: 0.3, noise_floor: 0.01 }));
         let plain = Grid::new(&comparison(), false);
         assert_eq!((plain.runs, plain.channels[0].as_str()), (vec![0, 1, 2], "acc@1"));
+    }
+
+    /// Channels that runs name in other orders, or lack, stand in the rows of their names.
+    #[test]
+    fn every_cell_holds_the_error_of_its_run_and_channel() {
+        let mut mixed = comparison();
+        mixed.runs[1].channels.reverse();
+        mixed.runs[2].channels.remove(0);
+        for worst_first in [true, false] {
+            let grid = Grid::new(&mixed, worst_first);
+            for (row, name) in grid.channels.iter().enumerate() {
+                for (column, &run) in grid.runs.iter().enumerate() {
+                    let own = mixed.runs[run].channels.iter().find(|c| c.channel == *name);
+                    assert_eq!(grid.cells[row][column].map(|c| c.error), own.map(|c| c.error), "{name}, run {run}");
+                }
+            }
+        }
     }
 
     #[test]

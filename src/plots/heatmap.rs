@@ -101,8 +101,12 @@ impl HeatMap<'_> {
                 let rect = Rect::from_min_size(at, Vec2::splat(cell)).shrink((0.02 * cell).min(0.5));
                 let fill = if value == 0.0 { palette.raised } else { palette.diverging((value / largest) as f32) };
                 drawing.rect(rect, fill, Stroke::NONE);
-                if cell >= 30.0 && value != 0.0 {
-                    let text = format::significant(value, 3);
+                if cell < 30.0 || value == 0.0 {
+                    continue;
+                }
+                let text = format::significant(value, 3);
+                // A number that is wider than its cell would run into the next one.
+                if LETTER * text.chars().count() as f32 + 2.0 <= cell {
                     drawing.words(rect.center(), Align2::CENTER_CENTER, text, type_size, palette.text_on(fill));
                 }
             }

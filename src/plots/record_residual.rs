@@ -84,15 +84,76 @@ impl RecordResidual {
     }
 }
 
-/// Amplitude spectra of samples `step` s apart.
+/// Share of the largest line of what was measured below which no line is drawn: 120 dB, beyond the range of any converter.
+const RANGE: f64 = 1e-6;
+/// Share of the quiet tenth of the measured lines, their noise, below which no line is drawn: 20 dB.
+const BELOW_NOISE: f64 = 0.1;
+
+/// The amplitude that the least lines of a plot are drawn at: a model's record has no noise, and would take the axis down to
+/// rounding errors.
+fn floor(measured: &[f64]) -> f64 {
+    let mut lines = measured.to_vec();
+    let peak = lines.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
+    let tenth = lines.len() / 10;
+    let quiet = if lines.is_empty() { 0.0 } else { *lines.select_nth_unstable_by(tenth, f64::total_cmp).1 };
+    (RANGE * peak).max(BELOW_NOISE * quiet)
+}
+
+/// Lines of a spectrum over frequency without the mean, none below `floor`.
+fn lines(spectrum: &Spectrum, floor: f64) -> Arc<Pyramid> {
+    let lines = 1..spectrum.amplitude.len();
+    let frequencies: Vec<f64> = lines.clone().map(|k| spectrum.frequency_hz(k)).collect();
+    let amplitudes: Vec<f64> = lines.map(|k| spectrum.amplitude[k].max(floor)).collect();
+    Arc::new(Pyramid::new(&frequencies, &amplitudes))
+}
+
+/// Amplitude spectrum of samples `step` s apart that were measured; `None` where they are too few.
+pub(super) fn spectrum_of(measured: &[f64], step: f64) -> Option<Arc<Pyramid>> {
+    let spectrum = Spectrum::new(measured, step)?;
+    let floor = floor(spectrum.amplitude.get(1..)?);
+    Some(lines(&spectrum, floor))
+}
+
+/// Amplitude spectra of samples `step` s apart; the first are those that were measured.
 fn spectra(three: [&[f64]; 3], step: f64) -> Option<Three> {
-    let line = |y: &[f64]| {
-        let spectrum = Spectrum::new(y, step)?;
-        let lines = 1..spectrum.amplitude.len();
-        let frequencies: Vec<f64> = lines.clone().map(|k| spectrum.frequency_hz(k)).collect();
-        let amplitudes: Vec<f64> = lines.map(|k| spectrum.amplitude[k].max(f64::MIN_POSITIVE)).collect();
-        Some(Arc::new(Pyramid::new(&frequencies, &amplitudes)))
-    };
-    let [measured, model, left] = three;
-    Some([line(measured)?, line(model)?, line(left)?])
+    let measured = Spectrum::new(three[0], step)?;
+    let floor = floor(measured.amplitude.get(1..)?);
+    let [_, model, left] = three;
+    let line = |y: &[f64]| Some(lines(&Spectrum::new(y, step)?, floor));
+    Some([lines(&measured, floor), line(model)?, line(left)?])
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "tests")]
+
+    use super::spectra;
+    use std::f64::consts::TAU;
+
+    fn wave(n: usize, noise: f64) -> Vec<f64> {
+        let mut seed = 1_u64;
+        let sample = |k: usize| {
+            seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            (TAU * 0.05 * k as f64).cos() + noise * ((seed >> 33) as f64 / f64::from(1_u32 << 31) - 0.5)
+        };
+        (0..n).map(sample).collect()
+    }
+
+    /// Decades between the least and the largest line of all three.
+    fn decades(noise: f64) -> f64 {
+        let (measured, model) = (wave(4000, noise), wave(4000, 0.0));
+        let left: Vec<f64> = measured.iter().zip(&model).map(|(y, m)| y - m).collect();
+        let three = spectra([&measured, &model, &left], 1e-3).unwrap();
+        let [low, high] = three.iter().map(|p| p.range()).fold([f64::MAX, 0.0], |[a, b], [l, h]| [a.min(l), b.max(h)]);
+        (high / low).log10()
+    }
+
+    #[test]
+    fn the_axis_of_spectra_ends_a_little_below_the_noise() {
+        // Lines of white noise of amplitude 0.005 in 4000 samples lie near 1e-4.
+        let noisy = decades(1e-2);
+        assert!((4.0..5.6).contains(&noisy), "{noisy} decades");
+        let quiet = decades(0.0);
+        assert!((quiet - 6.0).abs() < 1e-9, "{quiet} decades without noise");
+    }
 }

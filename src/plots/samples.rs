@@ -2,7 +2,7 @@
 
 use super::response_curve as curve;
 use crate::diagnosis::Comparison;
-use crate::diagnosis::residual::comparison::ChannelComparison;
+use crate::diagnosis::residual::comparison::{ChannelComparison, RunComparison};
 use crate::exchange::Project;
 use crate::measurement::Quantity;
 use faer::c64;
@@ -26,15 +26,27 @@ pub struct Sample {
 
 /// The channel of a run in a comparison.
 pub fn channel<'a>(comparison: &'a Comparison, run: usize, name: &str) -> Option<&'a ChannelComparison> {
-    comparison.runs.iter().find(|r| r.index == run)?.channels.iter().find(|c| c.channel == name)
+    run_of(comparison, run)?.channels.iter().find(|c| c.channel == name)
+}
+
+/// Run number `run` of the project: it nearly always stands at that place, and this is asked of every run in every frame.
+fn run_of(comparison: &Comparison, run: usize) -> Option<&RunComparison> {
+    let runs = &comparison.runs;
+    runs.get(run).filter(|r| r.index == run).or_else(|| runs.iter().find(|r| r.index == run))
 }
 
 /// All runs that have the channel and a force.
 pub fn samples(p: &Project, comparison: &Comparison, trial: Option<&Comparison>, name: &str) -> Vec<Sample> {
-    let sample_of = |run: usize| {
+    // Nearly all runs have the channel at the same place among theirs.
+    let mut place = 0;
+    let mut sample_of = |run: usize| {
         let (_, force) = curve::force(p, run)?;
+        let now = run_of(comparison, run)?;
+        if now.channels.get(place).is_none_or(|c| c.channel != name) {
+            place = now.channels.iter().position(|c| c.channel == name)?;
+        }
+        let now = now.channels[place].harmonics.first().copied()?;
         let first = |c: &Comparison| channel(c, run, name)?.harmonics.first().copied();
-        let now = first(comparison)?;
         (force.norm() > 0.0).then(|| Sample {
             run,
             frequency: p.runs[run].frequency_hz(),
@@ -44,7 +56,7 @@ pub fn samples(p: &Project, comparison: &Comparison, trial: Option<&Comparison>,
             trial: trial.and_then(first).map(|h| h.model / force),
         })
     };
-    (0..p.runs.len()).filter_map(sample_of).collect()
+    (0..p.runs.len()).filter_map(&mut sample_of).collect()
 }
 
 /// Degrees.

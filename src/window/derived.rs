@@ -16,7 +16,7 @@ use crate::measurement::Quantity;
 use crate::plots::bode::Response;
 use crate::plots::forward;
 use crate::plots::hysteresis::Loop;
-use crate::plots::pyramid::Pyramid;
+use crate::plots::unsteady_record::UnsteadyRecord;
 use crate::session::Revisions;
 use crate::session::states::{self, Against, Compared};
 use crate::structure::modes::Modes;
@@ -41,7 +41,7 @@ pub struct Derived {
     methods: Cache<u64, SideBySide>,
     incompleteness: Cache<u64, Incompleteness>,
     change: Cache<(u64, Against), Compared>,
-    unsteady: Cache<(u64, usize, usize), Pyramid>,
+    unsteady: Cache<(u64, usize, usize), UnsteadyRecord>,
     prepared_records: PreparedRecords,
     seen: Revisions,
     /// Of the stage Explain.
@@ -154,13 +154,13 @@ impl Derived {
         ctx: &Context,
         document: &Document,
         [record, channel]: [usize; 2],
-    ) -> Option<Cached<Pyramid>> {
+    ) -> Option<Cached<UnsteadyRecord>> {
         let key = (document.session().revisions().measurements, record, channel);
         self.unsteady.obtain(ctx, &key, || {
             let run = document.project.transient_runs.get(record).cloned();
             move |_: &Control| {
-                let run = run.ok_or("there is no such record")?;
-                Ok(Pyramid::new(run.time(), run.samples(channel)))
+                let found = run.as_ref().and_then(|run| UnsteadyRecord::new(run, channel));
+                found.ok_or_else(|| "there is no such record".to_owned())
             }
         })
     }

@@ -3,6 +3,7 @@
 use super::app::App;
 use super::frame::top::StageStatus;
 use super::stages;
+use super::stages::identified::{NO_CANDIDATES, has_candidates};
 use super::view::Stage;
 use crate::display::words;
 use crate::effects::State;
@@ -47,6 +48,8 @@ impl App {
                 Some(Err(_)) if p.runs.iter().all(|r| !r.enabled) && !has_records(p) => {
                     StageStatus::empty("There are no runs to identify from.")
                 }
+                // Nothing is wrong with a model all of whose sources are known.
+                Some(Err(_)) if !has_candidates(p) => StageStatus::empty(NO_CANDIDATES),
                 Some(Err(error)) => StageStatus::attention(&error),
                 Some(Ok(outcome)) => {
                     let text = format!(

@@ -66,7 +66,7 @@ pub(crate) fn width(ui: &Ui, text: &str, font: FontId) -> f32 {
 pub(crate) trait UiExt {
     /// Colours of the theme in force.
     fn palette(&self) -> &'static Palette;
-    /// Title of a pane with a second-rank remark beside it.
+    /// Title of a pane with a second-rank remark beside it, or under it where there is no room.
     fn title(&mut self, title: &str, remark: &str);
     /// Second-rank text of small size.
     fn hint(&mut self, text: impl Into<String>) -> Response;
@@ -95,13 +95,20 @@ impl UiExt for Ui {
     }
 
     fn title(&mut self, title: &str, remark: &str) {
+        let [own, beside] =
+            [(title, size::HEADING), (remark, size::SMALL)].map(|(t, s)| width(self, t, theme::font(s)));
+        // A remark that is longer than the room beside the title stands under it; in a row there is no such place.
+        let below = self.layout().is_vertical() && own + beside + space::S > self.available_width();
         self.horizontal(|ui| {
             let label = ui.label(RichText::new(title).size(size::HEADING).color(ui.palette().ink));
             explained(label, glossary::meaning(title));
-            if !remark.is_empty() {
+            if !remark.is_empty() && !below {
                 ui.add(Label::new(RichText::new(remark).size(size::SMALL).color(ui.palette().weak)).truncate());
             }
         });
+        if below && !remark.is_empty() {
+            self.hint(remark);
+        }
     }
 
     fn hint(&mut self, text: impl Into<String>) -> Response {

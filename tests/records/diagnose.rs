@@ -141,6 +141,11 @@ fn the_error_after_adding_is_the_one_that_was_promised() {
     let project = Project::new(model, &[at(Effect::Coulomb, 4, &[0.02])]);
     let diagnosis = project.diagnosed(&Control::unattended());
     found(&diagnosis, Effect::Coulomb, 4, 0.02);
+    // Error and noise floor of the model as it is are those that comparing shows.
+    let as_is = compare_records(&project.records(), &[], &Control::unattended()).unwrap();
+    assert!((diagnosis.error_before / as_is.error - 1.0).abs() < 1e-9, "{} {}", diagnosis.error_before, as_is.error);
+    let floors = [diagnosis.noise_floor, as_is.noise_floor];
+    assert!((floors[0] / floors[1] - 1.0).abs() < 1e-9 && floors[0] > 0.0, "{floors:?}");
     let applied = project.applied(&diagnosis);
     let error = compare_records(&applied.records(), &[], &Control::unattended()).unwrap().error;
     let promised = diagnosis.suggestions[0].error_after;

@@ -117,11 +117,15 @@ fn two_thousand_runs_stay_fluid() {
     let sample = many(2000, 8);
     let mut harness = open(&sample, Theme::Light);
     assert_eq!(harness.state().document.as_ref().unwrap().project.runs.len(), 2000);
-    for stage in [Stage::Measure, Stage::Structure, Stage::Select, Stage::Result] {
+    let mut slow = Vec::new();
+    for stage in Stage::ALL {
         harness.state_mut().view.stage = stage;
         settle(&mut harness);
         let time = frame_time(&mut harness);
         println!("{}: {:.1} ms a frame, drawing aside", stage.label(), 1e3 * time);
-        assert!(time < FLUID, "{}: {:.1} ms a frame", stage.label(), 1e3 * time);
+        if time >= FLUID {
+            slow.push(format!("{}: {:.1} ms a frame", stage.label(), 1e3 * time));
+        }
     }
+    assert!(slow.is_empty(), "{slow:?}");
 }

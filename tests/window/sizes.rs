@@ -17,6 +17,8 @@ const SMALLEST: [f32; 2] = [1024.0, 700.0];
 const LAPTOP: [f32; 2] = [1280.0, 800.0];
 /// A screen of 1600 by 1080 pixels with words of 150 %.
 const LARGE_WORDS: [f32; 2] = [1066.0, 720.0];
+/// A large screen.
+const LARGE: [f32; 2] = [1920.0, 1080.0];
 /// A screen of 1920 by 1080 pixels with words of 200 % and of 80 %.
 const LARGEST_WORDS: [f32; 2] = [960.0, 540.0];
 const SMALLEST_WORDS: [f32; 2] = [2400.0, 1350.0];
@@ -81,6 +83,20 @@ fn pictures_of_explain_at_1024_by_700() {
 #[test]
 fn pictures_of_explain_at_1280_by_800() {
     drop(pictures(&friction(), &[Stage::Explain], LAPTOP));
+}
+
+/// The stages with most in them; at 200 % they are as large as the pictures are small.
+#[test]
+fn pictures_with_words_of_200_per_cent() {
+    let mut results = pictures(&beam(), &[Stage::Select, Stage::Result], LARGEST_WORDS);
+    results.extend(pictures(&friction(), &[Stage::Explain], LARGEST_WORDS));
+}
+
+#[test]
+fn legible_on_a_large_screen() {
+    legible(&beam(), &stages(), LARGE);
+    legible(&chain(), &stages(), LARGE);
+    legible(&friction(), &[Stage::Explain], LARGE);
 }
 
 #[test]

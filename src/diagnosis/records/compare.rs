@@ -182,10 +182,25 @@ pub(super) fn struck(record: &RecordData) -> Option<f64> {
     (end < 0.25).then_some(end)
 }
 
-fn compared(records: &Records, record: &RecordData, model: Vec<Vec<f64>>) -> OneRecord {
+/// What noise would leave of all records, root mean square over channels, as [`compare_records`] tells it of the same model.
+pub(super) fn noise_floor(records: &Records, fitted: &FittedRecords) -> Result<f64, RecordError> {
+    let mut all = Vec::new();
+    for (r, record) in records.list.iter().enumerate() {
+        let model = fitted.predict(records, r, record.len(), &[])?.channels;
+        let own = floors(record, &records.deviations(record, &left(record, &model)));
+        all.push(root_mean_square(&own));
+    }
+    Ok(root_mean_square(&all))
+}
+
+/// What a model leaves of every sample, one list a channel.
+fn left(record: &RecordData, model: &[Vec<f64>]) -> Vec<Vec<f64>> {
     let rest = |(y, m): (&Vec<f64>, &Vec<f64>)| y.iter().zip(m).map(|(y, m)| y - m).collect();
-    let left: Vec<Vec<f64>> = record.samples.iter().zip(&model).map(rest).collect();
-    let deviations = records.deviations(record, &left);
+    record.samples.iter().zip(model).map(rest).collect()
+}
+
+fn compared(records: &Records, record: &RecordData, model: Vec<Vec<f64>>) -> OneRecord {
+    let deviations = records.deviations(record, &left(record, &model));
     let errors = channel_errors(record, &model, 0..record.len());
     let floors = floors(record, &deviations);
     let names = record.channels.iter().map(ToString::to_string);
@@ -203,7 +218,7 @@ fn compared(records: &Records, record: &RecordData, model: Vec<Vec<f64>>) -> One
 }
 
 /// Deviation of the samples over the signal of every channel, by the measure of [`channel_errors`].
-pub(crate) fn floors(record: &RecordData, deviations: &[Vec<f64>]) -> Vec<f64> {
+fn floors(record: &RecordData, deviations: &[Vec<f64>]) -> Vec<f64> {
     let clean = |c: usize| record.samples[c].iter().zip(&deviations[c]).map(|(y, s)| y - s).collect::<Vec<f64>>();
     let shifted: Vec<Vec<f64>> = (0..record.channels.len()).map(clean).collect();
     channel_errors(record, &shifted, 0..record.len())

@@ -8,7 +8,7 @@
 //!    samples over which it stays alike, so that many samples of one error do not count as many.
 //! 4. An effect is kept if it also predicts the last part of each record from a fit on the rest.
 
-use super::compare::{floors, started};
+use super::compare::{noise_floor, started};
 use super::data::{RecordError, Records};
 use super::evidence::{AGREES, evidence, misfit, scale};
 use super::fitted::FittedRecords;
@@ -18,7 +18,6 @@ use super::telling::{last_deviations, suggestions};
 use crate::control::Control;
 use crate::diagnosis::result::{Diagnosis, Early, Step, Verdict};
 use crate::effects::{Effect, Source};
-use crate::math::statistics::root_mean_square;
 use crate::measurement::TransientRun;
 
 /// Squared corrections over their prior deviations beyond which an effect that makes them needless is looked for: of all, and of each
@@ -64,14 +63,14 @@ pub fn diagnose_records(
     early: &Early,
 ) -> Result<Diagnosis, RecordError> {
     let bare = started(records, &[], control)?;
-    let floors: Vec<f64> = records.list.iter().flat_map(|r| floors(r, &r.sigma)).collect();
+    // Both as comparing the project shows them: one error and one noise floor of a record, whoever asks.
+    let (before, noise_floor) = (bare.error(records, 0.0, 1.0)?, noise_floor(records, &bare)?);
     let weighted = records.weighted(&bare.residual);
     let search = Search::new(&weighted, records, (excluded, records.structure, &[]), control);
     let bare = search.quiet(search.levels.len() - 1, &bare)?;
-    let before = bare.error(&weighted, 0.0, 1.0)?;
     let mut diagnosis = Diagnosis {
         error_before: before,
-        noise_floor: root_mean_square(&floors),
+        noise_floor,
         verdict: Verdict::Adequate,
         suggestions: Vec::new(),
         steps: vec![Step { added: Vec::new(), error: before, misfit: misfit(&bare) }],

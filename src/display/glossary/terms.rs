@@ -43,6 +43,7 @@ pub const TERMS: &[Term] = &[
         "The structure with its degrees of freedom, sensors, exciters, supports and sources; what is clicked here is selected everywhere.",
     ),
     term("Inspector", &[], "The values of what is selected, with their units; those in fields can be changed."),
+    term("Records over time", &[], "Records of tests that are not steady: ring-downs, hammer tests, sweeps, noise."),
     term(
         "Runs",
         &["Run"],

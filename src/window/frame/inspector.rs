@@ -48,7 +48,12 @@ fn project(ui: &mut Ui, p: &Project, asks: &mut Vec<Ask>) {
     ui.pair("Structure", words::kind(p.structure.kind()));
     ui.pair("Degrees of freedom", p.structure.len().to_string());
     ui.pair("Nodes", p.structure.nodes().len().to_string());
-    ui.pair("Runs", p.runs.len().to_string());
+    if !p.runs.is_empty() || p.transient_runs.is_empty() {
+        ui.pair("Runs", p.runs.len().to_string());
+    }
+    if !p.transient_runs.is_empty() {
+        ui.pair("Records over time", p.transient_runs.len().to_string());
+    }
     for state in [State::Candidate, State::Forced, State::Known, State::Reference, State::Off] {
         let count = p.sources.iter().filter(|s| s.state == state).count();
         if count > 0 {

@@ -4,7 +4,9 @@ use crate::display::{format, words};
 use crate::identify::Outcome;
 use crate::window::app::{App, Ask};
 use crate::window::commands::Command;
+use crate::window::document::Document;
 use crate::window::theme::{Palette, size};
+use crate::window::view::Stage;
 use crate::window::widgets::UiExt;
 use egui::{Align, Button, Frame, Layout, Margin, Panel, ProgressBar, RichText, Ui};
 
@@ -63,18 +65,27 @@ pub(crate) fn error_and_floor(outcome: &Outcome) -> (f64, f64) {
     (outcome.accepted_step().relative_error, (square(&|r| r.energy_deviation) / measured).sqrt())
 }
 
+/// What the stage is about, each error with the noise floor that belongs to it: the error of the motion and its floor at the stage
+/// Explain, as in all its panes; those of the energy balance elsewhere, which are other figures of the same records.
+fn errors(app: &App, document: &Document) -> Vec<String> {
+    let said = |error: String, floor: f64| {
+        let floor = (floor > 0.0).then(|| format!("noise floor {}", format::percent(floor)));
+        std::iter::once(error).chain(floor).collect()
+    };
+    if app.view.stage == Stage::Explain {
+        let Some(Ok(c)) = app.derived.explained.comparison(document) else { return Vec::new() };
+        return said(format!("error {}", format::in_words(c.error)), c.noise_floor);
+    }
+    let Some(Ok(outcome)) = app.derived.known_outcome(document) else { return Vec::new() };
+    let (error, floor) = error_and_floor(&outcome);
+    said(format!("energy error {}", format::percent(error)), floor)
+}
+
 fn summary(ui: &mut Ui, app: &App) {
     let Some(document) = &app.document else { return };
     let p = &document.project;
     let used = p.runs.iter().filter(|r| r.enabled).count();
-    let mut parts = Vec::new();
-    if let Some(Ok(outcome)) = app.derived.known_outcome(document) {
-        let (error, floor) = error_and_floor(&outcome);
-        parts.push(format!("energy error {}", format::percent(error)));
-        if floor > 0.0 {
-            parts.push(format!("noise floor {}", format::percent(floor)));
-        }
-    }
+    let mut parts = errors(app, document);
     if !p.runs.is_empty() || p.transient_runs.is_empty() {
         parts.push(format!("{used} of {} runs", p.runs.len()));
     }

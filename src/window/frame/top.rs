@@ -243,7 +243,9 @@ fn stages(ui: &mut Ui, app: &App, asks: &mut Vec<Ask>) {
 
 /// Why the stage stands where it stands: on one line, or where there is little room on two.
 fn reason(ui: &mut Ui, text: &str, colour: Color32) {
-    let words = folded(ui, text, theme::font(size::SMALL), colour, ui.available_width(), 2);
+    // A number and its sign stay on one line.
+    let together = text.replace(" %", "\u{a0}%");
+    let words = folded(ui, &together, theme::font(size::SMALL), colour, ui.available_width(), 2);
     let (rect, response) = ui.allocate_exact_size(words.size(), Sense::hover());
     response.widget_info(|| WidgetInfo::labeled(Role::Label, true, text));
     ui.painter().galley(rect.min, words, colour);

@@ -60,11 +60,14 @@ pub(crate) fn paint(painter: &Painter, palette: &Palette, scene: &Scene, layout:
     drag(painter, palette, marks);
 }
 
+/// Share below which nothing is drawn.
+const FAINT: f32 = 0.001;
+
 fn halos(painter: &Painter, palette: &Palette, layout: &Layout, marks: &Marks<'_>) {
     let Some(shares) = marks.shares else { return };
     for handle in &layout.handles {
         let share = shares.get(handle.dof).copied().unwrap_or(0.0);
-        if share > 0.001 {
+        if share > FAINT {
             let radius = handle.radius + 4.0 + 14.0 * share.sqrt();
             let colour = if marks.errors { palette.missing } else { palette.model };
             painter.circle_filled(handle.pos, radius, colour.gamma_multiply(0.16 + 0.3 * share));
@@ -175,14 +178,25 @@ fn name(painter: &Painter, palette: &Palette, scene: &Scene, layout: &Layout, ha
         painter.text(handle.label, Align2::CENTER_CENTER, text, font, palette.ink);
         return;
     }
-    let colour = if lit { palette.accent } else { palette.weak };
+    // On a halo small grey words could not be read, and a pale ground behind them would tear it.
+    let haloed = marks.shares.and_then(|s| s.get(handle.dof)).is_some_and(|share| *share > FAINT);
+    let colour = if lit {
+        palette.accent
+    } else if haloed {
+        palette.ink
+    } else {
+        palette.weak
+    };
     let words = painter.layout_no_wrap(text, font, colour);
     let rect = Align2::LEFT_CENTER.anchor_size(handle.label, words.size());
     let hidden = |ends: &[Pos2; 2]| Rect::from_two_pos(ends[0], ends[1]).expand2(vec2(4.0, 2.0)).intersects(rect);
     let mirrored = 2.0 * handle.pos.x - rect.right();
     // Lines behind a label fade, so that it can be read.
-    let ground =
-        |rect: Rect| painter.rect_filled(rect.shrink2(vec2(0.0, 2.0)), 2.0, palette.canvas.gamma_multiply(0.7));
+    let ground = |rect: Rect| {
+        if !haloed {
+            painter.rect_filled(rect.shrink2(vec2(0.0, 2.0)), 2.0, palette.canvas.gamma_multiply(0.7));
+        }
+    };
     if !layout.exciters.iter().any(|(_, ends)| hidden(ends)) {
         ground(rect);
         painter.galley(rect.min, words, colour);

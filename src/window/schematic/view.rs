@@ -9,13 +9,15 @@ use crate::effects::Effect;
 use crate::window::solid::{self, wire::Wire};
 use crate::window::theme::{self, Palette};
 use crate::window::widgets::{elided, width};
-use egui::{CursorIcon, Key, Pos2, Rect, Response, Role, Sense, Ui, Vec2, WidgetInfo, pos2};
+use egui::{CursorIcon, Key, Pos2, Rect, Response, Role, Sense, Ui, Vec2, WidgetInfo, pos2, vec2};
 
 /// Points about a node of a wire model within which it is pointed at.
 const NODE_REACH: f32 = 4.0;
 /// Height of the caption and of the letter above an arrow, and half the width of that letter, points.
 const CAPTION: f32 = 36.0;
 const ARROW: f32 = 14.0;
+/// What stands between the parts of a caption.
+pub(crate) const SEPARATOR: &str = "   ·   ";
 
 /// What the widget remembers between frames; neither saved nor undone.
 #[derive(Debug, Clone, Default)]
@@ -108,7 +110,19 @@ impl View<'_> {
         let behind = wanted > first - corner.x && edge - last > first - corner.x;
         let (start, end) = if behind { (last, edge) } else { (corner.x, first) };
         let middle = pos2(start, corner.y + 0.5 * theme::size::SMALL + 2.0);
-        elided(ui, self.caption, font, weak, middle, end - start);
+        // What stands first is told elsewhere too, and goes where there is no room for all.
+        let fits = |text: &&str| width(ui, text, font.clone()) <= end - start;
+        let shorter =
+            std::iter::successors(Some(self.caption), |text| text.split_once(SEPARATOR).map(|(_, rest)| rest));
+        let all: Vec<&str> = shorter.collect();
+        let text = all.iter().copied().find(fits).unwrap_or_else(|| all.last().copied().unwrap_or_default());
+        if !text.is_empty() {
+            // A structure in space, a halo or, in a low pane, the symbol of a source may reach behind the words.
+            let size = vec2(width(ui, text, font.clone()).min(end - start), theme::size::SMALL + 4.0);
+            let rect = Rect::from_min_size(middle - vec2(0.0, 0.5 * size.y), size).expand(3.0);
+            ui.painter().rect_filled(rect, 3.0, Palette::of(ui.visuals()).canvas.gamma_multiply(0.85));
+        }
+        elided(ui, text, font, weak, middle, end - start);
     }
 
     /// A node in the accessibility tree for every DOF and source, reached by Tab and pressed with Enter.

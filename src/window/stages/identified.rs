@@ -1,5 +1,7 @@
 //! What panes of an identification have in common: its outcome or what is shown in its place, heads of columns.
 
+use crate::effects::State;
+use crate::exchange::Project;
 use crate::identify::Outcome;
 use crate::session::validation::has_records;
 use crate::window::derived::Derived;
@@ -9,6 +11,15 @@ use crate::window::widgets::UiExt;
 use egui::{Align, Layout, Response, Ui};
 use std::sync::Arc;
 
+/// Why nothing is identified where no source is open, and what to do.
+pub(crate) const NO_CANDIDATES: &str =
+    "No source is a candidate: draw some in the stage Pattern, or let the stage Explain say what is missing.";
+
+/// Whether any source is to be identified.
+pub(crate) fn has_candidates(p: &Project) -> bool {
+    p.sources.iter().any(|s| matches!(s.state, State::Candidate | State::Forced))
+}
+
 /// The answer of the identification, or what is shown in its place.
 pub(super) fn outcome(ui: &mut Ui, derived: &mut Derived, document: &Document) -> Option<Arc<Outcome>> {
     match derived.outcome(ui.ctx(), document) {
@@ -16,6 +27,7 @@ pub(super) fn outcome(ui: &mut Ui, derived: &mut Derived, document: &Document) -
         Some(Err(_)) if document.project.runs.iter().all(|r| !r.enabled) && !has_records(&document.project) => {
             ui.empty("No runs to identify from", "Import measurements, or tick the runs that are to be used.");
         }
+        Some(Err(_)) if !has_candidates(&document.project) => ui.empty("Nothing is to be identified", NO_CANDIDATES),
         Some(Err(error)) => ui.empty("Nothing was identified", &error),
         None => ui.empty("Identification is running", "Its progress is in the bar below."),
     }

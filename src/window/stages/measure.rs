@@ -1,7 +1,7 @@
 //! Measure: the runs with what is wrong with them, the record with its fit, the spectrum.
 
 use super::run_table::{Key, Order, common_folder};
-use super::unsteady;
+use super::unsteady::{self, FOLLOWS};
 use crate::display::{format, words};
 use crate::exchange::Project;
 use crate::measurement::{Quantity, Run};
@@ -69,7 +69,6 @@ impl Shown {
     }
 }
 
-const FOLLOWS: &str = "It follows the run that is selected in the table.";
 const EMPTY: [&str; 2] =
     ["No runs yet", "Import files of measurements of any of the formats, or drop them on this window."];
 
@@ -120,7 +119,9 @@ pub(crate) fn overview(ui: &mut Ui, p: &Project, view: &mut View) {
 
 /// The record of a channel with the fitted curve on top and the residual under it.
 pub(crate) fn record(ui: &mut Ui, opened: &mut Opened<'_>) {
-    let Some((run, channel)) = looked_at(&opened.document.project, opened.view) else { return over_time(ui, opened) };
+    let Some((run, channel)) = looked_at(&opened.document.project, opened.view) else {
+        return unsteady::over_time(ui, opened);
+    };
     let document = opened.document;
     let r = &document.project.runs[run];
     let mut chosen = channel;
@@ -142,18 +143,6 @@ pub(crate) fn record(ui: &mut Ui, opened: &mut Opened<'_>) {
             RecordPlot { trace: &trace, fit: &trace.fit, omega: r.fit.omega, axis, id: &id }.show(ui);
         }
     }
-}
-
-/// The record that is selected where none is steady.
-fn over_time(ui: &mut Ui, opened: &mut Opened<'_>) {
-    let document = opened.document;
-    let records = &document.project.transient_runs;
-    let index = opened.view.run.min(records.len().saturating_sub(1));
-    let Some(run) = records.get(index) else { return ui.empty("No record yet", FOLLOWS) };
-    opened.view.channel = unsteady::channels(ui, run, opened.view.channel.min(run.channels().len().saturating_sub(1)));
-    let Some(channel) = run.channels().get(opened.view.channel) else { return };
-    let prepared = opened.derived.unsteady(ui.ctx(), document, [index, opened.view.channel]);
-    unsteady::samples(ui, &run.file, channel, prepared);
 }
 
 /// All channels of a run under each other on one axis of time.
@@ -178,7 +167,7 @@ fn lanes(ui: &mut Ui, derived: &mut Derived, document: &Document, run: usize) {
 /// The amplitude spectrum of the same channel.
 pub(crate) fn spectrum(ui: &mut Ui, opened: &mut Opened<'_>) {
     let Some((run, channel)) = looked_at(&opened.document.project, opened.view) else {
-        return ui.empty("No spectrum yet", FOLLOWS);
+        return unsteady::over_frequency(ui, opened);
     };
     let document = opened.document;
     let r = &document.project.runs[run];

@@ -2,7 +2,7 @@
 
 pub(crate) mod change;
 pub mod explain;
-mod identified;
+pub(crate) mod identified;
 pub(crate) mod incompleteness;
 pub(crate) mod measure;
 pub(crate) mod methods;

@@ -144,12 +144,13 @@ fn list(ui: &mut Ui, p: &Project, view: &View, asks: &mut Vec<Ask>) -> Option<us
     ui.add_space(space::XS);
     ui.style_mut().interaction.selectable_labels = false;
     let width = ui.available_width();
+    let laws = super::result::widest(ui, p.sources.iter().map(|s| words::effect(s.effect).to_owned()));
     TableBuilder::new(ui)
         .striped(true)
         .sense(Sense::click())
         .cell_layout(egui::Layout::left_to_right(Align::Center))
         .column(Column::exact(56.0))
-        .column(Column::exact((0.3 * width).clamp(110.0, 150.0)).clip(true))
+        .column(Column::exact(laws.clamp(110.0, (0.35 * width).max(110.0))).clip(true))
         .column(Column::remainder().clip(true))
         .column(Column::exact(84.0))
         .header(space::ROW, |mut header| {

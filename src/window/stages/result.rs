@@ -68,8 +68,8 @@ fn heat(ui: &mut Ui, p: &Project, outcome: &Outcome, whole: &mut bool, in_space:
     } else {
         (&results.equivalent_viscous, "energy-equivalent viscous")
     };
+    let remark = format!("N·s/m, {name}");
     ui.horizontal(|ui| {
-        ui.hint(format!("N·s/m, {name}"));
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             ui.checkbox(whole, "All DOFs");
             for (shown, name) in [(true, "3-D"), (false, "Map")] {
@@ -77,6 +77,12 @@ fn heat(ui: &mut Ui, p: &Project, outcome: &Outcome, whole: &mut bool, in_space:
                     *in_space = shown;
                 }
             }
+            // Beside the switches where there is room, else the unit alone.
+            let fits = width(ui, &remark, theme::font(size::SMALL)) + space::S <= ui.available_width();
+            let shown = if fits { remark.as_str() } else { "N·s/m" };
+            ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
+                ui.hint(shown).on_hover_text(&remark);
+            });
         });
     });
     let occupied = heatmap::occupied(matrix);
@@ -119,8 +125,6 @@ fn shares(ui: &mut Ui, p: &Project, outcome: &Outcome) {
             })
         };
         bars::show(ui, "Energy by source", &outcome.sources.iter().filter_map(bar).collect::<Vec<_>>(), 190.0);
-        ui.add_space(space::M);
-        ui.title("By degree of freedom", "where it is lost; adds up to 100 %");
         let by_dof: Vec<Bar> = outcome
             .results
             .energy_percent
@@ -133,7 +137,11 @@ fn shares(ui: &mut Ui, p: &Project, outcome: &Outcome) {
                 colour: palette.model,
             })
             .collect();
-        bars::show(ui, "Energy by degree of freedom", &by_dof, 190.0);
+        if !by_dof.is_empty() {
+            ui.add_space(space::M);
+            ui.title("By degree of freedom", "where it is lost; adds up to 100 %");
+            bars::show(ui, "Energy by degree of freedom", &by_dof, 190.0);
+        }
         ui.add_space(space::M);
         ui.title("Coefficients", "with one standard deviation");
         for estimate in &outcome.sources {

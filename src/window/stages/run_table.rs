@@ -57,7 +57,12 @@ impl Order {
         match self.key {
             Key::Project => {}
             Key::File => rows.sort_by(|&a, &b| p.runs[a].file.cmp(&p.runs[b].file)),
-            _ => rows.sort_by(|&a, &b| number(a).total_cmp(&number(b))),
+            _ => {
+                // Each number is made once: the harmonics of a run go through all its channels.
+                let mut numbered: Vec<(f64, usize)> = rows.iter().map(|&r| (number(r), r)).collect();
+                numbered.sort_by(|a, b| a.0.total_cmp(&b.0));
+                rows = numbered.into_iter().map(|(_, r)| r).collect();
+            }
         }
         if self.falling {
             rows.reverse();

@@ -1,16 +1,19 @@
-//! Records that are not steady, decays and transients, in the stage Measure: their table and their samples over time.
+//! Records that are not steady, decays and transients, in the stage Measure: their table, their samples over time, their spectra.
 
 use crate::display::{format, words};
 use crate::exchange::Project;
-use crate::measurement::{Channel, TransientRun};
-use crate::plots::figure::{Axis, Data, Figure, Look};
-use crate::plots::pyramid::Pyramid;
+use crate::measurement::TransientRun;
+use crate::plots::unsteady_record::UnsteadyRecord;
+use crate::window::opened::Opened;
 use crate::window::plots::show::Stack;
 use crate::window::theme::space;
 use crate::window::widgets::UiExt;
 use egui::{Align, Layout, Role, Sense, Ui, WidgetInfo};
 use egui_extras::{Column, TableBuilder, TableRow};
 use std::sync::Arc;
+
+/// Where a pane is empty because no run is selected.
+pub(super) const FOLLOWS: &str = "It follows the run that is selected in the table.";
 
 /// A record by its file, and whether it is to be used from now on.
 pub(crate) type Ticked = Option<(String, bool)>;
@@ -71,7 +74,7 @@ fn lasts(run: &TransientRun) -> f64 {
 }
 
 /// A button a channel; gives back the one that is looked at.
-pub(crate) fn channels(ui: &mut Ui, run: &TransientRun, mut chosen: usize) -> usize {
+fn channels(ui: &mut Ui, run: &TransientRun, mut chosen: usize) -> usize {
     ui.horizontal_wrapped(|ui| {
         for (k, channel) in run.channels().iter().enumerate() {
             if ui.selectable_label(k == chosen, channel.to_string()).clicked() {
@@ -82,16 +85,43 @@ pub(crate) fn channels(ui: &mut Ui, run: &TransientRun, mut chosen: usize) -> us
     chosen
 }
 
-/// The samples of a channel over time, once they are prepared.
-pub(crate) fn samples(ui: &mut Ui, file: &str, of: &Channel, prepared: Option<Result<Arc<Pyramid>, String>>) {
-    let samples = match prepared {
-        None => return ui.empty("The record is being prepared", ""),
-        Some(Err(error)) => return ui.empty("There is no record to show", &error),
-        Some(Ok(samples)) => samples,
+/// The record and the channel that are looked at, and what there is of them; otherwise says why there is nothing.
+fn shown(ui: &mut Ui, opened: &mut Opened<'_>) -> Option<(String, Arc<UnsteadyRecord>)> {
+    let document = opened.document;
+    let records = &document.project.transient_runs;
+    let index = opened.view.run.min(records.len().saturating_sub(1));
+    let Some(run) = records.get(index) else {
+        ui.empty("No record yet", FOLLOWS);
+        return None;
     };
-    let title = format!("{file}, {of}");
-    let y = Axis::of(words::axis(of.quantity, false));
-    let figure = Figure::new(&title, Axis::new("Time", "s"), y);
-    let figure = figure.with("measured", ui.palette().measured, Look::Line(1.2), Data::Record(samples));
-    Stack { id: &title, title: &title, figures: vec![(figure, 1.0)], keys: true }.show(ui);
+    let number = opened.view.channel.min(run.channels().len().saturating_sub(1));
+    let title = format!("{}, {}", run.file, run.channels().get(number)?);
+    match opened.derived.unsteady(ui.ctx(), document, [index, number]) {
+        None => ui.empty("The record is being prepared", ""),
+        Some(Err(error)) => ui.empty("There is no record to show", &error),
+        Some(Ok(prepared)) => return Some((title, prepared)),
+    }
+    None
+}
+
+/// The record that is selected where none is steady, over time.
+pub(crate) fn over_time(ui: &mut Ui, opened: &mut Opened<'_>) {
+    let records = &opened.document.project.transient_runs;
+    if let Some(run) = records.get(opened.view.run.min(records.len().saturating_sub(1))) {
+        opened.view.channel = channels(ui, run, opened.view.channel.min(run.channels().len().saturating_sub(1)));
+    }
+    if let Some((title, record)) = shown(ui, opened) {
+        let figures = vec![(record.over_time(ui.palette(), &title), 1.0)];
+        Stack { id: &title, title: &title, figures, keys: true }.show(ui);
+    }
+}
+
+/// Its amplitude spectrum.
+pub(crate) fn over_frequency(ui: &mut Ui, opened: &mut Opened<'_>) {
+    let Some((title, record)) = shown(ui, opened) else { return };
+    let title = format!("Spectrum of {title}");
+    match record.over_frequency(ui.palette(), &title) {
+        Some(figure) => Stack { id: &title, title: &title, figures: vec![(figure, 1.0)], keys: true }.show(ui),
+        None => ui.empty("No spectrum", "The record is too short for one."),
+    }
 }

@@ -202,10 +202,11 @@ impl Card<'_> {
     /// Error of the model as it is and noise floor, as shares.
     fn errors(&self) -> [f64; 2] {
         let (document, explained) = (self.scene.document, self.scene.explained);
-        let found = explained.diagnosis(document).and_then(|d| d.as_ref().ok());
-        let compared = || explained.comparison(document).and_then(|c| c.as_ref().ok());
-        let found = found.map(|d| [d.error_before, d.noise_floor]);
-        found.or_else(|| compared().map(|c| [c.error, c.noise_floor])).unwrap_or([self.suggestion.error_after, 0.0])
+        let found = || explained.diagnosis(document).and_then(|d| d.as_ref().ok());
+        // Those that stand elsewhere on the screen: a search predicts with other numbers of harmonics.
+        let compared = explained.comparison(document).and_then(|c| c.as_ref().ok()).map(|c| [c.error, c.noise_floor]);
+        let told = || found().map(|d| [d.error_before, d.noise_floor]);
+        compared.or_else(told).unwrap_or([self.suggestion.error_after, 0.0])
     }
 
     fn fingerprint(&self, ui: &mut Ui) {

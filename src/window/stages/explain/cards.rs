@@ -8,7 +8,7 @@ use super::{card, channels, force, limit};
 use crate::diagnosis::Diagnosis;
 use crate::diagnosis::result::Verdict;
 use crate::diagnosis::updating::parameters::UpdatingParameter;
-use crate::display::findings::{self, is_detuned, is_stuck, sentence};
+use crate::display::findings::{self, is_detuned, is_stuck, sentence_of};
 use crate::display::format::in_words;
 use crate::display::words::at;
 use crate::display::{format, words};
@@ -132,7 +132,7 @@ fn answer(ui: &mut Ui, scene: &Scene<'_>, diagnosis: &Diagnosis, look: &mut Look
         adequate(ui, scene, diagnosis);
     } else {
         let colour = if diagnosis.verdict == Verdict::Missing { ui.palette().missing } else { ui.palette().warning };
-        ui.label(RichText::new(sentence(diagnosis)).color(colour));
+        ui.label(RichText::new(sentence_of(diagnosis, stated(scene, diagnosis))).color(colour));
     }
     detuned(ui, scene, diagnosis, asks);
     if matches!(diagnosis.verdict, Verdict::Undecided | Verdict::Unexplained) {
@@ -143,6 +143,13 @@ fn answer(ui: &mut Ui, scene: &Scene<'_>, diagnosis: &Diagnosis, look: &mut Look
     }
     ui.add_space(space::XS);
     list(ui, scene, look, asks);
+}
+
+/// Error of the model as it is and its noise floor: those that stand elsewhere on the screen, for a search predicts with other numbers
+/// of harmonics.
+fn stated(scene: &Scene<'_>, diagnosis: &Diagnosis) -> [f64; 2] {
+    let compared = scene.explained.comparison(scene.document).and_then(|c| c.as_ref().ok());
+    compared.map_or([diagnosis.error_before, diagnosis.noise_floor], |c| [c.error, c.noise_floor])
 }
 
 /// What is ruled out, then one card for every other suggestion.
@@ -240,7 +247,7 @@ fn adequate(ui: &mut Ui, scene: &Scene<'_>, diagnosis: &Diagnosis) {
         (Some(spread), _) => findings::scatter_sentence(diagnosis, spread),
         // The error that stands elsewhere on the screen: a search predicts with other numbers of harmonics.
         (None, Some(now)) if !is_detuned(diagnosis) => findings::explained(now.error, now.noise_floor),
-        _ => sentence(diagnosis),
+        _ => sentence_of(diagnosis, stated(scene, diagnosis)),
     });
     let ledger = &scene.explained.ledger;
     let path = ledger.path();

@@ -1,6 +1,9 @@
 //! What is looked at in the stage: order of the map, plot of the cell, card that is open, effect on trial.
 
+use crate::diagnosis::Comparison;
 use crate::effects::Source;
+use crate::plots::error_map::Grid;
+use std::sync::Arc;
 
 /// A plot of the selected cell.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -107,6 +110,30 @@ pub struct Look {
     pub scatter_shown: bool,
     /// Whether they are computed.
     pub scatter: bool,
+    /// The map that was drawn last.
+    pub(super) map: Option<DrawnMap>,
+}
+
+/// An error map with what it was made of, kept from frame to frame: of many runs it takes longer to make than to draw.
+#[derive(Debug, Clone)]
+pub(super) struct DrawnMap {
+    comparison: Arc<Comparison>,
+    worst_first: bool,
+    grid: Arc<Grid>,
+}
+
+impl Look {
+    /// The map of a comparison in the order that is chosen.
+    pub(super) fn grid(&mut self, comparison: &Arc<Comparison>) -> Arc<Grid> {
+        let same = |m: &&DrawnMap| Arc::ptr_eq(&m.comparison, comparison) && m.worst_first == self.worst_first;
+        if let Some(kept) = self.map.as_ref().filter(same) {
+            return Arc::clone(&kept.grid);
+        }
+        let grid = Arc::new(Grid::new(comparison, self.worst_first));
+        let (comparison, worst_first) = (Arc::clone(comparison), self.worst_first);
+        self.map = Some(DrawnMap { comparison, worst_first, grid: Arc::clone(&grid) });
+        grid
+    }
 }
 
 impl Default for Look {
@@ -124,6 +151,7 @@ impl Default for Look {
             anyway: false,
             scatter_shown: false,
             scatter: false,
+            map: None,
         }
     }
 }

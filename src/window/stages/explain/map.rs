@@ -10,6 +10,7 @@ use egui::{
     Align2, Color32, FontId, Pos2, Rect, Response, Role, ScrollArea, Sense, Shape, Stroke, StrokeKind, Ui, Vec2,
     WidgetInfo, pos2, vec2,
 };
+use std::ops::Range;
 
 /// Most cells that are nodes of their own for screen readers.
 const MANY: usize = 800;
@@ -53,8 +54,9 @@ impl Map<'_> {
             let (area, response) = ui.allocate_exact_size(extent, Sense::click());
             response.widget_info(|| WidgetInfo::labeled(Role::Image, true, "Error map"));
             let sheet = Sheet { origin: area.min + vec2(label, HEAD), cell };
-            self.head(ui, area, &sheet);
-            self.cells(ui, &sheet, self.numbered(ui, cell));
+            let columns = sheet.columns(ui.clip_rect(), self.grid.runs.len());
+            self.head(ui, area, &sheet, columns.clone());
+            self.cells(ui, &sheet, columns, self.numbered(ui, cell));
             if self.grid.runs.len() * self.grid.channels.len() <= MANY {
                 clicked = self.nodes(ui, &sheet);
             } else if let Some((row, column)) = response.interact_pointer_pos().and_then(|p| self.at(&sheet, p)) {
@@ -67,14 +69,15 @@ impl Map<'_> {
         clicked
     }
 
-    fn head(&self, ui: &Ui, area: Rect, sheet: &Sheet) {
+    /// Names of the channels, and numbers of the runs in the `columns` in sight.
+    fn head(&self, ui: &Ui, area: Rect, sheet: &Sheet, columns: Range<usize>) {
         let (palette, font) = (ui.palette(), theme::font(size::SMALL));
         let painter = ui.painter();
         let step = (22.0 / sheet.cell.x).ceil().max(1.0) as usize;
         let selected = self.selected.map(|(run, _)| run);
         let corner = pos2(sheet.origin.x - 6.0, area.top() + 0.5 * HEAD);
         painter.text(corner, Align2::RIGHT_CENTER, "run", font.clone(), palette.weak);
-        for (k, &run) in self.grid.runs.iter().enumerate() {
+        for (k, &run) in self.grid.runs.iter().enumerate().take(columns.end).skip(columns.start) {
             if k % step != 0 && selected != Some(run) {
                 continue;
             }
@@ -96,11 +99,12 @@ impl Map<'_> {
         cell.y >= READABLE.y && cell.x >= READABLE.x && self.grid.cells.iter().flatten().flatten().all(fits)
     }
 
-    fn cells(&self, ui: &Ui, sheet: &Sheet, numbered: bool) {
+    /// The cells in the `columns` in sight.
+    fn cells(&self, ui: &Ui, sheet: &Sheet, columns: Range<usize>, numbered: bool) {
         let palette = ui.palette();
         let font = figures();
         for (row, cells) in self.grid.cells.iter().enumerate() {
-            for (column, cell) in cells.iter().enumerate() {
+            for (column, cell) in cells.iter().enumerate().take(columns.end).skip(columns.start) {
                 let rect = sheet.rect(row, column).shrink(0.5);
                 let Some(cell) = cell else {
                     ui.painter().rect_stroke(rect, 1.5, theme::hair(palette.line), StrokeKind::Inside);
@@ -197,6 +201,13 @@ struct Sheet {
 impl Sheet {
     fn rect(&self, row: usize, column: usize) -> Rect {
         Rect::from_min_size(self.origin + self.cell * vec2(column as f32, row as f32), self.cell)
+    }
+
+    /// Those of `count` columns that are in sight, whole or in part.
+    fn columns(&self, sight: Rect, count: usize) -> Range<usize> {
+        let column = |x: f32| ((x - self.origin.x) / self.cell.x).max(0.0);
+        let (first, last) = (column(sight.left()).floor() as usize, column(sight.right()).ceil() as usize);
+        first.min(count)..last.min(count)
     }
 }
 

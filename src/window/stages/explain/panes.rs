@@ -10,7 +10,7 @@ use crate::diagnosis::Comparison;
 use crate::display::format::in_words;
 use crate::effects::{Source, State};
 use crate::identify::{Estimate, Outcome};
-use crate::plots::error_map::{ENERGY, Grid, Scale};
+use crate::plots::error_map::{ENERGY, Scale};
 use crate::plots::response_curve::Curve;
 use crate::plots::samples;
 use crate::session::validation::only_records;
@@ -25,11 +25,11 @@ use std::sync::Arc;
 /// What the map and the cell show.
 struct Shown<'a> {
     /// Of the model as it stands, or of the last one while that is computed.
-    comparison: &'a Comparison,
+    comparison: &'a Arc<Comparison>,
     /// Whether it is of an earlier model.
     stale: bool,
     /// Effect on trial and the comparison with it, once it is there.
-    trial: Option<(&'a Source, Option<&'a Comparison>)>,
+    trial: Option<(&'a Source, Option<&'a Arc<Comparison>>)>,
 }
 
 impl<'a> Shown<'a> {
@@ -53,11 +53,11 @@ impl<'a> Shown<'a> {
             return None;
         };
         let trial = look.trial.as_ref().filter(|_| now.is_some());
-        let tried = |t: &Source| explained.trial(document, t).and_then(|c| c.as_ref().ok()).map(Arc::as_ref);
+        let tried = |t: &Source| explained.trial(document, t).and_then(|c| c.as_ref().ok());
         Some(Self { comparison, stale: now.is_none(), trial: trial.map(|t| (t, tried(t))) })
     }
 
-    fn tried(&self) -> Option<&'a Comparison> {
+    fn tried(&self) -> Option<&'a Arc<Comparison>> {
         self.trial.and_then(|(_, comparison)| comparison)
     }
 }
@@ -75,7 +75,7 @@ pub(crate) fn error_map(ui: &mut Ui, opened: &mut Opened<'_>, asks: &mut Vec<Ask
     let before = look.clone();
     let Some(shown) = Shown::new(ui, &scene, &before, asks) else { return };
     let previewed = shown.tried().unwrap_or(shown.comparison);
-    let grid = Grid::new(previewed, look.worst_first);
+    let grid = look.grid(previewed);
     let scale = Scale::new(scene.explained.ledger.least_floor(), scene.explained.ledger.worst());
     head(ui, &mut look, previewed);
     let outcome = opened.derived.known_outcome(document).and_then(Result::ok);
@@ -83,7 +83,7 @@ pub(crate) fn error_map(ui: &mut Ui, opened: &mut Opened<'_>, asks: &mut Vec<Ask
         not_taken_over(ui, &scene, outcome.as_deref(), asks);
     }
     if let Some((source, tried)) = shown.trial {
-        preview(ui, &scene, source, shown.comparison, tried, asks);
+        preview(ui, &scene, source, shown.comparison, tried.map(Arc::as_ref), asks);
     }
     let records = p.runs.is_empty();
     let run = opened.view.run.min(if records { p.transient_runs.len() } else { p.runs.len() }.saturating_sub(1));
@@ -174,7 +174,7 @@ pub(crate) fn cell(ui: &mut Ui, opened: &mut Opened<'_>, asks: &mut Vec<Ask>) {
     let detail = Detail {
         project: p,
         comparison: shown.comparison,
-        trial: shown.tried(),
+        trial: shown.tried().map(Arc::as_ref),
         run,
         channel: &name,
         curves: own.as_deref().map_or(&[][..], Vec::as_slice),

@@ -11,6 +11,7 @@ use crate::window::document::Document;
 use crate::window::explained::Explained;
 use crate::window::schematic::Scene;
 use crate::window::schematic::model::SceneSource;
+use crate::window::schematic::view::SEPARATOR;
 use crate::window::view::View;
 use std::sync::Arc;
 
@@ -37,7 +38,7 @@ pub fn errors(scene: &Arc<Scene>, document: &Document, view: &View, explained: &
     if let Some(source) = suggested {
         let verb = if look.trial.is_some() { "on trial" } else { "suggested" };
         let place = at(&document.project.structure, &source.place);
-        let error = comparison.map_or_else(String::new, |c| format!("Error {}   ·   ", in_words(c.error)));
+        let error = comparison.map_or_else(String::new, |c| format!("Error {}{SEPARATOR}", in_words(c.error)));
         caption = format!("{error}{verb}: {} {place}", words::effect(source.effect));
     }
     let scene = suggested.and_then(|s| with(scene, s)).map_or_else(|| Arc::clone(scene), Arc::new);
