@@ -3,6 +3,7 @@
 //! known noise the angle rules, as in the thesis.
 
 use super::describe::describe;
+use super::negligible::without_negligible;
 use super::outcome::{Form, Status};
 use super::problem::Problem;
 use super::search::SizeRanking;
@@ -69,11 +70,12 @@ fn decided(
         return by_angle(problem, state, rankings, form);
     }
     let scores: Vec<Score> = rankings.iter().map(|r| score(problem, system, r)).collect();
-    let within = scores.iter().position(|s| s.chi_square <= chi_square_quantile(1.0 - REJECTED, s.freedom));
-    match within {
+    let within = |k: usize| scores[k].chi_square <= chi_square_quantile(1.0 - REJECTED, scores[k].freedom);
+    let decision = match (0..scores.len()).find(|&k| within(k)) {
         Some(first) => within_noise(system, rankings, &scores, first),
         None => above_noise(&scores),
-    }
+    };
+    without_negligible(problem, state, rankings, decision, within)
 }
 
 fn score(problem: &Problem<'_>, system: &System, ranking: &SizeRanking) -> Score {

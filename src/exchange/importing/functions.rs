@@ -50,6 +50,15 @@ pub(super) fn measured(request: &Request, files: &[DataFile]) -> Result<(Vec<Mea
             return Ok((measured, vec![format!("by the names of the files the functions are {}", said.join(", "))]));
         }
     }
+    if !named && responses.is_empty() && references.is_empty() {
+        (responses, references) = of_matrix(request, files).unwrap_or_default();
+        if !responses.is_empty() {
+            let said = format!("{} over {}", responses.join(", "), references.join(", "));
+            assumed.push(format!("by their names, elements of a matrix, the functions are {said}"));
+            let (path, further) = (files[0].path().to_owned(), Vec::new());
+            return Ok((vec![Measured { path, further, responses, references }], assumed));
+        }
+    }
     if !named && responses.is_empty() {
         let (numbers, how) = numbered(request, files, &counts);
         responses = numbers;
@@ -159,6 +168,36 @@ fn by_names_of_files(files: &[DataFile], counts: &[usize]) -> Vec<Measured> {
     let functions = files.iter().zip(counts).filter(|(_, count)| **count > 0);
     let found: Option<Vec<Measured>> = functions.map(|(file, count)| own(file).filter(|_| *count == 1)).collect();
     found.unwrap_or_default()
+}
+
+/// Responses and references of one file whose functions are named as elements of a matrix of one figure each, `H11`, `H21`,
+/// `H12`, ...: all responses to the first reference first, a driving point among them. None where the names are others.
+fn of_matrix(request: &Request, files: &[DataFile]) -> Option<(Vec<String>, Vec<String>)> {
+    let [file] = files else { return None };
+    let pairs: Vec<[String; 2]> =
+        functions(file.contents(), request).map(|channel| element(&channel.name)).collect::<Option<_>>()?;
+    let once = |side: usize| {
+        let mut labels: Vec<String> = Vec::new();
+        pairs.iter().for_each(|pair| {
+            if !labels.contains(&pair[side]) {
+                labels.push(pair[side].clone())
+            }
+        });
+        labels
+    };
+    let (responses, references) = (once(0), once(1));
+    let all = references.iter().flat_map(|reference| responses.iter().map(move |response| [response, reference]));
+    let in_order = pairs.iter().map(|[response, reference]| [response, reference]).eq(all);
+    (in_order && pairs.iter().any(|[response, reference]| response == reference)).then_some((responses, references))
+}
+
+/// Row and column of an element of a matrix such as `H21`; of more figures they could not be told.
+fn element(name: &str) -> Option<[String; 2]> {
+    let digits = name.find(|c: char| c.is_ascii_digit())?;
+    let (word, figures) = name.split_at(digits);
+    let word = word.trim_end_matches(['_', ' ']).to_lowercase();
+    let two = figures.len() == 2 && figures.chars().all(|c| matches!(c, '1'..='9'));
+    (["h", "frf", "tf"].contains(&word.as_str()) && two).then(|| [0, 1].map(|i| figures[i..=i].to_owned()))
 }
 
 /// Labels of responses whose references nothing says: by the numbers in the names of the functions, of their sets, of the
