@@ -89,8 +89,7 @@ impl Rival {
             return None;
         }
         let mut project = project.clone();
-        let outcome =
-            identify(&project.structure, &project.sources, &project.runs, &project.settings, control).ok()?;
+        let outcome = identify(&project.structure, &project.sources, &project.runs, &project.settings, control).ok()?;
         let sources = identified::take_over(&mut project, &outcome);
         let error = compare(&problem(&project), &[], control).ok()?.error;
         let named = |source: &Source| diagnosis.suggestions.iter().any(|s| s.added.source.is_same(source));

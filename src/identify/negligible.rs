@@ -2,48 +2,43 @@
 //!
 //! Deviations are those of noise. Lines of frequency responses, or long records, have so little of it that what a model a
 //! per cent off leaves in the expansion of the motion stands out, and a further source takes it up: one that carries next to
-//! none of the energy anywhere. What no run shows to a thousandth of its energy, `|G_rj c_j| < 0.001 sum_k |G_rk c_k|` in all
-//! rows `r`, is not taken: force and motion are calibrated to some parts in a hundred, and their ratio from sensor to sensor to
-//! no better than some parts in a thousand.
+//! none of the energy anywhere. What no run shows to half a per cent of its energy, `|G_rj c_j| < 0.005 sum_k |G_rk c_k|` in
+//! all rows `r`, is not taken: accelerometers and force cells are flat over frequency to no better than one per cent.
 
 use super::describe::describe;
-use super::outcome::Status;
 use super::problem::Problem;
 use super::search::SizeRanking;
 use super::state::IdentificationState;
-use super::stopping::Decision;
 use super::system::System;
 use crate::balance::Weights;
 use crate::math::subsets::RankedSet;
 
 /// Share of the energy of a run that a source must carry in one of them at least.
-const LEAST_SHARE: f64 = 1e-3;
+const LEAST_SHARE: f64 = 5e-3;
 
-/// The decision without sources that carry next to no energy in any run, where the best smaller set is that of the others.
-/// Forced sources stay. `within` says whether the set of a size is within the noise.
+/// Index of the smaller best set in `rankings` that is the accepted one without sources that carry next to no energy in any run,
+/// and how that is said; none where there is none. Forced sources stay.
 pub(super) fn without_negligible(
     problem: &Problem<'_>,
     state: &IdentificationState,
     rankings: &[SizeRanking],
-    decision: Decision,
-    within: impl Fn(usize) -> bool,
-) -> Decision {
+    accepted: usize,
+) -> Option<(usize, String)> {
     let energy = System::energy(problem, state, Weights::None);
-    let best = rankings[decision.accepted].best();
-    let small = |column: &usize| !problem.forced.contains(column) && largest_share(&energy, best, *column) < LEAST_SHARE;
+    let best = rankings[accepted].best();
+    let small =
+        |column: &usize| !problem.forced.contains(column) && largest_share(&energy, best, *column) < LEAST_SHARE;
     let (negligible, kept): (Vec<usize>, Vec<usize>) = best.columns.iter().copied().partition(small);
-    let smaller = rankings[..decision.accepted].iter().position(|ranking| ranking.best().columns == kept);
-    let (false, Some(accepted)) = (negligible.is_empty(), smaller) else { return decision };
+    let smaller = rankings[..accepted].iter().position(|ranking| ranking.best().columns == kept)?;
     let names: Vec<String> = negligible.iter().map(|&j| describe(&problem.columns[j], problem.structure)).collect();
-    let status = if within(accepted) { Status::WithinNoise } else { Status::AboveNoise };
     let reason = format!(
-        "{} source{}; {} would bring the residual nearer to the noise, but carries less than 0.1 % of the energy in every run, \
+        "{} source{}; {} would bring the residual nearer to the noise, but carries less than 0.5 % of the energy in every run, \
          less than model and sensors are true to",
         kept.len(),
         if kept.len() == 1 { "" } else { "s" },
         names.join(" with ")
     );
-    Decision { accepted, status, reason }
+    Some((smaller, reason))
 }
 
 /// Largest share of the energy of a row that column `column` of the set carries, over all rows.

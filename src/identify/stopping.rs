@@ -75,7 +75,11 @@ fn decided(
         Some(first) => within_noise(system, rankings, &scores, first),
         None => above_noise(&scores),
     };
-    without_negligible(problem, state, rankings, decision, within)
+    let Some((accepted, reason)) = without_negligible(problem, state, rankings, decision.accepted) else {
+        return decision;
+    };
+    let status = if within(accepted) { Status::WithinNoise } else { Status::AboveNoise };
+    Decision { accepted, status, reason }
 }
 
 fn score(problem: &Problem<'_>, system: &System, ranking: &SizeRanking) -> Score {

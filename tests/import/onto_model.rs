@@ -265,9 +265,10 @@ fn functions_lie_on_a_chain_whatever_their_axis_is_called() {
         (
             "axis.csv",
             chain_functions(|i| format!("{i}:+Z/5:+Z")),
-            "assumed: the model moves in one direction only: 1:+Z is taken for its DOF 1",
+            "assumed: the model moves in one direction only: 1:+Z is taken for its DOF 1, and 4 more likewise",
         ),
         ("matrix.csv", chain_functions(|i| format!("H{i}5")), "the functions are 1, 2, 3, 4, 5 over 5"),
+        ("points.csv", chain_functions(|i| format!("Point {i}")), "signs of a driving point, all driven at 5"),
     ] {
         let file = folder.path().join(file).display().to_string();
         std::fs::write(&file, text).unwrap();
@@ -299,7 +300,7 @@ fn hits_of_one_file_lie_on_a_chain_and_have_names_of_their_own() {
     std::fs::write(&file, text).unwrap();
     let (said, project) = onto(folder.path(), &[file], CHAIN).unwrap();
     assert!(said.contains("the model moves in one direction only: 3z is taken for its DOF 3"), "{said}");
-    assert_eq!(project.matches("dof = \"5\"").count(), 2, "{project}");
+    assert_eq!(project.matches("dof = 5\n").count(), 2, "{project}");
     let found = json(&["identify", "--json", &folder.path().join("p.toml").display().to_string()]);
     let names: Vec<&str> = found["runs"].as_array().unwrap().iter().map(|run| run["file"].as_str().unwrap()).collect();
     assert_eq!(names, ["steps.csv Step 4.5", "steps.csv Step 13"]);

@@ -17,26 +17,30 @@ pub(super) fn along_the_only_axis<'a>(
     structure: &Structure,
     places: impl IntoIterator<Item = &'a String>,
 ) -> BTreeMap<String, String> {
-    let translations: Vec<_> = structure.dofs().iter().filter(|dof| dof.direction.axis().is_some()).collect();
-    let one_axis = translations.windows(2).all(|two| two[0].direction == two[1].direction);
-    let mut nodes: Vec<usize> = translations.iter().map(|dof| dof.node).collect();
-    nodes.sort_unstable();
-    if !one_axis || nodes.windows(2).any(|two| two[0] == two[1]) {
+    let (Some(at_nodes), mut found, mut axes) = (only_translations(structure), BTreeMap::new(), Vec::new()) else {
         return BTreeMap::new();
-    }
-    let (mut found, mut axes) = (BTreeMap::new(), Vec::new());
+    };
     for place in places {
         let digits = place.find(|c: char| !c.is_ascii_digit()).unwrap_or(place.len());
         let (node, axis) = place.split_at(digits);
         if !matches!(axis, "x" | "y" | "z") {
             continue;
         }
-        let here = |dof: &&&crate::structure::Dof| structure.nodes()[dof.node].label == node;
-        let (None, Some(dof)) = (structure.dof(place), translations.iter().find(here)) else { return BTreeMap::new() };
-        found.insert(place.clone(), dof.label.clone());
+        let (None, Some(label)) = (structure.dof(place), at_nodes.get(node)) else { return BTreeMap::new() };
+        found.insert(place.clone(), (*label).to_owned());
         axes.push(axis);
     }
     if axes.windows(2).any(|two| two[0] != two[1]) { BTreeMap::new() } else { found }
+}
+
+/// The label of the translation of each node, where every node has one and all lie along one axis.
+fn only_translations(structure: &Structure) -> Option<BTreeMap<&str, &str>> {
+    let translations = || structure.dofs().iter().filter(|dof| dof.direction.axis().is_some());
+    let first = translations().next()?.direction;
+    let at_nodes: BTreeMap<&str, &str> =
+        translations().map(|dof| (structure.nodes()[dof.node].label.as_str(), dof.label.as_str())).collect();
+    let one_each = at_nodes.len() == translations().count();
+    (one_each && translations().all(|dof| dof.direction == first)).then_some(at_nodes)
 }
 
 /// How a place along the only axis is said.

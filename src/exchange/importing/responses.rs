@@ -105,12 +105,16 @@ fn project(request: &Request, out: &Path) -> Result<Found> {
     let (labels, dofs) = labelled(request, &points)?;
     if request.kept.is_some() {
         let own = |name: &String| name.replace(":+", "").to_lowercase();
-        let moved = dofs.iter().filter(|(name, label)| own(name) != **label && !is_nowhere(name));
-        assumed.extend(
-            moved
-                .filter(|(name, _)| template_label(request, name).is_none())
-                .map(|(name, label)| said_of_axis(name, label)),
-        );
+        let mut moved = dofs.iter().filter(|(name, label)| {
+            own(name) != **label && !is_nowhere(name) && template_label(request, name).is_none()
+        });
+        if let Some((name, label)) = moved.next() {
+            let more = match moved.count() {
+                0 => String::new(),
+                more => format!(", and {more} more likewise"),
+            };
+            assumed.push(said_of_axis(name, label) + &more);
+        }
     }
     let up_to = if highest_hz > 0.0 { 2.0 * highest_hz } else { 2000.0 };
     let head = head(request, out, &points_structure(&labels), up_to)?;
