@@ -6,8 +6,10 @@
 //! all rows `r`, is not taken: accelerometers and force cells are flat over frequency to no better than one per cent.
 
 use super::describe::describe;
+use super::outcome::SelectionStep;
 use super::problem::Problem;
 use super::search::SizeRanking;
+use super::solve::Fit;
 use super::state::IdentificationState;
 use super::system::System;
 use crate::balance::Weights;
@@ -39,6 +41,21 @@ pub(super) fn without_negligible(
         names.join(" with ")
     );
     Some((smaller, reason))
+}
+
+/// Adds to the covariance of the accepted set what its coefficients `c` differ by from those beside the negligible sources,
+/// `(c - c') (c - c')^T`: an error of the model that noise says nothing of.
+pub(super) fn widen(fit: &mut Fit, accepted: &mut SelectionStep, larger: &SelectionStep) {
+    let beside = |source: usize| larger.sources.iter().find(|e| e.source == source).map(|e| e.coefficient);
+    let moved: Vec<f64> =
+        accepted.sources.iter().map(|e| beside(e.source).map_or(0.0, |there| e.coefficient - there)).collect();
+    for (i, estimate) in accepted.sources.iter_mut().enumerate() {
+        for (j, other) in moved.iter().enumerate() {
+            fit.covariance[(i, j)] += moved[i] * other;
+        }
+        fit.deviations[i] = fit.deviations[i].hypot(moved[i]);
+        estimate.deviation = fit.deviations[i];
+    }
 }
 
 /// Largest share of the energy of a row that column `column` of the set carries, over all rows.

@@ -26,6 +26,8 @@ pub(crate) struct Decision {
     pub accepted: usize,
     pub status: Status,
     pub reason: String,
+    /// Index of the larger set that fits better by sources of next to no energy, which are not taken.
+    pub larger: Option<usize>,
 }
 
 /// How well the best set of one size does.
@@ -79,7 +81,7 @@ fn decided(
         return decision;
     };
     let status = if within(accepted) { Status::WithinNoise } else { Status::AboveNoise };
-    Decision { accepted, status, reason }
+    Decision { accepted, status, reason, larger: Some(decision.accepted) }
 }
 
 fn score(problem: &Problem<'_>, system: &System, ranking: &SizeRanking) -> Score {
@@ -119,7 +121,7 @@ fn within_noise(system: &System, rankings: &[SizeRanking], scores: &[Score], fir
         reason += "; more than the noise asks for, on strong evidence";
     }
     reason += &confirmation(system, rankings, accepted);
-    Decision { accepted, status: Status::WithinNoise, reason }
+    Decision { accepted, status: Status::WithinNoise, reason, larger: None }
 }
 
 /// What leaving out each run says of the accepted set against the next smaller one.
@@ -154,7 +156,7 @@ fn above_noise(scores: &[Score]) -> Decision {
         scores[accepted].count,
         plural(scores[accepted].count)
     );
-    Decision { accepted, status: Status::AboveNoise, reason }
+    Decision { accepted, status: Status::AboveNoise, reason, larger: None }
 }
 
 /// The first set below the angle of the settings, else the one with the smallest angle.
@@ -173,7 +175,7 @@ fn by_angle(problem: &Problem<'_>, state: &IdentificationState, rankings: &[Size
             plural(count),
             short(angle(&rankings[accepted]))
         );
-        return Decision { accepted, status: Status::BelowAngle, reason };
+        return Decision { accepted, status: Status::BelowAngle, reason, larger: None };
     }
     let accepted =
         (0..rankings.len()).min_by(|&a, &b| angle(&rankings[a]).total_cmp(&angle(&rankings[b]))).unwrap_or(0);
@@ -185,7 +187,7 @@ fn by_angle(problem: &Problem<'_>, state: &IdentificationState, rankings: &[Size
         names.join(", "),
         short(angle(&rankings[accepted]))
     );
-    Decision { accepted, status: Status::AboveAngle, reason }
+    Decision { accepted, status: Status::AboveAngle, reason, larger: None }
 }
 
 /// Angle in degrees between `b` and `A_S c`: `asin(|A_S c - b| / |b|)`.

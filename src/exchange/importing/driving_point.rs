@@ -5,9 +5,7 @@
 //! modes are. Elsewhere modes move in and against the phase of the first, and the part changes its sign from one to the next.
 
 use super::error::Result;
-use super::functions::is_function;
-use super::request::Request;
-use dashpot_datafiles::{DataFile, Values};
+use dashpot_datafiles::{DataFile, Set, Values};
 
 /// One-sidedness of a driving point, `|sum x| / sum |x|` of the part of one sign.
 const ONE_SIGN: f64 = 0.97;
@@ -17,14 +15,15 @@ const BOTH_SIGNS: f64 = 0.9;
 const MOST: usize = 400;
 
 /// Number, in their order, of the function that alone can be that of a driving point; none where several can, or none.
+/// `is_function` says which channels of a set are functions.
 ///
 /// # Errors
 /// A file that cannot be read.
-pub(super) fn driving_point(request: &Request, files: &[DataFile]) -> Result<Option<usize>> {
+pub(super) fn driving_point(files: &[DataFile], is_function: impl Fn(&Set, usize) -> bool) -> Result<Option<usize>> {
     let mut sided = Vec::new();
     for file in files {
         for (s, set) in file.contents().sets.iter().enumerate() {
-            for c in (0..set.channels.len()).filter(|&c| is_function(set, c, request)) {
+            for c in (0..set.channels.len()).filter(|&c| is_function(set, c)) {
                 sided.push(if sided.len() < MOST { most_sided(&file.read(s, c)?) } else { 1.0 });
             }
         }

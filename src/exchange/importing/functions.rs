@@ -27,7 +27,7 @@ fn of_set<'a>(set: &'a Set, request: &Request) -> impl Iterator<Item = &'a Chann
 }
 
 /// Whether channel `channel` of a set is a function.
-pub(super) fn is_function(set: &Set, channel: usize, request: &Request) -> bool {
+fn is_function(set: &Set, channel: usize, request: &Request) -> bool {
     is_wanted(set, request) && has_values(&set.channels[channel])
 }
 
@@ -75,7 +75,7 @@ pub(super) fn measured(request: &Request, files: &[DataFile]) -> Result<(Vec<Mea
         let (numbers, mut how) = numbered(request, files, &counts);
         responses = numbers;
         if references.is_empty() {
-            let driven = driving_point(request, files)?;
+            let driven = driving_point(files, |set, channel| is_function(set, channel, request))?;
             references = vec![responses[driven.unwrap_or(0)].clone()];
             if driven.is_some() {
                 how.push_str(", of which one has the signs of a driving point");
@@ -192,16 +192,7 @@ fn of_matrix(request: &Request, files: &[DataFile]) -> Option<(Measured, String)
     let [file] = files else { return None };
     let pairs: Vec<[String; 2]> =
         functions(file.contents(), request).map(|channel| element(&channel.name)).collect::<Option<_>>()?;
-    let once = |side: usize| {
-        let mut labels: Vec<String> = Vec::new();
-        pairs.iter().for_each(|pair| {
-            if !labels.contains(&pair[side]) {
-                labels.push(pair[side].clone())
-            }
-        });
-        labels
-    };
-    let (responses, references) = (once(0), once(1));
+    let (responses, references) = (each_once(&pairs, 0), each_once(&pairs, 1));
     let all = references.iter().flat_map(|reference| responses.iter().map(move |response| [response, reference]));
     let in_order = pairs.iter().map(|[response, reference]| [response, reference]).eq(all);
     let driven = pairs.iter().any(|[response, reference]| response == reference);
@@ -212,6 +203,17 @@ fn of_matrix(request: &Request, files: &[DataFile]) -> Option<(Measured, String)
     );
     let (path, further) = (file.path().to_owned(), Vec::new());
     (in_order && driven).then_some((Measured { path, further, responses, references }, how))
+}
+
+/// The labels on one side of pairs, each once, in their order.
+fn each_once(pairs: &[[String; 2]], side: usize) -> Vec<String> {
+    let mut labels: Vec<String> = Vec::new();
+    for pair in pairs {
+        if !labels.contains(&pair[side]) {
+            labels.push(pair[side].clone());
+        }
+    }
+    labels
 }
 
 /// Row and column of an element of a matrix such as `H21`; of more figures they could not be told.

@@ -2,6 +2,7 @@
 
 use super::error::{ImportError, Result};
 use super::functions::{Measured, functions, measured, opened, pair, together};
+use super::kept::Kept;
 use super::model::{Point, head, model, places};
 use super::numbers::{along_the_only_axis, said_of_axis};
 use super::request::{Imported, Request};
@@ -146,7 +147,7 @@ fn labelled(request: &Request, points: &[(String, Point)]) -> Result<(Vec<String
             (points.iter().map(label).collect(), own.iter().collect())
         }
         None => {
-            let kept = request.kept.as_ref().map(super::Kept::structure).transpose()?;
+            let kept = request.kept.as_ref().map(Kept::structure).transpose()?;
             let only = kept.map(|structure| along_the_only_axis(&structure, &own)).unwrap_or_default();
             let label = |own: &String| only.get(own).unwrap_or(own).clone();
             (own.iter().map(label).collect(), points.iter().map(|(name, _)| name).collect())
