@@ -63,15 +63,18 @@ pub(super) fn run(arguments: &Diagnose) -> anyhow::Result<String> {
     if let Some(mended) = mended {
         mended.before(&project.sources, &mut diagnosis, &control)?;
     }
+    let rival = if taken.is_empty() { identified::Rival::of(&project, &diagnosis, &control) } else { None };
     if arguments.json {
         let mut document = document(&project, &diagnosis);
+        document["identify_explains"] = json!(rival.map(|rival| rival.document(&project)));
         if !taken.is_empty() {
             document["identified"] = identified::document(&project, &taken);
         }
         return Ok(format!("{}\n", serde_json::to_string_pretty(&document)?));
     }
     let written = arguments.apply.as_ref().map_or_else(String::new, |out| format!("\nWritten: {}.\n", out.display()));
-    Ok(format!("{}{}{written}", text(&project, &diagnosis), run_flags::text(&project)))
+    let rival = rival.map_or_else(String::new, |rival| rival.words(&project));
+    Ok(format!("{}{rival}{}{written}", text(&project, &diagnosis), run_flags::text(&project)))
 }
 
 /// A project, and what was identified and taken as known beside what its file says.

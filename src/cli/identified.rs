@@ -2,13 +2,15 @@
 //! without any, and nothing limits its response at resonance.
 
 use super::named_sources::labels;
+use super::table::number;
 use crate::control::Control;
 use crate::diagnosis::compare;
+use crate::diagnosis::result::{Diagnosis, Verdict};
 use crate::effects::Source;
 use crate::exchange::Project;
-use crate::identify::identify;
+use crate::identify::{Status, identify};
 use crate::session::identified;
-use crate::session::validation::problem;
+use crate::session::validation::{only_records, problem};
 use anyhow::Context;
 use serde_json::{Value, json};
 use std::path::Path;
@@ -68,13 +70,59 @@ fn is_meaningless(project: &Project, control: &Control) -> bool {
     !known && sought && error() > if linear { NO_BETTER } else { MEANINGLESS }
 }
 
-fn sentence(project: &Project, taken: &[Source], asked: bool) -> String {
+/// What `identify` finds among the candidates of a project, where it explains the runs at least as well as the first suggestion
+/// of a search that did not take it as known: several sources of the law that a project asks for then are as likely as one of
+/// another law, which fewer parameters speak for.
+pub(super) struct Rival {
+    sources: Vec<Source>,
+    /// Error of the model with them, relative.
+    error: f64,
+    /// Error that the first suggestion leaves.
+    suggested: f64,
+}
+
+impl Rival {
+    /// The rival of a diagnosis that names a missing effect; none where `identify` does not reach the noise or explains less.
+    pub(super) fn of(project: &Project, diagnosis: &Diagnosis, control: &Control) -> Option<Self> {
+        let suggested = diagnosis.suggestions.first()?.error_after;
+        if !matches!(diagnosis.verdict, Verdict::Missing | Verdict::Undecided) || only_records(project) {
+            return None;
+        }
+        let mut project = project.clone();
+        let outcome = identify(&project.structure, &project.sources, &project.runs, &project.settings, control).ok()?;
+        let sources = identified::take_over(&mut project, &outcome);
+        let error = compare(&problem(&project), &[], control).ok()?.error;
+        let named = |source: &Source| diagnosis.suggestions.iter().any(|s| s.added.source.is_same(source));
+        let rivals = outcome.status == Status::WithinNoise && error <= suggested && !sources.iter().any(named);
+        rivals.then_some(Self { sources, error, suggested })
+    }
+
+    pub(super) fn document(&self, project: &Project) -> Value {
+        json!({"sources": document(project, &self.sources), "error": self.error})
+    }
+
+    pub(super) fn words(&self, project: &Project) -> String {
+        let [error, suggested] = [self.error, self.suggested].map(|x| number(100.0 * x));
+        format!(
+            "\n`identify` finds {} among the candidates of the project: error {error} %, after the first suggestion {suggested} %; \
+             --identified takes it as known before anything is looked for\n",
+            names(project, &self.sources)
+        )
+    }
+}
+
+/// Sources with their places, in words.
+fn names(project: &Project, sources: &[Source]) -> String {
     let place = |s: &Source| {
         let labels = labels(&project.structure, &s.place).join("-");
         if labels.is_empty() { s.effect.to_string() } else { format!("{} at {labels}", s.effect) }
     };
-    let names: Vec<String> = taken.iter().map(place).collect();
-    let what = if names.is_empty() { "nothing".to_owned() } else { names.join(", ") };
+    let names: Vec<String> = sources.iter().map(place).collect();
+    if names.is_empty() { "nothing".to_owned() } else { names.join(", ") }
+}
+
+fn sentence(project: &Project, taken: &[Source], asked: bool) -> String {
+    let what = names(project, taken);
     let why = if asked { "" } else { "the model has no damping yet; " };
     format!("{why}what `identify` finds is taken as known: {what}")
 }

@@ -170,6 +170,10 @@ fn indistinguishable(project: &Project, outcome: &Outcome) -> String {
 }
 
 fn energy(project: &Project, outcome: &Outcome) -> String {
+    // Shares of degrees of freedom are those of steady runs; of records alone there are none.
+    if project.runs.is_empty() {
+        return String::new();
+    }
     let mut rows = vec![head(&["DOF", "energy %"])];
     let mut rest = 0.0;
     for (dof, &percent) in project.structure.dofs().iter().zip(&outcome.results.energy_percent) {

@@ -2,6 +2,7 @@
 
 use super::error::IdentifyError;
 use super::found::Found;
+use super::negligible::widen;
 use super::outcome::{Estimate, Outcome, RankedAlternative, RecordOutcome, RunOutcome, SelectionStep, WindowOutcome};
 use super::problem::Problem;
 use super::results::{self, ResultsInput};
@@ -24,7 +25,11 @@ pub(super) fn outcome(problem: &Problem<'_>, found: &Found) -> Result<Outcome, I
     }
     let accepted = found.decision.accepted;
     let set = found.rankings[accepted].best().columns.clone();
-    let fit = solve::fit(&found.system, &set)?;
+    let mut fit = solve::fit(&found.system, &set)?;
+    if let Some(larger) = found.decision.larger {
+        let larger = steps[larger].clone();
+        widen(&mut fit, &mut steps[accepted], &larger);
+    }
     let mut sources = steps[accepted].sources.clone();
     sources.extend(teller.known_sources(&set, &fit.coefficients));
     let coefficients = solve::scattered(problem.columns.len(), &set, &fit.coefficients);

@@ -16,6 +16,7 @@ mod finish;
 mod found;
 mod layouts;
 mod measurements;
+mod negligible;
 mod observable;
 pub(crate) mod outcome;
 mod problem;

@@ -3,6 +3,7 @@
 //! known noise the angle rules, as in the thesis.
 
 use super::describe::describe;
+use super::negligible::without_negligible;
 use super::outcome::{Form, Status};
 use super::problem::Problem;
 use super::search::SizeRanking;
@@ -25,6 +26,8 @@ pub(crate) struct Decision {
     pub accepted: usize,
     pub status: Status,
     pub reason: String,
+    /// Index of the larger set that fits better by sources of next to no energy, which are not taken.
+    pub larger: Option<usize>,
 }
 
 /// How well the best set of one size does.
@@ -69,11 +72,16 @@ fn decided(
         return by_angle(problem, state, rankings, form);
     }
     let scores: Vec<Score> = rankings.iter().map(|r| score(problem, system, r)).collect();
-    let within = scores.iter().position(|s| s.chi_square <= chi_square_quantile(1.0 - REJECTED, s.freedom));
-    match within {
+    let within = |k: usize| scores[k].chi_square <= chi_square_quantile(1.0 - REJECTED, scores[k].freedom);
+    let decision = match (0..scores.len()).find(|&k| within(k)) {
         Some(first) => within_noise(system, rankings, &scores, first),
         None => above_noise(&scores),
-    }
+    };
+    let Some((accepted, reason)) = without_negligible(problem, state, rankings, decision.accepted) else {
+        return decision;
+    };
+    let status = if within(accepted) { Status::WithinNoise } else { Status::AboveNoise };
+    Decision { accepted, status, reason, larger: Some(decision.accepted) }
 }
 
 fn score(problem: &Problem<'_>, system: &System, ranking: &SizeRanking) -> Score {
@@ -113,7 +121,7 @@ fn within_noise(system: &System, rankings: &[SizeRanking], scores: &[Score], fir
         reason += "; more than the noise asks for, on strong evidence";
     }
     reason += &confirmation(system, rankings, accepted);
-    Decision { accepted, status: Status::WithinNoise, reason }
+    Decision { accepted, status: Status::WithinNoise, reason, larger: None }
 }
 
 /// What leaving out each run says of the accepted set against the next smaller one.
@@ -148,7 +156,7 @@ fn above_noise(scores: &[Score]) -> Decision {
         scores[accepted].count,
         plural(scores[accepted].count)
     );
-    Decision { accepted, status: Status::AboveNoise, reason }
+    Decision { accepted, status: Status::AboveNoise, reason, larger: None }
 }
 
 /// The first set below the angle of the settings, else the one with the smallest angle.
@@ -167,7 +175,7 @@ fn by_angle(problem: &Problem<'_>, state: &IdentificationState, rankings: &[Size
             plural(count),
             short(angle(&rankings[accepted]))
         );
-        return Decision { accepted, status: Status::BelowAngle, reason };
+        return Decision { accepted, status: Status::BelowAngle, reason, larger: None };
     }
     let accepted =
         (0..rankings.len()).min_by(|&a, &b| angle(&rankings[a]).total_cmp(&angle(&rankings[b]))).unwrap_or(0);
@@ -179,7 +187,7 @@ fn by_angle(problem: &Problem<'_>, state: &IdentificationState, rankings: &[Size
         names.join(", "),
         short(angle(&rankings[accepted]))
     );
-    Decision { accepted, status: Status::AboveAngle, reason }
+    Decision { accepted, status: Status::AboveAngle, reason, larger: None }
 }
 
 /// Angle in degrees between `b` and `A_S c`: `asin(|A_S c - b| / |b|)`.

@@ -188,12 +188,16 @@ fn relative(name: &str, folder: &Path) -> String {
 }
 
 fn run_of<'a>(file: &'a mut ProjectFile, name: &str) -> Result<&'a mut RunTable, Refusal> {
-    file.run.iter_mut().find(|run| run.file == name).ok_or_else(|| Refusal::NoSuchRun { file: name.into() })
+    let index = file.run.iter().position(|run| run.name() == name);
+    let index = index.or_else(|| file.run.iter().position(|run| run.file == name));
+    index.and_then(|index| file.run.get_mut(index)).ok_or_else(|| Refusal::NoSuchRun { file: name.into() })
 }
 
 fn remove_run(file: &mut ProjectFile, name: &str) -> Done {
     run_of(file, name)?;
-    file.run.retain(|run| run.file != name);
+    let named = |run: &RunTable| run.name() == name;
+    let any = file.run.iter().any(named);
+    file.run.retain(|run| if any { !named(run) } else { run.file != name });
     Ok(())
 }
 

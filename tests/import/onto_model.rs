@@ -220,3 +220,89 @@ fn a_hammer_that_is_named_by_its_place_may_move_from_file_to_file() {
     let error = dashpot(&["identify", &out.display().to_string()]).unwrap_err();
     assert!(error.contains("the file has no channel of that name"), "{error}");
 }
+
+/// A chain of five masses with a dashpot of 6 N s/m at the third, and what a sensor at each shows for a force at the fifth, m/s^2/N.
+fn chain_accelerance(frequency_hz: f64) -> Vec<[f64; 2]> {
+    use faer::linalg::solvers::Solve;
+    let omega = std::f64::consts::TAU * frequency_hz;
+    let dynamic = faer::Mat::from_fn(5, 5, |i, j| {
+        let spring = 4e4
+            * if i == j {
+                if i == 4 { 1.0 } else { 2.0 }
+            } else if i.abs_diff(j) == 1 {
+                -1.0
+            } else {
+                0.0
+            };
+        let inertia = if i == j { omega * omega } else { 0.0 };
+        faer::c64::new(spring - inertia, if i == 2 && j == 2 { 6.0 * omega } else { 0.0 })
+    });
+    let force = faer::Mat::from_fn(5, 1, |i, _| faer::c64::new(f64::from(u8::from(i == 4)), 0.0));
+    let motion = dynamic.partial_piv_lu().solve(&force);
+    (0..5).map(|i| [-omega * omega * motion[(i, 0)].re, -omega * omega * motion[(i, 0)].im]).collect()
+}
+
+const CHAIN: &str = "[structure]\nkind = \"chain\"\nmasses = [1, 1, 1, 1, 1]\nground_stiffness = [4e4, 0, 0, 0, 0]\n\
+                     coupling_stiffness = [4e4, 4e4, 4e4, 4e4]\n";
+
+/// The chain's functions over 3 to 70 Hz, a column named by `name` for each of the responses.
+fn chain_functions(name: impl Fn(usize) -> String) -> String {
+    let mut text = String::from("Frequency [Hz]");
+    (1..=5).for_each(|i| text.push_str(&format!(",{0} Real [m/s^2/N],{0} Imag [m/s^2/N]", name(i))));
+    for line in 0..540 {
+        let frequency = 3.0 + 0.125 * f64::from(line);
+        text.push_str(&format!("\n{frequency}"));
+        chain_accelerance(frequency).iter().for_each(|[re, im]| text.push_str(&format!(",{re:.9e},{im:.9e}")));
+    }
+    text
+}
+
+/// Sensors along z and hits along -z on a model that moves along x, and elements of a matrix: either way the dashpot is found.
+#[test]
+fn functions_lie_on_a_chain_whatever_their_axis_is_called() {
+    let folder = tempfile::tempdir().unwrap();
+    for (file, text, words) in [
+        (
+            "axis.csv",
+            chain_functions(|i| format!("{i}:+Z/5:+Z")),
+            "assumed: the model moves in one direction only: 1:+Z is taken for its DOF 1, and 4 more likewise",
+        ),
+        ("matrix.csv", chain_functions(|i| format!("H{i}5")), "the functions are 1, 2, 3, 4, 5 over 5"),
+        ("points.csv", chain_functions(|i| format!("Point {i}")), "signs of a driving point, all driven at 5"),
+    ] {
+        let file = folder.path().join(file).display().to_string();
+        std::fs::write(&file, text).unwrap();
+        let (said, project) = onto(folder.path(), &[file], CHAIN).unwrap();
+        assert!(said.contains(words), "{said}");
+        let found = json(&["identify", "--json", &folder.path().join("p.toml").display().to_string()]);
+        let sources = found["sources"].as_array().unwrap();
+        assert_eq!((sources.len(), sources[0]["dofs"][0].as_str()), (1, Some("3")), "{project}");
+        assert!((sources[0]["parameters"]["c"].as_f64().unwrap() / 6.0 - 1.0).abs() < 0.01, "{found}");
+    }
+}
+
+/// Hits of one session in one file, on a model that moves along x: each run has a name of its own in every result.
+#[test]
+fn hits_of_one_file_lie_on_a_chain_and_have_names_of_their_own() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut text = String::new();
+    for frequency in [4.5, 13.0] {
+        let motion = chain_accelerance(frequency);
+        text.push_str(&format!("Step {frequency}\nTime [s],Force 5z [N],Acc 3z [m/s^2],Acc 5z [m/s^2]\n"));
+        for i in 0..2000 {
+            let (time, turn) = (f64::from(i) / 1000.0, std::f64::consts::TAU * frequency * f64::from(i) / 1000.0);
+            let [a, b] = [2, 4].map(|k: usize| motion[k][0] * turn.cos() - motion[k][1] * turn.sin());
+            text.push_str(&format!("{time},{:.9},{a:.9},{b:.9}\n", turn.cos()));
+        }
+        text.push('\n');
+    }
+    let file = folder.path().join("steps.csv").display().to_string();
+    std::fs::write(&file, text).unwrap();
+    let (said, project) = onto(folder.path(), &[file], CHAIN).unwrap();
+    assert!(said.contains("the model moves in one direction only: 3z is taken for its DOF 3"), "{said}");
+    assert_eq!(project.matches("dof = 5\n").count(), 2, "{project}");
+    let found = json(&["identify", "--json", &folder.path().join("p.toml").display().to_string()]);
+    let names: Vec<&str> = found["runs"].as_array().unwrap().iter().map(|run| run["file"].as_str().unwrap()).collect();
+    assert_eq!(names, ["steps.csv 1", "steps.csv 2"]);
+    assert!((found["sources"][0]["parameters"]["c"].as_f64().unwrap() / 6.0 - 1.0).abs() < 0.01, "{found}");
+}

@@ -1,5 +1,6 @@
 //! DOFs of a Universal File in a structure.
 
+use crate::exchange::records::known_labels;
 use crate::structure::{Direction, Structure};
 use std::collections::BTreeMap;
 
@@ -19,9 +20,9 @@ pub(super) fn place(dof: &uff::Dof, named: &BTreeMap<String, String>, structure:
         let Some(label) = named.get(&name) else { continue };
         let direct = structure.dof(label).map(|row| (row, sign));
         let reversed = || label.strip_prefix('-').and_then(|label| structure.dof(label)).map(|row| (row, -sign));
-        return direct
-            .or_else(reversed)
-            .ok_or_else(|| format!("`\"{name}\" = \"{label}\"`: the structure has no such DOF"));
+        return direct.or_else(reversed).ok_or_else(|| {
+            format!("`\"{name}\" = \"{label}\"`: the structure has no such DOF; it has {}", known_labels(structure))
+        });
     }
     let entity = Some(&dof.entity).filter(|entity| !entity.is_empty());
     if let Some(row) = entity.and_then(|entity| structure.dof(entity)) {
@@ -58,7 +59,10 @@ pub(super) fn place_of_name(
     if short != asked {
         return place_of_name(short, named, structure);
     }
-    Err(format!("\"{asked}\" is no DOF of the structure; add `\"{plain}\" = LABEL` under [frf.dofs]"))
+    let known = known_labels(structure);
+    Err(format!(
+        "\"{asked}\" is no DOF of the structure, which has {known}; add `\"{plain}\" = LABEL` under [frf.dofs]"
+    ))
 }
 
 /// The place at the end of a name: `12:+Z` of `FRF Plate:12:+Z`, `1` of `Point 1`; the whole name where it ends in none.

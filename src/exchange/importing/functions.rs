@@ -1,6 +1,7 @@
 //! The functions of measurement files and where they were measured: response and reference by what the request says, by what
 //! the file says, by names of functions, sets and files.
 
+use super::driving_point::driving_point;
 use super::error::{ImportError, Result};
 use super::request::Request;
 use crate::exchange::frf::{pair_in_name, response_in_name};
@@ -21,8 +22,21 @@ pub(super) fn functions<'a>(contents: &'a Contents, request: &Request) -> impl I
 }
 
 fn of_set<'a>(set: &'a Set, request: &Request) -> impl Iterator<Item = &'a Channel> + use<'a> {
-    let wanted = set.kind == Kind::Frf || request.step_hz.is_some() && set.kind == Kind::Table;
-    set.channels.iter().filter(move |channel| wanted && channel.complex && channel.count > 0)
+    let wanted = is_wanted(set, request);
+    set.channels.iter().filter(move |channel| wanted && has_values(channel))
+}
+
+/// Whether channel `channel` of a set is a function.
+fn is_function(set: &Set, channel: usize, request: &Request) -> bool {
+    is_wanted(set, request) && has_values(&set.channels[channel])
+}
+
+fn is_wanted(set: &Set, request: &Request) -> bool {
+    set.kind == Kind::Frf || request.step_hz.is_some() && set.kind == Kind::Table
+}
+
+fn has_values(channel: &Channel) -> bool {
+    channel.complex && channel.count > 0
 }
 
 /// A file with responses and the labels of its functions in order, where names and file do not say them.
@@ -50,11 +64,22 @@ pub(super) fn measured(request: &Request, files: &[DataFile]) -> Result<(Vec<Mea
             return Ok((measured, vec![format!("by the names of the files the functions are {}", said.join(", "))]));
         }
     }
+    if !named
+        && responses.is_empty()
+        && references.is_empty()
+        && let Some((measured, how)) = of_matrix(request, files)
+    {
+        return Ok((vec![measured], vec![how]));
+    }
     if !named && responses.is_empty() {
-        let (numbers, how) = numbered(request, files, &counts);
+        let (numbers, mut how) = numbered(request, files, &counts);
         responses = numbers;
         if references.is_empty() {
-            references = vec![responses[0].clone()];
+            let driven = driving_point(files, |set, channel| is_function(set, channel, request))?;
+            references = vec![responses[driven.unwrap_or(0)].clone()];
+            if driven.is_some() {
+                how.push_str(", of which one has the signs of a driving point");
+            }
         }
         if references.len() != 1 {
             let problem =
@@ -159,6 +184,45 @@ fn by_names_of_files(files: &[DataFile], counts: &[usize]) -> Vec<Measured> {
     let functions = files.iter().zip(counts).filter(|(_, count)| **count > 0);
     let found: Option<Vec<Measured>> = functions.map(|(file, count)| own(file).filter(|_| *count == 1)).collect();
     found.unwrap_or_default()
+}
+
+/// Responses and references of one file whose functions are named as elements of a matrix of one figure each, `H11`, `H21`,
+/// `H12`, ...: all responses to the first reference first, a driving point among them. None where the names are others.
+fn of_matrix(request: &Request, files: &[DataFile]) -> Option<(Measured, String)> {
+    let [file] = files else { return None };
+    let pairs: Vec<[String; 2]> =
+        functions(file.contents(), request).map(|channel| element(&channel.name)).collect::<Option<_>>()?;
+    let (responses, references) = (each_once(&pairs, 0), each_once(&pairs, 1));
+    let all = references.iter().flat_map(|reference| responses.iter().map(move |response| [response, reference]));
+    let in_order = pairs.iter().map(|[response, reference]| [response, reference]).eq(all);
+    let driven = pairs.iter().any(|[response, reference]| response == reference);
+    let how = format!(
+        "by their names, elements of a matrix, the functions are {} over {}",
+        responses.join(", "),
+        references.join(", ")
+    );
+    let (path, further) = (file.path().to_owned(), Vec::new());
+    (in_order && driven).then_some((Measured { path, further, responses, references }, how))
+}
+
+/// The labels on one side of pairs, each once, in their order.
+fn each_once(pairs: &[[String; 2]], side: usize) -> Vec<String> {
+    let mut labels: Vec<String> = Vec::new();
+    for pair in pairs {
+        if !labels.contains(&pair[side]) {
+            labels.push(pair[side].clone());
+        }
+    }
+    labels
+}
+
+/// Row and column of an element of a matrix such as `H21`; of more figures they could not be told.
+fn element(name: &str) -> Option<[String; 2]> {
+    let digits = name.find(|c: char| c.is_ascii_digit())?;
+    let (word, figures) = name.split_at(digits);
+    let word = word.trim_end_matches(['_', ' ']).to_lowercase();
+    let two = figures.len() == 2 && figures.chars().all(|c| matches!(c, '1'..='9'));
+    (["h", "frf", "tf"].contains(&word.as_str()) && two).then(|| [0, 1].map(|i| figures[i..=i].to_owned()))
 }
 
 /// Labels of responses whose references nothing says: by the numbers in the names of the functions, of their sets, of the

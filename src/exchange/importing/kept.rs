@@ -1,7 +1,9 @@
 //! What an import keeps of a project that is given as a template: all but its measurements.
 
 use super::error::{ImportError, Result};
+use crate::exchange::project::plan;
 use crate::exchange::project::relocate::{canonical, renamed};
+use crate::structure::Structure;
 use std::path::{Path, PathBuf};
 use toml_edit::{DocumentMut, Item, Table, value};
 
@@ -42,6 +44,15 @@ impl Kept {
         let project = if document.contains_key("project") { String::new() } else { own_project(title) };
         let text = document.to_string();
         Ok(format!("{project}{}\n\n{candidates}", text.trim()))
+    }
+
+    /// The structure of the template.
+    ///
+    /// # Errors
+    /// As [`Self::head`], and what is wrong with the structure.
+    pub(super) fn structure(&self) -> Result<Structure> {
+        let out = self.folder.join("import.toml");
+        Ok(plan(&self.head(&out, "")?, &out).map_err(ImportError::Unwritten)?.structure)
     }
 
     fn rename_files(&self, document: &mut DocumentMut, out: &Path) -> Result<()> {

@@ -2,6 +2,7 @@
 //! mapping of their channels, frequency responses `[[frf]]`, stepped-sine tables `[[harmonics]]`. The command line and the
 //! window ask for it with the same [`Request`] and write the same text.
 
+mod driving_point;
 mod error;
 pub mod files;
 mod functions;

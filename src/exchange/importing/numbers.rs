@@ -1,11 +1,52 @@
-//! Numbers of measured points on a structure whose DOFs are numbered otherwise than its nodes, as those of a beam are.
+//! Measured points on a structure that calls its DOFs otherwise: a beam, whose DOFs are numbered otherwise than its nodes, and
+//! structures that move in one direction only, which may be another than that of the sensors' axes.
 
 use super::error::{ImportError, Result};
 use crate::exchange::mapping::Proposal;
 use crate::exchange::project::plan;
 use crate::measurement::Quantity;
 use crate::structure::{Structure, StructureKind};
+use std::collections::BTreeMap;
 use std::path::Path;
+
+/// The labels of DOFs that places named with a direction, such as `4z`, stand for where every node of the structure has one
+/// translation and all of them lie along one axis, as in a chain: the axes of the sensors then need not be those of the model.
+/// Empty where the places are named in several directions, where the structure has one of them as it is named, or where a
+/// node is not there.
+pub(super) fn along_the_only_axis<'a>(
+    structure: &Structure,
+    places: impl IntoIterator<Item = &'a String>,
+) -> BTreeMap<String, String> {
+    let (Some(at_nodes), mut found, mut axes) = (only_translations(structure), BTreeMap::new(), Vec::new()) else {
+        return BTreeMap::new();
+    };
+    for place in places {
+        let digits = place.find(|c: char| !c.is_ascii_digit()).unwrap_or(place.len());
+        let (node, axis) = place.split_at(digits);
+        if !matches!(axis, "x" | "y" | "z") {
+            continue;
+        }
+        let (None, Some(label)) = (structure.dof(place), at_nodes.get(node)) else { return BTreeMap::new() };
+        found.insert(place.clone(), (*label).to_owned());
+        axes.push(axis);
+    }
+    if axes.windows(2).any(|two| two[0] != two[1]) { BTreeMap::new() } else { found }
+}
+
+/// The label of the translation of each node, where every node has one and all lie along one axis.
+fn only_translations(structure: &Structure) -> Option<BTreeMap<&str, &str>> {
+    let translations = || structure.dofs().iter().filter(|dof| dof.direction.axis().is_some());
+    let first = translations().next()?.direction;
+    let at_nodes: BTreeMap<&str, &str> =
+        translations().map(|dof| (structure.nodes()[dof.node].label.as_str(), dof.label.as_str())).collect();
+    let one_each = at_nodes.len() == translations().count();
+    (one_each && translations().all(|dof| dof.direction == first)).then_some(at_nodes)
+}
+
+/// How a place along the only axis is said.
+pub(super) fn said_of_axis(place: &str, label: &str) -> String {
+    format!("the model moves in one direction only: {place} is taken for its DOF {label}")
+}
 
 /// The proposal with its numbers placed on the structure of the project text `head`. They are labels of DOFs, unless one of
 /// them would be a rotation or none: then they are nodes, and their translations are meant. Which, is said.
@@ -14,40 +55,52 @@ use std::path::Path;
 /// What is wrong with the structure.
 pub(super) fn placed(mut mapping: Proposal, head: &str, out: &Path) -> Result<Proposal> {
     let structure = plan(head, out).map_err(ImportError::Unwritten)?.structure;
+    let tables = || mapping.channels.iter().filter(|table| table.quantity != Quantity::Base);
+    let only = along_the_only_axis(&structure, tables().map(|table| &table.dof));
+    for (place, label) in only {
+        relabel(&mut mapping, &place, &label, &said_of_axis(&place, &label));
+    }
     if structure.kind() != StructureKind::Beam {
         return Ok(mapping);
     }
     let numbered = |label: &String| !label.is_empty() && label.chars().all(|c| c.is_ascii_digit());
     let tables = mapping.channels.iter().filter(|table| table.quantity != Quantity::Base);
-    let numbers: Vec<String> = tables.map(|table| table.dof.clone()).filter(numbered).collect();
+    let mut numbers: Vec<String> = tables.map(|table| table.dof.clone()).filter(numbered).collect();
+    numbers.sort();
+    numbers.dedup();
     let is_translation =
         |label: &String| structure.dof(label).is_some_and(|row| !structure.dofs()[row].direction.is_rotation());
     let of_nodes = !numbers.iter().all(is_translation);
     if of_nodes && !numbers.iter().all(|number| translation(&structure, number).is_some()) {
         return Ok(mapping);
     }
-    for table in mapping.channels.iter_mut().filter(|table| numbers.contains(&table.dof)) {
-        let (old, number) = (table.channel(), table.dof.clone());
-        let at_node = translation(&structure, &number);
-        let how = match (of_nodes, at_node) {
+    for number in numbers {
+        match (of_nodes, translation(&structure, &number)) {
             (true, Some(label)) => {
-                table.dof.clone_from(&label);
-                format!("{number} is taken for the node: {label} is its translation")
+                let how = format!("{number} is taken for the node: {label} is its translation");
+                relabel(&mut mapping, &number, &label, &how);
             }
             (false, Some(label)) if structure.dof(&label) != structure.dof(&number) => {
-                format!("{number} is taken for the DOF of that label; the translation of node {number} is {label}")
+                let how =
+                    format!("{number} is taken for the DOF of that label; the translation of node {number} is {label}");
+                relabel(&mut mapping, &number, &number, &how);
             }
-            _ => continue,
-        };
-        let name = table.channel();
-        mapping
-            .assumed
-            .iter_mut()
-            .filter(|(channel, _)| *channel == old)
-            .for_each(|(channel, _)| channel.clone_from(&name));
-        mapping.assumed.push((name, how));
+            _ => {}
+        }
     }
     Ok(mapping)
+}
+
+/// The channels at a place moved to the DOF `label`, and how that is said of each.
+fn relabel(mapping: &mut Proposal, place: &str, label: &str, how: &str) {
+    for table in mapping.channels.iter_mut().filter(|table| table.dof == place && table.quantity != Quantity::Base) {
+        let old = table.channel();
+        label.clone_into(&mut table.dof);
+        let name = table.channel();
+        let said = mapping.assumed.iter_mut().filter(|(channel, _)| *channel == old);
+        said.for_each(|(channel, _)| channel.clone_from(&name));
+        mapping.assumed.push((name, how.to_owned()));
+    }
 }
 
 /// Name of the translation at the node of that number.
@@ -81,6 +134,26 @@ mod tests {
         let mapping = Proposal { channels: labels.iter().map(table).collect(), ..Proposal::default() };
         let placed = placed(mapping, BEAM, Path::new("p.toml")).unwrap();
         (placed.channels.into_iter().map(|table| table.dof).collect(), placed.assumed.len())
+    }
+
+    /// The places of sensors along z lie on a chain, whose DOFs lie along x; several directions, or nodes that are not there,
+    /// are left as they are, and a beam's own names too.
+    #[test]
+    fn sensors_along_another_axis_lie_on_the_dofs_of_a_chain() {
+        let chain = "[project]\nformat = 1\n[structure]\nkind = \"chain\"\nmasses = [1, 1, 1]\n\
+                     ground_stiffness = [1, 0, 0]\ncoupling_stiffness = [1, 1]\n";
+        let structure = |text: &str| plan(text, Path::new("p.toml")).unwrap().structure;
+        let found = |text: &str, places: &[&str]| {
+            let places: Vec<String> = places.iter().map(|place| (*place).to_owned()).collect();
+            let pairs = along_the_only_axis(&structure(text), &places).into_iter();
+            pairs.map(|(place, label)| format!("{place} {label}")).collect::<Vec<_>>().join(", ")
+        };
+        assert_eq!(found(chain, &["1z", "3z", "3z", "2"]), "1z 1, 3z 3");
+        assert_eq!(found(chain, &["1z", "3y"]), "");
+        assert_eq!(found(chain, &["1z", "4z"]), "");
+        assert_eq!(found(chain, &["1z", "2x"]), "");
+        assert_eq!(found(BEAM, &["2y", "4y"]), "2y 3, 4y 7");
+        assert_eq!(found(BEAM, &["2z", "4z"]), "");
     }
 
     #[test]

@@ -346,7 +346,8 @@ fn summary(
         );
     }
     let (runs, channels) = (counted(sources.len(), "run"), counted(mapping.channels.len(), "channel"));
-    format!("{text}{runs} of {channels} are in {}\n", out.display())
+    let are = if sources.len() == 1 { "is" } else { "are" };
+    format!("{text}{runs} of {channels} {are} in {}\n", out.display())
 }
 
 /// Of what kind the runs are and why; runs that follow one another and are alike in one line.

@@ -2,7 +2,9 @@
 
 use super::error::{ImportError, Result};
 use super::functions::{Measured, functions, measured, opened, pair, together};
+use super::kept::Kept;
 use super::model::{Point, head, model, places};
+use super::numbers::{along_the_only_axis, said_of_axis};
 use super::request::{Imported, Request};
 use super::text::{comment, counted, named, points as points_structure};
 use crate::control::Control;
@@ -102,6 +104,19 @@ fn project(request: &Request, out: &Path) -> Result<Found> {
         format!("the file says no place of its reference {name}: it is taken to act at the first response; correct it under [frf.dofs]")
     }));
     let (labels, dofs) = labelled(request, &points)?;
+    if request.kept.is_some() {
+        let own = |name: &String| name.replace(":+", "").to_lowercase();
+        let mut moved = dofs.iter().filter(|(name, label)| {
+            own(name) != **label && !is_nowhere(name) && template_label(request, name).is_none()
+        });
+        if let Some((name, label)) = moved.next() {
+            let more = match moved.count() {
+                0 => String::new(),
+                more => format!(", and {more} more likewise"),
+            };
+            assumed.push(said_of_axis(name, label) + &more);
+        }
+    }
     let up_to = if highest_hz > 0.0 { 2.0 * highest_hz } else { 2000.0 };
     let head = head(request, out, &points_structure(&labels), up_to)?;
     let mut tables = String::new();
@@ -131,7 +146,12 @@ fn labelled(request: &Request, points: &[(String, Point)]) -> Result<(Vec<String
             };
             (points.iter().map(label).collect(), own.iter().collect())
         }
-        None => (own.clone(), points.iter().map(|(name, _)| name).collect()),
+        None => {
+            let kept = request.kept.as_ref().map(Kept::structure).transpose()?;
+            let only = kept.map(|structure| along_the_only_axis(&structure, &own)).unwrap_or_default();
+            let label = |own: &String| only.get(own).unwrap_or(own).clone();
+            (own.iter().map(label).collect(), points.iter().map(|(name, _)| name).collect())
+        }
     };
     // What a template says of a DOF goes first.
     for (label, (name, _)) in labels.iter_mut().zip(points) {

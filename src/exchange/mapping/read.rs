@@ -6,7 +6,7 @@ use super::propose::own_name;
 use super::samples::{same_even_axis, same_time, samples, times};
 use super::table::ChannelTable;
 use super::units::LabUnit;
-use crate::exchange::records::{RecordFileError, RecordProblem, base_channel};
+use crate::exchange::records::{RecordFileError, RecordProblem, base_channel, known_labels};
 use crate::measurement::channel::ChannelName;
 use crate::measurement::{Channel, Quantity, Record};
 use crate::structure::{Structure, StructureKind};
@@ -192,7 +192,10 @@ fn target(table: &ChannelTable, unit: &str, structure: &Structure, at: &At<'_>) 
     let Some(dof) = structure.dof(&label) else {
         return Err(at.error(
             Some(&table.name),
-            format!("the structure has no DOF \"{label}\"; correct `dof` of its [[channel]]"),
+            format!(
+                "the structure has no DOF \"{label}\", it has {}; correct `dof` of its [[channel]]",
+                known_labels(structure)
+            ),
         ));
     };
     unit_suits(table, unit, structure, dof, at)?;

@@ -86,10 +86,10 @@ impl Plan {
         let mut record = self.record(index, control)?;
         if !planned.part.is_whole() {
             let range = planned.part.samples(record.time());
-            let wrong = |error| Problem::Part { file: planned.file.clone(), error };
+            let wrong = |error| Problem::Part { file: planned.name(), error };
             record = record.part(range).map_err(|error| self.run_error(index, "start_s", wrong(error)))?;
         }
-        let (file, settings) = (planned.file.clone(), self.settings());
+        let (file, settings) = (planned.name(), self.settings());
         let (level, enabled, frequency_hz) = (planned.level, planned.enabled, planned.frequency_hz);
         let corrections = self.corrections();
         let record = Arc::new(record);
@@ -98,7 +98,7 @@ impl Plan {
                 .map(|run| Run { session: planned.session.clone(), insisted: planned.insisted, ..run })
                 .map_err(|error| {
                     let key = if frequency_hz.is_some() { "frequency" } else { "file" };
-                    let (file, looks_like) = (planned.file.clone(), propose(&record));
+                    let (file, looks_like) = (planned.name(), propose(&record));
                     let problem = match looks_like {
                         Proposal { kind: Kind::Steady, .. } => Problem::Fit { file, error },
                         Proposal { kind, reason, .. } => Problem::NotSteady { file, error, kind: kind.name(), reason },
@@ -116,7 +116,7 @@ impl Plan {
         let planned = &self.runs[index];
         let record = self.record(index, control)?;
         let label = TransientLabel {
-            file: planned.file.clone(),
+            file: planned.name(),
             kind: planned.kind,
             part: planned.part,
             level: planned.level,
@@ -126,7 +126,7 @@ impl Plan {
         };
         let run = TransientRun::new(label, Arc::new(record), &self.corrections()).map_err(|error| {
             let key = if matches!(error, TransientRunError::PartTooShort { .. }) { "start_s" } else { "file" };
-            self.run_error(index, key, Problem::Transient { file: planned.file.clone(), error })
+            self.run_error(index, key, Problem::Transient { file: planned.name(), error })
         })?;
         self.in_time_on_its_base(index, run)
     }

@@ -83,6 +83,13 @@ pub struct PlannedRun {
     pub response: BaseResponse,
 }
 
+impl PlannedRun {
+    /// What messages and results call the run.
+    pub fn name(&self) -> String {
+        super::runs::name(&self.file, self.set.as_ref().or(self.sets.first()))
+    }
+}
+
 /// A test of a recipe that is not steady.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PlannedTest {

@@ -38,6 +38,16 @@ impl RunTable {
     pub fn of(file: String) -> Self {
         Self { file, ..Self::default() }
     }
+
+    /// What messages and results call the run.
+    pub fn name(&self) -> String {
+        name(&self.file, self.set.as_ref().or(self.sets.first()))
+    }
+}
+
+/// The file, and behind it the set where the run is one of several of the file: those have the name of the file alike.
+pub(super) fn name(file: &str, set: Option<&String>) -> String {
+    set.map_or_else(|| file.to_owned(), |set| format!("{file} {set}"))
 }
 
 pub(super) fn runs(root: &Table<'_>, lines: &mut Lines) -> Read<Vec<RunTable>> {

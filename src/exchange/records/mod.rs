@@ -13,7 +13,7 @@ pub(crate) mod writer;
 pub use error::{RecordFileError, RecordProblem};
 pub use harmonics::{parse_harmonics, read_harmonics, read_harmonics_as, write_harmonics};
 pub use harmonics_run::HarmonicsRun;
-pub(crate) use reader::base_channel;
+pub(crate) use reader::{base_channel, known_labels};
 pub use reader::{parse_record, read_record, read_record_with};
 pub use stepped_sine::SteppedSine;
 pub use writer::write_record;

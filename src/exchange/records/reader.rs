@@ -178,7 +178,7 @@ pub(crate) fn base_channel(label: &str, structure: &Structure) -> Option<Channel
     Some(Channel { quantity: Quantity::Base, dof, label: label.to_owned() })
 }
 
-fn known_labels(structure: &Structure) -> String {
+pub(crate) fn known_labels(structure: &Structure) -> String {
     let dofs = structure.dofs();
     let labels: Vec<&str> = dofs.iter().take(MOST_LABELS).map(|dof| dof.label.as_str()).collect();
     match dofs.last() {
