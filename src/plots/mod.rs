@@ -33,4 +33,4 @@ pub(crate) mod svg;
 pub mod tables;
 pub mod ticks;
 pub(crate) mod trace;
-pub(crate) mod unsteady_record;
+pub mod unsteady_record;

@@ -18,7 +18,7 @@ pub struct UnsteadyRecord {
 
 impl UnsteadyRecord {
     /// Channel number `channel` of a record; `None` where it has no such channel.
-    pub(crate) fn new(run: &TransientRun, channel: usize) -> Option<Self> {
+    pub fn new(run: &TransientRun, channel: usize) -> Option<Self> {
         let of = run.channels().get(channel)?.clone();
         let samples = run.samples(channel);
         Some(Self {
@@ -33,12 +33,12 @@ impl UnsteadyRecord {
     }
 
     /// The samples over time.
-    pub(crate) fn over_time(&self, palette: &Palette, title: &str) -> Figure {
+    pub fn over_time(&self, palette: &Palette, title: &str) -> Figure {
         figure(palette, title, [Axis::new("Time", "s"), self.axis()], &self.samples)
     }
 
     /// The amplitude spectrum through a Hann window; `None` of a record that is too short.
-    pub(crate) fn over_frequency(&self, palette: &Palette, title: &str) -> Option<Figure> {
+    pub fn over_frequency(&self, palette: &Palette, title: &str) -> Option<Figure> {
         let y = Axis::log("Amplitude", &self.axis().unit);
         Some(figure(palette, title, [Axis::new("Frequency", "Hz"), y], self.spectrum.as_ref()?))
     }

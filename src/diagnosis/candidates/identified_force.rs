@@ -13,7 +13,7 @@
 use crate::diagnosis::candidates::eliminator::Eliminator;
 use crate::diagnosis::candidates::friction::{friction, sizes};
 use crate::diagnosis::candidates::start::{Fields, relative};
-use crate::diagnosis::localisation::cell::FreeForce;
+use crate::diagnosis::localisation::cell::{FreeForce, shrunk};
 use crate::diagnosis::localisation::free_force::ForceFreedom;
 use crate::diagnosis::localisation::location::Spot;
 use crate::diagnosis::residual::data::{Data, RunData};
@@ -180,7 +180,7 @@ impl PlaceData {
     /// has an unphysical sign, or if the best shape leaves more than `bound` there.
     fn fit_within(&self, effect: Effect, bound: f64, grid: &Self) -> Option<LawFit> {
         match (effect.kind(), &self.spot) {
-            (Kind::Relative(law), Spot::Leg(_)) if is_scale(effect, law) => self.fit_scale(effect, law),
+            (Kind::Relative(law), Spot::Leg(_)) if is_scale(effect, law) => self.starts_of(effect, law).next(),
             (Kind::Relative(law), Spot::Leg(_)) => self.fit_law(effect, law, grid.grid(effect, law), bound),
             (Kind::Channel(law), Spot::Response(_) | Spot::Force(_)) => self.fit_channel(effect, law),
             _ => None,
@@ -220,11 +220,6 @@ impl PlaceData {
             misfit,
         };
         self.grid(effect, law).into_iter().map(fit)
-    }
-
-    /// A law that has a scale alone.
-    fn fit_scale(&self, effect: Effect, law: &'static dyn Law) -> Option<LawFit> {
-        self.starts_of(effect, law).next()
     }
 
     /// A law from the best shapes of a `grid` that leave less than `bound`.
@@ -322,16 +317,6 @@ fn is_scale(effect: Effect, law: &dyn Law) -> bool {
 /// Whether a law has so few parameters that it is regressed at every place.
 fn is_simple(effect: Effect) -> bool {
     effect.parameters().len() <= 2
-}
-
-/// A free force drawn to zero where the data hardly see it: harmonics are no larger than the fundamental over the order.
-pub(crate) fn shrunk(forces: &[FreeForce], h: usize) -> c64 {
-    let free = forces[h - 1];
-    if h == 1 {
-        return free.value;
-    }
-    let prior = (forces[0].value.norm() / h as f64).powi(2);
-    free.value * (prior * free.weight / (1.0 + prior * free.weight))
 }
 
 /// The regression of one law with parameters that shape it.

@@ -14,8 +14,8 @@
 
 use crate::control::Control;
 use crate::diagnosis::candidates::friction::friction;
-use crate::diagnosis::candidates::identified_force::{PlaceData, shrunk};
-use crate::diagnosis::localisation::cell::FreeForce;
+use crate::diagnosis::candidates::identified_force::PlaceData;
+use crate::diagnosis::localisation::cell::{FreeForce, shrunk};
 use crate::diagnosis::localisation::location::Spot;
 use crate::diagnosis::residual::data::{Data, DiagnosisError, Problem, RunData};
 use crate::diagnosis::residual::levels::Levels;

@@ -18,6 +18,16 @@ pub(crate) struct FreeForce {
     pub weight: f64,
 }
 
+/// A free force drawn to zero where the data hardly see it: harmonics are no larger than the fundamental over the order.
+pub(crate) fn shrunk(forces: &[FreeForce], h: usize) -> c64 {
+    let free = forces[h - 1];
+    if h == 1 {
+        return free.value;
+    }
+    let prior = (forces[0].value.norm() / h as f64).powi(2);
+    free.value * (prior * free.weight / (1.0 + prior * free.weight))
+}
+
 /// Whitened residual and columns of one harmonic of one run.
 #[derive(Debug, Clone)]
 pub(super) struct Cell {

@@ -1,9 +1,9 @@
 //! The search for one more effect, or two at once: places first, then laws, then the fit on the response.
 
 use super::short_list::{Breadth, hopeless, telling};
-use crate::diagnosis::candidates::identified_force::{LawFit, PlaceData, shrunk};
+use crate::diagnosis::candidates::identified_force::{LawFit, PlaceData};
 use crate::diagnosis::candidates::start::{Fields, UnfittedSet};
-use crate::diagnosis::localisation::cell::FreeForce;
+use crate::diagnosis::localisation::cell::{FreeForce, shrunk};
 use crate::diagnosis::localisation::free_force::{Freedom, Placing, Screen};
 use crate::diagnosis::localisation::location::{Receptances, Spot};
 use crate::diagnosis::residual::data::DiagnosisError;

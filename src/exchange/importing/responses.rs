@@ -134,24 +134,21 @@ fn project(request: &Request, out: &Path) -> Result<Found> {
 /// Labels of the DOFs, and those of the file that are called otherwise in the project.
 fn labelled(request: &Request, points: &[(String, Point)]) -> Result<(Vec<String>, BTreeMap<String, String>)> {
     let own: Vec<String> = points.iter().map(|(_, point)| format!("{}{}", point.node, point.direction)).collect();
-    let (mut labels, names): (Vec<String>, Vec<&String>) = match model(request)? {
-        Some(model) => {
-            let unsaid = points.iter().filter(|(name, _)| template_label(request, name).is_none() && !is_nowhere(name));
-            let wanted: Vec<Point> = unsaid.map(|(_, point)| point.clone()).collect();
-            let mut found = places(&wanted, &model)?.into_iter();
-            let label = |(name, _): &(String, Point)| match template_label(request, name) {
-                Some(_) => String::new(),
-                None if is_nowhere(name) => String::new(),
-                None => found.next().unwrap_or_default(),
-            };
-            (points.iter().map(label).collect(), own.iter().collect())
-        }
-        None => {
-            let kept = request.kept.as_ref().map(Kept::structure).transpose()?;
-            let only = kept.map(|structure| along_the_only_axis(&structure, &own)).unwrap_or_default();
-            let label = |own: &String| only.get(own).unwrap_or(own).clone();
-            (own.iter().map(label).collect(), points.iter().map(|(name, _)| name).collect())
-        }
+    let (mut labels, names): (Vec<String>, Vec<&String>) = if let Some(model) = model(request)? {
+        let unsaid = points.iter().filter(|(name, _)| template_label(request, name).is_none() && !is_nowhere(name));
+        let wanted: Vec<Point> = unsaid.map(|(_, point)| point.clone()).collect();
+        let mut found = places(&wanted, &model)?.into_iter();
+        let label = |(name, _): &(String, Point)| match template_label(request, name) {
+            Some(_) => String::new(),
+            None if is_nowhere(name) => String::new(),
+            None => found.next().unwrap_or_default(),
+        };
+        (points.iter().map(label).collect(), own.iter().collect())
+    } else {
+        let kept = request.kept.as_ref().map(Kept::structure).transpose()?;
+        let only = kept.map(|structure| along_the_only_axis(&structure, &own)).unwrap_or_default();
+        let label = |own: &String| only.get(own).unwrap_or(own).clone();
+        (own.iter().map(label).collect(), points.iter().map(|(name, _)| name).collect())
     };
     // What a template says of a DOF goes first.
     for (label, (name, _)) in labels.iter_mut().zip(points) {
