@@ -56,11 +56,24 @@ fn solve(columns: &[&Column], e: &[f64]) -> Option<(f64, Vec<f64>)> {
 
 /// Where the search with one set of multiples ended.
 struct Ended {
-    /// Its evidence, the smaller the better.
-    cost: f64,
     multiples: Multiples,
+    /// What no effect leaves, and what the uncertainty costs in evidence.
+    without: f64,
+    cost: f64,
     /// Fits of each number of effects, best first.
     by_size: Vec<Vec<Fitted>>,
+}
+
+impl Ended {
+    /// Squared residual of the best set of `size` effects with what its uncertainty costs, and what its parameters cost besides; the
+    /// smaller the better.
+    fn evidence(&self, size: usize, n: usize) -> Option<(f64, f64)> {
+        if size == 0 {
+            return Some((self.without + self.cost, 0.0));
+        }
+        let best = &self.by_size.get(size - 1)?[0];
+        Some((best.chi_square + self.cost, criterion(best, n) - best.chi_square))
+    }
 }
 
 /// Diagnoses a `points` problem.
@@ -74,26 +87,42 @@ pub(crate) fn diagnose(problem: &Problem, excluded: &[Source], control: &Control
         let multiples = Multiples::TRIED[k];
         let balance = Balance::new(problem, &[])?.with_uncertainty(multiples);
         let by_size = climb(&balance, &shapes, excluded, control)?;
-        Ok(Some(Ended { cost: evidence(&balance, &by_size), multiples, by_size }))
+        Ok(Some(Ended { multiples, without: sum_of_squares(&balance.weighted()), cost: balance.cost(), by_size }))
     };
     let ended = control.map(Multiples::TRIED.len(), search_with).into_iter().collect::<Result<Vec<_>, _>>()?;
-    let best = ended.into_iter().flatten().min_by(|a, b| a.cost.total_cmp(&b.cost));
-    let Some(Ended { multiples, by_size, .. }) = best else { return Err(DiagnosisError::NoRuns) };
+    let ended: Vec<Ended> = ended.into_iter().flatten().collect();
+    let Some((best, size)) = decided(&ended, Balance::new(problem, &[])?.missing.len()) else {
+        return Err(DiagnosisError::NoRuns);
+    };
+    let by_size = &best.by_size[..size];
     // The noise of the motion counts once it is known how much energy the new sources take.
     let effects: Vec<Source> =
         by_size.last().map(|r| r[0].added.iter().map(|a| a.source.clone()).collect()).unwrap_or_default();
-    let balance = Balance::new(problem, &effects)?.with_uncertainty(multiples);
-    let by_size = if effects.is_empty() { by_size } else { climb(&balance, &shapes, excluded, control)? };
-    Ok(conclude(&balance, &by_size))
+    let balance = Balance::new(problem, &effects)?.with_uncertainty(best.multiples);
+    let mut with_noise = if effects.is_empty() { Vec::new() } else { climb(&balance, &shapes, excluded, control)? };
+    with_noise.truncate(size);
+    Ok(conclude(&balance, &with_noise))
 }
 
-/// Evidence of where a search ended, the smaller the better.
-fn evidence(balance: &Balance, by_size: &[Vec<Fitted>]) -> f64 {
-    let fit = match by_size.last() {
-        Some(top) => criterion(&top[0], balance.missing.len()),
-        None => sum_of_squares(&balance.weighted()),
+/// The search and the number of effects that the energies speak for. Every effect must bring its evidence against fewer effects
+/// beside any uncertainty: one that is needed only where the sensors are taken for exact is none.
+fn decided(ended: &[Ended], n: usize) -> Option<(&Ended, usize)> {
+    let best = |size: usize| {
+        let of_search = |search| Some((search, Ended::evidence(search, size, n)?));
+        let total = |(_, (left, penalty)): &(&Ended, (f64, f64))| left + penalty;
+        ended.iter().filter_map(of_search).min_by(|a, b| total(a).total_cmp(&total(b)))
     };
-    fit + balance.cost()
+    let (mut chosen, mut before) = best(0)?;
+    let mut size = 0;
+    while let Some((search, (left, penalty))) = best(size + 1) {
+        let fit = &search.by_size[size][0];
+        let scale = (fit.chi_square / (n - fit.parameters).max(1) as f64).max(1.0);
+        if (before.0 - left) / scale - (penalty - before.1) < EVIDENCE {
+            break;
+        }
+        (chosen, before, size) = (search, (left, penalty), size + 1);
+    }
+    Some((chosen, size))
 }
 
 fn climb(
