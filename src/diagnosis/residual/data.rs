@@ -265,3 +265,28 @@ impl Data {
         names
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn harmonics_of_a_force_that_are_noise_are_at_rest() {
+        let force = |amplitudes: &[f64]| {
+            let channel = ChannelData {
+                name: "force@1".into(),
+                quantity: Quantity::Force,
+                dof: 0,
+                measured: amplitudes.iter().map(|&a| c64::new(0.0, a)).collect(),
+                deviation: vec![1e-3; amplitudes.len()],
+            };
+            let (forces, harmonics) = (vec![channel], amplitudes.len());
+            let run = RunData { index: 0, omega: 1.0, harmonics, forces, responses: Vec::new(), alive: Vec::new() };
+            run.excitation(|_, _| c64::new(2.0, 0.0)).forces.remove(0).harmonics
+        };
+        assert_eq!(force(&[1.0, 2e-3, 3e-3, 1e-3]), [c64::new(0.0, 0.5)]);
+        // What the exciter adds stays, the noise between is at rest.
+        assert_eq!(force(&[1.0, 2e-3, 0.1, 1e-3]), [c64::new(0.0, 0.5), c64::new(0.0, 0.0), c64::new(0.0, 0.05)]);
+        assert_eq!(force(&[1e-4]), [c64::new(0.0, 5e-5)], "the fundamental always drives");
+    }
+}

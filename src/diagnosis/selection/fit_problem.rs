@@ -169,6 +169,10 @@ impl Residual for OnResponse<'_> {
         self.estimator.control.is_late()
     }
 
+    fn bounds(&self) -> Vec<[f64; 2]> {
+        self.variables.bounds()
+    }
+
     fn residual(&mut self, theta: &[f64]) -> Result<Vec<f64>, DiagnosisError> {
         let trial = self.compute(theta)?;
         let residual = self.estimator.residual(&trial.predictions);

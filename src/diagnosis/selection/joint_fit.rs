@@ -203,6 +203,10 @@ impl Residual for Joint<'_, '_> {
         self.reference.control.is_late()
     }
 
+    fn bounds(&self) -> Vec<[f64; 2]> {
+        self.variables.bounds()
+    }
+
     fn enough(&self) -> f64 {
         ENOUGH
     }

@@ -73,6 +73,16 @@ impl Variable {
     }
 }
 
+impl Variable {
+    /// Least and largest value.
+    fn bounds(self) -> [f64; 2] {
+        match self {
+            Self::Log | Self::Scaled(_) => [f64::NEG_INFINITY, f64::INFINITY],
+            Self::Between(..) => [-INSIDE, INSIDE],
+        }
+    }
+}
+
 /// The variables of the parameters of some effects, in order.
 #[derive(Debug, Clone)]
 pub(crate) struct Variables {
@@ -98,6 +108,11 @@ impl Variables {
     /// Number of variables.
     pub(crate) fn len(&self) -> usize {
         self.variables.len()
+    }
+
+    /// Least and largest value of each.
+    pub(crate) fn bounds(&self) -> Vec<[f64; 2]> {
+        self.variables.iter().map(|v| v.bounds()).collect()
     }
 
     /// The effects at `theta`.
@@ -170,6 +185,10 @@ pub(crate) trait Residual {
     fn is_late(&self) -> bool {
         false
     }
+    /// Least and largest value of the first variables; those that follow are free.
+    fn bounds(&self) -> Vec<[f64; 2]> {
+        Vec::new()
+    }
     /// Gain of the squared residual, in units of what is left per datum, below which the descent has arrived.
     fn enough(&self) -> f64 {
         ARRIVED
@@ -186,8 +205,10 @@ const IDLE: usize = 3;
 /// Longest step, in natural units (a logarithm, a prior deviation), and the damping up to which it is raised to keep within.
 const LONGEST: f64 = 1.5;
 const FIRM: f64 = 1.0;
-/// Damping up to which steps are straight: beyond, the valley bends.
+/// Damping up to which steps are straight: beyond, the valley bends; and so does one in which the last step gained less than this
+/// share of what the derivative promised.
 const STRAIGHT: f64 = 1e-2;
+const POOR: f64 = 0.5;
 /// Share of a step at which its bend is measured, and largest share of the bend in the step.
 const AHEAD: f64 = 0.1;
 const BENT: f64 = 0.4;
@@ -198,26 +219,39 @@ pub(crate) fn descend<R: Residual>(problem: &mut R, theta: &[f64], steps: usize)
     let mut residual = problem.residual(&theta)?;
     let mut chi_square = sum_of_squares(&residual);
     let mut jacobian = problem.jacobian(&theta, &residual)?;
-    let mut equations = Normal::new(&jacobian, &residual);
-    let (mut damping, mut idle) = (1e-3, 0);
+    let bounds = problem.bounds();
+    let mut equations = Normal::new(&jacobian, &residual, &held(&bounds, &theta, &jacobian, &residual));
+    let (mut damping, mut idle, mut bends) = (1e-3, 0, false);
     for _ in 0..steps {
         let enough = problem.enough() * (chi_square / residual.len().max(1) as f64).max(1.0);
         if equations.to_go() < enough || problem.is_late() {
             break;
         }
-        let Some((next, after, chi)) = step(problem, &theta, (&residual, &jacobian), &equations, &mut damping)? else {
+        let Some((next, after, chi)) =
+            step(problem, &theta, (&residual, &jacobian), (&equations, bends), &mut damping)?
+        else {
             break;
         };
         let gain = chi_square - chi;
+        bends = gain < POOR * equations.to_go();
         idle = if gain < enough || gain < STUCK * equations.to_go() { idle + 1 } else { 0 };
         (theta, residual, chi_square) = (next, after, chi);
         jacobian = problem.jacobian(&theta, &residual)?;
-        equations = Normal::new(&jacobian, &residual);
+        equations = Normal::new(&jacobian, &residual, &held(&bounds, &theta, &jacobian, &residual));
         if idle == IDLE {
             break;
         }
     }
     Ok(Descent { theta, chi_square, residual, jacobian, to_go: equations.to_go() })
+}
+
+/// Which variables are at a bound across which the residual would fall: they stay there.
+fn held(bounds: &[[f64; 2]], theta: &[f64], jacobian: &Mat<f64>, residual: &[f64]) -> Vec<bool> {
+    let is_held = |(k, [least, greatest]): (usize, &[f64; 2])| {
+        let uphill: f64 = jacobian.col_as_slice(k).iter().zip(residual).map(|(j, r)| j * r).sum();
+        theta[k] <= *least && uphill > 0.0 || theta[k] >= *greatest && uphill < 0.0
+    };
+    bounds.iter().enumerate().map(is_held).collect()
 }
 
 /// Normal equations of a linearised residual: `N move = g`.
@@ -227,12 +261,18 @@ struct Normal {
 }
 
 impl Normal {
-    fn new(jacobian: &Mat<f64>, residual: &[f64]) -> Self {
+    /// Of the variables that are not `held`.
+    fn new(jacobian: &Mat<f64>, residual: &[f64], held: &[bool]) -> Self {
         let product = |k: usize| jacobian.col_as_slice(k).iter().zip(residual).map(|(j, r)| j * r).sum();
-        Self {
-            matrix: transposed_product(jacobian.as_ref(), jacobian.as_ref()),
-            gradient: Mat::from_fn(jacobian.ncols(), 1, |k, _| product(k)),
+        let mut matrix = transposed_product(jacobian.as_ref(), jacobian.as_ref());
+        let mut gradient = Mat::from_fn(jacobian.ncols(), 1, |k, _| product(k));
+        for k in (0..held.len()).filter(|&k| held[k]) {
+            for i in 0..matrix.nrows() {
+                (matrix[(i, k)], matrix[(k, i)]) = (0.0, 0.0);
+            }
+            (matrix[(k, k)], gradient[(k, 0)]) = (1.0, 0.0);
         }
+        Self { matrix, gradient }
     }
 
     /// `(N + damping diag N)^-1 g`.
@@ -265,10 +305,11 @@ fn step<R: Residual>(
     problem: &mut R,
     theta: &[f64],
     (residual, jacobian): (&[f64], &Mat<f64>),
-    equations: &Normal,
+    (equations, bends): (&Normal, bool),
     damping: &mut f64,
 ) -> Result<Option<Point>, R::Error> {
     let chi_square = sum_of_squares(residual);
+    let bounds = problem.bounds();
     while *damping < DAMPING[1] {
         if let Some(straight) = equations.move_by(*damping) {
             let straight: Vec<f64> = (0..theta.len()).map(|k| -straight[(k, 0)]).collect();
@@ -279,8 +320,12 @@ fn step<R: Residual>(
                 continue;
             }
             let share = if largest > LONGEST { LONGEST / largest } else { 1.0 };
-            let moved = |by: &[f64]| -> Vec<f64> { theta.iter().zip(by).map(|(x, d)| x + share * d).collect() };
-            let bend = if *damping > STRAIGHT && share == 1.0 {
+            let moved = |by: &[f64]| -> Vec<f64> {
+                let mut next: Vec<f64> = theta.iter().zip(by).map(|(x, d)| x + share * d).collect();
+                next.iter_mut().zip(&bounds).for_each(|(x, [least, greatest])| *x = x.clamp(*least, *greatest));
+                next
+            };
+            let bend = if (bends || *damping > STRAIGHT) && share == 1.0 {
                 bend(problem, theta, (residual, jacobian), equations, *damping, &straight)?
             } else {
                 None
@@ -333,7 +378,7 @@ mod certified;
 mod tests {
     use super::*;
 
-    /// Rosenbrock's valley: `10 (y - x^2)` and `1 - x`.
+    /// Rosenbrock's valley, ten times as deep: `100 (y - x^2)` and `10 (1 - x)`.
     struct Valley(usize);
 
     impl Residual for Valley {
@@ -341,11 +386,11 @@ mod tests {
 
         fn residual(&mut self, at: &[f64]) -> Result<Vec<f64>, Self::Error> {
             self.0 += 1;
-            Ok(vec![10.0 * (at[1] - at[0] * at[0]), 1.0 - at[0]])
+            Ok(vec![100.0 * (at[1] - at[0] * at[0]), 10.0 * (1.0 - at[0])])
         }
 
         fn jacobian(&mut self, at: &[f64], _: &[f64]) -> Result<Mat<f64>, Self::Error> {
-            Ok(Mat::from_fn(2, 2, |i, j| [[-20.0 * at[0], 10.0], [-1.0, 0.0]][i][j]))
+            Ok(Mat::from_fn(2, 2, |i, j| [[-200.0 * at[0], 100.0], [-10.0, 0.0]][i][j]))
         }
     }
 
@@ -355,6 +400,35 @@ mod tests {
         let Ok(descent) = descend(&mut valley, &[-1.2, 1.0], 200);
         assert!((descent.theta[0] - 1.0).abs() < 1e-2, "{:?}", descent.theta);
         assert!(valley.0 < 60, "{} residuals", valley.0);
+    }
+
+    /// `(x - 8) / 10`, `3 (x + y - 1)` with `x` at most 2.
+    struct Bounded(usize);
+
+    impl Residual for Bounded {
+        type Error = std::convert::Infallible;
+
+        fn residual(&mut self, at: &[f64]) -> Result<Vec<f64>, Self::Error> {
+            self.0 += 1;
+            Ok(vec![0.1 * (at[0] - 8.0), 3.0 * (at[0] + at[1] - 1.0)])
+        }
+
+        fn jacobian(&mut self, _: &[f64], _: &[f64]) -> Result<Mat<f64>, Self::Error> {
+            Ok(Mat::from_fn(2, 2, |i, j| [[0.1, 0.0], [3.0, 3.0]][i][j]))
+        }
+
+        fn bounds(&self) -> Vec<[f64; 2]> {
+            vec![[-2.0, 2.0]]
+        }
+    }
+
+    #[test]
+    fn a_variable_that_would_leave_its_bounds_stays_and_the_others_go_on() {
+        let mut bounded = Bounded(0);
+        let Ok(descent) = descend(&mut bounded, &[0.0, 0.0], 50);
+        assert_eq!(descent.theta[0], 2.0);
+        assert!((descent.theta[1] + 1.0).abs() < 0.05 && descent.to_go < 0.02, "{descent:?}");
+        assert!(bounded.0 < 20, "{} residuals", bounded.0);
     }
 
     /// Of a size that the data know to a tenth and one of which they know nothing, a tenth of the prior is left.
