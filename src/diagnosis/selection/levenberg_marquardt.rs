@@ -1,9 +1,8 @@
-//! Levenberg and Marquardt's method for a weighted residual of unit variance, and the variables it works in.
-//!
-//! Parameters that are positive are fitted in their logarithm, those within limits between them, others in units of
-//! their start, so that steps are of order one whatever the unit.
+//! Levenberg and Marquardt's method for a weighted residual of unit variance, with bounds and the geodesic acceleration of Transtrum,
+//! Machta and Sethna (2011).
 
-use crate::effects::{Parameter, Source};
+pub(crate) mod variables;
+
 use crate::math::least_squares::solve_symmetric;
 use crate::math::statistics::sum_of_squares;
 use dashpot_numerics::{Cholesky, transposed_product};
@@ -14,120 +13,6 @@ const DAMPING: [f64; 2] = [1e-9, 1e8];
 
 /// Added to the diagonal of a normal matrix of unit diagonal, so that its inverse exists.
 const RIDGE: f64 = 1e-12;
-
-/// One variable behind a parameter.
-#[derive(Debug, Clone, Copy, PartialEq)]
-enum Variable {
-    /// `p = exp(theta)`.
-    Log,
-    /// `p = unit theta`.
-    Scaled(f64),
-    /// `p = low + (high - low) / (1 + exp(-theta))`.
-    Between(f64, f64),
-}
-
-/// Largest variable of a parameter within limits: a hundredth of their distance from them. Beyond, its derivative dies out, and a
-/// descent that once overshot would never return.
-const INSIDE: f64 = 4.6;
-
-impl Variable {
-    fn new(parameter: &Parameter, value: f64) -> Self {
-        if parameter.least.is_finite() && parameter.greatest.is_finite() {
-            Self::Between(parameter.least, parameter.greatest)
-        } else if parameter.least >= 0.0 {
-            Self::Log
-        } else {
-            Self::Scaled(if value == 0.0 { 1e-6 } else { value.abs() })
-        }
-    }
-
-    fn unknown_of(self, value: f64) -> f64 {
-        match self {
-            Self::Log => value.max(1e-300).ln(),
-            Self::Scaled(unit) => value / unit,
-            Self::Between(low, high) => {
-                let share = ((value - low) / (high - low)).clamp(1e-6, 1.0 - 1e-6);
-                (share / (1.0 - share)).ln().clamp(-INSIDE, INSIDE)
-            }
-        }
-    }
-
-    fn to_value(self, theta: f64) -> f64 {
-        match self {
-            Self::Log => theta.clamp(-600.0, 600.0).exp(),
-            Self::Scaled(unit) => unit * theta,
-            Self::Between(low, high) => low + (high - low) / (1.0 + (-theta.clamp(-INSIDE, INSIDE)).exp()),
-        }
-    }
-
-    /// Derivative of the parameter by the variable.
-    fn slope(self, theta: f64) -> f64 {
-        match self {
-            Self::Log => self.to_value(theta),
-            Self::Scaled(unit) => unit,
-            Self::Between(low, high) => {
-                let share = (self.to_value(theta) - low) / (high - low);
-                (high - low) * share * (1.0 - share)
-            }
-        }
-    }
-}
-
-impl Variable {
-    /// Least and largest value.
-    fn bounds(self) -> [f64; 2] {
-        match self {
-            Self::Log | Self::Scaled(_) => [f64::NEG_INFINITY, f64::INFINITY],
-            Self::Between(..) => [-INSIDE, INSIDE],
-        }
-    }
-}
-
-/// The variables of the parameters of some effects, in order.
-#[derive(Debug, Clone)]
-pub(crate) struct Variables {
-    template: Vec<Source>,
-    variables: Vec<Variable>,
-}
-
-impl Variables {
-    /// All parameters of `effects`, with their variables at the start.
-    pub(crate) fn new(effects: &[Source]) -> (Self, Vec<f64>) {
-        let mut variables = Vec::new();
-        let mut start = Vec::new();
-        for effect in effects {
-            for (parameter, &value) in effect.effect.parameters().iter().zip(&effect.parameters) {
-                let variable = Variable::new(parameter, value);
-                variables.push(variable);
-                start.push(variable.unknown_of(value));
-            }
-        }
-        (Self { template: effects.to_vec(), variables }, start)
-    }
-
-    /// Number of variables.
-    pub(crate) fn len(&self) -> usize {
-        self.variables.len()
-    }
-
-    /// Least and largest value of each.
-    pub(crate) fn bounds(&self) -> Vec<[f64; 2]> {
-        self.variables.iter().map(|v| v.bounds()).collect()
-    }
-
-    /// The effects at `theta`.
-    pub(crate) fn effects(&self, theta: &[f64]) -> Vec<Source> {
-        let mut effects = self.template.clone();
-        let values = self.variables.iter().zip(theta).map(|(v, &t)| v.to_value(t));
-        effects.iter_mut().flat_map(|e| e.parameters.iter_mut()).zip(values).for_each(|(p, v)| *p = v);
-        effects
-    }
-
-    /// Derivative of each parameter by its variable.
-    pub(crate) fn slopes(&self, theta: &[f64]) -> Vec<f64> {
-        self.variables.iter().zip(theta).map(|(v, &t)| v.slope(t)).collect()
-    }
-}
 
 /// Where a descent ended.
 #[derive(Debug, Clone)]
@@ -375,67 +260,4 @@ fn bend<R: Residual>(
 mod certified;
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// Rosenbrock's valley, ten times as deep: `100 (y - x^2)` and `10 (1 - x)`.
-    struct Valley(usize);
-
-    impl Residual for Valley {
-        type Error = std::convert::Infallible;
-
-        fn residual(&mut self, at: &[f64]) -> Result<Vec<f64>, Self::Error> {
-            self.0 += 1;
-            Ok(vec![100.0 * (at[1] - at[0] * at[0]), 10.0 * (1.0 - at[0])])
-        }
-
-        fn jacobian(&mut self, at: &[f64], _: &[f64]) -> Result<Mat<f64>, Self::Error> {
-            Ok(Mat::from_fn(2, 2, |i, j| [[-200.0 * at[0], 100.0], [-10.0, 0.0]][i][j]))
-        }
-    }
-
-    #[test]
-    fn a_descent_follows_a_valley_that_bends() {
-        let mut valley = Valley(0);
-        let Ok(descent) = descend(&mut valley, &[-1.2, 1.0], 200);
-        assert!((descent.theta[0] - 1.0).abs() < 1e-2, "{:?}", descent.theta);
-        assert!(valley.0 < 60, "{} residuals", valley.0);
-    }
-
-    /// `(x - 8) / 10`, `3 (x + y - 1)` with `x` at most 2.
-    struct Bounded(usize);
-
-    impl Residual for Bounded {
-        type Error = std::convert::Infallible;
-
-        fn residual(&mut self, at: &[f64]) -> Result<Vec<f64>, Self::Error> {
-            self.0 += 1;
-            Ok(vec![0.1 * (at[0] - 8.0), 3.0 * (at[0] + at[1] - 1.0)])
-        }
-
-        fn jacobian(&mut self, _: &[f64], _: &[f64]) -> Result<Mat<f64>, Self::Error> {
-            Ok(Mat::from_fn(2, 2, |i, j| [[0.1, 0.0], [3.0, 3.0]][i][j]))
-        }
-
-        fn bounds(&self) -> Vec<[f64; 2]> {
-            vec![[-2.0, 2.0]]
-        }
-    }
-
-    #[test]
-    fn a_variable_that_would_leave_its_bounds_stays_and_the_others_go_on() {
-        let mut bounded = Bounded(0);
-        let Ok(descent) = descend(&mut bounded, &[0.0, 0.0], 50);
-        assert_eq!(descent.theta[0], 2.0);
-        assert!((descent.theta[1] + 1.0).abs() < 0.05 && descent.to_go < 0.02, "{descent:?}");
-        assert!(bounded.0 < 20, "{} residuals", bounded.0);
-    }
-
-    /// Of a size that the data know to a tenth and one of which they know nothing, a tenth of the prior is left.
-    #[test]
-    fn the_volume_that_is_left_is_that_of_what_the_data_know() {
-        let jacobian = Mat::from_fn(3, 2, |i, k| if k == 0 { [6.0, 8.0, 0.0][i] } else { 0.0 });
-        let descent = Descent { theta: vec![0.0; 2], chi_square: 0.0, residual: vec![0.0; 3], jacobian, to_go: 0.0 };
-        assert!((descent.log_volume() + 0.5 * 101.0_f64.ln()).abs() < 1e-12, "{}", descent.log_volume());
-    }
-}
+mod tests;
