@@ -24,11 +24,6 @@ fn sample(name: &str) -> Sample {
     Sample { _folder: folder, path }
 }
 
-/// Ends the search for laws before it begins: it takes most of a minute, and plots of records do not need it.
-fn compared_only(harness: &mut Harness<'_, App>) {
-    harness.state_mut().view.limit_s = Some(1e-3);
-}
-
 fn explain(harness: &mut Harness<'_, App>) {
     harness.state_mut().view.stage = Stage::Explain;
     settle(harness);
@@ -70,7 +65,6 @@ fn a_decay_is_seen_over_time_as_spectra_and_over_amplitude() {
 fn a_cell_of_the_map_chooses_record_and_channel() {
     let sample = sample("hammer-maxwell");
     let mut harness = open(&sample, Theme::Light);
-    compared_only(&mut harness);
     explain(&mut harness);
     harness.get_by_role_and_label(Role::Button, "In order").click();
     harness.run_steps(3);
@@ -88,7 +82,6 @@ fn a_cell_of_the_map_chooses_record_and_channel() {
 fn a_sweep_fits_into_a_small_window() {
     let sample = sample("sweep-cubic");
     let mut harness = open_sized(&sample, Theme::Dark, [1024.0, 700.0]);
-    compared_only(&mut harness);
     explain(&mut harness);
     picture(&mut harness, RecordTab::Time, "sweep-1024");
     picture(&mut harness, RecordTab::Spectrogram, "sweep-1024");
