@@ -90,10 +90,8 @@ const IDLE: usize = 3;
 /// Longest step, in natural units (a logarithm, a prior deviation), and the damping up to which it is raised to keep within.
 const LONGEST: f64 = 1.5;
 const FIRM: f64 = 1.0;
-/// Damping up to which steps are straight: beyond, the valley bends; and so does one in which the last step gained less than this
-/// share of what the derivative promised.
+/// Damping up to which steps are straight: beyond, the valley bends.
 const STRAIGHT: f64 = 1e-2;
-const POOR: f64 = 0.5;
 /// Share of a step at which its bend is measured, and largest share of the bend in the step.
 const AHEAD: f64 = 0.1;
 const BENT: f64 = 0.4;
@@ -106,19 +104,16 @@ pub(crate) fn descend<R: Residual>(problem: &mut R, theta: &[f64], steps: usize)
     let mut jacobian = problem.jacobian(&theta, &residual)?;
     let bounds = problem.bounds();
     let mut equations = Normal::new(&jacobian, &residual, &held(&bounds, &theta, &jacobian, &residual));
-    let (mut damping, mut idle, mut bends) = (1e-3, 0, false);
+    let (mut damping, mut idle) = (1e-3, 0);
     for _ in 0..steps {
         let enough = problem.enough() * (chi_square / residual.len().max(1) as f64).max(1.0);
         if equations.to_go() < enough || problem.is_late() {
             break;
         }
-        let Some((next, after, chi)) =
-            step(problem, &theta, (&residual, &jacobian), (&equations, bends), &mut damping)?
-        else {
+        let Some((next, after, chi)) = step(problem, &theta, (&residual, &jacobian), &equations, &mut damping)? else {
             break;
         };
         let gain = chi_square - chi;
-        bends = gain < POOR * equations.to_go();
         idle = if gain < enough || gain < STUCK * equations.to_go() { idle + 1 } else { 0 };
         (theta, residual, chi_square) = (next, after, chi);
         jacobian = problem.jacobian(&theta, &residual)?;
@@ -190,7 +185,7 @@ fn step<R: Residual>(
     problem: &mut R,
     theta: &[f64],
     (residual, jacobian): (&[f64], &Mat<f64>),
-    (equations, bends): (&Normal, bool),
+    equations: &Normal,
     damping: &mut f64,
 ) -> Result<Option<Point>, R::Error> {
     let chi_square = sum_of_squares(residual);
@@ -210,7 +205,7 @@ fn step<R: Residual>(
                 next.iter_mut().zip(&bounds).for_each(|(x, [least, greatest])| *x = x.clamp(*least, *greatest));
                 next
             };
-            let bend = if (bends || *damping > STRAIGHT) && share == 1.0 {
+            let bend = if *damping > STRAIGHT && share == 1.0 {
                 bend(problem, theta, (residual, jacobian), equations, *damping, &straight)?
             } else {
                 None

@@ -4,11 +4,9 @@
 use super::updated::REFITTED;
 use crate::diagnosis::residual::data::DiagnosisError;
 use crate::diagnosis::residual::prediction::FINAL;
-use crate::diagnosis::selection::estimator::Starts;
 use crate::diagnosis::selection::exactness::{rubs, settings_for};
 use crate::diagnosis::selection::fitted_model::FittedModel;
 use crate::diagnosis::selection::reference_model::ReferenceModel;
-use crate::effects::Source;
 use crate::math::statistics::sum_of_squares;
 use crate::response::harmonic_balance::Settings;
 
@@ -57,43 +55,27 @@ impl<'a> ReferenceModel<'a> {
         // What friction leaves depends on the number of harmonics.
         let fit = if rubs(&fit.effects) { self.refitted(&fit, settings)? } else { fit };
         let (mut reference, mut fit) = (self, fit);
-        let mut from = (fit.effects.clone(), fit.starts.clone());
-        let mut here = reference.cost_at_reference(&reference.predictions_with(&from.0, &from.1, settings)?);
+        let mut here = reference.cost_at_reference(&reference.predictions_with(&fit.effects, &fit.starts, settings)?);
         for _ in 0..rounds {
             let linear = fit.chi_square + reference.noise.cost();
             if here - linear < SETTLED || reference.control.is_late() {
                 break;
             }
-            let joint = reference.joint_fit(&from.0, &from.1, settings, JOINT_STEPS)?;
+            let joint = reference.joint_fit(&fit.effects, &fit.starts, settings, JOINT_STEPS)?;
             let there = reference.updated_as(&joint.updating, &joint.effects, &joint.starts, settings)?;
             let again = there.estimator().fit(&joint.effects, REFITTED, settings, &joint.starts)?;
-            let (next, then) = there.nearer((joint.effects, joint.starts), &again, settings)?;
+            let then = there.cost_at_reference(&there.predictions_with(&again.effects, &again.starts, settings)?);
             // Where the model was far off its own noise, the evidence at the old reference and at the new differ in kind.
             if then >= here && again.chi_square + there.noise.cost() > linear - 1.0 {
                 break;
             }
             let slow = here - then < slowest(here - linear);
-            (reference, fit, here, from) = (there, again, then, next);
+            (reference, fit, here) = (there, again, then);
             if slow {
                 break;
             }
         }
         Ok((reference, fit))
-    }
-
-    /// From where to go on, with its evidence: the effects with which the updating parameters of this model were fitted, or those of
-    /// `fit`, which has these eliminated linearly.
-    fn nearer(
-        &self,
-        joint: (Vec<Source>, Starts),
-        fit: &FittedModel,
-        settings: &Settings,
-    ) -> Result<((Vec<Source>, Starts), f64), DiagnosisError> {
-        let cost = |effects: &[Source], starts: &Starts| {
-            Ok::<f64, DiagnosisError>(self.cost_at_reference(&self.predictions_with(effects, starts, settings)?))
-        };
-        let (together, apart) = (cost(&joint.0, &joint.1)?, cost(&fit.effects, &fit.starts)?);
-        Ok(if together < apart { (joint, together) } else { ((fit.effects.clone(), fit.starts.clone()), apart) })
     }
 }
 
