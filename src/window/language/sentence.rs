@@ -110,7 +110,7 @@ mod tests {
         assert_eq!(tr("Frequency"), "Frequenz");
         assert_eq!(tr("Run 3"), "Lauf 3");
         // A sentence of the engine: the law and its place are in it, and begin with a capital letter.
-        assert_eq!(tr("Dry friction at DOF 7"), "Trockene Reibung an FHG 7");
+        assert_eq!(tr("Viscous dashpot at DOF 7"), "Viskoser Dämpfer an FHG 7");
         assert_eq!(tr("shaker-0.5.csv"), "shaker-0.5.csv");
         assert_eq!(tr("12.5 Hz"), "12,5 Hz");
         assert_eq!(tr("   Run 3"), "   Lauf 3");
