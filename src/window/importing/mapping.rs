@@ -58,7 +58,7 @@ fn one(line: &mut TableRow<'_, '_>, k: usize, row: &mut ChannelRow, unit_of: &im
     });
     line.col(|ui| {
         let colour = if used { ui.palette().ink } else { ui.palette().weak };
-        let text = egui::RichText::new(tr(&name)).color(colour);
+        let text = egui::RichText::new(&name).color(colour);
         let label = ui.add(Label::new(text).truncate().selectable(false));
         if !row.note.is_empty() {
             label.on_hover_text(tf!("{name}: {}", row.note));
@@ -111,7 +111,7 @@ fn one(line: &mut TableRow<'_, '_>, k: usize, row: &mut ChannelRow, unit_of: &im
 /// A button that turns the sense round.
 pub(super) fn sense(ui: &mut Ui, sign: &mut Option<i64>, name: &str) {
     let against = *sign == Some(-1);
-    let button = ui.button(tr(if against { " − " } else { " + " }));
+    let button = ui.button(if against { " − " } else { " + " });
     button.widget_info(|| WidgetInfo::selected(Role::Button, true, against, tf!("Sense of {name}")));
     if button.on_hover_text(t!("Turns it round.")).clicked() {
         *sign = (!against).then_some(-1);

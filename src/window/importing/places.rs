@@ -40,7 +40,7 @@ pub(super) fn show(ui: &mut Ui, responses: &mut Responses) {
                 let place = &mut responses.places[line.index()];
                 let name = place.name.clone();
                 line.col(|ui| {
-                    ui.add(Label::new(tr(&name)).truncate().selectable(false));
+                    ui.add(Label::new(&name).truncate().selectable(false));
                 });
                 line.col(|ui| {
                     let field = ui.add(TextEdit::singleline(&mut place.label).desired_width(96.0));

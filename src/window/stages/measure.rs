@@ -213,7 +213,7 @@ fn motions(ui: &mut Ui, run: &Run, channel: &mut usize, every: &mut bool) {
     if list.len() <= MOST_BUTTONS && in_one_row(ui, list.iter().map(|(_, name)| name.as_str())) {
         ui.horizontal(|ui| {
             for (k, name) in &list {
-                if ui.selectable_label(k == channel, tr(name)).clicked() {
+                if ui.selectable_label(k == channel, name).clicked() {
                     (*channel, *every) = (*k, false);
                 }
             }
@@ -234,9 +234,9 @@ fn in_one_row<'a>(ui: &Ui, names: impl Iterator<Item = &'a str>) -> bool {
 /// A list of channels that opens.
 fn pick(ui: &mut Ui, list: &[(usize, String)], channel: &mut usize, every: &mut bool) {
     let now = list.iter().find(|(k, _)| k == channel).map_or("", |(_, name)| name.as_str());
-    let combo = egui::ComboBox::from_id_salt("channel").selected_text(tr(now)).show_ui(ui, |ui| {
+    let combo = egui::ComboBox::from_id_salt("channel").selected_text(now).show_ui(ui, |ui| {
         for (k, name) in list {
-            if ui.selectable_label(k == channel, tr(name)).clicked() {
+            if ui.selectable_label(k == channel, name).clicked() {
                 (*channel, *every) = (*k, false);
             }
         }
@@ -256,7 +256,7 @@ fn channels(ui: &mut Ui, run: &Run, channel: &mut usize, every: &mut bool) {
             return pick(ui, &list, channel, every);
         }
         for (k, name) in names.into_iter().enumerate() {
-            if ui.selectable_label(!*every && k == *channel, tr(name)).clicked() {
+            if ui.selectable_label(!*every && k == *channel, name).clicked() {
                 (*channel, *every) = (k, false);
             }
         }
@@ -324,7 +324,7 @@ fn cells(row: &mut TableRow<'_, '_>, run: &Run, (index, shown, folder): (usize, 
             asks.push(Ask::Edit(Edit::UseRun(run.file.clone(), used)));
         }
     });
-    row.col(|ui| drop(ui.label(tr(run.file.get(folder..).unwrap_or(&run.file))).on_hover_text(tr(&run.file))));
+    row.col(|ui| drop(ui.label(run.file.get(folder..).unwrap_or(&run.file)).on_hover_text(&run.file)));
     row.col(|ui| drop(ui.number(format!("{} Hz", format::significant(run.fit.omega / std::f64::consts::TAU, 4)))));
     row.col(|ui| drop(ui.number(run.level.map_or_else(String::new, |level| level.to_string()))));
     row.col(|ui| {

@@ -8,7 +8,6 @@ use crate::plots::figure::{Axis, Figure, Look, Ticks};
 use crate::structure::modes::Modes;
 use crate::window::derived::Derived;
 use crate::window::document::Document;
-use crate::window::language::tr;
 use crate::window::opened::Opened;
 use crate::window::plots::show::Stack;
 use crate::window::theme::space;
@@ -85,7 +84,7 @@ fn table(ui: &mut Ui, p: &Project, modes: &Modes, chosen: &mut usize) {
                 let near = nearest(p, frequency);
                 row.col(|ui| {
                     if let Some((k, _)) = near {
-                        ui.label(tr(format!("   {}", p.runs[k].file)));
+                        ui.label(format!("   {}", p.runs[k].file));
                     }
                 });
                 row.col(|ui| {
@@ -185,7 +184,7 @@ pub(crate) fn expansion(ui: &mut Ui, document: &Document, derived: &mut Derived)
         .body(|body| {
             body.rows(space::ROW, outcome.runs.len(), |mut row| {
                 let r = &outcome.runs[row.index()];
-                row.col(|ui| drop(ui.label(tr(p.runs.get(r.run).map_or("", |run| run.file.as_str())))));
+                row.col(|ui| drop(ui.label(p.runs.get(r.run).map_or("", |run| run.file.as_str()))));
                 row.col(|ui| drop(ui.number(format::percent(r.relative_misfit))));
                 row.col(|ui| drop(ui.number(format::significant(r.misfit, 3))));
                 row.col(|ui| drop(ui.number(format::percent(r.expansion_error))));

@@ -58,7 +58,7 @@ fn cells(row: &mut TableRow<'_, '_>, run: &TransientRun, index: usize, ticked: &
             *ticked = Some((run.file.clone(), used));
         }
     });
-    row.col(|ui| drop(ui.label(tr(&run.file)).on_hover_text(tr(&run.file))));
+    row.col(|ui| drop(ui.label(&run.file).on_hover_text(&run.file)));
     row.col(|ui| drop(ui.label(tr(run.kind.name()))));
     row.col(|ui| drop(ui.label(tr(format::prefixed(lasts(run), "s")))));
     row.col(|ui| {
