@@ -37,9 +37,8 @@ fn root() -> PathBuf {
 
 fn catalogues() -> Vec<(String, Catalogue)> {
     let files = fs::read_dir(root().join("assets/locales")).unwrap();
-    let read = |path: PathBuf| {
-        (path.display().to_string(), toml::from_str(&fs::read_to_string(&path).unwrap()).unwrap())
-    };
+    let read =
+        |path: PathBuf| (path.display().to_string(), toml::from_str(&fs::read_to_string(&path).unwrap()).unwrap());
     files.map(|entry| read(entry.unwrap().path())).collect()
 }
 
@@ -166,7 +165,7 @@ fn every_text_of_the_window_is_in_every_catalogue() {
         .filter(|l| shown(l) && letters(&l.text) && !NAMES.contains(&l.text.as_str()))
         .map(|l| l.text.trim().to_owned())
         .collect();
-    assert!(texts.len() > 400, "the scan finds texts: {}", texts.len());
+    assert!(texts.len() > 300, "the scan finds texts: {}", texts.len());
     for (file, tables) in catalogues() {
         let keys: HashSet<String> = tables.values().flat_map(|pairs| pairs.keys().map(|k| bare(k))).collect();
         // What is put together of pieces stands in the catalogue as the whole sentence.

@@ -231,7 +231,6 @@ fn the_start_screen_is_german() {
     language::choose(Language::German);
     let harness = start_sized(LAPTOP);
     let english = english_words();
-    let left: Vec<String> =
-        written(&harness).into_iter().filter(|t| words(t).any(|w| english.contains(&w))).collect();
+    let left: Vec<String> = written(&harness).into_iter().filter(|t| words(t).any(|w| english.contains(&w))).collect();
     assert!(left.is_empty(), "{left:#?}");
 }

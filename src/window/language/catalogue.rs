@@ -1,6 +1,6 @@
 //! The catalogue of a language: English on the left, its translation on the right, embedded in the program.
 
-use super::Language;
+use super::chosen::Language;
 use super::template::Template;
 use std::collections::{BTreeMap, HashMap};
 use std::sync::OnceLock;

@@ -1,7 +1,7 @@
 //! Numbers on the screen: with the decimal sign of the language. What is typed may have either sign; files and tables that are copied
 //! keep the point.
 
-use super::{Language, now};
+use super::chosen::{Language, now};
 use crate::display::format;
 use egui::emath::format_with_decimals_in_range;
 use std::borrow::Cow;

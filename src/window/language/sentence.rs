@@ -1,8 +1,8 @@
 //! A finished English text in the language of the window: as a whole, by its template, or piece by piece.
 
-use super::catalogue::Catalogue;
+use super::catalogue::{self, Catalogue};
+use super::chosen::{Language, now};
 use super::numbers::with_commas;
-use super::{catalogue, now};
 use std::cell::RefCell;
 use std::collections::HashMap;
 
@@ -14,30 +14,33 @@ const DEEP: usize = 6;
 const BETWEEN: [&str; 9] = ["\n", "   ·   ", "  ·  ", "   ", "; ", ": ", " · ", ",  ", ", "];
 
 thread_local! {
-    static SAID: RefCell<HashMap<String, String>> = RefCell::new(HashMap::new());
+    /// Texts in the language that they were asked for last.
+    static SAID: RefCell<(Language, HashMap<String, String>)> = RefCell::new((Language::English, HashMap::new()));
+}
+
+/// A literal in the language of this thread; itself where it has no translation.
+pub(crate) fn word(english: &'static str) -> &'static str {
+    catalogue::of(now()).and_then(|c| c.word(english)).unwrap_or(english)
 }
 
 /// A text in the language of this thread: words by the catalogue, numbers with the decimal sign. What is not in the catalogue stays
 /// as it is: names of files, channels and projects.
 pub(crate) fn tr(english: impl AsRef<str>) -> String {
     let english = english.as_ref();
-    let Some(catalogue) = catalogue::of(now()) else { return english.to_owned() };
-    if let Some(kept) = SAID.with_borrow(|said| said.get(english).cloned()) {
+    let language = now();
+    let Some(catalogue) = catalogue::of(language) else { return english.to_owned() };
+    if let Some(kept) = SAID.with_borrow(|(of, said)| said.get(english).filter(|_| *of == language).cloned()) {
         return kept;
     }
     let text = translated(catalogue, english, 0).unwrap_or_else(|| with_commas(english));
-    SAID.with_borrow_mut(|said| {
-        if said.len() >= KEPT {
+    SAID.with_borrow_mut(|(of, said)| {
+        if *of != language || said.len() >= KEPT {
             said.clear();
+            *of = language;
         }
         said.insert(english.to_owned(), text.clone());
     });
     text
-}
-
-/// Forgets what was said in the language before.
-pub(super) fn forget() {
-    SAID.with_borrow_mut(HashMap::clear);
 }
 
 /// The same of a piece, where anything of it is in the catalogue.
