@@ -1,7 +1,7 @@
 //! The language of the window. The English text in the code is the key of a catalogue (`assets/locales`), as with gettext: a view
 //! reads as it is shown, and what has no translation is shown in English.
 //!
-//! Three ways lead here: `t!("Measure")` for a literal, `tf!("Run {run}")` for what would be a `format!`, and [`tr`] for text that is
+//! Three ways lead here: `t!("Measure")` for a literal, `tf!("Run {run}")` for what would be a `format!`, and `tr` for text that is
 //! made below the window (names of laws, sentences of the diagnosis, axes of plots). All floors below say English; the window
 //! finds the template of a finished sentence again and puts its parts into the other language. Files, tables that are copied and the
 //! command line never come here.
