@@ -123,9 +123,11 @@ fn all_literals(folder: &Path) -> Vec<Literal> {
     found
 }
 
-/// A key without its constraints, as a literal of the sources has it.
+/// A key without its constraints and without what it is here, as a literal of the sources has it.
 fn bare(key: &str) -> String {
-    key.replace("{#}", "{}")
+    let word = |here: &str| here.chars().all(char::is_alphabetic);
+    let plain = key.strip_suffix(']').and_then(|k| k.rsplit_once(" [")).filter(|(_, here)| word(here));
+    plain.map_or(key, |(english, _)| english).replace("{#}", "{}")
 }
 
 fn words(text: &str) -> impl Iterator<Item = String> + '_ {

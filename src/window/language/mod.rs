@@ -13,12 +13,16 @@ mod sentence;
 mod template;
 
 pub use chosen::{Language, choose, now};
-pub(crate) use sentence::{tr, word};
+pub(crate) use sentence::{tr, word, word_as};
 
 /// A literal of the window in its language.
 macro_rules! t {
     ($english:literal) => {
         $crate::window::language::word($english)
+    };
+    // A word that is another one elsewhere, by what it is here: its key is `Force [button]`.
+    ($english:literal, $here:literal) => {
+        $crate::window::language::word_as($english, concat!($english, " [", $here, "]"))
     };
 }
 

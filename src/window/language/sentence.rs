@@ -23,6 +23,11 @@ pub(crate) fn word(english: &'static str) -> &'static str {
     catalogue::of(now()).and_then(|c| c.word(english)).unwrap_or(english)
 }
 
+/// The same of a word that has a key of its own where it means another thing.
+pub(crate) fn word_as(english: &'static str, key: &str) -> &'static str {
+    catalogue::of(now()).and_then(|c| c.word(key)).unwrap_or(english)
+}
+
 /// A text in the language of this thread: words by the catalogue, numbers with the decimal sign. What is not in the catalogue stays
 /// as it is: names of files, channels and projects.
 pub(crate) fn tr(english: impl AsRef<str>) -> String {
@@ -70,7 +75,9 @@ fn whole(catalogue: &Catalogue, english: &str, depth: usize) -> Option<String> {
         let text = found(start)?;
         Some(format!("{text}."))
     };
-    found(english).or_else(capital).or_else(sentence)
+    // The start of a sentence, which is shown without its point.
+    let start = || found(&format!("{english}.")).map(|text| text.trim_end_matches('.').to_owned());
+    found(english).or_else(capital).or_else(sentence).or_else(start)
 }
 
 fn with_first(text: &str, change: impl Fn(char) -> String) -> String {

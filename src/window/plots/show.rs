@@ -239,7 +239,7 @@ fn fitting(ui: &Ui, axis: &Axis, room: f32) -> String {
         ui.painter().layout_no_wrap(tr(text), font, egui::Color32::PLACEHOLDER).size().x
     };
     let short = SHORT.iter().find(|(name, _)| *name == axis.name).map_or(axis.name.as_str(), |(_, short)| short);
-    let short = Axis { name: short.to_owned(), ..axis.clone() };
+    let short = Axis { name: tr(short), ..axis.clone() };
     let folded = if axis.unit.is_empty() { short.name.clone() } else { format!("{},\n{}", short.name, axis.unit) };
     let choices = [axis.label(), short.label(), folded, axis.unit.clone()];
     choices.into_iter().find(|text| width(text) + 6.0 <= room).unwrap_or_default()

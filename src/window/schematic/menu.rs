@@ -42,7 +42,7 @@ fn dof(ui: &mut Ui, scene: &Scene, dof: usize) -> Option<Intent> {
         let command = Command::SetLumpedMass { dof: label.clone(), mass: Some(0.1) };
         chosen = Some(Intent::Edit(Edit::Do(command)));
     }
-    if ui.button(t!("Select")).clicked() {
+    if ui.button(t!("Select", "button")).clicked() {
         chosen = Some(Intent::SelectDof(dof));
     }
     chosen

@@ -219,11 +219,11 @@ fn details(ui: &mut Ui, p: &Project, step: &SelectionStep, asks: &mut Vec<Ask>) 
         let Some(source) = p.sources.get(estimate.source) else { continue };
         let forced = source.state == State::Forced;
         let to = if forced { State::Candidate } else { State::Forced };
-        let text = if forced { "Release" } else { "Force" };
+        let text = if forced { t!("Release") } else { t!("Force", "button") };
         let hover = if forced { "Lets the search leave it out again." } else { "Every set must then hold it." };
         let share = format::percent(0.01 * estimate.energy_percent);
         ui.horizontal(|ui| {
-            if ui.button(tr(text)).on_hover_text(tr(hover)).clicked() {
+            if ui.button(text).on_hover_text(tr(hover)).clicked() {
                 asks.push(Ask::Edit(Edit::SetState(estimate.source, to)));
             }
             ui.vertical(|ui| {

@@ -238,7 +238,11 @@ pub(super) fn legend(ui: &mut Ui, scale: &Scale) -> Response {
     let noise = Rect::from_min_size(area.min + vec2(0.0, 1.0), vec2(16.0, 9.0));
     painter.rect(noise, 2.0, palette.raised, theme::hair(palette.line), StrokeKind::Inside);
     let below = noise.bottom() + 2.0;
-    let bar = Rect::from_min_max(pos2(area.left() + 78.0, noise.top()), pos2(area.right() - 30.0, noise.bottom()));
+    let floor = format!("floor {}", format::percent(scale.floor));
+    // The floor stands under the left end where it is least, beside the word of the box before it.
+    let left = width(ui, "noise", font.clone()) + 0.5 * width(ui, &floor, font.clone()) + 8.0;
+    let ends = [area.left() + left.max(78.0), area.right() - 30.0];
+    let bar = Rect::from_x_y_ranges(ends[0]..=ends[1], noise.y_range());
     for k in 0..STEPS {
         let abscissa = |k: usize| bar.left() + bar.width() * k as f32 / STEPS as f32;
         let piece = Rect::from_min_max(pos2(abscissa(k), bar.top()), pos2(abscissa(k + 1) + 0.5, bar.bottom()));
@@ -250,7 +254,7 @@ pub(super) fn legend(ui: &mut Ui, scale: &Scale) -> Response {
         painter.line_segment([pos2(x, bar.top() - 1.0), pos2(x, bar.bottom() + 2.0)], theme::hair(colour));
         painter.text(pos2(x, below), Align2::CENTER_TOP, tr(text), font.clone(), colour);
     };
-    mark(scale.floor, format!("floor {}", format::percent(scale.floor)), palette.ink);
+    mark(scale.floor, floor, palette.ink);
     let clear = |v: &f64| bar.width() * scale.share(*v) > 62.0 && bar.width() * (1.0 - scale.share(*v)) > 34.0;
     for value in scale.ticks().into_iter().filter(clear) {
         mark(value, trimmed(value), palette.weak);
