@@ -32,6 +32,10 @@ use tally::Tally;
 /// Projects made at the same time.
 const WORKERS: usize = 2;
 
+/// That of the program, whose time is reported.
+#[global_allocator]
+static GLOBAL: mimalloc::MiMalloc = mimalloc::MiMalloc;
+
 fn main() {
     // As the program does: threads of the linear algebra cost more than they give at these sizes.
     faer::set_global_parallelism(faer::Par::Seq);

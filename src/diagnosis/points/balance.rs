@@ -1,26 +1,29 @@
 //! Energies of a `points` problem as data, and effects fitted to them.
 
+use super::place_motion::PlaceMotions;
 use super::uncertainty::{Multiples, Uncertainty};
 use crate::diagnosis::points::energies::{PointsEnergy, displacement, energies};
 use crate::diagnosis::residual::data::{DiagnosisError, Problem, RunData};
 use crate::diagnosis::residual::energy_balance::{input, taken};
 use crate::diagnosis::residual::prediction::transfer;
 use crate::diagnosis::result::Added;
-use crate::diagnosis::selection::levenberg_marquardt::{Residual, Variables, descend};
+use crate::diagnosis::selection::levenberg_marquardt::variables::Variables;
+use crate::diagnosis::selection::levenberg_marquardt::{Residual, descend};
 use crate::diagnosis::updating::correction::Correction;
 use crate::diagnosis::updating::parameters::UpdatingParameter;
-use crate::effects::{Effect, Leg, Motion, Place, Range, Source, State};
+use crate::effects::{Effect, Leg, Place, Range, Source, State};
 use crate::math::statistics::root_mean_square;
 use crate::structure::Structure;
 use dashpot_numerics::transposed_product;
 use faer::{Mat, c64};
-use std::borrow::Cow;
 use std::convert::Infallible;
 
 /// Allowance for what no model matches, relative to the energy of the run.
 const ALLOWANCE: f64 = 5e-4;
 /// Step of derivatives by the logarithm of a gain and by a phase.
 const STEP: f64 = 1e-4;
+/// Step of a variable for derivatives by differences.
+const DIFFERENCE: f64 = 1e-5;
 /// Samples a period: laws with memory take 1e-4 of their energy wrongly, far less than records tell.
 const SAMPLES: usize = 256;
 /// The same of the shapes of a grid, which are far apart.
@@ -32,6 +35,7 @@ pub(crate) struct Balance<'a> {
     pub known: Vec<Source>,
     pub runs: Vec<RunData>,
     uncertainty: Option<Uncertainty>,
+    motions: PlaceMotions,
     /// Input less what is known, J.
     pub missing: Vec<f64>,
     pub input: Vec<f64>,
@@ -70,6 +74,7 @@ impl<'a> Balance<'a> {
             deviation: deviation.collect(),
             runs: data.runs,
             uncertainty: None,
+            motions: PlaceMotions::default(),
         })
     }
 
@@ -142,7 +147,15 @@ impl<'a> Balance<'a> {
         self.whitened(&self.missing)
     }
 
+    /// Energy that a source takes out in each run, J.
     fn energies(&self, source: &Source, samples: usize) -> Vec<f64> {
+        let memory = source.effect.law().filter(|law| source.effect.dissipates() && !law.is_linear());
+        if let Some(law) = memory {
+            let legs = source.place.legs().into_iter().map(|leg| self.motions.of(leg, samples, &self.runs));
+            let legs: Vec<_> = legs.collect();
+            let energy = |r: usize| legs.iter().map(|motions| law.energy(&source.parameters, &motions[r])).sum();
+            return (0..self.runs.len()).map(energy).collect();
+        }
         let energy = |run: &RunData| taken(self.structure, source, run.omega, &|dof| displacement(run, dof), samples);
         self.runs.iter().map(energy).collect()
     }
@@ -179,30 +192,27 @@ impl<'a> Balance<'a> {
     /// Range of the motion at a place; none where nothing moves.
     fn range(&self, dofs: &[usize]) -> Option<Range> {
         let leg = Leg { first: dofs[0], second: dofs.get(1).copied() };
-        let motions = self.runs.iter().map(|run| {
-            let relative = |h: usize| leg.relative(|dof| displacement(run, dof)[h]);
-            let harmonics: Vec<c64> = (0..run.harmonics).map(relative).collect();
-            Motion::new(run.omega, 0.0, &harmonics, SAMPLES)
-        });
-        let range = Range::of(&motions.collect::<Vec<_>>());
+        let range = Range::of(&self.motions.of(leg, SAMPLES, &self.runs));
         (range.displacement > 0.0).then_some(range)
     }
 
     /// Energy that is left over in each run with `effects`. Errors of channels are taken out of the record first.
     fn left(&self, effects: &[Source]) -> Vec<f64> {
-        let faulty = effects.iter().any(|e| matches!(e.place, Place::Channel(_)));
-        let runs: Cow<[RunData]> = if faulty {
-            self.runs.iter().map(|run| corrected(run, effects)).collect()
-        } else {
-            Cow::Borrowed(&self.runs)
-        };
-        let error = |(run, missing): (&RunData, &f64)| {
-            let field = |dof: usize| displacement(run, dof);
+        let on_structure = || effects.iter().filter(|e| e.effect.law().is_some());
+        if !is_faulty(effects) {
+            let mut left = self.missing.clone();
+            for effect in on_structure() {
+                left.iter_mut().zip(self.energies(effect, SAMPLES)).for_each(|(l, e)| *l -= e);
+            }
+            return left;
+        }
+        let of_run = |run: &RunData| {
+            let run = corrected(run, effects);
+            let field = |dof: usize| displacement(&run, dof);
             let lost = |source: &Source| taken(self.structure, source, run.omega, &field, SAMPLES);
-            let before = if faulty { input(run, &field) - self.known.iter().map(lost).sum::<f64>() } else { *missing };
-            before - effects.iter().filter(|e| e.effect.law().is_some()).map(lost).sum::<f64>()
+            input(&run, &field) - self.known.iter().chain(on_structure()).map(lost).sum::<f64>()
         };
-        runs.iter().zip(&self.missing).map(error).collect()
+        self.runs.iter().map(of_run).collect()
     }
 
     /// Errors of every channel, from a small one.
@@ -278,18 +288,35 @@ impl Residual for OnEnergy<'_> {
     }
 
     fn jacobian(&mut self, theta: &[f64], at: &[f64]) -> Result<Mat<f64>, Infallible> {
-        let step = 1e-5;
+        let effects = self.variables.effects(theta);
+        let faulty = is_faulty(&effects);
+        let owners = effects.iter().enumerate().flat_map(|(j, effect)| vec![j; effect.parameters.len()]);
+        let before: Vec<Vec<f64>> = if faulty {
+            Vec::new()
+        } else {
+            effects.iter().map(|effect| self.balance.energies(effect, SAMPLES)).collect()
+        };
         let mut jacobian = Mat::zeros(at.len(), theta.len());
-        for k in 0..theta.len() {
+        for (k, owner) in owners.enumerate() {
             let mut moved = theta.to_vec();
-            moved[k] += step;
-            let Ok(after) = self.residual(&moved);
-            for (r, (a, b)) in after.iter().zip(at).enumerate() {
-                jacobian[(r, k)] = (a - b) / step;
-            }
+            moved[k] += DIFFERENCE;
+            let change: Vec<f64> = if faulty {
+                let Ok(after) = self.residual(&moved);
+                after.iter().zip(at).map(|(a, b)| a - b).collect()
+            } else {
+                // Energies add up: those of the other effects stay.
+                let after = self.balance.energies(&self.variables.effects(&moved)[owner], SAMPLES);
+                self.balance.whitened(&before[owner].iter().zip(&after).map(|(b, a)| b - a).collect::<Vec<_>>())
+            };
+            change.iter().enumerate().for_each(|(r, c)| jacobian[(r, k)] = c / DIFFERENCE);
         }
         Ok(jacobian)
     }
+}
+
+/// Whether there are errors of channels among the effects.
+fn is_faulty(effects: &[Source]) -> bool {
+    effects.iter().any(|e| matches!(e.place, Place::Channel(_)))
 }
 
 /// The run freed of the errors of channels among `effects`.

@@ -4,5 +4,6 @@ pub(crate) mod balance;
 mod conclusion;
 pub(crate) mod energies;
 mod evidence;
+mod place_motion;
 pub(crate) mod search;
 mod uncertainty;

@@ -60,6 +60,9 @@ pub fn is_used(run: &Run) -> bool {
     run.is_used()
 }
 
+/// Deviations of a real part beyond which an amplitude is not noise: `exp(-3.5^2 / 2) = 0.2 %`.
+const BEYOND: f64 = 3.5;
+
 /// One channel of a run.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ChannelData {
@@ -85,6 +88,11 @@ impl ChannelData {
     /// Root of the sum of squared amplitudes over the harmonics.
     pub fn size(&self) -> f64 {
         size(&self.measured)
+    }
+
+    /// Whether harmonic `i + 1` is larger than noise is but once in 500 times.
+    fn is_beyond_noise(&self, i: usize) -> bool {
+        self.deviation.get(i).is_none_or(|d| self.measured[i].norm() > BEYOND * d)
     }
 
     /// Recorded amplitude over displacement amplitude at circular frequency `w` (rad/s): `(i w)^q`.
@@ -153,11 +161,16 @@ impl RunData {
         self.responses[c].size().max(self.largest(self.responses[c].quantity) / 20.0)
     }
 
-    /// The measured forces as excitation, each divided by the transfer of its channel at each harmonic.
+    /// The measured forces as excitation, each divided by the transfer of its channel at each harmonic; harmonics that are no
+    /// more than noise are at rest, so that a linear model need not answer them.
     pub fn excitation(&self, transfer: impl Fn(&ChannelData, f64) -> c64) -> Excitation {
         let force = |channel: &ChannelData| {
-            let at = |(i, f): (usize, &c64)| *f / transfer(channel, (i + 1) as f64 * self.omega);
-            let harmonics = channel.measured.iter().enumerate().map(at).collect();
+            let amplitude = |(i, f): (usize, &c64)| {
+                let felt = i == 0 || channel.is_beyond_noise(i);
+                if felt { *f / transfer(channel, (i + 1) as f64 * self.omega) } else { c64::new(0.0, 0.0) }
+            };
+            let highest = (1..channel.measured.len()).rev().find(|&i| channel.is_beyond_noise(i)).unwrap_or(0);
+            let harmonics = channel.measured.iter().take(highest + 1).enumerate().map(amplitude).collect();
             HarmonicForce { dof: channel.dof, mean: 0.0, harmonics }
         };
         Excitation { omega: self.omega, forces: self.forces.iter().map(force).collect() }
@@ -250,5 +263,30 @@ impl Data {
             }
         }
         names
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn harmonics_of_a_force_that_are_noise_are_at_rest() {
+        let force = |amplitudes: &[f64]| {
+            let channel = ChannelData {
+                name: "force@1".into(),
+                quantity: Quantity::Force,
+                dof: 0,
+                measured: amplitudes.iter().map(|&a| c64::new(0.0, a)).collect(),
+                deviation: vec![1e-3; amplitudes.len()],
+            };
+            let (forces, harmonics) = (vec![channel], amplitudes.len());
+            let run = RunData { index: 0, omega: 1.0, harmonics, forces, responses: Vec::new(), alive: Vec::new() };
+            run.excitation(|_, _| c64::new(2.0, 0.0)).forces.remove(0).harmonics
+        };
+        assert_eq!(force(&[1.0, 2e-3, 3e-3, 1e-3]), [c64::new(0.0, 0.5)]);
+        // What the exciter adds stays, the noise between is at rest.
+        assert_eq!(force(&[1.0, 2e-3, 0.1, 1e-3]), [c64::new(0.0, 0.5), c64::new(0.0, 0.0), c64::new(0.0, 0.05)]);
+        assert_eq!(force(&[1e-4]), [c64::new(0.0, 5e-5)], "the fundamental always drives");
     }
 }

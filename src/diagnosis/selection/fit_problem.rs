@@ -4,7 +4,8 @@ use crate::control::Cancelled;
 use crate::diagnosis::residual::data::{ChannelData, DiagnosisError, RunData};
 use crate::diagnosis::residual::prediction::{Predictor, RunPrediction, transfer};
 use crate::diagnosis::selection::estimator::{Estimator, Starts};
-use crate::diagnosis::selection::levenberg_marquardt::{Residual, Variables};
+use crate::diagnosis::selection::levenberg_marquardt::Residual;
+use crate::diagnosis::selection::levenberg_marquardt::variables::Variables;
 use crate::effects::{Kind, Source};
 use crate::response::harmonic_balance::Settings;
 use crate::response::sensitivity::{Unknown, sensitivities};
@@ -167,6 +168,10 @@ impl Residual for OnResponse<'_> {
 
     fn is_late(&self) -> bool {
         self.estimator.control.is_late()
+    }
+
+    fn bounds(&self) -> Vec<[f64; 2]> {
+        self.variables.bounds()
     }
 
     fn residual(&mut self, theta: &[f64]) -> Result<Vec<f64>, DiagnosisError> {

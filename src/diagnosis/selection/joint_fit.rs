@@ -13,7 +13,8 @@ use crate::diagnosis::residual::data::{DiagnosisError, RunData, if_possible};
 use crate::diagnosis::residual::prediction::{Predictor, RunPrediction};
 use crate::diagnosis::selection::estimator::{Estimator, Starts, starts_of};
 use crate::diagnosis::selection::fit_problem::{run_slopes, unknowns_of};
-use crate::diagnosis::selection::levenberg_marquardt::{Residual, Variables, descend};
+use crate::diagnosis::selection::levenberg_marquardt::variables::Variables;
+use crate::diagnosis::selection::levenberg_marquardt::{Residual, descend};
 use crate::diagnosis::selection::reference_model::ReferenceModel;
 use crate::diagnosis::updating::noise_model::NoiseModel;
 use crate::diagnosis::updating::parameters::Updating;
@@ -201,6 +202,10 @@ impl Residual for Joint<'_, '_> {
 
     fn is_late(&self) -> bool {
         self.reference.control.is_late()
+    }
+
+    fn bounds(&self) -> Vec<[f64; 2]> {
+        self.variables.bounds()
     }
 
     fn enough(&self) -> f64 {

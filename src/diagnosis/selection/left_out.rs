@@ -17,7 +17,7 @@ use crate::diagnosis::residual::data::{Data, DiagnosisError};
 use crate::diagnosis::residual::prediction::FINAL;
 use crate::diagnosis::selection::fit_problem::OnResponse;
 use crate::diagnosis::selection::fitted_model::FittedModel;
-use crate::diagnosis::selection::levenberg_marquardt::Variables;
+use crate::diagnosis::selection::levenberg_marquardt::variables::Variables;
 use crate::diagnosis::selection::reference_model::ReferenceModel;
 use crate::math::bootstrap::{DRAWS, shares};
 use dashpot_numerics::{Cholesky, dot};

@@ -1,9 +1,8 @@
-//! Levenberg and Marquardt's method for a weighted residual of unit variance, and the variables it works in.
-//!
-//! Parameters that are positive are fitted in their logarithm, those within limits between them, others in units of
-//! their start, so that steps are of order one whatever the unit.
+//! Levenberg and Marquardt's method for a weighted residual of unit variance, with bounds and the geodesic acceleration of Transtrum,
+//! Machta and Sethna (2011).
 
-use crate::effects::{Parameter, Source};
+pub(crate) mod variables;
+
 use crate::math::least_squares::solve_symmetric;
 use crate::math::statistics::sum_of_squares;
 use dashpot_numerics::{Cholesky, transposed_product};
@@ -14,105 +13,6 @@ const DAMPING: [f64; 2] = [1e-9, 1e8];
 
 /// Added to the diagonal of a normal matrix of unit diagonal, so that its inverse exists.
 const RIDGE: f64 = 1e-12;
-
-/// One variable behind a parameter.
-#[derive(Debug, Clone, Copy, PartialEq)]
-enum Variable {
-    /// `p = exp(theta)`.
-    Log,
-    /// `p = unit theta`.
-    Scaled(f64),
-    /// `p = low + (high - low) / (1 + exp(-theta))`.
-    Between(f64, f64),
-}
-
-/// Largest variable of a parameter within limits: a hundredth of their distance from them. Beyond, its derivative dies out, and a
-/// descent that once overshot would never return.
-const INSIDE: f64 = 4.6;
-
-impl Variable {
-    fn new(parameter: &Parameter, value: f64) -> Self {
-        if parameter.least.is_finite() && parameter.greatest.is_finite() {
-            Self::Between(parameter.least, parameter.greatest)
-        } else if parameter.least >= 0.0 {
-            Self::Log
-        } else {
-            Self::Scaled(if value == 0.0 { 1e-6 } else { value.abs() })
-        }
-    }
-
-    fn unknown_of(self, value: f64) -> f64 {
-        match self {
-            Self::Log => value.max(1e-300).ln(),
-            Self::Scaled(unit) => value / unit,
-            Self::Between(low, high) => {
-                let share = ((value - low) / (high - low)).clamp(1e-6, 1.0 - 1e-6);
-                (share / (1.0 - share)).ln().clamp(-INSIDE, INSIDE)
-            }
-        }
-    }
-
-    fn to_value(self, theta: f64) -> f64 {
-        match self {
-            Self::Log => theta.clamp(-600.0, 600.0).exp(),
-            Self::Scaled(unit) => unit * theta,
-            Self::Between(low, high) => low + (high - low) / (1.0 + (-theta.clamp(-INSIDE, INSIDE)).exp()),
-        }
-    }
-
-    /// Derivative of the parameter by the variable.
-    fn slope(self, theta: f64) -> f64 {
-        match self {
-            Self::Log => self.to_value(theta),
-            Self::Scaled(unit) => unit,
-            Self::Between(low, high) => {
-                let share = (self.to_value(theta) - low) / (high - low);
-                (high - low) * share * (1.0 - share)
-            }
-        }
-    }
-}
-
-/// The variables of the parameters of some effects, in order.
-#[derive(Debug, Clone)]
-pub(crate) struct Variables {
-    template: Vec<Source>,
-    variables: Vec<Variable>,
-}
-
-impl Variables {
-    /// All parameters of `effects`, with their variables at the start.
-    pub(crate) fn new(effects: &[Source]) -> (Self, Vec<f64>) {
-        let mut variables = Vec::new();
-        let mut start = Vec::new();
-        for effect in effects {
-            for (parameter, &value) in effect.effect.parameters().iter().zip(&effect.parameters) {
-                let variable = Variable::new(parameter, value);
-                variables.push(variable);
-                start.push(variable.unknown_of(value));
-            }
-        }
-        (Self { template: effects.to_vec(), variables }, start)
-    }
-
-    /// Number of variables.
-    pub(crate) fn len(&self) -> usize {
-        self.variables.len()
-    }
-
-    /// The effects at `theta`.
-    pub(crate) fn effects(&self, theta: &[f64]) -> Vec<Source> {
-        let mut effects = self.template.clone();
-        let values = self.variables.iter().zip(theta).map(|(v, &t)| v.to_value(t));
-        effects.iter_mut().flat_map(|e| e.parameters.iter_mut()).zip(values).for_each(|(p, v)| *p = v);
-        effects
-    }
-
-    /// Derivative of each parameter by its variable.
-    pub(crate) fn slopes(&self, theta: &[f64]) -> Vec<f64> {
-        self.variables.iter().zip(theta).map(|(v, &t)| v.slope(t)).collect()
-    }
-}
 
 /// Where a descent ended.
 #[derive(Debug, Clone)]
@@ -170,6 +70,10 @@ pub(crate) trait Residual {
     fn is_late(&self) -> bool {
         false
     }
+    /// Least and largest value of the first variables; those that follow are free.
+    fn bounds(&self) -> Vec<[f64; 2]> {
+        Vec::new()
+    }
     /// Gain of the squared residual, in units of what is left per datum, below which the descent has arrived.
     fn enough(&self) -> f64 {
         ARRIVED
@@ -186,8 +90,10 @@ const IDLE: usize = 3;
 /// Longest step, in natural units (a logarithm, a prior deviation), and the damping up to which it is raised to keep within.
 const LONGEST: f64 = 1.5;
 const FIRM: f64 = 1.0;
-/// Damping up to which steps are straight: beyond, the valley bends.
+/// Damping up to which steps are straight: beyond, the valley bends; and so does one in which the last step gained less than this
+/// share of what the derivative promised.
 const STRAIGHT: f64 = 1e-2;
+const POOR: f64 = 0.5;
 /// Share of a step at which its bend is measured, and largest share of the bend in the step.
 const AHEAD: f64 = 0.1;
 const BENT: f64 = 0.4;
@@ -198,26 +104,39 @@ pub(crate) fn descend<R: Residual>(problem: &mut R, theta: &[f64], steps: usize)
     let mut residual = problem.residual(&theta)?;
     let mut chi_square = sum_of_squares(&residual);
     let mut jacobian = problem.jacobian(&theta, &residual)?;
-    let mut equations = Normal::new(&jacobian, &residual);
-    let (mut damping, mut idle) = (1e-3, 0);
+    let bounds = problem.bounds();
+    let mut equations = Normal::new(&jacobian, &residual, &held(&bounds, &theta, &jacobian, &residual));
+    let (mut damping, mut idle, mut bends) = (1e-3, 0, false);
     for _ in 0..steps {
         let enough = problem.enough() * (chi_square / residual.len().max(1) as f64).max(1.0);
         if equations.to_go() < enough || problem.is_late() {
             break;
         }
-        let Some((next, after, chi)) = step(problem, &theta, (&residual, &jacobian), &equations, &mut damping)? else {
+        let Some((next, after, chi)) =
+            step(problem, &theta, (&residual, &jacobian), (&equations, bends), &mut damping)?
+        else {
             break;
         };
         let gain = chi_square - chi;
+        bends = gain < POOR * equations.to_go();
         idle = if gain < enough || gain < STUCK * equations.to_go() { idle + 1 } else { 0 };
         (theta, residual, chi_square) = (next, after, chi);
         jacobian = problem.jacobian(&theta, &residual)?;
-        equations = Normal::new(&jacobian, &residual);
+        equations = Normal::new(&jacobian, &residual, &held(&bounds, &theta, &jacobian, &residual));
         if idle == IDLE {
             break;
         }
     }
     Ok(Descent { theta, chi_square, residual, jacobian, to_go: equations.to_go() })
+}
+
+/// Which variables are at a bound across which the residual would fall: they stay there.
+fn held(bounds: &[[f64; 2]], theta: &[f64], jacobian: &Mat<f64>, residual: &[f64]) -> Vec<bool> {
+    let is_held = |(k, [least, greatest]): (usize, &[f64; 2])| {
+        let uphill: f64 = jacobian.col_as_slice(k).iter().zip(residual).map(|(j, r)| j * r).sum();
+        theta[k] <= *least && uphill > 0.0 || theta[k] >= *greatest && uphill < 0.0
+    };
+    bounds.iter().enumerate().map(is_held).collect()
 }
 
 /// Normal equations of a linearised residual: `N move = g`.
@@ -227,12 +146,18 @@ struct Normal {
 }
 
 impl Normal {
-    fn new(jacobian: &Mat<f64>, residual: &[f64]) -> Self {
+    /// Of the variables that are not `held`.
+    fn new(jacobian: &Mat<f64>, residual: &[f64], held: &[bool]) -> Self {
         let product = |k: usize| jacobian.col_as_slice(k).iter().zip(residual).map(|(j, r)| j * r).sum();
-        Self {
-            matrix: transposed_product(jacobian.as_ref(), jacobian.as_ref()),
-            gradient: Mat::from_fn(jacobian.ncols(), 1, |k, _| product(k)),
+        let mut matrix = transposed_product(jacobian.as_ref(), jacobian.as_ref());
+        let mut gradient = Mat::from_fn(jacobian.ncols(), 1, |k, _| product(k));
+        for k in (0..held.len()).filter(|&k| held[k]) {
+            for i in 0..matrix.nrows() {
+                (matrix[(i, k)], matrix[(k, i)]) = (0.0, 0.0);
+            }
+            (matrix[(k, k)], gradient[(k, 0)]) = (1.0, 0.0);
         }
+        Self { matrix, gradient }
     }
 
     /// `(N + damping diag N)^-1 g`.
@@ -265,10 +190,11 @@ fn step<R: Residual>(
     problem: &mut R,
     theta: &[f64],
     (residual, jacobian): (&[f64], &Mat<f64>),
-    equations: &Normal,
+    (equations, bends): (&Normal, bool),
     damping: &mut f64,
 ) -> Result<Option<Point>, R::Error> {
     let chi_square = sum_of_squares(residual);
+    let bounds = problem.bounds();
     while *damping < DAMPING[1] {
         if let Some(straight) = equations.move_by(*damping) {
             let straight: Vec<f64> = (0..theta.len()).map(|k| -straight[(k, 0)]).collect();
@@ -279,8 +205,12 @@ fn step<R: Residual>(
                 continue;
             }
             let share = if largest > LONGEST { LONGEST / largest } else { 1.0 };
-            let moved = |by: &[f64]| -> Vec<f64> { theta.iter().zip(by).map(|(x, d)| x + share * d).collect() };
-            let bend = if *damping > STRAIGHT && share == 1.0 {
+            let moved = |by: &[f64]| -> Vec<f64> {
+                let mut next: Vec<f64> = theta.iter().zip(by).map(|(x, d)| x + share * d).collect();
+                next.iter_mut().zip(&bounds).for_each(|(x, [least, greatest])| *x = x.clamp(*least, *greatest));
+                next
+            };
+            let bend = if (bends || *damping > STRAIGHT) && share == 1.0 {
                 bend(problem, theta, (residual, jacobian), equations, *damping, &straight)?
             } else {
                 None
@@ -330,38 +260,4 @@ fn bend<R: Residual>(
 mod certified;
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// Rosenbrock's valley: `10 (y - x^2)` and `1 - x`.
-    struct Valley(usize);
-
-    impl Residual for Valley {
-        type Error = std::convert::Infallible;
-
-        fn residual(&mut self, at: &[f64]) -> Result<Vec<f64>, Self::Error> {
-            self.0 += 1;
-            Ok(vec![10.0 * (at[1] - at[0] * at[0]), 1.0 - at[0]])
-        }
-
-        fn jacobian(&mut self, at: &[f64], _: &[f64]) -> Result<Mat<f64>, Self::Error> {
-            Ok(Mat::from_fn(2, 2, |i, j| [[-20.0 * at[0], 10.0], [-1.0, 0.0]][i][j]))
-        }
-    }
-
-    #[test]
-    fn a_descent_follows_a_valley_that_bends() {
-        let mut valley = Valley(0);
-        let Ok(descent) = descend(&mut valley, &[-1.2, 1.0], 200);
-        assert!((descent.theta[0] - 1.0).abs() < 1e-2, "{:?}", descent.theta);
-        assert!(valley.0 < 60, "{} residuals", valley.0);
-    }
-
-    /// Of a size that the data know to a tenth and one of which they know nothing, a tenth of the prior is left.
-    #[test]
-    fn the_volume_that_is_left_is_that_of_what_the_data_know() {
-        let jacobian = Mat::from_fn(3, 2, |i, k| if k == 0 { [6.0, 8.0, 0.0][i] } else { 0.0 });
-        let descent = Descent { theta: vec![0.0; 2], chi_square: 0.0, residual: vec![0.0; 3], jacobian, to_go: 0.0 };
-        assert!((descent.log_volume() + 0.5 * 101.0_f64.ln()).abs() < 1e-12, "{}", descent.log_volume());
-    }
-}
+mod tests;

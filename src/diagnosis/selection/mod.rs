@@ -18,6 +18,7 @@ mod pairs;
 pub(crate) mod reference_model;
 pub(crate) mod search;
 pub(crate) mod sentences;
+mod settled;
 mod short_list;
 mod single_change;
 mod singles;

@@ -10,7 +10,7 @@ use crate::diagnosis::residual::data::DiagnosisError;
 use crate::diagnosis::residual::prediction::SEARCH;
 use crate::diagnosis::result::{NextTest, TestKind};
 use crate::diagnosis::selection::fitted_model::FittedModel;
-use crate::diagnosis::selection::levenberg_marquardt::Variables;
+use crate::diagnosis::selection::levenberg_marquardt::variables::Variables;
 use crate::diagnosis::selection::reference_model::ReferenceModel;
 use crate::effects::{Effect, Kind, Source};
 use crate::math::least_squares::solve_symmetric;

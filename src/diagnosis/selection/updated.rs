@@ -5,7 +5,7 @@ use crate::diagnosis::residual::data::{Data, DiagnosisError, RunData, if_possibl
 use crate::diagnosis::residual::energy_balance::scaled_factors;
 use crate::diagnosis::residual::prediction::{FINAL, Predictor, RunPrediction};
 use crate::diagnosis::selection::estimator::{Estimator, Starts};
-use crate::diagnosis::selection::exactness::{rubs, settings_for};
+use crate::diagnosis::selection::exactness::settings_for;
 use crate::diagnosis::selection::fit_problem::{RunSlopes, run_slopes};
 use crate::diagnosis::selection::fitted_model::FittedModel;
 use crate::diagnosis::selection::found::agrees;
@@ -28,13 +28,7 @@ const ARRIVED: f64 = 1e-3;
 /// Rounds in which scales and effects are fitted in turn.
 const ROUNDS: usize = 3;
 /// Steps of the effects in each.
-const REFITTED: usize = 4;
-/// Evidence that the linear fit of the updating parameters may still gain where they have settled: no decision hangs on less.
-pub(super) const SETTLED: f64 = 2.0;
-/// Share of what the linear fit promises below which a step is too slow to go on.
-const SLOW: f64 = 1e-3;
-/// Steps of a joint fit of effects and updating parameters.
-const JOINT_STEPS: usize = 12;
+pub(super) const REFITTED: usize = 4;
 /// Factor of the measured over the predicted motion, off one, up to which derivatives are taken at the predicted one.
 const NEAR: f64 = 0.3;
 /// Bounds of the factor by which the measured motion may differ from the predicted one where derivatives are corrected for it.
@@ -178,31 +172,6 @@ impl<'a> ReferenceModel<'a> {
         }
     }
 
-    /// The model moved until its updating parameters leave what their linear fit leaves, without any effect.
-    fn settled_bare(self, rounds: usize) -> Result<ReferenceModel<'a>, DiagnosisError> {
-        let mut reference = self;
-        let mut here = reference.cost_at_reference(&reference.predictions);
-        for _ in 0..rounds {
-            let linear =
-                sum_of_squares(&reference.estimator().residual(&reference.predictions)) + reference.noise.cost();
-            if here - linear < SETTLED || reference.control.is_late() {
-                break;
-            }
-            let joint = reference.joint_fit(&[], &Vec::new(), &FINAL, JOINT_STEPS)?;
-            let there = reference.updated(&joint.updating, &[], &Vec::new())?;
-            let then = there.cost_at_reference(&there.predictions);
-            if then >= here {
-                break;
-            }
-            let slow = here - then < slowest(here - linear);
-            (reference, here) = (there, then);
-            if slow {
-                break;
-            }
-        }
-        Ok(reference)
-    }
-
     /// This model with the scales that are most likely without any effect, and its evidence: without gains and differences
     /// from run to run, or without those alone, where that agrees with the data; else the best of these and of the scales
     /// that are estimated.
@@ -279,47 +248,12 @@ impl<'a> ReferenceModel<'a> {
         Ok((estimated, cost))
     }
 
-    /// The model and the effects of `fit` moved in turn until neither moves any more: until the updating parameters at the
-    /// reference leave what their linear fit leaves.
-    pub(crate) fn settled(
-        self,
-        fit: FittedModel,
-        settings: &Settings,
-        rounds: usize,
-    ) -> Result<(ReferenceModel<'a>, FittedModel), DiagnosisError> {
-        let settings = settings_for(&fit, self.count(), settings);
-        // What friction leaves depends on the number of harmonics.
-        let fit = if rubs(&fit.effects) { self.refitted(&fit, settings)? } else { fit };
-        let (mut reference, mut fit) = (self, fit);
-        let mut here = reference.cost_at_reference(&reference.predictions_with(&fit.effects, &fit.starts, settings)?);
-        for _ in 0..rounds {
-            let linear = fit.chi_square + reference.noise.cost();
-            if here - linear < SETTLED || reference.control.is_late() {
-                break;
-            }
-            let joint = reference.joint_fit(&fit.effects, &fit.starts, settings, JOINT_STEPS)?;
-            let there = reference.updated_as(&joint.updating, &joint.effects, &joint.starts, settings)?;
-            let again = there.estimator().fit(&joint.effects, REFITTED, settings, &joint.starts)?;
-            let then = there.cost_at_reference(&there.predictions_with(&again.effects, &again.starts, settings)?);
-            // Where the model was far off its own noise, the evidence at the old reference and at the new differ in kind.
-            if then >= here && again.chi_square + there.noise.cost() > linear - 1.0 {
-                break;
-            }
-            let slow = here - then < slowest(here - linear);
-            (reference, fit, here) = (there, again, then);
-            if slow {
-                break;
-            }
-        }
-        Ok((reference, fit))
-    }
-
     /// Evidence of predictions with the updating parameters of the model at their reference, priors included.
     pub(super) fn cost_at_reference(&self, predictions: &[RunPrediction]) -> f64 {
         self.noise.updating.left_by_channels(&self.estimator().at_reference(predictions)) + self.noise.cost()
     }
 
-    fn refitted(&self, fit: &FittedModel, settings: &Settings) -> Result<FittedModel, DiagnosisError> {
+    pub(super) fn refitted(&self, fit: &FittedModel, settings: &Settings) -> Result<FittedModel, DiagnosisError> {
         self.estimator().fit(&fit.effects, REFITTED, settings, &fit.starts)
     }
 
@@ -389,9 +323,4 @@ fn leverage(data: &Data, updating: &Updating, common: &[RunSlopes], predictions:
         if size > 0.0 && missing > CLOSE { MOTION * (moved / size).sqrt() * missing } else { 0.0 }
     };
     data.runs.iter().zip(common).zip(predictions).map(of_run).collect()
-}
-
-/// Least gain of a step towards a linear fit that promises `more`.
-fn slowest(more: f64) -> f64 {
-    (SLOW * more).max(0.5 * SETTLED)
 }

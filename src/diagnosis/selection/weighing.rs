@@ -13,7 +13,7 @@ use crate::diagnosis::selection::fits::{FIRST_STEPS, STEPS};
 use crate::diagnosis::selection::fitted_model::FittedModel;
 use crate::diagnosis::selection::found::{DOUBTFUL, same_set};
 use crate::diagnosis::selection::reference_model::ReferenceModel;
-use crate::diagnosis::selection::updated::SETTLED;
+use crate::diagnosis::selection::settled::SETTLED;
 use crate::diagnosis::updating::parameters::{Scales, UpdatingParameter};
 use crate::diagnosis::updating::part_error::{is_within_part, part_of, takes_away};
 use crate::effects::{Effect, Range, Source};

@@ -1,0 +1,103 @@
+//! Effects and the updating parameters of the model fitted together, and the model linearised where they end, in turn until neither
+//! moves any more.
+
+use super::updated::REFITTED;
+use crate::diagnosis::residual::data::DiagnosisError;
+use crate::diagnosis::residual::prediction::FINAL;
+use crate::diagnosis::selection::estimator::Starts;
+use crate::diagnosis::selection::exactness::{rubs, settings_for};
+use crate::diagnosis::selection::fitted_model::FittedModel;
+use crate::diagnosis::selection::reference_model::ReferenceModel;
+use crate::effects::Source;
+use crate::math::statistics::sum_of_squares;
+use crate::response::harmonic_balance::Settings;
+
+/// Evidence that the linear fit of the updating parameters may still gain where they have settled: no decision hangs on less.
+pub(super) const SETTLED: f64 = 2.0;
+/// Share of what the linear fit promises below which a step is too slow to go on.
+const SLOW: f64 = 1e-3;
+/// Steps of a joint fit of effects and updating parameters.
+const JOINT_STEPS: usize = 12;
+
+impl<'a> ReferenceModel<'a> {
+    /// The model moved until its updating parameters leave what their linear fit leaves, without any effect.
+    pub(super) fn settled_bare(self, rounds: usize) -> Result<ReferenceModel<'a>, DiagnosisError> {
+        let mut reference = self;
+        let mut here = reference.cost_at_reference(&reference.predictions);
+        for _ in 0..rounds {
+            let linear =
+                sum_of_squares(&reference.estimator().residual(&reference.predictions)) + reference.noise.cost();
+            if here - linear < SETTLED || reference.control.is_late() {
+                break;
+            }
+            let joint = reference.joint_fit(&[], &Vec::new(), &FINAL, JOINT_STEPS)?;
+            let there = reference.updated(&joint.updating, &[], &Vec::new())?;
+            let then = there.cost_at_reference(&there.predictions);
+            if then >= here {
+                break;
+            }
+            let slow = here - then < slowest(here - linear);
+            (reference, here) = (there, then);
+            if slow {
+                break;
+            }
+        }
+        Ok(reference)
+    }
+
+    /// The model and the effects of `fit` moved in turn until neither moves any more: until the updating parameters at the
+    /// reference leave what their linear fit leaves.
+    pub(crate) fn settled(
+        self,
+        fit: FittedModel,
+        settings: &Settings,
+        rounds: usize,
+    ) -> Result<(ReferenceModel<'a>, FittedModel), DiagnosisError> {
+        let settings = settings_for(&fit, self.count(), settings);
+        // What friction leaves depends on the number of harmonics.
+        let fit = if rubs(&fit.effects) { self.refitted(&fit, settings)? } else { fit };
+        let (mut reference, mut fit) = (self, fit);
+        let mut from = (fit.effects.clone(), fit.starts.clone());
+        let mut here = reference.cost_at_reference(&reference.predictions_with(&from.0, &from.1, settings)?);
+        for _ in 0..rounds {
+            let linear = fit.chi_square + reference.noise.cost();
+            if here - linear < SETTLED || reference.control.is_late() {
+                break;
+            }
+            let joint = reference.joint_fit(&from.0, &from.1, settings, JOINT_STEPS)?;
+            let there = reference.updated_as(&joint.updating, &joint.effects, &joint.starts, settings)?;
+            let again = there.estimator().fit(&joint.effects, REFITTED, settings, &joint.starts)?;
+            let (next, then) = there.nearer((joint.effects, joint.starts), &again, settings)?;
+            // Where the model was far off its own noise, the evidence at the old reference and at the new differ in kind.
+            if then >= here && again.chi_square + there.noise.cost() > linear - 1.0 {
+                break;
+            }
+            let slow = here - then < slowest(here - linear);
+            (reference, fit, here, from) = (there, again, then, next);
+            if slow {
+                break;
+            }
+        }
+        Ok((reference, fit))
+    }
+
+    /// From where to go on, with its evidence: the effects with which the updating parameters of this model were fitted, or those of
+    /// `fit`, which has these eliminated linearly.
+    fn nearer(
+        &self,
+        joint: (Vec<Source>, Starts),
+        fit: &FittedModel,
+        settings: &Settings,
+    ) -> Result<((Vec<Source>, Starts), f64), DiagnosisError> {
+        let cost = |effects: &[Source], starts: &Starts| {
+            Ok::<f64, DiagnosisError>(self.cost_at_reference(&self.predictions_with(effects, starts, settings)?))
+        };
+        let (together, apart) = (cost(&joint.0, &joint.1)?, cost(&fit.effects, &fit.starts)?);
+        Ok(if together < apart { (joint, together) } else { ((fit.effects.clone(), fit.starts.clone()), apart) })
+    }
+}
+
+/// Least gain of a step towards a linear fit that promises `more`.
+fn slowest(more: f64) -> f64 {
+    (SLOW * more).max(0.5 * SETTLED)
+}
