@@ -96,10 +96,11 @@ fn pieces(catalogue: &Catalogue, english: &str, depth: usize) -> Option<String> 
     // Sentences keep their points.
     let sentences: Vec<&str> = english.split_inclusive(". ").map(|s| s.strip_suffix(' ').unwrap_or(s)).collect();
     let lines = english.contains('\n');
-    if !lines && sentences.len() > 1 {
-        if let Some(text) = each(sentences, " ") {
-            return Some(text);
-        }
+    if !lines
+        && sentences.len() > 1
+        && let Some(text) = each(sentences, " ")
+    {
+        return Some(text);
     }
     BETWEEN.iter().filter(|b| english.contains(**b)).find_map(|b| each(english.split(b).collect(), b))
 }
