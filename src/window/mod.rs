@@ -17,6 +17,7 @@ pub mod frame;
 mod import;
 pub mod importing;
 pub(crate) mod jobs;
+pub mod language;
 pub mod learn;
 pub(crate) mod leaving;
 pub(crate) mod motion;
@@ -43,6 +44,7 @@ pub use photograph::Photograph;
 pub use picture::{Picture, picture};
 
 use crate::session::recent::Recent;
+use language::Language;
 use std::path::PathBuf;
 
 /// Opens the window, with a project or on the start screen, and returns when it is closed. With `photograph` it writes
@@ -70,6 +72,12 @@ pub fn open(file: Option<PathBuf>, photograph: Option<PathBuf>) -> Result<(), St
         app.set_less_motion(&cc.egui_ctx, less.unwrap_or_else(motion::is_unwanted));
         let units = cc.storage.and_then(|storage| eframe::get_value(storage, "units"));
         crate::display::units::choose(units.unwrap_or_default());
+        let language: Option<Language> =
+            cc.storage.and_then(|storage| eframe::get_value(storage, "language")).flatten();
+        // Photographs are in English, like all that is made without a user.
+        if photograph.is_none() {
+            language::choose(language.unwrap_or_else(Language::of_system));
+        }
         app.recent = eframe::storage_dir("dashpot").map(|folder| Recent::load(&folder.join("recent.json")));
         if let Some(folder) = eframe::storage_dir("dashpot") {
             if let Some(report) = crash::left_behind(&folder) {

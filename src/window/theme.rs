@@ -1,8 +1,10 @@
 //! The looks of the window, in one file: type scale, spacing and the visuals of every widget, light and dark. Colours and
 //! sizes of type are those of the plots.
 
+use super::language::numbers;
 use crate::plots::style;
 pub use crate::plots::style::{Palette, size};
+use egui::style::NumberFormatter;
 use egui::{Color32, CornerRadius, FontFamily, FontId, Margin, Shadow, Stroke, Style, TextStyle, Theme, Visuals};
 
 /// Distances in points.
@@ -67,6 +69,7 @@ fn widgets(palette: &Palette, base: Visuals) -> Style {
     ]
     .into();
     style.animation_time = 0.08;
+    style.number_formatter = NumberFormatter::new(numbers::formatted);
     let spacing = &mut style.spacing;
     spacing.item_spacing = egui::vec2(space::S, 5.0);
     spacing.button_padding = egui::vec2(10.0, 4.0);

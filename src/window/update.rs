@@ -7,6 +7,7 @@ use super::files::Pick;
 use super::frame::panes::Pane;
 use super::import::{dropped, is_project};
 use super::jobs::Done;
+use super::language::{self, Language};
 use super::leaving::Leave;
 use super::opened::Opened;
 use super::schematic::gesture::Intent;
@@ -261,5 +262,8 @@ impl eframe::App for App {
         let own = Some(self.view.less_motion).filter(|less| *less != super::motion::is_unwanted());
         eframe::set_value(storage, "less_motion", &own);
         eframe::set_value(storage, "units", &units::now());
+        // The same of the language.
+        let own = Some(language::now()).filter(|language| *language != Language::of_system());
+        eframe::set_value(storage, "language", &own);
     }
 }

@@ -1,5 +1,6 @@
-//! What all panes are made of, as one extension of `egui::Ui`.
+//! What all panes are made of, as one extension of `egui::Ui`. All take English words and show them in the language of the window.
 
+use super::language::{numbers, tr};
 use super::theme::{self, Palette, size, space};
 use crate::display::{format, glossary, units};
 use egui::text::{Galley, LayoutJob, TextWrapping};
@@ -23,7 +24,7 @@ fn name_left(ui: &mut Ui, name: &str, rest: f32) -> Response {
     }
     let weak = ui.palette().weak;
     let room = vec2((ui.available_width() - rest - space::S).max(20.0), space::ROW);
-    let label = Label::new(RichText::new(name).color(weak)).selectable(false).wrap();
+    let label = Label::new(RichText::new(tr(name)).color(weak)).selectable(false).wrap();
     ui.allocate_ui_with_layout(room, Layout::left_to_right(Align::Center), |ui| {
         ui.set_min_width(room.x);
         explained(ui.add(label), glossary::meaning(name))
@@ -34,7 +35,7 @@ fn name_left(ui: &mut Ui, name: &str, rest: f32) -> Response {
 /// With its meaning under the pointer, where it is a term.
 pub(crate) fn explained(response: Response, meaning: Option<&str>) -> Response {
     match meaning {
-        Some(meaning) => response.on_hover_text(meaning),
+        Some(meaning) => response.on_hover_text(tr(meaning)),
         None => response,
     }
 }
@@ -42,7 +43,7 @@ pub(crate) fn explained(response: Response, meaning: Option<&str>) -> Response {
 /// Paints a line of words that starts at `left` (its middle) and ends with dots where it is wider than `room`; gives back
 /// its width.
 pub(crate) fn elided(ui: &Ui, text: &str, font: FontId, colour: Color32, left: Pos2, room: f32) -> f32 {
-    let mut job = LayoutJob::simple_singleline(text.to_owned(), font, colour);
+    let mut job = LayoutJob::simple_singleline(tr(text), font, colour);
     job.wrap = TextWrapping::truncate_at_width(room.max(8.0));
     let galley = ui.painter().layout_job(job);
     let width = galley.size().x;
@@ -52,14 +53,14 @@ pub(crate) fn elided(ui: &Ui, text: &str, font: FontId, colour: Color32, left: P
 
 /// Words of one colour in at most `rows` lines of `room` points; dots where they are longer still.
 pub(crate) fn folded(ui: &Ui, text: &str, font: FontId, colour: Color32, room: f32, rows: usize) -> Arc<Galley> {
-    let mut job = LayoutJob::simple(text.to_owned(), font, colour, room.max(8.0));
+    let mut job = LayoutJob::simple(tr(text), font, colour, room.max(8.0));
     job.wrap.max_rows = rows;
     ui.painter().layout_job(job)
 }
 
 /// Width of words on one line, points.
 pub(crate) fn width(ui: &Ui, text: &str, font: FontId) -> f32 {
-    ui.painter().layout_no_wrap(text.to_owned(), font, Color32::PLACEHOLDER).size().x
+    ui.painter().layout_no_wrap(tr(text), font, Color32::PLACEHOLDER).size().x
 }
 
 /// The program's own widgets.
@@ -100,10 +101,10 @@ impl UiExt for Ui {
         // A remark that is longer than the room beside the title stands under it; in a row there is no such place.
         let below = self.layout().is_vertical() && own + beside + space::S > self.available_width();
         self.horizontal(|ui| {
-            let label = ui.label(RichText::new(title).size(size::HEADING).color(ui.palette().ink));
+            let label = ui.label(RichText::new(tr(title)).size(size::HEADING).color(ui.palette().ink));
             explained(label, glossary::meaning(title));
             if !remark.is_empty() && !below {
-                ui.add(Label::new(RichText::new(remark).size(size::SMALL).color(ui.palette().weak)).truncate());
+                ui.add(Label::new(RichText::new(tr(remark)).size(size::SMALL).color(ui.palette().weak)).truncate());
             }
         });
         if below && !remark.is_empty() {
@@ -115,16 +116,16 @@ impl UiExt for Ui {
         let colour = self.palette().weak;
         let text: String = text.into();
         let meaning = glossary::meaning(&text);
-        let response = self.label(RichText::new(text).size(size::SMALL).color(colour));
+        let response = self.label(RichText::new(tr(text)).size(size::SMALL).color(colour));
         explained(response, meaning)
     }
 
     fn pair(&mut self, name: &str, value: impl Into<String>) {
-        let (value, weak) = (value.into(), self.palette().weak);
+        let (value, weak) = (tr(value.into()), self.palette().weak);
         let (room, gap) = (self.available_width(), space::S);
         let [name_width, value_width] = [name, value.as_str()].map(|text| width(self, text, theme::font(size::BODY)));
         let meaning = glossary::meaning(name);
-        let name = Label::new(RichText::new(name).color(weak)).wrap();
+        let name = Label::new(RichText::new(tr(name)).color(weak)).wrap();
         if name_width + gap + value_width <= room || value_width < 0.4 * room {
             self.horizontal(|ui| {
                 let left = vec2(room - value_width - gap, space::ROW);
@@ -143,7 +144,7 @@ impl UiExt for Ui {
     fn number(&mut self, text: impl Into<String>) -> Response {
         self.with_layout(Layout::right_to_left(Align::Center), |ui| {
             ui.add_space(space::XS);
-            ui.add(Label::new(WidgetText::from(text.into())).selectable(false))
+            ui.add(Label::new(WidgetText::from(tr(text.into()))).selectable(false))
         })
         .inner
     }
@@ -153,7 +154,9 @@ impl UiExt for Ui {
             .fill(colour.gamma_multiply(0.16))
             .corner_radius(CornerRadius::same(4))
             .inner_margin(Margin::symmetric(6, 1))
-            .show(self, |ui| ui.add(Label::new(RichText::new(text).size(size::SMALL).color(colour)).selectable(false)))
+            .show(self, |ui| {
+                ui.add(Label::new(RichText::new(tr(text)).size(size::SMALL).color(colour)).selectable(false))
+            })
             .inner
     }
 
@@ -161,14 +164,14 @@ impl UiExt for Ui {
         let height = self.available_height();
         self.vertical_centered(|ui| {
             ui.add_space((0.38 * height - 20.0).max(0.0));
-            ui.label(RichText::new(title).size(size::HEADING).color(ui.palette().ink));
+            ui.label(RichText::new(tr(title)).size(size::HEADING).color(ui.palette().ink));
             ui.hint(what_next);
         });
     }
 
     fn primary(&mut self, text: &str) -> Response {
         let p = self.palette();
-        let text = RichText::new(text).color(p.text_on(p.accent));
+        let text = RichText::new(tr(text)).color(p.text_on(p.accent));
         self.add(egui::Button::new(text).fill(p.accent).stroke(theme::hair(p.accent)))
     }
 
@@ -183,8 +186,8 @@ impl UiExt for Ui {
             let label = name_left(ui, name, VALUE + UNIT + 2.0 * space::S);
             let drag = DragValue::new(&mut shown)
                 .speed((0.005 * value.abs()).max(1e-6))
-                .custom_formatter(|v, _| format::editable(v))
-                .custom_parser(|text| text.trim().replace('−', "-").parse().ok());
+                .custom_formatter(|v, _| numbers::editable(v))
+                .custom_parser(numbers::typed);
             ui.horizontal(|ui| {
                 let response = ui.add_sized(vec2(VALUE, 22.0), drag).labelled_by(label.id);
                 ui.hint(&unit);
@@ -208,11 +211,11 @@ impl UiExt for Ui {
             let width = VALUE + UNIT + space::S;
             let label = name_left(ui, name, width + space::S);
             ComboBox::from_id_salt(("choice", name))
-                .selected_text(word(now))
+                .selected_text(tr(word(now)))
                 .width(width)
                 .show_ui(ui, |ui| {
                     for &one in all {
-                        ui.selectable_value(&mut chosen, one, word(one));
+                        ui.selectable_value(&mut chosen, one, tr(word(one)));
                     }
                 })
                 .response

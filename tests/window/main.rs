@@ -18,6 +18,7 @@ mod importing;
 mod journey;
 mod keyboard;
 mod laboratory;
+mod language;
 mod laws;
 mod legible;
 mod many;

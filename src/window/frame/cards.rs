@@ -1,6 +1,7 @@
 //! The samples as cards: what each is for, with a picture.
 
 use crate::effects::Effect;
+use crate::window::language::tr;
 use crate::window::schematic::symbols;
 use crate::window::theme::{self, Palette, size};
 use crate::window::widgets::UiExt;
@@ -128,16 +129,15 @@ pub(crate) fn card(ui: &mut Ui, width: f32, sample: &Sample, file: Option<&Path>
     let present = file.is_some_and(Path::exists);
     let sense = if present { Sense::click() } else { Sense::hover() };
     let (rect, response) = ui.allocate_exact_size(vec2(width, HEIGHT + if width < NARROW { MORE } else { 0.0 }), sense);
-    response.widget_info(|| WidgetInfo::labeled(Role::Button, present, sample.title));
+    response.widget_info(|| WidgetInfo::labeled(Role::Button, present, tr(sample.title)));
     let lit = response.hovered() && present || response.has_focus();
     let line = theme::hair(if lit { palette.accent } else { palette.line });
     ui.painter().rect(rect, 8.0, palette.pane, line, StrokeKind::Inside);
     let picture = Rect::from_min_max(rect.left_top() + vec2(12.0, 12.0), pos2(rect.right() - 12.0, rect.top() + 94.0));
     ui.painter().rect_filled(picture, 5.0, palette.canvas);
     (sample.picture)(&ui.painter_at(picture), palette, picture);
-    let text = |size: f32, string: &str, colour| {
-        ui.painter().layout(string.to_owned(), theme::font(size), colour, width - 28.0)
-    };
+    let text =
+        |size: f32, string: &str, colour| ui.painter().layout(tr(string), theme::font(size), colour, width - 28.0);
     let title = text(size::HEADING, sample.title, palette.ink);
     let sentence = text(size::BODY - 0.5, sample.sentence, palette.weak);
     let at = pos2(rect.left() + 14.0, picture.bottom() + 10.0);

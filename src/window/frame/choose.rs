@@ -2,6 +2,7 @@
 
 use crate::window::ask::Ask;
 use crate::window::files::{self, Pick};
+use crate::window::language::{t, tr};
 use crate::window::theme::{size, space};
 use crate::window::widgets::UiExt;
 use egui::{Button, Context, Frame, Id, Label, Margin, Modal, RichText, ScrollArea, TextEdit, Ui};
@@ -85,14 +86,14 @@ pub(crate) fn show(ctx: &Context, choosing: &mut Option<Choosing>, asks: &mut Ve
     let mut ended = false;
     let modal = Modal::new(Id::unique("choose a file")).frame(frame).show(ctx, |ui| {
         ui.set_width(LIST[0]);
-        ui.label(RichText::new(files::title(dialog.pick)).size(size::HEADING));
+        ui.label(RichText::new(tr(files::title(dialog.pick))).size(size::HEADING));
         folder(ui, dialog);
         entries(ui, dialog);
         let label = ui.hint("File name");
         let field = ui.add(TextEdit::singleline(&mut dialog.name).desired_width(f32::INFINITY)).labelled_by(label.id);
         let entered = field.lost_focus() && ui.input(|i| i.key_pressed(egui::Key::Enter));
         if let Some(fault) = &dialog.fault {
-            ui.colored_label(ui.palette().error, fault);
+            ui.colored_label(ui.palette().error, tr(fault));
         }
         ui.add_space(space::S);
         ui.horizontal(|ui| {
@@ -102,7 +103,7 @@ pub(crate) fn show(ctx: &Context, choosing: &mut Option<Choosing>, asks: &mut Ve
                 asks.push(Ask::Picked(dialog.pick, vec![path]));
                 ended = true;
             }
-            ended |= ui.button("Cancel").clicked();
+            ended |= ui.button(t!("Cancel")).clicked();
         });
     });
     if ended || modal.should_close() {
@@ -113,7 +114,7 @@ pub(crate) fn show(ctx: &Context, choosing: &mut Option<Choosing>, asks: &mut Ve
 fn folder(ui: &mut Ui, dialog: &mut Choosing) {
     ui.horizontal(|ui| {
         let parent = dialog.folder.parent().map(Path::to_path_buf);
-        if ui.add_enabled(parent.is_some(), Button::new("Up")).on_hover_text("The folder above.").clicked()
+        if ui.add_enabled(parent.is_some(), Button::new(t!("Up"))).on_hover_text(t!("The folder above.")).clicked()
             && let Some(parent) = parent
         {
             dialog.go(parent);
@@ -127,7 +128,7 @@ fn entries(ui: &mut Ui, dialog: &mut Choosing) {
     ScrollArea::vertical().max_height(LIST[1]).min_scrolled_height(LIST[1]).auto_shrink(false).show(ui, |ui| {
         for entry in &dialog.entries {
             let text = if entry.is_folder { format!("{}/", entry.name) } else { entry.name.clone() };
-            if ui.selectable_label(!entry.is_folder && entry.name == dialog.name, text).clicked() {
+            if ui.selectable_label(!entry.is_folder && entry.name == dialog.name, tr(text)).clicked() {
                 if entry.is_folder {
                     into = Some(dialog.folder.join(&entry.name));
                 } else {

@@ -5,6 +5,7 @@ use super::panes::Pane;
 use super::tabs::Fit;
 use crate::display::glossary;
 use crate::window::ask::Ask;
+use crate::window::language::{t, tf, tr};
 use crate::window::opened::Opened;
 use crate::window::stages;
 use crate::window::stages::explain::switches::in_bar;
@@ -70,7 +71,7 @@ impl Behavior<Pane> for Panes<'_> {
     fn tab_ui(&mut self, tiles: &mut Tiles<Pane>, ui: &mut Ui, id: Id, tile: TileId, state: &TabState) -> Response {
         let palette = Palette::of(ui.visuals());
         let title = self.tab_title_for_tile(tiles, tile).text().to_owned();
-        let galley = ui.painter().layout_no_wrap(title.clone(), theme::font(size::BODY), Color32::PLACEHOLDER);
+        let galley = ui.painter().layout_no_wrap(tr(&title), theme::font(size::BODY), Color32::PLACEHOLDER);
         let [before, after] = if self.fit.is_left_out(tile) { [0.0; 2] } else { self.fit.pads };
         let wide = if self.fit.is_left_out(tile) { 0.0 } else { galley.size().x + before + after };
         let (_, rect) = ui.allocate_space(vec2(wide, ui.available_height()));
@@ -78,7 +79,7 @@ impl Behavior<Pane> for Panes<'_> {
             return ui.interact(rect, id, Sense::hover());
         }
         let response = ui.interact(rect, id, Sense::click_and_drag());
-        response.widget_info(|| WidgetInfo::selected(Role::Tab, true, state.active, &title));
+        response.widget_info(|| WidgetInfo::selected(Role::Tab, true, state.active, tr(&title)));
         if state.is_being_dragged {
             return response;
         }
@@ -168,12 +169,12 @@ impl Panes<'_> {
         let palette = Palette::of(ui.visuals());
         let rect = Rect::from_center_size(tab.right_center() - vec2(7.0, 0.0), vec2(14.0, 14.0));
         let response = ui.interact(rect, ui.scope_id().with(("close", tile)), Sense::click());
-        response.widget_info(|| WidgetInfo::labeled(Role::Button, true, format!("Close {title}")));
+        response.widget_info(|| WidgetInfo::labeled(Role::Button, true, tf!("Close {title}")));
         let ink = if response.hovered() { palette.error } else { palette.weak };
         let r = rect.shrink(3.5);
         ui.painter().line_segment([r.left_top(), r.right_bottom()], theme::pen(ink));
         ui.painter().line_segment([r.right_top(), r.left_bottom()], theme::pen(ink));
-        if response.on_hover_text("Closes the pane; View > Panes brings it back.").clicked() {
+        if response.on_hover_text(t!("Closes the pane; View > Panes brings it back.")).clicked() {
             self.closed = Some(tile);
         }
     }

@@ -4,6 +4,7 @@ use super::desk::Desk;
 use super::panes::Pane;
 use crate::window::ask::Ask;
 use crate::window::commands::TABLE;
+use crate::window::language::{t, tr};
 use crate::window::theme::{Palette, size, space};
 use crate::window::view::{Stage, View};
 use crate::window::widgets::UiExt;
@@ -16,13 +17,13 @@ pub(crate) fn show(ctx: &Context, view: &mut View) {
 }
 
 fn keys(ctx: &Context, open: &mut bool) {
-    Window::new("Keys").open(open).resizable(false).collapsible(false).show(ctx, |ui| {
+    Window::new(t!("Keys")).open(open).resizable(false).collapsible(false).show(ctx, |ui| {
         ScrollArea::vertical().max_height(560.0).show(ui, |ui| {
             Grid::new("keys").num_columns(3).spacing([space::L, space::XS]).show(ui, |ui| {
                 for entry in &TABLE {
                     let Some(keys) = entry.keys else { continue };
                     ui.label(ui.ctx().format_shortcut(&keys));
-                    ui.label(entry.label);
+                    ui.label(tr(entry.label));
                     ui.hint(entry.tooltip);
                     ui.end_row();
                 }
@@ -36,14 +37,16 @@ fn keys(ctx: &Context, open: &mut bool) {
 }
 
 fn about(ctx: &Context, open: &mut bool) {
-    Window::new("About Dashpot").open(open).resizable(false).collapsible(false).show(ctx, |ui| {
+    Window::new(t!("About Dashpot")).open(open).resizable(false).collapsible(false).show(ctx, |ui| {
         ui.set_max_width(420.0);
-        ui.label(RichText::new("Dashpot").size(size::FIGURE));
+        ui.label(RichText::new(t!("Dashpot")).size(size::FIGURE));
         ui.hint(format!("Version {}", env!("CARGO_PKG_VERSION")));
         ui.add_space(space::S);
-        ui.label("Tells where a structure loses its energy, how much and by which mechanism.");
+        ui.label(t!("Tells where a structure loses its energy, how much and by which mechanism."));
         ui.add_space(space::S);
-        ui.label("Over a period of steady vibration what the exciter puts in is what the dampers take out: G c = e.");
+        ui.label(t!(
+            "Over a period of steady vibration what the exciter puts in is what the dampers take out: G c = e."
+        ));
         ui.hint("After M. Prandina, Spatial Damping Identification, University of Liverpool 2010.");
         ui.hint("MIT or Apache-2.0.");
     });
@@ -153,7 +156,7 @@ pub(crate) fn tour(ctx: &Context, view: &mut View, desk: &mut Desk) {
         let painter = ctx.layer_painter(LayerId::new(Order::Foreground, Id::unique("tour frame")));
         painter.rect_stroke(rect.expand(2.0), 6.0, egui::Stroke::new(3.0, palette.accent), StrokeKind::Outside);
     }
-    let response = Window::new("Tour")
+    let response = Window::new(t!("Tour"))
         .id(Id::unique("tour"))
         .title_bar(false)
         .resizable(false)
@@ -187,9 +190,9 @@ enum Turn {
 
 fn card(ui: &mut egui::Ui, step: usize, title: &str, text: &str) -> Turn {
     ui.set_width(CARD - 30.0);
-    ui.label(RichText::new(title).size(size::HEADING).strong());
+    ui.label(RichText::new(tr(title)).size(size::HEADING).strong());
     ui.add_space(space::XS);
-    ui.label(text);
+    ui.label(tr(text));
     ui.add_space(space::S);
     let mut turn = Turn::Stay;
     ui.horizontal(|ui| {
@@ -197,10 +200,10 @@ fn card(ui: &mut egui::Ui, step: usize, title: &str, text: &str) -> Turn {
         if ui.primary(if last { "Finish" } else { "Next" }).clicked() {
             turn = Turn::Next;
         }
-        if ui.add_enabled(step > 0, egui::Button::new("Back")).clicked() {
+        if ui.add_enabled(step > 0, egui::Button::new(t!("Back"))).clicked() {
             turn = Turn::Back;
         }
-        if !last && ui.button("End tour").clicked() {
+        if !last && ui.button(t!("End tour")).clicked() {
             turn = Turn::End;
         }
     });

@@ -10,6 +10,7 @@ use crate::session::{Command, Setting};
 use crate::window::ask::Ask;
 use crate::window::document::Document;
 use crate::window::edits::Edit;
+use crate::window::language::{t, tr};
 use crate::window::theme::space;
 use crate::window::view::{Stage, View};
 use crate::window::widgets::UiExt;
@@ -37,7 +38,7 @@ fn project(ui: &mut Ui, p: &Project, asks: &mut Vec<Ask>) {
     ui.title("Project", "");
     let mut title = p.title.clone();
     let field = ui.add(egui::TextEdit::singleline(&mut title).desired_width(f32::INFINITY));
-    field.widget_info(|| egui::WidgetInfo::labeled(egui::Role::TextInput, true, "Title"));
+    field.widget_info(|| egui::WidgetInfo::labeled(egui::Role::TextInput, true, t!("Title")));
     if field.changed() {
         set(asks, Command::SetTitle(title));
     }
@@ -96,7 +97,7 @@ fn run(ui: &mut Ui, p: &Project, index: usize, asks: &mut Vec<Ask>) {
     ui.title(&format!("Run {}", index + 1), &r.file);
     ui.add_space(space::XS);
     let mut used = r.enabled;
-    if ui.checkbox(&mut used, "Used in the analysis").changed() {
+    if ui.checkbox(&mut used, t!("Used in the analysis")).changed() {
         asks.push(Ask::Edit(Edit::UseRun(r.file.clone(), used)));
     }
     ui.pair("Frequency", frequency(r));
@@ -119,7 +120,7 @@ fn run(ui: &mut Ui, p: &Project, index: usize, asks: &mut Vec<Ask>) {
     for finding in &r.findings {
         ui.add_space(space::XS);
         ui.pill(words::flag(finding.flag), ui.palette().warning);
-        ui.label(&finding.reason);
+        ui.label(tr(&finding.reason));
     }
 }
 
@@ -136,10 +137,10 @@ fn adjust(ui: &mut Ui, r: &crate::measurement::Run, asks: &mut Vec<Ask>) {
     ui.add_space(space::XS);
     ui.horizontal_wrapped(|ui| {
         ui.spacing_mut().item_spacing.y = space::S;
-        if ui.button("Estimate the frequency").clicked() {
+        if ui.button(t!("Estimate the frequency")).clicked() {
             set(asks, Command::SetRunFrequency { file: file(), frequency: None });
         }
-        if ui.button("Remove run").clicked() {
+        if ui.button(t!("Remove run")).clicked() {
             set(asks, Command::RemoveRun(file()));
         }
     });
@@ -213,7 +214,7 @@ fn source(ui: &mut Ui, p: &Project, index: usize, asks: &mut Vec<Ask>) {
     ui.add_space(space::XS);
     ui.horizontal(|ui| {
         for state in [State::Candidate, State::Forced, State::Known, State::Off] {
-            if ui.selectable_label(s.state == state, state.word()).clicked() {
+            if ui.selectable_label(s.state == state, tr(state.word())).clicked() {
                 asks.push(Ask::Edit(Edit::SetState(index, state)));
             }
         }
@@ -236,7 +237,7 @@ fn source(ui: &mut Ui, p: &Project, index: usize, asks: &mut Vec<Ask>) {
         }
     }
     ui.add_space(space::M);
-    if ui.button("Remove source").clicked() {
+    if ui.button(t!("Remove source")).clicked() {
         asks.push(Ask::Edit(Edit::Remove(index)));
     }
 }

@@ -1,6 +1,7 @@
 //! What is asked before unsaved changes are left behind.
 
 use crate::window::ask::Ask;
+use crate::window::language::{t, tf};
 use crate::window::leaving::Changes;
 use crate::window::theme::{size, space};
 use crate::window::widgets::UiExt;
@@ -11,18 +12,18 @@ pub(crate) fn show(ctx: &Context, title: &str, asks: &mut Vec<Ask>) {
     let frame = Frame::popup(&ctx.global_style()).inner_margin(Margin::same(18));
     let modal = Modal::new(Id::unique("leave")).frame(frame).show(ctx, |ui| {
         ui.set_width(360.0);
-        ui.label(RichText::new("Save the changes?").size(size::HEADING));
+        ui.label(RichText::new(t!("Save the changes?")).size(size::HEADING));
         ui.add_space(space::XS);
-        ui.label(format!("\"{title}\" has changes that are not saved."));
+        ui.label(tf!("\"{title}\" has changes that are not saved."));
         ui.add_space(space::M);
         ui.horizontal(|ui| {
             if ui.primary("Save").clicked() {
                 asks.push(Ask::Leave(Changes::Save));
             }
-            if ui.button("Discard").clicked() {
+            if ui.button(t!("Discard")).clicked() {
                 asks.push(Ask::Leave(Changes::Discard));
             }
-            if ui.button("Stay").clicked() {
+            if ui.button(t!("Stay")).clicked() {
                 asks.push(Ask::Leave(Changes::Keep));
             }
         });

@@ -8,6 +8,7 @@ pub(crate) mod focus;
 pub(crate) mod help;
 pub(crate) mod icons;
 pub(crate) mod inspector;
+mod language;
 pub(crate) mod leave;
 pub(crate) mod notice;
 pub mod panes;

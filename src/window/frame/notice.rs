@@ -1,6 +1,7 @@
 //! Notifications that stay until they are closed, and the list of all messages.
 
 use crate::window::ask::{Ask, Message};
+use crate::window::language::{t, tr};
 use crate::window::theme::{self, Palette, space};
 use crate::window::widgets::UiExt;
 use egui::{Align, Align2, Area, Context, Frame, Id, Label, Layout, Margin, Order, RichText, ScrollArea, Window, vec2};
@@ -14,19 +15,19 @@ pub(crate) fn show(ctx: &Context, message: Option<&Message>, asks: &mut Vec<Ask>
 
 /// The list of all messages, where it is open.
 pub(crate) fn list(ctx: &Context, messages: &[Message], open: &mut bool) {
-    Window::new("Messages").open(open).default_size([520.0, 260.0]).collapsible(false).show(ctx, |ui| {
+    Window::new(t!("Messages")).open(open).default_size([520.0, 260.0]).collapsible(false).show(ctx, |ui| {
         if messages.is_empty() {
             ui.hint("Nothing has been said yet.");
             return;
         }
-        if ui.button("Copy all").clicked() {
+        if ui.button(t!("Copy all")).clicked() {
             let lines: Vec<&str> = messages.iter().map(|m| m.text.as_str()).collect();
             ui.ctx().copy_text(lines.join("\n"));
         }
         ScrollArea::vertical().auto_shrink(false).stick_to_bottom(true).show(ui, |ui| {
             for message in messages {
                 let colour = if message.failed { ui.palette().error } else { ui.palette().ink };
-                ui.add(Label::new(RichText::new(&message.text).color(colour)).wrap());
+                ui.add(Label::new(RichText::new(tr(&message.text)).color(colour)).wrap());
             }
         });
     });
@@ -44,13 +45,13 @@ fn card(ctx: &Context, text: &str, asks: &mut Vec<Ask>) {
                 .inner_margin(Margin::same(12))
                 .show(ui, |ui| {
                     ui.set_width(380.0);
-                    ui.add(Label::new(RichText::new(text).color(palette.ink)).wrap());
+                    ui.add(Label::new(RichText::new(tr(text)).color(palette.ink)).wrap());
                     ui.add_space(space::XS);
                     ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-                        if ui.button("Close").clicked() {
+                        if ui.button(t!("Close")).clicked() {
                             asks.push(Ask::Dismiss);
                         }
-                        if ui.button("Copy").clicked() {
+                        if ui.button(t!("Copy")).clicked() {
                             ui.ctx().copy_text(text.to_owned());
                         }
                     });

@@ -6,6 +6,7 @@ use crate::exchange::Project;
 use crate::identify::Estimate;
 use crate::window::ask::Ask;
 use crate::window::commands::Command;
+use crate::window::language::tr;
 use crate::window::opened::Opened;
 use crate::window::schematic::Scene;
 use crate::window::schematic::hit::Target;
@@ -128,7 +129,7 @@ pub(crate) fn switches(ui: &mut Ui, view: &LookedAt, asks: &mut Vec<Ask>) {
     }
     for (command, on) in [(Command::Animate, view.animate), (Command::Shape, view.shape)] {
         let label = if command == Command::Shape { "Deflect" } else { "Animate" };
-        if ui.selectable_label(on, label).on_hover_text(command.entry().tooltip).clicked() {
+        if ui.selectable_label(on, tr(label)).on_hover_text(tr(command.entry().tooltip)).clicked() {
             asks.push(Ask::Command(command));
         }
     }

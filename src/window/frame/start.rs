@@ -3,6 +3,7 @@
 use super::cards::{self, Sample, card};
 use crate::window::app::Ask;
 use crate::window::commands::Command;
+use crate::window::language::{t, tr};
 use crate::window::templates;
 use crate::window::theme::{Palette, size, space};
 use crate::window::widgets::UiExt;
@@ -67,31 +68,31 @@ pub(crate) fn show(ui: &mut Ui, recent: &[PathBuf], asks: &mut Vec<Ask>) {
 
 fn heading(ui: &mut Ui, asks: &mut Vec<Ask>) {
     ui.add_space(space::L);
-    ui.label(RichText::new("Dashpot").size(size::TITLE));
+    ui.label(RichText::new(t!("Dashpot")).size(size::TITLE));
     ui.label(
-        RichText::new("Where does the structure lose its energy, how much, and by which mechanism?")
+        RichText::new(t!("Where does the structure lose its energy, how much, and by which mechanism?"))
             .color(ui.palette().weak),
     );
     ui.add_space(space::L);
     ui.horizontal_wrapped(|ui| {
-        if ui.primary("Open a project…").on_hover_text(Command::Open.entry().tooltip).clicked() {
+        if ui.primary("Open a project…").on_hover_text(tr(Command::Open.entry().tooltip)).clicked() {
             asks.push(Ask::Command(Command::Open));
         }
-        if ui.button("Import measurements…").on_hover_text(Command::Import.entry().tooltip).clicked() {
+        if ui.button(t!("Import measurements…")).on_hover_text(tr(Command::Import.entry().tooltip)).clicked() {
             asks.push(Ask::Command(Command::Import));
         }
-        ui.menu_button("New…", |ui| {
+        ui.menu_button(t!("New…"), |ui| {
             for (k, template) in templates::ALL.iter().enumerate() {
-                if ui.button(template.name).clicked() {
+                if ui.button(tr(template.name)).clicked() {
                     asks.push(Ask::New(k));
                     ui.close();
                 }
             }
         });
-        if ui.button("Take the tour").on_hover_text(Command::Tour.entry().tooltip).clicked() {
+        if ui.button(t!("Take the tour")).on_hover_text(tr(Command::Tour.entry().tooltip)).clicked() {
             asks.push(Ask::Command(Command::Tour));
         }
-        if ui.button("Laws of damping").on_hover_text(Command::Laws.entry().tooltip).clicked() {
+        if ui.button(t!("Laws of damping")).on_hover_text(tr(Command::Laws.entry().tooltip)).clicked() {
             asks.push(Ask::Command(Command::Laws));
         }
         ui.hint("or drop files on this window, or begin with a sample");

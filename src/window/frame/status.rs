@@ -5,6 +5,7 @@ use crate::identify::Outcome;
 use crate::window::app::{App, Ask};
 use crate::window::commands::Command;
 use crate::window::document::Document;
+use crate::window::language::{t, tr};
 use crate::window::theme::{Palette, size};
 use crate::window::view::Stage;
 use crate::window::widgets::UiExt;
@@ -30,8 +31,8 @@ fn running(ui: &mut Ui, app: &App, asks: &mut Vec<Ask>) {
     let Some((name, progress)) = app.running() else { return };
     let palette = ui.palette();
     ui.add(ProgressBar::new(progress as f32).desired_width(110.0).desired_height(6.0).fill(palette.accent));
-    ui.label(name);
-    if ui.button("Cancel").on_hover_text(Command::Cancel.entry().tooltip).clicked() {
+    ui.label(tr(name));
+    if ui.button(t!("Cancel")).on_hover_text(tr(Command::Cancel.entry().tooltip)).clicked() {
         asks.push(Ask::Command(Command::Cancel));
     }
     ui.separator();
@@ -47,12 +48,12 @@ fn message(ui: &mut Ui, app: &App, asks: &mut Vec<Ask>) {
         return;
     };
     let colour = if message.failed { palette.error } else { palette.weak };
-    if ui.button("Copy").on_hover_text("Copies the last message.").clicked() {
+    if ui.button(t!("Copy")).on_hover_text(t!("Copies the last message.")).clicked() {
         ui.ctx().copy_text(message.text.clone());
     }
-    let text = RichText::new(&message.text).size(size::SMALL).color(colour);
+    let text = RichText::new(tr(&message.text)).size(size::SMALL).color(colour);
     let line = Button::new(text).frame(false).truncate();
-    if ui.add(line).on_hover_text("Click to list all messages.").clicked() {
+    if ui.add(line).on_hover_text(t!("Click to list all messages.")).clicked() {
         asks.push(Ask::Command(Command::Messages));
     }
 }

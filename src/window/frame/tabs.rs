@@ -1,5 +1,6 @@
 //! Which tabs of a bar have room: all of them, closer together where they must be, else the first ones and a list of the others.
 
+use crate::window::language::{t, tf, tr};
 use crate::window::theme::{self, size, space};
 use crate::window::widgets::width;
 use egui::Ui;
@@ -69,16 +70,16 @@ impl Fit {
         }
         let mut chosen = None;
         ui.add_space(space::XS);
-        ui.menu_button(format!("{} more", self.left_out.len()), |ui| {
+        ui.menu_button(tf!("{} more", self.left_out.len()), |ui| {
             for (tile, title) in &self.left_out {
-                if ui.button(*title).clicked() {
+                if ui.button(tr(*title)).clicked() {
                     chosen = Some(*tile);
                     ui.close();
                 }
             }
         })
         .response
-        .on_hover_text("Panes whose tabs have no room here.");
+        .on_hover_text(t!("Panes whose tabs have no room here."));
         chosen
     }
 }

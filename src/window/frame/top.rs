@@ -4,6 +4,7 @@ use crate::exchange::export::Format;
 use crate::session::recent::Recent;
 use crate::window::app::{App, Ask};
 use crate::window::commands::Command;
+use crate::window::language::{t, tf, tr};
 use crate::window::plots::{export, table};
 use crate::window::theme::{self, Palette, size, space};
 use crate::window::view::Stage;
@@ -52,7 +53,7 @@ pub(crate) fn show(ui: &mut Ui, app: &App, asks: &mut Vec<Ask>) {
             menus(ui, app, asks);
             let title = app.document.as_ref().map_or_else(String::new, |d| {
                 let unsaved = if d.session().is_dirty() { "  (unsaved)" } else { "" };
-                format!("{}{unsaved}", d.project.title)
+                format!("{}{}", d.project.title, tr(unsaved))
             });
             ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
                 ui.hint(title);
@@ -67,8 +68,8 @@ pub(crate) fn show(ui: &mut Ui, app: &App, asks: &mut Vec<Ask>) {
 
 fn menus(ui: &mut Ui, app: &App, asks: &mut Vec<Ask>) {
     let open = app.document.is_some();
-    ui.menu_button("File", |ui| file(ui, app, asks));
-    ui.menu_button("Edit", |ui| {
+    ui.menu_button(t!("File"), |ui| file(ui, app, asks));
+    ui.menu_button(t!("Edit"), |ui| {
         let undo = app.document.as_ref().and_then(|d| d.session().history().undo_label());
         let redo = app.document.as_ref().and_then(|d| d.session().history().redo_label());
         entry(ui, Command::Undo, undo.is_some(), undo, asks);
@@ -77,7 +78,7 @@ fn menus(ui: &mut Ui, app: &App, asks: &mut Vec<Ask>) {
         entry(ui, Command::RemoveSelected, app.view.source.is_some(), None, asks);
         entry(ui, Command::ClearCandidates, open, None, asks);
     });
-    ui.menu_button("View", |ui| {
+    ui.menu_button(t!("View"), |ui| {
         for command in
             [Command::Measure, Command::Structure, Command::Pattern, Command::Select, Command::Result, Command::Explain]
         {
@@ -88,9 +89,9 @@ fn menus(ui: &mut Ui, app: &App, asks: &mut Vec<Ask>) {
         entry(ui, Command::Animate, open, None, asks);
         ui.separator();
         ui.add_enabled_ui(open, |ui| {
-            ui.menu_button("Panes", |ui| {
+            ui.menu_button(t!("Panes"), |ui| {
                 for (pane, mut shown) in app.desk.panes(app.view.stage) {
-                    if ui.checkbox(&mut shown, pane.title()).clicked() {
+                    if ui.checkbox(&mut shown, tr(pane.title())).clicked() {
                         asks.push(Ask::Pane(pane, shown));
                     }
                 }
@@ -98,13 +99,14 @@ fn menus(ui: &mut Ui, app: &App, asks: &mut Vec<Ask>) {
         });
         entry(ui, Command::ResetLayout, open, None, asks);
         ui.separator();
-        ui.menu_button("Units", super::units::menu);
-        ui.menu_button("Text size", text_sizes);
+        ui.menu_button(t!("Units"), super::units::menu);
+        ui.menu_button(t!("Text size"), text_sizes);
+        ui.menu_button(t!("Language"), super::language::menu);
         entry(ui, Command::Messages, true, None, asks);
         entry(ui, Command::Theme, true, None, asks);
         entry(ui, Command::LessMotion, true, None, asks);
     });
-    ui.menu_button("Help", |ui| {
+    ui.menu_button(t!("Help"), |ui| {
         for command in [Command::Tour, Command::Laws, Command::Keys, Command::About] {
             entry(ui, command, true, None, asks);
         }
@@ -116,7 +118,7 @@ fn text_sizes(ui: &mut Ui) {
     let now = ui.ctx().zoom_factor();
     for percent in [80, 90, 100, 125, 150, 175, 200] {
         let factor = percent as f32 / 100.0;
-        if ui.radio((now - factor).abs() < 0.01, format!("{percent} %")).clicked() {
+        if ui.radio((now - factor).abs() < 0.01, tf!("{percent} %")).clicked() {
             ui.ctx().set_zoom_factor(factor);
             ui.close();
         }
@@ -126,9 +128,9 @@ fn text_sizes(ui: &mut Ui) {
 
 fn file(ui: &mut Ui, app: &App, asks: &mut Vec<Ask>) {
     let open = app.document.is_some();
-    ui.menu_button("New from template", |ui| {
+    ui.menu_button(t!("New from template"), |ui| {
         for (k, template) in templates::ALL.iter().enumerate() {
-            if ui.button(template.name).clicked() {
+            if ui.button(tr(template.name)).clicked() {
                 asks.push(Ask::New(k));
                 ui.close();
             }
@@ -137,7 +139,7 @@ fn file(ui: &mut Ui, app: &App, asks: &mut Vec<Ask>) {
     entry(ui, Command::Open, true, None, asks);
     let recent = app.recent.as_ref().map_or(&[][..], Recent::files);
     ui.add_enabled_ui(!recent.is_empty(), |ui| {
-        ui.menu_button("Open recent", |ui| {
+        ui.menu_button(t!("Open recent"), |ui| {
             for path in recent {
                 if ui.button(path.display().to_string()).clicked() {
                     asks.push(Ask::Open(path.clone()));
@@ -154,16 +156,16 @@ fn file(ui: &mut Ui, app: &App, asks: &mut Vec<Ask>) {
     entry(ui, Command::SaveAs, open, None, asks);
     let known = app.document.as_ref().and_then(|d| app.derived.known_outcome(d)).is_some_and(|o| o.is_ok());
     ui.add_enabled_ui(known, |ui| {
-        ui.menu_button("Export", |ui| {
+        ui.menu_button(t!("Export"), |ui| {
             for format in Format::ALL {
-                if ui.button(files::words(format)).clicked() {
+                if ui.button(tr(files::words(format))).clicked() {
                     asks.push(Ask::ExportAs(format));
                     ui.close();
                 }
             }
         })
         .response
-        .on_disabled_hover_text("What is identified can be exported; nothing is yet. The stage Select says why.");
+        .on_disabled_hover_text(t!("What is identified can be exported; nothing is yet. The stage Select says why."));
     });
     // A report holds what there is, with or without sources to identify.
     entry(ui, Command::Report, open, None, asks);
@@ -178,13 +180,13 @@ fn file(ui: &mut Ui, app: &App, asks: &mut Vec<Ask>) {
 fn plots(ui: &mut Ui) {
     let shown = export::shown(ui.ctx());
     ui.add_enabled_ui(!shown.is_empty(), |ui| {
-        ui.menu_button("Export plot", |ui| {
+        ui.menu_button(t!("Export plot"), |ui| {
             for title in shown {
-                ui.menu_button(&title, |ui| {
+                ui.menu_button(tr(&title), |ui| {
                     for (kind, label) in
                         [(export::Kind::Svg, "SVG…"), (export::Kind::Png, "PNG…"), (export::Kind::Csv, "CSV values…")]
                     {
-                        if ui.button(label).clicked() {
+                        if ui.button(tr(label)).clicked() {
                             export::want(ui.ctx(), &title, kind);
                             ui.close();
                         }
@@ -199,9 +201,9 @@ fn plots(ui: &mut Ui) {
 fn tables(ui: &mut Ui) {
     let shown = table::shown(ui.ctx());
     ui.add_enabled_ui(!shown.is_empty(), |ui| {
-        ui.menu_button("Export table", |ui| {
+        ui.menu_button(t!("Export table"), |ui| {
             for title in shown {
-                if ui.button(format!("{title}…")).on_hover_text("As CSV: SI units, all digits.").clicked() {
+                if ui.button(tf!("{title}…")).on_hover_text(t!("As CSV: SI units, all digits.")).clicked() {
                     table::want(ui.ctx(), &title);
                     ui.close();
                 }
@@ -213,11 +215,11 @@ fn tables(ui: &mut Ui) {
 fn entry(ui: &mut Ui, command: Command, enabled: bool, object: Option<&str>, asks: &mut Vec<Ask>) {
     let e = command.entry();
     let text = object.map_or_else(|| e.label.to_owned(), |object| format!("{} {object}", e.label));
-    let mut button = Button::new(text);
+    let mut button = Button::new(tr(text));
     if let Some(keys) = e.keys {
         button = button.shortcut_text(ui.ctx().format_shortcut(&keys));
     }
-    if ui.add_enabled(enabled, button).on_hover_text(e.tooltip).clicked() {
+    if ui.add_enabled(enabled, button).on_hover_text(tr(e.tooltip)).clicked() {
         asks.push(Ask::Command(command));
         ui.close();
     }
@@ -244,12 +246,12 @@ fn stages(ui: &mut Ui, app: &App, asks: &mut Vec<Ask>) {
 /// Why the stage stands where it stands: on one line, or where there is little room on two.
 fn reason(ui: &mut Ui, text: &str, colour: Color32) {
     // A number and its sign stay on one line.
-    let together = text.replace(" %", "\u{a0}%");
+    let together = tr(text).replace(" %", "\u{a0}%");
     let words = folded(ui, &together, theme::font(size::SMALL), colour, ui.available_width(), 2);
     let (rect, response) = ui.allocate_exact_size(words.size(), Sense::hover());
-    response.widget_info(|| WidgetInfo::labeled(Role::Label, true, text));
+    response.widget_info(|| WidgetInfo::labeled(Role::Label, true, tr(text)));
     ui.painter().galley(rect.min, words, colour);
-    response.on_hover_text(text);
+    response.on_hover_text(tr(text));
 }
 
 fn chevron(ui: &mut Ui) {
@@ -262,10 +264,9 @@ fn chevron(ui: &mut Ui) {
 /// A stage with its mark; true when it was clicked.
 fn tab(ui: &mut Ui, stage: Stage, open: bool, mark: &StageStatus) -> bool {
     let palette = ui.palette();
-    let galley =
-        ui.painter().layout_no_wrap(stage.label().to_owned(), theme::font(size::HEADING), Color32::PLACEHOLDER);
+    let galley = ui.painter().layout_no_wrap(tr(stage.label()), theme::font(size::HEADING), Color32::PLACEHOLDER);
     let (rect, response) = ui.allocate_exact_size(vec2(galley.size().x + 58.0, 34.0), Sense::click());
-    response.widget_info(|| WidgetInfo::selected(Role::Tab, true, open, stage.label()));
+    response.widget_info(|| WidgetInfo::selected(Role::Tab, true, open, tr(stage.label())));
     let painter = ui.painter();
     if response.hovered() {
         painter.rect_filled(rect.shrink2(vec2(0.0, 3.0)), 5.0, palette.raised);
@@ -291,5 +292,5 @@ fn tab(ui: &mut Ui, stage: Stage, open: bool, mark: &StageStatus) -> bool {
         let line = Rect::from_min_max(rect.left_bottom() - vec2(0.0, 2.5), rect.right_bottom());
         painter.rect_filled(line, 1.0, palette.accent);
     }
-    response.on_hover_text(&mark.reason).clicked()
+    response.on_hover_text(tr(&mark.reason)).clicked()
 }

@@ -1,6 +1,7 @@
 //! The menu of units: chosen once, shown everywhere on the screen; files stay SI.
 
 use crate::display::units::{self, Acceleration, Damping, Force, Frequency, Length, Units};
+use crate::window::language::{t, tr};
 use crate::window::widgets::UiExt;
 use egui::Ui;
 
@@ -28,7 +29,7 @@ pub(crate) fn menu(ui: &mut Ui) {
     group(ui, "Frequency", &mut chosen.frequency, &[(Frequency::Hertz, "Hz"), (Frequency::RadianPerSecond, "rad/s")]);
     group(ui, "Damping of modes", &mut chosen.damping, &Damping::ALL.map(|d| (d, d.words()[0])));
     ui.separator();
-    if ui.button("SI units").clicked() {
+    if ui.button(t!("SI units")).clicked() {
         chosen = Units::default();
         ui.close();
     }
@@ -45,7 +46,7 @@ fn group<T: Copy + PartialEq>(ui: &mut Ui, name: &str, chosen: &mut T, all: &[(T
     ui.hint(name);
     ui.horizontal(|ui| {
         for (value, label) in all {
-            ui.radio_value(chosen, *value, *label);
+            ui.radio_value(chosen, *value, tr(*label));
         }
     });
 }

@@ -1,6 +1,7 @@
 //! Where the measurements go, and the model that is laid under them.
 
 use super::draft::Draft;
+use crate::window::language::{t, tr};
 use crate::window::theme::space;
 use crate::window::widgets::UiExt;
 use egui::{TextEdit, Ui};
@@ -34,8 +35,8 @@ pub(crate) fn show(ui: &mut Ui, draft: &mut Draft) -> Option<Wish> {
     let mut wish = model(ui, draft);
     ui.horizontal(|ui| {
         if draft.open.is_some() {
-            let into = ui.radio(draft.into, "Into this project");
-            let new = ui.radio(!draft.into, "New project");
+            let into = ui.radio(draft.into, t!("Into this project"));
+            let new = ui.radio(!draft.into, t!("New project"));
             draft.into = (draft.into || into.clicked()) && !new.clicked();
         }
         if draft.into_open() {
@@ -45,7 +46,7 @@ pub(crate) fn show(ui: &mut Ui, draft: &mut Draft) -> Option<Wish> {
         let field = TextEdit::singleline(&mut draft.target).desired_width(ui.available_width() - space::S);
         ui.add(field)
             .labelled_by(label.id)
-            .on_hover_text("The project file that is written; measurements stay where they are.");
+            .on_hover_text(t!("The project file that is written; measurements stay where they are."));
     });
     ui.add_space(space::XS);
     let fault = draft.fault();
@@ -54,11 +55,11 @@ pub(crate) fn show(ui: &mut Ui, draft: &mut Draft) -> Option<Wish> {
         if ui.add_enabled_ui(fault.is_none(), |ui| ui.primary(label)).inner.clicked() {
             wish = Some(Wish::Accept);
         }
-        if ui.button("Cancel").clicked() {
+        if ui.button(t!("Cancel")).clicked() {
             wish = Some(Wish::Cancel);
         }
         match fault {
-            Some(fault) => ui.add(egui::Label::new(egui::RichText::new(fault).color(ui.palette().warning)).wrap()),
+            Some(fault) => ui.add(egui::Label::new(egui::RichText::new(tr(fault)).color(ui.palette().warning)).wrap()),
             None => ui.hint("The mapping is kept in the project; further files of this layout are read by it."),
         };
     });
@@ -82,15 +83,15 @@ fn model(ui: &mut Ui, draft: &Draft) -> Option<Wish> {
         ui.hint("Model");
         if named.is_empty() {
             ui.hint("none: only energies at the measured points are balanced")
-                .on_hover_text("A beam or a chain of masses: File > New from template first, then import into it.");
+                .on_hover_text(t!("A beam or a chain of masses: File > New from template first, then import into it."));
         } else {
-            ui.label(named.join(", "));
-            if ui.button("Without").clicked() {
+            ui.label(tr(named.join(", ")));
+            if ui.button(t!("Without")).clicked() {
                 wish = Some(Wish::NoModel);
             }
         }
         let what = "Mass and stiffness of NASTRAN (bulk data, punch, OUTPUT4), Abaqus or CalculiX, or Matrix Market, and nodes.";
-        if ui.button("Choose files…").on_hover_text(what).clicked() {
+        if ui.button(t!("Choose files…")).on_hover_text(tr(what)).clicked() {
             wish = Some(Wish::Model);
         }
     });

@@ -2,6 +2,7 @@
 
 use super::draft::ChannelRow;
 use crate::measurement::Quantity;
+use crate::window::language::{numbers, t, tf, tr};
 use crate::window::theme::space;
 use crate::window::widgets::UiExt;
 use egui::{Align, ComboBox, DragValue, Label, Layout, Response, Role, TextEdit, Ui, WidgetInfo};
@@ -53,22 +54,22 @@ fn one(line: &mut TableRow<'_, '_>, k: usize, row: &mut ChannelRow, unit_of: &im
     let used = row.used;
     line.col(|ui| {
         let check = ui.checkbox(&mut row.used, "");
-        check.widget_info(|| WidgetInfo::selected(Role::CheckBox, true, used, format!("Use {name}")));
+        check.widget_info(|| WidgetInfo::selected(Role::CheckBox, true, used, tf!("Use {name}")));
     });
     line.col(|ui| {
         let colour = if used { ui.palette().ink } else { ui.palette().weak };
         let text = egui::RichText::new(&name).color(colour);
         let label = ui.add(Label::new(text).truncate().selectable(false));
         if !row.note.is_empty() {
-            label.on_hover_text(format!("{name}: {}", row.note));
+            label.on_hover_text(tf!("{name}: {}", row.note));
         }
     });
     line.col(|ui| {
         let word =
             QUANTITIES.iter().find(|(quantity, _)| *quantity == row.table.quantity).map_or("", |(_, word)| *word);
-        let combo = ComboBox::from_id_salt(("quantity", k)).width(108.0).selected_text(word).show_ui(ui, |ui| {
+        let combo = ComboBox::from_id_salt(("quantity", k)).width(108.0).selected_text(tr(word)).show_ui(ui, |ui| {
             for (quantity, word) in QUANTITIES {
-                ui.selectable_value(&mut row.table.quantity, quantity, word);
+                ui.selectable_value(&mut row.table.quantity, quantity, tr(word));
             }
         });
         named(&combo.response, Role::ComboBox, "Quantity", &name);
@@ -91,7 +92,8 @@ fn one(line: &mut TableRow<'_, '_>, k: usize, row: &mut ChannelRow, unit_of: &im
             DragValue::new(&mut factor)
                 .speed(speed)
                 .max_decimals(9)
-                .custom_formatter(|v, _| crate::display::format::editable(v)),
+                .custom_formatter(|v, _| numbers::editable(v))
+                .custom_parser(numbers::typed),
         );
         named(&drag, Role::SpinButton, "Factor", &name);
         // Zero would hide the channel.
@@ -100,7 +102,7 @@ fn one(line: &mut TableRow<'_, '_>, k: usize, row: &mut ChannelRow, unit_of: &im
     });
     line.col(|ui| {
         let mut late = 1e3 * row.table.delay.unwrap_or(0.0);
-        let drag = ui.add(DragValue::new(&mut late).speed(0.001).max_decimals(4));
+        let drag = ui.add(DragValue::new(&mut late).speed(0.001).max_decimals(4).custom_parser(numbers::typed));
         named(&drag, Role::SpinButton, "Delay", &name);
         row.table.delay = (late != 0.0).then_some(1e-3 * late);
     });
@@ -110,12 +112,12 @@ fn one(line: &mut TableRow<'_, '_>, k: usize, row: &mut ChannelRow, unit_of: &im
 pub(super) fn sense(ui: &mut Ui, sign: &mut Option<i64>, name: &str) {
     let against = *sign == Some(-1);
     let button = ui.button(if against { " − " } else { " + " });
-    button.widget_info(|| WidgetInfo::selected(Role::Button, true, against, format!("Sense of {name}")));
-    if button.on_hover_text("Turns it round.").clicked() {
+    button.widget_info(|| WidgetInfo::selected(Role::Button, true, against, tf!("Sense of {name}")));
+    if button.on_hover_text(t!("Turns it round.")).clicked() {
         *sign = (!against).then_some(-1);
     }
 }
 
 fn named(response: &Response, role: Role, what: &str, channel: &str) {
-    response.widget_info(|| WidgetInfo::labeled(role, true, format!("{what} of {channel}")));
+    response.widget_info(|| WidgetInfo::labeled(role, true, tf!("{what} of {channel}")));
 }

@@ -3,6 +3,7 @@
 use super::draft::Responses;
 use super::mapping::sense;
 use crate::exchange::frf::Form;
+use crate::window::language::{t, tf, tr};
 use crate::window::theme::space;
 use crate::window::widgets::UiExt;
 use egui::{Align, ComboBox, DragValue, Label, Layout, Role, TextEdit, Ui, WidgetInfo};
@@ -43,7 +44,7 @@ pub(super) fn show(ui: &mut Ui, responses: &mut Responses) {
                 });
                 line.col(|ui| {
                     let field = ui.add(TextEdit::singleline(&mut place.label).desired_width(96.0));
-                    field.widget_info(|| WidgetInfo::labeled(Role::TextInput, true, format!("DOF of {name}")));
+                    field.widget_info(|| WidgetInfo::labeled(Role::TextInput, true, tf!("DOF of {name}")));
                 });
                 line.col(|ui| {
                     let mut sign = place.reversed.then_some(-1);
@@ -59,10 +60,10 @@ fn options(ui: &mut Ui, responses: &mut Responses) {
     ui.horizontal_wrapped(|ui| {
         let label = ui.hint("They are");
         let word = responses.form.map_or("as their units say", |form| Form::WORDS[form as usize]);
-        let combo = ComboBox::from_id_salt("form").width(150.0).selected_text(word).show_ui(ui, |ui| {
-            ui.selectable_value(&mut responses.form, None, "as their units say");
+        let combo = ComboBox::from_id_salt("form").width(150.0).selected_text(tr(word)).show_ui(ui, |ui| {
+            ui.selectable_value(&mut responses.form, None, t!("as their units say"));
             for word in Form::WORDS {
-                ui.selectable_value(&mut responses.form, Form::from_word(word), word);
+                ui.selectable_value(&mut responses.form, Form::from_word(word), tr(word));
             }
         });
         combo.response.labelled_by(label.id);
@@ -70,7 +71,7 @@ fn options(ui: &mut Ui, responses: &mut Responses) {
         let label = ui.hint("Averages");
         let drag = DragValue::new(&mut responses.averages)
             .range(0..=1_000_000)
-            .custom_formatter(|value, _| if value < 1.0 { "not known".to_owned() } else { format!("{value}") });
+            .custom_formatter(|value, _| if value < 1.0 { t!("not known").to_owned() } else { format!("{value}") });
         ui.add(drag).labelled_by(label.id);
     });
 }

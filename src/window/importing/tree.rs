@@ -2,6 +2,7 @@
 
 use super::draft::Draft;
 use crate::display::format::{pretty_unit, significant};
+use crate::window::language::{tf, tr};
 use crate::window::theme::{self, size, space};
 use crate::window::widgets::{UiExt, elided};
 use dashpot_datafiles::{Channel, DataFile, Set, is_coherence};
@@ -70,7 +71,7 @@ fn one(ui: &mut Ui, draft: &mut Draft, line: &Line) {
         Line::File(f) => {
             let opened = &draft.files[*f];
             let format = opened.file.as_ref().map_or("not read", |file| file.contents().format.word());
-            response.widget_info(|| WidgetInfo::labeled(Role::Label, true, format!("File {}", opened.name)));
+            response.widget_info(|| WidgetInfo::labeled(Role::Label, true, tf!("File {}", opened.name)));
             let width = aside(ui, format, right, rect.center().y);
             elided(ui, &opened.name, font, palette.ink, indented(0.0), right - width - indented(0.0).x - space::S);
         }
@@ -80,7 +81,7 @@ fn one(ui: &mut Ui, draft: &mut Draft, line: &Line) {
             let open = draft.unfolded.contains(&(*f, *s));
             let name = if set.name.is_empty() { format!("Set {}", s + 1) } else { set.name.clone() };
             let what = format!("{}, {} channels", set.kind.word(), set.channels.len());
-            response.widget_info(|| WidgetInfo::selected(Role::Button, true, open, format!("Set {name}")));
+            response.widget_info(|| WidgetInfo::selected(Role::Button, true, open, tf!("Set {name}")));
             let width = aside(ui, &what, right, rect.center().y);
             let text = format!("{} {name}", if open { "−" } else { "+" });
             elided(ui, &text, font, palette.ink, indented(0.5), right - width - indented(0.5).x - space::S);
@@ -94,7 +95,7 @@ fn one(ui: &mut Ui, draft: &mut Draft, line: &Line) {
             let (channel, here) = (&set.channels[*c], (*f, *s, *c));
             let name = if channel.name.trim().is_empty() { set.name.as_str() } else { channel.name.as_str() };
             let selected = draft.looked_at == Some(here);
-            response.widget_info(|| WidgetInfo::selected(Role::Button, true, selected, format!("Channel {name}")));
+            response.widget_info(|| WidgetInfo::selected(Role::Button, true, selected, tf!("Channel {name}")));
             if selected || response.hovered() {
                 let fill = if selected { palette.accent_faint } else { palette.raised };
                 ui.painter().rect_filled(rect, 3.0, fill);
@@ -110,7 +111,7 @@ fn one(ui: &mut Ui, draft: &mut Draft, line: &Line) {
         Line::Note(note) => {
             let room = rect.right() - indented(1.0).x - space::S;
             elided(ui, note, small, palette.weak, indented(1.0), room);
-            response.on_hover_text(note);
+            response.on_hover_text(tr(note));
         }
     }
 }
@@ -121,7 +122,7 @@ fn file_of(draft: &Draft, file: usize) -> Option<Arc<DataFile>> {
 
 /// Small words at the right end of a line; gives back their width.
 fn aside(ui: &Ui, text: &str, right: f32, middle: f32) -> f32 {
-    let galley = ui.painter().layout_no_wrap(text.to_owned(), theme::font(size::SMALL), ui.palette().weak);
+    let galley = ui.painter().layout_no_wrap(tr(text), theme::font(size::SMALL), ui.palette().weak);
     let wide = galley.size();
     ui.painter().galley(pos2(right - wide.x, middle - 0.5 * wide.y), galley, ui.palette().weak);
     wide.x

@@ -5,6 +5,7 @@ use super::preview::Preview;
 use super::state::Importing;
 use super::{destination, mapping, places, tree};
 use crate::window::ask::Ask;
+use crate::window::language::{numbers, t, tf, tr};
 use crate::window::plots::show::Stack;
 use crate::window::theme::{Palette, space};
 use crate::window::widgets::UiExt;
@@ -105,14 +106,14 @@ fn decisions(ui: &mut Ui, draft: &mut Draft) {
         }
         Decided::Stepped(words, assumed) => {
             ui.title("A stepped-sine test", "");
-            ui.label(words.as_str());
+            ui.label(tr(words.as_str()));
             for what in assumed {
                 ui.hint(format!("Assumed: {what}."));
             }
         }
         Decided::Nothing(why) => {
             ui.title("Nothing can be imported", "");
-            ScrollArea::vertical().show(ui, |ui| ui.label(why.as_str()));
+            ScrollArea::vertical().show(ui, |ui| ui.label(tr(why.as_str())));
         }
     }
 }
@@ -125,7 +126,8 @@ fn sampling(ui: &mut Ui, rate: &mut Option<f64>) {
         let drag = DragValue::new(&mut hertz)
             .range(0.0..=1e9)
             .speed(1.0)
-            .custom_formatter(|value, _| if value > 0.0 { format!("{value} Hz") } else { "give it".to_owned() });
+            .custom_formatter(|value, _| if value > 0.0 { tf!("{value} Hz") } else { t!("give it").to_owned() })
+            .custom_parser(numbers::typed);
         ui.add(drag).labelled_by(label.id);
         *rate = (hertz > 0.0).then_some(hertz);
     });

@@ -14,6 +14,7 @@ use super::widgets::UiExt;
 use crate::display::{format, words};
 use crate::plots::figure::Figure;
 use crate::response::portrait::Portrait;
+use crate::window::language::{numbers, t, tr};
 use egui::{CentralPanel, Frame, Margin, Panel, ScrollArea, Slider, Ui, vec2};
 use lesson::{Lesson, System};
 use std::sync::Arc;
@@ -72,7 +73,7 @@ fn choices(ui: &mut Ui, lesson: &mut Lesson, asks: &mut Vec<Ask>) {
     slider(ui, "Dashpot at every mass", &mut lesson.background, (0.0, 20.0, false), "N s/m");
     ui.add_space(space::M);
     ui.horizontal(|ui| {
-        if ui.button("Start values").on_hover_text("Puts all values back.").clicked() {
+        if ui.button(t!("Start values")).on_hover_text(t!("Puts all values back.")).clicked() {
             *lesson = Lesson::new(lesson.system, lesson.effect);
         }
         if ui.primary("Close").clicked() {
@@ -89,8 +90,8 @@ fn slider(ui: &mut Ui, name: &str, value: &mut f64, (low, high, log): (f64, f64,
     let slider = Slider::new(value, low..=high)
         .logarithmic(log)
         .suffix(suffix)
-        .custom_formatter(|v, _| format::significant(v, 3))
-        .custom_parser(|text| text.trim().replace('−', "-").parse().ok());
+        .custom_formatter(|v, _| tr(format::significant(v, 3)))
+        .custom_parser(numbers::typed);
     ui.add(slider).labelled_by(label.id);
 }
 

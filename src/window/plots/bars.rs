@@ -3,6 +3,7 @@
 use super::export;
 use crate::display::format;
 use crate::plots::bars::{Bar, draw, table};
+use crate::window::language::{tf, tr};
 use crate::window::theme::{self, size, space};
 use crate::window::widgets::{UiExt, elided, width};
 use egui::{Align2, Rect, Sense, Ui, WidgetInfo, pos2, vec2};
@@ -18,12 +19,18 @@ pub(crate) fn show(ui: &mut Ui, title: &str, bars: &[Bar], name_width: f32) {
     for bar in bars {
         let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), space::ROW - 3.0), Sense::click());
         let figure = format::percent(bar.share);
-        response.widget_info(|| WidgetInfo::labeled(egui::Role::Label, true, format!("{}: {figure}", bar.name)));
+        response.widget_info(|| WidgetInfo::labeled(egui::Role::Label, true, tf!("{}: {figure}", bar.name)));
         let painter = ui.painter();
         let middle = rect.center().y;
         let name_width = longest.min(0.45 * rect.width());
         elided(ui, &bar.name, theme::font(size::BODY), palette.ink, rect.left_center(), name_width - space::S);
-        painter.text(pos2(rect.right(), middle), Align2::RIGHT_CENTER, figure, theme::font(size::BODY), palette.ink);
+        painter.text(
+            pos2(rect.right(), middle),
+            Align2::RIGHT_CENTER,
+            tr(figure),
+            theme::font(size::BODY),
+            palette.ink,
+        );
         let track =
             Rect::from_min_max(pos2(rect.left() + name_width, middle - 6.0), pos2(rect.right() - 64.0, middle + 6.0));
         painter.rect_filled(track, 2.0, palette.raised);

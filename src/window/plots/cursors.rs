@@ -3,6 +3,7 @@
 
 use crate::display::format::{pretty_unit, significant};
 use crate::plots::figure::{Axis, Figure, Look, Scale};
+use crate::window::language::tr;
 use crate::window::theme::{self, Palette};
 use egui::{Align2, Color32, Context, Id, Rect, RichText, Vec2, pos2, vec2};
 use egui_plot::{LineStyle, MarkerShape, PlotPoint, PlotUi, Points, VLine};
@@ -112,7 +113,7 @@ fn nearest(plot: &PlotUi<'_>, figure: &Figure, at: PlotPoint) -> Option<[f64; 2]
 pub(crate) fn paint(painter: &egui::Painter, frame: Rect, lines: &[String], palette: &Palette) {
     let font = theme::font(theme::size::SMALL);
     let galleys: Vec<_> =
-        lines.iter().map(|line| painter.layout_no_wrap(line.clone(), font.clone(), palette.ink)).collect();
+        lines.iter().map(|line| painter.layout_no_wrap(tr(line), font.clone(), palette.ink)).collect();
     let size = galleys.iter().fold(Vec2::ZERO, |s, g| vec2(s.x.max(g.size().x), s.y + g.size().y));
     if size == Vec2::ZERO {
         return;

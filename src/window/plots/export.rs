@@ -9,6 +9,7 @@ use crate::plots::figure::csv;
 use crate::plots::sheet::Sheet;
 use crate::plots::svg;
 use crate::session::jobs::Job;
+use crate::window::language::{t, tr};
 use crate::window::offscreen::Offscreen;
 use crate::window::repaint::request_repaint;
 use crate::window::solid::paint::graphics;
@@ -185,16 +186,16 @@ pub fn copied(ctx: &Context) -> bool {
 }
 
 fn menu(ui: &mut Ui, title: &str, table: &dyn Fn() -> String, plot: &Response) {
-    let copy = egui::Button::new("Copy values").shortcut_text(ui.ctx().format_shortcut(&COPY));
-    let copy = ui.add(copy).on_hover_text("As a table with tabs, for a spreadsheet.");
-    copy.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, "Copy values"));
+    let copy = egui::Button::new(t!("Copy values")).shortcut_text(ui.ctx().format_shortcut(&COPY));
+    let copy = ui.add(copy).on_hover_text(t!("As a table with tabs, for a spreadsheet."));
+    copy.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, t!("Copy values")));
     if copy.clicked() {
         self::copy(ui.ctx(), title, table());
         ui.close();
     }
     let kinds = [(Kind::Svg, "Export as SVG…"), (Kind::Png, "Export as PNG…"), (Kind::Csv, "Export values as CSV…")];
     for (kind, label) in kinds {
-        if ui.button(label).clicked() {
+        if ui.button(tr(label)).clicked() {
             want(ui.ctx(), title, kind);
             ui.close();
         }

@@ -6,6 +6,7 @@ use crate::display::words;
 use crate::plots::figure::Figure;
 use crate::plots::hysteresis::Loop;
 use crate::plots::sheet::{Panel, Sheet};
+use crate::window::language::tr;
 use crate::window::widgets::UiExt;
 use egui::{Ui, vec2};
 
@@ -29,7 +30,7 @@ pub(crate) fn show(ui: &mut Ui, title: &str, loops: &[Loop]) {
                     ui.allocate_ui(size, |ui| {
                         ui.vertical(|ui| {
                             ui.set_width(size.x);
-                            ui.label(words::capital(&one.name));
+                            ui.label(tr(words::capital(&one.name)));
                             ui.hint(format!("area {}", one.energies()));
                             let id = format!("loop {k} {j}");
                             let place = Place { id: &id, height: size.y - 48.0, group: None, ruler: true };

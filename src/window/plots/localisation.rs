@@ -2,6 +2,7 @@
 //! a leg out of the motions of all DOFs. Multiplied by a coefficient it is what the source adds to the damping matrix.
 
 use crate::effects::place::Leg;
+use crate::window::language::{tf, tr};
 use crate::window::theme::{self, size};
 use crate::window::widgets::UiExt;
 use egui::{Align2, Rect, Role, Sense, Ui, Vec2, WidgetInfo, vec2};
@@ -43,7 +44,7 @@ pub(crate) fn show(ui: &mut Ui, legs: &[Leg], label: impl Fn(usize) -> String) {
     let words = |e: &Entry| format!("; {} {} {}", label(dofs[e.0]), label(dofs[e.1]), e.2);
     response.widget_info(|| {
         let text = entries.iter().map(words).collect::<String>();
-        WidgetInfo::labeled(Role::Image, true, format!("Localisation matrix{text}"))
+        WidgetInfo::labeled(Role::Image, true, tf!("Localisation matrix{text}"))
     });
     let origin = rect.min + Vec2::splat(EDGE);
     let painter = ui.painter();
@@ -61,7 +62,13 @@ pub(crate) fn show(ui: &mut Ui, legs: &[Leg], label: impl Fn(usize) -> String) {
         let fill = palette.diverging(0.35 * value as f32);
         painter.rect_filled(cell(r, c).shrink(0.7), 2.0, fill);
         let text = value.to_string().replace('-', "−");
-        painter.text(cell(r, c).center(), Align2::CENTER_CENTER, text, theme::font(size::SMALL), palette.text_on(fill));
+        painter.text(
+            cell(r, c).center(),
+            Align2::CENTER_CENTER,
+            tr(text),
+            theme::font(size::SMALL),
+            palette.text_on(fill),
+        );
     }
     if dofs.len() > MOST {
         ui.hint(format!("{} of {} DOFs", MOST, dofs.len()));

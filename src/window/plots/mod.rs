@@ -18,6 +18,7 @@ pub(crate) mod zoom;
 use super::theme::{Palette, size};
 use super::widgets::UiExt;
 use crate::plots::ticks::tick;
+use crate::window::language::tr;
 use egui::{Color32, FontId, Ui};
 use egui_plot::{AxisHints, Line, Plot, PlotPoints};
 
@@ -33,13 +34,13 @@ fn frame<'a>(ui: &Ui, id: &str) -> Plot<'a> {
 
 /// An axis with small type.
 fn axis<'a>(hints: AxisHints<'a>, palette: &Palette, label: &str) -> AxisHints<'a> {
-    let label = egui::RichText::new(label).size(size::SMALL).color(palette.weak);
+    let label = egui::RichText::new(tr(label)).size(size::SMALL).color(palette.weak);
     hints
         .label(label)
         .tick_label_color(palette.weak)
         .tick_label_font(FontId::proportional(size::SMALL))
         .label_spacing(egui::Rangef::new(22.0, 34.0))
-        .formatter(|mark, _| tick(mark.value, mark.step_size))
+        .formatter(|mark, _| tr(tick(mark.value, mark.step_size)))
 }
 
 /// A curve.

@@ -1,6 +1,7 @@
 //! Drawings on the screen: the same marks as in a file, by a painter of egui.
 
 use crate::plots::drawing::{Drawing, Mark, Stroke};
+use crate::window::language::tr;
 use crate::window::theme;
 use egui::{Painter, Pos2, Shape, Vec2};
 
@@ -43,10 +44,10 @@ fn paint(painter: &Painter, mark: &Mark, by: Vec2) {
         }
         Mark::Disc { centre, radius, fill, stroke } => drop(painter.circle(*centre + by, *radius, *fill, *stroke)),
         Mark::Words { at, align, text, size, colour, upright: false } => {
-            painter.text(*at + by, *align, text, theme::font(*size), *colour);
+            painter.text(*at + by, *align, tr(text), theme::font(*size), *colour);
         }
         Mark::Words { at, text, size, colour, .. } => {
-            let galley = painter.layout_no_wrap(text.clone(), theme::font(*size), *colour);
+            let galley = painter.layout_no_wrap(tr(text), theme::font(*size), *colour);
             let (w, h) = (galley.size().x, galley.size().y);
             let start = *at + by + Vec2::new(-0.5 * h, 0.5 * w);
             let shape = egui::epaint::TextShape::new(start, galley, *colour).with_angle(-std::f32::consts::FRAC_PI_2);

@@ -8,6 +8,7 @@ use crate::display::format::significant;
 use crate::plots::figure::{Axis, Data, Figure, Label, Look, Series, Ticks};
 use crate::plots::sheet::{Panel, Sheet};
 use crate::plots::{grid, ticks};
+use crate::window::language::{tf, tr};
 use crate::window::theme;
 use crate::window::widgets::UiExt;
 use egui::{Align2, Id, Rangef, RichText, Role, ScrollArea, Sense, Shape, Ui, WidgetInfo, vec2};
@@ -100,10 +101,10 @@ pub(crate) fn key_row<'a>(ui: &mut Ui, figures: impl Iterator<Item = &'a Figure>
 /// A mark and a name that stay together where the row wraps.
 fn key(ui: &mut Ui, series: &Series) {
     let palette = ui.palette();
-    let text = ui.painter().layout_no_wrap(series.name.clone(), theme::font(theme::size::SMALL), palette.weak);
+    let text = ui.painter().layout_no_wrap(tr(&series.name), theme::font(theme::size::SMALL), palette.weak);
     let size = vec2(22.0 + text.size().x + theme::space::S, text.size().y.max(14.0));
     let (rect, response) = ui.allocate_exact_size(size, Sense::hover());
-    response.widget_info(|| WidgetInfo::labeled(Role::Label, true, &series.name));
+    response.widget_info(|| WidgetInfo::labeled(Role::Label, true, tr(&series.name)));
     let (left, middle) = (rect.left_center(), rect.left_center() + vec2(8.0, 0.0));
     let painter = ui.painter();
     match series.look {
@@ -161,7 +162,7 @@ impl Place<'_> {
             } else {
                 Rangef::new(22.0, 34.0)
             })
-            .formatter(move |mark, _| ticks::label(&xt, own(mark)));
+            .formatter(move |mark, _| tr(ticks::label(&xt, own(mark))));
         let y_axis = axis(AxisHints::new_y(), palette, &y_label)
             .placement(HPlacement::Left)
             .min_thickness(62.0)
@@ -170,7 +171,7 @@ impl Place<'_> {
             .formatter(move |mark, range| {
                 let height = range.end() - range.start();
                 let corner = square && self.ruler && mark.value - range.start() < CORNER * height;
-                if corner { String::new() } else { ticks::label(&yt, own(mark)) }
+                if corner { String::new() } else { tr(ticks::label(&yt, own(mark))) }
             });
         let mut plot = frame(ui, self.id)
             .custom_x_axes(vec![x_axis])
@@ -235,10 +236,10 @@ const SHORT: [(&str, &str); 11] = [
 fn fitting(ui: &Ui, axis: &Axis, room: f32) -> String {
     let width = |text: &str| {
         let font = theme::font(theme::size::SMALL);
-        ui.painter().layout_no_wrap(text.to_owned(), font, egui::Color32::PLACEHOLDER).size().x
+        ui.painter().layout_no_wrap(tr(text), font, egui::Color32::PLACEHOLDER).size().x
     };
     let short = SHORT.iter().find(|(name, _)| *name == axis.name).map_or(axis.name.as_str(), |(_, short)| short);
-    let short = Axis { name: short.to_owned(), ..axis.clone() };
+    let short = Axis { name: tr(short), ..axis.clone() };
     let folded = if axis.unit.is_empty() { short.name.clone() } else { format!("{},\n{}", short.name, axis.unit) };
     let choices = [axis.label(), short.label(), folded, axis.unit.clone()];
     choices.into_iter().find(|text| width(text) + 6.0 <= room).unwrap_or_default()
@@ -276,7 +277,7 @@ fn read_out<'a>(x: &Axis, y: &Axis) -> CoordinatesFormatter<'a> {
         _ => format!("{} {}", significant(axis.read(place), 4), axis.unit),
     };
     CoordinatesFormatter::new(move |p: &PlotPoint, _: &PlotBounds| {
-        format!("{}   {}", read_out_at(&x, p.x), read_out_at(&y, p.y))
+        tf!("{}   {}", read_out_at(&x, p.x), read_out_at(&y, p.y))
     })
 }
 
@@ -291,7 +292,7 @@ fn near<'a>(figure: &Figure) -> impl Fn(&HoverPosition<'_>) -> Option<String> + 
             let deviation = own.and_then(|(_, d)| d.get(*index)).copied().unwrap_or(0.0);
             let (u, v) = (x.read(position.x), y.read(position.y));
             let value = crate::display::format::with_deviation(v, y.factor * deviation, "");
-            Some(format!("{plot_name}\n{} {}\n{value} {}", significant(u, 5), x.unit, y.unit))
+            Some(tf!("{plot_name}\n{} {}\n{value} {}", significant(u, 5), x.unit, y.unit))
         }
         HoverPosition::Elsewhere { .. } => None,
     }
@@ -300,7 +301,7 @@ fn near<'a>(figure: &Figure) -> impl Fn(&HoverPosition<'_>) -> Option<String> + 
 /// Words at a point, ending there.
 fn words(plot: &mut PlotUi<'_>, figure: &Figure, label: &Label) {
     let (Some(x), Some(y)) = (figure.x.place(label.at[0]), figure.y.place(label.at[1])) else { return };
-    let text = RichText::new(&label.text).size(theme::size::SMALL).color(label.colour);
+    let text = RichText::new(tr(&label.text)).size(theme::size::SMALL).color(label.colour);
     // Where a line leaves the plot at the top its name stands below the edge.
     let (top, height) = (plot.plot_bounds().max()[1], plot.plot_bounds().height());
     let room = f64::from(theme::size::SMALL + 6.0) / f64::from(plot.transform().frame().height()).max(1.0);

@@ -2,6 +2,7 @@
 //! File. A table is asked for its text only when somebody wants it.
 
 use super::export::{self, COPY, Kind};
+use crate::window::language::{t, tf};
 use egui::containers::menu::menu_style;
 use egui::{Align, Context, Id, Layout, Popup, PopupAnchor, PopupKind, Rect, SetOpenCommand, Ui};
 
@@ -49,13 +50,13 @@ fn menu(ui: &Ui, title: &str, opened: bool) -> Option<Wish> {
     let (ctx, id) = (ui.ctx().clone(), ui.scope_id().with("table menu"));
     let entries = |ui: &mut Ui| {
         let mut wish = None;
-        let copy = egui::Button::new("Copy table").shortcut_text(ui.ctx().format_shortcut(&COPY));
-        let copy = ui.add(copy).on_hover_text("With tabs, for a spreadsheet: SI units, all digits.");
-        copy.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, "Copy table"));
+        let copy = egui::Button::new(t!("Copy table")).shortcut_text(ui.ctx().format_shortcut(&COPY));
+        let copy = ui.add(copy).on_hover_text(t!("With tabs, for a spreadsheet: SI units, all digits."));
+        copy.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, t!("Copy table")));
         if copy.clicked() {
             wish = Some(Wish::Copy);
         }
-        if ui.button("Export table as CSV…").clicked() {
+        if ui.button(t!("Export table as CSV…")).clicked() {
             wish = Some(Wish::Csv);
         }
         wish
@@ -65,7 +66,7 @@ fn menu(ui: &Ui, title: &str, opened: bool) -> Option<Wish> {
         .layout(Layout::top_down_justified(Align::Min))
         .style(menu_style)
         .open_memory(opened.then_some(SetOpenCommand::Bool(true)))
-        .accessible_name(format!("Menu of the table {title}"))
+        .accessible_name(tf!("Menu of the table {title}"))
         .show(entries)?
         .inner
 }

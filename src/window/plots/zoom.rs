@@ -4,6 +4,7 @@
 //! the limits too, but there is no way back to data that are gone.
 
 use crate::plots::figure::{Axis, Figure, Scale, Ticks};
+use crate::window::language::{numbers, t, tf, tr};
 use crate::window::theme::space;
 use crate::window::widgets::UiExt;
 use egui::{Context, DragValue, Grid, Id, Key, Modifiers, Response, Ui, Window};
@@ -148,7 +149,7 @@ pub(crate) fn menu(ui: &mut Ui, plot: &Response) {
     let mut kept = Kept::of(&ctx, id);
     let mut chosen = false;
     let mut entry = |ui: &mut Ui, can: bool, label: &str, keys: &str| {
-        let button = egui::Button::new(label).shortcut_text(keys);
+        let button = egui::Button::new(tr(label)).shortcut_text(tr(keys));
         let clicked = ui.add_enabled(can, button).clicked();
         chosen |= clicked;
         clicked
@@ -178,7 +179,7 @@ fn limits(ctx: &Context, id: Id, kept: &mut Kept, plots: &[(&Response, &Figure, 
     let mut sights: Vec<Sight> = plots.iter().map(|p| p.2).collect();
     let Some(place) = plots.first().map(|(r, ..)| r.rect) else { return };
     let (mut open, mut close, mut all, mut typed) = (true, false, false, false);
-    let window = Window::new("Axis limits").id(id.with("limits")).collapsible(false).resizable(false);
+    let window = Window::new(t!("Axis limits")).id(id.with("limits")).collapsible(false).resizable(false);
     window.default_pos(place.left_top()).open(&mut open).show(ctx, |ui| {
         Grid::new("limits").num_columns(4).spacing([space::S, space::XS]).show(ui, |ui| {
             for name in ["Axis", "From", "To", "Unit"] {
@@ -196,8 +197,8 @@ fn limits(ctx: &Context, id: Id, kept: &mut Kept, plots: &[(&Response, &Figure, 
         });
         ui.add_space(space::S);
         ui.horizontal(|ui| {
-            all = ui.button("Show all").clicked();
-            close = ui.button("Close").clicked();
+            all = ui.button(t!("Show all")).clicked();
+            close = ui.button(t!("Close")).clicked();
         });
     });
     kept.typing = open && !close;
@@ -214,16 +215,16 @@ fn row(ui: &mut Ui, axis: &Axis, range: &mut [f64; 2]) -> bool {
     }
     let read = range.map(|place| crate::display::format::rounded(axis.read(place)));
     let mut ends = read;
-    ui.label(&axis.name);
+    ui.label(tr(&axis.name));
     for (k, name) in ["From", "To"].into_iter().enumerate() {
         let speed = 0.005 * (read[1] - read[0]).abs().max(1e-12);
         let value = ends[k];
         let drag = DragValue::new(&mut ends[k])
             .speed(speed)
             .update_while_editing(false)
-            .custom_formatter(|v, _| crate::display::format::editable(v))
-            .custom_parser(|text| text.trim().replace('−', "-").parse().ok());
-        let label = format!("{}, {}", axis.name, name.to_lowercase());
+            .custom_formatter(|v, _| numbers::editable(v))
+            .custom_parser(numbers::typed);
+        let label = tf!("{}, {}", axis.name, name.to_lowercase());
         let response = ui.add_sized([92.0, 22.0], drag);
         response.widget_info(|| egui::WidgetInfo {
             label: Some(label.clone()),

@@ -7,6 +7,7 @@ use crate::display::words;
 use crate::effects::{Effect, State};
 use crate::session::Command;
 use crate::window::edits::Edit;
+use crate::window::language::{t, tf, tr};
 use crate::window::widgets::UiExt;
 use egui::Ui;
 
@@ -32,16 +33,16 @@ fn dof(ui: &mut Ui, scene: &Scene, dof: usize) -> Option<Intent> {
     let mut chosen = None;
     // All others are in the palette.
     for law in Effect::ALL.into_iter().filter(|law| law.description().usual) {
-        if ui.button(format!("Candidate: {} to the ground", words::effect(law))).clicked() {
+        if ui.button(tf!("Candidate: {} to the ground", words::effect(law))).clicked() {
             chosen = Some(Intent::Edit(Edit::Draw(law, vec![dof])));
         }
     }
     ui.separator();
-    if ui.button("Add a mass of 0.1 kg").clicked() {
+    if ui.button(t!("Add a mass of 0.1 kg")).clicked() {
         let command = Command::SetLumpedMass { dof: label.clone(), mass: Some(0.1) };
         chosen = Some(Intent::Edit(Edit::Do(command)));
     }
-    if ui.button("Select").clicked() {
+    if ui.button(t!("Select", "button")).clicked() {
         chosen = Some(Intent::SelectDof(dof));
     }
     chosen
@@ -52,12 +53,12 @@ fn source(ui: &mut Ui, scene: &Scene, slot: usize) -> Option<Intent> {
     ui.hint(words::effect(source.effect));
     let mut chosen = None;
     for state in [State::Candidate, State::Forced, State::Known, State::Off] {
-        if ui.selectable_label(source.state == state, state.word()).clicked() {
+        if ui.selectable_label(source.state == state, tr(state.word())).clicked() {
             chosen = Some(Intent::Edit(Edit::SetState(source.index, state)));
         }
     }
     ui.separator();
-    if ui.button("Remove").clicked() {
+    if ui.button(t!("Remove")).clicked() {
         chosen = Some(Intent::RemoveSource(source.index));
     }
     chosen

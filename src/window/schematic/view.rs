@@ -6,6 +6,7 @@ use super::paint::{self, Marks};
 use super::{Camera, Layout, Scene};
 use crate::display::format;
 use crate::effects::Effect;
+use crate::window::language::{t, tr};
 use crate::window::solid::{self, wire::Wire};
 use crate::window::theme::{self, Palette};
 use crate::window::widgets::{elided, width};
@@ -56,7 +57,7 @@ impl View<'_> {
     pub(crate) fn show(&self, ui: &mut Ui, state: &mut ViewState) -> Vec<Intent> {
         let palette = Palette::of(ui.visuals());
         let (area, canvas) = ui.allocate_exact_size(ui.available_size(), Sense::click_and_drag());
-        canvas.widget_info(|| WidgetInfo::labeled(Role::Image, true, "Schematic"));
+        canvas.widget_info(|| WidgetInfo::labeled(Role::Image, true, t!("Schematic")));
         let camera = state.camera.unwrap_or_else(|| Layout::home(self.scene, area));
         let layout = Layout::at_scale(self.scene, area, camera, self.shape, self.largest);
         let mut intents = self.handles(ui, &canvas, &layout);
@@ -145,7 +146,7 @@ impl View<'_> {
 
     fn node(&self, ui: &Ui, id: egui::Id, rect: Rect, label: String, target: Target, intents: &mut Vec<Intent>) {
         let response = ui.interact(rect, id, Sense::focusable_noninteractive());
-        response.widget_info(|| WidgetInfo::labeled(Role::Button, true, &label));
+        response.widget_info(|| WidgetInfo::labeled(Role::Button, true, tr(&label)));
         if response.has_focus() {
             ui.painter().circle_stroke(
                 rect.center(),
@@ -207,7 +208,7 @@ impl View<'_> {
             }
             _ => return,
         };
-        canvas.clone().on_hover_text_at_pointer(text);
+        canvas.clone().on_hover_text_at_pointer(tr(text));
     }
 
     /// What a source is, in words: `Source viscous, DOF 7 to ground, candidate`.

@@ -13,6 +13,7 @@ use crate::display::format;
 use crate::plots::drawing::Drawing;
 use crate::plots::grid::round_step;
 use crate::plots::heatmap::HeatMap;
+use crate::window::language::{tf, tr};
 use crate::window::plots::export;
 use crate::window::theme::{self, Palette};
 use crate::window::widgets::UiExt;
@@ -199,11 +200,11 @@ impl Bars {
             }
             let corner = room.right_top() + Vec2::new(-4.0, 4.0);
             let font = theme::font(theme::size::BODY);
-            painter.text(corner, egui::Align2::RIGHT_TOP, self.describe(at, unit), font, palette.ink);
+            painter.text(corner, egui::Align2::RIGHT_TOP, tr(self.describe(at, unit)), font, palette.ink);
         }
         response.widget_info(|| {
             let read = hovered.map_or_else(String::new, |at| format!(": {}", self.describe(at, unit)));
-            WidgetInfo::labeled(Role::Image, true, format!("Matrix in 3-D, {pretty}{read}"))
+            WidgetInfo::labeled(Role::Image, true, tf!("Matrix in 3-D, {pretty}{read}"))
         });
         let paper = |palette: &Palette| self.drawing(title, unit, camera, palette);
         export::offer(ui, &[response], title, &paper, &|| map.table());

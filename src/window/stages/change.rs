@@ -7,6 +7,7 @@ use crate::identify::change::{ModeChange, Pair, SourceChange};
 use crate::session::states::{Against, Compared, sessions};
 use crate::window::ask::Ask;
 use crate::window::files::Pick;
+use crate::window::language::{t, tf, tr};
 use crate::window::opened::Opened;
 use crate::window::theme::space;
 use crate::window::widgets::UiExt;
@@ -42,15 +43,15 @@ pub(crate) fn show(ui: &mut Ui, opened: &mut Opened<'_>, asks: &mut Vec<Ask>) {
 /// Buttons for what the project is held against.
 fn choices(ui: &mut Ui, names: &[String], against: &mut Option<Against>, asks: &mut Vec<Ask>) {
     let tip = "Its sources and those of this project are identified in both states and compared.";
-    if ui.button("Choose the earlier state…").on_hover_text(tip).clicked() {
+    if ui.button(t!("Choose the earlier state…")).on_hover_text(tr(tip)).clicked() {
         asks.push(Ask::Pick(Pick::EarlierState));
     }
     for pair in names.windows(2) {
-        if ui.button(format!("Session {} against {}", pair[0], pair[1])).clicked() {
+        if ui.button(tf!("Session {} against {}", pair[0], pair[1])).clicked() {
             *against = Some(Against::Sessions([pair[0].clone(), pair[1].clone()]));
         }
     }
-    if against.is_some() && ui.button("End").on_hover_text("Compares with nothing any more.").clicked() {
+    if against.is_some() && ui.button(t!("End")).on_hover_text(t!("Compares with nothing any more.")).clicked() {
         *against = None;
     }
 }
@@ -65,7 +66,7 @@ fn answer(ui: &mut Ui, compared: &Compared, against: &Against) {
     ui.hint(format!("First: {}{}.  Second: {}{}.", titles[0], which[0], titles[1], which[1]));
     let any = change.changed().next().is_some();
     let colour = if any { ui.palette().missing } else { ui.palette().ink };
-    ui.label(RichText::new(said::sentence(structure, change)).color(colour));
+    ui.label(RichText::new(tr(said::sentence(structure, change))).color(colour));
     ui.add_space(space::XS);
     let source = |s: &SourceChange| Row {
         name: format!("{} {}", words::effect(s.source.effect), words::short_place(structure, &s.source.place)),
@@ -160,7 +161,7 @@ fn cells(row: &mut TableRow<'_, '_>, rows: &[Row], in_full: bool) {
     let entry = &rows[row.index()];
     let changed = entry.pair.is_significant();
     row.set_selected(changed);
-    row.col(|ui| drop(ui.label(&entry.name)));
+    row.col(|ui| drop(ui.label(tr(&entry.name))));
     for state in entry.states(in_full) {
         row.col(|ui| drop(ui.number(state)));
     }

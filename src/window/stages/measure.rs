@@ -13,6 +13,7 @@ use crate::window::commands::Command;
 use crate::window::derived::Derived;
 use crate::window::document::Document;
 use crate::window::edits::Edit;
+use crate::window::language::{t, tf, tr};
 use crate::window::opened::Opened;
 use crate::window::plots::show::Stack;
 use crate::window::plots::{charts, record};
@@ -240,14 +241,14 @@ fn pick(ui: &mut Ui, list: &[(usize, String)], channel: &mut usize, every: &mut 
             }
         }
     });
-    combo.response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::ComboBox, true, "Channel"));
+    combo.response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::ComboBox, true, t!("Channel")));
 }
 
 fn channels(ui: &mut Ui, run: &Run, channel: &mut usize, every: &mut bool) {
     let names: Vec<String> = run.fit.channels.iter().map(|c| c.channel.to_string()).collect();
     let as_list = names.len() > MOST_BUTTONS || !in_one_row(ui, names.iter().map(String::as_str).chain(["All"]));
     ui.horizontal(|ui| {
-        if ui.selectable_label(*every, "All").on_hover_text("All channels on one axis of time.").clicked() {
+        if ui.selectable_label(*every, t!("All")).on_hover_text(t!("All channels on one axis of time.")).clicked() {
             *every = true;
         }
         if as_list {
@@ -317,9 +318,8 @@ fn cells(row: &mut TableRow<'_, '_>, run: &Run, (index, shown, folder): (usize, 
     row.col(|ui| {
         let mut used = run.enabled;
         let response = ui.checkbox(&mut used, "");
-        response.widget_info(|| {
-            egui::WidgetInfo::selected(egui::Role::CheckBox, true, used, format!("Use run {}", index + 1))
-        });
+        response
+            .widget_info(|| egui::WidgetInfo::selected(egui::Role::CheckBox, true, used, tf!("Use run {}", index + 1)));
         if response.changed() {
             asks.push(Ask::Edit(Edit::UseRun(run.file.clone(), used)));
         }
@@ -343,7 +343,7 @@ fn cells(row: &mut TableRow<'_, '_>, run: &Run, (index, shown, folder): (usize, 
             // Where there is no room the words stand in the inspector and under the pointer.
             let text = if shown.words { text } else { run.findings.len().to_string() };
             let reasons: Vec<&str> = run.findings.iter().map(|f| f.reason.as_str()).collect();
-            ui.pill(&text, ui.palette().warning).on_hover_text(reasons.join("\n"));
+            ui.pill(&text, ui.palette().warning).on_hover_text(tr(reasons.join("\n")));
         }
     });
 }
@@ -379,9 +379,9 @@ fn amplitudes(ui: &mut Ui, run: &Run, channel: usize) {
         for (k, y) in fit.amplitudes.iter().enumerate() {
             let h = (k + 1) as f64;
             ui.label(format!("{}", k + 1));
-            ui.label(format::with_unit(h * run.fit.omega / std::f64::consts::TAU, "Hz"));
-            ui.label(format::with_deviation(y.re.hypot(y.im), fit.deviation(k + 1), unit));
-            ui.label(format!("{}°", format::significant(y.im.atan2(y.re).to_degrees(), 4)));
+            ui.label(tr(format::with_unit(h * run.fit.omega / std::f64::consts::TAU, "Hz")));
+            ui.label(tr(format::with_deviation(y.re.hypot(y.im), fit.deviation(k + 1), unit)));
+            ui.label(tr(format!("{}°", format::significant(y.im.atan2(y.re).to_degrees(), 4))));
             ui.end_row();
         }
     });

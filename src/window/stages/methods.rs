@@ -7,6 +7,7 @@ use crate::classical::reference_shapes::{Beside, Match};
 use crate::classical::side_by_side::{Applied, SideBySide};
 use crate::display::format;
 use crate::plots::heatmap::{HeatMap, occupied};
+use crate::window::language::{t, tr};
 use crate::window::opened::Opened;
 use crate::window::theme::{self, size, space};
 use crate::window::widgets::{UiExt, width};
@@ -101,7 +102,7 @@ fn table(ui: &mut Ui, found: &SideBySide, chosen: &mut Option<Method>) {
             }
             for mode in 0..modes {
                 let name = format!("ζ{}, %", mode + 1);
-                row.col(|ui| drop(identified::head_right(ui, &name).on_hover_text("Damping ratio of the mode.")));
+                row.col(|ui| drop(identified::head_right(ui, &name).on_hover_text(t!("Damping ratio of the mode."))));
             }
         })
         .body(|mut body| {
@@ -120,7 +121,7 @@ fn of_other_programs(ui: &mut Ui, beside: &[Beside]) {
         return;
     }
     ui.add_space(space::S);
-    ui.label("Modes of other programs");
+    ui.label(t!("Modes of other programs"));
     let heads = ["Hz", "ζ, %", "Here, Hz", "ζ, %", "MAC", "Model, Hz", "MAC"];
     TableBuilder::new(ui)
         .id_salt("modes of other programs")
@@ -150,7 +151,7 @@ fn shape_row(body: &mut TableBody<'_>, Beside { reference, measured, model }: &B
     let ratio = percent(measured.as_ref().and_then(|found| found.damping_ratio));
     let own = [hz(reference.frequency_hz), percent(reference.damping_ratio)];
     body.row(space::ROW, |mut row| {
-        row.col(|ui| drop(name(ui, &reference.name).on_hover_text(reference.kind.word())));
+        row.col(|ui| drop(name(ui, &reference.name).on_hover_text(tr(reference.kind.word()))));
         let cells = own.into_iter().chain([ours, ratio, mac, undamped, undamped_mac]);
         cells.for_each(|cell| drop(row.col(|ui| drop(ui.number(cell)))));
     });
@@ -159,7 +160,7 @@ fn shape_row(body: &mut TableBody<'_>, Beside { reference, measured, model }: &B
 /// Methods that cannot run on these data, with one line why.
 fn refused(ui: &mut Ui, found: &SideBySide) {
     ui.add_space(space::S);
-    ui.label("Cannot run on these data");
+    ui.label(t!("Cannot run on these data"));
     for entry in &found.entries {
         if let Err(why) = &entry.outcome {
             ui.hint(format!("{}: {why}", entry.method.title()));
@@ -177,7 +178,7 @@ fn applied_row(
 ) {
     body.row(space::ROW, |mut row| {
         row.set_selected(*chosen == Some(method));
-        row.col(|ui| drop(name(ui, method.title()).on_hover_text(method.words().join("\n"))));
+        row.col(|ui| drop(name(ui, method.title()).on_hover_text(tr(method.words().join("\n")))));
         if let Some(errors) = known.then_some(applied.errors) {
             row.col(|ui| drop(ui.number(errors.map_or_else(dash, |e| format::percent(0.01 * e.eps_c)))));
             row.col(|ui| drop(ui.number(errors.map_or_else(dash, |e| format::significant(e.mac, 2)))));
@@ -219,7 +220,7 @@ fn summary(body: &mut TableBody<'_>, found: &SideBySide, errors: usize, modes: u
 /// A name in full: in small letters where the column is narrow.
 fn name(ui: &mut Ui, text: &str) -> egui::Response {
     let fits = width(ui, text, theme::font(size::BODY)) <= ui.available_width();
-    ui.label(RichText::new(text).size(if fits { size::BODY } else { size::SMALL }).color(ui.palette().ink))
+    ui.label(RichText::new(tr(text)).size(if fits { size::BODY } else { size::SMALL }).color(ui.palette().ink))
 }
 
 fn dash() -> String {

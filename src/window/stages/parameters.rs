@@ -8,6 +8,7 @@ use crate::structure::chain::ChainParameters;
 use crate::window::ask::Ask;
 use crate::window::document::Document;
 use crate::window::edits::Edit;
+use crate::window::language::tf;
 use crate::window::theme::space;
 use crate::window::widgets::UiExt;
 use egui::{ScrollArea, Ui};
@@ -105,7 +106,7 @@ fn masses(ui: &mut Ui, file: &ProjectFile, selected: Option<&str>, asks: &mut Ve
     }
     match selected {
         Some(dof) if file.structure.lumped_mass.iter().all(|l| l.dof != dof) => {
-            if ui.button(format!("Add a mass at DOF {dof}")).clicked() {
+            if ui.button(tf!("Add a mass at DOF {dof}")).clicked() {
                 asks.push(set(dof, Some(0.1)));
             }
         }

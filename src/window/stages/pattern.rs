@@ -6,6 +6,7 @@ use crate::exchange::Project;
 use crate::window::ask::Ask;
 use crate::window::commands::Command;
 use crate::window::edits::Edit;
+use crate::window::language::{t, tr};
 use crate::window::plots::localisation;
 use crate::window::schematic::{paint::source_stroke, symbols};
 use crate::window::theme::{self, size, space};
@@ -64,9 +65,9 @@ fn palette(ui: &mut Ui, law: &mut Effect, asks: &mut Vec<Ask>) {
     ui.add_space(space::XS);
     ui.horizontal_wrapped(|ui| {
         let weak = ui.palette().weak;
-        ui.label(RichText::new("Add at").color(weak));
+        ui.label(RichText::new(t!("Add at")).color(weak));
         if matches!(law.kind(), Kind::Whole(_)) {
-            if ui.button("Whole structure").clicked() {
+            if ui.button(t!("Whole structure")).clicked() {
                 asks.push(Ask::Edit(Edit::DrawWhole(*law)));
             }
             return;
@@ -77,7 +78,7 @@ fn palette(ui: &mut Ui, law: &mut Effect, asks: &mut Vec<Ask>) {
             (Family::EachPair, "Each pair"),
             (Family::Chain, "One chain"),
         ] {
-            if ui.button(label).clicked() {
+            if ui.button(tr(label)).clicked() {
                 asks.push(Ask::Edit(Edit::DrawFamily(*law, family)));
             }
         }
@@ -89,7 +90,7 @@ fn tile(ui: &mut Ui, effect: Effect, chosen: bool, words: Arc<Galley>, size: Vec
     let palette = ui.palette();
     let (rect, response) = ui.allocate_exact_size(size, Sense::click());
     let name = words::effect(effect);
-    response.widget_info(|| WidgetInfo::selected(Role::Button, true, chosen, name));
+    response.widget_info(|| WidgetInfo::selected(Role::Button, true, chosen, tr(name)));
     let lit = chosen || response.hovered() || response.has_focus();
     let fill = if chosen { palette.accent_faint } else { palette.canvas };
     let line = theme::hair(if lit { palette.accent } else { palette.line });
@@ -99,12 +100,12 @@ fn tile(ui: &mut Ui, effect: Effect, chosen: bool, words: Arc<Galley>, size: Vec
     symbols::draw(ui.painter(), effect, [pos2(x - 30.0, y), pos2(x + 30.0, y)], theme::pen(ink));
     let middle = 0.5 * (rect.top() + SYMBOL - 4.0 + rect.bottom());
     ui.painter().galley_with_override_text_color(pos2(x, middle - 0.5 * words.size().y), words, ink);
-    response.on_hover_text(parameters(effect)).clicked()
+    response.on_hover_text(tr(parameters(effect))).clicked()
 }
 
 /// The name of a law under its symbol, on several lines where it is long.
 fn law_name(ui: &Ui, effect: Effect, width: f32) -> Arc<Galley> {
-    let (text, font) = (words::effect(effect).to_owned(), theme::font(size::SMALL));
+    let (text, font) = (tr(words::effect(effect)), theme::font(size::SMALL));
     let mut job = LayoutJob::simple(text, font, ui.palette().ink, width - 8.0);
     job.halign = Align::Center;
     ui.painter().layout_job(job)
@@ -133,7 +134,7 @@ fn list(ui: &mut Ui, p: &Project, view: &View, asks: &mut Vec<Ask>) -> Option<us
                 ui.pill(&format!("{} {}", count(state), state.word()), colour);
             }
         }
-        if count(State::Candidate) > 0 && ui.button(Command::ClearCandidates.entry().label).clicked() {
+        if count(State::Candidate) > 0 && ui.button(tr(Command::ClearCandidates.entry().label)).clicked() {
             asks.push(Ask::Command(Command::ClearCandidates));
         }
     });
@@ -168,8 +169,8 @@ fn list(ui: &mut Ui, p: &Project, view: &View, asks: &mut Vec<Ask>) -> Option<us
                     let (rect, _) = ui.allocate_exact_size(vec2(46.0, space::ROW), Sense::hover());
                     symbols::draw(ui.painter(), s.effect, [rect.left_center(), rect.right_center()], stroke);
                 });
-                row.col(|ui| drop(ui.label(words::effect(s.effect))));
-                row.col(|ui| drop(ui.label(words::place(&p.structure, &s.place))));
+                row.col(|ui| drop(ui.label(tr(words::effect(s.effect)))));
+                row.col(|ui| drop(ui.label(tr(words::place(&p.structure, &s.place)))));
                 row.col(|ui| drop(ui.pill(s.state.word(), stroke.color)));
                 if localised(row.response(), p, s).clicked() {
                     chosen = Some(index);
@@ -186,7 +187,7 @@ fn localised(response: Response, p: &Project, source: &Source) -> Response {
         return response;
     }
     response.on_hover_ui(|ui| {
-        ui.label("Where it stands in the matrix");
+        ui.label(t!("Where it stands in the matrix"));
         localisation::show(ui, &legs, |dof| p.structure.label(dof).to_owned());
     })
 }

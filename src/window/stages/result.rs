@@ -8,6 +8,7 @@ use crate::plots::bars::Bar;
 use crate::plots::bode::Diagram;
 use crate::plots::{heatmap, tables};
 use crate::response::frequency_response::Quantity;
+use crate::window::language::{t, tr};
 use crate::window::opened::Opened;
 use crate::window::plots::{bars, hysteresis, table as tabled};
 use crate::window::solid;
@@ -71,9 +72,9 @@ fn heat(ui: &mut Ui, p: &Project, outcome: &Outcome, whole: &mut bool, in_space:
     let remark = format!("N·s/m, {name}");
     ui.horizontal(|ui| {
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-            ui.checkbox(whole, "All DOFs");
+            ui.checkbox(whole, t!("All DOFs"));
             for (shown, name) in [(true, "3-D"), (false, "Map")] {
-                if ui.selectable_label(*in_space == shown, name).clicked() {
+                if ui.selectable_label(*in_space == shown, tr(name)).clicked() {
                     *in_space = shown;
                 }
             }
@@ -81,7 +82,7 @@ fn heat(ui: &mut Ui, p: &Project, outcome: &Outcome, whole: &mut bool, in_space:
             let fits = width(ui, &remark, theme::font(size::SMALL)) + space::S <= ui.available_width();
             let shown = if fits { remark.as_str() } else { "N·s/m" };
             ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
-                ui.hint(shown).on_hover_text(&remark);
+                ui.hint(shown).on_hover_text(tr(&remark));
             });
         });
     });
@@ -105,7 +106,7 @@ fn quantities(ui: &mut Ui, chosen: &mut Quantity) {
     for (quantity, name) in
         [(Quantity::Receptance, "Receptance"), (Quantity::Mobility, "Mobility"), (Quantity::Accelerance, "Accelerance")]
     {
-        if ui.selectable_label(*chosen == quantity, name).clicked() {
+        if ui.selectable_label(*chosen == quantity, tr(name)).clicked() {
             *chosen = quantity;
         }
     }
@@ -212,7 +213,7 @@ fn response(ui: &mut Ui, opened: &mut Opened<'_>, draw: impl FnOnce(&Diagram<'_>
             ui.horizontal_wrapped(|ui| {
                 quantities(ui, &mut opened.view.quantity);
                 ui.hint(format!("DOF {} for a force at DOF {}", labels.0, labels.1))
-                    .on_hover_text("Select another DOF on the schematic.");
+                    .on_hover_text(t!("Select another DOF on the schematic."));
             });
             let diagram = Diagram { project: p, response: &response, quantity: opened.view.quantity };
             let run = p.runs.get(opened.view.run).map_or(1.0, |r| r.fit.omega);
@@ -248,8 +249,8 @@ pub(crate) fn values(ui: &mut Ui, opened: &mut Opened<'_>) {
         ui.hint("Coefficients with one standard deviation");
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             if ui
-                .button("Copy table")
-                .on_hover_text("Columns are separated by tabs, as spreadsheets want them.")
+                .button(t!("Copy table"))
+                .on_hover_text(t!("Columns are separated by tabs, as spreadsheets want them."))
                 .clicked()
             {
                 tabled::give(ui.ctx(), "Values", tabled::Wish::Copy, tables::coefficients(p, &outcome));
@@ -285,8 +286,8 @@ pub(crate) fn values(ui: &mut Ui, opened: &mut Opened<'_>) {
             body.rows(space::ROW, outcome.sources.len(), |mut row| {
                 let estimate = &outcome.sources[row.index()];
                 let Some(source) = p.sources.get(estimate.source) else { return };
-                row.col(|ui| if_there(with_law, || ui.label(words::effect(source.effect))));
-                row.col(|ui| drop(ui.label(words::place(&p.structure, &source.place))));
+                row.col(|ui| if_there(with_law, || ui.label(tr(words::effect(source.effect)))));
+                row.col(|ui| drop(ui.label(tr(words::place(&p.structure, &source.place)))));
                 row.col(|ui| drop(ui.number(words::coefficient(source, estimate))));
                 row.col(|ui| if_there(with_share, || ui.number(format::percent(0.01 * estimate.energy_percent))));
             });

@@ -3,6 +3,7 @@
 use crate::display::{glossary, words};
 use crate::exchange::Project;
 use crate::measurement::Run;
+use crate::window::language::{t, tf, tr};
 use crate::window::theme::space;
 use crate::window::widgets::{UiExt, explained};
 use egui::{Align, Label, Layout, Response, RichText, Role, Sense, Shape, Stroke, Ui, WidgetInfo, vec2};
@@ -82,11 +83,12 @@ impl Order {
         ui.horizontal(|ui| {
             let label = ui.hint("Filter");
             let field =
-                egui::TextEdit::singleline(&mut self.filter).hint_text("file, level or flag").desired_width(150.0);
+                egui::TextEdit::singleline(&mut self.filter).hint_text(t!("file, level or flag")).desired_width(150.0);
             ui.add(field).labelled_by(label.id);
             let levels = p.runs.iter().any(|r| r.level != p.runs[0].level);
             if levels {
-                ui.checkbox(&mut self.by_level, "By level").on_hover_text("Runs of one force level stand together.");
+                ui.checkbox(&mut self.by_level, t!("By level"))
+                    .on_hover_text(t!("Runs of one force level stand together."));
             }
             ui.hint(if shown == all { format!("{all} runs") } else { format!("{shown} of {all} runs") });
         });
@@ -100,7 +102,7 @@ impl Order {
             .with_layout(layout, |ui| {
                 ui.add_space(if right { space::XS } else { 0.0 });
                 let colour = if self.key == key { ui.palette().accent } else { ui.palette().weak };
-                let text = RichText::new(name).size(crate::window::theme::size::SMALL).color(colour);
+                let text = RichText::new(tr(name)).size(crate::window::theme::size::SMALL).color(colour);
                 let response = ui.add(Label::new(text).selectable(false).sense(Sense::click()));
                 if self.key == key {
                     mark(ui, &response, self.falling);
@@ -109,8 +111,7 @@ impl Order {
             })
             .inner;
         let response = explained(response, glossary::meaning(name));
-        response
-            .widget_info(|| WidgetInfo::labeled(Role::Button, true, format!("Sort by {}", name.trim().to_lowercase())));
+        response.widget_info(|| WidgetInfo::labeled(Role::Button, true, tf!("Sort by {}", name.trim().to_lowercase())));
         if response.clicked() {
             (self.key, self.falling) = match (self.key == key, self.falling) {
                 (false, _) => (key, false),

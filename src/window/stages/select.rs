@@ -8,6 +8,7 @@ use crate::identify::{Outcome, SelectionStep, Status};
 use crate::window::ask::Ask;
 use crate::window::commands::Command;
 use crate::window::edits::Edit;
+use crate::window::language::{t, tf, tr};
 use crate::window::opened::Opened;
 use crate::window::plots::charts;
 use crate::window::theme::{self, size, space};
@@ -82,8 +83,8 @@ fn header(ui: &mut Ui, outcome: &Outcome, current: usize, asks: &mut Vec<Ask>) {
             (Command::StepEnd, current != outcome.accepted),
         ] {
             let entry = command.entry();
-            let button = ui.add_enabled(on, egui::Button::new(entry.label));
-            if button.on_hover_text(entry.tooltip).clicked() {
+            let button = ui.add_enabled(on, egui::Button::new(tr(entry.label)));
+            if button.on_hover_text(tr(entry.tooltip)).clicked() {
                 asks.push(Ask::Command(command));
             }
         }
@@ -100,7 +101,7 @@ fn ending(ui: &mut Ui, outcome: &Outcome, asks: &mut Vec<Ask>) {
         ui.pill(status(outcome.status), colour);
         ui.hint(&outcome.reason);
         let tip = "Takes what was identified as known and searches for what it does not explain.";
-        if outcome.status == Status::AboveNoise && ui.link("What is missing?").on_hover_text(tip).clicked() {
+        if outcome.status == Status::AboveNoise && ui.link(t!("What is missing?")).on_hover_text(tr(tip)).clicked() {
             asks.push(Ask::Command(Command::Explain));
         }
     });
@@ -187,8 +188,8 @@ fn cells(row: &mut TableRow<'_, '_>, outcome: &Outcome, (k, lines): (usize, &[Ar
     row.col(|ui| {
         ui.label(step.count.to_string());
         if k == outcome.accepted {
-            let best = egui::RichText::new("best").size(size::SMALL).color(ui.palette().model);
-            ui.label(best).on_hover_text(&outcome.reason);
+            let best = egui::RichText::new(t!("best")).size(size::SMALL).color(ui.palette().model);
+            ui.label(best).on_hover_text(tr(&outcome.reason));
         }
     });
     row.col(|ui| {
@@ -218,17 +219,17 @@ fn details(ui: &mut Ui, p: &Project, step: &SelectionStep, asks: &mut Vec<Ask>) 
         let Some(source) = p.sources.get(estimate.source) else { continue };
         let forced = source.state == State::Forced;
         let to = if forced { State::Candidate } else { State::Forced };
-        let text = if forced { "Release" } else { "Force" };
+        let text = if forced { t!("Release") } else { t!("Force", "button") };
         let hover = if forced { "Lets the search leave it out again." } else { "Every set must then hold it." };
         let share = format::percent(0.01 * estimate.energy_percent);
         ui.horizontal(|ui| {
-            if ui.button(text).on_hover_text(hover).clicked() {
+            if ui.button(text).on_hover_text(tr(hover)).clicked() {
                 asks.push(Ask::Edit(Edit::SetState(estimate.source, to)));
             }
             ui.vertical(|ui| {
                 ui.spacing_mut().item_spacing.y = 1.0;
                 let place = words::short_place(&p.structure, &source.place);
-                ui.label(format!("{} {place}", words::effect(source.effect)));
+                ui.label(tf!("{} {place}", words::effect(source.effect)));
                 ui.hint(format!("{},  {share} of the energy", words::coefficient(source, estimate)));
             });
         });
@@ -241,10 +242,10 @@ fn doubts(ui: &mut Ui, p: &Project, outcome: &Outcome) {
     for collinear in &outcome.collinear {
         let others: Vec<String> = collinear.others.iter().map(|(s, _)| in_words(p, std::iter::once(*s))).collect();
         let one = in_words(p, std::iter::once(collinear.source));
-        ui.colored_label(warning, format!("{one} cannot be told from {}.", others.join(" or ")));
+        ui.colored_label(warning, tf!("{one} cannot be told from {}.", others.join(" or ")));
     }
     for text in &outcome.warnings {
-        ui.colored_label(warning, text);
+        ui.colored_label(warning, tr(text));
     }
 }
 
@@ -255,7 +256,7 @@ fn alternatives(ui: &mut Ui, p: &Project, step: &SelectionStep, asks: &mut Vec<A
         let angle = format::significant(best.angle_deg, 4);
         ui.colored_label(
             ui.palette().warning,
-            format!("Over all sets, {words} is better ({angle}°): the kept single columns hide it."),
+            tf!("Over all sets, {words} is better ({angle}°): the kept single columns hide it."),
         );
         branch(ui, &best.sources, "Branch to it", asks);
     }
@@ -272,8 +273,8 @@ fn alternatives(ui: &mut Ui, p: &Project, step: &SelectionStep, asks: &mut Vec<A
 
 /// To branch from a set is to force its sources.
 fn branch(ui: &mut Ui, sources: &[usize], text: &str, asks: &mut Vec<Ask>) {
-    let button = egui::Button::new(text).frame(false).truncate();
-    if ui.add(button).on_hover_text("Forces these sources and searches on; Undo goes back.").clicked() {
+    let button = egui::Button::new(tr(text)).frame(false).truncate();
+    if ui.add(button).on_hover_text(t!("Forces these sources and searches on; Undo goes back.")).clicked() {
         asks.push(Ask::Edit(Edit::Force(sources.to_vec())));
     }
 }

@@ -4,6 +4,7 @@ use crate::display::{format, words};
 use crate::exchange::Project;
 use crate::measurement::TransientRun;
 use crate::plots::unsteady_record::UnsteadyRecord;
+use crate::window::language::{tf, tr};
 use crate::window::opened::Opened;
 use crate::window::plots::show::Stack;
 use crate::window::theme::space;
@@ -52,18 +53,18 @@ fn cells(row: &mut TableRow<'_, '_>, run: &TransientRun, index: usize, ticked: &
     row.col(|ui| {
         let mut used = run.enabled;
         let response = ui.checkbox(&mut used, "");
-        response.widget_info(|| WidgetInfo::selected(Role::CheckBox, true, used, format!("Use record {}", index + 1)));
+        response.widget_info(|| WidgetInfo::selected(Role::CheckBox, true, used, tf!("Use record {}", index + 1)));
         if response.changed() {
             *ticked = Some((run.file.clone(), used));
         }
     });
     row.col(|ui| drop(ui.label(&run.file).on_hover_text(&run.file)));
-    row.col(|ui| drop(ui.label(run.kind.name())));
-    row.col(|ui| drop(ui.label(format::prefixed(lasts(run), "s"))));
+    row.col(|ui| drop(ui.label(tr(run.kind.name()))));
+    row.col(|ui| drop(ui.label(tr(format::prefixed(lasts(run), "s")))));
     row.col(|ui| {
         if let Some(first) = run.findings.first() {
             let reasons: Vec<&str> = run.findings.iter().map(|f| f.reason.as_str()).collect();
-            ui.pill(words::flag(first.flag), ui.palette().warning).on_hover_text(reasons.join("\n"));
+            ui.pill(words::flag(first.flag), ui.palette().warning).on_hover_text(tr(reasons.join("\n")));
         }
     });
 }

@@ -10,6 +10,7 @@ use crate::display::words;
 use crate::effects::{Place, Source};
 use crate::window::app::Ask;
 use crate::window::explained::Standing;
+use crate::window::language::{t, tr};
 use crate::window::schematic::symbols;
 use crate::window::theme::{self, size, space};
 use crate::window::widgets::{UiExt, folded, width};
@@ -106,7 +107,7 @@ impl Card<'_> {
         let (so_far, chance) = (self.is_provisional(), chance(self.probability));
         let (kind, about) = if so_far { ("Provisional suggestion", "about ") } else { ("Suggestion", "") };
         let label = format!("{kind} {}: {}, probability {about}{chance}", self.rank, self.title());
-        response.widget_info(|| WidgetInfo::selected(Role::Button, true, self.unfolded, &label));
+        response.widget_info(|| WidgetInfo::selected(Role::Button, true, self.unfolded, tr(&label)));
         let painter = ui.painter();
         let symbol = Rect::from_min_size(area.min, vec2(self.symbol_width(), height));
         glyph(ui, source, symbol);
@@ -120,25 +121,25 @@ impl Card<'_> {
             painter.text(
                 pos2(area.right(), middle - 8.0),
                 Align2::RIGHT_CENTER,
-                chance,
+                tr(chance),
                 theme::font(size::HEADING + 2.0),
                 weight,
             );
             painter.text(
                 pos2(area.right(), middle + 10.0),
                 Align2::RIGHT_CENTER,
-                under,
+                tr(under),
                 theme::font(size::SMALL),
                 palette.weak,
             );
         } else {
-            painter.text(pos2(area.right(), middle), Align2::RIGHT_CENTER, chance, theme::font(size::BODY), weight);
+            painter.text(pos2(area.right(), middle), Align2::RIGHT_CENTER, tr(chance), theme::font(size::BODY), weight);
             if let Some(after) = words.error {
                 let at = pos2(area.right() - CHANCE, middle);
-                painter.text(at, Align2::RIGHT_CENTER, after, theme::font(size::SMALL), palette.weak);
+                painter.text(at, Align2::RIGHT_CENTER, tr(after), theme::font(size::SMALL), palette.weak);
             }
         }
-        response.on_hover_text(label).clicked()
+        response.on_hover_text(tr(label)).clicked()
     }
 
     /// The words of the head in the room beside symbol and probability; long names stand on several lines.
@@ -173,7 +174,7 @@ impl Card<'_> {
             if !list.is_empty() {
                 let names: Vec<String> = list.iter().map(|o| name(self.scene, o)).collect();
                 let text = format!("{what}: {}.", names.join("; "));
-                ui.label(RichText::new(text).size(size::BODY - 1.0).color(colour));
+                ui.label(RichText::new(tr(text)).size(size::BODY - 1.0).color(colour));
             }
         };
         say("These data cannot tell it from", &equal, warning);
@@ -195,7 +196,7 @@ impl Card<'_> {
         force::show(ui, self.scene, Some(&s.added.source));
         self.fingerprint(ui);
         for sentence in &s.evidence {
-            ui.label(RichText::new(polished(sentence)).size(size::BODY - 1.0));
+            ui.label(RichText::new(tr(polished(sentence))).size(size::BODY - 1.0));
         }
     }
 
@@ -236,7 +237,7 @@ impl Card<'_> {
                 let mut text = LayoutJob::default();
                 let palette = ui.palette();
                 let mut say = |words: &str, colour| {
-                    text.append(words, 0.0, TextFormat::simple(theme::font(size::BODY), colour));
+                    text.append(&tr(words), 0.0, TextFormat::simple(theme::font(size::BODY), colour));
                 };
                 say(&format!("{}  ", parameter.name.replace('_', " ")), palette.weak);
                 say(&format::with_deviation(*value, *deviation, parameter.unit), palette.ink);
@@ -250,17 +251,17 @@ impl Card<'_> {
         let source = &self.suggestion.added.source;
         ui.horizontal_wrapped(|ui| {
             let tip = "Shows the map and the curves as they would be; nothing is saved.";
-            if ui.add(egui::Button::new("Try").selected(on_trial)).on_hover_text(tip).clicked() {
+            if ui.add(egui::Button::new(t!("Try")).selected(on_trial)).on_hover_text(tr(tip)).clicked() {
                 asks.push(Ask::Explain(if on_trial { Deed::Stop } else { Deed::Try(source.clone()) }));
             }
             let tip = "Puts the effect into the model as known; undo takes it back.";
             let wait = "Its size is not final: it can be added when the search has ended. Try shows what it would do.";
             let add = ui.add_enabled_ui(!self.is_provisional(), |ui| ui.primary("Add")).inner;
-            if add.on_hover_text(tip).on_disabled_hover_text(wait).clicked() {
+            if add.on_hover_text(tr(tip)).on_disabled_hover_text(tr(wait)).clicked() {
                 asks.push(Ask::Explain(Deed::Add(source.clone())));
             }
             let tip = "Rules this effect out at this place and searches for what else it could be; undo takes it back.";
-            if ui.button("Not this").on_hover_text(tip).clicked() {
+            if ui.button(t!("Not this")).on_hover_text(tr(tip)).clicked() {
                 asks.push(Ask::Explain(Deed::Exclude(source.clone())));
             }
         });

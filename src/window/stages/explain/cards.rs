@@ -17,6 +17,7 @@ use crate::session::corrections::{self, Adopted};
 use crate::session::validation::only_records;
 use crate::window::app::Ask;
 use crate::window::explained::{HOPELESS, Standing};
+use crate::window::language::{t, tr};
 use crate::window::theme::{self, size, space};
 use crate::window::widgets::UiExt;
 use egui::{Align, Button, Layout, RichText, ScrollArea, Sense, Ui, vec2};
@@ -33,8 +34,8 @@ pub(super) fn show(ui: &mut Ui, scene: &Scene<'_>, look: &mut Look, limit_s: Opt
     match scene.explained.diagnosis(scene.document) {
         None if scene.explained.is_cancelled(scene.document) => {
             ui.horizontal(|ui| {
-                ui.label("The search was cancelled.");
-                if ui.button("Search again").clicked() {
+                ui.label(t!("The search was cancelled."));
+                if ui.button(t!("Search again")).clicked() {
                     asks.push(Ask::Explain(Deed::Retry));
                 }
             });
@@ -42,14 +43,16 @@ pub(super) fn show(ui: &mut Ui, scene: &Scene<'_>, look: &mut Look, limit_s: Opt
         }
         None if super::scene::is_undamped(scene.document) && !look.anyway => {
             ui.title("The model has no damping yet", "");
-            ui.label("Its sources are candidates: identified, but not acting, so that its errors say nothing of what is missing.");
+            ui.label(t!("Its sources are candidates: identified, but not acting, so that its errors say nothing of what is missing."));
             ui.add_space(space::XS);
             ui.hint("Once they are known they act, and it is searched for what they do not explain.");
             ui.add_space(space::XS);
             waiting(ui, true, asks);
         }
         None if far_off(scene) && !look.anyway => {
-            ui.label("The model is wrong by > 1000 %: at these frequencies hardly anything in it takes out energy.");
+            ui.label(t!(
+                "The model is wrong by > 1000 %: at these frequencies hardly anything in it takes out energy."
+            ));
             ui.hint(
                 "Give it the damping that is known, or take over what was identified; then its errors say something.",
             );
@@ -57,8 +60,8 @@ pub(super) fn show(ui: &mut Ui, scene: &Scene<'_>, look: &mut Look, limit_s: Opt
         }
         None => searching(ui, scene, look, limit_s, asks),
         Some(Err(error)) => {
-            ui.colored_label(ui.palette().error, error);
-            if ui.button("Search again").clicked() {
+            ui.colored_label(ui.palette().error, tr(error));
+            if ui.button(t!("Search again")).clicked() {
                 asks.push(Ask::Explain(Deed::Retry));
             }
         }
@@ -75,10 +78,10 @@ pub(super) fn show(ui: &mut Ui, scene: &Scene<'_>, look: &mut Look, limit_s: Opt
 fn waiting(ui: &mut Ui, identified: bool, asks: &mut Vec<Ask>) {
     ui.horizontal_wrapped(|ui| {
         let tip = "Makes the identified sources known at their values, and searches for what is missing beside them.";
-        if identified && ui.primary("Take over and search").on_hover_text(tip).clicked() {
+        if identified && ui.primary("Take over and search").on_hover_text(tr(tip)).clicked() {
             asks.push(Ask::Explain(Deed::TakeOver));
         }
-        if ui.button("Search anyway").clicked() {
+        if ui.button(t!("Search anyway")).clicked() {
             asks.push(Ask::Explain(Deed::Search));
         }
     });
@@ -94,7 +97,7 @@ fn searching(ui: &mut Ui, scene: &Scene<'_>, look: &mut Look, limit_s: Option<f6
     };
     ui.horizontal(|ui| {
         ui.spinner();
-        ui.label(doing);
+        ui.label(tr(doing));
     });
     if found.is_empty() {
         ui.hint("Place before law: where does a free force explain the difference? Then: which law does it follow?");
@@ -132,7 +135,7 @@ fn answer(ui: &mut Ui, scene: &Scene<'_>, diagnosis: &Diagnosis, look: &mut Look
         adequate(ui, scene, diagnosis);
     } else {
         let colour = if diagnosis.verdict == Verdict::Missing { ui.palette().missing } else { ui.palette().warning };
-        ui.label(RichText::new(sentence_of(diagnosis, stated(scene, diagnosis))).color(colour));
+        ui.label(RichText::new(tr(sentence_of(diagnosis, stated(scene, diagnosis)))).color(colour));
     }
     detuned(ui, scene, diagnosis, asks);
     if matches!(diagnosis.verdict, Verdict::Undecided | Verdict::Unexplained) {
@@ -191,7 +194,7 @@ fn detuned(ui: &mut Ui, scene: &Scene<'_>, diagnosis: &Diagnosis, asks: &mut Vec
     ui.horizontal_wrapped(|ui| {
         let tip = "Multiplies what the project states by these factors. Undo takes it back.";
         let can = !adopted.commands.is_empty();
-        if ui.add_enabled(can, Button::new("Correct the model")).on_hover_text(tip).clicked() {
+        if ui.add_enabled(can, Button::new(t!("Correct the model"))).on_hover_text(tr(tip)).clicked() {
             asks.push(Ask::Explain(Deed::Correct));
         }
         if !adopted.left.is_empty() {
@@ -229,7 +232,7 @@ fn adequate(ui: &mut Ui, scene: &Scene<'_>, diagnosis: &Diagnosis) {
                 Some(_) => "What is left is scatter from run to run",
                 None => "Something is left that nothing here explains",
             };
-            ui.label(RichText::new(said).size(size::HEADING + 2.0).color(palette.warning));
+            ui.label(RichText::new(tr(said)).size(size::HEADING + 2.0).color(palette.warning));
             return;
         }
         let (area, _) = ui.allocate_exact_size(vec2(30.0, 30.0), Sense::hover());
@@ -239,16 +242,16 @@ fn adequate(ui: &mut Ui, scene: &Scene<'_>, diagnosis: &Diagnosis) {
         ui.painter().add(egui::Shape::line(tick, theme::bold(palette.pane)));
         let detuned = is_detuned(diagnosis);
         let said = if detuned { "No effect is missing" } else { "The model now explains the data" };
-        ui.label(RichText::new(said).size(size::HEADING + 2.0));
+        ui.label(RichText::new(tr(said)).size(size::HEADING + 2.0));
     });
     ui.add_space(space::XS);
     let now = scene.explained.comparison(scene.document).and_then(|c| c.as_ref().ok());
-    ui.label(match (&spread, now) {
+    ui.label(tr(match (&spread, now) {
         (Some(spread), _) => findings::scatter_sentence(diagnosis, spread),
         // The error that stands elsewhere on the screen: a search predicts with other numbers of harmonics.
         (None, Some(now)) if !is_detuned(diagnosis) => findings::explained(now.error, now.noise_floor),
         _ => sentence_of(diagnosis, stated(scene, diagnosis)),
-    });
+    }));
     let ledger = &scene.explained.ledger;
     let path = ledger.path();
     if path.len() < 2 {
@@ -270,7 +273,7 @@ pub(super) fn next_tests(ui: &mut Ui, scene: &Scene<'_>, diagnosis: &Diagnosis) 
     let structure = &scene.document.project.structure;
     ui.title("Next test", "what would tell most");
     for test in &diagnosis.next_test {
-        ui.label(words::capital(&findings::next_test(structure, test)));
+        ui.label(tr(words::capital(&findings::next_test(structure, test))));
         ui.hint(format!("{}.", format::polished(test.why.trim_end_matches('.'))));
     }
 }
@@ -284,9 +287,9 @@ fn excluded(ui: &mut Ui, scene: &Scene<'_>, excluded: &[Source], asks: &mut Vec<
     for source in excluded {
         ui.horizontal(|ui| {
             let name = format!("{} {}", words::effect(source.effect), at(structure, &source.place));
-            ui.label(RichText::new(name).strikethrough().color(ui.palette().weak));
+            ui.label(RichText::new(tr(name)).strikethrough().color(ui.palette().weak));
             ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-                if ui.button("Take back").clicked() {
+                if ui.button(t!("Take back")).clicked() {
                     asks.push(Ask::Explain(Deed::Restore(source.clone())));
                 }
             });

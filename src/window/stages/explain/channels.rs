@@ -5,6 +5,7 @@ use crate::diagnosis::Diagnosis;
 use crate::diagnosis::channels::{ChannelFault, Fault};
 use crate::display::format::in_words;
 use crate::window::app::Ask;
+use crate::window::language::tr;
 use crate::window::theme::space;
 use crate::window::widgets::UiExt;
 use egui::{Align, Layout, RichText, Ui};
@@ -21,12 +22,12 @@ pub(super) fn show(ui: &mut Ui, diagnosis: &Diagnosis, asks: &mut Vec<Ask>) {
             ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
                 if is_mendable(fault) {
                     let tip = "Writes it into the mapping of the channel. Undo takes it back.";
-                    if ui.primary("Mend").on_hover_text(tip).clicked() {
+                    if ui.primary("Mend").on_hover_text(tr(tip)).clicked() {
                         asks.push(Ask::Explain(Deed::Mend(k)));
                     }
                 }
                 ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
-                    ui.add(egui::Label::new(RichText::new(words).color(ui.palette().missing)).wrap());
+                    ui.add(egui::Label::new(RichText::new(tr(words)).color(ui.palette().missing)).wrap());
                 });
             });
         });

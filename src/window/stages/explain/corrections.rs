@@ -10,6 +10,7 @@ use crate::diagnosis::updating::scatter::{ChannelScatter, Estimated, RunScatter,
 use crate::display::{findings, format};
 use crate::session::corrections::adopt;
 use crate::window::ask::Ask;
+use crate::window::language::{t, tf, tr};
 use crate::window::opened::Opened;
 use crate::window::theme::{self, size, space};
 use crate::window::widgets::{UiExt, folded};
@@ -76,26 +77,26 @@ impl Row<'_> {
             let size = vec2(room, space::ROW.max(name.size().y));
             let (area, response) = ui.allocate_exact_size(size, Sense::hover());
             let said = format!("{}: {}, {:.1} deviations", self.name, self.value, self.deviations);
-            response.widget_info(|| WidgetInfo::labeled(Role::Label, true, &said));
+            response.widget_info(|| WidgetInfo::labeled(Role::Label, true, tr(&said)));
             ui.painter().galley(area.left_center() - vec2(0.0, 0.5 * name.size().y), name, palette.weak);
-            response.on_hover_text(said);
+            response.on_hover_text(tr(said));
             let (area, _) = ui.allocate_exact_size(vec2(VALUE, space::ROW), Sense::hover());
             ui.painter().text(
                 area.right_center(),
                 Align2::RIGHT_CENTER,
-                &self.value,
+                tr(&self.value),
                 theme::font(size::BODY),
                 palette.ink,
             );
             bar(ui, self.deviations);
             if let Some((name, enabled)) = button {
                 ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-                    let button = egui::Button::new("Take over").small();
+                    let button = egui::Button::new(t!("Take over")).small();
                     let response = ui.add_enabled(enabled, button);
-                    response.widget_info(|| WidgetInfo::labeled(Role::Button, enabled, format!("Take over: {name}")));
+                    response.widget_info(|| WidgetInfo::labeled(Role::Button, enabled, tf!("Take over: {name}")));
                     let none = "The project has no number for it.";
                     let tip = "Puts it into the project; undo takes it back.";
-                    clicked = response.on_hover_text(tip).on_disabled_hover_text(none).clicked();
+                    clicked = response.on_hover_text(tr(tip)).on_disabled_hover_text(tr(none)).clicked();
                 });
             }
         });
@@ -122,7 +123,7 @@ fn bar(ui: &mut Ui, deviations: f64) {
     if deviations.abs() > ENDS {
         arrow(painter, track, deviations > 0.0, palette.canvas);
     }
-    response.on_hover_text(format!("{deviations:+.1} deviations; grey: ±{SEEN:.0}, ends: ±{ENDS:.0}"));
+    response.on_hover_text(tf!("{deviations:+.1} deviations; grey: ±{SEEN:.0}, ends: ±{ENDS:.0}"));
 }
 
 /// An arrow within the end of a bar that would go on: outside it would touch the figures beside it.
@@ -151,7 +152,7 @@ fn model(ui: &mut Ui, scene: &Scene<'_>, diagnosis: &Diagnosis, asks: &mut Vec<A
     let others = diagnosis.corrections.len() - telling.len();
     if others > 0 {
         let named = format!("{others} more, nearer to what the project states");
-        CollapsingHeader::new(named).id_salt("other corrections").show(ui, |ui| {
+        CollapsingHeader::new(tr(named)).id_salt("other corrections").show(ui, |ui| {
             all().filter(|(_, c)| !is_telling(c)).for_each(|(k, c)| correction(ui, scene, (k, c), asks));
         });
     }
@@ -205,7 +206,7 @@ fn runs(ui: &mut Ui, scatter: &Scatter, selected: usize) -> Option<usize> {
         let area = Rect::from_min_max(top, pos2(ui.max_rect().right(), ui.cursor().min.y));
         let response = ui.interact(area, ui.scope_id().with(("run", *run)), Sense::click());
         response.widget_info(|| {
-            WidgetInfo::selected(Role::Button, true, *run == selected, format!("Scatter of run {}", run + 1))
+            WidgetInfo::selected(Role::Button, true, *run == selected, tf!("Scatter of run {}", run + 1))
         });
         if *run == selected {
             ui.painter().rect_stroke(area, 3.0, theme::hair(palette.accent), egui::StrokeKind::Inside);
@@ -216,7 +217,7 @@ fn runs(ui: &mut Ui, scatter: &Scatter, selected: usize) -> Option<usize> {
             percent(*amplitude),
             format::with_deviation(degrees.value, degrees.deviation, "°")
         );
-        if response.on_hover_text(more).clicked() {
+        if response.on_hover_text(tr(more)).clicked() {
             chosen = Some(*run);
         }
     }

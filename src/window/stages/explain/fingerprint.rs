@@ -3,6 +3,7 @@
 use crate::diagnosis::candidates::fingerprint_plot::Print;
 use crate::display::format;
 use crate::plots::fingerprint::{figure, words};
+use crate::window::language::tr;
 use crate::window::plots::show::Stack;
 use crate::window::theme::size;
 use crate::window::widgets::UiExt;
@@ -15,7 +16,7 @@ pub(super) fn show(ui: &mut Ui, print: &Print, name: &str, height: f32) {
     ui.horizontal_wrapped(|ui| {
         let at = print.at_frequency.map_or_else(String::new, |f| format!(" at {}", format::with_unit(f, "Hz")));
         ui.hint(format!("{title}{at}"));
-        ui.label(egui::RichText::new(slope).size(size::SMALL).color(palette.missing).strong());
+        ui.label(egui::RichText::new(tr(slope)).size(size::SMALL).color(palette.missing).strong());
     });
     let figures = vec![(figure(print, palette), 1.0)];
     let title = format!("{name}: {title}");

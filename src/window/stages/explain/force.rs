@@ -8,6 +8,7 @@ use crate::plots::restoring_force::{caption, figures, maps, title};
 use crate::plots::sheet::{Panel, Sheet};
 use crate::session::validation::is_component;
 use crate::structure::Structure;
+use crate::window::language::tr;
 use crate::window::plots::export;
 use crate::window::plots::show::{self, key_row};
 use crate::window::widgets::UiExt;
@@ -39,7 +40,7 @@ fn plots(ui: &mut Ui, force: &RestoringForce, structure: &Structure) {
     let above = figures(force, structure, palette);
     let figures: Vec<Figure> = above.into_iter().chain(maps(force, structure, palette)).collect();
     let title = title(force, structure);
-    ui.hint(format!("{title} over displacement and velocity")).on_hover_text(caption(force));
+    ui.hint(format!("{title} over displacement and velocity")).on_hover_text(tr(caption(force)));
     key_row(ui, figures.iter().take(1));
     let columns = if ui.available_width() >= 2.0 * LEAST { 2 } else { 1 };
     let width = ui.available_width() / columns as f32 - 4.0;

@@ -2,6 +2,7 @@
 
 use crate::display::format::in_words;
 use crate::plots::error_map::Scale;
+use crate::window::language::tr;
 use crate::window::theme::{self, size};
 use crate::window::widgets::UiExt;
 use egui::{Align2, Rect, Role, Sense, Stroke, Ui, WidgetInfo, pos2, vec2};
@@ -38,13 +39,13 @@ impl Gauge {
     pub(super) fn show(&self, ui: &mut Ui) {
         let palette = ui.palette();
         let font = theme::font(size::SMALL);
-        let [left, right] = self.figures();
+        let [left, right] = self.figures().map(tr);
         let width = |text: &str| ui.painter().layout_no_wrap(text.to_owned(), font.clone(), palette.ink).size().x;
         // The figures stand in one line where there is room for both.
         let beside = width(&left) + width(&right) + 12.0 <= ui.available_width();
         let height = if beside { 30.0 } else { 46.0 };
         let (area, response) = ui.allocate_exact_size(vec2(ui.available_width(), height), Sense::hover());
-        response.widget_info(|| WidgetInfo::labeled(Role::Label, true, self.words()));
+        response.widget_info(|| WidgetInfo::labeled(Role::Label, true, tr(self.words())));
         let painter = ui.painter();
         let most = self.before.max(self.after);
         let scale = Scale::new(0.6 * self.floor.min(self.after).max(1e-3 * most), 1.3 * most);

@@ -9,6 +9,7 @@ use crate::display::format::in_words;
 use crate::plots::figure::{Axis, Figure, Look, Ticks};
 use crate::window::app::Ask;
 use crate::window::explained::ledger::Ledger;
+use crate::window::language::tr;
 use crate::window::plots::show::Stack;
 use crate::window::theme::{self, size, space};
 use crate::window::widgets::{UiExt, folded, width};
@@ -102,7 +103,7 @@ fn row(ui: &mut Ui, ledger: &Ledger, k: usize) -> bool {
     let palette = ui.palette();
     let step = &ledger.steps()[k];
     let current = k == ledger.current();
-    let error = in_words(step.error);
+    let error = tr(in_words(step.error));
     let ink = if ledger.path().contains(&k) { palette.ink } else { palette.weak };
     let font = theme::font(size::BODY - 0.5);
     let room = ui.available_width() - width(ui, &error, font.clone()) - 38.0;
@@ -110,7 +111,7 @@ fn row(ui: &mut Ui, ledger: &Ledger, k: usize) -> bool {
     let height = space::ROW.max(name.size().y + 6.0);
     let (area, response) = ui.allocate_exact_size(vec2(ui.available_width(), height), Sense::click());
     let label = format!("Step {k}: {}, error {error}", step.label);
-    response.widget_info(|| WidgetInfo::selected(Role::Button, true, current, &label));
+    response.widget_info(|| WidgetInfo::selected(Role::Button, true, current, tr(&label)));
     let fill = if current {
         palette.accent_faint
     } else if response.hovered() || response.has_focus() {
@@ -124,5 +125,5 @@ fn row(ui: &mut Ui, ledger: &Ledger, k: usize) -> bool {
     painter.text(pos2(area.left() + 6.0, middle), Align2::LEFT_CENTER, k, theme::font(size::SMALL), palette.weak);
     painter.text(pos2(area.right() - 6.0, middle), Align2::RIGHT_CENTER, error, font, ink);
     painter.galley(pos2(area.left() + 24.0, middle - 0.5 * name.size().y), name, ink);
-    response.on_hover_text(label).clicked()
+    response.on_hover_text(tr(label)).clicked()
 }

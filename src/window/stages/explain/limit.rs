@@ -2,6 +2,7 @@
 
 use super::deed::Deed;
 use crate::window::app::Ask;
+use crate::window::language::{t, tr};
 use crate::window::theme::space;
 use crate::window::widgets::UiExt;
 use egui::{ComboBox, RichText, Role, Ui, WidgetInfo};
@@ -19,18 +20,19 @@ pub(super) fn setting(ui: &mut Ui, limit_s: Option<f64>, asks: &mut Vec<Ask>) {
     ui.horizontal(|ui| {
         ui.hint("Time limit of the search");
         let mut chosen = limit_s;
-        let list = ComboBox::from_id_salt("time limit").selected_text(name(limit_s)).width(76.0).show_ui(ui, |ui| {
-            for limit in LIMITS {
-                ui.selectable_value(&mut chosen, limit, name(limit));
-            }
-        });
+        let list =
+            ComboBox::from_id_salt("time limit").selected_text(tr(name(limit_s))).width(76.0).show_ui(ui, |ui| {
+                for limit in LIMITS {
+                    ui.selectable_value(&mut chosen, limit, tr(name(limit)));
+                }
+            });
         let said = || {
-            let mut info = WidgetInfo::labeled(Role::ComboBox, true, "Time limit of the search");
+            let mut info = WidgetInfo::labeled(Role::ComboBox, true, t!("Time limit of the search"));
             info.current_text_value = Some(name(limit_s));
             info
         };
         list.response.widget_info(said);
-        list.response.on_hover_text("After this time a search answers with the best that it has found so far.");
+        list.response.on_hover_text(t!("After this time a search answers with the best that it has found so far."));
         if chosen != limit_s {
             asks.push(Ask::Explain(Deed::Limit(chosen)));
         }
@@ -41,7 +43,7 @@ pub(super) fn setting(ui: &mut Ui, limit_s: Option<f64>, asks: &mut Vec<Ask>) {
 pub(super) fn while_searching(ui: &mut Ui, limit_s: Option<f64>, asks: &mut Vec<Ask>) {
     setting(ui, limit_s, asks);
     let tip = "Ends the search with the best that it has found so far.";
-    if ui.button("Answer with the best so far").on_hover_text(tip).clicked() {
+    if ui.button(t!("Answer with the best so far")).on_hover_text(tr(tip)).clicked() {
         asks.push(Ask::Explain(Deed::Hurry));
     }
     ui.add_space(space::XS);
@@ -51,9 +53,9 @@ pub(super) fn while_searching(ui: &mut Ui, limit_s: Option<f64>, asks: &mut Vec<
 pub(super) fn best_so_far(ui: &mut Ui, asks: &mut Vec<Ask>) {
     ui.horizontal_wrapped(|ui| {
         let said = "The search was ended before its time: this is the best so far.";
-        ui.label(RichText::new(said).color(ui.palette().warning));
+        ui.label(RichText::new(tr(said)).color(ui.palette().warning));
         let tip = "Searches again without a time limit.";
-        if ui.button("Search to the end").on_hover_text(tip).clicked() {
+        if ui.button(t!("Search to the end")).on_hover_text(tr(tip)).clicked() {
             asks.push(Ask::Explain(Deed::SearchOn));
         }
     });

@@ -4,6 +4,7 @@ use crate::display::format;
 use crate::display::format::in_words;
 use crate::exchange::Project;
 use crate::plots::error_map::{self, Cell, ENERGY, Grid, Scale};
+use crate::window::language::{numbers, t, tr};
 use crate::window::theme::{self, Palette, size};
 use crate::window::widgets::{UiExt, width};
 use egui::{
@@ -41,7 +42,7 @@ impl Map<'_> {
     /// Shows the map no higher than `most`; gives back the cell that was clicked, as run and row.
     pub(super) fn show(&self, ui: &mut Ui, most: f32) -> Option<(usize, String)> {
         let font = theme::font(size::SMALL);
-        let width = |name: &String| ui.painter().layout_no_wrap(name.clone(), font.clone(), Color32::WHITE).size().x;
+        let width = |name: &String| ui.painter().layout_no_wrap(tr(name), font.clone(), Color32::WHITE).size().x;
         let label = self.grid.channels.iter().map(width).fold(24.0, f32::max) + 10.0;
         let (columns, rows) = (self.grid.runs.len().max(1) as f32, self.grid.channels.len().max(1) as f32);
         let cell = vec2(
@@ -52,7 +53,7 @@ impl Map<'_> {
         let mut clicked = None;
         ScrollArea::both().id_salt("map").max_height(most.max(HEAD + 24.0)).auto_shrink([false, true]).show(ui, |ui| {
             let (area, response) = ui.allocate_exact_size(extent, Sense::click());
-            response.widget_info(|| WidgetInfo::labeled(Role::Image, true, "Error map"));
+            response.widget_info(|| WidgetInfo::labeled(Role::Image, true, t!("Error map")));
             let sheet = Sheet { origin: area.min + vec2(label, HEAD), cell };
             let columns = sheet.columns(ui.clip_rect(), self.grid.runs.len());
             self.head(ui, area, &sheet, columns.clone());
@@ -63,7 +64,7 @@ impl Map<'_> {
                 clicked = response.clicked().then(|| (self.grid.runs[column], self.grid.channels[row].clone()));
             }
             if let Some((row, column)) = response.hover_pos().and_then(|p| self.at(&sheet, p)) {
-                response.on_hover_text_at_pointer(self.words(row, column));
+                response.on_hover_text_at_pointer(tr(self.words(row, column)));
             }
         });
         clicked
@@ -76,7 +77,7 @@ impl Map<'_> {
         let step = (22.0 / sheet.cell.x).ceil().max(1.0) as usize;
         let selected = self.selected.map(|(run, _)| run);
         let corner = pos2(sheet.origin.x - 6.0, area.top() + 0.5 * HEAD);
-        painter.text(corner, Align2::RIGHT_CENTER, "run", font.clone(), palette.weak);
+        painter.text(corner, Align2::RIGHT_CENTER, t!("run"), font.clone(), palette.weak);
         for (k, &run) in self.grid.runs.iter().enumerate().take(columns.end).skip(columns.start) {
             if k % step != 0 && selected != Some(run) {
                 continue;
@@ -89,7 +90,7 @@ impl Map<'_> {
             let at = pos2(sheet.origin.x - 6.0, sheet.rect(row, 0).center().y);
             let lit = self.selected.is_some_and(|(_, channel)| channel == name);
             let colour = if lit { palette.accent } else { palette.ink };
-            painter.text(at, Align2::RIGHT_CENTER, name, font.clone(), colour);
+            painter.text(at, Align2::RIGHT_CENTER, tr(name), font.clone(), colour);
         }
     }
 
@@ -115,7 +116,7 @@ impl Map<'_> {
                 if !self.grid.used[column] {
                     hatch(ui, rect, palette.weak);
                 } else if numbered {
-                    let text = error_map::percent(*cell);
+                    let text = numbers::local(&error_map::percent(*cell)).into_owned();
                     ui.painter().text(rect.center(), Align2::CENTER_CENTER, text, font.clone(), palette.text_on(fill));
                 }
             }
@@ -141,7 +142,7 @@ impl Map<'_> {
                 let id = ui.scope_id().with(("cell", channel, run));
                 let response = ui.interact(sheet.rect(row, column), id, Sense::click());
                 let chosen = self.selected == Some((run, channel));
-                response.widget_info(|| WidgetInfo::selected(Role::Button, true, chosen, self.words(row, column)));
+                response.widget_info(|| WidgetInfo::selected(Role::Button, true, chosen, tr(self.words(row, column))));
                 if response.has_focus() {
                     let stroke = theme::pen(ui.palette().accent);
                     ui.painter().rect_stroke(sheet.rect(row, column), 2.0, stroke, StrokeKind::Outside);
@@ -149,7 +150,7 @@ impl Map<'_> {
                 if response.clicked() {
                     clicked = Some((run, channel.clone()));
                 }
-                response.on_hover_text(self.words(row, column));
+                response.on_hover_text(tr(self.words(row, column)));
             }
         }
         clicked
@@ -237,19 +238,23 @@ pub(super) fn legend(ui: &mut Ui, scale: &Scale) -> Response {
     let noise = Rect::from_min_size(area.min + vec2(0.0, 1.0), vec2(16.0, 9.0));
     painter.rect(noise, 2.0, palette.raised, theme::hair(palette.line), StrokeKind::Inside);
     let below = noise.bottom() + 2.0;
-    let bar = Rect::from_min_max(pos2(area.left() + 78.0, noise.top()), pos2(area.right() - 30.0, noise.bottom()));
+    let floor = format!("floor {}", format::percent(scale.floor));
+    // The floor stands under the left end where it is least, beside the word of the box before it.
+    let left = width(ui, "noise", font.clone()) + 0.5 * width(ui, &floor, font.clone()) + 8.0;
+    let ends = [area.left() + left.max(78.0), area.right() - 30.0];
+    let bar = Rect::from_x_y_ranges(ends[0]..=ends[1], noise.y_range());
     for k in 0..STEPS {
         let abscissa = |k: usize| bar.left() + bar.width() * k as f32 / STEPS as f32;
         let piece = Rect::from_min_max(pos2(abscissa(k), bar.top()), pos2(abscissa(k + 1) + 0.5, bar.bottom()));
         painter.rect_filled(piece, 0.0, palette.error_shade((k as f32 + 0.5) / STEPS as f32));
     }
-    painter.text(pos2(area.left(), below), Align2::LEFT_TOP, "noise", font.clone(), palette.weak);
+    painter.text(pos2(area.left(), below), Align2::LEFT_TOP, t!("noise"), font.clone(), palette.weak);
     let mark = |value: f64, text: String, colour: Color32| {
         let x = bar.left() + bar.width() * scale.share(value);
         painter.line_segment([pos2(x, bar.top() - 1.0), pos2(x, bar.bottom() + 2.0)], theme::hair(colour));
-        painter.text(pos2(x, below), Align2::CENTER_TOP, text, font.clone(), colour);
+        painter.text(pos2(x, below), Align2::CENTER_TOP, tr(text), font.clone(), colour);
     };
-    mark(scale.floor, format!("floor {}", format::percent(scale.floor)), palette.ink);
+    mark(scale.floor, floor, palette.ink);
     let clear = |v: &f64| bar.width() * scale.share(*v) > 62.0 && bar.width() * (1.0 - scale.share(*v)) > 34.0;
     for value in scale.ticks().into_iter().filter(clear) {
         mark(value, trimmed(value), palette.weak);

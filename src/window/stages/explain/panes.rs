@@ -16,6 +16,7 @@ use crate::plots::samples;
 use crate::session::validation::only_records;
 use crate::window::ask::Ask;
 use crate::window::cache::Cached;
+use crate::window::language::{t, tr};
 use crate::window::opened::Opened;
 use crate::window::theme::{size, space};
 use crate::window::widgets::UiExt;
@@ -39,8 +40,8 @@ impl<'a> Shown<'a> {
         let now = match explained.comparison(document) {
             Some(Err(error)) => {
                 ui.title("The model cannot be compared", "");
-                ui.colored_label(ui.palette().error, error);
-                if ui.button("Compare again").clicked() {
+                ui.colored_label(ui.palette().error, tr(error));
+                if ui.button(t!("Compare again")).clicked() {
                     asks.push(Ask::Explain(Deed::Retry));
                 }
                 return None;
@@ -98,9 +99,9 @@ pub(crate) fn error_map(ui: &mut Ui, opened: &mut Opened<'_>, asks: &mut Vec<Ask
     ui.add_space(space::XS);
     let legend = map::legend(ui, &scale);
     if with_words {
-        ui.add(Label::new(RichText::new(said).size(size::SMALL).color(ui.palette().weak)).truncate());
+        ui.add(Label::new(RichText::new(tr(said)).size(size::SMALL).color(ui.palette().weak)).truncate());
     } else if !said.is_empty() {
-        legend.on_hover_text(said);
+        legend.on_hover_text(tr(said));
     }
     let worst = || grid.runs.first().zip(grid.channels.first()).map(|(run, channel)| (*run, channel.clone()));
     let first = !before.chosen && before.worst_first && opened.view.run == 0;
@@ -206,7 +207,7 @@ fn head(ui: &mut Ui, look: &mut Look, comparison: &Comparison) {
         String::new()
     };
     let text = format!("error {}{energy}; cells in %", in_words(comparison.error));
-    let words = Label::new(RichText::new(&text).size(size::SMALL).color(ui.palette().weak)).truncate();
+    let words = Label::new(RichText::new(tr(&text)).size(size::SMALL).color(ui.palette().weak)).truncate();
     if look.in_bar[0] {
         ui.add(words);
         return;
@@ -231,9 +232,10 @@ fn not_taken_over(ui: &mut Ui, scene: &Scene<'_>, outcome: Option<&Outcome>, ask
     let said =
         if known { "What was identified does not act in the model yet." } else { "The model has no damping yet." };
     ui.horizontal_wrapped(|ui| {
-        ui.label(RichText::new(said).color(ui.palette().warning)).on_hover_text("Only known sources act in the model.");
+        ui.label(RichText::new(tr(said)).color(ui.palette().warning))
+            .on_hover_text(t!("Only known sources act in the model."));
         let tip = "Makes the identified sources known at their values.";
-        if ui.button("Take over what was identified").on_hover_text(tip).clicked() {
+        if ui.button(t!("Take over what was identified")).on_hover_text(tr(tip)).clicked() {
             asks.push(Ask::Explain(Deed::TakeOver));
         }
     });
@@ -252,7 +254,7 @@ fn preview(
         let name = card::name(scene, source);
         ui.pill("Preview", ui.palette().missing);
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-            if ui.button("End preview").clicked() {
+            if ui.button(t!("End preview")).clicked() {
                 asks.push(Ask::Explain(Deed::Stop));
             }
             let text = match (tried, scene.explained.trial(scene.document, source)) {
@@ -264,7 +266,7 @@ fn preview(
                 (None, _) => format!("{name} is being tried"),
             };
             ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
-                ui.add(Label::new(text.as_str()).truncate()).on_hover_text(text);
+                ui.add(Label::new(tr(text.as_str())).truncate()).on_hover_text(tr(text));
             });
         });
     });

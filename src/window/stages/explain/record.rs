@@ -9,6 +9,7 @@ use crate::display::format;
 use crate::plots::amplitude_curve::{figures, told};
 use crate::plots::figure::Figure;
 use crate::plots::record_residual::RecordResidual;
+use crate::window::language::tr;
 use crate::window::plots::show::Stack;
 use crate::window::theme::{self, size, space};
 use crate::window::widgets::{UiExt, width};
@@ -76,7 +77,7 @@ fn curves(ui: &mut Ui, file: &str, record: &OneRecord, look: &mut Look) {
         ui.horizontal_wrapped(|ui| {
             for (k, other) in curves.iter().enumerate() {
                 let name = format!("Mode near {}", format::with_unit(other.frequency_hz, "Hz"));
-                if ui.selectable_label(std::ptr::eq(*other, curve), name).clicked() {
+                if ui.selectable_label(std::ptr::eq(*other, curve), tr(name)).clicked() {
                     look.mode = k;
                 }
             }

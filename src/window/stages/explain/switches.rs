@@ -2,6 +2,7 @@
 //! maps and plots have the height; else in the panes.
 
 use super::look::{Look, RecordTab, Tab};
+use crate::window::language::tr;
 use crate::window::theme::{self, size, space};
 use crate::window::widgets::width;
 use egui::Ui;
@@ -63,7 +64,7 @@ pub(crate) fn record_tabs(ui: &mut Ui, look: &mut Look) {
 fn choose<T: Copy + PartialEq, const N: usize>(ui: &mut Ui, chosen: &mut T, choices: [Choice<T>; N]) {
     ui.spacing_mut().item_spacing.x = 2.0;
     for (value, label, tooltip) in choices.into_iter().rev() {
-        if ui.selectable_label(*chosen == value, label).on_hover_text(tooltip).clicked() {
+        if ui.selectable_label(*chosen == value, tr(label)).on_hover_text(tr(tooltip)).clicked() {
             *chosen = value;
         }
     }

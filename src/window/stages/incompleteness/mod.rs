@@ -2,6 +2,7 @@
 
 pub(crate) mod choice;
 
+use crate::window::language::{t, tr};
 use choice::{Along, Choice, Error};
 
 use crate::classical::incompleteness::{Case, Incompleteness, METHODS};
@@ -31,14 +32,14 @@ pub(crate) fn show(ui: &mut Ui, document: &Document, derived: &mut Derived, choi
     ui.horizontal_wrapped(|ui| {
         ui.hint("Along");
         for (value, name) in [(Along::Modes, "modes"), (Along::Sensors, "sensors")] {
-            ui.selectable_value(&mut choice.along, value, name);
+            ui.selectable_value(&mut choice.along, value, tr(name));
         }
         ui.separator();
         ui.hint("Error of");
-        ui.selectable_value(&mut choice.error, Error::Matrix, "damping matrix");
+        ui.selectable_value(&mut choice.error, Error::Matrix, t!("damping matrix"));
         ui.add_enabled_ui(with_mac, |ui| {
-            ui.selectable_value(&mut choice.error, Error::Mac, "modes (MAC)")
-                .on_disabled_hover_text("The structure has too many DOFs for the modes of every matrix.");
+            ui.selectable_value(&mut choice.error, Error::Mac, t!("modes (MAC)"))
+                .on_disabled_hover_text(t!("The structure has too many DOFs for the modes of every matrix."));
         });
     });
     if choice.along == Along::Modes {
@@ -46,12 +47,12 @@ pub(crate) fn show(ui: &mut Ui, document: &Document, derived: &mut Derived, choi
             ui.hint("Measured DOFs");
             for (k, set) in study.sensors.iter().enumerate() {
                 let names = names(&document.project.structure, set);
-                ui.selectable_value(&mut choice.set, k, set.len().to_string()).on_hover_text(names);
+                ui.selectable_value(&mut choice.set, k, set.len().to_string()).on_hover_text(tr(names));
             }
         });
     }
     let remark = remark(&study, *choice);
-    ui.add(Label::new(RichText::new(remark).size(size::SMALL).color(ui.palette().weak)).truncate());
+    ui.add(Label::new(RichText::new(tr(remark)).size(size::SMALL).color(ui.palette().weak)).truncate());
     let figure = figure(&study, *choice, ui.palette());
     let id = format!("incompleteness {choice:?}");
     let title = "Errors of the classical methods with incomplete data";
