@@ -42,7 +42,7 @@ pub(crate) fn kind_of(name: &str, unit: &str) -> Option<Kind> {
     let unit = unit.trim().to_lowercase();
     let word = name.split(|c: char| !c.is_alphanumeric()).next().unwrap_or_default();
     if matches!(unit.as_str(), "hz" | "khz" | "rad/s")
-        && (name.is_empty() || word.starts_with('f') || word.starts_with("om"))
+        && (name.is_empty() || word == "x" || word.starts_with('f') || word.starts_with("om"))
     {
         return Some(Kind::Spectrum);
     }
@@ -88,6 +88,7 @@ mod tests {
         assert_eq!(kind_of("Zeit", "s"), Some(Kind::Time));
         assert_eq!(kind_of("Frequency", "Hz"), Some(Kind::Spectrum));
         assert_eq!(kind_of("force", "N"), None);
+        assert_eq!(kind_of("X-axis", "Hz"), Some(Kind::Spectrum));
         assert_eq!(kind_of("period", "s"), None);
     }
 }

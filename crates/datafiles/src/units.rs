@@ -319,7 +319,9 @@ pub fn sensitivity(text: &str) -> Option<(f64, String, String)> {
 fn bracketed(text: &str, open: char, close: char) -> Option<(String, String)> {
     let inner = text.strip_suffix(close)?;
     let at = opening(inner, open, close)?;
-    Some((inner[..at].trim().to_owned(), inner[at + open.len_utf8()..].trim().to_owned()))
+    // `a4/(m/s²)`: the stroke is no part of the name.
+    let name = inner[..at].trim().trim_end_matches('/').trim();
+    Some((name.to_owned(), inner[at + open.len_utf8()..].trim().to_owned()))
 }
 
 /// Place of the bracket that the one behind the text closes: `dB (m/s²)/N` within brackets has some of its own.
@@ -362,6 +364,7 @@ mod tests {
         assert_eq!(pair("acc@7 [m/s^2]"), ("acc@7".to_owned(), "m/s^2".to_owned()));
         assert_eq!(pair("Acc 7 (g)"), ("Acc 7".to_owned(), "g".to_owned()));
         assert_eq!(pair("Force (left)"), ("Force (left)".to_owned(), String::new()));
+        assert_eq!(pair("a4/(m/s²)"), ("a4".to_owned(), "m/s²".to_owned()));
         assert_eq!(pair("Kraft / N"), ("Kraft".to_owned(), "N".to_owned()));
         assert_eq!(pair("time"), ("time".to_owned(), String::new()));
     }

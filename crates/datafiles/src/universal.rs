@@ -123,8 +123,9 @@ fn function(set: &mut Set, header: &FunctionHeader, units: Option<&uff::Units>) 
         }
     };
     attribute("function", header.kind.name().to_owned());
-    attribute("response", place(&header.response));
-    attribute("reference", place(&header.reference));
+    let [response, reference] = header.stated_dofs();
+    attribute("response", place(&response));
+    attribute("reference", place(&reference));
     attribute("quantity", header.ordinate.quantity.to_string());
     attribute("reference quantity", header.denominator.quantity.to_string());
     attribute("label", header.ordinate.label.clone());
@@ -173,7 +174,7 @@ fn place(dof: &Dof) -> String {
 
 /// Response over reference for functions of two, else the response, else the entity or the text of the first line.
 fn name(header: &FunctionHeader) -> String {
-    let (response, reference) = (place(&header.response), place(&header.reference));
+    let [response, reference] = header.stated_dofs().map(|dof| place(&dof));
     let two = matches!(
         header.kind,
         FunctionKind::FrequencyResponse

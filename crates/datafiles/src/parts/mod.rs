@@ -264,6 +264,23 @@ fn re(number: Number) -> f64 {
     }
 }
 
+/// The unit of an array whose name says which part of frequency responses it holds, out of the one that is stated for all of
+/// them: `dB re UNIT` of levels; none of phases, coherences, other arrays, or where there is no single unit over another.
+pub(crate) fn unit_of_part(name: &str, stated: &[String]) -> Option<String> {
+    let [unit] = stated else { return None };
+    let said = words::said(name);
+    if !unit.contains('/') || !is_unit(unit) {
+        return None;
+    }
+    match (said.scale, said.part) {
+        _ if said.coherence => Some(String::new()),
+        (_, Some(words::Part::Phase)) => Some(String::new()),
+        (Some(Scale::Decibel), _) => Some(format!("dB re {unit}")),
+        (_, Some(_)) => Some(unit.clone()),
+        _ => None,
+    }
+}
+
 /// Whether a name is that of a coherence.
 pub fn is_coherence(name: &str) -> bool {
     words::said(name).coherence

@@ -193,7 +193,8 @@ fn tokens(name: &str) -> Vec<&str> {
     let letters: Vec<(usize, char)> = name.char_indices().collect();
     for pair in letters.windows(2) {
         let ((_, a), (at, b)) = (pair[0], pair[1]);
-        if kind(a) != kind(b) || a.is_lowercase() && b.is_uppercase() {
+        // `dB` is one word.
+        if kind(a) != kind(b) || a.is_lowercase() && b.is_uppercase() && (a, b) != ('d', 'B') {
             cuts.push(at);
         }
     }

@@ -1,8 +1,9 @@
 //! Names, units and the sampling rate out of the lines above a block of numbers.
 
-use super::cell::number;
-use super::header_line::HeaderLine;
+use super::header_line::{HeaderLine, uncommented};
+use super::sampling::step;
 use crate::axis::kind_of;
+use crate::parts::unit_of_part;
 use crate::parts::words::is_bare_part;
 use crate::units::{is_unit, split, stripped, suffix};
 
@@ -154,12 +155,26 @@ fn rows(lines: &[HeaderLine], width: usize) -> Header {
         header.sensitivities = lines[at].cells.iter().map(|cell| uncommented(cell).to_owned()).collect();
     }
     header.units_behind_names();
+    if let Some(unit) = lines.iter().find_map(|line| unit_of_functions(&line.cells)) {
+        header.take_unit_of_functions(&unit);
+    }
     let used = |i: &usize| Some(*i) != names && Some(*i) != units;
     for line in (0..lines.len()).filter(used).map(|i| &lines[i]) {
         header.step = header.step.or_else(|| step(&line.cells));
         header.remarks.push(line.cells.join(" ").trim().to_owned());
     }
     header
+}
+
+/// The unit of all functions out of a line such as `Amplitude unit: (m/s²)/N`.
+fn unit_of_functions(cells: &[String]) -> Option<String> {
+    let line = cells.join("\t");
+    let (front, rest) = line.split_once([':', '=', '\t'])?;
+    let words =
+        ["amplitude unit", "y-axis unit", "y axis unit", "y unit", "ordinate unit", "frf unit", "amplitudeneinheit"];
+    let rest = rest.trim().split(['\t', ';', ',']).next()?.split("  ").next()?.trim();
+    let unit = stripped(rest);
+    (words.contains(&label(front).as_str()) && unit.contains('/') && is_unit(unit)).then(|| unit.to_owned())
 }
 
 /// Rows of names and units by their place right above the numbers.
@@ -220,11 +235,6 @@ fn units_row(cells: &[String]) -> bool {
     !filled.is_empty()
         && 2 * units > filled.len()
         && filled.iter().any(|cell| is_unit(uncommented(cell)) || bracketed(cell))
-}
-
-/// A cell without a comment sign in front.
-pub(super) fn uncommented(cell: &str) -> &str {
-    cell.trim_start_matches(['#', '%', '!', '/', '*']).trim()
 }
 
 pub(super) fn label(cell: &str) -> String {
@@ -288,6 +298,19 @@ impl Header {
         }
     }
 
+    /// Gives levels and parts of functions without a unit that of all functions.
+    fn take_unit_of_functions(&mut self, stated: &str) {
+        for (name, unit) in self.names.iter().zip(&mut self.units) {
+            let level = unit.eq_ignore_ascii_case("dB");
+            let own = if level { "dB" } else { name };
+            if (level || unit.is_empty())
+                && let Some(of_part) = unit_of_part(own, &[stated.to_owned()])
+            {
+                *unit = of_part;
+            }
+        }
+    }
+
     fn take_units(&mut self, cells: &[String]) {
         for (i, cell) in cells.iter().take(self.units.len()).enumerate() {
             let unit = stripped(uncommented(cell));
@@ -297,45 +320,6 @@ impl Header {
             unit.clone_into(&mut self.units[i]);
         }
     }
-}
-
-/// The time between samples out of a line such as `Sampling rate: 2048 Hz` or `dt [s];0.001`.
-pub(crate) fn step(cells: &[String]) -> Option<f64> {
-    let line = cells.join(" ").to_lowercase();
-    let line = uncommented(&line);
-    let end = line.find([':', '=']).unwrap_or(line.len());
-    let key: String = line[..end].chars().take_while(|c| !c.is_ascii_digit()).collect();
-    let plain: String = key.chars().filter(|c| c.is_alphanumeric()).collect();
-    let rate = ["samplerate", "samplingrate", "samplefreq", "samplingfreq", "abtastrate", "abtastfreq", "messrate"];
-    let interval = [
-        "samplinginterval",
-        "sampleinterval",
-        "sampleperiod",
-        "samplingperiod",
-        "timestep",
-        "deltat",
-        "deltax",
-        "abtastintervall",
-    ];
-    let is_rate = rate.iter().any(|word| plain.contains(word)) || matches!(plain.as_str(), "fs" | "fshz" | "sr");
-    let is_interval =
-        interval.iter().any(|word| plain.contains(word)) || matches!(plain.as_str(), "dt" | "dts" | "dtms");
-    if !is_rate && !is_interval {
-        return None;
-    }
-    let rest = &line[key.len().min(line.len())..];
-    let value = rest
-        .split(|c: char| c.is_whitespace() || matches!(c, ':' | '=' | ';' | '[' | ']' | '(' | ')'))
-        .find_map(|word| number(word, false).or_else(|| number(word, true)))
-        .filter(|value| *value > 0.0 && value.is_finite())?;
-    let scale = if is_rate && line.contains("khz") {
-        1e3
-    } else if !is_rate && (line.contains(" ms") || line.contains("[ms]") || line.contains("(ms)")) {
-        1e-3
-    } else {
-        1.0
-    };
-    Some(if is_rate { 1.0 / (value * scale) } else { value * scale })
 }
 
 #[cfg(test)]
@@ -393,14 +377,5 @@ mod tests {
         assert_eq!((header.names[2].as_str(), header.units[2].as_str()), ("H11 Im", "m/s²/N"));
         let header = read(&lines(&["Point;Beam:1;Direction;+Z", "Frequency;Real;Imag", "Hz;g/N;g/N"]), 3);
         assert_eq!((header.names.join(",").as_str(), header.units[2].as_str()), ("Frequency,Real,Imag", "g/N"));
-    }
-
-    #[test]
-    fn rates_are_understood() {
-        let of = |text: &str| step(&text.split(';').map(str::to_owned).collect::<Vec<_>>());
-        assert_eq!(of("# Sampling rate: 2000 Hz"), Some(1.0 / 2000.0));
-        assert_eq!(of("Abtastrate;2,5 kHz"), Some(1.0 / 2500.0));
-        assert_eq!(of("dt = 0.5 ms"), Some(0.0005));
-        assert_eq!(of("date: 2024"), None);
     }
 }

@@ -5,3 +5,8 @@
 pub(crate) struct HeaderLine {
     pub cells: Vec<String>,
 }
+
+/// A cell without a comment sign in front.
+pub(super) fn uncommented(cell: &str) -> &str {
+    cell.trim_start_matches(['#', '%', '!', '/', '*']).trim()
+}

@@ -5,6 +5,7 @@ pub(crate) mod cell;
 mod header;
 mod header_line;
 mod listed;
+mod sampling;
 mod sets;
 
 pub(crate) use blocks::{Block, Blocks};

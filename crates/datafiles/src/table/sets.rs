@@ -82,6 +82,10 @@ fn one(name: String, mut block: Block) -> (Set, Columns) {
         if axis.is_some_and(|(at, _)| at == i) || unused(&numbers, &header.names[i]) {
             continue;
         }
+        if i == 0 && counts_rows(&numbers, &header.names[0]) {
+            set.notes.push("column 1 counts the rows: it is no channel and no time".to_owned());
+            continue;
+        }
         // Some programs write the abscissa beside every channel.
         if axis.is_some_and(|(_, kind)| kind_of(&header.names[i], &header.units[i]) == Some(kind))
             && axis_values.as_ref() == Some(&numbers.re)
@@ -160,6 +164,23 @@ fn join_date(header: &mut header::Header, block: &mut Block) {
     }
 }
 
+/// Names of a column that counts the rows.
+const COUNTERS: [&str; 16] = [
+    "", "line", "row", "index", "idx", "no", "no.", "nr", "nr.", "#", "sample", "samples", "point", "zeile", "kanal",
+    "channel",
+];
+
+/// Whether the first column counts the rows, 0, 1, 2, ... or 1, 2, 3, ...
+fn counts_rows(numbers: &Numbers, name: &str) -> bool {
+    let first = numbers.re.first().copied().unwrap_or(f64::NAN);
+    let counted = || numbers.re.iter().enumerate().all(|(i, value)| (value - first - i as f64).abs() < 1e-9);
+    COUNTERS.contains(&name.trim().to_lowercase().as_str())
+        && numbers.re.len() > 3
+        && numbers.im.is_empty()
+        && (first == 0.0 || first == 1.0)
+        && counted()
+}
+
 /// A column that a separator at the end of rows makes.
 fn unused(numbers: &Numbers, name: &str) -> bool {
     numbers.re.is_empty() && (name.is_empty() || name.eq_ignore_ascii_case("comment"))
@@ -197,7 +218,8 @@ fn find_axis(header: &header::Header, columns: &[Numbers], rows: usize) -> Optio
         return Some((clock, Kind::Time));
     }
     let nameless = header.names[0].is_empty() && header.units[0].is_empty();
-    (nameless && rows > 3 && usable(0) && even_step(&columns[0].re).is_some()).then_some((0, Kind::Time))
+    let counts = || counts_rows(&columns[0], "");
+    (nameless && rows > 3 && usable(0) && even_step(&columns[0].re).is_some() && !counts()).then_some((0, Kind::Time))
 }
 
 fn values(numbers: Numbers) -> Values {

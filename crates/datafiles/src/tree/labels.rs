@@ -10,6 +10,8 @@ pub(super) struct Labels {
     pub units: Vec<String>,
     pub unit_of: Vec<(String, String)>,
     pub sides: Vec<Side>,
+    /// Whether the names are those of the columns of several arrays.
+    pub shared: bool,
 }
 
 /// An array of system identification with the names and units of its columns.
@@ -43,7 +45,13 @@ impl Labels {
             let name = ["_units", "_unit"].iter().find_map(|end| lower.strip_suffix(end))?;
             Some((name.to_owned(), texts(entry)?.into_iter().next()?))
         });
-        Self { names: find(names::is_names_word), units: find(names::is_unit_word), unit_of: unit_of.collect(), sides }
+        let names = find(names::is_names_word);
+        let takes = |entry: &&Entry| match &entry.node {
+            Node::Array(array) => !array.is_vector() && array.shape.extents.contains(&(names.len() as u64)),
+            _ => false,
+        };
+        let shared = names.len() > 1 && entries.iter().filter(takes).count() > 1;
+        Self { names, units: find(names::is_unit_word), unit_of: unit_of.collect(), sides, shared }
     }
 }
 
@@ -61,5 +69,43 @@ impl Labels {
             Entry { name: self.names[i].clone(), node: entry.node.clone(), attributes }
         };
         Some(cells.iter().enumerate().map(named_entry).collect())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::sets::sets;
+    use super::super::source::{Arrays, Flat};
+    use super::super::{Array, Shape};
+    use super::*;
+    use crate::error::Read;
+
+    struct Zeros;
+    impl Arrays for Zeros {
+        fn read(&self, _: usize) -> Read<Flat> {
+            unreachable!("no abscissa is looked for")
+        }
+    }
+
+    /// Levels and phases of the same points: the names of the points are told apart by those of the arrays.
+    #[test]
+    fn names_of_several_arrays_are_told_apart() {
+        let array = |name: &str, id: usize| {
+            let shape = Shape::new([5, 2], true);
+            Entry::new(name, Node::Array(Array { id, shape, complex: false, peek: vec![[0.0; 2]; 7] }))
+        };
+        let text =
+            |name: &str, texts: &[&str]| Entry::new(name, Node::Text(texts.iter().map(|&t| t.to_owned()).collect()));
+        let names = || text("channel_names", &["Acc 1z", "Acc 2z"]);
+        let of = |entries: &[Entry]| -> Vec<String> {
+            let (found, _) = sets(entries, &[], &Zeros).unwrap_or_default();
+            found.iter().flat_map(|set| &set.channels).map(|c| format!("{} [{}]", c.name, c.unit)).collect()
+        };
+        let two = [array("H_dB", 0), array("H_phase_deg", 1), names(), text("unit", &["g/N"])];
+        assert_eq!(
+            of(&two),
+            ["H_dB Acc 1z [dB re g/N]", "H_dB Acc 2z [dB re g/N]", "H_phase_deg Acc 1z []", "H_phase_deg Acc 2z []"]
+        );
+        assert_eq!(of(&[array("data", 0), names()]), ["Acc 1z []", "Acc 2z []"]);
     }
 }

@@ -148,6 +148,15 @@ impl Array {
         (self.shape.len() == Some(1) && !self.complex).then(|| self.peek.first().map(|value| value[0]))?
     }
 
+    /// Step of a long abscissa of `count` values by its first and last ones.
+    pub(crate) fn step_of_peek(&self, count: u64) -> Option<f64> {
+        let values: Vec<f64> = (0..3).chain([count - 1]).filter_map(|i| self.at(i)).map(|value| value[0]).collect();
+        let [a, b, c, last] = values[..] else { return None };
+        let step = (last - a) / (count - 1) as f64;
+        let near = |difference: f64| (difference - step).abs() <= 0.01 * step.abs();
+        (step > 0.0 && near(b - a) && near(c - b)).then_some(step)
+    }
+
     /// Whether it has one extent.
     pub(crate) fn is_vector(&self) -> bool {
         self.shape.extents.len() == 1

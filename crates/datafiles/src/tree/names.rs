@@ -158,3 +158,9 @@ fn entry_at<'a>(entries: &'a [Entry], path: &[&str]) -> Option<&'a Entry> {
     }
     entries.iter().find(|entry| entry.name == *last)
 }
+
+/// Adds what a group says of its only channel, such as its point, to what the channel itself says.
+pub(super) fn add_missing(own: &mut Vec<(String, String)>, of_group: &[(String, String)]) {
+    let known: Vec<String> = own.iter().map(|(name, _)| name.clone()).collect();
+    own.extend(of_group.iter().filter(|(name, _)| !known.contains(name)).cloned());
+}

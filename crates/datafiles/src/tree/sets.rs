@@ -12,6 +12,7 @@ use super::{Array, Arrays, Cut, Entry, MOST_CHECKED, Node, Shape};
 use crate::axis::{ascending, even_step, kind_of};
 use crate::contents::{Axis, Channel, FIRST, Kind, Number, Set};
 use crate::error::{Read, one_line};
+use crate::parts::unit_of_part;
 use crate::units::{is_unit, suffix};
 
 /// Most notes that are kept of a group.
@@ -151,7 +152,7 @@ impl Made<'_> {
                 }
                 even_step(&values)
             } else {
-                step_of_peek(array, count)
+                array.step_of_peek(count)
             };
             let unit = match (unit, kind) {
                 ("", Kind::Time) => "s",
@@ -315,7 +316,8 @@ fn channels(
         let name = name.or_else(|| listed(&labels.names).filter(|_| cut.channels > 1));
         // A place alone does not say what was measured there; the name of the array may.
         let place = |name: &String| name.starts_with(|c: char| c.is_ascii_digit());
-        let name = name.map(|name| if place(&name) { format!("{} {name}", entry.name) } else { name });
+        let told_apart = |name: &String| place(name) || labels.shared && labels.names.contains(name);
+        let name = name.map(|name| if told_apart(&name) { format!("{} {name}", entry.name) } else { name });
         let name = name.unwrap_or(numbered);
         let single = names::unit_of(&entry.attributes).filter(|_| own_units.is_empty());
         let unit = single
@@ -326,7 +328,10 @@ fn channels(
             .or_else(|| suffix(&entry.name).filter(|_| cut.channels == 1).map(|(_, unit)| unit.to_owned()));
         // One unit beside functions is that of all of them.
         let of_all = || labels.units.first().filter(|_| array.complex && labels.units.len() == 1).cloned();
-        let unit = unit.or_else(|| listed(&labels.units)).or_else(of_all).unwrap_or_default();
+        let unit = unit
+            .or_else(|| unit_of_part(&entry.name, &labels.units))
+            .or_else(|| listed(&labels.units).filter(|_| kind_of(&entry.name, "").is_none()));
+        let unit = unit.or_else(of_all).unwrap_or_default();
         let mut channel = Channel::new(name, unit, cut.count);
         channel.complex = array.complex;
         channel.attributes.clone_from(&entry.attributes);
@@ -344,6 +349,7 @@ fn channels(
 /// Kind, unit of the abscissa and what the group says of all its channels.
 fn finish(set: &mut Set, entries: &[Entry], attributes: &[(String, String)], axis: Option<&Abscissa>) {
     if let [channel] = &mut set.channels[..] {
+        names::add_missing(&mut channel.attributes, attributes);
         channel.attributes.extend(
             names::scale_beside(entries, &channel.first).map(|scale| ("scale beside".to_owned(), scale.to_string())),
         );
@@ -378,15 +384,6 @@ fn first(array: &Array, cut: &Cut, channel: u64) -> Vec<Number> {
 
 fn number(value: [f64; 2], complex: bool) -> Number {
     if complex { Number::Complex(value) } else { Number::Real(value[0]) }
-}
-
-/// Step of a long abscissa by its first and last values.
-fn step_of_peek(array: &Array, count: u64) -> Option<f64> {
-    let values: Vec<f64> = (0..3).chain([count - 1]).filter_map(|i| array.at(i)).map(|value| value[0]).collect();
-    let [a, b, c, last] = values[..] else { return None };
-    let step = (last - a) / (count - 1) as f64;
-    let near = |difference: f64| (difference - step).abs() <= 0.01 * step.abs();
-    (step > 0.0 && near(b - a) && near(c - b)).then_some(step)
 }
 
 fn note(set: &mut Set, text: String) {

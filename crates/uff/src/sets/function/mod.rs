@@ -3,6 +3,7 @@
 mod data;
 mod header;
 mod kind;
+mod named;
 
 pub use header::{Axis, Binary, ByteOrder, FunctionHeader};
 pub(crate) use header::{identification, read as read_header};

@@ -1,0 +1,57 @@
+//! The sampling rate out of the lines above a block of numbers.
+
+use super::cell::number;
+use super::header_line::uncommented;
+
+/// The time between samples out of a line such as `Sampling rate: 2048 Hz` or `dt [s];0.001`.
+pub(crate) fn step(cells: &[String]) -> Option<f64> {
+    let line = cells.join(" ").to_lowercase();
+    let line = uncommented(&line);
+    let end = line.find([':', '=']).unwrap_or(line.len());
+    let key: String = line[..end].chars().take_while(|c| !c.is_ascii_digit()).collect();
+    let plain: String = key.chars().filter(|c| c.is_alphanumeric()).collect();
+    let rate = ["samplerate", "samplingrate", "samplefreq", "samplingfreq", "abtastrate", "abtastfreq", "messrate"];
+    let interval = [
+        "samplinginterval",
+        "sampleinterval",
+        "sampleperiod",
+        "samplingperiod",
+        "timestep",
+        "deltat",
+        "deltax",
+        "abtastintervall",
+    ];
+    let is_rate = rate.iter().any(|word| plain.contains(word)) || matches!(plain.as_str(), "fs" | "fshz" | "sr");
+    let is_interval =
+        interval.iter().any(|word| plain.contains(word)) || matches!(plain.as_str(), "dt" | "dts" | "dtms");
+    if !is_rate && !is_interval {
+        return None;
+    }
+    let rest = &line[key.len().min(line.len())..];
+    let value = rest
+        .split(|c: char| c.is_whitespace() || matches!(c, ':' | '=' | ';' | '[' | ']' | '(' | ')'))
+        .find_map(|word| number(word, false).or_else(|| number(word, true)))
+        .filter(|value| *value > 0.0 && value.is_finite())?;
+    let scale = if is_rate && line.contains("khz") {
+        1e3
+    } else if !is_rate && (line.contains(" ms") || line.contains("[ms]") || line.contains("(ms)")) {
+        1e-3
+    } else {
+        1.0
+    };
+    Some(if is_rate { 1.0 / (value * scale) } else { value * scale })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rates_are_understood() {
+        let of = |text: &str| step(&text.split(';').map(str::to_owned).collect::<Vec<_>>());
+        assert_eq!(of("# Sampling rate: 2000 Hz"), Some(1.0 / 2000.0));
+        assert_eq!(of("Abtastrate;2,5 kHz"), Some(1.0 / 2500.0));
+        assert_eq!(of("dt = 0.5 ms"), Some(0.0005));
+        assert_eq!(of("date: 2024"), None);
+    }
+}
