@@ -13,6 +13,8 @@ mod laboratories;
 mod mapped;
 #[path = "import/onto_model.rs"]
 mod onto_model;
+#[path = "import/results.rs"]
+mod results;
 #[path = "import/sets.rs"]
 mod sets;
 

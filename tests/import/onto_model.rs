@@ -3,13 +3,13 @@
 use super::{dashpot, imported, json};
 use std::path::Path;
 
-const BEAM: &str = "[structure]\nkind = \"beam\"\nlength = 0.56\nbreadth = 0.04\ndepth = 0.004\nyoungs_modulus = 69e9\n\
+pub(super) const BEAM: &str = "[structure]\nkind = \"beam\"\nlength = 0.56\nbreadth = 0.04\ndepth = 0.004\nyoungs_modulus = 69e9\n\
                     density = 2700.0\nelements = 10\nsupports = \"clamped-free\"\n";
 /// Hidden dashpot at node 5, N s/m.
-const C: f64 = 0.4;
+pub(super) const C: f64 = 0.4;
 
 /// Records of the beam under a force at node 10, named as `header` says in place of the names of the project.
-fn recorded(folder: &Path, header: &str) -> Vec<String> {
+pub(super) fn recorded(folder: &Path, header: &str) -> Vec<String> {
     let runs: String = [9.9, 10.5, 65.0, 66.5]
         .iter()
         .enumerate()
@@ -32,7 +32,7 @@ fn recorded(folder: &Path, header: &str) -> Vec<String> {
 }
 
 /// Imports the files with a template; what was said, and the project.
-fn onto(folder: &Path, files: &[String], template: &str) -> Result<(String, String), String> {
+pub(super) fn onto(folder: &Path, files: &[String], template: &str) -> Result<(String, String), String> {
     let [map, out] = ["model.toml", "p.toml"].map(|name| folder.join(name).display().to_string());
     std::fs::write(&map, template).unwrap();
     let files: Vec<&str> = files.iter().map(String::as_str).collect();

@@ -28,6 +28,10 @@ pub(super) fn place(dof: &uff::Dof, named: &BTreeMap<String, String>, structure:
     if let Some(row) = entity.and_then(|entity| structure.dof(entity)) {
         return Ok((row, sign));
     }
+    // A point without a direction is the DOF of that label.
+    if let Some(row) = structure.dof(&dof.node.to_string()).filter(|_| dof.direction == 0 && dof.node != 0) {
+        return Ok((row, sign));
+    }
     let at_node = direction(dof.direction).and_then(|direction| {
         let node = dof.node.to_string();
         let here = |d: &crate::structure::Dof| d.direction == direction && structure.nodes()[d.node].label == node;

@@ -95,7 +95,7 @@ impl Reader<'_> {
         let header = &function.header;
         let wrong = |what: String| FrfProblem::set(set, what);
         let (form, scale) = self.form(header, units).map_err(wrong)?;
-        let pair = [header.response.clone(), header.reference.clone()];
+        let pair = header.stated_dofs();
         let sides = match self.source.listed(k).map_err(wrong)? {
             Some(listed) => listed.map(|name| place_of_name(&name, &self.source.dofs, self.structure)),
             None => [0, 1].map(|side: usize| place(&pair[side], &self.source.dofs, self.structure)),
@@ -206,10 +206,10 @@ fn no_pair_twice(found: &[Found]) -> Result<(), FrfProblem> {
 
 /// Gives a coherence to the response of the same DOFs; one without a response is left out.
 fn attach(found: &mut [Found], set: usize, coherence: &Function) -> Result<(), FrfProblem> {
-    let header = &coherence.header;
+    let pair = coherence.header.stated_dofs();
     let same = |one: &&mut Found| {
         let key = |dof: &uff::Dof| (dof.node, dof.direction.abs());
-        key(&one.pair[0]) == key(&header.response) && key(&one.pair[1]) == key(&header.reference)
+        key(&one.pair[0]) == key(&pair[0]) && key(&one.pair[1]) == key(&pair[1])
     };
     let Some(one) = found.iter_mut().find(same) else { return Ok(()) };
     let values: Vec<f64> = (0..coherence.values.len()).filter_map(|i| coherence.values.get(i)).map(|v| v[0]).collect();

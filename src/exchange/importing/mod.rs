@@ -2,6 +2,8 @@
 //! mapping of their channels, frequency responses `[[frf]]`, stepped-sine tables `[[harmonics]]`. The command line and the
 //! window ask for it with the same [`Request`] and write the same text.
 
+mod amplitude_tables;
+mod driven;
 mod driving_point;
 mod error;
 pub mod files;

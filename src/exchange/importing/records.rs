@@ -1,5 +1,6 @@
 //! Import of time records: a mapping of their channels, one run a file or set, of the kind that its record looks like.
 
+use super::driven;
 use super::error::{ImportError, Result};
 use super::looks::{Looks, look};
 use super::model::head;
@@ -44,7 +45,8 @@ pub(super) fn import(request: &Request, mapping: Proposal, out: &Path, control: 
         return Err(ImportError::of(&request.files[0], problem));
     }
     let sources = sources(request, &mapping)?;
-    let (first, mut looks) = looks_of(request, &mapping, &sources, out, control)?;
+    let (first, mut looks, powers) = looks_of(request, &mapping, &sources, out, control)?;
+    driven::place(&mut mapping, &powers);
     let forced = mapping.channels.iter().any(|table| matches!(table.quantity, Quantity::Force | Quantity::Base));
     let alone = !forced && !request.has_model() && request.channels.is_none();
     let single = if alone { first.as_ref().and_then(|first| single_mode(first, &mut mapping)) } else { None };
@@ -163,21 +165,24 @@ fn further_runs(request: &Request, mapping: &Proposal, file: &Path) -> Result<Ve
     Ok(if alike { own.further_runs } else { Vec::new() })
 }
 
-/// The first record by the mapping, and what every record looks like.
+/// Powers of a force over the motions of a record, by the names of these.
+type Powers = Vec<(String, f64)>;
+
+/// The first record by the mapping, what every record looks like, and which motions take power in from its force.
 fn looks_of(
     request: &Request,
     mapping: &Proposal,
     sources: &[RunSource],
     out: &Path,
     control: &Control,
-) -> Result<(Option<Record>, Vec<Looks>)> {
+) -> Result<(Option<Record>, Vec<Looks>, Vec<Powers>)> {
     let mut text = head(request, out, &points(&labels(mapping)), 0.5 * highest_rate(request)?)?;
     text.push_str(&channels(mapping));
     for source in sources {
         text.push_str(&run_table(request, source, out)?);
     }
     let planned = plan(&text, out).map_err(ImportError::Unwritten)?;
-    let (mut first, mut found) = (None, Vec::new());
+    let (mut first, mut found, mut powers) = (None, Vec::new(), Vec::new());
     for (index, source) in sources.iter().enumerate() {
         let record = planned.record(index, control).map_err(ImportError::Unwritten)?;
         if record.len() < FEWEST {
@@ -185,15 +190,16 @@ fn looks_of(
             return Err(ImportError::of(&source.file, problem));
         }
         found.push(look(&record));
+        powers.push(driven::powers(&record));
         if index == 0 {
             first = Some(record);
         }
     }
-    Ok((first, found))
+    Ok((first, found, powers))
 }
 
 /// Labels of the DOFs of a mapping.
-fn labels(mapping: &Proposal) -> Vec<String> {
+pub(super) fn labels(mapping: &Proposal) -> Vec<String> {
     let mut labels: Vec<String> = Vec::new();
     for table in &mapping.channels {
         if !labels.contains(&table.dof) && table.quantity != Quantity::Base {
@@ -204,7 +210,7 @@ fn labels(mapping: &Proposal) -> Vec<String> {
 }
 
 /// The tables `[[channel]]`, what was assumed above each.
-fn channels(mapping: &Proposal) -> String {
+pub(super) fn channels(mapping: &Proposal) -> String {
     let mut text = String::new();
     for table in &mapping.channels {
         for (_, what) in mapping.assumed.iter().filter(|(name, _)| *name == table.channel()) {
@@ -222,7 +228,7 @@ fn toml_of(table: &ChannelTable) -> String {
 }
 
 /// Channels that are not used, as comments that become tables where their marks are taken away.
-fn unused(mapping: &Proposal) -> String {
+pub(super) fn unused(mapping: &Proposal) -> String {
     let mut text = String::new();
     for table in &mapping.uncalibrated {
         text.push_str(

@@ -268,7 +268,8 @@ fn points(names: &[String], files: &[DataFile]) -> Result<Vec<(String, Point)>> 
         let direction: String =
             plain[digits..].chars().filter(char::is_ascii_alphabetic).collect::<String>().to_lowercase();
         let node = if digits > 0 { plain[..digits].to_owned() } else { plain.clone() };
-        let direction = if digits > 0 { direction } else { String::new() };
+        // `3:S` is a point without a direction.
+        let direction = if digits > 0 && direction != "s" { direction } else { String::new() };
         let position = positions.get(&node).copied();
         if points.iter().all(|(known, _)| *known != plain) {
             points.push((plain, Point { node, direction, position }));

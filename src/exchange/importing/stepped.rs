@@ -1,5 +1,6 @@
 //! Import of a stepped-sine table: a project with `[[harmonics]]`, one run a row.
 
+use super::amplitude_tables;
 use super::error::{ImportError, Result};
 use super::model::head;
 use super::request::{Imported, Request};
@@ -16,6 +17,9 @@ const EXPLAINED: f64 = 0.9;
 
 /// The project of the table `table`.
 pub(super) fn import(request: &Request, table: &Stepped, out: &Path, control: &Control) -> Result<Imported> {
+    if let Some(amplitudes) = &table.amplitudes {
+        return amplitude_tables::import(request, table, amplitudes, out, control);
+    }
     let (mut head, tables) = project(request, table, out)?;
     let loaded =
         plan(&format!("{head}{tables}"), out).and_then(|plan| plan.load(control)).map_err(ImportError::Unwritten)?;

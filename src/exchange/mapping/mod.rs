@@ -3,6 +3,7 @@
 //! The mapping is a template in the project, `[[channel]]`, and holds for all its files of the same layout. Files are opened
 //! by `dashpot_datafiles` and never rewritten.
 
+mod amplitudes;
 mod fault;
 mod guess;
 mod memory;
@@ -14,7 +15,9 @@ mod stepped;
 pub(crate) mod table;
 pub(crate) mod units;
 
-pub use propose::{Proposal, propose};
+pub use amplitudes::Amplitudes;
+pub(crate) use amplitudes::{AmplitudeTable, read_amplitudes, sets_with};
+pub use propose::{FORCE_WITHOUT_PLACE, Proposal, propose};
 pub use read::is_own_record;
 pub(crate) use read::{Template, read_mapped, reads_as_own};
 pub use runs::runs_of;

@@ -16,6 +16,9 @@ use dashpot_datafiles::{Axis, Channel, Contents, Format, Kind, Set};
 /// Names of channels that `dashpot_datafiles` found to be the times of others.
 const TIMES: &str = "time of ";
 
+/// How an assumption begins that a force acts at the first motion, whose DOF follows.
+pub const FORCE_WITHOUT_PLACE: &str = "the file says no DOF: it is taken to act at DOF";
+
 /// What is proposed for a file.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Proposal {
@@ -152,7 +155,7 @@ impl Proposal {
         let first = first.map_or_else(|| "1".to_owned(), |draft| draft.table.dof.clone());
         for draft in drafts.iter_mut().filter(|draft| !draft.placed && draft.table.quantity == Quantity::Force) {
             draft.table.dof.clone_from(&first);
-            draft.assumed.push(format!("the file says no DOF: it is taken to act at DOF {first}"));
+            draft.assumed.push(format!("{FORCE_WITHOUT_PLACE} {first}"));
         }
         drafts.into_iter().filter_map(|draft| self.take(draft)).collect()
     }

@@ -10,7 +10,7 @@ use crate::exchange::records::{RecordFileError, RecordProblem, base_channel, kno
 use crate::measurement::channel::ChannelName;
 use crate::measurement::{Channel, Quantity, Record};
 use crate::structure::{Structure, StructureKind};
-use dashpot_datafiles::{DataFile, open};
+use dashpot_datafiles::{DataFile, Set, open};
 use std::path::Path;
 
 /// What the project says of its laboratory files.
@@ -141,6 +141,21 @@ fn holds(file: &DataFile, table: &ChannelTable, run_set: Option<&str>) -> bool {
     sets.any(|set| set.channels.iter().any(|channel| channel.name == table.name))
 }
 
+/// The name of the only set of a file without a set `wanted` that is called as it is below the same number of groups: paths hold
+/// the number of the run (`Run 1/Force 8` in one file, `Run 2/Force 8` in the next).
+fn same_end<'a>(sets: &'a [Set], wanted: &str) -> Option<&'a str> {
+    let (above, end) = wanted.rsplit_once('/')?;
+    let depth = above.matches('/').count();
+    let alike = |set: &&Set| {
+        let parts = set.name.rsplit_once('/');
+        set.name == wanted || parts.is_some_and(|(above, own)| own == end && above.matches('/').count() == depth)
+    };
+    match sets.iter().filter(alike).map(|set| set.name.as_str()).collect::<Vec<_>>()[..] {
+        [one] => Some(one),
+        _ => None,
+    }
+}
+
 /// Set and channel of a table of the mapping: exactly one.
 fn locate(
     file: &DataFile,
@@ -150,6 +165,8 @@ fn locate(
 ) -> Result<(usize, usize), RecordFileError> {
     let wanted = run_set.or(table.set.as_deref());
     let sets = &file.contents().sets;
+    let renamed = table.set.as_deref().filter(|_| run_set.is_none()).and_then(|set| same_end(sets, set));
+    let wanted = renamed.or(wanted);
     if let Some(wanted) = wanted.filter(|wanted| sets.iter().all(|set| set.name != *wanted)) {
         let names: Vec<String> = sets.iter().take(12).map(|set| format!("\"{}\"", set.name)).collect();
         return Err(
@@ -180,7 +197,12 @@ fn locate(
 }
 
 /// The channel of the project that a table names; `unit` is that of the file.
-fn target(table: &ChannelTable, unit: &str, structure: &Structure, at: &At<'_>) -> Result<Channel, RecordFileError> {
+pub(super) fn target(
+    table: &ChannelTable,
+    unit: &str,
+    structure: &Structure,
+    at: &At<'_>,
+) -> Result<Channel, RecordFileError> {
     let label = table.dof.clone();
     if table.quantity == Quantity::Base {
         return base_channel(&label, structure).ok_or_else(|| {
@@ -223,4 +245,27 @@ fn unit_suits(
         Some(&table.name),
         format!("DOF {} is a {kind} of node {node} and is not measured in {name}; correct `unit` or `dof`", table.dof),
     ))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::same_end;
+    use dashpot_datafiles::{Kind, Set};
+
+    #[test]
+    fn the_number_of_a_run_in_the_path_of_a_set_does_not_matter() {
+        let named = |name: &str| Set {
+            name: name.to_owned(),
+            kind: Kind::Time,
+            axis_unit: String::new(),
+            channels: Vec::new(),
+            notes: Vec::new(),
+        };
+        let sets = ["P/Run 2/Force 8", "P/Run 2/Acc 1", "Force 8"].map(named);
+        assert_eq!(same_end(&sets, "P/Run 1/Force 8"), Some("P/Run 2/Force 8"));
+        assert_eq!(same_end(&sets, "P/Run 1/Acc 3"), None);
+        // Two runs in one file cannot be told apart.
+        let sets = ["P/Run 2/Force 8", "P/Run 3/Force 8"].map(named);
+        assert_eq!((same_end(&sets, "P/Run 1/Force 8"), same_end(&sets, "Force 8")), (None, None));
+    }
 }

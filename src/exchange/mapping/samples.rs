@@ -54,7 +54,12 @@ fn factor(
     if entry.count == 0 {
         return Err(at.error(Some(&table.name), "has 0 samples; export the record again or leave the channel out"));
     }
-    let named = table.unit.as_deref().unwrap_or(&entry.unit);
+    factor_to_si(&entry.unit, table, at)
+}
+
+/// Factor of numbers in the unit `own` of the file to SI, with sign and calibration.
+pub(super) fn factor_to_si(own: &str, table: &ChannelTable, at: &At<'_>) -> Result<f64, RecordFileError> {
+    let named = table.unit.as_deref().unwrap_or(own);
     let quantity = table.quantity;
     let known = LabUnit::names_of(quantity);
     let Some(unit) = LabUnit::from_name(named) else {

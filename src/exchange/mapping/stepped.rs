@@ -1,6 +1,8 @@
 //! Whether a table is that of a stepped-sine test, one row a run, and what its columns are proposed to be.
 
+use super::amplitudes::{Amplitudes, amplitudes};
 use crate::exchange::records::columns::{Role, role};
+use crate::exchange::records::is_stepped_table;
 use crate::measurement::Quantity;
 use crate::measurement::channel::parse_name;
 use dashpot_datafiles::{Channel, DataFile, Kind, Set, Values};
@@ -27,6 +29,8 @@ pub struct Stepped {
     pub band_hz: [f64; 2],
     /// What was assumed.
     pub assumed: Vec<String>,
+    /// Mapping and phases of a table that is no CSV in the project's own words; none of one that is.
+    pub amplitudes: Option<Amplitudes>,
 }
 
 impl Stepped {
@@ -41,7 +45,56 @@ impl Stepped {
 /// The stepped-sine table of a file, if it is one: columns with frequencies, amplitudes of force and motion, and phases.
 pub fn stepped(file: &DataFile) -> Option<Stepped> {
     let sets = file.contents().sets.iter().enumerate();
-    sets.filter(|(_, set)| matches!(set.kind, Kind::Table | Kind::Spectrum)).find_map(|(s, set)| of_set(file, s, set))
+    let mut tables = sets.filter(|(_, set)| matches!(set.kind, Kind::Table | Kind::Spectrum));
+    let own = is_stepped_table(file.path());
+    tables.find_map(|(s, set)| {
+        let found = if own { of_set(file, s, set) } else { None };
+        found.or_else(|| of_amplitudes(file, s, set))
+    })
+}
+
+/// Labels, each once, in their order.
+fn distinct<'a>(labels: impl Iterator<Item = &'a String>) -> Vec<String> {
+    let mut found: Vec<String> = Vec::new();
+    for label in labels {
+        if !found.contains(label) {
+            found.push(label.clone());
+        }
+    }
+    found
+}
+
+/// The table of a set by the mapping of its columns.
+fn of_amplitudes(file: &DataFile, s: usize, set: &Set) -> Option<Stepped> {
+    let found = amplitudes(file.contents(), set)?;
+    let channel = |name: &str| set.channels.iter().position(|channel| channel.name == name);
+    let values = |name: &str| match file.read(s, channel(name)?) {
+        Ok(Values::Real(values)) => Some(values),
+        _ => None,
+    };
+    let named = set.channels.iter().find_map(|channel| match role(&full_name(channel)) {
+        Role::Frequency(to_hz) => Some((channel.name.as_str(), to_hz)),
+        _ => None,
+    });
+    let frequencies: Vec<f64> = match named {
+        Some((name, to_hz)) => values(name)?.into_iter().map(|f| f * to_hz).collect(),
+        None => file.axis(s, 0).ok()??,
+    };
+    let dofs = distinct(found.mapping.channels.iter().map(|table| &table.dof));
+    Some(Stepped {
+        force: None,
+        response: None,
+        phase_of: None,
+        dofs,
+        rows: frequencies.len(),
+        levels: 1,
+        band_hz: [
+            frequencies.iter().copied().fold(f64::INFINITY, f64::min),
+            frequencies.iter().copied().fold(f64::NEG_INFINITY, f64::max),
+        ],
+        assumed: Vec::new(),
+        amplitudes: Some(found),
+    })
 }
 
 /// A column: name with its unit, as the reader of harmonics sees it.
@@ -83,15 +136,13 @@ fn of_set(file: &DataFile, s: usize, set: &Set) -> Option<Stepped> {
         levels: levels.len().max(1),
         band_hz: [finite().fold(f64::INFINITY, f64::min), finite().fold(f64::NEG_INFINITY, f64::max)],
         assumed: Vec::new(),
+        amplitudes: None,
     };
     let named: Vec<(Quantity, String)> =
         set.channels.iter().filter_map(|channel| parse_name(&channel.name).ok()).collect();
-    for (_, label) in &named {
-        if !stepped.dofs.contains(label) {
-            stepped.dofs.push(label.clone());
-        }
-    }
-    let response = roles.iter().position(|role| matches!(role, Role::Response(..)));
+    stepped.dofs = distinct(named.iter().map(|(_, label)| label));
+    let mut responses = (0..roles.len()).filter(|&c| matches!(roles[c], Role::Response(..)));
+    let (response, None) = (responses.next(), responses.next()) else { return None };
     let force = column(|role| matches!(role, Role::Force(_)));
     if force.is_none() && named.iter().all(|(quantity, _)| *quantity != Quantity::Force)
         || response.is_none() && named.iter().all(|(quantity, _)| *quantity == Quantity::Force)

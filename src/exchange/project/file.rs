@@ -305,6 +305,12 @@ pub struct HarmonicsTable {
     /// Key `use`, as at `[[run]]`.
     #[serde(rename = "use", skip_serializing_if = "Option::is_none")]
     pub enabled: Option<bool>,
+    /// Sheet, group or block of the file that is the table.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub set: Option<String>,
+    /// `[harmonics.phases]`: the column of the phase of each `[[channel]]` of a table in a laboratory file.
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    pub phases: BTreeMap<String, String>,
 }
 
 #[allow(clippy::trivially_copy_pass_by_ref, clippy::ref_option, reason = "serde passes references to fields")]

@@ -2,7 +2,7 @@
 
 use super::error::{Problem, ProjectError};
 use super::excitation::ExcitationTable;
-use super::file::{BaseResponse, Lines, ProjectFile, RunTable, SimulateTable};
+use super::file::{BaseResponse, HarmonicsTable, Lines, ProjectFile, RunTable, SimulateTable};
 use super::label::Label;
 use super::ruled_out_sources::ruled_out;
 use super::sources::{At, line, sensors, sources};
@@ -11,8 +11,8 @@ use super::{kept, reference_shapes};
 use crate::classical::reference_shapes::ReferenceShape;
 use crate::control::Control;
 use crate::effects::Source;
-use crate::exchange::mapping::{Template, read_mapped, reads_as_own};
-use crate::exchange::records::{SteppedSine, read_harmonics_as, read_record_with};
+use crate::exchange::mapping::{AmplitudeTable, Template, read_amplitudes, read_mapped, reads_as_own};
+use crate::exchange::records::{HarmonicsRun, SteppedSine, read_harmonics_as, read_record_with};
 use crate::identify::Settings;
 use crate::measurement::base::AXES;
 use crate::measurement::{ChannelCorrection, ChannelName, HarmonicFit, Kind, Part, Quantity, Record, Run};
@@ -323,6 +323,18 @@ impl Plan {
             if !path.is_file() {
                 return Err(wrong(Problem::NoRecord { file: table.file.clone() }));
             }
+            if !table.phases.is_empty() {
+                let amplitudes = AmplitudeTable {
+                    channels: &self.file.channel,
+                    phases: &table.phases,
+                    set: table.set.as_deref(),
+                    phase_of: table.phase_of,
+                };
+                let read = read_amplitudes(&path, amplitudes, &self.structure);
+                let read = read.map_err(|error| wrong(Problem::Record(Box::new(error))))?;
+                runs.extend(read.into_iter().map(|run| fitted(table, run)));
+                continue;
+            }
             let stepped = SteppedSine {
                 force: table.force.as_deref(),
                 response: table.response.as_deref(),
@@ -330,14 +342,19 @@ impl Plan {
             };
             let read = read_harmonics_as(&path, &self.structure, &stepped);
             let read = read.map_err(|error| wrong(Problem::Record(Box::new(error))))?;
-            runs.extend(read.into_iter().map(|run| Fitted {
-                level: run.level.or(table.level),
-                session: run.session.or_else(|| table.session.clone()),
-                enabled: table.enabled,
-                name: run.name,
-                fit: run.fit,
-            }));
+            runs.extend(read.into_iter().map(|run| fitted(table, run)));
         }
         Ok(runs)
+    }
+}
+
+/// A run of a table with what this says of all its runs.
+fn fitted(table: &HarmonicsTable, run: HarmonicsRun) -> Fitted {
+    Fitted {
+        level: run.level.or(table.level),
+        session: run.session.or_else(|| table.session.clone()),
+        enabled: table.enabled,
+        name: run.name,
+        fit: run.fit,
     }
 }

@@ -8,6 +8,7 @@ use super::reader::Table;
 use super::{base, excitation};
 use crate::measurement::base::AXES;
 use crate::measurement::{Kind, Part, Quantity};
+use std::collections::BTreeMap;
 
 type Read<T> = Result<T, ProjectError>;
 
@@ -135,7 +136,7 @@ fn part(table: &Table<'_>) -> Read<Part> {
 pub(super) fn harmonics(root: &Table<'_>, lines: &mut Lines) -> Read<Vec<HarmonicsTable>> {
     let mut files = Vec::new();
     for table in root.tables("harmonics", "[[harmonics]]")? {
-        table.only(&["file", "force", "response", "phase_of", "level", "session", "use"])?;
+        table.only(&["file", "force", "response", "phase_of", "level", "session", "use", "set", "phases"])?;
         let phases = [Quantity::Displacement, Quantity::Velocity, Quantity::Acceleration].map(Quantity::word);
         files.push(HarmonicsTable {
             file: table.need("file", "file = \"harmonics.csv\"", table.text("file")?)?,
@@ -146,8 +147,22 @@ pub(super) fn harmonics(root: &Table<'_>, lines: &mut Lines) -> Read<Vec<Harmoni
             level: table.whole("level")?,
             session: table.text("session")?,
             enabled: table.flag("use")?,
+            set: table.text("set")?,
+            phases: phases_of(&table)?,
         });
         lines.harmonics.push(table.line());
     }
     Ok(files)
+}
+
+/// Columns of phases by the names of their channels.
+fn phases_of(table: &Table<'_>) -> Read<BTreeMap<String, String>> {
+    let Some(map) = table.table("phases", "[harmonics.phases]")? else { return Ok(BTreeMap::new()) };
+    let mut phases = BTreeMap::new();
+    for key in map.keys() {
+        if let Some(column) = map.text(key)? {
+            phases.insert(key.to_owned(), column);
+        }
+    }
+    Ok(phases)
 }

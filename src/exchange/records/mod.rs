@@ -16,4 +16,5 @@ pub use harmonics_run::HarmonicsRun;
 pub(crate) use reader::{base_channel, known_labels};
 pub use reader::{parse_record, read_record, read_record_with};
 pub use stepped_sine::SteppedSine;
+pub(crate) use stepped_sine::is_stepped_table;
 pub use writer::write_record;

@@ -58,6 +58,11 @@ pub(super) fn is_one(bytes: &[u8], name: &str) -> Result<bool, RecordFileError> 
     Ok(swept && !has("harmonic") && !has("cos"))
 }
 
+/// Whether the file at `path` is a table that [`parse`] reads: its columns are told in its first line.
+pub(crate) fn is_stepped_table(path: &std::path::Path) -> bool {
+    std::fs::read(path).is_ok_and(|bytes| is_one(&bytes, "").unwrap_or(false))
+}
+
 /// Reads every row as a run.
 pub(super) fn parse(
     bytes: &[u8],
