@@ -46,14 +46,14 @@ impl FunctionHeader {
 fn pair(line: &str) -> Option<[Dof; 2]> {
     line.match_indices('/').find_map(|(at, _)| {
         let (left, right) = (&line[..at], &line[at + 1..]);
-        let last = left.char_indices().filter(|(i, c)| c.is_ascii_digit() && !digit_before(left, *i)).last()?.0;
+        let last = left.char_indices().rfind(|(i, c)| c.is_ascii_digit() && !digit_before(left, *i))?.0;
         let (first, second) = (point(left, last)?, first_point(right)?);
         // A point stands beside the stroke, and dates, ratios and units have neither a word in front nor a direction behind.
         let beside = left[last + first.length..].trim().is_empty();
         let said = [&first, &second].iter().all(|point| point.named || point.dof.direction != 0);
         let [is_first, is_second] = [left, right].map(|side| words(side).any(|word| begins(word, &EXCITATION)));
         let turned = is_first && !is_second;
-        (beside && said).then(|| if turned { [second.dof, first.dof] } else { [first.dof, second.dof] })
+        (beside && said).then_some(if turned { [second.dof, first.dof] } else { [first.dof, second.dof] })
     })
 }
 
