@@ -74,7 +74,7 @@ fn amplitudes_and_phases_of_several_responses_are_a_stepped_sine() {
         };
         let (force, zero) = polar("force@19");
         // Amplitudes in g, phases over the force, the first column of the phases behind all amplitudes.
-        let motions = ["acc@7", "acc@15", "acc@19"].map(|name| polar(name));
+        let motions = ["acc@7", "acc@15", "acc@19"].map(polar);
         let cells: Vec<String> = motions.iter().map(|(size, _)| format!("{:.9}", size / 9.80665)).collect();
         let phases: Vec<String> = motions.iter().map(|(_, phase)| format!("{:.7}", phase - zero)).collect();
         rows.push((

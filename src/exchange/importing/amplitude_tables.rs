@@ -41,18 +41,23 @@ pub(super) fn import(
     let text = text(&tables, amplitudes, &mapping, out)?;
     let loaded = plan(&format!("{head}{text}"), out).and_then(|plan| plan.load(control));
     let loaded = loaded.map_err(ImportError::Unwritten)?;
-    let levels = levels(&tables);
+    let summary = summary(&mapping, &tables, loaded.runs.len(), out);
+    Ok(Imported { head, tables: text, summary, remarks: Vec::new() })
+}
+
+/// What was made of the tables, for the user.
+fn summary(mapping: &Proposal, tables: &[Table], runs: usize, out: &Path) -> String {
+    let levels = levels(tables);
     let assumed = mapping.assumed.iter().map(|(name, what)| format!("assumed: {name}: {what}\n"));
     let left = mapping.left.iter().map(|(name, why)| format!("not mapped: \"{name}\" ({why})\n"));
-    let summary = format!(
+    format!(
         "{}amplitudes and phases of {} in {} at {} are in {}\n",
         assumed.chain(left).collect::<String>(),
-        counted(loaded.runs.len(), "run"),
+        counted(runs, "run"),
         counted(tables.len(), "table"),
         counted(levels.iter().max().copied().unwrap_or(1), "level"),
         out.display()
-    );
-    Ok(Imported { head, tables: text, summary, remarks: Vec::new() })
+    )
 }
 
 fn tables(request: &Request, amplitudes: &Amplitudes) -> Result<Vec<Table>> {

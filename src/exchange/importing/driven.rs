@@ -30,20 +30,13 @@ pub(super) fn powers(record: &Record) -> Vec<(String, f64)> {
 
 /// Puts a force whose place is assumed at the motion over which it puts power in throughout, where that is one alone.
 pub(super) fn place(mapping: &mut Proposal, powers: &[Vec<(String, f64)>]) {
-    let assumed = |name: &String| {
-        mapping.assumed.iter().any(|(channel, what)| channel == name && what.starts_with(FORCE_WITHOUT_PLACE))
-    };
-    let forces: Vec<usize> = (0..mapping.channels.len())
-        .filter(|&i| mapping.channels[i].quantity == Quantity::Force && assumed(&mapping.channels[i].channel()))
-        .collect();
-    let [force] = forces[..] else { return };
-    let Some((motion, records)) = driven(powers) else { return };
-    let Some(dof) = mapping.channels.iter().find(|table| table.channel() == motion).map(|table| table.dof.clone())
+    let (Some(force), Some((motion, records))) = (force_without_place(mapping), driven(powers)) else { return };
+    let Some(at) = mapping.channels.iter().find(|table| table.channel() == motion).map(|table| table.dof.clone())
     else {
         return;
     };
     let old = mapping.channels[force].channel();
-    mapping.channels[force].dof = dof;
+    mapping.channels[force].dof = at;
     let new = mapping.channels[force].channel();
     for (channel, what) in mapping.assumed.iter_mut().filter(|(channel, _)| *channel == old) {
         channel.clone_from(&new);
@@ -54,6 +47,17 @@ pub(super) fn place(mapping: &mut Proposal, powers: &[Vec<(String, f64)>]) {
             );
         }
     }
+}
+
+/// The channel of the only force whose place is assumed.
+fn force_without_place(mapping: &Proposal) -> Option<usize> {
+    let assumed = |name: &String| {
+        mapping.assumed.iter().any(|(channel, what)| channel == name && what.starts_with(FORCE_WITHOUT_PLACE))
+    };
+    let tables = mapping.channels.iter().enumerate();
+    let mut forces = tables.filter(|(_, table)| table.quantity == Quantity::Force && assumed(&table.channel()));
+    let (first, None) = (forces.next(), forces.next()) else { return None };
+    first.map(|(i, _)| i)
 }
 
 /// The only motion over which the power is positive in all records, and the number of records with a clear one.
@@ -78,15 +82,7 @@ fn velocity(record: &Record, channel: usize) -> Option<Vec<f64>> {
     let mean = values.iter().sum::<f64>() / values.len() as f64;
     match record.channels()[channel].quantity {
         Quantity::Velocity => Some(values.iter().map(|v| v - mean).collect()),
-        Quantity::Acceleration => {
-            let mut sum = 0.0;
-            let mut integral = vec![0.0];
-            for i in 1..values.len() {
-                sum += 0.5 * (values[i] + values[i - 1] - 2.0 * mean) * (time[i] - time[i - 1]);
-                integral.push(sum);
-            }
-            Some(without_drift(time, integral))
-        }
+        Quantity::Acceleration => Some(without_drift(time, integral(time, values, mean))),
         Quantity::Displacement => {
             let last = values.len().checked_sub(1)?;
             let slope = |i: usize| {
@@ -97,6 +93,17 @@ fn velocity(record: &Record, channel: usize) -> Option<Vec<f64>> {
         }
         _ => None,
     }
+}
+
+/// Integral of values less their mean by the rule of trapezia, from zero on.
+fn integral(time: &[f64], values: &[f64], mean: f64) -> Vec<f64> {
+    let mut sum = 0.0;
+    let mut found = vec![0.0];
+    for i in 1..values.len() {
+        sum += 0.5 * (values[i] + values[i - 1] - 2.0 * mean) * (time[i] - time[i - 1]);
+        found.push(sum);
+    }
+    found
 }
 
 /// Values less the straight line that fits them best.

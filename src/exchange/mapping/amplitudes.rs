@@ -137,39 +137,65 @@ pub(crate) fn read_amplitudes(
     let at = At { file: &name };
     let file = open(path).map_err(|error| data(&at, error))?;
     let s = set_of(&file, &table, &at)?;
-    let column = |name: &String| column(&file, s, name, &at);
-    let mut columns = Vec::new();
-    for channel in table.channels.iter().filter(|channel| !channel.optional || has(&file, s, &channel.name)) {
-        let (c, values) = column(&channel.name)?;
-        let entry = &file.contents().sets[s].channels[c];
-        let target = super::read::target(channel, &entry.unit, structure, &at)?;
-        let factor = factor_to_si(&entry.unit, channel, &at)?;
-        let phases = table.phases.get(&channel.name).map(&column).transpose()?;
-        let phases = phases.map(|(c, values)| radians(&file.contents().sets[s].channels[c], values));
+    let wanted = table.channels.iter().filter(|channel| !channel.optional || has(&file, s, &channel.name));
+    let columns: Vec<Column> =
+        wanted.map(|channel| Column::read(&file, s, channel, &table, structure, &at)).collect::<Result<_, _>>()?;
+    let Some(frequencies) = frequencies(&file, s) else {
+        return Err(at.error(None, "the table has no column of frequencies; call it `Frequency [Hz]`"));
+    };
+    let set = table.set.map_or_else(String::new, |set| format!("{set} "));
+    let run = |(row, &frequency_hz): (usize, &f64)| {
+        let fit = row_of(&columns, row, frequency_hz, table.phase_of).ok_or_else(|| {
+            let problem = "has no frequency above 0 Hz, or an amplitude or phase that is no number; leave the row out";
+            at.error(None, format!("row {} of its numbers {problem}", row + 1))
+        })?;
+        Ok(HarmonicsRun { name: format!("{set}row {}", row + 1), fit, level: None, session: None })
+    };
+    frequencies.iter().enumerate().map(run).collect()
+}
+
+/// The amplitudes of a channel over the rows, with its phases in radians.
+struct Column {
+    channel: Measured,
+    /// Factor to SI, with sign and calibration.
+    factor: f64,
+    sizes: Vec<f64>,
+    /// None for a force, whose phase is 0.
+    phases: Option<Vec<f64>>,
+}
+
+impl Column {
+    fn read(
+        file: &DataFile,
+        s: usize,
+        channel: &ChannelTable,
+        table: &AmplitudeTable<'_>,
+        structure: &Structure,
+        at: &At<'_>,
+    ) -> Result<Self, RecordFileError> {
+        let columns = &file.contents().sets[s].channels;
+        let (c, sizes) = column(file, s, &channel.name, at)?;
+        let target = super::read::target(channel, &columns[c].unit, structure, at)?;
+        let factor = factor_to_si(&columns[c].unit, channel, at)?;
+        let phases = table.phases.get(&channel.name).map(|name| column(file, s, name, at)).transpose()?;
+        let phases = phases.map(|(c, values)| radians(&columns[c], values));
         if phases.is_none() && channel.quantity != Quantity::Force {
             return Err(at.error(Some(&channel.name), "has no phase; name its column under [harmonics.phases]"));
         }
-        columns.push((target, factor, values, phases));
+        Ok(Self { channel: target, factor, sizes, phases })
     }
-    let frequencies = frequencies(&file, s, &at)?;
-    let mut runs = Vec::new();
-    for (row, &frequency_hz) in frequencies.iter().enumerate() {
-        let mut channels = Vec::new();
-        for (target, factor, values, phases) in &columns {
-            let phase = phases.as_ref().map_or(Some(0.0), |phases| phases.get(row).copied());
-            let (Some(size), Some(phase)) = (values.get(row), phase) else { continue };
-            channels.push(fit(target, size * factor, phase, table.phase_of));
-        }
-        let finite = channels.iter().all(|fit| fit.amplitudes.iter().all(|y| y.is_finite()));
-        if !finite || channels.len() != columns.len() || !(frequency_hz > 0.0 && frequency_hz.is_finite()) {
-            let problem = "has no frequency above 0 Hz, or an amplitude or phase that is no number; leave the row out";
-            return Err(at.error(None, format!("row {} of its numbers {problem}", row + 1)));
-        }
-        let fit = HarmonicFit { omega: TAU * frequency_hz, omega_deviation: 0.0, channels };
-        let set = table.set.map_or_else(String::new, |set| format!("{set} "));
-        runs.push(HarmonicsRun { name: format!("{set}row {}", row + 1), fit, level: None, session: None });
-    }
-    Ok(runs)
+}
+
+/// The harmonics of a row; none where a number is missing or is none.
+fn row_of(columns: &[Column], row: usize, frequency_hz: f64, phase_of: Option<Quantity>) -> Option<HarmonicFit> {
+    let fit = |column: &Column| {
+        let phase = column.phases.as_ref().map_or(Some(0.0), |phases| phases.get(row).copied())?;
+        let size = column.sizes.get(row)? * column.factor;
+        Some(fit(&column.channel, size, phase, phase_of)).filter(|fit| fit.amplitudes.iter().all(|y| y.is_finite()))
+    };
+    let channels: Vec<ChannelFit> = columns.iter().map(fit).collect::<Option<_>>()?;
+    let omega = TAU * frequency_hz;
+    (omega > 0.0 && omega.is_finite()).then_some(HarmonicFit { omega, omega_deviation: 0.0, channels })
 }
 
 fn fit(channel: &Measured, size: f64, phase: f64, phase_of: Option<Quantity>) -> ChannelFit {
@@ -235,12 +261,14 @@ fn radians(column: &Channel, values: Vec<f64>) -> Vec<f64> {
     if in_radians { values } else { values.into_iter().map(f64::to_radians).collect() }
 }
 
-fn frequencies(file: &DataFile, s: usize, at: &At<'_>) -> Result<Vec<f64>, RecordFileError> {
-    let channels = &file.contents().sets[s].channels;
-    if let Some((c, to_hz)) = channels.iter().enumerate().find_map(|(c, channel)| Some((c, frequency(channel)?))) {
-        let (_, values) = column(file, s, &channels[c].name, at)?;
-        return Ok(values.into_iter().map(|f| f * to_hz).collect());
+/// Frequencies of the rows of a set, Hz: a column of them, else its abscissa.
+pub(super) fn frequencies(file: &DataFile, s: usize) -> Option<Vec<f64>> {
+    let mut channels = file.contents().sets[s].channels.iter().enumerate();
+    let Some((c, to_hz)) = channels.find_map(|(c, channel)| Some((c, frequency(channel)?))) else {
+        return file.axis(s, 0).ok()?;
+    };
+    match file.read(s, c) {
+        Ok(Values::Real(values)) => Some(values.into_iter().map(|f| f * to_hz).collect()),
+        _ => None,
     }
-    let axis = file.axis(s, 0).map_err(|error| data(at, error))?;
-    axis.ok_or_else(|| at.error(None, "the table has no column of frequencies; call it `Frequency [Hz]`"))
 }

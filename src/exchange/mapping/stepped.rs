@@ -1,6 +1,6 @@
 //! Whether a table is that of a stepped-sine test, one row a run, and what its columns are proposed to be.
 
-use super::amplitudes::{Amplitudes, amplitudes};
+use super::amplitudes::{Amplitudes, amplitudes, frequencies};
 use crate::exchange::records::columns::{Role, role};
 use crate::exchange::records::is_stepped_table;
 use crate::measurement::Quantity;
@@ -67,19 +67,7 @@ fn distinct<'a>(labels: impl Iterator<Item = &'a String>) -> Vec<String> {
 /// The table of a set by the mapping of its columns.
 fn of_amplitudes(file: &DataFile, s: usize, set: &Set) -> Option<Stepped> {
     let found = amplitudes(file.contents(), set)?;
-    let channel = |name: &str| set.channels.iter().position(|channel| channel.name == name);
-    let values = |name: &str| match file.read(s, channel(name)?) {
-        Ok(Values::Real(values)) => Some(values),
-        _ => None,
-    };
-    let named = set.channels.iter().find_map(|channel| match role(&full_name(channel)) {
-        Role::Frequency(to_hz) => Some((channel.name.as_str(), to_hz)),
-        _ => None,
-    });
-    let frequencies: Vec<f64> = match named {
-        Some((name, to_hz)) => values(name)?.into_iter().map(|f| f * to_hz).collect(),
-        None => file.axis(s, 0).ok()??,
-    };
+    let frequencies = frequencies(file, s)?;
     let dofs = distinct(found.mapping.channels.iter().map(|table| &table.dof));
     Some(Stepped {
         force: None,
