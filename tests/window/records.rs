@@ -24,7 +24,9 @@ fn sample(name: &str) -> Sample {
     Sample { _folder: folder, path }
 }
 
+/// The stage Explain, its search ended at once: comparison and plots do not wait for it.
 fn explain(harness: &mut Harness<'_, App>) {
+    harness.state_mut().view.limit_s = Some(1e-3);
     harness.state_mut().view.stage = Stage::Explain;
     settle(harness);
 }

@@ -189,30 +189,26 @@ impl TestRenderer for Patient {
     }
 }
 
-/// Steps until no job runs, at most ten minutes: a hang, not a slow machine, fails.
+/// Steps until no job has run for some frames, at most three minutes: a hang, not a slow machine, fails.
 pub(crate) fn settle(harness: &mut Harness<'_, App>) {
     let start = Instant::now();
     harness.run_steps(2);
     // What one job brings may start the next one frames later.
-    while harness.state().running().is_some() {
-        while harness.state().running().is_some() {
+    let mut idle = 0;
+    while idle < IDLE {
+        harness.run_steps(1);
+        if harness.state().running().is_some() {
             assert!(start.elapsed() < Duration::from_mins(3), "{:?} still runs", harness.state().running());
             std::thread::sleep(Duration::from_millis(5));
-            harness.run_steps(1);
+            idle = 0;
+        } else {
+            idle += 1;
         }
-        step_on(harness);
     }
-    step_on(harness);
-    harness.run_steps(3);
 }
 
-/// Some frames: what is drawn of records and loops is prepared by jobs that are no work of the user's and report nothing.
-fn step_on(harness: &mut Harness<'_, App>) {
-    for _ in 0..30 {
-        std::thread::sleep(Duration::from_millis(5));
-        harness.run_steps(1);
-    }
-}
+/// Frames without a job after which a window has settled.
+const IDLE: usize = 6;
 
 /// Draws with the pointer from one place to another.
 pub(crate) fn drag(harness: &mut Harness<'_, App>, from: egui::Pos2, to: egui::Pos2) {

@@ -261,7 +261,7 @@ impl PlaceData {
     }
 
     /// Shapes of friction in sizes that the free forces suggest.
-    fn sizes(&self, effect: Effect, law: &dyn SetValued) -> Vec<Vec<f64>> {
+    pub(super) fn sizes(&self, effect: Effect, law: &dyn SetValued) -> Vec<Vec<f64>> {
         let amplitudes = self.forces.iter().filter(|f| !f.is_empty()).map(|f| f[0].value.norm()).collect();
         let sizes = sizes(amplitudes);
         let shapes = effect.shapes(&self.range);

@@ -11,3 +11,4 @@ pub mod restoring_force;
 pub(crate) mod special_cases;
 pub(crate) mod start;
 mod thinning;
+pub(crate) mod two_laws;

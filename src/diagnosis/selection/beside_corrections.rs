@@ -69,7 +69,12 @@ pub(super) fn beside_updating(
         if from.is_some() && here.control.is_late() {
             break;
         }
-        let Some(weighed) = weighed(fits)? else { break };
+        let Some(mut weighed) = weighed(fits)? else { break };
+        if from.is_none()
+            && let Some(two) = here.two_laws_for(&weighed, FURTHER)?
+        {
+            weighed = two;
+        }
         let best = &weighed.fits[0];
         let scale = scale_of(&weighed.fits, weighed.reference.count());
         if from.is_none() {

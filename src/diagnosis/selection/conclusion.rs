@@ -91,7 +91,7 @@ impl Outcome<'_> {
         }
         .into_iter()
         .collect();
-        let sure = diagnosis.suggestions.first().is_some_and(|s| s.probability >= 0.5);
+        let sure = diagnosis.suggestions.first().is_some_and(|s| s.probability > 0.5);
         diagnosis.verdict = if misfit > UNEXPLAINED {
             Verdict::Unexplained
         } else if sure {

@@ -23,5 +23,6 @@ mod short_list;
 mod single_change;
 mod singles;
 pub(crate) mod stepwise;
+mod two_laws;
 pub(crate) mod updated;
 mod weighing;
