@@ -71,7 +71,7 @@ pub(super) fn beside_updating(
         }
         let Some(mut weighed) = weighed(fits)? else { break };
         if from.is_none()
-            && let Some(two) = here.two_laws_for(&weighed, FURTHER)?
+            && let Some(two) = here.two_laws_for(&weighed)?
         {
             weighed = two;
         }

@@ -131,13 +131,19 @@ impl ReferenceModel<'_> {
         Ok(Some(self.at_place(&view, at, &forces[0], &fields)))
     }
 
-    /// Sets of two laws at the place of `source` beside this model, regressed on the free force there, best first, that explain it
-    /// by more than `evidence` better than the best law alone does, in units of what they leave beyond the noise.
+    /// Sets of two laws at the place of `source`, or at the one that explains most where that is the whole structure, regressed on the
+    /// free force there beside this model, best first, that explain it by more than `evidence` better than the best law alone does, in
+    /// units of what they leave beyond the noise.
     pub(super) fn two_laws(&self, source: &Source, evidence: f64) -> Result<Vec<UnfittedSet>, DiagnosisError> {
         let mut view = self.view(None)?;
-        let Some(at) = view.screen.spots.iter().position(|spot| spot.place().is_same(&source.place)) else {
-            return Ok(Vec::new());
+        let at = match source.place {
+            Place::Whole(_) => {
+                let mut spots = view.screen.singles().into_iter().map(|placing| placing.spots[0]);
+                spots.find(|&spot| matches!(view.screen.spots[spot], Spot::Leg(_)))
+            }
+            _ => view.screen.spots.iter().position(|spot| spot.place().is_same(&source.place)),
         };
+        let Some(at) = at else { return Ok(Vec::new()) };
         self.need(&mut view, &[at])?;
         let (forces, fields) = self.free(&view, &[at]);
         let (data, fields) = (self.at_place(&view, at, &forces[0], &fields), Arc::new(fields));

@@ -1,46 +1,59 @@
 //! Two laws at the place of one that leaves more than noise, in its stead: each step of a search adds one law, and of two that act
 //! together neither need be the best alone. What one law of a joint misses passes for stiffness that scatters from run to run.
 
+use super::single_change::is_like_a_correction;
 use super::weighing::{Weighed, weighed};
 use crate::diagnosis::residual::data::DiagnosisError;
-use crate::diagnosis::selection::found::EVIDENCE;
+use crate::diagnosis::selection::found::{EVIDENCE, agrees};
 use crate::diagnosis::selection::reference_model::{ReferenceModel, scale_of};
 use crate::effects::Kind;
 
 /// Pairs of laws that are followed.
 const FOLLOWED: usize = 4;
-/// Share of the evidence that two laws must bring in the end which they must bring by their regression.
-const BROUGHT: f64 = 0.5;
-/// Share of the error that the best law leaves with all runs alike which two may leave that are no likelier than it.
-const LESS: f64 = 0.67;
+/// Evidence that two laws must bring by their regression on the free force, in units of what they leave, to be followed.
+const REGRESSED: f64 = 50.0;
+/// Scatter of the stiffness and of the response from run to run, relative, that tests of one structure have: a single law that agrees
+/// with the data beside no more than this needs no other.
+const USUAL_SHIFT: f64 = 1.5e-3;
+const USUAL_RESPONSE: f64 = 0.01;
 
 impl<'a> ReferenceModel<'a> {
-    /// Two laws at the place of the only effect of `best`, with the single laws behind them; `None` where none bring `evidence` beyond
-    /// the best single law, nor, with about its evidence, leave much less than it once all runs are alike.
-    pub(super) fn two_laws_for(
-        &self,
-        best: &Weighed<'a>,
-        evidence: f64,
-    ) -> Result<Option<Weighed<'a>>, DiagnosisError> {
+    /// Two laws at the place of the only effect of `best`, with the single laws behind them; `None` where none bring their evidence.
+    pub(super) fn two_laws_for(&self, best: &Weighed<'a>) -> Result<Option<Weighed<'a>>, DiagnosisError> {
         let [source] = best.fits[0].effects.as_slice() else { return Ok(None) };
-        if !matches!(source.effect.kind(), Kind::Relative(_)) || self.control.is_late() {
+        if matches!(source.effect.kind(), Kind::Channel(_)) || self.control.is_late() || suffices(best) {
             return Ok(None);
         }
-        let mut unfitted = self.two_laws(source, BROUGHT * evidence)?;
+        let mut unfitted = self.two_laws(source, REGRESSED)?;
         unfitted.truncate(FOLLOWED);
         if unfitted.is_empty() {
             return Ok(None);
         }
         let Some(two) = weighed(self.followed(unfitted)?)? else { return Ok(None) };
-        let gain = (best.least - two.least) / scale_of(&two.fits, two.reference.count());
-        let leaves_less = two.fits[0].error < LESS * best.fits[0].error && gain > -EVIDENCE;
-        let better = two.fits[0].effects.len() > 1 && (gain > evidence || leaves_less);
-        Ok(better.then(|| beside(two, best, gain)))
+        let effects = &two.fits[0].effects;
+        let both = effects.len() > 1 && !effects.iter().any(|e| is_like_a_correction(e.effect));
+        let gains = gains(&two, best);
+        Ok((both && 0.5 * (gains[0] + gains[1]) > EVIDENCE).then(|| beside(two, best, gains[0])))
     }
 }
 
-/// Two laws with the single ones behind them. Where the evidence speaks for the single law, what both leave with all runs alike speaks
-/// for the two: neither is then the likelier.
+/// Evidence that two laws bring beyond a single one: beside what differs from run to run, and with all runs alike, where the response
+/// is off in proportion to itself, `2 n ln(error / error)` of `n` data.
+fn gains(two: &Weighed, single: &Weighed) -> [f64; 2] {
+    let count = two.reference.count();
+    let beside_scatter = (single.least - two.least) / scale_of(&two.fits, count);
+    [beside_scatter, 2.0 * count as f64 * (single.fits[0].error / two.fits[0].error).ln()]
+}
+
+/// Whether the best single law agrees with the data beside scatter that is usual.
+fn suffices(best: &Weighed) -> bool {
+    let (fit, scales) = (&best.fits[0], best.reference.linearisation.updating.scales);
+    let usual = scales.shift < USUAL_SHIFT && scales.response < USUAL_RESPONSE;
+    usual && agrees(&best.reference, fit.chi_square, fit.parameters)
+}
+
+/// Two laws with the single ones behind them. Where the evidence beside the scatter speaks for the single law, that with all runs alike
+/// speaks for the two: neither is then the likelier.
 fn beside<'a>(mut two: Weighed<'a>, single: &Weighed<'a>, gain: f64) -> Weighed<'a> {
     let share = 1.0 / (1.0 + (-0.5 * gain.max(0.0)).exp());
     two.probabilities.iter_mut().for_each(|p| *p *= share);
