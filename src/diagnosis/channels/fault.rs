@@ -51,8 +51,11 @@ impl ChannelFault {
             Fault::Exchanged => format!("{name} and {} look exchanged", self.channels[1]),
             Fault::Elsewhere(_) => {
                 let place = self.channels[1].split('@').nth(1).unwrap_or_default();
-                let why = if name.starts_with("force@") { "was the force there" } else { "is the sensor there" };
-                format!("{name} fits the motion of the model at DOF {place}: {why}?")
+                if name.starts_with("force@") {
+                    format!("{name} fits the motion of the model at DOF {place}: was the force there?")
+                } else {
+                    format!("{name} fits the motion of the model at DOF {place}: is the sensor there?")
+                }
             }
             Fault::Unreliable(scatter) => {
                 format!(

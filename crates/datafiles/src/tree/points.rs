@@ -130,7 +130,44 @@ fn whole(values: &[f64]) -> Option<Vec<String>> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::source::Flat;
     use super::*;
+
+    struct Numbers;
+    impl Arrays for Numbers {
+        fn read(&self, id: usize) -> Read<Flat> {
+            let re = if id == 1 { vec![2.0, 3.0, 5.0] } else { vec![0.0, 0.5, 1.0, 1.5, 2.0] };
+            Ok(Flat { re, im: None })
+        }
+    }
+
+    /// `H`, `f`, `resp_dof = [2 3 5]` and `ref_dof = 8`: every function says where it was measured; a list of another length is
+    /// noted and not used.
+    #[test]
+    fn points_beside_an_array_are_those_of_its_functions() {
+        let array = |name: &str, id: usize, extents: [u64; 2], complex: bool| {
+            let shape = Shape::new(extents, true);
+            let peek = vec![[8.0, 0.0]; shape.wanted().len()];
+            Entry::new(name, Node::Array(Array { id, shape, complex, peek }))
+        };
+        let found = |points: u64| {
+            let entries = [
+                array("f", 0, [5, 1], false),
+                array("H", 2, [5, 3], true),
+                array("resp_dof", 1, [points, 1], false),
+                array("ref_dof", 3, [1, 1], false),
+            ];
+            super::super::sets::sets(&entries, &[], &Numbers).unwrap_or_default().0.remove(0)
+        };
+        let set = found(3);
+        let pairs: Vec<_> = (set.channels.iter().filter(|channel| channel.complex))
+            .map(|channel| (channel.attribute("response"), channel.attribute("reference")))
+            .collect();
+        assert_eq!(pairs, [(Some("2"), Some("8")), (Some("3"), Some("8")), (Some("5"), Some("8"))]);
+        let set = found(4);
+        assert!(set.notes.iter().any(|note| note.contains("responses beside its 3 functions")), "{:?}", set.notes);
+        assert!(set.channels.iter().all(|channel| channel.attribute("response").is_none()));
+    }
 
     #[test]
     fn words_of_programs_name_the_sides() {
