@@ -136,8 +136,11 @@ mod tests {
     struct Numbers;
     impl Arrays for Numbers {
         fn read(&self, id: usize) -> Read<Flat> {
-            let re = if id == 1 { vec![2.0, 3.0, 5.0] } else { vec![0.0, 0.5, 1.0, 1.5, 2.0] };
-            Ok(Flat { re, im: None })
+            let re = match id {
+                0 => vec![0.0, 0.5, 1.0, 1.5, 2.0],
+                points => [2.0, 3.0, 5.0, 6.0][..points].to_vec(),
+            };
+            Ok(Flat { re, im: Vec::new() })
         }
     }
 
@@ -153,9 +156,9 @@ mod tests {
         let found = |points: u64| {
             let entries = [
                 array("f", 0, [5, 1], false),
-                array("H", 2, [5, 3], true),
-                array("resp_dof", 1, [points, 1], false),
-                array("ref_dof", 3, [1, 1], false),
+                array("H", 9, [5, 3], true),
+                array("resp_dof", points as usize, [points, 1], false),
+                array("ref_dof", 9, [1, 1], false),
             ];
             super::super::sets::sets(&entries, &[], &Numbers).unwrap_or_default().0.remove(0)
         };
