@@ -78,16 +78,13 @@ fn change(
     let is_driven = |own: &Label| driven.iter().any(|label| same(on, plain(own), label));
     let concerned = |own: &Label| labels.iter().any(|label| same(on, plain(own), label));
     let (dofs, forces) = (&mut table.dofs, &mut table.reference_dofs);
-    for (key, own) in dofs.iter_mut().filter(|(_, own)| concerned(own)) {
-        let both = own.clone();
-        if of_force {
-            forces.entry(key.clone()).or_insert(both);
-        } else {
+    let known = of_force && forces.values().any(concerned);
+    for (key, own) in dofs.iter_mut().filter(|(_, own)| concerned(own) && !known) {
+        if of_force || is_driven(own) {
+            forces.entry(key.clone()).or_insert(own.clone());
+        }
+        if !of_force {
             renew(own, new);
-            // What is reversed is the sensor; a point that is none is reversed as a whole.
-            if is_driven(&both) {
-                forces.entry(key.clone()).or_insert(both);
-            }
         }
     }
     if of_force {
