@@ -366,3 +366,35 @@ fn the_hit_point_of_functions_is_told_under_noise_by_signs_or_by_the_modes_of_th
         assert!(project.contains(reference) && said.contains(words), "{said}{project}");
     }
 }
+
+/// A hammer that is always the same channel: where it hit is the number by which the names of the files differ.
+#[test]
+fn a_roving_hammer_hits_at_the_numbers_in_the_names_of_its_files() {
+    let folder = tempfile::tempdir().unwrap();
+    let header = "Time [s],Hammer [N],Acc P8 [m/s^2]";
+    let rows: String = (0..400)
+        .map(|i| {
+            let time = f64::from(i) / 2000.0;
+            let turn = std::f64::consts::TAU * 60.0 * time;
+            format!("{time},{},{}\n", turn.cos(), 2.0 * turn.sin())
+        })
+        .collect();
+    let write = |name: &str| {
+        let path = folder.path().join(name);
+        std::fs::write(&path, format!("{header}\n{rows}")).unwrap();
+        path.display().to_string()
+    };
+    let files = [write("hit 1 P4.csv"), write("hit 2 P4.csv"), write("hit 3 P10.csv")];
+    let (said, project) = onto(folder.path(), &files, BEAM).unwrap();
+    assert!(said.contains("by the numbers in the names of the runs it acts at 4z, 4z, 10z"), "{said}");
+    assert_eq!(project.matches("dofs = { \"Hammer\" = \"4z\" }").count(), 2, "{project}");
+    let out = folder.path().join("p.toml");
+    let loaded = dashpot::exchange::project::load(&out, &dashpot::control::Control::unattended()).unwrap();
+    let force = |run: &dashpot::measurement::Run| {
+        run.fit.channels.iter().map(|fit| fit.channel.to_string()).find(|name| name.starts_with("force")).unwrap()
+    };
+    assert_eq!(loaded.runs.iter().map(force).collect::<Vec<_>>(), ["force@4z", "force@4z", "force@10z"]);
+    std::fs::write(&out, project.replacen("{ \"Hammer\"", "{ \"Hamer\"", 1)).unwrap();
+    let error = dashpot(&["identify", &out.display().to_string()]).unwrap_err();
+    assert!(error.contains("Hamer") && error.contains("\"Hammer\""), "{error}");
+}

@@ -7,17 +7,14 @@ use crate::structure::Structure;
 
 /// Name of the channel of the force in the files, and the label of its DOF in each run, where the names of the runs say it and
 /// nothing else does: the assumption of the mapping then says so.
-pub(super) fn places(
-    mapping: &mut Proposal,
-    runs: &[String],
-    structure: &Structure,
-) -> Option<(String, Vec<String>)> {
+pub(super) fn places(mapping: &mut Proposal, runs: &[String], structure: &Structure) -> Option<(String, Vec<String>)> {
     let tables = mapping.channels.iter().filter(|table| table.quantity == Quantity::Force);
     let [force] = tables.collect::<Vec<_>>()[..] else { return None };
     let (channel, name) = (force.channel(), force.name.clone());
     let guessed = |(known, what): &&mut (String, String)| *known == channel && what.starts_with(FORCE_WITHOUT_PLACE);
     let sensors = mapping.channels.iter().filter(|table| table.quantity != Quantity::Force);
-    let directions: Vec<&str> = sensors.map(|table| table.dof.trim_start_matches(|c: char| c.is_ascii_digit())).collect();
+    let directions: Vec<&str> =
+        sensors.map(|table| table.dof.trim_start_matches(|c: char| c.is_ascii_digit())).collect();
     let direction = *directions.first().filter(|first| directions.iter().all(|other| other == *first))?;
     let numbers = differing(runs)?;
     let labels: Vec<String> = numbers.iter().map(|number| format!("{number}{direction}")).collect();
@@ -25,7 +22,8 @@ pub(super) fn places(
         return None;
     }
     let assumed = mapping.assumed.iter_mut().find(guessed)?;
-    assumed.1 = format!("the file says no DOF: by the numbers in the names of the runs it acts at {}", labels.join(", "));
+    assumed.1 =
+        format!("the file says no DOF: by the numbers in the names of the runs it acts at {}", labels.join(", "));
     Some((name, labels))
 }
 

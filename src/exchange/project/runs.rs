@@ -1,8 +1,8 @@
 //! Tables `[[run]]` and `[[harmonics]]` of a project.
 
 use super::error::{Problem, ProjectError};
-use super::frf::dofs;
 use super::file::{HarmonicsTable, Lines, RunTable};
+use super::frf::dofs;
 use super::keys::{above_zero, key_lines};
 use super::label::Label;
 use super::reader::Table;
