@@ -97,7 +97,7 @@ fn in_mapping(tables: &mut [ChannelTable], mending: &Mending) -> Result<(), Stri
     if mending.elsewhere {
         let [row, label] = [&mending.channels[0], &mending.channels[1]];
         let row = place(row)?;
-        tables[row].dof = label_of(label).to_owned();
+        tables[row].dof = responses::label_of(label).to_owned();
         return Ok(());
     }
     let rows = mending.channels.iter().map(place).collect::<Result<Vec<usize>, _>>()?;
@@ -120,9 +120,4 @@ fn divide(table: &mut ChannelTable, factor: f64) {
     if factor.abs() != 1.0 {
         table.factor = Some(table.factor.unwrap_or(1.0) / factor.abs());
     }
-}
-
-/// The label in the name of a channel, such as `7` of `acc@7`.
-fn label_of(name: &str) -> &str {
-    name.split_once('@').map_or(name, |(_, label)| label)
 }

@@ -1,7 +1,6 @@
 //! The DOFs of frequency responses mended: in the lists of a table where it has them, else under `[frf.dofs]` and, where forces
 //! act elsewhere than the sensors of that name, under `[frf.reference_dofs]`.
 
-use super::label_of;
 use crate::exchange::project::file::Label;
 use crate::exchange::project::frf::FrfTable;
 use crate::session::command::Mending;
@@ -122,4 +121,9 @@ fn of_file(structure: &Structure, label: &str) -> Option<String> {
         Direction::Q => return None,
     };
     Some(format!("{}:{direction}", structure.nodes()[dof.node].label))
+}
+
+/// The label in the name of a channel, such as `7` of `acc@7`.
+pub(super) fn label_of(name: &str) -> &str {
+    name.split_once('@').map_or(name, |(_, label)| label)
 }
