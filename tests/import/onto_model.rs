@@ -358,7 +358,7 @@ fn the_hit_point_of_functions_is_told_under_noise_by_signs_or_by_the_modes_of_th
     let folder = tempfile::tempdir().unwrap();
     for (driven, reference, words) in [
         (9, "references = [\"9z\"]", "signs of a driving point"),
-        (10, "references = [\"19\"]", "by the modes of the model the force acts at DOF 19"),
+        (10, "references = [\"10z\"]", "by the modes of the model the force acts at DOF 10z"),
     ] {
         let file = folder.path().join("points.csv").display().to_string();
         std::fs::write(&file, beam_functions(folder.path(), driven)).unwrap();

@@ -242,9 +242,10 @@ impl Search<'_> {
         let [was, is] = [before, after].map(|errors| self.by_frequency(errors, &channels));
         let pairs: Vec<(f64, f64)> = was.into_iter().zip(is).filter_map(|(a, b)| Some((a?, b?))).collect();
         let shown = pairs.iter().filter(|(was, is)| is < was).count();
-        let enough = match elsewhere {
-            true => pairs.len() >= places::FEWEST,
-            false => pairs.len() >= FREQUENCIES || (pairs.len() == 1 && own_error[1] < CLEAR),
+        let enough = if elsewhere {
+            pairs.len() >= places::FEWEST
+        } else {
+            pairs.len() >= FREQUENCIES || (pairs.len() == 1 && own_error[1] < CLEAR)
         };
         if !enough || (shown as f64) < EVERYWHERE * pairs.len() as f64 {
             return None;

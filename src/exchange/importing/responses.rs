@@ -55,7 +55,15 @@ fn driven(project: &Project, control: &Control) -> Option<String> {
     let sources = [Source { state: State::Known, ..whole }];
     let problem = Problem { structure, sources: &sources, runs: &project.runs };
     // What cannot be compared says nothing of the place.
-    place_of_force(&problem, control).ok().flatten().map(|dof| structure.label(dof).to_owned())
+    place_of_force(&problem, control).ok().flatten().map(|dof| at_node(structure, dof))
+}
+
+/// The name of a DOF by its node and axis, such as `10z`, which no number of a DOF can be taken for; else its label.
+fn at_node(structure: &Structure, dof: usize) -> String {
+    let node = &structure.nodes()[structure.dofs()[dof].node].label;
+    let names = ["x", "y", "z"].map(|axis| format!("{node}{axis}"));
+    let own = names.into_iter().find(|name| structure.dof(name) == Some(dof));
+    own.unwrap_or_else(|| structure.label(dof).to_owned())
 }
 
 /// The functions of files as they would be imported.

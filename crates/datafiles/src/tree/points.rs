@@ -57,7 +57,7 @@ pub(super) fn attach(
         Node::Array(array) if array.complex => Some(&array.shape),
         _ => None,
     });
-    for s in 0..2 {
+    for (s, side) in SIDES.into_iter().enumerate() {
         let Some(list) = &lists[s] else { continue };
         let other = lists[1 - s].as_ref().map_or(1, Vec::len);
         let Some(place) = order(shape, list.len(), other, functions.len(), s == 0) else {
@@ -65,13 +65,13 @@ pub(super) fn attach(
             set.notes.push(format!(
                 "the {} {}s beside its {many} functions are not theirs one by one",
                 list.len(),
-                SIDES[s]
+                side
             ));
             continue;
         };
         for (k, &c) in functions.iter().enumerate() {
-            if set.channels[c].attribute(SIDES[s]).is_none() {
-                set.channels[c].attributes.push((SIDES[s].to_owned(), list[place(k)].clone()));
+            if set.channels[c].attribute(side).is_none() {
+                set.channels[c].attributes.push((side.to_owned(), list[place(k)].clone()));
             }
         }
     }
