@@ -97,7 +97,7 @@ fn in_mapping(tables: &mut [ChannelTable], mending: &Mending) -> Result<(), Stri
     if mending.elsewhere {
         let [row, label] = [&mending.channels[0], &mending.channels[1]];
         let row = place(row)?;
-        tables[row].dof = responses::label_of(label).to_owned();
+        responses::label_of(label).clone_into(&mut tables[row].dof);
         return Ok(());
     }
     let rows = mending.channels.iter().map(place).collect::<Result<Vec<usize>, _>>()?;
