@@ -14,6 +14,11 @@ const BEAM: &str = "[project]\nformat = 1\ntitle = \"hammer test\"\n[structure]\
 const TRUTH: &str = "[[source]]\nlaw = \"viscous\"\ndofs = [25]\nstate = \"known\"\nc = 2.0\n[[source]]\nlaw = \"viscous\"\n\
                      dofs = [61]\nstate = \"known\"\nc = 0.8\n[[source]]\nlaw = \"loss_factor\"\nstate = \"known\"\nloss_factor = 0.002\n\
                      [[frf]]\nfile = \"hammer.uff\"\naverages = 8\nband = [0, 800]\n";
+/// The same with the dashpots alone: sets of up to eight of forty candidates.
+const DASHPOTS: [&str; 2] = [
+    "[[source]]\nlaw = \"loss_factor\"\nstate = \"candidate\"\n",
+    "[[source]]\nlaw = \"loss_factor\"\nstate = \"known\"\nloss_factor = 0.002\n",
+];
 const ASKED: &str = "[[candidates]]\nlaw = \"viscous\"\nwhere = \"each-translation\"\n[[source]]\nlaw = \"loss_factor\"\n\
                      state = \"candidate\"\n[[frf]]\nfile = \"hammer.uff\"\naverages = 8\n";
 
@@ -46,6 +51,17 @@ fn bench(c: &mut Criterion) {
     group.bench_function("identify", |bencher| {
         bencher.iter(|| {
             identify(&opened.structure, &opened.sources, &opened.runs, &opened.settings, &Control::unattended())
+                .unwrap_or_else(|error| panic!("{error}"))
+        });
+    });
+    let text = std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{error}"));
+    let path = path.with_file_name("dashpots.toml");
+    write_atomically(&path, text.replace(DASHPOTS[0], DASHPOTS[1]).as_bytes())
+        .unwrap_or_else(|error| panic!("{error}"));
+    let dashpots = load(&path, &Control::unattended()).unwrap_or_else(|error| panic!("{error}"));
+    group.bench_function("identify dashpots", |bencher| {
+        bencher.iter(|| {
+            identify(&dashpots.structure, &dashpots.sources, &dashpots.runs, &dashpots.settings, &Control::unattended())
                 .unwrap_or_else(|error| panic!("{error}"))
         });
     });

@@ -199,3 +199,53 @@ fn what_was_identified_from_faulty_channels_is_identified_again() {
     assert_eq!(steps[0]["error"], document["error_before"]);
     assert!(steps[1]["error"].as_f64().unwrap() < 0.5 * steps[0]["error"].as_f64().unwrap(), "{steps:?}");
 }
+
+/// Frequency responses of the beam, hit at some nodes, with noise and coherences; and what a project says of their DOFs.
+fn hit(forces: &[usize], said: &str) -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    let forces = forces.iter().map(|dof| format!("\"force@{dof} [N]\""));
+    let channels: Vec<String> = forces.chain(SENSORS.iter().map(|dof| format!("\"acc@{dof} [m/s^2]\""))).collect();
+    let simulate = format!("[simulate]\nsamples = 801\nchannels = [{}]\n", channels.join(", "));
+    let frf = "[[frf]]\nfile = \"hammer.uff\"\naverages = 8\n";
+    let truth = folder.path().join("truth.toml");
+    std::fs::write(&truth, [&beam(69e9), frf, "band = [0, 400]\n", &simulate].concat()).unwrap();
+    run(&["simulate", "--noise", "0.01", "--seed", "4", "--as", "frf", "--out"], &[folder.path(), &truth]);
+    let known = beam(70e9).replace("\"known\"\nc = 0.2", "\"candidate\"");
+    std::fs::write(folder.path().join("project.toml"), [&known, frf, said].concat()).unwrap();
+    folder
+}
+
+#[test]
+fn a_hammer_that_hit_at_another_node_is_put_there_and_the_sensor_of_that_name_stays() {
+    let sound = hit(&[17, 7], "");
+    assert!(words(&diagnosed(sound.path()).0).is_empty());
+    // Node 9, DOF 17, is taken for the free end.
+    let folder = hit(&[17, 7], "[frf.reference_dofs]\n\"9:+Z\" = 19\n");
+    let (document, mended) = diagnosed(folder.path());
+    assert_eq!(words(&document), ["force@19 fits the motion of the model at DOF 17: was the force there?"]);
+    let fault = &document["channel_faults"][0];
+    assert_eq!((fault["fault"].as_str(), fault["channels"][1].as_str()), (Some("elsewhere"), Some("force@17")));
+    assert!(fault["error_before"].as_f64().unwrap() > 0.3 && fault["error_after"].as_f64().unwrap() < 0.1, "{fault}");
+    assert!(words(&diagnosed_again(&mended)).is_empty());
+    let found: Value = serde_json::from_str(&run(&["identify", "--json"], &[&mended])).unwrap();
+    assert!((found["sources"][0]["parameters"]["c"].as_f64().unwrap() / 0.2 - 1.0).abs() < 0.05, "{found}");
+}
+
+#[test]
+fn a_sensor_at_another_node_is_put_there_and_exchanged_points_take_their_force_along() {
+    // Node 6 is DOF 11.
+    let folder = hit(&[19], "[frf.dofs]\n\"6:+Z\" = 13\n");
+    let (document, mended) = diagnosed(folder.path());
+    assert_eq!(words(&document), ["acc@13 fits the motion of the model at DOF 11: is the sensor there?"]);
+    assert!(std::fs::read_to_string(&mended).unwrap().contains("\"6:+Z\" = 11"));
+    assert!(words(&diagnosed_again(&mended)).is_empty());
+    // Nodes 4 and 6 are DOFs 7 and 11; the one is also hit.
+    let folder = hit(&[7, 19], "[frf.dofs]\n\"4:+Z\" = 11\n\"6:+Z\" = 7\n");
+    let (document, mended) = diagnosed(folder.path());
+    let said = words(&document);
+    assert!(said.iter().any(|words| words.contains("look exchanged")), "{said:?}");
+    assert!(said.contains(&"force@11 fits the motion of the model at DOF 7: was the force there?"), "{said:?}");
+    let text = std::fs::read_to_string(&mended).unwrap();
+    assert!(!text.contains("reference_dofs") && text.contains("\"4:+Z\" = 7"), "{text}");
+    assert!(words(&diagnosed_again(&mended)).is_empty());
+}

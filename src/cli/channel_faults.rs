@@ -29,8 +29,9 @@ pub(super) fn suggestions(faults: &[ChannelFault]) -> impl Iterator<Item = Value
                 map.insert("parameters".into(), json!({ "gain": factor }));
                 map.insert("standard_deviation".into(), json!({ "gain": null }));
             }
-            Fault::Exchanged => {
-                map.insert("effect".into(), json!("exchanged"));
+            Fault::Exchanged | Fault::Elsewhere(_) => {
+                let kind = if fault.fault == Fault::Exchanged { "exchanged" } else { "elsewhere" };
+                map.insert("effect".into(), json!(kind));
                 map.insert("dofs".into(), json!([]));
                 map.insert("channels".into(), json!(fault.channels));
                 map.insert("parameters".into(), json!({}));
@@ -50,6 +51,7 @@ pub(super) fn suggestions(faults: &[ChannelFault]) -> impl Iterator<Item = Value
 pub(super) fn document(fault: &ChannelFault) -> Value {
     let (kind, factor) = match fault.fault {
         Fault::Exchanged => ("exchanged", None),
+        Fault::Elsewhere(_) => ("elsewhere", None),
         Fault::Unreliable(_) => ("unreliable", None),
         Fault::Factor(-1.0) | Fault::Common(-1.0) => ("reversed", Some(-1.0)),
         Fault::Factor(factor) | Fault::Common(factor) => ("factor", Some(factor)),

@@ -54,7 +54,10 @@ pub(super) fn identify_known(
 ) -> anyhow::Result<Vec<Source>> {
     let measured = Measurements { runs: &project.runs, transient_runs: &project.transient_runs, ratios: &[] };
     let outcome = identify_measured(&project.structure, &project.sources, measured, &project.settings, control)
-        .with_context(|| format!("{}: what damps it could not be identified", file.display()))?;
+        .with_context(|| {
+            let channels = "no channel looks reversed, exchanged, misread or elsewhere";
+            format!("{}: what damps it could not be identified, and {channels}", file.display())
+        })?;
     let taken = identified::take_over(project, &outcome);
     eprintln!("{}", sentence(project, &taken, asked));
     Ok(taken)

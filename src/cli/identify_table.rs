@@ -4,7 +4,7 @@ use super::table::{digits, number, table};
 use crate::effects::{Source, State};
 use crate::exchange::Project;
 use crate::identify::outcome::WindowOutcome;
-use crate::identify::{Estimate, Outcome, SelectionStep};
+use crate::identify::{Estimate, Outcome, SelectionStep, Status};
 use crate::structure::Structure;
 use faer::Mat;
 use std::f64::consts::TAU;
@@ -24,7 +24,7 @@ pub(super) fn report(project: &Project, outcome: &Outcome) -> String {
         runs(project, outcome),
         records(project, outcome),
         selection(project, outcome),
-        format!("Accepted: {} sources. {}\n", outcome.accepted_step().count, outcome.reason),
+        format!("Accepted: {} sources. {}\n{}", outcome.accepted_step().count, outcome.reason, above_noise(outcome)),
         sources(project, outcome),
         indistinguishable(project, outcome),
         energy(project, outcome),
@@ -32,6 +32,17 @@ pub(super) fn report(project: &Project, outcome: &Outcome) -> String {
         matrix(&project.structure, &outcome.results.viscous),
     ];
     parts.into_iter().filter(|part| !part.is_empty()).collect::<Vec<_>>().join("\n")
+}
+
+/// What is said where no set of the candidates explains the measurement.
+fn above_noise(outcome: &Outcome) -> &'static str {
+    match outcome.status {
+        Status::AboveNoise => {
+            "These candidates alone do not explain what was measured; `dashpot diagnose` looks for other laws, and for errors of\n\
+             the model and of channels.\n"
+        }
+        _ => "",
+    }
 }
 
 fn head(cells: &[&str]) -> Vec<String> {

@@ -83,6 +83,17 @@ pub(crate) fn faults_of_channels(
     Ok((channels::find(&predictor, &data, &reference.predictions), reference.agreement()))
 }
 
+/// The row at which the only force of the steady runs of `problem` fits the motion of the model, where it fits one well.
+///
+/// # Errors
+/// As [`faults_of_channels`].
+pub(crate) fn place_of_force(problem: &Problem, control: &Control) -> Result<Option<usize>, DiagnosisError> {
+    let data = Data::new(problem)?;
+    let predictor = Arc::new(Predictor::new(problem.structure, problem.known(), &data)?);
+    let reference = ReferenceModel::new(predictor.clone(), &data, control, &|_| {})?;
+    Ok(channels::place_of_force(&predictor, &data, &reference.predictions))
+}
+
 /// What is found on the runs of `data`.
 fn on_runs(problem: &Problem, data: &Data, control: &Control, early: &Early) -> Result<Diagnosis, DiagnosisError> {
     let predictor = Arc::new(Predictor::new(problem.structure, problem.known(), data)?);

@@ -25,7 +25,7 @@ pub enum IdentifyError {
     )]
     NoInput,
     #[error(
-        "no set of sources with positive coefficients explains the energy; check the signs of force and motion channels"
+        "no set of sources with positive coefficients explains the energy; `dashpot diagnose` looks for reversed, exchanged and moved channels; else check the signs and places of force and motion channels"
     )]
     NothingFits,
     #[error("damping ratios need mass and stiffness, which this structure lacks; leave them out")]

@@ -50,7 +50,7 @@ use crate::measurement::{MeasuredRatio, Run};
 use crate::structure::Structure;
 use found::Found;
 use problem::Problem;
-use search::search;
+use search::{SizeRanking, search};
 use state::IdentificationState;
 
 use system::System;
@@ -222,7 +222,7 @@ fn passes(
     let mut best: Option<Found> = None;
     for pass in 0..PASSES {
         let system = System::of(form, problem, &state);
-        let rankings = search(problem, &system, control)?;
+        let rankings = ranked(problem, &state, &system, form, control)?;
         let decision = stopping::decide(problem, &state, &system, &rankings, form);
         let set = rankings[decision.accepted].best().columns.clone();
         let settled = last.as_ref() == Some(&set);
@@ -238,9 +238,21 @@ fn passes(
     }
     let mut found = best.ok_or(IdentifyError::NoCandidates)?;
     // The history is told at the motion that was accepted.
-    found.rankings = search(problem, &found.system, control)?;
+    found.rankings = ranked(problem, &found.state, &found.system, form, control)?;
     found.decision = stopping::decide(problem, &found.state, &found.system, &found.rankings, form);
     Ok(found)
+}
+
+/// The best sets of each size, as far as they may decide.
+fn ranked(
+    problem: &Problem<'_>,
+    state: &IdentificationState,
+    system: &System,
+    form: Form,
+    control: &Control,
+) -> Result<Vec<SizeRanking>, IdentifyError> {
+    let decided = |rankings: &[SizeRanking]| stopping::is_decided(problem, state, system, rankings, form);
+    search(problem, system, &decided, control)
 }
 
 /// Solves for the coefficients of one set, moves to the motion that they give, and so on until nothing changes.

@@ -14,6 +14,8 @@ use faer::Mat;
 
 /// Sets up to which all are looked at.
 const FEW: f64 = 500.0;
+/// Sets of one size up to which the search goes on for the history alone.
+const MANY: f64 = 200_000.0;
 /// Nodes of the tree after which the proof is given up.
 const NODES: u64 = 400_000;
 /// The same for sets of more than [`LARGE`] sources, where a proof is out of reach in most cases and each node costs more.
@@ -47,10 +49,12 @@ impl SizeRanking {
     }
 }
 
-/// The best sets of each size from the smallest to the largest that the settings and the data allow.
+/// The best sets of each size from the smallest to the largest that the settings and the data allow. Sizes of which there are
+/// more than [`MANY`] sets are not looked at once `decided` says that they would change nothing.
 pub(crate) fn search(
     problem: &Problem<'_>,
     system: &System,
+    decided: &dyn Fn(&[SizeRanking]) -> bool,
     control: &Control,
 ) -> Result<Vec<SizeRanking>, IdentifyError> {
     let chosen = promising(system, &problem.forced)?;
@@ -70,6 +74,9 @@ pub(crate) fn search(
     let mut rankings: Vec<SizeRanking> = Vec::new();
     for size in least..=most {
         control.check()?;
+        if combinations(chosen.len() - forced.len(), size - forced.len()) > MANY && decided(&rankings) {
+            break;
+        }
         if let Some(mut ranking) = task.of_size(size, &singles, control)? {
             let rename = |set: &mut RankedSet| set.columns.iter_mut().for_each(|j| *j = chosen[*j]);
             ranking.sets.iter_mut().for_each(rename);

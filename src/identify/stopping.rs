@@ -60,6 +60,35 @@ pub(crate) fn decide(
     Decision { status: Status::NothingLeft, reason, ..decision }
 }
 
+/// Sizes beyond the accepted one that must not earn their sources for larger ones not to be looked at.
+const BEYOND: usize = 2;
+
+/// Whether larger sets than those of `rankings` would change nothing: the accepted set is within the noise, or below the angle,
+/// and the best of the next sizes gain less than strong evidence asks for, less with each.
+pub(crate) fn is_decided(
+    problem: &Problem<'_>,
+    state: &IdentificationState,
+    system: &System,
+    rankings: &[SizeRanking],
+    form: Form,
+) -> bool {
+    if rankings.is_empty() {
+        return false;
+    }
+    let decision = decided(problem, state, system, rankings, form);
+    let accepted = decision.larger.unwrap_or(decision.accepted);
+    match decision.status {
+        // The first size below the angle is taken, whatever comes after it.
+        Status::BelowAngle => true,
+        Status::WithinNoise if rankings.len() > accepted + BEYOND => {
+            let criteria: Vec<f64> =
+                rankings[accepted..].iter().map(|ranking| score(problem, system, ranking).criterion).collect();
+            criteria.windows(2).all(|pair| pair[1] > pair[0])
+        }
+        _ => false,
+    }
+}
+
 fn decided(
     problem: &Problem<'_>,
     state: &IdentificationState,

@@ -88,6 +88,28 @@ fn sources_that_are_not_told_apart_are_those_of_brute_force() {
     }
 }
 
+/// Once it is decided, sets of every larger size leave the accepted one as it is; and two sizes beyond it are looked at before.
+#[test]
+fn larger_sets_change_nothing_once_it_is_decided() {
+    let (structure, control) = (five_masses(), Control::unattended());
+    let runs = runs(&[source(Effect::Viscous, &[1, 2], &[3.0]), source(Effect::Viscous, &[4], &[2.0])]);
+    let mut sources: Vec<Source> = (0..5).map(|i| candidate(Effect::Viscous, &[i])).collect();
+    sources.extend((0..4).map(|i| candidate(Effect::Viscous, &[i, i + 1])));
+    let settings = Settings { keep: 0, max_sources: 8, ..Settings::default() };
+    let measured = Measurements { runs: &runs, transient_runs: &[], ratios: &[] };
+    let problem = Problem::new(&structure, &sources, measured, &settings, &control).unwrap();
+    let start = balanced_start(&problem, IdentificationState::start(&problem).unwrap(), &control).unwrap();
+    let state = response_start(&problem, &start, &control).unwrap().unwrap();
+    let found = passes(&problem, state, Form::Response, &control).unwrap();
+    let all = &found.rankings;
+    let accepted =
+        |n: usize| stopping::decide(&problem, &found.state, &found.system, &all[..n], Form::Response).accepted;
+    let decided = |n: usize| stopping::is_decided(&problem, &found.state, &found.system, &all[..n], Form::Response);
+    let first = (0..=all.len()).find(|&n| decided(n)).unwrap();
+    assert!(first >= accepted(all.len()) + 3 && first < all.len(), "{first} of {}", all.len());
+    assert!((first..=all.len()).all(|n| accepted(n) == accepted(all.len())));
+}
+
 /// A dashpot and drag at one place take out `pi c w a^2` and `8/3 c w^2 a^3` a cycle: the angle between the two columns of runs of
 /// different force says whether they can be told apart.
 #[test]

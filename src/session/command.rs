@@ -72,11 +72,18 @@ pub struct EffectAt {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Mending {
-    /// Channels, such as `acc@7`: those that read `factor` times too large, or the two that are exchanged.
+    /// Channels, such as `acc@7`: those that read `factor` times too large, the two that are exchanged, or one and its
+    /// name at the DOF where it is.
     pub channels: Vec<String>,
     /// How many times too large they read, negative where they are reversed; none where they are exchanged.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub factor: Option<f64>,
+    /// Whether the first channel is where the second is said to be.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub elsewhere: bool,
+    /// Labels of the DOFs where the forces of frequency responses act, which stay when sensors are put elsewhere.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub driven: Vec<String>,
     /// Names of the channels of the records, for a project that has no `[[channel]]` yet.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub records: Vec<String>,

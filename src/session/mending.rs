@@ -1,15 +1,17 @@
 //! What becomes of a fault of a measuring channel: its mapping is mended. The command line and the window mend by the same
 //! command.
 
+mod responses;
+
 use super::command::{Command, Mending};
 use super::refusal::Refusal;
 use crate::diagnosis::channels::{ChannelFault, Fault};
 use crate::exchange::Project;
 use crate::exchange::mapping::ChannelTable;
-use crate::exchange::project::file::{Label, ProjectFile};
-use crate::exchange::project::frf::FrfTable;
+use crate::exchange::project::file::ProjectFile;
+use crate::measurement::Quantity;
 use crate::measurement::channel::parse_name;
-use crate::structure::{Direction, Structure};
+use crate::structure::Structure;
 
 /// The command that mends a fault.
 ///
@@ -18,10 +20,22 @@ use crate::structure::{Direction, Structure};
 pub(crate) fn command(fault: &ChannelFault, project: &Project) -> Result<Command, String> {
     let factor = match fault.fault {
         Fault::Factor(factor) | Fault::Common(factor) => Some(factor),
-        Fault::Exchanged => None,
+        Fault::Exchanged | Fault::Elsewhere(_) => None,
         Fault::Unreliable(_) => return Err("a channel that scatters has no mapping that mends it".to_owned()),
     };
-    Ok(Command::MendChannels(Mending { channels: fault.channels.clone(), factor, records: of_records(project) }))
+    let elsewhere = matches!(fault.fault, Fault::Elsewhere(_));
+    let (channels, driven) = (fault.channels.clone(), driven(project));
+    Ok(Command::MendChannels(Mending { channels, factor, elsewhere, driven, records: of_records(project) }))
+}
+
+/// Labels of the DOFs where the forces of frequency responses act.
+fn driven(project: &Project) -> Vec<String> {
+    let runs = project.runs.iter().filter(|run| run.per_unit_force);
+    let forces = runs.flat_map(|run| &run.fit.channels).filter(|fit| fit.channel.quantity == Quantity::Force);
+    let mut labels: Vec<String> = forces.map(|fit| fit.channel.label.clone()).collect();
+    labels.sort_unstable();
+    labels.dedup();
+    labels
 }
 
 /// The channels of the records; none where their files have different ones.
@@ -44,7 +58,7 @@ pub(super) fn mend(file: &mut ProjectFile, mending: &Mending, on: &Structure) ->
         return Err(cannot("its harmonics were fitted elsewhere; mend their file"));
     }
     for table in &mut file.frf {
-        in_responses(table, mending, on).map_err(|reason| cannot(&reason))?;
+        responses::mend(table, mending, on).map_err(|reason| cannot(&reason))?;
     }
     if file.run.is_empty() {
         return Ok(());
@@ -80,6 +94,12 @@ fn in_mapping(tables: &mut [ChannelTable], mending: &Mending) -> Result<(), Stri
     let place = |name: &String| {
         tables.iter().position(|table| table.channel() == *name).ok_or_else(|| format!("no [[channel]] is {name}"))
     };
+    if mending.elsewhere {
+        let [row, label] = [&mending.channels[0], &mending.channels[1]];
+        let row = place(row)?;
+        responses::label_of(label).clone_into(&mut tables[row].dof);
+        return Ok(());
+    }
     let rows = mending.channels.iter().map(place).collect::<Result<Vec<usize>, _>>()?;
     match (mending.factor, &rows[..]) {
         (Some(factor), rows) => rows.iter().for_each(|&row| divide(&mut tables[row], factor)),
@@ -100,53 +120,4 @@ fn divide(table: &mut ChannelTable, factor: f64) {
     if factor.abs() != 1.0 {
         table.factor = Some(table.factor.unwrap_or(1.0) / factor.abs());
     }
-}
-
-/// Turns or exchanges the DOFs of frequency responses, or scales all of them.
-fn in_responses(table: &mut FrfTable, mending: &Mending, on: &Structure) -> Result<(), String> {
-    let labels: Vec<&str> = mending.channels.iter().filter_map(|name| Some(name.split_once('@')?.1)).collect();
-    let of_force = mending.channels.iter().all(|name| name.starts_with("force@"));
-    match mending.factor {
-        // One scale holds for all functions of a file.
-        Some(factor) if of_force || mending.channels.len() > 1 => {
-            let scale = table.scale.unwrap_or(1.0);
-            table.scale = Some(if of_force { scale * factor } else { scale / factor });
-            Ok(())
-        }
-        Some(factor) if factor != -1.0 => Err("frequency responses have no factor a channel; mend the file".to_owned()),
-        _ => turn_or_exchange(table, &labels, mending.factor.is_some(), on),
-    }
-}
-
-/// Turns DOFs of frequency responses, or exchanges two of them.
-fn turn_or_exchange(table: &mut FrfTable, labels: &[&str], turn: bool, on: &Structure) -> Result<(), String> {
-    for label in labels {
-        if !table.dofs.values().any(|known| known.0.trim_start_matches('-') == *label) {
-            let key = of_file(on, label).ok_or_else(|| format!("DOF {label} has no node and direction"))?;
-            table.dofs.insert(key, Label((*label).to_owned()));
-        }
-    }
-    for known in table.dofs.values_mut() {
-        let (minus, plain) = (known.0.starts_with('-'), known.0.trim_start_matches('-').to_owned());
-        let Some(at) = labels.iter().position(|label| *label == plain) else { continue };
-        let other = labels.get(1 - at.min(1)).map_or(plain.clone(), |other| (*other).to_owned());
-        let (minus, plain) = if turn { (!minus, plain) } else { (minus, other) };
-        known.0 = if minus { format!("-{plain}") } else { plain };
-    }
-    Ok(())
-}
-
-/// A DOF as Universal Files name it.
-fn of_file(structure: &Structure, label: &str) -> Option<String> {
-    let dof = &structure.dofs()[structure.dof(label)?];
-    let direction = match dof.direction {
-        Direction::X => "+X",
-        Direction::Y => "+Y",
-        Direction::Z => "+Z",
-        Direction::Rx => "+RX",
-        Direction::Ry => "+RY",
-        Direction::Rz => "+RZ",
-        Direction::Q => return None,
-    };
-    Some(format!("{}:{direction}", structure.nodes()[dof.node].label))
 }

@@ -117,6 +117,43 @@ fn a_universal_file_of_responses_without_dofs_is_numbered() {
     assert!(project.contains("responses = [\"1\"]"), "{project}");
 }
 
+/// A function of a resonance at DOF 1 over itself, whose axes say these types and units.
+fn without_units(types: [u8; 2], units: [&str; 2]) -> String {
+    let values: String = (1..=40)
+        .map(|i| {
+            let (a, phase) = resonance(70.0 + 0.5 * f64::from(i), 1.0);
+            format!(" {:.5e} {:.5e}\n", a * (phase + PI).cos(), a * (phase + PI).sin())
+        })
+        .collect();
+    let axis = |kind: u8, unit: &str| format!("{kind:10}    0    0    0 NONE                 {unit:<20}\n");
+    format!(
+        "    -1\n    58\nref\nNONE\n23-Mar-17 19:02:23\nRecord 1\nH1\n    4         0    0         0 NONE               1   3 NONE               1   3\n         5        40         1 7.05000e+01  5.00000e-01  0.00000e+00\n{}{}{}{}{values}    -1\n",
+        axis(18, "NONE"),
+        axis(types[0], units[0]),
+        axis(types[1], units[1]),
+        axis(0, "NONE"),
+    )
+}
+
+/// Programs write NONE for a unit, or nothing: SI then is assumed and said, by the type of the data or by `--form`.
+#[test]
+fn functions_without_units_are_taken_as_si_and_that_is_said() {
+    let folder = tempfile::tempdir().unwrap();
+    for unit in ["NONE", ""] {
+        let (said, project) = imported(folder.path(), "typed.uff", &without_units([12, 13], [unit; 2]), &[]);
+        assert!(said.contains("1 of 1 functions name no unit: assumed to be in SI"), "{said}");
+        assert!(!project.contains("scale ="), "{project}");
+        let bare = without_units([0, 0], [unit; 2]);
+        let (said, project) = imported(folder.path(), "bare.uff", &bare, &["--form", "accelerance"]);
+        assert!(said.contains("assumed to be in SI") && project.contains("form = \"accelerance\""), "{said}");
+        assert!(!project.contains("scale ="), "{project}");
+        let file = folder.path().join("bare.uff").display().to_string();
+        let out = folder.path().join("none.toml").display().to_string();
+        let error = dashpot(&["import", &file, "--out", &out]).unwrap_err();
+        assert!(error.contains("`form` and `scale`") && error.contains("--form and --scale"), "{error}");
+    }
+}
+
 #[test]
 fn complex_values_without_frequencies_need_their_step() {
     let value = |i: i32| {

@@ -306,3 +306,95 @@ fn hits_of_one_file_lie_on_a_chain_and_have_names_of_their_own() {
     assert_eq!(names, ["steps.csv 1", "steps.csv 2"]);
     assert!((found["sources"][0]["parameters"]["c"].as_f64().unwrap() / 6.0 - 1.0).abs() < 0.01, "{found}");
 }
+
+/// The numbers in the names of points are nodes of a beam in frequency responses as in records, leading zeros or not.
+#[test]
+fn numbers_of_functions_are_nodes_of_a_beam_where_they_cannot_be_translations() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("points.csv").display().to_string();
+    std::fs::write(&file, chain_functions(|i| format!("Punkt {:02}", i + 3))).unwrap();
+    let (said, project) = onto(folder.path(), &[file], BEAM).unwrap();
+    assert!(project.contains("responses = [\"4z\", \"5z\", \"6z\", \"7z\", \"8z\"]"), "{project}");
+    assert!(project.contains("references = [\"8z\"]"), "{project}");
+    assert!(said.contains("4 is taken for the node: 4z is its translation, and 4 more likewise"), "{said}");
+}
+
+/// Accelerances of the beam with its dashpot at nodes 4, 6, 8 and 9 for a force at node `driven`, by simulation, as a table
+/// of points.
+fn beam_functions(folder: &Path, driven: usize) -> String {
+    let truth = folder.join("truth.toml");
+    let force = 2 * driven - 1;
+    let text = format!(
+        "[project]\nformat = 1\n{BEAM}[[source]]\nlaw = \"viscous\"\ndofs = [9]\nstate = \"known\"\nc = {C}\n[[frf]]\n\
+         file = \"h.uff\"\naverages = 8\nband = [0, 400]\n[simulate]\nsamples = 1601\n\
+         channels = [\"force@{force} [N]\", \"acc@7 [m/s^2]\", \"acc@11 [m/s^2]\", \"acc@15 [m/s^2]\", \"acc@17 [m/s^2]\"]\n"
+    );
+    std::fs::write(&truth, text).unwrap();
+    let [truth, out] = [truth, folder.to_owned()].map(|path| path.display().to_string());
+    dashpot(&["simulate", "--noise", "0.01", "--seed", "2", "--as", "frf", "--out", &out, &truth]).unwrap();
+    let file = dashpot_datafiles::open(&folder.join("h.uff")).unwrap();
+    let mut columns = Vec::new();
+    let mut frequencies = Vec::new();
+    for (s, set) in file.contents().sets.iter().enumerate().filter(|(_, set)| set.kind == dashpot_datafiles::Kind::Frf)
+    {
+        for c in (0..set.channels.len()).filter(|&c| set.channels[c].complex) {
+            frequencies = file.axis(s, c).unwrap().unwrap();
+            let dashpot_datafiles::Values::Complex(values) = file.read(s, c).unwrap() else { unreachable!() };
+            columns.push(values);
+        }
+    }
+    let mut text = String::from("Frequency [Hz]");
+    ["4", "6", "8", "9"].iter().for_each(|p| text.push_str(&format!(",P {p} Real [m/s^2/N],P {p} Imag [m/s^2/N]")));
+    for (line, frequency) in frequencies.iter().enumerate() {
+        text.push_str(&format!("\n{frequency}"));
+        columns.iter().for_each(|column| text.push_str(&format!(",{},{}", column[line][0], column[line][1])));
+    }
+    text
+}
+
+/// Which of the points is hit is told under noise; where the force acts at none of them, by the modes of the model.
+#[test]
+fn the_hit_point_of_functions_is_told_under_noise_by_signs_or_by_the_modes_of_the_model() {
+    let folder = tempfile::tempdir().unwrap();
+    for (driven, reference, words) in [
+        (9, "references = [\"9z\"]", "signs of a driving point"),
+        (10, "references = [\"10z\"]", "by the modes of the model the force acts at DOF 10z"),
+    ] {
+        let file = folder.path().join("points.csv").display().to_string();
+        std::fs::write(&file, beam_functions(folder.path(), driven)).unwrap();
+        let (said, project) = onto(folder.path(), &[file], BEAM).unwrap();
+        assert!(project.contains(reference) && said.contains(words), "{said}{project}");
+    }
+}
+
+/// A hammer that is always the same channel: where it hit is the number by which the names of the files differ.
+#[test]
+fn a_roving_hammer_hits_at_the_numbers_in_the_names_of_its_files() {
+    let folder = tempfile::tempdir().unwrap();
+    let header = "Time [s],Hammer [N],Acc P8 [m/s^2]";
+    let rows: String = (0..400)
+        .map(|i| {
+            let time = f64::from(i) / 2000.0;
+            let turn = std::f64::consts::TAU * 60.0 * time;
+            format!("{time},{},{}\n", turn.cos(), 2.0 * turn.sin())
+        })
+        .collect();
+    let write = |name: &str| {
+        let path = folder.path().join(name);
+        std::fs::write(&path, format!("{header}\n{rows}")).unwrap();
+        path.display().to_string()
+    };
+    let files = [write("hit 1 P4.csv"), write("hit 2 P4.csv"), write("hit 3 P10.csv")];
+    let (said, project) = onto(folder.path(), &files, BEAM).unwrap();
+    assert!(said.contains("by the numbers in the names of the runs it acts at 4z, 4z, 10z"), "{said}");
+    assert_eq!(project.matches("dofs = { \"Hammer\" = \"4z\" }").count(), 2, "{project}");
+    let out = folder.path().join("p.toml");
+    let loaded = dashpot::exchange::project::load(&out, &dashpot::control::Control::unattended()).unwrap();
+    let force = |run: &dashpot::measurement::Run| {
+        run.fit.channels.iter().map(|fit| fit.channel.to_string()).find(|name| name.starts_with("force")).unwrap()
+    };
+    assert_eq!(loaded.runs.iter().map(force).collect::<Vec<_>>(), ["force@4z", "force@4z", "force@10z"]);
+    std::fs::write(&out, project.replacen("{ \"Hammer\"", "{ \"Hamer\"", 1)).unwrap();
+    let error = dashpot(&["identify", &out.display().to_string()]).unwrap_err();
+    assert!(error.contains("Hamer") && error.contains("\"Hammer\""), "{error}");
+}

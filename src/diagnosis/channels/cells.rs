@@ -21,6 +21,7 @@ const STEPS: usize = 6;
 const EVEN: f64 = 0.05;
 
 /// One run.
+#[derive(Clone)]
 pub(super) struct Cells {
     /// Number of its frequency.
     pub frequency: usize,
@@ -31,22 +32,29 @@ pub(super) struct Cells {
     /// Whether the model moves there enough.
     pub moves: Vec<bool>,
     model: Vec<c64>,
+    /// What the model says at every DOF of the structure, m or rad.
+    everywhere: Vec<c64>,
     /// Least amplitude that an error is measured by.
     floor: Vec<f64>,
-    /// Shapes of the free modes at the channels.
+    /// Numbers of the free modes, and their shapes at the channels.
+    free: Vec<usize>,
     shapes: Vec<Vec<f64>>,
     /// The nearest of them.
     nearest: Option<Nearest>,
 }
 
 /// The mode next to a run.
+#[derive(Clone)]
 struct Nearest {
     mode: usize,
     /// Circular frequencies of the mode and of the run, rad/s.
     omega: [f64; 2],
     /// Modal force, N / sqrt(kg).
     force: c64,
-    /// Shapes at the channels of as many modes as these tell apart, its own first.
+    /// Number of the force among the names of the forces, and its amplitude, N, where it is the only one.
+    alone: Option<(usize, c64)>,
+    /// As many modes as the channels tell apart, its own first, and their shapes at these.
+    modes: Vec<usize>,
     shapes: Vec<Vec<f64>>,
 }
 
@@ -62,6 +70,14 @@ pub(super) struct NextToMode {
     pub stiffness: f64,
 }
 
+/// One run next to a mode with one force alone.
+pub(super) struct NextToForce {
+    /// Number of the force among the names of the forces.
+    pub force: usize,
+    /// With the force itself, N, in place of the modal one: `stiffness` is in N / (m sqrt(kg)).
+    pub run: NextToMode,
+}
+
 /// All runs that can be judged, and the names of their channels.
 pub(super) fn cells(
     structure: &Structure,
@@ -69,7 +85,7 @@ pub(super) fn cells(
     data: &Data,
     predictions: &[RunPrediction],
 ) -> (Vec<String>, Vec<Cells>) {
-    let [names, _] = data.channel_names();
+    let [names, forces] = data.channel_names();
     let mut frequencies: Vec<f64> = Vec::new();
     let mut all = Vec::new();
     for (run, prediction) in data.runs.iter().zip(predictions) {
@@ -78,7 +94,7 @@ pub(super) fn cells(
             frequencies.push(run.omega);
             frequencies.len() - 1
         });
-        all.extend(Cells::new(structure, modes, run, prediction, &names, frequency));
+        all.extend(Cells::new(structure, modes, run, prediction, [&names, &forces], frequency));
     }
     (names, all)
 }
@@ -89,7 +105,7 @@ impl Cells {
         modes: &Modes,
         run: &RunData,
         prediction: &RunPrediction,
-        names: &[String],
+        [names, forces]: [&[String]; 2],
         frequency: usize,
     ) -> Option<Self> {
         let rows = &run.alive;
@@ -108,11 +124,17 @@ impl Cells {
         }
         let number = |c: usize| names.iter().position(|name| *name == run.responses[c].name);
         let shape = |j: usize| rows.iter().map(|&c| modes.shapes[(run.responses[c].dof, j)]).collect::<Vec<f64>>();
+        let told: Vec<usize> = by_distance(modes, run.omega).into_iter().take(rows.len().saturating_sub(1)).collect();
         let nearest = near.first().map(|&mode| Nearest {
             mode,
             omega: [modes.omega[mode], run.omega],
+            alone: match &run.forces[..] {
+                [force] => forces.iter().position(|name| *name == force.name).map(|f| (f, force.measured[0])),
+                _ => None,
+            },
             force: run.forces.iter().map(|force| force.measured[0] * modes.shapes[(force.dof, mode)]).sum(),
-            shapes: by_distance(modes, run.omega).into_iter().take(rows.len().saturating_sub(1)).map(shape).collect(),
+            shapes: told.iter().map(|&j| shape(j)).collect(),
+            modes: told.clone(),
         });
         Some(Self {
             nearest,
@@ -123,39 +145,82 @@ impl Cells {
             model,
             floor,
             shapes: near.iter().map(|&j| shape(j)).collect(),
+            everywhere: (0..structure.len()).map(|dof| prediction.response.harmonics[(dof, 0)]).collect(),
+            free: near,
         })
     }
 
     /// Modal force over modal amplitude of the mode next to the run, where there is one: by the motion alone, whatever the
     /// model says of the size of the others.
     pub(super) fn next_to_mode(&self) -> Option<NextToMode> {
+        self.nearest.as_ref().and_then(|nearest| self.over_amplitude(nearest, nearest.force))
+    }
+
+    /// The same of the only force, whatever its place.
+    pub(super) fn next_to_force(&self) -> Option<NextToForce> {
         let nearest = self.nearest.as_ref()?;
+        let (force, value) = nearest.alone?;
+        Some(NextToForce { force, run: self.over_amplitude(nearest, value)? })
+    }
+
+    /// A force over the modal amplitude of the nearest mode.
+    fn over_amplitude(&self, nearest: &Nearest, force: c64) -> Option<NextToMode> {
         let weights: Vec<f64> = self.floor.iter().map(|floor| 1.0 / floor.powi(2)).collect();
         let amplitude = *amplitudes(&nearest.shapes, &self.measured, &weights)?.first()?;
-        let ratio = nearest.force / amplitude;
+        let ratio = force / amplitude;
         let [omega_mode, omega] = nearest.omega;
         ratio.re.is_finite().then_some(NextToMode { mode: nearest.mode, omega_mode, omega, stiffness: ratio.re })
     }
 
+    /// Puts the channel at place `i` of the run to another DOF.
+    pub(super) fn put(&mut self, i: usize, dof: usize, modes: &Modes) {
+        self.model[i] = self.everywhere[dof];
+        self.moves[i] = self.model[i].norm() >= self.floor[i];
+        let all = self.nearest.iter_mut().flat_map(|nearest| nearest.modes.iter().zip(&mut nearest.shapes));
+        for (&mode, shape) in self.free.iter().zip(&mut self.shapes).chain(all) {
+            shape[i] = modes.shapes[(dof, mode)];
+        }
+    }
+
+    /// Relative error of the channel at place `i` if it were at another DOF, by what the other channels say; none where
+    /// neither it nor that DOF moves.
+    pub(super) fn error_at(&self, i: usize, dof: usize, free: &[c64], modes: &Modes) -> Option<f64> {
+        let there =
+            self.free.iter().zip(free).fold(self.everywhere[dof], |x, (&mode, b)| x + b * modes.shapes[(dof, mode)]);
+        let moves = self.measured[i].norm().max(there.norm()) >= self.floor[i];
+        moves.then(|| self.error(i, self.measured[i], there))
+    }
+
     /// What the model says with the amplitudes of the free modes fitted to `measured`, the channel `without` left out.
     pub(super) fn fitted(&self, measured: &[c64], without: Option<usize>) -> Vec<c64> {
-        let (n, k) = (measured.len(), self.shapes.len());
-        if k == 0 {
-            return self.model.clone();
+        self.moved_by(&self.free_amplitudes(measured, without))
+    }
+
+    /// What the model says at the channels with these amplitudes of the free modes added.
+    fn moved_by(&self, free: &[c64]) -> Vec<c64> {
+        let moved = |c: usize| free.iter().zip(&self.shapes).fold(self.model[c], |x, (b, shape)| x + b * shape[c]);
+        (0..self.model.len()).map(moved).collect()
+    }
+
+    /// Amplitudes of the free modes beside the model, fitted to `measured`, the channel `without` left out.
+    pub(super) fn free_amplitudes(&self, measured: &[c64], without: Option<usize>) -> Vec<c64> {
+        let n = measured.len();
+        let mut found = vec![c64::new(0.0, 0.0); self.shapes.len()];
+        if found.is_empty() {
+            return found;
         }
-        let mut fit = self.model.clone();
         let scale = |c: usize| 1.0 / self.model[c].norm().max(self.floor[c]).max(measured[c].norm());
         let mut weights: Vec<f64> = (0..n).map(|c| if Some(c) == without { 0.0 } else { scale(c).powi(2) }).collect();
         for _ in 0..STEPS {
             let left: Vec<c64> = measured.iter().zip(&self.model).map(|(measured, model)| measured - model).collect();
             let Some(b) = amplitudes(&self.shapes, &left, &weights) else { break };
-            let moved = |c: usize| (0..k).fold(self.model[c], |x, j| x + b[j] * self.shapes[j][c]);
-            fit = (0..n).map(moved).collect();
+            found = b;
+            let fit = self.moved_by(&found);
             for c in (0..n).filter(|&c| Some(c) != without) {
                 weights[c] = scale(c).powi(2) / self.error(c, measured[c], fit[c]).max(EVEN);
             }
         }
-        fit
+        found
     }
 
     /// Relative error of a channel: 0 where they agree, 2 where the sign is wrong.

@@ -78,11 +78,17 @@ fn named(channels: &[String], forces: &[String], sign: f64, middle: f64) -> Opti
 
 /// Apparent modal mass of every mode with runs on a line about it, and the number of these.
 fn masses(runs: &[NextToMode]) -> Vec<(f64, usize)> {
+    let runs: Vec<&NextToMode> = runs.iter().collect();
+    by_mode(&runs).into_iter().map(|(_, found)| found).collect()
+}
+
+/// The same with the number of each mode.
+pub(super) fn by_mode(runs: &[&NextToMode]) -> Vec<(usize, (f64, usize))> {
     let mut modes: Vec<usize> = runs.iter().map(|run| run.mode).collect();
     modes.sort_unstable();
     modes.dedup();
-    let of_mode = |mode: usize| mass(&runs.iter().filter(|run| run.mode == mode).collect::<Vec<_>>());
-    modes.into_iter().filter_map(of_mode).collect()
+    let of_mode = |mode: usize| mass(&runs.iter().filter(|run| run.mode == mode).copied().collect::<Vec<_>>());
+    modes.into_iter().filter_map(|mode| Some((mode, of_mode(mode)?))).collect()
 }
 
 /// Modal mass by the slope over the runs next to a mode, and their number.

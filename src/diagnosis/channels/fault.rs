@@ -18,6 +18,8 @@ pub enum Fault {
     Common(f64),
     /// Two channels are at each other's place.
     Exchanged,
+    /// A sensor or a force is at another DOF than is said: at this row.
+    Elsewhere(usize),
     /// What a channel reads scatters by that much from run to run, relative: it is loose, or late, or its gain drifts. It is
     /// kept, with that as the deviation of what it reads.
     Unreliable(f64),
@@ -28,7 +30,8 @@ pub enum Fault {
 pub struct ChannelFault {
     /// What is wrong.
     pub fault: Fault,
-    /// Names, such as `acc@7`: one, the two that are exchanged, or all that have a fault in common.
+    /// Names, such as `acc@7`: one, the two that are exchanged, all that have a fault in common, or that of a channel elsewhere
+    /// and what it is called there.
     pub channels: Vec<String>,
     /// Error of the model over all channels before it is mended, relative, modes nearby free.
     pub error_before: f64,
@@ -46,6 +49,14 @@ impl ChannelFault {
         let name = &self.channels[0];
         match self.fault {
             Fault::Exchanged => format!("{name} and {} look exchanged", self.channels[1]),
+            Fault::Elsewhere(_) => {
+                let place = self.channels[1].split('@').nth(1).unwrap_or_default();
+                if name.starts_with("force@") {
+                    format!("{name} fits the motion of the model at DOF {place}: was the force there?")
+                } else {
+                    format!("{name} fits the motion of the model at DOF {place}: is the sensor there?")
+                }
+            }
             Fault::Unreliable(scatter) => {
                 format!(
                     "{name} does not fit the other channels by {} % from run to run: loose?",
@@ -80,7 +91,13 @@ impl ChannelFault {
                  of the masses falls from {before} % to {after} %"
             );
         }
-        let what = if self.channels.len() == 2 { "their" } else { "its" };
+        if let (Fault::Elsewhere(_), true) = (self.fault, self.channels[0].starts_with("force@")) {
+            return format!(
+                "the shapes of {shown} of {of} modes say so by force over modal amplitude next to them, whatever their frequencies \
+                 and damping: their error falls from {before} % to {after} %"
+            );
+        }
+        let what = if self.fault == Fault::Exchanged { "their" } else { "its" };
         format!(
             "{what} own error falls from {before} % to {after} %, at {shown} of {of} frequencies, whatever the amplitudes \
              of the modes nearby"

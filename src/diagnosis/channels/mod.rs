@@ -11,15 +11,16 @@
 //! run by least absolute deviations, so that a channel that is wrong hardly bends it. The error of a channel in a run is
 //! `|X - X_fit| / max(|X|, |X_fit|)`, 2 where the sign is wrong. A fault is named where it brings the error of its channels in
 //! all frequencies down to a fraction. Beside that, a factor that all motions have in common against the force (`common`): no
-//! shape shows it.
+//! shape shows it; and sensors and forces at other DOFs than are said (`places`).
 
 mod cells;
 mod common;
 pub(crate) mod fault;
+mod places;
 mod search;
 
 pub use fault::{ChannelFault, Fault};
-pub(crate) use search::find;
+pub(crate) use search::{find, place_of_force};
 
 use crate::diagnosis::residual::data::{ChannelData, Data};
 
@@ -46,6 +47,12 @@ pub(crate) fn mended(data: &Data, faults: &[ChannelFault]) -> Data {
                     .iter_mut()
                     .filter(|channel| channel.name == fault.channels[0])
                     .for_each(|channel| widen(channel, *scatter)),
+                Fault::Elsewhere(dof) => run
+                    .responses
+                    .iter_mut()
+                    .chain(&mut run.forces)
+                    .filter(|channel| channel.name == fault.channels[0])
+                    .for_each(|channel| (channel.dof, channel.name) = (*dof, fault.channels[1].clone())),
                 Fault::Exchanged => {
                     let position = |name: &String| run.responses.iter().position(|channel| channel.name == *name);
                     if let (Some(a), Some(b)) = (position(&fault.channels[0]), position(&fault.channels[1])) {

@@ -3,12 +3,12 @@
 use super::cells::{Cells, cells};
 use super::common::common;
 use super::fault::{ChannelFault, Fault, known_factor};
+use super::places;
 use crate::diagnosis::residual::data::Data;
 use crate::diagnosis::residual::prediction::{Predictor, RunPrediction};
 use crate::structure::Structure;
 use crate::structure::lowest_modes::LowestModes;
 use crate::structure::modes::Modes;
-use faer::c64;
 
 /// Most faults; where more channels are wrong it is the model.
 const MOST: usize = 6;
@@ -22,6 +22,8 @@ const EVERYWHERE: f64 = 0.85;
 /// Least frequencies at which the channels move enough, unless what is left of the error is less than `CLEAR`.
 const FREQUENCIES: usize = 2;
 const CLEAR: f64 = 0.1;
+/// Own error up to which a channel is put to another DOF.
+const FITS: f64 = 0.15;
 /// DOFs up to which all modes are computed, and how far beyond the highest frequency they are above that.
 const SMALL: usize = 200;
 const BEYOND: f64 = 1.3;
@@ -32,7 +34,9 @@ const SPREAD: f64 = 0.2;
 pub(crate) fn find(predictor: &Predictor, data: &Data, predictions: &[RunPrediction]) -> Vec<ChannelFault> {
     let Some(modes) = modes(predictor.structure(), data) else { return Vec::new() };
     let (names, cells) = cells(predictor.structure(), &modes, data, predictions);
-    let mut search = Search { names, cells, faults: Vec::new() };
+    let structure = predictor.structure();
+    let dofs = dofs(data, &names);
+    let mut search = Search { structure, modes: &modes, names, dofs, cells, faults: Vec::new() };
     let forces = &data.channel_names()[1];
     // A channel that is wrong for itself may hide what all have in common, and the other way round.
     let shared = search.take_common(forces);
@@ -40,7 +44,26 @@ pub(crate) fn find(predictor: &Predictor, data: &Data, predictions: &[RunPredict
     if !shared {
         search.take_common(forces);
     }
+    search.take_moved_force(data, forces);
     search.faults
+}
+
+/// The DOF at which the only force of all runs fits the motion best, where it fits it well.
+pub(crate) fn place_of_force(predictor: &Predictor, data: &Data, predictions: &[RunPrediction]) -> Option<usize> {
+    let [_, forces] = data.channel_names();
+    let [_] = &forces[..] else { return None };
+    let structure = predictor.structure();
+    let modes = modes(structure, data)?;
+    let (_, cells) = cells(structure, &modes, data, predictions);
+    let said = data.runs.first()?.forces.first()?.dof;
+    places::best_of_force(said, structure, &modes, &cells)
+}
+
+/// DOF of each response channel; 0 where there is none of that name.
+fn dofs(data: &Data, names: &[String]) -> Vec<usize> {
+    let responses = || data.runs.iter().flat_map(|run| &run.responses);
+    let of = |name: &String| responses().find(|channel| channel.name == *name).map_or(0, |channel| channel.dof);
+    names.iter().map(of).collect()
 }
 
 /// Modes up to the highest frequency that was measured and a little beyond; all of a small structure.
@@ -58,8 +81,12 @@ struct Hypothesis {
     channels: [usize; 2],
 }
 
-struct Search {
+struct Search<'a> {
+    structure: &'a Structure,
+    modes: &'a Modes,
     names: Vec<String>,
+    /// DOFs of the channels as they are found.
+    dofs: Vec<usize>,
     cells: Vec<Cells>,
     faults: Vec<ChannelFault>,
 }
@@ -70,7 +97,15 @@ struct Errors {
     cells: Vec<Vec<f64>>,
 }
 
-impl Search {
+impl Search<'_> {
+    /// Finds the force that acts at another DOF than is said.
+    fn take_moved_force(&mut self, data: &Data, forces: &[String]) {
+        let all = || data.runs.iter().flat_map(|run| &run.forces);
+        let dof = |name: &String| all().find(|force| force.name == *name).map_or(0, |force| force.dof);
+        let dofs: Vec<usize> = forces.iter().map(dof).collect();
+        self.faults.extend(places::of_force(forces, &dofs, self.structure, self.modes, &self.cells));
+    }
+
     /// Finds what all motions or the force read wrongly and mends it; whether there was that.
     fn take_common(&mut self, forces: &[String]) -> bool {
         let Some(fault) = common(&self.names, forces, &self.cells) else { return false };
@@ -101,32 +136,44 @@ impl Search {
                     .map(|&b| Hypothesis { fault: Fault::Exchanged, channels: [a, b] }),
             );
         }
-        let judged = hypotheses.iter().filter_map(|hypothesis| {
-            let after = self.errors(Some(hypothesis));
-            let fault = self.judged(hypothesis, &before, &after)?;
-            Some((hypothesis, fault))
+        // A channel that reads wrongly is sooner told than one that was put elsewhere, which has all DOFs to choose from.
+        let best = self.best(&hypotheses, &before).or_else(|| {
+            let elsewhere: Vec<Hypothesis> = suspects.iter().filter_map(|&c| self.elsewhere(c)).collect();
+            self.best(&elsewhere, &before)
         });
-        let best = judged.min_by(|(_, a), (_, b)| a.error_after.total_cmp(&b.error_after));
-        let Some((hypothesis, fault)) = best.map(|(h, f)| (*h, f)) else { return false };
+        let Some((hypothesis, fault)) = best else { return false };
+        if let Fault::Elsewhere(dof) = hypothesis.fault {
+            self.dofs[hypothesis.channels[0]] = dof;
+        }
         for cells in &mut self.cells {
-            cells.measured = transformed(cells, &hypothesis);
+            *cells = transformed(cells, &hypothesis, self.modes);
         }
         self.faults.push(fault);
         true
     }
 
+    /// The hypothesis that leaves least, of those that are believed.
+    fn best(&self, hypotheses: &[Hypothesis], before: &Errors) -> Option<(Hypothesis, ChannelFault)> {
+        let judged = hypotheses.iter().filter_map(|hypothesis| {
+            let after = self.errors(Some(hypothesis));
+            Some((*hypothesis, self.judged(hypothesis, before, &after)?))
+        });
+        judged.min_by(|(_, a), (_, b)| a.error_after.total_cmp(&b.error_after))
+    }
+
+    /// That a channel is at the DOF where it fits best.
+    fn elsewhere(&self, channel: usize) -> Option<Hypothesis> {
+        let at = [channel, self.dofs[channel]];
+        let dof = places::of_sensor(&self.cells, self.modes, self.structure, at, &self.dofs)?;
+        Some(Hypothesis { fault: Fault::Elsewhere(dof), channels: [channel, channel] })
+    }
+
     fn errors(&self, hypothesis: Option<&Hypothesis>) -> Errors {
         let cost = |cells: &Cells| {
-            let own;
-            let measured = match hypothesis {
-                Some(hypothesis) => {
-                    own = transformed(cells, hypothesis);
-                    &own
-                }
-                None => &cells.measured,
-            };
-            let fit = cells.fitted(measured, None);
-            (0..fit.len()).map(|c| cells.error(c, measured[c], fit[c])).collect()
+            let own = hypothesis.map(|hypothesis| transformed(cells, hypothesis, self.modes));
+            let cells = own.as_ref().unwrap_or(cells);
+            let fit = cells.fitted(&cells.measured, None);
+            (0..fit.len()).map(|c| cells.error(c, cells.measured[c], fit[c])).collect()
         };
         Errors { cells: self.cells.iter().map(cost).collect() }
     }
@@ -173,18 +220,33 @@ impl Search {
         known_factor(&self.names[channel], middle.exp()).filter(|_| spread < SPREAD).map(|factor| sign * factor)
     }
 
+    /// Names of the channels of a fault; of one that is elsewhere its name there too.
+    fn names_of(&self, hypothesis: &Hypothesis, channels: &[usize]) -> Vec<String> {
+        let mut names: Vec<String> = channels.iter().map(|&c| self.names[c].clone()).collect();
+        if let Fault::Elsewhere(dof) = hypothesis.fault {
+            names.push(places::renamed(&names[0], self.structure.label(dof)));
+        }
+        names
+    }
+
     /// The fault, if mending it brings its channels down to a fraction everywhere, and the others with them.
     fn judged(&self, hypothesis: &Hypothesis, before: &Errors, after: &Errors) -> Option<ChannelFault> {
         let mut channels = hypothesis.channels.to_vec();
         channels.dedup();
         let own_error = [before, after].map(|errors| self.own(errors, &channels));
-        if own_error[1] > MENDED || own_error[1] > FALLS * own_error[0] {
+        let elsewhere = matches!(hypothesis.fault, Fault::Elsewhere(_));
+        let mended = if elsewhere { FITS } else { MENDED };
+        if own_error[1] > mended || own_error[1] > FALLS * own_error[0] {
             return None;
         }
         let [was, is] = [before, after].map(|errors| self.by_frequency(errors, &channels));
         let pairs: Vec<(f64, f64)> = was.into_iter().zip(is).filter_map(|(a, b)| Some((a?, b?))).collect();
         let shown = pairs.iter().filter(|(was, is)| is < was).count();
-        let enough = pairs.len() >= FREQUENCIES || (pairs.len() == 1 && own_error[1] < CLEAR);
+        let enough = if elsewhere {
+            pairs.len() >= places::FEWEST
+        } else {
+            pairs.len() >= FREQUENCIES || (pairs.len() == 1 && own_error[1] < CLEAR)
+        };
         if !enough || (shown as f64) < EVERYWHERE * pairs.len() as f64 {
             return None;
         }
@@ -192,7 +254,7 @@ impl Search {
         let (error_before, error_after) = (all(before), all(after));
         (error_after < error_before).then(|| ChannelFault {
             fault: hypothesis.fault,
-            channels: channels.iter().map(|&c| self.names[c].clone()).collect(),
+            channels: self.names_of(hypothesis, &channels),
             error_before,
             error_after,
             own_error,
@@ -201,16 +263,17 @@ impl Search {
     }
 }
 
-/// What the channels of a run would read without the fault.
-fn transformed(cells: &Cells, hypothesis: &Hypothesis) -> Vec<c64> {
-    let mut measured = cells.measured.clone();
+/// A run without the fault.
+fn transformed(cells: &Cells, hypothesis: &Hypothesis, modes: &Modes) -> Cells {
+    let mut cells = cells.clone();
     let position = |channel: usize| cells.channels.iter().position(|&c| c == channel);
     match (hypothesis.fault, hypothesis.channels.map(position)) {
-        (Fault::Factor(factor), [Some(i), _]) => measured[i] /= factor,
-        (Fault::Exchanged, [Some(i), Some(j)]) => measured.swap(i, j),
+        (Fault::Factor(factor), [Some(i), _]) => cells.measured[i] /= factor,
+        (Fault::Exchanged, [Some(i), Some(j)]) => cells.measured.swap(i, j),
+        (Fault::Elsewhere(dof), [Some(i), _]) => cells.put(i, dof, modes),
         _ => {}
     }
-    measured
+    cells
 }
 
 fn word(name: &str) -> &str {

@@ -8,7 +8,7 @@ use super::coherences::{attach, coherences};
 use super::error::FrfProblem;
 use super::names::{pair_in_name, place_of_name, response_in_name};
 use super::source::FrfSource;
-use super::units::{Form, motion_of_unit, ratio_of_unit};
+use super::units::{Form, is_bare, motion_of_unit, ratio_of_unit};
 use crate::control::Control;
 use crate::measurement::frf::{FrequencyResponse, ResponseSet};
 use crate::measurement::{Channel, Quantity};
@@ -130,9 +130,12 @@ fn function(
     let entry = &file.contents().sets[at.0].channels[at.1];
     let pair = pair(file, at, k, source)?;
     let [response, reference] = if source.reciprocity { [&pair[1], &pair[0]] } else { [&pair[0], &pair[1]] };
-    let find =
-        |name: &str| place_of_name(name, &source.dofs, structure).map_err(|what| FrfProblem::channel(file, at, &what));
-    let ((response, sign), (reference, other)) = (find(response)?, find(reference)?);
+    let find = |name: &str, of_force: bool| {
+        let plain = name.split_once('@').map_or(name, |(_, label)| label).trim();
+        let named = source.names(of_force, &[name.trim(), plain]);
+        place_of_name(name, named, structure).map_err(|what| FrfProblem::channel(file, at, &what))
+    };
+    let ((response, sign), (reference, other)) = (find(response, false)?, find(reference, true)?);
     let spoken = Form::spoken(&entry.name).or_else(|| Form::spoken(&file.contents().sets[at.0].name));
     let (form, scale) = form(source, spoken, &entry.unit).map_err(|what| FrfProblem::channel(file, at, &what))?;
     if form.is_inverse() && response != reference {
@@ -185,7 +188,7 @@ fn pair(file: &DataFile, at: (usize, usize), k: usize, source: &FrfSource) -> Re
 
 /// Form and factor to SI: from the project, else from the unit, else from a word of the name.
 fn form(source: &FrfSource, spoken: Option<Form>, unit: &str) -> Result<(Form, f64), String> {
-    let bare = matches!(unit.trim(), "" | "-" | "EU" | "eu" | "none");
+    let bare = is_bare(unit);
     match (source.form.or(spoken.filter(|_| bare)), source.scale) {
         (Some(form), Some(scale)) => Ok((form, scale)),
         (Some(form), None) if bare => Ok((form, 1.0)),
@@ -202,7 +205,7 @@ fn form(source: &FrfSource, spoken: Option<Form>, unit: &str) -> Result<(Form, f
             let ratio = ratio_of_unit(unit)?;
             if form.is_some_and(|form| form != ratio.form) {
                 return Err(format!(
-                    "its unit is that of another form ({:?}); correct `form`, or give `scale` too",
+                    "its unit is that of another form ({:?}); correct `form` (of import: --form), or give `scale` (--scale) too",
                     ratio.form
                 ));
             }

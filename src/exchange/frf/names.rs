@@ -12,12 +12,10 @@ pub(super) type Place = (usize, f64);
 /// In this order: what the project says under `dofs` (a label after `-` is reversed), the entity as a label, node and
 /// direction of the structure.
 pub(super) fn place(dof: &uff::Dof, named: &BTreeMap<String, String>, structure: &Structure) -> Result<Place, String> {
-    let positive = uff::Dof { entity: String::new(), direction: dof.direction.abs(), ..dof.clone() };
     let sign = if dof.direction < 0 { -1.0 } else { 1.0 };
-    let plain = uff::Dof { entity: String::new(), ..dof.clone() };
-    let asked = [(dof.to_string(), 1.0), (plain.to_string(), 1.0), (positive.to_string(), sign)];
-    for (name, sign) in asked {
-        let Some(label) = named.get(&name) else { continue };
+    let [full, plain, positive] = keys(dof);
+    for (name, sign) in [(&full, 1.0), (&plain, 1.0), (&positive, sign)] {
+        let Some(label) = named.get(name) else { continue };
         let direct = structure.dof(label).map(|row| (row, sign));
         let reversed = || label.strip_prefix('-').and_then(|label| structure.dof(label)).map(|row| (row, -sign));
         return direct.or_else(reversed).ok_or_else(|| {
@@ -40,6 +38,13 @@ pub(super) fn place(dof: &uff::Dof, named: &BTreeMap<String, String>, structure:
     at_node.map(|row| (row, sign)).ok_or_else(|| {
         format!("the file's DOF \"{positive}\" is not in the structure; add `\"{positive}\" = LABEL` under [frf.dofs]")
     })
+}
+
+/// Names under which a project may say a DOF of the file: with its entity, without it, of its positive direction.
+pub(super) fn keys(dof: &uff::Dof) -> [String; 3] {
+    let plain = uff::Dof { entity: String::new(), ..dof.clone() };
+    let positive = uff::Dof { direction: dof.direction.abs(), ..plain.clone() };
+    [dof.to_string(), plain.to_string(), positive.to_string()]
 }
 
 /// Finds the DOF of the structure for a name such as `12:+Z`, `12z`, `-12z` or `acc@12z`.

@@ -17,6 +17,8 @@ pub struct FrfSource {
     pub reciprocity: bool,
     /// DOFs of the file by name, such as `12:+Z`, and their labels in the structure.
     pub dofs: BTreeMap<String, String>,
+    /// The same of the DOFs where forces act, where these are elsewhere than a sensor of that name.
+    pub reference_dofs: BTreeMap<String, String>,
     /// Labels of the responses, in the order of the columns of an array, responses first; `-` in front reverses.
     pub responses: Vec<String>,
     /// Labels of the references, in the order of the columns of an array.
@@ -30,6 +32,12 @@ pub struct FrfSource {
 }
 
 impl FrfSource {
+    /// What the project calls a DOF that has one of these names in the file: where a force acts, that of forces goes first.
+    pub(super) fn names(&self, of_force: bool, names: &[impl AsRef<str>]) -> &BTreeMap<String, String> {
+        let own = of_force && names.iter().any(|name| self.reference_dofs.contains_key(name.as_ref()));
+        if own { &self.reference_dofs } else { &self.dofs }
+    }
+
     /// Labels of response and reference of function number `k` of the file by the lists, where there are any: all responses to the first
     /// reference first.
     pub(super) fn listed(&self, k: usize) -> Result<Option<[String; 2]>, String> {

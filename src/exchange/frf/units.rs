@@ -84,6 +84,29 @@ impl Form {
 pub(super) struct Ratio {
     pub form: Form,
     pub to_si: f64,
+    /// Whether no unit is said, so that SI is assumed.
+    pub assumed: bool,
+}
+
+/// How the unit of functions is given.
+pub(super) const GIVE: &str =
+    "give `form` and `scale` (file times scale is SI) in the [[frf]], of import by --form and --scale";
+
+/// Whether a text says no unit, as programs write that.
+pub(super) fn is_bare(unit: &str) -> bool {
+    matches!(unit.trim().to_lowercase().as_str(), "" | "-" | "eu" | "none" | "unknown" | "n/a" | "?")
+}
+
+/// Factor to SI of functions of `form` whose axes name no unit, by the units of the file (factors to divide by), and whether
+/// it is assumed for want of those.
+pub(super) fn of_form(form: Form, units: Option<&uff::Units>) -> (f64, bool) {
+    let to_si = units.map_or(1.0, |units| units.force / units.length);
+    (if form.is_inverse() { 1.0 / to_si } else { to_si }, units.is_none())
+}
+
+/// Whether the axes of a function name no unit.
+pub(super) fn names_no_unit(header: &uff::FunctionHeader) -> bool {
+    is_bare(&header.ordinate.unit) && is_bare(&header.denominator.unit)
 }
 
 /// What the axes of a function say, with the units of the file (factors to divide by) where they name none.
@@ -92,13 +115,14 @@ pub(super) fn ratio(header: &uff::FunctionHeader, units: Option<&uff::Units>) ->
     let top = side(&over, header.ordinate.quantity, units)?;
     let bottom = side(&under, header.denominator.quantity, units)?;
     of_sides(top, bottom)
-        .ok_or_else(|| format!("\"{over}\" over \"{under}\" is no motion over a force; give `form` and `scale`"))
+        .map(|ratio| Ratio { assumed: units.is_none() && names_no_unit(header), ..ratio })
+        .ok_or_else(|| format!("\"{over}\" over \"{under}\" is no motion over a force; {GIVE}"))
 }
 
 /// Units over and under the line; some programs write both into the ordinate, such as `(m/s^2)/N`.
 fn unit_texts(header: &uff::FunctionHeader) -> (String, String) {
     let (over, under) = (header.ordinate.unit.trim(), header.denominator.unit.trim());
-    if under.is_empty()
+    if is_bare(under)
         && LabUnit::from_name(over).is_none()
         && let Some(both) = split(over)
     {
@@ -109,11 +133,10 @@ fn unit_texts(header: &uff::FunctionHeader) -> (String, String) {
 
 /// Motion over force, or the inverse, of one unit, such as `(m/s^2)/N`, `g/lbf`, `(1/N)*(m/s^2)`, `1/kg`.
 pub(super) fn ratio_of_unit(unit: &str) -> Result<Ratio, String> {
-    let unknown =
-        || format!("the unit \"{unit}\" is no motion over a force; give `form` and `scale` (file times scale is SI)");
+    let unknown = || format!("the unit \"{unit}\" is no motion over a force; {GIVE}");
     let plain: String = unit.chars().filter(|c| !c.is_whitespace()).collect();
     if let Some(form) = form_of_base_units(&plain) {
-        return Ok(Ratio { form, to_si: 1.0 });
+        return Ok(Ratio { form, to_si: 1.0, assumed: false });
     }
     let (over, under) = split(&plain).ok_or_else(unknown)?;
     let (top, bottom) =
@@ -161,10 +184,10 @@ fn of_sides(top: (Quantity, f64), bottom: (Quantity, f64)) -> Option<Ratio> {
                 Quantity::Velocity => Form::Impedance,
                 _ => Form::ApparentMass,
             };
-            Some(Ratio { form, to_si: force / factor })
+            Some(Ratio { form, to_si: force / factor, assumed: false })
         }
         ((motion, factor), (Quantity::Force, force)) if motion != Quantity::Force => {
-            Some(Ratio { form: Form::of(motion)?, to_si: factor / force })
+            Some(Ratio { form: Form::of(motion)?, to_si: factor / force, assumed: false })
         }
         _ => None,
     }
@@ -181,16 +204,17 @@ fn side(text: &str, code: i64, units: Option<&uff::Units>) -> Result<(Quantity, 
     };
     if let Some(unit) = LabUnit::from_name(text) {
         if quantity.is_some_and(|quantity| quantity != unit.quantity) {
-            return Err(format!("the unit \"{text}\" does not belong to data type {code}; give `form` and `scale`"));
+            return Err(format!("the unit \"{text}\" does not belong to data type {code}; {GIVE}"));
         }
         return Ok((unit.quantity, unit.to_si));
     }
-    match (quantity, units) {
-        (Some(quantity), Some(units)) if text.is_empty() => {
-            let factor = if quantity == Quantity::Force { units.force } else { units.length };
-            Ok((quantity, 1.0 / factor))
+    match quantity {
+        Some(quantity) if is_bare(text) => {
+            let factor = |units: &uff::Units| if quantity == Quantity::Force { units.force } else { units.length };
+            Ok((quantity, 1.0 / units.map_or(1.0, factor)))
         }
-        _ => Err(format!("the unit \"{text}\" is not understood; give `form` and `scale` (file times scale is SI)")),
+        _ if is_bare(text) => Err(format!("the file says neither what is measured nor its unit; {GIVE}")),
+        _ => Err(format!("the unit \"{text}\" is not understood; {GIVE}")),
     }
 }
 

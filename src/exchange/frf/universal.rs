@@ -2,9 +2,9 @@
 
 use super::checks::{drop_zero, is_coherence, same_frequencies};
 use super::error::FrfProblem;
-use super::names::{place, place_of_name};
+use super::names::{keys, place, place_of_name};
 use super::source::FrfSource;
-use super::units::{Form, ratio};
+use super::units::{Form, is_bare, names_no_unit, of_form, ratio};
 use crate::control::Control;
 use crate::measurement::frf::{FrequencyResponse, ResponseSet};
 use crate::measurement::{Channel, Quantity};
@@ -28,6 +28,8 @@ struct Found {
     set: usize,
     function: FrequencyResponse,
     pair: [uff::Dof; 2],
+    /// Whether SI units are assumed.
+    assumed: bool,
 }
 
 impl Reader<'_> {
@@ -71,6 +73,7 @@ impl Reader<'_> {
             return Err(FrfProblem::NoResponses);
         }
         no_pair_twice(&found)?;
+        faults.extend(assumed(name, &found));
         for (set, coherence) in coherences {
             attach(&mut found, set, &coherence)?;
         }
@@ -94,11 +97,13 @@ impl Reader<'_> {
     ) -> Result<Found, FrfProblem> {
         let header = &function.header;
         let wrong = |what: String| FrfProblem::set(set, what);
-        let (form, scale) = self.form(header, units).map_err(wrong)?;
+        let (form, scale, assumed) = self.form(header, units).map_err(wrong)?;
         let pair = header.stated_dofs();
         let sides = match self.source.listed(k).map_err(wrong)? {
-            Some(listed) => listed.map(|name| place_of_name(&name, &self.source.dofs, self.structure)),
-            None => [0, 1].map(|side: usize| place(&pair[side], &self.source.dofs, self.structure)),
+            Some(listed) => {
+                [0, 1].map(|side| place_of_name(&listed[side], self.named(side, &[&listed[side]]), self.structure))
+            }
+            None => [0, 1].map(|side: usize| place(&pair[side], self.named(side, &keys(&pair[side])), self.structure)),
         };
         let [first, second] = sides;
         let (mut response, mut reference) = (first.map_err(wrong)?, second.map_err(wrong)?);
@@ -125,25 +130,35 @@ impl Reader<'_> {
             values: (0..function.values.len()).map(value).collect(),
             coherence: None,
         };
-        Ok(Found { set, function, pair })
+        Ok(Found { set, function, pair, assumed })
     }
 
-    /// Form and factor to SI: from the project, else from the units of the file.
-    fn form(&self, header: &FunctionHeader, units: Option<&uff::Units>) -> Result<(Form, f64), String> {
-        match (self.source.form, self.source.scale) {
-            (Some(form), Some(scale)) => Ok((form, scale)),
-            (form, scale) => {
-                let ratio = ratio(header, units)?;
-                if form.is_some_and(|form| form != ratio.form) {
-                    return Err(format!(
-                        "its units are those of another form ({:?}); correct `form`, or give `scale` too",
-                        ratio.form
-                    ));
-                }
-                // With a form in the units, a scale corrects them.
-                Ok((ratio.form, ratio.to_si * scale.unwrap_or(1.0)))
+    /// What the project calls the DOFs of a side of the file that has these names, responses first.
+    fn named(&self, side: usize, names: &[impl AsRef<str>]) -> &BTreeMap<String, String> {
+        self.source.names((side == 1) != self.source.reciprocity, names)
+    }
+
+    /// Form and factor to SI, and whether it is assumed: from the project, else from the units of the file, else SI.
+    fn form(&self, header: &FunctionHeader, units: Option<&uff::Units>) -> Result<(Form, f64, bool), String> {
+        let (form, scale) = match (self.source.form, self.source.scale) {
+            (Some(form), Some(scale)) => return Ok((form, scale, false)),
+            said => said,
+        };
+        let ratio = match (ratio(header, units), form) {
+            (Err(_), Some(form)) if names_no_unit(header) => {
+                let (to_si, assumed) = of_form(form, units);
+                return Ok((form, to_si, assumed));
             }
+            (ratio, _) => ratio?,
+        };
+        if form.is_some_and(|form| form != ratio.form) {
+            return Err(format!(
+                "its units are those of another form ({:?}); correct `form` (of import: --form), or give `scale` (--scale) too",
+                ratio.form
+            ));
         }
+        // With a form in the units, a scale corrects them.
+        Ok((ratio.form, ratio.to_si * scale.unwrap_or(1.0), ratio.assumed && scale.is_none()))
     }
 }
 
@@ -169,7 +184,7 @@ fn told_once(faults: &[String]) -> Vec<String> {
 /// Takes the frequencies of the first function and compares those of the others.
 fn common_frequencies(common: &mut Vec<f64>, function: &Function, set: usize) -> Result<(), FrfProblem> {
     let unit = function.header.abscissa.unit.as_str();
-    if !matches!(unit, "" | "Hz" | "hz" | "HZ" | "1/s") {
+    if !matches!(unit, "Hz" | "hz" | "HZ" | "1/s") && !is_bare(unit) {
         return Err(FrfProblem::set(set, format!("its abscissa is in \"{unit}\"; export over frequency in Hz")));
     }
     let frequencies = function.abscissas();
@@ -185,6 +200,18 @@ fn common_frequencies(common: &mut Vec<f64>, function: &Function, set: usize) ->
     }
     let what = "its frequencies are not those of the functions before it; put it into a file of its own";
     Err(FrfProblem::set(set, what))
+}
+
+/// What is said of functions without units.
+fn assumed(name: &str, found: &[Found]) -> Option<String> {
+    let count = found.iter().filter(|one| one.assumed).count();
+    (count > 0).then(|| {
+        format!(
+            "{name}: {count} of {} functions name no unit: assumed to be in SI, motions in m, m/s or m/s^2 and forces in N; give \
+             `scale` (of import: --scale) where they are not, such as 9.80665 for g",
+            found.len()
+        )
+    })
 }
 
 fn no_pair_twice(found: &[Found]) -> Result<(), FrfProblem> {

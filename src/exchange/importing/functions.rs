@@ -48,20 +48,34 @@ pub(super) struct Measured {
     pub references: Vec<String>,
 }
 
+/// The files with responses, what was assumed of them, and whether the place of the force is no more than a guess.
+pub(super) struct Labelled {
+    pub measured: Vec<Measured>,
+    pub assumed: Vec<String>,
+    pub guessed: bool,
+}
+
+impl Labelled {
+    fn of(measured: Vec<Measured>, how: String) -> Self {
+        Self { measured, assumed: vec![how], guessed: false }
+    }
+}
+
 /// The files with responses; DOFs as they are given, else numbered in order where neither names nor files say them.
-pub(super) fn measured(request: &Request, files: &[DataFile]) -> Result<(Vec<Measured>, Vec<String>)> {
+pub(super) fn measured(request: &Request, files: &[DataFile]) -> Result<Labelled> {
     let counts: Vec<usize> = files.iter().map(|file| functions(file.contents(), request).count()).collect();
     let named =
         files.iter().all(|file| functions(file.contents(), request).all(|channel| pair(file, channel).is_some()));
     let total: usize = counts.iter().sum();
-    let mut assumed = Vec::new();
+    let (mut assumed, mut guessed) = (Vec::new(), false);
     let (mut responses, mut references) = (request.responses.clone(), request.references.clone());
     if !named && responses.is_empty() && references.is_empty() {
         let measured = by_names_of_files(files, &counts);
         if !measured.is_empty() {
             let said = |one: &Measured| format!("{} over {}", one.responses[0], one.references[0]);
             let said: Vec<String> = measured.iter().map(said).collect();
-            return Ok((measured, vec![format!("by the names of the files the functions are {}", said.join(", "))]));
+            let how = format!("by the names of the files the functions are {}", said.join(", "));
+            return Ok(Labelled::of(measured, how));
         }
     }
     if !named
@@ -69,24 +83,27 @@ pub(super) fn measured(request: &Request, files: &[DataFile]) -> Result<(Vec<Mea
         && references.is_empty()
         && let Some((measured, how)) = of_matrix(request, files)
     {
-        return Ok((vec![measured], vec![how]));
+        return Ok(Labelled::of(vec![measured], how));
     }
     if !named && responses.is_empty() {
-        let (numbers, mut how) = numbered(request, files, &counts);
+        let (numbers, how) = numbered(request, files, &counts);
         responses = numbers;
+        let mut why = String::new();
         if references.is_empty() {
-            let driven = driving_point(files, |set, channel| is_function(set, channel, request))?;
-            references = vec![responses[driven.unwrap_or(0)].clone()];
-            if driven.is_some() {
-                how.push_str(", of which one has the signs of a driving point");
-            }
+            let force = force(request, files, &responses)?;
+            (references, why, guessed) = (vec![force.at], force.why, force.guessed);
         }
         if references.len() != 1 {
             let problem =
                 "neither names nor file say the DOFs of the functions; give them by --responses and --references";
             return Err(ImportError::of(&request.files[0], problem));
         }
-        assumed.push(format!("{how}, all driven at {}", references[0]));
+        let asked = if guessed {
+            ", a guess: several points, or none, have the signs of a driving point; say by --references which it is"
+        } else {
+            ""
+        };
+        assumed.push(format!("{how}{why}, all driven at {}{asked}", references[0]));
     }
     // One list for all files one after the other, or the same list for each.
     let in_turn = references.len() == 1 && responses.len() == total && files.len() > 1;
@@ -98,7 +115,39 @@ pub(super) fn measured(request: &Request, files: &[DataFile]) -> Result<(Vec<Mea
         let (path, further) = (file.path().to_owned(), Vec::new());
         measured.push(Measured { path, further, responses: own, references: references.clone() });
     }
-    Ok((measured, assumed))
+    Ok(Labelled { measured, assumed, guessed })
+}
+
+/// Where the only force of functions acts.
+struct Force {
+    at: String,
+    why: String,
+    guessed: bool,
+}
+
+/// Where the force acts that no pair of names says: where the file says it of every function, else at the response with the
+/// signs of a driving point, else at the first one, which is a guess.
+fn force(request: &Request, files: &[DataFile], responses: &[String]) -> Result<Force> {
+    let all = || files.iter().flat_map(|file| functions(file.contents(), request));
+    let stated: Option<Vec<&str>> = all().map(|channel| channel.attribute("reference")).collect();
+    if let Some([first, others @ ..]) = stated.as_deref()
+        && others.iter().all(|other| other == first)
+        && let Some(at) = label_in(first)
+    {
+        return Ok(Force { at, why: String::new(), guessed: false });
+    }
+    let driven = driving_point(files, |set, channel| is_function(set, channel, request))?;
+    let why = if driven.is_some() { ", of which one has the signs of a driving point" } else { "" }.to_owned();
+    Ok(Force { at: responses[driven.unwrap_or(0)].clone(), why, guessed: driven.is_none() && responses.len() > 1 })
+}
+
+/// Label of the place in a name, such as `2z` of `Point_02Z`.
+fn label_in(name: &str) -> Option<String> {
+    let label: String = response_in_name(name)?.chars().filter(char::is_ascii_alphanumeric).collect();
+    let digits = label.find(|c: char| !c.is_ascii_digit()).unwrap_or(label.len());
+    let node = label[..digits].trim_start_matches('0');
+    let label = format!("{}{}", if node.is_empty() { "0" } else { node }, label[digits..].to_lowercase());
+    Some(label).filter(|label| place_like(label))
 }
 
 /// The same with files of one test together: those with responses to the same single reference on the same frequencies. Each
@@ -229,17 +278,13 @@ fn element(name: &str) -> Option<[String; 2]> {
 /// files, else in their order; and how that is said.
 fn numbered(request: &Request, files: &[DataFile], counts: &[usize]) -> (Vec<String>, String) {
     let functions = |file| functions_with_sets(file, request);
-    let label = |name: &str| {
-        let label: String = response_in_name(name)?.chars().filter(char::is_ascii_alphanumeric).collect();
-        Some(label.to_lowercase()).filter(|label| place_like(label))
-    };
     let by_name: Vec<Option<String>> =
-        files.iter().flat_map(functions).map(|(_, channel)| label(&channel.name)).collect();
-    let by_set: Vec<Option<String>> = files.iter().flat_map(functions).map(|(set, _)| label(set)).collect();
+        files.iter().flat_map(functions).map(|(_, channel)| label_in(&channel.name)).collect();
+    let by_set: Vec<Option<String>> = files.iter().flat_map(functions).map(|(set, _)| label_in(set)).collect();
     let one_each = counts.iter().all(|count| *count < 2);
     let measured = files.iter().zip(counts).filter(|(_, count)| **count > 0);
     let by_file: Vec<Option<String>> = measured
-        .map(|(file, _)| label(&file.path().file_stem().unwrap_or_default().to_string_lossy()).filter(|_| one_each))
+        .map(|(file, _)| label_in(&file.path().file_stem().unwrap_or_default().to_string_lossy()).filter(|_| one_each))
         .collect();
     let whose = [(by_name, "names"), (by_set, "sets"), (by_file, "files")];
     for (labels, whose) in whose {

@@ -16,6 +16,8 @@ mod records;
 mod refusal;
 mod request;
 mod responses;
+mod roving;
+mod run_source;
 mod shapes;
 mod single_mode;
 mod stepped;

@@ -60,35 +60,52 @@ pub(super) fn placed(mut mapping: Proposal, head: &str, out: &Path) -> Result<Pr
     for (place, label) in only {
         relabel(&mut mapping, &place, &label, &said_of_axis(&place, &label));
     }
-    if structure.kind() != StructureKind::Beam {
-        return Ok(mapping);
-    }
-    let numbered = |label: &String| !label.is_empty() && label.chars().all(|c| c.is_ascii_digit());
     let tables = mapping.channels.iter().filter(|table| table.quantity != Quantity::Base);
-    let mut numbers: Vec<String> = tables.map(|table| table.dof.clone()).filter(numbered).collect();
+    let numbers: Vec<String> = tables.map(|table| table.dof.clone()).collect();
+    for taken in of_numbers(&structure, &numbers) {
+        relabel(&mut mapping, &taken.number, &taken.label, &taken.how);
+    }
+    Ok(mapping)
+}
+
+/// What a number among places is taken for on a beam.
+pub(super) struct Taken {
+    pub number: String,
+    /// Label of the DOF.
+    pub label: String,
+    /// How that is said.
+    pub how: String,
+}
+
+/// What the numbers among places are taken for on a beam, where that is to be said: labels of DOFs, unless one of them would
+/// be a rotation or none: then they are nodes, and their translations are meant.
+pub(super) fn of_numbers(structure: &Structure, places: &[String]) -> Vec<Taken> {
+    if structure.kind() != StructureKind::Beam {
+        return Vec::new();
+    }
+    let numbered = |label: &&String| !label.is_empty() && label.chars().all(|c| c.is_ascii_digit());
+    let mut numbers: Vec<String> = places.iter().filter(numbered).cloned().collect();
     numbers.sort();
     numbers.dedup();
     let is_translation =
         |label: &String| structure.dof(label).is_some_and(|row| !structure.dofs()[row].direction.is_rotation());
     let of_nodes = !numbers.iter().all(is_translation);
-    if of_nodes && !numbers.iter().all(|number| translation(&structure, number).is_some()) {
-        return Ok(mapping);
+    if of_nodes && !numbers.iter().all(|number| translation(structure, number).is_some()) {
+        return Vec::new();
     }
-    for number in numbers {
-        match (of_nodes, translation(&structure, &number)) {
-            (true, Some(label)) => {
-                let how = format!("{number} is taken for the node: {label} is its translation");
-                relabel(&mut mapping, &number, &label, &how);
-            }
-            (false, Some(label)) if structure.dof(&label) != structure.dof(&number) => {
-                let how =
-                    format!("{number} is taken for the DOF of that label; the translation of node {number} is {label}");
-                relabel(&mut mapping, &number, &number, &how);
-            }
-            _ => {}
+    let taken = |number: String| match (of_nodes, translation(structure, &number)) {
+        (true, Some(label)) => {
+            let how = format!("{number} is taken for the node: {label} is its translation");
+            Some(Taken { number, label, how })
         }
-    }
-    Ok(mapping)
+        (false, Some(label)) if structure.dof(&label) != structure.dof(&number) => {
+            let how =
+                format!("{number} is taken for the DOF of that label; the translation of node {number} is {label}");
+            Some(Taken { label: number.clone(), number, how })
+        }
+        _ => None,
+    };
+    numbers.into_iter().filter_map(taken).collect()
 }
 
 /// The channels at a place moved to the DOF `label`, and how that is said of each.

@@ -7,6 +7,8 @@ use super::model::head;
 use super::numbers::placed;
 use super::refusal::refusal;
 use super::request::{Imported, Request};
+use super::roving;
+use super::run_source::{RunSource, kinds};
 use super::single_mode::{SingleMode, single_mode};
 use super::text::{comment, counted, named, points};
 use crate::control::Control;
@@ -26,14 +28,6 @@ struct Mapping<'a> {
     channel: [&'a ChannelTable; 1],
 }
 
-/// What becomes a run: a file, and its set where it has several of that layout.
-struct RunSource {
-    file: PathBuf,
-    set: Option<String>,
-    /// Its sets where every channel is one of its own.
-    sets: Vec<String>,
-}
-
 /// The project of records by their mapping.
 pub(super) fn import(request: &Request, mapping: Proposal, out: &Path, control: &Control) -> Result<Imported> {
     let mut mapping = usable(request, mapping)?;
@@ -44,7 +38,8 @@ pub(super) fn import(request: &Request, mapping: Proposal, out: &Path, control: 
         let problem = "the file does not say the time between samples; give it by --sampling-hz";
         return Err(ImportError::of(&request.files[0], problem));
     }
-    let sources = sources(request, &mapping)?;
+    let mut sources = sources(request, &mapping)?;
+    rove(request, &mut mapping, &mut sources)?;
     let (first, mut looks, powers) = looks_of(request, &mapping, &sources, out, control)?;
     driven::place(&mut mapping, &powers);
     let forced = mapping.channels.iter().any(|table| matches!(table.quantity, Quantity::Force | Quantity::Base));
@@ -61,6 +56,18 @@ pub(super) fn import(request: &Request, mapping: Proposal, out: &Path, control: 
     plan(&format!("{head}{tables}"), out).and_then(|plan| plan.load(control)).map_err(ImportError::Unwritten)?;
     let summary = summary(request, &mapping, &sources, &looks, single.as_ref(), out);
     Ok(Imported { head, tables, summary, remarks: Vec::new() })
+}
+
+/// Says of every run where a roving hammer hit, where the names of the runs and a model tell it.
+fn rove(request: &Request, mapping: &mut Proposal, sources: &mut [RunSource]) -> Result<()> {
+    let Some(kept) = request.kept.as_ref().filter(|_| request.channels.is_none()) else { return Ok(()) };
+    let names: Vec<String> = sources.iter().map(RunSource::own_name).collect();
+    if let Some((channel, labels)) = roving::places(mapping, &names, &kept.structure()?) {
+        for (source, label) in sources.iter_mut().zip(labels) {
+            source.force = Some((channel.clone(), label));
+        }
+    }
+    Ok(())
 }
 
 /// The mapping as text for a template; what is not mapped in comments.
@@ -141,13 +148,13 @@ fn sources(request: &Request, mapping: &Proposal) -> Result<Vec<RunSource>> {
     let mut sources = Vec::new();
     for file in &request.files {
         let sets = runs_of(open(file)?.contents(), &mapping.channels);
-        let part = |set| RunSource { file: file.clone(), set, sets: Vec::new() };
+        let part = |set| RunSource::new(file, set, Vec::new());
         match sets.len() {
             0 | 1 => sources.push(part(None)),
             _ => sources.extend(sets.into_iter().map(|set| part(Some(set)))),
         }
         for sets in further_runs(request, mapping, file)? {
-            sources.push(RunSource { file: file.clone(), set: None, sets });
+            sources.push(RunSource::new(file, None, sets));
         }
     }
     Ok(sources)
@@ -258,6 +265,9 @@ fn run_table(request: &Request, source: &RunSource, out: &Path) -> Result<String
         let sets: Vec<String> = source.sets.iter().map(|set| quoted(set)).collect();
         text.push_str(&format!("sets = [{}]\n", sets.join(", ")));
     }
+    if let Some((channel, label)) = &source.force {
+        text.push_str(&format!("dofs = {{ {} = {} }}\n", quoted(channel), quoted(label)));
+    }
     if let Some(rate) = request.sampling_hz {
         text.push_str(&format!("sampling_hz = {rate:?}\n"));
     }
@@ -354,26 +364,6 @@ fn summary(
     let (runs, channels) = (counted(sources.len(), "run"), counted(mapping.channels.len(), "channel"));
     let are = if sources.len() == 1 { "is" } else { "are" };
     format!("{text}{runs} of {channels} {are} in {}\n", out.display())
-}
-
-/// Of what kind the runs are and why; runs that follow one another and are alike in one line.
-fn kinds(sources: &[RunSource], looks: &[Looks]) -> String {
-    let name = |source: &RunSource| {
-        let set = source.set.as_ref().or(source.sets.first());
-        let set = set.map_or_else(String::new, |set| format!(", set \"{set}\""));
-        format!("{}{set}", source.file.display())
-    };
-    let both: Vec<(&RunSource, &Looks)> = sources.iter().zip(looks).collect();
-    let alike = both.chunk_by(|(_, a), (_, b)| (a.kind, &a.reason) == (b.kind, &b.reason));
-    let line = |runs: &[(&RunSource, &Looks)]| {
-        let ((first, looks), (last, _)) = (runs[0], runs[runs.len() - 1]);
-        let names = match runs.len() {
-            1 => name(first),
-            n => format!("{} to {} ({n} runs)", name(first), name(last)),
-        };
-        format!("{names}: {}: {}\n", looks.kind.name(), looks.reason)
-    };
-    alike.map(line).collect()
 }
 
 /// Sampling rate of the first file, Hz.

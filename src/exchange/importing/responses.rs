@@ -1,16 +1,21 @@
 //! Import of frequency responses: a project with `[[frf]]`, its DOFs those of the file or of a model.
 
 use super::error::{ImportError, Result};
-use super::functions::{Measured, functions, measured, opened, pair, together};
+use super::functions::{Labelled, Measured, functions, measured, opened, pair, together};
 use super::kept::Kept;
 use super::model::{Point, head, model, places};
-use super::numbers::{along_the_only_axis, said_of_axis};
+use super::numbers::{Taken, along_the_only_axis, of_numbers, said_of_axis};
 use super::request::{Imported, Request};
 use super::text::{comment, counted, named, points as points_structure};
 use crate::control::Control;
+use crate::diagnosis::Problem;
+use crate::diagnosis::diagnose::place_of_force;
+use crate::effects::{Effect, Place, Source, State};
+use crate::exchange::Project;
 use crate::exchange::frf::{Form, plain_place};
 use crate::exchange::project::frf::FrfTable;
 use crate::exchange::project::plan;
+use crate::structure::Structure;
 use dashpot_datafiles::{DataFile, Kind, Values};
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -27,14 +32,38 @@ pub(super) fn has_responses(request: &Request) -> Result<bool> {
 
 /// The project of frequency responses.
 pub(super) fn import(request: &Request, out: &Path, control: &Control) -> Result<Imported> {
-    let Found { head, tables, summary, assumed } = project(request, out)?;
-    let project =
-        plan(&format!("{head}{tables}"), out).and_then(|plan| plan.load(control)).map_err(ImportError::Unwritten)?;
-    let assumed = assumed.iter().map(|what| format!("assumed: {what}\n")).collect::<String>();
-    let runs = project.runs.len();
-    let runs = counted(runs, "run");
-    let summary = format!("{assumed}{summary}, {runs} of one line each, are in {}\n", out.display());
-    Ok(Imported { head, tables, summary, remarks: project.remarks })
+    let found = project(request, out)?;
+    let loaded = found.loaded(out, control)?;
+    let by_modes = if found.guessed { driven(&loaded, control) } else { None };
+    let Some(at) = by_modes else { return Ok(found.told(&loaded, out)) };
+    let mut found = project(&Request { references: vec![at.clone()], ..request.clone() }, out)?;
+    found
+        .assumed
+        .push(format!("by the modes of the model the force acts at DOF {at}; say by --references where it does not"));
+    let loaded = found.loaded(out, control)?;
+    Ok(found.told(&loaded, out))
+}
+
+/// Loss factor of the structure while the place of the force is looked for, which does not depend on it.
+const STAND_IN: f64 = 0.01;
+
+/// Label of the DOF at which the only force of functions fits the modes of the model, where there is a model and it does.
+fn driven(project: &Project, control: &Control) -> Option<String> {
+    let structure = &project.structure;
+    structure.matrices()?;
+    let whole = Source::candidate(Effect::LossFactor, Place::Whole(None)).with_coefficient(STAND_IN);
+    let sources = [Source { state: State::Known, ..whole }];
+    let problem = Problem { structure, sources: &sources, runs: &project.runs };
+    // What cannot be compared says nothing of the place.
+    place_of_force(&problem, control).ok().flatten().map(|dof| at_node(structure, dof))
+}
+
+/// The name of a DOF by its node and axis, such as `10z`, which no number of a DOF can be taken for; else its label.
+fn at_node(structure: &Structure, dof: usize) -> String {
+    let node = &structure.nodes()[structure.dofs()[dof].node].label;
+    let names = ["x", "y", "z"].map(|axis| format!("{node}{axis}"));
+    let own = names.into_iter().find(|name| structure.dof(name) == Some(dof));
+    own.unwrap_or_else(|| structure.label(dof).to_owned())
 }
 
 /// The functions of files as they would be imported.
@@ -68,6 +97,27 @@ struct Found {
     tables: String,
     summary: String,
     assumed: Vec<String>,
+    guessed: bool,
+}
+
+impl Found {
+    /// Tables of the measurements under what was assumed.
+    fn tables(&self) -> String {
+        let comments = self.assumed.iter().map(|what| comment(&format!("Assumed: {what}."))).collect::<String>();
+        comments + &self.tables
+    }
+
+    fn loaded(&self, out: &Path, control: &Control) -> Result<Project> {
+        let text = format!("{}{}", self.head, self.tables());
+        plan(&text, out).and_then(|plan| plan.load(control)).map_err(ImportError::Unwritten)
+    }
+
+    fn told(self, loaded: &Project, out: &Path) -> Imported {
+        let assumed = self.assumed.iter().map(|what| format!("assumed: {what}\n")).collect::<String>();
+        let runs = counted(loaded.runs.len(), "run");
+        let summary = format!("{assumed}{}, {runs} of one line each, are in {}\n", self.summary, out.display());
+        Imported { tables: self.tables(), head: self.head, summary, remarks: loaded.remarks.clone() }
+    }
 }
 
 /// What the files say of their functions.
@@ -77,11 +127,13 @@ struct Said {
     points: Vec<(String, Point)>,
     measured: Vec<Measured>,
     assumed: Vec<String>,
+    /// Whether the place of the force is a guess.
+    guessed: bool,
 }
 
 fn said(request: &Request) -> Result<Said> {
     let files: Vec<DataFile> = request.files.iter().map(|file| opened(request, file)).collect::<Result<_, _>>()?;
-    let (measured, assumed) = measured(request, &files)?;
+    let Labelled { mut measured, mut assumed, guessed } = measured(request, &files)?;
     let (mut names, mut highest_hz, mut count) = (Vec::new(), 0.0_f64, 0);
     for file in &files {
         for channel in functions(file.contents(), request) {
@@ -91,44 +143,81 @@ fn said(request: &Request) -> Result<Said> {
             names.extend(pair(file, channel).into_iter().flatten());
         }
     }
+    if let Some(kept) = request.kept.as_ref().filter(|_| request.responses.is_empty()) {
+        assumed.extend(at_nodes(&mut measured, &kept.structure()?));
+    }
     if measured.iter().any(|one| !one.responses.is_empty()) {
         names = measured.iter().flat_map(|one| one.responses.iter().chain(&one.references)).cloned().collect();
     }
     let points = points(&names, &files)?;
-    Ok(Said { count, highest_hz, points, measured: together(measured, &files, request), assumed })
+    Ok(Said { count, highest_hz, points, measured: together(measured, &files, request), assumed, guessed })
+}
+
+/// The numbers of lists as the DOFs of a beam that they stand for, and how that is said.
+fn at_nodes(measured: &mut [Measured], on: &Structure) -> Option<String> {
+    let labels = || measured.iter().flat_map(|one| one.responses.iter().chain(&one.references));
+    let taken = of_numbers(on, &labels().cloned().collect::<Vec<_>>());
+    for one in measured {
+        for label in one.responses.iter_mut().chain(&mut one.references) {
+            if let Some(taken) = taken.iter().find(|taken| taken.number == *label) {
+                label.clone_from(&taken.label);
+            }
+        }
+    }
+    said_of_numbers(&taken)
+}
+
+/// How numbers are taken, of the first with the number of the others.
+fn said_of_numbers(taken: &[Taken]) -> Option<String> {
+    let (first, others) = taken.split_first()?;
+    Some(if others.is_empty() {
+        first.how.clone()
+    } else {
+        format!("{}, and {} more likewise", first.how, others.len())
+    })
+}
+
+/// How the points of the files are taken that are called otherwise in the project, and that no template places.
+fn said_of_labels(
+    request: &Request,
+    on: &Structure,
+    points: &[(String, Point)],
+    dofs: &BTreeMap<String, String>,
+) -> Option<String> {
+    let own: Vec<String> = points.iter().map(|(_, point)| format!("{}{}", point.node, point.direction)).collect();
+    if let Some(said) = said_of_numbers(&of_numbers(on, &own)) {
+        return Some(said);
+    }
+    let plain = |name: &String| name.replace(":+", "").to_lowercase();
+    let mut moved = dofs
+        .iter()
+        .filter(|(name, label)| plain(name) != **label && !is_nowhere(name) && template_label(request, name).is_none());
+    let (name, label) = moved.next()?;
+    let more = match moved.count() {
+        0 => String::new(),
+        more => format!(", and {more} more likewise"),
+    };
+    Some(said_of_axis(name, label) + &more)
 }
 
 fn project(request: &Request, out: &Path) -> Result<Found> {
-    let Said { count, highest_hz, points, measured, mut assumed } = said(request)?;
+    let Said { count, highest_hz, points, measured, mut assumed, guessed } = said(request)?;
     assumed.extend(nowhere(request, &points).map(|name| {
         format!("the file says no place of its reference {name}: it is taken to act at the first response; correct it under [frf.dofs]")
     }));
     let (labels, dofs) = labelled(request, &points)?;
-    if request.kept.is_some() {
-        let own = |name: &String| name.replace(":+", "").to_lowercase();
-        let mut moved = dofs.iter().filter(|(name, label)| {
-            own(name) != **label && !is_nowhere(name) && template_label(request, name).is_none()
-        });
-        if let Some((name, label)) = moved.next() {
-            let more = match moved.count() {
-                0 => String::new(),
-                more => format!(", and {more} more likewise"),
-            };
-            assumed.push(said_of_axis(name, label) + &more);
-        }
+    if let Some(kept) = &request.kept {
+        assumed.extend(said_of_labels(request, &kept.structure()?, &points, &dofs));
     }
     let up_to = if highest_hz > 0.0 { 2.0 * highest_hz } else { 2000.0 };
     let head = head(request, out, &points_structure(&labels), up_to)?;
     let mut tables = String::new();
-    for what in &assumed {
-        tables.push_str(&comment(&format!("Assumed: {what}.")));
-    }
     for one in &measured {
         let further = one.further.iter().map(|file| named(file, out)).collect::<Result<Vec<_>>>()?;
         tables.push_str(&table(request, &named(&one.path, out)?, &further, one, &dofs));
     }
     let summary = format!("{} at {}", counted(count, "function"), counted(points.len(), "DOF"));
-    Ok(Found { head, tables, summary, assumed })
+    Ok(Found { head, tables, summary, assumed, guessed })
 }
 
 /// Labels of the DOFs, and those of the file that are called otherwise in the project.
@@ -146,7 +235,11 @@ fn labelled(request: &Request, points: &[(String, Point)]) -> Result<(Vec<String
         (points.iter().map(label).collect(), own.iter().collect())
     } else {
         let kept = request.kept.as_ref().map(Kept::structure).transpose()?;
-        let only = kept.map(|structure| along_the_only_axis(&structure, &own)).unwrap_or_default();
+        let only = kept.map(|structure| {
+            let numbers = of_numbers(&structure, &own).into_iter().map(|taken| (taken.number, taken.label));
+            along_the_only_axis(&structure, &own).into_iter().chain(numbers).collect::<BTreeMap<_, _>>()
+        });
+        let only = only.unwrap_or_default();
         let label = |own: &String| only.get(own).unwrap_or(own).clone();
         (own.iter().map(label).collect(), points.iter().map(|(name, _)| name).collect())
     };
@@ -231,9 +324,13 @@ fn table(
     for (name, label) in request.frf.iter().flat_map(|template| &template.dofs) {
         dofs.insert(name.clone(), label.0.clone());
     }
-    if !dofs.is_empty() {
-        text.push_str("\n[frf.dofs]\n");
-        dofs.iter().for_each(|(name, label)| text.push_str(&format!("{} = {}\n", quoted(name), quoted(label))));
+    let of_forces = request.frf.iter().flat_map(|template| &template.reference_dofs);
+    let of_forces: BTreeMap<String, String> = of_forces.map(|(name, label)| (name.clone(), label.0.clone())).collect();
+    for (title, dofs) in [("dofs", dofs), ("reference_dofs", of_forces)] {
+        if !dofs.is_empty() {
+            text.push_str(&format!("\n[frf.{title}]\n"));
+            dofs.iter().for_each(|(name, label)| text.push_str(&format!("{} = {}\n", quoted(name), quoted(label))));
+        }
     }
     text + "\n"
 }

@@ -250,6 +250,9 @@ pub struct RunTable {
     /// Sets of a laboratory file in which every data set is one channel: one a `[[channel]]`, in their order.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub sets: Vec<String>,
+    /// DOFs of channels in this run, by the names of the channels in the file: where a roving hammer or sensor was.
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    pub dofs: BTreeMap<String, Label>,
     /// Sampling rate of a laboratory file without time, Hz.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub sampling_hz: Option<f64>,

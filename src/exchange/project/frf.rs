@@ -10,7 +10,7 @@ use dashpot_datafiles::Pairing;
 use serde::{Serialize, Serializer};
 use std::collections::BTreeMap;
 
-const KEYS: [&str; 14] = [
+const KEYS: [&str; 15] = [
     "file",
     "further_files",
     "form",
@@ -21,6 +21,7 @@ const KEYS: [&str; 14] = [
     "lines",
     "use",
     "dofs",
+    "reference_dofs",
     "responses",
     "references",
     "step_hz",
@@ -78,6 +79,9 @@ pub struct FrfTable {
     /// DOFs of the file, such as `12:+Z`, and their labels in the structure.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub dofs: BTreeMap<String, Label>,
+    /// The same of the DOFs where forces act, where these are elsewhere than the sensors of that name.
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    pub reference_dofs: BTreeMap<String, Label>,
 }
 
 impl FrfTable {
@@ -98,6 +102,7 @@ impl FrfTable {
             step_hz: None,
             columns: None,
             dofs: BTreeMap::new(),
+            reference_dofs: BTreeMap::new(),
         }
     }
 }
@@ -129,7 +134,8 @@ fn one(table: &Table<'_>, file: String) -> Result<FrfTable, ProjectError> {
         band: band(table)?,
         lines: table.count("lines", 1, MOST_LINES, "between 1 and 100000")?,
         enabled: table.flag("use")?.unwrap_or(true),
-        dofs: dofs(table, "[frf.dofs]")?,
+        dofs: dofs(table, "dofs", "[frf.dofs]")?,
+        reference_dofs: dofs(table, "reference_dofs", "[frf.reference_dofs]")?,
         responses: table.labels("responses")?.unwrap_or_default().into_iter().map(Label).collect(),
         references: table.labels("references")?.unwrap_or_default().into_iter().map(Label).collect(),
         step_hz: step(table)?,
@@ -178,9 +184,13 @@ fn band(table: &Table<'_>) -> Result<Option<[f64; 2]>, ProjectError> {
     }
 }
 
-/// DOFs of a file and their labels in the structure, a table called `title`.
-pub(super) fn dofs(table: &Table<'_>, title: &'static str) -> Result<BTreeMap<String, Label>, ProjectError> {
-    let Some(map) = table.table("dofs", title)? else { return Ok(BTreeMap::new()) };
+/// DOFs of a file and their labels in the structure, a table at `key` called `title`.
+pub(super) fn dofs(
+    table: &Table<'_>,
+    key: &'static str,
+    title: &'static str,
+) -> Result<BTreeMap<String, Label>, ProjectError> {
+    let Some(map) = table.table(key, title)? else { return Ok(BTreeMap::new()) };
     let mut dofs = BTreeMap::new();
     for key in map.keys() {
         if let Some(label) = map.label(key)? {
@@ -198,12 +208,15 @@ impl FrfTable {
 
     /// How its files are to be read.
     pub fn source(&self) -> FrfSource {
+        let plain =
+            |dofs: &BTreeMap<String, Label>| dofs.iter().map(|(name, label)| (name.clone(), label.0.clone())).collect();
         FrfSource {
             form: self.form,
             scale: self.scale,
             averages: self.averages,
             reciprocity: self.reciprocity,
-            dofs: self.dofs.iter().map(|(name, label)| (name.clone(), label.0.clone())).collect(),
+            dofs: plain(&self.dofs),
+            reference_dofs: plain(&self.reference_dofs),
             responses: self.responses.iter().map(|label| label.0.clone()).collect(),
             references: self.references.iter().map(|label| label.0.clone()).collect(),
             step_hz: self.step_hz,

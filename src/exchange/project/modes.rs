@@ -24,7 +24,7 @@ pub(super) fn parse(root: &Table<'_>, lines: &mut Lines) -> Result<Vec<ModesTabl
     for table in root.tables("modes", "[[modes]]")? {
         table.only(&["file", "dofs"])?;
         let file = table.need("file", "file = \"modes.uff\"", table.text("file")?)?;
-        tables.push(ModesTable { file, dofs: dofs(&table, "[modes.dofs]")? });
+        tables.push(ModesTable { file, dofs: dofs(&table, "dofs", "[modes.dofs]")? });
         lines.modes.push(table.line());
     }
     Ok(tables)

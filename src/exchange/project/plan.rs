@@ -11,13 +11,14 @@ use super::{kept, reference_shapes};
 use crate::classical::reference_shapes::ReferenceShape;
 use crate::control::Control;
 use crate::effects::Source;
-use crate::exchange::mapping::{AmplitudeTable, Template, read_amplitudes, read_mapped, reads_as_own};
+use crate::exchange::mapping::{AmplitudeTable, ChannelTable, Template, read_amplitudes, read_mapped, reads_as_own};
 use crate::exchange::records::{HarmonicsRun, SteppedSine, read_harmonics_as, read_record_with};
 use crate::identify::Settings;
 use crate::measurement::base::AXES;
 use crate::measurement::{ChannelCorrection, ChannelName, HarmonicFit, Kind, Part, Quantity, Record, Run};
 use crate::response::recording::Loading;
 use crate::structure::Structure;
+use std::borrow::Cow;
 use std::path::{Component, Path, PathBuf};
 
 /// A project whose structure and sources are built and whose records are not read yet.
@@ -287,6 +288,25 @@ impl Plan {
         }
     }
 
+    /// The channels of the mapping where run number `run` has them.
+    fn channels_of(&self, run: usize) -> Result<Cow<'_, [ChannelTable]>, ProjectError> {
+        let (all, dofs) = (&self.file.channel, &self.file.run[run].dofs);
+        if dofs.is_empty() {
+            return Ok(Cow::Borrowed(all));
+        }
+        let mut own = all.clone();
+        for (name, label) in dofs {
+            if all.iter().all(|table| table.name != *name) {
+                let names: Vec<String> = all.iter().take(12).map(|table| format!("\"{}\"", table.name)).collect();
+                let allowed = format!("the name of a [[channel]]: {}", names.join(", "));
+                let problem = Problem::NotAllowed { key: "dofs".to_owned(), value: name.clone(), allowed };
+                return Err(self.run_error(run, "dofs", problem));
+            }
+            own.iter_mut().filter(|table| table.name == *name).for_each(|table| table.dof.clone_from(&label.0));
+        }
+        Ok(Cow::Owned(own))
+    }
+
     /// Reads the record of run number `run`, as it was recorded.
     ///
     /// # Errors
@@ -299,8 +319,9 @@ impl Plan {
             let problem = if simulated { Problem::NotSimulated { file } } else { Problem::NoRecord { file } };
             return Err(self.run_error(run, "file", problem));
         }
+        let channels = self.channels_of(run)?;
         let template = Template {
-            channels: &self.file.channel,
+            channels: &channels,
             set: planned.set.as_deref(),
             sets: &planned.sets,
             sampling_hz: planned.sampling_hz,

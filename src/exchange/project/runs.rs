@@ -2,6 +2,7 @@
 
 use super::error::{Problem, ProjectError};
 use super::file::{HarmonicsTable, Lines, RunTable};
+use super::frf::dofs;
 use super::keys::{above_zero, key_lines};
 use super::label::Label;
 use super::reader::Table;
@@ -12,7 +13,8 @@ use std::collections::BTreeMap;
 
 type Read<T> = Result<T, ProjectError>;
 
-const RUN: [&str; 19] = [
+const RUN: [&str; 20] = [
+    "dofs",
     "base",
     "base_m_s2",
     "response",
@@ -85,6 +87,7 @@ fn run(table: &Table<'_>) -> Read<RunTable> {
         set: table.text("set")?,
         sets: sets(table)?,
         sampling_hz,
+        dofs: dofs(table, "dofs", "`dofs` of the [[run]]")?,
         base: table.word("base", &AXES, |word| AXES.contains(&word).then(|| word.to_owned()))?,
         base_m_s2: table.number("base_m_s2")?,
         response: base::response(table)?,

@@ -72,6 +72,16 @@ pub(crate) fn choose(densities: &[Density], most: usize) -> Vec<Vec<usize>> {
 /// Lines of a resonance that are taken from one reference before the next reference has its turn.
 const ROUND: usize = 3;
 
+/// The resonances of one reference: their lines down to a third of the amplitude of the crest, each ascending.
+pub(crate) fn resonances(density: &Density) -> Vec<Vec<usize>> {
+    let ascending = |peak: Peak| {
+        let mut lines = peak.order;
+        lines.sort_unstable();
+        lines
+    };
+    peaks(0, density).into_iter().map(ascending).collect()
+}
+
 /// Place of each peak among those of other references at the same resonance, the best first; `peaks` by height.
 fn ranks(peaks: &[Peak]) -> Vec<usize> {
     let overlaps = |a: &Peak, b: &Peak| a.order.contains(&b.crest) || b.order.contains(&a.crest);

@@ -74,7 +74,7 @@ impl Made<'_> {
         let handed = above.1.filter(|axis| context == above.0 && is_of(axis, entries));
         let axis = own.as_ref().or(handed);
         let labels = Labels::of(entries);
-        self.set(path, entries, attributes, context, axis, &labels);
+        self.set(path, entries, attributes, context, axis, &labels)?;
         let below = own.map(|axis| Abscissa { entry: None, ..axis });
         let below = below.as_ref().or(above.1.filter(|_| context == above.0));
         for entry in entries {
@@ -99,7 +99,7 @@ impl Made<'_> {
         context: Context,
         axis: Option<&Abscissa>,
         labels: &Labels,
-    ) {
+    ) -> Read<()> {
         let mut set = Set::new(path, Kind::Table);
         let mut places = Vec::new();
         for (i, entry) in entries.iter().enumerate() {
@@ -121,6 +121,7 @@ impl Made<'_> {
             }
         }
         finish(&mut set, entries, attributes, axis);
+        super::points::attach(&mut set, entries, attributes, self.arrays)?;
         for (name, value) in attributes {
             note(&mut set, format!("{name}: {value}"));
         }
@@ -128,6 +129,7 @@ impl Made<'_> {
             self.sets.push(set);
             self.places.push(places);
         }
+        Ok(())
     }
 
     /// The vector that is the abscissa of a group.
