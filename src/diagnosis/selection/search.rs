@@ -1,10 +1,8 @@
 //! The search for one more effect, or two at once: places first, then laws, then the fit on the response.
 
 use super::short_list::{Breadth, hopeless, telling};
-use super::single_change::is_like_a_correction;
 use crate::diagnosis::candidates::identified_force::{LawFit, PlaceData};
 use crate::diagnosis::candidates::start::{Fields, UnfittedSet};
-use crate::diagnosis::candidates::two_laws::TwoLaws;
 use crate::diagnosis::localisation::cell::{FreeForce, shrunk};
 use crate::diagnosis::localisation::free_force::{Freedom, Placing, Screen};
 use crate::diagnosis::localisation::location::{Receptances, Spot};
@@ -129,37 +127,6 @@ impl ReferenceModel<'_> {
         self.need(&mut view, &[at])?;
         let (forces, fields) = self.free(&view, &[at]);
         Ok(Some(self.at_place(&view, at, &forces[0], &fields)))
-    }
-
-    /// Sets of two laws at the place of `source`, or at the one that explains most where that is the whole structure, regressed on the
-    /// free force there beside this model, best first, that explain it by more than `evidence` better than the best law alone does, in
-    /// units of what they leave beyond the noise.
-    pub(super) fn two_laws(&self, source: &Source, evidence: f64) -> Result<Vec<UnfittedSet>, DiagnosisError> {
-        let mut view = self.view(None)?;
-        let at = match source.place {
-            Place::Whole(_) => {
-                let mut spots = view.screen.singles().into_iter().map(|placing| placing.spots[0]);
-                spots.find(|&spot| matches!(view.screen.spots[spot], Spot::Leg(_)))
-            }
-            _ => view.screen.spots.iter().position(|spot| spot.place().is_same(&source.place)),
-        };
-        let Some(at) = at else { return Ok(Vec::new()) };
-        self.need(&mut view, &[at])?;
-        let (forces, fields) = self.free(&view, &[at]);
-        let (data, fields) = (self.at_place(&view, at, &forces[0], &fields), Arc::new(fields));
-        let count = data.count();
-        let alone = data.all_fits(data.simple_fits()).into_iter();
-        let alone = alone.map(|fit| bayesian_information(fit.misfit, fit.source.parameters.len(), count));
-        let alone = alone.fold(f64::INFINITY, f64::min);
-        let pairs = data.two_laws(|source| self.data.allows(source) && !is_like_a_correction(source.effect));
-        let scale = pairs.first().map_or(1.0, |best| best.misfit / count.max(1) as f64).max(1.0);
-        let enough = |score: &f64| alone - score > evidence * scale;
-        let set = |pair: TwoLaws| UnfittedSet {
-            score: pair.score(count),
-            effects: pair.sources.to_vec(),
-            fields: fields.clone(),
-        };
-        Ok(pairs.into_iter().map(set).filter(|set| enough(&set.score)).collect())
     }
 
     /// The set `best` with its effect `source` at other places that leave no more than `margin` beyond what its own place

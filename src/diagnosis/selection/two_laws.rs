@@ -3,10 +3,15 @@
 
 use super::single_change::is_like_a_correction;
 use super::weighing::{Weighed, weighed};
+use crate::diagnosis::candidates::start::UnfittedSet;
+use crate::diagnosis::candidates::two_laws::TwoLaws;
+use crate::diagnosis::localisation::location::Spot;
 use crate::diagnosis::residual::data::DiagnosisError;
 use crate::diagnosis::selection::found::{EVIDENCE, agrees};
 use crate::diagnosis::selection::reference_model::{ReferenceModel, scale_of};
-use crate::effects::Kind;
+use crate::effects::{Kind, Place, Source};
+use crate::math::statistics::bayesian_information;
+use std::sync::Arc;
 
 /// Pairs of laws that are followed.
 const FOLLOWED: usize = 4;
@@ -24,7 +29,7 @@ impl<'a> ReferenceModel<'a> {
         if matches!(source.effect.kind(), Kind::Channel(_)) || self.control.is_late() || suffices(best) {
             return Ok(None);
         }
-        let mut unfitted = self.two_laws(source, REGRESSED)?;
+        let mut unfitted = self.regressed_pairs(source, REGRESSED)?;
         unfitted.truncate(FOLLOWED);
         if unfitted.is_empty() {
             return Ok(None);
@@ -34,6 +39,37 @@ impl<'a> ReferenceModel<'a> {
         let both = effects.len() > 1 && !effects.iter().any(|e| is_like_a_correction(e.effect));
         let gains = gains(&two, best);
         Ok((both && 0.5 * (gains[0] + gains[1]) > EVIDENCE).then(|| beside(two, best, gains[0])))
+    }
+
+    /// Sets of two laws at the place of `source`, or at the one that explains most where that is the whole structure, regressed on the
+    /// free force there beside this model, best first, that explain it by more than `evidence` better than the best law alone does, in
+    /// units of what they leave beyond the noise.
+    fn regressed_pairs(&self, source: &Source, evidence: f64) -> Result<Vec<UnfittedSet>, DiagnosisError> {
+        let mut view = self.view(None)?;
+        let at = match source.place {
+            Place::Whole(_) => {
+                let mut spots = view.screen.singles().into_iter().map(|placing| placing.spots[0]);
+                spots.find(|&spot| matches!(view.screen.spots[spot], Spot::Leg(_)))
+            }
+            _ => view.screen.spots.iter().position(|spot| spot.place().is_same(&source.place)),
+        };
+        let Some(at) = at else { return Ok(Vec::new()) };
+        self.need(&mut view, &[at])?;
+        let (forces, fields) = self.free(&view, &[at]);
+        let (data, fields) = (self.at_place(&view, at, &forces[0], &fields), Arc::new(fields));
+        let count = data.count();
+        let alone = data.all_fits(data.simple_fits()).into_iter();
+        let alone = alone.map(|fit| bayesian_information(fit.misfit, fit.source.parameters.len(), count));
+        let alone = alone.fold(f64::INFINITY, f64::min);
+        let pairs = data.two_laws(|source| self.data.allows(source) && !is_like_a_correction(source.effect));
+        let scale = pairs.first().map_or(1.0, |best| best.misfit / count.max(1) as f64).max(1.0);
+        let enough = |score: &f64| alone - score > evidence * scale;
+        let set = |pair: TwoLaws| UnfittedSet {
+            score: pair.score(count),
+            effects: pair.sources.to_vec(),
+            fields: fields.clone(),
+        };
+        Ok(pairs.into_iter().map(set).filter(|set| enough(&set.score)).collect())
     }
 }
 
