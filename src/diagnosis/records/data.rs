@@ -231,8 +231,10 @@ impl RecordData {
 
     /// The measured forces of the first `samples` samples.
     pub(crate) fn excitation(&self, samples: usize, linear: bool) -> SampledForces {
-        let forces = self.forces.iter().map(|list| sharpened(&list[..samples])).collect();
-        SampledForces { step: self.step, samples, forces, substeps: if linear { 1 } else { self.substeps } }
+        let measured: Vec<Vec<f64>> = self.forces.iter().map(|list| list[..samples].to_vec()).collect();
+        let forces = measured.iter().map(|list| sharpened(list)).collect();
+        let substeps = if linear { 1 } else { self.substeps };
+        SampledForces { step: self.step, samples, forces, measured, substeps }
     }
 }
 
