@@ -1,6 +1,9 @@
 //! The program from outside: exit statuses, one line on standard error, nothing written where something is wrong.
 #![allow(clippy::disallowed_methods, clippy::unwrap_used, reason = "tests")]
 
+#[path = "cli/records.rs"]
+mod records;
+
 use std::fs;
 use std::path::Path;
 use std::process::{Command, Output, Stdio};

@@ -6,6 +6,9 @@ use crate::math::spectrum::Spectrum;
 use crate::math::statistics::root_mean_square;
 use crate::measurement::{Quantity, TransientRun};
 use crate::structure::Structure;
+use rand::SeedableRng;
+use rand_chacha::ChaCha8Rng;
+use rand_distr::{Distribution, StandardNormal};
 use std::f64::consts::TAU;
 
 /// Samples a period that are compared; laws with memory see the motion as finely.
@@ -56,6 +59,8 @@ pub struct Loop {
     pub force: Vec<f64>,
     /// Standard deviation of the noise of the force, N.
     pub noise: f64,
+    /// What noise like that of the displacement leaves of displacement, velocity and acceleration (m, m/s, m/s^2): one draw of it.
+    pub jitter: [Vec<f64>; 3],
     /// Frequency of the largest line of the displacement, Hz.
     pub frequency_hz: f64,
 }
@@ -134,7 +139,9 @@ impl Loop {
         let needed = 9.0 / 8.0 * (noise(d) / (STILL * peak.amplitude)).powi(2);
         let half = (needed.min(1e9) as usize).clamp(least, most.max(least));
         let numbers: Vec<usize> = (half..d.len().saturating_sub(half)).step_by(every).collect();
-        let fits: Vec<[f64; 3]> = numbers.iter().map(|&n| cubic(&d[n - half..=n + half], step)).collect();
+        let fits = |d: &[f64]| numbers.iter().map(|&n| cubic(&d[n - half..=n + half], step)).collect::<Vec<[f64; 3]>>();
+        let motion = |fits: &[[f64; 3]]| [0, 1, 2].map(|k| fits.iter().map(|f| f[k]).collect::<Vec<f64>>());
+        let ([d, v, a], jitter) = (motion(&fits(d)), motion(&fits(&drawn(noise(d), d.len()))));
         let averaged = |n: &usize| {
             let part = &force[n - every / 2..=n + every / 2];
             part.iter().sum::<f64>() / part.len() as f64
@@ -146,13 +153,20 @@ impl Loop {
             channel: run.channels()[pushed].to_string(),
             first_s: run.time()[0] + half as f64 * step,
             step: every as f64 * step,
-            d: fits.iter().map(|f| f[0]).collect(),
-            v: fits.iter().map(|f| f[1]).collect(),
-            a: fits.iter().map(|f| f[2]).collect(),
+            d,
+            v,
+            a,
+            jitter,
             noise: noise(force) / (every as f64).sqrt(),
             force: forces,
             frequency_hz: peak.frequency_hz,
         })
+    }
+
+    /// The same record with one more draw of the noise of its displacement.
+    pub(crate) fn jittered(&self) -> Self {
+        let moved = |x: &[f64], k: usize| x.iter().zip(&self.jitter[k]).map(|(x, e)| x + e).collect();
+        Self { d: moved(&self.d, 0), v: moved(&self.v, 1), a: moved(&self.a, 2), ..self.clone() }
     }
 
     /// Force of a source along the motion, N; none where its law has no force in time.
@@ -211,6 +225,12 @@ fn cubic(samples: &[f64], step: f64) -> [f64; 3] {
     let square = if even > 0.0 { (count * y2 - s2 * y0) / even } else { 0.0 };
     let slope = if odd > 1e-9 * s2 * s6 { (s6 * y1 - s4 * y3) / odd } else { y1 / s2 };
     [offset, slope / step, 2.0 * square / (step * step)]
+}
+
+/// One draw of white noise of this deviation; the same on every machine.
+fn drawn(deviation: f64, samples: usize) -> Vec<f64> {
+    let mut random = ChaCha8Rng::seed_from_u64(1);
+    (0..samples).map(|_| deviation * Distribution::<f64>::sample(&StandardNormal, &mut random)).collect()
 }
 
 /// Standard deviation of white noise on a signal, from its third differences.

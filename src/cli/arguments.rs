@@ -38,7 +38,7 @@ pub(super) enum Command {
     Diagnose(Diagnose),
     /// Frequency and damping ratio against amplitude, of decays and of what follows a hammer
     Amplitude(Analysis),
-    /// Make steady-state records of the model of a project
+    /// Make records of the model of a project: steady states, decays, hammers, sweeps, noise, loops of a component
     Simulate(Simulate),
     /// Apply the classical methods side by side to the same runs
     Methods(Methods),

@@ -55,6 +55,7 @@ pub(super) fn run(arguments: &Analysis) -> anyhow::Result<String> {
         if let Some(records) = &records {
             document["records"] = json!(super::records::document(&project, records));
         }
+        document["record_findings"] = json!(run_flags::records(&project));
         return Ok(format!("{}\n", serde_json::to_string_pretty(&document)?));
     }
     let words = match &reading {
@@ -70,13 +71,14 @@ pub(super) fn run(arguments: &Analysis) -> anyhow::Result<String> {
 /// A project that holds nothing but records that are not steady.
 fn of_records(project: &Project, records: &RecordComparison, json: bool) -> anyhow::Result<String> {
     if !json {
-        return Ok(format!("{}\n{}", project.title, super::records::text(project, records)));
+        let flags = run_flags::text(project);
+        return Ok(format!("{}\n{}{flags}", project.title, super::records::text(project, records)));
     }
     let empty: [Value; 0] = [];
     let document = json!({
         "title": project.title, "of": measure(&project.structure), "error": records.error,
         "noise_floor": records.noise_floor, "energy_error": null, "runs": empty, "levels": empty, "channels": empty,
-        "harmonics": empty, "whiteness": empty, "records": super::records::document(project, records),
+        "harmonics": empty, "whiteness": empty, "records": super::records::document(project, records), "record_findings": run_flags::records(project),
     });
     Ok(format!("{}\n", serde_json::to_string_pretty(&document)?))
 }
@@ -131,7 +133,7 @@ fn run_document(project: &Project, run: &RunComparison) -> Value {
         "frequency_hz": source.fit.omega / std::f64::consts::TAU,
         "level": source.level,
         "flags": flags(source),
-        "findings": run_flags::findings(source),
+        "findings": run_flags::findings(&source.findings),
         "session": source.session,
         "used": run.used,
         "error": run.error,

@@ -10,6 +10,7 @@ use super::{channel_faults, identified};
 use crate::control::Control;
 use crate::diagnosis::channels::Fault;
 use crate::diagnosis::result::{Diagnosis, Suggestion, TestKind};
+use crate::diagnosis::updating::correction::as_force_gain;
 use crate::display::findings;
 use crate::display::words::title;
 use crate::effects::Source;
@@ -109,7 +110,7 @@ fn document(project: &Project, diagnosis: &Diagnosis) -> Value {
     let structure = &project.structure;
     let run = |run: &crate::measurement::Run| {
         json!({"file": run.file, "frequency_hz": run.fit.omega / std::f64::consts::TAU, "flags": flags(run),
-        "findings": run_flags::findings(run)})
+        "findings": run_flags::findings(&run.findings)})
     };
     let step = |step: &crate::diagnosis::result::Step| {
         let added: Vec<Value> = step.added.iter().map(|a| Value::Object(with_values(structure, a))).collect();
@@ -133,6 +134,9 @@ fn document(project: &Project, diagnosis: &Diagnosis) -> Value {
         "complete": diagnosis.complete,
         "searched_runs": (!diagnosis.runs.is_empty()).then_some(&diagnosis.runs),
         "runs": project.runs.iter().map(run).collect::<Vec<_>>(),
+    "records": diagnosis.records.map(|r| json!({"error_before": r.error_before, "error_after": r.error_after,
+            "noise_floor": r.noise_floor})),
+        "record_findings": run_flags::records(project),
         "suggestions": channel_faults::suggestions(&diagnosis.channel_faults)
             .chain(diagnosis.suggestions.iter().map(|s| suggestion(structure, s)))
             .collect::<Vec<_>>(),
@@ -186,11 +190,12 @@ fn text(project: &Project, diagnosis: &Diagnosis) -> String {
         for correction in &diagnosis.corrections {
             lines.push_str(&format!("{}\n", corrected(project, correction)));
         }
+        lines.push_str(&force_gain(diagnosis));
     }
     if let Some(coupled) = structure.coupled() {
         lines.push_str(&neighbours_in_words(structure, &coupled));
     }
-    lines + &steps_in_words(structure, diagnosis)
+    lines + &steps_in_words(structure, diagnosis) + &records_in_words(diagnosis)
 }
 
 /// A table of the suggestions, with the evidence of the first.
@@ -220,6 +225,24 @@ fn steps_in_words(structure: &Structure, diagnosis: &Diagnosis) -> String {
         lines.push_str(&format!("\nnext test: {}: {}\n", findings::next_test(structure, test), test.why));
     }
     lines
+}
+
+/// What equal factors on all mass and all stiffness are as well.
+fn force_gain(diagnosis: &Diagnosis) -> String {
+    as_force_gain(&diagnosis.corrections).map_or_else(String::new, |gain| {
+        format!(
+            "  one factor on all mass and all stiffness is as well a force channel that reads {:.4} +- {:.4} times the force: check its calibration\n",
+            gain.factor, gain.deviation
+        )
+    })
+}
+
+/// The errors of records beside steady runs.
+fn records_in_words(diagnosis: &Diagnosis) -> String {
+    let Some(records) = diagnosis.records else { return String::new() };
+    let [before, after, floor] =
+        [records.error_before, records.error_after, records.noise_floor].map(|x| number(100.0 * x));
+    format!("\nrecords: error {before} % before, {after} % after, noise floor {floor} %\n")
 }
 
 /// Writes the project with the best suggestion, or the set that it is of, added as `known`, and the corrections; comments

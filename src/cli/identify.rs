@@ -3,23 +3,33 @@
 use super::arguments::Identify;
 use super::identify_json::document;
 use super::identify_table::report;
+use super::run_flags;
+use super::table::number;
 use crate::classical::FrequencyResponses;
 use crate::classical::measured_ratios::{circle_ratios, half_power_ratios};
 use crate::control::Control;
 use crate::exchange::Project;
 use crate::exchange::project::load;
 use crate::exchange::ratios::read_ratios;
-use crate::identify::{Measurements, Outcome, identify_measured};
+use crate::identify::{IdentifyError, Measurements, Outcome, identify_measured};
 use crate::measurement::proposal::propose;
 use crate::measurement::{Kind, MeasuredRatio};
+use crate::session::validation::{compared_with_records, only_records};
 use crate::session::workers::Threads;
 use anyhow::Context;
+use serde_json::json;
 use std::f64::consts::TAU;
 use std::path::Path;
 use std::sync::Arc;
 
+/// Error over the noise floor up to which a model agrees with its records.
+const AGREES: f64 = 1.1;
+
 pub(super) fn run(arguments: &Identify) -> anyhow::Result<String> {
-    let (project, outcome) = identified(&arguments.file, arguments.ratios.as_deref())?;
+    let (project, outcome) = match identified(&arguments.file, arguments.ratios.as_deref()) {
+        Ok(found) => found,
+        Err(error) => return nothing_fits(arguments, error),
+    };
     for warning in &outcome.warnings {
         eprintln!("warning: {warning}");
     }
@@ -27,6 +37,33 @@ pub(super) fn run(arguments: &Identify) -> anyhow::Result<String> {
         return Ok(format!("{:#}\n", document(&project, &outcome)));
     }
     Ok(report(&project, &outcome))
+}
+
+/// Where no set of sources fits: the answer that nothing is missing, if the model predicts the records as it is; else the error, after
+/// what is wrong with the records.
+fn nothing_fits(arguments: &Identify, error: anyhow::Error) -> anyhow::Result<String> {
+    if !matches!(error.downcast_ref(), Some(IdentifyError::NothingFits)) {
+        return Err(error);
+    }
+    let control = Control::unattended().with_workers(Arc::new(Threads));
+    let project = load(&arguments.file, &control)?;
+    let found = if only_records(&project) { compared_with_records(&project, &control)? } else { None };
+    let Some(found) = found.filter(|found| found.error <= AGREES * found.noise_floor) else {
+        for run in &project.transient_runs {
+            run.findings.iter().for_each(|finding| eprintln!("warning: {}: {}", run.file, finding.reason));
+        }
+        return Err(error);
+    };
+    if arguments.json {
+        let document = json!({"title": project.title, "nothing_missing": true, "error": found.error,
+            "noise_floor": found.noise_floor, "sources": [], "record_findings": run_flags::records(&project)});
+        return Ok(format!("{document:#}\n"));
+    }
+    let [left, floor] = [found.error, found.noise_floor].map(|x| number(100.0 * x));
+    let words = format!(
+        "Nothing is missing: the model as it is predicts the records to {left} %, their noise floor is {floor} %. No candidate takes energy."
+    );
+    Ok(format!("{}\n\n{words}\n{}", project.title, run_flags::text(&project)))
 }
 
 /// Loads and identifies a project, with damping ratios if they are asked for.

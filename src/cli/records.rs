@@ -35,6 +35,7 @@ pub(super) fn document(project: &Project, comparison: &RecordComparison) -> Vec<
         json!({
             "file": run.file, "kind": run.kind.name(), "from_s": run.time()[0], "to_s": run.time()[run.len() - 1],
             "error": r.error, "noise_floor": r.noise_floor,
+            "findings": super::run_flags::findings(&run.findings),
             "channels": r.channels.iter().map(channel).collect::<Vec<_>>(),
             "times": r.times.iter().map(part("s")).collect::<Vec<_>>(),
             "bands": r.bands.iter().map(part("Hz")).collect::<Vec<_>>(),

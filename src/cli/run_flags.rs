@@ -1,7 +1,8 @@
 //! What is wrong with the runs of a project, in words: beside a comparison, and where nothing is left to compare.
 
 use crate::exchange::Project;
-use crate::measurement::{Finding, Run};
+use crate::measurement::{Finding, Run, TransientRun};
+use crate::session::validation::is_component;
 use anyhow::bail;
 use serde_json::{Value, json};
 use std::path::Path;
@@ -10,9 +11,9 @@ use std::path::Path;
 const MOST: usize = 12;
 
 /// Findings of a run, each flag once.
-fn once(run: &Run) -> Vec<&Finding> {
+fn once(findings: &[Finding]) -> Vec<&Finding> {
     let mut list: Vec<&Finding> = Vec::new();
-    for finding in &run.findings {
+    for finding in findings {
         if !list.iter().any(|f| f.flag == finding.flag) {
             list.push(finding);
         }
@@ -27,12 +28,44 @@ fn word(finding: &Finding) -> String {
 
 /// Flags of a run, each once.
 pub(super) fn flags(run: &Run) -> Vec<Value> {
-    once(run).into_iter().map(|finding| json!(finding.flag)).collect()
+    once(&run.findings).into_iter().map(|finding| json!(finding.flag)).collect()
 }
 
-/// The same with their reasons.
-pub(super) fn findings(run: &Run) -> Vec<Value> {
-    once(run).into_iter().map(|finding| json!({"flag": finding.flag, "reason": finding.reason})).collect()
+/// Findings with their reasons, each flag once.
+pub(super) fn findings(findings: &[Finding]) -> Vec<Value> {
+    once(findings).into_iter().map(|finding| json!({"flag": finding.flag, "reason": finding.reason})).collect()
+}
+
+/// Records that are not steady, each with what is wrong with it and why it is not used, if it is not.
+pub(super) fn records(project: &Project) -> Vec<Value> {
+    let record = |run: &TransientRun| {
+        json!({"file": run.file, "kind": run.kind.name(), "used": why_not(project, run).is_none(),
+               "why_not_used": why_not(project, run), "findings": findings(&run.findings)})
+    };
+    project.transient_runs.iter().map(record).collect()
+}
+
+/// Why a record takes no part in a comparison.
+fn why_not(project: &Project, run: &TransientRun) -> Option<&'static str> {
+    if !run.enabled {
+        return Some("it is switched off (`use = false`)");
+    }
+    let predicts = project.structure.matrices().is_some() || is_component(project);
+    (!predicts).then_some("records in time need the masses and stiffnesses of the structure, which has none")
+}
+
+/// Lines of the records that are not steady.
+fn of_records(project: &Project) -> String {
+    let mut lines = String::new();
+    for run in &project.transient_runs {
+        if let Some(why) = why_not(project, run) {
+            lines.push_str(&format!("{}: not used: {why}\n", run.file));
+        }
+        for finding in once(&run.findings) {
+            lines.push_str(&format!("{}: {}: {}\n", run.file, word(finding), finding.reason));
+        }
+    }
+    lines
 }
 
 /// A line a flag, with what becomes of the run.
@@ -41,13 +74,14 @@ pub(super) fn text(project: &Project) -> String {
     let mut lines = String::new();
     for run in flagged.iter().take(MOST) {
         let left_out = if run.is_used() { "" } else { "left out, " };
-        for finding in once(run) {
+        for finding in once(&run.findings) {
             lines.push_str(&format!("{}: {left_out}{}: {}\n", run.file, word(finding), finding.reason));
         }
     }
     if flagged.len() > MOST {
         lines.push_str(&format!("and {} more runs with flags\n", flagged.len() - MOST));
     }
+    lines.push_str(&of_records(project));
     if lines.is_empty() { lines } else { format!("\nflags\n{lines}") }
 }
 

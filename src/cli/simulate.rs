@@ -1,4 +1,4 @@
-//! `dashpot simulate`: steady-state records of the model of a project at its runs' frequencies and forces.
+//! `dashpot simulate`: records of the model of a project under its runs' excitations, steady ones and others.
 
 use super::arguments::{Method, Records, Simulate};
 use super::moving_base::{self, MovingBase};

@@ -135,6 +135,7 @@ fn explained(reference: ReferenceModel) -> Result<Result<Diagnosis, ChannelFault
         next_test: Vec::new(),
         corrections: Vec::new(),
         channel_faults: Vec::new(),
+        records: None,
         complete: true,
         runs: Vec::new(),
     };

@@ -125,6 +125,8 @@ pub struct Diagnosis {
     pub suggestions: Vec<Suggestion>,
     /// From the model as it is to the best one.
     pub steps: Vec<Step>,
+    /// Errors of the records that are not steady, where a project has them beside steady runs.
+    pub records: Option<RecordErrors>,
     /// Tests worth doing next.
     pub next_test: Vec<NextTest>,
     /// What the model states wrongly, where the data demand it: corrections that were fitted beside the effects.
@@ -136,6 +138,17 @@ pub struct Diagnosis {
     /// Numbers of the runs of the project that were searched where there are more than a search needs: those that tell most
     /// (its errors are of all runs); none where all were.
     pub runs: Vec<usize>,
+}
+
+/// Errors of the records that are not steady.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RecordErrors {
+    /// Of the model as it is.
+    pub error_before: f64,
+    /// With the first suggestion, or the set that it is of, added.
+    pub error_after: f64,
+    /// What noise alone would leave.
+    pub noise_floor: f64,
 }
 
 impl Diagnosis {

@@ -111,6 +111,7 @@ mod tests {
             next_test: Vec::new(),
             corrections: Vec::new(),
             channel_faults: Vec::new(),
+            records: None,
             complete: true,
             runs: Vec::new(),
         }

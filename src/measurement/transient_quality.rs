@@ -17,6 +17,9 @@ const CUT: f64 = 0.2;
 const OUT_OF_BAND: f64 = 0.05;
 /// Equal samples at an end of the range that are no chance.
 const CLIPPED: usize = 4;
+/// Share of the largest force by which its samples on either side of two equal ones differ at least: a round top of two equal samples has
+/// equal neighbours.
+const UNEVEN: f64 = 0.02;
 /// Mean of an acceleration over a third of the record, over its root mean square, that makes its integral drift.
 const DRIFT: f64 = 0.1;
 /// Half-power bands that two modes must be apart in the resolution of the record.
@@ -100,12 +103,30 @@ fn clipped(run: &TransientRun, c: usize) -> Option<Finding> {
     let most = samples.iter().fold(0.0_f64, |m, y| m.max(y.abs()));
     let at_end = |y: &f64| y.abs() == most && most > 0.0;
     let longest = samples.split(|y| !at_end(y)).map(<[f64]>::len).max().unwrap_or(0);
-    (longest >= CLIPPED).then(|| {
+    let blow = run.channels()[c].quantity == Quantity::Force && longest > 1 && is_blow(samples);
+    (longest >= CLIPPED || (blow && has_flat_top(samples, most))).then(|| {
         let channel = &run.channels()[c];
         finding(
             Flag::Clipped,
             format!("{longest} samples of {channel} in a row stand at {most:.4e} (SI units), the end of its range"),
         )
+    })
+}
+
+/// Whether a force is a hammer's: contacts that are short beside the record.
+fn is_blow(force: &[f64]) -> bool {
+    let length: usize = contacts(force).iter().map(|(first, last)| last - first + 1).sum();
+    length > 0 && length as f64 <= HAMMER * force.len() as f64
+}
+
+/// Whether a contact of a few samples has a flat top: equal samples at `most` between neighbours that are not equal.
+fn has_flat_top(force: &[f64], most: f64) -> bool {
+    let at_end = |n: usize| force[n].abs() == most;
+    let last = |first: usize| (first..force.len()).take_while(|&n| at_end(n)).last().unwrap_or(first);
+    (1..force.len()).filter(|&n| at_end(n) && !at_end(n - 1)).any(|first| {
+        let after = last(first) + 1;
+        let uneven = |b: &f64| (force[first - 1] - b).abs() > UNEVEN * most;
+        after > first + 1 && force.get(after).is_some_and(uneven)
     })
 }
 

@@ -8,7 +8,7 @@ use crate::diagnosis::diagnose::diagnose_without;
 use crate::diagnosis::records::compare::OneRecord;
 use crate::diagnosis::records::{self, RecordComparison, RecordError, Records, compare_records, diagnose_records};
 use crate::diagnosis::residual::comparison::{ChannelComparison, RunComparison};
-use crate::diagnosis::result::Early;
+use crate::diagnosis::result::{Early, RecordErrors};
 use crate::diagnosis::together::together;
 use crate::diagnosis::{Comparison, Diagnosis, DiagnosisError, Problem};
 use crate::effects::Source;
@@ -103,7 +103,29 @@ pub fn diagnosed(project: &Project, control: &Control, early: &Early<'_>) -> Res
         return Ok(steady(control)?);
     }
     let by_runs = steady(&control.piece(0, 2))?;
-    Ok(together(by_runs, diagnosed_from_records(project, &control.piece(1, 2), &|_| {})?))
+    let by_records = diagnosed_from_records(project, &control.piece(1, 2), &|_| {})?;
+    let told = by_records.clone();
+    let joint = together(by_runs, by_records);
+    let records = Some(errors_of_records(project, &joint, &told, control)?);
+    Ok(Diagnosis { records, ..joint })
+}
+
+/// Errors of the records before and after what runs and records say together: as their own search promises it, corrections included,
+/// where it is its answer; else of the model with the effects added.
+fn errors_of_records(
+    project: &Project,
+    joint: &Diagnosis,
+    told: &Diagnosis,
+    control: &Control,
+) -> Result<RecordErrors, ValidationError> {
+    let first = joint.suggestions.first().map(|s| &s.added.source);
+    let effects = first.map_or_else(Vec::new, |source| joint.added_with(source));
+    let own = first.and_then(|source| told.suggestions.iter().find(|s| s.added.source == *source));
+    let error_after = match own {
+        Some(own) if joint.corrections == told.corrections => own.error_after,
+        _ => compared_with_effects(project, &effects, &control.unhurried())?.map_or(told.error_before, |c| c.error),
+    };
+    Ok(RecordErrors { error_before: told.error_before, error_after, noise_floor: told.noise_floor })
 }
 
 /// The comparison with records that are not steady in the form of that with runs: an entry a record.

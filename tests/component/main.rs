@@ -121,3 +121,14 @@ fn the_energy_of_every_cycle_gives_the_coefficients() {
         assert!((estimate.coefficient / expected - 1.0).abs() < 0.03, "{estimate:?}");
     }
 }
+
+/// A stiff law makes a force of the noise of the displacement: what the truth leaves is what its noise floor says.
+#[test]
+fn the_noise_floor_holds_that_of_the_displacement() {
+    let truth = [at(Effect::Maxwell, &[3e6, 30_000.0]), at(Effect::Stiffness, &[1e6])];
+    let loops = Loops::new(&structure(), &[], &tests(&truth)).unwrap();
+    let found = compare_component(&loops, &truth).unwrap();
+    let of_force = loops.list.iter().map(|l| (l.noise / l.size()).powi(2)).sum::<f64>() / loops.list.len() as f64;
+    assert!(found.noise_floor > 1.2 * of_force.sqrt(), "the displacement matters here: {}", found.noise_floor);
+    assert!((found.error / found.noise_floor - 1.0).abs() < 0.15, "{} {}", found.error, found.noise_floor);
+}

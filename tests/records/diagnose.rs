@@ -199,6 +199,7 @@ fn the_missing_force_of_a_decay_is_that_of_its_law() {
         next_test: Vec::new(),
         corrections: Vec::new(),
         channel_faults: Vec::new(),
+        records: None,
         complete: true,
         runs: Vec::new(),
     };

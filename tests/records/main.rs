@@ -4,6 +4,7 @@
 mod amplitude;
 #[path = "../common/mod.rs"]
 mod common;
+mod complete;
 mod diagnose;
 mod measured;
 mod prediction;

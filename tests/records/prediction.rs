@@ -78,7 +78,7 @@ impl Case {
 }
 
 fn quiet(step: f64, samples: usize, substeps: usize) -> SampledForces {
-    SampledForces { step, samples, forces: Vec::new(), substeps }
+    SampledForces { step, samples, forces: Vec::new(), measured: Vec::new(), substeps }
 }
 
 /// Dry friction takes `2 F / k` from every half swing and holds the mass where the spring cannot move it.
@@ -168,7 +168,13 @@ fn derivatives_are_those_of_the_record() {
             channels: channels(&[(Quantity::Acceleration, 4), (Quantity::Displacement, 10)]),
             drives: vec![10],
             kept: 3,
-            forces: SampledForces { step, samples: 700, forces: vec![drive.clone()], substeps: 2 },
+            forces: SampledForces {
+                step,
+                samples: 700,
+                forces: vec![drive.clone()],
+                measured: Vec::new(),
+                substeps: 2,
+            },
             initial: vec![2e-4, 1e-5, 0.0, 1e-5, 0.0, 0.0],
             factors: [1.0; 2],
             shape_errors: vec![],
@@ -218,7 +224,13 @@ fn slowly_driven(samples: std::ops::Range<usize>, initial: Vec<f64>) -> Case {
         channels: channels(&[(Quantity::Acceleration, 10), (Quantity::Displacement, 4)]),
         drives: vec![10],
         kept: 2,
-        forces: SampledForces { step, samples: samples.len(), forces: vec![samples.map(force).collect()], substeps: 1 },
+        forces: SampledForces {
+            step,
+            samples: samples.len(),
+            forces: vec![samples.map(force).collect()],
+            measured: Vec::new(),
+            substeps: 1,
+        },
         initial,
         factors: [1.0; 2],
         shape_errors: vec![],

@@ -20,16 +20,32 @@ pub fn compare_component(loops: &Loops, effects: &[Source]) -> Result<RecordComp
         // The zero of the force cell is not known.
         let mean = l.force.iter().zip(&model).map(|(f, m)| f - m).sum::<f64>() / model.len() as f64;
         model.iter_mut().for_each(|m| *m += mean);
-        Ok(compared(l, model))
+        Ok(compared(l, model, noise_left(loops, l, effects)?))
     };
     let records: Vec<OneRecord> = loops.list.iter().map(one).collect::<Result<_, _>>()?;
     let over = |of: &dyn Fn(&OneRecord) -> f64| root_mean_square(&records.iter().map(of).collect::<Vec<f64>>());
     Ok(RecordComparison { error: over(&|r| r.error), noise_floor: over(&|r| r.noise_floor), records })
 }
 
-fn compared(one: &Loop, model: Vec<f64>) -> OneRecord {
+/// What noise leaves of the force of a record beside the right law, N: that of the force cell, and that of the displacement through the
+/// law, `F(d + e) - F(d)` for a draw of it, whatever the law remembers.
+fn noise_left(loops: &Loops, one: &Loop, effects: &[Source]) -> Result<f64, ComponentError> {
+    let [still, moved] = [predicted(loops, one, effects)?, predicted(loops, &one.jittered(), effects)?];
+    let apart: Vec<f64> = still.iter().zip(&moved).map(|(a, b)| b - a).collect();
+    let mean = apart.iter().sum::<f64>() / apart.len() as f64;
+    let by_motion = root_mean_square(&apart.iter().map(|e| e - mean).collect::<Vec<f64>>());
+    Ok(one.noise.hypot(by_motion))
+}
+
+/// What noise leaves over the size of the force, root mean square over the records.
+pub(super) fn noise_floor(loops: &Loops, effects: &[Source]) -> Result<f64, ComponentError> {
+    let of = |one: &Loop| Ok::<f64, ComponentError>(noise_left(loops, one, effects)? / one.size());
+    Ok(root_mean_square(&loops.list.iter().map(of).collect::<Result<Vec<f64>, _>>()?))
+}
+
+fn compared(one: &Loop, model: Vec<f64>, noise: f64) -> OneRecord {
     let left: Vec<f64> = one.force.iter().zip(&model).map(|(f, m)| f - m).collect();
-    let (error, floor) = (root_mean_square(&left) / one.size(), one.noise / one.size());
+    let (error, floor) = (root_mean_square(&left) / one.size(), noise / one.size());
     let length = left.len() / PARTS;
     let part = |k: usize| {
         let range = k * length..(k + 1) * length;

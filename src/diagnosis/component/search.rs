@@ -6,6 +6,7 @@
 //!    better than one law. All, single laws and sums, are ranked by what they leave of the records that were left out
 //!    ([`super::ranking`]).
 
+use super::compare::noise_floor;
 use super::fit::{Fitted, Ranked, error, freedom, improved, predicted, residual};
 use crate::balance::loops::{ComponentError, Loops};
 use crate::control::Control;
@@ -50,8 +51,7 @@ pub fn diagnose_component(
 ) -> Result<Diagnosis, ComponentError> {
     let search = Search { loops, excluded, control, all: (0..loops.list.len()).collect() };
     let before = error(loops, &[], &search.all)?;
-    let floors: Vec<f64> = loops.list.iter().map(|l| l.noise / l.size()).collect();
-    let floor = root_mean_square(&floors);
+    let floor = noise_floor(loops, &[])?;
     let misfit = |error: f64| (error / floor.max(f64::MIN_POSITIVE)).powi(2);
     let mut diagnosis = Diagnosis {
         error_before: before,
@@ -62,6 +62,7 @@ pub fn diagnose_component(
         next_test: Vec::new(),
         corrections: Vec::new(),
         channel_faults: Vec::new(),
+        records: None,
         complete: true,
         runs: Vec::new(),
     };
@@ -80,6 +81,10 @@ pub fn diagnose_component(
     control.report(0.8);
     let ranked = search.ranked(&singles, &pairs)?;
     let Some(best) = ranked.first().map(|r| r.fit.clone()) else { return Err(ComponentError::NoRuns) };
+    // The law that was found carries the noise of the displacement to the force.
+    let floor = noise_floor(loops, &best.effects)?;
+    diagnosis.noise_floor = floor;
+    let misfit = |error: f64| (error / floor.max(f64::MIN_POSITIVE)).powi(2);
     let records = loops.list.len();
     for fits in [&singles, &pairs] {
         let top = if fits.first().is_some_and(|f| f.effects.len() == best.effects.len()) {

@@ -83,6 +83,7 @@ fn as_stated(balance: &Balance) -> Diagnosis {
         next_test: Vec::new(),
         corrections: Vec::new(),
         channel_faults: Vec::new(),
+        records: None,
         complete: true,
         runs: Vec::new(),
     }

@@ -4,6 +4,7 @@ use super::data::RecordError;
 use super::evidence::{AGREES, misfit, scale};
 use super::fitted::FittedRecords;
 use super::model_errors::ModelErrors;
+use super::problem::beyond_priors;
 use super::search::{Search, SetsBySize};
 use super::telling::{added, corrections, corrections_of_parts, suggestions, words};
 use super::told::added_as_told;
@@ -42,9 +43,10 @@ impl Search<'_> {
             diagnosis.steps.extend(step.filter(worth));
         }
         diagnosis.suggestions = suggestions(self.records, &last, self.control.is_late())?;
-        let corrections = corrections_of_parts(self.records, best);
+        let late = self.control.is_late();
+        let corrections = corrections_of_parts(self.records, &if late { beyond_priors(best) } else { best.clone() });
         // Where time is up the parts are told as the fit has them, whatever else could stand for them.
-        let late = self.control.is_late() && !corrections.is_empty();
+        let late = late && !corrections.is_empty();
         let told = if late { None } else { Some(self.told(best)?) };
         if let Some(told) = told.as_ref().filter(|_| corrections.is_empty()) {
             return self.conclude_with(told, &last, diagnosis);
@@ -116,7 +118,7 @@ impl Search<'_> {
         if told.effects.is_empty() {
             diagnosis.suggestions.clear();
             diagnosis.verdict = match left {
-                left if left > AGREES => Verdict::Unexplained,
+                left if left > self.records.agreement(AGREES) => Verdict::Unexplained,
                 _ if diagnosis.corrections.is_empty() => Verdict::Adequate,
                 _ => Verdict::Detuned,
             };
@@ -200,7 +202,7 @@ impl Search<'_> {
                 ));
             }
         }
-        if misfit(told) > AGREES {
+        if misfit(told) > self.records.agreement(AGREES) && error > floor {
             words.push(format!(
                 "That is {:.1} times the noise: the records hold more than these laws give, and no law here at any place gives it.",
                 error / floor

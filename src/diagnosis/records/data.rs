@@ -73,6 +73,10 @@ pub struct RecordData {
     pub noise: Vec<f64>,
     /// Standard deviation of every sample: its noise and what lies above the modes that are followed.
     pub sigma: Vec<Vec<f64>>,
+    /// Variance of every sample by the noise of the forces, one list a channel; empty where there is none.
+    pub by_force: Vec<Vec<f64>>,
+    /// Deviation of a mean squared residual over its variance by that noise.
+    pub scatter: f64,
     /// Steps of the model from one sample to the next where a law is nonlinear.
     pub substeps: usize,
     /// Frequency of the highest peak, Hz.
@@ -120,10 +124,11 @@ impl<'a> Records<'a> {
         let nyquist = list.iter().map(|r| 0.4 / r.step).fold(f64::INFINITY, f64::min);
         let limit = (1.5 * top).min(nyquist);
         let below = modes.omega.iter().filter(|w| **w <= TAU * limit).count();
-        let kept = below.clamp(1, MOST_MODES).min(modes.len());
+        let shown = list.iter().map(|r| r.shown(&modes, below, MOST_MODES)).max().unwrap_or(0);
+        let kept = below.max(shown).clamp(1, MOST_MODES).min(modes.len());
         let sensors = different(&list);
         let parts = PartDirections::new(structure, &modes, kept);
-        Ok(Self { structure, known, modes, kept, parts, list, sensors })
+        Ok(Self { structure, known, modes, kept, parts, list, sensors }.with_force_noise())
     }
 
     /// The same records beside another structure of the same DOFs.
@@ -152,8 +157,13 @@ impl<'a> Records<'a> {
 
     /// Standard deviation of every sample of a record of which `left` (one list a channel) is not predicted.
     pub(crate) fn deviations(&self, record: &RecordData, left: &[Vec<f64>]) -> Vec<Vec<f64>> {
-        let of = |(e, noise): (&Vec<f64>, &f64)| deviations(e, *noise, record.step, self.corner_hz());
-        left.iter().zip(&record.noise).map(of).collect()
+        let of = |(c, (e, noise)): (usize, (&Vec<f64>, &f64))| {
+            let mut own = deviations(e, *noise, record.step, self.corner_hz());
+            let by_force = record.by_force.get(c).into_iter().flatten();
+            own.iter_mut().zip(by_force).for_each(|(s, v)| *s = s.mul_add(*s, *v).sqrt());
+            own
+        };
+        left.iter().zip(&record.noise).enumerate().map(of).collect()
     }
 
     /// The same records, each sample weighted by what a model leaves above the modes that are followed (`residual` of whole
@@ -231,8 +241,10 @@ impl RecordData {
 
     /// The measured forces of the first `samples` samples.
     pub(crate) fn excitation(&self, samples: usize, linear: bool) -> SampledForces {
-        let forces = self.forces.iter().map(|list| sharpened(&list[..samples])).collect();
-        SampledForces { step: self.step, samples, forces, substeps: if linear { 1 } else { self.substeps } }
+        let measured: Vec<Vec<f64>> = self.forces.iter().map(|list| list[..samples].to_vec()).collect();
+        let forces = measured.iter().map(|list| sharpened(list)).collect();
+        let substeps = if linear { 1 } else { self.substeps };
+        SampledForces { step: self.step, samples, forces, measured, substeps }
     }
 }
 
@@ -275,6 +287,8 @@ fn record(index: usize, run: &TransientRun) -> Result<RecordData, RecordError> {
         forces: driven.iter().map(|&c| run.samples(c).to_vec()).collect(),
         noise,
         sigma,
+        by_force: Vec::new(),
+        scatter: 0.0,
         substeps: 1,
         dominant_hz: 0.0,
         highest_hz: 0.0,
@@ -286,7 +300,7 @@ fn record(index: usize, run: &TransientRun) -> Result<RecordData, RecordError> {
 }
 
 /// Noise of a signal from the highest quarter of its spectrum, taken as white; at least rounding of the largest sample.
-fn noise_of(signal: &[f64], step: f64) -> f64 {
+pub(super) fn noise_of(signal: &[f64], step: f64) -> f64 {
     let largest = signal.iter().fold(0.0_f64, |m, y| m.max(y.abs()));
     let Some(spectrum) = Spectrum::new(signal, step) else { return largest * 1e-3 };
     let count = spectrum.amplitude.len();

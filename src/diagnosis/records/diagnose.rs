@@ -77,10 +77,11 @@ pub fn diagnose_records(
         next_test: Vec::new(),
         corrections: Vec::new(),
         channel_faults: Vec::new(),
+        records: None,
         complete: true,
         runs: Vec::new(),
     };
-    if misfit(&bare) < AGREES {
+    if misfit(&bare) < weighted.agreement(AGREES) {
         return Ok(diagnosis);
     }
     let supports = search.giving_way(&bare)?;
@@ -152,7 +153,7 @@ impl Search<'_> {
         early: &Early,
     ) -> Result<(), RecordError> {
         while let Some(best) = by_size.last.first() {
-            if agrees(best) || best.effects.len() >= MOST_EFFECTS || self.control.is_late() {
+            if self.agrees(best) || best.effects.len() >= MOST_EFFECTS || self.control.is_late() {
                 break;
             }
             let mut found = self.beside_rivals(level, &by_size.last, bare)?;
@@ -166,6 +167,10 @@ impl Search<'_> {
             by_size.last = found;
         }
         Ok(())
+    }
+
+    fn agrees(&self, fit: &FittedRecords) -> bool {
+        agrees(fit, self.records.agreement(AGREES))
     }
 
     /// Whether a fit is better than the one before by evidence, by its error and by what it predicts.
@@ -222,10 +227,11 @@ impl Search<'_> {
     }
 }
 
-/// Whether a fit leaves no more than noise, and that with corrections that can be.
-fn agrees(fit: &FittedRecords) -> bool {
+/// Whether a fit leaves no more than noise, of which a model without effects leaves up to `least`, and that with corrections that can
+/// be.
+fn agrees(fit: &FittedRecords, least: f64) -> bool {
     let count = 2 + fit.known.len() + fit.modes.len() + fit.parts.len();
-    let enough = if fit.effects.is_empty() { AGREES } else { ENOUGH };
+    let enough = if fit.effects.is_empty() { least } else { ENOUGH.max(least) };
     let plausible = corrected_by(fit) < PLAUSIBLE[0].max(PLAUSIBLE[1] * count as f64);
     misfit(fit) < enough && plausible && (!fit.effects.is_empty() || !is_strained(fit))
 }
@@ -252,6 +258,7 @@ mod tests {
     fn a_known_source_far_off_does_not_agree() {
         let noise = FittedRecords { count: 100, ..FittedRecords::of_effects(Vec::new(), 100.0) };
         let with = |factor: f64| FittedRecords { known: vec![factor.ln(); 1], ..noise.clone() };
+        let agrees = |fit: &FittedRecords| agrees(fit, AGREES);
         assert!(agrees(&with(1.2)));
         // Of many corrections one such size was hidden by the others.
         let many = |factor: f64| FittedRecords { parts: vec![0.0; 12], ..with(factor) };

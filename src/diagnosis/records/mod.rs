@@ -15,6 +15,8 @@ mod evidence;
 mod fit;
 mod fit_motion;
 mod fitted;
+mod followed;
+mod force_noise;
 mod free_force;
 mod held;
 mod laws;

@@ -121,6 +121,8 @@ impl RecordData {
             forces: of(&self.forces),
             noise: self.noise.clone(),
             sigma: of(&self.sigma),
+            by_force: Vec::new(),
+            scatter: self.scatter,
             substeps: self.steps_between(self.step * every as f64, phase),
             dominant_hz: self.dominant_hz,
             highest_hz: self.highest_hz,

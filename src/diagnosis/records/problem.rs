@@ -75,6 +75,20 @@ pub(super) fn corrected_by(fit: &FittedRecords) -> f64 {
         + shapes / count
 }
 
+/// A fit without the corrections that are no more than their priors allow: nobody was asked what else they stand for.
+pub(super) fn beyond_priors(fit: &FittedRecords) -> FittedRecords {
+    let told = |v: f64, prior: f64| if v.abs() > prior { v } else { 0.0 };
+    let each = |list: &[f64], prior: f64| list.iter().map(|v| told(*v, prior)).collect::<Vec<f64>>();
+    FittedRecords {
+        stiffness: told(fit.stiffness, PRIORS[0]),
+        known: each(&fit.known, PRIORS[1]),
+        modes: each(&fit.modes, PRIORS[3]),
+        mass: told(fit.mass, PRIORS[4]),
+        parts: each(&fit.parts, 1.0),
+        ..fit.clone()
+    }
+}
+
 /// Whether a known source is off by more than is believed without looking for an effect: then it stands for something else.
 pub(super) fn is_strained(fit: &FittedRecords) -> bool {
     fit.known.iter().any(|v| v.abs() > LIKELY_SIZE)

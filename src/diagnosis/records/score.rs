@@ -290,7 +290,8 @@ mod tests {
         let channel =
             |dof: usize| Channel { quantity: Quantity::Displacement, dof, label: structure.label(dof).into() };
         let channels: Vec<Channel> = (0..3).map(channel).collect();
-        let forces = SampledForces { step: STEP, samples: SAMPLES, forces: Vec::new(), substeps: 4 };
+        let forces =
+            SampledForces { step: STEP, samples: SAMPLES, forces: Vec::new(), measured: Vec::new(), substeps: 4 };
         let model = TransientModel::new(&TransientSetup::stated(structure, &modes, sources, &channels, STEP)).unwrap();
         let mut rows = model.predict(&forces, &[0.02, -0.01, 0.005, 0.0, 0.0, 0.0], &[]).unwrap().channels;
         let mut state = 1_u64;

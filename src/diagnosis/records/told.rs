@@ -9,7 +9,7 @@ use super::compare::started_from;
 use super::data::RecordError;
 use super::evidence::{information, misfit, parameters, scale};
 use super::fitted::FittedRecords;
-use super::problem::{FitProblem, Free, modes};
+use super::problem::{FitProblem, Free, beyond_priors, modes};
 use super::search::Search;
 use crate::control::Control;
 use crate::diagnosis::result::Added;
@@ -25,11 +25,11 @@ const ROUNDS: [usize; 2] = [2, 4];
 const PROMISING: [usize; 2] = [3, 3];
 
 impl Search<'_> {
-    /// `fit` with the corrections that can be told, without shifts; its effects fitted beside them. Where time is up all its
-    /// corrections are told as they are.
+    /// `fit` with the corrections that can be told, without shifts; its effects fitted beside them. Where time is up those of
+    /// its corrections are told that are more than is believed without any record.
     pub(super) fn told(&self, fit: &FittedRecords) -> Result<FittedRecords, RecordError> {
         if self.control.is_late() {
-            return Ok(FittedRecords { shifts: vec![0.0; fit.shifts.len()], ..fit.clone() });
+            return Ok(FittedRecords { shifts: vec![0.0; fit.shifts.len()], ..beyond_priors(fit) });
         }
         let (sources, count) = (self.records.known.len(), modes(self.records));
         let first = parameters(fit);

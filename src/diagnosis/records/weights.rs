@@ -46,7 +46,7 @@ pub(super) fn deviations(signal: &[f64], noise: f64, step: f64, corner_hz: f64) 
     if above < LEAST_BAND || n < 16 {
         return vec![noise; n];
     }
-    let high = above_corner(signal, step, corner_hz);
+    let high = in_band(signal, step, [corner_hz, f64::INFINITY]);
     let half = ((NEIGHBOURS / (corner_hz * step)).ceil() as usize).clamp(2, n / 4);
     let mean = local(&high, half);
     // The mean of a few squares of noise scatters: only what is well above it is no noise.
@@ -59,15 +59,16 @@ pub(super) fn deviations(signal: &[f64], noise: f64, step: f64, corner_hz: f64) 
     (0..n).map(of).collect()
 }
 
-/// The part of a signal above a frequency; it is continued as in a mirror, so that its ends do not jump.
-fn above_corner(signal: &[f64], step: f64, corner_hz: f64) -> Vec<f64> {
+/// The part of a signal between two frequencies; it is continued as in a mirror, so that its ends do not jump.
+pub(super) fn in_band(signal: &[f64], step: f64, [low_hz, high_hz]: [f64; 2]) -> Vec<f64> {
     let n = signal.len();
     let mut work: Vec<f64> = signal.iter().chain(signal.iter().rev()).copied().collect();
     let transform = RealTransform::new(2 * n);
     let mut lines = transform.forward(&mut work);
     let last = lines.len() - 1;
     for (k, line) in lines.iter_mut().enumerate() {
-        let kept = k as f64 / (2.0 * n as f64 * step) > corner_hz;
+        let frequency_hz = k as f64 / (2.0 * n as f64 * step);
+        let kept = frequency_hz > low_hz && frequency_hz <= high_hz;
         *line *= if kept { 0.5 / n as f64 } else { 0.0 };
         if k == 0 || k == last {
             line.im = 0.0;

@@ -8,6 +8,7 @@ use super::system::Matrices;
 use crate::effects::{Basis, Effect, Kind, Law, Leg, Place, Source};
 use crate::structure::factors::Triplets;
 use faer::Mat;
+use std::f64::consts::PI;
 
 /// Phase of a residual coordinate in a step, rad, from which on it only follows.
 const RESOLVED: f64 = 4.0;
@@ -87,7 +88,7 @@ pub(super) fn assemble(
     let step = setup.step[usize::from(!linear)];
     for r in reduction.kept..size {
         let omega = reduction.omega[r];
-        total.damping[(r, r)] += 2.0 * residual_damping(omega * step) * omega;
+        total.damping[(r, r)] += 2.0 * residual_damping(omega * step, linear) * omega;
     }
     changes.push((TransientParameter::Stiffness, by_stiffness));
     changes.push((TransientParameter::Mass, by_mass));
@@ -122,8 +123,12 @@ fn add_parts(setup: &TransientSetup, reduction: &Reduction, own: &mut Matrices) 
 }
 
 /// Damping ratio of a residual coordinate that moves by `phase` rad in a step. One that swings faster than the steps can follow
-/// would ring under forces that jump from step to step, and its alias would turn the sign of what holds friction at rest.
-fn residual_damping(phase: f64) -> f64 {
+/// would ring under forces that jump from step to step, and its alias would turn the sign of what holds friction at rest. Of a linear
+/// model no force jumps: there a coordinate within the sampled band moves as it does, or the driving point would be late.
+fn residual_damping(phase: f64, linear: bool) -> f64 {
+    if linear && phase < PI {
+        return RESIDUAL_DAMPING;
+    }
     (phase / RESOLVED).powi(4).clamp(RESIDUAL_DAMPING, 1.0)
 }
 

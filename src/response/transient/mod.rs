@@ -18,6 +18,7 @@ mod element;
 mod error;
 mod exponentials;
 mod march;
+mod measured_force;
 mod model;
 mod reduction;
 mod setup;

@@ -21,7 +21,7 @@ pub(super) struct Sensor {
     /// Shape along the reduced coordinates, for accelerations.
     pattern: Option<Vec<f64>>,
     /// The drive that a force channel repeats.
-    drive: Option<usize>,
+    pub(super) drive: Option<usize>,
 }
 
 /// A model that predicts records.
@@ -137,6 +137,7 @@ impl TransientModel {
         if !march.z.iter().all(|z| z.is_finite()) {
             return Err(TransientError::StepFailed);
         }
+        self.add_measured(forces, &mut channels);
         Ok(TransientResponse { channels, derivatives, modal, end: self.state(&march.z) })
     }
 

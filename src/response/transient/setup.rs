@@ -90,8 +90,10 @@ pub struct SampledForces {
     pub step: f64,
     /// Number of samples.
     pub samples: usize,
-    /// Forces, N, one list a driven DOF.
+    /// Forces, N, one list a driven DOF: steps go straight from sample to sample.
     pub forces: Vec<Vec<f64>>,
+    /// The same as they were measured, where those of the steps are sharpened; else empty.
+    pub measured: Vec<Vec<f64>>,
     /// Steps of the model from one sample to the next.
     pub substeps: usize,
 }

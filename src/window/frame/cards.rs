@@ -118,6 +118,40 @@ pub(crate) const HIDDEN: [Sample; 5] = [
     },
 ];
 
+/// Samples whose records are not steady.
+pub(crate) const RECORDS: [Sample; 4] = [
+    Sample {
+        folder: "decay-friction",
+        title: "Released, and it stops dead",
+        sentence: "A cantilever rings down from 3 mm: what takes the last of its motion?",
+        picture: |p, c, r| {
+            beam(p, c, r, &[], &[], Some(7));
+            released(p, c, r);
+        },
+    },
+    Sample {
+        folder: "hammer-maxwell",
+        title: "Five masses under a hammer",
+        sentence: "Two blows, one of them double: between two masses energy is lost.",
+        picture: |p, c, r| {
+            chain(p, c, r, Some(2));
+            hammer(p, c, r);
+        },
+    },
+    Sample {
+        folder: "sweep-cubic",
+        title: "A sweep that jumps",
+        sentence: "Swept upwards and downwards: the amplitude jumps at two different frequencies.",
+        picture: |p, c, r| chain(p, c, r, Some(4)),
+    },
+    Sample {
+        folder: "damper-loops",
+        title: "A damper in a testing machine",
+        sentence: "Loops of force over displacement at three amplitudes: which law is in it?",
+        picture: loops,
+    },
+];
+
 /// Height of a card, points; of one so narrow that its sentence takes a line more.
 const HEIGHT: f32 = 176.0;
 const NARROW: f32 = 250.0;
@@ -201,6 +235,33 @@ fn hammer(painter: &Painter, palette: &Palette, r: Rect) {
     let head = pos2(r.right() - 44.0, r.top() + 11.0);
     painter.line_segment([head, head + vec2(-46.0, 8.0)], theme::bold(palette.weak));
     painter.rect_filled(Rect::from_center_size(head, vec2(10.0, 18.0)), 2.0, palette.accent);
+}
+
+/// The tip where it is let go from, and the way that it takes.
+fn released(painter: &Painter, palette: &Palette, r: Rect) {
+    let tip = pos2(r.right() - 24.0, r.top() + 25.0);
+    painter.arrow(tip, vec2(0.0, 26.0), theme::bold(palette.accent));
+}
+
+/// Loops of three amplitudes, between the heads of a testing machine.
+fn loops(painter: &Painter, palette: &Palette, r: Rect) {
+    let (middle, column) = (pos2(r.center().x + 40.0, r.center().y), r.center().x - 90.0);
+    for share in [0.4_f32, 0.7, 1.0] {
+        let (half, rise, slip) = (52.0 * share, 24.0 * share, 9.0);
+        let corner = |x: f32, y: f32| middle + vec2(x, -y);
+        let path = vec![
+            corner(-half, -rise - slip),
+            corner(-half + 14.0, -rise + slip + 4.0),
+            corner(half, rise + slip),
+            corner(half - 14.0, rise - slip - 4.0),
+        ];
+        painter.add(Shape::closed_line(path, theme::pen(palette.measured)));
+    }
+    let ends = [pos2(column, r.top() + 14.0), pos2(column, r.bottom() - 14.0)];
+    symbols::draw(painter, Effect::DASHPOT, ends, theme::pen(palette.model));
+    symbols::ground(painter, ends[0], Vec2::UP, 34.0, theme::bold(palette.ink));
+    symbols::ground(painter, ends[1], Vec2::DOWN, 34.0, theme::bold(palette.ink));
+    question(painter, palette, pos2(column + 26.0, r.center().y));
 }
 
 /// A bracket under the beam with the head of its bolt.

@@ -103,8 +103,11 @@ fn heading(ui: &mut Ui, asks: &mut Vec<Ask>) {
 fn samples(ui: &mut Ui, width: f32, asks: &mut Vec<Ask>) {
     let folder = samples_folder();
     let card_width = (width - (IN_A_ROW - 1) as f32 * GAP) / IN_A_ROW as f32;
-    let groups: [(&str, &[Sample]); 2] =
-        [("Where is the energy lost?", &cards::DAMPERS), ("What does the model lack?", &cards::HIDDEN)];
+    let groups: [(&str, &[Sample]); 3] = [
+        ("Where is the energy lost?", &cards::DAMPERS),
+        ("What does the model lack?", &cards::HIDDEN),
+        ("What do decays, hammers and sweeps tell?", &cards::RECORDS),
+    ];
     for (title, samples) in groups {
         ui.title(title, "");
         ui.add_space(space::XS);
