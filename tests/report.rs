@@ -154,7 +154,7 @@ fn says_where_its_model_stands(sample: &Path) {
     let control = dashpot::control::Control::unattended();
     // A search that takes long answers with the best so far, and the report says so.
     dashpot::session::time_limit::hurry_after(&control, std::time::Duration::from_secs(4));
-    dashpot::report::report(&file, &out, &control).unwrap();
+    dashpot::report::report(&file, &dashpot::report::Request::default(), &out, &control).unwrap();
     let text = std::fs::read_to_string(&out).unwrap();
     let name = file.display();
     for chapter in ["Measurements", "What is missing?", "Ledger", "Settings"] {

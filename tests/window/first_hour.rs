@@ -58,7 +58,7 @@ fn every_step_of_the_first_hour() {
         ledger: Vec::new(),
     };
     let control = dashpot::control::Control::unattended();
-    dashpot::report::write(&document.project, known, &report, &control).unwrap();
+    dashpot::report::write(&document.project, known, &dashpot::report::Request::default(), &report, &control).unwrap();
     assert!(std::fs::read_to_string(&report).unwrap().contains("Coulomb friction"));
     // What was added here is not kept beside the sample.
     walk.harness.state().document.as_ref().unwrap().forget().unwrap();
