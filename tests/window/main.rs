@@ -6,6 +6,7 @@ mod change;
 mod choose;
 #[path = "../common/mod.rs"]
 mod common;
+mod crash;
 mod desk;
 mod drive;
 mod events;
@@ -27,6 +28,7 @@ mod names;
 mod path;
 mod pictures;
 mod records;
+mod report;
 mod sizes;
 mod space;
 mod states;

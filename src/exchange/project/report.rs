@@ -2,10 +2,11 @@
 
 use super::error::ProjectError;
 use super::reader::Table;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// Table `[report]`. Every key may be left out.
-#[derive(Debug, Clone, PartialEq, Eq, Default, Serialize)]
+#[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
 pub struct ReportTable {
     /// Title; that of the project unless given.
     #[serde(skip_serializing_if = "Option::is_none")]
