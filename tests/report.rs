@@ -208,7 +208,7 @@ fn unpacked(path: &Path) -> Vec<(String, String)> {
     let mut archive = zip::ZipArchive::new(std::fs::File::open(path).unwrap()).unwrap();
     let read = |k: usize| {
         let mut file = archive.by_index(k).unwrap();
-        (file.name().to_owned(), std::io::read_to_string(&mut file).unwrap())
+        (file.name().unwrap().into_owned(), std::io::read_to_string(&mut file).unwrap())
     };
     (0..archive.len()).map(read).collect()
 }

@@ -242,7 +242,8 @@ impl App {
     /// Keeps unsaved changes beside the file now and then.
     fn autosave(&mut self, now: f64) {
         const EVERY: f64 = 20.0;
-        if now - self.kept < EVERY {
+        // A clock that jumps back must not put it off.
+        if (now - self.kept).abs() < EVERY {
             return;
         }
         self.kept = now;

@@ -3,6 +3,8 @@
 
 use crate::support::{settle, start};
 use dashpot::window::App;
+use dashpot::window::ask::Ask;
+use dashpot::window::commands::Command;
 use dashpot::window::frame::panes::Pane;
 use dashpot::window::view::Stage;
 use egui::accesskit::Role;
@@ -32,6 +34,7 @@ impl Walk {
 #[test]
 fn every_step_of_the_first_hour() {
     let mut walk = Walk { harness: start(), results: SnapshotResults::new() };
+    walk.picture("0-start");
     // The card of the sample stands below the fold of the start screen: its file is opened as a click on it would.
     let ctx = walk.harness.ctx.clone();
     walk.harness.state_mut().open(&ctx, "sample-data/cantilever-friction/project.toml".into());
@@ -47,6 +50,15 @@ fn every_step_of_the_first_hour() {
     walk.click(Role::Button, "Add");
     walk.harness.get_by_label_contains("The model now explains the data");
     walk.picture("5-explained");
+    walk.harness.state_mut().answer(&ctx, Ask::Command(Command::Report));
+    walk.harness.run_steps(3);
+    for (field, text) in [("Test object", "Cantilever 40 x 4 mm, No. 7"), ("Tested by", "A. Engineer")] {
+        walk.click(Role::TextInput, field);
+        walk.harness.event(egui::Event::Text(text.to_owned()));
+        walk.harness.run_steps(2);
+    }
+    walk.picture("6-report");
+    walk.click(Role::Button, "Cancel");
     let folder = tempfile::tempdir().unwrap();
     let report = folder.path().join("report.html");
     walk.harness.state_mut().desk.set_open(Stage::Explain, Pane::Missing, true);

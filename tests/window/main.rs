@@ -14,6 +14,7 @@ mod explain;
 mod export;
 mod first_hour;
 mod friction;
+mod full_disk;
 mod history;
 mod importing;
 mod journey;

@@ -15,7 +15,7 @@ use crate::window::repaint::request_repaint;
 use crate::window::solid::paint::graphics;
 use crate::window::theme::Palette;
 use crate::window::widgets::UiExt;
-use egui::{Context, Id, Key, KeyboardShortcut, Modifiers, Response, Ui, Vec2, vec2};
+use egui::{Context, Id, Key, KeyboardShortcut, Modifiers, Rect, Response, Ui, Vec2, vec2};
 use egui_wgpu::RenderState;
 use std::collections::VecDeque;
 use std::path::{Path, PathBuf};
@@ -26,7 +26,7 @@ const PAPER: Vec2 = vec2(900.0, 560.0);
 /// Pixels of a PNG a point.
 const FINE: f32 = 2.0;
 
-/// Keys that copy the values of the plot under the pointer.
+/// Keys that copy the values of the plot under the pointer, else of the one that has the keyboard's focus.
 pub(super) const COPY: KeyboardShortcut = KeyboardShortcut::new(Modifiers::COMMAND, Key::C);
 /// Longest wait for a file that is being written when the window closes.
 const PATIENCE: Duration = Duration::from_secs(3);
@@ -83,6 +83,14 @@ fn over_id() -> Id {
     Id::NULL.with("plot under the pointer")
 }
 
+fn pointed_id() -> Id {
+    Id::NULL.with("pointed at")
+}
+
+fn focused_id() -> Id {
+    Id::NULL.with("plot with the focus")
+}
+
 fn said_id() -> Id {
     Id::NULL.with("copied values")
 }
@@ -134,17 +142,44 @@ pub fn offer(
     for response in responses {
         response.context_menu(|ui| menu(ui, title, table, response));
     }
-    if responses.iter().any(Response::hovered) {
+    let hovered = responses.iter().any(Response::hovered);
+    if hovered {
         let now = ctx.cumulative_frame_nr();
         ctx.data_mut(|d| d.insert_temp(over_id(), now));
-        if copied(ctx) {
-            copy(ctx, title, table());
-        }
+        point(ctx);
+    }
+    let focused = !hovered && responses.iter().any(|r| is_focused(ctx, r.rect));
+    if focused {
+        let now = ctx.cumulative_frame_nr();
+        ctx.data_mut(|d| d.insert_temp(focused_id(), now));
+    }
+    if (hovered || focused) && copied(ctx) {
+        copy(ctx, title, table());
     }
     for kind in take_wishes(ctx, title) {
         let drawing = Some(draw(ui.palette()));
         ask(ctx, Asked { title: title.to_owned(), kind, drawing, table: table() });
     }
+}
+
+/// Notes that the pointer is over a plot or a table.
+pub(super) fn point(ctx: &Context) {
+    let now = ctx.cumulative_frame_nr();
+    ctx.data_mut(|d| d.insert_temp(pointed_id(), now));
+}
+
+/// Whether the keyboard's focus lies within `area` and the pointer over no plot or table: what is pointed at goes before.
+pub(super) fn is_focused(ctx: &Context, area: Rect) -> bool {
+    let now = ctx.cumulative_frame_nr();
+    let pointed = ctx.data(|d| d.get_temp::<u64>(pointed_id())).is_some_and(|frame| now - frame <= 1);
+    let place = || ctx.memory(|m| m.focused()).and_then(|id| ctx.read_response(id)).map(|r| r.rect.center());
+    !pointed && place().is_some_and(|at| area.contains(at))
+}
+
+/// Whether a plot that was drawn in this frame has the keyboard's focus.
+pub(super) fn plot_has_focus(ctx: &Context) -> bool {
+    let now = ctx.cumulative_frame_nr();
+    ctx.data(|d| d.get_temp::<u64>(focused_id())) == Some(now)
 }
 
 /// Whether the pointer is over a plot that was drawn in this frame.
