@@ -207,11 +207,12 @@ fn a_report_is_a_pdf_where_its_name_says_so() {
 /// All files of a ZIP file by name.
 fn unpacked(path: &Path) -> Vec<(String, String)> {
     let mut archive = zip::ZipArchive::new(std::fs::File::open(path).unwrap()).unwrap();
+    let count = archive.len();
     let read = |k: usize| {
         let mut file = archive.by_index(k).unwrap();
         (file.name().unwrap().into_owned(), std::io::read_to_string(&mut file).unwrap())
     };
-    (0..archive.len()).map(read).collect()
+    (0..count).map(read).collect()
 }
 
 /// A picture of one red point.
