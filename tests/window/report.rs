@@ -28,9 +28,6 @@ fn the_dialog_asks_what_the_command_line_asks() {
         harness.get_by_role_and_label(Role::CheckBox, section).click();
         harness.run_steps(2);
     }
-    harness.remove_cursor();
-    harness.run_steps(2);
-    harness.snapshot("report-dialog");
     harness.get_by_role_and_label(Role::Button, "Write…").click();
     harness.run_steps(4);
     let out = sample.path.with_file_name("r.html");
