@@ -11,7 +11,7 @@ use crate::exchange::project::file::{ProjectFile, Shape};
 use crate::structure::Structure;
 
 /// Suggestions, best first, one line a suggestion.
-pub(crate) fn suggestions(structure: &Structure, list: &[Suggestion]) -> String {
+pub fn suggestions(structure: &Structure, list: &[Suggestion]) -> String {
     let line = |s: &Suggestion| {
         let source = &s.added.source;
         let parameters = source.effect.parameters().iter().zip(&source.parameters).zip(&s.added.deviations);
@@ -27,7 +27,7 @@ pub(crate) fn suggestions(structure: &Structure, list: &[Suggestion]) -> String 
 }
 
 /// Corrections of the model, then what the data say of channels and runs, one line each: a value and its standard deviation.
-pub(crate) fn corrections(
+pub fn corrections(
     structure: &Structure,
     known: &[Source],
     diagnosis: &Diagnosis,
@@ -58,7 +58,7 @@ pub(crate) fn corrections(
 }
 
 /// Parameters of the structure and its lumped masses, one line each; names of files of a model that is imported.
-pub(crate) fn parameters(file: &ProjectFile) -> String {
+pub fn parameters(file: &ProjectFile) -> String {
     let number = |name: &str, value: f64, unit: &str| format!("{name}\t{value:e}\t{unit}");
     let list = |name: &str, values: &[f64], unit: &str| -> Vec<String> {
         values.iter().enumerate().map(|(k, v)| number(&format!("{name}[{}]", k + 1), *v, unit)).collect()
